@@ -1,0 +1,37 @@
+// The errors meant for the user. Each kind maps to one exit code of the command line (DESIGN.md section 5).
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace clothsim {
+
+enum class ExitCode : int { done = 0, failed = 1, usage = 2, scene = 3, openGl = 4, inputOutput = 5 };
+
+// A message for a person: the file and place, what was found, what was expected, and what to do.
+class Error : public std::runtime_error {
+ public:
+  Error(ExitCode exitCode, const std::string& message) : std::runtime_error(message), exitCode_(exitCode) {}
+  [[nodiscard]] ExitCode exitCode() const { return exitCode_; }
+
+ private:
+  ExitCode exitCode_;
+};
+
+struct SimulationError : Error {
+  explicit SimulationError(const std::string& message) : Error(ExitCode::failed, message) {}
+};
+struct UsageError : Error {
+  explicit UsageError(const std::string& message) : Error(ExitCode::usage, message) {}
+};
+struct SceneError : Error {
+  explicit SceneError(const std::string& message) : Error(ExitCode::scene, message) {}
+};
+struct OpenGlError : Error {
+  explicit OpenGlError(const std::string& message) : Error(ExitCode::openGl, message) {}
+};
+struct InputOutputError : Error {
+  explicit InputOutputError(const std::string& message) : Error(ExitCode::inputOutput, message) {}
+};
+
+}  // namespace clothsim

@@ -1,0 +1,45 @@
+// Scenes in and out of JSON, and the bundled ones. Everything the user got wrong becomes a SceneError that names the file,
+// the line or JSON path, what was found, what was expected, and the nearest known key.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace clothsim {
+
+// Reads a scene from JSON text; `source` names it in messages. @throws SceneError
+[[nodiscard]] Scene parseScene(std::string_view text, const std::string& source);
+
+// Reads a scene file. @throws SceneError (also for a missing or unreadable file: what the user named is not a scene)
+[[nodiscard]] Scene loadScene(const std::filesystem::path& path);
+
+// `-f`'s rule: with a '/' or ending in ".json" a path, else the name of a bundled scene. @throws SceneError
+[[nodiscard]] Scene loadSceneByName(const std::string& nameOrPath);
+
+// JSON text that parseScene turns into an equal scene. Keys at their defaults are left out.
+[[nodiscard]] std::string formatScene(const Scene& scene);
+
+// Writes formatScene(scene) whole or not at all. @throws InputOutputError
+void saveScene(const Scene& scene, const std::filesystem::path& path);
+
+// `--set key=value`: the key is a path such as "solver.integrator" or "cloth.ks" ("cloth.x" is "cloths.0.x"); the value is
+// JSON, or a bare word taken as a string. Checks ranges as the reader does. @throws SceneError, UsageError (no '=')
+void setSceneValue(Scene& scene, const std::string& keyEqualsValue);
+
+struct BundledScene {
+  std::string name, description;
+  std::filesystem::path path;
+};
+[[nodiscard]] std::vector<BundledScene> bundledScenes();  // by name
+
+// `--resolution`: every grid gets columns x rows points; pins keep their place on the cloth, total mass and spring
+// constants stay. In scenes with `ks` thickness follows the smaller spacing. Unless `keepSteps`, simulation_steps is
+// multiplied by what an explicit step then needs (the ceiling of the spacing ratio; to the power 3/2 with
+// stiffness_reference, whose k grows with 1/L). Returns a sentence for stderr, empty when nothing but the grid changed.
+[[nodiscard]] std::string changeResolution(Scene& scene, int columns, int rows, bool keepSteps);
+
+}  // namespace clothsim
