@@ -1,0 +1,39 @@
+// State and pictures to files, whole or not at all. The file's extension chooses the format.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "cloth/cloth.h"
+#include "solver/state.h"
+
+namespace clothsim {
+
+// .csv: header index,x,y,z,vx,vy,vz, values %.9g. .ply: binary little-endian, positions, normals, uv, triangles. .obj: text with
+// uv and normals. .state: binary and exact, loadState reads it back. @throws UsageError for another extension, InputOutputError
+void saveState(const State& state, const Cloth& cloth, const std::filesystem::path& path);
+[[nodiscard]] bool canSaveStateAs(const std::filesystem::path& path);
+
+// @throws InputOutputError for a missing, truncated or foreign file, or one with another particle count
+[[nodiscard]] State loadState(const std::filesystem::path& path, const Cloth& cloth);
+
+// PNG from 8 bit RGB, top row first. @throws InputOutputError
+void savePng(const std::filesystem::path& path, int width, int height, std::span<const std::uint8_t> rgb);
+
+// MP4 (H.264, yuv420p) through the ffmpeg program. Frames go to a temporary file that close() renames.
+class VideoWriter {
+ public:
+  // @throws InputOutputError when ffmpeg is not installed (says how to get it) or does not start
+  VideoWriter(const std::filesystem::path& path, int width, int height, double framesPerSecond);
+  ~VideoWriter();  // without close(): stops ffmpeg and removes the temporary file
+  void addFrame(std::span<const std::uint8_t> rgb);
+  void close();    // @throws InputOutputError with ffmpeg's own last words when it failed
+
+ private:
+  struct Pipe;
+  std::unique_ptr<Pipe> pipe_;
+};
+
+}  // namespace clothsim

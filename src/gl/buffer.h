@@ -1,0 +1,81 @@
+// A typed, immutable-size buffer object, by direct state access; move-only.
+#pragma once
+
+#include <cassert>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "gl/api.h"
+
+namespace clothsim::gl {
+
+template <class T>
+class Buffer {
+  static_assert(std::is_trivially_copyable_v<T>);
+
+ public:
+  Buffer() = default;
+  // An uninitialised buffer of `size` elements; a buffer of 0 elements holds one that nobody reads.
+  Buffer(const std::string& label, std::size_t size) { make(label, size, nullptr); }
+  Buffer(const std::string& label, std::span<const T> data) { make(label, data.size(), data.data()); }
+  ~Buffer() { reset(); }
+  Buffer(Buffer&& other) noexcept { swap(other); }
+  Buffer& operator=(Buffer&& other) noexcept {
+    swap(other);
+    return *this;
+  }
+
+  [[nodiscard]] GLuint name() const { return name_; }
+  [[nodiscard]] std::size_t size() const { return size_; }
+  [[nodiscard]] std::size_t bytes() const { return size_ * sizeof(T); }
+
+  void upload(std::span<const T> data, std::size_t firstElement = 0) {
+    assert(firstElement + data.size() <= size_ && "the data must fit into the buffer");
+    glNamedBufferSubData(name_, static_cast<GLintptr>(firstElement * sizeof(T)), static_cast<GLsizeiptr>(data.size_bytes()),
+                         data.data());
+  }
+  [[nodiscard]] std::vector<T> download() const {
+    std::vector<T> data(size_);
+    if (size_ > 0) glGetNamedBufferSubData(name_, 0, static_cast<GLsizeiptr>(bytes()), data.data());
+    return data;
+  }
+  void bindStorage(GLuint binding) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, name_); }
+  void bindStorageRange(GLuint binding, std::size_t firstElement, std::size_t count) const {
+    bindRange(GL_SHADER_STORAGE_BUFFER, binding, firstElement, count);
+  }
+  void bindUniform(GLuint binding) const { glBindBufferBase(GL_UNIFORM_BUFFER, binding, name_); }
+  void bindUniformRange(GLuint binding, std::size_t firstElement, std::size_t count) const {
+    bindRange(GL_UNIFORM_BUFFER, binding, firstElement, count);
+  }
+
+ private:
+  void make(const std::string& label, std::size_t size, const T* data) {
+    glCreateBuffers(1, &name_);
+    size_ = size;
+    const GLsizeiptr allocated = static_cast<GLsizeiptr>((size > 0 ? size : 1) * sizeof(T));
+    glNamedBufferStorage(name_, allocated, size > 0 ? data : nullptr, GL_DYNAMIC_STORAGE_BIT);
+    glObjectLabel(GL_BUFFER, name_, static_cast<GLsizei>(label.size()), label.c_str());
+  }
+  void bindRange(GLenum target, GLuint binding, std::size_t first, std::size_t count) const {
+    glBindBufferRange(target, binding, name_, static_cast<GLintptr>(first * sizeof(T)),
+                      static_cast<GLsizeiptr>(count * sizeof(T)));
+  }
+  void reset() {
+    if (name_ != 0) glDeleteBuffers(1, &name_);
+    name_ = 0;
+    size_ = 0;
+  }
+  void swap(Buffer& other) {
+    std::swap(name_, other.name_);
+    std::swap(size_, other.size_);
+  }
+
+  GLuint name_ = 0;
+  std::size_t size_ = 0;
+};
+
+}  // namespace clothsim::gl

@@ -1,0 +1,42 @@
+// An OpenGL 4.5 core context without a window, by EGL: a real GPU's device display first, then surfaceless.
+// (The viewer's window context comes from GLFW in src/app.)
+#pragma once
+
+#include <memory>
+#include <string>
+
+namespace clothsim::gl {
+
+struct ContextInfo {
+  std::string vendor, renderer, version;
+  int major = 0, minor = 0;
+  long long maxStorageBlockBytes = 0;
+  int maxWorkGroupInvocations = 0, maxWorkGroupCountX = 0;
+  bool software = false;  // llvmpipe, softpipe, swrast
+};
+
+// Loads the functions of the current context, checks version 4.5 and the limits that the shaders need, and installs the
+// debug callback (prints warnings; throws OpenGlError at the next checkErrors() in tests and debug builds).
+// @throws OpenGlError: what was found, what is needed, what to do
+ContextInfo initializeCurrentContext(void* (*getProcAddress)(const char*));
+[[nodiscard]] ContextInfo currentContextInfo();
+
+// @throws OpenGlError when the driver has reported an error since the last call.
+void checkErrors(const char* where);
+
+// A current EGL context for as long as the object lives. @throws OpenGlError
+class HeadlessContext {
+ public:
+  HeadlessContext();
+  ~HeadlessContext();
+  HeadlessContext(const HeadlessContext&) = delete;
+  HeadlessContext& operator=(const HeadlessContext&) = delete;
+  [[nodiscard]] const ContextInfo& info() const { return info_; }
+
+ private:
+  struct Handles;
+  std::unique_ptr<Handles> handles_;
+  ContextInfo info_;
+};
+
+}  // namespace clothsim::gl

@@ -1,0 +1,37 @@
+// A linked shader program, made from the files under shaders/; move-only.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gl/api.h"
+#include "gl/shader_source.h"
+
+namespace clothsim::gl {
+
+class Program {
+ public:
+  Program() = default;
+  // @throws OpenGlError with file, line and the driver's message
+  [[nodiscard]] static Program makeCompute(const std::string& file, const Defines& defines = {});
+  [[nodiscard]] static Program makeRender(const std::string& vertexFile, const std::string& fragmentFile,
+                                          const Defines& defines = {});
+  ~Program();
+  Program(Program&& other) noexcept { std::swap(name_, other.name_); }
+  Program& operator=(Program&& other) noexcept {
+    std::swap(name_, other.name_);
+    return *this;
+  }
+
+  [[nodiscard]] GLuint name() const { return name_; }
+  void bind() const { glUseProgram(name_); }
+
+ private:
+  GLuint name_ = 0;
+};
+
+// Work groups for `count` invocations; asserts that they stay within the 65,535 that every driver takes.
+void dispatch(std::size_t count, int workGroupSize);
+
+}  // namespace clothsim::gl

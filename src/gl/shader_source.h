@@ -1,0 +1,22 @@
+// GLSL text from the files under shaders/, with #include "..." resolved against shaders/ and line numbers kept.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace clothsim::gl {
+
+using Defines = std::vector<std::pair<std::string, std::string>>;  // name, value
+
+struct ShaderSource {
+  std::string text;                // begins with #version 450 core
+  std::vector<std::string> files;  // #line's source number is an index into this
+};
+// @throws InputOutputError for a missing file, OpenGlError for an include that goes round in a circle
+[[nodiscard]] ShaderSource loadShaderSource(const std::string& file, const Defines& defines);
+
+// The driver's log with "0:12" or "0(12)" turned into "shaders/sim/step.comp:12".
+[[nodiscard]] std::string readableLog(const std::string& log, const ShaderSource& source);
+
+}  // namespace clothsim::gl

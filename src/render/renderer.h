@@ -1,0 +1,43 @@
+// Draws the cloth from the particle buffer in which it is simulated, with its colliders, a floor and a background.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "cloth/cloth.h"
+#include "gl/api.h"
+#include "render/camera.h"
+#include "render/image.h"
+#include "scene/pose.h"
+
+namespace clothsim {
+
+struct RenderOptions {
+  int sphereSegmentsAround = 64;  // -a: horizontal segments of drawn spheres, >= 3
+  int sphereSegmentsDown = 48;    // -o: vertical segments, >= 2
+  int samples = 4;                // multisampling, 1 to what the driver offers
+};
+
+class Renderer {
+ public:
+  // Builds what does not move: indices, texture coordinates, sphere mesh, programs. @throws OpenGlError
+  Renderer(const Cloth& cloth, const Scene& scene, const RenderOptions& options);
+  ~Renderer();
+
+  // `positions` is a buffer of one vec4 a particle. `time` [s] places moving colliders. Draws into the framebuffer
+  // `target` (0: the window) of `width` x `height` pixels. Neither reads back nor uploads positions.
+  void draw(GLuint positions, const Camera& camera, double time, GLuint target, int width, int height);
+
+  // Colours, colliders, camera-independent looks from an edited scene with the same grids.
+  void configure(const Scene& scene);
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+// Draws into an off-screen framebuffer and reads the picture back.
+[[nodiscard]] Image renderImage(Renderer& renderer, GLuint positions, const Camera& camera, double time, int width,
+                                int height);
+
+}  // namespace clothsim

@@ -1,0 +1,27 @@
+// What moves: positions and velocities of all particles at a step. The layout is that of the shader storage buffers.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace clothsim {
+
+struct alignas(16) Particle4 {  // one vec4 of a storage buffer
+  float x = 0, y = 0, z = 0, w = 0;
+};
+
+struct State {
+  std::vector<Particle4> positions;   // xyz [m], w the inverse mass [1/kg], 0: pinned
+  std::vector<Particle4> velocities;  // xyz [m/s], w unused (0). Of the half step before under `verlet`
+  std::uint64_t step = 0;             // steps since the start; the time is step * h
+  Integrator integrator = Integrator::verlet;
+};
+
+// FNV-1a, 64 bit, over little-endian x, y, z, vx, vy, vz in index order.
+[[nodiscard]] std::uint64_t stateHash(const State& state);
+[[nodiscard]] std::string hashText(std::uint64_t hash);  // 16 hex digits
+
+}  // namespace clothsim
