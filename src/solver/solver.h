@@ -31,7 +31,7 @@ class Solver {
   [[nodiscard]] virtual std::string device() const = 0;   // what it runs on, for people
 };
 
-// The state at time 0: at rest on the lattice, with v(-1/2) = -h a / 2 under `verlet` outside `ks` scenes.
+// The state at time 0: at rest on the lattice.
 [[nodiscard]] State initialState(const Cloth& cloth, const Scene& scene);
 
 }  // namespace clothsim

@@ -1,0 +1,62 @@
+// The CPU backend: the same passes as the GPU's, over rows, with OpenMP. CpuSolver<float> is the bitwise twin of the GPU
+// solver; CpuSolver<double> checks the physics.
+#pragma once
+
+#include <vector>
+
+#include "solver/cpu/cpu_state.h"
+#include "solver/cpu/passes.h"
+#include "solver/solver.h"
+#include "solver/step_params.h"
+
+namespace clothsim {
+
+template <class Real>
+class CpuSolver final : public Solver {
+ public:
+  // `cloth` must outlive the solver. With `fused` a row goes through forces, integration and colliders before the next one;
+  // the bits are the same either way.
+  CpuSolver(const Cloth& cloth, const Scene& scene, bool fused = true);
+
+  void configure(const Scene& scene) override;
+  void step(int count) override;
+  void finish() override {}
+  [[nodiscard]] State state() override;
+  void setState(const State& state) override;
+  [[nodiscard]] std::uint64_t stepIndex() const override { return stepIndex_; }
+  [[nodiscard]] std::string backend() const override { return "cpu"; }
+  [[nodiscard]] std::string device() const override;
+
+  // The state in full precision, for tests; velocities of the half step before under `verlet`.
+  [[nodiscard]] Vec3<Real> position(std::uint32_t particle) const;
+  [[nodiscard]] Vec3<Real> velocity(std::uint32_t particle) const;
+  void setPosition(std::uint32_t particle, Vec3<Real> position);
+  void setVelocity(std::uint32_t particle, Vec3<Real> velocity);
+  // Force of springs and air on a particle, without gravity, in the current state [N].
+  [[nodiscard]] std::vector<Vec3<Real>> forces();
+
+ private:
+  [[nodiscard]] cpu::PassArguments<Real> arguments(const StepParams<Real>& params);
+  void prepareColliders();
+  void convertVelocities();
+  void stepGrid(std::size_t grid);
+  template <class Pass>
+  void forEachRow(int rows, Pass pass);
+
+  const Cloth* cloth_;
+  Scene scene_;
+  bool fused_;
+  bool parallel_;  // worth waking the threads for
+  Integrator velocityMeaning_ = Integrator::verlet;
+  std::uint64_t stepIndex_ = 0;
+  CpuState<Real> before_, after_;
+  Components<Real> forces_;
+  std::vector<Real> inverseMasses_, restLengths_;
+  std::vector<ColliderParams<Real>> colliders_;
+  std::vector<std::vector<LimitColor>> limitColors_;  // by grid
+};
+
+extern template class CpuSolver<float>;
+extern template class CpuSolver<double>;
+
+}  // namespace clothsim

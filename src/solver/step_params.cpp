@@ -1,0 +1,190 @@
+#include "solver/step_params.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "core/hash.h"
+#include "scene/pose.h"
+
+namespace clothsim {
+namespace {
+
+constexpr double PLANE_OFFSET = 0.0001;  // [m], CS184's
+
+Vec3d normalized(Vec3d v) { return (1 / std::sqrt(dot(v, v))) * v; }
+
+template <class Real>
+Real real(double x) {
+  return static_cast<Real>(x);
+}
+
+}  // namespace
+
+Vec3d airVelocity(const Wind& wind, double t) {
+  if (wind.gust.strength == 0) return wind.velocity;
+  // Four sines of equal power at incommensurate multiples of the frequency: variance strength^2.
+  constexpr std::array<double, 4> multiples{0.43, 1.0, 1.71, 2.93};
+  double gust = 0;
+  for (std::size_t i = 0; i < multiples.size(); ++i) {
+    const double phase = uniform01(static_cast<std::uint32_t>(wind.gust.seed), static_cast<std::uint32_t>(i));
+    gust += std::sin(2 * std::numbers::pi * (multiples[i] * wind.gust.frequency * t + phase));
+  }
+  gust *= wind.gust.strength * std::sqrt(2.0 / multiples.size());
+  const bool calm = wind.velocity == Vec3d{0, 0, 0};
+  return wind.velocity + gust * (calm ? Vec3d{1, 0, 0} : normalized(wind.velocity));
+}
+
+Integrator startingVelocityMeaning(const Scene& scene) {
+  for (const ClothSettings& settings : scene.cloths)
+    if (settings.ks && scene.solver.integrator == Integrator::verlet) return Integrator::verlet;
+  return Integrator::euler;
+}
+
+bool dependsOnTime(const Scene& scene) {
+  if (scene.wind && scene.wind->gust.strength != 0) return true;
+  for (const Collider& collider : scene.colliders)
+    if (std::visit([](const auto& c) { return c.motion.has_value(); }, collider)) return true;
+  return false;
+}
+
+template <class Real>
+StepParams<Real> makeStepParams(const Scene& scene, const Cloth& cloth, std::size_t gridIndex, std::uint64_t step) {
+  const Grid& grid = cloth.grids()[gridIndex];
+  const double h = stepLength(scene.solver);
+  StepParams<Real> params{};
+  params.firstParticle = grid.firstParticle;
+  params.columns = static_cast<std::uint32_t>(grid.columns);
+  params.rows = static_cast<std::uint32_t>(grid.rows);
+  params.totalParticles = cloth.particleCount();
+  params.useRestLengthTable = grid.hasRestLengthTable ? 1 : 0;
+  params.colliderCount = static_cast<std::uint32_t>(scene.colliders.size());
+  params.timeStep = real<Real>(h);
+  params.inverseTimeStep = real<Real>(1 / h);
+  params.velocityKept = real<Real>(1 - scene.cloths[gridIndex].damping / 100);
+  params.airResistance = real<Real>(scene.airResistance);
+  params.gravityX = real<Real>(scene.gravity.x);
+  params.gravityY = real<Real>(scene.gravity.y);
+  params.gravityZ = real<Real>(scene.gravity.z);
+  params.planeOffset = real<Real>(PLANE_OFFSET);
+  if (scene.wind) {
+    const Vec3d air = airVelocity(*scene.wind, static_cast<double>(step) * h);
+    params.hasWind = 1;
+    params.airVelocityX = real<Real>(air.x);
+    params.airVelocityY = real<Real>(air.y);
+    params.airVelocityZ = real<Real>(air.z);
+    params.dragFactor = real<Real>(scene.wind->airDensity * scene.wind->drag / 12);
+    params.liftFactor = real<Real>(scene.wind->airDensity * scene.wind->lift / 12);
+  }
+  const double limitFactor = 1 + scene.solver.strainLimit.value_or(0);
+  params.limitFactor = real<Real>(limitFactor);
+  for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot)
+    params.springs[slot] = {real<Real>(grid.stiffness[slot]), real<Real>(grid.nominalLength[slot]),
+                            real<Real>(limitFactor * grid.nominalLength[slot]), grid.slotEnabled[slot] ? 1u : 0u};
+  return params;
+}
+
+template <class Real>
+ColliderParams<Real> makeColliderParams(const Scene& scene, const Collider& collider, std::uint64_t step) {
+  const double h = stepLength(scene.solver);
+  const Pose before = poseAt(collider, static_cast<double>(step) * h);
+  const Pose after = poseAt(collider, static_cast<double>(step + 1) * h);
+  ColliderParams<Real> params{};
+  params.pointX = real<Real>(after.position.x);
+  params.pointY = real<Real>(after.position.y);
+  params.pointZ = real<Real>(after.position.z);
+  if (const auto* sphere = std::get_if<Sphere>(&collider)) {
+    params.type = COLLIDER_SPHERE;
+    params.radius = real<Real>(sphere->radius);
+    params.radiusSquared = real<Real>(sphere->radius * sphere->radius);
+    params.motionKept = real<Real>(1 - sphere->friction);
+  } else {
+    const auto& plane = std::get<Plane>(collider);
+    const Vec3d normal = normalized(rotate(after.rotation, plane.normal));
+    params.type = COLLIDER_PLANE;
+    params.normalX = real<Real>(normal.x);
+    params.normalY = real<Real>(normal.y);
+    params.normalZ = real<Real>(normal.z);
+    params.motionKept = real<Real>(1 - plane.friction);
+  }
+  if (!std::visit([](const auto& c) { return c.motion.has_value(); }, collider)) return params;
+
+  // turn = R(after) R(before)^T - 1, shift = position(after) - position(before)
+  params.moving = 1;
+  const Vec3d columnX = rotate(after.rotation, rotateBack(before.rotation, {1, 0, 0}));
+  const Vec3d columnY = rotate(after.rotation, rotateBack(before.rotation, {0, 1, 0}));
+  const Vec3d columnZ = rotate(after.rotation, rotateBack(before.rotation, {0, 0, 1}));
+  const Vec3d shift = after.position - before.position;
+  params.turnXX = real<Real>(columnX.x - 1);
+  params.turnXY = real<Real>(columnY.x);
+  params.turnXZ = real<Real>(columnZ.x);
+  params.shiftX = real<Real>(shift.x);
+  params.turnYX = real<Real>(columnX.y);
+  params.turnYY = real<Real>(columnY.y - 1);
+  params.turnYZ = real<Real>(columnZ.y);
+  params.shiftY = real<Real>(shift.y);
+  params.turnZX = real<Real>(columnX.z);
+  params.turnZY = real<Real>(columnY.z);
+  params.turnZZ = real<Real>(columnZ.z - 1);
+  params.shiftZ = real<Real>(shift.z);
+  params.pivotX = real<Real>(before.position.x);
+  params.pivotY = real<Real>(before.position.y);
+  params.pivotZ = real<Real>(before.position.z);
+  return params;
+}
+
+template <class Real>
+std::vector<Real> measureRestLengths(const Cloth& cloth) {
+  std::vector<Real> lengths;
+  if (!cloth.hasRestLengthTable()) return lengths;
+  lengths.resize(static_cast<std::size_t>(SPRING_SLOTS) * cloth.particleCount());
+  for (const Spring& spring : cloth.springs()) {
+    const Vec3<Real> d = startPosition<Real>(cloth, spring.b) - startPosition<Real>(cloth, spring.a);
+    const Real lengthSquared = dot(d, d);
+    const std::size_t slot = spring.number % SPRING_SLOTS;
+    lengths[slot * cloth.particleCount() + spring.a] = lengthSquared * inverseSquareRoot(lengthSquared);
+  }
+  return lengths;
+}
+
+std::uint32_t ownerCount(std::uint32_t first, std::uint32_t step, std::uint32_t run, std::uint32_t end) {
+  if (first >= end) return 0;
+  const std::uint32_t span = end - first;
+  return span / step * run + std::min(span % step, run);
+}
+
+std::vector<LimitColor> makeLimitColors(const Grid& grid) {
+  const auto columns = static_cast<std::uint32_t>(grid.columns), rows = static_cast<std::uint32_t>(grid.rows);
+  std::vector<LimitColor> colors;
+  for (std::uint32_t slot = 0; slot < SPRING_SLOTS; ++slot) {
+    if (!grid.slotEnabled[slot]) continue;
+    const SpringOffset& offset = springOffsets[slot];
+    // The direction that is split into two colours: columns for springs along a row, else rows. A spring that spans two
+    // cells makes runs of two owners: 2 3 . . 6 7 and 4 5 . . 8 9.
+    const bool splitColumns = offset.rows == 0;
+    const auto reach = static_cast<std::uint32_t>(std::max(std::abs(offset.columns), std::abs(offset.rows)));
+    for (std::uint32_t color = 0; color < 2; ++color) {
+      LimitColor result{};
+      result.slot = slot;
+      result.firstColumn = offset.columns < 0 ? 1 : 0;
+      result.columnStep = result.columnRun = result.rowStep = result.rowRun = 1;
+      result.endColumn = offset.columns > 0 ? columns - 1 : columns;
+      result.endRow = rows;
+      const std::uint32_t first = reach * (1 + color);
+      (splitColumns ? result.firstColumn : result.firstRow) = first;
+      (splitColumns ? result.columnStep : result.rowStep) = 2 * reach;
+      (splitColumns ? result.columnRun : result.rowRun) = reach;
+      colors.push_back(result);
+    }
+  }
+  return colors;
+}
+
+template std::vector<float> measureRestLengths(const Cloth&);
+template std::vector<double> measureRestLengths(const Cloth&);
+template StepParams<float> makeStepParams(const Scene&, const Cloth&, std::size_t, std::uint64_t);
+template StepParams<double> makeStepParams(const Scene&, const Cloth&, std::size_t, std::uint64_t);
+template ColliderParams<float> makeColliderParams(const Scene&, const Collider&, std::uint64_t);
+template ColliderParams<double> makeColliderParams(const Scene&, const Collider&, std::uint64_t);
+
+}  // namespace clothsim
