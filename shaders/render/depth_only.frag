@@ -1,0 +1,2 @@
+// The shadow map keeps depth alone.
+void main() {}

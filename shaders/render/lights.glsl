@@ -1,0 +1,20 @@
+// The studio's lights on a matte surface; `normal` is unit and faces the viewer.
+#include "render/frame.glsl"
+
+vec3 ambientLight(vec3 normal) {
+  return mix(frame.bounceColor.rgb, frame.skyColor.rgb, 0.5 + 0.5 * normal.y);
+}
+
+// Key light (where `lit` says that it arrives), fill light and ambient light, without the surface's colour.
+vec3 diffuseLight(vec3 normal, float lit) {
+  float key = max(dot(normal, frame.toKeyLight.xyz), 0.0) * lit;
+  float fill = max(0.5 + 0.5 * dot(normal, frame.toFillLight.xyz), 0.0);
+  return key * frame.keyColor.rgb + fill * fill * frame.fillColor.rgb + ambientLight(normal);
+}
+
+// Blinn-Phong highlight of the key light.
+vec3 highlight(vec3 normal, vec3 toEye, float exponent, float lit) {
+  vec3 halfway = normalize(frame.toKeyLight.xyz + toEye);
+  float facing = step(0.0, dot(normal, frame.toKeyLight.xyz));
+  return frame.keyColor.rgb * (pow(max(dot(normal, halfway), 0.0), exponent) * lit * facing);
+}

@@ -1,0 +1,29 @@
+// Two-sided Blinn-Phong for cloth: a broad, weak highlight, a sheen at grazing angles as fibres give it, light that
+// shines through, and folds that darken in their hollows.
+#include "render/lights.glsl"
+#include "render/shadow.glsl"
+#include "render/surface.glsl"
+#include "render/tone.glsl"
+
+const float HIGHLIGHT = 0.10, EXPONENT = 24.0;
+const float SHEEN = 0.30;
+const float TRANSMITTED = 0.16;     // part of the key light that comes out at the other side
+const float HOLLOW_LENGTH = 0.025;  // [m], depth of shade per curvature
+
+layout(location = 0) in Surface surface;
+layout(location = 0) out vec4 color;
+
+void main() {
+  float side = gl_FrontFacing ? 1.0 : -1.0;
+  vec3 albedo = gl_FrontFacing ? frame.clothFront.rgb : frame.clothBack.rgb;
+  vec3 normal = normalize(surface.normal) * side;
+  vec3 toEye = normalize(frame.eye.xyz - surface.position);
+  float lit = sunlit(surface.shadowPlace);
+
+  float open = clamp(1.0 - HOLLOW_LENGTH * surface.hollow * side, 0.55, 1.15);
+  vec3 light = diffuseLight(normal, lit) * open;
+  light += TRANSMITTED * lit * max(-dot(normal, frame.toKeyLight.xyz), 0.0) * frame.keyColor.rgb;
+  float rim = pow(1.0 - clamp(dot(normal, toEye), 0.0, 1.0), 3.0);
+  vec3 sheen = SHEEN * rim * open * ambientLight(normal) * mix(vec3(1), albedo, 0.5);
+  color = vec4(toneMapped(albedo * light + HIGHLIGHT * highlight(normal, toEye, EXPONENT, lit) + sheen), 1.0);
+}

@@ -1,0 +1,14 @@
+// Spheres: a unit sphere's vertices, placed by instance. Normals are those of the round sphere.
+#include "render/frame.glsl"
+#include "render/shadow_place.glsl"
+#include "render/surface.glsl"
+
+layout(location = POSITION_LOCATION) in vec3 unitPosition;
+layout(location = INSTANCE_PLACE_LOCATION) in vec4 place;
+layout(location = 0) out Surface surface;
+
+void main() {
+  vec3 position = place.xyz + place.w * unitPosition;
+  surface = Surface(position, unitPosition, vec2(0), 0.0, shadowPlaceOf(position, unitPosition));
+  gl_Position = frame.clipFromWorld * vec4(position, 1.0);
+}

@@ -1,0 +1,8 @@
+// What a vertex shader tells a shading model about the surface.
+struct Surface {
+  vec3 position;     // [m]
+  vec3 normal;       // of the front, not of unit length after interpolation
+  vec2 uv;
+  float hollow;      // curvature towards the normal [1/m]
+  vec3 shadowPlace;  // in the shadow map, moved off the surface towards the light
+};

@@ -1,0 +1,55 @@
+#include "render/cloth_mesh.h"
+
+#include <array>
+#include <span>
+
+namespace clothsim {
+namespace {
+
+std::vector<std::uint32_t> indicesOf(const Cloth& cloth) {
+  std::vector<std::uint32_t> indices;
+  indices.reserve(3 * cloth.triangleCount());
+  for (const auto& triangle : cloth.triangles())
+    indices.insert(indices.end(), triangle.begin(), triangle.end());
+  return indices;
+}
+
+}  // namespace
+
+ClothMesh::ClothMesh(const Cloth& cloth)
+    : normalsPass_(gl::Program::makeCompute("render/normals.comp")),
+      normals_("cloth normals", cloth.particleCount()),
+      indices_("cloth indices", indicesOf(cloth)),
+      textureCoordinates_("cloth texture coordinates", cloth.textureCoordinates()),
+      vertices_("cloth") {
+  for (const Grid& grid : cloth.grids()) {
+    const auto columns = static_cast<GLuint>(grid.columns), rows = static_cast<GLuint>(grid.rows);
+    const std::array block{shared::NormalsGrid{grid.firstParticle, columns, rows, 0}};
+    const auto groups = [](GLuint count) { return (count + NORMALS_GROUP_SIZE - 1) / NORMALS_GROUP_SIZE; };
+    grids_.push_back({gl::Buffer<shared::NormalsGrid>("normals grid", block), groups(columns), groups(rows)});
+  }
+  vertices_.attach(normals_.name(), {.location = NORMAL_LOCATION});
+  vertices_.attach(textureCoordinates_.name(),
+                   {.location = TEXTURE_COORDINATE_LOCATION, .components = 2, .stride = 8});
+  vertices_.attachIndices(indices_.name());
+}
+
+void ClothMesh::computeNormals(GLuint positions) {
+  normalsPass_.bind();
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);  // the solver's last writes
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, NORMALS_POSITIONS_BINDING, positions);
+  normals_.bindStorage(NORMALS_OUT_BINDING);
+  for (const GridBlock& grid : grids_) {
+    grid.block.bindUniform(NORMALS_GRID_BINDING);
+    glDispatchCompute(grid.groupsAcross, grid.groupsDown, 1);
+  }
+  glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);  // normals, and the solver's positions, as vertices
+}
+
+void ClothMesh::draw(GLuint positions) {
+  vertices_.attach(positions, {.location = POSITION_LOCATION});
+  vertices_.bind();
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(indices_.size()), GL_UNSIGNED_INT, nullptr);
+}
+
+}  // namespace clothsim

@@ -1,0 +1,52 @@
+// Colliders as drawn: one tessellated unit sphere for all spheres, one square for all planes, both placed by
+// instance.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "gl/buffer.h"
+#include "gl/vertex_array.h"
+
+namespace clothsim {
+
+class SphereMesh {
+ public:
+  // @param around, down  segments along the equator (>= 3) and from pole to pole (>= 2)
+  SphereMesh(int around, int down);
+  void place(const std::vector<glm::vec4>& spheres);  // centre and drawn radius [m]
+  void draw() const;
+
+ private:
+  gl::Buffer<glm::vec3> points_;
+  gl::Buffer<std::uint32_t> indices_;
+  gl::Buffer<glm::vec4> instances_;
+  gl::VertexArray vertices_;
+  GLsizei count_ = 0;
+};
+
+// A plane's drawn part: a disc that fades out towards its edge.
+struct PlaneDisc {
+  glm::vec4 place;   // centre and radius [m]
+  glm::vec4 normal;  // xyz, unit
+};
+
+class PlaneMesh {
+ public:
+  PlaneMesh();
+  void place(const std::vector<PlaneDisc>& discs);  // in drawing order
+  void draw() const;
+
+ private:
+  gl::Buffer<PlaneDisc> instances_;
+  gl::VertexArray vertices_;
+  GLsizei count_ = 0;
+};
+
+// How much smaller than its true radius a sphere must be drawn so that cloth on it never dips below what is
+// drawn. The particles lie on the sphere; the flat triangles between them sink under it by the sagitta of
+// their circumscribed circle. (The drawn sphere's own facets only sink further.)
+// @param longestEdge  the longest side of the cloth's triangles [m]
+[[nodiscard]] double sphereShrink(double radius, double longestEdge);
+
+}  // namespace clothsim

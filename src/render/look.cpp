@@ -1,0 +1,46 @@
+#include "render/look.h"
+
+#include <cmath>
+
+namespace clothsim {
+namespace {
+
+float linear(double encoded) {
+  const double value = encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
+  return static_cast<float>(value);
+}
+
+glm::vec4 linearColor(double red, double green, double blue) {
+  return {linear(red), linear(green), linear(blue), 1};
+}
+glm::vec4 linearColor(Vec3d srgb) { return linearColor(srgb.x, srgb.y, srgb.z); }
+
+// A direction given relative to the viewer's side of the scene: x to the right, y up, z towards the viewer.
+glm::vec3 fromViewer(glm::vec3 front, glm::vec3 direction) {
+  const glm::vec3 right = glm::cross(glm::vec3(0, 1, 0), front);
+  return glm::normalize(direction.x * right + glm::vec3(0, direction.y, 0) + direction.z * front);
+}
+
+}  // namespace
+
+glm::vec3 directionToKeyLight(glm::vec3 front) { return fromViewer(front, {-0.55f, 1.0f, 0.42f}); }
+
+shared::RenderFrame makeLook(const RenderSettings& settings, glm::vec3 front) {
+  shared::RenderFrame frame{};
+  frame.toKeyLight = glm::vec4(directionToKeyLight(front), 0);
+  frame.toFillLight = glm::vec4(fromViewer(front, {0.9f, 0.25f, 0.35f}), 0);
+  frame.keyColor = {1.30f, 1.22f, 1.10f, 0};   // a warm key
+  frame.fillColor = {0.16f, 0.20f, 0.28f, 0};  // a cool fill from the other side
+  frame.skyColor = {0.34f, 0.38f, 0.44f, 0};
+  frame.bounceColor = {0.20f, 0.17f, 0.15f, 0};  // what the floor gives back
+  frame.clothFront = linearColor(settings.color);
+  frame.clothBack = linearColor(settings.backColor);
+  frame.sphereColor = linearColor(0.80, 0.82, 0.84);
+  frame.floorColor = linearColor(0.70, 0.73, 0.76);
+  frame.backgroundTop = linearColor(0.32, 0.38, 0.45);
+  frame.backgroundBottom = linearColor(0.62, 0.67, 0.72);
+  frame.backgroundGlow = {0.16f, 0.17f, 0.18f, 0};
+  return frame;
+}
+
+}  // namespace clothsim

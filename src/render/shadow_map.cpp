@@ -1,0 +1,67 @@
+#include "render/shadow_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "shared/render_layout.h"
+
+namespace clothsim {
+namespace {
+
+constexpr float FILTER_BORDER = 8;  // texels around the casters, so that their shadows' soft edges are inside
+
+// The casters' extent in light space, where z points to the light.
+Box inLightSpace(const Box& box, const glm::mat4& lightFromWorld) {
+  Box seen;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::vec4 c{(corner & 1) != 0 ? box.high.x : box.low.x, (corner & 2) != 0 ? box.high.y : box.low.y,
+                      (corner & 4) != 0 ? box.high.z : box.low.z, 1};
+    seen.add(glm::vec3(lightFromWorld * c));
+  }
+  return seen;
+}
+
+}  // namespace
+
+ShadowMap::ShadowMap(const Box& reach, glm::vec3 toLight, int size)
+    : framebuffer_("shadow map", {.width = size, .height = size, .depth = GL_DEPTH_COMPONENT24}) {
+  const glm::vec3 up = std::abs(toLight.y) < 0.99f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
+  const glm::mat4 lightFromWorld = glm::lookAt(reach.center() + toLight, reach.center(), up);
+  const Box seen = inLightSpace(reach, lightFromWorld);
+  const float half =
+      0.5f * std::max(seen.size().x, seen.size().y) / (1 - 2 * FILTER_BORDER / static_cast<float>(size));
+  texelLength_ = 2 * half / static_cast<float>(size);
+  const glm::vec3 middle = seen.center();
+  // Depth is clamped instead of clipped (see begin()): what is farther than the casters is lit or shadowed
+  // all the same.
+  const glm::mat4 clipFromLight = glm::ortho(middle.x - half, middle.x + half, middle.y - half,
+                                             middle.y + half, -seen.high.z, -seen.low.z);
+  const glm::mat4 unitFromClip = glm::scale(glm::translate(glm::mat4(1), glm::vec3(0.5f)), glm::vec3(0.5f));
+  shadowFromWorld_ = unitFromClip * clipFromLight * lightFromWorld;
+
+  const GLuint texture = framebuffer_.depthTexture();
+  glTextureParameteri(texture, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  glTextureParameteri(texture, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+}
+
+void ShadowMap::begin() const {
+  framebuffer_.bind();
+  glDepthMask(GL_TRUE);
+  const float farthest = 1;
+  glClearNamedFramebufferfv(framebuffer_.name(), GL_DEPTH, 0, &farthest);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LESS);
+  glEnable(GL_DEPTH_CLAMP);
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(1.5f, 2.0f);
+}
+
+void ShadowMap::end() const {
+  glDisable(GL_POLYGON_OFFSET_FILL);
+  glDisable(GL_DEPTH_CLAMP);
+}
+
+void ShadowMap::bindTexture() const { glBindTextureUnit(SHADOW_MAP_UNIT, framebuffer_.depthTexture()); }
+
+}  // namespace clothsim

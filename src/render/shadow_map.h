@@ -1,0 +1,30 @@
+// The key light's shadow map: depth of the nearest surface seen along the light's rays, over a fixed part of
+// the world.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "gl/framebuffer.h"
+#include "render/stage.h"
+
+namespace clothsim {
+
+class ShadowMap {
+ public:
+  // Covers `reach` as seen from the light in a map of `size` x `size` texels.
+  ShadowMap(const Box& reach, glm::vec3 toLight, int size);
+
+  void begin() const;  // clears it and makes it the target; leaves with the state that casters are drawn with
+  void end() const;
+  void bindTexture() const;
+
+  [[nodiscard]] const glm::mat4& shadowFromWorld() const { return shadowFromWorld_; }
+  [[nodiscard]] float texelLength() const { return texelLength_; }  // [m]
+
+ private:
+  gl::Framebuffer framebuffer_;
+  glm::mat4 shadowFromWorld_{1};
+  float texelLength_ = 0;
+};
+
+}  // namespace clothsim

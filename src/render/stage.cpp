@@ -1,0 +1,164 @@
+#include "render/stage.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "scene/pose.h"
+
+namespace clothsim {
+namespace {
+
+constexpr float STRETCH = 1.08f;     // how far cloth hangs beyond its own length
+constexpr std::size_t SAMPLES = 64;  // points of a grid looked at along each of its sides
+
+glm::vec3 toGlm(Vec3f v) { return {v.x, v.y, v.z}; }
+
+using GridSamples = ClothOutline::GridPoints;
+
+// Border, pins and a raster of a grid.
+GridSamples sampleGrid(const Cloth& cloth, const Grid& grid) {
+  GridSamples samples;
+  const auto step = [](int count) { return std::max(1, count / static_cast<int>(SAMPLES)); };
+  for (int row = 0; row < grid.rows; ++row) {
+    for (int column = 0; column < grid.columns; ++column) {
+      const std::uint32_t particle =
+          grid.firstParticle + static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(grid.columns) +
+          static_cast<std::uint32_t>(column);
+      const glm::vec3 place = toGlm(cloth.positions()[particle]);
+      const bool border = row == grid.rows - 1 || column == grid.columns - 1;
+      if (border || (row % step(grid.rows) == 0 && column % step(grid.columns) == 0))
+        samples.points.push_back(place);
+      if (cloth.inverseMasses()[particle] == 0) samples.pins.push_back(place);
+    }
+  }
+  // A pinned side of a large grid would make the search below quadratic.
+  if (samples.pins.size() > 2 * SAMPLES) {
+    std::vector<glm::vec3> fewer;
+    for (std::size_t i = 0; i < samples.pins.size(); i += samples.pins.size() / SAMPLES)
+      fewer.push_back(samples.pins[i]);
+    fewer.push_back(samples.pins.back());
+    samples.pins = fewer;
+  }
+  return samples;
+}
+
+// Pinned cloth ends below its pins, each point as far down as its distance from the nearest one.
+void addHanging(const GridSamples& samples, Stage& stage) {
+  for (const glm::vec3 point : samples.points) {
+    glm::vec3 pin = samples.pins.front();
+    for (const glm::vec3 candidate : samples.pins) {
+      if (glm::distance(candidate, point) < glm::distance(pin, point)) pin = candidate;
+    }
+    const float distance = STRETCH * glm::distance(pin, point);
+    const glm::vec3 hung{0.5f * (pin.x + point.x), std::min(point.y, pin.y - distance),
+                         0.5f * (pin.z + point.z)};
+    stage.view.add(hung);
+    stage.reach.add(pin - glm::vec3(distance, distance, distance));
+    stage.reach.add(pin + glm::vec3(distance, 0.3f * distance, distance));
+  }
+}
+
+// Free cloth falls onto the spheres below it and hangs down around them, or onto the highest plane.
+void addFalling(const Box& cloth, const Scene& scene, Stage& stage) {
+  const float halfDiagonal = 0.5f * glm::length(cloth.size());
+  float rest = cloth.low.y - 2 * halfDiagonal;
+  bool onSphere = false;
+  for (const Collider& collider : scene.colliders) {
+    const glm::vec3 place = toGlm(poseAt(collider, 0).position);
+    if (const auto* sphere = std::get_if<Sphere>(&collider)) {
+      const auto radius = static_cast<float>(sphere->radius);
+      // Over the top, a quarter of the way around, and straight down from there.
+      const float overhang = std::max(0.0f, halfDiagonal - 1.5708f * radius);
+      rest = onSphere ? std::min(rest, place.y - overhang) : place.y - overhang;
+      onSphere = true;
+    }
+  }
+  for (const Collider& collider : scene.colliders) {
+    const auto* plane = std::get_if<Plane>(&collider);
+    if (plane == nullptr) continue;
+    const glm::vec3 normal = glm::normalize(toGlm(plane->normal));
+    if (normal.y < 0.3f) continue;
+    const glm::vec3 point = toGlm(poseAt(collider, 0).position);
+    const glm::vec3 middle = cloth.center();
+    const float height =
+        point.y - (normal.x * (middle.x - point.x) + normal.z * (middle.z - point.z)) / normal.y;
+    if (height < cloth.high.y) rest = std::max(rest, height);
+  }
+  const glm::vec3 low{cloth.low.x, rest, cloth.low.z}, high{cloth.high.x, rest, cloth.high.z};
+  for (Box* box : {&stage.view, &stage.reach}) {
+    box->add(low);
+    box->add(high);
+  }
+  stage.reach.add(low - glm::vec3(halfDiagonal, 0, halfDiagonal));
+  stage.reach.add(high + glm::vec3(halfDiagonal, 0, halfDiagonal));
+}
+
+// Horizontal direction that a viewer of the cloth's front stands in. Cloth that lies flat shows its front
+// once it hangs from its first row, which is then to +z.
+glm::vec3 frontOf(const Cloth& cloth) {
+  const Grid& grid = cloth.grids().front();
+  const std::uint32_t lastColumn = grid.firstParticle + static_cast<std::uint32_t>(grid.columns - 1);
+  const std::uint32_t lastRow = grid.firstParticle + static_cast<std::uint32_t>(grid.columns) *
+                                                         static_cast<std::uint32_t>(grid.rows - 1);
+  const glm::vec3 corner = toGlm(cloth.positions()[grid.firstParticle]);
+  const glm::vec3 along = toGlm(cloth.positions()[lastColumn]) - corner;
+  const glm::vec3 down = toGlm(cloth.positions()[lastRow]) - corner;
+  const glm::vec3 normal = glm::cross(down, along);
+  const glm::vec3 horizontal{normal.x, 0, normal.z};
+  if (glm::length(horizontal) < 0.5f * glm::length(normal)) return {0, 0, 1};
+  return glm::normalize(horizontal);
+}
+
+}  // namespace
+
+void Box::add(glm::vec3 point) {
+  low = glm::min(low, point);
+  high = glm::max(high, point);
+}
+
+void Box::add(const Box& other) {
+  low = glm::min(low, other.low);
+  high = glm::max(high, other.high);
+}
+
+ClothOutline outlineOf(const Cloth& cloth) {
+  ClothOutline outline;
+  for (const Grid& grid : cloth.grids()) outline.grids.push_back(sampleGrid(cloth, grid));
+  outline.front = frontOf(cloth);
+  return outline;
+}
+
+Stage makeStage(const ClothOutline& cloth, const Scene& scene) {
+  Stage stage;
+  for (const GridSamples& grid : cloth.grids) {
+    Box rest;
+    for (const glm::vec3 point : grid.points) rest.add(point);
+    stage.view.add(rest);
+    stage.reach.add(rest);
+    if (grid.pins.empty()) {
+      addFalling(rest, scene, stage);
+    } else {
+      addHanging(grid, stage);
+    }
+  }
+  for (const Collider& collider : scene.colliders) {
+    const auto* sphere = std::get_if<Sphere>(&collider);
+    if (sphere == nullptr) continue;
+    const glm::vec3 radius(static_cast<float>(sphere->radius));
+    const auto addAt = [&](glm::vec3 place) {
+      for (Box* box : {&stage.view, &stage.reach}) {
+        box->add(place - radius);
+        box->add(place + radius);
+      }
+    };
+    addAt(toGlm(poseAt(collider, 0).position));
+    if (!sphere->motion) continue;
+    for (const Motion::Key& key : sphere->motion->keys) addAt(toGlm(key.position));
+  }
+  stage.floorHeight = stage.view.low.y - 0.02f * glm::length(stage.view.size());
+  return stage;
+}
+
+}  // namespace clothsim
