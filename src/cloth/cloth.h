@@ -29,25 +29,44 @@ inline constexpr std::array<SpringOffset, SPRING_SLOTS> springOffsets{{{-1, 0, S
                                                                        {-2, 0, SpringKind::bending},
                                                                        {0, -2, SpringKind::bending}}};
 
+// The twelve springs at a grid point in ascending number: the six it owns, then those owned by points with larger indices.
+struct IncidentSpring {
+  int columns, rows;  // from the particle to the other end
+  SpringSlot slot;
+  bool owned;         // by the particle itself
+};
+inline constexpr std::array<IncidentSpring, 2 * SPRING_SLOTS> incidentSprings{{{-1, 0, toLeft, true},
+                                                                               {0, -1, toUpper, true},
+                                                                               {-1, -1, toUpperLeft, true},
+                                                                               {1, -1, toUpperRight, true},
+                                                                               {-2, 0, toSecondLeft, true},
+                                                                               {0, -2, toSecondUpper, true},
+                                                                               {1, 0, toLeft, false},
+                                                                               {2, 0, toSecondLeft, false},
+                                                                               {-1, 1, toUpperRight, false},
+                                                                               {0, 1, toUpper, false},
+                                                                               {1, 1, toUpperLeft, false},
+                                                                               {0, 2, toSecondUpper, false}}};
+
 // One grid of particles, row-major, column fastest.
 struct Grid {
   std::uint32_t firstParticle = 0;
   int columns = 0, rows = 0;
   double particleMass = 0;                            // [kg]
-  std::array<bool, SPRING_SLOTS> slotEnabled{};
+  std::array<bool, SPRING_SLOTS> slotEnabled{};         // and long enough to lie on the grid
   std::array<double, SPRING_SLOTS> stiffness{};       // [N/m]
   std::array<double, SPRING_SLOTS> nominalLength{};   // [m], of the undisturbed lattice
   bool hasRestLengthTable = false;                    // some spring of a kind differs from nominal by more than 1e-6 m
-  double velocityKept = 1;                            // 1 - damping/100, a step
 
   [[nodiscard]] std::uint32_t particleCount() const {
     return static_cast<std::uint32_t>(columns) * static_cast<std::uint32_t>(rows);
   }
-  // Whether the slot's other end lies on the grid.
-  [[nodiscard]] bool has(int column, int row, int slot) const {
-    const int c = column + springOffsets[static_cast<std::size_t>(slot)].columns;
-    const int r = row + springOffsets[static_cast<std::size_t>(slot)].rows;
-    return c >= 0 && c < columns && r >= 0;
+  [[nodiscard]] std::uint32_t particle(int column, int row) const {
+    return firstParticle + static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(columns) +
+           static_cast<std::uint32_t>(column);
+  }
+  [[nodiscard]] bool contains(int column, int row) const {
+    return column >= 0 && column < columns && row >= 0 && row < rows;
   }
 };
 
@@ -64,10 +83,9 @@ class Cloth {
 
   [[nodiscard]] std::uint32_t particleCount() const { return static_cast<std::uint32_t>(positions_.size()); }
   [[nodiscard]] std::span<const Grid> grids() const { return grids_; }
-  [[nodiscard]] std::span<const Vec3f> positions() const { return positions_; }     // at rest, as binary32 stores them [m]
-  [[nodiscard]] std::span<const float> inverseMasses() const { return inverseMasses_; }  // [1/kg], 0: pinned
-  // 6 a particle, by spring number; empty when no grid needs it [m]
-  [[nodiscard]] std::span<const float> restLengths() const { return restLengths_; }
+  [[nodiscard]] std::span<const Vec3d> positions() const { return positions_; }            // at the start [m]
+  [[nodiscard]] std::span<const double> inverseMasses() const { return inverseMasses_; }  // [1/kg], 0: pinned
+  [[nodiscard]] bool hasRestLengthTable() const;  // of any grid
 
   // Counter-clockwise seen from the front (+y of a horizontal sheet). Cell (c, r) has triangles 2 q and 2 q + 1,
   // q = r (columns - 1) + c: with its corners A B / C D they are (A, C, B) and (B, C, D).
@@ -80,9 +98,8 @@ class Cloth {
 
  private:
   std::vector<Grid> grids_;
-  std::vector<Vec3f> positions_;
-  std::vector<float> inverseMasses_;
-  std::vector<float> restLengths_;
+  std::vector<Vec3d> positions_;
+  std::vector<double> inverseMasses_;
 };
 
 }  // namespace clothsim
