@@ -23,8 +23,8 @@ inline State smallState(const Cloth& cloth) {
   state.step = 12345678901;
   state.integrator = Integrator::euler;
   for (std::uint32_t i = 0; i < cloth.particleCount(); ++i) {
-    const Vec3f x = cloth.positions()[i];
-    state.positions.push_back({x.x, x.y, x.z, cloth.inverseMasses()[i]});
+    const Vec3f x = cloth.positions()[i].cast<float>();
+    state.positions.push_back({x.x, x.y, x.z, static_cast<float>(cloth.inverseMasses()[i])});
     state.velocities.push_back({1.0f / 3.0f, static_cast<float>(i), 1e-30f, 0});
   }
   return state;

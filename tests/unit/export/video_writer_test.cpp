@@ -1,13 +1,12 @@
 #include <gtest/gtest.h>
 
-#include <array>
-#include <cstdio>
 #include <cstdlib>
 #include <vector>
 
 #include "core/error.h"
 #include "core/files.h"
 #include "export/export.h"
+#include "support/command.h"
 #include "support/temporary_folder.h"
 #include "support/throws.h"
 
@@ -18,16 +17,11 @@ using test::messageThrownBy;
 
 // What ffprobe, an independent reader, says about the film.
 std::string probe(const std::filesystem::path& film) {
-  const std::string command =
-      "ffprobe -v error -count_frames -show_entries "
-      "stream=codec_name,width,height,pix_fmt,r_frame_rate,nb_read_frames "
-      "-of csv=p=0 " +
-      film.string();
-  std::FILE* pipe = ::popen(command.c_str(), "r");
-  std::array<char, 200> line{};
-  if (std::fgets(line.data(), line.size(), pipe) == nullptr) line[0] = 0;
-  ::pclose(pipe);
-  return line.data();
+  return test::runCommand(
+             "ffprobe -v error -count_frames -show_entries "
+             "stream=codec_name,width,height,pix_fmt,r_frame_rate,nb_read_frames -of csv=p=0 " +
+             film.string())
+      .output;
 }
 
 class VideoWriterTest : public testing::Test {
