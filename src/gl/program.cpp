@@ -1,0 +1,89 @@
+#include "gl/program.h"
+
+#include <cassert>
+
+#include "core/error.h"
+
+namespace clothsim::gl {
+namespace {
+
+// A compiled shader that is deleted with its scope; a linked program keeps what it needs of it.
+class Shader {
+ public:
+  Shader(GLenum stage, const std::string& file, const Defines& defines) : name_(glCreateShader(stage)) {
+    const ShaderSource source = loadShaderSource(file, defines);
+    const char* text = source.text.c_str();
+    glShaderSource(name_, 1, &text, nullptr);
+    glCompileShader(name_);
+    glObjectLabel(GL_SHADER, name_, static_cast<GLsizei>(file.size()), file.c_str());
+    GLint compiled = GL_FALSE;
+    glGetShaderiv(name_, GL_COMPILE_STATUS, &compiled);
+    if (compiled == GL_TRUE) return;
+    GLint length = 0;
+    glGetShaderiv(name_, GL_INFO_LOG_LENGTH, &length);
+    std::string log(static_cast<std::size_t>(length), '\0');
+    glGetShaderInfoLog(name_, length, nullptr, log.data());
+    glDeleteShader(name_);
+    throw OpenGlError("shaders/" + file + " does not compile:\n" + readableLog(log.c_str(), source));
+  }
+  ~Shader() { glDeleteShader(name_); }
+  Shader(const Shader&) = delete;
+  Shader& operator=(const Shader&) = delete;
+  [[nodiscard]] GLuint name() const { return name_; }
+
+ private:
+  GLuint name_;
+};
+
+void link(GLuint program, const std::string& label) {
+  glLinkProgram(program);
+  glObjectLabel(GL_PROGRAM, program, static_cast<GLsizei>(label.size()), label.c_str());
+  GLint linked = GL_FALSE;
+  glGetProgramiv(program, GL_LINK_STATUS, &linked);
+  if (linked == GL_TRUE) return;
+  GLint length = 0;
+  glGetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
+  std::string log(static_cast<std::size_t>(length), '\0');
+  glGetProgramInfoLog(program, length, nullptr, log.data());
+  throw OpenGlError(label + " does not link:\n" + log.c_str());
+}
+
+}  // namespace
+
+Program Program::makeCompute(const std::string& file, const Defines& defines) {
+  const Shader shader(GL_COMPUTE_SHADER, file, defines);
+  Program program;
+  program.name_ = glCreateProgram();
+  glAttachShader(program.name_, shader.name());
+  link(program.name_, file);
+  glDetachShader(program.name_, shader.name());
+  return program;
+}
+
+Program Program::makeRender(const std::string& vertexFile, const std::string& fragmentFile,
+                            const Defines& defines) {
+  const Shader vertex(GL_VERTEX_SHADER, vertexFile, defines);
+  const Shader fragment(GL_FRAGMENT_SHADER, fragmentFile, defines);
+  Program program;
+  program.name_ = glCreateProgram();
+  glAttachShader(program.name_, vertex.name());
+  glAttachShader(program.name_, fragment.name());
+  link(program.name_, vertexFile + " + " + fragmentFile);
+  glDetachShader(program.name_, vertex.name());
+  glDetachShader(program.name_, fragment.name());
+  return program;
+}
+
+Program::~Program() {
+  if (name_ != 0) glDeleteProgram(name_);
+}
+
+void dispatch(std::size_t count, int workGroupSize) {
+  assert(workGroupSize > 0 && "a work group has at least one invocation");
+  const std::size_t size = static_cast<std::size_t>(workGroupSize);
+  const std::size_t groups = (count + size - 1) / size;
+  assert(groups <= 65535 && "every driver takes 65,535 work groups, and no more is promised");
+  if (groups > 0) glDispatchCompute(static_cast<GLuint>(groups), 1, 1);
+}
+
+}  // namespace clothsim::gl

@@ -1,0 +1,90 @@
+#include "gl/shader_source.h"
+
+#include <algorithm>
+#include <optional>
+#include <regex>
+#include <sstream>
+
+#include "core/error.h"
+#include "core/files.h"
+
+namespace clothsim::gl {
+namespace {
+
+// The file named by a line `#include "file"`, which GLSL itself does not know.
+std::optional<std::string> includedFile(const std::string& line) {
+  static const std::regex pattern(R"(^\s*#\s*include\s+"([^"]+)\".*$)");
+  std::smatch match;
+  if (!std::regex_match(line, match, pattern)) return std::nullopt;
+  return match[1].str();
+}
+
+class Loader {
+ public:
+  void append(const std::string& file) {
+    if (std::find(open_.begin(), open_.end(), file) != open_.end()) {
+      std::string circle;
+      for (const std::string& name : open_) circle += "shaders/" + name + " -> ";
+      throw OpenGlError("Shader includes go round in a circle: " + circle + "shaders/" + file);
+    }
+    open_.push_back(file);
+    const std::size_t number = fileNumber(file);
+    std::istringstream lines(readFile(resourceRoot() / "shaders" / file));
+    source.text += "#line 1 " + std::to_string(number) + "\n";
+    std::string line;
+    for (int lineNumber = 1; std::getline(lines, line); ++lineNumber) {
+      if (const auto included = includedFile(line)) {
+        append(*included);
+        source.text += "#line " + std::to_string(lineNumber + 1) + " " + std::to_string(number) + "\n";
+      } else {
+        source.text += line + "\n";
+      }
+    }
+    open_.pop_back();
+  }
+
+  ShaderSource source;
+
+ private:
+  std::size_t fileNumber(const std::string& file) {
+    const auto known = std::find(source.files.begin(), source.files.end(), file);
+    if (known != source.files.end()) return static_cast<std::size_t>(known - source.files.begin());
+    source.files.push_back(file);
+    return source.files.size() - 1;
+  }
+
+  std::vector<std::string> open_;  // from the outermost file to the one being read
+};
+
+}  // namespace
+
+ShaderSource loadShaderSource(const std::string& file, const Defines& defines) {
+  Loader loader;
+  loader.source.text = "#version 450 core\n";
+  for (const auto& [name, value] : defines) loader.source.text += "#define " + name + " " + value + "\n";
+  loader.append(file);
+  return loader.source;
+}
+
+std::string readableLog(const std::string& log, const ShaderSource& source) {
+  // Mesa "0:12(5): error", NVIDIA "0(12) : error", glslang and AMD "ERROR: 0:12:"; always at the start of a
+  // message.
+  static const std::regex place(R"((^|\s)(\d+)(?::(\d+)(?:\(\d+\))?|\((\d+)\)))");
+  std::string readable;
+  std::istringstream lines(log);
+  for (std::string line; std::getline(lines, line);) {
+    std::smatch match;
+    if (std::regex_search(line, match, place) && match[2].length() <= 4) {
+      const std::size_t file = std::stoul(match[2].str());
+      const std::string number = match[3].matched ? match[3].str() : match[4].str();
+      if (file < source.files.size()) {
+        line = match.prefix().str() + match[1].str() + "shaders/" + source.files[file] + ":" + number +
+               match.suffix().str();
+      }
+    }
+    readable += line + "\n";
+  }
+  return readable;
+}
+
+}  // namespace clothsim::gl
