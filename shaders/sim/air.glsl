@@ -4,8 +4,8 @@
 // across the relative wind u, rho C_l / 2 A |u|^2 (e.n) (n - (e.n) e) with e = u/|u|. `normal` is 2 A n, and the factors of
 // the step hold rho C / 12. Both terms are even in n: it does not matter to which side it points.
 vec3 windForce(uint a, uint b, uint c) {
-  vec3 xa = positions[a].xyz, xb = positions[b].xyz, xc = positions[c].xyz;
-  vec3 va = velocities[a].xyz, vb = velocities[b].xyz, vc = velocities[c].xyz;
+  vec3 xa = positionAt(a).xyz, xb = positionAt(b).xyz, xc = positionAt(c).xyz;
+  vec3 va = velocityAt(a), vb = velocityAt(b), vc = velocityAt(c);
   const float third = uintBitsToFloat(0x3eaaaaabu);
   precise vec3 sideB = xb - xa;
   precise vec3 sideC = xc - xa;

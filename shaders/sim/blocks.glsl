@@ -5,13 +5,28 @@ layout(local_size_x = WORK_GROUP_COLUMNS, local_size_y = WORK_GROUP_ROWS) in;
 
 layout(std140, binding = STEP_PARAMS_BINDING) uniform StepBlock { StepParams step; };
 
-layout(std430, binding = POSITIONS_BINDING) readonly buffer Positions { vec4 positions[]; };    // w: inverse mass
-layout(std430, binding = VELOCITIES_BINDING) readonly buffer Velocities { vec4 velocities[]; };
-layout(std430, binding = NEW_POSITIONS_BINDING) buffer NewPositions { vec4 newPositions[]; };
-layout(std430, binding = NEW_VELOCITIES_BINDING) buffer NewVelocities { vec4 newVelocities[]; };
+// Particle state lies in storage buffers, xyz and the inverse mass in w. Passes write through storage blocks and read the
+// same buffers as texels.
+layout(std430, binding = NEW_POSITIONS_BINDING) writeonly buffer NewPositions { vec4 newPositions[]; };
+layout(std430, binding = NEW_VELOCITIES_BINDING) writeonly buffer NewVelocities { vec4 newVelocities[]; };
 layout(std430, binding = FORCES_BINDING) buffer Forces { vec4 forces[]; };
-layout(std430, binding = COLLIDERS_BINDING) readonly buffer Colliders { ColliderParams colliders[]; };
-layout(std430, binding = REST_LENGTHS_BINDING) readonly buffer RestLengths { float restLengths[]; };
+layout(binding = POSITIONS_UNIT) uniform samplerBuffer positions;
+layout(binding = VELOCITIES_UNIT) uniform samplerBuffer velocities;
+layout(binding = NEW_POSITIONS_UNIT) uniform samplerBuffer positionsSoFar;
+layout(binding = NEW_VELOCITIES_UNIT) uniform samplerBuffer velocitiesSoFar;
+layout(binding = REST_LENGTHS_UNIT) uniform samplerBuffer restLengths;
+layout(binding = COLLIDERS_UNIT) uniform samplerBuffer colliderRows;
+
+vec4 positionAt(uint i) { return texelFetch(positions, int(i)); }
+vec3 velocityAt(uint i) { return texelFetch(velocities, int(i)).xyz; }
+
+// Known when the pass is compiled, so that what a scene lacks costs nothing (src/solver/gpu/pass_programs.cpp).
+const bool hasWind = HAS_WIND != 0;
+const bool hasAirResistance = HAS_AIR_RESISTANCE != 0;
+const bool hasColliders = HAS_COLLIDERS != 0;
+const bool hasMovingColliders = HAS_MOVING_COLLIDERS != 0;
+const bool hasRestLengthTable = HAS_REST_LENGTH_TABLE != 0;
+const uint enabledSlots = ENABLED_SLOTS;  // bit `slot` is set when its springs are enabled
 
 // One invocation a grid point.
 struct GridPoint {

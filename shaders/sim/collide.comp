@@ -8,7 +8,9 @@
 void main() {
   GridPoint p = thisGridPoint();
   if (!p.exists) return;
-  Particle particle = collideParticle(p.index, Particle(newPositions[p.index], newVelocities[p.index].xyz));
+  int i = int(p.index);
+  Particle particle = Particle(texelFetch(positionsSoFar, i), texelFetch(velocitiesSoFar, i).xyz);
+  particle = collideParticle(p.index, particle);
   newPositions[p.index] = particle.position;
   newVelocities[p.index] = vec4(particle.velocity, 0.0);
 }

@@ -1,9 +1,31 @@
 // Spheres and planes, one after the other in the scene's order, with CS184's friction: a particle that touches goes to
 // previous + (1 - friction) (surface - previous).
 
+// Row by row as shared/step_params.h lays it out; the rows of the motion only when some collider moves.
+ColliderParams loadCollider(uint k) {
+  int row = int(k) * COLLIDER_ROWS;
+  ColliderParams c;
+  vec4 r = texelFetch(colliderRows, row);
+  c.pointX = r.x, c.pointY = r.y, c.pointZ = r.z, c.radius = r.w;
+  r = texelFetch(colliderRows, row + 1);
+  c.normalX = r.x, c.normalY = r.y, c.normalZ = r.z, c.radiusSquared = r.w;
+  r = texelFetch(colliderRows, row + 2);
+  c.type = floatBitsToUint(r.x), c.moving = floatBitsToUint(r.y), c.motionKept = r.z;
+  if (!hasMovingColliders) return c;
+  r = texelFetch(colliderRows, row + 3);
+  c.turnXX = r.x, c.turnXY = r.y, c.turnXZ = r.z, c.shiftX = r.w;
+  r = texelFetch(colliderRows, row + 4);
+  c.turnYX = r.x, c.turnYY = r.y, c.turnYZ = r.z, c.shiftY = r.w;
+  r = texelFetch(colliderRows, row + 5);
+  c.turnZX = r.x, c.turnZY = r.y, c.turnZZ = r.z, c.shiftZ = r.w;
+  r = texelFetch(colliderRows, row + 6);
+  c.pivotX = r.x, c.pivotY = r.y, c.pivotZ = r.z;
+  return c;
+}
+
 // Where the particle was at the start of the step, carried along with a moving collider.
 vec3 carried(ColliderParams collider, vec3 x) {
-  if (collider.moving == 0u) return x;
+  if (!hasMovingColliders || collider.moving == 0u) return x;
   precise vec3 d = x - vec3(collider.pivotX, collider.pivotY, collider.pivotZ);
   precise float turnX = sumOfProducts(vec3(collider.turnXX, collider.turnXY, collider.turnXZ), d);
   precise float turnY = sumOfProducts(vec3(collider.turnYX, collider.turnYY, collider.turnYZ), d);
@@ -45,12 +67,12 @@ Contact planeContact(ColliderParams plane, vec3 previous, vec3 x) {
 }
 
 Particle collideParticle(uint i, Particle particle) {
-  if (particle.position.w == 0.0) return particle;
-  vec3 start = positions[i].xyz;
+  if (!hasColliders || particle.position.w == 0.0) return particle;
+  vec3 start = positionAt(i).xyz;
   precise vec3 x = particle.position.xyz;
   precise vec3 v = particle.velocity;
   for (uint k = 0u; k < step.colliderCount; ++k) {
-    ColliderParams collider = colliders[step.firstCollider + k];
+    ColliderParams collider = loadCollider(step.firstCollider + k);
     vec3 previous = carried(collider, start);
     Contact contact;
     if (collider.type == COLLIDER_SPHERE)

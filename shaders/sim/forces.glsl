@@ -3,9 +3,9 @@
 #include "sim/air.glsl"
 
 vec3 gatherForces(GridPoint p) {
-  precise vec3 f = gatherSprings(p, positions[p.index].xyz);
-  if (step.hasWind != 0u) f = addWind(p, f);
-  if (step.airResistance > 0.0) f = addAirResistance(velocities[p.index].xyz, f);
+  precise vec3 f = gatherSprings(p, positionAt(p.index).xyz);
+  if (hasWind) f = addWind(p, f);
+  if (hasAirResistance) f = addAirResistance(velocityAt(p.index), f);
   return f;
 }
 

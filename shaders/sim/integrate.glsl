@@ -5,8 +5,8 @@ struct Particle {
 };
 
 Particle integrateParticle(uint i, vec3 force) {
-  vec4 x = positions[i];
-  vec3 v = velocities[i].xyz;
+  vec4 x = positionAt(i);
+  vec3 v = velocityAt(i);
   if (x.w == 0.0) return Particle(x, vec3(0.0));
   vec3 acceleration = accelerationOf(force, x.w);
   precise vec3 newV = step.velocityKept * v + step.timeStep * acceleration;

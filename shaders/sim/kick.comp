@@ -6,8 +6,8 @@
 void main() {
   GridPoint p = thisGridPoint();
   if (!p.exists) return;
-  float inverseMass = positions[p.index].w;
+  float inverseMass = positionAt(p.index).w;
   vec3 acceleration = accelerationOf(gatherForces(p), inverseMass);
-  precise vec3 v = velocities[p.index].xyz + step.kickTime * acceleration;
+  precise vec3 v = velocityAt(p.index) + step.kickTime * acceleration;
   newVelocities[p.index] = vec4(inverseMass == 0.0 ? vec3(0.0) : canonical(v), 0.0);
 }

@@ -10,7 +10,7 @@ const ivec2 toOtherEnd[6] =
 
 void move(uint i, vec4 x, vec3 by) {
   precise vec3 newX = x.xyz + by;
-  precise vec3 newV = newVelocities[i].xyz + step.inverseTimeStep * by;
+  precise vec3 newV = texelFetch(velocitiesSoFar, int(i)).xyz + step.inverseTimeStep * by;
   newPositions[i] = vec4(canonical(newX), x.w);
   newVelocities[i] = vec4(canonical(newV), 0.0);
 }
@@ -25,8 +25,9 @@ void main() {
   uint b = uint(int(a) + offset.x + offset.y * int(step.columns));
 
   precise float limit = step.springs[color.slot].limitLength;
-  if (step.useRestLengthTable != 0u) limit = step.limitFactor * restLengths[color.slot * step.totalParticles + a];
-  vec4 xa = newPositions[a], xb = newPositions[b];
+  if (hasRestLengthTable)
+    limit = step.limitFactor * texelFetch(restLengths, int(color.slot * step.totalParticles + a)).x;
+  vec4 xa = texelFetch(positionsSoFar, int(a)), xb = texelFetch(positionsSoFar, int(b));
   precise vec3 d = xb.xyz - xa.xyz;
   precise float lengthSquared = sumOfProducts(d, d);
   precise float limitSquared = limit * limit;

@@ -11,35 +11,30 @@ namespace {
 // How many steps' parameters are uploaded at once when they depend on time.
 constexpr int BATCH_STEPS = 64;
 
-void checkFits(std::size_t bytes, const char* what) {
-  const auto largest = static_cast<std::size_t>(gl::currentContextInfo().maxStorageBlockBytes);
-  if (bytes <= largest) return;
-  throw OpenGlError("the " + std::string(what) + " need " + std::to_string(bytes >> 20) +
-                    " MiB in one storage buffer, and this driver allows " + std::to_string(largest >> 20) +
-                    " MiB. Use a smaller --resolution, or --backend cpu.");
+void checkFits(std::size_t elements, std::size_t bytesEach, const char* what) {
+  const std::size_t largest = std::min(static_cast<std::size_t>(gl::currentContextInfo().maxStorageBlockBytes) / bytesEach,
+                                       gl::BufferTexture::largestSize());
+  if (elements <= largest) return;
+  throw OpenGlError("this cloth needs " + std::to_string(elements) + " " + what + " in one buffer, and this driver allows " +
+                    std::to_string(largest) + ". Use a smaller --resolution, or --backend cpu.");
 }
 
 }  // namespace
 
 GpuSolver::GpuSolver(const Cloth& cloth, const Scene& scene, const GpuOptions& options)
     : cloth_(&cloth), scene_(scene), options_(options), velocityMeaning_(startingVelocityMeaning(scene)) {
-  const gl::Defines defines{{"WORK_GROUP_COLUMNS", std::to_string(options.groupColumns)},
-                            {"WORK_GROUP_ROWS", std::to_string(options.groupRows)}};
-  stepPass_ = gl::Program::makeCompute("sim/step.comp", defines);
-  forcesPass_ = gl::Program::makeCompute("sim/forces.comp", defines);
-  integratePass_ = gl::Program::makeCompute("sim/integrate.comp", defines);
-  collidePass_ = gl::Program::makeCompute("sim/collide.comp", defines);
-  limitPass_ = gl::Program::makeCompute("sim/limit.comp", defines);
-  kickPass_ = gl::Program::makeCompute("sim/kick.comp", defines);
-
   const std::size_t count = cloth.particleCount();
-  checkFits(count * sizeof(Particle4), "particles");
+  checkFits(count, sizeof(Particle4), "particles");
   const std::vector<float> restLengths = measureRestLengths<float>(cloth);
-  checkFits(restLengths.size() * sizeof(float), "rest lengths");
+  checkFits(restLengths.size(), sizeof(float), "rest lengths");
   restLengths_ = gl::Buffer<float>("rest lengths", std::span<const float>(restLengths));
-  for (std::size_t i = 0; i < 2; ++i) {
-    positions_[i] = gl::Buffer<Particle4>("positions " + std::to_string(i), count);
-    velocities_[i] = gl::Buffer<Particle4>("velocities " + std::to_string(i), count);
+  restLengthTexture_ = gl::BufferTexture("rest lengths", restLengths_.name(), GL_R32F);
+  for (const auto& [arrays, name] : {std::pair{&positions_, "positions "}, std::pair{&velocities_, "velocities "}}) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      const std::string label = name + std::to_string(i);
+      (*arrays)[i].buffer = gl::Buffer<Particle4>(label, count);
+      (*arrays)[i].texture = gl::BufferTexture(label, (*arrays)[i].buffer.name(), GL_RGBA32F);
+    }
   }
   forces_ = gl::Buffer<Particle4>("forces", count);
 
@@ -64,8 +59,21 @@ void GpuSolver::configure(const Scene& scene) {
   if (colliders_.name() == 0 || colliders_.size() != batch * scene.colliders.size()) {
     stagedColliders_.resize(batch * scene.colliders.size());
     colliders_ = gl::Buffer<ColliderParams<float>>("colliders", stagedColliders_.size());
+    colliderTexture_ = gl::BufferTexture("colliders", colliders_.name(), GL_RGBA32F);
   }
   paramsUploaded_ = false;
+  choosePrograms();
+}
+
+void GpuSolver::choosePrograms() {
+  gridPrograms_.clear();
+  for (const Grid& grid : cloth_->grids()) {
+    PassFeatures features = featuresOf(scene_, grid);
+    features.groupColumns = options_.groupColumns;
+    features.groupRows = options_.groupRows;
+    features.fused = options_.fused;
+    gridPrograms_.push_back(&programs_.try_emplace(features, features).first->second);
+  }
 }
 
 void GpuSolver::uploadParams(std::uint64_t firstStep, int count) {
@@ -85,17 +93,21 @@ void GpuSolver::uploadParams(std::uint64_t firstStep, int count) {
 }
 
 void GpuSolver::bindState() {
-  positions_[now_].bindStorage(POSITIONS_BINDING);
-  velocities_[now_].bindStorage(VELOCITIES_BINDING);
-  positions_[1 - now_].bindStorage(NEW_POSITIONS_BINDING);
-  velocities_[1 - now_].bindStorage(NEW_VELOCITIES_BINDING);
+  const ParticleArray &x = positions_[now_], &v = velocities_[now_];
+  const ParticleArray &newX = positions_[1 - now_], &newV = velocities_[1 - now_];
+  x.texture.bind(POSITIONS_UNIT);
+  v.texture.bind(VELOCITIES_UNIT);
+  newX.texture.bind(NEW_POSITIONS_UNIT);
+  newV.texture.bind(NEW_VELOCITIES_UNIT);
+  newX.buffer.bindStorage(NEW_POSITIONS_BINDING);
+  newV.buffer.bindStorage(NEW_VELOCITIES_BINDING);
 }
 
 void GpuSolver::runPass(const gl::Program& pass, const char* name, std::uint32_t columns, std::uint32_t rows) {
   pass.bind();
   if (timer_ != nullptr) timer_->begin();
   gl::dispatch(columns, rows, options_.groupColumns, options_.groupRows);
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
   if (timer_ == nullptr) return;
   timer_->end();
   auto found = std::find_if(passTimes_.begin(), passTimes_.end(), [&](const PassTime& time) { return time.name == name; });
@@ -108,7 +120,7 @@ void GpuSolver::limitStrain(std::size_t gridIndex) {
   for (std::size_t i = 0; i < grid.colors.size(); ++i) {
     const LimitColor& color = grid.colors[i];
     limitColors_.bindUniformRange(LIMIT_COLOR_BINDING, grid.first + i, 1);
-    runPass(limitPass_, "limit", ownerCount(color.firstColumn, color.columnStep, color.columnRun, color.endColumn),
+    runPass(gridPrograms_[gridIndex]->limit, "limit", ownerCount(color.firstColumn, color.columnStep, color.columnRun, color.endColumn),
             ownerCount(color.firstRow, color.rowStep, color.rowRun, color.endRow));
   }
 }
@@ -116,13 +128,14 @@ void GpuSolver::limitStrain(std::size_t gridIndex) {
 void GpuSolver::stepGrid(std::size_t gridIndex, std::size_t slot) {
   const Grid& grid = cloth_->grids()[gridIndex];
   const auto columns = static_cast<std::uint32_t>(grid.columns), rows = static_cast<std::uint32_t>(grid.rows);
+  const PassPrograms& programs = *gridPrograms_[gridIndex];
   stepSlots_.bindUniformRange(STEP_PARAMS_BINDING, slot, 1);
   if (options_.fused) {
-    runPass(stepPass_, "step (forces, integrate, collide)", columns, rows);
+    runPass(programs.step, "step (forces, integrate, collide)", columns, rows);
   } else {
-    runPass(forcesPass_, "forces", columns, rows);
-    runPass(integratePass_, "integrate", columns, rows);
-    runPass(collidePass_, "collide", columns, rows);
+    runPass(programs.forces, "forces", columns, rows);
+    runPass(programs.integrate, "integrate", columns, rows);
+    runPass(programs.collide, "collide", columns, rows);
   }
   if (scene_.solver.strainLimit) limitStrain(gridIndex);
 }
@@ -134,10 +147,10 @@ void GpuSolver::convertVelocities() {
   uploadParams(stepIndex_, 1);
   paramsUploaded_ = !dependsOnTime(scene_);
   bindState();
-  restLengths_.bindStorage(REST_LENGTHS_BINDING);
+  restLengthTexture_.bind(REST_LENGTHS_UNIT);
   for (std::size_t grid = 0; grid < cloth_->grids().size(); ++grid) {
     stepSlots_.bindUniformRange(STEP_PARAMS_BINDING, grid, 1);
-    runPass(kickPass_, "kick", static_cast<std::uint32_t>(cloth_->grids()[grid].columns),
+    runPass(gridPrograms_[grid]->kick, "kick", static_cast<std::uint32_t>(cloth_->grids()[grid].columns),
             static_cast<std::uint32_t>(cloth_->grids()[grid].rows));
   }
   std::swap(velocities_[0], velocities_[1]);
@@ -146,8 +159,8 @@ void GpuSolver::convertVelocities() {
 void GpuSolver::step(int count) {
   convertVelocities();
   forces_.bindStorage(FORCES_BINDING);
-  restLengths_.bindStorage(REST_LENGTHS_BINDING);
-  colliders_.bindStorage(COLLIDERS_BINDING);
+  restLengthTexture_.bind(REST_LENGTHS_UNIT);
+  colliderTexture_.bind(COLLIDERS_UNIT);
   const std::size_t grids = cloth_->grids().size();
   const bool timed = dependsOnTime(scene_);
   for (int done = 0; done < count; ++done) {
@@ -168,8 +181,8 @@ State GpuSolver::state() {
   convertVelocities();
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   State state;
-  state.positions = positions_[now_].download();
-  state.velocities = velocities_[now_].download();
+  state.positions = positions_[now_].buffer.download();
+  state.velocities = velocities_[now_].buffer.download();
   state.step = stepIndex_;
   state.integrator = velocityMeaning_;
   return state;
@@ -177,8 +190,8 @@ State GpuSolver::state() {
 
 void GpuSolver::setState(const State& state) {
   assert(state.positions.size() == cloth_->particleCount() && "the state must be of the solver's cloth");
-  positions_[now_].upload(state.positions);
-  velocities_[now_].upload(state.velocities);
+  positions_[now_].buffer.upload(state.positions);
+  velocities_[now_].buffer.upload(state.velocities);
   stepIndex_ = state.step;
   velocityMeaning_ = state.integrator;
 }

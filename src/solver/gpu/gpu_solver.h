@@ -3,13 +3,16 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "gl/buffer.h"
+#include "gl/buffer_texture.h"
 #include "gl/context.h"
 #include "gl/program.h"
 #include "gl/timer.h"
+#include "solver/gpu/pass_programs.h"
 #include "solver/solver.h"
 #include "solver/step_params.h"
 
@@ -42,7 +45,7 @@ class GpuSolver final : public Solver {
   [[nodiscard]] std::string device() const override;
 
   // One vec4 a particle: xyz and the inverse mass. The name changes from step to step (two buffers in turn).
-  [[nodiscard]] GLuint positionsBuffer() const { return positions_[now_].name(); }
+  [[nodiscard]] GLuint positionsBuffer() const { return positions_[now_].buffer.name(); }
 
   // Steps with a timer query around every dispatch (which slows the whole) and adds up by pass.
   [[nodiscard]] std::vector<PassTime> timePasses(int steps);
@@ -59,6 +62,7 @@ class GpuSolver final : public Solver {
     std::vector<LimitColor> colors;
   };
 
+  void choosePrograms();
   void uploadParams(std::uint64_t firstStep, int count);
   void convertVelocities();
   void bindState();
@@ -73,13 +77,20 @@ class GpuSolver final : public Solver {
   std::uint64_t stepIndex_ = 0;
   bool paramsUploaded_ = false;  // for every step, when nothing depends on time
 
-  gl::Program stepPass_, forcesPass_, integratePass_, collidePass_, limitPass_, kickPass_;
-  std::array<gl::Buffer<Particle4>, 2> positions_, velocities_;
+  std::map<PassFeatures, PassPrograms> programs_;  // all that were ever needed: toggling back compiles nothing
+  std::vector<const PassPrograms*> gridPrograms_;  // those in use, by grid
+  struct ParticleArray {
+    gl::Buffer<Particle4> buffer;
+    gl::BufferTexture texture;
+  };
+  std::array<ParticleArray, 2> positions_, velocities_;
   std::size_t now_ = 0;  // which of the two holds the state
   gl::Buffer<Particle4> forces_;
   gl::Buffer<float> restLengths_;
+  gl::BufferTexture restLengthTexture_;
   gl::Buffer<StepSlot> stepSlots_;  // a batch of steps, each with all grids
   gl::Buffer<ColliderParams<float>> colliders_;  // the same batch, each with all colliders
+  gl::BufferTexture colliderTexture_;
   gl::Buffer<ColorSlot> limitColors_;
   std::vector<GridColors> gridColors_;
   std::vector<StepSlot> stagedSlots_;
