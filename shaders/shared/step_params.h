@@ -17,14 +17,19 @@ using uint = std::uint32_t;
 #define STEP_PARAMS_BINDING 0  // uniform block
 #define LIMIT_COLOR_BINDING 1  // uniform block
 
-#define POSITIONS_BINDING 0       // storage blocks: at the start of the step,
-#define VELOCITIES_BINDING 1
-#define NEW_POSITIONS_BINDING 2   // at its end,
-#define NEW_VELOCITIES_BINDING 3
-#define FORCES_BINDING 4          // between separate passes
-#define COLLIDERS_BINDING 5
-#define REST_LENGTHS_BINDING 6    // slot-major: slot * total particles + owner
+#define NEW_POSITIONS_BINDING 0  // storage blocks: at the end of the step,
+#define NEW_VELOCITIES_BINDING 1
+#define FORCES_BINDING 2  // between separate passes
 
+#define POSITIONS_UNIT 0  // the particle buffers as texels: at the start of the step,
+#define VELOCITIES_UNIT 1
+#define NEW_POSITIONS_UNIT 2  // at its end,
+#define NEW_VELOCITIES_UNIT 3
+#define REST_LENGTHS_UNIT 4  // slot-major: slot * total particles + owner
+
+#define COLLIDERS_UNIT 5     // COLLIDER_ROWS texels each
+
+#define COLLIDER_ROWS 7
 #define COLLIDER_SPHERE 0u
 #define COLLIDER_PLANE 1u
 

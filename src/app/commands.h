@@ -15,9 +15,9 @@ int runCommandLine(int argc, char** argv);
 
 // What every command that simulates takes.
 struct SceneArguments {
-  std::string scene;                       // -f
+  std::string scene;  // -f
   std::optional<std::pair<int, int>> resolution;
-  std::vector<std::string> settings;       // --set key=value
+  std::vector<std::string> settings;  // --set key=value
 };
 // Loads the scene, changes its resolution, applies --set in that order. @throws SceneError, UsageError
 [[nodiscard]] Scene loadSceneWith(const SceneArguments& arguments);

@@ -11,8 +11,9 @@
 
 namespace clothsim {
 
-// .csv: header index,x,y,z,vx,vy,vz, values %.9g. .ply: binary little-endian, positions, normals, uv, triangles. .obj: text with
-// uv and normals. .state: binary and exact, loadState reads it back. @throws UsageError for another extension, InputOutputError
+// .csv: header index,x,y,z,vx,vy,vz, values %.9g. .ply: binary little-endian, positions, normals, uv,
+// triangles. .obj: text with uv and normals. .state: binary and exact, loadState reads it back. @throws
+// UsageError for another extension, InputOutputError
 void saveState(const State& state, const Cloth& cloth, const std::filesystem::path& path);
 [[nodiscard]] bool canSaveStateAs(const std::filesystem::path& path);
 
@@ -29,7 +30,7 @@ class VideoWriter {
   VideoWriter(const std::filesystem::path& path, int width, int height, double framesPerSecond);
   ~VideoWriter();  // without close(): stops ffmpeg and removes the temporary file
   void addFrame(std::span<const std::uint8_t> rgb);
-  void close();    // @throws InputOutputError with ffmpeg's own last words when it failed
+  void close();  // @throws InputOutputError with ffmpeg's own last words when it failed
 
  private:
   struct Pipe;

@@ -1,6 +1,7 @@
 // A linked shader program, made from the files under shaders/; move-only.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -31,7 +32,9 @@ class Program {
   GLuint name_ = 0;
 };
 
-// Work groups for `count` invocations; asserts that they stay within the 65,535 that every driver takes.
+// Work groups for columns x rows invocations; asserts that they stay within the 65,535 that every driver takes: beyond it
+// the dispatch does nothing, and nobody says so.
+void dispatch(std::uint32_t columns, std::uint32_t rows, int groupColumns, int groupRows);
 void dispatch(std::size_t count, int workGroupSize);
 
 }  // namespace clothsim::gl

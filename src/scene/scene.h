@@ -44,6 +44,10 @@ struct Plane {
 
 using Collider = std::variant<Sphere, Plane>;
 
+[[nodiscard]] inline bool moves(const Collider& collider) {
+  return std::visit([](const auto& c) { return c.motion.has_value(); }, collider);
+}
+
 enum class Orientation { horizontal = 0, vertical = 1 };  // (u, 1, v) or (u, v, jitter)
 
 struct GridPoint {

@@ -44,7 +44,7 @@ Integrator startingVelocityMeaning(const Scene& scene) {
 bool dependsOnTime(const Scene& scene) {
   if (scene.wind && scene.wind->gust.strength != 0) return true;
   for (const Collider& collider : scene.colliders)
-    if (std::visit([](const auto& c) { return c.motion.has_value(); }, collider)) return true;
+    if (moves(collider)) return true;
   return false;
 }
 
@@ -107,7 +107,7 @@ ColliderParams<Real> makeColliderParams(const Scene& scene, const Collider& coll
     params.normalZ = real<Real>(normal.z);
     params.motionKept = real<Real>(1 - plane.friction);
   }
-  if (!std::visit([](const auto& c) { return c.motion.has_value(); }, collider)) return params;
+  if (!moves(collider)) return params;
 
   // turn = R(after) R(before)^T - 1, shift = position(after) - position(before)
   params.moving = 1;

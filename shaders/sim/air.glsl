@@ -1,0 +1,56 @@
+// Wind on triangles and the resistance of the air to particles.
+
+// A third of the force of the air on triangle (a, b, c): pressure along its normal, rho C_d / 2 A (u.n)|u.n| n, and lift
+// across the relative wind u, rho C_l / 2 A |u|^2 (e.n) (n - (e.n) e) with e = u/|u|. `normal` is 2 A n, and the factors of
+// the step hold rho C / 12. Both terms are even in n: it does not matter to which side it points.
+vec3 windForce(uint a, uint b, uint c) {
+  vec3 xa = positionAt(a).xyz, xb = positionAt(b).xyz, xc = positionAt(c).xyz;
+  vec3 va = velocityAt(a), vb = velocityAt(b), vc = velocityAt(c);
+  const float third = uintBitsToFloat(0x3eaaaaabu);
+  precise vec3 sideB = xb - xa;
+  precise vec3 sideC = xc - xa;
+  precise vec3 normal = crossProduct(sideB, sideC);
+  precise float normalSquared = sumOfProducts(normal, normal);
+  precise float inverseNormal = inverseSquareRoot(normalSquared);
+  precise vec3 velocity = third * ((va + vb) + vc);
+  precise vec3 u = vec3(step.airVelocityX, step.airVelocityY, step.airVelocityZ) - velocity;
+  precise float speedSquared = sumOfProducts(u, u);
+  precise float inverseSpeed = inverseSquareRoot(speedSquared);
+  precise float speed = speedSquared * inverseSpeed;
+  precise float through = sumOfProducts(u, normal);
+  precise float across = through * inverseNormal;  // u.n
+  precise float acrossMagnitude = across < 0.0 ? -across : across;
+  precise float alongNormal = step.dragFactor * (across * acrossMagnitude) + step.liftFactor * (across * speed);
+  precise float alongWind = step.liftFactor * ((across * through) * inverseSpeed);
+  precise vec3 force = alongNormal * normal - alongWind * u;
+  return normalSquared < uintBitsToFloat(0x0d800000u) ? vec3(0.0) : force;  // 2^-100: the triangle has no area
+}
+
+// The triangles at a grid point in ascending number (src/cloth/cloth.h).
+vec3 addWind(GridPoint p, vec3 force) {
+  const uint i = p.index;
+  const uint w = step.columns;
+  const bool left = p.column >= 1u, right = p.column + 1u < w;
+  const bool upper = p.row >= 1u, lower = p.row + 1u < step.rows;
+  precise vec3 f = force;
+  if (upper && left) f = f + windForce(i - w, i - 1u, i);
+  if (upper && right) {
+    f = f + windForce(i - w, i, i - w + 1u);
+    f = f + windForce(i - w + 1u, i, i + 1u);
+  }
+  if (lower && left) {
+    f = f + windForce(i - 1u, i + w - 1u, i);
+    f = f + windForce(i, i + w - 1u, i + w);
+  }
+  if (lower && right) f = f + windForce(i, i + w, i + 1u);
+  return f;
+}
+
+// -a |v| v
+vec3 addAirResistance(vec3 velocity, vec3 force) {
+  precise float speedSquared = sumOfProducts(velocity, velocity);
+  precise float speed = speedSquared * inverseSquareRoot(speedSquared);
+  precise float scale = step.airResistance * speed;
+  precise vec3 f = force - scale * velocity;
+  return f;
+}

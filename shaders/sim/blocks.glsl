@@ -1,0 +1,43 @@
+// What every pass of the simulation sees: the parameters of the step, the state at its start and at its end.
+#include "shared/step_params.h"
+
+layout(local_size_x = WORK_GROUP_COLUMNS, local_size_y = WORK_GROUP_ROWS) in;
+
+layout(std140, binding = STEP_PARAMS_BINDING) uniform StepBlock { StepParams step; };
+
+// Particle state lies in storage buffers, xyz and the inverse mass in w. Passes write through storage blocks and read the
+// same buffers as texels.
+layout(std430, binding = NEW_POSITIONS_BINDING) writeonly buffer NewPositions { vec4 newPositions[]; };
+layout(std430, binding = NEW_VELOCITIES_BINDING) writeonly buffer NewVelocities { vec4 newVelocities[]; };
+layout(std430, binding = FORCES_BINDING) buffer Forces { vec4 forces[]; };
+layout(binding = POSITIONS_UNIT) uniform samplerBuffer positions;
+layout(binding = VELOCITIES_UNIT) uniform samplerBuffer velocities;
+layout(binding = NEW_POSITIONS_UNIT) uniform samplerBuffer positionsSoFar;
+layout(binding = NEW_VELOCITIES_UNIT) uniform samplerBuffer velocitiesSoFar;
+layout(binding = REST_LENGTHS_UNIT) uniform samplerBuffer restLengths;
+layout(binding = COLLIDERS_UNIT) uniform samplerBuffer colliderRows;
+
+vec4 positionAt(uint i) { return texelFetch(positions, int(i)); }
+vec3 velocityAt(uint i) { return texelFetch(velocities, int(i)).xyz; }
+
+// Known when the pass is compiled, so that what a scene lacks costs nothing (src/solver/gpu/pass_programs.cpp).
+const bool hasWind = HAS_WIND != 0;
+const bool hasAirResistance = HAS_AIR_RESISTANCE != 0;
+const bool hasColliders = HAS_COLLIDERS != 0;
+const bool hasMovingColliders = HAS_MOVING_COLLIDERS != 0;
+const bool hasRestLengthTable = HAS_REST_LENGTH_TABLE != 0;
+const uint enabledSlots = ENABLED_SLOTS;  // bit `slot` is set when its springs are enabled
+
+// One invocation a grid point.
+struct GridPoint {
+  uint column;
+  uint row;
+  uint index;  // into the particle buffers
+  bool exists;
+};
+
+GridPoint thisGridPoint() {
+  uvec2 point = gl_GlobalInvocationID.xy;
+  bool exists = point.x < step.columns && point.y < step.rows;
+  return GridPoint(point.x, point.y, step.firstParticle + point.y * step.columns + point.x, exists);
+}

@@ -1,0 +1,16 @@
+// Pass 4: out of spheres, back across planes.
+#include "sim/blocks.glsl"
+#include "sim/exact_math.glsl"
+#include "sim/forces.glsl"
+#include "sim/integrate.glsl"
+#include "sim/collide.glsl"
+
+void main() {
+  GridPoint p = thisGridPoint();
+  if (!p.exists) return;
+  int i = int(p.index);
+  Particle particle = Particle(texelFetch(positionsSoFar, i), texelFetch(velocitiesSoFar, i).xyz);
+  particle = collideParticle(p.index, particle);
+  newPositions[p.index] = particle.position;
+  newVelocities[p.index] = vec4(particle.velocity, 0.0);
+}

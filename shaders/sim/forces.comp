@@ -1,0 +1,10 @@
+// Pass 1: forces of springs and air on every particle of a grid.
+#include "sim/blocks.glsl"
+#include "sim/exact_math.glsl"
+#include "sim/forces.glsl"
+
+void main() {
+  GridPoint p = thisGridPoint();
+  if (!p.exists) return;
+  forces[p.index] = vec4(gatherForces(p), 0.0);
+}

@@ -1,0 +1,15 @@
+// All forces on a particle but gravity: springs, wind, air resistance [N].
+#include "sim/springs.glsl"
+#include "sim/air.glsl"
+
+vec3 gatherForces(GridPoint p) {
+  precise vec3 f = gatherSprings(p, positionAt(p.index).xyz);
+  if (hasWind) f = addWind(p, f);
+  if (hasAirResistance) f = addAirResistance(velocityAt(p.index), f);
+  return f;
+}
+
+vec3 accelerationOf(vec3 force, float inverseMass) {
+  precise vec3 acceleration = vec3(step.gravityX, step.gravityY, step.gravityZ) + inverseMass * force;
+  return acceleration;
+}

@@ -1,0 +1,75 @@
+// Keeps simulated time in step with the wall clock, whatever the frame rate of the display. Where the machine
+// is too slow the simulation falls behind instead of piling up work: for each displayed frame at most so many
+// are simulated as leave the display fluent, and what is missed is forgotten.
+#pragma once
+
+#include <algorithm>
+
+namespace clothsim {
+
+class Pace {
+ public:
+  explicit Pace(double frameSeconds) : frameSeconds_(frameSeconds) {}  // simulated time of one frame [s]
+
+  // How many frames to simulate now, `elapsed` [s] after the last call.
+  [[nodiscard]] int framesDue(double elapsed) {
+    owed_ += elapsed;
+    const double due = owed_ / frameSeconds_;
+    const int most = mostFrames();
+    if (due >= most + 1) {
+      owed_ = 0;
+      return most;
+    }
+    const int frames = std::min(static_cast<int>(due), most);
+    owed_ -= frames * frameSeconds_;
+    return frames;
+  }
+
+  // What it took to simulate that many [s].
+  void simulated(int frames, double seconds) {
+    if (frames > 0) cost_ += 0.25 * (seconds / frames - cost_);
+  }
+
+  // Wall time until the next frame is due [s].
+  [[nodiscard]] double secondsUntilDue() const { return std::max(0.0, frameSeconds_ - owed_); }
+
+  static constexpr int MOST_FRAMES = 12;
+  static constexpr double BUDGET = 1 / 25.0;  // of a displayed frame's time, for simulating [s]
+
+ private:
+  [[nodiscard]] int mostFrames() const {
+    return cost_ * MOST_FRAMES <= BUDGET ? MOST_FRAMES : std::max(1, static_cast<int>(BUDGET / cost_));
+  }
+
+  double frameSeconds_;
+  double owed_ = 0;  // wall time that has not been simulated yet [s]
+  double cost_ = 0;  // of simulating a frame, smoothed [s]
+};
+
+// Displayed frames a second and simulated seconds a second, averaged over half a second so that they can be
+// read.
+class SpeedMeter {
+ public:
+  void add(double elapsed, double simulated) {
+    wall_ += elapsed;
+    simulated_ += simulated;
+    ++frames_;
+    if (wall_ < WINDOW) return;
+    framesPerSecond_ = frames_ / wall_;
+    realTimeFactor_ = simulated_ / wall_;
+    wall_ = simulated_ = 0;
+    frames_ = 0;
+  }
+  [[nodiscard]] double framesPerSecond() const {
+    return framesPerSecond_;
+  }  // 0 before the first half second is over
+  [[nodiscard]] double realTimeFactor() const { return realTimeFactor_; }
+
+ private:
+  static constexpr double WINDOW = 0.5;  // [s]
+  double wall_ = 0, simulated_ = 0;
+  int frames_ = 0;
+  double framesPerSecond_ = 0, realTimeFactor_ = 0;
+};
+
+}  // namespace clothsim

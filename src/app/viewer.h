@@ -1,0 +1,24 @@
+// The window in which a scene is simulated and played with.
+#pragma once
+
+#include <string>
+
+#include "scene/scene.h"
+
+namespace clothsim {
+
+struct ViewerOptions {
+  std::string sceneName;          // for title and overlay
+  std::string backend = "gpu";    // "gpu" or "cpu"; B changes it
+  int sphereSegmentsAround = 64;  // -a
+  int sphereSegmentsDown = 48;    // -o
+};
+
+// Opens the window and returns when it is closed. @throws OpenGlError when there is no display or no
+// OpenGL 4.5 (says what was found and which commands need neither)
+void runViewer(const Scene& scene, const ViewerOptions& options);
+
+// The table of viewer_keys.h as lines for `--help`.
+[[nodiscard]] std::string viewerKeysText();
+
+}  // namespace clothsim

@@ -1,0 +1,33 @@
+// The bytes of each format that saveState writes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cloth/cloth.h"
+#include "solver/state.h"
+
+namespace clothsim {
+
+[[nodiscard]] std::string formatCsv(const State& state);
+[[nodiscard]] std::string formatPly(const State& state, const Cloth& cloth);
+[[nodiscard]] std::string formatObj(const State& state, const Cloth& cloth);
+
+// The `.state` file, little-endian throughout:
+//   offset  0  8 bytes  "clothsim"
+//           8  u32      version of this layout, 1
+//          12  u32      integrator: 0 verlet, 1 euler
+//          16  u64      particle count n
+//          24  u64      step
+//          32  n times  binary32 x, y, z [m], inverse mass [1/kg]
+//    32 + 16n  n times  binary32 vx, vy, vz [m/s], 0
+//    32 + 32n  u64      FNV-1a of all bytes before
+[[nodiscard]] std::string formatStateFile(const State& state);
+// `source` names the file in messages. @throws InputOutputError
+[[nodiscard]] State parseStateFile(const std::string& bytes, std::size_t particleCount,
+                                   const std::string& source);
+
+// Unit normals from the triangles around each particle, weighted by their areas; +y where those cancel out.
+[[nodiscard]] std::vector<Vec3f> vertexNormals(const State& state, const Cloth& cloth);
+
+}  // namespace clothsim

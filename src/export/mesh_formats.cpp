@@ -1,0 +1,126 @@
+// CSV, OBJ and PLY. Numbers are written by std::to_chars with nine significant digits, which is printf's %.9g
+// in the C locale and enough to read every binary32 back exactly.
+#include <array>
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <initializer_list>
+
+#include "export/formats.h"
+
+namespace clothsim {
+namespace {
+
+void appendNumber(std::string& text, float value) {
+  std::array<char, 32> digits;
+  const auto end =
+      std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general, 9).ptr;
+  text.append(digits.data(), end);
+}
+
+void appendIndex(std::string& text, std::size_t value) {
+  std::array<char, 24> digits;
+  text.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
+}
+
+// "v 1 2 3\n"
+void appendLine(std::string& text, std::string_view keyword, std::initializer_list<float> values) {
+  text += keyword;
+  for (const float value : values) {
+    text += ' ';
+    appendNumber(text, value);
+  }
+  text += '\n';
+}
+
+template <class T>
+void appendBytes(std::string& bytes, T value) {
+  static_assert(std::endian::native == std::endian::little, "the PLY file says binary_little_endian");
+  const auto raw = std::bit_cast<std::array<char, sizeof(T)>>(value);
+  bytes.append(raw.data(), raw.size());
+}
+
+Vec3f xyz(const Particle4& particle) { return {particle.x, particle.y, particle.z}; }
+
+}  // namespace
+
+std::vector<Vec3f> vertexNormals(const State& state, const Cloth& cloth) {
+  std::vector<Vec3d> sums(state.positions.size());
+  for (const auto& triangle : cloth.triangles()) {
+    const Vec3d a = xyz(state.positions[triangle[0]]).cast<double>();
+    const Vec3d b = xyz(state.positions[triangle[1]]).cast<double>();
+    const Vec3d c = xyz(state.positions[triangle[2]]).cast<double>();
+    const Vec3d twiceArea = cross(b - a, c - a);
+    for (const std::uint32_t corner : triangle) sums[corner] = sums[corner] + twiceArea;
+  }
+  std::vector<Vec3f> normals(sums.size(), Vec3f{0, 1, 0});
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    const double length = std::sqrt(dot(sums[i], sums[i]));
+    if (length > 0) normals[i] = (1 / length * sums[i]).cast<float>();
+  }
+  return normals;
+}
+
+std::string formatCsv(const State& state) {
+  std::string text = "index,x,y,z,vx,vy,vz\n";
+  for (std::size_t i = 0; i < state.positions.size(); ++i) {
+    const Particle4& x = state.positions[i];
+    const Particle4& v = state.velocities[i];
+    appendIndex(text, i);
+    for (const float value : {x.x, x.y, x.z, v.x, v.y, v.z}) {
+      text += ',';
+      appendNumber(text, value);
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+std::string formatObj(const State& state, const Cloth& cloth) {
+  std::string text = "# clothsim, step " + std::to_string(state.step) + ", metres\n";
+  for (const Particle4& x : state.positions) appendLine(text, "v", {x.x, x.y, x.z});
+  for (const auto& uv : cloth.textureCoordinates()) appendLine(text, "vt", {uv[0], uv[1]});
+  for (const Vec3f& n : vertexNormals(state, cloth)) appendLine(text, "vn", {n.x, n.y, n.z});
+  for (const auto& triangle : cloth.triangles()) {
+    text += 'f';
+    for (const std::uint32_t corner : triangle) {
+      text += ' ';
+      for (const char* separator : {"/", "/", ""}) {
+        appendIndex(text, corner + std::size_t{1});  // OBJ counts from one
+        text += separator;
+      }
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+std::string formatPly(const State& state, const Cloth& cloth) {
+  const auto triangles = cloth.triangles();
+  const auto textureCoordinates = cloth.textureCoordinates();
+  const auto normals = vertexNormals(state, cloth);
+
+  std::string bytes = "ply\nformat binary_little_endian 1.0\ncomment clothsim, step " +
+                      std::to_string(state.step) + ", metres\nelement vertex " +
+                      std::to_string(state.positions.size()) + "\n";
+  // s and t are the names that Blender and MeshLab know texture coordinates by.
+  for (const char* name : {"x", "y", "z", "nx", "ny", "nz", "s", "t"})
+    bytes += std::string("property float ") + name + "\n";
+  bytes += "element face " + std::to_string(triangles.size()) +
+           "\nproperty list uchar int vertex_indices\nend_header\n";
+
+  for (std::size_t i = 0; i < state.positions.size(); ++i) {
+    const Particle4& x = state.positions[i];
+    const Vec3f& n = normals[i];
+    for (const float value :
+         {x.x, x.y, x.z, n.x, n.y, n.z, textureCoordinates[i][0], textureCoordinates[i][1]})
+      appendBytes(bytes, value);
+  }
+  for (const auto& triangle : triangles) {
+    appendBytes(bytes, std::uint8_t{3});
+    for (const std::uint32_t corner : triangle) appendBytes(bytes, corner);
+  }
+  return bytes;
+}
+
+}  // namespace clothsim

@@ -1,0 +1,49 @@
+#include <array>
+#include <string_view>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "export/export.h"
+#include "export/formats.h"
+
+namespace clothsim {
+namespace {
+
+using Format = std::string (*)(const State&, const Cloth&);
+
+struct Extension {
+  std::string_view name;
+  Format format;
+};
+constexpr std::array<Extension, 4> extensions{{
+    {".csv", [](const State& state, const Cloth&) { return formatCsv(state); }},
+    {".ply", formatPly},
+    {".obj", formatObj},
+    {".state", [](const State& state, const Cloth&) { return formatStateFile(state); }},
+}};
+
+// null for an extension that nobody writes
+Format formatFor(const std::filesystem::path& path) {
+  const std::string wanted = path.extension().string();
+  for (const Extension& extension : extensions)
+    if (extension.name == wanted) return extension.format;
+  return nullptr;
+}
+
+}  // namespace
+
+bool canSaveStateAs(const std::filesystem::path& path) { return formatFor(path) != nullptr; }
+
+void saveState(const State& state, const Cloth& cloth, const std::filesystem::path& path) {
+  const Format format = formatFor(path);
+  if (format == nullptr)
+    throw UsageError("cannot save '" + path.string() + "': its extension is '" + path.extension().string() +
+                     "', expected .csv, .ply, .obj or .state");
+  writeFileAtomically(path, format(state, cloth));
+}
+
+State loadState(const std::filesystem::path& path, const Cloth& cloth) {
+  return parseStateFile(readFile(path), cloth.particleCount(), path.string());
+}
+
+}  // namespace clothsim

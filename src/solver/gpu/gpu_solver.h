@@ -1,0 +1,103 @@
+// The GPU backend: compute passes over storage buffers, from which the renderer draws. A step neither allocates, reads back
+// nor compiles; its parameters are uploaded ahead, for many steps at once.
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "gl/buffer.h"
+#include "gl/buffer_texture.h"
+#include "gl/context.h"
+#include "gl/program.h"
+#include "gl/timer.h"
+#include "solver/gpu/pass_programs.h"
+#include "solver/solver.h"
+#include "solver/step_params.h"
+
+namespace clothsim {
+
+struct GpuOptions {
+  bool fused = true;       // forces, integration and colliders in one dispatch; the bits are the same either way
+  int groupColumns = 64;   // work group, in grid points
+  int groupRows = 1;
+};
+
+struct PassTime {
+  std::string name;
+  double seconds = 0;  // on the GPU, of all dispatches together
+};
+
+class GpuSolver final : public Solver {
+ public:
+  // Needs a current context; `cloth` must outlive the solver. @throws OpenGlError when a buffer is larger than the driver
+  // allows or a shader does not compile
+  GpuSolver(const Cloth& cloth, const Scene& scene, const GpuOptions& options = {});
+
+  void configure(const Scene& scene) override;
+  void step(int count) override;
+  void finish() override;
+  [[nodiscard]] State state() override;
+  void setState(const State& state) override;
+  [[nodiscard]] std::uint64_t stepIndex() const override { return stepIndex_; }
+  [[nodiscard]] std::string backend() const override { return "gpu"; }
+  [[nodiscard]] std::string device() const override;
+
+  // One vec4 a particle: xyz and the inverse mass. The name changes from step to step (two buffers in turn).
+  [[nodiscard]] GLuint positionsBuffer() const { return positions_[now_].buffer.name(); }
+
+  // Steps with a timer query around every dispatch (which slows the whole) and adds up by pass.
+  [[nodiscard]] std::vector<PassTime> timePasses(int steps);
+
+ private:
+  struct alignas(256) StepSlot {  // every driver takes uniform offsets in multiples of 256
+    StepParams<float> params;
+  };
+  struct alignas(256) ColorSlot {
+    LimitColor color;
+  };
+  struct GridColors {  // a grid's part of limitColors_
+    std::size_t first = 0;
+    std::vector<LimitColor> colors;
+  };
+
+  void choosePrograms();
+  void uploadParams(std::uint64_t firstStep, int count);
+  void convertVelocities();
+  void bindState();
+  void stepGrid(std::size_t grid, std::size_t slot);
+  void limitStrain(std::size_t grid);
+  void runPass(const gl::Program& pass, const char* name, std::uint32_t columns, std::uint32_t rows);
+
+  const Cloth* cloth_;
+  Scene scene_;
+  GpuOptions options_;
+  Integrator velocityMeaning_;
+  std::uint64_t stepIndex_ = 0;
+  bool paramsUploaded_ = false;  // for every step, when nothing depends on time
+
+  std::map<PassFeatures, PassPrograms> programs_;  // all that were ever needed: toggling back compiles nothing
+  std::vector<const PassPrograms*> gridPrograms_;  // those in use, by grid
+  struct ParticleArray {
+    gl::Buffer<Particle4> buffer;
+    gl::BufferTexture texture;
+  };
+  std::array<ParticleArray, 2> positions_, velocities_;
+  std::size_t now_ = 0;  // which of the two holds the state
+  gl::Buffer<Particle4> forces_;
+  gl::Buffer<float> restLengths_;
+  gl::BufferTexture restLengthTexture_;
+  gl::Buffer<StepSlot> stepSlots_;  // a batch of steps, each with all grids
+  gl::Buffer<ColliderParams<float>> colliders_;  // the same batch, each with all colliders
+  gl::BufferTexture colliderTexture_;
+  gl::Buffer<ColorSlot> limitColors_;
+  std::vector<GridColors> gridColors_;
+  std::vector<StepSlot> stagedSlots_;
+  std::vector<ColliderParams<float>> stagedColliders_;
+
+  gl::Timer* timer_ = nullptr;  // while timePasses() runs
+  std::vector<PassTime> passTimes_;
+};
+
+}  // namespace clothsim

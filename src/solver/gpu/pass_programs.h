@@ -1,0 +1,32 @@
+// The compute programs of a step, compiled for what one grid's scene needs: springs, wind or colliders that are not there
+// cost nothing, which matters on drivers that run both sides of a branch.
+#pragma once
+
+#include <cstdint>
+
+#include "cloth/cloth.h"
+#include "gl/program.h"
+#include "scene/scene.h"
+
+namespace clothsim {
+
+struct PassFeatures {
+  bool wind = false, airResistance = false, colliders = false, movingColliders = false, restLengthTable = false;
+  std::uint32_t enabledSlots = 0;  // one bit a SpringSlot
+  int groupColumns = 64, groupRows = 1;
+  bool fused = true;
+  friend auto operator<=>(const PassFeatures&, const PassFeatures&) = default;
+};
+
+[[nodiscard]] PassFeatures featuresOf(const Scene& scene, const Grid& grid);
+[[nodiscard]] gl::Defines definesFor(const PassFeatures& features);
+
+struct PassPrograms {
+  explicit PassPrograms(const PassFeatures& features);
+
+  gl::Program step;                        // when fused,
+  gl::Program forces, integrate, collide;  // when not
+  gl::Program limit, kick;
+};
+
+}  // namespace clothsim

@@ -1,0 +1,27 @@
+#include "solver/state.h"
+
+#include <cassert>
+#include <cstddef>
+
+#include "core/fnv.h"
+
+namespace clothsim {
+
+std::uint64_t stateHash(const State& state) {
+  assert(state.positions.size() == state.velocities.size() && "every particle has a position and a velocity");
+  Fnv1a hash;
+  for (std::size_t i = 0; i < state.positions.size(); ++i) {
+    const Particle4& x = state.positions[i];
+    const Particle4& v = state.velocities[i];
+    for (const float component : {x.x, x.y, x.z, v.x, v.y, v.z}) hash.add(component);
+  }
+  return hash.value();
+}
+
+std::string hashText(std::uint64_t hash) {
+  std::string text(16, '0');
+  for (std::size_t digit = 16; digit-- > 0; hash >>= 4) text[digit] = "0123456789abcdef"[hash & 15];
+  return text;
+}
+
+}  // namespace clothsim

@@ -1,0 +1,68 @@
+// Every shader against Khronos' own reference compiler, which is stricter than any driver. Needs no context.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/files.h"
+#include "gl/shader_source.h"
+#include "support/command.h"
+#include "support/temporary_folder.h"
+
+namespace clothsim {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path shaderFolder = fs::path(SOURCE_ROOT) / "shaders";
+
+// "comp", "vert", "frag", ... as glslangValidator calls stages, and as our files' extensions do; "" for an
+// include.
+std::string stageOf(const fs::path& file) {
+  const std::string extension = file.extension().string();
+  for (const char* stage : {".comp", ".vert", ".frag", ".geom", ".tesc", ".tese"})
+    if (extension == stage) return extension.substr(1);
+  return "";
+}
+
+// Relative to shaders/, in alphabetical order.
+std::vector<std::string> shaderFiles() {
+  std::vector<std::string> files;
+  for (const char* folder : {"sim", "render"})
+    for (const auto& entry : fs::recursive_directory_iterator(shaderFolder / folder))
+      if (!stageOf(entry.path()).empty())
+        files.push_back(fs::relative(entry.path(), shaderFolder).generic_string());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+test::CommandResult validate(const std::string& source, const std::string& stage) {
+  const test::TemporaryFolder folder;
+  writeFileAtomically(folder / "shader.txt", source);
+  return test::runCommand("glslangValidator -S " + stage + " " + (folder / "shader.txt").string() + " 2>&1");
+}
+
+class ShaderFile : public testing::TestWithParam<std::string> {};
+
+TEST_P(ShaderFile, PassesTheReferenceCompiler) {
+  const gl::ShaderSource source = gl::loadShaderSource(GetParam(), {});
+  const test::CommandResult result = validate(source.text, stageOf(GetParam()));
+  EXPECT_EQ(result.exitCode, 0) << GetParam() << ":\n" << result.output;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ShaderFile, testing::ValuesIn(shaderFiles()), [](const auto& info) {
+  std::string name = info.param;
+  for (char& c : name)
+    if (c == '/' || c == '.') c = '_';
+  return name;
+});
+
+TEST(ShaderValidator, RefusesAShaderThatIsWrong) {
+  EXPECT_EQ(validate("#version 450 core\nvoid main() {}\n", "vert").exitCode, 0);
+  EXPECT_NE(validate("#version 450 core\nvoid main() { float x = undeclared; }\n", "vert").exitCode, 0);
+}
+
+}  // namespace
+}  // namespace clothsim

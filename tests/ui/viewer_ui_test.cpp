@@ -1,0 +1,150 @@
+// The real window, with real keys, looked at as a person would.
+#include <gtest/gtest.h>
+
+#include "ui/screen.h"
+
+namespace clothsim {
+namespace {
+
+using test::Picture;
+using test::seconds;
+using test::ViewerProgram;
+
+// A small cloth in a small window: llvmpipe draws it on a busy machine, too.
+const char* const SCENE = "-f pinned2 --resolution 24x24";
+
+bool isClothRed(Picture::Pixel p) { return p.r > 60 && p.r > 2 * p.g && p.r > 2 * p.b; }
+bool isDark(Picture::Pixel p) { return p.r < 60 && p.g < 60 && p.b < 60; }
+
+class ViewerUi : public testing::Test {
+ protected:
+  test::Screen screen_{640, 480};
+};
+
+TEST_F(ViewerUi, ShowsTheClothInItsColourAndThePanelOfFacts) {
+  const ViewerProgram viewer(SCENE);
+  const Picture picture = viewer.picture();
+  EXPECT_GT(picture.share(0, 0, 1, 1, isClothRed), 0.03);
+  EXPECT_LT(picture.share(0.9, 0, 1, 1, isClothRed), 0.5) << "the cloth is framed with room around it";
+}
+
+TEST_F(ViewerUi, NamesSceneAndBackendInTheTitleAndBChangesTheBackend) {
+  const ViewerProgram viewer(SCENE);
+  EXPECT_NE(viewer.title().find("pinned2 - gpu - "), std::string::npos) << viewer.title();
+  viewer.press("b");
+  EXPECT_TRUE(viewer.titleBecomesOneWith("- cpu -")) << viewer.title();
+  viewer.press("b");
+  EXPECT_TRUE(viewer.titleBecomesOneWith("- gpu -")) << viewer.title();
+}
+
+TEST_F(ViewerUi, ChangesTheBackendWithoutMovingTheCloth) {
+  const ViewerProgram viewer(SCENE);
+  viewer.press("F2");
+  viewer.press("p");
+  ASSERT_TRUE(viewer.titleBecomesOneWith("paused")) << viewer.title();
+  const Picture onGpu = viewer.stillPicture();
+  viewer.press("b");
+  ASSERT_TRUE(viewer.titleBecomesOneWith("- cpu -"));
+  EXPECT_TRUE(test::eventually(seconds(20), [&] { return viewer.picture() == onGpu; }))
+      << "the notice goes, the picture stays";
+}
+
+TEST_F(ViewerUi, PStopsThePictureAndNMovesItOnByAFrame) {
+  const ViewerProgram viewer(SCENE);
+  viewer.press("p");
+  ASSERT_TRUE(viewer.titleBecomesOneWith("paused")) << viewer.title();
+  const Picture before = viewer.stillPicture();
+  viewer.press("n");
+  EXPECT_TRUE(test::eventually(seconds(20), [&] { return viewer.picture() != before; }))
+      << "N changes nothing";
+  const Picture after = viewer.stillPicture();
+  EXPECT_NE(after, before);
+  viewer.press("p");
+  EXPECT_TRUE(viewer.titleBecomesOneWith("fps")) << viewer.title();
+}
+
+TEST_F(ViewerUi, RRestartsFromTheSameBeginning) {
+  const ViewerProgram viewer(SCENE);
+  viewer.press("p");
+  ASSERT_TRUE(viewer.titleBecomesOneWith("paused"));
+  const Picture underWay = viewer.stillPicture();
+  viewer.press("r");
+  ASSERT_TRUE(test::eventually(seconds(20), [&] { return viewer.picture() != underWay; }));
+  const Picture beginning = viewer.stillPicture();
+  viewer.press("n");
+  ASSERT_TRUE(test::eventually(seconds(20), [&] { return viewer.picture() != beginning; }));
+  viewer.press("r");
+  EXPECT_TRUE(test::eventually(seconds(20), [&] { return viewer.picture() == beginning; }));
+}
+
+TEST_F(ViewerUi, MouseMovesTheCameraAndSpaceBringsItBack) {
+  const ViewerProgram viewer(SCENE);
+  viewer.press("p");
+  ASSERT_TRUE(viewer.titleBecomesOneWith("paused"));
+  const Picture home = viewer.stillPicture();
+  const auto leavesHomeAndReturns = [&](const char* how) {
+    EXPECT_TRUE(test::eventually(seconds(20), [&] { return viewer.picture() != home; }))
+        << how << " changes nothing";
+    viewer.press("space");
+    EXPECT_TRUE(test::eventually(seconds(20), [&] { return viewer.picture() == home; })) << "after " << how;
+  };
+  viewer.drag(1, 0.5, 0.7, 0.7, 0.8);
+  leavesHomeAndReturns("left drag");
+  viewer.drag(3, 0.5, 0.7, 0.6, 0.8);
+  leavesHomeAndReturns("right drag");
+  viewer.click(4, 3);
+  leavesHomeAndReturns("the wheel");
+}
+
+TEST_F(ViewerUi, F1ShowsTheListOfKeysAndF2HidesThePanel) {
+  const ViewerProgram viewer(SCENE);
+  viewer.press("p");
+  ASSERT_TRUE(viewer.titleBecomesOneWith("paused"));
+  const auto darkCentre = [&] { return viewer.picture().share(0.3, 0.3, 0.7, 0.7, isDark); };
+  const double before = darkCentre();
+  viewer.press("F1");
+  EXPECT_TRUE(test::eventually(seconds(20), [&] { return darkCentre() > before + 0.3; }))
+      << before << " to " << darkCentre();
+  viewer.press("F1");
+  EXPECT_TRUE(test::eventually(seconds(20), [&] { return darkCentre() < before + 0.1; }));
+
+  const Picture with = viewer.stillPicture();
+  viewer.press("F2");
+  EXPECT_TRUE(test::eventually(seconds(20), [&] { return viewer.picture() != with; }));
+  viewer.press("F2");
+  EXPECT_TRUE(test::eventually(seconds(20), [&] { return viewer.picture() == with; }));
+}
+
+TEST_F(ViewerUi, IChangesTheIntegratorThatThePanelNames) {
+  const ViewerProgram viewer(SCENE);
+  viewer.press("p");
+  ASSERT_TRUE(viewer.titleBecomesOneWith("paused"));
+  const Picture verlet = viewer.stillPicture();
+  viewer.press("i");
+  ASSERT_TRUE(test::eventually(seconds(20), [&] { return viewer.picture() != verlet; }));
+  std::this_thread::sleep_for(seconds(3));  // the notice is gone by then
+  const Picture euler = viewer.stillPicture();
+  EXPECT_NE(euler, verlet) << "the panel names the other integrator";
+  viewer.press("i");
+  EXPECT_TRUE(test::eventually(seconds(20), [&] { return viewer.picture() == verlet; }));
+}
+
+TEST_F(ViewerUi, EscEndsItAtOnceWithExitCodeZeroAndNoFilesLeftBehind) {
+  ViewerProgram viewer(SCENE);
+  viewer.press("Escape");
+  EXPECT_EQ(viewer.exitCodeWithin(seconds(5)), 0) << viewer.output();
+  EXPECT_TRUE(viewer.leftNoFiles()) << "imgui.ini, perhaps";
+  EXPECT_EQ(viewer.output(), "") << "a run without trouble says nothing";
+}
+
+TEST(ViewerWithoutAScreen, NamesTheCommandsThatNeedNoneAndEndsWithExitCodeFour) {
+  const test::CommandResult result =
+      test::runCommand("env -u DISPLAY -u WAYLAND_DISPLAY " CLOTHSIM_PROGRAM " -f pinned2 2>&1");
+  EXPECT_EQ(result.exitCode, 4) << result.output;
+  EXPECT_NE(result.output.find("clothsim render -f pinned2 --frames 240 --out clip.mp4"), std::string::npos)
+      << result.output;
+  EXPECT_NE(result.output.find("clothsim run -f pinned2"), std::string::npos) << result.output;
+}
+
+}  // namespace
+}  // namespace clothsim

@@ -1,0 +1,105 @@
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstring>
+#include <sstream>
+
+#include "export/formats.h"
+#include "unit/export/small_cloth.h"
+
+namespace clothsim {
+namespace {
+
+class MeshFormats : public testing::Test {
+ protected:
+  Cloth cloth_{test::smallScene()};
+  State state_ = test::smallState(cloth_);
+};
+
+std::vector<std::string> linesOf(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST_F(MeshFormats, CsvHasTheHeaderAndNineSignificantDigitsAsPrintfWritesThem) {
+  state_.positions[1] = {0.1f, -123456.789f, 1e-20f, 0};
+  const std::vector<std::string> lines = linesOf(formatCsv(state_));
+  ASSERT_EQ(lines.size(), 7u);
+  EXPECT_EQ(lines[0], "index,x,y,z,vx,vy,vz");
+  char expected[200];
+  const Particle4 &x = state_.positions[1], &v = state_.velocities[1];
+  std::snprintf(expected, sizeof expected, "1,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g", x.x, x.y, x.z, v.x, v.y, v.z);
+  EXPECT_EQ(lines[2], expected);
+}
+
+TEST_F(MeshFormats, CsvReadsBackToTheSameFloats) {
+  state_.positions[0].x = 0.333333343f;
+  state_.positions[0].y = 16777217.0f;
+  float x = 0, y = 0;
+  ASSERT_EQ(std::sscanf(linesOf(formatCsv(state_))[1].c_str(), "0,%f,%f", &x, &y), 2);
+  EXPECT_EQ(x, state_.positions[0].x);
+  EXPECT_EQ(y, state_.positions[0].y);
+}
+
+TEST_F(MeshFormats, NormalsOfAFlatHorizontalSheetPointUp) {
+  for (const Vec3f& normal : vertexNormals(state_, cloth_)) EXPECT_EQ(normal, (Vec3f{0, 1, 0}));
+}
+
+// The sheet as the slope y = x: its normal is (-1, 1, 0) / sqrt 2, the same at every point of a plane.
+TEST_F(MeshFormats, NormalsOfATiltedSheetAreThePlanesOwn) {
+  for (Particle4& particle : state_.positions) particle.y = particle.x;
+  for (const Vec3f& normal : vertexNormals(state_, cloth_)) {
+    EXPECT_FLOAT_EQ(normal.x, -0.70710678f);
+    EXPECT_FLOAT_EQ(normal.y, 0.70710678f);
+    EXPECT_FLOAT_EQ(normal.z, 0);
+  }
+}
+
+TEST_F(MeshFormats, NormalsOfAClothPulledIntoAPointAreStillUnitVectors) {
+  for (Particle4& particle : state_.positions) particle = {0, 0, 0, 1};
+  for (const Vec3f& normal : vertexNormals(state_, cloth_)) EXPECT_EQ(dot(normal, normal), 1);
+}
+
+TEST_F(MeshFormats, ObjHasAVertexATextureCoordinateAndANormalPerParticleAndCountsFromOne) {
+  int vertices = 0, textures = 0, normals = 0, faces = 0;
+  for (const std::string& line : linesOf(formatObj(state_, cloth_))) {
+    vertices += line.starts_with("v ");
+    textures += line.starts_with("vt ");
+    normals += line.starts_with("vn ");
+    if (!line.starts_with("f ")) continue;
+    unsigned v[9];
+    ASSERT_EQ(std::sscanf(line.c_str(), "f %u/%u/%u %u/%u/%u %u/%u/%u", v, v + 1, v + 2, v + 3, v + 4, v + 5,
+                          v + 6, v + 7, v + 8),
+              9)
+        << line;
+    const auto triangle = cloth_.triangles()[static_cast<std::size_t>(faces++)];
+    for (std::size_t corner = 0; corner < 9; ++corner) EXPECT_EQ(v[corner], triangle[corner / 3] + 1) << line;
+  }
+  EXPECT_EQ(vertices, 6);
+  EXPECT_EQ(textures, 6);
+  EXPECT_EQ(normals, 6);
+  EXPECT_EQ(faces, 4);
+}
+
+TEST_F(MeshFormats, PlyIsAsLongAsItsHeaderSaysAndHoldsTheParticles) {
+  const std::string bytes = formatPly(state_, cloth_);
+  const std::string endOfHeader = "end_header\n";
+  const std::size_t body = bytes.find(endOfHeader) + endOfHeader.size();
+  const std::string header = bytes.substr(0, body);
+  EXPECT_TRUE(header.starts_with("ply\nformat binary_little_endian 1.0\n"));
+  EXPECT_NE(header.find("element vertex 6\n"), std::string::npos);
+  EXPECT_NE(header.find("element face 4\n"), std::string::npos);
+  ASSERT_EQ(bytes.size() - body, 6 * 8 * 4 + 4 * (1 + 3 * 4u));
+
+  float vertex[8];
+  std::memcpy(vertex, bytes.data() + body + 5 * sizeof vertex,
+              sizeof vertex);  // the last particle, corner (1, 1) of the uv
+  const Particle4& x = state_.positions[5];
+  const float expected[8] = {x.x, x.y, x.z, 0, 1, 0, 1, 1};
+  for (int i = 0; i < 8; ++i) EXPECT_EQ(vertex[i], expected[i]) << "property " << i;
+}
+
+}  // namespace
+}  // namespace clothsim

@@ -1,0 +1,105 @@
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstring>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "export/export.h"
+#include "export/formats.h"
+#include "support/temporary_folder.h"
+#include "support/throws.h"
+#include "unit/export/small_cloth.h"
+
+namespace clothsim {
+namespace {
+
+using test::messageThrownBy;
+
+class StateFile : public testing::Test {
+ protected:
+  Cloth cloth_{test::smallScene()};
+  State state_ = test::smallState(cloth_);
+  std::string bytes_ = formatStateFile(state_);
+
+  std::string refusalOf(const std::string& bytes) {
+    return messageThrownBy<InputOutputError>(
+        [&] { (void)parseStateFile(bytes, cloth_.particleCount(), "a.state"); });
+  }
+};
+
+TEST_F(StateFile, ReadsBackEveryBitThatWasWritten) {
+  state_.positions[1].x = -0.0f;
+  state_.velocities[2].y = std::bit_cast<float>(0x7fc12345u);  // a NaN with a payload
+  test::TemporaryFolder folder;
+  saveState(state_, cloth_, folder / "a.state");
+  const State back = loadState(folder / "a.state", cloth_);
+
+  EXPECT_EQ(back.step, state_.step);
+  EXPECT_EQ(back.integrator, state_.integrator);
+  ASSERT_EQ(back.positions.size(), state_.positions.size());
+  ASSERT_EQ(back.velocities.size(), state_.velocities.size());
+  const std::size_t size = state_.positions.size() * sizeof(Particle4);
+  EXPECT_EQ(std::memcmp(back.positions.data(), state_.positions.data(), size), 0);
+  EXPECT_EQ(std::memcmp(back.velocities.data(), state_.velocities.data(), size), 0);
+}
+
+TEST_F(StateFile, IsRefusedWhenCutOffAnywhere) {
+  for (std::size_t length = 0; length < bytes_.size(); ++length)
+    EXPECT_THROW((void)parseStateFile(bytes_.substr(0, length), cloth_.particleCount(), "a.state"),
+                 InputOutputError)
+        << "of " << bytes_.size() << " bytes " << length << " were kept";
+  EXPECT_NE(refusalOf(bytes_.substr(0, bytes_.size() - 1)).find("cut off"), std::string::npos);
+}
+
+TEST_F(StateFile, IsRefusedWhenAnyByteIsDamaged) {
+  for (std::size_t place = 0; place < bytes_.size(); ++place) {
+    std::string damaged = bytes_;
+    damaged[place] = static_cast<char>(damaged[place] ^ 0x10);
+    EXPECT_THROW((void)parseStateFile(damaged, cloth_.particleCount(), "a.state"), InputOutputError)
+        << "byte " << place;
+  }
+}
+
+TEST_F(StateFile, IsRefusedWhenSomethingFollowsIt) {
+  EXPECT_NE(refusalOf(bytes_ + "x").find("added to"), std::string::npos);
+}
+
+TEST_F(StateFile, OfAnotherSceneIsRefusedWithBothParticleCounts) {
+  const std::string message =
+      messageThrownBy<InputOutputError>([&] { (void)parseStateFile(bytes_, 2500, "runs/a.state"); });
+  EXPECT_NE(message.find("runs/a.state"), std::string::npos) << message;
+  EXPECT_NE(message.find("6 particles"), std::string::npos) << message;
+  EXPECT_NE(message.find("2500"), std::string::npos) << message;
+}
+
+TEST_F(StateFile, OfALaterVersionIsRefusedWithBothVersions) {
+  bytes_[8] = 2;
+  EXPECT_NE(refusalOf(bytes_).find("version 2"), std::string::npos);
+}
+
+TEST_F(StateFile, IsNotMistakenForWhatIsNone) {
+  EXPECT_NE(refusalOf("index,x,y,z,vx,vy,vz\n0,0,0,0,0,0,0\n").find("no state file"), std::string::npos);
+}
+
+TEST_F(StateFile, ThatDoesNotExistIsNamedInTheMessage) {
+  const std::string message =
+      messageThrownBy<InputOutputError>([&] { (void)loadState("/nowhere/a.state", cloth_); });
+  EXPECT_NE(message.find("/nowhere/a.state"), std::string::npos) << message;
+}
+
+// The layout in formats.h, read by hand.
+TEST_F(StateFile, HasTheDocumentedLayout) {
+  ASSERT_EQ(bytes_.size(), 32 + 32 * 6 + 8u);
+  EXPECT_EQ(bytes_.substr(0, 8), "clothsim");
+  EXPECT_EQ(bytes_.substr(8, 4), std::string("\1\0\0\0", 4));
+  EXPECT_EQ(bytes_.substr(12, 4), std::string("\1\0\0\0", 4));                  // euler
+  EXPECT_EQ(bytes_.substr(16, 8), std::string("\6\0\0\0\0\0\0\0", 8));          // six particles
+  EXPECT_EQ(bytes_.substr(24, 8), std::string("\x35\x1c\xdc\xdf\2\0\0\0", 8));  // 12345678901
+  float y = 0;
+  std::memcpy(&y, bytes_.data() + 32 + 4, 4);
+  EXPECT_EQ(y, state_.positions[0].y);
+}
+
+}  // namespace
+}  // namespace clothsim
