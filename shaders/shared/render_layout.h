@@ -1,9 +1,7 @@
 // What the renderer's C++ and GLSL share: bindings, attribute locations and the uniform block of a frame.
 // Rows of 16 bytes; colours are linear RGB.
-#ifndef CLOTHSIM_RENDER_LAYOUT_H
-#define CLOTHSIM_RENDER_LAYOUT_H
-
 #ifdef __cplusplus
+#pragma once
 #include <glm/glm.hpp>
 namespace clothsim::shared {
 using glm::mat4;
@@ -52,5 +50,4 @@ struct NormalsGrid {
 
 #ifdef __cplusplus
 }  // namespace clothsim::shared
-#endif
 #endif

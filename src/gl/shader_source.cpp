@@ -27,8 +27,11 @@ class Loader {
       for (const std::string& name : open_) circle += "shaders/" + name + " -> ";
       throw OpenGlError("Shader includes go round in a circle: " + circle + "shaders/" + file);
     }
+    // Once is enough: files need no guards against being included by two others.
+    if (std::find(source.files.begin(), source.files.end(), file) != source.files.end()) return;
     open_.push_back(file);
-    const std::size_t number = fileNumber(file);
+    source.files.push_back(file);
+    const std::size_t number = source.files.size() - 1;
     std::istringstream lines(readFile(resourceRoot() / "shaders" / file));
     source.text += "#line 1 " + std::to_string(number) + "\n";
     std::string line;
@@ -46,13 +49,6 @@ class Loader {
   ShaderSource source;
 
  private:
-  std::size_t fileNumber(const std::string& file) {
-    const auto known = std::find(source.files.begin(), source.files.end(), file);
-    if (known != source.files.end()) return static_cast<std::size_t>(known - source.files.begin());
-    source.files.push_back(file);
-    return source.files.size() - 1;
-  }
-
   std::vector<std::string> open_;  // from the outermost file to the one being read
 };
 

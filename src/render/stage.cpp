@@ -13,8 +13,6 @@ namespace {
 constexpr float STRETCH = 1.08f;     // how far cloth hangs beyond its own length
 constexpr std::size_t SAMPLES = 64;  // points of a grid looked at along each of its sides
 
-glm::vec3 toGlm(Vec3f v) { return {v.x, v.y, v.z}; }
-
 using GridSamples = ClothOutline::GridPoints;
 
 // Border, pins and a raster of a grid.

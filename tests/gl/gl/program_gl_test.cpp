@@ -85,6 +85,14 @@ TEST_F(ProgramTest, LinesAfterAnIncludeKeepTheirNumbers) {
       << errorOf(file);
 }
 
+TEST_F(ProgramTest, AFileIncludedByTwoOthersAppearsOnce) {
+  const std::string common = write("common.glsl", "const int common_number = 1;\n");
+  const std::string user = write("user.glsl", "#include \"" + common + "\"\n");
+  const std::string file = write("c.comp", "#include \"" + common + "\"\n#include \"" + user +
+                                               "\"\nlayout(local_size_x = 1) in;\nvoid main() {}\n");
+  EXPECT_NO_THROW(static_cast<void>(gl::Program::makeCompute(file)));
+}
+
 TEST_F(ProgramTest, AnIncludeThatGoesRoundInACircleIsAnErrorThatShowsTheCircle) {
   const std::string a = folder() + "/a.glsl";
   const std::string b = write("b.glsl", "#include \"" + a + "\"\n");
