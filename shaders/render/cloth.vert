@@ -9,6 +9,7 @@ layout(location = TEXTURE_COORDINATE_LOCATION) in vec2 uv;
 layout(location = 0) out Surface surface;
 
 void main() {
-  surface = Surface(position.xyz, normal.xyz, uv, normal.w, shadowPlaceOf(position.xyz, normal.xyz));
+  surface = Surface(position.xyz, normal.xyz, uv, normal.w,
+                    shadowPlaceOf(position.xyz, normal.xyz, CLOTH_OFFSET_TEXELS));
   gl_Position = frame.clipFromWorld * vec4(position.xyz, 1.0);
 }

@@ -1,5 +1,5 @@
-// Smooth normals: each particle gathers the area-weighted normals of its up to six triangles. w carries the curvature
-// of the cloth along the normal [1/m], positive in the hollow of a fold, for its darker shading.
+// Smooth normals: each particle gathers the area-weighted normals of its up to six triangles. w says how far the
+// cloth around rises above the tangent plane (the mean sine, -1 to 1): the hollows of folds are shaded darker by it.
 #include "shared/render_layout.h"
 
 layout(local_size_x = NORMALS_GROUP_SIZE, local_size_y = NORMALS_GROUP_SIZE) in;
@@ -18,10 +18,16 @@ vec3 toNeighbour(ivec2 point, vec3 here, int columns, int rows) {
   return exists ? positionAt(other) - here : vec3(0);
 }
 
-// Second difference along one axis of the grid over the square of its spacing [1/m]; 0 at the border.
-vec3 curvature(vec3 before, vec3 after) {
-  float spacing2 = 0.5 * (dot(before, before) + dot(after, after));
-  return before == vec3(0) || after == vec3(0) ? vec3(0) : (before + after) / spacing2;
+// The mean sine of the elevation of the points on a ring around `point`, seen from it.
+float hollowAt(ivec2 point, vec3 here, vec3 normal) {
+  float sum = 0.0;
+  for (int row = -1; row <= 1; ++row) {
+    for (int column = -1; column <= 1; ++column) {
+      vec3 d = toNeighbour(point, here, column * int(grid.ring), row * int(grid.ring));
+      sum += dot(d, normal) / max(length(d), 1e-9);
+    }
+  }
+  return sum / 8.0;
 }
 
 void main() {
@@ -37,6 +43,5 @@ void main() {
   sum += cross(upper, left) + cross(upperRight, upper) + cross(right, upperRight);
   float area = length(sum);
   vec3 normal = area > 0.0 ? sum / area : vec3(0, 1, 0);
-  float hollow = dot(curvature(left, right) + curvature(upper, lower), normal);
-  normals[grid.firstParticle + uint(point.y) * grid.columns + uint(point.x)] = vec4(normal, hollow);
+  normals[grid.firstParticle + uint(point.y) * grid.columns + uint(point.x)] = vec4(normal, hollowAt(point, here, normal));
 }

@@ -8,7 +8,18 @@
 const float HIGHLIGHT = 0.10, EXPONENT = 24.0;
 const float SHEEN = 0.30;
 const float TRANSMITTED = 0.16;     // part of the key light that comes out at the other side
-const float HOLLOW_LENGTH = 0.025;  // [m], depth of shade per curvature
+const float HOLLOW_SHADE = 1.4;
+
+const float HEM_WIDTH = 0.022;      // of the sheet's sides
+const float SEAM_SHADE = 0.28;
+
+// The seam of a hem around the sheet, half a pixel wide at least so that it does not crawl.
+float hem(vec2 uv) {
+  vec2 inside = min(uv, 1.0 - uv);
+  float fromSeam = abs(min(inside.x, inside.y) - HEM_WIDTH);
+  float width = 0.0022 + 0.7 * fwidth(min(inside.x, inside.y));
+  return 1.0 - SEAM_SHADE * (0.0022 / width + 0.15) * (1.0 - smoothstep(0.0, width * 1.5, fromSeam));
+}
 
 layout(location = 0) in Surface surface;
 layout(location = 0) out vec4 color;
@@ -16,14 +27,15 @@ layout(location = 0) out vec4 color;
 void main() {
   float side = gl_FrontFacing ? 1.0 : -1.0;
   vec3 albedo = gl_FrontFacing ? frame.clothFront.rgb : frame.clothBack.rgb;
+  albedo *= hem(surface.uv);
   vec3 normal = normalize(surface.normal) * side;
   vec3 toEye = normalize(frame.eye.xyz - surface.position);
   float lit = sunlit(surface.shadowPlace);
 
-  float open = clamp(1.0 - HOLLOW_LENGTH * surface.hollow * side, 0.55, 1.15);
+  float open = clamp(1.0 - HOLLOW_SHADE * surface.hollow * side, 0.4, 1.15);
   vec3 light = diffuseLight(normal, lit) * open;
   light += TRANSMITTED * lit * max(-dot(normal, frame.toKeyLight.xyz), 0.0) * frame.keyColor.rgb;
   float rim = pow(1.0 - clamp(dot(normal, toEye), 0.0, 1.0), 3.0);
   vec3 sheen = SHEEN * rim * open * ambientLight(normal) * mix(vec3(1), albedo, 0.5);
-  color = vec4(toneMapped(albedo * light + HIGHLIGHT * highlight(normal, toEye, EXPONENT, lit) + sheen), 1.0);
+  color = vec4(canvasFromLight(albedo * light + HIGHLIGHT * highlight(normal, toEye, EXPONENT, lit) + sheen), 1.0);
 }

@@ -1,10 +1,11 @@
-// Averages a pixel's samples in linear light and encodes the result as sRGB: the one conversion of the whole picture.
-#include "shared/render_layout.h"
+// Lays the drawn samples over the backdrop, averages them in linear light and encodes the result as sRGB.
+#include "render/background.glsl"
+#include "render/tone.glsl"
 
 #if SAMPLES > 1
-layout(binding = SCENE_COLOR_UNIT) uniform sampler2DMS sceneColor;
+layout(binding = CANVAS_UNIT) uniform sampler2DMS canvas;
 #else
-layout(binding = SCENE_COLOR_UNIT) uniform sampler2D sceneColor;  // fetching level 0 reads as fetching sample 0
+layout(binding = CANVAS_UNIT) uniform sampler2D canvas;  // fetching level 0 reads as fetching sample 0
 #endif
 layout(location = 0) out vec4 color;
 
@@ -13,8 +14,11 @@ vec3 srgbEncoded(vec3 light) {
 }
 
 void main() {
-  ivec2 pixel = ivec2(gl_FragCoord.xy);
+  vec3 backdrop = canvasFromLight(backgroundLight(gl_FragCoord.xy));
   vec3 sum = vec3(0);
-  for (int i = 0; i < SAMPLES; ++i) sum += texelFetch(sceneColor, pixel, i).rgb;
+  for (int i = 0; i < SAMPLES; ++i) {
+    vec4 drawn = texelFetch(canvas, ivec2(gl_FragCoord.xy), i);
+    sum += lightFromCanvas(drawn.rgb + (1.0 - drawn.a) * backdrop);
+  }
   color = vec4(srgbEncoded(clamp(sum / float(SAMPLES), 0.0, 1.0)), 1.0);
 }

@@ -14,5 +14,5 @@ void main() {
   vec3 toEye = normalize(frame.eye.xyz - surface.position);
   float lit = sunlit(surface.shadowPlace);
   vec3 light = frame.sphereColor.rgb * diffuseLight(normal, lit) + HIGHLIGHT * highlight(normal, toEye, EXPONENT, lit);
-  color = vec4(toneMapped(light), 1.0);
+  color = vec4(canvasFromLight(light), 1.0);
 }

@@ -9,6 +9,6 @@ layout(location = 0) out Surface surface;
 
 void main() {
   vec3 position = place.xyz + place.w * unitPosition;
-  surface = Surface(position, unitPosition, vec2(0), 0.0, shadowPlaceOf(position, unitPosition));
+  surface = Surface(position, unitPosition, vec2(0), 0.0, shadowPlaceOf(position, unitPosition, SPHERE_OFFSET_TEXELS));
   gl_Position = frame.clipFromWorld * vec4(position, 1.0);
 }

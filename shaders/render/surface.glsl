@@ -3,6 +3,6 @@ struct Surface {
   vec3 position;     // [m]
   vec3 normal;       // of the front, not of unit length after interpolation
   vec2 uv;
-  float hollow;      // curvature towards the normal [1/m]
+  float hollow;      // how far the cloth around rises above the front, -1 to 1
   vec3 shadowPlace;  // in the shadow map, moved off the surface towards the light
 };

@@ -15,7 +15,9 @@ using uint = unsigned int;
 #define NORMALS_POSITIONS_BINDING 0   // storage block, vec4 a particle
 #define NORMALS_OUT_BINDING 1         // storage block, vec4 a particle
 #define SHADOW_MAP_UNIT 0             // texture units
-#define SCENE_COLOR_UNIT 1
+#define FLOOR_SHADOW_UNIT 1
+#define CANVAS_UNIT 2
+#define FLOOR_SHADOW_SIZE 256         // [texels] of the blurred shadow for floors
 #define NORMALS_GROUP_SIZE 8          // work groups of 8 x 8 particles
 
 #define POSITION_LOCATION 0           // vertex attributes
@@ -45,7 +47,8 @@ struct RenderFrame {
 };
 
 struct NormalsGrid {
-  uint firstParticle, columns, rows, unused;
+  uint firstParticle, columns, rows;
+  uint ring;  // how many points away the cloth is looked at for the shade in folds
 };
 
 #ifdef __cplusplus

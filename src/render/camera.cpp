@@ -25,28 +25,27 @@ struct Frame {
   double distance;
 };
 
-// The nearest place, looking along -direction, from which the whole box is in the picture and centred in it.
-Frame frameBox(const Box& box, glm::vec3 direction, double fovDegrees) {
+// The nearest place, looking along -direction, from which the stage is in the picture, with it in the middle.
+Frame frameStage(const Stage& stage, glm::vec3 direction, double fovDegrees) {
   const double tanY = std::tan(glm::radians(fovDegrees) / 2) / MARGIN, tanX = tanY * FRAMED_ASPECT;
   const glm::vec3 right = glm::normalize(glm::cross(glm::vec3(0, 1, 0), direction));
   const glm::vec3 up = glm::cross(direction, right);
-  // Seen from p = target + distance * direction a corner c fits if |right.(c - p)| <= tanX * depth. Written
-  // as planes through the eye, each pair of opposite corners gives the distance and the centre at once (and
-  // so in up).
-  double leftMost = -1e30, rightMost = -1e30, lowest = -1e30, highest = -1e30;
-  for (int corner = 0; corner < 8; ++corner) {
-    const glm::vec3 c{(corner & 1) != 0 ? box.high.x : box.low.x, (corner & 2) != 0 ? box.high.y : box.low.y,
-                      (corner & 4) != 0 ? box.high.z : box.low.z};
-    const glm::vec3 d = c - box.center();
-    const double x = glm::dot(d, right), y = glm::dot(d, up), toward = glm::dot(d, direction);
-    leftMost = std::max(leftMost, -x / tanX + toward);
-    rightMost = std::max(rightMost, x / tanX + toward);
-    lowest = std::max(lowest, -y / tanY + toward);
-    highest = std::max(highest, y / tanY + toward);
+  const glm::vec3 middle = stage.view.center();
+  // A point p is inside the picture's right edge when right.p <= tanX * (distance - direction.p), and so on.
+  // The two opposite edges give the distance (their mean) and the middle (half their difference) at once.
+  double leftmost = -1e30, rightmost = -1e30, lowest = -1e30, highest = -1e30;
+  for (const glm::vec3 point : stage.shown) {
+    const glm::vec3 p = point - middle;
+    const double x = glm::dot(p, right), y = glm::dot(p, up), toward = glm::dot(p, direction);
+    leftmost = std::max(leftmost, toward - x / tanX);
+    rightmost = std::max(rightmost, toward + x / tanX);
+    lowest = std::max(lowest, toward - y / tanY);
+    highest = std::max(highest, toward + y / tanY);
   }
-  const double distance = std::max(0.5 * (leftMost + rightMost), 0.5 * (lowest + highest));
-  const double shiftX = 0.5 * (rightMost - leftMost) * tanX, shiftY = 0.5 * (highest - lowest) * tanY;
-  return {box.center() + static_cast<float>(shiftX) * right + static_cast<float>(shiftY) * up, distance};
+  const auto shiftRight = static_cast<float>(0.5 * (rightmost - leftmost) * tanX);
+  const auto shiftUp = static_cast<float>(0.5 * (highest - lowest) * tanY);
+  const double distance = std::max(0.5 * (leftmost + rightmost), 0.5 * (lowest + highest));
+  return {middle + shiftRight * right + shiftUp * up, distance};
 }
 
 }  // namespace
@@ -66,7 +65,7 @@ Camera::Camera(const Scene& scene, const Cloth& cloth) {
     place.azimuth = std::atan2(offset.x, offset.z);
     place.elevation = std::clamp(std::asin(offset.y / place.distance), -STEEPEST, STEEPEST);
   } else {
-    const Frame frame = frameBox(stage.view, directionOf(place.azimuth, place.elevation), place.fov);
+    const Frame frame = frameStage(stage, directionOf(place.azimuth, place.elevation), place.fov);
     place.target = wanted.target ? toGlm(*wanted.target) : frame.target;
     place.distance = std::max(1e-3, frame.distance);
   }

@@ -1,6 +1,8 @@
 #include "render/cloth_mesh.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <span>
 
 namespace clothsim {
@@ -14,6 +16,13 @@ std::vector<std::uint32_t> indicesOf(const Cloth& cloth) {
   return indices;
 }
 
+// Points between a particle and the ring around it whose height tells a fold's hollow from its ridge.
+GLuint ringOf(const Grid& grid) {
+  constexpr double distance = 0.03;  // [m], about the width of a fold
+  const double spacing = std::max(grid.nominalLength[toLeft], grid.nominalLength[toUpper]);
+  return spacing > 0 ? static_cast<GLuint>(std::clamp(std::lround(distance / spacing), 1L, 64L)) : 1;
+}
+
 }  // namespace
 
 ClothMesh::ClothMesh(const Cloth& cloth)
@@ -24,7 +33,7 @@ ClothMesh::ClothMesh(const Cloth& cloth)
       vertices_("cloth") {
   for (const Grid& grid : cloth.grids()) {
     const auto columns = static_cast<GLuint>(grid.columns), rows = static_cast<GLuint>(grid.rows);
-    const std::array block{shared::NormalsGrid{grid.firstParticle, columns, rows, 0}};
+    const std::array block{shared::NormalsGrid{grid.firstParticle, columns, rows, ringOf(grid)}};
     const auto groups = [](GLuint count) { return (count + NORMALS_GROUP_SIZE - 1) / NORMALS_GROUP_SIZE; };
     grids_.push_back({gl::Buffer<shared::NormalsGrid>("normals grid", block), groups(columns), groups(rows)});
   }

@@ -29,7 +29,7 @@ shared::RenderFrame makeLook(const RenderSettings& settings, glm::vec3 front) {
   shared::RenderFrame frame{};
   frame.toKeyLight = glm::vec4(directionToKeyLight(front), 0);
   frame.toFillLight = glm::vec4(fromViewer(front, {0.9f, 0.25f, 0.35f}), 0);
-  frame.keyColor = {1.30f, 1.22f, 1.10f, 0};   // a warm key
+  frame.keyColor = {1.22f, 1.15f, 1.04f, 0};   // a warm key
   frame.fillColor = {0.16f, 0.20f, 0.28f, 0};  // a cool fill from the other side
   frame.skyColor = {0.34f, 0.38f, 0.44f, 0};
   frame.bounceColor = {0.20f, 0.17f, 0.15f, 0};  // what the floor gives back

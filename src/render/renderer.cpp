@@ -19,8 +19,8 @@
 namespace clothsim {
 namespace {
 
-constexpr GLenum SCENE_FORMAT = GL_SRGB8_ALPHA8;  // linear light in, encoded in 8 bits, linear light out
-constexpr float FLOOR_RADIUS = 4.5f;              // of the stage's size: where planes have faded out
+constexpr GLenum CANVAS_FORMAT = GL_RGBA8;  // square roots of linear light (shaders/render/tone.glsl)
+constexpr float FLOOR_RADIUS = 4.5f;        // of the stage's size: where planes have faded out
 
 // The longest side of a triangle of cloth: the diagonal of a cell [m].
 double longestEdge(const Cloth& cloth) {
@@ -67,7 +67,6 @@ struct Renderer::Parts {
   gl::Program clothShading;
   gl::Program sphereShading = gl::Program::makeRender("render/sphere.vert", "render/sphere.frag");
   gl::Program planeShading = gl::Program::makeRender("render/plane.vert", "render/plane.frag");
-  gl::Program background = gl::Program::makeRender("render/fullscreen.vert", "render/background.frag");
   gl::Program clothShadow = gl::Program::makeRender("render/cloth_shadow.vert", "render/depth_only.frag");
   gl::Program sphereShadow = gl::Program::makeRender("render/sphere_shadow.vert", "render/depth_only.frag");
   gl::Program resolve;
@@ -144,18 +143,20 @@ void Renderer::Parts::drawShadows(GLuint positions) {
     glDisable(GL_CULL_FACE);
   }
   shadowMap->end();
+  shadowMap->blurForFloors();
 }
 
 // Front to back as far as the order is known, so that hidden fragments are not shaded; planes last, since
 // they blend.
 void Renderer::Parts::drawScene(GLuint positions, int width, int height) {
-  const gl::FramebufferFormat format{width, height, options.samples, SCENE_FORMAT, GL_DEPTH_COMPONENT24};
+  const gl::FramebufferFormat format{width, height, options.samples, CANVAS_FORMAT, GL_DEPTH_COMPONENT24};
   if (!(canvas.format() == format)) canvas = gl::Framebuffer("canvas", format);
   canvas.bind();
-  shadowMap->bindTexture();
+  shadowMap->bindTextures();
   const float farthest = 1;
+  const std::array<float, 4> nothing{0, 0, 0, 0};
+  glClearNamedFramebufferfv(canvas.name(), GL_COLOR, 0, nothing.data());
   glClearNamedFramebufferfv(canvas.name(), GL_DEPTH, 0, &farthest);
-  glEnable(GL_FRAMEBUFFER_SRGB);
   glDepthFunc(GL_LEQUAL);
 
   clothShading.bind();
@@ -167,25 +168,21 @@ void Renderer::Parts::drawScene(GLuint positions, int width, int height) {
   spheres.draw();
   glDisable(GL_CULL_FACE);
 
-  noVertices.bind();
-  background.bind();
-  glDrawArrays(GL_TRIANGLES, 0, 3);
-
   glEnable(GL_BLEND);
-  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_FALSE);
   planeShading.bind();
   planes.draw();
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
-  glDisable(GL_FRAMEBUFFER_SRGB);
 }
 
 void Renderer::Parts::resolveInto(GLuint destination, int width, int height) {
+  glDisable(GL_FRAMEBUFFER_SRGB);  // the shader encodes
   glBindFramebuffer(GL_FRAMEBUFFER, destination);
   glViewport(0, 0, width, height);
   glDisable(GL_DEPTH_TEST);
-  glBindTextureUnit(SCENE_COLOR_UNIT, canvas.colorTexture());
+  glBindTextureUnit(CANVAS_UNIT, canvas.colorTexture());
   resolve.bind();
   noVertices.bind();
   glDrawArrays(GL_TRIANGLES, 0, 3);

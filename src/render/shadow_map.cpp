@@ -9,7 +9,10 @@
 namespace clothsim {
 namespace {
 
-constexpr float FILTER_BORDER = 8;  // texels around the casters, so that their shadows' soft edges are inside
+constexpr gl::FramebufferFormat floorFormat{
+    .width = FLOOR_SHADOW_SIZE, .height = FLOOR_SHADOW_SIZE, .color = GL_R8};
+constexpr float BORDER =
+    0.03f;  // of the map, around the casters, so that their shadows' soft edges are inside
 
 // The casters' extent in light space, where z points to the light.
 Box inLightSpace(const Box& box, const glm::mat4& lightFromWorld) {
@@ -25,12 +28,16 @@ Box inLightSpace(const Box& box, const glm::mat4& lightFromWorld) {
 }  // namespace
 
 ShadowMap::ShadowMap(const Box& reach, glm::vec3 toLight, int size)
-    : framebuffer_("shadow map", {.width = size, .height = size, .depth = GL_DEPTH_COMPONENT24}) {
+    : framebuffer_("shadow map", {.width = size, .height = size, .depth = GL_DEPTH_COMPONENT24}),
+      halfBlurred_("half blurred floor shadow", floorFormat),
+      floorShadow_("floor shadow", floorFormat),
+      blurFirstAxis_(gl::Program::makeRender("render/fullscreen.vert", "render/floor_shadow.frag",
+                                             {{"FIRST_AXIS", ""}})),
+      blurSecondAxis_(gl::Program::makeRender("render/fullscreen.vert", "render/floor_shadow.frag")) {
   const glm::vec3 up = std::abs(toLight.y) < 0.99f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
   const glm::mat4 lightFromWorld = glm::lookAt(reach.center() + toLight, reach.center(), up);
   const Box seen = inLightSpace(reach, lightFromWorld);
-  const float half =
-      0.5f * std::max(seen.size().x, seen.size().y) / (1 - 2 * FILTER_BORDER / static_cast<float>(size));
+  const float half = 0.5f * std::max(seen.size().x, seen.size().y) / (1 - 2 * BORDER);
   texelLength_ = 2 * half / static_cast<float>(size);
   const glm::vec3 middle = seen.center();
   // Depth is clamped instead of clipped (see begin()): what is farther than the casters is lit or shadowed
@@ -54,7 +61,7 @@ void ShadowMap::begin() const {
   glDepthFunc(GL_LESS);
   glEnable(GL_DEPTH_CLAMP);
   glEnable(GL_POLYGON_OFFSET_FILL);
-  glPolygonOffset(1.5f, 2.0f);
+  glPolygonOffset(0.5f, 1.0f);
 }
 
 void ShadowMap::end() const {
@@ -62,6 +69,23 @@ void ShadowMap::end() const {
   glDisable(GL_DEPTH_CLAMP);
 }
 
-void ShadowMap::bindTexture() const { glBindTextureUnit(SHADOW_MAP_UNIT, framebuffer_.depthTexture()); }
+void ShadowMap::blurForFloors() const {
+  glDisable(GL_DEPTH_TEST);
+  noVertices_.bind();
+  bindTextures();
+  halfBlurred_.bind();
+  blurFirstAxis_.bind();
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glBindTextureUnit(FLOOR_SHADOW_UNIT, halfBlurred_.colorTexture());
+  floorShadow_.bind();
+  blurSecondAxis_.bind();
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glEnable(GL_DEPTH_TEST);
+}
+
+void ShadowMap::bindTextures() const {
+  glBindTextureUnit(SHADOW_MAP_UNIT, framebuffer_.depthTexture());
+  glBindTextureUnit(FLOOR_SHADOW_UNIT, floorShadow_.colorTexture());
+}
 
 }  // namespace clothsim

@@ -5,6 +5,8 @@
 #include <glm/glm.hpp>
 
 #include "gl/framebuffer.h"
+#include "gl/program.h"
+#include "gl/vertex_array.h"
 #include "render/stage.h"
 
 namespace clothsim {
@@ -16,13 +18,16 @@ class ShadowMap {
 
   void begin() const;  // clears it and makes it the target; leaves with the state that casters are drawn with
   void end() const;
-  void bindTexture() const;
+  void blurForFloors() const;  // after end()
+  void bindTextures() const;
 
   [[nodiscard]] const glm::mat4& shadowFromWorld() const { return shadowFromWorld_; }
   [[nodiscard]] float texelLength() const { return texelLength_; }  // [m]
 
  private:
-  gl::Framebuffer framebuffer_;
+  gl::Framebuffer framebuffer_, halfBlurred_, floorShadow_;
+  gl::Program blurFirstAxis_, blurSecondAxis_;
+  gl::VertexArray noVertices_{"no vertices"};
   glm::mat4 shadowFromWorld_{1};
   float texelLength_ = 0;
 };

@@ -52,9 +52,17 @@ void addHanging(const GridSamples& samples, Stage& stage) {
     const float distance = STRETCH * glm::distance(pin, point);
     const glm::vec3 hung{0.5f * (pin.x + point.x), std::min(point.y, pin.y - distance),
                          0.5f * (pin.z + point.z)};
-    stage.view.add(hung);
+    stage.shown.push_back(hung);
     stage.reach.add(pin - glm::vec3(distance, distance, distance));
     stage.reach.add(pin + glm::vec3(distance, 0.3f * distance, distance));
+  }
+}
+
+void addCorners(const Box& box, Stage& stage) {
+  for (int corner = 0; corner < 8; ++corner) {
+    stage.shown.emplace_back((corner & 1) != 0 ? box.high.x : box.low.x,
+                             (corner & 2) != 0 ? box.high.y : box.low.y,
+                             (corner & 4) != 0 ? box.high.z : box.low.z);
   }
 }
 
@@ -85,10 +93,8 @@ void addFalling(const Box& cloth, const Scene& scene, Stage& stage) {
     if (height < cloth.high.y) rest = std::max(rest, height);
   }
   const glm::vec3 low{cloth.low.x, rest, cloth.low.z}, high{cloth.high.x, rest, cloth.high.z};
-  for (Box* box : {&stage.view, &stage.reach}) {
-    box->add(low);
-    box->add(high);
-  }
+  const glm::vec3 inward = 0.15f * glm::vec3(high.x - low.x, 0, high.z - low.z);  // it hangs in folds by then
+  addCorners({low + inward, high - inward}, stage);
   stage.reach.add(low - glm::vec3(halfDiagonal, 0, halfDiagonal));
   stage.reach.add(high + glm::vec3(halfDiagonal, 0, halfDiagonal));
 }
@@ -130,11 +136,11 @@ ClothOutline outlineOf(const Cloth& cloth) {
 
 Stage makeStage(const ClothOutline& cloth, const Scene& scene) {
   Stage stage;
+  std::vector<glm::vec3> atRest;
   for (const GridSamples& grid : cloth.grids) {
     Box rest;
     for (const glm::vec3 point : grid.points) rest.add(point);
-    stage.view.add(rest);
-    stage.reach.add(rest);
+    atRest.insert(atRest.end(), grid.points.begin(), grid.points.end());
     if (grid.pins.empty()) {
       addFalling(rest, scene, stage);
     } else {
@@ -145,16 +151,19 @@ Stage makeStage(const ClothOutline& cloth, const Scene& scene) {
     const auto* sphere = std::get_if<Sphere>(&collider);
     if (sphere == nullptr) continue;
     const glm::vec3 radius(static_cast<float>(sphere->radius));
-    const auto addAt = [&](glm::vec3 place) {
-      for (Box* box : {&stage.view, &stage.reach}) {
-        box->add(place - radius);
-        box->add(place + radius);
-      }
-    };
+    const auto addAt = [&](glm::vec3 place) { addCorners({place - radius, place + radius}, stage); };
     addAt(toGlm(poseAt(collider, 0).position));
     if (!sphere->motion) continue;
     for (const Motion::Key& key : sphere->motion->keys) addAt(toGlm(key.position));
   }
+  for (const glm::vec3 point : stage.shown) stage.view.add(point);
+  // Cloth before its fall comes to the picture's edge: it is there for a moment only.
+  const glm::vec3 middle = stage.view.center();
+  for (const glm::vec3 point : atRest) {
+    stage.shown.push_back(glm::mix(middle, point, 0.86f));
+    stage.view.add(point);
+  }
+  stage.reach.add(stage.view);
   stage.floorHeight = stage.view.low.y - 0.02f * glm::length(stage.view.size());
   return stage;
 }

@@ -29,9 +29,10 @@ struct ClothOutline {
 [[nodiscard]] ClothOutline outlineOf(const Cloth& cloth);
 
 struct Stage {
-  Box view;               // cloth before and after its fall, with the spheres: what a picture should show
-  Box reach;              // where cloth and spheres may throw shadows: the swing, too
-  float floorHeight = 0;  // y of the floor drawn when the scene has no horizontal plane [m]
+  std::vector<glm::vec3> shown;  // cloth before and after its fall, and the spheres: what a picture should show
+  Box view;                      // around all of that
+  Box reach;                     // where cloth and spheres may throw shadows: the swing, too
+  float floorHeight = 0;         // y of the floor drawn when the scene has no horizontal plane [m]
 };
 
 [[nodiscard]] Stage makeStage(const ClothOutline& cloth, const Scene& scene);
