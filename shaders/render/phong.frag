@@ -5,8 +5,8 @@
 #include "render/surface.glsl"
 #include "render/tone.glsl"
 
-const float HIGHLIGHT = 0.10, EXPONENT = 24.0;
-const float SHEEN = 0.30;
+const float HIGHLIGHT = 0.08, EXPONENT = 24.0;
+const float SHEEN = 0.24;
 const float TRANSMITTED = 0.16;     // part of the key light that comes out at the other side
 const float HOLLOW_SHADE = 1.4;
 
@@ -35,7 +35,8 @@ void main() {
   float open = clamp(1.0 - HOLLOW_SHADE * surface.hollow * side, 0.4, 1.15);
   vec3 light = diffuseLight(normal, lit) * open;
   light += TRANSMITTED * lit * max(-dot(normal, frame.toKeyLight.xyz), 0.0) * frame.keyColor.rgb;
-  float rim = pow(1.0 - clamp(dot(normal, toEye), 0.0, 1.0), 3.0);
-  vec3 sheen = SHEEN * rim * open * ambientLight(normal) * mix(vec3(1), albedo, 0.5);
+  float grazing = 1.0 - clamp(dot(normal, toEye), 0.0, 1.0);
+  float rim = grazing * grazing * grazing;
+  vec3 sheen = SHEEN * rim * open * ambientLight(normal) * mix(vec3(1), albedo, 0.7);
   color = vec4(canvasFromLight(albedo * light + HIGHLIGHT * highlight(normal, toEye, EXPONENT, lit) + sheen), 1.0);
 }

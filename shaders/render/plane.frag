@@ -14,6 +14,9 @@ layout(location = 3) flat in vec3 shadeLight;
 layout(location = 4) flat in vec3 behindLight;
 layout(location = 0) out vec4 color;
 
+// Less than a step of the canvas's 8 bits, so that the wide, slow gradient shows no contour lines.
+float dither(vec2 pixel) { return (fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))) - 0.5) / 255.0; }
+
 void main() {
   float distance2 = dot(fromCenter, fromCenter);
   float fade = clamp(1.0 - distance2, 0.0, 1.0);
@@ -21,5 +24,5 @@ void main() {
   vec3 front = shadeLight + keyLight * (pool * texture(floorShadow, shadowPlace).r);
   vec3 light = gl_FrontFacing ? front : behindLight;
   float opacity = fade * fade * (gl_FrontFacing ? 1.0 : BEHIND);
-  color = vec4(canvasFromLight(light) * opacity, opacity);
+  color = vec4((canvasFromLight(light) + dither(gl_FragCoord.xy)) * opacity, opacity);
 }

@@ -32,7 +32,7 @@ shared::RenderFrame makeLook(const RenderSettings& settings, glm::vec3 front) {
   frame.keyColor = {1.22f, 1.15f, 1.04f, 0};   // a warm key
   frame.fillColor = {0.16f, 0.20f, 0.28f, 0};  // a cool fill from the other side
   frame.skyColor = {0.34f, 0.38f, 0.44f, 0};
-  frame.bounceColor = {0.20f, 0.17f, 0.15f, 0};  // what the floor gives back
+  frame.bounceColor = {0.25f, 0.22f, 0.20f, 0};  // what the floor gives back
   frame.clothFront = linearColor(settings.color);
   frame.clothBack = linearColor(settings.backColor);
   frame.sphereColor = linearColor(0.80, 0.82, 0.84);

@@ -16,7 +16,7 @@ struct RenderOptions {
   int sphereSegmentsAround = 64;  // -a: horizontal segments of drawn spheres, >= 3
   int sphereSegmentsDown = 48;    // -o: vertical segments, >= 2
   int samples = 4;                // multisampling, 1 to what the driver offers
-  int shadowMapSize = 1536;       // texels along each side; a smaller map is faster and its shadows are softer
+  int shadowMapSize = 1024;       // texels along each side; a smaller map is faster and its shadows are softer
   bool shadows = true;
 };
 

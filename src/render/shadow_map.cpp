@@ -1,6 +1,7 @@
 #include "render/shadow_map.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -49,6 +50,13 @@ ShadowMap::ShadowMap(const Box& reach, glm::vec3 toLight, int size)
 
   const GLuint texture = framebuffer_.depthTexture();
   glTextureParameteri(texture, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  // Outside of the map nothing is in the light's way.
+  const std::array<float, 4> lit{1, 1, 1, 1};
+  for (const GLuint each : {texture, floorShadow_.colorTexture()}) {
+    glTextureParameteri(each, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
+    glTextureParameteri(each, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
+    glTextureParameterfv(each, GL_TEXTURE_BORDER_COLOR, lit.data());
+  }
   glTextureParameteri(texture, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
 }
 

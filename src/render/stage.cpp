@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "render/look.h"
 #include "scene/pose.h"
 
 namespace clothsim {
@@ -42,19 +43,23 @@ GridSamples sampleGrid(const Cloth& cloth, const Grid& grid) {
   return samples;
 }
 
-// Pinned cloth ends below its pins, each point as far down as its distance from the nearest one.
-void addHanging(const GridSamples& samples, Stage& stage) {
+// Pinned cloth ends below its pins: each point stays within reach of the nearest one. Along the axes on which
+// pins hold the sheet apart it stays where it is; along the others it swings under the pins.
+void addHanging(const GridSamples& samples, const Box& rest, Stage& stage) {
+  Box pins;
+  for (const glm::vec3 pin : samples.pins) pins.add(pin);
+  const bool heldX = pins.size().x > 0.5f * rest.size().x, heldZ = pins.size().z > 0.5f * rest.size().z;
   for (const glm::vec3 point : samples.points) {
     glm::vec3 pin = samples.pins.front();
     for (const glm::vec3 candidate : samples.pins) {
       if (glm::distance(candidate, point) < glm::distance(pin, point)) pin = candidate;
     }
-    const float distance = STRETCH * glm::distance(pin, point);
-    const glm::vec3 hung{0.5f * (pin.x + point.x), std::min(point.y, pin.y - distance),
-                         0.5f * (pin.z + point.z)};
-    stage.shown.push_back(hung);
-    stage.reach.add(pin - glm::vec3(distance, distance, distance));
-    stage.reach.add(pin + glm::vec3(distance, 0.3f * distance, distance));
+    const float reach = STRETCH * glm::distance(pin, point);
+    const glm::vec2 held{heldX ? point.x - pin.x : 0, heldZ ? point.z - pin.z : 0};
+    const float drop = std::sqrt(std::max(0.0f, reach * reach - glm::dot(held, held)));
+    stage.shown.emplace_back(pin.x + held.x, std::min(point.y, pin.y - drop), pin.z + held.y);
+    stage.reach.add(pin - glm::vec3(reach));
+    stage.reach.add(pin + glm::vec3(reach, 0.3f * reach, reach));
   }
 }
 
@@ -93,7 +98,8 @@ void addFalling(const Box& cloth, const Scene& scene, Stage& stage) {
     if (height < cloth.high.y) rest = std::max(rest, height);
   }
   const glm::vec3 low{cloth.low.x, rest, cloth.low.z}, high{cloth.high.x, rest, cloth.high.z};
-  const glm::vec3 inward = 0.15f * glm::vec3(high.x - low.x, 0, high.z - low.z);  // it hangs in folds by then
+  const float folded = onSphere ? 0.15f : 0.0f;  // hanging in folds it is narrower
+  const glm::vec3 inward = folded * glm::vec3(high.x - low.x, 0, high.z - low.z);
   addCorners({low + inward, high - inward}, stage);
   stage.reach.add(low - glm::vec3(halfDiagonal, 0, halfDiagonal));
   stage.reach.add(high + glm::vec3(halfDiagonal, 0, halfDiagonal));
@@ -144,7 +150,7 @@ Stage makeStage(const ClothOutline& cloth, const Scene& scene) {
     if (grid.pins.empty()) {
       addFalling(rest, scene, stage);
     } else {
-      addHanging(grid, stage);
+      addHanging(grid, rest, stage);
     }
   }
   for (const Collider& collider : scene.colliders) {
@@ -157,14 +163,18 @@ Stage makeStage(const ClothOutline& cloth, const Scene& scene) {
     for (const Motion::Key& key : sphere->motion->keys) addAt(toGlm(key.position));
   }
   for (const glm::vec3 point : stage.shown) stage.view.add(point);
-  // Cloth before its fall comes to the picture's edge: it is there for a moment only.
-  const glm::vec3 middle = stage.view.center();
-  for (const glm::vec3 point : atRest) {
-    stage.shown.push_back(glm::mix(middle, point, 0.86f));
-    stage.view.add(point);
-  }
   stage.reach.add(stage.view);
   stage.floorHeight = stage.view.low.y - 0.02f * glm::length(stage.view.size());
+  // Cloth before its fall, there for a moment only, and the shadow on the floor come to the picture's edge.
+  std::vector<glm::vec3> aside = atRest;
+  const glm::vec3 toLight = directionToKeyLight(cloth.front);
+  for (const glm::vec3 point : stage.shown) {
+    aside.push_back(point - (point.y - stage.floorHeight) / toLight.y * toLight);
+  }
+  const glm::vec3 middle = stage.view.center();
+  for (const glm::vec3 point : aside) stage.shown.push_back(glm::mix(middle, point, 0.9f));
+  for (const glm::vec3 point : atRest) stage.view.add(point);
+  stage.reach.add(stage.view);
   return stage;
 }
 
