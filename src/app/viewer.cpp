@@ -3,6 +3,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -15,6 +16,7 @@
 #include "app/viewer_overlay.h"
 #include "app/viewer_window.h"
 #include "core/error.h"
+#include "gl/context.h"
 #include "render/camera.h"
 #include "render/renderer.h"
 
@@ -44,13 +46,23 @@ std::string formatted(const char* format, double value) {
 
 // 9216 -> "9,216"
 std::string withCommas(std::uint64_t number) {
-  std::string text = std::to_string(number);
-  for (std::size_t place = text.size(); place > 3;) text.insert(place -= 3, ",");
+  const std::string digits = std::to_string(number);
+  std::string text;
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) text += ',';
+    text += digits[i];
+  }
   return text;
 }
 
-// "llvmpipe (LLVM 15.0.6, 256 bits)" -> "llvmpipe", "NVIDIA H200/PCIe/SSE2" -> "NVIDIA H200"
-std::string shortDevice(const std::string& device) { return device.substr(0, device.find_first_of("(/,")); }
+// "gpu", "llvmpipe (LLVM 15.0.6, 256 bits)" -> "GPU: llvmpipe"; "gpu", "NVIDIA H200/PCIe/SSE2" -> "GPU:
+// NVIDIA H200"; "cpu", "CPU, 2 threads" -> "CPU: 2 threads"
+std::string backendText(const Solver& solver) {
+  std::string device = solver.device();
+  if (device.starts_with("CPU, ")) device.erase(0, 5);
+  device.erase(std::min(device.size(), device.find_first_of("(/")));
+  return (solver.backend() == "gpu" ? "GPU: " : "CPU: ") + device;
+}
 
 const char* nameOf(Integrator integrator) { return integrator == Integrator::verlet ? "verlet" : "euler"; }
 
@@ -88,6 +100,18 @@ std::string gridSizes(const Cloth& cloth) {
   return text;
 }
 
+// Antialiasing and shadows as fine as the device draws at a fluent rate: llvmpipe pays for every sample.
+RenderOptions renderOptions(const ViewerOptions& options) {
+  RenderOptions render;
+  render.sphereSegmentsAround = options.sphereSegmentsAround;
+  render.sphereSegmentsDown = options.sphereSegmentsDown;
+  if (gl::currentContextInfo().software) {
+    render.samples = 2;
+    render.shadowMapSize = 1024;
+  }
+  return render;
+}
+
 class Viewer {
  public:
   Viewer(const Scene& scene, const ViewerOptions& options)
@@ -95,7 +119,7 @@ class Viewer {
         window_("clothsim", options.sceneName),
         simulation_(scene, options.backend),
         camera_(scene, simulation_.cloth()),
-        renderer_(simulation_.cloth(), scene, {options.sphereSegmentsAround, options.sphereSegmentsDown}),
+        renderer_(simulation_.cloth(), scene, renderOptions(options)),
         pace_(1 / scene.solver.framesPerSec) {
     window_.setInput({.key = [this](int key) { act(actionOf(key)); },
                       .drag = [this](double dx, double dy, bool pan) { onDrag(dx, dy, pan); },
@@ -215,7 +239,8 @@ void Viewer::act(ViewerAction action) {
 
 void Viewer::switchBackend() {
   simulation_.switchBackend(simulation_.solver().backend() == "gpu" ? "cpu" : "gpu");
-  say("Continues on the " + simulation_.solver().backend() + ", from the same state to the bit");
+  say(std::string("Continues on the ") + (simulation_.solver().backend() == "gpu" ? "GPU" : "CPU") +
+      ", from the same state to the bit");
 }
 
 void Viewer::switchIntegrator() {
@@ -256,7 +281,7 @@ OverlayFacts Viewer::facts() const {
 
   OverlayFacts facts;
   facts.title = options_.sceneName;
-  facts.rows = {{"backend", solver.backend() + ", " + shortDevice(solver.device())},
+  facts.rows = {{"backend", backendText(solver)},
                 {"cloth", gridSizes(cloth) + " = " + withCommas(cloth.particleCount()) + " particles"},
                 {"integrator", nameOf(simulation_.scene().solver.integrator)},
                 {"time", formatted("%.2f s", simulation_.time())}};
