@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <numbers>
 #include <utility>
 
@@ -100,17 +101,17 @@ std::string gridSizes(const Cloth& cloth) {
   return text;
 }
 
-// Antialiasing and shadows as fine as the device draws at a fluent rate: llvmpipe pays for every sample.
+// Antialiasing as fine as the device draws at a fluent rate: llvmpipe pays for every sample.
 RenderOptions renderOptions(const ViewerOptions& options) {
   RenderOptions render;
   render.sphereSegmentsAround = options.sphereSegmentsAround;
   render.sphereSegmentsDown = options.sphereSegmentsDown;
-  if (gl::currentContextInfo().software) {
-    render.samples = 2;
-    render.shadowMapSize = 1024;
-  }
+  if (gl::currentContextInfo().software) render.samples = 2;
   return render;
 }
+
+// "pinned2", also for "my/scenes/pinned2.json"
+std::string displayName(const std::string& sceneName) { return std::filesystem::path(sceneName).stem().string(); }
 
 class Viewer {
  public:
@@ -266,7 +267,7 @@ void Viewer::onScroll(double steps, double x, double y) {
 
 std::string Viewer::title() const {
   const double rate = meter_.framesPerSecond();
-  return options_.sceneName + " - " + simulation_.solver().backend() +
+  return displayName(options_.sceneName) + " - " + simulation_.solver().backend() +
          (paused_    ? " - paused"
           : rate > 0 ? formatted(" - %.0f fps", rate)
                      : "") +
@@ -280,7 +281,7 @@ OverlayFacts Viewer::facts() const {
   const bool slow = rate > 0 && factor < 0.95;
 
   OverlayFacts facts;
-  facts.title = options_.sceneName;
+  facts.title = displayName(options_.sceneName);
   facts.rows = {{"backend", backendText(solver)},
                 {"cloth", gridSizes(cloth) + " = " + withCommas(cloth.particleCount()) + " particles"},
                 {"integrator", nameOf(simulation_.scene().solver.integrator)},
