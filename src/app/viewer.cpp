@@ -24,8 +24,8 @@
 namespace clothsim {
 namespace {
 
-constexpr double NOTICE_SECONDS = 2.5;
-constexpr double ZOOM_PER_STEP = 0.88;  // of the wheel
+constexpr double noticeSeconds = 2.5;
+constexpr double zoomPerStep = 0.88;  // of the wheel
 
 class Clock {
  public:
@@ -111,7 +111,9 @@ RenderOptions renderOptions(const ViewerOptions& options) {
 }
 
 // "pinned2", also for "my/scenes/pinned2.json"
-std::string displayName(const std::string& sceneName) { return std::filesystem::path(sceneName).stem().string(); }
+std::string displayName(const std::string& sceneName) {
+  return std::filesystem::path(sceneName).stem().string();
+}
 
 class Viewer {
  public:
@@ -162,7 +164,7 @@ class Viewer {
   void onScroll(double steps, double x, double y);
   OverlayFacts facts() const;
   std::string title() const;
-  void say(const std::string& text) { notice_ = {text, NOTICE_SECONDS, false}; }
+  void say(const std::string& text) { notice_ = {text, noticeSeconds, false}; }
 
   ViewerOptions options_;
   ViewerWindow window_;
@@ -260,7 +262,7 @@ void Viewer::onDrag(double dx, double dy, bool pan) {
 }
 
 void Viewer::onScroll(double steps, double x, double y) {
-  const double factor = std::pow(ZOOM_PER_STEP, steps);
+  const double factor = std::pow(zoomPerStep, steps);
   camera_.pan(x * (1 - factor), y * (1 - factor));  // what is under the cursor stays there
   camera_.zoom(factor);
 }
