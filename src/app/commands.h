@@ -1,25 +1,74 @@
-// The subcommands behind `clothsim`, one function each; the command line itself is in command_line.cpp.
+// The subcommands behind `clothsim`, one function each; command_line.cpp turns argv into their options. Results go to stdout,
+// progress and remarks to stderr. Each returns the exit code of DESIGN.md section 5 or throws an Error.
 #pragma once
 
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "scene/scene.h"
 
 namespace clothsim {
 
-// Parses argv, runs the subcommand, prints errors to stderr; returns the exit code of DESIGN.md section 5.
-int runCommandLine(int argc, char** argv);
+struct GridSize {
+  int columns = 0, rows = 0;
+};
 
 // What every command that simulates takes.
-struct SceneArguments {
-  std::string scene;  // -f
-  std::optional<std::pair<int, int>> resolution;
-  std::vector<std::string> settings;  // --set key=value
+struct SceneOptions {
+  std::string scene = "pinned2";        // -f
+  std::optional<GridSize> resolution;   // --resolution
+  std::vector<std::string> settings;    // --set key=value
 };
-// Loads the scene, changes its resolution, applies --set in that order. @throws SceneError, UsageError
-[[nodiscard]] Scene loadSceneWith(const SceneArguments& arguments);
+// Loads the scene, changes its resolution, applies --set, and says on stderr what the user should know of the result.
+// @throws SceneError, UsageError
+[[nodiscard]] Scene loadScene(const SceneOptions& options);
+
+struct RunOptions {
+  SceneOptions scene;
+  int frames = 0;
+  std::string backend = "gpu";
+  std::vector<std::string> saves;  // files by extension; numbered ones take every `every`-th frame
+  int every = 1;
+  std::string from;                // a .state file to begin with
+  bool json = false;
+};
+int runCommand(const RunOptions& options);
+
+struct RenderCommandOptions {
+  SceneOptions scene;
+  int frames = 0;
+  std::string backend = "gpu";
+  std::vector<std::string> outs;  // still.png, frame_%04d.png, clip.mp4
+  int width = 1280, height = 720;
+  int every = 1;                  // numbered pictures: every so many frames
+  double framesPerSecond = 30;    // of a film, at most
+  std::string shader;             // "" for the scene's own
+  int sphereSegmentsAround = 64, sphereSegmentsDown = 48;
+};
+int renderCommand(const RenderCommandOptions& options);
+
+struct CompareOptions {
+  SceneOptions scene;
+  int frames = 0;
+  bool json = false;
+};
+int compareCommand(const CompareOptions& options);
+
+struct BenchOptions {
+  SceneOptions scene;
+  std::vector<GridSize> resolutions;
+  std::vector<std::string> backends;
+  double seconds = 1;  // of measuring, for each figure
+  bool json = false;
+};
+int benchCommand(const BenchOptions& options);
+
+int doctorCommand(bool json);
+int scenesCommand();
+int describeCommand(const std::string& key);  // "" for all
+
+// Parses argv, runs the subcommand, prints errors to stderr; returns the exit code.
+int runCommandLine(int argc, char** argv);
 
 }  // namespace clothsim

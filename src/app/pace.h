@@ -33,12 +33,14 @@ class Pace {
   // Wall time until the next frame is due [s].
   [[nodiscard]] double secondsUntilDue() const { return std::max(0.0, frameSeconds_ - owed_); }
 
-  static constexpr int MOST_FRAMES = 12;
-  static constexpr double BUDGET = 1 / 25.0;  // of a displayed frame's time, for simulating [s]
+  static constexpr int mostFramesAtOnce = 12;
+  static constexpr double simulationBudget = 1 / 25.0;  // of a displayed frame's time, for simulating [s]
 
  private:
   [[nodiscard]] int mostFrames() const {
-    return cost_ * MOST_FRAMES <= BUDGET ? MOST_FRAMES : std::max(1, static_cast<int>(BUDGET / cost_));
+    return cost_ * mostFramesAtOnce <= simulationBudget
+               ? mostFramesAtOnce
+               : std::max(1, static_cast<int>(simulationBudget / cost_));
   }
 
   double frameSeconds_;
@@ -54,7 +56,7 @@ class SpeedMeter {
     wall_ += elapsed;
     simulated_ += simulated;
     ++frames_;
-    if (wall_ < WINDOW) return;
+    if (wall_ < windowSeconds) return;
     framesPerSecond_ = frames_ / wall_;
     realTimeFactor_ = simulated_ / wall_;
     wall_ = simulated_ = 0;
@@ -66,7 +68,7 @@ class SpeedMeter {
   [[nodiscard]] double realTimeFactor() const { return realTimeFactor_; }
 
  private:
-  static constexpr double WINDOW = 0.5;  // [s]
+  static constexpr double windowSeconds = 0.5;  // [s]
   double wall_ = 0, simulated_ = 0;
   int frames_ = 0;
   double framesPerSecond_ = 0, realTimeFactor_ = 0;

@@ -3,9 +3,11 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <numbers>
 #include <utility>
 
@@ -15,14 +17,15 @@
 #include "app/viewer_overlay.h"
 #include "app/viewer_window.h"
 #include "core/error.h"
+#include "gl/context.h"
 #include "render/camera.h"
 #include "render/renderer.h"
 
 namespace clothsim {
 namespace {
 
-constexpr double NOTICE_SECONDS = 2.5;
-constexpr double ZOOM_PER_STEP = 0.88;  // of the wheel
+constexpr double noticeSeconds = 2.5;
+constexpr double zoomPerStep = 0.88;  // of the wheel
 
 class Clock {
  public:
@@ -44,13 +47,23 @@ std::string formatted(const char* format, double value) {
 
 // 9216 -> "9,216"
 std::string withCommas(std::uint64_t number) {
-  std::string text = std::to_string(number);
-  for (std::size_t place = text.size(); place > 3;) text.insert(place -= 3, ",");
+  const std::string digits = std::to_string(number);
+  std::string text;
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) text += ',';
+    text += digits[i];
+  }
   return text;
 }
 
-// "llvmpipe (LLVM 15.0.6, 256 bits)" -> "llvmpipe", "NVIDIA H200/PCIe/SSE2" -> "NVIDIA H200"
-std::string shortDevice(const std::string& device) { return device.substr(0, device.find_first_of("(/,")); }
+// "gpu", "llvmpipe (LLVM 15.0.6, 256 bits)" -> "GPU: llvmpipe"; "gpu", "NVIDIA H200/PCIe/SSE2" -> "GPU:
+// NVIDIA H200"; "cpu", "CPU, 2 threads" -> "CPU: 2 threads"
+std::string backendText(const Solver& solver) {
+  std::string device = solver.device();
+  if (device.starts_with("CPU, ")) device.erase(0, 5);
+  device.erase(std::min(device.size(), device.find_first_of("(/")));
+  return (solver.backend() == "gpu" ? "GPU: " : "CPU: ") + device;
+}
 
 const char* nameOf(Integrator integrator) { return integrator == Integrator::verlet ? "verlet" : "euler"; }
 
@@ -88,6 +101,20 @@ std::string gridSizes(const Cloth& cloth) {
   return text;
 }
 
+// Antialiasing as fine as the device draws at a fluent rate: llvmpipe pays for every sample.
+RenderOptions renderOptions(const ViewerOptions& options) {
+  RenderOptions render;
+  render.sphereSegmentsAround = options.sphereSegmentsAround;
+  render.sphereSegmentsDown = options.sphereSegmentsDown;
+  if (gl::currentContextInfo().software) render.samples = 2;
+  return render;
+}
+
+// "pinned2", also for "my/scenes/pinned2.json"
+std::string displayName(const std::string& sceneName) {
+  return std::filesystem::path(sceneName).stem().string();
+}
+
 class Viewer {
  public:
   Viewer(const Scene& scene, const ViewerOptions& options)
@@ -95,7 +122,7 @@ class Viewer {
         window_("clothsim", options.sceneName),
         simulation_(scene, options.backend),
         camera_(scene, simulation_.cloth()),
-        renderer_(simulation_.cloth(), scene, {options.sphereSegmentsAround, options.sphereSegmentsDown}),
+        renderer_(simulation_.cloth(), scene, renderOptions(options)),
         pace_(1 / scene.solver.framesPerSec) {
     window_.setInput({.key = [this](int key) { act(actionOf(key)); },
                       .drag = [this](double dx, double dy, bool pan) { onDrag(dx, dy, pan); },
@@ -137,7 +164,7 @@ class Viewer {
   void onScroll(double steps, double x, double y);
   OverlayFacts facts() const;
   std::string title() const;
-  void say(const std::string& text) { notice_ = {text, NOTICE_SECONDS, false}; }
+  void say(const std::string& text) { notice_ = {text, noticeSeconds, false}; }
 
   ViewerOptions options_;
   ViewerWindow window_;
@@ -215,7 +242,8 @@ void Viewer::act(ViewerAction action) {
 
 void Viewer::switchBackend() {
   simulation_.switchBackend(simulation_.solver().backend() == "gpu" ? "cpu" : "gpu");
-  say("Continues on the " + simulation_.solver().backend() + ", from the same state to the bit");
+  say(std::string("Continues on the ") + (simulation_.solver().backend() == "gpu" ? "GPU" : "CPU") +
+      ", from the same state to the bit");
 }
 
 void Viewer::switchIntegrator() {
@@ -234,14 +262,14 @@ void Viewer::onDrag(double dx, double dy, bool pan) {
 }
 
 void Viewer::onScroll(double steps, double x, double y) {
-  const double factor = std::pow(ZOOM_PER_STEP, steps);
+  const double factor = std::pow(zoomPerStep, steps);
   camera_.pan(x * (1 - factor), y * (1 - factor));  // what is under the cursor stays there
   camera_.zoom(factor);
 }
 
 std::string Viewer::title() const {
   const double rate = meter_.framesPerSecond();
-  return options_.sceneName + " - " + simulation_.solver().backend() +
+  return displayName(options_.sceneName) + " - " + simulation_.solver().backend() +
          (paused_    ? " - paused"
           : rate > 0 ? formatted(" - %.0f fps", rate)
                      : "") +
@@ -255,8 +283,8 @@ OverlayFacts Viewer::facts() const {
   const bool slow = rate > 0 && factor < 0.95;
 
   OverlayFacts facts;
-  facts.title = options_.sceneName;
-  facts.rows = {{"backend", solver.backend() + ", " + shortDevice(solver.device())},
+  facts.title = displayName(options_.sceneName);
+  facts.rows = {{"backend", backendText(solver)},
                 {"cloth", gridSizes(cloth) + " = " + withCommas(cloth.particleCount()) + " particles"},
                 {"integrator", nameOf(simulation_.scene().solver.integrator)},
                 {"time", formatted("%.2f s", simulation_.time())}};

@@ -13,14 +13,14 @@
 namespace clothsim {
 namespace {
 
-constexpr float TEXT_SIZE = 16, TITLE_SIZE = 23;  // on an ordinary screen [pixels]
+constexpr float textSize = 16, titleSize = 23;  // on an ordinary screen [pixels]
 
-const ImVec4 PLAIN{0.95f, 0.95f, 0.96f, 1};
-const ImVec4 QUIET{0.66f, 0.68f, 0.73f, 1};
-const ImVec4 ALERT{1.0f, 0.76f, 0.36f, 1};
-const ImVec4 PANEL{0.07f, 0.08f, 0.10f, 0.70f};
-const ImVec4 KEY_LIST{0.07f, 0.08f, 0.10f, 0.90f};
-const ImVec4 KEY_CAP{0.24f, 0.26f, 0.31f, 1};
+const ImVec4 plainColor{0.95f, 0.95f, 0.96f, 1};
+const ImVec4 quietColor{0.66f, 0.68f, 0.73f, 1};
+const ImVec4 alertColor{1.0f, 0.76f, 0.36f, 1};
+const ImVec4 panelColor{0.07f, 0.08f, 0.10f, 0.70f};
+const ImVec4 keyListColor{0.07f, 0.08f, 0.10f, 0.90f};
+const ImVec4 keyCapColor{0.24f, 0.26f, 0.31f, 1};
 
 // The first of these that is there; without any, Dear ImGui's own bitmap font does.
 const char* typeface() {
@@ -35,10 +35,10 @@ const char* typeface() {
   return nullptr;
 }
 
-constexpr ImGuiWindowFlags PANEL_FLAGS =
-    ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoNav |
-    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
-    ImGuiWindowFlags_NoFocusOnAppearing;
+constexpr ImGuiWindowFlags panelFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
+                                        ImGuiWindowFlags_NoNav | ImGuiWindowFlags_NoMove |
+                                        ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
+                                        ImGuiWindowFlags_NoFocusOnAppearing;
 
 void text(std::string_view words, const ImVec4& color) {
   ImGui::PushStyleColor(ImGuiCol_Text, color);
@@ -48,21 +48,21 @@ void text(std::string_view words, const ImVec4& color) {
 
 void title(const std::string& words) {
   ImGui::PushFont(ImGui::GetIO().Fonts->Fonts.back());
-  text(words, PLAIN);
+  text(words, plainColor);
   ImGui::PopFont();
 }
 
 void drawPanel(const OverlayFacts& facts, float scale) {
   ImGui::SetNextWindowPos({14 * scale, 14 * scale});
-  ImGui::PushStyleColor(ImGuiCol_WindowBg, PANEL);
-  ImGui::Begin("facts", nullptr, PANEL_FLAGS);
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, panelColor);
+  ImGui::Begin("facts", nullptr, panelFlags);
   title(facts.title);
   if (ImGui::BeginTable("rows", 2, ImGuiTableFlags_SizingFixedFit)) {
     for (const OverlayFacts::Row& row : facts.rows) {
       ImGui::TableNextColumn();
-      text(row.label, QUIET);
+      text(row.label, quietColor);
       ImGui::TableNextColumn();
-      text(row.value, row.alert ? ALERT : PLAIN);
+      text(row.value, row.alert ? alertColor : plainColor);
     }
     ImGui::EndTable();
   }
@@ -76,25 +76,25 @@ void drawKeyCap(std::string_view name, float scale) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float margin = 7 * scale;
   ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + size.x + 2 * margin, at.y + size.y + 4 * scale},
-                                            ImGui::GetColorU32(KEY_CAP), 4 * scale);
+                                            ImGui::GetColorU32(keyCapColor), 4 * scale);
   ImGui::SetCursorScreenPos({at.x + margin, at.y + 2 * scale});
-  text(name, PLAIN);
+  text(name, plainColor);
 }
 
 void drawKeyList(float scale) {
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-  ImGui::PushStyleColor(ImGuiCol_WindowBg, KEY_LIST);
-  ImGui::Begin("keys", nullptr, PANEL_FLAGS);
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, keyListColor);
+  ImGui::Begin("keys", nullptr, panelFlags);
   title("Keys and mouse");
   if (ImGui::BeginTable("keys", 2, ImGuiTableFlags_SizingFixedFit)) {
     for (const ViewerKey& key : viewerKeys) {
-      ImGui::TableNextRow(ImGuiTableRowFlags_None, TEXT_SIZE * 1.55f * scale);
+      ImGui::TableNextRow(ImGuiTableRowFlags_None, textSize * 1.55f * scale);
       ImGui::TableNextColumn();
       drawKeyCap(key.input, scale);
       ImGui::TableNextColumn();
       ImGui::SetCursorPosY(ImGui::GetCursorPosY() + 2 * scale);
-      text(key.effect, PLAIN);
+      text(key.effect, plainColor);
     }
     ImGui::EndTable();
   }
@@ -105,10 +105,10 @@ void drawKeyList(float scale) {
 void drawNotice(const OverlayFacts& facts, float scale) {
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({screen.x / 2, screen.y - 18 * scale}, ImGuiCond_Always, {0.5f, 1.0f});
-  ImGui::PushStyleColor(ImGuiCol_WindowBg, facts.noticeIsError ? KEY_LIST : PANEL);
-  ImGui::Begin("notice", nullptr, PANEL_FLAGS);
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, facts.noticeIsError ? keyListColor : panelColor);
+  ImGui::Begin("notice", nullptr, panelFlags);
   ImGui::PushTextWrapPos(0.8f * screen.x);
-  text(facts.notice, facts.noticeIsError ? ALERT : PLAIN);
+  text(facts.notice, facts.noticeIsError ? alertColor : plainColor);
   ImGui::PopTextWrapPos();
   ImGui::End();
   ImGui::PopStyleColor();
@@ -138,7 +138,7 @@ void ViewerOverlay::loadFonts(double textScale) {
   const auto scale = static_cast<float>(textScale);
   ImGuiIO& io = ImGui::GetIO();
   io.Fonts->Clear();
-  for (const float size : {TEXT_SIZE, TITLE_SIZE}) {
+  for (const float size : {textSize, titleSize}) {
     if (const char* path = typeface()) {
       io.Fonts->AddFontFromFileTTF(path, std::round(size * scale));
     } else {

@@ -14,8 +14,8 @@
 namespace clothsim {
 namespace {
 
-constexpr int WIDTH = 1280, HEIGHT = 720;  // at first, on an ordinary screen [pixels]
-constexpr int SMALLEST_WIDTH = 320, SMALLEST_HEIGHT = 240;
+constexpr int ordinaryWidth = 1280, ordinaryHeight = 720;  // at first, on an ordinary screen [pixels]
+constexpr int smallestWidth = 320, smallestHeight = 240;
 
 std::string lastGlfwError() {
   const char* text = nullptr;
@@ -33,7 +33,7 @@ std::string noWindow(const std::string& reason, const std::string& sceneName) {
 // As large as the screen's scale asks for, as long as it fits on it.
 std::pair<int, int> firstSize() {
   GLFWmonitor* monitor = glfwGetPrimaryMonitor();
-  if (monitor == nullptr) return {WIDTH, HEIGHT};
+  if (monitor == nullptr) return {ordinaryWidth, ordinaryHeight};
   float scale = 1, unused = 1;
   glfwGetMonitorContentScale(monitor, &scale, &unused);
   int x = 0, y = 0, width = 0, height = 0;
@@ -42,7 +42,7 @@ std::pair<int, int> firstSize() {
     const int scaled = static_cast<int>(static_cast<float>(wanted) * std::max(1.0f, scale));
     return most > 0 ? std::min(scaled, most) : scaled;
   };
-  return {fit(WIDTH, width), fit(HEIGHT, height)};
+  return {fit(ordinaryWidth, width), fit(ordinaryHeight, height)};
 }
 
 void* loadFunction(const char* name) { return reinterpret_cast<void*>(glfwGetProcAddress(name)); }
@@ -64,7 +64,7 @@ ViewerWindow::ViewerWindow(const std::string& title, const std::string& sceneNam
     glfwTerminate();
     throw OpenGlError(gl::noUsableOpenGl("a screen, but no window with OpenGL 4.5 on it: " + reason));
   }
-  glfwSetWindowSizeLimits(window_, SMALLEST_WIDTH, SMALLEST_HEIGHT, GLFW_DONT_CARE, GLFW_DONT_CARE);
+  glfwSetWindowSizeLimits(window_, smallestWidth, smallestHeight, GLFW_DONT_CARE, GLFW_DONT_CARE);
   glfwMakeContextCurrent(window_);
   glfwSwapInterval(1);
   try {

@@ -143,6 +143,16 @@ std::uint64_t Cloth::triangleCount() const {
   return count;
 }
 
+std::uint64_t Cloth::springCount() const {
+  std::uint64_t count = 0;
+  for (const Grid& grid : grids_)
+    for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot)
+      if (grid.slotEnabled[slot])
+        count += static_cast<std::uint64_t>(grid.columns - std::abs(springOffsets[slot].columns)) *
+                 static_cast<std::uint64_t>(grid.rows - std::abs(springOffsets[slot].rows));
+  return count;
+}
+
 std::vector<std::array<std::uint32_t, 3>> Cloth::triangles() const {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   triangles.reserve(triangleCount());

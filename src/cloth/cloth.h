@@ -95,6 +95,7 @@ class Cloth {
   // All enabled springs in ascending number; for measuring and drawing, not used while stepping.
   [[nodiscard]] std::vector<Spring> springs() const;
   [[nodiscard]] std::uint64_t triangleCount() const;
+  [[nodiscard]] std::uint64_t springCount() const;  // enabled ones
 
  private:
   std::vector<Grid> grids_;

@@ -19,8 +19,8 @@ struct Header {
 };
 static_assert(sizeof(Header) == 32);
 
-constexpr char MAGIC[] = "clothsim";
-constexpr std::uint32_t VERSION = 1;
+constexpr char fileMagic[] = "clothsim";
+constexpr std::uint32_t fileVersion = 1;
 
 std::uint64_t checksum(std::string_view bytes) {
   Fnv1a hash;
@@ -44,12 +44,12 @@ void append(std::string& bytes, const T* data, std::size_t count) {
 // The header of a file that is whole and fits the cloth.
 Header checkedHeader(const std::string& bytes, std::size_t particleCount, const std::string& source) {
   Header header{};
-  if (bytes.size() < sizeof header || std::memcmp(bytes.data(), MAGIC, sizeof header.magic) != 0)
+  if (bytes.size() < sizeof header || std::memcmp(bytes.data(), fileMagic, sizeof header.magic) != 0)
     refuse(source, "it is no state file of clothsim (those are written by `clothsim run --save NAME.state`)");
   std::memcpy(&header, bytes.data(), sizeof header);
-  if (header.version != VERSION)
+  if (header.version != fileVersion)
     refuse(source, "it has version " + std::to_string(header.version) +
-                       " of the format, this program reads version " + std::to_string(VERSION));
+                       " of the format, this program reads version " + std::to_string(fileVersion));
   if (header.particleCount != particleCount)
     refuse(source, "it holds " + std::to_string(header.particleCount) + " particles, the scene has " +
                        std::to_string(particleCount) + " (was it saved at another --resolution?)");
@@ -71,8 +71,8 @@ Header checkedHeader(const std::string& bytes, std::size_t particleCount, const 
 
 std::string formatStateFile(const State& state) {
   Header header{};
-  std::memcpy(header.magic, MAGIC, sizeof header.magic);
-  header.version = VERSION;
+  std::memcpy(header.magic, fileMagic, sizeof header.magic);
+  header.version = fileVersion;
   header.integrator = static_cast<std::uint32_t>(state.integrator);
   header.particleCount = state.positions.size();
   header.step = state.step;

@@ -68,10 +68,13 @@ class Screen {
   Screen(int width, int height) {
     const std::string numberFile = (folder_ / "display").string();
     // The server chooses a free display by itself and writes its number to file descriptor 1.
+    // Without -noreset it would start afresh, and refuse connections meanwhile, whenever its last client
+    // leaves.
     server_ = std::make_unique<Process>(
         std::vector<std::string>{"sh", "-c",
-                                 "exec Xvfb -displayfd 1 -nolisten tcp -screen 0 " + std::to_string(width) +
-                                     "x" + std::to_string(height) + "x24 2>/dev/null"},
+                                 "exec Xvfb -displayfd 1 -nolisten tcp -noreset -screen 0 " +
+                                     std::to_string(width) + "x" + std::to_string(height) +
+                                     "x24 2>/dev/null"},
         numberFile);
     const bool up = eventually(seconds(20), [&] {
       std::error_code ignored;

@@ -11,7 +11,7 @@ using test::seconds;
 using test::ViewerProgram;
 
 // A small cloth in a small window: llvmpipe draws it on a busy machine, too.
-const char* const SCENE = "-f pinned2 --resolution 24x24";
+const char* const scene = "-f pinned2 --resolution 24x24";
 
 bool isClothRed(Picture::Pixel p) { return p.r > 60 && p.r > 2 * p.g && p.r > 2 * p.b; }
 bool isDark(Picture::Pixel p) { return p.r < 60 && p.g < 60 && p.b < 60; }
@@ -22,14 +22,14 @@ class ViewerUi : public testing::Test {
 };
 
 TEST_F(ViewerUi, ShowsTheClothInItsColourAndThePanelOfFacts) {
-  const ViewerProgram viewer(SCENE);
+  const ViewerProgram viewer(scene);
   const Picture picture = viewer.picture();
   EXPECT_GT(picture.share(0, 0, 1, 1, isClothRed), 0.03);
   EXPECT_LT(picture.share(0.9, 0, 1, 1, isClothRed), 0.5) << "the cloth is framed with room around it";
 }
 
 TEST_F(ViewerUi, NamesSceneAndBackendInTheTitleAndBChangesTheBackend) {
-  const ViewerProgram viewer(SCENE);
+  const ViewerProgram viewer(scene);
   EXPECT_NE(viewer.title().find("pinned2 - gpu - "), std::string::npos) << viewer.title();
   viewer.press("b");
   EXPECT_TRUE(viewer.titleBecomesOneWith("- cpu -")) << viewer.title();
@@ -38,7 +38,7 @@ TEST_F(ViewerUi, NamesSceneAndBackendInTheTitleAndBChangesTheBackend) {
 }
 
 TEST_F(ViewerUi, ChangesTheBackendWithoutMovingTheCloth) {
-  const ViewerProgram viewer(SCENE);
+  const ViewerProgram viewer(scene);
   viewer.press("F2");
   viewer.press("p");
   ASSERT_TRUE(viewer.titleBecomesOneWith("paused")) << viewer.title();
@@ -50,7 +50,7 @@ TEST_F(ViewerUi, ChangesTheBackendWithoutMovingTheCloth) {
 }
 
 TEST_F(ViewerUi, PStopsThePictureAndNMovesItOnByAFrame) {
-  const ViewerProgram viewer(SCENE);
+  const ViewerProgram viewer(scene);
   viewer.press("p");
   ASSERT_TRUE(viewer.titleBecomesOneWith("paused")) << viewer.title();
   const Picture before = viewer.stillPicture();
@@ -64,7 +64,7 @@ TEST_F(ViewerUi, PStopsThePictureAndNMovesItOnByAFrame) {
 }
 
 TEST_F(ViewerUi, RRestartsFromTheSameBeginning) {
-  const ViewerProgram viewer(SCENE);
+  const ViewerProgram viewer(scene);
   viewer.press("p");
   ASSERT_TRUE(viewer.titleBecomesOneWith("paused"));
   const Picture underWay = viewer.stillPicture();
@@ -78,7 +78,7 @@ TEST_F(ViewerUi, RRestartsFromTheSameBeginning) {
 }
 
 TEST_F(ViewerUi, MouseMovesTheCameraAndSpaceBringsItBack) {
-  const ViewerProgram viewer(SCENE);
+  const ViewerProgram viewer(scene);
   viewer.press("p");
   ASSERT_TRUE(viewer.titleBecomesOneWith("paused"));
   const Picture home = viewer.stillPicture();
@@ -97,7 +97,7 @@ TEST_F(ViewerUi, MouseMovesTheCameraAndSpaceBringsItBack) {
 }
 
 TEST_F(ViewerUi, F1ShowsTheListOfKeysAndF2HidesThePanel) {
-  const ViewerProgram viewer(SCENE);
+  const ViewerProgram viewer(scene);
   viewer.press("p");
   ASSERT_TRUE(viewer.titleBecomesOneWith("paused"));
   const auto darkCentre = [&] { return viewer.picture().share(0.3, 0.3, 0.7, 0.7, isDark); };
@@ -116,7 +116,7 @@ TEST_F(ViewerUi, F1ShowsTheListOfKeysAndF2HidesThePanel) {
 }
 
 TEST_F(ViewerUi, IChangesTheIntegratorThatThePanelNames) {
-  const ViewerProgram viewer(SCENE);
+  const ViewerProgram viewer(scene);
   viewer.press("p");
   ASSERT_TRUE(viewer.titleBecomesOneWith("paused"));
   const Picture verlet = viewer.stillPicture();
@@ -130,7 +130,7 @@ TEST_F(ViewerUi, IChangesTheIntegratorThatThePanelNames) {
 }
 
 TEST_F(ViewerUi, EscEndsItAtOnceWithExitCodeZeroAndNoFilesLeftBehind) {
-  ViewerProgram viewer(SCENE);
+  ViewerProgram viewer(scene);
   viewer.press("Escape");
   EXPECT_EQ(viewer.exitCodeWithin(seconds(5)), 0) << viewer.output();
   EXPECT_TRUE(viewer.leftNoFiles()) << "imgui.ini, perhaps";

@@ -5,7 +5,7 @@
 namespace clothsim {
 namespace {
 
-constexpr double FRAME = 1.0 / 90;  // CS184's frames_per_sec
+constexpr double frameSeconds = 1.0 / 90;  // CS184's frames_per_sec
 
 // Simulated frames after `count` displayed frames of `elapsed` seconds each.
 int framesAfter(Pace& pace, int count, double elapsed) {
@@ -17,20 +17,20 @@ int framesAfter(Pace& pace, int count, double elapsed) {
 // Ten seconds of wall time are ten seconds of simulated time, to a frame.
 TEST(Pace, RunsInRealTimeWhateverTheRateOfTheDisplay) {
   for (const int displayRate : {24, 30, 60, 90, 144, 1000}) {
-    Pace pace(FRAME);
+    Pace pace(frameSeconds);
     framesAfter(pace, displayRate, 1.0 / displayRate);  // a second to settle in
     EXPECT_NEAR(framesAfter(pace, 10 * displayRate, 1.0 / displayRate), 900, 1) << displayRate << " Hz";
   }
 }
 
 TEST(Pace, NeverSimulatesMoreThanAFewFramesAtOnce) {
-  Pace pace(FRAME);
-  for (int i = 0; i < 100; ++i) EXPECT_LE(pace.framesDue(i % 7 == 0 ? 3.0 : 0.02), Pace::MOST_FRAMES);
+  Pace pace(frameSeconds);
+  for (int i = 0; i < 100; ++i) EXPECT_LE(pace.framesDue(i % 7 == 0 ? 3.0 : 0.02), Pace::mostFramesAtOnce);
 }
 
 // A simulated frame costs 40 ms on this machine: asking for all that are due would take longer and longer.
 TEST(Pace, DoesNotSpiralWhenAFrameCostsMoreThanItSimulates) {
-  Pace pace(FRAME);
+  Pace pace(frameSeconds);
   double elapsed = 1.0 / 60;
   for (int i = 0; i < 50; ++i) {
     const int frames = pace.framesDue(elapsed);
@@ -42,7 +42,7 @@ TEST(Pace, DoesNotSpiralWhenAFrameCostsMoreThanItSimulates) {
 
 // Drawing takes 45 ms, simulating a frame 1 ms: a slow picture is no reason for slow cloth.
 TEST(Pace, KeepsRealTimeWhenOnlyTheDrawingIsSlow) {
-  Pace pace(FRAME);
+  Pace pace(frameSeconds);
   int frames = 0;
   double wall = 0;
   for (double elapsed = 0.045; wall < 10; wall += elapsed) {
@@ -51,11 +51,11 @@ TEST(Pace, KeepsRealTimeWhenOnlyTheDrawingIsSlow) {
     frames += now;
     elapsed = 0.045 + 0.001 * now;
   }
-  EXPECT_NEAR(frames, wall / FRAME, 5);
+  EXPECT_NEAR(frames, wall / frameSeconds, 5);
 }
 
 TEST(Pace, ForgetsWhatItMissedInsteadOfRushingAfterAStop) {
-  Pace pace(FRAME);
+  Pace pace(frameSeconds);
   framesAfter(pace, 60, 1.0 / 60);
   (void)pace.framesDue(30.0);  // the window was being dragged, say
   EXPECT_LE(framesAfter(pace, 60, 1.0 / 60), 91);

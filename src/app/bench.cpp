@@ -1,0 +1,105 @@
+#include "app/bench.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "app/simulation.h"
+#include "gl/framebuffer.h"
+#include "render/renderer.h"
+#include "scene/scene_io.h"
+
+namespace clothsim {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr int REPETITIONS = 7;
+constexpr double DEMO_FRAME = 1.0 / 30;  // [s]
+
+double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+double timeSteps(Solver& solver, int steps) {
+  const Clock::time_point start = Clock::now();
+  solver.step(steps);
+  solver.finish();
+  return secondsSince(start);
+}
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
+
+}  // namespace
+
+StepRate measureStepRate(const Scene& scene, const std::string& backend, double seconds) {
+  const Cloth cloth(scene);
+  const std::unique_ptr<Solver> solver = makeSolver(backend, cloth, scene);
+  timeSteps(*solver, 2);  // compiles on some drivers
+  const double once = std::max(1e-6, timeSteps(*solver, 4) / 4);
+  const int steps = std::clamp(static_cast<int>(seconds / REPETITIONS / once), 1, 20000);
+  std::vector<double> times;
+  for (int i = 0; i < REPETITIONS; ++i) times.push_back(timeSteps(*solver, steps) / steps);
+
+  StepRate rate;
+  rate.backend = backend;
+  rate.device = solver->device();
+  rate.columns = cloth.grids()[0].columns;
+  rate.rows = cloth.grids()[0].rows;
+  rate.limiter = scene.solver.strainLimit.has_value();
+  rate.repetitions = REPETITIONS;
+  rate.secondsPerStep = median(times);
+  rate.particleStepsPerSecond = cloth.particleCount() / rate.secondsPerStep;
+  if (auto* gpu = dynamic_cast<GpuSolver*>(solver.get())) {
+    const int timed = std::clamp(steps, 1, 20);
+    rate.passes = gpu->timePasses(timed);
+    for (PassTime& pass : rate.passes) pass.seconds /= timed;
+  }
+  return rate;
+}
+
+DemoRate measureDemo(int size, int width, int height) {
+  Scene scene = loadSceneByName("demo");
+  (void)changeResolution(scene, size, size, false);
+  Simulation simulation(scene, "gpu");
+  DemoRate rate;
+  rate.size = size;
+  const int steps = std::max(1, static_cast<int>(std::lround(DEMO_FRAME / stepLength(scene.solver))));
+  timeSteps(simulation.solver(), 2);
+  const int timed = std::min(steps, 64);
+  rate.simulationSeconds = timeSteps(simulation.solver(), timed) * steps / timed;
+  if (width == 0) return rate;
+
+  Renderer renderer(simulation.cloth(), scene, {});
+  const Camera camera(scene, simulation.cloth());
+  const gl::Framebuffer target("bench", {.width = width, .height = height, .color = GL_SRGB8_ALPHA8, .depth = GL_DEPTH_COMPONENT24});
+  const auto draw = [&] {
+    const Clock::time_point start = Clock::now();
+    renderer.draw(simulation.positionsBuffer(), camera, simulation.time(), target.name(), width, height);
+    simulation.finish();
+    return secondsSince(start);
+  };
+  draw();
+  rate.drawSeconds = median({draw(), draw(), draw()});
+  return rate;
+}
+
+DemoRate largestRealTimeDemo(int width, int height) {
+  constexpr int grain = 16;
+  DemoRate best;
+  int low = 0, high = 1;  // in grains; grows until one is too slow, then the gap is halved
+  const auto holds = [&](int grains) {
+    const DemoRate rate = measureDemo(grains * grain, width, height);
+    if (rate.perFrame() > DEMO_FRAME) return false;
+    best = rate;
+    return true;
+  };
+  while (high * grain <= 4096 && holds(high)) low = std::exchange(high, 2 * high);
+  while (high - low > 1) {
+    const int middle = (low + high) / 2;
+    (holds(middle) ? low : high) = middle;
+  }
+  return best;
+}
+
+}  // namespace clothsim

@@ -1,0 +1,91 @@
+#include <cstdio>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "app/bench.h"
+#include "app/commands.h"
+#include "gl/context.h"
+#include "scene/scene_io.h"
+
+namespace clothsim {
+namespace {
+
+nlohmann::ordered_json toJson(const StepRate& rate) {
+  nlohmann::ordered_json json{{"backend", rate.backend},
+                              {"device", rate.device},
+                              {"resolution", std::to_string(rate.columns) + "x" + std::to_string(rate.rows)},
+                              {"strain_limit", rate.limiter},
+                              {"repetitions", rate.repetitions},
+                              {"ms_per_step", rate.secondsPerStep * 1e3},
+                              {"particle_steps_per_second", rate.particleStepsPerSecond}};
+  for (const PassTime& pass : rate.passes) json["pass_ms"][pass.name] = pass.seconds * 1e3;
+  return json;
+}
+
+void print(const StepRate& rate) {
+  std::printf("%-4s %5dx%-5d %-8s %10.4f ms/step %9.1f M particle-steps/s", rate.backend.c_str(), rate.columns, rate.rows,
+              rate.limiter ? "limiter" : "", rate.secondsPerStep * 1e3, rate.particleStepsPerSecond * 1e-6);
+  for (const PassTime& pass : rate.passes) std::printf("   %s %.4f ms", pass.name.c_str(), pass.seconds * 1e3);
+  std::printf("\n");
+  std::fflush(stdout);
+}
+
+nlohmann::ordered_json toJson(const DemoRate& rate, int width, int height) {
+  return {{"size", rate.size},
+          {"drawn", width > 0 ? std::to_string(width) + "x" + std::to_string(height) : "not drawn"},
+          {"simulation_ms", rate.simulationSeconds * 1e3},
+          {"draw_ms", rate.drawSeconds * 1e3}};
+}
+
+// The largest demo in real time at 30 frames/s: alone, and drawn in a small and in the usual window.
+nlohmann::ordered_json benchDemo(bool print) {
+  nlohmann::ordered_json json;
+  for (const auto& [width, height] : {std::pair{0, 0}, std::pair{640, 360}, std::pair{1280, 720}}) {
+    const DemoRate rate = largestRealTimeDemo(width, height);
+    json.push_back(toJson(rate, width, height));
+    if (!print) continue;
+    const std::string drawn = width > 0 ? "drawn at " + std::to_string(width) + "x" + std::to_string(height) : "not drawn";
+    if (rate.size == 0)
+      std::printf("demo in real time at 30 frames/s, %s: none (16x16 is too slow)\n", drawn.c_str());
+    else
+      std::printf("demo in real time at 30 frames/s, %s: %dx%d (a 30th of a second takes %.1f ms to simulate, %.1f ms to draw)\n",
+                  drawn.c_str(), rate.size, rate.size, rate.simulationSeconds * 1e3, rate.drawSeconds * 1e3);
+    std::fflush(stdout);
+  }
+  return json;
+}
+
+}  // namespace
+
+int benchCommand(const BenchOptions& options) {
+  std::vector<GridSize> resolutions = options.resolutions;
+  if (resolutions.empty()) resolutions = {{64, 64}, {128, 128}, {256, 256}};
+  std::vector<std::string> backends = options.backends;
+  if (backends.empty()) backends = {"cpu", "gpu"};
+  const bool needsGpu = std::find(backends.begin(), backends.end(), "gpu") != backends.end();
+  std::optional<gl::HeadlessContext> context;
+  if (needsGpu) context.emplace();
+
+  nlohmann::ordered_json json;
+  json["scene"] = options.scene.scene;
+  for (const GridSize& resolution : resolutions) {
+    SceneOptions sceneOptions = options.scene;
+    sceneOptions.resolution = resolution;
+    sceneOptions.settings.push_back("solver.self_collision=false");
+    for (const bool limiter : {false, true}) {
+      Scene scene = loadScene(sceneOptions);
+      scene.solver.strainLimit = limiter ? std::optional(scene.solver.strainLimit.value_or(0.1)) : std::nullopt;
+      for (const std::string& backend : backends) {
+        const StepRate rate = measureStepRate(scene, backend, options.seconds);
+        json["steps"].push_back(toJson(rate));
+        if (!options.json) print(rate);
+      }
+    }
+  }
+  if (needsGpu) json["demo_real_time"] = benchDemo(!options.json);
+  if (options.json) std::cout << json.dump(2) << '\n';
+  return 0;
+}
+
+}  // namespace clothsim

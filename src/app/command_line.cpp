@@ -1,0 +1,194 @@
+// The command line of DESIGN.md section 5: argv in, options out.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <iostream>
+#include <regex>
+
+#include "app/commands.h"
+#include "app/viewer.h"
+#include "core/error.h"
+
+namespace clothsim {
+namespace {
+
+GridSize parseSize(const std::string& text, const char* flag) {
+  std::smatch match;
+  if (!std::regex_match(text, match, std::regex("([0-9]{1,5})[xX]([0-9]{1,5})")))
+    throw UsageError(std::string(flag) + " " + text + ": expected WIDTHxHEIGHT, as 512x512");
+  return {std::stoi(match[1]), std::stoi(match[2])};
+}
+
+// The flags as they arrive; each command takes the ones it declared.
+struct Arguments {
+  std::string scene = "pinned2", backend = "gpu", from, shader, size = "1280x720", key;
+  std::vector<std::string> settings, saves, outs, resolutions, backends;
+  int frames = 0, every = 1, around = 64, down = 48;
+  double fps = 30, seconds = 1;
+  bool json = false;
+
+  [[nodiscard]] SceneOptions sceneOptions() const {
+    SceneOptions options{.scene = scene, .resolution = std::nullopt, .settings = settings};
+    if (!resolutions.empty()) options.resolution = parseSize(resolutions.front(), "--resolution");
+    return options;
+  }
+};
+
+void addSceneFlags(CLI::App& app, Arguments& a, bool sceneRequired) {
+  CLI::Option* file = app.add_option("-f,--scene", a.scene, "a bundled scene's name, or a path (with a '/' or ending in .json)");
+  if (sceneRequired) file->required();
+  app.add_option("--set", a.settings, "set any key of the scene: --set cloth.damping=0.5 (see `clothsim describe`)")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
+void addResolution(CLI::App& app, Arguments& a) {
+  app.add_option("--resolution", a.resolutions, "rebuild the cloth's grid with this many points; pins keep their place")
+      ->type_name("WxH")
+      ->expected(1);
+}
+
+void addBackend(CLI::App& app, Arguments& a) {
+  app.add_option("--backend", a.backend, "gpu (compute shaders) or cpu: the same cloth to the bit")
+      ->check(CLI::IsMember({"gpu", "cpu"}))
+      ->capture_default_str();
+}
+
+void addFrames(CLI::App& app, Arguments& a) {
+  app.add_option("--frames", a.frames, "how many frames to simulate (solver.frames_per_sec of them make a second)")
+      ->required()
+      ->check(CLI::Range(0, 10'000'000));
+}
+
+void addSphereSegments(CLI::App& app, Arguments& a) {
+  app.add_option("-a,--sphere-around", a.around, "horizontal segments of drawn spheres")->check(CLI::Range(3, 1024));
+  app.add_option("-o,--sphere-down", a.down, "vertical segments of drawn spheres")->check(CLI::Range(2, 1024));
+}
+
+void addJson(CLI::App& app, Arguments& a) { app.add_flag("--json", a.json, "print one JSON object on stdout"); }
+
+using Action = std::function<int()>;
+
+void declareSimulationCommands(CLI::App& app, Arguments& a, Action& action) {
+  CLI::App* run = app.add_subcommand("run", "Simulate without a window, save states, and sum the run up in numbers");
+  addSceneFlags(*run, a, true);
+  addFrames(*run, a);
+  addResolution(*run, a);
+  addBackend(*run, a);
+  run->add_option("--save", a.saves, "write the state: .csv .ply .obj, or .state (exact); with %04d in the name every K-th frame")
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  run->add_option("--every", a.every, "K for numbered files")->check(CLI::Range(1, 1'000'000));
+  run->add_option("--from", a.from, "begin with a saved .state")->type_name("STATE");
+  addJson(*run, a);
+  run->footer("Example: clothsim run -f sphere --frames 300 --save drape.obj --json");
+  run->callback([&] {
+    action = [&] {
+      return runCommand({a.sceneOptions(), a.frames, a.backend, a.saves, a.every, a.from, a.json});
+    };
+  });
+
+  CLI::App* compare = app.add_subcommand("compare", "Run both backends side by side; exit code 0 when every bit agrees");
+  addSceneFlags(*compare, a, true);
+  addFrames(*compare, a);
+  addResolution(*compare, a);
+  addJson(*compare, a);
+  compare->footer("Example: clothsim compare -f pinned2 --frames 300");
+  compare->callback([&] { action = [&] { return compareCommand({a.sceneOptions(), a.frames, a.json}); }; });
+
+  CLI::App* bench = app.add_subcommand("bench", "Measure steps and passes on both backends, and the largest demo in real time");
+  addSceneFlags(*bench, a, false);
+  bench->add_option("--resolution", a.resolutions, "grid sizes to measure; may be repeated (64x64 128x128 256x256)")->type_name("WxH");
+  bench->add_option("--backend", a.backends, "gpu, cpu; may be repeated (both)")->check(CLI::IsMember({"gpu", "cpu"}));
+  bench->add_option("--seconds", a.seconds, "of measuring for each figure")->check(CLI::Range(0.01, 600.0));
+  addJson(*bench, a);
+  bench->footer("Steps are timed in 7 stretches; the median counts. Example: clothsim bench --resolution 256x256");
+  bench->callback([&] {
+    action = [&] {
+      BenchOptions options{{a.scene, std::nullopt, a.settings}, {}, a.backends, a.seconds, a.json};
+      for (const std::string& resolution : a.resolutions) options.resolutions.push_back(parseSize(resolution, "--resolution"));
+      return benchCommand(options);
+    };
+  });
+}
+
+void declareRender(CLI::App& app, Arguments& a, Action& action) {
+  CLI::App* render = app.add_subcommand("render", "Simulate and draw into pictures or a film, without a window");
+  addSceneFlags(*render, a, true);
+  addFrames(*render, a);
+  addResolution(*render, a);
+  addBackend(*render, a);
+  render->add_option("--out", a.outs, "still.png (the last frame), frame_%04d.png, clip.mp4 (needs ffmpeg); may be repeated")
+      ->required()
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  render->add_option("--size", a.size, "pixels")->type_name("WxH")->capture_default_str();
+  render->add_option("--every", a.every, "numbered pictures: every so many frames")->check(CLI::Range(1, 1'000'000));
+  render->add_option("--fps", a.fps, "pictures a second of a film, at most; it plays in real time")->check(CLI::Range(1.0, 1000.0));
+  render->add_option("--shader", a.shader, "shading model instead of the scene's own");
+  addSphereSegments(*render, a);
+  render->footer("Example: clothsim render -f demo --frames 240 --out clip.mp4");
+  render->callback([&] {
+    action = [&] {
+      const GridSize size = parseSize(a.size, "--size");
+      if (size.columns < 16 || size.rows < 16 || size.columns > 8192 || size.rows > 8192)
+        throw UsageError("--size " + a.size + ": expected 16x16 to 8192x8192 pixels");
+      return renderCommand({a.sceneOptions(), a.frames, a.backend, a.outs, size.columns, size.rows, a.every, a.fps, a.shader,
+                            a.around, a.down});
+    };
+  });
+}
+
+void declareInfoCommands(CLI::App& app, Arguments& a, Action& action) {
+  app.add_subcommand("scenes", "List the bundled scenes")->callback([&] { action = [] { return scenesCommand(); }; });
+
+  CLI::App* doctor = app.add_subcommand("doctor", "Show the OpenGL device and its limits, and test that CPU and GPU agree");
+  addJson(*doctor, a);
+  doctor->callback([&] { action = [&] { return doctorCommand(a.json); }; });
+
+  CLI::App* describe = app.add_subcommand("describe", "Explain every scene key: type, unit, range, default, meaning");
+  describe->add_option("key", a.key, "one key or group, as cloth.ks, cloth or damping");
+  describe->callback([&] { action = [&] { return describeCommand(a.key); }; });
+}
+
+void declareViewer(CLI::App& app, Arguments& a, Action& action) {
+  addSceneFlags(app, a, false);
+  addResolution(app, a);
+  addBackend(app, a);
+  addSphereSegments(app, a);
+  app.footer("Without a command: the viewer.\n\nKeys and mouse in the viewer:\n" + viewerKeysText() +
+             "\nExit codes: 0 done, 1 the simulation failed or differs, 2 wrong usage, 3 scene error,\n"
+             "            4 no usable OpenGL or no display, 5 input/output");
+  action = [&] {
+    runViewer(loadScene(a.sceneOptions()), {a.scene, a.backend, a.around, a.down});
+    return 0;
+  };
+}
+
+}  // namespace
+
+int runCommandLine(int argc, char** argv) {
+  CLI::App app{"clothsim: cloth on the GPU and the CPU, the same to the bit", "clothsim"};
+  app.set_version_flag("--version", "clothsim " CLOTHSIM_VERSION);
+  app.set_help_all_flag("--help-all", "help of all commands");
+  app.require_subcommand(0, 1);
+  Arguments arguments;
+  Action action;
+  declareViewer(app, arguments, action);
+  declareSimulationCommands(app, arguments, action);
+  declareRender(app, arguments, action);
+  declareInfoCommands(app, arguments, action);
+  try {
+    app.parse(argc, argv);
+    return action();
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::usage);
+  } catch (const Error& error) {
+    std::cerr << "clothsim: " << error.what() << '\n';
+    return static_cast<int>(error.exitCode());
+  } catch (const std::bad_alloc&) {
+    std::cerr << "clothsim: not enough memory for this cloth; use a smaller --resolution\n";
+    return static_cast<int>(ExitCode::failed);
+  }
+}
+
+}  // namespace clothsim

@@ -1,0 +1,120 @@
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+#include "app/commands.h"
+#include "app/simulation.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "core/progress.h"
+#include "export/export.h"
+#include "gl/context.h"
+#include "solver/measure.h"
+
+namespace clothsim {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+void checkSaves(const RunOptions& options) {
+  for (const std::string& save : options.saves)
+    if (!canSaveStateAs(save))
+      throw UsageError("--save " + save + ": the extension is none of .csv, .ply, .obj, .state");
+}
+
+void saveFrame(const RunOptions& options, const Simulation& simulation, const State& state, int frame) {
+  const bool last = frame == options.frames;
+  for (const std::string& save : options.saves) {
+    if (hasFrameNumber(save)) {
+      if (frame % options.every == 0) saveState(state, simulation.cloth(), numberedName(save, frame));
+    } else if (last) {
+      saveState(state, simulation.cloth(), save);
+    }
+  }
+}
+
+void checkFinite(const Measures& measures, const Simulation& simulation, int frame) {
+  if (!measures.firstNonFinite) return;
+  throw SimulationError("the simulation blew up: in frame " + std::to_string(frame) + " particle " +
+                        std::to_string(*measures.firstNonFinite) +
+                        " is no longer a finite number. The explicit step of " + std::to_string(stepLength(simulation.scene().solver)) +
+                        " s is too long for these springs: raise solver.simulation_steps or lower the stiffness.");
+}
+
+// What a run is summed up in; names as in DESIGN.md section 5.
+nlohmann::ordered_json summary(const RunOptions& options, const Scene& scene, Simulation& simulation, double seconds,
+                               const State& last, const Measures& atEnd, double peakStrain, double maxPenetration) {
+  const double steps = static_cast<double>(options.frames) * scene.solver.simulationSteps;
+  const double particles = simulation.cloth().particleCount();
+  nlohmann::ordered_json json;
+  json["scene"] = options.scene.scene;
+  json["backend"] = simulation.solver().backend();
+  json["device"] = simulation.solver().device();
+  json["particles"] = simulation.cloth().particleCount();
+  json["springs"] = simulation.cloth().springCount();
+  json["triangles"] = simulation.cloth().triangleCount();
+  json["frames"] = options.frames;
+  json["steps"] = static_cast<std::uint64_t>(steps);
+  json["dt"] = stepLength(scene.solver);
+  json["sim_seconds"] = steps * stepLength(scene.solver);
+  json["seconds"] = seconds;
+  json["particle_steps_per_second"] = seconds > 0 ? particles * steps / seconds : 0;
+  json["state_hash"] = hashText(stateHash(last));
+  json["max_strain"] = atEnd.maxStrain;
+  json["peak_strain"] = peakStrain;
+  json["min_y"] = atEnd.minY;
+  json["centroid"] = {atEnd.centroid.x, atEnd.centroid.y, atEnd.centroid.z};
+  json["kinetic_energy"] = measure(simulation.cloth(), scene, synchronized(simulation.cloth(), scene, last)).kineticEnergy;
+  json["max_penetration"] = maxPenetration;
+  json["finite"] = true;
+  json["self_collision"] = scene.solver.selfCollision ? "asked for, not part of this version" : "off";
+  return json;
+}
+
+void printForPeople(const nlohmann::ordered_json& json) {
+  for (const auto& [key, value] : json.items())
+    std::printf("%-26s %s\n", key.c_str(), value.is_string() ? value.get<std::string>().c_str() : value.dump().c_str());
+}
+
+}  // namespace
+
+int runCommand(const RunOptions& options) {
+  checkSaves(options);
+  const Scene scene = loadScene(options.scene);
+  std::optional<gl::HeadlessContext> context;
+  if (options.backend == "gpu") context.emplace();
+  Simulation simulation(scene, options.backend);
+  if (!options.from.empty()) simulation.solver().setState(loadState(options.from, simulation.cloth()));
+
+  State state = simulation.solver().state();
+  Measures measures = measure(simulation.cloth(), scene, state);
+  double seconds = 0, peakStrain = measures.maxStrain, maxPenetration = measures.maxPenetration;
+  saveFrame(options, simulation, state, 0);
+  Progress progress("simulating", options.frames);
+  for (int frame = 1; frame <= options.frames; ++frame) {
+    const Clock::time_point start = Clock::now();
+    simulation.stepFrame();
+    simulation.finish();
+    seconds += std::chrono::duration<double>(Clock::now() - start).count();
+    state = simulation.solver().state();
+    measures = measure(simulation.cloth(), scene, state);
+    checkFinite(measures, simulation, frame);
+    peakStrain = std::max(peakStrain, measures.maxStrain);
+    maxPenetration = std::max(maxPenetration, measures.maxPenetration);
+    saveFrame(options, simulation, state, frame);
+    progress.update(frame);
+  }
+  progress.finish();
+
+  const nlohmann::ordered_json json =
+      summary(options, scene, simulation, seconds, state, measures, peakStrain, maxPenetration);
+  if (options.json)
+    std::cout << json.dump(2) << '\n';
+  else
+    printForPeople(json);
+  return 0;
+}
+
+}  // namespace clothsim

@@ -1,0 +1,48 @@
+// A scene being simulated: its cloth, the solver on the chosen backend, and the clock in frames.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "cloth/cloth.h"
+#include "gl/buffer.h"
+#include "scene/scene.h"
+#include "solver/solver.h"
+
+namespace clothsim {
+
+// "gpu" or "cpu"; the GPU needs a current OpenGL context. @throws UsageError for another name, OpenGlError
+[[nodiscard]] std::unique_ptr<Solver> makeSolver(const std::string& backend, const Cloth& cloth, const Scene& scene);
+
+class Simulation {
+ public:
+  // @throws SceneError, UsageError, OpenGlError
+  Simulation(const Scene& scene, const std::string& backend);
+
+  [[nodiscard]] const Scene& scene() const { return scene_; }
+  [[nodiscard]] const Cloth& cloth() const { return cloth_; }
+  [[nodiscard]] Solver& solver() { return *solver_; }
+  [[nodiscard]] const Solver& solver() const { return *solver_; }
+  [[nodiscard]] double time() const;  // simulated [s]
+
+  void stepFrame() { solver_->step(scene_.solver.simulationSteps); }
+  void finish() { solver_->finish(); }
+  void restart();
+  // Live edits: everything but the cloths' grids.
+  void configure(const Scene& scene);
+  // Goes on from the same state, to the bit. @throws as makeSolver, leaving the old solver in place
+  void switchBackend(const std::string& backend);
+
+  // A vec4 a particle to draw from: the GPU solver's own, or the CPU's state uploaded once after each change.
+  [[nodiscard]] GLuint positionsBuffer();
+
+ private:
+  Scene scene_;
+  Cloth cloth_;
+  std::unique_ptr<Solver> solver_;
+  gl::Buffer<Particle4> uploaded_;
+  bool uploadIsCurrent_ = false;
+  std::uint64_t uploadedStep_ = 0;
+};
+
+}  // namespace clothsim

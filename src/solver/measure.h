@@ -1,0 +1,28 @@
+// Numbers about a state that a person can judge: how far springs are stretched, how fast the cloth moves, how deep it sits in
+// a collider. Computed on the host in double from a read-back.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "cloth/cloth.h"
+#include "solver/state.h"
+
+namespace clothsim {
+
+struct Measures {
+  double maxStrain = 0;       // largest l/L - 1 over enabled springs
+  double minY = 0;            // [m]
+  double kineticEnergy = 0;   // [J], of free particles, from the velocities as given
+  double maxPenetration = 0;  // [m], >= 0: into spheres, and across planes from the side a particle started on
+  Vec3d centroid;             // of all particles [m]
+  std::optional<std::uint32_t> firstNonFinite;  // lowest index of a particle with an infinity or NaN
+};
+
+[[nodiscard]] Measures measure(const Cloth& cloth, const Scene& scene, const State& state);
+
+// The same state with velocities of its own time: under `verlet` 1/2 (v(n-1/2) + v(n+1/2)), which energies are made of.
+[[nodiscard]] State synchronized(const Cloth& cloth, const Scene& scene, const State& state);
+
+}  // namespace clothsim
