@@ -1,29 +1,38 @@
 // Files read and written whole or not at all, and where the program finds its own shaders and assets.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <string_view>
 
 namespace clothsim {
 
-// @throws InputOutputError naming the path and the reason
-[[nodiscard]] std::string readFile(const std::filesystem::path& path);
+// Reads regular files only: a pipe or a device could keep the program waiting for ever.
+// @throws InputOutputError naming the path and the reason, also when the file is larger than `largest` bytes
+[[nodiscard]] std::string readFile(const std::filesystem::path& path, std::uintmax_t largest = UINTMAX_MAX);
 
-// Writes to a temporary name beside `path`, then renames: the old file stays until the new one is complete, and a failure
-// leaves no half file. @throws InputOutputError
+// Writes to a temporary name beside `path`, then renames: the old file stays until the new one is complete,
+// and a failure leaves no half file. @throws InputOutputError
 void writeFileAtomically(const std::filesystem::path& path, std::string_view bytes);
 
-// Temporary name beside `path` for writers that stream (video): same folder, same extension, unlikely to exist.
+// Temporary name beside `path` for writers that stream (video): same folder, same extension, unlikely to
+// exist.
 [[nodiscard]] std::filesystem::path temporaryNameBeside(const std::filesystem::path& path);
 
-// "frame_%04d.png" with 7 -> "frame_0007.png". Only %d and %0Nd are understood; hasFrameNumber tells whether one is there.
+// "frame_%04d.png" with 7 -> "frame_0007.png". Only the first %d or %0Nd is understood;
+// hasFrameNumber tells whether there is one.
 [[nodiscard]] bool hasFrameNumber(const std::string& pattern);
 [[nodiscard]] std::string numberedName(const std::string& pattern, int frame);
 
-// The folder that holds shaders/ and assets/: $CLOTHSIM_ROOT, else beside the executable or one of the folders above it,
-// else the source tree it was built from. @throws InputOutputError when none has them
+// The folder that holds shaders/ and assets/: $CLOTHSIM_ROOT, else beside the executable or one of the
+// folders above it, else the source tree it was built from. @throws InputOutputError when none has them
 [[nodiscard]] const std::filesystem::path& resourceRoot();
+
+// The same search from given places; `fromEnvironment` may be null. Beside a folder, <folder>/share/clothsim
+// counts, too.
+[[nodiscard]] std::filesystem::path findResourceRoot(const char* fromEnvironment,
+                                                     const std::filesystem::path& executableFolder,
+                                                     const std::filesystem::path& sourceRoot);
 
 }  // namespace clothsim

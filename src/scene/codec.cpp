@@ -1,0 +1,253 @@
+// The JSON forms of single values.
+#include "scene/codec.h"
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "core/nearest.h"
+
+namespace clothsim {
+
+namespace {
+
+// Larger numbers overflow when binary32 squares them; smaller ones vanish in it.
+constexpr double largestNumber = 1e15, smallestNumber = 1e-20;
+
+template <class Enum>
+using Words = std::array<std::pair<std::string_view, Enum>, 2>;
+
+constexpr Words<Orientation> orientations{
+    {{"horizontal", Orientation::horizontal}, {"vertical", Orientation::vertical}}};
+constexpr Words<Integrator> integrators{{{"verlet", Integrator::verlet}, {"euler", Integrator::euler}}};
+constexpr std::array<std::pair<std::string_view, GridSide>, 4> sides{{{"top", GridSide::top},
+                                                                      {"bottom", GridSide::bottom},
+                                                                      {"left", GridSide::left},
+                                                                      {"right", GridSide::right}}};
+
+template <class Table>
+std::vector<std::string> wordsOf(const Table& table) {
+  std::vector<std::string> words;
+  for (const auto& [word, value] : table) words.emplace_back(word);
+  return words;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : ", ") + word;
+  return text;
+}
+
+template <class Table>
+auto readWord(const JsonNode& node, const Table& table, const std::string& expected) {
+  if (node.kind == JsonKind::string) {
+    for (const auto& [word, value] : table)
+      if (word == node.text) return value;
+    complain(node,
+             "expected " + expected + ", found " + foundText(node) + didYouMean(node.text, wordsOf(table)));
+  }
+  complainExpected(node, expected);
+}
+
+template <class Table, class Enum>
+JsonPointer writeWord(const Table& table, Enum wanted) {
+  for (const auto& [word, value] : table)
+    if (value == wanted) return makeString(word);
+  return makeString("");
+}
+
+// "a number > 0", "a whole number from 2 to 16384"
+std::string numberText(const Limits& limits, const std::string& noun) {
+  const std::string text = limits.nonZero ? "" : limitsText(limits);
+  if (text.empty()) return noun;
+  return noun + (text.find(" to ") != std::string::npos ? " from " : " ") + text;
+}
+
+bool within(const Limits& limits, double value) {
+  return value <= limits.high && (limits.lowOpen ? value > limits.low : value >= limits.low);
+}
+
+void checkNumber(const JsonNode& node, const Limits& limits, const std::string& expected) {
+  if (node.kind != JsonKind::number || !within(limits, node.number)) complainExpected(node, expected);
+  const double size = std::abs(node.number);
+  if (size > largestNumber) complainExpected(node, "a number of at most 1e15");
+  if (size != 0 && size < smallestNumber) complainExpected(node, "0, or a number of at least 1e-20");
+}
+
+const FieldTraits anyNumber{.key = "", .help = ""};
+
+}  // namespace
+
+void readValue(const JsonNode& node, const FieldTraits&, bool& target) {
+  if (node.kind != JsonKind::boolean) complainExpected(node, "true or false");
+  target = node.boolean;
+}
+
+void readValue(const JsonNode& node, const FieldTraits& traits, int& target) {
+  const std::string expected = numberText(traits.limits, "a whole number");
+  if (node.kind != JsonKind::number || node.number != std::floor(node.number))
+    complainExpected(node, expected);
+  if (!within(traits.limits, node.number)) complainExpected(node, expected);
+  if (std::abs(node.number) > std::numeric_limits<int>::max())
+    complainExpected(node, expected + " of at most " + std::to_string(std::numeric_limits<int>::max()));
+  target = static_cast<int>(node.number);
+}
+
+void readValue(const JsonNode& node, const FieldTraits& traits, double& target) {
+  checkNumber(node, traits.limits, numberText(traits.limits, "a number"));
+  target = node.number;
+}
+
+void readValue(const JsonNode& node, const FieldTraits&, std::string& target) {
+  if (node.kind != JsonKind::string) complainExpected(node, "a string in double quotes");
+  target = node.text;
+}
+
+void readValue(const JsonNode& node, const FieldTraits& traits, Vec3d& target) {
+  const bool isColor = traits.format == Format::color;
+  const std::string expected =
+      isColor ? "three numbers from 0 to 1, [r, g, b]" : std::string("three numbers, ") + "[x, y, z]";
+  if (node.kind != JsonKind::list || node.children.size() != 3) complainExpected(node, expected);
+  double* const components[] = {&target.x, &target.y, &target.z};
+  for (std::size_t i = 0; i < 3; ++i) {
+    checkNumber(*node.children[i], traits.limits, numberText(traits.limits, "a number"));
+    *components[i] = node.children[i]->number;
+  }
+  if (traits.limits.nonZero && target == Vec3d{})
+    complain(node, "expected a direction other than [0, 0, 0], found zeros");
+}
+
+void readValue(const JsonNode& node, const FieldTraits&, Orientation& target) {
+  const std::string expected = "0 or \"horizontal\", 1 or \"vertical\"";
+  if (node.kind == JsonKind::number && (node.number == 0 || node.number == 1))
+    target = node.number == 0 ? Orientation::horizontal : Orientation::vertical;
+  else
+    target = readWord(node, orientations, expected);
+}
+
+void readValue(const JsonNode& node, const FieldTraits&, Integrator& target) {
+  target = readWord(node, integrators, "one of " + joined(wordsOf(integrators)));
+}
+
+void readValue(const JsonNode& node, const FieldTraits& traits, GridPoint& target) {
+  if (node.kind != JsonKind::list || node.children.size() != 2)
+    complainExpected(node, "a pair [column, row] of whole numbers");
+  readValue(*node.children[0], traits, target.column);
+  readValue(*node.children[1], traits, target.row);
+}
+
+void readValue(const JsonNode& node, const FieldTraits&, Range& target) {
+  if (node.kind != JsonKind::list || node.children.size() != 2)
+    complainExpected(node, "two numbers, [low, high]");
+  readValue(*node.children[0], anyNumber, target.low);
+  readValue(*node.children[1], anyNumber, target.high);
+  if (target.low > target.high)
+    complain(node, "expected [low, high] with low <= high, found " + formatJsonLine(node));
+}
+
+void readValue(const JsonNode& node, const FieldTraits& traits, Pin& target) {
+  GridPoint point;
+  GridRange range;
+  switch (node.kind) {
+    case JsonKind::list:
+      readValue(node, traits, point);
+      target = point;
+      break;
+    case JsonKind::object:
+      readObject(node, range);
+      target = range;
+      break;
+    default:
+      target = readWord(node, sides,
+                        "[column, row], \"top\", \"bottom\", \"left\", \"right\", or "
+                        "{\"from\": [column, row], \"to\": [column, row]}");
+  }
+}
+
+void readValue(const JsonNode& node, const FieldTraits&, Collider& target) {
+  expectObject(node);
+  const std::array<std::pair<std::string_view, Collider>, 2> types{
+      {{"sphere", Sphere{}}, {"plane", Plane{}}}};
+  const std::string expected = "one of " + joined(wordsOf(types));
+  const JsonNode* type = node.find("type");
+  if (type == nullptr) complain(node, "the collider needs the key \"type\": " + expected);
+  target = readWord(*type, types, expected);
+  std::visit([&](auto& shape) { readObject(node, shape, {"type"}); }, target);
+}
+
+void readValue(const JsonNode& node, const FieldTraits& traits, std::optional<double>& target) {
+  const bool orFalse = traits.format == Format::orFalse;
+  if (orFalse && node.kind == JsonKind::boolean && !node.boolean) {
+    target.reset();
+    return;
+  }
+  checkNumber(node, traits.limits, (orFalse ? "false or " : "") + numberText(traits.limits, "a number"));
+  target = node.number;
+}
+
+JsonPointer writeValue(const FieldTraits&, bool value) { return makeBoolean(value); }
+JsonPointer writeValue(const FieldTraits&, int value) { return makeNumber(value); }
+JsonPointer writeValue(const FieldTraits&, double value) { return makeNumber(value); }
+JsonPointer writeValue(const FieldTraits&, const std::string& value) { return makeString(value); }
+JsonPointer writeValue(const FieldTraits&, Vec3d value) { return makeVector(value); }
+JsonPointer writeValue(const FieldTraits&, Orientation value) { return writeWord(orientations, value); }
+JsonPointer writeValue(const FieldTraits&, Integrator value) { return writeWord(integrators, value); }
+
+JsonPointer writeValue(const FieldTraits&, GridPoint value) {
+  JsonPointer pair = makeList();
+  pair->append("", makeNumber(value.column));
+  pair->append("", makeNumber(value.row));
+  return pair;
+}
+
+JsonPointer writeValue(const FieldTraits&, const Range& value) {
+  JsonPointer pair = makeList();
+  pair->append("", makeNumber(value.low));
+  pair->append("", makeNumber(value.high));
+  return pair;
+}
+
+JsonPointer writeValue(const FieldTraits& traits, const Pin& value) {
+  if (const auto* side = std::get_if<GridSide>(&value)) return writeWord(sides, *side);
+  if (const auto* range = std::get_if<GridRange>(&value)) return writeObject(*range, GridRange{});
+  return writeValue(traits, std::get<GridPoint>(value));
+}
+
+JsonPointer writeValue(const FieldTraits&, const Collider& value) {
+  JsonPointer node = makeObject();
+  node->append("type", makeString(std::holds_alternative<Sphere>(value) ? "sphere" : "plane"));
+  JsonPointer members = std::visit(
+      [](const auto& shape) { return writeObject(shape, std::remove_cvref_t<decltype(shape)>{}); }, value);
+  for (auto& member : members->children) {
+    std::string key = member->key;
+    node->append(std::move(key), std::move(member));
+  }
+  return node;
+}
+
+JsonPointer writeValue(const FieldTraits&, const std::optional<double>& value) {
+  return value ? makeNumber(*value) : makeBoolean(false);
+}
+
+std::string typeName(const FieldTraits&, const bool&) { return "boolean"; }
+std::string typeName(const FieldTraits&, const int&) { return "integer"; }
+std::string typeName(const FieldTraits&, const double&) { return "number"; }
+std::string typeName(const FieldTraits&, const std::string&) { return "string"; }
+std::string typeName(const FieldTraits& traits, const Vec3d&) {
+  return traits.format == Format::color ? "[r, g, b]" : "[x, y, z]";
+}
+std::string typeName(const FieldTraits&, const Orientation&) { return "one of 0 (horizontal), 1 (vertical)"; }
+std::string typeName(const FieldTraits&, const Integrator&) {
+  return "one of " + joined(wordsOf(integrators));
+}
+std::string typeName(const FieldTraits&, const GridPoint&) { return "[column, row]"; }
+std::string typeName(const FieldTraits&, const Range&) { return "[low, high]"; }
+std::string typeName(const FieldTraits&, const Pin&) {
+  return "[column, row], " + joined(wordsOf(sides)) + ", or {from, to}";
+}
+std::string typeName(const FieldTraits&, const Collider&) { return "object"; }
+std::string typeName(const FieldTraits& traits, const std::optional<double>&) {
+  return traits.format == Format::orFalse ? "false or number" : "number";
+}
+
+}  // namespace clothsim

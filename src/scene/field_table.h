@@ -1,0 +1,111 @@
+// One entry a scene key: everything that is known about it apart from the value. JSON reading and writing,
+// --set, describe and the panels of the viewer walk over these tables. The codecs (codec.h) know how a type
+// looks in JSON.
+#pragma once
+
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "scene/scene.h"
+
+namespace clothsim {
+
+// What a number may be. In a vector it holds for each component.
+struct Limits {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool lowOpen = false;  // low itself is not allowed
+  bool nonZero = false;  // a vector other than [0, 0, 0]
+};
+
+// "> 0", "0 to 1", "" for any.
+[[nodiscard]] std::string limitsText(const Limits& limits);
+
+// How a value is written where its C++ type leaves a choice.
+enum class Format { plain, color, orFalse };
+
+// When a change takes effect: in the next step, or by building the cloth anew.
+enum class Change { live, rebuild };
+
+// Whether a key must be there (and is always written), is always written, or is left out at its default.
+enum class Presence { optional, written, required };
+
+struct FieldTraits {
+  std::string_view key;
+  std::string_view help;
+  std::string_view unit{};
+  Limits limits{};
+  Change change = Change::live;
+  Format format = Format::plain;
+  Presence presence = Presence::optional;
+  std::string_view defaultText{};  // where the default depends on the scene
+};
+
+// All types that a scene's members have.
+template <class Owner>
+using Member =
+    std::variant<bool Owner::*, int Owner::*, double Owner::*, std::string Owner::*, Vec3d Owner::*,
+                 Orientation Owner::*, Integrator Owner::*, GridPoint Owner::*, std::vector<Pin> Owner::*,
+                 std::optional<double> Owner::*, std::optional<Vec3d> Owner::*, std::optional<Range> Owner::*,
+                 std::vector<Motion::Key> Owner::*, std::optional<Motion> Owner::*,
+                 std::vector<ClothSettings> Owner::*, std::vector<Collider> Owner::*,
+                 std::optional<Wind> Owner::*, Gust Owner::*, SolverSettings Owner::*,
+                 CameraSettings Owner::*, RenderSettings Owner::*, std::optional<Expect> Owner::*>;
+
+template <class Owner>
+struct Field : FieldTraits {
+  Member<Owner> member;
+};
+
+// The table of a struct; a type that has one is a JSON object.
+template <class Owner>
+[[nodiscard]] std::span<const Field<Owner>> fieldsOf() = delete;
+
+template <>
+std::span<const Field<Scene>> fieldsOf<Scene>();
+template <>
+std::span<const Field<ClothSettings>> fieldsOf<ClothSettings>();
+template <>
+std::span<const Field<GridRange>> fieldsOf<GridRange>();
+template <>
+std::span<const Field<Sphere>> fieldsOf<Sphere>();
+template <>
+std::span<const Field<Plane>> fieldsOf<Plane>();
+template <>
+std::span<const Field<Motion>> fieldsOf<Motion>();
+template <>
+std::span<const Field<Motion::Key>> fieldsOf<Motion::Key>();
+template <>
+std::span<const Field<Wind>> fieldsOf<Wind>();
+template <>
+std::span<const Field<Gust>> fieldsOf<Gust>();
+template <>
+std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>();
+template <>
+std::span<const Field<CameraSettings>> fieldsOf<CameraSettings>();
+template <>
+std::span<const Field<RenderSettings>> fieldsOf<RenderSettings>();
+template <>
+std::span<const Field<Expect>> fieldsOf<Expect>();
+
+template <class T>
+concept HasFields = requires {
+  fieldsOf<T>();
+};
+
+// CS184's stiffness, when a cloth names none [N/m].
+inline constexpr double defaultKs = 5000;
+inline constexpr int smallestSide = 2, largestSide = 16384;
+inline constexpr double mostParticles = 67'108'864;  // 2^26, of all cloths together
+inline constexpr int mostSteps = 1'000'000;          // a frame
+
+// Scenes with `ks` get CS184's limiter and self-collision unless they say otherwise.
+[[nodiscard]] SolverSettings solverDefaults(bool usesKs);
+// Whether some cloth follows CS184's model. A cloth with neither constant does: the reader gives it
+// defaultKs.
+[[nodiscard]] bool usesKs(const Scene& scene);
+
+}  // namespace clothsim

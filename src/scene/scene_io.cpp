@@ -1,0 +1,113 @@
+// Scenes in and out of files.
+#include "scene/scene_io.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/nearest.h"
+#include "scene/scene_tree.h"
+
+namespace clothsim {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::uintmax_t largestFile = 16 * 1024 * 1024;
+
+// "cloth.json:12: cloth.ks: expected ..."; with a column only where the syntax is wrong.
+std::string located(const std::string& source, const JsonComplaint& complaint) {
+  std::string text = source;
+  if (complaint.line > 0) text += ":" + std::to_string(complaint.line);
+  if (complaint.column > 0) text += ":" + std::to_string(complaint.column);
+  if (!complaint.path.empty()) text += ": " + complaint.path;
+  return text + ": " + complaint.what();
+}
+
+std::vector<std::string> sceneNamesIn(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code ignored;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
+    if (entry.path().extension() == ".json") names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+fs::path bundledFolder() { return resourceRoot() / "assets" / "scenes"; }
+
+bool isPath(const std::string& nameOrPath) {
+  return nameOrPath.find('/') != std::string::npos || nameOrPath.ends_with(".json");
+}
+
+}  // namespace
+
+Scene parseScene(std::string_view text, const std::string& source) {
+  try {
+    const JsonPointer root = parseJson(text);
+    gatherLists(*root);
+    return readScene(*root);
+  } catch (const JsonComplaint& complaint) {
+    throw SceneError(located(source, complaint));
+  }
+}
+
+Scene loadScene(const fs::path& path) {
+  std::error_code ignored;
+  if (!fs::exists(fs::symlink_status(path, ignored)) && !ignored) {
+    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    throw SceneError(path.string() + ": no such file" +
+                     didYouMean(path.filename().string(), sceneNamesIn(folder)));
+  }
+  std::string text;
+  try {
+    text = readFile(path, largestFile);
+  } catch (const InputOutputError& error) {
+    throw SceneError(error.what());
+  }
+  return parseScene(text, path.string());
+}
+
+Scene loadSceneByName(const std::string& nameOrPath) {
+  if (isPath(nameOrPath)) return loadScene(nameOrPath);
+  const fs::path path = bundledFolder() / (nameOrPath + ".json");
+  if (fs::exists(path)) return loadScene(path);
+  std::vector<std::string> names;
+  for (const std::string& file : sceneNamesIn(bundledFolder()))
+    names.push_back(fs::path(file).stem().string());
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
+  throw SceneError("no bundled scene is called \"" + nameOrPath + "\"" + didYouMean(nameOrPath, names) +
+                   "\nbundled scenes: " + list + "\na scene of your own is given by its path, such as ./" +
+                   nameOrPath + ".json");
+}
+
+std::string formatScene(const Scene& scene) {
+  const JsonPointer root = writeScene(scene);
+  // A single cloth is written as in CS184's files.
+  JsonNode& cloths = *root->find("cloths");
+  if (cloths.children.size() == 1) {
+    JsonPointer cloth = std::move(cloths.children.front());
+    cloth->key = "cloth";
+    cloth->parent = root.get();
+    for (auto& member : root->children)
+      if (member->key == "cloths") {
+        member = std::move(cloth);
+        break;
+      }
+  }
+  return formatJson(*root);
+}
+
+void saveScene(const Scene& scene, const fs::path& path) { writeFileAtomically(path, formatScene(scene)); }
+
+std::vector<BundledScene> bundledScenes() {
+  std::vector<BundledScene> scenes;
+  for (const std::string& file : sceneNamesIn(bundledFolder())) {
+    const fs::path path = bundledFolder() / file;
+    scenes.push_back({path.stem().string(), loadScene(path).description, path});
+  }
+  return scenes;
+}
+
+}  // namespace clothsim

@@ -1,0 +1,96 @@
+// The scene's own rules on top of the field table: CS184's single objects, defaults that follow the model,
+// limits that concern all cloths together.
+#include "scene/scene_tree.h"
+
+#include <algorithm>
+
+#include "scene/codec.h"
+
+namespace clothsim {
+
+namespace {
+
+// Puts `member` of the root at `place` of the list, which is made if there is none. The member keeps the root
+// as parent.
+void moveIntoList(JsonNode& root, std::string_view key, std::string_view listKey, std::size_t place) {
+  const auto at = std::find_if(root.children.begin(), root.children.end(),
+                               [&](const auto& child) { return child->key == key; });
+  JsonPointer member = std::move(*at);
+  root.children.erase(at);
+  JsonNode* list = root.find(listKey);
+  if (list == nullptr) {
+    list = &root.append(std::string(listKey), makeList());
+    list->line = member->line;
+  }
+  list->children.insert(list->children.begin() + static_cast<std::ptrdiff_t>(place), std::move(member));
+}
+
+void gatherCollider(JsonNode& root, const std::string& type) {
+  JsonNode* member = root.find(type);
+  if (member == nullptr) return;
+  expectObject(*member);
+  if (const JsonNode* given = member->find("type"))
+    complain(*given, "unknown key; only entries of the list \"colliders\" have a type");
+  if (const JsonNode* list = root.find("colliders"); list != nullptr && list->kind != JsonKind::list)
+    complainExpected(*list, "a list of colliders");
+  member->append("type", makeString(type));
+  moveIntoList(root, type, "colliders", 0);
+}
+
+// Known before the cloths are read, so that the solver's keys are read over the right defaults.
+bool treeUsesKs(const JsonNode& root) {
+  const JsonNode* cloths = root.find("cloths");
+  return cloths != nullptr &&
+         std::any_of(cloths->children.begin(), cloths->children.end(),
+                     [](const auto& cloth) { return cloth->find("stiffness_reference") == nullptr; });
+}
+
+void checkSchema(const JsonNode& root, const std::string& schema) {
+  const std::string known = Scene{}.schema;
+  if (schema != known)
+    complain(*root.find("schema"),
+             "unknown version \"" + schema + "\" of the scene format; this program reads \"" + known + "\"");
+}
+
+void checkCloths(const JsonNode& root, const std::vector<ClothSettings>& cloths) {
+  const JsonNode& list = *root.find("cloths");
+  if (cloths.empty()) complain(list, "expected at least one cloth, found an empty list");
+  double particles = 0;
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    particles += static_cast<double>(cloths[i].numWidthPoints) * cloths[i].numHeightPoints;
+    if (particles > mostParticles)
+      complain(*list.children[i], "expected at most " + formatNumber(mostParticles) +
+                                      " particles in all cloths together, found " + formatNumber(particles));
+  }
+}
+
+}  // namespace
+
+void gatherLists(JsonNode& root) {
+  expectObject(root);
+  if (const JsonNode* cloth = root.find("cloth")) {
+    if (root.find("cloths") != nullptr)
+      complain(*cloth, "found both \"cloth\" and \"cloths\", expected one of them");
+    expectObject(*cloth);
+    moveIntoList(root, "cloth", "cloths", 0);
+  }
+  gatherCollider(root, "sphere");
+  gatherCollider(root, "plane");  // comes to stand before the sphere
+}
+
+Scene readScene(const JsonNode& root) {
+  Scene scene;
+  scene.solver = solverDefaults(treeUsesKs(root));
+  readObject(root, scene, {"cloth", "plane", "sphere"});
+  checkSchema(root, scene.schema);
+  checkCloths(root, scene.cloths);
+  return scene;
+}
+
+JsonPointer writeScene(const Scene& scene) {
+  Scene defaults;
+  defaults.solver = solverDefaults(usesKs(scene));
+  return writeObject(scene, defaults);
+}
+
+}  // namespace clothsim

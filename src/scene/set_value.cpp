@@ -1,0 +1,163 @@
+// --set key=value: the scene is written to a tree, the tree is changed at the key, and read again with every
+// check.
+#include <algorithm>
+#include <charconv>
+#include <optional>
+
+#include "core/error.h"
+#include "core/nearest.h"
+#include "scene/codec.h"
+#include "scene/scene_io.h"
+#include "scene/scene_tree.h"
+
+namespace clothsim {
+
+namespace {
+
+using Steps = std::vector<std::string>;
+
+Steps split(const std::string& path) {
+  Steps steps(1);
+  for (const char c : path) {
+    if (c == '.')
+      steps.emplace_back();
+    else
+      steps.back() += c;
+  }
+  return steps;
+}
+
+// The text as JSON if it is that, else as a string.
+JsonPointer parseValue(const std::string& text) {
+  JsonPointer value;
+  try {
+    value = parseJson(text);
+  } catch (const JsonComplaint&) {
+    value = makeString(text);
+    // Round the escaped text: a bare word must be valid UTF-8 like any other string.
+    value = parseJson(formatJsonLine(*value));
+  }
+  return value;
+}
+
+void forgetLines(JsonNode& node) {
+  node.line = 0;
+  for (const auto& child : node.children) forgetLines(*child);
+}
+
+// The place of the first collider of that type; their number if there is none.
+std::size_t firstCollider(const JsonNode& colliders, const std::string& type) {
+  const auto at = std::find_if(colliders.children.begin(), colliders.children.end(),
+                               [&](const auto& collider) { return collider->find("type")->text == type; });
+  return static_cast<std::size_t>(at - colliders.children.begin());
+}
+
+// "cloth" to "cloths.0", "sphere" to the first sphere of "colliders". `sphere={...}` adds one where there is
+// none.
+Steps resolveAliases(Steps steps, JsonNode& root, JsonNode& value) {
+  if (steps.front() == "cloth") {
+    steps.front() = "cloths";
+    steps.insert(steps.begin() + 1, "0");
+  } else if (steps.front() == "sphere" || steps.front() == "plane") {
+    const std::string type = steps.front();
+    JsonNode* colliders = root.find("colliders");
+    if (colliders == nullptr) colliders = &root.append("colliders", makeList());
+    const std::size_t place = firstCollider(*colliders, type);
+    if (place == colliders->children.size()) {
+      if (steps.size() > 1 || value.kind == JsonKind::null) {
+        throw JsonComplaint(0, 0, "", "the scene has no " + type + "; add one with --set '" + type + "={}'");
+      }
+      colliders->append("", makeObject());
+    }
+    if (steps.size() == 1 && value.kind == JsonKind::object && value.find("type") == nullptr)
+      value.append("type", makeString(type));
+    steps.front() = "colliders";
+    steps.insert(steps.begin() + 1, std::to_string(place));
+  }
+  return steps;
+}
+
+std::size_t listPlace(const JsonNode& list, const std::string& step) {
+  std::size_t place = 0;
+  const auto [end, code] = std::from_chars(step.data(), step.data() + step.size(), place);
+  const std::size_t size = list.children.size();
+  if (code != std::errc() || end != step.data() + step.size() || place >= size)
+    complain(list,
+             "expected the number of an entry, " +
+                 (size == 0 ? std::string("but the list is empty") : "0 to " + std::to_string(size - 1)) +
+                 ", found \"" + step + "\"");
+  return place;
+}
+
+void replace(JsonNode& parent, const std::string& step, JsonPointer value) {
+  if (parent.kind == JsonKind::list) {
+    JsonPointer& child = parent.children[listPlace(parent, step)];
+    value->parent = &parent;
+    child = std::move(value);
+    return;
+  }
+  std::erase_if(parent.children, [&](const auto& child) { return child->key == step; });
+  parent.append(step, std::move(value));
+}
+
+// `null` takes a key back to its default, or an entry out of its list.
+void erase(JsonNode& parent, const std::string& step) {
+  if (parent.kind == JsonKind::list)
+    parent.children.erase(parent.children.begin() + static_cast<std::ptrdiff_t>(listPlace(parent, step)));
+  else
+    std::erase_if(parent.children, [&](const auto& child) { return child->key == step; });
+}
+
+// Goes one step down, making the object if the writer had left it out.
+JsonNode& descend(JsonNode& node, const std::string& step) {
+  if (node.kind == JsonKind::list) return *node.children[listPlace(node, step)];
+  if (node.kind != JsonKind::object) complainExpected(node, "an object that has the key \"" + step + "\"");
+  if (JsonNode* child = node.find(step)) return *child;
+  return node.append(step, makeObject());
+}
+
+void setAt(JsonNode& root, const Steps& steps, JsonPointer value) {
+  // In a file comments are passed over; here one would be a change without effect.
+  for (const std::string& step : steps)
+    if (step.empty() || isComment(step))
+      throw JsonComplaint(0, 0, "", "\"" + step + "\" is not a key that can be set");
+  JsonNode* node = &root;
+  for (std::size_t i = 0; i + 1 < steps.size(); ++i) node = &descend(*node, steps[i]);
+  if (node->kind != JsonKind::list && node->kind != JsonKind::object)
+    complainExpected(*node, "an object that has the key \"" + steps.back() + "\"");
+  if (value->kind == JsonKind::null)
+    erase(*node, steps.back());
+  else
+    replace(*node, steps.back(), std::move(value));
+}
+
+// Messages name the key as it was typed, not "cloths.0".
+std::string asTyped(std::string path, const Steps& typed, const Steps& resolved) {
+  if (typed.size() == resolved.size()) return path;
+  const std::string prefix = resolved[0] + "." + resolved[1];
+  if (path == prefix || path.starts_with(prefix + ".")) path.replace(0, prefix.size(), typed[0]);
+  return path;
+}
+
+}  // namespace
+
+void setSceneValue(Scene& scene, const std::string& keyEqualsValue) {
+  const std::size_t equals = keyEqualsValue.find('=');
+  if (equals == std::string::npos || equals == 0)
+    throw UsageError("--set " + keyEqualsValue + ": expected key=value, such as cloth.damping=0.5");
+  const Steps typed = split(keyEqualsValue.substr(0, equals));
+  Steps resolved = typed;
+  try {
+    JsonPointer value = parseValue(keyEqualsValue.substr(equals + 1));
+    forgetLines(*value);
+    const JsonPointer root = writeScene(scene);
+    resolved = resolveAliases(typed, *root, *value);
+    setAt(*root, resolved, std::move(value));
+    scene = readScene(*root);
+  } catch (const JsonComplaint& complaint) {
+    const std::string path = asTyped(complaint.path, typed, resolved);
+    throw SceneError("--set " + keyEqualsValue + ": " + (path.empty() ? "" : path + ": ") + complaint.what());
+  }
+}
+
+}  // namespace clothsim
