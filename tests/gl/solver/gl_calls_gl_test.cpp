@@ -1,0 +1,93 @@
+// The frame loop of the GPU backend neither reads back nor uploads positions, allocates, or compiles: counted at the calls.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+
+#include "gl/gl_test.h"
+#include "render/renderer.h"
+#include "solver/gpu/gpu_solver.h"
+#include "support/compared_scenes.h"
+
+namespace clothsim {
+namespace {
+
+std::map<std::string, int> calls;
+std::size_t uploadedBytes = 0;
+
+// Puts a counter in front of a function pointer of the loader for as long as it lives.
+template <auto& Pointer>
+class Counted;
+
+template <class Result, class... Arguments, Result (*&Pointer)(Arguments...)>
+class Counted<Pointer> {
+ public:
+  explicit Counted(const char* name) {
+    name_ = name;
+    original_ = Pointer;
+    Pointer = &count;
+  }
+  ~Counted() { Pointer = original_; }
+  Counted(const Counted&) = delete;
+  Counted& operator=(const Counted&) = delete;
+
+ private:
+  static Result count(Arguments... arguments) {
+    ++calls[name_];
+    if constexpr (sizeof...(Arguments) == 4) {  // glNamedBufferSubData(buffer, offset, size, data)
+      if (std::string(name_) == "glNamedBufferSubData")
+        uploadedBytes += static_cast<std::size_t>(std::get<2>(std::tuple<Arguments...>(arguments...)));
+    }
+    return original_(arguments...);
+  }
+  static inline const char* name_ = nullptr;
+  static inline Result (*original_)(Arguments...) = nullptr;
+};
+
+#define COUNTED(function) const Counted<glad_##function> counted_##function(#function)
+
+using GlCallsTest = GlTest;
+
+TEST_F(GlCallsTest, AFrameReadsNothingBackAndUploadsNoPositions) {
+  for (const auto& [name, scene] : test::comparedScenes(40)) {
+    const Cloth cloth(scene);
+    GpuSolver solver(cloth, scene);
+    Renderer renderer(cloth, scene, {});
+    const Camera camera(scene, cloth);
+    const auto frame = [&] {
+      solver.step(30);
+      renderer.draw(solver.positionsBuffer(), camera, 0.1, 0, 64, 48);
+    };
+    frame();  // what is made once, is made here
+
+    calls.clear();
+    uploadedBytes = 0;
+    {
+      COUNTED(glGetNamedBufferSubData);
+      COUNTED(glMapNamedBufferRange);
+      COUNTED(glMapBufferRange);
+      COUNTED(glReadPixels);
+      COUNTED(glGetTextureImage);
+      COUNTED(glFinish);
+      COUNTED(glCreateBuffers);
+      COUNTED(glNamedBufferStorage);
+      COUNTED(glCreateTextures);
+      COUNTED(glCompileShader);
+      COUNTED(glLinkProgram);
+      COUNTED(glNamedBufferSubData);
+      COUNTED(glDispatchCompute);
+      for (int i = 0; i < 5; ++i) frame();
+    }
+    EXPECT_GT(calls["glDispatchCompute"], 150) << name << ": the counters work";
+    for (const auto& [function, count] : calls) {
+      if (function == "glDispatchCompute" || function == "glNamedBufferSubData") continue;
+      EXPECT_EQ(count, 0) << name << ": " << function;
+    }
+    // Parameters, colliders and the camera go up; a single upload of the positions would be 25,600 bytes a frame.
+    const std::size_t parameters = 5 * (30 * scene.cloths.size() * 256 + 30 * scene.colliders.size() * 112);
+    EXPECT_LE(uploadedBytes, parameters + 5 * 4096) << name;
+  }
+}
+
+}  // namespace
+}  // namespace clothsim

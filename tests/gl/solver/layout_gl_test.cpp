@@ -1,0 +1,111 @@
+// The structs that C++ and GLSL share lie in memory as the driver says they do.
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gl/gl_test.h"
+#include "gl/program.h"
+#include "solver/gpu/pass_programs.h"
+#include "solver/step_params.h"
+
+namespace clothsim {
+namespace {
+
+using LayoutTest = GlTest;
+using Step = StepParams<float>;
+using SpringRow = SpringParams<float>;
+using ColliderRow = ColliderParams<float>;
+
+PassFeatures everything() {
+  return {.wind = true, .airResistance = true, .colliders = true, .movingColliders = true, .restLengthTable = true,
+          .enabledSlots = 63, .groupColumns = 64, .groupRows = 1, .fused = true};
+}
+
+// Offset that the driver gives a member of a uniform block; -1: the program does not use it.
+GLint uniformOffset(const gl::Program& program, const std::string& name) {
+  const GLuint index = glGetProgramResourceIndex(program.name(), GL_UNIFORM, name.c_str());
+  if (index == GL_INVALID_INDEX) return -1;
+  const GLenum property = GL_OFFSET;
+  GLint offset = -1;
+  glGetProgramResourceiv(program.name(), GL_UNIFORM, index, 1, &property, 1, nullptr, &offset);
+  return offset;
+}
+
+GLint blockSize(const gl::Program& program, const char* block) {
+  const GLuint index = glGetProgramResourceIndex(program.name(), GL_UNIFORM_BLOCK, block);
+  EXPECT_NE(index, GL_INVALID_INDEX) << block;
+  const GLenum property = GL_BUFFER_DATA_SIZE;
+  GLint size = 0;
+  glGetProgramResourceiv(program.name(), GL_UNIFORM_BLOCK, index, 1, &property, 1, nullptr, &size);
+  return size;
+}
+
+#define MEMBER(Struct, prefix, member) {prefix #member, offsetof(Struct, member)}
+
+TEST_F(LayoutTest, OfStepParamsIsTheDrivers) {
+  const PassPrograms programs(everything());
+  const std::vector<std::pair<std::string, std::size_t>> members = {
+      MEMBER(Step, "StepBlock.step.", firstParticle), MEMBER(Step, "StepBlock.step.", columns),
+      MEMBER(Step, "StepBlock.step.", rows),          MEMBER(Step, "StepBlock.step.", totalParticles),
+      MEMBER(Step, "StepBlock.step.", colliderCount), MEMBER(Step, "StepBlock.step.", firstCollider),
+      MEMBER(Step, "StepBlock.step.", timeStep),      MEMBER(Step, "StepBlock.step.", inverseTimeStep),
+      MEMBER(Step, "StepBlock.step.", velocityKept),  MEMBER(Step, "StepBlock.step.", airResistance),
+      MEMBER(Step, "StepBlock.step.", gravityX),      MEMBER(Step, "StepBlock.step.", gravityY),
+      MEMBER(Step, "StepBlock.step.", gravityZ),      MEMBER(Step, "StepBlock.step.", airVelocityX),
+      MEMBER(Step, "StepBlock.step.", airVelocityZ),  MEMBER(Step, "StepBlock.step.", dragFactor),
+      MEMBER(Step, "StepBlock.step.", liftFactor),    MEMBER(Step, "StepBlock.step.", planeOffset)};
+  int found = 0;
+  for (const auto& [name, offset] : members) {
+    // Drivers name members of a block without an instance name with or without the block's name.
+    const std::string shortName = name.substr(name.find('.') + 1);
+    const GLint driver = std::max(uniformOffset(programs.step, name), uniformOffset(programs.step, shortName));
+    EXPECT_EQ(driver, static_cast<GLint>(offset)) << name;
+    found += driver >= 0;
+  }
+  EXPECT_EQ(found, static_cast<int>(members.size()));
+  EXPECT_EQ(uniformOffset(programs.limit, "step.limitFactor"), static_cast<GLint>(offsetof(Step, limitFactor)));
+  EXPECT_EQ(uniformOffset(programs.kick, "step.kickTime"), static_cast<GLint>(offsetof(Step, kickTime)));
+  EXPECT_EQ(blockSize(programs.step, "StepBlock"), static_cast<GLint>(sizeof(Step)));
+}
+
+TEST_F(LayoutTest, OfSpringsInStepParamsIsTheDrivers) {
+  const PassPrograms programs(everything());
+  for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot) {
+    const std::string spring = "step.springs[" + std::to_string(slot) + "].";
+    const std::size_t base = offsetof(Step, springs) + slot * sizeof(SpringRow);
+    EXPECT_EQ(uniformOffset(programs.step, spring + "stiffness"), static_cast<GLint>(base + offsetof(SpringRow, stiffness)));
+    EXPECT_EQ(uniformOffset(programs.limit, spring + "limitLength"),
+              static_cast<GLint>(base + offsetof(SpringRow, limitLength)));
+  }
+}
+
+TEST_F(LayoutTest, OfLimitColorIsTheDrivers) {
+  const PassPrograms programs(everything());
+  const std::vector<std::pair<std::string, std::size_t>> members = {
+      MEMBER(LimitColor, "color.", slot),        MEMBER(LimitColor, "color.", firstColumn),
+      MEMBER(LimitColor, "color.", columnStep),  MEMBER(LimitColor, "color.", columnRun),
+      MEMBER(LimitColor, "color.", endColumn),   MEMBER(LimitColor, "color.", firstRow),
+      MEMBER(LimitColor, "color.", rowStep),     MEMBER(LimitColor, "color.", rowRun),
+      MEMBER(LimitColor, "color.", endRow)};
+  for (const auto& [name, offset] : members)
+    EXPECT_EQ(uniformOffset(programs.limit, name), static_cast<GLint>(offset)) << name;
+  EXPECT_EQ(blockSize(programs.limit, "ColorBlock"), static_cast<GLint>(sizeof(LimitColor)));
+}
+
+TEST_F(LayoutTest, OfCollidersIsTheRowsThatTheShaderFetches) {
+  EXPECT_EQ(sizeof(ColliderRow), COLLIDER_ROWS * 16u);
+  EXPECT_EQ(offsetof(ColliderRow, radius), 12u);
+  EXPECT_EQ(offsetof(ColliderRow, normalX), 16u);
+  EXPECT_EQ(offsetof(ColliderRow, type), 32u);
+  EXPECT_EQ(offsetof(ColliderRow, motionKept), 40u);
+  EXPECT_EQ(offsetof(ColliderRow, turnXX), 48u);
+  EXPECT_EQ(offsetof(ColliderRow, shiftX), 60u);
+  EXPECT_EQ(offsetof(ColliderRow, turnZX), 80u);
+  EXPECT_EQ(offsetof(ColliderRow, pivotX), 96u);
+}
+
+}  // namespace
+}  // namespace clothsim

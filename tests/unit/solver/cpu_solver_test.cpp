@@ -1,0 +1,336 @@
+#include "solver/cpu/cpu_solver.h"
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <cmath>
+#include <cstring>
+#include <numbers>
+
+#include "solver/measure.h"
+#include "support/compared_scenes.h"
+
+namespace clothsim {
+namespace {
+
+using test::sheetScene;
+using test::springScene;
+
+Scene busyScene(int n) { return test::withWind(test::withColliders(test::withLimiter(test::vertical(sheetScene(n))))); }
+
+State stepped(const Scene& scene, int steps, bool fused = true) {
+  const Cloth cloth(scene);
+  CpuSolver<float> solver(cloth, scene, fused);
+  solver.step(steps);
+  return solver.state();
+}
+
+TEST(CpuSolver, GivesTheSameBitsAtAnyNumberOfThreads) {
+  const Scene scene = busyScene(60);
+  const int usual = omp_get_max_threads();
+  std::vector<std::uint64_t> hashes;
+  for (const int threads : {1, 2, 7}) {
+    omp_set_num_threads(threads);
+    hashes.push_back(stateHash(stepped(scene, 400)));
+  }
+  omp_set_num_threads(usual);
+  EXPECT_EQ(hashes[0], hashes[1]);
+  EXPECT_EQ(hashes[0], hashes[2]);
+}
+
+TEST(CpuSolver, GivesTheSameBitsFusedAndPassByPass) {
+  const Scene scene = busyScene(20);
+  EXPECT_EQ(stateHash(stepped(scene, 300, true)), stateHash(stepped(scene, 300, false)));
+}
+
+TEST(CpuSolver, GoesOnFromASavedStateAsIfNothingHadHappened) {
+  const Scene scene = busyScene(20);
+  const Cloth cloth(scene);
+  CpuSolver<float> whole(cloth, scene), first(cloth, scene), second(cloth, scene);
+  whole.step(200);
+  first.step(77);
+  second.setState(first.state());
+  second.step(123);
+  EXPECT_EQ(stateHash(whole.state()), stateHash(second.state()));
+}
+
+TEST(CpuSolver, NeverMovesAPinnedParticleByABit) {
+  Scene scene = busyScene(20);
+  scene.colliders.push_back(Sphere{.origin = {0, 1, 0}, .radius = 0.1, .friction = 0.5, .motion = std::nullopt});  // around a pin
+  const Cloth cloth(scene);
+  CpuSolver<float> solver(cloth, scene);
+  const Vec3f before = solver.position(19 * 20);
+  solver.step(2000);
+  EXPECT_EQ(solver.position(19 * 20), before);
+}
+
+TEST(CpuSolver, LeavesASheetWithARestLengthTableStillToTheBit) {
+  Scene scene = sheetScene(50);
+  scene.cloths[0].orientation = Orientation::vertical;  // jittered: measured rest lengths
+  scene.gravity = {0, 0, 0};
+  const Cloth cloth(scene);
+  CpuSolver<float> solver(cloth, scene);
+  const std::uint64_t before = stateHash(solver.state());
+  solver.step(5000);
+  EXPECT_EQ(stateHash(solver.state()), before);
+}
+
+TEST(CpuSolver, LeavesASheetOfNominalLengthsStillToAMillionthOfTheSpacing) {
+  Scene scene = sheetScene(11);
+  scene.gravity = {0, 0, 0};
+  const Cloth cloth(scene);
+  CpuSolver<float> solver(cloth, scene);
+  solver.step(5000);
+  for (std::uint32_t i = 0; i < cloth.particleCount(); ++i) {
+    const Vec3d moved = solver.position(i).cast<double>() - cloth.positions()[i];
+    EXPECT_LT(std::sqrt(dot(moved, moved)), 1e-6 * 0.1);
+  }
+}
+
+TEST(CpuSolver, HoldsNoMinusZeroAndNoTinyNumberInItsState) {
+  const State state = stepped(busyScene(20), 300);
+  for (const auto* array : {&state.positions, &state.velocities})
+    for (const Particle4& p : *array)
+      for (const float x : {p.x, p.y, p.z})
+        EXPECT_TRUE((x == 0 && !std::signbit(x)) || std::abs(x) >= 0x1p-40f) << x;
+}
+
+TEST(StrainLimit, HoldsASpringThatThePassCanReach) {
+  Scene scene = springScene(1, 10, 1, 1e-3, Integrator::euler);
+  scene.solver.strainLimit = 0.1;
+  scene.gravity = {0, -9.81, 0};  // would stretch it by 0.98
+  const Cloth cloth(scene);
+  CpuSolver<double> solver(cloth, scene);
+  for (int i = 0; i < 3000; ++i) {
+    solver.step(1);
+    EXPECT_LE(-solver.position(1).y, 1.1 + 1e-12);
+  }
+  EXPECT_GT(-solver.position(1).y, 1.09) << "and lets it reach the limit";
+}
+
+TEST(StrainLimit, MovesBothFreeEndsByHalfTheExcess) {
+  Scene scene = springScene(1, 1e-9, 1, 1e-3, Integrator::euler);
+  scene.cloths[0].pinned.clear();
+  scene.solver.strainLimit = 0.1;
+  const Cloth cloth(scene);
+  CpuSolver<double> solver(cloth, scene);
+  solver.setPosition(1, {0, -1.5, 0});
+  solver.step(1);
+  EXPECT_NEAR(solver.position(0).y, -0.2, 1e-9);
+  EXPECT_NEAR(solver.position(1).y, -1.3, 1e-9);
+  EXPECT_NEAR(solver.velocity(1).y, 0.2 / 1e-3, 1e-5) << "a position pass adds dx / h to the velocity";
+}
+
+TEST(StrainLimit, ColoursCoverEverySpringOnceAndShareNoParticle) {
+  for (const auto& [columns, rows] : {std::pair{9, 7}, {4, 4}, {3, 10}, {2, 2}, {1, 6}}) {
+    Scene scene = sheetScene(2);
+    scene.cloths[0].numWidthPoints = columns;
+    scene.cloths[0].numHeightPoints = rows;
+    const Cloth cloth(scene);
+    const Grid& grid = cloth.grids()[0];
+    std::vector<int> visits(6 * cloth.particleCount());
+    for (const LimitColor& color : makeLimitColors(grid)) {
+      std::vector<int> touched(cloth.particleCount());
+      for (std::uint32_t j = 0; j < ownerCount(color.firstRow, color.rowStep, color.rowRun, color.endRow); ++j) {
+        for (std::uint32_t i = 0; i < ownerCount(color.firstColumn, color.columnStep, color.columnRun, color.endColumn); ++i) {
+          const int column = static_cast<int>(color.firstColumn + color.columnStep * (i / color.columnRun) + i % color.columnRun);
+          const int row = static_cast<int>(color.firstRow + color.rowStep * (j / color.rowRun) + j % color.rowRun);
+          const SpringOffset& offset = springOffsets[color.slot];
+          ASSERT_TRUE(grid.contains(column, row) && grid.contains(column + offset.columns, row + offset.rows));
+          ++visits[6 * grid.particle(column, row) + color.slot];
+          EXPECT_EQ(++touched[grid.particle(column, row)], 1);
+          EXPECT_EQ(++touched[grid.particle(column + offset.columns, row + offset.rows)], 1);
+        }
+      }
+    }
+    std::uint64_t total = 0;
+    for (const Spring& spring : cloth.springs()) EXPECT_EQ(visits[spring.number], 1) << columns << "x" << rows;
+    for (const int visit : visits) total += static_cast<std::uint64_t>(visit);
+    EXPECT_EQ(total, cloth.springCount());
+  }
+}
+
+// One free particle at `x` with velocity `v` that meets a collider for one step of 0.01 s.
+Vec3d afterOneStep(const Collider& collider, Vec3d x, Vec3d v) {
+  Scene scene = springScene(1, 1e-9, 1, 0.01, Integrator::euler);
+  scene.cloths[0].pinned.clear();
+  scene.colliders = {collider};
+  const Cloth cloth(scene);
+  CpuSolver<double> solver(cloth, scene);
+  solver.setPosition(0, {0, 50, 0});
+  solver.setPosition(1, x);
+  solver.setVelocity(1, v);
+  solver.step(1);
+  return solver.position(1);
+}
+
+TEST(Sphere, PutsAParticleInsideBetweenWhereItWasAndTheSurfaceByItsFriction) {
+  const Sphere sphere{.origin = {0, 0, 0}, .radius = 1, .friction = 0, .motion = std::nullopt};
+  const Vec3d start{0, 1.005, 0}, velocity{0, -10, 0};  // to (0, 0.905, 0): inside
+  EXPECT_NEAR(afterOneStep(sphere, start, velocity).y, 1, 1e-9);
+  Sphere sticky = sphere;
+  sticky.friction = 1;
+  EXPECT_NEAR(afterOneStep(sticky, start, velocity).y, 1.005, 1e-9);
+  Sphere rough = sphere;
+  rough.friction = 0.3;
+  EXPECT_NEAR(afterOneStep(rough, start, velocity).y, 1.005 + 0.7 * (1 - 1.005), 1e-9);
+}
+
+TEST(Plane, PutsAParticleThatCrossedBackToTheSideItCameFrom) {
+  const Plane plane{.point = {0, 2, 0}, .normal = {0, 3, 0}, .friction = 0, .motion = std::nullopt};
+  EXPECT_NEAR(afterOneStep(plane, {0.3, 2.01, 0}, {1, -10, 0}).y, 2.0001, 1e-9);
+  EXPECT_NEAR(afterOneStep(plane, {0.3, 1.99, 0}, {1, 10, 0}).y, 1.9999, 1e-9);
+  EXPECT_NEAR(afterOneStep(plane, {0.3, 2.01, 0}, {1, -10, 0}).x, 0.31, 1e-9) << "no friction: it slides on";
+  Plane sticky = plane;
+  sticky.friction = 1;
+  EXPECT_NEAR(afterOneStep(sticky, {0.3, 2.01, 0}, {1, -10, 0}).x, 0.3, 1e-9);
+}
+
+TEST(Plane, IgnoresAParticleThatStaysOnItsSide) {
+  const Plane plane{.point = {0, 2, 0}, .normal = {0, 1, 0}, .friction = 1, .motion = std::nullopt};
+  EXPECT_NEAR(afterOneStep(plane, {0, 1.5, 0}, {0, 1, 0}).y, 1.51, 1e-9);
+}
+
+TEST(MovingSphere, CarriesAParticleThatSticksToItAlongAndAround) {
+  Motion motion;
+  motion.keys = {{0, {0, 0, 0}, {0, 0, 0}}, {0.01, {0.02, 0, 0}, {0, 0, 90}}};
+  const Sphere sphere{.origin = {0, 0, 0}, .radius = 1, .friction = 1, .motion = motion};
+  const Vec3d x = afterOneStep(sphere, {0.95, 0, 0}, {0, 0, 0});
+  EXPECT_NEAR(x.x, 0.02, 1e-9);
+  EXPECT_NEAR(x.y, 0.95, 1e-9);
+}
+
+TEST(Integrators, CanBeSwitchedBackAndForthWithoutLosingTheVelocity) {
+  Scene scene = sheetScene(10);
+  scene.cloths[0].ks.reset();
+  scene.cloths[0].stiffnessReference = 10;
+  const Cloth cloth(scene);
+  CpuSolver<double> solver(cloth, scene);
+  solver.step(50);
+  const Vec3d half = solver.velocity(55);
+  Scene asEuler = scene;
+  asEuler.solver.integrator = Integrator::euler;
+  solver.configure(asEuler);
+  EXPECT_EQ(solver.state().integrator, Integrator::euler);
+  const Vec3d whole = solver.velocity(55);
+  EXPECT_NEAR(whole.y - half.y, -0.5 * 9.8 * stepLength(scene.solver), 1e-9) << "v(n) = v(n-1/2) + a h / 2";
+  solver.configure(scene);
+  (void)solver.state();
+  EXPECT_NEAR(solver.velocity(55).y, half.y, 1e-12);
+}
+
+TEST(Integrators, OfKsScenesBeginAsCs184DoesAndOthersSynchronously) {
+  Scene scene = sheetScene(5);
+  EXPECT_EQ(stepped(scene, 0).velocities[7].y, 0);
+  scene.cloths[0].ks.reset();
+  scene.cloths[0].stiffnessReference = 10;
+  EXPECT_NEAR(static_cast<double>(stepped(scene, 0).velocities[7].y), 0.5 * 9.8 / 2700, 1e-9);
+}
+
+TEST(AirResistance, IsQuadraticInTheSpeedOfAParticle) {
+  Scene scene = sheetScene(3);
+  scene.airResistance = 0.25;
+  const Cloth cloth(scene);
+  CpuSolver<double> solver(cloth, scene);
+  solver.setVelocity(4, {0, 3, 4});
+  const Vec3d force = solver.forces()[4];
+  EXPECT_NEAR(force.y, -0.25 * 5 * 3, 1e-9);
+  EXPECT_NEAR(force.z, -0.25 * 5 * 4, 1e-9);
+}
+
+// Sum of the forces on a sheet at rest, turned about x by `degrees`, in the scene's wind.
+Vec3d windOnPlate(const Wind& wind, double degrees, int points) {
+  Scene scene = sheetScene(points);
+  scene.cloths[0].rotation = {degrees, 0, 0};
+  scene.cloths[0].enableStructural = scene.cloths[0].enableShearing = scene.cloths[0].enableBending = false;
+  scene.wind = wind;
+  const Cloth cloth(scene);
+  CpuSolver<double> solver(cloth, scene);
+  Vec3d sum{};
+  for (const Vec3d& force : solver.forces()) sum = sum + force;
+  return sum;
+}
+
+TEST(Wind, PressesOnAPlateAlongItsNormalWhateverTheTriangulation) {
+  const Wind wind{.velocity = {0.5, -2, 1}, .gust = {}, .drag = 1.3, .lift = 0, .airDensity = 1.2};
+  for (const double degrees : {0.0, 30.0, 75.0}) {
+    const double angle = degrees * std::numbers::pi / 180;
+    const Vec3d normal{0, std::cos(angle), std::sin(angle)};
+    const double through = dot(wind.velocity, normal);
+    const Vec3d expected = (0.5 * 1.2 * 1.3 * through * std::abs(through)) * normal;
+    for (const int points : {2, 5, 14}) {
+      const Vec3d force = windOnPlate(wind, degrees, points);
+      EXPECT_NEAR(force.x, expected.x, 1e-6);
+      EXPECT_NEAR(force.y, expected.y, 1e-6);
+      EXPECT_NEAR(force.z, expected.z, 1e-6);
+    }
+  }
+}
+
+TEST(Wind, LiftsAcrossTheWindByTheSineOfTwiceTheAngleOfAttack) {
+  const Wind wind{.velocity = {0, 0, -3}, .gust = {}, .drag = 0, .lift = 0.8, .airDensity = 1.2};
+  const double angle = 25 * std::numbers::pi / 180;  // between the sheet and the wind
+  const Vec3d force = windOnPlate(wind, 25, 6);
+  EXPECT_NEAR(dot(force, wind.velocity), 0, 1e-9) << "lift does no work on the wind";
+  EXPECT_NEAR(std::abs(force.y), 0.5 * 1.2 * 0.8 * 9 * 0.5 * std::sin(2 * angle), 1e-6);
+}
+
+TEST(Wind, LetsASheetFallAtItsTerminalSpeed) {
+  Scene scene = sheetScene(4);
+  scene.cloths[0].ks.reset();
+  scene.cloths[0].stiffnessReference = 10;
+  scene.cloths[0].density = 0.2;
+  scene.cloths[0].damping = 0;
+  scene.cloths[0].enableStructural = scene.cloths[0].enableShearing = scene.cloths[0].enableBending = false;
+  scene.gravity = {0, -9.81, 0};
+  scene.wind = Wind{.velocity = {0, 0, 0}, .gust = {}, .drag = 1.2, .lift = 0, .airDensity = 1.2};
+  scene.solver.integrator = Integrator::euler;
+  scene.solver.framesPerSec = 1000;
+  scene.solver.simulationSteps = 10;
+  const Cloth cloth(scene);
+  CpuSolver<double> solver(cloth, scene);
+  solver.step(1000);  // 0.1 s; the mean over particles, since pressure and mass are lumped differently at the border
+  const auto meanSpeed = [&] {
+    double sum = 0;
+    for (std::uint32_t i = 0; i < cloth.particleCount(); ++i) sum -= solver.velocity(i).y;
+    return sum / cloth.particleCount();
+  };
+  EXPECT_NEAR(meanSpeed(), 1.650757 * std::tanh(9.81 * 0.1 / 1.650757), 0.02);
+}
+
+TEST(Gusts, HaveTheStrengthOfTheSceneAndRepeatBySeed) {
+  Wind wind{.velocity = {4, 0, 0}, .gust = {.strength = 1.5, .frequency = 1, .seed = 9}};
+  double sum = 0, squares = 0;
+  constexpr int samples = 200000;
+  for (int i = 0; i < samples; ++i) {
+    const double gust = airVelocity(wind, i * 0.01).x - 4;
+    sum += gust;
+    squares += gust * gust;
+  }
+  EXPECT_NEAR(sum / samples, 0, 0.02);
+  EXPECT_NEAR(std::sqrt(squares / samples), 1.5, 0.05);
+  EXPECT_EQ(airVelocity(wind, 1.23), airVelocity(wind, 1.23));
+  Wind other = wind;
+  other.gust.seed = 10;
+  EXPECT_NE(airVelocity(wind, 1.23), airVelocity(other, 1.23));
+}
+
+TEST(Measure, FindsStretchDepthEnergyAndTheFirstBrokenParticle) {
+  Scene scene = springScene(1, 1, 2, 1e-3, Integrator::euler);
+  scene.colliders = {Sphere{.origin = {0, -1.5, 0}, .radius = 0.5, .friction = 0, .motion = std::nullopt}};
+  const Cloth cloth(scene);
+  State state = initialState(cloth, scene);
+  state.positions[1].y = -1.25f;
+  state.velocities[1].y = 3;
+  const Measures measures = measure(cloth, scene, state);
+  EXPECT_NEAR(measures.maxStrain, 0.25, 1e-6);
+  EXPECT_NEAR(measures.maxPenetration, 0.25, 1e-6);
+  EXPECT_NEAR(measures.kineticEnergy, 9, 1e-5);
+  EXPECT_NEAR(measures.minY, -1.25, 1e-6);
+  EXPECT_FALSE(measures.firstNonFinite.has_value());
+  state.velocities[1].z = std::nanf("");
+  EXPECT_EQ(measure(cloth, scene, state).firstNonFinite, 1u);
+}
+
+}  // namespace
+}  // namespace clothsim
