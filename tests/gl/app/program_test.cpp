@@ -1,0 +1,200 @@
+// The program as a user meets it: commands, outputs, exit codes.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "core/files.h"
+#include "support/command.h"
+#include "support/temporary_folder.h"
+
+namespace clothsim {
+namespace {
+
+using nlohmann::json;
+using test::CommandResult;
+using test::runCommand;
+
+// Runs clothsim without a screen; `environment` as VAR=value words before it.
+CommandResult clothsim(const std::string& arguments, const std::string& environment = "") {
+  return runCommand("env -u DISPLAY -u WAYLAND_DISPLAY " + environment + " " CLOTHSIM_PROGRAM " " + arguments + " 2>&1");
+}
+
+// The JSON object on stdout.
+json jsonOf(const std::string& arguments, const std::string& environment = "") {
+  const CommandResult result = runCommand("env " + environment + " " CLOTHSIM_PROGRAM " " + arguments + " 2>/dev/null");
+  EXPECT_EQ(result.exitCode, 0) << arguments;
+  return json::parse(result.output, nullptr, false);
+}
+
+TEST(Program, SumsARunUpInJson) {
+  const json run = jsonOf("run -f pinned2 --resolution 20x20 --frames 6 --backend cpu --json");
+  EXPECT_EQ(run["scene"], "pinned2");
+  EXPECT_EQ(run["backend"], "cpu");
+  EXPECT_EQ(run["particles"], 400);
+  EXPECT_EQ(run["springs"], 2 * 19 * 20 + 2 * 19 * 19 + 2 * 18 * 20);
+  EXPECT_EQ(run["triangles"], 2 * 19 * 19);
+  EXPECT_EQ(run["steps"], 180);
+  EXPECT_NEAR(run["dt"].get<double>(), 1.0 / 2700, 1e-12);
+  EXPECT_NEAR(run["sim_seconds"].get<double>(), 6.0 / 90, 1e-12);
+  EXPECT_EQ(run["state_hash"].get<std::string>().size(), 16u);
+  EXPECT_TRUE(run["finite"].get<bool>());
+  for (const char* key : {"device", "frames", "seconds", "particle_steps_per_second", "max_strain", "peak_strain", "min_y",
+                          "kinetic_energy", "max_penetration"})
+    EXPECT_TRUE(run.contains(key)) << key;
+  EXPECT_LT(run["min_y"].get<double>(), 1);
+}
+
+TEST(Program, GivesOneHashOnBothBackendsAtAnyNumberOfThreads) {
+  const std::string run = "run -f pinned2 --resolution 50x50 --frames 5 --json --set solver.self_collision=false";
+  const std::string expected = jsonOf(run + " --backend cpu")["state_hash"];
+  for (const char* threads : {"1", "2", "7"}) {
+    EXPECT_EQ(jsonOf(run + " --backend cpu", std::string("OMP_NUM_THREADS=") + threads)["state_hash"], expected) << threads;
+    EXPECT_EQ(jsonOf(run + " --backend gpu", std::string("LP_NUM_THREADS=") + threads)["state_hash"], expected) << threads;
+  }
+}
+
+TEST(Program, ComparesTheBackendsAndSaysSoInItsExitCode) {
+  const json compare = jsonOf("compare -f sphere --resolution 24x24 --frames 4 --json");
+  EXPECT_TRUE(compare["bitwise_equal"].get<bool>());
+  EXPECT_EQ(compare["differing_floats"], 0);
+  EXPECT_EQ(compare["floats"], 6 * 24 * 24);
+  EXPECT_EQ(compare["frames"], 4);
+  EXPECT_TRUE(compare["first_differing_step"].is_null());
+}
+
+TEST(Program, FailsWithOneWhenTheSimulationBlowsUp) {
+  const CommandResult result = clothsim("run -f pinned2 --frames 50 --backend cpu --set cloth.ks=1e9 --set solver.strain_limit=false");
+  EXPECT_EQ(result.exitCode, 1);
+  EXPECT_NE(result.output.find("solver.simulation_steps"), std::string::npos) << result.output;
+}
+
+TEST(Program, AnswersWrongUsageWithTwo) {
+  for (const char* arguments : {"run", "run -f pinned2", "run -f pinned2 --frames many", "run -f pinned2 --frames -3", "fly",
+                                "run -f pinned2 --frames 1 --backend abacus", "run -f pinned2 --frames 1 --resolution big",
+                                "run -f pinned2 --frames 1 --save cloth.docx", "render -f pinned2 --frames 1 --out clip.gif",
+                                "render -f pinned2 --frames 1 --out a.png --size 0x0", "describe cloth.dampin"})
+    EXPECT_EQ(clothsim(arguments).exitCode, 2) << arguments;
+}
+
+TEST(Program, AnswersAWrongSceneWithThreeAndTheNearestName) {
+  const CommandResult result = clothsim("run -f pined2 --frames 1");
+  EXPECT_EQ(result.exitCode, 3);
+  EXPECT_NE(result.output.find("pinned2"), std::string::npos) << result.output;
+  EXPECT_EQ(clothsim("run -f ./nowhere.json --frames 1").exitCode, 3);
+  EXPECT_EQ(clothsim("run -f pinned2 --frames 1 --set cloth.dampin=1").exitCode, 3);
+}
+
+TEST(Program, AnswersAPlaceItCannotWriteToWithFive) {
+  EXPECT_EQ(clothsim("run -f pinned2 --frames 1 --resolution 8x8 --backend cpu --save /nonexistent/a.csv").exitCode, 5);
+  EXPECT_EQ(clothsim("run -f pinned2 --frames 1 --resolution 8x8 --backend cpu --from /nonexistent/a.state").exitCode, 5);
+}
+
+class NoOpenGl : public testing::TestWithParam<const char*> {};
+
+TEST_P(NoOpenGl, IsAnsweredWithFourAndWhatWasFoundAndNeeded) {
+  for (const char* command : {"run -f pinned2 --frames 1", "compare -f pinned2 --frames 1", "doctor",
+                              "render -f pinned2 --frames 1 --out /tmp/never.png"}) {
+    const CommandResult result = clothsim(command, GetParam());
+    EXPECT_EQ(result.exitCode, 4) << command << "\n" << result.output;
+    EXPECT_NE(result.output.find("4.5"), std::string::npos) << "what is needed: " << result.output;
+    EXPECT_NE(result.output.find("--backend cpu"), std::string::npos) << "what to do: " << result.output;
+  }
+}
+
+TEST_P(NoOpenGl, DoesNotKeepTheCpuBackendFromRunning) {
+  EXPECT_EQ(clothsim("run -f pinned2 --resolution 10x10 --frames 2 --backend cpu", GetParam()).exitCode, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, NoOpenGl,
+                         testing::Values("MESA_GL_VERSION_OVERRIDE=4.2", "LIBGL_DRIVERS_PATH=/nonexistent",
+                                         "GALLIUM_DRIVER=softpipe"),
+                         [](const auto& instance) {
+                           const std::string text = instance.param;
+                           std::string name;
+                           for (const char c : text.substr(0, text.find('=')))
+                             if (std::isalnum(static_cast<unsigned char>(c)) != 0) name += c;
+                           return name;
+                         });
+
+TEST(Program, WithoutADisplayNamesTheCommandsThatNeedNone) {
+  const CommandResult result = clothsim("-f pinned2");
+  EXPECT_EQ(result.exitCode, 4);
+  EXPECT_NE(result.output.find("clothsim render"), std::string::npos) << result.output;
+  EXPECT_NE(result.output.find("clothsim run"), std::string::npos) << result.output;
+}
+
+TEST(Program, SavesNumberedStatesAndGoesOnFromOne) {
+  const test::TemporaryFolder folder;
+  const std::string at = folder.path().string();
+  const std::string scene = "-f pinned2 --resolution 12x12 --backend cpu";
+  ASSERT_EQ(clothsim("run " + scene + " --frames 6 --every 3 --save " + at + "/s%04d.state --save " + at + "/last.csv").exitCode, 0);
+  for (const char* name : {"s0000.state", "s0003.state", "s0006.state", "last.csv"})
+    EXPECT_TRUE(std::filesystem::exists(folder.path() / name)) << name;
+  const std::string whole = jsonOf("run " + scene + " --frames 6 --json")["state_hash"];
+  EXPECT_EQ(jsonOf("run " + scene + " --frames 3 --from " + at + "/s0003.state --json")["state_hash"], whole);
+  const std::string csv = readFile(folder.path() / "last.csv");
+  EXPECT_TRUE(csv.starts_with("index,x,y,z,vx,vy,vz\n"));
+}
+
+TEST(Program, RendersAStillAndNumberedPictures) {
+  const test::TemporaryFolder folder;
+  const std::string at = folder.path().string();
+  const CommandResult result = clothsim("render -f sphere --resolution 16x16 --frames 4 --size 96x64 --out " + at +
+                                        "/still.png --every 2 --out " + at + "/f%02d.png");
+  ASSERT_EQ(result.exitCode, 0) << result.output;
+  for (const char* name : {"still.png", "f00.png", "f02.png", "f04.png"})
+    EXPECT_EQ(readFile(folder.path() / name).substr(1, 3), "PNG") << name;
+}
+
+TEST(Program, RendersAFilmOrSaysThatFfmpegIsMissing) {
+  const test::TemporaryFolder folder;
+  const std::string film = (folder.path() / "clip.mp4").string();
+  const std::string render = "render -f pinned2 --resolution 16x16 --frames 12 --size 96x64 --out " + film;
+  ASSERT_EQ(clothsim(render).exitCode, 0);
+  EXPECT_EQ(readFile(film).substr(4, 4), "ftyp");
+  const CommandResult without = clothsim(render, "PATH=/nonexistent");
+  EXPECT_EQ(without.exitCode, 5) << without.output;
+  EXPECT_NE(without.output.find("ffmpeg"), std::string::npos) << without.output;
+}
+
+TEST(Program, ListsItsScenesAndExplainsItsKeys) {
+  const CommandResult scenes = clothsim("scenes");
+  EXPECT_EQ(scenes.exitCode, 0);
+  EXPECT_NE(scenes.output.find("selfCollision"), std::string::npos);
+  const CommandResult key = clothsim("describe cloth.ks");
+  EXPECT_EQ(key.exitCode, 0);
+  EXPECT_NE(key.output.find("N/m"), std::string::npos) << key.output;
+  EXPECT_EQ(clothsim("describe").exitCode, 0);
+}
+
+TEST(Program, MeasuresStepsAndPassesAndTheDemoInRealTime) {
+  const json bench = jsonOf("bench --resolution 32x32 --seconds 0.05 --json");
+  ASSERT_EQ(bench["steps"].size(), 4u) << "two backends, with and without the limiter";
+  for (const json& step : bench["steps"]) {
+    EXPECT_GT(step["particle_steps_per_second"].get<double>(), 0);
+    if (step["backend"] == "gpu") {
+      EXPECT_GT(step["pass_ms"].size(), 0u);
+    }
+  }
+  EXPECT_EQ(bench["demo_real_time"].size(), 3u);
+}
+
+TEST(Program, ExaminesTheDeviceAndTestsItself) {
+  const json doctor = jsonOf("doctor --json");
+  EXPECT_TRUE(doctor["bitwise_equal"].get<bool>());
+  EXPECT_TRUE(doctor["software"].is_boolean());
+  EXPECT_NE(doctor["suggested_demo_resolution"].get<std::string>().find('x'), std::string::npos);
+}
+
+TEST(Program, ResolvesTheSameClothAtAnotherResolutionWithMoreSteps) {
+  const json run = jsonOf("run -f pinned2 --resolution 99x99 --frames 1 --backend cpu --json");
+  EXPECT_EQ(run["steps"], 60) << "half the spacing: twice the steps";
+  EXPECT_EQ(jsonOf("run -f pinned2 --resolution 99x99 --frames 1 --backend cpu --set solver.simulation_steps=45 --json")["steps"],
+            45);
+}
+
+}  // namespace
+}  // namespace clothsim

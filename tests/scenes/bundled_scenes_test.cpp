@@ -1,0 +1,70 @@
+// Every bundled scene runs on both backends, agrees in every bit, and keeps the promises of its `expect` block.
+#include <gtest/gtest.h>
+
+#include "app/compare.h"
+#include "app/simulation.h"
+#include "gl/gl_test.h"
+#include "scene/scene_io.h"
+#include "solver/measure.h"
+
+namespace clothsim {
+namespace {
+
+class BundledSceneTest : public testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override { testContext(); }
+  void TearDown() override { EXPECT_NO_THROW(gl::checkErrors("the end of the test")); }
+};
+
+void expectWithin(double value, const std::optional<Range>& range, const char* what) {
+  if (!range) return;
+  EXPECT_GE(value, range->low) << what;
+  EXPECT_LE(value, range->high) << what;
+}
+
+TEST_P(BundledSceneTest, KeepsItsPromisesOnBothBackends) {
+  const Scene scene = loadSceneByName(GetParam());
+  ASSERT_TRUE(scene.expect.has_value()) << "a bundled scene says what to expect of it";
+  const Expect& expect = *scene.expect;
+  Simulation cpu(scene, "cpu"), gpu(scene, "gpu");
+  double maxPenetration = 0;
+  State state;
+  for (int frame = 0; frame < expect.frames; ++frame) {
+    cpu.stepFrame();
+    gpu.stepFrame();
+    state = cpu.solver().state();
+    maxPenetration = std::max(maxPenetration, measure(cpu.cloth(), scene, state).maxPenetration);
+  }
+  EXPECT_EQ(difference(state, gpu.solver().state()).differing, 0u);
+
+  const Measures atEnd = measure(cpu.cloth(), scene, state);
+  ASSERT_FALSE(atEnd.firstNonFinite.has_value());
+  expectWithin(atEnd.minY, expect.minY, "min_y");
+  expectWithin(atEnd.maxStrain, expect.maxStrain, "max_strain");
+  expectWithin(measure(cpu.cloth(), scene, synchronized(cpu.cloth(), scene, state)).kineticEnergy, expect.kineticEnergy,
+               "kinetic_energy");
+  expectWithin(maxPenetration, expect.maxPenetration, "max_penetration");
+  if (expect.centroid) {
+    EXPECT_NEAR(atEnd.centroid.x, expect.centroid->x, expect.centroidTolerance);
+    EXPECT_NEAR(atEnd.centroid.y, expect.centroid->y, expect.centroidTolerance);
+    EXPECT_NEAR(atEnd.centroid.z, expect.centroid->z, expect.centroidTolerance);
+  }
+}
+
+std::vector<std::string> bundledNames() {
+  std::vector<std::string> names;
+  for (const BundledScene& scene : bundledScenes()) names.push_back(scene.name);
+  return names;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BundledSceneTest, testing::ValuesIn(bundledNames()),
+                         [](const auto& instance) { return instance.param; });
+
+TEST(BundledScenes, HaveTheNamesThatTheAssignmentsKnow) {
+  const std::vector<std::string> names = bundledNames();
+  for (const char* name : {"pinned2", "pinned4", "plane", "sphere", "selfCollision", "cs171", "demo"})
+    EXPECT_NE(std::find(names.begin(), names.end(), name), names.end()) << name;
+}
+
+}  // namespace
+}  // namespace clothsim
