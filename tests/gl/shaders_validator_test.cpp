@@ -51,9 +51,9 @@ test::CommandResult validate(const std::string& source, const std::string& stage
 // what a scene may have, the resolve with and without multisampling, the other drawing shaders just as they
 // are.
 std::vector<gl::Defines> variantsOf(const std::string& file) {
-  if (file == "render/floor_shadow.frag") return {{{"FIRST_AXIS", ""}}, {}};
+  if (file == "render/floor_shadow.frag") return {{{"FIRST_AXIS", ""}}, gl::Defines{}};
   if (file == "render/resolve.frag") return {{{"SAMPLES", "1"}}, {{"SAMPLES", "4"}}};
-  if (!file.starts_with("sim/")) return {{}};
+  if (!file.starts_with("sim/")) return {gl::Defines{}};
   PassFeatures everything{.wind = true,
                           .airResistance = true,
                           .colliders = true,
