@@ -158,7 +158,7 @@ void ViewerOverlay::loadFonts(double textScale) {
   style.CellPadding = {0, 2};
   style.ItemSpacing = {12, 5};
   style.ScaleAllSizes(scale);
-  style.CellPadding.x = 7 * scale;
+  style.CellPadding.x = 9 * scale;
   ImGui::GetStyle() = style;
 }
 
@@ -168,7 +168,9 @@ void ViewerOverlay::draw(const OverlayFacts& facts, double textScale, bool showP
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
   ImGui::NewFrame();
-  if (showPanel) drawPanel(facts, scale);
+  // In a small window the list of keys would lie over the panel.
+  const bool roomForBoth = ImGui::GetIO().DisplaySize.x > 1000 * scale;
+  if (showPanel && (roomForBoth || !showKeys)) drawPanel(facts, scale);
   if (!facts.notice.empty()) drawNotice(facts, scale);
   if (showKeys) drawKeyList(scale);
   ImGui::Render();

@@ -15,7 +15,7 @@ namespace clothsim {
 namespace {
 
 constexpr int ordinaryWidth = 1280, ordinaryHeight = 720;  // at first, on an ordinary screen [pixels]
-constexpr int smallestWidth = 320, smallestHeight = 240;
+constexpr int smallestWidth = 480, smallestHeight = 400;
 
 std::string lastGlfwError() {
   const char* text = nullptr;

@@ -137,6 +137,17 @@ TEST_F(ViewerUi, EscEndsItAtOnceWithExitCodeZeroAndNoFilesLeftBehind) {
   EXPECT_EQ(viewer.output(), "") << "a run without trouble says nothing";
 }
 
+TEST_F(ViewerUi, OnAScreenWithoutOpenGl45SaysWhatWasFoundAndWhatIsNeededAndEndsWithExitCodeFour) {
+  for (const char* limit :
+       {"MESA_GL_VERSION_OVERRIDE=4.2", "LIBGL_DRIVERS_PATH=/nonexistent", "GALLIUM_DRIVER=softpipe"}) {
+    const test::CommandResult result =
+        test::runCommand(std::string("env ") + limit + " " CLOTHSIM_PROGRAM " -f pinned2 2>&1");
+    EXPECT_EQ(result.exitCode, 4) << result.output;
+    for (const char* part : {"found:", "needed:    OpenGL 4.5", "clothsim run --backend cpu"})
+      EXPECT_NE(result.output.find(part), std::string::npos) << result.output;
+  }
+}
+
 TEST(ViewerWithoutAScreen, NamesTheCommandsThatNeedNoneAndEndsWithExitCodeFour) {
   const test::CommandResult result =
       test::runCommand("env -u DISPLAY -u WAYLAND_DISPLAY " CLOTHSIM_PROGRAM " -f pinned2 2>&1");
