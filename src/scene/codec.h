@@ -160,7 +160,7 @@ template <class T>
 
 template <class T>
 void readValue(const JsonNode& node, const FieldTraits& traits, std::vector<T>& target) {
-  if (node.kind != JsonKind::list) complainExpected(node, typeName(traits, target));
+  if (node.kind != JsonKind::list) complainExpected(node, "a " + typeName(traits, target));
   target.clear();
   for (const auto& child : node.children) {
     T value{};

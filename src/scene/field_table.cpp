@@ -14,46 +14,37 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr Limits positive{.low = 0, .lowOpen = true};
 constexpr Limits notNegative{.low = 0};
 constexpr Limits gridSide{.low = smallestSide, .high = largestSide};
-constexpr Change live = Change::live, rebuild = Change::rebuild;
+
+template <class Owner, class T>
+Field<Owner> field(std::string_view key, T Owner::*member, std::string_view help) {
+  return {key, member, help};
+}
 
 }  // namespace
 
 template <>
 std::span<const Field<Scene>> fieldsOf<Scene>() {
   static const std::array fields{
-      Field<Scene>{
-          {.key = "schema", .help = "Version of the format; \"clothsim/1\".", .presence = Presence::written},
-          &Scene::schema},
-      Field<Scene>{{.key = "name", .help = "Short name for titles and lists."}, &Scene::name},
-      Field<Scene>{{.key = "description", .help = "What there is to see, in a sentence."},
-                   &Scene::description},
-      Field<Scene>{
-          {.key = "cloths",
-           .help = "The cloths, one object each; a single one may be the object `cloth`, as in CS184.",
-           .change = rebuild,
-           .presence = Presence::required},
-          &Scene::cloths},
-      Field<Scene>{{.key = "colliders",
-                    .help = "Spheres and planes; CS184's objects `plane` and `sphere` come before this list, "
-                            "in that order."},
-                   &Scene::colliders},
-      Field<Scene>{{.key = "gravity", .help = "Acceleration of every free particle.", .unit = "m/s^2"},
-                   &Scene::gravity},
-      Field<Scene>{
-          {.key = "wind", .help = "Air that moves past the cloth; without it no wind forces are computed."},
-          &Scene::wind},
-      Field<Scene>{{.key = "air_resistance",
-                    .help = "Factor a of the force -a |v| v on each particle, as in CS171.",
-                    .unit = "kg/m",
-                    .limits = notNegative},
-                   &Scene::airResistance},
-      Field<Scene>{{.key = "solver", .help = "How time advances."}, &Scene::solver},
-      Field<Scene>{{.key = "camera",
-                    .help = "Where the picture is taken from; without a position it frames the scene."},
-                   &Scene::camera},
-      Field<Scene>{{.key = "render", .help = "Looks."}, &Scene::render},
-      Field<Scene>{{.key = "expect", .help = "What a run of the scene must show; the tests check it."},
-                   &Scene::expect},
+      field("schema", &Scene::schema, "Version of the format; \"clothsim/1\".").alwaysWritten(),
+      field("name", &Scene::name, "Short name for titles and lists."),
+      field("description", &Scene::description, "What there is to see, in a sentence."),
+      field("cloths", &Scene::cloths,
+            "The cloths, one object each; a single one may be the object `cloth`, as in CS184.")
+          .required()
+          .rebuilds(),
+      field("colliders", &Scene::colliders,
+            "Spheres and planes; CS184's objects `plane` and `sphere` come before this list, in that order."),
+      field("gravity", &Scene::gravity, "Acceleration of every free particle.").in("m/s^2"),
+      field("wind", &Scene::wind, "Air that moves past the cloth; without it no wind forces are computed."),
+      field("air_resistance", &Scene::airResistance,
+            "Factor a of the force -a |v| v on each particle, as in CS171.")
+          .in("kg/m")
+          .within(notNegative),
+      field("solver", &Scene::solver, "How time advances."),
+      field("camera", &Scene::camera,
+            "Where the picture is taken from; without a position it frames the scene."),
+      field("render", &Scene::render, "Looks."),
+      field("expect", &Scene::expect, "What a run of the scene must show; the tests check it."),
   };
   return fields;
 }
@@ -62,95 +53,45 @@ template <>
 std::span<const Field<ClothSettings>> fieldsOf<ClothSettings>() {
   using C = ClothSettings;
   static const std::array fields{
-      Field<C>{{.key = "width",
-                .help = "Length along x, before turning.",
-                .unit = "m",
-                .limits = positive,
-                .change = rebuild},
-               &C::width},
-      Field<C>{{.key = "height",
-                .help = "Length along the columns.",
-                .unit = "m",
-                .limits = positive,
-                .change = rebuild},
-               &C::height},
-      Field<C>{
-          {.key = "num_width_points", .help = "Grid points in a row.", .limits = gridSide, .change = rebuild},
-          &C::numWidthPoints},
-      Field<C>{{.key = "num_height_points",
-                .help = "Grid points in a column.",
-                .limits = gridSide,
-                .change = rebuild},
-               &C::numHeightPoints},
-      Field<C>{{.key = "orientation",
-                .help = "Lying at y = 1 m, or standing in the plane z = 0.",
-                .change = rebuild},
-               &C::orientation},
-      Field<C>{{.key = "position", .help = "Added to every point.", .unit = "m", .change = rebuild},
-               &C::position},
-      Field<C>{{.key = "rotation",
-                .help = "Turn about grid point (0, 0): axis times angle.",
-                .unit = "degrees",
-                .change = rebuild},
-               &C::rotation},
-      Field<C>{{.key = "density",
-                .help = "Mass per area; a particle weighs width * height * density / points.",
-                .unit = "kg/m^2",
-                .limits = positive,
-                .change = rebuild},
-               &C::density},
-      Field<C>{{.key = "mass",
-                .help = "Total mass; replaces density.",
-                .unit = "kg",
-                .limits = positive,
-                .change = rebuild},
-               &C::mass},
-      Field<C>{{.key = "ks",
-                .help = "Spring constant, bending springs 0.2 ks (CS184's model).",
-                .unit = "N/m",
-                .limits = positive,
-                .change = rebuild,
-                .defaultText = "5000, unless stiffness_reference is given"},
-               &C::ks},
-      Field<C>{
-          {.key = "stiffness_reference",
-           .help =
-               "Instead of ks: springs of stiffness_reference * reference_length / length (CS171's model).",
-           .unit = "N/m",
-           .limits = positive,
-           .change = rebuild},
-          &C::stiffnessReference},
-      Field<C>{
-          {.key = "reference_length",
-           .help = "Length at which a spring has the stiffness reference; does not follow the resolution.",
-           .unit = "m",
-           .limits = positive,
-           .change = rebuild},
-          &C::referenceLength},
-      Field<C>{{.key = "damping",
-                .help = "Velocity lost in a step.",
-                .unit = "%",
-                .limits = {.low = 0, .high = 100}},
-               &C::damping},
-      Field<C>{{.key = "thickness",
-                .help = "Half the distance that self-collision keeps between particles.",
-                .unit = "m",
-                .limits = notNegative,
-                .change = rebuild},
-               &C::thickness},
-      Field<C>{
-          {.key = "enable_structural", .help = "Springs to left and upper neighbours.", .change = rebuild},
-          &C::enableStructural},
-      Field<C>{{.key = "enable_shearing", .help = "Springs to diagonal neighbours.", .change = rebuild},
-               &C::enableShearing},
-      Field<C>{{.key = "enable_bending",
-                .help = "Springs to the second neighbours left and above.",
-                .change = rebuild},
-               &C::enableBending},
-      Field<C>{{.key = "pinned",
-                .help = "Points that never move; [column, row] counted from 0.",
-                .change = rebuild},
-               &C::pinned},
+      field("width", &C::width, "Length along x, before turning.").in("m").within(positive).rebuilds(),
+      field("height", &C::height, "Length along the columns.").in("m").within(positive).rebuilds(),
+      field("num_width_points", &C::numWidthPoints, "Grid points in a row.").within(gridSide).rebuilds(),
+      field("num_height_points", &C::numHeightPoints, "Grid points in a column.").within(gridSide).rebuilds(),
+      field("orientation", &C::orientation, "Lying at y = 1 m, or standing in the plane z = 0.").rebuilds(),
+      field("position", &C::position, "Added to every point.").in("m").rebuilds(),
+      field("rotation", &C::rotation, "Turn about grid point (0, 0): axis times angle.")
+          .in("degrees")
+          .rebuilds(),
+      field("density", &C::density, "Mass per area; a particle weighs width * height * density / points.")
+          .in("kg/m^2")
+          .within(positive)
+          .rebuilds(),
+      field("mass", &C::mass, "Total mass; replaces density.").in("kg").within(positive).rebuilds(),
+      field("ks", &C::ks, "Spring constant, bending springs 0.2 ks (CS184's model).")
+          .in("N/m")
+          .within(positive)
+          .byDefault("5000, unless stiffness_reference is given")
+          .rebuilds(),
+      field("stiffness_reference", &C::stiffnessReference,
+            "Instead of ks: springs of stiffness_reference * reference_length / length (CS171's model).")
+          .in("N/m")
+          .within(positive)
+          .rebuilds(),
+      field("reference_length", &C::referenceLength,
+            "Length at which a spring has the stiffness reference; does not follow the resolution.")
+          .in("m")
+          .within(positive)
+          .rebuilds(),
+      field("damping", &C::damping, "Velocity lost in a step.").in("%").within({.low = 0, .high = 100}),
+      field("thickness", &C::thickness, "Half the distance that self-collision keeps between particles.")
+          .in("m")
+          .within(notNegative)
+          .rebuilds(),
+      field("enable_structural", &C::enableStructural, "Springs to left and upper neighbours.").rebuilds(),
+      field("enable_shearing", &C::enableShearing, "Springs to diagonal neighbours.").rebuilds(),
+      field("enable_bending", &C::enableBending, "Springs to the second neighbours left and above.")
+          .rebuilds(),
+      field("pinned", &C::pinned, "Points that never move; [column, row] counted from 0.").rebuilds(),
   };
   return fields;
 }
@@ -158,16 +99,8 @@ std::span<const Field<ClothSettings>> fieldsOf<ClothSettings>() {
 template <>
 std::span<const Field<GridRange>> fieldsOf<GridRange>() {
   static const std::array fields{
-      Field<GridRange>{{.key = "from",
-                        .help = "First [column, row] of a block of points.",
-                        .change = rebuild,
-                        .presence = Presence::required},
-                       &GridRange::from},
-      Field<GridRange>{{.key = "to",
-                        .help = "Last [column, row], pinned too.",
-                        .change = rebuild,
-                        .presence = Presence::required},
-                       &GridRange::to},
+      field("from", &GridRange::from, "First [column, row] of a block of points.").required().rebuilds(),
+      field("to", &GridRange::to, "Last [column, row], pinned too.").required().rebuilds(),
   };
   return fields;
 }
@@ -175,14 +108,11 @@ std::span<const Field<GridRange>> fieldsOf<GridRange>() {
 template <>
 std::span<const Field<Sphere>> fieldsOf<Sphere>() {
   static const std::array fields{
-      Field<Sphere>{{.key = "origin", .help = "Centre of a sphere.", .unit = "m"}, &Sphere::origin},
-      Field<Sphere>{{.key = "radius", .help = "Radius of a sphere.", .unit = "m", .limits = positive},
-                    &Sphere::radius},
-      Field<Sphere>{{.key = "friction",
-                     .help = "0 slides, 1 sticks (CS184's factor).",
-                     .limits = {.low = 0, .high = 1}},
-                    &Sphere::friction},
-      Field<Sphere>{{.key = "motion", .help = "A path in time."}, &Sphere::motion},
+      field("origin", &Sphere::origin, "Centre of a sphere.").in("m"),
+      field("radius", &Sphere::radius, "Radius of a sphere.").in("m").within(positive),
+      field("friction", &Sphere::friction, "0 slides, 1 sticks (CS184's factor).")
+          .within({.low = 0, .high = 1}),
+      field("motion", &Sphere::motion, "A path in time."),
   };
   return fields;
 }
@@ -190,15 +120,11 @@ std::span<const Field<Sphere>> fieldsOf<Sphere>() {
 template <>
 std::span<const Field<Plane>> fieldsOf<Plane>() {
   static const std::array fields{
-      Field<Plane>{{.key = "point", .help = "Any point of a plane.", .unit = "m"}, &Plane::point},
-      Field<Plane>{
-          {.key = "normal", .help = "Direction across a plane, of any length.", .limits = {.nonZero = true}},
-          &Plane::normal},
-      Field<Plane>{{.key = "friction",
-                    .help = "0 slides, 1 sticks (CS184's factor).",
-                    .limits = {.low = 0, .high = 1}},
-                   &Plane::friction},
-      Field<Plane>{{.key = "motion", .help = "A path in time."}, &Plane::motion},
+      field("point", &Plane::point, "Any point of a plane.").in("m"),
+      field("normal", &Plane::normal, "Direction across a plane, of any length.").within({.nonZero = true}),
+      field("friction", &Plane::friction, "0 slides, 1 sticks (CS184's factor).")
+          .within({.low = 0, .high = 1}),
+      field("motion", &Plane::motion, "A path in time."),
   };
   return fields;
 }
@@ -206,12 +132,8 @@ std::span<const Field<Plane>> fieldsOf<Plane>() {
 template <>
 std::span<const Field<Motion>> fieldsOf<Motion>() {
   static const std::array fields{
-      Field<Motion>{{.key = "keys",
-                     .help = "Places along the path; straight lines in between.",
-                     .presence = Presence::required},
-                    &Motion::keys},
-      Field<Motion>{{.key = "loop", .help = "Begin again after the last key; otherwise stop there."},
-                    &Motion::loop},
+      field("keys", &Motion::keys, "Places along the path; straight lines in between.").required(),
+      field("loop", &Motion::loop, "Begin again after the last key; otherwise stop there."),
   };
   return fields;
 }
@@ -220,20 +142,12 @@ template <>
 std::span<const Field<Motion::Key>> fieldsOf<Motion::Key>() {
   using K = Motion::Key;
   static const std::array fields{
-      Field<K>{{.key = "t",
-                .help = "Time of the key, later than the one before.",
-                .unit = "s",
-                .limits = notNegative,
-                .presence = Presence::required},
-               &K::t},
-      Field<K>{{.key = "position",
-                .help = "Where the sphere's centre or the plane's point is then.",
-                .unit = "m",
-                .presence = Presence::written,
-                .defaultText = "the collider's own place"},
-               &K::position},
-      Field<K>{{.key = "rotation", .help = "Turn: axis times angle; may exceed 360.", .unit = "degrees"},
-               &K::rotation},
+      field("t", &K::t, "Time of the key, later than the one before.").in("s").within(notNegative).required(),
+      field("position", &K::position, "Where the sphere's centre or the plane's point is then.")
+          .in("m")
+          .alwaysWritten()
+          .byDefault("the collider's own place"),
+      field("rotation", &K::rotation, "Turn: axis times angle; may exceed 360.").in("degrees"),
   };
   return fields;
 }
@@ -241,20 +155,12 @@ std::span<const Field<Motion::Key>> fieldsOf<Motion::Key>() {
 template <>
 std::span<const Field<Wind>> fieldsOf<Wind>() {
   static const std::array fields{
-      Field<Wind>{{.key = "velocity", .help = "Steady wind.", .unit = "m/s"}, &Wind::velocity},
-      Field<Wind>{{.key = "gust", .help = "Random change of the wind's speed along its direction."},
-                  &Wind::gust},
-      Field<Wind>{{.key = "drag",
-                   .help = "Coefficient of the pressure along a triangle's normal.",
-                   .limits = notNegative},
-                  &Wind::drag},
-      Field<Wind>{{.key = "lift",
-                   .help = "Coefficient of the force across the relative wind.",
-                   .limits = notNegative},
-                  &Wind::lift},
-      Field<Wind>{
-          {.key = "air_density", .help = "Density of the air.", .unit = "kg/m^3", .limits = notNegative},
-          &Wind::airDensity},
+      field("velocity", &Wind::velocity, "Steady wind.").in("m/s"),
+      field("gust", &Wind::gust, "Random change of the wind's speed along its direction."),
+      field("drag", &Wind::drag, "Coefficient of the pressure along a triangle's normal.")
+          .within(notNegative),
+      field("lift", &Wind::lift, "Coefficient of the force across the relative wind.").within(notNegative),
+      field("air_density", &Wind::airDensity, "Density of the air.").in("kg/m^3").within(notNegative),
   };
   return fields;
 }
@@ -262,15 +168,9 @@ std::span<const Field<Wind>> fieldsOf<Wind>() {
 template <>
 std::span<const Field<Gust>> fieldsOf<Gust>() {
   static const std::array fields{
-      Field<Gust>{{.key = "strength",
-                   .help = "Standard deviation of the speed.",
-                   .unit = "m/s",
-                   .limits = notNegative},
-                  &Gust::strength},
-      Field<Gust>{{.key = "frequency", .help = "How often gusts come.", .unit = "Hz", .limits = positive},
-                  &Gust::frequency},
-      Field<Gust>{{.key = "seed", .help = "The same seed gives the same gusts.", .limits = notNegative},
-                  &Gust::seed},
+      field("strength", &Gust::strength, "Standard deviation of the speed.").in("m/s").within(notNegative),
+      field("frequency", &Gust::frequency, "How often gusts come.").in("Hz").within(positive),
+      field("seed", &Gust::seed, "The same seed gives the same gusts.").within(notNegative),
   };
   return fields;
 }
@@ -279,26 +179,17 @@ template <>
 std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
   using S = SolverSettings;
   static const std::array fields{
-      Field<S>{{.key = "integrator", .help = "Leapfrog Verlet, or symplectic Euler."}, &S::integrator},
-      Field<S>{{.key = "frames_per_sec",
-                .help = "Frames in a simulated second.",
-                .unit = "1/s",
-                .limits = positive},
-               &S::framesPerSec},
-      Field<S>{{.key = "simulation_steps",
-                .help = "Steps in a frame; a step lasts 1 / (frames_per_sec * simulation_steps) seconds.",
-                .limits = {.low = 1, .high = mostSteps}},
-               &S::simulationSteps},
-      Field<S>{{.key = "strain_limit",
-                .help = "Longest stretch of a spring, l/L - 1, kept after every step.",
-                .limits = notNegative,
-                .format = Format::orFalse,
-                .defaultText = "0.1 in scenes with ks, else false"},
-               &S::strainLimit},
-      Field<S>{{.key = "self_collision",
-                .help = "Keep parts of the cloth apart from each other.",
-                .defaultText = "true in scenes with ks, else false"},
-               &S::selfCollision},
+      field("integrator", &S::integrator, "Leapfrog Verlet, or symplectic Euler."),
+      field("frames_per_sec", &S::framesPerSec, "Frames in a simulated second.").in("1/s").within(positive),
+      field("simulation_steps", &S::simulationSteps,
+            "Steps in a frame; a step lasts 1 / (frames_per_sec * simulation_steps) seconds.")
+          .within({.low = 1, .high = mostSteps}),
+      field("strain_limit", &S::strainLimit, "Longest stretch of a spring, l/L - 1, kept after every step.")
+          .within(notNegative)
+          .as(Format::orFalse)
+          .byDefault("0.1 in scenes with ks, else false"),
+      field("self_collision", &S::selfCollision, "Keep parts of the cloth apart from each other.")
+          .byDefault("true in scenes with ks, else false"),
   };
   return fields;
 }
@@ -307,16 +198,9 @@ template <>
 std::span<const Field<CameraSettings>> fieldsOf<CameraSettings>() {
   using C = CameraSettings;
   static const std::array fields{
-      Field<C>{{.key = "position", .help = "The eye.", .unit = "m", .defaultText = "frames the scene"},
-               &C::position},
-      Field<C>{
-          {.key = "target", .help = "What it looks at.", .unit = "m", .defaultText = "middle of the scene"},
-          &C::target},
-      Field<C>{{.key = "fov",
-                .help = "Vertical field of view.",
-                .unit = "degrees",
-                .limits = {.low = 1, .high = 170}},
-               &C::fov},
+      field("position", &C::position, "The eye.").in("m").byDefault("frames the scene"),
+      field("target", &C::target, "What it looks at.").in("m").byDefault("middle of the scene"),
+      field("fov", &C::fov, "Vertical field of view.").in("degrees").within({.low = 1, .high = 170}),
   };
   return fields;
 }
@@ -326,20 +210,10 @@ std::span<const Field<RenderSettings>> fieldsOf<RenderSettings>() {
   using R = RenderSettings;
   constexpr Limits channel{.low = 0, .high = 1};
   static const std::array fields{
-      Field<R>{{.key = "shader", .help = "Shading model by name."}, &R::shader},
-      Field<R>{{.key = "color",
-                .help = "Front of the cloth.",
-                .unit = "sRGB",
-                .limits = channel,
-                .format = Format::color},
-               &R::color},
-      Field<R>{{.key = "back_color",
-                .help = "Back of the cloth.",
-                .unit = "sRGB",
-                .limits = channel,
-                .format = Format::color},
-               &R::backColor},
-      Field<R>{{.key = "ground", .help = "Draw a floor when the scene has no level plane."}, &R::ground},
+      field("shader", &R::shader, "Shading model by name."),
+      field("color", &R::color, "Front of the cloth.").in("sRGB").within(channel).as(Format::color),
+      field("back_color", &R::backColor, "Back of the cloth.").in("sRGB").within(channel).as(Format::color),
+      field("ground", &R::ground, "Draw a floor when the scene has no level plane."),
   };
   return fields;
 }
@@ -348,19 +222,13 @@ template <>
 std::span<const Field<Expect>> fieldsOf<Expect>() {
   using E = Expect;
   static const std::array fields{
-      Field<E>{{.key = "frames",
-                .help = "Frames to run before looking.",
-                .limits = {.low = 1, .high = 1e6},
-                .presence = Presence::required},
-               &E::frames},
-      Field<E>{{.key = "centroid", .help = "Mean of all particles.", .unit = "m"}, &E::centroid},
-      Field<E>{{.key = "centroid_tolerance", .help = "For each coordinate.", .unit = "m", .limits = positive},
-               &E::centroidTolerance},
-      Field<E>{{.key = "min_y", .help = "Height of the lowest particle.", .unit = "m"}, &E::minY},
-      Field<E>{{.key = "max_strain", .help = "Largest l/L - 1 of all springs."}, &E::maxStrain},
-      Field<E>{{.key = "kinetic_energy", .help = "Of all particles.", .unit = "J"}, &E::kineticEnergy},
-      Field<E>{{.key = "max_penetration", .help = "Depth inside colliders over the run.", .unit = "m"},
-               &E::maxPenetration},
+      field("frames", &E::frames, "Frames to run before looking.").within({.low = 1, .high = 1e6}).required(),
+      field("centroid", &E::centroid, "Mean of all particles.").in("m"),
+      field("centroid_tolerance", &E::centroidTolerance, "For each coordinate.").in("m").within(positive),
+      field("min_y", &E::minY, "Height of the lowest particle.").in("m"),
+      field("max_strain", &E::maxStrain, "Largest l/L - 1 of all springs."),
+      field("kinetic_energy", &E::kineticEnergy, "Of all particles.").in("J"),
+      field("max_penetration", &E::maxPenetration, "Depth inside colliders over the run.").in("m"),
   };
   return fields;
 }

@@ -58,6 +58,40 @@ using Member =
 template <class Owner>
 struct Field : FieldTraits {
   Member<Owner> member;
+
+  Field(std::string_view key_, Member<Owner> member_, std::string_view help_)
+      : FieldTraits{.key = key_, .help = help_}, member(member_) {}
+
+  // For the tables: each returns the field with one trait more.
+  Field in(std::string_view u) const {
+    return with([&](Field& f) { f.unit = u; });
+  }
+  Field within(Limits l) const {
+    return with([&](Field& f) { f.limits = l; });
+  }
+  Field as(Format kind) const {
+    return with([&](Field& f) { f.format = kind; });
+  }
+  Field required() const {
+    return with([](Field& f) { f.presence = Presence::required; });
+  }
+  Field alwaysWritten() const {
+    return with([](Field& f) { f.presence = Presence::written; });
+  }
+  Field byDefault(std::string_view text) const {
+    return with([&](Field& f) { f.defaultText = text; });
+  }
+  Field rebuilds() const {
+    return with([](Field& f) { f.change = Change::rebuild; });
+  }
+
+ private:
+  template <class Edit>
+  Field with(Edit edit) const {
+    Field copy = *this;
+    edit(copy);
+    return copy;
+  }
 };
 
 // The table of a struct; a type that has one is a JSON object.

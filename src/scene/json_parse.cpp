@@ -65,29 +65,71 @@ char lastBefore(std::string_view text, std::size_t at) {
   return place == std::string_view::npos ? '\0' : text[place];
 }
 
-// The message of a wrong syntax in words that tell what to do; `error` is nlohmann's, for what we do not know
-// better.
-std::string syntaxMessage(std::string_view text, std::size_t at, const std::string& error) {
-  if (text.find_first_not_of(" \t\r\n\xEF\xBB\xBF") == std::string_view::npos) return "the file is empty";
-  if (error.find("out_of_range") != std::string::npos)
-    return "the number " + printable(error.substr(error.rfind("'", error.size() - 2) + 1)) +
-           " is too large for a number";
-  if (error.find("ill-formed UTF-8") != std::string::npos)
-    return "a string holds bytes that are not valid UTF-8";
-  if (at >= text.size()) return "the file ends too early: a brace, bracket or quote is not closed";
+// nlohmann's words for a mistake, and ours, which tell what to do.
+struct Rewording {
+  std::string_view theirs, ours;
+};
+constexpr Rewording rewordings[] = {
+    {"ill-formed UTF-8", "a string holds bytes that are not valid UTF-8"},
+    {"invalid BOM", "the file is not text in UTF-8"},
+    {"control character",
+     "a string runs over the end of its line, or holds a control character; write \\n or \\t"},
+    {"forbidden character after backslash",
+     "after a backslash only \" \\ / b f n r t u may follow; a backslash itself is \\\\"},
+    {"expected end of input", "there is more text after the closing brace of the scene"},
+    {"parsing object separator", "a colon is missing between a key and its value"},
+    {"parsing object key", "expected a key in double quotes"},
+    {"invalid number", "this is not a number; write 0.5 or 1e-3"},
+    {"must be followed by", "a \\u escape is incomplete; write the character itself"},
+    {"parsing object - ", "expected a comma or a closing brace before this"},
+    {"parsing array - ", "expected a comma or a closing bracket before this"},
+    {"parsing value - ", "expected a value here: a number, \"text\", true, false, [list] or {object}"},
+};
 
+// What a word or character at the place of the mistake was probably meant to be.
+std::string guessFromText(std::string_view text, std::size_t at) {
   std::string word(wordAround(text, at));
   std::transform(word.begin(), word.end(), word.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   for (const std::string_view wrong : {"nan", "inf", "infinity"})
-    if (word.starts_with(wrong)) return "NaN and Infinity are not numbers in JSON; write a finite number";
-  if (word == "true" || word == "false" || word == "none" || word == "null")
+    if (word == wrong) return "NaN and Infinity are not numbers in JSON; write a finite number";
+  const bool misspelled = word == "none" || word != wordAround(text, at);
+  if (misspelled && (word == "true" || word == "false" || word == "none" || word == "null"))
     return "expected true, false or null in lower case, found " + printable(wordAround(text, at));
-  if (text[at] == '/' || text[at] == '#' || (text[at] == '*' && text[at - 1] == '/'))
+  const char c = text[at];
+  if (c == '/' || c == '#' || (c == '*' && at > 0 && text[at - 1] == '/'))
     return "JSON has no comments; write them as a key, \"comment\": \"...\"";
-  if (text[at] == '\'') return "strings stand in double quotes in JSON, not in single quotes";
-  if ((text[at] == '}' || text[at] == ']') && lastBefore(text, at) == ',')
+  if (c == '\'') return "strings stand in double quotes in JSON, not in single quotes";
+  if ((c == '}' || c == ']') && lastBefore(text, at) == ',')
     return "the comma before this closing bracket is one too many";
+  if (c == '+' || c == '.') return "a number begins with a digit or -, such as 0.5";
+  return "";
+}
+
+// The digits of a number that ends at `at`.
+bool hasLeadingZero(std::string_view text, std::size_t at) {
+  std::size_t begin = at;
+  while (begin > 0 && std::isdigit(static_cast<unsigned char>(text[begin - 1])) != 0) --begin;
+  return begin < at && text[begin] == '0' && std::isdigit(static_cast<unsigned char>(text[at])) != 0;
+}
+
+// The message of a wrong syntax; `error` is nlohmann's, for what we do not know better.
+std::string syntaxMessage(std::string_view text, std::size_t at, const std::string& error) {
+  constexpr std::string_view overflow = "number overflow parsing '";
+  if (const std::size_t place = error.find(overflow); place != std::string::npos)
+    return "the number " +
+           printable(error.substr(place + overflow.size(), error.rfind('\'') - place - overflow.size())) +
+           " is too large";
+  if (at >= text.size()) return "the file ends too early: a brace, bracket or quote is not closed";
+  const auto byte = static_cast<unsigned char>(text[at]);
+  if (at == 0 && (byte >= 0x7F || (byte < ' ' && byte != '\n'))) return "the file is not text in UTF-8";
+  const bool insideString = error.find("invalid string") != std::string::npos;
+  if (!insideString) {
+    if (hasLeadingZero(text, at)) return "a number has no leading zeros";
+    if (std::string guess = guessFromText(text, at); !guess.empty()) return guess;
+  }
+  for (const auto& [theirs, ours] : rewordings)
+    if (error.find(theirs) != std::string::npos) return std::string(ours);
   const std::size_t sentence = error.find("syntax error");
   return printable(sentence == std::string::npos ? error : error.substr(sentence));
 }
@@ -198,6 +240,8 @@ class TreeBuilder {
 }  // namespace
 
 JsonPointer parseJson(std::string_view text) {
+  if (text.find_first_not_of(" \t\r\n\xEF\xBB\xBF") == std::string_view::npos)
+    throw JsonComplaint(0, 0, "", "the file is empty; expected a scene, {...}");
   std::size_t consumed = 0, unused = 0;
   TreeBuilder builder(text, &consumed);
   nlohmann::json::sax_parse(MarkingIterator(text.data(), &consumed),

@@ -54,7 +54,7 @@ Scene parseScene(std::string_view text, const std::string& source) {
 
 Scene loadScene(const fs::path& path) {
   std::error_code ignored;
-  if (!fs::exists(fs::symlink_status(path, ignored)) && !ignored) {
+  if (fs::symlink_status(path, ignored).type() == fs::file_type::not_found) {
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     throw SceneError(path.string() + ": no such file" +
                      didYouMean(path.filename().string(), sceneNamesIn(folder)));

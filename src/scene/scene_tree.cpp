@@ -45,11 +45,13 @@ bool treeUsesKs(const JsonNode& root) {
                      [](const auto& cloth) { return cloth->find("stiffness_reference") == nullptr; });
 }
 
-void checkSchema(const JsonNode& root, const std::string& schema) {
+// First of all checks: in a file of a later version, other complaints would mislead.
+void checkSchema(const JsonNode& root) {
+  const JsonNode* schema = root.find("schema");
   const std::string known = Scene{}.schema;
-  if (schema != known)
-    complain(*root.find("schema"),
-             "unknown version \"" + schema + "\" of the scene format; this program reads \"" + known + "\"");
+  if (schema != nullptr && schema->kind == JsonKind::string && schema->text != known)
+    complain(*schema, "unknown version " + foundText(*schema) +
+                          " of the scene format; this program reads \"" + known + "\"");
 }
 
 void checkCloths(const JsonNode& root, const std::vector<ClothSettings>& cloths) {
@@ -79,10 +81,10 @@ void gatherLists(JsonNode& root) {
 }
 
 Scene readScene(const JsonNode& root) {
+  checkSchema(root);
   Scene scene;
   scene.solver = solverDefaults(treeUsesKs(root));
   readObject(root, scene, {"cloth", "plane", "sphere"});
-  checkSchema(root, scene.schema);
   checkCloths(root, scene.cloths);
   return scene;
 }

@@ -6,7 +6,8 @@
 
 #include "core/error.h"
 #include "core/nearest.h"
-#include "scene/codec.h"
+#include "scene/fields.h"
+#include "scene/json_tree.h"
 #include "scene/scene_io.h"
 #include "scene/scene_tree.h"
 
@@ -29,15 +30,12 @@ Steps split(const std::string& path) {
 
 // The text as JSON if it is that, else as a string.
 JsonPointer parseValue(const std::string& text) {
-  JsonPointer value;
   try {
-    value = parseJson(text);
+    return parseJson(text);
   } catch (const JsonComplaint&) {
-    value = makeString(text);
-    // Round the escaped text: a bare word must be valid UTF-8 like any other string.
-    value = parseJson(formatJsonLine(*value));
+    // Written and parsed, since a bare word must be valid UTF-8 like any other string.
+    return parseJson(formatJsonLine(*makeString(text)));
   }
-  return value;
 }
 
 void forgetLines(JsonNode& node) {
@@ -108,12 +106,37 @@ void erase(JsonNode& parent, const std::string& step) {
     std::erase_if(parent.children, [&](const auto& child) { return child->key == step; });
 }
 
-// Goes one step down, making the object if the writer had left it out.
-JsonNode& descend(JsonNode& node, const std::string& step) {
+bool isPlace(const std::string& step) { return step.find_first_not_of("0123456789") == std::string::npos; }
+
+// "colliders.0.origin" as the table of fields has it: "colliders[].origin".
+std::string tablePath(const Steps& steps, std::size_t count) {
+  std::string path;
+  for (std::size_t i = 0; i < count; ++i) path += isPlace(steps[i]) ? "[]" : (i == 0 ? "" : ".") + steps[i];
+  const std::string cloths = "cloths[]";
+  return path.starts_with(cloths) ? "cloth" + path.substr(cloths.size()) : path;
+}
+
+// A list that the writer left out has its default value. Null if the key has none.
+JsonPointer defaultList(const std::string& path) {
+  for (const FieldInfo& field : describeFields())
+    if (field.path == path && field.defaultValue.starts_with('[')) return parseJson(field.defaultValue);
+  return nullptr;
+}
+
+// Goes down by steps[i], making the list or object there if the writer had left it out.
+JsonNode& descend(JsonNode& node, const Steps& steps, std::size_t i) {
+  const std::string& step = steps[i];
   if (node.kind == JsonKind::list) return *node.children[listPlace(node, step)];
   if (node.kind != JsonKind::object) complainExpected(node, "an object that has the key \"" + step + "\"");
   if (JsonNode* child = node.find(step)) return *child;
-  return node.append(step, makeObject());
+  JsonNode& child = node.append(step, makeObject());
+  if (!isPlace(steps[i + 1])) return child;
+  JsonPointer list = defaultList(tablePath(steps, i + 1));
+  if (list == nullptr) complain(child, "has no entries to change; set the whole of it");
+  forgetLines(*list);
+  child.kind = JsonKind::list;
+  for (JsonPointer& entry : list->children) child.append("", std::move(entry));
+  return child;
 }
 
 void setAt(JsonNode& root, const Steps& steps, JsonPointer value) {
@@ -122,7 +145,7 @@ void setAt(JsonNode& root, const Steps& steps, JsonPointer value) {
     if (step.empty() || isComment(step))
       throw JsonComplaint(0, 0, "", "\"" + step + "\" is not a key that can be set");
   JsonNode* node = &root;
-  for (std::size_t i = 0; i + 1 < steps.size(); ++i) node = &descend(*node, steps[i]);
+  for (std::size_t i = 0; i + 1 < steps.size(); ++i) node = &descend(*node, steps, i);
   if (node->kind != JsonKind::list && node->kind != JsonKind::object)
     complainExpected(*node, "an object that has the key \"" + steps.back() + "\"");
   if (value->kind == JsonKind::null)

@@ -1,0 +1,175 @@
+// Saving and loading again gives the same scene, for scenes with every member set at random.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "core/files.h"
+#include "scene/scene_io.h"
+
+namespace clothsim {
+namespace {
+
+class RandomScene {
+ public:
+  explicit RandomScene(unsigned seed) : engine_(seed) {}
+
+  Scene make() {
+    Scene scene;
+    scene.name = text();
+    scene.description = text();
+    scene.cloths.clear();
+    for (int i = whole(1, 3); i > 0; --i) scene.cloths.push_back(cloth());
+    for (int i = whole(0, 3); i > 0; --i) scene.colliders.push_back(collider());
+    scene.gravity = vector();
+    if (maybe())
+      scene.wind =
+          Wind{vector(), {positive(), positive(), whole(0, 1 << 30)}, positive(), positive(), positive()};
+    if (maybe()) scene.airResistance = positive();
+    scene.solver = {maybe() ? Integrator::verlet : Integrator::euler, positive(), whole(1, 1'000'000),
+                    optionalPositive(), maybe()};
+    if (maybe()) scene.camera = {vector(), vector(), 1 + 169 * fraction()};
+    scene.render = {text(), color(), color(), maybe()};
+    if (maybe()) scene.expect = expectation();
+    return scene;
+  }
+
+ private:
+  bool maybe() { return whole(0, 1) == 1; }
+  int whole(int low, int high) { return std::uniform_int_distribution<int>(low, high)(engine_); }
+  double fraction() { return std::uniform_real_distribution<double>(0, 1)(engine_); }
+  // All magnitudes, all 53 bits.
+  double positive() { return std::exp(std::uniform_real_distribution<double>(-30, 30)(engine_)); }
+  double number() { return maybe() ? positive() : maybe() ? -positive() : whole(-3, 3); }
+  Vec3d vector() { return {number(), number(), number()}; }
+  Vec3d color() { return {fraction(), fraction(), fraction()}; }
+  std::optional<double> optionalPositive() { return maybe() ? std::optional(positive()) : std::nullopt; }
+
+  std::string text() {
+    const std::string pieces[] = {"a", "\"", "\\", "\n", "\t", "\x01", "é", "布", "🧵", "/", " ", "\x7f"};
+    std::string result;
+    for (int i = whole(0, 8); i > 0; --i) result += pieces[whole(0, 11)];
+    return result;
+  }
+
+  ClothSettings cloth() {
+    ClothSettings c;
+    c.width = positive();
+    c.height = positive();
+    c.numWidthPoints = whole(2, 300);
+    c.numHeightPoints = whole(2, 300);
+    c.orientation = maybe() ? Orientation::horizontal : Orientation::vertical;
+    c.position = vector();
+    c.rotation = vector();
+    c.density = positive();
+    c.mass = optionalPositive();
+    (maybe() ? c.ks : c.stiffnessReference) = positive();
+    c.referenceLength = positive();
+    c.damping = 100 * fraction();
+    c.thickness = positive();
+    c.enableStructural = maybe();
+    c.enableShearing = maybe();
+    c.enableBending = maybe();
+    for (int i = whole(0, 4); i > 0; --i) c.pinned.push_back(pin(c));
+    return c;
+  }
+
+  Pin pin(const ClothSettings& c) {
+    const GridPoint from{whole(0, c.numWidthPoints - 1), whole(0, c.numHeightPoints - 1)};
+    switch (whole(0, 2)) {
+      case 0:
+        return from;
+      case 1:
+        return GridRange{from,
+                         {whole(from.column, c.numWidthPoints - 1), whole(from.row, c.numHeightPoints - 1)}};
+      default:
+        return static_cast<GridSide>(whole(0, 3));
+    }
+  }
+
+  Collider collider() {
+    std::optional<Motion> motion;
+    if (maybe()) motion = path();
+    if (maybe()) return Sphere{vector(), positive(), fraction(), motion};
+    return Plane{vector(), {1, number(), number()}, fraction(), motion};
+  }
+
+  Motion path() {
+    Motion motion;
+    double t = positive();
+    for (int i = whole(1, 4); i > 0; --i, t *= 1.5)
+      motion.keys.push_back({t, maybe() ? vector() : Vec3d{0, 0, 0}, vector()});
+    motion.loop = maybe();
+    return motion;
+  }
+
+  std::optional<Range> range() {
+    const double low = number();
+    return maybe() ? std::optional(Range{low, low + positive()}) : std::nullopt;
+  }
+
+  Expect expectation() {
+    return {whole(1, 1000), maybe() ? std::optional(vector()) : std::nullopt,
+            positive(),     range(),
+            range(),        range(),
+            range()};
+  }
+
+  std::mt19937 engine_;
+};
+
+TEST(FormatScene, ReadsBackAsTheSameSceneForThousandsOfRandomOnes) {
+  for (unsigned seed = 0; seed < 3000; ++seed) {
+    const Scene scene = RandomScene(seed).make();
+    const std::string text = formatScene(scene);
+    ASSERT_EQ(parseScene(text, "formatted"), scene) << "seed " << seed << "\n" << text;
+    ASSERT_EQ(formatScene(parseScene(text, "formatted")), text) << "seed " << seed;
+  }
+}
+
+TEST(FormatScene, ReadsBackAsTheSameSceneForAllBundledOnes) {
+  for (const BundledScene& bundled : bundledScenes()) {
+    const Scene scene = loadScene(bundled.path);
+    EXPECT_EQ(parseScene(formatScene(scene), "formatted"), scene) << bundled.name;
+  }
+}
+
+TEST(FormatScene, ReadsBackAsTheSameSceneForCs184sFiles) {
+  for (const std::string name : {"pinned2", "pinned4", "plane", "sphere", "selfCollision"}) {
+    const Scene scene = loadScene(std::filesystem::path(TEST_DATA) / "data" / "cs184" / (name + ".json"));
+    EXPECT_EQ(parseScene(formatScene(scene), "formatted"), scene) << name;
+  }
+}
+
+TEST(FormatScene, LeavesOutWhatIsAtItsDefault) {
+  EXPECT_EQ(formatScene(parseScene(R"({"cloth": {"ks": 5000.0, "width": 1.0, "damping": 0.2}})", "test")),
+            "{\n  \"schema\": \"clothsim/1\",\n  \"cloth\": {\"ks\": 5000}\n}\n");
+}
+
+TEST(FormatScene, KeepsTheOrderOfTheTable) {
+  const std::string text = formatScene(parseScene(
+      R"({"solver": {"integrator": "euler"}, "gravity": [0, 0, 0], "cloth": {"thickness": 1, "width": 2}})",
+      "test"));
+  EXPECT_LT(text.find("\"width\""), text.find("\"thickness\""));
+  EXPECT_LT(text.find("\"thickness\""), text.find("\"gravity\""));
+  EXPECT_LT(text.find("\"gravity\""), text.find("\"solver\""));
+}
+
+TEST(FormatScene, WritesNumbersInTheFewestDigitsThatReadBackExactly) {
+  const std::string text = formatScene(parseScene(
+      R"({"cloth": {"ks": 100000, "width": 0.1000000000000000055, "height": 0.30000000000000004, "density": 1e-7}})",
+      "test"));
+  for (const std::string part :
+       {"\"ks\": 100000}", "\"width\": 0.1,", "\"height\": 0.30000000000000004,", "\"density\": 1e-07"})
+    EXPECT_NE(text.find(part), std::string::npos) << part << "\n" << text;
+}
+
+TEST(FormatScene, WritesAListOfClothsOnlyForSeveral) {
+  Scene scene = parseScene(R"({"cloth": {}})", "test");
+  EXPECT_NE(formatScene(scene).find("\"cloth\": {"), std::string::npos);
+  scene.cloths.push_back(scene.cloths[0]);
+  EXPECT_NE(formatScene(scene).find("\"cloths\": ["), std::string::npos);
+}
+
+}  // namespace
+}  // namespace clothsim
