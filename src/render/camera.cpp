@@ -10,10 +10,10 @@
 namespace clothsim {
 namespace {
 
-constexpr double STEEPEST = 1.55;                   // [rad], short of the poles, where "up" has no direction
-constexpr double AZIMUTH = 0.55, ELEVATION = 0.30;  // [rad], three-quarter view from slightly above
-constexpr double FRAMED_ASPECT = 16.0 / 9.0;
-constexpr double MARGIN = 1.14, PASSING_MARGIN = 1.02;  // room around what is framed
+constexpr double steepest = 1.55;                   // [rad], short of the poles, where "up" has no direction
+constexpr double defaultAzimuth = 0.55, defaultElevation = 0.30;  // [rad], three-quarter view from slightly above
+constexpr double framedAspect = 16.0 / 9.0;
+constexpr double stayingMargin = 1.14, passingMargin = 1.02;  // room around what is framed
 
 glm::vec3 directionOf(double azimuth, double elevation) {
   return {static_cast<float>(std::sin(azimuth) * std::cos(elevation)),
@@ -70,12 +70,12 @@ Frame frameStage(const Stage& stage, glm::vec3 direction, double fovDegrees) {
     const double tangent = std::tan(glm::radians(fovDegrees) / 2) / margin;
     for (const glm::vec3 point : points) {
       const glm::vec3 p = point - center;
-      horizontal.push_back({glm::dot(p, right), glm::dot(p, direction), tangent * FRAMED_ASPECT});
+      horizontal.push_back({glm::dot(p, right), glm::dot(p, direction), tangent * framedAspect});
       vertical.push_back({glm::dot(p, up), glm::dot(p, direction), tangent});
     }
   };
-  add(stage.staying, MARGIN);
-  add(stage.passing, PASSING_MARGIN);
+  add(stage.staying, stayingMargin);
+  add(stage.passing, passingMargin);
   const AxisFrame x = frameAxis(horizontal), y = frameAxis(vertical);
   return {center + static_cast<float>(x.middle) * right + static_cast<float>(y.middle) * up,
           std::max(x.distance, y.distance)};
@@ -89,14 +89,14 @@ Camera::Camera(const Scene& scene, const Cloth& cloth) {
   const CameraSettings& wanted = scene.camera;
   Place place;
   place.fov = wanted.fov;
-  place.azimuth = std::atan2(outline.front.x, outline.front.z) + AZIMUTH;
-  place.elevation = ELEVATION;
+  place.azimuth = std::atan2(outline.front.x, outline.front.z) + defaultAzimuth;
+  place.elevation = defaultElevation;
   if (wanted.position) {
     place.target = wanted.target ? toGlm(*wanted.target) : stage.view.center();
     const glm::vec3 offset = toGlm(*wanted.position) - place.target;
     place.distance = std::max(1e-3, static_cast<double>(glm::length(offset)));
     place.azimuth = std::atan2(offset.x, offset.z);
-    place.elevation = std::clamp(std::asin(offset.y / place.distance), -STEEPEST, STEEPEST);
+    place.elevation = std::clamp(std::asin(offset.y / place.distance), -steepest, steepest);
   } else {
     const Frame frame = frameStage(stage, directionOf(place.azimuth, place.elevation), place.fov);
     place.target = wanted.target ? toGlm(*wanted.target) : frame.target;
@@ -107,7 +107,7 @@ Camera::Camera(const Scene& scene, const Cloth& cloth) {
 
 void Camera::orbit(double azimuthRadians, double elevationRadians) {
   now_.azimuth += azimuthRadians;
-  now_.elevation = std::clamp(now_.elevation + elevationRadians, -STEEPEST, STEEPEST);
+  now_.elevation = std::clamp(now_.elevation + elevationRadians, -steepest, steepest);
 }
 
 void Camera::pan(double right, double up) {

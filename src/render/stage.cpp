@@ -11,15 +11,15 @@
 namespace clothsim {
 namespace {
 
-constexpr float STRETCH = 1.08f;     // how far cloth hangs beyond its own length
-constexpr std::size_t SAMPLES = 64;  // points of a grid looked at along each of its sides
+constexpr float stretch = 1.08f;     // how far cloth hangs beyond its own length
+constexpr std::size_t samplesAlong = 64;  // points of a grid looked at along each of its sides
 
 using GridSamples = ClothOutline::GridPoints;
 
 // Border, pins and a raster of a grid.
 GridSamples sampleGrid(const Cloth& cloth, const Grid& grid) {
   GridSamples samples;
-  const auto step = [](int count) { return std::max(1, count / static_cast<int>(SAMPLES)); };
+  const auto step = [](int count) { return std::max(1, count / static_cast<int>(samplesAlong)); };
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.columns; ++column) {
       const std::uint32_t particle =
@@ -33,9 +33,9 @@ GridSamples sampleGrid(const Cloth& cloth, const Grid& grid) {
     }
   }
   // A pinned side of a large grid would make the search below quadratic.
-  if (samples.pins.size() > 2 * SAMPLES) {
+  if (samples.pins.size() > 2 * samplesAlong) {
     std::vector<glm::vec3> fewer;
-    for (std::size_t i = 0; i < samples.pins.size(); i += samples.pins.size() / SAMPLES)
+    for (std::size_t i = 0; i < samples.pins.size(); i += samples.pins.size() / samplesAlong)
       fewer.push_back(samples.pins[i]);
     fewer.push_back(samples.pins.back());
     samples.pins = fewer;
@@ -54,7 +54,7 @@ void addHanging(const GridSamples& samples, const Box& rest, Stage& stage) {
     for (const glm::vec3 candidate : samples.pins) {
       if (glm::distance(candidate, point) < glm::distance(pin, point)) pin = candidate;
     }
-    const float reach = STRETCH * glm::distance(pin, point);
+    const float reach = stretch * glm::distance(pin, point);
     const glm::vec2 held{heldX ? point.x - pin.x : 0, heldZ ? point.z - pin.z : 0};
     const float drop = std::sqrt(std::max(0.0f, reach * reach - glm::dot(held, held)));
     stage.staying.emplace_back(pin.x + held.x, std::min(point.y, pin.y - drop), pin.z + held.y);

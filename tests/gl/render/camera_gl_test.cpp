@@ -11,10 +11,10 @@
 namespace clothsim {
 namespace {
 
-constexpr double WIDE = 16.0 / 9.0;
+constexpr double wide = 16.0 / 9.0;
 
 glm::vec2 onScreen(const Camera& camera, glm::vec3 point) {
-  const glm::vec4 clip = camera.projection(WIDE) * camera.view() * glm::vec4(point, 1);
+  const glm::vec4 clip = camera.projection(wide) * camera.view() * glm::vec4(point, 1);
   return glm::vec2(clip) / clip.w;
 }
 
@@ -104,7 +104,7 @@ TEST_F(CameraTest, PanMovesThePictureByTheGivenPartOfItsHeight) {
   const glm::vec3 before = camera_.target();
   camera_.pan(0.25, 0.5);
   const glm::vec2 place = onScreen(camera_, before);  // in half heights, y up; x in half widths
-  EXPECT_NEAR(place.x, -0.5 / WIDE, 1e-4);
+  EXPECT_NEAR(place.x, -0.5 / wide, 1e-4);
   EXPECT_NEAR(place.y, -1.0, 1e-4);
 }
 

@@ -14,7 +14,7 @@
 
 namespace clothsim::test {
 
-constexpr int PICTURE_WIDTH = 96, PICTURE_HEIGHT = 64;
+constexpr int pictureWidth = 96, pictureHeight = 64;
 
 struct Drape {
   Scene scene;
@@ -52,8 +52,8 @@ inline Scene drapeScene() {
   return scene;
 }
 
-inline Image drawDrape(const Scene& scene, const RenderOptions& options = {}, int width = PICTURE_WIDTH,
-                       int height = PICTURE_HEIGHT) {
+inline Image drawDrape(const Scene& scene, const RenderOptions& options = {}, int width = pictureWidth,
+                       int height = pictureHeight) {
   const Drape drape(scene);
   const gl::Buffer<Particle4> positions("positions", drape.positions);
   Renderer renderer(drape.cloth, drape.scene, options);
