@@ -11,6 +11,7 @@
 #include "core/progress.h"
 #include "export/export.h"
 #include "gl/context.h"
+#include "solver/cpu/synchronized.h"
 #include "solver/measure.h"
 
 namespace clothsim {

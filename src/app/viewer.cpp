@@ -177,6 +177,7 @@ class Viewer {
   Clock clock_;
   Notice notice_;
   std::string title_;
+  const bool software_ = gl::currentContextInfo().software;  // OpenGL is the CPU in disguise, and slower
   bool paused_ = false, stepAsked_ = false, showOverlay_ = true, showKeys_ = false;
 };
 
@@ -293,7 +294,10 @@ OverlayFacts Viewer::facts() const {
   else if (rate == 0)
     facts.rows.push_back({"speed", "measuring"});
   else
-    facts.rows.push_back({"speed", formatted(slow ? "%.2f" : "%.1f", factor) + "\u00d7 real time", slow});
+    facts.rows.push_back({"speed",
+                          formatted(slow ? "%.2f" : "%.1f", factor) + "\u00d7 real time" +
+                              (slow && software_ && solver.backend() == "gpu" ? ", B: try the CPU" : ""),
+                          slow});
   if (rate > 0 && !paused_) facts.rows.push_back({"display", formatted("%.0f frames/s", rate)});
   facts.rows.push_back({"help", "F1 lists the keys"});
   if (notice_.secondsLeft > 0) {

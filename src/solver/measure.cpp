@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "scene/pose.h"
-#include "solver/cpu/cpu_solver.h"
 
 namespace clothsim {
 namespace {
@@ -79,15 +78,6 @@ Measures measure(const Cloth& cloth, const Scene& scene, const State& state) {
             std::max(measures.maxPenetration, penetration(collider, pose, cloth.positions()[i], positionOf(state, i)));
   }
   return measures;
-}
-
-State synchronized(const Cloth& cloth, const Scene& scene, const State& state) {
-  if (state.integrator == Integrator::euler) return state;
-  Scene asEuler = scene;
-  asEuler.solver.integrator = Integrator::euler;
-  CpuSolver<float> solver(cloth, asEuler);
-  solver.setState(state);
-  return solver.state();
 }
 
 }  // namespace clothsim

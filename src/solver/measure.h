@@ -22,7 +22,4 @@ struct Measures {
 
 [[nodiscard]] Measures measure(const Cloth& cloth, const Scene& scene, const State& state);
 
-// The same state with velocities of its own time: under `verlet` 1/2 (v(n-1/2) + v(n+1/2)), which energies are made of.
-[[nodiscard]] State synchronized(const Cloth& cloth, const Scene& scene, const State& state);
-
 }  // namespace clothsim

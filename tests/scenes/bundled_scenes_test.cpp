@@ -5,6 +5,7 @@
 #include "app/simulation.h"
 #include "gl/gl_test.h"
 #include "scene/scene_io.h"
+#include "solver/cpu/synchronized.h"
 #include "solver/measure.h"
 
 namespace clothsim {

@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <memory>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -100,6 +101,7 @@ class Screen {
 // The viewer in its window, in an empty folder of its own.
 class ViewerProgram {
  public:
+  // @throws std::runtime_error, which fails the test, when no window shows pictures after a while
   explicit ViewerProgram(const std::string& arguments)
       : process_({"sh", "-c",
                   "cd '" + folder_.path().string() +
@@ -111,9 +113,9 @@ class ViewerProgram {
       // The title says the frame rate once pictures are being drawn.
       return !process_.running() || (!window_.empty() && title().find("fps") != std::string::npos);
     });
-    EXPECT_TRUE(shown && process_.running())
-        << "the viewer does not get going; its title: '" << title() << "'; it says:\n"
-        << output();
+    if (!shown || !process_.running())
+      throw std::runtime_error("the viewer does not get going; its title: '" + title() + "'; it says:\n" +
+                               output());
   }
 
   [[nodiscard]] std::string title() const {

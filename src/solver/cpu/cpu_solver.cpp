@@ -8,7 +8,7 @@ namespace clothsim {
 namespace {
 
 // Below this many particles a row-parallel pass costs more in waking threads than it saves.
-constexpr std::uint32_t PARALLEL_PARTICLES = 2048;
+constexpr std::uint32_t PARALLEL_PARTICLES = 8192;
 
 template <class Real>
 Vec3<Real> at(const Components<Real>& c, std::size_t i) {

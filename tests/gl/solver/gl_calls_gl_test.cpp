@@ -3,7 +3,10 @@
 
 #include <map>
 #include <string>
+#include <tuple>
+#include <type_traits>
 
+#include "gl/framebuffer.h"
 #include "gl/gl_test.h"
 #include "render/renderer.h"
 #include "solver/gpu/gpu_solver.h"
@@ -34,10 +37,8 @@ class Counted<Pointer> {
  private:
   static Result count(Arguments... arguments) {
     ++calls[name_];
-    if constexpr (sizeof...(Arguments) == 4) {  // glNamedBufferSubData(buffer, offset, size, data)
-      if (std::string(name_) == "glNamedBufferSubData")
-        uploadedBytes += static_cast<std::size_t>(std::get<2>(std::tuple<Arguments...>(arguments...)));
-    }
+    if constexpr (std::is_same_v<Result (*)(Arguments...), PFNGLNAMEDBUFFERSUBDATAPROC>)
+      uploadedBytes += static_cast<std::size_t>(std::get<2>(std::tuple(arguments...)));  // (buffer, offset, size, data)
     return original_(arguments...);
   }
   static inline const char* name_ = nullptr;
@@ -54,9 +55,10 @@ TEST_F(GlCallsTest, AFrameReadsNothingBackAndUploadsNoPositions) {
     GpuSolver solver(cloth, scene);
     Renderer renderer(cloth, scene, {});
     const Camera camera(scene, cloth);
+    const gl::Framebuffer target("picture", {.width = 64, .height = 48, .color = GL_SRGB8_ALPHA8, .depth = GL_DEPTH_COMPONENT24});
     const auto frame = [&] {
       solver.step(30);
-      renderer.draw(solver.positionsBuffer(), camera, 0.1, 0, 64, 48);
+      renderer.draw(solver.positionsBuffer(), camera, 0.1, target.name(), 64, 48);
     };
     frame();  // what is made once, is made here
 
