@@ -10,8 +10,9 @@
 namespace clothsim {
 namespace {
 
-constexpr double steepest = 1.55;                   // [rad], short of the poles, where "up" has no direction
-constexpr double defaultAzimuth = 0.55, defaultElevation = 0.30;  // [rad], three-quarter view from slightly above
+constexpr double steepest = 1.55;  // [rad], short of the poles, where "up" has no direction
+constexpr double defaultAzimuth = 0.55,
+                 defaultElevation = 0.30;  // [rad], three-quarter view from slightly above
 constexpr double framedAspect = 16.0 / 9.0;
 constexpr double stayingMargin = 1.14, passingMargin = 1.02;  // room around what is framed
 

@@ -11,7 +11,7 @@
 namespace clothsim {
 namespace {
 
-constexpr float stretch = 1.08f;     // how far cloth hangs beyond its own length
+constexpr float stretch = 1.08f;          // how far cloth hangs beyond its own length
 constexpr std::size_t samplesAlong = 64;  // points of a grid looked at along each of its sides
 
 using GridSamples = ClothOutline::GridPoints;
