@@ -2,6 +2,9 @@
 #include "render/background.glsl"
 #include "render/tone.glsl"
 
+#ifndef SAMPLES
+#define SAMPLES 4  // the renderer says how many
+#endif
 #if SAMPLES > 1
 layout(binding = CANVAS_UNIT) uniform sampler2DMS canvas;
 #else

@@ -10,21 +10,21 @@ using uint = unsigned int;
 #endif
 
 // Bound anew before every use, since the simulation has the same slots for itself.
-#define RENDER_FRAME_BINDING 8        // uniform block RenderFrame
-#define NORMALS_GRID_BINDING 9        // uniform block NormalsGrid
-#define NORMALS_POSITIONS_BINDING 0   // storage block, vec4 a particle
-#define NORMALS_OUT_BINDING 1         // storage block, vec4 a particle
-#define SHADOW_MAP_UNIT 0             // texture units
+#define RENDER_FRAME_BINDING 8       // uniform block RenderFrame
+#define NORMALS_GRID_BINDING 9       // uniform block NormalsGrid
+#define NORMALS_POSITIONS_BINDING 0  // storage block, vec4 a particle
+#define NORMALS_OUT_BINDING 1        // storage block, vec4 a particle
+#define SHADOW_MAP_UNIT 0            // texture units
 #define FLOOR_SHADOW_UNIT 1
 #define CANVAS_UNIT 2
-#define FLOOR_SHADOW_SIZE 256         // [texels] of the blurred shadow for floors
-#define NORMALS_GROUP_SIZE 8          // work groups of 8 x 8 particles
+#define FLOOR_SHADOW_SIZE 256  // [texels] of the blurred shadow for floors
+#define NORMALS_GROUP_SIZE 8   // work groups of 8 x 8 particles
 
-#define POSITION_LOCATION 0           // vertex attributes
+#define POSITION_LOCATION 0  // vertex attributes
 #define NORMAL_LOCATION 1
 #define TEXTURE_COORDINATE_LOCATION 2
-#define INSTANCE_PLACE_LOCATION 3     // sphere: centre, radius; plane: centre of the drawn part, its radius
-#define INSTANCE_NORMAL_LOCATION 4    // plane: normal
+#define INSTANCE_PLACE_LOCATION 3   // sphere: centre, radius; plane: centre of the drawn part, its radius
+#define INSTANCE_NORMAL_LOCATION 4  // plane: normal
 
 struct RenderFrame {
   mat4 clipFromWorld;
@@ -34,16 +34,16 @@ struct RenderFrame {
   vec4 toFillLight;      // xyz, unit
   vec4 keyColor;         // radiance times pi, so that a white matte surface facing the light returns it
   vec4 fillColor;
-  vec4 skyColor;         // ambient light from above
-  vec4 bounceColor;      // ambient light from below
-  vec4 clothFront;       // albedo
+  vec4 skyColor;     // ambient light from above
+  vec4 bounceColor;  // ambient light from below
+  vec4 clothFront;   // albedo
   vec4 clothBack;
   vec4 sphereColor;
   vec4 floorColor;
   vec4 backgroundTop;
   vec4 backgroundBottom;
-  vec4 backgroundGlow;   // added around the middle of the picture
-  vec4 pixels;           // width, height, 1 / width, 1 / height
+  vec4 backgroundGlow;  // added around the middle of the picture
+  vec4 pixels;          // width, height, 1 / width, 1 / height
 };
 
 struct NormalsGrid {

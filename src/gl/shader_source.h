@@ -1,5 +1,5 @@
-// GLSL text from the files under shaders/, with #include "..." resolved against shaders/, each file included once, and line
-// numbers kept.
+// GLSL text from the files under shaders/, with #include "..." resolved against shaders/, each file included
+// once, and line numbers kept.
 #pragma once
 
 #include <string>

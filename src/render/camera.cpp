@@ -3,16 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <vector>
 
 #include "render/stage.h"
 
 namespace clothsim {
 namespace {
 
-constexpr double STEEPEST = 1.55;                   // [rad], short of the poles, where "up" has no direction
-constexpr double AZIMUTH = 0.55, ELEVATION = 0.30;  // [rad], three-quarter view from slightly above
-constexpr double FRAMED_ASPECT = 16.0 / 9.0;
-constexpr double MARGIN = 1.10;  // room around what is framed
+constexpr double steepest = 1.55;  // [rad], short of the poles, where "up" has no direction
+constexpr double defaultAzimuth = 0.55,
+                 defaultElevation = 0.30;  // [rad], three-quarter view from slightly above
+constexpr double framedAspect = 16.0 / 9.0;
+constexpr double stayingMargin = 1.14, passingMargin = 1.02;  // room around what is framed
 
 glm::vec3 directionOf(double azimuth, double elevation) {
   return {static_cast<float>(std::sin(azimuth) * std::cos(elevation)),
@@ -25,27 +27,59 @@ struct Frame {
   double distance;
 };
 
-// The nearest place, looking along -direction, from which the stage is in the picture, with it in the middle.
+// A point as seen along the viewing direction: across the picture, and towards the viewer; `tangent` is that
+// of half the field of view that the point may use.
+struct SeenPoint {
+  double across, toward, tangent;
+};
+
+struct AxisFrame {
+  double middle, distance;
+};
+
+// The middle of the picture along one of its axes for which the viewer can be nearest. A point is inside both
+// edges when |across - middle| <= tangent * (distance - toward); the distance this needs is convex in the
+// middle.
+AxisFrame frameAxis(const std::vector<SeenPoint>& points) {
+  const auto distanceFor = [&](double middle) {
+    double distance = 0;
+    for (const SeenPoint& p : points)
+      distance = std::max(distance, p.toward + std::abs(p.across - middle) / p.tangent);
+    return distance;
+  };
+  double low = 1e30, high = -1e30;
+  for (const SeenPoint& p : points) {
+    low = std::min(low, p.across);
+    high = std::max(high, p.across);
+  }
+  for (int i = 0; i < 40; ++i) {  // each step leaves two thirds
+    const double first = low + (high - low) / 3, second = high - (high - low) / 3;
+    (distanceFor(first) < distanceFor(second) ? high : low) =
+        distanceFor(first) < distanceFor(second) ? second : first;
+  }
+  return {low, distanceFor(low)};
+}
+
+// The nearest place, looking along -direction, from which the stage is in the picture, with room around what
+// stays there.
 Frame frameStage(const Stage& stage, glm::vec3 direction, double fovDegrees) {
-  const double tanY = std::tan(glm::radians(fovDegrees) / 2) / MARGIN, tanX = tanY * FRAMED_ASPECT;
   const glm::vec3 right = glm::normalize(glm::cross(glm::vec3(0, 1, 0), direction));
   const glm::vec3 up = glm::cross(direction, right);
-  const glm::vec3 middle = stage.view.center();
-  // A point p is inside the picture's right edge when right.p <= tanX * (distance - direction.p), and so on.
-  // The two opposite edges give the distance (their mean) and the middle (half their difference) at once.
-  double leftmost = -1e30, rightmost = -1e30, lowest = -1e30, highest = -1e30;
-  for (const glm::vec3 point : stage.shown) {
-    const glm::vec3 p = point - middle;
-    const double x = glm::dot(p, right), y = glm::dot(p, up), toward = glm::dot(p, direction);
-    leftmost = std::max(leftmost, toward - x / tanX);
-    rightmost = std::max(rightmost, toward + x / tanX);
-    lowest = std::max(lowest, toward - y / tanY);
-    highest = std::max(highest, toward + y / tanY);
-  }
-  const auto shiftRight = static_cast<float>(0.5 * (rightmost - leftmost) * tanX);
-  const auto shiftUp = static_cast<float>(0.5 * (highest - lowest) * tanY);
-  const double distance = std::max(0.5 * (leftmost + rightmost), 0.5 * (lowest + highest));
-  return {middle + shiftRight * right + shiftUp * up, distance};
+  const glm::vec3 center = stage.view.center();
+  std::vector<SeenPoint> horizontal, vertical;
+  const auto add = [&](const std::vector<glm::vec3>& points, double margin) {
+    const double tangent = std::tan(glm::radians(fovDegrees) / 2) / margin;
+    for (const glm::vec3 point : points) {
+      const glm::vec3 p = point - center;
+      horizontal.push_back({glm::dot(p, right), glm::dot(p, direction), tangent * framedAspect});
+      vertical.push_back({glm::dot(p, up), glm::dot(p, direction), tangent});
+    }
+  };
+  add(stage.staying, stayingMargin);
+  add(stage.passing, passingMargin);
+  const AxisFrame x = frameAxis(horizontal), y = frameAxis(vertical);
+  return {center + static_cast<float>(x.middle) * right + static_cast<float>(y.middle) * up,
+          std::max(x.distance, y.distance)};
 }
 
 }  // namespace
@@ -56,14 +90,14 @@ Camera::Camera(const Scene& scene, const Cloth& cloth) {
   const CameraSettings& wanted = scene.camera;
   Place place;
   place.fov = wanted.fov;
-  place.azimuth = std::atan2(outline.front.x, outline.front.z) + AZIMUTH;
-  place.elevation = ELEVATION;
+  place.azimuth = std::atan2(outline.front.x, outline.front.z) + defaultAzimuth;
+  place.elevation = defaultElevation;
   if (wanted.position) {
     place.target = wanted.target ? toGlm(*wanted.target) : stage.view.center();
     const glm::vec3 offset = toGlm(*wanted.position) - place.target;
     place.distance = std::max(1e-3, static_cast<double>(glm::length(offset)));
     place.azimuth = std::atan2(offset.x, offset.z);
-    place.elevation = std::clamp(std::asin(offset.y / place.distance), -STEEPEST, STEEPEST);
+    place.elevation = std::clamp(std::asin(offset.y / place.distance), -steepest, steepest);
   } else {
     const Frame frame = frameStage(stage, directionOf(place.azimuth, place.elevation), place.fov);
     place.target = wanted.target ? toGlm(*wanted.target) : frame.target;
@@ -74,7 +108,7 @@ Camera::Camera(const Scene& scene, const Cloth& cloth) {
 
 void Camera::orbit(double azimuthRadians, double elevationRadians) {
   now_.azimuth += azimuthRadians;
-  now_.elevation = std::clamp(now_.elevation + elevationRadians, -STEEPEST, STEEPEST);
+  now_.elevation = std::clamp(now_.elevation + elevationRadians, -steepest, steepest);
 }
 
 void Camera::pan(double right, double up) {

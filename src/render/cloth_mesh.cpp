@@ -34,8 +34,7 @@ ClothMesh::ClothMesh(const Cloth& cloth)
   for (const Grid& grid : cloth.grids()) {
     const auto columns = static_cast<GLuint>(grid.columns), rows = static_cast<GLuint>(grid.rows);
     const std::array block{shared::NormalsGrid{grid.firstParticle, columns, rows, ringOf(grid)}};
-    const auto groups = [](GLuint count) { return (count + NORMALS_GROUP_SIZE - 1) / NORMALS_GROUP_SIZE; };
-    grids_.push_back({gl::Buffer<shared::NormalsGrid>("normals grid", block), groups(columns), groups(rows)});
+    grids_.push_back({gl::Buffer<shared::NormalsGrid>("normals grid", block), columns, rows});
   }
   vertices_.attach(normals_.name(), {.location = NORMAL_LOCATION});
   vertices_.attach(textureCoordinates_.name(),
@@ -50,7 +49,7 @@ void ClothMesh::computeNormals(GLuint positions) {
   normals_.bindStorage(NORMALS_OUT_BINDING);
   for (const GridBlock& grid : grids_) {
     grid.block.bindUniform(NORMALS_GRID_BINDING);
-    glDispatchCompute(grid.groupsAcross, grid.groupsDown, 1);
+    gl::dispatch(grid.columns, grid.rows, NORMALS_GROUP_SIZE, NORMALS_GROUP_SIZE);
   }
   glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);  // normals, and the solver's positions, as vertices
 }

@@ -26,7 +26,7 @@ class ClothMesh {
  private:
   struct GridBlock {
     gl::Buffer<shared::NormalsGrid> block;
-    GLuint groupsAcross, groupsDown;
+    GLuint columns, rows;
   };
 
   gl::Program normalsPass_;

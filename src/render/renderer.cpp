@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
 #include <span>
 
 #include "gl/buffer.h"
@@ -19,8 +18,8 @@
 namespace clothsim {
 namespace {
 
-constexpr GLenum CANVAS_FORMAT = GL_RGBA8;  // square roots of linear light (shaders/render/tone.glsl)
-constexpr float FLOOR_RADIUS = 4.5f;        // of the stage's size: where planes have faded out
+constexpr GLenum canvasFormat = GL_RGBA8;  // square roots of linear light (shaders/render/tone.glsl)
+constexpr float floorRadius = 4.5f;        // of the stage's size: where planes have faded out
 
 // The longest side of a triangle of cloth: the diagonal of a cell [m].
 double longestEdge(const Cloth& cloth) {
@@ -58,7 +57,7 @@ struct Renderer::Parts {
   ClothMesh clothMesh;
   SphereMesh spheres;
   PlaneMesh planes;
-  std::optional<ShadowMap> shadowMap;
+  ShadowMap shadowMap;
   gl::Framebuffer canvas;
   gl::Buffer<shared::RenderFrame> frameBlock{"render frame", 1};
   gl::VertexArray noVertices{"no vertices"};
@@ -77,7 +76,8 @@ Renderer::Parts::Parts(const Cloth& cloth, const RenderOptions& wanted)
       outline(outlineOf(cloth)),
       edge(longestEdge(cloth)),
       clothMesh(cloth),
-      spheres(wanted.sphereSegmentsAround, wanted.sphereSegmentsDown) {
+      spheres(wanted.sphereSegmentsAround, wanted.sphereSegmentsDown),
+      shadowMap(wanted.shadowMapSize) {
   options.samples = gl::supportedSamples(wanted.samples);
   resolve = gl::Program::makeRender("render/fullscreen.vert", "render/resolve.frag",
                                     {{"SAMPLES", std::to_string(options.samples)}});
@@ -87,9 +87,9 @@ void Renderer::Parts::configure(const Scene& edited) {
   scene = edited;
   stage = makeStage(outline, scene);
   frame = makeLook(scene.render, outline.front);
-  shadowMap.emplace(stage.reach, glm::vec3(frame.toKeyLight), options.shadowMapSize);
-  frame.shadowFromWorld = shadowMap->shadowFromWorld();
-  frame.toKeyLight.w = shadowMap->texelLength();
+  shadowMap.cover(stage.reach, glm::vec3(frame.toKeyLight));
+  frame.shadowFromWorld = shadowMap.shadowFromWorld();
+  frame.toKeyLight.w = shadowMap.texelLength();
   if (scene.render.shader != shaderName) {
     clothShading = makeShadingModel(scene.render.shader);
     shaderName = scene.render.shader;
@@ -100,7 +100,7 @@ void Renderer::Parts::placeColliders(double time) {
   std::vector<glm::vec4> places;
   std::vector<PlaneDisc> discs;
   const glm::vec3 middle = stage.view.center();
-  const float radius = FLOOR_RADIUS * glm::length(stage.view.size());
+  const float radius = floorRadius * glm::length(stage.view.size());
   const auto addDisc = [&](glm::vec3 point, glm::vec3 normal) {
     const glm::vec3 center = middle - glm::dot(middle - point, normal) * normal;
     discs.push_back({glm::vec4(center, radius), glm::vec4(normal, 0)});
@@ -131,7 +131,7 @@ void Renderer::Parts::updateFrame(const Camera& camera, int width, int height) {
 }
 
 void Renderer::Parts::drawShadows(GLuint positions) {
-  shadowMap->begin();
+  shadowMap.begin();
   if (options.shadows) {
     clothShadow.bind();
     clothMesh.draw(positions);
@@ -142,17 +142,17 @@ void Renderer::Parts::drawShadows(GLuint positions) {
     spheres.draw();
     glDisable(GL_CULL_FACE);
   }
-  shadowMap->end();
-  shadowMap->blurForFloors();
+  shadowMap.end();
+  shadowMap.blurForFloors();
 }
 
 // Front to back as far as the order is known, so that hidden fragments are not shaded; planes last, since
 // they blend.
 void Renderer::Parts::drawScene(GLuint positions, int width, int height) {
-  const gl::FramebufferFormat format{width, height, options.samples, CANVAS_FORMAT, GL_DEPTH_COMPONENT24};
+  const gl::FramebufferFormat format{width, height, options.samples, canvasFormat, GL_DEPTH_COMPONENT24};
   if (!(canvas.format() == format)) canvas = gl::Framebuffer("canvas", format);
   canvas.bind();
-  shadowMap->bindTextures();
+  shadowMap.bindTextures();
   const float farthest = 1;
   const std::array<float, 4> nothing{0, 0, 0, 0};
   glClearNamedFramebufferfv(canvas.name(), GL_COLOR, 0, nothing.data());
@@ -199,6 +199,7 @@ void Renderer::configure(const Scene& scene) { parts_->configure(scene); }
 
 void Renderer::draw(GLuint positions, const Camera& camera, double time, GLuint target, int width,
                     int height) {
+  if (width <= 0 || height <= 0) return;  // a minimised window
   parts_->placeColliders(time);
   parts_->updateFrame(camera, width, height);
   parts_->clothMesh.computeNormals(positions);

@@ -1,4 +1,5 @@
-// Draws the cloth from the particle buffer in which it is simulated, with its colliders, a floor and a background.
+// Draws the cloth from the particle buffer in which it is simulated, with its colliders, a floor and a
+// background.
 #pragma once
 
 #include <memory>
@@ -16,7 +17,7 @@ struct RenderOptions {
   int sphereSegmentsAround = 64;  // -a: horizontal segments of drawn spheres, >= 3
   int sphereSegmentsDown = 48;    // -o: vertical segments, >= 2
   int samples = 4;                // multisampling, 1 to what the driver offers
-  int shadowMapSize = 1024;       // texels along each side; a smaller map is faster and its shadows are softer
+  int shadowMapSize = 1024;  // texels along each side; a smaller map is faster and its shadows are softer
   bool shadows = true;
 };
 
@@ -26,8 +27,9 @@ class Renderer {
   Renderer(const Cloth& cloth, const Scene& scene, const RenderOptions& options);
   ~Renderer();
 
-  // `positions` is a buffer of one vec4 a particle. `time` [s] places moving colliders. Draws into the framebuffer
-  // `target` (0: the window) of `width` x `height` pixels. Neither reads back nor uploads positions.
+  // `positions` is a buffer of one vec4 a particle. `time` [s] places moving colliders. Draws into the
+  // framebuffer `target` (0: the window) of `width` x `height` pixels. Neither reads back nor uploads
+  // positions.
   void draw(GLuint positions, const Camera& camera, double time, GLuint target, int width, int height);
 
   // Colours, colliders, camera-independent looks from an edited scene with the same grids.
@@ -39,7 +41,7 @@ class Renderer {
 };
 
 // Draws into an off-screen framebuffer and reads the picture back.
-[[nodiscard]] Image renderImage(Renderer& renderer, GLuint positions, const Camera& camera, double time, int width,
-                                int height);
+[[nodiscard]] Image renderImage(Renderer& renderer, GLuint positions, const Camera& camera, double time,
+                                int width, int height);
 
 }  // namespace clothsim

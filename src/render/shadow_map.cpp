@@ -12,7 +12,7 @@ namespace {
 
 constexpr gl::FramebufferFormat floorFormat{
     .width = FLOOR_SHADOW_SIZE, .height = FLOOR_SHADOW_SIZE, .color = GL_R8};
-constexpr float BORDER =
+constexpr float border =
     0.03f;  // of the map, around the casters, so that their shadows' soft edges are inside
 
 // The casters' extent in light space, where z points to the light.
@@ -28,26 +28,13 @@ Box inLightSpace(const Box& box, const glm::mat4& lightFromWorld) {
 
 }  // namespace
 
-ShadowMap::ShadowMap(const Box& reach, glm::vec3 toLight, int size)
+ShadowMap::ShadowMap(int size)
     : framebuffer_("shadow map", {.width = size, .height = size, .depth = GL_DEPTH_COMPONENT24}),
       halfBlurred_("half blurred floor shadow", floorFormat),
       floorShadow_("floor shadow", floorFormat),
       blurFirstAxis_(gl::Program::makeRender("render/fullscreen.vert", "render/floor_shadow.frag",
                                              {{"FIRST_AXIS", ""}})),
       blurSecondAxis_(gl::Program::makeRender("render/fullscreen.vert", "render/floor_shadow.frag")) {
-  const glm::vec3 up = std::abs(toLight.y) < 0.99f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
-  const glm::mat4 lightFromWorld = glm::lookAt(reach.center() + toLight, reach.center(), up);
-  const Box seen = inLightSpace(reach, lightFromWorld);
-  const float half = 0.5f * std::max(seen.size().x, seen.size().y) / (1 - 2 * BORDER);
-  texelLength_ = 2 * half / static_cast<float>(size);
-  const glm::vec3 middle = seen.center();
-  // Depth is clamped instead of clipped (see begin()): what is farther than the casters is lit or shadowed
-  // all the same.
-  const glm::mat4 clipFromLight = glm::ortho(middle.x - half, middle.x + half, middle.y - half,
-                                             middle.y + half, -seen.high.z, -seen.low.z);
-  const glm::mat4 unitFromClip = glm::scale(glm::translate(glm::mat4(1), glm::vec3(0.5f)), glm::vec3(0.5f));
-  shadowFromWorld_ = unitFromClip * clipFromLight * lightFromWorld;
-
   const GLuint texture = framebuffer_.depthTexture();
   glTextureParameteri(texture, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
   // Outside of the map nothing is in the light's way.
@@ -58,6 +45,21 @@ ShadowMap::ShadowMap(const Box& reach, glm::vec3 toLight, int size)
     glTextureParameterfv(each, GL_TEXTURE_BORDER_COLOR, lit.data());
   }
   glTextureParameteri(texture, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+}
+
+void ShadowMap::cover(const Box& reach, glm::vec3 toLight) {
+  const glm::vec3 up = std::abs(toLight.y) < 0.99f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
+  const glm::mat4 lightFromWorld = glm::lookAt(reach.center() + toLight, reach.center(), up);
+  const Box seen = inLightSpace(reach, lightFromWorld);
+  const float half = 0.5f * std::max(seen.size().x, seen.size().y) / (1 - 2 * border);
+  texelLength_ = 2 * half / static_cast<float>(framebuffer_.format().width);
+  const glm::vec3 middle = seen.center();
+  // Depth is clamped instead of clipped (see begin()): what is farther than the casters is lit or shadowed
+  // all the same.
+  const glm::mat4 clipFromLight = glm::ortho(middle.x - half, middle.x + half, middle.y - half,
+                                             middle.y + half, -seen.high.z, -seen.low.z);
+  const glm::mat4 unitFromClip = glm::scale(glm::translate(glm::mat4(1), glm::vec3(0.5f)), glm::vec3(0.5f));
+  shadowFromWorld_ = unitFromClip * clipFromLight * lightFromWorld;
 }
 
 void ShadowMap::begin() const {

@@ -13,8 +13,10 @@ namespace clothsim {
 
 class ShadowMap {
  public:
-  // Covers `reach` as seen from the light in a map of `size` x `size` texels.
-  ShadowMap(const Box& reach, glm::vec3 toLight, int size);
+  explicit ShadowMap(int size);  // [texels] along each side
+
+  // Fits the map around `reach` as seen from the light.
+  void cover(const Box& reach, glm::vec3 toLight);
 
   void begin() const;  // clears it and makes it the target; leaves with the state that casters are drawn with
   void end() const;

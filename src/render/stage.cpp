@@ -11,15 +11,15 @@
 namespace clothsim {
 namespace {
 
-constexpr float STRETCH = 1.08f;     // how far cloth hangs beyond its own length
-constexpr std::size_t SAMPLES = 64;  // points of a grid looked at along each of its sides
+constexpr float stretch = 1.08f;          // how far cloth hangs beyond its own length
+constexpr std::size_t samplesAlong = 64;  // points of a grid looked at along each of its sides
 
 using GridSamples = ClothOutline::GridPoints;
 
 // Border, pins and a raster of a grid.
 GridSamples sampleGrid(const Cloth& cloth, const Grid& grid) {
   GridSamples samples;
-  const auto step = [](int count) { return std::max(1, count / static_cast<int>(SAMPLES)); };
+  const auto step = [](int count) { return std::max(1, count / static_cast<int>(samplesAlong)); };
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.columns; ++column) {
       const std::uint32_t particle =
@@ -33,9 +33,9 @@ GridSamples sampleGrid(const Cloth& cloth, const Grid& grid) {
     }
   }
   // A pinned side of a large grid would make the search below quadratic.
-  if (samples.pins.size() > 2 * SAMPLES) {
+  if (samples.pins.size() > 2 * samplesAlong) {
     std::vector<glm::vec3> fewer;
-    for (std::size_t i = 0; i < samples.pins.size(); i += samples.pins.size() / SAMPLES)
+    for (std::size_t i = 0; i < samples.pins.size(); i += samples.pins.size() / samplesAlong)
       fewer.push_back(samples.pins[i]);
     fewer.push_back(samples.pins.back());
     samples.pins = fewer;
@@ -54,10 +54,10 @@ void addHanging(const GridSamples& samples, const Box& rest, Stage& stage) {
     for (const glm::vec3 candidate : samples.pins) {
       if (glm::distance(candidate, point) < glm::distance(pin, point)) pin = candidate;
     }
-    const float reach = STRETCH * glm::distance(pin, point);
+    const float reach = stretch * glm::distance(pin, point);
     const glm::vec2 held{heldX ? point.x - pin.x : 0, heldZ ? point.z - pin.z : 0};
     const float drop = std::sqrt(std::max(0.0f, reach * reach - glm::dot(held, held)));
-    stage.shown.emplace_back(pin.x + held.x, std::min(point.y, pin.y - drop), pin.z + held.y);
+    stage.staying.emplace_back(pin.x + held.x, std::min(point.y, pin.y - drop), pin.z + held.y);
     stage.reach.add(pin - glm::vec3(reach));
     stage.reach.add(pin + glm::vec3(reach, 0.3f * reach, reach));
   }
@@ -65,9 +65,9 @@ void addHanging(const GridSamples& samples, const Box& rest, Stage& stage) {
 
 void addCorners(const Box& box, Stage& stage) {
   for (int corner = 0; corner < 8; ++corner) {
-    stage.shown.emplace_back((corner & 1) != 0 ? box.high.x : box.low.x,
-                             (corner & 2) != 0 ? box.high.y : box.low.y,
-                             (corner & 4) != 0 ? box.high.z : box.low.z);
+    stage.staying.emplace_back((corner & 1) != 0 ? box.high.x : box.low.x,
+                               (corner & 2) != 0 ? box.high.y : box.low.y,
+                               (corner & 4) != 0 ? box.high.z : box.low.z);
   }
 }
 
@@ -105,6 +105,15 @@ void addFalling(const Box& cloth, const Scene& scene, Stage& stage) {
   stage.reach.add(high + glm::vec3(halfDiagonal, 0, halfDiagonal));
 }
 
+// Most of the shadow that what stays throws on the floor: its far end may be cut off.
+void addShadow(glm::vec3 toLight, Stage& stage) {
+  const glm::vec3 middle = stage.view.center();
+  for (const glm::vec3 point : stage.staying) {
+    const glm::vec3 onFloor = point - (point.y - stage.floorHeight) / toLight.y * toLight;
+    stage.passing.push_back(glm::mix(middle, onFloor, 0.8f));
+  }
+}
+
 // Horizontal direction that a viewer of the cloth's front stands in. Cloth that lies flat shows its front
 // once it hangs from its first row, which is then to +z.
 glm::vec3 frontOf(const Cloth& cloth) {
@@ -117,7 +126,7 @@ glm::vec3 frontOf(const Cloth& cloth) {
   const glm::vec3 down = toGlm(cloth.positions()[lastRow]) - corner;
   const glm::vec3 normal = glm::cross(down, along);
   const glm::vec3 horizontal{normal.x, 0, normal.z};
-  if (glm::length(horizontal) < 0.5f * glm::length(normal)) return {0, 0, 1};
+  if (glm::length(horizontal) <= 0.5f * glm::length(normal)) return {0, 0, 1};
   return glm::normalize(horizontal);
 }
 
@@ -142,11 +151,10 @@ ClothOutline outlineOf(const Cloth& cloth) {
 
 Stage makeStage(const ClothOutline& cloth, const Scene& scene) {
   Stage stage;
-  std::vector<glm::vec3> atRest;
   for (const GridSamples& grid : cloth.grids) {
     Box rest;
     for (const glm::vec3 point : grid.points) rest.add(point);
-    atRest.insert(atRest.end(), grid.points.begin(), grid.points.end());
+    stage.passing.insert(stage.passing.end(), grid.points.begin(), grid.points.end());
     if (grid.pins.empty()) {
       addFalling(rest, scene, stage);
     } else {
@@ -162,19 +170,11 @@ Stage makeStage(const ClothOutline& cloth, const Scene& scene) {
     if (!sphere->motion) continue;
     for (const Motion::Key& key : sphere->motion->keys) addAt(toGlm(key.position));
   }
-  for (const glm::vec3 point : stage.shown) stage.view.add(point);
-  stage.reach.add(stage.view);
+  for (const glm::vec3 point : stage.staying) stage.view.add(point);
   stage.floorHeight = stage.view.low.y - 0.02f * glm::length(stage.view.size());
-  // Cloth before its fall, there for a moment only, and the shadow on the floor come to the picture's edge.
-  std::vector<glm::vec3> aside = atRest;
-  const glm::vec3 toLight = directionToKeyLight(cloth.front);
-  for (const glm::vec3 point : stage.shown) {
-    aside.push_back(point - (point.y - stage.floorHeight) / toLight.y * toLight);
-  }
-  const glm::vec3 middle = stage.view.center();
-  for (const glm::vec3 point : aside) stage.shown.push_back(glm::mix(middle, point, 0.9f));
-  for (const glm::vec3 point : atRest) stage.view.add(point);
+  for (const glm::vec3 point : stage.passing) stage.view.add(point);
   stage.reach.add(stage.view);
+  addShadow(directionToKeyLight(cloth.front), stage);
   return stage;
 }
 

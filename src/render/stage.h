@@ -29,10 +29,12 @@ struct ClothOutline {
 [[nodiscard]] ClothOutline outlineOf(const Cloth& cloth);
 
 struct Stage {
-  std::vector<glm::vec3> shown;  // cloth before and after its fall, and the spheres: what a picture should show
-  Box view;                      // around all of that
-  Box reach;                     // where cloth and spheres may throw shadows: the swing, too
-  float floorHeight = 0;         // y of the floor drawn when the scene has no horizontal plane [m]
+  // What a picture should show: cloth after its fall, and the spheres; and what is there for a moment or less
+  // important, cloth before its fall and the shadow on the floor.
+  std::vector<glm::vec3> staying, passing;
+  Box view;               // around the cloth before and after its fall, and the spheres
+  Box reach;              // where cloth and spheres may throw shadows: the swing, too
+  float floorHeight = 0;  // y of the floor drawn when the scene has no horizontal plane [m]
 };
 
 [[nodiscard]] Stage makeStage(const ClothOutline& cloth, const Scene& scene);

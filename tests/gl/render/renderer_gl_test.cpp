@@ -1,0 +1,255 @@
+// The picture: against a stored one with a tolerance that broken shading exceeds, and rule by rule.
+#include "render/renderer.h"
+
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#define STBI_ONLY_PNG
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+#include <stb/stb_image.h>
+#pragma GCC diagnostic pop
+
+#include <array>
+#include <fstream>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "export/export.h"
+#include "gl/framebuffer.h"
+#include "gl/gl_test.h"
+#include "gl/render/picture.h"
+#include "render/shading_models.h"
+#include "solver/solver.h"
+#include "support/command.h"
+#include "support/temporary_folder.h"
+
+namespace clothsim {
+namespace {
+
+using test::drapeScene;
+using test::drawDrape;
+using test::meanDifference;
+using test::pixelAt;
+
+constexpr double TOLERANCE = 1.0;  // of 255, mean over the picture
+
+const std::filesystem::path referenceFile =
+    std::filesystem::path(TEST_DATA) / "gl/render/references/drape.png";
+
+Image loadReference() {
+  Image image;
+  int channels = 0;
+  stbi_uc* data = stbi_load(referenceFile.c_str(), &image.width, &image.height, &channels, 3);
+  if (data == nullptr) return image;
+  image.rgb.assign(data, data + 3 * image.width * image.height);
+  stbi_image_free(data);
+  return image;
+}
+
+using RendererTest = GlTest;
+
+// Stored by this test on llvmpipe (Mesa 22.3.6) and looked at; CLOTHSIM_STORE_REFERENCES=1 stores it anew.
+TEST_F(RendererTest, DrawsTheDrapeAsInTheStoredPicture) {
+  const Image image = drawDrape(drapeScene());
+  if (std::getenv("CLOTHSIM_STORE_REFERENCES") != nullptr)
+    savePng(referenceFile, image.width, image.height, image.rgb);
+  EXPECT_LT(meanDifference(image, loadReference()), TOLERANCE);
+}
+
+// Runs the test above with one shader changed, in a process of its own, since a program looks for its shaders
+// once.
+class BrokenShaderTest : public ::testing::Test {
+ protected:
+  static void expectSeen(const std::string& file, const std::string& from, const std::string& to) {
+    const test::TemporaryFolder root;
+    const std::filesystem::path source = SOURCE_ROOT;
+    for (const char* folder : {"shaders", "assets"}) {
+      std::filesystem::copy(source / folder, root / folder, std::filesystem::copy_options::recursive);
+    }
+    std::string text = readFile(source / "shaders" / file);
+    const std::size_t place = text.find(from);
+    ASSERT_NE(place, std::string::npos) << "the shader has changed: so must this test";
+    std::ofstream(root / ("shaders/" + file)) << text.replace(place, from.size(), to);
+    const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
+    const test::CommandResult result =
+        test::runCommand("CLOTHSIM_ROOT='" + root.path().string() + "' '" + self +
+                         "' --gtest_filter=RendererTest.DrawsTheDrapeAsInTheStoredPicture 2>&1");
+    EXPECT_EQ(result.exitCode, 1) << result.output;
+    EXPECT_NE(result.output.find("Expected: (meanDifference"), std::string::npos)
+        << "another failure: " << result.output;
+  }
+};
+
+TEST_F(BrokenShaderTest, AFlippedNormalLeavesTheTolerance) {
+  expectSeen("render/normals.comp", "sum / area", "-sum / area");
+}
+TEST_F(BrokenShaderTest, AMissingShadowOnTheFloorLeavesTheTolerance) {
+  expectSeen("render/plane.frag", "texture(floorShadow, shadowPlace).r", "1.0");
+}
+TEST_F(BrokenShaderTest, AMissingBackSideLeavesTheTolerance) {
+  expectSeen("render/phong.frag", "frame.clothFront.rgb : frame.clothBack.rgb",
+             "frame.clothBack.rgb : frame.clothFront.rgb");
+}
+TEST_F(BrokenShaderTest, AMissingConversionToSrgbLeavesTheTolerance) {
+  expectSeen("render/resolve.frag", "srgbEncoded(clamp(", "(clamp(");
+}
+
+TEST_F(RendererTest, ShadowsDarkenTheSceneAndNothingGetsBrighterByThem) {
+  RenderOptions without;
+  without.shadows = false;
+  const Image lit = drawDrape(drapeScene(), without), shadowed = drawDrape(drapeScene());
+  EXPECT_GT(meanDifference(lit, shadowed), 2 * TOLERANCE);
+  int brighter = 0;
+  for (std::size_t i = 0; i < lit.rgb.size(); ++i) brighter += shadowed.rgb[i] > lit.rgb[i] + 2 ? 1 : 0;
+  EXPECT_EQ(brighter, 0);
+}
+
+TEST_F(RendererTest, DrawsTheSamePictureTwice) {
+  const test::Drape drape(drapeScene());
+  const gl::Buffer<Particle4> positions("positions", drape.positions);
+  Renderer renderer(drape.cloth, drape.scene, {});
+  const Camera camera(drape.scene, drape.cloth);
+  const Image first = renderImage(renderer, positions.name(), camera, 0, 96, 64);
+  const Image other = renderImage(renderer, positions.name(), camera, 0, 200, 100);
+  EXPECT_EQ(other.rgb.size(), 3u * 200u * 100u);
+  EXPECT_EQ(renderImage(renderer, positions.name(), camera, 0, 96, 64).rgb, first.rgb);
+}
+
+// A sheet that fills the picture, seen from one side or the other.
+std::array<int, 3> middleOfSheetSeenFrom(double height) {
+  Scene scene;
+  scene.cloths[0].numWidthPoints = scene.cloths[0].numHeightPoints = 8;
+  scene.render.color = {1, 0, 0};
+  scene.render.backColor = {0, 0, 1};
+  scene.render.ground = false;
+  scene.camera.position = Vec3d{0.5, 1 + height, 0.51};
+  scene.camera.target = Vec3d{0.5, 1, 0.5};
+  const Cloth cloth(scene);
+  const gl::Buffer<Particle4> positions("positions", initialState(cloth, scene).positions);
+  Renderer renderer(cloth, scene, {});
+  return pixelAt(renderImage(renderer, positions.name(), Camera(scene, cloth), 0, 32, 32), 16, 16);
+}
+
+TEST_F(RendererTest, ClothHasItsFrontColourAboveAndItsBackColourBelow) {
+  const std::array<int, 3> above = middleOfSheetSeenFrom(0.6), below = middleOfSheetSeenFrom(-0.6);
+  EXPECT_GT(above[0], 2 * above[2]);
+  EXPECT_GT(below[2], 2 * below[0]);
+}
+
+TEST_F(RendererTest, TheTopRowOfAnImageIsTheTopOfThePicture) {
+  Scene scene = drapeScene();
+  scene.camera.position = Vec3d{0.5, 0.3, 3};
+  scene.camera.target = Vec3d{0.5, -0.2, 0.5};  // the cloth is in the upper half
+  const Image image = drawDrape(scene);
+  const auto reddish = [&](int y) {
+    int count = 0;
+    for (int x = 0; x < image.width; ++x)
+      count += pixelAt(image, x, y)[0] > 2 * pixelAt(image, x, y)[1] ? 1 : 0;
+    return count;
+  };
+  int upper = 0, lower = 0;
+  for (int y = 0; y < 32; ++y) {
+    upper += reddish(y);
+    lower += reddish(63 - y);
+  }
+  EXPECT_GT(upper, 4 * lower);
+}
+
+TEST_F(RendererTest, MultisamplingSmoothsEdges) {
+  RenderOptions one;
+  one.samples = 1;
+  const Image smooth = drawDrape(drapeScene()), rough = drawDrape(drapeScene(), one);
+  const double difference = meanDifference(smooth, rough);
+  EXPECT_GT(difference, 0.05) << "one sample and four give the same picture";
+  EXPECT_LT(difference, 3.0) << "one sample and four give different scenes";
+}
+
+TEST_F(RendererTest, CoarseSpheresHaveCorners) {
+  Scene scene = drapeScene();
+  scene.cloths[0].position = {50, 0, 0};  // out of the picture
+  const Cloth cloth(scene);
+  const gl::Buffer<Particle4> positions("positions", initialState(cloth, scene).positions);
+  const Camera camera(scene, cloth);
+  const auto draw = [&](int around, int down) {
+    RenderOptions options;
+    options.sphereSegmentsAround = around;
+    options.sphereSegmentsDown = down;
+    Renderer renderer(cloth, scene, options);
+    return renderImage(renderer, positions.name(), camera, 0, 96, 64);
+  };
+  EXPECT_GT(meanDifference(draw(4, 2), draw(64, 48)), 0.5);
+  EXPECT_LT(meanDifference(draw(60, 40), draw(64, 48)), 0.2);
+}
+
+TEST_F(RendererTest, DrawsEveryPlaneAndTheFloorOnlyWhereThereIsNoHorizontalOne) {
+  const auto floorPixel = [](const Scene& scene) { return pixelAt(drawDrape(scene), 20, 58); };
+  Scene bare = drapeScene();
+  bare.render.ground = false;
+  const Scene grounded = drapeScene();
+  EXPECT_NE(floorPixel(bare), floorPixel(grounded));
+  Scene withPlane = bare;
+  withPlane.colliders.emplace_back(Plane{});
+  EXPECT_NE(floorPixel(bare), floorPixel(withPlane));
+  Scene both = withPlane;
+  both.render.ground = true;
+  EXPECT_EQ(floorPixel(both), floorPixel(withPlane)) << "the ground is drawn although the scene has a floor";
+}
+
+TEST_F(RendererTest, AnEditedSceneIsDrawnAnew) {
+  const test::Drape drape(drapeScene());
+  const gl::Buffer<Particle4> positions("positions", drape.positions);
+  const Camera camera(drape.scene, drape.cloth);
+  Renderer renderer(drape.cloth, drape.scene, {});
+  Scene edited = drape.scene;
+  edited.render.color = {0.1, 0.5, 0.2};
+  std::get<Sphere>(edited.colliders[0]).origin = {0.9, 0.3, 0.9};
+  renderer.configure(edited);
+  const Image image = renderImage(renderer, positions.name(), camera, 0, 96, 64);
+  EXPECT_LT(meanDifference(image, drawDrape(edited)), 0.01);
+  EXPECT_GT(meanDifference(image, drawDrape(drape.scene)), 2 * TOLERANCE);
+}
+
+TEST_F(RendererTest, SeveralSheetsAreDrawn) {
+  Scene scene = drapeScene();
+  scene.cloths.push_back(scene.cloths[0]);  // the second lies in the same place: the picture is the same
+  EXPECT_LT(meanDifference(drawDrape(scene), drawDrape(drapeScene())), 0.2);
+  const test::Drape two(scene);
+  std::vector<Particle4> apart = two.positions;
+  for (std::size_t i = apart.size() / 2; i < apart.size(); ++i) apart[i].x += 0.6f;
+  const gl::Buffer<Particle4> positions("positions", apart);
+  Renderer renderer(two.cloth, scene, {});
+  const Image image = renderImage(renderer, positions.name(), Camera(scene, two.cloth), 0, 96, 64);
+  EXPECT_GT(meanDifference(image, drawDrape(scene)), 2 * TOLERANCE);
+}
+
+TEST_F(RendererTest, ASheetOfASingleRowOfPointsHasNoTrianglesAndIsNoError) {
+  Scene scene;
+  scene.cloths[0].numHeightPoints = 1;
+  const Cloth cloth(scene);
+  const gl::Buffer<Particle4> positions("positions", initialState(cloth, scene).positions);
+  Renderer renderer(cloth, scene, {});
+  EXPECT_EQ(renderImage(renderer, positions.name(), Camera(scene, cloth), 0, 16, 16).rgb.size(),
+            3u * 16u * 16u);
+}
+
+TEST_F(RendererTest, AnUnknownShadingModelIsASceneErrorThatListsTheKnownOnes) {
+  Scene scene = drapeScene();
+  scene.render.shader = "glitter";
+  const Cloth cloth(scene);
+  try {
+    const Renderer renderer(cloth, scene, {});
+    FAIL() << "accepted";
+  } catch (const SceneError& error) {
+    EXPECT_NE(std::string(error.what()).find("glitter"), std::string::npos) << error.what();
+    for (const std::string& name : shadingModelNames()) {
+      EXPECT_NE(std::string(error.what()).find(name), std::string::npos) << error.what();
+    }
+  }
+}
+
+TEST_F(RendererTest, EveryShadingModelCompiles) {
+  for (const std::string& name : shadingModelNames()) EXPECT_NE(makeShadingModel(name).name(), 0u) << name;
+}
+
+}  // namespace
+}  // namespace clothsim
