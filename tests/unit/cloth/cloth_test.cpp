@@ -89,7 +89,8 @@ TEST(Cloth, NumbersSpringsByOwnerAndSlotAndEveryParticleMeetsItsOwnInAscendingOr
 }
 
 TEST(Cloth, GivesBendingSpringsAFifthOfKs) {
-  const Grid& grid = Cloth(sheetScene(5)).grids()[0];
+  const Cloth cloth(sheetScene(5));
+  const Grid& grid = cloth.grids()[0];
   EXPECT_DOUBLE_EQ(grid.stiffness[toLeft], 5000);
   EXPECT_DOUBLE_EQ(grid.stiffness[toUpperRight], 5000);
   EXPECT_DOUBLE_EQ(grid.stiffness[toSecondUpper], 1000);
@@ -99,7 +100,8 @@ TEST(Cloth, ScalesCs171StiffnessByTheReferenceLength) {
   Scene scene = sheetScene(11);
   scene.cloths[0].ks.reset();
   scene.cloths[0].stiffnessReference = 40;
-  const Grid& grid = Cloth(scene).grids()[0];
+  const Cloth cloth(scene);
+  const Grid& grid = cloth.grids()[0];
   EXPECT_DOUBLE_EQ(grid.stiffness[toLeft], 40);
   EXPECT_NEAR(grid.stiffness[toUpperLeft], 40 / std::sqrt(2.0), 1e-12);
 }
