@@ -1,12 +1,15 @@
-// Everything a step needs besides the state, evaluated on the host and handed to both backends as the same bits.
-// Included by GLSL (std140 block, std430 array) and by C++, where `real` is float for the bitwise twin and double for tests
-// of the physics. Rows of 16 bytes; a test compares the layout with the driver's own reflection.
+// Everything a step needs besides the state, evaluated on the host and handed to both backends as the same
+// bits. Included by GLSL (std140 block, std430 array) and by C++, where `real` is float for the bitwise twin
+// and double for tests of the physics. Rows of 16 bytes; a test compares the layout with the driver's own
+// reflection.
 #ifdef __cplusplus
 #pragma once
 #include <cstdint>
 namespace clothsim::shared {
 using uint = std::uint32_t;
-#define SHARED_STRUCT template <class real> struct
+#define SHARED_STRUCT   \
+  template <class real> \
+  struct
 #define SPRING_ROWS(Row) Row<real>
 #else
 #define SHARED_STRUCT struct
@@ -27,7 +30,7 @@ using uint = std::uint32_t;
 #define NEW_VELOCITIES_UNIT 3
 #define REST_LENGTHS_UNIT 4  // slot-major: slot * total particles + owner
 
-#define COLLIDERS_UNIT 5     // COLLIDER_ROWS texels each
+#define COLLIDERS_UNIT 5  // COLLIDER_ROWS texels each
 
 #define COLLIDER_ROWS 7
 #define COLLIDER_SPHERE 0u
@@ -67,8 +70,8 @@ SHARED_STRUCT StepParams {
   real airVelocityZ;
   real kickTime;  // +-h/2: turns v(n-1/2) into v(n) and back [s]
 
-  real dragFactor;  // rho_a C_d / 12 [kg/m^3]
-  real liftFactor;  // rho_a C_l / 12 [kg/m^3]
+  real dragFactor;   // rho_a C_d / 12 [kg/m^3]
+  real liftFactor;   // rho_a C_l / 12 [kg/m^3]
   real planeOffset;  // how far off a plane a particle is put back [m]
   real unusedReal;
 
@@ -91,7 +94,8 @@ SHARED_STRUCT ColliderParams {
   real motionKept;  // 1 - friction
   real unusedReal;
 
-  // The rigid motion over the step: x + (turn (x - pivot) + shift), where turn is the rotation minus the identity.
+  // The rigid motion over the step: x + (turn (x - pivot) + shift), where turn is the rotation minus the
+  // identity.
   real turnXX;
   real turnXY;
   real turnXZ;

@@ -16,7 +16,9 @@ using Clock = std::chrono::steady_clock;
 constexpr int REPETITIONS = 7;
 constexpr double DEMO_FRAME = 1.0 / 30;  // [s]
 
-double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 double timeSteps(Solver& solver, int steps) {
   const Clock::time_point start = Clock::now();
@@ -26,7 +28,8 @@ double timeSteps(Solver& solver, int steps) {
 }
 
 double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
+                   values.end());
   return values[values.size() / 2];
 }
 
@@ -72,7 +75,8 @@ DemoRate measureDemo(int size, int width, int height) {
 
   Renderer renderer(simulation.cloth(), scene, {});
   const Camera camera(scene, simulation.cloth());
-  const gl::Framebuffer target("bench", {.width = width, .height = height, .color = GL_SRGB8_ALPHA8, .depth = GL_DEPTH_COMPONENT24});
+  const gl::Framebuffer target(
+      "bench", {.width = width, .height = height, .color = GL_SRGB8_ALPHA8, .depth = GL_DEPTH_COMPONENT24});
   const auto draw = [&] {
     const Clock::time_point start = Clock::now();
     renderer.draw(simulation.positionsBuffer(), camera, simulation.time(), target.name(), width, height);

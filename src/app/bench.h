@@ -1,5 +1,5 @@
-// Measurements behind `clothsim bench` and `doctor`: how fast a backend steps a scene, and how large a demo it holds in
-// real time.
+// Measurements behind `clothsim bench` and `doctor`: how fast a backend steps a scene, and how large a demo
+// it holds in real time.
 #pragma once
 
 #include <string>
@@ -14,10 +14,10 @@ struct StepRate {
   std::string backend, device;
   int columns = 0, rows = 0;
   bool limiter = false;
-  int repetitions = 0;                 // timed stretches of steps; the median counts
+  int repetitions = 0;  // timed stretches of steps; the median counts
   double secondsPerStep = 0;
   double particleStepsPerSecond = 0;
-  std::vector<PassTime> passes;        // GPU only: seconds a step
+  std::vector<PassTime> passes;  // GPU only: seconds a step
 };
 
 // Steps the scene for about `seconds`, after a warm-up. The GPU needs a current context.
@@ -32,7 +32,8 @@ struct DemoRate {
 // Of the demo scene at size x size on the GPU backend, drawn into width x height pixels; 0 x 0: not drawn.
 [[nodiscard]] DemoRate measureDemo(int size, int width, int height);
 
-// The largest N (a multiple of 16) at which the demo holds 30 frames a second in real time. `perFrame` 0: none does.
+// The largest N (a multiple of 16) at which the demo holds 30 frames a second in real time. `perFrame` 0:
+// none does.
 [[nodiscard]] DemoRate largestRealTimeDemo(int width, int height);
 
 }  // namespace clothsim

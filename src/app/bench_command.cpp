@@ -24,9 +24,11 @@ nlohmann::ordered_json toJson(const StepRate& rate) {
 }
 
 void print(const StepRate& rate) {
-  std::printf("%-4s %5dx%-5d %-8s %10.4f ms/step %9.1f M particle-steps/s", rate.backend.c_str(), rate.columns, rate.rows,
-              rate.limiter ? "limiter" : "", rate.secondsPerStep * 1e3, rate.particleStepsPerSecond * 1e-6);
-  for (const PassTime& pass : rate.passes) std::printf("   %s %.4f ms", pass.name.c_str(), pass.seconds * 1e3);
+  std::printf("%-4s %5dx%-5d %-8s %10.4f ms/step %9.1f M particle-steps/s", rate.backend.c_str(),
+              rate.columns, rate.rows, rate.limiter ? "limiter" : "", rate.secondsPerStep * 1e3,
+              rate.particleStepsPerSecond * 1e-6);
+  for (const PassTime& pass : rate.passes)
+    std::printf("   %s %.4f ms", pass.name.c_str(), pass.seconds * 1e3);
   std::printf("\n");
   std::fflush(stdout);
 }
@@ -45,12 +47,15 @@ nlohmann::ordered_json benchDemo(bool print) {
     const DemoRate rate = largestRealTimeDemo(width, height);
     json.push_back(toJson(rate, width, height));
     if (!print) continue;
-    const std::string drawn = width > 0 ? "drawn at " + std::to_string(width) + "x" + std::to_string(height) : "not drawn";
+    const std::string drawn =
+        width > 0 ? "drawn at " + std::to_string(width) + "x" + std::to_string(height) : "not drawn";
     if (rate.size == 0)
       std::printf("demo in real time at 30 frames/s, %s: none (16x16 is too slow)\n", drawn.c_str());
     else
-      std::printf("demo in real time at 30 frames/s, %s: %dx%d (a 30th of a second takes %.1f ms to simulate, %.1f ms to draw)\n",
-                  drawn.c_str(), rate.size, rate.size, rate.simulationSeconds * 1e3, rate.drawSeconds * 1e3);
+      std::printf(
+          "demo in real time at 30 frames/s, %s: %dx%d (a 30th of a second takes %.1f ms to simulate, %.1f "
+          "ms to draw)\n",
+          drawn.c_str(), rate.size, rate.size, rate.simulationSeconds * 1e3, rate.drawSeconds * 1e3);
     std::fflush(stdout);
   }
   return json;
@@ -75,7 +80,8 @@ int benchCommand(const BenchOptions& options) {
     sceneOptions.settings.push_back("solver.self_collision=false");
     for (const bool limiter : {false, true}) {
       Scene scene = loadScene(sceneOptions);
-      scene.solver.strainLimit = limiter ? std::optional(scene.solver.strainLimit.value_or(0.1)) : std::nullopt;
+      scene.solver.strainLimit =
+          limiter ? std::optional(scene.solver.strainLimit.value_or(0.1)) : std::nullopt;
       for (const std::string& backend : backends) {
         const StepRate rate = measureStepRate(scene, backend, options.seconds);
         json["steps"].push_back(toJson(rate));

@@ -34,15 +34,18 @@ struct Arguments {
 };
 
 void addSceneFlags(CLI::App& app, Arguments& a, bool sceneRequired) {
-  CLI::Option* file = app.add_option("-f,--scene", a.scene, "a bundled scene's name, or a path (with a '/' or ending in .json)");
+  CLI::Option* file = app.add_option("-f,--scene", a.scene,
+                                     "a bundled scene's name, or a path (with a '/' or ending in .json)");
   if (sceneRequired) file->required();
-  app.add_option("--set", a.settings, "set any key of the scene: --set cloth.damping=0.5 (see `clothsim describe`)")
+  app.add_option("--set", a.settings,
+                 "set any key of the scene: --set cloth.damping=0.5 (see `clothsim describe`)")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
 }
 
 void addResolution(CLI::App& app, Arguments& a) {
-  app.add_option("--resolution", a.resolutions, "rebuild the cloth's grid with this many points; pins keep their place")
+  app.add_option("--resolution", a.resolutions,
+                 "rebuild the cloth's grid with this many points; pins keep their place")
       ->type_name("WxH")
       ->expected(1);
 }
@@ -54,27 +57,35 @@ void addBackend(CLI::App& app, Arguments& a) {
 }
 
 void addFrames(CLI::App& app, Arguments& a) {
-  app.add_option("--frames", a.frames, "how many frames to simulate (solver.frames_per_sec of them make a second)")
+  app.add_option("--frames", a.frames,
+                 "how many frames to simulate (solver.frames_per_sec of them make a second)")
       ->required()
       ->check(CLI::Range(0, 10'000'000));
 }
 
 void addSphereSegments(CLI::App& app, Arguments& a) {
-  app.add_option("-a,--sphere-around", a.around, "horizontal segments of drawn spheres")->check(CLI::Range(3, 1024));
-  app.add_option("-o,--sphere-down", a.down, "vertical segments of drawn spheres")->check(CLI::Range(2, 1024));
+  app.add_option("-a,--sphere-around", a.around, "horizontal segments of drawn spheres")
+      ->check(CLI::Range(3, 1024));
+  app.add_option("-o,--sphere-down", a.down, "vertical segments of drawn spheres")
+      ->check(CLI::Range(2, 1024));
 }
 
-void addJson(CLI::App& app, Arguments& a) { app.add_flag("--json", a.json, "print one JSON object on stdout"); }
+void addJson(CLI::App& app, Arguments& a) {
+  app.add_flag("--json", a.json, "print one JSON object on stdout");
+}
 
 using Action = std::function<int()>;
 
 void declareSimulationCommands(CLI::App& app, Arguments& a, Action& action) {
-  CLI::App* run = app.add_subcommand("run", "Simulate without a window, save states, and sum the run up in numbers");
+  CLI::App* run =
+      app.add_subcommand("run", "Simulate without a window, save states, and sum the run up in numbers");
   addSceneFlags(*run, a, true);
   addFrames(*run, a);
   addResolution(*run, a);
   addBackend(*run, a);
-  run->add_option("--save", a.saves, "write the state: .csv .ply .obj, or .state (exact); with %04d in the name every K-th frame")
+  run->add_option(
+         "--save", a.saves,
+         "write the state: .csv .ply .obj, or .state (exact); with %04d in the name every K-th frame")
       ->type_name("FILE")
       ->allow_extra_args(false);
   run->add_option("--every", a.every, "K for numbered files")->check(CLI::Range(1, 1'000'000));
@@ -87,7 +98,8 @@ void declareSimulationCommands(CLI::App& app, Arguments& a, Action& action) {
     };
   });
 
-  CLI::App* compare = app.add_subcommand("compare", "Run both backends side by side; exit code 0 when every bit agrees");
+  CLI::App* compare =
+      app.add_subcommand("compare", "Run both backends side by side; exit code 0 when every bit agrees");
   addSceneFlags(*compare, a, true);
   addFrames(*compare, a);
   addResolution(*compare, a);
@@ -95,35 +107,47 @@ void declareSimulationCommands(CLI::App& app, Arguments& a, Action& action) {
   compare->footer("Example: clothsim compare -f pinned2 --frames 300");
   compare->callback([&] { action = [&] { return compareCommand({a.sceneOptions(), a.frames, a.json}); }; });
 
-  CLI::App* bench = app.add_subcommand("bench", "Measure steps and passes on both backends, and the largest demo in real time");
+  CLI::App* bench = app.add_subcommand(
+      "bench", "Measure steps and passes on both backends, and the largest demo in real time");
   addSceneFlags(*bench, a, false);
-  bench->add_option("--resolution", a.resolutions, "grid sizes to measure; may be repeated (64x64 128x128 256x256)")->type_name("WxH");
-  bench->add_option("--backend", a.backends, "gpu, cpu; may be repeated (both)")->check(CLI::IsMember({"gpu", "cpu"}));
+  bench
+      ->add_option("--resolution", a.resolutions,
+                   "grid sizes to measure; may be repeated (64x64 128x128 256x256)")
+      ->type_name("WxH");
+  bench->add_option("--backend", a.backends, "gpu, cpu; may be repeated (both)")
+      ->check(CLI::IsMember({"gpu", "cpu"}));
   bench->add_option("--seconds", a.seconds, "of measuring for each figure")->check(CLI::Range(0.01, 600.0));
   addJson(*bench, a);
-  bench->footer("Steps are timed in 7 stretches; the median counts. Example: clothsim bench --resolution 256x256");
+  bench->footer(
+      "Steps are timed in 7 stretches; the median counts. Example: clothsim bench --resolution 256x256");
   bench->callback([&] {
     action = [&] {
       BenchOptions options{{a.scene, std::nullopt, a.settings}, {}, a.backends, a.seconds, a.json};
-      for (const std::string& resolution : a.resolutions) options.resolutions.push_back(parseSize(resolution, "--resolution"));
+      for (const std::string& resolution : a.resolutions)
+        options.resolutions.push_back(parseSize(resolution, "--resolution"));
       return benchCommand(options);
     };
   });
 }
 
 void declareRender(CLI::App& app, Arguments& a, Action& action) {
-  CLI::App* render = app.add_subcommand("render", "Simulate and draw into pictures or a film, without a window");
+  CLI::App* render =
+      app.add_subcommand("render", "Simulate and draw into pictures or a film, without a window");
   addSceneFlags(*render, a, true);
   addFrames(*render, a);
   addResolution(*render, a);
   addBackend(*render, a);
-  render->add_option("--out", a.outs, "still.png (the last frame), frame_%04d.png, clip.mp4 (needs ffmpeg); may be repeated")
+  render
+      ->add_option("--out", a.outs,
+                   "still.png (the last frame), frame_%04d.png, clip.mp4 (needs ffmpeg); may be repeated")
       ->required()
       ->type_name("FILE")
       ->allow_extra_args(false);
   render->add_option("--size", a.size, "pixels")->type_name("WxH")->capture_default_str();
-  render->add_option("--every", a.every, "numbered pictures: every so many frames")->check(CLI::Range(1, 1'000'000));
-  render->add_option("--fps", a.fps, "pictures a second of a film, at most; it plays in real time")->check(CLI::Range(1.0, 1000.0));
+  render->add_option("--every", a.every, "numbered pictures: every so many frames")
+      ->check(CLI::Range(1, 1'000'000));
+  render->add_option("--fps", a.fps, "pictures a second of a film, at most; it plays in real time")
+      ->check(CLI::Range(1.0, 1000.0));
   render->add_option("--shader", a.shader, "shading model instead of the scene's own");
   addSphereSegments(*render, a);
   render->footer("Example: clothsim render -f demo --frames 240 --out clip.mp4");
@@ -132,20 +156,24 @@ void declareRender(CLI::App& app, Arguments& a, Action& action) {
       const GridSize size = parseSize(a.size, "--size");
       if (size.columns < 16 || size.rows < 16 || size.columns > 8192 || size.rows > 8192)
         throw UsageError("--size " + a.size + ": expected 16x16 to 8192x8192 pixels");
-      return renderCommand({a.sceneOptions(), a.frames, a.backend, a.outs, size.columns, size.rows, a.every, a.fps, a.shader,
-                            a.around, a.down});
+      return renderCommand({a.sceneOptions(), a.frames, a.backend, a.outs, size.columns, size.rows, a.every,
+                            a.fps, a.shader, a.around, a.down});
     };
   });
 }
 
 void declareInfoCommands(CLI::App& app, Arguments& a, Action& action) {
-  app.add_subcommand("scenes", "List the bundled scenes")->callback([&] { action = [] { return scenesCommand(); }; });
+  app.add_subcommand("scenes", "List the bundled scenes")->callback([&] {
+    action = [] { return scenesCommand(); };
+  });
 
-  CLI::App* doctor = app.add_subcommand("doctor", "Show the OpenGL device and its limits, and test that CPU and GPU agree");
+  CLI::App* doctor =
+      app.add_subcommand("doctor", "Show the OpenGL device and its limits, and test that CPU and GPU agree");
   addJson(*doctor, a);
   doctor->callback([&] { action = [&] { return doctorCommand(a.json); }; });
 
-  CLI::App* describe = app.add_subcommand("describe", "Explain every scene key: type, unit, range, default, meaning");
+  CLI::App* describe =
+      app.add_subcommand("describe", "Explain every scene key: type, unit, range, default, meaning");
   describe->add_option("key", a.key, "one key or group, as cloth.ks, cloth or damping");
   describe->callback([&] { action = [&] { return describeCommand(a.key); }; });
 }

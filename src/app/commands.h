@@ -1,5 +1,6 @@
-// The subcommands behind `clothsim`, one function each; command_line.cpp turns argv into their options. Results go to stdout,
-// progress and remarks to stderr. Each returns the exit code of DESIGN.md section 5 or throws an Error.
+// The subcommands behind `clothsim`, one function each; command_line.cpp turns argv into their options.
+// Results go to stdout, progress and remarks to stderr. Each returns the exit code of DESIGN.md section 5 or
+// throws an Error.
 #pragma once
 
 #include <optional>
@@ -16,11 +17,12 @@ struct GridSize {
 
 // What every command that simulates takes.
 struct SceneOptions {
-  std::string scene = "pinned2";        // -f
-  std::optional<GridSize> resolution;   // --resolution
-  std::vector<std::string> settings;    // --set key=value
+  std::string scene = "pinned2";       // -f
+  std::optional<GridSize> resolution;  // --resolution
+  std::vector<std::string> settings;   // --set key=value
 };
-// Loads the scene, changes its resolution, applies --set, and says on stderr what the user should know of the result.
+// Loads the scene, changes its resolution, applies --set, and says on stderr what the user should know of the
+// result.
 // @throws SceneError, UsageError
 [[nodiscard]] Scene loadScene(const SceneOptions& options);
 
@@ -30,7 +32,7 @@ struct RunOptions {
   std::string backend = "gpu";
   std::vector<std::string> saves;  // files by extension; numbered ones take every `every`-th frame
   int every = 1;
-  std::string from;                // a .state file to begin with
+  std::string from;  // a .state file to begin with
   bool json = false;
 };
 int runCommand(const RunOptions& options);
@@ -41,9 +43,9 @@ struct RenderCommandOptions {
   std::string backend = "gpu";
   std::vector<std::string> outs;  // still.png, frame_%04d.png, clip.mp4
   int width = 1280, height = 720;
-  int every = 1;                  // numbered pictures: every so many frames
-  double framesPerSecond = 30;    // of a film, at most
-  std::string shader;             // "" for the scene's own
+  int every = 1;                // numbered pictures: every so many frames
+  double framesPerSecond = 30;  // of a film, at most
+  std::string shader;           // "" for the scene's own
   int sphereSegmentsAround = 64, sphereSegmentsDown = 48;
 };
 int renderCommand(const RenderCommandOptions& options);

@@ -1,4 +1,5 @@
-// The comparison behind `clothsim compare`, `doctor` and the tests: the same scene on both backends, bit by bit.
+// The comparison behind `clothsim compare`, `doctor` and the tests: the same scene on both backends, bit by
+// bit.
 #pragma once
 
 #include <cstdint>
@@ -12,10 +13,10 @@
 namespace clothsim {
 
 struct Comparison {
-  int frames = 0;                    // that were run; fewer than asked for when they differ
+  int frames = 0;  // that were run; fewer than asked for when they differ
   std::uint64_t steps = 0;
-  std::uint64_t floats = 0;          // of a state, 6 a particle
-  std::uint64_t differingFloats = 0; // in the first frame that differs
+  std::uint64_t floats = 0;           // of a state, 6 a particle
+  std::uint64_t differingFloats = 0;  // in the first frame that differs
   double maxAbsDifference = 0;
   std::optional<std::uint64_t> firstDifferingStep;  // found by repeating that frame step by step
   bool finite = true;
@@ -29,7 +30,9 @@ struct StateDifference {
 };
 [[nodiscard]] StateDifference difference(const State& a, const State& b);
 
-// Needs a current context. `atFrame` hears of every frame that is done. Stops after the first frame that differs.
-[[nodiscard]] Comparison compareBackends(const Scene& scene, int frames, const std::function<void(int)>& atFrame = {});
+// Needs a current context. `atFrame` hears of every frame that is done. Stops after the first frame that
+// differs.
+[[nodiscard]] Comparison compareBackends(const Scene& scene, int frames,
+                                         const std::function<void(int)>& atFrame = {});
 
 }  // namespace clothsim

@@ -4,8 +4,8 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
-#include "app/compare.h"
 #include "app/commands.h"
+#include "app/compare.h"
 #include "core/progress.h"
 #include "gl/context.h"
 
@@ -27,7 +27,8 @@ int compareCommand(const CompareOptions& options) {
   json["floats"] = result.floats;
   json["differing_floats"] = result.differingFloats;
   json["max_abs_difference"] = result.maxAbsDifference;
-  json["first_differing_step"] = result.firstDifferingStep ? nlohmann::ordered_json(*result.firstDifferingStep) : nullptr;
+  json["first_differing_step"] =
+      result.firstDifferingStep ? nlohmann::ordered_json(*result.firstDifferingStep) : nullptr;
   json["bitwise_equal"] = result.differingFloats == 0;
   json["finite"] = result.finite;
   json["state_hash"] = {{"cpu", result.cpuHash}, {"gpu", result.gpuHash}};
@@ -35,12 +36,14 @@ int compareCommand(const CompareOptions& options) {
   if (options.json) {
     std::cout << json.dump(2) << '\n';
   } else if (result.differingFloats == 0) {
-    std::printf("%s: CPU and GPU (%s) agree in every bit of %llu floats after each of %d frames (%llu steps)\n",
-                options.scene.scene.c_str(), result.device.c_str(), static_cast<unsigned long long>(result.floats),
-                result.frames, static_cast<unsigned long long>(result.steps));
+    std::printf(
+        "%s: CPU and GPU (%s) agree in every bit of %llu floats after each of %d frames (%llu steps)\n",
+        options.scene.scene.c_str(), result.device.c_str(), static_cast<unsigned long long>(result.floats),
+        result.frames, static_cast<unsigned long long>(result.steps));
   } else {
     std::printf("%s: CPU and GPU (%s) differ in %llu of %llu floats, by at most %g, first in step %llu\n",
-                options.scene.scene.c_str(), result.device.c_str(), static_cast<unsigned long long>(result.differingFloats),
+                options.scene.scene.c_str(), result.device.c_str(),
+                static_cast<unsigned long long>(result.differingFloats),
                 static_cast<unsigned long long>(result.floats), result.maxAbsDifference,
                 static_cast<unsigned long long>(result.firstDifferingStep.value_or(0)));
   }

@@ -21,7 +21,8 @@ void printField(const FieldInfo& field) {
   if (!field.unit.empty()) facts += " [" + field.unit + "]";
   if (!field.range.empty()) facts += ", " + field.range;
   if (!field.defaultValue.empty()) facts += ", default " + field.defaultValue;
-  std::printf("%s\n    %s%s\n    %s\n", field.path.c_str(), facts.c_str(), field.live ? ", live" : "", field.help.c_str());
+  std::printf("%s\n    %s%s\n    %s\n", field.path.c_str(), facts.c_str(), field.live ? ", live" : "",
+              field.help.c_str());
 }
 
 // The scenes that the self-test compares: every pass takes part in one of them.
@@ -49,7 +50,8 @@ std::string suggestedDemoResolution(bool software) {
 }  // namespace
 
 int scenesCommand() {
-  for (const BundledScene& scene : bundledScenes()) std::printf("%-16s %s\n", scene.name.c_str(), scene.description.c_str());
+  for (const BundledScene& scene : bundledScenes())
+    std::printf("%-16s %s\n", scene.name.c_str(), scene.description.c_str());
   return 0;
 }
 
@@ -69,7 +71,9 @@ int describeCommand(const std::string& key) {
     printField(field);
     found = true;
   }
-  if (!found) throw UsageError("there is no scene key \"" + key + "\"" + didYouMean(key, paths) + " `clothsim describe` lists all.");
+  if (!found)
+    throw UsageError("there is no scene key \"" + key + "\"" + didYouMean(key, paths) +
+                     " `clothsim describe` lists all.");
   return 0;
 }
 
@@ -96,15 +100,20 @@ int doctorCommand(bool json) {
     std::cout << report.dump(2) << '\n';
     return healthy ? 0 : 1;
   }
-  std::printf("OpenGL         %s\n               %s, %s\n", info.renderer.c_str(), info.version.c_str(), info.vendor.c_str());
-  std::printf("limits         storage blocks of %lld MiB, work groups of %d invocations, %d groups a dispatch\n",
-              info.maxStorageBlockBytes >> 20, info.maxWorkGroupInvocations, info.maxWorkGroupCountX);
+  std::printf("OpenGL         %s\n               %s, %s\n", info.renderer.c_str(), info.version.c_str(),
+              info.vendor.c_str());
+  std::printf(
+      "limits         storage blocks of %lld MiB, work groups of %d invocations, %d groups a dispatch\n",
+      info.maxStorageBlockBytes >> 20, info.maxWorkGroupInvocations, info.maxWorkGroupCountX);
   for (const auto& [name, result] : report["self_test"].items())
-    std::printf("self-test      %-10s %4d steps on CPU and GPU: %d floats differ\n", name.c_str(), result["steps"].get<int>(),
-                result["differing_floats"].get<int>());
-  std::printf("demo           runs well here at %s\n", report["suggested_demo_resolution"].get<std::string>().c_str());
-  std::printf("%s\n", healthy ? "All is well: CPU and GPU agree in every bit."
-                              : "This driver does not keep to the numeric contract: CPU and GPU differ. Trust the CPU.");
+    std::printf("self-test      %-10s %4d steps on CPU and GPU: %d floats differ\n", name.c_str(),
+                result["steps"].get<int>(), result["differing_floats"].get<int>());
+  std::printf("demo           runs well here at %s\n",
+              report["suggested_demo_resolution"].get<std::string>().c_str());
+  std::printf("%s\n",
+              healthy
+                  ? "All is well: CPU and GPU agree in every bit."
+                  : "This driver does not keep to the numeric contract: CPU and GPU differ. Trust the CPU.");
   return healthy ? 0 : 1;
 }
 

@@ -9,10 +9,11 @@ namespace clothsim {
 Scene loadScene(const SceneOptions& options) {
   Scene scene = loadSceneByName(options.scene);
   if (options.resolution) {
-    const bool stepsByHand = std::any_of(options.settings.begin(), options.settings.end(), [](const std::string& setting) {
-      return setting.starts_with("solver.simulation_steps=");
-    });
-    const std::string remark = changeResolution(scene, options.resolution->columns, options.resolution->rows, stepsByHand);
+    const bool stepsByHand = std::any_of(
+        options.settings.begin(), options.settings.end(),
+        [](const std::string& setting) { return setting.starts_with("solver.simulation_steps="); });
+    const std::string remark =
+        changeResolution(scene, options.resolution->columns, options.resolution->rows, stepsByHand);
     if (!remark.empty()) std::cerr << "clothsim: " << remark << '\n';
   }
   for (const std::string& setting : options.settings) setSceneValue(scene, setting);

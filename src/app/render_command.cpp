@@ -21,11 +21,14 @@ bool endsWith(const std::string& text, const std::string& end) { return text.end
 // One --out: a still of the last frame, numbered pictures, or a film.
 class Output {
  public:
-  Output(const std::string& name, const RenderCommandOptions& options, const Scene& scene) : name_(name), frames_(options.frames) {
+  Output(const std::string& name, const RenderCommandOptions& options, const Scene& scene)
+      : name_(name), frames_(options.frames) {
     if (endsWith(name, ".mp4")) {
       // A film plays in real time: every so many frames that it stays at or below the rate asked for.
-      every_ = std::max(1, static_cast<int>(std::ceil(scene.solver.framesPerSec / options.framesPerSecond - 1e-9)));
-      video_ = std::make_unique<VideoWriter>(name, options.width, options.height, scene.solver.framesPerSec / every_);
+      every_ = std::max(
+          1, static_cast<int>(std::ceil(scene.solver.framesPerSec / options.framesPerSecond - 1e-9)));
+      video_ = std::make_unique<VideoWriter>(name, options.width, options.height,
+                                             scene.solver.framesPerSec / every_);
     } else if (hasFrameNumber(name)) {
       every_ = options.every;
     } else {
@@ -53,10 +56,11 @@ class Output {
 void checkOutputs(const RenderCommandOptions& options) {
   for (const std::string& out : options.outs) {
     if (!endsWith(out, ".png") && !endsWith(out, ".mp4"))
-      throw UsageError("--out " + out + ": expected a name ending in .png or .mp4, as still.png, frame_%04d.png, clip.mp4");
+      throw UsageError("--out " + out +
+                       ": expected a name ending in .png or .mp4, as still.png, frame_%04d.png, clip.mp4");
     if (endsWith(out, ".mp4") && (options.width % 2 != 0 || options.height % 2 != 0))
-      throw UsageError("--out " + out + ": a film needs an even width and height, not " + std::to_string(options.width) + "x" +
-                       std::to_string(options.height));
+      throw UsageError("--out " + out + ": a film needs an even width and height, not " +
+                       std::to_string(options.width) + "x" + std::to_string(options.height));
   }
 }
 
@@ -76,8 +80,10 @@ int renderCommand(const RenderCommandOptions& options) {
   Progress progress("rendering", options.frames);
   for (int frame = 0; frame <= options.frames; ++frame) {
     if (frame > 0) simulation.stepFrame();
-    if (std::any_of(outputs.begin(), outputs.end(), [&](const Output& output) { return output.wants(frame); })) {
-      const Image image = renderImage(renderer, simulation.positionsBuffer(), camera, simulation.time(), options.width, options.height);
+    if (std::any_of(outputs.begin(), outputs.end(),
+                    [&](const Output& output) { return output.wants(frame); })) {
+      const Image image = renderImage(renderer, simulation.positionsBuffer(), camera, simulation.time(),
+                                      options.width, options.height);
       for (Output& output : outputs)
         if (output.wants(frame)) output.add(image, frame);
     }

@@ -38,15 +38,17 @@ void saveFrame(const RunOptions& options, const Simulation& simulation, const St
 
 void checkFinite(const Measures& measures, const Simulation& simulation, int frame) {
   if (!measures.firstNonFinite) return;
-  throw SimulationError("the simulation blew up: in frame " + std::to_string(frame) + " particle " +
-                        std::to_string(*measures.firstNonFinite) +
-                        " is no longer a finite number. The explicit step of " + std::to_string(stepLength(simulation.scene().solver)) +
-                        " s is too long for these springs: raise solver.simulation_steps or lower the stiffness.");
+  throw SimulationError(
+      "the simulation blew up: in frame " + std::to_string(frame) + " particle " +
+      std::to_string(*measures.firstNonFinite) + " is no longer a finite number. The explicit step of " +
+      std::to_string(stepLength(simulation.scene().solver)) +
+      " s is too long for these springs: raise solver.simulation_steps or lower the stiffness.");
 }
 
 // What a run is summed up in; names as in DESIGN.md section 5.
-nlohmann::ordered_json summary(const RunOptions& options, const Scene& scene, Simulation& simulation, double seconds,
-                               const State& last, const Measures& atEnd, double peakStrain, double maxPenetration) {
+nlohmann::ordered_json summary(const RunOptions& options, const Scene& scene, Simulation& simulation,
+                               double seconds, const State& last, const Measures& atEnd, double peakStrain,
+                               double maxPenetration) {
   const double steps = static_cast<double>(options.frames) * scene.solver.simulationSteps;
   const double particles = simulation.cloth().particleCount();
   nlohmann::ordered_json json;
@@ -67,7 +69,8 @@ nlohmann::ordered_json summary(const RunOptions& options, const Scene& scene, Si
   json["peak_strain"] = peakStrain;
   json["min_y"] = atEnd.minY;
   json["centroid"] = {atEnd.centroid.x, atEnd.centroid.y, atEnd.centroid.z};
-  json["kinetic_energy"] = measure(simulation.cloth(), scene, synchronized(simulation.cloth(), scene, last)).kineticEnergy;
+  json["kinetic_energy"] =
+      measure(simulation.cloth(), scene, synchronized(simulation.cloth(), scene, last)).kineticEnergy;
   json["max_penetration"] = maxPenetration;
   json["finite"] = true;
   json["self_collision"] = scene.solver.selfCollision ? "asked for, not part of this version" : "off";
@@ -76,7 +79,8 @@ nlohmann::ordered_json summary(const RunOptions& options, const Scene& scene, Si
 
 void printForPeople(const nlohmann::ordered_json& json) {
   for (const auto& [key, value] : json.items())
-    std::printf("%-26s %s\n", key.c_str(), value.is_string() ? value.get<std::string>().c_str() : value.dump().c_str());
+    std::printf("%-26s %s\n", key.c_str(),
+                value.is_string() ? value.get<std::string>().c_str() : value.dump().c_str());
 }
 
 }  // namespace

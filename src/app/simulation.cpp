@@ -15,7 +15,9 @@ std::unique_ptr<Solver> makeSolver(const std::string& backend, const Cloth& clot
 Simulation::Simulation(const Scene& scene, const std::string& backend)
     : scene_(scene), cloth_(scene), solver_(makeSolver(backend, cloth_, scene)) {}
 
-double Simulation::time() const { return static_cast<double>(solver_->stepIndex()) * stepLength(scene_.solver); }
+double Simulation::time() const {
+  return static_cast<double>(solver_->stepIndex()) * stepLength(scene_.solver);
+}
 
 void Simulation::restart() {
   solver_->setState(initialState(cloth_, scene_));

@@ -12,7 +12,8 @@
 namespace clothsim {
 
 // "gpu" or "cpu"; the GPU needs a current OpenGL context. @throws UsageError for another name, OpenGlError
-[[nodiscard]] std::unique_ptr<Solver> makeSolver(const std::string& backend, const Cloth& cloth, const Scene& scene);
+[[nodiscard]] std::unique_ptr<Solver> makeSolver(const std::string& backend, const Cloth& cloth,
+                                                 const Scene& scene);
 
 class Simulation {
  public:

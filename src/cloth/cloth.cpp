@@ -21,16 +21,20 @@ double length(Vec3d a) { return std::sqrt(dot(a, a)); }
 
 bool kindEnabled(const ClothSettings& settings, SpringKind kind) {
   switch (kind) {
-    case SpringKind::structural: return settings.enableStructural;
-    case SpringKind::shear: return settings.enableShearing;
-    case SpringKind::bending: return settings.enableBending;
+    case SpringKind::structural:
+      return settings.enableStructural;
+    case SpringKind::shear:
+      return settings.enableShearing;
+    case SpringKind::bending:
+      return settings.enableBending;
   }
   return false;
 }
 
 // Spring constants of the assignments' models (DESIGN.md section 4) [N/m].
 double springStiffness(const ClothSettings& settings, SpringKind kind, double restLength) {
-  if (settings.stiffnessReference) return *settings.stiffnessReference * settings.referenceLength / restLength;
+  if (settings.stiffnessReference)
+    return *settings.stiffnessReference * settings.referenceLength / restLength;
   const double ks = settings.ks.value_or(0);
   return kind == SpringKind::bending ? 0.2 * ks : ks;
 }
@@ -55,7 +59,8 @@ Grid makeGrid(const ClothSettings& settings, std::uint32_t firstParticle) {
 }
 
 // Where the lattice begins: (u, 1, v) or (u, v, z) with z from a hash, turned and moved [m].
-void appendPositions(const ClothSettings& settings, std::uint32_t firstParticle, std::vector<Vec3d>& positions) {
+void appendPositions(const ClothSettings& settings, std::uint32_t firstParticle,
+                     std::vector<Vec3d>& positions) {
   const Matrix3 turn = rotationMatrix(settings.rotation);
   const int columns = settings.numWidthPoints, rows = settings.numHeightPoints;
   const Vec3d origin = settings.orientation == Orientation::horizontal ? Vec3d{0, 1, 0} : Vec3d{0, 0, 0};
@@ -80,15 +85,20 @@ GridRange pinnedRange(const Pin& pin, const ClothSettings& settings) {
   const bool vertical = settings.orientation == Orientation::vertical;
   const int top = vertical ? lastRow : 0, bottom = vertical ? 0 : lastRow;
   switch (std::get<GridSide>(pin)) {
-    case GridSide::top: return {{0, top}, {lastColumn, top}};
-    case GridSide::bottom: return {{0, bottom}, {lastColumn, bottom}};
-    case GridSide::left: return {{0, 0}, {0, lastRow}};
-    case GridSide::right: return {{lastColumn, 0}, {lastColumn, lastRow}};
+    case GridSide::top:
+      return {{0, top}, {lastColumn, top}};
+    case GridSide::bottom:
+      return {{0, bottom}, {lastColumn, bottom}};
+    case GridSide::left:
+      return {{0, 0}, {0, lastRow}};
+    case GridSide::right:
+      return {{lastColumn, 0}, {lastColumn, lastRow}};
   }
   return {};
 }
 
-// Whether some spring, measured between positions as binary32 stores them, differs from its kind's nominal length.
+// Whether some spring, measured between positions as binary32 stores them, differs from its kind's nominal
+// length.
 bool differsFromNominal(const Grid& grid, std::span<const Vec3d> positions) {
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.columns; ++column) {
@@ -96,7 +106,8 @@ bool differsFromNominal(const Grid& grid, std::span<const Vec3d> positions) {
         const SpringOffset& offset = springOffsets[slot];
         if (!grid.slotEnabled[slot] || !grid.contains(column + offset.columns, row + offset.rows)) continue;
         const Vec3d a = positions[grid.particle(column, row)].cast<float>().cast<double>();
-        const Vec3d b = positions[grid.particle(column + offset.columns, row + offset.rows)].cast<float>().cast<double>();
+        const Vec3d b =
+            positions[grid.particle(column + offset.columns, row + offset.rows)].cast<float>().cast<double>();
         if (std::abs(length(b - a) - grid.nominalLength[slot]) > NOMINAL_LENGTH_TOLERANCE) return true;
       }
     }
@@ -109,10 +120,12 @@ bool differsFromNominal(const Grid& grid, std::span<const Vec3d> positions) {
 Cloth::Cloth(const Scene& scene) {
   std::uint64_t total = 0;
   for (const ClothSettings& settings : scene.cloths)
-    total += static_cast<std::uint64_t>(settings.numWidthPoints) * static_cast<std::uint64_t>(settings.numHeightPoints);
+    total += static_cast<std::uint64_t>(settings.numWidthPoints) *
+             static_cast<std::uint64_t>(settings.numHeightPoints);
   if (total > MAX_PARTICLES)
     throw SceneError("the cloths hold " + std::to_string(total) + " particles together; at most " +
-                     std::to_string(MAX_PARTICLES) + " are possible. Use fewer points or a smaller --resolution.");
+                     std::to_string(MAX_PARTICLES) +
+                     " are possible. Use fewer points or a smaller --resolution.");
   positions_.reserve(total);
   inverseMasses_.reserve(total);
   for (const ClothSettings& settings : scene.cloths) {
@@ -191,9 +204,9 @@ std::vector<Spring> Cloth::springs() const {
           if (!grid.slotEnabled[slot] || !grid.contains(column + offset.columns, row + offset.rows)) continue;
           const std::uint32_t other = grid.particle(column + offset.columns, row + offset.rows);
           const double measured = length(positions_[other] - positions_[owner]);
-          springs.push_back({static_cast<std::uint32_t>(SPRING_SLOTS) * owner + static_cast<std::uint32_t>(slot), owner,
-                             other, grid.stiffness[slot],
-                             grid.hasRestLengthTable ? measured : grid.nominalLength[slot]});
+          springs.push_back(
+              {static_cast<std::uint32_t>(SPRING_SLOTS) * owner + static_cast<std::uint32_t>(slot), owner,
+               other, grid.stiffness[slot], grid.hasRestLengthTable ? measured : grid.nominalLength[slot]});
         }
       }
     }

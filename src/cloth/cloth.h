@@ -1,5 +1,6 @@
-// The cloth as built from a scene: particles, grids, springs and triangles. Immutable while stepping; what moves is in
-// solver/state.h. Several cloths lie in the same arrays, each grid a contiguous range of particles.
+// The cloth as built from a scene: particles, grids, springs and triangles. Immutable while stepping; what
+// moves is in solver/state.h. Several cloths lie in the same arrays, each grid a contiguous range of
+// particles.
 #pragma once
 
 #include <array>
@@ -12,9 +13,17 @@
 
 namespace clothsim {
 
-// The six springs a grid point owns, each to a point with a smaller index. The order is that of the spring numbers:
-// spring = 6 * particle + slot. Every particle gathers its springs in ascending number.
-enum SpringSlot : int { toLeft, toUpper, toUpperLeft, toUpperRight, toSecondLeft, toSecondUpper, SPRING_SLOTS };
+// The six springs a grid point owns, each to a point with a smaller index. The order is that of the spring
+// numbers: spring = 6 * particle + slot. Every particle gathers its springs in ascending number.
+enum SpringSlot : int {
+  toLeft,
+  toUpper,
+  toUpperLeft,
+  toUpperRight,
+  toSecondLeft,
+  toSecondUpper,
+  SPRING_SLOTS
+};
 
 enum class SpringKind { structural, shear, bending };
 
@@ -29,11 +38,12 @@ inline constexpr std::array<SpringOffset, SPRING_SLOTS> springOffsets{{{-1, 0, S
                                                                        {-2, 0, SpringKind::bending},
                                                                        {0, -2, SpringKind::bending}}};
 
-// The twelve springs at a grid point in ascending number: the six it owns, then those owned by points with larger indices.
+// The twelve springs at a grid point in ascending number: the six it owns, then those owned by points with
+// larger indices.
 struct IncidentSpring {
   int columns, rows;  // from the particle to the other end
   SpringSlot slot;
-  bool owned;         // by the particle itself
+  bool owned;  // by the particle itself
 };
 inline constexpr std::array<IncidentSpring, 2 * SPRING_SLOTS> incidentSprings{{{-1, 0, toLeft, true},
                                                                                {0, -1, toUpper, true},
@@ -52,11 +62,11 @@ inline constexpr std::array<IncidentSpring, 2 * SPRING_SLOTS> incidentSprings{{{
 struct Grid {
   std::uint32_t firstParticle = 0;
   int columns = 0, rows = 0;
-  double particleMass = 0;                            // [kg]
-  std::array<bool, SPRING_SLOTS> slotEnabled{};         // and long enough to lie on the grid
-  std::array<double, SPRING_SLOTS> stiffness{};       // [N/m]
-  std::array<double, SPRING_SLOTS> nominalLength{};   // [m], of the undisturbed lattice
-  bool hasRestLengthTable = false;                    // some spring of a kind differs from nominal by more than 1e-6 m
+  double particleMass = 0;                           // [kg]
+  std::array<bool, SPRING_SLOTS> slotEnabled{};      // and long enough to lie on the grid
+  std::array<double, SPRING_SLOTS> stiffness{};      // [N/m]
+  std::array<double, SPRING_SLOTS> nominalLength{};  // [m], of the undisturbed lattice
+  bool hasRestLengthTable = false;  // some spring of a kind differs from nominal by more than 1e-6 m
 
   [[nodiscard]] std::uint32_t particleCount() const {
     return static_cast<std::uint32_t>(columns) * static_cast<std::uint32_t>(rows);
@@ -83,12 +93,12 @@ class Cloth {
 
   [[nodiscard]] std::uint32_t particleCount() const { return static_cast<std::uint32_t>(positions_.size()); }
   [[nodiscard]] std::span<const Grid> grids() const { return grids_; }
-  [[nodiscard]] std::span<const Vec3d> positions() const { return positions_; }            // at the start [m]
+  [[nodiscard]] std::span<const Vec3d> positions() const { return positions_; }           // at the start [m]
   [[nodiscard]] std::span<const double> inverseMasses() const { return inverseMasses_; }  // [1/kg], 0: pinned
-  [[nodiscard]] bool hasRestLengthTable() const;  // of any grid
+  [[nodiscard]] bool hasRestLengthTable() const;                                          // of any grid
 
-  // Counter-clockwise seen from the front (+y of a horizontal sheet). Cell (c, r) has triangles 2 q and 2 q + 1,
-  // q = r (columns - 1) + c: with its corners A B / C D they are (A, C, B) and (B, C, D).
+  // Counter-clockwise seen from the front (+y of a horizontal sheet). Cell (c, r) has triangles 2 q and 2 q +
+  // 1, q = r (columns - 1) + c: with its corners A B / C D they are (A, C, B) and (B, C, D).
   [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> triangles() const;
   // u along columns, v along rows, 0 to 1.
   [[nodiscard]] std::vector<std::array<float, 2>> textureCoordinates() const;

@@ -35,8 +35,8 @@ class Buffer {
 
   void upload(std::span<const T> data, std::size_t firstElement = 0) {
     assert(firstElement + data.size() <= size_ && "the data must fit into the buffer");
-    glNamedBufferSubData(name_, static_cast<GLintptr>(firstElement * sizeof(T)), static_cast<GLsizeiptr>(data.size_bytes()),
-                         data.data());
+    glNamedBufferSubData(name_, static_cast<GLintptr>(firstElement * sizeof(T)),
+                         static_cast<GLsizeiptr>(data.size_bytes()), data.data());
   }
   [[nodiscard]] std::vector<T> download() const {
     std::vector<T> data(size_);

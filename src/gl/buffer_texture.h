@@ -1,5 +1,6 @@
-// A buffer seen as a texture of one row, read by texelFetch: the same memory, on the path that every driver has made fast.
-// (llvmpipe loads storage blocks lane by lane; fetching texels runs the step more than twice as fast there.)
+// A buffer seen as a texture of one row, read by texelFetch: the same memory, on the path that every driver
+// has made fast. (llvmpipe loads storage blocks lane by lane; fetching texels runs the step more than twice
+// as fast there.)
 #pragma once
 
 #include <string>
@@ -12,7 +13,8 @@ namespace clothsim::gl {
 class BufferTexture {
  public:
   BufferTexture() = default;
-  // `format` as glTextureBuffer takes it, GL_RGBA32F or GL_R32F. The buffer must live as long as the texture is read.
+  // `format` as glTextureBuffer takes it, GL_RGBA32F or GL_R32F. The buffer must live as long as the texture
+  // is read.
   BufferTexture(const std::string& label, GLuint buffer, GLenum format) {
     glCreateTextures(GL_TEXTURE_BUFFER, 1, &name_);
     glTextureBuffer(name_, format, buffer);

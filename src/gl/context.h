@@ -15,8 +15,9 @@ struct ContextInfo {
   bool software = false;  // llvmpipe, softpipe, swrast
 };
 
-// Loads the functions of the current context, checks version 4.5 and the limits that the shaders need, and installs the
-// debug callback (prints warnings; throws OpenGlError at the next checkErrors() in tests and debug builds).
+// Loads the functions of the current context, checks version 4.5 and the limits that the shaders need, and
+// installs the debug callback (prints warnings; throws OpenGlError at the next checkErrors() in tests and
+// debug builds).
 // @throws OpenGlError: what was found, what is needed, what to do
 ContextInfo initializeCurrentContext(void* (*getProcAddress)(const char*));
 [[nodiscard]] ContextInfo currentContextInfo();

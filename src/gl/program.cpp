@@ -82,10 +82,13 @@ void dispatch(std::uint32_t columns, std::uint32_t rows, int groupColumns, int g
   assert(groupColumns > 0 && groupRows > 0 && "a work group has at least one invocation");
   const auto width = static_cast<std::uint32_t>(groupColumns), height = static_cast<std::uint32_t>(groupRows);
   const std::uint32_t groupsX = (columns + width - 1) / width, groupsY = (rows + height - 1) / height;
-  assert(groupsX <= 65535 && groupsY <= 65535 && "every driver takes 65,535 work groups, and no more is promised");
+  assert(groupsX <= 65535 && groupsY <= 65535 &&
+         "every driver takes 65,535 work groups, and no more is promised");
   if (groupsX > 0 && groupsY > 0) glDispatchCompute(groupsX, groupsY, 1);
 }
 
-void dispatch(std::size_t count, int workGroupSize) { dispatch(static_cast<std::uint32_t>(count), 1, workGroupSize, 1); }
+void dispatch(std::size_t count, int workGroupSize) {
+  dispatch(static_cast<std::uint32_t>(count), 1, workGroupSize, 1);
+}
 
 }  // namespace clothsim::gl

@@ -32,8 +32,8 @@ class Program {
   GLuint name_ = 0;
 };
 
-// Work groups for columns x rows invocations; asserts that they stay within the 65,535 that every driver takes: beyond it
-// the dispatch does nothing, and nobody says so.
+// Work groups for columns x rows invocations; asserts that they stay within the 65,535 that every driver
+// takes: beyond it the dispatch does nothing, and nobody says so.
 void dispatch(std::uint32_t columns, std::uint32_t rows, int groupColumns, int groupRows);
 void dispatch(std::size_t count, int workGroupSize);
 

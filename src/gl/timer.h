@@ -8,7 +8,8 @@
 
 namespace clothsim::gl {
 
-// By a timer query; on software renderers, whose queries answer 0 for compute work, by the host's clock around a glFinish.
+// By a timer query; on software renderers, whose queries answer 0 for compute work, by the host's clock
+// around a glFinish.
 class Timer {
  public:
   Timer() : byHost_(currentContextInfo().software) { glCreateQueries(GL_TIME_ELAPSED, 1, &name_); }

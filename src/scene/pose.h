@@ -1,4 +1,5 @@
-// Where a collider is at a given time: evaluated on the host in double and handed to both backends and the renderer.
+// Where a collider is at a given time: evaluated on the host in double and handed to both backends and the
+// renderer.
 #pragma once
 
 #include <array>
@@ -10,7 +11,7 @@ namespace clothsim {
 using Matrix3 = std::array<Vec3d, 3>;  // rows
 
 struct Pose {
-  Vec3d position;   // the sphere's centre, the plane's point [m]
+  Vec3d position;  // the sphere's centre, the plane's point [m]
   Matrix3 rotation{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0, 0, 1}};
 };
 

@@ -1,5 +1,5 @@
-// What the user wrote: plain structs in SI units, with the defaults of CS184's program. Reading, writing, ranges and help
-// texts come from the field table (fields.h); nothing here knows of particles.
+// What the user wrote: plain structs in SI units, with the defaults of CS184's program. Reading, writing,
+// ranges and help texts come from the field table (fields.h); nothing here knows of particles.
 #pragma once
 
 #include <array>
@@ -13,12 +13,14 @@
 
 namespace clothsim {
 
-// A path of keys, linear in between. Before the first key and after the last the pose stands still, unless `loop`.
+// A path of keys, linear in between. Before the first key and after the last the pose stands still, unless
+// `loop`.
 struct Motion {
   struct Key {
-    double t = 0;        // [s], ascending
-    Vec3d position;      // [m], replaces the collider's origin or point
-    Vec3d rotation;      // rotation vector, axis times angle [degrees]; linear between keys, so it may turn many times
+    double t = 0;    // [s], ascending
+    Vec3d position;  // [m], replaces the collider's origin or point
+    Vec3d rotation;  // rotation vector, axis times angle [degrees]; linear between keys, so it may turn many
+                     // times
     friend bool operator==(const Key&, const Key&) = default;
   };
   std::vector<Key> keys;
@@ -27,16 +29,16 @@ struct Motion {
 };
 
 struct Sphere {
-  Vec3d origin{0, 0, 0};   // centre [m]
-  double radius = 0.2;     // [m]
-  double friction = 0.5;   // CS184's factor, 0 slides, 1 sticks
+  Vec3d origin{0, 0, 0};  // centre [m]
+  double radius = 0.2;    // [m]
+  double friction = 0.5;  // CS184's factor, 0 slides, 1 sticks
   std::optional<Motion> motion;
   friend bool operator==(const Sphere&, const Sphere&) = default;
 };
 
 struct Plane {
-  Vec3d point{0, 0, 0};    // [m]
-  Vec3d normal{0, 1, 0};   // any length but 0
+  Vec3d point{0, 0, 0};   // [m]
+  Vec3d normal{0, 1, 0};  // any length but 0
   double friction = 0.5;
   std::optional<Motion> motion;
   friend bool operator==(const Plane&, const Plane&) = default;
@@ -58,32 +60,33 @@ struct GridRange {  // both ends belong to it; `from` <= `to` in column and row
   GridPoint from, to;
   friend bool operator==(const GridRange&, const GridRange&) = default;
 };
-// top: row 0 of a horizontal cloth, the last row of a vertical one (its upper edge); bottom: the opposite row;
-// left: column 0; right: the last column.
+// top: row 0 of a horizontal cloth, the last row of a vertical one (its upper edge); bottom: the opposite
+// row; left: column 0; right: the last column.
 enum class GridSide { top, bottom, left, right };
 using Pin = std::variant<GridPoint, GridRange, GridSide>;
 
 struct ClothSettings {
-  double width = 1, height = 1;                 // [m]
+  double width = 1, height = 1;  // [m]
   int numWidthPoints = 50, numHeightPoints = 50;
   Orientation orientation = Orientation::horizontal;
-  Vec3d position{0, 0, 0};                      // added to every point [m]
-  Vec3d rotation{0, 0, 0};                      // rotation vector [degrees] about grid point (0, 0), before `position`
-  double density = 150;                         // mass per area [kg/m^2]; CS184: m = width * height * density / points
-  std::optional<double> mass;                   // total mass [kg]; replaces density when given
-  std::optional<double> ks;                     // spring constant [N/m], bending springs 0.2 ks: CS184's model
-  std::optional<double> stiffnessReference;     // CS171's model [N/m]: k = stiffness_reference reference_length / L
-  double referenceLength = 0.1;                 // [m]
-  double damping = 0.2;                         // CS184: percent of the velocity lost in a step
-  double thickness = 0.0095;                    // [m]
+  Vec3d position{0, 0, 0};     // added to every point [m]
+  Vec3d rotation{0, 0, 0};     // rotation vector [degrees] about grid point (0, 0), before `position`
+  double density = 150;        // mass per area [kg/m^2]; CS184: m = width * height * density / points
+  std::optional<double> mass;  // total mass [kg]; replaces density when given
+  std::optional<double> ks;    // spring constant [N/m], bending springs 0.2 ks: CS184's model
+  std::optional<double>
+      stiffnessReference;        // CS171's model [N/m]: k = stiffness_reference reference_length / L
+  double referenceLength = 0.1;  // [m]
+  double damping = 0.2;          // CS184: percent of the velocity lost in a step
+  double thickness = 0.0095;     // [m]
   bool enableStructural = true, enableShearing = true, enableBending = true;
   std::vector<Pin> pinned;
   friend bool operator==(const ClothSettings&, const ClothSettings&) = default;
 };
 
 struct Gust {
-  double strength = 0;    // [m/s], standard deviation of the gust along the wind's direction
-  double frequency = 0.5; // [Hz]
+  double strength = 0;     // [m/s], standard deviation of the gust along the wind's direction
+  double frequency = 0.5;  // [Hz]
   int seed = 1;
   friend bool operator==(const Gust&, const Gust&) = default;
 };
@@ -101,10 +104,11 @@ enum class Integrator { verlet, euler };
 
 struct SolverSettings {
   Integrator integrator = Integrator::verlet;
-  double framesPerSec = 90;     // [1/s]
-  int simulationSteps = 30;     // steps a frame; h = 1 / (frames_per_sec * simulation_steps)
-  std::optional<double> strainLimit;  // largest l/L - 1 after the limiter; none: no limiter. 0.1 in scenes with `ks`
-  bool selfCollision = false;   // true in scenes with `ks`, as CS184 does
+  double framesPerSec = 90;  // [1/s]
+  int simulationSteps = 30;  // steps a frame; h = 1 / (frames_per_sec * simulation_steps)
+  std::optional<double>
+      strainLimit;             // largest l/L - 1 after the limiter; none: no limiter. 0.1 in scenes with `ks`
+  bool selfCollision = false;  // true in scenes with `ks`, as CS184 does
   friend bool operator==(const SolverSettings&, const SolverSettings&) = default;
 };
 
@@ -131,8 +135,8 @@ struct Range {
 // What a bundled scene promises after `frames` frames on either backend; tests/scenes checks it.
 struct Expect {
   int frames = 0;
-  std::optional<Vec3d> centroid;             // [m]
-  double centroidTolerance = 0.01;           // [m], each coordinate
+  std::optional<Vec3d> centroid;    // [m]
+  double centroidTolerance = 0.01;  // [m], each coordinate
   std::optional<Range> minY, maxStrain, kineticEnergy, maxPenetration;
   friend bool operator==(const Expect&, const Expect&) = default;
 };

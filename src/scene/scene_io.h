@@ -1,5 +1,5 @@
-// Scenes in and out of JSON, and the bundled ones. Everything the user got wrong becomes a SceneError that names the file,
-// the line or JSON path, what was found, what was expected, and the nearest known key.
+// Scenes in and out of JSON, and the bundled ones. Everything the user got wrong becomes a SceneError that
+// names the file, the line or JSON path, what was found, what was expected, and the nearest known key.
 #pragma once
 
 #include <filesystem>
@@ -11,11 +11,13 @@
 
 namespace clothsim {
 
-// Reads a scene from JSON text; `source` names it in messages. Every key must be known, apart from comments: keys named
-// "comment" or beginning with "//", at any place, with any value; they are not saved again. @throws SceneError
+// Reads a scene from JSON text; `source` names it in messages. Every key must be known, apart from comments:
+// keys named "comment" or beginning with "//", at any place, with any value; they are not saved again.
+// @throws SceneError
 [[nodiscard]] Scene parseScene(std::string_view text, const std::string& source);
 
-// Reads a scene file. @throws SceneError (also for a missing or unreadable file: what the user named is not a scene)
+// Reads a scene file. @throws SceneError (also for a missing or unreadable file: what the user named is not a
+// scene)
 [[nodiscard]] Scene loadScene(const std::filesystem::path& path);
 
 // `-f`'s rule: with a '/' or ending in ".json" a path, else the name of a bundled scene. @throws SceneError
@@ -27,10 +29,11 @@ namespace clothsim {
 // Writes formatScene(scene) whole or not at all. @throws InputOutputError
 void saveScene(const Scene& scene, const std::filesystem::path& path);
 
-// `--set key=value`: the key is a path such as "solver.integrator" or "cloth.ks" ("cloth.x" is "cloths.0.x"); the value is
-// JSON, or a bare word taken as a string; null takes a key back to its default, or an entry out of its list. "sphere.x" and
-// "plane.x" are those of the first collider of that type. Checks ranges as the reader does, and leaves the scene as it was
-// when something is wrong. @throws SceneError, UsageError (no '=')
+// `--set key=value`: the key is a path such as "solver.integrator" or "cloth.ks" ("cloth.x" is "cloths.0.x");
+// the value is JSON, or a bare word taken as a string; null takes a key back to its default, or an entry out
+// of its list. "sphere.x" and "plane.x" are those of the first collider of that type. Checks ranges as the
+// reader does, and leaves the scene as it was when something is wrong. @throws SceneError, UsageError (no
+// '=')
 void setSceneValue(Scene& scene, const std::string& keyEqualsValue);
 
 struct BundledScene {
@@ -39,10 +42,11 @@ struct BundledScene {
 };
 [[nodiscard]] std::vector<BundledScene> bundledScenes();  // by name
 
-// `--resolution`: every grid gets columns x rows points; pins keep their place on the cloth, total mass and spring
-// constants stay. In scenes with `ks` thickness follows the smaller spacing. Unless `keepSteps`, simulation_steps is
-// multiplied by what an explicit step then needs (the ceiling of the spacing ratio; to the power 3/2 with
-// stiffness_reference, whose k grows with 1/L). Returns a sentence for stderr, empty when nothing but the grid changed.
+// `--resolution`: every grid gets columns x rows points; pins keep their place on the cloth, total mass and
+// spring constants stay. In scenes with `ks` thickness follows the smaller spacing. Unless `keepSteps`,
+// simulation_steps is multiplied by what an explicit step then needs (the ceiling of the spacing ratio; to
+// the power 3/2 with stiffness_reference, whose k grows with 1/L). Returns a sentence for stderr, empty when
+// nothing but the grid changed.
 // @throws UsageError for sides outside 2 to 16384 or more than 2^26 particles
 [[nodiscard]] std::string changeResolution(Scene& scene, int columns, int rows, bool keepSteps);
 

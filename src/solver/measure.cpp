@@ -51,7 +51,8 @@ Measures measure(const Cloth& cloth, const Scene& scene, const State& state) {
   Measures measures;
   const std::size_t count = state.positions.size();
   for (std::size_t i = 0; i < count && !measures.firstNonFinite; ++i)
-    if (!finite(state.positions[i]) || !finite(state.velocities[i])) measures.firstNonFinite = static_cast<std::uint32_t>(i);
+    if (!finite(state.positions[i]) || !finite(state.velocities[i]))
+      measures.firstNonFinite = static_cast<std::uint32_t>(i);
 
   measures.minY = positionOf(state, 0).y;
   for (std::size_t i = 0; i < count; ++i) {
@@ -59,7 +60,8 @@ Measures measure(const Cloth& cloth, const Scene& scene, const State& state) {
     const Vec3d x = positionOf(state, i), velocity = Vec3f{v.x, v.y, v.z}.cast<double>();
     measures.minY = std::min(measures.minY, x.y);
     measures.centroid = measures.centroid + x;
-    if (state.positions[i].w > 0) measures.kineticEnergy += 0.5 * dot(velocity, velocity) / static_cast<double>(state.positions[i].w);
+    if (state.positions[i].w > 0)
+      measures.kineticEnergy += 0.5 * dot(velocity, velocity) / static_cast<double>(state.positions[i].w);
   }
   measures.centroid = (1.0 / static_cast<double>(count)) * measures.centroid;
 
@@ -74,8 +76,8 @@ Measures measure(const Cloth& cloth, const Scene& scene, const State& state) {
     const Pose pose = poseAt(collider, time);
     for (std::size_t i = 0; i < count; ++i)
       if (state.positions[i].w > 0)
-        measures.maxPenetration =
-            std::max(measures.maxPenetration, penetration(collider, pose, cloth.positions()[i], positionOf(state, i)));
+        measures.maxPenetration = std::max(
+            measures.maxPenetration, penetration(collider, pose, cloth.positions()[i], positionOf(state, i)));
   }
   return measures;
 }

@@ -1,5 +1,5 @@
-// Numbers about a state that a person can judge: how far springs are stretched, how fast the cloth moves, how deep it sits in
-// a collider. Computed on the host in double from a read-back.
+// Numbers about a state that a person can judge: how far springs are stretched, how fast the cloth moves, how
+// deep it sits in a collider. Computed on the host in double from a read-back.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,12 @@
 namespace clothsim {
 
 struct Measures {
-  double maxStrain = 0;       // largest l/L - 1 over enabled springs
-  double minY = 0;            // [m]
-  double kineticEnergy = 0;   // [J], of free particles, from the velocities as given
-  double maxPenetration = 0;  // [m], >= 0: into spheres, and across planes from the side a particle started on
-  Vec3d centroid;             // of all particles [m]
+  double maxStrain = 0;      // largest l/L - 1 over enabled springs
+  double minY = 0;           // [m]
+  double kineticEnergy = 0;  // [J], of free particles, from the velocities as given
+  double maxPenetration =
+      0;           // [m], >= 0: into spheres, and across planes from the side a particle started on
+  Vec3d centroid;  // of all particles [m]
   std::optional<std::uint32_t> firstNonFinite;  // lowest index of a particle with an infinity or NaN
 };
 

@@ -1,4 +1,5 @@
-// The only place where time advances. Both backends run the same passes in the same order and agree in every bit.
+// The only place where time advances. Both backends run the same passes in the same order and agree in every
+// bit.
 #pragma once
 
 #include <memory>
@@ -13,8 +14,9 @@ class Solver {
  public:
   virtual ~Solver() = default;
 
-  // Live parameters: gravity, wind, damping, colliders, integrator, step length... of `scene`, from the next step on.
-  // Changing the integrator converts the velocities by -+ h a / 2. The grids must be those of the solver's cloth.
+  // Live parameters: gravity, wind, damping, colliders, integrator, step length... of `scene`, from the next
+  // step on. Changing the integrator converts the velocities by -+ h a / 2. The grids must be those of the
+  // solver's cloth.
   virtual void configure(const Scene& scene) = 0;
 
   // Advances by `count` steps. Neither throws nor allocates; on the GPU nothing is waited for.
@@ -22,7 +24,8 @@ class Solver {
   // Waits until every step is done.
   virtual void finish() = 0;
 
-  // A blocking copy of the state, and its inverse: together they hand a simulation from one backend to the other.
+  // A blocking copy of the state, and its inverse: together they hand a simulation from one backend to the
+  // other.
   [[nodiscard]] virtual State state() = 0;
   virtual void setState(const State& state) = 0;
   [[nodiscard]] virtual std::uint64_t stepIndex() const = 0;

@@ -1,4 +1,5 @@
-// What moves: positions and velocities of all particles at a step. The layout is that of the shader storage buffers.
+// What moves: positions and velocities of all particles at a step. The layout is that of the shader storage
+// buffers.
 #pragma once
 
 #include <cstdint>

@@ -49,7 +49,8 @@ bool dependsOnTime(const Scene& scene) {
 }
 
 template <class Real>
-StepParams<Real> makeStepParams(const Scene& scene, const Cloth& cloth, std::size_t gridIndex, std::uint64_t step) {
+StepParams<Real> makeStepParams(const Scene& scene, const Cloth& cloth, std::size_t gridIndex,
+                                std::uint64_t step) {
   const Grid& grid = cloth.grids()[gridIndex];
   const double h = stepLength(scene.solver);
   StepParams<Real> params{};
@@ -80,7 +81,8 @@ StepParams<Real> makeStepParams(const Scene& scene, const Cloth& cloth, std::siz
   params.limitFactor = real<Real>(limitFactor);
   for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot)
     params.springs[slot] = {real<Real>(grid.stiffness[slot]), real<Real>(grid.nominalLength[slot]),
-                            real<Real>(limitFactor * grid.nominalLength[slot]), grid.slotEnabled[slot] ? 1u : 0u};
+                            real<Real>(limitFactor * grid.nominalLength[slot]),
+                            grid.slotEnabled[slot] ? 1u : 0u};
   return params;
 }
 
@@ -159,8 +161,8 @@ std::vector<LimitColor> makeLimitColors(const Grid& grid) {
   for (std::uint32_t slot = 0; slot < SPRING_SLOTS; ++slot) {
     if (!grid.slotEnabled[slot]) continue;
     const SpringOffset& offset = springOffsets[slot];
-    // The direction that is split into two colours: columns for springs along a row, else rows. A spring that spans two
-    // cells makes runs of two owners: 2 3 . . 6 7 and 4 5 . . 8 9.
+    // The direction that is split into two colours: columns for springs along a row, else rows. A spring that
+    // spans two cells makes runs of two owners: 2 3 . . 6 7 and 4 5 . . 8 9.
     const bool splitColumns = offset.rows == 0;
     const auto reach = static_cast<std::uint32_t>(std::max(std::abs(offset.columns), std::abs(offset.rows)));
     for (std::uint32_t color = 0; color < 2; ++color) {

@@ -1,5 +1,5 @@
-// What both backends need for a step besides the state, evaluated on the host in double and rounded once: constants made of
-// parameters, and everything that depends on time (gusts, moving colliders).
+// What both backends need for a step besides the state, evaluated on the host in double and rounded once:
+// constants made of parameters, and everything that depends on time (gusts, moving colliders).
 #pragma once
 
 #include <cstdint>
@@ -22,24 +22,27 @@ using LimitColor = shared::LimitColor;
 
 // For one grid and the step from step * h to (step + 1) * h.
 template <class Real>
-[[nodiscard]] StepParams<Real> makeStepParams(const Scene& scene, const Cloth& cloth, std::size_t grid, std::uint64_t step);
+[[nodiscard]] StepParams<Real> makeStepParams(const Scene& scene, const Cloth& cloth, std::size_t grid,
+                                              std::uint64_t step);
 
 // One a collider, in the scene's order, for the same step.
 template <class Real>
-[[nodiscard]] ColliderParams<Real> makeColliderParams(const Scene& scene, const Collider& collider, std::uint64_t step);
+[[nodiscard]] ColliderParams<Real> makeColliderParams(const Scene& scene, const Collider& collider,
+                                                      std::uint64_t step);
 
 // Whether anything above changes from step to step.
 [[nodiscard]] bool dependsOnTime(const Scene& scene);
 
-// Wind plus gust at time t [m/s]. The gust blows along the wind (along +x when there is none): a sum of sines whose phases
-// come from the seed, around the given frequency, of standard deviation `strength`.
+// Wind plus gust at time t [m/s]. The gust blows along the wind (along +x when there is none): a sum of sines
+// whose phases come from the seed, around the given frequency, of standard deviation `strength`.
 [[nodiscard]] Vec3d airVelocity(const Wind& wind, double t);
 
-// What the velocities of a cloth at rest mean at the start: CS184 begins `verlet` with v(-1/2) = 0; elsewhere v(0) = 0, and
-// the first step converts (v(-1/2) = -h a / 2 makes Verlet second order).
+// What the velocities of a cloth at rest mean at the start: CS184 begins `verlet` with v(-1/2) = 0; elsewhere
+// v(0) = 0, and the first step converts (v(-1/2) = -h a / 2 makes Verlet second order).
 [[nodiscard]] Integrator startingVelocityMeaning(const Scene& scene);
 
-// The time t in v + t a that turns the other integrator's velocities into those of the scene's: -h/2 for `verlet`.
+// The time t in v + t a that turns the other integrator's velocities into those of the scene's: -h/2 for
+// `verlet`.
 template <class Real>
 [[nodiscard]] Real velocityConversionTime(const Scene& scene) {
   const double half = 0.5 * stepLength(scene.solver);
@@ -53,14 +56,16 @@ template <class Real>
   return {canonical(x.x), canonical(x.y), canonical(x.z)};
 }
 
-// Rest lengths measured between start positions by the step's own arithmetic, so that a cloth at rest feels no force at all.
-// Slot-major (slot * particles + owner); empty when no grid needs the table [m].
+// Rest lengths measured between start positions by the step's own arithmetic, so that a cloth at rest feels
+// no force at all. Slot-major (slot * particles + owner); empty when no grid needs the table [m].
 template <class Real>
 [[nodiscard]] std::vector<Real> measureRestLengths(const Cloth& cloth);
 
-// The strain limit's order: slots ascending, two colours each; only enabled ones. Both backends go through it alike.
+// The strain limit's order: slots ascending, two colours each; only enabled ones. Both backends go through it
+// alike.
 [[nodiscard]] std::vector<LimitColor> makeLimitColors(const Grid& grid);
 // Owners of a colour in each direction.
-[[nodiscard]] std::uint32_t ownerCount(std::uint32_t first, std::uint32_t step, std::uint32_t run, std::uint32_t end);
+[[nodiscard]] std::uint32_t ownerCount(std::uint32_t first, std::uint32_t step, std::uint32_t run,
+                                       std::uint32_t end);
 
 }  // namespace clothsim

@@ -1,4 +1,5 @@
-// Every bundled scene runs on both backends, agrees in every bit, and keeps the promises of its `expect` block.
+// Every bundled scene runs on both backends, agrees in every bit, and keeps the promises of its `expect`
+// block.
 #include <gtest/gtest.h>
 
 #include "app/compare.h"
@@ -42,8 +43,8 @@ TEST_P(BundledSceneTest, KeepsItsPromisesOnBothBackends) {
   ASSERT_FALSE(atEnd.firstNonFinite.has_value());
   expectWithin(atEnd.minY, expect.minY, "min_y");
   expectWithin(atEnd.maxStrain, expect.maxStrain, "max_strain");
-  expectWithin(measure(cpu.cloth(), scene, synchronized(cpu.cloth(), scene, state)).kineticEnergy, expect.kineticEnergy,
-               "kinetic_energy");
+  expectWithin(measure(cpu.cloth(), scene, synchronized(cpu.cloth(), scene, state)).kineticEnergy,
+               expect.kineticEnergy, "kinetic_energy");
   expectWithin(maxPenetration, expect.maxPenetration, "max_penetration");
   if (expect.centroid) {
     EXPECT_NEAR(atEnd.centroid.x, expect.centroid->x, expect.centroidTolerance);

@@ -23,10 +23,11 @@ inline Scene withLimiter(Scene scene) {
 inline Scene withColliders(Scene scene) {
   Motion motion;
   motion.keys = {{0, {0.5, 0.5, -0.3}, {0, 0, 0}}, {0.2, {0.5, 0.5, 0.1}, {0, 90, 0}}};
-  scene.colliders = {Sphere{.origin = {0.5, 0.5, -0.3}, .radius = 0.2, .friction = 0.3, .motion = motion},
-                     Plane{.point = {0, 0.02, 0}, .normal = {0, 1, 0}, .friction = 0.5, .motion = std::nullopt},
-                     Sphere{.origin = {0.2, 0.8, 0.1}, .radius = 0.15, .friction = 0.9, .motion = std::nullopt},
-                     Plane{.point = {0, 0, 0.3}, .normal = {0.1, 0, -1}, .friction = 0.1, .motion = std::nullopt}};
+  scene.colliders = {
+      Sphere{.origin = {0.5, 0.5, -0.3}, .radius = 0.2, .friction = 0.3, .motion = motion},
+      Plane{.point = {0, 0.02, 0}, .normal = {0, 1, 0}, .friction = 0.5, .motion = std::nullopt},
+      Sphere{.origin = {0.2, 0.8, 0.1}, .radius = 0.15, .friction = 0.9, .motion = std::nullopt},
+      Plane{.point = {0, 0, 0.3}, .normal = {0.1, 0, -1}, .friction = 0.1, .motion = std::nullopt}};
   return scene;
 }
 

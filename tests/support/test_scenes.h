@@ -13,9 +13,11 @@ inline Scene sheetScene(int n) {
   return scene;
 }
 
-// Two points, the first pinned, the second hanging `length` [m] below it on a spring of `stiffness` [N/m]; mass [kg] of the
-// free one. Without gravity. The velocities start synchronously, as in every scene without `ks`.
-inline Scene springScene(double length, double stiffness, double mass, double timeStep, Integrator integrator) {
+// Two points, the first pinned, the second hanging `length` [m] below it on a spring of `stiffness` [N/m];
+// mass [kg] of the free one. Without gravity. The velocities start synchronously, as in every scene without
+// `ks`.
+inline Scene springScene(double length, double stiffness, double mass, double timeStep,
+                         Integrator integrator) {
   Scene scene;
   ClothSettings& cloth = scene.cloths[0];
   cloth.width = 1;

@@ -45,7 +45,8 @@ CpuSolver<Real>::CpuSolver(const Cloth& cloth, const Scene& scene, bool fused)
 
 template <class Real>
 void CpuSolver<Real>::configure(const Scene& scene) {
-  assert(scene.cloths.size() == cloth_->grids().size() && "configure() takes live edits of the solver's own scene");
+  assert(scene.cloths.size() == cloth_->grids().size() &&
+         "configure() takes live edits of the solver's own scene");
   scene_ = scene;
   colliders_.resize(scene.colliders.size());
 }
@@ -103,7 +104,8 @@ void CpuSolver<Real>::stepGrid(std::size_t gridIndex) {
   if (!scene_.solver.strainLimit) return;
   for (const LimitColor& color : limitColors_[gridIndex]) {
     const std::uint32_t count = ownerCount(color.firstRow, color.rowStep, color.rowRun, color.endRow);
-    forEachRow(static_cast<int>(count), [&](int j) { cpu::limitStrain(pass, color, static_cast<std::uint32_t>(j)); });
+    forEachRow(static_cast<int>(count),
+               [&](int j) { cpu::limitStrain(pass, color, static_cast<std::uint32_t>(j)); });
   }
 }
 
@@ -126,7 +128,8 @@ State CpuSolver<Real>::state() {
   state.positions.resize(count);
   state.velocities.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
-    const Vec3f x = at(before_.positions, i).template cast<float>(), v = at(before_.velocities, i).template cast<float>();
+    const Vec3f x = at(before_.positions, i).template cast<float>(),
+                v = at(before_.velocities, i).template cast<float>();
     state.positions[i] = {x.x, x.y, x.z, static_cast<float>(inverseMasses_[i])};
     state.velocities[i] = {v.x, v.y, v.z, 0};
   }

@@ -1,5 +1,5 @@
-// The CPU backend: the same passes as the GPU's, over rows, with OpenMP. CpuSolver<float> is the bitwise twin of the GPU
-// solver; CpuSolver<double> checks the physics.
+// The CPU backend: the same passes as the GPU's, over rows, with OpenMP. CpuSolver<float> is the bitwise twin
+// of the GPU solver; CpuSolver<double> checks the physics.
 #pragma once
 
 #include <vector>
@@ -14,8 +14,8 @@ namespace clothsim {
 template <class Real>
 class CpuSolver final : public Solver {
  public:
-  // `cloth` must outlive the solver. With `fused` a row goes through forces, integration and colliders before the next one;
-  // the bits are the same either way.
+  // `cloth` must outlive the solver. With `fused` a row goes through forces, integration and colliders before
+  // the next one; the bits are the same either way.
   CpuSolver(const Cloth& cloth, const Scene& scene, bool fused = true);
 
   void configure(const Scene& scene) override;

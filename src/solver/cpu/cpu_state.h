@@ -1,4 +1,5 @@
-// The CPU backend's particle state: one array per component, so that loops along a row run in vector registers.
+// The CPU backend's particle state: one array per component, so that loops along a row run in vector
+// registers.
 #pragma once
 
 #include <cstddef>

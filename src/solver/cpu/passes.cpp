@@ -6,8 +6,9 @@
 
 #include "core/exact_math.h"
 
-// Loops along a row are compiled for several instruction sets, chosen when the program starts; with contraction off
-// (CMakeLists.txt) all of them give the same bits. Sanitizer builds and other compilers take the plain one.
+// Loops along a row are compiled for several instruction sets, chosen when the program starts; with
+// contraction off (CMakeLists.txt) all of them give the same bits. Sanitizer builds and other compilers take
+// the plain one.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
 #define VECTOR_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
 #else
@@ -23,7 +24,8 @@ struct Stretch {
   std::ptrdiff_t begin, end;
 };
 
-// Those particles of the row whose neighbours from `firstOffset` to `lastOffset` columns away are on the grid.
+// Those particles of the row whose neighbours from `firstOffset` to `lastOffset` columns away are on the
+// grid.
 template <class Real>
 Stretch stretch(const StepParams<Real>& step, int row, int firstOffset = 0, int lastOffset = 0) {
   const auto columns = static_cast<std::ptrdiff_t>(step.columns);
@@ -52,12 +54,13 @@ INLINE Vec3<Real> springForce(Vec3<Real> a, Vec3<Real> b, Real stiffness, Real r
   return scale * d;
 }
 
-// A third of the force of the air on triangle (a, b, c): pressure along its normal, rho C_d / 2 A (u.n)|u.n| n, and lift
-// across the relative wind u, rho C_l / 2 A |u|^2 (e.n) (n - (e.n) e) with e = u/|u|. `normal` is 2 A n, and the factors of
-// the step hold rho C / 12. Both terms are even in n: it does not matter to which side it points.
+// A third of the force of the air on triangle (a, b, c): pressure along its normal, rho C_d / 2 A (u.n)|u.n|
+// n, and lift across the relative wind u, rho C_l / 2 A |u|^2 (e.n) (n - (e.n) e) with e = u/|u|. `normal` is
+// 2 A n, and the factors of the step hold rho C / 12. Both terms are even in n: it does not matter to which
+// side it points.
 template <class Real>
-INLINE Vec3<Real> windForce(const StepParams<Real>& step, Vec3<Real> a, Vec3<Real> b, Vec3<Real> c, Vec3<Real> va,
-                            Vec3<Real> vb, Vec3<Real> vc) {
+INLINE Vec3<Real> windForce(const StepParams<Real>& step, Vec3<Real> a, Vec3<Real> b, Vec3<Real> c,
+                            Vec3<Real> va, Vec3<Real> vb, Vec3<Real> vc) {
   constexpr Real third = static_cast<Real>(1.0 / 3.0);
   const Vec3<Real> normal = cross(b - a, c - a);
   const Real normalSquared = dot(normal, normal);
@@ -77,7 +80,8 @@ INLINE Vec3<Real> windForce(const StepParams<Real>& step, Vec3<Real> a, Vec3<Rea
   return {degenerate ? Real(0) : force.x, degenerate ? Real(0) : force.y, degenerate ? Real(0) : force.z};
 }
 
-// The triangles at a grid point in ascending number (cloth/cloth.h), corners as (columns, rows) from the point.
+// The triangles at a grid point in ascending number (cloth/cloth.h), corners as (columns, rows) from the
+// point.
 struct Corner {
   int columns, rows;
 };
@@ -88,7 +92,8 @@ constexpr std::array<std::array<Corner, 3>, 6> triangleFan{{{{{0, -1}, {-1, 0}, 
                                                             {{{0, 0}, {-1, 1}, {0, 1}}},
                                                             {{{0, 0}, {0, 1}, {1, 0}}}}};
 
-// Adds the forces of one incident spring to every particle of the stretch. `rest` is null when all lengths are nominal.
+// Adds the forces of one incident spring to every particle of the stretch. `rest` is null when all lengths
+// are nominal.
 template <class Real>
 INLINE void addSpring(const PassArguments<Real>& arguments, Stretch particles, std::ptrdiff_t other,
                       const SpringParams<Real>& spring, const Real* rest) {
@@ -136,7 +141,8 @@ template <class Real>
 INLINE void addWind(const PassArguments<Real>& arguments, int row) {
   const StepParams<Real>& step = arguments.step;
   const Components<Real>&p = arguments.before.positions, &v = arguments.before.velocities;
-  const Real *x = p.x.data(), *y = p.y.data(), *z = p.z.data(), *vx = v.x.data(), *vy = v.y.data(), *vz = v.z.data();
+  const Real *x = p.x.data(), *y = p.y.data(), *z = p.z.data(), *vx = v.x.data(), *vy = v.y.data(),
+             *vz = v.z.data();
   Real *fx = arguments.forces.x.data(), *fy = arguments.forces.y.data(), *fz = arguments.forces.z.data();
   for (const auto& [a, b, c] : triangleFan) {
     const auto [firstRow, lastRow] = std::minmax({a.rows, b.rows, c.rows});
@@ -147,8 +153,9 @@ INLINE void addWind(const PassArguments<Real>& arguments, int row) {
                          ic = indexOffset(step, c.columns, c.rows);
 #pragma omp simd
     for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
-      const Vec3<Real> f = windForce(step, load(x, y, z, i + ia), load(x, y, z, i + ib), load(x, y, z, i + ic),
-                                     load(vx, vy, vz, i + ia), load(vx, vy, vz, i + ib), load(vx, vy, vz, i + ic));
+      const Vec3<Real> f =
+          windForce(step, load(x, y, z, i + ia), load(x, y, z, i + ib), load(x, y, z, i + ic),
+                    load(vx, vy, vz, i + ia), load(vx, vy, vz, i + ib), load(vx, vy, vz, i + ic));
       fx[i] = fx[i] + f.x;
       fy[i] = fy[i] + f.y;
       fz[i] = fz[i] + f.z;
@@ -189,9 +196,9 @@ INLINE void gatherForcesRow(const PassArguments<Real>& arguments, int row) {
 
 // One component of x' = x + h v', v' = (1 - damping) v + h (g + w f); pinned particles rest.
 template <class Real>
-INLINE void integrateComponent(const StepParams<Real>& step, Stretch particles, Real gravity, const Real* inverseMass,
-                               const Real* force, const Real* position, const Real* velocity, Real* newPosition,
-                               Real* newVelocity) {
+INLINE void integrateComponent(const StepParams<Real>& step, Stretch particles, Real gravity,
+                               const Real* inverseMass, const Real* force, const Real* position,
+                               const Real* velocity, Real* newPosition, Real* newVelocity) {
   const Real timeStep = step.timeStep, velocityKept = step.velocityKept;
 #pragma omp simd
   for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
@@ -209,12 +216,15 @@ INLINE void integrateRow(const PassArguments<Real>& arguments, int row) {
   const StepParams<Real>& step = arguments.step;
   const Stretch particles = stretch(step, row);
   const auto& [before, after, f] = std::tie(arguments.before, arguments.after, arguments.forces);
-  integrateComponent(step, particles, step.gravityX, arguments.inverseMasses, f.x.data(), before.positions.x.data(),
-                     before.velocities.x.data(), after.positions.x.data(), after.velocities.x.data());
-  integrateComponent(step, particles, step.gravityY, arguments.inverseMasses, f.y.data(), before.positions.y.data(),
-                     before.velocities.y.data(), after.positions.y.data(), after.velocities.y.data());
-  integrateComponent(step, particles, step.gravityZ, arguments.inverseMasses, f.z.data(), before.positions.z.data(),
-                     before.velocities.z.data(), after.positions.z.data(), after.velocities.z.data());
+  integrateComponent(step, particles, step.gravityX, arguments.inverseMasses, f.x.data(),
+                     before.positions.x.data(), before.velocities.x.data(), after.positions.x.data(),
+                     after.velocities.x.data());
+  integrateComponent(step, particles, step.gravityY, arguments.inverseMasses, f.y.data(),
+                     before.positions.y.data(), before.velocities.y.data(), after.positions.y.data(),
+                     after.velocities.y.data());
+  integrateComponent(step, particles, step.gravityZ, arguments.inverseMasses, f.z.data(),
+                     before.positions.z.data(), before.velocities.z.data(), after.positions.z.data(),
+                     after.velocities.z.data());
 }
 
 // Where the particle was at the start of the step, carried along with a moving collider.
@@ -246,7 +256,8 @@ INLINE Contact<Real> sphereContact(const ColliderParams<Real>& sphere, Vec3<Real
 
 // Crossed since `previous`: the foot of the perpendicular, a little off on the side it came from.
 template <class Real>
-INLINE Contact<Real> planeContact(const ColliderParams<Real>& plane, Real offset, Vec3<Real> previous, Vec3<Real> x) {
+INLINE Contact<Real> planeContact(const ColliderParams<Real>& plane, Real offset, Vec3<Real> previous,
+                                  Vec3<Real> x) {
   const Vec3<Real> point{plane.pointX, plane.pointY, plane.pointZ};
   const Vec3<Real> normal{plane.normalX, plane.normalY, plane.normalZ};
   const Real heightBefore = dot(previous - point, normal);
@@ -264,7 +275,8 @@ INLINE void collideRow(const PassArguments<Real>& arguments, int row) {
   const Components<Real>& old = arguments.before.positions;
   Components<Real>&p = arguments.after.positions, &v = arguments.after.velocities;
   const Real *x0 = old.x.data(), *y0 = old.y.data(), *z0 = old.z.data();
-  Real *x = p.x.data(), *y = p.y.data(), *z = p.z.data(), *vx = v.x.data(), *vy = v.y.data(), *vz = v.z.data();
+  Real *x = p.x.data(), *y = p.y.data(), *z = p.z.data(), *vx = v.x.data(), *vy = v.y.data(),
+       *vz = v.z.data();
   const Real* inverseMasses = arguments.inverseMasses;
   const Stretch particles = stretch(step, row);
   for (std::uint32_t k = 0; k < step.colliderCount; ++k) {
@@ -290,8 +302,9 @@ INLINE void collideRow(const PassArguments<Real>& arguments, int row) {
 }
 
 template <class Real>
-INLINE void kickComponent(const StepParams<Real>& step, Stretch particles, Real gravity, const Real* inverseMass,
-                          const Real* force, const Real* velocity, Real* newVelocity) {
+INLINE void kickComponent(const StepParams<Real>& step, Stretch particles, Real gravity,
+                          const Real* inverseMass, const Real* force, const Real* velocity,
+                          Real* newVelocity) {
   for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
     const Real acceleration = gravity + inverseMass[i] * force[i];
     const Real v = velocity[i] + step.kickTime * acceleration;
@@ -299,10 +312,11 @@ INLINE void kickComponent(const StepParams<Real>& step, Stretch particles, Real 
   }
 }
 
-// The spring from `a`, its owner, to `b`: when longer than the limit, both ends move half of the excess towards each other,
-// or the free end all of it.
+// The spring from `a`, its owner, to `b`: when longer than the limit, both ends move half of the excess
+// towards each other, or the free end all of it.
 template <class Real>
-INLINE void limitSpring(const PassArguments<Real>& arguments, std::ptrdiff_t a, std::ptrdiff_t b, Real limit) {
+INLINE void limitSpring(const PassArguments<Real>& arguments, std::ptrdiff_t a, std::ptrdiff_t b,
+                        Real limit) {
   Components<Real>&p = arguments.after.positions, &v = arguments.after.velocities;
   const Vec3<Real> xa{p.x[a], p.y[a], p.z[a]}, xb{p.x[b], p.y[b], p.z[b]};
   const Vec3<Real> d = xb - xa;
@@ -336,7 +350,9 @@ INLINE void limitSpring(const PassArguments<Real>& arguments, std::ptrdiff_t a, 
 
 }  // namespace
 
-VECTOR_CLONES void gatherForces(const PassArguments<float>& arguments, int row) { gatherForcesRow(arguments, row); }
+VECTOR_CLONES void gatherForces(const PassArguments<float>& arguments, int row) {
+  gatherForcesRow(arguments, row);
+}
 void gatherForces(const PassArguments<double>& arguments, int row) { gatherForcesRow(arguments, row); }
 
 VECTOR_CLONES void integrate(const PassArguments<float>& arguments, int row) { integrateRow(arguments, row); }
@@ -350,12 +366,12 @@ void kick(const PassArguments<Real>& arguments, int row) {
   const StepParams<Real>& step = arguments.step;
   const Stretch particles = stretch(step, row);
   const auto& [before, after, f] = std::tie(arguments.before, arguments.after, arguments.forces);
-  kickComponent(step, particles, step.gravityX, arguments.inverseMasses, f.x.data(), before.velocities.x.data(),
-                after.velocities.x.data());
-  kickComponent(step, particles, step.gravityY, arguments.inverseMasses, f.y.data(), before.velocities.y.data(),
-                after.velocities.y.data());
-  kickComponent(step, particles, step.gravityZ, arguments.inverseMasses, f.z.data(), before.velocities.z.data(),
-                after.velocities.z.data());
+  kickComponent(step, particles, step.gravityX, arguments.inverseMasses, f.x.data(),
+                before.velocities.x.data(), after.velocities.x.data());
+  kickComponent(step, particles, step.gravityY, arguments.inverseMasses, f.y.data(),
+                before.velocities.y.data(), after.velocities.y.data());
+  kickComponent(step, particles, step.gravityZ, arguments.inverseMasses, f.z.data(),
+                before.velocities.z.data(), after.velocities.z.data());
 }
 
 template <class Real>
@@ -364,11 +380,14 @@ void limitStrain(const PassArguments<Real>& arguments, const LimitColor& color, 
   const SpringOffset& offset = springOffsets[color.slot];
   const std::ptrdiff_t other = indexOffset(step, offset.columns, offset.rows);
   const std::uint32_t row = color.firstRow + color.rowStep * (j / color.rowRun) + j % color.rowRun;
-  const std::uint32_t count = ownerCount(color.firstColumn, color.columnStep, color.columnRun, color.endColumn);
+  const std::uint32_t count =
+      ownerCount(color.firstColumn, color.columnStep, color.columnRun, color.endColumn);
   const Real* rest = arguments.restLengths + static_cast<std::size_t>(color.slot) * step.totalParticles;
   for (std::uint32_t i = 0; i < count; ++i) {
-    const std::uint32_t column = color.firstColumn + color.columnStep * (i / color.columnRun) + i % color.columnRun;
-    const std::ptrdiff_t owner = static_cast<std::ptrdiff_t>(step.firstParticle) + row * step.columns + column;
+    const std::uint32_t column =
+        color.firstColumn + color.columnStep * (i / color.columnRun) + i % color.columnRun;
+    const std::ptrdiff_t owner =
+        static_cast<std::ptrdiff_t>(step.firstParticle) + row * step.columns + column;
     const Real limit =
         step.useRestLengthTable != 0 ? step.limitFactor * rest[owner] : step.springs[color.slot].limitLength;
     limitSpring(arguments, owner, owner + other, limit);

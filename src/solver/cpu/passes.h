@@ -1,5 +1,6 @@
-// The passes of a step on the CPU, each over a stretch of one grid row or over one colour of springs. They are the twins of
-// shaders/sim/*.glsl: same names, same order of operations. Real is float for the bitwise twin, double for the physics tests.
+// The passes of a step on the CPU, each over a stretch of one grid row or over one colour of springs. They
+// are the twins of shaders/sim/*.glsl: same names, same order of operations. Real is float for the bitwise
+// twin, double for the physics tests.
 #pragma once
 
 #include <cstdint>
@@ -10,16 +11,17 @@
 
 namespace clothsim::cpu {
 
-// Everything a pass reads and writes; `before` is the state at the start of the step, `after` the one at its end.
+// Everything a pass reads and writes; `before` is the state at the start of the step, `after` the one at its
+// end.
 template <class Real>
 struct PassArguments {
   const StepParams<Real>& step;
   const ColliderParams<Real>* colliders;  // those of this step
   const Real* inverseMasses;
-  const Real* restLengths;                // slot-major; null when no grid needs the table
+  const Real* restLengths;  // slot-major; null when no grid needs the table
   const CpuState<Real>& before;
   CpuState<Real>& after;
-  Components<Real>& forces;               // springs, wind and air, without gravity [N]
+  Components<Real>& forces;  // springs, wind and air, without gravity [N]
 };
 
 // One row of the grid.

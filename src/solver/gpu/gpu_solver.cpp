@@ -12,11 +12,13 @@ namespace {
 constexpr int BATCH_STEPS = 64;
 
 void checkFits(std::size_t elements, std::size_t bytesEach, const char* what) {
-  const std::size_t largest = std::min(static_cast<std::size_t>(gl::currentContextInfo().maxStorageBlockBytes) / bytesEach,
-                                       gl::BufferTexture::largestSize());
+  const std::size_t largest =
+      std::min(static_cast<std::size_t>(gl::currentContextInfo().maxStorageBlockBytes) / bytesEach,
+               gl::BufferTexture::largestSize());
   if (elements <= largest) return;
-  throw OpenGlError("this cloth needs " + std::to_string(elements) + " " + what + " in one buffer, and this driver allows " +
-                    std::to_string(largest) + ". Use a smaller --resolution, or --backend cpu.");
+  throw OpenGlError("this cloth needs " + std::to_string(elements) + " " + what +
+                    " in one buffer, and this driver allows " + std::to_string(largest) +
+                    ". Use a smaller --resolution, or --backend cpu.");
 }
 
 }  // namespace
@@ -29,7 +31,8 @@ GpuSolver::GpuSolver(const Cloth& cloth, const Scene& scene, const GpuOptions& o
   checkFits(restLengths.size(), sizeof(float), "rest lengths");
   restLengths_ = gl::Buffer<float>("rest lengths", std::span<const float>(restLengths));
   restLengthTexture_ = gl::BufferTexture("rest lengths", restLengths_.name(), GL_R32F);
-  for (const auto& [arrays, name] : {std::pair{&positions_, "positions "}, std::pair{&velocities_, "velocities "}}) {
+  for (const auto& [arrays, name] :
+       {std::pair{&positions_, "positions "}, std::pair{&velocities_, "velocities "}}) {
     for (std::size_t i = 0; i < 2; ++i) {
       const std::string label = name + std::to_string(i);
       (*arrays)[i].buffer = gl::Buffer<Particle4>(label, count);
@@ -49,7 +52,8 @@ GpuSolver::GpuSolver(const Cloth& cloth, const Scene& scene, const GpuOptions& o
 }
 
 void GpuSolver::configure(const Scene& scene) {
-  assert(scene.cloths.size() == cloth_->grids().size() && "configure() takes live edits of the solver's own scene");
+  assert(scene.cloths.size() == cloth_->grids().size() &&
+         "configure() takes live edits of the solver's own scene");
   scene_ = scene;
   const std::size_t batch = dependsOnTime(scene) ? BATCH_STEPS : 1;
   if (stepSlots_.size() != batch * cloth_->grids().size()) {
@@ -86,7 +90,8 @@ void GpuSolver::uploadParams(std::uint64_t firstStep, int count) {
       params.kickTime = velocityConversionTime<float>(scene_);
     }
     for (std::size_t i = 0; i < colliders; ++i)
-      stagedColliders_[k * colliders + i] = makeColliderParams<float>(scene_, scene_.colliders[i], firstStep + k);
+      stagedColliders_[k * colliders + i] =
+          makeColliderParams<float>(scene_, scene_.colliders[i], firstStep + k);
   }
   stepSlots_.upload({stagedSlots_.data(), static_cast<std::size_t>(count) * grids});
   colliders_.upload({stagedColliders_.data(), static_cast<std::size_t>(count) * colliders});
@@ -103,14 +108,16 @@ void GpuSolver::bindState() {
   newV.buffer.bindStorage(NEW_VELOCITIES_BINDING);
 }
 
-void GpuSolver::runPass(const gl::Program& pass, const char* name, std::uint32_t columns, std::uint32_t rows) {
+void GpuSolver::runPass(const gl::Program& pass, const char* name, std::uint32_t columns,
+                        std::uint32_t rows) {
   pass.bind();
   if (timer_ != nullptr) timer_->begin();
   gl::dispatch(columns, rows, options_.groupColumns, options_.groupRows);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
   if (timer_ == nullptr) return;
   timer_->end();
-  auto found = std::find_if(passTimes_.begin(), passTimes_.end(), [&](const PassTime& time) { return time.name == name; });
+  auto found = std::find_if(passTimes_.begin(), passTimes_.end(),
+                            [&](const PassTime& time) { return time.name == name; });
   if (found == passTimes_.end()) found = passTimes_.insert(found, {name, 0});
   found->seconds += timer_->seconds();
 }
@@ -120,7 +127,8 @@ void GpuSolver::limitStrain(std::size_t gridIndex) {
   for (std::size_t i = 0; i < grid.colors.size(); ++i) {
     const LimitColor& color = grid.colors[i];
     limitColors_.bindUniformRange(LIMIT_COLOR_BINDING, grid.first + i, 1);
-    runPass(gridPrograms_[gridIndex]->limit, "limit", ownerCount(color.firstColumn, color.columnStep, color.columnRun, color.endColumn),
+    runPass(gridPrograms_[gridIndex]->limit, "limit",
+            ownerCount(color.firstColumn, color.columnStep, color.columnRun, color.endColumn),
             ownerCount(color.firstRow, color.rowStep, color.rowRun, color.endRow));
   }
 }
@@ -165,10 +173,12 @@ void GpuSolver::step(int count) {
   const bool timed = dependsOnTime(scene_);
   for (int done = 0; done < count; ++done) {
     const int k = timed ? done % BATCH_STEPS : 0;
-    if (timed ? k == 0 : !paramsUploaded_) uploadParams(stepIndex_, timed ? std::min(BATCH_STEPS, count - done) : 1);
+    if (timed ? k == 0 : !paramsUploaded_)
+      uploadParams(stepIndex_, timed ? std::min(BATCH_STEPS, count - done) : 1);
     paramsUploaded_ = !timed;
     bindState();
-    for (std::size_t grid = 0; grid < grids; ++grid) stepGrid(grid, static_cast<std::size_t>(k) * grids + grid);
+    for (std::size_t grid = 0; grid < grids; ++grid)
+      stepGrid(grid, static_cast<std::size_t>(k) * grids + grid);
     now_ = 1 - now_;
     ++stepIndex_;
   }

@@ -1,5 +1,5 @@
-// The GPU backend: compute passes over storage buffers, from which the renderer draws. A step neither allocates, reads back
-// nor compiles; its parameters are uploaded ahead, for many steps at once.
+// The GPU backend: compute passes over storage buffers, from which the renderer draws. A step neither
+// allocates, reads back nor compiles; its parameters are uploaded ahead, for many steps at once.
 #pragma once
 
 #include <array>
@@ -19,8 +19,8 @@
 namespace clothsim {
 
 struct GpuOptions {
-  bool fused = true;       // forces, integration and colliders in one dispatch; the bits are the same either way
-  int groupColumns = 64;   // work group, in grid points
+  bool fused = true;  // forces, integration and colliders in one dispatch; the bits are the same either way
+  int groupColumns = 64;  // work group, in grid points
   int groupRows = 1;
 };
 
@@ -31,8 +31,8 @@ struct PassTime {
 
 class GpuSolver final : public Solver {
  public:
-  // Needs a current context; `cloth` must outlive the solver. @throws OpenGlError when a buffer is larger than the driver
-  // allows or a shader does not compile
+  // Needs a current context; `cloth` must outlive the solver. @throws OpenGlError when a buffer is larger
+  // than the driver allows or a shader does not compile
   GpuSolver(const Cloth& cloth, const Scene& scene, const GpuOptions& options = {});
 
   void configure(const Scene& scene) override;
@@ -77,7 +77,8 @@ class GpuSolver final : public Solver {
   std::uint64_t stepIndex_ = 0;
   bool paramsUploaded_ = false;  // for every step, when nothing depends on time
 
-  std::map<PassFeatures, PassPrograms> programs_;  // all that were ever needed: toggling back compiles nothing
+  std::map<PassFeatures, PassPrograms>
+      programs_;  // all that were ever needed: toggling back compiles nothing
   std::vector<const PassPrograms*> gridPrograms_;  // those in use, by grid
   struct ParticleArray {
     gl::Buffer<Particle4> buffer;
@@ -88,7 +89,7 @@ class GpuSolver final : public Solver {
   gl::Buffer<Particle4> forces_;
   gl::Buffer<float> restLengths_;
   gl::BufferTexture restLengthTexture_;
-  gl::Buffer<StepSlot> stepSlots_;  // a batch of steps, each with all grids
+  gl::Buffer<StepSlot> stepSlots_;               // a batch of steps, each with all grids
   gl::Buffer<ColliderParams<float>> colliders_;  // the same batch, each with all colliders
   gl::BufferTexture colliderTexture_;
   gl::Buffer<ColorSlot> limitColors_;

@@ -1,5 +1,5 @@
-// The compute programs of a step, compiled for what one grid's scene needs: springs, wind or colliders that are not there
-// cost nothing, which matters on drivers that run both sides of a branch.
+// The compute programs of a step, compiled for what one grid's scene needs: springs, wind or colliders that
+// are not there cost nothing, which matters on drivers that run both sides of a branch.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,8 @@
 namespace clothsim {
 
 struct PassFeatures {
-  bool wind = false, airResistance = false, colliders = false, movingColliders = false, restLengthTable = false;
+  bool wind = false, airResistance = false, colliders = false, movingColliders = false,
+       restLengthTable = false;
   std::uint32_t enabledSlots = 0;  // one bit a SpringSlot
   int groupColumns = 64, groupRows = 1;
   bool fused = true;

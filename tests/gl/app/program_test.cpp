@@ -19,12 +19,14 @@ using test::runCommand;
 
 // Runs clothsim without a screen; `environment` as VAR=value words before it.
 CommandResult clothsim(const std::string& arguments, const std::string& environment = "") {
-  return runCommand("env -u DISPLAY -u WAYLAND_DISPLAY " + environment + " " CLOTHSIM_PROGRAM " " + arguments + " 2>&1");
+  return runCommand("env -u DISPLAY -u WAYLAND_DISPLAY " + environment + " " CLOTHSIM_PROGRAM " " +
+                    arguments + " 2>&1");
 }
 
 // The JSON object on stdout.
 json jsonOf(const std::string& arguments, const std::string& environment = "") {
-  const CommandResult result = runCommand("env " + environment + " " CLOTHSIM_PROGRAM " " + arguments + " 2>/dev/null");
+  const CommandResult result =
+      runCommand("env " + environment + " " CLOTHSIM_PROGRAM " " + arguments + " 2>/dev/null");
   EXPECT_EQ(result.exitCode, 0) << arguments;
   return json::parse(result.output, nullptr, false);
 }
@@ -41,18 +43,23 @@ TEST(Program, SumsARunUpInJson) {
   EXPECT_NEAR(run["sim_seconds"].get<double>(), 6.0 / 90, 1e-12);
   EXPECT_EQ(run["state_hash"].get<std::string>().size(), 16u);
   EXPECT_TRUE(run["finite"].get<bool>());
-  for (const char* key : {"device", "frames", "seconds", "particle_steps_per_second", "max_strain", "peak_strain", "min_y",
-                          "kinetic_energy", "max_penetration"})
+  for (const char* key : {"device", "frames", "seconds", "particle_steps_per_second", "max_strain",
+                          "peak_strain", "min_y", "kinetic_energy", "max_penetration"})
     EXPECT_TRUE(run.contains(key)) << key;
   EXPECT_LT(run["min_y"].get<double>(), 1);
 }
 
 TEST(Program, GivesOneHashOnBothBackendsAtAnyNumberOfThreads) {
-  const std::string run = "run -f pinned2 --resolution 50x50 --frames 5 --json --set solver.self_collision=false";
+  const std::string run =
+      "run -f pinned2 --resolution 50x50 --frames 5 --json --set solver.self_collision=false";
   const std::string expected = jsonOf(run + " --backend cpu")["state_hash"];
   for (const char* threads : {"1", "2", "7"}) {
-    EXPECT_EQ(jsonOf(run + " --backend cpu", std::string("OMP_NUM_THREADS=") + threads)["state_hash"], expected) << threads;
-    EXPECT_EQ(jsonOf(run + " --backend gpu", std::string("LP_NUM_THREADS=") + threads)["state_hash"], expected) << threads;
+    EXPECT_EQ(jsonOf(run + " --backend cpu", std::string("OMP_NUM_THREADS=") + threads)["state_hash"],
+              expected)
+        << threads;
+    EXPECT_EQ(jsonOf(run + " --backend gpu", std::string("LP_NUM_THREADS=") + threads)["state_hash"],
+              expected)
+        << threads;
   }
 }
 
@@ -66,16 +73,18 @@ TEST(Program, ComparesTheBackendsAndSaysSoInItsExitCode) {
 }
 
 TEST(Program, FailsWithOneWhenTheSimulationBlowsUp) {
-  const CommandResult result = clothsim("run -f pinned2 --frames 50 --backend cpu --set cloth.ks=1e9 --set solver.strain_limit=false");
+  const CommandResult result =
+      clothsim("run -f pinned2 --frames 50 --backend cpu --set cloth.ks=1e9 --set solver.strain_limit=false");
   EXPECT_EQ(result.exitCode, 1);
   EXPECT_NE(result.output.find("solver.simulation_steps"), std::string::npos) << result.output;
 }
 
 TEST(Program, AnswersWrongUsageWithTwo) {
-  for (const char* arguments : {"run", "run -f pinned2", "run -f pinned2 --frames many", "run -f pinned2 --frames -3", "fly",
-                                "run -f pinned2 --frames 1 --backend abacus", "run -f pinned2 --frames 1 --resolution big",
-                                "run -f pinned2 --frames 1 --save cloth.docx", "render -f pinned2 --frames 1 --out clip.gif",
-                                "render -f pinned2 --frames 1 --out a.png --size 0x0", "describe cloth.dampin"})
+  for (const char* arguments :
+       {"run", "run -f pinned2", "run -f pinned2 --frames many", "run -f pinned2 --frames -3", "fly",
+        "run -f pinned2 --frames 1 --backend abacus", "run -f pinned2 --frames 1 --resolution big",
+        "run -f pinned2 --frames 1 --save cloth.docx", "render -f pinned2 --frames 1 --out clip.gif",
+        "render -f pinned2 --frames 1 --out a.png --size 0x0", "describe cloth.dampin"})
     EXPECT_EQ(clothsim(arguments).exitCode, 2) << arguments;
 }
 
@@ -88,8 +97,12 @@ TEST(Program, AnswersAWrongSceneWithThreeAndTheNearestName) {
 }
 
 TEST(Program, AnswersAPlaceItCannotWriteToWithFive) {
-  EXPECT_EQ(clothsim("run -f pinned2 --frames 1 --resolution 8x8 --backend cpu --save /nonexistent/a.csv").exitCode, 5);
-  EXPECT_EQ(clothsim("run -f pinned2 --frames 1 --resolution 8x8 --backend cpu --from /nonexistent/a.state").exitCode, 5);
+  EXPECT_EQ(
+      clothsim("run -f pinned2 --frames 1 --resolution 8x8 --backend cpu --save /nonexistent/a.csv").exitCode,
+      5);
+  EXPECT_EQ(clothsim("run -f pinned2 --frames 1 --resolution 8x8 --backend cpu --from /nonexistent/a.state")
+                .exitCode,
+            5);
 }
 
 class NoOpenGl : public testing::TestWithParam<const char*> {};
@@ -130,7 +143,10 @@ TEST(Program, SavesNumberedStatesAndGoesOnFromOne) {
   const test::TemporaryFolder folder;
   const std::string at = folder.path().string();
   const std::string scene = "-f pinned2 --resolution 12x12 --backend cpu";
-  ASSERT_EQ(clothsim("run " + scene + " --frames 6 --every 3 --save " + at + "/s%04d.state --save " + at + "/last.csv").exitCode, 0);
+  ASSERT_EQ(clothsim("run " + scene + " --frames 6 --every 3 --save " + at + "/s%04d.state --save " + at +
+                     "/last.csv")
+                .exitCode,
+            0);
   for (const char* name : {"s0000.state", "s0003.state", "s0006.state", "last.csv"})
     EXPECT_TRUE(std::filesystem::exists(folder.path() / name)) << name;
   const std::string whole = jsonOf("run " + scene + " --frames 6 --json")["state_hash"];
@@ -142,8 +158,8 @@ TEST(Program, SavesNumberedStatesAndGoesOnFromOne) {
 TEST(Program, RendersAStillAndNumberedPictures) {
   const test::TemporaryFolder folder;
   const std::string at = folder.path().string();
-  const CommandResult result = clothsim("render -f sphere --resolution 16x16 --frames 4 --size 96x64 --out " + at +
-                                        "/still.png --every 2 --out " + at + "/f%02d.png");
+  const CommandResult result = clothsim("render -f sphere --resolution 16x16 --frames 4 --size 96x64 --out " +
+                                        at + "/still.png --every 2 --out " + at + "/f%02d.png");
   ASSERT_EQ(result.exitCode, 0) << result.output;
   for (const char* name : {"still.png", "f00.png", "f02.png", "f04.png"})
     EXPECT_EQ(readFile(folder.path() / name).substr(1, 3), "PNG") << name;
@@ -192,7 +208,8 @@ TEST(Program, ExaminesTheDeviceAndTestsItself) {
 TEST(Program, ResolvesTheSameClothAtAnotherResolutionWithMoreSteps) {
   const json run = jsonOf("run -f pinned2 --resolution 99x99 --frames 1 --backend cpu --json");
   EXPECT_EQ(run["steps"], 60) << "half the spacing: twice the steps";
-  EXPECT_EQ(jsonOf("run -f pinned2 --resolution 99x99 --frames 1 --backend cpu --set solver.simulation_steps=45 --json")["steps"],
+  EXPECT_EQ(jsonOf("run -f pinned2 --resolution 99x99 --frames 1 --backend cpu --set "
+                   "solver.simulation_steps=45 --json")["steps"],
             45);
 }
 

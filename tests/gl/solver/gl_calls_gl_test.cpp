@@ -1,4 +1,5 @@
-// The frame loop of the GPU backend neither reads back nor uploads positions, allocates, or compiles: counted at the calls.
+// The frame loop of the GPU backend neither reads back nor uploads positions, allocates, or compiles: counted
+// at the calls.
 #include <gtest/gtest.h>
 
 #include <map>
@@ -38,7 +39,8 @@ class Counted<Pointer> {
   static Result count(Arguments... arguments) {
     ++calls[name_];
     if constexpr (std::is_same_v<Result (*)(Arguments...), PFNGLNAMEDBUFFERSUBDATAPROC>)
-      uploadedBytes += static_cast<std::size_t>(std::get<2>(std::tuple(arguments...)));  // (buffer, offset, size, data)
+      uploadedBytes +=
+          static_cast<std::size_t>(std::get<2>(std::tuple(arguments...)));  // (buffer, offset, size, data)
     return original_(arguments...);
   }
   static inline const char* name_ = nullptr;
@@ -55,7 +57,8 @@ TEST_F(GlCallsTest, AFrameReadsNothingBackAndUploadsNoPositions) {
     GpuSolver solver(cloth, scene);
     Renderer renderer(cloth, scene, {});
     const Camera camera(scene, cloth);
-    const gl::Framebuffer target("picture", {.width = 64, .height = 48, .color = GL_SRGB8_ALPHA8, .depth = GL_DEPTH_COMPONENT24});
+    const gl::Framebuffer target(
+        "picture", {.width = 64, .height = 48, .color = GL_SRGB8_ALPHA8, .depth = GL_DEPTH_COMPONENT24});
     const auto frame = [&] {
       solver.step(30);
       renderer.draw(solver.positionsBuffer(), camera, 0.1, target.name(), 64, 48);
@@ -85,7 +88,8 @@ TEST_F(GlCallsTest, AFrameReadsNothingBackAndUploadsNoPositions) {
       if (function == "glDispatchCompute" || function == "glNamedBufferSubData") continue;
       EXPECT_EQ(count, 0) << name << ": " << function;
     }
-    // Parameters, colliders and the camera go up; a single upload of the positions would be 25,600 bytes a frame.
+    // Parameters, colliders and the camera go up; a single upload of the positions would be 25,600 bytes a
+    // frame.
     const std::size_t parameters = 5 * (30 * scene.cloths.size() * 256 + 30 * scene.colliders.size() * 112);
     EXPECT_LE(uploadedBytes, parameters + 5 * 4096) << name;
   }

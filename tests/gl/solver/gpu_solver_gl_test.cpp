@@ -1,4 +1,5 @@
-// The numeric contract: the GPU and the CPU agree in every bit, whatever the work groups, whichever passes are fused.
+// The numeric contract: the GPU and the CPU agree in every bit, whatever the work groups, whichever passes
+// are fused.
 #include "solver/gpu/gpu_solver.h"
 
 #include <gtest/gtest.h>
@@ -30,25 +31,29 @@ State steppedOnCpu(const Scene& scene, int steps) {
 TEST_F(GpuSolverTest, AgreesWithTheCpuInEveryBit) {
   for (const auto& [name, scene] : test::comparedScenes(33)) {
     const StateDifference result = difference(steppedOnGpu(scene, 500), steppedOnCpu(scene, 500));
-    EXPECT_EQ(result.differing, 0u) << name << ", of " << result.floats << " floats, by at most " << result.maxAbs;
+    EXPECT_EQ(result.differing, 0u) << name << ", of " << result.floats << " floats, by at most "
+                                    << result.maxAbs;
     EXPECT_TRUE(result.finite) << name;
   }
 }
 
 TEST_F(GpuSolverTest, AgreesWithTheCpuOnGridsOfEveryShape) {
-  for (const auto& [columns, rows] : {std::pair{2, 2}, {3, 17}, {17, 3}, {65, 2}, {64, 64}, {1, 40}, {40, 1}, {129, 5}}) {
+  for (const auto& [columns, rows] :
+       {std::pair{2, 2}, {3, 17}, {17, 3}, {65, 2}, {64, 64}, {1, 40}, {40, 1}, {129, 5}}) {
     Scene scene = test::withWind(test::withLimiter(test::sheetScene(2)));
     scene.cloths[0].numWidthPoints = columns;
     scene.cloths[0].numHeightPoints = rows;
     scene.cloths[0].pinned = {GridPoint{0, 0}};
     scene.solver.simulationSteps = 100;
-    EXPECT_EQ(difference(steppedOnGpu(scene, 200), steppedOnCpu(scene, 200)).differing, 0u) << columns << "x" << rows;
+    EXPECT_EQ(difference(steppedOnGpu(scene, 200), steppedOnCpu(scene, 200)).differing, 0u)
+        << columns << "x" << rows;
   }
 }
 
 TEST_F(GpuSolverTest, GivesTheSameBitsFusedAndPassByPass) {
   for (const auto& [name, scene] : test::comparedScenes(20))
-    EXPECT_EQ(difference(steppedOnGpu(scene, 200), steppedOnGpu(scene, 200, {.fused = false})).differing, 0u) << name;
+    EXPECT_EQ(difference(steppedOnGpu(scene, 200), steppedOnGpu(scene, 200, {.fused = false})).differing, 0u)
+        << name;
 }
 
 TEST_F(GpuSolverTest, GivesTheSameBitsAtEveryWorkGroupSize) {
@@ -60,7 +65,8 @@ TEST_F(GpuSolverTest, GivesTheSameBitsAtEveryWorkGroupSize) {
 }
 
 TEST_F(GpuSolverTest, DoesNotDependOnHowStepsAreBatched) {
-  const Scene scene = test::comparedScenes(16)[5].scene;  // time-dependent: parameters are uploaded in batches
+  const Scene scene =
+      test::comparedScenes(16)[5].scene;  // time-dependent: parameters are uploaded in batches
   const Cloth cloth(scene);
   GpuSolver whole(cloth, scene), pieces(cloth, scene);
   whole.step(300);

@@ -20,8 +20,15 @@ using SpringRow = SpringParams<float>;
 using ColliderRow = ColliderParams<float>;
 
 PassFeatures everything() {
-  return {.wind = true, .airResistance = true, .colliders = true, .movingColliders = true, .restLengthTable = true,
-          .enabledSlots = 63, .groupColumns = 64, .groupRows = 1, .fused = true};
+  return {.wind = true,
+          .airResistance = true,
+          .colliders = true,
+          .movingColliders = true,
+          .restLengthTable = true,
+          .enabledSlots = 63,
+          .groupColumns = 64,
+          .groupRows = 1,
+          .fused = true};
 }
 
 // Offset that the driver gives a member of a uniform block; -1: the program does not use it.
@@ -43,7 +50,8 @@ GLint blockSize(const gl::Program& program, const char* block) {
   return size;
 }
 
-#define MEMBER(Struct, prefix, member) {prefix #member, offsetof(Struct, member)}
+#define MEMBER(Struct, prefix, member) \
+  { prefix #member, offsetof(Struct, member) }
 
 TEST_F(LayoutTest, OfStepParamsIsTheDrivers) {
   const PassPrograms programs(everything());
@@ -61,12 +69,14 @@ TEST_F(LayoutTest, OfStepParamsIsTheDrivers) {
   for (const auto& [name, offset] : members) {
     // Drivers name members of a block without an instance name with or without the block's name.
     const std::string shortName = name.substr(name.find('.') + 1);
-    const GLint driver = std::max(uniformOffset(programs.step, name), uniformOffset(programs.step, shortName));
+    const GLint driver =
+        std::max(uniformOffset(programs.step, name), uniformOffset(programs.step, shortName));
     EXPECT_EQ(driver, static_cast<GLint>(offset)) << name;
     found += driver >= 0;
   }
   EXPECT_EQ(found, static_cast<int>(members.size()));
-  EXPECT_EQ(uniformOffset(programs.limit, "step.limitFactor"), static_cast<GLint>(offsetof(Step, limitFactor)));
+  EXPECT_EQ(uniformOffset(programs.limit, "step.limitFactor"),
+            static_cast<GLint>(offsetof(Step, limitFactor)));
   EXPECT_EQ(uniformOffset(programs.kick, "step.kickTime"), static_cast<GLint>(offsetof(Step, kickTime)));
   EXPECT_EQ(blockSize(programs.step, "StepBlock"), static_cast<GLint>(sizeof(Step)));
 }
@@ -76,7 +86,8 @@ TEST_F(LayoutTest, OfSpringsInStepParamsIsTheDrivers) {
   for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot) {
     const std::string spring = "step.springs[" + std::to_string(slot) + "].";
     const std::size_t base = offsetof(Step, springs) + slot * sizeof(SpringRow);
-    EXPECT_EQ(uniformOffset(programs.step, spring + "stiffness"), static_cast<GLint>(base + offsetof(SpringRow, stiffness)));
+    EXPECT_EQ(uniformOffset(programs.step, spring + "stiffness"),
+              static_cast<GLint>(base + offsetof(SpringRow, stiffness)));
     EXPECT_EQ(uniformOffset(programs.limit, spring + "limitLength"),
               static_cast<GLint>(base + offsetof(SpringRow, limitLength)));
   }
@@ -85,10 +96,10 @@ TEST_F(LayoutTest, OfSpringsInStepParamsIsTheDrivers) {
 TEST_F(LayoutTest, OfLimitColorIsTheDrivers) {
   const PassPrograms programs(everything());
   const std::vector<std::pair<std::string, std::size_t>> members = {
-      MEMBER(LimitColor, "color.", slot),        MEMBER(LimitColor, "color.", firstColumn),
-      MEMBER(LimitColor, "color.", columnStep),  MEMBER(LimitColor, "color.", columnRun),
-      MEMBER(LimitColor, "color.", endColumn),   MEMBER(LimitColor, "color.", firstRow),
-      MEMBER(LimitColor, "color.", rowStep),     MEMBER(LimitColor, "color.", rowRun),
+      MEMBER(LimitColor, "color.", slot),       MEMBER(LimitColor, "color.", firstColumn),
+      MEMBER(LimitColor, "color.", columnStep), MEMBER(LimitColor, "color.", columnRun),
+      MEMBER(LimitColor, "color.", endColumn),  MEMBER(LimitColor, "color.", firstRow),
+      MEMBER(LimitColor, "color.", rowStep),    MEMBER(LimitColor, "color.", rowRun),
       MEMBER(LimitColor, "color.", endRow)};
   for (const auto& [name, offset] : members)
     EXPECT_EQ(uniformOffset(programs.limit, name), static_cast<GLint>(offset)) << name;

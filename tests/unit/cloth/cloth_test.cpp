@@ -77,8 +77,9 @@ TEST(Cloth, NumbersSpringsByOwnerAndSlotAndEveryParticleMeetsItsOwnInAscendingOr
       std::vector<std::uint32_t> met;
       for (const IncidentSpring& incident : incidentSprings) {
         if (!grid.contains(column + incident.columns, row + incident.rows)) continue;
-        const std::uint32_t owner = incident.owned ? grid.particle(column, row)
-                                                   : grid.particle(column + incident.columns, row + incident.rows);
+        const std::uint32_t owner = incident.owned
+                                        ? grid.particle(column, row)
+                                        : grid.particle(column + incident.columns, row + incident.rows);
         met.push_back(6 * owner + static_cast<std::uint32_t>(incident.slot));
       }
       std::vector<std::uint32_t> expected = byParticle[grid.particle(column, row)];
@@ -142,7 +143,8 @@ TEST(Cloth, KeepsSeveralGridsInContiguousRanges) {
   EXPECT_EQ(cloth.grids()[1].firstParticle, 25u);
   EXPECT_EQ(cloth.particleCount(), 40u);
   EXPECT_EQ(cloth.positions()[25], (Vec3d{0, 3, 0}));
-  for (const Spring& spring : cloth.springs()) EXPECT_EQ(spring.a < 25, spring.b < 25) << "no spring joins two cloths";
+  for (const Spring& spring : cloth.springs())
+    EXPECT_EQ(spring.a < 25, spring.b < 25) << "no spring joins two cloths";
 }
 
 TEST(Cloth, FrontsOfAHorizontalSheetLookUp) {

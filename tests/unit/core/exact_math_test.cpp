@@ -16,7 +16,8 @@ double errorInUlp(float approximation, double exact) {
 
 TEST(InverseSquareRoot, IsWithinOnePointTwoUlpForEveryMantissa) {
   double worst = 0;
-  for (std::uint32_t bits = 0x3f800000u; bits < 0x40800000u; ++bits) {  // [1, 4): every mantissa, both parities
+  for (std::uint32_t bits = 0x3f800000u; bits < 0x40800000u;
+       ++bits) {  // [1, 4): every mantissa, both parities
     const float x = floatFromBits(bits);
     worst = std::max(worst, errorInUlp(inverseSquareRoot(x), 1 / std::sqrt(static_cast<double>(x))));
   }

@@ -16,7 +16,9 @@ namespace {
 using test::sheetScene;
 using test::springScene;
 
-Scene busyScene(int n) { return test::withWind(test::withColliders(test::withLimiter(test::vertical(sheetScene(n))))); }
+Scene busyScene(int n) {
+  return test::withWind(test::withColliders(test::withLimiter(test::vertical(sheetScene(n)))));
+}
 
 State stepped(const Scene& scene, int steps, bool fused = true) {
   const Cloth cloth(scene);
@@ -56,7 +58,8 @@ TEST(CpuSolver, GoesOnFromASavedStateAsIfNothingHadHappened) {
 
 TEST(CpuSolver, NeverMovesAPinnedParticleByABit) {
   Scene scene = busyScene(20);
-  scene.colliders.push_back(Sphere{.origin = {0, 1, 0}, .radius = 0.1, .friction = 0.5, .motion = std::nullopt});  // around a pin
+  scene.colliders.push_back(
+      Sphere{.origin = {0, 1, 0}, .radius = 0.1, .friction = 0.5, .motion = std::nullopt});  // around a pin
   const Cloth cloth(scene);
   CpuSolver<float> solver(cloth, scene);
   const Vec3f before = solver.position(19 * 20);
@@ -131,12 +134,17 @@ TEST(StrainLimit, ColoursCoverEverySpringOnceAndShareNoParticle) {
     std::vector<int> visits(6 * cloth.particleCount());
     for (const LimitColor& color : makeLimitColors(grid)) {
       std::vector<int> touched(cloth.particleCount());
-      for (std::uint32_t j = 0; j < ownerCount(color.firstRow, color.rowStep, color.rowRun, color.endRow); ++j) {
-        for (std::uint32_t i = 0; i < ownerCount(color.firstColumn, color.columnStep, color.columnRun, color.endColumn); ++i) {
-          const int column = static_cast<int>(color.firstColumn + color.columnStep * (i / color.columnRun) + i % color.columnRun);
-          const int row = static_cast<int>(color.firstRow + color.rowStep * (j / color.rowRun) + j % color.rowRun);
+      for (std::uint32_t j = 0; j < ownerCount(color.firstRow, color.rowStep, color.rowRun, color.endRow);
+           ++j) {
+        for (std::uint32_t i = 0;
+             i < ownerCount(color.firstColumn, color.columnStep, color.columnRun, color.endColumn); ++i) {
+          const int column = static_cast<int>(color.firstColumn + color.columnStep * (i / color.columnRun) +
+                                              i % color.columnRun);
+          const int row =
+              static_cast<int>(color.firstRow + color.rowStep * (j / color.rowRun) + j % color.rowRun);
           const SpringOffset& offset = springOffsets[color.slot];
-          ASSERT_TRUE(grid.contains(column, row) && grid.contains(column + offset.columns, row + offset.rows));
+          ASSERT_TRUE(grid.contains(column, row) &&
+                      grid.contains(column + offset.columns, row + offset.rows));
           ++visits[6 * grid.particle(column, row) + color.slot];
           EXPECT_EQ(++touched[grid.particle(column, row)], 1);
           EXPECT_EQ(++touched[grid.particle(column + offset.columns, row + offset.rows)], 1);
@@ -144,7 +152,8 @@ TEST(StrainLimit, ColoursCoverEverySpringOnceAndShareNoParticle) {
       }
     }
     std::uint64_t total = 0;
-    for (const Spring& spring : cloth.springs()) EXPECT_EQ(visits[spring.number], 1) << columns << "x" << rows;
+    for (const Spring& spring : cloth.springs())
+      EXPECT_EQ(visits[spring.number], 1) << columns << "x" << rows;
     for (const int visit : visits) total += static_cast<std::uint64_t>(visit);
     EXPECT_EQ(total, cloth.springCount());
   }
@@ -289,7 +298,8 @@ TEST(Wind, LetsASheetFallAtItsTerminalSpeed) {
   scene.solver.simulationSteps = 10;
   const Cloth cloth(scene);
   CpuSolver<double> solver(cloth, scene);
-  solver.step(1000);  // 0.1 s; the mean over particles, since pressure and mass are lumped differently at the border
+  solver.step(
+      1000);  // 0.1 s; the mean over particles, since pressure and mass are lumped differently at the border
   const auto meanSpeed = [&] {
     double sum = 0;
     for (std::uint32_t i = 0; i < cloth.particleCount(); ++i) sum -= solver.velocity(i).y;

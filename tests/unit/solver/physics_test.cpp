@@ -1,4 +1,5 @@
-// The first six rows of PHYSICS.md section 5 (cases with known answers) for `verlet` and `euler`, in double and binary32.
+// The first six rows of PHYSICS.md section 5 (cases with known answers) for `verlet` and `euler`, in double
+// and binary32.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -17,7 +18,8 @@ using test::springScene;
 
 constexpr double MASS = 0.01, STIFFNESS = 40, STEP = 1e-3;
 
-// The angle a step of a swing u(n) = A cos(n theta + phi), from u(n+1) + u(n-1) = 2 cos(theta) u(n) by least squares.
+// The angle a step of a swing u(n) = A cos(n theta + phi), from u(n+1) + u(n-1) = 2 cos(theta) u(n) by least
+// squares.
 template <class Real>
 double phasePerStep(Integrator integrator, int steps) {
   const Scene scene = springScene(1, STIFFNESS, MASS, STEP, integrator);
@@ -146,7 +148,8 @@ TEST(FreeFall, IsExactUnderVerletAndHalfAStepAheadUnderEuler) {
 }
 
 TEST(FreeFall, KeepsItsAccuracyInBinary32AtTinySteps) {
-  const double fine = freeFallError<float>(Integrator::verlet, 10'000), finer = freeFallError<float>(Integrator::verlet, 100'000);
+  const double fine = freeFallError<float>(Integrator::verlet, 10'000),
+               finer = freeFallError<float>(Integrator::verlet, 100'000);
   std::printf("free fall, 1 s, binary32: relative error %.2e at h = 1e-4, %.2e at h = 1e-5\n", fine, finer);
   EXPECT_NEAR(fine, 0, 2e-5);
   EXPECT_NEAR(finer, 0, 1e-3);
@@ -175,7 +178,8 @@ void expectMomentumIsKept(double tolerance) {
   }
   const auto total = [&] {
     Vec3d p{};
-    for (std::uint32_t i = 0; i < cloth.particleCount(); ++i) p = p + solver.velocity(i).template cast<double>();
+    for (std::uint32_t i = 0; i < cloth.particleCount(); ++i)
+      p = p + solver.velocity(i).template cast<double>();
     return p;
   };
   for (std::uint32_t i = 0; i < cloth.particleCount(); ++i) {
