@@ -7,6 +7,7 @@
 
 #include "app/viewer_keys.h"
 #include "core/files.h"
+#include "scene/scene_io.h"
 
 namespace clothsim {
 namespace {
@@ -27,6 +28,14 @@ TEST(Readme, ShowsAPictureInItsFirstTenLines) {
   std::size_t end = 0;
   for (int line = 0; line < 10; ++line) end = text.find('\n', end) + 1;
   EXPECT_LT(text.find("!["), end);
+}
+
+TEST(Readme, ShowsASceneThatLoads) {
+  const std::string text = readme(), begin = "```json\n";
+  const std::size_t start = text.find(begin) + begin.size();
+  const Scene scene = parseScene(text.substr(start, text.find("```", start) - start), "README.md");
+  EXPECT_EQ(scene.cloths[0].numWidthPoints, 64);
+  EXPECT_TRUE(scene.wind.has_value());
 }
 
 TEST(Readme, LinksOnlyToFilesThatExist) {
