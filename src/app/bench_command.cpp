@@ -78,10 +78,10 @@ int benchCommand(const BenchOptions& options) {
     SceneOptions sceneOptions = options.scene;
     sceneOptions.resolution = resolution;
     sceneOptions.settings.push_back("solver.self_collision=false");
+    Scene scene = loadScene(sceneOptions);
+    const double strainLimit = scene.solver.strainLimit.value_or(0.1);
     for (const bool limiter : {false, true}) {
-      Scene scene = loadScene(sceneOptions);
-      scene.solver.strainLimit =
-          limiter ? std::optional(scene.solver.strainLimit.value_or(0.1)) : std::nullopt;
+      scene.solver.strainLimit = limiter ? std::optional(strainLimit) : std::nullopt;
       for (const std::string& backend : backends) {
         const StepRate rate = measureStepRate(scene, backend, options.seconds);
         json["steps"].push_back(toJson(rate));

@@ -235,7 +235,7 @@ INLINE Vec3<Real> carried(const ColliderParams<Real>& collider, Vec3<Real> x) {
                         dot({collider.turnYX, collider.turnYY, collider.turnYZ}, d),
                         dot({collider.turnZX, collider.turnZY, collider.turnZZ}, d)};
   const Vec3<Real> move = turn + Vec3<Real>{collider.shiftX, collider.shiftY, collider.shiftZ};
-  return collider.moving != 0 ? x + move : x;
+  return x + move;
 }
 
 template <class Real>
@@ -269,35 +269,66 @@ INLINE Contact<Real> planeContact(const ColliderParams<Real>& plane, Real offset
   return {wasAbove != isAbove, x + lift * normal};
 }
 
-template <class Real>
-INLINE void collideRow(const PassArguments<Real>& arguments, int row) {
-  const StepParams<Real>& step = arguments.step;
+template <bool moving, class Real>
+INLINE Vec3<Real> previousPosition(const ColliderParams<Real>& collider, Vec3<Real> start) {
+  if constexpr (moving) {
+    return carried(collider, start);
+  } else {
+    return start;
+  }
+}
+
+template <std::uint32_t type, class Real>
+INLINE Contact<Real> findContact(const ColliderParams<Real>& collider, Real offset, Vec3<Real> previous, Vec3<Real> x) {
+  if constexpr (type == COLLIDER_SPHERE) {
+    return sphereContact(collider, x);
+  } else {
+    return planeContact(collider, offset, previous, x);
+  }
+}
+
+// One collider and a stretch of particles; compiled for each type, at rest and moving, so that the loop runs in vector
+// registers.
+template <std::uint32_t type, bool moving, class Real>
+INLINE void collideWith(const PassArguments<Real>& arguments, const ColliderParams<Real>& collider, Stretch particles) {
   const Components<Real>& old = arguments.before.positions;
   Components<Real>&p = arguments.after.positions, &v = arguments.after.velocities;
   const Real *x0 = old.x.data(), *y0 = old.y.data(), *z0 = old.z.data();
-  Real *x = p.x.data(), *y = p.y.data(), *z = p.z.data(), *vx = v.x.data(), *vy = v.y.data(),
-       *vz = v.z.data();
+  Real *x = p.x.data(), *y = p.y.data(), *z = p.z.data(), *vx = v.x.data(), *vy = v.y.data(), *vz = v.z.data();
   const Real* inverseMasses = arguments.inverseMasses;
-  const Stretch particles = stretch(step, row);
-  for (std::uint32_t k = 0; k < step.colliderCount; ++k) {
-    const ColliderParams<Real> collider = arguments.colliders[k];
-    const bool isSphere = collider.type == COLLIDER_SPHERE;
+  const Real offset = arguments.step.planeOffset, inverseTimeStep = arguments.step.inverseTimeStep;
 #pragma omp simd
-    for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
-      const Vec3<Real> now = load(x, y, z, i);
-      const Vec3<Real> previous = carried(collider, load(x0, y0, z0, i));
-      const Contact<Real> contact =
-          isSphere ? sphereContact(collider, now) : planeContact(collider, step.planeOffset, previous, now);
-      const Vec3<Real> corrected = previous + collider.motionKept * (contact.surface - previous);
-      const Vec3<Real> kick = step.inverseTimeStep * (corrected - now);
-      const bool moves = contact.touches && inverseMasses[i] > Real(0);
-      x[i] = moves ? canonical(corrected.x) : now.x;
-      y[i] = moves ? canonical(corrected.y) : now.y;
-      z[i] = moves ? canonical(corrected.z) : now.z;
-      vx[i] = moves ? canonical(vx[i] + kick.x) : vx[i];
-      vy[i] = moves ? canonical(vy[i] + kick.y) : vy[i];
-      vz[i] = moves ? canonical(vz[i] + kick.z) : vz[i];
-    }
+  for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
+    const Vec3<Real> now = load(x, y, z, i), start = load(x0, y0, z0, i);
+    const Vec3<Real> velocity = load(vx, vy, vz, i);
+    const Vec3<Real> previous = previousPosition<moving>(collider, start);
+    const Contact<Real> contact = findContact<type>(collider, offset, previous, now);
+    const Vec3<Real> corrected = previous + collider.motionKept * (contact.surface - previous);
+    const Vec3<Real> kicked = velocity + inverseTimeStep * (corrected - now);
+    const bool moves = contact.touches & (inverseMasses[i] > Real(0));
+    x[i] = moves ? canonical(corrected.x) : now.x;
+    y[i] = moves ? canonical(corrected.y) : now.y;
+    z[i] = moves ? canonical(corrected.z) : now.z;
+    vx[i] = moves ? canonical(kicked.x) : velocity.x;
+    vy[i] = moves ? canonical(kicked.y) : velocity.y;
+    vz[i] = moves ? canonical(kicked.z) : velocity.z;
+  }
+}
+
+template <class Real>
+INLINE void collideRow(const PassArguments<Real>& arguments, int row) {
+  const Stretch particles = stretch(arguments.step, row);
+  for (std::uint32_t k = 0; k < arguments.step.colliderCount; ++k) {
+    const ColliderParams<Real> collider = arguments.colliders[k];
+    const bool isSphere = collider.type == COLLIDER_SPHERE, moving = collider.moving != 0;
+    if (isSphere && moving)
+      collideWith<COLLIDER_SPHERE, true>(arguments, collider, particles);
+    else if (isSphere)
+      collideWith<COLLIDER_SPHERE, false>(arguments, collider, particles);
+    else if (moving)
+      collideWith<COLLIDER_PLANE, true>(arguments, collider, particles);
+    else
+      collideWith<COLLIDER_PLANE, false>(arguments, collider, particles);
   }
 }
 

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 #include <omp.h>
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
 
 #include <cmath>
 #include <cstring>
@@ -97,6 +100,18 @@ TEST(CpuSolver, HoldsNoMinusZeroAndNoTinyNumberInItsState) {
       for (const float x : {p.x, p.y, p.z})
         EXPECT_TRUE((x == 0 && !std::signbit(x)) || std::abs(x) >= 0x1p-40f) << x;
 }
+
+#if defined(__SSE2__)
+TEST(CpuSolver, GivesTheSameBitsWhereTheProcessorFlushesDenormals) {
+  const Scene scene = busyScene(20);  // small: on this thread alone
+  const std::uint64_t usual = stateHash(stepped(scene, 300));
+  const unsigned mode = _mm_getcsr();
+  _mm_setcsr(mode | 0x8040);  // flush to zero, denormals are zero
+  const std::uint64_t flushed = stateHash(stepped(scene, 300));
+  _mm_setcsr(mode);
+  EXPECT_EQ(flushed, usual);
+}
+#endif
 
 TEST(StrainLimit, HoldsASpringThatThePassCanReach) {
   Scene scene = springScene(1, 10, 1, 1e-3, Integrator::euler);
