@@ -61,10 +61,10 @@ StepRate measureStepRate(const Scene& scene, const std::string& backend, double 
   return rate;
 }
 
-DemoRate measureDemo(int size, int width, int height) {
+DemoRate measureDemo(int size, const std::string& backend, int width, int height) {
   Scene scene = loadSceneByName("demo");
   (void)changeResolution(scene, size, size, false);
-  Simulation simulation(scene, "gpu");
+  Simulation simulation(scene, backend);
   DemoRate rate;
   rate.size = size;
   const int steps = std::max(1, static_cast<int>(std::lround(DEMO_FRAME / stepLength(scene.solver))));
@@ -88,12 +88,12 @@ DemoRate measureDemo(int size, int width, int height) {
   return rate;
 }
 
-DemoRate largestRealTimeDemo(int width, int height) {
+DemoRate largestRealTimeDemo(const std::string& backend, int width, int height) {
   constexpr int grain = 16;
   DemoRate best;
   int low = 0, high = 1;  // in grains; grows until one is too slow, then the gap is halved
   const auto holds = [&](int grains) {
-    const DemoRate rate = measureDemo(grains * grain, width, height);
+    const DemoRate rate = measureDemo(grains * grain, backend, width, height);
     if (rate.perFrame() > DEMO_FRAME) return false;
     best = rate;
     return true;

@@ -29,11 +29,12 @@ struct DemoRate {
   double drawSeconds = 0;        // and for drawing one picture of it
   [[nodiscard]] double perFrame() const { return simulationSeconds + drawSeconds; }
 };
-// Of the demo scene at size x size on the GPU backend, drawn into width x height pixels; 0 x 0: not drawn.
-[[nodiscard]] DemoRate measureDemo(int size, int width, int height);
+// Of the demo scene at size x size, drawn into width x height pixels; 0 x 0: not drawn, which needs no
+// context on the CPU.
+[[nodiscard]] DemoRate measureDemo(int size, const std::string& backend, int width, int height);
 
-// The largest N (a multiple of 16) at which the demo holds 30 frames a second in real time. `perFrame` 0:
-// none does.
-[[nodiscard]] DemoRate largestRealTimeDemo(int width, int height);
+// The largest N (a multiple of 16) at which the demo holds 30 frames a second in real time; `size` 0: none
+// does.
+[[nodiscard]] DemoRate largestRealTimeDemo(const std::string& backend, int width, int height);
 
 }  // namespace clothsim

@@ -41,7 +41,7 @@ std::string suggestedDemoResolution(bool software) {
   int best = 64;
   const double limit = software ? 6.0 / 30 : 1.0 / 40;  // [s] of simulation for a 30th of a second
   for (const int size : {96, 128, 192, 256, 384, 512, 768, 1024}) {
-    if (measureDemo(size, 0, 0).simulationSeconds > limit) break;
+    if (measureDemo(size, "gpu", 0, 0).simulationSeconds > limit) break;
     best = size;
   }
   return std::to_string(best) + "x" + std::to_string(best);

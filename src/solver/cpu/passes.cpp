@@ -279,7 +279,8 @@ INLINE Vec3<Real> previousPosition(const ColliderParams<Real>& collider, Vec3<Re
 }
 
 template <std::uint32_t type, class Real>
-INLINE Contact<Real> findContact(const ColliderParams<Real>& collider, Real offset, Vec3<Real> previous, Vec3<Real> x) {
+INLINE Contact<Real> findContact(const ColliderParams<Real>& collider, Real offset, Vec3<Real> previous,
+                                 Vec3<Real> x) {
   if constexpr (type == COLLIDER_SPHERE) {
     return sphereContact(collider, x);
   } else {
@@ -287,14 +288,16 @@ INLINE Contact<Real> findContact(const ColliderParams<Real>& collider, Real offs
   }
 }
 
-// One collider and a stretch of particles; compiled for each type, at rest and moving, so that the loop runs in vector
-// registers.
+// One collider and a stretch of particles; compiled for each type, at rest and moving, so that the loop runs
+// in vector registers.
 template <std::uint32_t type, bool moving, class Real>
-INLINE void collideWith(const PassArguments<Real>& arguments, const ColliderParams<Real>& collider, Stretch particles) {
+INLINE void collideWith(const PassArguments<Real>& arguments, const ColliderParams<Real>& collider,
+                        Stretch particles) {
   const Components<Real>& old = arguments.before.positions;
   Components<Real>&p = arguments.after.positions, &v = arguments.after.velocities;
   const Real *x0 = old.x.data(), *y0 = old.y.data(), *z0 = old.z.data();
-  Real *x = p.x.data(), *y = p.y.data(), *z = p.z.data(), *vx = v.x.data(), *vy = v.y.data(), *vz = v.z.data();
+  Real *x = p.x.data(), *y = p.y.data(), *z = p.z.data(), *vx = v.x.data(), *vy = v.y.data(),
+       *vz = v.z.data();
   const Real* inverseMasses = arguments.inverseMasses;
   const Real offset = arguments.step.planeOffset, inverseTimeStep = arguments.step.inverseTimeStep;
 #pragma omp simd
