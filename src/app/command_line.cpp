@@ -7,6 +7,7 @@
 #include "app/commands.h"
 #include "app/viewer.h"
 #include "core/error.h"
+#include "core/interrupt.h"
 
 namespace clothsim {
 namespace {
@@ -207,6 +208,7 @@ int runCommandLine(int argc, char** argv) {
   declareInfoCommands(app, arguments, action);
   try {
     app.parse(argc, argv);
+    if (!app.get_subcommands().empty()) catchInterrupts();  // the viewer closes by its window
     return action();
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::usage);

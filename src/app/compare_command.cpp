@@ -6,6 +6,7 @@
 
 #include "app/commands.h"
 #include "app/compare.h"
+#include "core/interrupt.h"
 #include "core/progress.h"
 #include "gl/context.h"
 
@@ -15,8 +16,10 @@ int compareCommand(const CompareOptions& options) {
   const Scene scene = loadScene(options.scene);
   const gl::HeadlessContext context;
   Progress progress("comparing", options.frames);
-  const Comparison result =
-      compareBackends(scene, options.frames, [&](int frame) { progress.update(frame); });
+  const Comparison result = compareBackends(scene, options.frames, [&](int frame) {
+    stopIfInterrupted();
+    progress.update(frame);
+  });
   progress.finish();
 
   nlohmann::ordered_json json;

@@ -8,6 +8,7 @@
 #include "app/simulation.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/interrupt.h"
 #include "core/progress.h"
 #include "export/export.h"
 #include "gl/context.h"
@@ -79,6 +80,7 @@ int renderCommand(const RenderCommandOptions& options) {
   for (const std::string& out : options.outs) outputs.emplace_back(out, options, scene);
   Progress progress("rendering", options.frames);
   for (int frame = 0; frame <= options.frames; ++frame) {
+    stopIfInterrupted();
     if (frame > 0) simulation.stepFrame();
     if (std::any_of(outputs.begin(), outputs.end(),
                     [&](const Output& output) { return output.wants(frame); })) {

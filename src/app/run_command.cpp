@@ -8,6 +8,7 @@
 #include "app/simulation.h"
 #include "core/error.h"
 #include "core/files.h"
+#include "core/interrupt.h"
 #include "core/progress.h"
 #include "export/export.h"
 #include "gl/context.h"
@@ -99,6 +100,7 @@ int runCommand(const RunOptions& options) {
   saveFrame(options, simulation, state, 0);
   Progress progress("simulating", options.frames);
   for (int frame = 1; frame <= options.frames; ++frame) {
+    stopIfInterrupted();
     const Clock::time_point start = Clock::now();
     simulation.stepFrame();
     simulation.finish();

@@ -51,6 +51,7 @@ class Process {
     }
     return exitCode_;
   }
+  void interrupt() { ::kill(pid_, SIGINT); }  // Ctrl-C
   [[nodiscard]] bool running() { return !waitFor(std::chrono::milliseconds(0)).has_value(); }
 
  private:

@@ -5,9 +5,11 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <thread>
 
 #include "core/files.h"
 #include "support/command.h"
+#include "support/process.h"
 #include "support/temporary_folder.h"
 
 namespace clothsim {
@@ -174,6 +176,21 @@ TEST(Program, RendersAFilmOrSaysThatFfmpegIsMissing) {
   const CommandResult without = clothsim(render, "PATH=/nonexistent");
   EXPECT_EQ(without.exitCode, 5) << without.output;
   EXPECT_NE(without.output.find("ffmpeg"), std::string::npos) << without.output;
+}
+
+TEST(Program, LeavesNothingBehindWhenItIsInterruptedInAFilm) {
+  const test::TemporaryFolder folder;
+  const std::string film = (folder.path() / "clip.mp4").string();
+  test::Process render({CLOTHSIM_PROGRAM, "render", "-f", "pinned2", "--resolution", "16x16", "--frames",
+                        "100000", "--size", "96x64", "--out", film},
+                       "/dev/null");
+  for (int i = 0; i < 600 && folder.fileCount() == 0; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  ASSERT_EQ(folder.fileCount(), 1) << "the film grows under a temporary name";
+  ASSERT_FALSE(std::filesystem::exists(film));
+  render.interrupt();
+  EXPECT_EQ(render.waitFor(std::chrono::seconds(30)), 1);
+  EXPECT_EQ(folder.fileCount(), 0);
 }
 
 TEST(Program, ListsItsScenesAndExplainsItsKeys) {

@@ -1,0 +1,12 @@
+// Ctrl-C and a request to end (SIGINT, SIGTERM) let a command stop between two frames and tidy up after
+// itself; a second one ends it at once.
+#pragma once
+
+namespace clothsim {
+
+void catchInterrupts();
+
+// For loops that take long. @throws SimulationError once an interrupt has come
+void stopIfInterrupted();
+
+}  // namespace clothsim
