@@ -63,6 +63,7 @@ void checkOutputs(const RenderCommandOptions& options) {
       throw UsageError("--out " + out + ": a film needs an even width and height, not " +
                        std::to_string(options.width) + "x" + std::to_string(options.height));
   }
+  for (const std::string& out : options.outs) checkWritable(out);
 }
 
 }  // namespace

@@ -24,6 +24,7 @@ void checkSaves(const RunOptions& options) {
   for (const std::string& save : options.saves)
     if (!canSaveStateAs(save))
       throw UsageError("--save " + save + ": the extension is none of .csv, .ply, .obj, .state");
+  for (const std::string& save : options.saves) checkWritable(save);
 }
 
 void saveFrame(const RunOptions& options, const Simulation& simulation, const State& state, int frame) {

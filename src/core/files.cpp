@@ -135,6 +135,12 @@ void writeFileAtomically(const fs::path& path, std::string_view bytes) {
   temporary.renameTo(target);
 }
 
+void checkWritable(const fs::path& path) {
+  if (fs::is_directory(path)) throw failure(path, "cannot be written", EISDIR);
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : ".";
+  if (access(folder.c_str(), W_OK | X_OK) != 0) throw failure(path, "cannot be written", errno);
+}
+
 fs::path temporaryNameBeside(const fs::path& path) {
   static std::atomic<unsigned> counter{0};
   const std::string name = ".clothsim-" + std::to_string(getpid()) + "-" + std::to_string(counter++);

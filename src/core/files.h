@@ -16,6 +16,10 @@ namespace clothsim {
 // and a failure leaves no half file. @throws InputOutputError
 void writeFileAtomically(const std::filesystem::path& path, std::string_view bytes);
 
+// For commands that write at the end of long work: fails at once when no file could be made at `path`.
+// @throws InputOutputError
+void checkWritable(const std::filesystem::path& path);
+
 // Temporary name beside `path` for writers that stream (video): same folder, same extension, unlikely to
 // exist.
 [[nodiscard]] std::filesystem::path temporaryNameBeside(const std::filesystem::path& path);

@@ -7,7 +7,7 @@
 #include <functional>
 
 #include "core/error.h"
-#include "unit/temporary_folder.h"
+#include "support/temporary_folder.h"
 
 namespace clothsim {
 namespace {
@@ -50,6 +50,16 @@ TEST(WriteFileAtomically, LeavesNoHalfFileBehindAFailure) {
   EXPECT_NE(message.find("missing/a.txt: cannot be written: No such file or directory"), std::string::npos)
       << message;
   EXPECT_EQ(filesIn(folder.path()), 1U);
+}
+
+TEST(CheckWritable, RefusesBeforeTheWorkWhatCouldNotBeWrittenAfterIt) {
+  const TemporaryFolder folder;
+  EXPECT_NO_THROW(checkWritable(folder / "new.png"));
+  EXPECT_NO_THROW(checkWritable("new.png"));
+  EXPECT_NE(messageOf([&] { checkWritable(folder.path()); }).find("cannot be written"), std::string::npos);
+  EXPECT_NE(messageOf([&] { checkWritable(folder / "missing" / "a.png"); }).find("No such file"),
+            std::string::npos);
+  EXPECT_FALSE(fs::exists(folder / "new.png")) << "asking writes nothing";
 }
 
 TEST(WriteFileAtomically, ReportsAFullDisk) {

@@ -4,7 +4,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
-#include "unit/temporary_folder.h"
+#include "support/temporary_folder.h"
 
 namespace clothsim {
 namespace {

@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "scene/scene_io.h"
-#include "unit/temporary_folder.h"
+#include "support/temporary_folder.h"
 
 namespace clothsim {
 namespace {
