@@ -53,7 +53,7 @@ TEST(WriteFileAtomically, LeavesNoHalfFileBehindAFailure) {
 }
 
 TEST(CheckWritable, RefusesBeforeTheWorkWhatCouldNotBeWrittenAfterIt) {
-  const TemporaryFolder folder;
+  const test::TemporaryFolder folder;
   EXPECT_NO_THROW(checkWritable(folder / "new.png"));
   EXPECT_NO_THROW(checkWritable("new.png"));
   EXPECT_NE(messageOf([&] { checkWritable(folder.path()); }).find("cannot be written"), std::string::npos);
