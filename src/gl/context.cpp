@@ -10,12 +10,6 @@
 namespace clothsim::gl {
 namespace {
 
-#ifdef NDEBUG
-constexpr bool debugBuild = false;
-#else
-constexpr bool debugBuild = true;
-#endif
-
 // What the debug callback has collected since the last checkErrors(). The driver may call it from a thread of
 // its own unless output is synchronous, which debug builds ask for.
 thread_local std::vector<std::string> driverErrors;

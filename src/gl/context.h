@@ -7,6 +7,13 @@
 
 namespace clothsim::gl {
 
+// Debug builds ask the driver for a debug context and for its messages at the call that caused them.
+#ifdef NDEBUG
+inline constexpr bool debugBuild = false;
+#else
+inline constexpr bool debugBuild = true;
+#endif
+
 struct ContextInfo {
   std::string vendor, renderer, version;
   int major = 0, minor = 0;

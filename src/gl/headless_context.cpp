@@ -18,12 +18,6 @@
 namespace clothsim::gl {
 namespace {
 
-#ifdef NDEBUG
-constexpr bool debugBuild = false;
-#else
-constexpr bool debugBuild = true;
-#endif
-
 struct Candidate {
   EGLDisplay display = EGL_NO_DISPLAY;
   std::string name;  // for messages
