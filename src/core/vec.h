@@ -28,10 +28,6 @@ constexpr Vec3<Real> operator-(Vec3<Real> a, Vec3<Real> b) {
   return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
 template <class Real>
-constexpr Vec3<Real> operator-(Vec3<Real> a) {
-  return {-a.x, -a.y, -a.z};
-}
-template <class Real>
 constexpr Vec3<Real> operator*(Real s, Vec3<Real> a) {
   return {s * a.x, s * a.y, s * a.z};
 }

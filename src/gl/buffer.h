@@ -44,9 +44,6 @@ class Buffer {
     return data;
   }
   void bindStorage(GLuint binding) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, name_); }
-  void bindStorageRange(GLuint binding, std::size_t firstElement, std::size_t count) const {
-    bindRange(GL_SHADER_STORAGE_BUFFER, binding, firstElement, count);
-  }
   void bindUniform(GLuint binding) const { glBindBufferBase(GL_UNIFORM_BUFFER, binding, name_); }
   void bindUniformRange(GLuint binding, std::size_t firstElement, std::size_t count) const {
     bindRange(GL_UNIFORM_BUFFER, binding, firstElement, count);

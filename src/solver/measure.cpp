@@ -17,8 +17,9 @@ double length(Vec3d v) { return std::sqrt(dot(v, v)); }
 
 bool finite(const Particle4& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-double maxStrain(const Cloth& cloth, const Grid& grid, const State& state) {
-  double largest = -1;
+// Of one grid; none without springs.
+std::optional<double> maxStrain(const Cloth& cloth, const Grid& grid, const State& state) {
+  double largest = -1;  // a spring of no length, the smallest that can be
 #pragma omp parallel for reduction(max : largest)
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.columns; ++column) {
@@ -33,6 +34,8 @@ double maxStrain(const Cloth& cloth, const Grid& grid, const State& state) {
       }
     }
   }
+  if (std::find(grid.slotEnabled.begin(), grid.slotEnabled.end(), true) == grid.slotEnabled.end())
+    return std::nullopt;
   return largest;
 }
 
@@ -65,12 +68,11 @@ Measures measure(const Cloth& cloth, const Scene& scene, const State& state) {
   }
   measures.centroid = (1.0 / static_cast<double>(count)) * measures.centroid;
 
-  bool anySpring = false;
-  for (const Grid& grid : cloth.grids()) {
-    const double strain = maxStrain(cloth, grid, state);
-    measures.maxStrain = anySpring ? std::max(measures.maxStrain, strain) : strain;
-    anySpring = true;
-  }
+  std::optional<double> strain;
+  for (const Grid& grid : cloth.grids())
+    if (const auto ofGrid = maxStrain(cloth, grid, state))
+      strain = std::max(strain.value_or(*ofGrid), *ofGrid);
+  measures.maxStrain = strain.value_or(0);
   const double time = static_cast<double>(state.step) * stepLength(scene.solver);
   for (const Collider& collider : scene.colliders) {
     const Pose pose = poseAt(collider, time);

@@ -21,7 +21,7 @@ class Solver {
 
   // Advances by `count` steps. Neither throws nor allocates; on the GPU nothing is waited for.
   virtual void step(int count) = 0;
-  // Waits until every step is done.
+  // Waits until every step is done. @throws OpenGlError when the driver has reported an error meanwhile
   virtual void finish() = 0;
 
   // A blocking copy of the state, and its inverse: together they hand a simulation from one backend to the

@@ -49,6 +49,7 @@ GpuSolver::GpuSolver(const Cloth& cloth, const Scene& scene, const GpuOptions& o
   limitColors_ = gl::Buffer<ColorSlot>("strain limit colours", std::span<const ColorSlot>(colorSlots));
   setState(initialState(cloth, scene));
   configure(scene);
+  gl::checkErrors("the making of the GPU solver");  // above all: out of memory
 }
 
 void GpuSolver::configure(const Scene& scene) {
@@ -185,7 +186,10 @@ void GpuSolver::step(int count) {
   glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
-void GpuSolver::finish() { glFinish(); }
+void GpuSolver::finish() {
+  glFinish();
+  gl::checkErrors("the steps on the GPU");
+}
 
 State GpuSolver::state() {
   convertVelocities();

@@ -32,7 +32,7 @@ struct PassTime {
 class GpuSolver final : public Solver {
  public:
   // Needs a current context; `cloth` must outlive the solver. @throws OpenGlError when a buffer is larger
-  // than the driver allows or a shader does not compile
+  // than the driver allows, memory runs out, or a shader does not compile
   GpuSolver(const Cloth& cloth, const Scene& scene, const GpuOptions& options = {});
 
   void configure(const Scene& scene) override;
