@@ -8,12 +8,23 @@ FetchContent_Declare(nlohmann_json URL https://github.com/nlohmann/json/releases
                      FIND_PACKAGE_ARGS 3.10)
 FetchContent_MakeAvailable(nlohmann_json)
 
+FetchContent_Declare(tinyobjloader GIT_REPOSITORY https://github.com/tinyobjloader/tinyobjloader GIT_TAG v2.0.0rc10
+                     FIND_PACKAGE_ARGS)
+FetchContent_MakeAvailable(tinyobjloader)
+if(NOT TARGET tinyobjloader::tinyobjloader)
+  add_library(tinyobjloader::tinyobjloader ALIAS tinyobjloader)
+endif()
+
 # stb has no CMake package: Debian installs the headers in include/stb and the implementations in libstb.
 find_path(STB_INCLUDE_DIR stb/stb_image_write.h REQUIRED)
 find_library(STB_LIBRARY stb REQUIRED)
 add_library(clothsim_stb INTERFACE)
 target_include_directories(clothsim_stb SYSTEM INTERFACE ${STB_INCLUDE_DIR})
 target_link_libraries(clothsim_stb INTERFACE ${STB_LIBRARY})
+
+# Counts crossings (src/check). Not needed to simulate: without it --check-crossings says what to install.
+set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)
+find_package(CGAL 5.0 QUIET)
 
 if(CLOTHSIM_PROGRAM)
   find_package(OpenGL REQUIRED COMPONENTS EGL)

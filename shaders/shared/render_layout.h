@@ -25,6 +25,7 @@ using uint = unsigned int;
 #define TEXTURE_COORDINATE_LOCATION 2
 #define INSTANCE_PLACE_LOCATION 3   // sphere: centre, radius; plane: centre of the drawn part, its radius
 #define INSTANCE_NORMAL_LOCATION 4  // plane: normal
+#define INSTANCE_ROWS_LOCATION 5    // and 6, 7. Other shapes: the rows that take their own frame to the world
 
 struct RenderFrame {
   mat4 clipFromWorld;

@@ -23,6 +23,7 @@ using uint = std::uint32_t;
 #define NEW_POSITIONS_BINDING 0  // storage blocks: at the end of the step,
 #define NEW_VELOCITIES_BINDING 1
 #define FORCES_BINDING 2  // between separate passes
+#define WATCH_BINDING 3   // the watchdog's row of this step
 
 #define POSITIONS_UNIT 0  // the particle buffers as texels: at the start of the step,
 #define VELOCITIES_UNIT 1
@@ -31,17 +32,47 @@ using uint = std::uint32_t;
 #define REST_LENGTHS_UNIT 4  // slot-major: slot * total particles + owner
 
 #define COLLIDERS_UNIT 5  // COLLIDER_ROWS texels each
+#define DISTANCES_UNIT 8  // samples of the signed distance grids of all mesh colliders
 
-#define COLLIDER_ROWS 7
+// The watchdog (src/solver/trouble.h). A row has an entry a pass: 4 * particle + reason, the lowest that came
+// up. The numbers are the order of the passes in a step: the first one that has an entry is where it began.
+#define PASS_START 0u  // the state that a step began with, when it was handed in from outside
+#define PASS_KICK 1u   // the conversion of velocities to another integrator
+#define PASS_FORCES 2u
+#define PASS_INTEGRATE 3u
+#define PASS_EARLY_LIMIT 4u  // the strain limit where it comes before contacts: robust self-collision
+#define PASS_COLLIDE 5u
+#define PASS_LIMIT 6u
+#define PASSES 7
+#define REASON_NON_FINITE 0u
+#define REASON_RUNAWAY_SPEED 1u
+#define REASON_RUNAWAY_STRAIN 2u
+#define NO_TROUBLE 0xffffffffu
+#define WATCHED_ROWS 8u  // of the grid, by one invocation of sim/watch_limit.comp
+
+#define PIN_STARTS_UNIT 6   // a texel a particle: start position, and the number of its path + 1 (0: none)
+#define PIN_MOTIONS_UNIT 7  // PIN_MOTION_ROWS texels each
+
+#define PIN_MOTION_ROWS 4
+#define COLLIDER_ROWS 13
+#define COLLIDER_SWEEP_ROW 3   // read for spheres only
+#define COLLIDER_AXES_ROW 4    // read for shapes that have a frame of their own
+#define COLLIDER_GRID_ROW 7    // read for meshes
+#define COLLIDER_MOTION_ROW 9  // read where some collider moves
 #define COLLIDER_SPHERE 0u
 #define COLLIDER_PLANE 1u
+#define COLLIDER_CAPSULE 2u
+#define COLLIDER_BOX 3u
+#define COLLIDER_TORUS 4u
+#define COLLIDER_MESH 5u
+#define SWEEP_STEPS 8  // of the search for the place where a particle entered a shape
 
 // The springs of one slot (cloth/cloth.h).
 SHARED_STRUCT SpringParams {
-  real stiffness;    // [N/m]
-  real restLength;   // nominal [m]
-  real limitLength;  // (1 + strain limit) restLength [m]
-  uint enabled;
+  real stiffness;         // [N/m]
+  real restLength;        // nominal [m]
+  real limitLength;       // (1 + strain limit) restLength [m]
+  real maxLengthSquared;  // ((1 + max_strain) restLength)^2, for the watchdog [m^2]
 };
 
 SHARED_STRUCT StepParams {
@@ -70,19 +101,24 @@ SHARED_STRUCT StepParams {
   real airVelocityZ;
   real kickTime;  // +-h/2: turns v(n-1/2) into v(n) and back [s]
 
-  real dragFactor;   // rho_a C_d / 12 [kg/m^3]
-  real liftFactor;   // rho_a C_l / 12 [kg/m^3]
-  real planeOffset;  // how far off a plane a particle is put back [m]
-  real unusedReal;
+  real dragFactor;       // rho_a C_d / 12 [kg/m^3]
+  real liftFactor;       // rho_a C_l / 12 [kg/m^3]
+  real planeOffset;      // how far off a plane a particle is put back [m]
+  real maxSpeedSquared;  // for the watchdog [m^2/s^2]
+
+  uint enabledSlots;    // bit `slot` is set when its springs are enabled
+  uint grid;            // which of the cloth's
+  uint limitPass;       // PASS_LIMIT or PASS_EARLY_LIMIT
+  uint firstPinMotion;  // of this step, in the array of pin motions
 
   SPRING_ROWS(SpringParams) springs[6];
 };
 
 SHARED_STRUCT ColliderParams {
-  real pointX;  // sphere's centre or plane's point at the end of the step [m]
+  real pointX;  // the shape's origin or plane's point at the end of the step [m]
   real pointY;
   real pointZ;
-  real radius;  // [m]
+  real radius;  // of the sphere, capsule, torus' tube, box's edges; a mesh's grid: edge of a cell [m]
 
   real normalX;  // plane
   real normalY;
@@ -91,8 +127,41 @@ SHARED_STRUCT ColliderParams {
 
   uint type;
   uint moving;
-  real motionKept;  // 1 - friction
-  real unusedReal;
+  real motionKept;  // 1 - friction, under CS184's law
+  real friction;    // under Coulomb's
+
+  real sweepSquared;   // a sphere looks for an entry when a way is longer [m^2],
+  real grazeSquared;   // and ignores passages farther than this from its centre [m^2]
+  real inverseRadius;  // of the sphere [1/m]
+  uint coulomb;        // whether friction follows Coulomb's law, CS184's otherwise
+
+  // The shape's own axes in the world, at the end of the step: the rows of the rotation from the world.
+  real axisXX;
+  real axisXY;
+  real axisXZ;
+  real sizeX;  // box: half sizes without the rounding; capsule: half the segment in y; torus: ring's radius
+               // in x
+
+  real axisYX;
+  real axisYY;
+  real axisYZ;
+  real sizeY;
+
+  real axisZX;
+  real axisZY;
+  real axisZZ;
+  real sizeZ;
+
+  // The signed distance grid of a mesh: place of its first sample in the own frame, samples along x, y and z.
+  real gridX;
+  real gridY;
+  real gridZ;
+  real inverseCell;  // [1/m]
+
+  uint gridColumns;
+  uint gridRows;
+  uint gridLayers;
+  uint firstSample;  // among those of all meshes
 
   // The rigid motion over the step: x + (turn (x - pivot) + shift), where turn is the rotation minus the
   // identity.
@@ -111,7 +180,32 @@ SHARED_STRUCT ColliderParams {
   real turnZZ;
   real shiftZ;
 
-  real pivotX;  // sphere's centre or plane's point at the start of the step
+  real pivotX;  // the shape's origin or plane's point at the start of the step
+  real pivotY;
+  real pivotZ;
+  real unusedPivot;
+};
+
+// The rigid motion of pins from the start of the simulation to the end of the step: x + (turn (x - pivot) +
+// shift), where turn is the rotation minus the identity. Pins that have not left their place are there to the
+// bit.
+SHARED_STRUCT PinMotionParams {
+  real turnXX;
+  real turnXY;
+  real turnXZ;
+  real shiftX;  // [m]
+
+  real turnYX;
+  real turnYY;
+  real turnYZ;
+  real shiftY;
+
+  real turnZX;
+  real turnZY;
+  real turnZZ;
+  real shiftZ;
+
+  real pivotX;  // mean of the start positions [m]
   real pivotY;
   real pivotZ;
   real unusedPivot;

@@ -16,6 +16,9 @@ layout(binding = NEW_POSITIONS_UNIT) uniform samplerBuffer positionsSoFar;
 layout(binding = NEW_VELOCITIES_UNIT) uniform samplerBuffer velocitiesSoFar;
 layout(binding = REST_LENGTHS_UNIT) uniform samplerBuffer restLengths;
 layout(binding = COLLIDERS_UNIT) uniform samplerBuffer colliderRows;
+layout(binding = PIN_STARTS_UNIT) uniform samplerBuffer pinStarts;
+layout(binding = PIN_MOTIONS_UNIT) uniform samplerBuffer pinMotionRows;
+layout(binding = DISTANCES_UNIT) uniform samplerBuffer distances;
 
 vec4 positionAt(uint i) { return texelFetch(positions, int(i)); }
 vec3 velocityAt(uint i) { return texelFetch(velocities, int(i)).xyz; }
@@ -23,8 +26,11 @@ vec3 velocityAt(uint i) { return texelFetch(velocities, int(i)).xyz; }
 // Known when the pass is compiled, so that what a scene lacks costs nothing (src/solver/gpu/pass_programs.cpp).
 const bool hasWind = HAS_WIND != 0;
 const bool hasAirResistance = HAS_AIR_RESISTANCE != 0;
-const bool hasColliders = HAS_COLLIDERS != 0;
+const uint colliderTypes = COLLIDER_TYPES;  // bit COLLIDER_... is set when the scene has such colliders
+const bool hasColliders = colliderTypes != 0u;
+const bool hasCoulombFriction = HAS_COULOMB_FRICTION != 0;
 const bool hasMovingColliders = HAS_MOVING_COLLIDERS != 0;
+const bool hasMovingPins = HAS_MOVING_PINS != 0;
 const bool hasRestLengthTable = HAS_REST_LENGTH_TABLE != 0;
 const uint enabledSlots = ENABLED_SLOTS;  // bit `slot` is set when its springs are enabled
 

@@ -1,6 +1,7 @@
 // Pass 4: out of spheres, back across planes.
 #include "sim/blocks.glsl"
 #include "sim/exact_math.glsl"
+#include "sim/watch.glsl"
 #include "sim/forces.glsl"
 #include "sim/integrate.glsl"
 #include "sim/collide.glsl"
@@ -13,4 +14,5 @@ void main() {
   particle = collideParticle(p.index, particle);
   newPositions[p.index] = particle.position;
   newVelocities[p.index] = vec4(particle.velocity, 0.0);
+  reportTrouble();
 }

@@ -1,7 +1,11 @@
-// Spheres and planes, one after the other in the scene's order, with CS184's friction: a particle that touches goes to
-// previous + (1 - friction) (surface - previous).
+// Colliders, one after the other in the scene's order. The twin of src/solver/cpu/collide.cpp, where the geometry is
+// explained.
+#include "sim/shapes.glsl"
 
-// Row by row as shared/step_params.h lays it out; the rows of the motion only when some collider moves.
+const uint shapesWithAxes = ~(1u << COLLIDER_SPHERE | 1u << COLLIDER_PLANE);
+const bool hasShapes = (colliderTypes & shapesWithAxes) != 0u;
+
+// Row by row as shared/step_params.h lays it out, as far as this scene's colliders need it.
 ColliderParams loadCollider(uint k) {
   int row = int(k) * COLLIDER_ROWS;
   ColliderParams c;
@@ -10,16 +14,35 @@ ColliderParams loadCollider(uint k) {
   r = texelFetch(colliderRows, row + 1);
   c.normalX = r.x, c.normalY = r.y, c.normalZ = r.z, c.radiusSquared = r.w;
   r = texelFetch(colliderRows, row + 2);
-  c.type = floatBitsToUint(r.x), c.moving = floatBitsToUint(r.y), c.motionKept = r.z;
-  if (!hasMovingColliders) return c;
-  r = texelFetch(colliderRows, row + 3);
-  c.turnXX = r.x, c.turnXY = r.y, c.turnXZ = r.z, c.shiftX = r.w;
-  r = texelFetch(colliderRows, row + 4);
-  c.turnYX = r.x, c.turnYY = r.y, c.turnYZ = r.z, c.shiftY = r.w;
-  r = texelFetch(colliderRows, row + 5);
-  c.turnZX = r.x, c.turnZY = r.y, c.turnZZ = r.z, c.shiftZ = r.w;
-  r = texelFetch(colliderRows, row + 6);
-  c.pivotX = r.x, c.pivotY = r.y, c.pivotZ = r.z;
+  c.type = floatBitsToUint(r.x), c.moving = floatBitsToUint(r.y), c.motionKept = r.z, c.friction = r.w;
+  if (hasType(COLLIDER_SPHERE)) {
+    r = texelFetch(colliderRows, row + COLLIDER_SWEEP_ROW);
+    c.sweepSquared = r.x, c.grazeSquared = r.y, c.inverseRadius = r.z;
+  }
+  if (hasShapes) {
+    r = texelFetch(colliderRows, row + COLLIDER_AXES_ROW);
+    c.axisXX = r.x, c.axisXY = r.y, c.axisXZ = r.z, c.sizeX = r.w;
+    r = texelFetch(colliderRows, row + COLLIDER_AXES_ROW + 1);
+    c.axisYX = r.x, c.axisYY = r.y, c.axisYZ = r.z, c.sizeY = r.w;
+    r = texelFetch(colliderRows, row + COLLIDER_AXES_ROW + 2);
+    c.axisZX = r.x, c.axisZY = r.y, c.axisZZ = r.z, c.sizeZ = r.w;
+  }
+  if (hasType(COLLIDER_MESH)) {
+    r = texelFetch(colliderRows, row + COLLIDER_GRID_ROW);
+    c.gridX = r.x, c.gridY = r.y, c.gridZ = r.z, c.inverseCell = r.w;
+    uvec4 n = floatBitsToUint(texelFetch(colliderRows, row + COLLIDER_GRID_ROW + 1));
+    c.gridColumns = n.x, c.gridRows = n.y, c.gridLayers = n.z, c.firstSample = n.w;
+  }
+  if (hasMovingColliders) {
+    r = texelFetch(colliderRows, row + COLLIDER_MOTION_ROW);
+    c.turnXX = r.x, c.turnXY = r.y, c.turnXZ = r.z, c.shiftX = r.w;
+    r = texelFetch(colliderRows, row + COLLIDER_MOTION_ROW + 1);
+    c.turnYX = r.x, c.turnYY = r.y, c.turnYZ = r.z, c.shiftY = r.w;
+    r = texelFetch(colliderRows, row + COLLIDER_MOTION_ROW + 2);
+    c.turnZX = r.x, c.turnZY = r.y, c.turnZZ = r.z, c.shiftZ = r.w;
+    r = texelFetch(colliderRows, row + COLLIDER_MOTION_ROW + 3);
+    c.pivotX = r.x, c.pivotY = r.y, c.pivotZ = r.z;
+  }
   return c;
 }
 
@@ -35,27 +58,59 @@ vec3 carried(ColliderParams collider, vec3 x) {
   return result;
 }
 
+vec3 pointOf(ColliderParams collider) { return vec3(collider.pointX, collider.pointY, collider.pointZ); }
+
 struct Contact {
   bool touches;
-  vec3 surface;  // where CS184 puts a particle without friction
+  vec3 surface;  // where the particle goes without friction
+  vec3 normal;   // of the collider there, outward
+  float depth;   // how far that is along the normal [m]
 };
 
-// Inside the sphere: the nearest point of its surface.
-Contact sphereContact(ColliderParams sphere, vec3 x) {
-  vec3 center = vec3(sphere.pointX, sphere.pointY, sphere.pointZ);
+// Inside the sphere: the nearest point of its surface; after a long way through it, the point where that entered.
+Contact sphereContact(ColliderParams sphere, vec3 previous, vec3 x) {
+  vec3 center = pointOf(sphere);
   precise vec3 d = x - center;
   precise float distanceSquared = sumOfProducts(d, d);
-  precise float scale = sphere.radius * inverseSquareRoot(distanceSquared);
+  precise float inverseDistance = inverseSquareRoot(distanceSquared);
+  precise float scale = sphere.radius * inverseDistance;
+  precise float distance = distanceSquared * inverseDistance;
+  bool inside = distanceSquared < sphere.radiusSquared;
   precise vec3 surface = center + scale * d;
-  return Contact(distanceSquared < sphere.radiusSquared, surface);
+  precise vec3 normal = inverseDistance * d;
+  precise float depth = sphere.radius - distance;
+
+  precise vec3 way = x - previous;
+  precise vec3 from = previous - center;
+  precise float waySquared = sumOfProducts(way, way);
+  precise float along = sumOfProducts(from, way);
+  if (!(sphere.sweepSquared < waySquared && along < 0.0)) return Contact(inside, surface, normal, depth);
+
+  precise float fromSquared = sumOfProducts(from, from);
+  precise float alongSquared = along * along;
+  precise float beyond = along + waySquared;
+  precise float deeper = waySquared * (fromSquared - sphere.grazeSquared);
+  precise float discriminant = alongSquared - waySquared * (fromSquared - sphere.radiusSquared);
+  precise float positiveRoot = discriminant * inverseSquareRoot(discriminant);
+  float root = 0.0 < discriminant ? positiveRoot : 0.0;
+  precise float inverseWay = inverseSquareRoot(waySquared);
+  precise float t = ((-along) - root) * (inverseWay * inverseWay);
+  precise vec3 entryNormal = sphere.inverseRadius * (from + t * way);
+  precise vec3 entry = center + sphere.radius * entryNormal;
+  precise float facing = sumOfProducts(entryNormal, d);
+  precise float sameSide = 0.5 * distance;
+  bool passed = !inside && 0.0 < beyond && deeper < alongSquared;
+  bool otherSide = inside && facing < sameSide;
+  precise float entryDepth = sphere.radius - facing;
+  if (passed || otherSide) return Contact(true, entry, entryNormal, entryDepth);
+  return Contact(inside, surface, normal, depth);
 }
 
-// Crossed since `previous`: the foot of the perpendicular, a little off on the side it came from.
-Contact planeContact(ColliderParams plane, vec3 previous, vec3 x) {
-  vec3 point = vec3(plane.pointX, plane.pointY, plane.pointZ);
+// CS184's plane, crossed since `previous`: the foot of the perpendicular, a little off on the side it came from.
+Contact crossedPlane(ColliderParams plane, vec3 previous, vec3 x) {
   vec3 normal = vec3(plane.normalX, plane.normalY, plane.normalZ);
-  precise vec3 fromPointBefore = previous - point;
-  precise vec3 fromPoint = x - point;
+  precise vec3 fromPointBefore = previous - pointOf(plane);
+  precise vec3 fromPoint = x - pointOf(plane);
   precise float heightBefore = sumOfProducts(fromPointBefore, normal);
   precise float height = sumOfProducts(fromPoint, normal);
   bool wasAbove = !(heightBefore < 0.0);
@@ -63,7 +118,118 @@ Contact planeContact(ColliderParams plane, vec3 previous, vec3 x) {
   precise float side = wasAbove ? step.planeOffset : -step.planeOffset;
   precise float lift = side - height;
   precise vec3 surface = x + lift * normal;
-  return Contact(wasAbove != isAbove, surface);
+  return Contact(wasAbove != isAbove, surface, normal, lift);
+}
+
+// A plane that is solid behind its normal: the foot of the perpendicular.
+Contact solidPlane(ColliderParams plane, vec3 x) {
+  vec3 normal = vec3(plane.normalX, plane.normalY, plane.normalZ);
+  precise vec3 fromPoint = x - pointOf(plane);
+  precise float height = sumOfProducts(fromPoint, normal);
+  precise vec3 surface = x - height * normal;
+  return Contact(height < 0.0, surface, normal, -height);
+}
+
+vec3 toOwnFrame(ColliderParams shape, vec3 x) {
+  precise vec3 d = x - pointOf(shape);
+  precise float alongX = sumOfProducts(vec3(shape.axisXX, shape.axisXY, shape.axisXZ), d);
+  precise float alongY = sumOfProducts(vec3(shape.axisYX, shape.axisYY, shape.axisYZ), d);
+  precise float alongZ = sumOfProducts(vec3(shape.axisZX, shape.axisZY, shape.axisZZ), d);
+  return canonical(vec3(alongX, alongY, alongZ));
+}
+vec3 toWorld(ColliderParams shape, vec3 v) {
+  vec3 x = vec3(shape.axisXX, shape.axisXY, shape.axisXZ);
+  vec3 y = vec3(shape.axisYX, shape.axisYY, shape.axisYZ);
+  vec3 z = vec3(shape.axisZX, shape.axisZY, shape.axisZZ);
+  precise vec3 result = (v.x * x + v.y * y) + v.z * z;
+  return result;
+}
+
+// A shape known by its signed distance: to the nearest point of its surface, or back to the side where it came in.
+Contact shapeContact(ColliderParams shape, vec3 previous, vec3 x) {
+  vec3 b = toOwnFrame(shape, x);
+  Nearest end = nearestOnShape(shape, b);
+  precise vec3 moved = x - previous;
+  precise float movedSquared = sumOfProducts(moved, moved);
+  precise float distanceSquared = end.distance * end.distance;
+  if (0.0 < end.distance && movedSquared < distanceSquared) return Contact(false, x, end.normal, 0.0);
+
+  vec3 a = toOwnFrame(shape, previous);
+  precise vec3 way = b - a;
+  precise float waySquared = sumOfProducts(way, way);
+  precise float inverseWay = inverseSquareRoot(waySquared);
+  precise float wayLength = waySquared * inverseWay;
+  precise float t = 0.0;
+  precise vec3 place = a;
+  Nearest entry = nearestOnShape(shape, a);
+  for (int i = 0; i < SWEEP_STEPS; ++i) {
+    bool goesOn = 0.0 < entry.distance && t < 1.0;
+    precise float farther = t + entry.distance * inverseWay;
+    t = goesOn ? farther : t;
+    place = a + t * way;
+    entry = nearestOnShape(shape, place);
+  }
+  precise vec3 back = (place - entry.distance * entry.normal) - b;
+  precise float lift = sumOfProducts(back, entry.normal);
+  precise float facing = sumOfProducts(end.normal, entry.normal);
+  precise float towards = sumOfProducts(way, entry.normal);
+  precise float approach = -towards;
+  precise float steep = 0.25 * wayLength;
+  bool inside = end.distance < 0.0;
+  bool otherSide = !(0.5 < facing) && 0.0 < approach && 0.0 < lift;
+  bool passed = !inside && otherSide && t < 1.0 && (facing < -0.5 || steep < approach);
+
+  vec3 normal = otherSide ? entry.normal : end.normal;
+  float depth = otherSide ? lift : -end.distance;
+  precise vec3 outward = depth * normal;
+  vec3 offset = passed ? back : outward;
+  precise vec3 surface = x + toWorld(shape, offset);
+  return Contact(inside || passed, surface, toWorld(shape, normal), depth);
+}
+
+Contact findContact(ColliderParams collider, vec3 previous, vec3 x) {
+  if (hasType(COLLIDER_SPHERE) && collider.type == COLLIDER_SPHERE) return sphereContact(collider, previous, x);
+  if (hasType(COLLIDER_PLANE) && collider.type == COLLIDER_PLANE) {
+    if (hasCoulombFriction) return solidPlane(collider, x);
+    return crossedPlane(collider, previous, x);
+  }
+  return shapeContact(collider, previous, x);
+}
+
+// CS184: the rest of the way to the surface that friction leaves. Coulomb: the way along the surface, shorter by friction
+// times the depth that the contact pushed the particle out.
+vec3 withFriction(ColliderParams collider, Contact contact, vec3 previous) {
+  precise vec3 way = contact.surface - previous;
+  if (!hasCoulombFriction) {
+    precise vec3 result = previous + collider.motionKept * way;
+    return result;
+  }
+  precise float through = sumOfProducts(way, contact.normal);
+  precise vec3 across = through * contact.normal;
+  precise vec3 slide = way - across;
+  precise float slideSquared = sumOfProducts(slide, slide);
+  precise float lost = (collider.friction * contact.depth) * inverseSquareRoot(slideSquared);
+  precise float rest = 1.0 - lost;
+  float kept = lost < 1.0 ? rest : 0.0;
+  precise vec3 result = (previous + across) + kept * slide;
+  return result;
+}
+
+// Friction may leave a particle a little inside a curved surface, or where it was inside before.
+vec3 pushedOut(ColliderParams collider, vec3 x) {
+  if (hasType(COLLIDER_SPHERE) && collider.type == COLLIDER_SPHERE) {
+    precise vec3 d = x - pointOf(collider);
+    precise float distanceSquared = sumOfProducts(d, d);
+    precise float scale = collider.radius * inverseSquareRoot(distanceSquared);
+    precise vec3 surface = pointOf(collider) + scale * d;
+    return distanceSquared < collider.radiusSquared ? surface : x;
+  }
+  if (!hasShapes || collider.type == COLLIDER_PLANE) return x;
+  Nearest nearest = nearestOnShape(collider, toOwnFrame(collider, x));
+  float depth = nearest.distance < 0.0 ? -nearest.distance : 0.0;
+  precise vec3 outward = depth * nearest.normal;
+  precise vec3 result = x + toWorld(collider, outward);
+  return result;
 }
 
 Particle collideParticle(uint i, Particle particle) {
@@ -74,16 +240,14 @@ Particle collideParticle(uint i, Particle particle) {
   for (uint k = 0u; k < step.colliderCount; ++k) {
     ColliderParams collider = loadCollider(step.firstCollider + k);
     vec3 previous = carried(collider, start);
-    Contact contact;
-    if (collider.type == COLLIDER_SPHERE)
-      contact = sphereContact(collider, x);
-    else
-      contact = planeContact(collider, previous, x);
+    Contact contact = findContact(collider, previous, x);
     if (!contact.touches) continue;
-    precise vec3 corrected = previous + collider.motionKept * (contact.surface - previous);
+    vec3 slid = withFriction(collider, contact, previous);
+    precise vec3 corrected = pushedOut(collider, slid);
     precise vec3 kicked = v + step.inverseTimeStep * (corrected - x);
     x = canonical(corrected);
     v = canonical(kicked);
   }
+  watchVelocity(PASS_COLLIDE, i, v);
   return Particle(vec4(x, particle.position.w), v);
 }

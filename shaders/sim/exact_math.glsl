@@ -13,6 +13,15 @@ float inverseSquareRoot(float x) {
   return result;
 }
 
+// 1 / x for 2^-120 < x < 2^124 within 1.5 ulp.
+float reciprocal(float x) {
+  precise float y = uintBitsToFloat(0x7eb504f3u - floatBitsToUint(x));
+  y = y * (uintBitsToFloat(0x403255c8u) - uintBitsToFloat(0x3ff86fb4u) * (x * y));
+  precise float r = 1.0 - x * y;
+  precise float result = y + y * (r + r * r);
+  return result;
+}
+
 float sumOfProducts(vec3 a, vec3 b) {
   precise float sum = (a.x * b.x + a.y * b.y) + a.z * b.z;
   return sum;

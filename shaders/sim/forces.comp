@@ -1,10 +1,12 @@
 // Pass 1: forces of springs and air on every particle of a grid.
 #include "sim/blocks.glsl"
 #include "sim/exact_math.glsl"
+#include "sim/watch.glsl"
 #include "sim/forces.glsl"
 
 void main() {
   GridPoint p = thisGridPoint();
   if (!p.exists) return;
   forces[p.index] = vec4(gatherForces(p), 0.0);
+  reportTrouble();
 }

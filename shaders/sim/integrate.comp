@@ -1,6 +1,7 @@
 // Pass 2: velocities and positions at the end of the step.
 #include "sim/blocks.glsl"
 #include "sim/exact_math.glsl"
+#include "sim/watch.glsl"
 #include "sim/forces.glsl"
 #include "sim/integrate.glsl"
 
@@ -10,4 +11,5 @@ void main() {
   Particle particle = integrateParticle(p.index, forces[p.index].xyz);
   newPositions[p.index] = particle.position;
   newVelocities[p.index] = vec4(particle.velocity, 0.0);
+  reportTrouble();
 }

@@ -26,6 +26,16 @@ vec3 springTo(vec3 x, uint other, uint slot, uint owner) {
   return springForce(x, positionAt(other).xyz, step.springs[slot].stiffness, restLength(slot, owner));
 }
 
+// The same, and tells the watchdog how long it is: once a spring, at its owner.
+bool overlong = false;
+vec3 ownSpringTo(vec3 x, uint other, uint slot, uint owner) {
+  vec3 end = positionAt(other).xyz;
+  precise vec3 d = end - x;
+  precise float lengthSquared = sumOfProducts(d, d);
+  overlong = overlong || isBeyond(lengthSquared, step.springs[slot].maxLengthSquared);
+  return springForce(x, end, step.springs[slot].stiffness, restLength(slot, owner));
+}
+
 vec3 gatherSprings(GridPoint p, vec3 x) {
   const uint i = p.index;
   const uint w = step.columns;
@@ -33,12 +43,12 @@ vec3 gatherSprings(GridPoint p, vec3 x) {
   const bool upper = p.row >= 1u, lower = p.row + 1u < step.rows;
   precise vec3 f = vec3(0.0);
 
-  if (enabled(TO_LEFT) && left) f = f + springTo(x, i - 1u, TO_LEFT, i);
-  if (enabled(TO_UPPER) && upper) f = f + springTo(x, i - w, TO_UPPER, i);
-  if (enabled(TO_UPPER_LEFT) && upper && left) f = f + springTo(x, i - w - 1u, TO_UPPER_LEFT, i);
-  if (enabled(TO_UPPER_RIGHT) && upper && right) f = f + springTo(x, i - w + 1u, TO_UPPER_RIGHT, i);
-  if (enabled(TO_SECOND_LEFT) && p.column >= 2u) f = f + springTo(x, i - 2u, TO_SECOND_LEFT, i);
-  if (enabled(TO_SECOND_UPPER) && p.row >= 2u) f = f + springTo(x, i - 2u * w, TO_SECOND_UPPER, i);
+  if (enabled(TO_LEFT) && left) f = f + ownSpringTo(x, i - 1u, TO_LEFT, i);
+  if (enabled(TO_UPPER) && upper) f = f + ownSpringTo(x, i - w, TO_UPPER, i);
+  if (enabled(TO_UPPER_LEFT) && upper && left) f = f + ownSpringTo(x, i - w - 1u, TO_UPPER_LEFT, i);
+  if (enabled(TO_UPPER_RIGHT) && upper && right) f = f + ownSpringTo(x, i - w + 1u, TO_UPPER_RIGHT, i);
+  if (enabled(TO_SECOND_LEFT) && p.column >= 2u) f = f + ownSpringTo(x, i - 2u, TO_SECOND_LEFT, i);
+  if (enabled(TO_SECOND_UPPER) && p.row >= 2u) f = f + ownSpringTo(x, i - 2u * w, TO_SECOND_UPPER, i);
 
   if (enabled(TO_LEFT) && right) f = f + springTo(x, i + 1u, TO_LEFT, i + 1u);
   if (enabled(TO_SECOND_LEFT) && p.column + 2u < w) f = f + springTo(x, i + 2u, TO_SECOND_LEFT, i + 2u);
@@ -46,5 +56,6 @@ vec3 gatherSprings(GridPoint p, vec3 x) {
   if (enabled(TO_UPPER) && lower) f = f + springTo(x, i + w, TO_UPPER, i + w);
   if (enabled(TO_UPPER_LEFT) && lower && right) f = f + springTo(x, i + w + 1u, TO_UPPER_LEFT, i + w + 1u);
   if (enabled(TO_SECOND_UPPER) && p.row + 2u < step.rows) f = f + springTo(x, i + 2u * w, TO_SECOND_UPPER, i + 2u * w);
+  if (overlong) noteTrouble(PASS_FORCES, i, REASON_RUNAWAY_STRAIN);
   return f;
 }

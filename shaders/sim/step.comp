@@ -1,6 +1,7 @@
-// Passes 1, 2 and 4 in one: nothing between them needs a neighbour's new state.
+// Passes 1, 2 and, without self-collision, 4 in one: nothing between them needs a neighbour's new state.
 #include "sim/blocks.glsl"
 #include "sim/exact_math.glsl"
+#include "sim/watch.glsl"
 #include "sim/forces.glsl"
 #include "sim/integrate.glsl"
 #include "sim/collide.glsl"
@@ -10,7 +11,8 @@ void main() {
   if (!p.exists) return;
   vec3 force = gatherForces(p);
   Particle particle = integrateParticle(p.index, force);
-  particle = collideParticle(p.index, particle);
+  if (COLLIDES_IN_STEP != 0) particle = collideParticle(p.index, particle);
   newPositions[p.index] = particle.position;
   newVelocities[p.index] = vec4(particle.velocity, 0.0);
+  reportTrouble();
 }

@@ -4,7 +4,9 @@
 #include <chrono>
 #include <cmath>
 
+#include "app/blow_up.h"
 #include "app/simulation.h"
+#include "core/error.h"
 #include "gl/framebuffer.h"
 #include "render/renderer.h"
 #include "scene/scene_io.h"
@@ -27,6 +29,12 @@ double timeSteps(Solver& solver, int steps) {
   return secondsSince(start);
 }
 
+// Figures of a simulation that has blown up are worth nothing.
+void checkSound(Solver& solver, const Cloth& cloth, const Scene& scene) {
+  if (const std::optional<Trouble> trouble = solver.trouble())
+    throw SimulationError(blowUpText(*trouble, cloth, scene));
+}
+
 double median(std::vector<double> values) {
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
                    values.end());
@@ -35,21 +43,26 @@ double median(std::vector<double> values) {
 
 }  // namespace
 
-StepRate measureStepRate(const Scene& scene, const std::string& backend, double seconds) {
+StepRate measureStepRate(const Scene& scene, const std::string& backend, double seconds, const State& state) {
   const Cloth cloth(scene);
   const std::unique_ptr<Solver> solver = makeSolver(backend, cloth, scene);
+  if (!state.positions.empty()) solver->setState(state);
   timeSteps(*solver, 2);  // compiles on some drivers
   const double once = std::max(1e-6, timeSteps(*solver, 4) / 4);
   const int steps = std::clamp(static_cast<int>(seconds / REPETITIONS / once), 1, 20000);
   std::vector<double> times;
   for (int i = 0; i < REPETITIONS; ++i) times.push_back(timeSteps(*solver, steps) / steps);
 
+  checkSound(*solver, cloth, scene);
+
   StepRate rate;
   rate.backend = backend;
   rate.device = solver->device();
   rate.columns = cloth.grids()[0].columns;
   rate.rows = cloth.grids()[0].rows;
+  rate.cloths = cloth.grids().size();
   rate.limiter = scene.solver.strainLimit.has_value();
+  rate.selfCollision = scene.solver.selfCollision;
   rate.repetitions = REPETITIONS;
   rate.secondsPerStep = median(times);
   rate.particleStepsPerSecond = cloth.particleCount() / rate.secondsPerStep;
@@ -71,6 +84,7 @@ DemoRate measureDemo(int size, const std::string& backend, int width, int height
   timeSteps(simulation.solver(), 2);
   const int timed = std::min(steps, 64);
   rate.simulationSeconds = timeSteps(simulation.solver(), timed) * steps / timed;
+  checkSound(simulation.solver(), simulation.cloth(), scene);
   if (width == 0) return rate;
 
   Renderer renderer(simulation.cloth(), scene, {});

@@ -12,16 +12,20 @@ namespace clothsim {
 
 struct StepRate {
   std::string backend, device;
-  int columns = 0, rows = 0;
+  int columns = 0, rows = 0;  // of each cloth
+  std::size_t cloths = 1;
   bool limiter = false;
+  SelfCollision selfCollision = SelfCollision::off;
   int repetitions = 0;  // timed stretches of steps; the median counts
   double secondsPerStep = 0;
   double particleStepsPerSecond = 0;
   std::vector<PassTime> passes;  // GPU only: seconds a step
 };
 
-// Steps the scene for about `seconds`, after a warm-up. The GPU needs a current context.
-[[nodiscard]] StepRate measureStepRate(const Scene& scene, const std::string& backend, double seconds);
+// Steps the scene for about `seconds`, after a warm-up, beginning with `state`, or at the start when it is
+// empty. The GPU needs a current context.
+[[nodiscard]] StepRate measureStepRate(const Scene& scene, const std::string& backend, double seconds,
+                                       const State& state = {});
 
 struct DemoRate {
   int size = 0;                  // N of N x N

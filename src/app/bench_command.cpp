@@ -5,6 +5,9 @@
 
 #include "app/bench.h"
 #include "app/commands.h"
+#include "app/simulation.h"
+#include "core/interrupt.h"
+#include "core/progress.h"
 #include "gl/context.h"
 #include "scene/scene_io.h"
 
@@ -15,7 +18,9 @@ nlohmann::ordered_json toJson(const StepRate& rate) {
   nlohmann::ordered_json json{{"backend", rate.backend},
                               {"device", rate.device},
                               {"resolution", std::to_string(rate.columns) + "x" + std::to_string(rate.rows)},
+                              {"cloths", rate.cloths},
                               {"strain_limit", rate.limiter},
+                              {"self_collision", selfCollisionName(rate.selfCollision)},
                               {"repetitions", rate.repetitions},
                               {"ms_per_step", rate.secondsPerStep * 1e3},
                               {"particle_steps_per_second", rate.particleStepsPerSecond}};
@@ -24,9 +29,12 @@ nlohmann::ordered_json toJson(const StepRate& rate) {
 }
 
 void print(const StepRate& rate) {
-  std::printf("%-4s %5dx%-5d %-8s %10.4f ms/step %9.1f M particle-steps/s", rate.backend.c_str(),
-              rate.columns, rate.rows, rate.limiter ? "limiter" : "", rate.secondsPerStep * 1e3,
+  const bool contacts = rate.selfCollision != SelfCollision::off;
+  std::printf("%-4s %5dx%-5d %-7s %-8s %10.4f ms/step %9.1f M particle-steps/s", rate.backend.c_str(),
+              rate.columns, rate.rows, rate.limiter ? "limiter" : "",
+              contacts ? selfCollisionName(rate.selfCollision) : "", rate.secondsPerStep * 1e3,
               rate.particleStepsPerSecond * 1e-6);
+  if (rate.cloths > 1) std::printf("   %zu cloths", rate.cloths);
   for (const PassTime& pass : rate.passes)
     std::printf("   %s %.4f ms", pass.name.c_str(), pass.seconds * 1e3);
   std::printf("\n");
@@ -66,6 +74,31 @@ nlohmann::ordered_json benchDemo(const std::vector<std::string>& backends, bool 
   return json;
 }
 
+State stateAfter(const Scene& scene, int frames) {
+  Simulation simulation(scene, "cpu");
+  Progress progress("simulating", frames);
+  for (int frame = 1; frame <= frames; ++frame) {
+    stopIfInterrupted();
+    simulation.stepFrame();
+    progress.update(frame);
+  }
+  progress.finish();
+  return simulation.solver().state();
+}
+
+// Springs alone, with the strain limit, and with either self-collision on top of that.
+std::vector<Scene> variantsOf(const Scene& scene) {
+  std::vector<Scene> variants(4, scene);
+  for (Scene& variant : variants) {
+    variant.solver.strainLimit = scene.solver.strainLimit.value_or(0.1);
+    variant.solver.selfCollision = SelfCollision::off;
+  }
+  variants[0].solver.strainLimit.reset();
+  variants[2].solver.selfCollision = SelfCollision::averaged;
+  variants[3].solver.selfCollision = SelfCollision::robust;
+  return variants;
+}
+
 }  // namespace
 
 int benchCommand(const BenchOptions& options) {
@@ -82,13 +115,11 @@ int benchCommand(const BenchOptions& options) {
   for (const GridSize& resolution : resolutions) {
     SceneOptions sceneOptions = options.scene;
     sceneOptions.resolution = resolution;
-    sceneOptions.settings.push_back("solver.self_collision=false");
-    Scene scene = loadScene(sceneOptions);
-    const double strainLimit = scene.solver.strainLimit.value_or(0.1);
-    for (const bool limiter : {false, true}) {
-      scene.solver.strainLimit = limiter ? std::optional(strainLimit) : std::nullopt;
+    const Scene scene = loadScene(sceneOptions);
+    const State state = stateAfter(scene, options.afterFrames);
+    for (const Scene& variant : variantsOf(scene)) {
       for (const std::string& backend : backends) {
-        const StepRate rate = measureStepRate(scene, backend, options.seconds);
+        const StepRate rate = measureStepRate(variant, backend, options.seconds, state);
         json["steps"].push_back(toJson(rate));
         if (!options.json) print(rate);
       }

@@ -24,8 +24,9 @@ struct Arguments {
   std::string scene = "pinned2", backend = "gpu", from, shader, size = "1280x720", key;
   std::vector<std::string> settings, saves, outs, resolutions, backends;
   int frames = 0, every = 1, around = 64, down = 48;
-  double fps = 30, seconds = 1;
-  bool json = false;
+  double fps = 30, seconds = 1, jitter = 0;
+  std::uint32_t seed = 1;
+  bool json = false, checkCrossings = false;
 
   [[nodiscard]] SceneOptions sceneOptions() const {
     SceneOptions options{.scene = scene, .resolution = std::nullopt, .settings = settings};
@@ -75,6 +76,11 @@ void addJson(CLI::App& app, Arguments& a) {
   app.add_flag("--json", a.json, "print one JSON object on stdout");
 }
 
+void addCheckCrossings(CLI::App& app, Arguments& a) {
+  app.add_flag("--check-crossings", a.checkCrossings,
+               "count pairs of triangles that cross, exactly, at the end of every frame (needs CGAL)");
+}
+
 using Action = std::function<int()>;
 
 void declareSimulationCommands(CLI::App& app, Arguments& a, Action& action) {
@@ -91,11 +97,17 @@ void declareSimulationCommands(CLI::App& app, Arguments& a, Action& action) {
       ->allow_extra_args(false);
   run->add_option("--every", a.every, "K for numbered files")->check(CLI::Range(1, 1'000'000));
   run->add_option("--from", a.from, "begin with a saved .state")->type_name("STATE");
+  run->add_option("--jitter", a.jitter,
+                  "begin with free particles moved at random, by up to so many metres (0)")
+      ->check(CLI::Range(0.0, 1.0));
+  run->add_option("--seed", a.seed, "of --jitter (1)");
+  addCheckCrossings(*run, a);
   addJson(*run, a);
   run->footer("Example: clothsim run -f sphere --frames 300 --save drape.obj --json");
   run->callback([&] {
     action = [&] {
-      return runCommand({a.sceneOptions(), a.frames, a.backend, a.saves, a.every, a.from, a.json});
+      return runCommand({a.sceneOptions(), a.frames, a.backend, a.saves, a.every, a.from, a.json,
+                         a.checkCrossings, a.jitter, a.seed});
     };
   });
 
@@ -104,9 +116,12 @@ void declareSimulationCommands(CLI::App& app, Arguments& a, Action& action) {
   addSceneFlags(*compare, a, true);
   addFrames(*compare, a);
   addResolution(*compare, a);
+  addCheckCrossings(*compare, a);
   addJson(*compare, a);
   compare->footer("Example: clothsim compare -f pinned2 --frames 300");
-  compare->callback([&] { action = [&] { return compareCommand({a.sceneOptions(), a.frames, a.json}); }; });
+  compare->callback([&] {
+    action = [&] { return compareCommand({a.sceneOptions(), a.frames, a.json, a.checkCrossings}); };
+  });
 
   CLI::App* bench = app.add_subcommand(
       "bench", "Measure steps and passes on both backends, and the largest demo in real time");
@@ -118,12 +133,14 @@ void declareSimulationCommands(CLI::App& app, Arguments& a, Action& action) {
   bench->add_option("--backend", a.backends, "gpu, cpu; may be repeated (both)")
       ->check(CLI::IsMember({"gpu", "cpu"}));
   bench->add_option("--seconds", a.seconds, "of measuring for each figure")->check(CLI::Range(0.01, 600.0));
+  bench->add_option("--after", a.frames, "measure the cloth as it lies after so many frames (0)")
+      ->check(CLI::NonNegativeNumber);
   addJson(*bench, a);
   bench->footer(
       "Steps are timed in 7 stretches; the median counts. Example: clothsim bench --resolution 256x256");
   bench->callback([&] {
     action = [&] {
-      BenchOptions options{{a.scene, std::nullopt, a.settings}, {}, a.backends, a.seconds, a.json};
+      BenchOptions options{{a.scene, std::nullopt, a.settings}, {}, a.backends, a.seconds, a.frames, a.json};
       for (const std::string& resolution : a.resolutions)
         options.resolutions.push_back(parseSize(resolution, "--resolution"));
       return benchCommand(options);

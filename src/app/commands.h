@@ -3,6 +3,7 @@
 // throws an Error.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,6 +35,9 @@ struct RunOptions {
   int every = 1;
   std::string from;  // a .state file to begin with
   bool json = false;
+  bool checkCrossings = false;
+  double jitter = 0;       // start with every free particle moved by up to so much along each axis [m]
+  std::uint32_t seed = 1;  // of the jitter
 };
 int runCommand(const RunOptions& options);
 
@@ -54,6 +58,7 @@ struct CompareOptions {
   SceneOptions scene;
   int frames = 0;
   bool json = false;
+  bool checkCrossings = false;
 };
 int compareCommand(const CompareOptions& options);
 
@@ -61,7 +66,8 @@ struct BenchOptions {
   SceneOptions scene;
   std::vector<GridSize> resolutions;
   std::vector<std::string> backends;
-  double seconds = 1;  // of measuring, for each figure
+  double seconds = 1;   // of measuring, for each figure
+  int afterFrames = 0;  // measure the cloth as it lies then
   bool json = false;
 };
 int benchCommand(const BenchOptions& options);

@@ -45,24 +45,34 @@ StateDifference difference(const State& a, const State& b) {
   return result;
 }
 
-Comparison compareBackends(const Scene& scene, int frames, const std::function<void(int)>& atFrame) {
+Comparison compareBackends(const Scene& scene, int frames,
+                           const std::function<void(int, const State&)>& atFrame) {
   Simulation cpu(scene, "cpu"), gpu(scene, "gpu");
   Comparison result;
   result.device = gpu.solver().device();
   State cpuState = cpu.solver().state(), gpuState = gpu.solver().state();
   StateDifference now = difference(cpuState, gpuState);
+  if (atFrame) atFrame(0, cpuState);
   while (result.frames < frames && now.differing == 0 && now.finite) {
     const State equal = std::move(cpuState);
     gpu.stepFrame();
     cpu.stepFrame();
+    result.cpuTrouble = cpu.checkFrame();
+    result.gpuTrouble = gpu.checkFrame();
     cpuState = cpu.solver().state();
     gpuState = gpu.solver().state();
+    if (result.cpuTrouble || result.gpuTrouble) {
+      now.finite = false;
+      ++result.frames;
+      break;
+    }
     now = difference(cpuState, gpuState);
     if (now.differing > 0) result.firstDifferingStep = firstDifferingStep(cpu, gpu, equal);
     ++result.frames;
-    if (atFrame) atFrame(result.frames);
+    if (atFrame) atFrame(result.frames, cpuState);
   }
   result.steps = cpuState.step;
+  result.contacts = cpu.solver().contactCounts();
   result.floats = now.floats;
   result.differingFloats = now.differing;
   result.maxAbsDifference = now.maxAbs;

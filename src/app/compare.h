@@ -8,7 +8,9 @@
 #include <string>
 
 #include "scene/scene.h"
+#include "solver/solver.h"
 #include "solver/state.h"
+#include "solver/trouble.h"
 
 namespace clothsim {
 
@@ -20,6 +22,10 @@ struct Comparison {
   double maxAbsDifference = 0;
   std::optional<std::uint64_t> firstDifferingStep;  // found by repeating that frame step by step
   bool finite = true;
+  // Either backend's; they differ only when a driver breaks the agreement. The frame that it came up in
+  // counts as run, and is not compared.
+  std::optional<Trouble> cpuTrouble, gpuTrouble;
+  ContactCounts contacts;  // the CPU's
   std::string device, cpuHash, gpuHash;
 };
 
@@ -30,9 +36,9 @@ struct StateDifference {
 };
 [[nodiscard]] StateDifference difference(const State& a, const State& b);
 
-// Needs a current context. `atFrame` hears of every frame that is done. Stops after the first frame that
-// differs.
+// Needs a current context. `atFrame` hears of frame 0 and every frame that is done, with the CPU's state.
+// Stops after the first frame that differs or has trouble.
 [[nodiscard]] Comparison compareBackends(const Scene& scene, int frames,
-                                         const std::function<void(int)>& atFrame = {});
+                                         const std::function<void(int, const State&)>& atFrame = {});
 
 }  // namespace clothsim

@@ -4,11 +4,16 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "app/blow_up.h"
 #include "app/commands.h"
 #include "app/compare.h"
+#include "app/contact_report.h"
+#include "app/crossings_json.h"
+#include "core/error.h"
 #include "core/interrupt.h"
 #include "core/progress.h"
 #include "gl/context.h"
+#include "solver/measure.h"
 
 namespace clothsim {
 
@@ -16,8 +21,18 @@ int compareCommand(const CompareOptions& options) {
   const Scene scene = loadScene(options.scene);
   const gl::HeadlessContext context;
   Progress progress("comparing", options.frames);
-  const Comparison result = compareBackends(scene, options.frames, [&](int frame) {
+  const Cloth cloth(scene);
+  std::optional<CrossingCounter> counter;
+  if (options.checkCrossings) counter.emplace(cloth);
+  CrossingSummary crossings;
+  ContactReport contacts;
+  double maxPenetration = 0;
+  const Comparison result = compareBackends(scene, options.frames, [&](int frame, const State& state) {
     stopIfInterrupted();
+    if (counter) crossings.add(frame, counter->count(state));
+    const Measures measures = measure(cloth, scene, state);
+    maxPenetration = std::max(maxPenetration, measures.maxPenetration);
+    contacts.add(cloth, scene, state, measures.maxStrain);
     progress.update(frame);
   });
   progress.finish();
@@ -34,8 +49,11 @@ int compareCommand(const CompareOptions& options) {
       result.firstDifferingStep ? nlohmann::ordered_json(*result.firstDifferingStep) : nullptr;
   json["bitwise_equal"] = result.differingFloats == 0;
   json["finite"] = result.finite;
+  json["same_trouble"] = result.cpuTrouble == result.gpuTrouble;  // on both backends, or on none
   json["state_hash"] = {{"cpu", result.cpuHash}, {"gpu", result.gpuHash}};
-  json["self_collision"] = scene.solver.selfCollision ? "asked for, not part of this version" : "off";
+  json["max_penetration"] = maxPenetration;
+  contacts.write(json, cloth, scene, result.contacts);
+  if (counter) json["crossings"] = toJson(crossings);
   if (options.json) {
     std::cout << json.dump(2) << '\n';
   } else if (result.differingFloats == 0) {
@@ -50,7 +68,20 @@ int compareCommand(const CompareOptions& options) {
                 static_cast<unsigned long long>(result.floats), result.maxAbsDifference,
                 static_cast<unsigned long long>(result.firstDifferingStep.value_or(0)));
   }
-  if (!result.finite) std::cerr << "clothsim: the simulation blew up: numbers are no longer finite\n";
+  if (counter && !options.json)
+    std::printf("crossing pairs of triangles: at most %llu apart and %llu neighbours, in %d frames\n",
+                static_cast<unsigned long long>(crossings.worst),
+                static_cast<unsigned long long>(crossings.neighbours), crossings.framesChecked);
+  const auto blowUp = [&](const std::optional<Trouble>& trouble, const char* backend) {
+    if (trouble)
+      throw SimulationError(std::string(backend) + blowUpText(*trouble, Cloth(scene), scene) +
+                            "\n`clothsim run` saves the last good state.");
+  };
+  if (result.cpuTrouble != result.gpuTrouble) {
+    blowUp(result.cpuTrouble, "differently on the two backends; on the CPU ");
+    blowUp(result.gpuTrouble, "on the GPU alone ");
+  }
+  blowUp(result.cpuTrouble, "");
   return result.differingFloats == 0 && result.finite ? 0 : 1;
 }
 

@@ -17,8 +17,9 @@ Scene loadScene(const SceneOptions& options) {
     if (!remark.empty()) std::cerr << "clothsim: " << remark << '\n';
   }
   for (const std::string& setting : options.settings) setSceneValue(scene, setting);
-  if (scene.solver.selfCollision)
-    std::cerr << "clothsim: self-collision is not part of this version; the cloth passes through itself\n";
+  if (scene.solver.selfCollision == SelfCollision::averaged)
+    std::cerr << "clothsim: self-collision \"averaged\" is CS184's rule and lets fast cloth through; "
+                 "--set solver.self_collision=robust holds\n";
   return scene;
 }
 

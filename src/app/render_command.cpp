@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 
+#include "app/blow_up.h"
 #include "app/commands.h"
 #include "app/simulation.h"
 #include "core/error.h"
@@ -83,6 +85,10 @@ int renderCommand(const RenderCommandOptions& options) {
   for (int frame = 0; frame <= options.frames; ++frame) {
     stopIfInterrupted();
     if (frame > 0) simulation.stepFrame();
+    if (const std::optional<Trouble> trouble = simulation.checkFrame())
+      stopBlownUp(*trouble, simulation,
+                  {options.scene, options.backend, frame, options.frames,
+                   std::filesystem::path(options.outs.front()).parent_path()});
     if (std::any_of(outputs.begin(), outputs.end(),
                     [&](const Output& output) { return output.wants(frame); })) {
       const Image image = renderImage(renderer, simulation.positionsBuffer(), camera, simulation.time(),

@@ -19,6 +19,15 @@ double Simulation::time() const {
   return static_cast<double>(solver_->stepIndex()) * stepLength(scene_.solver);
 }
 
+std::optional<Trouble> Simulation::checkFrame() {
+  const std::optional<Trouble> trouble = solver_->trouble();
+  if (trouble) {
+    solver_->revert();
+    uploadIsCurrent_ = false;
+  }
+  return trouble;
+}
+
 void Simulation::restart() {
   solver_->setState(initialState(cloth_, scene_));
   uploadIsCurrent_ = false;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "cloth/cloth.h"
@@ -26,7 +27,14 @@ class Simulation {
   [[nodiscard]] const Solver& solver() const { return *solver_; }
   [[nodiscard]] double time() const;  // simulated [s]
 
-  void stepFrame() { solver_->step(scene_.solver.simulationSteps); }
+  void stepFrame() { stepFrames(1); }
+  void stepFrames(int frames) {
+    solver_->keep();
+    solver_->step(frames * scene_.solver.simulationSteps);
+  }
+  // Looks for trouble in the last stepFrame() or stepFrames(). After trouble the state is the one before that
+  // call, the last one known to be sound: what came after it is gone, and cannot be drawn or saved.
+  [[nodiscard]] std::optional<Trouble> checkFrame();
   void finish() { solver_->finish(); }
   void restart();
   // Live edits: everything but the cloths' grids.

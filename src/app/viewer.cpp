@@ -11,12 +11,12 @@
 #include <numbers>
 #include <utility>
 
+#include "app/blow_up.h"
 #include "app/pace.h"
 #include "app/simulation.h"
 #include "app/viewer_keys.h"
 #include "app/viewer_overlay.h"
 #include "app/viewer_window.h"
-#include "core/error.h"
 #include "gl/context.h"
 #include "render/camera.h"
 #include "render/renderer.h"
@@ -186,12 +186,13 @@ int Viewer::simulate(double elapsed) {
   const int frames = paused_ ? std::exchange(stepAsked_, false) : pace_.framesDue(elapsed);
   if (frames == 0) return 0;
   Clock clock;
-  try {
-    for (int i = 0; i < frames; ++i) simulation_.stepFrame();
-    simulation_.finish();
-  } catch (const SimulationError& error) {
+  simulation_.stepFrames(frames);
+  simulation_.finish();
+  if (const std::optional<Trouble> trouble = simulation_.checkFrame()) {
     paused_ = true;
-    notice_ = {std::string(error.what()) + "\nR restarts.", 1e9, true};
+    notice_ = {blowUpText(*trouble, simulation_.cloth(), simulation_.scene()) +
+                   "\nPaused at the last good state. R restarts.",
+               1e9, true};
   }
   pace_.simulated(frames, clock.lap());
   return frames;
@@ -212,12 +213,14 @@ void Viewer::act(ViewerAction action) {
       break;
     case ViewerAction::pause:
       paused_ = !paused_;
+      if (notice_.isError) notice_ = {};
       break;
     case ViewerAction::stepFrame:
       stepAsked_ = paused_;
       break;
     case ViewerAction::restart:
       simulation_.restart();
+      if (notice_.isError) paused_ = false;  // trouble had paused it
       notice_ = {};
       break;
     case ViewerAction::toggleBackend:

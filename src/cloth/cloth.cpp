@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/hash.h"
+#include "scene/pins.h"
 #include "scene/pose.h"
 
 namespace clothsim {
@@ -77,26 +78,6 @@ void appendPositions(const ClothSettings& settings, std::uint32_t firstParticle,
   }
 }
 
-// The rows and columns that a pin holds, both ends included. The top of a vertical sheet is its last row.
-GridRange pinnedRange(const Pin& pin, const ClothSettings& settings) {
-  const int lastColumn = settings.numWidthPoints - 1, lastRow = settings.numHeightPoints - 1;
-  if (const auto* point = std::get_if<GridPoint>(&pin)) return {*point, *point};
-  if (const auto* range = std::get_if<GridRange>(&pin)) return *range;
-  const bool vertical = settings.orientation == Orientation::vertical;
-  const int top = vertical ? lastRow : 0, bottom = vertical ? 0 : lastRow;
-  switch (std::get<GridSide>(pin)) {
-    case GridSide::top:
-      return {{0, top}, {lastColumn, top}};
-    case GridSide::bottom:
-      return {{0, bottom}, {lastColumn, bottom}};
-    case GridSide::left:
-      return {{0, 0}, {0, lastRow}};
-    case GridSide::right:
-      return {{lastColumn, 0}, {lastColumn, lastRow}};
-  }
-  return {};
-}
-
 // Whether some spring, measured between positions as binary32 stores them, differs from its kind's nominal
 // length.
 bool differsFromNominal(const Grid& grid, std::span<const Vec3d> positions) {
@@ -133,7 +114,7 @@ Cloth::Cloth(const Scene& scene) {
     appendPositions(settings, grid.firstParticle, positions_);
     inverseMasses_.resize(positions_.size(), 1 / grid.particleMass);
     for (const Pin& pin : settings.pinned) {
-      const GridRange range = pinnedRange(pin, settings);
+      const GridRange range = pointsOf(pin, settings);
       for (int row = range.from.row; row <= range.to.row; ++row)
         for (int column = range.from.column; column <= range.to.column; ++column)
           inverseMasses_[grid.particle(column, row)] = 0;

@@ -27,6 +27,16 @@ namespace clothsim {
 }
 [[gnu::always_inline]] inline double inverseSquareRoot(double x) { return x == 0 ? 0 : 1 / std::sqrt(x); }
 
+// 1 / x for 2^-120 < x < 2^124 within 1.5 ulp: a tuned Newton step from a guess by bits, then a quadratic
+// one.
+[[gnu::always_inline]] inline float reciprocal(float x) {
+  float y = floatFromBits(0x7eb504f3u - std::bit_cast<std::uint32_t>(x));
+  y = y * (floatFromBits(0x403255c8u) - floatFromBits(0x3ff86fb4u) * (x * y));
+  const float r = 1.0f - x * y;
+  return y + y * (r + r * r);
+}
+[[gnu::always_inline]] inline double reciprocal(double x) { return 1 / x; }
+
 // What state may hold: no denormal, no -0. Differences of two such numbers are 0 or at least 2^-63, so that
 // their squares are normal.
 [[gnu::always_inline]] inline float canonical(float x) {
@@ -34,5 +44,16 @@ namespace clothsim {
   return magnitude < 0x1p-40f ? 0.0f : x;
 }
 [[gnu::always_inline]] inline double canonical(double x) { return x; }
+
+// The bits of a number as an unsigned integer of its size. Sums of squares are ordered as their bits are, and
+// infinities and NaNs, of either sign, come behind all finite ones.
+[[gnu::always_inline]] inline std::uint32_t bitsOf(float x) { return std::bit_cast<std::uint32_t>(x); }
+[[gnu::always_inline]] inline std::uint64_t bitsOf(double x) { return std::bit_cast<std::uint64_t>(x); }
+
+// Whether a sum of squares is larger than the limit, infinite or NaN; by bits, because comparisons hide NaN.
+template <class Real>
+[[nodiscard, gnu::always_inline]] inline bool isBeyond(Real square, Real limit) {
+  return bitsOf(square) > bitsOf(limit);
+}
 
 }  // namespace clothsim

@@ -38,12 +38,26 @@ class Buffer {
     glNamedBufferSubData(name_, static_cast<GLintptr>(firstElement * sizeof(T)),
                          static_cast<GLsizeiptr>(data.size_bytes()), data.data());
   }
-  [[nodiscard]] std::vector<T> download() const {
-    std::vector<T> data(size_);
-    if (size_ > 0) glGetNamedBufferSubData(name_, 0, static_cast<GLsizeiptr>(bytes()), data.data());
+  [[nodiscard]] std::vector<T> download() const { return download(0, size_); }
+  [[nodiscard]] std::vector<T> download(std::size_t firstElement, std::size_t count) const {
+    assert(firstElement + count <= size_ && "what is read must lie in the buffer");
+    std::vector<T> data(count);
+    if (count > 0)
+      glGetNamedBufferSubData(name_, static_cast<GLintptr>(firstElement * sizeof(T)),
+                              static_cast<GLsizeiptr>(count * sizeof(T)), data.data());
     return data;
   }
+  // All of another buffer of the same size, on the device.
+  void copyFrom(const Buffer& other) {
+    assert(other.size_ == size_ && "only buffers of one size are copied");
+    glCopyNamedBufferSubData(other.name_, name_, 0, 0, static_cast<GLsizeiptr>(bytes()));
+  }
   void bindStorage(GLuint binding) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, name_); }
+  // For glDispatchComputeIndirect.
+  void bindDispatches() const { glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, name_); }
+  void bindStorageRange(GLuint binding, std::size_t firstElement, std::size_t count) const {
+    bindRange(GL_SHADER_STORAGE_BUFFER, binding, firstElement, count);
+  }
   void bindUniform(GLuint binding) const { glBindBufferBase(GL_UNIFORM_BUFFER, binding, name_); }
   void bindUniformRange(GLuint binding, std::size_t firstElement, std::size_t count) const {
     bindRange(GL_UNIFORM_BUFFER, binding, firstElement, count);

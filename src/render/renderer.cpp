@@ -13,6 +13,7 @@
 #include "render/look.h"
 #include "render/shading_models.h"
 #include "render/shadow_map.h"
+#include "render/shape_meshes.h"
 #include "render/stage.h"
 
 namespace clothsim {
@@ -56,6 +57,7 @@ struct Renderer::Parts {
 
   ClothMesh clothMesh;
   SphereMesh spheres;
+  ShapeMeshes shapes;
   PlaneMesh planes;
   ShadowMap shadowMap;
   gl::Framebuffer canvas;
@@ -65,9 +67,11 @@ struct Renderer::Parts {
   std::string shaderName;
   gl::Program clothShading;
   gl::Program sphereShading = gl::Program::makeRender("render/sphere.vert", "render/sphere.frag");
+  gl::Program shapeShading = gl::Program::makeRender("render/shape.vert", "render/sphere.frag");
   gl::Program planeShading = gl::Program::makeRender("render/plane.vert", "render/plane.frag");
   gl::Program clothShadow = gl::Program::makeRender("render/cloth_shadow.vert", "render/depth_only.frag");
   gl::Program sphereShadow = gl::Program::makeRender("render/sphere_shadow.vert", "render/depth_only.frag");
+  gl::Program shapeShadow = gl::Program::makeRender("render/shape_shadow.vert", "render/depth_only.frag");
   gl::Program resolve;
 };
 
@@ -86,6 +90,7 @@ Renderer::Parts::Parts(const Cloth& cloth, const RenderOptions& wanted)
 void Renderer::Parts::configure(const Scene& edited) {
   scene = edited;
   stage = makeStage(outline, scene);
+  shapes.build(scene.colliders, edge);
   frame = makeLook(scene.render, outline.front);
   shadowMap.cover(stage.reach, glm::vec3(frame.toKeyLight));
   frame.shadowFromWorld = shadowMap.shadowFromWorld();
@@ -118,6 +123,7 @@ void Renderer::Parts::placeColliders(double time) {
   }
   if (scene.render.ground && !hasFloor) addDisc({middle.x, stage.floorHeight, middle.z}, {0, 1, 0});
   spheres.place(places);
+  shapes.place(scene.colliders, time);
   planes.place(discs);
 }
 
@@ -135,11 +141,13 @@ void Renderer::Parts::drawShadows(GLuint positions) {
   if (options.shadows) {
     clothShadow.bind();
     clothMesh.draw(positions);
-    // A sphere's far side alone: its near side would shade itself by rounding.
+    // A solid's far side alone: its near side would shade itself by rounding.
     glEnable(GL_CULL_FACE);
     glCullFace(GL_FRONT);
     sphereShadow.bind();
     spheres.draw();
+    shapeShadow.bind();
+    shapes.draw();
     glDisable(GL_CULL_FACE);
   }
   shadowMap.end();
@@ -166,6 +174,8 @@ void Renderer::Parts::drawScene(GLuint positions, int width, int height) {
   glCullFace(GL_BACK);
   sphereShading.bind();
   spheres.draw();
+  shapeShading.bind();
+  shapes.draw();
   glDisable(GL_CULL_FACE);
 
   glEnable(GL_BLEND);

@@ -16,8 +16,8 @@ constexpr float border =
     0.03f;  // of the map, around the casters, so that their shadows' soft edges are inside
 
 // The casters' extent in light space, where z points to the light.
-Box inLightSpace(const Box& box, const glm::mat4& lightFromWorld) {
-  Box seen;
+Bounds inLightSpace(const Bounds& box, const glm::mat4& lightFromWorld) {
+  Bounds seen;
   for (int corner = 0; corner < 8; ++corner) {
     const glm::vec4 c{(corner & 1) != 0 ? box.high.x : box.low.x, (corner & 2) != 0 ? box.high.y : box.low.y,
                       (corner & 4) != 0 ? box.high.z : box.low.z, 1};
@@ -47,10 +47,10 @@ ShadowMap::ShadowMap(int size)
   glTextureParameteri(texture, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
 }
 
-void ShadowMap::cover(const Box& reach, glm::vec3 toLight) {
+void ShadowMap::cover(const Bounds& reach, glm::vec3 toLight) {
   const glm::vec3 up = std::abs(toLight.y) < 0.99f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
   const glm::mat4 lightFromWorld = glm::lookAt(reach.center() + toLight, reach.center(), up);
-  const Box seen = inLightSpace(reach, lightFromWorld);
+  const Bounds seen = inLightSpace(reach, lightFromWorld);
   const float half = 0.5f * std::max(seen.size().x, seen.size().y) / (1 - 2 * border);
   texelLength_ = 2 * half / static_cast<float>(framebuffer_.format().width);
   const glm::vec3 middle = seen.center();

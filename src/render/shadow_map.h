@@ -16,7 +16,7 @@ class ShadowMap {
   explicit ShadowMap(int size);  // [texels] along each side
 
   // Fits the map around `reach` as seen from the light.
-  void cover(const Box& reach, glm::vec3 toLight);
+  void cover(const Bounds& reach, glm::vec3 toLight);
 
   void begin() const;  // clears it and makes it the target; leaves with the state that casters are drawn with
   void end() const;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "cloth/signed_distance_grid.h"
 #include "render/look.h"
 #include "scene/pose.h"
 
@@ -45,8 +46,8 @@ GridSamples sampleGrid(const Cloth& cloth, const Grid& grid) {
 
 // Pinned cloth ends below its pins: each point stays within reach of the nearest one. Along the axes on which
 // pins hold the sheet apart it stays where it is; along the others it swings under the pins.
-void addHanging(const GridSamples& samples, const Box& rest, Stage& stage) {
-  Box pins;
+void addHanging(const GridSamples& samples, const Bounds& rest, Stage& stage) {
+  Bounds pins;
   for (const glm::vec3 pin : samples.pins) pins.add(pin);
   const bool heldX = pins.size().x > 0.5f * rest.size().x, heldZ = pins.size().z > 0.5f * rest.size().z;
   for (const glm::vec3 point : samples.points) {
@@ -63,7 +64,22 @@ void addHanging(const GridSamples& samples, const Box& rest, Stage& stage) {
   }
 }
 
-void addCorners(const Box& box, Stage& stage) {
+// The middles of pins on their paths come into the picture; the cloth around them must not leave the shadow
+// map.
+void addPinPaths(const ClothSettings& cloth, const Bounds& rest, Stage& stage) {
+  const glm::vec3 halfDiagonal(0.5f * glm::length(rest.size()));
+  for (const PinMotion& motion : cloth.pinMotion) {
+    for (const PinMotion::Key& key : motion.keys) {
+      if (!key.position) continue;
+      const glm::vec3 place = toGlm(*key.position);
+      stage.passing.push_back(place);
+      stage.reach.add(place - halfDiagonal);
+      stage.reach.add(place + halfDiagonal);
+    }
+  }
+}
+
+void addCorners(const Bounds& box, Stage& stage) {
   for (int corner = 0; corner < 8; ++corner) {
     stage.staying.emplace_back((corner & 1) != 0 ? box.high.x : box.low.x,
                                (corner & 2) != 0 ? box.high.y : box.low.y,
@@ -71,20 +87,50 @@ void addCorners(const Box& box, Stage& stage) {
   }
 }
 
-// Free cloth falls onto the spheres below it and hangs down around them, or onto the highest plane.
-void addFalling(const Box& cloth, const Scene& scene, Stage& stage) {
+glm::vec3 glmMagnitude(Vec3d v) {
+  return {static_cast<float>(std::abs(v.x)), static_cast<float>(std::abs(v.y)),
+          static_cast<float>(std::abs(v.z))};
+}
+
+// Half the sides of the axis-aligned box around a solid that stands in a given rotation; zero for a plane.
+glm::vec3 halfExtent(const Collider& collider, const Matrix3& motion) {
+  const Matrix3 r = product(motion, ownRotation(collider));
+  if (const auto* sphere = std::get_if<Sphere>(&collider))
+    return glm::vec3(static_cast<float>(sphere->radius));
+  if (const auto* capsule = std::get_if<Capsule>(&collider))
+    return glmMagnitude(rotate(r, {0, 0.5 * capsule->length, 0})) +
+           glm::vec3(static_cast<float>(capsule->radius));
+  if (const auto* box = std::get_if<Box>(&collider))
+    return glmMagnitude(rotate(r, {0.5 * box->size.x, 0, 0})) +
+           glmMagnitude(rotate(r, {0, 0.5 * box->size.y, 0})) +
+           glmMagnitude(rotate(r, {0, 0, 0.5 * box->size.z}));
+  if (const auto* torus = std::get_if<Torus>(&collider)) {
+    const auto across = [&](const Vec3d& row) { return std::hypot(row.x, row.z) * torus->radius; };
+    return glmMagnitude({across(r[0]), across(r[1]), across(r[2])}) +
+           glm::vec3(static_cast<float>(torus->tubeRadius));
+  }
+  if (const auto* mesh = std::get_if<MeshCollider>(&collider)) {
+    glm::vec3 half(0);  // to either side of the origin alike
+    for (const Vec3d& point : distanceGridOf(*mesh).mesh().points)
+      half = glm::max(half, glmMagnitude(rotate(r, point)));
+    return half;
+  }
+  return glm::vec3(0);
+}
+
+// Free cloth falls onto the solids below it and hangs down around them, or onto the highest plane.
+void addFalling(const Bounds& cloth, const Scene& scene, Stage& stage) {
   const float halfDiagonal = 0.5f * glm::length(cloth.size());
   float rest = cloth.low.y - 2 * halfDiagonal;
-  bool onSphere = false;
+  bool onSolid = false;
   for (const Collider& collider : scene.colliders) {
-    const glm::vec3 place = toGlm(poseAt(collider, 0).position);
-    if (const auto* sphere = std::get_if<Sphere>(&collider)) {
-      const auto radius = static_cast<float>(sphere->radius);
-      // Over the top, a quarter of the way around, and straight down from there.
-      const float overhang = std::max(0.0f, halfDiagonal - 1.5708f * radius);
-      rest = onSphere ? std::min(rest, place.y - overhang) : place.y - overhang;
-      onSphere = true;
-    }
+    const Pose pose = poseAt(collider, 0);
+    const glm::vec3 place = toGlm(pose.position), half = halfExtent(collider, pose.rotation);
+    if (half == glm::vec3(0)) continue;
+    // Over the top, a quarter of the way around, and straight down from there.
+    const float overhang = std::max(0.0f, halfDiagonal - 1.5708f * 0.5f * (half.x + half.z));
+    rest = onSolid ? std::min(rest, place.y - overhang) : place.y - overhang;
+    onSolid = true;
   }
   for (const Collider& collider : scene.colliders) {
     const auto* plane = std::get_if<Plane>(&collider);
@@ -98,7 +144,7 @@ void addFalling(const Box& cloth, const Scene& scene, Stage& stage) {
     if (height < cloth.high.y) rest = std::max(rest, height);
   }
   const glm::vec3 low{cloth.low.x, rest, cloth.low.z}, high{cloth.high.x, rest, cloth.high.z};
-  const float folded = onSphere ? 0.15f : 0.0f;  // hanging in folds it is narrower
+  const float folded = onSolid ? 0.15f : 0.0f;  // hanging in folds it is narrower
   const glm::vec3 inward = folded * glm::vec3(high.x - low.x, 0, high.z - low.z);
   addCorners({low + inward, high - inward}, stage);
   stage.reach.add(low - glm::vec3(halfDiagonal, 0, halfDiagonal));
@@ -132,12 +178,12 @@ glm::vec3 frontOf(const Cloth& cloth) {
 
 }  // namespace
 
-void Box::add(glm::vec3 point) {
+void Bounds::add(glm::vec3 point) {
   low = glm::min(low, point);
   high = glm::max(high, point);
 }
 
-void Box::add(const Box& other) {
+void Bounds::add(const Bounds& other) {
   low = glm::min(low, other.low);
   high = glm::max(high, other.high);
 }
@@ -151,8 +197,9 @@ ClothOutline outlineOf(const Cloth& cloth) {
 
 Stage makeStage(const ClothOutline& cloth, const Scene& scene) {
   Stage stage;
-  for (const GridSamples& grid : cloth.grids) {
-    Box rest;
+  for (std::size_t i = 0; i < cloth.grids.size(); ++i) {
+    const GridSamples& grid = cloth.grids[i];
+    Bounds rest;
     for (const glm::vec3 point : grid.points) rest.add(point);
     stage.passing.insert(stage.passing.end(), grid.points.begin(), grid.points.end());
     if (grid.pins.empty()) {
@@ -160,15 +207,19 @@ Stage makeStage(const ClothOutline& cloth, const Scene& scene) {
     } else {
       addHanging(grid, rest, stage);
     }
+    addPinPaths(scene.cloths[i], rest, stage);
   }
   for (const Collider& collider : scene.colliders) {
-    const auto* sphere = std::get_if<Sphere>(&collider);
-    if (sphere == nullptr) continue;
-    const glm::vec3 radius(static_cast<float>(sphere->radius));
-    const auto addAt = [&](glm::vec3 place) { addCorners({place - radius, place + radius}, stage); };
-    addAt(toGlm(poseAt(collider, 0).position));
-    if (!sphere->motion) continue;
-    for (const Motion::Key& key : sphere->motion->keys) addAt(toGlm(key.position));
+    const auto addAt = [&](Vec3d position, const Matrix3& rotation) {
+      const glm::vec3 place = toGlm(position), half = halfExtent(collider, rotation);
+      if (half != glm::vec3(0)) addCorners({place - half, place + half}, stage);
+    };
+    const Pose pose = poseAt(collider, 0);
+    addAt(pose.position, pose.rotation);
+    const auto& motion = std::visit(
+        [](const auto& shape) -> const auto& { return shape.motion; }, collider);
+    if (!motion) continue;
+    for (const Motion::Key& key : motion->keys) addAt(key.position, rotationMatrix(key.rotation));
   }
   for (const glm::vec3 point : stage.staying) stage.view.add(point);
   stage.floorHeight = stage.view.low.y - 0.02f * glm::length(stage.view.size());

@@ -10,10 +10,10 @@
 
 namespace clothsim {
 
-struct Box {
+struct Bounds {
   glm::vec3 low{1e30f}, high{-1e30f};  // [m]; empty until something is added
   void add(glm::vec3 point);
-  void add(const Box& other);
+  void add(const Bounds& other);
   [[nodiscard]] glm::vec3 center() const { return 0.5f * (low + high); }
   [[nodiscard]] glm::vec3 size() const { return high - low; }
 };
@@ -29,11 +29,11 @@ struct ClothOutline {
 [[nodiscard]] ClothOutline outlineOf(const Cloth& cloth);
 
 struct Stage {
-  // What a picture should show: cloth after its fall, and the spheres; and what is there for a moment or less
+  // What a picture should show: cloth after its fall, and the solids; and what is there for a moment or less
   // important, cloth before its fall and the shadow on the floor.
   std::vector<glm::vec3> staying, passing;
-  Box view;               // around the cloth before and after its fall, and the spheres
-  Box reach;              // where cloth and spheres may throw shadows: the swing, too
+  Bounds view;            // around the cloth before and after its fall, and the solids
+  Bounds reach;           // where cloth and solids may throw shadows: the swing, too
   float floorHeight = 0;  // y of the floor drawn when the scene has no horizontal plane [m]
 };
 

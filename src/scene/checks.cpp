@@ -4,6 +4,7 @@
 #include "core/nearest.h"
 #include "scene/codec.h"
 #include "scene/fields.h"
+#include "scene/pins.h"
 
 namespace clothsim {
 
@@ -22,16 +23,55 @@ void checkOnGrid(const JsonNode& node, GridPoint point, const ClothSettings& clo
              "expected [column, row] on the grid, " + gridText(cloth) + ", found " + formatJsonLine(node));
 }
 
-void checkPins(const JsonNode& cloth, const ClothSettings& settings) {
-  const JsonNode* pins = cloth.find("pinned");
-  for (std::size_t i = 0; i < settings.pinned.size(); ++i) {
-    const JsonNode& node = *pins->children[i];
-    if (const auto* point = std::get_if<GridPoint>(&settings.pinned[i])) checkOnGrid(node, *point, settings);
-    if (const auto* range = std::get_if<GridRange>(&settings.pinned[i])) {
+// `owner`: the cloth or the motion that has the key "pinned".
+void checkPins(const JsonNode& owner, const std::vector<Pin>& pins, const ClothSettings& settings) {
+  const JsonNode* list = owner.find("pinned");
+  for (std::size_t i = 0; i < pins.size(); ++i) {
+    const JsonNode& node = *list->children[i];
+    if (const auto* point = std::get_if<GridPoint>(&pins[i])) checkOnGrid(node, *point, settings);
+    if (const auto* range = std::get_if<GridRange>(&pins[i])) {
       checkOnGrid(*node.find("from"), range->from, settings);
       checkOnGrid(*node.find("to"), range->to, settings);
     }
   }
+}
+
+// Each motion moves pins of the cloth, and no other motion moves the same.
+void checkPinMotions(const JsonNode& cloth, const ClothSettings& settings) {
+  const double points = static_cast<double>(settings.numWidthPoints) * settings.numHeightPoints;
+  if (settings.pinMotion.empty() || points > mostParticles) return;  // too many: a complaint of its own
+  const JsonNode& motions = *cloth.find("pin_motion");
+  const auto nodeOf = [&](std::size_t i) -> const JsonNode& {
+    return motions.kind == JsonKind::list ? *motions.children[i] : motions;
+  };
+  if (settings.pinned.empty())
+    complain(motions, "expected pins to move, found none: the cloth's key \"pinned\" names no point");
+  for (std::size_t i = 0; i < settings.pinMotion.size(); ++i)
+    checkPins(nodeOf(i), settings.pinMotion[i].pinned, settings);
+  const auto conflict = findPinConflict(settings);
+  if (!conflict) return;
+  const JsonNode& motion = nodeOf(conflict->motion);
+  const JsonNode* pins = motion.find("pinned");
+  const JsonNode& place = pins == nullptr ? motion : *pins->children[conflict->pin];
+  if (!conflict->otherMotion)
+    complain(place, "expected only pins of the cloth, found " + pointText(conflict->point) +
+                        ", which the cloth's key \"pinned\" does not name");
+  complain(place, "expected each pin in one motion, found " + pointText(conflict->point) + " in pin_motion." +
+                      std::to_string(*conflict->otherMotion) + ", too" +
+                      (pins == nullptr ? "; a motion without the key \"pinned\" moves all pins" : ""));
+}
+
+// Of a motion of either kind.
+template <class Keys>
+void checkKeys(const JsonNode& motion, const Keys& keys, bool loop) {
+  const JsonNode& list = *motion.find("keys");
+  if (keys.empty()) complain(list, "expected at least one key {t, position, rotation}, found an empty list");
+  for (std::size_t i = 1; i < keys.size(); ++i)
+    if (keys[i].t <= keys[i - 1].t)
+      complainExpected(*list.children[i]->find("t"),
+                       "a time later than the key before, > " + formatNumber(keys[i - 1].t));
+  if (loop && keys.back().t <= 0)
+    complain(*list.children.back()->find("t"), "expected a number > 0 in the last key of a loop, found 0");
 }
 
 // Keys of a motion without a position stay at the collider's own place.
@@ -67,7 +107,8 @@ void settle(const JsonNode& node, ClothSettings& cloth) {
         "found both ks and stiffness_reference, expected one of them: ks is CS184's stiffness of a spring, "
         "stiffness_reference CS171's");
   if (!cloth.ks && !cloth.stiffnessReference) cloth.ks = defaultKs;
-  checkPins(node, cloth);
+  checkPins(node, cloth.pinned, cloth);
+  checkPinMotions(node, cloth);
 }
 
 template <>
@@ -78,15 +119,14 @@ void settle(const JsonNode& node, GridRange& range) {
 
 template <>
 void settle(const JsonNode& node, Motion& motion) {
-  const JsonNode& keys = *node.find("keys");
-  if (motion.keys.empty())
-    complain(keys, "expected at least one key {t, position, rotation}, found an empty list");
-  for (std::size_t i = 1; i < motion.keys.size(); ++i)
-    if (motion.keys[i].t <= motion.keys[i - 1].t)
-      complainExpected(*keys.children[i]->find("t"),
-                       "a time later than the key before, > " + formatNumber(motion.keys[i - 1].t));
-  if (motion.loop && motion.keys.back().t <= 0)
-    complain(*keys.children.back()->find("t"), "expected a number > 0 in the last key of a loop, found 0");
+  checkKeys(node, motion.keys, motion.loop);
+}
+
+template <>
+void settle(const JsonNode& node, PinMotion& motion) {
+  checkKeys(node, motion.keys, motion.loop);
+  if (const JsonNode* pins = node.find("pinned"); pins != nullptr && motion.pinned.empty())
+    complain(*pins, "expected at least one pin, found an empty list; leave the key out to move all pins");
 }
 
 template <>
@@ -96,6 +136,50 @@ void settle(const JsonNode& node, Sphere& sphere) {
 template <>
 void settle(const JsonNode& node, Plane& plane) {
   settleMotion(node, plane.motion, plane.point);
+}
+template <>
+void settle(const JsonNode& node, Capsule& capsule) {
+  settleMotion(node, capsule.motion, capsule.origin);
+}
+template <>
+void settle(const JsonNode& node, Box& box) {
+  settleMotion(node, box.motion, box.origin);
+  const double most = 0.5 * std::min({box.size.x, box.size.y, box.size.z});
+  if (box.rounding <= most) return;
+  // A box thinner than the default rounding is simply round.
+  if (const JsonNode* given = node.find("rounding"))
+    complainExpected(*given, "at most half the smallest size of the box, " + formatNumber(most));
+  box.rounding = most;
+}
+template <>
+void settle(const JsonNode& node, Torus& torus) {
+  settleMotion(node, torus.motion, torus.origin);
+  if (torus.tubeRadius < torus.radius) return;
+  const JsonNode* given = node.find("tube_radius");
+  complain(given != nullptr ? *given : node, "expected a tube_radius below the radius " +
+                                                 formatNumber(torus.radius) + ", found " +
+                                                 formatNumber(torus.tubeRadius));
+}
+template <>
+void settle(const JsonNode& node, MeshCollider& mesh) {
+  settleMotion(node, mesh.motion, mesh.origin);
+  if (mesh.file.empty()) complainExpected(*node.find("file"), "the name of an OBJ file");
+}
+template <>
+void leaveOut(JsonNode& node, const MeshCollider& mesh) {
+  leaveOutOwnPlace(node, mesh.motion, mesh.origin);
+}
+template <>
+void leaveOut(JsonNode& node, const Capsule& capsule) {
+  leaveOutOwnPlace(node, capsule.motion, capsule.origin);
+}
+template <>
+void leaveOut(JsonNode& node, const Box& box) {
+  leaveOutOwnPlace(node, box.motion, box.origin);
+}
+template <>
+void leaveOut(JsonNode& node, const Torus& torus) {
+  leaveOutOwnPlace(node, torus.motion, torus.origin);
 }
 template <>
 void leaveOut(JsonNode& node, const Sphere& sphere) {

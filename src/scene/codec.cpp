@@ -20,6 +20,9 @@ using Words = std::array<std::pair<std::string_view, Enum>, 2>;
 constexpr Words<Orientation> orientations{
     {{"horizontal", Orientation::horizontal}, {"vertical", Orientation::vertical}}};
 constexpr Words<Integrator> integrators{{{"verlet", Integrator::verlet}, {"euler", Integrator::euler}}};
+constexpr Words<SelfCollision> selfCollisions{
+    {{"averaged", SelfCollision::averaged}, {"robust", SelfCollision::robust}}};
+constexpr Words<FrictionLaw> frictionLaws{{{"cs184", FrictionLaw::cs184}, {"coulomb", FrictionLaw::coulomb}}};
 constexpr std::array<std::pair<std::string_view, GridSide>, 4> sides{{{"top", GridSide::top},
                                                                       {"bottom", GridSide::bottom},
                                                                       {"left", GridSide::left},
@@ -76,6 +79,15 @@ void checkNumber(const JsonNode& node, const Limits& limits, const std::string& 
 
 const FieldTraits anyNumber{.key = "", .help = ""};
 
+// The alternatives of Collider, in its order.
+const std::array<std::pair<std::string_view, Collider>, std::variant_size_v<Collider>> shapes{
+    {{"sphere", Sphere{}},
+     {"plane", Plane{}},
+     {"capsule", Capsule{}},
+     {"box", Box{}},
+     {"torus", Torus{}},
+     {"mesh", MeshCollider{}}}};
+
 }  // namespace
 
 void readValue(const JsonNode& node, const FieldTraits&, bool& target) {
@@ -129,6 +141,19 @@ void readValue(const JsonNode& node, const FieldTraits&, Integrator& target) {
   target = readWord(node, integrators, "one of " + joined(wordsOf(integrators)));
 }
 
+void readValue(const JsonNode& node, const FieldTraits& traits, SelfCollision& target) {
+  if (node.kind != JsonKind::boolean)
+    target = readWord(node, selfCollisions, typeName(traits, target));
+  else if (!node.boolean)
+    target = SelfCollision::off;
+  else if (target == SelfCollision::off)
+    target = SelfCollision::robust;
+}
+
+void readValue(const JsonNode& node, const FieldTraits&, FrictionLaw& target) {
+  target = readWord(node, frictionLaws, "one of " + joined(wordsOf(frictionLaws)));
+}
+
 void readValue(const JsonNode& node, const FieldTraits& traits, GridPoint& target) {
   if (node.kind != JsonKind::list || node.children.size() != 2)
     complainExpected(node, "a pair [column, row] of whole numbers");
@@ -166,13 +191,20 @@ void readValue(const JsonNode& node, const FieldTraits& traits, Pin& target) {
 
 void readValue(const JsonNode& node, const FieldTraits&, Collider& target) {
   expectObject(node);
-  const std::array<std::pair<std::string_view, Collider>, 2> types{
-      {{"sphere", Sphere{}}, {"plane", Plane{}}}};
-  const std::string expected = "one of " + joined(wordsOf(types));
+  const std::string expected = "one of " + colliderTypes();
   const JsonNode* type = node.find("type");
   if (type == nullptr) complain(node, "the collider needs the key \"type\": " + expected);
-  target = readWord(*type, types, expected);
+  target = readWord(*type, shapes, expected);
   std::visit([&](auto& shape) { readObject(node, shape, {"type"}); }, target);
+}
+
+void readValue(const JsonNode& node, const FieldTraits&, std::vector<PinMotion>& target) {
+  if (node.kind != JsonKind::list && node.kind != JsonKind::object)
+    complainExpected(node, "a motion {\"keys\": [...]}, or a list of motions");
+  target.clear();
+  if (node.kind == JsonKind::object) readObject(node, target.emplace_back());
+  if (node.kind == JsonKind::list)
+    for (const auto& child : node.children) readObject(*child, target.emplace_back());
 }
 
 void readValue(const JsonNode& node, const FieldTraits& traits, std::optional<double>& target) {
@@ -192,6 +224,11 @@ JsonPointer writeValue(const FieldTraits&, const std::string& value) { return ma
 JsonPointer writeValue(const FieldTraits&, Vec3d value) { return makeVector(value); }
 JsonPointer writeValue(const FieldTraits&, Orientation value) { return writeWord(orientations, value); }
 JsonPointer writeValue(const FieldTraits&, Integrator value) { return writeWord(integrators, value); }
+JsonPointer writeValue(const FieldTraits&, SelfCollision value) {
+  return value == SelfCollision::off ? makeBoolean(false) : writeWord(selfCollisions, value);
+}
+
+JsonPointer writeValue(const FieldTraits&, FrictionLaw value) { return writeWord(frictionLaws, value); }
 
 JsonPointer writeValue(const FieldTraits&, GridPoint value) {
   JsonPointer pair = makeList();
@@ -215,7 +252,7 @@ JsonPointer writeValue(const FieldTraits& traits, const Pin& value) {
 
 JsonPointer writeValue(const FieldTraits&, const Collider& value) {
   JsonPointer node = makeObject();
-  node->append("type", makeString(std::holds_alternative<Sphere>(value) ? "sphere" : "plane"));
+  node->append("type", makeString(shapes[value.index()].first));
   JsonPointer members = std::visit(
       [](const auto& shape) { return writeObject(shape, std::remove_cvref_t<decltype(shape)>{}); }, value);
   for (auto& member : members->children) {
@@ -225,9 +262,18 @@ JsonPointer writeValue(const FieldTraits&, const Collider& value) {
   return node;
 }
 
+JsonPointer writeValue(const FieldTraits&, const std::vector<PinMotion>& values) {
+  if (values.size() == 1 && values[0].pinned.empty()) return writeObject(values[0], PinMotion{});
+  JsonPointer list = makeList();
+  for (const PinMotion& motion : values) list->append("", writeObject(motion, PinMotion{}));
+  return list;
+}
+
 JsonPointer writeValue(const FieldTraits&, const std::optional<double>& value) {
   return value ? makeNumber(*value) : makeBoolean(false);
 }
+
+std::string colliderTypes() { return joined(wordsOf(shapes)); }
 
 std::string typeName(const FieldTraits&, const bool&) { return "boolean"; }
 std::string typeName(const FieldTraits&, const int&) { return "integer"; }
@@ -237,8 +283,14 @@ std::string typeName(const FieldTraits& traits, const Vec3d&) {
   return traits.format == Format::color ? "[r, g, b]" : "[x, y, z]";
 }
 std::string typeName(const FieldTraits&, const Orientation&) { return "one of 0 (horizontal), 1 (vertical)"; }
+std::string typeName(const FieldTraits&, const SelfCollision&) {
+  return "false, true, " + joined(wordsOf(selfCollisions));
+}
 std::string typeName(const FieldTraits&, const Integrator&) {
   return "one of " + joined(wordsOf(integrators));
+}
+std::string typeName(const FieldTraits&, const FrictionLaw&) {
+  return "one of " + joined(wordsOf(frictionLaws));
 }
 std::string typeName(const FieldTraits&, const GridPoint&) { return "[column, row]"; }
 std::string typeName(const FieldTraits&, const Range&) { return "[low, high]"; }
@@ -246,6 +298,9 @@ std::string typeName(const FieldTraits&, const Pin&) {
   return "[column, row], " + joined(wordsOf(sides)) + ", or {from, to}";
 }
 std::string typeName(const FieldTraits&, const Collider&) { return "object"; }
+std::string typeName(const FieldTraits&, const std::vector<PinMotion>&) {
+  return "object or list of objects";
+}
 std::string typeName(const FieldTraits& traits, const std::optional<double>&) {
   return traits.format == Format::orFalse ? "false or number" : "number";
 }

@@ -21,10 +21,14 @@ void readValue(const JsonNode& node, const FieldTraits& traits, std::string& tar
 void readValue(const JsonNode& node, const FieldTraits& traits, Vec3d& target);
 void readValue(const JsonNode& node, const FieldTraits& traits, Orientation& target);
 void readValue(const JsonNode& node, const FieldTraits& traits, Integrator& target);
+// `true` becomes `averaged` over a default of `averaged`, else `robust`.
+void readValue(const JsonNode& node, const FieldTraits& traits, SelfCollision& target);
+void readValue(const JsonNode& node, const FieldTraits& traits, FrictionLaw& target);
 void readValue(const JsonNode& node, const FieldTraits& traits, GridPoint& target);
 void readValue(const JsonNode& node, const FieldTraits& traits, Range& target);
 void readValue(const JsonNode& node, const FieldTraits& traits, Pin& target);
 void readValue(const JsonNode& node, const FieldTraits& traits, Collider& target);
+void readValue(const JsonNode& node, const FieldTraits& traits, std::vector<PinMotion>& target);
 void readValue(const JsonNode& node, const FieldTraits& traits, std::optional<double>& target);
 
 [[nodiscard]] JsonPointer writeValue(const FieldTraits& traits, bool value);
@@ -34,10 +38,14 @@ void readValue(const JsonNode& node, const FieldTraits& traits, std::optional<do
 [[nodiscard]] JsonPointer writeValue(const FieldTraits& traits, Vec3d value);
 [[nodiscard]] JsonPointer writeValue(const FieldTraits& traits, Orientation value);
 [[nodiscard]] JsonPointer writeValue(const FieldTraits& traits, Integrator value);
+[[nodiscard]] JsonPointer writeValue(const FieldTraits& traits, SelfCollision value);
+[[nodiscard]] JsonPointer writeValue(const FieldTraits& traits, FrictionLaw value);
 [[nodiscard]] JsonPointer writeValue(const FieldTraits& traits, GridPoint value);
 [[nodiscard]] JsonPointer writeValue(const FieldTraits& traits, const Range& value);
 [[nodiscard]] JsonPointer writeValue(const FieldTraits& traits, const Pin& value);
 [[nodiscard]] JsonPointer writeValue(const FieldTraits& traits, const Collider& value);
+// A single motion of all pins is an object, without a list around it.
+[[nodiscard]] JsonPointer writeValue(const FieldTraits& traits, const std::vector<PinMotion>& values);
 [[nodiscard]] JsonPointer writeValue(const FieldTraits& traits, const std::optional<double>& value);
 
 // What describe says of a type.
@@ -48,11 +56,17 @@ void readValue(const JsonNode& node, const FieldTraits& traits, std::optional<do
 [[nodiscard]] std::string typeName(const FieldTraits& traits, const Vec3d&);
 [[nodiscard]] std::string typeName(const FieldTraits& traits, const Orientation&);
 [[nodiscard]] std::string typeName(const FieldTraits& traits, const Integrator&);
+[[nodiscard]] std::string typeName(const FieldTraits& traits, const SelfCollision&);
+[[nodiscard]] std::string typeName(const FieldTraits& traits, const FrictionLaw&);
 [[nodiscard]] std::string typeName(const FieldTraits& traits, const GridPoint&);
 [[nodiscard]] std::string typeName(const FieldTraits& traits, const Range&);
 [[nodiscard]] std::string typeName(const FieldTraits& traits, const Pin&);
 [[nodiscard]] std::string typeName(const FieldTraits& traits, const Collider&);
+[[nodiscard]] std::string typeName(const FieldTraits& traits, const std::vector<PinMotion>&);
 [[nodiscard]] std::string typeName(const FieldTraits& traits, const std::optional<double>&);
+
+// "sphere, plane, ...": what a collider's type may be.
+[[nodiscard]] std::string colliderTypes();
 
 // --- Checks across several keys, after all of them have been read; and the inverse: what the writer may
 // leave out.
@@ -65,14 +79,32 @@ void settle(const JsonNode& node, GridRange& range);
 template <>
 void settle(const JsonNode& node, Motion& motion);
 template <>
+void settle(const JsonNode& node, PinMotion& motion);
+template <>
 void settle(const JsonNode& node, Sphere& sphere);
 template <>
 void settle(const JsonNode& node, Plane& plane);
+template <>
+void settle(const JsonNode& node, Capsule& capsule);
+template <>
+void settle(const JsonNode& node, Box& box);
+template <>
+void settle(const JsonNode& node, Torus& torus);
+template <>
+void settle(const JsonNode& node, MeshCollider& mesh);
 
 template <class T>
 void leaveOut(JsonNode&, const T&) {}
 template <>
 void leaveOut(JsonNode& node, const Sphere& sphere);
+template <>
+void leaveOut(JsonNode& node, const Capsule& capsule);
+template <>
+void leaveOut(JsonNode& node, const Box& box);
+template <>
+void leaveOut(JsonNode& node, const Torus& torus);
+template <>
+void leaveOut(JsonNode& node, const MeshCollider& mesh);
 template <>
 void leaveOut(JsonNode& node, const Plane& plane);
 

@@ -20,6 +20,18 @@ Field<Owner> field(std::string_view key, T Owner::*member, std::string_view help
   return {key, member, help};
 }
 
+// What every collider has at the end. The upper limit of friction depends on its law (scene_tree.cpp).
+template <class Shape>
+Field<Shape> frictionField() {
+  return field("friction", &Shape::friction,
+               "0 slides; 1 sticks under cs184, which allows no more; Coulomb's coefficient under coulomb.")
+      .within(notNegative);
+}
+template <class Shape>
+Field<Shape> motionField() {
+  return field("motion", &Shape::motion, "A path in time.");
+}
+
 }  // namespace
 
 template <>
@@ -33,7 +45,7 @@ std::span<const Field<Scene>> fieldsOf<Scene>() {
           .required()
           .rebuilds(),
       field("colliders", &Scene::colliders,
-            "Spheres and planes; CS184's objects `plane` and `sphere` come before this list, in that order."),
+            "Solid shapes; CS184's objects `plane` and `sphere` come before this list, in that order."),
       field("gravity", &Scene::gravity, "Acceleration of every free particle.").in("m/s^2"),
       field("wind", &Scene::wind, "Air that moves past the cloth; without it no wind forces are computed."),
       field("air_resistance", &Scene::airResistance,
@@ -91,7 +103,10 @@ std::span<const Field<ClothSettings>> fieldsOf<ClothSettings>() {
       field("enable_shearing", &C::enableShearing, "Springs to diagonal neighbours.").rebuilds(),
       field("enable_bending", &C::enableBending, "Springs to the second neighbours left and above.")
           .rebuilds(),
-      field("pinned", &C::pinned, "Points that never move; [column, row] counted from 0.").rebuilds(),
+      field("pinned", &C::pinned, "Points that forces do not move; [column, row] counted from 0.").rebuilds(),
+      field("pin_motion", &C::pinMotion,
+            "A path in time of the pins, or a list of paths with the pins that follow each.")
+          .byDefault("none"),
   };
   return fields;
 }
@@ -108,11 +123,12 @@ std::span<const Field<GridRange>> fieldsOf<GridRange>() {
 template <>
 std::span<const Field<Sphere>> fieldsOf<Sphere>() {
   static const std::array fields{
-      field("origin", &Sphere::origin, "Centre of a sphere.").in("m"),
-      field("radius", &Sphere::radius, "Radius of a sphere.").in("m").within(positive),
-      field("friction", &Sphere::friction, "0 slides, 1 sticks (CS184's factor).")
-          .within({.low = 0, .high = 1}),
-      field("motion", &Sphere::motion, "A path in time."),
+      field("origin", &Sphere::origin, "Centre of a shape other than a plane.").in("m"),
+      field("radius", &Sphere::radius, "Radius of a sphere or a capsule, or of the circle inside a torus.")
+          .in("m")
+          .within(positive),
+      frictionField<Sphere>(),
+      motionField<Sphere>(),
   };
   return fields;
 }
@@ -122,9 +138,71 @@ std::span<const Field<Plane>> fieldsOf<Plane>() {
   static const std::array fields{
       field("point", &Plane::point, "Any point of a plane.").in("m"),
       field("normal", &Plane::normal, "Direction across a plane, of any length.").within({.nonZero = true}),
-      field("friction", &Plane::friction, "0 slides, 1 sticks (CS184's factor).")
-          .within({.low = 0, .high = 1}),
-      field("motion", &Plane::motion, "A path in time."),
+      frictionField<Plane>(),
+      motionField<Plane>(),
+  };
+  return fields;
+}
+
+template <>
+std::span<const Field<Capsule>> fieldsOf<Capsule>() {
+  static const std::array fields{
+      field("origin", &Capsule::origin, "Middle of a capsule.").in("m"),
+      field("axis", &Capsule::axis, "Along a capsule, or through the hole of a torus; of any length.")
+          .within({.nonZero = true}),
+      field("length", &Capsule::length, "Of a capsule, without its round ends.").in("m").within(notNegative),
+      field("radius", &Capsule::radius, "Radius of a capsule.").in("m").within(positive),
+      frictionField<Capsule>(),
+      motionField<Capsule>(),
+  };
+  return fields;
+}
+
+template <>
+std::span<const Field<Box>> fieldsOf<Box>() {
+  static const std::array fields{
+      field("origin", &Box::origin, "Centre of a box.").in("m"),
+      field("size", &Box::size, "Of a box from face to face.").in("m").within(positive),
+      field("rotation", &Box::rotation, "Own turn of a box or mesh: axis times angle; its motion adds to it.")
+          .in("degrees"),
+      field("rounding", &Box::rounding, "Radius of a box's edges, at most half its smallest size.")
+          .in("m")
+          .within(notNegative),
+      frictionField<Box>(),
+      motionField<Box>(),
+  };
+  return fields;
+}
+
+template <>
+std::span<const Field<Torus>> fieldsOf<Torus>() {
+  static const std::array fields{
+      field("origin", &Torus::origin, "Centre of a torus.").in("m"),
+      field("axis", &Torus::axis, "Through the hole of a torus.").within({.nonZero = true}),
+      field("radius", &Torus::radius, "Of the circle inside the tube.").in("m").within(positive),
+      field("tube_radius", &Torus::tubeRadius, "Of the tube of a torus, smaller than its radius.")
+          .in("m")
+          .within(positive),
+      frictionField<Torus>(),
+      motionField<Torus>(),
+  };
+  return fields;
+}
+
+template <>
+std::span<const Field<MeshCollider>> fieldsOf<MeshCollider>() {
+  using M = MeshCollider;
+  static const std::array fields{
+      field("file", &M::file, "OBJ file of a closed mesh, beside the scene file or in clothsim's own folder.")
+          .required()
+          .rebuilds(),
+      field("origin", &M::origin, "Where the mesh's own origin stands.").in("m"),
+      field("rotation", &M::rotation, "Own turn of a box or mesh.").in("degrees"),
+      field("scale", &M::scale, "Metres in a unit of the mesh file.").within(positive),
+      field("cells", &M::cells, "Cells of the mesh's signed distance grid along its longest side.")
+          .within({.low = 8, .high = 256}),
+      frictionField<M>(),
+      motionField<M>(),
   };
   return fields;
 }
@@ -143,11 +221,36 @@ std::span<const Field<Motion::Key>> fieldsOf<Motion::Key>() {
   using K = Motion::Key;
   static const std::array fields{
       field("t", &K::t, "Time of the key, later than the one before.").in("s").within(notNegative).required(),
-      field("position", &K::position, "Where the sphere's centre or the plane's point is then.")
+      field("position", &K::position, "Where the collider's origin, or the plane's point, is then.")
           .in("m")
           .alwaysWritten()
           .byDefault("the collider's own place"),
       field("rotation", &K::rotation, "Turn: axis times angle; may exceed 360.").in("degrees"),
+  };
+  return fields;
+}
+
+template <>
+std::span<const Field<PinMotion>> fieldsOf<PinMotion>() {
+  static const std::array fields{
+      field("keys", &PinMotion::keys, "Places along the path; straight lines in between.").required(),
+      field("loop", &PinMotion::loop, "Begin again after the last key; otherwise stop there."),
+      field("pinned", &PinMotion::pinned, "The pins that follow this path, some of the cloth's own.")
+          .byDefault("all pins of the cloth"),
+  };
+  return fields;
+}
+
+template <>
+std::span<const Field<PinMotion::Key>> fieldsOf<PinMotion::Key>() {
+  using K = PinMotion::Key;
+  static const std::array fields{
+      field("t", &K::t, "Time of the key, later than the one before.").in("s").within(notNegative).required(),
+      field("position", &K::position, "Where the centre of these pins is then.")
+          .in("m")
+          .byDefault("the mean of their start positions"),
+      field("rotation", &K::rotation, "Turn about that centre: axis times angle; may exceed 360.")
+          .in("degrees"),
   };
   return fields;
 }
@@ -188,8 +291,20 @@ std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
           .within(notNegative)
           .as(Format::orFalse)
           .byDefault("0.1 in scenes with ks, else false"),
-      field("self_collision", &S::selfCollision, "Keep parts of the cloth apart from each other.")
-          .byDefault("true in scenes with ks, else false"),
+      field(
+          "self_collision", &S::selfCollision,
+          "Keep layers of cloth apart: averaged is CS184's rule and leaks, robust holds; true: see default.")
+          .byDefault("false; in scenes with ks averaged. true means averaged there, else robust"),
+      field("self_friction", &S::selfFriction,
+            "Coulomb's coefficient of friction between layers of cloth; robust self-collision only.")
+          .within({.low = 0, .high = 10}),
+      field("friction_law", &S::frictionLaw,
+            "What a collider's friction means: CS184's factor, or Coulomb's coefficient."),
+      field("max_speed", &S::maxSpeed, "The watchdog stops a run in which a particle is faster.")
+          .in("m/s")
+          .within(positive),
+      field("max_strain", &S::maxStrain, "The watchdog stops a run in which a spring's l/L - 1 is larger.")
+          .within(positive),
   };
   return fields;
 }
@@ -229,6 +344,8 @@ std::span<const Field<Expect>> fieldsOf<Expect>() {
       field("max_strain", &E::maxStrain, "Largest l/L - 1 of all springs."),
       field("kinetic_energy", &E::kineticEnergy, "Of all particles.").in("J"),
       field("max_penetration", &E::maxPenetration, "Depth inside colliders over the run.").in("m"),
+      field("crossings", &E::crossings,
+            "Most crossing pairs of triangles that are no neighbours, of all frames."),
   };
   return fields;
 }
@@ -237,7 +354,7 @@ SolverSettings solverDefaults(bool usesKs) {
   SolverSettings solver;
   if (usesKs) {
     solver.strainLimit = 0.1;
-    solver.selfCollision = true;
+    solver.selfCollision = SelfCollision::averaged;
   }
   return solver;
 }

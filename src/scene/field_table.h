@@ -48,9 +48,11 @@ struct FieldTraits {
 template <class Owner>
 using Member =
     std::variant<bool Owner::*, int Owner::*, double Owner::*, std::string Owner::*, Vec3d Owner::*,
-                 Orientation Owner::*, Integrator Owner::*, GridPoint Owner::*, std::vector<Pin> Owner::*,
-                 std::optional<double> Owner::*, std::optional<Vec3d> Owner::*, std::optional<Range> Owner::*,
+                 Orientation Owner::*, Integrator Owner::*, SelfCollision Owner::*, FrictionLaw Owner::*,
+                 GridPoint Owner::*, std::vector<Pin> Owner::*, std::optional<double> Owner::*,
+                 std::optional<Vec3d> Owner::*, std::optional<Range> Owner::*,
                  std::vector<Motion::Key> Owner::*, std::optional<Motion> Owner::*,
+                 std::vector<PinMotion::Key> Owner::*, std::vector<PinMotion> Owner::*,
                  std::vector<ClothSettings> Owner::*, std::vector<Collider> Owner::*,
                  std::optional<Wind> Owner::*, Gust Owner::*, SolverSettings Owner::*,
                  CameraSettings Owner::*, RenderSettings Owner::*, std::optional<Expect> Owner::*>;
@@ -109,9 +111,21 @@ std::span<const Field<Sphere>> fieldsOf<Sphere>();
 template <>
 std::span<const Field<Plane>> fieldsOf<Plane>();
 template <>
+std::span<const Field<Capsule>> fieldsOf<Capsule>();
+template <>
+std::span<const Field<Box>> fieldsOf<Box>();
+template <>
+std::span<const Field<Torus>> fieldsOf<Torus>();
+template <>
+std::span<const Field<MeshCollider>> fieldsOf<MeshCollider>();
+template <>
 std::span<const Field<Motion>> fieldsOf<Motion>();
 template <>
 std::span<const Field<Motion::Key>> fieldsOf<Motion::Key>();
+template <>
+std::span<const Field<PinMotion>> fieldsOf<PinMotion>();
+template <>
+std::span<const Field<PinMotion::Key>> fieldsOf<PinMotion::Key>();
 template <>
 std::span<const Field<Wind>> fieldsOf<Wind>();
 template <>

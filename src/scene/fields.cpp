@@ -60,9 +60,13 @@ void describeInside(const std::string& path, const std::vector<Pin>&, Infos& inf
 }
 void describeInside(const std::string& path, const std::vector<Collider>&, Infos& infos) {
   infos.push_back(
-      entry(path + "[].type", "one of sphere, plane", "required", "Shape of the collider.", true));
+      entry(path + "[].type", "one of " + colliderTypes(), "required", "Shape of the collider.", true));
   describeObject<Sphere>(path + "[].", infos);
   describeObject<Plane>(path + "[].", infos);
+  describeObject<Capsule>(path + "[].", infos);
+  describeObject<Box>(path + "[].", infos);
+  describeObject<Torus>(path + "[].", infos);
+  describeObject<MeshCollider>(path + "[].", infos);
   infos.push_back(
       entry("plane", "object", "none",
             "A plane collider, as in CS184; cloth on it never quite rests, as each touch lifts it by 0.1 mm.",
@@ -75,7 +79,7 @@ void describeObject(const std::string& prefix, Infos& infos) {
   const Owner defaults{};
   for (const Field<Owner>& field : fieldsOf<Owner>()) {
     const std::string path = prefix + std::string(field.key);
-    // Spheres and planes share keys.
+    // Colliders share keys.
     if (std::any_of(infos.begin(), infos.end(), [&](const FieldInfo& info) { return info.path == path; }))
       continue;
     std::visit(

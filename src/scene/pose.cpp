@@ -1,4 +1,4 @@
-// Colliders in motion.
+// Motions, and colliders that follow them.
 #include "scene/pose.h"
 
 #include <algorithm>
@@ -9,8 +9,27 @@ namespace clothsim {
 
 namespace {
 
-Vec3d ownPlace(const Sphere& sphere) { return sphere.origin; }
+template <class Shape>
+Vec3d ownPlace(const Shape& shape) {
+  return shape.origin;
+}
 Vec3d ownPlace(const Plane& plane) { return plane.point; }
+
+// The shortest turn that takes y to `axis`; about x where they are opposite.
+Matrix3 turnFromY(Vec3d axis) {
+  const Vec3d y = (1 / std::sqrt(dot(axis, axis))) * axis;
+  const double sine = std::hypot(y.x, y.z);
+  if (sine == 0) return rotationMatrix({y.y < 0 ? 180.0 : 0.0, 0, 0});
+  const double degrees = std::atan2(sine, y.y) * 180 / std::numbers::pi;
+  return rotationMatrix({degrees * y.z / sine, 0, -degrees * y.x / sine});
+}
+
+Matrix3 rotationOf(const Sphere&) { return Pose{}.rotation; }
+Matrix3 rotationOf(const Plane& plane) { return turnFromY(plane.normal); }
+Matrix3 rotationOf(const Capsule& capsule) { return turnFromY(capsule.axis); }
+Matrix3 rotationOf(const Torus& torus) { return turnFromY(torus.axis); }
+Matrix3 rotationOf(const Box& box) { return rotationMatrix(box.rotation); }
+Matrix3 rotationOf(const MeshCollider& mesh) { return rotationMatrix(mesh.rotation); }
 
 double wrapped(double t, double period) {
   const double rest = std::fmod(t, period);
@@ -54,14 +73,26 @@ Vec3d rotateBack(const Matrix3& rotation, Vec3d v) {
   return v.x * rotation[0] + v.y * rotation[1] + v.z * rotation[2];
 }
 
+Matrix3 ownRotation(const Collider& collider) {
+  return std::visit([](const auto& shape) { return rotationOf(shape); }, collider);
+}
+
+Matrix3 product(const Matrix3& a, const Matrix3& b) {
+  return {rotateBack(b, a[0]), rotateBack(b, a[1]), rotateBack(b, a[2])};
+}
+
 Pose poseAt(const Collider& collider, double t) {
   return std::visit(
       [t](const auto& shape) {
         if (!shape.motion || shape.motion->keys.empty()) return Pose{ownPlace(shape)};
-        const Motion::Key key = keyAt(*shape.motion, t);
-        return Pose{key.position, rotationMatrix(key.rotation)};
+        return poseAt(*shape.motion, t);
       },
       collider);
+}
+
+Pose poseAt(const Motion& motion, double t) {
+  const Motion::Key key = keyAt(motion, t);
+  return {key.position, rotationMatrix(key.rotation)};
 }
 
 }  // namespace clothsim

@@ -1,5 +1,5 @@
-// Where a collider is at a given time: evaluated on the host in double and handed to both backends and the
-// renderer.
+// Where a collider or a motion is at a given time: evaluated on the host in double and handed to both
+// backends and the renderer.
 #pragma once
 
 #include <array>
@@ -20,7 +20,15 @@ struct Pose {
 [[nodiscard]] Vec3d rotate(const Matrix3& rotation, Vec3d v);
 [[nodiscard]] Vec3d rotateBack(const Matrix3& rotation, Vec3d v);  // by the transpose
 
+// The rotation by which a shape's own frame (capsules and tori around y, planes with the normal along y,
+// boxes along the axes) stands in the world, before any motion.
+[[nodiscard]] Matrix3 ownRotation(const Collider& collider);
+// b first, then a.
+[[nodiscard]] Matrix3 product(const Matrix3& a, const Matrix3& b);
+
 // The pose at time t [s]; without a motion the collider's own place, unrotated.
 [[nodiscard]] Pose poseAt(const Collider& collider, double t);
+// Of a motion, which has at least one key.
+[[nodiscard]] Pose poseAt(const Motion& motion, double t);
 
 }  // namespace clothsim

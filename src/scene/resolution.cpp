@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "scene/field_table.h"
 #include "scene/json_tree.h"
+#include "scene/pins.h"
 #include "scene/scene_io.h"
 
 namespace clothsim {
@@ -25,9 +26,33 @@ void movePins(ClothSettings& cloth, int columns, int rows) {
     return GridPoint{movedIndex(point.column, cloth.numWidthPoints, columns),
                      movedIndex(point.row, cloth.numHeightPoints, rows)};
   };
-  for (Pin& pin : cloth.pinned) {
-    if (auto* point = std::get_if<GridPoint>(&pin)) *point = moved(*point);
-    if (auto* range = std::get_if<GridRange>(&pin)) *range = {moved(range->from), moved(range->to)};
+  const auto moveAll = [&](std::vector<Pin>& pins) {
+    for (Pin& pin : pins) {
+      if (auto* point = std::get_if<GridPoint>(&pin)) *point = moved(*point);
+      if (auto* range = std::get_if<GridRange>(&pin)) *range = {moved(range->from), moved(range->to)};
+    }
+  };
+  moveAll(cloth.pinned);
+  for (PinMotion& motion : cloth.pinMotion) moveAll(motion.pinned);
+}
+
+// On a grid that is too coarse, pins that move apart from each other would become one point.
+void checkPinsStayApart(const std::vector<ClothSettings>& cloths, int columns, int rows) {
+  for (ClothSettings cloth : cloths) {
+    if (cloth.pinMotion.empty()) continue;
+    movePins(cloth, columns, rows);
+    cloth.numWidthPoints = columns;
+    cloth.numHeightPoints = rows;
+    const auto conflict = findPinConflict(cloth);
+    if (!conflict) continue;
+    const std::string asked = "--resolution " + std::to_string(columns) + "x" + std::to_string(rows);
+    const std::string point = pointText(conflict->point);
+    if (conflict->otherMotion)
+      throw UsageError(asked + ": two of a cloth's pin motions would meet in point " + point +
+                       "; expected a grid fine enough to tell their pins apart");
+    throw UsageError(asked + ": a pin motion would move point " + point +
+                     ", which is not pinned then; expected \"pinned\" and \"pin_motion\" to name the same "
+                     "ranges or points");
   }
 }
 
@@ -57,6 +82,7 @@ void checkSides(std::size_t cloths, int columns, int rows) {
 
 std::string changeResolution(Scene& scene, int columns, int rows, bool keepSteps) {
   checkSides(scene.cloths.size(), columns, rows);
+  checkPinsStayApart(scene.cloths, columns, rows);
   std::string changes;
   const auto add = [&](const std::string& name, double before, double after) {
     if (before != after)
@@ -65,14 +91,16 @@ std::string changeResolution(Scene& scene, int columns, int rows, bool keepSteps
   };
 
   int factor = 1;
-  for (ClothSettings& cloth : scene.cloths) {
+  for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
+    ClothSettings& cloth = scene.cloths[i];
     factor = std::max(factor, stepFactor(cloth, columns, rows));
     movePins(cloth, columns, rows);
     const double before = smallerSpacing(cloth), thickness = cloth.thickness;
     cloth.numWidthPoints = columns;
     cloth.numHeightPoints = rows;
     if (!cloth.stiffnessReference) cloth.thickness *= smallerSpacing(cloth) / before;
-    add("thickness", thickness, cloth.thickness);
+    add((scene.cloths.size() > 1 ? "cloths." + std::to_string(i) + "." : "") + "thickness", thickness,
+        cloth.thickness);
   }
   if (!keepSteps) {
     const double steps =

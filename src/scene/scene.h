@@ -31,8 +31,8 @@ struct Motion {
 struct Sphere {
   Vec3d origin{0, 0, 0};  // centre [m]
   double radius = 0.2;    // [m]
-  double friction = 0.5;  // CS184's factor, 0 slides, 1 sticks
-  std::optional<Motion> motion;
+  double friction = 0.5;  // CS184's factor, 0 slides, 1 sticks; Coulomb's coefficient under `coulomb`
+  std::optional<Motion> motion{};
   friend bool operator==(const Sphere&, const Sphere&) = default;
 };
 
@@ -40,11 +40,55 @@ struct Plane {
   Vec3d point{0, 0, 0};   // [m]
   Vec3d normal{0, 1, 0};  // any length but 0
   double friction = 0.5;
-  std::optional<Motion> motion;
+  std::optional<Motion> motion{};
   friend bool operator==(const Plane&, const Plane&) = default;
 };
 
-using Collider = std::variant<Sphere, Plane>;
+// All points within `radius` of a line segment.
+struct Capsule {
+  Vec3d origin{0, 0, 0};  // middle of the segment [m]
+  Vec3d axis{0, 1, 0};    // its direction, any length but 0
+  double length = 0.5;    // of the segment, without the round ends [m]
+  double radius = 0.1;    // [m]
+  double friction = 0.5;
+  std::optional<Motion> motion{};
+  friend bool operator==(const Capsule&, const Capsule&) = default;
+};
+
+struct Box {
+  Vec3d origin{0, 0, 0};      // centre [m]
+  Vec3d size{0.5, 0.5, 0.5};  // from face to face, rounding included [m]
+  Vec3d rotation{0, 0, 0};    // rotation vector [degrees]; a motion turns the box beyond this
+  double rounding = 0.01;     // radius of its edges [m], at most half the smallest size
+  double friction = 0.5;
+  std::optional<Motion> motion{};
+  friend bool operator==(const Box&, const Box&) = default;
+};
+
+// All points within `tubeRadius` of a circle.
+struct Torus {
+  Vec3d origin{0, 0, 0};    // centre [m]
+  Vec3d axis{0, 1, 0};      // through the hole, any length but 0
+  double radius = 0.3;      // of the circle [m]
+  double tubeRadius = 0.1;  // [m], smaller than radius
+  double friction = 0.5;
+  std::optional<Motion> motion{};
+  friend bool operator==(const Torus&, const Torus&) = default;
+};
+
+// The inside of a closed triangle mesh.
+struct MeshCollider {
+  std::string file;         // OBJ, beside the scene file or below the resource root
+  Vec3d origin{0, 0, 0};    // where the mesh's own origin stands [m]
+  Vec3d rotation{0, 0, 0};  // rotation vector [degrees]; a motion turns the mesh beyond this
+  double scale = 1;         // metres in a unit of the file
+  int cells = 64;           // of the signed distance grid, along the longest side
+  double friction = 0.5;
+  std::optional<Motion> motion{};
+  friend bool operator==(const MeshCollider&, const MeshCollider&) = default;
+};
+
+using Collider = std::variant<Sphere, Plane, Capsule, Box, Torus, MeshCollider>;
 
 [[nodiscard]] inline bool moves(const Collider& collider) {
   return std::visit([](const auto& c) { return c.motion.has_value(); }, collider);
@@ -65,6 +109,21 @@ struct GridRange {  // both ends belong to it; `from` <= `to` in column and row
 enum class GridSide { top, bottom, left, right };
 using Pin = std::variant<GridPoint, GridRange, GridSide>;
 
+// A path of pins, which move as one rigid body about their centre, the mean of their start positions. Times
+// and rotations are those of Motion.
+struct PinMotion {
+  struct Key {
+    double t = 0;                   // [s], ascending
+    std::optional<Vec3d> position;  // where the centre is then [m]; none: where it was at the start
+    Vec3d rotation;                 // rotation vector about the centre [degrees]
+    friend bool operator==(const Key&, const Key&) = default;
+  };
+  std::vector<Key> keys;
+  bool loop = false;
+  std::vector<Pin> pinned;  // those that move, all of them pins of the cloth; empty: all its pins
+  friend bool operator==(const PinMotion&, const PinMotion&) = default;
+};
+
 struct ClothSettings {
   double width = 1, height = 1;  // [m]
   int numWidthPoints = 50, numHeightPoints = 50;
@@ -81,6 +140,7 @@ struct ClothSettings {
   double thickness = 0.0095;     // [m]
   bool enableStructural = true, enableShearing = true, enableBending = true;
   std::vector<Pin> pinned;
+  std::vector<PinMotion> pinMotion;  // no pin is in two of them; pins in none never move
   friend bool operator==(const ClothSettings&, const ClothSettings&) = default;
 };
 
@@ -102,13 +162,31 @@ struct Wind {
 
 enum class Integrator { verlet, euler };
 
+// averaged: CS184's rule, particles within 2 thickness are pushed apart by the mean of what each pair asks
+// for. robust: no particle comes so near to a stranger that triangles could cross (solver/self_collision.h).
+enum class SelfCollision { off, averaged, robust };
+[[nodiscard]] inline const char* selfCollisionName(SelfCollision mode) {
+  return mode == SelfCollision::off ? "off" : mode == SelfCollision::averaged ? "averaged" : "robust";
+}
+
+// What a collider's `friction` means. cs184: a particle that touches goes to x- + (1 - friction) (surface -
+// x-), with x- carried along by the collider. coulomb: the slide along the surface shrinks by friction times
+// the depth pushed out, and planes are solid behind their normal.
+enum class FrictionLaw { cs184, coulomb };
+
 struct SolverSettings {
   Integrator integrator = Integrator::verlet;
   double framesPerSec = 90;  // [1/s]
   int simulationSteps = 30;  // steps a frame; h = 1 / (frames_per_sec * simulation_steps)
   std::optional<double>
-      strainLimit;             // largest l/L - 1 after the limiter; none: no limiter. 0.1 in scenes with `ks`
-  bool selfCollision = false;  // true in scenes with `ks`, as CS184 does
+      strainLimit;  // largest l/L - 1 after the limiter; none: no limiter. 0.1 in scenes with `ks`
+  SelfCollision selfCollision = SelfCollision::off;  // averaged in scenes with `ks`, as CS184 does
+  double selfFriction = 0.3;                         // Coulomb's coefficient between layers, robust only
+  FrictionLaw frictionLaw = FrictionLaw::cs184;
+  // The watchdog's: beyond them a run stops. No cloth comes near, one that explodes passes them in a few
+  // steps.
+  double maxSpeed = 10'000;  // of a particle [m/s]
+  double maxStrain = 100;    // l/L - 1 of a spring, L its nominal rest length
   friend bool operator==(const SolverSettings&, const SolverSettings&) = default;
 };
 
@@ -137,7 +215,7 @@ struct Expect {
   int frames = 0;
   std::optional<Vec3d> centroid;    // [m]
   double centroidTolerance = 0.01;  // [m], each coordinate
-  std::optional<Range> minY, maxStrain, kineticEnergy, maxPenetration;
+  std::optional<Range> minY, maxStrain, kineticEnergy, maxPenetration, crossings;
   friend bool operator==(const Expect&, const Expect&) = default;
 };
 

@@ -36,6 +36,16 @@ std::vector<std::string> sceneNamesIn(const fs::path& folder) {
 
 fs::path bundledFolder() { return resourceRoot() / "assets" / "scenes"; }
 
+// Mesh files beside the scene get their full path; others are looked for below the resource root.
+void findMeshes(Scene& scene, const fs::path& scenePath) {
+  for (Collider& collider : scene.colliders) {
+    auto* mesh = std::get_if<MeshCollider>(&collider);
+    if (mesh == nullptr || fs::path(mesh->file).is_absolute()) continue;
+    const fs::path beside = fs::absolute(scenePath).parent_path() / mesh->file;
+    if (fs::exists(beside)) mesh->file = beside.lexically_normal().string();
+  }
+}
+
 bool isPath(const std::string& nameOrPath) {
   return nameOrPath.find('/') != std::string::npos || nameOrPath.ends_with(".json");
 }
@@ -65,7 +75,9 @@ Scene loadScene(const fs::path& path) {
   } catch (const InputOutputError& error) {
     throw SceneError(error.what());
   }
-  return parseScene(text, path.string());
+  Scene scene = parseScene(text, path.string());
+  findMeshes(scene, path);
+  return scene;
 }
 
 Scene loadSceneByName(const std::string& nameOrPath) {

@@ -47,7 +47,8 @@ struct BundledScene {
 // simulation_steps is multiplied by what an explicit step then needs (the ceiling of the spacing ratio; to
 // the power 3/2 with stiffness_reference, whose k grows with 1/L). Returns a sentence for stderr, empty when
 // nothing but the grid changed.
-// @throws UsageError for sides outside 2 to 16384 or more than 2^26 particles
+// @throws UsageError for sides outside 2 to 16384, more than 2^26 particles, or a grid on which two pin
+// motions would meet in one point
 [[nodiscard]] std::string changeResolution(Scene& scene, int columns, int rows, bool keepSteps);
 
 }  // namespace clothsim

@@ -66,6 +66,18 @@ void checkCloths(const JsonNode& root, const std::vector<ClothSettings>& cloths)
   }
 }
 
+// CS184's friction is a share of the way.
+void checkFriction(const JsonNode& root, const Scene& scene) {
+  if (scene.solver.frictionLaw != FrictionLaw::cs184) return;
+  for (std::size_t i = 0; i < scene.colliders.size(); ++i) {
+    const double friction = std::visit([](const auto& shape) { return shape.friction; }, scene.colliders[i]);
+    if (friction <= 1) continue;
+    complain(*root.find("colliders")->children[i]->find("friction"),
+             "expected a number from 0 to 1, found " + formatNumber(friction) +
+                 "; larger ones are Coulomb's coefficient and need \"friction_law\": \"coulomb\" in solver");
+  }
+}
+
 }  // namespace
 
 void gatherLists(JsonNode& root) {
@@ -86,6 +98,7 @@ Scene readScene(const JsonNode& root) {
   scene.solver = solverDefaults(treeUsesKs(root));
   readObject(root, scene, {"cloth", "plane", "sphere"});
   checkCloths(root, scene.cloths);
+  checkFriction(root, scene);
   return scene;
 }
 

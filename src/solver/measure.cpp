@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloth/signed_distance_grid.h"
 #include "scene/pose.h"
 
 namespace clothsim {
@@ -39,14 +40,53 @@ std::optional<double> maxStrain(const Cloth& cloth, const Grid& grid, const Stat
   return largest;
 }
 
-double penetration(const Collider& collider, const Pose& pose, Vec3d start, Vec3d x) {
-  if (const auto* sphere = std::get_if<Sphere>(&collider)) return sphere->radius - length(x - pose.position);
-  const auto& plane = std::get<Plane>(collider);
-  const Pose first = poseAt(collider, 0);
-  const double side = dot(start - first.position, rotate(first.rotation, plane.normal)) < 0 ? -1 : 1;
-  const Vec3d normal = rotate(pose.rotation, plane.normal);
-  return -side * dot(x - pose.position, normal) / length(normal);
+// Depth below the surface of a shape, from a point of its own frame; negative outside.
+double depthIn(const Sphere& sphere, Vec3d p) { return sphere.radius - length(p); }
+double depthIn(const Plane&, Vec3d p) { return -p.y; }
+double depthIn(const Capsule& capsule, Vec3d p) {
+  const double half = 0.5 * capsule.length;
+  return capsule.radius - length({p.x, p.y - std::clamp(p.y, -half, half), p.z});
 }
+double depthIn(const Box& box, Vec3d p) {
+  const auto beyond = [&](double x, double size) { return std::abs(x) - (0.5 * size - box.rounding); };
+  const Vec3d q{beyond(p.x, box.size.x), beyond(p.y, box.size.y), beyond(p.z, box.size.z)};
+  const double inside = std::min(std::max({q.x, q.y, q.z}), 0.0);
+  return box.rounding - inside - length({std::max(q.x, 0.0), std::max(q.y, 0.0), std::max(q.z, 0.0)});
+}
+double depthIn(const Torus& torus, Vec3d p) {
+  return torus.tubeRadius - std::hypot(std::hypot(p.x, p.z) - torus.radius, p.y);
+}
+
+double depthIn(const MeshCollider& mesh, Vec3d p) { return -distanceGridOf(mesh).distance(p); }
+
+// One collider at one time, as seen by particles.
+class Solid {
+ public:
+  Solid(const Collider& collider, const Scene& scene, double time)
+      : collider_(&collider),
+        now_(poseAt(collider, time)),
+        first_(poseAt(collider, 0)),
+        rotation_(product(now_.rotation, ownRotation(collider))),
+        twoSided_(std::holds_alternative<Plane>(collider) && scene.solver.frictionLaw == FrictionLaw::cs184) {
+  }
+
+  // Of a particle at x that started at `start`: CS184's planes keep each on its own side.
+  [[nodiscard]] double penetration(Vec3d start, Vec3d x) const {
+    const Vec3d p = rotateBack(rotation_, x - now_.position);
+    const double depth = std::visit([&](const auto& shape) { return depthIn(shape, p); }, *collider_);
+    return twoSided_ && startedBehind(start) ? -depth : depth;
+  }
+
+ private:
+  [[nodiscard]] bool startedBehind(Vec3d start) const {
+    return dot(start - first_.position, rotate(first_.rotation, std::get<Plane>(*collider_).normal)) < 0;
+  }
+
+  const Collider* collider_;
+  Pose now_, first_;
+  Matrix3 rotation_;
+  bool twoSided_;
+};
 
 }  // namespace
 
@@ -75,13 +115,28 @@ Measures measure(const Cloth& cloth, const Scene& scene, const State& state) {
   measures.maxStrain = strain.value_or(0);
   const double time = static_cast<double>(state.step) * stepLength(scene.solver);
   for (const Collider& collider : scene.colliders) {
-    const Pose pose = poseAt(collider, time);
+    const Solid solid(collider, scene, time);
     for (std::size_t i = 0; i < count; ++i)
       if (state.positions[i].w > 0)
-        measures.maxPenetration = std::max(
-            measures.maxPenetration, penetration(collider, pose, cloth.positions()[i], positionOf(state, i)));
+        measures.maxPenetration =
+            std::max(measures.maxPenetration, solid.penetration(cloth.positions()[i], positionOf(state, i)));
   }
   return measures;
+}
+
+std::uint32_t particlesInColliders(const Cloth& cloth, const Scene& scene, const State& state) {
+  const double time = static_cast<double>(state.step) * stepLength(scene.solver);
+  std::vector<Solid> solids;
+  for (const Collider& collider : scene.colliders)
+    if (!std::holds_alternative<Plane>(collider)) solids.emplace_back(collider, scene, time);
+  std::uint32_t count = 0;
+  for (std::size_t i = 0; i < state.positions.size(); ++i) {
+    const bool inside = std::any_of(solids.begin(), solids.end(), [&](const Solid& solid) {
+      return solid.penetration(cloth.positions()[i], positionOf(state, i)) > 0;
+    });
+    count += inside && state.positions[i].w > 0 ? 1 : 0;
+  }
+  return count;
 }
 
 }  // namespace clothsim

@@ -16,10 +16,13 @@ struct Measures {
   double minY = 0;           // [m]
   double kineticEnergy = 0;  // [J], of free particles, from the velocities as given
   double maxPenetration =
-      0;           // [m], >= 0: into spheres, and across planes from the side a particle started on
+      0;           // [m], >= 0: into colliders, and across CS184's planes from the side a particle started on
   Vec3d centroid;  // of all particles [m]
   std::optional<std::uint32_t> firstNonFinite;  // lowest index of a particle with an infinity or NaN
 };
+
+// How many free particles lie inside a collider. Planes have no inside.
+[[nodiscard]] std::uint32_t particlesInColliders(const Cloth& cloth, const Scene& scene, const State& state);
 
 [[nodiscard]] Measures measure(const Cloth& cloth, const Scene& scene, const State& state);
 

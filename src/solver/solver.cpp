@@ -1,5 +1,7 @@
 #include "solver/solver.h"
 
+#include "core/exact_math.h"
+#include "core/hash.h"
 #include "solver/step_params.h"
 
 namespace clothsim {
@@ -14,6 +16,15 @@ State initialState(const Cloth& cloth, const Scene& scene) {
   }
   state.integrator = startingVelocityMeaning(scene);
   return state;
+}
+
+void jitter(State& state, double distance, std::uint32_t seed) {
+  std::uint32_t drawn = 0;
+  const auto moved = [&](float x) {
+    return canonical(x + static_cast<float>(distance * uniform01(seed, drawn++)));
+  };
+  for (Particle4& x : state.positions)
+    if (x.w > 0) x = {moved(x.x), moved(x.y), moved(x.z), x.w};
 }
 
 }  // namespace clothsim

@@ -1,11 +1,15 @@
 #include "solver/step_params.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
+#include "cloth/signed_distance_grid.h"
 #include "core/hash.h"
 #include "scene/pose.h"
+#include "solver/pin_paths.h"
 
 namespace clothsim {
 namespace {
@@ -17,6 +21,85 @@ Vec3d normalized(Vec3d v) { return (1 / std::sqrt(dot(v, v))) * v; }
 template <class Real>
 Real real(double x) {
   return static_cast<Real>(x);
+}
+
+// The square of a limit, as binary32 can hold it: what is larger is not finite there.
+double squareInRange(double limit) {
+  return std::min(limit * limit, static_cast<double>(std::numeric_limits<float>::max()));
+}
+
+// What is particular to a shape. A sphere sweeps when a step is longer than 0.39 radii, below which no
+// particle gets past the cap it entered by, and ignores passages that dip by less than 8 % of the radius.
+template <class Real>
+void putShape(const Sphere& sphere, const Pose&, ColliderParams<Real>& params) {
+  const double radiusSquared = sphere.radius * sphere.radius;
+  params.radius = real<Real>(sphere.radius);
+  params.radiusSquared = real<Real>(radiusSquared);
+  params.sweepSquared = real<Real>(0.15 * radiusSquared);
+  params.grazeSquared = real<Real>(0.85 * radiusSquared);
+  params.inverseRadius = real<Real>(1 / sphere.radius);
+}
+template <class Real>
+void putShape(const Plane& plane, const Pose& pose, ColliderParams<Real>& params) {
+  const Vec3d normal = normalized(rotate(pose.rotation, plane.normal));
+  params.normalX = real<Real>(normal.x);
+  params.normalY = real<Real>(normal.y);
+  params.normalZ = real<Real>(normal.z);
+}
+template <class Real>
+void putShape(const Capsule& capsule, const Pose&, ColliderParams<Real>& params) {
+  params.radius = real<Real>(capsule.radius);
+  params.sizeY = real<Real>(0.5 * capsule.length);
+}
+template <class Real>
+void putShape(const Box& box, const Pose&, ColliderParams<Real>& params) {
+  params.radius = real<Real>(box.rounding);
+  params.sizeX = real<Real>(0.5 * box.size.x - box.rounding);
+  params.sizeY = real<Real>(0.5 * box.size.y - box.rounding);
+  params.sizeZ = real<Real>(0.5 * box.size.z - box.rounding);
+}
+template <class Real>
+void putShape(const Torus& torus, const Pose&, ColliderParams<Real>& params) {
+  params.radius = real<Real>(torus.tubeRadius);
+  params.sizeX = real<Real>(torus.radius);
+}
+
+template <class Real>
+void putShape(const MeshCollider& mesh, const Pose&, ColliderParams<Real>& params) {
+  const SignedDistanceGrid& grid = distanceGridOf(mesh);
+  params.radius = real<Real>(grid.cell());
+  params.gridX = real<Real>(grid.origin().x);
+  params.gridY = real<Real>(grid.origin().y);
+  params.gridZ = real<Real>(grid.origin().z);
+  params.inverseCell = real<Real>(1 / grid.cell());
+  params.gridColumns = grid.counts()[0];
+  params.gridRows = grid.counts()[1];
+  params.gridLayers = grid.counts()[2];
+}
+
+// Where the samples of a mesh begin among those of all.
+std::uint32_t firstSampleOf(const Scene& scene, const Collider& wanted) {
+  std::size_t first = 0;
+  for (const Collider& collider : scene.colliders) {
+    if (&collider == &wanted) break;
+    if (const auto* mesh = std::get_if<MeshCollider>(&collider))
+      first += distanceGridOf(*mesh).samples().size();
+  }
+  return static_cast<std::uint32_t>(first);
+}
+
+// The shape's own axes are the columns of its rotation.
+template <class Real>
+void putAxes(const Matrix3& rotation, ColliderParams<Real>& params) {
+  params.axisXX = real<Real>(rotation[0].x);
+  params.axisXY = real<Real>(rotation[1].x);
+  params.axisXZ = real<Real>(rotation[2].x);
+  params.axisYX = real<Real>(rotation[0].y);
+  params.axisYY = real<Real>(rotation[1].y);
+  params.axisYZ = real<Real>(rotation[2].y);
+  params.axisZX = real<Real>(rotation[0].z);
+  params.axisZY = real<Real>(rotation[1].z);
+  params.axisZZ = real<Real>(rotation[2].z);
 }
 
 }  // namespace
@@ -35,6 +118,26 @@ Vec3d airVelocity(const Wind& wind, double t) {
   return wind.velocity + gust * (calm ? Vec3d{1, 0, 0} : normalized(wind.velocity));
 }
 
+namespace {
+
+// Whether a collider's surface goes anywhere: a ball that turns in its place does not.
+bool travels(const Collider& collider) {
+  if (!moves(collider)) return false;
+  const std::vector<Motion::Key>& keys =
+      std::visit([](const auto& c) -> const std::vector<Motion::Key>& { return c.motion->keys; }, collider);
+  return std::any_of(keys.begin(), keys.end(), [&](const Motion::Key& key) {
+    return key.position != keys[0].position ||
+           (!std::holds_alternative<Sphere>(collider) && key.rotation != keys[0].rotation);
+  });
+}
+
+}  // namespace
+
+int contactRounds(const Scene& scene) {
+  const bool any = std::any_of(scene.colliders.begin(), scene.colliders.end(), travels);
+  return any && scene.solver.strainLimit ? 3 : 1;
+}
+
 Integrator startingVelocityMeaning(const Scene& scene) {
   for (const ClothSettings& settings : scene.cloths)
     if (settings.ks && scene.solver.integrator == Integrator::verlet) return Integrator::verlet;
@@ -45,7 +148,7 @@ bool dependsOnTime(const Scene& scene) {
   if (scene.wind && scene.wind->gust.strength != 0) return true;
   for (const Collider& collider : scene.colliders)
     if (moves(collider)) return true;
-  return false;
+  return hasPinMotion(scene);
 }
 
 template <class Real>
@@ -54,6 +157,8 @@ StepParams<Real> makeStepParams(const Scene& scene, const Cloth& cloth, std::siz
   const Grid& grid = cloth.grids()[gridIndex];
   const double h = stepLength(scene.solver);
   StepParams<Real> params{};
+  params.limitPass = scene.solver.selfCollision == SelfCollision::robust ? PASS_EARLY_LIMIT : PASS_LIMIT;
+  params.grid = static_cast<std::uint32_t>(gridIndex);
   params.firstParticle = grid.firstParticle;
   params.columns = static_cast<std::uint32_t>(grid.columns);
   params.rows = static_cast<std::uint32_t>(grid.rows);
@@ -79,11 +184,22 @@ StepParams<Real> makeStepParams(const Scene& scene, const Cloth& cloth, std::siz
   }
   const double limitFactor = 1 + scene.solver.strainLimit.value_or(0);
   params.limitFactor = real<Real>(limitFactor);
-  for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot)
-    params.springs[slot] = {real<Real>(grid.stiffness[slot]), real<Real>(grid.nominalLength[slot]),
-                            real<Real>(limitFactor * grid.nominalLength[slot]),
-                            grid.slotEnabled[slot] ? 1u : 0u};
+  params.maxSpeedSquared = real<Real>(squareInRange(scene.solver.maxSpeed));
+  for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot) {
+    const double length = grid.nominalLength[slot];
+    params.springs[slot] = {real<Real>(grid.stiffness[slot]), real<Real>(length),
+                            real<Real>(limitFactor * length),
+                            real<Real>(squareInRange((1 + scene.solver.maxStrain) * length))};
+    if (grid.slotEnabled[slot]) params.enabledSlots |= 1u << slot;
+  }
   return params;
+}
+
+std::uint32_t colliderType(const Collider& collider) {
+  constexpr std::array types{COLLIDER_SPHERE, COLLIDER_PLANE, COLLIDER_CAPSULE,
+                             COLLIDER_BOX,    COLLIDER_TORUS, COLLIDER_MESH};
+  static_assert(types.size() == std::variant_size_v<Collider>);
+  return types[collider.index()];
 }
 
 template <class Real>
@@ -95,20 +211,14 @@ ColliderParams<Real> makeColliderParams(const Scene& scene, const Collider& coll
   params.pointX = real<Real>(after.position.x);
   params.pointY = real<Real>(after.position.y);
   params.pointZ = real<Real>(after.position.z);
-  if (const auto* sphere = std::get_if<Sphere>(&collider)) {
-    params.type = COLLIDER_SPHERE;
-    params.radius = real<Real>(sphere->radius);
-    params.radiusSquared = real<Real>(sphere->radius * sphere->radius);
-    params.motionKept = real<Real>(1 - sphere->friction);
-  } else {
-    const auto& plane = std::get<Plane>(collider);
-    const Vec3d normal = normalized(rotate(after.rotation, plane.normal));
-    params.type = COLLIDER_PLANE;
-    params.normalX = real<Real>(normal.x);
-    params.normalY = real<Real>(normal.y);
-    params.normalZ = real<Real>(normal.z);
-    params.motionKept = real<Real>(1 - plane.friction);
-  }
+  const double friction = std::visit([](const auto& shape) { return shape.friction; }, collider);
+  params.motionKept = real<Real>(1 - friction);
+  params.friction = real<Real>(friction);
+  params.coulomb = scene.solver.frictionLaw == FrictionLaw::coulomb ? 1 : 0;
+  params.type = colliderType(collider);
+  std::visit([&](const auto& shape) { putShape(shape, after, params); }, collider);
+  if (params.type == COLLIDER_MESH) params.firstSample = firstSampleOf(scene, collider);
+  putAxes(product(after.rotation, ownRotation(collider)), params);
   if (!moves(collider)) return params;
 
   // turn = R(after) R(before)^T - 1, shift = position(after) - position(before)
@@ -133,6 +243,16 @@ ColliderParams<Real> makeColliderParams(const Scene& scene, const Collider& coll
   params.pivotY = real<Real>(before.position.y);
   params.pivotZ = real<Real>(before.position.z);
   return params;
+}
+
+std::vector<float> distanceSamples(const Scene& scene) {
+  std::vector<float> samples;
+  for (const Collider& collider : scene.colliders)
+    if (const auto* mesh = std::get_if<MeshCollider>(&collider)) {
+      const std::vector<float>& grid = distanceGridOf(*mesh).samples();
+      samples.insert(samples.end(), grid.begin(), grid.end());
+    }
+  return samples;
 }
 
 template <class Real>

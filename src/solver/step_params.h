@@ -1,5 +1,6 @@
 // What both backends need for a step besides the state, evaluated on the host in double and rounded once:
-// constants made of parameters, and everything that depends on time (gusts, moving colliders).
+// constants made of parameters, and everything that depends on time (gusts, moving colliders; moving pins are
+// in pin_paths.h).
 #pragma once
 
 #include <cstdint>
@@ -25,6 +26,13 @@ template <class Real>
 [[nodiscard]] StepParams<Real> makeStepParams(const Scene& scene, const Cloth& cloth, std::size_t grid,
                                               std::uint64_t step);
 
+// COLLIDER_SPHERE... of shared/step_params.h.
+[[nodiscard]] std::uint32_t colliderType(const Collider& collider);
+
+// The signed distances of all mesh colliders, one grid after the other [m]. @throws SceneError when a mesh
+// file is missing or wrong
+[[nodiscard]] std::vector<float> distanceSamples(const Scene& scene);
+
 // One a collider, in the scene's order, for the same step.
 template <class Real>
 [[nodiscard]] ColliderParams<Real> makeColliderParams(const Scene& scene, const Collider& collider,
@@ -36,6 +44,11 @@ template <class Real>
 // Wind plus gust at time t [m/s]. The gust blows along the wind (along +x when there is none): a sum of sines
 // whose phases come from the seed, around the given frequency, of standard deviation `strength`.
 [[nodiscard]] Vec3d airVelocity(const Wind& wind, double t);
+
+// How often strain limit and colliders take turns in a step. The limiter can pull particles into a collider
+// again, and through one that has gone far in the step: with a travelling collider the two go three rounds,
+// and the collider has the last word. With resting ones once is enough, in the order of CS184.
+[[nodiscard]] int contactRounds(const Scene& scene);
 
 // What the velocities of a cloth at rest mean at the start: CS184 begins `verlet` with v(-1/2) = 0; elsewhere
 // v(0) = 0, and the first step converts (v(-1/2) = -h a / 2 makes Verlet second order).

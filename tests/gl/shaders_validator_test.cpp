@@ -56,11 +56,20 @@ std::vector<gl::Defines> variantsOf(const std::string& file) {
   if (!file.starts_with("sim/")) return {gl::Defines{}};
   PassFeatures everything{.wind = true,
                           .airResistance = true,
-                          .colliders = true,
                           .movingColliders = true,
+                          .coulombFriction = true,
+                          .movingPins = true,
                           .restLengthTable = true};
+  everything.colliderTypes = 0xffffffff;
   everything.enabledSlots = (1u << SPRING_SLOTS) - 1;
-  return {definesFor(everything), definesFor(PassFeatures{})};
+  PassFeatures cs184 = everything;
+  cs184.coulombFriction = false;
+  std::vector<gl::Defines> variants{definesFor(everything), definesFor(cs184), definesFor(PassFeatures{})};
+  for (std::size_t i = 0; i < variants.size(); ++i) {
+    variants[i].emplace_back("SELF_ROBUST", std::to_string(i % 2));
+    variants[i].emplace_back("SELF_NEAR_CODES", std::to_string(1 - i % 2));
+  }
+  return variants;
 }
 
 class ShaderFile : public testing::TestWithParam<std::string> {};

@@ -4,6 +4,7 @@
 
 #include "app/compare.h"
 #include "app/simulation.h"
+#include "check/crossings.h"
 #include "gl/gl_test.h"
 #include "scene/scene_io.h"
 #include "solver/cpu/synchronized.h"
@@ -31,11 +32,15 @@ TEST_P(BundledSceneTest, KeepsItsPromisesOnBothBackends) {
   Simulation cpu(scene, "cpu"), gpu(scene, "gpu");
   double maxPenetration = 0;
   State state;
+  std::optional<CrossingCounter> counter;
+  if (expect.crossings && CrossingCounter::available()) counter.emplace(cpu.cloth());
+  CrossingSummary crossings;
   for (int frame = 0; frame < expect.frames; ++frame) {
     cpu.stepFrame();
     gpu.stepFrame();
     state = cpu.solver().state();
     maxPenetration = std::max(maxPenetration, measure(cpu.cloth(), scene, state).maxPenetration);
+    if (counter) crossings.add(frame, counter->count(state));
   }
   EXPECT_EQ(difference(state, gpu.solver().state()).differing, 0u);
 
@@ -45,6 +50,7 @@ TEST_P(BundledSceneTest, KeepsItsPromisesOnBothBackends) {
   expectWithin(atEnd.maxStrain, expect.maxStrain, "max_strain");
   expectWithin(measure(cpu.cloth(), scene, synchronized(cpu.cloth(), scene, state)).kineticEnergy,
                expect.kineticEnergy, "kinetic_energy");
+  if (counter) expectWithin(static_cast<double>(crossings.worst), expect.crossings, "crossings");
   expectWithin(maxPenetration, expect.maxPenetration, "max_penetration");
   if (expect.centroid) {
     EXPECT_NEAR(atEnd.centroid.x, expect.centroid->x, expect.centroidTolerance);

@@ -31,6 +31,69 @@ inline Scene withColliders(Scene scene) {
   return scene;
 }
 
+inline Motion flyingPast(Vec3d from, Vec3d to) {
+  Motion motion;
+  motion.keys = {{0, from, {0, 0, 0}}, {0.2, to, {30, 90, -50}}};
+  return motion;
+}
+
+// Every shape that has a frame of its own, resting in the sheet's way and flying through it.
+inline Scene withShapes(Scene scene, FrictionLaw law) {
+  scene.solver.frictionLaw = law;
+  scene.colliders = {
+      Capsule{.origin = {0.3, 0.5, 0.07}, .axis = {1, 1, 0.2}, .length = 0.3, .radius = 0.08},
+      Box{.origin = {0.8, 0.3, 0.1}, .size = {0.3, 0.2, 0.15}, .rotation = {20, 30, 5}, .friction = 0.3},
+      Torus{.origin = {0.5, 0.2, -0.1}, .axis = {0.1, 0.3, 1}, .radius = 0.15, .tubeRadius = 0.05},
+      Capsule{.origin = {0.7, 0.7, 0.3},
+              .axis = {1, 0, 0},
+              .length = 0.2,
+              .radius = 0.05,
+              .friction = 0,
+              .motion = flyingPast({0.7, 0.7, 0.3}, {0.7, 0.6, -0.3})},
+      Box{.origin = {0.3, 0.8, -0.5},
+          .size = {0.2, 0.3, 0.02},
+          .rounding = 0,
+          .friction = 1,
+          .motion = flyingPast({0.3, 0.8, -0.5}, {0.3, 0.7, 0.5})},
+      Torus{.origin = {0.5, 0.5, 0.5},
+            .radius = 0.2,
+            .tubeRadius = 0.03,
+            .friction = 0.8,
+            .motion = flyingPast({0.5, 0.5, 0.5}, {0.5, 0.5, -0.5})},
+      Plane{.point = {0, 0.02, 0}, .normal = {0.1, 1, 0}, .friction = 0.4, .motion = std::nullopt}};
+  return scene;
+}
+
+// Two of them, so that the second one's samples do not begin at 0; one flies.
+inline Scene withMeshes(Scene scene) {
+  scene.colliders = {MeshCollider{.file = "assets/meshes/pawn.obj",
+                                  .origin = {0.3, 0.4, 0.05},
+                                  .rotation = {10, 0, 100},
+                                  .scale = 0.4,
+                                  .cells = 24},
+                     MeshCollider{.file = "assets/meshes/pawn.obj",
+                                  .origin = {0.6, 0.2, -0.3},
+                                  .scale = 0.5,
+                                  .cells = 31,
+                                  .friction = 0.9,
+                                  .motion = flyingPast({0.6, 0.2, -0.3}, {0.6, 0.4, 0.3})}};
+  return scene;
+}
+
+inline Scene withCoulomb(Scene scene) {
+  scene.solver.frictionLaw = FrictionLaw::coulomb;
+  return scene;
+}
+
+// Steps so long that particles get past colliders within one.
+inline Scene inLongSteps(Scene scene) {
+  scene.solver.framesPerSec = 60;
+  scene.solver.simulationSteps = 1;
+  scene.cloths[0].ks = 5;  // too weak to carry the sheet: it falls almost freely
+  scene.solver.maxStrain = 1e6;
+  return scene;
+}
+
 inline Scene vertical(Scene scene) {
   const int last = scene.cloths[0].numHeightPoints - 1;
   scene.cloths[0].orientation = Orientation::vertical;
@@ -62,6 +125,58 @@ inline Scene twoCloths(Scene scene) {
   return scene;
 }
 
+// The left column turns in a loop, the right one flies and turns, a point of the lower row goes straight; the
+// upper corners stay.
+inline Scene withPinMotion(Scene scene) {
+  ClothSettings& cloth = scene.cloths[0];
+  const int right = cloth.numWidthPoints - 1, last = cloth.numHeightPoints - 1, middle = right / 2;
+  const GridRange leftPins{{0, 0}, {0, last - 1}}, rightPins{{right, 0}, {right, last - 1}};
+  cloth.pinned = {GridPoint{0, last}, GridPoint{right, last}, leftPins, rightPins, GridPoint{middle, 0}};
+  PinMotion turning, flying, straight;
+  turning.keys = {{.t = 0, .position = std::nullopt, .rotation = {}},
+                  {.t = 0.08, .position = std::nullopt, .rotation = {30, 200, -50}}};
+  turning.loop = true;
+  turning.pinned = {leftPins};
+  flying.keys = {{.t = 0.01, .position = std::nullopt, .rotation = {}},
+                 {.t = 0.1, .position = Vec3d{0.7, 0.6, 0.4}, .rotation = {0, 90, 0}},
+                 {.t = 0.15, .position = Vec3d{0.9, 0.5, 0.1}, .rotation = {0, 90, 90}}};
+  flying.pinned = {rightPins};
+  straight.keys = {{.t = 0, .position = std::nullopt, .rotation = {}},
+                   {.t = 0.3, .position = Vec3d{0.5, 0.3, 0.8}, .rotation = {}}};
+  straight.pinned = {GridPoint{middle, 0}};
+  cloth.pinMotion = {turning, flying, straight};
+  return scene;
+}
+
+// Each cloth with motions of its own.
+inline Scene twoClothsWithPinMotion(Scene scene) {
+  scene = twoCloths(withPinMotion(scene));
+  ClothSettings& second = scene.cloths[1];
+  second.pinned = {GridSide::top, GridPoint{3, second.numHeightPoints - 1}};
+  second.pinMotion.resize(1);
+  second.pinMotion[0].pinned = {GridPoint{3, second.numHeightPoints - 1}};
+  return scene;
+}
+
+// A sheet that falls on a tight one just below it: contacts everywhere, a twentieth of a second later.
+inline Scene layeredSheets(int n, SelfCollision mode) {
+  Scene scene = withLimiter(sheetScene(n));
+  scene.solver.selfCollision = mode;
+  scene.cloths[0].thickness = 0.49 / (n - 1);
+  scene.cloths.push_back(scene.cloths[0]);
+  scene.cloths[0].pinned = {GridSide::top, GridSide::bottom};
+  scene.cloths[1].position = {0.03, 1.4 / (n - 1), 0.02};
+  scene.cloths[1].rotation = {0, 9, 0};
+  return scene;
+}
+
+// Thicker than its spacing: neighbours know each other by their place, and have more candidates than they
+// remember.
+inline Scene thick(Scene scene) {
+  for (ClothSettings& cloth : scene.cloths) cloth.thickness *= 5;
+  return scene;
+}
+
 struct NamedScene {
   std::string name;
   Scene scene;
@@ -73,9 +188,27 @@ inline std::vector<NamedScene> comparedScenes(int n) {
           {"limiter", withLimiter(vertical(sheetScene(n)))},
           {"wind", withWind(vertical(sheetScene(n)))},
           {"colliders", withColliders(vertical(sheetScene(n)))},
+          {"shapes", withShapes(vertical(sheetScene(n)), FrictionLaw::cs184)},
+          {"shapes, coulomb", withShapes(withLimiter(vertical(sheetScene(n))), FrictionLaw::coulomb)},
+          {"spheres and planes, coulomb", withCoulomb(withColliders(vertical(sheetScene(n))))},
+          {"meshes", withMeshes(vertical(sheetScene(n)))},
+          {"meshes in long steps, coulomb", inLongSteps(withCoulomb(withMeshes(vertical(sheetScene(n)))))},
+          {"long steps", inLongSteps(withColliders(vertical(sheetScene(n))))},
+          {"shapes in long steps", inLongSteps(withShapes(vertical(sheetScene(n)), FrictionLaw::cs184))},
           {"everything", withWind(withColliders(withLimiter(vertical(sheetScene(n)))))},
           {"stiffness reference", stiffnessReferenceScene(n)},
-          {"two cloths", twoCloths(withLimiter(withWind(vertical(sheetScene(n)))))}};
+          {"averaged self-collision", layeredSheets(n, SelfCollision::averaged)},
+          {"robust self-collision", withWind(withColliders(layeredSheets(n, SelfCollision::robust)))},
+          {"thick averaged self-collision", thick(layeredSheets(n / 2, SelfCollision::averaged))},
+          {"thick robust self-collision", thick(layeredSheets(n / 2, SelfCollision::robust))},
+          {"pins that move through other cloth", withPinMotion(layeredSheets(n, SelfCollision::robust))},
+          {"two cloths", twoCloths(withLimiter(withWind(vertical(sheetScene(n)))))},
+          {"pin motion", withPinMotion(vertical(sheetScene(n)))},
+          {"everything with pin motion",
+           withPinMotion(withWind(withColliders(withLimiter(vertical(sheetScene(n))))))},
+          {"two cloths with pin motion", twoClothsWithPinMotion(withLimiter(vertical(sheetScene(n))))}};
 }
+
+inline Scene everythingScene(int n) { return withWind(withColliders(withLimiter(vertical(sheetScene(n))))); }
 
 }  // namespace clothsim::test

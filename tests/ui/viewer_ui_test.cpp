@@ -157,5 +157,21 @@ TEST(ViewerWithoutAScreen, NamesTheCommandsThatNeedNoneAndEndsWithExitCodeFour) 
   EXPECT_NE(result.output.find("clothsim run -f pinned2"), std::string::npos) << result.output;
 }
 
+TEST_F(ViewerUi, PausesWithAMessageWhenTheWatchdogFindsTroubleAndRTriesAgain) {
+  // The free edge falls at 2 m/s^2: it is too fast after three quarters of a second.
+  const ViewerProgram viewer(std::string(scene) +
+                             " --set gravity=[0,-2,0] --set cloth.damping=0 --set solver.max_speed=1.5");
+  ASSERT_TRUE(viewer.titleBecomesOneWith("paused")) << viewer.title();
+  const auto isAlert = [](Picture::Pixel p) { return p.r > 180 && p.g > 130 && p.g < 210 && p.b < 120; };
+  EXPECT_TRUE(test::eventually(seconds(20), [&] {
+    return viewer.picture().share(0, 0.7, 1, 1, isAlert) > 0.005;
+  })) << "no message at the bottom";
+  EXPECT_GT(viewer.picture().share(0, 0, 1, 1, isClothRed), 0.02)
+      << "the last good state is still to be seen";
+  viewer.press("r");
+  EXPECT_TRUE(viewer.titleBecomesOneWith("fps")) << viewer.title();
+  EXPECT_TRUE(viewer.titleBecomesOneWith("paused")) << "it happens again: " << viewer.title();
+}
+
 }  // namespace
 }  // namespace clothsim

@@ -4,6 +4,8 @@
 
 #include <cassert>
 
+#include "solver/cpu/collide.h"
+
 namespace clothsim {
 namespace {
 
@@ -25,7 +27,10 @@ void put(Components<Real>& c, std::size_t i, Vec3<Other> v) {
 
 template <class Real>
 CpuSolver<Real>::CpuSolver(const Cloth& cloth, const Scene& scene, bool fused)
-    : cloth_(&cloth), fused_(fused), parallel_(cloth.particleCount() >= PARALLEL_PARTICLES) {
+    : cloth_(&cloth),
+      fused_(fused),
+      parallel_(cloth.particleCount() >= PARALLEL_PARTICLES),
+      selfCollision_(cloth, parallel_) {
   const std::size_t count = cloth.particleCount();
   for (CpuState<Real>* state : {&before_, &after_}) {
     state->positions.resize(count);
@@ -47,13 +52,33 @@ template <class Real>
 void CpuSolver<Real>::configure(const Scene& scene) {
   assert(scene.cloths.size() == cloth_->grids().size() &&
          "configure() takes live edits of the solver's own scene");
+  distances_ = distanceSamples(scene);
   scene_ = scene;
   colliders_.resize(scene.colliders.size());
+  params_.resize(cloth_->grids().size());
+  selfCollision_.configure(scene);
+  pinPaths_ = makePinPaths(scene, *cloth_);
+  pinMotions_.resize(pinPaths_.paths.size());
+  if (pinPaths_.numbers.size() == pinStarts_.x.size()) return;
+  pinStarts_.resize(pinPaths_.numbers.size());
+  for (std::size_t i = 0; i < pinPaths_.numbers.size(); ++i)
+    put(pinStarts_, i, startPosition<Real>(*cloth_, i));
 }
 
 template <class Real>
 cpu::PassArguments<Real> CpuSolver<Real>::arguments(const StepParams<Real>& params) {
-  return {params, colliders_.data(), inverseMasses_.data(), restLengths_.data(), before_, after_, forces_};
+  return {params,
+          colliders_.data(),
+          distances_.data(),
+          pinMotions_.data(),
+          pinPaths_.paths.empty() ? nullptr : pinPaths_.numbers.data(),
+          pinStarts_,
+          inverseMasses_.data(),
+          restLengths_.data(),
+          before_,
+          after_,
+          forces_,
+          watch_};
 }
 
 template <class Real>
@@ -64,9 +89,28 @@ void CpuSolver<Real>::forEachRow(int rows, Pass pass) {
 }
 
 template <class Real>
-void CpuSolver<Real>::prepareColliders() {
+void CpuSolver<Real>::prepareMotions() {
   for (std::size_t i = 0; i < colliders_.size(); ++i)
     colliders_[i] = makeColliderParams<Real>(scene_, scene_.colliders[i], stepIndex_);
+  for (std::size_t i = 0; i < pinMotions_.size(); ++i)
+    pinMotions_[i] = makePinMotionParams<Real>(pinPaths_.paths[i], stepLength(scene_.solver), stepIndex_);
+}
+
+template <class Real>
+void CpuSolver<Real>::forgetTrouble() {
+  watch_ = soundWatchRow();
+  trouble_.reset();
+}
+
+template <class Real>
+void CpuSolver<Real>::checkStart() {
+  if (startChecked_) return;
+  startChecked_ = true;
+  for (std::size_t grid = 0; grid < cloth_->grids().size(); ++grid) {
+    const StepParams<Real> params = makeStepParams<Real>(scene_, *cloth_, grid, stepIndex_);
+    const cpu::PassArguments<Real> pass = arguments(params);
+    forEachRow(cloth_->grids()[grid].rows, [&](int row) { cpu::checkStart(pass, row); });
+  }
 }
 
 // verlet carries v(n - 1/2), euler v(n): the difference is h a / 2.
@@ -74,6 +118,7 @@ template <class Real>
 void CpuSolver<Real>::convertVelocities() {
   const Integrator wanted = scene_.solver.integrator;
   if (wanted == velocityMeaning_) return;
+  checkStart();
   velocityMeaning_ = wanted;
   for (std::size_t grid = 0; grid < cloth_->grids().size(); ++grid) {
     StepParams<Real> params = makeStepParams<Real>(scene_, *cloth_, grid, stepIndex_);
@@ -85,39 +130,103 @@ void CpuSolver<Real>::convertVelocities() {
   std::swap(before_.velocities, after_.velocities);
 }
 
+// The passes of a step. Self-collision works on all grids at once, so each pass runs over all of them in
+// turn.
 template <class Real>
-void CpuSolver<Real>::stepGrid(std::size_t gridIndex) {
-  const int rows = cloth_->grids()[gridIndex].rows;
-  const StepParams<Real> params = makeStepParams<Real>(scene_, *cloth_, gridIndex, stepIndex_);
-  const cpu::PassArguments<Real> pass = arguments(params);
+void CpuSolver<Real>::stepOnce() {
+  const std::size_t grids = cloth_->grids().size();
+  for (std::size_t grid = 0; grid < grids; ++grid)
+    params_[grid] = makeStepParams<Real>(scene_, *cloth_, grid, stepIndex_);
+  const auto forEachGridRow = [&](auto pass) {
+    for (std::size_t grid = 0; grid < grids; ++grid) {
+      const cpu::PassArguments<Real> ofGrid = arguments(params_[grid]);
+      forEachRow(cloth_->grids()[grid].rows, [&](int row) { pass(ofGrid, row); });
+    }
+  };
+  using Arguments = cpu::PassArguments<Real>;
+  const auto gatherForces = [](const Arguments& pass, int row) { cpu::gatherForces(pass, row); };
+  const auto integrate = [](const Arguments& pass, int row) { cpu::integrate(pass, row); };
+  const auto collide = [](const Arguments& pass, int row) { cpu::collide(pass, row); };
+  const auto collideAll = [&] {
+    if (!scene_.colliders.empty()) forEachGridRow(collide);
+  };
+  const auto limitStrain = [&] {
+    if (!scene_.solver.strainLimit) return;
+    for (std::size_t grid = 0; grid < grids; ++grid) {
+      const Arguments pass = arguments(params_[grid]);
+      for (const LimitColor& color : limitColors_[grid]) {
+        const std::uint32_t count = ownerCount(color.firstRow, color.rowStep, color.rowRun, color.endRow);
+        forEachRow(static_cast<int>(count),
+                   [&](int j) { cpu::limitStrain(pass, color, static_cast<std::uint32_t>(j)); });
+      }
+      forEachRow(cloth_->grids()[grid].rows, [&](int row) { cpu::watchLimit(pass, row); });
+    }
+  };
+
+  const int rounds = contactRounds(scene_);
+  const bool fusesCollide = fused_ && !selfCollision_.isOn();
   if (fused_) {
-    forEachRow(rows, [&](int row) {
-      cpu::gatherForces(pass, row);
-      cpu::integrate(pass, row);
-      cpu::collide(pass, row);
+    forEachGridRow([&](const Arguments& pass, int row) {
+      gatherForces(pass, row);
+      integrate(pass, row);
+      if (fusesCollide) collide(pass, row);
     });
   } else {
-    forEachRow(rows, [&](int row) { cpu::gatherForces(pass, row); });
-    forEachRow(rows, [&](int row) { cpu::integrate(pass, row); });
-    forEachRow(rows, [&](int row) { cpu::collide(pass, row); });
+    forEachGridRow(gatherForces);
+    forEachGridRow(integrate);
   }
-  if (!scene_.solver.strainLimit) return;
-  for (const LimitColor& color : limitColors_[gridIndex]) {
-    const std::uint32_t count = ownerCount(color.firstRow, color.rowStep, color.rowRun, color.endRow);
-    forEachRow(static_cast<int>(count),
-               [&](int j) { cpu::limitStrain(pass, color, static_cast<std::uint32_t>(j)); });
+  if (selfCollision_.isRobust()) {
+    for (int round = 0; round < rounds; ++round) {
+      limitStrain();
+      collideAll();
+    }
+    selfCollision_.separate(before_, after_, inverseMasses_);
+    selfCollision_.guard(before_, after_, inverseMasses_);
+    collideAll();
+  } else {
+    if (selfCollision_.isOn()) selfCollision_.separate(before_, after_, inverseMasses_);
+    if (!fusesCollide) collideAll();
+    limitStrain();
+    for (int round = 1; round < rounds; ++round) {
+      collideAll();
+      limitStrain();
+    }
+    if (rounds > 1) collideAll();
   }
 }
 
 template <class Real>
 void CpuSolver<Real>::step(int count) {
+  checkStart();
   convertVelocities();
   for (int i = 0; i < count; ++i) {
-    prepareColliders();
-    for (std::size_t grid = 0; grid < cloth_->grids().size(); ++grid) stepGrid(grid);
+    prepareMotions();
+    stepOnce();
     std::swap(before_, after_);
     ++stepIndex_;
+    if (!trouble_) trouble_ = firstTrouble(watch_, stepIndex_);
   }
+}
+
+template <class Real>
+std::optional<Trouble> CpuSolver<Real>::trouble() {
+  if (!trouble_) trouble_ = firstTrouble(watch_, stepIndex_ + 1);  // of a kick
+  return trouble_;
+}
+
+template <class Real>
+void CpuSolver<Real>::keep() {
+  kept_ = {before_, stepIndex_, velocityMeaning_};
+}
+
+template <class Real>
+void CpuSolver<Real>::revert() {
+  assert(!kept_.state.positions.x.empty() && "revert() needs a keep() before");
+  before_ = kept_.state;
+  stepIndex_ = kept_.stepIndex;
+  velocityMeaning_ = kept_.velocityMeaning;
+  startChecked_ = false;
+  forgetTrouble();
 }
 
 template <class Real>
@@ -149,6 +258,9 @@ void CpuSolver<Real>::setState(const State& state) {
   }
   stepIndex_ = state.step;
   velocityMeaning_ = state.integrator;
+  selfCollision_.restart();
+  startChecked_ = false;
+  forgetTrouble();
 }
 
 template <class Real>
@@ -168,10 +280,12 @@ Vec3<Real> CpuSolver<Real>::velocity(std::uint32_t particle) const {
 template <class Real>
 void CpuSolver<Real>::setPosition(std::uint32_t particle, Vec3<Real> position) {
   put(before_.positions, particle, position);
+  startChecked_ = false;
 }
 template <class Real>
 void CpuSolver<Real>::setVelocity(std::uint32_t particle, Vec3<Real> velocity) {
   put(before_.velocities, particle, velocity);
+  startChecked_ = false;
 }
 
 template <class Real>

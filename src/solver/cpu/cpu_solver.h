@@ -6,6 +6,7 @@
 
 #include "solver/cpu/cpu_state.h"
 #include "solver/cpu/passes.h"
+#include "solver/cpu/self_collision.h"
 #include "solver/solver.h"
 #include "solver/step_params.h"
 
@@ -21,9 +22,13 @@ class CpuSolver final : public Solver {
   void configure(const Scene& scene) override;
   void step(int count) override;
   void finish() override {}
+  [[nodiscard]] std::optional<Trouble> trouble() override;
+  void keep() override;
+  void revert() override;
   [[nodiscard]] State state() override;
   void setState(const State& state) override;
   [[nodiscard]] std::uint64_t stepIndex() const override { return stepIndex_; }
+  [[nodiscard]] ContactCounts contactCounts() override { return selfCollision_.counts(); }
   [[nodiscard]] std::string backend() const override { return "cpu"; }
   [[nodiscard]] std::string device() const override;
 
@@ -37,9 +42,11 @@ class CpuSolver final : public Solver {
 
  private:
   [[nodiscard]] cpu::PassArguments<Real> arguments(const StepParams<Real>& params);
-  void prepareColliders();
+  void prepareMotions();
+  void forgetTrouble();
+  void checkStart();
   void convertVelocities();
-  void stepGrid(std::size_t grid);
+  void stepOnce();
   template <class Pass>
   void forEachRow(int rows, Pass pass);
 
@@ -50,10 +57,25 @@ class CpuSolver final : public Solver {
   Integrator velocityMeaning_ = Integrator::verlet;
   std::uint64_t stepIndex_ = 0;
   CpuState<Real> before_, after_;
+  struct Kept {
+    CpuState<Real> state;
+    std::uint64_t stepIndex = 0;
+    Integrator velocityMeaning = Integrator::verlet;
+  };
+  Kept kept_;
+  bool startChecked_ = true;  // false once a state was handed in
+  WatchRow watch_ = soundWatchRow();
+  std::optional<Trouble> trouble_;
   Components<Real> forces_;
   std::vector<Real> inverseMasses_, restLengths_;
-  std::vector<ColliderParams<Real>> colliders_;
+  std::vector<ColliderParams<Real>> colliders_;  // of this step,
+  std::vector<float> distances_;                 // samples of the mesh colliders' grids
+  PinPaths pinPaths_;
+  std::vector<PinMotionParams<Real>> pinMotions_;
+  Components<Real> pinStarts_;
+  std::vector<StepParams<Real>> params_;              // by grid
   std::vector<std::vector<LimitColor>> limitColors_;  // by grid
+  cpu::SelfCollision<Real> selfCollision_;
 };
 
 extern template class CpuSolver<float>;

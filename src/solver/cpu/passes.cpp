@@ -5,43 +5,11 @@
 #include <tuple>
 
 #include "core/exact_math.h"
-
-// Loops along a row are compiled for several instruction sets, chosen when the program starts; with
-// contraction off (CMakeLists.txt) all of them give the same bits. Sanitizer builds and other compilers take
-// the plain one.
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
-#define VECTOR_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default")))
-#else
-#define VECTOR_CLONES
-#endif
-#define INLINE [[gnu::always_inline]] inline
+#include "solver/cpu/rows.h"
+#include "solver/cpu/watch.h"
 
 namespace clothsim::cpu {
 namespace {
-
-// A stretch of particles [begin, end) of one row, as indices into the arrays.
-struct Stretch {
-  std::ptrdiff_t begin, end;
-};
-
-// Those particles of the row whose neighbours from `firstOffset` to `lastOffset` columns away are on the
-// grid.
-template <class Real>
-Stretch stretch(const StepParams<Real>& step, int row, int firstOffset = 0, int lastOffset = 0) {
-  const auto columns = static_cast<std::ptrdiff_t>(step.columns);
-  const std::ptrdiff_t start = static_cast<std::ptrdiff_t>(step.firstParticle) + row * columns;
-  return {start + std::max(0, -firstOffset), start + columns - std::max(0, lastOffset)};
-}
-
-template <class Real>
-std::ptrdiff_t indexOffset(const StepParams<Real>& step, int columns, int rows) {
-  return columns + rows * static_cast<std::ptrdiff_t>(step.columns);
-}
-
-template <class Real>
-INLINE Vec3<Real> load(const Real* x, const Real* y, const Real* z, std::ptrdiff_t i) {
-  return {x[i], y[i], z[i]};
-}
 
 // Hooke's law: k (l - L) along the unit vector from a to b.
 template <class Real>
@@ -92,31 +60,61 @@ constexpr std::array<std::array<Corner, 3>, 6> triangleFan{{{{{0, -1}, {-1, 0}, 
                                                             {{{0, 0}, {-1, 1}, {0, 1}}},
                                                             {{{0, 0}, {0, 1}, {1, 0}}}}};
 
-// Adds the forces of one incident spring to every particle of the stretch. `rest` is null when all lengths
-// are nominal.
+// Rest lengths of a slot: the nominal one for all, or from the table.
 template <class Real>
-INLINE void addSpring(const PassArguments<Real>& arguments, Stretch particles, std::ptrdiff_t other,
-                      const SpringParams<Real>& spring, const Real* rest) {
+struct NominalLength {
+  Real length;
+  Real operator[](std::ptrdiff_t) const { return length; }
+};
+
+// Adds the forces of one incident spring to every particle of the stretch. Of owned springs it returns the
+// largest bits of l^2 for the watchdog: one end of each spring is enough.
+template <bool owned, class Real, class RestLengths>
+INLINE auto addSpring(const PassArguments<Real>& arguments, Stretch particles, std::ptrdiff_t other,
+                      Real stiffness, RestLengths rest) {
   const Real *x = arguments.before.positions.x.data(), *y = arguments.before.positions.y.data(),
              *z = arguments.before.positions.z.data();
   Real *fx = arguments.forces.x.data(), *fy = arguments.forces.y.data(), *fz = arguments.forces.z.data();
-  const Real stiffness = spring.stiffness, nominal = spring.restLength;
-  if (rest == nullptr) {
-#pragma omp simd
-    for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
-      const Vec3<Real> f = springForce(load(x, y, z, i), load(x, y, z, i + other), stiffness, nominal);
-      fx[i] = fx[i] + f.x;
-      fy[i] = fy[i] + f.y;
-      fz[i] = fz[i] + f.z;
-    }
+  auto longest = bitsOf(Real(0));
+  const auto add = [=](std::ptrdiff_t i) __attribute__((always_inline)) {
+    const Vec3<Real> a = load(x, y, z, i), b = load(x, y, z, i + other);
+    const Vec3<Real> f = springForce(a, b, stiffness, rest[i]);
+    fx[i] = fx[i] + f.x;
+    fy[i] = fy[i] + f.y;
+    fz[i] = fz[i] + f.z;
+    return dot(b - a, b - a);
+  };
+  if constexpr (owned) {
+#pragma GCC ivdep
+    for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i)
+      longest = larger(longest, bitsOf(add(i)));
   } else {
 #pragma omp simd
-    for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
-      const Vec3<Real> f = springForce(load(x, y, z, i), load(x, y, z, i + other), stiffness, rest[i]);
-      fx[i] = fx[i] + f.x;
-      fy[i] = fy[i] + f.y;
-      fz[i] = fz[i] + f.z;
-    }
+    for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) add(i);
+  }
+  return longest;
+}
+
+// Particles of the row whose own springs in `slot` are too long.
+template <class Real>
+[[gnu::noinline, gnu::cold]] void noteOverlong(const PassArguments<Real>& arguments, Stretch particles,
+                                               std::ptrdiff_t other, Real maxSquared) {
+  const Components<Real>& p = arguments.before.positions;
+  for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
+    const Vec3<Real> d =
+        load(p.x.data(), p.y.data(), p.z.data(), i + other) - load(p.x.data(), p.y.data(), p.z.data(), i);
+    if (isBeyond(dot(d, d), maxSquared)) noteTrouble(arguments.watch, PASS_FORCES, i, REASON_RUNAWAY_STRAIN);
+  }
+}
+
+template <class Real, class RestLengths>
+INLINE void addIncidentSpring(const PassArguments<Real>& arguments, Stretch particles, bool owned,
+                              std::ptrdiff_t other, const SpringParams<Real>& spring, RestLengths rest) {
+  if (!owned) {
+    addSpring<false>(arguments, particles, other, spring.stiffness, rest);
+  } else if (addSpring<true>(arguments, particles, other, spring.stiffness, rest) >
+             bitsOf(spring.maxLengthSquared)) {
+    noteOverlong(arguments, particles, other, spring.maxLengthSquared);
   }
 }
 
@@ -126,14 +124,19 @@ INLINE void addSprings(const PassArguments<Real>& arguments, int row) {
   for (const IncidentSpring& incident : incidentSprings) {
     const SpringParams<Real>& spring = step.springs[incident.slot];
     const int otherRow = row + incident.rows;
-    if (spring.enabled == 0 || otherRow < 0 || otherRow >= static_cast<int>(step.rows)) continue;
+    const bool enabled = (step.enabledSlots >> incident.slot & 1u) != 0;
+    if (!enabled || otherRow < 0 || otherRow >= static_cast<int>(step.rows)) continue;
     const Stretch particles = stretch(step, row, incident.columns, incident.columns);
     const std::ptrdiff_t other = indexOffset(step, incident.columns, incident.rows);
-    const Real* rest = nullptr;
-    if (step.useRestLengthTable != 0)
-      rest = arguments.restLengths + static_cast<std::size_t>(incident.slot) * step.totalParticles +
-             (incident.owned ? 0 : other);
-    addSpring(arguments, particles, other, spring, rest);
+    if (step.useRestLengthTable != 0) {
+      const Real* rest = arguments.restLengths +
+                         static_cast<std::size_t>(incident.slot) * step.totalParticles +
+                         (incident.owned ? 0 : other);
+      addIncidentSpring(arguments, particles, incident.owned, other, spring, rest);
+    } else {
+      addIncidentSpring(arguments, particles, incident.owned, other, spring,
+                        NominalLength<Real>{spring.restLength});
+    }
   }
 }
 
@@ -194,7 +197,8 @@ INLINE void gatherForcesRow(const PassArguments<Real>& arguments, int row) {
   if (arguments.step.airResistance > Real(0)) addAirResistance(arguments, row);
 }
 
-// One component of x' = x + h v', v' = (1 - damping) v + h (g + w f); pinned particles rest.
+// One component of x' = x + h v', v' = (1 - damping) v + h (g + w f); pinned particles rest, unless
+// movePins() follows.
 template <class Real>
 INLINE void integrateComponent(const StepParams<Real>& step, Stretch particles, Real gravity,
                                const Real* inverseMass, const Real* force, const Real* position,
@@ -208,6 +212,33 @@ INLINE void integrateComponent(const StepParams<Real>& step, Stretch particles, 
     const bool pinned = inverseMass[i] == Real(0);
     newVelocity[i] = pinned ? Real(0) : canonical(v);
     newPosition[i] = pinned ? position[i] : canonical(x);
+  }
+}
+
+// Where their paths take the pins from their start positions (solver/pin_paths.h), at the velocity that leads
+// there.
+template <class Real>
+void movePins(const PassArguments<Real>& arguments, Stretch particles) {
+  const Components<Real>&s = arguments.pinStarts, &old = arguments.before.positions;
+  Components<Real>&p = arguments.after.positions, &v = arguments.after.velocities;
+  for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
+    const std::uint32_t number = arguments.pinPathNumbers[i];
+    if (number == 0 || arguments.inverseMasses[i] != Real(0)) continue;
+    const PinMotionParams<Real>& motion = arguments.pinMotions[number - 1];
+    const Vec3<Real> start{s.x[i], s.y[i], s.z[i]};
+    const Vec3<Real> d = start - Vec3<Real>{motion.pivotX, motion.pivotY, motion.pivotZ};
+    const Vec3<Real> turn{dot({motion.turnXX, motion.turnXY, motion.turnXZ}, d),
+                          dot({motion.turnYX, motion.turnYY, motion.turnYZ}, d),
+                          dot({motion.turnZX, motion.turnZY, motion.turnZZ}, d)};
+    const Vec3<Real> move = turn + Vec3<Real>{motion.shiftX, motion.shiftY, motion.shiftZ};
+    const Vec3<Real> sum = start + move;
+    p.x[i] = canonical(sum.x);
+    p.y[i] = canonical(sum.y);
+    p.z[i] = canonical(sum.z);
+    const Real inverseTimeStep = arguments.step.inverseTimeStep;
+    v.x[i] = canonical(inverseTimeStep * (p.x[i] - old.x[i]));
+    v.y[i] = canonical(inverseTimeStep * (p.y[i] - old.y[i]));
+    v.z[i] = canonical(inverseTimeStep * (p.z[i] - old.z[i]));
   }
 }
 
@@ -225,114 +256,8 @@ INLINE void integrateRow(const PassArguments<Real>& arguments, int row) {
   integrateComponent(step, particles, step.gravityZ, arguments.inverseMasses, f.z.data(),
                      before.positions.z.data(), before.velocities.z.data(), after.positions.z.data(),
                      after.velocities.z.data());
-}
-
-// Where the particle was at the start of the step, carried along with a moving collider.
-template <class Real>
-INLINE Vec3<Real> carried(const ColliderParams<Real>& collider, Vec3<Real> x) {
-  const Vec3<Real> d = x - Vec3<Real>{collider.pivotX, collider.pivotY, collider.pivotZ};
-  const Vec3<Real> turn{dot({collider.turnXX, collider.turnXY, collider.turnXZ}, d),
-                        dot({collider.turnYX, collider.turnYY, collider.turnYZ}, d),
-                        dot({collider.turnZX, collider.turnZY, collider.turnZZ}, d)};
-  const Vec3<Real> move = turn + Vec3<Real>{collider.shiftX, collider.shiftY, collider.shiftZ};
-  return x + move;
-}
-
-template <class Real>
-struct Contact {
-  bool touches;
-  Vec3<Real> surface;  // where CS184 puts a particle without friction
-};
-
-// Inside the sphere: the nearest point of its surface.
-template <class Real>
-INLINE Contact<Real> sphereContact(const ColliderParams<Real>& sphere, Vec3<Real> x) {
-  const Vec3<Real> center{sphere.pointX, sphere.pointY, sphere.pointZ};
-  const Vec3<Real> d = x - center;
-  const Real distanceSquared = dot(d, d);
-  const Real scale = sphere.radius * inverseSquareRoot(distanceSquared);
-  return {distanceSquared < sphere.radiusSquared, center + scale * d};
-}
-
-// Crossed since `previous`: the foot of the perpendicular, a little off on the side it came from.
-template <class Real>
-INLINE Contact<Real> planeContact(const ColliderParams<Real>& plane, Real offset, Vec3<Real> previous,
-                                  Vec3<Real> x) {
-  const Vec3<Real> point{plane.pointX, plane.pointY, plane.pointZ};
-  const Vec3<Real> normal{plane.normalX, plane.normalY, plane.normalZ};
-  const Real heightBefore = dot(previous - point, normal);
-  const Real height = dot(x - point, normal);
-  const bool wasAbove = !(heightBefore < Real(0));
-  const bool isAbove = !(height < Real(0));
-  const Real side = wasAbove ? offset : -offset;
-  const Real lift = side - height;
-  return {wasAbove != isAbove, x + lift * normal};
-}
-
-template <bool moving, class Real>
-INLINE Vec3<Real> previousPosition(const ColliderParams<Real>& collider, Vec3<Real> start) {
-  if constexpr (moving) {
-    return carried(collider, start);
-  } else {
-    return start;
-  }
-}
-
-template <std::uint32_t type, class Real>
-INLINE Contact<Real> findContact(const ColliderParams<Real>& collider, Real offset, Vec3<Real> previous,
-                                 Vec3<Real> x) {
-  if constexpr (type == COLLIDER_SPHERE) {
-    return sphereContact(collider, x);
-  } else {
-    return planeContact(collider, offset, previous, x);
-  }
-}
-
-// One collider and a stretch of particles; compiled for each type, at rest and moving, so that the loop runs
-// in vector registers.
-template <std::uint32_t type, bool moving, class Real>
-INLINE void collideWith(const PassArguments<Real>& arguments, const ColliderParams<Real>& collider,
-                        Stretch particles) {
-  const Components<Real>& old = arguments.before.positions;
-  Components<Real>&p = arguments.after.positions, &v = arguments.after.velocities;
-  const Real *x0 = old.x.data(), *y0 = old.y.data(), *z0 = old.z.data();
-  Real *x = p.x.data(), *y = p.y.data(), *z = p.z.data(), *vx = v.x.data(), *vy = v.y.data(),
-       *vz = v.z.data();
-  const Real* inverseMasses = arguments.inverseMasses;
-  const Real offset = arguments.step.planeOffset, inverseTimeStep = arguments.step.inverseTimeStep;
-#pragma omp simd
-  for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
-    const Vec3<Real> now = load(x, y, z, i), start = load(x0, y0, z0, i);
-    const Vec3<Real> velocity = load(vx, vy, vz, i);
-    const Vec3<Real> previous = previousPosition<moving>(collider, start);
-    const Contact<Real> contact = findContact<type>(collider, offset, previous, now);
-    const Vec3<Real> corrected = previous + collider.motionKept * (contact.surface - previous);
-    const Vec3<Real> kicked = velocity + inverseTimeStep * (corrected - now);
-    const bool moves = contact.touches & (inverseMasses[i] > Real(0));
-    x[i] = moves ? canonical(corrected.x) : now.x;
-    y[i] = moves ? canonical(corrected.y) : now.y;
-    z[i] = moves ? canonical(corrected.z) : now.z;
-    vx[i] = moves ? canonical(kicked.x) : velocity.x;
-    vy[i] = moves ? canonical(kicked.y) : velocity.y;
-    vz[i] = moves ? canonical(kicked.z) : velocity.z;
-  }
-}
-
-template <class Real>
-INLINE void collideRow(const PassArguments<Real>& arguments, int row) {
-  const Stretch particles = stretch(arguments.step, row);
-  for (std::uint32_t k = 0; k < arguments.step.colliderCount; ++k) {
-    const ColliderParams<Real> collider = arguments.colliders[k];
-    const bool isSphere = collider.type == COLLIDER_SPHERE, moving = collider.moving != 0;
-    if (isSphere && moving)
-      collideWith<COLLIDER_SPHERE, true>(arguments, collider, particles);
-    else if (isSphere)
-      collideWith<COLLIDER_SPHERE, false>(arguments, collider, particles);
-    else if (moving)
-      collideWith<COLLIDER_PLANE, true>(arguments, collider, particles);
-    else
-      collideWith<COLLIDER_PLANE, false>(arguments, collider, particles);
-  }
+  if (arguments.pinPathNumbers != nullptr) movePins(arguments, particles);
+  watchVelocities(arguments, PASS_INTEGRATE, row);
 }
 
 template <class Real>
@@ -342,7 +267,7 @@ INLINE void kickComponent(const StepParams<Real>& step, Stretch particles, Real 
   for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
     const Real acceleration = gravity + inverseMass[i] * force[i];
     const Real v = velocity[i] + step.kickTime * acceleration;
-    newVelocity[i] = inverseMass[i] == Real(0) ? Real(0) : canonical(v);
+    newVelocity[i] = inverseMass[i] == Real(0) ? velocity[i] : canonical(v);
   }
 }
 
@@ -382,7 +307,21 @@ INLINE void limitSpring(const PassArguments<Real>& arguments, std::ptrdiff_t a, 
   }
 }
 
+template <class Real>
+void checkStartRow(const PassArguments<Real>& arguments, int row) {
+  const Components<Real>&p = arguments.before.positions, &v = arguments.before.velocities;
+  const Stretch particles = stretch(arguments.step, row);
+  for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
+    const bool sound = finite(p.x[i]) && finite(p.y[i]) && finite(p.z[i]) && finite(v.x[i]) &&
+                       finite(v.y[i]) && finite(v.z[i]) && finite(arguments.inverseMasses[i]);
+    if (!sound) noteTrouble(arguments.watch, PASS_START, i, REASON_NON_FINITE);
+  }
+}
+
 }  // namespace
+
+void checkStart(const PassArguments<float>& arguments, int row) { checkStartRow(arguments, row); }
+void checkStart(const PassArguments<double>& arguments, int row) { checkStartRow(arguments, row); }
 
 VECTOR_CLONES void gatherForces(const PassArguments<float>& arguments, int row) {
   gatherForcesRow(arguments, row);
@@ -391,9 +330,6 @@ void gatherForces(const PassArguments<double>& arguments, int row) { gatherForce
 
 VECTOR_CLONES void integrate(const PassArguments<float>& arguments, int row) { integrateRow(arguments, row); }
 void integrate(const PassArguments<double>& arguments, int row) { integrateRow(arguments, row); }
-
-VECTOR_CLONES void collide(const PassArguments<float>& arguments, int row) { collideRow(arguments, row); }
-void collide(const PassArguments<double>& arguments, int row) { collideRow(arguments, row); }
 
 template <class Real>
 void kick(const PassArguments<Real>& arguments, int row) {
@@ -406,6 +342,7 @@ void kick(const PassArguments<Real>& arguments, int row) {
                 before.velocities.y.data(), after.velocities.y.data());
   kickComponent(step, particles, step.gravityZ, arguments.inverseMasses, f.z.data(),
                 before.velocities.z.data(), after.velocities.z.data());
+  watchVelocities(arguments, PASS_KICK, row);
 }
 
 template <class Real>
@@ -426,6 +363,13 @@ void limitStrain(const PassArguments<Real>& arguments, const LimitColor& color, 
         step.useRestLengthTable != 0 ? step.limitFactor * rest[owner] : step.springs[color.slot].limitLength;
     limitSpring(arguments, owner, owner + other, limit);
   }
+}
+
+VECTOR_CLONES void watchLimit(const PassArguments<float>& arguments, int row) {
+  watchVelocities(arguments, arguments.step.limitPass, row);
+}
+void watchLimit(const PassArguments<double>& arguments, int row) {
+  watchVelocities(arguments, arguments.step.limitPass, row);
 }
 
 template void kick(const PassArguments<float>&, int);

@@ -7,7 +7,9 @@
 
 #include "cloth/cloth.h"
 #include "solver/cpu/cpu_state.h"
+#include "solver/pin_paths.h"
 #include "solver/step_params.h"
+#include "solver/trouble.h"
 
 namespace clothsim::cpu {
 
@@ -16,21 +18,28 @@ namespace clothsim::cpu {
 template <class Real>
 struct PassArguments {
   const StepParams<Real>& step;
-  const ColliderParams<Real>* colliders;  // those of this step
+  const ColliderParams<Real>* colliders;    // those of this step
+  const float* distances;                   // samples of the mesh colliders' grids; null without any
+  const PinMotionParams<Real>* pinMotions;  // those of this step,
+  const std::uint32_t* pinPathNumbers;  // for each particle one of them + 1, or 0; null when there are none
+  const Components<Real>& pinStarts;    // where the simulation began [m]; empty when there are none
   const Real* inverseMasses;
   const Real* restLengths;  // slot-major; null when no grid needs the table
   const CpuState<Real>& before;
   CpuState<Real>& after;
   Components<Real>& forces;  // springs, wind and air, without gravity [N]
+  WatchRow& watch;           // of this step; rows and threads write to it atomically
 };
+
+// Looks for what is not finite in the state that a step begins with.
+void checkStart(const PassArguments<float>& arguments, int row);
+void checkStart(const PassArguments<double>& arguments, int row);
 
 // One row of the grid.
 void gatherForces(const PassArguments<float>& arguments, int row);
 void gatherForces(const PassArguments<double>& arguments, int row);
 void integrate(const PassArguments<float>& arguments, int row);
 void integrate(const PassArguments<double>& arguments, int row);
-void collide(const PassArguments<float>& arguments, int row);
-void collide(const PassArguments<double>& arguments, int row);
 // after.velocities = before.velocities + kickTime * acceleration, positions untouched.
 template <class Real>
 void kick(const PassArguments<Real>& arguments, int row);
@@ -38,5 +47,8 @@ void kick(const PassArguments<Real>& arguments, int row);
 // Row j of the colour's owners; works in place on `after`.
 template <class Real>
 void limitStrain(const PassArguments<Real>& arguments, const LimitColor& color, std::uint32_t j);
+// After all colours: the watchdog's look at a row.
+void watchLimit(const PassArguments<float>& arguments, int row);
+void watchLimit(const PassArguments<double>& arguments, int row);
 
 }  // namespace clothsim::cpu

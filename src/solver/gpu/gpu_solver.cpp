@@ -11,33 +11,28 @@ namespace {
 // How many steps' parameters are uploaded at once when they depend on time.
 constexpr int BATCH_STEPS = 64;
 
-void checkFits(std::size_t elements, std::size_t bytesEach, const char* what) {
-  const std::size_t largest =
-      std::min(static_cast<std::size_t>(gl::currentContextInfo().maxStorageBlockBytes) / bytesEach,
-               gl::BufferTexture::largestSize());
-  if (elements <= largest) return;
-  throw OpenGlError("this cloth needs " + std::to_string(elements) + " " + what +
-                    " in one buffer, and this driver allows " + std::to_string(largest) +
-                    ". Use a smaller --resolution, or --backend cpu.");
-}
+// How many steps the watchdog remembers one by one. Who takes more without asking for trouble() has it looked
+// for once in so many.
+constexpr std::size_t WATCHED_STEPS = 1024;
 
 }  // namespace
 
 GpuSolver::GpuSolver(const Cloth& cloth, const Scene& scene, const GpuOptions& options)
-    : cloth_(&cloth), scene_(scene), options_(options), velocityMeaning_(startingVelocityMeaning(scene)) {
+    : cloth_(&cloth),
+      scene_(scene),
+      options_(options),
+      velocityMeaning_(startingVelocityMeaning(scene)),
+      selfCollision_(cloth, options.groupColumns, options.groupRows),
+      runner_(options.groupColumns, options.groupRows) {
   const std::size_t count = cloth.particleCount();
   checkFits(count, sizeof(Particle4), "particles");
   const std::vector<float> restLengths = measureRestLengths<float>(cloth);
   checkFits(restLengths.size(), sizeof(float), "rest lengths");
   restLengths_ = gl::Buffer<float>("rest lengths", std::span<const float>(restLengths));
   restLengthTexture_ = gl::BufferTexture("rest lengths", restLengths_.name(), GL_R32F);
-  for (const auto& [arrays, name] :
-       {std::pair{&positions_, "positions "}, std::pair{&velocities_, "velocities "}}) {
-    for (std::size_t i = 0; i < 2; ++i) {
-      const std::string label = name + std::to_string(i);
-      (*arrays)[i].buffer = gl::Buffer<Particle4>(label, count);
-      (*arrays)[i].texture = gl::BufferTexture(label, (*arrays)[i].buffer.name(), GL_RGBA32F);
-    }
+  for (std::size_t i = 0; i < 2; ++i) {
+    positions_[i] = ParticleArray("positions " + std::to_string(i), count);
+    velocities_[i] = ParticleArray("velocities " + std::to_string(i), count);
   }
   forces_ = gl::Buffer<Particle4>("forces", count);
 
@@ -47,7 +42,9 @@ GpuSolver::GpuSolver(const Cloth& cloth, const Scene& scene, const GpuOptions& o
     for (const LimitColor& color : gridColors_.back().colors) colorSlots.push_back({color});
   }
   limitColors_ = gl::Buffer<ColorSlot>("strain limit colours", std::span<const ColorSlot>(colorSlots));
+  watch_ = gl::Buffer<WatchSlot>("watchdog", WATCHED_STEPS);
   setState(initialState(cloth, scene));
+  startChecked_ = true;  // numbers of a scene are finite
   configure(scene);
   gl::checkErrors("the making of the GPU solver");  // above all: out of memory
 }
@@ -55,6 +52,13 @@ GpuSolver::GpuSolver(const Cloth& cloth, const Scene& scene, const GpuOptions& o
 void GpuSolver::configure(const Scene& scene) {
   assert(scene.cloths.size() == cloth_->grids().size() &&
          "configure() takes live edits of the solver's own scene");
+  if (std::vector<float> samples = distanceSamples(scene);
+      distances_.name() == 0 || samples != stagedDistances_) {
+    checkFits(samples.size(), sizeof(float), "samples of mesh colliders' distances");
+    distances_ = gl::Buffer<float>("distances", std::span<const float>(samples));
+    distanceTexture_ = gl::BufferTexture("distances", distances_.name(), GL_R32F);
+    stagedDistances_ = std::move(samples);
+  }
   scene_ = scene;
   const std::size_t batch = dependsOnTime(scene) ? BATCH_STEPS : 1;
   if (stepSlots_.size() != batch * cloth_->grids().size()) {
@@ -66,36 +70,65 @@ void GpuSolver::configure(const Scene& scene) {
     colliders_ = gl::Buffer<ColliderParams<float>>("colliders", stagedColliders_.size());
     colliderTexture_ = gl::BufferTexture("colliders", colliders_.name(), GL_RGBA32F);
   }
+  preparePins(batch);
   paramsUploaded_ = false;
+  selfCollision_.configure(scene);
   choosePrograms();
+}
+
+void GpuSolver::preparePins(std::size_t batch) {
+  const std::vector<std::uint32_t> numbersBefore = std::move(pinPaths_.numbers);
+  pinPaths_ = makePinPaths(scene_, *cloth_);
+  if (pinMotions_.name() == 0 || pinMotions_.size() != batch * pinPaths_.paths.size()) {
+    stagedPinMotions_.resize(batch * pinPaths_.paths.size());
+    pinMotions_ = gl::Buffer<PinMotionParams<float>>("pin motions", stagedPinMotions_.size());
+    pinMotionTexture_ = gl::BufferTexture("pin motions", pinMotions_.name(), GL_RGBA32F);
+  }
+  if (pinStarts_.name() != 0 && pinPaths_.numbers == numbersBefore) return;
+  std::vector<Particle4> starts(pinPaths_.numbers.size());
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const auto x = startPosition<float>(*cloth_, i);
+    starts[i] = {x.x, x.y, x.z, static_cast<float>(pinPaths_.numbers[i])};
+  }
+  pinStarts_ = gl::Buffer<Particle4>("start positions of pins", std::span<const Particle4>(starts));
+  pinStartTexture_ = gl::BufferTexture("start positions of pins", pinStarts_.name(), GL_RGBA32F);
 }
 
 void GpuSolver::choosePrograms() {
   gridPrograms_.clear();
-  for (const Grid& grid : cloth_->grids()) {
-    PassFeatures features = featuresOf(scene_, grid);
+  for (std::size_t grid = 0; grid < cloth_->grids().size(); ++grid) {
+    PassFeatures features = featuresOf(scene_, *cloth_, grid);
     features.groupColumns = options_.groupColumns;
     features.groupRows = options_.groupRows;
     features.fused = options_.fused;
+    features.collidesInStep = !selfCollision_.isOn();
+    features.collidesAgain = contactRounds(scene_) > 1;
     gridPrograms_.push_back(&programs_.try_emplace(features, features).first->second);
   }
 }
 
 void GpuSolver::uploadParams(std::uint64_t firstStep, int count) {
-  const std::size_t grids = cloth_->grids().size(), colliders = scene_.colliders.size();
+  const std::size_t grids = cloth_->grids().size(), colliders = scene_.colliders.size(),
+                    pinMotions = pinPaths_.paths.size();
   for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
     for (std::size_t grid = 0; grid < grids; ++grid) {
       StepParams<float>& params = stagedSlots_[k * grids + grid].params;
       params = makeStepParams<float>(scene_, *cloth_, grid, firstStep + k);
       params.firstCollider = static_cast<std::uint32_t>(k * colliders);
+      params.firstPinMotion = static_cast<std::uint32_t>(k * pinMotions);
       params.kickTime = velocityConversionTime<float>(scene_);
     }
     for (std::size_t i = 0; i < colliders; ++i)
       stagedColliders_[k * colliders + i] =
           makeColliderParams<float>(scene_, scene_.colliders[i], firstStep + k);
+    for (std::size_t i = 0; i < pinMotions; ++i)
+      stagedPinMotions_[k * pinMotions + i] =
+          makePinMotionParams<float>(pinPaths_.paths[i], stepLength(scene_.solver), firstStep + k);
   }
   stepSlots_.upload({stagedSlots_.data(), static_cast<std::size_t>(count) * grids});
   colliders_.upload({stagedColliders_.data(), static_cast<std::size_t>(count) * colliders});
+  if (pinMotions > 0)
+    pinMotions_.upload({stagedPinMotions_.data(), static_cast<std::size_t>(count) * pinMotions});
 }
 
 void GpuSolver::bindState() {
@@ -107,20 +140,57 @@ void GpuSolver::bindState() {
   newV.texture.bind(NEW_VELOCITIES_UNIT);
   newX.buffer.bindStorage(NEW_POSITIONS_BINDING);
   newV.buffer.bindStorage(NEW_VELOCITIES_BINDING);
+  bindWatch();
 }
 
-void GpuSolver::runPass(const gl::Program& pass, const char* name, std::uint32_t columns,
-                        std::uint32_t rows) {
-  pass.bind();
-  if (timer_ != nullptr) timer_->begin();
-  gl::dispatch(columns, rows, options_.groupColumns, options_.groupRows);
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
-  if (timer_ == nullptr) return;
-  timer_->end();
-  auto found = std::find_if(passTimes_.begin(), passTimes_.end(),
-                            [&](const PassTime& time) { return time.name == name; });
-  if (found == passTimes_.end()) found = passTimes_.insert(found, {name, 0});
-  found->seconds += timer_->seconds();
+// The row of the next step. What comes after trouble is of no interest and shares the last row.
+void GpuSolver::bindWatch() {
+  if (stepIndex_ - watchBase_ >= WATCHED_STEPS) (void)trouble();
+  watch_.bindStorageRange(WATCH_BINDING, std::min<std::size_t>(stepIndex_ - watchBase_, WATCHED_STEPS - 1),
+                          1);
+}
+
+void GpuSolver::forgetTrouble() {
+  static constexpr GLuint sound = NO_TROUBLE;
+  glClearNamedBufferData(watch_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &sound);
+  watchBase_ = stepIndex_;
+  trouble_.reset();
+}
+
+std::optional<Trouble> GpuSolver::trouble() {
+  if (trouble_) return trouble_;
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  // The row of the next step counts: a kick may have come before it.
+  const std::size_t rows = std::min<std::size_t>(stepIndex_ - watchBase_ + 1, WATCHED_STEPS);
+  const std::vector<WatchSlot> slots = watch_.download(0, rows);
+  for (std::size_t i = 0; i < rows && !trouble_; ++i)
+    trouble_ = firstTrouble(slots[i].row, watchBase_ + i + 1);
+  if (!trouble_) watchBase_ = stepIndex_;  // nothing was written: the rows serve again
+  return trouble_;
+}
+
+void GpuSolver::keep() {
+  for (auto [kept, state] :
+       {std::pair{&kept_.positions, &positions_[now_]}, std::pair{&kept_.velocities, &velocities_[now_]}}) {
+    if (kept->name() == 0) *kept = gl::Buffer<Particle4>("kept state", cloth_->particleCount());
+    kept->copyFrom(state->buffer);
+  }
+  kept_.stepIndex = stepIndex_;
+  kept_.velocityMeaning = velocityMeaning_;
+}
+
+void GpuSolver::revert() {
+  assert(kept_.positions.name() != 0 && "revert() needs a keep() before");
+  positions_[now_].buffer.copyFrom(kept_.positions);
+  velocities_[now_].buffer.copyFrom(kept_.velocities);
+  stepIndex_ = kept_.stepIndex;
+  velocityMeaning_ = kept_.velocityMeaning;
+  startChecked_ = false;
+  forgetTrouble();
+}
+
+void GpuSolver::run(const gl::Program& pass, const char* name, const Grid& grid) {
+  runner_.run(pass, name, static_cast<std::uint32_t>(grid.columns), static_cast<std::uint32_t>(grid.rows));
 }
 
 void GpuSolver::limitStrain(std::size_t gridIndex) {
@@ -128,30 +198,82 @@ void GpuSolver::limitStrain(std::size_t gridIndex) {
   for (std::size_t i = 0; i < grid.colors.size(); ++i) {
     const LimitColor& color = grid.colors[i];
     limitColors_.bindUniformRange(LIMIT_COLOR_BINDING, grid.first + i, 1);
-    runPass(gridPrograms_[gridIndex]->limit, "limit",
-            ownerCount(color.firstColumn, color.columnStep, color.columnRun, color.endColumn),
-            ownerCount(color.firstRow, color.rowStep, color.rowRun, color.endRow));
+    runner_.run(gridPrograms_[gridIndex]->limit, "limit",
+                ownerCount(color.firstColumn, color.columnStep, color.columnRun, color.endColumn),
+                ownerCount(color.firstRow, color.rowStep, color.rowRun, color.endRow));
+  }
+  const Grid& points = cloth_->grids()[gridIndex];
+  runner_.run(gridPrograms_[gridIndex]->watchLimit, "limit", static_cast<std::uint32_t>(points.columns),
+              (static_cast<std::uint32_t>(points.rows) + WATCHED_ROWS - 1) / WATCHED_ROWS);
+}
+
+// The passes of a step. Self-collision works on all grids at once, so each pass runs over all of them in
+// turn.
+void GpuSolver::stepOnce(std::size_t batchStep) {
+  const std::size_t grids = cloth_->grids().size();
+  const auto bindGrid = [&](std::size_t grid) {
+    stepSlots_.bindUniformRange(STEP_PARAMS_BINDING, batchStep * grids + grid, 1);
+  };
+  const auto forEachGrid = [&](auto pass) {
+    for (std::size_t grid = 0; grid < grids; ++grid) {
+      bindGrid(grid);
+      pass(cloth_->grids()[grid], *gridPrograms_[grid], grid);
+    }
+  };
+  const auto collide = [&](const Grid& grid, const PassPrograms& programs, std::size_t) {
+    if (!scene_.colliders.empty()) run(programs.collide, "collide", grid);
+  };
+  const auto limit = [&](const Grid&, const PassPrograms&, std::size_t grid) {
+    if (scene_.solver.strainLimit) limitStrain(grid);
+  };
+
+  const int rounds = contactRounds(scene_);
+  const bool fusesCollide = options_.fused && !selfCollision_.isOn();
+  forEachGrid([&](const Grid& grid, const PassPrograms& programs, std::size_t) {
+    if (options_.fused) {
+      run(programs.step, fusesCollide ? "step (forces, integrate, collide)" : "step (forces, integrate)",
+          grid);
+    } else {
+      run(programs.forces, "forces", grid);
+      run(programs.integrate, "integrate", grid);
+    }
+  });
+  if (selfCollision_.isRobust()) {
+    for (int round = 0; round < rounds; ++round) {
+      forEachGrid(limit);
+      forEachGrid(collide);
+    }
+    selfCollision_.separate(runner_, positions_[1 - now_], bindGrid);
+    selfCollision_.guard(runner_, positions_[now_], bindGrid);
+    forEachGrid(collide);
+  } else {
+    if (selfCollision_.isOn()) selfCollision_.separate(runner_, positions_[1 - now_], bindGrid);
+    if (!fusesCollide) forEachGrid(collide);
+    forEachGrid(limit);
+    for (int round = 1; round < rounds; ++round) {
+      forEachGrid(collide);
+      forEachGrid(limit);
+    }
+    if (rounds > 1) forEachGrid(collide);
   }
 }
 
-void GpuSolver::stepGrid(std::size_t gridIndex, std::size_t slot) {
-  const Grid& grid = cloth_->grids()[gridIndex];
-  const auto columns = static_cast<std::uint32_t>(grid.columns), rows = static_cast<std::uint32_t>(grid.rows);
-  const PassPrograms& programs = *gridPrograms_[gridIndex];
-  stepSlots_.bindUniformRange(STEP_PARAMS_BINDING, slot, 1);
-  if (options_.fused) {
-    runPass(programs.step, "step (forces, integrate, collide)", columns, rows);
-  } else {
-    runPass(programs.forces, "forces", columns, rows);
-    runPass(programs.integrate, "integrate", columns, rows);
-    runPass(programs.collide, "collide", columns, rows);
+void GpuSolver::checkStart() {
+  if (startChecked_) return;
+  startChecked_ = true;
+  uploadParams(stepIndex_, 1);
+  paramsUploaded_ = !dependsOnTime(scene_);
+  bindState();
+  for (std::size_t grid = 0; grid < cloth_->grids().size(); ++grid) {
+    stepSlots_.bindUniformRange(STEP_PARAMS_BINDING, grid, 1);
+    run(gridPrograms_[grid]->start, "start", cloth_->grids()[grid]);
   }
-  if (scene_.solver.strainLimit) limitStrain(gridIndex);
 }
 
 // verlet carries v(n - 1/2), euler v(n): the difference is h a / 2.
 void GpuSolver::convertVelocities() {
   if (scene_.solver.integrator == velocityMeaning_) return;
+  checkStart();
   velocityMeaning_ = scene_.solver.integrator;
   uploadParams(stepIndex_, 1);
   paramsUploaded_ = !dependsOnTime(scene_);
@@ -159,18 +281,20 @@ void GpuSolver::convertVelocities() {
   restLengthTexture_.bind(REST_LENGTHS_UNIT);
   for (std::size_t grid = 0; grid < cloth_->grids().size(); ++grid) {
     stepSlots_.bindUniformRange(STEP_PARAMS_BINDING, grid, 1);
-    runPass(gridPrograms_[grid]->kick, "kick", static_cast<std::uint32_t>(cloth_->grids()[grid].columns),
-            static_cast<std::uint32_t>(cloth_->grids()[grid].rows));
+    run(gridPrograms_[grid]->kick, "kick", cloth_->grids()[grid]);
   }
   std::swap(velocities_[0], velocities_[1]);
 }
 
 void GpuSolver::step(int count) {
+  checkStart();
   convertVelocities();
   forces_.bindStorage(FORCES_BINDING);
   restLengthTexture_.bind(REST_LENGTHS_UNIT);
   colliderTexture_.bind(COLLIDERS_UNIT);
-  const std::size_t grids = cloth_->grids().size();
+  pinStartTexture_.bind(PIN_STARTS_UNIT);
+  pinMotionTexture_.bind(PIN_MOTIONS_UNIT);
+  distanceTexture_.bind(DISTANCES_UNIT);
   const bool timed = dependsOnTime(scene_);
   for (int done = 0; done < count; ++done) {
     const int k = timed ? done % BATCH_STEPS : 0;
@@ -178,8 +302,7 @@ void GpuSolver::step(int count) {
       uploadParams(stepIndex_, timed ? std::min(BATCH_STEPS, count - done) : 1);
     paramsUploaded_ = !timed;
     bindState();
-    for (std::size_t grid = 0; grid < grids; ++grid)
-      stepGrid(grid, static_cast<std::size_t>(k) * grids + grid);
+    stepOnce(static_cast<std::size_t>(k));
     now_ = 1 - now_;
     ++stepIndex_;
   }
@@ -208,6 +331,9 @@ void GpuSolver::setState(const State& state) {
   velocities_[now_].buffer.upload(state.velocities);
   stepIndex_ = state.step;
   velocityMeaning_ = state.integrator;
+  selfCollision_.restart();
+  startChecked_ = false;
+  forgetTrouble();
 }
 
 std::string GpuSolver::device() const {
@@ -217,11 +343,9 @@ std::string GpuSolver::device() const {
 
 std::vector<PassTime> GpuSolver::timePasses(int steps) {
   gl::Timer timer;
-  passTimes_.clear();
-  timer_ = &timer;
+  runner_.startTiming(timer);
   step(steps);
-  timer_ = nullptr;
-  return std::move(passTimes_);
+  return runner_.stopTiming();
 }
 
 }  // namespace clothsim

@@ -11,8 +11,11 @@
 #include "gl/buffer_texture.h"
 #include "gl/context.h"
 #include "gl/program.h"
-#include "gl/timer.h"
+#include "solver/gpu/particle_array.h"
 #include "solver/gpu/pass_programs.h"
+#include "solver/gpu/pass_runner.h"
+#include "solver/gpu/self_collision.h"
+#include "solver/pin_paths.h"
 #include "solver/solver.h"
 #include "solver/step_params.h"
 
@@ -24,11 +27,6 @@ struct GpuOptions {
   int groupRows = 1;
 };
 
-struct PassTime {
-  std::string name;
-  double seconds = 0;  // on the GPU, of all dispatches together
-};
-
 class GpuSolver final : public Solver {
  public:
   // Needs a current context; `cloth` must outlive the solver. @throws OpenGlError when a buffer is larger
@@ -38,9 +36,13 @@ class GpuSolver final : public Solver {
   void configure(const Scene& scene) override;
   void step(int count) override;
   void finish() override;
+  [[nodiscard]] std::optional<Trouble> trouble() override;
+  void keep() override;
+  void revert() override;
   [[nodiscard]] State state() override;
   void setState(const State& state) override;
   [[nodiscard]] std::uint64_t stepIndex() const override { return stepIndex_; }
+  [[nodiscard]] ContactCounts contactCounts() override { return selfCollision_.counts(); }
   [[nodiscard]] std::string backend() const override { return "gpu"; }
   [[nodiscard]] std::string device() const override;
 
@@ -57,18 +59,25 @@ class GpuSolver final : public Solver {
   struct alignas(256) ColorSlot {
     LimitColor color;
   };
+  struct alignas(256) WatchSlot {  // as every driver takes storage offsets
+    WatchRow row;
+  };
   struct GridColors {  // a grid's part of limitColors_
     std::size_t first = 0;
     std::vector<LimitColor> colors;
   };
 
   void choosePrograms();
+  void preparePins(std::size_t batch);
   void uploadParams(std::uint64_t firstStep, int count);
+  void bindWatch();
+  void forgetTrouble();
+  void checkStart();
   void convertVelocities();
   void bindState();
-  void stepGrid(std::size_t grid, std::size_t slot);
+  void stepOnce(std::size_t batchStep);
   void limitStrain(std::size_t grid);
-  void runPass(const gl::Program& pass, const char* name, std::uint32_t columns, std::uint32_t rows);
+  void run(const gl::Program& pass, const char* name, const Grid& grid);
 
   const Cloth* cloth_;
   Scene scene_;
@@ -80,10 +89,6 @@ class GpuSolver final : public Solver {
   std::map<PassFeatures, PassPrograms>
       programs_;  // all that were ever needed: toggling back compiles nothing
   std::vector<const PassPrograms*> gridPrograms_;  // those in use, by grid
-  struct ParticleArray {
-    gl::Buffer<Particle4> buffer;
-    gl::BufferTexture texture;
-  };
   std::array<ParticleArray, 2> positions_, velocities_;
   std::size_t now_ = 0;  // which of the two holds the state
   gl::Buffer<Particle4> forces_;
@@ -92,13 +97,33 @@ class GpuSolver final : public Solver {
   gl::Buffer<StepSlot> stepSlots_;               // a batch of steps, each with all grids
   gl::Buffer<ColliderParams<float>> colliders_;  // the same batch, each with all colliders
   gl::BufferTexture colliderTexture_;
+  PinPaths pinPaths_;
+  gl::Buffer<Particle4> pinStarts_;  // xyz and the number of the path + 1; one unused element without paths
+  gl::BufferTexture pinStartTexture_;
+  gl::Buffer<PinMotionParams<float>> pinMotions_;  // the same batch, each with all paths
+  gl::BufferTexture pinMotionTexture_;
+  std::vector<float> stagedDistances_;
+  gl::Buffer<float> distances_;  // samples of the mesh colliders' grids
+  gl::BufferTexture distanceTexture_;
   gl::Buffer<ColorSlot> limitColors_;
   std::vector<GridColors> gridColors_;
   std::vector<StepSlot> stagedSlots_;
   std::vector<ColliderParams<float>> stagedColliders_;
+  std::vector<PinMotionParams<float>> stagedPinMotions_;
+  GpuSelfCollision selfCollision_;
+  PassRunner runner_;
 
-  gl::Timer* timer_ = nullptr;  // while timePasses() runs
-  std::vector<PassTime> passTimes_;
+  gl::Buffer<WatchSlot> watch_;     // a row a step since watchBase_
+  std::uint64_t watchBase_ = 0;     // the step whose row is the first one; steps before it were sound
+  std::optional<Trouble> trouble_;  // as far as it was looked for
+  bool startChecked_ = true;        // false once a state was handed in
+
+  struct Kept {
+    gl::Buffer<Particle4> positions, velocities;
+    std::uint64_t stepIndex = 0;
+    Integrator velocityMeaning = Integrator::verlet;
+  };
+  Kept kept_;
 };
 
 }  // namespace clothsim

@@ -11,15 +11,18 @@
 namespace clothsim {
 
 struct PassFeatures {
-  bool wind = false, airResistance = false, colliders = false, movingColliders = false,
-       restLengthTable = false;
-  std::uint32_t enabledSlots = 0;  // one bit a SpringSlot
+  bool wind = false, airResistance = false, movingColliders = false, coulombFriction = false,
+       movingPins = false, restLengthTable = false;
+  std::uint32_t colliderTypes = 0;  // one bit a COLLIDER_... type of shared/step_params.h
+  std::uint32_t enabledSlots = 0;   // one bit a SpringSlot
   int groupColumns = 64, groupRows = 1;
-  bool fused = true;
+  bool fused = true;           // forces and integration in one dispatch,
+  bool collidesInStep = true;  // and colliders, when no pass comes between;
+  bool collidesAgain = false;  // they come again later
   friend auto operator<=>(const PassFeatures&, const PassFeatures&) = default;
 };
 
-[[nodiscard]] PassFeatures featuresOf(const Scene& scene, const Grid& grid);
+[[nodiscard]] PassFeatures featuresOf(const Scene& scene, const Cloth& cloth, std::size_t grid);
 [[nodiscard]] gl::Defines definesFor(const PassFeatures& features);
 
 struct PassPrograms {
@@ -27,7 +30,7 @@ struct PassPrograms {
 
   gl::Program step;                        // when fused,
   gl::Program forces, integrate, collide;  // when not
-  gl::Program limit, kick;
+  gl::Program limit, watchLimit, kick, start;
 };
 
 }  // namespace clothsim

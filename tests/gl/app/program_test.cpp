@@ -1,12 +1,14 @@
 // The program as a user meets it: commands, outputs, exit codes.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
 
+#include "check/crossings.h"
 #include "core/files.h"
 #include "support/command.h"
 #include "support/process.h"
@@ -75,10 +77,101 @@ TEST(Program, ComparesTheBackendsAndSaysSoInItsExitCode) {
 }
 
 TEST(Program, FailsWithOneWhenTheSimulationBlowsUp) {
-  const CommandResult result =
-      clothsim("run -f pinned2 --frames 50 --backend cpu --set cloth.ks=1e9 --set solver.strain_limit=false");
+  const test::TemporaryFolder folder;  // also of the last good state
+  const CommandResult result = clothsim(
+      "run -f pinned2 --frames 50 --backend cpu --set cloth.ks=1e9 --set solver.strain_limit=false --save " +
+      (folder / "end.csv").string());
   EXPECT_EQ(result.exitCode, 1);
   EXPECT_NE(result.output.find("solver.simulation_steps"), std::string::npos) << result.output;
+}
+
+TEST(Program, SavesTheLastGoodStateOfAnExplosionAndNothingThatIsNotFinite) {
+  for (const std::string backend : {"cpu", "gpu"}) {
+    const test::TemporaryFolder folder;
+    const std::string scene =
+        "-f pinned2 --set cloth.ks=1e7 --set solver.simulation_steps=1 --backend " + backend;
+    const CommandResult run =
+        clothsim("run " + scene + " --frames 50 --save " + (folder / "frame_%04d.csv").string());
+    EXPECT_EQ(run.exitCode, 1);
+    for (const char* part :
+         {"step 2 (frame 2)", "pass integrate", "(cloth 0, column ", "max_speed", "--from "})
+      EXPECT_NE(run.output.find(part), std::string::npos) << part << " in:\n" << run.output;
+    const std::filesystem::path saved = folder / "pinned2-frame1-last-good.state";
+    ASSERT_TRUE(std::filesystem::exists(saved)) << run.output;
+    EXPECT_EQ(folder.fileCount(), 3) << "frames 0 and 1, and the last good state";
+    for (const auto& file : std::filesystem::directory_iterator(folder.path())) {
+      if (file.path().extension() != ".csv") continue;
+      const std::string text = readFile(file.path());
+      EXPECT_EQ(text.find("nan"), std::string::npos) << file.path();
+      EXPECT_EQ(text.find("inf"), std::string::npos) << file.path();
+    }
+    const json from = jsonOf("run " + scene + " --frames 0 --json --from " + saved.string());
+    EXPECT_EQ(from["state_hash"], jsonOf("run " + scene + " --frames 1 --json")["state_hash"]);
+  }
+}
+
+TEST(Program, DoesNotOverwriteAnotherFileByALastGoodState) {
+  const test::TemporaryFolder folder;
+  writeFileAtomically(folder / "pinned2-frame1-last-good.state", "dear to somebody");
+  const std::string run =
+      "run -f pinned2 --set cloth.ks=1e7 --set solver.simulation_steps=1 --backend cpu --frames 9 --save " +
+      (folder / "end.csv").string();
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(clothsim(run).exitCode, 1);
+    EXPECT_EQ(readFile(folder / "pinned2-frame1-last-good.state"), "dear to somebody");
+    EXPECT_TRUE(std::filesystem::exists(folder / "pinned2-frame1-last-good-2.state"));
+    EXPECT_EQ(folder.fileCount(), 2) << "the same state is not saved twice";
+  }
+}
+
+TEST(Program, EndsEveryCommandThatSimulatesWithOneWhenItBlowsUp) {
+  const test::TemporaryFolder folder;
+  const std::string wild = " -f pinned2 --set cloth.ks=1e7 --set solver.simulation_steps=1";
+  for (const std::string& command :
+       {"compare --frames 9" + wild, "bench --resolution 20x20 --seconds 0.02" + wild,
+        "render --frames 9 --size 64x64 --out " + (folder / "a.png").string() + wild}) {
+    const CommandResult result = clothsim(command);
+    EXPECT_EQ(result.exitCode, 1) << command;
+    EXPECT_NE(result.output.find("blew up: in step"), std::string::npos) << command << "\n" << result.output;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.png"));
+}
+
+TEST(Program, CountsParticlesThatStartInsideACollider) {
+  const std::string run = "run --frames 0 --backend cpu --json -f sphere";
+  EXPECT_EQ(jsonOf(run)["start_overlaps"]["colliders"], 0);
+  // A ball of 0.2 m around the middle of the sheet of 50 x 50 points: as many as lattice points lie within
+  // it.
+  int inside = 0;
+  for (int row = 0; row < 50; ++row)
+    for (int column = 0; column < 50; ++column)
+      inside += std::hypot(column / 49.0 - 0.5, row / 49.0 - 0.5) < 0.2 ? 1 : 0;
+  const std::string moved = run + " --set 'sphere.origin=[0.5,1,0.5]' --set sphere.radius=0.2";
+  EXPECT_EQ(jsonOf(moved)["start_overlaps"]["colliders"], inside);
+  EXPECT_NE(clothsim(moved).output.find(std::to_string(inside) + " particles start inside a collider"),
+            std::string::npos);
+}
+
+TEST(Program, CountsCrossingsWhenAskedOrSaysWhatIsMissing) {
+  const std::string run =
+      "run -f selfCollision --resolution 20x20 --set solver.self_collision=false --backend cpu ";
+  if (!CrossingCounter::available()) {
+    const CommandResult result = clothsim(run + "--frames 1 --check-crossings");
+    EXPECT_EQ(result.exitCode, 2);
+    EXPECT_NE(result.output.find("libcgal-dev"), std::string::npos) << result.output;
+    return;
+  }
+  const json crossings = jsonOf(run + "--frames 60 --check-crossings --json")["crossings"];
+  EXPECT_EQ(crossings["frames_checked"], 61);
+  EXPECT_GT(crossings["worst"], 0) << "a sheet that collapses without self-collision";
+  EXPECT_GE(crossings["total"], crossings["worst"]);
+  EXPECT_GT(crossings["first_frame"], 0);
+  EXPECT_TRUE(crossings["neighbours"].is_number());
+  EXPECT_FALSE(jsonOf(run + "--frames 1 --json").contains("crossings"));
+  const json compared = jsonOf("compare -f pinned2 --resolution 12x12 --frames 2 --check-crossings --json");
+  EXPECT_EQ(compared["crossings"]["frames_checked"], 3);
+  EXPECT_EQ(compared["crossings"]["worst"], 0);
+  EXPECT_TRUE(compared["crossings"]["first_frame"].is_null());
 }
 
 TEST(Program, AnswersWrongUsageWithTwo) {
@@ -205,7 +298,7 @@ TEST(Program, ListsItsScenesAndExplainsItsKeys) {
 
 TEST(Program, MeasuresStepsAndPassesAndTheDemoInRealTime) {
   const json bench = jsonOf("bench --resolution 32x32 --seconds 0.05 --json");
-  ASSERT_EQ(bench["steps"].size(), 4u) << "two backends, with and without the limiter";
+  ASSERT_EQ(bench["steps"].size(), 8u) << "two backends: springs, limiter, two self-collisions";
   for (const json& step : bench["steps"]) {
     EXPECT_GT(step["particle_steps_per_second"].get<double>(), 0);
     if (step["backend"] == "gpu") {

@@ -55,7 +55,7 @@ TEST_P(BundledFraming, LooksFromSlightlyAboveAndNotFromFarAway) {
   const Cloth cloth(scene);
   const Camera camera(scene, cloth);
   EXPECT_GT(camera.eye().y, camera.target().y);
-  Box seen;  // on the screen
+  Bounds seen;  // on the screen
   for (std::uint32_t i = 0; i < cloth.particleCount(); ++i)
     seen.add(glm::vec3(onScreen(camera, restPlace(cloth, i)), 0));
   EXPECT_GT(std::max(seen.size().x, seen.size().y), 0.8f) << "the sheet spans less than 40 % of the picture";

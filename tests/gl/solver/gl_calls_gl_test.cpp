@@ -90,7 +90,11 @@ TEST_F(GlCallsTest, AFrameReadsNothingBackAndUploadsNoPositions) {
     }
     // Parameters, colliders and the camera go up; a single upload of the positions would be 25,600 bytes a
     // frame.
-    const std::size_t parameters = 5 * (30 * scene.cloths.size() * 256 + 30 * scene.colliders.size() * 112);
+    std::size_t pinMotions = 0;
+    for (const ClothSettings& settings : scene.cloths) pinMotions += settings.pinMotion.size();
+    const std::size_t parameters = 5 * 30 *
+                                   (scene.cloths.size() * 256 +
+                                    scene.colliders.size() * sizeof(ColliderParams<float>) + pinMotions * 64);
     EXPECT_LE(uploadedBytes, parameters + 5 * 4096) << name;
   }
 }

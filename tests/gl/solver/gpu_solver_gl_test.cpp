@@ -57,16 +57,48 @@ TEST_F(GpuSolverTest, GivesTheSameBitsFusedAndPassByPass) {
 }
 
 TEST_F(GpuSolverTest, GivesTheSameBitsAtEveryWorkGroupSize) {
-  const Scene scene = test::comparedScenes(37)[5].scene;
-  const std::uint64_t usual = stateHash(steppedOnGpu(scene, 200));
-  for (const auto& [columns, rows] : {std::pair{1, 1}, {8, 8}, {16, 4}, {128, 1}, {256, 1}})
-    EXPECT_EQ(stateHash(steppedOnGpu(scene, 200, {.groupColumns = columns, .groupRows = rows})), usual)
-        << columns << "x" << rows;
+  for (const Scene& scene : {test::everythingScene(37), test::layeredSheets(37, SelfCollision::robust)}) {
+    const std::uint64_t usual = stateHash(steppedOnGpu(scene, 200));
+    for (const auto& [columns, rows] : {std::pair{1, 1}, {8, 8}, {16, 4}, {128, 1}, {256, 1}})
+      EXPECT_EQ(stateHash(steppedOnGpu(scene, 200, {.groupColumns = columns, .groupRows = rows})), usual)
+          << columns << "x" << rows;
+  }
+}
+
+TEST_F(GpuSolverTest, BuildsTheHashInTheSameStepsAsTheCpu) {
+  for (const SelfCollision mode : {SelfCollision::averaged, SelfCollision::robust}) {
+    const Scene scene = test::layeredSheets(24, mode);
+    const Cloth cloth(scene);
+    GpuSolver gpu(cloth, scene);
+    CpuSolver<float> cpu(cloth, scene);
+    gpu.step(300);
+    cpu.step(300);
+    EXPECT_EQ(gpu.contactCounts().hashBuilds, cpu.contactCounts().hashBuilds);
+    EXPECT_EQ(gpu.contactCounts().guardedSteps, cpu.contactCounts().guardedSteps);
+    EXPECT_GT(gpu.contactCounts().hashBuilds, 1u);
+    EXPECT_LT(gpu.contactCounts().hashBuilds, 150u);
+  }
+}
+
+// A cloth at the end of a hard throw, in which the guard has to step in.
+TEST_F(GpuSolverTest, GuardsAsTheCpuDoes) {
+  const Scene scene = test::layeredSheets(24, SelfCollision::robust);
+  const Cloth cloth(scene);
+  GpuSolver gpu(cloth, scene);
+  CpuSolver<float> cpu(cloth, scene);
+  State thrown = initialState(cloth, scene);
+  for (std::size_t i = 576; i < 1152; ++i) thrown.velocities[i].y = i % 3 == 0 ? -80.0f : -75.0f;
+  gpu.setState(thrown);
+  cpu.setState(thrown);
+  gpu.step(200);
+  cpu.step(200);
+  EXPECT_EQ(difference(gpu.state(), cpu.state()).differing, 0u);
+  EXPECT_GT(cpu.contactCounts().guardedSteps, 0u);
+  EXPECT_EQ(gpu.contactCounts().guardedSteps, cpu.contactCounts().guardedSteps);
 }
 
 TEST_F(GpuSolverTest, DoesNotDependOnHowStepsAreBatched) {
-  const Scene scene =
-      test::comparedScenes(16)[5].scene;  // time-dependent: parameters are uploaded in batches
+  const Scene scene = test::everythingScene(16);  // time-dependent: parameters are uploaded in batches
   const Cloth cloth(scene);
   GpuSolver whole(cloth, scene), pieces(cloth, scene);
   whole.step(300);
@@ -89,7 +121,7 @@ TEST_F(GpuSolverTest, HandsItsStateToTheCpuAndBackWithoutChangingABitOfWhatFollo
 }
 
 TEST_F(GpuSolverTest, SwitchesIntegratorsInMidSwingAsTheCpuDoes) {
-  const Scene scene = test::comparedScenes(20)[5].scene;
+  const Scene scene = test::everythingScene(20);
   Scene other = scene;
   other.solver.integrator = Integrator::euler;
   const Cloth cloth(scene);
@@ -122,8 +154,52 @@ TEST_F(GpuSolverTest, TakesLiveEditsFromTheNextStepOn) {
   EXPECT_NE(stateHash(gpu.state()), stateHash(steppedOnGpu(scene, 140))) << "the edit did something";
 }
 
+// Motions are live: other pins, other paths, none; the numbers of paths lie in a buffer of their own.
+TEST_F(GpuSolverTest, TakesEditsOfPinMotionsFromTheNextStepOn) {
+  const Scene moving = test::withPinMotion(test::withWind(test::vertical(test::sheetScene(20))));
+  Scene fewer = moving, none = moving;
+  fewer.cloths[0].pinMotion.erase(fewer.cloths[0].pinMotion.begin());
+  fewer.cloths[0].pinMotion[0].keys[1].rotation = {10, 20, 30};
+  none.cloths[0].pinMotion.clear();
+  const Cloth cloth(moving);
+  GpuSolver gpu(cloth, none);
+  CpuSolver<float> cpu(cloth, none);
+  for (const Scene& scene : {moving, fewer, none, moving}) {
+    for (Solver* solver : {static_cast<Solver*>(&gpu), static_cast<Solver*>(&cpu)}) {
+      solver->configure(scene);
+      solver->step(70);
+    }
+    EXPECT_EQ(difference(gpu.state(), cpu.state()).differing, 0u) << scene.cloths[0].pinMotion.size();
+  }
+}
+
+TEST_F(GpuSolverTest, SwitchesIntegratorsWithoutTouchingPinsInMotion) {
+  const Scene scene = test::withPinMotion(test::vertical(test::sheetScene(20)));
+  Scene other = scene;
+  other.solver.integrator = Integrator::euler;
+  const Cloth cloth(scene);
+  GpuSolver gpu(cloth, scene);
+  CpuSolver<float> cpu(cloth, scene);
+  for (Solver* solver : {static_cast<Solver*>(&gpu), static_cast<Solver*>(&cpu)}) {
+    solver->step(100);
+    solver->configure(other);
+  }
+  const State kicked = gpu.state();
+  EXPECT_EQ(difference(kicked, cpu.state()).differing, 0u);
+  const State still = steppedOnCpu(scene, 100);
+  int moving = 0;
+  for (std::size_t i = 0; i < still.positions.size(); ++i) {
+    if (still.positions[i].w != 0) continue;
+    EXPECT_EQ(kicked.velocities[i].x, still.velocities[i].x) << i;
+    EXPECT_EQ(kicked.velocities[i].y, still.velocities[i].y) << i;
+    EXPECT_EQ(kicked.velocities[i].z, still.velocities[i].z) << i;
+    moving += kicked.velocities[i].x != 0;
+  }
+  EXPECT_GT(moving, 19);
+}
+
 TEST_F(GpuSolverTest, TimesItsPasses) {
-  const Scene scene = test::withLimiter(test::vertical(test::sheetScene(64)));
+  const Scene scene = test::withColliders(test::withLimiter(test::vertical(test::sheetScene(64))));
   const Cloth cloth(scene);
   GpuSolver solver(cloth, scene, {.fused = false});
   const std::vector<PassTime> times = solver.timePasses(3);

@@ -1,6 +1,7 @@
 // The structs that C++ and GLSL share lie in memory as the driver says they do.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -9,7 +10,9 @@
 #include "gl/gl_test.h"
 #include "gl/program.h"
 #include "solver/gpu/pass_programs.h"
+#include "solver/pin_paths.h"
 #include "solver/step_params.h"
+#include "solver/trouble.h"
 
 namespace clothsim {
 namespace {
@@ -22,9 +25,11 @@ using ColliderRow = ColliderParams<float>;
 PassFeatures everything() {
   return {.wind = true,
           .airResistance = true,
-          .colliders = true,
           .movingColliders = true,
+          .coulombFriction = true,
+          .movingPins = true,
           .restLengthTable = true,
+          .colliderTypes = 0xffffffff,
           .enabledSlots = 63,
           .groupColumns = 64,
           .groupRows = 1,
@@ -56,15 +61,26 @@ GLint blockSize(const gl::Program& program, const char* block) {
 TEST_F(LayoutTest, OfStepParamsIsTheDrivers) {
   const PassPrograms programs(everything());
   const std::vector<std::pair<std::string, std::size_t>> members = {
-      MEMBER(Step, "StepBlock.step.", firstParticle), MEMBER(Step, "StepBlock.step.", columns),
-      MEMBER(Step, "StepBlock.step.", rows),          MEMBER(Step, "StepBlock.step.", totalParticles),
-      MEMBER(Step, "StepBlock.step.", colliderCount), MEMBER(Step, "StepBlock.step.", firstCollider),
-      MEMBER(Step, "StepBlock.step.", timeStep),      MEMBER(Step, "StepBlock.step.", inverseTimeStep),
-      MEMBER(Step, "StepBlock.step.", velocityKept),  MEMBER(Step, "StepBlock.step.", airResistance),
-      MEMBER(Step, "StepBlock.step.", gravityX),      MEMBER(Step, "StepBlock.step.", gravityY),
-      MEMBER(Step, "StepBlock.step.", gravityZ),      MEMBER(Step, "StepBlock.step.", airVelocityX),
-      MEMBER(Step, "StepBlock.step.", airVelocityZ),  MEMBER(Step, "StepBlock.step.", dragFactor),
-      MEMBER(Step, "StepBlock.step.", liftFactor),    MEMBER(Step, "StepBlock.step.", planeOffset)};
+      MEMBER(Step, "StepBlock.step.", firstParticle),
+      MEMBER(Step, "StepBlock.step.", columns),
+      MEMBER(Step, "StepBlock.step.", rows),
+      MEMBER(Step, "StepBlock.step.", totalParticles),
+      MEMBER(Step, "StepBlock.step.", colliderCount),
+      MEMBER(Step, "StepBlock.step.", firstCollider),
+      MEMBER(Step, "StepBlock.step.", timeStep),
+      MEMBER(Step, "StepBlock.step.", inverseTimeStep),
+      MEMBER(Step, "StepBlock.step.", velocityKept),
+      MEMBER(Step, "StepBlock.step.", airResistance),
+      MEMBER(Step, "StepBlock.step.", gravityX),
+      MEMBER(Step, "StepBlock.step.", gravityY),
+      MEMBER(Step, "StepBlock.step.", gravityZ),
+      MEMBER(Step, "StepBlock.step.", airVelocityX),
+      MEMBER(Step, "StepBlock.step.", airVelocityZ),
+      MEMBER(Step, "StepBlock.step.", dragFactor),
+      MEMBER(Step, "StepBlock.step.", liftFactor),
+      MEMBER(Step, "StepBlock.step.", planeOffset),
+      MEMBER(Step, "StepBlock.step.", maxSpeedSquared),
+      MEMBER(Step, "StepBlock.step.", firstPinMotion)};
   int found = 0;
   for (const auto& [name, offset] : members) {
     // Drivers name members of a block without an instance name with or without the block's name.
@@ -88,6 +104,8 @@ TEST_F(LayoutTest, OfSpringsInStepParamsIsTheDrivers) {
     const std::size_t base = offsetof(Step, springs) + slot * sizeof(SpringRow);
     EXPECT_EQ(uniformOffset(programs.step, spring + "stiffness"),
               static_cast<GLint>(base + offsetof(SpringRow, stiffness)));
+    EXPECT_EQ(uniformOffset(programs.step, spring + "maxLengthSquared"),
+              static_cast<GLint>(base + offsetof(SpringRow, maxLengthSquared)));
     EXPECT_EQ(uniformOffset(programs.limit, spring + "limitLength"),
               static_cast<GLint>(base + offsetof(SpringRow, limitLength)));
   }
@@ -106,16 +124,46 @@ TEST_F(LayoutTest, OfLimitColorIsTheDrivers) {
   EXPECT_EQ(blockSize(programs.limit, "ColorBlock"), static_cast<GLint>(sizeof(LimitColor)));
 }
 
+TEST_F(LayoutTest, OfTheWatchdogsRowIsTheDrivers) {
+  const PassPrograms programs(everything());
+  for (const gl::Program* program : {&programs.start, &programs.step, &programs.watchLimit, &programs.kick}) {
+    const GLuint index = glGetProgramResourceIndex(program->name(), GL_BUFFER_VARIABLE, "watchRow[0]");
+    ASSERT_NE(index, GL_INVALID_INDEX);
+    const std::array<GLenum, 3> properties{GL_OFFSET, GL_ARRAY_SIZE, GL_ARRAY_STRIDE};
+    std::array<GLint, 3> values{};
+    glGetProgramResourceiv(program->name(), GL_BUFFER_VARIABLE, index, 3, properties.data(), 3, nullptr,
+                           values.data());
+    EXPECT_EQ(values, (std::array<GLint, 3>{0, PASSES, sizeof(WatchRow::value_type)}));
+  }
+}
+
 TEST_F(LayoutTest, OfCollidersIsTheRowsThatTheShaderFetches) {
   EXPECT_EQ(sizeof(ColliderRow), COLLIDER_ROWS * 16u);
   EXPECT_EQ(offsetof(ColliderRow, radius), 12u);
   EXPECT_EQ(offsetof(ColliderRow, normalX), 16u);
   EXPECT_EQ(offsetof(ColliderRow, type), 32u);
   EXPECT_EQ(offsetof(ColliderRow, motionKept), 40u);
-  EXPECT_EQ(offsetof(ColliderRow, turnXX), 48u);
-  EXPECT_EQ(offsetof(ColliderRow, shiftX), 60u);
-  EXPECT_EQ(offsetof(ColliderRow, turnZX), 80u);
-  EXPECT_EQ(offsetof(ColliderRow, pivotX), 96u);
+  EXPECT_EQ(offsetof(ColliderRow, friction), 44u);
+  EXPECT_EQ(offsetof(ColliderRow, sweepSquared), COLLIDER_SWEEP_ROW * 16u);
+  EXPECT_EQ(offsetof(ColliderRow, inverseRadius), COLLIDER_SWEEP_ROW * 16u + 8);
+  EXPECT_EQ(offsetof(ColliderRow, axisXX), COLLIDER_AXES_ROW * 16u);
+  EXPECT_EQ(offsetof(ColliderRow, sizeX), COLLIDER_AXES_ROW * 16u + 12);
+  EXPECT_EQ(offsetof(ColliderRow, axisZX), COLLIDER_AXES_ROW * 16u + 32);
+  EXPECT_EQ(offsetof(ColliderRow, turnXX), COLLIDER_MOTION_ROW * 16u);
+  EXPECT_EQ(offsetof(ColliderRow, shiftX), COLLIDER_MOTION_ROW * 16u + 12);
+  EXPECT_EQ(offsetof(ColliderRow, turnZX), COLLIDER_MOTION_ROW * 16u + 32);
+  EXPECT_EQ(offsetof(ColliderRow, pivotX), COLLIDER_MOTION_ROW * 16u + 48);
+}
+
+TEST_F(LayoutTest, OfPinMotionsIsTheRowsThatTheShaderFetches) {
+  using PinMotionRow = PinMotionParams<float>;
+  EXPECT_EQ(sizeof(PinMotionRow), PIN_MOTION_ROWS * 16u);
+  EXPECT_EQ(offsetof(PinMotionRow, turnXX), 0u);
+  EXPECT_EQ(offsetof(PinMotionRow, shiftX), 12u);
+  EXPECT_EQ(offsetof(PinMotionRow, turnYX), 16u);
+  EXPECT_EQ(offsetof(PinMotionRow, turnZX), 32u);
+  EXPECT_EQ(offsetof(PinMotionRow, shiftZ), 44u);
+  EXPECT_EQ(offsetof(PinMotionRow, pivotX), 48u);
 }
 
 }  // namespace

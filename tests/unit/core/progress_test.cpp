@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <poll.h>
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -44,7 +45,8 @@ TEST(ProgressLine, HoldsEscapesOnlyInColour) {
   EXPECT_NE(progressLine("x", 1, 2, 1, 79, true).find('\033'), std::string::npos);
 }
 
-// What a Progress writes when stderr is the other end of a new terminal.
+// What a Progress writes when stderr is the other end of a new terminal. The kernel passes it on in its own
+// time, so a bell is written after it and waited for.
 std::string writtenToTerminal() {
   const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
   EXPECT_GE(terminal, 0);
@@ -60,12 +62,19 @@ std::string writtenToTerminal() {
   }
   dup2(before, STDERR_FILENO);
   close(before);
-  std::array<char, 4096> bytes{};
-  fcntl(terminal, F_SETFL, O_NONBLOCK);
-  const ssize_t count = read(terminal, bytes.data(), bytes.size());
+  EXPECT_EQ(write(end, "\a", 1), 1);
+  std::string written;
+  pollfd arrival{terminal, POLLIN, 0};
+  while (!written.ends_with('\a') && poll(&arrival, 1, 30'000) == 1) {
+    std::array<char, 4096> bytes{};
+    const ssize_t count = read(terminal, bytes.data(), bytes.size());
+    if (count <= 0) break;
+    written.append(bytes.data(), static_cast<std::size_t>(count));
+  }
   close(end);
   close(terminal);
-  return count > 0 ? std::string(bytes.data(), static_cast<std::size_t>(count)) : "";
+  EXPECT_TRUE(written.ends_with('\a')) << "the terminal did not pass on all that was written";
+  return written.substr(0, written.find('\a'));
 }
 
 TEST(Progress, DrawsOnATerminalAndClearsItsLineAtTheEnd) {

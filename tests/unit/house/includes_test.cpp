@@ -27,15 +27,16 @@ struct Room {
 const std::map<std::string, Room> rooms{
     {"core", {{}, {}}},
     {"scene", {{"core"}, {"nlohmann"}}},
-    {"cloth", {{"core", "scene"}, {}}},
+    {"cloth", {{"core", "scene"}, {"tinyobj"}}},
     {"solver", {{"core", "scene", "cloth"}, {}}},
     {"solver/cpu", {{"core", "scene", "cloth", "solver"}, {"omp"}}},
     {"gl", {{"core"}, {"opengl"}}},
     {"solver/gpu", {{"core", "scene", "cloth", "solver", "gl"}, {"opengl"}}},
     {"render", {{"core", "scene", "cloth", "gl"}, {"opengl", "glm"}}},
     {"export", {{"core", "scene", "cloth", "solver"}, {"stb"}}},
+    {"check", {{"core", "scene", "cloth", "solver"}, {"cgal"}}},
     {"app",
-     {{"core", "scene", "cloth", "solver", "solver/cpu", "solver/gpu", "gl", "render", "export"},
+     {{"core", "scene", "cloth", "solver", "solver/cpu", "solver/gpu", "gl", "render", "export", "check"},
       {"glfw", "imgui", "cli", "nlohmann", "glm", "omp"}}},
 };
 
@@ -46,7 +47,7 @@ const std::vector<std::pair<std::string, std::string>> libraries{
     {"glad/", "opengl"},       {"EGL/", "opengl"},     {"GL/", "opengl"},
     {"GLES", "opengl"},        {"gl/api.h", "opengl"}, {"glm/", "glm"},
     {"nlohmann/", "nlohmann"}, {"CLI/", "cli"},        {"stb", "stb"},
-    {"omp.h", "omp"},
+    {"omp.h", "omp"},          {"CGAL/", "cgal"},      {"tiny_obj", "tinyobj"},
 };
 
 // The longest room that begins the path: "solver/gpu" for "solver/gpu/pipeline.h", "" when there is none.
@@ -145,6 +146,8 @@ TEST(Includes, CheckCatchesEachKindOfViolation) {
       {"cloth/cloth.cpp", "#include <glm/glm.hpp>"},
       {"core/files.cpp", "#include \"../scene/scene.h\""},
       {"core/files.cpp", "#include \"misc/things.h\""},
+      {"app/run_command.cpp", "#include <CGAL/intersections.h>"},
+      {"solver/solver.cpp", "#include \"check/crossings.h\""},  // no step depends on checks
       {"attic/old.cpp", "int x;"},
   };
   for (const Example& example : examples)

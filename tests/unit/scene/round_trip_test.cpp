@@ -26,8 +26,10 @@ class RandomScene {
       scene.wind =
           Wind{vector(), {positive(), positive(), whole(0, 1 << 30)}, positive(), positive(), positive()};
     if (maybe()) scene.airResistance = positive();
-    scene.solver = {maybe() ? Integrator::verlet : Integrator::euler, positive(), whole(1, 1'000'000),
-                    optionalPositive(), maybe()};
+    scene.solver = {
+        maybe() ? Integrator::verlet : Integrator::euler, positive(), whole(1, 1'000'000), optionalPositive(),
+        static_cast<SelfCollision>(whole(0, 2)),          fraction(), FrictionLaw::cs184};
+    if (maybe()) makeCoulomb(scene);
     if (maybe()) scene.camera = {vector(), vector(), 1 + 169 * fraction()};
     scene.render = {text(), color(), color(), maybe()};
     if (maybe()) scene.expect = expectation();
@@ -71,7 +73,30 @@ class RandomScene {
     c.enableShearing = maybe();
     c.enableBending = maybe();
     for (int i = whole(0, 4); i > 0; --i) c.pinned.push_back(pin(c));
+    movePins(c);
     return c;
+  }
+
+  // All pins together, or blocks of rows of their own that follow a path each.
+  void movePins(ClothSettings& c) {
+    if (!c.pinned.empty() && maybe()) {
+      c.pinMotion = {pinPath()};
+      return;
+    }
+    for (int row = 0; row + 1 < c.numHeightPoints && maybe(); row += 2) {
+      c.pinned.emplace_back(GridRange{{0, row}, {c.numWidthPoints - 1, row + 1}});
+      c.pinMotion.push_back(pinPath());
+      c.pinMotion.back().pinned = {GridPoint{0, row}, GridRange{{1, row}, {1, row + 1}}};
+    }
+  }
+
+  PinMotion pinPath() {
+    PinMotion motion;
+    double t = positive();
+    for (int i = whole(1, 4); i > 0; --i, t *= 1.5)
+      motion.keys.push_back({t, maybe() ? std::optional(vector()) : std::nullopt, vector()});
+    motion.loop = maybe();
+    return motion;
   }
 
   Pin pin(const ClothSettings& c) {
@@ -90,8 +115,30 @@ class RandomScene {
   Collider collider() {
     std::optional<Motion> motion;
     if (maybe()) motion = path();
-    if (maybe()) return Sphere{vector(), positive(), fraction(), motion};
-    return Plane{vector(), {1, number(), number()}, fraction(), motion};
+    const Vec3d direction{1, number(), number()};
+    const double size = positive();
+    switch (whole(0, 5)) {
+      case 5:
+        return MeshCollider{text() + "x", vector(), vector(), size, whole(8, 256), fraction(), motion};
+      case 0:
+        return Sphere{vector(), size, fraction(), motion};
+      case 1:
+        return Capsule{vector(), direction, positive(), size, fraction(), motion};
+      case 2:
+        return Box{vector(), {size, 2 * size, 1.5 * size}, vector(), 0.5 * fraction() * size, fraction(),
+                   motion};
+      case 3:
+        return Torus{vector(), direction, size, 0.9 * fraction() * size + 1e-16, fraction(), motion};
+      default:
+        return Plane{vector(), direction, fraction(), motion};
+    }
+  }
+
+  // The law that allows friction above 1.
+  void makeCoulomb(Scene& scene) {
+    scene.solver.frictionLaw = FrictionLaw::coulomb;
+    for (Collider& collider : scene.colliders)
+      std::visit([&](auto& shape) { shape.friction = positive(); }, collider);
   }
 
   Motion path() {
@@ -112,7 +159,7 @@ class RandomScene {
     return {whole(1, 1000), maybe() ? std::optional(vector()) : std::nullopt,
             positive(),     range(),
             range(),        range(),
-            range()};
+            range(),        range()};
   }
 
   std::mt19937 engine_;
@@ -169,6 +216,18 @@ TEST(FormatScene, WritesAListOfClothsOnlyForSeveral) {
   EXPECT_NE(formatScene(scene).find("\"cloth\": {"), std::string::npos);
   scene.cloths.push_back(scene.cloths[0]);
   EXPECT_NE(formatScene(scene).find("\"cloths\": ["), std::string::npos);
+}
+
+TEST(FormatScene, WritesAMotionOfAllPinsAsOneObject) {
+  Scene scene = parseScene(
+      R"({"cloth": {"pinned": ["top", "bottom"], "pin_motion": [{"keys": [{"t": 0}, {"t": 1, "rotation": [0, 90, 0]}]}]}})",
+      "test");
+  EXPECT_NE(
+      formatScene(scene).find(R"("pin_motion": {"keys": [{"t": 0}, {"t": 1, "rotation": [0, 90, 0]}]})"),
+      std::string::npos)
+      << formatScene(scene);
+  scene.cloths[0].pinMotion[0].pinned = {GridSide::top};
+  EXPECT_NE(formatScene(scene).find("\"pin_motion\": ["), std::string::npos);
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ Scene cs184Scene() {
   Scene scene;
   scene.cloths = {cs184Cloth()};
   scene.solver.strainLimit = 0.1;
-  scene.solver.selfCollision = true;
+  scene.solver.selfCollision = SelfCollision::averaged;
   return scene;
 }
 
@@ -92,7 +92,7 @@ TEST(BundledScenes, Cs171HasTheNumbersOfTheAssignment) {
   EXPECT_EQ(scene.gravity, (Vec3d{0, -9.8, 0}));
   EXPECT_EQ(scene.solver.integrator, Integrator::euler);
   EXPECT_EQ(scene.solver.strainLimit, std::nullopt);
-  EXPECT_FALSE(scene.solver.selfCollision);
+  EXPECT_EQ(scene.solver.selfCollision, SelfCollision::off);
   EXPECT_NEAR(stepLength(scene.solver), 0.002, 1e-15);
 }
 
@@ -133,7 +133,7 @@ TEST(ParseScene, GivesKsScenesTheLimiterAndSelfCollisionOfCs184) {
   for (const std::string text : {R"({"cloth": {"ks": 10}})", R"({"cloth": {}})"}) {
     const Scene scene = parse(text);
     EXPECT_EQ(scene.solver.strainLimit, 0.1);
-    EXPECT_TRUE(scene.solver.selfCollision);
+    EXPECT_EQ(scene.solver.selfCollision, SelfCollision::averaged);
   }
   EXPECT_EQ(parse(R"({"cloth": {}})").cloths[0].ks, 5000);
 }
@@ -142,18 +142,29 @@ TEST(ParseScene, GivesStiffnessReferenceScenesNeither) {
   const Scene scene = parse(R"({"cloth": {"stiffness_reference": 40}})");
   EXPECT_EQ(scene.cloths[0].ks, std::nullopt);
   EXPECT_EQ(scene.solver.strainLimit, std::nullopt);
-  EXPECT_FALSE(scene.solver.selfCollision);
+  EXPECT_EQ(scene.solver.selfCollision, SelfCollision::off);
 }
 
 TEST(ParseScene, LetsAKsSceneSwitchBothOffAndOthersOn) {
   const Scene ks =
       parse(R"({"cloth": {"ks": 1}, "solver": {"strain_limit": false, "self_collision": false}})");
   EXPECT_EQ(ks.solver.strainLimit, std::nullopt);
-  EXPECT_FALSE(ks.solver.selfCollision);
+  EXPECT_EQ(ks.solver.selfCollision, SelfCollision::off);
   const Scene other = parse(
       R"({"cloth": {"stiffness_reference": 1}, "solver": {"strain_limit": 0.2, "self_collision": true}})");
   EXPECT_EQ(other.solver.strainLimit, 0.2);
-  EXPECT_TRUE(other.solver.selfCollision);
+  EXPECT_EQ(other.solver.selfCollision, SelfCollision::robust);
+}
+
+TEST(ParseScene, ReadsSelfCollisionByName) {
+  const auto mode = [](const std::string& cloth, const std::string& value) {
+    return parse(R"({"cloth": {)" + cloth + R"(}, "solver": {"self_collision": )" + value + "}}")
+        .solver.selfCollision;
+  };
+  EXPECT_EQ(mode("", "true"), SelfCollision::averaged);
+  EXPECT_EQ(mode("", "\"robust\""), SelfCollision::robust);
+  EXPECT_EQ(mode(R"("stiffness_reference": 1)", "true"), SelfCollision::robust);
+  EXPECT_EQ(mode(R"("stiffness_reference": 1)", "\"averaged\""), SelfCollision::averaged);
 }
 
 TEST(ParseScene, ReadsAllKindsOfPins) {

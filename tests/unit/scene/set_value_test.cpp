@@ -116,13 +116,34 @@ TEST(SetSceneValue, LetsKeysWithoutPositionFollowTheCollider) {
   EXPECT_EQ(std::get<Sphere>(scene.colliders[0]).motion->keys[0].position, (Vec3d{1, 2, 3}));
 }
 
+TEST(SetSceneValue, ChangesThePathOfPins) {
+  const Scene scene = sceneOf(
+      R"({"cloth": {"pinned": ["left", "right"], "pin_motion": {"keys": [{"t": 0}, {"t": 1, "position": [1, 2, 3]}]}}})");
+  EXPECT_TRUE(changed(scene, "cloth.pin_motion.loop=true").cloths[0].pinMotion[0].loop);
+  EXPECT_EQ(changed(scene, "cloth.pin_motion.keys.1.position.0=7").cloths[0].pinMotion[0].keys[1].position,
+            (Vec3d{7, 2, 3}));
+  EXPECT_TRUE(changed(scene, "cloth.pin_motion=null").cloths[0].pinMotion.empty());
+  const Scene two = changed(
+      scene,
+      R"(cloth.pin_motion=[{"pinned": ["left"], "keys": [{"t": 0}]}, {"pinned": ["right"], "keys": [{"t": 0}]}])");
+  ASSERT_EQ(two.cloths[0].pinMotion.size(), 2U);
+  EXPECT_TRUE(changed(two, "cloth.pin_motion.1.loop=false").cloths[0].pinMotion == two.cloths[0].pinMotion);
+  EXPECT_EQ(changed(two, "cloth.pin_motion.1.keys.0.t=4").cloths[0].pinMotion[1].keys[0].t, 4);
+  EXPECT_EQ(
+      messageOf(two, "cloth.pin_motion.1.pinned=[\"top\"]"),
+      "--set cloth.pin_motion.1.pinned=[\"top\"]: cloth.pin_motion.1.pinned.0: expected each pin in one "
+      "motion, found [0, 0] in pin_motion.0, too");
+}
+
 TEST(SetSceneValue, MakesTheSameChecksAsTheReader) {
   EXPECT_EQ(messageOf(plain(), "cloth.ks=stiff"),
             "--set cloth.ks=stiff: cloth.ks: expected a number > 0, found \"stiff\"");
   EXPECT_EQ(messageOf(plain(), "cloth.damping=101"),
             "--set cloth.damping=101: cloth.damping: expected a number from 0 to 100, found 101");
-  EXPECT_EQ(messageOf(withColliders(), "sphere.friction=2"),
-            "--set sphere.friction=2: sphere.friction: expected a number from 0 to 1, found 2");
+  EXPECT_EQ(
+      messageOf(withColliders(), "sphere.friction=2"),
+      "--set sphere.friction=2: sphere.friction: expected a number from 0 to 1, found 2; larger ones are "
+      "Coulomb's coefficient and need \"friction_law\": \"coulomb\" in solver");
   EXPECT_EQ(messageOf(plain(), "cloth.ks=1e999"),
             "--set cloth.ks=1e999: cloth.ks: expected a number > 0, found \"1e999\"");
   EXPECT_NE(messageOf(plain(), "cloth.pinned=[[50, 0]]").find("expected [column, row] on the grid"),

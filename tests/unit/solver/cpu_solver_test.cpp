@@ -219,9 +219,9 @@ TEST(MovingSphere, CarriesAParticleThatSticksToItAlongAndAround) {
   Motion motion;
   motion.keys = {{0, {0, 0, 0}, {0, 0, 0}}, {0.01, {0.02, 0, 0}, {0, 0, 90}}};
   const Sphere sphere{.origin = {0, 0, 0}, .radius = 1, .friction = 1, .motion = motion};
-  const Vec3d x = afterOneStep(sphere, {0.95, 0, 0}, {0, 0, 0});
+  const Vec3d x = afterOneStep(sphere, {1, 0, 0}, {0, 0, 0});
   EXPECT_NEAR(x.x, 0.02, 1e-9);
-  EXPECT_NEAR(x.y, 0.95, 1e-9);
+  EXPECT_NEAR(x.y, 1, 1e-9);
 }
 
 TEST(Integrators, CanBeSwitchedBackAndForthWithoutLosingTheVelocity) {

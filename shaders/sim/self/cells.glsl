@@ -1,0 +1,39 @@
+// The particles in the 27 cells about a particle's cell, each once.
+
+// The candidate (shared/self_collision.h); EXCLUDED for a pair that is left to its springs.
+const uint EXCLUDED = ~0u;
+
+float codeDistance(uint code) {
+  return texelFetch(contactDistances, int(step.grid * NEAREST_CODES + code)).x;
+}
+
+uint encode(GridPoint p, uint j) {
+  uint inGrid = j - step.firstParticle;
+  if (inGrid >= step.columns * step.rows) return j;
+  uint column = inGrid % step.columns, row = inGrid / step.columns;
+  uint across = column < p.column ? p.column - column : column - p.column;
+  uint along = row < p.row ? p.row - row : row - p.row;
+  if (across < self.firstCode && along < self.firstCode) return EXCLUDED;
+  if (SELF_NEAR_CODES == 0 || across > 7u || along > 7u) return j;
+  uint code = across + 8u * along;
+  return codeDistance(code) < self.distance ? j | code << CANDIDATE_BITS : j;
+}
+
+// Nine runs of three buckets; a run that wraps at the end of the table falls into two.
+struct Run {
+  uint first, end, secondEnd;  // entries: [first, end), then [0, secondEnd)
+  ivec2 yz;                    // cells with other y or z only share the buckets
+};
+
+Run runOf(ivec3 cell, int k) {
+  ivec2 yz = cell.yz + ivec2(k % 3 - 1, k / 3 - 1);
+  uint left = bucketOf(ivec3(cell.x - 1, yz));
+  uint last = left + 2u;
+  uint wrapped = last > self.bucketMask ? last - self.bucketMask : 0u;
+  return Run(firstEntry(left), firstEntry(wrapped > 0u ? self.bucketMask + 1u : last + 1u),
+             wrapped > 0u ? firstEntry(wrapped) : 0u, yz);
+}
+
+bool isInRun(Run run, vec4 entry) {
+  return cellCoordinate(entry.y) == run.yz.x && cellCoordinate(entry.z) == run.yz.y;
+}

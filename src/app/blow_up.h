@@ -1,0 +1,26 @@
+// What a command does when the watchdog has found trouble: save the last good state, and end with a message
+// that says where the trouble began and how to go on.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "app/commands.h"
+#include "app/simulation.h"
+
+namespace clothsim {
+
+// "the simulation blew up: in step ... . What to do."
+[[nodiscard]] std::string blowUpText(const Trouble& trouble, const Cloth& cloth, const Scene& scene);
+
+struct BlowUpContext {
+  const SceneOptions& scene;
+  std::string backend;
+  int frame = 0, frames = 0;           // the one with the trouble, and how many were asked for
+  std::filesystem::path outputFolder;  // "" for the current one
+};
+// After simulation.checkFrame(): saves the state as <scene>-frame<N>-last-good.state in the folder, under a
+// free name where another file has that one. @throws SimulationError always
+[[noreturn]] void stopBlownUp(const Trouble& trouble, Simulation& simulation, const BlowUpContext& context);
+
+}  // namespace clothsim

@@ -1,0 +1,310 @@
+#include "solver/cpu/collide.h"
+
+#include "solver/cpu/shapes.h"
+#include "solver/cpu/watch.h"
+
+namespace clothsim::cpu {
+namespace {
+
+// Where the particle was at the start of the step, carried along with a moving collider.
+template <class Real>
+INLINE Vec3<Real> carried(const ColliderParams<Real>& collider, Vec3<Real> x) {
+  const Vec3<Real> d = x - Vec3<Real>{collider.pivotX, collider.pivotY, collider.pivotZ};
+  const Vec3<Real> turn{dot({collider.turnXX, collider.turnXY, collider.turnXZ}, d),
+                        dot({collider.turnYX, collider.turnYY, collider.turnYZ}, d),
+                        dot({collider.turnZX, collider.turnZY, collider.turnZZ}, d)};
+  const Vec3<Real> move = turn + Vec3<Real>{collider.shiftX, collider.shiftY, collider.shiftZ};
+  return x + move;
+}
+
+template <bool moving, class Real>
+INLINE Vec3<Real> previousPosition(const ColliderParams<Real>& collider, Vec3<Real> start) {
+  if constexpr (moving) {
+    return carried(collider, start);
+  } else {
+    return start;
+  }
+}
+
+template <class Real>
+INLINE Vec3<Real> pointOf(const ColliderParams<Real>& collider) {
+  return {collider.pointX, collider.pointY, collider.pointZ};
+}
+
+template <class Real>
+struct Contact {
+  bool touches;
+  Vec3<Real> surface;  // where the particle goes without friction
+  Vec3<Real> normal;   // of the collider there, outward
+  Real depth;          // how far that is along the normal [m]
+};
+
+// Inside the sphere: the nearest point of its surface. A particle that a long step took through the sphere,
+// or to where another side of it is nearer, goes to the point where its way entered: the smaller root of
+// |previous + t (x - previous) - center| = radius.
+template <class Real>
+INLINE Contact<Real> sphereContact(const ColliderParams<Real>& sphere, Vec3<Real> previous, Vec3<Real> x) {
+  const Vec3<Real> center = pointOf(sphere);
+  const Vec3<Real> d = x - center;
+  const Real distanceSquared = dot(d, d);
+  const Real inverseDistance = inverseSquareRoot(distanceSquared);
+  const Real scale = sphere.radius * inverseDistance;
+  const Real distance = distanceSquared * inverseDistance;
+  const bool inside = distanceSquared < sphere.radiusSquared;
+
+  const Vec3<Real> way = x - previous;
+  const Vec3<Real> from = previous - center;
+  const Real waySquared = dot(way, way);
+  const Real along = dot(from, way);
+  const Real fromSquared = dot(from, from);
+  const Real alongSquared = along * along;
+  const Real beyond = along + waySquared;
+  const Real deeper = waySquared * (fromSquared - sphere.grazeSquared);
+  const Real discriminant = alongSquared - waySquared * (fromSquared - sphere.radiusSquared);
+  const Real root = Real(0) < discriminant ? discriminant * inverseSquareRoot(discriminant) : Real(0);
+  const Real inverseWay = inverseSquareRoot(waySquared);
+  const Real t = ((-along) - root) * (inverseWay * inverseWay);
+  const Vec3<Real> entryNormal = (sphere.inverseRadius * (from + t * way));
+  const Vec3<Real> entry = center + sphere.radius * entryNormal;
+  const Real facing = dot(entryNormal, d);
+  const Real sameSide = Real(0.5) * distance;
+  const bool sweeps = (sphere.sweepSquared < waySquared) & (along < Real(0));
+  const bool passed = sweeps & !inside & (Real(0) < beyond) & (deeper < alongSquared);
+  const bool otherSide = sweeps & inside & (facing < sameSide);
+  const bool entered = passed | otherSide;
+
+  const Vec3<Real> surface = select(entered, entry, center + scale * d);
+  const Vec3<Real> normal = select(entered, entryNormal, inverseDistance * d);
+  const Real depth = entered ? sphere.radius - facing : sphere.radius - distance;
+  const bool touches = inside | passed;
+  return {touches, surface, normal, depth};
+}
+
+// CS184's plane, crossed since `previous`: the foot of the perpendicular, a little off on the side it came
+// from.
+template <class Real>
+INLINE Contact<Real> crossedPlane(const ColliderParams<Real>& plane, Real offset, Vec3<Real> previous,
+                                  Vec3<Real> x) {
+  const Vec3<Real> normal{plane.normalX, plane.normalY, plane.normalZ};
+  const Real heightBefore = dot(previous - pointOf(plane), normal);
+  const Real height = dot(x - pointOf(plane), normal);
+  const bool wasAbove = !(heightBefore < Real(0));
+  const bool isAbove = !(height < Real(0));
+  const Real side = wasAbove ? offset : -offset;
+  const Real lift = side - height;
+  return {wasAbove != isAbove, x + lift * normal, normal, lift};
+}
+
+// A plane that is solid behind its normal: the foot of the perpendicular.
+template <class Real>
+INLINE Contact<Real> solidPlane(const ColliderParams<Real>& plane, Vec3<Real> x) {
+  const Vec3<Real> normal{plane.normalX, plane.normalY, plane.normalZ};
+  const Real height = dot(x - pointOf(plane), normal);
+  return {height < Real(0), x - height * normal, normal, -height};
+}
+
+// Components below 2^-40 are 0, so that their squares are no denormals.
+template <class Real>
+INLINE Vec3<Real> toOwnFrame(const ColliderParams<Real>& shape, Vec3<Real> x) {
+  const Vec3<Real> d = x - pointOf(shape);
+  return {canonical(dot({shape.axisXX, shape.axisXY, shape.axisXZ}, d)),
+          canonical(dot({shape.axisYX, shape.axisYY, shape.axisYZ}, d)),
+          canonical(dot({shape.axisZX, shape.axisZY, shape.axisZZ}, d))};
+}
+template <class Real>
+INLINE Vec3<Real> toWorld(const ColliderParams<Real>& shape, Vec3<Real> v) {
+  const Vec3<Real> x{shape.axisXX, shape.axisXY, shape.axisXZ}, y{shape.axisYX, shape.axisYY, shape.axisYZ},
+      z{shape.axisZX, shape.axisZY, shape.axisZZ};
+  return (v.x * x + v.y * y) + v.z * z;
+}
+
+// A shape known by its signed distance. A particle inside goes to the nearest point of the surface, provided
+// that this is on the side where it came in: the normals there and at the entry are less than 60 degrees
+// apart. Otherwise it goes back to the tangent plane at the entry. A particle that is outside on another
+// side, having gone through, goes to the entry itself; grazing ways around an edge do not count as going
+// through.
+template <std::uint32_t type, class Real>
+INLINE Contact<Real> shapeContact(const ColliderParams<Real>& shape, Vec3<Real> previous, Vec3<Real> x,
+                                  const float* distances) {
+  const Vec3<Real> b = toOwnFrame(shape, x);
+  const Nearest<Real> end = nearestOnShape<type>(shape, b, distances);
+  const Vec3<Real> moved = x - previous;
+  const Real movedSquared = dot(moved, moved);
+  const Real distanceSquared = end.distance * end.distance;
+  // No place of the way is nearer than the distance at its end less its length.
+  if ((Real(0) < end.distance) & (movedSquared < distanceSquared)) return {false, x, end.normal, Real(0)};
+
+  const Vec3<Real> a = toOwnFrame(shape, previous);
+  const Vec3<Real> way = b - a;
+  const Real waySquared = dot(way, way);
+  const Real inverseWay = inverseSquareRoot(waySquared);
+  const Real wayLength = waySquared * inverseWay;
+  // Sphere tracing (Hart, 1996): going on by the distance never oversteps the surface. From inside, the entry
+  // is taken to be the nearest point of the surface.
+  Real t = Real(0);
+  Vec3<Real> place = a;
+  Nearest<Real> entry = nearestOnShape<type>(shape, a, distances);
+  for (int i = 0; i < SWEEP_STEPS; ++i) {
+    const bool goesOn = (Real(0) < entry.distance) & (t < Real(1));
+    const Real farther = t + entry.distance * inverseWay;
+    t = goesOn ? farther : t;
+    place = a + t * way;
+    entry = nearestOnShape<type>(shape, place, distances);
+  }
+  const Vec3<Real> back = (place - entry.distance * entry.normal) - b;  // to the entry, on the surface
+  const Real lift = dot(back, entry.normal);
+  const Real facing = dot(end.normal, entry.normal);
+  const Real approach = -dot(way, entry.normal);
+  const Real steep = Real(0.25) * wayLength;
+  const bool inside = end.distance < Real(0);
+  const bool otherSide = !(Real(0.5) < facing) & (Real(0) < approach) & (Real(0) < lift);
+  const bool passed = !inside & otherSide & (t < Real(1)) & ((facing < Real(-0.5)) | (steep < approach));
+
+  const Vec3<Real> normal = select(otherSide, entry.normal, end.normal);
+  const Real depth = otherSide ? lift : -end.distance;
+  const Vec3<Real> out = depth * normal;
+  const Vec3<Real> offset = select(passed, back, out);
+  const bool touches = inside | passed;
+  return {touches, x + toWorld(shape, offset), toWorld(shape, normal), depth};
+}
+
+template <std::uint32_t type, bool coulomb, class Real>
+INLINE Contact<Real> findContact(const ColliderParams<Real>& collider, Real offset, Vec3<Real> previous,
+                                 Vec3<Real> x, const float* distances) {
+  if constexpr (type == COLLIDER_SPHERE) {
+    return sphereContact(collider, previous, x);
+  } else if constexpr (type == COLLIDER_PLANE && coulomb) {
+    return solidPlane(collider, x);
+  } else if constexpr (type == COLLIDER_PLANE) {
+    return crossedPlane(collider, offset, previous, x);
+  } else {
+    return shapeContact<type>(collider, previous, x, distances);
+  }
+}
+
+// CS184: the rest of the way to the surface that friction leaves. Coulomb: the way along the surface, shorter
+// by friction times the depth that the contact pushed the particle out; what is left of it never turns
+// around.
+template <bool coulomb, class Real>
+INLINE Vec3<Real> withFriction(const ColliderParams<Real>& collider, const Contact<Real>& contact,
+                               Vec3<Real> previous) {
+  const Vec3<Real> way = contact.surface - previous;
+  if constexpr (coulomb) {
+    const Real through = dot(way, contact.normal);
+    const Vec3<Real> across = through * contact.normal;
+    const Vec3<Real> slide = way - across;
+    const Real slideSquared = dot(slide, slide);
+    const Real lost = (collider.friction * contact.depth) * inverseSquareRoot(slideSquared);
+    const Real kept = lost < Real(1) ? Real(1) - lost : Real(0);
+    return (previous + across) + kept * slide;
+  } else {
+    return previous + collider.motionKept * way;
+  }
+}
+
+// Friction may leave a particle a little inside a curved surface, or where it was inside before.
+template <std::uint32_t type, class Real>
+INLINE Vec3<Real> pushedOut(const ColliderParams<Real>& collider, Vec3<Real> x, const float* distances) {
+  if constexpr (type == COLLIDER_SPHERE) {
+    const Vec3<Real> d = x - pointOf(collider);
+    const Real distanceSquared = dot(d, d);
+    const Real scale = collider.radius * inverseSquareRoot(distanceSquared);
+    return select(distanceSquared < collider.radiusSquared, pointOf(collider) + scale * d, x);
+  } else if constexpr (type == COLLIDER_PLANE) {
+    return x;
+  } else {
+    const Nearest<Real> nearest = nearestOnShape<type>(collider, toOwnFrame(collider, x), distances);
+    const Real out = nearest.distance < Real(0) ? -nearest.distance : Real(0);
+    return x + toWorld(collider, out * nearest.normal);
+  }
+}
+
+// One collider and a stretch of particles; compiled for each type and law, at rest and moving, so that the
+// loop runs in vector registers.
+template <std::uint32_t type, bool moving, bool coulomb, class Real>
+INLINE void collideWith(const PassArguments<Real>& arguments, const ColliderParams<Real>& collider,
+                        Stretch particles) {
+  const Components<Real>& old = arguments.before.positions;
+  Components<Real>&p = arguments.after.positions, &v = arguments.after.velocities;
+  const Real *x0 = old.x.data(), *y0 = old.y.data(), *z0 = old.z.data();
+  Real *x = p.x.data(), *y = p.y.data(), *z = p.z.data(), *vx = v.x.data(), *vy = v.y.data(),
+       *vz = v.z.data();
+  const Real* inverseMasses = arguments.inverseMasses;
+  const Real offset = arguments.step.planeOffset, inverseTimeStep = arguments.step.inverseTimeStep;
+  const auto body = [&](std::ptrdiff_t i) __attribute__((always_inline)) {
+    const Vec3<Real> now = load(x, y, z, i), start = load(x0, y0, z0, i);
+    const Vec3<Real> velocity = load(vx, vy, vz, i);
+    const Vec3<Real> previous = previousPosition<moving>(collider, start);
+    const Contact<Real> contact =
+        findContact<type, coulomb>(collider, offset, previous, now, arguments.distances);
+    // Away from a shape with a frame of its own nothing more is worked out.
+    if constexpr (type != COLLIDER_SPHERE && type != COLLIDER_PLANE)
+      if (!contact.touches) return;
+    const Vec3<Real> slid = withFriction<coulomb>(collider, contact, previous);
+    const Vec3<Real> corrected = pushedOut<type>(collider, slid, arguments.distances);
+    const Vec3<Real> kicked = velocity + inverseTimeStep * (corrected - now);
+    const bool moves = contact.touches & (inverseMasses[i] > Real(0));
+    x[i] = moves ? canonical(corrected.x) : now.x;
+    y[i] = moves ? canonical(corrected.y) : now.y;
+    z[i] = moves ? canonical(corrected.z) : now.z;
+    vx[i] = moves ? canonical(kicked.x) : velocity.x;
+    vy[i] = moves ? canonical(kicked.y) : velocity.y;
+    vz[i] = moves ? canonical(kicked.z) : velocity.z;
+  };
+  if constexpr (type == COLLIDER_SPHERE || type == COLLIDER_PLANE) {
+#pragma omp simd
+    for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) body(i);
+  } else {
+    for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) body(i);
+  }
+}
+
+template <std::uint32_t type, class Real>
+INLINE void collideWithType(const PassArguments<Real>& arguments, const ColliderParams<Real>& collider,
+                            Stretch particles) {
+  const bool moving = collider.moving != 0, coulomb = collider.coulomb != 0;
+  if (moving && coulomb)
+    collideWith<type, true, true>(arguments, collider, particles);
+  else if (moving)
+    collideWith<type, true, false>(arguments, collider, particles);
+  else if (coulomb)
+    collideWith<type, false, true>(arguments, collider, particles);
+  else
+    collideWith<type, false, false>(arguments, collider, particles);
+}
+
+template <class Real>
+INLINE void collideRow(const PassArguments<Real>& arguments, int row) {
+  const Stretch particles = stretch(arguments.step, row);
+  for (std::uint32_t k = 0; k < arguments.step.colliderCount; ++k) {
+    const ColliderParams<Real> collider = arguments.colliders[k];
+    switch (collider.type) {
+      case COLLIDER_SPHERE:
+        collideWithType<COLLIDER_SPHERE>(arguments, collider, particles);
+        break;
+      case COLLIDER_PLANE:
+        collideWithType<COLLIDER_PLANE>(arguments, collider, particles);
+        break;
+      case COLLIDER_CAPSULE:
+        collideWithType<COLLIDER_CAPSULE>(arguments, collider, particles);
+        break;
+      case COLLIDER_BOX:
+        collideWithType<COLLIDER_BOX>(arguments, collider, particles);
+        break;
+      case COLLIDER_MESH:
+        collideWithType<COLLIDER_MESH>(arguments, collider, particles);
+        break;
+      default:
+        collideWithType<COLLIDER_TORUS>(arguments, collider, particles);
+        break;
+    }
+  }
+  if (arguments.step.colliderCount > 0) watchVelocities(arguments, PASS_COLLIDE, row);
+}
+
+}  // namespace
+
+VECTOR_CLONES void collide(const PassArguments<float>& arguments, int row) { collideRow(arguments, row); }
+void collide(const PassArguments<double>& arguments, int row) { collideRow(arguments, row); }
+
+}  // namespace clothsim::cpu

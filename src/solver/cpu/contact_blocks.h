@@ -1,0 +1,39 @@
+// Contacts of a block of particles at once, slot by slot through their candidates, in vector registers. In
+// all of these, `candidates` is slot-major (slot * particles + particle), and without `nearCodes` all pairs
+// have the same distance.
+#pragma once
+
+#include <cstdint>
+
+#include "solver/cpu/contact_pairs.h"
+#include "solver/cpu/cpu_state.h"
+
+namespace clothsim::cpu {
+
+// Up to BLOCK particles of one grid.
+struct Block {
+  std::uint32_t begin, end;  // particles
+  std::uint32_t grid;
+  std::uint32_t slots = 0;  // most candidates of one of them; unused slots name the particle itself
+};
+
+// Adds what each contact asks for to the particle's sums.
+template <class Real>
+void addContacts(bool robust, bool nearCodes, const View<Real>& view, const std::uint32_t* candidates,
+                 const Block& block, Sums<Real>& sums);
+// Moves every free particle by the mean over its contacts; the velocities go along.
+template <class Real>
+void moveByContacts(bool robust, const View<Real>& view, const Block& block, const Sums<Real>& sums,
+                    Components<Real>& newPositions, Components<Real>& velocities);
+// Whether some free particle has come nearer to a stranger than D.
+template <class Real>
+[[nodiscard]] bool anyTooNear(bool nearCodes, const View<Real>& view, const std::uint32_t* candidates,
+                              const Block& block);
+// Whether some particle is not within sqrt(largestSquared) of where it was.
+template <class Real>
+[[nodiscard]] bool anyMovedFarther(const Components<Real>& now, const Components<Real>& then,
+                                   const Block& block, Real largestSquared);
+template <class Real>
+void copyBlock(const Components<Real>& from, Components<Real>& to, const Block& block);
+
+}  // namespace clothsim::cpu

@@ -1,0 +1,327 @@
+#include "solver/cpu/self_collision.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <bit>
+#include <cassert>
+#include <cmath>
+#include <type_traits>
+
+#include "core/exact_math.h"
+#include "core/vec.h"
+#include "solver/cpu/vector_clones.h"
+
+namespace clothsim::cpu {
+namespace {
+
+constexpr std::uint8_t WALK = MOST_CANDIDATES + 1;
+constexpr std::uint32_t EXCLUDED = ~0u;
+
+// --- The hash: x-neighbours share three buckets in a row.
+
+struct Cell {
+  std::int32_t x, y, z;
+};
+
+template <class Real>
+INLINE std::int32_t cellCoordinate(Real x, Real inverseCell) {
+  constexpr Real largest = 131072;  // 2^17
+  Real c = x * inverseCell;
+  c = c < largest ? c : largest;  // NaN, too
+  c = c < -largest ? -largest : c;
+  const auto towardsZero = static_cast<std::int32_t>(c);
+  return towardsZero - (c < static_cast<Real>(towardsZero) ? 1 : 0);  // floor
+}
+
+template <class Real>
+INLINE Cell cellAt(const Components<Real>& p, std::size_t i, Real inverseCell) {
+  return {cellCoordinate(p.x[i], inverseCell), cellCoordinate(p.y[i], inverseCell),
+          cellCoordinate(p.z[i], inverseCell)};
+}
+
+INLINE std::uint32_t bucketOf(Cell cell, std::uint32_t mask) {
+  std::uint32_t h = static_cast<std::uint32_t>(cell.y) * 0x9e3779b1u;
+  h = (h ^ (h >> 15)) + static_cast<std::uint32_t>(cell.z) * 0x85ebca77u;
+  h = (h ^ (h >> 13)) * 0xc2b2ae3du;
+  return ((h ^ (h >> 16)) + static_cast<std::uint32_t>(cell.x)) & mask;
+}
+
+template <class Real>
+View<Real> viewOf(const SelfParams<Real>& params, const CpuState<Real>& before, const CpuState<Real>& after,
+                  const std::vector<Real>& inverseMasses, const std::vector<Real>& distances,
+                  const Block& block) {
+  const Components<Real>&p0 = before.positions, &p = after.positions;
+  return {params,
+          p0.x.data(),
+          p0.y.data(),
+          p0.z.data(),
+          p.x.data(),
+          p.y.data(),
+          p.z.data(),
+          inverseMasses.data(),
+          distances.data() + static_cast<std::size_t>(block.grid) * NEAREST_CODES};
+}
+
+// The candidate (shared/self_collision.h), or EXCLUDED for a pair that is left to its springs.
+template <class Real>
+std::uint32_t encode(const Grid& grid, const SelfParams<Real>& params, const Real* distances, std::uint32_t i,
+                     std::uint32_t j) {
+  if (j - grid.firstParticle >= grid.particleCount()) return j;
+  const auto columns = static_cast<std::uint32_t>(grid.columns);
+  const std::uint32_t a = i - grid.firstParticle, b = j - grid.firstParticle;
+  const auto apart = [](std::uint32_t p, std::uint32_t q) { return p < q ? q - p : p - q; };
+  const std::uint32_t across = apart(a % columns, b % columns), along = apart(a / columns, b / columns);
+  if (across < params.firstCode && along < params.firstCode) return EXCLUDED;
+  if (across > 7 || along > 7) return j;
+  const std::uint32_t code = across + 8 * along;
+  return distances[code] < params.distance ? j | code << CANDIDATE_BITS : j;
+}
+
+// All entries that may lie in the 27 cells about a cell: `visit(entry, y, z)` is to take those whose cell has
+// this y and z, since a bucket may hold several cells.
+template <class Real, class Visit>
+void visitCells(const SelfParams<Real>& params, const std::vector<std::uint32_t>& bucketStarts, Cell cell,
+                Visit visit) {
+  const auto visitBuckets = [&](std::uint32_t first, std::uint32_t last, std::int32_t y, std::int32_t z) {
+    for (std::uint32_t entry = bucketStarts[first]; entry < bucketStarts[last + 1]; ++entry)
+      visit(entry, y, z);
+  };
+  for (std::int32_t z = cell.z - 1; z <= cell.z + 1; ++z) {
+    for (std::int32_t y = cell.y - 1; y <= cell.y + 1; ++y) {
+      const std::uint32_t left = bucketOf({cell.x - 1, y, z}, params.bucketMask);
+      if (left + 2 <= params.bucketMask) {
+        visitBuckets(left, left + 2, y, z);
+      } else {
+        for (std::uint32_t k = 0; k < 3; ++k)
+          visitBuckets((left + k) & params.bucketMask, (left + k) & params.bucketMask, y, z);
+      }
+    }
+  }
+}
+
+template <class Real>
+bool hasCell(const SelfParams<Real>& params, const Components<Real>& sortedPositions, std::uint32_t entry,
+             std::int32_t y, std::int32_t z) {
+  return cellCoordinate(sortedPositions.y[entry], params.inverseCell) == y &&
+         cellCoordinate(sortedPositions.z[entry], params.inverseCell) == z;
+}
+
+}  // namespace
+
+template <class Real>
+SelfCollision<Real>::SelfCollision(const Cloth& cloth, bool parallel) : cloth_(&cloth), parallel_(parallel) {}
+
+template <class Real>
+void SelfCollision<Real>::configure(const Scene& scene) {
+  mode_ = collidesWithItself(scene, *cloth_) ? scene.solver.selfCollision : clothsim::SelfCollision::off;
+  isHashed_ = false;
+  if (!isOn()) return;
+  params_ = makeSelfParams<Real>(scene, *cloth_);
+  distances_ = makeContactDistances<Real>(scene, *cloth_);
+  hasNearCodes_ = hasNearCodes(scene, *cloth_);
+  if (!blocks_.empty()) return;
+
+  const std::size_t count = params_.particles;
+  hashedPositions_.resize(count);
+  sortedPositions_.resize(count);
+  swept_.resize(count);
+  bucketStarts_.resize(static_cast<std::size_t>(params_.bucketMask) + 2);
+  sorted_.resize(count);
+  bucketOf_.resize(count);
+  ranks_.resize(count);
+  candidates_.resize(count * MOST_CANDIDATES);
+  candidateCounts_.resize(count);
+  for (std::uint32_t grid = 0; grid < cloth_->grids().size(); ++grid) {
+    const std::uint32_t first = cloth_->grids()[grid].firstParticle;
+    const std::uint32_t end = first + cloth_->grids()[grid].particleCount();
+    for (std::uint32_t begin = first; begin < end; begin += BLOCK)
+      blocks_.push_back({begin, std::min(begin + BLOCK, end), grid});
+  }
+}
+
+template <class Real>
+template <class Work>
+void SelfCollision<Real>::forEachBlock(Work work) {
+#pragma omp parallel for schedule(dynamic, 64) if (parallel_)
+  for (Block& block : blocks_) work(block);
+}
+
+template <class Real>
+void SelfCollision<Real>::buildHash(const Components<Real>& positions) {
+  ++counts_.hashBuilds;
+  isHashed_ = true;
+  hashedPositions_ = positions;
+  std::fill(bucketStarts_.begin(), bucketStarts_.end(), 0);
+  forEachBlock([&](const Block& block) {  // histogram: the ranks are in no particular order
+    for (std::uint32_t i = block.begin; i < block.end; ++i) {
+      bucketOf_[i] = bucketOf(cellAt(positions, i, params_.inverseCell), params_.bucketMask);
+      ranks_[i] = std::atomic_ref(bucketStarts_[bucketOf_[i]]).fetch_add(1, std::memory_order_relaxed);
+    }
+  });
+  std::uint32_t start = 0;
+  for (std::uint32_t& bucket : bucketStarts_) start += std::exchange(bucket, start);
+  forEachBlock([&](const Block& block) {
+    for (std::uint32_t i = block.begin; i < block.end; ++i) {
+      const std::uint32_t entry = bucketStarts_[bucketOf_[i]] + ranks_[i];
+      sorted_[entry] = i;
+      sortedPositions_.x[entry] = positions.x[i];
+      sortedPositions_.y[entry] = positions.y[i];
+      sortedPositions_.z[entry] = positions.z[i];
+    }
+  });
+  findCandidates();
+}
+
+template <class Real>
+void SelfCollision<Real>::findCandidates() {
+  const Components<Real>& p = hashedPositions_;
+  forEachBlock([&](Block& block) {
+    const Grid& grid = cloth_->grids()[block.grid];
+    const Real* distances = distances_.data() + static_cast<std::size_t>(block.grid) * NEAREST_CODES;
+    std::array<std::array<std::uint32_t, BLOCK>, MOST_CANDIDATES> found;
+    block.slots = 0;
+    for (std::uint32_t i = block.begin; i < block.end; ++i) {
+      const Vec3<Real> x{p.x[i], p.y[i], p.z[i]};
+      std::uint32_t count = 0;
+      visitCells(params_, bucketStarts_, cellAt(p, i, params_.inverseCell),
+                 [&](std::uint32_t entry, std::int32_t y, std::int32_t z) {
+                   const Vec3<Real> d = x - load(sortedPositions_.x.data(), sortedPositions_.y.data(),
+                                                 sortedPositions_.z.data(), entry);
+                   if (!(dot(d, d) < params_.searchSquared) || sorted_[entry] == i ||
+                       !hasCell(params_, sortedPositions_, entry, y, z))
+                     return;
+                   const std::uint32_t candidate = encode(grid, params_, distances, i, sorted_[entry]);
+                   if (candidate == EXCLUDED) return;
+                   if (count < MOST_CANDIDATES) found[count][i - block.begin] = candidate;
+                   ++count;
+                 });
+      candidateCounts_[i] = count > MOST_CANDIDATES ? WALK : static_cast<std::uint8_t>(count);
+      const std::uint32_t kept = count > MOST_CANDIDATES ? 0 : count;
+      for (std::uint32_t slot = kept; slot < MOST_CANDIDATES; ++slot) found[slot][i - block.begin] = i;
+      block.slots = std::max(block.slots, kept);
+    }
+    for (std::uint32_t slot = 0; slot < block.slots; ++slot)
+      std::copy_n(found[slot].begin(), block.end - block.begin,
+                  candidates_.begin() +
+                      static_cast<std::ptrdiff_t>(slot * static_cast<std::size_t>(params_.particles)) +
+                      block.begin);
+  });
+}
+
+template <class Real>
+template <class Visit>
+void SelfCollision<Real>::walk(const Block& block, std::uint32_t i, Visit visit) const {
+  const Grid& grid = cloth_->grids()[block.grid];
+  const Real* distances = distances_.data() + static_cast<std::size_t>(block.grid) * NEAREST_CODES;
+  visitCells(params_, bucketStarts_, cellAt(hashedPositions_, i, params_.inverseCell),
+             [&](std::uint32_t entry, std::int32_t y, std::int32_t z) {
+               if (sorted_[entry] == i || !hasCell(params_, sortedPositions_, entry, y, z)) return;
+               const std::uint32_t candidate = encode(grid, params_, distances, i, sorted_[entry]);
+               if (candidate != EXCLUDED) visit(candidate);
+             });
+}
+
+template <class Real>
+void SelfCollision<Real>::sweep(const CpuState<Real>& before, CpuState<Real>& after,
+                                const std::vector<Real>& inverseMasses) {
+  forEachBlock([&](const Block& block) {
+    const View<Real> view = viewOf(params_, before, after, inverseMasses, distances_, block);
+    Sums<Real> sums;
+    addContacts(isRobust(), hasNearCodes_, view, candidates_.data(), block, sums);
+    for (std::uint32_t i = block.begin; i < block.end; ++i)
+      if (candidateCounts_[i] == WALK)
+        walk(block, i, [&](std::uint32_t candidate) {
+          isRobust() ? addPair<true, true>(view, i, candidate, sums, i - block.begin)
+                     : addPair<false, true>(view, i, candidate, sums, i - block.begin);
+        });
+    if (std::any_of(sums.count.begin(), sums.count.end(), [](std::uint32_t count) { return count != 0; }))
+      moveByContacts(isRobust(), view, block, sums, swept_, after.velocities);
+    else
+      copyBlock(after.positions, swept_, block);
+  });
+  std::swap(after.positions, swept_);
+}
+
+template <class Real>
+void SelfCollision<Real>::separate(const CpuState<Real>& before, CpuState<Real>& after,
+                                   const std::vector<Real>& inverseMasses) {
+  std::atomic<bool> stale = !isHashed_, fast = false;
+  forEachBlock([&](const Block& block) {
+    if (!stale && anyMovedFarther(after.positions, hashedPositions_, block, params_.reuseSquared))
+      stale = true;
+    if (isRobust() && !fast && anyMovedFarther(after.positions, before.positions, block, params_.fastSquared))
+      fast = true;
+  });
+  if (stale) buildHash(after.positions);
+  if (fast) ++counts_.fastSteps;
+  sweep(before, after, inverseMasses);
+}
+
+template <class Real>
+void SelfCollision<Real>::guard(const CpuState<Real>& before, CpuState<Real>& after,
+                                const std::vector<Real>& inverseMasses) {
+  assert(isHashed_ && "separate() comes first");
+  std::atomic<bool> any = false;
+  forEachBlock([&](const Block& block) {
+    if (any) return;
+    const View<Real> view = viewOf(params_, before, after, inverseMasses, distances_, block);
+    bool found = anyTooNear(hasNearCodes_, view, candidates_.data(), block);
+    for (std::uint32_t i = block.begin; i < block.end && !found; ++i)
+      if (candidateCounts_[i] == WALK)
+        walk(block, i, [&](std::uint32_t candidate) { found = found || tooNear<true>(view, i, candidate); });
+    if (found) any = true;
+  });
+  if (!any) return;
+  ++counts_.guardedSteps;
+  buildHash(
+      before.positions);  // the hash of another step need not know all that were near when this one began
+  forEachBlock([&](const Block& block) {
+    const View<Real> view = viewOf(params_, before, after, inverseMasses, distances_, block);
+    for (std::uint32_t i = block.begin; i < block.end; ++i) {
+      const Vec3<Real> x = load(view.x, view.y, view.z, i), start = load(view.x0, view.y0, view.z0, i);
+      swept_.x[i] = x.x;
+      swept_.y[i] = x.y;
+      swept_.z[i] = x.z;
+      Real kept = 1;
+      const auto look = [&](std::uint32_t candidate) { kept = keptMotion<true>(view, i, candidate, kept); };
+      for (std::uint32_t slot = 0; slot < block.slots; ++slot)
+        look(candidates_[slot * static_cast<std::size_t>(params_.particles) + i]);
+      if (candidateCounts_[i] == WALK) walk(block, i, look);
+      if (!(kept < Real(1)) || inverseMasses[i] == Real(0)) continue;
+      const Vec3<Real> stopped = start + kept * (x - start);
+      const Vec3<Real> kick = params_.inverseTimeStep * (stopped - x);
+      Components<Real>& v = after.velocities;
+      swept_.x[i] = canonical(stopped.x);
+      swept_.y[i] = canonical(stopped.y);
+      swept_.z[i] = canonical(stopped.z);
+      v.x[i] = canonical(v.x[i] + kick.x);
+      v.y[i] = canonical(v.y[i] + kick.y);
+      v.z[i] = canonical(v.z[i] + kick.z);
+    }
+  });
+  std::swap(after.positions, swept_);
+}
+
+template <class Real>
+std::vector<std::pair<std::uint32_t, std::uint32_t>> SelfCollision<Real>::candidatePairs(
+    const Components<Real>& positions) {
+  buildHash(positions);
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  for (const Block& block : blocks_) {
+    for (std::uint32_t i = block.begin; i < block.end; ++i) {
+      const auto add = [&](std::uint32_t candidate) { pairs.emplace_back(i, candidate & INDEX_MASK); };
+      if (candidateCounts_[i] == WALK)
+        walk(block, i, add);
+      else
+        for (std::uint32_t slot = 0; slot < candidateCounts_[i]; ++slot)
+          add(candidates_[slot * static_cast<std::size_t>(params_.particles) + i]);
+    }
+  }
+  return pairs;
+}
+
+template class SelfCollision<float>;
+template class SelfCollision<double>;
+
+}  // namespace clothsim::cpu

@@ -1,0 +1,72 @@
+// Self-collision on the CPU: the twin of shaders/sim/self_*.comp (what and why: solver/self_collision.h).
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "cloth/cloth.h"
+#include "solver/cpu/contact_blocks.h"
+#include "solver/cpu/cpu_state.h"
+#include "solver/self_collision.h"
+#include "solver/solver.h"
+
+namespace clothsim::cpu {
+
+template <class Real>
+class SelfCollision {
+ public:
+  // `cloth` must outlive it.
+  SelfCollision(const Cloth& cloth, bool parallel);
+
+  void configure(const Scene& scene);
+  [[nodiscard]] bool isOn() const { return mode_ != clothsim::SelfCollision::off; }
+  [[nodiscard]] bool isRobust() const { return mode_ == clothsim::SelfCollision::robust; }
+
+  // Pass 3, over `after`: pushes particles apart that are too near. Builds the hash anew when it has to.
+  void separate(const CpuState<Real>& before, CpuState<Real>& after, const std::vector<Real>& inverseMasses);
+  // Robust only, the last word of pass 3: when some pair of strangers has come nearer than D, shortens all
+  // motion of the step by pairs until none has. Each of two may go half of the way that is left between them,
+  // so they cannot meet.
+  void guard(const CpuState<Real>& before, CpuState<Real>& after, const std::vector<Real>& inverseMasses);
+  // For a new state: forgets the hash.
+  void restart() { isHashed_ = false; }
+
+  [[nodiscard]] ContactCounts counts() const { return counts_; }
+
+  // For tests: builds the hash for these positions and returns all pairs (i, candidate of i) that the passes
+  // would look at.
+  [[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> candidatePairs(
+      const Components<Real>& positions);
+
+ private:
+  void buildHash(const Components<Real>& positions);
+  void findCandidates();
+  void sweep(const CpuState<Real>& before, CpuState<Real>& after, const std::vector<Real>& inverseMasses);
+  // `visit` sees what would be the candidates of a particle that has too many to remember.
+  template <class Visit>
+  void walk(const Block& block, std::uint32_t particle, Visit visit) const;
+  template <class Work>
+  void forEachBlock(Work work);
+
+  const Cloth* cloth_;
+  bool parallel_;
+  clothsim::SelfCollision mode_ = clothsim::SelfCollision::off;
+  SelfParams<Real> params_{};
+  std::vector<Real> distances_;
+  bool hasNearCodes_ = false;
+  bool isHashed_ = false;
+  ContactCounts counts_;
+
+  Components<Real> hashedPositions_, sortedPositions_, swept_;
+  std::vector<std::uint32_t> bucketStarts_, sorted_, bucketOf_, ranks_;
+  std::vector<std::uint32_t> candidates_;      // slot-major
+  std::vector<std::uint8_t> candidateCounts_;  // MOST_CANDIDATES + 1: walk through the cells
+  std::vector<Block> blocks_;
+};
+
+extern template class SelfCollision<float>;
+extern template class SelfCollision<double>;
+
+}  // namespace clothsim::cpu

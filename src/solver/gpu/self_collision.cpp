@@ -1,0 +1,157 @@
+#include "solver/gpu/self_collision.h"
+
+#include "shared/step_params.h"
+#include "solver/gpu/pass_programs.h"
+
+namespace clothsim {
+namespace {
+
+std::uint32_t groupsAcross(int invocations, int groupSize) {
+  return static_cast<std::uint32_t>((invocations + groupSize - 1) / groupSize);
+}
+
+}  // namespace
+
+GpuSelfCollision::Programs::Programs(bool robust, bool nearCodes, int groupColumns, int groupRows) {
+  PassFeatures features;
+  features.groupColumns = groupColumns;
+  features.groupRows = groupRows;
+  gl::Defines defines = definesFor(features);
+  defines.emplace_back("SELF_ROBUST", std::to_string(robust));
+  defines.emplace_back("SELF_NEAR_CODES", std::to_string(nearCodes));
+  const auto make = [&](const char* file) {
+    return gl::Program::makeCompute(std::string("sim/self/") + file, defines);
+  };
+  check = make("check.comp");
+  plan = make("plan.comp");
+  clear = make("clear.comp");
+  count = make("count.comp");
+  scanBlocks = make("scan_blocks.comp");
+  scanTotals = make("scan_totals.comp");
+  scatter = make("scatter.comp");
+  find = make("find.comp");
+  separate = make("separate.comp");
+  if (!robust) return;
+  guardCheck = make("guard_check.comp");
+  guard = make("guard.comp");
+}
+
+GpuSelfCollision::GpuSelfCollision(const Cloth& cloth, int groupColumns, int groupRows)
+    : cloth_(&cloth), groupColumns_(groupColumns), groupRows_(groupRows) {}
+
+void GpuSelfCollision::configure(const Scene& scene) {
+  mode_ = collidesWithItself(scene, *cloth_) ? scene.solver.selfCollision : SelfCollision::off;
+  if (!isOn()) return;
+  const std::pair key{isRobust(), hasNearCodes(scene, *cloth_)};
+  auto found = programs_.find(key);
+  if (found == programs_.end())
+    found = programs_.try_emplace(key, key.first, key.second, groupColumns_, groupRows_).first;
+  now_ = &found->second;
+  const SelfParams<float> params = makeSelfParams<float>(scene, *cloth_);
+  if (params_.name() == 0) allocate(params);
+  params_.upload({&params, 1});
+  distances_.upload(makeContactDistances<float>(scene, *cloth_));
+  restart();
+}
+
+void GpuSelfCollision::allocate(const SelfParams<float>& params) {
+  const std::size_t particles = cloth_->particleCount();
+  checkFits(particles * (MOST_CANDIDATES + 1), sizeof(std::uint32_t), "contact candidates");
+  params_ = gl::Buffer<SelfParams<float>>("self-collision parameters", 1);
+  distances_ = gl::Buffer<float>("contact distances", cloth_->grids().size() * NEAREST_CODES);
+  flags_ = gl::Buffer<Flags>("contact flags", 1);
+  buckets_ = gl::Buffer<std::uint32_t>("hash buckets", std::size_t{params.bucketMask} + 1);
+  bucketBlocks_ = gl::Buffer<std::uint32_t>("hash bucket blocks", params.bucketBlocks);
+  candidates_ = gl::Buffer<std::uint32_t>("contact candidates", particles * (MOST_CANDIDATES + 1));
+  hashed_ = ParticleArray("hashed positions", particles);
+  sorted_ = ParticleArray("sorted particles", particles);
+  spare_ = ParticleArray("positions 2", particles);
+  distancesTexture_ = gl::BufferTexture("contact distances", distances_.name(), GL_R32F);
+  bucketsTexture_ = gl::BufferTexture("hash buckets", buckets_.name(), GL_R32UI);
+  bucketBlocksTexture_ = gl::BufferTexture("hash bucket blocks", bucketBlocks_.name(), GL_R32UI);
+  candidatesTexture_ = gl::BufferTexture("contact candidates", candidates_.name(), GL_R32UI);
+
+  const auto groups = [](std::size_t invocations) {
+    return Groups{groupsAcross(static_cast<int>(invocations), HASH_GROUP), 1, 1};
+  };
+  std::vector<Groups> needed{
+      groups(buckets_.size()), groups(particles), {params.bucketBlocks, 1, 1}, {1, 1, 1}, groups(particles)};
+  for (const Grid& grid : cloth_->grids())
+    needed.push_back({groupsAcross(grid.columns, groupColumns_), groupsAcross(grid.rows, groupRows_), 1});
+  std::vector<Groups> dispatches(needed.size());
+  dispatches.insert(dispatches.end(), needed.begin(), needed.end());
+  dispatches_ = gl::Buffer<Groups>("hash dispatches", std::span<const Groups>(dispatches));
+}
+
+void GpuSelfCollision::restart() {
+  if (flags_.name() != 0) flags_.upload(std::vector<Flags>(1));
+}
+
+void GpuSelfCollision::bind() const {
+  params_.bindUniform(SELF_PARAMS_BINDING);
+  flags_.bindStorage(CONTACT_FLAGS_BINDING);
+  buckets_.bindStorage(BUCKETS_BINDING);
+  hashed_.texture.bind(HASHED_POSITIONS_UNIT);
+  sorted_.texture.bind(SORTED_UNIT);
+  bucketsTexture_.bind(BUCKETS_UNIT);
+  bucketBlocksTexture_.bind(BUCKET_BLOCKS_UNIT);
+  candidatesTexture_.bind(CANDIDATES_UNIT);
+  distancesTexture_.bind(CONTACT_DISTANCES_UNIT);
+}
+
+void GpuSelfCollision::runOnGrids(PassRunner& runner, const gl::Program& pass, const char* name,
+                                  const BindGrid& bindGrid) const {
+  for (std::size_t i = 0; i < cloth_->grids().size(); ++i) {
+    const Grid& grid = cloth_->grids()[i];
+    bindGrid(i);
+    runner.run(pass, name, static_cast<std::uint32_t>(grid.columns), static_cast<std::uint32_t>(grid.rows));
+  }
+}
+
+void GpuSelfCollision::buildHash(PassRunner& runner, const ParticleArray& positions,
+                                 const BindGrid& bindGrid) const {
+  constexpr const char* name = "self-collision, hash";
+  dispatches_.bindStorage(DISPATCHES_BINDING);
+  runner.runGroups(now_->plan, name, 1);
+  dispatches_.bindDispatches();
+  positions.texture.bind(POSITIONS_TO_HASH_UNIT);
+  runner.runIndirect(now_->clear, name, clearPlace);
+  hashed_.buffer.bindStorage(HASHED_BINDING);
+  runner.runIndirect(now_->count, name, countPlace);
+  bucketBlocks_.bindStorage(HASHED_BINDING);
+  runner.runIndirect(now_->scanBlocks, name, scanBlocksPlace);
+  runner.runIndirect(now_->scanTotals, name, scanTotalsPlace);
+  sorted_.buffer.bindStorage(HASHED_BINDING);
+  runner.runIndirect(now_->scatter, name, scatterPlace);
+  candidates_.bindStorage(CANDIDATES_BINDING);
+  for (std::size_t grid = 0; grid < cloth_->grids().size(); ++grid) {
+    bindGrid(grid);
+    runner.runIndirect(now_->find, "self-collision, candidates", findPlace + grid);
+  }
+}
+
+void GpuSelfCollision::separate(PassRunner& runner, ParticleArray& newPositions, const BindGrid& bindGrid) {
+  bind();
+  runOnGrids(runner, now_->check, "self-collision, check", bindGrid);
+  buildHash(runner, newPositions, bindGrid);
+  spare_.buffer.bindStorage(NEW_POSITIONS_BINDING);
+  runOnGrids(runner, now_->separate, "self-collision, separate", bindGrid);
+  std::swap(newPositions, spare_);
+  newPositions.texture.bind(NEW_POSITIONS_UNIT);
+  newPositions.buffer.bindStorage(NEW_POSITIONS_BINDING);
+}
+
+void GpuSelfCollision::guard(PassRunner& runner, const ParticleArray& positions, const BindGrid& bindGrid) {
+  runOnGrids(runner, now_->guardCheck, "self-collision, guard", bindGrid);
+  buildHash(runner, positions, bindGrid);
+  runOnGrids(runner, now_->guard, "self-collision, guard", bindGrid);
+}
+
+ContactCounts GpuSelfCollision::counts() const {
+  if (flags_.name() == 0) return {};
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  const Flags flags = flags_.download()[0];
+  return {flags.hashBuilds, flags.guardedSteps, flags.fastSteps};
+}
+
+}  // namespace clothsim

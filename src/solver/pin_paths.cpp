@@ -1,0 +1,67 @@
+#include "solver/pin_paths.h"
+
+#include "scene/pins.h"
+#include "scene/pose.h"
+
+namespace clothsim {
+
+PinPaths makePinPaths(const Scene& scene, const Cloth& cloth) {
+  PinPaths result;
+  if (!hasPinMotion(scene)) return result;
+  result.numbers.resize(cloth.particleCount());
+  for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
+    const ClothSettings& settings = scene.cloths[i];
+    if (settings.pinMotion.empty()) continue;
+    const std::size_t firstPath = result.paths.size(), firstParticle = cloth.grids()[i].firstParticle;
+    std::vector<Vec3d> sums(settings.pinMotion.size());
+    std::vector<double> counts(settings.pinMotion.size());
+    const std::vector<int> motions = pinMotionOfPoints(settings);
+    for (std::size_t point = 0; point < motions.size(); ++point) {
+      if (motions[point] == NO_MOTION) continue;
+      const auto motion = static_cast<std::size_t>(motions[point]);
+      result.numbers[firstParticle + point] = static_cast<std::uint32_t>(firstPath + motion + 1);
+      sums[motion] = sums[motion] + cloth.positions()[firstParticle + point];
+      ++counts[motion];
+    }
+    for (std::size_t k = 0; k < settings.pinMotion.size(); ++k) {
+      const PinMotion& motion = settings.pinMotion[k];
+      PinPath path;
+      if (counts[k] > 0) path.center = (1 / counts[k]) * sums[k];
+      path.motion.loop = motion.loop;
+      for (const PinMotion::Key& key : motion.keys)
+        path.motion.keys.push_back({key.t, key.position.value_or(path.center), key.rotation});
+      result.paths.push_back(std::move(path));
+    }
+  }
+  return result;
+}
+
+template <class Real>
+PinMotionParams<Real> makePinMotionParams(const PinPath& path, double timeStep, std::uint64_t step) {
+  const Pose pose = poseAt(path.motion, static_cast<double>(step + 1) * timeStep);
+  const auto& [rowX, rowY, rowZ] = pose.rotation;
+  const Vec3d shift = pose.position - path.center;
+  const auto real = [](double x) { return static_cast<Real>(x); };
+  PinMotionParams<Real> params{};
+  params.turnXX = real(rowX.x - 1);
+  params.turnXY = real(rowX.y);
+  params.turnXZ = real(rowX.z);
+  params.shiftX = real(shift.x);
+  params.turnYX = real(rowY.x);
+  params.turnYY = real(rowY.y - 1);
+  params.turnYZ = real(rowY.z);
+  params.shiftY = real(shift.y);
+  params.turnZX = real(rowZ.x);
+  params.turnZY = real(rowZ.y);
+  params.turnZZ = real(rowZ.z - 1);
+  params.shiftZ = real(shift.z);
+  params.pivotX = real(path.center.x);
+  params.pivotY = real(path.center.y);
+  params.pivotZ = real(path.center.z);
+  return params;
+}
+
+template PinMotionParams<float> makePinMotionParams(const PinPath&, double, std::uint64_t);
+template PinMotionParams<double> makePinMotionParams(const PinPath&, double, std::uint64_t);
+
+}  // namespace clothsim

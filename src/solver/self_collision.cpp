@@ -1,0 +1,119 @@
+#include "solver/self_collision.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "core/exact_math.h"
+#include "solver/step_params.h"
+
+namespace clothsim {
+namespace {
+
+constexpr double MARGIN_AVERAGED = 0.4, MARGIN_ROBUST = 0.5;  // in d
+constexpr double LARGEST_MOVE = 0.06;                         // of robust self-collision in a step, in d
+constexpr double RELATIVE_MOTION = 0.3;                       // delta, in spacings
+// Covers the rounding of positions to cells, which are clamped to +-2^17: 2^-7 of a cell at most for each of
+// two particles.
+constexpr double CELL_MARGIN = 1.02;
+constexpr double ROUNDING = 1e-3;  // kept clear of every bound
+
+double spacing(const Grid& grid) {
+  const double x = grid.nominalLength[toLeft], y = grid.nominalLength[toUpper];
+  return std::sqrt((x * x + y * y) / 2);
+}
+
+double largestSpacing(const Cloth& cloth) {
+  double largest = 0;
+  for (const Grid& grid : cloth.grids()) largest = std::max(largest, spacing(grid));
+  return largest;
+}
+
+std::size_t firstCode(const Scene& scene) {
+  return scene.solver.selfCollision == SelfCollision::robust ? 2 : 1;
+}
+
+}  // namespace
+
+bool collidesWithItself(const Scene& scene, const Cloth& cloth) {
+  return scene.solver.selfCollision != SelfCollision::off && contactDistance(scene, cloth) > 0;
+}
+
+double expectedStretch(const Scene& scene) { return scene.solver.strainLimit.value_or(0.25); }
+
+double crossingDistance(const Cloth& cloth, double stretch) { return (1 + stretch) * largestSpacing(cloth); }
+
+double contactDistance(const Scene& scene, const Cloth& cloth) {
+  double thickness = 0, finest = largestSpacing(cloth);
+  for (const ClothSettings& settings : scene.cloths) thickness = std::max(thickness, settings.thickness);
+  for (const Grid& grid : cloth.grids())
+    finest = std::min({finest, grid.nominalLength[toLeft], grid.nominalLength[toUpper]});
+  double distance = 2 * thickness;
+  if (scene.solver.selfCollision == SelfCollision::robust)
+    distance = std::max(thickness, crossingDistance(cloth, expectedStretch(scene)) +
+                                       RELATIVE_MOTION / 2 * largestSpacing(cloth));
+  return std::min(distance, 7 * finest);
+}
+
+template <class Real>
+SelfParams<Real> makeSelfParams(const Scene& scene, const Cloth& cloth) {
+  const auto real = [](double x) { return static_cast<Real>(x); };
+  const bool robust = scene.solver.selfCollision == SelfCollision::robust;
+  const double d = contactDistance(scene, cloth);
+  const double margin = (robust ? MARGIN_ROBUST : MARGIN_AVERAGED) * d;
+  const double move = robust ? LARGEST_MOVE * d : 0;
+  const double reuse = (margin / 2 - move) * (1 - ROUNDING);
+  const double search = (d + margin) * (1 + ROUNDING);
+  const double quanta = std::ldexp(1.0, QUANTUM_BITS<Real>) / d;
+
+  SelfParams<Real> params{};
+  params.particles = cloth.particleCount();
+  params.bucketMask = std::bit_ceil(std::max(params.particles, 64u)) - 1;
+  params.bucketBlocks = params.bucketMask / BUCKETS_A_BLOCK + 1;
+  params.firstCode = static_cast<std::uint32_t>(firstCode(scene));
+  params.inverseCell = real(1 / (search * CELL_MARGIN));
+  params.searchSquared = real(search * search);
+  params.reuseSquared = real(reuse * reuse);
+  params.inverseTimeStep = real(1 / stepLength(scene.solver));
+  params.distance = real(d);
+  params.quantaPerMeter = real(quanta);
+  params.moveFactor = real((robust ? 1 : 1.0 / scene.solver.simulationSteps) / quanta);
+  params.largestMove = real(LARGEST_MOVE * d);
+  params.friction = real(robust ? scene.solver.selfFriction : 0);
+  const double crossing = std::min(crossingDistance(cloth, expectedStretch(scene)), d);
+  params.guardFactor = real(crossing / d);
+  const double fast = (d + margin - crossing) / 2;
+  params.fastSquared = real(fast * fast);
+  return params;
+}
+
+template <class Real>
+std::vector<Real> makeContactDistances(const Scene& scene, const Cloth& cloth) {
+  const double d = contactDistance(scene, cloth);
+  std::vector<Real> distances;
+  for (const Grid& grid : cloth.grids()) {
+    for (std::size_t code = 0; code < NEAREST_CODES; ++code) {
+      const std::size_t across = code % 8, along = code / 8;
+      const double x = static_cast<double>(across) * grid.nominalLength[toLeft],
+                   y = static_cast<double>(along) * grid.nominalLength[toUpper];
+      const double rest = std::sqrt(x * x + y * y);
+      distances.push_back(static_cast<Real>(code == 0 ? d : std::min(d, rest)));
+    }
+  }
+  return distances;
+}
+
+bool hasNearCodes(const Scene& scene, const Cloth& cloth) {
+  const double d = contactDistance(scene, cloth);
+  const auto first = static_cast<double>(firstCode(scene));
+  return std::any_of(cloth.grids().begin(), cloth.grids().end(), [&](const Grid& grid) {
+    return first * std::min(grid.nominalLength[toLeft], grid.nominalLength[toUpper]) < d;
+  });
+}
+
+template SelfParams<float> makeSelfParams(const Scene&, const Cloth&);
+template SelfParams<double> makeSelfParams(const Scene&, const Cloth&);
+template std::vector<float> makeContactDistances(const Scene&, const Cloth&);
+template std::vector<double> makeContactDistances(const Scene&, const Cloth&);
+
+}  // namespace clothsim

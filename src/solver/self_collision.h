@@ -1,0 +1,59 @@
+// Self-collision as both backends see it: distances, the hash and its margins, evaluated on the host.
+//
+// Two triangles of a lattice of spacing h, stretched by at most e, cannot cross unless two of their
+// particles, one of each, are nearer than D = (1 + e) h (PHYSICS.md section 4; h is sqrt((hx^2 + hy^2) / 2)
+// where the spacings differ). "robust" therefore pushes strangers, particles not in one cell of a grid, apart
+// to d = max(thickness, D + delta / 2), delta the relative motion allowed for in a step, and never ends a
+// step with a pair nearer than D that was not so before. "averaged" is CS184's rule: d = 2 thickness for all
+// pairs, which lies below h and holds nothing for certain.
+//
+// Sums over the contacts of a particle are made of whole numbers of quanta, d / 2^18: exact whatever the
+// order, so neither threads, nor the order in a hash cell, nor candidates that are no contacts now can change
+// a bit.
+//
+// The hash serves several steps. Strangers within d now were within d + margin when it was built as long as
+// neither has moved farther than margin / 2 since; every step begins by checking that, and builds anew when
+// it fails.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cloth/cloth.h"
+#include "scene/scene.h"
+#include "shared/self_collision.h"
+
+namespace clothsim {
+
+template <class Real>
+using SelfParams = shared::SelfParams<Real>;
+
+// A quantum is d / 2^bits. Binary32: 2^13 contacts of full depth fit into 32 bits, and each is exact to d /
+// 2^19.
+template <class Real>
+inline constexpr int QUANTUM_BITS = 18;
+template <>
+inline constexpr int QUANTUM_BITS<double> = 40;
+
+// Whether there is anything to do: it is on, and d > 0.
+[[nodiscard]] bool collidesWithItself(const Scene& scene, const Cloth& cloth);
+
+// d, the distance that the scene's self-collision keeps between strangers [m]; at most 7 spacings of the
+// finest grid, so that every particle nearer at rest is known by its place on the lattice.
+[[nodiscard]] double contactDistance(const Scene& scene, const Cloth& cloth);
+// D for a stretch of e [m].
+[[nodiscard]] double crossingDistance(const Cloth& cloth, double stretch);
+// The stretch that contacts are laid out for: the strain limit, or 0.25 without one.
+[[nodiscard]] double expectedStretch(const Scene& scene);
+
+template <class Real>
+[[nodiscard]] SelfParams<Real> makeSelfParams(const Scene& scene, const Cloth& cloth);
+
+// Distances kept between particles of a grid by code (shared/self_collision.h): d, and the distance at rest
+// for those that are nearer than d then. NEAREST_CODES a grid [m].
+template <class Real>
+[[nodiscard]] std::vector<Real> makeContactDistances(const Scene& scene, const Cloth& cloth);
+// Whether any of them differs from d.
+[[nodiscard]] bool hasNearCodes(const Scene& scene, const Cloth& cloth);
+
+}  // namespace clothsim

@@ -1,0 +1,58 @@
+// What the watchdog finds: numbers that are no longer finite, and energy and strain that run away. Every pass
+// tests what it writes, on the device and without a read-back; the host looks when it is asked to.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "cloth/cloth.h"
+#include "scene/scene.h"
+#include "shared/step_params.h"
+
+namespace clothsim {
+
+// In the order of a step; self-collision is none of them, since it moves particles by no more than their
+// distance. `start` is the state that a step began with, when it was handed in by setState().
+enum class Pass : std::uint32_t {
+  start = PASS_START,
+  kick = PASS_KICK,
+  forces = PASS_FORCES,
+  integrate = PASS_INTEGRATE,
+  earlyLimit = PASS_EARLY_LIMIT,
+  collide = PASS_COLLIDE,
+  limit = PASS_LIMIT
+};
+[[nodiscard]] std::string nameOf(Pass pass);
+
+enum class TroubleReason : std::uint32_t {
+  nonFinite = REASON_NON_FINITE,         // an infinity or a NaN, or a speed beyond 1.8e19 m/s
+  runawaySpeed = REASON_RUNAWAY_SPEED,   // beyond solver.max_speed
+  runawayStrain = REASON_RUNAWAY_STRAIN  // a spring beyond solver.max_strain
+};
+
+// The first trouble of a simulation: the earliest step, in it the earliest pass, in that the lowest particle.
+struct Trouble {
+  TroubleReason reason = TroubleReason::nonFinite;
+  Pass pass = Pass::start;
+  std::uint64_t step = 0;      // counted from 1: stepIndex() at the end of that step
+  std::uint32_t particle = 0;  // of a spring: the end with the larger index, its owner (cloth/cloth.h)
+  friend bool operator==(const Trouble&, const Trouble&) = default;
+};
+
+// What the passes of one step have noted, by pass: 4 * particle + reason, the lowest that came up, or
+// NO_TROUBLE. A minimum does not depend on the order in which particles are visited, nor grids stepped, nor
+// on whether passes are fused.
+using WatchRow = std::array<std::uint32_t, PASSES>;
+[[nodiscard]] WatchRow soundWatchRow();
+// `step` as in Trouble.
+[[nodiscard]] std::optional<Trouble> firstTrouble(const WatchRow& row, std::uint64_t step);
+
+// For a person, as a sentence without its full stop: "in step 7 (frame 1), pass integrate, particle 12 (cloth
+// 0, column 2, row 1) ...".
+[[nodiscard]] std::string troubleText(const Trouble& trouble, const Cloth& cloth, const Scene& scene);
+// What may help against it, as sentences.
+[[nodiscard]] std::string troubleAdvice(const Trouble& trouble, const Scene& scene);
+
+}  // namespace clothsim

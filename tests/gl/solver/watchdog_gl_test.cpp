@@ -1,0 +1,145 @@
+// The watchdog on the GPU: the same troubles under the same names as on the CPU, without a read-back in a
+// step.
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "app/compare.h"
+#include "gl/gl_test.h"
+#include "solver/cpu/cpu_solver.h"
+#include "solver/gpu/gpu_solver.h"
+#include "support/compared_scenes.h"
+#include "support/injections.h"
+
+namespace clothsim {
+namespace {
+
+using WatchdogTest = GlTest;
+
+TEST_F(WatchdogTest, FindsTwoHundredInjectedInfinitiesAndNansInTheNextStep) {
+  const Scene scene = test::twoCloths(
+      test::withWind(test::withColliders(test::withLimiter(test::vertical(test::sheetScene(12))))));
+  const Cloth cloth(scene);
+  GpuSolver gpu(cloth, scene);
+  CpuSolver<float> cpu(cloth, scene);
+  for (const test::Injection& injection : test::makeInjections(cloth, 200)) {
+    gpu.setState(initialState(cloth, scene));
+    gpu.step(injection.step);
+    ASSERT_EQ(gpu.trouble(), std::nullopt);
+    const State wrong = injection.into(gpu.state());
+    gpu.setState(wrong);
+    cpu.setState(wrong);
+    gpu.step(1);
+    cpu.step(1);
+    const Trouble expected{TroubleReason::nonFinite, Pass::start,
+                           static_cast<std::uint64_t>(injection.step) + 1, injection.particle};
+    EXPECT_EQ(gpu.trouble(), expected) << injection.text();
+    EXPECT_EQ(cpu.trouble(), expected) << injection.text();
+  }
+}
+
+TEST_F(WatchdogTest, NamesTheTroubleOfExplodingScenesAsTheCpuDoesFusedAndPassByPass) {
+  for (const auto& [name, scene] : test::comparedScenes(16)) {
+    const Scene wild = test::exploding(scene);
+    const Cloth cloth(wild);
+    GpuSolver fused(cloth, wild), separate(cloth, wild, {.fused = false});
+    CpuSolver<float> cpu(cloth, wild);
+    for (Solver* solver :
+         {static_cast<Solver*>(&fused), static_cast<Solver*>(&separate), static_cast<Solver*>(&cpu)})
+      solver->step(60);
+    EXPECT_TRUE(cpu.trouble().has_value()) << name;
+    EXPECT_EQ(fused.trouble(), cpu.trouble()) << name;
+    EXPECT_EQ(separate.trouble(), cpu.trouble()) << name;
+  }
+}
+
+// One scene for each pass, made so that trouble begins there.
+TEST_F(WatchdogTest, NamesThePassInWhichTroubleBegan) {
+  const Scene calm = test::withLimiter(test::vertical(test::sheetScene(12)));
+  const auto troubleOf = [](const Scene& scene, const State& start) {
+    const Cloth cloth(scene);
+    GpuSolver gpu(cloth, scene);
+    CpuSolver<float> cpu(cloth, scene);
+    for (Solver* solver : {static_cast<Solver*>(&gpu), static_cast<Solver*>(&cpu)}) {
+      solver->setState(start);
+      solver->step(2);
+    }
+    EXPECT_EQ(gpu.trouble(), cpu.trouble());
+    return gpu.trouble();
+  };
+  const State rest = initialState(Cloth(calm), calm);
+
+  State stretched = rest;
+  stretched.positions[40].z += 15;  // 165 times the spacing
+  EXPECT_EQ(troubleOf(calm, stretched), (Trouble{TroubleReason::runawayStrain, Pass::forces, 1, 40}));
+
+  State fast = rest;
+  fast.velocities[17].y = 20'000;
+  EXPECT_EQ(troubleOf(calm, fast), (Trouble{TroubleReason::runawaySpeed, Pass::integrate, 1, 17}));
+
+  // Within the limits until the strain limit pulls the particle back in one step of 1/2700 s.
+  State pulled = rest;
+  pulled.positions[70].z += 5;
+  const std::optional<Trouble> byLimit = troubleOf(calm, pulled);
+  ASSERT_TRUE(byLimit.has_value());
+  EXPECT_EQ(byLimit->pass, Pass::limit);
+  EXPECT_EQ(byLimit->reason, TroubleReason::runawaySpeed);
+
+  // A ball that swallows the sheet and pushes it out to its surface, 20 m away, in one step.
+  Scene ball = calm;
+  ball.colliders = {Sphere{.origin = {0.4, 0.5, 0}, .radius = 20, .friction = 0, .motion = std::nullopt}};
+  const std::optional<Trouble> byBall = troubleOf(ball, rest);
+  ASSERT_TRUE(byBall.has_value());
+  EXPECT_EQ(byBall->pass, Pass::collide);
+
+  Scene other = calm;  // the velocities of the half step before are converted first
+  other.solver.integrator = Integrator::euler;
+  EXPECT_EQ(troubleOf(other, fast), (Trouble{TroubleReason::runawaySpeed, Pass::kick, 1, 17}));
+}
+
+TEST_F(WatchdogTest, FindsTheVeryStepInAnyNumberOfStepsBetweenTwoLooks) {
+  Scene scene = test::vertical(test::sheetScene(8));
+  scene.cloths[0].pinned.clear();  // falls freely: v = n h g
+  scene.gravity = {0, -10, 0};
+  scene.cloths[0].damping = 0;
+  scene.solver.framesPerSec = 100;
+  scene.solver.simulationSteps = 10;
+  scene.solver.maxSpeed = 25;  // after 2500 steps of 0.01 m/s
+  const Cloth cloth(scene);
+  GpuSolver gpu(cloth, scene);
+  CpuSolver<float> cpu(cloth, scene);
+  gpu.step(3000);
+  cpu.step(3000);
+  ASSERT_TRUE(cpu.trouble().has_value());
+  EXPECT_NEAR(static_cast<double>(cpu.trouble()->step), 2500, 3);
+  EXPECT_EQ(gpu.trouble(), cpu.trouble());
+  gpu.step(2000);
+  EXPECT_EQ(gpu.trouble(), cpu.trouble()) << "the first one stays";
+}
+
+TEST_F(WatchdogTest, RevertGoesBackToWhatWasKeptAndForgetsTheTrouble) {
+  const Scene scene = test::withWind(test::vertical(test::sheetScene(12)));
+  const Cloth cloth(scene);
+  GpuSolver gpu(cloth, scene);
+  gpu.step(7);
+  gpu.keep();
+  const State kept = gpu.state();
+  State wrong = kept;
+  wrong.positions[3].x = std::numeric_limits<float>::quiet_NaN();
+  wrong.step = 1000;
+  gpu.setState(wrong);
+  gpu.step(5);
+  ASSERT_TRUE(gpu.trouble().has_value());
+  gpu.revert();
+  EXPECT_EQ(gpu.trouble(), std::nullopt);
+  EXPECT_EQ(gpu.stepIndex(), 7u);
+  EXPECT_EQ(difference(gpu.state(), kept).differing, 0u);
+  gpu.step(10);
+  CpuSolver<float> cpu(cloth, scene);
+  cpu.step(17);
+  EXPECT_EQ(gpu.trouble(), std::nullopt);
+  EXPECT_EQ(difference(gpu.state(), cpu.state()).differing, 0u);
+}
+
+}  // namespace
+}  // namespace clothsim

@@ -1,0 +1,155 @@
+// The watchdog on the CPU backend: what it finds, what it calls it, and what it leaves alone.
+#include "solver/trouble.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "solver/cpu/cpu_solver.h"
+#include "support/compared_scenes.h"
+#include "support/injections.h"
+
+namespace clothsim {
+namespace {
+
+Scene busyScene(int n) {
+  return test::twoCloths(
+      test::withWind(test::withColliders(test::withLimiter(test::vertical(test::sheetScene(n))))));
+}
+
+TEST(Watchdog, FindsNonFiniteNumbersInjectedAnywhereInTheNextStepAndNamesTheParticle) {
+  const Scene scene = busyScene(12);
+  const Cloth cloth(scene);
+  CpuSolver<float> solver(cloth, scene);
+  for (const test::Injection& injection : test::makeInjections(cloth, 200)) {
+    solver.setState(initialState(cloth, scene));
+    solver.step(injection.step);
+    ASSERT_EQ(solver.trouble(), std::nullopt);
+    solver.setState(injection.into(solver.state()));
+    solver.step(1);
+    const Trouble expected{TroubleReason::nonFinite, Pass::start,
+                           static_cast<std::uint64_t>(injection.step) + 1, injection.particle};
+    EXPECT_EQ(solver.trouble(), expected) << injection.text();
+  }
+}
+
+TEST(Watchdog, IsSilentOnEverySceneThatTheBackendsAreComparedOn) {
+  for (const auto& [name, scene] : test::comparedScenes(20)) {
+    const Cloth cloth(scene);
+    CpuSolver<float> solver(cloth, scene);
+    solver.step(300);
+    EXPECT_EQ(solver.trouble(), std::nullopt) << name;
+  }
+}
+
+TEST(Watchdog, StopsASheetThatExplodesWithinAFewStepsWhileAllNumbersAreStillFinite) {
+  const Scene scene = test::exploding(test::vertical(test::sheetScene(20)));
+  const Cloth cloth(scene);
+  CpuSolver<float> solver(cloth, scene);
+  int steps = 0;
+  while (!solver.trouble() && steps < 20) solver.step(1), ++steps;
+  ASSERT_TRUE(solver.trouble().has_value());
+  EXPECT_NE(solver.trouble()->reason, TroubleReason::nonFinite);
+  EXPECT_EQ(solver.trouble()->step, static_cast<std::uint64_t>(steps));
+  for (const Particle4& x : solver.state().positions)
+    EXPECT_TRUE(std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z));
+}
+
+TEST(Watchdog, KeepsToTheFirstTroubleUntilAnotherStateIsHandedIn) {
+  const Scene scene = test::exploding(test::vertical(test::sheetScene(20)));
+  const Cloth cloth(scene);
+  CpuSolver<float> whole(cloth, scene), stepwise(cloth, scene);
+  whole.step(100);
+  const std::optional<Trouble> first = whole.trouble();
+  while (!stepwise.trouble()) stepwise.step(1);
+  EXPECT_EQ(first, stepwise.trouble());
+  whole.setState(initialState(cloth, scene));
+  EXPECT_EQ(whole.trouble(), std::nullopt);
+}
+
+// One particle of a single spring, thrown at a speed on either side of the limit.
+TEST(Watchdog, HoldsSpeedsToMaxSpeed) {
+  Scene scene = test::springScene(1, 1, 1, 1e-3, Integrator::euler);
+  scene.solver.maxSpeed = 50;
+  const Cloth cloth(scene);
+  for (const double speed : {49.9, 50.1}) {
+    CpuSolver<double> solver(cloth, scene);
+    solver.setVelocity(1, {speed, 0, 0});
+    solver.step(1);
+    if (speed < 50)
+      EXPECT_EQ(solver.trouble(), std::nullopt);
+    else
+      EXPECT_EQ(solver.trouble(), (Trouble{TroubleReason::runawaySpeed, Pass::integrate, 1, 1}));
+  }
+}
+
+TEST(Watchdog, HoldsSpringsToMaxStrain) {
+  Scene scene = test::springScene(1, 1, 1, 1e-3, Integrator::euler);
+  scene.solver.maxStrain = 2;
+  const Cloth cloth(scene);
+  for (const double length : {2.99, 3.01}) {
+    CpuSolver<double> solver(cloth, scene);
+    solver.setPosition(1, {0, -length, 0});
+    solver.step(1);
+    if (length < 3)
+      EXPECT_EQ(solver.trouble(), std::nullopt);
+    else
+      EXPECT_EQ(solver.trouble(), (Trouble{TroubleReason::runawayStrain, Pass::forces, 1, 1}));
+  }
+}
+
+TEST(Watchdog, NamesTheSamePlaceFusedAndPassByPass) {
+  for (const auto& [name, scene] : test::comparedScenes(16)) {
+    const Scene wild = test::exploding(scene);
+    const Cloth cloth(wild);
+    CpuSolver<float> fused(cloth, wild, true), separate(cloth, wild, false);
+    fused.step(60);
+    separate.step(60);
+    EXPECT_EQ(fused.trouble(), separate.trouble()) << name;
+    EXPECT_TRUE(fused.trouble().has_value()) << name;
+  }
+}
+
+TEST(Watchdog, RevertGoesBackToWhatWasKeptAndForgetsTheTrouble) {
+  const Scene scene = test::withWind(test::vertical(test::sheetScene(12)));
+  const Cloth cloth(scene);
+  CpuSolver<float> solver(cloth, scene), straight(cloth, scene);
+  solver.step(7);
+  solver.keep();
+  solver.step(3);
+  solver.setVelocity(5, {std::numeric_limits<float>::quiet_NaN(), 0, 0});
+  solver.step(1);
+  ASSERT_TRUE(solver.trouble().has_value());
+  solver.revert();
+  EXPECT_EQ(solver.trouble(), std::nullopt);
+  EXPECT_EQ(solver.stepIndex(), 7u);
+  solver.step(10);
+  straight.step(17);
+  EXPECT_EQ(stateHash(solver.state()), stateHash(straight.state()));
+}
+
+TEST(FirstTrouble, IsTheEarliestPassWhateverWasNotedAfterIt) {
+  WatchRow row = soundWatchRow();
+  EXPECT_EQ(firstTrouble(row, 3), std::nullopt);
+  row[PASS_LIMIT] = 4 * 1 + REASON_NON_FINITE;
+  row[PASS_INTEGRATE] = 4 * 9 + REASON_RUNAWAY_SPEED;
+  EXPECT_EQ(firstTrouble(row, 3), (Trouble{TroubleReason::runawaySpeed, Pass::integrate, 3, 9}));
+}
+
+TEST(TroubleText, NamesStepFramePassParticleAndItsPlaceOnTheCloth) {
+  const Scene scene = busyScene(12);
+  const Cloth cloth(scene);
+  const std::uint32_t particle = cloth.grids()[1].particle(4, 2);
+  const std::string text =
+      troubleText({TroubleReason::runawaySpeed, Pass::collide, 61, particle}, cloth, scene);
+  EXPECT_NE(text.find("step 61 (frame 3)"), std::string::npos) << text;
+  EXPECT_NE(text.find("pass collide"), std::string::npos) << text;
+  EXPECT_NE(text.find("particle " + std::to_string(particle) + " (cloth 1, column 4, row 2)"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("solver.max_speed, 10000 m/s"), std::string::npos) << text;
+}
+
+}  // namespace
+}  // namespace clothsim
