@@ -1,0 +1,79 @@
+#include "cloth/cuts.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "support/test_scenes.h"
+
+namespace clothsim {
+namespace {
+
+using test::sheetScene;
+
+// Particles that can be reached from `start` over triangles.
+std::set<std::uint32_t> pieceAround(const std::vector<std::array<std::uint32_t, 3>>& triangles,
+                                    std::uint32_t start) {
+  std::set<std::uint32_t> piece{start};
+  for (std::size_t before = 0; before != piece.size();) {
+    before = piece.size();
+    for (const auto& t : triangles)
+      if (piece.contains(t[0]) || piece.contains(t[1]) || piece.contains(t[2]))
+        piece.insert(t.begin(), t.end());
+  }
+  return piece;
+}
+
+TEST(CutAlong, SeparatesTheSidesOfAStrokeAcrossTheSheet) {
+  const Cloth cloth(sheetScene(10));
+  for (const double lean : {0.0, 1.5, 4.2}) {
+    Cuts cuts;
+    EXPECT_TRUE(cutAlong(cuts, cloth, 0, {4.5 - lean, -1}, {4.5 + lean, 10}));
+    const auto triangles = remainingTriangles(cloth, cuts);
+    EXPECT_FALSE(pieceAround(triangles, 0).contains(99)) << lean;
+    EXPECT_GT(triangles.size(), cloth.triangleCount() / 2) << "only what lies under the stroke goes";
+    EXPECT_FALSE(cutAlong(cuts, cloth, 0, {4.5 - lean, -1}, {4.5 + lean, 10})) << "nothing is left to cut";
+  }
+}
+
+TEST(CutAlong, SeparatesEvenAlongALineOfGridPoints) {
+  const Cloth cloth(sheetScene(10));
+  for (const LatticePoint to : {LatticePoint{4, 10}, LatticePoint{13, 9}}) {
+    Cuts cuts;
+    cutAlong(cuts, cloth, 0, {to.column == 4 ? 4.0 : 2.0, -2}, to);
+    EXPECT_FALSE(pieceAround(remainingTriangles(cloth, cuts), 90).contains(9));
+  }
+}
+
+TEST(CutAlong, TearsTheSpringsUnderTheStrokeAndNoOthers) {
+  const Cloth cloth(sheetScene(10));
+  Cuts cuts;
+  cutAlong(cuts, cloth, 0, {4.5, 4.6}, {4.5, 5.4});  // across one structural spring of row 5
+  const Grid& grid = cloth.grids()[0];
+  EXPECT_TRUE(isCut(cuts, grid.particle(5, 5), toLeft));
+  EXPECT_TRUE(isCut(cuts, grid.particle(5, 5), toSecondLeft));
+  EXPECT_TRUE(isCut(cuts, grid.particle(6, 5), toSecondLeft));
+  int torn = 0;
+  for (const std::uint8_t bits : cuts) torn += __builtin_popcount(bits);
+  EXPECT_EQ(torn, 3);
+  EXPECT_EQ(remainingTriangles(cloth, cuts).size(), cloth.triangleCount() - 2);
+}
+
+TEST(CutAlong, LeavesAnotherGridAndAMissedOneAlone) {
+  Scene scene = sheetScene(5);
+  scene.cloths.push_back(scene.cloths[0]);
+  const Cloth cloth(scene);
+  Cuts cuts;
+  EXPECT_FALSE(cutAlong(cuts, cloth, 1, {10, 10}, {20, 10}));
+  EXPECT_TRUE(cuts.empty());
+  EXPECT_TRUE(cutAlong(cuts, cloth, 1, {-1, 2.5}, {6, 2.5}));
+  for (std::uint32_t i = 0; i < 25; ++i) EXPECT_EQ(cuts[i], 0);
+}
+
+TEST(RemainingTriangles, AreAllOfThemWithoutCuts) {
+  const Cloth cloth(sheetScene(6));
+  EXPECT_EQ(remainingTriangles(cloth, {}), cloth.triangles());
+}
+
+}  // namespace
+}  // namespace clothsim
