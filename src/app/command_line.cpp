@@ -98,7 +98,7 @@ void declareSimulationCommands(CLI::App& app, Arguments& a, Action& action) {
   run->add_option("--every", a.every, "K for numbered files")->check(CLI::Range(1, 1'000'000));
   run->add_option("--from", a.from, "begin with a saved .state")->type_name("STATE");
   run->add_option("--jitter", a.jitter,
-                  "begin with free particles moved at random, by up to so many metres (0)")
+                  "begin with free particles moved at random, by 0 to so many metres along each axis (0)")
       ->check(CLI::Range(0.0, 1.0));
   run->add_option("--seed", a.seed, "of --jitter (1)");
   addCheckCrossings(*run, a);

@@ -95,7 +95,7 @@ std::span<const Field<ClothSettings>> fieldsOf<ClothSettings>() {
           .within(positive)
           .rebuilds(),
       field("damping", &C::damping, "Velocity lost in a step.").in("%").within({.low = 0, .high = 100}),
-      field("thickness", &C::thickness, "Half the distance that self-collision keeps between particles.")
+      field("thickness", &C::thickness, "Self-collision keeps particles 2 thickness apart (averaged), or at least 1 (robust).")
           .in("m")
           .within(notNegative)
           .rebuilds(),

@@ -1,10 +1,9 @@
 // Building the hash, 3: exclusive prefix sums within blocks of buckets, a work group each, and the blocks' totals.
 #include "sim/self/particles.glsl"
+#include "sim/self/scan.glsl"
 
 layout(std430, binding = BUCKETS_BINDING) buffer Buckets { uint buckets[]; };
 layout(std430, binding = HASHED_BINDING) writeonly buffer Blocks { uint blockTotals[]; };
-
-shared uint totals[HASH_GROUP];
 
 void main() {
   const uint each = BUCKETS_A_BLOCK / uint(HASH_GROUP);
@@ -13,20 +12,13 @@ void main() {
   uint total = 0u;
   for (uint k = 0u; k < each; ++k)
     if (first + k <= self.bucketMask) total += buckets[first + k];
-  totals[lane] = total;
-  barrier();
-  for (uint reach = 1u; reach < uint(HASH_GROUP); reach *= 2u) {
-    uint left = lane >= reach ? totals[lane - reach] : 0u;
-    barrier();
-    totals[lane] += left;
-    barrier();
-  }
-  uint start = totals[lane] - total;
+  uint through = scanLanes(lane, total);
+  uint start = through - total;
   for (uint k = 0u; k < each; ++k) {
     if (first + k > self.bucketMask) break;
     uint count = buckets[first + k];
     buckets[first + k] = start;
     start += count;
   }
-  if (lane == uint(HASH_GROUP) - 1u) blockTotals[gl_WorkGroupID.x] = totals[lane];
+  if (lane == uint(HASH_GROUP) - 1u) blockTotals[gl_WorkGroupID.x] = through;
 }

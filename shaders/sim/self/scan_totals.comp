@@ -1,9 +1,8 @@
 // Building the hash, 4: exclusive prefix sums of the blocks' totals, in one work group.
 #include "sim/self/particles.glsl"
+#include "sim/self/scan.glsl"
 
 layout(std430, binding = HASHED_BINDING) buffer Blocks { uint blockTotals[]; };
-
-shared uint totals[HASH_GROUP];
 
 void main() {
   uint each = (self.bucketBlocks + uint(HASH_GROUP) - 1u) / uint(HASH_GROUP);
@@ -12,15 +11,8 @@ void main() {
   uint total = 0u;
   for (uint k = 0u; k < each; ++k)
     if (first + k < self.bucketBlocks) total += blockTotals[first + k];
-  totals[lane] = total;
-  barrier();
-  for (uint reach = 1u; reach < uint(HASH_GROUP); reach *= 2u) {
-    uint left = lane >= reach ? totals[lane - reach] : 0u;
-    barrier();
-    totals[lane] += left;
-    barrier();
-  }
-  uint start = totals[lane] - total;
+  uint through = scanLanes(lane, total);
+  uint start = through - total;
   for (uint k = 0u; k < each; ++k) {
     if (first + k >= self.bucketBlocks) break;
     uint count = blockTotals[first + k];
