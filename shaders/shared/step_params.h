@@ -111,6 +111,11 @@ SHARED_STRUCT StepParams {
   uint limitPass;       // PASS_LIMIT or PASS_EARLY_LIMIT
   uint firstPinMotion;  // of this step, in the array of pin motions
 
+  uint hasMaterial;      // springs on a border count half, and bending is one of second differences
+  real bendAlongRow;     // b of the energy 1/2 b |x(i-1) - 2 x(i) + x(i+1)|^2 [N/m]
+  real bendAlongColumn;  // [N/m]
+  real unusedMaterial;
+
   SPRING_ROWS(SpringParams) springs[6];
 };
 

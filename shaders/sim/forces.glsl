@@ -1,9 +1,11 @@
-// All forces on a particle but gravity: springs, wind, air resistance [N].
+// All forces on a particle but gravity: springs, bending, wind, air resistance [N].
 #include "sim/springs.glsl"
+#include "sim/bending.glsl"
 #include "sim/air.glsl"
 
 vec3 gatherForces(GridPoint p) {
   precise vec3 f = gatherSprings(p, positionAt(p.index).xyz);
+  if (hasMaterial) f = addBending(p, f);
   if (hasWind) f = addWind(p, f);
   if (hasAirResistance) f = addAirResistance(velocityAt(p.index), f);
   return f;

@@ -21,19 +21,30 @@ float restLength(uint slot, uint owner) {
   return step.springs[slot].restLength;
 }
 
+// Of a spring at grid point p. A material's springs along a border count half.
+float stiffness(GridPoint p, uint slot) {
+  float inside = step.springs[slot].stiffness;
+  if (!hasMaterial) return inside;
+  bool onBorder = slot == TO_LEFT    ? p.row == 0u || p.row + 1u == step.rows
+                  : slot == TO_UPPER ? p.column == 0u || p.column + 1u == step.columns
+                                     : false;
+  precise float halved = 0.5 * inside;
+  return onBorder ? halved : inside;
+}
+
 // The force on the particle at x from the spring in `slot` of `owner`, whose other end is `other`.
-vec3 springTo(vec3 x, uint other, uint slot, uint owner) {
-  return springForce(x, positionAt(other).xyz, step.springs[slot].stiffness, restLength(slot, owner));
+vec3 springTo(GridPoint p, vec3 x, uint other, uint slot, uint owner) {
+  return springForce(x, positionAt(other).xyz, stiffness(p, slot), restLength(slot, owner));
 }
 
 // The same, and tells the watchdog how long it is: once a spring, at its owner.
 bool overlong = false;
-vec3 ownSpringTo(vec3 x, uint other, uint slot, uint owner) {
+vec3 ownSpringTo(GridPoint p, vec3 x, uint other, uint slot) {
   vec3 end = positionAt(other).xyz;
   precise vec3 d = end - x;
   precise float lengthSquared = sumOfProducts(d, d);
   overlong = overlong || isBeyond(lengthSquared, step.springs[slot].maxLengthSquared);
-  return springForce(x, end, step.springs[slot].stiffness, restLength(slot, owner));
+  return springForce(x, end, stiffness(p, slot), restLength(slot, p.index));
 }
 
 vec3 gatherSprings(GridPoint p, vec3 x) {
@@ -43,19 +54,19 @@ vec3 gatherSprings(GridPoint p, vec3 x) {
   const bool upper = p.row >= 1u, lower = p.row + 1u < step.rows;
   precise vec3 f = vec3(0.0);
 
-  if (enabled(TO_LEFT) && left) f = f + ownSpringTo(x, i - 1u, TO_LEFT, i);
-  if (enabled(TO_UPPER) && upper) f = f + ownSpringTo(x, i - w, TO_UPPER, i);
-  if (enabled(TO_UPPER_LEFT) && upper && left) f = f + ownSpringTo(x, i - w - 1u, TO_UPPER_LEFT, i);
-  if (enabled(TO_UPPER_RIGHT) && upper && right) f = f + ownSpringTo(x, i - w + 1u, TO_UPPER_RIGHT, i);
-  if (enabled(TO_SECOND_LEFT) && p.column >= 2u) f = f + ownSpringTo(x, i - 2u, TO_SECOND_LEFT, i);
-  if (enabled(TO_SECOND_UPPER) && p.row >= 2u) f = f + ownSpringTo(x, i - 2u * w, TO_SECOND_UPPER, i);
+  if (enabled(TO_LEFT) && left) f = f + ownSpringTo(p, x, i - 1u, TO_LEFT);
+  if (enabled(TO_UPPER) && upper) f = f + ownSpringTo(p, x, i - w, TO_UPPER);
+  if (enabled(TO_UPPER_LEFT) && upper && left) f = f + ownSpringTo(p, x, i - w - 1u, TO_UPPER_LEFT);
+  if (enabled(TO_UPPER_RIGHT) && upper && right) f = f + ownSpringTo(p, x, i - w + 1u, TO_UPPER_RIGHT);
+  if (enabled(TO_SECOND_LEFT) && p.column >= 2u) f = f + ownSpringTo(p, x, i - 2u, TO_SECOND_LEFT);
+  if (enabled(TO_SECOND_UPPER) && p.row >= 2u) f = f + ownSpringTo(p, x, i - 2u * w, TO_SECOND_UPPER);
 
-  if (enabled(TO_LEFT) && right) f = f + springTo(x, i + 1u, TO_LEFT, i + 1u);
-  if (enabled(TO_SECOND_LEFT) && p.column + 2u < w) f = f + springTo(x, i + 2u, TO_SECOND_LEFT, i + 2u);
-  if (enabled(TO_UPPER_RIGHT) && lower && left) f = f + springTo(x, i + w - 1u, TO_UPPER_RIGHT, i + w - 1u);
-  if (enabled(TO_UPPER) && lower) f = f + springTo(x, i + w, TO_UPPER, i + w);
-  if (enabled(TO_UPPER_LEFT) && lower && right) f = f + springTo(x, i + w + 1u, TO_UPPER_LEFT, i + w + 1u);
-  if (enabled(TO_SECOND_UPPER) && p.row + 2u < step.rows) f = f + springTo(x, i + 2u * w, TO_SECOND_UPPER, i + 2u * w);
+  if (enabled(TO_LEFT) && right) f = f + springTo(p, x, i + 1u, TO_LEFT, i + 1u);
+  if (enabled(TO_SECOND_LEFT) && p.column + 2u < w) f = f + springTo(p, x, i + 2u, TO_SECOND_LEFT, i + 2u);
+  if (enabled(TO_UPPER_RIGHT) && lower && left) f = f + springTo(p, x, i + w - 1u, TO_UPPER_RIGHT, i + w - 1u);
+  if (enabled(TO_UPPER) && lower) f = f + springTo(p, x, i + w, TO_UPPER, i + w);
+  if (enabled(TO_UPPER_LEFT) && lower && right) f = f + springTo(p, x, i + w + 1u, TO_UPPER_LEFT, i + w + 1u);
+  if (enabled(TO_SECOND_UPPER) && p.row + 2u < step.rows) f = f + springTo(p, x, i + 2u * w, TO_SECOND_UPPER, i + 2u * w);
   if (overlong) noteTrouble(PASS_FORCES, i, REASON_RUNAWAY_STRAIN);
   return f;
 }

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/hash.h"
+#include "scene/material.h"
 #include "scene/pins.h"
 #include "scene/pose.h"
 
@@ -40,6 +41,19 @@ double springStiffness(const ClothSettings& settings, SpringKind kind, double re
   return kind == SpringKind::bending ? 0.2 * ks : ks;
 }
 
+// The springs and masses of a material (scene/material.h).
+void putMaterial(const ClothSettings& settings, Grid& grid) {
+  const double dx = spacing(settings.width, grid.columns), dy = spacing(settings.height, grid.rows);
+  const LatticeStiffness k = latticeStiffness(*settings.material, dx, dy);
+  grid.hasMaterial = true;
+  grid.particleMass = settings.material->density * dx * dy;
+  grid.stiffness = {k.alongRow, k.alongColumn, k.diagonal, k.diagonal, 0, 0};
+  grid.slotEnabled[toSecondLeft] = grid.slotEnabled[toSecondUpper] = false;
+  if (!settings.enableBending) return;
+  grid.bendAlongRow = k.bendAlongRow;
+  grid.bendAlongColumn = k.bendAlongColumn;
+}
+
 Grid makeGrid(const ClothSettings& settings, std::uint32_t firstParticle) {
   Grid grid;
   grid.firstParticle = firstParticle;
@@ -56,6 +70,7 @@ Grid makeGrid(const ClothSettings& settings, std::uint32_t firstParticle) {
     grid.nominalLength[slot] = std::hypot(offset.columns * dx, offset.rows * dy);
     grid.stiffness[slot] = springStiffness(settings, offset.kind, grid.nominalLength[slot]);
   }
+  if (settings.material) putMaterial(settings, grid);
   return grid;
 }
 
@@ -112,7 +127,9 @@ Cloth::Cloth(const Scene& scene) {
   for (const ClothSettings& settings : scene.cloths) {
     Grid grid = makeGrid(settings, particleCount());
     appendPositions(settings, grid.firstParticle, positions_);
-    inverseMasses_.resize(positions_.size(), 1 / grid.particleMass);
+    for (int row = 0; row < grid.rows; ++row)
+      for (int column = 0; column < grid.columns; ++column)
+        inverseMasses_.push_back(1 / (grid.particleMass * grid.massWeight(column, row)));
     for (const Pin& pin : settings.pinned) {
       const GridRange range = pointsOf(pin, settings);
       for (int row = range.from.row; row <= range.to.row; ++row)
@@ -187,7 +204,8 @@ std::vector<Spring> Cloth::springs() const {
           const double measured = length(positions_[other] - positions_[owner]);
           springs.push_back(
               {static_cast<std::uint32_t>(SPRING_SLOTS) * owner + static_cast<std::uint32_t>(slot), owner,
-               other, grid.stiffness[slot], grid.hasRestLengthTable ? measured : grid.nominalLength[slot]});
+               other, grid.stiffness[slot] * grid.springWeight(column, row, static_cast<SpringSlot>(slot)),
+               grid.hasRestLengthTable ? measured : grid.nominalLength[slot]});
         }
       }
     }

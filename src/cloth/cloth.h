@@ -62,10 +62,14 @@ inline constexpr std::array<IncidentSpring, 2 * SPRING_SLOTS> incidentSprings{{{
 struct Grid {
   std::uint32_t firstParticle = 0;
   int columns = 0, rows = 0;
-  double particleMass = 0;                           // [kg]
+  double particleMass = 0;                           // of a particle inside [kg]
   std::array<bool, SPRING_SLOTS> slotEnabled{};      // and long enough to lie on the grid
-  std::array<double, SPRING_SLOTS> stiffness{};      // [N/m]
+  std::array<double, SPRING_SLOTS> stiffness{};      // of a spring inside [N/m]
   std::array<double, SPRING_SLOTS> nominalLength{};  // [m], of the undisturbed lattice
+  // The material model: what lies on a border counts half (masses at corners a quarter), and bending has the
+  // energy 1/2 b |x(i-1) - 2 x(i) + x(i+1)|^2 a particle and direction instead of springs.
+  bool hasMaterial = false;
+  double bendAlongRow = 0, bendAlongColumn = 0;  // b [N/m]
   bool hasRestLengthTable = false;  // some spring of a kind differs from nominal by more than 1e-6 m
 
   [[nodiscard]] std::uint32_t particleCount() const {
@@ -74,6 +78,17 @@ struct Grid {
   [[nodiscard]] std::uint32_t particle(int column, int row) const {
     return firstParticle + static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(columns) +
            static_cast<std::uint32_t>(column);
+  }
+  // Of the material model: 1/2 for springs in `slot` along a border, else 1.
+  [[nodiscard]] double springWeight(int column, int row, SpringSlot slot) const {
+    const bool onBorder = (slot == toLeft && (row == 0 || row == rows - 1)) ||
+                          (slot == toUpper && (column == 0 || column == columns - 1));
+    return hasMaterial && onBorder ? 0.5 : 1;
+  }
+  // Of the material model: 1/2 for particles on a border, 1/4 at corners, else 1.
+  [[nodiscard]] double massWeight(int column, int row) const {
+    if (!hasMaterial) return 1;
+    return (column == 0 || column == columns - 1 ? 0.5 : 1) * (row == 0 || row == rows - 1 ? 0.5 : 1);
   }
   [[nodiscard]] bool contains(int column, int row) const {
     return column >= 0 && column < columns && row >= 0 && row < rows;

@@ -4,6 +4,7 @@
 #include "core/nearest.h"
 #include "scene/codec.h"
 #include "scene/fields.h"
+#include "scene/material.h"
 #include "scene/pins.h"
 
 namespace clothsim {
@@ -90,11 +91,29 @@ void leaveOutOwnPlace(JsonNode& collider, const std::optional<Motion>& motion, V
       std::erase_if(keys.children[i]->children, [](const auto& member) { return member->key == "position"; });
 }
 
+// A material says these itself; and oblong cells that would need springs that push have none.
+void checkMaterial(const JsonNode& node, const ClothSettings& cloth) {
+  for (const char* key : {"ks", "stiffness_reference", "density", "mass", "damping", "thickness"})
+    if (const JsonNode* given = node.find(key))
+      complain(*given, std::string("found both ") + key +
+                           " and material, expected one of them: a material tells " +
+                           "mass, stiffness, damping and thickness");
+  const LatticeStiffness k = latticeStiffness(*cloth.material, cloth.width / (cloth.numWidthPoints - 1),
+                                              cloth.height / (cloth.numHeightPoints - 1));
+  if (k.alongRow <= 0 || k.alongColumn <= 0)
+    complain(*node.find("material"),
+             "no springs on a lattice with cells of this shape make this material: the cells are too oblong, "
+             "or shear "
+             "is too large beside stretch; choose num_width_points and num_height_points for square cells");
+}
+
 // Where else in the scene the key would be right: "strain_limit" written into a cloth.
 std::string placeOfKey(const std::string& key) {
+  std::string shortest;
   for (const FieldInfo& field : describeFields())
-    if (field.path.ends_with("." + key)) return field.path;
-  return "";
+    if (field.path.ends_with("." + key) && (shortest.empty() || field.path.size() < shortest.size()))
+      shortest = field.path;
+  return shortest;
 }
 
 }  // namespace
@@ -106,7 +125,10 @@ void settle(const JsonNode& node, ClothSettings& cloth) {
         *node.find("stiffness_reference"),
         "found both ks and stiffness_reference, expected one of them: ks is CS184's stiffness of a spring, "
         "stiffness_reference CS171's");
-  if (!cloth.ks && !cloth.stiffnessReference) cloth.ks = defaultKs;
+  if (cloth.material)
+    checkMaterial(node, cloth);
+  else if (!cloth.ks && !cloth.stiffnessReference)
+    cloth.ks = defaultKs;
   checkPins(node, cloth.pinned, cloth);
   checkPinMotions(node, cloth);
 }

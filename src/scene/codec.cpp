@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/nearest.h"
+#include "scene/material.h"
 
 namespace clothsim {
 
@@ -217,6 +218,30 @@ void readValue(const JsonNode& node, const FieldTraits& traits, std::optional<do
   target = node.number;
 }
 
+void readValue(const JsonNode& node, const FieldTraits& traits, StepCount& target) {
+  if (node.kind == JsonKind::string && node.text == "auto") {
+    target.automatic = true;
+    return;
+  }
+  if (node.kind == JsonKind::string)
+    complainExpected(node, "\"auto\" or " + numberText(traits.limits, "a whole number"));
+  int count = 0;
+  readValue(node, traits, count);
+  target = count;
+}
+
+void readValue(const JsonNode& node, const FieldTraits&, std::optional<Material>& target) {
+  if (node.kind == JsonKind::string) {
+    target = materialPreset(node.text);
+    if (!target)
+      complain(node, "expected an object or one of " + joined(materialPresetNames()) + ", found " +
+                         foundText(node) + didYouMean(node.text, materialPresetNames()));
+    return;
+  }
+  if (!target) target.emplace();
+  readObject(node, *target);
+}
+
 JsonPointer writeValue(const FieldTraits&, bool value) { return makeBoolean(value); }
 JsonPointer writeValue(const FieldTraits&, int value) { return makeNumber(value); }
 JsonPointer writeValue(const FieldTraits&, double value) { return makeNumber(value); }
@@ -273,6 +298,10 @@ JsonPointer writeValue(const FieldTraits&, const std::optional<double>& value) {
   return value ? makeNumber(*value) : makeBoolean(false);
 }
 
+JsonPointer writeValue(const FieldTraits& traits, const StepCount& value) {
+  return value.automatic ? makeString("auto") : writeValue(traits, value.count);
+}
+
 std::string colliderTypes() { return joined(wordsOf(shapes)); }
 
 std::string typeName(const FieldTraits&, const bool&) { return "boolean"; }
@@ -296,6 +325,10 @@ std::string typeName(const FieldTraits&, const GridPoint&) { return "[column, ro
 std::string typeName(const FieldTraits&, const Range&) { return "[low, high]"; }
 std::string typeName(const FieldTraits&, const Pin&) {
   return "[column, row], " + joined(wordsOf(sides)) + ", or {from, to}";
+}
+std::string typeName(const FieldTraits&, const StepCount&) { return "integer or auto"; }
+std::string typeName(const FieldTraits&, const std::optional<Material>&) {
+  return "object or one of " + joined(materialPresetNames());
 }
 std::string typeName(const FieldTraits&, const Collider&) { return "object"; }
 std::string typeName(const FieldTraits&, const std::vector<PinMotion>&) {

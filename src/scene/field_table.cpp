@@ -94,6 +94,9 @@ std::span<const Field<ClothSettings>> fieldsOf<ClothSettings>() {
           .in("m")
           .within(positive)
           .rebuilds(),
+      field("material", &C::material,
+            "Instead of ks, density, mass, damping, thickness: a fabric in SI units, or a preset's name.")
+          .rebuilds(),
       field("damping", &C::damping, "Velocity lost in a step.").in("%").within({.low = 0, .high = 100}),
       field("thickness", &C::thickness, "Self-collision keeps particles 2 thickness apart (averaged), or at least 1 (robust).")
           .in("m")
@@ -107,6 +110,42 @@ std::span<const Field<ClothSettings>> fieldsOf<ClothSettings>() {
       field("pin_motion", &C::pinMotion,
             "A path in time of the pins, or a list of paths with the pins that follow each.")
           .byDefault("none"),
+  };
+  return fields;
+}
+
+template <>
+std::span<const Field<Material>> fieldsOf<Material>() {
+  using M = Material;
+  static const std::array fields{
+      field("density", &M::density, "Mass per area.")
+          .in("kg/m^2")
+          .within(positive)
+          .rebuilds()
+          .alwaysWritten(),
+      field("stretch", &M::stretch, "Young's modulus of the sheet: of the fabric, times its thickness.")
+          .in("N/m")
+          .within(positive)
+          .rebuilds()
+          .alwaysWritten(),
+      field("shear", &M::shear, "Shear modulus of the sheet.")
+          .in("N/m")
+          .within(positive)
+          .rebuilds()
+          .alwaysWritten(),
+      field("bend", &M::bend, "Bending rigidity.").in("N m").within(notNegative).rebuilds().alwaysWritten(),
+      field("damping", &M::damping, "Rate at which motion dies down.")
+          .in("1/s")
+          .within(notNegative)
+          .alwaysWritten(),
+      field("thickness", &M::thickness, "Of the fabric; self-collision keeps layers at least so far apart.")
+          .in("m")
+          .within(notNegative)
+          .rebuilds()
+          .alwaysWritten(),
+      field("friction", &M::friction, "Coulomb's coefficient between layers of the fabric.")
+          .within({.low = 0, .high = 10})
+          .alwaysWritten(),
   };
   return fields;
 }
@@ -285,7 +324,7 @@ std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
       field("integrator", &S::integrator, "Leapfrog Verlet, or symplectic Euler."),
       field("frames_per_sec", &S::framesPerSec, "Frames in a simulated second.").in("1/s").within(positive),
       field("simulation_steps", &S::simulationSteps,
-            "Steps in a frame; a step lasts 1 / (frames_per_sec * simulation_steps) seconds.")
+            "Steps in a frame, each 1 / (frames_per_sec * simulation_steps) s; auto: as many as is stable.")
           .within({.low = 1, .high = mostSteps}),
       field("strain_limit", &S::strainLimit, "Longest stretch of a spring, l/L - 1, kept after every step.")
           .within(notNegative)
@@ -297,9 +336,11 @@ std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
           .byDefault("false; in scenes with ks averaged. true means averaged there, else robust"),
       field("self_friction", &S::selfFriction,
             "Coulomb's coefficient of friction between layers of cloth; robust self-collision only.")
-          .within({.low = 0, .high = 10}),
+          .within({.low = 0, .high = 10})
+          .byDefault("the material's, else 0.3"),
       field("friction_law", &S::frictionLaw,
-            "What a collider's friction means: CS184's factor, or Coulomb's coefficient."),
+            "What a collider's friction means: CS184's factor, or Coulomb's coefficient.")
+          .byDefault("\"cs184\"; in scenes with a material \"coulomb\""),
       field("max_speed", &S::maxSpeed, "The watchdog stops a run in which a particle is faster.")
           .in("m/s")
           .within(positive),
@@ -350,8 +391,9 @@ std::span<const Field<Expect>> fieldsOf<Expect>() {
   return fields;
 }
 
-SolverSettings solverDefaults(bool usesKs) {
+SolverSettings solverDefaults(bool usesKs, bool usesMaterial) {
   SolverSettings solver;
+  if (usesMaterial) solver.frictionLaw = FrictionLaw::coulomb;
   if (usesKs) {
     solver.strainLimit = 0.1;
     solver.selfCollision = SelfCollision::averaged;
@@ -361,7 +403,7 @@ SolverSettings solverDefaults(bool usesKs) {
 
 bool usesKs(const Scene& scene) {
   return std::any_of(scene.cloths.begin(), scene.cloths.end(),
-                     [](const ClothSettings& cloth) { return !cloth.stiffnessReference; });
+                     [](const ClothSettings& cloth) { return !cloth.stiffnessReference && !cloth.material; });
 }
 
 std::string limitsText(const Limits& limits) {

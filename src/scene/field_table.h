@@ -46,16 +46,15 @@ struct FieldTraits {
 
 // All types that a scene's members have.
 template <class Owner>
-using Member =
-    std::variant<bool Owner::*, int Owner::*, double Owner::*, std::string Owner::*, Vec3d Owner::*,
-                 Orientation Owner::*, Integrator Owner::*, SelfCollision Owner::*, FrictionLaw Owner::*,
-                 GridPoint Owner::*, std::vector<Pin> Owner::*, std::optional<double> Owner::*,
-                 std::optional<Vec3d> Owner::*, std::optional<Range> Owner::*,
-                 std::vector<Motion::Key> Owner::*, std::optional<Motion> Owner::*,
-                 std::vector<PinMotion::Key> Owner::*, std::vector<PinMotion> Owner::*,
-                 std::vector<ClothSettings> Owner::*, std::vector<Collider> Owner::*,
-                 std::optional<Wind> Owner::*, Gust Owner::*, SolverSettings Owner::*,
-                 CameraSettings Owner::*, RenderSettings Owner::*, std::optional<Expect> Owner::*>;
+using Member = std::variant<
+    bool Owner::*, int Owner::*, double Owner::*, std::string Owner::*, Vec3d Owner::*, Orientation Owner::*,
+    Integrator Owner::*, SelfCollision Owner::*, FrictionLaw Owner::*, GridPoint Owner::*,
+    std::vector<Pin> Owner::*, std::optional<double> Owner::*, StepCount Owner::*,
+    std::optional<Material> Owner::*, std::optional<Vec3d> Owner::*, std::optional<Range> Owner::*,
+    std::vector<Motion::Key> Owner::*, std::optional<Motion> Owner::*, std::vector<PinMotion::Key> Owner::*,
+    std::vector<PinMotion> Owner::*, std::vector<ClothSettings> Owner::*, std::vector<Collider> Owner::*,
+    std::optional<Wind> Owner::*, Gust Owner::*, SolverSettings Owner::*, CameraSettings Owner::*,
+    RenderSettings Owner::*, std::optional<Expect> Owner::*>;
 
 template <class Owner>
 struct Field : FieldTraits {
@@ -105,6 +104,8 @@ std::span<const Field<Scene>> fieldsOf<Scene>();
 template <>
 std::span<const Field<ClothSettings>> fieldsOf<ClothSettings>();
 template <>
+std::span<const Field<Material>> fieldsOf<Material>();
+template <>
 std::span<const Field<GridRange>> fieldsOf<GridRange>();
 template <>
 std::span<const Field<Sphere>> fieldsOf<Sphere>();
@@ -150,8 +151,9 @@ inline constexpr int smallestSide = 2, largestSide = 16384;
 inline constexpr double mostParticles = 67'108'864;  // 2^26, of all cloths together
 inline constexpr int mostSteps = 1'000'000;          // a frame
 
-// Scenes with `ks` get CS184's limiter and self-collision unless they say otherwise.
-[[nodiscard]] SolverSettings solverDefaults(bool usesKs);
+// Scenes with `ks` get CS184's limiter and self-collision unless they say otherwise, scenes with a material
+// Coulomb's friction.
+[[nodiscard]] SolverSettings solverDefaults(bool usesKs, bool usesMaterial);
 // Whether some cloth follows CS184's model. A cloth with neither constant does: the reader gives it
 // defaultKs.
 [[nodiscard]] bool usesKs(const Scene& scene);

@@ -5,6 +5,7 @@
 #include "core/error.h"
 #include "scene/field_table.h"
 #include "scene/json_tree.h"
+#include "scene/material.h"
 #include "scene/pins.h"
 #include "scene/scene_io.h"
 
@@ -60,6 +61,12 @@ void checkPinsStayApart(const std::vector<ClothSettings>& cloths, int columns, i
 // the square of the spacing ratio while ks stays, and the stable step goes with sqrt(m/k); with
 // stiffness_reference k grows, too.
 int stepFactor(const ClothSettings& cloth, int columns, int rows) {
+  if (cloth.material) {
+    ClothSettings finer = cloth;
+    finer.numWidthPoints = columns;
+    finer.numHeightPoints = rows;
+    return std::max(1, static_cast<int>(std::ceil(stableStep(cloth) / stableStep(finer) - 1e-9)));
+  }
   const double ratio = std::max(static_cast<double>(columns - 1) / (cloth.numWidthPoints - 1),
                                 static_cast<double>(rows - 1) / (cloth.numHeightPoints - 1));
   const double needed = cloth.stiffnessReference ? std::pow(ratio, 1.5) : ratio;
@@ -98,11 +105,15 @@ std::string changeResolution(Scene& scene, int columns, int rows, bool keepSteps
     const double before = smallerSpacing(cloth), thickness = cloth.thickness;
     cloth.numWidthPoints = columns;
     cloth.numHeightPoints = rows;
-    if (!cloth.stiffnessReference) cloth.thickness *= smallerSpacing(cloth) / before;
+    if (cloth.ks) cloth.thickness *= smallerSpacing(cloth) / before;
     add((scene.cloths.size() > 1 ? "cloths." + std::to_string(i) + "." : "") + "thickness", thickness,
         cloth.thickness);
   }
-  if (!keepSteps) {
+  if (scene.solver.simulationSteps.automatic) {
+    const int before = scene.solver.simulationSteps;
+    chooseSteps(scene);
+    add("simulation_steps", before, scene.solver.simulationSteps);
+  } else if (!keepSteps) {
     const double steps =
         std::min(static_cast<double>(scene.solver.simulationSteps) * factor, double{mostSteps});
     add("simulation_steps", scene.solver.simulationSteps, steps);

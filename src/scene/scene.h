@@ -124,6 +124,18 @@ struct PinMotion {
   friend bool operator==(const PinMotion&, const PinMotion&) = default;
 };
 
+// A fabric as it is measured, independent of the grid; spring constants follow from it (scene/material.h).
+struct Material {
+  double density = 0.15;      // mass per area [kg/m^2]
+  double stretch = 10'000;    // Young's modulus of the sheet: its modulus times its thickness [N/m]
+  double shear = 50;          // shear modulus of the sheet [N/m]
+  double bend = 1e-5;         // bending rigidity [N m]
+  double damping = 0.5;       // rate at which motion dies down [1/s]
+  double thickness = 0.0005;  // [m]
+  double friction = 0.4;      // Coulomb's coefficient between layers of it
+  friend bool operator==(const Material&, const Material&) = default;
+};
+
 struct ClothSettings {
   double width = 1, height = 1;  // [m]
   int numWidthPoints = 50, numHeightPoints = 50;
@@ -134,10 +146,11 @@ struct ClothSettings {
   std::optional<double> mass;  // total mass [kg]; replaces density when given
   std::optional<double> ks;    // spring constant [N/m], bending springs 0.2 ks: CS184's model
   std::optional<double>
-      stiffnessReference;        // CS171's model [N/m]: k = stiffness_reference reference_length / L
-  double referenceLength = 0.1;  // [m]
-  double damping = 0.2;          // CS184: percent of the velocity lost in a step
-  double thickness = 0.0095;     // [m]
+      stiffnessReference;            // CS171's model [N/m]: k = stiffness_reference reference_length / L
+  double referenceLength = 0.1;      // [m]
+  std::optional<Material> material;  // instead of ks, density, mass, damping and thickness
+  double damping = 0.2;              // CS184: percent of the velocity lost in a step
+  double thickness = 0.0095;         // [m]
   bool enableStructural = true, enableShearing = true, enableBending = true;
   std::vector<Pin> pinned;
   std::vector<PinMotion> pinMotion;  // no pin is in two of them; pins in none never move
@@ -174,14 +187,27 @@ enum class SelfCollision { off, averaged, robust };
 // the depth pushed out, and planes are solid behind their normal.
 enum class FrictionLaw { cs184, coulomb };
 
+// Steps in a frame: given, or the least that is surely stable ("auto").
+struct StepCount {
+  int count = 30;
+  bool automatic = false;
+
+  StepCount() = default;
+  StepCount(int steps) : count(steps) {}
+  operator int() const { return count; }
+  friend bool operator==(const StepCount&, const StepCount&) = default;
+  friend bool operator==(const StepCount& a, int b) { return a.count == b; }
+};
+
 struct SolverSettings {
   Integrator integrator = Integrator::verlet;
-  double framesPerSec = 90;  // [1/s]
-  int simulationSteps = 30;  // steps a frame; h = 1 / (frames_per_sec * simulation_steps)
+  double framesPerSec = 90;   // [1/s]
+  StepCount simulationSteps;  // a frame; h = 1 / (frames_per_sec * simulation_steps)
   std::optional<double>
       strainLimit;  // largest l/L - 1 after the limiter; none: no limiter. 0.1 in scenes with `ks`
   SelfCollision selfCollision = SelfCollision::off;  // averaged in scenes with `ks`, as CS184 does
-  double selfFriction = 0.3;                         // Coulomb's coefficient between layers, robust only
+  std::optional<double> selfFriction;  // Coulomb's coefficient between layers, robust only; none: the
+                                       // material's, or 0.3
   FrictionLaw frictionLaw = FrictionLaw::cs184;
   // The watchdog's: beyond them a run stops. No cloth comes near, one that explodes passes them in a few
   // steps.

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "scene/codec.h"
+#include "scene/material.h"
 
 namespace clothsim {
 
@@ -38,11 +39,15 @@ void gatherCollider(JsonNode& root, const std::string& type) {
 }
 
 // Known before the cloths are read, so that the solver's keys are read over the right defaults.
-bool treeUsesKs(const JsonNode& root) {
-  const JsonNode* cloths = root.find("cloths");
-  return cloths != nullptr &&
-         std::any_of(cloths->children.begin(), cloths->children.end(),
-                     [](const auto& cloth) { return cloth->find("stiffness_reference") == nullptr; });
+SolverSettings defaultsFor(const JsonNode& root) {
+  bool ks = false, material = false;
+  if (const JsonNode* cloths = root.find("cloths"))
+    for (const auto& cloth : cloths->children) {
+      const bool hasMaterial = cloth->find("material") != nullptr;
+      material |= hasMaterial;
+      ks |= !hasMaterial && cloth->find("stiffness_reference") == nullptr;
+    }
+  return solverDefaults(ks, material);
 }
 
 // First of all checks: in a file of a later version, other complaints would mislead.
@@ -95,16 +100,17 @@ void gatherLists(JsonNode& root) {
 Scene readScene(const JsonNode& root) {
   checkSchema(root);
   Scene scene;
-  scene.solver = solverDefaults(treeUsesKs(root));
+  scene.solver = defaultsFor(root);
   readObject(root, scene, {"cloth", "plane", "sphere"});
   checkCloths(root, scene.cloths);
   checkFriction(root, scene);
+  chooseSteps(scene);
   return scene;
 }
 
 JsonPointer writeScene(const Scene& scene) {
   Scene defaults;
-  defaults.solver = solverDefaults(usesKs(scene));
+  defaults.solver = solverDefaults(usesKs(scene), usesMaterial(scene));
   return writeObject(scene, defaults);
 }
 

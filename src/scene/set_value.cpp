@@ -154,6 +154,16 @@ void setAt(JsonNode& root, const Steps& steps, JsonPointer value) {
     replace(*node, steps.back(), std::move(value));
 }
 
+// A cloth that is given a material, or a part of one, leaves to it what a material tells.
+void leaveToMaterial(JsonNode& root, const Steps& steps) {
+  const auto material = std::find(steps.begin(), steps.end(), "material");
+  if (material == steps.end()) return;
+  JsonNode* cloth = &root;
+  for (std::size_t i = 0; &steps[i] != &*material; ++i) cloth = &descend(*cloth, steps, i);
+  for (const char* key : {"ks", "stiffness_reference", "density", "mass", "damping", "thickness"})
+    erase(*cloth, key);
+}
+
 // Messages name the key as it was typed, not "cloths.0".
 std::string asTyped(std::string path, const Steps& typed, const Steps& resolved) {
   if (typed.size() == resolved.size()) return path;
@@ -175,6 +185,7 @@ void setSceneValue(Scene& scene, const std::string& keyEqualsValue) {
     forgetLines(*value);
     const JsonPointer root = writeScene(scene);
     resolved = resolveAliases(typed, *root, *value);
+    leaveToMaterial(*root, resolved);
     setAt(*root, resolved, std::move(value));
     scene = readScene(*root);
   } catch (const JsonComplaint& complaint) {

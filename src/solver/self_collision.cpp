@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/exact_math.h"
+#include "scene/material.h"
 #include "solver/step_params.h"
 
 namespace clothsim {
@@ -33,6 +34,16 @@ std::size_t firstCode(const Scene& scene) {
   return scene.solver.selfCollision == SelfCollision::robust ? 2 : 1;
 }
 
+// Coulomb's coefficient between layers: the scene's own, or the roughest material's.
+double layerFriction(const Scene& scene) {
+  if (scene.solver.selfFriction) return *scene.solver.selfFriction;
+  constexpr double usual = 0.3;
+  double friction = usesMaterial(scene) ? 0 : usual;
+  for (const ClothSettings& settings : scene.cloths)
+    if (settings.material) friction = std::max(friction, settings.material->friction);
+  return friction;
+}
+
 }  // namespace
 
 bool collidesWithItself(const Scene& scene, const Cloth& cloth) {
@@ -45,7 +56,8 @@ double crossingDistance(const Cloth& cloth, double stretch) { return (1 + stretc
 
 double contactDistance(const Scene& scene, const Cloth& cloth) {
   double thickness = 0, finest = largestSpacing(cloth);
-  for (const ClothSettings& settings : scene.cloths) thickness = std::max(thickness, settings.thickness);
+  for (const ClothSettings& settings : scene.cloths)
+    thickness = std::max(thickness, settings.material ? settings.material->thickness : settings.thickness);
   for (const Grid& grid : cloth.grids())
     finest = std::min({finest, grid.nominalLength[toLeft], grid.nominalLength[toUpper]});
   double distance = 2 * thickness;
@@ -79,7 +91,7 @@ SelfParams<Real> makeSelfParams(const Scene& scene, const Cloth& cloth) {
   params.quantaPerMeter = real(quanta);
   params.moveFactor = real((robust ? 1 : 1.0 / scene.solver.simulationSteps) / quanta);
   params.largestMove = real(LARGEST_MOVE * d);
-  params.friction = real(robust ? scene.solver.selfFriction : 0);
+  params.friction = real(robust ? layerFriction(scene) : 0);
   const double crossing = std::min(crossingDistance(cloth, expectedStretch(scene)), d);
   params.guardFactor = real(crossing / d);
   const double fast = (d + margin - crossing) / 2;

@@ -144,6 +144,16 @@ Integrator startingVelocityMeaning(const Scene& scene) {
   return Integrator::euler;
 }
 
+namespace {
+
+// The part of its velocity that a particle keeps over a step of h: CS184's damping is percent a step, a
+// material's a rate.
+double velocityKept(const ClothSettings& cloth, double h) {
+  return cloth.material ? std::exp(-cloth.material->damping * h) : 1 - cloth.damping / 100;
+}
+
+}  // namespace
+
 bool dependsOnTime(const Scene& scene) {
   if (scene.wind && scene.wind->gust.strength != 0) return true;
   for (const Collider& collider : scene.colliders)
@@ -167,7 +177,10 @@ StepParams<Real> makeStepParams(const Scene& scene, const Cloth& cloth, std::siz
   params.colliderCount = static_cast<std::uint32_t>(scene.colliders.size());
   params.timeStep = real<Real>(h);
   params.inverseTimeStep = real<Real>(1 / h);
-  params.velocityKept = real<Real>(1 - scene.cloths[gridIndex].damping / 100);
+  params.velocityKept = real<Real>(velocityKept(scene.cloths[gridIndex], h));
+  params.hasMaterial = grid.hasMaterial ? 1 : 0;
+  params.bendAlongRow = real<Real>(grid.bendAlongRow);
+  params.bendAlongColumn = real<Real>(grid.bendAlongColumn);
   params.airResistance = real<Real>(scene.airResistance);
   params.gravityX = real<Real>(scene.gravity.x);
   params.gravityY = real<Real>(scene.gravity.y);

@@ -116,6 +116,15 @@ inline Scene stiffnessReferenceScene(int n) {
   return scene;
 }
 
+// Cotton held in a clamp, so that every rule of bending takes part.
+inline Scene materialScene(int n) {
+  Scene scene = sheetScene(n);
+  scene.cloths[0].ks.reset();
+  scene.cloths[0].material = Material{.stretch = 300, .bend = 1e-4};
+  scene.cloths[0].pinned = {GridRange{{0, 0}, {n - 1, 1}}};
+  return scene;
+}
+
 inline Scene twoCloths(Scene scene) {
   scene.cloths.push_back(scene.cloths[0]);
   scene.cloths[1].numWidthPoints = 7;
@@ -197,6 +206,8 @@ inline std::vector<NamedScene> comparedScenes(int n) {
           {"shapes in long steps", inLongSteps(withShapes(vertical(sheetScene(n)), FrictionLaw::cs184))},
           {"everything", withWind(withColliders(withLimiter(vertical(sheetScene(n)))))},
           {"stiffness reference", stiffnessReferenceScene(n)},
+          {"material", materialScene(n)},
+          {"material with everything", withWind(withColliders(withLimiter(vertical(materialScene(n)))))},
           {"averaged self-collision", layeredSheets(n, SelfCollision::averaged)},
           {"robust self-collision", withWind(withColliders(layeredSheets(n, SelfCollision::robust)))},
           {"thick averaged self-collision", thick(layeredSheets(n / 2, SelfCollision::averaged))},

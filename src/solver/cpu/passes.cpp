@@ -118,26 +118,112 @@ INLINE void addIncidentSpring(const PassArguments<Real>& arguments, Stretch part
   }
 }
 
+// Whether the row, or column, is a border of the grid.
+INLINE bool isBorder(std::int64_t place, std::uint32_t count) { return place == 0 || place + 1 == count; }
+
+// One incident spring of a stretch, all of the same stiffness.
+template <class Real>
+INLINE void addIncidentSpring(const PassArguments<Real>& arguments, Stretch particles,
+                              const IncidentSpring& incident, Real stiffness) {
+  const StepParams<Real>& step = arguments.step;
+  const std::ptrdiff_t other = indexOffset(step, incident.columns, incident.rows);
+  SpringParams<Real> spring = step.springs[incident.slot];
+  spring.stiffness = stiffness;
+  if (step.useRestLengthTable != 0) {
+    const Real* rest = arguments.restLengths + static_cast<std::size_t>(incident.slot) * step.totalParticles +
+                       (incident.owned ? 0 : other);
+    addIncidentSpring(arguments, particles, incident.owned, other, spring, rest);
+  } else {
+    addIncidentSpring(arguments, particles, incident.owned, other, spring,
+                      NominalLength<Real>{spring.restLength});
+  }
+}
+
+// A material's springs along a border count half: the whole row, or its first and last particle.
+template <class Real>
+INLINE void addMaterialSpring(const PassArguments<Real>& arguments, int row, Stretch particles,
+                              const IncidentSpring& incident) {
+  const StepParams<Real>& step = arguments.step;
+  const Real inside = step.springs[incident.slot].stiffness, halved = Real(0.5) * inside;
+  if (incident.slot != toUpper) {
+    const bool onBorder = incident.slot == toLeft && isBorder(row, step.rows);
+    addIncidentSpring(arguments, particles, incident, onBorder ? halved : inside);
+    return;
+  }
+  const std::ptrdiff_t last = std::max(particles.begin + 1, particles.end - 1);
+  addIncidentSpring(arguments, {particles.begin, particles.begin + 1}, incident, halved);
+  addIncidentSpring(arguments, {particles.begin + 1, last}, incident, inside);
+  addIncidentSpring(arguments, {last, particles.end}, incident, halved);
+}
+
 template <class Real>
 INLINE void addSprings(const PassArguments<Real>& arguments, int row) {
   const StepParams<Real>& step = arguments.step;
   for (const IncidentSpring& incident : incidentSprings) {
-    const SpringParams<Real>& spring = step.springs[incident.slot];
     const int otherRow = row + incident.rows;
     const bool enabled = (step.enabledSlots >> incident.slot & 1u) != 0;
     if (!enabled || otherRow < 0 || otherRow >= static_cast<int>(step.rows)) continue;
     const Stretch particles = stretch(step, row, incident.columns, incident.columns);
-    const std::ptrdiff_t other = indexOffset(step, incident.columns, incident.rows);
-    if (step.useRestLengthTable != 0) {
-      const Real* rest = arguments.restLengths +
-                         static_cast<std::size_t>(incident.slot) * step.totalParticles +
-                         (incident.owned ? 0 : other);
-      addIncidentSpring(arguments, particles, incident.owned, other, spring, rest);
-    } else {
-      addIncidentSpring(arguments, particles, incident.owned, other, spring,
-                        NominalLength<Real>{spring.restLength});
-    }
+    if (step.hasMaterial != 0)
+      addMaterialSpring(arguments, row, particles, incident);
+    else
+      addIncidentSpring(arguments, particles, incident, step.springs[incident.slot].stiffness);
   }
+}
+
+// Three particles in a line, and the particle among them that gathers: the force on an end is b (2 m - a -
+// c), that on the middle -2 times as large. Where the pins of a clamp end, the curvature of the first half
+// cell shows at the last pin, half as large as it is: it counts twice.
+template <class Real>
+INLINE void addBendingLine(const PassArguments<Real>& arguments, Stretch particles, std::ptrdiff_t toA,
+                           std::ptrdiff_t toM, std::ptrdiff_t toC, Real b) {
+  const Real *x = arguments.before.positions.x.data(), *y = arguments.before.positions.y.data(),
+             *z = arguments.before.positions.z.data(), *w = arguments.inverseMasses;
+  Real *fx = arguments.forces.x.data(), *fy = arguments.forces.y.data(), *fz = arguments.forces.z.data();
+  const bool gathersInMiddle = toM == 0;
+#pragma omp simd
+  for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
+    const Vec3<Real> a = load(x, y, z, i + toA), m = load(x, y, z, i + toM), c = load(x, y, z, i + toC);
+    const bool endOfClamp = w[i + toM] == Real(0) && (w[i + toA] == Real(0)) != (w[i + toC] == Real(0));
+    const Real weighted = endOfClamp ? Real(2) * b : b;
+    const Vec3<Real> force = weighted * ((m - a) + (m - c));
+    fx[i] = gathersInMiddle ? fx[i] - Real(2) * force.x : fx[i] + force.x;
+    fy[i] = gathersInMiddle ? fy[i] - Real(2) * force.y : fy[i] + force.y;
+    fz[i] = gathersInMiddle ? fz[i] - Real(2) * force.z : fz[i] + force.z;
+  }
+}
+
+// Along the row, all particles of which have the same border weight.
+template <class Real>
+INLINE void addBendingAlongRow(const PassArguments<Real>& arguments, int row) {
+  const StepParams<Real>& step = arguments.step;
+  const Real b = isBorder(row, step.rows) ? Real(0.5) * step.bendAlongRow : step.bendAlongRow;
+  addBendingLine(arguments, stretch(step, row, -2, 0), -2, -1, 0, b);
+  addBendingLine(arguments, stretch(step, row, -1, 1), -1, 0, 1, b);
+  addBendingLine(arguments, stretch(step, row, 0, 2), 0, 1, 2, b);
+}
+
+// Along the columns through particles of the row.
+template <class Real>
+INLINE void addBendingAlongColumns(const PassArguments<Real>& arguments, int row, Stretch particles, Real b) {
+  const StepParams<Real>& step = arguments.step;
+  const int rows = static_cast<int>(step.rows);
+  const std::ptrdiff_t one = indexOffset(step, 0, 1);
+  if (row >= 2) addBendingLine(arguments, particles, -2 * one, -one, 0, b);
+  if (row >= 1 && row + 1 < rows) addBendingLine(arguments, particles, -one, 0, one, b);
+  if (row + 2 < rows) addBendingLine(arguments, particles, 0, one, 2 * one, b);
+}
+
+template <class Real>
+INLINE void addBending(const PassArguments<Real>& arguments, int row) {
+  const StepParams<Real>& step = arguments.step;
+  addBendingAlongRow(arguments, row);
+  const Stretch all = stretch(step, row);
+  const Real inside = step.bendAlongColumn, halved = Real(0.5) * inside;
+  const std::ptrdiff_t last = std::max(all.begin + 1, all.end - 1);
+  addBendingAlongColumns(arguments, row, {all.begin, all.begin + 1}, halved);
+  addBendingAlongColumns(arguments, row, {all.begin + 1, last}, inside);
+  addBendingAlongColumns(arguments, row, {last, all.end}, halved);
 }
 
 template <class Real>
@@ -193,6 +279,7 @@ INLINE void gatherForcesRow(const PassArguments<Real>& arguments, int row) {
   std::fill(&arguments.forces.y[0] + particles.begin, &arguments.forces.y[0] + particles.end, Real(0));
   std::fill(&arguments.forces.z[0] + particles.begin, &arguments.forces.z[0] + particles.end, Real(0));
   addSprings(arguments, row);
+  if (arguments.step.hasMaterial != 0) addBending(arguments, row);
   if (arguments.step.hasWind != 0) addWind(arguments, row);
   if (arguments.step.airResistance > Real(0)) addAirResistance(arguments, row);
 }

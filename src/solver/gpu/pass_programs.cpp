@@ -16,6 +16,7 @@ PassFeatures featuresOf(const Scene& scene, const Cloth& cloth, std::size_t grid
   features.coulombFriction = !scene.colliders.empty() && scene.solver.frictionLaw == FrictionLaw::coulomb;
   features.movingPins = !scene.cloths[gridIndex].pinMotion.empty();
   features.restLengthTable = grid.hasRestLengthTable;
+  features.material = grid.hasMaterial;
   for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot)
     if (grid.slotEnabled[slot]) features.enabledSlots |= 1u << slot;
   return features;
@@ -31,6 +32,7 @@ gl::Defines definesFor(const PassFeatures& features) {
           {"HAS_MOVING_COLLIDERS", std::to_string(features.movingColliders)},
           {"HAS_MOVING_PINS", std::to_string(features.movingPins)},
           {"HAS_REST_LENGTH_TABLE", std::to_string(features.restLengthTable)},
+          {"HAS_MATERIAL", std::to_string(features.material)},
           {"COLLIDES_IN_STEP", std::to_string(features.collidesInStep)},
           {"ENABLED_SLOTS", std::to_string(features.enabledSlots) + "u"}};
 }

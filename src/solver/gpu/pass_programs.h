@@ -12,7 +12,7 @@ namespace clothsim {
 
 struct PassFeatures {
   bool wind = false, airResistance = false, movingColliders = false, coulombFriction = false,
-       movingPins = false, restLengthTable = false;
+       movingPins = false, restLengthTable = false, material = false;
   std::uint32_t colliderTypes = 0;  // one bit a COLLIDER_... type of shared/step_params.h
   std::uint32_t enabledSlots = 0;   // one bit a SpringSlot
   int groupColumns = 64, groupRows = 1;

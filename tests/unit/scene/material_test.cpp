@@ -1,0 +1,103 @@
+#include "scene/material.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/error.h"
+#include "scene/scene_io.h"
+
+namespace clothsim {
+namespace {
+
+Scene sceneOf(const std::string& text) { return parseScene(text, "test"); }
+
+TEST(MaterialPreset, IsReadByNameAndWrittenInFull) {
+  for (const std::string& name : materialPresetNames()) {
+    const Scene scene = sceneOf(R"({"cloth": {"material": ")" + name + R"("}})");
+    EXPECT_EQ(scene.cloths[0].material, materialPreset(name));
+    EXPECT_FALSE(scene.cloths[0].ks) << "no second stiffness";
+    EXPECT_EQ(sceneOf(formatScene(scene)), scene);
+  }
+}
+
+TEST(Material, BringsCoulombsFrictionAndNoneOfCs184sRules) {
+  const Scene scene = sceneOf(R"({"cloth": {"material": "silk"}})");
+  EXPECT_EQ(scene.solver.frictionLaw, FrictionLaw::coulomb);
+  EXPECT_FALSE(scene.solver.strainLimit);
+  EXPECT_EQ(scene.solver.selfCollision, SelfCollision::off);
+}
+
+TEST(Material, ReplacesKsWhenItIsSet) {
+  Scene scene = sceneOf(R"({"cloth": {"ks": 900, "damping": 1, "thickness": 0.02}})");
+  setSceneValue(scene, "cloth.material=denim");
+  EXPECT_EQ(scene.cloths[0].material, materialPreset("denim"));
+  EXPECT_FALSE(scene.cloths[0].ks);
+  setSceneValue(scene, "cloth.material.bend=2e-5");
+  Material expected = *materialPreset("denim");
+  expected.bend = 2e-5;
+  EXPECT_EQ(scene.cloths[0].material, expected);
+}
+
+// PHYSICS.md section 2: k_d = G, k_s = C11 - G; isotropic at k_s = 2 k_d with Y = 8/3 k_d.
+TEST(LatticeStiffness, IsTheKnownOneOnSquares) {
+  Material material;
+  material.shear = 300;
+  material.stretch = 8.0 / 3 * 300;
+  const LatticeStiffness k = latticeStiffness(material, 0.01, 0.01);
+  EXPECT_NEAR(k.diagonal, 300, 1e-9);
+  EXPECT_NEAR(k.alongRow, 600, 1e-9);
+  EXPECT_NEAR(k.alongColumn, 600, 1e-9);
+  EXPECT_NEAR(k.bendAlongRow, material.bend / 1e-4, 1e-12);
+}
+
+// The energy of a cell under a small homogeneous strain is that of the sheet, whatever the cell's shape.
+TEST(LatticeStiffness, GivesOblongCellsTheSameModuli) {
+  const Material material{.stretch = 1000, .shear = 200};
+  const double c11 = 0.5 * (1000 + std::sqrt(1e6 + 4 * 200.0 * 200));
+  for (const auto& [dx, dy] : {std::pair{0.01, 0.01}, {0.012, 0.01}, {0.01, 0.015}}) {
+    const LatticeStiffness k = latticeStiffness(material, dx, dy);
+    const auto energy = [&](double xx, double yy, double xy) {  // strains; per area
+      const double l = std::hypot(dx, dy);
+      const auto spring = [](double stiffness, double stretch) {
+        return 0.5 * stiffness * stretch * stretch;
+      };
+      const double even = (xx * dx * dx + yy * dy * dy) / l, odd = 2 * xy * dx * dy / l;
+      return (spring(k.alongRow, xx * dx) + spring(k.alongColumn, yy * dy) + spring(k.diagonal, even + odd) +
+              spring(k.diagonal, even - odd)) /
+             (dx * dy);
+    };
+    EXPECT_NEAR(energy(1e-3, 0, 0), 0.5 * c11 * 1e-6, 1e-12);
+    EXPECT_NEAR(energy(0, 1e-3, 0), 0.5 * c11 * 1e-6, 1e-12);
+    EXPECT_NEAR(energy(1e-3, 1e-3, 0), (c11 + 200) * 1e-6, 1e-12);
+    EXPECT_NEAR(energy(0, 0, 1e-3), 2 * 200 * 1e-6, 1e-12);
+  }
+}
+
+TEST(SimulationSteps, AreChosenWhenAuto) {
+  Scene scene = sceneOf(R"({"cloth": {"material": "cotton"}, "solver": {"simulation_steps": "auto"}})");
+  EXPECT_EQ(scene.solver.simulationSteps, stableSteps(scene));
+  EXPECT_LE(stepLength(scene.solver), stableStep(scene));
+  EXPECT_GT(stepLength(scene.solver) * scene.solver.simulationSteps / (scene.solver.simulationSteps - 1),
+            stableStep(scene))
+      << "no more than needed";
+  EXPECT_NE(formatScene(scene).find(R"("simulation_steps": "auto")"), std::string::npos);
+  const int before = scene.solver.simulationSteps;
+  (void)changeResolution(scene, 100, 100, false);
+  EXPECT_GT(scene.solver.simulationSteps, before);
+  EXPECT_EQ(scene.solver.simulationSteps, stableSteps(scene));
+  setSceneValue(scene, "solver.simulation_steps=7");
+  EXPECT_EQ(scene.solver.simulationSteps, StepCount(7));
+}
+
+TEST(ChangeResolution, LeavesAMaterialAndMultipliesItsSteps) {
+  Scene scene =
+      sceneOf(R"({"cloth": {"material": {"bend": 0}, "num_width_points": 11, "num_height_points": 11}})");
+  const Scene before = scene;
+  (void)changeResolution(scene, 41, 41, false);
+  EXPECT_EQ(scene.cloths[0].material, before.cloths[0].material);
+  EXPECT_EQ(scene.solver.simulationSteps, 4 * before.solver.simulationSteps);
+}
+
+}  // namespace
+}  // namespace clothsim
