@@ -45,6 +45,9 @@ class Solver {
   // other.
   [[nodiscard]] virtual State state() = 0;
   virtual void setState(const State& state) = 0;
+  // Pins a particle where it is now, off any path that the scene has for it; or gives it its mass back. It is
+  // at rest after either.
+  virtual void setPin(std::uint32_t particle, bool pinned) = 0;
   [[nodiscard]] virtual std::uint64_t stepIndex() const = 0;
   // A small blocking read-back on the GPU.
   [[nodiscard]] virtual ContactCounts contactCounts() = 0;

@@ -57,7 +57,12 @@ void CpuSolver<Real>::configure(const Scene& scene) {
   colliders_.resize(scene.colliders.size());
   params_.resize(cloth_->grids().size());
   selfCollision_.configure(scene);
-  pinPaths_ = makePinPaths(scene, *cloth_);
+  preparePins();
+}
+
+template <class Real>
+void CpuSolver<Real>::preparePins() {
+  pinPaths_ = makePinPaths(scene_, *cloth_, offPath_);
   pinMotions_.resize(pinPaths_.paths.size());
   if (pinPaths_.numbers.size() == pinStarts_.x.size()) return;
   pinStarts_.resize(pinPaths_.numbers.size());
@@ -244,6 +249,7 @@ State CpuSolver<Real>::state() {
   }
   state.step = stepIndex_;
   state.integrator = velocityMeaning_;
+  state.offPath = offPath_;
   return state;
 }
 
@@ -258,9 +264,20 @@ void CpuSolver<Real>::setState(const State& state) {
   }
   stepIndex_ = state.step;
   velocityMeaning_ = state.integrator;
+  offPath_ = state.offPath;
+  preparePins();
   selfCollision_.restart();
   startChecked_ = false;
   forgetTrouble();
+}
+
+template <class Real>
+void CpuSolver<Real>::setPin(std::uint32_t particle, bool pinned) {
+  const double mass = cloth_->grids()[cloth_->gridOf(particle)].particleMass;
+  inverseMasses_[particle] = pinned ? Real(0) : static_cast<Real>(1 / mass);
+  put(before_.velocities, particle, Vec3<Real>{});
+  leavePath(offPath_, particle);
+  preparePins();
 }
 
 template <class Real>

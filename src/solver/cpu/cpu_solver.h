@@ -27,6 +27,7 @@ class CpuSolver final : public Solver {
   void revert() override;
   [[nodiscard]] State state() override;
   void setState(const State& state) override;
+  void setPin(std::uint32_t particle, bool pinned) override;
   [[nodiscard]] std::uint64_t stepIndex() const override { return stepIndex_; }
   [[nodiscard]] ContactCounts contactCounts() override { return selfCollision_.counts(); }
   [[nodiscard]] std::string backend() const override { return "cpu"; }
@@ -42,6 +43,7 @@ class CpuSolver final : public Solver {
 
  private:
   [[nodiscard]] cpu::PassArguments<Real> arguments(const StepParams<Real>& params);
+  void preparePins();
   void prepareMotions();
   void forgetTrouble();
   void checkStart();
@@ -71,6 +73,7 @@ class CpuSolver final : public Solver {
   std::vector<ColliderParams<Real>> colliders_;  // of this step,
   std::vector<float> distances_;                 // samples of the mesh colliders' grids
   PinPaths pinPaths_;
+  std::vector<std::uint32_t> offPath_;
   std::vector<PinMotionParams<Real>> pinMotions_;
   Components<Real> pinStarts_;
   std::vector<StepParams<Real>> params_;              // by grid

@@ -70,15 +70,16 @@ void GpuSolver::configure(const Scene& scene) {
     colliders_ = gl::Buffer<ColliderParams<float>>("colliders", stagedColliders_.size());
     colliderTexture_ = gl::BufferTexture("colliders", colliders_.name(), GL_RGBA32F);
   }
-  preparePins(batch);
+  preparePins();
   paramsUploaded_ = false;
   selfCollision_.configure(scene);
   choosePrograms();
 }
 
-void GpuSolver::preparePins(std::size_t batch) {
+void GpuSolver::preparePins() {
+  const std::size_t batch = dependsOnTime(scene_) ? BATCH_STEPS : 1;
   const std::vector<std::uint32_t> numbersBefore = std::move(pinPaths_.numbers);
-  pinPaths_ = makePinPaths(scene_, *cloth_);
+  pinPaths_ = makePinPaths(scene_, *cloth_, offPath_);
   if (pinMotions_.name() == 0 || pinMotions_.size() != batch * pinPaths_.paths.size()) {
     stagedPinMotions_.resize(batch * pinPaths_.paths.size());
     pinMotions_ = gl::Buffer<PinMotionParams<float>>("pin motions", stagedPinMotions_.size());
@@ -322,6 +323,7 @@ State GpuSolver::state() {
   state.velocities = velocities_[now_].buffer.download();
   state.step = stepIndex_;
   state.integrator = velocityMeaning_;
+  state.offPath = offPath_;
   return state;
 }
 
@@ -331,9 +333,23 @@ void GpuSolver::setState(const State& state) {
   velocities_[now_].buffer.upload(state.velocities);
   stepIndex_ = state.step;
   velocityMeaning_ = state.integrator;
+  offPath_ = state.offPath;
+  preparePins();
   selfCollision_.restart();
   startChecked_ = false;
   forgetTrouble();
+}
+
+// A few bytes are read back.
+void GpuSolver::setPin(std::uint32_t particle, bool pinned) {
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  Particle4 x = positions_[now_].buffer.download(particle, 1)[0];
+  const Particle4 atRest;
+  x.w = pinned ? 0.0f : static_cast<float>(1 / cloth_->grids()[cloth_->gridOf(particle)].particleMass);
+  positions_[now_].buffer.upload({&x, 1}, particle);
+  velocities_[now_].buffer.upload({&atRest, 1}, particle);
+  leavePath(offPath_, particle);
+  preparePins();
 }
 
 std::string GpuSolver::device() const {

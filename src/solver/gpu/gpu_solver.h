@@ -41,6 +41,7 @@ class GpuSolver final : public Solver {
   void revert() override;
   [[nodiscard]] State state() override;
   void setState(const State& state) override;
+  void setPin(std::uint32_t particle, bool pinned) override;
   [[nodiscard]] std::uint64_t stepIndex() const override { return stepIndex_; }
   [[nodiscard]] ContactCounts contactCounts() override { return selfCollision_.counts(); }
   [[nodiscard]] std::string backend() const override { return "gpu"; }
@@ -68,7 +69,7 @@ class GpuSolver final : public Solver {
   };
 
   void choosePrograms();
-  void preparePins(std::size_t batch);
+  void preparePins();
   void uploadParams(std::uint64_t firstStep, int count);
   void bindWatch();
   void forgetTrouble();
@@ -98,6 +99,7 @@ class GpuSolver final : public Solver {
   gl::Buffer<ColliderParams<float>> colliders_;  // the same batch, each with all colliders
   gl::BufferTexture colliderTexture_;
   PinPaths pinPaths_;
+  std::vector<std::uint32_t> offPath_;
   gl::Buffer<Particle4> pinStarts_;  // xyz and the number of the path + 1; one unused element without paths
   gl::BufferTexture pinStartTexture_;
   gl::Buffer<PinMotionParams<float>> pinMotions_;  // the same batch, each with all paths
