@@ -13,7 +13,7 @@ std::unique_ptr<Solver> makeSolver(const std::string& backend, const Cloth& clot
 }
 
 Simulation::Simulation(const Scene& scene, const std::string& backend)
-    : scene_(scene), cloth_(scene), solver_(makeSolver(backend, cloth_, scene)) {}
+    : scene_(scene), cloth_(std::make_unique<Cloth>(scene)), solver_(makeSolver(backend, *cloth_, scene)) {}
 
 double Simulation::time() const {
   return static_cast<double>(solver_->stepIndex()) * stepLength(scene_.solver);
@@ -29,7 +29,7 @@ std::optional<Trouble> Simulation::checkFrame() {
 }
 
 void Simulation::restart() {
-  solver_->setState(initialState(cloth_, scene_));
+  solver_->setState(initialState(*cloth_, scene_));
   uploadIsCurrent_ = false;
 }
 
@@ -38,16 +38,28 @@ void Simulation::configure(const Scene& scene) {
   scene_ = scene;
 }
 
+void Simulation::rebuild(const Scene& scene) {
+  auto cloth = std::make_unique<Cloth>(scene);
+  auto solver = makeSolver(solver_->backend(), *cloth, scene);
+  contactsBefore_ = contactCounts();
+  solver_ = std::move(solver);  // before the cloth that the old one points to
+  cloth_ = std::move(cloth);
+  scene_ = scene;
+  uploaded_ = {};
+  uploadIsCurrent_ = false;
+}
+
 void Simulation::switchBackend(const std::string& backend) {
-  std::unique_ptr<Solver> solver = makeSolver(backend, cloth_, scene_);
+  std::unique_ptr<Solver> solver = makeSolver(backend, *cloth_, scene_);
   solver->setState(solver_->state());
+  contactsBefore_ = contactCounts();
   solver_ = std::move(solver);
   uploadIsCurrent_ = false;
 }
 
 GLuint Simulation::positionsBuffer() {
   if (const auto* gpu = dynamic_cast<const GpuSolver*>(solver_.get())) return gpu->positionsBuffer();
-  if (uploaded_.name() == 0) uploaded_ = gl::Buffer<Particle4>("positions to draw", cloth_.particleCount());
+  if (uploaded_.name() == 0) uploaded_ = gl::Buffer<Particle4>("positions to draw", cloth_->particleCount());
   if (!uploadIsCurrent_ || uploadedStep_ != solver_->stepIndex()) {
     uploaded_.upload(solver_->state().positions);
     uploadIsCurrent_ = true;

@@ -22,10 +22,12 @@ class Simulation {
   Simulation(const Scene& scene, const std::string& backend);
 
   [[nodiscard]] const Scene& scene() const { return scene_; }
-  [[nodiscard]] const Cloth& cloth() const { return cloth_; }
+  [[nodiscard]] const Cloth& cloth() const { return *cloth_; }
   [[nodiscard]] Solver& solver() { return *solver_; }
   [[nodiscard]] const Solver& solver() const { return *solver_; }
   [[nodiscard]] double time() const;  // simulated [s]
+  // Of all solvers that it has had.
+  [[nodiscard]] ContactCounts contactCounts() { return contactsBefore_ + solver_->contactCounts(); }
 
   void stepFrame() { stepFrames(1); }
   void stepFrames(int frames) {
@@ -39,6 +41,11 @@ class Simulation {
   void restart();
   // Live edits: everything but the cloths' grids.
   void configure(const Scene& scene);
+  // Any edit: makes a new cloth and solver and begins at the start. What was there stays when it throws.
+  // @throws as the constructor
+  void rebuild(const Scene& scene);
+  // After a change of the solver's state from outside: what was uploaded to draw from is out of date.
+  void touch() { uploadIsCurrent_ = false; }
   // Goes on from the same state, to the bit. @throws as makeSolver, leaving the old solver in place
   void switchBackend(const std::string& backend);
 
@@ -47,8 +54,9 @@ class Simulation {
 
  private:
   Scene scene_;
-  Cloth cloth_;
+  std::unique_ptr<Cloth> cloth_;  // the solver keeps a pointer to it
   std::unique_ptr<Solver> solver_;
+  ContactCounts contactsBefore_;
   gl::Buffer<Particle4> uploaded_;
   bool uploadIsCurrent_ = false;
   std::uint64_t uploadedStep_ = 0;

@@ -141,6 +141,12 @@ Cloth::Cloth(const Scene& scene) {
   }
 }
 
+std::size_t Cloth::gridOf(std::uint32_t particle) const {
+  std::size_t grid = 0;
+  while (particle - grids_[grid].firstParticle >= grids_[grid].particleCount()) ++grid;
+  return grid;
+}
+
 bool Cloth::hasRestLengthTable() const {
   for (const Grid& grid : grids_)
     if (grid.hasRestLengthTable) return true;

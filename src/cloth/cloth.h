@@ -58,6 +58,18 @@ inline constexpr std::array<IncidentSpring, 2 * SPRING_SLOTS> incidentSprings{{{
                                                                                {1, 1, toUpperLeft, false},
                                                                                {0, 2, toSecondUpper, false}}};
 
+// The triangles at a grid point in ascending number (Cloth::triangles()), corners as (columns, rows) from the
+// point.
+struct Corner {
+  int columns, rows;
+};
+inline constexpr std::array<std::array<Corner, 3>, 6> incidentTriangles{{{{{0, -1}, {-1, 0}, {0, 0}}},
+                                                                         {{{0, -1}, {0, 0}, {1, -1}}},
+                                                                         {{{1, -1}, {0, 0}, {1, 0}}},
+                                                                         {{{-1, 0}, {-1, 1}, {0, 0}}},
+                                                                         {{{0, 0}, {-1, 1}, {0, 1}}},
+                                                                         {{{0, 0}, {0, 1}, {1, 0}}}}};
+
 // One grid of particles, row-major, column fastest.
 struct Grid {
   std::uint32_t firstParticle = 0;
@@ -108,7 +120,8 @@ class Cloth {
 
   [[nodiscard]] std::uint32_t particleCount() const { return static_cast<std::uint32_t>(positions_.size()); }
   [[nodiscard]] std::span<const Grid> grids() const { return grids_; }
-  [[nodiscard]] std::span<const Vec3d> positions() const { return positions_; }           // at the start [m]
+  [[nodiscard]] std::size_t gridOf(std::uint32_t particle) const;                // its place in grids()
+  [[nodiscard]] std::span<const Vec3d> positions() const { return positions_; }  // at the start [m]
   [[nodiscard]] std::span<const double> inverseMasses() const { return inverseMasses_; }  // [1/kg], 0: pinned
   [[nodiscard]] bool hasRestLengthTable() const;                                          // of any grid
 

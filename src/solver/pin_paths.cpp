@@ -5,7 +5,7 @@
 
 namespace clothsim {
 
-PinPaths makePinPaths(const Scene& scene, const Cloth& cloth) {
+PinPaths makePinPaths(const Scene& scene, const Cloth& cloth, std::span<const std::uint32_t> offPath) {
   PinPaths result;
   if (!hasPinMotion(scene)) return result;
   result.numbers.resize(cloth.particleCount());
@@ -33,6 +33,7 @@ PinPaths makePinPaths(const Scene& scene, const Cloth& cloth) {
       result.paths.push_back(std::move(path));
     }
   }
+  for (const std::uint32_t particle : offPath) result.numbers[particle] = 0;
   return result;
 }
 

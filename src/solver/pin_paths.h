@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "cloth/cloth.h"
@@ -25,7 +26,9 @@ struct PinPaths {
   // For each particle the number of its path + 1, 0 for those that follow none; empty without any path.
   std::vector<std::uint32_t> numbers;
 };
-[[nodiscard]] PinPaths makePinPaths(const Scene& scene, const Cloth& cloth);
+// `offPath`: particles that follow none, whatever the scene says (State::offPath).
+[[nodiscard]] PinPaths makePinPaths(const Scene& scene, const Cloth& cloth,
+                                    std::span<const std::uint32_t> offPath = {});
 
 // From the start positions to those at the end of step `step` (not from step to step, which would drift).
 // `timeStep` in seconds.

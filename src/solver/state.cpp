@@ -1,11 +1,17 @@
 #include "solver/state.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cstddef>
 
 #include "core/fnv.h"
 
 namespace clothsim {
+
+void leavePath(std::vector<std::uint32_t>& offPath, std::uint32_t particle) {
+  const auto place = std::lower_bound(offPath.begin(), offPath.end(), particle);
+  if (place == offPath.end() || *place != particle) offPath.insert(place, particle);
+}
 
 std::uint64_t stateHash(const State& state) {
   assert(state.positions.size() == state.velocities.size() && "every particle has a position and a velocity");

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cloth/cuts.h"
 #include "scene/scene.h"
 
 namespace clothsim {
@@ -19,7 +20,13 @@ struct State {
   std::vector<Particle4> velocities;  // xyz [m/s], w unused (0). Of the half step before under `verlet`
   std::uint64_t step = 0;             // steps since the start; the time is step * h
   Integrator integrator = Integrator::verlet;
+  Cuts cuts;  // empty: none
+  std::vector<std::uint32_t>
+      offPath;  // particles that a hand has pinned or freed, ascending: no path moves them
 };
+
+// Adds a particle to State::offPath.
+void leavePath(std::vector<std::uint32_t>& offPath, std::uint32_t particle);
 
 // FNV-1a, 64 bit, over little-endian x, y, z, vx, vy, vz in index order.
 [[nodiscard]] std::uint64_t stateHash(const State& state);

@@ -1,0 +1,33 @@
+// What was done to a simulation, from its start on: enough to do it again with the same bits on either
+// backend
+// (`clothsim run --replay FILE`).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "app/actions.h"
+#include "scene/scene.h"
+
+namespace clothsim {
+
+struct Recording {
+  struct Event {
+    std::uint64_t step = 0;  // steps done before it, over all restarts
+    Action action;
+  };
+
+  Scene scene;                  // as at the start
+  std::string backend = "gpu";  // at the start
+  int frames = 0;               // done so far
+  std::vector<Event> events;    // in the order in which they acted
+
+  // JSON ("clothsim-recording/1"), whole or not at all. @throws InputOutputError
+  void save(const std::filesystem::path& path) const;
+  // @throws SceneError for a file that is none, with its line and JSON path
+  [[nodiscard]] static Recording load(const std::filesystem::path& path);
+};
+
+}  // namespace clothsim

@@ -1,0 +1,98 @@
+// A simulation with hands on it: everything done to it goes through act(), which records it, and its frames
+// are remembered for a while, so that one can look back and go on from there.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "app/actions.h"
+#include "app/frame_ring.h"
+#include "app/recording.h"
+#include "app/simulation.h"
+#include "solver/trouble.h"
+
+namespace clothsim {
+
+inline constexpr std::size_t DEFAULT_SNAPSHOT_BUDGET = std::size_t{256} << 20;  // [bytes]
+
+class Session {
+ public:
+  // @throws as Simulation
+  Session(const Scene& scene, const std::string& backend,
+          std::size_t snapshotBudget = DEFAULT_SNAPSHOT_BUDGET);
+
+  // To look at, draw and measure. Whoever steps or changes it past the session spoils the recording.
+  [[nodiscard]] Simulation& simulation() { return simulation_; }
+  [[nodiscard]] const Simulation& simulation() const { return simulation_; }
+  [[nodiscard]] const Cuts& cuts() const { return simulation_.solver().cuts(); }
+  [[nodiscard]] bool isHolding() const { return now_.hand.hold.has_value(); }  // between Grab and Release
+  [[nodiscard]] bool isBlowing() const { return now_.hand.jet.has_value(); }
+  // Grows whenever simulation().cloth() is another one: by an edit of a field that rebuilds, or seek() across
+  // one. Whatever was made of the old cloth (a renderer) is to be made anew.
+  [[nodiscard]] std::uint64_t clothGeneration() const { return clothGeneration_; }
+
+  // Acts at once, and goes into the recording; what has no effect (a Release of nothing, a stroke beside the
+  // cloth) does not. An EditScene that `continues` the one before it (a slider being dragged) is undone
+  // together with it. @throws UsageError for what makes no sense here, SceneError, OpenGlError; nothing has
+  // changed then
+  void act(const Action& action, bool continues = false);
+
+  // Steps, and remembers the state at the start of each frame. After trouble the state is that of the last
+  // frame known to be sound, and the hand has let go; what came after it is forgotten, also by the recording.
+  [[nodiscard]] std::optional<Trouble> stepFrames(int frames);
+
+  // Of EditScene; each of them acts and is recorded as an EditScene itself. Colliders moved by hand stay
+  // where they are.
+  [[nodiscard]] bool canUndo() const { return !now_.undo.empty(); }
+  [[nodiscard]] bool canRedo() const { return !now_.redo.empty(); }
+  void undo();
+  void redo();
+
+  // Frames and steps are counted from the start of the session, over all restarts.
+  [[nodiscard]] int oldestFrame() const;  // that can still be looked at
+  [[nodiscard]] int frame() const { return now_.number; }
+  [[nodiscard]] int newestFrame() const;
+  [[nodiscard]] std::uint64_t step() const { return now_.step; }
+  // Shows a remembered frame, oldestFrame() to newestFrame(), as it was when it was left: state, scene, pins,
+  // cuts and hands, to the bit. (The hand may hold there: who does not want that acts a Release before
+  // stepping.) Stepping or acting there forgets what came later. @throws SceneError, OpenGlError
+  void seek(int frame);
+
+  // The scene at the start, and what was done up to newestFrame().
+  [[nodiscard]] const Recording& recording() const { return recording_; }
+
+  [[nodiscard]] std::size_t snapshotBytes() const { return ring_.bytes(); }
+  // The frame that was left last is remembered whatever the budget.
+  void setSnapshotBudget(std::size_t bytes) { ring_.setBudget(bytes); }
+
+ private:
+  // Each returns whether it had an effect.
+  bool apply(const EditScene& edit);
+  bool apply(const Grab& grab);
+  bool apply(const MoveHand& move);
+  bool apply(const Release& release);
+  bool apply(const SetPin& pin);
+  bool apply(const CutStroke& stroke);
+  bool apply(const Blow& blow);
+  bool apply(const MoveCollider& move);
+  bool apply(const SwitchBackend& to);
+  bool apply(const Restart& restart);
+  void record(const Action& action);
+  void changeScene(const Scene& scene);
+  void rebuild(const Scene& scene);
+  void goBetween(SceneStack& from, SceneStack& to);
+  [[nodiscard]] std::optional<Trouble> stepFrame();
+  void startColliderMoves();
+  void finishColliderMoves();
+  void forgetLater();
+  void goTo(int frame);
+
+  Simulation simulation_;
+  Recording recording_;
+  SessionFrame now_;
+  FrameRing ring_;
+  std::uint64_t clothGeneration_ = 0;
+};
+
+}  // namespace clothsim
