@@ -1,5 +1,7 @@
 // The frames of a session that can be looked at again: each with all that is needed to go on from there to
 // the bit. The oldest ones go first when there is no room for more.
+// A frame costs a copy of 32 bytes a particle on the GPU, 28 on the CPU: about as much as half a step of the
+// many in it.
 #pragma once
 
 #include <cstdint>

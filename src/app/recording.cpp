@@ -248,9 +248,10 @@ Recording Recording::load(const std::filesystem::path& path) {
   try {
     const JsonPointer root = parseJson(readFile(path, LARGEST_FILE));
     Recording recording = readRecording(*root);
-    findMeshes(recording.scene, path);
+    recording.source = path.string();
+    findFiles(recording.scene, path);
     for (Event& event : recording.events)
-      if (auto* edit = std::get_if<EditScene>(&event.action)) findMeshes(edit->scene, path);
+      if (auto* edit = std::get_if<EditScene>(&event.action)) findFiles(edit->scene, path);
     return recording;
   } catch (const JsonComplaint& complaint) {
     throw SceneError(located(path.string(), complaint));
