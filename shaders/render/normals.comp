@@ -7,15 +7,18 @@ layout(std140, binding = NORMALS_GRID_BINDING) uniform NormalsGridBlock { Normal
 layout(std430, binding = NORMALS_POSITIONS_BINDING) readonly buffer Positions { vec4 positions[]; };
 layout(std430, binding = NORMALS_OUT_BINDING) writeonly buffer Normals { vec4 normals[]; };
 
-vec3 positionAt(ivec2 point) {
-  return positions[grid.firstParticle + uint(point.y) * grid.columns + uint(point.x)].xyz;
+uint particleAt(ivec2 point) { return grid.firstParticle + uint(point.y) * grid.columns + uint(point.x); }
+
+bool isOnGrid(ivec2 point) {
+  return all(greaterThanEqual(point, ivec2(0))) && all(lessThan(point, ivec2(grid.columns, grid.rows)));
 }
+
+#include "render/cuts.glsl"
 
 // The neighbour's offset; zero beyond the border, so that triangles which do not exist add nothing.
 vec3 toNeighbour(ivec2 point, vec3 here, int columns, int rows) {
   ivec2 other = point + ivec2(columns, rows);
-  bool exists = all(greaterThanEqual(other, ivec2(0))) && all(lessThan(other, ivec2(grid.columns, grid.rows)));
-  return exists ? positionAt(other) - here : vec3(0);
+  return isOnGrid(other) ? positions[particleAt(other)].xyz - here : vec3(0);
 }
 
 // The mean sine of the elevation of the points on a ring around `point`, seen from it.
@@ -33,15 +36,20 @@ float hollowAt(ivec2 point, vec3 here, vec3 normal) {
 void main() {
   ivec2 point = ivec2(gl_GlobalInvocationID.xy);
   if (point.x >= int(grid.columns) || point.y >= int(grid.rows)) return;
-  vec3 here = positionAt(point);
+  vec3 here = positions[particleAt(point)].xyz;
   vec3 right = toNeighbour(point, here, 1, 0), left = toNeighbour(point, here, -1, 0);
   vec3 lower = toNeighbour(point, here, 0, 1), upper = toNeighbour(point, here, 0, -1);
   vec3 lowerLeft = toNeighbour(point, here, -1, 1), upperRight = toNeighbour(point, here, 1, -1);
 
   // The fan of triangles around the point; the diagonals run from upper right to lower left.
-  vec3 sum = cross(lower, right) + cross(lowerLeft, lower) + cross(left, lowerLeft);
-  sum += cross(upper, left) + cross(upperRight, upper) + cross(right, upperRight);
+  vec3 sum = vec3(0);
+  if (hasUpperTriangle(point)) sum += cross(lower, right);
+  if (hasLowerTriangle(point + ivec2(-1, 0))) sum += cross(lowerLeft, lower);
+  if (hasUpperTriangle(point + ivec2(-1, 0))) sum += cross(left, lowerLeft);
+  if (hasLowerTriangle(point + ivec2(-1, -1))) sum += cross(upper, left);
+  if (hasUpperTriangle(point + ivec2(0, -1))) sum += cross(upperRight, upper);
+  if (hasLowerTriangle(point + ivec2(0, -1))) sum += cross(right, upperRight);
   float area = length(sum);
   vec3 normal = area > 0.0 ? sum / area : vec3(0, 1, 0);
-  normals[grid.firstParticle + uint(point.y) * grid.columns + uint(point.x)] = vec4(normal, hollowAt(point, here, normal));
+  normals[particleAt(point)] = vec4(normal, hollowAt(point, here, normal));
 }

@@ -1,6 +1,7 @@
 // Planes and the floor: a square around the stage; its fragments fade out towards a circle. Its light is the same
 // everywhere but for the shadow, so it is computed here.
 #include "render/lights.glsl"
+#include "render/plane_disc.glsl"
 
 layout(location = INSTANCE_PLACE_LOCATION) in vec4 place;
 layout(location = INSTANCE_NORMAL_LOCATION) in vec3 normal;
@@ -11,10 +12,8 @@ layout(location = 3) flat out vec3 shadeLight;    // of the front, without the k
 layout(location = 4) flat out vec3 behindLight;
 
 void main() {
-  vec2 corner = vec2(gl_VertexID & 1, gl_VertexID >> 1) * 2.0 - 1.0;  // a strip of two triangles
-  vec3 helper = abs(normal.x) < 0.6 ? vec3(1, 0, 0) : vec3(0, 0, 1);
-  vec3 tangent = normalize(cross(helper, normal));
-  vec3 position = place.xyz + place.w * (corner.x * tangent + corner.y * cross(normal, tangent));
+  vec2 corner = discCorner();
+  vec3 position = onDisc(place, normal, corner);
   fromCenter = corner;
   shadowPlace = (frame.shadowFromWorld * vec4(position, 1.0)).xy;
   shadeLight = frame.floorColor.rgb * diffuseLight(normal, 0.0);

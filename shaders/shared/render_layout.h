@@ -17,6 +17,7 @@ using uint = unsigned int;
 #define SHADOW_MAP_UNIT 0            // texture units
 #define FLOOR_SHADOW_UNIT 1
 #define CANVAS_UNIT 2
+#define CUTS_BINDING 2  // storage block, a word a particle: which of its springs are cut (cloth/cuts.h)
 #define FLOOR_SHADOW_SIZE 256  // [texels] of the blurred shadow for floors
 #define NORMALS_GROUP_SIZE 8   // work groups of 8 x 8 particles
 
@@ -26,6 +27,14 @@ using uint = unsigned int;
 #define INSTANCE_PLACE_LOCATION 3   // sphere: centre, radius; plane: centre of the drawn part, its radius
 #define INSTANCE_NORMAL_LOCATION 4  // plane: normal
 #define INSTANCE_ROWS_LOCATION 5    // and 6, 7. Other shapes: the rows that take their own frame to the world
+#define INSTANCE_COLLIDER_LOCATION 8  // index of the collider; -1: of none
+#define LINE_LOOK_LOCATION 9          // springs: sRGB colour and width [pixels], the same for all
+
+#define PICK_KIND_BITS 2  // of a picked pixel's identity; the rest is a number
+#define PICK_KIND_MASK 3u
+#define PICK_NOTHING 0u
+#define PICK_CLOTH 1u     // number of a particle
+#define PICK_COLLIDER 2u  // index of a collider
 
 struct RenderFrame {
   mat4 clipFromWorld;

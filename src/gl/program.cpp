@@ -1,5 +1,6 @@
 #include "gl/program.h"
 
+#include <array>
 #include <cassert>
 
 #include "core/error.h"
@@ -50,28 +51,39 @@ void link(GLuint program, const std::string& label) {
 
 }  // namespace
 
-Program Program::makeCompute(const std::string& file, const Defines& defines) {
-  const Shader shader(GL_COMPUTE_SHADER, file, defines);
+Program Program::make(const std::vector<Stage>& stages, const Defines& defines) {
+  std::string label;
   Program program;
   program.name_ = glCreateProgram();
-  glAttachShader(program.name_, shader.name());
-  link(program.name_, file);
-  glDetachShader(program.name_, shader.name());
+  for (const Stage& stage : stages) {
+    const Shader shader(stage.kind, stage.file, defines);
+    // The attached shader lives until its program is linked and lets it go.
+    glAttachShader(program.name_, shader.name());
+    label += (label.empty() ? "" : " + ") + stage.file;
+  }
+  link(program.name_, label);
+  std::array<GLuint, 3> attached{};
+  GLsizei count = 0;
+  glGetAttachedShaders(program.name_, static_cast<GLsizei>(attached.size()), &count, attached.data());
+  for (GLsizei i = 0; i < count; ++i) glDetachShader(program.name_, attached[static_cast<std::size_t>(i)]);
   return program;
+}
+
+Program Program::makeCompute(const std::string& file, const Defines& defines) {
+  return make({{GL_COMPUTE_SHADER, file}}, defines);
 }
 
 Program Program::makeRender(const std::string& vertexFile, const std::string& fragmentFile,
                             const Defines& defines) {
-  const Shader vertex(GL_VERTEX_SHADER, vertexFile, defines);
-  const Shader fragment(GL_FRAGMENT_SHADER, fragmentFile, defines);
-  Program program;
-  program.name_ = glCreateProgram();
-  glAttachShader(program.name_, vertex.name());
-  glAttachShader(program.name_, fragment.name());
-  link(program.name_, vertexFile + " + " + fragmentFile);
-  glDetachShader(program.name_, vertex.name());
-  glDetachShader(program.name_, fragment.name());
-  return program;
+  return make({{GL_VERTEX_SHADER, vertexFile}, {GL_FRAGMENT_SHADER, fragmentFile}}, defines);
+}
+
+Program Program::makeRender(const std::string& vertexFile, const std::string& geometryFile,
+                            const std::string& fragmentFile, const Defines& defines) {
+  return make({{GL_VERTEX_SHADER, vertexFile},
+               {GL_GEOMETRY_SHADER, geometryFile},
+               {GL_FRAGMENT_SHADER, fragmentFile}},
+              defines);
 }
 
 Program::~Program() {

@@ -18,6 +18,8 @@ class Program {
   [[nodiscard]] static Program makeCompute(const std::string& file, const Defines& defines = {});
   [[nodiscard]] static Program makeRender(const std::string& vertexFile, const std::string& fragmentFile,
                                           const Defines& defines = {});
+  [[nodiscard]] static Program makeRender(const std::string& vertexFile, const std::string& geometryFile,
+                                          const std::string& fragmentFile, const Defines& defines = {});
   ~Program();
   Program(Program&& other) noexcept { std::swap(name_, other.name_); }
   Program& operator=(Program&& other) noexcept {
@@ -29,6 +31,12 @@ class Program {
   void bind() const { glUseProgram(name_); }
 
  private:
+  struct Stage {
+    GLenum kind;
+    std::string file;
+  };
+  static Program make(const std::vector<Stage>& stages, const Defines& defines);
+
   GLuint name_ = 0;
 };
 

@@ -8,11 +8,10 @@
 namespace clothsim {
 namespace {
 
-std::vector<std::uint32_t> indicesOf(const Cloth& cloth) {
+std::vector<std::uint32_t> indicesOf(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
   std::vector<std::uint32_t> indices;
-  indices.reserve(3 * cloth.triangleCount());
-  for (const auto& triangle : cloth.triangles())
-    indices.insert(indices.end(), triangle.begin(), triangle.end());
+  indices.reserve(3 * triangles.size());
+  for (const auto& triangle : triangles) indices.insert(indices.end(), triangle.begin(), triangle.end());
   return indices;
 }
 
@@ -26,9 +25,8 @@ GLuint ringOf(const Grid& grid) {
 }  // namespace
 
 ClothMesh::ClothMesh(const Cloth& cloth)
-    : normalsPass_(gl::Program::makeCompute("render/normals.comp")),
-      normals_("cloth normals", cloth.particleCount()),
-      indices_("cloth indices", indicesOf(cloth)),
+    : normals_("cloth normals", cloth.particleCount()),
+      indices_("cloth indices", indicesOf(cloth.triangles())),
       textureCoordinates_("cloth texture coordinates", cloth.textureCoordinates()),
       vertices_("cloth") {
   for (const Grid& grid : cloth.grids()) {
@@ -42,8 +40,17 @@ ClothMesh::ClothMesh(const Cloth& cloth)
   vertices_.attachIndices(indices_.name());
 }
 
-void ClothMesh::computeNormals(GLuint positions) {
-  normalsPass_.bind();
+void ClothMesh::setCuts(const Cloth& cloth, const Cuts& cuts) {
+  if (cuts.empty() && !hasCuts()) return;
+  indices_ = gl::Buffer<std::uint32_t>("cloth indices", indicesOf(remainingTriangles(cloth, cuts)));
+  vertices_.attachIndices(indices_.name());
+  const std::vector<std::uint32_t> words(cuts.begin(), cuts.end());
+  cuts_ = words.empty() ? gl::Buffer<std::uint32_t>() : gl::Buffer<std::uint32_t>("cuts", words);
+}
+
+void ClothMesh::computeNormals(const gl::Program& normalsPass, GLuint positions) {
+  normalsPass.bind();
+  if (hasCuts()) cuts_.bindStorage(CUTS_BINDING);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);  // the solver's last writes
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, NORMALS_POSITIONS_BINDING, positions);
   normals_.bindStorage(NORMALS_OUT_BINDING);

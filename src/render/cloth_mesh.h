@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "cloth/cloth.h"
+#include "cloth/cuts.h"
 #include "gl/buffer.h"
 #include "gl/program.h"
 #include "gl/vertex_array.h"
@@ -16,8 +17,13 @@ class ClothMesh {
  public:
   explicit ClothMesh(const Cloth& cloth);
 
-  // Smooth normals for the positions in `positions`, one vec4 a particle.
-  void computeNormals(GLuint positions);
+  // Triangles with a cut side are drawn no more, and do not bend their neighbours' normals.
+  void setCuts(const Cloth& cloth, const Cuts& cuts);
+  [[nodiscard]] bool hasCuts() const { return cuts_.size() > 0; }
+
+  // Smooth normals for the positions in `positions`, one vec4 a particle; by normals.comp, with CUTS when
+  // there are any.
+  void computeNormals(const gl::Program& normalsPass, GLuint positions);
   // The triangles of all grids, with the program and its state bound by the caller.
   void draw(GLuint positions);
 
@@ -29,10 +35,10 @@ class ClothMesh {
     GLuint columns, rows;
   };
 
-  gl::Program normalsPass_;
   std::vector<GridBlock> grids_;
   gl::Buffer<glm::vec4> normals_;
   gl::Buffer<std::uint32_t> indices_;
+  gl::Buffer<std::uint32_t> cuts_;
   gl::Buffer<std::array<float, 2>> textureCoordinates_;
   gl::VertexArray vertices_;
 };

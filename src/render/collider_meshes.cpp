@@ -59,11 +59,18 @@ SphereMesh::SphereMesh(int around, int down)
   vertices_.attachIndices(indices_.name());
 }
 
-void SphereMesh::place(const std::vector<glm::vec4>& spheres) {
+void SphereMesh::place(const std::vector<SpherePlace>& spheres) {
   uploadInstances("sphere places", instances_, spheres);
   count_ = static_cast<GLsizei>(spheres.size());
-  if (count_ > 0)
-    vertices_.attach(instances_.name(), {.location = INSTANCE_PLACE_LOCATION, .perInstance = true});
+  if (count_ == 0) return;
+  constexpr GLsizei stride = sizeof(SpherePlace);
+  vertices_.attach(instances_.name(),
+                   {.location = INSTANCE_PLACE_LOCATION, .stride = stride, .perInstance = true});
+  vertices_.attach(instances_.name(), {.location = INSTANCE_COLLIDER_LOCATION,
+                                       .components = 1,
+                                       .stride = stride,
+                                       .offset = offsetof(SpherePlace, collider),
+                                       .perInstance = true});
 }
 
 void SphereMesh::draw() const {
@@ -86,6 +93,11 @@ void PlaneMesh::place(const std::vector<PlaneDisc>& discs) {
                                        .components = 3,
                                        .stride = stride,
                                        .offset = offsetof(PlaneDisc, normal),
+                                       .perInstance = true});
+  vertices_.attach(instances_.name(), {.location = INSTANCE_COLLIDER_LOCATION,
+                                       .components = 1,
+                                       .stride = stride,
+                                       .offset = offsetof(PlaneDisc, normal) + 12,
                                        .perInstance = true});
 }
 

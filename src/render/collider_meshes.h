@@ -10,17 +10,23 @@
 
 namespace clothsim {
 
+// A sphere as drawn.
+struct SpherePlace {
+  glm::vec4 place;        // centre and drawn radius [m]
+  glm::vec4 collider{0};  // x: its index in the scene
+};
+
 class SphereMesh {
  public:
   // @param around, down  segments along the equator (>= 3) and from pole to pole (>= 2)
   SphereMesh(int around, int down);
-  void place(const std::vector<glm::vec4>& spheres);  // centre and drawn radius [m]
+  void place(const std::vector<SpherePlace>& spheres);
   void draw() const;
 
  private:
   gl::Buffer<glm::vec3> points_;
   gl::Buffer<std::uint32_t> indices_;
-  gl::Buffer<glm::vec4> instances_;
+  gl::Buffer<SpherePlace> instances_;
   gl::VertexArray vertices_;
   GLsizei count_ = 0;
 };
@@ -28,7 +34,7 @@ class SphereMesh {
 // A plane's drawn part: a disc that fades out towards its edge.
 struct PlaneDisc {
   glm::vec4 place;   // centre and radius [m]
-  glm::vec4 normal;  // xyz, unit
+  glm::vec4 normal;  // xyz, unit; w: index of the collider, -1: of none
 };
 
 class PlaneMesh {

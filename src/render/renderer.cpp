@@ -5,13 +5,13 @@
 #include <cmath>
 #include <span>
 
+#include "core/error.h"
 #include "gl/buffer.h"
 #include "gl/framebuffer.h"
-#include "gl/program.h"
 #include "render/cloth_mesh.h"
 #include "render/collider_meshes.h"
 #include "render/look.h"
-#include "render/shading_models.h"
+#include "render/programs.h"
 #include "render/shadow_map.h"
 #include "render/shape_meshes.h"
 #include "render/stage.h"
@@ -36,26 +36,41 @@ bool isHorizontal(const Collider& collider) {
   return plane != nullptr && std::abs(glm::normalize(toGlm(plane->normal)).y) > 0.95f;
 }
 
+RenderOptions withSupportedSamples(RenderOptions options) {
+  options.samples = gl::supportedSamples(options.samples);
+  return options;
+}
+
 }  // namespace
 
 struct Renderer::Parts {
-  Parts(const Cloth& cloth, const RenderOptions& wanted);
+  Parts(const Cloth& drawn, const Scene& first, const RenderOptions& wanted);
 
   void configure(const Scene& edited);
   void placeColliders(double time);
+  void uploadFrame();
   void updateFrame(const Camera& camera, int width, int height);
   void drawShadows(GLuint positions);
   void drawScene(GLuint positions, int width, int height);
+  void drawIdentities(GLuint positions);
   void resolveInto(GLuint destination, int width, int height);
 
+  Cloth cloth;
+  Cuts cuts;
   RenderOptions options;
   ClothOutline outline;
   double edge;  // longest of the cloth's triangles [m]
   Scene scene;
   Stage stage;
+  ViewOptions view;
   shared::RenderFrame frame{};
 
+  RenderPrograms programs;
+  std::string shaderName;  // of programs.cloth
+  std::optional<PickPrograms> pickPrograms;
+  std::optional<OverlayPrograms> overlayPrograms;
   ClothMesh clothMesh;
+  SpringsOverlay overlay;
   SphereMesh spheres;
   ShapeMeshes shapes;
   PlaneMesh planes;
@@ -64,27 +79,20 @@ struct Renderer::Parts {
   gl::Buffer<shared::RenderFrame> frameBlock{"render frame", 1};
   gl::VertexArray noVertices{"no vertices"};
 
-  std::string shaderName;
-  gl::Program clothShading;
-  gl::Program sphereShading = gl::Program::makeRender("render/sphere.vert", "render/sphere.frag");
-  gl::Program shapeShading = gl::Program::makeRender("render/shape.vert", "render/sphere.frag");
-  gl::Program planeShading = gl::Program::makeRender("render/plane.vert", "render/plane.frag");
-  gl::Program clothShadow = gl::Program::makeRender("render/cloth_shadow.vert", "render/depth_only.frag");
-  gl::Program sphereShadow = gl::Program::makeRender("render/sphere_shadow.vert", "render/depth_only.frag");
-  gl::Program shapeShadow = gl::Program::makeRender("render/shape_shadow.vert", "render/depth_only.frag");
-  gl::Program resolve;
+  std::optional<PickTarget> pickTarget;
 };
 
-Renderer::Parts::Parts(const Cloth& cloth, const RenderOptions& wanted)
-    : options(wanted),
+Renderer::Parts::Parts(const Cloth& drawn, const Scene& first, const RenderOptions& wanted)
+    : cloth(drawn),
+      options(withSupportedSamples(wanted)),
       outline(outlineOf(cloth)),
       edge(longestEdge(cloth)),
+      programs(first.render.shader, options.samples),
+      shaderName(first.render.shader),
       clothMesh(cloth),
       spheres(wanted.sphereSegmentsAround, wanted.sphereSegmentsDown),
       shadowMap(wanted.shadowMapSize) {
-  options.samples = gl::supportedSamples(wanted.samples);
-  resolve = gl::Program::makeRender("render/fullscreen.vert", "render/resolve.frag",
-                                    {{"SAMPLES", std::to_string(options.samples)}});
+  configure(first);
 }
 
 void Renderer::Parts::configure(const Scene& edited) {
@@ -96,32 +104,34 @@ void Renderer::Parts::configure(const Scene& edited) {
   frame.shadowFromWorld = shadowMap.shadowFromWorld();
   frame.toKeyLight.w = shadowMap.texelLength();
   if (scene.render.shader != shaderName) {
-    clothShading = makeShadingModel(scene.render.shader);
+    programs.cloth = makeShadingModel(scene.render.shader);
     shaderName = scene.render.shader;
   }
 }
 
 void Renderer::Parts::placeColliders(double time) {
-  std::vector<glm::vec4> places;
+  std::vector<SpherePlace> places;
   std::vector<PlaneDisc> discs;
   const glm::vec3 middle = stage.view.center();
   const float radius = floorRadius * glm::length(stage.view.size());
-  const auto addDisc = [&](glm::vec3 point, glm::vec3 normal) {
+  const auto addDisc = [&](glm::vec3 point, glm::vec3 normal, float collider) {
     const glm::vec3 center = middle - glm::dot(middle - point, normal) * normal;
-    discs.push_back({glm::vec4(center, radius), glm::vec4(normal, 0)});
+    discs.push_back({glm::vec4(center, radius), glm::vec4(normal, collider)});
   };
   bool hasFloor = false;
-  for (const Collider& collider : scene.colliders) {
+  for (std::size_t i = 0; i < scene.colliders.size(); ++i) {
+    const Collider& collider = scene.colliders[i];
+    const auto number = static_cast<float>(i);
     const Pose pose = poseAt(collider, time);
     if (const auto* sphere = std::get_if<Sphere>(&collider)) {
       const double drawn = sphere->radius - sphereShrink(sphere->radius, edge);
-      places.emplace_back(toGlm(pose.position), static_cast<float>(drawn));
+      places.push_back({glm::vec4(toGlm(pose.position), static_cast<float>(drawn)), glm::vec4(number)});
     } else if (const auto* plane = std::get_if<Plane>(&collider)) {
-      addDisc(toGlm(pose.position), glm::normalize(toGlm(rotate(pose.rotation, plane->normal))));
+      addDisc(toGlm(pose.position), glm::normalize(toGlm(rotate(pose.rotation, plane->normal))), number);
       hasFloor = hasFloor || isHorizontal(collider);
     }
   }
-  if (scene.render.ground && !hasFloor) addDisc({middle.x, stage.floorHeight, middle.z}, {0, 1, 0});
+  if (scene.render.ground && !hasFloor) addDisc({middle.x, stage.floorHeight, middle.z}, {0, 1, 0}, -1);
   spheres.place(places);
   shapes.place(scene.colliders, time);
   planes.place(discs);
@@ -132,6 +142,10 @@ void Renderer::Parts::updateFrame(const Camera& camera, int width, int height) {
   frame.clipFromWorld = camera.projection(static_cast<double>(width) / height) * camera.view();
   frame.eye = glm::vec4(camera.eye(), 0);
   frame.pixels = {w, h, 1 / w, 1 / h};
+  uploadFrame();
+}
+
+void Renderer::Parts::uploadFrame() {
   frameBlock.upload(std::span(&frame, 1));
   frameBlock.bindUniform(RENDER_FRAME_BINDING);
 }
@@ -139,19 +153,19 @@ void Renderer::Parts::updateFrame(const Camera& camera, int width, int height) {
 void Renderer::Parts::drawShadows(GLuint positions) {
   shadowMap.begin();
   if (options.shadows) {
-    clothShadow.bind();
+    programs.clothShadow.bind();
     clothMesh.draw(positions);
     // A solid's far side alone: its near side would shade itself by rounding.
     glEnable(GL_CULL_FACE);
     glCullFace(GL_FRONT);
-    sphereShadow.bind();
+    programs.sphereShadow.bind();
     spheres.draw();
-    shapeShadow.bind();
+    programs.shapeShadow.bind();
     shapes.draw();
     glDisable(GL_CULL_FACE);
   }
   shadowMap.end();
-  shadowMap.blurForFloors();
+  shadowMap.blurForFloors(programs);
 }
 
 // Front to back as far as the order is known, so that hidden fragments are not shaded; planes last, since
@@ -167,24 +181,43 @@ void Renderer::Parts::drawScene(GLuint positions, int width, int height) {
   glClearNamedFramebufferfv(canvas.name(), GL_DEPTH, 0, &farthest);
   glDepthFunc(GL_LEQUAL);
 
-  clothShading.bind();
+  programs.cloth.bind();
   clothMesh.draw(positions);
 
   glEnable(GL_CULL_FACE);
   glCullFace(GL_BACK);
-  sphereShading.bind();
+  programs.sphere.bind();
   spheres.draw();
-  shapeShading.bind();
+  programs.shape.bind();
   shapes.draw();
   glDisable(GL_CULL_FACE);
 
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_FALSE);
-  planeShading.bind();
+  programs.plane.bind();
   planes.draw();
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
+
+  if (view == ViewOptions{}) return;
+  if (!overlayPrograms) overlayPrograms.emplace();
+  overlay.draw(view, *overlayPrograms, cloth, cuts, positions);
+}
+
+void Renderer::Parts::drawIdentities(GLuint positions) {
+  glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);  // the solver's last positions
+  pickPrograms->cloth.bind();
+  clothMesh.draw(positions);
+  glEnable(GL_CULL_FACE);
+  glCullFace(GL_BACK);
+  pickPrograms->sphere.bind();
+  spheres.draw();
+  pickPrograms->shape.bind();
+  shapes.draw();
+  pickPrograms->plane.bind();
+  planes.draw();
+  glDisable(GL_CULL_FACE);
 }
 
 void Renderer::Parts::resolveInto(GLuint destination, int width, int height) {
@@ -193,26 +226,65 @@ void Renderer::Parts::resolveInto(GLuint destination, int width, int height) {
   glViewport(0, 0, width, height);
   glDisable(GL_DEPTH_TEST);
   glBindTextureUnit(CANVAS_UNIT, canvas.colorTexture());
-  resolve.bind();
+  programs.resolve.bind();
   noVertices.bind();
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
 Renderer::Renderer(const Cloth& cloth, const Scene& scene, const RenderOptions& options)
-    : parts_(std::make_unique<Parts>(cloth, options)) {
-  parts_->configure(scene);
-}
+    : parts_(std::make_unique<Parts>(cloth, scene, options)) {}
 
 Renderer::~Renderer() = default;
 
 void Renderer::configure(const Scene& scene) { parts_->configure(scene); }
+
+void Renderer::setView(const ViewOptions& view) { parts_->view = view; }
+
+void Renderer::setCuts(const Cuts& cuts) {
+  parts_->cuts = cuts;
+  parts_->clothMesh.setCuts(parts_->cloth, cuts);
+  parts_->overlay.forgetCuts();
+}
+
+std::optional<std::string> Renderer::reloadShaders() {
+  try {
+    RenderPrograms fresh(parts_->shaderName, parts_->options.samples);
+    PickPrograms freshPick;
+    OverlayPrograms freshOverlay;
+    for (const std::string& name : shadingModelNames()) static_cast<void>(makeShadingModel(name));
+    parts_->programs = std::move(fresh);
+    parts_->pickPrograms = std::move(freshPick);
+    parts_->overlayPrograms = std::move(freshOverlay);
+    return std::nullopt;
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+Pick Renderer::pick(GLuint positions, const Camera& camera, double time, int width, int height, double x,
+                    double y) {
+  if (width <= 0 || height <= 0) return {};
+  if (!parts_->pickPrograms) parts_->pickPrograms.emplace();
+  if (!parts_->pickTarget) parts_->pickTarget.emplace();
+  parts_->placeColliders(time);
+  const glm::mat4 clipFromWorld = camera.projection(static_cast<double>(width) / height) * camera.view();
+  parts_->frame.clipFromWorld = PickTarget::clipFromPicture(width, height, x, y) * clipFromWorld;
+  parts_->frame.eye = glm::vec4(camera.eye(), 0);
+  parts_->uploadFrame();
+  parts_->pickTarget->begin();
+  parts_->drawIdentities(positions);
+  parts_->pickTarget->end();
+  const glm::vec2 ndc{2 * x / width - 1, 1 - 2 * y / height};
+  return parts_->pickTarget->read(parts_->cloth.grids(), clipFromWorld, ndc, camera.eye());
+}
 
 void Renderer::draw(GLuint positions, const Camera& camera, double time, GLuint target, int width,
                     int height) {
   if (width <= 0 || height <= 0) return;  // a minimised window
   parts_->placeColliders(time);
   parts_->updateFrame(camera, width, height);
-  parts_->clothMesh.computeNormals(positions);
+  parts_->clothMesh.computeNormals(
+      parts_->clothMesh.hasCuts() ? parts_->programs.normalsWithCuts : parts_->programs.normals, positions);
   parts_->drawShadows(positions);
   parts_->drawScene(positions, width, height);
   parts_->resolveInto(target, width, height);

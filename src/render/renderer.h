@@ -3,12 +3,15 @@
 #pragma once
 
 #include <memory>
-#include <vector>
+#include <optional>
+#include <string>
 
 #include "cloth/cloth.h"
 #include "gl/api.h"
 #include "render/camera.h"
 #include "render/image.h"
+#include "render/picking.h"
+#include "render/springs_overlay.h"
 #include "scene/pose.h"
 
 namespace clothsim {
@@ -34,6 +37,18 @@ class Renderer {
 
   // Colours, colliders, camera-independent looks from an edited scene with the same grids.
   void configure(const Scene& scene);
+  void setView(const ViewOptions& view);
+  // Cut cloth: its drawn triangles, their normals and their shadow. Empty: whole again.
+  void setCuts(const Cuts& cuts);
+
+  // What lies under a place of the picture that draw() would make; x, y in pixels from the top left. Reads
+  // one pixel back, and waits for it.
+  [[nodiscard]] Pick pick(GLuint positions, const Camera& camera, double time, int width, int height,
+                          double x, double y);
+
+  // Compiles every shader anew from the files as they are now. Returns what is wrong, with file and line, and
+  // goes on with the programs it had; none when all is well.
+  [[nodiscard]] std::optional<std::string> reloadShaders();
 
  private:
   struct Parts;

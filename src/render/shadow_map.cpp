@@ -31,10 +31,7 @@ Bounds inLightSpace(const Bounds& box, const glm::mat4& lightFromWorld) {
 ShadowMap::ShadowMap(int size)
     : framebuffer_("shadow map", {.width = size, .height = size, .depth = GL_DEPTH_COMPONENT24}),
       halfBlurred_("half blurred floor shadow", floorFormat),
-      floorShadow_("floor shadow", floorFormat),
-      blurFirstAxis_(gl::Program::makeRender("render/fullscreen.vert", "render/floor_shadow.frag",
-                                             {{"FIRST_AXIS", ""}})),
-      blurSecondAxis_(gl::Program::makeRender("render/fullscreen.vert", "render/floor_shadow.frag")) {
+      floorShadow_("floor shadow", floorFormat) {
   const GLuint texture = framebuffer_.depthTexture();
   glTextureParameteri(texture, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
   // Outside of the map nothing is in the light's way.
@@ -79,16 +76,16 @@ void ShadowMap::end() const {
   glDisable(GL_DEPTH_CLAMP);
 }
 
-void ShadowMap::blurForFloors() const {
+void ShadowMap::blurForFloors(const RenderPrograms& programs) const {
   glDisable(GL_DEPTH_TEST);
   noVertices_.bind();
   bindTextures();
   halfBlurred_.bind();
-  blurFirstAxis_.bind();
+  programs.blurFirstAxis.bind();
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glBindTextureUnit(FLOOR_SHADOW_UNIT, halfBlurred_.colorTexture());
   floorShadow_.bind();
-  blurSecondAxis_.bind();
+  programs.blurSecondAxis.bind();
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glEnable(GL_DEPTH_TEST);
 }

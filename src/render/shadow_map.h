@@ -5,8 +5,8 @@
 #include <glm/glm.hpp>
 
 #include "gl/framebuffer.h"
-#include "gl/program.h"
 #include "gl/vertex_array.h"
+#include "render/programs.h"
 #include "render/stage.h"
 
 namespace clothsim {
@@ -20,7 +20,7 @@ class ShadowMap {
 
   void begin() const;  // clears it and makes it the target; leaves with the state that casters are drawn with
   void end() const;
-  void blurForFloors() const;  // after end()
+  void blurForFloors(const RenderPrograms& programs) const;  // after end()
   void bindTextures() const;
 
   [[nodiscard]] const glm::mat4& shadowFromWorld() const { return shadowFromWorld_; }
@@ -28,7 +28,6 @@ class ShadowMap {
 
  private:
   gl::Framebuffer framebuffer_, halfBlurred_, floorShadow_;
-  gl::Program blurFirstAxis_, blurSecondAxis_;
   gl::VertexArray noVertices_{"no vertices"};
   glm::mat4 shadowFromWorld_{1};
   float texelLength_ = 0;

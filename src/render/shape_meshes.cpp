@@ -152,6 +152,11 @@ void ShapeMeshes::build(const std::vector<Collider>& colliders, double longestEd
                                          .stride = sizeof(Rows),
                                          .offset = row * 16,
                                          .perInstance = true});
+  vertices_.attach(instances_.name(), {.location = INSTANCE_COLLIDER_LOCATION,
+                                       .components = 1,
+                                       .stride = sizeof(Rows),
+                                       .offset = offsetof(Rows, collider),
+                                       .perInstance = true});
 }
 
 void ShapeMeshes::place(const std::vector<Collider>& colliders, double time) {
@@ -163,7 +168,8 @@ void ShapeMeshes::place(const std::vector<Collider>& colliders, double time) {
     const auto row = [&](Vec3d axis, double place) {
       return glm::vec4(glmOf(axis.x, axis.y, axis.z), static_cast<float>(place));
     };
-    rows.push_back({row(r[0], pose.position.x), row(r[1], pose.position.y), row(r[2], pose.position.z)});
+    rows.push_back({row(r[0], pose.position.x), row(r[1], pose.position.y), row(r[2], pose.position.z),
+                    glm::vec4(static_cast<float>(part.collider))});
   }
   if (!rows.empty()) instances_.upload(rows);
 }

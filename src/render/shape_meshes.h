@@ -35,7 +35,8 @@ class ShapeMeshes {
 
  private:
   struct Rows {
-    glm::vec4 x, y, z;  // world from own frame
+    glm::vec4 x, y, z;      // world from own frame
+    glm::vec4 collider{0};  // x: its index in the scene
   };
   struct Part {
     std::size_t firstIndex, indexCount, collider;

@@ -52,6 +52,7 @@ test::CommandResult validate(const std::string& source, const std::string& stage
 // are.
 std::vector<gl::Defines> variantsOf(const std::string& file) {
   if (file == "render/floor_shadow.frag") return {{{"FIRST_AXIS", ""}}, gl::Defines{}};
+  if (file == "render/normals.comp") return {gl::Defines{}, {{"CUTS", ""}}};
   if (file == "render/resolve.frag") return {{{"SAMPLES", "1"}}, {{"SAMPLES", "4"}}};
   if (!file.starts_with("sim/")) return {gl::Defines{}};
   PassFeatures everything{.wind = true,

@@ -36,7 +36,8 @@ std::vector<glm::vec4> normalsOf(const Cloth& cloth, const Surface& surface) {
   }
   const gl::Buffer<Particle4> buffer("positions", positions);
   ClothMesh mesh(cloth);
-  mesh.computeNormals(buffer.name());
+  const gl::Program pass = gl::Program::makeCompute("render/normals.comp");
+  mesh.computeNormals(pass, buffer.name());
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   return mesh.normals().download();
 }

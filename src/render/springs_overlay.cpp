@@ -1,0 +1,70 @@
+#include "render/springs_overlay.h"
+
+#include <cstdint>
+#include <vector>
+
+#include "shared/render_layout.h"
+
+namespace clothsim {
+namespace {
+
+// Structural lies over bending, which covers the same way twice as far: the wider line goes first.
+constexpr std::array<SpringKind, 3> drawingOrder{SpringKind::bending, SpringKind::shear,
+                                                 SpringKind::structural};
+
+std::vector<std::uint32_t> endsOf(const Cloth& cloth, const Cuts& cuts, SpringKind kind) {
+  std::vector<std::uint32_t> ends;
+  for (const Spring& spring : cloth.springs()) {
+    const auto slot = static_cast<SpringSlot>(spring.number % SPRING_SLOTS);
+    if (springOffsets[static_cast<std::size_t>(slot)].kind != kind || isCut(cuts, spring.a, slot)) continue;
+    ends.push_back(spring.a);
+    ends.push_back(spring.b);
+  }
+  return ends;
+}
+
+}  // namespace
+
+std::array<float, 3> springColor(SpringKind kind) {
+  switch (kind) {
+    case SpringKind::structural:
+      return {0.99f, 0.97f, 0.90f};
+    case SpringKind::shear:
+      return {0.34f, 0.71f, 0.91f};
+    case SpringKind::bending:
+      return {0.90f, 0.53f, 0.05f};
+  }
+  return {1, 1, 1};
+}
+
+void SpringsOverlay::draw(const ViewOptions& view, const OverlayPrograms& programs, const Cloth& cloth,
+                          const Cuts& cuts, GLuint positions) {
+  if (view == ViewOptions{}) return;
+  vertices_.attach(positions, {.location = POSITION_LOCATION});
+  vertices_.bind();
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  glDepthMask(GL_FALSE);
+  programs.springs.bind();
+  for (const SpringKind kind : drawingOrder) {
+    const auto number = static_cast<std::size_t>(kind);
+    if (!view.showSprings[number]) continue;
+    auto& ends = kinds_[number];
+    if (!ends) ends.emplace("spring ends", endsOf(cloth, cuts, kind));
+    const auto [red, green, blue] = springColor(kind);
+    // All vertices have the colour, and in w the width [pixels].
+    glVertexAttrib4f(LINE_LOOK_LOCATION, red, green, blue, kind == SpringKind::bending ? 3.4f : 1.5f);
+    vertices_.attachIndices(ends->name());
+    glDrawElements(GL_LINES, static_cast<GLsizei>(ends->size()), GL_UNSIGNED_INT, nullptr);
+  }
+  if (view.showPins) {
+    glEnable(GL_PROGRAM_POINT_SIZE);
+    programs.pins.bind();
+    glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(cloth.particleCount()));
+    glDisable(GL_PROGRAM_POINT_SIZE);
+  }
+  glDepthMask(GL_TRUE);
+  glDisable(GL_BLEND);
+}
+
+}  // namespace clothsim
