@@ -93,8 +93,8 @@ class Cloth {
 
   [[nodiscard]] std::uint32_t particleCount() const { return static_cast<std::uint32_t>(positions_.size()); }
   [[nodiscard]] std::span<const Grid> grids() const { return grids_; }
-  [[nodiscard]] std::size_t gridOf(std::uint32_t particle) const;  // its place in grids()
-  [[nodiscard]] std::span<const Vec3d> positions() const { return positions_; }           // at the start [m]
+  [[nodiscard]] std::size_t gridOf(std::uint32_t particle) const;                // its place in grids()
+  [[nodiscard]] std::span<const Vec3d> positions() const { return positions_; }  // at the start [m]
   [[nodiscard]] std::span<const double> inverseMasses() const { return inverseMasses_; }  // [1/kg], 0: pinned
   [[nodiscard]] bool hasRestLengthTable() const;                                          // of any grid
 
