@@ -80,6 +80,13 @@ class Viewer {
     bool isError = false;
   };
 
+  // By the controls of one picture; heeded after it, since much of that draws elsewhere.
+  struct Asked {
+    FieldEdits edits;
+    PanelRequests panels;
+    TimelineRequests timeline;
+  };
+
   // --- input (all of it comes from the window)
   void listen();
   void onPress(ViewerWindow::Button button, ViewerWindow::Cursor cursor, bool control, bool shift);
@@ -102,8 +109,11 @@ class Viewer {
   // --- a turn of the loop
   int simulate(double elapsed);
   void draw();
+  void measure();
   void drawControls();
   void drawPanels();
+  void heedControls();
+  void heed(const FieldEdits& edits);
   void heed(const PanelRequests& requests);
   void heed(const TimelineRequests& requests);
   void keepConfig();
@@ -142,6 +152,7 @@ class Viewer {
   Clock clock_;
   Notice notice_;
   ViewerConfig config_, savedConfig_;
+  Asked asked_;
   Scene draft_;                 // what the panels edit
   bool draftHeld_ = false;      // some control of theirs is held: the draft is ahead of the scene
   bool editContinues_ = false;  // the next edit belongs to the one before
@@ -452,6 +463,18 @@ void Viewer::draw() {
   open_->view = wanted;
   open_->frameFor(static_cast<int>(area.width), static_cast<int>(area.height));
   open_->draw(static_cast<int>(area.width), static_cast<int>(area.height));
+  ui_.begin(window_.textScale());
+  drawControls();
+  ui_.draw();
+  window_.swap();
+  heedControls();
+  measure();
+  if (const std::string now = viewerTitle(*open_, meter_, paused_); now != title_)
+    window_.setTitle(title_ = now);
+}
+
+// Between two pictures, since picking draws elsewhere.
+void Viewer::measure() {
   column_.measures().update(session(), now_, [&]() -> std::optional<std::uint32_t> {
     const ViewerWindow::Cursor cursor = window_.cursor();
     if (!isOverPicture(cursor)) return std::nullopt;
@@ -460,12 +483,6 @@ void Viewer::draw() {
                                       r.session.simulation().time(), r.width, r.height, cursor.x, cursor.y);
     return pick.kind == Pick::Kind::cloth ? std::optional(pick.particle) : std::nullopt;
   });
-  ui_.begin(window_.textScale());
-  drawControls();
-  ui_.draw();
-  window_.swap();
-  if (const std::string now = viewerTitle(*open_, meter_, paused_); now != title_)
-    window_.setTitle(title_ = now);
 }
 
 void Viewer::drawControls() {
@@ -475,9 +492,9 @@ void Viewer::drawControls() {
   if (config_.showOverlay && (roomForBoth || !showKeys_))
     drawFacts(viewerFacts(*open_, meter_, paused_, looksBack()));
   if (showsPanels()) drawPanels();
-  heed(drawTimeline({session().oldestFrame(), session().frame(), session().newestFrame(),
-                     open_->frameSeconds(), paused_, taker_.recordedSeconds()},
-                    area));
+  asked_.timeline = drawTimeline({session().oldestFrame(), session().frame(), session().newestFrame(),
+                                  open_->frameSeconds(), paused_, taker_.recordedSeconds()},
+                                 area);
   compare_.draw(area);
   if (notice_.secondsLeft > 0) drawNotice(notice_.text, notice_.isError, area, timelineHeight());
   if (showKeys_) drawKeyList(area);
@@ -489,18 +506,29 @@ void Viewer::drawPanels() {
   const std::string name = open_->name();
   PanelContext context{draft_, widgets_, session(), open_->view, {target.x, target.y, target.z}, name};
   column_.draw(context, config_);
-  const FieldEdits edits = widgets_.takeEdits();
+  asked_.edits = widgets_.takeEdits();
+  asked_.panels = std::move(context.requests);
+}
+
+// What the controls of the last picture ask for.
+void Viewer::heedControls() {
+  const Asked asked = std::exchange(asked_, {});
+  heed(asked.edits);
+  heed(asked.panels);
+  heed(asked.timeline);
+}
+
+void Viewer::heed(const FieldEdits& edits) {
   draftHeld_ = edits.holding;
-  if (edits.live || edits.rebuild) {
-    draftHeld_ = draftHeld_ && !edits.rebuild;
+  const bool edited = edits.live || edits.rebuild;
+  if (edited) {
     attempt([&] {
-      draftHeld_ = false;
+      draftHeld_ = false;  // should the edit be impossible, the panels show what is
       edit(draft_, editContinues_);
       draftHeld_ = edits.holding;
     });
   }
-  editContinues_ = edits.holding && (editContinues_ || edits.live);
-  heed(context.requests);
+  editContinues_ = edits.holding && (editContinues_ || edited);
 }
 
 void Viewer::heed(const PanelRequests& requests) {

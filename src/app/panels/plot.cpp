@@ -21,8 +21,9 @@ Axis valueAxis(std::span<const Curve> curves) {
       axis.low = std::min(axis.low, value);
       axis.high = std::max(axis.high, value);
     }
-  const float room = 0.08f * std::max(axis.high - axis.low, 1e-6f);
-  return {axis.low < 0 ? axis.low - room : 0, axis.high + room};
+  // Above there is room for the words, too.
+  const float span = std::max(axis.high - axis.low, 1e-6f);
+  return {axis.low < 0 ? axis.low - 0.06f * span : 0, axis.high + 0.3f * span};
 }
 
 std::string numberText(float value, const char* unit) {
@@ -74,10 +75,13 @@ void drawPlot(const char* id, std::span<const float> times, std::span<const Curv
     list.AddPolyline(points.data(), static_cast<int>(points.size()), ImGui::GetColorU32(curve.color),
                      ImDrawFlags_None, 0.1f * em());
   }
+  float peak = 0;
+  for (const Curve& curve : curves)
+    peak = std::max(peak, *std::max_element(curve.values.begin(), curve.values.end()));
   const ImU32 quiet = ImGui::GetColorU32(theme::quiet);
   const float small = 0.8f * em();
   list.AddText(nullptr, small, {at.x + margin, at.y + 0.15f * em()}, quiet,
-               numberText(axis.high, unit).c_str());
+               ("most " + numberText(peak, unit)).c_str());
   char spanText[48];
   std::snprintf(spanText, sizeof spanText, "last %.3g s", static_cast<double>(span));
   const float spanWidth = ImGui::CalcTextSize(spanText).x * 0.8f;
