@@ -138,10 +138,8 @@ void UiFrame::begin(double textScale) {
   ImGui::NewFrame();
 }
 
-void UiFrame::draw() {
-  ImGui::Render();
-  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-}
+void UiFrame::end() { ImGui::Render(); }
+void UiFrame::draw() { ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData()); }
 
 void coloredText(std::string_view words, const ImVec4& color) {
   ImGui::PushStyleColor(ImGuiCol_Text, color);

@@ -28,7 +28,8 @@ class UiFrame {
   UiFrame& operator=(const UiFrame&) = delete;
 
   void begin(double textScale);
-  void draw();  // ends the frame, over what is in the window's framebuffer
+  void end();
+  void draw();  // what lies between begin() and end(), over what is in the window's framebuffer
 
   [[nodiscard]] bool wantsMouse() const;  // as of the last frame
   [[nodiscard]] bool hasPopup() const;    // a list or a colour picker

@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <memory>
 #include <utility>
 
 #include "app/blow_up.h"
 #include "app/compare_card.h"
+#include "app/frame_timings.h"
 #include "app/hands.h"
 #include "app/numbered_files.h"
 #include "app/open_scene.h"
@@ -150,6 +152,7 @@ class Viewer {
   Pace pace_;
   SpeedMeter meter_;
   Clock clock_;
+  FrameTimings timings_{options_.timings};
   Notice notice_;
   ViewerConfig config_, savedConfig_;
   Asked asked_;
@@ -166,13 +169,11 @@ class Viewer {
 void Viewer::run() {
   clock_.lap();  // what loading took is not simulated time
   while (!window_.shouldClose()) {
-    if (isIdle())
-      window_.waitEvents(0.25);
-    else
-      window_.pollEvents();
+    timings_.time(FrameTimings::input, [&] { isIdle() ? window_.waitEvents(0.25) : window_.pollEvents(); });
     const double elapsed = clock_.lap();
     now_ += elapsed;
-    const int frames = simulate(elapsed);
+    int frames = 0;
+    timings_.time(FrameTimings::simulate, [&] { frames = simulate(elapsed); });
     meter_.add(elapsed, frames * open_->frameSeconds());
     attempt([&] { taker_.shown(*open_, paused_ ? elapsed : frames * open_->frameSeconds()); });
     draw();
@@ -182,6 +183,7 @@ void Viewer::run() {
     if (!paused_ && frames == 0 && !compare_.isRunning()) window_.waitEvents(pace_.secondsUntilDue());
   }
   taker_.abandonClip();
+  std::fputs(timings_.report().c_str(), stderr);
 }
 
 // --- input
@@ -462,13 +464,19 @@ void Viewer::draw() {
   attempt([&] { open_->update(); });
   open_->view = wanted;
   open_->frameFor(static_cast<int>(area.width), static_cast<int>(area.height));
-  open_->draw(static_cast<int>(area.width), static_cast<int>(area.height));
-  ui_.begin(window_.textScale());
-  drawControls();
-  ui_.draw();
-  window_.swap();
-  heedControls();
-  measure();
+  timings_.time(FrameTimings::picture,
+                [&] { open_->draw(static_cast<int>(area.width), static_cast<int>(area.height)); });
+  timings_.time(FrameTimings::controls, [&] {
+    ui_.begin(window_.textScale());
+    drawControls();
+    ui_.end();
+  });
+  timings_.time(FrameTimings::drawControls, [&] { ui_.draw(); });
+  timings_.time(FrameTimings::swap, [&] { window_.swap(); });
+  timings_.time(FrameTimings::after, [&] {
+    heedControls();
+    measure();
+  });
   if (const std::string now = viewerTitle(*open_, meter_, paused_); now != title_)
     window_.setTitle(title_ = now);
 }
@@ -490,7 +498,7 @@ void Viewer::drawControls() {
   drawMarks(hands_.marks(reach(), window_.cursor()));
   const bool roomForBoth = area.width > 66 * em();
   if (config_.showOverlay && (roomForBoth || !showKeys_))
-    drawFacts(viewerFacts(*open_, meter_, paused_, looksBack()));
+    drawFacts(viewerFacts(*open_, meter_, paused_, looksBack()), area);
   if (showsPanels()) drawPanels();
   asked_.timeline = drawTimeline({session().oldestFrame(), session().frame(), session().newestFrame(),
                                   open_->frameSeconds(), paused_, taker_.recordedSeconds()},

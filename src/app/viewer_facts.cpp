@@ -45,14 +45,14 @@ std::string gridSizes(const Cloth& cloth) {
 
 OverlayFacts::Row speedRow(const OpenScene& open, const SpeedMeter& meter) {
   const double factor = meter.realTimeFactor();
-  if (meter.framesPerSecond() == 0) return {"speed", "measuring"};
+  if (meter.framesPerSecond() == 0) return {"speed", "measuring", false, true};
   const bool slow = factor < 0.95;
   // OpenGL may be the CPU in disguise, and slower.
   const bool cpuMayBeFaster = slow && gl::currentContextInfo().software && open.backend() == "gpu";
   return {"speed",
           formatted(slow ? "%.2f" : "%.1f", factor) + "\u00d7 real time" +
               (cpuMayBeFaster ? ", B: try the CPU" : ""),
-          slow};
+          slow, true};
 }
 
 }  // namespace
@@ -62,7 +62,7 @@ const char* nameOf(Integrator integrator) { return integrator == Integrator::ver
 std::string viewerTitle(const OpenScene& open, const SpeedMeter& meter, bool paused) {
   const double rate = meter.framesPerSecond();
   return open.name() + " - " + open.backend() +
-         (paused     ? " - paused"
+         (paused     ? " - paused at frame " + std::to_string(open.session().frame())
           : rate > 0 ? formatted(" - %.0f fps", rate)
                      : "") +
          " - clothsim";
@@ -72,13 +72,14 @@ OverlayFacts viewerFacts(const OpenScene& open, const SpeedMeter& meter, bool pa
   const Simulation& simulation = open.session().simulation();
   OverlayFacts facts;
   facts.title = open.name();
-  facts.rows = {{"backend", backendText(simulation.solver())},
+  facts.rows = {{"backend", backendText(simulation.solver()), false, true},
                 {"cloth", gridSizes(simulation.cloth()) + " = " +
                               withCommas(simulation.cloth().particleCount()) + " particles"},
                 {"integrator", nameOf(open.scene().solver.integrator)},
                 {"time", formatted("%.2f s", simulation.time())}};
   if (paused)
-    facts.rows.push_back({"speed", looksBack ? "looking back (P goes on)" : "paused (N: one frame)", true});
+    facts.rows.push_back(
+        {"speed", looksBack ? "looking back (P goes on)" : "paused (N: one frame)", true, true});
   else
     facts.rows.push_back(speedRow(open, meter));
   if (meter.framesPerSecond() > 0 && !paused)

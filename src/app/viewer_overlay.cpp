@@ -1,6 +1,7 @@
 #include "app/viewer_overlay.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/ui_frame.h"
 #include "app/viewer_keys.h"
@@ -12,6 +13,9 @@ constexpr ImGuiWindowFlags overlayFlags =
     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_NoNav |
     ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
     ImGuiWindowFlags_NoFocusOnAppearing;
+
+constexpr float keyColumnWidth = 27;  // of the list of keys [em]
+constexpr float narrowPicture = 34;   // em
 
 // The name of a key on a small rounded rectangle, as on a keyboard.
 void drawKeyCap(std::string_view name) {
@@ -42,7 +46,10 @@ void drawKeyRows(std::size_t first, std::size_t last) {
 
 }  // namespace
 
-void drawFacts(const OverlayFacts& facts) {
+void drawFacts(const OverlayFacts& all, PictureArea area) {
+  OverlayFacts facts = all;
+  if (area.width < narrowPicture * em())
+    std::erase_if(facts.rows, [](const OverlayFacts::Row& row) { return !row.important; });
   // Measured before it is drawn: a window that finds its size by itself is a frame late.
   const auto widthOf = [](const std::string& words) { return ImGui::CalcTextSize(words.c_str()).x; };
   float labels = 0, values = 0;
@@ -72,19 +79,23 @@ void drawFacts(const OverlayFacts& facts) {
 }
 
 void drawKeyList(PictureArea area) {
-  // Over the panels, too, where the picture alone has no room for it.
-  const float whole = ImGui::GetIO().DisplaySize.x;
-  const bool twoColumns = whole > 52 * em();
-  const float needed = (twoColumns ? 54 : 27) * em();
-  const float middle = area.width > needed ? area.width / 2 : whole / 2;
+  // In one column or two, whichever may be larger: it is not to be scrolled. Over the panels, too, where the
+  // picture alone has no room for it.
+  const ImVec2 whole = ImGui::GetIO().DisplaySize;
+  const auto scaleFor = [&](float columns) {
+    const float lines = std::ceil(static_cast<float>(viewerKeys.size()) / columns);
+    return std::min(
+        {1.0f, whole.x / (keyColumnWidth * columns * em()), whole.y / ((1.7f * lines + 4) * em())});
+  };
+  const bool twoColumns = scaleFor(2) >= scaleFor(1);
+  const float scale = scaleFor(twoColumns ? 2 : 1),
+              width = keyColumnWidth * (twoColumns ? 2 : 1) * scale * em();
+  const float middle = area.width > width ? area.width / 2 : whole.x / 2;
   ImGui::SetNextWindowPos({middle, area.height / 2}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowFocus();
   ImGui::PushStyleColor(ImGuiCol_WindowBg, theme::sheet);
   ImGui::Begin("keys", nullptr, overlayFlags);
-  // A window too low for the list gets it smaller: it is not to be scrolled.
-  const float lines = static_cast<float>(viewerKeys.size()) / (twoColumns ? 2.0f : 1.0f);
-  const float height = (lines * 1.85f + 4) * em();
-  ImGui::SetWindowFontScale(std::clamp(ImGui::GetIO().DisplaySize.y / height, 0.6f, 1.0f));
+  ImGui::SetWindowFontScale(scale);
   titleText("Keys and mouse");
   const std::size_t half = twoColumns ? (viewerKeys.size() + 1) / 2 : viewerKeys.size();
   ImGui::BeginGroup();

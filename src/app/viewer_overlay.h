@@ -11,7 +11,8 @@ struct OverlayFacts {
   std::string title;  // of the scene
   struct Row {
     std::string label, value;
-    bool alert = false;  // drawn in the colour that asks for attention
+    bool alert = false;      // drawn in the colour that asks for attention
+    bool important = false;  // shown in a small picture, too
   };
   std::vector<Row> rows;
 };
@@ -21,7 +22,8 @@ struct PictureArea {
   float width = 0, height = 0;  // from the top left [pixels]
 };
 
-void drawFacts(const OverlayFacts& facts);
+// In a narrow picture only the rows that are `important`.
+void drawFacts(const OverlayFacts& facts, PictureArea area);
 void drawKeyList(PictureArea area);
 // At the bottom of the picture, `lift` pixels up.
 void drawNotice(const std::string& words, bool isError, PictureArea area, float lift);
