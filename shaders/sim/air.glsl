@@ -1,3 +1,5 @@
+#include "sim/hand.glsl"
+
 // Wind on triangles and the resistance of the air to particles.
 
 // A third of the force of the air on triangle (a, b, c): pressure along its normal, rho C_d / 2 A (u.n)|u.n| n, and lift
@@ -13,7 +15,15 @@ vec3 windForce(uint a, uint b, uint c) {
   precise float normalSquared = sumOfProducts(normal, normal);
   precise float inverseNormal = inverseSquareRoot(normalSquared);
   precise vec3 velocity = third * ((va + vb) + vc);
-  precise vec3 u = vec3(step.airVelocityX, step.airVelocityY, step.airVelocityZ) - velocity;
+  precise vec3 air = vec3(step.airVelocityX, step.airVelocityY, step.airVelocityZ);
+  float share = 0.0;
+  if (hasJet) {
+    precise vec3 middle = third * ((xa + xb) + xc);
+    share = jetShare(middle);
+    precise float jetSpeed = share * hand.jetSpeed;
+    air = air + jetSpeed * vec3(hand.directionX, hand.directionY, hand.directionZ);
+  }
+  precise vec3 u = air - velocity;
   precise float speedSquared = sumOfProducts(u, u);
   precise float inverseSpeed = inverseSquareRoot(speedSquared);
   precise float speed = speedSquared * inverseSpeed;
@@ -23,6 +33,7 @@ vec3 windForce(uint a, uint b, uint c) {
   precise float alongNormal = step.dragFactor * (across * acrossMagnitude) + step.liftFactor * (across * speed);
   precise float alongWind = step.liftFactor * ((across * through) * inverseSpeed);
   precise vec3 force = alongNormal * normal - alongWind * u;
+  if (hasJet && hand.jetAlone != 0u) force = share * force;
   return normalSquared < uintBitsToFloat(0x0d800000u) ? vec3(0.0) : force;  // 2^-100: the triangle has no area
 }
 
@@ -32,17 +43,18 @@ vec3 addWind(GridPoint p, vec3 force) {
   const uint w = step.columns;
   const bool left = p.column >= 1u, right = p.column + 1u < w;
   const bool upper = p.row >= 1u, lower = p.row + 1u < step.rows;
+  const uint lost = cutMaskOf(i) >> FIRST_CUT_TRIANGLE;
   precise vec3 f = force;
-  if (upper && left) f = f + windForce(i - w, i - 1u, i);
+  if (upper && left && isLeft(lost, 0u)) f = f + windForce(i - w, i - 1u, i);
   if (upper && right) {
-    f = f + windForce(i - w, i, i - w + 1u);
-    f = f + windForce(i - w + 1u, i, i + 1u);
+    if (isLeft(lost, 1u)) f = f + windForce(i - w, i, i - w + 1u);
+    if (isLeft(lost, 2u)) f = f + windForce(i - w + 1u, i, i + 1u);
   }
   if (lower && left) {
-    f = f + windForce(i - 1u, i + w - 1u, i);
-    f = f + windForce(i, i + w - 1u, i + w);
+    if (isLeft(lost, 3u)) f = f + windForce(i - 1u, i + w - 1u, i);
+    if (isLeft(lost, 4u)) f = f + windForce(i, i + w - 1u, i + w);
   }
-  if (lower && right) f = f + windForce(i, i + w, i + 1u);
+  if (lower && right && isLeft(lost, 5u)) f = f + windForce(i, i + w, i + 1u);
   return f;
 }
 

@@ -1,4 +1,5 @@
 // What every pass of the simulation sees: the parameters of the step, the state at its start and at its end.
+#include "shared/hand.h"
 #include "shared/step_params.h"
 
 layout(local_size_x = WORK_GROUP_COLUMNS, local_size_y = WORK_GROUP_ROWS) in;
@@ -20,6 +21,8 @@ layout(binding = PIN_STARTS_UNIT) uniform samplerBuffer pinStarts;
 layout(binding = PIN_MOTIONS_UNIT) uniform samplerBuffer pinMotionRows;
 layout(binding = DISTANCES_UNIT) uniform samplerBuffer distances;
 
+layout(binding = CUT_MASKS_UNIT) uniform usamplerBuffer cutMasks;
+
 vec4 positionAt(uint i) { return texelFetch(positions, int(i)); }
 vec3 velocityAt(uint i) { return texelFetch(velocities, int(i)).xyz; }
 
@@ -31,8 +34,15 @@ const bool hasColliders = colliderTypes != 0u;
 const bool hasCoulombFriction = HAS_COULOMB_FRICTION != 0;
 const bool hasMovingColliders = HAS_MOVING_COLLIDERS != 0;
 const bool hasMovingPins = HAS_MOVING_PINS != 0;
+const bool hasCuts = HAS_CUTS != 0;
+const bool hasHold = HAS_HOLD != 0;
+const bool hasJet = HAS_JET != 0;
 const bool hasRestLengthTable = HAS_REST_LENGTH_TABLE != 0;
 const uint enabledSlots = ENABLED_SLOTS;  // bit `slot` is set when its springs are enabled
+
+// Which of a particle's springs and triangles are gone (src/cloth/cuts.h).
+uint cutMaskOf(uint i) { return hasCuts ? texelFetch(cutMasks, int(i)).x : 0u; }
+bool isLeft(uint cutMask, uint bit) { return !hasCuts || (cutMask >> bit & 1u) == 0u; }
 
 // One invocation a grid point.
 struct GridPoint {

@@ -8,7 +8,7 @@
 void main() {
   GridPoint p = thisGridPoint();
   if (!p.exists) return;
-  Particle particle = integrateParticle(p.index, forces[p.index].xyz);
+  Particle particle = integrateParticle(p, forces[p.index].xyz);
   newPositions[p.index] = particle.position;
   newVelocities[p.index] = vec4(particle.velocity, 0.0);
   reportTrouble();

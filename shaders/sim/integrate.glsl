@@ -1,3 +1,5 @@
+#include "sim/hand.glsl"
+
 // x' = x + h v', v' = (1 - damping) v + h (g + w f); pinned particles rest or follow their path.
 struct Particle {
   vec4 position;  // w: inverse mass
@@ -26,13 +28,15 @@ Particle movePin(uint i, vec4 x) {
   return Particle(vec4(newX, x.w), storedV);
 }
 
-Particle integrateParticle(uint i, vec3 force) {
+Particle integrateParticle(GridPoint p, vec3 force) {
+  uint i = p.index;
   vec4 x = positionAt(i);
   vec3 v = velocityAt(i);
   if (x.w == 0.0 && hasMovingPins) return movePin(i, x);
   if (x.w == 0.0) return Particle(x, vec3(0.0));
   vec3 acceleration = accelerationOf(force, x.w);
   precise vec3 newV = step.velocityKept * v + step.timeStep * acceleration;
+  if (hasHold) newV = pulledVelocity(p, x.xyz, newV);
   precise vec3 newX = x.xyz + step.timeStep * newV;
   precise vec3 storedV = canonical(newV);
   watchVelocity(PASS_INTEGRATE, i, storedV);

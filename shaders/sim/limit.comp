@@ -21,6 +21,7 @@ void main() {
   uint row = color.firstRow + color.rowStep * (n.y / color.rowRun) + n.y % color.rowRun;
   if (column >= color.endColumn || row >= color.endRow) return;
   uint a = step.firstParticle + row * step.columns + column;
+  if (!isLeft(cutMaskOf(a), color.slot)) return;
   ivec2 offset = toOtherEnd[color.slot];
   uint b = uint(int(a) + offset.x + offset.y * int(step.columns));
 

@@ -41,21 +41,22 @@ vec3 gatherSprings(GridPoint p, vec3 x) {
   const uint w = step.columns;
   const bool left = p.column >= 1u, right = p.column + 1u < w;
   const bool upper = p.row >= 1u, lower = p.row + 1u < step.rows;
+  const uint cut = cutMaskOf(i);
   precise vec3 f = vec3(0.0);
 
-  if (enabled(TO_LEFT) && left) f = f + ownSpringTo(x, i - 1u, TO_LEFT, i);
-  if (enabled(TO_UPPER) && upper) f = f + ownSpringTo(x, i - w, TO_UPPER, i);
-  if (enabled(TO_UPPER_LEFT) && upper && left) f = f + ownSpringTo(x, i - w - 1u, TO_UPPER_LEFT, i);
-  if (enabled(TO_UPPER_RIGHT) && upper && right) f = f + ownSpringTo(x, i - w + 1u, TO_UPPER_RIGHT, i);
-  if (enabled(TO_SECOND_LEFT) && p.column >= 2u) f = f + ownSpringTo(x, i - 2u, TO_SECOND_LEFT, i);
-  if (enabled(TO_SECOND_UPPER) && p.row >= 2u) f = f + ownSpringTo(x, i - 2u * w, TO_SECOND_UPPER, i);
+  if (enabled(TO_LEFT) && left && isLeft(cut, 0u)) f = f + ownSpringTo(x, i - 1u, TO_LEFT, i);
+  if (enabled(TO_UPPER) && upper && isLeft(cut, 1u)) f = f + ownSpringTo(x, i - w, TO_UPPER, i);
+  if (enabled(TO_UPPER_LEFT) && upper && left && isLeft(cut, 2u)) f = f + ownSpringTo(x, i - w - 1u, TO_UPPER_LEFT, i);
+  if (enabled(TO_UPPER_RIGHT) && upper && right && isLeft(cut, 3u)) f = f + ownSpringTo(x, i - w + 1u, TO_UPPER_RIGHT, i);
+  if (enabled(TO_SECOND_LEFT) && p.column >= 2u && isLeft(cut, 4u)) f = f + ownSpringTo(x, i - 2u, TO_SECOND_LEFT, i);
+  if (enabled(TO_SECOND_UPPER) && p.row >= 2u && isLeft(cut, 5u)) f = f + ownSpringTo(x, i - 2u * w, TO_SECOND_UPPER, i);
 
-  if (enabled(TO_LEFT) && right) f = f + springTo(x, i + 1u, TO_LEFT, i + 1u);
-  if (enabled(TO_SECOND_LEFT) && p.column + 2u < w) f = f + springTo(x, i + 2u, TO_SECOND_LEFT, i + 2u);
-  if (enabled(TO_UPPER_RIGHT) && lower && left) f = f + springTo(x, i + w - 1u, TO_UPPER_RIGHT, i + w - 1u);
-  if (enabled(TO_UPPER) && lower) f = f + springTo(x, i + w, TO_UPPER, i + w);
-  if (enabled(TO_UPPER_LEFT) && lower && right) f = f + springTo(x, i + w + 1u, TO_UPPER_LEFT, i + w + 1u);
-  if (enabled(TO_SECOND_UPPER) && p.row + 2u < step.rows) f = f + springTo(x, i + 2u * w, TO_SECOND_UPPER, i + 2u * w);
+  if (enabled(TO_LEFT) && right && isLeft(cut, 6u)) f = f + springTo(x, i + 1u, TO_LEFT, i + 1u);
+  if (enabled(TO_SECOND_LEFT) && p.column + 2u < w && isLeft(cut, 7u)) f = f + springTo(x, i + 2u, TO_SECOND_LEFT, i + 2u);
+  if (enabled(TO_UPPER_RIGHT) && lower && left && isLeft(cut, 8u)) f = f + springTo(x, i + w - 1u, TO_UPPER_RIGHT, i + w - 1u);
+  if (enabled(TO_UPPER) && lower && isLeft(cut, 9u)) f = f + springTo(x, i + w, TO_UPPER, i + w);
+  if (enabled(TO_UPPER_LEFT) && lower && right && isLeft(cut, 10u)) f = f + springTo(x, i + w + 1u, TO_UPPER_LEFT, i + w + 1u);
+  if (enabled(TO_SECOND_UPPER) && p.row + 2u < step.rows && isLeft(cut, 11u)) f = f + springTo(x, i + 2u * w, TO_SECOND_UPPER, i + 2u * w);
   if (overlong) noteTrouble(PASS_FORCES, i, REASON_RUNAWAY_STRAIN);
   return f;
 }

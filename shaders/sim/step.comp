@@ -10,7 +10,7 @@ void main() {
   GridPoint p = thisGridPoint();
   if (!p.exists) return;
   vec3 force = gatherForces(p);
-  Particle particle = integrateParticle(p.index, force);
+  Particle particle = integrateParticle(p, force);
   if (COLLIDES_IN_STEP != 0) particle = collideParticle(p.index, particle);
   newPositions[p.index] = particle.position;
   newVelocities[p.index] = vec4(particle.velocity, 0.0);

@@ -57,8 +57,8 @@ void stopBlownUp(const Trouble& trouble, Simulation& simulation, const BlowUpCon
     const std::string stem = fs::path(context.scene.scene).stem().string() + "-frame" + frame + "-last-good";
     const fs::path path = freeName(context.outputFolder, stem, bytes);
     writeFileAtomically(path, bytes);
-    message += "\nThe last good state, that of frame " + frame + ", is saved: " + path.string() +
-               "\nTo go on from it: " + commandToGoOn(context, path.string());
+    message += "\nThe last good state, that of frame " + frame + ", is saved: " + path.string();
+    if (!context.replays) message += "\nTo go on from it: " + commandToGoOn(context, path.string());
   } catch (const Error& error) {
     message += "\nThe last good state, that of frame " + frame + ", could not be saved: " + error.what();
   }

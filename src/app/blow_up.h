@@ -18,6 +18,7 @@ struct BlowUpContext {
   std::string backend;
   int frame = 0, frames = 0;           // the one with the trouble, and how many were asked for
   std::filesystem::path outputFolder;  // "" for the current one
+  bool replays = false;                // scene.scene is a recording, which no command goes on with
 };
 // After simulation.checkFrame(): saves the state as <scene>-frame<N>-last-good.state in the folder, under a
 // free name where another file has that one. @throws SimulationError always

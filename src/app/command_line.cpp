@@ -21,7 +21,7 @@ GridSize parseSize(const std::string& text, const char* flag) {
 
 // The flags as they arrive; each command takes the ones it declared.
 struct Arguments {
-  std::string scene = "pinned2", backend = "gpu", from, shader, size = "1280x720", key;
+  std::string scene = "pinned2", backend = "gpu", from, shader, size = "1280x720", key, replay;
   std::vector<std::string> settings, saves, outs, resolutions, backends;
   int frames = 0, every = 1, around = 64, down = 48;
   double fps = 30, seconds = 1, jitter = 0;
@@ -35,7 +35,7 @@ struct Arguments {
   }
 };
 
-void addSceneFlags(CLI::App& app, Arguments& a, bool sceneRequired) {
+CLI::Option* addSceneFlags(CLI::App& app, Arguments& a, bool sceneRequired) {
   CLI::Option* file = app.add_option("-f,--scene", a.scene,
                                      "a bundled scene's name, or a path (with a '/' or ending in .json)");
   if (sceneRequired) file->required();
@@ -43,6 +43,7 @@ void addSceneFlags(CLI::App& app, Arguments& a, bool sceneRequired) {
                  "set any key of the scene: --set cloth.damping=0.5 (see `clothsim describe`)")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
+  return file;
 }
 
 void addResolution(CLI::App& app, Arguments& a) {
@@ -52,16 +53,17 @@ void addResolution(CLI::App& app, Arguments& a) {
       ->expected(1);
 }
 
-void addBackend(CLI::App& app, Arguments& a) {
-  app.add_option("--backend", a.backend, "gpu (compute shaders) or cpu: the same cloth to the bit")
+CLI::Option* addBackend(CLI::App& app, Arguments& a) {
+  return app.add_option("--backend", a.backend, "gpu (compute shaders) or cpu: the same cloth to the bit")
       ->check(CLI::IsMember({"gpu", "cpu"}))
       ->capture_default_str();
 }
 
-void addFrames(CLI::App& app, Arguments& a) {
-  app.add_option("--frames", a.frames,
-                 "how many frames to simulate (solver.frames_per_sec of them make a second)")
-      ->required()
+CLI::Option* addFrames(CLI::App& app, Arguments& a, bool required = true) {
+  return app
+      .add_option("--frames", a.frames,
+                  "how many frames to simulate (solver.frames_per_sec of them make a second)")
+      ->required(required)
       ->check(CLI::Range(0, 10'000'000));
 }
 
@@ -83,33 +85,46 @@ void addCheckCrossings(CLI::App& app, Arguments& a) {
 
 using Action = std::function<int()>;
 
-void declareSimulationCommands(CLI::App& app, Arguments& a, Action& action) {
+void declareRun(CLI::App& app, Arguments& a, Action& action) {
   CLI::App* run =
       app.add_subcommand("run", "Simulate without a window, save states, and sum the run up in numbers");
-  addSceneFlags(*run, a, true);
-  addFrames(*run, a);
+  CLI::Option* scene = addSceneFlags(*run, a, false);
+  CLI::Option* frames = addFrames(*run, a, false);
   addResolution(*run, a);
-  addBackend(*run, a);
+  CLI::Option* backend = addBackend(*run, a);
   run->add_option(
          "--save", a.saves,
          "write the state: .csv .ply .obj, or .state (exact); with %04d in the name every K-th frame")
       ->type_name("FILE")
       ->allow_extra_args(false);
   run->add_option("--every", a.every, "K for numbered files")->check(CLI::Range(1, 1'000'000));
-  run->add_option("--from", a.from, "begin with a saved .state")->type_name("STATE");
-  run->add_option("--jitter", a.jitter,
-                  "begin with free particles moved at random, by up to so many metres (0)")
-      ->check(CLI::Range(0.0, 1.0));
+  CLI::Option* from = run->add_option("--from", a.from, "begin with a saved .state")->type_name("STATE");
+  CLI::Option* jitter =
+      run->add_option("--jitter", a.jitter,
+                      "begin with free particles moved at random, by up to so many metres (0)")
+          ->check(CLI::Range(0.0, 1.0));
   run->add_option("--seed", a.seed, "of --jitter (1)");
+  CLI::Option* replay =
+      run->add_option("--replay", a.replay, "do again what a recording of the viewer holds, instead of -f")
+          ->type_name("FILE");
+  for (CLI::Option* other : {scene, from, jitter, run->get_option("--set"), run->get_option("--resolution")})
+    replay->excludes(other);
   addCheckCrossings(*run, a);
   addJson(*run, a);
   run->footer("Example: clothsim run -f sphere --frames 300 --save drape.obj --json");
-  run->callback([&] {
-    action = [&] {
-      return runCommand({a.sceneOptions(), a.frames, a.backend, a.saves, a.every, a.from, a.json,
-                         a.checkCrossings, a.jitter, a.seed});
-    };
+  run->callback([&a, &action, scene, frames, backend, replay] {
+    if (replay->count() == 0 && scene->count() == 0) throw CLI::RequiredError("-f,--scene or --replay");
+    if (replay->count() == 0 && frames->count() == 0) throw CLI::RequiredError("--frames");
+    RunOptions options{a.sceneOptions(), {},       {},     a.saves, a.every, a.from, a.json,
+                       a.checkCrossings, a.jitter, a.seed, a.replay};
+    if (frames->count() > 0) options.frames = a.frames;
+    if (backend->count() > 0) options.backend = a.backend;
+    action = [options] { return runCommand(options); };
   });
+}
+
+void declareSimulationCommands(CLI::App& app, Arguments& a, Action& action) {
+  declareRun(app, a, action);
 
   CLI::App* compare =
       app.add_subcommand("compare", "Run both backends side by side; exit code 0 when every bit agrees");

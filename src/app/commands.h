@@ -29,15 +29,16 @@ struct SceneOptions {
 
 struct RunOptions {
   SceneOptions scene;
-  int frames = 0;
-  std::string backend = "gpu";
-  std::vector<std::string> saves;  // files by extension; numbered ones take every `every`-th frame
+  std::optional<int> frames;           // not given: as many as the recording has
+  std::optional<std::string> backend;  // not given: gpu, or those of the recording
+  std::vector<std::string> saves;      // files by extension; numbered ones take every `every`-th frame
   int every = 1;
   std::string from;  // a .state file to begin with
   bool json = false;
   bool checkCrossings = false;
   double jitter = 0;       // start with every free particle moved by up to so much along each axis [m]
   std::uint32_t seed = 1;  // of the jitter
+  std::string replay;      // a recording to do again, instead of a scene
 };
 int runCommand(const RunOptions& options);
 

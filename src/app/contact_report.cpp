@@ -11,6 +11,7 @@ void ContactReport::add(const Cloth& cloth, const Scene& scene, const State& sta
   last_ = measureContacts(cloth, scene, state, stretch);
   if (!started_) overlapsAtStart_ = last_.overlaps;
   started_ = true;
+  isCut_ = isCut_ || !state.cuts.empty();
   sound_ = sound_ && last_.overlaps == 0;
   stretch_ = std::max(stretch_, stretch);
   worst_.contacts = std::max(worst_.contacts, last_.contacts);
@@ -30,6 +31,7 @@ void ContactReport::write(nlohmann::ordered_json& json, const Cloth& cloth, cons
     return;
   }
   json["contact_sound"] = sound_ && counts.fastSteps == 0;
+  if (isCut_) json["contact_sound"] = nullptr;
   nlohmann::ordered_json& contact = json["contact"];
   contact["distance"] = contactDistance(scene, cloth);
   contact["needed_distance"] = worst_.neededDistance;

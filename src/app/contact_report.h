@@ -17,7 +17,8 @@ class ContactReport {
   void add(const Cloth& cloth, const Scene& scene, const State& state, double stretch);
 
   // self_contacts of the last frame; contact_sound, whether no two triangles of strangers can have crossed at
-  // any frame end; and the numbers behind that under `contact`.
+  // any frame end (null where that is not known: without self-collision, and once cloth is cut); and the
+  // numbers behind that under `contact`.
   void write(nlohmann::ordered_json& json, const Cloth& cloth, const Scene& scene,
              const ContactCounts& counts) const;
 
@@ -27,7 +28,7 @@ class ContactReport {
  private:
   ContactMeasures last_, worst_;
   double stretch_ = 0;
-  bool sound_ = true, started_ = false;
+  bool sound_ = true, started_ = false, isCut_ = false;
   std::uint64_t overlapsAtStart_ = 0;
 };
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -9,6 +10,7 @@
 #include "app/commands.h"
 #include "app/contact_report.h"
 #include "app/crossings_json.h"
+#include "app/replay.h"
 #include "app/simulation.h"
 #include "core/error.h"
 #include "core/files.h"
@@ -31,8 +33,8 @@ void checkSaves(const RunOptions& options) {
   for (const std::string& save : options.saves) checkWritable(save);
 }
 
-void saveFrame(const RunOptions& options, const Simulation& simulation, const State& state, int frame) {
-  const bool last = frame == options.frames;
+void saveFrame(const RunOptions& options, const Simulation& simulation, const State& state, int frame,
+               bool last) {
   for (const std::string& save : options.saves) {
     if (hasFrameNumber(save)) {
       if (frame % options.every == 0) saveState(state, simulation.cloth(), numberedName(save, frame));
@@ -60,38 +62,130 @@ void reportStartOverlaps(std::uint32_t inColliders, std::uint64_t pairs) {
               << " nearer than self-collision keeps them; the steps part them\n";
 }
 
+// What is run: a scene from its start or a saved state, or a recording.
+class Course {
+ public:
+  explicit Course(const RunOptions& options) : isReplay_(!options.replay.empty()) {
+    if (isReplay_) {
+      Recording recording = Recording::load(options.replay);
+      frames_ = options.frames.value_or(recording.frames);
+      if (usesGpu(recording, options)) context_.emplace();
+      replay_.emplace(std::move(recording), options.backend);
+    } else {
+      const Scene scene = loadScene(options.scene);
+      const std::string backend = options.backend.value_or("gpu");
+      frames_ = options.frames.value_or(0);
+      if (backend == "gpu") context_.emplace();
+      plain_.emplace(scene, backend);
+      if (!options.from.empty()) plain_->solver().setState(loadState(options.from, plain_->cloth()));
+      if (options.jitter > 0) {
+        State jittered = plain_->solver().state();
+        jitter(jittered, options.jitter, options.seed);
+        plain_->solver().setState(jittered);
+      }
+    }
+  }
+
+  [[nodiscard]] int frames() const { return frames_; }
+  [[nodiscard]] bool isReplay() const { return isReplay_; }
+  [[nodiscard]] std::uint64_t steps() const { return steps_; }
+  [[nodiscard]] double simulatedSeconds() const { return simulatedSeconds_; }
+  // Another one after an edit that rebuilds the cloth.
+  [[nodiscard]] std::uint64_t clothGeneration() {
+    return isReplay_ ? replay_->session().clothGeneration() : 0;
+  }
+  [[nodiscard]] Simulation& simulation() { return isReplay_ ? replay_->session().simulation() : *plain_; }
+  [[nodiscard]] const Scene& scene() { return simulation().scene(); }
+
+  void stepFrame() {
+    const SolverSettings& settings = scene().solver;
+    steps_ += static_cast<std::uint64_t>(settings.simulationSteps);
+    simulatedSeconds_ += 1 / settings.framesPerSec;
+    if (isReplay_)
+      replayTrouble_ = replay_->stepFrame();
+    else
+      plain_->stepFrame();
+    simulation().finish();
+  }
+  // In the frame just done.
+  [[nodiscard]] std::optional<Trouble> checkFrame() {
+    return isReplay_ ? replayTrouble_ : plain_->checkFrame();
+  }
+
+ private:
+  static bool usesGpu(const Recording& recording, const RunOptions& options) {
+    if (options.backend) return *options.backend == "gpu";
+    return recording.backend == "gpu" ||
+           std::any_of(recording.events.begin(), recording.events.end(), [](const Recording::Event& event) {
+             const auto* to = std::get_if<SwitchBackend>(&event.action);
+             return to != nullptr && to->backend == "gpu";
+           });
+  }
+
+  bool isReplay_;
+  int frames_ = 0;
+  std::uint64_t steps_ = 0;
+  double simulatedSeconds_ = 0;
+  std::optional<gl::HeadlessContext> context_;
+  std::optional<Simulation> plain_;
+  std::optional<Replay> replay_;
+  std::optional<Trouble> replayTrouble_;
+};
+
+// What is gathered frame by frame.
+struct Tally {
+  double seconds = 0, peakStrain = -1, maxPenetration = 0;
+  std::uint32_t startInColliders = 0;  // particles
+  State state;                         // at the end of the last frame
+  Measures measures;
+  ContactReport contacts;
+
+  void add(Course& course) {
+    Simulation& simulation = course.simulation();
+    state = simulation.solver().state();
+    measures = measure(simulation.cloth(), course.scene(), state);
+    contacts.add(simulation.cloth(), course.scene(), state, measures.maxStrain);
+    peakStrain = std::max(peakStrain, measures.maxStrain);
+    maxPenetration = std::max(maxPenetration, measures.maxPenetration);
+  }
+};
+
 // What a run is summed up in; names as in DESIGN.md section 5.
-nlohmann::ordered_json summary(const RunOptions& options, const Scene& scene, Simulation& simulation,
-                               double seconds, const State& last, const Measures& atEnd, double peakStrain,
-                               double maxPenetration, std::uint32_t startInColliders,
-                               const ContactReport& contacts) {
-  const double steps = static_cast<double>(options.frames) * scene.solver.simulationSteps;
+nlohmann::ordered_json summary(const RunOptions& options, Course& course, const Tally& tally) {
+  Simulation& simulation = course.simulation();
+  const Scene& scene = course.scene();
+  const State& last = tally.state;
+  const auto steps = static_cast<double>(course.steps());
   const double particles = simulation.cloth().particleCount();
   nlohmann::ordered_json json;
-  json["scene"] = options.scene.scene;
+  if (course.isReplay())
+    json["replay"] = options.replay;
+  else
+    json["scene"] = options.scene.scene;
   json["backend"] = simulation.solver().backend();
   json["device"] = simulation.solver().device();
   json["particles"] = simulation.cloth().particleCount();
-  json["springs"] = simulation.cloth().springCount();
-  json["triangles"] = simulation.cloth().triangleCount();
-  json["frames"] = options.frames;
-  json["steps"] = static_cast<std::uint64_t>(steps);
+  json["springs"] = remainingSpringCount(simulation.cloth(), last.cuts);
+  json["triangles"] = remainingTriangles(simulation.cloth(), last.cuts).size();
+  json["frames"] = course.frames();
+  json["steps"] = course.steps();
   json["dt"] = stepLength(scene.solver);
-  json["sim_seconds"] = steps * stepLength(scene.solver);
-  json["seconds"] = seconds;
-  json["particle_steps_per_second"] = seconds > 0 ? particles * steps / seconds : 0;
+  json["sim_seconds"] = course.isReplay() ? course.simulatedSeconds() : steps * stepLength(scene.solver);
+  json["seconds"] = tally.seconds;
+  json["particle_steps_per_second"] = tally.seconds > 0 ? particles * steps / tally.seconds : 0;
   json["state_hash"] = hashText(stateHash(last));
-  json["max_strain"] = atEnd.maxStrain;
-  json["peak_strain"] = peakStrain;
-  json["min_y"] = atEnd.minY;
-  json["centroid"] = {atEnd.centroid.x, atEnd.centroid.y, atEnd.centroid.z};
+  json["max_strain"] = tally.measures.maxStrain;
+  json["peak_strain"] = tally.peakStrain;
+  json["min_y"] = tally.measures.minY;
+  const Vec3d& centroid = tally.measures.centroid;
+  json["centroid"] = {centroid.x, centroid.y, centroid.z};
   json["kinetic_energy"] =
       measure(simulation.cloth(), scene, synchronized(simulation.cloth(), scene, last)).kineticEnergy;
-  json["max_penetration"] = maxPenetration;
-  json["start_overlaps"] = {{"colliders", startInColliders},        // particles,
-                            {"self", contacts.overlapsAtStart()}};  // pairs
+  json["max_penetration"] = tally.maxPenetration;
+  json["start_overlaps"] = {{"colliders", tally.startInColliders},        // particles,
+                            {"self", tally.contacts.overlapsAtStart()}};  // pairs
   json["finite"] = true;
-  contacts.write(json, simulation.cloth(), scene, simulation.solver().contactCounts());
+  tally.contacts.write(json, simulation.cloth(), scene, simulation.contactCounts());
   return json;
 }
 
@@ -105,54 +199,43 @@ void printForPeople(const nlohmann::ordered_json& json) {
 
 int runCommand(const RunOptions& options) {
   checkSaves(options);
-  const Scene scene = loadScene(options.scene);
-  std::optional<gl::HeadlessContext> context;
-  if (options.backend == "gpu") context.emplace();
-  Simulation simulation(scene, options.backend);
-  if (!options.from.empty()) simulation.solver().setState(loadState(options.from, simulation.cloth()));
-  if (options.jitter > 0) {
-    State jittered = simulation.solver().state();
-    jitter(jittered, options.jitter, options.seed);
-    simulation.solver().setState(jittered);
-  }
-
-  State state = simulation.solver().state();
-  Measures measures = measure(simulation.cloth(), scene, state);
-  checkStart(options, measures);
-  const std::uint32_t startInColliders = particlesInColliders(simulation.cloth(), scene, state);
-  double seconds = 0, peakStrain = measures.maxStrain, maxPenetration = measures.maxPenetration;
-  ContactReport contacts;
-  contacts.add(simulation.cloth(), scene, state, measures.maxStrain);
-  reportStartOverlaps(startInColliders, contacts.overlapsAtStart());
+  Course course(options);
+  const int frames = course.frames();
+  Tally tally;
+  tally.add(course);
+  checkStart(options, tally.measures);
+  tally.startInColliders = particlesInColliders(course.simulation().cloth(), course.scene(), tally.state);
+  reportStartOverlaps(tally.startInColliders, tally.contacts.overlapsAtStart());
   std::optional<CrossingCounter> counter;
-  if (options.checkCrossings) counter.emplace(simulation.cloth());
+  std::uint64_t countedCloth = course.clothGeneration();
+  if (options.checkCrossings) counter.emplace(course.simulation().cloth());
   CrossingSummary crossings;
-  if (counter) crossings.add(0, counter->count(state));
-  saveFrame(options, simulation, state, 0);
-  Progress progress("simulating", options.frames);
-  for (int frame = 1; frame <= options.frames; ++frame) {
+  if (counter) crossings.add(0, counter->count(tally.state));
+  saveFrame(options, course.simulation(), tally.state, 0, frames == 0);
+  Progress progress("simulating", frames);
+  for (int frame = 1; frame <= frames; ++frame) {
     stopIfInterrupted();
     const Clock::time_point start = Clock::now();
-    simulation.stepFrame();
-    simulation.finish();
-    seconds += std::chrono::duration<double>(Clock::now() - start).count();
-    if (const std::optional<Trouble> trouble = simulation.checkFrame())
-      stopBlownUp(*trouble, simulation,
-                  {options.scene, options.backend, frame, options.frames,
-                   options.saves.empty() ? "" : std::filesystem::path(options.saves.front()).parent_path()});
-    state = simulation.solver().state();
-    measures = measure(simulation.cloth(), scene, state);
-    contacts.add(simulation.cloth(), scene, state, measures.maxStrain);
-    peakStrain = std::max(peakStrain, measures.maxStrain);
-    maxPenetration = std::max(maxPenetration, measures.maxPenetration);
-    if (counter) crossings.add(frame, counter->count(state));
-    saveFrame(options, simulation, state, frame);
+    course.stepFrame();
+    tally.seconds += std::chrono::duration<double>(Clock::now() - start).count();
+    if (const std::optional<Trouble> trouble = course.checkFrame()) {
+      SceneOptions scene = options.scene;
+      if (course.isReplay()) scene.scene = options.replay;
+      stopBlownUp(*trouble, course.simulation(),
+                  {scene, course.simulation().solver().backend(), frame, frames,
+                   options.saves.empty() ? "" : std::filesystem::path(options.saves.front()).parent_path(),
+                   course.isReplay()});
+    }
+    tally.add(course);
+    if (counter && std::exchange(countedCloth, course.clothGeneration()) != course.clothGeneration())
+      counter.emplace(course.simulation().cloth());
+    if (counter) crossings.add(frame, counter->count(tally.state));
+    saveFrame(options, course.simulation(), tally.state, frame, frame == frames);
     progress.update(frame);
   }
   progress.finish();
 
-  nlohmann::ordered_json json = summary(options, scene, simulation, seconds, state, measures, peakStrain,
-                                        maxPenetration, startInColliders, contacts);
+  nlohmann::ordered_json json = summary(options, course, tally);
   if (counter) json["crossings"] = toJson(crossings);
   if (options.json)
     std::cout << json.dump(2) << '\n';

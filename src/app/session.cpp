@@ -1,111 +1,239 @@
 #include "app/session.h"
 
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
+#include "app/action_checks.h"
+#include "app/carry_over.h"
+#include "scene/moved_collider.h"
+
 namespace clothsim {
-namespace {
 
-// Everything but what the solvers take live.
-bool needsRebuild(const Scene& before, const Scene& after) {
-  if (before.cloths.size() != after.cloths.size()) return true;
-  for (std::size_t i = 0; i < before.cloths.size(); ++i) {
-    ClothSettings cloth = before.cloths[i];
-    cloth.damping = after.cloths[i].damping;
-    cloth.pinMotion = after.cloths[i].pinMotion;
-    if (cloth != after.cloths[i]) return true;
-  }
-  return false;
-}
-
-template <class... Calls>
-struct Overloaded : Calls... {
-  using Calls::operator()...;
-};
-
-}  // namespace
-
-Session::Session(const Scene& scene, const std::string& backend, std::size_t) : simulation_(scene, backend) {
+Session::Session(const Scene& scene, const std::string& backend, std::size_t snapshotBudget)
+    : simulation_(scene, backend), ring_(snapshotBudget) {
   recording_.scene = scene;
   recording_.backend = backend;
+  now_.scene = std::make_shared<const Scene>(scene);
+  simulation_.solver().convertVelocities();  // now, and not whenever somebody happens to look at the state
 }
-
-const Cuts& Session::cuts() const {
-  static const Cuts none;
-  return none;
-}
-bool Session::isHolding() const { return false; }
-bool Session::isBlowing() const { return false; }
-
-void Session::record(const Action& action) { recording_.events.push_back({step_, action}); }
 
 void Session::act(const Action& action, bool continues) {
-  apply(action, continues);
+  checkAction(action, simulation_.cloth(), simulation_.scene());
+  const std::shared_ptr<const Scene> before = now_.scene;
+  if (!std::visit([this](const auto& now) { return apply(now); }, action)) return;
+  simulation_.touch();
+  if (std::holds_alternative<EditScene>(action)) {
+    if (!continues || now_.undo.empty()) now_.undo.push_back(before);
+    now_.redo.clear();
+  }
   record(action);
 }
 
-void Session::apply(const Action& action, bool continues) {
-  std::visit(Overloaded{[&](const EditScene& edit_) {
-                          const Scene before = simulation_.scene();
-                          edit(edit_.scene);
-                          if (!continues || undo_.empty()) undo_.push_back(before);
-                          redo_.clear();
-                        },
-                        [&](const SwitchBackend& to) { simulation_.switchBackend(to.backend); },
-                        [&](const Restart&) { simulation_.restart(); },
-                        [&](const SetPin& pin) {
-                          simulation_.solver().setPin(pin.particle, pin.pinned);
-                          simulation_.touch();
-                        },
-                        [](const auto&) { /* not yet */ }},
-             action);
+// What is done while looking back makes a new future.
+void Session::record(const Action& action) {
+  forgetLater();
+  recording_.events.push_back({now_.step, action});
 }
 
-void Session::edit(const Scene& scene) {
-  if (needsRebuild(simulation_.scene(), scene)) {
-    simulation_.rebuild(scene);
-    ++clothGeneration_;
-  } else {
+bool Session::apply(const EditScene& edit) {
+  changeScene(edit.scene);
+  return true;
+}
+
+bool Session::apply(const Grab& grab) {
+  Solver& solver = simulation_.solver();
+  now_.hand.hold =
+      takeHold(simulation_.cloth(), grab.particle, grab.strength, grab.radius,
+               [&](std::uint32_t first, std::uint32_t count) { return solver.positions(first, count); });
+  apply(MoveHand{grab.target});
+  return true;
+}
+
+bool Session::apply(const MoveHand& move) {
+  if (!now_.hand.hold) return false;
+  moveTo(*now_.hand.hold, move.target, simulation_.solver().stepIndex(),
+         simulation_.scene().solver.simulationSteps);
+  simulation_.solver().setHand(now_.hand);
+  return true;
+}
+
+bool Session::apply(const Release&) {
+  if (!now_.hand.hold) return false;
+  now_.hand.hold.reset();
+  simulation_.solver().setHand(now_.hand);
+  return true;
+}
+
+bool Session::apply(const SetPin& pin) {
+  simulation_.solver().setPin(pin.particle, pin.pinned);
+  return true;
+}
+
+bool Session::apply(const CutStroke& stroke) {
+  Cuts cuts = simulation_.solver().cuts();
+  if (!cutAlong(cuts, simulation_.cloth(), stroke.grid, stroke.from, stroke.to)) return false;
+  simulation_.solver().setCuts(cuts);
+  return true;
+}
+
+bool Session::apply(const Blow& blow) {
+  const bool blows = blow.speed != 0;
+  if (!blows && !now_.hand.jet) return false;
+  now_.hand.jet.reset();
+  if (blows) now_.hand.jet = Jet{blow.origin, blow.direction, blow.speed, blow.radius};
+  simulation_.solver().setHand(now_.hand);
+  return true;
+}
+
+bool Session::apply(const MoveCollider& move) {
+  std::erase_if(now_.colliderMoves,
+                [&](const MoveCollider& other) { return other.collider == move.collider; });
+  now_.colliderMoves.push_back(move);
+  return true;
+}
+
+bool Session::apply(const SwitchBackend& to) {
+  simulation_.switchBackend(to.backend);
+  simulation_.solver().setHand(now_.hand);
+  return true;
+}
+
+bool Session::apply(const Restart&) {
+  now_.hand = {};
+  now_.colliderMoves.clear();
+  simulation_.solver().setHand(now_.hand);
+  simulation_.restart();
+  simulation_.solver().convertVelocities();
+  return true;
+}
+
+void Session::changeScene(const Scene& scene) {
+  if (needsRebuild(simulation_.scene(), scene))
+    rebuild(scene);
+  else
     simulation_.configure(scene);
+  simulation_.solver().convertVelocities();
+  // A move may have lost its collider.
+  std::erase_if(now_.colliderMoves,
+                [&](const MoveCollider& move) { return move.collider >= scene.colliders.size(); });
+  now_.scene = std::make_shared<const Scene>(scene);
+}
+
+void Session::rebuild(const Scene& scene) {
+  const Cloth before = simulation_.cloth();
+  const State state = simulation_.solver().state();
+  simulation_.rebuild(scene);
+  ++clothGeneration_;
+  Solver& solver = simulation_.solver();
+  if (haveSameLattice(before, simulation_.cloth())) {
+    solver.setState(carriedOver(state, before, simulation_.cloth()));
+    solver.setHand(now_.hand);
+  } else {
+    now_.hand = {};
+    for (const SetPin& pin : pinsByHand(state, before, simulation_.cloth()))
+      solver.setPin(pin.particle, pin.pinned);
   }
+}
+
+void Session::undo() { goBetween(now_.undo, now_.redo); }
+void Session::redo() { goBetween(now_.redo, now_.undo); }
+
+void Session::goBetween(SceneStack& from, SceneStack& to) {
+  if (from.empty()) return;
+  const std::shared_ptr<const Scene> before = now_.scene;
+  changeScene(*from.back());
+  record(EditScene{*now_.scene});
+  from.pop_back();
+  to.push_back(before);
+  simulation_.touch();
 }
 
 std::optional<Trouble> Session::stepFrames(int frames) {
-  for (int i = 0; i < frames; ++i) {
-    simulation_.stepFrame();
-    if (const std::optional<Trouble> trouble = simulation_.checkFrame()) return trouble;
-    ++frame_;
-    step_ += static_cast<std::uint64_t>(simulation_.scene().solver.simulationSteps);
-    recording_.frames = frame_;
-  }
+  if (frames > 0) forgetLater();
+  for (int i = 0; i < frames; ++i)
+    if (const std::optional<Trouble> trouble = stepFrame()) return trouble;
   return std::nullopt;
 }
 
-void Session::undo() {
-  if (undo_.empty()) return;
-  const Scene before = simulation_.scene(), scene = std::move(undo_.back());
-  undo_.pop_back();
-  edit(scene);
-  record(EditScene{scene});
-  redo_.push_back(before);
+std::optional<Trouble> Session::stepFrame() {
+  ring_.put(now_, simulation_.solver());
+  startColliderMoves();
+  const int steps = simulation_.scene().solver.simulationSteps;
+  simulation_.solver().step(steps);
+  if (const std::optional<Trouble> trouble = simulation_.solver().trouble()) {
+    goTo(now_.number);
+    if (isHolding()) act(Release{});
+    if (isBlowing()) act(Blow{});
+    return trouble;
+  }
+  finishColliderMoves();
+  simulation_.touch();
+  now_.step += static_cast<std::uint64_t>(steps);
+  recording_.frames = ++now_.number;
+  return std::nullopt;
 }
 
-void Session::redo() {
-  if (redo_.empty()) return;
-  const Scene before = simulation_.scene(), scene = std::move(redo_.back());
-  redo_.pop_back();
-  edit(scene);
-  record(EditScene{scene});
-  undo_.push_back(before);
+void Session::startColliderMoves() {
+  if (now_.colliderMoves.empty()) return;
+  Scene scene = *now_.scene;
+  const double frame = 1 / scene.solver.framesPerSec, start = simulation_.time();
+  for (const MoveCollider& move : now_.colliderMoves)
+    scene = withColliderOnItsWay(std::move(scene), move.collider, move.position, start, start + frame);
+  simulation_.configure(scene);
 }
 
-int Session::oldestFrame() const { return frame_; }
-int Session::newestFrame() const { return frame_; }
+void Session::finishColliderMoves() {
+  if (now_.colliderMoves.empty()) return;
+  const double time = simulation_.time();
+  const auto moved = [&](const Scene& scene) {
+    Scene result = scene;
+    for (const MoveCollider& move : now_.colliderMoves)
+      if (move.collider < scene.colliders.size())
+        result = withColliderAt(std::move(result), move.collider, move.position, time);
+    return std::make_shared<const Scene>(std::move(result));
+  };
+  now_.scene = moved(*now_.scene);
+  for (SceneStack* stack : {&now_.undo, &now_.redo})
+    for (std::shared_ptr<const Scene>& scene : *stack) scene = moved(*scene);
+  simulation_.configure(*now_.scene);
+  now_.colliderMoves.clear();
+}
+
+int Session::oldestFrame() const {
+  return ring_.isEmpty() ? now_.number : std::min(ring_.oldest(), now_.number);
+}
+int Session::newestFrame() const {
+  return ring_.isEmpty() ? now_.number : std::max(ring_.newest(), now_.number);
+}
+
+void Session::forgetLater() {
+  if (now_.number == newestFrame()) return;
+  ring_.forgetAfter(now_.number);
+  std::erase_if(recording_.events, [&](const Recording::Event& event) { return event.step > now_.step; });
+  recording_.frames = now_.number;
+}
+
 void Session::seek(int frame) {
-  assert(frame == frame_ && "not yet");
-  (void)frame;
+  assert(frame >= oldestFrame() && frame <= newestFrame() && "only frames that are remembered");
+  if (frame == now_.number) return;
+  ring_.put(now_, simulation_.solver());
+  goTo(std::clamp(frame, oldestFrame(), newestFrame()));
 }
-std::size_t Session::snapshotBytes() const { return 0; }
-void Session::setSnapshotBudget(std::size_t) {}
+
+void Session::goTo(int frame) {
+  const FrameRing::Entry& entry = ring_.at(frame);
+  const Scene& scene = *entry.frame.scene;
+  if (needsRebuild(simulation_.scene(), scene)) {
+    simulation_.rebuild(scene);
+    ++clothGeneration_;
+  } else if (scene != simulation_.scene()) {
+    simulation_.configure(scene);
+  }
+  simulation_.solver().restore(*entry.snapshot);
+  simulation_.solver().setHand(entry.frame.hand);
+  simulation_.touch();
+  now_ = entry.frame;
+}
 
 }  // namespace clothsim

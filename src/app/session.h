@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "app/actions.h"
+#include "app/frame_ring.h"
 #include "app/recording.h"
 #include "app/simulation.h"
 #include "solver/trouble.h"
@@ -25,55 +25,74 @@ class Session {
   // To look at, draw and measure. Whoever steps or changes it past the session spoils the recording.
   [[nodiscard]] Simulation& simulation() { return simulation_; }
   [[nodiscard]] const Simulation& simulation() const { return simulation_; }
-  [[nodiscard]] const Cuts& cuts() const;
-  [[nodiscard]] bool isHolding() const;  // between Grab and Release
-  [[nodiscard]] bool isBlowing() const;
+  [[nodiscard]] const Cuts& cuts() const { return simulation_.solver().cuts(); }
+  [[nodiscard]] bool isHolding() const { return now_.hand.hold.has_value(); }  // between Grab and Release
+  [[nodiscard]] bool isBlowing() const { return now_.hand.jet.has_value(); }
   // Grows whenever simulation().cloth() is another one: by an edit of a field that rebuilds, or seek() across
   // one. Whatever was made of the old cloth (a renderer) is to be made anew.
   [[nodiscard]] std::uint64_t clothGeneration() const { return clothGeneration_; }
 
-  // Acts at once, and goes into the recording. An EditScene that `continues` the one before it (a slider
-  // being dragged) is undone together with it. @throws SceneError, UsageError, OpenGlError; nothing has
+  // Acts at once, and goes into the recording; what has no effect (a Release of nothing, a stroke beside the
+  // cloth) does not. An EditScene that `continues` the one before it (a slider being dragged) is undone
+  // together with it. @throws UsageError for what makes no sense here, SceneError, OpenGlError; nothing has
   // changed then
   void act(const Action& action, bool continues = false);
 
-  // Steps, and remembers the state at the start of each frame. After trouble the state is the last frame's
-  // that is known to be sound, and the hand has let go; what came after it is forgotten, also by the
-  // recording.
+  // Steps, and remembers the state at the start of each frame. After trouble the state is that of the last
+  // frame known to be sound, and the hand has let go; what came after it is forgotten, also by the recording.
   [[nodiscard]] std::optional<Trouble> stepFrames(int frames);
 
   // Of EditScene; each of them acts and is recorded as an EditScene itself. Colliders moved by hand stay
   // where they are.
-  [[nodiscard]] bool canUndo() const { return !undo_.empty(); }
-  [[nodiscard]] bool canRedo() const { return !redo_.empty(); }
+  [[nodiscard]] bool canUndo() const { return !now_.undo.empty(); }
+  [[nodiscard]] bool canRedo() const { return !now_.redo.empty(); }
   void undo();
   void redo();
 
-  // Frames are counted from the start of the session, over all restarts.
+  // Frames and steps are counted from the start of the session, over all restarts.
   [[nodiscard]] int oldestFrame() const;  // that can still be looked at
-  [[nodiscard]] int frame() const { return frame_; }
+  [[nodiscard]] int frame() const { return now_.number; }
   [[nodiscard]] int newestFrame() const;
-  // Shows a remembered frame as it was when it was left: state, scene, hand, pins and cuts, to the bit.
-  // Stepping or acting there forgets what came later. Only frames from oldestFrame() to newestFrame().
+  [[nodiscard]] std::uint64_t step() const { return now_.step; }
+  // Shows a remembered frame, oldestFrame() to newestFrame(), as it was when it was left: state, scene, pins,
+  // cuts and hands, to the bit. (The hand may hold there: who does not want that acts a Release before
+  // stepping.) Stepping or acting there forgets what came later. @throws SceneError, OpenGlError
   void seek(int frame);
 
   // The scene at the start, and what was done up to newestFrame().
   [[nodiscard]] const Recording& recording() const { return recording_; }
 
-  [[nodiscard]] std::size_t snapshotBytes() const;
-  void setSnapshotBudget(std::size_t bytes);
+  [[nodiscard]] std::size_t snapshotBytes() const { return ring_.bytes(); }
+  // The frame that was left last is remembered whatever the budget.
+  void setSnapshotBudget(std::size_t bytes) { ring_.setBudget(bytes); }
 
  private:
-  void apply(const Action& action, bool continues);
+  // Each returns whether it had an effect.
+  bool apply(const EditScene& edit);
+  bool apply(const Grab& grab);
+  bool apply(const MoveHand& move);
+  bool apply(const Release& release);
+  bool apply(const SetPin& pin);
+  bool apply(const CutStroke& stroke);
+  bool apply(const Blow& blow);
+  bool apply(const MoveCollider& move);
+  bool apply(const SwitchBackend& to);
+  bool apply(const Restart& restart);
   void record(const Action& action);
-  void edit(const Scene& scene);
+  void changeScene(const Scene& scene);
+  void rebuild(const Scene& scene);
+  void goBetween(SceneStack& from, SceneStack& to);
+  [[nodiscard]] std::optional<Trouble> stepFrame();
+  void startColliderMoves();
+  void finishColliderMoves();
+  void forgetLater();
+  void goTo(int frame);
 
   Simulation simulation_;
   Recording recording_;
-  int frame_ = 0;
-  std::uint64_t step_ = 0;  // since the start of the session
+  SessionFrame now_;
+  FrameRing ring_;
   std::uint64_t clothGeneration_ = 0;
-  std::vector<Scene> undo_, redo_;  // the last one is the next to come
 };
 
 }  // namespace clothsim

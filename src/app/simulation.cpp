@@ -41,6 +41,7 @@ void Simulation::configure(const Scene& scene) {
 void Simulation::rebuild(const Scene& scene) {
   auto cloth = std::make_unique<Cloth>(scene);
   auto solver = makeSolver(solver_->backend(), *cloth, scene);
+  contactsBefore_ = contactCounts();
   solver_ = std::move(solver);  // before the cloth that the old one points to
   cloth_ = std::move(cloth);
   scene_ = scene;
@@ -51,6 +52,7 @@ void Simulation::rebuild(const Scene& scene) {
 void Simulation::switchBackend(const std::string& backend) {
   std::unique_ptr<Solver> solver = makeSolver(backend, *cloth_, scene_);
   solver->setState(solver_->state());
+  contactsBefore_ = contactCounts();
   solver_ = std::move(solver);
   uploadIsCurrent_ = false;
 }

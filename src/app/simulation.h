@@ -26,6 +26,8 @@ class Simulation {
   [[nodiscard]] Solver& solver() { return *solver_; }
   [[nodiscard]] const Solver& solver() const { return *solver_; }
   [[nodiscard]] double time() const;  // simulated [s]
+  // Of all solvers that it has had.
+  [[nodiscard]] ContactCounts contactCounts() { return contactsBefore_ + solver_->contactCounts(); }
 
   void stepFrame() { stepFrames(1); }
   void stepFrames(int frames) {
@@ -54,6 +56,7 @@ class Simulation {
   Scene scene_;
   std::unique_ptr<Cloth> cloth_;  // the solver keeps a pointer to it
   std::unique_ptr<Solver> solver_;
+  ContactCounts contactsBefore_;
   gl::Buffer<Particle4> uploaded_;
   bool uploadIsCurrent_ = false;
   std::uint64_t uploadedStep_ = 0;

@@ -71,7 +71,7 @@ bool cross(const std::vector<Point>& points, Triangle a, Triangle b) {
 
 bool CrossingCounter::available() { return true; }
 
-CrossingCounter::CrossingCounter(const Cloth& cloth) : triangles_(cloth.triangles()) {
+CrossingCounter::CrossingCounter(const Cloth& cloth) : cloth_(cloth) {
   for (std::uint32_t grid = 0; grid < cloth.grids().size(); ++grid)
     for (int row = 0; row < cloth.grids()[grid].rows; ++row)
       for (int column = 0; column < cloth.grids()[grid].columns; ++column)
@@ -82,12 +82,13 @@ CrossingCount CrossingCounter::count(const State& state) const {
   std::vector<Point> points;
   points.reserve(state.positions.size());
   for (const Particle4& x : state.positions) points.emplace_back(x.x, x.y, x.z);  // exact: binary32 to double
+  const std::vector<Triangle> triangles = remainingTriangles(cloth_, state.cuts);
   std::vector<TriangleBox> boxes;
-  boxes.reserve(triangles_.size());
-  for (std::uint32_t i = 0; i < triangles_.size(); ++i) {
-    const auto& [a, b, c] = triangles_[i];
+  boxes.reserve(triangles.size());
+  for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+    const auto& [a, b, c] = triangles[i];
     if (!CGAL::collinear(points[a], points[b], points[c]))
-      boxes.emplace_back(solid(points, triangles_[i]).bbox(), i);
+      boxes.emplace_back(solid(points, triangles[i]).bbox(), i);
   }
   std::vector<Pair> pairs;
   CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](const TriangleBox& a, const TriangleBox& b) {
@@ -97,7 +98,7 @@ CrossingCount CrossingCounter::count(const State& state) const {
   std::uint64_t apart = 0, neighbours = 0;
 #pragma omp parallel for schedule(dynamic, 1024) reduction(+ : apart, neighbours)
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const Triangle &a = triangles_[pairs[i][0]], &b = triangles_[pairs[i][1]];
+    const Triangle &a = triangles[pairs[i][0]], &b = triangles[pairs[i][1]];
     if (cross(points, a, b)) ++(areNeighbours(a, b) ? neighbours : apart);
   }
   return {apart, neighbours};
@@ -107,7 +108,7 @@ CrossingCount CrossingCounter::count(const State& state) const {
 
 bool CrossingCounter::available() { return false; }
 
-CrossingCounter::CrossingCounter(const Cloth&) {
+CrossingCounter::CrossingCounter(const Cloth& cloth) : cloth_(cloth) {
   throw UsageError(
       "counting crossings needs CGAL, which this program was built without. Install it (Debian: libcgal-dev; "
       "tools/setup --test does) and build again.");

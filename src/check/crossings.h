@@ -30,7 +30,8 @@ class CrossingCounter {
   // @throws UsageError, naming the package to install, when it was not
   explicit CrossingCounter(const Cloth& cloth);
 
-  // Of a state whose positions are finite.
+  // Of a state whose positions are finite. Triangles that are cut away do not count; the rest may cross
+  // across a cut, as neighbours.
   [[nodiscard]] CrossingCount count(const State& state) const;
 
  private:
@@ -41,7 +42,7 @@ class CrossingCounter {
   using Triangle = std::array<std::uint32_t, 3>;
   [[nodiscard]] bool areNeighbours(const Triangle& a, const Triangle& b) const;
 
-  std::vector<Triangle> triangles_;
+  Cloth cloth_;
   std::vector<Place> places_;  // by particle
 };
 

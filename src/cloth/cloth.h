@@ -58,6 +58,18 @@ inline constexpr std::array<IncidentSpring, 2 * SPRING_SLOTS> incidentSprings{{{
                                                                                {1, 1, toUpperLeft, false},
                                                                                {0, 2, toSecondUpper, false}}};
 
+// The triangles at a grid point in ascending number (Cloth::triangles()), corners as (columns, rows) from the
+// point.
+struct Corner {
+  int columns, rows;
+};
+inline constexpr std::array<std::array<Corner, 3>, 6> incidentTriangles{{{{{0, -1}, {-1, 0}, {0, 0}}},
+                                                                         {{{0, -1}, {0, 0}, {1, -1}}},
+                                                                         {{{1, -1}, {0, 0}, {1, 0}}},
+                                                                         {{{-1, 0}, {-1, 1}, {0, 0}}},
+                                                                         {{{0, 0}, {-1, 1}, {0, 1}}},
+                                                                         {{{0, 0}, {0, 1}, {1, 0}}}}};
+
 // One grid of particles, row-major, column fastest.
 struct Grid {
   std::uint32_t firstParticle = 0;

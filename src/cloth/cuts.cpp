@@ -52,6 +52,35 @@ bool cutAlong(Cuts& cuts, const Cloth& cloth, std::size_t grid, LatticePoint fro
   return any;
 }
 
+namespace {
+
+// Which of the two triangles (A, C, B), (B, C, D) of the cell whose upper left point this is are left.
+struct CellTriangles {
+  bool first, second;
+};
+CellTriangles trianglesLeft(const Grid& grid, const Cuts& cuts, int column, int row) {
+  const std::uint32_t b = grid.particle(column + 1, row), c = grid.particle(column, row + 1),
+                      d = grid.particle(column + 1, row + 1);
+  const bool diagonal = !isCut(cuts, c, toUpperRight);  // a side of both
+  return {diagonal && !isCut(cuts, c, toUpper) && !isCut(cuts, b, toLeft),
+          diagonal && !isCut(cuts, d, toLeft) && !isCut(cuts, d, toUpper)};
+}
+
+// Bit k: incidentSprings[k] of this grid point is cut.
+std::uint32_t cutSprings(const Grid& grid, const Cuts& cuts, int column, int row) {
+  std::uint32_t mask = 0;
+  for (std::size_t k = 0; k < incidentSprings.size(); ++k) {
+    const IncidentSpring& spring = incidentSprings[k];
+    if (!grid.contains(column + spring.columns, row + spring.rows)) continue;
+    const std::uint32_t owner =
+        spring.owned ? grid.particle(column, row) : grid.particle(column + spring.columns, row + spring.rows);
+    if (isCut(cuts, owner, spring.slot)) mask |= 1u << k;
+  }
+  return mask;
+}
+
+}  // namespace
+
 std::vector<std::array<std::uint32_t, 3>> remainingTriangles(const Cloth& cloth, const Cuts& cuts) {
   if (cuts.empty()) return cloth.triangles();
   std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -60,13 +89,54 @@ std::vector<std::array<std::uint32_t, 3>> remainingTriangles(const Cloth& cloth,
       for (int column = 0; column + 1 < grid.columns; ++column) {
         const std::uint32_t a = grid.particle(column, row), b = grid.particle(column + 1, row);
         const std::uint32_t c = grid.particle(column, row + 1), d = grid.particle(column + 1, row + 1);
-        if (isCut(cuts, c, toUpperRight)) continue;  // the diagonal, a side of both
-        if (!isCut(cuts, c, toUpper) && !isCut(cuts, b, toLeft)) triangles.push_back({a, c, b});
-        if (!isCut(cuts, d, toLeft) && !isCut(cuts, d, toUpper)) triangles.push_back({b, c, d});
+        const CellTriangles left = trianglesLeft(grid, cuts, column, row);
+        if (left.first) triangles.push_back({a, c, b});
+        if (left.second) triangles.push_back({b, c, d});
       }
     }
   }
   return triangles;
+}
+
+std::uint64_t remainingSpringCount(const Cloth& cloth, const Cuts& cuts) {
+  std::uint64_t count = cloth.springCount();
+  if (cuts.empty()) return count;
+  for (const Grid& grid : cloth.grids())
+    for (std::uint32_t i = 0; i < grid.particleCount(); ++i)
+      for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot)
+        if (grid.slotEnabled[slot] && isCut(cuts, grid.firstParticle + i, static_cast<SpringSlot>(slot)))
+          --count;
+  return count;
+}
+
+std::vector<std::uint32_t> makeCutMasks(const Cloth& cloth, const Cuts& cuts) {
+  if (cuts.empty()) return {};
+  std::vector<std::uint32_t> masks(cloth.particleCount());
+  for (const Grid& grid : cloth.grids()) {
+    for (int row = 0; row < grid.rows; ++row)
+      for (int column = 0; column < grid.columns; ++column)
+        masks[grid.particle(column, row)] |= cutSprings(grid, cuts, column, row);
+    // The corners of a lost triangle know it by its place around them.
+    const auto lose = [&](int column, int row, std::uint32_t k) {
+      masks[grid.particle(column, row)] |= 1u << (incidentSprings.size() + k);
+    };
+    for (int row = 0; row + 1 < grid.rows; ++row) {
+      for (int column = 0; column + 1 < grid.columns; ++column) {
+        const CellTriangles left = trianglesLeft(grid, cuts, column, row);
+        if (!left.first) {
+          lose(column, row, 5);
+          lose(column + 1, row, 3);
+          lose(column, row + 1, 1);
+        }
+        if (!left.second) {
+          lose(column + 1, row, 4);
+          lose(column, row + 1, 2);
+          lose(column + 1, row + 1, 0);
+        }
+      }
+    }
+  }
+  return masks;
 }
 
 }  // namespace clothsim

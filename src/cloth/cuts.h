@@ -13,6 +13,8 @@ namespace clothsim {
 // A byte a particle: bit `slot` is set when the spring that it owns in that slot is cut. Empty: nothing is.
 using Cuts = std::vector<std::uint8_t>;
 
+inline constexpr std::uint32_t NO_SPRING = 31;  // a bit that no cut mask has
+
 // A place on a grid in units of its cells: grid point (column, row) lies at {column, row}.
 struct LatticePoint {
   double column = 0, row = 0;
@@ -31,5 +33,18 @@ bool cutAlong(Cuts& cuts, const Cloth& cloth, std::size_t grid, LatticePoint fro
 // Cloth::triangles() without those of which a side is cut, in the same order.
 [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> remainingTriangles(const Cloth& cloth,
                                                                            const Cuts& cuts);
+// Cloth::springCount() without those that are cut.
+[[nodiscard]] std::uint64_t remainingSpringCount(const Cloth& cloth, const Cuts& cuts);
+
+// What the solvers step with: for each particle a number whose bit k says that incidentSprings[k] is cut, and
+// bit 12 + k that the particle has lost incidentTriangles[k]; empty for no cuts. (A cut grid could run on
+// lists of what is left; looking up one number a particle on the regular grid is faster than any list.)
+[[nodiscard]] std::vector<std::uint32_t> makeCutMasks(const Cloth& cloth, const Cuts& cuts);
+// Which of incidentSprings joins a grid point to its neighbour in one cell, -1 to 1 columns and rows away.
+[[nodiscard]] constexpr std::uint32_t springWithinCell(int columns, int rows) {
+  for (std::uint32_t k = 0; k < incidentSprings.size(); ++k)
+    if (incidentSprings[k].columns == columns && incidentSprings[k].rows == rows) return k;
+  return NO_SPRING;
+}
 
 }  // namespace clothsim

@@ -15,13 +15,19 @@ namespace clothsim {
 
 // The `.state` file, little-endian throughout:
 //   offset  0  8 bytes  "clothsim"
-//           8  u32      version of this layout, 1
+//           8  u32      version of this layout, 1 or 2
 //          12  u32      integrator: 0 verlet, 1 euler
 //          16  u64      particle count n
 //          24  u64      step
 //          32  n times  binary32 x, y, z [m], inverse mass [1/kg]
 //    32 + 16n  n times  binary32 vx, vy, vz [m/s], 0
-//    32 + 32n  u64      FNV-1a of all bytes before
+//    in version 2, which is written for a cloth that hands have cut, pinned or freed:
+//    32 + 32n  u64      number c of bytes of cuts, n or 0
+//    40 + 32n  c times  u8  the springs of a particle that are cut (cloth/cuts.h)
+//   40+32n+c   u64      number p of particles that hands have pinned or freed
+//   48+32n+c   p times  u32  those particles, ascending
+//    and in both, at the end:
+//              u64      FNV-1a of all bytes before
 [[nodiscard]] std::string formatStateFile(const State& state);
 // `source` names the file in messages. @throws InputOutputError
 [[nodiscard]] State parseStateFile(const std::string& bytes, std::size_t particleCount,

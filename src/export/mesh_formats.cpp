@@ -46,7 +46,7 @@ Vec3f xyz(const Particle4& particle) { return {particle.x, particle.y, particle.
 
 std::vector<Vec3f> vertexNormals(const State& state, const Cloth& cloth) {
   std::vector<Vec3d> sums(state.positions.size());
-  for (const auto& triangle : cloth.triangles()) {
+  for (const auto& triangle : remainingTriangles(cloth, state.cuts)) {
     const Vec3d a = xyz(state.positions[triangle[0]]).cast<double>();
     const Vec3d b = xyz(state.positions[triangle[1]]).cast<double>();
     const Vec3d c = xyz(state.positions[triangle[2]]).cast<double>();
@@ -81,7 +81,7 @@ std::string formatObj(const State& state, const Cloth& cloth) {
   for (const Particle4& x : state.positions) appendLine(text, "v", {x.x, x.y, x.z});
   for (const auto& uv : cloth.textureCoordinates()) appendLine(text, "vt", {uv[0], uv[1]});
   for (const Vec3f& n : vertexNormals(state, cloth)) appendLine(text, "vn", {n.x, n.y, n.z});
-  for (const auto& triangle : cloth.triangles()) {
+  for (const auto& triangle : remainingTriangles(cloth, state.cuts)) {
     text += 'f';
     for (const std::uint32_t corner : triangle) {
       text += ' ';
@@ -96,7 +96,7 @@ std::string formatObj(const State& state, const Cloth& cloth) {
 }
 
 std::string formatPly(const State& state, const Cloth& cloth) {
-  const auto triangles = cloth.triangles();
+  const auto triangles = remainingTriangles(cloth, state.cuts);
   const auto textureCoordinates = cloth.textureCoordinates();
   const auto normals = vertexNormals(state, cloth);
 

@@ -1,5 +1,6 @@
 #include <bit>
 #include <cstring>
+#include <vector>
 
 #include "core/error.h"
 #include "core/fnv.h"
@@ -20,7 +21,7 @@ struct Header {
 static_assert(sizeof(Header) == 32);
 
 constexpr char fileMagic[] = "clothsim";
-constexpr std::uint32_t fileVersion = 1;
+constexpr std::uint32_t plainVersion = 1, handledVersion = 2;
 
 std::uint64_t checksum(std::string_view bytes) {
   Fnv1a hash;
@@ -28,8 +29,9 @@ std::uint64_t checksum(std::string_view bytes) {
   return hash.value();
 }
 
-std::size_t fileSize(std::uint64_t particleCount) {
-  return sizeof(Header) + 2 * sizeof(Particle4) * particleCount + sizeof(std::uint64_t);
+// Of the part that every version has.
+std::size_t plainSize(std::uint64_t particleCount) {
+  return sizeof(Header) + 2 * sizeof(Particle4) * particleCount;
 }
 
 template <class T>
@@ -41,30 +43,81 @@ void append(std::string& bytes, const T* data, std::size_t count) {
   throw InputOutputError("cannot continue from '" + source + "': " + found);
 }
 
-// The header of a file that is whole and fits the cloth.
+// The header of a file of the right kind that fits the cloth.
 Header checkedHeader(const std::string& bytes, std::size_t particleCount, const std::string& source) {
   Header header{};
   if (bytes.size() < sizeof header || std::memcmp(bytes.data(), fileMagic, sizeof header.magic) != 0)
     refuse(source, "it is no state file of clothsim (those are written by `clothsim run --save NAME.state`)");
   std::memcpy(&header, bytes.data(), sizeof header);
-  if (header.version != fileVersion)
+  if (header.version != plainVersion && header.version != handledVersion)
     refuse(source, "it has version " + std::to_string(header.version) +
-                       " of the format, this program reads version " + std::to_string(fileVersion));
+                       " of the format, this program reads versions 1 and 2");
   if (header.particleCount != particleCount)
     refuse(source, "it holds " + std::to_string(header.particleCount) + " particles, the scene has " +
                        std::to_string(particleCount) + " (was it saved at another --resolution?)");
-  if (bytes.size() != fileSize(particleCount))
-    refuse(source, "it has " + std::to_string(bytes.size()) + " bytes where " +
-                       std::to_string(fileSize(particleCount)) +
-                       " are expected: the file was cut off or added to");
+  return header;
+}
+
+// The lists of version 2: a count, then so many elements.
+class Lists {
+ public:
+  Lists(const std::string& bytes, std::size_t place, const std::string& source)
+      : bytes_(bytes), place_(place), source_(source) {}
+
+  // Where the next byte is looked for.
+  [[nodiscard]] std::size_t place() const { return place_; }
+
+  template <class T>
+  std::vector<T> next() {
+    std::uint64_t count = 0;
+    copy(&count, 1);
+    if (count > (bytes_.size() - place_) / sizeof(T)) refuseLength(place_ + count * sizeof(T));
+    std::vector<T> list(count);
+    copy(list.data(), count);
+    return list;
+  }
+  [[noreturn]] void refuseLength(std::uint64_t expected) const {
+    refuse(source_, "it has " + std::to_string(bytes_.size()) + " bytes where " + std::to_string(expected) +
+                        " are expected: the file was cut off or added to");
+  }
+
+ private:
+  template <class T>
+  void copy(T* to, std::size_t count) {
+    if (bytes_.size() - place_ < count * sizeof(T)) refuseLength(place_ + count * sizeof(T));
+    if (count > 0) std::memcpy(to, bytes_.data() + place_, count * sizeof(T));
+    place_ += count * sizeof(T);
+  }
+
+  const std::string& bytes_;
+  std::size_t place_;
+  const std::string& source_;
+};
+
+void checkChecksum(const std::string& bytes, const std::string& source) {
   std::uint64_t stored = 0;
   std::memcpy(&stored, bytes.data() + bytes.size() - sizeof stored, sizeof stored);
   if (stored != checksum(std::string_view(bytes).substr(0, bytes.size() - sizeof stored)))
     refuse(source, "its checksum does not fit its content: the file is damaged");
+}
+
+// What only a wrong program can have written.
+void checkContent(const Header& header, const State& state, const std::string& source) {
   if (header.integrator > static_cast<std::uint32_t>(Integrator::euler))
     refuse(source, "it names integrator number " + std::to_string(header.integrator) +
                        ", which this program does not know");
-  return header;
+  const std::size_t particles = state.positions.size();
+  if (!state.cuts.empty() && state.cuts.size() != particles)
+    refuse(source, "it has cuts of " + std::to_string(state.cuts.size()) + " particles, expected " +
+                       std::to_string(particles));
+  for (std::size_t i = 0; i < state.cuts.size(); ++i)
+    if (state.cuts[i] >> SPRING_SLOTS != 0)
+      refuse(source, "the cuts of particle " + std::to_string(i) + " are " + std::to_string(state.cuts[i]) +
+                         ", expected less than 64");
+  for (std::size_t i = 0; i < state.offPath.size(); ++i)
+    if (state.offPath[i] >= particles || (i > 0 && state.offPath[i] <= state.offPath[i - 1]))
+      refuse(source,
+             "its particles pinned by hand are not in ascending order below " + std::to_string(particles));
 }
 
 }  // namespace
@@ -72,16 +125,24 @@ Header checkedHeader(const std::string& bytes, std::size_t particleCount, const 
 std::string formatStateFile(const State& state) {
   Header header{};
   std::memcpy(header.magic, fileMagic, sizeof header.magic);
-  header.version = fileVersion;
+  const bool handled = !state.cuts.empty() || !state.offPath.empty();
+  header.version = handled ? handledVersion : plainVersion;
   header.integrator = static_cast<std::uint32_t>(state.integrator);
   header.particleCount = state.positions.size();
   header.step = state.step;
 
   std::string bytes;
-  bytes.reserve(fileSize(header.particleCount));
+  bytes.reserve(plainSize(header.particleCount) + sizeof(std::uint64_t));
   append(bytes, &header, 1);
   append(bytes, state.positions.data(), state.positions.size());
   append(bytes, state.velocities.data(), state.velocities.size());
+  if (handled) {
+    const std::uint64_t counts[] = {state.cuts.size(), state.offPath.size()};
+    append(bytes, &counts[0], 1);
+    append(bytes, state.cuts.data(), state.cuts.size());
+    append(bytes, &counts[1], 1);
+    append(bytes, state.offPath.data(), state.offPath.size());
+  }
   const std::uint64_t sum = checksum(bytes);
   append(bytes, &sum, 1);
   return bytes;
@@ -89,7 +150,16 @@ std::string formatStateFile(const State& state) {
 
 State parseStateFile(const std::string& bytes, std::size_t particleCount, const std::string& source) {
   const Header header = checkedHeader(bytes, particleCount, source);
+  Lists lists(bytes, plainSize(particleCount), source);
+  if (bytes.size() < lists.place()) lists.refuseLength(lists.place() + sizeof(std::uint64_t));
   State state;
+  if (header.version == handledVersion) {
+    state.cuts = lists.next<std::uint8_t>();
+    state.offPath = lists.next<std::uint32_t>();
+  }
+  if (bytes.size() != lists.place() + sizeof(std::uint64_t))
+    lists.refuseLength(lists.place() + sizeof(std::uint64_t));
+  checkChecksum(bytes, source);
   state.step = header.step;
   state.integrator = static_cast<Integrator>(header.integrator);
   state.positions.resize(particleCount);
@@ -99,6 +169,7 @@ State parseStateFile(const std::string& bytes, std::size_t particleCount, const 
     std::memcpy(state.positions.data(), bytes.data() + sizeof(Header), size);
     std::memcpy(state.velocities.data(), bytes.data() + sizeof(Header) + size, size);
   }
+  checkContent(header, state, source);
   return state;
 }
 

@@ -141,6 +141,14 @@ std::string pathOf(const JsonNode& node) {
   return path;
 }
 
+std::string located(const std::string& source, const JsonComplaint& complaint) {
+  std::string text = source;
+  for (const int place : {complaint.line, complaint.column})
+    if (place > 0) text.append(":").append(std::to_string(place));
+  if (!complaint.path.empty()) text.append(": ").append(complaint.path);
+  return text.append(": ").append(complaint.what());
+}
+
 void complain(const JsonNode& node, const std::string& message) {
   throw JsonComplaint(node.line, 0, shortened(pathOf(node), 120), message);
 }

@@ -1,6 +1,7 @@
 // JSON as a tree that remembers keys in order and the line of every value, so that a wrong scene can be
 // reported with its place. nlohmann::json reads the text; its own tree keeps neither lines nor duplicate
-// keys. Private to src/scene.
+// keys. Private to src/scene, and to
+// files that hold scenes among other things (app/recording.cpp).
 #pragma once
 
 #include <memory>
@@ -48,6 +49,9 @@ struct JsonComplaint : std::runtime_error {
   int line, column;  // 0: unknown
   std::string path;
 };
+
+// "cloth.json:12: cloth.ks: expected ..."; with a column only where the syntax is wrong.
+[[nodiscard]] std::string located(const std::string& source, const JsonComplaint& complaint);
 
 // Throws the complaint about `node`: "cloth.ks: <message>" with its line.
 [[noreturn]] void complain(const JsonNode& node, const std::string& message);

@@ -36,6 +36,8 @@ double wrapped(double t, double period) {
   return rest < 0 ? rest + period : rest;
 }
 
+}  // namespace
+
 Motion::Key keyAt(const Motion& motion, double t) {
   const auto& keys = motion.keys;
   if (motion.loop && keys.back().t > 0) t = wrapped(t, keys.back().t);
@@ -48,8 +50,6 @@ Motion::Key keyAt(const Motion& motion, double t) {
   const double s = (t - a.t) / (b.t - a.t);
   return {t, a.position + s * (b.position - a.position), a.rotation + s * (b.rotation - a.rotation)};
 }
-
-}  // namespace
 
 Matrix3 rotationMatrix(Vec3d degrees) {
   const double angleDegrees = std::sqrt(dot(degrees, degrees));

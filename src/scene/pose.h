@@ -26,6 +26,9 @@ struct Pose {
 // b first, then a.
 [[nodiscard]] Matrix3 product(const Matrix3& a, const Matrix3& b);
 
+// The key of a motion, which has at least one, at time t [s]: linear between those given.
+[[nodiscard]] Motion::Key keyAt(const Motion& motion, double t);
+
 // The pose at time t [s]; without a motion the collider's own place, unrotated.
 [[nodiscard]] Pose poseAt(const Collider& collider, double t);
 // Of a motion, which has at least one key.

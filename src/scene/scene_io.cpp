@@ -16,15 +16,6 @@ namespace {
 
 constexpr std::uintmax_t largestFile = 16 * 1024 * 1024;
 
-// "cloth.json:12: cloth.ks: expected ..."; with a column only where the syntax is wrong.
-std::string located(const std::string& source, const JsonComplaint& complaint) {
-  std::string text = source;
-  if (complaint.line > 0) text += ":" + std::to_string(complaint.line);
-  if (complaint.column > 0) text += ":" + std::to_string(complaint.column);
-  if (!complaint.path.empty()) text += ": " + complaint.path;
-  return text + ": " + complaint.what();
-}
-
 std::vector<std::string> sceneNamesIn(const fs::path& folder) {
   std::vector<std::string> names;
   std::error_code ignored;
@@ -36,21 +27,20 @@ std::vector<std::string> sceneNamesIn(const fs::path& folder) {
 
 fs::path bundledFolder() { return resourceRoot() / "assets" / "scenes"; }
 
-// Mesh files beside the scene get their full path; others are looked for below the resource root.
-void findMeshes(Scene& scene, const fs::path& scenePath) {
-  for (Collider& collider : scene.colliders) {
-    auto* mesh = std::get_if<MeshCollider>(&collider);
-    if (mesh == nullptr || fs::path(mesh->file).is_absolute()) continue;
-    const fs::path beside = fs::absolute(scenePath).parent_path() / mesh->file;
-    if (fs::exists(beside)) mesh->file = beside.lexically_normal().string();
-  }
-}
-
 bool isPath(const std::string& nameOrPath) {
   return nameOrPath.find('/') != std::string::npos || nameOrPath.ends_with(".json");
 }
 
 }  // namespace
+
+void findMeshes(Scene& scene, const fs::path& file) {
+  for (Collider& collider : scene.colliders) {
+    auto* mesh = std::get_if<MeshCollider>(&collider);
+    if (mesh == nullptr || fs::path(mesh->file).is_absolute()) continue;
+    const fs::path beside = fs::absolute(file).parent_path() / mesh->file;
+    if (fs::exists(beside)) mesh->file = beside.lexically_normal().string();
+  }
+}
 
 Scene parseScene(std::string_view text, const std::string& source) {
   try {

@@ -16,6 +16,10 @@ namespace clothsim {
 // @throws SceneError
 [[nodiscard]] Scene parseScene(std::string_view text, const std::string& source);
 
+// Mesh files that lie beside `file`, from which the scene was read, get their full path; others are looked
+// for below the resource root.
+void findMeshes(Scene& scene, const std::filesystem::path& file);
+
 // Reads a scene file. @throws SceneError (also for a missing or unreadable file: what the user named is not a
 // scene)
 [[nodiscard]] Scene loadScene(const std::filesystem::path& path);

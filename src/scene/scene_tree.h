@@ -1,4 +1,5 @@
-// A scene as a JSON tree and back: the middle step of reading, writing and --set. Private to src/scene.
+// A scene as a JSON tree and back: the middle step of reading, writing and --set. Private to src/scene,
+// and to files that hold scenes among other things (app/recording.cpp).
 #pragma once
 
 #include "scene/json_tree.h"

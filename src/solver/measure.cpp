@@ -28,6 +28,7 @@ std::optional<double> maxStrain(const Cloth& cloth, const Grid& grid, const Stat
         const SpringOffset& offset = springOffsets[slot];
         if (!grid.slotEnabled[slot] || !grid.contains(column + offset.columns, row + offset.rows)) continue;
         const std::uint32_t a = grid.particle(column, row);
+        if (isCut(state.cuts, a, static_cast<SpringSlot>(slot))) continue;
         const std::uint32_t b = grid.particle(column + offset.columns, row + offset.rows);
         const double rest = grid.hasRestLengthTable ? length(cloth.positions()[b] - cloth.positions()[a])
                                                     : grid.nominalLength[slot];

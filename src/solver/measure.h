@@ -12,7 +12,7 @@
 namespace clothsim {
 
 struct Measures {
-  double maxStrain = 0;      // largest l/L - 1 over enabled springs, 0 without any
+  double maxStrain = 0;      // largest l/L - 1 over enabled springs that are not cut, 0 without any
   double minY = 0;           // [m]
   double kineticEnergy = 0;  // [J], of free particles, from the velocities as given
   double maxPenetration =

@@ -12,8 +12,7 @@ std::string number(double value) {
 }
 
 std::string placeOnTheCloth(std::uint32_t particle, const Cloth& cloth) {
-  std::size_t index = 0;
-  while (index + 1 < cloth.grids().size() && particle >= cloth.grids()[index + 1].firstParticle) ++index;
+  const std::size_t index = cloth.gridOf(particle);
   const Grid& grid = cloth.grids()[index];
   const std::uint32_t onGrid = particle - grid.firstParticle,
                       columns = static_cast<std::uint32_t>(grid.columns);

@@ -60,7 +60,10 @@ std::vector<gl::Defines> variantsOf(const std::string& file) {
                           .movingColliders = true,
                           .coulombFriction = true,
                           .movingPins = true,
-                          .restLengthTable = true};
+                          .restLengthTable = true,
+                          .hold = true,
+                          .jet = true,
+                          .cuts = true};
   everything.colliderTypes = 0xffffffff;
   everything.enabledSlots = (1u << SPRING_SLOTS) - 1;
   PassFeatures cs184 = everything;

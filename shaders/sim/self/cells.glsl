@@ -7,13 +7,21 @@ float codeDistance(uint code) {
   return texelFetch(contactDistances, int(step.grid * NEAREST_CODES + code)).x;
 }
 
+// Neighbours in one cell are strangers once the spring between them is cut: the bit of that spring in a cut mask by its
+// direction, 31 for none (springWithinCell() of src/cloth/cuts.h).
+const uint springWithinCell[9] = uint[9](2u, 1u, 3u, 0u, 31u, 6u, 8u, 9u, 10u);
+
+bool isCutFrom(GridPoint p, uint column, uint row) {
+  return hasCuts && !isLeft(cutMaskOf(p.index), springWithinCell[3u * (row + 1u - p.row) + column + 1u - p.column]);
+}
+
 uint encode(GridPoint p, uint j) {
   uint inGrid = j - step.firstParticle;
   if (inGrid >= step.columns * step.rows) return j;
   uint column = inGrid % step.columns, row = inGrid / step.columns;
   uint across = column < p.column ? p.column - column : column - p.column;
   uint along = row < p.row ? p.row - row : row - p.row;
-  if (across < self.firstCode && along < self.firstCode) return EXCLUDED;
+  if (across < self.firstCode && along < self.firstCode && !isCutFrom(p, column, row)) return EXCLUDED;
   if (SELF_NEAR_CODES == 0 || across > 7u || along > 7u) return j;
   uint code = across + 8u * along;
   return codeDistance(code) < self.distance ? j | code << CANDIDATE_BITS : j;

@@ -5,6 +5,7 @@
 #include <cassert>
 
 #include "solver/cpu/collide.h"
+#include "solver/cpu/snapshot.h"
 
 namespace clothsim {
 namespace {
@@ -71,7 +72,15 @@ void CpuSolver<Real>::preparePins() {
 }
 
 template <class Real>
+StepParams<Real> CpuSolver<Real>::paramsOf(std::size_t grid) const {
+  StepParams<Real> params = makeStepParams<Real>(scene_, *cloth_, grid, stepIndex_);
+  addJet(hand_, params);
+  return params;
+}
+
+template <class Real>
 cpu::PassArguments<Real> CpuSolver<Real>::arguments(const StepParams<Real>& params) {
+  const bool holds = hand_.hold && hand_.hold->grid == params.grid;
   return {params,
           colliders_.data(),
           distances_.data(),
@@ -80,6 +89,10 @@ cpu::PassArguments<Real> CpuSolver<Real>::arguments(const StepParams<Real>& para
           pinStarts_,
           inverseMasses_.data(),
           restLengths_.data(),
+          handParams_,
+          holds ? hand_.hold->points->data() : nullptr,
+          hand_.jet.has_value(),
+          cutMasks_.empty() ? nullptr : cutMasks_.data(),
           before_,
           after_,
           forces_,
@@ -95,6 +108,7 @@ void CpuSolver<Real>::forEachRow(int rows, Pass pass) {
 
 template <class Real>
 void CpuSolver<Real>::prepareMotions() {
+  handParams_ = makeHandParams<Real>(hand_, scene_, stepIndex_);
   for (std::size_t i = 0; i < colliders_.size(); ++i)
     colliders_[i] = makeColliderParams<Real>(scene_, scene_.colliders[i], stepIndex_);
   for (std::size_t i = 0; i < pinMotions_.size(); ++i)
@@ -112,7 +126,7 @@ void CpuSolver<Real>::checkStart() {
   if (startChecked_) return;
   startChecked_ = true;
   for (std::size_t grid = 0; grid < cloth_->grids().size(); ++grid) {
-    const StepParams<Real> params = makeStepParams<Real>(scene_, *cloth_, grid, stepIndex_);
+    const StepParams<Real> params = paramsOf(grid);
     const cpu::PassArguments<Real> pass = arguments(params);
     forEachRow(cloth_->grids()[grid].rows, [&](int row) { cpu::checkStart(pass, row); });
   }
@@ -125,8 +139,9 @@ void CpuSolver<Real>::convertVelocities() {
   if (wanted == velocityMeaning_) return;
   checkStart();
   velocityMeaning_ = wanted;
+  handParams_ = makeHandParams<Real>(hand_, scene_, stepIndex_);
   for (std::size_t grid = 0; grid < cloth_->grids().size(); ++grid) {
-    StepParams<Real> params = makeStepParams<Real>(scene_, *cloth_, grid, stepIndex_);
+    StepParams<Real> params = paramsOf(grid);
     params.kickTime = velocityConversionTime<Real>(scene_);
     const cpu::PassArguments<Real> pass = arguments(params);
     forEachRow(cloth_->grids()[grid].rows, [&](int row) { cpu::gatherForces(pass, row); });
@@ -140,8 +155,7 @@ void CpuSolver<Real>::convertVelocities() {
 template <class Real>
 void CpuSolver<Real>::stepOnce() {
   const std::size_t grids = cloth_->grids().size();
-  for (std::size_t grid = 0; grid < grids; ++grid)
-    params_[grid] = makeStepParams<Real>(scene_, *cloth_, grid, stepIndex_);
+  for (std::size_t grid = 0; grid < grids; ++grid) params_[grid] = paramsOf(grid);
   const auto forEachGridRow = [&](auto pass) {
     for (std::size_t grid = 0; grid < grids; ++grid) {
       const cpu::PassArguments<Real> ofGrid = arguments(params_[grid]);
@@ -220,16 +234,29 @@ std::optional<Trouble> CpuSolver<Real>::trouble() {
 }
 
 template <class Real>
-void CpuSolver<Real>::keep() {
-  kept_ = {before_, stepIndex_, velocityMeaning_};
+std::unique_ptr<Snapshot> CpuSolver<Real>::snapshot(std::unique_ptr<Snapshot> reuse) {
+  if (dynamic_cast<CpuSnapshot<Real>*>(reuse.get()) == nullptr) reuse = std::make_unique<CpuSnapshot<Real>>();
+  auto& copy = static_cast<CpuSnapshot<Real>&>(*reuse);
+  copy.particles = before_;
+  copy.inverseMasses = inverseMasses_;
+  copy.stepIndex = stepIndex_;
+  copy.velocityMeaning = velocityMeaning_;
+  copy.cuts = cuts_;
+  copy.offPath = offPath_;
+  return reuse;
 }
 
 template <class Real>
-void CpuSolver<Real>::revert() {
-  assert(!kept_.state.positions.x.empty() && "revert() needs a keep() before");
-  before_ = kept_.state;
-  stepIndex_ = kept_.stepIndex;
-  velocityMeaning_ = kept_.velocityMeaning;
+void CpuSolver<Real>::restore(const Snapshot& snapshot) {
+  const auto* own = dynamic_cast<const CpuSnapshot<Real>*>(&snapshot);
+  if (own == nullptr) return setState(snapshot.state());
+  before_ = own->particles;
+  inverseMasses_ = own->inverseMasses;
+  stepIndex_ = own->stepIndex;
+  velocityMeaning_ = own->velocityMeaning;
+  offPath_ = own->offPath;
+  preparePins();
+  if (cuts_ != own->cuts) setCuts(own->cuts);
   startChecked_ = false;
   forgetTrouble();
 }
@@ -237,20 +264,7 @@ void CpuSolver<Real>::revert() {
 template <class Real>
 State CpuSolver<Real>::state() {
   convertVelocities();
-  State state;
-  const std::size_t count = cloth_->particleCount();
-  state.positions.resize(count);
-  state.velocities.resize(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Vec3f x = at(before_.positions, i).template cast<float>(),
-                v = at(before_.velocities, i).template cast<float>();
-    state.positions[i] = {x.x, x.y, x.z, static_cast<float>(inverseMasses_[i])};
-    state.velocities[i] = {v.x, v.y, v.z, 0};
-  }
-  state.step = stepIndex_;
-  state.integrator = velocityMeaning_;
-  state.offPath = offPath_;
-  return state;
+  return snapshot(nullptr)->state();
 }
 
 template <class Real>
@@ -266,9 +280,27 @@ void CpuSolver<Real>::setState(const State& state) {
   velocityMeaning_ = state.integrator;
   offPath_ = state.offPath;
   preparePins();
+  setCuts(state.cuts);
   selfCollision_.restart();
   startChecked_ = false;
   forgetTrouble();
+}
+
+template <class Real>
+std::vector<Particle4> CpuSolver<Real>::positions(std::uint32_t first, std::uint32_t count) {
+  std::vector<Particle4> result(count);
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const Vec3f x = at(before_.positions, first + k).template cast<float>();
+    result[k] = {x.x, x.y, x.z, static_cast<float>(inverseMasses_[first + k])};
+  }
+  return result;
+}
+
+template <class Real>
+void CpuSolver<Real>::setCuts(const Cuts& cuts) {
+  cuts_ = cuts;
+  cutMasks_ = makeCutMasks(*cloth_, cuts);
+  selfCollision_.setCutMasks(cutMasks_);
 }
 
 template <class Real>
@@ -309,7 +341,8 @@ template <class Real>
 std::vector<Vec3<Real>> CpuSolver<Real>::forces() {
   std::vector<Vec3<Real>> result(cloth_->particleCount());
   for (std::size_t grid = 0; grid < cloth_->grids().size(); ++grid) {
-    const StepParams<Real> params = makeStepParams<Real>(scene_, *cloth_, grid, stepIndex_);
+    const StepParams<Real> params = paramsOf(grid);
+    handParams_ = makeHandParams<Real>(hand_, scene_, stepIndex_);
     const cpu::PassArguments<Real> pass = arguments(params);
     forEachRow(cloth_->grids()[grid].rows, [&](int row) { cpu::gatherForces(pass, row); });
   }

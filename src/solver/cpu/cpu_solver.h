@@ -23,10 +23,15 @@ class CpuSolver final : public Solver {
   void step(int count) override;
   void finish() override {}
   [[nodiscard]] std::optional<Trouble> trouble() override;
-  void keep() override;
-  void revert() override;
+  [[nodiscard]] std::unique_ptr<Snapshot> snapshot(std::unique_ptr<Snapshot> reuse) override;
+  void restore(const Snapshot& snapshot) override;
   [[nodiscard]] State state() override;
   void setState(const State& state) override;
+  void convertVelocities() override;
+  [[nodiscard]] std::vector<Particle4> positions(std::uint32_t first, std::uint32_t count) override;
+  void setHand(const Hand& hand) override { hand_ = hand; }
+  void setCuts(const Cuts& cuts) override;
+  [[nodiscard]] const Cuts& cuts() const override { return cuts_; }
   void setPin(std::uint32_t particle, bool pinned) override;
   [[nodiscard]] std::uint64_t stepIndex() const override { return stepIndex_; }
   [[nodiscard]] ContactCounts contactCounts() override { return selfCollision_.counts(); }
@@ -42,12 +47,12 @@ class CpuSolver final : public Solver {
   [[nodiscard]] std::vector<Vec3<Real>> forces();
 
  private:
+  [[nodiscard]] StepParams<Real> paramsOf(std::size_t grid) const;  // of the next step
   [[nodiscard]] cpu::PassArguments<Real> arguments(const StepParams<Real>& params);
   void preparePins();
   void prepareMotions();
   void forgetTrouble();
   void checkStart();
-  void convertVelocities();
   void stepOnce();
   template <class Pass>
   void forEachRow(int rows, Pass pass);
@@ -59,12 +64,6 @@ class CpuSolver final : public Solver {
   Integrator velocityMeaning_ = Integrator::verlet;
   std::uint64_t stepIndex_ = 0;
   CpuState<Real> before_, after_;
-  struct Kept {
-    CpuState<Real> state;
-    std::uint64_t stepIndex = 0;
-    Integrator velocityMeaning = Integrator::verlet;
-  };
-  Kept kept_;
   bool startChecked_ = true;  // false once a state was handed in
   WatchRow watch_ = soundWatchRow();
   std::optional<Trouble> trouble_;
@@ -74,6 +73,10 @@ class CpuSolver final : public Solver {
   std::vector<float> distances_;                 // samples of the mesh colliders' grids
   PinPaths pinPaths_;
   std::vector<std::uint32_t> offPath_;
+  Hand hand_;
+  HandParams<Real> handParams_{};  // of this step
+  Cuts cuts_;
+  std::vector<std::uint32_t> cutMasks_;
   std::vector<PinMotionParams<Real>> pinMotions_;
   Components<Real> pinStarts_;
   std::vector<StepParams<Real>> params_;              // by grid

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloth/cuts.h"
 #include "solver/cpu/self_collision.h"
 
 namespace clothsim {
@@ -12,20 +13,19 @@ constexpr double CONTACT_REACH = 1.05;  // pairs are at d or a little more once 
 
 Vec3d vectorOf(const Particle4& p) { return Vec3f{p.x, p.y, p.z}.cast<double>(); }
 
-const Grid& gridOf(const Cloth& cloth, std::uint32_t particle) {
-  return *std::find_if(cloth.grids().begin(), cloth.grids().end(), [&](const Grid& grid) {
-    return particle - grid.firstParticle < grid.particleCount();
-  });
-}
-
-// Particles of one grid: how far apart they lie at rest, unless they share a cell. Of two grids: infinity.
-std::optional<double> restDistance(const Grid& grid, std::uint32_t i, std::uint32_t j) {
+// Particles of one grid: how far apart they lie at rest, unless they share a cell and a spring. Of two grids:
+// infinity.
+std::optional<double> restDistance(const Grid& grid, const std::vector<std::uint32_t>& cutMasks,
+                                   std::uint32_t i, std::uint32_t j) {
   if (j - grid.firstParticle >= grid.particleCount()) return INFINITY;
   const auto columns = static_cast<std::int64_t>(grid.columns);
   const std::int64_t a = i - grid.firstParticle, b = j - grid.firstParticle;
-  const std::int64_t across = std::abs(a % columns - b % columns),
-                     along = std::abs(a / columns - b / columns);
-  if (across <= 1 && along <= 1) return std::nullopt;
+  const std::int64_t right = b % columns - a % columns, down = b / columns - a / columns;
+  const std::int64_t across = std::abs(right), along = std::abs(down);
+  if (across <= 1 && along <= 1) {
+    const std::uint32_t spring = springWithinCell(static_cast<int>(right), static_cast<int>(down));
+    if (cutMasks.empty() || (cutMasks[i] >> spring & 1u) == 0) return std::nullopt;
+  }
   return std::hypot(static_cast<double>(across) * grid.nominalLength[toLeft],
                     static_cast<double>(along) * grid.nominalLength[toUpper]);
 }
@@ -47,9 +47,11 @@ ContactMeasures measureContacts(const Cloth& cloth, const Scene& scene, const St
   }
   cpu::SelfCollision<float> search(cloth, true);
   search.configure(scene);
+  const std::vector<std::uint32_t> cutMasks = makeCutMasks(cloth, state.cuts);
+  search.setCutMasks(cutMasks);
   for (const auto& [i, j] : search.candidatePairs(positions)) {
     if (j < i) continue;
-    const std::optional<double> rest = restDistance(gridOf(cloth, i), i, j);
+    const std::optional<double> rest = restDistance(cloth.grids()[cloth.gridOf(i)], cutMasks, i, j);
     if (!rest) continue;
     const Vec3d apart = vectorOf(state.positions[i]) - vectorOf(state.positions[j]);
     const Vec3d relative = vectorOf(state.velocities[i]) - vectorOf(state.velocities[j]);

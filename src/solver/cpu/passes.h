@@ -7,6 +7,7 @@
 
 #include "cloth/cloth.h"
 #include "solver/cpu/cpu_state.h"
+#include "solver/hand.h"
 #include "solver/pin_paths.h"
 #include "solver/step_params.h"
 #include "solver/trouble.h"
@@ -24,7 +25,11 @@ struct PassArguments {
   const std::uint32_t* pinPathNumbers;  // for each particle one of them + 1, or 0; null when there are none
   const Components<Real>& pinStarts;    // where the simulation began [m]; empty when there are none
   const Real* inverseMasses;
-  const Real* restLengths;  // slot-major; null when no grid needs the table
+  const Real* restLengths;        // slot-major; null when no grid needs the table
+  const HandParams<Real>& hand;   // of this step
+  const Hold::Point* held;        // the block of this grid that a hand holds, row-major; null without
+  bool jet;                       // whether air blows from `hand`
+  const std::uint32_t* cutMasks;  // makeCutMasks(); null without cuts
   const CpuState<Real>& before;
   CpuState<Real>& after;
   Components<Real>& forces;  // springs, wind and air, without gravity [N]

@@ -6,8 +6,11 @@
 #include <bit>
 #include <cassert>
 #include <cmath>
+#include <cstdlib>
 #include <type_traits>
+#include <utility>
 
+#include "cloth/cuts.h"
 #include "core/exact_math.h"
 #include "core/vec.h"
 #include "solver/cpu/vector_clones.h"
@@ -61,21 +64,6 @@ View<Real> viewOf(const SelfParams<Real>& params, const CpuState<Real>& before, 
           p.z.data(),
           inverseMasses.data(),
           distances.data() + static_cast<std::size_t>(block.grid) * NEAREST_CODES};
-}
-
-// The candidate (shared/self_collision.h), or EXCLUDED for a pair that is left to its springs.
-template <class Real>
-std::uint32_t encode(const Grid& grid, const SelfParams<Real>& params, const Real* distances, std::uint32_t i,
-                     std::uint32_t j) {
-  if (j - grid.firstParticle >= grid.particleCount()) return j;
-  const auto columns = static_cast<std::uint32_t>(grid.columns);
-  const std::uint32_t a = i - grid.firstParticle, b = j - grid.firstParticle;
-  const auto apart = [](std::uint32_t p, std::uint32_t q) { return p < q ? q - p : p - q; };
-  const std::uint32_t across = apart(a % columns, b % columns), along = apart(a / columns, b / columns);
-  if (across < params.firstCode && along < params.firstCode) return EXCLUDED;
-  if (across > 7 || along > 7) return j;
-  const std::uint32_t code = across + 8 * along;
-  return distances[code] < params.distance ? j | code << CANDIDATE_BITS : j;
 }
 
 // All entries that may lie in the 27 cells about a cell: `visit(entry, y, z)` is to take those whose cell has
@@ -141,6 +129,29 @@ void SelfCollision<Real>::configure(const Scene& scene) {
 }
 
 template <class Real>
+void SelfCollision<Real>::setCutMasks(std::vector<std::uint32_t> masks) {
+  cutMasks_ = std::move(masks);
+  isHashed_ = false;
+}
+
+template <class Real>
+std::uint32_t SelfCollision<Real>::encode(const Block& block, std::uint32_t i, std::uint32_t j) const {
+  const Grid& grid = cloth_->grids()[block.grid];
+  if (j - grid.firstParticle >= grid.particleCount()) return j;
+  const int a = static_cast<int>(i - grid.firstParticle), b = static_cast<int>(j - grid.firstParticle);
+  const int columns = b % grid.columns - a % grid.columns, rows = b / grid.columns - a / grid.columns;
+  const auto across = static_cast<std::uint32_t>(std::abs(columns)),
+             along = static_cast<std::uint32_t>(std::abs(rows));
+  if (across < params_.firstCode && along < params_.firstCode) {
+    const bool cut = !cutMasks_.empty() && (cutMasks_[i] >> springWithinCell(columns, rows) & 1u) != 0;
+    if (!cut) return EXCLUDED;
+  }
+  if (across > 7 || along > 7) return j;
+  const std::uint32_t code = across + 8 * along;
+  return distances_[block.grid * NEAREST_CODES + code] < params_.distance ? j | code << CANDIDATE_BITS : j;
+}
+
+template <class Real>
 template <class Work>
 void SelfCollision<Real>::forEachBlock(Work work) {
 #pragma omp parallel for schedule(dynamic, 64) if (parallel_)
@@ -177,8 +188,6 @@ template <class Real>
 void SelfCollision<Real>::findCandidates() {
   const Components<Real>& p = hashedPositions_;
   forEachBlock([&](Block& block) {
-    const Grid& grid = cloth_->grids()[block.grid];
-    const Real* distances = distances_.data() + static_cast<std::size_t>(block.grid) * NEAREST_CODES;
     std::array<std::array<std::uint32_t, BLOCK>, MOST_CANDIDATES> found;
     block.slots = 0;
     for (std::uint32_t i = block.begin; i < block.end; ++i) {
@@ -191,7 +200,7 @@ void SelfCollision<Real>::findCandidates() {
                    if (!(dot(d, d) < params_.searchSquared) || sorted_[entry] == i ||
                        !hasCell(params_, sortedPositions_, entry, y, z))
                      return;
-                   const std::uint32_t candidate = encode(grid, params_, distances, i, sorted_[entry]);
+                   const std::uint32_t candidate = encode(block, i, sorted_[entry]);
                    if (candidate == EXCLUDED) return;
                    if (count < MOST_CANDIDATES) found[count][i - block.begin] = candidate;
                    ++count;
@@ -212,12 +221,10 @@ void SelfCollision<Real>::findCandidates() {
 template <class Real>
 template <class Visit>
 void SelfCollision<Real>::walk(const Block& block, std::uint32_t i, Visit visit) const {
-  const Grid& grid = cloth_->grids()[block.grid];
-  const Real* distances = distances_.data() + static_cast<std::size_t>(block.grid) * NEAREST_CODES;
   visitCells(params_, bucketStarts_, cellAt(hashedPositions_, i, params_.inverseCell),
              [&](std::uint32_t entry, std::int32_t y, std::int32_t z) {
                if (sorted_[entry] == i || !hasCell(params_, sortedPositions_, entry, y, z)) return;
-               const std::uint32_t candidate = encode(grid, params_, distances, i, sorted_[entry]);
+               const std::uint32_t candidate = encode(block, i, sorted_[entry]);
                if (candidate != EXCLUDED) visit(candidate);
              });
 }
@@ -228,7 +235,7 @@ void SelfCollision<Real>::sweep(const CpuState<Real>& before, CpuState<Real>& af
   forEachBlock([&](const Block& block) {
     const View<Real> view = viewOf(params_, before, after, inverseMasses, distances_, block);
     Sums<Real> sums;
-    addContacts(isRobust(), hasNearCodes_, view, candidates_.data(), block, sums);
+    addContacts(isRobust(), usesNearCodes(), view, candidates_.data(), block, sums);
     for (std::uint32_t i = block.begin; i < block.end; ++i)
       if (candidateCounts_[i] == WALK)
         walk(block, i, [&](std::uint32_t candidate) {
@@ -266,7 +273,7 @@ void SelfCollision<Real>::guard(const CpuState<Real>& before, CpuState<Real>& af
   forEachBlock([&](const Block& block) {
     if (any) return;
     const View<Real> view = viewOf(params_, before, after, inverseMasses, distances_, block);
-    bool found = anyTooNear(hasNearCodes_, view, candidates_.data(), block);
+    bool found = anyTooNear(usesNearCodes(), view, candidates_.data(), block);
     for (std::uint32_t i = block.begin; i < block.end && !found; ++i)
       if (candidateCounts_[i] == WALK)
         walk(block, i, [&](std::uint32_t candidate) { found = found || tooNear<true>(view, i, candidate); });

@@ -30,6 +30,8 @@ class SelfCollision {
   // motion of the step by pairs until none has. Each of two may go half of the way that is left between them,
   // so they cannot meet.
   void guard(const CpuState<Real>& before, CpuState<Real>& after, const std::vector<Real>& inverseMasses);
+  // By makeCutMasks(); empty: none.
+  void setCutMasks(std::vector<std::uint32_t> masks);
   // For a new state: forgets the hash.
   void restart() { isHashed_ = false; }
 
@@ -41,6 +43,10 @@ class SelfCollision {
       const Components<Real>& positions);
 
  private:
+  // Whether some pairs have distances of their own.
+  [[nodiscard]] bool usesNearCodes() const { return hasNearCodes_ || !cutMasks_.empty(); }
+  // The candidate (shared/self_collision.h), or EXCLUDED for a pair that is left to its springs.
+  [[nodiscard]] std::uint32_t encode(const Block& block, std::uint32_t i, std::uint32_t j) const;
   void buildHash(const Components<Real>& positions);
   void findCandidates();
   void sweep(const CpuState<Real>& before, CpuState<Real>& after, const std::vector<Real>& inverseMasses);
@@ -55,6 +61,7 @@ class SelfCollision {
   clothsim::SelfCollision mode_ = clothsim::SelfCollision::off;
   SelfParams<Real> params_{};
   std::vector<Real> distances_;
+  std::vector<std::uint32_t> cutMasks_;
   bool hasNearCodes_ = false;
   bool isHashed_ = false;
   ContactCounts counts_;

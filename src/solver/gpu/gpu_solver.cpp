@@ -4,12 +4,13 @@
 #include <cassert>
 
 #include "core/error.h"
+#include "solver/gpu/snapshot.h"
 
 namespace clothsim {
 namespace {
 
 // How many steps' parameters are uploaded at once when they depend on time.
-constexpr int BATCH_STEPS = 64;
+constexpr int BATCH_STEPS = GpuHand::MOST_STEPS;
 
 // How many steps the watchdog remembers one by one. Who takes more without asking for trouble() has it looked
 // for once in so many.
@@ -98,7 +99,7 @@ void GpuSolver::preparePins() {
 void GpuSolver::choosePrograms() {
   gridPrograms_.clear();
   for (std::size_t grid = 0; grid < cloth_->grids().size(); ++grid) {
-    PassFeatures features = featuresOf(scene_, *cloth_, grid);
+    PassFeatures features = featuresOf(scene_, *cloth_, grid, hand_.hand(), cuts_.cuts());
     features.groupColumns = options_.groupColumns;
     features.groupRows = options_.groupRows;
     features.fused = options_.fused;
@@ -115,6 +116,7 @@ void GpuSolver::uploadParams(std::uint64_t firstStep, int count) {
     for (std::size_t grid = 0; grid < grids; ++grid) {
       StepParams<float>& params = stagedSlots_[k * grids + grid].params;
       params = makeStepParams<float>(scene_, *cloth_, grid, firstStep + k);
+      addJet(hand_.hand(), params);
       params.firstCollider = static_cast<std::uint32_t>(k * colliders);
       params.firstPinMotion = static_cast<std::uint32_t>(k * pinMotions);
       params.kickTime = velocityConversionTime<float>(scene_);
@@ -170,22 +172,37 @@ std::optional<Trouble> GpuSolver::trouble() {
   return trouble_;
 }
 
-void GpuSolver::keep() {
-  for (auto [kept, state] :
-       {std::pair{&kept_.positions, &positions_[now_]}, std::pair{&kept_.velocities, &velocities_[now_]}}) {
-    if (kept->name() == 0) *kept = gl::Buffer<Particle4>("kept state", cloth_->particleCount());
-    kept->copyFrom(state->buffer);
+std::unique_ptr<Snapshot> GpuSolver::snapshot(std::unique_ptr<Snapshot> reuse) {
+  const std::size_t count = cloth_->particleCount();
+  const auto* old = dynamic_cast<const GpuSnapshot*>(reuse.get());
+  if (old == nullptr || old->positions.size() != count) {
+    auto fresh = std::make_unique<GpuSnapshot>();
+    fresh->positions = gl::Buffer<Particle4>("kept positions", count);
+    fresh->velocities = gl::Buffer<Particle4>("kept velocities", count);
+    reuse = std::move(fresh);
   }
-  kept_.stepIndex = stepIndex_;
-  kept_.velocityMeaning = velocityMeaning_;
+  auto& copy = static_cast<GpuSnapshot&>(*reuse);
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  copy.positions.copyFrom(positions_[now_].buffer);
+  copy.velocities.copyFrom(velocities_[now_].buffer);
+  copy.stepIndex = stepIndex_;
+  copy.velocityMeaning = velocityMeaning_;
+  copy.cuts = cuts_.cuts();
+  copy.offPath = offPath_;
+  return reuse;
 }
 
-void GpuSolver::revert() {
-  assert(kept_.positions.name() != 0 && "revert() needs a keep() before");
-  positions_[now_].buffer.copyFrom(kept_.positions);
-  velocities_[now_].buffer.copyFrom(kept_.velocities);
-  stepIndex_ = kept_.stepIndex;
-  velocityMeaning_ = kept_.velocityMeaning;
+void GpuSolver::restore(const Snapshot& snapshot) {
+  const auto* own = dynamic_cast<const GpuSnapshot*>(&snapshot);
+  if (own == nullptr) return setState(snapshot.state());
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  positions_[now_].buffer.copyFrom(own->positions);
+  velocities_[now_].buffer.copyFrom(own->velocities);
+  stepIndex_ = own->stepIndex;
+  velocityMeaning_ = own->velocityMeaning;
+  offPath_ = own->offPath;
+  preparePins();
+  if (cuts() != own->cuts) setCuts(own->cuts);
   startChecked_ = false;
   forgetTrouble();
 }
@@ -278,6 +295,9 @@ void GpuSolver::convertVelocities() {
   velocityMeaning_ = scene_.solver.integrator;
   uploadParams(stepIndex_, 1);
   paramsUploaded_ = !dependsOnTime(scene_);
+  hand_.upload(scene_, stepIndex_, 1);
+  hand_.bind(0);
+  cuts_.bind();
   bindState();
   restLengthTexture_.bind(REST_LENGTHS_UNIT);
   for (std::size_t grid = 0; grid < cloth_->grids().size(); ++grid) {
@@ -296,12 +316,15 @@ void GpuSolver::step(int count) {
   pinStartTexture_.bind(PIN_STARTS_UNIT);
   pinMotionTexture_.bind(PIN_MOTIONS_UNIT);
   distanceTexture_.bind(DISTANCES_UNIT);
+  cuts_.bind();
   const bool timed = dependsOnTime(scene_);
   for (int done = 0; done < count; ++done) {
     const int k = timed ? done % BATCH_STEPS : 0;
     if (timed ? k == 0 : !paramsUploaded_)
       uploadParams(stepIndex_, timed ? std::min(BATCH_STEPS, count - done) : 1);
     paramsUploaded_ = !timed;
+    if (done % BATCH_STEPS == 0) hand_.upload(scene_, stepIndex_, std::min(BATCH_STEPS, count - done));
+    hand_.bind(static_cast<std::size_t>(done % BATCH_STEPS));
     bindState();
     stepOnce(static_cast<std::size_t>(k));
     now_ = 1 - now_;
@@ -323,6 +346,7 @@ State GpuSolver::state() {
   state.velocities = velocities_[now_].buffer.download();
   state.step = stepIndex_;
   state.integrator = velocityMeaning_;
+  state.cuts = cuts_.cuts();
   state.offPath = offPath_;
   return state;
 }
@@ -335,15 +359,33 @@ void GpuSolver::setState(const State& state) {
   velocityMeaning_ = state.integrator;
   offPath_ = state.offPath;
   preparePins();
+  if (cuts() != state.cuts) setCuts(state.cuts);
   selfCollision_.restart();
   startChecked_ = false;
   forgetTrouble();
 }
 
+std::vector<Particle4> GpuSolver::positions(std::uint32_t first, std::uint32_t count) {
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  return positions_[now_].buffer.download(first, count);
+}
+
+void GpuSolver::setHand(const Hand& hand) {
+  const bool jetBefore = hand_.hand().jet.has_value();
+  hand_.set(hand);
+  if (hand.jet.has_value() != jetBefore) paramsUploaded_ = false;  // the air may have come or gone
+  choosePrograms();
+}
+
+void GpuSolver::setCuts(const Cuts& cuts) {
+  cuts_.set(cuts, makeCutMasks(*cloth_, cuts));
+  selfCollision_.setCut(!cuts.empty());
+  choosePrograms();
+}
+
 // A few bytes are read back.
 void GpuSolver::setPin(std::uint32_t particle, bool pinned) {
-  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-  Particle4 x = positions_[now_].buffer.download(particle, 1)[0];
+  Particle4 x = positions(particle, 1)[0];
   const Particle4 atRest;
   x.w = pinned ? 0.0f : static_cast<float>(1 / cloth_->grids()[cloth_->gridOf(particle)].particleMass);
   positions_[now_].buffer.upload({&x, 1}, particle);

@@ -11,6 +11,7 @@
 #include "gl/buffer_texture.h"
 #include "gl/context.h"
 #include "gl/program.h"
+#include "solver/gpu/hand.h"
 #include "solver/gpu/particle_array.h"
 #include "solver/gpu/pass_programs.h"
 #include "solver/gpu/pass_runner.h"
@@ -37,10 +38,15 @@ class GpuSolver final : public Solver {
   void step(int count) override;
   void finish() override;
   [[nodiscard]] std::optional<Trouble> trouble() override;
-  void keep() override;
-  void revert() override;
+  [[nodiscard]] std::unique_ptr<Snapshot> snapshot(std::unique_ptr<Snapshot> reuse) override;
+  void restore(const Snapshot& snapshot) override;
   [[nodiscard]] State state() override;
   void setState(const State& state) override;
+  void convertVelocities() override;
+  [[nodiscard]] std::vector<Particle4> positions(std::uint32_t first, std::uint32_t count) override;
+  void setHand(const Hand& hand) override;
+  void setCuts(const Cuts& cuts) override;
+  [[nodiscard]] const Cuts& cuts() const override { return cuts_.cuts(); }
   void setPin(std::uint32_t particle, bool pinned) override;
   [[nodiscard]] std::uint64_t stepIndex() const override { return stepIndex_; }
   [[nodiscard]] ContactCounts contactCounts() override { return selfCollision_.counts(); }
@@ -74,7 +80,6 @@ class GpuSolver final : public Solver {
   void bindWatch();
   void forgetTrouble();
   void checkStart();
-  void convertVelocities();
   void bindState();
   void stepOnce(std::size_t batchStep);
   void limitStrain(std::size_t grid);
@@ -112,6 +117,8 @@ class GpuSolver final : public Solver {
   std::vector<StepSlot> stagedSlots_;
   std::vector<ColliderParams<float>> stagedColliders_;
   std::vector<PinMotionParams<float>> stagedPinMotions_;
+  GpuHand hand_;
+  GpuCuts cuts_;
   GpuSelfCollision selfCollision_;
   PassRunner runner_;
 
@@ -119,13 +126,6 @@ class GpuSolver final : public Solver {
   std::uint64_t watchBase_ = 0;     // the step whose row is the first one; steps before it were sound
   std::optional<Trouble> trouble_;  // as far as it was looked for
   bool startChecked_ = true;        // false once a state was handed in
-
-  struct Kept {
-    gl::Buffer<Particle4> positions, velocities;
-    std::uint64_t stepIndex = 0;
-    Integrator velocityMeaning = Integrator::verlet;
-  };
-  Kept kept_;
 };
 
 }  // namespace clothsim

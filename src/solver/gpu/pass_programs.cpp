@@ -4,10 +4,14 @@
 
 namespace clothsim {
 
-PassFeatures featuresOf(const Scene& scene, const Cloth& cloth, std::size_t gridIndex) {
+PassFeatures featuresOf(const Scene& scene, const Cloth& cloth, std::size_t gridIndex, const Hand& hand,
+                        const Cuts& cuts) {
   const Grid& grid = cloth.grids()[gridIndex];
   PassFeatures features;
-  features.wind = scene.wind.has_value();
+  features.wind = scene.wind.has_value() || hand.jet.has_value();
+  features.jet = hand.jet.has_value();
+  features.hold = hand.hold && hand.hold->grid == gridIndex;
+  features.cuts = !cuts.empty();
   features.airResistance = scene.airResistance > 0;
   for (const Collider& collider : scene.colliders) {
     features.colliderTypes |= 1u << colliderType(collider);
@@ -31,6 +35,9 @@ gl::Defines definesFor(const PassFeatures& features) {
           {"HAS_MOVING_COLLIDERS", std::to_string(features.movingColliders)},
           {"HAS_MOVING_PINS", std::to_string(features.movingPins)},
           {"HAS_REST_LENGTH_TABLE", std::to_string(features.restLengthTable)},
+          {"HAS_HOLD", std::to_string(features.hold)},
+          {"HAS_JET", std::to_string(features.jet)},
+          {"HAS_CUTS", std::to_string(features.cuts)},
           {"COLLIDES_IN_STEP", std::to_string(features.collidesInStep)},
           {"ENABLED_SLOTS", std::to_string(features.enabledSlots) + "u"}};
 }

@@ -7,14 +7,16 @@
 #include "cloth/cloth.h"
 #include "gl/program.h"
 #include "scene/scene.h"
+#include "solver/hand.h"
 
 namespace clothsim {
 
 struct PassFeatures {
   bool wind = false, airResistance = false, movingColliders = false, coulombFriction = false,
        movingPins = false, restLengthTable = false;
-  std::uint32_t colliderTypes = 0;  // one bit a COLLIDER_... type of shared/step_params.h
-  std::uint32_t enabledSlots = 0;   // one bit a SpringSlot
+  bool hold = false, jet = false, cuts = false;  // a hand's doing
+  std::uint32_t colliderTypes = 0;               // one bit a COLLIDER_... type of shared/step_params.h
+  std::uint32_t enabledSlots = 0;                // one bit a SpringSlot
   int groupColumns = 64, groupRows = 1;
   bool fused = true;           // forces and integration in one dispatch,
   bool collidesInStep = true;  // and colliders, when no pass comes between;
@@ -22,7 +24,8 @@ struct PassFeatures {
   friend auto operator<=>(const PassFeatures&, const PassFeatures&) = default;
 };
 
-[[nodiscard]] PassFeatures featuresOf(const Scene& scene, const Cloth& cloth, std::size_t grid);
+[[nodiscard]] PassFeatures featuresOf(const Scene& scene, const Cloth& cloth, std::size_t grid,
+                                      const Hand& hand = {}, const Cuts& cuts = {});
 [[nodiscard]] gl::Defines definesFor(const PassFeatures& features);
 
 struct PassPrograms {

@@ -1,5 +1,7 @@
 #include "solver/gpu/self_collision.h"
 
+#include <utility>
+
 #include "shared/step_params.h"
 #include "solver/gpu/pass_programs.h"
 
@@ -12,8 +14,10 @@ std::uint32_t groupsAcross(int invocations, int groupSize) {
 
 }  // namespace
 
-GpuSelfCollision::Programs::Programs(bool robust, bool nearCodes, int groupColumns, int groupRows) {
+GpuSelfCollision::Programs::Programs(bool robust, bool nearCodes, bool cuts, int groupColumns,
+                                     int groupRows) {
   PassFeatures features;
+  features.cuts = cuts;
   features.groupColumns = groupColumns;
   features.groupRows = groupRows;
   gl::Defines defines = definesFor(features);
@@ -42,16 +46,27 @@ GpuSelfCollision::GpuSelfCollision(const Cloth& cloth, int groupColumns, int gro
 void GpuSelfCollision::configure(const Scene& scene) {
   mode_ = collidesWithItself(scene, *cloth_) ? scene.solver.selfCollision : SelfCollision::off;
   if (!isOn()) return;
-  const std::pair key{isRobust(), hasNearCodes(scene, *cloth_)};
-  auto found = programs_.find(key);
-  if (found == programs_.end())
-    found = programs_.try_emplace(key, key.first, key.second, groupColumns_, groupRows_).first;
-  now_ = &found->second;
+  hasNearCodes_ = hasNearCodes(scene, *cloth_);
+  choosePrograms();
   const SelfParams<float> params = makeSelfParams<float>(scene, *cloth_);
   if (params_.name() == 0) allocate(params);
   params_.upload({&params, 1});
   distances_.upload(makeContactDistances<float>(scene, *cloth_));
   restart();
+}
+
+// Cuts make neighbours strangers, whose distance is that at rest.
+void GpuSelfCollision::choosePrograms() {
+  const Variant key{isRobust(), hasNearCodes_ || cut_, cut_};
+  auto found = programs_.find(key);
+  if (found == programs_.end())
+    found = programs_.try_emplace(key, key[0], key[1], key[2], groupColumns_, groupRows_).first;
+  now_ = &found->second;
+}
+
+void GpuSelfCollision::setCut(bool cut) {
+  restart();
+  if (std::exchange(cut_, cut) != cut && isOn()) choosePrograms();
 }
 
 void GpuSelfCollision::allocate(const SelfParams<float>& params) {

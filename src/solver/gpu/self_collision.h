@@ -3,10 +3,10 @@
 // needed, none in most steps: nothing is read back.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <map>
-#include <utility>
 #include <vector>
 
 #include "cloth/cloth.h"
@@ -39,6 +39,8 @@ class GpuSelfCollision {
   // Robust only: cuts motion short where strangers came nearer than D; in place. `positions`: at the start of
   // the step.
   void guard(PassRunner& runner, const ParticleArray& positions, const BindGrid& bindGrid);
+  // Whether the masks of cuts are bound in the passes. Forgets the hash.
+  void setCut(bool cut);
   // For a new state: forgets the hash.
   void restart();
 
@@ -50,7 +52,7 @@ class GpuSelfCollision {
                   guardedSteps = 0;
   };
   struct Programs {
-    Programs(bool robust, bool nearCodes, int groupColumns, int groupRows);
+    Programs(bool robust, bool nearCodes, bool cuts, int groupColumns, int groupRows);
 
     gl::Program check, plan, clear, count, scanBlocks, scanTotals, scatter, find, separate, guardCheck, guard;
   };
@@ -64,6 +66,7 @@ class GpuSelfCollision {
     findPlace
   };
 
+  void choosePrograms();
   void allocate(const SelfParams<float>& params);
   void bind() const;
   void buildHash(PassRunner& runner, const ParticleArray& positions, const BindGrid& bindGrid) const;
@@ -73,8 +76,10 @@ class GpuSelfCollision {
   const Cloth* cloth_;
   int groupColumns_, groupRows_;
   SelfCollision mode_ = SelfCollision::off;
-  std::map<std::pair<bool, bool>, Programs> programs_;  // by robust and near codes
-  const Programs* now_ = nullptr;                       // those in use
+  bool hasNearCodes_ = false, cut_ = false;
+  using Variant = std::array<bool, 3>;  // robust, near codes, cuts
+  std::map<Variant, Programs> programs_;
+  const Programs* now_ = nullptr;  // those in use
 
   gl::Buffer<SelfParams<float>> params_;
   gl::Buffer<float> distances_;

@@ -75,5 +75,55 @@ TEST(RemainingTriangles, AreAllOfThemWithoutCuts) {
   EXPECT_EQ(remainingTriangles(cloth, {}), cloth.triangles());
 }
 
+// Against the lists of what is left.
+TEST(CutMasks, NameTheSpringsAndTrianglesThatAParticleHasLost) {
+  Scene scene = sheetScene(7);
+  scene.cloths.push_back(scene.cloths[0]);
+  scene.cloths[1].numWidthPoints = 4;
+  const Cloth cloth(scene);
+  Cuts cuts;
+  cutAlong(cuts, cloth, 0, {2.5, -1}, {4.2, 4.4});
+  cutAlong(cuts, cloth, 1, {-1, 3.3}, {2.2, 2.1});
+  const std::vector<std::uint32_t> masks = makeCutMasks(cloth, cuts);
+  const auto remaining = remainingTriangles(cloth, cuts);
+  const std::set<std::array<std::uint32_t, 3>> left(remaining.begin(), remaining.end());
+  std::uint64_t springsLost = 0, trianglesLost = 0;
+  for (const Grid& grid : cloth.grids()) {
+    for (int row = 0; row < grid.rows; ++row) {
+      for (int column = 0; column < grid.columns; ++column) {
+        const std::uint32_t i = grid.particle(column, row);
+        for (std::size_t k = 0; k < incidentSprings.size(); ++k) {
+          const IncidentSpring& spring = incidentSprings[k];
+          const int otherColumn = column + spring.columns, otherRow = row + spring.rows;
+          const bool lost = (masks[i] >> k & 1) != 0;
+          springsLost += lost;
+          if (!grid.contains(otherColumn, otherRow)) {
+            EXPECT_FALSE(lost);
+            continue;
+          }
+          EXPECT_EQ(lost, isCut(cuts, spring.owned ? i : grid.particle(otherColumn, otherRow), spring.slot));
+          EXPECT_EQ(springWithinCell(spring.columns, spring.rows), k);
+        }
+        for (std::size_t k = 0; k < incidentTriangles.size(); ++k) {
+          std::array<std::uint32_t, 3> triangle{};
+          bool exists = true;
+          for (std::size_t corner = 0; corner < 3; ++corner) {
+            const Corner& from = incidentTriangles[k][corner];
+            exists = exists && grid.contains(column + from.columns, row + from.rows);
+            if (exists) triangle[corner] = grid.particle(column + from.columns, row + from.rows);
+          }
+          const bool lost = (masks[i] >> (12 + k) & 1) != 0;
+          trianglesLost += lost;
+          EXPECT_EQ(lost, exists && !left.contains(triangle)) << i << ", " << k;
+        }
+      }
+    }
+  }
+  EXPECT_EQ(springsLost, 2 * (cloth.springCount() - remainingSpringCount(cloth, cuts)));
+  EXPECT_EQ(trianglesLost, 3 * (cloth.triangleCount() - remaining.size()));
+  EXPECT_GT(trianglesLost, 20u);
+  EXPECT_TRUE(makeCutMasks(cloth, {}).empty());
+}
+
 }  // namespace
 }  // namespace clothsim

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "core/fnv.h"
 #include "export/export.h"
 #include "export/formats.h"
 #include "support/temporary_folder.h"
@@ -74,8 +75,8 @@ TEST_F(StateFile, OfAnotherSceneIsRefusedWithBothParticleCounts) {
 }
 
 TEST_F(StateFile, OfALaterVersionIsRefusedWithBothVersions) {
-  bytes_[8] = 2;
-  EXPECT_NE(refusalOf(bytes_).find("version 2"), std::string::npos);
+  bytes_[8] = 3;
+  EXPECT_NE(refusalOf(bytes_).find("version 3"), std::string::npos);
 }
 
 TEST_F(StateFile, IsNotMistakenForWhatIsNone) {
@@ -86,6 +87,52 @@ TEST_F(StateFile, ThatDoesNotExistIsNamedInTheMessage) {
   const std::string message =
       messageThrownBy<InputOutputError>([&] { (void)loadState("/nowhere/a.state", cloth_); });
   EXPECT_NE(message.find("/nowhere/a.state"), std::string::npos) << message;
+}
+
+class HandledStateFile : public StateFile {
+ protected:
+  HandledStateFile() {
+    state_.cuts = {0, 1, 2, 63, 32, 0};
+    state_.offPath = {1, 5};
+    bytes_ = formatStateFile(state_);
+  }
+  // The bytes with one of them changed and a checksum that fits.
+  std::string forged(std::size_t place, char value) {
+    std::string bytes = bytes_.substr(0, bytes_.size() - 8);
+    bytes[place] = value;
+    Fnv1a hash;
+    hash.add(bytes);
+    const std::uint64_t sum = hash.value();
+    return bytes.append(reinterpret_cast<const char*>(&sum), 8);
+  }
+};
+
+TEST_F(HandledStateFile, ReadsBackCutsAndPinsByHand) {
+  const State back = parseStateFile(bytes_, cloth_.particleCount(), "a.state");
+  EXPECT_EQ(back.cuts, state_.cuts);
+  EXPECT_EQ(back.offPath, state_.offPath);
+  EXPECT_EQ(back.step, state_.step);
+  EXPECT_EQ(bytes_.substr(8, 4), std::string("\2\0\0\0", 4));
+  EXPECT_EQ(bytes_.size(), 32 + 32 * 6 + 8 + 6 + 8 + 2 * 4 + 8u);
+}
+
+TEST_F(HandledStateFile, IsRefusedWhenCutOffOrDamagedAnywhere) {
+  for (std::size_t place = 0; place < bytes_.size(); ++place) {
+    EXPECT_THROW((void)parseStateFile(bytes_.substr(0, place), 6, "a.state"), InputOutputError) << place;
+    std::string damaged = bytes_;
+    damaged[place] = static_cast<char>(damaged[place] ^ 0x10);
+    EXPECT_THROW((void)parseStateFile(damaged, 6, "a.state"), InputOutputError) << place;
+  }
+  EXPECT_NE(refusalOf(bytes_ + "x").find("added to"), std::string::npos);
+}
+
+TEST_F(HandledStateFile, IsRefusedWhenItsListsMakeNoSense) {
+  const std::size_t cuts = 32 + 32 * 6;
+  EXPECT_NE(refusalOf(forged(cuts + 8, 64)).find("the cuts of particle 0 are 64"), std::string::npos);
+  EXPECT_NE(refusalOf(forged(cuts + 8 + 6 + 8, 5)).find("ascending"), std::string::npos);
+  EXPECT_NE(refusalOf(forged(cuts + 8 + 6 + 8 + 4, 6)).find("below 6"), std::string::npos);
+  EXPECT_NE(refusalOf(forged(cuts + 7, '\x7f')).find("cut off"), std::string::npos) << "a count beyond all";
+  EXPECT_NE(refusalOf(forged(cuts, 5)), "");
 }
 
 // The layout in formats.h, read by hand.

@@ -1,0 +1,57 @@
+// What a hand does to the cloth in a step (src/solver/hand.h), evaluated on the host and handed to both
+// backends as the same bits. Included by GLSL (std140) and by C++, where `real` is float for the bitwise twin
+// and double for tests of the physics. Rows of 16 bytes.
+#ifdef __cplusplus
+#pragma once
+#include <cstdint>
+namespace clothsim::shared {
+using uint = std::uint32_t;
+#define SHARED_STRUCT   \
+  template <class real> \
+  struct
+#else
+#define SHARED_STRUCT struct
+#define real float
+#endif
+
+#define HAND_PARAMS_BINDING 3  // uniform block
+#define HELD_UNIT 16       // buffer read as texels, a texel a held grid point: offset from the goal, weight
+#define CUT_MASKS_UNIT 17  // an unsigned number a particle: makeCutMasks() of src/cloth/cuts.h
+#define FIRST_CUT_TRIANGLE 12  // the bit of the first incident triangle in a cut mask
+
+SHARED_STRUCT HandParams {
+  real goalX;  // where the hand is at the end of the step [m]
+  real goalY;
+  real goalZ;
+  real velocityKept;  // A of v_new = A v' + B (goal - x) + push
+
+  real pushX;  // what the hand's own velocity adds [m/s]
+  real pushY;
+  real pushZ;
+  real pull;  // B [1/s]
+
+  uint firstColumn;  // the block of grid points that is held
+  uint firstRow;
+  uint columns;
+  uint rows;
+
+  real largestSpeed;         // to which a hand pulls [m/s],
+  real largestSpeedSquared;  // squared
+  real inverseRadius;        // of the jet [1/m]
+  real inverseRadiusSquared;
+
+  real originX;  // of the jet [m]
+  real originY;
+  real originZ;
+  real jetSpeed;  // on its axis [m/s]
+
+  real directionX;  // of the jet, a unit vector
+  real directionY;
+  real directionZ;
+  uint jetAlone;  // whether the air rests but for the jet, and acts in it alone
+};
+
+#ifdef __cplusplus
+#undef SHARED_STRUCT
+}  // namespace clothsim::shared
+#endif

@@ -1,0 +1,28 @@
+#include "app/replay.h"
+
+#include <utility>
+
+namespace clothsim {
+
+Replay::Replay(Recording recording, const std::optional<std::string>& backend)
+    : recording_(std::move(recording)),
+      keepsBackend_(backend.has_value()),
+      session_(recording_.scene, backend.value_or(recording_.backend), 0) {
+  actOutDue();
+}
+
+std::optional<Trouble> Replay::stepFrame() {
+  const std::optional<Trouble> trouble = session_.stepFrames(1);
+  if (!trouble) actOutDue();
+  return trouble;
+}
+
+void Replay::actOutDue() {
+  for (; next_ < recording_.events.size() && recording_.events[next_].step <= session_.step(); ++next_) {
+    const Action& action = recording_.events[next_].action;
+    if (keepsBackend_ && std::holds_alternative<SwitchBackend>(action)) continue;
+    session_.act(action);
+  }
+}
+
+}  // namespace clothsim

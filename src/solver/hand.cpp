@@ -1,0 +1,151 @@
+#include "solver/hand.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "core/exact_math.h"
+
+namespace clothsim {
+namespace {
+
+// No hand is faster [m/s]. A goal far away is approached at this speed instead of in one step, which would
+// tear the particle from its neighbours.
+constexpr double LARGEST_HAND_SPEED = 30;
+
+// No denormals: what a driver makes of them is its own affair.
+template <class Real>
+Real real(double x) {
+  return canonical(static_cast<Real>(x));
+}
+
+Vec3d unit(Vec3d v) {
+  const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  const Vec3d scaled = (1 / largest) * v;
+  return (1 / std::sqrt(dot(scaled, scaled))) * scaled;
+}
+
+struct Reach {  // of a block along one direction of the grid
+  int first, count;
+};
+Reach reachOf(int place, int points, double spacing, double radius) {
+  const double cells = spacing > 0 ? std::min(radius / spacing, double(points)) : 0;
+  const int first = std::max(0, place - static_cast<int>(cells));
+  const int last = std::min(points - 1, place + static_cast<int>(cells));
+  return {first, last - first + 1};
+}
+
+double falloff(double distanceSquared, double radius) {
+  if (distanceSquared == 0) return 1;  // the particle itself, whatever the radius
+  const double inside = 1 - distanceSquared / (radius * radius);
+  return inside > 0 ? inside * inside : 0;
+}
+
+template <class Real>
+void putHold(const Hold& hold, double h, std::uint64_t step, HandParams<Real>& params) {
+  const double w = std::sqrt(hold.strength);
+  const double kept = 1 / (1 + 2 * h * w + h * h * hold.strength);
+  const Vec3d goal = placeOf(hold, step + 1);
+  const Vec3d velocity = (1 / h) * (goal - placeOf(hold, step));
+  const Vec3d push = (kept * 2 * h * w) * velocity;
+  params.goalX = real<Real>(goal.x);
+  params.goalY = real<Real>(goal.y);
+  params.goalZ = real<Real>(goal.z);
+  params.velocityKept = real<Real>(kept);
+  params.pushX = real<Real>(push.x);
+  params.pushY = real<Real>(push.y);
+  params.pushZ = real<Real>(push.z);
+  params.pull = real<Real>(kept * h * hold.strength);
+  params.firstColumn = hold.firstColumn;
+  params.firstRow = hold.firstRow;
+  params.columns = hold.columns;
+  params.rows = hold.rows;
+  params.largestSpeed = real<Real>(LARGEST_HAND_SPEED);
+  params.largestSpeedSquared = real<Real>(LARGEST_HAND_SPEED * LARGEST_HAND_SPEED);
+}
+
+template <class Real>
+void putJet(const Jet& jet, bool alone, HandParams<Real>& params) {
+  const Vec3d direction = unit(jet.direction);
+  params.inverseRadius = real<Real>(1 / jet.radius);
+  params.inverseRadiusSquared = real<Real>(1 / (jet.radius * jet.radius));
+  params.originX = real<Real>(jet.origin.x);
+  params.originY = real<Real>(jet.origin.y);
+  params.originZ = real<Real>(jet.origin.z);
+  params.jetSpeed = real<Real>(jet.speed);
+  params.directionX = real<Real>(direction.x);
+  params.directionY = real<Real>(direction.y);
+  params.directionZ = real<Real>(direction.z);
+  params.jetAlone = alone ? 1 : 0;
+}
+
+}  // namespace
+
+Hold takeHold(const Cloth& cloth, std::uint32_t particle, double strength, double radius,
+              const ReadPositions& positions) {
+  Hold hold;
+  hold.grid = cloth.gridOf(particle);
+  hold.strength = strength;
+  const Grid& grid = cloth.grids()[hold.grid];
+  const int place = static_cast<int>(particle - grid.firstParticle);
+  const int column = place % grid.columns, row = place / grid.columns;
+  const double dx = grid.nominalLength[toLeft], dy = grid.nominalLength[toUpper];
+  const Reach across = reachOf(column, grid.columns, dx, radius), along = reachOf(row, grid.rows, dy, radius);
+  hold.firstColumn = static_cast<std::uint32_t>(across.first);
+  hold.firstRow = static_cast<std::uint32_t>(along.first);
+  hold.columns = static_cast<std::uint32_t>(across.count);
+  hold.rows = static_cast<std::uint32_t>(along.count);
+
+  const auto vectorOf = [](const Particle4& p) { return Vec3f{p.x, p.y, p.z}.cast<double>(); };
+  std::vector<Hold::Point> points;
+  const Vec3d origin = vectorOf(positions(particle, 1)[0]);
+  for (int r = along.first; r < along.first + along.count; ++r) {
+    const std::vector<Particle4> ofRow = positions(grid.particle(across.first, r), hold.columns);
+    for (int c = 0; c < across.count; ++c) {
+      const double x = dx * (across.first + c - column), y = dy * (r - row);
+      const Vec3f offset = (vectorOf(ofRow[static_cast<std::size_t>(c)]) - origin).cast<float>();
+      points.push_back({{canonical(offset.x), canonical(offset.y), canonical(offset.z)},
+                        static_cast<float>(falloff(x * x + y * y, radius))});
+    }
+  }
+  hold.points = std::make_shared<const std::vector<Hold::Point>>(std::move(points));
+  hold.from = hold.to = origin;
+  return hold;
+}
+
+Vec3d placeOf(const Hold& hold, std::uint64_t steps) {
+  if (steps <= hold.firstStep) return hold.from;
+  const double part = static_cast<double>(steps - hold.firstStep) / hold.steps;
+  return part < 1 ? hold.from + part * (hold.to - hold.from) : hold.to;
+}
+
+void moveTo(Hold& hold, Vec3d target, std::uint64_t step, int steps) {
+  hold.from = placeOf(hold, step);
+  hold.to = target;
+  hold.firstStep = step;
+  hold.steps = steps;
+}
+
+template <class Real>
+HandParams<Real> makeHandParams(const Hand& hand, const Scene& scene, std::uint64_t step) {
+  HandParams<Real> params{};
+  if (hand.hold) putHold(*hand.hold, stepLength(scene.solver), step, params);
+  if (hand.jet) putJet(*hand.jet, !scene.wind, params);
+  return params;
+}
+
+template <class Real>
+void addJet(const Hand& hand, shared::StepParams<Real>& params) {
+  if (!hand.jet || params.hasWind != 0) return;
+  const Wind usual;
+  params.hasWind = 1;
+  params.dragFactor = static_cast<Real>(usual.airDensity * usual.drag / 12);
+  params.liftFactor = static_cast<Real>(usual.airDensity * usual.lift / 12);
+}
+
+template HandParams<float> makeHandParams(const Hand&, const Scene&, std::uint64_t);
+template HandParams<double> makeHandParams(const Hand&, const Scene&, std::uint64_t);
+template void addJet(const Hand&, shared::StepParams<float>&);
+template void addJet(const Hand&, shared::StepParams<double>&);
+
+}  // namespace clothsim

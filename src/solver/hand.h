@@ -1,0 +1,80 @@
+// A person's hands on the cloth: particles held by a soft spring, and a jet of air. Plain values that the
+// solvers are given; everything that depends on time is evaluated on the host for both backends.
+//
+// What is held follows a critically damped spring without mass of its own, integrated implicitly and so
+// stable at any strength: with w = sqrt(strength), the hand's velocity u and v' the velocity after all
+// forces,
+//   v_new = (v' + 2 h w u + h w^2 (goal - x)) / (1 + 2 h w + h^2 w^2),  x_new = x + h v_new.
+// A particle of weight c < 1 takes that part of the change: v' + c (v_new - v'). It comes right after the
+// integration, so that strain limit, self-collision and colliders have the last word. Pinned particles stay.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "cloth/cloth.h"
+#include "scene/scene.h"
+#include "shared/hand.h"
+#include "shared/step_params.h"
+#include "solver/state.h"
+
+namespace clothsim {
+
+template <class Real>
+using HandParams = shared::HandParams<Real>;
+
+// A block of grid points in a hand.
+struct Hold {
+  // Of one grid point: where its goal lies from the hand's place, and its weight; 0 outside the radius. As
+  // the GPU reads it.
+  struct alignas(16) Point {
+    Vec3f offset;  // [m]
+    float weight = 0;
+  };
+
+  std::size_t grid = 0;
+  std::uint32_t firstColumn = 0, firstRow = 0, columns = 0, rows = 0;
+  std::shared_ptr<const std::vector<Point>> points;  // row-major
+  double strength = 0;                               // w^2 [1/s^2]
+
+  Vec3d from, to;               // the hand goes from here to there [m],
+  std::uint64_t firstStep = 0;  // beginning with this step,
+  int steps = 1;                // in so many
+};
+
+// Air that blows along an axis: at the distance r from it, speed (1 - (r / radius)^2)^2; rising from 0 at the
+// origin to that within one radius along the axis, and resting behind it.
+struct Jet {
+  Vec3d origin, direction;  // [m]; any length but 0
+  double speed = 0;         // [m/s]
+  double radius = 0.1;      // [m], > 0
+};
+
+struct Hand {
+  std::optional<Hold> hold;
+  std::optional<Jet> jet;
+};
+
+// Reads positions of `count` particles from `first` on.
+using ReadPositions = std::function<std::vector<Particle4>(std::uint32_t first, std::uint32_t count)>;
+
+// Takes hold of a particle and of those within `radius` [m] of it on the lattice at rest; the weight falls as
+// (1 - (r / radius)^2)^2. Everything keeps its place relative to the particle, where the hand begins.
+[[nodiscard]] Hold takeHold(const Cloth& cloth, std::uint32_t particle, double strength, double radius,
+                            const ReadPositions& positions);
+// Where the hand is once `steps` steps are done [m].
+[[nodiscard]] Vec3d placeOf(const Hold& hold, std::uint64_t steps);
+// From where it is after `step` steps to `target`, in so many steps.
+void moveTo(Hold& hold, Vec3d target, std::uint64_t step, int steps);
+
+// For the step from step * h to (step + 1) * h.
+template <class Real>
+[[nodiscard]] HandParams<Real> makeHandParams(const Hand& hand, const Scene& scene, std::uint64_t step);
+// A jet needs the forces of the air: those of the default Wind where the scene has none.
+template <class Real>
+void addJet(const Hand& hand, shared::StepParams<Real>& params);
+
+}  // namespace clothsim

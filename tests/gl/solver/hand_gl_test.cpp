@@ -1,0 +1,169 @@
+// Hands on the cloth: the GPU and the CPU agree in every bit of what they do, in every combination of passes.
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "app/compare.h"
+#include "gl/gl_test.h"
+#include "solver/cpu/cpu_solver.h"
+#include "solver/gpu/gpu_solver.h"
+#include "support/compared_scenes.h"
+#include "support/hands.h"
+
+namespace clothsim {
+namespace {
+
+using HandOnGpuTest = GlTest;
+
+// Grabs with neighbours, moves, cuts, blows, pins and lets go, some steps each.
+void playWith(Solver& solver, const Cloth& cloth, const Scene& scene) {
+  const Grid& grid = cloth.grids()[0];
+  const std::uint32_t middle = grid.particle(grid.columns / 2, grid.rows / 2);
+  solver.step(20);
+  Hand hand = test::handTo(solver, cloth, scene, middle, {0.6, 0.7, 0.5}, 1e5, 0.25);
+  solver.setHand(hand);
+  solver.step(70);  // more than a batch
+  solver.setCuts(test::someCuts(cloth));
+  solver.step(20);
+  hand.jet = Jet{{0.3, 0.4, -1}, {0.1, 0.2, 1}, 8, 0.4};
+  solver.setHand(hand);
+  solver.setPin(grid.particle(1, 1), true);
+  solver.step(40);
+  solver.setPin(grid.particle(1, 1), false);
+  moveTo(*hand.hold, {0.2, 0.9, -0.3}, solver.stepIndex(), 30);
+  solver.setHand(hand);
+  solver.setCuts(test::cutAcross(cloth, grid.rows / 2 - 0.5));
+  solver.step(40);
+  solver.setHand({});
+  solver.step(30);
+}
+
+template <class SolverType, class... Options>
+State playedOn(const Scene& scene, const Options&... options) {
+  const Cloth cloth(scene);
+  SolverType solver(cloth, scene, options...);
+  playWith(solver, cloth, scene);
+  EXPECT_EQ(solver.trouble(), std::nullopt);
+  return solver.state();
+}
+
+std::vector<test::NamedScene> scenesToPlayWith() {
+  const Scene sheet = test::vertical(test::sheetScene(17));
+  return {{"sheet", sheet},
+          {"everything with pin motion",
+           test::withPinMotion(test::withWind(test::withColliders(test::withLimiter(sheet))))},
+          {"stiffness reference", test::stiffnessReferenceScene(17)},
+          {"averaged self-collision", test::layeredSheets(16, SelfCollision::averaged)},
+          {"robust self-collision", test::withColliders(test::layeredSheets(16, SelfCollision::robust))},
+          {"thick robust self-collision", test::thick(test::layeredSheets(10, SelfCollision::robust))},
+          {"two cloths", test::twoCloths(test::withLimiter(test::withWind(sheet)))}};
+}
+
+TEST_F(HandOnGpuTest, DoesWhatItDoesOnTheCpuToTheBit) {
+  for (const auto& [name, scene] : scenesToPlayWith()) {
+    const State gpu = playedOn<GpuSolver>(scene), cpu = playedOn<CpuSolver<float>>(scene);
+    const StateDifference result = difference(gpu, cpu);
+    EXPECT_EQ(result.differing, 0u) << name << ", by at most " << result.maxAbs;
+    EXPECT_TRUE(result.finite) << name;
+    EXPECT_EQ(gpu.cuts, cpu.cuts);
+    EXPECT_EQ(gpu.offPath, cpu.offPath);
+  }
+}
+
+TEST_F(HandOnGpuTest, GivesTheSameBitsFusedAndPassByPass) {
+  for (const auto& [name, scene] : scenesToPlayWith()) {
+    const std::uint64_t fused = stateHash(playedOn<CpuSolver<float>>(scene));
+    EXPECT_EQ(stateHash(playedOn<CpuSolver<float>>(scene, false)), fused) << name;
+    EXPECT_EQ(stateHash(playedOn<GpuSolver>(scene, GpuOptions{.fused = false})), fused) << name;
+    EXPECT_EQ(stateHash(playedOn<GpuSolver>(scene, GpuOptions{.groupColumns = 8, .groupRows = 8})), fused)
+        << name;
+  }
+}
+
+TEST_F(HandOnGpuTest, IsStableAtAnyStrengthOnBothBackends) {
+  for (const double strength : {1e-12, 1e12, 1e300}) {
+    for (const int steps : {1, 30}) {
+      Scene scene = test::vertical(test::sheetScene(9));
+      scene.solver.simulationSteps = steps;
+      if (steps == 1) scene.cloths[0].ks = 50;
+      const Cloth cloth(scene);
+      GpuSolver gpu(cloth, scene);
+      CpuSolver<float> cpu(cloth, scene);
+      for (Solver* solver : {static_cast<Solver*>(&gpu), static_cast<Solver*>(&cpu)}) {
+        solver->setHand(test::handTo(*solver, cloth, scene, 4, {0.7, 0.2, 0.5}, strength, 0.2));
+        solver->step(10 * steps);
+        EXPECT_EQ(solver->trouble(), std::nullopt) << strength;
+      }
+      const StateDifference result = difference(gpu.state(), cpu.state());
+      EXPECT_EQ(result.differing, 0u) << strength << ", " << steps;
+      EXPECT_TRUE(result.finite) << strength << ", " << steps;
+    }
+  }
+}
+
+// The air of a jet counts when velocities change their meaning.
+TEST_F(HandOnGpuTest, CountsTheJetWhenTheIntegratorChanges) {
+  Scene scene = test::vertical(test::sheetScene(12)), other = scene;
+  other.solver.integrator = Integrator::euler;
+  const Cloth cloth(scene);
+  GpuSolver gpu(cloth, scene);
+  CpuSolver<float> cpu(cloth, scene);
+  Hand hand;
+  hand.jet = Jet{{0.5, 0.5, -1}, {0, 0, 1}, 10, 0.5};
+  for (Solver* solver : {static_cast<Solver*>(&gpu), static_cast<Solver*>(&cpu)}) {
+    solver->setHand(hand);
+    solver->step(30);
+    solver->configure(other);
+    solver->setCuts(test::someCuts(cloth));
+    solver->convertVelocities();
+    solver->step(30);
+  }
+  EXPECT_EQ(difference(gpu.state(), cpu.state()).differing, 0u);
+}
+
+TEST_F(HandOnGpuTest, GoesBackToSnapshotsOfEitherBackend) {
+  const Scene scene = test::withPinMotion(test::withWind(test::vertical(test::sheetScene(17))));
+  const Cloth cloth(scene);
+  GpuSolver gpu(cloth, scene);
+  CpuSolver<float> cpu(cloth, scene);
+  gpu.step(40);
+  gpu.setCuts(test::someCuts(cloth));
+  gpu.setPin(5, true);
+  gpu.step(10);
+  std::unique_ptr<Snapshot> snapshot = gpu.snapshot(nullptr);
+  EXPECT_EQ(snapshot->bytes(), 32u * 17 * 17) << "two vec4 a particle, and nothing is read back";
+  gpu.setCuts({});
+  gpu.step(50);
+  gpu.restore(*snapshot);
+  cpu.restore(*snapshot);
+  std::unique_ptr<Snapshot> onCpu = cpu.snapshot(nullptr);
+  gpu.step(50);
+  cpu.step(50);
+  const State after = cpu.state();
+  EXPECT_EQ(difference(gpu.state(), after).differing, 0u);
+  EXPECT_EQ(gpu.state().cuts, after.cuts);
+  gpu.restore(*onCpu);
+  gpu.step(50);
+  EXPECT_EQ(difference(gpu.state(), after).differing, 0u);
+}
+
+// A snapshot's buffers are its own, also when the solver is gone.
+TEST_F(HandOnGpuTest, ReusesTheMemoryOfASnapshotThatIsNeededNoMore) {
+  const Scene scene = test::vertical(test::sheetScene(8));
+  const Cloth cloth(scene);
+  std::unique_ptr<Snapshot> snapshot;
+  std::uint64_t hash = 0;
+  {
+    GpuSolver gpu(cloth, scene);
+    snapshot = gpu.snapshot(nullptr);
+    const Snapshot* memory = snapshot.get();
+    gpu.step(30);
+    snapshot = gpu.snapshot(std::move(snapshot));
+    EXPECT_EQ(snapshot.get(), memory);
+    hash = stateHash(gpu.state());
+  }
+  EXPECT_EQ(stateHash(snapshot->state()), hash);
+}
+
+}  // namespace
+}  // namespace clothsim

@@ -1,0 +1,45 @@
+// Hands for tests: where they hold, blow and cut.
+#pragma once
+
+#include <cstdint>
+
+#include "cloth/cuts.h"
+#include "solver/hand.h"
+#include "solver/solver.h"
+
+namespace clothsim::test {
+
+inline Vec3f placeOf(const State& state, std::uint32_t particle) {
+  const Particle4& x = state.positions[particle];
+  return {x.x, x.y, x.z};
+}
+
+// Holds a particle and goes to the target in one frame.
+inline Hand handTo(Solver& solver, const Cloth& cloth, const Scene& scene, std::uint32_t particle,
+                   Vec3d target, double strength, double radius = 0) {
+  Hand hand;
+  hand.hold = takeHold(cloth, particle, strength, radius, [&](std::uint32_t first, std::uint32_t count) {
+    return solver.positions(first, count);
+  });
+  moveTo(*hand.hold, target, solver.stepIndex(), scene.solver.simulationSteps);
+  return hand;
+}
+
+// The first grid cut in two, from side to side below a row; between two rows.
+inline Cuts cutAcross(const Cloth& cloth, double row) {
+  Cuts cuts;
+  cutAlong(cuts, cloth, 0, {-1, row}, {cloth.grids()[0].columns + 1.0, row + 1e-3});
+  return cuts;
+}
+
+// A zigzag that ends within the first grid.
+inline Cuts someCuts(const Cloth& cloth) {
+  const Grid& grid = cloth.grids()[0];
+  Cuts cuts;
+  const double c = grid.columns, r = grid.rows;
+  cutAlong(cuts, cloth, 0, {0.1 * c, -1}, {0.4 * c, 0.6 * r});
+  cutAlong(cuts, cloth, 0, {0.4 * c, 0.6 * r}, {0.7 * c, 0.2 * r});
+  return cuts;
+}
+
+}  // namespace clothsim::test
