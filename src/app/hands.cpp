@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "render/stage.h"
+#include "scene/moved_collider.h"
 
 namespace clothsim {
 namespace {
@@ -69,17 +70,6 @@ LatticePoint overTheEdge(const Grid& grid, LatticePoint from, LatticePoint to) {
   return leaves ? beyond : to;
 }
 
-void shiftCollider(Collider& collider, Vec3d position) {
-  std::visit(
-      [&](auto& shape) {
-        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(shape)>, Plane>)
-          shape.point = position;
-        else
-          shape.origin = position;
-      },
-      collider);
-}
-
 }  // namespace
 
 ViewRay rayThrough(const Camera& camera, int width, int height, Cursor cursor) {
@@ -140,6 +130,7 @@ std::string Hands::press(const Reach& reach, Button button, Cursor cursor, Modif
 }
 
 void Hands::grab(const Reach& reach, const Pick& pick) {
+  held_ = pick.particle;
   Grab grab;
   grab.particle = pick.particle;
   grab.target = toVec3d(pick.point);
@@ -241,11 +232,11 @@ void Hands::beforeStep(const Reach& reach, Cursor cursor, bool blows) {
   }
   if (doing_ == Doing::moveCollider && targetMoved_) {
     const Vec3d place = targetAt(reach, cursor) + offset_;
-    Scene scene = reach.session.simulation().scene();
-    if (reach.paused && !moves(scene.colliders[collider_])) {
+    if (reach.paused) {
       // While nothing moves the solid is simply put elsewhere: as a parameter, which can be undone.
-      shiftCollider(scene.colliders[collider_], place);
-      reach.session.act(EditScene{scene}, dragGoesOn_);
+      const Simulation& simulation = reach.session.simulation();
+      reach.session.act(EditScene{withColliderAt(simulation.scene(), collider_, place, simulation.time())},
+                        dragGoesOn_);
       dragGoesOn_ = true;
     } else {
       reach.session.act(MoveCollider{collider_, place});
@@ -275,7 +266,11 @@ void Hands::letGo(Session& session) {
 
 HandMarks Hands::marks(const Reach& reach, Cursor cursor) const {
   HandMarks marks;
-  if (doing_ == Doing::grab) marks.hand = {cursor.x, cursor.y};
+  if (doing_ == Doing::grab) {
+    marks.hand = {cursor.x, cursor.y};
+    const std::vector<Particle4> held = reach.session.simulation().solver().positions(held_, 1);
+    marks.held = placeInPicture(reach.camera, reach.width, reach.height, {held[0].x, held[0].y, held[0].z});
+  }
   if (blowing_) {
     marks.nozzle = {cursor.x, cursor.y};
     // The jet's edge where the target lies, in pixels: the field of view is that of the projection.

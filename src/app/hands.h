@@ -25,7 +25,8 @@ struct Reach {
 
 // What to draw over the picture, in pixels from its top left.
 struct HandMarks {
-  std::optional<glm::vec2> hand;    // it holds the cloth here
+  std::optional<glm::vec2> hand;    // it pulls from here
+  std::optional<glm::vec2> held;    // at the particle here
   std::optional<glm::vec2> nozzle;  // it blows from here
   float nozzleRadius = 0;
   std::vector<glm::vec2> stroke;  // of the knife
@@ -67,6 +68,7 @@ class Hands {
   glm::vec3 heldPoint_{0}, planeNormal_{0, 0, 1};
   Vec3d offset_;
   std::size_t collider_ = 0;
+  std::uint32_t held_ = 0;
   bool targetMoved_ = false, dragGoesOn_ = false;
   Pick lastCut_;
   std::vector<glm::vec2> stroke_;

@@ -85,7 +85,7 @@ void MeasurePanel::sample(Session& session, double now, std::optional<std::uint3
   if (samples_.empty() || simulation.time() > samples_.back().time) samples_.push_back(sample);
   if (samples_.size() > mostSamples) samples_.pop_front();
   contacts_ = measureContacts(cloth, simulation.scene(), state, sample.energies.maxStrain).contacts;
-  guardedSteps_ = session.simulation().solver().contactCounts().guardedSteps;
+  guardedSteps_ = session.simulation().contactCounts().guardedSteps;
   strainUnderCursor_ =
       underCursor ? std::optional(strainAt(cloth, session.cuts(), state, *underCursor)) : std::nullopt;
   rate_ = seconds_ > 0 ? particleSteps_ / seconds_ : 0;

@@ -20,7 +20,6 @@ struct PanelRequests {
   std::vector<ViewerAction> actions;       // as by their keys
   std::optional<std::string> openScene;    // by -f's rule
   std::optional<std::string> saveSceneAs;  // a path
-  std::optional<Integrator> integrator;    // by an edit of the scene
   std::optional<std::string> backend;      // "cpu" or "gpu"
   bool resetScene = false;                 // to what was loaded
 };

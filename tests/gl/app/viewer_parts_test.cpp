@@ -40,8 +40,10 @@ TEST(ViewerKeys, EachInputStandsInTheTableOnce) {
 }
 
 TEST(ViewerKeys, EachActionIsFoundByItsOwnKey) {
-  for (const ViewerKey& key : viewerKeys)
-    if (key.action != ViewerAction::none) EXPECT_EQ(actionOf(keyStroke(key.input)), key.action) << key.input;
+  for (const ViewerKey& key : viewerKeys) {
+    if (key.action == ViewerAction::none) continue;
+    EXPECT_EQ(actionOf(keyStroke(key.input)), key.action) << key.input;
+  }
 }
 
 TEST(ViewerKeys, CS184sKeysDoWhatTheyDidThere) {
