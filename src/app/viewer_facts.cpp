@@ -75,7 +75,7 @@ OverlayFacts viewerFacts(const OpenScene& open, const SpeedMeter& meter, bool pa
   facts.rows = {{"backend", backendText(simulation.solver()), false, true},
                 {"cloth", gridSizes(simulation.cloth()) + " = " +
                               withCommas(simulation.cloth().particleCount()) + " particles"},
-                {"integrator", nameOf(open.scene().solver.integrator)},
+                {"integrator", nameOf(open.scene().solver.integrator), false, true},
                 {"time", formatted("%.2f s", simulation.time())}};
   if (paused)
     facts.rows.push_back(
@@ -84,7 +84,7 @@ OverlayFacts viewerFacts(const OpenScene& open, const SpeedMeter& meter, bool pa
     facts.rows.push_back(speedRow(open, meter));
   if (meter.framesPerSecond() > 0 && !paused)
     facts.rows.push_back({"display", formatted("%.0f frames/s", meter.framesPerSecond())});
-  facts.rows.push_back({"help", "F1 lists the keys"});
+  facts.rows.push_back({"help", "F1 lists the keys", false, true});
   return facts;
 }
 

@@ -15,7 +15,7 @@ constexpr ImGuiWindowFlags overlayFlags =
     ImGuiWindowFlags_NoFocusOnAppearing;
 
 constexpr float keyColumnWidth = 27;  // of the list of keys [em]
-constexpr float narrowPicture = 34;   // em
+constexpr float narrowPicture = 46;   // em
 
 // The name of a key on a small rounded rectangle, as on a keyboard.
 void drawKeyCap(std::string_view name) {

@@ -85,7 +85,9 @@ TEST_F(WindowUi, WritesScreenshotsAndClipsUnderNamesThatNothingHas) {
     return fs::exists(viewer.here() / "pinned2-cpu.mp4") || fs::exists(viewer.here() / "pinned2-cpu-frames");
   }));
   const fs::path film = viewer.here() / "pinned2-cpu.mp4";
-  if (fs::exists(film)) EXPECT_GT(fs::file_size(film), 1000u);
+  if (fs::exists(film)) {
+    EXPECT_GT(fs::file_size(film), 1000u);
+  }
 }
 
 TEST_F(WindowUi, SavesASceneThatLoadsAgain) {
