@@ -26,7 +26,7 @@ struct Arguments {
   int frames = 0, every = 1, around = 64, down = 48;
   double fps = 30, seconds = 1, jitter = 0;
   std::uint32_t seed = 1;
-  bool json = false, checkCrossings = false;
+  bool json = false, checkCrossings = false, timings = false;
 
   [[nodiscard]] SceneOptions sceneOptions() const {
     SceneOptions options{.scene = scene, .resolution = std::nullopt, .settings = settings};
@@ -216,11 +216,12 @@ void declareViewer(CLI::App& app, Arguments& a, Action& action) {
   addResolution(app, a);
   addBackend(app, a);
   addSphereSegments(app, a);
+  app.add_flag("--timings", a.timings, "viewer: print at the end where the time of a displayed frame went");
   app.footer("Without a command: the viewer.\n\nKeys and mouse in the viewer:\n" + viewerKeysText() +
              "\nExit codes: 0 done, 1 the simulation failed or differs, 2 wrong usage, 3 scene error,\n"
              "            4 no usable OpenGL or no display, 5 input/output");
   action = [&] {
-    runViewer(loadScene(a.sceneOptions()), {a.scene, a.backend, a.around, a.down});
+    runViewer(loadScene(a.sceneOptions()), {a.scene, a.backend, a.around, a.down, a.timings});
     return 0;
   };
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <chrono>
 #include <utility>
 
 #include "app/action_checks.h"
@@ -151,16 +152,45 @@ void Session::goBetween(SceneStack& from, SceneStack& to) {
 
 std::optional<Trouble> Session::stepFrames(int frames) {
   if (frames > 0) forgetLater();
-  for (int i = 0; i < frames; ++i)
+  goesOn_ = true;
+  for (int i = 0; i < frames && goesOn_; ++i)
     if (const std::optional<Trouble> trouble = stepFrame()) return trouble;
   return std::nullopt;
+}
+
+// Returns false when the pulse wants no more of it.
+bool Session::advance(int steps) {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::milliseconds pulseTime{50};
+  Solver& solver = simulation_.solver();
+  if (!pulse_) {
+    solver.step(steps);
+    return true;
+  }
+  for (int done = 0; done < steps && goesOn_;) {
+    const int count = std::min(stepsAtOnce_, steps - done);
+    const auto start = Clock::now();
+    solver.step(count);
+    solver.finish();
+    const auto taken = Clock::now() - start;
+    done += count;
+    if (taken > pulseTime)
+      stepsAtOnce_ = std::max(1, count / 2);
+    else if (taken < pulseTime / 4 && count == stepsAtOnce_ && stepsAtOnce_ < 1 << 20)
+      stepsAtOnce_ *= 2;
+    if (taken > pulseTime / 2) goesOn_ = pulse_();
+  }
+  return goesOn_;
 }
 
 std::optional<Trouble> Session::stepFrame() {
   ring_.put(now_, simulation_.solver());
   startColliderMoves();
   const int steps = simulation_.scene().solver.simulationSteps;
-  simulation_.solver().step(steps);
+  if (!advance(steps)) {
+    goTo(now_.number);
+    return std::nullopt;
+  }
   if (const std::optional<Trouble> trouble = simulation_.solver().trouble()) {
     goTo(now_.number);
     if (isHolding()) act(Release{});

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "app/actions.h"
 #include "app/frame_ring.h"
@@ -42,6 +44,11 @@ class Session {
   // Steps, and remembers the state at the start of each frame. After trouble the state is that of the last
   // frame known to be sound, and the hand has let go; what came after it is forgotten, also by the recording.
   [[nodiscard]] std::optional<Trouble> stepFrames(int frames);
+
+  // Called about twenty times a second while frames are being stepped, so that somebody may look after a
+  // window; it must not touch the session. When it says false, stepFrames() ends at once: the frame that it
+  // was in is given up, and the state is that of the frame before.
+  void setPulse(std::function<bool()> pulse) { pulse_ = std::move(pulse); }
 
   // Of EditScene; each of them acts and is recorded as an EditScene itself. Colliders moved by hand stay
   // where they are.
@@ -84,6 +91,7 @@ class Session {
   void rebuild(const Scene& scene);
   void goBetween(SceneStack& from, SceneStack& to);
   [[nodiscard]] std::optional<Trouble> stepFrame();
+  [[nodiscard]] bool advance(int steps);
   void startColliderMoves();
   void finishColliderMoves();
   void forgetLater();
@@ -94,6 +102,9 @@ class Session {
   SessionFrame now_;
   FrameRing ring_;
   std::uint64_t clothGeneration_ = 0;
+  std::function<bool()> pulse_;
+  int stepsAtOnce_ = 1;  // between two looks at the clock, for the pulse
+  bool goesOn_ = true;   // as the pulse said
 };
 
 }  // namespace clothsim

@@ -1,324 +1,262 @@
+// The loop of the window: simulation, picture, panels. What the mouse does is in hands.h, what is open in
+// open_scene.h, what the panels hold in panels/.
 #include "app/viewer.h"
 
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
-
 #include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <cstdio>
-#include <filesystem>
-#include <numbers>
-#include <utility>
 
 #include "app/blow_up.h"
-#include "app/pace.h"
-#include "app/simulation.h"
-#include "app/viewer_keys.h"
-#include "app/viewer_overlay.h"
-#include "app/viewer_window.h"
+#include "app/viewer_facts.h"
+#include "app/viewer_marks.h"
+#include "app/viewer_program.h"
 #include "gl/context.h"
-#include "render/camera.h"
-#include "render/renderer.h"
+#include "render/shading_models.h"
 
 namespace clothsim {
 namespace {
 
-constexpr double noticeSeconds = 2.5;
-constexpr double zoomPerStep = 0.88;  // of the wheel
+constexpr float panelsFrom = 54;  // em of window width, for the panels to be open at the first start
+constexpr double mostSimulationSeconds = 0.1;  // between two pictures, where a frame takes less
 
-class Clock {
- public:
-  // Seconds since the last call.
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
-  }
+}  // namespace
 
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
-std::string formatted(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
-
-// 9216 -> "9,216"
-std::string withCommas(std::uint64_t number) {
-  const std::string digits = std::to_string(number);
-  std::string text;
-  for (std::size_t i = 0; i < digits.size(); ++i) {
-    if (i > 0 && (digits.size() - i) % 3 == 0) text += ',';
-    text += digits[i];
-  }
-  return text;
-}
-
-// "gpu", "llvmpipe (LLVM 15.0.6, 256 bits)" -> "GPU: llvmpipe"; "gpu", "NVIDIA H200/PCIe/SSE2" -> "GPU:
-// NVIDIA H200"; "cpu", "CPU, 2 threads" -> "CPU: 2 threads"
-std::string backendText(const Solver& solver) {
-  std::string device = solver.device();
-  if (device.starts_with("CPU, ")) device.erase(0, 5);
-  device.erase(std::min(device.size(), device.find_first_of("(/")));
-  return (solver.backend() == "gpu" ? "GPU: " : "CPU: ") + device;
-}
-
-const char* nameOf(Integrator integrator) { return integrator == Integrator::verlet ? "verlet" : "euler"; }
-
-ViewerAction actionOf(int glfwKey) {
-  switch (glfwKey) {
-    case GLFW_KEY_P:
-      return ViewerAction::pause;
-    case GLFW_KEY_N:
-      return ViewerAction::stepFrame;
-    case GLFW_KEY_R:
-      return ViewerAction::restart;
-    case GLFW_KEY_B:
-      return ViewerAction::toggleBackend;
-    case GLFW_KEY_I:
-      return ViewerAction::toggleIntegrator;
-    case GLFW_KEY_SPACE:
-      return ViewerAction::resetCamera;
-    case GLFW_KEY_F1:
-      return ViewerAction::toggleKeyList;
-    case GLFW_KEY_F2:
-      return ViewerAction::toggleOverlay;
-    case GLFW_KEY_ESCAPE:
-      return ViewerAction::quit;
-    default:
-      return ViewerAction::none;
-  }
-}
-
-// "50 x 50", or several of them.
-std::string gridSizes(const Cloth& cloth) {
-  std::string text;
-  for (const Grid& grid : cloth.grids())
-    text +=
-        (text.empty() ? "" : ", ") + std::to_string(grid.columns) + " \u00d7 " + std::to_string(grid.rows);
-  return text;
-}
-
-// Antialiasing as fine as the device draws at a fluent rate: llvmpipe pays for every sample.
 RenderOptions renderOptions(const ViewerOptions& options) {
   RenderOptions render;
   render.sphereSegmentsAround = options.sphereSegmentsAround;
   render.sphereSegmentsDown = options.sphereSegmentsDown;
+  // llvmpipe pays for every sample.
   if (gl::currentContextInfo().software) render.samples = 2;
   return render;
 }
 
-// "pinned2", also for "my/scenes/pinned2.json"
-std::string displayName(const std::string& sceneName) {
-  return std::filesystem::path(sceneName).stem().string();
+Viewer::Viewer(const Scene& scene, const ViewerOptions& options)
+    : options_(options),
+      window_("clothsim", options.sceneName),
+      open_(std::make_unique<OpenScene>(scene, options.sceneName, options.backend, renderOptions(options))),
+      pace_(open_->frameSeconds()) {
+  LoadedConfig loaded = loadViewerConfig(viewerConfigPath());
+  config_ = savedConfig_ = loaded.config;
+  if (!loaded.notice.empty()) say(loaded.notice, longNoticeSeconds);
+  widgets_.offer("render.shader", shadingModelNames());
+  listen();
+  watchSteps();
 }
 
-class Viewer {
- public:
-  Viewer(const Scene& scene, const ViewerOptions& options)
-      : options_(options),
-        window_("clothsim", options.sceneName),
-        simulation_(scene, options.backend),
-        camera_(scene, simulation_.cloth()),
-        renderer_(simulation_.cloth(), scene, renderOptions(options)),
-        pace_(1 / scene.solver.framesPerSec) {
-    window_.setInput({.key = [this](int key) { act(actionOf(key)); },
-                      .drag = [this](double dx, double dy, bool pan) { onDrag(dx, dy, pan); },
-                      .scroll = [this](double steps, double x, double y) { onScroll(steps, x, y); }},
-                     [] { return false; });
+void Viewer::run() {
+  clock_.lap();  // what loading took is not simulated time
+  while (!window_.shouldClose()) {
+    timings_.time(FrameTimings::input, [&] { isIdle() ? window_.waitEvents(0.25) : window_.pollEvents(); });
+    const double elapsed = clock_.lap();
+    now_ += elapsed;
+    int frames = 0;
+    timings_.time(FrameTimings::simulate, [&] { frames = simulate(elapsed); });
+    meter_.add(elapsed, frames * open_->frameSeconds());
+    attempt([&] { taker_.shown(*open_, paused_ ? elapsed : frames * open_->frameSeconds()); });
+    draw();
+    keepConfig();
+    notice_.secondsLeft -= elapsed;
+    // Without a display that sets the pace, nothing is gained by drawing the same picture again at once.
+    if (!paused_ && frames == 0 && !compare_.isRunning()) window_.waitEvents(pace_.secondsUntilDue());
   }
+  taker_.abandonClip();
+  std::fputs(timings_.report().c_str(), stderr);
+}
 
-  void run() {
-    clock_.lap();  // what loading took is not simulated time
-    while (!window_.shouldClose()) {
-      if (paused_)
-        window_.waitEvents(0.25);
-      else
-        window_.pollEvents();
-      const double elapsed = clock_.lap();
-      const int frames = simulate(elapsed);
-      meter_.add(elapsed, frames * frameSeconds());
-      draw();
-      notice_.secondsLeft -= elapsed;
-      // Without a display that sets the pace, nothing is gained by drawing the same picture again at once.
-      if (!paused_ && frames == 0) window_.waitEvents(pace_.secondsUntilDue());
-    }
-  }
+bool Viewer::showsPanels() const {
+  const double wanted = static_cast<double>(panelsFrom) * 16 * window_.textScale();
+  return config_.showPanels.value_or(window_.size().width >= wanted);
+}
 
- private:
-  struct Notice {
-    std::string text;
-    double secondsLeft = 0;
-    bool isError = false;
-  };
+PictureArea Viewer::pictureArea() const {
+  const ViewerWindow::Size size = window_.size();
+  const auto width = static_cast<float>(size.width), height = static_cast<float>(size.height);
+  if (!showsPanels()) return {width, height};
+  return {width - PanelColumn::width(width, static_cast<float>(16 * window_.textScale())), height};
+}
 
-  double frameSeconds() const { return 1 / simulation_.scene().solver.framesPerSec; }
-  int simulate(double elapsed);
-  void draw();
-  void act(ViewerAction action);
-  void switchBackend();
-  void switchIntegrator();
-  void onDrag(double dx, double dy, bool pan);
-  void onScroll(double steps, double x, double y);
-  OverlayFacts facts() const;
-  std::string title() const;
-  void say(const std::string& text) { notice_ = {text, noticeSeconds, false}; }
+// Known without Dear ImGui, which learns where the mouse is only with the next frame.
+bool Viewer::isOverPicture(ViewerWindow::Cursor cursor) const {
+  const PictureArea area = pictureArea();
+  const bool inside = cursor.x >= 0 && cursor.x < static_cast<double>(area.width) && cursor.y >= 0 &&
+                      cursor.y < static_cast<double>(area.height - timelineHeight());
+  return inside && !((ui_.hasPopup() || compare_.isOpen()) && ui_.wantsMouse());
+}
 
-  ViewerOptions options_;
-  ViewerWindow window_;
-  ViewerOverlay overlay_{window_.handle()};
-  Simulation simulation_;
-  Camera camera_;
-  Renderer renderer_;
-  Pace pace_;
-  SpeedMeter meter_;
-  Clock clock_;
-  Notice notice_;
-  std::string title_;
-  const bool software_ = gl::currentContextInfo().software;  // OpenGL is the CPU in disguise, and slower
-  bool paused_ = false, stepAsked_ = false, showOverlay_ = true, showKeys_ = false;
-};
+Reach Viewer::reach() {
+  const PictureArea area = pictureArea();
+  return {session(),
+          open_->renderer(),
+          open_->camera(),
+          std::max(1, static_cast<int>(area.width)),
+          std::max(1, static_cast<int>(area.height)),
+          paused_};
+}
+
+bool Viewer::isIdle() const {
+  return paused_ && !stepAsked_ && drawsLeft_ <= 0 && !compare_.isRunning() && !taker_.recordedSeconds();
+}
 
 // Returns the number of frames that were simulated.
 int Viewer::simulate(double elapsed) {
+  if (drawsLeft_ > 0) --drawsLeft_;
+  attempt([&] {
+    compare_.advance();
+    const bool blows = !paused_ && !ui_.wantsKeys() && window_.holds(blowKey);
+    hands_.beforeStep(reach(), window_.cursor(), blows);
+  });
+  if (compare_.isRunning()) return 0;
   const int frames = paused_ ? std::exchange(stepAsked_, false) : pace_.framesDue(elapsed);
   if (frames == 0) return 0;
   Clock clock;
-  simulation_.stepFrames(frames);
-  simulation_.finish();
-  if (const std::optional<Trouble> trouble = simulation_.checkFrame()) {
+  const int before = session().frame();
+  stepping_ = true;
+  std::optional<Trouble> trouble;
+  double seconds = 0;
+  for (int i = 0; i < frames && !trouble && seconds < mostSimulationSeconds && !window_.shouldClose(); ++i) {
+    trouble = session().stepFrames(1);
+    session().simulation().finish();
+    seconds += clock.lap();
+  }
+  stepping_ = false;
+  for (const auto& deed : std::exchange(waiting_, {})) attempt(deed);
+  if (trouble) {
     paused_ = true;
-    notice_ = {blowUpText(*trouble, simulation_.cloth(), simulation_.scene()) +
+    notice_ = {blowUpText(*trouble, session().simulation().cloth(), open_->scene()) +
                    "\nPaused at the last good state. R restarts.",
                1e9, true};
   }
-  pace_.simulated(frames, clock.lap());
-  return frames;
+  const int done = std::max(0, session().frame() - before);
+  pace_.simulated(done, seconds);
+  column_.measures().stepped(static_cast<double>(session().simulation().cloth().particleCount()) * done *
+                                 open_->scene().solver.simulationSteps,
+                             seconds);
+  return done;
 }
 
 void Viewer::draw() {
   const ViewerWindow::Size size = window_.size();
   if (size.width == 0 || size.height == 0) return;  // minimised
-  renderer_.draw(simulation_.positionsBuffer(), camera_, simulation_.time(), 0, size.width, size.height);
-  overlay_.draw(facts(), window_.textScale(), showOverlay_, showKeys_);
-  window_.swap();
-  if (const std::string now = title(); now != title_) window_.setTitle(title_ = now);
+  const PictureArea area = pictureArea();
+  const ViewOptions wanted = open_->view;
+  open_->view.showPins = wanted.showPins || now_ < pinsShownUntil_ || window_.holdsShift();
+  attempt([&] { open_->update(); });
+  open_->view = wanted;
+  open_->frameFor(static_cast<int>(area.width), static_cast<int>(area.height));
+  timings_.time(FrameTimings::picture,
+                [&] { open_->draw(static_cast<int>(area.width), static_cast<int>(area.height)); });
+  timings_.time(FrameTimings::controls, [&] {
+    ui_.begin(window_.textScale());
+    drawControls();
+    ui_.end();
+  });
+  timings_.time(FrameTimings::drawControls, [&] { ui_.draw(); });
+  timings_.time(FrameTimings::swap, [&] { window_.swap(); });
+  timings_.time(FrameTimings::after, [&] {
+    heedControls();
+    measure();
+  });
+  if (const std::string now = viewerTitle(*open_, meter_, paused_); now != title_)
+    window_.setTitle(title_ = now);
 }
 
-void Viewer::act(ViewerAction action) {
-  switch (action) {
-    case ViewerAction::none:
-      break;
-    case ViewerAction::pause:
-      paused_ = !paused_;
-      if (notice_.isError) notice_ = {};
-      break;
-    case ViewerAction::stepFrame:
-      stepAsked_ = paused_;
-      break;
-    case ViewerAction::restart:
-      simulation_.restart();
-      if (notice_.isError) paused_ = false;  // trouble had paused it
-      notice_ = {};
-      break;
-    case ViewerAction::toggleBackend:
-      switchBackend();
-      break;
-    case ViewerAction::toggleIntegrator:
-      switchIntegrator();
-      break;
-    case ViewerAction::resetCamera:
-      camera_.reset();
-      break;
-    case ViewerAction::toggleKeyList:
-      showKeys_ = !showKeys_;
-      break;
-    case ViewerAction::toggleOverlay:
-      showOverlay_ = !showOverlay_;
-      break;
-    case ViewerAction::quit:
-      window_.requestClose();
-      break;
+// Between two pictures, since picking draws elsewhere.
+void Viewer::measure() {
+  column_.measures().update(session(), now_, [&]() -> std::optional<std::uint32_t> {
+    const ViewerWindow::Cursor cursor = window_.cursor();
+    if (!isOverPicture(cursor)) return std::nullopt;
+    const Reach r = reach();
+    const Pick pick = r.renderer.pick(r.session.simulation().positionsBuffer(), r.camera,
+                                      r.session.simulation().time(), r.width, r.height, cursor.x, cursor.y);
+    return pick.kind == Pick::Kind::cloth ? std::optional(pick.particle) : std::nullopt;
+  });
+}
+
+void Viewer::drawControls() {
+  const PictureArea area = pictureArea();
+  drawMarks(hands_.marks(reach(), window_.cursor()));
+  const bool roomForBoth = area.width > 66 * em();
+  if (config_.showOverlay && (roomForBoth || !showKeys_))
+    drawFacts(viewerFacts(*open_, meter_, paused_, looksBack()), area);
+  if (showsPanels()) drawPanels();
+  asked_.timeline = drawTimeline({session().oldestFrame(), session().frame(), session().newestFrame(),
+                                  open_->frameSeconds(), paused_, taker_.recordedSeconds()},
+                                 area);
+  compare_.draw(area);
+  if (notice_.secondsLeft > 0) drawNotice(notice_.text, notice_.isError, area, timelineHeight());
+  if (showKeys_) drawKeyList(area);
+}
+
+void Viewer::drawPanels() {
+  if (!draftHeld_) draft_ = open_->scene();
+  const glm::vec3 target = open_->camera().target();
+  const std::string name = open_->name();
+  PanelContext context{draft_, widgets_, session(), open_->view, {target.x, target.y, target.z}, name};
+  column_.draw(context, config_);
+  asked_.edits = widgets_.takeEdits();
+  asked_.panels = std::move(context.requests);
+}
+
+// What the controls of the last picture ask for.
+void Viewer::heedControls() {
+  const Asked asked = std::exchange(asked_, {});
+  heed(asked.edits);
+  heed(asked.panels);
+  heed(asked.timeline);
+}
+
+void Viewer::heed(const FieldEdits& edits) {
+  draftHeld_ = edits.holding;
+  const bool edited = edits.live || edits.rebuild;
+  if (edited) {
+    attempt([&] {
+      draftHeld_ = false;  // should the edit be impossible, the panels show what is
+      edit(draft_, editContinues_);
+      draftHeld_ = edits.holding;
+    });
   }
+  editContinues_ = edits.holding && (editContinues_ || edited);
 }
 
-void Viewer::switchBackend() {
-  simulation_.switchBackend(simulation_.solver().backend() == "gpu" ? "cpu" : "gpu");
-  say(std::string("Continues on the ") + (simulation_.solver().backend() == "gpu" ? "GPU" : "CPU") +
-      ", from the same state to the bit");
+void Viewer::heed(const PanelRequests& requests) {
+  attempt([&] {
+    for (const ViewerAction action : requests.actions) act(action);
+    if (requests.backend) switchBackend(*requests.backend);
+    if (requests.saveSceneAs) saveSceneAs(*requests.saveSceneAs);
+    if (requests.resetScene) {
+      edit(open_->loaded(), false);
+      restart();
+    }
+    if (requests.openScene) openScene(*requests.openScene);
+  });
 }
 
-void Viewer::switchIntegrator() {
-  Scene scene = simulation_.scene();
-  Integrator& integrator = scene.solver.integrator;
-  integrator = integrator == Integrator::verlet ? Integrator::euler : Integrator::verlet;
-  simulation_.configure(scene);
-  say(std::string("Continues with ") + nameOf(integrator));
+void Viewer::heed(const TimelineRequests& requests) {
+  attempt([&] {
+    if (requests.seek) seek(*requests.seek);
+    if (requests.stepBack) act(ViewerAction::stepBack);
+    if (requests.stepForward) act(ViewerAction::stepForward);
+    if (requests.togglePause) act(ViewerAction::pause);
+    if (requests.screenshot) act(ViewerAction::screenshot);
+    if (requests.toggleRecording) act(ViewerAction::recordClip);
+  });
 }
 
-void Viewer::onDrag(double dx, double dy, bool pan) {
-  if (pan)
-    camera_.pan(-dx, -dy);  // the cloth follows the hand
-  else
-    camera_.orbit(-dx * std::numbers::pi, -dy * std::numbers::pi);
+void Viewer::keepConfig() {
+  if (config_ == savedConfig_) return;
+  const std::string trouble = saveViewerConfig(config_, viewerConfigPath());
+  savedConfig_ = config_;  // one try for each change
+  if (!trouble.empty()) complain("The panels will not be remembered: " + trouble);
 }
-
-void Viewer::onScroll(double steps, double x, double y) {
-  const double factor = std::pow(zoomPerStep, steps);
-  camera_.pan(x * (1 - factor), y * (1 - factor));  // what is under the cursor stays there
-  camera_.zoom(factor);
-}
-
-std::string Viewer::title() const {
-  const double rate = meter_.framesPerSecond();
-  return displayName(options_.sceneName) + " - " + simulation_.solver().backend() +
-         (paused_    ? " - paused"
-          : rate > 0 ? formatted(" - %.0f fps", rate)
-                     : "") +
-         " - clothsim";
-}
-
-OverlayFacts Viewer::facts() const {
-  const Solver& solver = simulation_.solver();
-  const Cloth& cloth = simulation_.cloth();
-  const double factor = meter_.realTimeFactor(), rate = meter_.framesPerSecond();
-  const bool slow = rate > 0 && factor < 0.95;
-
-  OverlayFacts facts;
-  facts.title = displayName(options_.sceneName);
-  facts.rows = {{"backend", backendText(solver)},
-                {"cloth", gridSizes(cloth) + " = " + withCommas(cloth.particleCount()) + " particles"},
-                {"integrator", nameOf(simulation_.scene().solver.integrator)},
-                {"time", formatted("%.2f s", simulation_.time())}};
-  if (paused_)
-    facts.rows.push_back({"speed", "paused (N: one frame)", true});
-  else if (rate == 0)
-    facts.rows.push_back({"speed", "measuring"});
-  else
-    facts.rows.push_back({"speed",
-                          formatted(slow ? "%.2f" : "%.1f", factor) + "\u00d7 real time" +
-                              (slow && software_ && solver.backend() == "gpu" ? ", B: try the CPU" : ""),
-                          slow});
-  if (rate > 0 && !paused_) facts.rows.push_back({"display", formatted("%.0f frames/s", rate)});
-  facts.rows.push_back({"help", "F1 lists the keys"});
-  if (notice_.secondsLeft > 0) {
-    facts.notice = notice_.text;
-    facts.noticeIsError = notice_.isError;
-  }
-  return facts;
-}
-
-}  // namespace
 
 void runViewer(const Scene& scene, const ViewerOptions& options) { Viewer(scene, options).run(); }
 
 std::string viewerKeysText() {
+  std::size_t widest = 0;
+  for (const ViewerKey& key : viewerKeys) widest = std::max(widest, key.input.size());
   std::string text;
   for (const ViewerKey& key : viewerKeys) {
     text += "  " + std::string(key.input);
-    text.append(12 - key.input.size(), ' ');
+    text.append(widest + 2 - key.input.size(), ' ');
     text += std::string(key.effect) + "\n";
   }
   return text;

@@ -12,6 +12,7 @@ struct ViewerOptions {
   std::string backend = "gpu";    // "gpu" or "cpu"; B changes it
   int sphereSegmentsAround = 64;  // -a
   int sphereSegmentsDown = 48;    // -o
+  bool timings = false;           // says at the end where the time of a frame went
 };
 
 // Opens the window and returns when it is closed. @throws OpenGlError when there is no display or no

@@ -1,11 +1,9 @@
 // What the viewer writes over the picture: a panel of facts, the list of keys, and a line on what has just
-// happened.
+// happened. Between UiFrame::begin() and draw().
 #pragma once
 
 #include <string>
 #include <vector>
-
-struct GLFWwindow;
 
 namespace clothsim {
 
@@ -13,29 +11,21 @@ struct OverlayFacts {
   std::string title;  // of the scene
   struct Row {
     std::string label, value;
-    bool alert = false;  // drawn in the colour that asks for attention
+    bool alert = false;      // drawn in the colour that asks for attention
+    bool important = false;  // shown in a small picture, too
   };
   std::vector<Row> rows;
-  std::string notice;  // shown at the bottom; "" for none
-  bool noticeIsError = false;
 };
 
-class ViewerOverlay {
- public:
-  // After the window's own input callbacks, which it lets through.
-  explicit ViewerOverlay(GLFWwindow* window);
-  ~ViewerOverlay();
-  ViewerOverlay(const ViewerOverlay&) = delete;
-  ViewerOverlay& operator=(const ViewerOverlay&) = delete;
-
-  [[nodiscard]] bool wantsMouse() const;
-  // Draws over what is in the window's framebuffer.
-  void draw(const OverlayFacts& facts, double textScale, bool showPanel, bool showKeys);
-
- private:
-  void loadFonts(double textScale);
-
-  double textScale_ = 0;
+// The part of the window that shows the picture; the rest belongs to the panels.
+struct PictureArea {
+  float width = 0, height = 0;  // from the top left [pixels]
 };
+
+// In a narrow picture only the rows that are `important`.
+void drawFacts(const OverlayFacts& facts, PictureArea area);
+void drawKeyList(PictureArea area);
+// At the bottom of the picture, `lift` pixels up.
+void drawNotice(const std::string& words, bool isError, PictureArea area, float lift);
 
 }  // namespace clothsim

@@ -4,6 +4,8 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
 #include <utility>
 
@@ -45,6 +47,31 @@ std::pair<int, int> firstSize() {
   return {fit(ordinaryWidth, width), fit(ordinaryHeight, height)};
 }
 
+ViewerWindow& selfOf(GLFWwindow* window) {
+  return *static_cast<ViewerWindow*>(glfwGetWindowUserPointer(window));
+}
+
+// Keys without a letter or a digit, as viewer_keys.h names them.
+struct NamedKey {
+  const char* name;
+  int code;
+};
+constexpr std::array namedKeys{
+    NamedKey{"Space", GLFW_KEY_SPACE}, NamedKey{"Esc", GLFW_KEY_ESCAPE},  NamedKey{"Tab", GLFW_KEY_TAB},
+    NamedKey{"Left", GLFW_KEY_LEFT},   NamedKey{"Right", GLFW_KEY_RIGHT}, NamedKey{"F1", GLFW_KEY_F1},
+    NamedKey{"F2", GLFW_KEY_F2},       NamedKey{"F3", GLFW_KEY_F3},       NamedKey{"F5", GLFW_KEY_F5}};
+
+// What is printed on the key, which on other keyboards than American ones is not what GLFW calls it.
+std::string nameOfKey(int code, int scancode) {
+  for (const NamedKey& key : namedKeys)
+    if (key.code == code) return key.name;
+  const char* printed = glfwGetKeyName(code, scancode);
+  if (printed != nullptr && printed[0] != '\0' && printed[1] == '\0')
+    return std::string(1, static_cast<char>(std::toupper(static_cast<unsigned char>(printed[0]))));
+  const bool isLetter = code >= GLFW_KEY_A && code <= GLFW_KEY_Z;
+  return isLetter ? std::string(1, static_cast<char>(code)) : "";
+}
+
 void* loadFunction(const char* name) { return reinterpret_cast<void*>(glfwGetProcAddress(name)); }
 
 }  // namespace
@@ -73,43 +100,42 @@ ViewerWindow::ViewerWindow(const std::string& title, const std::string& sceneNam
     glfwTerminate();
     throw;
   }
+  installCallbacks();
 }
 
 ViewerWindow::~ViewerWindow() { glfwTerminate(); }
 
-void ViewerWindow::setInput(Input input, std::function<bool()> panelWantsMouse) {
-  input_ = std::move(input);
-  panelWantsMouse_ = std::move(panelWantsMouse);
-  glfwSetWindowUserPointer(window_, this);
-  glfwGetCursorPos(window_, &cursorX_, &cursorY_);
-  glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int) {
-    if (action == GLFW_PRESS) static_cast<ViewerWindow*>(glfwGetWindowUserPointer(window))->input_.key(key);
-  });
-  glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double x, double y) {
-    static_cast<ViewerWindow*>(glfwGetWindowUserPointer(window))->onCursor(x, y);
-  });
-  glfwSetScrollCallback(window_, [](GLFWwindow* window, double, double steps) {
-    auto& self = *static_cast<ViewerWindow*>(glfwGetWindowUserPointer(window));
-    if (self.panelWantsMouse_()) return;
-    int width = 1, height = 1;
-    glfwGetWindowSize(window, &width, &height);
-    self.input_.scroll(steps, (self.cursorX_ - width / 2.0) / height,
-                       (height / 2.0 - self.cursorY_) / height);
-  });
+void ViewerWindow::onButton(int button, int action, int mods) {
+  if (button != GLFW_MOUSE_BUTTON_LEFT && button != GLFW_MOUSE_BUTTON_RIGHT) return;
+  const Button which = button == GLFW_MOUSE_BUTTON_LEFT ? Button::left : Button::right;
+  if (action == GLFW_PRESS && input_.press)
+    input_.press(which, cursor(), (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0);
+  if (action == GLFW_RELEASE && input_.release) input_.release(which);
 }
 
-void ViewerWindow::onCursor(double x, double y) {
-  const double dx = x - cursorX_, dy = y - cursorY_;
-  cursorX_ = x;
-  cursorY_ = y;
-  const auto down = [this](int button) { return glfwGetMouseButton(window_, button) == GLFW_PRESS; };
-  const bool left = down(GLFW_MOUSE_BUTTON_LEFT), right = down(GLFW_MOUSE_BUTTON_RIGHT);
-  if (panelWantsMouse_() || (!left && !right)) return;
-  const bool control = glfwGetKey(window_, GLFW_KEY_LEFT_CONTROL) == GLFW_PRESS ||
-                       glfwGetKey(window_, GLFW_KEY_RIGHT_CONTROL) == GLFW_PRESS;
-  int width = 1, height = 1;
-  glfwGetWindowSize(window_, &width, &height);
-  input_.drag(dx / height, -dy / height, right || control);
+void ViewerWindow::installCallbacks() {
+  glfwSetWindowUserPointer(window_, this);
+  glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int scancode, int action, int mods) {
+    const ViewerWindow& self = selfOf(window);
+    if (action == GLFW_RELEASE || !self.input_.key) return;
+    self.input_.key({nameOfKey(key, scancode), (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0},
+                    action == GLFW_REPEAT);
+  });
+  glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int mods) {
+    selfOf(window).onButton(button, action, mods);
+  });
+  glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double, double) {
+    const ViewerWindow& self = selfOf(window);
+    if (self.input_.move) self.input_.move(self.cursor());
+  });
+  glfwSetScrollCallback(window_, [](GLFWwindow* window, double, double steps) {
+    const ViewerWindow& self = selfOf(window);
+    if (self.input_.scroll) self.input_.scroll(steps, self.cursor());
+  });
+  glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
+    const ViewerWindow& self = selfOf(window);
+    if (self.input_.drop) self.input_.drop({paths, paths + count});
+  });
 }
 
 bool ViewerWindow::shouldClose() const { return glfwWindowShouldClose(window_) == GLFW_TRUE; }
@@ -123,6 +149,31 @@ ViewerWindow::Size ViewerWindow::size() const {
   Size size;
   glfwGetFramebufferSize(window_, &size.width, &size.height);
   return size;
+}
+
+ViewerWindow::Cursor ViewerWindow::cursor() const {
+  Cursor cursor;
+  glfwGetCursorPos(window_, &cursor.x, &cursor.y);
+  // Where the desktop scales, the window is measured in other units than its framebuffer.
+  int width = 0, height = 0;
+  glfwGetWindowSize(window_, &width, &height);
+  const Size pixels = size();
+  if (width > 0 && height > 0) {
+    cursor.x *= static_cast<double>(pixels.width) / width;
+    cursor.y *= static_cast<double>(pixels.height) / height;
+  }
+  return cursor;
+}
+
+bool ViewerWindow::holds(std::string_view key) const {
+  for (int code = GLFW_KEY_A; code <= GLFW_KEY_Z; ++code)
+    if (glfwGetKey(window_, code) == GLFW_PRESS && nameOfKey(code, 0) == key) return true;
+  return false;
+}
+
+bool ViewerWindow::holdsShift() const {
+  return glfwGetKey(window_, GLFW_KEY_LEFT_SHIFT) == GLFW_PRESS ||
+         glfwGetKey(window_, GLFW_KEY_RIGHT_SHIFT) == GLFW_PRESS;
 }
 
 double ViewerWindow::textScale() const {

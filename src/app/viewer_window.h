@@ -4,6 +4,10 @@
 
 #include <functional>
 #include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/viewer_keys.h"
 
 struct GLFWwindow;
 
@@ -11,12 +15,18 @@ namespace clothsim {
 
 class ViewerWindow {
  public:
+  struct Cursor {
+    double x = 0, y = 0;  // pixels of the framebuffer, from the top left
+  };
+  enum class Button { left, right };
   struct Input {
-    std::function<void(int glfwKey)> key;  // pressed, not repeated
-    std::function<void(double dx, double dy, bool pan)>
-        drag;  // as fractions of the window's height, y upwards
-    std::function<void(double steps, double x, double y)>
-        scroll;  // at x, y from the centre, in window heights, y upwards
+    // Pressed, or repeated while it is held.
+    std::function<void(const KeyStroke&, bool repeated)> key;
+    std::function<void(Button, Cursor, bool control, bool shift)> press;
+    std::function<void(Cursor)> move;  // also while no button is held
+    std::function<void(Button)> release;
+    std::function<void(double steps, Cursor)> scroll;
+    std::function<void(const std::vector<std::string>& paths)> drop;  // files from another window
   };
 
   // Opens a window with an OpenGL 4.5 core context, current and ready to use. The message for those without a
@@ -26,8 +36,8 @@ class ViewerWindow {
   ViewerWindow(const ViewerWindow&) = delete;
   ViewerWindow& operator=(const ViewerWindow&) = delete;
 
-  // Called from pollEvents and waitEvents; `wantsMouse` says that a panel takes the mouse for itself.
-  void setInput(Input input, std::function<bool()> panelWantsMouse);
+  // Called from pollEvents and waitEvents.
+  void setInput(Input input) { input_ = std::move(input); }
 
   [[nodiscard]] GLFWwindow* handle() const { return window_; }
   [[nodiscard]] bool shouldClose() const;
@@ -41,17 +51,20 @@ class ViewerWindow {
     int width = 0, height = 0;  // pixels; 0 while minimised
   };
   [[nodiscard]] Size size() const;
+  [[nodiscard]] Cursor cursor() const;
+  // Whether the key of that name (viewer_keys.h) is held now.
+  [[nodiscard]] bool holds(std::string_view key) const;
+  [[nodiscard]] bool holdsShift() const;
   // By how much texts are to be larger than on an ordinary screen: what the desktop says, or what a large
   // window asks for.
   [[nodiscard]] double textScale() const;
 
  private:
-  void onCursor(double x, double y);
+  void installCallbacks();
+  void onButton(int button, int action, int mods);
 
   GLFWwindow* window_ = nullptr;
   Input input_;
-  std::function<bool()> panelWantsMouse_;
-  double cursorX_ = 0, cursorY_ = 0;
 };
 
 }  // namespace clothsim

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double steepest = 1.55;  // [rad], short of the poles, where "up" has no direction
 constexpr double defaultAzimuth = 0.55,
-                 defaultElevation = 0.30;  // [rad], three-quarter view from slightly above
-constexpr double framedAspect = 16.0 / 9.0;
+                 defaultElevation = 0.30;                     // [rad], three-quarter view from slightly above
+constexpr double widestFramed = 16.0 / 9.0;                   // wider pictures show more at the sides
 constexpr double stayingMargin = 1.14, passingMargin = 1.02;  // room around what is framed
 
 glm::vec3 directionOf(double azimuth, double elevation) {
@@ -62,7 +62,7 @@ AxisFrame frameAxis(const std::vector<SeenPoint>& points) {
 
 // The nearest place, looking along -direction, from which the stage is in the picture, with room around what
 // stays there.
-Frame frameStage(const Stage& stage, glm::vec3 direction, double fovDegrees) {
+Frame frameStage(const Stage& stage, glm::vec3 direction, double fovDegrees, double aspect) {
   const glm::vec3 right = glm::normalize(glm::cross(glm::vec3(0, 1, 0), direction));
   const glm::vec3 up = glm::cross(direction, right);
   const glm::vec3 center = stage.view.center();
@@ -71,7 +71,7 @@ Frame frameStage(const Stage& stage, glm::vec3 direction, double fovDegrees) {
     const double tangent = std::tan(glm::radians(fovDegrees) / 2) / margin;
     for (const glm::vec3 point : points) {
       const glm::vec3 p = point - center;
-      horizontal.push_back({glm::dot(p, right), glm::dot(p, direction), tangent * framedAspect});
+      horizontal.push_back({glm::dot(p, right), glm::dot(p, direction), tangent * aspect});
       vertical.push_back({glm::dot(p, up), glm::dot(p, direction), tangent});
     }
   };
@@ -84,7 +84,8 @@ Frame frameStage(const Stage& stage, glm::vec3 direction, double fovDegrees) {
 
 }  // namespace
 
-Camera::Camera(const Scene& scene, const Cloth& cloth) {
+Camera::Camera(const Scene& scene, const Cloth& cloth, double aspect) {
+  const double framed = std::clamp(aspect, 0.2, widestFramed);
   const ClothOutline outline = outlineOf(cloth);
   const Stage stage = makeStage(outline, scene);
   const CameraSettings& wanted = scene.camera;
@@ -98,8 +99,9 @@ Camera::Camera(const Scene& scene, const Cloth& cloth) {
     place.distance = std::max(1e-3, static_cast<double>(glm::length(offset)));
     place.azimuth = std::atan2(offset.x, offset.z);
     place.elevation = std::clamp(std::asin(offset.y / place.distance), -steepest, steepest);
+    place.distance *= widestFramed / framed;
   } else {
-    const Frame frame = frameStage(stage, directionOf(place.azimuth, place.elevation), place.fov);
+    const Frame frame = frameStage(stage, directionOf(place.azimuth, place.elevation), place.fov, framed);
     place.target = wanted.target ? toGlm(*wanted.target) : frame.target;
     place.distance = std::max(1e-3, frame.distance);
   }
@@ -122,6 +124,11 @@ void Camera::pan(double right, double up) {
 void Camera::zoom(double factor) { now_.distance = std::clamp(now_.distance * factor, 1e-3, 1e6); }
 
 void Camera::reset() { now_ = start_; }
+
+void Camera::setHome(const Camera& other) {
+  if (now_ == start_) now_ = other.start_;
+  start_ = other.start_;
+}
 
 glm::vec3 Camera::eye() const {
   return now_.target + static_cast<float>(now_.distance) * directionOf(now_.azimuth, now_.elevation);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "scene/json_tree.h"
 
@@ -25,7 +26,8 @@ template <class Shape>
 Field<Shape> frictionField() {
   return field("friction", &Shape::friction,
                "0 slides; 1 sticks under cs184, which allows no more; Coulomb's coefficient under coulomb.")
-      .within(notNegative);
+      .within(notNegative)
+      .usually(0, 1);
 }
 template <class Shape>
 Field<Shape> motionField() {
@@ -46,12 +48,13 @@ std::span<const Field<Scene>> fieldsOf<Scene>() {
           .rebuilds(),
       field("colliders", &Scene::colliders,
             "Solid shapes; CS184's objects `plane` and `sphere` come before this list, in that order."),
-      field("gravity", &Scene::gravity, "Acceleration of every free particle.").in("m/s^2"),
+      field("gravity", &Scene::gravity, "Acceleration of every free particle.").in("m/s^2").usually(-20, 20),
       field("wind", &Scene::wind, "Air that moves past the cloth; without it no wind forces are computed."),
       field("air_resistance", &Scene::airResistance,
             "Factor a of the force -a |v| v on each particle, as in CS171.")
           .in("kg/m")
-          .within(notNegative),
+          .within(notNegative)
+          .usually(0, 0.01),
       field("solver", &Scene::solver, "How time advances."),
       field("camera", &Scene::camera,
             "Where the picture is taken from; without a position it frames the scene."),
@@ -65,10 +68,24 @@ template <>
 std::span<const Field<ClothSettings>> fieldsOf<ClothSettings>() {
   using C = ClothSettings;
   static const std::array fields{
-      field("width", &C::width, "Length along x, before turning.").in("m").within(positive).rebuilds(),
-      field("height", &C::height, "Length along the columns.").in("m").within(positive).rebuilds(),
-      field("num_width_points", &C::numWidthPoints, "Grid points in a row.").within(gridSide).rebuilds(),
-      field("num_height_points", &C::numHeightPoints, "Grid points in a column.").within(gridSide).rebuilds(),
+      field("width", &C::width, "Length along x, before turning.")
+          .in("m")
+          .within(positive)
+          .usually(0.1, 4)
+          .rebuilds(),
+      field("height", &C::height, "Length along the columns.")
+          .in("m")
+          .within(positive)
+          .usually(0.1, 4)
+          .rebuilds(),
+      field("num_width_points", &C::numWidthPoints, "Grid points in a row.")
+          .within(gridSide)
+          .usually(4, 512)
+          .rebuilds(),
+      field("num_height_points", &C::numHeightPoints, "Grid points in a column.")
+          .within(gridSide)
+          .usually(4, 512)
+          .rebuilds(),
       field("orientation", &C::orientation, "Lying at y = 1 m, or standing in the plane z = 0.").rebuilds(),
       field("position", &C::position, "Added to every point.").in("m").rebuilds(),
       field("rotation", &C::rotation, "Turn about grid point (0, 0): axis times angle.")
@@ -77,30 +94,43 @@ std::span<const Field<ClothSettings>> fieldsOf<ClothSettings>() {
       field("density", &C::density, "Mass per area; a particle weighs width * height * density / points.")
           .in("kg/m^2")
           .within(positive)
+          .usually(1, 1000)
           .rebuilds(),
-      field("mass", &C::mass, "Total mass; replaces density.").in("kg").within(positive).rebuilds(),
+      field("mass", &C::mass, "Total mass; replaces density.")
+          .in("kg")
+          .within(positive)
+          .usually(0.01, 100)
+          .rebuilds(),
       field("ks", &C::ks, "Spring constant, bending springs 0.2 ks (CS184's model).")
           .in("N/m")
           .within(positive)
+          .usually(50, 50000)
           .byDefault("5000, unless stiffness_reference is given")
           .rebuilds(),
       field("stiffness_reference", &C::stiffnessReference,
             "Instead of ks: springs of stiffness_reference * reference_length / length (CS171's model).")
           .in("N/m")
           .within(positive)
+          .usually(1, 1000)
           .rebuilds(),
       field("reference_length", &C::referenceLength,
             "Length at which a spring has the stiffness reference; does not follow the resolution.")
           .in("m")
           .within(positive)
+          .usually(0.01, 1)
           .rebuilds(),
       field("material", &C::material,
             "Instead of ks, density, mass, damping, thickness: a fabric in SI units, or a preset's name.")
           .rebuilds(),
-      field("damping", &C::damping, "Velocity lost in a step.").in("%").within({.low = 0, .high = 100}),
-      field("thickness", &C::thickness, "Self-collision keeps particles 2 thickness apart (averaged), or at least 1 (robust).")
+      field("damping", &C::damping, "Velocity lost in a step.")
+          .in("%")
+          .within({.low = 0, .high = 100})
+          .usually(0, 2),
+      field("thickness", &C::thickness,
+            "Self-collision keeps particles 2 thickness apart (averaged), or at least 1 (robust).")
           .in("m")
           .within(notNegative)
+          .usually(0.001, 0.1)
           .rebuilds(),
       field("enable_structural", &C::enableStructural, "Springs to left and upper neighbours.").rebuilds(),
       field("enable_shearing", &C::enableShearing, "Springs to diagonal neighbours.").rebuilds(),
@@ -165,7 +195,8 @@ std::span<const Field<Sphere>> fieldsOf<Sphere>() {
       field("origin", &Sphere::origin, "Centre of a shape other than a plane.").in("m"),
       field("radius", &Sphere::radius, "Radius of a sphere or a capsule, or of the circle inside a torus.")
           .in("m")
-          .within(positive),
+          .within(positive)
+          .usually(0.01, 1),
       frictionField<Sphere>(),
       motionField<Sphere>(),
   };
@@ -189,8 +220,11 @@ std::span<const Field<Capsule>> fieldsOf<Capsule>() {
       field("origin", &Capsule::origin, "Middle of a capsule.").in("m"),
       field("axis", &Capsule::axis, "Along a capsule, or through the hole of a torus; of any length.")
           .within({.nonZero = true}),
-      field("length", &Capsule::length, "Of a capsule, without its round ends.").in("m").within(notNegative),
-      field("radius", &Capsule::radius, "Radius of a capsule.").in("m").within(positive),
+      field("length", &Capsule::length, "Of a capsule, without its round ends.")
+          .in("m")
+          .within(notNegative)
+          .usually(0, 2),
+      field("radius", &Capsule::radius, "Radius of a capsule.").in("m").within(positive).usually(0.01, 1),
       frictionField<Capsule>(),
       motionField<Capsule>(),
   };
@@ -201,12 +235,13 @@ template <>
 std::span<const Field<Box>> fieldsOf<Box>() {
   static const std::array fields{
       field("origin", &Box::origin, "Centre of a box.").in("m"),
-      field("size", &Box::size, "Of a box from face to face.").in("m").within(positive),
+      field("size", &Box::size, "Of a box from face to face.").in("m").within(positive).usually(0.01, 3),
       field("rotation", &Box::rotation, "Own turn of a box or mesh: axis times angle; its motion adds to it.")
           .in("degrees"),
       field("rounding", &Box::rounding, "Radius of a box's edges, at most half its smallest size.")
           .in("m")
-          .within(notNegative),
+          .within(notNegative)
+          .usually(0, 0.2),
       frictionField<Box>(),
       motionField<Box>(),
   };
@@ -218,10 +253,14 @@ std::span<const Field<Torus>> fieldsOf<Torus>() {
   static const std::array fields{
       field("origin", &Torus::origin, "Centre of a torus.").in("m"),
       field("axis", &Torus::axis, "Through the hole of a torus.").within({.nonZero = true}),
-      field("radius", &Torus::radius, "Of the circle inside the tube.").in("m").within(positive),
+      field("radius", &Torus::radius, "Of the circle inside the tube.")
+          .in("m")
+          .within(positive)
+          .usually(0.01, 1),
       field("tube_radius", &Torus::tubeRadius, "Of the tube of a torus, smaller than its radius.")
           .in("m")
-          .within(positive),
+          .within(positive)
+          .usually(0.01, 1),
       frictionField<Torus>(),
       motionField<Torus>(),
   };
@@ -237,7 +276,7 @@ std::span<const Field<MeshCollider>> fieldsOf<MeshCollider>() {
           .rebuilds(),
       field("origin", &M::origin, "Where the mesh's own origin stands.").in("m"),
       field("rotation", &M::rotation, "Own turn of a box or mesh.").in("degrees"),
-      field("scale", &M::scale, "Metres in a unit of the mesh file.").within(positive),
+      field("scale", &M::scale, "Metres in a unit of the mesh file.").within(positive).usually(0.1, 10),
       field("cells", &M::cells, "Cells of the mesh's signed distance grid along its longest side.")
           .within({.low = 8, .high = 256}),
       frictionField<M>(),
@@ -297,12 +336,18 @@ std::span<const Field<PinMotion::Key>> fieldsOf<PinMotion::Key>() {
 template <>
 std::span<const Field<Wind>> fieldsOf<Wind>() {
   static const std::array fields{
-      field("velocity", &Wind::velocity, "Steady wind.").in("m/s"),
+      field("velocity", &Wind::velocity, "Steady wind.").in("m/s").usually(-10, 10),
       field("gust", &Wind::gust, "Random change of the wind's speed along its direction."),
       field("drag", &Wind::drag, "Coefficient of the pressure along a triangle's normal.")
-          .within(notNegative),
-      field("lift", &Wind::lift, "Coefficient of the force across the relative wind.").within(notNegative),
-      field("air_density", &Wind::airDensity, "Density of the air.").in("kg/m^3").within(notNegative),
+          .within(notNegative)
+          .usually(0, 3),
+      field("lift", &Wind::lift, "Coefficient of the force across the relative wind.")
+          .within(notNegative)
+          .usually(0, 3),
+      field("air_density", &Wind::airDensity, "Density of the air.")
+          .in("kg/m^3")
+          .within(notNegative)
+          .usually(0, 2),
   };
   return fields;
 }
@@ -310,9 +355,15 @@ std::span<const Field<Wind>> fieldsOf<Wind>() {
 template <>
 std::span<const Field<Gust>> fieldsOf<Gust>() {
   static const std::array fields{
-      field("strength", &Gust::strength, "Standard deviation of the speed.").in("m/s").within(notNegative),
-      field("frequency", &Gust::frequency, "How often gusts come.").in("Hz").within(positive),
-      field("seed", &Gust::seed, "The same seed gives the same gusts.").within(notNegative),
+      field("strength", &Gust::strength, "Standard deviation of the speed.")
+          .in("m/s")
+          .within(notNegative)
+          .usually(0, 10),
+      field("frequency", &Gust::frequency, "How often gusts come.")
+          .in("Hz")
+          .within(positive)
+          .usually(0.05, 5),
+      field("seed", &Gust::seed, "The same seed gives the same gusts.").within(notNegative).usually(1, 100),
   };
   return fields;
 }
@@ -322,12 +373,17 @@ std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
   using S = SolverSettings;
   static const std::array fields{
       field("integrator", &S::integrator, "Leapfrog Verlet, or symplectic Euler."),
-      field("frames_per_sec", &S::framesPerSec, "Frames in a simulated second.").in("1/s").within(positive),
+      field("frames_per_sec", &S::framesPerSec, "Frames in a simulated second.")
+          .in("1/s")
+          .within(positive)
+          .usually(15, 240),
       field("simulation_steps", &S::simulationSteps,
             "Steps in a frame, each 1 / (frames_per_sec * simulation_steps) s; auto: as many as is stable.")
-          .within({.low = 1, .high = mostSteps}),
+          .within({.low = 1, .high = mostSteps})
+          .usually(1, 200),
       field("strain_limit", &S::strainLimit, "Longest stretch of a spring, l/L - 1, kept after every step.")
           .within(notNegative)
+          .usually(0, 0.5)
           .as(Format::orFalse)
           .byDefault("0.1 in scenes with ks, else false"),
       field(
@@ -337,15 +393,18 @@ std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
       field("self_friction", &S::selfFriction,
             "Coulomb's coefficient of friction between layers of cloth; robust self-collision only.")
           .within({.low = 0, .high = 10})
+          .usually(0, 1)
           .byDefault("the material's, else 0.3"),
       field("friction_law", &S::frictionLaw,
             "What a collider's friction means: CS184's factor, or Coulomb's coefficient.")
           .byDefault("\"cs184\"; in scenes with a material \"coulomb\""),
       field("max_speed", &S::maxSpeed, "The watchdog stops a run in which a particle is faster.")
           .in("m/s")
-          .within(positive),
+          .within(positive)
+          .usually(1, 10000),
       field("max_strain", &S::maxStrain, "The watchdog stops a run in which a spring's l/L - 1 is larger.")
-          .within(positive),
+          .within(positive)
+          .usually(0.1, 100),
   };
   return fields;
 }
@@ -356,7 +415,10 @@ std::span<const Field<CameraSettings>> fieldsOf<CameraSettings>() {
   static const std::array fields{
       field("position", &C::position, "The eye.").in("m").byDefault("frames the scene"),
       field("target", &C::target, "What it looks at.").in("m").byDefault("middle of the scene"),
-      field("fov", &C::fov, "Vertical field of view.").in("degrees").within({.low = 1, .high = 170}),
+      field("fov", &C::fov, "Vertical field of view.")
+          .in("degrees")
+          .within({.low = 1, .high = 170})
+          .usually(15, 90),
   };
   return fields;
 }
@@ -431,6 +493,13 @@ SolverSettings solverDefaults(bool usesKs, bool usesMaterial) {
 bool usesKs(const Scene& scene) {
   return std::any_of(scene.cloths.begin(), scene.cloths.end(),
                      [](const ClothSettings& cloth) { return !cloth.stiffnessReference && !cloth.material; });
+}
+
+Usual sliderRange(const FieldTraits& traits, double now) {
+  if (traits.usual.low < traits.usual.high) return traits.usual;
+  const Limits& limits = traits.limits;
+  const double span = now == 0 ? 1 : 10 * std::abs(now);
+  return {limits.low > -infinite ? limits.low : -span, limits.high < infinite ? limits.high : span};
 }
 
 std::string limitsText(const Limits& limits) {

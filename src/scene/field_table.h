@@ -21,6 +21,11 @@ struct Limits {
   bool nonZero = false;  // a vector other than [0, 0, 0]
 };
 
+// Where a slider begins and ends: what is commonly used. Typed numbers may go as far as the limits.
+struct Usual {
+  double low = 0, high = 0;  // both 0: nothing is said
+};
+
 // "> 0", "0 to 1", "" for any.
 [[nodiscard]] std::string limitsText(const Limits& limits);
 
@@ -43,7 +48,11 @@ struct FieldTraits {
   Presence presence = Presence::optional;
   std::string_view defaultText{};               // where the default depends on the scene
   std::span<const std::string_view> choices{};  // what a string may be; empty: anything
+  Usual usual{};
 };
+
+// The ends of a slider for the field: what is usual, else its limits, else a tenfold of what it is now.
+[[nodiscard]] Usual sliderRange(const FieldTraits& traits, double now);
 
 // All types that a scene's members have.
 template <class Owner>
@@ -70,6 +79,9 @@ struct Field : FieldTraits {
   }
   Field within(Limits l) const {
     return with([&](Field& f) { f.limits = l; });
+  }
+  Field usually(double low, double high) const {
+    return with([&](Field& f) { f.usual = {low, high}; });
   }
   Field as(Format kind) const {
     return with([&](Field& f) { f.format = kind; });

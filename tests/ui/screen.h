@@ -98,15 +98,17 @@ class Screen {
   std::unique_ptr<Process> server_;
 };
 
-// The viewer in its window, in an empty folder of its own.
+// The viewer in its window, in an empty folder of its own, with settings of its own.
 class ViewerProgram {
  public:
+  // `environment`: as before a command, "NAME=value".
   // @throws std::runtime_error, which fails the test, when no window shows pictures after a while
-  explicit ViewerProgram(const std::string& arguments)
-      : process_({"sh", "-c",
-                  "cd '" + folder_.path().string() +
-                      "' && mkdir here && cd here && exec " CLOTHSIM_PROGRAM " " + arguments},
-                 (folder_ / "output").string()) {
+  explicit ViewerProgram(const std::string& arguments, const std::string& environment = "")
+      : process_(
+            {"sh", "-c",
+             "cd '" + folder_.path().string() + "' && mkdir here && cd here && exec env XDG_CONFIG_HOME='" +
+                 (folder_ / "config").string() + "' " + environment + " " CLOTHSIM_PROGRAM " " + arguments},
+            (folder_ / "output").string()) {
     const bool shown = eventually(seconds(60), [&] {
       window_ = runCommand("xdotool search --onlyvisible --class clothsim 2>/dev/null").output;
       while (!window_.empty() && window_.back() == '\n') window_.pop_back();
@@ -122,12 +124,39 @@ class ViewerProgram {
     return runCommand("xdotool getwindowname " + window_ + " 2>/dev/null").output;
   }
   [[nodiscard]] std::string output() const { return readFile(folder_ / "output"); }
-  [[nodiscard]] bool leftNoFiles() const { return std::filesystem::is_empty(folder_ / "here"); }
+  // Where it was started.
+  [[nodiscard]] std::filesystem::path here() const { return folder_ / "here"; }
+  [[nodiscard]] bool leftNoFiles() const { return std::filesystem::is_empty(here()); }
+  // Its settings as text; empty while there are none.
+  [[nodiscard]] std::string settings() const {
+    const std::filesystem::path path = folder_ / "config" / "clothsim" / "viewer.json";
+    return std::filesystem::exists(path) ? readFile(path) : "";
+  }
+  [[nodiscard]] bool eventuallyHas(const std::string& file) const {
+    return eventually(seconds(20), [&] { return std::filesystem::exists(here() / file); });
+  }
   [[nodiscard]] bool titleBecomesOneWith(const std::string& part) const {
     return eventually(seconds(20), [&] { return title().find(part) != std::string::npos; });
   }
 
   void press(const std::string& key) const { (void)runCommand("xdotool key " + key); }
+  // Does what xdotool's words say; "at X Y" moves to a place given in fractions of the window.
+  void perform(const std::string& words) const {
+    const Picture now = picture();
+    std::istringstream in(words);
+    std::string command = "xdotool", word;
+    while (in >> word) {
+      if (word != "at") {
+        command += " " + word;
+        continue;
+      }
+      double x = 0, y = 0;
+      in >> x >> y;
+      command += " mousemove --window " + window_ + " " + std::to_string(static_cast<int>(x * now.width)) +
+                 " " + std::to_string(static_cast<int>(y * now.height));
+    }
+    (void)runCommand(command);
+  }
   // Moves there (fractions of the window), presses the button, moves on, lets go.
   void drag(int button, double fromX, double fromY, double toX, double toY) const {
     const Picture now = picture();

@@ -1,0 +1,46 @@
+// Where the time of a displayed frame goes, for `clothsim --timings`: each phase by the host's clock, with
+// what it draws finished, and what the device says of those that draw. Off, it costs nothing.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "gl/timer.h"
+
+namespace clothsim {
+
+class FrameTimings {
+ public:
+  enum Phase { input, simulate, picture, controls, drawControls, swap, after, PHASES };
+
+  explicit FrameTimings(bool on) : timer_(on ? std::make_unique<gl::Timer>() : nullptr) {}
+
+  template <class Work>
+  void time(Phase phase, Work&& work) {
+    if (timer_ == nullptr) {
+      work();
+      return;
+    }
+    const auto start = std::chrono::steady_clock::now();
+    const bool draws = phase == picture || phase == drawControls;
+    if (draws) timer_->begin();
+    work();
+    if (draws) timer_->end();
+    if (draws) device_[phase] += timer_->seconds();  // waits for it
+    host_[phase] += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    frames_ += phase == swap ? 1 : 0;
+  }
+
+  // A line a phase; "" when off or nothing was drawn.
+  [[nodiscard]] std::string report() const;
+
+ private:
+  std::unique_ptr<gl::Timer> timer_;
+  std::array<double, PHASES> host_{}, device_{};
+  int frames_ = 0;
+};
+
+}  // namespace clothsim

@@ -1,0 +1,177 @@
+#include "app/panels/measure_panel.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+
+#include "app/panels/plot.h"
+#include "app/ui_frame.h"
+#include "core/error.h"
+#include "solver/cpu/measure_contacts.h"
+#include "solver/gpu/gpu_solver.h"
+
+namespace clothsim {
+namespace {
+
+constexpr double sampleSeconds = 0.25;  // between two samples, at least
+constexpr double shareOfTime = 0.1;     // that sampling may take
+constexpr std::size_t mostSamples = 240;
+constexpr int timedSteps = 60;
+
+double secondsNow() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+template <class... Values>
+std::string formatted(const char* format, Values... values) {
+  char text[96];
+  std::snprintf(text, sizeof text, format, values...);
+  return text;
+}
+
+void row(const char* label, const std::string& value, const char* help) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  quietText(label);
+  helpTip(help);
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(value.c_str());
+  helpTip(help);
+}
+
+bool beginRows(const char* id) { return ImGui::BeginTable(id, 2, ImGuiTableFlags_SizingStretchProp); }
+
+// What the process holds in memory [bytes], as Linux counts it; 0 where it cannot be asked.
+std::size_t residentBytes() {
+  std::ifstream statm("/proc/self/statm");
+  std::size_t all = 0, resident = 0;
+  statm >> all >> resident;
+  return resident * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+}
+
+std::string megabytes(std::size_t bytes) {
+  return formatted("%.1f MiB", static_cast<double>(bytes) / (1024.0 * 1024.0));
+}
+
+}  // namespace
+
+void MeasurePanel::stepped(double particleSteps, double seconds) {
+  particleSteps_ += particleSteps;
+  seconds_ += seconds;
+}
+
+void MeasurePanel::forget() {
+  samples_.clear();
+  nextSample_ = 0;
+  passes_.clear();
+}
+
+void MeasurePanel::sample(Session& session, double now, std::optional<std::uint32_t> underCursor) {
+  const double began = secondsNow();
+  const Simulation& simulation = session.simulation();
+  const Cloth& cloth = simulation.cloth();
+  if (springsOf_ != session.clothGeneration()) {
+    springs_ = cloth.springs();
+    springsOf_ = session.clothGeneration();
+    samples_.clear();
+  }
+  const State state = session.simulation().solver().state();
+  if (!samples_.empty() && simulation.time() < samples_.back().time) samples_.clear();
+  const Sample sample{simulation.time(),
+                      energies(cloth, springs_, simulation.scene(), session.cuts(), state)};
+  if (samples_.empty() || simulation.time() > samples_.back().time) samples_.push_back(sample);
+  if (samples_.size() > mostSamples) samples_.pop_front();
+  contacts_ = measureContacts(cloth, simulation.scene(), state, sample.energies.maxStrain).contacts;
+  guardedSteps_ = session.simulation().contactCounts().guardedSteps;
+  strainUnderCursor_ =
+      underCursor ? std::optional(strainAt(cloth, session.cuts(), state, *underCursor)) : std::nullopt;
+  rate_ = seconds_ > 0 ? particleSteps_ / seconds_ : 0;
+  particleSteps_ = seconds_ = 0;
+  nextSample_ = now + std::max(sampleSeconds, (secondsNow() - began) / shareOfTime);
+}
+
+void MeasurePanel::drawNumbers(Session& session) {
+  if (!beginRows("numbers")) return;
+  const Energies last = samples_.empty() ? Energies{} : samples_.back().energies;
+  row("max strain", formatted("%.2f %%", 100 * last.maxStrain),
+      "The longest stretch of a spring, l/L - 1, of those that are enabled and whole.");
+  row("under the cursor", strainUnderCursor_ ? formatted("%+.2f %%", 100 * *strainUnderCursor_) : "-",
+      "The strain of largest size among the springs at the particle under the mouse.");
+  const bool hasContacts = session.simulation().scene().solver.selfCollision != SelfCollision::off;
+  row("self-contacts",
+      !hasContacts ? "off"
+      : guardedSteps_ > 0
+          ? formatted("%zu, %llu steps guarded", contacts_, static_cast<unsigned long long>(guardedSteps_))
+          : formatted("%zu", contacts_),
+      "Pairs of particles, not neighbours on the cloth, that touch. A guarded step is one in which motion "
+      "had "
+      "to be cut short.");
+  row("particle steps", rate_ > 0 ? formatted("%.3g million/s", rate_ / 1e6) : "-",
+      "How many particles are advanced by a step in a second of computing.");
+  ImGui::EndTable();
+}
+
+void MeasurePanel::drawPlots() {
+  std::vector<float> times;
+  std::vector<Curve> energy{
+      {"kinetic", {0.95f, 0.62f, 0.35f, 1}, {}}, {"height", theme::accent, {}}, {"springs", theme::good, {}}};
+  std::vector<Curve> strain{{"max strain", {0.93f, 0.47f, 0.55f, 1}, {}}};
+  for (const Sample& sample : samples_) {
+    times.push_back(static_cast<float>(sample.time));
+    energy[0].values.push_back(static_cast<float>(sample.energies.kinetic));
+    energy[1].values.push_back(static_cast<float>(sample.energies.gravity));
+    energy[2].values.push_back(static_cast<float>(sample.energies.springs));
+    strain[0].values.push_back(static_cast<float>(100 * sample.energies.maxStrain));
+  }
+  drawPlot("energy", times, energy, " J");
+  helpTip("Energy over the simulated time: of motion, of height over the start, and stored in springs.");
+  drawPlot("strain", times, strain, " %");
+  helpTip("The longest stretch of a spring over the simulated time.");
+}
+
+void MeasurePanel::drawPasses(Session& session) {
+  if (session.simulation().solver().backend() != "gpu") return;
+  if (wideButton("Time the passes of a step")) {
+    // On a solver of its own: timing slows a step, and the cloth is to stay where it is.
+    try {
+      const Simulation& simulation = session.simulation();
+      GpuSolver solver(simulation.cloth(), simulation.scene());
+      solver.setState(session.simulation().solver().state());
+      passes_ = solver.timePasses(timedSteps);
+      passSteps_ = timedSteps;
+      passTrouble_.clear();
+    } catch (const Error& error) {
+      passTrouble_ = error.what();
+    }
+  }
+  helpTip("Steps a copy of the cloth 60 times, with a timer around every pass on the GPU.");
+  if (!passTrouble_.empty()) wrappedText(passTrouble_, theme::alert);
+  if (passes_.empty() || !beginRows("passes")) return;
+  for (const PassTime& pass : passes_)
+    row(pass.name.c_str(), formatted("%.1f \u00b5s", 1e6 * pass.seconds / passSteps_),
+        "The time of this pass in one step, on the GPU.");
+  ImGui::EndTable();
+}
+
+void MeasurePanel::drawMemory(Session& session) {
+  if (!beginRows("memory")) return;
+  row("memory", megabytes(residentBytes()), "What the program holds in main memory.");
+  row("frames kept",
+      formatted("%d in ", session.newestFrame() - session.oldestFrame() + 1) +
+          megabytes(session.snapshotBytes()),
+      "Frames that can be looked back at, and the memory on the device that they take.");
+  ImGui::EndTable();
+}
+
+void MeasurePanel::draw(Session& session, bool strainMap) {
+  (void)strainMap;
+  drawNumbers(session);
+  drawPlots();
+  drawPasses(session);
+  drawMemory(session);
+}
+
+}  // namespace clothsim

@@ -1,0 +1,230 @@
+// What keys, mouse and panels ask of the viewer.
+#include <algorithm>
+
+#include "app/numbered_files.h"
+#include "app/viewer_facts.h"
+#include "app/viewer_program.h"
+#include "render/shading_models.h"
+#include "scene/scene_io.h"
+
+namespace clothsim {
+namespace {
+
+constexpr double pinsShownSeconds = 2;  // after one was set
+
+}  // namespace
+
+void Viewer::listen() {
+  window_.setInput(
+      {.key = [this](const KeyStroke& stroke, bool repeated) { onKey(stroke, repeated); },
+       .press = [this](ViewerWindow::Button button, ViewerWindow::Cursor cursor, bool control,
+                       bool shift) { whenIdle([=, this] { onPress(button, cursor, control, shift); }); },
+       .move = [this](ViewerWindow::Cursor cursor) { whenIdle([=, this] { hands_.move(reach(), cursor); }); },
+       .release =
+           [this](ViewerWindow::Button button) { whenIdle([=, this] { hands_.release(reach(), button); }); },
+       .scroll =
+           [this](double steps, ViewerWindow::Cursor cursor) {
+             whenIdle([=, this] {
+               if (isOverPicture(cursor)) hands_.scroll(reach(), steps, cursor);
+             });
+           },
+       .drop =
+           [this](const std::vector<std::string>& paths) {
+             whenIdle([=, this] {
+               if (!paths.empty()) openScene(paths.front());
+             });
+           }});
+}
+
+// Input may come between two steps of a frame that takes long: then it has to wait for the frame's end.
+void Viewer::whenIdle(std::function<void()> deed) {
+  drawsLeft_ = drawsAfterInput;
+  if (stepping_)
+    waiting_.push_back(std::move(deed));
+  else
+    attempt(deed);
+}
+
+void Viewer::onKey(const KeyStroke& stroke, bool repeated) {
+  const ViewerAction action = ui_.wantsKeys() ? ViewerAction::none : actionOf(stroke);
+  if (action == ViewerAction::quit) return window_.requestClose();  // that waits for nothing
+  // Held down, a key repeats what makes sense many times over.
+  const bool repeats = action == ViewerAction::stepBack || action == ViewerAction::stepForward ||
+                       action == ViewerAction::stepFrame || action == ViewerAction::undo ||
+                       action == ViewerAction::redo;
+  whenIdle([=, this] {
+    if (!repeated || repeats) act(action);
+  });
+}
+
+void Viewer::onPress(ViewerWindow::Button button, ViewerWindow::Cursor cursor, bool control, bool shift) {
+  if (!isOverPicture(cursor)) return;
+  const std::string said = hands_.press(reach(), button, cursor, {control, shift, window_.holds(cutKey)});
+  if (said.empty()) return;
+  pinsShownUntil_ = now_ + pinsShownSeconds;
+  say(said);
+}
+
+void Viewer::act(ViewerAction action) {
+  switch (action) {
+    case ViewerAction::none:
+      return;
+    case ViewerAction::pause:
+      paused_ = !paused_;
+      if (notice_.isError) notice_ = {};
+      return;
+    case ViewerAction::stepFrame:
+      stepAsked_ = paused_;
+      return;
+    case ViewerAction::restart:
+      return restart();
+    case ViewerAction::stepBack:
+      return seek(session().frame() - 1);
+    case ViewerAction::stepForward:
+      return seek(session().frame() + 1);
+    case ViewerAction::toggleBackend:
+      return switchBackend(open_->backend() == "gpu" ? "cpu" : "gpu");
+    case ViewerAction::compareBackends:
+      return compare_.start(session());
+    case ViewerAction::toggleIntegrator:
+      return switchIntegrator();
+    case ViewerAction::nextShader:
+      return nextShader();
+    case ViewerAction::resetCamera:
+      return open_->camera().reset();
+    case ViewerAction::undo:
+      return undo(false);
+    case ViewerAction::redo:
+      return undo(true);
+    case ViewerAction::toggleKeyList:
+      showKeys_ = !showKeys_;
+      return;
+    case ViewerAction::toggleOverlay:
+      config_.showOverlay = !config_.showOverlay;
+      return;
+    case ViewerAction::togglePanels:
+      return togglePanels();
+    case ViewerAction::reloadShaders:
+      return reloadShaders();
+    case ViewerAction::quit:
+      return window_.requestClose();
+    default:
+      return actOnFile(action);
+  }
+}
+
+void Viewer::actOnFile(ViewerAction action) {
+  const PictureArea area = pictureArea();
+  const int width = static_cast<int>(area.width), height = static_cast<int>(area.height);
+  if (action == ViewerAction::screenshot) say(taker_.screenshot(*open_, width, height), longNoticeSeconds);
+  if (action == ViewerAction::recordClip) say(taker_.toggleClip(*open_, width, height), longNoticeSeconds);
+  if (action == ViewerAction::saveScene) saveSceneAs(freeName(outputFolder(), open_->name(), ".json"));
+  if (action == ViewerAction::saveRecording) {
+    const auto path = freeName(outputFolder(), open_->name() + "-recording", ".json");
+    session().recording().save(path);
+    say("Saved " + path.string() + "; clothsim run --replay " + path.string() + " repeats it",
+        longNoticeSeconds);
+  }
+}
+
+// The window stays alive while a frame is being simulated, and can be closed.
+void Viewer::watchSteps() {
+  session().setPulse([this] {
+    window_.pollEvents();
+    return !window_.shouldClose();
+  });
+}
+
+void Viewer::switchBackend(const std::string& backend) {
+  session().act(SwitchBackend{backend});
+  say(std::string("Continues on the ") + (backend == "gpu" ? "GPU" : "CPU") +
+      ", from the same state to the bit");
+}
+
+void Viewer::switchIntegrator() {
+  Scene scene = open_->scene();
+  Integrator& integrator = scene.solver.integrator;
+  integrator = integrator == Integrator::verlet ? Integrator::euler : Integrator::verlet;
+  edit(scene, false);
+  say(std::string("Continues with ") + nameOf(integrator));
+}
+
+void Viewer::nextShader() {
+  const std::vector<std::string> names = shadingModelNames();
+  Scene scene = open_->scene();
+  const auto at = std::find(names.begin(), names.end(), scene.render.shader);
+  scene.render.shader = at == names.end() || at + 1 == names.end() ? names.front() : *(at + 1);
+  edit(scene, false);
+  say("Shading model: " + scene.render.shader);
+}
+
+void Viewer::edit(const Scene& scene, bool continues) {
+  const double before = open_->frameSeconds();
+  open_->edit(scene, continues);
+  if (open_->frameSeconds() != before) pace_ = Pace(open_->frameSeconds());
+}
+
+void Viewer::undo(bool again) {
+  if (again ? !session().canRedo() : !session().canUndo())
+    return say(again ? "Nothing to redo" : "Nothing to undo");
+  again ? session().redo() : session().undo();
+  pace_ = Pace(open_->frameSeconds());
+  say(again ? "Redone" : "Undone");
+}
+
+void Viewer::seek(int frame) {
+  if (frame < session().oldestFrame() || frame > session().newestFrame())
+    return say(frame > session().newestFrame() ? "This is the newest frame; N simulates the next one"
+                                               : "No earlier frame is kept");
+  if (frame == session().frame()) return;
+  hands_.letGo(session());
+  session().seek(frame);
+  paused_ = true;
+  pace_ = Pace(open_->frameSeconds());
+}
+
+void Viewer::restart() {
+  hands_.letGo(session());
+  session().act(Restart{});
+  column_.measures().forget();
+  if (notice_.isError) paused_ = false;  // trouble had paused it
+  notice_ = {};
+}
+
+void Viewer::openScene(const std::string& source) {
+  auto next =
+      std::make_unique<OpenScene>(loadSceneByName(source), source, open_->backend(), renderOptions(options_));
+  next->view = open_->view;
+  taker_.abandonClip();
+  compare_.close();
+  hands_ = {};
+  open_ = std::move(next);
+  watchSteps();
+  column_.measures().forget();
+  pace_ = Pace(open_->frameSeconds());
+  draftHeld_ = paused_ = false;
+  notice_ = {};
+}
+
+// Files that were there before are written over only when that is asked for twice.
+void Viewer::saveSceneAs(const std::filesystem::path& path) {
+  if (std::filesystem::exists(path) && confirmed_ != path.string()) {
+    confirmed_ = path.string();
+    return complain(path.string() + " is there already; Save again writes over it");
+  }
+  saveScene(open_->scene(), path);
+  confirmed_ = path.string();
+  column_.scenes().remember(path.string());
+  say("Saved " + path.string(), longNoticeSeconds);
+}
+
+void Viewer::reloadShaders() {
+  if (const std::optional<std::string> trouble = open_->renderer().reloadShaders())
+    notice_ = {*trouble + "\nThe shaders from before are still in use.", 1e9, true};
+  else
+    say("Shaders loaded again");
+}
+
+void Viewer::togglePanels() { config_.showPanels = !showsPanels(); }
+
+}  // namespace clothsim

@@ -1,0 +1,38 @@
+// What the viewer remembers between runs: which panels are open. One small JSON file in the user's folder of
+// configuration, written whole or not at all.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace clothsim {
+
+enum class PanelName { simulation, colliders, look, measure, scene };
+inline constexpr std::array<std::string_view, 5> panelNames{"simulation", "colliders", "look", "measure",
+                                                            "scene"};
+
+struct ViewerConfig {
+  // None: as the window's width suggests.
+  std::optional<bool> showPanels;
+  bool showOverlay = true;
+  std::array<bool, panelNames.size()> open{true, false, false, false, false};  // by PanelName
+  friend bool operator==(const ViewerConfig&, const ViewerConfig&) = default;
+};
+
+// $XDG_CONFIG_HOME/clothsim/viewer.json or ~/.config/clothsim/viewer.json; empty where neither is set.
+[[nodiscard]] std::filesystem::path viewerConfigPath();
+
+struct LoadedConfig {
+  ViewerConfig config;
+  std::string notice;  // why the file was not heeded, "" when it was or there is none
+};
+// Never throws: what cannot be read is passed over, and said.
+[[nodiscard]] LoadedConfig loadViewerConfig(const std::filesystem::path& path);
+
+// Makes the folders it needs. Returns why it could not be written, "" when it was.
+[[nodiscard]] std::string saveViewerConfig(const ViewerConfig& config, const std::filesystem::path& path);
+
+}  // namespace clothsim

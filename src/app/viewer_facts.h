@@ -1,0 +1,17 @@
+// What the window says of the simulation: its title, and the rows of the panel of facts.
+#pragma once
+
+#include <string>
+
+#include "app/open_scene.h"
+#include "app/pace.h"
+#include "app/viewer_overlay.h"
+
+namespace clothsim {
+
+[[nodiscard]] const char* nameOf(Integrator integrator);
+[[nodiscard]] std::string viewerTitle(const OpenScene& open, const SpeedMeter& meter, bool paused);
+[[nodiscard]] OverlayFacts viewerFacts(const OpenScene& open, const SpeedMeter& meter, bool paused,
+                                       bool looksBack);
+
+}  // namespace clothsim

@@ -1,0 +1,152 @@
+// The program behind the window: what it holds, what can be asked of it, and a turn of its loop. viewer.cpp
+// has the loop, viewer_actions.cpp what keys, mouse and panels ask for.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "app/compare_card.h"
+#include "app/frame_timings.h"
+#include "app/hands.h"
+#include "app/open_scene.h"
+#include "app/pace.h"
+#include "app/panels/panels.h"
+#include "app/picture_taker.h"
+#include "app/timeline_bar.h"
+#include "app/ui_frame.h"
+#include "app/viewer.h"
+#include "app/viewer_config.h"
+#include "app/viewer_keys.h"
+#include "app/viewer_overlay.h"
+#include "app/viewer_window.h"
+#include "core/error.h"
+
+namespace clothsim {
+
+// Antialiasing as fine as the device draws at a fluent rate.
+[[nodiscard]] RenderOptions renderOptions(const ViewerOptions& options);
+
+class Clock {
+ public:
+  // Seconds since the last call.
+  double lap() {
+    const auto now = std::chrono::steady_clock::now();
+    return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+class Viewer {
+ public:
+  Viewer(const Scene& scene, const ViewerOptions& options);
+
+  void run();
+
+ private:
+  struct Notice {
+    std::string text;
+    double secondsLeft = 0;
+    bool isError = false;
+  };
+
+  // By the controls of one picture; heeded after it, since much of that draws elsewhere.
+  struct Asked {
+    FieldEdits edits;
+    PanelRequests panels;
+    TimelineRequests timeline;
+  };
+
+  // --- input (all of it comes from the window)
+  void listen();
+  void whenIdle(std::function<void()> deed);
+  void onKey(const KeyStroke& stroke, bool repeated);
+  void onPress(ViewerWindow::Button button, ViewerWindow::Cursor cursor, bool control, bool shift);
+  void act(ViewerAction action);
+  void actOnFile(ViewerAction action);
+
+  void watchSteps();
+
+  // --- what can be asked for, by key or panel
+  void switchBackend(const std::string& backend);
+  void switchIntegrator();
+  void nextShader();
+  void edit(const Scene& scene, bool continues);
+  void undo(bool again);
+  void seek(int frame);
+  void restart();
+  void openScene(const std::string& source);
+  void saveSceneAs(const std::filesystem::path& path);
+  void reloadShaders();
+  void togglePanels();
+
+  // --- a turn of the loop
+  int simulate(double elapsed);
+  void draw();
+  void measure();
+  void drawControls();
+  void drawPanels();
+  void heedControls();
+  void heed(const FieldEdits& edits);
+  void heed(const PanelRequests& requests);
+  void heed(const TimelineRequests& requests);
+  void keepConfig();
+
+  [[nodiscard]] Session& session() { return open_->session(); }
+  [[nodiscard]] bool looksBack() const { return open_->session().frame() < open_->session().newestFrame(); }
+  [[nodiscard]] bool showsPanels() const;
+  [[nodiscard]] PictureArea pictureArea() const;
+  [[nodiscard]] bool isOverPicture(ViewerWindow::Cursor cursor) const;
+  [[nodiscard]] Reach reach();
+  [[nodiscard]] bool isIdle() const;
+
+  static constexpr int drawsAfterInput = 3;
+  static constexpr double noticeSeconds = 2.5, longNoticeSeconds = 8;
+  void say(const std::string& text, double seconds = noticeSeconds) { notice_ = {text, seconds, false}; }
+  void complain(const std::string& text) { notice_ = {text, longNoticeSeconds, true}; }
+  // Something a person asked for, which may be impossible: then it says so and the window goes on.
+  template <class Deed>
+  void attempt(Deed&& deed) {
+    try {
+      deed();
+    } catch (const Error& error) {
+      complain(error.what());
+    }
+  }
+
+  ViewerOptions options_;
+  ViewerWindow window_;
+  UiFrame ui_{window_.handle()};
+  std::unique_ptr<OpenScene> open_;
+  Hands hands_;
+  PanelColumn column_;
+  FieldWidgets widgets_;
+  CompareCard compare_;
+  PictureTaker taker_;
+  Pace pace_;
+  SpeedMeter meter_;
+  Clock clock_;
+  FrameTimings timings_{options_.timings};
+  Notice notice_;
+  ViewerConfig config_, savedConfig_;
+  Asked asked_;
+  Scene draft_;                 // what the panels edit
+  bool draftHeld_ = false;      // some control of theirs is held: the draft is ahead of the scene
+  bool editContinues_ = false;  // the next edit belongs to the one before
+  std::string confirmed_;       // a file that the next Save may write over
+  std::string title_;
+  double now_ = 0, pinsShownUntil_ = 0;         // [s] since the start
+  int drawsLeft_ = drawsAfterInput;             // of a paused window, until controls have settled
+  bool stepping_ = false;                       // the session is within a frame:
+  std::vector<std::function<void()>> waiting_;  // input waits
+  bool paused_ = false, stepAsked_ = false, showKeys_ = false;
+};
+
+}  // namespace clothsim

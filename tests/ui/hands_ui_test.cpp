@@ -1,0 +1,148 @@
+// Hands on the cloth: the mouse in the real window, judged by the recording that it leaves.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "core/vec.h"
+#include "ui/screen.h"
+
+namespace clothsim {
+namespace {
+
+using test::seconds;
+using test::ViewerProgram;
+using Json = nlohmann::json;
+
+// The cloth hangs in the middle of the window, in every test at the same place.
+const char* const scene = "-f pinned2 --resolution 20x20 --backend cpu";
+
+class HandsUi : public testing::Test {
+ protected:
+  // The recording of what was done up to now, saved until it shows what is waited for.
+  template <class Condition>
+  Json recordingWhere(const ViewerProgram& viewer, Condition&& holds) {
+    Json recording;
+    EXPECT_TRUE(test::eventually(seconds(30),
+                                 [&] {
+                                   ++saved_;
+                                   file_ = "pinned2-recording" +
+                                           (saved_ == 1 ? "" : "-" + std::to_string(saved_)) + ".json";
+                                   viewer.press("ctrl+shift+s");
+                                   if (!viewer.eventuallyHas(file_)) return false;
+                                   recording = Json::parse(readFile(viewer.here() / file_));
+                                   return holds(recording);
+                                 }))
+        << recording.dump(1).substr(0, 4000) << viewer.output();
+    return recording;
+  }
+  static std::vector<Json> actionsIn(const Json& recording, const std::string& name) {
+    std::vector<Json> found;
+    for (const Json& event : recording.at("events"))
+      if (event.at("action") == name) found.push_back(event);
+    return found;
+  }
+  // What `clothsim run --json` says of repeating the recording saved last.
+  Json replay(const ViewerProgram& viewer, const std::string& more) const {
+    return jsonOf(viewer, "run --replay " + file_ + " --json " + more);
+  }
+  static Json jsonOf(const ViewerProgram& viewer, const std::string& arguments) {
+    const test::CommandResult result =
+        test::runCommand("cd '" + viewer.here().string() + "' && " CLOTHSIM_PROGRAM " " + arguments +
+                         " 2>&1 1>out.json; cat out.json");
+    Json json = Json::parse(readFile(viewer.here() / "out.json"), nullptr, false);
+    EXPECT_FALSE(json.is_discarded()) << result.output;
+    return json;
+  }
+  static Vec3d vectorOf(const Json& numbers) { return {numbers.at(0), numbers.at(1), numbers.at(2)}; }
+
+  test::Screen screen_{640, 480};
+  int saved_ = 0;
+  std::string file_;
+};
+
+// The position of a particle in a CSV file of `run --save`.
+Vec3d particleIn(const std::string& csv, std::uint32_t particle) {
+  std::istringstream lines(csv);
+  std::string line;
+  for (std::uint32_t i = 0; i < particle + 2; ++i) std::getline(lines, line);  // the header comes first
+  Vec3d position;
+  EXPECT_EQ(std::sscanf(line.c_str(), "%*d,%lf,%lf,%lf", &position.x, &position.y, &position.z), 3) << line;
+  return position;
+}
+
+TEST_F(HandsUi, ADragOnTheClothTakesItAlongToTheCursor) {
+  const ViewerProgram viewer(scene);
+  viewer.perform("at 0.5 0.5 sleep 0.3 mousedown 1 sleep 0.3 at 0.55 0.45 sleep 0.1 at 0.6 0.4");
+  const Json recording = recordingWhere(viewer, [&](const Json& now) {
+    const std::vector<Json> moves = actionsIn(now, "move_hand");
+    // Half a second of simulated time to follow in.
+    return !moves.empty() && now.at("frames").get<int>() * 30 - moves.back().at("step").get<int>() > 45 * 30;
+  });
+  const std::vector<Json> grabs = actionsIn(recording, "grab");
+  ASSERT_EQ(grabs.size(), 1u);
+  const Vec3d start = vectorOf(grabs[0].at("target"));
+  const Vec3d target = vectorOf(actionsIn(recording, "move_hand").back().at("target"));
+  EXPECT_GT(std::sqrt(dot(target - start, target - start)), 0.1) << "the hand has moved with the mouse";
+
+  (void)replay(viewer, "--backend cpu --save end.csv");
+  const Vec3d held = particleIn(readFile(viewer.here() / "end.csv"), grabs[0].at("particle"));
+  EXPECT_LT(std::sqrt(dot(held - target, held - target)), 0.02) << "the particle is where the cursor is";
+
+  viewer.perform("mouseup 1");
+  (void)recordingWhere(viewer, [&](const Json& now) { return !actionsIn(now, "release").empty(); });
+}
+
+TEST_F(HandsUi, PinsCutsAndBlowsAreRepeatedByAReplayWithTheSameBitsOnBothBackends) {
+  const ViewerProgram viewer(scene);
+  viewer.perform("keydown shift at 0.5 0.55 sleep 0.3 click 1 sleep 0.2 keyup shift");
+  viewer.perform(
+      "keydown x sleep 0.3 at 0.25 0.62 sleep 0.2 mousedown 1 sleep 0.2 at 0.4 0.62 sleep 0.1 at 0.5 0.63 "
+      "sleep 0.1 at 0.75 0.64 sleep 0.2 mouseup 1 keyup x");
+  viewer.perform("at 0.5 0.45 keydown w sleep 1 keyup w");
+  const Json recording = recordingWhere(viewer, [&](const Json& now) {
+    const std::vector<Json> blows = actionsIn(now, "blow");
+    return blows.size() > 1 && blows.back().at("speed") == 0;
+  });
+  const std::vector<Json> pins = actionsIn(recording, "set_pin");
+  ASSERT_EQ(pins.size(), 1u);
+  EXPECT_EQ(pins[0].at("pinned"), true);
+  EXPECT_GE(actionsIn(recording, "cut").size(), 2u) << "the stroke is made of several";
+  EXPECT_GT(actionsIn(recording, "blow").front().at("speed"), 0);
+  EXPECT_TRUE(actionsIn(recording, "grab").empty()) << "neither pins nor cuts grab";
+
+  const Json cpu = replay(viewer, "--backend cpu"), gpu = replay(viewer, "--backend gpu");
+  EXPECT_EQ(cpu.at("state_hash"), gpu.at("state_hash"));
+  EXPECT_EQ(cpu.at("finite"), true);
+}
+
+TEST_F(HandsUi, ShiftClickOnAPinLetsItGo) {
+  const ViewerProgram viewer(std::string(scene) + " --set gravity=[0,0,0]");
+  viewer.perform("keydown shift at 0.5 0.55 sleep 0.3 click 1 sleep 0.5 click 1 sleep 0.2 keyup shift");
+  const Json recording =
+      recordingWhere(viewer, [&](const Json& now) { return actionsIn(now, "set_pin").size() == 2; });
+  const std::vector<Json> pins = actionsIn(recording, "set_pin");
+  EXPECT_EQ(pins[0].at("particle"), pins[1].at("particle"));
+  EXPECT_EQ(pins[1].at("pinned"), false);
+}
+
+TEST_F(HandsUi, BackendsToggledInMidSwingChangeNoBit) {
+  const ViewerProgram viewer(scene);
+  viewer.press("b");
+  EXPECT_TRUE(viewer.titleBecomesOneWith("- gpu -"));
+  viewer.press("b");
+  EXPECT_TRUE(viewer.titleBecomesOneWith("- cpu -"));
+  viewer.press("p");
+  ASSERT_TRUE(viewer.titleBecomesOneWith("paused at frame "));
+  const Json recording =
+      recordingWhere(viewer, [&](const Json& now) { return actionsIn(now, "switch_backend").size() == 2; });
+  const std::string frames = std::to_string(recording.at("frames").get<int>());
+  EXPECT_NE(viewer.title().find("paused at frame " + frames), std::string::npos) << viewer.title();
+  const Json toggled = replay(viewer, ""),
+             plain = jsonOf(viewer, "run " + std::string(scene) + " --json --frames " + frames);
+  EXPECT_EQ(toggled.at("state_hash"), plain.at("state_hash"));
+}
+
+}  // namespace
+}  // namespace clothsim

@@ -1,0 +1,202 @@
+// The window around the cloth: every scene, every key, panels, the time line, files that it writes, shaders
+// loaded anew.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+
+#include "app/viewer_config.h"
+#include "app/viewer_keys.h"
+#include "scene/scene_io.h"
+#include "ui/screen.h"
+
+namespace clothsim {
+namespace {
+
+namespace fs = std::filesystem;
+using test::Picture;
+using test::seconds;
+using test::ViewerProgram;
+
+const char* const scene = "-f pinned2 --resolution 20x20 --backend cpu";
+
+bool isAlert(Picture::Pixel p) { return p.r > 180 && p.g > 130 && p.g < 210 && p.b < 120; }
+
+// As xdotool names it: "Ctrl+Shift+Z" -> "ctrl+shift+z", "Esc" -> "Escape".
+std::string xdotoolName(std::string_view input) {
+  const KeyStroke stroke = keyStroke(input);
+  std::string key = stroke.key;
+  if (key == "Esc") key = "Escape";
+  if (key == "Space") key = "space";
+  if (key.size() == 1) key[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(key[0])));
+  return (stroke.control ? "ctrl+" : "") + std::string(stroke.shift ? "shift+" : "") + key;
+}
+
+class WindowUi : public testing::Test {
+ protected:
+  static void expectNoComplaints(const ViewerProgram& viewer) {
+    EXPECT_EQ(viewer.output().find("OpenGL"), std::string::npos) << viewer.output();
+    EXPECT_EQ(viewer.output().find("GL "), std::string::npos) << viewer.output();
+  }
+  test::Screen screen_{640, 480};
+};
+
+TEST_F(WindowUi, OpensEveryBundledSceneAndClosesAtOnce) {
+  for (const BundledScene& bundled : bundledScenes()) {
+    SCOPED_TRACE(bundled.name);
+    ViewerProgram viewer("-f " + bundled.name + " --resolution 12x12 --backend cpu");
+    EXPECT_EQ(viewer.title().find(bundled.name + " - cpu"), 0u) << viewer.title();
+    viewer.press("Escape");
+    EXPECT_EQ(viewer.exitCodeWithin(seconds(10)), 0) << viewer.output();
+    expectNoComplaints(viewer);
+  }
+}
+
+TEST_F(WindowUi, TakesEveryKeyOfItsListAndGoesOn) {
+  ViewerProgram viewer(scene);
+  for (const ViewerKey& key : viewerKeys) {
+    if (key.action == ViewerAction::none || key.action == ViewerAction::quit) continue;
+    viewer.press(xdotoolName(key.input));
+    ASSERT_FALSE(viewer.exitCodeWithin(test::milliseconds(50))) << key.input << ": " << viewer.output();
+  }
+  EXPECT_TRUE(test::eventually(seconds(20), [&] {
+    const auto count = std::distance(fs::directory_iterator(viewer.here()), fs::directory_iterator());
+    return count >= 3;  // screenshot, scene, recording; the clip's file comes with its end
+  })) << viewer.output();
+  viewer.press("Escape");
+  EXPECT_EQ(viewer.exitCodeWithin(seconds(10)), 0) << viewer.output();
+  expectNoComplaints(viewer);
+}
+
+TEST_F(WindowUi, WritesScreenshotsAndClipsUnderNamesThatNothingHas) {
+  const ViewerProgram viewer(scene);
+  viewer.press("ctrl+r");
+  viewer.press("p");
+  ASSERT_TRUE(viewer.titleBecomesOneWith("paused at frame "));
+  std::string frame = viewer.title().substr(viewer.title().find("frame ") + 6);
+  frame.erase(frame.find(' '));
+  viewer.press("ctrl+p");
+  EXPECT_TRUE(viewer.eventuallyHas("pinned2-cpu-" + frame + ".png"));
+  viewer.press("ctrl+p");
+  EXPECT_TRUE(viewer.eventuallyHas("pinned2-cpu-" + frame + "-2.png"));
+  viewer.press("ctrl+r");
+  EXPECT_TRUE(test::eventually(seconds(20), [&] {
+    return fs::exists(viewer.here() / "pinned2-cpu.mp4") || fs::exists(viewer.here() / "pinned2-cpu-frames");
+  }));
+  const fs::path film = viewer.here() / "pinned2-cpu.mp4";
+  if (fs::exists(film)) {
+    EXPECT_GT(fs::file_size(film), 1000u);
+  }
+}
+
+TEST_F(WindowUi, SavesASceneThatLoadsAgain) {
+  const ViewerProgram viewer(std::string(scene) + " --set cloth.damping=0.7");
+  viewer.press("ctrl+s");
+  ASSERT_TRUE(viewer.eventuallyHas("pinned2.json"));
+  EXPECT_EQ(loadScene(viewer.here() / "pinned2.json").cloths[0].damping, 0.7);
+}
+
+TEST_F(WindowUi, LooksBackOverKeptFramesAndGoesOnFromThere) {
+  const ViewerProgram viewer(scene);
+  viewer.press("p");
+  ASSERT_TRUE(viewer.titleBecomesOneWith("paused at frame "));
+  viewer.press("r");
+  viewer.press("F2");
+  const Picture start = viewer.stillPicture();
+  const auto frame = [&] {
+    const std::string title = viewer.title();
+    return std::atoi(title.c_str() + title.find("frame ") + 6);
+  };
+  const int first = frame();
+  const auto becomes = [&](int wanted) {
+    return test::eventually(seconds(20), [&] { return frame() == wanted; });
+  };
+  for (int i = 1; i <= 3; ++i) {
+    viewer.press("n");
+    ASSERT_TRUE(becomes(first + i)) << viewer.title();
+  }
+  for (int i = 2; i >= 0; --i) {
+    viewer.press("Left");
+    ASSERT_TRUE(becomes(first + i)) << viewer.title();
+  }
+  viewer.press("Right");
+  EXPECT_TRUE(becomes(first + 1)) << viewer.title();
+  viewer.press("n");
+  EXPECT_TRUE(becomes(first + 2)) << "one frame on, from the past: " << viewer.title();
+  viewer.press("p");
+  EXPECT_TRUE(viewer.titleBecomesOneWith("fps")) << viewer.title();
+}
+
+TEST_F(WindowUi, UndoesAndRedoesAChangeOfAParameter) {
+  const ViewerProgram viewer(scene);
+  viewer.press("p");
+  ASSERT_TRUE(viewer.titleBecomesOneWith("paused at frame "));
+  const auto settled = [&] {
+    std::this_thread::sleep_for(seconds(3));  // the notice is gone by then
+    return viewer.stillPicture();
+  };
+  const Picture verlet = viewer.stillPicture();
+  viewer.press("i");
+  const Picture euler = settled();
+  EXPECT_NE(euler, verlet) << "the panel of facts names the other integrator";
+  viewer.press("ctrl+z");
+  EXPECT_EQ(settled(), verlet);
+  viewer.press("ctrl+shift+z");
+  EXPECT_EQ(settled(), euler);
+}
+
+TEST_F(WindowUi, ShowsWhatIsWrongWithAShaderAndGoesOnWithTheOldOne) {
+  const test::TemporaryFolder root;
+  for (const char* part : {"shaders", "assets"})
+    fs::copy(fs::path(SOURCE_ROOT) / part, root / part, fs::copy_options::recursive);
+  const ViewerProgram viewer(scene, "CLOTHSIM_ROOT='" + root.path().string() + "'");
+  viewer.press("p");
+  ASSERT_TRUE(viewer.titleBecomesOneWith("paused"));
+  const fs::path shader = root / "shaders" / "render" / "tone.glsl";
+  const std::string sound = readFile(shader);
+  const auto isShown = [&] { return viewer.picture().share(0, 0.5, 1, 1, isAlert) > 0.002; };
+  EXPECT_FALSE(isShown());
+  std::ofstream(shader) << sound << "\nthis is no GLSL\n";
+  viewer.press("F5");
+  EXPECT_TRUE(test::eventually(seconds(20), isShown)) << "no message";
+  std::ofstream(shader) << sound;
+  viewer.press("F5");
+  EXPECT_TRUE(test::eventually(seconds(20), [&] { return !isShown(); })) << "the message stays";
+}
+
+class PanelsUi : public testing::Test {
+ protected:
+  test::Screen screen_{1024, 600};
+};
+
+TEST_F(PanelsUi, OpenAndFoldAtAClickAndAreRememberedInTheUsersFolderOfConfiguration) {
+  ViewerProgram viewer(scene);
+  const auto settingsSay = [&](const std::string& words) {
+    return test::eventually(seconds(20), [&] { return viewer.settings().find(words) != std::string::npos; });
+  };
+  // Folded, the titles stand below each other at the right; the first is open at the first start.
+  const double x = 0.85, first = 20.0 / 600, next = 30.0 / 600;
+  const auto click = [&](std::size_t panel) {
+    viewer.perform("at " + std::to_string(x) + " " +
+                   std::to_string(first + static_cast<double>(panel) * next) +
+                   " sleep 0.2 click 1 sleep 0.1 at 0.3 0.9");
+  };
+  click(0);
+  ASSERT_TRUE(settingsSay("\"simulation\": false")) << viewer.settings();
+  for (std::size_t panel = 0; panel < panelNames.size(); ++panel) {
+    const std::string name = "\"" + std::string(panelNames[panel]) + "\": ";
+    click(panel);
+    EXPECT_TRUE(settingsSay(name + "true")) << viewer.settings();
+    click(panel);
+    EXPECT_TRUE(settingsSay(name + "false")) << viewer.settings();
+  }
+  viewer.press("F3");
+  EXPECT_TRUE(settingsSay("\"show_panels\": false")) << viewer.settings();
+  EXPECT_TRUE(viewer.leftNoFiles()) << "imgui.ini, perhaps";
+  viewer.press("Escape");
+  EXPECT_EQ(viewer.exitCodeWithin(seconds(10)), 0) << viewer.output();
+}
+
+}  // namespace
+}  // namespace clothsim
