@@ -1,6 +1,18 @@
-// A studio backdrop: a vertical gradient with a glow behind the cloth, in linear light.
+// What is behind everything, in linear light: a studio's backdrop, the generated sky, or one colour.
 #include "render/frame.glsl"
+#ifdef SKY
+#include "render/sky.glsl"
+#endif
 
+#if defined(SKY)
+vec3 backgroundLight(vec2 pixel) {
+  vec2 place = pixel * frame.pixels.zw * 2.0 - 1.0;
+  return skyLight(frame.rayMiddle.xyz + place.x * frame.rayRight.xyz + place.y * frame.rayUp.xyz);
+}
+#elif defined(PLAIN)
+vec3 backgroundLight(vec2 pixel) { return frame.backgroundPlain.rgb; }
+#else
+// A vertical gradient with a glow behind the cloth.
 vec3 backgroundLight(vec2 pixel) {
   vec2 place = pixel * frame.pixels.zw;
   vec2 fromMiddle = (place - vec2(0.5, 0.55)) * vec2(frame.pixels.x * frame.pixels.w, 1.0);
@@ -8,3 +20,4 @@ vec3 backgroundLight(vec2 pixel) {
   vec3 light = mix(frame.backgroundBottom.rgb, frame.backgroundTop.rgb, smoothstep(0.0, 1.0, place.y));
   return light + glow * frame.backgroundGlow.rgb;
 }
+#endif

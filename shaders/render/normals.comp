@@ -1,11 +1,12 @@
-// Smooth normals: each particle gathers the area-weighted normals of its up to six triangles. w says how far the
-// cloth around rises above the tangent plane (the mean sine, -1 to 1): the hollows of folds are shaded darker by it.
-#include "shared/render_layout.h"
+// Smooth normals: each particle gathers the area-weighted normals of its up to six triangles; tangents along u beside
+// them. The normal's w says how far the cloth around rises above the tangent plane (the mean sine, -1 to 1): the hollows
+// of folds are shaded darker by it. The tangent's w is the strain, where a model asks for it.
+#include "render/cloth_grid.glsl"
 
 layout(local_size_x = NORMALS_GROUP_SIZE, local_size_y = NORMALS_GROUP_SIZE) in;
-layout(std140, binding = NORMALS_GRID_BINDING) uniform NormalsGridBlock { NormalsGrid grid; };
 layout(std430, binding = NORMALS_POSITIONS_BINDING) readonly buffer Positions { vec4 positions[]; };
 layout(std430, binding = NORMALS_OUT_BINDING) writeonly buffer Normals { vec4 normals[]; };
+layout(std430, binding = TANGENTS_OUT_BINDING) writeonly buffer Tangents { vec4 tangents[]; };
 
 uint particleAt(ivec2 point) { return grid.firstParticle + uint(point.y) * grid.columns + uint(point.x); }
 
@@ -14,6 +15,7 @@ bool isOnGrid(ivec2 point) {
 }
 
 #include "render/cuts.glsl"
+#include "render/strain.glsl"
 
 // The neighbour's offset; zero beyond the border, so that triangles which do not exist add nothing.
 vec3 toNeighbour(ivec2 point, vec3 here, int columns, int rows) {
@@ -21,13 +23,18 @@ vec3 toNeighbour(ivec2 point, vec3 here, int columns, int rows) {
   return isOnGrid(other) ? positions[particleAt(other)].xyz - here : vec3(0);
 }
 
-// The mean sine of the elevation of the points on a ring around `point`, seen from it.
+// The mean sine of the elevation of the points on a ring around `point`, seen from it. What a cut has set free does not
+// count once it is farther away than cloth could be.
 float hollowAt(ivec2 point, vec3 here, vec3 normal) {
   float sum = 0.0;
   for (int row = -1; row <= 1; ++row) {
     for (int column = -1; column <= 1; ++column) {
       vec3 d = toNeighbour(point, here, column * int(grid.ring), row * int(grid.ring));
-      sum += dot(d, normal) / max(length(d), 1e-9);
+      float l = length(d);
+#ifdef CUTS
+      d *= clamp(3.0 - l / grid.reach, 0.0, 1.0);
+#endif
+      sum += dot(d, normal) / max(l, 1e-9);
     }
   }
   return sum / 8.0;
@@ -52,4 +59,12 @@ void main() {
   float area = length(sum);
   vec3 normal = area > 0.0 ? sum / area : vec3(0, 1, 0);
   normals[particleAt(point)] = vec4(normal, hollowAt(point, here, normal));
+
+  if (isCut(point + ivec2(1, 0), TO_LEFT)) right = vec3(0);
+  if (isCut(point, TO_LEFT)) left = vec3(0);
+  vec3 along = right - left;
+  along -= dot(along, normal) * normal;
+  float l = length(along);
+  vec3 anyAcross = cross(normal, abs(normal.x) < 0.6 ? vec3(1, 0, 0) : vec3(0, 0, 1));
+  tangents[particleAt(point)] = vec4(l > 0.0 ? along / l : normalize(anyAcross), strainAt(point, here));
 }

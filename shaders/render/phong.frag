@@ -1,5 +1,6 @@
 // Two-sided Blinn-Phong for cloth: a broad, weak highlight, a sheen at grazing angles as fibres give it, light that
 // shines through, and folds that darken in their hollows.
+#include "render/hem.glsl"
 #include "render/lights.glsl"
 #include "render/shadow.glsl"
 #include "render/surface.glsl"
@@ -9,17 +10,6 @@ const float HIGHLIGHT = 0.08, EXPONENT = 24.0;
 const float SHEEN = 0.24;
 const float TRANSMITTED = 0.16;     // part of the key light that comes out at the other side
 const float HOLLOW_SHADE = 1.4;
-
-const float HEM_WIDTH = 0.022;      // of the sheet's sides
-const float SEAM_SHADE = 0.28;
-
-// The seam of a hem around the sheet, half a pixel wide at least so that it does not crawl.
-float hem(vec2 uv) {
-  vec2 inside = min(uv, 1.0 - uv);
-  float fromSeam = abs(min(inside.x, inside.y) - HEM_WIDTH);
-  float width = 0.0022 + 0.7 * fwidth(min(inside.x, inside.y));
-  return 1.0 - SEAM_SHADE * (0.0022 / width + 0.15) * (1.0 - smoothstep(0.0, width * 1.5, fromSeam));
-}
 
 layout(location = 0) in Surface surface;
 layout(location = 0) out vec4 color;

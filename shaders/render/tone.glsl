@@ -11,3 +11,8 @@ vec3 toneMapped(vec3 light) {
 
 vec3 canvasFromLight(vec3 light) { return sqrt(toneMapped(light)); }
 vec3 lightFromCanvas(vec3 stored) { return stored * stored; }
+
+// For colours that stand for themselves, such as a scale's: what the screen will show.
+vec3 canvasFromSrgb(vec3 srgb) {
+  return sqrt(mix(pow((srgb + 0.055) / 1.055, vec3(2.4)), srgb / 12.92, lessThanEqual(srgb, vec3(0.04045))));
+}

@@ -11,13 +11,19 @@ using uint = unsigned int;
 
 // Bound anew before every use, since the simulation has the same slots for itself.
 #define RENDER_FRAME_BINDING 8       // uniform block RenderFrame
-#define NORMALS_GRID_BINDING 9       // uniform block NormalsGrid
+#define CLOTH_GRID_BINDING 9         // uniform block ClothGrid
 #define NORMALS_POSITIONS_BINDING 0  // storage block, vec4 a particle
 #define NORMALS_OUT_BINDING 1        // storage block, vec4 a particle
+#define TANGENTS_OUT_BINDING 3       // storage block, vec4 a particle
+#define REST_POSITIONS_BINDING 4     // storage block, vec4 a particle
 #define SHADOW_MAP_UNIT 0            // texture units
 #define FLOOR_SHADOW_UNIT 1
 #define CANVAS_UNIT 2
 #define CUTS_BINDING 2  // storage block, a word a particle: which of its springs are cut (cloth/cuts.h)
+#define WEAVE_UNIT 3
+#define PRINT_UNIT 4
+#define HEIGHTS_UNIT 5
+#define ENVIRONMENT_UNIT 6
 #define FLOOR_SHADOW_SIZE 256  // [texels] of the blurred shadow for floors
 #define NORMALS_GROUP_SIZE 8   // work groups of 8 x 8 particles
 
@@ -28,6 +34,7 @@ using uint = unsigned int;
 #define INSTANCE_NORMAL_LOCATION 4  // plane: normal
 #define INSTANCE_ROWS_LOCATION 5    // and 6, 7. Other shapes: the rows that take their own frame to the world
 #define INSTANCE_COLLIDER_LOCATION 8  // index of the collider; -1: of none
+#define TANGENT_LOCATION 10           // cloth: the direction of u, and the strain
 #define LINE_LOOK_LOCATION 9          // springs: sRGB colour and width [pixels], the same for all
 
 #define PICK_KIND_BITS 2  // of a picked pixel's identity; the rest is a number
@@ -35,6 +42,8 @@ using uint = unsigned int;
 #define PICK_NOTHING 0u
 #define PICK_CLOTH 1u     // number of a particle
 #define PICK_COLLIDER 2u  // index of a collider
+
+#define STRAIN_STOPS 7
 
 struct RenderFrame {
   mat4 clipFromWorld;
@@ -53,12 +62,25 @@ struct RenderFrame {
   vec4 backgroundTop;
   vec4 backgroundBottom;
   vec4 backgroundGlow;  // added around the middle of the picture
-  vec4 pixels;          // width, height, 1 / width, 1 / height
+  vec4 backgroundPlain;
+  vec4 pixels;         // width, height, 1 / width, 1 / height
+  vec4 rayMiddle;      // the direction in which the middle of the picture lies, and how it changes
+  vec4 rayRight;       // from there to the right edge
+  vec4 rayUp;          // and to the upper one
+  vec4 fabric;         // x: repeats of the weave's picture in a metre, y: gloss, z: how light the weft is
+  vec4 relief;         // x: strength of normals, y: height of height maps [m], z: repeats of a texture
+  vec4 irradiance[9];  // of the sky (render/environment.h)
+  vec4 strainStops[STRAIN_STOPS];  // colours from the most compressed to the most stretched
+  vec4 strainRange;                // x: l/L - 1 at the last of them
 };
 
-struct NormalsGrid {
+struct ClothGrid {
   uint firstParticle, columns, rows;
-  uint ring;  // how many points away the cloth is looked at for the shade in folds
+  uint ring;     // how many points away the cloth is looked at for the shade in folds
+  float width;   // at rest [m], along u
+  float height;  // along v
+  float longer;  // the larger of the two
+  float reach;   // length of the ring's steps at rest [m]
 };
 
 #ifdef __cplusplus

@@ -8,54 +8,89 @@
 namespace clothsim {
 namespace {
 
-std::vector<std::uint32_t> indicesOf(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
-  std::vector<std::uint32_t> indices;
-  indices.reserve(3 * triangles.size());
-  for (const auto& triangle : triangles) indices.insert(indices.end(), triangle.begin(), triangle.end());
-  return indices;
-}
-
-// Points between a particle and the ring around it whose height tells a fold's hollow from its ridge.
-GLuint ringOf(const Grid& grid) {
-  constexpr double distance = 0.03;  // [m], about the width of a fold
-  const double spacing = std::max(grid.nominalLength[toLeft], grid.nominalLength[toUpper]);
-  return spacing > 0 ? static_cast<GLuint>(std::clamp(std::lround(distance / spacing), 1L, 64L)) : 1;
+shared::ClothGrid blockOf(const Grid& grid) {
+  constexpr double fold = 0.03;  // [m], about the width of a fold, whose hollow differs from its ridge
+  const double right = grid.nominalLength[toLeft], down = grid.nominalLength[toUpper];
+  const double spacing = std::max(right, down);
+  const long ring = spacing > 0 ? std::clamp(std::lround(fold / spacing), 1L, 64L) : 1;
+  shared::ClothGrid block{};
+  block.firstParticle = grid.firstParticle;
+  block.columns = static_cast<GLuint>(grid.columns);
+  block.rows = static_cast<GLuint>(grid.rows);
+  block.ring = static_cast<GLuint>(ring);
+  block.width = static_cast<float>(right * (grid.columns - 1));
+  block.height = static_cast<float>(down * (grid.rows - 1));
+  block.longer = std::max({block.width, block.height, 1e-9f});
+  block.reach = static_cast<float>(spacing * static_cast<double>(ring));
+  return block;
 }
 
 }  // namespace
 
 ClothMesh::ClothMesh(const Cloth& cloth)
     : normals_("cloth normals", cloth.particleCount()),
-      indices_("cloth indices", indicesOf(cloth.triangles())),
+      tangents_("cloth tangents", cloth.particleCount()),
       textureCoordinates_("cloth texture coordinates", cloth.textureCoordinates()),
       vertices_("cloth") {
   for (const Grid& grid : cloth.grids()) {
-    const auto columns = static_cast<GLuint>(grid.columns), rows = static_cast<GLuint>(grid.rows);
-    const std::array block{shared::NormalsGrid{grid.firstParticle, columns, rows, ringOf(grid)}};
-    grids_.push_back({gl::Buffer<shared::NormalsGrid>("normals grid", block), columns, rows});
+    const std::array block{blockOf(grid)};
+    grids_.push_back({.block = gl::Buffer<shared::ClothGrid>("cloth grid", block),
+                      .columns = block[0].columns,
+                      .rows = block[0].rows,
+                      .firstParticle = grid.firstParticle,
+                      .particles = grid.particleCount()});
   }
   vertices_.attach(normals_.name(), {.location = NORMAL_LOCATION});
+  vertices_.attach(tangents_.name(), {.location = TANGENT_LOCATION});
   vertices_.attach(textureCoordinates_.name(),
                    {.location = TEXTURE_COORDINATE_LOCATION, .components = 2, .stride = 8});
+  setTriangles(cloth.triangles());
+}
+
+// Grid by grid, as remainingTriangles() has them.
+void ClothMesh::setTriangles(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+  std::vector<std::uint32_t> indices;
+  indices.reserve(3 * triangles.size());
+  for (const auto& triangle : triangles) indices.insert(indices.end(), triangle.begin(), triangle.end());
+  indices_ = gl::Buffer<std::uint32_t>("cloth indices", indices);
   vertices_.attachIndices(indices_.name());
+  auto triangle = triangles.begin();
+  for (GridPart& grid : grids_) {
+    const auto end = std::find_if(triangle, triangles.end(), [&](const auto& corners) {
+      return corners[0] - grid.firstParticle >= grid.particles;
+    });
+    grid.firstIndex = 3 * static_cast<std::size_t>(triangle - triangles.begin());
+    grid.indexCount = 3 * static_cast<std::size_t>(end - triangle);
+    triangle = end;
+  }
 }
 
 void ClothMesh::setCuts(const Cloth& cloth, const Cuts& cuts) {
   if (cuts.empty() && !hasCuts()) return;
-  indices_ = gl::Buffer<std::uint32_t>("cloth indices", indicesOf(remainingTriangles(cloth, cuts)));
-  vertices_.attachIndices(indices_.name());
+  setTriangles(remainingTriangles(cloth, cuts));
   const std::vector<std::uint32_t> words(cuts.begin(), cuts.end());
   cuts_ = words.empty() ? gl::Buffer<std::uint32_t>() : gl::Buffer<std::uint32_t>("cuts", words);
+}
+
+void ClothMesh::keepRestPositions(const Cloth& cloth) {
+  if (restPositions_.size() > 0) return;
+  std::vector<glm::vec4> rest;
+  rest.reserve(cloth.particleCount());
+  for (const Vec3d& p : cloth.positions())
+    rest.emplace_back(static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z), 0.0f);
+  restPositions_ = gl::Buffer<glm::vec4>("cloth at rest", rest);
 }
 
 void ClothMesh::computeNormals(const gl::Program& normalsPass, GLuint positions) {
   normalsPass.bind();
   if (hasCuts()) cuts_.bindStorage(CUTS_BINDING);
+  if (restPositions_.size() > 0) restPositions_.bindStorage(REST_POSITIONS_BINDING);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);  // the solver's last writes
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, NORMALS_POSITIONS_BINDING, positions);
   normals_.bindStorage(NORMALS_OUT_BINDING);
-  for (const GridBlock& grid : grids_) {
-    grid.block.bindUniform(NORMALS_GRID_BINDING);
+  tangents_.bindStorage(TANGENTS_OUT_BINDING);
+  for (const GridPart& grid : grids_) {
+    grid.block.bindUniform(CLOTH_GRID_BINDING);
     gl::dispatch(grid.columns, grid.rows, NORMALS_GROUP_SIZE, NORMALS_GROUP_SIZE);
   }
   glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);  // normals, and the solver's positions, as vertices
@@ -64,7 +99,11 @@ void ClothMesh::computeNormals(const gl::Program& normalsPass, GLuint positions)
 void ClothMesh::draw(GLuint positions) {
   vertices_.attach(positions, {.location = POSITION_LOCATION});
   vertices_.bind();
-  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(indices_.size()), GL_UNSIGNED_INT, nullptr);
+  for (const GridPart& grid : grids_) {
+    grid.block.bindUniform(CLOTH_GRID_BINDING);
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(grid.indexCount), GL_UNSIGNED_INT,
+                   reinterpret_cast<const void*>(grid.firstIndex * sizeof(std::uint32_t)));
+  }
 }
 
 }  // namespace clothsim

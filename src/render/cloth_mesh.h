@@ -1,5 +1,5 @@
-// The cloth as triangles whose vertices are the particles themselves: positions stay in the solver's buffer,
-// normals are computed beside them on the GPU.
+// The cloth as triangles whose vertices are the particles themselves: positions stay in the solver's buffer;
+// normals and tangents are computed beside them on the GPU.
 #pragma once
 
 #include <vector>
@@ -20,23 +20,31 @@ class ClothMesh {
   // Triangles with a cut side are drawn no more, and do not bend their neighbours' normals.
   void setCuts(const Cloth& cloth, const Cuts& cuts);
   [[nodiscard]] bool hasCuts() const { return cuts_.size() > 0; }
+  // For a normals pass with STRAIN, which compares with the cloth at rest.
+  void keepRestPositions(const Cloth& cloth);
 
-  // Smooth normals for the positions in `positions`, one vec4 a particle; by normals.comp, with CUTS when
-  // there are any.
+  // Smooth normals, tangents and strains for the positions in `positions`, one vec4 a particle; by
+  // normals.comp, with CUTS when there are any.
   void computeNormals(const gl::Program& normalsPass, GLuint positions);
   // The triangles of all grids, with the program and its state bound by the caller.
   void draw(GLuint positions);
 
+  // A vec4 a particle: unit normal; how far the cloth around rises above the tangent plane.
   [[nodiscard]] const gl::Buffer<glm::vec4>& normals() const { return normals_; }
+  // A vec4 a particle: unit direction of u; largest l/L - 1 of the cell sides and diagonals around it (0
+  // without STRAIN).
+  [[nodiscard]] const gl::Buffer<glm::vec4>& tangents() const { return tangents_; }
 
  private:
-  struct GridBlock {
-    gl::Buffer<shared::NormalsGrid> block;
-    GLuint columns, rows;
+  struct GridPart {
+    gl::Buffer<shared::ClothGrid> block;
+    GLuint columns, rows, firstParticle, particles;
+    std::size_t firstIndex = 0, indexCount = 0;
   };
+  void setTriangles(const std::vector<std::array<std::uint32_t, 3>>& triangles);
 
-  std::vector<GridBlock> grids_;
-  gl::Buffer<glm::vec4> normals_;
+  std::vector<GridPart> grids_;
+  gl::Buffer<glm::vec4> normals_, tangents_, restPositions_;
   gl::Buffer<std::uint32_t> indices_;
   gl::Buffer<std::uint32_t> cuts_;
   gl::Buffer<std::array<float, 2>> textureCoordinates_;

@@ -1,9 +1,15 @@
 #include "render/look.h"
 
 #include <cmath>
+#include <vector>
+
+#include "render/stage.h"
+#include "render/strain_scale.h"
 
 namespace clothsim {
 namespace {
+
+constexpr double weaveThreads = 16;  // in a repeat of the weaves' pictures (tools/make_textures)
 
 float linear(double encoded) {
   const double value = encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
@@ -21,13 +27,34 @@ glm::vec3 fromViewer(glm::vec3 front, glm::vec3 direction) {
   return glm::normalize(direction.x * right + glm::vec3(0, direction.y, 0) + direction.z * front);
 }
 
+// The sky's light with the distribution of its picture, scaled so that the studio's exposure holds for it.
+void addSky(const std::array<glm::vec3, 9>& sky, shared::RenderFrame& frame) {
+  const glm::vec3 up = sky[0] + sky[2] - sky[8];  // on a surface that faces (0, 1, 0)
+  const glm::vec3 scale = glm::vec3(frame.skyColor) / glm::max(up, 1e-6f);
+  for (std::size_t i = 0; i < sky.size(); ++i) frame.irradiance[i] = glm::vec4(scale * sky[i], 0);
+}
+
+void addStrainScale(const RenderSettings& settings, shared::RenderFrame& frame) {
+  const std::vector<StrainStop> stops = strainScale(settings);
+  for (std::size_t i = 0; i < stops.size(); ++i) {
+    const auto [red, green, blue] = stops[i].srgb;
+    frame.strainStops[i] =
+        linearColor(static_cast<double>(red), static_cast<double>(green), static_cast<double>(blue));
+  }
+  frame.strainRange.x = static_cast<float>(settings.strainRange);
+}
+
 }  // namespace
 
-glm::vec3 directionToKeyLight(glm::vec3 front) { return fromViewer(front, {-0.55f, 1.0f, 0.42f}); }
+glm::vec3 directionToKeyLight(const RenderSettings& settings, glm::vec3 front) {
+  if (settings.light) return glm::normalize(toGlm(*settings.light));
+  return fromViewer(front, {-0.55f, 1.0f, 0.42f});
+}
 
-shared::RenderFrame makeLook(const RenderSettings& settings, glm::vec3 front) {
+shared::RenderFrame makeLook(const RenderSettings& settings, glm::vec3 front,
+                             const std::array<glm::vec3, 9>& sky) {
   shared::RenderFrame frame{};
-  frame.toKeyLight = glm::vec4(directionToKeyLight(front), 0);
+  frame.toKeyLight = glm::vec4(directionToKeyLight(settings, front), 0);
   frame.toFillLight = glm::vec4(fromViewer(front, {0.9f, 0.25f, 0.35f}), 0);
   frame.keyColor = {1.22f, 1.15f, 1.04f, 0};   // a warm key
   frame.fillColor = {0.16f, 0.20f, 0.28f, 0};  // a cool fill from the other side
@@ -40,6 +67,13 @@ shared::RenderFrame makeLook(const RenderSettings& settings, glm::vec3 front) {
   frame.backgroundTop = linearColor(0.32, 0.38, 0.45);
   frame.backgroundBottom = linearColor(0.62, 0.67, 0.72);
   frame.backgroundGlow = {0.16f, 0.17f, 0.18f, 0};
+  frame.backgroundPlain = linearColor(settings.backgroundColor);
+  frame.fabric = {static_cast<float>(1 / (weaveThreads * settings.threadSpacing)),
+                  static_cast<float>(settings.gloss), settings.weave == "denim" ? 0.5f : 0.0f, 0};
+  frame.relief = {static_cast<float>(settings.normalStrength), static_cast<float>(settings.height),
+                  static_cast<float>(settings.textureRepeat), 0};
+  addSky(sky, frame);
+  addStrainScale(settings, frame);
   return frame;
 }
 

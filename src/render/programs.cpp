@@ -1,10 +1,74 @@
 #include "render/programs.h"
 
-namespace clothsim {
+#include <utility>
 
-RenderPrograms::RenderPrograms(const std::string& shadingModel, int samples)
-    : cloth(makeShadingModel(shadingModel)),
-      resolve(gl::Program::makeRender("render/fullscreen.vert", "render/resolve.frag",
-                                      {{"SAMPLES", std::to_string(samples)}})) {}
+namespace clothsim {
+namespace {
+
+gl::Program makeNormals(bool withCuts, bool withStrain) {
+  gl::Defines defines;
+  if (withCuts) defines.emplace_back("CUTS", "");
+  if (withStrain) defines.emplace_back("STRAIN", "");
+  return gl::Program::makeCompute("render/normals.comp", defines);
+}
+
+gl::Program makeClothShadow(const ShadingModel& model) {
+  gl::Defines defines;
+  if (model.displaces) defines.emplace_back("DISPLACEMENT", "");
+  return gl::Program::makeRender("render/cloth_shadow.vert", "render/depth_only.frag", defines);
+}
+
+}  // namespace
+
+RenderPrograms::RenderPrograms(const ShadingModel& model, const std::string& background, int samples)
+    : samples_(samples) {
+  chooseModel(model);
+  chooseBackground(background);
+}
+
+void RenderPrograms::chooseModel(const ShadingModel& model) {
+  gl::Program shading = makeShading(model);
+  clothShadow = makeClothShadow(model);
+  cloth = std::move(shading);
+  if (std::exchange(measuresStrain_, model.measuresStrain) == model.measuresStrain) return;
+  normals_.reset();
+  normalsWithCuts_.reset();
+}
+
+void RenderPrograms::chooseBackground(const std::string& background) {
+  gl::Defines defines{{"SAMPLES", std::to_string(samples_)}};
+  if (background == "sky") defines.emplace_back("SKY", "");
+  if (background == "plain") defines.emplace_back("PLAIN", "");
+  resolve = gl::Program::makeRender("render/fullscreen.vert", "render/resolve.frag", defines);
+}
+
+const gl::Program& RenderPrograms::normals(bool withCuts) {
+  auto& program = withCuts ? normalsWithCuts_ : normals_;
+  if (!program) program.emplace(makeNormals(withCuts, measuresStrain_));
+  return *program;
+}
+
+const PickPrograms& RenderPrograms::picking() {
+  if (!picking_) picking_.emplace();
+  return *picking_;
+}
+
+const OverlayPrograms& RenderPrograms::overlays() {
+  if (!overlays_) overlays_.emplace();
+  return *overlays_;
+}
+
+void tryAllShaders(const RenderSettings& settings, int samples) {
+  RenderSettings other = settings;
+  RenderPrograms programs(shadingModelOf(other), settings.background, samples);
+  for (const std::string_view background : backgrounds) programs.chooseBackground(std::string(background));
+  for (const std::string_view name : shadingModels) {
+    other.shader = name;
+    programs.chooseModel(shadingModelOf(other));
+    for (const bool withCuts : {false, true}) static_cast<void>(programs.normals(withCuts));
+  }
+  static_cast<void>(programs.picking());
+  static_cast<void>(programs.overlays());
+}
 
 }  // namespace clothsim

@@ -1,34 +1,14 @@
 // All programs of the renderer in one place, so that they can be made anew together while it runs.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "gl/program.h"
 #include "render/shading_models.h"
+#include "render/springs_overlay.h"
 
 namespace clothsim {
-
-struct RenderPrograms {
-  // From the files below the resource root as they are now. @throws SceneError for an unknown shading model,
-  // OpenGlError, InputOutputError
-  RenderPrograms(const std::string& shadingModel, int samples);
-
-  gl::Program normals = gl::Program::makeCompute("render/normals.comp");
-  gl::Program normalsWithCuts = gl::Program::makeCompute("render/normals.comp", {{"CUTS", ""}});
-
-  gl::Program cloth;
-  gl::Program sphere = gl::Program::makeRender("render/sphere.vert", "render/sphere.frag");
-  gl::Program shape = gl::Program::makeRender("render/shape.vert", "render/sphere.frag");
-  gl::Program plane = gl::Program::makeRender("render/plane.vert", "render/plane.frag");
-  gl::Program resolve;
-
-  gl::Program clothShadow = gl::Program::makeRender("render/cloth_shadow.vert", "render/depth_only.frag");
-  gl::Program sphereShadow = gl::Program::makeRender("render/sphere_shadow.vert", "render/depth_only.frag");
-  gl::Program shapeShadow = gl::Program::makeRender("render/shape_shadow.vert", "render/depth_only.frag");
-  gl::Program blurFirstAxis =
-      gl::Program::makeRender("render/fullscreen.vert", "render/floor_shadow.frag", {{"FIRST_AXIS", ""}});
-  gl::Program blurSecondAxis = gl::Program::makeRender("render/fullscreen.vert", "render/floor_shadow.frag");
-};
 
 // Made when somebody first picks.
 struct PickPrograms {
@@ -37,5 +17,39 @@ struct PickPrograms {
   gl::Program shape = gl::Program::makeRender("render/pick_shape.vert", "render/pick.frag");
   gl::Program plane = gl::Program::makeRender("render/pick_plane.vert", "render/pick.frag");
 };
+
+struct RenderPrograms {
+  // From the files below the resource root as they are now. @throws OpenGlError, InputOutputError
+  RenderPrograms(const ShadingModel& model, const std::string& background, int samples);
+
+  // What a scene chooses. @throws as the constructor, leaving what was there
+  void chooseModel(const ShadingModel& model);
+  void chooseBackground(const std::string& background);
+
+  // The normals pass of the chosen model.
+  [[nodiscard]] const gl::Program& normals(bool withCuts);
+  [[nodiscard]] const PickPrograms& picking();
+  [[nodiscard]] const OverlayPrograms& overlays();
+
+  gl::Program cloth, clothShadow, resolve;
+  gl::Program sphere = gl::Program::makeRender("render/sphere.vert", "render/sphere.frag");
+  gl::Program shape = gl::Program::makeRender("render/shape.vert", "render/sphere.frag");
+  gl::Program plane = gl::Program::makeRender("render/plane.vert", "render/plane.frag");
+  gl::Program sphereShadow = gl::Program::makeRender("render/sphere_shadow.vert", "render/depth_only.frag");
+  gl::Program shapeShadow = gl::Program::makeRender("render/shape_shadow.vert", "render/depth_only.frag");
+  gl::Program blurFirstAxis =
+      gl::Program::makeRender("render/fullscreen.vert", "render/floor_shadow.frag", {{"FIRST_AXIS", ""}});
+  gl::Program blurSecondAxis = gl::Program::makeRender("render/fullscreen.vert", "render/floor_shadow.frag");
+
+ private:
+  int samples_;
+  bool measuresStrain_ = false;
+  std::optional<gl::Program> normals_, normalsWithCuts_;
+  std::optional<PickPrograms> picking_;
+  std::optional<OverlayPrograms> overlays_;
+};
+
+// Compiles all there is, for the sake of the errors. @throws OpenGlError, InputOutputError
+void tryAllShaders(const RenderSettings& settings, int samples);
 
 }  // namespace clothsim

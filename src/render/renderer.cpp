@@ -9,18 +9,17 @@
 #include "gl/buffer.h"
 #include "gl/framebuffer.h"
 #include "render/cloth_mesh.h"
-#include "render/collider_meshes.h"
+#include "render/colliders.h"
 #include "render/look.h"
+#include "render/model_textures.h"
 #include "render/programs.h"
 #include "render/shadow_map.h"
-#include "render/shape_meshes.h"
 #include "render/stage.h"
 
 namespace clothsim {
 namespace {
 
 constexpr GLenum canvasFormat = GL_RGBA8;  // square roots of linear light (shaders/render/tone.glsl)
-constexpr float floorRadius = 4.5f;        // of the stage's size: where planes have faded out
 
 // The longest side of a triangle of cloth: the diagonal of a cell [m].
 double longestEdge(const Cloth& cloth) {
@@ -29,11 +28,6 @@ double longestEdge(const Cloth& cloth) {
     longest = std::max(longest, std::hypot(grid.nominalLength[toLeft], grid.nominalLength[toUpper]));
   }
   return longest;
-}
-
-bool isHorizontal(const Collider& collider) {
-  const auto* plane = std::get_if<Plane>(&collider);
-  return plane != nullptr && std::abs(glm::normalize(toGlm(plane->normal)).y) > 0.95f;
 }
 
 RenderOptions withSupportedSamples(RenderOptions options) {
@@ -47,107 +41,88 @@ struct Renderer::Parts {
   Parts(const Cloth& drawn, const Scene& first, const RenderOptions& wanted);
 
   void configure(const Scene& edited);
-  void placeColliders(double time);
+  void lookFrom(const Camera& camera, int width, int height);
   void uploadFrame();
-  void updateFrame(const Camera& camera, int width, int height);
+  void computeNormals(GLuint positions);
   void drawShadows(GLuint positions);
   void drawScene(GLuint positions, int width, int height);
+  void drawCloth(GLuint positions);
+  void drawOverlay(GLuint positions);
   void drawIdentities(GLuint positions);
   void resolveInto(GLuint destination, int width, int height);
 
   Cloth cloth;
   Cuts cuts;
   RenderOptions options;
+  ViewOptions view;
   ClothOutline outline;
-  double edge;  // longest of the cloth's triangles [m]
   Scene scene;
   Stage stage;
-  ViewOptions view;
+  ShadingModel model;
   shared::RenderFrame frame{};
 
   RenderPrograms programs;
-  std::string shaderName;  // of programs.cloth
-  std::optional<PickPrograms> pickPrograms;
-  std::optional<OverlayPrograms> overlayPrograms;
+  ModelTextures textures;
   ClothMesh clothMesh;
-  SpringsOverlay overlay;
-  SphereMesh spheres;
-  ShapeMeshes shapes;
-  PlaneMesh planes;
+  Colliders colliders;
   ShadowMap shadowMap;
+  SpringsOverlay springs;
+  std::optional<PickTarget> pickTarget;
   gl::Framebuffer canvas;
   gl::Buffer<shared::RenderFrame> frameBlock{"render frame", 1};
   gl::VertexArray noVertices{"no vertices"};
-
-  std::optional<PickTarget> pickTarget;
 };
 
 Renderer::Parts::Parts(const Cloth& drawn, const Scene& first, const RenderOptions& wanted)
     : cloth(drawn),
       options(withSupportedSamples(wanted)),
       outline(outlineOf(cloth)),
-      edge(longestEdge(cloth)),
-      programs(first.render.shader, options.samples),
-      shaderName(first.render.shader),
+      scene(first),
+      model(shadingModelOf(first.render)),
+      programs(model, first.render.background, options.samples),
       clothMesh(cloth),
-      spheres(wanted.sphereSegmentsAround, wanted.sphereSegmentsDown),
+      colliders(wanted.sphereSegmentsAround, wanted.sphereSegmentsDown, longestEdge(cloth)),
       shadowMap(wanted.shadowMapSize) {
   configure(first);
 }
 
+// What can fail comes first: after an error all is as it was.
 void Renderer::Parts::configure(const Scene& edited) {
+  const ShadingModel wanted = shadingModelOf(edited.render);
+  textures.choose(wanted, edited.render.background);
+  if (edited.render.background != scene.render.background)
+    programs.chooseBackground(edited.render.background);
+  if (!(wanted == model)) programs.chooseModel(wanted);
+  model = wanted;
+  if (model.measuresStrain) clothMesh.keepRestPositions(cloth);
   scene = edited;
   stage = makeStage(outline, scene);
-  shapes.build(scene.colliders, edge);
-  frame = makeLook(scene.render, outline.front);
+  colliders.build(scene);
+  frame = makeLook(scene.render, outline.front, textures.irradiance());
   shadowMap.cover(stage.reach, glm::vec3(frame.toKeyLight));
   frame.shadowFromWorld = shadowMap.shadowFromWorld();
   frame.toKeyLight.w = shadowMap.texelLength();
-  if (scene.render.shader != shaderName) {
-    programs.cloth = makeShadingModel(scene.render.shader);
-    shaderName = scene.render.shader;
-  }
 }
 
-void Renderer::Parts::placeColliders(double time) {
-  std::vector<SpherePlace> places;
-  std::vector<PlaneDisc> discs;
-  const glm::vec3 middle = stage.view.center();
-  const float radius = floorRadius * glm::length(stage.view.size());
-  const auto addDisc = [&](glm::vec3 point, glm::vec3 normal, float collider) {
-    const glm::vec3 center = middle - glm::dot(middle - point, normal) * normal;
-    discs.push_back({glm::vec4(center, radius), glm::vec4(normal, collider)});
-  };
-  bool hasFloor = false;
-  for (std::size_t i = 0; i < scene.colliders.size(); ++i) {
-    const Collider& collider = scene.colliders[i];
-    const auto number = static_cast<float>(i);
-    const Pose pose = poseAt(collider, time);
-    if (const auto* sphere = std::get_if<Sphere>(&collider)) {
-      const double drawn = sphere->radius - sphereShrink(sphere->radius, edge);
-      places.push_back({glm::vec4(toGlm(pose.position), static_cast<float>(drawn)), glm::vec4(number)});
-    } else if (const auto* plane = std::get_if<Plane>(&collider)) {
-      addDisc(toGlm(pose.position), glm::normalize(toGlm(rotate(pose.rotation, plane->normal))), number);
-      hasFloor = hasFloor || isHorizontal(collider);
-    }
-  }
-  if (scene.render.ground && !hasFloor) addDisc({middle.x, stage.floorHeight, middle.z}, {0, 1, 0}, -1);
-  spheres.place(places);
-  shapes.place(scene.colliders, time);
-  planes.place(discs);
-}
-
-void Renderer::Parts::updateFrame(const Camera& camera, int width, int height) {
+void Renderer::Parts::lookFrom(const Camera& camera, int width, int height) {
   const auto w = static_cast<float>(width), h = static_cast<float>(height);
-  frame.clipFromWorld = camera.projection(static_cast<double>(width) / height) * camera.view();
+  const glm::mat4 clipFromView = camera.projection(static_cast<double>(width) / height);
+  const glm::mat4 worldFromView = glm::inverse(camera.view());
+  frame.clipFromWorld = clipFromView * camera.view();
   frame.eye = glm::vec4(camera.eye(), 0);
   frame.pixels = {w, h, 1 / w, 1 / h};
-  uploadFrame();
+  frame.rayMiddle = -worldFromView[2];
+  frame.rayRight = worldFromView[0] / clipFromView[0][0];
+  frame.rayUp = worldFromView[1] / clipFromView[1][1];
 }
 
 void Renderer::Parts::uploadFrame() {
   frameBlock.upload(std::span(&frame, 1));
   frameBlock.bindUniform(RENDER_FRAME_BINDING);
+}
+
+void Renderer::Parts::computeNormals(GLuint positions) {
+  clothMesh.computeNormals(programs.normals(clothMesh.hasCuts()), positions);
 }
 
 void Renderer::Parts::drawShadows(GLuint positions) {
@@ -158,18 +133,15 @@ void Renderer::Parts::drawShadows(GLuint positions) {
     // A solid's far side alone: its near side would shade itself by rounding.
     glEnable(GL_CULL_FACE);
     glCullFace(GL_FRONT);
-    programs.sphereShadow.bind();
-    spheres.draw();
-    programs.shapeShadow.bind();
-    shapes.draw();
+    colliders.drawSolids(programs.sphereShadow, programs.shapeShadow);
     glDisable(GL_CULL_FACE);
   }
   shadowMap.end();
   shadowMap.blurForFloors(programs);
 }
 
-// Front to back as far as the order is known, so that hidden fragments are not shaded; planes last, since
-// they blend.
+// Front to back as far as the order is known, so that hidden fragments are not shaded; what blends comes
+// last.
 void Renderer::Parts::drawScene(GLuint positions, int width, int height) {
   const gl::FramebufferFormat format{width, height, options.samples, canvasFormat, GL_DEPTH_COMPONENT24};
   if (!(canvas.format() == format)) canvas = gl::Framebuffer("canvas", format);
@@ -181,42 +153,41 @@ void Renderer::Parts::drawScene(GLuint positions, int width, int height) {
   glClearNamedFramebufferfv(canvas.name(), GL_DEPTH, 0, &farthest);
   glDepthFunc(GL_LEQUAL);
 
-  programs.cloth.bind();
-  clothMesh.draw(positions);
-
+  if (!model.blends) drawCloth(positions);
   glEnable(GL_CULL_FACE);
   glCullFace(GL_BACK);
-  programs.sphere.bind();
-  spheres.draw();
-  programs.shape.bind();
-  shapes.draw();
+  colliders.drawSolids(programs.sphere, programs.shape);
   glDisable(GL_CULL_FACE);
 
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_FALSE);
-  programs.plane.bind();
-  planes.draw();
+  colliders.drawPlanes(programs.plane);
+  if (model.blends) drawCloth(positions);
+  drawOverlay(positions);
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
+}
 
+void Renderer::Parts::drawCloth(GLuint positions) {
+  programs.cloth.bind();
+  clothMesh.draw(positions);
+}
+
+void Renderer::Parts::drawOverlay(GLuint positions) {
   if (view == ViewOptions{}) return;
-  if (!overlayPrograms) overlayPrograms.emplace();
-  overlay.draw(view, *overlayPrograms, cloth, cuts, positions);
+  springs.draw(view, programs.overlays(), cloth, cuts, positions);
 }
 
 void Renderer::Parts::drawIdentities(GLuint positions) {
   glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);  // the solver's last positions
-  pickPrograms->cloth.bind();
+  const PickPrograms& picking = programs.picking();
+  picking.cloth.bind();
   clothMesh.draw(positions);
   glEnable(GL_CULL_FACE);
   glCullFace(GL_BACK);
-  pickPrograms->sphere.bind();
-  spheres.draw();
-  pickPrograms->shape.bind();
-  shapes.draw();
-  pickPrograms->plane.bind();
-  planes.draw();
+  colliders.drawSolids(picking.sphere, picking.shape);
+  colliders.drawPlanes(picking.plane);
   glDisable(GL_CULL_FACE);
 }
 
@@ -243,51 +214,55 @@ void Renderer::setView(const ViewOptions& view) { parts_->view = view; }
 void Renderer::setCuts(const Cuts& cuts) {
   parts_->cuts = cuts;
   parts_->clothMesh.setCuts(parts_->cloth, cuts);
-  parts_->overlay.forgetCuts();
+  parts_->springs.forgetCuts();
 }
 
 std::optional<std::string> Renderer::reloadShaders() {
   try {
-    RenderPrograms fresh(parts_->shaderName, parts_->options.samples);
-    PickPrograms freshPick;
-    OverlayPrograms freshOverlay;
-    for (const std::string& name : shadingModelNames()) static_cast<void>(makeShadingModel(name));
-    parts_->programs = std::move(fresh);
-    parts_->pickPrograms = std::move(freshPick);
-    parts_->overlayPrograms = std::move(freshOverlay);
+    tryAllShaders(parts_->scene.render, parts_->options.samples);
+    parts_->programs =
+        RenderPrograms(parts_->model, parts_->scene.render.background, parts_->options.samples);
     return std::nullopt;
   } catch (const Error& error) {
     return error.what();
   }
 }
 
+double Renderer::strainAt(std::uint32_t particle) const {
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  const float strain = parts_->clothMesh.tangents().download(particle, 1).front().w;
+  return static_cast<double>(strain);
+}
+
 Pick Renderer::pick(GLuint positions, const Camera& camera, double time, int width, int height, double x,
                     double y) {
   if (width <= 0 || height <= 0) return {};
-  if (!parts_->pickPrograms) parts_->pickPrograms.emplace();
-  if (!parts_->pickTarget) parts_->pickTarget.emplace();
-  parts_->placeColliders(time);
-  const glm::mat4 clipFromWorld = camera.projection(static_cast<double>(width) / height) * camera.view();
-  parts_->frame.clipFromWorld = PickTarget::clipFromPicture(width, height, x, y) * clipFromWorld;
-  parts_->frame.eye = glm::vec4(camera.eye(), 0);
-  parts_->uploadFrame();
-  parts_->pickTarget->begin();
-  parts_->drawIdentities(positions);
-  parts_->pickTarget->end();
+  Parts& parts = *parts_;
+  if (!parts.pickTarget) parts.pickTarget.emplace();
+  parts.colliders.place(parts.scene, parts.stage, time);
+  parts.lookFrom(camera, width, height);
+  const glm::mat4 clipFromWorld = parts.frame.clipFromWorld;
+  parts.frame.clipFromWorld = PickTarget::clipFromPicture(width, height, x, y) * clipFromWorld;
+  parts.uploadFrame();
+  parts.pickTarget->begin();
+  parts.drawIdentities(positions);
+  parts.pickTarget->end();
   const glm::vec2 ndc{2 * x / width - 1, 1 - 2 * y / height};
-  return parts_->pickTarget->read(parts_->cloth.grids(), clipFromWorld, ndc, camera.eye());
+  return parts.pickTarget->read(parts.cloth.grids(), clipFromWorld, ndc, camera.eye());
 }
 
 void Renderer::draw(GLuint positions, const Camera& camera, double time, GLuint target, int width,
                     int height) {
   if (width <= 0 || height <= 0) return;  // a minimised window
-  parts_->placeColliders(time);
-  parts_->updateFrame(camera, width, height);
-  parts_->clothMesh.computeNormals(
-      parts_->clothMesh.hasCuts() ? parts_->programs.normalsWithCuts : parts_->programs.normals, positions);
-  parts_->drawShadows(positions);
-  parts_->drawScene(positions, width, height);
-  parts_->resolveInto(target, width, height);
+  Parts& parts = *parts_;
+  parts.colliders.place(parts.scene, parts.stage, time);
+  parts.lookFrom(camera, width, height);
+  parts.uploadFrame();
+  parts.textures.bind();
+  parts.computeNormals(positions);
+  parts.drawShadows(positions);
+  parts.drawScene(positions, width, height);
+  parts.resolveInto(target, width, height);
 }
 
 Image renderImage(Renderer& renderer, GLuint positions, const Camera& camera, double time, int width,

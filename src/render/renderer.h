@@ -12,6 +12,7 @@
 #include "render/image.h"
 #include "render/picking.h"
 #include "render/springs_overlay.h"
+#include "render/strain_scale.h"
 #include "scene/pose.h"
 
 namespace clothsim {
@@ -45,6 +46,10 @@ class Renderer {
   // one pixel back, and waits for it.
   [[nodiscard]] Pick pick(GLuint positions, const Camera& camera, double time, int width, int height,
                           double x, double y);
+
+  // Of the last picture drawn with a model that measures it (the strain map): the largest l/L - 1 of the cell
+  // sides and diagonals at a particle. Reads one value back.
+  [[nodiscard]] double strainAt(std::uint32_t particle) const;
 
   // Compiles every shader anew from the files as they are now. Returns what is wrong, with file and line, and
   // goes on with the programs it had; none when all is well.

@@ -6,16 +6,40 @@
 
 namespace clothsim {
 
-std::vector<std::string> shadingModelNames() { return {"phong"}; }
+std::vector<std::string> shadingModelNames() { return {shadingModels.begin(), shadingModels.end()}; }
 
-gl::Program makeShadingModel(const std::string& name) {
-  const std::vector<std::string> names = shadingModelNames();
-  if (std::find(names.begin(), names.end(), name) == names.end()) {
+ShadingModel shadingModelOf(const RenderSettings& settings) {
+  const std::string& name = settings.shader;
+  if (std::find(shadingModels.begin(), shadingModels.end(), name) == shadingModels.end()) {
     std::string known;
-    for (const std::string& each : names) known += (known.empty() ? "" : ", ") + each;
+    for (const std::string& each : shadingModelNames()) known += (known.empty() ? "" : ", ") + each;
     throw SceneError("render.shader: there is no shading model \"" + name + "\"; there is: " + known);
   }
-  return gl::Program::makeRender("render/cloth.vert", "render/" + name + ".frag");
+  ShadingModel model;
+  model.name = name;
+  const auto lookAt = [&](TextureUse use, const std::string& otherwise) {
+    model.texture = settings.texture.empty() ? otherwise : settings.texture;
+    model.textureUse = model.texture.empty() ? TextureUse::none : use;
+  };
+  if (name == "fabric") lookAt(TextureUse::print, "");
+  if (name == "texture") lookAt(TextureUse::print, "tartan");
+  if (name == "bump" || name == "displacement") lookAt(TextureUse::heights, "quilt");
+  if (name == "fabric" && settings.weave != "none") model.weave = settings.weave;
+  model.seesEnvironment = name == "mirror";
+  model.measuresStrain = name == "strain";
+  model.displaces = name == "displacement";
+  model.blends = name == "wireframe";
+
+  if (name == "fabric" || name == "bump" || name == "displacement") model.defines.emplace_back("TANGENT", "");
+  if (model.measuresStrain) model.defines.emplace_back("STRAIN", "");
+  if (model.displaces) model.defines.emplace_back("DISPLACEMENT", "");
+  if (model.textureUse == TextureUse::print) model.defines.emplace_back("PRINT", "");
+  if (!model.weave.empty()) model.defines.emplace_back("WOVEN", "");
+  return model;
+}
+
+gl::Program makeShading(const ShadingModel& model) {
+  return gl::Program::makeRender("render/cloth.vert", "render/" + model.name + ".frag", model.defines);
 }
 
 }  // namespace clothsim

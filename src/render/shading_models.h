@@ -6,12 +6,32 @@
 #include <vector>
 
 #include "gl/program.h"
+#include "gl/texture.h"
+#include "scene/scene.h"
 
 namespace clothsim {
 
 [[nodiscard]] std::vector<std::string> shadingModelNames();
 
-// @throws SceneError for a name that does not exist, listing those that do; OpenGlError
-[[nodiscard]] gl::Program makeShadingModel(const std::string& name);
+// What a model looks at, apart from the surface.
+enum class TextureUse { none, print, heights };
+
+struct ShadingModel {
+  std::string name;
+  TextureUse textureUse = TextureUse::none;
+  std::string texture;           // what it looks at; "" when it does not
+  std::string weave;             // the same for weaves
+  bool seesEnvironment = false;  // the sky, as a cube map
+  bool measuresStrain = false;   // of the cloth, particle by particle
+  bool displaces = false;        // its surface is not where the particles are
+  bool blends = false;           // drawn last, without hiding what is behind it
+  gl::Defines defines;           // of cloth.vert and its own shader
+  friend bool operator==(const ShadingModel&, const ShadingModel&) = default;
+};
+// @throws SceneError for a name that does not exist, listing those that do
+[[nodiscard]] ShadingModel shadingModelOf(const RenderSettings& settings);
+
+// @throws OpenGlError, InputOutputError
+[[nodiscard]] gl::Program makeShading(const ShadingModel& model);
 
 }  // namespace clothsim

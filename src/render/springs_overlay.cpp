@@ -39,12 +39,8 @@ std::array<float, 3> springColor(SpringKind kind) {
 
 void SpringsOverlay::draw(const ViewOptions& view, const OverlayPrograms& programs, const Cloth& cloth,
                           const Cuts& cuts, GLuint positions) {
-  if (view == ViewOptions{}) return;
   vertices_.attach(positions, {.location = POSITION_LOCATION});
   vertices_.bind();
-  glEnable(GL_BLEND);
-  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  glDepthMask(GL_FALSE);
   programs.springs.bind();
   for (const SpringKind kind : drawingOrder) {
     const auto number = static_cast<std::size_t>(kind);
@@ -63,8 +59,6 @@ void SpringsOverlay::draw(const ViewOptions& view, const OverlayPrograms& progra
     glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(cloth.particleCount()));
     glDisable(GL_PROGRAM_POINT_SIZE);
   }
-  glDepthMask(GL_TRUE);
-  glDisable(GL_BLEND);
 }
 
 }  // namespace clothsim

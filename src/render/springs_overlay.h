@@ -33,7 +33,7 @@ class SpringsOverlay {
   SpringsOverlay() : vertices_("springs") {}
 
   void forgetCuts() { kinds_ = {}; }  // after cuts have changed: lists are made anew when next needed
-  // Blends over the canvas, where nothing lies before it.
+  // Where nothing lies before it; the caller has blending on, and writing of depth off.
   void draw(const ViewOptions& view, const OverlayPrograms& programs, const Cloth& cloth, const Cuts& cuts,
             GLuint positions);
 

@@ -153,6 +153,8 @@ void addFalling(const Bounds& cloth, const Scene& scene, Stage& stage) {
 
 // Most of the shadow that what stays throws on the floor: its far end may be cut off.
 void addShadow(glm::vec3 toLight, Stage& stage) {
+  constexpr float lowest = 0.25f;  // a light nearer to the horizon throws shadows out of any picture
+  if (toLight.y < lowest) return;
   const glm::vec3 middle = stage.view.center();
   for (const glm::vec3 point : stage.staying) {
     const glm::vec3 onFloor = point - (point.y - stage.floorHeight) / toLight.y * toLight;
@@ -225,7 +227,7 @@ Stage makeStage(const ClothOutline& cloth, const Scene& scene) {
   stage.floorHeight = stage.view.low.y - 0.02f * glm::length(stage.view.size());
   for (const glm::vec3 point : stage.passing) stage.view.add(point);
   stage.reach.add(stage.view);
-  addShadow(directionToKeyLight(cloth.front), stage);
+  addShadow(directionToKeyLight(scene.render, cloth.front), stage);
   return stage;
 }
 

@@ -28,6 +28,10 @@ constexpr std::array<std::pair<std::string_view, GridSide>, 4> sides{{{"top", Gr
                                                                       {"left", GridSide::left},
                                                                       {"right", GridSide::right}}};
 
+std::vector<std::string> wordsOf(std::span<const std::string_view> choices) {
+  return {choices.begin(), choices.end()};
+}
+
 template <class Table>
 std::vector<std::string> wordsOf(const Table& table) {
   std::vector<std::string> words;
@@ -50,6 +54,15 @@ auto readWord(const JsonNode& node, const Table& table, const std::string& expec
              "expected " + expected + ", found " + foundText(node) + didYouMean(node.text, wordsOf(table)));
   }
   complainExpected(node, expected);
+}
+
+std::string readChoice(const JsonNode& node, std::span<const std::string_view> choices) {
+  const std::vector<std::string> words = wordsOf(choices);
+  const std::string expected = "one of " + joined(words);
+  if (node.kind != JsonKind::string) complainExpected(node, expected);
+  if (std::find(words.begin(), words.end(), node.text) == words.end())
+    complain(node, "expected " + expected + ", found " + foundText(node) + didYouMean(node.text, words));
+  return node.text;
 }
 
 template <class Table, class Enum>
@@ -110,7 +123,11 @@ void readValue(const JsonNode& node, const FieldTraits& traits, double& target) 
   target = node.number;
 }
 
-void readValue(const JsonNode& node, const FieldTraits&, std::string& target) {
+void readValue(const JsonNode& node, const FieldTraits& traits, std::string& target) {
+  if (!traits.choices.empty()) {
+    target = readChoice(node, traits.choices);
+    return;
+  }
   if (node.kind != JsonKind::string) complainExpected(node, "a string in double quotes");
   target = node.text;
 }
@@ -278,7 +295,9 @@ std::string colliderTypes() { return joined(wordsOf(shapes)); }
 std::string typeName(const FieldTraits&, const bool&) { return "boolean"; }
 std::string typeName(const FieldTraits&, const int&) { return "integer"; }
 std::string typeName(const FieldTraits&, const double&) { return "number"; }
-std::string typeName(const FieldTraits&, const std::string&) { return "string"; }
+std::string typeName(const FieldTraits& traits, const std::string&) {
+  return traits.choices.empty() ? "string" : "one of " + joined(wordsOf(traits.choices));
+}
 std::string typeName(const FieldTraits& traits, const Vec3d&) {
   return traits.format == Format::color ? "[r, g, b]" : "[x, y, z]";
 }

@@ -46,7 +46,8 @@ struct FieldTraits {
   Change change = Change::live;
   Format format = Format::plain;
   Presence presence = Presence::optional;
-  std::string_view defaultText{};  // where the default depends on the scene
+  std::string_view defaultText{};               // where the default depends on the scene
+  std::span<const std::string_view> choices{};  // what a string may be; empty: anything
   Usual usual{};
 };
 
@@ -94,6 +95,9 @@ struct Field : FieldTraits {
   }
   Field byDefault(std::string_view text) const {
     return with([&](Field& f) { f.defaultText = text; });
+  }
+  Field oneOf(std::span<const std::string_view> words) const {
+    return with([&](Field& f) { f.choices = words; });
   }
   Field rebuilds() const {
     return with([](Field& f) { f.change = Change::rebuild; });

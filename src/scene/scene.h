@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -197,11 +198,29 @@ struct CameraSettings {
   friend bool operator==(const CameraSettings&, const CameraSettings&) = default;
 };
 
+// What render.shader, render.weave and render.background may be; the renderer has something for each.
+inline constexpr std::array<std::string_view, 10> shadingModels{
+    "fabric",       "phong",  "diffuse", "texture",   "bump",
+    "displacement", "mirror", "normal",  "wireframe", "strain"};
+inline constexpr std::array<std::string_view, 5> weaves{"plain", "twill", "denim", "satin", "none"};
+inline constexpr std::array<std::string_view, 3> backgrounds{"studio", "sky", "plain"};
+
 struct RenderSettings {
-  std::string shader = "phong";
+  std::string shader = "fabric";
   Vec3d color{0.70, 0.10, 0.12};      // front of the cloth, sRGB 0 to 1
   Vec3d backColor{0.86, 0.70, 0.46};  // back of the cloth
-  bool ground = true;                 // draw a floor below everything when the scene has no horizontal plane
+  std::string texture;                // bundled name, or path of a PNG; "": the shading model's own
+  double textureRepeat = 1;           // along the longer side of each cloth
+  std::string weave = "plain";        // of fabric
+  double threadSpacing = 0.0015;      // of fabric, from thread to thread [m]
+  double gloss = 0.3;                 // of fabric: 0 wool, 1 silk
+  double normalStrength = 1;          // of weaves and bumps: 0 flat, 1 as high as they are
+  double height = 0.012;              // of bump and displacement maps, from black to white [m]
+  double strainRange = 0.1;           // where the strain map's scale ends, l/L - 1
+  std::optional<Vec3d> light;         // direction towards the main light; none: from the front, upper left
+  std::string background = "studio";
+  Vec3d backgroundColor{0.62, 0.67, 0.72};  // of the plain background
+  bool ground = true;  // draw a floor below everything when the scene has no horizontal plane
   friend bool operator==(const RenderSettings&, const RenderSettings&) = default;
 };
 
@@ -233,6 +252,11 @@ struct Scene {
   std::optional<Expect> expect;
   friend bool operator==(const Scene&, const Scene&) = default;
 };
+
+// Whether render.texture is the path of a file, and not a bundled name.
+[[nodiscard]] inline bool isTexturePath(std::string_view texture) {
+  return texture.find('/') != texture.npos || texture.ends_with(".png");
+}
 
 // Length of one step [s].
 [[nodiscard]] inline double stepLength(const SolverSettings& solver) {

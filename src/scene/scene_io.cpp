@@ -27,6 +27,13 @@ std::vector<std::string> sceneNamesIn(const fs::path& folder) {
 
 fs::path bundledFolder() { return resourceRoot() / "assets" / "scenes"; }
 
+// A texture's path is relative to the scene; bundled ones have no extension.
+void findTexture(Scene& scene, const fs::path& scenePath) {
+  const fs::path texture = scene.render.texture;
+  if (!isTexturePath(scene.render.texture) || texture.is_absolute()) return;
+  scene.render.texture = (fs::absolute(scenePath).parent_path() / texture).lexically_normal().string();
+}
+
 bool isPath(const std::string& nameOrPath) {
   return nameOrPath.find('/') != std::string::npos || nameOrPath.ends_with(".json");
 }
@@ -67,6 +74,7 @@ Scene loadScene(const fs::path& path) {
   }
   Scene scene = parseScene(text, path.string());
   findMeshes(scene, path);
+  findTexture(scene, path);
   return scene;
 }
 

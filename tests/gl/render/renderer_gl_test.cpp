@@ -248,7 +248,11 @@ TEST_F(RendererTest, AnUnknownShadingModelIsASceneErrorThatListsTheKnownOnes) {
 }
 
 TEST_F(RendererTest, EveryShadingModelCompiles) {
-  for (const std::string& name : shadingModelNames()) EXPECT_NE(makeShadingModel(name).name(), 0u) << name;
+  for (const std::string& name : shadingModelNames()) {
+    RenderSettings settings;
+    settings.shader = name;
+    EXPECT_NE(makeShading(shadingModelOf(settings)).name(), 0u) << name;
+  }
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ const std::map<std::string, Room> rooms{
     {"solver/cpu", {{"core", "scene", "cloth", "solver"}, {"omp"}}},
     {"gl", {{"core"}, {"opengl"}}},
     {"solver/gpu", {{"core", "scene", "cloth", "solver", "gl"}, {"opengl"}}},
-    {"render", {{"core", "scene", "cloth", "gl"}, {"opengl", "glm"}}},
+    {"render", {{"core", "scene", "cloth", "gl"}, {"opengl", "glm", "stb"}}},
     {"export", {{"core", "scene", "cloth", "solver"}, {"stb"}}},
     {"check", {{"core", "scene", "cloth", "solver"}, {"cgal"}}},
     {"app",

@@ -31,7 +31,7 @@ class RandomScene {
         static_cast<SelfCollision>(whole(0, 2)),          fraction(), FrictionLaw::cs184};
     if (maybe()) makeCoulomb(scene);
     if (maybe()) scene.camera = {vector(), vector(), 1 + 169 * fraction()};
-    scene.render = {text(), color(), color(), maybe()};
+    scene.render = renderSettings();
     if (maybe()) scene.expect = expectation();
     return scene;
   }
@@ -52,6 +52,31 @@ class RandomScene {
     std::string result;
     for (int i = whole(0, 8); i > 0; --i) result += pieces[whole(0, 11)];
     return result;
+  }
+
+  template <std::size_t n>
+  std::string oneOf(const std::array<std::string_view, n>& words) {
+    return std::string(words[static_cast<std::size_t>(whole(0, static_cast<int>(n) - 1))]);
+  }
+
+  RenderSettings renderSettings() {
+    RenderSettings render;
+    render.shader = oneOf(shadingModels);
+    render.color = color();
+    render.backColor = color();
+    render.texture = text();
+    render.textureRepeat = 0.01 + fraction();
+    render.weave = oneOf(weaves);
+    render.threadSpacing = 1e-5 + 0.1 * fraction();
+    render.gloss = fraction();
+    render.normalStrength = 10 * fraction();
+    render.height = fraction() - 0.5;
+    render.strainRange = 1e-6 + fraction();
+    if (maybe()) render.light = Vec3d{positive(), number(), number()};
+    render.background = oneOf(backgrounds);
+    render.backgroundColor = color();
+    render.ground = maybe();
+    return render;
   }
 
   ClothSettings cloth() {

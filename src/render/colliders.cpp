@@ -1,0 +1,57 @@
+#include "render/colliders.h"
+
+#include <cmath>
+#include <vector>
+
+#include "scene/pose.h"
+
+namespace clothsim {
+namespace {
+
+constexpr float floorRadius = 4.5f;  // of the stage's size: where planes have faded out
+
+bool isHorizontal(const Plane& plane) { return std::abs(glm::normalize(toGlm(plane.normal)).y) > 0.95f; }
+
+}  // namespace
+
+void Colliders::place(const Scene& scene, const Stage& stage, double time) {
+  std::vector<SpherePlace> places;
+  std::vector<PlaneDisc> discs;
+  const glm::vec3 middle = stage.view.center();
+  const float radius = floorRadius * glm::length(stage.view.size());
+  const auto addDisc = [&](glm::vec3 point, glm::vec3 normal, float collider) {
+    const glm::vec3 center = middle - glm::dot(middle - point, normal) * normal;
+    discs.push_back({glm::vec4(center, radius), glm::vec4(normal, collider)});
+  };
+  bool hasFloor = false;
+  for (std::size_t i = 0; i < scene.colliders.size(); ++i) {
+    const Collider& collider = scene.colliders[i];
+    const auto number = static_cast<float>(i);
+    const Pose pose = poseAt(collider, time);
+    if (const auto* sphere = std::get_if<Sphere>(&collider)) {
+      const double drawn = sphere->radius - sphereShrink(sphere->radius, longestEdge_);
+      places.push_back({glm::vec4(toGlm(pose.position), static_cast<float>(drawn)), glm::vec4(number)});
+    } else if (const auto* plane = std::get_if<Plane>(&collider)) {
+      addDisc(toGlm(pose.position), glm::normalize(toGlm(rotate(pose.rotation, plane->normal))), number);
+      hasFloor = hasFloor || isHorizontal(*plane);
+    }
+  }
+  if (scene.render.ground && !hasFloor) addDisc({middle.x, stage.floorHeight, middle.z}, {0, 1, 0}, -1);
+  spheres_.place(places);
+  shapes_.place(scene.colliders, time);
+  planes_.place(discs);
+}
+
+void Colliders::drawSolids(const gl::Program& sphere, const gl::Program& shape) const {
+  sphere.bind();
+  spheres_.draw();
+  shape.bind();
+  shapes_.draw();
+}
+
+void Colliders::drawPlanes(const gl::Program& plane) const {
+  plane.bind();
+  planes_.draw();
+}
+
+}  // namespace clothsim

@@ -1,0 +1,31 @@
+// All colliders of a scene as drawn, and the floor that a scene without one gets.
+#pragma once
+
+#include "gl/program.h"
+#include "render/collider_meshes.h"
+#include "render/shape_meshes.h"
+#include "render/stage.h"
+#include "scene/scene.h"
+
+namespace clothsim {
+
+class Colliders {
+ public:
+  // @param longestEdge  the longest side of the cloth's triangles [m], for which solids are drawn smaller
+  Colliders(int sphereSegmentsAround, int sphereSegmentsDown, double longestEdge)
+      : longestEdge_(longestEdge), spheres_(sphereSegmentsAround, sphereSegmentsDown) {}
+
+  void build(const Scene& scene) { shapes_.build(scene.colliders, longestEdge_); }
+  void place(const Scene& scene, const Stage& stage, double time);
+
+  void drawSolids(const gl::Program& sphere, const gl::Program& shape) const;
+  void drawPlanes(const gl::Program& plane) const;
+
+ private:
+  double longestEdge_;
+  SphereMesh spheres_;
+  ShapeMeshes shapes_;
+  PlaneMesh planes_;
+};
+
+}  // namespace clothsim

@@ -1,0 +1,125 @@
+#include "render/environment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/files.h"
+
+namespace clothsim {
+namespace {
+
+constexpr float brightest = 2;  // the light that the picture's white stands for
+constexpr int cubeSize = 256;   // pixels along each side of a face
+
+float linear(std::uint16_t stored) {
+  const float encoded = static_cast<float>(stored) / 65535.0f;
+  return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+}
+
+// The direction of a place on a cube's face, both -1 to 1, x to the right and y down (OpenGL 4.5,
+// table 8.19).
+glm::vec3 cubeDirection(int face, float x, float y) {
+  switch (face) {
+    case 0:
+      return {1, -y, -x};
+    case 1:
+      return {-1, -y, x};
+    case 2:
+      return {x, 1, y};
+    case 3:
+      return {x, -1, -y};
+    case 4:
+      return {x, -y, 1};
+    default:
+      return {-x, -y, -1};
+  }
+}
+
+// The real spherical harmonics up to the second degree, in the order of irradiance().
+std::array<float, 9> harmonics(glm::vec3 d) {
+  return {0.282095f,
+          0.488603f * d.x,
+          0.488603f * d.y,
+          0.488603f * d.z,
+          1.092548f * d.x * d.y,
+          1.092548f * d.y * d.z,
+          1.092548f * d.z * d.x,
+          0.315392f * (3 * d.z * d.z - 1),
+          0.546274f * (d.x * d.x - d.y * d.y)};
+}
+
+}  // namespace
+
+Environment::Environment() : picture_(loadPng(resourceRoot() / "assets" / "textures" / "sky.png")) {
+  light_.reserve(picture_.rgba.size() / 4);
+  for (std::size_t i = 0; i < picture_.rgba.size(); i += 4)
+    light_.push_back(brightest * glm::vec3(linear(picture_.rgba[i]), linear(picture_.rgba[i + 1]),
+                                           linear(picture_.rgba[i + 2])));
+}
+
+glm::vec3 Environment::lightFrom(glm::vec3 direction) const {
+  const float pi = std::numbers::pi_v<float>;
+  const auto width = static_cast<float>(picture_.width), height = static_cast<float>(picture_.height);
+  const float x = (std::atan2(direction.x, direction.z) / (2 * pi) + 0.5f) * width - 0.5f;
+  const float y = std::acos(std::clamp(direction.y, -1.0f, 1.0f)) / pi * height - 0.5f;
+  const auto at = [&](int column, int row) {
+    column = (column + picture_.width) % picture_.width;
+    row = std::clamp(row, 0, picture_.height - 1);
+    return light_[static_cast<std::size_t>(row * picture_.width + column)];
+  };
+  const int column = static_cast<int>(std::floor(x)), row = static_cast<int>(std::floor(y));
+  const float right = x - std::floor(x), down = y - std::floor(y);
+  return glm::mix(glm::mix(at(column, row), at(column + 1, row), right),
+                  glm::mix(at(column, row + 1), at(column + 1, row + 1), right), down);
+}
+
+std::array<glm::vec3, 9> Environment::irradiance() const {
+  const float pi = std::numbers::pi_v<float>;
+  std::array<glm::vec3, 9> sums{};
+  const auto width = static_cast<float>(picture_.width), height = static_cast<float>(picture_.height);
+  for (int row = 0; row < picture_.height; ++row) {
+    const float polar = pi * (static_cast<float>(row) + 0.5f) / height;
+    const float solidAngle = 2 * pi * pi / (width * height) * std::sin(polar);
+    for (int column = 0; column < picture_.width; ++column) {
+      const float azimuth = 2 * pi * ((static_cast<float>(column) + 0.5f) / width - 0.5f);
+      const glm::vec3 direction{std::sin(polar) * std::sin(azimuth), std::cos(polar),
+                                std::sin(polar) * std::cos(azimuth)};
+      const std::array<float, 9> basis = harmonics(direction);
+      const glm::vec3 light = solidAngle * light_[static_cast<std::size_t>(row * picture_.width + column)];
+      for (std::size_t i = 0; i < 9; ++i) sums[i] += basis[i] * light;
+    }
+  }
+  // Clamped cosine over pi, by degree; then the polynomial's terms instead of the harmonics.
+  constexpr float degree0 = 1, degree1 = 2.0f / 3, degree2 = 0.25f;
+  std::array<glm::vec3, 9> terms{};
+  const std::array<float, 9> factors{0.282095f * degree0, 0.488603f * degree1, 0.488603f * degree1,
+                                     0.488603f * degree1, 1.092548f * degree2, 1.092548f * degree2,
+                                     1.092548f * degree2, 0.315392f * degree2, 0.546274f * degree2};
+  for (std::size_t i = 0; i < 9; ++i) terms[i] = factors[i] * sums[i];
+  terms[0] -= terms[7];
+  terms[7] *= 3.0f;
+  return terms;
+}
+
+gl::Texture Environment::makeCubeMap() const {
+  std::array<std::vector<std::array<std::uint8_t, 4>>, 6> faces;
+  std::array<const void*, 6> pointers{};
+  for (int face = 0; face < 6; ++face) {
+    auto& pixels = faces[static_cast<std::size_t>(face)];
+    for (int y = 0; y < cubeSize; ++y) {
+      for (int x = 0; x < cubeSize; ++x) {
+        const auto place = [](int i) { return 2 * (static_cast<float>(i) + 0.5f) / cubeSize - 1; };
+        const glm::vec3 light = lightFrom(glm::normalize(cubeDirection(face, place(x), place(y))));
+        // Square roots, as on the canvas: 8 bits are enough then.
+        const glm::vec3 root = 255.0f * glm::sqrt(glm::clamp(light / brightest, 0.0f, 1.0f)) + 0.5f;
+        pixels.push_back({static_cast<std::uint8_t>(root.x), static_cast<std::uint8_t>(root.y),
+                          static_cast<std::uint8_t>(root.z), 255});
+      }
+    }
+    pointers[static_cast<std::size_t>(face)] = pixels.data();
+  }
+  return gl::Texture::makeCube("sky", cubeSize, {}, pointers);
+}
+
+}  // namespace clothsim
