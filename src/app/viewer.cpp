@@ -163,6 +163,7 @@ void Viewer::draw() {
 
 // Between two pictures, since picking draws elsewhere.
 void Viewer::measure() {
+  if (!showsPanels()) return;
   column_.measures().update(session(), now_, [&]() -> std::optional<std::uint32_t> {
     const ViewerWindow::Cursor cursor = window_.cursor();
     if (!isOverPicture(cursor)) return std::nullopt;
