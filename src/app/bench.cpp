@@ -74,6 +74,36 @@ StepRate measureStepRate(const Scene& scene, const std::string& backend, double 
   return rate;
 }
 
+DrawRate measureDrawing(const Scene& scene, const State& state, int samples, int width, int height) {
+  const Cloth cloth(scene);
+  const gl::Buffer<Particle4> positions("positions to draw", state.positions);
+  RenderOptions options;
+  options.samples = gl::supportedSamples(samples);
+  Renderer renderer(cloth, scene, options);
+  const Camera camera(scene, cloth);
+  const gl::Framebuffer target("bench", {.width = width, .height = height, .color = GL_RGBA8});
+  DrawRate rate;
+  rate.shader = scene.render.shader;
+  rate.samples = options.samples;
+  std::vector<double> whole;
+  std::vector<std::vector<double>> passes;
+  for (int i = 0; i <= 7; ++i) {
+    const Clock::time_point start = Clock::now();
+    renderer.draw(positions.name(), camera, 0, target.name(), width, height);
+    glFinish();
+    const double seconds = secondsSince(start);
+    rate.passes = renderer.timeDraw(positions.name(), camera, 0, target.name(), width, height);
+    if (i == 0) continue;  // shaders are compiled when first used
+    whole.push_back(seconds);
+    passes.resize(rate.passes.size());
+    for (std::size_t pass = 0; pass < passes.size(); ++pass)
+      passes[pass].push_back(rate.passes[pass].seconds);
+  }
+  rate.seconds = median(whole);
+  for (std::size_t pass = 0; pass < passes.size(); ++pass) rate.passes[pass].seconds = median(passes[pass]);
+  return rate;
+}
+
 DemoRate measureDemo(int size, const std::string& backend, int width, int height) {
   Scene scene = loadSceneByName("demo");
   (void)changeResolution(scene, size, size, false);
