@@ -87,7 +87,7 @@ void main() {
 
   vec3 fibres = SHEEN * (0.05 + 0.95 * sqrt(albedo));
   light += fibres * (key * highlit * sheenReflected(clamp(dot(normal, halfway), 0.0, 1.0), normalLight, normalEye) + sky * sheenAlbedo(normalEye));
-  float shine = threadShine(t, threads.warp, halfway, mix(5.0, 26.0, gloss)) * gloss * highlit;
+  float shine = threadShine(t, threads.warp, halfway, mix(5.0, 44.0, gloss)) * 1.5 * gloss * gloss * highlit;
   light += mix(vec3(0.30), sqrt(albedo), 0.6) * (0.8 * shine * threads.light) * key;
   color = vec4(canvasFromLight(light), 1.0);
 }

@@ -58,4 +58,7 @@ vec3 pixelLight() {
 }
 #endif
 
-void main() { color = vec4(srgbEncoded(clamp(pixelLight(), 0.0, 1.0)), 1.0); }
+void main() {
+  vec2 otherNoise = gl_FragCoord.xy + 37.0;  // than that of the canvas, whose steps are not the screen's
+  color = vec4(srgbEncoded(clamp(pixelLight(), 0.0, 1.0)) + dither(otherNoise), 1.0);
+}
