@@ -8,6 +8,7 @@
 #include "app/simulation.h"
 #include "core/error.h"
 #include "gl/framebuffer.h"
+#include "gl/timer.h"
 #include "render/renderer.h"
 #include "scene/scene_io.h"
 
@@ -85,13 +86,14 @@ DrawRate measureDrawing(const Scene& scene, const State& state, int samples, int
   DrawRate rate;
   rate.shader = scene.render.shader;
   rate.samples = options.samples;
+  gl::Timer timer;
   std::vector<double> whole;
   std::vector<std::vector<double>> passes;
   for (int i = 0; i <= 7; ++i) {
-    const Clock::time_point start = Clock::now();
+    timer.begin();
     renderer.draw(positions.name(), camera, 0, target.name(), width, height);
-    glFinish();
-    const double seconds = secondsSince(start);
+    timer.end();
+    const double seconds = timer.seconds();
     rate.passes = renderer.timeDraw(positions.name(), camera, 0, target.name(), width, height);
     if (i == 0) continue;  // shaders are compiled when first used
     whole.push_back(seconds);
