@@ -45,9 +45,9 @@ class Checks {
   void operator()(const Restart&) const {}
   void operator()(const SwitchBackend&) const {}  // the name is checked where solvers are made
   void operator()(const MoveHand& move) const { checkPlace("move_hand: target", move.target); }
-  void operator()(const SetPin& pin) const { checkParticle("set_pin: particle", pin.particle, cloth_); }
+  void operator()(const SetPin& pin) const { checkParticle("set_pin", pin.particle, cloth_); }
   void operator()(const Grab& grab) const {
-    checkParticle("grab: particle", grab.particle, cloth_);
+    checkParticle("grab", grab.particle, cloth_);
     checkPlace("grab: target", grab.target);
     require(grab.strength > 0 && std::isfinite(grab.strength),
             "grab: strength: expected a number > 0, found " + text(grab.strength));

@@ -106,7 +106,8 @@ void declareRun(CLI::App& app, Arguments& a, Action& action) {
           ->check(CLI::Range(0.0, 1.0));
   run->add_option("--seed", a.seed, "of --jitter (1)");
   CLI::Option* replay =
-      run->add_option("--replay", a.replay, "do again what a recording of the viewer holds, instead of -f")
+      run->add_option("--replay", a.replay,
+                      "do again what a recording of the viewer holds, on its backends or that of --backend")
           ->type_name("FILE");
   for (CLI::Option* other : {scene, from, jitter, run->get_option("--set"), run->get_option("--resolution")})
     replay->excludes(other);

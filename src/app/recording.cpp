@@ -248,6 +248,7 @@ Recording Recording::load(const std::filesystem::path& path) {
   try {
     const JsonPointer root = parseJson(readFile(path, LARGEST_FILE));
     Recording recording = readRecording(*root);
+    recording.source = path.string();
     findMeshes(recording.scene, path);
     for (Event& event : recording.events)
       if (auto* edit = std::get_if<EditScene>(&event.action)) findMeshes(edit->scene, path);

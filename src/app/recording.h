@@ -23,6 +23,7 @@ struct Recording {
   std::string backend = "gpu";  // at the start
   int frames = 0;               // done so far
   std::vector<Event> events;    // in the order in which they acted
+  std::string source;           // the file that it was loaded from, for messages; "" for none
 
   // JSON ("clothsim-recording/1"), whole or not at all. @throws InputOutputError
   void save(const std::filesystem::path& path) const;

@@ -1,6 +1,9 @@
 #include "app/replay.h"
 
+#include <string>
 #include <utility>
+
+#include "core/error.h"
 
 namespace clothsim {
 
@@ -21,7 +24,11 @@ void Replay::actOutDue() {
   for (; next_ < recording_.events.size() && recording_.events[next_].step <= session_.step(); ++next_) {
     const Action& action = recording_.events[next_].action;
     if (keepsBackend_ && std::holds_alternative<SwitchBackend>(action)) continue;
-    session_.act(action);
+    try {
+      session_.act(action);
+    } catch (const UsageError& error) {
+      throw SceneError(recording_.source + ": events." + std::to_string(next_) + ": " + error.what());
+    }
   }
 }
 

@@ -166,7 +166,7 @@ nlohmann::ordered_json summary(const RunOptions& options, Course& course, const 
   json["device"] = simulation.solver().device();
   json["particles"] = simulation.cloth().particleCount();
   json["springs"] = remainingSpringCount(simulation.cloth(), last.cuts);
-  json["triangles"] = remainingTriangles(simulation.cloth(), last.cuts).size();
+  json["triangles"] = remainingTriangleCount(simulation.cloth(), last.cuts);
   json["frames"] = course.frames();
   json["steps"] = course.steps();
   json["dt"] = stepLength(scene.solver);

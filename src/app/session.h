@@ -30,6 +30,7 @@ class Session {
   [[nodiscard]] const Cuts& cuts() const { return simulation_.solver().cuts(); }
   [[nodiscard]] bool isHolding() const { return now_.hand.hold.has_value(); }  // between Grab and Release
   [[nodiscard]] bool isBlowing() const { return now_.hand.jet.has_value(); }
+  [[nodiscard]] const Hand& hand() const { return now_.hand; }  // what is held, where, and the jet
   // Grows whenever simulation().cloth() is another one: by an edit of a field that rebuilds, or seek() across
   // one. Whatever was made of the old cloth (a renderer) is to be made anew.
   [[nodiscard]] std::uint64_t clothGeneration() const { return clothGeneration_; }

@@ -66,18 +66,55 @@ CellTriangles trianglesLeft(const Grid& grid, const Cuts& cuts, int column, int 
           diagonal && !isCut(cuts, d, toLeft) && !isCut(cuts, d, toUpper)};
 }
 
-// Bit k: incidentSprings[k] of this grid point is cut.
-std::uint32_t cutSprings(const Grid& grid, const Cuts& cuts, int column, int row) {
-  std::uint32_t mask = 0;
-  for (std::size_t k = 0; k < incidentSprings.size(); ++k) {
-    const IncidentSpring& spring = incidentSprings[k];
-    if (!grid.contains(column + spring.columns, row + spring.rows)) continue;
-    const std::uint32_t owner =
-        spring.owned ? grid.particle(column, row) : grid.particle(column + spring.columns, row + spring.rows);
-    if (isCut(cuts, owner, spring.slot)) mask |= 1u << k;
-  }
-  return mask;
+// The place in incidentSprings of a slot as its other end sees it.
+std::size_t seenFromOtherEnd(int slot) {
+  return static_cast<std::size_t>(
+      std::find_if(incidentSprings.begin(), incidentSprings.end(),
+                   [&](const IncidentSpring& spring) { return !spring.owned && spring.slot == slot; }) -
+      incidentSprings.begin());
 }
+
+class CutMasks {
+ public:
+  CutMasks(const Grid& grid, const Cuts& cuts, std::vector<std::uint32_t>& masks)
+      : grid_(grid), cuts_(cuts), masks_(masks) {}
+
+  // The springs that a grid point owns, for both ends.
+  void addSprings(int column, int row) {
+    const std::uint32_t owner = grid_.particle(column, row);
+    for (int slot = 0; slot < SPRING_SLOTS; ++slot) {
+      if (!isCut(cuts_, owner, static_cast<SpringSlot>(slot))) continue;
+      const SpringOffset& offset = springOffsets[static_cast<std::size_t>(slot)];
+      if (!grid_.contains(column + offset.columns, row + offset.rows)) continue;
+      masks_[owner] |= 1u << slot;
+      masks_[grid_.particle(column + offset.columns, row + offset.rows)] |= 1u << seenFromOtherEnd(slot);
+    }
+  }
+  // The triangles of a cell, for their corners, which know them by their place in incidentTriangles.
+  void addTriangles(int column, int row) {
+    if (column < 0 || row < 0 || column + 1 >= grid_.columns || row + 1 >= grid_.rows) return;
+    const CellTriangles left = trianglesLeft(grid_, cuts_, column, row);
+    if (!left.first) {
+      lose(column, row, 5);
+      lose(column + 1, row, 3);
+      lose(column, row + 1, 1);
+    }
+    if (!left.second) {
+      lose(column + 1, row, 4);
+      lose(column, row + 1, 2);
+      lose(column + 1, row + 1, 0);
+    }
+  }
+
+ private:
+  void lose(int column, int row, std::uint32_t k) {
+    masks_[grid_.particle(column, row)] |= 1u << (incidentSprings.size() + k);
+  }
+
+  const Grid& grid_;
+  const Cuts& cuts_;
+  std::vector<std::uint32_t>& masks_;
+};
 
 }  // namespace
 
@@ -98,6 +135,10 @@ std::vector<std::array<std::uint32_t, 3>> remainingTriangles(const Cloth& cloth,
   return triangles;
 }
 
+std::uint64_t remainingTriangleCount(const Cloth& cloth, const Cuts& cuts) {
+  return cuts.empty() ? cloth.triangleCount() : remainingTriangles(cloth, cuts).size();
+}
+
 std::uint64_t remainingSpringCount(const Cloth& cloth, const Cuts& cuts) {
   std::uint64_t count = cloth.springCount();
   if (cuts.empty()) return count;
@@ -113,26 +154,14 @@ std::vector<std::uint32_t> makeCutMasks(const Cloth& cloth, const Cuts& cuts) {
   if (cuts.empty()) return {};
   std::vector<std::uint32_t> masks(cloth.particleCount());
   for (const Grid& grid : cloth.grids()) {
-    for (int row = 0; row < grid.rows; ++row)
-      for (int column = 0; column < grid.columns; ++column)
-        masks[grid.particle(column, row)] |= cutSprings(grid, cuts, column, row);
-    // The corners of a lost triangle know it by its place around them.
-    const auto lose = [&](int column, int row, std::uint32_t k) {
-      masks[grid.particle(column, row)] |= 1u << (incidentSprings.size() + k);
-    };
-    for (int row = 0; row + 1 < grid.rows; ++row) {
-      for (int column = 0; column + 1 < grid.columns; ++column) {
-        const CellTriangles left = trianglesLeft(grid, cuts, column, row);
-        if (!left.first) {
-          lose(column, row, 5);
-          lose(column + 1, row, 3);
-          lose(column, row + 1, 1);
-        }
-        if (!left.second) {
-          lose(column + 1, row, 4);
-          lose(column, row + 1, 2);
-          lose(column + 1, row + 1, 0);
-        }
+    CutMasks ofGrid(grid, cuts, masks);
+    for (int row = 0; row < grid.rows; ++row) {
+      for (int column = 0; column < grid.columns; ++column) {
+        if (cuts[grid.particle(column, row)] == 0) continue;
+        ofGrid.addSprings(column, row);
+        // Sides that the point owns belong to triangles of the four cells around it.
+        for (const int cellRow : {row - 1, row})
+          for (const int cellColumn : {column - 1, column}) ofGrid.addTriangles(cellColumn, cellRow);
       }
     }
   }

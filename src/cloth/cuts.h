@@ -33,6 +33,8 @@ bool cutAlong(Cuts& cuts, const Cloth& cloth, std::size_t grid, LatticePoint fro
 // Cloth::triangles() without those of which a side is cut, in the same order.
 [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> remainingTriangles(const Cloth& cloth,
                                                                            const Cuts& cuts);
+// How many those are.
+[[nodiscard]] std::uint64_t remainingTriangleCount(const Cloth& cloth, const Cuts& cuts);
 // Cloth::springCount() without those that are cut.
 [[nodiscard]] std::uint64_t remainingSpringCount(const Cloth& cloth, const Cuts& cuts);
 

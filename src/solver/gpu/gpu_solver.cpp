@@ -105,7 +105,7 @@ void GpuSolver::choosePrograms() {
     features.fused = options_.fused;
     features.collidesInStep = !selfCollision_.isOn();
     features.collidesAgain = contactRounds(scene_) > 1;
-    gridPrograms_.push_back(&programs_.try_emplace(features, features).first->second);
+    gridPrograms_.push_back(library_.programsFor(features));
   }
 }
 
@@ -216,12 +216,12 @@ void GpuSolver::limitStrain(std::size_t gridIndex) {
   for (std::size_t i = 0; i < grid.colors.size(); ++i) {
     const LimitColor& color = grid.colors[i];
     limitColors_.bindUniformRange(LIMIT_COLOR_BINDING, grid.first + i, 1);
-    runner_.run(gridPrograms_[gridIndex]->limit, "limit",
+    runner_.run(*gridPrograms_[gridIndex].limit, "limit",
                 ownerCount(color.firstColumn, color.columnStep, color.columnRun, color.endColumn),
                 ownerCount(color.firstRow, color.rowStep, color.rowRun, color.endRow));
   }
   const Grid& points = cloth_->grids()[gridIndex];
-  runner_.run(gridPrograms_[gridIndex]->watchLimit, "limit", static_cast<std::uint32_t>(points.columns),
+  runner_.run(*gridPrograms_[gridIndex].watchLimit, "limit", static_cast<std::uint32_t>(points.columns),
               (static_cast<std::uint32_t>(points.rows) + WATCHED_ROWS - 1) / WATCHED_ROWS);
 }
 
@@ -235,11 +235,11 @@ void GpuSolver::stepOnce(std::size_t batchStep) {
   const auto forEachGrid = [&](auto pass) {
     for (std::size_t grid = 0; grid < grids; ++grid) {
       bindGrid(grid);
-      pass(cloth_->grids()[grid], *gridPrograms_[grid], grid);
+      pass(cloth_->grids()[grid], gridPrograms_[grid], grid);
     }
   };
   const auto collide = [&](const Grid& grid, const PassPrograms& programs, std::size_t) {
-    if (!scene_.colliders.empty()) run(programs.collide, "collide", grid);
+    if (!scene_.colliders.empty()) run(*programs.collide, "collide", grid);
   };
   const auto limit = [&](const Grid&, const PassPrograms&, std::size_t grid) {
     if (scene_.solver.strainLimit) limitStrain(grid);
@@ -249,11 +249,11 @@ void GpuSolver::stepOnce(std::size_t batchStep) {
   const bool fusesCollide = options_.fused && !selfCollision_.isOn();
   forEachGrid([&](const Grid& grid, const PassPrograms& programs, std::size_t) {
     if (options_.fused) {
-      run(programs.step, fusesCollide ? "step (forces, integrate, collide)" : "step (forces, integrate)",
+      run(*programs.step, fusesCollide ? "step (forces, integrate, collide)" : "step (forces, integrate)",
           grid);
     } else {
-      run(programs.forces, "forces", grid);
-      run(programs.integrate, "integrate", grid);
+      run(*programs.forces, "forces", grid);
+      run(*programs.integrate, "integrate", grid);
     }
   });
   if (selfCollision_.isRobust()) {
@@ -284,7 +284,7 @@ void GpuSolver::checkStart() {
   bindState();
   for (std::size_t grid = 0; grid < cloth_->grids().size(); ++grid) {
     stepSlots_.bindUniformRange(STEP_PARAMS_BINDING, grid, 1);
-    run(gridPrograms_[grid]->start, "start", cloth_->grids()[grid]);
+    run(*gridPrograms_[grid].start, "start", cloth_->grids()[grid]);
   }
 }
 
@@ -302,7 +302,7 @@ void GpuSolver::convertVelocities() {
   restLengthTexture_.bind(REST_LENGTHS_UNIT);
   for (std::size_t grid = 0; grid < cloth_->grids().size(); ++grid) {
     stepSlots_.bindUniformRange(STEP_PARAMS_BINDING, grid, 1);
-    run(gridPrograms_[grid]->kick, "kick", cloth_->grids()[grid]);
+    run(*gridPrograms_[grid].kick, "kick", cloth_->grids()[grid]);
   }
   std::swap(velocities_[0], velocities_[1]);
 }

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -92,9 +91,8 @@ class GpuSolver final : public Solver {
   std::uint64_t stepIndex_ = 0;
   bool paramsUploaded_ = false;  // for every step, when nothing depends on time
 
-  std::map<PassFeatures, PassPrograms>
-      programs_;  // all that were ever needed: toggling back compiles nothing
-  std::vector<const PassPrograms*> gridPrograms_;  // those in use, by grid
+  PassLibrary library_;
+  std::vector<PassPrograms> gridPrograms_;  // those in use, by grid
   std::array<ParticleArray, 2> positions_, velocities_;
   std::size_t now_ = 0;  // which of the two holds the state
   gl::Buffer<Particle4> forces_;

@@ -42,20 +42,64 @@ gl::Defines definesFor(const PassFeatures& features) {
           {"ENABLED_SLOTS", std::to_string(features.enabledSlots) + "u"}};
 }
 
-PassPrograms::PassPrograms(const PassFeatures& features) {
-  const gl::Defines defines = definesFor(features);
+namespace {
+
+// The features that a pass looks at, all others at their defaults.
+PassFeatures featuresOfPass(const std::string& pass, const PassFeatures& all) {
+  PassFeatures features;
+  features.groupColumns = all.groupColumns;
+  features.groupRows = all.groupRows;
+  if (pass == "step" || pass == "forces" || pass == "kick") {
+    features.wind = all.wind;
+    features.airResistance = all.airResistance;
+    features.restLengthTable = all.restLengthTable;
+    features.enabledSlots = all.enabledSlots;
+    features.jet = all.jet;
+    features.cuts = all.cuts;
+  }
+  if (pass == "step" || pass == "integrate") {
+    features.movingPins = all.movingPins;
+    features.hold = all.hold;
+  }
+  features.collidesInStep = pass == "step" && all.collidesInStep;
+  if (features.collidesInStep || pass == "collide") {
+    features.colliderTypes = all.colliderTypes;
+    features.movingColliders = all.movingColliders;
+    features.coulombFriction = all.coulombFriction;
+  }
+  if (pass == "limit") {
+    features.restLengthTable = all.restLengthTable;
+    features.cuts = all.cuts;
+  }
+  return features;
+}
+
+}  // namespace
+
+const gl::Program* PassLibrary::find(const std::string& pass, const PassFeatures& features) {
+  const std::pair key{pass, featuresOfPass(pass, features)};
+  auto found = programs_.find(key);
+  if (found == programs_.end())
+    found = programs_.emplace(key, gl::Program::makeCompute("sim/" + pass + ".comp", definesFor(key.second)))
+                .first;
+  return &found->second;
+}
+
+PassPrograms PassLibrary::programsFor(const PassFeatures& features) {
+  PassPrograms programs;
   if (features.fused) {
-    step = gl::Program::makeCompute("sim/step.comp", defines);
+    programs.step = find("step", features);
   } else {
-    forces = gl::Program::makeCompute("sim/forces.comp", defines);
-    integrate = gl::Program::makeCompute("sim/integrate.comp", defines);
+    programs.forces = find("forces", features);
+    programs.integrate = find("integrate", features);
   }
   if (!features.fused || !features.collidesInStep || features.collidesAgain)
-    collide = gl::Program::makeCompute("sim/collide.comp", defines);
-  limit = gl::Program::makeCompute("sim/limit.comp", defines);
-  watchLimit = gl::Program::makeCompute("sim/watch_limit.comp", defines);
-  kick = gl::Program::makeCompute("sim/kick.comp", defines);
-  start = gl::Program::makeCompute("sim/start.comp", defines);
+    programs.collide = find("collide", features);
+  programs.limit = find("limit", features);
+  programs.watchLimit = find("watch_limit", features);
+  programs.kick = find("kick", features);
+  programs.start = find("start", features);
+  return programs;
 }
 
 }  // namespace clothsim

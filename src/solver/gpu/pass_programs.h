@@ -3,6 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
 
 #include "cloth/cloth.h"
 #include "gl/program.h"
@@ -28,12 +31,24 @@ struct PassFeatures {
                                       const Hand& hand = {}, const Cuts& cuts = {});
 [[nodiscard]] gl::Defines definesFor(const PassFeatures& features);
 
+// Those of a grid. Null where a scene has no use for one.
 struct PassPrograms {
-  explicit PassPrograms(const PassFeatures& features);
+  const gl::Program* step = nullptr;                                              // when fused,
+  const gl::Program *forces = nullptr, *integrate = nullptr, *collide = nullptr;  // when not
+  const gl::Program *limit = nullptr, *watchLimit = nullptr, *kick = nullptr, *start = nullptr;
+};
 
-  gl::Program step;                        // when fused,
-  gl::Program forces, integrate, collide;  // when not
-  gl::Program limit, watchLimit, kick, start;
+// All programs that were ever needed: toggling back compiles nothing, and what a pass does not look at does
+// not make another program of it.
+class PassLibrary {
+ public:
+  // They live as long as the library. @throws OpenGlError when a shader does not compile
+  [[nodiscard]] PassPrograms programsFor(const PassFeatures& features);
+
+ private:
+  const gl::Program* find(const std::string& pass, const PassFeatures& features);
+
+  std::map<std::pair<std::string, PassFeatures>, gl::Program> programs_;
 };
 
 }  // namespace clothsim

@@ -1,5 +1,8 @@
 #include "solver/gpu/self_collision.h"
 
+#include <cstddef>
+#include <span>
+#include <string>
 #include <utility>
 
 #include "shared/step_params.h"
@@ -14,30 +17,20 @@ std::uint32_t groupsAcross(int invocations, int groupSize) {
 
 }  // namespace
 
-GpuSelfCollision::Programs::Programs(bool robust, bool nearCodes, bool cuts, int groupColumns,
-                                     int groupRows) {
-  PassFeatures features;
-  features.cuts = cuts;
-  features.groupColumns = groupColumns;
-  features.groupRows = groupRows;
-  gl::Defines defines = definesFor(features);
-  defines.emplace_back("SELF_ROBUST", std::to_string(robust));
-  defines.emplace_back("SELF_NEAR_CODES", std::to_string(nearCodes));
-  const auto make = [&](const char* file) {
-    return gl::Program::makeCompute(std::string("sim/self/") + file, defines);
-  };
-  check = make("check.comp");
-  plan = make("plan.comp");
-  clear = make("clear.comp");
-  count = make("count.comp");
-  scanBlocks = make("scan_blocks.comp");
-  scanTotals = make("scan_totals.comp");
-  scatter = make("scatter.comp");
-  find = make("find.comp");
-  separate = make("separate.comp");
-  if (!robust) return;
-  guardCheck = make("guard_check.comp");
-  guard = make("guard.comp");
+const gl::Program* GpuSelfCollision::program(const std::string& pass, const Variant& variant) {
+  auto found = programs_.find({pass, variant});
+  if (found == programs_.end()) {
+    PassFeatures features;
+    features.cuts = variant.cuts;
+    features.groupColumns = groupColumns_;
+    features.groupRows = groupRows_;
+    gl::Defines defines = definesFor(features);
+    defines.emplace_back("SELF_ROBUST", std::to_string(variant.robust));
+    defines.emplace_back("SELF_NEAR_CODES", std::to_string(variant.nearCodes));
+    gl::Program made = gl::Program::makeCompute("sim/self/" + pass + ".comp", defines);
+    found = programs_.emplace(std::pair{pass, variant}, std::move(made)).first;
+  }
+  return &found->second;
 }
 
 GpuSelfCollision::GpuSelfCollision(const Cloth& cloth, int groupColumns, int groupRows)
@@ -55,13 +48,22 @@ void GpuSelfCollision::configure(const Scene& scene) {
   restart();
 }
 
-// Cuts make neighbours strangers, whose distance is that at rest.
+// Cuts make neighbours strangers, whose distance is that at rest. Passes that look at no pair are the same
+// for all of it.
 void GpuSelfCollision::choosePrograms() {
-  const Variant key{isRobust(), hasNearCodes_ || cut_, cut_};
-  auto found = programs_.find(key);
-  if (found == programs_.end())
-    found = programs_.try_emplace(key, key[0], key[1], key[2], groupColumns_, groupRows_).first;
-  now_ = &found->second;
+  const Variant any, mode{isRobust(), false, false}, pairs{isRobust(), hasNearCodes_ || cut_, cut_};
+  now_.check = program("check", mode);
+  now_.plan = program("plan", any);
+  now_.clear = program("clear", any);
+  now_.count = program("count", any);
+  now_.scanBlocks = program("scan_blocks", any);
+  now_.scanTotals = program("scan_totals", any);
+  now_.scatter = program("scatter", any);
+  now_.find = program("find", pairs);
+  now_.separate = program("separate", pairs);
+  if (!isRobust()) return;
+  now_.guardCheck = program("guard_check", pairs);
+  now_.guard = program("guard", pairs);
 }
 
 void GpuSelfCollision::setCut(bool cut) {
@@ -74,7 +76,8 @@ void GpuSelfCollision::allocate(const SelfParams<float>& params) {
   checkFits(particles * (MOST_CANDIDATES + 1), sizeof(std::uint32_t), "contact candidates");
   params_ = gl::Buffer<SelfParams<float>>("self-collision parameters", 1);
   distances_ = gl::Buffer<float>("contact distances", cloth_->grids().size() * NEAREST_CODES);
-  flags_ = gl::Buffer<Flags>("contact flags", 1);
+  const Flags none;
+  flags_ = gl::Buffer<Flags>("contact flags", std::span<const Flags>(&none, 1));
   buckets_ = gl::Buffer<std::uint32_t>("hash buckets", std::size_t{params.bucketMask} + 1);
   bucketBlocks_ = gl::Buffer<std::uint32_t>("hash bucket blocks", params.bucketBlocks);
   candidates_ = gl::Buffer<std::uint32_t>("contact candidates", particles * (MOST_CANDIDATES + 1));
@@ -99,7 +102,10 @@ void GpuSelfCollision::allocate(const SelfParams<float>& params) {
 }
 
 void GpuSelfCollision::restart() {
-  if (flags_.name() != 0) flags_.upload(std::vector<Flags>(1));
+  if (flags_.name() == 0) return;
+  static constexpr GLuint stale = 1;
+  glClearNamedBufferSubData(flags_.name(), GL_R32UI, offsetof(Flags, stale), sizeof stale, GL_RED_INTEGER,
+                            GL_UNSIGNED_INT, &stale);
 }
 
 void GpuSelfCollision::bind() const {
@@ -127,39 +133,39 @@ void GpuSelfCollision::buildHash(PassRunner& runner, const ParticleArray& positi
                                  const BindGrid& bindGrid) const {
   constexpr const char* name = "self-collision, hash";
   dispatches_.bindStorage(DISPATCHES_BINDING);
-  runner.runGroups(now_->plan, name, 1);
+  runner.runGroups(*now_.plan, name, 1);
   dispatches_.bindDispatches();
   positions.texture.bind(POSITIONS_TO_HASH_UNIT);
-  runner.runIndirect(now_->clear, name, clearPlace);
+  runner.runIndirect(*now_.clear, name, clearPlace);
   hashed_.buffer.bindStorage(HASHED_BINDING);
-  runner.runIndirect(now_->count, name, countPlace);
+  runner.runIndirect(*now_.count, name, countPlace);
   bucketBlocks_.bindStorage(HASHED_BINDING);
-  runner.runIndirect(now_->scanBlocks, name, scanBlocksPlace);
-  runner.runIndirect(now_->scanTotals, name, scanTotalsPlace);
+  runner.runIndirect(*now_.scanBlocks, name, scanBlocksPlace);
+  runner.runIndirect(*now_.scanTotals, name, scanTotalsPlace);
   sorted_.buffer.bindStorage(HASHED_BINDING);
-  runner.runIndirect(now_->scatter, name, scatterPlace);
+  runner.runIndirect(*now_.scatter, name, scatterPlace);
   candidates_.bindStorage(CANDIDATES_BINDING);
   for (std::size_t grid = 0; grid < cloth_->grids().size(); ++grid) {
     bindGrid(grid);
-    runner.runIndirect(now_->find, "self-collision, candidates", findPlace + grid);
+    runner.runIndirect(*now_.find, "self-collision, candidates", findPlace + grid);
   }
 }
 
 void GpuSelfCollision::separate(PassRunner& runner, ParticleArray& newPositions, const BindGrid& bindGrid) {
   bind();
-  runOnGrids(runner, now_->check, "self-collision, check", bindGrid);
+  runOnGrids(runner, *now_.check, "self-collision, check", bindGrid);
   buildHash(runner, newPositions, bindGrid);
   spare_.buffer.bindStorage(NEW_POSITIONS_BINDING);
-  runOnGrids(runner, now_->separate, "self-collision, separate", bindGrid);
+  runOnGrids(runner, *now_.separate, "self-collision, separate", bindGrid);
   std::swap(newPositions, spare_);
   newPositions.texture.bind(NEW_POSITIONS_UNIT);
   newPositions.buffer.bindStorage(NEW_POSITIONS_BINDING);
 }
 
 void GpuSelfCollision::guard(PassRunner& runner, const ParticleArray& positions, const BindGrid& bindGrid) {
-  runOnGrids(runner, now_->guardCheck, "self-collision, guard", bindGrid);
+  runOnGrids(runner, *now_.guardCheck, "self-collision, guard", bindGrid);
   buildHash(runner, positions, bindGrid);
-  runOnGrids(runner, now_->guard, "self-collision, guard", bindGrid);
+  runOnGrids(runner, *now_.guard, "self-collision, guard", bindGrid);
 }
 
 ContactCounts GpuSelfCollision::counts() const {

@@ -3,10 +3,12 @@
 // needed, none in most steps: nothing is read back.
 #pragma once
 
-#include <array>
+#include <compare>
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "cloth/cloth.h"
@@ -41,7 +43,7 @@ class GpuSelfCollision {
   void guard(PassRunner& runner, const ParticleArray& positions, const BindGrid& bindGrid);
   // Whether the masks of cuts are bound in the passes. Forgets the hash.
   void setCut(bool cut);
-  // For a new state: forgets the hash.
+  // For a new state: forgets the hash. The counts go on.
   void restart();
 
   [[nodiscard]] ContactCounts counts() const;
@@ -51,10 +53,14 @@ class GpuSelfCollision {
     std::uint32_t stale = 1, fast = 0, tooNear = 0, guarding = 0, hashBuilds = 0, fastSteps = 0,
                   guardedSteps = 0;
   };
+  struct Variant {  // of a program
+    bool robust = false, nearCodes = false, cuts = false;
+    friend auto operator<=>(const Variant&, const Variant&) = default;
+  };
   struct Programs {
-    Programs(bool robust, bool nearCodes, bool cuts, int groupColumns, int groupRows);
-
-    gl::Program check, plan, clear, count, scanBlocks, scanTotals, scatter, find, separate, guardCheck, guard;
+    const gl::Program *check = nullptr, *plan = nullptr, *clear = nullptr, *count = nullptr,
+                      *scanBlocks = nullptr, *scanTotals = nullptr, *scatter = nullptr, *find = nullptr,
+                      *separate = nullptr, *guardCheck = nullptr, *guard = nullptr;
   };
   // Places in the dispatch buffer; those of `find` follow, one a grid.
   enum Place : std::size_t {
@@ -66,6 +72,7 @@ class GpuSelfCollision {
     findPlace
   };
 
+  const gl::Program* program(const std::string& pass, const Variant& variant);
   void choosePrograms();
   void allocate(const SelfParams<float>& params);
   void bind() const;
@@ -77,9 +84,8 @@ class GpuSelfCollision {
   int groupColumns_, groupRows_;
   SelfCollision mode_ = SelfCollision::off;
   bool hasNearCodes_ = false, cut_ = false;
-  using Variant = std::array<bool, 3>;  // robust, near codes, cuts
-  std::map<Variant, Programs> programs_;
-  const Programs* now_ = nullptr;  // those in use
+  std::map<std::pair<std::string, Variant>, gl::Program> programs_;  // all that were ever needed,
+  Programs now_;                                                     // those in use
 
   gl::Buffer<SelfParams<float>> params_;
   gl::Buffer<float> distances_;

@@ -76,6 +76,57 @@ TEST(Program, ComparesTheBackendsAndSaysSoInItsExitCode) {
   EXPECT_TRUE(compare["first_differing_step"].is_null());
 }
 
+// What the viewer's hands did, done again without a window.
+constexpr const char* RECORDING = R"({
+  "schema": "clothsim-recording/1", "backend": "cpu", "frames": 5,
+  "scene": {"cloth": {"num_width_points": 12, "num_height_points": 12, "pinned": ["top"]},
+            "solver": {"simulation_steps": 10}},
+  "events": [
+    {"step": 0, "action": "grab", "particle": 140, "target": [0.5, 0.8, 0.9], "strength": 1e5, "radius": 0.2},
+    {"step": 20, "action": "cut", "cloth": 0, "from": [-1, 3.5], "to": [6.2, 3.5]},
+    {"step": 20, "action": "switch_backend", "backend": "gpu"},
+    {"step": 30, "action": "set_pin", "particle": 100, "pinned": true},
+    {"step": 30, "action": "release"}
+  ]})";
+
+TEST(Program, ReplaysARecordingToOneHashOnBothBackends) {
+  const test::TemporaryFolder folder;
+  writeFileAtomically(folder / "r.json", RECORDING);
+  const std::string replay = "run --replay " + (folder / "r.json").string() + " --json";
+  const json cpu = jsonOf(replay + " --backend cpu"), gpu = jsonOf(replay + " --backend gpu");
+  EXPECT_EQ(cpu["backend"], "cpu");
+  EXPECT_EQ(gpu["backend"], "gpu");
+  EXPECT_EQ(cpu["state_hash"], gpu["state_hash"]);
+  EXPECT_EQ(jsonOf(replay)["state_hash"], gpu["state_hash"]) << "switching as it was recorded";
+  EXPECT_EQ(cpu["frames"], 5);
+  EXPECT_EQ(cpu["steps"], 50);
+  EXPECT_LT(cpu["triangles"], 2 * 11 * 11);
+  EXPECT_LT(cpu["springs"], 2 * 11 * 12 + 2 * 11 * 11 + 2 * 10 * 12);
+  EXPECT_TRUE(cpu["contact_sound"].is_null()) << "the cloth is cut";
+  const json longer = jsonOf(replay + " --backend cpu --frames 7 --save " + (folder / "a.state").string());
+  EXPECT_EQ(longer["frames"], 7);
+  EXPECT_NE(longer["state_hash"], cpu["state_hash"]);
+}
+
+TEST(Program, TakesEitherASceneOrARecording) {
+  const test::TemporaryFolder folder;
+  writeFileAtomically(folder / "r.json", RECORDING);
+  const std::string replay = "run --replay " + (folder / "r.json").string();
+  for (const char* other : {" -f pinned2", " --resolution 9x9", " --set gravity=[0,0,0]", " --from a.state"})
+    EXPECT_EQ(clothsim(replay + other).exitCode, 2) << other;
+  const CommandResult missing = clothsim("run --replay nowhere.json");
+  EXPECT_EQ(missing.exitCode, 3);
+  EXPECT_NE(missing.output.find("nowhere.json"), std::string::npos) << missing.output;
+  writeFileAtomically(folder / "wrong.json",
+                      std::string(RECORDING).replace(std::string(RECORDING).find("\"particle\": 140"), 15,
+                                                     "\"particle\": 999"));
+  const CommandResult wrong = clothsim("run --backend cpu --replay " + (folder / "wrong.json").string());
+  EXPECT_EQ(wrong.exitCode, 3);
+  EXPECT_NE(wrong.output.find("wrong.json: events.0: grab: there is no particle 999, expected 0 to 143"),
+            std::string::npos)
+      << wrong.output;
+}
+
 TEST(Program, FailsWithOneWhenTheSimulationBlowsUp) {
   const test::TemporaryFolder folder;  // also of the last good state
   const CommandResult result = clothsim(

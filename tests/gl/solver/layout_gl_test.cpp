@@ -59,7 +59,8 @@ GLint blockSize(const gl::Program& program, const char* block) {
   { prefix #member, offsetof(Struct, member) }
 
 TEST_F(LayoutTest, OfStepParamsIsTheDrivers) {
-  const PassPrograms programs(everything());
+  PassLibrary library;
+  const PassPrograms programs = library.programsFor(everything());
   const std::vector<std::pair<std::string, std::size_t>> members = {
       MEMBER(Step, "StepBlock.step.", firstParticle),
       MEMBER(Step, "StepBlock.step.", columns),
@@ -86,33 +87,68 @@ TEST_F(LayoutTest, OfStepParamsIsTheDrivers) {
     // Drivers name members of a block without an instance name with or without the block's name.
     const std::string shortName = name.substr(name.find('.') + 1);
     const GLint driver =
-        std::max(uniformOffset(programs.step, name), uniformOffset(programs.step, shortName));
+        std::max(uniformOffset(*programs.step, name), uniformOffset(*programs.step, shortName));
     EXPECT_EQ(driver, static_cast<GLint>(offset)) << name;
     found += driver >= 0;
   }
   EXPECT_EQ(found, static_cast<int>(members.size()));
-  EXPECT_EQ(uniformOffset(programs.limit, "step.limitFactor"),
+  EXPECT_EQ(uniformOffset(*programs.limit, "step.limitFactor"),
             static_cast<GLint>(offsetof(Step, limitFactor)));
-  EXPECT_EQ(uniformOffset(programs.kick, "step.kickTime"), static_cast<GLint>(offsetof(Step, kickTime)));
-  EXPECT_EQ(blockSize(programs.step, "StepBlock"), static_cast<GLint>(sizeof(Step)));
+  EXPECT_EQ(uniformOffset(*programs.kick, "step.kickTime"), static_cast<GLint>(offsetof(Step, kickTime)));
+  EXPECT_EQ(blockSize(*programs.step, "StepBlock"), static_cast<GLint>(sizeof(Step)));
+}
+
+TEST_F(LayoutTest, OfHandParamsIsTheDrivers) {
+  using HandBlock = HandParams<float>;
+  PassFeatures features = everything();
+  features.hold = features.jet = features.cuts = true;
+  PassLibrary library;
+  const PassPrograms programs = library.programsFor(features);
+  const std::vector<std::pair<std::string, std::size_t>> members = {
+      MEMBER(HandBlock, "hand.", goalX),         MEMBER(HandBlock, "hand.", velocityKept),
+      MEMBER(HandBlock, "hand.", pushX),         MEMBER(HandBlock, "hand.", pull),
+      MEMBER(HandBlock, "hand.", firstColumn),   MEMBER(HandBlock, "hand.", rows),
+      MEMBER(HandBlock, "hand.", largestSpeed),  MEMBER(HandBlock, "hand.", largestSpeedSquared),
+      MEMBER(HandBlock, "hand.", inverseRadius), MEMBER(HandBlock, "hand.", inverseRadiusSquared),
+      MEMBER(HandBlock, "hand.", originX),       MEMBER(HandBlock, "hand.", jetSpeed),
+      MEMBER(HandBlock, "hand.", directionX),    MEMBER(HandBlock, "hand.", jetAlone)};
+  for (const auto& [name, offset] : members)
+    EXPECT_EQ(uniformOffset(*programs.step, name), static_cast<GLint>(offset)) << name;
+  EXPECT_EQ(blockSize(*programs.step, "HandBlock"), static_cast<GLint>(sizeof(HandBlock)));
+  EXPECT_EQ(sizeof(Hold::Point), 16u) << "a texel";
+}
+
+// Who toggles back and forth compiles nothing, nor for a pass that does not look at what was toggled.
+TEST_F(LayoutTest, OfProgramsIsSharedByScenesThatNeedTheSame) {
+  PassLibrary library;
+  const PassPrograms before = library.programsFor(everything());
+  PassFeatures features = everything();
+  features.hold = true;
+  const PassPrograms held = library.programsFor(features);
+  EXPECT_NE(held.step, before.step);
+  EXPECT_EQ(held.limit, before.limit);
+  EXPECT_EQ(held.kick, before.kick);
+  EXPECT_EQ(library.programsFor(everything()).step, before.step);
 }
 
 TEST_F(LayoutTest, OfSpringsInStepParamsIsTheDrivers) {
-  const PassPrograms programs(everything());
+  PassLibrary library;
+  const PassPrograms programs = library.programsFor(everything());
   for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot) {
     const std::string spring = "step.springs[" + std::to_string(slot) + "].";
     const std::size_t base = offsetof(Step, springs) + slot * sizeof(SpringRow);
-    EXPECT_EQ(uniformOffset(programs.step, spring + "stiffness"),
+    EXPECT_EQ(uniformOffset(*programs.step, spring + "stiffness"),
               static_cast<GLint>(base + offsetof(SpringRow, stiffness)));
-    EXPECT_EQ(uniformOffset(programs.step, spring + "maxLengthSquared"),
+    EXPECT_EQ(uniformOffset(*programs.step, spring + "maxLengthSquared"),
               static_cast<GLint>(base + offsetof(SpringRow, maxLengthSquared)));
-    EXPECT_EQ(uniformOffset(programs.limit, spring + "limitLength"),
+    EXPECT_EQ(uniformOffset(*programs.limit, spring + "limitLength"),
               static_cast<GLint>(base + offsetof(SpringRow, limitLength)));
   }
 }
 
 TEST_F(LayoutTest, OfLimitColorIsTheDrivers) {
-  const PassPrograms programs(everything());
+  PassLibrary library;
+  const PassPrograms programs = library.programsFor(everything());
   const std::vector<std::pair<std::string, std::size_t>> members = {
       MEMBER(LimitColor, "color.", slot),       MEMBER(LimitColor, "color.", firstColumn),
       MEMBER(LimitColor, "color.", columnStep), MEMBER(LimitColor, "color.", columnRun),
@@ -120,13 +156,14 @@ TEST_F(LayoutTest, OfLimitColorIsTheDrivers) {
       MEMBER(LimitColor, "color.", rowStep),    MEMBER(LimitColor, "color.", rowRun),
       MEMBER(LimitColor, "color.", endRow)};
   for (const auto& [name, offset] : members)
-    EXPECT_EQ(uniformOffset(programs.limit, name), static_cast<GLint>(offset)) << name;
-  EXPECT_EQ(blockSize(programs.limit, "ColorBlock"), static_cast<GLint>(sizeof(LimitColor)));
+    EXPECT_EQ(uniformOffset(*programs.limit, name), static_cast<GLint>(offset)) << name;
+  EXPECT_EQ(blockSize(*programs.limit, "ColorBlock"), static_cast<GLint>(sizeof(LimitColor)));
 }
 
 TEST_F(LayoutTest, OfTheWatchdogsRowIsTheDrivers) {
-  const PassPrograms programs(everything());
-  for (const gl::Program* program : {&programs.start, &programs.step, &programs.watchLimit, &programs.kick}) {
+  PassLibrary library;
+  const PassPrograms programs = library.programsFor(everything());
+  for (const gl::Program* program : {programs.start, programs.step, programs.watchLimit, programs.kick}) {
     const GLuint index = glGetProgramResourceIndex(program->name(), GL_BUFFER_VARIABLE, "watchRow[0]");
     ASSERT_NE(index, GL_INVALID_INDEX);
     const std::array<GLenum, 3> properties{GL_OFFSET, GL_ARRAY_SIZE, GL_ARRAY_STRIDE};

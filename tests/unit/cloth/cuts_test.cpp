@@ -120,6 +120,7 @@ TEST(CutMasks, NameTheSpringsAndTrianglesThatAParticleHasLost) {
     }
   }
   EXPECT_EQ(springsLost, 2 * (cloth.springCount() - remainingSpringCount(cloth, cuts)));
+  EXPECT_EQ(remainingTriangleCount(cloth, cuts), remaining.size());
   EXPECT_EQ(trianglesLost, 3 * (cloth.triangleCount() - remaining.size()));
   EXPECT_GT(trianglesLost, 20u);
   EXPECT_TRUE(makeCutMasks(cloth, {}).empty());

@@ -271,6 +271,19 @@ TEST_F(HandTest, KeepsTheTwoEdgesOfACutApart) {
   EXPECT_EQ(measureContacts(cloth, scene, met, 0.1).overlaps, 0u);
 }
 
+// Faster than robust self-collision can see: the numbers of a run say so.
+TEST_F(HandTest, IsCountedWhenItIsTooFastForContacts) {
+  Scene scene = test::layeredSheets(9, SelfCollision::robust);
+  scene.solver.simulationSteps = 5;
+  const Cloth cloth(scene);
+  CpuSolver<float> calm(cloth, scene), hasty(cloth, scene);
+  hasty.setHand(test::handTo(hasty, cloth, scene, 81 + 40, {0.5, -3, 0.5}, 1e9));
+  calm.step(20);
+  hasty.step(20);
+  EXPECT_EQ(calm.contactCounts().fastSteps, 0u);
+  EXPECT_GT(hasty.contactCounts().fastSteps, 0u);
+}
+
 TEST_F(HandTest, BlowsInFrontOfItsOriginAndNowhereElse) {
   Scene scene = scene_;
   scene.gravity = {0, 0, 0};
