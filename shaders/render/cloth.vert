@@ -11,6 +11,7 @@ layout(location = TEXTURE_COORDINATE_LOCATION) in vec2 uv;
 layout(location = TANGENT_LOCATION) in vec4 tangent;
 #endif
 layout(location = 0) out Surface surface;
+invariant gl_Position;  // the same as in cloth_depth.vert
 
 void main() {
   vec3 point = drawnPoint(position.xyz, normal.xyz, uv);

@@ -77,15 +77,17 @@ void main() {
 
   vec3 sky = skyIrradiance(normal) * open;
   // A thread that leans to the light is still in the shade of its own cloth where that turns away.
-  float terminator = smoothstep(0.0, 0.28, dot(t.normal, toLight));
+  // (Highlights keep farther away from where the shadow map's edges run.)
+  float facing = dot(t.normal, toLight);
+  float terminator = smoothstep(0.0, 0.3, facing), highlit = smoothstep(0.05, 0.6, facing);
   vec3 key = frame.keyColor.rgb * lit;
   float fill = max(0.5 + 0.5 * dot(normal, frame.toFillLight.xyz), 0.0);
-  float through = TRANSMITTED * max(-dot(t.normal, toLight), 0.0);
+  float through = TRANSMITTED * max(-facing, 0.0);
   vec3 light = albedo * (key * (normalLight * terminator * threads.light + through) + sky + fill * fill * open * frame.fillColor.rgb);
 
-  vec3 fibres = SHEEN * (0.15 + sqrt(albedo));
-  light += fibres * (key * terminator * sheenReflected(clamp(dot(normal, halfway), 0.0, 1.0), normalLight, normalEye) + sky * sheenAlbedo(normalEye));
-  float shine = threadShine(t, threads.warp, halfway, mix(6.0, 70.0, gloss)) * gloss * terminator;
-  light += mix(vec3(0.5), albedo, 0.5) * (0.9 * shine * threads.light) * key;
+  vec3 fibres = SHEEN * (0.05 + 0.95 * sqrt(albedo));
+  light += fibres * (key * highlit * sheenReflected(clamp(dot(normal, halfway), 0.0, 1.0), normalLight, normalEye) + sky * sheenAlbedo(normalEye));
+  float shine = threadShine(t, threads.warp, halfway, mix(5.0, 44.0, gloss)) * 1.5 * gloss * gloss * highlit;
+  light += mix(vec3(0.30), sqrt(albedo), 0.6) * (0.8 * shine * threads.light) * key;
   color = vec4(canvasFromLight(light), 1.0);
 }

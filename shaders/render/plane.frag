@@ -14,9 +14,6 @@ layout(location = 3) flat in vec3 shadeLight;
 layout(location = 4) flat in vec3 behindLight;
 layout(location = 0) out vec4 color;
 
-// Less than a step of the canvas's 8 bits, so that the wide, slow gradient shows no contour lines.
-float dither(vec2 pixel) { return (fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))) - 0.5) / 255.0; }
-
 void main() {
   float distance2 = dot(fromCenter, fromCenter);
   float fade = clamp(1.0 - distance2, 0.0, 1.0);

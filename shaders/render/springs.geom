@@ -7,7 +7,9 @@ layout(location = 0) in vec4 look[];  // sRGB, and the width [pixels]
 layout(location = 0) flat out vec3 lineColor;
 layout(location = 1) flat out float halfWidth;
 layout(location = 2) noperspective out float across;  // [pixels] from the middle
+layout(location = 3) flat out float opacity;
 
+const float OPAQUE_LENGTH = 14.0, LEAST_OPACITY = 0.2;  // [pixels]; where springs are dense the cloth still shows
 const float LEAST_W = 1e-4;  // behind the eye nothing is drawn
 
 void main() {
@@ -24,6 +26,7 @@ void main() {
     lineColor = look[0].rgb;
     halfWidth = 0.5 * look[0].w;
     across = side * reach;
+    opacity = clamp(l / OPAQUE_LENGTH, LEAST_OPACITY, 1.0);
     gl_Position = vec4(end.xy + side * aside * end.w, end.zw);
     EmitVertex();
   }

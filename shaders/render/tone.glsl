@@ -16,3 +16,6 @@ vec3 lightFromCanvas(vec3 stored) { return stored * stored; }
 vec3 canvasFromSrgb(vec3 srgb) {
   return sqrt(mix(pow((srgb + 0.055) / 1.055, vec3(2.4)), srgb / 12.92, lessThanEqual(srgb, vec3(0.04045))));
 }
+
+// Less than a step of the canvas's 8 bits, so that wide, slow gradients show no contour lines.
+float dither(vec2 pixel) { return (fract(52.9829189 * fract(dot(pixel, vec2(0.06711056, 0.00583715)))) - 0.5) / 255.0; }

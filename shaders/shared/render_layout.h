@@ -24,6 +24,7 @@ using uint = unsigned int;
 #define PRINT_UNIT 4
 #define HEIGHTS_UNIT 5
 #define ENVIRONMENT_UNIT 6
+#define BACKDROP_UNIT 7
 #define FLOOR_SHADOW_SIZE 256  // [texels] of the blurred shadow for floors
 #define NORMALS_GROUP_SIZE 8   // work groups of 8 x 8 particles
 

@@ -8,6 +8,7 @@
 #include "app/simulation.h"
 #include "core/error.h"
 #include "gl/framebuffer.h"
+#include "gl/timer.h"
 #include "render/renderer.h"
 #include "scene/scene_io.h"
 
@@ -71,6 +72,37 @@ StepRate measureStepRate(const Scene& scene, const std::string& backend, double 
     rate.passes = gpu->timePasses(timed);
     for (PassTime& pass : rate.passes) pass.seconds /= timed;
   }
+  return rate;
+}
+
+DrawRate measureDrawing(const Scene& scene, const State& state, int samples, int width, int height) {
+  const Cloth cloth(scene);
+  const gl::Buffer<Particle4> positions("positions to draw", state.positions);
+  RenderOptions options;
+  options.samples = gl::supportedSamples(samples);
+  Renderer renderer(cloth, scene, options);
+  const Camera camera(scene, cloth);
+  const gl::Framebuffer target("bench", {.width = width, .height = height, .color = GL_RGBA8});
+  DrawRate rate;
+  rate.shader = scene.render.shader;
+  rate.samples = options.samples;
+  gl::Timer timer;
+  std::vector<double> whole;
+  std::vector<std::vector<double>> passes;
+  for (int i = 0; i <= 7; ++i) {
+    timer.begin();
+    renderer.draw(positions.name(), camera, 0, target.name(), width, height);
+    timer.end();
+    const double seconds = timer.seconds();
+    rate.passes = renderer.timeDraw(positions.name(), camera, 0, target.name(), width, height);
+    if (i == 0) continue;  // shaders are compiled when first used
+    whole.push_back(seconds);
+    passes.resize(rate.passes.size());
+    for (std::size_t pass = 0; pass < passes.size(); ++pass)
+      passes[pass].push_back(rate.passes[pass].seconds);
+  }
+  rate.seconds = median(whole);
+  for (std::size_t pass = 0; pass < passes.size(); ++pass) rate.passes[pass].seconds = median(passes[pass]);
   return rate;
 }
 

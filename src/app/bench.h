@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "render/renderer.h"
 #include "scene/scene.h"
 #include "solver/gpu/gpu_solver.h"
 
@@ -26,6 +27,16 @@ struct StepRate {
 // empty. The GPU needs a current context.
 [[nodiscard]] StepRate measureStepRate(const Scene& scene, const std::string& backend, double seconds,
                                        const State& state = {});
+
+struct DrawRate {
+  std::string shader;
+  int samples = 0;               // of each pixel
+  double seconds = 0;            // for a picture, as the viewer draws it
+  std::vector<DrawTime> passes;  // each waited for
+};
+// Of a picture of the scene with `state`; medians. Needs a current context.
+[[nodiscard]] DrawRate measureDrawing(const Scene& scene, const State& state, int samples, int width,
+                                      int height);
 
 struct DemoRate {
   int size = 0;                  // N of N x N

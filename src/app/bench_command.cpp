@@ -99,9 +99,45 @@ std::vector<Scene> variantsOf(const Scene& scene) {
   return variants;
 }
 
+// Every shading model on the cloth as it lies after some frames: smoothed afterwards as the viewer does on
+// software renderers, and multisampled.
+int benchDrawing(const BenchOptions& options) {
+  constexpr int width = 1280, height = 720;
+  const gl::HeadlessContext context;
+  SceneOptions sceneOptions = options.scene;
+  sceneOptions.resolution = options.resolutions.empty() ? GridSize{64, 64} : options.resolutions.front();
+  Scene scene = loadScene(sceneOptions);
+  const State state = stateAfter(scene, options.afterFrames);
+  nlohmann::ordered_json json{{"scene", options.scene.scene}, {"device", context.info().renderer}};
+  for (const int samples : {1, 4}) {
+    for (const std::string_view shader : shadingModels) {
+      stopIfInterrupted();
+      scene.render.shader = shader;
+      const DrawRate rate = measureDrawing(scene, state, samples, width, height);
+      nlohmann::ordered_json entry{
+          {"shader", rate.shader}, {"samples", rate.samples}, {"ms", rate.seconds * 1e3}};
+      std::string passes;
+      for (const DrawTime& pass : rate.passes) {
+        entry["pass_ms"][pass.pass] = pass.seconds * 1e3;
+        char text[64];
+        std::snprintf(text, sizeof text, "   %s %.2f", pass.pass.c_str(), pass.seconds * 1e3);
+        passes += text;
+      }
+      json["drawing"].push_back(entry);
+      if (!options.json)
+        std::printf("%-13s %d sample%s  %7.2f ms%s\n", rate.shader.c_str(), rate.samples,
+                    rate.samples == 1 ? ": " : "s:", rate.seconds * 1e3, passes.c_str());
+      std::fflush(stdout);
+    }
+  }
+  if (options.json) std::cout << json.dump(2) << '\n';
+  return 0;
+}
+
 }  // namespace
 
 int benchCommand(const BenchOptions& options) {
+  if (options.draw) return benchDrawing(options);
   std::vector<GridSize> resolutions = options.resolutions;
   if (resolutions.empty()) resolutions = {{64, 64}, {128, 128}, {256, 256}};
   std::vector<std::string> backends = options.backends;

@@ -21,6 +21,7 @@ GridSize parseSize(const std::string& text, const char* flag) {
 
 // The flags as they arrive; each command takes the ones it declared.
 struct Arguments {
+  bool draw = false;
   std::string scene = "pinned2", backend = "gpu", from, shader, size = "1280x720", key, replay;
   std::vector<std::string> settings, saves, outs, resolutions, backends;
   int frames = 0, every = 1, around = 64, down = 48;
@@ -105,7 +106,8 @@ void declareRun(CLI::App& app, Arguments& a, Action& action) {
           ->check(CLI::Range(0.0, 1.0));
   run->add_option("--seed", a.seed, "of --jitter (1)");
   CLI::Option* replay =
-      run->add_option("--replay", a.replay, "do again what a recording of the viewer holds, instead of -f")
+      run->add_option("--replay", a.replay,
+                      "do again what a recording of the viewer holds, on its backends or that of --backend")
           ->type_name("FILE");
   for (CLI::Option* other : {scene, from, jitter, run->get_option("--set"), run->get_option("--resolution")})
     replay->excludes(other);
@@ -150,12 +152,14 @@ void declareSimulationCommands(CLI::App& app, Arguments& a, Action& action) {
   bench->add_option("--seconds", a.seconds, "of measuring for each figure")->check(CLI::Range(0.01, 600.0));
   bench->add_option("--after", a.frames, "measure the cloth as it lies after so many frames (0)")
       ->check(CLI::NonNegativeNumber);
+  bench->add_flag("--draw", a.draw, "measure drawing instead: every shading model at 1280x720, pass by pass");
   addJson(*bench, a);
   bench->footer(
       "Steps are timed in 7 stretches; the median counts. Example: clothsim bench --resolution 256x256");
   bench->callback([&] {
     action = [&] {
-      BenchOptions options{{a.scene, std::nullopt, a.settings}, {}, a.backends, a.seconds, a.frames, a.json};
+      BenchOptions options{
+          {a.scene, std::nullopt, a.settings}, {}, a.backends, a.seconds, a.frames, a.json, a.draw};
       for (const std::string& resolution : a.resolutions)
         options.resolutions.push_back(parseSize(resolution, "--resolution"));
       return benchCommand(options);
@@ -182,6 +186,7 @@ void declareRender(CLI::App& app, Arguments& a, Action& action) {
   render->add_option("--fps", a.fps, "pictures a second of a film, at most; it plays in real time")
       ->check(CLI::Range(1.0, 1000.0));
   render->add_option("--shader", a.shader, "shading model instead of the scene's own");
+  render->add_option("--from", a.from, "begin with a saved .state")->type_name("STATE");
   addSphereSegments(*render, a);
   render->footer("Example: clothsim render -f demo --frames 240 --out clip.mp4");
   render->callback([&] {
@@ -190,7 +195,7 @@ void declareRender(CLI::App& app, Arguments& a, Action& action) {
       if (size.columns < 16 || size.rows < 16 || size.columns > 8192 || size.rows > 8192)
         throw UsageError("--size " + a.size + ": expected 16x16 to 8192x8192 pixels");
       return renderCommand({a.sceneOptions(), a.frames, a.backend, a.outs, size.columns, size.rows, a.every,
-                            a.fps, a.shader, a.around, a.down});
+                            a.fps, a.shader, a.around, a.down, a.from});
     };
   });
 }

@@ -52,6 +52,7 @@ struct RenderCommandOptions {
   double framesPerSecond = 30;  // of a film, at most
   std::string shader;           // "" for the scene's own
   int sphereSegmentsAround = 64, sphereSegmentsDown = 48;
+  std::string from;  // a .state file to begin with
 };
 int renderCommand(const RenderCommandOptions& options);
 
@@ -70,6 +71,7 @@ struct BenchOptions {
   double seconds = 1;   // of measuring, for each figure
   int afterFrames = 0;  // measure the cloth as it lies then
   bool json = false;
+  bool draw = false;  // measure drawing instead: every shading model, pass by pass
 };
 int benchCommand(const BenchOptions& options);
 

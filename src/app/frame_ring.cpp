@@ -6,6 +6,7 @@
 namespace clothsim {
 
 void FrameRing::put(const SessionFrame& frame, Solver& solver) {
+  if (!isEmpty() && frame.number < oldest()) return;
   if (!isEmpty() && frame.number <= newest()) {
     auto& entry = entries_[static_cast<std::size_t>(frame.number - oldest())];
     bytes_ -= entry.snapshot->bytes();
@@ -13,13 +14,28 @@ void FrameRing::put(const SessionFrame& frame, Solver& solver) {
     bytes_ += entry.snapshot->bytes();
     return;
   }
-  assert((isEmpty() || frame.number == newest() + 1) && "frames come one after the other");
+  place(frame, solver, makeRoom());
+}
+
+void FrameRing::putBeyondBudget(const SessionFrame& frame, Solver& solver) {
+  if (isEmpty() || frame.number > newest())
+    place(frame, solver, nullptr);
+  else
+    put(frame, solver);
+}
+
+std::unique_ptr<Snapshot> FrameRing::makeRoom() {
   std::unique_ptr<Snapshot> spare;
   while (!isEmpty() && bytes_ + entries_.back().snapshot->bytes() > budget_) {
     bytes_ -= entries_.front().snapshot->bytes();
     spare = std::move(entries_.front().snapshot);
     entries_.pop_front();
   }
+  return spare;
+}
+
+void FrameRing::place(const SessionFrame& frame, Solver& solver, std::unique_ptr<Snapshot> spare) {
+  assert((isEmpty() || frame.number == newest() + 1) && "frames come one after the other");
   entries_.push_back({frame, solver.snapshot(std::move(spare))});
   bytes_ += entries_.back().snapshot->bytes();
 }

@@ -43,14 +43,19 @@ class FrameRing {
     SessionFrame frame;
     std::unique_ptr<Snapshot> snapshot;
   };
-  // Remembers a frame from oldest() to newest() + 1, in the place of what was known of it. The last frame is
-  // kept whatever the budget.
+  // Remembers a frame up to newest() + 1, in the place of what was known of it; one before oldest() is
+  // forgotten for good. The last frame is kept whatever the budget.
   void put(const SessionFrame& frame, Solver& solver);
+  // The same, without forgetting another one for it: until the next put().
+  void putBeyondBudget(const SessionFrame& frame, Solver& solver);
   // From oldest() to newest().
   [[nodiscard]] const Entry& at(int number) const;
   void forgetAfter(int number);
 
  private:
+  // What fell out, if anything.
+  std::unique_ptr<Snapshot> makeRoom();
+  void place(const SessionFrame& frame, Solver& solver, std::unique_ptr<Snapshot> spare);
   void dropOldest();
 
   std::deque<Entry> entries_;

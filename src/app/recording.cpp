@@ -249,9 +249,9 @@ Recording Recording::load(const std::filesystem::path& path) {
     const JsonPointer root = parseJson(readFile(path, LARGEST_FILE));
     Recording recording = readRecording(*root);
     recording.source = path.string();
-    findFiles(recording.scene, path);
+    findMeshes(recording.scene, path);
     for (Event& event : recording.events)
-      if (auto* edit = std::get_if<EditScene>(&event.action)) findFiles(edit->scene, path);
+      if (auto* edit = std::get_if<EditScene>(&event.action)) findMeshes(edit->scene, path);
     return recording;
   } catch (const JsonComplaint& complaint) {
     throw SceneError(located(path.string(), complaint));

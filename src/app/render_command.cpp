@@ -76,6 +76,7 @@ int renderCommand(const RenderCommandOptions& options) {
   if (!options.shader.empty()) scene.render.shader = options.shader;
   const gl::HeadlessContext context;
   Simulation simulation(scene, options.backend);
+  if (!options.from.empty()) simulation.solver().setState(loadState(options.from, simulation.cloth()));
   Renderer renderer(simulation.cloth(), scene, {options.sphereSegmentsAround, options.sphereSegmentsDown});
   const Camera camera(scene, simulation.cloth());
 

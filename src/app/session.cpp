@@ -247,8 +247,8 @@ void Session::forgetLater() {
 void Session::seek(int frame) {
   assert(frame >= oldestFrame() && frame <= newestFrame() && "only frames that are remembered");
   if (frame == now_.number) return;
-  ring_.put(now_, simulation_.solver());
-  goTo(std::clamp(frame, oldestFrame(), newestFrame()));
+  ring_.putBeyondBudget(now_, simulation_.solver());
+  goTo(std::clamp(frame, ring_.oldest(), ring_.newest()));
 }
 
 void Session::goTo(int frame) {

@@ -10,7 +10,7 @@
 #include "app/viewer_marks.h"
 #include "app/viewer_program.h"
 #include "gl/context.h"
-#include "render/shading_models.h"
+#include "render/textures.h"
 
 namespace clothsim {
 namespace {
@@ -37,7 +37,9 @@ Viewer::Viewer(const Scene& scene, const ViewerOptions& options)
   LoadedConfig loaded = loadViewerConfig(viewerConfigPath());
   config_ = savedConfig_ = loaded.config;
   if (!loaded.notice.empty()) say(loaded.notice, longNoticeSeconds);
-  widgets_.offer("render.shader", shadingModelNames());
+  std::vector<std::string> textures = bundledTextures();
+  textures.insert(textures.begin(), "");
+  widgets_.offer("render.texture", std::move(textures));
   listen();
   watchSteps();
 }
@@ -161,6 +163,7 @@ void Viewer::draw() {
 
 // Between two pictures, since picking draws elsewhere.
 void Viewer::measure() {
+  if (!showsPanels()) return;
   column_.measures().update(session(), now_, [&]() -> std::optional<std::uint32_t> {
     const ViewerWindow::Cursor cursor = window_.cursor();
     if (!isOverPicture(cursor)) return std::nullopt;

@@ -21,6 +21,7 @@ void read(const nlohmann::json& object, const std::string& key, bool& value) {
 
 ViewerConfig parse(const std::string& text) {
   const nlohmann::json json = nlohmann::json::parse(text);
+  (void)json.get_ref<const nlohmann::json::object_t&>();  // throws for anything but an object
   ViewerConfig config;
   if (json.contains("show_panels")) config.showPanels = json.at("show_panels").get<bool>();
   read(json, "show_overlay", config.showOverlay);

@@ -1,6 +1,7 @@
 #include "gl/framebuffer.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cstddef>
 
@@ -93,10 +94,18 @@ std::vector<std::uint8_t> Framebuffer::readRgb() const {
 }
 
 int supportedSamples(int wanted) {
-  GLint color = 1, depth = 1;
-  glGetIntegerv(GL_MAX_COLOR_TEXTURE_SAMPLES, &color);
-  glGetIntegerv(GL_MAX_DEPTH_TEXTURE_SAMPLES, &depth);
-  return std::clamp(wanted, 1, std::min(color, depth));
+  // In descending order; one alone is always possible, and not in the list.
+  std::array<GLint, 16> counts{};
+  for (const GLenum format : {GL_RGBA8, GL_DEPTH_COMPONENT24}) {
+    GLint length = 0;
+    glGetInternalformativ(GL_TEXTURE_2D_MULTISAMPLE, format, GL_NUM_SAMPLE_COUNTS, 1, &length);
+    length = std::min(length, static_cast<GLint>(counts.size()));
+    glGetInternalformativ(GL_TEXTURE_2D_MULTISAMPLE, format, GL_SAMPLES, length, counts.data());
+    const auto end = counts.begin() + length;
+    const auto best = std::find_if(counts.begin(), end, [&](GLint count) { return count <= wanted; });
+    wanted = best == end ? 1 : *best;
+  }
+  return wanted;
 }
 
 }  // namespace clothsim::gl

@@ -51,7 +51,8 @@ class Framebuffer {
   FramebufferFormat format_;
 };
 
-// The most samples, up to `wanted`, that colour and depth attachments can have.
+// The most samples a pixel, up to `wanted`, that colour and depth attachments really have: a driver may round
+// up what it is asked for, and llvmpipe makes 4 of 2.
 [[nodiscard]] int supportedSamples(int wanted);
 
 }  // namespace clothsim::gl

@@ -14,9 +14,10 @@ void ModelTextures::replace(std::string& name, gl::Texture& texture, const std::
 }
 
 void ModelTextures::choose(const ShadingModel& model, const std::string& background) {
-  replace(weaveName_, weave_, model.weave, loadWeave);
+  // The user's own files first: they are what can be wrong.
   if (model.textureUse == TextureUse::print) replace(printName_, print_, model.texture, loadPrint);
   if (model.textureUse == TextureUse::heights) replace(heightsName_, heights_, model.texture, loadHeights);
+  replace(weaveName_, weave_, model.weave, loadWeave);
   const bool needsMap = (model.seesEnvironment || background == "sky") && !sky_;
   if (knowsIrradiance_ && !needsMap) return;
   const Environment environment;

@@ -12,23 +12,28 @@ gl::Program makeNormals(bool withCuts, bool withStrain) {
   return gl::Program::makeCompute("render/normals.comp", defines);
 }
 
-gl::Program makeClothShadow(const ShadingModel& model) {
+// Of what is drawn for its depth alone.
+gl::Program makeDepthOnly(const std::string& vertexFile, const ShadingModel& model) {
   gl::Defines defines;
   if (model.displaces) defines.emplace_back("DISPLACEMENT", "");
-  return gl::Program::makeRender("render/cloth_shadow.vert", "render/depth_only.frag", defines);
+  return gl::Program::makeRender(vertexFile, "render/depth_only.frag", defines);
 }
 
 }  // namespace
 
 RenderPrograms::RenderPrograms(const ShadingModel& model, const std::string& background, int samples)
-    : samples_(samples) {
+    : layBackdrop(gl::Program::makeRender("render/fullscreen.vert", "render/backdrop.frag", {{"LAY", ""}})),
+      resolve(gl::Program::makeRender("render/fullscreen.vert", "render/resolve.frag",
+                                      {{"SAMPLES", std::to_string(samples)}})) {
   chooseModel(model);
   chooseBackground(background);
 }
 
 void RenderPrograms::chooseModel(const ShadingModel& model) {
   gl::Program shading = makeShading(model);
-  clothShadow = makeClothShadow(model);
+  gl::Program depth = makeDepthOnly("render/cloth_depth.vert", model);
+  clothShadow = makeDepthOnly("render/cloth_shadow.vert", model);
+  clothDepth = std::move(depth);
   cloth = std::move(shading);
   if (std::exchange(measuresStrain_, model.measuresStrain) == model.measuresStrain) return;
   normals_.reset();
@@ -36,10 +41,10 @@ void RenderPrograms::chooseModel(const ShadingModel& model) {
 }
 
 void RenderPrograms::chooseBackground(const std::string& background) {
-  gl::Defines defines{{"SAMPLES", std::to_string(samples_)}};
+  gl::Defines defines;
   if (background == "sky") defines.emplace_back("SKY", "");
   if (background == "plain") defines.emplace_back("PLAIN", "");
-  resolve = gl::Program::makeRender("render/fullscreen.vert", "render/resolve.frag", defines);
+  backdrop = gl::Program::makeRender("render/fullscreen.vert", "render/backdrop.frag", defines);
 }
 
 const gl::Program& RenderPrograms::normals(bool withCuts) {

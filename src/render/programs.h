@@ -31,7 +31,7 @@ struct RenderPrograms {
   [[nodiscard]] const PickPrograms& picking();
   [[nodiscard]] const OverlayPrograms& overlays();
 
-  gl::Program cloth, clothShadow, resolve;
+  gl::Program cloth, clothDepth, clothShadow, backdrop, layBackdrop, resolve;
   gl::Program sphere = gl::Program::makeRender("render/sphere.vert", "render/sphere.frag");
   gl::Program shape = gl::Program::makeRender("render/shape.vert", "render/sphere.frag");
   gl::Program plane = gl::Program::makeRender("render/plane.vert", "render/plane.frag");
@@ -42,7 +42,6 @@ struct RenderPrograms {
   gl::Program blurSecondAxis = gl::Program::makeRender("render/fullscreen.vert", "render/floor_shadow.frag");
 
  private:
-  int samples_;
   bool measuresStrain_ = false;
   std::optional<gl::Program> normals_, normalsWithCuts_;
   std::optional<PickPrograms> picking_;

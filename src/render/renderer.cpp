@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "gl/buffer.h"
 #include "gl/framebuffer.h"
+#include "gl/timer.h"
 #include "render/cloth_mesh.h"
 #include "render/colliders.h"
 #include "render/look.h"
@@ -19,7 +20,8 @@
 namespace clothsim {
 namespace {
 
-constexpr GLenum canvasFormat = GL_RGBA8;  // square roots of linear light (shaders/render/tone.glsl)
+constexpr GLenum backdropFormat = GL_RGB10_A2;  // its slow gradients would show steps in 8 bits
+constexpr GLenum canvasFormat = GL_RGBA8;       // square roots of linear light (shaders/render/tone.glsl)
 
 // The longest side of a triangle of cloth: the diagonal of a cell [m].
 double longestEdge(const Cloth& cloth) {
@@ -38,9 +40,20 @@ RenderOptions withSupportedSamples(RenderOptions options) {
 }  // namespace
 
 struct Renderer::Parts {
+  struct Picture {
+    GLuint positions;
+    const Camera* camera;
+    double time;
+    GLuint target;
+    int width, height;
+  };
+
   Parts(const Cloth& drawn, const Scene& first, const RenderOptions& wanted);
 
   void configure(const Scene& edited);
+  // The passes of a picture in their order, each through around(name, pass).
+  template <class Around>
+  void draw(const Picture& picture, Around around);
   void lookFrom(const Camera& camera, int width, int height);
   void uploadFrame();
   void computeNormals(GLuint positions);
@@ -49,6 +62,7 @@ struct Renderer::Parts {
   void drawCloth(GLuint positions);
   void drawOverlay(GLuint positions);
   void drawIdentities(GLuint positions);
+  void drawBackdrop(int width, int height);
   void resolveInto(GLuint destination, int width, int height);
 
   Cloth cloth;
@@ -68,7 +82,8 @@ struct Renderer::Parts {
   ShadowMap shadowMap;
   SpringsOverlay springs;
   std::optional<PickTarget> pickTarget;
-  gl::Framebuffer canvas;
+  gl::Framebuffer canvas, backdrop;
+  bool backdropIsCurrent = false;
   gl::Buffer<shared::RenderFrame> frameBlock{"render frame", 1};
   gl::VertexArray noVertices{"no vertices"};
 };
@@ -102,6 +117,7 @@ void Renderer::Parts::configure(const Scene& edited) {
   shadowMap.cover(stage.reach, glm::vec3(frame.toKeyLight));
   frame.shadowFromWorld = shadowMap.shadowFromWorld();
   frame.toKeyLight.w = shadowMap.texelLength();
+  backdropIsCurrent = false;
 }
 
 void Renderer::Parts::lookFrom(const Camera& camera, int width, int height) {
@@ -148,9 +164,13 @@ void Renderer::Parts::drawScene(GLuint positions, int width, int height) {
   canvas.bind();
   shadowMap.bindTextures();
   const float farthest = 1;
-  const std::array<float, 4> nothing{0, 0, 0, 0};
-  glClearNamedFramebufferfv(canvas.name(), GL_COLOR, 0, nothing.data());
   glClearNamedFramebufferfv(canvas.name(), GL_DEPTH, 0, &farthest);
+  glDisable(GL_DEPTH_TEST);
+  glBindTextureUnit(BACKDROP_UNIT, backdrop.colorTexture());
+  programs.layBackdrop.bind();
+  noVertices.bind();
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
 
   if (!model.blends) drawCloth(positions);
@@ -170,6 +190,12 @@ void Renderer::Parts::drawScene(GLuint positions, int width, int height) {
 }
 
 void Renderer::Parts::drawCloth(GLuint positions) {
+  if (!model.blends) {
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    programs.clothDepth.bind();
+    clothMesh.draw(positions);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  }
   programs.cloth.bind();
   clothMesh.draw(positions);
 }
@@ -189,6 +215,19 @@ void Renderer::Parts::drawIdentities(GLuint positions) {
   colliders.drawSolids(picking.sphere, picking.shape);
   colliders.drawPlanes(picking.plane);
   glDisable(GL_CULL_FACE);
+}
+
+// Only the sky turns with the camera; others are drawn once.
+void Renderer::Parts::drawBackdrop(int width, int height) {
+  const gl::FramebufferFormat format{.width = width, .height = height, .color = backdropFormat};
+  if (backdropIsCurrent && backdrop.format() == format && scene.render.background != "sky") return;
+  if (!(backdrop.format() == format)) backdrop = gl::Framebuffer("backdrop", format);
+  backdrop.bind();
+  glDisable(GL_DEPTH_TEST);
+  programs.backdrop.bind();
+  noVertices.bind();
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  backdropIsCurrent = true;
 }
 
 void Renderer::Parts::resolveInto(GLuint destination, int width, int height) {
@@ -222,6 +261,7 @@ std::optional<std::string> Renderer::reloadShaders() {
     tryAllShaders(parts_->scene.render, parts_->options.samples);
     parts_->programs =
         RenderPrograms(parts_->model, parts_->scene.render.background, parts_->options.samples);
+    parts_->backdropIsCurrent = false;
     return std::nullopt;
   } catch (const Error& error) {
     return error.what();
@@ -251,18 +291,38 @@ Pick Renderer::pick(GLuint positions, const Camera& camera, double time, int wid
   return parts.pickTarget->read(parts.cloth.grids(), clipFromWorld, ndc, camera.eye());
 }
 
+template <class Around>
+void Renderer::Parts::draw(const Picture& picture, Around around) {
+  const auto [positions, camera, time, target, width, height] = picture;
+  if (width <= 0 || height <= 0) return;  // a minimised window
+  colliders.place(scene, stage, time);
+  lookFrom(*camera, width, height);
+  uploadFrame();
+  textures.bind();
+  around("normals", [&, p = positions] { computeNormals(p); });
+  around("shadows", [&, p = positions] { drawShadows(p); });
+  around("backdrop", [&, w = width, h = height] { drawBackdrop(w, h); });
+  around("scene", [&, p = positions, w = width, h = height] { drawScene(p, w, h); });
+  around("resolve", [&, t = target, w = width, h = height] { resolveInto(t, w, h); });
+}
+
 void Renderer::draw(GLuint positions, const Camera& camera, double time, GLuint target, int width,
                     int height) {
-  if (width <= 0 || height <= 0) return;  // a minimised window
-  Parts& parts = *parts_;
-  parts.colliders.place(parts.scene, parts.stage, time);
-  parts.lookFrom(camera, width, height);
-  parts.uploadFrame();
-  parts.textures.bind();
-  parts.computeNormals(positions);
-  parts.drawShadows(positions);
-  parts.drawScene(positions, width, height);
-  parts.resolveInto(target, width, height);
+  parts_->draw({positions, &camera, time, target, width, height},
+               [](const char*, const auto& pass) { pass(); });
+}
+
+std::vector<DrawTime> Renderer::timeDraw(GLuint positions, const Camera& camera, double time, GLuint target,
+                                         int width, int height) {
+  std::vector<DrawTime> times;
+  gl::Timer timer;
+  parts_->draw({positions, &camera, time, target, width, height}, [&](const char* name, const auto& pass) {
+    timer.begin();
+    pass();
+    timer.end();
+    times.push_back({name, timer.seconds()});
+  });
+  return times;
 }
 
 Image renderImage(Renderer& renderer, GLuint positions, const Camera& camera, double time, int width,

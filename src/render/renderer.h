@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cloth/cloth.h"
 #include "gl/api.h"
@@ -25,6 +26,11 @@ struct RenderOptions {
   bool shadows = true;
 };
 
+struct DrawTime {
+  std::string pass;
+  double seconds;
+};
+
 class Renderer {
  public:
   // Builds what does not move: indices, texture coordinates, sphere mesh, programs. @throws OpenGlError
@@ -35,6 +41,10 @@ class Renderer {
   // framebuffer `target` (0: the window) of `width` x `height` pixels. Neither reads back nor uploads
   // positions.
   void draw(GLuint positions, const Camera& camera, double time, GLuint target, int width, int height);
+
+  // draw(), with the time that each pass of it takes; waits for each.
+  std::vector<DrawTime> timeDraw(GLuint positions, const Camera& camera, double time, GLuint target,
+                                 int width, int height);
 
   // Colours, colliders, camera-independent looks from an edited scene with the same grids.
   void configure(const Scene& scene);

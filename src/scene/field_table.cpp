@@ -435,21 +435,26 @@ std::span<const Field<RenderSettings>> fieldsOf<RenderSettings>() {
             "Print (tartan, stripes, checker) or height map (quilt, knit, hammered), or the path of a PNG.")
           .byDefault("of texture: tartan; of bump and displacement: quilt; of fabric: none"),
       field("texture_repeat", &R::textureRepeat, "How often the texture fits along a cloth's longer side.")
-          .within({.low = 0.01, .high = 1000}),
+          .within({.low = 0.01, .high = 1000})
+          .usually(0.5, 50),
       field("weave", &R::weave, "How fabric's threads cross.").oneOf(weaves),
       field("thread_spacing", &R::threadSpacing,
             "From thread to thread of fabric; real cloth has 0.0003 to 0.002.")
           .in("m")
-          .within({.low = 1e-5, .high = 1}),
+          .within({.low = 1e-5, .high = 1})
+          .usually(2e-4, 0.02),
       field("gloss", &R::gloss, "Shine of fabric's threads: 0 is wool, 1 is silk.").within(channel),
       field("normal_strength", &R::normalStrength,
             "How much weaves and bumps tilt the normal: 0 flat, 1 true to their height.")
-          .within({.low = 0, .high = 10}),
+          .within({.low = 0, .high = 10})
+          .usually(0, 3),
       field("height", &R::height, "Of bump and displacement maps, from black to white.")
           .in("m")
-          .within({.low = -1, .high = 1}),
+          .within({.low = -1, .high = 1})
+          .usually(-0.05, 0.05),
       field("strain_range", &R::strainRange, "Stretch, l/L - 1, at which the strain map's scale ends.")
-          .within({.low = 1e-6, .high = 100}),
+          .within({.low = 1e-6, .high = 100})
+          .usually(0.001, 1),
       field("light", &R::light, "Direction towards the main light, of any length.")
           .within({.nonZero = true})
           .byDefault("from the viewer's side, upper left"),

@@ -34,21 +34,20 @@ void findTexture(Scene& scene, const fs::path& scenePath) {
   scene.render.texture = (fs::absolute(scenePath).parent_path() / texture).lexically_normal().string();
 }
 
-// Mesh files beside the scene get their full path; others are looked for below the resource root.
-void findMeshes(Scene& scene, const fs::path& scenePath) {
-  for (Collider& collider : scene.colliders) {
-    auto* mesh = std::get_if<MeshCollider>(&collider);
-    if (mesh == nullptr || fs::path(mesh->file).is_absolute()) continue;
-    const fs::path beside = fs::absolute(scenePath).parent_path() / mesh->file;
-    if (fs::exists(beside)) mesh->file = beside.lexically_normal().string();
-  }
-}
-
 bool isPath(const std::string& nameOrPath) {
   return nameOrPath.find('/') != std::string::npos || nameOrPath.ends_with(".json");
 }
 
 }  // namespace
+
+void findMeshes(Scene& scene, const fs::path& file) {
+  for (Collider& collider : scene.colliders) {
+    auto* mesh = std::get_if<MeshCollider>(&collider);
+    if (mesh == nullptr || fs::path(mesh->file).is_absolute()) continue;
+    const fs::path beside = fs::absolute(file).parent_path() / mesh->file;
+    if (fs::exists(beside)) mesh->file = beside.lexically_normal().string();
+  }
+}
 
 Scene parseScene(std::string_view text, const std::string& source) {
   try {
@@ -92,8 +91,6 @@ Scene loadSceneByName(const std::string& nameOrPath) {
                    "\nbundled scenes: " + list + "\na scene of your own is given by its path, such as ./" +
                    nameOrPath + ".json");
 }
-
-void findFiles(Scene& scene, const fs::path& file) { findMeshes(scene, file); }
 
 std::string formatScene(const Scene& scene) {
   const JsonPointer root = writeScene(scene);

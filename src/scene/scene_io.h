@@ -16,16 +16,16 @@ namespace clothsim {
 // @throws SceneError
 [[nodiscard]] Scene parseScene(std::string_view text, const std::string& source);
 
+// Mesh files that lie beside `file`, from which the scene was read, get their full path; others are looked
+// for below the resource root.
+void findMeshes(Scene& scene, const std::filesystem::path& file);
+
 // Reads a scene file. @throws SceneError (also for a missing or unreadable file: what the user named is not a
 // scene)
 [[nodiscard]] Scene loadScene(const std::filesystem::path& path);
 
 // `-f`'s rule: with a '/' or ending in ".json" a path, else the name of a bundled scene. @throws SceneError
 [[nodiscard]] Scene loadSceneByName(const std::string& nameOrPath);
-
-// What loadScene() does for a scene that was read from a part of `file`: files that it names and that lie
-// beside get their full path.
-void findFiles(Scene& scene, const std::filesystem::path& file);
 
 // JSON text that parseScene turns into an equal scene. Keys at their defaults are left out.
 [[nodiscard]] std::string formatScene(const Scene& scene);

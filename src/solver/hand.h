@@ -4,9 +4,11 @@
 // What is held follows a critically damped spring without mass of its own, integrated implicitly and so
 // stable at any strength: with w = sqrt(strength), the hand's velocity u and v' the velocity after all
 // forces,
-//   v_new = (v' + 2 h w u + h w^2 (goal - x)) / (1 + 2 h w + h^2 w^2),  x_new = x + h v_new.
-// A particle of weight c < 1 takes that part of the change: v' + c (v_new - v'). It comes right after the
-// integration, so that strain limit, self-collision and colliders have the last word. Pinned particles stay.
+//   v_new = (v' + 2 h w u + h w^2 (goal - x)) / (1 + 2 h w + h^2 w^2),  x_new = x + h v_new,
+// and v_new no faster than a hand (30 m/s), so that a goal far away tears nothing out of the cloth in one
+// step. A particle of weight c < 1 takes that part of the change: v' + c (v_new - v'). It comes right after
+// the integration, so that strain limit, self-collision and colliders have the last word. Pinned particles
+// stay.
 #pragma once
 
 #include <cstdint>

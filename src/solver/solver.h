@@ -17,7 +17,7 @@
 
 namespace clothsim {
 
-// What self-collision had to do since the state was set.
+// What self-collision had to do since the solver was made.
 struct ContactCounts {
   std::uint64_t hashBuilds = 0;
   std::uint64_t guardedSteps = 0;  // in which motion had to be cut short

@@ -53,11 +53,12 @@ test::CommandResult validate(const std::string& source, const std::string& stage
 std::vector<gl::Defines> variantsOf(const std::string& file) {
   if (file == "render/floor_shadow.frag") return {{{"FIRST_AXIS", ""}}, gl::Defines{}};
   if (file == "render/normals.comp") return {gl::Defines{}, {{"CUTS", ""}, {"STRAIN", ""}}};
-  if (file == "render/resolve.frag")
-    return {{{"SAMPLES", "1"}}, {{"SAMPLES", "4"}, {"SKY", ""}}, {{"SAMPLES", "2"}, {"PLAIN", ""}}};
+  if (file == "render/resolve.frag") return {{{"SAMPLES", "1"}}, {{"SAMPLES", "4"}}};
+  if (file == "render/backdrop.frag") return {gl::Defines{}, {{"SKY", ""}}, {{"PLAIN", ""}}, {{"LAY", ""}}};
   if (file == "render/cloth.vert")
     return {gl::Defines{}, {{"TANGENT", ""}, {"DISPLACEMENT", ""}}, {{"STRAIN", ""}}};
-  if (file == "render/cloth_shadow.vert") return {gl::Defines{}, {{"DISPLACEMENT", ""}}};
+  if (file == "render/cloth_shadow.vert" || file == "render/cloth_depth.vert")
+    return {gl::Defines{}, {{"DISPLACEMENT", ""}}};
   if (file == "render/fabric.frag")
     return {{{"TANGENT", ""}}, {{"TANGENT", ""}, {"WOVEN", ""}, {"PRINT", ""}}};
   if (file == "render/bump.frag" || file == "render/displacement.frag") return {{{"TANGENT", ""}}};

@@ -52,6 +52,12 @@ struct Picture {
     };
     return {value(0), value(1), value(2)};
   }
+  // Without what lies below, as the bar with the number of the frame.
+  [[nodiscard]] Picture upper(double part) const {
+    Picture cut{width, static_cast<int>(part * height), ""};
+    cut.rgb = rgb.substr(0, 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(cut.height));
+    return cut;
+  }
   // The share of pixels for which the condition holds, in a rectangle given in fractions of the picture.
   template <class Condition>
   [[nodiscard]] double share(double left, double top, double right, double bottom,

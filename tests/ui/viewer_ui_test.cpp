@@ -71,10 +71,11 @@ TEST_F(ViewerUi, RRestartsFromTheSameBeginning) {
   viewer.press("r");
   ASSERT_TRUE(test::eventually(seconds(20), [&] { return viewer.picture() != underWay; }));
   const Picture beginning = viewer.stillPicture();
+  const auto isBeginning = [&](const Picture& picture) { return picture.upper(0.9) == beginning.upper(0.9); };
   viewer.press("n");
-  ASSERT_TRUE(test::eventually(seconds(20), [&] { return viewer.picture() != beginning; }));
+  ASSERT_TRUE(test::eventually(seconds(20), [&] { return !isBeginning(viewer.picture()); }));
   viewer.press("r");
-  EXPECT_TRUE(test::eventually(seconds(20), [&] { return viewer.picture() == beginning; }));
+  EXPECT_TRUE(test::eventually(seconds(20), [&] { return isBeginning(viewer.picture()); }));
 }
 
 TEST_F(ViewerUi, MouseMovesTheCameraAndSpaceBringsItBack) {

@@ -179,8 +179,7 @@ TEST_F(PanelsUi, OpenAndFoldAtAClickAndAreRememberedInTheUsersFolderOfConfigurat
   const double x = 0.85, first = 20.0 / 600, next = 30.0 / 600;
   const auto click = [&](std::size_t panel) {
     viewer.perform("at " + std::to_string(x) + " " +
-                   std::to_string(first + static_cast<double>(panel) * next) +
-                   " sleep 0.2 click 1 sleep 0.1 at 0.3 0.9");
+                   std::to_string(first + static_cast<double>(panel) * next) + " sleep 0.3 click 1");
   };
   click(0);
   ASSERT_TRUE(settingsSay("\"simulation\": false")) << viewer.settings();

@@ -47,6 +47,34 @@ bool combo(std::string& chosen, const std::vector<std::string>& words) {
   return changed;
 }
 
+bool textLine(std::string& text) {
+  std::array<char, 512> typed{};
+  std::snprintf(typed.data(), typed.size(), "%s", text.c_str());
+  if (!ImGui::InputText("##value", typed.data(), typed.size(), ImGuiInputTextFlags_EnterReturnsTrue))
+    return false;
+  text = typed.data();
+  return true;
+}
+
+// As combo(), with a line below the words for any other text.
+bool openCombo(std::string& chosen, const std::vector<std::string>& words) {
+  const auto shown = [](const std::string& word) { return word.empty() ? "none" : word.c_str(); };
+  bool changed = false;
+  if (!ImGui::BeginCombo("##value", shown(chosen))) return false;
+  for (const std::string& word : words) {
+    if (!ImGui::Selectable(shown(word), word == chosen)) continue;
+    changed = word != chosen;
+    chosen = word;
+  }
+  ImGui::SetNextItemWidth(12 * em());
+  if (textLine(chosen)) {
+    changed = true;
+    ImGui::CloseCurrentPopup();
+  }
+  ImGui::EndCombo();
+  return changed;
+}
+
 double clampTo(const Limits& limits, double value, double smallest) {
   const double low = limits.lowOpen ? limits.low + smallest : limits.low;
   return std::clamp(value, low, limits.high);
@@ -142,41 +170,60 @@ void FieldWidgets::control(const FieldTraits& field, std::string_view path, std:
                                   [&](const Choices& choices) { return choices.path == place; });
   beginRow(field, path, "");
   bool changed = false;
-  const std::vector<std::string> words =
-      found != choices_.end() ? found->words
-                              : std::vector<std::string>(field.choices.begin(), field.choices.end());
-  if (!words.empty()) {
-    changed = combo(value, words);
-    endRow(field, path, changed, changed);
-    return;
-  }
-  std::array<char, 512> text{};
-  std::snprintf(text.data(), text.size(), "%s", value.c_str());
-  changed = ImGui::InputText("##value", text.data(), text.size(), ImGuiInputTextFlags_EnterReturnsTrue);
-  if (changed) value = text.data();
+  if (!field.choices.empty())
+    changed = combo(value, {field.choices.begin(), field.choices.end()});
+  else if (found != choices_.end())
+    changed = openCombo(value, found->words);
+  else
+    changed = textLine(value);
   endRow(field, path, changed, changed);
 }
 
-void FieldWidgets::control(const FieldTraits& field, std::string_view path, Vec3d& value) {
-  const bool isColor = field.format == Format::color;
-  beginRow(field, path, isColor ? "" : field.unit);
-  bool changed = false;
-  if (isColor) {
+bool FieldWidgets::vector(const FieldTraits& field, Vec3d& value) {
+  if (field.format == Format::color) {
     float color[3] = {static_cast<float>(value.x), static_cast<float>(value.y), static_cast<float>(value.z)};
-    changed = ImGui::ColorEdit3("##value", color,
-                                ImGuiColorEditFlags_DisplayHex | ImGuiColorEditFlags_PickerHueWheel);
-    if (changed) value = {color[0], color[1], color[2]};
-  } else {
-    const Usual range = sliderRange(field, std::max({value.x, value.y, value.z}));
-    const float speed = static_cast<float>((range.high - range.low) / 400);
-    double* const first = &value.x;
-    const Vec3d before = value;
-    changed = ImGui::DragScalarN("##value", ImGuiDataType_Double, first, 3, speed, nullptr, nullptr, "%.4g");
-    for (double* component : {&value.x, &value.y, &value.z})
-      *component = clampTo(field.limits, *component, 1e-6 * range.high);
-    if (field.limits.nonZero && value == Vec3d{}) value = before;
+    if (!ImGui::ColorEdit3("##value", color,
+                           ImGuiColorEditFlags_DisplayHex | ImGuiColorEditFlags_PickerHueWheel))
+      return false;
+    value = {color[0], color[1], color[2]};
+    return true;
   }
+  const Usual range = sliderRange(field, std::max({value.x, value.y, value.z}));
+  const float speed = static_cast<float>((range.high - range.low) / 400);
+  const Vec3d before = value;
+  if (!ImGui::DragScalarN("##value", ImGuiDataType_Double, &value.x, 3, speed, nullptr, nullptr, "%.4g"))
+    return false;
+  for (double* component : {&value.x, &value.y, &value.z})
+    *component = clampTo(field.limits, *component, 1e-6 * range.high);
+  if (field.limits.nonZero && value == Vec3d{}) value = before;
+  return true;
+}
+
+void FieldWidgets::control(const FieldTraits& field, std::string_view path, Vec3d& value) {
+  beginRow(field, path, field.format == Format::color ? "" : field.unit);
+  const bool changed = vector(field, value);
   endRow(field, path, changed, ImGui::IsItemDeactivatedAfterEdit());
+}
+
+// A direction or place that may be left to the program.
+void FieldWidgets::control(const FieldTraits& field, std::string_view path, std::optional<Vec3d>& value) {
+  beginRow(field, path, field.unit);
+  bool on = value.has_value(), finished = false;
+  bool changed = ImGui::Checkbox("##on", &on);
+  if (changed) {
+    value = on ? std::optional(Vec3d{0, 1, 0}) : std::nullopt;
+    finished = true;
+  }
+  helpTip(helpOf(field, path));
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  if (value) {
+    changed = vector(field, *value) || changed;
+    finished = ImGui::IsItemDeactivatedAfterEdit() || finished;
+  } else {
+    quietText("by itself");
+  }
+  endRow(field, path, changed, finished);
 }
 
 template <class Enum>

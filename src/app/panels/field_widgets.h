@@ -39,7 +39,7 @@ class FieldWidgets {
         if (field.key == key) row(field, owner, path);
     endRows();
   }
-  // Texts that the string field of that path may have: it gets a list to choose from.
+  // Texts to choose from in the string field of that path, which may also have others: "" is shown as "none".
   void offer(std::string path, std::vector<std::string> words) {
     choices_.push_back({std::move(path), std::move(words)});
   }
@@ -73,6 +73,8 @@ class FieldWidgets {
   void control(const FieldTraits& field, std::string_view path, FrictionLaw& value);
   void control(const FieldTraits& field, std::string_view path, std::optional<double>& value);
   void control(const FieldTraits& field, std::string_view path, std::optional<Material>& value);
+  void control(const FieldTraits& field, std::string_view path, std::optional<Vec3d>& value);
+  bool vector(const FieldTraits& field, Vec3d& value);
   template <class Enum>
   void wordControl(const FieldTraits& field, std::string_view path, Enum& value);
 

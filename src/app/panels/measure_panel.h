@@ -16,8 +16,8 @@ namespace clothsim {
 
 class MeasurePanel {
  public:
-  // `strainMap`: whether the picture shows strain as colours, for which there is a legend.
-  void draw(Session& session, bool strainMap);
+  // `look`: of the picture; where it shows strain as colours, there is a legend.
+  void draw(Session& session, const RenderSettings& look);
 
   // While the panel is open: takes a sample when it is time for one. `particleUnderCursor` is asked then.
   template <class UnderCursor>

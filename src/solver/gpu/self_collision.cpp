@@ -1,5 +1,8 @@
 #include "solver/gpu/self_collision.h"
 
+#include <cstddef>
+#include <span>
+#include <string>
 #include <utility>
 
 #include "shared/step_params.h"
@@ -73,7 +76,8 @@ void GpuSelfCollision::allocate(const SelfParams<float>& params) {
   checkFits(particles * (MOST_CANDIDATES + 1), sizeof(std::uint32_t), "contact candidates");
   params_ = gl::Buffer<SelfParams<float>>("self-collision parameters", 1);
   distances_ = gl::Buffer<float>("contact distances", cloth_->grids().size() * NEAREST_CODES);
-  flags_ = gl::Buffer<Flags>("contact flags", 1);
+  const Flags none;
+  flags_ = gl::Buffer<Flags>("contact flags", std::span<const Flags>(&none, 1));
   buckets_ = gl::Buffer<std::uint32_t>("hash buckets", std::size_t{params.bucketMask} + 1);
   bucketBlocks_ = gl::Buffer<std::uint32_t>("hash bucket blocks", params.bucketBlocks);
   candidates_ = gl::Buffer<std::uint32_t>("contact candidates", particles * (MOST_CANDIDATES + 1));
@@ -98,7 +102,10 @@ void GpuSelfCollision::allocate(const SelfParams<float>& params) {
 }
 
 void GpuSelfCollision::restart() {
-  if (flags_.name() != 0) flags_.upload(std::vector<Flags>(1));
+  if (flags_.name() == 0) return;
+  static constexpr GLuint stale = 1;
+  glClearNamedBufferSubData(flags_.name(), GL_R32UI, offsetof(Flags, stale), sizeof stale, GL_RED_INTEGER,
+                            GL_UNSIGNED_INT, &stale);
 }
 
 void GpuSelfCollision::bind() const {

@@ -43,7 +43,7 @@ class GpuSelfCollision {
   void guard(PassRunner& runner, const ParticleArray& positions, const BindGrid& bindGrid);
   // Whether the masks of cuts are bound in the passes. Forgets the hash.
   void setCut(bool cut);
-  // For a new state: forgets the hash.
+  // For a new state: forgets the hash. The counts go on.
   void restart();
 
   [[nodiscard]] ContactCounts counts() const;

@@ -158,8 +158,12 @@ TEST_F(SessionTest, KeepsWithinItsBudgetAndForgetsTheOldestFirst) {
   EXPECT_EQ(session.oldestFrame(), 4);
   session.setSnapshotBudget(2 * frameBytes);
   EXPECT_EQ(session.oldestFrame(), 7);
+  session.seek(7);
   session.setSnapshotBudget(0);
-  EXPECT_EQ(session.oldestFrame(), 8) << "the last one stays, to go back to after trouble";
+  EXPECT_EQ(session.frame(), 7) << "who looks at it still sees it";
+  session.seek(9);
+  EXPECT_EQ(session.frame(), 9);
+  EXPECT_EQ(session.oldestFrame(), 9) << "the last one stays, to go back to after trouble";
 }
 
 TEST_F(SessionTest, GoesBackToTheLastSoundFrameAndLetsGoAfterTrouble) {

@@ -7,10 +7,13 @@
 #include "app/clip_recorder.h"
 #include "app/numbered_files.h"
 #include "app/panels/field_widgets.h"
+#include "app/session.h"
 #include "app/viewer.h"
 #include "app/viewer_config.h"
 #include "app/viewer_keys.h"
 #include "core/files.h"
+#include "scene/scene_io.h"
+#include "solver/state.h"
 #include "support/temporary_folder.h"
 
 namespace clothsim {
@@ -184,6 +187,40 @@ TEST(ClipRecorder, WithoutFfmpegWritesNumberedPicturesThatPlayInRealTime) {
   EXPECT_NE(clip.finish().find("demo-cpu-frames"), std::string::npos);
   EXPECT_TRUE(fs::exists(folder / "demo-cpu-frames" / "frame_0029.png"));
   EXPECT_FALSE(fs::exists(folder / "demo-cpu-frames" / "frame_0032.png"));
+}
+
+Scene smallScene() {
+  Scene scene = loadSceneByName("pinned2");
+  (void)changeResolution(scene, 12, 12, true);
+  return scene;
+}
+
+TEST(SessionPulse, ChangesNoBitHoweverAFrameIsDividedByIt) {
+  Session plain(smallScene(), "cpu"), watched(smallScene(), "cpu");
+  int pulses = 0;
+  watched.setPulse([&] {
+    ++pulses;
+    return true;
+  });
+  for (Session* session : {&plain, &watched}) {
+    EXPECT_FALSE(session->stepFrames(3));
+    session->act(Grab{.particle = 70, .target = {0.5, 1.2, 0.5}, .strength = 1e4, .radius = 0.2});
+    EXPECT_FALSE(session->stepFrames(3));
+  }
+  EXPECT_EQ(stateHash(plain.simulation().solver().state()), stateHash(watched.simulation().solver().state()));
+}
+
+TEST(SessionPulse, ThatSaysNoEndsSteppingAndLeavesTheFrameBefore) {
+  // A frame of so many steps takes longer than a pulse waits.
+  Scene scene = loadSceneByName("pinned2");
+  scene.solver.simulationSteps = 100000;
+  Session session(scene, "cpu");
+  const std::uint64_t before = stateHash(session.simulation().solver().state());
+  session.setPulse([] { return false; });
+  EXPECT_FALSE(session.stepFrames(2));
+  EXPECT_EQ(session.frame(), 0);
+  EXPECT_EQ(session.step(), 0u);
+  EXPECT_EQ(stateHash(session.simulation().solver().state()), before);
 }
 
 }  // namespace

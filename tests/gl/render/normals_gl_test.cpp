@@ -21,8 +21,12 @@ Scene sheets(int count, int columns, int rows) {
   return scene;
 }
 
-// The normals of a single sheet laid over a surface, row by row.
-std::vector<glm::vec4> normalsOf(const Cloth& cloth, const Surface& surface) {
+struct Measured {
+  std::vector<glm::vec4> normals, tangents;
+};
+
+// Of sheets laid over a surface, row by row.
+Measured measure(const Cloth& cloth, const Surface& surface, const Cuts& cuts = {}, bool strain = false) {
   std::vector<Particle4> positions(cloth.particleCount());
   for (const Grid& grid : cloth.grids()) {
     for (int row = 0; row < grid.rows; ++row) {
@@ -36,10 +40,18 @@ std::vector<glm::vec4> normalsOf(const Cloth& cloth, const Surface& surface) {
   }
   const gl::Buffer<Particle4> buffer("positions", positions);
   ClothMesh mesh(cloth);
-  const gl::Program pass = gl::Program::makeCompute("render/normals.comp");
-  mesh.computeNormals(pass, buffer.name());
+  mesh.setCuts(cloth, cuts);
+  mesh.keepRestPositions(cloth);
+  gl::Defines defines;
+  if (!cuts.empty()) defines.emplace_back("CUTS", "");
+  if (strain) defines.emplace_back("STRAIN", "");
+  mesh.computeNormals(gl::Program::makeCompute("render/normals.comp", defines), buffer.name());
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-  return mesh.normals().download();
+  return {mesh.normals().download(), mesh.tangents().download()};
+}
+
+std::vector<glm::vec4> normalsOf(const Cloth& cloth, const Surface& surface) {
+  return measure(cloth, surface).normals;
 }
 
 double angle(glm::vec4 normal, glm::dvec3 expected) {
@@ -108,6 +120,57 @@ TEST_F(NormalsTest, TellTheHollowOfAFoldFromItsRidge) {
   const auto hollowAt = [&](int column) { return normals[static_cast<std::size_t>(32 * points + column)].w; };
   EXPECT_GT(hollowAt(16), 0.02) << "the bottom of the wave, seen from its front";
   EXPECT_LT(hollowAt(32), -0.02) << "its top";
+}
+
+TEST_F(NormalsTest, TangentsLieInTheSurfaceAlongU) {
+  const Cloth cloth(sheets(1, 41, 33));
+  const Surface wave = [](double u, double v) {
+    return Vec3d{u + 0.2 * v, 0.05 * std::sin(6 * u) * std::cos(5 * v), v};
+  };
+  const Measured measured = measure(cloth, wave);
+  const Grid& grid = cloth.grids()[0];
+  for (int row = 0; row < grid.rows; ++row) {
+    for (int column = 1; column + 1 < grid.columns; ++column) {
+      const double u = static_cast<double>(column) / (grid.columns - 1);
+      const double v = static_cast<double>(row) / (grid.rows - 1);
+      const std::uint32_t particle = grid.particle(column, row);
+      const glm::dvec3 expected =
+          glm::normalize(glm::dvec3(1, 0.05 * 6 * std::cos(6 * u) * std::cos(5 * v), 0));
+      EXPECT_LT(angle(measured.tangents[particle], expected), 0.02);
+      EXPECT_NEAR(glm::dot(glm::vec3(measured.tangents[particle]), glm::vec3(measured.normals[particle])), 0,
+                  1e-5);
+    }
+  }
+}
+
+// Two flat halves that meet at an angle between columns 4 and 5: cut apart there, each has its own normal up
+// to the edge.
+TEST_F(NormalsTest, NextToACutAreThoseOfTheirOwnSide) {
+  const Cloth cloth(sheets(1, 10, 7));
+  const Surface roof = [](double u, double v) { return u < 0.5 ? Vec3d{u, u, v} : Vec3d{u + 0.1, 1 - u, v}; };
+  Cuts cuts;
+  ASSERT_TRUE(cutAlong(cuts, cloth, 0, {4.5, -1}, {4.5, 8}));
+  const Measured whole = measure(cloth, roof), cut = measure(cloth, roof, cuts);
+  const Grid& grid = cloth.grids()[0];
+  const double s = std::sqrt(0.5);
+  for (int row = 0; row < grid.rows; ++row) {
+    EXPECT_NEAR(angle(cut.normals[grid.particle(4, row)], {-s, s, 0}), 0, 1e-5);
+    EXPECT_NEAR(angle(cut.normals[grid.particle(5, row)], {s, s, 0}), 0, 1e-5);
+    EXPECT_NEAR(angle(cut.tangents[grid.particle(4, row)], {s, s, 0}), 0, 1e-5);
+    EXPECT_GT(angle(whole.normals[grid.particle(4, row)], {-s, s, 0}), 0.2);
+  }
+}
+
+TEST_F(NormalsTest, BesideThemStrainIsTheLargestOfSidesAndDiagonalsThatAreLeft) {
+  const Cloth cloth(sheets(1, 11, 11));  // 1 m x 1 m
+  const Surface stretched = [](double u, double v) { return Vec3d{1.08 * u, 1, 0.97 * v}; };
+  for (const glm::vec4 tangent : measure(cloth, stretched, {}, true).tangents)
+    EXPECT_NEAR(tangent.w, 0.08, 1e-5);
+  const Surface apart = [](double u, double v) { return Vec3d{u + (u > 0.45 ? 0.5 : 0), 1, v}; };
+  Cuts cuts;
+  cutAlong(cuts, cloth, 0, {4.5, -1}, {4.5, 12});
+  EXPECT_GT(measure(cloth, apart, {}, true).tangents[4].w, 4);
+  EXPECT_NEAR(measure(cloth, apart, cuts, true).tangents[4].w, 0, 1e-5);
 }
 
 }  // namespace

@@ -1,27 +1,14 @@
 // The picture: against a stored one with a tolerance that broken shading exceeds, and rule by rule.
 #include "render/renderer.h"
 
-#define STB_IMAGE_IMPLEMENTATION
-#define STB_IMAGE_STATIC
-#define STBI_ONLY_PNG
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wunused-function"
-#include <stb/stb_image.h>
-#pragma GCC diagnostic pop
-
 #include <array>
-#include <fstream>
 
 #include "core/error.h"
-#include "core/files.h"
-#include "export/export.h"
 #include "gl/framebuffer.h"
 #include "gl/gl_test.h"
-#include "gl/render/picture.h"
+#include "gl/render/reference_picture.h"
 #include "render/shading_models.h"
 #include "solver/solver.h"
-#include "support/command.h"
-#include "support/temporary_folder.h"
 
 namespace clothsim {
 namespace {
@@ -31,51 +18,23 @@ using test::drawDrape;
 using test::meanDifference;
 using test::pixelAt;
 
-constexpr double TOLERANCE = 1.0;  // of 255, mean over the picture
-
-const std::filesystem::path referenceFile =
-    std::filesystem::path(TEST_DATA) / "gl/render/references/drape.png";
-
-Image loadReference() {
-  Image image;
-  int channels = 0;
-  stbi_uc* data = stbi_load(referenceFile.c_str(), &image.width, &image.height, &channels, 3);
-  if (data == nullptr) return image;
-  image.rgb.assign(data, data + 3 * image.width * image.height);
-  stbi_image_free(data);
-  return image;
-}
+using test::TOLERANCE;
 
 using RendererTest = GlTest;
 
-// Stored by this test on llvmpipe (Mesa 22.3.6) and looked at; CLOTHSIM_STORE_REFERENCES=1 stores it anew.
 TEST_F(RendererTest, DrawsTheDrapeAsInTheStoredPicture) {
-  const Image image = drawDrape(drapeScene());
-  if (std::getenv("CLOTHSIM_STORE_REFERENCES") != nullptr)
-    savePng(referenceFile, image.width, image.height, image.rgb);
-  EXPECT_LT(meanDifference(image, loadReference()), TOLERANCE);
+  EXPECT_LT(test::differenceFromReference("drape", drawDrape(drapeScene())), TOLERANCE);
 }
 
-// Runs the test above with one shader changed, in a process of its own, since a program looks for its shaders
-// once.
+// Runs the test above with one shader changed.
 class BrokenShaderTest : public ::testing::Test {
  protected:
   static void expectSeen(const std::string& file, const std::string& from, const std::string& to) {
-    const test::TemporaryFolder root;
-    const std::filesystem::path source = SOURCE_ROOT;
-    for (const char* folder : {"shaders", "assets"}) {
-      std::filesystem::copy(source / folder, root / folder, std::filesystem::copy_options::recursive);
-    }
-    std::string text = readFile(source / "shaders" / file);
-    const std::size_t place = text.find(from);
-    ASSERT_NE(place, std::string::npos) << "the shader has changed: so must this test";
-    std::ofstream(root / ("shaders/" + file)) << text.replace(place, from.size(), to);
-    const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
-    const test::CommandResult result =
-        test::runCommand("CLOTHSIM_ROOT='" + root.path().string() + "' '" + self +
-                         "' --gtest_filter=RendererTest.DrawsTheDrapeAsInTheStoredPicture 2>&1");
+    const test::ResourceCopy resources;
+    ASSERT_TRUE(resources.change(file, from, to)) << file << " has changed: so must this test";
+    const test::CommandResult result = resources.runTests("RendererTest.DrawsTheDrapeAsInTheStoredPicture");
     EXPECT_EQ(result.exitCode, 1) << result.output;
-    EXPECT_NE(result.output.find("Expected: (meanDifference"), std::string::npos)
+    EXPECT_NE(result.output.find("Expected: (test::differenceFromReference"), std::string::npos)
         << "another failure: " << result.output;
   }
 };

@@ -145,6 +145,25 @@ TEST_F(HandOnGpuTest, GoesBackToSnapshotsOfEitherBackend) {
   EXPECT_EQ(difference(gpu.state(), after).differing, 0u);
 }
 
+// A cut and an edit begin with a new hash, and forget nothing that a run has to tell.
+TEST_F(HandOnGpuTest, CountsContactsOverCutsAsTheCpuDoes) {
+  Scene scene = test::layeredSheets(10, SelfCollision::robust);
+  scene.solver.simulationSteps = 5;
+  const Cloth cloth(scene);
+  GpuSolver gpu(cloth, scene);
+  CpuSolver<float> cpu(cloth, scene);
+  for (Solver* solver : {static_cast<Solver*>(&gpu), static_cast<Solver*>(&cpu)}) {
+    solver->setHand(test::handTo(*solver, cloth, scene, 155, {0.5, -3, 0.5}, 1e9));
+    solver->step(15);
+    solver->setCuts(test::someCuts(cloth));
+    solver->configure(scene);
+    solver->step(20);
+  }
+  EXPECT_GT(cpu.contactCounts().fastSteps, 0u);
+  EXPECT_EQ(gpu.contactCounts().fastSteps, cpu.contactCounts().fastSteps);
+  EXPECT_EQ(gpu.contactCounts().hashBuilds, cpu.contactCounts().hashBuilds);
+}
+
 // A snapshot's buffers are its own, also when the solver is gone.
 TEST_F(HandOnGpuTest, ReusesTheMemoryOfASnapshotThatIsNeededNoMore) {
   const Scene scene = test::vertical(test::sheetScene(8));

@@ -1,0 +1,12 @@
+// The backdrop, kept as on the canvas but finer; or, to begin a picture, laid on the canvas.
+#include "render/background.glsl"
+#include "render/tone.glsl"
+
+layout(location = 0) out vec4 color;
+
+#ifdef LAY
+layout(binding = BACKDROP_UNIT) uniform sampler2D backdrop;
+void main() { color = vec4(texelFetch(backdrop, ivec2(gl_FragCoord.xy), 0).rgb + dither(gl_FragCoord.xy), 1.0); }
+#else
+void main() { color = vec4(canvasFromLight(backgroundLight(gl_FragCoord.xy)), 1.0); }
+#endif

@@ -1,0 +1,72 @@
+// Every shading model against a stored picture, with a tolerance that broken shading exceeds.
+#include "render/shading_models.h"
+
+#include "gl/gl_test.h"
+#include "gl/render/reference_picture.h"
+
+namespace clothsim {
+namespace {
+
+constexpr int width = 160, height = 120;
+
+Scene drapeWith(const std::string& model) {
+  Scene scene = test::drapeScene();
+  scene.camera.position = Vec3d{1.05, 0.85, 1.55};
+  scene.camera.target = Vec3d{0.52, 0.42, 0.5};
+  scene.render.shader = model;
+  scene.render.threadSpacing = 0.02;
+  Sphere inTheLight;  // throws its shadow on the cloth
+  inTheLight.origin = {0.32, 1.0, 0.82};
+  inTheLight.radius = 0.09;
+  scene.colliders.emplace_back(inTheLight);
+  return scene;
+}
+
+class ShadingModelPicture : public GlTest, public ::testing::WithParamInterface<std::string> {};
+
+TEST_P(ShadingModelPicture, IsTheStoredOne) {
+  const Image image = test::drawDrape(drapeWith(GetParam()), {}, width, height);
+  EXPECT_LT(test::differenceFromReference("model_" + GetParam(), image), test::TOLERANCE);
+}
+
+TEST_P(ShadingModelPicture, WithoutShadowsIsAnother) {
+  RenderOptions without;
+  without.shadows = false;
+  const Image image = test::drawDrape(drapeWith(GetParam()), without, width, height);
+  EXPECT_GT(test::meanDifference(image, test::loadReference("model_" + GetParam())), 2 * test::TOLERANCE);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ShadingModelPicture, ::testing::ValuesIn(shadingModelNames()),
+                         [](const auto& name) { return name.param; });
+
+// Breaks one shader, and expects the comparisons of `models`, and no others, to fail by it.
+void expectSeen(const std::string& file, const std::string& from, const std::string& to,
+                const std::vector<std::string>& models) {
+  const test::ResourceCopy resources;
+  ASSERT_TRUE(resources.change(file, from, to)) << file << " has changed: so must this test";
+  const test::CommandResult result = resources.runTests("All/ShadingModelPicture.IsTheStoredOne/*");
+  for (const std::string& model : shadingModelNames()) {
+    const bool failed =
+        result.output.find("FAILED  ] All/ShadingModelPicture.IsTheStoredOne/" + model) != std::string::npos;
+    const bool mustFail = std::find(models.begin(), models.end(), model) != models.end();
+    EXPECT_EQ(failed, mustFail) << model << "\n" << result.output;
+  }
+}
+
+// A mirror does not mind: it reflects alike for both directions of its normal.
+TEST(BrokenShadingModel, FlippedNormalsAreSeenByAllThatLookAtNormals) {
+  expectSeen("render/normals.comp", "sum / area", "-sum / area",
+             {"fabric", "phong", "diffuse", "texture", "bump", "displacement", "normal", "strain"});
+}
+// In the wireframe the ball below is seen.
+TEST(BrokenShadingModel, MissingShadowsOnTheClothAreSeenByAllThatAreLit) {
+  expectSeen("render/shadow.glsl", "return 0.25 * sum;", "return 1.0;",
+             {"fabric", "phong", "diffuse", "texture", "bump", "displacement", "wireframe"});
+}
+TEST(BrokenShadingModel, TangentsAlongVInsteadOfUAreSeenWhereAReliefTurnsWithThem) {
+  expectSeen("render/normals.comp", "vec3 along = right - left;", "vec3 along = upper - lower;",
+             {"bump", "displacement"});
+}
+
+}  // namespace
+}  // namespace clothsim
