@@ -19,6 +19,13 @@ std::optional<std::string> includedFile(const std::string& line) {
   return match[1].str();
 }
 
+// Mesa forgets the source number of most errors, so the line numbers that it is told tell the file, too.
+constexpr std::size_t linesPerFile = 10'000;
+
+std::string lineDirective(std::size_t line, std::size_t file) {
+  return "#line " + std::to_string(file * linesPerFile + line) + " " + std::to_string(file) + "\n";
+}
+
 class Loader {
  public:
   void append(const std::string& file) {
@@ -33,12 +40,12 @@ class Loader {
     source.files.push_back(file);
     const std::size_t number = source.files.size() - 1;
     std::istringstream lines(readFile(resourceRoot() / "shaders" / file));
-    source.text += "#line 1 " + std::to_string(number) + "\n";
+    source.text += lineDirective(1, number);
     std::string line;
-    for (int lineNumber = 1; std::getline(lines, line); ++lineNumber) {
+    for (std::size_t lineNumber = 1; std::getline(lines, line); ++lineNumber) {
       if (const auto included = includedFile(line)) {
         append(*included);
-        source.text += "#line " + std::to_string(lineNumber + 1) + " " + std::to_string(number) + "\n";
+        source.text += lineDirective(lineNumber + 1, number);
       } else {
         source.text += line + "\n";
       }
@@ -71,8 +78,9 @@ std::string readableLog(const std::string& log, const ShaderSource& source) {
   for (std::string line; std::getline(lines, line);) {
     std::smatch match;
     if (std::regex_search(line, match, place) && match[2].length() <= 4) {
-      const std::size_t file = std::stoul(match[2].str());
-      const std::string number = match[3].matched ? match[3].str() : match[4].str();
+      const std::size_t told = std::stoul(match[3].matched ? match[3].str() : match[4].str());
+      const std::size_t file = told < linesPerFile ? std::stoul(match[2].str()) : told / linesPerFile;
+      const std::string number = std::to_string(told % linesPerFile);
       if (file < source.files.size()) {
         line = match.prefix().str() + match[1].str() + "shaders/" + source.files[file] + ":" + number +
                match.suffix().str();

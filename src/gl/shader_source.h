@@ -12,7 +12,7 @@ using Defines = std::vector<std::pair<std::string, std::string>>;  // name, valu
 
 struct ShaderSource {
   std::string text;                // begins with #version 450 core
-  std::vector<std::string> files;  // #line's source number is an index into this
+  std::vector<std::string> files;  // an index into this is #line's source number, and its line over 10,000
 };
 // @throws InputOutputError for a missing file, OpenGlError for an include that goes round in a circle
 [[nodiscard]] ShaderSource loadShaderSource(const std::string& file, const Defines& defines);

@@ -75,6 +75,13 @@ TEST_F(ProgramTest, AnErrorInAnIncludedFileNamesThatFileAndItsLine) {
   EXPECT_NE(errorOf(file).find("shaders/" + header + ":3"), std::string::npos) << errorOf(file);
 }
 
+TEST_F(ProgramTest, AnErrorInAnIncludedFunctionDoesSoToo) {
+  const std::string header = write("wrong2.glsl", "\n\nvoid f() {\n  nonsense;\n}\n");
+  const std::string file =
+      write("d.comp", "#include \"" + header + "\"\nlayout(local_size_x = 1) in;\nvoid main() {}\n");
+  EXPECT_NE(errorOf(file).find("shaders/" + header + ":4"), std::string::npos) << errorOf(file);
+}
+
 TEST_F(ProgramTest, LinesAfterAnIncludeKeepTheirNumbers) {
   const std::string header = write("fine.glsl", "\n\n\n\n");
   const std::string file =

@@ -1,0 +1,34 @@
+// The threads of woven cloth. Before the include: tangent_frame.glsl.
+#include "render/cloth_grid.glsl"
+#include "render/frame.glsl"
+
+#ifdef WOVEN
+layout(binding = WEAVE_UNIT) uniform sampler2D weave;
+#endif
+
+const float SLOPE_RANGE = 3.0;      // of the weaves' pictures (tools/make_textures)
+const float FLATTENED = 0.5;        // threads are pressed flat, compared with those pictures
+
+struct Threads {
+  vec2 slope;   // of their surface, along u and v
+  float light;  // that reaches down between them
+  float warp;   // part of the surface that is warp, the threads along v
+};
+
+Threads threadsAt(vec2 uv, float side) {
+#ifdef WOVEN
+  // One mipmap smaller than usual: the weave repeats every two threads, which a pixel of one thread would turn into moire.
+  vec4 stored = texture(weave, uv * vec2(grid.width, grid.height) * frame.fabric.x, 1.0);
+  vec2 slope = (stored.rg * 2.0 - 256.0 / 255.0) * (SLOPE_RANGE * FLATTENED * frame.relief.x);
+  return Threads(slope, stored.b, side > 0.0 ? stored.a : 1.0 - stored.a);  // what is below on one side is above on the other
+#else
+  return Threads(vec2(0), 1.0, 0.5);
+#endif
+}
+
+// Highlights of fibres along u (weft) and v (warp).
+float threadShine(TangentFrame t, float warp, vec3 halfway, float exponent) {
+  float alongU = dot(t.u, halfway), alongV = dot(t.v, halfway);
+  float weftShine = pow(1.0 - alongU * alongU, exponent), warpShine = pow(1.0 - alongV * alongV, exponent);
+  return mix(weftShine, warpShine, warp);
+}
