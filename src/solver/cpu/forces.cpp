@@ -1,0 +1,358 @@
+// The first pass of a step: springs, bending and air, gathered by each particle in a fixed order. The twin of
+// shaders/sim/{forces,springs,bending,air}.glsl.
+#include "solver/cpu/passes.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/exact_math.h"
+#include "solver/cpu/rows.h"
+#include "solver/cpu/watch.h"
+
+namespace clothsim::cpu {
+namespace {
+
+// Hooke's law: k (l - L) along the unit vector from a to b.
+template <class Real>
+INLINE Vec3<Real> springForce(Vec3<Real> a, Vec3<Real> b, Real stiffness, Real restLength) {
+  const Vec3<Real> d = b - a;
+  const Real lengthSquared = dot(d, d);
+  const Real inverseLength = inverseSquareRoot(lengthSquared);
+  const Real length = lengthSquared * inverseLength;
+  const Real scale = (stiffness * (length - restLength)) * inverseLength;
+  return scale * d;
+}
+
+// What of the jet arrives at x, 0 to 1 (solver/hand.h).
+template <class Real>
+INLINE Real jetShare(const HandParams<Real>& hand, Vec3<Real> x) {
+  const Vec3<Real> direction{hand.directionX, hand.directionY, hand.directionZ};
+  const Vec3<Real> d = x - Vec3<Real>{hand.originX, hand.originY, hand.originZ};
+  const Real along = dot(d, direction);
+  const Vec3<Real> across = d - along * direction;
+  const Real inside = Real(1) - hand.inverseRadiusSquared * dot(across, across);
+  const Real rise = hand.inverseRadius * along;
+  const Real risen = rise < Real(1) ? rise : Real(1);
+  const Real share = (inside * inside) * risen;
+  const bool reached = (inside > Real(0)) & (rise > Real(0));
+  return reached ? canonical(share) : Real(0);
+}
+
+// A third of the force of the air on triangle (a, b, c): pressure along its normal, rho C_d / 2 A (u.n)|u.n|
+// n, and lift across the relative wind u, rho C_l / 2 A |u|^2 (e.n) (n - (e.n) e) with e = u/|u|. `normal` is
+// 2 A n, and the factors of the step hold rho C / 12. Both terms are even in n: it does not matter to which
+// side it points.
+template <bool jet, class Real>
+INLINE Vec3<Real> windForce(const StepParams<Real>& step, const HandParams<Real>& hand, Vec3<Real> a,
+                            Vec3<Real> b, Vec3<Real> c, Vec3<Real> va, Vec3<Real> vb, Vec3<Real> vc) {
+  constexpr Real third = static_cast<Real>(1.0 / 3.0);
+  const Vec3<Real> normal = cross(b - a, c - a);
+  const Real normalSquared = dot(normal, normal);
+  const Real inverseNormal = inverseSquareRoot(normalSquared);
+  Vec3<Real> air{step.airVelocityX, step.airVelocityY, step.airVelocityZ};
+  Real share = 0;
+  if constexpr (jet) {
+    share = jetShare(hand, third * ((a + b) + c));
+    const Real jetSpeed = share * hand.jetSpeed;
+    air = air + jetSpeed * Vec3<Real>{hand.directionX, hand.directionY, hand.directionZ};
+  }
+  const Vec3<Real> u = air - third * ((va + vb) + vc);
+  const Real speedSquared = dot(u, u);
+  const Real inverseSpeed = inverseSquareRoot(speedSquared);
+  const Real speed = speedSquared * inverseSpeed;
+  const Real through = dot(u, normal);
+  const Real across = through * inverseNormal;  // u.n
+  const Real acrossMagnitude = across < Real(0) ? -across : across;
+  const Real alongNormal = step.dragFactor * (across * acrossMagnitude) + step.liftFactor * (across * speed);
+  const Real alongWind = step.liftFactor * ((across * through) * inverseSpeed);
+  Vec3<Real> force = alongNormal * normal - alongWind * u;
+  if constexpr (jet) {
+    const Vec3<Real> part = share * force;
+    const bool alone = hand.jetAlone != 0;
+    force = {alone ? part.x : force.x, alone ? part.y : force.y, alone ? part.z : force.z};
+  }
+  const bool degenerate = normalSquared < static_cast<Real>(0x1p-100);
+  return {degenerate ? Real(0) : force.x, degenerate ? Real(0) : force.y, degenerate ? Real(0) : force.z};
+}
+
+// Rest lengths of a slot: the nominal one for all, or from the table.
+template <class Real>
+struct NominalLength {
+  Real length;
+  Real operator[](std::ptrdiff_t) const { return length; }
+};
+
+// Whether a cut mask (cloth/cuts.h) says that this spring or triangle is gone; without cuts none is.
+template <bool torn>
+INLINE bool isGone([[maybe_unused]] const std::uint32_t* cutMasks, [[maybe_unused]] std::ptrdiff_t i,
+                   [[maybe_unused]] std::uint32_t bit) {
+  if constexpr (torn) return (cutMasks[i] >> bit & 1u) != 0;
+  return false;
+}
+
+// Which of its incident springs a pass works on, for the particles of a stretch.
+struct SpringPlace {
+  std::uint32_t bit;     // in incidentSprings
+  std::ptrdiff_t other;  // from a particle to the other end
+};
+
+// Adds the forces of one incident spring to every particle of the stretch. Of owned springs it returns the
+// largest bits of l^2 for the watchdog: one end of each spring is enough.
+template <bool owned, bool torn, class Real, class RestLengths>
+INLINE auto addSpring(const PassArguments<Real>& arguments, Stretch particles, SpringPlace place,
+                      Real stiffness, RestLengths rest) {
+  const auto [bit, other] = place;
+  const std::uint32_t* cutMasks = arguments.cutMasks;
+  const Real *x = arguments.before.positions.x.data(), *y = arguments.before.positions.y.data(),
+             *z = arguments.before.positions.z.data();
+  Real *fx = arguments.forces.x.data(), *fy = arguments.forces.y.data(), *fz = arguments.forces.z.data();
+  auto longest = bitsOf(Real(0));
+  const auto add = [ =, bit = bit, other = other ](std::ptrdiff_t i) __attribute__((always_inline)) {
+    const Vec3<Real> a = load(x, y, z, i), b = load(x, y, z, i + other);
+    const Vec3<Real> f = springForce(a, b, stiffness, rest[i]);
+    const bool gone = isGone<torn>(cutMasks, i, bit);
+    fx[i] = gone ? fx[i] : fx[i] + f.x;
+    fy[i] = gone ? fy[i] : fy[i] + f.y;
+    fz[i] = gone ? fz[i] : fz[i] + f.z;
+    return gone ? Real(0) : dot(b - a, b - a);
+  };
+  if constexpr (owned) {
+#pragma GCC ivdep
+    for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i)
+      longest = larger(longest, bitsOf(add(i)));
+  } else {
+#pragma omp simd
+    for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) add(i);
+  }
+  return longest;
+}
+
+// Particles of the row whose own springs in `slot` are too long.
+template <class Real>
+[[gnu::noinline, gnu::cold]] void noteOverlong(const PassArguments<Real>& arguments, Stretch particles,
+                                               SpringPlace place, Real maxSquared) {
+  const Components<Real>& p = arguments.before.positions;
+  for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
+    const Vec3<Real> d = load(p.x.data(), p.y.data(), p.z.data(), i + place.other) -
+                         load(p.x.data(), p.y.data(), p.z.data(), i);
+    const bool gone = arguments.cutMasks != nullptr && isGone<true>(arguments.cutMasks, i, place.bit);
+    if (!gone && isBeyond(dot(d, d), maxSquared))
+      noteTrouble(arguments.watch, PASS_FORCES, i, REASON_RUNAWAY_STRAIN);
+  }
+}
+
+template <bool torn, class Real, class RestLengths>
+INLINE void addIncidentSpring(const PassArguments<Real>& arguments, Stretch particles, bool owned,
+                              SpringPlace place, const SpringParams<Real>& spring, RestLengths rest) {
+  if (!owned) {
+    addSpring<false, torn>(arguments, particles, place, spring.stiffness, rest);
+  } else if (addSpring<true, torn>(arguments, particles, place, spring.stiffness, rest) >
+             bitsOf(spring.maxLengthSquared)) {
+    noteOverlong(arguments, particles, place, spring.maxLengthSquared);
+  }
+}
+
+// Whether the row, or column, is a border of the grid.
+INLINE bool isBorder(std::int64_t place, std::uint32_t count) { return place == 0 || place + 1 == count; }
+
+// One incident spring of a stretch, all of the same stiffness.
+template <bool torn, class Real>
+INLINE void addIncidentSpring(const PassArguments<Real>& arguments, Stretch particles, std::uint32_t k,
+                              Real stiffness) {
+  const StepParams<Real>& step = arguments.step;
+  const IncidentSpring& incident = incidentSprings[k];
+  const SpringPlace place{k, indexOffset(step, incident.columns, incident.rows)};
+  SpringParams<Real> spring = step.springs[incident.slot];
+  spring.stiffness = stiffness;
+  if (step.useRestLengthTable != 0) {
+    const Real* rest = arguments.restLengths + static_cast<std::size_t>(incident.slot) * step.totalParticles +
+                       (incident.owned ? 0 : place.other);
+    addIncidentSpring<torn>(arguments, particles, incident.owned, place, spring, rest);
+  } else {
+    addIncidentSpring<torn>(arguments, particles, incident.owned, place, spring,
+                            NominalLength<Real>{spring.restLength});
+  }
+}
+
+// A material's springs along a border count half: the whole row, or its first and last particle.
+template <bool torn, class Real>
+INLINE void addMaterialSpring(const PassArguments<Real>& arguments, int row, Stretch particles,
+                              std::uint32_t k) {
+  const StepParams<Real>& step = arguments.step;
+  const IncidentSpring& incident = incidentSprings[k];
+  const Real inside = step.springs[incident.slot].stiffness, halved = Real(0.5) * inside;
+  if (incident.slot != toUpper) {
+    const bool onBorder = incident.slot == toLeft && isBorder(row, step.rows);
+    addIncidentSpring<torn>(arguments, particles, k, onBorder ? halved : inside);
+    return;
+  }
+  const std::ptrdiff_t last = std::max(particles.begin + 1, particles.end - 1);
+  addIncidentSpring<torn>(arguments, {particles.begin, particles.begin + 1}, k, halved);
+  addIncidentSpring<torn>(arguments, {particles.begin + 1, last}, k, inside);
+  addIncidentSpring<torn>(arguments, {last, particles.end}, k, halved);
+}
+
+template <bool torn, class Real>
+INLINE void addSprings(const PassArguments<Real>& arguments, int row) {
+  const StepParams<Real>& step = arguments.step;
+  for (std::uint32_t k = 0; k < incidentSprings.size(); ++k) {
+    const IncidentSpring& incident = incidentSprings[k];
+    const int otherRow = row + incident.rows;
+    const bool enabled = (step.enabledSlots >> incident.slot & 1u) != 0;
+    if (!enabled || otherRow < 0 || otherRow >= static_cast<int>(step.rows)) continue;
+    const Stretch particles = stretch(step, row, incident.columns, incident.columns);
+    if (step.hasMaterial != 0)
+      addMaterialSpring<torn>(arguments, row, particles, k);
+    else
+      addIncidentSpring<torn>(arguments, particles, k, step.springs[incident.slot].stiffness);
+  }
+}
+
+// Three particles in a line, and the particle among them that gathers: the force on an end is b (2 m - a -
+// c), that on the middle -2 times as large. Where the pins of a clamp end, the curvature of the first half
+// cell shows at the last pin, half as large as it is: it counts twice. `links`: the springs, as bits of a cut
+// mask, of which none may be cut.
+template <bool torn, class Real>
+INLINE void addBendingLine(const PassArguments<Real>& arguments, Stretch particles, std::ptrdiff_t toA,
+                           std::ptrdiff_t toM, std::ptrdiff_t toC, Real b,
+                           [[maybe_unused]] std::uint32_t links) {
+  [[maybe_unused]] const std::uint32_t* cutMasks = arguments.cutMasks;
+  const Real *x = arguments.before.positions.x.data(), *y = arguments.before.positions.y.data(),
+             *z = arguments.before.positions.z.data(), *w = arguments.inverseMasses;
+  Real *fx = arguments.forces.x.data(), *fy = arguments.forces.y.data(), *fz = arguments.forces.z.data();
+  const bool gathersInMiddle = toM == 0;
+#pragma omp simd
+  for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
+    const Vec3<Real> a = load(x, y, z, i + toA), m = load(x, y, z, i + toM), c = load(x, y, z, i + toC);
+    const bool endOfClamp = w[i + toM] == Real(0) && (w[i + toA] == Real(0)) != (w[i + toC] == Real(0));
+    const Real weighted = endOfClamp ? Real(2) * b : b;
+    const Vec3<Real> force = weighted * ((m - a) + (m - c));
+    const Vec3<Real> f{gathersInMiddle ? fx[i] - Real(2) * force.x : fx[i] + force.x,
+                       gathersInMiddle ? fy[i] - Real(2) * force.y : fy[i] + force.y,
+                       gathersInMiddle ? fz[i] - Real(2) * force.z : fz[i] + force.z};
+    bool gone = false;
+    if constexpr (torn) gone = (cutMasks[i] & links) != 0;
+    fx[i] = gone ? fx[i] : f.x;
+    fy[i] = gone ? fy[i] : f.y;
+    fz[i] = gone ? fz[i] : f.z;
+  }
+}
+
+// Along the row, all particles of which have the same border weight.
+template <bool torn, class Real>
+INLINE void addBendingAlongRow(const PassArguments<Real>& arguments, int row) {
+  const StepParams<Real>& step = arguments.step;
+  const Real b = isBorder(row, step.rows) ? Real(0.5) * step.bendAlongRow : step.bendAlongRow;
+  addBendingLine<torn>(arguments, stretch(step, row, -2, 0), -2, -1, 0, b, BENDING_LEFT);
+  addBendingLine<torn>(arguments, stretch(step, row, -1, 1), -1, 0, 1, b, BENDING_ROW);
+  addBendingLine<torn>(arguments, stretch(step, row, 0, 2), 0, 1, 2, b, BENDING_RIGHT);
+}
+
+// Along the columns through particles of the row.
+template <bool torn, class Real>
+INLINE void addBendingAlongColumns(const PassArguments<Real>& arguments, int row, Stretch particles, Real b) {
+  const StepParams<Real>& step = arguments.step;
+  const int rows = static_cast<int>(step.rows);
+  const std::ptrdiff_t one = indexOffset(step, 0, 1);
+  if (row >= 2) addBendingLine<torn>(arguments, particles, -2 * one, -one, 0, b, BENDING_UPPER);
+  if (row >= 1 && row + 1 < rows) addBendingLine<torn>(arguments, particles, -one, 0, one, b, BENDING_COLUMN);
+  if (row + 2 < rows) addBendingLine<torn>(arguments, particles, 0, one, 2 * one, b, BENDING_LOWER);
+}
+
+template <bool torn, class Real>
+INLINE void addBending(const PassArguments<Real>& arguments, int row) {
+  const StepParams<Real>& step = arguments.step;
+  addBendingAlongRow<torn>(arguments, row);
+  const Stretch all = stretch(step, row);
+  const Real inside = step.bendAlongColumn, halved = Real(0.5) * inside;
+  const std::ptrdiff_t last = std::max(all.begin + 1, all.end - 1);
+  addBendingAlongColumns<torn>(arguments, row, {all.begin, all.begin + 1}, halved);
+  addBendingAlongColumns<torn>(arguments, row, {all.begin + 1, last}, inside);
+  addBendingAlongColumns<torn>(arguments, row, {last, all.end}, halved);
+}
+
+template <bool torn, class Real>
+INLINE void addElasticForces(const PassArguments<Real>& arguments, int row) {
+  addSprings<torn>(arguments, row);
+  if (arguments.step.hasMaterial != 0) addBending<torn>(arguments, row);
+}
+
+template <bool torn, bool jet, class Real>
+INLINE void addWind(const PassArguments<Real>& arguments, int row) {
+  const StepParams<Real>& step = arguments.step;
+  const Components<Real>&p = arguments.before.positions, &v = arguments.before.velocities;
+  const Real *x = p.x.data(), *y = p.y.data(), *z = p.z.data(), *vx = v.x.data(), *vy = v.y.data(),
+             *vz = v.z.data();
+  Real *fx = arguments.forces.x.data(), *fy = arguments.forces.y.data(), *fz = arguments.forces.z.data();
+  const std::uint32_t* cutMasks = arguments.cutMasks;
+  const HandParams<Real>& hand = arguments.hand;
+  for (std::uint32_t k = 0; k < incidentTriangles.size(); ++k) {
+    const auto& [a, b, c] = incidentTriangles[k];
+    const auto [firstRow, lastRow] = std::minmax({a.rows, b.rows, c.rows});
+    if (row + firstRow < 0 || row + lastRow >= static_cast<int>(step.rows)) continue;
+    const auto [firstColumn, lastColumn] = std::minmax({a.columns, b.columns, c.columns});
+    const Stretch particles = stretch(step, row, firstColumn, lastColumn);
+    const std::ptrdiff_t ia = indexOffset(step, a.columns, a.rows), ib = indexOffset(step, b.columns, b.rows),
+                         ic = indexOffset(step, c.columns, c.rows);
+#pragma omp simd
+    for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
+      const bool gone = isGone<torn>(cutMasks, i, FIRST_CUT_TRIANGLE + k);
+      const Vec3<Real> f =
+          windForce<jet>(step, hand, load(x, y, z, i + ia), load(x, y, z, i + ib), load(x, y, z, i + ic),
+                         load(vx, vy, vz, i + ia), load(vx, vy, vz, i + ib), load(vx, vy, vz, i + ic));
+      fx[i] = gone ? fx[i] : fx[i] + f.x;
+      fy[i] = gone ? fy[i] : fy[i] + f.y;
+      fz[i] = gone ? fz[i] : fz[i] + f.z;
+    }
+  }
+}
+
+template <class Real>
+INLINE void addWind(const PassArguments<Real>& arguments, int row) {
+  const bool torn = arguments.cutMasks != nullptr;
+  if (torn)
+    arguments.jet ? addWind<true, true>(arguments, row) : addWind<true, false>(arguments, row);
+  else
+    arguments.jet ? addWind<false, true>(arguments, row) : addWind<false, false>(arguments, row);
+}
+
+// -a |v| v
+template <class Real>
+INLINE void addAirResistance(const PassArguments<Real>& arguments, int row) {
+  const Components<Real>& v = arguments.before.velocities;
+  const Real *vx = v.x.data(), *vy = v.y.data(), *vz = v.z.data();
+  Real *fx = arguments.forces.x.data(), *fy = arguments.forces.y.data(), *fz = arguments.forces.z.data();
+  const Real airResistance = arguments.step.airResistance;
+  const Stretch particles = stretch(arguments.step, row);
+#pragma omp simd
+  for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
+    const Vec3<Real> velocity = load(vx, vy, vz, i);
+    const Real speedSquared = dot(velocity, velocity);
+    const Real speed = speedSquared * inverseSquareRoot(speedSquared);
+    const Real scale = airResistance * speed;
+    fx[i] = fx[i] - scale * velocity.x;
+    fy[i] = fy[i] - scale * velocity.y;
+    fz[i] = fz[i] - scale * velocity.z;
+  }
+}
+
+template <class Real>
+INLINE void gatherForcesRow(const PassArguments<Real>& arguments, int row) {
+  const Stretch particles = stretch(arguments.step, row);
+  std::fill(&arguments.forces.x[0] + particles.begin, &arguments.forces.x[0] + particles.end, Real(0));
+  std::fill(&arguments.forces.y[0] + particles.begin, &arguments.forces.y[0] + particles.end, Real(0));
+  std::fill(&arguments.forces.z[0] + particles.begin, &arguments.forces.z[0] + particles.end, Real(0));
+  arguments.cutMasks != nullptr ? addElasticForces<true>(arguments, row)
+                                : addElasticForces<false>(arguments, row);
+  if (arguments.step.hasWind != 0) addWind(arguments, row);
+  if (arguments.step.airResistance > Real(0)) addAirResistance(arguments, row);
+}
+
+}  // namespace
+
+VECTOR_CLONES void gatherForces(const PassArguments<float>& arguments, int row) {
+  gatherForcesRow(arguments, row);
+}
+void gatherForces(const PassArguments<double>& arguments, int row) { gatherForcesRow(arguments, row); }
+
+}  // namespace clothsim::cpu
