@@ -107,9 +107,11 @@ class Screen {
 // The viewer in its window, in an empty folder of its own, with settings of its own.
 class ViewerProgram {
  public:
-  // `environment`: as before a command, "NAME=value".
+  // `environment`: as before a command, "NAME=value". `titleOfStart`: what the title says once it has begun;
+  // it has the frame rate once pictures are being drawn.
   // @throws std::runtime_error, which fails the test, when no window shows pictures after a while
-  explicit ViewerProgram(const std::string& arguments, const std::string& environment = "")
+  explicit ViewerProgram(const std::string& arguments, const std::string& environment = "",
+                         const std::string& titleOfStart = "fps")
       : process_(
             {"sh", "-c",
              "cd '" + folder_.path().string() + "' && mkdir here && cd here && exec env XDG_CONFIG_HOME='" +
@@ -118,8 +120,7 @@ class ViewerProgram {
     const bool shown = eventually(seconds(60), [&] {
       window_ = runCommand("xdotool search --onlyvisible --class clothsim 2>/dev/null").output;
       while (!window_.empty() && window_.back() == '\n') window_.pop_back();
-      // The title says the frame rate once pictures are being drawn.
-      return !process_.running() || (!window_.empty() && title().find("fps") != std::string::npos);
+      return !process_.running() || (!window_.empty() && title().find(titleOfStart) != std::string::npos);
     });
     if (!shown || !process_.running())
       throw std::runtime_error("the viewer does not get going; its title: '" + title() + "'; it says:\n" +

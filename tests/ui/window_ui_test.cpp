@@ -53,6 +53,12 @@ TEST_F(WindowUi, OpensEveryBundledSceneAndClosesAtOnce) {
   }
 }
 
+TEST_F(WindowUi, ClosesAtOnceWithinAFrameThatWouldTakeMinutes) {
+  ViewerProgram viewer("-f pinned2 --backend cpu --set solver.simulation_steps=1000000", "", "pinned2 - cpu");
+  viewer.press("Escape");
+  EXPECT_EQ(viewer.exitCodeWithin(seconds(10)), 0) << viewer.output();
+}
+
 TEST_F(WindowUi, TakesEveryKeyOfItsListAndGoesOn) {
   ViewerProgram viewer(scene);
   for (const ViewerKey& key : viewerKeys) {
