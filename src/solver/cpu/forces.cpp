@@ -82,14 +82,6 @@ struct NominalLength {
   Real operator[](std::ptrdiff_t) const { return length; }
 };
 
-// Whether a cut mask (cloth/cuts.h) says that this spring or triangle is gone; without cuts none is.
-template <bool torn>
-INLINE bool isGone([[maybe_unused]] const std::uint32_t* cutMasks, [[maybe_unused]] std::ptrdiff_t i,
-                   [[maybe_unused]] std::uint32_t bit) {
-  if constexpr (torn) return (cutMasks[i] >> bit & 1u) != 0;
-  return false;
-}
-
 // Which of its incident springs a pass works on, for the particles of a stretch.
 struct SpringPlace {
   std::uint32_t bit;     // in incidentSprings

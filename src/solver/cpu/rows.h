@@ -1,8 +1,9 @@
-// What the passes of the CPU backend share: stretches of a grid row.
+// What the passes of the CPU backend share: stretches of a grid row, and what of it is cut.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 
 #include "core/vec.h"
 #include "solver/cpu/vector_clones.h"
@@ -32,6 +33,14 @@ std::ptrdiff_t indexOffset(const StepParams<Real>& step, int columns, int rows) 
 template <class Real>
 INLINE Vec3<Real> load(const Real* x, const Real* y, const Real* z, std::ptrdiff_t i) {
   return {x[i], y[i], z[i]};
+}
+
+// Whether a cut mask (cloth/cuts.h) says that this spring or triangle is gone; without cuts none is.
+template <bool torn>
+INLINE bool isGone([[maybe_unused]] const std::uint32_t* cutMasks, [[maybe_unused]] std::ptrdiff_t i,
+                   [[maybe_unused]] std::uint32_t bit) {
+  if constexpr (torn) return (cutMasks[i] >> bit & 1u) != 0;
+  return false;
 }
 
 }  // namespace clothsim::cpu
