@@ -16,7 +16,10 @@ using test::ViewerProgram;
 using Json = nlohmann::json;
 
 // The cloth hangs in the middle of the window, in every test at the same place.
-const char* const scene = "-f pinned2 --resolution 20x20 --backend cpu";
+const char* const scene = "-f pinned2 --resolution 20x20 --set solver.simulation_steps=10 --backend cpu";
+constexpr int stepsInAFrame = 10;
+// One that hangs at rest from the start, wherever the hands come.
+const std::string hanging = std::string(scene) + " --set cloth.orientation=1 --set 'cloth.pinned=[\"top\"]'";
 
 class HandsUi : public testing::Test {
  protected:
@@ -73,12 +76,13 @@ Vec3d particleIn(const std::string& csv, std::uint32_t particle) {
 }
 
 TEST_F(HandsUi, ADragOnTheClothTakesItAlongToTheCursor) {
-  const ViewerProgram viewer(scene);
+  const ViewerProgram viewer(hanging);
   viewer.perform("at 0.5 0.5 sleep 0.3 mousedown 1 sleep 0.3 at 0.55 0.45 sleep 0.1 at 0.6 0.4");
   const Json recording = recordingWhere(viewer, [&](const Json& now) {
     const std::vector<Json> moves = actionsIn(now, "move_hand");
     // Half a second of simulated time to follow in.
-    return !moves.empty() && now.at("frames").get<int>() * 30 - moves.back().at("step").get<int>() > 45 * 30;
+    return !moves.empty() &&
+           (now.at("frames").get<int>() - 45) * stepsInAFrame > moves.back().at("step").get<int>();
   });
   const std::vector<Json> grabs = actionsIn(recording, "grab");
   ASSERT_EQ(grabs.size(), 1u);
@@ -88,14 +92,15 @@ TEST_F(HandsUi, ADragOnTheClothTakesItAlongToTheCursor) {
 
   (void)replay(viewer, "--backend cpu --save end.csv");
   const Vec3d held = particleIn(readFile(viewer.here() / "end.csv"), grabs[0].at("particle"));
-  EXPECT_LT(std::sqrt(dot(held - target, held - target)), 0.02) << "the particle is where the cursor is";
+  EXPECT_LT(std::sqrt(dot(held - target, held - target)), 0.05)
+      << "less than a spacing: the strain limit has the last word";
 
   viewer.perform("mouseup 1");
   (void)recordingWhere(viewer, [&](const Json& now) { return !actionsIn(now, "release").empty(); });
 }
 
 TEST_F(HandsUi, PinsCutsAndBlowsAreRepeatedByAReplayWithTheSameBitsOnBothBackends) {
-  const ViewerProgram viewer(scene);
+  const ViewerProgram viewer(hanging);
   viewer.perform("keydown shift at 0.5 0.55 sleep 0.3 click 1 sleep 0.2 keyup shift");
   viewer.perform(
       "keydown x sleep 0.3 at 0.25 0.62 sleep 0.2 mousedown 1 sleep 0.2 at 0.4 0.62 sleep 0.1 at 0.5 0.63 "
