@@ -56,6 +56,7 @@ PassFeatures featuresOfPass(const std::string& pass, const PassFeatures& all) {
     features.airResistance = all.airResistance;
     features.restLengthTable = all.restLengthTable;
     features.enabledSlots = all.enabledSlots;
+    features.material = all.material;
     features.jet = all.jet;
     features.cuts = all.cuts;
   }
