@@ -134,7 +134,7 @@ struct Tip {
 Tip cantileverTip(int n) {
   const double length = 1, density = 0.1, g = 9.81, h = length / n;
   const Material strip{.density = density,
-                       .stretch = 3e4 * density * g * length,
+                       .stretch = 1e4 * density * g * length,
                        .shear = 10 * density * g * length,
                        .bend = density * g * length * length * length / 4,
                        .damping = 6};
