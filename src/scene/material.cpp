@@ -92,6 +92,17 @@ std::vector<std::string> materialPresetNames() {
   return names;
 }
 
+void giveMaterial(ClothSettings& cloth, const Material& material) {
+  const ClothSettings plain;
+  cloth.material = material;
+  cloth.ks.reset();
+  cloth.stiffnessReference.reset();
+  cloth.mass.reset();
+  cloth.density = plain.density;
+  cloth.damping = plain.damping;
+  cloth.thickness = plain.thickness;
+}
+
 // The energy of springs k (l - L)^2 / 2 under a small strain, a cell: with two diagonals of length l =
 // hypot(dx, dy), C11 dx dy = k_row dx^2 + 2 k_d dx^4 / l^2 and C12 dx dy = 2 k_d dx^2 dy^2 / l^2; likewise
 // along columns.

@@ -18,6 +18,9 @@ namespace clothsim {
 [[nodiscard]] std::optional<Material> materialPreset(std::string_view name);
 [[nodiscard]] std::vector<std::string> materialPresetNames();
 
+// Makes the cloth one of that material; what a material tells is told by nothing else then.
+void giveMaterial(ClothSettings& cloth, const Material& material);
+
 // Springs of a lattice with cells of `dx` by `dy` [m] that stretches and shears as the material does:
 // C11 = (Y + sqrt(Y^2 + 4 G^2)) / 2 in both directions and C12 = G, the only choice that central forces
 // leave. All of them count half along a border of the sheet.

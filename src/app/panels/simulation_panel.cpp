@@ -41,8 +41,7 @@ void drawSpringKinds(PanelContext& context, ClothSettings& cloth, const std::str
 // A material takes the place of springs by hand, and needs more steps than they do; without it they are back.
 void chooseModel(Scene& scene, ClothSettings& cloth) {
   if (cloth.material && (cloth.ks || cloth.stiffnessReference)) {
-    cloth.ks.reset();
-    cloth.stiffnessReference.reset();
+    giveMaterial(cloth, Material{*cloth.material});
     scene.solver.simulationSteps.automatic = true;
   }
   if (!cloth.material && !cloth.ks && !cloth.stiffnessReference) cloth.ks = defaultKs;

@@ -39,6 +39,13 @@ TEST(Material, ReplacesKsWhenItIsSet) {
   EXPECT_EQ(scene.cloths[0].material, expected);
 }
 
+TEST(GiveMaterial, LeavesNothingThatAMaterialTells) {
+  Scene scene =
+      sceneOf(R"({"cloth": {"ks": 900, "density": 3, "mass": 2, "damping": 1, "thickness": 0.02}})");
+  giveMaterial(scene.cloths[0], *materialPreset("wool"));
+  EXPECT_EQ(sceneOf(formatScene(scene)).cloths, scene.cloths);
+}
+
 // PHYSICS.md section 2: k_d = G, k_s = C11 - G; isotropic at k_s = 2 k_d with Y = 8/3 k_d.
 TEST(LatticeStiffness, IsTheKnownOneOnSquares) {
   Material material;
