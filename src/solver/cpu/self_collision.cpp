@@ -113,7 +113,7 @@ void SelfCollision<Real>::configure(const Scene& scene) {
   const std::size_t count = params_.particles;
   hashedPositions_.resize(count);
   sortedPositions_.resize(count);
-  swept_.resize(count);
+  moved_.resize(count);
   bucketStarts_.resize(static_cast<std::size_t>(params_.bucketMask) + 2);
   sorted_.resize(count);
   bucketOf_.resize(count);
@@ -230,8 +230,8 @@ void SelfCollision<Real>::walk(const Block& block, std::uint32_t i, Visit visit)
 }
 
 template <class Real>
-void SelfCollision<Real>::sweep(const CpuState<Real>& before, CpuState<Real>& after,
-                                const std::vector<Real>& inverseMasses) {
+void SelfCollision<Real>::separateContacts(const CpuState<Real>& before, CpuState<Real>& after,
+                                           const std::vector<Real>& inverseMasses) {
   forEachBlock([&](const Block& block) {
     const View<Real> view = viewOf(params_, before, after, inverseMasses, distances_, block);
     Sums<Real> sums;
@@ -243,11 +243,11 @@ void SelfCollision<Real>::sweep(const CpuState<Real>& before, CpuState<Real>& af
                      : addPair<false, true>(view, i, candidate, sums, i - block.begin);
         });
     if (std::any_of(sums.count.begin(), sums.count.end(), [](std::uint32_t count) { return count != 0; }))
-      moveByContacts(isRobust(), view, block, sums, swept_, after.velocities);
+      moveByContacts(isRobust(), view, block, sums, moved_, after.velocities);
     else
-      copyBlock(after.positions, swept_, block);
+      copyBlock(after.positions, moved_, block);
   });
-  std::swap(after.positions, swept_);
+  std::swap(after.positions, moved_);
 }
 
 template <class Real>
@@ -262,7 +262,7 @@ void SelfCollision<Real>::separate(const CpuState<Real>& before, CpuState<Real>&
   });
   if (stale) buildHash(after.positions);
   if (fast) ++counts_.fastSteps;
-  sweep(before, after, inverseMasses);
+  separateContacts(before, after, inverseMasses);
 }
 
 template <class Real>
@@ -287,9 +287,9 @@ void SelfCollision<Real>::guard(const CpuState<Real>& before, CpuState<Real>& af
     const View<Real> view = viewOf(params_, before, after, inverseMasses, distances_, block);
     for (std::uint32_t i = block.begin; i < block.end; ++i) {
       const Vec3<Real> x = load(view.x, view.y, view.z, i), start = load(view.x0, view.y0, view.z0, i);
-      swept_.x[i] = x.x;
-      swept_.y[i] = x.y;
-      swept_.z[i] = x.z;
+      moved_.x[i] = x.x;
+      moved_.y[i] = x.y;
+      moved_.z[i] = x.z;
       Real kept = 1;
       const auto look = [&](std::uint32_t candidate) { kept = keptMotion<true>(view, i, candidate, kept); };
       for (std::uint32_t slot = 0; slot < block.slots; ++slot)
@@ -299,15 +299,15 @@ void SelfCollision<Real>::guard(const CpuState<Real>& before, CpuState<Real>& af
       const Vec3<Real> stopped = start + kept * (x - start);
       const Vec3<Real> kick = params_.inverseTimeStep * (stopped - x);
       Components<Real>& v = after.velocities;
-      swept_.x[i] = canonical(stopped.x);
-      swept_.y[i] = canonical(stopped.y);
-      swept_.z[i] = canonical(stopped.z);
+      moved_.x[i] = canonical(stopped.x);
+      moved_.y[i] = canonical(stopped.y);
+      moved_.z[i] = canonical(stopped.z);
       v.x[i] = canonical(v.x[i] + kick.x);
       v.y[i] = canonical(v.y[i] + kick.y);
       v.z[i] = canonical(v.z[i] + kick.z);
     }
   });
-  std::swap(after.positions, swept_);
+  std::swap(after.positions, moved_);
 }
 
 template <class Real>

@@ -49,7 +49,8 @@ class SelfCollision {
   [[nodiscard]] std::uint32_t encode(const Block& block, std::uint32_t i, std::uint32_t j) const;
   void buildHash(const Components<Real>& positions);
   void findCandidates();
-  void sweep(const CpuState<Real>& before, CpuState<Real>& after, const std::vector<Real>& inverseMasses);
+  void separateContacts(const CpuState<Real>& before, CpuState<Real>& after,
+                        const std::vector<Real>& inverseMasses);
   // `visit` sees what would be the candidates of a particle that has too many to remember.
   template <class Visit>
   void walk(const Block& block, std::uint32_t particle, Visit visit) const;
@@ -66,7 +67,7 @@ class SelfCollision {
   bool isHashed_ = false;
   ContactCounts counts_;
 
-  Components<Real> hashedPositions_, sortedPositions_, swept_;
+  Components<Real> hashedPositions_, sortedPositions_, moved_;
   std::vector<std::uint32_t> bucketStarts_, sorted_, bucketOf_, ranks_;
   std::vector<std::uint32_t> candidates_;      // slot-major
   std::vector<std::uint8_t> candidateCounts_;  // MOST_CANDIDATES + 1: walk through the cells
