@@ -59,6 +59,13 @@ SHARED_STRUCT HandParams {
   real directionY;
   real directionZ;
   uint jetAlone;  // whether the air rests but for the jet, and acts in it alone
+
+  // Of `implicit`: the hold is a spring of the stiffness resistance m / h^2 to the place that is
+  // reach (B (goal - x) + push) from x.
+  real resistance;  // 2 h w + h^2 w^2
+  real reach;       // h (1 + resistance) / resistance [s]
+  real largestWay;  // h largestSpeed [m],
+  real largestWaySquared;
 };
 
 #ifdef __cplusplus

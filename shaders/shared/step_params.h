@@ -71,7 +71,7 @@ using uint = std::uint32_t;
 SHARED_STRUCT SpringParams {
   real stiffness;         // [N/m]
   real restLength;        // nominal [m]
-  real limitLength;       // (1 + strain limit) restLength [m]
+  real limitLength;       // limitFactor restLength [m]
   real maxLengthSquared;  // ((1 + max_strain) restLength)^2, for the watchdog [m^2]
 };
 
@@ -94,7 +94,7 @@ SHARED_STRUCT StepParams {
   real gravityX;  // [m/s^2]
   real gravityY;
   real gravityZ;
-  real limitFactor;  // 1 + strain limit
+  real limitFactor;  // 1 + strain limit; of `implicit`, where the second spring begins
 
   real airVelocityX;  // wind and gust now [m/s]
   real airVelocityY;
@@ -114,7 +114,13 @@ SHARED_STRUCT StepParams {
   uint hasMaterial;      // springs on a border count half, and bending is one of second differences
   real bendAlongRow;     // b of the energy 1/2 b |x(i-1) - 2 x(i) + x(i+1)|^2 [N/m]
   real bendAlongColumn;  // [N/m]
-  real unusedMaterial;
+  real limitStiffness;   // of `implicit`: what a spring longer than limitLength adds to it [N/m]
+
+  // Of `implicit`, for a particle of mass m: the energy 1/2 m inertia |d - guess|^2 of its way d in the step,
+  real inertia;    // (1 + c h) / h^2, c the rate of damping [1/s^2]
+  real guessTime;  // guess = guessTime (v + h g), h / (1 + c h) [s]
+  real unusedA;
+  real unusedB;
 
   SPRING_ROWS(SpringParams) springs[6];
 };

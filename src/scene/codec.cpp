@@ -15,12 +15,13 @@ namespace {
 // Larger numbers overflow when binary32 squares them; smaller ones vanish in it.
 constexpr double largestNumber = 1e15, smallestNumber = 1e-20;
 
-template <class Enum>
-using Words = std::array<std::pair<std::string_view, Enum>, 2>;
+template <class Enum, std::size_t count = 2>
+using Words = std::array<std::pair<std::string_view, Enum>, count>;
 
 constexpr Words<Orientation> orientations{
     {{"horizontal", Orientation::horizontal}, {"vertical", Orientation::vertical}}};
-constexpr Words<Integrator> integrators{{{"verlet", Integrator::verlet}, {"euler", Integrator::euler}}};
+constexpr Words<Integrator, 3> integrators{
+    {{"verlet", Integrator::verlet}, {"euler", Integrator::euler}, {"implicit", Integrator::implicit}}};
 constexpr Words<SelfCollision> selfCollisions{
     {{"averaged", SelfCollision::averaged}, {"robust", SelfCollision::robust}}};
 constexpr Words<FrictionLaw> frictionLaws{{{"cs184", FrictionLaw::cs184}, {"coulomb", FrictionLaw::coulomb}}};

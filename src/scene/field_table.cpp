@@ -122,7 +122,7 @@ std::span<const Field<ClothSettings>> fieldsOf<ClothSettings>() {
       field("material", &C::material,
             "Instead of ks, density, mass, damping, thickness: a fabric in SI units, or a preset's name.")
           .rebuilds(),
-      field("damping", &C::damping, "Velocity lost in a step.")
+      field("damping", &C::damping, "Velocity lost in a step; with the implicit integrator, in 1/2700 s.")
           .in("%")
           .within({.low = 0, .high = 100})
           .usually(0, 2),
@@ -372,13 +372,21 @@ template <>
 std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
   using S = SolverSettings;
   static const std::array fields{
-      field("integrator", &S::integrator, "Leapfrog Verlet, or symplectic Euler."),
+      field("integrator", &S::integrator,
+            "Leapfrog Verlet; symplectic Euler; or implicit: backward Euler, stable at any step."),
+      field("newton_steps", &S::newtonSteps, "Newton steps of the implicit integrator, in a step.")
+          .within({.low = 1, .high = 100})
+          .usually(1, 8),
+      field("cg_iterations", &S::cgIterations,
+            "Iterations of conjugate gradients in a Newton step of the implicit integrator.")
+          .within({.low = 1, .high = 10'000})
+          .usually(1, 40),
       field("frames_per_sec", &S::framesPerSec, "Frames in a simulated second.")
           .in("1/s")
           .within(positive)
           .usually(15, 240),
       field("simulation_steps", &S::simulationSteps,
-            "Steps in a frame, each 1 / (frames_per_sec * simulation_steps) s; auto: as many as is stable.")
+            "Steps in a frame, each 1 / (frames_per_sec * simulation_steps) s; auto: as few as are stable.")
           .within({.low = 1, .high = mostSteps})
           .usually(1, 200),
       field("strain_limit", &S::strainLimit, "Longest stretch of a spring, l/L - 1, kept after every step.")

@@ -20,6 +20,8 @@ struct Preset {
 // N/m, 1 gf cm^2/cm = 9.81e-5 N m, 1 gf/(cm degree) = 56.2 N/m a radian. They are not measurements of one
 // cloth. Rubber: a latex sheet of 0.4 mm, E = 1.5 MPa, Poisson 1/2, 930 kg/m^3. Paper: 80 g/m^2, 0.1 mm, E
 // = 3.5 GPa, B = E t^3 / 12. Damping is ours: what keeps motion lively without ringing on.
+constexpr double LONGEST_CHOSEN_STEP = 1.0 / 60;  // [s], by "auto"
+
 constexpr std::array<Preset, 6> presets{{
     {"silk",
      {.density = 0.06,
@@ -144,13 +146,15 @@ double stableStep(const ClothSettings& cloth) {
 }
 
 double stableStep(const Scene& scene) {
+  if (scene.solver.integrator == Integrator::implicit) return std::numeric_limits<double>::infinity();
   double smallest = std::numeric_limits<double>::infinity();
   for (const ClothSettings& cloth : scene.cloths) smallest = std::min(smallest, stableStep(cloth));
   return smallest;
 }
 
 int stableSteps(const Scene& scene) {
-  const double steps = std::ceil(1 / (scene.solver.framesPerSec * stableStep(scene)));
+  const double longest = std::min(stableStep(scene), LONGEST_CHOSEN_STEP);
+  const double steps = std::ceil(1 / (scene.solver.framesPerSec * longest) * (1 - 1e-9));
   return static_cast<int>(std::clamp(steps, 1.0, static_cast<double>(mostSteps)));
 }
 

@@ -35,9 +35,10 @@ struct LatticeStiffness {
 // A step that no explicit integrator becomes unstable at, whatever the cloth's shape [s]: 2 / omega, where
 // omega^2 bounds the largest eigenvalue of K/m by Gershgorin's circles over blocks. Infinite without springs.
 [[nodiscard]] double stableStep(const ClothSettings& cloth);
-[[nodiscard]] double stableStep(const Scene& scene);  // the smallest of its cloths
+// The smallest of its cloths; infinite under the implicit integrator.
+[[nodiscard]] double stableStep(const Scene& scene);
 
-// The least number of steps a frame whose length is at most the stable step.
+// The least number of steps a frame whose length is at most the stable step, and 1/60 s.
 [[nodiscard]] int stableSteps(const Scene& scene);
 // Sets solver.simulation_steps where it is "auto".
 void chooseSteps(Scene& scene);

@@ -97,6 +97,7 @@ std::string changeResolution(Scene& scene, int columns, int rows, bool keepSteps
           (changes.empty() ? "" : ", ") + name + " " + formatNumber(before) + " -> " + formatNumber(after);
   };
 
+  keepSteps = keepSteps || scene.solver.integrator == Integrator::implicit;
   int factor = 1;
   for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
     ClothSettings& cloth = scene.cloths[i];

@@ -174,7 +174,8 @@ struct Wind {
   friend bool operator==(const Wind&, const Wind&) = default;
 };
 
-enum class Integrator { verlet, euler };
+// implicit: backward Euler, stable at any step (solver/implicit.h).
+enum class Integrator { verlet, euler, implicit };
 
 // averaged: CS184's rule, particles within 2 thickness are pushed apart by the mean of what each pair asks
 // for. robust: no particle comes so near to a stranger that triangles could cross (solver/self_collision.h).
@@ -204,6 +205,8 @@ struct SolverSettings {
   Integrator integrator = Integrator::verlet;
   double framesPerSec = 90;   // [1/s]
   StepCount simulationSteps;  // a frame; h = 1 / (frames_per_sec * simulation_steps)
+  int newtonSteps = 3;        // of `implicit`, in a step: each makes a linear system,
+  int cgIterations = 10;      // solved by so many iterations of conjugate gradients
   std::optional<double>
       strainLimit;  // largest l/L - 1 after the limiter; none: no limiter. 0.1 in scenes with `ks`
   SelfCollision selfCollision = SelfCollision::off;  // averaged in scenes with `ks`, as CS184 does

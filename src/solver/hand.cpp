@@ -44,7 +44,8 @@ double falloff(double distanceSquared, double radius) {
 template <class Real>
 void putHold(const Hold& hold, double h, std::uint64_t step, HandParams<Real>& params) {
   const double w = std::sqrt(hold.strength);
-  const double kept = 1 / (1 + 2 * h * w + h * h * hold.strength);
+  const double resistance = 2 * h * w + h * h * hold.strength;
+  const double kept = 1 / (1 + resistance);
   const Vec3d goal = placeOf(hold, step + 1);
   const Vec3d velocity = (1 / h) * (goal - placeOf(hold, step));
   const Vec3d push = (kept * 2 * h * w) * velocity;
@@ -60,6 +61,10 @@ void putHold(const Hold& hold, double h, std::uint64_t step, HandParams<Real>& p
   params.firstRow = hold.firstRow;
   params.columns = hold.columns;
   params.rows = hold.rows;
+  params.resistance = real<Real>(resistance);
+  params.reach = real<Real>(resistance > 0 ? h * (1 + resistance) / resistance : 0);
+  params.largestWay = real<Real>(h * LARGEST_HAND_SPEED);
+  params.largestWaySquared = real<Real>(h * h * LARGEST_HAND_SPEED * LARGEST_HAND_SPEED);
   params.largestSpeed = real<Real>(LARGEST_HAND_SPEED);
   params.largestSpeedSquared = real<Real>(LARGEST_HAND_SPEED * LARGEST_HAND_SPEED);
 }

@@ -8,7 +8,8 @@
 // and v_new no faster than a hand (30 m/s), so that a goal far away tears nothing out of the cloth in one
 // step. A particle of weight c < 1 takes that part of the change: v' + c (v_new - v'). It comes right after
 // the integration, so that strain limit, self-collision and colliders have the last word. Pinned particles
-// stay.
+// stay. The implicit integrator has the same spring in its energy: a particle of weight c feels that part of
+// it, and is pulled to a place no farther than h 30 m/s.
 #pragma once
 
 #include <cstdint>

@@ -135,7 +135,7 @@ bool travels(const Collider& collider) {
 
 int contactRounds(const Scene& scene) {
   const bool any = std::any_of(scene.colliders.begin(), scene.colliders.end(), travels);
-  return any && scene.solver.strainLimit ? 3 : 1;
+  return any && limitsInPasses(scene) ? 3 : 1;
 }
 
 Integrator startingVelocityMeaning(const Scene& scene) {
@@ -150,6 +150,41 @@ namespace {
 // material's a rate.
 double velocityKept(const ClothSettings& cloth, double h) {
   return cloth.material ? std::exp(-cloth.material->damping * h) : 1 - cloth.damping / 100;
+}
+
+// Where steps are long, damping has to be a rate [1/s]: CS184 takes 2700 steps a second.
+double dampingRate(const ClothSettings& cloth) {
+  return cloth.material ? cloth.material->damping : cloth.damping / 100 * 2700;
+}
+
+// The strain limit inside an energy: a spring as stiff as the limit asks for begins at 4/5 of it. Within the
+// last fifth, the longest springs of the cloth carry four times its weight, each alone.
+constexpr double LIMIT_BEGINS = 0.8;
+double limitStiffness(const Grid& grid, double limit) {
+  double longest = 0, stiffest = 0;
+  for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot) {
+    if (!grid.slotEnabled[slot]) continue;
+    longest = std::max(longest, grid.nominalLength[slot]);
+    stiffest = std::max(stiffest, grid.stiffness[slot]);
+  }
+  const double weight = 9.81 * grid.particleMass * grid.particleCount();
+  return longest > 0 ? std::max(10 * stiffest, 4 * weight / ((1 - LIMIT_BEGINS) * limit * longest)) : 0;
+}
+
+template <class Real>
+void putImplicit(const Scene& scene, const Grid& grid, std::size_t gridIndex, StepParams<Real>& params) {
+  if (scene.solver.integrator != Integrator::implicit) return;
+  const ClothSettings& cloth = scene.cloths[gridIndex];
+  const double h = stepLength(scene.solver), damped = 1 + dampingRate(cloth) * h;
+  params.inertia = real<Real>(damped / (h * h));
+  params.guessTime = real<Real>(h / damped);
+  if (!scene.solver.strainLimit) return;
+  // A limit of 0 asks for springs that cannot stretch: a tenth of a percent stands for it.
+  const double limit = std::max(*scene.solver.strainLimit, 1e-3);
+  params.limitStiffness = real<Real>(limitStiffness(grid, limit));
+  params.limitFactor = real<Real>(1 + LIMIT_BEGINS * limit);
+  for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot)
+    params.springs[slot].limitLength = real<Real>((1 + LIMIT_BEGINS * limit) * grid.nominalLength[slot]);
 }
 
 }  // namespace
@@ -205,6 +240,7 @@ StepParams<Real> makeStepParams(const Scene& scene, const Cloth& cloth, std::siz
                             real<Real>(squareInRange((1 + scene.solver.maxStrain) * length))};
     if (grid.slotEnabled[slot]) params.enabledSlots |= 1u << slot;
   }
+  putImplicit(scene, grid, gridIndex, params);
   return params;
 }
 

@@ -45,6 +45,11 @@ template <class Real>
 // whose phases come from the seed, around the given frequency, of standard deviation `strength`.
 [[nodiscard]] Vec3d airVelocity(const Wind& wind, double t);
 
+// Whether passes of their own keep the strain limit; in `implicit` a second, stiff spring does.
+[[nodiscard]] inline bool limitsInPasses(const Scene& scene) {
+  return scene.solver.strainLimit && scene.solver.integrator != Integrator::implicit;
+}
+
 // How often strain limit and colliders take turns in a step. The limiter can pull particles into a collider
 // again, and through one that has gone far in the step: with a travelling collider the two go three rounds,
 // and the collider has the last word. With resting ones once is enough, in the order of CS184.
@@ -53,6 +58,11 @@ template <class Real>
 // What the velocities of a cloth at rest mean at the start: CS184 begins `verlet` with v(-1/2) = 0; elsewhere
 // v(0) = 0, and the first step converts (v(-1/2) = -h a / 2 makes Verlet second order).
 [[nodiscard]] Integrator startingVelocityMeaning(const Scene& scene);
+
+// What the velocities mean that an integrator carries: v(n - 1/2) for `verlet`, v(n) for the others.
+[[nodiscard]] inline Integrator velocityMeaningOf(Integrator integrator) {
+  return integrator == Integrator::verlet ? Integrator::verlet : Integrator::euler;
+}
 
 // The time t in v + t a that turns the other integrator's velocities into those of the scene's: -h/2 for
 // `verlet`.

@@ -58,6 +58,8 @@ void CpuSolver<Real>::configure(const Scene& scene) {
   colliders_.resize(scene.colliders.size());
   params_.resize(cloth_->grids().size());
   selfCollision_.configure(scene);
+  if (scene.solver.integrator == Integrator::implicit && !implicitStep_)
+    implicitStep_.emplace(*cloth_, parallel_);
   preparePins();
 }
 
@@ -135,7 +137,7 @@ void CpuSolver<Real>::checkStart() {
 // verlet carries v(n - 1/2), euler v(n): the difference is h a / 2.
 template <class Real>
 void CpuSolver<Real>::convertVelocities() {
-  const Integrator wanted = scene_.solver.integrator;
+  const Integrator wanted = velocityMeaningOf(scene_.solver.integrator);
   if (wanted == velocityMeaning_) return;
   checkStart();
   velocityMeaning_ = wanted;
@@ -170,7 +172,7 @@ void CpuSolver<Real>::stepOnce() {
     if (!scene_.colliders.empty()) forEachGridRow(collide);
   };
   const auto limitStrain = [&] {
-    if (!scene_.solver.strainLimit) return;
+    if (!limitsInPasses(scene_)) return;
     for (std::size_t grid = 0; grid < grids; ++grid) {
       const Arguments pass = arguments(params_[grid]);
       for (const LimitColor& color : limitColors_[grid]) {
@@ -183,8 +185,11 @@ void CpuSolver<Real>::stepOnce() {
   };
 
   const int rounds = contactRounds(scene_);
-  const bool fusesCollide = fused_ && !selfCollision_.isOn();
-  if (fused_) {
+  const bool implicit = scene_.solver.integrator == Integrator::implicit;
+  const bool fusesCollide = fused_ && !implicit && !selfCollision_.isOn();
+  if (implicit) {
+    implicitStep_->run(scene_.solver, [&](std::size_t grid) { return arguments(params_[grid]); });
+  } else if (fused_) {
     forEachGridRow([&](const Arguments& pass, int row) {
       gatherForces(pass, row);
       integrate(pass, row);

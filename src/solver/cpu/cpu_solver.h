@@ -2,9 +2,11 @@
 // of the GPU solver; CpuSolver<double> checks the physics.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "solver/cpu/cpu_state.h"
+#include "solver/cpu/implicit_step.h"
 #include "solver/cpu/passes.h"
 #include "solver/cpu/self_collision.h"
 #include "solver/solver.h"
@@ -79,8 +81,9 @@ class CpuSolver final : public Solver {
   std::vector<std::uint32_t> cutMasks_;
   std::vector<PinMotionParams<Real>> pinMotions_;
   Components<Real> pinStarts_;
-  std::vector<StepParams<Real>> params_;              // by grid
-  std::vector<std::vector<LimitColor>> limitColors_;  // by grid
+  std::vector<StepParams<Real>> params_;                 // by grid
+  std::vector<std::vector<LimitColor>> limitColors_;     // by grid
+  std::optional<cpu::ImplicitStep<Real>> implicitStep_;  // once it was needed
   cpu::SelfCollision<Real> selfCollision_;
 };
 

@@ -7,6 +7,8 @@
 
 #include "core/exact_math.h"
 #include "solver/cpu/rows.h"
+#include "solver/cpu/spring_rows.h"
+#include "solver/cpu/symmetric.h"
 #include "solver/cpu/watch.h"
 
 namespace clothsim::cpu {
@@ -42,9 +44,16 @@ INLINE Real jetShare(const HandParams<Real>& hand, Vec3<Real> x) {
 // n, and lift across the relative wind u, rho C_l / 2 A |u|^2 (e.n) (n - (e.n) e) with e = u/|u|. `normal` is
 // 2 A n, and the factors of the step hold rho C / 12. Both terms are even in n: it does not matter to which
 // side it points.
+// Beside the force: r of the matrix r n n^T by which it resists a change of the corners' velocity, with
+// `normal` for n, as far as `implicit` takes it for linear: the pressure with |u.n| as it is.
+template <class Real>
+struct TriangleWind {
+  Vec3<Real> force, normal;
+  Real resistance;
+};
 template <bool jet, class Real>
-INLINE Vec3<Real> windForce(const StepParams<Real>& step, const HandParams<Real>& hand, Vec3<Real> a,
-                            Vec3<Real> b, Vec3<Real> c, Vec3<Real> va, Vec3<Real> vb, Vec3<Real> vc) {
+INLINE TriangleWind<Real> windForce(const StepParams<Real>& step, const HandParams<Real>& hand, Vec3<Real> a,
+                                    Vec3<Real> b, Vec3<Real> c, Vec3<Real> va, Vec3<Real> vb, Vec3<Real> vc) {
   constexpr Real third = static_cast<Real>(1.0 / 3.0);
   const Vec3<Real> normal = cross(b - a, c - a);
   const Real normalSquared = dot(normal, normal);
@@ -71,22 +80,16 @@ INLINE Vec3<Real> windForce(const StepParams<Real>& step, const HandParams<Real>
     const bool alone = hand.jetAlone != 0;
     force = {alone ? part.x : force.x, alone ? part.y : force.y, alone ? part.z : force.z};
   }
+  Real resistance = (step.dragFactor * acrossMagnitude) * inverseNormal;
+  if constexpr (jet) {
+    const Real part = share * resistance;
+    resistance = hand.jetAlone != 0 ? part : resistance;
+  }
   const bool degenerate = normalSquared < static_cast<Real>(0x1p-100);
-  return {degenerate ? Real(0) : force.x, degenerate ? Real(0) : force.y, degenerate ? Real(0) : force.z};
+  return {{degenerate ? Real(0) : force.x, degenerate ? Real(0) : force.y, degenerate ? Real(0) : force.z},
+          normal,
+          degenerate ? Real(0) : resistance};
 }
-
-// Rest lengths of a slot: the nominal one for all, or from the table.
-template <class Real>
-struct NominalLength {
-  Real length;
-  Real operator[](std::ptrdiff_t) const { return length; }
-};
-
-// Which of its incident springs a pass works on, for the particles of a stretch.
-struct SpringPlace {
-  std::uint32_t bit;     // in incidentSprings
-  std::ptrdiff_t other;  // from a particle to the other end
-};
 
 // Adds the forces of one incident spring to every particle of the stretch. Of owned springs it returns the
 // largest bits of l^2 for the watchdog: one end of each spring is enough.
@@ -144,60 +147,41 @@ INLINE void addIncidentSpring(const PassArguments<Real>& arguments, Stretch part
   }
 }
 
-// Whether the row, or column, is a border of the grid.
-INLINE bool isBorder(std::int64_t place, std::uint32_t count) { return place == 0 || place + 1 == count; }
-
-// One incident spring of a stretch, all of the same stiffness.
-template <bool torn, class Real>
-INLINE void addIncidentSpring(const PassArguments<Real>& arguments, Stretch particles, std::uint32_t k,
-                              Real stiffness) {
-  const StepParams<Real>& step = arguments.step;
-  const IncidentSpring& incident = incidentSprings[k];
-  const SpringPlace place{k, indexOffset(step, incident.columns, incident.rows)};
-  SpringParams<Real> spring = step.springs[incident.slot];
-  spring.stiffness = stiffness;
-  if (step.useRestLengthTable != 0) {
-    const Real* rest = arguments.restLengths + static_cast<std::size_t>(incident.slot) * step.totalParticles +
-                       (incident.owned ? 0 : place.other);
-    addIncidentSpring<torn>(arguments, particles, incident.owned, place, spring, rest);
-  } else {
-    addIncidentSpring<torn>(arguments, particles, incident.owned, place, spring,
-                            NominalLength<Real>{spring.restLength});
-  }
-}
-
-// A material's springs along a border count half: the whole row, or its first and last particle.
-template <bool torn, class Real>
-INLINE void addMaterialSpring(const PassArguments<Real>& arguments, int row, Stretch particles,
-                              std::uint32_t k) {
-  const StepParams<Real>& step = arguments.step;
-  const IncidentSpring& incident = incidentSprings[k];
-  const Real inside = step.springs[incident.slot].stiffness, halved = Real(0.5) * inside;
-  if (incident.slot != toUpper) {
-    const bool onBorder = incident.slot == toLeft && isBorder(row, step.rows);
-    addIncidentSpring<torn>(arguments, particles, k, onBorder ? halved : inside);
-    return;
-  }
-  const std::ptrdiff_t last = std::max(particles.begin + 1, particles.end - 1);
-  addIncidentSpring<torn>(arguments, {particles.begin, particles.begin + 1}, k, halved);
-  addIncidentSpring<torn>(arguments, {particles.begin + 1, last}, k, inside);
-  addIncidentSpring<torn>(arguments, {last, particles.end}, k, halved);
-}
-
 template <bool torn, class Real>
 INLINE void addSprings(const PassArguments<Real>& arguments, int row) {
-  const StepParams<Real>& step = arguments.step;
-  for (std::uint32_t k = 0; k < incidentSprings.size(); ++k) {
-    const IncidentSpring& incident = incidentSprings[k];
-    const int otherRow = row + incident.rows;
-    const bool enabled = (step.enabledSlots >> incident.slot & 1u) != 0;
-    if (!enabled || otherRow < 0 || otherRow >= static_cast<int>(step.rows)) continue;
-    const Stretch particles = stretch(step, row, incident.columns, incident.columns);
-    if (step.hasMaterial != 0)
-      addMaterialSpring<torn>(arguments, row, particles, k);
-    else
-      addIncidentSpring<torn>(arguments, particles, k, step.springs[incident.slot].stiffness);
-  }
+  forEachSpringStretch(
+      arguments, row,
+      [&](Stretch particles, SpringPlace place, const SpringParams<Real>& spring,
+          auto rest) __attribute__((always_inline)) {
+        addIncidentSpring<torn>(arguments, particles, incidentSprings[place.bit].owned, place, spring, rest);
+      });
+}
+
+// What springs that are longer than limitLength add to their forces in `implicit`.
+template <bool torn, class Real>
+INLINE void addLimitSprings(const PassArguments<Real>& arguments, int row) {
+  const std::uint32_t* cutMasks = arguments.cutMasks;
+  const Components<Real>& p = arguments.before.positions;
+  const Real *x = p.x.data(), *y = p.y.data(), *z = p.z.data();
+  Real *fx = arguments.forces.x.data(), *fy = arguments.forces.y.data(), *fz = arguments.forces.z.data();
+  const Real stiffness = arguments.step.limitStiffness, limitFactor = arguments.step.limitFactor;
+  forEachSpringStretch(
+      arguments, row,
+      [&](Stretch particles, SpringPlace place, const SpringParams<Real>& spring, auto rest)
+          __attribute__((always_inline)) {
+            for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
+              const Vec3<Real> d = load(x, y, z, i + place.other) - load(x, y, z, i);
+              const Real limit = limitLength(rest, i, limitFactor, spring.limitLength);
+              const Real lengthSquared = dot(d, d);
+              const Real inverseLength = inverseSquareRoot(lengthSquared);
+              const Real over = lengthSquared * inverseLength - limit;
+              const Real scale = (stiffness * over) * inverseLength;
+              const bool acts = over > Real(0) && !isGone<torn>(cutMasks, i, place.bit);
+              fx[i] = acts ? fx[i] + scale * d.x : fx[i];
+              fy[i] = acts ? fy[i] + scale * d.y : fy[i];
+              fz[i] = acts ? fz[i] + scale * d.z : fz[i];
+            }
+          });
 }
 
 // Three particles in a line, and the particle among them that gathers: the force on an end is b (2 m - a -
@@ -266,11 +250,14 @@ INLINE void addBending(const PassArguments<Real>& arguments, int row) {
 template <bool torn, class Real>
 INLINE void addElasticForces(const PassArguments<Real>& arguments, int row) {
   addSprings<torn>(arguments, row);
+  if (arguments.step.limitStiffness > Real(0)) addLimitSprings<torn>(arguments, row);
   if (arguments.step.hasMaterial != 0) addBending<torn>(arguments, row);
 }
 
-template <bool torn, bool jet, class Real>
-INLINE void addWind(const PassArguments<Real>& arguments, int row) {
+// With `resists` it adds up the matrices r n n^T as well.
+template <bool torn, bool jet, bool resists, class Real>
+INLINE void addWind(const PassArguments<Real>& arguments, int row,
+                    [[maybe_unused]] SymmetricField<Real>* resistance) {
   const StepParams<Real>& step = arguments.step;
   const Components<Real>&p = arguments.before.positions, &v = arguments.before.velocities;
   const Real *x = p.x.data(), *y = p.y.data(), *z = p.z.data(), *vx = v.x.data(), *vy = v.y.data(),
@@ -289,23 +276,27 @@ INLINE void addWind(const PassArguments<Real>& arguments, int row) {
 #pragma omp simd
     for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
       const bool gone = isGone<torn>(cutMasks, i, FIRST_CUT_TRIANGLE + k);
-      const Vec3<Real> f =
+      const auto [f, normal, r] =
           windForce<jet>(step, hand, load(x, y, z, i + ia), load(x, y, z, i + ib), load(x, y, z, i + ic),
                          load(vx, vy, vz, i + ia), load(vx, vy, vz, i + ib), load(vx, vy, vz, i + ic));
       fx[i] = gone ? fx[i] : fx[i] + f.x;
       fy[i] = gone ? fy[i] : fy[i] + f.y;
       fz[i] = gone ? fz[i] : fz[i] + f.z;
+      if constexpr (resists)
+        if (!gone) addTo(*resistance, i, outerProduct(r, normal));
     }
   }
 }
 
-template <class Real>
-INLINE void addWind(const PassArguments<Real>& arguments, int row) {
+template <bool resists, class Real>
+INLINE void addWind(const PassArguments<Real>& arguments, int row, SymmetricField<Real>* resistance) {
   const bool torn = arguments.cutMasks != nullptr;
   if (torn)
-    arguments.jet ? addWind<true, true>(arguments, row) : addWind<true, false>(arguments, row);
+    arguments.jet ? addWind<true, true, resists>(arguments, row, resistance)
+                  : addWind<true, false, resists>(arguments, row, resistance);
   else
-    arguments.jet ? addWind<false, true>(arguments, row) : addWind<false, false>(arguments, row);
+    arguments.jet ? addWind<false, true, resists>(arguments, row, resistance)
+                  : addWind<false, false, resists>(arguments, row, resistance);
 }
 
 // -a |v| v
@@ -329,14 +320,18 @@ INLINE void addAirResistance(const PassArguments<Real>& arguments, int row) {
 }
 
 template <class Real>
-INLINE void gatherForcesRow(const PassArguments<Real>& arguments, int row) {
+INLINE void clearForces(const PassArguments<Real>& arguments, int row) {
   const Stretch particles = stretch(arguments.step, row);
-  std::fill(&arguments.forces.x[0] + particles.begin, &arguments.forces.x[0] + particles.end, Real(0));
-  std::fill(&arguments.forces.y[0] + particles.begin, &arguments.forces.y[0] + particles.end, Real(0));
-  std::fill(&arguments.forces.z[0] + particles.begin, &arguments.forces.z[0] + particles.end, Real(0));
+  for (std::vector<Real>* f : {&arguments.forces.x, &arguments.forces.y, &arguments.forces.z})
+    std::fill(f->data() + particles.begin, f->data() + particles.end, Real(0));
+}
+
+template <class Real>
+INLINE void gatherForcesRow(const PassArguments<Real>& arguments, int row) {
+  clearForces(arguments, row);
   arguments.cutMasks != nullptr ? addElasticForces<true>(arguments, row)
                                 : addElasticForces<false>(arguments, row);
-  if (arguments.step.hasWind != 0) addWind(arguments, row);
+  if (arguments.step.hasWind != 0) addWind<false, Real>(arguments, row, nullptr);
   if (arguments.step.airResistance > Real(0)) addAirResistance(arguments, row);
 }
 
@@ -346,5 +341,23 @@ VECTOR_CLONES void gatherForces(const PassArguments<float>& arguments, int row) 
   gatherForcesRow(arguments, row);
 }
 void gatherForces(const PassArguments<double>& arguments, int row) { gatherForcesRow(arguments, row); }
+
+VECTOR_CLONES void addBendingForces(const PassArguments<float>& arguments, int row) {
+  arguments.cutMasks != nullptr ? addBending<true>(arguments, row) : addBending<false>(arguments, row);
+}
+void addBendingForces(const PassArguments<double>& arguments, int row) {
+  arguments.cutMasks != nullptr ? addBending<true>(arguments, row) : addBending<false>(arguments, row);
+}
+
+template <class Real>
+void gatherWind(const PassArguments<Real>& arguments, int row, SymmetricField<Real>& resistance) {
+  clearForces(arguments, row);
+  const Stretch particles = stretch(arguments.step, row);
+  for (std::vector<Real>* r : resistance.all())
+    std::fill(r->data() + particles.begin, r->data() + particles.end, Real(0));
+  addWind<true>(arguments, row, &resistance);
+}
+template void gatherWind(const PassArguments<float>&, int, SymmetricField<float>&);
+template void gatherWind(const PassArguments<double>&, int, SymmetricField<double>&);
 
 }  // namespace clothsim::cpu

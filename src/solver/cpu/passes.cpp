@@ -10,7 +10,7 @@ namespace clothsim::cpu {
 namespace {
 
 // One component of x' = x + h v', v' = (1 - damping) v + h (g + w f); pinned particles rest, unless
-// movePins() follows.
+// movePinsOf() follows.
 template <class Real>
 INLINE void integrateComponent(const StepParams<Real>& step, Stretch particles, Real gravity,
                                const Real* inverseMass, const Real* force, const Real* position,
@@ -61,7 +61,7 @@ void pullHeld(const PassArguments<Real>& arguments, int row) {
 // Where their paths take the pins from their start positions (solver/pin_paths.h), at the velocity that leads
 // there.
 template <class Real>
-void movePins(const PassArguments<Real>& arguments, Stretch particles) {
+void movePinsOf(const PassArguments<Real>& arguments, Stretch particles) {
   const Components<Real>&s = arguments.pinStarts, &old = arguments.before.positions;
   Components<Real>&p = arguments.after.positions, &v = arguments.after.velocities;
   for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
@@ -100,7 +100,7 @@ INLINE void integrateRow(const PassArguments<Real>& arguments, int row) {
                      before.positions.z.data(), before.velocities.z.data(), after.positions.z.data(),
                      after.velocities.z.data());
   if (arguments.held != nullptr) pullHeld(arguments, row);
-  if (arguments.pinPathNumbers != nullptr) movePins(arguments, particles);
+  if (arguments.pinPathNumbers != nullptr) movePinsOf(arguments, particles);
   watchVelocities(arguments, PASS_INTEGRATE, row);
 }
 
@@ -212,6 +212,13 @@ void watchLimit(const PassArguments<double>& arguments, int row) {
   watchVelocities(arguments, arguments.step.limitPass, row);
 }
 
+template <class Real>
+void movePins(const PassArguments<Real>& arguments, int row) {
+  if (arguments.pinPathNumbers != nullptr) movePinsOf(arguments, stretch(arguments.step, row));
+}
+
+template void movePins(const PassArguments<float>&, int);
+template void movePins(const PassArguments<double>&, int);
 template void kick(const PassArguments<float>&, int);
 template void kick(const PassArguments<double>&, int);
 template void limitStrain(const PassArguments<float>&, const LimitColor&, std::uint32_t);

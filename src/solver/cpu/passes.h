@@ -14,6 +14,9 @@
 
 namespace clothsim::cpu {
 
+template <class Real>
+struct SymmetricField;  // symmetric.h
+
 // Everything a pass reads and writes; `before` is the state at the start of the step, `after` the one at its
 // end.
 template <class Real>
@@ -36,6 +39,16 @@ struct PassArguments {
   WatchRow& watch;           // of this step; rows and threads write to it atomically
 };
 
+// The same arguments over another state at the start, with other forces and other parameters.
+template <class Real>
+PassArguments<Real> withState(const PassArguments<Real>& of, const StepParams<Real>& step,
+                              const CpuState<Real>& before, Components<Real>& forces) {
+  return {step,         of.colliders,     of.distances,   of.pinMotions, of.pinPathNumbers,
+          of.pinStarts, of.inverseMasses, of.restLengths, of.hand,       of.held,
+          of.jet,       of.cutMasks,      before,         of.after,      forces,
+          of.watch};
+}
+
 // Looks for what is not finite in the state that a step begins with.
 void checkStart(const PassArguments<float>& arguments, int row);
 void checkStart(const PassArguments<double>& arguments, int row);
@@ -45,6 +58,15 @@ void gatherForces(const PassArguments<float>& arguments, int row);
 void gatherForces(const PassArguments<double>& arguments, int row);
 void integrate(const PassArguments<float>& arguments, int row);
 void integrate(const PassArguments<double>& arguments, int row);
+// Adds what a material's bending does to before.positions to the forces.
+void addBendingForces(const PassArguments<float>& arguments, int row);
+void addBendingForces(const PassArguments<double>& arguments, int row);
+// The forces of the wind alone, and the matrices by which it resists velocities [N s/m] (implicit).
+template <class Real>
+void gatherWind(const PassArguments<Real>& arguments, int row, SymmetricField<Real>& resistance);
+// Where their paths take the pins, into `after`; pins without a path are left alone.
+template <class Real>
+void movePins(const PassArguments<Real>& arguments, int row);
 // after.velocities = before.velocities + kickTime * acceleration, positions untouched.
 template <class Real>
 void kick(const PassArguments<Real>& arguments, int row);

@@ -30,6 +30,11 @@ std::ptrdiff_t indexOffset(const StepParams<Real>& step, int columns, int rows) 
   return columns + rows * static_cast<std::ptrdiff_t>(step.columns);
 }
 
+template <class Number>
+INLINE Number larger(Number a, Number b) {
+  return a < b ? b : a;
+}
+
 template <class Real>
 INLINE Vec3<Real> load(const Real* x, const Real* y, const Real* z, std::ptrdiff_t i) {
   return {x[i], y[i], z[i]};

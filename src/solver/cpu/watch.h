@@ -19,11 +19,6 @@ inline void noteTrouble(WatchRow& watch, std::uint32_t pass, std::ptrdiff_t part
   }
 }
 
-template <class Bits>
-INLINE Bits larger(Bits a, Bits b) {
-  return a < b ? b : a;
-}
-
 template <class Real>
 bool finite(Real x) {
   return !isBeyond(x < Real(0) ? -x : x, std::numeric_limits<Real>::max());

@@ -26,9 +26,15 @@ class RandomScene {
       scene.wind =
           Wind{vector(), {positive(), positive(), whole(0, 1 << 30)}, positive(), positive(), positive()};
     if (maybe()) scene.airResistance = positive();
-    scene.solver = {
-        maybe() ? Integrator::verlet : Integrator::euler, positive(), whole(1, 1'000'000), optionalPositive(),
-        static_cast<SelfCollision>(whole(0, 2)),          fraction(), FrictionLaw::cs184};
+    scene.solver = {.integrator = static_cast<Integrator>(whole(0, 2)),
+                    .framesPerSec = positive(),
+                    .simulationSteps = whole(1, 1'000'000),
+                    .newtonSteps = whole(1, 100),
+                    .cgIterations = whole(1, 10'000),
+                    .strainLimit = optionalPositive(),
+                    .selfCollision = static_cast<SelfCollision>(whole(0, 2)),
+                    .selfFriction = fraction(),
+                    .frictionLaw = FrictionLaw::cs184};
     if (maybe()) makeCoulomb(scene);
     if (maybe()) scene.camera = {vector(), vector(), 1 + 169 * fraction()};
     scene.render = renderSettings();

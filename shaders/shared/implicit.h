@@ -1,0 +1,95 @@
+// The implicit integrator: what both backends need besides the parameters of a step. Included by GLSL
+// (std140) and by C++, where `real` is float for the bitwise twin and double for tests of the physics. Rows
+// of 16 bytes.
+#ifdef __cplusplus
+#pragma once
+#include <cstdint>
+namespace clothsim::shared {
+using uint = std::uint32_t;
+#define SHARED_STRUCT   \
+  template <class real> \
+  struct
+#else
+#define SHARED_STRUCT struct
+#define real float
+#endif
+
+#define LEVEL_PARAMS_BINDING 4  // uniform block
+
+// Storage blocks: what a pass writes, and the scalars of the iteration.
+#define FIRST_OUTPUT_BINDING 4
+#define SECOND_OUTPUT_BINDING 5
+#define THIRD_OUTPUT_BINDING 6
+#define FOURTH_OUTPUT_BINDING 7
+#define SCALARS_BINDING 7
+
+// Buffers read as texels, a vec4 a particle; the first four of them go on with the vertices of the coarse
+// levels.
+#define RESIDUALS_UNIT 18    // r = minus the gradient of the energy, later that of the linear system [N]
+#define CORRECTIONS_UNIT 19  // z = preconditioned r [m]
+#define FACTORS_UNIT 20      // two texels each: L D L^T of the diagonal block, l21 l31 l32 and 1/d1 1/d2 1/d3
+#define BLOCKS_UNIT 21       // four texels each: what coarse diagonal blocks are made of
+#define ANCHORS_UNIT 22      // b and a of the energy 1/2 a |d|^2 - b.d of a particle's way d
+#define AIR_BLOCKS_UNIT 23   // two texels each: what the air adds to a, a symmetric matrix
+#define WAYS_UNIT 24         // d, from the start of the step [m]
+#define ITERATES_UNIT 25     // x + d, and the inverse mass
+#define DIRECTIONS_UNIT 26   // p of conjugate gradients, and the inverse mass
+#define PRODUCTS_UNIT 27     // H p; later a particle's change of energy at four lengths of the Newton step
+#define INCREMENTS_UNIT 28   // the Newton step so far [m]
+#define STARTS_UNIT 29       // x at the start of the step, and the inverse mass
+#define PARTIAL_SUMS_UNIT 30
+
+// Sums over all particles have one order: lane t of 256 adds every 256th number of a block of 1024, the lanes
+// are added as a tree, and so are the blocks.
+#define SUM_LANES 256
+#define SUM_BLOCK 1024u
+// Passes over all particles take them in rows of so many.
+#define PARTICLES_A_ROW 16384u
+
+// Lengths of the Newton step that the line search looks at: 1, 1/2, 1/4, 1/8. It takes the first that lowers
+// the energy by this part of what the slope promises (Armijo 1966).
+#define LENGTHS_TRIED 4
+#define SUFFICIENT_DECREASE 0x1p-13
+
+// What becomes of a sum.
+#define SUM_FIRST 0   // r.z at the start of conjugate gradients
+#define SUM_STEP 1    // p.Hp: the length of a step along p
+#define SUM_TURN 2    // r.z: how much of the last direction is kept
+#define SUM_LENGTH 3  // changes of energy: the length of the Newton step
+
+// A level of a grid and the next coarser one, of about half as many points in a direction (never fewer than
+// 2).
+SHARED_STRUCT LevelParams {
+  uint fineFirst;  // vertex; the finest level's vertices are the particles
+  uint fineColumns;
+  uint fineRows;
+  uint coarseFirst;
+
+  uint coarseColumns;
+  uint coarseRows;
+  real stretchFactor;  // of the sum of stiffness over a coarse vertex' neighbourhood,
+  real inertiaFactor;  // of the sum of inertia,
+
+  real bending;  // and what bending adds to a coarse diagonal block [N/m]
+  real unusedA;
+  real unusedB;
+  real unusedC;
+};
+
+// Kept between the passes of a Newton step.
+SHARED_STRUCT ImplicitScalars {
+  real residual;  // r.z
+  real stepSize;  // alpha
+  real kept;      // beta
+  real promised;  // how much the quadratic model falls along the Newton step, twice
+
+  real newtonLength;  // 0 to 1
+  real unusedX;
+  real unusedY;
+  real unusedZ;
+};
+
+#ifdef __cplusplus
+#undef SHARED_STRUCT
+}  // namespace clothsim::shared
+#endif

@@ -1,0 +1,92 @@
+// From the elastic forces at the iterate: residuals, and the blocks of the preconditioner (src/solver/implicit.h). Clears the
+// increments and the directions. POSITIONS_UNIT: the iterate.
+#include "sim/implicit/common.glsl"
+#include "sim/watch.glsl"
+#include "sim/implicit/springs.glsl"
+
+layout(std430, binding = FIRST_OUTPUT_BINDING) writeonly buffer Residuals { vec4 newResiduals[]; };
+layout(std430, binding = SECOND_OUTPUT_BINDING) writeonly buffer FactorsOut { vec4 newFactors[]; };
+layout(std430, binding = THIRD_OUTPUT_BINDING) writeonly buffer Blocks { vec4 newBlocks[]; };
+
+// What bending adds to the diagonal block of particle i of `count` in a line, of those `stride` apart.
+float bendingBlock(uint index, uint i, uint count, uint stride, float b, uint cut, uint before, uint around, uint after) {
+  precise float sum = 0.0;
+  if (i >= 2u && (cut & before) == 0u) {
+    bool endOfClamp = positionAt(index - stride).w == 0.0 && (positionAt(index - 2u * stride).w == 0.0) != (positionAt(index).w == 0.0);
+    precise float weighted = endOfClamp ? 2.0 * b : b;
+    sum = sum + weighted;
+  }
+  if (i >= 1u && i + 1u < count && (cut & around) == 0u) {
+    bool endOfClamp = positionAt(index).w == 0.0 && (positionAt(index - stride).w == 0.0) != (positionAt(index + stride).w == 0.0);
+    precise float weighted = endOfClamp ? 2.0 * b : b;
+    sum = sum + 4.0 * weighted;
+  }
+  if (i + 2u < count && (cut & after) == 0u) {
+    bool endOfClamp = positionAt(index + stride).w == 0.0 && (positionAt(index).w == 0.0) != (positionAt(index + 2u * stride).w == 0.0);
+    precise float weighted = endOfClamp ? 2.0 * b : b;
+    sum = sum + weighted;
+  }
+  return sum;
+}
+
+Symmetric addBendingBlock(GridPoint p, Symmetric block) {
+  bool borderRow = p.row == 0u || p.row + 1u == step.rows;
+  bool borderColumn = p.column == 0u || p.column + 1u == step.columns;
+  precise float alongRow = borderRow ? 0.5 * step.bendAlongRow : step.bendAlongRow;
+  precise float alongColumn = borderColumn ? 0.5 * step.bendAlongColumn : step.bendAlongColumn;
+  uint cut = cutMaskOf(p.index);
+  precise float b =
+      bendingBlock(p.index, p.column, step.columns, 1u, alongRow, cut, BENDING_LEFT, BENDING_ROW, BENDING_RIGHT) +
+      bendingBlock(p.index, p.row, step.rows, step.columns, alongColumn, cut, BENDING_UPPER, BENDING_COLUMN, BENDING_LOWER);
+  precise vec3 diagonal = block.diagonal + vec3(b);
+  return Symmetric(diagonal, block.others);
+}
+
+void main() {
+  GridPoint p = thisGridPoint();
+  if (!p.exists) return;
+  uint i = p.index;
+  vec4 x = positionAt(i);
+  newResiduals[i] = vec4(0.0);
+  newFactors[2u * i] = vec4(0.0);
+  newFactors[2u * i + 1u] = vec4(0.0);
+  for (uint k = 0u; k < 4u; ++k) newBlocks[4u * i + k] = vec4(0.0);
+  if (x.w == 0.0) return;
+
+  vec4 anchor = texelFetch(anchors, int(i));
+  Symmetric block = Symmetric(vec3(anchor.w), vec3(0.0)), air = Symmetric(vec3(0.0), vec3(0.0));
+  if (hasWind) {
+    air = airBlockAt(i);
+    block = sumOf(block, air);
+  }
+  Symmetric inertia = block, stretch = Symmetric(vec3(0.0), vec3(0.0));
+  uint cut = cutMaskOf(i);
+  for (uint k = 0u; k < INCIDENT_SPRINGS; ++k) {
+    IncidentSpring spring = incidentSpring(p, k, cut);
+    if (!spring.exists) continue;
+    vec4 end = positionAt(spring.other);
+    precise vec3 d = end.xyz - x.xyz;
+    SpringBlock s = springBlock(d, spring);
+    Symmetric outer = outerProduct3(s.along, d);
+    precise vec3 diagonal = outer.diagonal + vec3(s.across);
+    Symmetric stiff = Symmetric(diagonal, outer.others);
+    float weight = 0.5 * float(toEnd[k].x * toEnd[k].x + toEnd[k].y * toEnd[k].y);
+    block = sumOf(block, stiff);
+    stretch = sumOf(stretch, scaled(weight, stiff));
+    if (end.w == 0.0) inertia = sumOf(inertia, stiff);
+  }
+  if (hasMaterial) block = addBendingBlock(p, block);
+
+  vec3 way = texelFetch(ways, int(i)).xyz;
+  precise vec3 pull = anchor.xyz - anchor.w * way;
+  if (hasWind) pull = pull - timesVector(air, way);
+  precise vec3 residual = pull + forces[i].xyz;
+  newResiduals[i] = vec4(canonical(residual), 0.0);
+  Factors f = factorize(block);
+  newFactors[2u * i] = vec4(f.lower, 0.0);
+  newFactors[2u * i + 1u] = vec4(f.inverse, 0.0);
+  newBlocks[4u * i] = vec4(stretch.diagonal, 0.0);
+  newBlocks[4u * i + 1u] = vec4(stretch.others, 0.0);
+  newBlocks[4u * i + 2u] = vec4(inertia.diagonal, 0.0);
+  newBlocks[4u * i + 3u] = vec4(inertia.others, 0.0);
+}

@@ -1,0 +1,51 @@
+// Adds the sums of the blocks, and does with the total what conjugate gradients or the line search do.
+#include "shared/implicit.h"
+#include "shared/step_params.h"
+
+layout(local_size_x = SUM_LANES) in;
+
+layout(std140, binding = STEP_PARAMS_BINDING) uniform StepBlock { StepParams step; };
+layout(binding = PARTIAL_SUMS_UNIT) uniform samplerBuffer partialSums;
+layout(std430, binding = SCALARS_BINDING) buffer Scalars { ImplicitScalars scalars; };
+
+#include "sim/exact_math.glsl"
+#include "sim/implicit/lanes.glsl"
+
+// a / b; 0 where b is none or too small for a reciprocal.
+float quotient(float a, float b) {
+  precise float result = a * reciprocal(b);
+  return b > uintBitsToFloat(0x08800000u) ? result : 0.0;  // 2^-110
+}
+
+// Whether the energy falls enough along the Newton step.
+bool fallsEnough(float change, float len) {
+  precise float needed = -((uintBitsToFloat(0x39000000u) * len) * scalars.promised);  // SUFFICIENT_DECREASE
+  return change <= needed;
+}
+
+void main() {
+  uint blocks = (step.totalParticles + SUM_BLOCK - 1u) / SUM_BLOCK;
+  precise vec4 sum = vec4(0.0);
+  for (uint block = gl_LocalInvocationID.x; block < blocks; block += uint(SUM_LANES))
+    sum = sum + texelFetch(partialSums, int(block));
+  vec4 total = addLanes(sum);
+  if (gl_LocalInvocationID.x != 0u) return;
+#if SUM_KIND == SUM_FIRST
+  scalars.residual = total.x < 0.0 ? 0.0 : total.x;
+  scalars.kept = 0.0;
+  scalars.promised = 0.0;
+#elif SUM_KIND == SUM_STEP
+  scalars.stepSize = quotient(scalars.residual, total.x);
+  precise float promised = scalars.promised + scalars.stepSize * scalars.residual;
+  scalars.promised = promised;
+#elif SUM_KIND == SUM_TURN
+  float residual = total.x < 0.0 ? 0.0 : total.x;
+  scalars.kept = quotient(residual, scalars.residual);
+  scalars.residual = residual;
+#else
+  scalars.newtonLength = fallsEnough(total.x, 1.0)    ? 1.0
+                         : fallsEnough(total.y, 0.5)  ? 0.5
+                         : fallsEnough(total.z, 0.25) ? 0.25
+                                                      : 0.125;
+#endif
+}

@@ -1,0 +1,87 @@
+// How a particle's part of the energy would change along the Newton step, at four lengths of it: its anchor, the springs it
+// owns and the lines of bending that it is in the middle of. Differences are taken where they arise, so that little ones
+// are exact.
+#include "sim/implicit/common.glsl"
+#include "sim/watch.glsl"
+#include "sim/implicit/springs.glsl"
+
+layout(std430, binding = FIRST_OUTPUT_BINDING) writeonly buffer Trials { vec4 trials[]; };
+
+const vec4 lengthsTried = vec4(1.0, 0.5, 0.25, 0.125);
+
+vec3 incrementAt(uint i) { return texelFetch(increments, int(i)).xyz; }
+
+float springChange(vec3 d, vec3 e, float l, IncidentSpring spring) {
+  precise vec3 moved = d + l * e;
+  precise float squaredBefore = sumOfProducts(d, d);
+  precise float squaredAfter = sumOfProducts(moved, moved);
+  precise float before = squaredBefore * inverseSquareRoot(squaredBefore);
+  precise float after = squaredAfter * inverseSquareRoot(squaredAfter);
+  precise float sum = (before + after) + uintBitsToFloat(0x0d800000u);  // 2^-100
+  precise float change = (l * (2.0 * sumOfProducts(d, e) + l * sumOfProducts(e, e))) * reciprocal(sum);
+  precise float energy = (spring.stiffness * change) * ((before - spring.restLength) + (after - spring.restLength));
+  precise float limit = 0.0;
+  if (hasLimitSprings) {
+    precise float pastBefore = before - spring.limitLength;
+    precise float pastAfter = after - spring.limitLength;
+    precise float overBefore = larger(pastBefore, 0.0);
+    precise float overAfter = larger(pastAfter, 0.0);
+    limit = (step.limitStiffness * (overAfter - overBefore)) * (overAfter + overBefore);
+  }
+  precise float result = 0.5 * (energy + limit);
+  return result;
+}
+
+// A line of three particles around one in the middle: b (l k.dk + l^2/2 |dk|^2), k = (m - a) + (m - c).
+vec4 addBendingTrial(vec4 trial, uint m, uint stride, float b) {
+  vec4 xm = iterateAt(m), xa = iterateAt(m - stride), xc = iterateAt(m + stride);
+  bool endOfClamp = xm.w == 0.0 && (xa.w == 0.0) != (xc.w == 0.0);
+  precise float weighted = endOfClamp ? 2.0 * b : b;
+  precise vec3 k = (xm.xyz - xa.xyz) + (xm.xyz - xc.xyz);
+  precise vec3 dk = (incrementAt(m) - incrementAt(m - stride)) + (incrementAt(m) - incrementAt(m + stride));
+  precise float first = sumOfProducts(k, dk);
+  precise float second = sumOfProducts(dk, dk);
+  precise vec4 sum = trial + (weighted * lengthsTried) * (first + (0.5 * lengthsTried) * second);
+  return sum;
+}
+
+vec4 addBendingTrials(GridPoint p, vec4 trial, uint cut) {
+  bool borderRow = p.row == 0u || p.row + 1u == step.rows;
+  bool borderColumn = p.column == 0u || p.column + 1u == step.columns;
+  precise float alongRow = borderRow ? 0.5 * step.bendAlongRow : step.bendAlongRow;
+  precise float alongColumn = borderColumn ? 0.5 * step.bendAlongColumn : step.bendAlongColumn;
+  if (!borderColumn && (cut & BENDING_ROW) == 0u) trial = addBendingTrial(trial, p.index, 1u, alongRow);
+  if (!borderRow && (cut & BENDING_COLUMN) == 0u) trial = addBendingTrial(trial, p.index, step.columns, alongColumn);
+  return trial;
+}
+
+void main() {
+  GridPoint p = thisGridPoint();
+  if (!p.exists) return;
+  uint i = p.index;
+  vec3 x = iterateAt(i).xyz, e = incrementAt(i), way = texelFetch(ways, int(i)).xyz;
+  vec4 anchor = texelFetch(anchors, int(i));
+  precise vec3 force = anchor.w * way;
+  precise vec3 product = anchor.w * e;
+  if (hasWind && iterateAt(i).w != 0.0) {
+    force = force + timesVector(airBlockAt(i), way);
+    product = product + timesVector(airBlockAt(i), e);
+  }
+  precise vec3 slope = force - anchor.xyz;
+  precise float first = sumOfProducts(slope, e);
+  precise float second = 0.5 * sumOfProducts(product, e);
+  precise vec4 trial = lengthsTried * (first + lengthsTried * second);
+  uint cut = cutMaskOf(i);
+  for (uint k = 0u; k < OWNED_SPRINGS; ++k) {
+    IncidentSpring spring = incidentSpring(p, k, cut);
+    if (!spring.exists) continue;
+    precise vec3 d = iterateAt(spring.other).xyz - x;
+    precise vec3 de = incrementAt(spring.other) - e;
+    for (int t = 0; t < LENGTHS_TRIED; ++t) {
+      precise float sum = trial[t] + springChange(d, de, lengthsTried[t], spring);
+      trial[t] = sum;
+    }
+  }
+  if (hasMaterial) trial = addBendingTrials(p, trial, cut);
+  trials[i] = trial;
+}

@@ -1,0 +1,42 @@
+// Sums over all particles in an order that depends on nothing but their number (shared/implicit.h); the twin
+// of shaders/sim/implicit/sum_*.comp.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "shared/implicit.h"
+
+namespace clothsim::cpu {
+
+template <class Real>
+Real addLanes(std::array<Real, SUM_LANES>& lanes) {
+  for (std::size_t stride = SUM_LANES / 2; stride > 0; stride /= 2)
+    for (std::size_t lane = 0; lane < stride; ++lane) lanes[lane] = lanes[lane] + lanes[lane + stride];
+  return lanes[0];
+}
+
+// valueAt(0) + ... + valueAt(count - 1). `partials` is scratch.
+template <class Real, class ValueAt>
+Real fixedSum(std::size_t count, bool parallel, std::vector<Real>& partials, ValueAt valueAt) {
+  const std::size_t blocks = (count + SUM_BLOCK - 1) / SUM_BLOCK;
+  partials.resize(blocks);
+#pragma omp parallel for schedule(static) if (parallel)
+  for (std::size_t block = 0; block < blocks; ++block) {
+    std::array<Real, SUM_LANES> lanes{};
+    for (std::size_t first = block * SUM_BLOCK; first < std::min(count, (block + 1) * SUM_BLOCK);
+         first += SUM_LANES) {
+      const std::size_t lanesHere = std::min<std::size_t>(SUM_LANES, count - first);
+      for (std::size_t lane = 0; lane < lanesHere; ++lane) lanes[lane] = lanes[lane] + valueAt(first + lane);
+    }
+    partials[block] = addLanes(lanes);
+  }
+  std::array<Real, SUM_LANES> lanes{};
+  for (std::size_t block = 0; block < blocks; ++block)
+    lanes[block % SUM_LANES] = lanes[block % SUM_LANES] + partials[block];
+  return addLanes(lanes);
+}
+
+}  // namespace clothsim::cpu

@@ -1,0 +1,516 @@
+#include "solver/cpu/implicit_passes.h"
+
+#include <algorithm>
+
+#include "core/exact_math.h"
+#include "solver/cpu/rows.h"
+#include "solver/cpu/spring_rows.h"
+#include "solver/cpu/watch.h"
+
+namespace clothsim::cpu {
+namespace {
+
+// Where the components of an array lie, so that loops along a row keep them in registers.
+template <class Real>
+struct Arrays {
+  Real *x, *y, *z;
+};
+template <class Real>
+INLINE Arrays<Real> arraysOf(Components<Real>& c) {
+  return {c.x.data(), c.y.data(), c.z.data()};
+}
+template <class Real>
+INLINE Arrays<const Real> arraysOf(const Components<Real>& c) {
+  return {c.x.data(), c.y.data(), c.z.data()};
+}
+template <class Real>
+struct SymmetricArrays {
+  Real *xx, *yy, *zz, *xy, *xz, *yz;
+};
+template <class Real>
+INLINE SymmetricArrays<Real> arraysOf(SymmetricField<Real>& f) {
+  return {f.xx.data(), f.yy.data(), f.zz.data(), f.xy.data(), f.xz.data(), f.yz.data()};
+}
+
+template <class Real>
+INLINE Vec3<std::remove_const_t<Real>> at(const Arrays<Real>& c, std::ptrdiff_t i) {
+  return {c.x[i], c.y[i], c.z[i]};
+}
+template <class Real>
+INLINE void put(const Arrays<Real>& c, std::ptrdiff_t i, Vec3<Real> v) {
+  c.x[i] = v.x;
+  c.y[i] = v.y;
+  c.z[i] = v.z;
+}
+template <class Real>
+INLINE Vec3<Real> at(const Components<Real>& c, std::ptrdiff_t i) {
+  return at(arraysOf(c), i);
+}
+template <class Real>
+INLINE void put(Components<Real>& c, std::ptrdiff_t i, Vec3<Real> v) {
+  put(arraysOf(c), i, v);
+}
+template <class Real>
+INLINE Symmetric<Real> at(const SymmetricArrays<Real>& field, std::ptrdiff_t i) {
+  return {{field.xx[i], field.yy[i], field.zz[i]}, {field.xy[i], field.xz[i], field.yz[i]}};
+}
+template <class Real>
+INLINE void addTo(const SymmetricArrays<Real>& field, std::ptrdiff_t i, const Symmetric<Real>& a) {
+  field.xx[i] = field.xx[i] + a.diagonal.x;
+  field.yy[i] = field.yy[i] + a.diagonal.y;
+  field.zz[i] = field.zz[i] + a.diagonal.z;
+  field.xy[i] = field.xy[i] + a.others.x;
+  field.xz[i] = field.xz[i] + a.others.y;
+  field.yz[i] = field.yz[i] + a.others.z;
+}
+template <class Real>
+INLINE Vec3<Real> canonical(Vec3<Real> v) {
+  return {clothsim::canonical(v.x), clothsim::canonical(v.y), clothsim::canonical(v.z)};
+}
+template <class Real>
+INLINE Vec3<Real> selected(bool first, Vec3<Real> a, Vec3<Real> b) {
+  return {first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z};
+}
+
+// The Hessian of a spring between particles d apart, made positive: across 1 + along d d^T.
+template <class Real>
+struct SpringBlock {
+  Real across, along;
+};
+template <class Real>
+INLINE SpringBlock<Real> springBlock(Vec3<Real> d, Real stiffness, Real restLength, Real limitStiffness,
+                                     Real limitLength) {
+  const Real lengthSquared = dot(d, d);
+  const Real inverseLength = inverseSquareRoot(lengthSquared);
+  const Real length = lengthSquared * inverseLength;
+  const Real over = length - limitLength;
+  const bool beyond = over > Real(0);
+  const Real tension = stiffness * (length - restLength);
+  const Real tensionBeyond = tension + limitStiffness * over, wholeBeyond = stiffness + limitStiffness;
+  const Real whole = beyond ? wholeBeyond : stiffness;
+  const Real scale = (beyond ? tensionBeyond : tension) * inverseLength;
+  const Real across = scale > Real(0) ? scale : Real(0);
+  return {across, (whole - across) * (inverseLength * inverseLength)};
+}
+
+// What of a particle's anchor a hand makes (solver/hand.h).
+template <class Real>
+void holdParticle(const ImplicitArguments<Real>& arguments, int row, std::uint32_t column, std::ptrdiff_t i,
+                  Real mass) {
+  const PassArguments<Real>& pass = arguments.step;
+  const HandParams<Real>& hand = pass.hand;
+  const std::uint32_t blockRow = static_cast<std::uint32_t>(row) - hand.firstRow,
+                      blockColumn = column - hand.firstColumn;
+  if (blockRow >= hand.rows || blockColumn >= hand.columns) return;
+  const Hold::Point& point = pass.held[blockRow * hand.columns + blockColumn];
+  const Vec3<Real> goal = Vec3<Real>{hand.goalX, hand.goalY, hand.goalZ} + point.offset.cast<Real>();
+  const Vec3<Real> towards = goal - at(pass.before.positions, i);
+  Vec3<Real> way = hand.reach * (hand.pull * towards + Vec3<Real>{hand.pushX, hand.pushY, hand.pushZ});
+  const Real waySquared = dot(way, way);
+  const Real shorter = hand.largestWay * inverseSquareRoot(waySquared);
+  if (hand.largestWaySquared < waySquared) way = shorter * way;
+  const Real inverseTimeStep = pass.step.inverseTimeStep;
+  const Real stiffness =
+      (static_cast<Real>(point.weight) * hand.resistance) * ((mass * inverseTimeStep) * inverseTimeStep);
+  arguments.own.anchorStiffness[static_cast<std::size_t>(i)] += stiffness;
+  put(arguments.own.anchors, i, at(arguments.own.anchors, i) + stiffness * way);
+}
+
+// How the energy changes when a spring of ends d apart is moved by l e; exact where that is little.
+template <class Real>
+INLINE Real springChange(Vec3<Real> d, Vec3<Real> e, Real l, Real stiffness, Real restLength,
+                         Real limitStiffness, Real limitLength) {
+  const Vec3<Real> moved = d + l * e;
+  const Real squaredBefore = dot(d, d), squaredAfter = dot(moved, moved);
+  const Real before = squaredBefore * inverseSquareRoot(squaredBefore);
+  const Real after = squaredAfter * inverseSquareRoot(squaredAfter);
+  const Real sum = (before + after) + static_cast<Real>(0x1p-100f);
+  const Real change = (l * (Real(2) * dot(d, e) + l * dot(e, e))) * reciprocal(sum);
+  const Real spring = (stiffness * change) * ((before - restLength) + (after - restLength));
+  const Real overBefore = larger(before - limitLength, Real(0)),
+             overAfter = larger(after - limitLength, Real(0));
+  const Real limit = (limitStiffness * (overAfter - overBefore)) * (overAfter + overBefore);
+  return Real(0.5) * (spring + limit);
+}
+
+template <class Real>
+INLINE Real lengthTried(std::size_t k) {
+  constexpr std::array<Real, LENGTHS_TRIED> lengths{Real(1), Real(0.5), Real(0.25), Real(0.125)};
+  return lengths[k];
+}
+
+template <bool torn, class Real>
+INLINE void addSpringTrials(const ImplicitArguments<Real>& arguments, int row) {
+  const PassArguments<Real>& pass = arguments.step;
+  ImplicitState<Real>& own = arguments.own;
+  const Arrays<Real> x = arraysOf(own.iterate.positions), increments = arraysOf(own.increments);
+  const std::array<Real*, LENGTHS_TRIED> trials{own.trials[0].data(), own.trials[1].data(),
+                                                own.trials[2].data(), own.trials[3].data()};
+  const std::uint32_t* cutMasks = pass.cutMasks;
+  const Real limitStiffness = pass.step.limitStiffness, limitFactor = pass.step.limitFactor;
+  forEachSpringStretch(
+      pass, row,
+      [=](Stretch particles, SpringPlace place, const SpringParams<Real> spring, auto rest)
+          __attribute__((always_inline)) {
+            if (!incidentSprings[place.bit].owned) return;
+#pragma GCC ivdep
+            for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
+              const Vec3<Real> d = at(x, i + place.other) - at(x, i),
+                               e = at(increments, i + place.other) - at(increments, i);
+              const Real limit = limitLength(rest, i, limitFactor, spring.limitLength);
+              const bool gone = isGone<torn>(cutMasks, i, place.bit);
+#pragma GCC unroll 4
+              for (std::size_t k = 0; k < LENGTHS_TRIED; ++k) {
+                const Real change = springChange(d, e, lengthTried<Real>(k), spring.stiffness, rest[i],
+                                                 limitStiffness, limit);
+                trials[k][i] = gone ? trials[k][i] : trials[k][i] + change;
+              }
+            }
+          });
+}
+
+// One line of three particles around the middle i: b (l k.dk + l^2/2 |dk|^2), k = (m - a) + (m - c).
+template <class Real>
+void addBendingTrial(const ImplicitArguments<Real>& arguments, std::ptrdiff_t i, std::ptrdiff_t reach,
+                     Real b) {
+  ImplicitState<Real>& own = arguments.own;
+  const Real* w = arguments.step.inverseMasses;
+  const auto curvature = [&](const Components<Real>& c) {
+    const Vec3<Real> m = at(c, i);
+    return (m - at(c, i - reach)) + (m - at(c, i + reach));
+  };
+  const bool endOfClamp = w[i] == Real(0) && (w[i - reach] == Real(0)) != (w[i + reach] == Real(0));
+  const Real weighted = endOfClamp ? Real(2) * b : b;
+  const Vec3<Real> k = curvature(own.iterate.positions), dk = curvature(own.increments);
+  const Real first = dot(k, dk), second = dot(dk, dk);
+  for (std::size_t t = 0; t < LENGTHS_TRIED; ++t) {
+    const Real l = lengthTried<Real>(t);
+    Real& trial = own.trials[t][static_cast<std::size_t>(i)];
+    trial = trial + (weighted * l) * (first + (Real(0.5) * l) * second);
+  }
+}
+
+template <class Real>
+void addBendingTrials(const ImplicitArguments<Real>& arguments, int row) {
+  const PassArguments<Real>& pass = arguments.step;
+  const StepParams<Real>& step = pass.step;
+  const Stretch all = stretch(step, row);
+  const bool borderRow = isBorder(row, step.rows);
+  for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
+    const std::uint32_t cut = pass.cutMasks != nullptr ? pass.cutMasks[i] : 0;
+    const bool borderColumn = i == all.begin || i + 1 == all.end;
+    if (!borderColumn && (cut & BENDING_ROW) == 0)
+      addBendingTrial(arguments, i, 1, borderRow ? Real(0.5) * step.bendAlongRow : step.bendAlongRow);
+    if (!borderRow && (cut & BENDING_COLUMN) == 0)
+      addBendingTrial(arguments, i, indexOffset(step, 0, 1),
+                      borderColumn ? Real(0.5) * step.bendAlongColumn : step.bendAlongColumn);
+  }
+}
+
+template <class Real>
+INLINE void tryLengthsRow(const ImplicitArguments<Real>& arguments, int row) {
+  const PassArguments<Real>& pass = arguments.step;
+  ImplicitState<Real>& own = arguments.own;
+  const Stretch all = stretch(pass.step, row);
+  for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
+    const Vec3<Real> e = at(own.increments, i), d = at(own.ways, i);
+    Vec3<Real> force = own.anchorStiffness.data()[i] * d, product = own.anchorStiffness.data()[i] * e;
+    if (pass.step.hasWind != 0) {
+      force = force + at(own.air, i) * d;
+      product = product + at(own.air, i) * e;
+    }
+    const Real first = dot(force - at(own.anchors, i), e), second = Real(0.5) * dot(product, e);
+    for (std::size_t k = 0; k < LENGTHS_TRIED; ++k) {
+      const Real l = lengthTried<Real>(k);
+      own.trials[k].data()[i] = l * (first + l * second);
+    }
+  }
+  pass.cutMasks != nullptr ? addSpringTrials<true>(arguments, row) : addSpringTrials<false>(arguments, row);
+  if (pass.step.hasMaterial != 0) addBendingTrials(arguments, row);
+}
+
+// The diagonal block and S and T of solver/implicit.h, from the springs.
+template <bool torn, class Real>
+INLINE void addSpringBlocks(const ImplicitArguments<Real>& arguments, int row) {
+  const PassArguments<Real>& pass = arguments.step;
+  ImplicitState<Real>& own = arguments.own;
+  const Arrays<Real> x = arraysOf(own.iterate.positions);
+  const SymmetricArrays<Real> blocks = arraysOf(own.factors), stretches = arraysOf(own.stretch),
+                              inertias = arraysOf(own.inertia);
+  const std::uint32_t* cutMasks = pass.cutMasks;
+  const Real limitStiffness = pass.step.limitStiffness, limitFactor = pass.step.limitFactor;
+  const Real* w = pass.inverseMasses;
+  forEachSpringStretch(
+      pass, row,
+      [&](Stretch particles, SpringPlace place, const SpringParams<Real>& spring,
+          auto rest) __attribute__((always_inline)) {
+        const IncidentSpring& incident = incidentSprings[place.bit];
+        const Real weight =
+            static_cast<Real>(0.5 * (incident.columns * incident.columns + incident.rows * incident.rows));
+#pragma GCC ivdep
+        for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
+          const Vec3<Real> d = at(x, i + place.other) - at(x, i);
+          const auto [across, along] = springBlock(d, spring.stiffness, rest[i], limitStiffness,
+                                                   limitLength(rest, i, limitFactor, spring.limitLength));
+          Symmetric<Real> k = outerProduct(along, d);
+          k.diagonal = k.diagonal + Vec3<Real>{across, across, across};
+          const bool gone = isGone<torn>(cutMasks, i, place.bit);
+          const Real there = gone ? Real(0) : Real(1),
+                     toPin = gone || w[i + place.other] > Real(0) ? Real(0) : Real(1);
+          addTo(blocks, i, there * k);
+          addTo(stretches, i, (there * weight) * k);
+          addTo(inertias, i, toPin * k);
+        }
+      });
+}
+
+// What bending adds to the diagonal block of a particle.
+template <class Real>
+Real bendingBlock(const PassArguments<Real>& pass, std::ptrdiff_t i, std::ptrdiff_t place,
+                  std::ptrdiff_t count, std::ptrdiff_t stride, Real b, std::uint32_t cut,
+                  const std::uint32_t (&links)[3]) {
+  const Real* w = pass.inverseMasses;
+  const auto line = [&](std::ptrdiff_t m, Real share) {
+    const bool endOfClamp = w[m] == Real(0) && (w[m - stride] == Real(0)) != (w[m + stride] == Real(0));
+    return share * (endOfClamp ? Real(2) * b : b);
+  };
+  Real sum = 0;
+  if (place >= 2 && (cut & links[0]) == 0) sum = sum + line(i - stride, Real(1));
+  if (place >= 1 && place + 1 < count && (cut & links[1]) == 0) sum = sum + line(i, Real(4));
+  if (place + 2 < count && (cut & links[2]) == 0) sum = sum + line(i + stride, Real(1));
+  return sum;
+}
+
+template <class Real>
+void addBendingBlocks(const ImplicitArguments<Real>& arguments, int row) {
+  const PassArguments<Real>& pass = arguments.step;
+  const StepParams<Real>& step = pass.step;
+  const Stretch all = stretch(step, row);
+  const bool borderRow = isBorder(row, step.rows);
+  const auto columns = static_cast<std::ptrdiff_t>(step.columns),
+             rows = static_cast<std::ptrdiff_t>(step.rows);
+  for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
+    const std::uint32_t cut = pass.cutMasks != nullptr ? pass.cutMasks[i] : 0;
+    const bool borderColumn = i == all.begin || i + 1 == all.end;
+    const Real alongRow = borderRow ? Real(0.5) * step.bendAlongRow : step.bendAlongRow;
+    const Real alongColumn = borderColumn ? Real(0.5) * step.bendAlongColumn : step.bendAlongColumn;
+    const Real b = bendingBlock(pass, i, i - all.begin, columns, 1, alongRow, cut,
+                                {BENDING_LEFT, BENDING_ROW, BENDING_RIGHT}) +
+                   bendingBlock(pass, i, row, rows, columns, alongColumn, cut,
+                                {BENDING_UPPER, BENDING_COLUMN, BENDING_LOWER});
+    addTo(arguments.own.factors, i, Symmetric<Real>{{b, b, b}, {}});
+  }
+}
+
+template <class Real>
+INLINE void linearizeRow(const ImplicitArguments<Real>& arguments, int row) {
+  const PassArguments<Real>& pass = arguments.step;
+  ImplicitState<Real>& own = arguments.own;
+  const Stretch all = stretch(pass.step, row);
+  const bool wind = pass.step.hasWind != 0;
+  for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
+    const Real a = own.anchorStiffness.data()[i];
+    Symmetric<Real> block{{a, a, a}, {}};
+    if (wind) block = block + at(own.air, i);
+    put(own.factors, i, block);
+    put(own.inertia, i, block);
+    put(own.stretch, i, Symmetric<Real>{});
+  }
+  pass.cutMasks != nullptr ? addSpringBlocks<true>(arguments, row) : addSpringBlocks<false>(arguments, row);
+  if (pass.step.hasMaterial != 0) addBendingBlocks(arguments, row);
+  for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
+    const bool pinned = pass.inverseMasses[i] == Real(0);
+    const Vec3<Real> d = at(own.ways, i), zero{};
+    Vec3<Real> anchor = at(own.anchors, i) - own.anchorStiffness.data()[i] * d;
+    if (wind) anchor = anchor - at(own.air, i) * d;
+    put(own.residuals, i, selected(pinned, zero, canonical(anchor + at(pass.forces, i))));
+    put(own.increments, i, zero);
+    put(own.directions.positions, i, zero);
+    const Factors<Real> factors = factorize(at(own.factors, i));
+    put(own.factors, i, {selected(pinned, zero, factors.inverse), selected(pinned, zero, factors.lower)});
+    if (!pinned) continue;
+    put(own.stretch, i, Symmetric<Real>{});
+    put(own.inertia, i, Symmetric<Real>{});
+  }
+}
+
+// What the springs do to the directions, as forces: minus the product.
+template <bool torn, class Real>
+INLINE void addSpringProducts(const ImplicitArguments<Real>& arguments, int row) {
+  const PassArguments<Real>& pass = arguments.step;
+  ImplicitState<Real>& own = arguments.own;
+  const Arrays<Real> x = arraysOf(own.iterate.positions), p = arraysOf(own.directions.positions),
+                     products = arraysOf(own.products);
+  const std::uint32_t* cutMasks = pass.cutMasks;
+  const Real limitStiffness = pass.step.limitStiffness, limitFactor = pass.step.limitFactor;
+  forEachSpringStretch(
+      pass, row,
+      [=](Stretch particles, SpringPlace place, const SpringParams<Real> spring, auto rest)
+          __attribute__((always_inline)) {
+#pragma GCC ivdep
+            for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
+              const Vec3<Real> d = at(x, i + place.other) - at(x, i), e = at(p, i + place.other) - at(p, i);
+              const auto [across, along] = springBlock(d, spring.stiffness, rest[i], limitStiffness,
+                                                       limitLength(rest, i, limitFactor, spring.limitLength));
+              const Vec3<Real> f = across * e + (along * dot(d, e)) * d;
+              const Vec3<Real> before = at(products, i);
+              put(products, i, selected(isGone<torn>(cutMasks, i, place.bit), before, before + f));
+            }
+          });
+}
+
+template <class Real>
+INLINE void multiplyRow(const ImplicitArguments<Real>& arguments, int row) {
+  const PassArguments<Real>& pass = arguments.step;
+  ImplicitState<Real>& own = arguments.own;
+  const Stretch all = stretch(pass.step, row);
+  const Vec3<Real> zero{};
+  const Arrays<Real> products = arraysOf(own.products), directions = arraysOf(own.directions.positions);
+  const SymmetricArrays<Real> air = arraysOf(own.air);
+  const Real *stiffness = own.anchorStiffness.data(), *w = pass.inverseMasses;
+  for (std::ptrdiff_t i = all.begin; i < all.end; ++i) put(products, i, zero);
+  pass.cutMasks != nullptr ? addSpringProducts<true>(arguments, row)
+                           : addSpringProducts<false>(arguments, row);
+  if (pass.step.hasMaterial != 0) {
+    const PassArguments<Real> ofDirections = withState(pass, pass.step, own.directions, own.products);
+    addBendingForces(ofDirections, row);
+  }
+  if (pass.step.hasWind != 0) {
+#pragma GCC ivdep
+    for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
+      const Vec3<Real> p = at(directions, i);
+      const Vec3<Real> product = stiffness[i] * p + at(air, i) * p;
+      put(products, i, selected(w[i] == Real(0), zero, canonical(product - at(products, i))));
+    }
+  } else {
+#pragma GCC ivdep
+    for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
+      const Vec3<Real> product = stiffness[i] * at(directions, i);
+      put(products, i, selected(w[i] == Real(0), zero, canonical(product - at(products, i))));
+    }
+  }
+}
+
+template <class Real>
+INLINE void directRow(const ImplicitArguments<Real>& arguments, int row) {
+  ImplicitState<Real>& own = arguments.own;
+  const Stretch all = stretch(arguments.step.step, row);
+  const Arrays<Real> directions = arraysOf(own.directions.positions), corrections = arraysOf(own.corrections);
+  const Real kept = own.scalars.kept;
+#pragma GCC ivdep
+  for (std::ptrdiff_t i = all.begin; i < all.end; ++i)
+    put(directions, i, canonical(at(corrections, i) + kept * at(directions, i)));
+}
+
+template <class Real>
+INLINE void advanceRow(const ImplicitArguments<Real>& arguments, int row) {
+  ImplicitState<Real>& own = arguments.own;
+  const Stretch all = stretch(arguments.step.step, row);
+  const Arrays<Real> directions = arraysOf(own.directions.positions), products = arraysOf(own.products),
+                     increments = arraysOf(own.increments), residuals = arraysOf(own.residuals);
+  const Real stepSize = own.scalars.stepSize;
+#pragma GCC ivdep
+  for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
+    put(increments, i, canonical(at(increments, i) + stepSize * at(directions, i)));
+    put(residuals, i, canonical(at(residuals, i) - stepSize * at(products, i)));
+  }
+}
+
+template <class Real>
+INLINE void acceptRow(const ImplicitArguments<Real>& arguments, int row) {
+  ImplicitState<Real>& own = arguments.own;
+  const Stretch all = stretch(arguments.step.step, row);
+  const Real length = own.scalars.newtonLength;
+  for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
+    const Vec3<Real> way = canonical(at(own.ways, i) + length * at(own.increments, i));
+    put(own.ways, i, way);
+    put(own.iterate.positions, i, canonical(at(arguments.step.before.positions, i) + way));
+  }
+}
+
+}  // namespace
+
+template <class Real>
+void begin(const ImplicitArguments<Real>& arguments, int row) {
+  const PassArguments<Real>& pass = arguments.step;
+  const StepParams<Real>& step = pass.step;
+  ImplicitState<Real>& own = arguments.own;
+  const Stretch all = stretch(step, row);
+  const Vec3<Real> gravity{step.gravityX, step.gravityY, step.gravityZ}, zero{};
+  if (step.hasWind != 0) gatherWind(pass, row, own.air);
+  for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
+    if (pass.inverseMasses[i] > Real(0)) continue;
+    put(pass.after.positions, i, at(pass.before.positions, i));
+    put(pass.after.velocities, i, zero);
+  }
+  movePins(pass, row);
+  for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
+    const Vec3<Real> x = at(pass.before.positions, i), v = at(pass.before.velocities, i);
+    if (pass.inverseMasses[i] == Real(0)) {
+      const Vec3<Real> target = at(pass.after.positions, i);
+      put(own.anchors, i, zero);
+      own.anchorStiffness[static_cast<std::size_t>(i)] = 0;
+      put(own.ways, i, target - x);
+      put(own.iterate.positions, i, target);
+      continue;
+    }
+    const Real mass = reciprocal(pass.inverseMasses[i]);
+    Real stiffness = mass * step.inertia;
+    const Vec3<Real> guess = canonical(step.guessTime * (v + step.timeStep * gravity));
+    Vec3<Real> b = stiffness * guess;
+    if (step.airResistance > Real(0)) {  // -a |v| v', linear in the new velocity v'
+      const Real speedSquared = dot(v, v);
+      const Real speed = speedSquared * inverseSquareRoot(speedSquared);
+      stiffness = stiffness + (step.airResistance * speed) * step.inverseTimeStep;
+    }
+    if (step.hasWind != 0) {  // f - R (v' - v)
+      const Symmetric<Real> resistance = at(own.air, i);
+      b = b + (at(pass.forces, i) + resistance * v);
+      put(own.air, i, step.inverseTimeStep * resistance);
+    }
+    put(own.anchors, i, b);
+    own.anchorStiffness[static_cast<std::size_t>(i)] = stiffness;
+    put(own.ways, i, guess);
+    put(own.iterate.positions, i, canonical(x + guess));
+    if (pass.held != nullptr)
+      holdParticle(arguments, row, static_cast<std::uint32_t>(i - all.begin), i, mass);
+  }
+}
+
+template <class Real>
+void end(const ImplicitArguments<Real>& arguments, int row) {
+  const PassArguments<Real>& pass = arguments.step;
+  const Stretch all = stretch(pass.step, row);
+  for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
+    if (pass.inverseMasses[i] == Real(0)) continue;  // begin() has moved pins
+    put(pass.after.positions, i, at(arguments.own.iterate.positions, i));
+    put(pass.after.velocities, i, canonical(pass.step.inverseTimeStep * at(arguments.own.ways, i)));
+  }
+  watchVelocities(pass, PASS_INTEGRATE, row);
+}
+
+VECTOR_CLONES void linearize(const ImplicitArguments<float>& arguments, int row) {
+  linearizeRow(arguments, row);
+}
+void linearize(const ImplicitArguments<double>& arguments, int row) { linearizeRow(arguments, row); }
+VECTOR_CLONES void multiply(const ImplicitArguments<float>& arguments, int row) {
+  multiplyRow(arguments, row);
+}
+void multiply(const ImplicitArguments<double>& arguments, int row) { multiplyRow(arguments, row); }
+VECTOR_CLONES void direct(const ImplicitArguments<float>& arguments, int row) { directRow(arguments, row); }
+void direct(const ImplicitArguments<double>& arguments, int row) { directRow(arguments, row); }
+VECTOR_CLONES void advance(const ImplicitArguments<float>& arguments, int row) { advanceRow(arguments, row); }
+void advance(const ImplicitArguments<double>& arguments, int row) { advanceRow(arguments, row); }
+VECTOR_CLONES void tryLengths(const ImplicitArguments<float>& arguments, int row) {
+  tryLengthsRow(arguments, row);
+}
+void tryLengths(const ImplicitArguments<double>& arguments, int row) { tryLengthsRow(arguments, row); }
+VECTOR_CLONES void accept(const ImplicitArguments<float>& arguments, int row) { acceptRow(arguments, row); }
+void accept(const ImplicitArguments<double>& arguments, int row) { acceptRow(arguments, row); }
+
+template void begin(const ImplicitArguments<float>&, int);
+template void begin(const ImplicitArguments<double>&, int);
+template void end(const ImplicitArguments<float>&, int);
+template void end(const ImplicitArguments<double>&, int);
+
+}  // namespace clothsim::cpu

@@ -1,0 +1,82 @@
+// The passes of an implicit step on the CPU, each over a row of a grid; the twins of
+// shaders/sim/implicit/*.comp: same names, same order of operations. The method is at solver/implicit.h.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "solver/cpu/passes.h"
+#include "solver/cpu/symmetric.h"
+#include "solver/implicit.h"
+
+namespace clothsim::cpu {
+
+// What an implicit step works on, an entry a particle. Those marked with * go on with the coarse levels'
+// vertices.
+template <class Real>
+struct ImplicitState {
+  Components<Real> anchors;           // b and
+  std::vector<Real> anchorStiffness;  // a of the energy 1/2 a |d|^2 - b.d of a particle's way d
+  SymmetricField<Real> air;           // what the air adds to a; empty without wind
+  Components<Real> ways;              // d [m]
+  CpuState<Real> iterate;             // x + d; no velocities
+  Components<Real> residuals;         // * r
+  Components<Real> corrections;       // * z
+  SymmetricField<Real> stretch;       // * S of solver/implicit.h,
+  SymmetricField<Real> inertia;       // * T,
+  SymmetricField<Real> factors;       // * L D L^T of diagonal blocks: 1/d1 1/d2 1/d3 and l21 l31 l32
+  CpuState<Real> directions;          // p; no velocities
+  Components<Real> products;          // H p
+  Components<Real> increments;        // the Newton step so far
+  std::array<std::vector<Real>, LENGTHS_TRIED> trials;  // a particle's change of energy
+  ImplicitScalars<Real> scalars;
+};
+
+template <class Real>
+struct ImplicitArguments {
+  PassArguments<Real> step;
+  ImplicitState<Real>& own;
+};
+
+// Anchors, and the guess to start from; pins go where their paths take them.
+template <class Real>
+void begin(const ImplicitArguments<Real>& arguments, int row);
+// From the elastic forces at the iterate, in step.forces: residuals, blocks of the preconditioner; clears the
+// increments.
+void linearize(const ImplicitArguments<float>& arguments, int row);
+void linearize(const ImplicitArguments<double>& arguments, int row);
+// products = H directions
+void multiply(const ImplicitArguments<float>& arguments, int row);
+void multiply(const ImplicitArguments<double>& arguments, int row);
+// directions = corrections + kept * directions
+void direct(const ImplicitArguments<float>& arguments, int row);
+void direct(const ImplicitArguments<double>& arguments, int row);
+// increments += stepSize * directions, residuals -= stepSize * products
+void advance(const ImplicitArguments<float>& arguments, int row);
+void advance(const ImplicitArguments<double>& arguments, int row);
+// trials: how the energy would change along the increments.
+void tryLengths(const ImplicitArguments<float>& arguments, int row);
+void tryLengths(const ImplicitArguments<double>& arguments, int row);
+// ways += newtonLength * increments
+void accept(const ImplicitArguments<float>& arguments, int row);
+void accept(const ImplicitArguments<double>& arguments, int row);
+// Positions and velocities at the end of the step.
+template <class Real>
+void end(const ImplicitArguments<Real>& arguments, int row);
+
+// One row of the coarse vertices of a level: their blocks, their residuals; or of its fine vertices: their
+// corrections.
+template <class Real>
+void coarsenBlocks(const LevelParams<Real>& level, ImplicitState<Real>& own, int coarseRow);
+template <class Real>
+void restrictResiduals(const LevelParams<Real>& level, ImplicitState<Real>& own, int coarseRow);
+// z = D^-1 r + P z of the coarse level. Pinned particles (finest level only) get 0.
+template <class Real>
+void prolong(const LevelParams<Real>& level, ImplicitState<Real>& own, const Real* inverseMasses,
+             int fineRow);
+// z = D^-1 r of the coarsest level.
+template <class Real>
+void solveCoarsest(const LevelParams<Real>& level, ImplicitState<Real>& own, int coarseRow);
+
+}  // namespace clothsim::cpu

@@ -1,0 +1,80 @@
+// The incident springs of a row of particles, in stretches that share a kind and a stiffness.
+#pragma once
+
+#include "cloth/cloth.h"
+#include "solver/cpu/passes.h"
+#include "solver/cpu/rows.h"
+
+namespace clothsim::cpu {
+
+// Which of its incident springs a pass works on, for the particles of a stretch.
+struct SpringPlace {
+  std::uint32_t bit;     // in incidentSprings
+  std::ptrdiff_t other;  // from a particle to the other end
+};
+
+// Rest lengths of a slot: the nominal one for all, or from the table.
+template <class Real>
+struct NominalLength {
+  Real length;
+  Real operator[](std::ptrdiff_t) const { return length; }
+};
+
+// Where the second spring of `implicit` begins.
+template <class Real>
+INLINE Real limitLength(NominalLength<Real>, std::ptrdiff_t, Real, Real nominal) {
+  return nominal;
+}
+template <class Real>
+INLINE Real limitLength(const Real* rest, std::ptrdiff_t i, Real limitFactor, Real) {
+  return limitFactor * rest[i];
+}
+
+// Whether the row, or column, is a border of the grid.
+INLINE bool isBorder(std::int64_t place, std::uint32_t count) { return place == 0 || place + 1 == count; }
+
+template <class Real, class Visit>
+INLINE void visitStretch(const PassArguments<Real>& arguments, Stretch particles, std::uint32_t k,
+                         Real stiffness, Visit visit) {
+  const StepParams<Real>& step = arguments.step;
+  const IncidentSpring& incident = incidentSprings[k];
+  const SpringPlace place{k, indexOffset(step, incident.columns, incident.rows)};
+  SpringParams<Real> spring = step.springs[incident.slot];
+  spring.stiffness = stiffness;
+  if (step.useRestLengthTable != 0) {
+    const Real* rest = arguments.restLengths + static_cast<std::size_t>(incident.slot) * step.totalParticles +
+                       (incident.owned ? 0 : place.other);
+    visit(particles, place, spring, rest);
+  } else {
+    visit(particles, place, spring, NominalLength<Real>{spring.restLength});
+  }
+}
+
+// Calls visit(particles, place, spring, rest) for the incident springs of a row in ascending number: `spring`
+// has the stiffness of all in the stretch, `rest[i]` is the rest length of particle i's. A material's springs
+// along a border count half: the whole row, or its first and last particle.
+template <class Real, class Visit>
+INLINE void forEachSpringStretch(const PassArguments<Real>& arguments, int row, Visit visit) {
+  const StepParams<Real>& step = arguments.step;
+  for (std::uint32_t k = 0; k < incidentSprings.size(); ++k) {
+    const IncidentSpring& incident = incidentSprings[k];
+    const int otherRow = row + incident.rows;
+    const bool enabled = (step.enabledSlots >> incident.slot & 1u) != 0;
+    if (!enabled || otherRow < 0 || otherRow >= static_cast<int>(step.rows)) continue;
+    const Stretch particles = stretch(step, row, incident.columns, incident.columns);
+    const Real inside = step.springs[incident.slot].stiffness, halved = Real(0.5) * inside;
+    if (step.hasMaterial == 0) {
+      visitStretch(arguments, particles, k, inside, visit);
+    } else if (incident.slot != toUpper) {
+      const bool onBorder = incident.slot == toLeft && isBorder(row, step.rows);
+      visitStretch(arguments, particles, k, onBorder ? halved : inside, visit);
+    } else {
+      const std::ptrdiff_t last = std::max(particles.begin + 1, particles.end - 1);
+      visitStretch(arguments, {particles.begin, particles.begin + 1}, k, halved, visit);
+      visitStretch(arguments, {particles.begin + 1, last}, k, inside, visit);
+      visitStretch(arguments, {last, particles.end}, k, halved, visit);
+    }
+  }
+}
+
+}  // namespace clothsim::cpu

@@ -1,0 +1,49 @@
+// The implicit integrator (solver.integrator: "implicit"), what both backends share. Backward Euler: the way
+// d of all particles over a step of h is the minimum of
+//
+//   sum of m/2 (1 + c h)/h^2 |d - guess|^2  +  elastic energy at x + d  +  air and hands,   guess = h (v + h
+//   g)/(1 + c h),
+//
+// and v' = d / h. (The velocity comes from d itself, never from a difference of positions.) A few Newton
+// steps; in each the Hessian, made positive by clamping the springs' transverse part to k max(0, 1 - L/l)
+// (Choi and Ko 2002), is solved by conjugate gradients with an additive multilevel preconditioner (Bramble,
+// Pasciak and Xu 1990, "BPX"):
+//
+//   z = sum over levels of P_l D_l^-1 P_l^T r,
+//
+// P_l bilinear interpolation from a lattice of every 2^l-th grid point down to 2 x 2, D_l blocks of 3 x 3.
+// Pinned particles are no unknowns. All sums run over a fixed tree, all scalars stay where they are computed:
+// no read-back in a step.
+//
+// Coarse blocks are not the exact diagonal of P_l^T H P_l. Two symmetric matrices a vertex are summed up from
+// level to level by P^T: S, half the sum of e^2 K over a particle's springs (K the spring's Hessian, e its
+// reach in cells), and T, inertia and air plus K of springs to pinned particles. With hats of H cells width
+// on a lattice, the integral of their squared slopes and that of their squares make
+//
+//   D = g S + f T,  g = (2 Hy^2 + 1) / (3 Hx^2 Hy^2) + (the same, x and y exchanged),  f = product of (2 H^2
+//   + 1)/(3 H^2).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cloth/cloth.h"
+#include "shared/implicit.h"
+
+namespace clothsim {
+
+template <class Real>
+using LevelParams = shared::LevelParams<Real>;
+template <class Real>
+using ImplicitScalars = shared::ImplicitScalars<Real>;
+
+template <class Real>
+struct Hierarchy {
+  std::vector<std::vector<LevelParams<Real>>> grids;  // by grid, finest first
+  std::uint32_t vertices = 0;                         // of all levels; the particles come first
+};
+
+template <class Real>
+[[nodiscard]] Hierarchy<Real> makeHierarchy(const Cloth& cloth);
+
+}  // namespace clothsim
