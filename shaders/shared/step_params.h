@@ -116,6 +116,11 @@ SHARED_STRUCT StepParams {
   real bendAlongColumn;  // [N/m]
   real unusedMaterial;
 
+  uint isMesh;      // springs, bending and triangles come from lists (shared/mesh_lists.h)
+  real maxStretch;  // 1 + max_strain, for the watchdog
+  uint unusedMeshA;
+  uint unusedMeshB;
+
   SPRING_ROWS(SpringParams) springs[6];
 };
 
@@ -217,7 +222,8 @@ SHARED_STRUCT PinMotionParams {
 };
 
 // One colour of the strain limit: springs of one slot of which no two share a particle. The owners are at
-// column first + step (i / run) + i % run below end, and likewise in rows.
+// column first + step (i / run) + i % run below end, and likewise in rows. Of a mesh: springs firstColumn to
+// endColumn in the order of their numbers.
 struct LimitColor {
   uint slot;
   uint unusedA;

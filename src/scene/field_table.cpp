@@ -68,6 +68,14 @@ template <>
 std::span<const Field<ClothSettings>> fieldsOf<ClothSettings>() {
   using C = ClothSettings;
   static const std::array fields{
+      field("mesh", &C::mesh,
+            "OBJ file of a cloth that is no grid, beside the scene file or in clothsim's own folder.")
+          .byDefault("none: a grid")
+          .rebuilds(),
+      field("scale", &C::scale, "Metres in a unit of the cloth's mesh file.")
+          .within(positive)
+          .usually(0.01, 10)
+          .rebuilds(),
       field("width", &C::width, "Length along x, before turning.")
           .in("m")
           .within(positive)
@@ -88,7 +96,7 @@ std::span<const Field<ClothSettings>> fieldsOf<ClothSettings>() {
           .rebuilds(),
       field("orientation", &C::orientation, "Lying at y = 1 m, or standing in the plane z = 0.").rebuilds(),
       field("position", &C::position, "Added to every point.").in("m").rebuilds(),
-      field("rotation", &C::rotation, "Turn about grid point (0, 0): axis times angle.")
+      field("rotation", &C::rotation, "Turn about grid point (0, 0), or a mesh's origin: axis times angle.")
           .in("degrees")
           .rebuilds(),
       field("density", &C::density, "Mass per area; a particle weighs width * height * density / points.")
@@ -132,11 +140,16 @@ std::span<const Field<ClothSettings>> fieldsOf<ClothSettings>() {
           .within(notNegative)
           .usually(0.001, 0.1)
           .rebuilds(),
-      field("enable_structural", &C::enableStructural, "Springs to left and upper neighbours.").rebuilds(),
-      field("enable_shearing", &C::enableShearing, "Springs to diagonal neighbours.").rebuilds(),
-      field("enable_bending", &C::enableBending, "Springs to the second neighbours left and above.")
+      field("enable_structural", &C::enableStructural,
+            "Springs to left and upper neighbours; along the edges of a mesh.")
           .rebuilds(),
-      field("pinned", &C::pinned, "Points that forces do not move; [column, row] counted from 0.").rebuilds(),
+      field("enable_shearing", &C::enableShearing, "Springs to diagonal neighbours.").rebuilds(),
+      field("enable_bending", &C::enableBending,
+            "Springs to the second neighbours left and above; across the edges of a mesh.")
+          .rebuilds(),
+      field("pinned", &C::pinned,
+            "Points that forces do not move; [column, row] or a mesh's vertex, counted from 0.")
+          .rebuilds(),
       field("pin_motion", &C::pinMotion,
             "A path in time of the pins, or a list of paths with the pins that follow each.")
           .byDefault("none"),
@@ -185,6 +198,47 @@ std::span<const Field<GridRange>> fieldsOf<GridRange>() {
   static const std::array fields{
       field("from", &GridRange::from, "First [column, row] of a block of points.").required().rebuilds(),
       field("to", &GridRange::to, "Last [column, row], pinned too.").required().rebuilds(),
+  };
+  return fields;
+}
+
+template <>
+std::span<const Field<VertexPin>> fieldsOf<VertexPin>() {
+  static const std::array fields{
+      field("vertex", &VertexPin::vertex, "Number of a mesh's vertex, from 0.")
+          .within(notNegative)
+          .required()
+          .rebuilds(),
+  };
+  return fields;
+}
+
+template <>
+std::span<const Field<Region>> fieldsOf<Region>() {
+  static const std::array fields{
+      field("from", &Region::from, "Lowest corner of a box.").in("m").required().rebuilds(),
+      field("to", &Region::to, "Highest corner of a box.").in("m").required().rebuilds(),
+  };
+  return fields;
+}
+
+template <>
+std::span<const Field<RegionPin>> fieldsOf<RegionPin>() {
+  static const std::array fields{
+      field("region", &RegionPin::region,
+            "A box that holds vertices of a mesh, as it is placed at the start.")
+          .required()
+          .rebuilds(),
+  };
+  return fields;
+}
+
+template <>
+std::span<const Field<GroupPin>> fieldsOf<GroupPin>() {
+  static const std::array fields{
+      field("group", &GroupPin::group, "Name of a group (g) of a mesh's faces, of which all vertices count.")
+          .required()
+          .rebuilds(),
   };
   return fields;
 }
