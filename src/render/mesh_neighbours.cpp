@@ -53,13 +53,14 @@ Vec3d normalAt(const Cloth& cloth, std::uint32_t i) {
   Vec3d sum;
   for (std::uint32_t at = lists.trianglesOf.starts[i]; at < lists.trianglesOf.starts[i + 1]; ++at) {
     const auto [p, q] = othersOf(lists.triangles[lists.trianglesOf.entries[at]], i);
-    sum = sum + cross(cloth.positions()[p] - cloth.positions()[i], cloth.positions()[q] - cloth.positions()[i]);
+    sum =
+        sum + cross(cloth.positions()[p] - cloth.positions()[i], cloth.positions()[q] - cloth.positions()[i]);
   }
   return sum;
 }
 
-// Of `candidates` the one nearest to each of MESH_RING directions around the particle, unless it lies 45 degrees
-// off.
+// Of `candidates` the one nearest to each of MESH_RING directions around the particle, unless it lies 45
+// degrees off.
 void appendSpread(const Cloth& cloth, std::uint32_t particle, const std::vector<std::uint32_t>& candidates,
                   std::vector<std::uint32_t>& words) {
   const Vec3d here = cloth.positions()[particle], normal = normalAt(cloth, particle);
@@ -74,7 +75,8 @@ void appendSpread(const Cloth& cloth, std::uint32_t particle, const std::vector<
     double least = std::numbers::pi / 4;
     for (const std::uint32_t candidate : candidates) {
       const Vec3d d = cloth.positions()[candidate] - here;
-      const double off = std::abs(std::remainder(std::atan2(dot(d, v), dot(d, u)) - wanted, 2 * std::numbers::pi));
+      const double off =
+          std::abs(std::remainder(std::atan2(dot(d, v), dot(d, u)) - wanted, 2 * std::numbers::pi));
       if (off < least) {
         least = off;
         best = candidate;

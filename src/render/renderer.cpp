@@ -143,7 +143,8 @@ void Renderer::Parts::uploadFrame() {
 
 void Renderer::Parts::computeNormals(GLuint positions) {
   clothMesh.computeNormals(
-      {programs.normals(clothMesh.hasCuts()), cloth.hasMesh() ? &programs.meshNormals() : nullptr}, positions);
+      {programs.normals(clothMesh.hasCuts()), cloth.hasMesh() ? &programs.meshNormals() : nullptr},
+      positions);
 }
 
 void Renderer::Parts::drawShadows(GLuint positions) {

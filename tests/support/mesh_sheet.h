@@ -16,13 +16,13 @@ namespace clothsim::test {
 
 struct MeshSheet {
   int columns = 12, rows = 14;
-  double edge = 0.05;  // [m]
+  double edge = 0.05;   // [m]
   double disorder = 0;  // how far points inside are moved at random, of the edge
   int layers = 1;       // sheets above each other in z, an edge apart
 };
 
-// In the plane z = 0, from the origin along x and y; groups "bottom" and "top" are the first and last strip of
-// triangles, "middle" the rest.
+// In the plane z = 0, from the origin along x and y; groups "bottom" and "top" are the first and last strip
+// of triangles, "middle" the rest.
 inline std::string meshSheetText(const MeshSheet& sheet) {
   std::mt19937 engine(7);
   std::uniform_real_distribution<double> uniform(-sheet.disorder * sheet.edge, sheet.disorder * sheet.edge);
@@ -43,8 +43,8 @@ inline std::string meshSheetText(const MeshSheet& sheet) {
     for (int row = 0; row + 1 < sheet.rows; ++row) {
       line(row == 0 ? "g bottom" : row + 2 == sheet.rows ? "g top" : "g middle");
       for (int column = 0; column + 1 < sheet.columns; ++column) {
-        const int a = (layer * sheet.rows + row) * sheet.columns + column + 1, b = a + 1, c = a + sheet.columns,
-                  d = c + 1;
+        const int a = (layer * sheet.rows + row) * sheet.columns + column + 1, b = a + 1,
+                  c = a + sheet.columns, d = c + 1;
         row % 2 == 0 ? (face(a, b, c), face(b, d, c)) : (face(a, b, d), face(a, d, c));
       }
     }

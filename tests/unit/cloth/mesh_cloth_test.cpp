@@ -62,7 +62,8 @@ TEST(MeshCloth, GathersInAscendingOrderAndEachElementAtAllItsParticles) {
   EXPECT_EQ(lists.trianglesOf.entries.size(), 3 * lists.triangles.size());
   for (std::uint32_t i = 0; i < cloth.particleCount(); ++i) {
     for (const SpringLists::Incidence* list : {&lists.springsOf, &lists.hingesOf, &lists.trianglesOf})
-      EXPECT_TRUE(std::is_sorted(list->entries.begin() + list->starts[i], list->entries.begin() + list->starts[i + 1]));
+      EXPECT_TRUE(std::is_sorted(list->entries.begin() + list->starts[i],
+                                 list->entries.begin() + list->starts[i + 1]));
     for (std::uint32_t at = lists.springsOf.starts[i]; at < lists.springsOf.starts[i + 1]; ++at) {
       const ListedSpring& spring = lists.springs[lists.springsOf.entries[at]];
       EXPECT_TRUE(spring.a == i || spring.b == i);
@@ -100,7 +101,8 @@ std::vector<std::uint32_t> pinnedOf(std::vector<Pin> pins, Vec3d position = {}) 
 TEST(MeshCloth, IsPinnedByVertexByRegionAndByGroup) {
   EXPECT_EQ(pinnedOf({VertexPin{5}, VertexPin{17}}), (std::vector<std::uint32_t>{5, 17}));
   EXPECT_EQ(pinnedOf({RegionPin{{{-0.01, -0.01, -1}, {0.06, 0.01, 1}}}}), (std::vector<std::uint32_t>{0, 1}));
-  EXPECT_EQ(pinnedOf({RegionPin{{{0.99, 1.99, -1}, {1.06, 2.01, 1}}}}, {1, 2, 0}), (std::vector<std::uint32_t>{0, 1}))
+  EXPECT_EQ(pinnedOf({RegionPin{{{0.99, 1.99, -1}, {1.06, 2.01, 1}}}}, {1, 2, 0}),
+            (std::vector<std::uint32_t>{0, 1}))
       << "where the mesh is placed";
   const std::vector<std::uint32_t> bottom = pinnedOf({GroupPin{"bottom"}});
   ASSERT_EQ(bottom.size(), 24u) << "all points of the first strip of triangles";
@@ -111,9 +113,12 @@ TEST(MeshCloth, ComplainsOfPinsThatTheMeshDoesNotHave) {
   const auto messageOf = [](Pin pin) {
     return test::messageThrownBy<SceneError>([&] { (void)pinnedOf({std::move(pin)}); });
   };
-  EXPECT_NE(messageOf(VertexPin{168}).find("expected a vertex from 0 to 167 of the mesh, found 168"), std::string::npos);
-  EXPECT_NE(messageOf(RegionPin{{{5, 5, 5}, {6, 6, 6}}}).find("found one that holds none"), std::string::npos);
-  EXPECT_NE(messageOf(GroupPin{"topp"}).find("did you mean \"top\"?; it has bottom, middle, top"), std::string::npos)
+  EXPECT_NE(messageOf(VertexPin{168}).find("expected a vertex from 0 to 167 of the mesh, found 168"),
+            std::string::npos);
+  EXPECT_NE(messageOf(RegionPin{{{5, 5, 5}, {6, 6, 6}}}).find("found one that holds none"),
+            std::string::npos);
+  EXPECT_NE(messageOf(GroupPin{"topp"}).find("did you mean \"top\"?; it has bottom, middle, top"),
+            std::string::npos)
       << messageOf(GroupPin{"topp"});
 }
 
@@ -125,7 +130,8 @@ TEST(MeshCloth, ComplainsOfMotionsOfVerticesThatAreNotPinned) {
   motion.pinned = {VertexPin{3}};
   scene.cloths[0].pinMotion = {motion};
   const std::string message = test::messageThrownBy<SceneError>([&] { (void)Cloth(scene); });
-  EXPECT_NE(message.find("found vertex 3, which the cloth's key \"pinned\" does not name"), std::string::npos) << message;
+  EXPECT_NE(message.find("found vertex 3, which the cloth's key \"pinned\" does not name"), std::string::npos)
+      << message;
 }
 
 }  // namespace
