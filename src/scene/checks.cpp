@@ -122,7 +122,7 @@ void checkMaterial(const JsonNode& node, const ClothSettings& cloth) {
 void checkMesh(const JsonNode& node, const ClothSettings& cloth) {
   if (!cloth.isMesh()) {
     if (const JsonNode* given = node.find("mesh")) complainExpected(*given, "the name of an OBJ file");
-    if (const JsonNode* given = node.find("scale"))
+    if (const JsonNode* given = node.find("scale"); given != nullptr && cloth.scale != 1)
       complain(*given, "only a cloth with the key \"mesh\" has a scale; a grid has width and height");
     return;
   }

@@ -201,6 +201,9 @@ Pin readPinObject(const JsonNode& node) {
   if (node.find("vertex") != nullptr) return pinOf<VertexPin>(node);
   if (node.find("region") != nullptr) return pinOf<RegionPin>(node);
   if (node.find("group") != nullptr) return pinOf<GroupPin>(node);
+  for (const auto& member : node.children)
+    if (!isComment(member->key) && member->key != "from" && member->key != "to")
+      complainUnknownKey(*member, {"from", "to", "vertex", "region", "group"});
   return pinOf<GridRange>(node);
 }
 

@@ -144,6 +144,21 @@ TEST(MeshForces, AreTheSlopeOfTheEnergyAndSumToZero) {
   EXPECT_LT(length(sum), 1e-12);
 }
 
+TEST(MeshOfEqualTriangles, RestsInsideWhereItIsStretchedAlikeEverywhere) {
+  const Scene scene = test::meshScene();
+  const Cloth cloth(scene);
+  CpuSolver<double> solver(cloth, scene);
+  for (std::uint32_t i = 0; i < cloth.particleCount(); ++i) {
+    const Vec3d p = cloth.positions()[i];
+    solver.setPosition(i, {1.03 * p.x + 0.02 * p.y, 0.98 * p.y, 0.1 * p.x});
+  }
+  const std::vector<Vec3d> forces = solver.forces();
+  for (int row = 2; row < 12; ++row)
+    for (int column = 2; column < 10; ++column)
+      EXPECT_LT(length(forces[static_cast<std::size_t>(12 * row + column)]), 2e-3) << row << ", " << column;
+  EXPECT_GT(length(forces[0]), 0.1) << "the border pulls";
+}
+
 TEST(MeshInTheWind, FeelsThePressureOnItsAreaWhateverItsTriangles) {
   const test::MeshSheet sheet{.disorder = 0.25};
   Scene scene = test::meshScene(sheet);
