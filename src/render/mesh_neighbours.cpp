@@ -69,18 +69,20 @@ void appendSpread(const Cloth& cloth, std::uint32_t particle, const std::vector<
   const Vec3d u = (1 / length(across)) * across;
   const Vec3d around = cross(normal, u);
   const Vec3d v = (1 / length(around)) * around;
+  std::vector<double> angles;
+  for (const std::uint32_t candidate : candidates) {
+    const Vec3d d = cloth.positions()[candidate] - here;
+    angles.push_back(std::atan2(dot(d, v), dot(d, u)));
+  }
   for (unsigned k = 0; k < MESH_RING; ++k) {
     const double wanted = 2 * std::numbers::pi * k / MESH_RING;
     std::uint32_t best = particle;
     double least = std::numbers::pi / 4;
-    for (const std::uint32_t candidate : candidates) {
-      const Vec3d d = cloth.positions()[candidate] - here;
-      const double off =
-          std::abs(std::remainder(std::atan2(dot(d, v), dot(d, u)) - wanted, 2 * std::numbers::pi));
-      if (off < least) {
-        least = off;
-        best = candidate;
-      }
+    for (std::size_t c = 0; c < candidates.size(); ++c) {
+      const double off = std::abs(std::remainder(angles[c] - wanted, 2 * std::numbers::pi));
+      if (off >= least) continue;
+      least = off;
+      best = candidates[c];
     }
     words.push_back(best);
   }

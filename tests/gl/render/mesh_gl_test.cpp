@@ -144,6 +144,14 @@ TEST_F(MeshTest, IsHeldPinnedAndBlownAtButNotCut) {
       session.act(CutStroke{0, {0, 0}, {1, 1}});
     });
     EXPECT_NE(message.find("meshes cannot be cut"), std::string::npos);
+    Scene edited = session.simulation().scene();
+    edited.cloths[0].enableBending = false;
+    const Particle4 before = session.simulation().solver().positions(200, 1)[0];
+    session.act(EditScene{edited});
+    EXPECT_LT(session.simulation().cloth().springCount(), Cloth(scene).springCount());
+    EXPECT_EQ(session.simulation().solver().positions(200, 1)[0].z, before.z)
+        << "an edit goes on from the same state";
+    EXPECT_EQ(session.simulation().solver().positions(200, 1)[0].w, before.w);
   }
 }
 

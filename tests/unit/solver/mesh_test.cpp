@@ -266,6 +266,23 @@ TEST(MeshInAHand, FollowsItWithWhatLiesNearAtRest) {
   EXPECT_EQ((*hand.hold->points)[80 - hand.hold->firstColumn].weight, 1.0f);
 }
 
+TEST(ParticlesLetGo, WeighWhatTheyDidBeforeTheyWerePinned) {
+  Scene grid;
+  grid.cloths[0].numWidthPoints = grid.cloths[0].numHeightPoints = 5;
+  grid.cloths[0].material = Material{};
+  for (const Scene& scene : {test::meshScene(), grid}) {
+    const Cloth cloth(scene);
+    CpuSolver<float> solver(cloth, scene);
+    for (const std::uint32_t particle : {0u, 2u, 12u}) {  // of the grid: a corner, on a border, inside
+      const float before = solver.positions(particle, 1)[0].w;
+      solver.setPin(particle, true);
+      EXPECT_EQ(solver.positions(particle, 1)[0].w, 0.0f);
+      solver.setPin(particle, false);
+      EXPECT_EQ(solver.positions(particle, 1)[0].w, before);
+    }
+  }
+}
+
 TEST(MeshTrouble, NamesTheVertexOfASpringThatRunsAway) {
   Scene scene = test::meshScene();
   const Cloth cloth(scene);
