@@ -16,6 +16,8 @@ using uint = unsigned int;
 #define NORMALS_OUT_BINDING 1        // storage block, vec4 a particle
 #define TANGENTS_OUT_BINDING 3       // storage block, vec4 a particle
 #define REST_POSITIONS_BINDING 4     // storage block, vec4 a particle
+#define MESH_CORNERS_BINDING 5       // storage block, words: src/render/mesh_neighbours.h
+#define MESH_COORDINATES_BINDING 6   // storage block, vec2 a particle: texture coordinates
 #define SHADOW_MAP_UNIT 0            // texture units
 #define FLOOR_SHADOW_UNIT 1
 #define CANVAS_UNIT 2
@@ -26,6 +28,8 @@ using uint = unsigned int;
 #define ENVIRONMENT_UNIT 6
 #define BACKDROP_UNIT 7
 #define FLOOR_SHADOW_SIZE 256  // [texels] of the blurred shadow for floors
+#define MESH_NORMALS_GROUP 64  // particles of a mesh in a work group
+#define MESH_RING 8u           // particles around one that say how deep it lies in a fold
 #define NORMALS_GROUP_SIZE 8   // work groups of 8 x 8 particles
 
 #define POSITION_LOCATION 0  // vertex attributes
@@ -77,8 +81,8 @@ struct RenderFrame {
 
 struct ClothGrid {
   uint firstParticle, columns, rows;
-  uint ring;     // how many points away the cloth is looked at for the shade in folds
-  float width;   // at rest [m], along u
+  uint ring;     // how many points away the cloth is looked at for the shade in folds; 0: a mesh
+  float width;   // at rest [m], along u; of a mesh the length of a unit of u
   float height;  // along v
   float longer;  // the larger of the two
   float reach;   // length of the ring's steps at rest [m]

@@ -35,7 +35,8 @@ using uint = std::uint32_t;
 // cells.
 #define MOST_CANDIDATES 24u
 // A candidate is a particle (26 bits) and, above it, how to find the pair's distance: 0 for strangers,
-// |columns| + 8 |rows| for particles of one grid that lie nearer than the contact distance at rest.
+// |columns| + 8 |rows| for particles of one grid that lie nearer than the contact distance at rest, 64ths of
+// that for those of one mesh.
 #define CANDIDATE_BITS 26
 #define NEAREST_CODES 64u
 
@@ -63,7 +64,7 @@ SHARED_STRUCT SelfParams {
   real guardFactor;  // a step never ends with a pair of strangers nearer than this times its distance, robust
                      // only
   real fastSquared;  // farther than this within a step a particle could slip past another unseen [m^2]
-  real unusedReal;
+  real codesPerMeter;  // of a mesh: a code is so much of the distance at rest
 };
 
 #ifdef __cplusplus

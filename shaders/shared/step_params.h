@@ -122,6 +122,11 @@ SHARED_STRUCT StepParams {
   real unusedA;
   real unusedB;
 
+  uint isMesh;      // springs, bending and triangles come from lists (shared/mesh_lists.h)
+  real maxStretch;  // 1 + max_strain, for the watchdog
+  uint unusedMeshA;
+  uint unusedMeshB;
+
   SPRING_ROWS(SpringParams) springs[6];
 };
 
@@ -223,7 +228,8 @@ SHARED_STRUCT PinMotionParams {
 };
 
 // One colour of the strain limit: springs of one slot of which no two share a particle. The owners are at
-// column first + step (i / run) + i % run below end, and likewise in rows.
+// column first + step (i / run) + i % run below end, and likewise in rows. Of a mesh: springs firstColumn to
+// endColumn in the order of their numbers.
 struct LimitColor {
   uint slot;
   uint unusedA;

@@ -2,11 +2,18 @@
 #include "sim/springs.glsl"
 #include "sim/bending.glsl"
 #include "sim/air.glsl"
+#if HAS_MESH
+#include "sim/listed.glsl"
+#endif
 
 vec3 gatherForces(GridPoint p) {
+#if HAS_MESH
+  precise vec3 f = gatherListedForces(p.index);
+#else
   precise vec3 f = gatherSprings(p, positionAt(p.index).xyz);
   if (hasMaterial) f = addBending(p, f);
   if (hasWind) f = addWind(p, f);
+#endif
   if (hasAirResistance) f = addAirResistance(velocityAt(p.index), f);
   return f;
 }

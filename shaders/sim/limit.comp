@@ -15,20 +15,46 @@ void move(uint i, vec4 x, vec3 by) {
   newVelocities[i] = vec4(canonical(newV), 0.0);
 }
 
-void main() {
+#if HAS_MESH
+#include "shared/mesh_lists.h"
+layout(binding = LIMITED_SPRINGS_UNIT) uniform usamplerBuffer limitedSprings;
+#endif
+
+struct LimitedSpring {
+  uint a, b;  // the owner, and the other end
+  float limit;
+  bool exists;
+};
+
+LimitedSpring thisSpring() {
+#if HAS_MESH
+  uint number = color.firstColumn + gl_GlobalInvocationID.x;
+  if (number >= color.endColumn || gl_GlobalInvocationID.y > 0u) return LimitedSpring(0u, 0u, 0.0, false);
+  uvec4 spring = texelFetch(limitedSprings, int(number));
+  precise float limit = step.limitFactor * uintBitsToFloat(spring.z);
+  return LimitedSpring(spring.x, spring.y, limit, true);
+#else
   uvec2 n = gl_GlobalInvocationID.xy;
   uint column = color.firstColumn + color.columnStep * (n.x / color.columnRun) + n.x % color.columnRun;
   uint row = color.firstRow + color.rowStep * (n.y / color.rowRun) + n.y % color.rowRun;
-  if (column >= color.endColumn || row >= color.endRow) return;
+  if (column >= color.endColumn || row >= color.endRow) return LimitedSpring(0u, 0u, 0.0, false);
   uint a = step.firstParticle + row * step.columns + column;
-  if (!isLeft(cutMaskOf(a), color.slot)) return;
   ivec2 offset = toOtherEnd[color.slot];
   uint b = uint(int(a) + offset.x + offset.y * int(step.columns));
 
   precise float limit = step.springs[color.slot].limitLength;
   if (hasRestLengthTable)
     limit = step.limitFactor * texelFetch(restLengths, int(color.slot * step.totalParticles + a)).x;
+  return LimitedSpring(a, b, limit, isLeft(cutMaskOf(a), color.slot));
+#endif
+}
+
+void main() {
+  LimitedSpring spring = thisSpring();
+  if (!spring.exists) return;
+  uint a = spring.a, b = spring.b;
   vec4 xa = texelFetch(positionsSoFar, int(a)), xb = texelFetch(positionsSoFar, int(b));
+  precise float limit = spring.limit;
   precise vec3 d = xb.xyz - xa.xyz;
   precise float lengthSquared = sumOfProducts(d, d);
   precise float limitSquared = limit * limit;

@@ -58,6 +58,8 @@ class Checks {
     const std::size_t grids = cloth_.grids().size();
     require(stroke.grid < grids, "cut: there is no cloth " + std::to_string(stroke.grid) +
                                      ", expected 0 to " + std::to_string(grids - 1));
+    require(!cloth_.grids()[stroke.grid].isMesh, "cut: cloth " + std::to_string(stroke.grid) +
+                                                     " is a mesh, expected a grid: meshes cannot be cut");
     for (const LatticePoint& point : {stroke.from, stroke.to})
       for (const double x : {point.column, point.row})
         require(isWithin(x, -FARTHEST, FARTHEST),

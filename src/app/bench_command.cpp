@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 #include <nlohmann/json.hpp>
@@ -74,6 +75,17 @@ nlohmann::ordered_json benchDemo(const std::vector<std::string>& backends, bool 
   return json;
 }
 
+// Those that were asked for, else `usual`; meshes have none.
+std::vector<std::optional<GridSize>> resolutionsOf(const BenchOptions& options,
+                                                   const std::vector<GridSize>& usual) {
+  if (!options.resolutions.empty()) return {options.resolutions.begin(), options.resolutions.end()};
+  const std::vector<ClothSettings> cloths = loadSceneByName(options.scene.scene).cloths;
+  const bool hasGrid =
+      std::any_of(cloths.begin(), cloths.end(), [](const ClothSettings& cloth) { return !cloth.isMesh(); });
+  if (!hasGrid) return {std::nullopt};
+  return {usual.begin(), usual.end()};
+}
+
 State stateAfter(const Scene& scene, int frames) {
   Simulation simulation(scene, "cpu");
   Progress progress("simulating", frames);
@@ -105,7 +117,7 @@ int benchDrawing(const BenchOptions& options) {
   constexpr int width = 1280, height = 720;
   const gl::HeadlessContext context;
   SceneOptions sceneOptions = options.scene;
-  sceneOptions.resolution = options.resolutions.empty() ? GridSize{64, 64} : options.resolutions.front();
+  sceneOptions.resolution = resolutionsOf(options, {{64, 64}}).front();
   Scene scene = loadScene(sceneOptions);
   const State state = stateAfter(scene, options.afterFrames);
   nlohmann::ordered_json json{{"scene", options.scene.scene}, {"device", context.info().renderer}};
@@ -138,8 +150,6 @@ int benchDrawing(const BenchOptions& options) {
 
 int benchCommand(const BenchOptions& options) {
   if (options.draw) return benchDrawing(options);
-  std::vector<GridSize> resolutions = options.resolutions;
-  if (resolutions.empty()) resolutions = {{64, 64}, {128, 128}, {256, 256}};
   std::vector<std::string> backends = options.backends;
   if (backends.empty()) backends = {"cpu", "gpu"};
   const bool needsGpu = std::find(backends.begin(), backends.end(), "gpu") != backends.end();
@@ -148,7 +158,7 @@ int benchCommand(const BenchOptions& options) {
 
   nlohmann::ordered_json json;
   json["scene"] = options.scene.scene;
-  for (const GridSize& resolution : resolutions) {
+  for (const auto& resolution : resolutionsOf(options, {{64, 64}, {128, 128}, {256, 256}})) {
     SceneOptions sceneOptions = options.scene;
     sceneOptions.resolution = resolution;
     const Scene scene = loadScene(sceneOptions);

@@ -20,7 +20,7 @@ bool haveSameLattice(const Cloth& a, const Cloth& b) {
   return std::ranges::equal(
              a.grids(), b.grids(),
              [](const Grid& x, const Grid& y) { return x.columns == y.columns && x.rows == y.rows; }) &&
-         std::ranges::equal(a.positions(), b.positions());
+         std::ranges::equal(a.positions(), b.positions()) && a.lists().triangles == b.lists().triangles;
 }
 
 State carriedOver(const State& state, const Cloth& before, const Cloth& after) {
@@ -29,7 +29,7 @@ State carriedOver(const State& state, const Cloth& before, const Cloth& after) {
     for (std::uint32_t i = grid.firstParticle; i < grid.firstParticle + grid.particleCount(); ++i) {
       const bool wasPinned = before.inverseMasses()[i] == 0, isPinned = after.inverseMasses()[i] == 0;
       const bool pinned = wasPinned == isPinned ? state.positions[i].w == 0 : isPinned;
-      result.positions[i].w = pinned ? 0 : static_cast<float>(1 / grid.particleMass);
+      result.positions[i].w = pinned ? 0 : static_cast<float>(1 / after.massOf(i));
       if (pinned && state.positions[i].w != 0) result.velocities[i] = {};
     }
   }
@@ -42,6 +42,7 @@ std::vector<SetPin> pinsByHand(const State& state, const Cloth& before, const Cl
     const std::size_t index = before.gridOf(particle);
     if (index >= after.grids().size()) continue;
     const Grid &from = before.grids()[index], &to = after.grids()[index];
+    if (from.isMesh || to.isMesh) continue;  // no place on the one is a place on the other
     const int place = static_cast<int>(particle - from.firstParticle);
     const auto nearest = [](int point, int points, int newPoints) {
       const double part = points > 1 ? double(point) / (points - 1) : 0;

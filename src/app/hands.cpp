@@ -32,6 +32,10 @@ Pick pickAt(const Reach& reach, Cursor cursor) {
                              cursor.y);
 }
 
+bool isOnMesh(const Reach& reach, const Pick& pick) {
+  return pick.kind == Pick::Kind::cloth && reach.session.simulation().cloth().grids()[pick.grid].isMesh;
+}
+
 double grabRadius(const Grid& grid) {
   const double across = grid.nominalLength[toLeft], along = grid.nominalLength[toUpper];
   const double side = std::min(across * (grid.columns - 1), along * (grid.rows - 1));
@@ -105,6 +109,7 @@ std::string Hands::press(const Reach& reach, Button button, Cursor cursor, Modif
   }
   const Pick pick = pickAt(reach, cursor);
   if (held.cuts) {
+    if (isOnMesh(reach, pick)) return "A cloth made of a mesh cannot be cut";
     doing_ = Doing::cut;
     lastCut_ = pick;
     stroke_.assign(1, {cursor.x, cursor.y});
@@ -219,6 +224,7 @@ void Hands::cutTo(const Reach& reach, Cursor cursor) {
 }
 
 void Hands::cutFromTo(const Reach& reach, const Pick& from, const Pick& to) {
+  if (isOnMesh(reach, from)) return;
   const Grid& grid = reach.session.simulation().cloth().grids()[from.grid];
   const LatticePoint begin = overTheEdge(grid, to.lattice, from.lattice);
   reach.session.act(CutStroke{from.grid, begin, overTheEdge(grid, from.lattice, to.lattice)});

@@ -38,8 +38,9 @@ std::string backendText(const Solver& solver) {
 std::string gridSizes(const Cloth& cloth) {
   std::string text;
   for (const Grid& grid : cloth.grids())
-    text +=
-        (text.empty() ? "" : ", ") + std::to_string(grid.columns) + " \u00d7 " + std::to_string(grid.rows);
+    text += (text.empty() ? "" : ", ") +
+            (grid.isMesh ? "mesh of " + withCommas(grid.endTriangle - grid.firstTriangle) + " triangles"
+                         : std::to_string(grid.columns) + " \u00d7 " + std::to_string(grid.rows));
   return text;
 }
 

@@ -26,7 +26,11 @@ bool CrossingCounter::areNeighbours(const Triangle& a, const Triangle& b) const 
     const Place& p = places_[i];
     for (const std::uint32_t j : b) {
       const Place& q = places_[j];
-      if (p.grid == q.grid && std::abs(p.column - q.column) <= 1 && std::abs(p.row - q.row) <= 1) return true;
+      if (cloth_.hasMesh() && p.grid == q.grid && cloth_.grids()[p.grid].isMesh) {
+        if (i == j || cloth_.lists().joins(i, j)) return true;
+      } else if (p.grid == q.grid && std::abs(p.column - q.column) <= 1 && std::abs(p.row - q.row) <= 1) {
+        return true;
+      }
     }
   }
   return false;

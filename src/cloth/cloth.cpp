@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/hash.h"
 #include "scene/material.h"
+#include "scene/mesh_shape.h"
 #include "scene/pins.h"
 #include "scene/pose.h"
 
@@ -111,34 +112,141 @@ bool differsFromNominal(const Grid& grid, std::span<const Vec3d> positions) {
   return false;
 }
 
+// An unpinned vertex cannot be moved along a path, nor one along two.
+void checkPinMotions(const ClothSettings& settings) {
+  const auto conflict = findPinConflict(settings);
+  if (!conflict) return;
+  throw SceneError("cloth.pin_motion." + std::to_string(conflict->motion) + ": " +
+                   (conflict->otherMotion
+                        ? "expected each pin in one motion, found " + conflict->point + " in pin_motion." +
+                              std::to_string(*conflict->otherMotion) + ", too"
+                        : "expected only pins of the cloth, found " + conflict->point +
+                              ", which the cloth's key \"pinned\" does not name") +
+                   " (" + settings.mesh + ")");
+}
+
+// How long a unit of u and of v is on the mesh, as the mean over its area: |dx/du|, |dx/dv|.
+std::array<double, 2> textureSizeOf(const MeshShape& shape, const std::vector<Vec3d>& points) {
+  double areas = 0, alongU = 0, alongV = 0;
+  for (const MeshShape::Triangle& t : shape.triangles) {
+    const Vec3d p = points[t[1]] - points[t[0]], q = points[t[2]] - points[t[0]];
+    const auto& [a, b, c] = std::array{shape.textureCoordinates[t[0]], shape.textureCoordinates[t[1]],
+                                       shape.textureCoordinates[t[2]]};
+    const double pu = double{b[0]} - double{a[0]}, pv = double{b[1]} - double{a[1]},
+                 qu = double{c[0]} - double{a[0]}, qv = double{c[1]} - double{a[1]};
+    const double determinant = pu * qv - qu * pv, area = length(cross(p, q));
+    if (std::abs(determinant) < 1e-12) continue;
+    areas += area;
+    alongU += area * length((1 / determinant) * (qv * p - pv * q));
+    alongV += area * length((1 / determinant) * (pu * q - qu * p));
+  }
+  return areas > 0 ? std::array{alongU / areas, alongV / areas} : std::array{1.0, 1.0};
+}
+
+// The springs of a mesh whose particles begin at `first`, along and across its edges.
+void appendSprings(const MeshShape& shape, const MeshMechanics& mechanics, std::uint32_t first,
+                   std::vector<ListedSpring>& springs) {
+  for (std::size_t e = 0; e < shape.edges.size(); ++e) {
+    const auto& [a, b, opposite, triangles] = shape.edges[e];
+    if (mechanics.stretch[e] > 0)
+      springs.push_back({first + a, first + b, SpringKind::structural, mechanics.stretch[e]});
+    if (mechanics.across[e] > 0)
+      springs.push_back({first + std::max(opposite[0], opposite[1]),
+                         first + std::min(opposite[0], opposite[1]), SpringKind::bending,
+                         mechanics.across[e]});
+  }
+}
+
+void appendHinges(const MeshShape& shape, const MeshMechanics& mechanics, std::uint32_t first,
+                  std::vector<Hinge>& hinges) {
+  for (std::size_t e = 0; e < mechanics.bending.size(); ++e) {
+    const auto& [a, b, opposite, triangles] = shape.edges[e];
+    if (mechanics.bending[e] == std::array<double, 4>{}) continue;
+    hinges.push_back(
+        {{first + a, first + b, first + opposite[0], first + opposite[1]}, mechanics.bending[e]});
+  }
+}
+
 }  // namespace
 
 Cloth::Cloth(const Scene& scene) {
-  std::uint64_t total = 0;
   for (const ClothSettings& settings : scene.cloths)
-    total += static_cast<std::uint64_t>(settings.numWidthPoints) *
-             static_cast<std::uint64_t>(settings.numHeightPoints);
+    settings.isMesh() ? addMesh(settings) : addGrid(settings);
+  if (lists_.empty()) return;
+  gatherIncidences(lists_, particleCount());
+  meshMasses_.resize(particleCount());
+  meshCoordinates_.resize(particleCount());
+}
+
+void Cloth::checkSize(std::uint64_t more) const {
+  const std::uint64_t total = positions_.size() + more;
   if (total > MAX_PARTICLES)
     throw SceneError("the cloths hold " + std::to_string(total) + " particles together; at most " +
                      std::to_string(MAX_PARTICLES) +
                      " are possible. Use fewer points or a smaller --resolution.");
-  positions_.reserve(total);
-  inverseMasses_.reserve(total);
-  for (const ClothSettings& settings : scene.cloths) {
-    Grid grid = makeGrid(settings, particleCount());
-    appendPositions(settings, grid.firstParticle, positions_);
-    for (int row = 0; row < grid.rows; ++row)
-      for (int column = 0; column < grid.columns; ++column)
-        inverseMasses_.push_back(1 / (grid.particleMass * grid.massWeight(column, row)));
-    for (const Pin& pin : settings.pinned) {
-      const GridRange range = pointsOf(pin, settings);
-      for (int row = range.from.row; row <= range.to.row; ++row)
-        for (int column = range.from.column; column <= range.to.column; ++column)
-          inverseMasses_[grid.particle(column, row)] = 0;
-    }
-    grid.hasRestLengthTable = differsFromNominal(grid, positions_);
-    grids_.push_back(grid);
+}
+
+void Cloth::addGrid(const ClothSettings& settings) {
+  Grid grid = makeGrid(settings, particleCount());
+  checkSize(grid.particleCount());
+  appendPositions(settings, grid.firstParticle, positions_);
+  for (int row = 0; row < grid.rows; ++row)
+    for (int column = 0; column < grid.columns; ++column)
+      inverseMasses_.push_back(1 / (grid.particleMass * grid.massWeight(column, row)));
+  for (const auto& particles : particlesOf(settings.pinned, settings))
+    for (const std::uint32_t particle : particles) inverseMasses_[grid.firstParticle + particle] = 0;
+  grid.hasRestLengthTable = differsFromNominal(grid, positions_);
+  grids_.push_back(grid);
+}
+
+void Cloth::addMesh(const ClothSettings& settings) {
+  const std::shared_ptr<const MeshShape> shape = meshShapeOf(settings.mesh);
+  checkSize(shape->points.size());
+  checkPinMotions(settings);
+  const std::vector<Vec3d> points = placedPoints(*shape, settings);
+  const MeshMechanics mechanics = mechanicsOf(*shape, points, settings);
+  Grid mesh;
+  mesh.isMesh = true;
+  mesh.firstParticle = particleCount();
+  mesh.columns = static_cast<int>(points.size());
+  mesh.rows = 1;
+  const std::uint32_t first = mesh.firstParticle, end = first + mesh.particleCount();
+
+  double sum = 0;
+  for (const MeshShape::Edge& edge : shape->edges) {
+    const double l = length(points[edge.a] - points[edge.b]);
+    sum += l;
+    mesh.longestEdge = std::max(mesh.longestEdge, l);
   }
+  mesh.nominalLength.fill(sum / static_cast<double>(shape->edges.size()));
+  mesh.textureSize = textureSizeOf(*shape, points);
+
+  positions_.insert(positions_.end(), points.begin(), points.end());
+  for (const double mass : mechanics.masses) inverseMasses_.push_back(1 / mass);
+  for (const auto& particles : particlesOf(settings.pinned, settings))
+    for (const std::uint32_t particle : particles) inverseMasses_[first + particle] = 0;
+  meshMasses_.resize(first);
+  meshMasses_.insert(meshMasses_.end(), mechanics.masses.begin(), mechanics.masses.end());
+  meshCoordinates_.resize(first);
+  meshCoordinates_.insert(meshCoordinates_.end(), shape->textureCoordinates.begin(),
+                          shape->textureCoordinates.end());
+
+  const std::size_t firstSpring = lists_.springs.size();
+  appendSprings(*shape, mechanics, first, lists_.springs);
+  mesh.colors = colorSprings(lists_.springs, firstSpring, end);
+  appendHinges(*shape, mechanics, first, lists_.hinges);
+  mesh.firstTriangle = static_cast<std::uint32_t>(lists_.triangles.size());
+  for (const auto& [a, b, c] : shape->triangles)
+    lists_.triangles.push_back({first + a, first + b, first + c});
+  mesh.endTriangle = static_cast<std::uint32_t>(lists_.triangles.size());
+  grids_.push_back(std::move(mesh));
+}
+
+double Cloth::massOf(std::uint32_t particle) const {
+  const Grid& grid = grids_[gridOf(particle)];
+  if (grid.isMesh) return meshMasses_[particle];
+  const int place = static_cast<int>(particle - grid.firstParticle);
+  return grid.particleMass * grid.massWeight(place % grid.columns, place / grid.columns);
 }
 
 std::size_t Cloth::gridOf(std::uint32_t particle) const {
@@ -156,12 +264,14 @@ bool Cloth::hasRestLengthTable() const {
 std::uint64_t Cloth::triangleCount() const {
   std::uint64_t count = 0;
   for (const Grid& grid : grids_)
-    count += 2 * static_cast<std::uint64_t>(grid.columns - 1) * static_cast<std::uint64_t>(grid.rows - 1);
+    count += grid.isMesh ? grid.endTriangle - grid.firstTriangle
+                         : 2 * static_cast<std::uint64_t>(grid.columns - 1) *
+                               static_cast<std::uint64_t>(grid.rows - 1);
   return count;
 }
 
 std::uint64_t Cloth::springCount() const {
-  std::uint64_t count = 0;
+  std::uint64_t count = lists_.springs.size();
   for (const Grid& grid : grids_)
     for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot)
       if (grid.slotEnabled[slot])
@@ -174,6 +284,9 @@ std::vector<std::array<std::uint32_t, 3>> Cloth::triangles() const {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   triangles.reserve(triangleCount());
   for (const Grid& grid : grids_) {
+    if (grid.isMesh)
+      triangles.insert(triangles.end(), lists_.triangles.begin() + grid.firstTriangle,
+                       lists_.triangles.begin() + grid.endTriangle);
     for (int row = 0; row + 1 < grid.rows; ++row) {
       for (int column = 0; column + 1 < grid.columns; ++column) {
         const std::uint32_t a = grid.particle(column, row), b = grid.particle(column + 1, row);
@@ -192,8 +305,11 @@ std::vector<std::array<float, 2>> Cloth::textureCoordinates() const {
   for (const Grid& grid : grids_)
     for (int row = 0; row < grid.rows; ++row)
       for (int column = 0; column < grid.columns; ++column)
-        coordinates.push_back({static_cast<float>(column) / static_cast<float>(std::max(1, grid.columns - 1)),
-                               static_cast<float>(row) / static_cast<float>(std::max(1, grid.rows - 1))});
+        coordinates.push_back(
+            grid.isMesh
+                ? meshCoordinates_[grid.particle(column, row)]
+                : std::array{static_cast<float>(column) / static_cast<float>(std::max(1, grid.columns - 1)),
+                             static_cast<float>(row) / static_cast<float>(std::max(1, grid.rows - 1))});
   return coordinates;
 }
 
@@ -209,12 +325,17 @@ std::vector<Spring> Cloth::springs() const {
           const std::uint32_t other = grid.particle(column + offset.columns, row + offset.rows);
           const double measured = length(positions_[other] - positions_[owner]);
           springs.push_back(
-              {static_cast<std::uint32_t>(SPRING_SLOTS) * owner + static_cast<std::uint32_t>(slot), owner,
-               other, grid.stiffness[slot] * grid.springWeight(column, row, static_cast<SpringSlot>(slot)),
+              {static_cast<std::uint32_t>(SPRING_SLOTS * owner + slot), offset.kind, owner, other,
+               grid.stiffness[slot] * grid.springWeight(column, row, static_cast<SpringSlot>(slot)),
                grid.hasRestLengthTable ? measured : grid.nominalLength[slot]});
         }
       }
     }
+  }
+  const std::uint32_t first = SPRING_SLOTS * particleCount();
+  for (std::uint32_t n = 0; n < lists_.springs.size(); ++n) {
+    const auto& [a, b, kind, stiffness] = lists_.springs[n];
+    springs.push_back({first + n, kind, a, b, stiffness, length(positions_[b] - positions_[a])});
   }
   return springs;
 }

@@ -1,5 +1,5 @@
-// The cloth as built from a scene: particles, grids, springs and triangles. Immutable while stepping; what
-// moves is in solver/state.h. Several cloths lie in the same arrays, each grid a contiguous range of
+// The cloth as built from a scene: particles, grids, meshes, springs and triangles. Immutable while stepping;
+// what moves is in solver/state.h. Several cloths lie in the same arrays, each a contiguous range of
 // particles.
 #pragma once
 
@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "cloth/spring_lists.h"
 #include "core/vec.h"
 #include "scene/scene.h"
 
@@ -24,8 +25,6 @@ enum SpringSlot : int {
   toSecondUpper,
   SPRING_SLOTS
 };
-
-enum class SpringKind { structural, shear, bending };
 
 struct SpringOffset {
   int columns, rows;  // from the owner to the other end
@@ -70,7 +69,8 @@ inline constexpr std::array<std::array<Corner, 3>, 6> incidentTriangles{{{{{0, -
                                                                          {{{0, 0}, {-1, 1}, {0, 1}}},
                                                                          {{{0, 0}, {0, 1}, {1, 0}}}}};
 
-// One grid of particles, row-major, column fastest.
+// One grid of particles, row-major, column fastest. A mesh is a grid of one row, whose springs and triangles
+// come from Cloth::lists(): whatever treats each particle alone need not know.
 struct Grid {
   std::uint32_t firstParticle = 0;
   int columns = 0, rows = 0;
@@ -83,6 +83,13 @@ struct Grid {
   bool hasMaterial = false;
   double bendAlongRow = 0, bendAlongColumn = 0;  // b [N/m]
   bool hasRestLengthTable = false;  // some spring of a kind differs from nominal by more than 1e-6 m
+
+  // Of a mesh alone; nominalLength is the mean edge for all slots then, none of which is enabled.
+  bool isMesh = false;
+  std::vector<SpringColor> colors;                   // of its springs
+  std::uint32_t firstTriangle = 0, endTriangle = 0;  // in Cloth::lists()
+  double longestEdge = 0;                            // [m]
+  std::array<double, 2> textureSize{};               // of a unit of u and of v, on average [m]
 
   [[nodiscard]] std::uint32_t particleCount() const {
     return static_cast<std::uint32_t>(columns) * static_cast<std::uint32_t>(rows);
@@ -108,14 +115,16 @@ struct Grid {
 };
 
 struct Spring {
-  std::uint32_t number;  // 6 * owner + slot
-  std::uint32_t a, b;    // owner, other end
+  // Of a grid 6 * owner + slot; of a mesh its place in Cloth::lists(), behind all those.
+  std::uint32_t number;
+  SpringKind kind;
+  std::uint32_t a, b;  // owner, other end
   double stiffness, restLength;
 };
 
 class Cloth {
  public:
-  // @throws SceneError when the grids hold more particles than 2^26
+  // @throws SceneError when the cloths hold more particles than 2^26, or a mesh or the pins on it are wrong
   explicit Cloth(const Scene& scene);
 
   [[nodiscard]] std::uint32_t particleCount() const { return static_cast<std::uint32_t>(positions_.size()); }
@@ -124,11 +133,18 @@ class Cloth {
   [[nodiscard]] std::span<const Vec3d> positions() const { return positions_; }  // at the start [m]
   [[nodiscard]] std::span<const double> inverseMasses() const { return inverseMasses_; }  // [1/kg], 0: pinned
   [[nodiscard]] bool hasRestLengthTable() const;                                          // of any grid
+  [[nodiscard]] double massOf(std::uint32_t particle) const;         // when it is not pinned [kg]
+  [[nodiscard]] const SpringLists& lists() const { return lists_; }  // of all meshes
+  [[nodiscard]] bool hasMesh() const { return !lists_.empty(); }
+  [[nodiscard]] bool isOfMesh(std::uint32_t particle) const {
+    return hasMesh() && grids_[gridOf(particle)].isMesh;
+  }
 
   // Counter-clockwise seen from the front (+y of a horizontal sheet). Cell (c, r) has triangles 2 q and 2 q +
-  // 1, q = r (columns - 1) + c: with its corners A B / C D they are (A, C, B) and (B, C, D).
+  // 1, q = r (columns - 1) + c: with its corners A B / C D they are (A, C, B) and (B, C, D). Of a mesh those
+  // of its file.
   [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> triangles() const;
-  // u along columns, v along rows, 0 to 1.
+  // u along columns, v along rows, 0 to 1; of a mesh those of its file, v downwards.
   [[nodiscard]] std::vector<std::array<float, 2>> textureCoordinates() const;
   // All enabled springs in ascending number; for measuring and drawing, not used while stepping.
   [[nodiscard]] std::vector<Spring> springs() const;
@@ -138,7 +154,14 @@ class Cloth {
  private:
   std::vector<Grid> grids_;
   std::vector<Vec3d> positions_;
+  void addGrid(const ClothSettings& settings);
+  void addMesh(const ClothSettings& settings);
+  void checkSize(std::uint64_t more) const;
+
   std::vector<double> inverseMasses_;
+  std::vector<double> meshMasses_;                     // by particle; empty without meshes
+  std::vector<std::array<float, 2>> meshCoordinates_;  // the same
+  SpringLists lists_;
 };
 
 }  // namespace clothsim

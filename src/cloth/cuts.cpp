@@ -33,6 +33,7 @@ bool cutAlong(Cuts& cuts, const Cloth& cloth, std::size_t grid, LatticePoint fro
   const Extent columns = extentOf(from.column, to.column, g.columns);
   const Extent rows = extentOf(from.row, to.row, g.rows);
   bool any = false;
+  if (g.isMesh) return any;
   for (int row = rows.low; row <= rows.high; ++row) {
     for (int column = columns.low; column <= columns.high; ++column) {
       for (int slot = 0; slot < SPRING_SLOTS; ++slot) {
@@ -121,7 +122,11 @@ class CutMasks {
 std::vector<std::array<std::uint32_t, 3>> remainingTriangles(const Cloth& cloth, const Cuts& cuts) {
   if (cuts.empty()) return cloth.triangles();
   std::vector<std::array<std::uint32_t, 3>> triangles;
+  const auto& listed = cloth.lists().triangles;
   for (const Grid& grid : cloth.grids()) {
+    if (grid.isMesh)
+      triangles.insert(triangles.end(), listed.begin() + grid.firstTriangle,
+                       listed.begin() + grid.endTriangle);
     for (int row = 0; row + 1 < grid.rows; ++row) {
       for (int column = 0; column + 1 < grid.columns; ++column) {
         const std::uint32_t a = grid.particle(column, row), b = grid.particle(column + 1, row);

@@ -23,11 +23,16 @@ struct LatticePoint {
 
 // Cuts every spring of the cloth's grid number `grid` that crosses the straight stroke from `from` to `to`,
 // whether it is enabled or not. Returns whether there was anything left to cut. May lie off the grid in part.
+// Meshes are not cut.
 bool cutAlong(Cuts& cuts, const Cloth& cloth, std::size_t grid, LatticePoint from, LatticePoint to);
 
 // Whether the spring of particle `owner` in `slot` is cut.
 [[nodiscard]] inline bool isCut(const Cuts& cuts, std::uint32_t owner, SpringSlot slot) {
   return !cuts.empty() && (cuts[owner] >> slot & 1) != 0;
+}
+// One of Cloth::springs(); those of meshes are not cut.
+[[nodiscard]] inline bool isCut(const Cuts& cuts, const Spring& spring) {
+  return isCut(cuts, spring.a, static_cast<SpringSlot>(spring.number % SPRING_SLOTS));
 }
 
 // Cloth::triangles() without those of which a side is cut, in the same order.

@@ -1,21 +1,15 @@
 #include "cloth/signed_distance_grid.h"
 
-#include <tiny_obj_loader.h>
-
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <map>
 #include <mutex>
-#include <sstream>
 
 #include "core/error.h"
 #include "core/exact_math.h"
-#include "core/files.h"
+#include "scene/obj_file.h"
 
 namespace clothsim {
-
-namespace fs = std::filesystem;
 
 namespace {
 
@@ -199,18 +193,6 @@ double SignedDistanceGrid::distance(Vec3d p) const { return tree_->signedDistanc
 
 namespace {
 
-std::string readMeshFile(const std::string& file) {
-  const fs::path path =
-      fs::path(file).is_absolute() || fs::exists(file) ? fs::path(file) : resourceRoot() / file;
-  try {
-    return readFile(path, 256 * 1024 * 1024);
-  } catch (const InputOutputError& error) {
-    throw SceneError(std::string(error.what()) +
-                     "\nthe `file` of a mesh collider is looked for beside the scene file and in " +
-                     resourceRoot().string());
-  }
-}
-
 // Points at the same place become one, since texture seams double them.
 SolidMesh welded(const std::string& file, const tinyobj::attrib_t& attributes,
                  const std::vector<tinyobj::shape_t>& shapes, double scale) {
@@ -275,15 +257,8 @@ void addNormals(SolidMesh& mesh) {
 }  // namespace
 
 SolidMesh loadSolidMesh(const std::string& file, double scale) {
-  std::istringstream text(readMeshFile(file));
-  tinyobj::attrib_t attributes;
-  std::vector<tinyobj::shape_t> shapes;
-  std::vector<tinyobj::material_t> materials;
-  std::string warnings, errors;
-  const bool read =
-      tinyobj::LoadObj(&attributes, &shapes, &materials, &warnings, &errors, &text, nullptr, true);
-  if (!read) throw SceneError(file + ": cannot be read as an OBJ file: " + errors);
-  SolidMesh mesh = welded(file, attributes, shapes, scale);
+  const ObjFile obj = readObjFile(file, "`file` of a mesh collider");
+  SolidMesh mesh = welded(file, obj.attributes, obj.shapes, scale);
   if (mesh.triangles.empty()) throw SceneError(file + ": expected an OBJ file with faces, found none");
   for (const Vec3d& p : mesh.points)
     if (!std::isfinite(p.x + p.y + p.z)) throw SceneError(file + ": holds a point that is not finite");

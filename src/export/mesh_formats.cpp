@@ -40,6 +40,17 @@ void appendBytes(std::string& bytes, T value) {
   bytes.append(raw.data(), raw.size());
 }
 
+// Those of a mesh as its own file had them, with v upwards.
+std::vector<std::array<float, 2>> coordinatesForFiles(const Cloth& cloth) {
+  std::vector<std::array<float, 2>> coordinates = cloth.textureCoordinates();
+  for (const Grid& grid : cloth.grids())
+    for (std::uint32_t i = 0; grid.isMesh && i < grid.particleCount(); ++i) {
+      float& v = coordinates[grid.firstParticle + i][1];
+      v = 1 - v;
+    }
+  return coordinates;
+}
+
 Vec3f xyz(const Particle4& particle) { return {particle.x, particle.y, particle.z}; }
 
 }  // namespace
@@ -79,7 +90,7 @@ std::string formatCsv(const State& state) {
 std::string formatObj(const State& state, const Cloth& cloth) {
   std::string text = "# clothsim, step " + std::to_string(state.step) + ", metres\n";
   for (const Particle4& x : state.positions) appendLine(text, "v", {x.x, x.y, x.z});
-  for (const auto& uv : cloth.textureCoordinates()) appendLine(text, "vt", {uv[0], uv[1]});
+  for (const auto& uv : coordinatesForFiles(cloth)) appendLine(text, "vt", {uv[0], uv[1]});
   for (const Vec3f& n : vertexNormals(state, cloth)) appendLine(text, "vn", {n.x, n.y, n.z});
   for (const auto& triangle : remainingTriangles(cloth, state.cuts)) {
     text += 'f';
@@ -97,7 +108,7 @@ std::string formatObj(const State& state, const Cloth& cloth) {
 
 std::string formatPly(const State& state, const Cloth& cloth) {
   const auto triangles = remainingTriangles(cloth, state.cuts);
-  const auto textureCoordinates = cloth.textureCoordinates();
+  const auto textureCoordinates = coordinatesForFiles(cloth);
   const auto normals = vertexNormals(state, cloth);
 
   std::string bytes = "ply\nformat binary_little_endian 1.0\ncomment clothsim, step " +

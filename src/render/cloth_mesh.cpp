@@ -5,11 +5,26 @@
 #include <cmath>
 #include <span>
 
+#include "render/mesh_neighbours.h"
+
 namespace clothsim {
 namespace {
 
+constexpr double fold = 0.03;  // [m], about the width of a fold, whose hollow differs from its ridge
+
+shared::ClothGrid blockOfMesh(const Grid& mesh) {
+  shared::ClothGrid block{};
+  block.firstParticle = mesh.firstParticle;
+  block.columns = mesh.particleCount();
+  block.rows = 1;
+  block.width = static_cast<float>(mesh.textureSize[0]);
+  block.height = static_cast<float>(mesh.textureSize[1]);
+  block.longer = std::max({block.width, block.height, 1e-9f});
+  return block;
+}
+
 shared::ClothGrid blockOf(const Grid& grid) {
-  constexpr double fold = 0.03;  // [m], about the width of a fold, whose hollow differs from its ridge
+  if (grid.isMesh) return blockOfMesh(grid);
   const double right = grid.nominalLength[toLeft], down = grid.nominalLength[toUpper];
   const double spacing = std::max(right, down);
   const long ring = spacing > 0 ? std::clamp(std::lround(fold / spacing), 1L, 64L) : 1;
@@ -38,7 +53,11 @@ ClothMesh::ClothMesh(const Cloth& cloth)
                       .columns = block[0].columns,
                       .rows = block[0].rows,
                       .firstParticle = grid.firstParticle,
-                      .particles = grid.particleCount()});
+                      .particles = grid.particleCount(),
+                      .neighbours = {}});
+    if (grid.isMesh)
+      grids_.back().neighbours =
+          gl::Buffer<std::uint32_t>("mesh neighbours", meshNeighbours(cloth, grid, fold));
   }
   vertices_.attach(normals_.name(), {.location = NORMAL_LOCATION});
   vertices_.attach(tangents_.name(), {.location = TANGENT_LOCATION});
@@ -81,8 +100,7 @@ void ClothMesh::keepRestPositions(const Cloth& cloth) {
   restPositions_ = gl::Buffer<glm::vec4>("cloth at rest", rest);
 }
 
-void ClothMesh::computeNormals(const gl::Program& normalsPass, GLuint positions) {
-  normalsPass.bind();
+void ClothMesh::computeNormals(const NormalsPrograms& programs, GLuint positions) {
   if (hasCuts()) cuts_.bindStorage(CUTS_BINDING);
   if (restPositions_.size() > 0) restPositions_.bindStorage(REST_POSITIONS_BINDING);
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);  // the solver's last writes
@@ -91,18 +109,29 @@ void ClothMesh::computeNormals(const gl::Program& normalsPass, GLuint positions)
   tangents_.bindStorage(TANGENTS_OUT_BINDING);
   for (const GridPart& grid : grids_) {
     grid.block.bindUniform(CLOTH_GRID_BINDING);
+    if (grid.isMesh()) {
+      grid.neighbours.bindStorage(MESH_CORNERS_BINDING);
+      textureCoordinates_.bindStorage(MESH_COORDINATES_BINDING);
+      programs.mesh->bind();
+      gl::dispatch(grid.columns, 1, MESH_NORMALS_GROUP, 1);
+      continue;
+    }
+    programs.grid.bind();
     gl::dispatch(grid.columns, grid.rows, NORMALS_GROUP_SIZE, NORMALS_GROUP_SIZE);
   }
   glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);  // normals, and the solver's positions, as vertices
 }
 
-void ClothMesh::draw(GLuint positions) {
+void ClothMesh::draw(GLuint positions, bool meshesAsLines) {
   vertices_.attach(positions, {.location = POSITION_LOCATION});
   vertices_.bind();
   for (const GridPart& grid : grids_) {
     grid.block.bindUniform(CLOTH_GRID_BINDING);
+    const bool asLines = meshesAsLines && grid.isMesh();
+    if (asLines) glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(grid.indexCount), GL_UNSIGNED_INT,
                    reinterpret_cast<const void*>(grid.firstIndex * sizeof(std::uint32_t)));
+    if (asLines) glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   }
 }
 

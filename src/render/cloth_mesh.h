@@ -13,6 +13,12 @@
 
 namespace clothsim {
 
+// normals.comp, with CUTS when there are any; and mesh_normals.comp, null for a cloth without meshes.
+struct NormalsPrograms {
+  const gl::Program& grid;
+  const gl::Program* mesh = nullptr;
+};
+
 class ClothMesh {
  public:
   explicit ClothMesh(const Cloth& cloth);
@@ -23,11 +29,10 @@ class ClothMesh {
   // For a normals pass with STRAIN, which compares with the cloth at rest.
   void keepRestPositions(const Cloth& cloth);
 
-  // Smooth normals, tangents and strains for the positions in `positions`, one vec4 a particle; by
-  // normals.comp, with CUTS when there are any.
-  void computeNormals(const gl::Program& normalsPass, GLuint positions);
+  // Smooth normals, tangents and strains for the positions in `positions`, one vec4 a particle.
+  void computeNormals(const NormalsPrograms& programs, GLuint positions);
   // The triangles of all grids, with the program and its state bound by the caller.
-  void draw(GLuint positions);
+  void draw(GLuint positions, bool meshesAsLines = false);
 
   // A vec4 a particle: unit normal; how far the cloth around rises above the tangent plane.
   [[nodiscard]] const gl::Buffer<glm::vec4>& normals() const { return normals_; }
@@ -39,7 +44,9 @@ class ClothMesh {
   struct GridPart {
     gl::Buffer<shared::ClothGrid> block;
     GLuint columns, rows, firstParticle, particles;
+    gl::Buffer<std::uint32_t> neighbours;  // of a mesh: meshNeighbours()
     std::size_t firstIndex = 0, indexCount = 0;
+    [[nodiscard]] bool isMesh() const { return neighbours.size() > 0; }
   };
   void setTriangles(const std::vector<std::array<std::uint32_t, 3>>& triangles);
 

@@ -52,6 +52,10 @@ void describeCloth(std::span<const Grid> grids, std::uint32_t particle, const Pi
   if (grid == grids.end()) return;
   pick.kind = Pick::Kind::cloth;
   pick.grid = static_cast<std::size_t>(grid - grids.begin());
+  if (grid->isMesh) {
+    pick.particle = particle;
+    return;
+  }
   pick.lattice = {static_cast<double>(pixel.u) * (grid->columns - 1),
                   static_cast<double>(pixel.v) * (grid->rows - 1)};
   const GridPoint corner = nearestCorner(*grid, pick.lattice);

@@ -14,8 +14,8 @@ namespace clothsim {
 struct Pick {
   enum class Kind { nothing, cloth, collider } kind = Kind::nothing;
   std::size_t grid = 0;        // cloth: number of the grid,
-  LatticePoint lattice;        // where on it, in units of its cells,
-  std::uint32_t particle = 0;  // and the nearest corner of the triangle there
+  LatticePoint lattice;        // where on it, in units of its cells (nothing of a mesh),
+  std::uint32_t particle = 0;  // and the nearest corner of the triangle there (of a mesh any corner)
   std::size_t collider = 0;    // collider: its index in scene.colliders. Planes count, too, from their front
   glm::vec3 point{0};          // in the world [m]
 };

@@ -38,6 +38,7 @@ void RenderPrograms::chooseModel(const ShadingModel& model) {
   if (std::exchange(measuresStrain_, model.measuresStrain) == model.measuresStrain) return;
   normals_.reset();
   normalsWithCuts_.reset();
+  meshNormals_.reset();
 }
 
 void RenderPrograms::chooseBackground(const std::string& background) {
@@ -51,6 +52,13 @@ const gl::Program& RenderPrograms::normals(bool withCuts) {
   auto& program = withCuts ? normalsWithCuts_ : normals_;
   if (!program) program.emplace(makeNormals(withCuts, measuresStrain_));
   return *program;
+}
+
+const gl::Program& RenderPrograms::meshNormals() {
+  if (!meshNormals_)
+    meshNormals_.emplace(gl::Program::makeCompute(
+        "render/mesh_normals.comp", measuresStrain_ ? gl::Defines{{"STRAIN", ""}} : gl::Defines{}));
+  return *meshNormals_;
 }
 
 const PickPrograms& RenderPrograms::picking() {
@@ -71,6 +79,7 @@ void tryAllShaders(const RenderSettings& settings, int samples) {
     other.shader = name;
     programs.chooseModel(shadingModelOf(other));
     for (const bool withCuts : {false, true}) static_cast<void>(programs.normals(withCuts));
+    static_cast<void>(programs.meshNormals());
   }
   static_cast<void>(programs.picking());
   static_cast<void>(programs.overlays());

@@ -28,6 +28,7 @@ struct RenderPrograms {
 
   // The normals pass of the chosen model.
   [[nodiscard]] const gl::Program& normals(bool withCuts);
+  [[nodiscard]] const gl::Program& meshNormals();
   [[nodiscard]] const PickPrograms& picking();
   [[nodiscard]] const OverlayPrograms& overlays();
 
@@ -43,7 +44,7 @@ struct RenderPrograms {
 
  private:
   bool measuresStrain_ = false;
-  std::optional<gl::Program> normals_, normalsWithCuts_;
+  std::optional<gl::Program> normals_, normalsWithCuts_, meshNormals_;
   std::optional<PickPrograms> picking_;
   std::optional<OverlayPrograms> overlays_;
 };

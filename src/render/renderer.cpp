@@ -27,6 +27,10 @@ constexpr GLenum canvasFormat = GL_RGBA8;       // square roots of linear light 
 double longestEdge(const Cloth& cloth) {
   double longest = 0;
   for (const Grid& grid : cloth.grids()) {
+    if (grid.isMesh) {
+      longest = std::max(longest, grid.longestEdge);
+      continue;
+    }
     longest = std::max(longest, std::hypot(grid.nominalLength[toLeft], grid.nominalLength[toUpper]));
   }
   return longest;
@@ -138,7 +142,9 @@ void Renderer::Parts::uploadFrame() {
 }
 
 void Renderer::Parts::computeNormals(GLuint positions) {
-  clothMesh.computeNormals(programs.normals(clothMesh.hasCuts()), positions);
+  clothMesh.computeNormals(
+      {programs.normals(clothMesh.hasCuts()), cloth.hasMesh() ? &programs.meshNormals() : nullptr},
+      positions);
 }
 
 void Renderer::Parts::drawShadows(GLuint positions) {
@@ -197,7 +203,7 @@ void Renderer::Parts::drawCloth(GLuint positions) {
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   }
   programs.cloth.bind();
-  clothMesh.draw(positions);
+  clothMesh.draw(positions, model.name == "wireframe");  // whose lines are otherwise those of a grid
 }
 
 void Renderer::Parts::drawOverlay(GLuint positions) {

@@ -15,8 +15,7 @@ constexpr std::array<SpringKind, 3> drawingOrder{SpringKind::bending, SpringKind
 std::vector<std::uint32_t> endsOf(const Cloth& cloth, const Cuts& cuts, SpringKind kind) {
   std::vector<std::uint32_t> ends;
   for (const Spring& spring : cloth.springs()) {
-    const auto slot = static_cast<SpringSlot>(spring.number % SPRING_SLOTS);
-    if (springOffsets[static_cast<std::size_t>(slot)].kind != kind || isCut(cuts, spring.a, slot)) continue;
+    if (spring.kind != kind || isCut(cuts, spring)) continue;
     ends.push_back(spring.a);
     ends.push_back(spring.b);
   }

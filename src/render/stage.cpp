@@ -20,14 +20,16 @@ using GridSamples = ClothOutline::GridPoints;
 // Border, pins and a raster of a grid.
 GridSamples sampleGrid(const Cloth& cloth, const Grid& grid) {
   GridSamples samples;
-  const auto step = [](int count) { return std::max(1, count / static_cast<int>(samplesAlong)); };
+  // A mesh has one row of all its particles.
+  const int most = static_cast<int>(grid.isMesh ? samplesAlong * samplesAlong : samplesAlong);
+  const auto step = [&](int count) { return std::max(1, count / most); };
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.columns; ++column) {
       const std::uint32_t particle =
           grid.firstParticle + static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(grid.columns) +
           static_cast<std::uint32_t>(column);
       const glm::vec3 place = toGlm(cloth.positions()[particle]);
-      const bool border = row == grid.rows - 1 || column == grid.columns - 1;
+      const bool border = (row == grid.rows - 1 && !grid.isMesh) || column == grid.columns - 1;
       if (border || (row % step(grid.rows) == 0 && column % step(grid.columns) == 0))
         samples.points.push_back(place);
       if (cloth.inverseMasses()[particle] == 0) samples.pins.push_back(place);
@@ -166,6 +168,7 @@ void addShadow(glm::vec3 toLight, Stage& stage) {
 // once it hangs from its first row, which is then to +z.
 glm::vec3 frontOf(const Cloth& cloth) {
   const Grid& grid = cloth.grids().front();
+  if (grid.isMesh) return {0, 0, 1};  // garments face that way
   const std::uint32_t lastColumn = grid.firstParticle + static_cast<std::uint32_t>(grid.columns - 1);
   const std::uint32_t lastRow = grid.firstParticle + static_cast<std::uint32_t>(grid.columns) *
                                                          static_cast<std::uint32_t>(grid.rows - 1);

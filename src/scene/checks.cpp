@@ -29,6 +29,14 @@ void checkPins(const JsonNode& owner, const std::vector<Pin>& pins, const ClothS
   const JsonNode* list = owner.find("pinned");
   for (std::size_t i = 0; i < pins.size(); ++i) {
     const JsonNode& node = *list->children[i];
+    if (isMeshPin(pins[i]) != settings.isMesh())
+      complain(
+          node,
+          settings.isMesh()
+              ? "expected a pin of a mesh, {\"vertex\": number}, {\"region\": {from, to}} or {\"group\": "
+                "name}, found " +
+                    formatJsonLine(node)
+              : "expected a pin of a grid, since the cloth has no \"mesh\", found " + formatJsonLine(node));
     if (const auto* point = std::get_if<GridPoint>(&pins[i])) checkOnGrid(node, *point, settings);
     if (const auto* range = std::get_if<GridRange>(&pins[i])) {
       checkOnGrid(*node.find("from"), range->from, settings);
@@ -39,7 +47,8 @@ void checkPins(const JsonNode& owner, const std::vector<Pin>& pins, const ClothS
 
 // Each motion moves pins of the cloth, and no other motion moves the same.
 void checkPinMotions(const JsonNode& cloth, const ClothSettings& settings) {
-  const double points = static_cast<double>(settings.numWidthPoints) * settings.numHeightPoints;
+  const double points =
+      settings.isMesh() ? 0 : static_cast<double>(settings.numWidthPoints) * settings.numHeightPoints;
   if (settings.pinMotion.empty() || points > mostParticles) return;  // too many: a complaint of its own
   const JsonNode& motions = *cloth.find("pin_motion");
   const auto nodeOf = [&](std::size_t i) -> const JsonNode& {
@@ -49,15 +58,16 @@ void checkPinMotions(const JsonNode& cloth, const ClothSettings& settings) {
     complain(motions, "expected pins to move, found none: the cloth's key \"pinned\" names no point");
   for (std::size_t i = 0; i < settings.pinMotion.size(); ++i)
     checkPins(nodeOf(i), settings.pinMotion[i].pinned, settings);
+  if (settings.isMesh()) return;  // where its file lies is known later: Cloth looks
   const auto conflict = findPinConflict(settings);
   if (!conflict) return;
   const JsonNode& motion = nodeOf(conflict->motion);
   const JsonNode* pins = motion.find("pinned");
   const JsonNode& place = pins == nullptr ? motion : *pins->children[conflict->pin];
   if (!conflict->otherMotion)
-    complain(place, "expected only pins of the cloth, found " + pointText(conflict->point) +
+    complain(place, "expected only pins of the cloth, found " + conflict->point +
                         ", which the cloth's key \"pinned\" does not name");
-  complain(place, "expected each pin in one motion, found " + pointText(conflict->point) + " in pin_motion." +
+  complain(place, "expected each pin in one motion, found " + conflict->point + " in pin_motion." +
                       std::to_string(*conflict->otherMotion) + ", too" +
                       (pins == nullptr ? "; a motion without the key \"pinned\" moves all pins" : ""));
 }
@@ -98,6 +108,7 @@ void checkMaterial(const JsonNode& node, const ClothSettings& cloth) {
       complain(*given, std::string("found both ") + key +
                            " and material, expected one of them: a material tells " +
                            "mass, stiffness, damping and thickness");
+  if (cloth.isMesh()) return;
   const LatticeStiffness k = latticeStiffness(*cloth.material, cloth.width / (cloth.numWidthPoints - 1),
                                               cloth.height / (cloth.numHeightPoints - 1));
   if (k.alongRow <= 0 || k.alongColumn <= 0)
@@ -105,6 +116,22 @@ void checkMaterial(const JsonNode& node, const ClothSettings& cloth) {
              "no springs on a lattice with cells of this shape make this material: the cells are too oblong, "
              "or shear "
              "is too large beside stretch; choose num_width_points and num_height_points for square cells");
+}
+
+// What a mesh has from its file.
+void checkMesh(const JsonNode& node, const ClothSettings& cloth) {
+  if (!cloth.isMesh()) {
+    if (const JsonNode* given = node.find("mesh")) complainExpected(*given, "the name of an OBJ file");
+    if (const JsonNode* given = node.find("scale"); given != nullptr && cloth.scale != 1)
+      complain(*given, "only a cloth with the key \"mesh\" has a scale; a grid has width and height");
+    return;
+  }
+  for (const char* key :
+       {"width", "height", "num_width_points", "num_height_points", "orientation", "enable_shearing"})
+    if (const JsonNode* given = node.find(key))
+      complain(*given, std::string("found both ") + key + " and mesh, expected one of them: " + key +
+                           " belongs to a grid; a mesh has its shape from its file and is placed by scale, "
+                           "rotation and position");
 }
 
 // Where else in the scene the key would be right: "strain_limit" written into a cloth.
@@ -129,6 +156,7 @@ void settle(const JsonNode& node, ClothSettings& cloth) {
     checkMaterial(node, cloth);
   else if (!cloth.ks && !cloth.stiffnessReference)
     cloth.ks = defaultKs;
+  checkMesh(node, cloth);
   checkPins(node, cloth.pinned, cloth);
   checkPinMotions(node, cloth);
 }
@@ -137,6 +165,12 @@ template <>
 void settle(const JsonNode& node, GridRange& range) {
   if (range.from.column > range.to.column || range.from.row > range.to.row)
     complain(node, "expected \"from\" at most \"to\" in column and in row, found " + formatJsonLine(node));
+}
+
+template <>
+void settle(const JsonNode& node, Region& region) {
+  if (region.from.x > region.to.x || region.from.y > region.to.y || region.from.z > region.to.z)
+    complain(node, "expected \"from\" at most \"to\" in x, y and z, found " + formatJsonLine(node));
 }
 
 template <>

@@ -189,22 +189,42 @@ void readValue(const JsonNode& node, const FieldTraits&, Range& target) {
     complain(node, "expected [low, high] with low <= high, found " + formatJsonLine(node));
 }
 
+namespace {
+
+template <class T>
+Pin pinOf(const JsonNode& node) {
+  T pin;
+  readObject(node, pin);
+  return pin;
+}
+
+Pin readPinObject(const JsonNode& node) {
+  if (node.find("vertex") != nullptr) return pinOf<VertexPin>(node);
+  if (node.find("region") != nullptr) return pinOf<RegionPin>(node);
+  if (node.find("group") != nullptr) return pinOf<GroupPin>(node);
+  for (const auto& member : node.children)
+    if (!isComment(member->key) && member->key != "from" && member->key != "to")
+      complainUnknownKey(*member, {"from", "to", "vertex", "region", "group"});
+  return pinOf<GridRange>(node);
+}
+
+}  // namespace
+
 void readValue(const JsonNode& node, const FieldTraits& traits, Pin& target) {
   GridPoint point;
-  GridRange range;
   switch (node.kind) {
     case JsonKind::list:
       readValue(node, traits, point);
       target = point;
       break;
     case JsonKind::object:
-      readObject(node, range);
-      target = range;
+      target = readPinObject(node);
       break;
     default:
       target = readWord(node, sides,
                         "[column, row], \"top\", \"bottom\", \"left\", \"right\", or "
-                        "{\"from\": [column, row], \"to\": [column, row]}");
+                        "{\"from\": [column, row], \"to\": [column, row]}; of a mesh {\"vertex\": number}, "
+                        "{\"region\": {from, to}}, or {\"group\": name}");
   }
 }
 
@@ -289,8 +309,16 @@ JsonPointer writeValue(const FieldTraits&, const Range& value) {
 
 JsonPointer writeValue(const FieldTraits& traits, const Pin& value) {
   if (const auto* side = std::get_if<GridSide>(&value)) return writeWord(sides, *side);
-  if (const auto* range = std::get_if<GridRange>(&value)) return writeObject(*range, GridRange{});
-  return writeValue(traits, std::get<GridPoint>(value));
+  if (const auto* point = std::get_if<GridPoint>(&value)) return writeValue(traits, *point);
+  return std::visit(
+      [](const auto& pin) -> JsonPointer {
+        using T = std::remove_cvref_t<decltype(pin)>;
+        if constexpr (HasFields<T>)
+          return writeObject(pin, T{});
+        else
+          return makeObject();
+      },
+      value);
 }
 
 JsonPointer writeValue(const FieldTraits&, const Collider& value) {
@@ -344,7 +372,8 @@ std::string typeName(const FieldTraits&, const FrictionLaw&) {
 std::string typeName(const FieldTraits&, const GridPoint&) { return "[column, row]"; }
 std::string typeName(const FieldTraits&, const Range&) { return "[low, high]"; }
 std::string typeName(const FieldTraits&, const Pin&) {
-  return "[column, row], " + joined(wordsOf(sides)) + ", or {from, to}";
+  return "[column, row], " + joined(wordsOf(sides)) +
+         ", or {from, to}; of a mesh {vertex}, {region}, or {group}";
 }
 std::string typeName(const FieldTraits&, const StepCount&) { return "integer or auto"; }
 std::string typeName(const FieldTraits&, const std::optional<Material>&) {

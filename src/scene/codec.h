@@ -83,6 +83,8 @@ void settle(const JsonNode& node, ClothSettings& cloth);
 template <>
 void settle(const JsonNode& node, GridRange& range);
 template <>
+void settle(const JsonNode& node, Region& region);
+template <>
 void settle(const JsonNode& node, Motion& motion);
 template <>
 void settle(const JsonNode& node, PinMotion& motion);

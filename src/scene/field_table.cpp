@@ -68,6 +68,14 @@ template <>
 std::span<const Field<ClothSettings>> fieldsOf<ClothSettings>() {
   using C = ClothSettings;
   static const std::array fields{
+      field("mesh", &C::mesh,
+            "OBJ file of a cloth that is no grid, beside the scene file or in clothsim's own folder.")
+          .byDefault("none: a grid")
+          .rebuilds(),
+      field("scale", &C::scale, "Metres in a unit of the cloth's mesh file.")
+          .within(positive)
+          .usually(0.01, 10)
+          .rebuilds(),
       field("width", &C::width, "Length along x, before turning.")
           .in("m")
           .within(positive)
@@ -88,7 +96,7 @@ std::span<const Field<ClothSettings>> fieldsOf<ClothSettings>() {
           .rebuilds(),
       field("orientation", &C::orientation, "Lying at y = 1 m, or standing in the plane z = 0.").rebuilds(),
       field("position", &C::position, "Added to every point.").in("m").rebuilds(),
-      field("rotation", &C::rotation, "Turn about grid point (0, 0): axis times angle.")
+      field("rotation", &C::rotation, "Turn about grid point (0, 0), or a mesh's origin: axis times angle.")
           .in("degrees")
           .rebuilds(),
       field("density", &C::density, "Mass per area; a particle weighs width * height * density / points.")
@@ -132,11 +140,16 @@ std::span<const Field<ClothSettings>> fieldsOf<ClothSettings>() {
           .within(notNegative)
           .usually(0.001, 0.1)
           .rebuilds(),
-      field("enable_structural", &C::enableStructural, "Springs to left and upper neighbours.").rebuilds(),
-      field("enable_shearing", &C::enableShearing, "Springs to diagonal neighbours.").rebuilds(),
-      field("enable_bending", &C::enableBending, "Springs to the second neighbours left and above.")
+      field("enable_structural", &C::enableStructural,
+            "Springs to left and upper neighbours; along the edges of a mesh.")
           .rebuilds(),
-      field("pinned", &C::pinned, "Points that forces do not move; [column, row] counted from 0.").rebuilds(),
+      field("enable_shearing", &C::enableShearing, "Springs to diagonal neighbours.").rebuilds(),
+      field("enable_bending", &C::enableBending,
+            "Springs to the second neighbours left and above; across the edges of a mesh.")
+          .rebuilds(),
+      field("pinned", &C::pinned,
+            "Points that forces do not move; [column, row] or a mesh's vertex, counted from 0.")
+          .rebuilds(),
       field("pin_motion", &C::pinMotion,
             "A path in time of the pins, or a list of paths with the pins that follow each.")
           .byDefault("none"),
@@ -176,15 +189,6 @@ std::span<const Field<Material>> fieldsOf<Material>() {
       field("friction", &M::friction, "Coulomb's coefficient between layers of the fabric.")
           .within({.low = 0, .high = 10})
           .alwaysWritten(),
-  };
-  return fields;
-}
-
-template <>
-std::span<const Field<GridRange>> fieldsOf<GridRange>() {
-  static const std::array fields{
-      field("from", &GridRange::from, "First [column, row] of a block of points.").required().rebuilds(),
-      field("to", &GridRange::to, "Last [column, row], pinned too.").required().rebuilds(),
   };
   return fields;
 }
@@ -304,31 +308,6 @@ std::span<const Field<Motion::Key>> fieldsOf<Motion::Key>() {
           .alwaysWritten()
           .byDefault("the collider's own place"),
       field("rotation", &K::rotation, "Turn: axis times angle; may exceed 360.").in("degrees"),
-  };
-  return fields;
-}
-
-template <>
-std::span<const Field<PinMotion>> fieldsOf<PinMotion>() {
-  static const std::array fields{
-      field("keys", &PinMotion::keys, "Places along the path; straight lines in between.").required(),
-      field("loop", &PinMotion::loop, "Begin again after the last key; otherwise stop there."),
-      field("pinned", &PinMotion::pinned, "The pins that follow this path, some of the cloth's own.")
-          .byDefault("all pins of the cloth"),
-  };
-  return fields;
-}
-
-template <>
-std::span<const Field<PinMotion::Key>> fieldsOf<PinMotion::Key>() {
-  using K = PinMotion::Key;
-  static const std::array fields{
-      field("t", &K::t, "Time of the key, later than the one before.").in("s").within(notNegative).required(),
-      field("position", &K::position, "Where the centre of these pins is then.")
-          .in("m")
-          .byDefault("the mean of their start positions"),
-      field("rotation", &K::rotation, "Turn about that centre: axis times angle; may exceed 360.")
-          .in("degrees"),
   };
   return fields;
 }

@@ -62,9 +62,9 @@ using Member = std::variant<
     std::vector<Pin> Owner::*, std::optional<double> Owner::*, StepCount Owner::*,
     std::optional<Material> Owner::*, std::optional<Vec3d> Owner::*, std::optional<Range> Owner::*,
     std::vector<Motion::Key> Owner::*, std::optional<Motion> Owner::*, std::vector<PinMotion::Key> Owner::*,
-    std::vector<PinMotion> Owner::*, std::vector<ClothSettings> Owner::*, std::vector<Collider> Owner::*,
-    std::optional<Wind> Owner::*, Gust Owner::*, SolverSettings Owner::*, CameraSettings Owner::*,
-    RenderSettings Owner::*, std::optional<Expect> Owner::*>;
+    Region Owner::*, std::vector<PinMotion> Owner::*, std::vector<ClothSettings> Owner::*,
+    std::vector<Collider> Owner::*, std::optional<Wind> Owner::*, Gust Owner::*, SolverSettings Owner::*,
+    CameraSettings Owner::*, RenderSettings Owner::*, std::optional<Expect> Owner::*>;
 
 template <class Owner>
 struct Field : FieldTraits {
@@ -123,6 +123,14 @@ template <>
 std::span<const Field<Material>> fieldsOf<Material>();
 template <>
 std::span<const Field<GridRange>> fieldsOf<GridRange>();
+template <>
+std::span<const Field<VertexPin>> fieldsOf<VertexPin>();
+template <>
+std::span<const Field<Region>> fieldsOf<Region>();
+template <>
+std::span<const Field<RegionPin>> fieldsOf<RegionPin>();
+template <>
+std::span<const Field<GroupPin>> fieldsOf<GroupPin>();
 template <>
 std::span<const Field<Sphere>> fieldsOf<Sphere>();
 template <>

@@ -55,8 +55,14 @@ void describeInside(const std::string&, const std::vector<ClothSettings>&, Infos
 void describeInside(const std::string& path, const GridRange&, Infos& infos) {
   describeObject<GridRange>(path + ".", infos);
 }
+void describeInside(const std::string& path, const Region&, Infos& infos) {
+  describeObject<Region>(path + ".", infos);
+}
 void describeInside(const std::string& path, const std::vector<Pin>&, Infos& infos) {
   describeInside(path + "[]", GridRange{}, infos);
+  describeObject<VertexPin>(path + "[].", infos);
+  describeObject<RegionPin>(path + "[].", infos);
+  describeObject<GroupPin>(path + "[].", infos);
 }
 void describeInside(const std::string& path, const std::vector<Collider>&, Infos& infos) {
   infos.push_back(

@@ -5,10 +5,14 @@
 #include <cmath>
 #include <limits>
 
+#include "core/error.h"
 #include "scene/field_table.h"
+#include "scene/mesh_shape.h"
 
 namespace clothsim {
 namespace {
+
+constexpr double LONGEST_CHOSEN_STEP = 1.0 / 60;  // [s], by "auto"
 
 struct Preset {
   std::string_view name;
@@ -18,11 +22,10 @@ struct Preset {
 // Typical, rounded values in the ranges of the Kawabata Evaluation System (KES-F; S. Kawabata, "The
 // Standardization and Analysis of Hand Evaluation", 1980) for such fabrics, converted to SI: 1 gf/cm = 0.981
 // N/m, 1 gf cm^2/cm = 9.81e-5 N m, 1 gf/(cm degree) = 56.2 N/m a radian. They are not measurements of one
-// cloth. Rubber: a latex sheet of 0.4 mm, E = 1.5 MPa, Poisson 1/2, 930 kg/m^3. Paper: 80 g/m^2, 0.1 mm, E
-// = 3.5 GPa, B = E t^3 / 12. Damping is ours: what keeps motion lively without ringing on.
-constexpr double LONGEST_CHOSEN_STEP = 1.0 / 60;  // [s], by "auto"
-
-constexpr std::array<Preset, 6> presets{{
+// cloth. Jersey is knitted, not woven: its loops give way, so it stretches some thirty times as easily.
+// Rubber: a latex sheet of 0.4 mm, E = 1.5 MPa, Poisson 1/2, 930 kg/m^3. Paper: 80 g/m^2, 0.1 mm, E = 3.5
+// GPa, B = E t^3 / 12. Damping is ours: what keeps motion lively without ringing on.
+constexpr std::array<Preset, 7> presets{{
     {"silk",
      {.density = 0.06,
       .stretch = 8'000,
@@ -54,6 +57,14 @@ constexpr std::array<Preset, 6> presets{{
       .bend = 1.2e-5,
       .damping = 0.8,
       .thickness = 0.0008,
+      .friction = 0.4}},
+    {"jersey",
+     {.density = 0.18,
+      .stretch = 250,
+      .shear = 90,
+      .bend = 5e-6,
+      .damping = 0.8,
+      .thickness = 0.0007,
       .friction = 0.4}},
     {"rubber",
      {.density = 0.37,
@@ -121,7 +132,37 @@ LatticeStiffness latticeStiffness(const Material& material, double dx, double dy
   return k;
 }
 
+namespace {
+
+// Of a mesh; infinite when its file cannot be read, of which who needs it complains.
+double stableStepOfMesh(const ClothSettings& cloth) {
+  std::shared_ptr<const MeshShape> shape;
+  try {
+    shape = meshShapeOf(cloth.mesh);
+  } catch (const SceneError&) {
+    return std::numeric_limits<double>::infinity();
+  }
+  const MeshMechanics mechanics = mechanicsOf(*shape, placedPoints(*shape, cloth), cloth);
+  std::vector<double> sums(shape->points.size());  // of |K| in each block row
+  for (std::size_t e = 0; e < shape->edges.size(); ++e) {
+    const MeshShape::Edge& edge = shape->edges[e];
+    for (const std::uint32_t end : {edge.a, edge.b}) sums[end] += 2 * mechanics.stretch[e];
+    for (const std::uint32_t end : edge.opposite) sums[end] += 2 * mechanics.across[e];
+    if (mechanics.bending.empty()) continue;
+    const auto& c = mechanics.bending[e];
+    const double all = std::abs(c[0]) + std::abs(c[1]) + std::abs(c[2]) + std::abs(c[3]);
+    const std::array corners{edge.a, edge.b, edge.opposite[0], edge.opposite[1]};
+    for (std::size_t k = 0; k < 4; ++k) sums[corners[k]] += std::abs(c[k]) * all;
+  }
+  double largest = 0;
+  for (std::size_t i = 0; i < sums.size(); ++i) largest = std::max(largest, sums[i] / mechanics.masses[i]);
+  return largest > 0 ? 2 / std::sqrt(largest) : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
 double stableStep(const ClothSettings& cloth) {
+  if (cloth.isMesh()) return stableStepOfMesh(cloth);
   const double dx = spacing(cloth.width, cloth.numWidthPoints),
                dy = spacing(cloth.height, cloth.numHeightPoints);
   const double structural = cloth.enableStructural ? 1 : 0, shear = cloth.enableShearing ? 1 : 0,

@@ -1,35 +1,99 @@
 #include "scene/pins.h"
 
+#include "core/error.h"
+#include "core/nearest.h"
+#include "scene/mesh_shape.h"
+
 namespace clothsim {
 
 namespace {
 
-// One entry a grid point, row-major.
-class PointTable {
- public:
-  PointTable(const ClothSettings& cloth, int value)
-      : columns_(static_cast<std::size_t>(cloth.numWidthPoints)),
-        values_(columns_ * static_cast<std::size_t>(cloth.numHeightPoints), value) {}
+// How many particles the cloth has.
+std::size_t particleCount(const ClothSettings& cloth) {
+  if (cloth.isMesh()) return meshShapeOf(cloth.mesh)->points.size();
+  return static_cast<std::size_t>(cloth.numWidthPoints) * static_cast<std::size_t>(cloth.numHeightPoints);
+}
 
-  int& at(GridPoint point) {
-    return values_[static_cast<std::size_t>(point.row) * columns_ + static_cast<std::size_t>(point.column)];
-  }
-  std::vector<int> take() && { return std::move(values_); }
+std::string particleText(std::uint32_t particle, const ClothSettings& cloth) {
+  if (cloth.isMesh()) return "vertex " + std::to_string(particle);
+  const auto place = static_cast<int>(particle);
+  return pointText({place % cloth.numWidthPoints, place / cloth.numWidthPoints});
+}
 
- private:
-  std::size_t columns_;
-  std::vector<int> values_;
-};
-
-// Calls visit(point) for every point of the block, until it returns false.
-template <class Visit>
-void visitPoints(const GridRange& range, Visit visit) {
+std::vector<std::uint32_t> pointsOfBlock(const GridRange& range, const ClothSettings& cloth) {
+  std::vector<std::uint32_t> points;
   for (int row = range.from.row; row <= range.to.row; ++row)
     for (int column = range.from.column; column <= range.to.column; ++column)
-      if (!visit(GridPoint{column, row})) return;
+      points.push_back(static_cast<std::uint32_t>(row * cloth.numWidthPoints + column));
+  return points;
+}
+
+// --- Of a mesh
+
+[[noreturn]] void fail(const ClothSettings& cloth, const std::string& what) {
+  throw SceneError("cloth.pinned: " + what + " (" + cloth.mesh + ")");
+}
+
+std::vector<std::uint32_t> verticesOf(const VertexPin& pin, const ClothSettings& cloth,
+                                      const MeshShape& shape) {
+  if (static_cast<std::size_t>(pin.vertex) >= shape.points.size())
+    fail(cloth, "expected a vertex from 0 to " + std::to_string(shape.points.size() - 1) +
+                    " of the mesh, found " + std::to_string(pin.vertex));
+  return {static_cast<std::uint32_t>(pin.vertex)};
+}
+
+std::vector<std::uint32_t> verticesOf(const RegionPin& pin, const ClothSettings& cloth,
+                                      const MeshShape& shape) {
+  const auto isBetween = [](double x, double from, double to) { return from <= x && x <= to; };
+  const auto& [from, to] = pin.region;
+  std::vector<std::uint32_t> inside;
+  const std::vector<Vec3d> points = placedPoints(shape, cloth);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (isBetween(points[i].x, from.x, to.x) && isBetween(points[i].y, from.y, to.y) &&
+        isBetween(points[i].z, from.z, to.z))
+      inside.push_back(static_cast<std::uint32_t>(i));
+  if (inside.empty())
+    fail(cloth,
+         "expected a region that holds vertices of the mesh as it is placed at the start, found one that "
+         "holds none");
+  return inside;
+}
+
+std::vector<std::uint32_t> verticesOf(const GroupPin& pin, const ClothSettings& cloth,
+                                      const MeshShape& shape) {
+  if (const auto found = shape.groups.find(pin.group); found != shape.groups.end()) return found->second;
+  std::vector<std::string> names;
+  std::string list;
+  for (const auto& [name, members] : shape.groups) {
+    names.push_back(name);
+    list += (list.empty() ? "" : ", ") + name;
+  }
+  fail(cloth, "the mesh has no group \"" + pin.group + "\"" + didYouMean(pin.group, names) + "; it has " +
+                  (list.empty() ? "none" : list));
+}
+
+template <class GridPin>
+std::vector<std::uint32_t> verticesOf(const GridPin&, const ClothSettings&, const MeshShape&) {
+  return {};  // the reader has complained
 }
 
 }  // namespace
+
+bool isMeshPin(const Pin& pin) {
+  return std::holds_alternative<VertexPin>(pin) || std::holds_alternative<RegionPin>(pin) ||
+         std::holds_alternative<GroupPin>(pin);
+}
+
+std::vector<std::vector<std::uint32_t>> particlesOf(const std::vector<Pin>& pins,
+                                                    const ClothSettings& cloth) {
+  std::vector<std::vector<std::uint32_t>> particles;
+  const std::shared_ptr<const MeshShape> shape = cloth.isMesh() ? meshShapeOf(cloth.mesh) : nullptr;
+  for (const Pin& pin : pins)
+    particles.push_back(
+        shape ? std::visit([&](const auto& which) { return verticesOf(which, cloth, *shape); }, pin)
+              : pointsOfBlock(pointsOf(pin, cloth), cloth));
+  return particles;
+}
 
 std::string pointText(GridPoint point) {
   std::string text = "[";
@@ -61,40 +125,31 @@ const std::vector<Pin>& pinsOf(const PinMotion& motion, const ClothSettings& clo
 }
 
 std::vector<int> pinMotionOfPoints(const ClothSettings& cloth) {
-  PointTable motions(cloth, NO_MOTION);
+  std::vector<int> motions(particleCount(cloth), NO_MOTION);
   for (std::size_t i = 0; i < cloth.pinMotion.size(); ++i)
-    for (const Pin& pin : pinsOf(cloth.pinMotion[i], cloth))
-      visitPoints(pointsOf(pin, cloth), [&](GridPoint point) {
-        motions.at(point) = static_cast<int>(i);
-        return true;
-      });
-  return std::move(motions).take();
+    for (const auto& particles : particlesOf(pinsOf(cloth.pinMotion[i], cloth), cloth))
+      for (const std::uint32_t particle : particles) motions[particle] = static_cast<int>(i);
+  return motions;
 }
 
 std::optional<PinConflict> findPinConflict(const ClothSettings& cloth) {
   if (cloth.pinMotion.empty()) return std::nullopt;
   constexpr int free = -2;
-  PointTable motions(cloth, free);
-  for (const Pin& pin : cloth.pinned)
-    visitPoints(pointsOf(pin, cloth), [&](GridPoint point) {
-      motions.at(point) = NO_MOTION;
-      return true;
-    });
-  std::optional<PinConflict> conflict;
+  std::vector<int> motions(particleCount(cloth), free);
+  for (const auto& particles : particlesOf(cloth.pinned, cloth))
+    for (const std::uint32_t particle : particles) motions[particle] = NO_MOTION;
   for (std::size_t i = 0; i < cloth.pinMotion.size(); ++i) {
-    const std::vector<Pin>& pins = pinsOf(cloth.pinMotion[i], cloth);
-    for (std::size_t k = 0; k < pins.size() && !conflict; ++k)
-      visitPoints(pointsOf(pins[k], cloth), [&](GridPoint point) {
-        int& motion = motions.at(point);
-        if (motion == free)
-          conflict = PinConflict{i, k, point, std::nullopt};
-        else if (motion != NO_MOTION && motion != static_cast<int>(i))
-          conflict = PinConflict{i, k, point, static_cast<std::size_t>(motion)};
+    const auto pins = particlesOf(pinsOf(cloth.pinMotion[i], cloth), cloth);
+    for (std::size_t k = 0; k < pins.size(); ++k)
+      for (const std::uint32_t particle : pins[k]) {
+        int& motion = motions[particle];
+        if (motion == free) return PinConflict{i, k, particleText(particle, cloth), std::nullopt};
+        if (motion != NO_MOTION && motion != static_cast<int>(i))
+          return PinConflict{i, k, particleText(particle, cloth), static_cast<std::size_t>(motion)};
         motion = static_cast<int>(i);
-        return !conflict;
-      });
+      }
   }
-  return conflict;
+  return std::nullopt;
 }
 
 }  // namespace clothsim

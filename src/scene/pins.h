@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,25 +13,33 @@ namespace clothsim {
 
 [[nodiscard]] std::string pointText(GridPoint point);  // "[column, row]", for messages
 
-// The block of points that a pin holds. The top of a vertical sheet is its last row.
+// The block of points of a grid that a pin holds. The top of a vertical sheet is its last row.
 [[nodiscard]] GridRange pointsOf(const Pin& pin, const ClothSettings& cloth);
+
+// Whether the pin is one of meshes: a vertex, a region or a group.
+[[nodiscard]] bool isMeshPin(const Pin& pin);
+// The particles that each of some pins holds, counted from the cloth's first one. @throws SceneError when its
+// mesh cannot be read, or does not have what a pin names
+[[nodiscard]] std::vector<std::vector<std::uint32_t>> particlesOf(const std::vector<Pin>& pins,
+                                                                  const ClothSettings& cloth);
 
 // What `pinMotion[i].pinned` means: the cloth's own pins when it is empty.
 [[nodiscard]] const std::vector<Pin>& pinsOf(const PinMotion& motion, const ClothSettings& cloth);
 
 inline constexpr int NO_MOTION = -1;  // a pin that stays, or a free point
 
-// For each grid point, row-major: the place in `pinMotion` of the motion that it follows, or NO_MOTION. In a
-// cloth without conflicts (below) every pin follows at most one.
+// For each grid point, row-major, or vertex: the place in `pinMotion` of the motion that it follows, or
+// NO_MOTION. In a cloth without conflicts (below) every pin follows at most one. @throws SceneError as
+// particlesOf
 [[nodiscard]] std::vector<int> pinMotionOfPoints(const ClothSettings& cloth);
 
 // A point that a motion names although the cloth does not pin it, or although another motion moves it.
 struct PinConflict {
-  std::size_t motion, pin;  // pinMotion[motion], the pin of that number in pinsOf()
-  GridPoint point;
+  std::size_t motion, pin;                 // pinMotion[motion], the pin of that number in pinsOf()
+  std::string point;                       // where, for messages
   std::optional<std::size_t> otherMotion;  // none: not pinned
 };
-// The first one; all pins must lie on the grid.
+// The first one; all pins must lie on the grid. @throws SceneError as particlesOf
 [[nodiscard]] std::optional<PinConflict> findPinConflict(const ClothSettings& cloth);
 
 }  // namespace clothsim

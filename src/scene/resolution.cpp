@@ -40,14 +40,14 @@ void movePins(ClothSettings& cloth, int columns, int rows) {
 // On a grid that is too coarse, pins that move apart from each other would become one point.
 void checkPinsStayApart(const std::vector<ClothSettings>& cloths, int columns, int rows) {
   for (ClothSettings cloth : cloths) {
-    if (cloth.pinMotion.empty()) continue;
+    if (cloth.pinMotion.empty() || cloth.isMesh()) continue;
     movePins(cloth, columns, rows);
     cloth.numWidthPoints = columns;
     cloth.numHeightPoints = rows;
     const auto conflict = findPinConflict(cloth);
     if (!conflict) continue;
     const std::string asked = "--resolution " + std::to_string(columns) + "x" + std::to_string(rows);
-    const std::string point = pointText(conflict->point);
+    const std::string& point = conflict->point;
     if (conflict->otherMotion)
       throw UsageError(asked + ": two of a cloth's pin motions would meet in point " + point +
                        "; expected a grid fine enough to tell their pins apart");
@@ -73,13 +73,17 @@ int stepFactor(const ClothSettings& cloth, int columns, int rows) {
   return std::max(1, static_cast<int>(std::ceil(needed - 1e-9)));
 }
 
-void checkSides(std::size_t cloths, int columns, int rows) {
+void checkSides(std::size_t grids, int columns, int rows) {
   const std::string asked = "--resolution " + std::to_string(columns) + "x" + std::to_string(rows) + ": ";
+  if (grids == 0)
+    throw UsageError(asked +
+                     "expected a scene with a grid, found only meshes, whose resolution is that of their "
+                     "files; subdivide them in a modelling program");
   for (const int side : {columns, rows})
     if (side < smallestSide || side > largestSide)
       throw UsageError(asked + "expected " + std::to_string(smallestSide) + " to " +
                        std::to_string(largestSide) + " points on each side, found " + std::to_string(side));
-  const double particles = static_cast<double>(cloths) * columns * rows;
+  const double particles = static_cast<double>(grids) * columns * rows;
   if (particles > mostParticles)
     throw UsageError(asked + "expected at most " + formatNumber(mostParticles) + " particles, found " +
                      formatNumber(particles));
@@ -88,7 +92,10 @@ void checkSides(std::size_t cloths, int columns, int rows) {
 }  // namespace
 
 std::string changeResolution(Scene& scene, int columns, int rows, bool keepSteps) {
-  checkSides(scene.cloths.size(), columns, rows);
+  checkSides(
+      static_cast<std::size_t>(std::count_if(scene.cloths.begin(), scene.cloths.end(),
+                                             [](const ClothSettings& cloth) { return !cloth.isMesh(); })),
+      columns, rows);
   checkPinsStayApart(scene.cloths, columns, rows);
   std::string changes;
   const auto add = [&](const std::string& name, double before, double after) {
@@ -101,6 +108,7 @@ std::string changeResolution(Scene& scene, int columns, int rows, bool keepSteps
   int factor = 1;
   for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
     ClothSettings& cloth = scene.cloths[i];
+    if (cloth.isMesh()) continue;
     factor = std::max(factor, stepFactor(cloth, columns, rows));
     movePins(cloth, columns, rows);
     const double before = smallerSpacing(cloth), thickness = cloth.thickness;

@@ -108,7 +108,25 @@ struct GridRange {  // both ends belong to it; `from` <= `to` in column and row
 // top: row 0 of a horizontal cloth, the last row of a vertical one (its upper edge); bottom: the opposite
 // row; left: column 0; right: the last column.
 enum class GridSide { top, bottom, left, right };
-using Pin = std::variant<GridPoint, GridRange, GridSide>;
+// Of a mesh: one vertex, counted from 0 in the order of the file; all vertices in a box, as the mesh is
+// placed at the start; all vertices of the faces of a group.
+struct VertexPin {
+  int vertex = 0;
+  friend bool operator==(const VertexPin&, const VertexPin&) = default;
+};
+struct Region {  // `from` <= `to` in each coordinate [m]; its border belongs to it
+  Vec3d from, to;
+  friend bool operator==(const Region&, const Region&) = default;
+};
+struct RegionPin {
+  Region region;
+  friend bool operator==(const RegionPin&, const RegionPin&) = default;
+};
+struct GroupPin {
+  std::string group;
+  friend bool operator==(const GroupPin&, const GroupPin&) = default;
+};
+using Pin = std::variant<GridPoint, GridRange, GridSide, VertexPin, RegionPin, GroupPin>;
 
 // A path of pins, which move as one rigid body about their centre, the mean of their start positions. Times
 // and rotations are those of Motion.
@@ -138,11 +156,14 @@ struct Material {
 };
 
 struct ClothSettings {
-  double width = 1, height = 1;  // [m]
+  std::string mesh;              // OBJ, beside the scene file or below the resource root; "": a grid
+  double scale = 1;              // metres in a unit of the mesh file
+  double width = 1, height = 1;  // of a grid [m]
   int numWidthPoints = 50, numHeightPoints = 50;
   Orientation orientation = Orientation::horizontal;
-  Vec3d position{0, 0, 0};     // added to every point [m]
-  Vec3d rotation{0, 0, 0};     // rotation vector [degrees] about grid point (0, 0), before `position`
+  Vec3d position{0, 0, 0};  // added to every point [m]
+  Vec3d rotation{
+      0, 0, 0};  // rotation vector [degrees] about grid point (0, 0) or the mesh's origin, before `position`
   double density = 150;        // mass per area [kg/m^2]; CS184: m = width * height * density / points
   std::optional<double> mass;  // total mass [kg]; replaces density when given
   std::optional<double> ks;    // spring constant [N/m], bending springs 0.2 ks: CS184's model
@@ -155,6 +176,7 @@ struct ClothSettings {
   bool enableStructural = true, enableShearing = true, enableBending = true;
   std::vector<Pin> pinned;
   std::vector<PinMotion> pinMotion;  // no pin is in two of them; pins in none never move
+  [[nodiscard]] bool isMesh() const { return !mesh.empty(); }
   friend bool operator==(const ClothSettings&, const ClothSettings&) = default;
 };
 

@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/nearest.h"
+#include "scene/material.h"
 #include "scene/scene_tree.h"
 
 namespace clothsim {
@@ -41,12 +42,14 @@ bool isPath(const std::string& nameOrPath) {
 }  // namespace
 
 void findMeshes(Scene& scene, const fs::path& file) {
-  for (Collider& collider : scene.colliders) {
-    auto* mesh = std::get_if<MeshCollider>(&collider);
-    if (mesh == nullptr || fs::path(mesh->file).is_absolute()) continue;
-    const fs::path beside = fs::absolute(file).parent_path() / mesh->file;
-    if (fs::exists(beside)) mesh->file = beside.lexically_normal().string();
-  }
+  const auto find = [&](std::string& mesh) {
+    if (mesh.empty() || fs::path(mesh).is_absolute()) return;
+    const fs::path beside = fs::absolute(file).parent_path() / mesh;
+    if (fs::exists(beside)) mesh = beside.lexically_normal().string();
+  };
+  for (Collider& collider : scene.colliders)
+    if (auto* mesh = std::get_if<MeshCollider>(&collider)) find(mesh->file);
+  for (ClothSettings& cloth : scene.cloths) find(cloth.mesh);
 }
 
 Scene parseScene(std::string_view text, const std::string& source) {
@@ -74,6 +77,7 @@ Scene loadScene(const fs::path& path) {
   }
   Scene scene = parseScene(text, path.string());
   findMeshes(scene, path);
+  chooseSteps(scene);  // again: those of a mesh follow from its file
   findTexture(scene, path);
   return scene;
 }

@@ -64,6 +64,7 @@ void checkCloths(const JsonNode& root, const std::vector<ClothSettings>& cloths)
   if (cloths.empty()) complain(list, "expected at least one cloth, found an empty list");
   double particles = 0;
   for (std::size_t i = 0; i < cloths.size(); ++i) {
+    if (cloths[i].isMesh()) continue;  // counted when it is read
     particles += static_cast<double>(cloths[i].numWidthPoints) * cloths[i].numHeightPoints;
     if (particles > mostParticles)
       complain(*list.children[i], "expected at most " + formatNumber(mostParticles) +

@@ -164,6 +164,16 @@ void leaveToMaterial(JsonNode& root, const Steps& steps) {
     erase(*cloth, key);
 }
 
+// A cloth that becomes a mesh leaves to it what a grid has.
+void leaveToMesh(JsonNode& root, const Steps& steps, const JsonNode& value) {
+  if (steps.size() != 3 || steps.back() != "mesh" || value.kind != JsonKind::string) return;
+  JsonNode& cloth = descend(descend(root, steps, 0), steps, 1);
+  if (cloth.find("mesh") != nullptr) return;
+  for (const char* key : {"width", "height", "num_width_points", "num_height_points", "orientation",
+                          "enable_shearing", "pinned", "pin_motion"})
+    erase(cloth, key);
+}
+
 // Messages name the key as it was typed, not "cloths.0".
 std::string asTyped(std::string path, const Steps& typed, const Steps& resolved) {
   if (typed.size() == resolved.size()) return path;
@@ -186,6 +196,7 @@ void setSceneValue(Scene& scene, const std::string& keyEqualsValue) {
     const JsonPointer root = writeScene(scene);
     resolved = resolveAliases(typed, *root, *value);
     leaveToMaterial(*root, resolved);
+    leaveToMesh(*root, resolved, *value);
     setAt(*root, resolved, std::move(value));
     scene = readScene(*root);
   } catch (const JsonComplaint& complaint) {

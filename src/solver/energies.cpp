@@ -31,7 +31,7 @@ Energies energies(const Cloth& cloth, std::span<const Spring> springs, const Sce
     sum.gravity += mass * dot(scene.gravity, cloth.positions()[i] - vectorOf(x));
   }
   for (const Spring& spring : springs) {
-    if (isCut(cuts, spring.a, static_cast<SpringSlot>(spring.number % SPRING_SLOTS))) continue;
+    if (isCut(cuts, spring)) continue;
     const double l = length(vectorOf(state.positions[spring.a]) - vectorOf(state.positions[spring.b]));
     sum.maxStrain = std::max(sum.maxStrain, l / spring.restLength - 1);
     sum.springs += 0.5 * spring.stiffness * (l - spring.restLength) * (l - spring.restLength);
@@ -39,8 +39,25 @@ Energies energies(const Cloth& cloth, std::span<const Spring> springs, const Sce
   return sum;
 }
 
+namespace {
+
+double strainOnMesh(const Cloth& cloth, const State& state, std::uint32_t particle) {
+  const SpringLists& lists = cloth.lists();
+  double strain = 0;
+  for (std::uint32_t n = lists.springsOf.starts[particle]; n < lists.springsOf.starts[particle + 1]; ++n) {
+    const ListedSpring& spring = lists.springs[lists.springsOf.entries[n]];
+    const double rest = length(cloth.positions()[spring.a] - cloth.positions()[spring.b]);
+    const double l = length(vectorOf(state.positions[spring.a]) - vectorOf(state.positions[spring.b]));
+    if (std::abs(l / rest - 1) > std::abs(strain)) strain = l / rest - 1;
+  }
+  return strain;
+}
+
+}  // namespace
+
 double strainAt(const Cloth& cloth, const Cuts& cuts, const State& state, std::uint32_t particle) {
   const Grid& grid = gridOf(cloth, particle);
+  if (grid.isMesh) return strainOnMesh(cloth, state, particle);
   const std::uint32_t place = particle - grid.firstParticle;
   const auto columns = static_cast<std::uint32_t>(grid.columns);
   const int column = static_cast<int>(place % columns), row = static_cast<int>(place / columns);

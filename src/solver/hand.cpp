@@ -41,6 +41,40 @@ double falloff(double distanceSquared, double radius) {
   return inside > 0 ? inside * inside : 0;
 }
 
+Vec3d vectorOf(const Particle4& p) { return Vec3f{p.x, p.y, p.z}.cast<double>(); }
+
+Hold::Point heldPoint(Vec3d from, Vec3d at, double weight) {
+  const Vec3f offset = (at - from).cast<float>();
+  return {{canonical(offset.x), canonical(offset.y), canonical(offset.z)}, static_cast<float>(weight)};
+}
+
+// Of a mesh, a grid of one row: the block from the first to the last vertex within the radius, as they lie at
+// rest.
+void holdOfMesh(const Cloth& cloth, std::uint32_t particle, double radius, const ReadPositions& positions,
+                Hold& hold) {
+  const Grid& mesh = cloth.grids()[hold.grid];
+  const auto weightOf = [&](std::uint32_t i) {
+    const Vec3d d = cloth.positions()[i] - cloth.positions()[particle];
+    return falloff(dot(d, d), radius);
+  };
+  std::uint32_t first = particle, last = particle;
+  for (std::uint32_t i = mesh.firstParticle; i < mesh.firstParticle + mesh.particleCount(); ++i) {
+    if (weightOf(i) == 0) continue;
+    first = std::min(first, i);
+    last = std::max(last, i);
+  }
+  hold.firstColumn = first - mesh.firstParticle;
+  hold.columns = last - first + 1;
+  hold.rows = 1;
+  const std::vector<Particle4> now = positions(first, hold.columns);
+  const Vec3d origin = vectorOf(now[particle - first]);
+  std::vector<Hold::Point> points;
+  for (std::uint32_t k = 0; k < hold.columns; ++k)
+    points.push_back(heldPoint(origin, vectorOf(now[k]), weightOf(first + k)));
+  hold.points = std::make_shared<const std::vector<Hold::Point>>(std::move(points));
+  hold.from = hold.to = origin;
+}
+
 template <class Real>
 void putHold(const Hold& hold, double h, std::uint64_t step, HandParams<Real>& params) {
   const double w = std::sqrt(hold.strength);
@@ -92,6 +126,10 @@ Hold takeHold(const Cloth& cloth, std::uint32_t particle, double strength, doubl
   hold.grid = cloth.gridOf(particle);
   hold.strength = strength;
   const Grid& grid = cloth.grids()[hold.grid];
+  if (grid.isMesh) {
+    holdOfMesh(cloth, particle, radius, positions, hold);
+    return hold;
+  }
   const int place = static_cast<int>(particle - grid.firstParticle);
   const int column = place % grid.columns, row = place / grid.columns;
   const double dx = grid.nominalLength[toLeft], dy = grid.nominalLength[toUpper];
@@ -101,16 +139,14 @@ Hold takeHold(const Cloth& cloth, std::uint32_t particle, double strength, doubl
   hold.columns = static_cast<std::uint32_t>(across.count);
   hold.rows = static_cast<std::uint32_t>(along.count);
 
-  const auto vectorOf = [](const Particle4& p) { return Vec3f{p.x, p.y, p.z}.cast<double>(); };
   std::vector<Hold::Point> points;
   const Vec3d origin = vectorOf(positions(particle, 1)[0]);
   for (int r = along.first; r < along.first + along.count; ++r) {
     const std::vector<Particle4> ofRow = positions(grid.particle(across.first, r), hold.columns);
     for (int c = 0; c < across.count; ++c) {
       const double x = dx * (across.first + c - column), y = dy * (r - row);
-      const Vec3f offset = (vectorOf(ofRow[static_cast<std::size_t>(c)]) - origin).cast<float>();
-      points.push_back({{canonical(offset.x), canonical(offset.y), canonical(offset.z)},
-                        static_cast<float>(falloff(x * x + y * y, radius))});
+      points.push_back(
+          heldPoint(origin, vectorOf(ofRow[static_cast<std::size_t>(c)]), falloff(x * x + y * y, radius)));
     }
   }
   hold.points = std::make_shared<const std::vector<Hold::Point>>(std::move(points));

@@ -41,6 +41,18 @@ std::optional<double> maxStrain(const Cloth& cloth, const Grid& grid, const Stat
   return largest;
 }
 
+// Of all meshes; none without springs.
+std::optional<double> maxStrain(const Cloth& cloth, const std::vector<ListedSpring>& springs,
+                                const State& state) {
+  if (springs.empty()) return std::nullopt;
+  double largest = -1;
+  for (const ListedSpring& spring : springs) {
+    const double rest = length(cloth.positions()[spring.b] - cloth.positions()[spring.a]);
+    largest = std::max(largest, length(positionOf(state, spring.b) - positionOf(state, spring.a)) / rest - 1);
+  }
+  return largest;
+}
+
 // Depth below the surface of a shape, from a point of its own frame; negative outside.
 double depthIn(const Sphere& sphere, Vec3d p) { return sphere.radius - length(p); }
 double depthIn(const Plane&, Vec3d p) { return -p.y; }
@@ -109,7 +121,7 @@ Measures measure(const Cloth& cloth, const Scene& scene, const State& state) {
   }
   measures.centroid = (1.0 / static_cast<double>(count)) * measures.centroid;
 
-  std::optional<double> strain;
+  std::optional<double> strain = maxStrain(cloth, cloth.lists().springs, state);
   for (const Grid& grid : cloth.grids())
     if (const auto ofGrid = maxStrain(cloth, grid, state))
       strain = std::max(strain.value_or(*ofGrid), *ofGrid);

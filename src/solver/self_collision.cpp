@@ -19,7 +19,10 @@ constexpr double RELATIVE_MOTION = 0.3;                       // delta, in spaci
 constexpr double CELL_MARGIN = 1.02;
 constexpr double ROUNDING = 1e-3;  // kept clear of every bound
 
+constexpr double CROSSING_OF_LONGEST_EDGE = 0.764;  // self_collision.h
+
 double spacing(const Grid& grid) {
+  if (grid.isMesh) return CROSSING_OF_LONGEST_EDGE * grid.longestEdge;
   const double x = grid.nominalLength[toLeft], y = grid.nominalLength[toUpper];
   return std::sqrt((x * x + y * y) / 2);
 }
@@ -58,13 +61,15 @@ double contactDistance(const Scene& scene, const Cloth& cloth) {
   double thickness = 0, finest = largestSpacing(cloth);
   for (const ClothSettings& settings : scene.cloths)
     thickness = std::max(thickness, settings.material ? settings.material->thickness : settings.thickness);
+  const bool onlyMeshes =
+      std::all_of(cloth.grids().begin(), cloth.grids().end(), [](const Grid& grid) { return grid.isMesh; });
   for (const Grid& grid : cloth.grids())
-    finest = std::min({finest, grid.nominalLength[toLeft], grid.nominalLength[toUpper]});
+    if (!grid.isMesh) finest = std::min({finest, grid.nominalLength[toLeft], grid.nominalLength[toUpper]});
   double distance = 2 * thickness;
   if (scene.solver.selfCollision == SelfCollision::robust)
     distance = std::max(thickness, crossingDistance(cloth, expectedStretch(scene)) +
                                        RELATIVE_MOTION / 2 * largestSpacing(cloth));
-  return std::min(distance, 7 * finest);
+  return onlyMeshes ? distance : std::min(distance, 7 * finest);
 }
 
 template <class Real>
@@ -96,6 +101,7 @@ SelfParams<Real> makeSelfParams(const Scene& scene, const Cloth& cloth) {
   params.guardFactor = real(crossing / d);
   const double fast = (d + margin - crossing) / 2;
   params.fastSquared = real(fast * fast);
+  params.codesPerMeter = real(NEAREST_CODES / d);
   return params;
 }
 
@@ -108,7 +114,8 @@ std::vector<Real> makeContactDistances(const Scene& scene, const Cloth& cloth) {
       const std::size_t across = code % 8, along = code / 8;
       const double x = static_cast<double>(across) * grid.nominalLength[toLeft],
                    y = static_cast<double>(along) * grid.nominalLength[toUpper];
-      const double rest = std::sqrt(x * x + y * y);
+      const double rest =
+          grid.isMesh ? d * static_cast<double>(code) / NEAREST_CODES : std::sqrt(x * x + y * y);
       distances.push_back(static_cast<Real>(code == 0 ? d : std::min(d, rest)));
     }
   }
@@ -118,6 +125,7 @@ std::vector<Real> makeContactDistances(const Scene& scene, const Cloth& cloth) {
 bool hasNearCodes(const Scene& scene, const Cloth& cloth) {
   const double d = contactDistance(scene, cloth);
   const auto first = static_cast<double>(firstCode(scene));
+  if (cloth.hasMesh()) return true;
   return std::any_of(cloth.grids().begin(), cloth.grids().end(), [&](const Grid& grid) {
     return first * std::min(grid.nominalLength[toLeft], grid.nominalLength[toUpper]) < d;
   });

@@ -233,6 +233,8 @@ StepParams<Real> makeStepParams(const Scene& scene, const Cloth& cloth, std::siz
   const double limitFactor = 1 + scene.solver.strainLimit.value_or(0);
   params.limitFactor = real<Real>(limitFactor);
   params.maxSpeedSquared = real<Real>(squareInRange(scene.solver.maxSpeed));
+  params.isMesh = grid.isMesh ? 1 : 0;
+  params.maxStretch = real<Real>(1 + scene.solver.maxStrain);
   for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot) {
     const double length = grid.nominalLength[slot];
     params.springs[slot] = {real<Real>(grid.stiffness[slot]), real<Real>(length),
@@ -310,6 +312,7 @@ std::vector<Real> measureRestLengths(const Cloth& cloth) {
   if (!cloth.hasRestLengthTable()) return lengths;
   lengths.resize(static_cast<std::size_t>(SPRING_SLOTS) * cloth.particleCount());
   for (const Spring& spring : cloth.springs()) {
+    if (spring.number >= lengths.size()) break;  // of meshes
     const Vec3<Real> d = startPosition<Real>(cloth, spring.b) - startPosition<Real>(cloth, spring.a);
     const Real lengthSquared = dot(d, d);
     const std::size_t slot = spring.number % SPRING_SLOTS;
@@ -327,6 +330,13 @@ std::uint32_t ownerCount(std::uint32_t first, std::uint32_t step, std::uint32_t 
 std::vector<LimitColor> makeLimitColors(const Grid& grid) {
   const auto columns = static_cast<std::uint32_t>(grid.columns), rows = static_cast<std::uint32_t>(grid.rows);
   std::vector<LimitColor> colors;
+  for (const SpringColor& color : grid.colors) {
+    LimitColor result{};
+    result.firstColumn = color.first;
+    result.endColumn = color.end;
+    result.columnStep = result.columnRun = result.rowStep = result.rowRun = result.endRow = 1;
+    colors.push_back(result);
+  }
   for (std::uint32_t slot = 0; slot < SPRING_SLOTS; ++slot) {
     if (!grid.slotEnabled[slot]) continue;
     const SpringOffset& offset = springOffsets[slot];

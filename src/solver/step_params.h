@@ -84,8 +84,8 @@ template <class Real>
 template <class Real>
 [[nodiscard]] std::vector<Real> measureRestLengths(const Cloth& cloth);
 
-// The strain limit's order: slots ascending, two colours each; only enabled ones. Both backends go through it
-// alike.
+// The strain limit's order: slots ascending, two colours each, only enabled ones; of a mesh its colours. Both
+// backends go through it alike.
 [[nodiscard]] std::vector<LimitColor> makeLimitColors(const Grid& grid);
 // Owners of a colour in each direction.
 [[nodiscard]] std::uint32_t ownerCount(std::uint32_t first, std::uint32_t step, std::uint32_t run,

@@ -53,6 +53,7 @@ test::CommandResult validate(const std::string& source, const std::string& stage
 std::vector<gl::Defines> variantsOf(const std::string& file) {
   if (file == "render/floor_shadow.frag") return {{{"FIRST_AXIS", ""}}, gl::Defines{}};
   if (file == "render/normals.comp") return {gl::Defines{}, {{"CUTS", ""}, {"STRAIN", ""}}};
+  if (file == "render/mesh_normals.comp") return {gl::Defines{}, {{"STRAIN", ""}}};
   if (file == "render/resolve.frag") return {{{"SAMPLES", "1"}}, {{"SAMPLES", "4"}}};
   if (file == "render/backdrop.frag") return {gl::Defines{}, {{"SKY", ""}}, {{"PLAIN", ""}}, {{"LAY", ""}}};
   if (file == "render/cloth.vert")
@@ -77,9 +78,13 @@ std::vector<gl::Defines> variantsOf(const std::string& file) {
   everything.enabledSlots = (1u << SPRING_SLOTS) - 1;
   PassFeatures cs184 = everything;
   cs184.coulombFriction = false;
-  std::vector<gl::Defines> variants{definesFor(everything), definesFor(cs184), definesFor(PassFeatures{})};
+  PassFeatures mesh = everything;
+  mesh.mesh = true;
+  std::vector<gl::Defines> variants{definesFor(everything), definesFor(cs184), definesFor(PassFeatures{}),
+                                    definesFor(mesh)};
   for (std::size_t i = 0; i < variants.size(); ++i) {
     variants[i].emplace_back("SELF_ROBUST", std::to_string(i % 2));
+    variants[i].emplace_back("SELF_HAS_MESH", i == 3 ? "1" : "0");
     variants[i].emplace_back("SELF_NEAR_CODES", std::to_string(1 - i % 2));
   }
   return variants;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "support/mesh_sheet.h"
 #include "support/test_scenes.h"
 
 namespace clothsim::test {
@@ -186,6 +187,39 @@ inline Scene thick(Scene scene) {
   return scene;
 }
 
+// A mesh that hangs from a bar which swings and turns, in the wind, over a ball, and folds over a second one.
+inline Scene meshWithEverything(int n, SelfCollision mode) {
+  Scene scene = withLimiter(withWind(meshScene({.columns = n, .rows = n, .edge = 1.0 / n, .disorder = 0.2})));
+  ClothSettings& cloth = scene.cloths[0];
+  cloth.rotation = {-70, 0, 0};
+  cloth.position = {0, 0.4, 0.5};
+  cloth.thickness = 1.2 / n;
+  cloth.pinned = {GroupPin{"top"}, VertexPin{0}};
+  PinMotion motion;
+  motion.keys = {{.t = 0, .position = std::nullopt, .rotation = {}},
+                 {.t = 0.2, .position = Vec3d{0.6, 0.8, 0.3}, .rotation = {40, 30, 0}}};
+  motion.pinned = {GroupPin{"top"}};
+  cloth.pinMotion = {motion};
+  scene.colliders = {Sphere{.origin = {0.5, 0.35, 0.1}, .radius = 0.2, .motion = std::nullopt}};
+  scene.solver.selfCollision = mode;
+  scene.cloths.push_back(cloth);
+  scene.cloths[1].position = {0.1, 0.45, 0.5};
+  scene.cloths[1].pinMotion.clear();
+  scene.cloths.push_back(sheetScene(n / 2).cloths[0]);
+  scene.cloths[2].ks = 200;
+  return scene;
+}
+
+// Of a material, so that it bends over hinges.
+inline Scene meshOfMaterial(int n) {
+  Scene scene = withWind(meshScene({.columns = n, .rows = n, .edge = 1.0 / n, .disorder = 0.2}));
+  scene.cloths[0].ks.reset();
+  scene.cloths[0].material = Material{.stretch = 100, .bend = 1e-4};
+  scene.cloths[0].pinned = {GroupPin{"top"}};
+  scene.cloths[0].rotation = {-60, 10, 0};
+  return scene;
+}
+
 struct NamedScene {
   std::string name;
   Scene scene;
@@ -214,6 +248,9 @@ inline std::vector<NamedScene> comparedScenes(int n) {
           {"thick robust self-collision", thick(layeredSheets(n / 2, SelfCollision::robust))},
           {"pins that move through other cloth", withPinMotion(layeredSheets(n, SelfCollision::robust))},
           {"two cloths", twoCloths(withLimiter(withWind(vertical(sheetScene(n)))))},
+          {"mesh with everything", meshWithEverything(n / 2, SelfCollision::robust)},
+          {"mesh with everything, averaged", meshWithEverything(n / 2, SelfCollision::averaged)},
+          {"mesh of a material", meshOfMaterial(n / 2)},
           {"pin motion", withPinMotion(vertical(sheetScene(n)))},
           {"everything with pin motion",
            withPinMotion(withWind(withColliders(withLimiter(vertical(sheetScene(n))))))},

@@ -15,9 +15,40 @@ bool isCutFrom(GridPoint p, uint column, uint row) {
   return hasCuts && !isLeft(cutMaskOf(p.index), springWithinCell[3u * (row + 1u - p.row) + column + 1u - p.column]);
 }
 
+#if SELF_HAS_MESH
+#include "shared/mesh_lists.h"
+layout(binding = LIST_STARTS_UNIT) uniform usamplerBuffer listStarts;
+layout(binding = LISTED_SPRINGS_UNIT) uniform usamplerBuffer listedSprings;
+layout(binding = REST_PLACES_UNIT) uniform samplerBuffer restPlaces;
+
+bool joins(uint i, uint j) {
+  uint end = texelFetch(listStarts, int(i) + 1).x;
+  for (uint n = texelFetch(listStarts, int(i)).x; n < end; ++n) {
+    uvec2 spring = texelFetch(listedSprings, int(n)).xy;
+    if (spring.x == j && (spring.y & STRUCTURAL_SPRING) != 0u) return true;
+  }
+  return false;
+}
+
+// Of two particles of one mesh. Pairs that are all but one at rest are left alone.
+uint encodeListed(uint i, uint j) {
+  precise vec3 d = texelFetch(restPlaces, int(i)).xyz - texelFetch(restPlaces, int(j)).xyz;
+  precise float lengthSquared = sumOfProducts(d, d);
+  precise float inverseLength = inverseSquareRoot(lengthSquared);
+  precise float rest = lengthSquared * inverseLength;
+  precise float code = self.codesPerMeter * rest;
+  if (!(code < float(NEAREST_CODES))) return j;
+  if (code < 1.0 || (self.firstCode > 1u && joins(i, j))) return EXCLUDED;
+  return j | uint(int(code)) << CANDIDATE_BITS;
+}
+#endif
+
 uint encode(GridPoint p, uint j) {
   uint inGrid = j - step.firstParticle;
   if (inGrid >= step.columns * step.rows) return j;
+#if SELF_HAS_MESH
+  if (step.isMesh != 0u) return encodeListed(p.index, j);
+#endif
   uint column = inGrid % step.columns, row = inGrid / step.columns;
   uint across = column < p.column ? p.column - column : column - p.column;
   uint along = row < p.row ? p.row - row : row - p.row;

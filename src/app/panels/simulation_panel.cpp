@@ -29,8 +29,11 @@ void drawSpringKinds(PanelContext& context, ClothSettings& cloth, const std::str
   const Kind kinds[] = {{"enable_structural", "structural", &ClothSettings::enableStructural},
                         {"enable_shearing", "shearing", &ClothSettings::enableShearing},
                         {"enable_bending", "bending", &ClothSettings::enableBending}};
-  const float gap = 0.12f * em(), width = (ImGui::GetContentRegionAvail().x - 2 * gap) / 3;
+  const float gap = 0.12f * em();
+  const float width = cloth.isMesh() ? (ImGui::GetContentRegionAvail().x - gap) / 2
+                                     : (ImGui::GetContentRegionAvail().x - 2 * gap) / 3;
   for (const Kind& kind : kinds) {
+    if (cloth.isMesh() && kind.enabled == &ClothSettings::enableShearing) continue;
     if (&kind != kinds) ImGui::SameLine(0, gap);
     if (toggleButton(kind.label, cloth.*kind.enabled, width)) context.widgets.changed(Change::rebuild);
     for (const Field<ClothSettings>& field : fieldsOf<ClothSettings>())
@@ -60,7 +63,10 @@ void drawCloth(PanelContext& context, ClothSettings& cloth, const std::string& p
       context.widgets.some(cloth, path, {"ks"});
     context.widgets.some(cloth, path, {cloth.mass ? "mass" : "density", "damping", "thickness"});
   }
-  context.widgets.some(cloth, path, {"width", "height", "num_width_points", "num_height_points"});
+  if (cloth.isMesh())
+    context.widgets.some(cloth, path, {"scale"});
+  else
+    context.widgets.some(cloth, path, {"width", "height", "num_width_points", "num_height_points"});
 }
 
 void drawWind(PanelContext& context) {

@@ -5,6 +5,7 @@
 #include <cassert>
 
 #include "solver/cpu/collide.h"
+#include "solver/cpu/rows.h"
 #include "solver/cpu/snapshot.h"
 
 namespace clothsim {
@@ -44,6 +45,7 @@ CpuSolver<Real>::CpuSolver(const Cloth& cloth, const Scene& scene, bool fused)
     inverseMasses_[i] = static_cast<Real>(cloth.inverseMasses()[i]);
   }
   restLengths_ = measureRestLengths<Real>(cloth);
+  lists_ = makeMeshLists<Real>(cloth);
   for (const Grid& grid : cloth.grids()) limitColors_.push_back(makeLimitColors(grid));
   velocityMeaning_ = startingVelocityMeaning(scene);
   configure(scene);
@@ -91,6 +93,7 @@ cpu::PassArguments<Real> CpuSolver<Real>::arguments(const StepParams<Real>& para
           pinStarts_,
           inverseMasses_.data(),
           restLengths_.data(),
+          lists_,
           handParams_,
           holds ? hand_.hold->points->data() : nullptr,
           hand_.jet.has_value(),
@@ -130,7 +133,7 @@ void CpuSolver<Real>::checkStart() {
   for (std::size_t grid = 0; grid < cloth_->grids().size(); ++grid) {
     const StepParams<Real> params = paramsOf(grid);
     const cpu::PassArguments<Real> pass = arguments(params);
-    forEachRow(cloth_->grids()[grid].rows, [&](int row) { cpu::checkStart(pass, row); });
+    forEachRow(cpu::rowsOf(cloth_->grids()[grid]), [&](int row) { cpu::checkStart(pass, row); });
   }
 }
 
@@ -146,8 +149,8 @@ void CpuSolver<Real>::convertVelocities() {
     StepParams<Real> params = paramsOf(grid);
     params.kickTime = velocityConversionTime<Real>(scene_);
     const cpu::PassArguments<Real> pass = arguments(params);
-    forEachRow(cloth_->grids()[grid].rows, [&](int row) { cpu::gatherForces(pass, row); });
-    forEachRow(cloth_->grids()[grid].rows, [&](int row) { cpu::kick(pass, row); });
+    forEachRow(cpu::rowsOf(cloth_->grids()[grid]), [&](int row) { cpu::gatherForces(pass, row); });
+    forEachRow(cpu::rowsOf(cloth_->grids()[grid]), [&](int row) { cpu::kick(pass, row); });
   }
   std::swap(before_.velocities, after_.velocities);
 }
@@ -161,7 +164,7 @@ void CpuSolver<Real>::stepOnce() {
   const auto forEachGridRow = [&](auto pass) {
     for (std::size_t grid = 0; grid < grids; ++grid) {
       const cpu::PassArguments<Real> ofGrid = arguments(params_[grid]);
-      forEachRow(cloth_->grids()[grid].rows, [&](int row) { pass(ofGrid, row); });
+      forEachRow(cpu::rowsOf(cloth_->grids()[grid]), [&](int row) { pass(ofGrid, row); });
     }
   };
   using Arguments = cpu::PassArguments<Real>;
@@ -176,11 +179,11 @@ void CpuSolver<Real>::stepOnce() {
     for (std::size_t grid = 0; grid < grids; ++grid) {
       const Arguments pass = arguments(params_[grid]);
       for (const LimitColor& color : limitColors_[grid]) {
-        const std::uint32_t count = ownerCount(color.firstRow, color.rowStep, color.rowRun, color.endRow);
+        const std::uint32_t count = cpu::limitRows(cloth_->grids()[grid], color);
         forEachRow(static_cast<int>(count),
                    [&](int j) { cpu::limitStrain(pass, color, static_cast<std::uint32_t>(j)); });
       }
-      forEachRow(cloth_->grids()[grid].rows, [&](int row) { cpu::watchLimit(pass, row); });
+      forEachRow(cpu::rowsOf(cloth_->grids()[grid]), [&](int row) { cpu::watchLimit(pass, row); });
     }
   };
 
@@ -310,8 +313,7 @@ void CpuSolver<Real>::setCuts(const Cuts& cuts) {
 
 template <class Real>
 void CpuSolver<Real>::setPin(std::uint32_t particle, bool pinned) {
-  const double mass = cloth_->grids()[cloth_->gridOf(particle)].particleMass;
-  inverseMasses_[particle] = pinned ? Real(0) : static_cast<Real>(1 / mass);
+  inverseMasses_[particle] = pinned ? Real(0) : static_cast<Real>(1 / cloth_->massOf(particle));
   put(before_.velocities, particle, Vec3<Real>{});
   leavePath(offPath_, particle);
   preparePins();
@@ -349,7 +351,7 @@ std::vector<Vec3<Real>> CpuSolver<Real>::forces() {
     const StepParams<Real> params = paramsOf(grid);
     handParams_ = makeHandParams<Real>(hand_, scene_, stepIndex_);
     const cpu::PassArguments<Real> pass = arguments(params);
-    forEachRow(cloth_->grids()[grid].rows, [&](int row) { cpu::gatherForces(pass, row); });
+    forEachRow(cpu::rowsOf(cloth_->grids()[grid]), [&](int row) { cpu::gatherForces(pass, row); });
   }
   for (std::size_t i = 0; i < result.size(); ++i) result[i] = at(forces_, i);
   return result;

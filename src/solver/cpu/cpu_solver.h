@@ -71,6 +71,7 @@ class CpuSolver final : public Solver {
   std::optional<Trouble> trouble_;
   Components<Real> forces_;
   std::vector<Real> inverseMasses_, restLengths_;
+  MeshLists<Real> lists_;
   std::vector<ColliderParams<Real>> colliders_;  // of this step,
   std::vector<float> distances_;                 // samples of the mesh colliders' grids
   PinPaths pinPaths_;

@@ -6,6 +6,8 @@
 #include <array>
 
 #include "core/exact_math.h"
+#include "solver/cpu/force_laws.h"
+#include "solver/cpu/listed_forces.h"
 #include "solver/cpu/rows.h"
 #include "solver/cpu/spring_rows.h"
 #include "solver/cpu/symmetric.h"
@@ -14,82 +16,6 @@
 namespace clothsim::cpu {
 namespace {
 
-// Hooke's law: k (l - L) along the unit vector from a to b.
-template <class Real>
-INLINE Vec3<Real> springForce(Vec3<Real> a, Vec3<Real> b, Real stiffness, Real restLength) {
-  const Vec3<Real> d = b - a;
-  const Real lengthSquared = dot(d, d);
-  const Real inverseLength = inverseSquareRoot(lengthSquared);
-  const Real length = lengthSquared * inverseLength;
-  const Real scale = (stiffness * (length - restLength)) * inverseLength;
-  return scale * d;
-}
-
-// What of the jet arrives at x, 0 to 1 (solver/hand.h).
-template <class Real>
-INLINE Real jetShare(const HandParams<Real>& hand, Vec3<Real> x) {
-  const Vec3<Real> direction{hand.directionX, hand.directionY, hand.directionZ};
-  const Vec3<Real> d = x - Vec3<Real>{hand.originX, hand.originY, hand.originZ};
-  const Real along = dot(d, direction);
-  const Vec3<Real> across = d - along * direction;
-  const Real inside = Real(1) - hand.inverseRadiusSquared * dot(across, across);
-  const Real rise = hand.inverseRadius * along;
-  const Real risen = rise < Real(1) ? rise : Real(1);
-  const Real share = (inside * inside) * risen;
-  const bool reached = (inside > Real(0)) & (rise > Real(0));
-  return reached ? canonical(share) : Real(0);
-}
-
-// A third of the force of the air on triangle (a, b, c): pressure along its normal, rho C_d / 2 A (u.n)|u.n|
-// n, and lift across the relative wind u, rho C_l / 2 A |u|^2 (e.n) (n - (e.n) e) with e = u/|u|. `normal` is
-// 2 A n, and the factors of the step hold rho C / 12. Both terms are even in n: it does not matter to which
-// side it points.
-// Beside the force: r of the matrix r n n^T by which it resists a change of the corners' velocity, with
-// `normal` for n, as far as `implicit` takes it for linear: the pressure with |u.n| as it is.
-template <class Real>
-struct TriangleWind {
-  Vec3<Real> force, normal;
-  Real resistance;
-};
-template <bool jet, class Real>
-INLINE TriangleWind<Real> windForce(const StepParams<Real>& step, const HandParams<Real>& hand, Vec3<Real> a,
-                                    Vec3<Real> b, Vec3<Real> c, Vec3<Real> va, Vec3<Real> vb, Vec3<Real> vc) {
-  constexpr Real third = static_cast<Real>(1.0 / 3.0);
-  const Vec3<Real> normal = cross(b - a, c - a);
-  const Real normalSquared = dot(normal, normal);
-  const Real inverseNormal = inverseSquareRoot(normalSquared);
-  Vec3<Real> air{step.airVelocityX, step.airVelocityY, step.airVelocityZ};
-  Real share = 0;
-  if constexpr (jet) {
-    share = jetShare(hand, third * ((a + b) + c));
-    const Real jetSpeed = share * hand.jetSpeed;
-    air = air + jetSpeed * Vec3<Real>{hand.directionX, hand.directionY, hand.directionZ};
-  }
-  const Vec3<Real> u = air - third * ((va + vb) + vc);
-  const Real speedSquared = dot(u, u);
-  const Real inverseSpeed = inverseSquareRoot(speedSquared);
-  const Real speed = speedSquared * inverseSpeed;
-  const Real through = dot(u, normal);
-  const Real across = through * inverseNormal;  // u.n
-  const Real acrossMagnitude = across < Real(0) ? -across : across;
-  const Real alongNormal = step.dragFactor * (across * acrossMagnitude) + step.liftFactor * (across * speed);
-  const Real alongWind = step.liftFactor * ((across * through) * inverseSpeed);
-  Vec3<Real> force = alongNormal * normal - alongWind * u;
-  if constexpr (jet) {
-    const Vec3<Real> part = share * force;
-    const bool alone = hand.jetAlone != 0;
-    force = {alone ? part.x : force.x, alone ? part.y : force.y, alone ? part.z : force.z};
-  }
-  Real resistance = (step.dragFactor * acrossMagnitude) * inverseNormal;
-  if constexpr (jet) {
-    const Real part = share * resistance;
-    resistance = hand.jetAlone != 0 ? part : resistance;
-  }
-  const bool degenerate = normalSquared < static_cast<Real>(0x1p-100);
-  return {{degenerate ? Real(0) : force.x, degenerate ? Real(0) : force.y, degenerate ? Real(0) : force.z},
-          normal,
-          degenerate ? Real(0) : resistance};
-}
 
 // Adds the forces of one incident spring to every particle of the stretch. Of owned springs it returns the
 // largest bits of l^2 for the watchdog: one end of each spring is enough.
@@ -277,7 +203,7 @@ INLINE void addWind(const PassArguments<Real>& arguments, int row,
     for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
       const bool gone = isGone<torn>(cutMasks, i, FIRST_CUT_TRIANGLE + k);
       const auto [f, normal, r] =
-          windForce<jet>(step, hand, load(x, y, z, i + ia), load(x, y, z, i + ib), load(x, y, z, i + ic),
+          windOn<jet>(step, hand, load(x, y, z, i + ia), load(x, y, z, i + ib), load(x, y, z, i + ic),
                          load(vx, vy, vz, i + ia), load(vx, vy, vz, i + ib), load(vx, vy, vz, i + ic));
       fx[i] = gone ? fx[i] : fx[i] + f.x;
       fy[i] = gone ? fy[i] : fy[i] + f.y;
@@ -322,16 +248,20 @@ INLINE void addAirResistance(const PassArguments<Real>& arguments, int row) {
 template <class Real>
 INLINE void clearForces(const PassArguments<Real>& arguments, int row) {
   const Stretch particles = stretch(arguments.step, row);
-  for (std::vector<Real>* f : {&arguments.forces.x, &arguments.forces.y, &arguments.forces.z})
+ for (std::vector<Real>* f : {&arguments.forces.x, &arguments.forces.y, &arguments.forces.z})
     std::fill(f->data() + particles.begin, f->data() + particles.end, Real(0));
 }
 
 template <class Real>
 INLINE void gatherForcesRow(const PassArguments<Real>& arguments, int row) {
   clearForces(arguments, row);
-  arguments.cutMasks != nullptr ? addElasticForces<true>(arguments, row)
-                                : addElasticForces<false>(arguments, row);
-  if (arguments.step.hasWind != 0) addWind<false, Real>(arguments, row, nullptr);
+  if (arguments.step.isMesh != 0) {
+    gatherListedForces(arguments, row);
+  } else {
+    arguments.cutMasks != nullptr ? addElasticForces<true>(arguments, row)
+                                  : addElasticForces<false>(arguments, row);
+    if (arguments.step.hasWind != 0) addWind<false, Real>(arguments, row, nullptr);
+  }
   if (arguments.step.airResistance > Real(0)) addAirResistance(arguments, row);
 }
 

@@ -15,9 +15,15 @@ Vec3d vectorOf(const Particle4& p) { return Vec3f{p.x, p.y, p.z}.cast<double>();
 
 // Particles of one grid: how far apart they lie at rest, unless they share a cell and a spring. Of two grids:
 // infinity.
-std::optional<double> restDistance(const Grid& grid, const std::vector<std::uint32_t>& cutMasks,
-                                   std::uint32_t i, std::uint32_t j) {
+std::optional<double> restDistance(const Cloth& cloth, const Grid& grid,
+                                   const std::vector<std::uint32_t>& cutMasks, std::uint32_t i,
+                                   std::uint32_t j) {
   if (j - grid.firstParticle >= grid.particleCount()) return INFINITY;
+  if (grid.isMesh) {
+    if (cloth.lists().joins(i, j)) return std::nullopt;
+    const Vec3d d = cloth.positions()[i] - cloth.positions()[j];
+    return std::sqrt(dot(d, d));
+  }
   const auto columns = static_cast<std::int64_t>(grid.columns);
   const std::int64_t a = i - grid.firstParticle, b = j - grid.firstParticle;
   const std::int64_t right = b % columns - a % columns, down = b / columns - a / columns;
@@ -51,7 +57,7 @@ ContactMeasures measureContacts(const Cloth& cloth, const Scene& scene, const St
   search.setCutMasks(cutMasks);
   for (const auto& [i, j] : search.candidatePairs(positions)) {
     if (j < i) continue;
-    const std::optional<double> rest = restDistance(cloth.grids()[cloth.gridOf(i)], cutMasks, i, j);
+    const std::optional<double> rest = restDistance(cloth, cloth.grids()[cloth.gridOf(i)], cutMasks, i, j);
     if (!rest) continue;
     const Vec3d apart = vectorOf(state.positions[i]) - vectorOf(state.positions[j]);
     const Vec3d relative = vectorOf(state.velocities[i]) - vectorOf(state.velocities[j]);

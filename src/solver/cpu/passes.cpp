@@ -1,5 +1,6 @@
 #include "solver/cpu/passes.h"
 
+#include <algorithm>
 #include <tuple>
 
 #include "core/exact_math.h"
@@ -31,12 +32,18 @@ INLINE void integrateComponent(const StepParams<Real>& step, Stretch particles, 
 template <class Real>
 void pullHeld(const PassArguments<Real>& arguments, int row) {
   const HandParams<Real>& hand = arguments.hand;
-  const std::uint32_t blockRow = static_cast<std::uint32_t>(row) - hand.firstRow;
+  const bool isMesh = arguments.step.isMesh != 0;  // whose block is a part of its one row
+  const std::uint32_t blockRow = isMesh ? 0 : static_cast<std::uint32_t>(row) - hand.firstRow;
   if (blockRow >= hand.rows) return;
+  const Stretch particles = stretch(arguments.step, row);
+  const std::ptrdiff_t first =
+      (isMesh ? static_cast<std::ptrdiff_t>(arguments.step.firstParticle) : particles.begin) +
+      hand.firstColumn;
   const Components<Real>& old = arguments.before.positions;
   Components<Real>&p = arguments.after.positions, &v = arguments.after.velocities;
   for (std::uint32_t k = 0; k < hand.columns; ++k) {
-    const std::ptrdiff_t i = stretch(arguments.step, row).begin + hand.firstColumn + k;
+    const std::ptrdiff_t i = first + k;
+    if (i < particles.begin || i >= particles.end) continue;
     if (arguments.inverseMasses[i] == Real(0)) continue;
     const Hold::Point& point = arguments.held[blockRow * hand.columns + k];
     const Vec3<Real> own{v.x[i], v.y[i], v.z[i]}, x{old.x[i], old.y[i], old.z[i]};
@@ -151,6 +158,17 @@ INLINE void limitSpring(const PassArguments<Real>& arguments, std::ptrdiff_t a, 
   }
 }
 
+// Of a mesh: the springs of the colour from number `first` on, MESH_ROW of them.
+template <class Real>
+void limitListed(const PassArguments<Real>& arguments, const LimitColor& color, std::uint32_t first) {
+  const std::uint32_t end = std::min(color.endColumn, first + MESH_ROW);
+  for (std::uint32_t n = first; n < end; ++n) {
+    const auto& spring = arguments.lists.limited[n];
+    const Real limit = arguments.step.limitFactor * spring.restLength;
+    limitSpring(arguments, spring.a, spring.b, limit);
+  }
+}
+
 template <class Real>
 void checkStartRow(const PassArguments<Real>& arguments, int row) {
   const Components<Real>&p = arguments.before.positions, &v = arguments.before.velocities;
@@ -187,6 +205,7 @@ void kick(const PassArguments<Real>& arguments, int row) {
 template <class Real>
 void limitStrain(const PassArguments<Real>& arguments, const LimitColor& color, std::uint32_t j) {
   const StepParams<Real>& step = arguments.step;
+  if (step.isMesh != 0) return limitListed(arguments, color, color.firstColumn + j * MESH_ROW);
   const SpringOffset& offset = springOffsets[color.slot];
   const std::ptrdiff_t other = indexOffset(step, offset.columns, offset.rows);
   const std::uint32_t row = color.firstRow + color.rowStep * (j / color.rowRun) + j % color.rowRun;
@@ -203,6 +222,11 @@ void limitStrain(const PassArguments<Real>& arguments, const LimitColor& color, 
         step.useRestLengthTable != 0 ? step.limitFactor * rest[owner] : step.springs[color.slot].limitLength;
     limitSpring(arguments, owner, owner + other, limit);
   }
+}
+
+std::uint32_t limitRows(const Grid& grid, const LimitColor& color) {
+  if (grid.isMesh) return (color.endColumn - color.firstColumn + MESH_ROW - 1) / MESH_ROW;
+  return ownerCount(color.firstRow, color.rowStep, color.rowRun, color.endRow);
 }
 
 VECTOR_CLONES void watchLimit(const PassArguments<float>& arguments, int row) {

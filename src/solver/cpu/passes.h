@@ -8,6 +8,7 @@
 #include "cloth/cloth.h"
 #include "solver/cpu/cpu_state.h"
 #include "solver/hand.h"
+#include "solver/mesh_lists.h"
 #include "solver/pin_paths.h"
 #include "solver/step_params.h"
 #include "solver/trouble.h"
@@ -29,6 +30,7 @@ struct PassArguments {
   const Components<Real>& pinStarts;    // where the simulation began [m]; empty when there are none
   const Real* inverseMasses;
   const Real* restLengths;        // slot-major; null when no grid needs the table
+  const MeshLists<Real>& lists;   // of all meshes; empty without any
   const HandParams<Real>& hand;   // of this step
   const Hold::Point* held;        // the block of this grid that a hand holds, row-major; null without
   bool jet;                       // whether air blows from `hand`
@@ -53,7 +55,7 @@ PassArguments<Real> withState(const PassArguments<Real>& of, const StepParams<Re
 void checkStart(const PassArguments<float>& arguments, int row);
 void checkStart(const PassArguments<double>& arguments, int row);
 
-// One row of the grid.
+// One row of the grid, or of a mesh (rows.h).
 void gatherForces(const PassArguments<float>& arguments, int row);
 void gatherForces(const PassArguments<double>& arguments, int row);
 void integrate(const PassArguments<float>& arguments, int row);
@@ -71,9 +73,10 @@ void movePins(const PassArguments<Real>& arguments, int row);
 template <class Real>
 void kick(const PassArguments<Real>& arguments, int row);
 
-// Row j of the colour's owners; works in place on `after`.
+// Row j of the colour's owners, or of a mesh its springs from j MESH_ROW on; works in place on `after`.
 template <class Real>
 void limitStrain(const PassArguments<Real>& arguments, const LimitColor& color, std::uint32_t j);
+[[nodiscard]] std::uint32_t limitRows(const Grid& grid, const LimitColor& color);  // how many j there are
 // After all colours: the watchdog's look at a row.
 void watchLimit(const PassArguments<float>& arguments, int row);
 void watchLimit(const PassArguments<double>& arguments, int row);

@@ -5,11 +5,18 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "cloth/cloth.h"
 #include "core/vec.h"
 #include "solver/cpu/vector_clones.h"
 #include "solver/step_params.h"
 
 namespace clothsim::cpu {
+
+// How a mesh, a grid of one row, is shared by threads: so many particles are a row for the passes.
+inline constexpr int MESH_ROW = 256;
+[[nodiscard]] inline int rowsOf(const Grid& grid) {
+  return grid.isMesh ? (grid.columns + MESH_ROW - 1) / MESH_ROW : grid.rows;
+}
 
 // A stretch of particles [begin, end) of one row, as indices into the arrays.
 struct Stretch {
@@ -21,6 +28,11 @@ struct Stretch {
 template <class Real>
 Stretch stretch(const StepParams<Real>& step, int row, int firstOffset = 0, int lastOffset = 0) {
   const auto columns = static_cast<std::ptrdiff_t>(step.columns);
+  if (step.isMesh != 0) {  // one long row, in stretches of MESH_ROW particles
+    const auto first = static_cast<std::ptrdiff_t>(step.firstParticle);
+    return {first + std::ptrdiff_t{MESH_ROW} * row,
+            first + std::min(columns, std::ptrdiff_t{MESH_ROW} * (row + 1))};
+  }
   const std::ptrdiff_t start = static_cast<std::ptrdiff_t>(step.firstParticle) + row * columns;
   return {start + std::max(0, -firstOffset), start + columns - std::max(0, lastOffset)};
 }

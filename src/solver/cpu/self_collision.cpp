@@ -14,6 +14,7 @@
 #include "core/exact_math.h"
 #include "core/vec.h"
 #include "solver/cpu/vector_clones.h"
+#include "solver/step_params.h"
 
 namespace clothsim::cpu {
 namespace {
@@ -98,7 +99,10 @@ bool hasCell(const SelfParams<Real>& params, const Components<Real>& sortedPosit
 }  // namespace
 
 template <class Real>
-SelfCollision<Real>::SelfCollision(const Cloth& cloth, bool parallel) : cloth_(&cloth), parallel_(parallel) {}
+SelfCollision<Real>::SelfCollision(const Cloth& cloth, bool parallel) : cloth_(&cloth), parallel_(parallel) {
+  if (!cloth.hasMesh()) return;
+  for (std::uint32_t i = 0; i < cloth.particleCount(); ++i) places_.push_back(startPosition<Real>(cloth, i));
+}
 
 template <class Real>
 void SelfCollision<Real>::configure(const Scene& scene) {
@@ -134,10 +138,24 @@ void SelfCollision<Real>::setCutMasks(std::vector<std::uint32_t> masks) {
   isHashed_ = false;
 }
 
+// Pairs that are all but one at rest are left alone.
+template <class Real>
+std::uint32_t SelfCollision<Real>::encodeListed(std::uint32_t i, std::uint32_t j) const {
+  const Vec3<Real> d = places_[i] - places_[j];
+  const Real lengthSquared = dot(d, d);
+  const Real inverseLength = inverseSquareRoot(lengthSquared);
+  const Real rest = lengthSquared * inverseLength;
+  const Real code = params_.codesPerMeter * rest;
+  if (!(code < static_cast<Real>(NEAREST_CODES))) return j;
+  if (code < Real(1) || (params_.firstCode > 1 && cloth_->lists().joins(i, j))) return EXCLUDED;
+  return j | static_cast<std::uint32_t>(static_cast<std::int32_t>(code)) << CANDIDATE_BITS;
+}
+
 template <class Real>
 std::uint32_t SelfCollision<Real>::encode(const Block& block, std::uint32_t i, std::uint32_t j) const {
   const Grid& grid = cloth_->grids()[block.grid];
   if (j - grid.firstParticle >= grid.particleCount()) return j;
+  if (grid.isMesh) return encodeListed(i, j);
   const int a = static_cast<int>(i - grid.firstParticle), b = static_cast<int>(j - grid.firstParticle);
   const int columns = b % grid.columns - a % grid.columns, rows = b / grid.columns - a / grid.columns;
   const auto across = static_cast<std::uint32_t>(std::abs(columns)),

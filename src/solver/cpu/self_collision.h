@@ -47,6 +47,7 @@ class SelfCollision {
   [[nodiscard]] bool usesNearCodes() const { return hasNearCodes_ || !cutMasks_.empty(); }
   // The candidate (shared/self_collision.h), or EXCLUDED for a pair that is left to its springs.
   [[nodiscard]] std::uint32_t encode(const Block& block, std::uint32_t i, std::uint32_t j) const;
+  [[nodiscard]] std::uint32_t encodeListed(std::uint32_t i, std::uint32_t j) const;  // of one mesh
   void buildHash(const Components<Real>& positions);
   void findCandidates();
   void separateContacts(const CpuState<Real>& before, CpuState<Real>& after,
@@ -62,6 +63,7 @@ class SelfCollision {
   clothsim::SelfCollision mode_ = clothsim::SelfCollision::off;
   SelfParams<Real> params_{};
   std::vector<Real> distances_;
+  std::vector<Vec3<Real>> places_;  // at rest [m]; empty without meshes
   std::vector<std::uint32_t> cutMasks_;
   bool hasNearCodes_ = false;
   bool isHashed_ = false;

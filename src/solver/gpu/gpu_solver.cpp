@@ -31,6 +31,7 @@ GpuSolver::GpuSolver(const Cloth& cloth, const Scene& scene, const GpuOptions& o
   checkFits(restLengths.size(), sizeof(float), "rest lengths");
   restLengths_ = gl::Buffer<float>("rest lengths", std::span<const float>(restLengths));
   restLengthTexture_ = gl::BufferTexture("rest lengths", restLengths_.name(), GL_R32F);
+  lists_ = GpuMeshLists(cloth);
   for (std::size_t i = 0; i < 2; ++i) {
     positions_[i] = ParticleArray("positions " + std::to_string(i), count);
     velocities_[i] = ParticleArray("velocities " + std::to_string(i), count);
@@ -300,6 +301,7 @@ void GpuSolver::convertVelocities() {
   cuts_.bind();
   bindState();
   restLengthTexture_.bind(REST_LENGTHS_UNIT);
+  lists_.bind();
   for (std::size_t grid = 0; grid < cloth_->grids().size(); ++grid) {
     stepSlots_.bindUniformRange(STEP_PARAMS_BINDING, grid, 1);
     run(*gridPrograms_[grid].kick, "kick", cloth_->grids()[grid]);
@@ -312,6 +314,7 @@ void GpuSolver::step(int count) {
   convertVelocities();
   forces_.bindStorage(FORCES_BINDING);
   restLengthTexture_.bind(REST_LENGTHS_UNIT);
+  lists_.bind();
   colliderTexture_.bind(COLLIDERS_UNIT);
   pinStartTexture_.bind(PIN_STARTS_UNIT);
   pinMotionTexture_.bind(PIN_MOTIONS_UNIT);
@@ -387,7 +390,7 @@ void GpuSolver::setCuts(const Cuts& cuts) {
 void GpuSolver::setPin(std::uint32_t particle, bool pinned) {
   Particle4 x = positions(particle, 1)[0];
   const Particle4 atRest;
-  x.w = pinned ? 0.0f : static_cast<float>(1 / cloth_->grids()[cloth_->gridOf(particle)].particleMass);
+  x.w = pinned ? 0.0f : static_cast<float>(1 / cloth_->massOf(particle));
   positions_[now_].buffer.upload({&x, 1}, particle);
   velocities_[now_].buffer.upload({&atRest, 1}, particle);
   leavePath(offPath_, particle);

@@ -11,6 +11,7 @@
 #include "gl/context.h"
 #include "gl/program.h"
 #include "solver/gpu/hand.h"
+#include "solver/gpu/mesh_lists.h"
 #include "solver/gpu/particle_array.h"
 #include "solver/gpu/pass_programs.h"
 #include "solver/gpu/pass_runner.h"
@@ -98,6 +99,7 @@ class GpuSolver final : public Solver {
   gl::Buffer<Particle4> forces_;
   gl::Buffer<float> restLengths_;
   gl::BufferTexture restLengthTexture_;
+  GpuMeshLists lists_;
   gl::Buffer<StepSlot> stepSlots_;               // a batch of steps, each with all grids
   gl::Buffer<ColliderParams<float>> colliders_;  // the same batch, each with all colliders
   gl::BufferTexture colliderTexture_;

@@ -21,6 +21,7 @@ PassFeatures featuresOf(const Scene& scene, const Cloth& cloth, std::size_t grid
   features.movingPins = !scene.cloths[gridIndex].pinMotion.empty();
   features.restLengthTable = grid.hasRestLengthTable;
   features.material = grid.hasMaterial;
+  features.mesh = grid.isMesh;
   for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot)
     if (grid.slotEnabled[slot]) features.enabledSlots |= 1u << slot;
   return features;
@@ -37,6 +38,7 @@ gl::Defines definesFor(const PassFeatures& features) {
           {"HAS_MOVING_PINS", std::to_string(features.movingPins)},
           {"HAS_REST_LENGTH_TABLE", std::to_string(features.restLengthTable)},
           {"HAS_MATERIAL", std::to_string(features.material)},
+          {"HAS_MESH", std::to_string(features.mesh)},
           {"HAS_HOLD", std::to_string(features.hold)},
           {"HAS_JET", std::to_string(features.jet)},
           {"HAS_CUTS", std::to_string(features.cuts)},
@@ -57,6 +59,7 @@ PassFeatures featuresOfPass(const std::string& pass, const PassFeatures& all) {
     features.restLengthTable = all.restLengthTable;
     features.enabledSlots = all.enabledSlots;
     features.material = all.material;
+    features.mesh = all.mesh;
     features.jet = all.jet;
     features.cuts = all.cuts;
   }
@@ -71,6 +74,7 @@ PassFeatures featuresOfPass(const std::string& pass, const PassFeatures& all) {
     features.coulombFriction = all.coulombFriction;
   }
   if (pass == "limit") {
+    features.mesh = all.mesh;
     features.restLengthTable = all.restLengthTable;
     features.cuts = all.cuts;
   }

@@ -16,7 +16,7 @@ namespace clothsim {
 
 struct PassFeatures {
   bool wind = false, airResistance = false, movingColliders = false, coulombFriction = false,
-       movingPins = false, restLengthTable = false, material = false;
+       movingPins = false, restLengthTable = false, material = false, mesh = false;
   bool hold = false, jet = false, cuts = false;  // a hand's doing
   std::uint32_t colliderTypes = 0;               // one bit a COLLIDER_... type of shared/step_params.h
   std::uint32_t enabledSlots = 0;                // one bit a SpringSlot

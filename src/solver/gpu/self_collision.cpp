@@ -26,6 +26,7 @@ const gl::Program* GpuSelfCollision::program(const std::string& pass, const Vari
     features.groupRows = groupRows_;
     gl::Defines defines = definesFor(features);
     defines.emplace_back("SELF_ROBUST", std::to_string(variant.robust));
+    defines.emplace_back("SELF_HAS_MESH", std::to_string(variant.mesh));
     defines.emplace_back("SELF_NEAR_CODES", std::to_string(variant.nearCodes));
     gl::Program made = gl::Program::makeCompute("sim/self/" + pass + ".comp", defines);
     found = programs_.emplace(std::pair{pass, variant}, std::move(made)).first;
@@ -51,7 +52,8 @@ void GpuSelfCollision::configure(const Scene& scene) {
 // Cuts make neighbours strangers, whose distance is that at rest. Passes that look at no pair are the same
 // for all of it.
 void GpuSelfCollision::choosePrograms() {
-  const Variant any, mode{isRobust(), false, false}, pairs{isRobust(), hasNearCodes_ || cut_, cut_};
+  const Variant any, mode{isRobust(), false, false, false},
+      pairs{isRobust(), hasNearCodes_ || cut_, cut_, cloth_->hasMesh()};
   now_.check = program("check", mode);
   now_.plan = program("plan", any);
   now_.clear = program("clear", any);

@@ -54,7 +54,7 @@ class GpuSelfCollision {
                   guardedSteps = 0;
   };
   struct Variant {  // of a program
-    bool robust = false, nearCodes = false, cuts = false;
+    bool robust = false, nearCodes = false, cuts = false, mesh = false;
     friend auto operator<=>(const Variant&, const Variant&) = default;
   };
   struct Programs {

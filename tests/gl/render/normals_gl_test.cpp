@@ -45,7 +45,7 @@ Measured measure(const Cloth& cloth, const Surface& surface, const Cuts& cuts = 
   gl::Defines defines;
   if (!cuts.empty()) defines.emplace_back("CUTS", "");
   if (strain) defines.emplace_back("STRAIN", "");
-  mesh.computeNormals(gl::Program::makeCompute("render/normals.comp", defines), buffer.name());
+  mesh.computeNormals({gl::Program::makeCompute("render/normals.comp", defines)}, buffer.name());
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   return {mesh.normals().download(), mesh.tangents().download()};
 }

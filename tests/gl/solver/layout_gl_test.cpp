@@ -10,6 +10,7 @@
 #include "gl/gl_test.h"
 #include "gl/program.h"
 #include "solver/gpu/pass_programs.h"
+#include "solver/mesh_lists.h"
 #include "solver/pin_paths.h"
 #include "solver/step_params.h"
 #include "solver/trouble.h"
@@ -96,6 +97,18 @@ TEST_F(LayoutTest, OfStepParamsIsTheDrivers) {
             static_cast<GLint>(offsetof(Step, limitFactor)));
   EXPECT_EQ(uniformOffset(*programs.kick, "step.kickTime"), static_cast<GLint>(offsetof(Step, kickTime)));
   EXPECT_EQ(blockSize(*programs.step, "StepBlock"), static_cast<GLint>(sizeof(Step)));
+}
+
+TEST_F(LayoutTest, OfWhatMeshesAddToStepParamsIsTheDrivers) {
+  PassFeatures features = everything();
+  features.mesh = true;
+  PassLibrary library;
+  EXPECT_EQ(uniformOffset(*library.programsFor(features).step, "step.maxStretch"),
+            static_cast<GLint>(offsetof(Step, maxStretch)));
+  EXPECT_EQ(sizeof(MeshLists<float>::Starts), 16u) << "a texel";
+  EXPECT_EQ(sizeof(MeshLists<float>::SpringAt), 16u);
+  EXPECT_EQ(sizeof(MeshLists<float>::LimitedSpring), 16u);
+  EXPECT_EQ(sizeof(MeshLists<float>::HingeParams), HINGE_ROWS * 16u);
 }
 
 TEST_F(LayoutTest, OfHandParamsIsTheDrivers) {

@@ -5,6 +5,9 @@
 #include <sstream>
 
 #include "export/formats.h"
+#include "scene/mesh_shape.h"
+#include "solver/solver.h"
+#include "support/mesh_sheet.h"
 #include "unit/export/small_cloth.h"
 
 namespace clothsim {
@@ -99,6 +102,24 @@ TEST_F(MeshFormats, PlyIsAsLongAsItsHeaderSaysAndHoldsTheParticles) {
   const Particle4& x = state_.positions[5];
   const float expected[8] = {x.x, x.y, x.z, 0, 1, 0, 1, 1};
   for (int i = 0; i < 8; ++i) EXPECT_EQ(vertex[i], expected[i]) << "property " << i;
+}
+
+TEST(ObjFile, OfAMeshIsReadAsTheSameMesh) {
+  Scene scene = test::meshScene({.disorder = 0.2});
+  const std::string withCoordinates =
+      "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0.1 0.25\nvt 0.9 0.25\nvt 1 0.75\nvt 0 1\n"
+      "f 1/1 2/2 3/3\nf 1/1 3/3 4/4\n";
+  for (const std::string& text : {test::meshSheetText({.disorder = 0.2}), withCoordinates}) {
+    scene.cloths[0].mesh = test::meshFile(text);
+    const Cloth cloth(scene);
+    const auto before = meshShapeOf(scene.cloths[0].mesh);
+    const auto after = meshShapeOf(test::meshFile(formatObj(initialState(cloth, scene), cloth)));
+    EXPECT_EQ(after->triangles, before->triangles);
+    EXPECT_EQ(after->points, before->points);
+    for (std::size_t i = 0; i < before->points.size(); ++i)
+      for (const std::size_t k : {0, 1})
+        EXPECT_NEAR(after->textureCoordinates[i][k], before->textureCoordinates[i][k], 1e-6);
+  }
 }
 
 }  // namespace

@@ -26,8 +26,8 @@ struct Room {
 // A room is a folder below src/. The innermost folder named here is the one that a file belongs to.
 const std::map<std::string, Room> rooms{
     {"core", {{}, {}}},
-    {"scene", {{"core"}, {"nlohmann"}}},
-    {"cloth", {{"core", "scene"}, {"tinyobj"}}},
+    {"scene", {{"core"}, {"nlohmann", "tinyobj"}}},
+    {"cloth", {{"core", "scene"}, {}}},
     {"solver", {{"core", "scene", "cloth"}, {}}},
     {"solver/cpu", {{"core", "scene", "cloth", "solver"}, {"omp"}}},
     {"gl", {{"core"}, {"opengl"}}},

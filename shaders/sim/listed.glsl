@@ -1,0 +1,64 @@
+// Forces on the particles of meshes, gathered over lists in ascending order (src/solver/mesh_lists.h); the twin is
+// src/solver/cpu/listed_forces.cpp.
+#include "shared/mesh_lists.h"
+
+layout(binding = LIST_STARTS_UNIT) uniform usamplerBuffer listStarts;
+layout(binding = LISTED_SPRINGS_UNIT) uniform usamplerBuffer listedSprings;
+layout(binding = LISTED_NUMBERS_UNIT) uniform usamplerBuffer listedNumbers;
+layout(binding = HINGES_UNIT) uniform usamplerBuffer hinges;
+layout(binding = LISTED_TRIANGLES_UNIT) uniform usamplerBuffer listedTriangles;
+
+// Every spring is watched once, at its owner.
+vec3 gatherListedSprings(uint i, uint first, uint end) {
+  vec3 x = positionAt(i).xyz;
+  bool tooLong = false;
+  precise vec3 f = vec3(0.0);
+  for (uint n = first; n < end; ++n) {
+    uvec4 spring = texelFetch(listedSprings, int(n));
+    float rest = uintBitsToFloat(spring.w);
+    vec3 other = positionAt(spring.x).xyz;
+    precise vec3 d = other - x;
+    precise float lengthSquared = sumOfProducts(d, d);
+    precise float longest = step.maxStretch * rest;
+    precise float longestSquared = longest * longest;
+    tooLong = tooLong || (spring.x < i && isBeyond(lengthSquared, longestSquared));
+    f = f + springForce(x, other, uintBitsToFloat(spring.z), rest);
+  }
+  if (tooLong) noteTrouble(PASS_FORCES, i, REASON_RUNAWAY_STRAIN);
+  return f;
+}
+
+// -c_i sum c_j (x_j - x_0): the differences are small, and the c sum to 0.
+vec3 addHinges(uint first, uint end, vec3 force) {
+  precise vec3 f = force;
+  for (uint n = first; n < end; ++n) {
+    uint number = texelFetch(listedNumbers, int(n)).x;
+    int row = int(number / 4u) * HINGE_ROWS;
+    uvec4 corners = texelFetch(hinges, row);
+    vec4 c = uintBitsToFloat(texelFetch(hinges, row + 1));
+    vec3 origin = positionAt(corners.x).xyz;
+    precise vec3 b = c.y * (positionAt(corners.y).xyz - origin);
+    precise vec3 p = c.z * (positionAt(corners.z).xyz - origin);
+    precise vec3 q = c.w * (positionAt(corners.w).xyz - origin);
+    precise vec3 bent = (b + p) + q;
+    f = f - c[number % 4u] * bent;
+  }
+  return f;
+}
+
+vec3 addListedTriangles(uint first, uint end, vec3 force) {
+  precise vec3 f = force;
+  for (uint n = first; n < end; ++n) {
+    uvec4 corners = texelFetch(listedTriangles, int(texelFetch(listedNumbers, int(n)).x));
+    f = f + windForce(corners.x, corners.y, corners.z);
+  }
+  return f;
+}
+
+vec3 gatherListedForces(uint i) {
+  uvec4 first = texelFetch(listStarts, int(i)), end = texelFetch(listStarts, int(i) + 1);
+  vec3 f = gatherListedSprings(i, first.x, end.x);
+  f = addHinges(first.y, end.y, f);
+  if (hasWind) f = addListedTriangles(first.z, end.z, f);
+  return f;
+}

@@ -1,0 +1,17 @@
+// What the normals pass of a mesh looks at around each particle.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cloth/cloth.h"
+
+namespace clothsim {
+
+// One array of words, for mesh_normals.comp. First for each particle of the mesh, and once behind the last,
+// where its corners begin: of every triangle around it the two other corners in their order, as particles.
+// Behind those for each particle MESH_RING particles about `reach` [m] away over the mesh, spread around it;
+// near a border the particle itself stands for those that are not there.
+[[nodiscard]] std::vector<std::uint32_t> meshNeighbours(const Cloth& cloth, const Grid& mesh, double reach);
+
+}  // namespace clothsim

@@ -1,0 +1,12 @@
+// Forces on the particles of meshes, gathered over lists; the twin of shaders/sim/listed.glsl.
+#pragma once
+
+#include "solver/cpu/passes.h"
+
+namespace clothsim::cpu {
+
+// Springs, bending and wind on a stretch of a mesh, over the zeros that are there.
+void gatherListedForces(const PassArguments<float>& arguments, int row);
+void gatherListedForces(const PassArguments<double>& arguments, int row);
+
+}  // namespace clothsim::cpu

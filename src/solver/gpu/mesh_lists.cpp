@@ -1,0 +1,52 @@
+#include "solver/gpu/mesh_lists.h"
+
+#include <cstring>
+#include <span>
+#include <vector>
+
+#include "solver/gpu/particle_array.h"
+
+namespace clothsim {
+
+template <class Element>
+GpuMeshLists::Texels GpuMeshLists::texels(const char* label, const std::vector<Element>& elements) {
+  using Words = std::array<std::uint32_t, 4>;
+  static_assert(sizeof(Element) % sizeof(Words) == 0, "elements are whole texels");
+  // A cloth without hinges, or without springs, still has something to bind.
+  std::vector<Words> words(std::max<std::size_t>(1, elements.size() * sizeof(Element) / sizeof(Words)));
+  checkFits(words.size(), sizeof(Words), label);
+  if (!elements.empty()) std::memcpy(words.data(), elements.data(), elements.size() * sizeof(Element));
+  Texels result;
+  result.buffer = gl::Buffer<Words>(label, std::span<const Words>(words));
+  result.texture = gl::BufferTexture(label, result.buffer.name(), GL_RGBA32UI);
+  return result;
+}
+
+GpuMeshLists::GpuMeshLists(const Cloth& cloth) : any_(cloth.hasMesh()) {
+  if (!any_) return;
+  const MeshLists<float> lists = makeMeshLists<float>(cloth);
+  starts_ = texels("starts of lists", lists.starts);
+  springs_ = texels("springs at particles", lists.springs);
+  hinges_ = texels("hinges", lists.hinges);
+  triangles_ = texels("triangles of meshes", lists.triangles);
+  limited_ = texels("springs of meshes", lists.limited);
+  checkFits(lists.numbers.size(), sizeof(std::uint32_t), "numbers in lists");
+  numbers_ = gl::Buffer<std::uint32_t>("numbers in lists", std::span<const std::uint32_t>(lists.numbers));
+  numbersTexture_ = gl::BufferTexture("numbers in lists", numbers_.name(), GL_R32UI);
+  places_ =
+      gl::Buffer<std::array<float, 4>>("places at rest", std::span<const std::array<float, 4>>(lists.places));
+  placesTexture_ = gl::BufferTexture("places at rest", places_.name(), GL_RGBA32F);
+}
+
+void GpuMeshLists::bind() const {
+  if (!any_) return;
+  starts_.texture.bind(LIST_STARTS_UNIT);
+  springs_.texture.bind(LISTED_SPRINGS_UNIT);
+  numbersTexture_.bind(LISTED_NUMBERS_UNIT);
+  hinges_.texture.bind(HINGES_UNIT);
+  triangles_.texture.bind(LISTED_TRIANGLES_UNIT);
+  limited_.texture.bind(LIMITED_SPRINGS_UNIT);
+  placesTexture_.bind(REST_PLACES_UNIT);
+}
+
+}  // namespace clothsim

@@ -1,0 +1,55 @@
+#include "solver/mesh_lists.h"
+
+#include "core/exact_math.h"
+#include "solver/step_params.h"
+
+namespace clothsim {
+namespace {
+
+template <class Real>
+Real restLengthOf(const Cloth& cloth, const ListedSpring& spring) {
+  const Vec3<Real> d = startPosition<Real>(cloth, spring.b) - startPosition<Real>(cloth, spring.a);
+  const Real lengthSquared = dot(d, d);
+  return lengthSquared * inverseSquareRoot(lengthSquared);
+}
+
+}  // namespace
+
+template <class Real>
+MeshLists<Real> makeMeshLists(const Cloth& cloth) {
+  MeshLists<Real> result;
+  if (!cloth.hasMesh()) return result;
+  const SpringLists& lists = cloth.lists();
+  const auto hingeNumbers = static_cast<std::uint32_t>(lists.hingesOf.entries.size());
+  for (std::size_t i = 0; i <= cloth.particleCount(); ++i)
+    result.starts.push_back(
+        {lists.springsOf.starts[i], lists.hingesOf.starts[i], hingeNumbers + lists.trianglesOf.starts[i], 0});
+  for (const ListedSpring& spring : lists.springs)
+    result.limited.push_back({spring.a, spring.b, restLengthOf<Real>(cloth, spring), 0});
+  for (std::uint32_t i = 0; i < cloth.particleCount(); ++i) {
+    const Vec3<Real> place = startPosition<Real>(cloth, i);
+    result.places.push_back({place.x, place.y, place.z, 0});
+    for (std::uint32_t at = lists.springsOf.starts[i]; at < lists.springsOf.starts[i + 1]; ++at) {
+      const std::uint32_t number = lists.springsOf.entries[at];
+      const ListedSpring& spring = lists.springs[number];
+      const std::uint32_t kind = spring.kind == SpringKind::structural ? STRUCTURAL_SPRING : 0u;
+      result.springs.push_back({spring.a == i ? spring.b : spring.a, number | kind,
+                                static_cast<Real>(spring.stiffness), result.limited[number].restLength});
+    }
+  }
+  result.numbers = lists.hingesOf.entries;
+  result.numbers.insert(result.numbers.end(), lists.trianglesOf.entries.begin(),
+                        lists.trianglesOf.entries.end());
+  for (const Hinge& hinge : lists.hinges) {
+    const auto& c = hinge.coefficients;
+    const auto real = [](double x) { return static_cast<Real>(x); };
+    result.hinges.push_back({hinge.corners, {real(c[0]), real(c[1]), real(c[2]), real(c[3])}});
+  }
+  for (const auto& [a, b, c] : lists.triangles) result.triangles.push_back({a, b, c, 0});
+  return result;
+}
+
+template MeshLists<float> makeMeshLists(const Cloth&);
+template MeshLists<double> makeMeshLists(const Cloth&);
+
+}  // namespace clothsim

@@ -1,0 +1,49 @@
+// The lists of meshes (cloth/spring_lists.h) as both backends step with them: rounded once, with rest lengths
+// measured by the step's own arithmetic, so that springs at rest exert no force at all. The layout for float
+// is that of the buffers on the GPU.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "cloth/cloth.h"
+#include "shared/mesh_lists.h"
+
+namespace clothsim {
+
+template <class Real>
+struct MeshLists {
+  struct Starts {  // of what a particle gathers over
+    std::uint32_t springs, hinges, triangles, unused;
+  };
+  struct SpringAt {
+    std::uint32_t other;   // the other end
+    std::uint32_t number;  // in SpringLists::springs, with STRUCTURAL_SPRING
+    Real stiffness, restLength;
+  };
+  struct HingeParams {
+    std::array<std::uint32_t, 4> corners;
+    std::array<Real, 4> coefficients;
+  };
+  struct LimitedSpring {
+    std::uint32_t a, b;
+    Real restLength, unused;
+  };
+
+  std::vector<Starts> starts;  // one more than particles
+  std::vector<SpringAt> springs;
+  std::vector<std::uint32_t> numbers;  // of hinges, then of triangles
+  std::vector<HingeParams> hinges;
+  std::vector<std::array<std::uint32_t, 4>> triangles;
+  std::vector<LimitedSpring> limited;       // by number
+  std::vector<std::array<Real, 4>> places;  // where particles start [m]
+
+  [[nodiscard]] bool empty() const { return starts.empty(); }
+};
+
+// Empty without meshes.
+template <class Real>
+[[nodiscard]] MeshLists<Real> makeMeshLists(const Cloth& cloth);
+
+}  // namespace clothsim
