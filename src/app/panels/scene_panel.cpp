@@ -35,7 +35,8 @@ void ScenePanel::draw(PanelContext& context) {
   if (!context.draft.description.empty()) wrappedText(context.draft.description, theme::quiet);
   if (wideButton("Reset to what was loaded")) context.requests.resetScene = true;
   helpTip("Takes back every parameter, and starts again.");
-  if (pathLine("save", "my_scene.json", save_, sizeof save_, "Save")) context.requests.saveSceneAs = save_;
+  if (pathLine("save", "my_scene.json, cloth.obj", save_, sizeof save_, "Save"))
+    context.requests.saveSceneAs = save_;
   helpTip(
       "Writes the scene with its edits as JSON (Ctrl+S). Hands, pins and cuts are in the recording "
       "instead (Ctrl+Shift+S). A name that ends with .obj, .ply, .csv or .state takes the cloth as it is "
