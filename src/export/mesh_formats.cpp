@@ -31,6 +31,12 @@ Vec3f xyz(const Particle4& particle) { return {particle.x, particle.y, particle.
 
 }  // namespace
 
+std::vector<std::array<float, 2>> pictureCoordinates(const Cloth& cloth) {
+  std::vector<std::array<float, 2>> coordinates = cloth.textureCoordinates();
+  for (std::array<float, 2>& uv : coordinates) uv[1] = 1 - uv[1];
+  return coordinates;
+}
+
 std::vector<Vec3f> vertexNormals(const State& state, const Cloth& cloth) {
   std::vector<Vec3d> sums(state.positions.size());
   for (const auto& triangle : remainingTriangles(cloth, state.cuts)) {
@@ -66,7 +72,7 @@ std::string formatCsv(const State& state) {
 std::string formatObj(const State& state, const Cloth& cloth) {
   std::string text = "# clothsim, step " + std::to_string(state.step) + ", metres, y up\n";
   for (const Particle4& x : state.positions) appendLine(text, "v", {x.x, x.y, x.z});
-  for (const auto& uv : cloth.textureCoordinates()) appendLine(text, "vt", {uv[0], uv[1]});
+  for (const auto& uv : pictureCoordinates(cloth)) appendLine(text, "vt", {uv[0], uv[1]});
   for (const Vec3f& n : vertexNormals(state, cloth)) appendLine(text, "vn", {n.x, n.y, n.z});
   for (const auto& triangle : remainingTriangles(cloth, state.cuts)) {
     text += 'f';
@@ -84,7 +90,7 @@ std::string formatObj(const State& state, const Cloth& cloth) {
 
 std::string formatPly(const State& state, const Cloth& cloth) {
   const auto triangles = remainingTriangles(cloth, state.cuts);
-  const auto textureCoordinates = cloth.textureCoordinates();
+  const auto textureCoordinates = pictureCoordinates(cloth);
   const auto normals = vertexNormals(state, cloth);
 
   std::string bytes = "ply\nformat binary_little_endian 1.0\ncomment clothsim, step " +

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/files.h"
+#include "export/formats.h"
 #include "export/sequence_formats.h"
 #include "export/text_numbers.h"
 
@@ -67,7 +68,7 @@ class UsdWriter final : public SequenceWriter {
         "\n)\n\ndef Mesh \"Cloth\"\n{\n    uniform bool doubleSided = 1\n"
         "    uniform token subdivisionScheme = \"none\"\n    texCoord2f[] primvars:st = ");
     std::string uvs;
-    appendArray(uvs, cloth.textureCoordinates(), [&](const std::array<float, 2>& uv) {
+    appendArray(uvs, pictureCoordinates(cloth), [&](const std::array<float, 2>& uv) {
       uvs += '(';
       appendNumber(uvs, uv[0]);
       uvs += ", ";

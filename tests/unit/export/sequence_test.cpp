@@ -88,7 +88,7 @@ TEST_F(Sequence, UsdTellsUnitsAxisFrameRateAndTheFrameOfEachSample) {
        {"metersPerUnit = 1\n", "upAxis = \"Y\"\n", "startTimeCode = 0\n", "endTimeCode = 3\n",
         "timeCodesPerSecond = 60\n", "        3: [(0, 1.10000002, 0), (1, 1.10000002, 0)",
         "faceVertexCounts = [3, 3, 3, 3]\n", "faceVertexIndices = [0, 3, 1, 1, 3, 4, 1, 4, 2, 2, 4, 5]\n",
-        "texCoord2f[] primvars:st = [(0, 0), (0.5, 0)", "        0: [(0, 1, 0), (2, 1, 1)],\n"})
+        "texCoord2f[] primvars:st = [(0, 1), (0.5, 1)", "        0: [(0, 1, 0), (2, 1, 1)],\n"})
     EXPECT_TRUE(has(text, part)) << part << "\nis missing in\n" << text;
 }
 
