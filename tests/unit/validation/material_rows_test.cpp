@@ -151,9 +151,12 @@ TEST(RowCantileverStrip, BendsToTheElasticaWithSecondOrder) {
   const Tip coarse = cantileverTip<double>(8), middle = cantileverTip<double>(16),
             fine = cantileverTip<double>(32);
   expectTip(fine, "double");
-  expectTip(cantileverTip<float>(32), "binary32");
   expectNear({cantilever, "error ratio, N = 8 to 16", "double", ""}, error(coarse) / error(middle), 4, 0.5);
   expectNear({cantilever, "error ratio, N = 16 to 32", "double", ""}, error(middle) / error(fine), 4, 0.5);
+}
+
+TEST(RowCantileverStrip, LongBendsToTheElasticaInBinary32Too) {
+  expectTip(cantileverTip<float>(32), "binary32");
 }
 
 }  // namespace
