@@ -27,7 +27,8 @@ class SequenceWriter {
 // .pc2: PC2 point cache, positions of the particles [m], little-endian; and beside cloth.pc2 the mesh that it
 // moves, cloth_rest.obj, the first frame with uv. .usda: USD as text, one mesh with animated points, in
 // metres, y up, with the frame rate. A mesh that is cut on the way changes its triangles in .usda, and keeps
-// them in .pc2.
+// them in .pc2. A PC2 header tells `every` as frames a sample; Blender takes each sample for a frame: its
+// modifier's Frame Scale is to be 1 / every.
 [[nodiscard]] bool isSequence(const std::filesystem::path& path);
 
 // @throws UsageError for another extension, InputOutputError
