@@ -93,12 +93,14 @@ void declareRun(CLI::App& app, Arguments& a, Action& action) {
   CLI::Option* frames = addFrames(*run, a, false);
   addResolution(*run, a);
   CLI::Option* backend = addBackend(*run, a);
-  run->add_option(
-         "--save", a.saves,
-         "write the state: .csv .ply .obj, or .state (exact); with %04d in the name every K-th frame")
+  run->add_option("--save", a.saves,
+                  "write the last state: .csv .ply .obj, or .state (exact); with %04d in the name every K-th "
+                  "frame; every "
+                  "K-th frame in one file: .pc2 (with the mesh it moves, FILE_rest.obj) or .usda")
       ->type_name("FILE")
       ->allow_extra_args(false);
-  run->add_option("--every", a.every, "K for numbered files")->check(CLI::Range(1, 1'000'000));
+  run->add_option("--every", a.every, "K for numbered files, .pc2 and .usda")
+      ->check(CLI::Range(1, 1'000'000));
   CLI::Option* from = run->add_option("--from", a.from, "begin with a saved .state")->type_name("STATE");
   CLI::Option* jitter =
       run->add_option("--jitter", a.jitter,

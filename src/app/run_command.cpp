@@ -17,6 +17,7 @@
 #include "core/interrupt.h"
 #include "core/progress.h"
 #include "export/export.h"
+#include "export/sequence.h"
 #include "gl/context.h"
 #include "solver/cpu/synchronized.h"
 #include "solver/measure.h"
@@ -28,21 +29,47 @@ using Clock = std::chrono::steady_clock;
 
 void checkSaves(const RunOptions& options) {
   for (const std::string& save : options.saves)
-    if (!canSaveStateAs(save))
-      throw UsageError("--save " + save + ": the extension is none of .csv, .ply, .obj, .state");
+    if (isSequence(save) && hasFrameNumber(save))
+      throw UsageError("--save " + save +
+                       ": a file of this kind holds all frames; leave the number out of its name");
+    else if (!isSequence(save) && !canSaveStateAs(save))
+      throw UsageError("--save " + save + ": the extension is none of .csv, .ply, .obj, .state, .pc2, .usda");
   for (const std::string& save : options.saves) checkWritable(save);
 }
 
-void saveFrame(const RunOptions& options, const Simulation& simulation, const State& state, int frame,
-               bool last) {
-  for (const std::string& save : options.saves) {
-    if (hasFrameNumber(save)) {
-      if (frame % options.every == 0) saveState(state, simulation.cloth(), numberedName(save, frame));
-    } else if (last) {
-      saveState(state, simulation.cloth(), save);
+// The files that --save asks for.
+class Saves {
+ public:
+  Saves(const RunOptions& options, const Simulation& simulation, int frames)
+      : options_(options), frames_(frames) {
+    const int every = options.every;
+    for (const std::string& save : options.saves)
+      if (isSequence(save))
+        sequences_.push_back(
+            makeSequenceWriter(save, simulation.cloth(),
+                               {simulation.scene().solver.framesPerSec, every, frames / every * every}));
+  }
+
+  void add(const Simulation& simulation, const State& state, int frame) {
+    const bool isDue = frame % options_.every == 0;
+    for (const auto& sequence : sequences_)
+      if (isDue) sequence->addFrame(state);
+    for (const std::string& save : options_.saves) {
+      if (isSequence(save)) continue;
+      if (hasFrameNumber(save) ? isDue : frame == frames_)
+        saveState(state, simulation.cloth(), numberedName(save, frame));
     }
   }
-}
+
+  void finish() {
+    for (const auto& sequence : sequences_) sequence->close();
+  }
+
+ private:
+  const RunOptions& options_;
+  int frames_;
+  std::vector<std::unique_ptr<SequenceWriter>> sequences_;
+};
 
 // A state file may hold anything; what the steps make of it is the watchdog's affair.
 void checkStart(const RunOptions& options, const Measures& measures) {
@@ -211,7 +238,8 @@ int runCommand(const RunOptions& options) {
   if (options.checkCrossings) counter.emplace(course.simulation().cloth());
   CrossingSummary crossings;
   if (counter) crossings.add(0, counter->count(tally.state));
-  saveFrame(options, course.simulation(), tally.state, 0, frames == 0);
+  Saves saves(options, course.simulation(), frames);
+  saves.add(course.simulation(), tally.state, 0);
   Progress progress("simulating", frames);
   for (int frame = 1; frame <= frames; ++frame) {
     stopIfInterrupted();
@@ -230,9 +258,10 @@ int runCommand(const RunOptions& options) {
     if (counter && std::exchange(countedCloth, course.clothGeneration()) != course.clothGeneration())
       counter.emplace(course.simulation().cloth());
     if (counter) crossings.add(frame, counter->count(tally.state));
-    saveFrame(options, course.simulation(), tally.state, frame, frame == frames);
+    saves.add(course.simulation(), tally.state, frame);
     progress.update(frame);
   }
+  saves.finish();
   progress.finish();
 
   nlohmann::ordered_json json = summary(options, course, tally);

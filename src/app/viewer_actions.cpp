@@ -4,6 +4,8 @@
 #include "app/numbered_files.h"
 #include "app/viewer_facts.h"
 #include "app/viewer_program.h"
+#include "export/export.h"
+#include "export/sequence.h"
 #include "render/shading_models.h"
 #include "scene/scene_io.h"
 
@@ -206,13 +208,24 @@ void Viewer::openScene(const std::string& source) {
   notice_ = {};
 }
 
-// Files that were there before are written over only when that is asked for twice.
+// The scene, or by the name's ending the cloth as it is now. Files that were there before are written over
+// only when that is asked for twice.
 void Viewer::saveSceneAs(const std::filesystem::path& path) {
+  if (isSequence(path))
+    return complain(
+        path.string() +
+        " would hold many frames: save what was done (Ctrl+Shift+S), and clothsim run --replay FILE "
+        "--save " +
+        path.filename().string() + " makes it of that");
   if (std::filesystem::exists(path) && confirmed_ != path.string()) {
     confirmed_ = path.string();
     return complain(path.string() + " is there already; Save again writes over it");
   }
-  saveScene(open_->scene(), path);
+  Simulation& simulation = session().simulation();
+  if (canSaveStateAs(path))
+    saveState(simulation.solver().state(), simulation.cloth(), path);
+  else
+    saveScene(open_->scene(), path);
   confirmed_ = path.string();
   column_.scenes().remember(path.string());
   say("Saved " + path.string(), longNoticeSeconds);

@@ -11,6 +11,7 @@
 #include <memory>
 #include <optional>
 #include <system_error>
+#include <utility>
 
 #include "core/error.h"
 
@@ -42,40 +43,6 @@ std::uintmax_t checkedSize(const fs::path& path, std::uintmax_t largest) {
     throw InputOutputError(path.string() + ": has " + std::to_string(size) +
                            " bytes, more than the limit of " + std::to_string(largest));
   return size;
-}
-
-// Removes the temporary file unless the rename went well.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(fs::path path) : path_(std::move(path)) {}
-  ~TemporaryFile() {
-    std::error_code ignored;
-    if (!path_.empty()) fs::remove(path_, ignored);
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-  [[nodiscard]] const fs::path& path() const { return path_; }
-  void renameTo(const fs::path& target) {
-    std::error_code code;
-    fs::rename(path_, target, code);
-    if (code) throw failure(target, "cannot be written", code.value());
-    path_.clear();
-  }
-
- private:
-  fs::path path_;
-};
-
-void writeBytes(const fs::path& path, std::string_view bytes, const fs::path& nameInMessages) {
-  errno = 0;
-  File file(std::fopen(path.c_str(), "wb"));
-  if (!file) throw failure(nameInMessages, "cannot be written", errno);
-  const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size();
-  const int writeError = errno;
-  // A full disk may show only when the buffer is flushed by closing.
-  const bool closed = std::fclose(file.release()) == 0;
-  if (!written || !closed) throw failure(nameInMessages, "cannot be written", written ? errno : writeError);
 }
 
 struct FrameNumber {
@@ -118,21 +85,57 @@ std::string readFile(const fs::path& path, std::uintmax_t largest) {
   return bytes;
 }
 
-void writeFileAtomically(const fs::path& path, std::string_view bytes) {
+GrowingFile::GrowingFile(const fs::path& path) : path_(path) {
   std::error_code code;
   const fs::file_status status = fs::status(path, code);
   if (fs::is_directory(status)) throw InputOutputError(path.string() + ": is a folder, not a file");
-  if (fs::exists(status) && !fs::is_regular_file(status)) {
-    writeBytes(path, bytes, path);  // /dev/null and its kind must not be replaced by a file
-    return;
-  }
+  // /dev/null and its kind must not be replaced by a file.
+  const bool replaces = !fs::exists(status) || fs::is_regular_file(status);
   // Through a symbolic link to the file it names, as an ordinary write would.
-  const fs::path target =
-      fs::is_symlink(fs::symlink_status(path, code)) ? fs::weakly_canonical(path, code) : path;
-  TemporaryFile temporary(temporaryNameBeside(target));
-  writeBytes(temporary.path(), bytes, path);
-  if (fs::exists(status)) fs::permissions(temporary.path(), status.permissions(), code);
-  temporary.renameTo(target);
+  target_ = fs::is_symlink(fs::symlink_status(path, code)) ? fs::weakly_canonical(path, code) : path;
+  if (replaces) temporary_ = temporaryNameBeside(target_);
+  errno = 0;
+  file_ = std::fopen((replaces ? temporary_ : path).c_str(), "wb");
+  if (file_ == nullptr) throw failure(path_, "cannot be written", errno);
+  if (fs::exists(status) && replaces) fs::permissions(temporary_, status.permissions(), code);
+}
+
+GrowingFile::~GrowingFile() {
+  if (file_ != nullptr) std::fclose(file_);
+  std::error_code ignored;
+  if (!temporary_.empty()) fs::remove(temporary_, ignored);
+}
+
+void GrowingFile::append(std::string_view bytes) {
+  errno = 0;
+  if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size())
+    throw failure(path_, "cannot be written", errno);
+}
+
+void GrowingFile::overwrite(std::uint64_t offset, std::string_view bytes) {
+  errno = 0;
+  if (std::fseek(file_, static_cast<long>(offset), SEEK_SET) != 0)
+    throw failure(path_, "cannot be written", errno);
+  append(bytes);
+  if (std::fseek(file_, 0, SEEK_END) != 0) throw failure(path_, "cannot be written", errno);
+}
+
+void GrowingFile::close() {
+  errno = 0;
+  // A full disk may show only when the buffer is flushed by closing.
+  const bool closed = std::fclose(std::exchange(file_, nullptr)) == 0;
+  if (!closed) throw failure(path_, "cannot be written", errno);
+  if (temporary_.empty()) return;
+  std::error_code code;
+  fs::rename(temporary_, target_, code);
+  if (code) throw failure(path_, "cannot be written", code.value());
+  temporary_.clear();
+}
+
+void writeFileAtomically(const fs::path& path, std::string_view bytes) {
+  GrowingFile file(path);
+  file.append(bytes);
+  file.close();
 }
 
 void checkWritable(const fs::path& path) {

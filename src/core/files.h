@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -15,6 +16,27 @@ namespace clothsim {
 // Writes to a temporary name beside `path`, then renames: the old file stays until the new one is complete,
 // and a failure leaves no half file. @throws InputOutputError
 void writeFileAtomically(const std::filesystem::path& path, std::string_view bytes);
+
+// A file that grows piece by piece under a temporary name beside `path`, and takes the name when it is
+// complete.
+// @throws InputOutputError, from every function
+class GrowingFile {
+ public:
+  explicit GrowingFile(const std::filesystem::path& path);
+  ~GrowingFile();  // without close(): nothing is left of it
+  GrowingFile(const GrowingFile&) = delete;
+  GrowingFile& operator=(const GrowingFile&) = delete;
+
+  void append(std::string_view bytes);
+  // Of what was written before; what comes next is appended again.
+  void overwrite(std::uint64_t offset, std::string_view bytes);
+  void close();
+
+ private:
+  std::filesystem::path path_, target_;  // as given, and with links followed
+  std::filesystem::path temporary_;      // "" for /dev/null and its kind, which are written to directly
+  std::FILE* file_ = nullptr;
+};
 
 // For commands that write at the end of long work: fails at once when no file could be made at `path`.
 // @throws InputOutputError

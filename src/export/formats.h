@@ -1,6 +1,7 @@
 // The bytes of each format that saveState writes.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,10 @@ namespace clothsim {
 // `source` names the file in messages. @throws InputOutputError
 [[nodiscard]] State parseStateFile(const std::string& bytes, std::size_t particleCount,
                                    const std::string& source);
+
+// As OBJ, PLY and USD have them: v begins at the lower edge of a picture. The cloth's own begin at the upper
+// one.
+[[nodiscard]] std::vector<std::array<float, 2>> pictureCoordinates(const Cloth& cloth);
 
 // Unit normals from the triangles around each particle, weighted by their areas; +y where those cancel out.
 [[nodiscard]] std::vector<Vec3f> vertexNormals(const State& state, const Cloth& cloth);

@@ -1,27 +1,14 @@
-// CSV, OBJ and PLY. Numbers are written by std::to_chars with nine significant digits, which is printf's %.9g
-// in the C locale and enough to read every binary32 back exactly.
+// CSV, OBJ and PLY.
 #include <array>
 #include <bit>
-#include <charconv>
 #include <cmath>
 #include <initializer_list>
 
 #include "export/formats.h"
+#include "export/text_numbers.h"
 
 namespace clothsim {
 namespace {
-
-void appendNumber(std::string& text, float value) {
-  std::array<char, 32> digits;
-  const auto end =
-      std::to_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::general, 9).ptr;
-  text.append(digits.data(), end);
-}
-
-void appendIndex(std::string& text, std::size_t value) {
-  std::array<char, 24> digits;
-  text.append(digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr);
-}
 
 // "v 1 2 3\n"
 void appendLine(std::string& text, std::string_view keyword, std::initializer_list<float> values) {
@@ -40,20 +27,15 @@ void appendBytes(std::string& bytes, T value) {
   bytes.append(raw.data(), raw.size());
 }
 
-// Those of a mesh as its own file had them, with v upwards.
-std::vector<std::array<float, 2>> coordinatesForFiles(const Cloth& cloth) {
-  std::vector<std::array<float, 2>> coordinates = cloth.textureCoordinates();
-  for (const Grid& grid : cloth.grids())
-    for (std::uint32_t i = 0; grid.isMesh && i < grid.particleCount(); ++i) {
-      float& v = coordinates[grid.firstParticle + i][1];
-      v = 1 - v;
-    }
-  return coordinates;
-}
-
 Vec3f xyz(const Particle4& particle) { return {particle.x, particle.y, particle.z}; }
 
 }  // namespace
+
+std::vector<std::array<float, 2>> pictureCoordinates(const Cloth& cloth) {
+  std::vector<std::array<float, 2>> coordinates = cloth.textureCoordinates();
+  for (std::array<float, 2>& uv : coordinates) uv[1] = 1 - uv[1];
+  return coordinates;
+}
 
 std::vector<Vec3f> vertexNormals(const State& state, const Cloth& cloth) {
   std::vector<Vec3d> sums(state.positions.size());
@@ -88,9 +70,9 @@ std::string formatCsv(const State& state) {
 }
 
 std::string formatObj(const State& state, const Cloth& cloth) {
-  std::string text = "# clothsim, step " + std::to_string(state.step) + ", metres\n";
+  std::string text = "# clothsim, step " + std::to_string(state.step) + ", metres, y up\n";
   for (const Particle4& x : state.positions) appendLine(text, "v", {x.x, x.y, x.z});
-  for (const auto& uv : coordinatesForFiles(cloth)) appendLine(text, "vt", {uv[0], uv[1]});
+  for (const auto& uv : pictureCoordinates(cloth)) appendLine(text, "vt", {uv[0], uv[1]});
   for (const Vec3f& n : vertexNormals(state, cloth)) appendLine(text, "vn", {n.x, n.y, n.z});
   for (const auto& triangle : remainingTriangles(cloth, state.cuts)) {
     text += 'f';
@@ -108,11 +90,11 @@ std::string formatObj(const State& state, const Cloth& cloth) {
 
 std::string formatPly(const State& state, const Cloth& cloth) {
   const auto triangles = remainingTriangles(cloth, state.cuts);
-  const auto textureCoordinates = coordinatesForFiles(cloth);
+  const auto textureCoordinates = pictureCoordinates(cloth);
   const auto normals = vertexNormals(state, cloth);
 
   std::string bytes = "ply\nformat binary_little_endian 1.0\ncomment clothsim, step " +
-                      std::to_string(state.step) + ", metres\nelement vertex " +
+                      std::to_string(state.step) + ", metres, y up\nelement vertex " +
                       std::to_string(state.positions.size()) + "\n";
   // s and t are the names that Blender and MeshLab know texture coordinates by.
   for (const char* name : {"x", "y", "z", "nx", "ny", "nz", "s", "t"})

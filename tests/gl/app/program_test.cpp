@@ -229,8 +229,9 @@ TEST(Program, AnswersWrongUsageWithTwo) {
   for (const char* arguments :
        {"run", "run -f pinned2", "run -f pinned2 --frames many", "run -f pinned2 --frames -3", "fly",
         "run -f pinned2 --frames 1 --backend abacus", "run -f pinned2 --frames 1 --resolution big",
-        "run -f pinned2 --frames 1 --save cloth.docx", "render -f pinned2 --frames 1 --out clip.gif",
-        "render -f pinned2 --frames 1 --out a.png --size 0x0", "describe cloth.dampin"})
+        "run -f pinned2 --frames 1 --save cloth.docx", "run -f pinned2 --frames 1 --save cloth_%04d.pc2",
+        "render -f pinned2 --frames 1 --out clip.gif", "render -f pinned2 --frames 1 --out a.png --size 0x0",
+        "describe cloth.dampin"})
     EXPECT_EQ(clothsim(arguments).exitCode, 2) << arguments;
 }
 
@@ -290,15 +291,16 @@ TEST(Program, SavesNumberedStatesAndGoesOnFromOne) {
   const std::string at = folder.path().string();
   const std::string scene = "-f pinned2 --resolution 12x12 --backend cpu";
   ASSERT_EQ(clothsim("run " + scene + " --frames 6 --every 3 --save " + at + "/s%04d.state --save " + at +
-                     "/last.csv")
+                     "/last.csv --save " + at + "/all.pc2")
                 .exitCode,
             0);
-  for (const char* name : {"s0000.state", "s0003.state", "s0006.state", "last.csv"})
+  for (const char* name : {"s0000.state", "s0003.state", "s0006.state", "last.csv", "all_rest.obj"})
     EXPECT_TRUE(std::filesystem::exists(folder.path() / name)) << name;
   const std::string whole = jsonOf("run " + scene + " --frames 6 --json")["state_hash"];
   EXPECT_EQ(jsonOf("run " + scene + " --frames 3 --from " + at + "/s0003.state --json")["state_hash"], whole);
   const std::string csv = readFile(folder.path() / "last.csv");
   EXPECT_TRUE(csv.starts_with("index,x,y,z,vx,vy,vz\n"));
+  EXPECT_EQ(std::filesystem::file_size(folder.path() / "all.pc2"), 32 + 3 * 144 * 12u) << "frames 0, 3 and 6";
 }
 
 TEST(Program, RendersAStillAndNumberedPictures) {

@@ -86,6 +86,16 @@ TEST_F(MeshFormats, ObjHasAVertexATextureCoordinateAndANormalPerParticleAndCount
   EXPECT_EQ(faces, 4);
 }
 
+// As other programs put a picture on it: its lower edge is v = 0. The first row of the grid is its upper
+// edge.
+TEST_F(MeshFormats, ObjHasTheUpperLeftCornerOfAPictureAtTheFirstParticle) {
+  std::vector<std::string> coordinates;
+  for (const std::string& line : linesOf(formatObj(state_, cloth_)))
+    if (line.starts_with("vt ")) coordinates.push_back(line);
+  EXPECT_EQ(coordinates,
+            (std::vector<std::string>{"vt 0 1", "vt 0.5 1", "vt 1 1", "vt 0 0", "vt 0.5 0", "vt 1 0"}));
+}
+
 TEST_F(MeshFormats, PlyIsAsLongAsItsHeaderSaysAndHoldsTheParticles) {
   const std::string bytes = formatPly(state_, cloth_);
   const std::string endOfHeader = "end_header\n";
@@ -98,9 +108,9 @@ TEST_F(MeshFormats, PlyIsAsLongAsItsHeaderSaysAndHoldsTheParticles) {
 
   float vertex[8];
   std::memcpy(vertex, bytes.data() + body + 5 * sizeof vertex,
-              sizeof vertex);  // the last particle, corner (1, 1) of the uv
+              sizeof vertex);  // the last particle: the lower right corner of a picture
   const Particle4& x = state_.positions[5];
-  const float expected[8] = {x.x, x.y, x.z, 0, 1, 0, 1, 1};
+  const float expected[8] = {x.x, x.y, x.z, 0, 1, 0, 1, 0};
   for (int i = 0; i < 8; ++i) EXPECT_EQ(vertex[i], expected[i]) << "property " << i;
 }
 

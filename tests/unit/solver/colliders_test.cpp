@@ -1,5 +1,4 @@
-// Colliders of every shape: distances against brute force, the two laws of friction, nothing gets through,
-// and the rows of PHYSICS.md section 5 on contact.
+// Colliders of every shape: distances against brute force, the two laws of friction, nothing gets through.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,40 +9,16 @@
 #include "solver/cpu/cpu_solver.h"
 #include "solver/cpu/shapes.h"
 #include "solver/measure.h"
-#include "support/test_scenes.h"
+#include "support/lone_particle.h"
 
 namespace clothsim {
 namespace {
 
+using test::afterSteps;
+using test::particleScene;
 using test::sheetScene;
-using test::springScene;
 
 double length(Vec3d v) { return std::sqrt(dot(v, v)); }
-
-// One free particle, and one far away that keeps the spring slack.
-Scene particleScene(const Collider& collider, double timeStep, FrictionLaw law = FrictionLaw::cs184) {
-  Scene scene = springScene(1, 1e-9, 1, timeStep, Integrator::euler);
-  scene.cloths[0].pinned.clear();
-  scene.colliders = {collider};
-  scene.solver.frictionLaw = law;
-  return scene;
-}
-
-struct Particle {
-  Vec3d x, v;
-};
-
-// After `steps` steps; the velocity is the one at the end of the last.
-template <class Real = double>
-Particle afterSteps(const Scene& scene, Particle start, int steps = 1) {
-  const Cloth cloth(scene);
-  CpuSolver<Real> solver(cloth, scene);
-  solver.setPosition(0, {Real(0), Real(500), Real(0)});
-  solver.setPosition(1, start.x.cast<Real>());
-  solver.setVelocity(1, start.v.cast<Real>());
-  solver.step(steps);
-  return {solver.position(1).template cast<double>(), solver.velocity(1).template cast<double>()};
-}
 
 // --- Distances
 
@@ -148,7 +123,7 @@ void expectPushedOut(const Collider& collider, Vec3d surface, Vec3d normal) {
   Scene scene = particleScene(collider, 1e-3);
   scene.gravity = {0, 0, 0};
   std::visit([](auto& shape) { shape.friction = 0; }, scene.colliders[0]);
-  const Particle end = afterSteps(scene, {surface - 1e-3 * normal, {0, 0, 0}});
+  const test::LoneParticle end = afterSteps(scene, {surface - 1e-3 * normal, {0, 0, 0}});
   EXPECT_NEAR(length(end.x - surface), 0, 1e-9);
   EXPECT_NEAR(length(end.v - (1e-3 / 1e-3) * normal), 0, 1e-6) << "a move dx adds dx / h to the velocity";
 }
@@ -179,7 +154,7 @@ TEST(Shapes, CarryAParticleThatSticksToThemAlongAndAround) {
     Scene scene = particleScene(collider, 0.01);
     scene.gravity = {0, 0, 0};
     // Pushed a little inwards, so that it touches.
-    const Particle end = afterSteps(scene, {x, {1, 0.1, 0}});
+    const test::LoneParticle end = afterSteps(scene, {x, {1, 0.1, 0}});
     EXPECT_NEAR(end.x.x, 0.02, 1e-6) << collider.index();
     EXPECT_NEAR(end.x.y, 1, 1e-6) << collider.index();
   }
@@ -226,7 +201,7 @@ TEST(FastParticle, StaysOnItsSideOfAThinShapeAtAnyFriction) {
           std::visit([&](auto& shape) { shape.friction = law.friction; }, collider);
           const Scene scene = particleScene(collider, 0.02, law.law);
           const double height = start * speed * 0.02 + 0.03;
-          const Particle end = afterSteps(scene, {{0.001, height, 0.002}, {0, -speed, 0}});
+          const test::LoneParticle end = afterSteps(scene, {{0.001, height, 0.002}, {0, -speed, 0}});
           const std::string where = "collider " + std::to_string(collider.index()) + ", friction " +
                                     std::to_string(law.friction) + ", speed " + std::to_string(speed) +
                                     ", from " + std::to_string(height);
@@ -242,7 +217,7 @@ TEST(FastParticle, StaysOnItsSideOfAMesh) {
       const MeshCollider pawn{
           .file = "assets/meshes/pawn.obj", .rotation = {0, 0, 90}, .scale = 0.25, .friction = law.friction};
       const Scene scene = particleScene(pawn, 0.02, law.law);
-      const Particle end = afterSteps(scene, {{-0.14, start, 0.001}, {0, -20, 0}});
+      const test::LoneParticle end = afterSteps(scene, {{-0.14, start, 0.001}, {0, -20, 0}});
       EXPECT_GT(end.x.y, 0) << law.friction;
       const Cloth cloth(scene);
       State state = initialState(cloth, scene);
@@ -261,7 +236,7 @@ TEST(FastParticle, FliesThroughTheHoleOfATorus) {
 TEST(FastParticle, IsNotHeldByAShapeThatItOnlyLeaves) {
   for (const Collider& obstacle : obstacles()) {
     const Scene scene = particleScene(obstacle, 0.02);
-    const Particle end = afterSteps(scene, {{0.001, 0.03, 0}, {1, 30, 0}});
+    const test::LoneParticle end = afterSteps(scene, {{0.001, 0.03, 0}, {1, 30, 0}});
     EXPECT_NEAR(end.x.y, 0.03 + 0.6, 0.01) << obstacle.index();
   }
 }
@@ -273,7 +248,7 @@ TEST(SlidingParticle, GetsOverTheSharpEdgeOfABoxWithoutFriction) {
       Scene scene = particleScene(box, 1.0 / 2700, law);
       scene.gravity = {0, -9.8, 0};
       // Half a second at 1 m/s from 0.1 m before the edge: it leaves the edge and falls 0.78 m at most.
-      const Particle end = afterSteps(scene, {{0.4, 0.5, 0}, {1, 0, 0}}, 1350);
+      const test::LoneParticle end = afterSteps(scene, {{0.4, 0.5, 0}, {1, 0, 0}}, 1350);
       EXPECT_NEAR(end.x.x, 0.9, 0.02) << rounding;
       EXPECT_NEAR(end.x.y, 0.5 - 0.5 * 9.8 * 0.4 * 0.4, 0.05) << rounding;
     }
@@ -339,13 +314,13 @@ TEST(CoulombFriction, TakesTheCoefficientTimesTheDepthFromTheSlide) {
   Scene scene = particleScene(plane, 0.01, FrictionLaw::coulomb);
   scene.gravity = {0, 0, 0};
   // From the surface 0.03 along x and 0.04 down: 0.25 * 0.04 = 0.01 of the slide are lost.
-  const Particle sliding = afterSteps(scene, {{0, 2, 0}, {3, -4, 0}});
+  const test::LoneParticle sliding = afterSteps(scene, {{0, 2, 0}, {3, -4, 0}});
   // The slack spring that the scene comes with pulls a little, too.
   EXPECT_NEAR(sliding.x.x, 0.02, 1e-10);
   EXPECT_NEAR(sliding.x.y, 2, 1e-12) << "on the plane, not above it";
   EXPECT_NEAR(sliding.v.x, 2, 1e-8);
   EXPECT_NEAR(sliding.v.y, 0, 1e-8) << "nothing is left of the normal velocity";
-  const Particle sticking = afterSteps(scene, {{0, 2, 0}, {0.9, -4, 0}});
+  const test::LoneParticle sticking = afterSteps(scene, {{0, 2, 0}, {0.9, -4, 0}});
   EXPECT_NEAR(sticking.x.x, 0, 1e-12);
   EXPECT_NEAR(sticking.v.x, 0, 1e-9);
 }
@@ -358,9 +333,9 @@ TEST(CoulombFriction, FeelsTheVelocityOfAMovingCollider) {
     const double top = std::holds_alternative<Box>(belt) ? 0.5 : 0;
     Scene scene = particleScene(belt, 1e-3, FrictionLaw::coulomb);
     scene.gravity = {0, -9.8, 0};
-    const Particle early = afterSteps(scene, {{0, top, 0}, {0, 0, 0}}, 200);
+    const test::LoneParticle early = afterSteps(scene, {{0, top, 0}, {0, 0, 0}}, 200);
     EXPECT_NEAR(early.v.x, 0.3 * 9.8 * 0.2, 1e-3) << "speeds up by mu g";
-    const Particle late = afterSteps(scene, {{0, top, 0}, {0, 0, 0}}, 950);
+    const test::LoneParticle late = afterSteps(scene, {{0, top, 0}, {0, 0, 0}}, 950);
     EXPECT_NEAR(late.v.x, 2, 1e-3) << "and then rides along";
   }
 }
@@ -369,85 +344,6 @@ TEST(CoulombFriction, PlaneIsSolidBehindItsNormal) {
   const Plane plane{.point = {0, 0, 0}, .normal = {0, 1, 0}, .friction = 0};
   const Scene scene = particleScene(plane, 0.01, FrictionLaw::coulomb);
   EXPECT_NEAR(afterSteps(scene, {{0, -0.3, 0}, {0, 0, 0}}).x.y, 0, 1e-12);
-}
-
-// How far a particle slides down a slope of `degrees` with mu = 0.5: symplectic Euler, dt = 1/240.
-template <class Real>
-double slideOnSlope(double degrees, double seconds, bool box) {
-  const double angle = degrees * std::numbers::pi / 180;
-  const Vec3d normal{-std::sin(angle), std::cos(angle), 0};
-  Collider slope = Plane{.point = {0.2, 0.1, 0}, .normal = normal, .friction = 0.5};
-  if (box)
-    slope = Box{.origin = Vec3d{0.2, 0.1, 0} - 0.5 * normal,
-                .size = {9, 1, 1},
-                .rotation = {0, 0, degrees},
-                .friction = 0.5};
-  Scene scene = particleScene(slope, 1.0 / 240, FrictionLaw::coulomb);
-  scene.gravity = {0, -9.81, 0};
-  const Particle start{{0.2, 0.1, 0}, {0, 0, 0}};
-  const Particle end = afterSteps<Real>(scene, start, static_cast<int>(seconds * 240));
-  EXPECT_LE(std::abs(dot(end.x - start.x, normal)), 2e-6);
-  return -dot(end.x - start.x, Vec3d{std::cos(angle), std::sin(angle), 0});
-}
-
-const double criticalAngle = std::atan(0.5) * 180 / std::numbers::pi;
-
-TEST(SlopeWithFriction, SlidesAboveTheCriticalAngle) {
-  for (const bool box : {false, true}) {
-    EXPECT_NEAR(slideOnSlope<double>(criticalAngle + 0.5, 2, box), 0.191823, 0.01 * 0.191823);
-    EXPECT_NEAR(slideOnSlope<float>(criticalAngle + 0.5, 2, box), 0.191823, 0.01 * 0.191823);
-  }
-}
-
-TEST(SlopeWithFriction, SticksBelowTheCriticalAngle) {
-  for (const bool box : {false, true}) {
-    EXPECT_LT(std::abs(slideOnSlope<double>(criticalAngle - 0.5, 10, box)), 1e-5);
-    EXPECT_LT(std::abs(slideOnSlope<float>(criticalAngle - 0.5, 10, box)), 1e-5);
-  }
-}
-
-// A small cloth that lies on top of a sphere: the impulse of the contacts in a step is the difference to the
-// same step without the sphere.
-template <class Real>
-void expectWeightCarried() {
-  constexpr double radius = 0.5;
-  Scene scene = sheetScene(9);
-  scene.cloths[0].ks = 200;
-  scene.cloths[0].mass = 0.5;
-  scene.cloths[0].width = scene.cloths[0].height = 0.3;
-  scene.cloths[0].damping = 2;
-  scene.cloths[0].position = {-0.15, radius - 1 + 1e-3, -0.15};
-  scene.gravity = {0, -9.81, 0};
-  scene.solver.integrator = Integrator::euler;
-  scene.solver.frictionLaw = FrictionLaw::coulomb;
-  scene.colliders = {Sphere{.radius = radius, .friction = 0.5}};
-  Scene without = scene;
-  without.colliders.clear();
-  const Cloth cloth(scene);
-  CpuSolver<Real> solver(cloth, scene), free(cloth, without);
-  solver.step(2700 * 4);
-  double impulse = 0, deepest = 0;
-  constexpr int steps = 270;
-  for (int i = 0; i < steps; ++i) {
-    for (std::uint32_t p = 0; p < cloth.particleCount(); ++p) {
-      free.setPosition(p, solver.position(p));
-      free.setVelocity(p, solver.velocity(p));
-    }
-    solver.step(1);
-    free.step(1);
-    for (std::uint32_t p = 0; p < cloth.particleCount(); ++p) {
-      const double mass = 1 / cloth.inverseMasses()[p];
-      impulse += mass * static_cast<double>(solver.velocity(p).y - free.velocity(p).y);
-      deepest = std::max(deepest, radius - length(solver.position(p).template cast<double>()));
-    }
-  }
-  EXPECT_NEAR(impulse / steps / stepLength(scene.solver), 0.5 * 9.81, 0.01 * 0.5 * 9.81);
-  EXPECT_LE(deepest, 1e-4 * radius);
-}
-
-TEST(SphereAtRestUnderCloth, CarriesItsWeight) {
-  expectWeightCarried<double>();
-  expectWeightCarried<float>();
 }
 
 TEST(Penetration, IsMeasuredForEveryShape) {

@@ -12,113 +12,14 @@
 #include "solver/cpu/measure_contacts.h"
 #include "solver/cpu/self_collision.h"
 #include "support/compared_scenes.h"
+#include "support/point_clouds.h"
 
 namespace clothsim {
 namespace {
 
-using Pair = std::pair<std::uint32_t, std::uint32_t>;
-
-Scene contactScene(int n, SelfCollision mode) {
-  Scene scene = test::sheetScene(n);
-  scene.solver.selfCollision = mode;
-  scene.solver.strainLimit = 0.1;
-  scene.cloths[0].thickness = 0.49 / (n - 1);
-  return scene;
-}
-
-Components<float> cloud(std::size_t count) {
-  Components<float> points;
-  points.resize(count);
-  return points;
-}
-
-Vec3d point(const Components<float>& points, std::size_t i) {
-  return Vec3f{points.x[i], points.y[i], points.z[i]}.cast<double>();
-}
-
-// All pairs within the contact distance, by looking at every pair.
-std::set<Pair> bruteForce(const Components<float>& points, double distance) {
-  std::set<Pair> pairs;
-  for (std::uint32_t i = 0; i < points.x.size(); ++i) {
-    for (std::uint32_t j = 0; j < points.x.size(); ++j) {
-      const Vec3d d = point(points, i) - point(points, j);
-      if (i != j && dot(d, d) < distance * distance) pairs.insert({i, j});
-    }
-  }
-  return pairs;
-}
-
-// Every pair in reach is found, and none twice.
-void expectNothingMissed(cpu::SelfCollision<float>& collision, const Components<float>& points,
-                         double distance, const std::string& what) {
-  const std::vector<Pair> found = collision.candidatePairs(points);
-  const std::set<Pair> unique(found.begin(), found.end());
-  EXPECT_EQ(unique.size(), found.size()) << what << ": some pair was found twice";
-  int missed = 0;
-  for (const Pair& pair : bruteForce(points, distance)) missed += unique.count(pair) == 0;
-  EXPECT_EQ(missed, 0) << what;
-}
-
-class HashTest : public testing::Test {
- protected:
-  static constexpr int side = 12;
-  Scene scene = contactScene(side, SelfCollision::averaged);  // CS184's rule leaves no pair out
-  Cloth cloth{scene};
-  cpu::SelfCollision<float> collision{cloth, false};
-  double distance = contactDistance(scene, cloth);
-  std::mt19937 random{1};
-
-  void SetUp() override { collision.configure(scene); }
-  float within(double low, double high) {
-    return static_cast<float>(std::uniform_real_distribution<double>(low, high)(random));
-  }
-};
-
-TEST_F(HashTest, FindsEveryPairOfAThousandRandomClouds) {
-  Components<float> points = cloud(side * side);
-  for (int i = 0; i < 1000; ++i) {
-    const double size = distance * std::pow(2.0, within(0, 6));
-    const double x = within(-3, 3), y = within(-3, 3), z = within(-3, 3);
-    for (std::size_t k = 0; k < points.x.size(); ++k) {
-      points.x[k] = within(x, x + size);
-      points.y[k] = within(y, y + size);
-      points.z[k] = within(z, z + size);
-    }
-    expectNothingMissed(collision, points, distance, "cloud " + std::to_string(i));
-  }
-}
-
-TEST_F(HashTest, FindsEveryPairOfAHundredDegenerateClouds) {
-  const double cell = 1 / static_cast<double>(makeSelfParams<float>(scene, cloth).inverseCell);
-  Components<float> points = cloud(side * side);
-  for (int i = 0; i < 100; ++i) {
-    const int kind = i % 5;
-    const double far = std::pow(10.0, i / 5 % 5) * (i % 2 == 0 ? 1 : -1);
-    for (std::size_t k = 0; k < points.x.size(); ++k) {
-      const auto coordinate = [&]() -> float {
-        switch (kind) {
-          case 0:
-            return within(0.4 * cell, 0.6 * cell);  // all in one cell
-          case 1:
-            return static_cast<float>(cell * std::floor(within(-3, 3)));  // on borders of cells
-          case 2:
-            return within(-2 * cell, 0);  // negative
-          case 3:
-            return static_cast<float>(far * 1.3 + within(0, 3 * cell));  // far from the origin
-          default:
-            return static_cast<float>(std::nextafter(static_cast<float>(cell) *  // a bit beside borders
-                                                         std::floor(within(-2, 2)),
-                                                     within(-1, 1)));
-        }
-      };
-      points.x[k] = coordinate();
-      points.y[k] = coordinate();
-      points.z[k] = coordinate();
-    }
-    expectNothingMissed(collision, points, distance,
-                        "kind " + std::to_string(kind) + ", cloud " + std::to_string(i));
-  }
-}
+using test::cloud;
+using test::contactScene;
+using test::point;
 
 // --- One pass over given positions
 

@@ -1,0 +1,72 @@
+// PC2, the point cache of 3ds Max, which Blender's Mesh Cache modifier, Cinema 4D and others read: 32 bytes
+// of header and the frames, all little-endian.
+#include <array>
+#include <bit>
+#include <cstring>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "export/export.h"
+#include "export/sequence_formats.h"
+
+namespace clothsim {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "a PC2 file is little-endian");
+
+struct Header {
+  char signature[12] = {'P', 'O', 'I', 'N', 'T', 'C', 'A', 'C', 'H', 'E', '2', '\0'};
+  std::int32_t version = 1, pointCount = 0;
+  float startFrame = 0, sampleRate = 1;  // frames from one sample to the next
+  std::int32_t sampleCount = 0;
+};
+static_assert(sizeof(Header) == 32);
+
+template <class T>
+std::string_view bytesOf(const T& value) {
+  return {reinterpret_cast<const char*>(&value), sizeof value};
+}
+
+class PointCacheWriter final : public SequenceWriter {
+ public:
+  PointCacheWriter(const std::filesystem::path& path, const Cloth& cloth, const FrameTimes& times)
+      : cloth_(cloth), path_(path), file_(path) {
+    header_.pointCount = static_cast<std::int32_t>(cloth.particleCount());
+    header_.sampleRate = static_cast<float>(times.every);
+    file_.append(bytesOf(header_));
+  }
+
+  void addFrame(const State& state) override {
+    checkParticleCount(state, cloth_, path_);
+    if (header_.sampleCount == 0) rest_ = state;
+    std::string frame;
+    frame.reserve(12 * state.positions.size());
+    for (const Particle4& x : state.positions) frame.append(bytesOf(std::array<float, 3>{x.x, x.y, x.z}));
+    file_.append(frame);
+    ++header_.sampleCount;
+  }
+
+  void close() override {
+    file_.overwrite(0, bytesOf(header_));
+    std::filesystem::path mesh = path_;
+    mesh.replace_filename(path_.stem().string() + "_rest.obj");
+    saveState(rest_, cloth_, mesh);
+    file_.close();
+  }
+
+ private:
+  Cloth cloth_;
+  std::filesystem::path path_;
+  GrowingFile file_;
+  Header header_;
+  State rest_;  // the first frame
+};
+
+}  // namespace
+
+std::unique_ptr<SequenceWriter> makePointCacheWriter(const std::filesystem::path& path, const Cloth& cloth,
+                                                     const FrameTimes& times) {
+  return std::make_unique<PointCacheWriter>(path, cloth, times);
+}
+
+}  // namespace clothsim

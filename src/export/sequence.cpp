@@ -1,0 +1,27 @@
+#include "export/sequence.h"
+
+#include "core/error.h"
+#include "export/sequence_formats.h"
+
+namespace clothsim {
+
+bool isSequence(const std::filesystem::path& path) {
+  return path.extension() == ".pc2" || path.extension() == ".usda";
+}
+
+std::unique_ptr<SequenceWriter> makeSequenceWriter(const std::filesystem::path& path, const Cloth& cloth,
+                                                   const FrameTimes& times) {
+  if (path.extension() == ".pc2") return makePointCacheWriter(path, cloth, times);
+  if (path.extension() == ".usda") return makeUsdWriter(path, cloth, times);
+  throw UsageError("cannot save frames to '" + path.string() + "': its extension is '" +
+                   path.extension().string() + "', expected .pc2 or .usda");
+}
+
+void checkParticleCount(const State& state, const Cloth& cloth, const std::filesystem::path& path) {
+  if (state.positions.size() == cloth.particleCount()) return;
+  throw InputOutputError(path.string() + ": holds a mesh of " + std::to_string(cloth.particleCount()) +
+                         " points, but the cloth was rebuilt with " + std::to_string(state.positions.size()) +
+                         ". Save numbered files instead (cloth_%04d.obj).");
+}
+
+}  // namespace clothsim

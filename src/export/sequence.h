@@ -1,0 +1,38 @@
+// Files that hold all saved frames of a run: a point cache and an animated mesh. They grow as the frames
+// come, and are there when they are complete, or not at all.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "cloth/cloth.h"
+#include "solver/state.h"
+
+namespace clothsim {
+
+struct FrameTimes {
+  double framesPerSecond = 90;
+  int every = 1;  // frames 0, every, 2 every ...
+  int last = 0;   // saved frame
+};
+
+class SequenceWriter {
+ public:
+  virtual ~SequenceWriter() = default;  // without close(): leaves nothing
+  // The frames in turn. @throws InputOutputError, also for another number of particles than before
+  virtual void addFrame(const State& state) = 0;
+  virtual void close() = 0;  // @throws InputOutputError
+};
+
+// .pc2: PC2 point cache, positions of the particles [m], little-endian; and beside cloth.pc2 the mesh that it
+// moves, cloth_rest.obj, the first frame with uv. .usda: USD as text, one mesh with animated points, in
+// metres, y up, with the frame rate. A mesh that is cut on the way changes its triangles in .usda, and keeps
+// them in .pc2. A PC2 header tells `every` as frames a sample; Blender takes each sample for a frame: its
+// modifier's Frame Scale is to be 1 / every.
+[[nodiscard]] bool isSequence(const std::filesystem::path& path);
+
+// @throws UsageError for another extension, InputOutputError
+[[nodiscard]] std::unique_ptr<SequenceWriter> makeSequenceWriter(const std::filesystem::path& path,
+                                                                 const Cloth& cloth, const FrameTimes& times);
+
+}  // namespace clothsim

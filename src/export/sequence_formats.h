@@ -1,0 +1,17 @@
+// The writers behind makeSequenceWriter().
+#pragma once
+
+#include "export/sequence.h"
+
+namespace clothsim {
+
+[[nodiscard]] std::unique_ptr<SequenceWriter> makePointCacheWriter(const std::filesystem::path& path,
+                                                                   const Cloth& cloth,
+                                                                   const FrameTimes& times);
+[[nodiscard]] std::unique_ptr<SequenceWriter> makeUsdWriter(const std::filesystem::path& path,
+                                                            const Cloth& cloth, const FrameTimes& times);
+
+// @throws InputOutputError when the state is of another cloth
+void checkParticleCount(const State& state, const Cloth& cloth, const std::filesystem::path& path);
+
+}  // namespace clothsim

@@ -1,0 +1,141 @@
+#include "export/sequence.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <csignal>
+#include <cstring>
+#include <optional>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "export/formats.h"
+#include "support/temporary_folder.h"
+#include "support/throws.h"
+#include "unit/export/small_cloth.h"
+
+namespace clothsim {
+namespace {
+
+using test::messageThrownBy;
+
+class Sequence : public testing::Test {
+ protected:
+  Cloth cloth_{test::smallScene()};
+  State first_ = test::smallState(cloth_), second_ = first_;
+  test::TemporaryFolder folder_;
+
+  void SetUp() override {
+    for (Particle4& x : second_.positions) x.y += 0.1f;
+  }
+  // Two frames, the second after three.
+  void write(const std::string& name) const {
+    const auto writer = makeSequenceWriter(folder_ / name, cloth_, {60, 3, 3});
+    writer->addFrame(first_);
+    writer->addFrame(second_);
+    writer->close();
+  }
+  static bool has(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
+};
+
+TEST_F(Sequence, KnowsItsExtensions) {
+  EXPECT_TRUE(isSequence("a.pc2"));
+  EXPECT_TRUE(isSequence("b/c.usda"));
+  EXPECT_FALSE(isSequence("a.usdc"));
+  EXPECT_FALSE(isSequence("a.obj"));
+  const std::string message =
+      messageThrownBy<UsageError>([&] { (void)makeSequenceWriter(folder_ / "a.abc", cloth_, {}); });
+  EXPECT_TRUE(has(message, "a.abc") && has(message, ".pc2") && has(message, ".usda")) << message;
+}
+
+TEST_F(Sequence, PointCacheHasItsHeaderAndEveryBitOfThePositions) {
+  write("a.pc2");
+  const std::string bytes = readFile(folder_ / "a.pc2");
+  ASSERT_EQ(bytes.size(), 32 + 2 * 6 * 3 * 4u);
+  EXPECT_EQ(bytes.substr(0, 12), std::string("POINTCACHE2\0", 12));
+  std::int32_t version = 0, points = 0, samples = 0;
+  float start = -1, rate = -1;
+  std::memcpy(&version, &bytes[12], 4);
+  std::memcpy(&points, &bytes[16], 4);
+  std::memcpy(&start, &bytes[20], 4);
+  std::memcpy(&rate, &bytes[24], 4);
+  std::memcpy(&samples, &bytes[28], 4);
+  EXPECT_EQ(version, 1);
+  EXPECT_EQ(points, 6);
+  EXPECT_EQ(start, 0);
+  EXPECT_EQ(rate, 3) << "frames from one sample to the next";
+  EXPECT_EQ(samples, 2);
+  for (std::size_t i = 0; i < 6; ++i) {
+    float x[3];
+    std::memcpy(x, &bytes[32 + 72 + 12 * i], 12);
+    EXPECT_EQ(x[0], second_.positions[i].x);
+    EXPECT_EQ(x[1], second_.positions[i].y);
+    EXPECT_EQ(x[2], second_.positions[i].z);
+  }
+}
+
+TEST_F(Sequence, PointCacheComesWithTheMeshOfItsFirstFrame) {
+  write("a.pc2");
+  EXPECT_EQ(readFile(folder_ / "a_rest.obj"), formatObj(first_, cloth_));
+  EXPECT_EQ(folder_.fileCount(), 2);
+}
+
+TEST_F(Sequence, UsdTellsUnitsAxisFrameRateAndTheFrameOfEachSample) {
+  write("a.usda");
+  const std::string text = readFile(folder_ / "a.usda");
+  EXPECT_TRUE(text.starts_with("#usda 1.0\n"));
+  for (const char* part :
+       {"metersPerUnit = 1\n", "upAxis = \"Y\"\n", "startTimeCode = 0\n", "endTimeCode = 3\n",
+        "timeCodesPerSecond = 60\n", "        3: [(0, 1.10000002, 0), (1, 1.10000002, 0)",
+        "faceVertexCounts = [3, 3, 3, 3]\n", "faceVertexIndices = [0, 3, 1, 1, 3, 4, 1, 4, 2, 2, 4, 5]\n",
+        "texCoord2f[] primvars:st = [(0, 1), (0.5, 1)", "        0: [(0, 1, 0), (2, 1, 1)],\n"})
+    EXPECT_TRUE(has(text, part)) << part << "\nis missing in\n" << text;
+}
+
+TEST_F(Sequence, UsdChangesItsTrianglesWhereTheClothIsCutOnTheWay) {
+  ASSERT_TRUE(cutAlong(second_.cuts, cloth_, 0, {0.5, -1}, {0.5, 2}));
+  write("a.usda");
+  EXPECT_TRUE(has(readFile(folder_ / "a.usda"),
+                  "faceVertexCounts.timeSamples = {\n        0: [3, 3, 3, 3],\n        3: [3, 3],\n    }\n"));
+}
+
+TEST_F(Sequence, IsWholeOrNotThere) {
+  for (const char* name : {"a.pc2", "a.usda"}) {
+    {
+      const auto writer = makeSequenceWriter(folder_ / name, cloth_, {});
+      writer->addFrame(first_);
+      EXPECT_FALSE(std::filesystem::exists(folder_ / name)) << "before close()";
+    }
+    EXPECT_EQ(folder_.fileCount(), 0) << "without close() nothing is left";
+  }
+}
+
+TEST_F(Sequence, RefusesAClothThatWasRebuilt) {
+  for (const char* name : {"a.pc2", "a.usda"}) {
+    const auto writer = makeSequenceWriter(folder_ / name, cloth_, {});
+    writer->addFrame(first_);
+    second_.positions.resize(9);
+    const std::string message = messageThrownBy<InputOutputError>([&] { writer->addFrame(second_); });
+    EXPECT_TRUE(has(message, name) && has(message, "6") && has(message, "9")) << message;
+  }
+}
+
+// A full disk, played by a limit on the size of files.
+TEST_F(Sequence, LeavesTheOldFileWhenTheDiskIsFull) {
+  std::signal(SIGXFSZ, SIG_IGN);
+  rlimit old{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &old), 0);
+  for (const char* name : {"a.pc2", "a.usda"}) {
+    writeFileAtomically(folder_ / name, "old");
+    const rlimit small{64, old.rlim_max};
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
+    const std::string message = messageThrownBy<InputOutputError>([&] { write(name); });
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &old), 0);
+    EXPECT_TRUE(has(message, "cannot be written")) << message;
+    EXPECT_EQ(readFile(folder_ / name), "old");
+  }
+  EXPECT_EQ(folder_.fileCount(), 2) << "a temporary file, or a mesh without its cache, was left behind";
+}
+
+}  // namespace
+}  // namespace clothsim
