@@ -25,19 +25,19 @@ using uint = std::uint32_t;
 
 // Buffers read as texels, a vec4 a particle; the first four of them go on with the vertices of the coarse
 // levels.
-#define RESIDUALS_UNIT 18    // r = minus the gradient of the energy, later that of the linear system [N]
-#define CORRECTIONS_UNIT 19  // z = preconditioned r [m]
-#define FACTORS_UNIT 20      // two texels each: L D L^T of the diagonal block, l21 l31 l32 and 1/d1 1/d2 1/d3
-#define BLOCKS_UNIT 21       // four texels each: what coarse diagonal blocks are made of
-#define ANCHORS_UNIT 22      // b and a of the energy 1/2 a |d|^2 - b.d of a particle's way d
-#define AIR_BLOCKS_UNIT 23   // two texels each: what the air adds to a, a symmetric matrix
-#define WAYS_UNIT 24         // d, from the start of the step [m]
-#define ITERATES_UNIT 25     // x + d, and the inverse mass
-#define DIRECTIONS_UNIT 26   // p of conjugate gradients, and the inverse mass
-#define PRODUCTS_UNIT 27     // H p; later a particle's change of energy at four lengths of the Newton step
-#define INCREMENTS_UNIT 28   // the Newton step so far [m]
-#define STARTS_UNIT 29       // x at the start of the step, and the inverse mass
-#define PARTIAL_SUMS_UNIT 30
+#define RESIDUALS_UNIT 25    // r = minus the gradient of the energy, later that of the linear system [N]
+#define CORRECTIONS_UNIT 26  // z = preconditioned r [m]
+#define FACTORS_UNIT 27      // two texels each: L D L^T of the diagonal block, l21 l31 l32 and 1/d1 1/d2 1/d3
+#define BLOCKS_UNIT 28       // four texels each: what coarse diagonal blocks are made of
+#define ANCHORS_UNIT 29      // b and a of the energy 1/2 a |d|^2 - b.d of a particle's way d
+#define AIR_BLOCKS_UNIT 30   // two texels each: what the air adds to a, a symmetric matrix
+#define WAYS_UNIT 31         // d, from the start of the step [m]
+#define ITERATES_UNIT 32     // x + d, and the inverse mass
+#define DIRECTIONS_UNIT 33   // p of conjugate gradients, and the inverse mass
+#define PRODUCTS_UNIT 34     // H p; later a particle's change of energy at four lengths of the Newton step
+#define INCREMENTS_UNIT 35   // the Newton step so far [m]
+#define STARTS_UNIT 36       // x at the start of the step, and the inverse mass
+#define PARTIAL_SUMS_UNIT 37
 
 // Sums over all particles have one order: lane t of 256 adds every 256th number of a block of 1024, the lanes
 // are added as a tree, and so are the blocks.

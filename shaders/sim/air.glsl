@@ -5,6 +5,11 @@
 // A third of the force of the air on triangle (a, b, c): pressure along its normal, rho C_d / 2 A (u.n)|u.n| n, and lift
 // across the relative wind u, rho C_l / 2 A |u|^2 (e.n) (n - (e.n) e) with e = u/|u|. `normal` is 2 A n, and the factors of
 // the step hold rho C / 12. Both terms are even in n: it does not matter to which side it points.
+//
+// It also adds up the matrices by which thirds of triangles resist a change of their velocity, as far as the implicit
+// integrator takes the pressure for linear: with |u.n| as it is. Other passes do not read them.
+vec3 resistanceDiagonal = vec3(0.0), resistanceOthers = vec3(0.0);
+
 vec3 windForce(uint a, uint b, uint c) {
   vec3 xa = positionAt(a).xyz, xb = positionAt(b).xyz, xc = positionAt(c).xyz;
   vec3 va = velocityAt(a), vb = velocityAt(b), vc = velocityAt(c);
@@ -33,8 +38,18 @@ vec3 windForce(uint a, uint b, uint c) {
   precise float alongNormal = step.dragFactor * (across * acrossMagnitude) + step.liftFactor * (across * speed);
   precise float alongWind = step.liftFactor * ((across * through) * inverseSpeed);
   precise vec3 force = alongNormal * normal - alongWind * u;
-  if (hasJet && hand.jetAlone != 0u) force = share * force;
-  return normalSquared < uintBitsToFloat(0x0d800000u) ? vec3(0.0) : force;  // 2^-100: the triangle has no area
+  precise float resistance = (step.dragFactor * acrossMagnitude) * inverseNormal;
+  if (hasJet && hand.jetAlone != 0u) {
+    force = share * force;
+    resistance = share * resistance;
+  }
+  if (normalSquared < uintBitsToFloat(0x0d800000u)) return vec3(0.0);  // 2^-100: the triangle has no area
+  precise vec3 scaledNormal = resistance * normal;
+  precise vec3 diagonal = resistanceDiagonal + scaledNormal * normal;
+  precise vec3 others = resistanceOthers + scaledNormal.xxy * normal.yzz;
+  resistanceDiagonal = diagonal;
+  resistanceOthers = others;
+  return force;
 }
 
 // The triangles at a grid point in ascending number (src/cloth/cloth.h).

@@ -1,5 +1,5 @@
 // All forces on a particle but gravity: springs, bending, wind, air resistance [N].
-#include "sim/springs.glsl"
+#include "sim/incident_springs.glsl"
 #include "sim/bending.glsl"
 #include "sim/air.glsl"
 #if HAS_MESH
@@ -11,6 +11,7 @@ vec3 gatherForces(GridPoint p) {
   precise vec3 f = gatherListedForces(p.index);
 #else
   precise vec3 f = gatherSprings(p, positionAt(p.index).xyz);
+  if (hasLimitSprings) f = addLimitSprings(p, f);
   if (hasMaterial) f = addBending(p, f);
   if (hasWind) f = addWind(p, f);
 #endif

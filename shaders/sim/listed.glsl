@@ -23,6 +23,13 @@ vec3 gatherListedSprings(uint i, uint first, uint end) {
     precise float longestSquared = longest * longest;
     tooLong = tooLong || (spring.x < i && isBeyond(lengthSquared, longestSquared));
     f = f + springForce(x, other, uintBitsToFloat(spring.z), rest);
+    if (hasLimitSprings) {
+      precise float inverseLength = inverseSquareRoot(lengthSquared);
+      precise float over = lengthSquared * inverseLength - step.limitFactor * rest;
+      precise float scale = (step.limitStiffness * over) * inverseLength;
+      precise vec3 pull = scale * d;
+      if (over > 0.0) f = f + pull;
+    }
   }
   if (tooLong) noteTrouble(PASS_FORCES, i, REASON_RUNAWAY_STRAIN);
   return f;

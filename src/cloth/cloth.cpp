@@ -1,6 +1,7 @@
 #include "cloth/cloth.h"
 
 #include <cmath>
+#include <numeric>
 #include <string>
 
 #include "core/error.h"
@@ -234,6 +235,11 @@ void Cloth::addMesh(const ClothSettings& settings) {
   const std::size_t firstSpring = lists_.springs.size();
   appendSprings(*shape, mechanics, first, lists_.springs);
   mesh.colors = colorSprings(lists_.springs, firstSpring, end);
+  double stiffest = 0;
+  for (std::size_t i = firstSpring; i < lists_.springs.size(); ++i)
+    stiffest = std::max(stiffest, lists_.springs[i].stiffness);
+  mesh.stiffness.fill(stiffest);
+  mesh.particleMass = std::accumulate(mechanics.masses.begin(), mechanics.masses.end(), 0.0) / mesh.columns;
   appendHinges(*shape, mechanics, first, lists_.hinges);
   mesh.firstTriangle = static_cast<std::uint32_t>(lists_.triangles.size());
   for (const auto& [a, b, c] : shape->triangles)

@@ -74,9 +74,9 @@ inline constexpr std::array<std::array<Corner, 3>, 6> incidentTriangles{{{{{0, -
 struct Grid {
   std::uint32_t firstParticle = 0;
   int columns = 0, rows = 0;
-  double particleMass = 0;                           // of a particle inside [kg]
+  double particleMass = 0;                           // of a particle inside; a mesh: their mean [kg]
   std::array<bool, SPRING_SLOTS> slotEnabled{};      // and long enough to lie on the grid
-  std::array<double, SPRING_SLOTS> stiffness{};      // of a spring inside [N/m]
+  std::array<double, SPRING_SLOTS> stiffness{};      // of a spring inside; a mesh: of its stiffest [N/m]
   std::array<double, SPRING_SLOTS> nominalLength{};  // [m], of the undisturbed lattice
   // The material model: what lies on a border counts half (masses at corners a quarter), and bending has the
   // energy 1/2 b |x(i-1) - 2 x(i) + x(i+1)|^2 a particle and direction instead of springs.

@@ -36,7 +36,7 @@ Hierarchy<Real> makeHierarchy(const Cloth& cloth) {
     std::uint32_t first = grid.firstParticle, columns = static_cast<std::uint32_t>(grid.columns),
                   rows = static_cast<std::uint32_t>(grid.rows);
     double across = 1, along = 1;  // width of a hat, in cells of the grid
-    while (columns > 2 || rows > 2) {
+    while (!grid.isMesh && (columns > 2 || rows > 2)) {
       LevelParams<Real> level{};
       level.fineFirst = first;
       level.fineColumns = columns;

@@ -163,7 +163,7 @@ constexpr double LIMIT_BEGINS = 0.8;
 double limitStiffness(const Grid& grid, double limit) {
   double longest = 0, stiffest = 0;
   for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot) {
-    if (!grid.slotEnabled[slot]) continue;
+    if (!grid.slotEnabled[slot] && !grid.isMesh) continue;
     longest = std::max(longest, grid.nominalLength[slot]);
     stiffest = std::max(stiffest, grid.stiffness[slot]);
   }

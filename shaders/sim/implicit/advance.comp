@@ -8,8 +8,7 @@ layout(std430, binding = SECOND_OUTPUT_BINDING) writeonly buffer Increments { ve
 void main() {
   uint i = thisParticle();
   if (!isParticle(i)) return;
-  vec3 before = IS_FIRST_ITERATION != 0 ? vec3(0.0) : texelFetch(increments, int(i)).xyz;
-  precise vec3 increment = before + scalars.stepSize * texelFetch(directions, int(i)).xyz;
+  precise vec3 increment = texelFetch(increments, int(i)).xyz + scalars.stepSize * texelFetch(directions, int(i)).xyz;
   precise vec3 residual = texelFetch(residuals, int(i)).xyz - scalars.stepSize * texelFetch(products, int(i)).xyz;
   newIncrements[i] = vec4(canonical(increment), 0.0);
   newResiduals[i] = vec4(canonical(residual), 0.0);

@@ -52,9 +52,13 @@ void main() {
     stiffness = stiffness + (step.airResistance * speed) * step.inverseTimeStep;
   }
   if (hasWind) {  // f - R (v' - v)
-    Wind wind = gatherWind(p);
-    Symmetric resistance = Symmetric(wind.resistanceDiagonal, wind.resistanceOthers);
-    precise vec3 push = wind.force + timesVector(resistance, v);
+#if HAS_MESH
+    vec3 force = addListedTriangles(texelFetch(listStarts, int(i)).z, texelFetch(listStarts, int(i) + 1).z, vec3(0.0));
+#else
+    vec3 force = addWind(p, vec3(0.0));
+#endif
+    Symmetric resistance = Symmetric(resistanceDiagonal, resistanceOthers);
+    precise vec3 push = force + timesVector(resistance, v);
     b = b + push;
     precise vec3 diagonal = step.inverseTimeStep * resistance.diagonal;
     precise vec3 others = step.inverseTimeStep * resistance.others;

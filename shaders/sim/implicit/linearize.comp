@@ -1,12 +1,16 @@
 // From the elastic forces at the iterate: residuals, and the blocks of the preconditioner (src/solver/implicit.h). Clears the
-// increments and the directions. POSITIONS_UNIT: the iterate.
+// increments. POSITIONS_UNIT: the iterate.
 #include "sim/implicit/common.glsl"
 #include "sim/watch.glsl"
-#include "sim/implicit/springs.glsl"
+#include "sim/incident_springs.glsl"
+#if HAS_MESH
+#include "sim/implicit/listed.glsl"
+#endif
 
 layout(std430, binding = FIRST_OUTPUT_BINDING) writeonly buffer Residuals { vec4 newResiduals[]; };
 layout(std430, binding = SECOND_OUTPUT_BINDING) writeonly buffer FactorsOut { vec4 newFactors[]; };
 layout(std430, binding = THIRD_OUTPUT_BINDING) writeonly buffer Blocks { vec4 newBlocks[]; };
+layout(std430, binding = FOURTH_OUTPUT_BINDING) writeonly buffer Increments { vec4 newIncrements[]; };
 
 // What bending adds to the diagonal block of particle i of `count` in a line, of those `stride` apart.
 float bendingBlock(uint index, uint i, uint count, uint stride, float b, uint cut, uint before, uint around, uint after) {
@@ -48,6 +52,7 @@ void main() {
   uint i = p.index;
   vec4 x = positionAt(i);
   newResiduals[i] = vec4(0.0);
+  newIncrements[i] = vec4(0.0);
   newFactors[2u * i] = vec4(0.0);
   newFactors[2u * i + 1u] = vec4(0.0);
   for (uint k = 0u; k < 4u; ++k) newBlocks[4u * i + k] = vec4(0.0);
@@ -60,6 +65,9 @@ void main() {
     block = sumOf(block, air);
   }
   Symmetric inertia = block, stretch = Symmetric(vec3(0.0), vec3(0.0));
+#if HAS_MESH
+  block = addListedBlocks(i, block);
+#else
   uint cut = cutMaskOf(i);
   for (uint k = 0u; k < INCIDENT_SPRINGS; ++k) {
     IncidentSpring spring = incidentSpring(p, k, cut);
@@ -76,6 +84,7 @@ void main() {
     if (end.w == 0.0) inertia = sumOf(inertia, stiff);
   }
   if (hasMaterial) block = addBendingBlock(p, block);
+#endif
 
   vec3 way = texelFetch(ways, int(i)).xyz;
   precise vec3 pull = anchor.xyz - anchor.w * way;

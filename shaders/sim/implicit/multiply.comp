@@ -1,8 +1,11 @@
 // products = H directions. POSITIONS_UNIT: the directions, so that what is linear serves as it is.
 #include "sim/implicit/common.glsl"
 #include "sim/watch.glsl"
-#include "sim/implicit/springs.glsl"
+#include "sim/incident_springs.glsl"
 #include "sim/bending.glsl"
+#if HAS_MESH
+#include "sim/implicit/listed.glsl"
+#endif
 
 layout(std430, binding = FIRST_OUTPUT_BINDING) writeonly buffer Products { vec4 newProducts[]; };
 
@@ -12,6 +15,9 @@ void main() {
   uint i = point.index;
   vec4 x = iterateAt(i);
   vec3 p = positionAt(i).xyz;
+#if HAS_MESH
+  vec3 force = listedProducts(i);
+#else
   uint cut = cutMaskOf(i);
   precise vec3 force = vec3(0.0);
   for (uint k = 0u; k < INCIDENT_SPRINGS; ++k) {
@@ -24,6 +30,7 @@ void main() {
     force = force + f;
   }
   if (hasMaterial) force = addBending(point, force);
+#endif
   precise vec3 product = texelFetch(anchors, int(i)).w * p;
   if (hasWind) product = product + timesVector(airBlockAt(i), p);
   precise vec3 result = product - force;

@@ -3,34 +3,13 @@
 // are exact.
 #include "sim/implicit/common.glsl"
 #include "sim/watch.glsl"
-#include "sim/implicit/springs.glsl"
+#include "sim/incident_springs.glsl"
+#include "sim/implicit/energy.glsl"
+#if HAS_MESH
+#include "sim/implicit/listed.glsl"
+#endif
 
 layout(std430, binding = FIRST_OUTPUT_BINDING) writeonly buffer Trials { vec4 trials[]; };
-
-const vec4 lengthsTried = vec4(1.0, 0.5, 0.25, 0.125);
-
-vec3 incrementAt(uint i) { return texelFetch(increments, int(i)).xyz; }
-
-float springChange(vec3 d, vec3 e, float l, IncidentSpring spring) {
-  precise vec3 moved = d + l * e;
-  precise float squaredBefore = sumOfProducts(d, d);
-  precise float squaredAfter = sumOfProducts(moved, moved);
-  precise float before = squaredBefore * inverseSquareRoot(squaredBefore);
-  precise float after = squaredAfter * inverseSquareRoot(squaredAfter);
-  precise float sum = (before + after) + uintBitsToFloat(0x0d800000u);  // 2^-100
-  precise float change = (l * (2.0 * sumOfProducts(d, e) + l * sumOfProducts(e, e))) * reciprocal(sum);
-  precise float energy = (spring.stiffness * change) * ((before - spring.restLength) + (after - spring.restLength));
-  precise float limit = 0.0;
-  if (hasLimitSprings) {
-    precise float pastBefore = before - spring.limitLength;
-    precise float pastAfter = after - spring.limitLength;
-    precise float overBefore = larger(pastBefore, 0.0);
-    precise float overAfter = larger(pastAfter, 0.0);
-    limit = (step.limitStiffness * (overAfter - overBefore)) * (overAfter + overBefore);
-  }
-  precise float result = 0.5 * (energy + limit);
-  return result;
-}
 
 // A line of three particles around one in the middle: b (l k.dk + l^2/2 |dk|^2), k = (m - a) + (m - c).
 vec4 addBendingTrial(vec4 trial, uint m, uint stride, float b) {
@@ -71,6 +50,9 @@ void main() {
   precise float first = sumOfProducts(slope, e);
   precise float second = 0.5 * sumOfProducts(product, e);
   precise vec4 trial = lengthsTried * (first + lengthsTried * second);
+#if HAS_MESH
+  trial = addListedTrials(i, trial);
+#else
   uint cut = cutMaskOf(i);
   for (uint k = 0u; k < OWNED_SPRINGS; ++k) {
     IncidentSpring spring = incidentSpring(p, k, cut);
@@ -83,5 +65,6 @@ void main() {
     }
   }
   if (hasMaterial) trial = addBendingTrials(p, trial, cut);
+#endif
   trials[i] = trial;
 }

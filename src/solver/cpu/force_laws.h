@@ -40,8 +40,9 @@ INLINE Real jetShare(const HandParams<Real>& hand, Vec3<Real> x) {
 // 2 A n, and the factors of the step hold rho C / 12. Both terms are even in n: it does not matter to which
 // side it points.
 //
-// `resistance` is r of the matrix r n n^T, with `normal` for n, by which a third of the triangle resists a change of its
-// velocity, as far as the implicit integrator takes the pressure for linear: with |u.n| as it is.
+// `resistance` is r of the matrix r n n^T, with `normal` for n, by which a third of the triangle resists a
+// change of its velocity, as far as the implicit integrator takes the pressure for linear: with |u.n| as it
+// is.
 template <class Real>
 struct TriangleWind {
   Vec3<Real> force, normal;

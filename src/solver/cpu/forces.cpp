@@ -16,7 +16,6 @@
 namespace clothsim::cpu {
 namespace {
 
-
 // Adds the forces of one incident spring to every particle of the stretch. Of owned springs it returns the
 // largest bits of l^2 for the watchdog: one end of each spring is enough.
 template <bool owned, bool torn, class Real, class RestLengths>
@@ -204,7 +203,7 @@ INLINE void addWind(const PassArguments<Real>& arguments, int row,
       const bool gone = isGone<torn>(cutMasks, i, FIRST_CUT_TRIANGLE + k);
       const auto [f, normal, r] =
           windOn<jet>(step, hand, load(x, y, z, i + ia), load(x, y, z, i + ib), load(x, y, z, i + ic),
-                         load(vx, vy, vz, i + ia), load(vx, vy, vz, i + ib), load(vx, vy, vz, i + ic));
+                      load(vx, vy, vz, i + ia), load(vx, vy, vz, i + ib), load(vx, vy, vz, i + ic));
       fx[i] = gone ? fx[i] : fx[i] + f.x;
       fy[i] = gone ? fy[i] : fy[i] + f.y;
       fz[i] = gone ? fz[i] : fz[i] + f.z;
@@ -248,7 +247,7 @@ INLINE void addAirResistance(const PassArguments<Real>& arguments, int row) {
 template <class Real>
 INLINE void clearForces(const PassArguments<Real>& arguments, int row) {
   const Stretch particles = stretch(arguments.step, row);
- for (std::vector<Real>* f : {&arguments.forces.x, &arguments.forces.y, &arguments.forces.z})
+  for (std::vector<Real>* f : {&arguments.forces.x, &arguments.forces.y, &arguments.forces.z})
     std::fill(f->data() + particles.begin, f->data() + particles.end, Real(0));
 }
 
@@ -281,6 +280,7 @@ void addBendingForces(const PassArguments<double>& arguments, int row) {
 
 template <class Real>
 void gatherWind(const PassArguments<Real>& arguments, int row, SymmetricField<Real>& resistance) {
+  if (arguments.step.isMesh != 0) return gatherListedWind(arguments, row, resistance);
   clearForces(arguments, row);
   const Stretch particles = stretch(arguments.step, row);
   for (std::vector<Real>* r : resistance.all())

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "core/exact_math.h"
+#include "solver/cpu/implicit_laws.h"
+#include "solver/cpu/listed_implicit.h"
 #include "solver/cpu/rows.h"
 #include "solver/cpu/spring_rows.h"
 #include "solver/cpu/watch.h"
@@ -72,34 +74,15 @@ INLINE Vec3<Real> selected(bool first, Vec3<Real> a, Vec3<Real> b) {
   return {first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z};
 }
 
-// The Hessian of a spring between particles d apart, made positive: across 1 + along d d^T.
-template <class Real>
-struct SpringBlock {
-  Real across, along;
-};
-template <class Real>
-INLINE SpringBlock<Real> springBlock(Vec3<Real> d, Real stiffness, Real restLength, Real limitStiffness,
-                                     Real limitLength) {
-  const Real lengthSquared = dot(d, d);
-  const Real inverseLength = inverseSquareRoot(lengthSquared);
-  const Real length = lengthSquared * inverseLength;
-  const Real over = length - limitLength;
-  const bool beyond = over > Real(0);
-  const Real tension = stiffness * (length - restLength);
-  const Real tensionBeyond = tension + limitStiffness * over, wholeBeyond = stiffness + limitStiffness;
-  const Real whole = beyond ? wholeBeyond : stiffness;
-  const Real scale = (beyond ? tensionBeyond : tension) * inverseLength;
-  const Real across = scale > Real(0) ? scale : Real(0);
-  return {across, (whole - across) * (inverseLength * inverseLength)};
-}
-
 // What of a particle's anchor a hand makes (solver/hand.h).
 template <class Real>
-void holdParticle(const ImplicitArguments<Real>& arguments, int row, std::uint32_t column, std::ptrdiff_t i,
-                  Real mass) {
+void holdParticle(const ImplicitArguments<Real>& arguments, int row, std::ptrdiff_t i, Real mass) {
   const PassArguments<Real>& pass = arguments.step;
   const HandParams<Real>& hand = pass.hand;
-  const std::uint32_t blockRow = static_cast<std::uint32_t>(row) - hand.firstRow,
+  const bool isMesh = pass.step.isMesh != 0;  // whose block is a part of its one row
+  const std::uint32_t column = static_cast<std::uint32_t>(
+      i - (isMesh ? static_cast<std::ptrdiff_t>(pass.step.firstParticle) : stretch(pass.step, row).begin));
+  const std::uint32_t blockRow = isMesh ? 0 : static_cast<std::uint32_t>(row) - hand.firstRow,
                       blockColumn = column - hand.firstColumn;
   if (blockRow >= hand.rows || blockColumn >= hand.columns) return;
   const Hold::Point& point = pass.held[blockRow * hand.columns + blockColumn];
@@ -114,29 +97,6 @@ void holdParticle(const ImplicitArguments<Real>& arguments, int row, std::uint32
       (static_cast<Real>(point.weight) * hand.resistance) * ((mass * inverseTimeStep) * inverseTimeStep);
   arguments.own.anchorStiffness[static_cast<std::size_t>(i)] += stiffness;
   put(arguments.own.anchors, i, at(arguments.own.anchors, i) + stiffness * way);
-}
-
-// How the energy changes when a spring of ends d apart is moved by l e; exact where that is little.
-template <class Real>
-INLINE Real springChange(Vec3<Real> d, Vec3<Real> e, Real l, Real stiffness, Real restLength,
-                         Real limitStiffness, Real limitLength) {
-  const Vec3<Real> moved = d + l * e;
-  const Real squaredBefore = dot(d, d), squaredAfter = dot(moved, moved);
-  const Real before = squaredBefore * inverseSquareRoot(squaredBefore);
-  const Real after = squaredAfter * inverseSquareRoot(squaredAfter);
-  const Real sum = (before + after) + static_cast<Real>(0x1p-100f);
-  const Real change = (l * (Real(2) * dot(d, e) + l * dot(e, e))) * reciprocal(sum);
-  const Real spring = (stiffness * change) * ((before - restLength) + (after - restLength));
-  const Real overBefore = larger(before - limitLength, Real(0)),
-             overAfter = larger(after - limitLength, Real(0));
-  const Real limit = (limitStiffness * (overAfter - overBefore)) * (overAfter + overBefore);
-  return Real(0.5) * (spring + limit);
-}
-
-template <class Real>
-INLINE Real lengthTried(std::size_t k) {
-  constexpr std::array<Real, LENGTHS_TRIED> lengths{Real(1), Real(0.5), Real(0.25), Real(0.125)};
-  return lengths[k];
 }
 
 template <bool torn, class Real>
@@ -225,6 +185,7 @@ INLINE void tryLengthsRow(const ImplicitArguments<Real>& arguments, int row) {
       own.trials[k].data()[i] = l * (first + l * second);
     }
   }
+  if (pass.step.isMesh != 0) return addListedTrials(arguments, row);
   pass.cutMasks != nullptr ? addSpringTrials<true>(arguments, row) : addSpringTrials<false>(arguments, row);
   if (pass.step.hasMaterial != 0) addBendingTrials(arguments, row);
 }
@@ -316,8 +277,12 @@ INLINE void linearizeRow(const ImplicitArguments<Real>& arguments, int row) {
     put(own.inertia, i, block);
     put(own.stretch, i, Symmetric<Real>{});
   }
-  pass.cutMasks != nullptr ? addSpringBlocks<true>(arguments, row) : addSpringBlocks<false>(arguments, row);
-  if (pass.step.hasMaterial != 0) addBendingBlocks(arguments, row);
+  if (pass.step.isMesh != 0) {
+    addListedBlocks(arguments, row);
+  } else {
+    pass.cutMasks != nullptr ? addSpringBlocks<true>(arguments, row) : addSpringBlocks<false>(arguments, row);
+    if (pass.step.hasMaterial != 0) addBendingBlocks(arguments, row);
+  }
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
     const bool pinned = pass.inverseMasses[i] == Real(0);
     const Vec3<Real> d = at(own.ways, i), zero{};
@@ -369,11 +334,13 @@ INLINE void multiplyRow(const ImplicitArguments<Real>& arguments, int row) {
   const SymmetricArrays<Real> air = arraysOf(own.air);
   const Real *stiffness = own.anchorStiffness.data(), *w = pass.inverseMasses;
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i) put(products, i, zero);
-  pass.cutMasks != nullptr ? addSpringProducts<true>(arguments, row)
-                           : addSpringProducts<false>(arguments, row);
-  if (pass.step.hasMaterial != 0) {
-    const PassArguments<Real> ofDirections = withState(pass, pass.step, own.directions, own.products);
-    addBendingForces(ofDirections, row);
+  if (pass.step.isMesh != 0) {
+    addListedProducts(arguments, row);
+  } else {
+    pass.cutMasks != nullptr ? addSpringProducts<true>(arguments, row)
+                             : addSpringProducts<false>(arguments, row);
+    if (pass.step.hasMaterial != 0)
+      addBendingForces(withState(pass, pass.step, own.directions, own.products), row);
   }
   if (pass.step.hasWind != 0) {
 #pragma GCC ivdep
@@ -472,8 +439,7 @@ void begin(const ImplicitArguments<Real>& arguments, int row) {
     own.anchorStiffness[static_cast<std::size_t>(i)] = stiffness;
     put(own.ways, i, guess);
     put(own.iterate.positions, i, canonical(x + guess));
-    if (pass.held != nullptr)
-      holdParticle(arguments, row, static_cast<std::uint32_t>(i - all.begin), i, mass);
+    if (pass.held != nullptr) holdParticle(arguments, row, i, mass);
   }
 }
 

@@ -50,7 +50,7 @@ template <class Real>
 template <class Pass>
 void ImplicitStep<Real>::forEachRow(const std::vector<ImplicitArguments<Real>>& grids, Pass pass) {
   for (const ImplicitArguments<Real>& grid : grids) {
-    const auto rows = static_cast<int>(grid.step.step.rows);
+    const int rows = rowsOf(cloth_->grids()[grid.step.step.grid]);
 #pragma omp parallel for schedule(static) if (parallel_)
     for (int row = 0; row < rows; ++row) pass(grid, row);
   }
@@ -64,7 +64,7 @@ void ImplicitStep<Real>::gatherElasticForces(const std::vector<ImplicitArguments
     elastic.hasWind = 0;
     elastic.airResistance = 0;
     const PassArguments<Real> pass = withState(grid.step, elastic, own_.iterate, grid.step.forces);
-    const auto rows = static_cast<int>(elastic.rows);
+    const int rows = rowsOf(cloth_->grids()[elastic.grid]);
 #pragma omp parallel for schedule(static) if (parallel_)
     for (int row = 0; row < rows; ++row) gatherForces(pass, row);
   }

@@ -3,6 +3,7 @@
 #include "core/exact_math.h"
 #include "solver/cpu/force_laws.h"
 #include "solver/cpu/rows.h"
+#include "solver/cpu/symmetric.h"
 #include "solver/cpu/watch.h"
 
 namespace clothsim::cpu {
@@ -30,6 +31,12 @@ Vec3<Real> springsAt(const PassArguments<Real>& arguments, std::uint32_t i) {
     const Real longestSquared = longest * longest;
     overlong = overlong || (spring.other < i && isBeyond(lengthSquared, longestSquared));
     f = f + springForce(x, other, spring.stiffness, spring.restLength);
+    if (arguments.step.limitStiffness > Real(0)) {
+      const Real inverseLength = inverseSquareRoot(lengthSquared);
+      const Real over = lengthSquared * inverseLength - arguments.step.limitFactor * spring.restLength;
+      const Real scale = (arguments.step.limitStiffness * over) * inverseLength;
+      if (over > Real(0)) f = f + scale * d;
+    }
   }
   if (overlong) noteTrouble(arguments.watch, PASS_FORCES, i, REASON_RUNAWAY_STRAIN);
   return f;
@@ -53,14 +60,16 @@ Vec3<Real> addHinges(const PassArguments<Real>& arguments, std::uint32_t i, Vec3
 }
 
 template <bool jet, class Real>
-Vec3<Real> addTriangles(const PassArguments<Real>& arguments, std::uint32_t i, Vec3<Real> f) {
+Vec3<Real> addTriangles(const PassArguments<Real>& arguments, std::uint32_t i, Vec3<Real> f,
+                        Symmetric<Real>* resistance = nullptr) {
   const MeshLists<Real>& lists = arguments.lists;
   const auto& [x, v] = arguments.before;
   for (std::uint32_t n = lists.starts[i].triangles; n < lists.starts[i + 1].triangles; ++n) {
     const auto& [a, b, c, unused] = lists.triangles[lists.numbers[n]];
-    f = f + windOn<jet>(arguments.step, arguments.hand, at(x, a), at(x, b), at(x, c), at(v, a), at(v, b),
-                        at(v, c))
-                .force;
+    const auto wind = windOn<jet>(arguments.step, arguments.hand, at(x, a), at(x, b), at(x, c), at(v, a),
+                                  at(v, b), at(v, c));
+    f = f + wind.force;
+    if (resistance != nullptr) *resistance = *resistance + outerProduct(wind.resistance, wind.normal);
   }
   return f;
 }
@@ -83,5 +92,22 @@ void gather(const PassArguments<Real>& arguments, int row) {
 
 void gatherListedForces(const PassArguments<float>& arguments, int row) { gather(arguments, row); }
 void gatherListedForces(const PassArguments<double>& arguments, int row) { gather(arguments, row); }
+
+template <class Real>
+void gatherListedWind(const PassArguments<Real>& arguments, int row, SymmetricField<Real>& resistance) {
+  const Stretch particles = stretch(arguments.step, row);
+  for (std::ptrdiff_t n = particles.begin; n < particles.end; ++n) {
+    const auto i = static_cast<std::uint32_t>(n);
+    Symmetric<Real> sum{};
+    const Vec3<Real> f = arguments.jet ? addTriangles<true>(arguments, i, Vec3<Real>{}, &sum)
+                                       : addTriangles<false>(arguments, i, Vec3<Real>{}, &sum);
+    arguments.forces.x[i] = f.x;
+    arguments.forces.y[i] = f.y;
+    arguments.forces.z[i] = f.z;
+    put(resistance, n, sum);
+  }
+}
+template void gatherListedWind(const PassArguments<float>&, int, SymmetricField<float>&);
+template void gatherListedWind(const PassArguments<double>&, int, SymmetricField<double>&);
 
 }  // namespace clothsim::cpu

@@ -9,4 +9,8 @@ namespace clothsim::cpu {
 void gatherListedForces(const PassArguments<float>& arguments, int row);
 void gatherListedForces(const PassArguments<double>& arguments, int row);
 
+// The wind alone, and the matrices by which it resists velocities [N s/m].
+template <class Real>
+void gatherListedWind(const PassArguments<Real>& arguments, int row, SymmetricField<Real>& resistance);
+
 }  // namespace clothsim::cpu

@@ -46,9 +46,9 @@ template <class Real>
 PassArguments<Real> withState(const PassArguments<Real>& of, const StepParams<Real>& step,
                               const CpuState<Real>& before, Components<Real>& forces) {
   return {step,         of.colliders,     of.distances,   of.pinMotions, of.pinPathNumbers,
-          of.pinStarts, of.inverseMasses, of.restLengths, of.hand,       of.held,
-          of.jet,       of.cutMasks,      before,         of.after,      forces,
-          of.watch};
+          of.pinStarts, of.inverseMasses, of.restLengths, of.lists,      of.hand,
+          of.held,      of.jet,           of.cutMasks,    before,        of.after,
+          forces,       of.watch};
 }
 
 // Looks for what is not finite in the state that a step begins with.

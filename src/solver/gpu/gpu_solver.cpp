@@ -98,16 +98,23 @@ void GpuSolver::preparePins() {
 }
 
 void GpuSolver::choosePrograms() {
+  const bool implicit = scene_.solver.integrator == Integrator::implicit;
+  std::vector<PassFeatures> ofGrids;
   gridPrograms_.clear();
   for (std::size_t grid = 0; grid < cloth_->grids().size(); ++grid) {
     PassFeatures features = featuresOf(scene_, *cloth_, grid, hand_.hand(), cuts_.cuts());
     features.groupColumns = options_.groupColumns;
     features.groupRows = options_.groupRows;
     features.fused = options_.fused;
-    features.collidesInStep = !selfCollision_.isOn();
+    features.collidesInStep = !implicit && !selfCollision_.isOn();
     features.collidesAgain = contactRounds(scene_) > 1;
     gridPrograms_.push_back(library_.programsFor(features));
+    ofGrids.push_back(features);
   }
+  if (!implicit) return;
+  const bool wind = ofGrids[0].wind;
+  if (!implicit_ || (wind && !implicit_->hasAirBlocks())) implicit_.emplace(*cloth_, wind);
+  implicit_->choosePrograms(library_, ofGrids);
 }
 
 void GpuSolver::uploadParams(std::uint64_t firstStep, int count) {
@@ -243,12 +250,15 @@ void GpuSolver::stepOnce(std::size_t batchStep) {
     if (!scene_.colliders.empty()) run(*programs.collide, "collide", grid);
   };
   const auto limit = [&](const Grid&, const PassPrograms&, std::size_t grid) {
-    if (scene_.solver.strainLimit) limitStrain(grid);
+    if (limitsInPasses(scene_)) limitStrain(grid);
   };
 
   const int rounds = contactRounds(scene_);
-  const bool fusesCollide = options_.fused && !selfCollision_.isOn();
+  const bool implicit = scene_.solver.integrator == Integrator::implicit;
+  const bool fusesCollide = options_.fused && !implicit && !selfCollision_.isOn();
+  if (implicit) implicit_->run(runner_, scene_.solver, positions_[now_], bindGrid);
   forEachGrid([&](const Grid& grid, const PassPrograms& programs, std::size_t) {
+    if (implicit) return;
     if (options_.fused) {
       run(*programs.step, fusesCollide ? "step (forces, integrate, collide)" : "step (forces, integrate)",
           grid);
@@ -291,9 +301,10 @@ void GpuSolver::checkStart() {
 
 // verlet carries v(n - 1/2), euler v(n): the difference is h a / 2.
 void GpuSolver::convertVelocities() {
-  if (scene_.solver.integrator == velocityMeaning_) return;
+  const Integrator wanted = velocityMeaningOf(scene_.solver.integrator);
+  if (wanted == velocityMeaning_) return;
   checkStart();
-  velocityMeaning_ = scene_.solver.integrator;
+  velocityMeaning_ = wanted;
   uploadParams(stepIndex_, 1);
   paramsUploaded_ = !dependsOnTime(scene_);
   hand_.upload(scene_, stepIndex_, 1);

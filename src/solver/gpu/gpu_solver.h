@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include "gl/context.h"
 #include "gl/program.h"
 #include "solver/gpu/hand.h"
+#include "solver/gpu/implicit.h"
 #include "solver/gpu/mesh_lists.h"
 #include "solver/gpu/particle_array.h"
 #include "solver/gpu/pass_programs.h"
@@ -119,6 +121,7 @@ class GpuSolver final : public Solver {
   std::vector<PinMotionParams<float>> stagedPinMotions_;
   GpuHand hand_;
   GpuCuts cuts_;
+  std::optional<GpuImplicit> implicit_;  // once it was needed
   GpuSelfCollision selfCollision_;
   PassRunner runner_;
 

@@ -22,6 +22,7 @@ PassFeatures featuresOf(const Scene& scene, const Cloth& cloth, std::size_t grid
   features.restLengthTable = grid.hasRestLengthTable;
   features.material = grid.hasMaterial;
   features.mesh = grid.isMesh;
+  features.limitSprings = scene.solver.integrator == Integrator::implicit && scene.solver.strainLimit;
   for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot)
     if (grid.slotEnabled[slot]) features.enabledSlots |= 1u << slot;
   return features;
@@ -39,6 +40,8 @@ gl::Defines definesFor(const PassFeatures& features) {
           {"HAS_REST_LENGTH_TABLE", std::to_string(features.restLengthTable)},
           {"HAS_MATERIAL", std::to_string(features.material)},
           {"HAS_MESH", std::to_string(features.mesh)},
+          {"HAS_LIMIT_SPRINGS", std::to_string(features.limitSprings)},
+          {"SUM_KIND", std::to_string(features.sumKind)},
           {"HAS_HOLD", std::to_string(features.hold)},
           {"HAS_JET", std::to_string(features.jet)},
           {"HAS_CUTS", std::to_string(features.cuts)},
@@ -63,7 +66,26 @@ PassFeatures featuresOfPass(const std::string& pass, const PassFeatures& all) {
     features.jet = all.jet;
     features.cuts = all.cuts;
   }
-  if (pass == "step" || pass == "integrate") {
+  if (pass == "implicit/begin") {
+    features.mesh = all.mesh;
+    features.wind = all.wind;
+    features.airResistance = all.airResistance;
+    features.jet = all.jet;
+    features.cuts = all.cuts;
+  }
+  if (pass == "implicit/linearize" || pass == "implicit/multiply" || pass == "implicit/try_lengths") {
+    features.mesh = all.mesh;
+    features.wind = all.wind;
+    features.restLengthTable = all.restLengthTable;
+    features.enabledSlots = all.enabledSlots;
+    features.material = all.material;
+    features.cuts = all.cuts;
+  }
+  features.limitSprings =
+      all.limitSprings && (features.enabledSlots != 0 || features.mesh);  // of passes that look at springs
+  if (pass.starts_with("implicit/sum")) features.sumKind = all.sumKind;
+  if (pass == "implicit/end") features.movingPins = all.movingPins;
+  if (pass == "step" || pass == "integrate" || pass == "implicit/begin") {
     features.movingPins = all.movingPins;
     features.hold = all.hold;
   }

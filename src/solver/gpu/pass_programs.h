@@ -17,6 +17,7 @@ namespace clothsim {
 struct PassFeatures {
   bool wind = false, airResistance = false, movingColliders = false, coulombFriction = false,
        movingPins = false, restLengthTable = false, material = false, mesh = false;
+  bool limitSprings = false;                     // the strain limit of the implicit integrator
   bool hold = false, jet = false, cuts = false;  // a hand's doing
   std::uint32_t colliderTypes = 0;               // one bit a COLLIDER_... type of shared/step_params.h
   std::uint32_t enabledSlots = 0;                // one bit a SpringSlot
@@ -24,6 +25,7 @@ struct PassFeatures {
   bool fused = true;           // forces and integration in one dispatch,
   bool collidesInStep = true;  // and colliders, when no pass comes between;
   bool collidesAgain = false;  // they come again later
+  int sumKind = 0;             // SUM_... of shared/implicit.h
   friend auto operator<=>(const PassFeatures&, const PassFeatures&) = default;
 };
 
@@ -44,10 +46,10 @@ class PassLibrary {
  public:
   // They live as long as the library. @throws OpenGlError when a shader does not compile
   [[nodiscard]] PassPrograms programsFor(const PassFeatures& features);
+  // One pass, "forces" for sim/forces.comp.
+  [[nodiscard]] const gl::Program* find(const std::string& pass, const PassFeatures& features);
 
  private:
-  const gl::Program* find(const std::string& pass, const PassFeatures& features);
-
   std::map<std::pair<std::string, PassFeatures>, gl::Program> programs_;
 };
 

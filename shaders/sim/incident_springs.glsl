@@ -53,3 +53,22 @@ SpringBlock springBlock(vec3 d, IncidentSpring spring) {
   precise float along = (whole - across) * (inverseLength * inverseLength);
   return SpringBlock(across, along);
 }
+
+// What springs that are longer than limitLength add to their forces in `implicit`.
+vec3 addLimitSprings(GridPoint p, vec3 force) {
+  vec3 x = positionAt(p.index).xyz;
+  uint cut = cutMaskOf(p.index);
+  precise vec3 f = force;
+  for (uint k = 0u; k < INCIDENT_SPRINGS; ++k) {
+    IncidentSpring spring = incidentSpring(p, k, cut);
+    if (!spring.exists) continue;
+    precise vec3 d = positionAt(spring.other).xyz - x;
+    precise float lengthSquared = sumOfProducts(d, d);
+    precise float inverseLength = inverseSquareRoot(lengthSquared);
+    precise float over = lengthSquared * inverseLength - spring.limitLength;
+    precise float scale = (step.limitStiffness * over) * inverseLength;
+    precise vec3 pull = scale * d;
+    if (over > 0.0) f = f + pull;
+  }
+  return f;
+}

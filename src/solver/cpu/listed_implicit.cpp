@@ -1,0 +1,125 @@
+#include "solver/cpu/listed_implicit.h"
+
+#include "solver/cpu/implicit_laws.h"
+#include "solver/cpu/rows.h"
+
+namespace clothsim::cpu {
+namespace {
+
+template <class Real>
+Vec3<Real> at(const Components<Real>& c, std::size_t i) {
+  return {c.x[i], c.y[i], c.z[i]};
+}
+
+// Calls visit(spring, d, limitLength) for the springs of particle i in ascending number, d from it to the
+// other end.
+template <class Real, class Visit>
+void forEachSpring(const ImplicitArguments<Real>& arguments, std::size_t i, Visit visit) {
+  const MeshLists<Real>& lists = arguments.step.lists;
+  const Components<Real>& x = arguments.own.iterate.positions;
+  for (std::uint32_t n = lists.starts[i].springs; n < lists.starts[i + 1].springs; ++n) {
+    const auto& spring = lists.springs[n];
+    visit(spring, at(x, spring.other) - at(x, i), arguments.step.step.limitFactor * spring.restLength);
+  }
+}
+
+// sum c_j (v_j - v_0), the c of a hinge summing to 0
+template <class Real>
+Vec3<Real> bentOf(const typename MeshLists<Real>::HingeParams& hinge, const Components<Real>& v) {
+  const Vec3<Real> origin = at(v, hinge.corners[0]);
+  const Vec3<Real> b = hinge.coefficients[1] * (at(v, hinge.corners[1]) - origin);
+  const Vec3<Real> p = hinge.coefficients[2] * (at(v, hinge.corners[2]) - origin);
+  const Vec3<Real> q = hinge.coefficients[3] * (at(v, hinge.corners[3]) - origin);
+  return (b + p) + q;
+}
+
+// Calls visit(hinge, corner) for the hinges of particle i.
+template <class Real, class Visit>
+void forEachHinge(const ImplicitArguments<Real>& arguments, std::size_t i, Visit visit) {
+  const MeshLists<Real>& lists = arguments.step.lists;
+  for (std::uint32_t n = lists.starts[i].hinges; n < lists.starts[i + 1].hinges; ++n)
+    visit(lists.hinges[lists.numbers[n] / 4], lists.numbers[n] % 4);
+}
+
+}  // namespace
+
+template <class Real>
+void addListedBlocks(const ImplicitArguments<Real>& arguments, int row) {
+  const Stretch all = stretch(arguments.step.step, row);
+  for (std::ptrdiff_t n = all.begin; n < all.end; ++n) {
+    const auto i = static_cast<std::size_t>(n);
+    Symmetric<Real> block = at(arguments.own.factors, n);
+    forEachSpring(arguments, i, [&](const auto& spring, Vec3<Real> d, Real limitLength) {
+      const auto [across, along] = springBlock(d, spring.stiffness, spring.restLength,
+                                               arguments.step.step.limitStiffness, limitLength);
+      Symmetric<Real> k = outerProduct(along, d);
+      k.diagonal = k.diagonal + Vec3<Real>{across, across, across};
+      block = block + k;
+    });
+    forEachHinge(arguments, i, [&](const auto& hinge, std::uint32_t corner) {
+      const Real b = hinge.coefficients[corner] * hinge.coefficients[corner];
+      block.diagonal = block.diagonal + Vec3<Real>{b, b, b};
+    });
+    put(arguments.own.factors, n, block);
+  }
+}
+
+template <class Real>
+void addListedProducts(const ImplicitArguments<Real>& arguments, int row) {
+  const Stretch all = stretch(arguments.step.step, row);
+  const Components<Real>& p = arguments.own.directions.positions;
+  Components<Real>& products = arguments.own.products;
+  for (std::ptrdiff_t n = all.begin; n < all.end; ++n) {
+    const auto i = static_cast<std::size_t>(n);
+    Vec3<Real> f{};
+    forEachSpring(arguments, i, [&](const auto& spring, Vec3<Real> d, Real limitLength) {
+      const auto [across, along] = springBlock(d, spring.stiffness, spring.restLength,
+                                               arguments.step.step.limitStiffness, limitLength);
+      const Vec3<Real> e = at(p, spring.other) - at(p, i);
+      f = f + (across * e + (along * dot(d, e)) * d);
+    });
+    forEachHinge(arguments, i, [&](const auto& hinge, std::uint32_t corner) {
+      f = f - hinge.coefficients[corner] * bentOf<Real>(hinge, p);
+    });
+    products.x[i] = f.x;
+    products.y[i] = f.y;
+    products.z[i] = f.z;
+  }
+}
+
+// A spring belongs to its end of the larger index, a hinge to its first corner.
+template <class Real>
+void addListedTrials(const ImplicitArguments<Real>& arguments, int row) {
+  const Stretch all = stretch(arguments.step.step, row);
+  ImplicitState<Real>& own = arguments.own;
+  for (std::ptrdiff_t n = all.begin; n < all.end; ++n) {
+    const auto i = static_cast<std::size_t>(n);
+    forEachSpring(arguments, i, [&](const auto& spring, Vec3<Real> d, Real limitLength) {
+      if (spring.other > i) return;
+      const Vec3<Real> e = at(own.increments, spring.other) - at(own.increments, i);
+      for (std::size_t k = 0; k < LENGTHS_TRIED; ++k)
+        own.trials[k][i] =
+            own.trials[k][i] + springChange(d, e, lengthTried<Real>(k), spring.stiffness, spring.restLength,
+                                            arguments.step.step.limitStiffness, limitLength);
+    });
+    forEachHinge(arguments, i, [&](const auto& hinge, std::uint32_t corner) {
+      if (corner != 0) return;
+      const Vec3<Real> bent = bentOf<Real>(hinge, own.iterate.positions),
+                       more = bentOf<Real>(hinge, own.increments);
+      const Real first = dot(bent, more), second = dot(more, more);
+      for (std::size_t k = 0; k < LENGTHS_TRIED; ++k) {
+        const Real l = lengthTried<Real>(k);
+        own.trials[k][i] = own.trials[k][i] + l * (first + (Real(0.5) * l) * second);
+      }
+    });
+  }
+}
+
+template void addListedBlocks(const ImplicitArguments<float>&, int);
+template void addListedBlocks(const ImplicitArguments<double>&, int);
+template void addListedProducts(const ImplicitArguments<float>&, int);
+template void addListedProducts(const ImplicitArguments<double>&, int);
+template void addListedTrials(const ImplicitArguments<float>&, int);
+template void addListedTrials(const ImplicitArguments<double>&, int);
+
+}  // namespace clothsim::cpu

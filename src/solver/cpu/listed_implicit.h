@@ -1,0 +1,18 @@
+// Springs and hinges of meshes in an implicit step, gathered over lists; the twin of
+// shaders/sim/implicit/listed.glsl. Meshes have no coarse levels: the preconditioner is that of their
+// diagonal blocks.
+#pragma once
+
+#include "solver/cpu/implicit_passes.h"
+
+namespace clothsim::cpu {
+
+// Adds them to the diagonal blocks in `factors`; to `products`, as forces; to `trials`.
+template <class Real>
+void addListedBlocks(const ImplicitArguments<Real>& arguments, int row);
+template <class Real>
+void addListedProducts(const ImplicitArguments<Real>& arguments, int row);
+template <class Real>
+void addListedTrials(const ImplicitArguments<Real>& arguments, int row);
+
+}  // namespace clothsim::cpu
