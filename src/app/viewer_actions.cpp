@@ -7,6 +7,7 @@
 #include "export/export.h"
 #include "export/sequence.h"
 #include "render/shading_models.h"
+#include "scene/material.h"
 #include "scene/scene_io.h"
 
 namespace clothsim {
@@ -146,7 +147,17 @@ void Viewer::switchBackend(const std::string& backend) {
 void Viewer::switchIntegrator() {
   Scene scene = open_->scene();
   Integrator& integrator = scene.solver.integrator;
-  integrator = integrator == Integrator::verlet ? Integrator::euler : Integrator::verlet;
+  integrator = integrator == Integrator::verlet  ? Integrator::euler
+               : integrator == Integrator::euler ? Integrator::implicit
+                                                 : Integrator::verlet;
+  if (integrator == Integrator::implicit) {  // one long step costs as much as dozens of short ones
+    explicitSteps_.reset();
+    if (!scene.solver.simulationSteps.automatic) explicitSteps_ = scene.solver.simulationSteps.count;
+    scene.solver.simulationSteps.automatic = true;
+    chooseSteps(scene);
+  } else if (scene.solver.simulationSteps.automatic && explicitSteps_) {
+    scene.solver.simulationSteps = *explicitSteps_;
+  }
   edit(scene, false);
   say(std::string("Continues with ") + nameOf(integrator));
 }

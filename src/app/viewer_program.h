@@ -140,6 +140,7 @@ class Viewer {
   Scene draft_;                 // what the panels edit
   bool draftHeld_ = false;      // some control of theirs is held: the draft is ahead of the scene
   bool editContinues_ = false;  // the next edit belongs to the one before
+  std::optional<int> explicitSteps_;  // a frame, before the implicit integrator chose its own
   std::string confirmed_;       // a file that the next Save may write over
   std::string title_;
   double now_ = 0, pinsShownUntil_ = 0;         // [s] since the start

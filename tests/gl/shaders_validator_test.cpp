@@ -8,6 +8,7 @@
 
 #include "core/files.h"
 #include "gl/shader_source.h"
+#include "shared/implicit.h"
 #include "solver/gpu/pass_programs.h"
 #include "support/command.h"
 #include "support/temporary_folder.h"
@@ -78,8 +79,11 @@ std::vector<gl::Defines> variantsOf(const std::string& file) {
   everything.enabledSlots = (1u << SPRING_SLOTS) - 1;
   PassFeatures cs184 = everything;
   cs184.coulombFriction = false;
+  everything.limitSprings = everything.material = true;
   PassFeatures mesh = everything;
   mesh.mesh = true;
+  cs184.sumKind = SUM_STEP;
+  mesh.sumKind = SUM_LENGTH;
   std::vector<gl::Defines> variants{definesFor(everything), definesFor(cs184), definesFor(PassFeatures{}),
                                     definesFor(mesh)};
   for (std::size_t i = 0; i < variants.size(); ++i) {

@@ -10,6 +10,7 @@
 #include "gl/gl_test.h"
 #include "gl/program.h"
 #include "solver/gpu/pass_programs.h"
+#include "solver/implicit.h"
 #include "solver/mesh_lists.h"
 #include "solver/pin_paths.h"
 #include "solver/step_params.h"
@@ -129,6 +130,36 @@ TEST_F(LayoutTest, OfHandParamsIsTheDrivers) {
     EXPECT_EQ(uniformOffset(*programs.step, name), static_cast<GLint>(offset)) << name;
   EXPECT_EQ(blockSize(*programs.step, "HandBlock"), static_cast<GLint>(sizeof(HandBlock)));
   EXPECT_EQ(sizeof(Hold::Point), 16u) << "a texel";
+}
+
+TEST_F(LayoutTest, OfWhatTheImplicitIntegratorSharesIsTheDrivers) {
+  using Level = LevelParams<float>;
+  PassLibrary library;
+  PassFeatures features = everything();
+  features.limitSprings = features.hold = true;
+  const gl::Program& begin = *library.find("implicit/begin", features);
+  EXPECT_EQ(uniformOffset(begin, "step.inertia"), static_cast<GLint>(offsetof(Step, inertia)));
+  EXPECT_EQ(uniformOffset(begin, "step.guessTime"), static_cast<GLint>(offsetof(Step, guessTime)));
+  EXPECT_EQ(uniformOffset(begin, "hand.resistance"),
+            static_cast<GLint>(offsetof(HandParams<float>, resistance)));
+  EXPECT_EQ(uniformOffset(begin, "hand.largestWaySquared"),
+            static_cast<GLint>(offsetof(HandParams<float>, largestWaySquared)));
+  EXPECT_EQ(uniformOffset(*library.find("implicit/multiply", features), "step.limitStiffness"),
+            static_cast<GLint>(offsetof(Step, limitStiffness)));
+
+  const gl::Program& coarsen = *library.find("implicit/coarsen", features);
+  for (const auto& [name, offset] : std::vector<std::pair<std::string, std::size_t>>{
+           MEMBER(Level, "level.", fineFirst), MEMBER(Level, "level.", coarseFirst),
+           MEMBER(Level, "level.", coarseRows), MEMBER(Level, "level.", stretchFactor),
+           MEMBER(Level, "level.", inertiaFactor), MEMBER(Level, "level.", bending)})
+    EXPECT_EQ(uniformOffset(coarsen, name), static_cast<GLint>(offset)) << name;
+  EXPECT_EQ(blockSize(coarsen, "LevelBlock"), static_cast<GLint>(sizeof(Level)));
+
+  const gl::Program& totals = *library.find("implicit/sum_totals", features);
+  const GLuint index = glGetProgramResourceIndex(totals.name(), GL_BUFFER_VARIABLE, "scalars.residual");
+  ASSERT_NE(index, GL_INVALID_INDEX);
+  EXPECT_EQ(sizeof(ImplicitScalars<float>), 32u);
+  EXPECT_EQ(offsetof(ImplicitScalars<float>, newtonLength), 16u);
 }
 
 // Who toggles back and forth compiles nothing, nor for a pass that does not look at what was toggled.
