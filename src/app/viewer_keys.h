@@ -57,7 +57,7 @@ inline constexpr std::array viewerKeys{
     ViewerKey{"Right", "one frame later, while looking back", ViewerAction::stepForward},
     ViewerKey{"B", "continue on the other backend: GPU or CPU", ViewerAction::toggleBackend},
     ViewerKey{"C", "compare the backends from here", ViewerAction::compareBackends},
-    ViewerKey{"I", "continue with the other integrator: verlet or euler", ViewerAction::toggleIntegrator},
+    ViewerKey{"I", "continue with the next integrator: verlet, euler, implicit", ViewerAction::toggleIntegrator},
     ViewerKey{"Tab", "next shading model", ViewerAction::nextShader},
     ViewerKey{"Ctrl+Z", "undo the last change of a parameter", ViewerAction::undo},
     ViewerKey{"Ctrl+Shift+Z", "redo it", ViewerAction::redo},

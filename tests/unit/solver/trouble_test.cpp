@@ -107,7 +107,8 @@ TEST(Watchdog, NamesTheSamePlaceFusedAndPassByPass) {
     fused.step(60);
     separate.step(60);
     EXPECT_EQ(fused.trouble(), separate.trouble()) << name;
-    EXPECT_TRUE(fused.trouble().has_value()) << name;
+    const bool explodes = scene.solver.integrator != Integrator::implicit;  // that one takes any stiffness
+    EXPECT_EQ(fused.trouble().has_value(), explodes) << name;
   }
 }
 
