@@ -35,6 +35,14 @@ double freeFallError(Integrator integrator, int stepsPerSecond) {
   return (1 - static_cast<double>(solver.position(5).y) - 4.905) / 4.905;
 }
 
+// Both Euler schemes fall by g t dt / 2 too far.
+template <class Real>
+void expectImplicitFreeFall(int stepsPerSecond, double tolerance) {
+  expectNear({"free fall, 1 s", "relative error, implicit euler, dt = 1e-03 s", precisionOf<Real>, ""},
+             freeFallError<Real>(Integrator::implicit, stepsPerSecond), 9.81 * 0.5 / stepsPerSecond / 4.905,
+             tolerance);
+}
+
 template <class Real>
 void expectFreeFall(int stepsPerSecond, double tolerance) {
   char step[30];
@@ -49,6 +57,8 @@ void expectFreeFall(int stepsPerSecond, double tolerance) {
 
 TEST(RowFreeFall, IsExactUnderVerletAndHalfAStepAheadUnderEuler) {
   expectFreeFall<double>(1000, 1e-12);
+  expectImplicitFreeFall<double>(1000, 1e-12);
+  expectImplicitFreeFall<float>(1000, 2e-5);
   expectFreeFall<float>(10'000, 2e-5);
   expectFreeFall<float>(100'000, 1e-3);
 }

@@ -1,0 +1,360 @@
+// The implicit integrator: against a sparse direct solver, and what has to hold exactly. Rows with known
+// answers are in unit/validation.
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include <Eigen/SparseCholesky>
+#include <cmath>
+#include <random>
+
+#include "scene/pose.h"
+#include "solver/cpu/cpu_solver.h"
+#include "support/compared_scenes.h"
+#include "support/elastic_energy.h"
+#include "support/hands.h"
+#include "support/material_sheet.h"
+
+namespace clothsim {
+namespace {
+
+double length(Vec3d v) { return std::sqrt(dot(v, v)); }
+
+// A horizontal sheet of 1 m x 1 m in steps of 1/60 s.
+Scene implicitSheet(int n, const Material& material) {
+  Scene scene = test::materialSheet(n, n, 1, 1, material);
+  scene.solver.integrator = Integrator::implicit;
+  scene.solver.framesPerSec = 60;
+  scene.solver.simulationSteps = 1;
+  return scene;
+}
+
+const Material canvas{.density = 0.2, .stretch = 3000, .shear = 700, .bend = 1e-3, .damping = 2};
+
+// The minimum that a step looks for, by Newton's method with a direct solver: first with the springs' clamped
+// Hessian, then with the exact one, until steps are rounding.
+class Reference {
+ public:
+  using Field = std::vector<Vec3d>;
+
+  Reference(const Scene& scene, const Cloth& cloth, const Cuts& cuts, const CpuSolver<double>& solver)
+      : energy_(scene, cloth, cuts), h_(stepLength(scene.solver)) {
+    const double damped = 1 + scene.cloths[0].material->damping * h_;
+    for (std::uint32_t i = 0; i < cloth.particleCount(); ++i) {
+      const double w = cloth.inverseMasses()[i];
+      const Vec3d x = solver.position(i), v = solver.velocity(i);
+      guess_.push_back(w > 0 ? x + (h_ / damped) * (v + h_ * scene.gravity) : x);
+      anchor_.push_back(guess_.back());
+      stiffness_.push_back(w > 0 ? damped / (w * h_ * h_) : 0);
+      unknown_.push_back(w > 0 ? unknowns_++ : -1);
+      if (w == 0 || scene.airResistance == 0) continue;  // -a |v| v', v' = (x' - x) / h
+      const double air = scene.airResistance * length(v) / h_, sum = stiffness_[i] + air;
+      anchor_[i] = (1 / sum) * (stiffness_[i] * guess_[i] + air * x);
+      stiffness_[i] = sum;
+    }
+  }
+
+  [[nodiscard]] Field solve() const {
+    Field x = guess_;
+    double step = 1;
+    for (int k = 0; k < 400 && step > 1e-14; ++k) step = improve(x, step < 1e-4);
+    EXPECT_LT(step, 1e-12) << "the reference has not converged";
+    return x;
+  }
+
+ private:
+  [[nodiscard]] double objective(const Field& x) const {
+    double sum = energy_.at(x);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      sum += 0.5 * stiffness_[i] * dot(x[i] - anchor_[i], x[i] - anchor_[i]);
+    return sum;
+  }
+
+  // A Newton step with back-tracking; returns how far it went.
+  double improve(Field& x, bool exact) const {
+    Eigen::VectorXd gradient(3 * unknowns_);
+    const Field elastic = energy_.gradient(x);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      if (unknown_[i] < 0) continue;
+      const Vec3d g = elastic[i] + stiffness_[i] * (x[i] - anchor_[i]);
+      gradient.segment<3>(3 * unknown_[i]) << g.x, g.y, g.z;
+    }
+    const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(hessian(x, exact));
+    if (exact && !(factors.vectorD().minCoeff() > 0)) return improve(x, false);
+    const Eigen::VectorXd step = factors.solve(-gradient);
+    const double before = objective(x), slope = gradient.dot(step);
+    const bool isRounding = step.cwiseAbs().maxCoeff() < 1e-7;
+    double size = 1;
+    Field moved;
+    for (;; size *= 0.5) {
+      moved = x;
+      for (std::size_t i = 0; i < x.size(); ++i)
+        if (const int u = unknown_[i]; u >= 0)
+          moved[i] = moved[i] + size * Vec3d{step[3 * u], step[3 * u + 1], step[3 * u + 2]};
+      if (isRounding || size < 1e-6 || objective(moved) <= before + 1e-4 * size * slope) break;
+    }
+    x = moved;
+    return size * step.cwiseAbs().maxCoeff();
+  }
+
+  [[nodiscard]] Eigen::SparseMatrix<double> hessian(const Field& x, bool exact) const {
+    std::vector<Eigen::Triplet<double>> entries;
+    const auto add = [&](std::size_t a, std::size_t b, const Eigen::Matrix3d& block) {
+      if (unknown_[a] < 0 || unknown_[b] < 0) return;
+      for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 3; ++c)
+          entries.emplace_back(3 * unknown_[a] + r, 3 * unknown_[b] + c, block(r, c));
+    };
+    const Eigen::Matrix3d one = Eigen::Matrix3d::Identity();
+    for (std::size_t i = 0; i < x.size(); ++i) add(i, i, stiffness_[i] * one);
+    for (const auto& spring : energy_.springs()) {
+      const Vec3d d = x[spring.b] - x[spring.a];
+      const double l = length(d), over = l - spring.limit;
+      const double whole = spring.stiffness + (over > 0 ? spring.limitStiffness : 0);
+      const double tension =
+          spring.stiffness * (l - spring.rest) + (over > 0 ? spring.limitStiffness * over : 0);
+      const double across = exact ? tension / l : std::fmax(tension / l, 0);
+      const Eigen::Vector3d n(d.x / l, d.y / l, d.z / l);
+      const Eigen::Matrix3d k = across * one + (whole - across) * n * n.transpose();
+      add(spring.a, spring.a, k);
+      add(spring.b, spring.b, k);
+      add(spring.a, spring.b, -k);
+      add(spring.b, spring.a, -k);
+    }
+    for (const auto& line : energy_.bending()) {
+      const std::pair<std::uint32_t, double> parts[] = {{line.first, 1}, {line.middle, -2}, {line.last, 1}};
+      for (const auto& [a, p] : parts)
+        for (const auto& [b, q] : parts) add(a, b, line.b * p * q * one);
+    }
+    Eigen::SparseMatrix<double> matrix(3 * unknowns_, 3 * unknowns_);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    return matrix;
+  }
+
+  test::ElasticEnergy energy_;
+  double h_;
+  Field guess_, anchor_;
+  std::vector<double> stiffness_;
+  std::vector<int> unknown_;
+  int unknowns_ = 0;
+};
+
+// 9 x 9 points held at two corners; fast, turning and swelling, in waves.
+Scene fastSheet() {
+  Scene scene = implicitSheet(9, canvas);
+  scene.cloths[0].pinned = {GridPoint{0, 0}, GridPoint{8, 0}};
+  return scene;
+}
+void makeFast(CpuSolver<double>& solver, const Cloth& cloth) {
+  for (std::uint32_t i = 0; i < cloth.particleCount(); ++i) {
+    if (cloth.inverseMasses()[i] == 0) continue;
+    const Vec3d x = cloth.positions()[i] - Vec3d{0.5, 1, 0};
+    solver.setVelocity(
+        i, {3 * x.x + std::sin(5 * x.z), 4 * std::sin(4 * x.x + 3 * x.z), 3 * x.z + std::cos(7 * x.x) * x.z});
+  }
+}
+
+double largestDifference(const CpuSolver<double>& solver, const std::vector<Vec3d>& x) {
+  double most = 0;
+  for (std::uint32_t i = 0; i < x.size(); ++i) most = std::max(most, length(solver.position(i) - x[i]));
+  return most;
+}
+
+// How far a step ends from the reference [m]; the third from the start, when springs push as well.
+double errorOfThirdStep(Scene scene, const Cuts& cuts, int newtonSteps, int cgIterations) {
+  scene.solver.newtonSteps = 60;
+  scene.solver.cgIterations = 200;
+  const Cloth cloth(scene);
+  CpuSolver<double> solver(cloth, scene);
+  solver.setCuts(cuts);
+  makeFast(solver, cloth);
+  solver.step(2);
+  const std::vector<Vec3d> expected = Reference(scene, cloth, cuts, solver).solve();
+  scene.solver.newtonSteps = newtonSteps;
+  scene.solver.cgIterations = cgIterations;
+  solver.configure(scene);
+  solver.step(1);
+  return largestDifference(solver, expected);
+}
+
+TEST(ImplicitStep, IsThatOfADirectSolver) {
+  const Scene scene = fastSheet();
+  EXPECT_LT(errorOfThirdStep(scene, {}, 60, 200), 1e-9);
+}
+
+TEST(ImplicitStep, IsThatOfADirectSolverWithStrainLimitAndAir) {
+  Scene scene = fastSheet();
+  scene.solver.strainLimit = 0.02;
+  scene.airResistance = 1e-3;
+  EXPECT_LT(errorOfThirdStep(scene, {}, 60, 200), 1e-9);
+}
+
+TEST(ImplicitStep, IsThatOfADirectSolverWhereTheSheetIsTorn) {
+  const Scene scene = fastSheet();
+  EXPECT_LT(errorOfThirdStep(scene, test::someCuts(Cloth(scene)), 60, 200), 1e-9);
+}
+
+// Relative to where it starts, the inertial guess.
+TEST(ImplicitStep, IsNearTheDirectSolverWithDefaults) {
+  const Scene scene = fastSheet();
+  const SolverSettings defaults;
+  for (const Cuts& cuts : {Cuts{}, test::someCuts(Cloth(scene))}) {
+    const double guess = errorOfThirdStep(scene, cuts, 0, 1);
+    const double error = errorOfThirdStep(scene, cuts, defaults.newtonSteps, defaults.cgIterations);
+    EXPECT_LT(error, (cuts.empty() ? 0.25 : 0.5) * guess);
+  }
+}
+
+// x = x0 - g h^2 n (n + 1) / 2
+TEST(ImplicitStep, FallsFreelyAsBackwardEulerDoes) {
+  Material undamped = canvas;
+  undamped.damping = 0;
+  const Scene scene = implicitSheet(12, undamped);
+  const Cloth cloth(scene);
+  CpuSolver<double> solver(cloth, scene);
+  solver.step(60);
+  for (std::uint32_t i = 0; i < cloth.particleCount(); ++i) {
+    const Vec3d expected = cloth.positions()[i] - Vec3d{0, 9.81 * 60 * 61 / 2 / 3600, 0};
+    EXPECT_LT(length(solver.position(i) - expected), 1e-12) << i;
+  }
+}
+
+// Points a power of two apart, so that springs and bending see the lattice to the bit.
+TEST(ImplicitStep, LeavesAFlatSheetStillToTheBit) {
+  for (const bool material : {true, false}) {
+    Scene scene = implicitSheet(33, canvas);
+    if (!material) scene.cloths[0] = test::sheetScene(33).cloths[0];
+    scene.gravity = {0, 0, 0};
+    scene.cloths[0].pinned = {GridPoint{0, 0}};
+    const Cloth cloth(scene);
+    CpuSolver<float> solver(cloth, scene);
+    solver.step(50);
+    int moved = 0;
+    for (std::uint32_t i = 0; i < cloth.particleCount(); ++i)
+      moved += solver.position(i) == startPosition<float>(cloth, i) ? 0 : 1;
+    EXPECT_EQ(moved, 0) << material;
+  }
+}
+
+// Elsewhere binary32 rounds the lattice but not the rest length: that much, and it does not add up.
+TEST(ImplicitStep, LeavesAnyFlatSheetWithinTheRoundingOfItsPlaces) {
+  Scene scene = implicitSheet(50, canvas);
+  scene.gravity = {0, 0, 0};
+  const Cloth cloth(scene);
+  CpuSolver<float> solver(cloth, scene);
+  solver.step(50);
+  for (std::uint32_t i = 0; i < cloth.particleCount(); ++i)
+    EXPECT_LT(length((solver.position(i) - startPosition<float>(cloth, i)).cast<double>()), 3e-7) << i;
+}
+
+// In 20 steps; relative to the sum of the particles' own.
+template <class Real>
+double changeOfMomentum(int newtonSteps, int cgIterations) {
+  Material undamped = canvas;
+  undamped.damping = 0;
+  Scene scene = implicitSheet(12, undamped);
+  scene.gravity = {0, 0, 0};
+  scene.solver.newtonSteps = newtonSteps;
+  scene.solver.cgIterations = cgIterations;
+  const Cloth cloth(scene);
+  CpuSolver<Real> solver(cloth, scene);
+  std::mt19937 engine(7);
+  std::uniform_real_distribution<double> speed(-1, 1);
+  const auto momentum = [&](std::uint32_t i) {
+    return (1 / cloth.inverseMasses()[i]) * solver.velocity(i).template cast<double>();
+  };
+  Vec3d change{};
+  double sizes = 0;
+  for (std::uint32_t i = 0; i < cloth.particleCount(); ++i) {
+    solver.setVelocity(i, Vec3d{speed(engine), speed(engine), speed(engine)}.cast<Real>());
+    change = change - momentum(i);
+    sizes += length(momentum(i));
+  }
+  solver.step(20);
+  for (std::uint32_t i = 0; i < cloth.particleCount(); ++i) change = change + momentum(i);
+  return length(change) / sizes;
+}
+
+TEST(ImplicitStep, KeepsTheMomentumOfAFreeSheet) {
+  const double converged = changeOfMomentum<double>(20, 100), single = changeOfMomentum<float>(20, 100);
+  const double quick = changeOfMomentum<double>(3, 10);
+  EXPECT_LT(converged, 1e-11);
+  EXPECT_LT(single, 1e-5);
+  EXPECT_LT(quick, 1e-2) << "as far as it is solved";
+}
+
+TEST(ImplicitStep, GivesTheSameBitsOnAnyNumberOfThreads) {
+  Scene scene = implicitSheet(100, canvas);
+  scene.cloths[0].pinned = {GridPoint{0, 0}, GridPoint{99, 0}};
+  scene.wind = Wind{.velocity = {1, 0.5, -2}, .gust = {}};
+  const Cloth cloth(scene);
+  const int usual = omp_get_max_threads();
+  std::vector<std::uint64_t> hashes;
+  for (const int threads : {1, 2, 3}) {
+    omp_set_num_threads(threads);
+    CpuSolver<float> solver(cloth, scene);
+    solver.step(3);
+    hashes.push_back(stateHash(solver.state()));
+  }
+  omp_set_num_threads(usual);
+  EXPECT_EQ(hashes[0], hashes[1]);
+  EXPECT_EQ(hashes[0], hashes[2]);
+}
+
+// Coarse levels reach across the cut: it takes iterations until neither side feels the other.
+TEST(ImplicitStep, LetsWhatIsCutOffFallFreely) {
+  Material undamped = canvas;
+  undamped.damping = 0;
+  Scene scene = test::vertical(implicitSheet(9, undamped));
+  scene.solver.cgIterations = 20;
+  const Cloth cloth(scene);
+  CpuSolver<double> solver(cloth, scene);
+  solver.setCuts(test::cutAcross(cloth, 4.5));
+  solver.step(30);
+  const double expected = 9.81 * 30 * 31 / 2 / 3600;
+  for (std::uint32_t i = 0; i < 45; ++i)
+    EXPECT_NEAR(cloth.positions()[i].y - solver.position(i).y, expected, 1e-4) << i;
+  EXPECT_GT(solver.position(8 * 9 + 4).y, 0.7) << "the rest hangs on";
+  EXPECT_EQ(solver.trouble(), std::nullopt);
+}
+
+TEST(ImplicitStep, BringsAHeldParticleNearItsGoal) {
+  Scene scene = test::vertical(implicitSheet(9, canvas));
+  const Cloth cloth(scene);
+  for (const double strength : {1e4, 1e12}) {
+    CpuSolver<float> solver(cloth, scene);
+    const Vec3d target{0.5, 0.3, 0.4};
+    solver.setHand(test::handTo(solver, cloth, scene, 4, target, strength));
+    solver.step(90);
+    EXPECT_EQ(solver.trouble(), std::nullopt) << strength;
+    // A soft hand gives way.
+    EXPECT_LT(length(solver.position(4).cast<double>() - target), strength > 1e6 ? 1e-4 : 0.1) << strength;
+  }
+}
+
+TEST(ImplicitStep, TakesPinsWhereTheirPathSays) {
+  Scene scene = implicitSheet(5, canvas);
+  scene.cloths[0].pinned = {GridSide::left, GridSide::right};
+  PinMotion motion;
+  motion.pinned = {GridSide::left};
+  motion.keys = {{.t = 0, .position = std::nullopt, .rotation = {}},
+                 {.t = 0.5, .position = Vec3d{0.1, 1.2, 0.6}, .rotation = {0, 90, 0}}};
+  scene.cloths[0].pinMotion = {motion};
+  const Cloth cloth(scene);
+  CpuSolver<double> solver(cloth, scene);
+  const Vec3d start{0, 1, 0.5};  // the mean of the left column
+  for (const int step : {1, 15, 30, 45}) {
+    solver.step(step - static_cast<int>(solver.stepIndex()));
+    const double part = std::min(1.0, step / 30.0);
+    const Matrix3 turn = rotationMatrix({0, 90 * part, 0});
+    for (int row = 0; row < 5; ++row) {
+      const std::uint32_t left = cloth.grids()[0].particle(0, row), right = cloth.grids()[0].particle(4, row);
+      const Vec3d expected =
+          start + part * Vec3d{0.1, 0.2, 0.1} + rotate(turn, cloth.positions()[left] - start);
+      EXPECT_LT(length(solver.position(left) - expected), 1e-12) << step;
+      EXPECT_EQ(solver.position(right), cloth.positions()[right]) << step;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace clothsim
