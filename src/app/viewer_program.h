@@ -137,11 +137,11 @@ class Viewer {
   Notice notice_;
   ViewerConfig config_, savedConfig_;
   Asked asked_;
-  Scene draft_;                 // what the panels edit
-  bool draftHeld_ = false;      // some control of theirs is held: the draft is ahead of the scene
-  bool editContinues_ = false;  // the next edit belongs to the one before
+  Scene draft_;                       // what the panels edit
+  bool draftHeld_ = false;            // some control of theirs is held: the draft is ahead of the scene
+  bool editContinues_ = false;        // the next edit belongs to the one before
   std::optional<int> explicitSteps_;  // a frame, before the implicit integrator chose its own
-  std::string confirmed_;       // a file that the next Save may write over
+  std::string confirmed_;             // a file that the next Save may write over
   std::string title_;
   double now_ = 0, pinsShownUntil_ = 0;         // [s] since the start
   int drawsLeft_ = drawsAfterInput;             // of a paused window, until controls have settled

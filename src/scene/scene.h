@@ -227,7 +227,7 @@ struct SolverSettings {
   Integrator integrator = Integrator::verlet;
   double framesPerSec = 90;   // [1/s]
   StepCount simulationSteps;  // a frame; h = 1 / (frames_per_sec * simulation_steps)
-  int newtonSteps = 3;        // of `implicit`, in a step: each makes a linear system,
+  int newtonSteps = 4;        // of `implicit`, in a step: each makes a linear system,
   int cgIterations = 10;      // solved by so many iterations of conjugate gradients
   std::optional<double>
       strainLimit;  // largest l/L - 1 after the limiter; none: no limiter. 0.1 in scenes with `ks`

@@ -139,31 +139,14 @@ Figure stretchFigure(int points, int steps, const SolverSettings& effort) {
           "binary32", ""};
 }
 
-SolverSettings effortOf(int newtonSteps, int cgIterations) {
-  SolverSettings settings;
-  settings.newtonSteps = newtonSteps;
-  settings.cgIterations = cgIterations;
-  return settings;
-}
-
-TEST(RowStrainLimitUnderImplicit, LongHoldsWithEnoughNewtonSteps) {
-  const SolverSettings effort = effortOf(10, 10);
-  expectAtMost(stretchFigure(64, 10'000, effort), largestStretch<float>(64, 10'000, effort), 0.101);
-}
-
-TEST(RowStrainLimitUnderImplicit, LongHoldsOnAFinerSheetWithMoreOfThem) {
-  const SolverSettings effort = effortOf(10, 20);
-  expectAtMost(stretchFigure(128, 600, effort), largestStretch<float>(128, 600, effort), 0.101);
-}
-
-const std::string fewSteps =
-    "the second springs begin with a kink, a few hundred times as stiff as the cloth: three Newton steps do "
-    "not find which of them pull";
-
-TEST(RowStrainLimitUnderImplicit, LongIsMissedWithDefaults) {
+TEST(RowStrainLimitUnderImplicit, LongHoldsWithDefaults) {
   const SolverSettings defaults;
-  reportUnmet(because(stretchFigure(64, 120, defaults), fewSteps), largestStretch<float>(64, 120, defaults),
-              0, 0.101, 0.4);
+  expectAtMost(stretchFigure(64, 10'000, defaults), largestStretch<float>(64, 10'000, defaults), 0.101);
+}
+
+TEST(RowStrainLimitUnderImplicit, LongHoldsOnFinerSheetsWithDefaults) {
+  const SolverSettings defaults;
+  expectAtMost(stretchFigure(128, 600, defaults), largestStretch<float>(128, 600, defaults), 0.101);
 }
 
 }  // namespace
