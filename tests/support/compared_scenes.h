@@ -236,32 +236,41 @@ struct NamedScene {
 };
 
 inline std::vector<NamedScene> comparedScenes(int n) {
+  return {{"pinned", vertical(sheetScene(n))},
+          {"falling flat", sheetScene(n)},
+          {"limiter", withLimiter(vertical(sheetScene(n)))},
+          {"wind", withWind(vertical(sheetScene(n)))},
+          {"colliders", withColliders(vertical(sheetScene(n)))},
+          {"shapes", withShapes(vertical(sheetScene(n)), FrictionLaw::cs184)},
+          {"shapes, coulomb", withShapes(withLimiter(vertical(sheetScene(n))), FrictionLaw::coulomb)},
+          {"spheres and planes, coulomb", withCoulomb(withColliders(vertical(sheetScene(n))))},
+          {"meshes", withMeshes(vertical(sheetScene(n)))},
+          {"meshes in long steps, coulomb", inLongSteps(withCoulomb(withMeshes(vertical(sheetScene(n)))))},
+          {"long steps", inLongSteps(withColliders(vertical(sheetScene(n))))},
+          {"shapes in long steps", inLongSteps(withShapes(vertical(sheetScene(n)), FrictionLaw::cs184))},
+          {"everything", withWind(withColliders(withLimiter(vertical(sheetScene(n)))))},
+          {"stiffness reference", stiffnessReferenceScene(n)},
+          {"material", materialScene(n)},
+          {"material with everything", withWind(withColliders(withLimiter(vertical(materialScene(n)))))},
+          {"averaged self-collision", layeredSheets(n, SelfCollision::averaged)},
+          {"robust self-collision", withWind(withColliders(layeredSheets(n, SelfCollision::robust)))},
+          {"thick averaged self-collision", thick(layeredSheets(n / 2, SelfCollision::averaged))},
+          {"thick robust self-collision", thick(layeredSheets(n / 2, SelfCollision::robust))},
+          {"pins that move through other cloth", withPinMotion(layeredSheets(n, SelfCollision::robust))},
+          {"two cloths", twoCloths(withLimiter(withWind(vertical(sheetScene(n)))))},
+          {"mesh with everything", meshWithEverything(n / 2, SelfCollision::robust)},
+          {"mesh with everything, averaged", meshWithEverything(n / 2, SelfCollision::averaged)},
+          {"mesh of a material", meshOfMaterial(n / 2)},
+          {"pin motion", withPinMotion(vertical(sheetScene(n)))},
+          {"everything with pin motion",
+           withPinMotion(withWind(withColliders(withLimiter(vertical(sheetScene(n))))))},
+          {"two cloths with pin motion", twoClothsWithPinMotion(withLimiter(vertical(sheetScene(n))))}};
+}
+
+// The same for implicit steps. They cost dozens of explicit ones, and what is fused or not is no question to
+// them.
+inline std::vector<NamedScene> implicitScenes(int n) {
   return {
-      {"pinned", vertical(sheetScene(n))},
-      {"falling flat", sheetScene(n)},
-      {"limiter", withLimiter(vertical(sheetScene(n)))},
-      {"wind", withWind(vertical(sheetScene(n)))},
-      {"colliders", withColliders(vertical(sheetScene(n)))},
-      {"shapes", withShapes(vertical(sheetScene(n)), FrictionLaw::cs184)},
-      {"shapes, coulomb", withShapes(withLimiter(vertical(sheetScene(n))), FrictionLaw::coulomb)},
-      {"spheres and planes, coulomb", withCoulomb(withColliders(vertical(sheetScene(n))))},
-      {"meshes", withMeshes(vertical(sheetScene(n)))},
-      {"meshes in long steps, coulomb", inLongSteps(withCoulomb(withMeshes(vertical(sheetScene(n)))))},
-      {"long steps", inLongSteps(withColliders(vertical(sheetScene(n))))},
-      {"shapes in long steps", inLongSteps(withShapes(vertical(sheetScene(n)), FrictionLaw::cs184))},
-      {"everything", withWind(withColliders(withLimiter(vertical(sheetScene(n)))))},
-      {"stiffness reference", stiffnessReferenceScene(n)},
-      {"material", materialScene(n)},
-      {"material with everything", withWind(withColliders(withLimiter(vertical(materialScene(n)))))},
-      {"averaged self-collision", layeredSheets(n, SelfCollision::averaged)},
-      {"robust self-collision", withWind(withColliders(layeredSheets(n, SelfCollision::robust)))},
-      {"thick averaged self-collision", thick(layeredSheets(n / 2, SelfCollision::averaged))},
-      {"thick robust self-collision", thick(layeredSheets(n / 2, SelfCollision::robust))},
-      {"pins that move through other cloth", withPinMotion(layeredSheets(n, SelfCollision::robust))},
-      {"two cloths", twoCloths(withLimiter(withWind(vertical(sheetScene(n)))))},
-      {"mesh with everything", meshWithEverything(n / 2, SelfCollision::robust)},
-      {"mesh with everything, averaged", meshWithEverything(n / 2, SelfCollision::averaged)},
-      {"mesh of a material", meshOfMaterial(n / 2)},
       {"implicit", implicitly(vertical(sheetScene(n)))},
       {"implicit, a material with everything",
        implicitly(withWind(withColliders(withLimiter(vertical(materialScene(n))))))},
@@ -270,11 +279,7 @@ inline std::vector<NamedScene> comparedScenes(int n) {
       {"implicit, two cloths with a rest length table",
        implicitly(twoCloths(withLimiter(withWind(vertical(sheetScene(n))))))},
       {"implicit, a mesh with everything", implicitly(meshWithEverything(n / 2, SelfCollision::averaged))},
-      {"implicit, a mesh of a material", implicitly(meshOfMaterial(n / 2))},
-      {"pin motion", withPinMotion(vertical(sheetScene(n)))},
-      {"everything with pin motion",
-       withPinMotion(withWind(withColliders(withLimiter(vertical(sheetScene(n))))))},
-      {"two cloths with pin motion", twoClothsWithPinMotion(withLimiter(vertical(sheetScene(n))))}};
+      {"implicit, a mesh of a material", implicitly(meshOfMaterial(n / 2))}};
 }
 
 inline Scene everythingScene(int n) { return withWind(withColliders(withLimiter(vertical(sheetScene(n))))); }

@@ -52,7 +52,9 @@ class Counted<Pointer> {
 using GlCallsTest = GlTest;
 
 TEST_F(GlCallsTest, AFrameReadsNothingBackAndUploadsNoPositions) {
-  for (const auto& [name, scene] : test::comparedScenes(40)) {
+  std::vector<test::NamedScene> scenes = test::comparedScenes(40);
+  scenes.push_back(test::implicitScenes(20)[1]);
+  for (const auto& [name, scene] : scenes) {
     const Cloth cloth(scene);
     GpuSolver solver(cloth, scene);
     Renderer renderer(cloth, scene, {});

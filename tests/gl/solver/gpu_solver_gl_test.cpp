@@ -37,6 +37,27 @@ TEST_F(GpuSolverTest, AgreesWithTheCpuInEveryBit) {
   }
 }
 
+TEST_F(GpuSolverTest, AgreesWithTheCpuInEveryBitInImplicitSteps) {
+  for (const auto& [name, scene] : test::implicitScenes(33)) {
+    const StateDifference result = difference(steppedOnGpu(scene, 40), steppedOnCpu(scene, 40));
+    EXPECT_EQ(result.differing, 0u) << name << ", of " << result.floats << " floats, by at most "
+                                    << result.maxAbs;
+    EXPECT_TRUE(result.finite) << name;
+  }
+}
+
+TEST_F(GpuSolverTest, AgreesWithTheCpuInImplicitStepsOnGridsOfEveryShape) {
+  for (const auto& [columns, rows] :
+       {std::pair{2, 2}, {3, 17}, {65, 2}, {64, 64}, {1, 40}, {40, 1}, {129, 5}}) {
+    Scene scene = test::implicitly(test::withWind(test::withLimiter(test::sheetScene(2))));
+    scene.cloths[0].numWidthPoints = columns;
+    scene.cloths[0].numHeightPoints = rows;
+    scene.cloths[0].pinned = {GridPoint{0, 0}};
+    EXPECT_EQ(difference(steppedOnGpu(scene, 10), steppedOnCpu(scene, 10)).differing, 0u)
+        << columns << "x" << rows;
+  }
+}
+
 TEST_F(GpuSolverTest, AgreesWithTheCpuOnGridsOfEveryShape) {
   for (const auto& [columns, rows] :
        {std::pair{2, 2}, {3, 17}, {17, 3}, {65, 2}, {64, 64}, {1, 40}, {40, 1}, {129, 5}}) {

@@ -47,8 +47,7 @@ TEST_F(WatchdogTest, NamesTheTroubleOfExplodingScenesAsTheCpuDoesFusedAndPassByP
     for (Solver* solver :
          {static_cast<Solver*>(&fused), static_cast<Solver*>(&separate), static_cast<Solver*>(&cpu)})
       solver->step(60);
-    const bool explodes = scene.solver.integrator != Integrator::implicit;  // that one takes any stiffness
-    EXPECT_EQ(cpu.trouble().has_value(), explodes) << name;
+    EXPECT_TRUE(cpu.trouble().has_value()) << name;
     EXPECT_EQ(fused.trouble(), cpu.trouble()) << name;
     EXPECT_EQ(separate.trouble(), cpu.trouble()) << name;
   }
