@@ -30,7 +30,7 @@ State steppedOnCpu(const Scene& scene, int steps) {
 
 TEST_F(GpuSolverTest, AgreesWithTheCpuInEveryBit) {
   for (const auto& [name, scene] : test::comparedScenes(33)) {
-    const StateDifference result = difference(steppedOnGpu(scene, 500), steppedOnCpu(scene, 500));
+    const StateDifference result = difference(steppedOnGpu(scene, 300), steppedOnCpu(scene, 300));
     EXPECT_EQ(result.differing, 0u) << name << ", of " << result.floats << " floats, by at most "
                                     << result.maxAbs;
     EXPECT_TRUE(result.finite) << name;
