@@ -11,9 +11,10 @@ namespace clothsim {
 Scene loadScene(const SceneOptions& options) {
   Scene scene = loadSceneByName(options.scene);
   if (options.resolution) {
-    const bool stepsByHand = std::any_of(
-        options.settings.begin(), options.settings.end(),
-        [](const std::string& setting) { return setting.starts_with("solver.simulation_steps="); });
+    const bool stepsByHand =
+        std::any_of(options.settings.begin(), options.settings.end(), [](const std::string& setting) {
+          return setting.starts_with("solver.simulation_steps=") || setting == "solver.integrator=implicit";
+        });
     const std::string remark =
         changeResolution(scene, options.resolution->columns, options.resolution->rows, stepsByHand);
     if (!remark.empty()) std::cerr << "clothsim: " << remark << '\n';

@@ -46,4 +46,14 @@ struct Hierarchy {
 template <class Real>
 [[nodiscard]] Hierarchy<Real> makeHierarchy(const Cloth& cloth);
 
+// For a grid without a coarser level, and a mesh: itself as the coarsest one.
+template <class Real>
+[[nodiscard]] LevelParams<Real> onlyLevel(const Grid& grid) {
+  LevelParams<Real> level{};
+  level.coarseFirst = grid.firstParticle;
+  level.coarseColumns = static_cast<std::uint32_t>(grid.columns);
+  level.coarseRows = static_cast<std::uint32_t>(grid.rows);
+  return level;
+}
+
 }  // namespace clothsim

@@ -13,16 +13,6 @@ constexpr std::uint32_t PARALLEL_VERTICES = 8192;
 template <class Real>
 constexpr Real leastSum = static_cast<Real>(0x1p-110f);
 
-// What alone is left where a level has no coarser one: the grid itself.
-template <class Real>
-LevelParams<Real> onlyLevel(const Grid& grid) {
-  LevelParams<Real> level{};
-  level.coarseFirst = grid.firstParticle;
-  level.coarseColumns = static_cast<std::uint32_t>(grid.columns);
-  level.coarseRows = static_cast<std::uint32_t>(grid.rows);
-  return level;
-}
-
 }  // namespace
 
 template <class Real>
@@ -144,7 +134,8 @@ void ImplicitStep<Real>::searchLine(const std::vector<ImplicitArguments<Real>>& 
 
 template <class Real>
 void ImplicitStep<Real>::run(const SolverSettings& settings, const ArgumentsOf& argumentsOf) {
-  std::vector<ImplicitArguments<Real>> grids;
+  std::vector<ImplicitArguments<Real>>& grids = grids_;
+  grids.clear();
   for (std::size_t grid = 0; grid < cloth_->grids().size(); ++grid)
     grids.push_back({argumentsOf(grid), own_});
   forEachRow(grids, [](const auto& grid, int row) { begin(grid, row); });

@@ -42,6 +42,7 @@ class ImplicitStep {
   Hierarchy<Real> hierarchy_;
   ImplicitState<Real> own_;
   std::vector<Real> partials_;
+  std::vector<ImplicitArguments<Real>> grids_;  // of this step; kept for its memory
 };
 
 }  // namespace clothsim::cpu

@@ -12,15 +12,6 @@ ParticleArray makeArray(const char* name, std::size_t texels) {
   return ParticleArray(name, texels);
 }
 
-// What is left where a grid has no coarser level: the grid itself.
-LevelParams<float> onlyLevel(const Grid& grid) {
-  LevelParams<float> level{};
-  level.coarseFirst = grid.firstParticle;
-  level.coarseColumns = static_cast<std::uint32_t>(grid.columns);
-  level.coarseRows = static_cast<std::uint32_t>(grid.rows);
-  return level;
-}
-
 }  // namespace
 
 GpuImplicit::GpuImplicit(const Cloth& cloth, bool wind)
@@ -29,7 +20,7 @@ GpuImplicit::GpuImplicit(const Cloth& cloth, bool wind)
   for (std::size_t grid = 0; grid < hierarchy_.grids.size(); ++grid) {
     firstSlots_.push_back(slots.size());
     for (const LevelParams<float>& level : hierarchy_.grids[grid]) slots.push_back({level});
-    if (hierarchy_.grids[grid].empty()) slots.push_back({onlyLevel(cloth.grids()[grid])});
+    if (hierarchy_.grids[grid].empty()) slots.push_back({onlyLevel<float>(cloth.grids()[grid])});
   }
   levels_ = gl::Buffer<LevelSlot>("levels", std::span<const LevelSlot>(slots));
 
@@ -100,7 +91,7 @@ void GpuImplicit::onCoarse(const Run& run, const gl::Program& pass, const char* 
       1;
   const std::vector<LevelParams<float>>& levels = hierarchy_.grids[grid];
   const LevelParams<float> level =
-      levels.empty() ? onlyLevel(cloth_->grids()[grid]) : levels[slot - firstSlots_[grid]];
+      levels.empty() ? onlyLevel<float>(cloth_->grids()[grid]) : levels[slot - firstSlots_[grid]];
   run.runner.run(pass, name, level.coarseColumns, level.coarseRows);
 }
 
