@@ -167,18 +167,23 @@ bool Session::advance(int steps) {
     solver.step(steps);
     return true;
   }
+  Clock::time_point lastPulse = Clock::now();
   for (int done = 0; done < steps && goesOn_;) {
     const int count = std::min(stepsAtOnce_, steps - done);
-    const auto start = Clock::now();
+    const Clock::time_point start = Clock::now();
     solver.step(count);
     solver.finish();
-    const auto taken = Clock::now() - start;
+    const Clock::time_point end = Clock::now();
     done += count;
-    if (taken > pulseTime)
+    if (end - start > pulseTime)
       stepsAtOnce_ = std::max(1, count / 2);
-    else if (taken < pulseTime / 4 && count == stepsAtOnce_ && stepsAtOnce_ < 1 << 20)
+    else if (end - start < pulseTime / 4 && count == stepsAtOnce_ && stepsAtOnce_ < 1 << 20)
       stepsAtOnce_ *= 2;
-    if (taken > pulseTime / 2) goesOn_ = pulse_();
+    // Steps that settle at less than a pulse's time at once must not put it off for ever.
+    if (end - lastPulse > pulseTime / 2) {
+      goesOn_ = pulse_();
+      lastPulse = end;
+    }
   }
   return goesOn_;
 }
