@@ -4,10 +4,15 @@
 //   sum of m/2 (1 + c h)/h^2 |d - guess|^2  +  elastic energy at x + d  +  air and hands,   guess = h (v + h
 //   g)/(1 + c h),
 //
-// and v' = d / h. (The velocity comes from d itself, never from a difference of positions.) A few Newton
-// steps; in each the Hessian, made positive by clamping the springs' transverse part to k max(0, 1 - L/l)
-// (Choi and Ko 2002), is solved by conjugate gradients with an additive multilevel preconditioner (Bramble,
-// Pasciak and Xu 1990, "BPX"):
+// and v' = d / h. (The velocity comes from d itself, never from a difference of positions.) The search starts
+// from h (v + (1 - support) h g)/(1 + c h), where a particle's support is the part of its weight that held it
+// up in the step before, 0 to 1: what falls freely and what hangs at rest are where they belong before the
+// first iteration. (From the guess itself, what hangs has to be lifted by h^2 g in every step; what the
+// iterations leave of that kept stiff sheets in motion for ever.) Support is part of the state.
+//
+// A few Newton steps; in each the Hessian, made positive by clamping the springs' transverse part to
+// k max(0, 1 - L/l) (Choi and Ko 2002), is solved by conjugate gradients with an additive multilevel
+// preconditioner (Bramble, Pasciak and Xu 1990, "BPX"):
 //
 //   z = sum over levels of P_l D_l^-1 P_l^T r,
 //
