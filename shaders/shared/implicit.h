@@ -38,6 +38,8 @@ using uint = std::uint32_t;
 #define INCREMENTS_UNIT 35   // the Newton step so far [m]
 #define STARTS_UNIT 36       // x at the start of the step, and the inverse mass
 #define PARTIAL_SUMS_UNIT 37
+#define CONTACT_PLANES_UNIT \
+  39                       // two texels each: n and offset, carry and friction (src/solver/cpu/collide.h)
 #define CUT_LINKS_UNIT 38  // an unsigned number a vertex: makeCutLinks() of src/solver/implicit.h
 
 // A bit for each neighbour of a vertex on its level, -1 to 1 columns and rows away.
@@ -55,11 +57,16 @@ using uint = std::uint32_t;
 #define LENGTHS_TRIED 4
 #define SUFFICIENT_DECREASE 0x1p-13
 
+// A plane that a particle is behind pushes it back, with this many times the stiffness of its inertia and
+// what the stiffest spring of its cloth adds (StepParams::contactStiffness).
+#define CONTACT_OVER_INERTIA 1024
+
 // What becomes of a sum.
 #define SUM_FIRST 0   // r.z at the start of conjugate gradients
 #define SUM_STEP 1    // p.Hp: the length of a step along p
 #define SUM_TURN 2    // r.z: how much of the last direction is kept
-#define SUM_LENGTH 3  // changes of energy: the length of the Newton step
+#define SUM_LENGTH 3  // changes of energy: the length of the Newton step,
+#define SUM_START 4   // and how much of the likely way is taken to start from
 
 // A level of a grid and the next coarser one, of about half as many points in a direction (never fewer than
 // 2).

@@ -157,20 +157,25 @@ double dampingRate(const ClothSettings& cloth) {
   return cloth.material ? cloth.material->damping : cloth.damping / 100 * 2700;
 }
 
+double stiffestSpring(const Grid& grid) {
+  double stiffest = 0;
+  for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot)
+    if (grid.slotEnabled[slot] || grid.isMesh) stiffest = std::max(stiffest, grid.stiffness[slot]);
+  return stiffest;
+}
+
 // The strain limit inside an energy: a spring as stiff as the limit asks for begins half way to it. Within
 // the other half, each of the cloth's longest springs carries its weight alone. (Beginning at 4/5 with four
 // times that stiffness the defaults' few Newton steps do not find which springs pull: 12 % at 64 x 64 for a
 // limit of 10 %, 33 % at 128 x 128.)
 constexpr double LIMIT_BEGINS = 0.5;
 double limitStiffness(const Grid& grid, double limit) {
-  double longest = 0, stiffest = 0;
-  for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot) {
-    if (!grid.slotEnabled[slot] && !grid.isMesh) continue;
-    longest = std::max(longest, grid.nominalLength[slot]);
-    stiffest = std::max(stiffest, grid.stiffness[slot]);
-  }
+  double longest = 0;
+  for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot)
+    if (grid.slotEnabled[slot] || grid.isMesh) longest = std::max(longest, grid.nominalLength[slot]);
   const double weight = 9.81 * grid.particleMass * grid.particleCount();
-  return longest > 0 ? std::max(10 * stiffest, weight / ((1 - LIMIT_BEGINS) * limit * longest)) : 0;
+  return longest > 0 ? std::max(10 * stiffestSpring(grid), weight / ((1 - LIMIT_BEGINS) * limit * longest))
+                     : 0;
 }
 
 template <class Real>
@@ -182,6 +187,7 @@ void putImplicit(const Scene& scene, const Grid& grid, std::size_t gridIndex, St
   params.guessTime = real<Real>(h / damped);
   const double gravitySquared = dot(scene.gravity, scene.gravity);
   params.supportScale = gravitySquared > 0 ? real<Real>(1 / (h * gravitySquared)) : 0;
+  params.contactStiffness = real<Real>(4 * stiffestSpring(grid));
   if (!scene.solver.strainLimit) return;
   // A limit of 0 asks for springs that cannot stretch: a tenth of a percent stands for it.
   const double limit = std::max(*scene.solver.strainLimit, 1e-3);

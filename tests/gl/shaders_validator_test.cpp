@@ -79,7 +79,7 @@ std::vector<gl::Defines> variantsOf(const std::string& file) {
   everything.enabledSlots = (1u << SPRING_SLOTS) - 1;
   PassFeatures cs184 = everything;
   cs184.coulombFriction = false;
-  everything.limitSprings = everything.material = true;
+  everything.limitSprings = everything.material = everything.contactPlanes = true;
   PassFeatures mesh = everything;
   mesh.mesh = true;
   cs184.sumKind = SUM_STEP;

@@ -96,25 +96,26 @@ def hang(points, more, seconds):
 def resolution(commit):
     table = Table("resolution.csv", "resolution", "case points value unit demand met", commit)
     sizes = (64, 128, 256, 512)
-    # Gravity along the sheet, so that nothing wrinkles.
-    hung = {points: hang(points, {"cloth.pinned": '["top"]', "gravity": "[0,0,9.81]"}, 4) for points in sizes}
-    swung = {points: hang(points, {}, 12) for points in sizes}
+    # Soft, for cotton's sag of 0.05 mm is 800 units in binary32's last place; with gravity along the sheet, so that nothing wrinkles.
+    soft = {"cloth.material.stretch": 280, "cloth.material.shear": 100, "cloth.material.density": 0.1}
+    hung = {points: hang(points, {**soft, "cloth.pinned": '["top"]', "gravity": "[0,0,9.81]"}, 4) for points in sizes}
+    swung = {points: hang(points, {}, 8) for points in sizes}
     sag = {points: 1000 * (result["centroid"][2] - 0.5) for points, (result, *_) in hung.items()}
     fall = {points: 1 - result["min_y"] for points, (result, *_) in swung.items()}
     for points in sizes:
         met = abs(sag[points] / sag[512] - 1) <= 1e-3
-        table.add("hung from its top edge: sag of the centroid", points, sag[points], "mm", "within 0.1 %", verdict[met], run=hung[points][3])
+        table.add("hung from its top edge (Y = 280 N/m): sag of the centroid", points, sag[points], "mm", "within 0.1 %", verdict[met], run=hung[points][3])
     for points in sizes:
         met = points < 128 or abs(fall[points] / fall[512] - 1) <= 0.02
-        table.add("held at two corners: fall of the lowest point", points, fall[points], "m", "within 2 % from 128 on", verdict[met],
+        table.add("cotton held at two corners: fall of the lowest point", points, fall[points], "m", "within 2 % from 128 on", verdict[met],
                   run=swung[points][3])
     for points in sizes:
-        table.add("held at two corners: mean stretch", points, swung[points][1], "%", "<=0.1 %", verdict[swung[points][1] <= 0.1], run=swung[points][3])
+        table.add("cotton held at two corners: mean stretch", points, swung[points][1], "%", "<=0.1 %", verdict[swung[points][1] <= 0.1], run=swung[points][3])
     for points in sizes:
-        table.add("held at two corners: 99.9th percentile of stretch", points, swung[points][2], "%", "<=1 %", verdict[swung[points][2] <= 1],
+        table.add("cotton held at two corners: 99.9th percentile of stretch", points, swung[points][2], "%", "<=1 %", verdict[swung[points][2] <= 1],
                   run=swung[points][3])
     for points in sizes:
-        table.add("held at two corners: kinetic energy at the end", points, swung[points][0]["kinetic_energy"], "J", "", "", run=swung[points][3])
+        table.add("cotton held at two corners: kinetic energy at the end", points, swung[points][0]["kinetic_energy"], "J", "", "", run=swung[points][3])
     table.write()
 
 

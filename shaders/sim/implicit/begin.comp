@@ -1,5 +1,5 @@
 // The start of an implicit step: what inertia, air and hands make of a particle's way d, the energy 1/2 a |d|^2 - b.d with
-// a symmetric matrix beside a where wind blows; and the way to start from. Pins go where their paths take them.
+// a symmetric matrix beside a where wind blows. Pins go where their paths take them.
 #include "sim/implicit/common.glsl"
 #include "sim/watch.glsl"
 #include "sim/forces.glsl"
@@ -30,8 +30,8 @@ void main() {
   GridPoint p = thisGridPoint();
   if (!p.exists) return;
   uint i = p.index;
-  vec4 x = positionAt(i), velocity = texelFetch(velocities, int(i));
-  vec3 v = velocity.xyz, gravity = vec3(step.gravityX, step.gravityY, step.gravityZ);
+  vec4 x = positionAt(i);
+  vec3 v = velocityAt(i), gravity = vec3(step.gravityX, step.gravityY, step.gravityZ);
   if (x.w == 0.0) {
     vec3 target = x.xyz;
     if (hasMovingPins) target = movePin(i, x).position.xyz;
@@ -67,11 +67,7 @@ void main() {
   }
   vec4 anchor = vec4(b, stiffness);
   if (hasHold) anchor = holdParticle(p, x.xyz, mass, anchor);
-  precise float falls = 1.0 - velocity.w;
-  precise vec3 likely = step.guessTime * (v + (falls * step.timeStep) * gravity);
-  vec3 start = canonical(likely);
-  precise vec3 place = x.xyz + start;
   newAnchors[i] = anchor;
-  newWays[i] = vec4(start, 0.0);
-  newIterates[i] = vec4(canonical(place), x.w);
+  newWays[i] = vec4(0.0);
+  newIterates[i] = x;
 }

@@ -3,6 +3,7 @@
 #include "sim/watch.glsl"
 #include "sim/forces.glsl"
 #include "sim/integrate.glsl"
+#include "sim/implicit/contact.glsl"
 
 // How much of its weight something held up, 0 to 1 (src/solver/implicit.h).
 float supportOf(vec3 before, vec3 way) {
@@ -11,6 +12,18 @@ float supportOf(vec3 before, vec3 way) {
   precise float support = 1.0 - sumOfProducts(fallen, vec3(step.gravityX, step.gravityY, step.gravityZ)) * step.supportScale;
   float atLeast = 0.0 < support ? support : 0.0;
   return atLeast < 1.0 ? atLeast : 1.0;
+}
+
+// Friction takes back, along the surface, up to its coefficient times how far the collider pushed the particle out.
+vec3 withFriction(vec3 normal, vec4 carry, float depth, vec3 way) {
+  precise vec3 relative = way - carry.xyz;
+  precise vec3 across = sumOfProducts(relative, normal) * normal;
+  precise vec3 slide = relative - across;
+  precise float lost = (carry.w * depth) * inverseSquareRoot(sumOfProducts(slide, slide));
+  precise float rest = 1.0 - lost;
+  float kept = lost < 1.0 ? rest : 0.0;
+  precise vec3 result = (carry.xyz + across) + kept * slide;
+  return canonical(result);
 }
 
 void main() {
@@ -24,9 +37,24 @@ void main() {
     if (hasMovingPins) particle = movePin(i, x);
   } else {
     vec3 way = texelFetch(ways, int(i)).xyz;
+    vec4 place = iterateAt(i);
+    precise vec3 held = way;  // without what a collider did
+    if (hasContacts) {
+      vec4 plane = contactPlaneAt(i);
+      float push = contactPush(plane, texelFetch(anchors, int(i)).w, way);
+      precise float inertia = reciprocal(x.w) * step.inertia;
+      precise float pushedBy = push * reciprocal(inertia);
+      float depth = push > 0.0 ? pushedBy : 0.0;
+      held = way - depth * plane.xyz;
+      if (depth > 0.0) {
+        way = withFriction(plane.xyz, texelFetch(contactPlanes, int(2u * i + 1u)), depth, way);
+        precise vec3 slid = x.xyz + way;
+        place = vec4(canonical(slid), x.w);
+      }
+    }
     precise vec3 v = step.inverseTimeStep * way;
-    support = supportOf(velocityAt(i), way);
-    particle = Particle(iterateAt(i), canonical(v));
+    support = supportOf(velocityAt(i), held);
+    particle = Particle(place, canonical(v));
     watchVelocity(PASS_INTEGRATE, i, particle.velocity);
   }
   newPositions[i] = particle.position;

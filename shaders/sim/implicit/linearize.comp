@@ -3,6 +3,7 @@
 #include "sim/implicit/common.glsl"
 #include "sim/watch.glsl"
 #include "sim/incident_springs.glsl"
+#include "sim/implicit/contact.glsl"
 #if HAS_MESH
 #include "sim/implicit/listed.glsl"
 #endif
@@ -64,6 +65,7 @@ void main() {
     air = airBlockAt(i);
     block = sumOf(block, air);
   }
+  if (hasContacts) block = sumOf(block, outerProduct3(contactStiffness(anchor.w), contactPlaneAt(i).xyz));
   Symmetric inertia = block, stretch = Symmetric(vec3(0.0), vec3(0.0));
 #if HAS_MESH
   block = addListedBlocks(i, block);
@@ -89,6 +91,7 @@ void main() {
   vec3 way = texelFetch(ways, int(i)).xyz;
   precise vec3 pull = anchor.xyz - anchor.w * way;
   if (hasWind) pull = pull - timesVector(air, way);
+  if (hasContacts) pull = pull + contactPush(contactPlaneAt(i), anchor.w, way) * contactPlaneAt(i).xyz;
   precise vec3 residual = pull + forces[i].xyz;
   newResiduals[i] = vec4(canonical(residual), 0.0);
   Factors f = factorize(block);

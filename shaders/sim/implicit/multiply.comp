@@ -3,6 +3,7 @@
 #include "sim/watch.glsl"
 #include "sim/incident_springs.glsl"
 #include "sim/bending.glsl"
+#include "sim/implicit/contact.glsl"
 #if HAS_MESH
 #include "sim/implicit/listed.glsl"
 #endif
@@ -31,8 +32,13 @@ void main() {
   }
   if (hasMaterial) force = addBending(point, force);
 #endif
-  precise vec3 product = texelFetch(anchors, int(i)).w * p;
+  float anchorStiffness = texelFetch(anchors, int(i)).w;
+  precise vec3 product = anchorStiffness * p;
   if (hasWind) product = product + timesVector(airBlockAt(i), p);
+  if (hasContacts) {
+    vec3 normal = contactPlaneAt(i).xyz;
+    product = product + (contactStiffness(anchorStiffness) * sumOfProducts(normal, p)) * normal;
+  }
   precise vec3 result = product - force;
   newProducts[i] = vec4(x.w == 0.0 ? vec3(0.0) : canonical(result), 0.0);
 }

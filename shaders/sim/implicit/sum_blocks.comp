@@ -17,7 +17,7 @@ layout(std430, binding = FIRST_OUTPUT_BINDING) writeonly buffer PartialSums { ve
 vec4 valueAt(int i) {
 #if SUM_KIND == SUM_STEP
   return vec4(sumOfProducts(texelFetch(directions, i).xyz, texelFetch(products, i).xyz), 0.0, 0.0, 0.0);
-#elif SUM_KIND == SUM_LENGTH
+#elif SUM_KIND == SUM_LENGTH || SUM_KIND == SUM_START
   return texelFetch(products, i);
 #else
   return vec4(sumOfProducts(texelFetch(residuals, i).xyz, texelFetch(corrections, i).xyz), 0.0, 0.0, 0.0);

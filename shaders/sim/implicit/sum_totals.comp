@@ -43,6 +43,9 @@ void main() {
   scalars.kept = quotient(residual, scalars.residual);
   scalars.residual = residual;
 #else
+#if SUM_KIND == SUM_START
+  scalars.promised = 0.0;
+#endif
   scalars.newtonLength = fallsEnough(total.x, 1.0)    ? 1.0
                          : fallsEnough(total.y, 0.5)  ? 0.5
                          : fallsEnough(total.z, 0.25) ? 0.25

@@ -5,6 +5,7 @@
 #include "sim/watch.glsl"
 #include "sim/incident_springs.glsl"
 #include "sim/implicit/energy.glsl"
+#include "sim/implicit/contact.glsl"
 #if HAS_MESH
 #include "sim/implicit/listed.glsl"
 #endif
@@ -45,6 +46,11 @@ void main() {
   if (hasWind && iterateAt(i).w != 0.0) {
     force = force + timesVector(airBlockAt(i), way);
     product = product + timesVector(airBlockAt(i), e);
+  }
+  if (hasContacts) {
+    vec4 plane = contactPlaneAt(i);
+    force = force - contactPush(plane, anchor.w, way) * plane.xyz;
+    product = product + (contactStiffness(anchor.w) * sumOfProducts(plane.xyz, e)) * plane.xyz;
   }
   precise vec3 slope = force - anchor.xyz;
   precise float first = sumOfProducts(slope, e);

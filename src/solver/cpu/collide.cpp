@@ -273,36 +273,81 @@ INLINE void collideWithType(const PassArguments<Real>& arguments, const Collider
     collideWith<type, false, false>(arguments, collider, particles);
 }
 
-template <class Real>
-INLINE void collideRow(const PassArguments<Real>& arguments, int row) {
-  const Stretch particles = stretch(arguments.step, row);
+// body.operator()<COLLIDER_...>(collider) for each collider.
+template <class Real, class Body>
+INLINE void forEachCollider(const PassArguments<Real>& arguments, Body body) {
   for (std::uint32_t k = 0; k < arguments.step.colliderCount; ++k) {
     const ColliderParams<Real> collider = arguments.colliders[k];
     switch (collider.type) {
       case COLLIDER_SPHERE:
-        collideWithType<COLLIDER_SPHERE>(arguments, collider, particles);
+        body.template operator()<COLLIDER_SPHERE>(collider);
         break;
       case COLLIDER_PLANE:
-        collideWithType<COLLIDER_PLANE>(arguments, collider, particles);
+        body.template operator()<COLLIDER_PLANE>(collider);
         break;
       case COLLIDER_CAPSULE:
-        collideWithType<COLLIDER_CAPSULE>(arguments, collider, particles);
+        body.template operator()<COLLIDER_CAPSULE>(collider);
         break;
       case COLLIDER_BOX:
-        collideWithType<COLLIDER_BOX>(arguments, collider, particles);
+        body.template operator()<COLLIDER_BOX>(collider);
         break;
       case COLLIDER_MESH:
-        collideWithType<COLLIDER_MESH>(arguments, collider, particles);
+        body.template operator()<COLLIDER_MESH>(collider);
         break;
       default:
-        collideWithType<COLLIDER_TORUS>(arguments, collider, particles);
+        body.template operator()<COLLIDER_TORUS>(collider);
         break;
     }
   }
+}
+
+template <class Real>
+INLINE void collideRow(const PassArguments<Real>& arguments, int row) {
+  const Stretch particles = stretch(arguments.step, row);
+  forEachCollider(
+      arguments, [&]<std::uint32_t type>(const ColliderParams<Real>& collider) __attribute__((
+                     always_inline)) { collideWithType<type>(arguments, collider, particles); });
   if (arguments.step.colliderCount > 0) watchVelocities(arguments, PASS_COLLIDE, row);
 }
 
 }  // namespace
+
+template <class Real>
+void findPlanes(const PassArguments<Real>& arguments, const Components<Real>& places,
+                ContactPlanes<Real>& planes, int row) {
+  const Stretch particles = stretch(arguments.step, row);
+  const auto at = [](const Components<Real>& c, std::ptrdiff_t i) {
+    return load(c.x.data(), c.y.data(), c.z.data(), i);
+  };
+  const auto put = [](Components<Real>& c, std::ptrdiff_t i, Vec3<Real> v) {
+    c.x.data()[i] = v.x;
+    c.y.data()[i] = v.y;
+    c.z.data()[i] = v.z;
+  };
+  for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) put(planes.normals, i, {});
+  const Real offset = arguments.step.planeOffset;
+  forEachCollider(arguments, [&]<std::uint32_t type>(const ColliderParams<Real>& collider) {
+    for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
+      if (arguments.inverseMasses[i] == Real(0)) continue;
+      const Vec3<Real> start = at(arguments.before.positions, i), place = at(places, i);
+      const Vec3<Real> previous = collider.moving != 0 ? carried(collider, start) : start;
+      const Contact<Real> contact =
+          collider.coulomb != 0
+              ? findContact<type, true>(collider, offset, previous, place, arguments.distances)
+              : findContact<type, false>(collider, offset, previous, place, arguments.distances);
+      if (!contact.touches) continue;
+      // A plane may be met from below.
+      const Vec3<Real> normal = contact.depth < Real(0) ? Real(-1) * contact.normal : contact.normal;
+      put(planes.normals, i, normal);
+      planes.offsets.data()[i] = dot(normal, contact.surface - start);
+      put(planes.carries, i, previous - start);
+      planes.frictions.data()[i] = collider.coulomb != 0 ? collider.friction : Real(0);
+    }
+  });
+}
+template void findPlanes(const PassArguments<float>&, const Components<float>&, ContactPlanes<float>&, int);
+template void findPlanes(const PassArguments<double>&, const Components<double>&, ContactPlanes<double>&,
+                         int);
 
 VECTOR_CLONES void collide(const PassArguments<float>& arguments, int row) { collideRow(arguments, row); }
 void collide(const PassArguments<double>& arguments, int row) { collideRow(arguments, row); }

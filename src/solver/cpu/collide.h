@@ -12,4 +12,27 @@ namespace clothsim::cpu {
 void collide(const PassArguments<float>& arguments, int row);
 void collide(const PassArguments<double>& arguments, int row);
 
+// What particles must not cross in an implicit step (solver/implicit.h): the plane in which a particle's way
+// d from the start of the step touches the collider that it is in, n.d = offset. Where n is 0, none.
+template <class Real>
+struct ContactPlanes {
+  Components<Real> normals;     // n
+  std::vector<Real> offsets;    // [m]
+  Components<Real> carries;     // how far the moving collider carries the particle along [m]
+  std::vector<Real> frictions;  // Coulomb's coefficient; 0 under CS184's law
+
+  void resize(std::size_t particles) {
+    normals.resize(particles);
+    offsets.resize(particles);
+    carries.resize(particles);
+    frictions.resize(particles);
+  }
+};
+
+// One row of the grid: the planes of particles at `places`. Where several colliders are touched, the last of
+// the scene's counts.
+template <class Real>
+void findPlanes(const PassArguments<Real>& arguments, const Components<Real>& places,
+                ContactPlanes<Real>& planes, int row);
+
 }  // namespace clothsim::cpu

@@ -99,6 +99,26 @@ void holdParticle(const ImplicitArguments<Real>& arguments, int row, std::ptrdif
   put(arguments.own.anchors, i, at(arguments.own.anchors, i) + stiffness * way);
 }
 
+// How a collider pushes back (CONTACT_OVER_INERTIA); 0 where nothing is touched.
+template <class Real>
+INLINE bool hasContacts(const ImplicitArguments<Real>& arguments) {
+  return arguments.step.step.colliderCount != 0;
+}
+template <class Real>
+INLINE Real contactStiffness(const ImplicitArguments<Real>& arguments, std::ptrdiff_t i) {
+  return Real(CONTACT_OVER_INERTIA) * arguments.own.anchorStiffness.data()[i] +
+         arguments.step.step.contactStiffness;
+}
+// Along the plane's normal, for a way d.
+template <class Real>
+INLINE Real contactPush(const ImplicitArguments<Real>& arguments, std::ptrdiff_t i, Vec3<Real> d) {
+  const ContactPlanes<Real>& planes = arguments.own.planes;
+  const Vec3<Real> normal = at(planes.normals, i);
+  const bool touches = dot(normal, normal) > Real(0);
+  const Real push = contactStiffness(arguments, i) * (planes.offsets.data()[i] - dot(normal, d));
+  return touches ? push : Real(0);
+}
+
 template <bool torn, class Real>
 INLINE void addSpringTrials(const ImplicitArguments<Real>& arguments, int row) {
   const PassArguments<Real>& pass = arguments.step;
@@ -172,12 +192,18 @@ INLINE void tryLengthsRow(const ImplicitArguments<Real>& arguments, int row) {
   const PassArguments<Real>& pass = arguments.step;
   ImplicitState<Real>& own = arguments.own;
   const Stretch all = stretch(pass.step, row);
+  const bool contacts = hasContacts(arguments);
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
     const Vec3<Real> e = at(own.increments, i), d = at(own.ways, i);
     Vec3<Real> force = own.anchorStiffness.data()[i] * d, product = own.anchorStiffness.data()[i] * e;
     if (pass.step.hasWind != 0) {
       force = force + at(own.air, i) * d;
       product = product + at(own.air, i) * e;
+    }
+    if (contacts) {
+      const Vec3<Real> normal = at(own.planes.normals, i);
+      force = force - contactPush(arguments, i, d) * normal;
+      product = product + (contactStiffness(arguments, i) * dot(normal, e)) * normal;
     }
     const Real first = dot(force - at(own.anchors, i), e), second = Real(0.5) * dot(product, e);
     for (std::size_t k = 0; k < LENGTHS_TRIED; ++k) {
@@ -268,11 +294,12 @@ INLINE void linearizeRow(const ImplicitArguments<Real>& arguments, int row) {
   const PassArguments<Real>& pass = arguments.step;
   ImplicitState<Real>& own = arguments.own;
   const Stretch all = stretch(pass.step, row);
-  const bool wind = pass.step.hasWind != 0;
+  const bool wind = pass.step.hasWind != 0, contacts = hasContacts(arguments);
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
     const Real a = own.anchorStiffness.data()[i];
     Symmetric<Real> block{{a, a, a}, {}};
     if (wind) block = block + at(own.air, i);
+    if (contacts) block = block + outerProduct(contactStiffness(arguments, i), at(own.planes.normals, i));
     put(own.factors, i, block);
     put(own.inertia, i, block);
     put(own.stretch, i, Symmetric<Real>{});
@@ -288,6 +315,7 @@ INLINE void linearizeRow(const ImplicitArguments<Real>& arguments, int row) {
     const Vec3<Real> d = at(own.ways, i), zero{};
     Vec3<Real> anchor = at(own.anchors, i) - own.anchorStiffness.data()[i] * d;
     if (wind) anchor = anchor - at(own.air, i) * d;
+    if (contacts) anchor = anchor + contactPush(arguments, i, d) * at(own.planes.normals, i);
     put(own.residuals, i, selected(pinned, zero, canonical(anchor + at(pass.forces, i))));
     put(own.increments, i, zero);
     put(own.directions.positions, i, zero);
@@ -342,7 +370,16 @@ INLINE void multiplyRow(const ImplicitArguments<Real>& arguments, int row) {
     if (pass.step.hasMaterial != 0)
       addBendingForces(withState(pass, pass.step, own.directions, own.products), row);
   }
-  if (pass.step.hasWind != 0) {
+  if (hasContacts(arguments)) {
+    const bool wind = pass.step.hasWind != 0;
+    for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
+      const Vec3<Real> p = at(directions, i), normal = at(own.planes.normals, i);
+      Vec3<Real> product = stiffness[i] * p;
+      if (wind) product = product + at(air, i) * p;
+      product = product + (contactStiffness(arguments, i) * dot(normal, p)) * normal;
+      put(products, i, selected(w[i] == Real(0), zero, canonical(product - at(products, i))));
+    }
+  } else if (pass.step.hasWind != 0) {
 #pragma GCC ivdep
     for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
       const Vec3<Real> p = at(directions, i);
@@ -418,6 +455,7 @@ void begin(const ImplicitArguments<Real>& arguments, int row) {
       put(own.anchors, i, zero);
       own.anchorStiffness[static_cast<std::size_t>(i)] = 0;
       put(own.ways, i, target - x);
+      put(own.increments, i, zero);
       put(own.iterate.positions, i, target);
       continue;
     }
@@ -438,14 +476,35 @@ void begin(const ImplicitArguments<Real>& arguments, int row) {
     put(own.anchors, i, b);
     own.anchorStiffness[static_cast<std::size_t>(i)] = stiffness;
     const Real falls = 1 - pass.support[i];
-    const Vec3<Real> start = canonical(step.guessTime * (v + (falls * step.timeStep) * gravity));
-    put(own.ways, i, start);
-    put(own.iterate.positions, i, canonical(x + start));
+    put(own.increments, i, canonical(step.guessTime * (v + (falls * step.timeStep) * gravity)));
+    put(own.ways, i, zero);
+    put(own.iterate.positions, i, x);
     if (pass.held != nullptr) holdParticle(arguments, row, i, mass);
   }
 }
 
 namespace {
+
+// How far the collider that a particle touches pushed it out in the step, and a way on which friction took
+// back up to its coefficient times that along the surface.
+template <class Real>
+INLINE Real pushedOut(const ImplicitArguments<Real>& arguments, std::ptrdiff_t i, Vec3<Real> way) {
+  const Real push = contactPush(arguments, i, way);
+  const PassArguments<Real>& pass = arguments.step;
+  const Real inertia = reciprocal(pass.inverseMasses[i]) * pass.step.inertia;
+  return push > Real(0) ? push * reciprocal(inertia) : Real(0);
+}
+template <class Real>
+INLINE Vec3<Real> withFriction(const ContactPlanes<Real>& planes, std::ptrdiff_t i, Real depth,
+                               Vec3<Real> way) {
+  const Vec3<Real> normal = at(planes.normals, i), carry = at(planes.carries, i);
+  const Vec3<Real> relative = way - carry;
+  const Vec3<Real> across = dot(relative, normal) * normal;
+  const Vec3<Real> slide = relative - across;
+  const Real lost = (planes.frictions.data()[i] * depth) * inverseSquareRoot(dot(slide, slide));
+  const Real kept = lost < Real(1) ? Real(1) - lost : Real(0);
+  return (carry + across) + kept * slide;
+}
 
 // How much of its weight something held up, 0 to 1 (solver/implicit.h).
 template <class Real>
@@ -463,12 +522,24 @@ template <class Real>
 void end(const ImplicitArguments<Real>& arguments, int row) {
   const PassArguments<Real>& pass = arguments.step;
   const Stretch all = stretch(pass.step, row);
+  const bool contacts = hasContacts(arguments);
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
     const bool pinned = pass.inverseMasses[i] == Real(0);
-    const Vec3<Real> way = at(arguments.own.ways, i);
-    pass.support[i] = pinned ? Real(0) : supportOf(pass.step, at(pass.before.velocities, i), way);
+    pass.support[i] = 0;
     if (pinned) continue;  // begin() has moved pins
-    put(pass.after.positions, i, at(arguments.own.iterate.positions, i));
+    const Vec3<Real> v = at(pass.before.velocities, i);
+    Vec3<Real> way = at(arguments.own.ways, i), place = at(arguments.own.iterate.positions, i), held = way;
+    if (contacts) {
+      const Vec3<Real> normal = at(arguments.own.planes.normals, i);
+      const Real depth = pushedOut(arguments, i, way);
+      held = way - depth * normal;
+      if (depth > Real(0)) {
+        way = canonical(withFriction(arguments.own.planes, i, depth, way));
+        place = canonical(at(pass.before.positions, i) + way);
+      }
+    }
+    pass.support[i] = supportOf(pass.step, v, held);
+    put(pass.after.positions, i, place);
     put(pass.after.velocities, i, canonical(pass.step.inverseTimeStep * way));
   }
   watchVelocities(pass, PASS_INTEGRATE, row);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "solver/cpu/collide.h"
 #include "solver/cpu/passes.h"
 #include "solver/cpu/symmetric.h"
 #include "solver/implicit.h"
@@ -19,6 +20,7 @@ struct ImplicitState {
   Components<Real> anchors;           // b and
   std::vector<Real> anchorStiffness;  // a of the energy 1/2 a |d|^2 - b.d of a particle's way d
   SymmetricField<Real> air;           // what the air adds to a; empty without wind
+  ContactPlanes<Real> planes;         // of particles in colliders; empty without colliders
   Components<Real> ways;              // d [m]
   CpuState<Real> iterate;             // x + d; no velocities
   Components<Real> residuals;         // * r

@@ -132,6 +132,24 @@ void ImplicitStep<Real>::searchLine(const std::vector<ImplicitArguments<Real>>& 
   own_.scalars.newtonLength = length;
 }
 
+// What colliders the iterate is in.
+template <class Real>
+void ImplicitStep<Real>::findPlanes(const std::vector<ImplicitArguments<Real>>& grids) {
+  if (grids[0].step.step.colliderCount == 0) return;
+  own_.planes.resize(cloth_->particleCount());
+  forEachRow(grids, [](const auto& grid, int row) {
+    cpu::findPlanes(grid.step, grid.own.iterate.positions, grid.own.planes, row);
+  });
+}
+
+// As much of the likely way as does not raise the energy.
+template <class Real>
+void ImplicitStep<Real>::takeStart(const std::vector<ImplicitArguments<Real>>& grids) {
+  own_.scalars = {};
+  searchLine(grids);
+  forEachRow(grids, [](const auto& grid, int row) { accept(grid, row); });
+}
+
 template <class Real>
 void ImplicitStep<Real>::run(const SolverSettings& settings, const ArgumentsOf& argumentsOf) {
   std::vector<ImplicitArguments<Real>>& grids = grids_;
@@ -139,7 +157,10 @@ void ImplicitStep<Real>::run(const SolverSettings& settings, const ArgumentsOf& 
   for (std::size_t grid = 0; grid < cloth_->grids().size(); ++grid)
     grids.push_back({argumentsOf(grid), own_});
   forEachRow(grids, [](const auto& grid, int row) { begin(grid, row); });
+  findPlanes(grids);
+  takeStart(grids);
   for (int k = 0; k < settings.newtonSteps; ++k) {
+    findPlanes(grids);
     gatherElasticForces(grids);
     forEachRow(grids, [](const auto& grid, int row) { linearize(grid, row); });
     coarsen();

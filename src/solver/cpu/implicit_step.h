@@ -36,6 +36,8 @@ class ImplicitStep {
   template <class Pass>
   void forEachLevelRow(std::uint32_t columns, std::uint32_t rows, Pass pass);
   void gatherElasticForces(const std::vector<ImplicitArguments<Real>>& grids);
+  void findPlanes(const std::vector<ImplicitArguments<Real>>& grids);
+  void takeStart(const std::vector<ImplicitArguments<Real>>& grids);
   void coarsen();
   void precondition(const Real* inverseMasses);
   [[nodiscard]] Real product(const Components<Real>& a, const Components<Real>& b);

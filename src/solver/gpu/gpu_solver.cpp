@@ -112,9 +112,9 @@ void GpuSolver::choosePrograms() {
     ofGrids.push_back(features);
   }
   if (!implicit) return;
-  const bool wind = ofGrids[0].wind;
-  if (!implicit_ || (wind && !implicit_->hasAirBlocks()))
-    implicit_.emplace(*cloth_, wind).setCutMasks(makeCutMasks(*cloth_, cuts_.cuts()));
+  const bool wind = ofGrids[0].wind, colliders = ofGrids[0].contactPlanes;
+  if (!implicit_ || !implicit_->isFor(wind, colliders))
+    implicit_.emplace(*cloth_, wind, colliders).setCutMasks(makeCutMasks(*cloth_, cuts_.cuts()));
   implicit_->choosePrograms(library_, ofGrids);
 }
 

@@ -5,7 +5,7 @@
 namespace clothsim {
 namespace {
 
-constexpr std::size_t FACTOR_TEXELS = 2, BLOCK_TEXELS = 4, AIR_TEXELS = 2;
+constexpr std::size_t FACTOR_TEXELS = 2, BLOCK_TEXELS = 4, AIR_TEXELS = 2, PLANE_TEXELS = 2;
 
 ParticleArray makeArray(const char* name, std::size_t texels) {
   checkFits(texels, sizeof(Particle4), name);
@@ -14,8 +14,8 @@ ParticleArray makeArray(const char* name, std::size_t texels) {
 
 }  // namespace
 
-GpuImplicit::GpuImplicit(const Cloth& cloth, bool wind)
-    : cloth_(&cloth), hierarchy_(makeHierarchy<float>(cloth)), hasAirBlocks_(wind) {
+GpuImplicit::GpuImplicit(const Cloth& cloth, bool wind, bool colliders)
+    : cloth_(&cloth), hierarchy_(makeHierarchy<float>(cloth)), hasAirBlocks_(wind), hasPlanes_(colliders) {
   std::vector<LevelSlot> slots;
   for (std::size_t grid = 0; grid < hierarchy_.grids.size(); ++grid) {
     firstSlots_.push_back(slots.size());
@@ -31,6 +31,7 @@ GpuImplicit::GpuImplicit(const Cloth& cloth, bool wind)
   blocks_ = makeArray("blocks", BLOCK_TEXELS * vertices);
   anchors_ = makeArray("anchors", particles);
   airBlocks_ = makeArray("air blocks", wind ? AIR_TEXELS * particles : 1);
+  planes_ = makeArray("contact planes", colliders ? PLANE_TEXELS * particles : 1);
   ways_ = makeArray("ways", particles);
   iterates_ = makeArray("iterates", particles);
   directions_ = makeArray("directions", particles);
@@ -46,9 +47,11 @@ void GpuImplicit::choosePrograms(PassLibrary& library, const std::vector<PassFea
     PassFeatures elastic = features;  // air is in the anchors
     elastic.wind = elastic.airResistance = elastic.jet = false;
     gridPrograms_.push_back(
-        {library.find("implicit/begin", features), library.find("forces", elastic),
-         library.find("implicit/linearize", features), library.find("implicit/multiply", features),
-         library.find("implicit/try_lengths", features), library.find("implicit/end", features)});
+        {library.find("implicit/begin", features), library.find("implicit/start", features),
+         features.contactPlanes ? library.find("implicit/find_planes", features) : nullptr,
+         library.find("forces", elastic), library.find("implicit/linearize", features),
+         library.find("implicit/multiply", features), library.find("implicit/try_lengths", features),
+         library.find("implicit/end", features)});
   }
   const PassFeatures& any = grids[0];
   programs_ = {};
@@ -59,7 +62,7 @@ void GpuImplicit::choosePrograms(PassLibrary& library, const std::vector<PassFea
   programs_.direct = library.find("implicit/direct", any);
   programs_.advance = library.find("implicit/advance", any);
   programs_.accept = library.find("implicit/accept", any);
-  for (const int kind : {SUM_FIRST, SUM_STEP, SUM_TURN, SUM_LENGTH}) {
+  for (const int kind : {SUM_FIRST, SUM_STEP, SUM_TURN, SUM_LENGTH, SUM_START}) {
     PassFeatures features = any;
     features.sumKind = kind;
     programs_.sumBlocks[kind] = library.find("implicit/sum_blocks", features);
@@ -103,6 +106,21 @@ void GpuImplicit::onCoarse(const Run& run, const gl::Program& pass, const char* 
   const LevelParams<float> level =
       levels.empty() ? onlyLevel<float>(cloth_->grids()[grid]) : levels[slot - firstSlots_[grid]];
   run.runner.run(pass, name, level.coarseColumns, level.coarseRows);
+}
+
+// What colliders the iterate is in.
+void GpuImplicit::findPlanes(const Run& run) const {
+  if (gridPrograms_[0].findPlanes == nullptr) return;
+  planes_.buffer.bindStorage(FIRST_OUTPUT_BINDING);
+  onGrids(run, &GridPrograms::findPlanes, "implicit, colliders");
+}
+
+// As much of the likely way as does not raise the energy.
+void GpuImplicit::takeStart(const Run& run) const {
+  increments_.buffer.bindStorage(FIRST_OUTPUT_BINDING);
+  onGrids(run, &GridPrograms::start, "implicit, begin");
+  scalars_.bindStorage(SCALARS_BINDING);
+  searchLine(run, SUM_START);
 }
 
 // Residuals and the preconditioner at the iterate.
@@ -163,10 +181,10 @@ void GpuImplicit::iterate(const Run& run, int iterations) const {
   }
 }
 
-void GpuImplicit::searchLine(const Run& run) const {
+void GpuImplicit::searchLine(const Run& run, int kind) const {
   products_.buffer.bindStorage(FIRST_OUTPUT_BINDING);
   onGrids(run, &GridPrograms::tryLengths, "implicit, line search");
-  sum(run, SUM_LENGTH);
+  sum(run, kind);
   ways_.buffer.bindStorage(FIRST_OUTPUT_BINDING);
   iterates_.buffer.bindStorage(SECOND_OUTPUT_BINDING);
   onParticles(run, *programs_.accept, "implicit, vectors");
@@ -181,6 +199,7 @@ void GpuImplicit::run(PassRunner& runner, const SolverSettings& settings, const 
   blocks_.texture.bind(BLOCKS_UNIT);
   anchors_.texture.bind(ANCHORS_UNIT);
   airBlocks_.texture.bind(AIR_BLOCKS_UNIT);
+  planes_.texture.bind(CONTACT_PLANES_UNIT);
   ways_.texture.bind(WAYS_UNIT);
   iterates_.texture.bind(ITERATES_UNIT);
   directions_.texture.bind(DIRECTIONS_UNIT);
@@ -195,10 +214,13 @@ void GpuImplicit::run(PassRunner& runner, const SolverSettings& settings, const 
   iterates_.buffer.bindStorage(THIRD_OUTPUT_BINDING);
   airBlocks_.buffer.bindStorage(FOURTH_OUTPUT_BINDING);
   onGrids(run, &GridPrograms::begin, "implicit, begin");
+  findPlanes(run);
+  takeStart(run);
   for (int k = 0; k < settings.newtonSteps; ++k) {
+    findPlanes(run);
     linearize(run);
     iterate(run, settings.cgIterations);
-    searchLine(run);
+    searchLine(run, SUM_LENGTH);
   }
   positions.texture.bind(POSITIONS_UNIT);
   onGrids(run, &GridPrograms::end, "implicit, end");

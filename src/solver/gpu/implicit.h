@@ -18,11 +18,14 @@ class GpuImplicit {
   using BindGrid = std::function<void(std::size_t)>;
 
   // `cloth` must outlive it. @throws OpenGlError when a buffer is larger than the driver allows
-  GpuImplicit(const Cloth& cloth, bool wind);
+  GpuImplicit(const Cloth& cloth, bool wind, bool colliders);
 
   // Compiled for what each grid's scene needs. @throws OpenGlError when a shader does not compile
   void choosePrograms(PassLibrary& library, const std::vector<PassFeatures>& grids);
-  [[nodiscard]] bool hasAirBlocks() const { return hasAirBlocks_; }
+  // Whether it has the arrays that scenes with these need.
+  [[nodiscard]] bool isFor(bool wind, bool colliders) const {
+    return (hasAirBlocks_ || !wind) && (hasPlanes_ || !colliders);
+  }
   // `cutMasks`: makeCutMasks().
   void setCutMasks(const std::vector<std::uint32_t>& cutMasks);
 
@@ -36,13 +39,13 @@ class GpuImplicit {
     LevelParams<float> params;
   };
   struct GridPrograms {
-    const gl::Program *begin = nullptr, *forces = nullptr, *linearize = nullptr, *multiply = nullptr,
-                      *tryLengths = nullptr, *end = nullptr;
+    const gl::Program *begin = nullptr, *start = nullptr, *findPlanes = nullptr, *forces = nullptr,
+                      *linearize = nullptr, *multiply = nullptr, *tryLengths = nullptr, *end = nullptr;
   };
   struct Programs {
     const gl::Program *coarsen = nullptr, *restrict = nullptr, *prolong = nullptr, *solveCoarsest = nullptr,
                       *direct = nullptr, *advance = nullptr, *accept = nullptr;
-    const gl::Program *sumBlocks[4] = {}, *sumTotals[4] = {};  // by SUM_...
+    const gl::Program *sumBlocks[5] = {}, *sumTotals[5] = {};  // by SUM_...
   };
   struct Run {  // of a step
     PassRunner& runner;
@@ -52,11 +55,13 @@ class GpuImplicit {
   void onGrids(const Run& run, const gl::Program* GridPrograms::*pass, const char* name) const;
   void onParticles(const Run& run, const gl::Program& pass, const char* name) const;
   void onCoarse(const Run& run, const gl::Program& pass, const char* name, std::size_t slot) const;
+  void findPlanes(const Run& run) const;
+  void takeStart(const Run& run) const;
   void linearize(const Run& run) const;
   void precondition(const Run& run) const;
   void sum(const Run& run, int kind) const;
   void iterate(const Run& run, int iterations) const;
-  void searchLine(const Run& run) const;
+  void searchLine(const Run& run, int kind) const;  // SUM_START, SUM_LENGTH
 
   const Cloth* cloth_;
   Hierarchy<float> hierarchy_;
@@ -64,11 +69,11 @@ class GpuImplicit {
       firstSlots_;  // of each grid's levels in levels_; the last one of all grids' without any
   std::vector<GridPrograms> gridPrograms_;
   Programs programs_;
-  bool hasAirBlocks_;
+  bool hasAirBlocks_, hasPlanes_;
 
   gl::Buffer<LevelSlot> levels_;
   ParticleArray residuals_, corrections_, factors_, blocks_, anchors_, airBlocks_, ways_, iterates_,
-      directions_, products_, increments_, partialSums_;
+      directions_, products_, increments_, partialSums_, planes_;
   gl::Buffer<ImplicitScalars<float>> scalars_;
   gl::Buffer<std::uint32_t> cutLinks_;  // once there were cuts
   gl::BufferTexture cutLinksTexture_;

@@ -18,6 +18,7 @@ PassFeatures featuresOf(const Scene& scene, const Cloth& cloth, std::size_t grid
     features.movingColliders |= moves(collider);
   }
   features.coulombFriction = !scene.colliders.empty() && scene.solver.frictionLaw == FrictionLaw::coulomb;
+  features.contactPlanes = scene.solver.integrator == Integrator::implicit && !scene.colliders.empty();
   features.movingPins = !scene.cloths[gridIndex].pinMotion.empty();
   features.restLengthTable = grid.hasRestLengthTable;
   features.material = grid.hasMaterial;
@@ -41,6 +42,7 @@ gl::Defines definesFor(const PassFeatures& features) {
           {"HAS_MATERIAL", std::to_string(features.material)},
           {"HAS_MESH", std::to_string(features.mesh)},
           {"HAS_LIMIT_SPRINGS", std::to_string(features.limitSprings)},
+          {"HAS_CONTACT_PLANES", std::to_string(features.contactPlanes)},
           {"SUM_KIND", std::to_string(features.sumKind)},
           {"HAS_HOLD", std::to_string(features.hold)},
           {"HAS_JET", std::to_string(features.jet)},
@@ -74,6 +76,7 @@ PassFeatures featuresOfPass(const std::string& pass, const PassFeatures& all) {
     features.cuts = all.cuts;
   }
   if (pass == "implicit/linearize" || pass == "implicit/multiply" || pass == "implicit/try_lengths") {
+    features.contactPlanes = all.contactPlanes;
     features.mesh = all.mesh;
     features.wind = all.wind;
     features.restLengthTable = all.restLengthTable;
@@ -86,13 +89,16 @@ PassFeatures featuresOfPass(const std::string& pass, const PassFeatures& all) {
   features.limitSprings =
       all.limitSprings && (features.enabledSlots != 0 || features.mesh);  // of passes that look at springs
   if (pass.starts_with("implicit/sum")) features.sumKind = all.sumKind;
-  if (pass == "implicit/end") features.movingPins = all.movingPins;
+  if (pass == "implicit/end") {
+    features.movingPins = all.movingPins;
+    features.contactPlanes = all.contactPlanes;
+  }
   if (pass == "step" || pass == "integrate" || pass == "implicit/begin") {
     features.movingPins = all.movingPins;
     features.hold = all.hold;
   }
   features.collidesInStep = pass == "step" && all.collidesInStep;
-  if (features.collidesInStep || pass == "collide") {
+  if (features.collidesInStep || pass == "collide" || pass == "implicit/find_planes") {
     features.colliderTypes = all.colliderTypes;
     features.movingColliders = all.movingColliders;
     features.coulombFriction = all.coulombFriction;

@@ -190,7 +190,7 @@ TEST(ImplicitStep, IsThatOfADirectSolverWithStrainLimitAndAir) {
 
 TEST(ImplicitStep, IsThatOfADirectSolverWhereTheSheetIsTorn) {
   const Scene scene = fastSheet();
-  EXPECT_LT(errorOfThirdStep(scene, test::someCuts(Cloth(scene)), 60, 200), 1e-9);
+  EXPECT_LT(errorOfThirdStep(scene, test::someCuts(Cloth(scene)), 80, 200), 1e-9);
 }
 
 // Relative to where it starts, the inertial guess.
@@ -311,8 +311,8 @@ TEST(ImplicitStep, LetsWhatIsCutOffFallFreely) {
     solver.setCuts(test::cutAcross(cloth, rowsCutOff - 0.5));
     solver.step(30);
     const double expected = 9.81 * 30 * 31 / 2 / 3600;
-    // The sheet starts wrinkled, and iterations cut short keep its momentum in part.
-    const double tolerance = n == 9 ? 1e-4 : 0.02 * expected;
+    // What hangs holds back the start of the search for what falls; few iterations make up for most of that.
+    const double tolerance = n == 9 ? 1e-3 : 0.1 * expected;
     for (std::uint32_t i = 0; i < n * rowsCutOff; ++i)
       EXPECT_NEAR(cloth.positions()[i].y - solver.position(i).y, expected, tolerance) << i << " of " << n * n;
     EXPECT_GT(solver.position(n * n - n / 2).y, 0.7) << "the rest hangs on";
