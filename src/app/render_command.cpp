@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <numbers>
 
 #include "app/blow_up.h"
 #include "app/commands.h"
@@ -18,6 +19,8 @@
 
 namespace clothsim {
 namespace {
+
+constexpr double radians = std::numbers::pi / 180;  // in a degree
 
 bool endsWith(const std::string& text, const std::string& end) { return text.ends_with(end); }
 
@@ -78,7 +81,8 @@ int renderCommand(const RenderCommandOptions& options) {
   Simulation simulation(scene, options.backend);
   if (!options.from.empty()) simulation.solver().setState(loadState(options.from, simulation.cloth()));
   Renderer renderer(simulation.cloth(), scene, {options.sphereSegmentsAround, options.sphereSegmentsDown});
-  const Camera camera(scene, simulation.cloth());
+  Camera camera(scene, simulation.cloth());
+  camera.orbit(options.view.right * radians, options.view.up * radians);
 
   std::vector<Output> outputs;
   for (const std::string& out : options.outs) outputs.emplace_back(out, options, scene);

@@ -8,10 +8,10 @@
 
 #include "app/blow_up.h"
 #include "app/commands.h"
-#include "app/contact_report.h"
 #include "app/crossings_json.h"
 #include "app/replay.h"
 #include "app/simulation.h"
+#include "app/tally.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/interrupt.h"
@@ -19,7 +19,6 @@
 #include "export/export.h"
 #include "export/sequence.h"
 #include "gl/context.h"
-#include "solver/cpu/synchronized.h"
 #include "solver/measure.h"
 
 namespace clothsim {
@@ -159,24 +158,6 @@ class Course {
   std::optional<Trouble> replayTrouble_;
 };
 
-// What is gathered frame by frame.
-struct Tally {
-  double seconds = 0, peakStrain = -1, maxPenetration = 0;
-  std::uint32_t startInColliders = 0;  // particles
-  State state;                         // at the end of the last frame
-  Measures measures;
-  ContactReport contacts;
-
-  void add(Course& course) {
-    Simulation& simulation = course.simulation();
-    state = simulation.solver().state();
-    measures = measure(simulation.cloth(), course.scene(), state);
-    contacts.add(simulation.cloth(), course.scene(), state, measures.maxStrain);
-    peakStrain = std::max(peakStrain, measures.maxStrain);
-    maxPenetration = std::max(maxPenetration, measures.maxPenetration);
-  }
-};
-
 // What a run is summed up in; names as in DESIGN.md section 5.
 nlohmann::ordered_json summary(const RunOptions& options, Course& course, const Tally& tally) {
   Simulation& simulation = course.simulation();
@@ -200,19 +181,7 @@ nlohmann::ordered_json summary(const RunOptions& options, Course& course, const 
   json["sim_seconds"] = course.isReplay() ? course.simulatedSeconds() : steps * stepLength(scene.solver);
   json["seconds"] = tally.seconds;
   json["particle_steps_per_second"] = tally.seconds > 0 ? particles * steps / tally.seconds : 0;
-  json["state_hash"] = hashText(stateHash(last));
-  json["max_strain"] = tally.measures.maxStrain;
-  json["peak_strain"] = tally.peakStrain;
-  json["min_y"] = tally.measures.minY;
-  const Vec3d& centroid = tally.measures.centroid;
-  json["centroid"] = {centroid.x, centroid.y, centroid.z};
-  json["kinetic_energy"] =
-      measure(simulation.cloth(), scene, synchronized(simulation.cloth(), scene, last)).kineticEnergy;
-  json["max_penetration"] = tally.maxPenetration;
-  json["start_overlaps"] = {{"colliders", tally.startInColliders},        // particles,
-                            {"self", tally.contacts.overlapsAtStart()}};  // pairs
-  json["finite"] = true;
-  tally.contacts.write(json, simulation.cloth(), scene, simulation.contactCounts());
+  tally.write(json, simulation);
   return json;
 }
 
@@ -229,7 +198,7 @@ int runCommand(const RunOptions& options) {
   Course course(options);
   const int frames = course.frames();
   Tally tally;
-  tally.add(course);
+  tally.add(course.simulation());
   checkStart(options, tally.measures);
   tally.startInColliders = particlesInColliders(course.simulation().cloth(), course.scene(), tally.state);
   reportStartOverlaps(tally.startInColliders, tally.contacts.overlapsAtStart());
@@ -254,7 +223,7 @@ int runCommand(const RunOptions& options) {
                    options.saves.empty() ? "" : std::filesystem::path(options.saves.front()).parent_path(),
                    course.isReplay()});
     }
-    tally.add(course);
+    tally.add(course.simulation());
     if (counter && std::exchange(countedCloth, course.clothGeneration()) != course.clothGeneration())
       counter.emplace(course.simulation().cloth());
     if (counter) crossings.add(frame, counter->count(tally.state));
