@@ -37,16 +37,23 @@ struct Layout {
     const std::size_t count = std::max<std::size_t>(1, sheet.pictures.size());
     columns = static_cast<int>(sheet.columnCount);
     rows = static_cast<int>((count + sheet.columnCount - 1) / sheet.columnCount);
+    stepX = sheet.pictureWidth + gap;
+    stepY = cellHeight + gap;
     width = left + columns * sheet.pictureWidth + (columns - 1) * gap + margin;
     height = top + rows * cellHeight + (rows - 1) * gap + margin - at(8);
   }
 
+  [[nodiscard]] SheetPlan::Place placeOf(std::size_t picture) const {
+    const auto column = static_cast<int>(picture) % columns, row = static_cast<int>(picture) / columns;
+    return {left + column * stepX, top + aboveCell + row * stepY};
+  }
   [[nodiscard]] int at(double pixels) const { return static_cast<int>(std::lround(pixels * scale)); }
 
   double scale;
   int titleSize, headingSize, smallSize, margin, gap;
   Lettering letters;
-  int rowHeadings = 0, left = 0, top = 0, aboveCell = 0, cellHeight = 0, columns = 0, rows = 0;
+  int rowHeadings = 0, left = 0, top = 0, aboveCell = 0, cellHeight = 0, columns = 0, rows = 0, stepX = 0,
+      stepY = 0;
   int width = 0, height = 0;
 };
 
@@ -130,9 +137,11 @@ void drawTitle(Image& page, const Layout& layout, const ContactSheet& sheet) {
 
 }  // namespace
 
-SheetSize sizeOf(const ContactSheet& sheet) {
+SheetPlan planOf(const ContactSheet& sheet) {
   const Layout layout(sheet);
-  return {layout.width, layout.height};
+  SheetPlan plan{layout.width, layout.height, {}};
+  for (std::size_t i = 0; i < sheet.pictures.size(); ++i) plan.pictures.push_back(layout.placeOf(i));
+  return plan;
 }
 
 Image drawSheet(const ContactSheet& sheet) {
@@ -142,17 +151,15 @@ Image drawSheet(const ContactSheet& sheet) {
   for (std::size_t i = 0; i < page.rgb.capacity(); ++i) page.rgb.push_back(paper[i % 3]);
   drawTitle(page, layout, sheet);
 
-  const int stepX = sheet.pictureWidth + layout.gap, stepY = layout.cellHeight + layout.gap;
   for (std::size_t i = 0; i < sheet.columns.size(); ++i)
-    drawHeading(page, layout, sheet.columns[i], layout.left + static_cast<int>(i) * stepX,
-                layout.top - layout.at(16), sheet.pictureWidth);
+    drawHeading(page, layout, sheet.columns[i], layout.placeOf(i).x, layout.top - layout.at(16),
+                sheet.pictureWidth);
   for (std::size_t i = 0; i < sheet.rows.size(); ++i)
     drawRowHeadings(page, layout, sheet.rows[i],
-                    layout.top + static_cast<int>(i) * stepY + sheet.pictureHeight / 2);
+                    layout.placeOf(i * sheet.columnCount).y + sheet.pictureHeight / 2);
   for (std::size_t i = 0; i < sheet.pictures.size(); ++i) {
     const SheetPicture& picture = sheet.pictures[i];
-    const int x = layout.left + static_cast<int>(i % sheet.columnCount) * stepX;
-    const int y = layout.top + layout.aboveCell + static_cast<int>(i / sheet.columnCount) * stepY;
+    const auto [x, y] = layout.placeOf(i);
     if (layout.aboveCell > 0)
       drawHeading(page, layout, picture.heading, x, y - layout.at(16), sheet.pictureWidth);
     drawPicture(page, picture.image, x, y, layout.at(10), !picture.alert.empty());

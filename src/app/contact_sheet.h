@@ -28,11 +28,16 @@ struct ContactSheet {
   std::vector<SheetPicture> pictures;  // row by row
 };
 
-// The page [pixels]; what stands in the pictures does not matter. All text grows with them.
-struct SheetSize {
+// The page, and where its pictures lie upon it [pixels from the top left]; what is in them does not matter.
+// All text grows with them.
+struct SheetPlan {
+  struct Place {
+    int x = 0, y = 0;
+  };
   int width = 0, height = 0;
+  std::vector<Place> pictures;
 };
-[[nodiscard]] SheetSize sizeOf(const ContactSheet& sheet);
+[[nodiscard]] SheetPlan planOf(const ContactSheet& sheet);
 [[nodiscard]] Image drawSheet(const ContactSheet& sheet);
 
 }  // namespace clothsim

@@ -266,7 +266,8 @@ std::string subtitleOf(const SweepOptions& options, const std::vector<Course>& c
                     [&](const Course& course) { return course.scene().solver.framesPerSec == rate; }))
       text += " (" + formatted("%.2f", *options.frames / rate) + " s)";
   }
-  for (const std::string& setting : options.scene.settings) text += (text.empty() ? "" : ", ") + setting;
+  for (const std::string& setting : options.scene.settings)
+    if (!isLook(setting)) text += (text.empty() ? "" : ", ") + setting;
   return text;
 }
 
@@ -295,7 +296,7 @@ ContactSheet makeSheet(const SweepOptions& options, const SweepTable& table,
 }
 
 void checkSize(const ContactSheet& sheet, const SweepOptions& options) {
-  const SheetSize size = sizeOf(sheet);
+  const SheetPlan size = planOf(sheet);
   if (size.width <= longestSide && size.height <= longestSide) return;
   throw UsageError("a sheet of " + std::to_string(sheet.pictures.size()) + " pictures of " +
                    std::to_string(options.width) + "x" + std::to_string(options.height) + " would have " +
@@ -348,7 +349,9 @@ std::string formatTable(const SweepTable& table, const std::vector<Cell>& cells)
   return text;
 }
 
-ordered_json toJson(const SweepOptions& options, const SweepTable& table, const std::vector<Cell>& cells) {
+ordered_json toJson(const SweepOptions& options, const SweepTable& table, const ContactSheet& sheet,
+                    const std::vector<Cell>& cells) {
+  const SheetPlan plan = planOf(sheet);
   ordered_json json;
   json["scene"] = options.scene.scene;
   json["columns"] = table.columns();
@@ -359,6 +362,7 @@ ordered_json toJson(const SweepOptions& options, const SweepTable& table, const 
     ordered_json entry;
     for (std::size_t i = 0; i < table.variations().size(); ++i)
       entry["values"][table.variations()[i].key] = table.value(cell, i);
+    entry["pixels"] = {plan.pictures[cell].x, plan.pictures[cell].y, options.width, options.height};
     entry.update(cells[cell].measures);
     json["cells"].push_back(std::move(entry));
   }
@@ -401,7 +405,7 @@ int sweepCommand(const SweepOptions& options) {
   writeFileAtomically(tableFile(options), formatTable(table, cells));
   savePng(options.out, page.width, page.height, page.rgb);
   if (options.json)
-    std::cout << toJson(options, table, cells).dump(2) << '\n';
+    std::cout << toJson(options, table, sheet, cells).dump(2) << '\n';
   else
     std::printf("%s\n%s\n", options.out.c_str(), tableFile(options).string().c_str());
   return 0;

@@ -35,14 +35,22 @@ std::vector<std::string> splitValues(const std::string& text) {
   return values;
 }
 
-// So many cells a row that the whole comes near to 16 : 9, and no row is much shorter than the others.
+// So many cells a row that the whole comes near to 16 : 9 and few places stay empty.
 std::size_t wrappedColumns(std::size_t count, double aspect) {
   if (count <= longestRow) return count;
-  const auto wanted =
-      static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(count) * pictureAspect / aspect)));
-  const std::size_t columns = std::clamp<std::size_t>(wanted, 1, count);
-  const std::size_t rows = (count + columns - 1) / columns;
-  return (count + rows - 1) / rows;
+  std::size_t best = count;
+  double least = INFINITY;
+  for (std::size_t columns = 1; columns <= count; ++columns) {
+    const std::size_t rows = (count + columns - 1) / columns;
+    const double shape = static_cast<double>(columns) * aspect / static_cast<double>(rows);
+    const double empty = static_cast<double>(columns * rows - count) / static_cast<double>(count);
+    const double cost = std::abs(std::log(shape / pictureAspect)) + 4 * empty;
+    if (cost < least) {
+      least = cost;
+      best = columns;
+    }
+  }
+  return best;
 }
 
 }  // namespace

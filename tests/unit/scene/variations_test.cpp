@@ -66,20 +66,26 @@ TEST(SweepTable, GroupsTheRowsOfThreeBySecond) {
 TEST(SweepTable, WrapsASingleOneIntoRowsThatFitAScreen) {
   EXPECT_EQ(tableOf({"k=1,2,3,4"}).columns(), 4u);
   const SweepTable ten = tableOf({"k=1,2,3,4,5,6,7,8,9,10"});
-  EXPECT_EQ(ten.columns(), 4u) << "of 4 : 3 each: 16 by 9 as nearly as can be";
-  EXPECT_EQ(ten.rows(), 3u);
+  EXPECT_EQ(ten.columns(), 5u) << "two full rows rather than three with two empty places";
+  EXPECT_EQ(ten.rows(), 2u);
   EXPECT_TRUE(ten.isWrapped());
   EXPECT_EQ(cellsOf(ten).back(), "10");
   EXPECT_EQ(tableOf({"k=1,2,3,4,5,6"}).columns(), 3u);
+  const SweepTable seven = tableOf({"k=1,2,3,4,5,6,7"});
+  EXPECT_EQ(seven.columns(), 4u);
+  EXPECT_EQ(seven.rows(), 2u) << "the last row is short";
   EXPECT_EQ(tableOf({"k=1,2,3,4,5"}, 0.01).columns(), 5u) << "never more columns than cells";
 }
 
 TEST(SweepTable, RefusesAKeyTwiceAndMoreThanCanBeRead) {
   EXPECT_THROW(tableOf({}), UsageError);
   EXPECT_THROW(tableOf({"k=1,2", "k=3"}), UsageError);
-  std::string many = "k=0";
-  for (int i = 1; i < 40; ++i) many += "," + std::to_string(i);
-  EXPECT_THROW(tableOf({many, "l" + many.substr(1)}), UsageError);
+  Variation columns{"k", {}}, rows{"l", {}};
+  for (int i = 0; i < 40; ++i) {
+    columns.values.push_back(std::to_string(i));
+    rows.values.push_back(std::to_string(i));
+  }
+  EXPECT_THROW(SweepTable({columns, rows}, 1), UsageError);
 }
 
 }  // namespace
