@@ -14,7 +14,7 @@ constexpr Color8 paper{0xf6, 0xf5, 0xf2}, ink{0x22, 0x26, 0x2b}, quiet{0x6d, 0x7
 // Where everything goes, for pictures of a size.
 struct Layout {
   explicit Layout(const ContactSheet& sheet)
-      : scale(std::clamp(std::min(sheet.pictureWidth / 560.0, sheet.pictureHeight / 420.0), 0.5, 8.0)),
+      : scale(std::clamp(std::min(sheet.pictureWidth / 460.0, sheet.pictureHeight / 345.0), 0.5, 8.0)),
         titleSize(at(38)),
         headingSize(at(30)),
         smallSize(at(21)),
