@@ -106,9 +106,9 @@ void declareRun(CLI::App& app, Arguments& a, Action& action) {
   addResolution(*run, a);
   CLI::Option* backend = addBackend(*run, a);
   run->add_option("--save", a.saves,
-                  "write the last state: .csv .ply .obj, or .state (exact); with %04d in the name every K-th "
-                  "frame; every K-th frame in one file: .pc2 (with the mesh it moves, FILE_rest.obj) or "
-                  ".usda; may be repeated")
+                  "write the last state: .csv .ply .obj .png, or .state (exact); with %04d in the name every "
+                  "K-th frame; all frames in one file: .pc2 (with the mesh it moves, FILE_rest.obj), .usda "
+                  "(every K-th), .mp4 (in real time; needs ffmpeg); may be repeated")
       ->type_name("FILE")
       ->allow_extra_args(false);
   run->add_option("--every", a.every, "K for numbered files, .pc2 and .usda")

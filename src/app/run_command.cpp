@@ -10,6 +10,7 @@
 #include "app/commands.h"
 #include "app/crossings_json.h"
 #include "app/replay.h"
+#include "app/saves.h"
 #include "app/simulation.h"
 #include "app/tally.h"
 #include "core/error.h"
@@ -17,7 +18,6 @@
 #include "core/interrupt.h"
 #include "core/progress.h"
 #include "export/export.h"
-#include "export/sequence.h"
 #include "gl/context.h"
 #include "solver/measure.h"
 
@@ -25,50 +25,6 @@ namespace clothsim {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-void checkSaves(const RunOptions& options) {
-  for (const std::string& save : options.saves)
-    if (isSequence(save) && hasFrameNumber(save))
-      throw UsageError("--save " + save +
-                       ": a file of this kind holds all frames; leave the number out of its name");
-    else if (!isSequence(save) && !canSaveStateAs(save))
-      throw UsageError("--save " + save + ": the extension is none of .csv, .ply, .obj, .state, .pc2, .usda");
-  for (const std::string& save : options.saves) checkWritable(save);
-}
-
-// The files that --save asks for.
-class Saves {
- public:
-  Saves(const RunOptions& options, const Simulation& simulation, int frames)
-      : options_(options), frames_(frames) {
-    const int every = options.every;
-    for (const std::string& save : options.saves)
-      if (isSequence(save))
-        sequences_.push_back(
-            makeSequenceWriter(save, simulation.cloth(),
-                               {simulation.scene().solver.framesPerSec, every, frames / every * every}));
-  }
-
-  void add(const Simulation& simulation, const State& state, int frame) {
-    const bool isDue = frame % options_.every == 0;
-    for (const auto& sequence : sequences_)
-      if (isDue) sequence->addFrame(state);
-    for (const std::string& save : options_.saves) {
-      if (isSequence(save)) continue;
-      if (hasFrameNumber(save) ? isDue : frame == frames_)
-        saveState(state, simulation.cloth(), numberedName(save, frame));
-    }
-  }
-
-  void finish() {
-    for (const auto& sequence : sequences_) sequence->close();
-  }
-
- private:
-  const RunOptions& options_;
-  int frames_;
-  std::vector<std::unique_ptr<SequenceWriter>> sequences_;
-};
 
 // A state file may hold anything; what the steps make of it is the watchdog's affair.
 void checkStart(const RunOptions& options, const Measures& measures) {
@@ -95,13 +51,13 @@ class Course {
     if (isReplay_) {
       Recording recording = Recording::load(options.replay);
       frames_ = options.frames.value_or(recording.frames);
-      if (usesGpu(recording, options)) context_.emplace();
+      if (usesGpu(recording, options) || savesPictures(options)) context_.emplace();
       replay_.emplace(std::move(recording), options.backend);
     } else {
       const Scene scene = loadScene(options.scene);
       const std::string backend = options.backend.value_or("gpu");
       frames_ = options.frames.value_or(0);
-      if (backend == "gpu") context_.emplace();
+      if (backend == "gpu" || savesPictures(options)) context_.emplace();
       plain_.emplace(scene, backend);
       if (!options.from.empty()) plain_->solver().setState(loadState(options.from, plain_->cloth()));
       if (options.jitter > 0) {
@@ -208,7 +164,7 @@ int runCommand(const RunOptions& options) {
   CrossingSummary crossings;
   if (counter) crossings.add(0, counter->count(tally.state));
   Saves saves(options, course.simulation(), frames);
-  saves.add(course.simulation(), tally.state, 0);
+  saves.add(course.simulation(), course.clothGeneration(), tally.state, 0);
   Progress progress("simulating", frames);
   for (int frame = 1; frame <= frames; ++frame) {
     stopIfInterrupted();
@@ -227,7 +183,7 @@ int runCommand(const RunOptions& options) {
     if (counter && std::exchange(countedCloth, course.clothGeneration()) != course.clothGeneration())
       counter.emplace(course.simulation().cloth());
     if (counter) crossings.add(frame, counter->count(tally.state));
-    saves.add(course.simulation(), tally.state, frame);
+    saves.add(course.simulation(), course.clothGeneration(), tally.state, frame);
     progress.update(frame);
   }
   saves.finish();
