@@ -12,13 +12,18 @@
 namespace clothsim {
 namespace {
 
-// "30,-10", degrees.
+// "30,-10", "30,-10,1.5".
 ViewTurn parseView(const std::string& text) {
   ViewTurn turn;
-  int end = 0;
-  if (std::sscanf(text.c_str(), "%lf,%lf%n", &turn.right, &turn.up, &end) != 2 ||
-      end != static_cast<int>(text.size()) || !(std::abs(turn.right) <= 360) || !(std::abs(turn.up) <= 180))
-    throw UsageError("--view " + text + ": expected RIGHT,UP in degrees, as 30,-10");
+  int afterTwo = 0, afterThree = 0;
+  const int numbers =
+      std::sscanf(text.c_str(), "%lf,%lf%n,%lf%n", &turn.right, &turn.up, &afterTwo, &turn.zoom, &afterThree);
+  const bool isWhole = static_cast<std::size_t>(numbers == 3 ? afterThree : afterTwo) == text.size();
+  if (numbers < 2 || !isWhole || !(std::abs(turn.right) <= 360) || !(std::abs(turn.up) <= 180) ||
+      !(turn.zoom >= 0.01 && turn.zoom <= 100))
+    throw UsageError(
+        "--view " + text +
+        ": expected RIGHT,UP or RIGHT,UP,ZOOM, in degrees and a factor from 0.01 to 100, as 30,-10,1.5");
   return turn;
 }
 
@@ -183,9 +188,11 @@ void declareSimulationCommands(CLI::App& app, Arguments& a, Action& action) {
 
 void addLooks(CLI::App& app, Arguments& a) {
   app.add_option("--shader", a.shader, "shading model instead of the scene's own");
-  app.add_option("--view", a.view,
-                 "turn the camera about what it looks at, to the right and up, in degrees: 30,-10")
-      ->type_name("RIGHT,UP");
+  app.add_option(
+         "--view", a.view,
+         "turn the camera about what it looks at, to the right and up, in degrees, and go nearer by a "
+         "factor: 30,-10,1.5")
+      ->type_name("RIGHT,UP[,ZOOM]");
 }
 
 void declareRender(CLI::App& app, Arguments& a, Action& action) {
@@ -245,7 +252,7 @@ void declareSweep(CLI::App& app, Arguments& a, Action& action) {
       "A combination that blows up is shown as it last was, and the others go on; `finite` is false for it.\n"
       "Examples: clothsim sweep -f pinned2 --vary cloth.ks=500,5000,50000 --vary "
       "solver.integrator=verlet,implicit\n              --frames 60 --out sheet.png\n"
-      "          clothsim sweep -f sphere --vary frame=30,60,90,120 --vary cloth.material=silk,denim --out "
+      "          clothsim sweep -f selfCollision --vary frame=20,50,90 --vary cloth.ks=500,5000 --out "
       "time.png");
   sweep->callback([&a, &action, frames] {
     action = [&a, frames] {

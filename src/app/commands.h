@@ -51,9 +51,10 @@ struct RunOptions {
 };
 int runCommand(const RunOptions& options);
 
-// How far the camera goes around what it looks at, from where the scene puts it [degrees].
+// How the camera goes around what it looks at, from where the scene puts it, and how much nearer.
 struct ViewTurn {
-  double right = 0, up = 0;
+  double right = 0, up = 0;  // [degrees]
+  double zoom = 1;           // 2: from half the distance
 };
 
 struct RenderCommandOptions {

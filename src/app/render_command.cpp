@@ -47,6 +47,7 @@ int renderCommand(const RenderCommandOptions& options) {
   Renderer renderer(simulation.cloth(), scene, {options.sphereSegmentsAround, options.sphereSegmentsDown});
   Camera camera(scene, simulation.cloth());
   camera.orbit(options.view.right * radians, options.view.up * radians);
+  camera.zoom(1 / options.view.zoom);
 
   std::vector<PictureOutput> outputs;
   for (const std::string& out : options.outs) outputs.emplace_back(out, settingsOf(options), scene);

@@ -125,6 +125,7 @@ std::vector<Camera> placeCameras(const SweepOptions& options, const SweepTable& 
   for (const auto& [cell, own] : places) {
     cameras.push_back(varies(table, "camera") ? own : farthest->second);
     cameras.back().orbit(options.view.right * radians, options.view.up * radians);
+    cameras.back().zoom(1 / options.view.zoom);
   }
   return cameras;
 }

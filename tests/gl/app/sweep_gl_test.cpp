@@ -139,6 +139,8 @@ TEST(Sweep, SaysWhatIsWrongBeforeItSimulates) {
            Mistake{"--frames 9 --vary resolution=9x9,9", 2, "--vary resolution 9: expected WIDTHxHEIGHT"},
            Mistake{"--frames 9 --vary cloth.ks=1,2 --size 8192x8192", 2, "Choose a smaller --size"},
            Mistake{"--frames 9 --vary cloth.ks=1,2 --view up", 2, "--view up: expected RIGHT,UP"},
+           Mistake{"--frames 9 --vary cloth.ks=1,2 --view 1,2,0", 2, "--view 1,2,0: expected RIGHT,UP"},
+           Mistake{"--frames 9 --vary cloth.ks=1,2 --view 1,2x", 2, "--view 1,2x: expected RIGHT,UP"},
        }) {
     const test::CommandResult result =
         sweep(std::string("-f pinned2 --backend cpu ") + mistake.arguments + out);
