@@ -60,8 +60,8 @@ TEST(Figures, OfTheReportAndItsDataAreListed) {
     if (entry.path().extension() != ".tex") continue;
     const std::regex picture(R"(\\includegraphics(?:\[[^\]]*\])?\{([^}]+)\})");
     for (const std::string& file : findAll(readFile(entry.path()), picture)) {
-      const std::string path = fs::path("report/" + file).lexically_normal().generic_string();
-      EXPECT_TRUE(isListed(path)) << name << " shows " << path;
+      const bool isFound = isListed(file) || isListed("report/" + file);
+      EXPECT_TRUE(isFound) << name << " shows " << file;
     }
   }
 }
