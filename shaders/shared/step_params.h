@@ -117,10 +117,10 @@ SHARED_STRUCT StepParams {
   real limitStiffness;   // of `implicit`: what a spring longer than limitLength adds to it [N/m]
 
   // Of `implicit`, for a particle of mass m: the energy 1/2 m inertia |d - guess|^2 of its way d in the step,
-  real inertia;    // (1 + c h) / h^2, c the rate of damping [1/s^2]
-  real guessTime;  // guess = guessTime (v + h g), h / (1 + c h) [s]
+  real inertia;       // (1 + c h) / h^2, c the rate of damping [1/s^2]
+  real guessTime;     // guess = guessTime (v + h g), h / (1 + c h) [s]
+  real supportScale;  // 1 / (h |g|^2), 0 without gravity [s^3/m^2]
   real unusedA;
-  real unusedB;
 
   uint isMesh;      // springs, bending and triangles come from lists (shared/mesh_lists.h)
   real maxStretch;  // 1 + max_strain, for the watchdog

@@ -10,9 +10,10 @@ void main() {
   GridPoint p = thisGridPoint();
   if (!p.exists) return;
   int i = int(p.index);
-  Particle particle = Particle(texelFetch(positionsSoFar, i), texelFetch(velocitiesSoFar, i).xyz);
+  vec4 velocity = texelFetch(velocitiesSoFar, i);
+  Particle particle = Particle(texelFetch(positionsSoFar, i), velocity.xyz);
   particle = collideParticle(p.index, particle);
   newPositions[p.index] = particle.position;
-  newVelocities[p.index] = vec4(particle.velocity, 0.0);
+  newVelocities[p.index] = vec4(particle.velocity, velocity.w);
   reportTrouble();
 }

@@ -4,14 +4,20 @@
 //   sum of m/2 (1 + c h)/h^2 |d - guess|^2  +  elastic energy at x + d  +  air and hands,   guess = h (v + h
 //   g)/(1 + c h),
 //
-// and v' = d / h. (The velocity comes from d itself, never from a difference of positions.) A few Newton
-// steps; in each the Hessian, made positive by clamping the springs' transverse part to k max(0, 1 - L/l)
-// (Choi and Ko 2002), is solved by conjugate gradients with an additive multilevel preconditioner (Bramble,
-// Pasciak and Xu 1990, "BPX"):
+// and v' = d / h. (The velocity comes from d itself, never from a difference of positions.) The search starts
+// from h (v + (1 - support) h g)/(1 + c h), where a particle's support is the part of its weight that held it
+// up in the step before, 0 to 1: what falls freely and what hangs at rest are where they belong before the
+// first iteration. (From the guess itself, what hangs has to be lifted by h^2 g in every step; what the
+// iterations leave of that kept stiff sheets in motion for ever.) Support is part of the state.
+//
+// A few Newton steps; in each the Hessian, made positive by clamping the springs' transverse part to
+// k max(0, 1 - L/l) (Choi and Ko 2002), is solved by conjugate gradients with an additive multilevel
+// preconditioner (Bramble, Pasciak and Xu 1990, "BPX"):
 //
 //   z = sum over levels of P_l D_l^-1 P_l^T r,
 //
-// P_l bilinear interpolation from a lattice of every 2^l-th grid point down to 2 x 2, D_l blocks of 3 x 3.
+// P_l bilinear interpolation from a lattice of every 2^l-th grid point down to 2 x 2 (not across cuts), D_l
+// blocks of 3 x 3.
 // Pinned particles are no unknowns. All sums run over a fixed tree, all scalars stay where they are computed:
 // no read-back in a step.
 //
@@ -45,6 +51,22 @@ struct Hierarchy {
 
 template <class Real>
 [[nodiscard]] Hierarchy<Real> makeHierarchy(const Cloth& cloth);
+
+// The fine point that a coarse one is, along one direction: every second one, and the last.
+template <class Index>
+[[nodiscard]] constexpr Index finePoint(Index coarse, Index coarseCount, Index fineCount) {
+  if (coarseCount == fineCount) return coarse;
+  return coarse + 1 == coarseCount ? fineCount - 1 : 2 * coarse;
+}
+
+// Cuts as the levels see them, so that nothing is interpolated across: a number a vertex, whose LINK_BITs say
+// from which neighbours on its level it is cut off. Coarse neighbours are cut off from each other when a link
+// between them on the next finer level is, on the way there (diagonally first) or back. `cutMasks` as
+// makeCutMasks() gives them; empty for none.
+template <class Real>
+[[nodiscard]] std::vector<std::uint32_t> makeCutLinks(const Cloth& cloth,
+                                                      const std::vector<std::uint32_t>& cutMasks,
+                                                      const Hierarchy<Real>& hierarchy);
 
 // For a grid without a coarser level, and a mesh: itself as the coarsest one.
 template <class Real>

@@ -180,6 +180,8 @@ void putImplicit(const Scene& scene, const Grid& grid, std::size_t gridIndex, St
   const double h = stepLength(scene.solver), damped = 1 + dampingRate(cloth) * h;
   params.inertia = real<Real>(damped / (h * h));
   params.guessTime = real<Real>(h / damped);
+  const double gravitySquared = dot(scene.gravity, scene.gravity);
+  params.supportScale = gravitySquared > 0 ? real<Real>(1 / (h * gravitySquared)) : 0;
   if (!scene.solver.strainLimit) return;
   // A limit of 0 asks for springs that cannot stretch: a tenth of a percent stands for it.
   const double limit = std::max(*scene.solver.strainLimit, 1e-3);

@@ -1,5 +1,5 @@
 // The start of an implicit step: what inertia, air and hands make of a particle's way d, the energy 1/2 a |d|^2 - b.d with
-// a symmetric matrix beside a where wind blows; and the guess to start from. Pins go where their paths take them.
+// a symmetric matrix beside a where wind blows; and the way to start from. Pins go where their paths take them.
 #include "sim/implicit/common.glsl"
 #include "sim/watch.glsl"
 #include "sim/forces.glsl"
@@ -30,8 +30,8 @@ void main() {
   GridPoint p = thisGridPoint();
   if (!p.exists) return;
   uint i = p.index;
-  vec4 x = positionAt(i);
-  vec3 v = velocityAt(i);
+  vec4 x = positionAt(i), velocity = texelFetch(velocities, int(i));
+  vec3 v = velocity.xyz, gravity = vec3(step.gravityX, step.gravityY, step.gravityZ);
   if (x.w == 0.0) {
     vec3 target = x.xyz;
     if (hasMovingPins) target = movePin(i, x).position.xyz;
@@ -43,7 +43,7 @@ void main() {
   }
   precise float mass = reciprocal(x.w);
   precise float stiffness = mass * step.inertia;
-  precise vec3 moved = step.guessTime * (v + step.timeStep * vec3(step.gravityX, step.gravityY, step.gravityZ));
+  precise vec3 moved = step.guessTime * (v + step.timeStep * gravity);
   vec3 guess = canonical(moved);
   precise vec3 b = stiffness * guess;
   if (hasAirResistance) {  // -a |v| v', linear in the new velocity v'
@@ -67,8 +67,11 @@ void main() {
   }
   vec4 anchor = vec4(b, stiffness);
   if (hasHold) anchor = holdParticle(p, x.xyz, mass, anchor);
-  precise vec3 place = x.xyz + guess;
+  precise float falls = 1.0 - velocity.w;
+  precise vec3 likely = step.guessTime * (v + (falls * step.timeStep) * gravity);
+  vec3 start = canonical(likely);
+  precise vec3 place = x.xyz + start;
   newAnchors[i] = anchor;
-  newWays[i] = vec4(guess, 0.0);
+  newWays[i] = vec4(start, 0.0);
   newIterates[i] = vec4(canonical(place), x.w);
 }

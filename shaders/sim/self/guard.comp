@@ -48,7 +48,8 @@ void main() {
   lookAtCandidates(p);
   if (!(kept < 1.0)) return;
   precise vec3 stopped = start + kept * (here - start);
-  precise vec3 v = texelFetch(velocitiesSoFar, int(p.index)).xyz + self.inverseTimeStep * (stopped - here);
+  vec4 velocity = texelFetch(velocitiesSoFar, int(p.index));
+  precise vec3 v = velocity.xyz + self.inverseTimeStep * (stopped - here);
   newPositions[p.index] = vec4(canonical(stopped), position.w);
-  newVelocities[p.index] = vec4(canonical(v), 0.0);
+  newVelocities[p.index] = vec4(canonical(v), velocity.w);
 }

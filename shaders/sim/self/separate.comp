@@ -77,7 +77,8 @@ void main() {
     if (largestSquared < lengthSquared) move = shorter * move;
   }
   precise vec3 x = here + move;
-  precise vec3 v = texelFetch(velocitiesSoFar, int(p.index)).xyz + self.inverseTimeStep * move;
+  vec4 velocity = texelFetch(velocitiesSoFar, int(p.index));
+  precise vec3 v = velocity.xyz + self.inverseTimeStep * move;
   newPositions[p.index] = vec4(canonical(x), position.w);
-  newVelocities[p.index] = vec4(canonical(v), 0.0);
+  newVelocities[p.index] = vec4(canonical(v), velocity.w);
 }

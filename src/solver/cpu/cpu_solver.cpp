@@ -39,6 +39,7 @@ CpuSolver<Real>::CpuSolver(const Cloth& cloth, const Scene& scene, bool fused)
     state->velocities.resize(count);
   }
   forces_.resize(count);
+  support_.resize(count);
   inverseMasses_.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     put(before_.positions, i, startPosition<Real>(cloth, i));
@@ -61,7 +62,7 @@ void CpuSolver<Real>::configure(const Scene& scene) {
   params_.resize(cloth_->grids().size());
   selfCollision_.configure(scene);
   if (scene.solver.integrator == Integrator::implicit && !implicitStep_)
-    implicitStep_.emplace(*cloth_, parallel_);
+    implicitStep_.emplace(*cloth_, parallel_).setCutMasks(cutMasks_);
   preparePins();
 }
 
@@ -101,6 +102,7 @@ cpu::PassArguments<Real> CpuSolver<Real>::arguments(const StepParams<Real>& para
           before_,
           after_,
           forces_,
+          support_.data(),
           watch_};
 }
 
@@ -153,6 +155,12 @@ void CpuSolver<Real>::convertVelocities() {
     forEachRow(cpu::rowsOf(cloth_->grids()[grid]), [&](int row) { cpu::kick(pass, row); });
   }
   std::swap(before_.velocities, after_.velocities);
+  forgetSupport();
+}
+
+template <class Real>
+void CpuSolver<Real>::forgetSupport() {
+  if (std::exchange(hasSupport_, false)) std::fill(support_.begin(), support_.end(), Real(0));
 }
 
 // The passes of a step. Self-collision works on all grids at once, so each pass runs over all of them in
@@ -190,6 +198,8 @@ void CpuSolver<Real>::stepOnce() {
   const int rounds = contactRounds(scene_);
   const bool implicit = scene_.solver.integrator == Integrator::implicit;
   const bool fusesCollide = fused_ && !implicit && !selfCollision_.isOn();
+  hasSupport_ = hasSupport_ || implicit;
+  if (!implicit) forgetSupport();
   if (implicit) {
     implicitStep_->run(scene_.solver, [&](std::size_t grid) { return arguments(params_[grid]); });
   } else if (fused_) {
@@ -247,6 +257,7 @@ std::unique_ptr<Snapshot> CpuSolver<Real>::snapshot(std::unique_ptr<Snapshot> re
   auto& copy = static_cast<CpuSnapshot<Real>&>(*reuse);
   copy.particles = before_;
   copy.inverseMasses = inverseMasses_;
+  copy.support = support_;
   copy.stepIndex = stepIndex_;
   copy.velocityMeaning = velocityMeaning_;
   copy.cuts = cuts_;
@@ -260,6 +271,8 @@ void CpuSolver<Real>::restore(const Snapshot& snapshot) {
   if (own == nullptr) return setState(snapshot.state());
   before_ = own->particles;
   inverseMasses_ = own->inverseMasses;
+  support_ = own->support;
+  hasSupport_ = true;
   stepIndex_ = own->stepIndex;
   velocityMeaning_ = own->velocityMeaning;
   offPath_ = own->offPath;
@@ -283,7 +296,9 @@ void CpuSolver<Real>::setState(const State& state) {
     put(before_.positions, i, Vec3f{x.x, x.y, x.z});
     put(before_.velocities, i, Vec3f{v.x, v.y, v.z});
     inverseMasses_[i] = static_cast<Real>(x.w);
+    support_[i] = static_cast<Real>(v.w);
   }
+  hasSupport_ = true;
   stepIndex_ = state.step;
   velocityMeaning_ = state.integrator;
   offPath_ = state.offPath;
@@ -309,12 +324,14 @@ void CpuSolver<Real>::setCuts(const Cuts& cuts) {
   cuts_ = cuts;
   cutMasks_ = makeCutMasks(*cloth_, cuts);
   selfCollision_.setCutMasks(cutMasks_);
+  if (implicitStep_) implicitStep_->setCutMasks(cutMasks_);
 }
 
 template <class Real>
 void CpuSolver<Real>::setPin(std::uint32_t particle, bool pinned) {
   inverseMasses_[particle] = pinned ? Real(0) : static_cast<Real>(1 / cloth_->massOf(particle));
   put(before_.velocities, particle, Vec3<Real>{});
+  support_[particle] = 0;
   leavePath(offPath_, particle);
   preparePins();
 }

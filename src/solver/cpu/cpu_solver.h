@@ -53,6 +53,7 @@ class CpuSolver final : public Solver {
   [[nodiscard]] cpu::PassArguments<Real> arguments(const StepParams<Real>& params);
   void preparePins();
   void prepareMotions();
+  void forgetSupport();
   void forgetTrouble();
   void checkStart();
   void stepOnce();
@@ -70,6 +71,8 @@ class CpuSolver final : public Solver {
   WatchRow watch_ = soundWatchRow();
   std::optional<Trouble> trouble_;
   Components<Real> forces_;
+  std::vector<Real> support_;  // all 0 unless
+  bool hasSupport_ = false;
   std::vector<Real> inverseMasses_, restLengths_;
   MeshLists<Real> lists_;
   std::vector<ColliderParams<Real>> colliders_;  // of this step,

@@ -437,20 +437,39 @@ void begin(const ImplicitArguments<Real>& arguments, int row) {
     }
     put(own.anchors, i, b);
     own.anchorStiffness[static_cast<std::size_t>(i)] = stiffness;
-    put(own.ways, i, guess);
-    put(own.iterate.positions, i, canonical(x + guess));
+    const Real falls = 1 - pass.support[i];
+    const Vec3<Real> start = canonical(step.guessTime * (v + (falls * step.timeStep) * gravity));
+    put(own.ways, i, start);
+    put(own.iterate.positions, i, canonical(x + start));
     if (pass.held != nullptr) holdParticle(arguments, row, i, mass);
   }
 }
+
+namespace {
+
+// How much of its weight something held up, 0 to 1 (solver/implicit.h).
+template <class Real>
+INLINE Real supportOf(const StepParams<Real>& step, Vec3<Real> before, Vec3<Real> way) {
+  const Vec3<Real> fallen = (step.inertia * step.timeStep) * way - before;
+  const Real support =
+      1 - dot(fallen, Vec3<Real>{step.gravityX, step.gravityY, step.gravityZ}) * step.supportScale;
+  const Real atLeast = Real(0) < support ? support : Real(0);
+  return atLeast < Real(1) ? atLeast : Real(1);
+}
+
+}  // namespace
 
 template <class Real>
 void end(const ImplicitArguments<Real>& arguments, int row) {
   const PassArguments<Real>& pass = arguments.step;
   const Stretch all = stretch(pass.step, row);
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
-    if (pass.inverseMasses[i] == Real(0)) continue;  // begin() has moved pins
+    const bool pinned = pass.inverseMasses[i] == Real(0);
+    const Vec3<Real> way = at(arguments.own.ways, i);
+    pass.support[i] = pinned ? Real(0) : supportOf(pass.step, at(pass.before.velocities, i), way);
+    if (pinned) continue;  // begin() has moved pins
     put(pass.after.positions, i, at(arguments.own.iterate.positions, i));
-    put(pass.after.velocities, i, canonical(pass.step.inverseTimeStep * at(arguments.own.ways, i)));
+    put(pass.after.velocities, i, canonical(pass.step.inverseTimeStep * way));
   }
   watchVelocities(pass, PASS_INTEGRATE, row);
 }

@@ -13,13 +13,14 @@ template <class Real>
 struct CpuSnapshot final : Snapshot {
   CpuState<Real> particles;
   std::vector<Real> inverseMasses;
+  std::vector<Real> support;
   std::uint64_t stepIndex = 0;
   Integrator velocityMeaning = Integrator::verlet;
   Cuts cuts;
   std::vector<std::uint32_t> offPath;
 
   [[nodiscard]] std::size_t bytes() const override {
-    return 7 * inverseMasses.size() * sizeof(Real) + cuts.size() + offPath.size() * sizeof(std::uint32_t);
+    return 8 * inverseMasses.size() * sizeof(Real) + cuts.size() + offPath.size() * sizeof(std::uint32_t);
   }
   [[nodiscard]] State state() const override {
     State state;
@@ -30,7 +31,7 @@ struct CpuSnapshot final : Snapshot {
     const auto real = [](Real number) { return static_cast<float>(number); };
     for (std::size_t i = 0; i < count; ++i) {
       state.positions[i] = {real(x.x[i]), real(x.y[i]), real(x.z[i]), real(inverseMasses[i])};
-      state.velocities[i] = {real(v.x[i]), real(v.y[i]), real(v.z[i]), 0};
+      state.velocities[i] = {real(v.x[i]), real(v.y[i]), real(v.z[i]), real(support[i])};
     }
     state.step = stepIndex;
     state.integrator = velocityMeaning;

@@ -140,6 +140,8 @@ TEST_F(LayoutTest, OfWhatTheImplicitIntegratorSharesIsTheDrivers) {
   const gl::Program& begin = *library.find("implicit/begin", features);
   EXPECT_EQ(uniformOffset(begin, "step.inertia"), static_cast<GLint>(offsetof(Step, inertia)));
   EXPECT_EQ(uniformOffset(begin, "step.guessTime"), static_cast<GLint>(offsetof(Step, guessTime)));
+  EXPECT_EQ(uniformOffset(*library.find("implicit/end", features), "step.supportScale"),
+            static_cast<GLint>(offsetof(Step, supportScale)));
   EXPECT_EQ(uniformOffset(begin, "hand.resistance"),
             static_cast<GLint>(offsetof(HandParams<float>, resistance)));
   EXPECT_EQ(uniformOffset(begin, "hand.largestWaySquared"),

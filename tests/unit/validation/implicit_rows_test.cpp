@@ -92,6 +92,7 @@ class Sheet {
                                           state_,
                                           state_,
                                           forces_,
+                                          nullptr,
                                           watch_};
     for (int row = 0; row < cpu::rowsOf(cloth_.grids()[0]); ++row) cpu::multiply({pass, own_}, row);
     Field result(x.size());
