@@ -317,14 +317,20 @@ def comparison():
     if not rows:
         return
     lines = []
-    for row in rows:
-        lines.append(" & ".join([rf"\key{{{escaped(row['scene'])}}}", row["integrator"], thousands(row["particles"]), thousands(row["steps"]),
-                                 thousands(row["floats"]), row["differing_floats"]]) + r"\\")
+    for scene in dict.fromkeys(row["scene"] for row in rows):
+        of_scene = [row for row in rows if row["scene"] == scene]
+        cells = [rf"\key{{{escaped(scene)}}}", thousands(of_scene[0]["particles"])]
+        for implicit in (False, True):
+            row = next((r for r in of_scene if (r["integrator"] == "implicit") == implicit), None)
+            cells += ([] if implicit else [row["integrator"]]) + ([thousands(row["steps"]), row["differing_floats"]] if row else ["", ""])
+        lines.append(" & ".join(cells) + r"\\")
     write("compare.tex", lines)
     measured["compare rows"] = str(len(rows))
-    for name in ("floats", "steps", "differing_floats"):
-        measured["compare total " + name.split("_")[0]] = thousands(sum(int(row[name]) for row in rows))
-    measured["compare commit"] = escaped(rows[-1]["commit"])
+    measured["compare total steps"] = thousands(sum(int(row["steps"]) for row in rows))
+    measured["compare total floats"] = thousands(sum(int(row["floats"]) * int(row["frames"]) for row in rows))
+    measured["compare total differing"] = thousands(sum(int(row["differing_floats"]) for row in rows))
+    measured["compare frames"] = rows[0]["frames"]
+    measured["compare commit"] = commit_of([rows[-1]["date"], rows[-1]["commit"]])
     measured["compare device"] = escaped(rows[-1]["device"])
 
 
