@@ -228,6 +228,7 @@ def crossings():
     write("crossings.tex", lines)
     measured["crossing runs"] = str(len(robust))
     measured["crossing worst"] = str(max(int(row["crossings"]) for row in robust))
+    measured["crossing neighbours"] = str(max(int(row["neighbour_crossings"]) for row in robust))
     measured["crossing frames"] = thousands(sum(int(row["frames"]) for row in robust))
     measured["crossing sound"] = str(sum(row["contact_sound"] == "True" for row in robust))
     averaged = [row for row in rows if row["mode"] == "averaged"]
