@@ -36,6 +36,11 @@ def escaped(text):
     return text.replace("^", r"\textasciicircum{}").replace("<=", r"$\le$").replace("+-", r"$\pm$")
 
 
+# Exponents of one figure: l^3.
+def raised(text):
+    return re.sub(r"\\textasciicircum\{\}(\d)", r"$^\1$", text)
+
+
 def power(value, digits=1):
     """2.1e-09 as $2.1\\cdot10^{-9}$."""
     if value == 0:
@@ -83,7 +88,8 @@ def shown_case(case):
     case = case.replace("e-0", "e-").replace(" x ", r"$\times$")
     case = re.sub(r"(\d+)x(\d+) points", r"\1$\\times$\2", case)
     parts = re.split(r"(\$[^$]*\$)", case)
-    return "".join(part if part.startswith("$") else escaped(part) for part in parts).replace(r"\textasciicircum{}2", "$^2$")
+    shown = "".join(part if part.startswith("$") else escaped(part) for part in parts)
+    return raised(shown)
 
 
 def validation():
@@ -94,8 +100,8 @@ def validation():
     lines, notes = [], []
     for row, members in by_row.items():
         suites = sorted({re.search(r"gtest_filter=(\w+)\.", f["command"]).group(1) for f in members if "gtest_filter" in f["command"]})
-        source = " ".join(f"\\key{{{suite}}}" for suite in suites) or f"\\key{{tools/validate crossings}}"
-        lines.append(rf"\multicolumn{{6}}{{@{{}}l}}{{\rule{{0pt}}{{2.7ex}}\textbf{{{escaped(row[0].upper() + row[1:])}}}\quad {source}}}\\*")
+        source = " ".join(rf"\texttt{{{suite}}}" for suite in suites) or r"	exttt{tools/validate crossings}"
+        lines.append(rf"\multicolumn{{6}}{{@{{}}l}}{{\rule{{0pt}}{{2.7ex}}\textbf{{{raised(escaped(row[0].upper() + row[1:]))}}}\quad {source}}}\\*")
         pairs = defaultdict(dict)
         for figure in members:
             own_expected = figure["expected"] if row not in ("Cusick drape",) else figure["case"]
