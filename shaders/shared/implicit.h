@@ -38,6 +38,10 @@ using uint = std::uint32_t;
 #define INCREMENTS_UNIT 35   // the Newton step so far [m]
 #define STARTS_UNIT 36       // x at the start of the step, and the inverse mass
 #define PARTIAL_SUMS_UNIT 37
+#define CUT_LINKS_UNIT 38  // an unsigned number a vertex: makeCutLinks() of src/solver/implicit.h
+
+// A bit for each neighbour of a vertex on its level, -1 to 1 columns and rows away.
+#define LINK_BIT(columns, rows) (1u << (3 * (rows) + (columns) + 4))
 
 // Sums over all particles have one order: lane t of 256 adds every 256th number of a block of 1024, the lanes
 // are added as a tree, and so are the blocks.

@@ -54,17 +54,63 @@ struct FieldTraits {
 // The ends of a slider for the field: what is usual, else its limits, else a tenfold of what it is now.
 [[nodiscard]] Usual sliderRange(const FieldTraits& traits, double now);
 
-// All types that a scene's members have.
+// What a member may be: one of these types, or of those that its owner has besides. (One list for all owners
+// would have each walk over a table compiled for types that the table does not have.)
+template <class Owner, class... More>
+using MemberAmong = std::variant<bool Owner::*, int Owner::*, double Owner::*, std::string Owner::*,
+                                 Vec3d Owner::*, std::optional<double> Owner::*, More Owner::*...>;
 template <class Owner>
-using Member = std::variant<
-    bool Owner::*, int Owner::*, double Owner::*, std::string Owner::*, Vec3d Owner::*, Orientation Owner::*,
-    Integrator Owner::*, SelfCollision Owner::*, FrictionLaw Owner::*, GridPoint Owner::*,
-    std::vector<Pin> Owner::*, std::optional<double> Owner::*, StepCount Owner::*,
-    std::optional<Material> Owner::*, std::optional<Vec3d> Owner::*, std::optional<Range> Owner::*,
-    std::vector<Motion::Key> Owner::*, std::optional<Motion> Owner::*, std::vector<PinMotion::Key> Owner::*,
-    Region Owner::*, std::vector<PinMotion> Owner::*, std::vector<ClothSettings> Owner::*,
-    std::vector<Collider> Owner::*, std::optional<Wind> Owner::*, Gust Owner::*, SolverSettings Owner::*,
-    CameraSettings Owner::*, RenderSettings Owner::*, std::optional<Expect> Owner::*>;
+struct MemberOf {
+  using Type = MemberAmong<Owner, GridPoint, Orientation, std::optional<Motion>>;
+};
+template <>
+struct MemberOf<Scene> {
+  using Type = MemberAmong<Scene, std::vector<ClothSettings>, std::vector<Collider>, std::optional<Wind>,
+                           SolverSettings, CameraSettings, RenderSettings, std::optional<Expect>>;
+};
+template <>
+struct MemberOf<ClothSettings> {
+  using Type = MemberAmong<ClothSettings, Orientation, std::vector<Pin>, std::vector<PinMotion>,
+                           std::optional<Material>, std::optional<Vec3d>>;
+};
+template <>
+struct MemberOf<RegionPin> {
+  using Type = MemberAmong<RegionPin, Region>;
+};
+template <>
+struct MemberOf<Motion> {
+  using Type = MemberAmong<Motion, std::vector<Motion::Key>>;
+};
+template <>
+struct MemberOf<PinMotion> {
+  using Type = MemberAmong<PinMotion, std::vector<Pin>, std::vector<PinMotion::Key>>;
+};
+template <>
+struct MemberOf<PinMotion::Key> {
+  using Type = MemberAmong<PinMotion::Key, std::optional<Vec3d>>;
+};
+template <>
+struct MemberOf<Wind> {
+  using Type = MemberAmong<Wind, Gust>;
+};
+template <>
+struct MemberOf<SolverSettings> {
+  using Type = MemberAmong<SolverSettings, Integrator, SelfCollision, FrictionLaw, StepCount>;
+};
+template <>
+struct MemberOf<CameraSettings> {
+  using Type = MemberAmong<CameraSettings, std::optional<Vec3d>>;
+};
+template <>
+struct MemberOf<RenderSettings> {
+  using Type = MemberAmong<RenderSettings, std::optional<Vec3d>>;
+};
+template <>
+struct MemberOf<Expect> {
+  using Type = MemberAmong<Expect, std::optional<Range>, std::optional<Vec3d>>;
+};
+template <class Owner>
+using Member = typename MemberOf<Owner>::Type;
 
 template <class Owner>
 struct Field : FieldTraits {

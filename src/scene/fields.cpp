@@ -17,6 +17,17 @@ FieldInfo entry(std::string path, std::string type, std::string defaultValue, st
   return {std::move(path), std::move(type), "", "", std::move(defaultValue), std::move(help), live};
 }
 
+FieldInfo infoOf(const FieldTraits& field, const std::string& path, std::string type,
+                 std::string defaultValue) {
+  return {.path = path,
+          .type = std::move(type),
+          .unit = std::string(field.unit),
+          .range = limitsText(field.limits),
+          .defaultValue = std::move(defaultValue),
+          .help = std::string(field.help),
+          .live = field.change == Change::live};
+}
+
 template <class T>
 std::string defaultText(const FieldTraits& traits, const T& value) {
   if (!traits.defaultText.empty()) return std::string(traits.defaultText);
@@ -91,13 +102,7 @@ void describeObject(const std::string& prefix, Infos& infos) {
     std::visit(
         [&](auto pointer) {
           const auto& value = defaults.*pointer;
-          infos.push_back({.path = path,
-                           .type = typeName(field, value),
-                           .unit = std::string(field.unit),
-                           .range = limitsText(field.limits),
-                           .defaultValue = defaultText(field, value),
-                           .help = std::string(field.help),
-                           .live = field.change == Change::live});
+          infos.push_back(infoOf(field, path, typeName(field, value), defaultText(field, value)));
           describeInside(path, value, infos);
         },
         field.member);

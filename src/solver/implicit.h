@@ -11,7 +11,8 @@
 //
 //   z = sum over levels of P_l D_l^-1 P_l^T r,
 //
-// P_l bilinear interpolation from a lattice of every 2^l-th grid point down to 2 x 2, D_l blocks of 3 x 3.
+// P_l bilinear interpolation from a lattice of every 2^l-th grid point down to 2 x 2 (not across cuts), D_l
+// blocks of 3 x 3.
 // Pinned particles are no unknowns. All sums run over a fixed tree, all scalars stay where they are computed:
 // no read-back in a step.
 //
@@ -45,6 +46,22 @@ struct Hierarchy {
 
 template <class Real>
 [[nodiscard]] Hierarchy<Real> makeHierarchy(const Cloth& cloth);
+
+// The fine point that a coarse one is, along one direction: every second one, and the last.
+template <class Index>
+[[nodiscard]] constexpr Index finePoint(Index coarse, Index coarseCount, Index fineCount) {
+  if (coarseCount == fineCount) return coarse;
+  return coarse + 1 == coarseCount ? fineCount - 1 : 2 * coarse;
+}
+
+// Cuts as the levels see them, so that nothing is interpolated across: a number a vertex, whose LINK_BITs say
+// from which neighbours on its level it is cut off. Coarse neighbours are cut off from each other when a link
+// between them on the next finer level is, on the way there (diagonally first) or back. `cutMasks` as
+// makeCutMasks() gives them; empty for none.
+template <class Real>
+[[nodiscard]] std::vector<std::uint32_t> makeCutLinks(const Cloth& cloth,
+                                                      const std::vector<std::uint32_t>& cutMasks,
+                                                      const Hierarchy<Real>& hierarchy);
 
 // For a grid without a coarser level, and a mesh: itself as the coarsest one.
 template <class Real>

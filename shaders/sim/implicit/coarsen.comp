@@ -7,10 +7,9 @@ layout(std430, binding = THIRD_OUTPUT_BINDING) writeonly buffer Blocks { vec4 ne
 void main() {
   uvec2 coarse = gl_GlobalInvocationID.xy;
   if (coarse.x >= level.coarseColumns || coarse.y >= level.coarseRows) return;
-  FinePlace column = finePlace(coarse.x, level.coarseColumns, level.fineColumns);
-  FinePlace row = finePlace(coarse.y, level.coarseRows, level.fineRows);
-  Symmetric stretch = Symmetric(gatherFine(blocks, column, row, 4u, 0u), gatherFine(blocks, column, row, 4u, 1u));
-  Symmetric inertia = Symmetric(gatherFine(blocks, column, row, 4u, 2u), gatherFine(blocks, column, row, 4u, 3u));
+  Fine fine = fineAround(coarse);
+  Symmetric stretch = Symmetric(gatherFine(blocks, fine, 4u, 0u), gatherFine(blocks, fine, 4u, 1u));
+  Symmetric inertia = Symmetric(gatherFine(blocks, fine, 4u, 2u), gatherFine(blocks, fine, 4u, 3u));
   Symmetric block = sumOf(scaled(level.stretchFactor, stretch), scaled(level.inertiaFactor, inertia));
   precise vec3 diagonal = block.diagonal + vec3(level.bending);
   Factors f = factorize(Symmetric(diagonal, block.others));

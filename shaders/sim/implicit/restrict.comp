@@ -6,8 +6,6 @@ layout(std430, binding = FIRST_OUTPUT_BINDING) writeonly buffer Residuals { vec4
 void main() {
   uvec2 coarse = gl_GlobalInvocationID.xy;
   if (coarse.x >= level.coarseColumns || coarse.y >= level.coarseRows) return;
-  FinePlace column = finePlace(coarse.x, level.coarseColumns, level.fineColumns);
-  FinePlace row = finePlace(coarse.y, level.coarseRows, level.fineRows);
-  vec3 sum = gatherFine(residuals, column, row, 1u, 0u);
+  vec3 sum = gatherFine(residuals, fineAround(coarse), 1u, 0u);
   newResiduals[level.coarseFirst + coarse.y * level.coarseColumns + coarse.x] = vec4(canonical(sum), 0.0);
 }

@@ -61,7 +61,7 @@ void CpuSolver<Real>::configure(const Scene& scene) {
   params_.resize(cloth_->grids().size());
   selfCollision_.configure(scene);
   if (scene.solver.integrator == Integrator::implicit && !implicitStep_)
-    implicitStep_.emplace(*cloth_, parallel_);
+    implicitStep_.emplace(*cloth_, parallel_).setCutMasks(cutMasks_);
   preparePins();
 }
 
@@ -309,6 +309,7 @@ void CpuSolver<Real>::setCuts(const Cuts& cuts) {
   cuts_ = cuts;
   cutMasks_ = makeCutMasks(*cloth_, cuts);
   selfCollision_.setCutMasks(cutMasks_);
+  if (implicitStep_) implicitStep_->setCutMasks(cutMasks_);
 }
 
 template <class Real>

@@ -31,6 +31,7 @@ struct ImplicitState {
   Components<Real> increments;        // the Newton step so far
   std::array<std::vector<Real>, LENGTHS_TRIED> trials;  // a particle's change of energy
   ImplicitScalars<Real> scalars;
+  std::vector<std::uint32_t> cutLinks;  // * makeCutLinks()
 };
 
 template <class Real>

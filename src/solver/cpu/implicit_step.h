@@ -19,6 +19,11 @@ class ImplicitStep {
   // `cloth` must outlive it.
   ImplicitStep(const Cloth& cloth, bool parallel);
 
+  // `cutMasks`: makeCutMasks().
+  void setCutMasks(const std::vector<std::uint32_t>& cutMasks) {
+    own_.cutLinks = makeCutLinks(*cloth_, cutMasks, hierarchy_);
+  }
+
   // Solves all grids at once.
   void run(const SolverSettings& settings, const ArgumentsOf& argumentsOf);
 

@@ -27,9 +27,8 @@ struct FinePlace {
 };
 INLINE FinePlace finePlace(std::int64_t coarse, std::int64_t coarseCount, std::int64_t fineCount) {
   if (coarseCount == fineCount) return {coarse, false, false};
-  const bool last = coarse + 1 == coarseCount;
-  const std::int64_t middle = last ? fineCount - 1 : 2 * coarse;
-  return {middle, middle > 0 && middle % 2 == 0, !last && middle + 2 < fineCount};
+  const std::int64_t middle = finePoint(coarse, coarseCount, fineCount);
+  return {middle, middle > 0 && middle % 2 == 0, coarse + 1 < coarseCount && middle + 2 < fineCount};
 }
 
 // The two coarse points around a fine one, the same one twice where it is one itself.
@@ -40,23 +39,32 @@ INLINE std::pair<std::int64_t, std::int64_t> coarsePlaces(std::int64_t fine, std
   return {fine / 2, (fine + 1) / 2};
 }
 
+template <class Real>
+INLINE std::uint32_t cutLinksOf(const ImplicitState<Real>& own, std::ptrdiff_t i) {
+  return own.cutLinks.empty() ? 0 : own.cutLinks.data()[i];
+}
+
 // Sum of `valueAt(fine vertex)`, a whole for the coarse vertex' own place, a half or quarter for those around
-// it.
+// it that it is not cut off from.
 template <class Real, class Value, class ValueAt>
-INLINE Value gatherFine(const LevelParams<Real>& level, const FinePlace& row, std::int64_t coarseColumn,
-                        ValueAt valueAt) {
+INLINE Value gatherFine(const LevelParams<Real>& level, const ImplicitState<Real>& own, const FinePlace& row,
+                        std::int64_t coarseColumn, ValueAt valueAt) {
   const FinePlace column = finePlace(coarseColumn, level.coarseColumns, level.fineColumns);
-  const Value none{};
-  const auto alongRow = [&](std::int64_t fineRow) {
-    const std::ptrdiff_t i =
-        static_cast<std::ptrdiff_t>(level.fineFirst) + fineRow * level.fineColumns + column.middle;
-    const Value before = column.before ? valueAt(i - 1) : none,
-                behind = column.behind ? valueAt(i + 1) : none;
-    return valueAt(i) + Real(0.5) * (before + behind);
+  const std::ptrdiff_t middle =
+      static_cast<std::ptrdiff_t>(level.fineFirst) + row.middle * level.fineColumns + column.middle;
+  const std::uint32_t links = cutLinksOf(own, middle);
+  const auto valueOf = [&](int columns, int rows) {
+    return (links & LINK_BIT(columns, rows)) != 0
+               ? Value{}
+               : valueAt(middle + rows * std::ptrdiff_t{level.fineColumns} + columns);
   };
-  const Value above = row.before ? alongRow(row.middle - 1) : none,
-              below = row.behind ? alongRow(row.middle + 1) : none;
-  return alongRow(row.middle) + Real(0.5) * (above + below);
+  const auto alongRow = [&](int rows) {
+    const Value before = column.before ? valueOf(-1, rows) : Value{},
+                behind = column.behind ? valueOf(1, rows) : Value{};
+    return valueOf(0, rows) + Real(0.5) * (before + behind);
+  };
+  const Value above = row.before ? alongRow(-1) : Value{}, below = row.behind ? alongRow(1) : Value{};
+  return alongRow(0) + Real(0.5) * (above + below);
 }
 
 template <class Real>
@@ -72,7 +80,7 @@ void coarsenBlocks(const LevelParams<Real>& level, ImplicitState<Real>& own, int
   const FinePlace row = finePlace(coarseRow, level.coarseRows, level.fineRows);
   for (std::uint32_t column = 0; column < level.coarseColumns; ++column) {
     const auto sumOf = [&](const SymmetricField<Real>& field) {
-      return gatherFine<Real, Symmetric<Real>>(level, row, column,
+      return gatherFine<Real, Symmetric<Real>>(level, own, row, column,
                                                [&](std::ptrdiff_t i) { return at(field, i); });
     };
     const Symmetric<Real> stretch = sumOf(own.stretch), inertia = sumOf(own.inertia);
@@ -94,7 +102,7 @@ void restrictResiduals(const LevelParams<Real>& level, ImplicitState<Real>& own,
     put(own.residuals,
         static_cast<std::ptrdiff_t>(level.coarseFirst +
                                     static_cast<std::uint32_t>(coarseRow) * level.coarseColumns + column),
-        gatherFine<Real, Vec3<Real>>(level, row, column,
+        gatherFine<Real, Vec3<Real>>(level, own, row, column,
                                      [&](std::ptrdiff_t i) { return at(own.residuals, i); }));
 }
 
@@ -107,11 +115,17 @@ void prolong(const LevelParams<Real>& level, ImplicitState<Real>& own, const Rea
                        below = first + lower * level.coarseColumns;
   for (std::uint32_t column = 0; column < level.fineColumns; ++column) {
     const auto [left, right] = coarsePlaces(column, level.coarseColumns, level.fineColumns);
-    const Components<Real>& z = own.corrections;
-    const Vec3<Real> around = Real(0.25) * ((at(z, above + left) + at(z, above + right)) +
-                                            (at(z, below + left) + at(z, below + right)));
     const auto i = static_cast<std::ptrdiff_t>(
         level.fineFirst + static_cast<std::uint32_t>(fineRow) * level.fineColumns + column);
+    const std::uint32_t links = cutLinksOf(own, i);
+    const int columns = left == right ? 0 : 1, rows = upper == lower ? 0 : 1;
+    const auto from = [&](std::ptrdiff_t vertex, std::uint32_t link) {
+      return (links & link) != 0 ? Vec3<Real>{} : at(own.corrections, vertex);
+    };
+    const Vec3<Real> around =
+        Real(0.25) *
+        ((from(above + left, LINK_BIT(-columns, -rows)) + from(above + right, LINK_BIT(columns, -rows))) +
+         (from(below + left, LINK_BIT(-columns, rows)) + from(below + right, LINK_BIT(columns, rows))));
     const Vec3<Real> correction = solve(factorsAt(own, i), at(own.residuals, i)) + around;
     const bool pinned = inverseMasses != nullptr && inverseMasses[i] == Real(0);
     put(own.corrections, i, pinned ? Vec3<Real>{} : correction);

@@ -113,7 +113,8 @@ void GpuSolver::choosePrograms() {
   }
   if (!implicit) return;
   const bool wind = ofGrids[0].wind;
-  if (!implicit_ || (wind && !implicit_->hasAirBlocks())) implicit_.emplace(*cloth_, wind);
+  if (!implicit_ || (wind && !implicit_->hasAirBlocks()))
+    implicit_.emplace(*cloth_, wind).setCutMasks(makeCutMasks(*cloth_, cuts_.cuts()));
   implicit_->choosePrograms(library_, ofGrids);
 }
 
@@ -392,8 +393,10 @@ void GpuSolver::setHand(const Hand& hand) {
 }
 
 void GpuSolver::setCuts(const Cuts& cuts) {
-  cuts_.set(cuts, makeCutMasks(*cloth_, cuts));
+  const std::vector<std::uint32_t> masks = makeCutMasks(*cloth_, cuts);
+  cuts_.set(cuts, masks);
   selfCollision_.setCut(!cuts.empty());
+  if (implicit_) implicit_->setCutMasks(masks);
   choosePrograms();
 }
 

@@ -67,6 +67,16 @@ void GpuImplicit::choosePrograms(PassLibrary& library, const std::vector<PassFea
   }
 }
 
+void GpuImplicit::setCutMasks(const std::vector<std::uint32_t>& cutMasks) {
+  if (cutMasks.empty()) return;
+  const std::vector<std::uint32_t> links = makeCutLinks(*cloth_, cutMasks, hierarchy_);
+  if (cutLinks_.name() == 0) {
+    cutLinks_ = gl::Buffer<std::uint32_t>("cut links", links.size());
+    cutLinksTexture_ = gl::BufferTexture("cut links", cutLinks_.name(), GL_R32UI);
+  }
+  cutLinks_.upload(links);
+}
+
 void GpuImplicit::onGrids(const Run& run, const gl::Program* GridPrograms::*pass, const char* name) const {
   for (std::size_t i = 0; i < cloth_->grids().size(); ++i) {
     const Grid& grid = cloth_->grids()[i];
@@ -178,6 +188,7 @@ void GpuImplicit::run(PassRunner& runner, const SolverSettings& settings, const 
   increments_.texture.bind(INCREMENTS_UNIT);
   partialSums_.texture.bind(PARTIAL_SUMS_UNIT);
   positions.texture.bind(STARTS_UNIT);
+  if (cutLinks_.name() != 0) cutLinksTexture_.bind(CUT_LINKS_UNIT);
 
   anchors_.buffer.bindStorage(FIRST_OUTPUT_BINDING);
   ways_.buffer.bindStorage(SECOND_OUTPUT_BINDING);

@@ -23,6 +23,8 @@ class GpuImplicit {
   // Compiled for what each grid's scene needs. @throws OpenGlError when a shader does not compile
   void choosePrograms(PassLibrary& library, const std::vector<PassFeatures>& grids);
   [[nodiscard]] bool hasAirBlocks() const { return hasAirBlocks_; }
+  // `cutMasks`: makeCutMasks().
+  void setCutMasks(const std::vector<std::uint32_t>& cutMasks);
 
   // Solves all grids at once. The state is bound, `positions` is that at the start of the step, and
   // `bindGrid(grid)` binds the parameters of a grid.
@@ -68,6 +70,8 @@ class GpuImplicit {
   ParticleArray residuals_, corrections_, factors_, blocks_, anchors_, airBlocks_, ways_, iterates_,
       directions_, products_, increments_, partialSums_;
   gl::Buffer<ImplicitScalars<float>> scalars_;
+  gl::Buffer<std::uint32_t> cutLinks_;  // once there were cuts
+  gl::BufferTexture cutLinksTexture_;
 };
 
 }  // namespace clothsim

@@ -81,6 +81,8 @@ PassFeatures featuresOfPass(const std::string& pass, const PassFeatures& all) {
     features.material = all.material;
     features.cuts = all.cuts;
   }
+  if (pass == "implicit/coarsen" || pass == "implicit/restrict" || pass == "implicit/prolong")
+    features.cuts = all.cuts;
   features.limitSprings =
       all.limitSprings && (features.enabledSlots != 0 || features.mesh);  // of passes that look at springs
   if (pass.starts_with("implicit/sum")) features.sumKind = all.sumKind;

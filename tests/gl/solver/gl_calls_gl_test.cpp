@@ -62,7 +62,7 @@ TEST_F(GlCallsTest, AFrameReadsNothingBackAndUploadsNoPositions) {
     const gl::Framebuffer target(
         "picture", {.width = 64, .height = 48, .color = GL_SRGB8_ALPHA8, .depth = GL_DEPTH_COMPONENT24});
     const auto frame = [&] {
-      solver.step(30);
+      solver.step(8);
       renderer.draw(solver.positionsBuffer(), camera, 0.1, target.name(), 64, 48);
     };
     frame();  // what is made once, is made here
@@ -85,7 +85,7 @@ TEST_F(GlCallsTest, AFrameReadsNothingBackAndUploadsNoPositions) {
       COUNTED(glDispatchCompute);
       for (int i = 0; i < 5; ++i) frame();
     }
-    EXPECT_GT(calls["glDispatchCompute"], 150) << name << ": the counters work";
+    EXPECT_GT(calls["glDispatchCompute"], 40) << name << ": the counters work";
     for (const auto& [function, count] : calls) {
       if (function == "glDispatchCompute" || function == "glNamedBufferSubData") continue;
       EXPECT_EQ(count, 0) << name << ": " << function;
@@ -94,7 +94,7 @@ TEST_F(GlCallsTest, AFrameReadsNothingBackAndUploadsNoPositions) {
     // frame.
     std::size_t pinMotions = 0;
     for (const ClothSettings& settings : scene.cloths) pinMotions += settings.pinMotion.size();
-    const std::size_t parameters = 5 * 30 *
+    const std::size_t parameters = 5 * 8 *
                                    (scene.cloths.size() * 256 +
                                     scene.colliders.size() * sizeof(ColliderParams<float>) + pinMotions * 64);
     EXPECT_LE(uploadedBytes, parameters + 5 * 4096) << name;

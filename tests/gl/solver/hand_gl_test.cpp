@@ -59,7 +59,8 @@ TEST_F(HandOnGpuTest, DoesWhatItDoesOnTheCpuToTheBit) {
         test::NamedScene{"thick averaged self-collision",
                          test::thick(test::layeredSheets(8, SelfCollision::averaged))},
         test::NamedScene{"two cloths", test::twoCloths(test::vertical(test::sheetScene(17)))},
-        test::NamedScene{"material", test::materialScene(17)}}) {
+        test::NamedScene{"material", test::materialScene(17)},
+        test::NamedScene{"implicit", test::implicitly(test::vertical(test::sheetScene(17)))}}) {
     const State gpu = playedOn<GpuSolver>(scene), cpu = playedOn<CpuSolver<float>>(scene);
     const StateDifference result = difference(gpu, cpu);
     EXPECT_EQ(result.differing, 0u) << name << ", by at most " << result.maxAbs;

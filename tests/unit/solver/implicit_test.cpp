@@ -300,21 +300,24 @@ TEST(ImplicitStep, GivesTheSameBitsOnAnyNumberOfThreads) {
   EXPECT_EQ(hashes[0], hashes[2]);
 }
 
-// Coarse levels reach across the cut: it takes iterations until neither side feels the other.
 TEST(ImplicitStep, LetsWhatIsCutOffFallFreely) {
   Material undamped = canvas;
   undamped.damping = 0;
-  Scene scene = test::vertical(implicitSheet(9, undamped));
-  scene.solver.cgIterations = 20;
-  const Cloth cloth(scene);
-  CpuSolver<double> solver(cloth, scene);
-  solver.setCuts(test::cutAcross(cloth, 4.5));
-  solver.step(30);
-  const double expected = 9.81 * 30 * 31 / 2 / 3600;
-  for (std::uint32_t i = 0; i < 45; ++i)
-    EXPECT_NEAR(cloth.positions()[i].y - solver.position(i).y, expected, 1e-4) << i;
-  EXPECT_GT(solver.position(8 * 9 + 4).y, 0.7) << "the rest hangs on";
-  EXPECT_EQ(solver.trouble(), std::nullopt);
+  for (const std::uint32_t n : {9u, 34u}) {
+    const Scene scene = test::vertical(implicitSheet(static_cast<int>(n), undamped));
+    const Cloth cloth(scene);
+    CpuSolver<double> solver(cloth, scene);
+    const std::uint32_t rowsCutOff = n / 2;
+    solver.setCuts(test::cutAcross(cloth, rowsCutOff - 0.5));
+    solver.step(30);
+    const double expected = 9.81 * 30 * 31 / 2 / 3600;
+    // The sheet starts wrinkled, and iterations cut short keep its momentum in part.
+    const double tolerance = n == 9 ? 1e-4 : 0.02 * expected;
+    for (std::uint32_t i = 0; i < n * rowsCutOff; ++i)
+      EXPECT_NEAR(cloth.positions()[i].y - solver.position(i).y, expected, tolerance) << i << " of " << n * n;
+    EXPECT_GT(solver.position(n * n - n / 2).y, 0.7) << "the rest hangs on";
+    EXPECT_EQ(solver.trouble(), std::nullopt);
+  }
 }
 
 TEST(ImplicitStep, BringsAHeldParticleNearItsGoal) {

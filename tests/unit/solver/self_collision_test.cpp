@@ -194,7 +194,7 @@ TEST(SelfCollisionStep, ComesToTheSameBitsWithAnyNumberOfThreads) {
     std::set<std::uint64_t> hashes;
     for (const int count : {1, 2, 5}) {
       omp_set_num_threads(count);
-      hashes.insert(hashAfter(scene, 150, false));
+      hashes.insert(hashAfter(scene, 100, false));
     }
     omp_set_num_threads(threads);
     EXPECT_EQ(hashes.size(), 1u) << selfCollisionName(mode);
