@@ -1,8 +1,8 @@
 // The command line of DESIGN.md section 5: argv in, options out.
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <cstdio>
 #include <iostream>
-#include <regex>
 
 #include "app/commands.h"
 #include "app/viewer.h"
@@ -12,25 +12,42 @@
 namespace clothsim {
 namespace {
 
-GridSize parseSize(const std::string& text, const char* flag) {
-  std::smatch match;
-  if (!std::regex_match(text, match, std::regex("([0-9]{1,5})[xX]([0-9]{1,5})")))
-    throw UsageError(std::string(flag) + " " + text + ": expected WIDTHxHEIGHT, as 512x512");
-  return {std::stoi(match[1]), std::stoi(match[2])};
+// "30,-10", "30,-10,1.5".
+ViewTurn parseView(const std::string& text) {
+  ViewTurn turn;
+  int afterTwo = 0, afterThree = 0;
+  const int numbers =
+      std::sscanf(text.c_str(), "%lf,%lf%n,%lf%n", &turn.right, &turn.up, &afterTwo, &turn.zoom, &afterThree);
+  const bool isWhole = static_cast<std::size_t>(numbers == 3 ? afterThree : afterTwo) == text.size();
+  if (numbers < 2 || !isWhole || !(std::abs(turn.right) <= 360) || !(std::abs(turn.up) <= 180) ||
+      !(turn.zoom >= 0.01 && turn.zoom <= 100))
+    throw UsageError(
+        "--view " + text +
+        ": expected RIGHT,UP or RIGHT,UP,ZOOM, in degrees and a factor from 0.01 to 100, as 30,-10,1.5");
+  return turn;
+}
+
+// Of a picture, within bounds.
+GridSize parsePixels(const std::string& text) {
+  const GridSize size = parseSize(text, "--size");
+  if (size.columns < 16 || size.rows < 16 || size.columns > 8192 || size.rows > 8192)
+    throw UsageError("--size " + text + ": expected 16x16 to 8192x8192 pixels");
+  return size;
 }
 
 // The flags as they arrive; each command takes the ones it declared.
 struct Arguments {
   bool draw = false;
   std::string scene = "pinned2", backend = "gpu", from, shader, size = "1280x720", key, replay;
-  std::vector<std::string> settings, saves, outs, resolutions, backends;
+  std::string cellSize = "560x420", out, view = "0,0";
+  std::vector<std::string> variations, settings, saves, outs, resolutions, backends;
   int frames = 0, every = 1, around = 64, down = 48;
   double fps = 30, seconds = 1, jitter = 0;
   std::uint32_t seed = 1;
   bool json = false, checkCrossings = false, timings = false;
 
   [[nodiscard]] SceneOptions sceneOptions() const {
-    SceneOptions options{.scene = scene, .resolution = std::nullopt, .settings = settings};
+    SceneOptions options{.scene = scene, .resolution = std::nullopt, .settings = settings, .varied = {}};
     if (!resolutions.empty()) options.resolution = parseSize(resolutions.front(), "--resolution");
     return options;
   }
@@ -94,9 +111,9 @@ void declareRun(CLI::App& app, Arguments& a, Action& action) {
   addResolution(*run, a);
   CLI::Option* backend = addBackend(*run, a);
   run->add_option("--save", a.saves,
-                  "write the last state: .csv .ply .obj, or .state (exact); with %04d in the name every K-th "
-                  "frame; every "
-                  "K-th frame in one file: .pc2 (with the mesh it moves, FILE_rest.obj) or .usda")
+                  "write the last state: .csv .ply .obj .png, or .state (exact); with %04d in the name every "
+                  "K-th frame; all frames in one file: .pc2 (with the mesh it moves, FILE_rest.obj), .usda "
+                  "(every K-th), .mp4 (in real time; needs ffmpeg); may be repeated")
       ->type_name("FILE")
       ->allow_extra_args(false);
   run->add_option("--every", a.every, "K for numbered files, .pc2 and .usda")
@@ -161,12 +178,21 @@ void declareSimulationCommands(CLI::App& app, Arguments& a, Action& action) {
   bench->callback([&] {
     action = [&] {
       BenchOptions options{
-          {a.scene, std::nullopt, a.settings}, {}, a.backends, a.seconds, a.frames, a.json, a.draw};
+          {a.scene, std::nullopt, a.settings, {}}, {}, a.backends, a.seconds, a.frames, a.json, a.draw};
       for (const std::string& resolution : a.resolutions)
         options.resolutions.push_back(parseSize(resolution, "--resolution"));
       return benchCommand(options);
     };
   });
+}
+
+void addLooks(CLI::App& app, Arguments& a) {
+  app.add_option("--shader", a.shader, "shading model instead of the scene's own");
+  app.add_option(
+         "--view", a.view,
+         "turn the camera about what it looks at, to the right and up, in degrees, and go nearer by a "
+         "factor: 30,-10,1.5")
+      ->type_name("RIGHT,UP[,ZOOM]");
 }
 
 void declareRender(CLI::App& app, Arguments& a, Action& action) {
@@ -187,34 +213,74 @@ void declareRender(CLI::App& app, Arguments& a, Action& action) {
       ->check(CLI::Range(1, 1'000'000));
   render->add_option("--fps", a.fps, "pictures a second of a film, at most; it plays in real time")
       ->check(CLI::Range(1.0, 1000.0));
-  render->add_option("--shader", a.shader, "shading model instead of the scene's own");
+  addLooks(*render, a);
   render->add_option("--from", a.from, "begin with a saved .state")->type_name("STATE");
   addSphereSegments(*render, a);
   render->footer("Example: clothsim render -f demo --frames 240 --out clip.mp4");
   render->callback([&] {
     action = [&] {
-      const GridSize size = parseSize(a.size, "--size");
-      if (size.columns < 16 || size.rows < 16 || size.columns > 8192 || size.rows > 8192)
-        throw UsageError("--size " + a.size + ": expected 16x16 to 8192x8192 pixels");
+      const GridSize size = parsePixels(a.size);
       return renderCommand({a.sceneOptions(), a.frames, a.backend, a.outs, size.columns, size.rows, a.every,
-                            a.fps, a.shader, a.around, a.down, a.from});
+                            a.fps, a.shader, a.around, a.down, a.from, parseView(a.view)});
+    };
+  });
+}
+
+void declareSweep(CLI::App& app, Arguments& a, Action& action) {
+  CLI::App* sweep = app.add_subcommand(
+      "sweep", "Simulate every combination of some values; one labelled picture and a table of measures");
+  addSceneFlags(*sweep, a, true);
+  CLI::Option* frames = addFrames(*sweep, a, false);
+  sweep
+      ->add_option("--vary", a.variations,
+                   "any key of the scene, `frame` or `resolution`, and the values it takes: the first along "
+                   "the columns, the others down the rows")
+      ->required()
+      ->type_name("KEY=V,V,...")
+      ->allow_extra_args(false);
+  addResolution(*sweep, a);
+  addBackend(*sweep, a);
+  sweep->add_option("--out", a.out, "sheet.png; the measures go to sheet.csv beside it")
+      ->required()
+      ->type_name("FILE");
+  sweep->add_option("--size", a.cellSize, "pixels of each picture; the text grows with it")
+      ->type_name("WxH")
+      ->capture_default_str();
+  addLooks(*sweep, a);
+  addJson(*sweep, a);
+  sweep->footer(
+      "A combination that blows up is shown as it last was, and the others go on; `finite` is false for it.\n"
+      "Examples: clothsim sweep -f pinned2 --vary cloth.ks=500,5000,50000 --vary "
+      "solver.integrator=verlet,implicit\n              --frames 60 --out sheet.png\n"
+      "          clothsim sweep -f selfCollision --vary frame=20,50,90 --vary cloth.ks=500,5000 --out "
+      "time.png");
+  sweep->callback([&a, &action, frames] {
+    action = [&a, frames] {
+      const GridSize size = parsePixels(a.cellSize);
+      SweepOptions options{a.sceneOptions(), a.variations, {},       a.backend,         a.out,
+                           size.columns,     size.rows,    a.shader, parseView(a.view), a.json};
+      if (frames->count() > 0) options.frames = a.frames;
+      return sweepCommand(options);
     };
   });
 }
 
 void declareInfoCommands(CLI::App& app, Arguments& a, Action& action) {
-  app.add_subcommand("scenes", "List the bundled scenes")->callback([&] {
-    action = [] { return scenesCommand(); };
-  });
+  // Without a footer of its own a command would print the viewer's.
+  app.add_subcommand("scenes", "List the bundled scenes")
+      ->footer("Example: clothsim -f twist shows the one of that name")
+      ->callback([&] { action = [] { return scenesCommand(); }; });
 
   CLI::App* doctor =
       app.add_subcommand("doctor", "Show the OpenGL device and its limits, and test that CPU and GPU agree");
   addJson(*doctor, a);
+  doctor->footer("Exit code 0 when the backends agree, 1 when they do not, 4 without usable OpenGL");
   doctor->callback([&] { action = [&] { return doctorCommand(a.json); }; });
 
   CLI::App* describe =
       app.add_subcommand("describe", "Explain every scene key: type, unit, range, default, meaning");
   describe->add_option("key", a.key, "one key or group, as cloth.ks, cloth or damping");
+  describe->footer("Examples: clothsim describe, clothsim describe solver, clothsim describe strain_limit");
   describe->callback([&] { action = [&] { return describeCommand(a.key); }; });
 }
 
@@ -245,6 +311,7 @@ int runCommandLine(int argc, char** argv) {
   declareViewer(app, arguments, action);
   declareSimulationCommands(app, arguments, action);
   declareRender(app, arguments, action);
+  declareSweep(app, arguments, action);
   declareInfoCommands(app, arguments, action);
   try {
     app.parse(argc, argv);

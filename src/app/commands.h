@@ -21,10 +21,19 @@ struct SceneOptions {
   std::string scene = "pinned2";       // -f
   std::optional<GridSize> resolution;  // --resolution
   std::vector<std::string> settings;   // --set key=value
+  std::vector<std::string> varied{};   // --vary: one combination of its values, set after the settings
 };
-// Loads the scene, changes its resolution, applies --set, and says on stderr what the user should know of the
-// result.
+// "512x512". @throws UsageError that names the flag
+[[nodiscard]] GridSize parseSize(const std::string& text, const std::string& flag);
+
+// The scene, its resolution changed and --set applied, and what the user should know of the result.
 // @throws SceneError, UsageError
+struct RemarkedScene {
+  Scene scene;
+  std::vector<std::string> remarks;  // sentences
+};
+[[nodiscard]] RemarkedScene readScene(const SceneOptions& options);
+// readScene(), with its remarks on stderr.
 [[nodiscard]] Scene loadScene(const SceneOptions& options);
 
 struct RunOptions {
@@ -42,6 +51,12 @@ struct RunOptions {
 };
 int runCommand(const RunOptions& options);
 
+// How the camera goes around what it looks at, from where the scene puts it, and how much nearer.
+struct ViewTurn {
+  double right = 0, up = 0;  // [degrees]
+  double zoom = 1;           // 2: from half the distance
+};
+
 struct RenderCommandOptions {
   SceneOptions scene;
   int frames = 0;
@@ -53,8 +68,22 @@ struct RenderCommandOptions {
   std::string shader;           // "" for the scene's own
   int sphereSegmentsAround = 64, sphereSegmentsDown = 48;
   std::string from;  // a .state file to begin with
+  ViewTurn view{};
 };
 int renderCommand(const RenderCommandOptions& options);
+
+struct SweepOptions {
+  SceneOptions scene;
+  std::vector<std::string> variations;  // --vary key=value,value...; also of `frame` and `resolution`
+  std::optional<int> frames;            // not given: the values of `frame`
+  std::string backend = "gpu";
+  std::string out;                // sheet.png, with sheet.csv beside it
+  int width = 560, height = 420;  // of one picture
+  std::string shader;             // "" for the scene's own
+  ViewTurn view;
+  bool json = false;
+};
+int sweepCommand(const SweepOptions& options);
 
 struct CompareOptions {
   SceneOptions scene;

@@ -8,68 +8,23 @@
 
 #include "app/blow_up.h"
 #include "app/commands.h"
-#include "app/contact_report.h"
 #include "app/crossings_json.h"
 #include "app/replay.h"
+#include "app/saves.h"
 #include "app/simulation.h"
+#include "app/tally.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/interrupt.h"
 #include "core/progress.h"
 #include "export/export.h"
-#include "export/sequence.h"
 #include "gl/context.h"
-#include "solver/cpu/synchronized.h"
 #include "solver/measure.h"
 
 namespace clothsim {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-void checkSaves(const RunOptions& options) {
-  for (const std::string& save : options.saves)
-    if (isSequence(save) && hasFrameNumber(save))
-      throw UsageError("--save " + save +
-                       ": a file of this kind holds all frames; leave the number out of its name");
-    else if (!isSequence(save) && !canSaveStateAs(save))
-      throw UsageError("--save " + save + ": the extension is none of .csv, .ply, .obj, .state, .pc2, .usda");
-  for (const std::string& save : options.saves) checkWritable(save);
-}
-
-// The files that --save asks for.
-class Saves {
- public:
-  Saves(const RunOptions& options, const Simulation& simulation, int frames)
-      : options_(options), frames_(frames) {
-    const int every = options.every;
-    for (const std::string& save : options.saves)
-      if (isSequence(save))
-        sequences_.push_back(
-            makeSequenceWriter(save, simulation.cloth(),
-                               {simulation.scene().solver.framesPerSec, every, frames / every * every}));
-  }
-
-  void add(const Simulation& simulation, const State& state, int frame) {
-    const bool isDue = frame % options_.every == 0;
-    for (const auto& sequence : sequences_)
-      if (isDue) sequence->addFrame(state);
-    for (const std::string& save : options_.saves) {
-      if (isSequence(save)) continue;
-      if (hasFrameNumber(save) ? isDue : frame == frames_)
-        saveState(state, simulation.cloth(), numberedName(save, frame));
-    }
-  }
-
-  void finish() {
-    for (const auto& sequence : sequences_) sequence->close();
-  }
-
- private:
-  const RunOptions& options_;
-  int frames_;
-  std::vector<std::unique_ptr<SequenceWriter>> sequences_;
-};
 
 // A state file may hold anything; what the steps make of it is the watchdog's affair.
 void checkStart(const RunOptions& options, const Measures& measures) {
@@ -96,13 +51,13 @@ class Course {
     if (isReplay_) {
       Recording recording = Recording::load(options.replay);
       frames_ = options.frames.value_or(recording.frames);
-      if (usesGpu(recording, options)) context_.emplace();
+      if (usesGpu(recording, options) || savesPictures(options)) context_.emplace();
       replay_.emplace(std::move(recording), options.backend);
     } else {
       const Scene scene = loadScene(options.scene);
       const std::string backend = options.backend.value_or("gpu");
       frames_ = options.frames.value_or(0);
-      if (backend == "gpu") context_.emplace();
+      if (backend == "gpu" || savesPictures(options)) context_.emplace();
       plain_.emplace(scene, backend);
       if (!options.from.empty()) plain_->solver().setState(loadState(options.from, plain_->cloth()));
       if (options.jitter > 0) {
@@ -159,24 +114,6 @@ class Course {
   std::optional<Trouble> replayTrouble_;
 };
 
-// What is gathered frame by frame.
-struct Tally {
-  double seconds = 0, peakStrain = -1, maxPenetration = 0;
-  std::uint32_t startInColliders = 0;  // particles
-  State state;                         // at the end of the last frame
-  Measures measures;
-  ContactReport contacts;
-
-  void add(Course& course) {
-    Simulation& simulation = course.simulation();
-    state = simulation.solver().state();
-    measures = measure(simulation.cloth(), course.scene(), state);
-    contacts.add(simulation.cloth(), course.scene(), state, measures.maxStrain);
-    peakStrain = std::max(peakStrain, measures.maxStrain);
-    maxPenetration = std::max(maxPenetration, measures.maxPenetration);
-  }
-};
-
 // What a run is summed up in; names as in DESIGN.md section 5.
 nlohmann::ordered_json summary(const RunOptions& options, Course& course, const Tally& tally) {
   Simulation& simulation = course.simulation();
@@ -200,19 +137,7 @@ nlohmann::ordered_json summary(const RunOptions& options, Course& course, const 
   json["sim_seconds"] = course.isReplay() ? course.simulatedSeconds() : steps * stepLength(scene.solver);
   json["seconds"] = tally.seconds;
   json["particle_steps_per_second"] = tally.seconds > 0 ? particles * steps / tally.seconds : 0;
-  json["state_hash"] = hashText(stateHash(last));
-  json["max_strain"] = tally.measures.maxStrain;
-  json["peak_strain"] = tally.peakStrain;
-  json["min_y"] = tally.measures.minY;
-  const Vec3d& centroid = tally.measures.centroid;
-  json["centroid"] = {centroid.x, centroid.y, centroid.z};
-  json["kinetic_energy"] =
-      measure(simulation.cloth(), scene, synchronized(simulation.cloth(), scene, last)).kineticEnergy;
-  json["max_penetration"] = tally.maxPenetration;
-  json["start_overlaps"] = {{"colliders", tally.startInColliders},        // particles,
-                            {"self", tally.contacts.overlapsAtStart()}};  // pairs
-  json["finite"] = true;
-  tally.contacts.write(json, simulation.cloth(), scene, simulation.contactCounts());
+  tally.write(json, simulation);
   return json;
 }
 
@@ -229,7 +154,7 @@ int runCommand(const RunOptions& options) {
   Course course(options);
   const int frames = course.frames();
   Tally tally;
-  tally.add(course);
+  tally.add(course.simulation());
   checkStart(options, tally.measures);
   tally.startInColliders = particlesInColliders(course.simulation().cloth(), course.scene(), tally.state);
   reportStartOverlaps(tally.startInColliders, tally.contacts.overlapsAtStart());
@@ -239,7 +164,7 @@ int runCommand(const RunOptions& options) {
   CrossingSummary crossings;
   if (counter) crossings.add(0, counter->count(tally.state));
   Saves saves(options, course.simulation(), frames);
-  saves.add(course.simulation(), tally.state, 0);
+  saves.add(course.simulation(), course.clothGeneration(), tally.state, 0);
   Progress progress("simulating", frames);
   for (int frame = 1; frame <= frames; ++frame) {
     stopIfInterrupted();
@@ -254,11 +179,11 @@ int runCommand(const RunOptions& options) {
                    options.saves.empty() ? "" : std::filesystem::path(options.saves.front()).parent_path(),
                    course.isReplay()});
     }
-    tally.add(course);
+    tally.add(course.simulation());
     if (counter && std::exchange(countedCloth, course.clothGeneration()) != course.clothGeneration())
       counter.emplace(course.simulation().cloth());
     if (counter) crossings.add(frame, counter->count(tally.state));
-    saves.add(course.simulation(), tally.state, frame);
+    saves.add(course.simulation(), course.clothGeneration(), tally.state, frame);
     progress.update(frame);
   }
   saves.finish();

@@ -5,25 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
+
+#include "app/typeface.h"
 
 namespace clothsim {
 namespace {
 
 constexpr float textSize = 16, titleSize = 22;  // on an ordinary screen [pixels]
-
-// The first of these that is there; without any, Dear ImGui's own bitmap font does.
-const char* typeface() {
-  for (const char* path :
-       {"/usr/share/fonts/truetype/roboto/unhinted/RobotoTTF/Roboto-Medium.ttf",
-        "/usr/share/fonts/truetype/roboto/Roboto-Medium.ttf",
-        "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf", "/usr/share/fonts/TTF/DejaVuSans.ttf",
-        "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf"}) {
-    std::error_code ignored;
-    if (std::filesystem::is_regular_file(path, ignored)) return path;
-  }
-  return nullptr;
-}
 
 // A calm dark theme: surfaces differ by little, the accent is kept for what is on and what is held.
 void colorize(ImVec4* colors) {
@@ -117,15 +105,7 @@ void UiFrame::loadFonts(double textScale) {
   const auto scale = static_cast<float>(textScale);
   ImGuiIO& io = ImGui::GetIO();
   io.Fonts->Clear();
-  for (const float size : {textSize, titleSize}) {
-    if (const char* path = typeface()) {
-      io.Fonts->AddFontFromFileTTF(path, std::round(size * scale));
-    } else {
-      ImFontConfig config;
-      config.SizePixels = std::round(size * scale);
-      io.Fonts->AddFontDefault(&config);
-    }
-  }
+  for (const float size : {textSize, titleSize}) addTypeface(*io.Fonts, std::round(size * scale));
   ImGui_ImplOpenGL3_DestroyFontsTexture();
   ImGui_ImplOpenGL3_CreateFontsTexture();
   ImGui::GetStyle() = styleFor(scale);

@@ -31,7 +31,7 @@ Field<Shape> frictionField() {
 }
 template <class Shape>
 Field<Shape> motionField() {
-  return field("motion", &Shape::motion, "A path in time.");
+  return field("motion", &Shape::motion, "A path in time, on which the collider moves as a rigid body.");
 }
 
 }  // namespace
@@ -55,10 +55,11 @@ std::span<const Field<Scene>> fieldsOf<Scene>() {
           .in("kg/m")
           .within(notNegative)
           .usually(0, 0.01),
-      field("solver", &Scene::solver, "How time advances."),
+      field("solver", &Scene::solver,
+            "How time advances: integrator, steps, strain limit, contacts, watchdog."),
       field("camera", &Scene::camera,
             "Where the picture is taken from; without a position it frames the scene."),
-      field("render", &Scene::render, "Looks."),
+      field("render", &Scene::render, "Looks: shading model, colours, weave, light, background."),
       field("expect", &Scene::expect, "What a run of the scene must show; the tests check it."),
   };
   return fields;
@@ -95,7 +96,7 @@ std::span<const Field<ClothSettings>> fieldsOf<ClothSettings>() {
           .usually(4, 512)
           .rebuilds(),
       field("orientation", &C::orientation, "Lying at y = 1 m, or standing in the plane z = 0.").rebuilds(),
-      field("position", &C::position, "Added to every point.").in("m").rebuilds(),
+      field("position", &C::position, "Added to every point: where the cloth stands.").in("m").rebuilds(),
       field("rotation", &C::rotation, "Turn about grid point (0, 0), or a mesh's origin: axis times angle.")
           .in("degrees")
           .rebuilds(),
@@ -171,13 +172,17 @@ std::span<const Field<Material>> fieldsOf<Material>() {
           .within(positive)
           .rebuilds()
           .alwaysWritten(),
-      field("shear", &M::shear, "Shear modulus of the sheet.")
+      field("shear", &M::shear, "Shear modulus of the sheet; of woven cloth it is far smaller than stretch.")
           .in("N/m")
           .within(positive)
           .rebuilds()
           .alwaysWritten(),
-      field("bend", &M::bend, "Bending rigidity.").in("N m").within(notNegative).rebuilds().alwaysWritten(),
-      field("damping", &M::damping, "Rate at which motion dies down.")
+      field("bend", &M::bend, "Bending rigidity: moment over width and curvature.")
+          .in("N m")
+          .within(notNegative)
+          .rebuilds()
+          .alwaysWritten(),
+      field("damping", &M::damping, "Rate at which motion dies down, as exp(-damping t).")
           .in("1/s")
           .within(notNegative)
           .alwaysWritten(),
@@ -281,7 +286,9 @@ std::span<const Field<MeshCollider>> fieldsOf<MeshCollider>() {
       field("origin", &M::origin, "Where the mesh's own origin stands.").in("m"),
       field("rotation", &M::rotation, "Own turn of a box or mesh.").in("degrees"),
       field("scale", &M::scale, "Metres in a unit of the mesh file.").within(positive).usually(0.1, 10),
-      field("cells", &M::cells, "Cells of the mesh's signed distance grid along its longest side.")
+      field("cells", &M::cells,
+            "Cells of the mesh's signed distance grid along its longest side: more are finer and slower to "
+            "make.")
           .within({.low = 8, .high = 256}),
       frictionField<M>(),
       motionField<M>(),
@@ -315,15 +322,19 @@ std::span<const Field<Motion::Key>> fieldsOf<Motion::Key>() {
 template <>
 std::span<const Field<Wind>> fieldsOf<Wind>() {
   static const std::array fields{
-      field("velocity", &Wind::velocity, "Steady wind.").in("m/s").usually(-10, 10),
-      field("gust", &Wind::gust, "Random change of the wind's speed along its direction."),
+      field("velocity", &Wind::velocity,
+            "Steady wind; what counts is how it blows past each triangle, which may move itself.")
+          .in("m/s")
+          .usually(-10, 10),
+      field("gust", &Wind::gust,
+            "Random change of the wind's speed along its direction, the same in every run."),
       field("drag", &Wind::drag, "Coefficient of the pressure along a triangle's normal.")
           .within(notNegative)
           .usually(0, 3),
       field("lift", &Wind::lift, "Coefficient of the force across the relative wind.")
           .within(notNegative)
           .usually(0, 3),
-      field("air_density", &Wind::airDensity, "Density of the air.")
+      field("air_density", &Wind::airDensity, "Density of the air; drag and lift grow with it.")
           .in("kg/m^3")
           .within(notNegative)
           .usually(0, 2),
@@ -334,11 +345,11 @@ std::span<const Field<Wind>> fieldsOf<Wind>() {
 template <>
 std::span<const Field<Gust>> fieldsOf<Gust>() {
   static const std::array fields{
-      field("strength", &Gust::strength, "Standard deviation of the speed.")
+      field("strength", &Gust::strength, "Standard deviation of the speed; 0 is a steady wind.")
           .in("m/s")
           .within(notNegative)
           .usually(0, 10),
-      field("frequency", &Gust::frequency, "How often gusts come.")
+      field("frequency", &Gust::frequency, "How often gusts come, about so many a second.")
           .in("Hz")
           .within(positive)
           .usually(0.05, 5),
@@ -353,14 +364,16 @@ std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
   static const std::array fields{
       field("integrator", &S::integrator,
             "Leapfrog Verlet; symplectic Euler; or implicit: backward Euler, stable at any step."),
-      field("newton_steps", &S::newtonSteps, "Newton steps of the implicit integrator, in a step.")
+      field("newton_steps", &S::newtonSteps,
+            "Newton steps in a step of the implicit integrator; more come nearer to its solution.")
           .within({.low = 1, .high = 100})
           .usually(1, 8),
       field("cg_iterations", &S::cgIterations,
-            "Iterations of conjugate gradients in a Newton step of the implicit integrator.")
+            "Iterations of conjugate gradients in each Newton step of the implicit integrator.")
           .within({.low = 1, .high = 10'000})
           .usually(1, 40),
-      field("frames_per_sec", &S::framesPerSec, "Frames in a simulated second.")
+      field("frames_per_sec", &S::framesPerSec,
+            "Frames in a simulated second; states and pictures are made at their ends.")
           .in("1/s")
           .within(positive)
           .usually(15, 240),
@@ -368,7 +381,9 @@ std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
             "Steps in a frame, each 1 / (frames_per_sec * simulation_steps) s; auto: as few as are stable.")
           .within({.low = 1, .high = mostSteps})
           .usually(1, 200),
-      field("strain_limit", &S::strainLimit, "Longest stretch of a spring, l/L - 1, kept after every step.")
+      field("strain_limit", &S::strainLimit,
+            "Longest stretch l/L - 1: a pass after the step; with the implicit integrator a second, stiff "
+            "spring.")
           .within(notNegative)
           .usually(0, 0.5)
           .as(Format::orFalse)
@@ -400,9 +415,12 @@ template <>
 std::span<const Field<CameraSettings>> fieldsOf<CameraSettings>() {
   using C = CameraSettings;
   static const std::array fields{
-      field("position", &C::position, "The eye.").in("m").byDefault("frames the scene"),
-      field("target", &C::target, "What it looks at.").in("m").byDefault("middle of the scene"),
-      field("fov", &C::fov, "Vertical field of view.")
+      field("position", &C::position, "Where the eye is.").in("m").byDefault("frames the scene"),
+      field("target", &C::target,
+            "The point in the middle of the picture, about which the viewer's camera turns.")
+          .in("m")
+          .byDefault("middle of the scene"),
+      field("fov", &C::fov, "Vertical field of view; small is a telephoto lens, large a wide angle.")
           .in("degrees")
           .within({.low = 1, .high = 170})
           .usually(15, 90),
@@ -416,8 +434,14 @@ std::span<const Field<RenderSettings>> fieldsOf<RenderSettings>() {
   constexpr Limits channel{.low = 0, .high = 1};
   static const std::array fields{
       field("shader", &R::shader, "Shading model: how the cloth is looked at.").oneOf(shadingModels),
-      field("color", &R::color, "Front of the cloth.").in("sRGB").within(channel).as(Format::color),
-      field("back_color", &R::backColor, "Back of the cloth.").in("sRGB").within(channel).as(Format::color),
+      field("color", &R::color, "Colour of the front of the cloth.")
+          .in("sRGB")
+          .within(channel)
+          .as(Format::color),
+      field("back_color", &R::backColor, "Colour of the back of the cloth.")
+          .in("sRGB")
+          .within(channel)
+          .as(Format::color),
       field("texture", &R::texture,
             "Print (tartan, stripes, checker) or height map (quilt, knit, hammered), or the path of a PNG.")
           .byDefault("of texture: tartan; of bump and displacement: quilt; of fabric: none"),
@@ -435,7 +459,7 @@ std::span<const Field<RenderSettings>> fieldsOf<RenderSettings>() {
             "How much weaves and bumps tilt the normal: 0 flat, 1 true to their height.")
           .within({.low = 0, .high = 10})
           .usually(0, 3),
-      field("height", &R::height, "Of bump and displacement maps, from black to white.")
+      field("height", &R::height, "Height of bump and displacement maps, from black to white.")
           .in("m")
           .within({.low = -1, .high = 1})
           .usually(-0.05, 0.05),
@@ -446,7 +470,7 @@ std::span<const Field<RenderSettings>> fieldsOf<RenderSettings>() {
           .within({.nonZero = true})
           .byDefault("from the viewer's side, upper left"),
       field("background", &R::background, "What is behind the cloth.").oneOf(backgrounds),
-      field("background_color", &R::backgroundColor, "Of the plain background.")
+      field("background_color", &R::backgroundColor, "Colour of the plain background.")
           .in("sRGB")
           .within(channel)
           .as(Format::color),
@@ -460,12 +484,17 @@ std::span<const Field<Expect>> fieldsOf<Expect>() {
   using E = Expect;
   static const std::array fields{
       field("frames", &E::frames, "Frames to run before looking.").within({.low = 1, .high = 1e6}).required(),
-      field("centroid", &E::centroid, "Mean of all particles.").in("m"),
-      field("centroid_tolerance", &E::centroidTolerance, "For each coordinate.").in("m").within(positive),
-      field("min_y", &E::minY, "Height of the lowest particle.").in("m"),
-      field("max_strain", &E::maxStrain, "Largest l/L - 1 of all springs."),
-      field("kinetic_energy", &E::kineticEnergy, "Of all particles.").in("J"),
-      field("max_penetration", &E::maxPenetration, "Depth inside colliders over the run.").in("m"),
+      field("centroid", &E::centroid, "Mean of all particles' places.").in("m"),
+      field("centroid_tolerance", &E::centroidTolerance,
+            "How far each coordinate of the centroid may be off.")
+          .in("m")
+          .within(positive),
+      field("min_y", &E::minY, "Height of the lowest particle, from and to.").in("m"),
+      field("max_strain", &E::maxStrain, "Largest l/L - 1 of all springs, from and to."),
+      field("kinetic_energy", &E::kineticEnergy, "Kinetic energy of all particles, from and to.").in("J"),
+      field("max_penetration", &E::maxPenetration,
+            "Deepest that a particle was inside a collider over the run, from and to.")
+          .in("m"),
       field("crossings", &E::crossings,
             "Most crossing pairs of triangles that are no neighbours, of all frames."),
   };

@@ -184,10 +184,10 @@ std::string asTyped(std::string path, const Steps& typed, const Steps& resolved)
 
 }  // namespace
 
-void setSceneValue(Scene& scene, const std::string& keyEqualsValue) {
+void setSceneValue(Scene& scene, const std::string& keyEqualsValue, const std::string& flag) {
   const std::size_t equals = keyEqualsValue.find('=');
   if (equals == std::string::npos || equals == 0)
-    throw UsageError("--set " + keyEqualsValue + ": expected key=value, such as cloth.damping=0.5");
+    throw UsageError(flag + " " + keyEqualsValue + ": expected key=value, such as cloth.damping=0.5");
   const Steps typed = split(keyEqualsValue.substr(0, equals));
   Steps resolved = typed;
   try {
@@ -201,7 +201,8 @@ void setSceneValue(Scene& scene, const std::string& keyEqualsValue) {
     scene = readScene(*root);
   } catch (const JsonComplaint& complaint) {
     const std::string path = asTyped(complaint.path, typed, resolved);
-    throw SceneError("--set " + keyEqualsValue + ": " + (path.empty() ? "" : path + ": ") + complaint.what());
+    throw SceneError(flag + " " + keyEqualsValue + ": " + (path.empty() ? "" : path + ": ") +
+                     complaint.what());
   }
 }
 

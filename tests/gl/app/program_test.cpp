@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <string>
 #include <thread>
 
@@ -311,6 +312,38 @@ TEST(Program, RendersAStillAndNumberedPictures) {
   ASSERT_EQ(result.exitCode, 0) << result.output;
   for (const char* name : {"still.png", "f00.png", "f02.png", "f04.png"})
     EXPECT_EQ(readFile(folder.path() / name).substr(1, 3), "PNG") << name;
+}
+
+TEST(Program, SavesThePicturesOfARunThatRenderMakes) {
+  const test::TemporaryFolder folder;
+  const std::string at = folder.path().string(),
+                    scene = " -f pinned2 --resolution 12x12 --backend cpu --frames 4";
+  ASSERT_EQ(
+      clothsim("run" + scene + " --save " + at + "/still.png --every 2 --save " + at + "/f%02d.png").exitCode,
+      0);
+  ASSERT_EQ(clothsim("render" + scene + " --out " + at + "/rendered.png").exitCode, 0);
+  const std::string still = readFile(folder / "still.png");
+  EXPECT_EQ(still, readFile(folder / "rendered.png"));
+  EXPECT_EQ(still, readFile(folder / "f04.png"));
+  EXPECT_NE(still, readFile(folder / "f00.png"));
+  EXPECT_EQ(folder.fileCount(), 5) << "and f02.png";
+  const CommandResult wrong = clothsim("run -f pinned2 --frames 1 --save " + at + "/still.gif");
+  EXPECT_EQ(wrong.exitCode, 2);
+  EXPECT_NE(wrong.output.find(".png, .mp4"), std::string::npos) << wrong.output;
+}
+
+TEST(Program, DrawsTheCutsOfARecording) {
+  const test::TemporaryFolder folder;
+  const std::string whole =
+      std::regex_replace(std::string(RECORDING), std::regex("[^\n]*\"cut\"[^\n]*\n"), "");
+  writeFileAtomically(folder / "cut.json", RECORDING);
+  writeFileAtomically(folder / "whole.json", whole);
+  for (const char* name : {"cut", "whole"})
+    ASSERT_EQ(clothsim("run --backend cpu --replay " + (folder / name).string() + ".json --save " +
+                       (folder / name).string() + ".png")
+                  .exitCode,
+              0);
+  EXPECT_NE(readFile(folder / "cut.png"), readFile(folder / "whole.png"));
 }
 
 TEST(Program, RendersAFilmOrSaysThatFfmpegIsMissing) {

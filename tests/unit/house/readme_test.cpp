@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <regex>
 #include <string>
+#include <vector>
 
 #include "app/viewer_keys.h"
 #include "core/files.h"
@@ -38,13 +39,34 @@ TEST(Readme, ShowsASceneThatLoads) {
   EXPECT_TRUE(scene.wind.has_value());
 }
 
-TEST(Readme, LinksOnlyToFilesThatExist) {
-  const std::string text = readme();
+// Links of a page that lead nowhere; those within the page and to other sites are not looked at.
+std::vector<std::string> brokenLinks(const fs::path& page) {
+  const std::string text = readFile(page);
   const std::regex link(R"(\]\(([^)#:]+)\))");
-  int links = 0;
-  for (std::sregex_iterator match(text.begin(), text.end(), link), none; match != none; ++match, ++links)
-    EXPECT_TRUE(fs::exists(fs::path(SOURCE_ROOT) / (*match)[1].str())) << (*match)[1];
-  EXPECT_GT(links, 3);
+  std::vector<std::string> broken;
+  for (std::sregex_iterator match(text.begin(), text.end(), link), none; match != none; ++match)
+    if (!fs::exists(page.parent_path() / (*match)[1].str())) broken.push_back((*match)[1]);
+  return broken;
+}
+
+TEST(Readme, LinksOnlyToFilesThatExist) {
+  EXPECT_EQ(brokenLinks(fs::path(SOURCE_ROOT) / "README.md"), std::vector<std::string>{});
+}
+
+TEST(Docs, LinkOnlyToFilesThatExist) {
+  int pages = 0;
+  for (const auto& entry : fs::directory_iterator(fs::path(SOURCE_ROOT) / "docs")) {
+    EXPECT_EQ(brokenLinks(entry.path()), std::vector<std::string>{}) << entry.path();
+    ++pages;
+  }
+  EXPECT_GE(pages, 3);
+}
+
+// Each page can be found from the README.
+TEST(Docs, AreLinkedFromTheReadme) {
+  for (const auto& entry : fs::directory_iterator(fs::path(SOURCE_ROOT) / "docs"))
+    EXPECT_NE(readme().find("](docs/" + entry.path().filename().string() + ")"), std::string::npos)
+        << entry.path();
 }
 
 }  // namespace

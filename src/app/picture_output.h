@@ -1,0 +1,42 @@
+// Where the pictures of a run go: still.png (the last frame), frame_%04d.png, clip.mp4.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "export/export.h"
+#include "render/image.h"
+#include "scene/scene.h"
+
+namespace clothsim {
+
+struct PictureSettings {
+  int frames = 0;                  // of the run
+  int width = 1280, height = 720;  // [pixels]
+  int every = 1;                   // numbered pictures: every so many frames
+  double picturesPerSecond = 30;   // of a film, at most
+};
+
+// Whether the name ends in .png or .mp4.
+[[nodiscard]] bool isPicture(const std::string& name);
+
+class PictureOutput {
+ public:
+  // @throws InputOutputError when a film cannot be begun
+  PictureOutput(std::string name, const PictureSettings& settings, const Scene& scene);
+
+  [[nodiscard]] bool wants(int frame) const { return every_ > 0 ? frame % every_ == 0 : frame == frames_; }
+  // @throws InputOutputError, as close() does
+  void add(const Image& image, int frame);
+  void close();
+
+ private:
+  std::string name_;
+  int frames_, every_ = 0;  // 0: only the last frame
+  std::unique_ptr<VideoWriter> video_;
+};
+
+// Before long work. @throws UsageError for a film of an odd width or height; `flag` is where its name stands
+void checkPicture(const std::string& flag, const std::string& name, const PictureSettings& settings);
+
+}  // namespace clothsim
