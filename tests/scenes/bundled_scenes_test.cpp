@@ -40,7 +40,9 @@ TEST_P(BundledSceneTest, KeepsItsPromisesOnBothBackends) {
     gpu.stepFrame();
     state = cpu.solver().state();
     maxPenetration = std::max(maxPenetration, measure(cpu.cloth(), scene, state).maxPenetration);
-    if (counter) crossings.add(frame, counter->count(state));
+    // Counting is dear, and what crosses stays so for some frames.
+    if (counter && (frame % 5 == 4 || frame + 1 == expect.frames))
+      crossings.add(frame, counter->count(state));
   }
   EXPECT_EQ(difference(state, gpu.solver().state()).differing, 0u);
 
