@@ -99,17 +99,17 @@ void holdParticle(const ImplicitArguments<Real>& arguments, int row, std::ptrdif
   put(arguments.own.anchors, i, at(arguments.own.anchors, i) + stiffness * way);
 }
 
-// How a collider pushes back (CONTACT_OVER_INERTIA); 0 where nothing is touched.
 template <class Real>
 INLINE bool hasContacts(const ImplicitArguments<Real>& arguments) {
   return arguments.step.step.colliderCount != 0;
 }
+// How stiffly a collider pushes back (CONTACT_OVER_INERTIA).
 template <class Real>
 INLINE Real contactStiffness(const ImplicitArguments<Real>& arguments, std::ptrdiff_t i) {
   return Real(CONTACT_OVER_INERTIA) * arguments.own.anchorStiffness.data()[i] +
          arguments.step.step.contactStiffness;
 }
-// Along the plane's normal, for a way d.
+// With what force along the plane's normal, for a way d; 0 where nothing is touched [N].
 template <class Real>
 INLINE Real contactPush(const ImplicitArguments<Real>& arguments, std::ptrdiff_t i, Vec3<Real> d) {
   const ContactPlanes<Real>& planes = arguments.own.planes;
@@ -485,8 +485,7 @@ void begin(const ImplicitArguments<Real>& arguments, int row) {
 
 namespace {
 
-// How far the collider that a particle touches pushed it out in the step, and a way on which friction took
-// back up to its coefficient times that along the surface.
+// How far the collider that a particle touches pushed it out in the step [m].
 template <class Real>
 INLINE Real pushedOut(const ImplicitArguments<Real>& arguments, std::ptrdiff_t i, Vec3<Real> way) {
   const Real push = contactPush(arguments, i, way);
@@ -494,6 +493,7 @@ INLINE Real pushedOut(const ImplicitArguments<Real>& arguments, std::ptrdiff_t i
   const Real inertia = reciprocal(pass.inverseMasses[i]) * pass.step.inertia;
   return push > Real(0) ? push * reciprocal(inertia) : Real(0);
 }
+// Coulomb: the way along the surface, shorter by the coefficient times that depth.
 template <class Real>
 INLINE Vec3<Real> withFriction(const ContactPlanes<Real>& planes, std::ptrdiff_t i, Real depth,
                                Vec3<Real> way) {

@@ -1,0 +1,64 @@
+// Colliders in implicit steps of 1/60 s.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "solver/cpu/cpu_solver.h"
+#include "solver/measure.h"
+#include "support/material_sheet.h"
+
+namespace clothsim {
+namespace {
+
+// A horizontal sheet of 1 m x 1 m at height 1 m, free to fall on the collider.
+Scene sheetOver(const Collider& collider, int points) {
+  const Material linen{.density = 0.2, .stretch = 8000, .shear = 300, .bend = 1e-4, .damping = 0};
+  Scene scene = test::materialSheet(points, points, 1, 1, linen);
+  scene.solver.integrator = Integrator::implicit;
+  scene.solver.simulationSteps = 1;
+  scene.solver.frictionLaw = FrictionLaw::coulomb;
+  scene.solver.selfCollision = SelfCollision::off;
+  scene.colliders = {collider};
+  return scene;
+}
+
+TEST(ImplicitContact, BendsASheetAroundABallWithoutCrumplingIt) {
+  const Sphere ball{.origin = {0.5, 0.7, 0.5}, .radius = 0.25, .friction = 0.4};
+  const Scene scene = sheetOver(ball, 33);
+  const Cloth cloth(scene);
+  CpuSolver<float> solver(cloth, scene);
+  double deepest = 0, longest = 0;
+  for (int step = 0; step < 90; ++step) {
+    solver.step(1);
+    const Measures now = measure(cloth, scene, solver.state());
+    deepest = std::max(deepest, now.maxPenetration);
+    longest = std::max(longest, now.maxStrain);
+  }
+  EXPECT_EQ(solver.trouble(), std::nullopt);
+  EXPECT_LE(deepest, 1e-4 * ball.radius);
+  EXPECT_LT(longest, 0.15) << "crumpling stretches springs";
+  EXPECT_NEAR(solver.position(33 * 16 + 16).y, 0.95, 0.005) << "it lies on the ball";
+  EXPECT_LT(solver.position(0).y, 0.85) << "and hangs down around it";
+}
+
+// Down a slope with mu = 0.3: a = g (sin - mu cos), and n steps of backward Euler go a h^2 n (n + 1) / 2.
+double slide(double degrees, int steps) {
+  Scene scene = sheetOver(Plane{.point = {0, 1, 0}, .normal = {0, 1, 0}, .friction = 0.3}, 5);
+  const double angle = degrees * std::numbers::pi / 180;
+  scene.gravity = {9.81 * std::sin(angle), -9.81 * std::cos(angle), 0};
+  const Cloth cloth(scene);
+  CpuSolver<double> solver(cloth, scene);
+  solver.step(steps);
+  return solver.position(12).x - cloth.positions()[12].x;
+}
+
+TEST(ImplicitContact, RubsByCoulombsLaw) {
+  const double angle = 30 * std::numbers::pi / 180, a = 9.81 * (std::sin(angle) - 0.3 * std::cos(angle));
+  const double expected = a * 60 * 61 / 2 / 3600;
+  EXPECT_NEAR(slide(30, 60), expected, 0.01 * expected);
+  EXPECT_NEAR(slide(15, 60), 0, 1e-5) << "tan 15 degrees is less than 0.3";
+}
+
+}  // namespace
+}  // namespace clothsim
