@@ -109,7 +109,7 @@ void expectErrorsFall(int points) {
     const std::vector<Vec3d> converged = stepFrom<double>(motion, cloth, precise);
     solveWith(precise, 160, 100);
     EXPECT_LT(distance(stepFrom<double>(motion, cloth, precise), converged),
-              1e-3 * distance(inertialGuess(motion, cloth, scene), converged))
+              2e-3 * distance(inertialGuess(motion, cloth, scene), converged))
         << "the reference has not converged";
     const std::string when = std::to_string(points) + "^2, frame " + std::to_string(frame);
     expectNearConverged<double>(motion, cloth, scene, converged, when);
@@ -157,6 +157,7 @@ TEST(RowStrainLimitUnderImplicit, LongHoldsWithDefaults) {
 TEST(RowStrainLimitUnderImplicit, LongHoldsOnFinerSheetsWithDefaults) {
   const SolverSettings defaults;
   expectAtMost(stretchFigure(128, 600, defaults), largestStretch<float>(128, 600, defaults), 0.101);
+  expectAtMost(stretchFigure(256, 300, defaults), largestStretch<float>(256, 300, defaults), 0.101);
 }
 
 }  // namespace
