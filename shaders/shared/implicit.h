@@ -38,9 +38,8 @@ using uint = std::uint32_t;
 #define INCREMENTS_UNIT 35   // the Newton step so far [m]
 #define STARTS_UNIT 36       // x at the start of the step, and the inverse mass
 #define PARTIAL_SUMS_UNIT 37
-#define CONTACT_PLANES_UNIT \
-  39                       // two texels each: n and offset, carry and friction (src/solver/cpu/collide.h)
-#define CUT_LINKS_UNIT 38  // an unsigned number a vertex: makeCutLinks() of src/solver/implicit.h
+#define CUT_LINKS_UNIT 38       // an unsigned number a vertex: makeCutLinks() of src/solver/implicit.h
+#define CONTACT_PLANES_UNIT 39  // two texels each: n and offset, carry and friction (cpu/collide.h)
 
 // A bit for each neighbour of a vertex on its level, -1 to 1 columns and rows away.
 #define LINK_BIT(columns, rows) (1u << (3 * (rows) + (columns) + 4))

@@ -28,22 +28,19 @@ State steppedOnCpu(const Scene& scene, int steps) {
   return solver.state();
 }
 
-TEST_F(GpuSolverTest, AgreesWithTheCpuInEveryBit) {
-  for (const auto& [name, scene] : test::comparedScenes(33)) {
-    const StateDifference result = difference(steppedOnGpu(scene, 300), steppedOnCpu(scene, 300));
+void expectTheSameBits(const std::vector<test::NamedScene>& scenes, int steps) {
+  for (const auto& [name, scene] : scenes) {
+    const StateDifference result = difference(steppedOnGpu(scene, steps), steppedOnCpu(scene, steps));
     EXPECT_EQ(result.differing, 0u) << name << ", of " << result.floats << " floats, by at most "
                                     << result.maxAbs;
     EXPECT_TRUE(result.finite) << name;
   }
 }
 
+TEST_F(GpuSolverTest, AgreesWithTheCpuInEveryBit) { expectTheSameBits(test::comparedScenes(33), 300); }
+
 TEST_F(GpuSolverTest, AgreesWithTheCpuInEveryBitInImplicitSteps) {
-  for (const auto& [name, scene] : test::implicitScenes(33)) {
-    const StateDifference result = difference(steppedOnGpu(scene, 40), steppedOnCpu(scene, 40));
-    EXPECT_EQ(result.differing, 0u) << name << ", of " << result.floats << " floats, by at most "
-                                    << result.maxAbs;
-    EXPECT_TRUE(result.finite) << name;
-  }
+  expectTheSameBits(test::implicitScenes(33), 40);
 }
 
 TEST_F(GpuSolverTest, AgreesWithTheCpuInImplicitStepsOnGridsOfEveryShape) {
