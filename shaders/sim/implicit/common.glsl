@@ -1,5 +1,5 @@
 // What the passes of an implicit step see beside sim/blocks.glsl. The method is at src/solver/implicit.h, the twins are in
-// src/solver/cpu/implicit_passes.cpp and multilevel.cpp.
+// src/solver/cpu/implicit_passes.cpp, implicit_ends.cpp and multilevel.cpp.
 #include "shared/implicit.h"
 #include "sim/blocks.glsl"
 #include "sim/exact_math.glsl"

@@ -1,4 +1,4 @@
-// Planes that particles in colliders are pushed back over; the twin is in src/solver/cpu/implicit_passes.cpp.
+// Planes that particles in colliders are pushed back over; the twin is src/solver/cpu/implicit_contact.h.
 const bool hasContacts = HAS_CONTACT_PLANES != 0;
 layout(binding = CONTACT_PLANES_UNIT) uniform samplerBuffer contactPlanes;
 

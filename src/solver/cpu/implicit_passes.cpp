@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/exact_math.h"
+#include "solver/cpu/implicit_contact.h"
 #include "solver/cpu/implicit_laws.h"
 #include "solver/cpu/listed_implicit.h"
 #include "solver/cpu/rows.h"
@@ -11,113 +11,6 @@
 
 namespace clothsim::cpu {
 namespace {
-
-// Where the components of an array lie, so that loops along a row keep them in registers.
-template <class Real>
-struct Arrays {
-  Real *x, *y, *z;
-};
-template <class Real>
-INLINE Arrays<Real> arraysOf(Components<Real>& c) {
-  return {c.x.data(), c.y.data(), c.z.data()};
-}
-template <class Real>
-INLINE Arrays<const Real> arraysOf(const Components<Real>& c) {
-  return {c.x.data(), c.y.data(), c.z.data()};
-}
-template <class Real>
-struct SymmetricArrays {
-  Real *xx, *yy, *zz, *xy, *xz, *yz;
-};
-template <class Real>
-INLINE SymmetricArrays<Real> arraysOf(SymmetricField<Real>& f) {
-  return {f.xx.data(), f.yy.data(), f.zz.data(), f.xy.data(), f.xz.data(), f.yz.data()};
-}
-
-template <class Real>
-INLINE Vec3<std::remove_const_t<Real>> at(const Arrays<Real>& c, std::ptrdiff_t i) {
-  return {c.x[i], c.y[i], c.z[i]};
-}
-template <class Real>
-INLINE void put(const Arrays<Real>& c, std::ptrdiff_t i, Vec3<Real> v) {
-  c.x[i] = v.x;
-  c.y[i] = v.y;
-  c.z[i] = v.z;
-}
-template <class Real>
-INLINE Vec3<Real> at(const Components<Real>& c, std::ptrdiff_t i) {
-  return at(arraysOf(c), i);
-}
-template <class Real>
-INLINE void put(Components<Real>& c, std::ptrdiff_t i, Vec3<Real> v) {
-  put(arraysOf(c), i, v);
-}
-template <class Real>
-INLINE Symmetric<Real> at(const SymmetricArrays<Real>& field, std::ptrdiff_t i) {
-  return {{field.xx[i], field.yy[i], field.zz[i]}, {field.xy[i], field.xz[i], field.yz[i]}};
-}
-template <class Real>
-INLINE void addTo(const SymmetricArrays<Real>& field, std::ptrdiff_t i, const Symmetric<Real>& a) {
-  field.xx[i] = field.xx[i] + a.diagonal.x;
-  field.yy[i] = field.yy[i] + a.diagonal.y;
-  field.zz[i] = field.zz[i] + a.diagonal.z;
-  field.xy[i] = field.xy[i] + a.others.x;
-  field.xz[i] = field.xz[i] + a.others.y;
-  field.yz[i] = field.yz[i] + a.others.z;
-}
-template <class Real>
-INLINE Vec3<Real> canonical(Vec3<Real> v) {
-  return {clothsim::canonical(v.x), clothsim::canonical(v.y), clothsim::canonical(v.z)};
-}
-template <class Real>
-INLINE Vec3<Real> selected(bool first, Vec3<Real> a, Vec3<Real> b) {
-  return {first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z};
-}
-
-// What of a particle's anchor a hand makes (solver/hand.h).
-template <class Real>
-void holdParticle(const ImplicitArguments<Real>& arguments, int row, std::ptrdiff_t i, Real mass) {
-  const PassArguments<Real>& pass = arguments.step;
-  const HandParams<Real>& hand = pass.hand;
-  const bool isMesh = pass.step.isMesh != 0;  // whose block is a part of its one row
-  const std::uint32_t column = static_cast<std::uint32_t>(
-      i - (isMesh ? static_cast<std::ptrdiff_t>(pass.step.firstParticle) : stretch(pass.step, row).begin));
-  const std::uint32_t blockRow = isMesh ? 0 : static_cast<std::uint32_t>(row) - hand.firstRow,
-                      blockColumn = column - hand.firstColumn;
-  if (blockRow >= hand.rows || blockColumn >= hand.columns) return;
-  const Hold::Point& point = pass.held[blockRow * hand.columns + blockColumn];
-  const Vec3<Real> goal = Vec3<Real>{hand.goalX, hand.goalY, hand.goalZ} + point.offset.cast<Real>();
-  const Vec3<Real> towards = goal - at(pass.before.positions, i);
-  Vec3<Real> way = hand.reach * (hand.pull * towards + Vec3<Real>{hand.pushX, hand.pushY, hand.pushZ});
-  const Real waySquared = dot(way, way);
-  const Real shorter = hand.largestWay * inverseSquareRoot(waySquared);
-  if (hand.largestWaySquared < waySquared) way = shorter * way;
-  const Real inverseTimeStep = pass.step.inverseTimeStep;
-  const Real stiffness =
-      (static_cast<Real>(point.weight) * hand.resistance) * ((mass * inverseTimeStep) * inverseTimeStep);
-  arguments.own.anchorStiffness[static_cast<std::size_t>(i)] += stiffness;
-  put(arguments.own.anchors, i, at(arguments.own.anchors, i) + stiffness * way);
-}
-
-template <class Real>
-INLINE bool hasContacts(const ImplicitArguments<Real>& arguments) {
-  return arguments.step.step.colliderCount != 0;
-}
-// How stiffly a collider pushes back (CONTACT_OVER_INERTIA).
-template <class Real>
-INLINE Real contactStiffness(const ImplicitArguments<Real>& arguments, std::ptrdiff_t i) {
-  return Real(CONTACT_OVER_INERTIA) * arguments.own.anchorStiffness.data()[i] +
-         arguments.step.step.contactStiffness;
-}
-// With what force along the plane's normal, for a way d; 0 where nothing is touched [N].
-template <class Real>
-INLINE Real contactPush(const ImplicitArguments<Real>& arguments, std::ptrdiff_t i, Vec3<Real> d) {
-  const ContactPlanes<Real>& planes = arguments.own.planes;
-  const Vec3<Real> normal = at(planes.normals, i);
-  const bool touches = dot(normal, normal) > Real(0);
-  const Real push = contactStiffness(arguments, i) * (planes.offsets.data()[i] - dot(normal, d));
-  return touches ? push : Real(0);
-}
 
 template <bool torn, class Real>
 INLINE void addSpringTrials(const ImplicitArguments<Real>& arguments, int row) {
@@ -434,117 +327,6 @@ INLINE void acceptRow(const ImplicitArguments<Real>& arguments, int row) {
 
 }  // namespace
 
-template <class Real>
-void begin(const ImplicitArguments<Real>& arguments, int row) {
-  const PassArguments<Real>& pass = arguments.step;
-  const StepParams<Real>& step = pass.step;
-  ImplicitState<Real>& own = arguments.own;
-  const Stretch all = stretch(step, row);
-  const Vec3<Real> gravity{step.gravityX, step.gravityY, step.gravityZ}, zero{};
-  if (step.hasWind != 0) gatherWind(pass, row, own.air);
-  for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
-    if (pass.inverseMasses[i] > Real(0)) continue;
-    put(pass.after.positions, i, at(pass.before.positions, i));
-    put(pass.after.velocities, i, zero);
-  }
-  movePins(pass, row);
-  for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
-    const Vec3<Real> x = at(pass.before.positions, i), v = at(pass.before.velocities, i);
-    if (pass.inverseMasses[i] == Real(0)) {
-      const Vec3<Real> target = at(pass.after.positions, i);
-      put(own.anchors, i, zero);
-      own.anchorStiffness[static_cast<std::size_t>(i)] = 0;
-      put(own.ways, i, target - x);
-      put(own.increments, i, zero);
-      put(own.iterate.positions, i, target);
-      continue;
-    }
-    const Real mass = reciprocal(pass.inverseMasses[i]);
-    Real stiffness = mass * step.inertia;
-    const Vec3<Real> guess = canonical(step.guessTime * (v + step.timeStep * gravity));
-    Vec3<Real> b = stiffness * guess;
-    if (step.airResistance > Real(0)) {  // -a |v| v', linear in the new velocity v'
-      const Real speedSquared = dot(v, v);
-      const Real speed = speedSquared * inverseSquareRoot(speedSquared);
-      stiffness = stiffness + (step.airResistance * speed) * step.inverseTimeStep;
-    }
-    if (step.hasWind != 0) {  // f - R (v' - v)
-      const Symmetric<Real> resistance = at(own.air, i);
-      b = b + (at(pass.forces, i) + resistance * v);
-      put(own.air, i, step.inverseTimeStep * resistance);
-    }
-    put(own.anchors, i, b);
-    own.anchorStiffness[static_cast<std::size_t>(i)] = stiffness;
-    const Real falls = 1 - pass.support[i];
-    put(own.increments, i, canonical(step.guessTime * (v + (falls * step.timeStep) * gravity)));
-    put(own.ways, i, zero);
-    put(own.iterate.positions, i, x);
-    if (pass.held != nullptr) holdParticle(arguments, row, i, mass);
-  }
-}
-
-namespace {
-
-// How far the collider that a particle touches pushed it out in the step [m].
-template <class Real>
-INLINE Real pushedOut(const ImplicitArguments<Real>& arguments, std::ptrdiff_t i, Vec3<Real> way) {
-  const Real push = contactPush(arguments, i, way);
-  const PassArguments<Real>& pass = arguments.step;
-  const Real inertia = reciprocal(pass.inverseMasses[i]) * pass.step.inertia;
-  return push > Real(0) ? push * reciprocal(inertia) : Real(0);
-}
-// Coulomb: the way along the surface, shorter by the coefficient times that depth.
-template <class Real>
-INLINE Vec3<Real> withFriction(const ContactPlanes<Real>& planes, std::ptrdiff_t i, Real depth,
-                               Vec3<Real> way) {
-  const Vec3<Real> normal = at(planes.normals, i), carry = at(planes.carries, i);
-  const Vec3<Real> relative = way - carry;
-  const Vec3<Real> across = dot(relative, normal) * normal;
-  const Vec3<Real> slide = relative - across;
-  const Real lost = (planes.frictions.data()[i] * depth) * inverseSquareRoot(dot(slide, slide));
-  const Real kept = lost < Real(1) ? Real(1) - lost : Real(0);
-  return (carry + across) + kept * slide;
-}
-
-// How much of its weight something held up, 0 to 1 (solver/implicit.h).
-template <class Real>
-INLINE Real supportOf(const StepParams<Real>& step, Vec3<Real> before, Vec3<Real> way) {
-  const Vec3<Real> fallen = (step.inertia * step.timeStep) * way - before;
-  const Real support =
-      1 - dot(fallen, Vec3<Real>{step.gravityX, step.gravityY, step.gravityZ}) * step.supportScale;
-  const Real atLeast = Real(0) < support ? support : Real(0);
-  return atLeast < Real(1) ? atLeast : Real(1);
-}
-
-}  // namespace
-
-template <class Real>
-void end(const ImplicitArguments<Real>& arguments, int row) {
-  const PassArguments<Real>& pass = arguments.step;
-  const Stretch all = stretch(pass.step, row);
-  const bool contacts = hasContacts(arguments);
-  for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
-    const bool pinned = pass.inverseMasses[i] == Real(0);
-    pass.support[i] = 0;
-    if (pinned) continue;  // begin() has moved pins
-    const Vec3<Real> v = at(pass.before.velocities, i);
-    Vec3<Real> way = at(arguments.own.ways, i), place = at(arguments.own.iterate.positions, i), held = way;
-    if (contacts) {
-      const Vec3<Real> normal = at(arguments.own.planes.normals, i);
-      const Real depth = pushedOut(arguments, i, way);
-      held = way - depth * normal;
-      if (depth > Real(0)) {
-        way = canonical(withFriction(arguments.own.planes, i, depth, way));
-        place = canonical(at(pass.before.positions, i) + way);
-      }
-    }
-    pass.support[i] = supportOf(pass.step, v, held);
-    put(pass.after.positions, i, place);
-    put(pass.after.velocities, i, canonical(pass.step.inverseTimeStep * way));
-  }
-  watchVelocities(pass, PASS_INTEGRATE, row);
-}
-
 VECTOR_CLONES void linearize(const ImplicitArguments<float>& arguments, int row) {
   linearizeRow(arguments, row);
 }
@@ -563,10 +345,5 @@ VECTOR_CLONES void tryLengths(const ImplicitArguments<float>& arguments, int row
 void tryLengths(const ImplicitArguments<double>& arguments, int row) { tryLengthsRow(arguments, row); }
 VECTOR_CLONES void accept(const ImplicitArguments<float>& arguments, int row) { acceptRow(arguments, row); }
 void accept(const ImplicitArguments<double>& arguments, int row) { acceptRow(arguments, row); }
-
-template void begin(const ImplicitArguments<float>&, int);
-template void begin(const ImplicitArguments<double>&, int);
-template void end(const ImplicitArguments<float>&, int);
-template void end(const ImplicitArguments<double>&, int);
 
 }  // namespace clothsim::cpu

@@ -1,0 +1,30 @@
+// How colliders push back in an implicit step (solver/implicit.h); the twin of
+// shaders/sim/implicit/contact.glsl.
+#pragma once
+
+#include "solver/cpu/arrays.h"
+#include "solver/cpu/implicit_passes.h"
+
+namespace clothsim::cpu {
+
+template <class Real>
+INLINE bool hasContacts(const ImplicitArguments<Real>& arguments) {
+  return arguments.step.step.colliderCount != 0;
+}
+// How stiffly a collider pushes back (CONTACT_OVER_INERTIA).
+template <class Real>
+INLINE Real contactStiffness(const ImplicitArguments<Real>& arguments, std::ptrdiff_t i) {
+  return Real(CONTACT_OVER_INERTIA) * arguments.own.anchorStiffness.data()[i] +
+         arguments.step.step.contactStiffness;
+}
+// With what force along the plane's normal, for a way d; 0 where nothing is touched [N].
+template <class Real>
+INLINE Real contactPush(const ImplicitArguments<Real>& arguments, std::ptrdiff_t i, Vec3<Real> d) {
+  const ContactPlanes<Real>& planes = arguments.own.planes;
+  const Vec3<Real> normal = at(planes.normals, i);
+  const bool touches = dot(normal, normal) > Real(0);
+  const Real push = contactStiffness(arguments, i) * (planes.offsets.data()[i] - dot(normal, d));
+  return touches ? push : Real(0);
+}
+
+}  // namespace clothsim::cpu
