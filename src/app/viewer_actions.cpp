@@ -154,7 +154,7 @@ void Viewer::switchIntegrator() {
     explicitSteps_.reset();
     if (!scene.solver.simulationSteps.automatic) explicitSteps_ = scene.solver.simulationSteps.count;
     scene.solver.simulationSteps.automatic = true;
-    chooseSteps(scene);
+    chooseCounts(scene);
   } else if (scene.solver.simulationSteps.automatic && explicitSteps_) {
     scene.solver.simulationSteps = *explicitSteps_;
   }

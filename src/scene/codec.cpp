@@ -256,7 +256,7 @@ void readValue(const JsonNode& node, const FieldTraits& traits, std::optional<do
   target = node.number;
 }
 
-void readValue(const JsonNode& node, const FieldTraits& traits, StepCount& target) {
+void readValue(const JsonNode& node, const FieldTraits& traits, AutoCount& target) {
   if (node.kind == JsonKind::string && node.text == "auto") {
     target.automatic = true;
     return;
@@ -344,7 +344,7 @@ JsonPointer writeValue(const FieldTraits&, const std::optional<double>& value) {
   return value ? makeNumber(*value) : makeBoolean(false);
 }
 
-JsonPointer writeValue(const FieldTraits& traits, const StepCount& value) {
+JsonPointer writeValue(const FieldTraits& traits, const AutoCount& value) {
   return value.automatic ? makeString("auto") : writeValue(traits, value.count);
 }
 
@@ -375,7 +375,7 @@ std::string typeName(const FieldTraits&, const Pin&) {
   return "[column, row], " + joined(wordsOf(sides)) +
          ", or {from, to}; of a mesh {vertex}, {region}, or {group}";
 }
-std::string typeName(const FieldTraits&, const StepCount&) { return "integer or auto"; }
+std::string typeName(const FieldTraits&, const AutoCount&) { return "integer or auto"; }
 std::string typeName(const FieldTraits&, const std::optional<Material>&) {
   return "object or one of " + joined(materialPresetNames());
 }

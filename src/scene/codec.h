@@ -30,7 +30,7 @@ void readValue(const JsonNode& node, const FieldTraits& traits, Pin& target);
 void readValue(const JsonNode& node, const FieldTraits& traits, Collider& target);
 void readValue(const JsonNode& node, const FieldTraits& traits, std::vector<PinMotion>& target);
 void readValue(const JsonNode& node, const FieldTraits& traits, std::optional<double>& target);
-void readValue(const JsonNode& node, const FieldTraits& traits, StepCount& target);
+void readValue(const JsonNode& node, const FieldTraits& traits, AutoCount& target);
 // An object, read over what is there, or the name of a preset.
 void readValue(const JsonNode& node, const FieldTraits& traits, std::optional<Material>& target);
 
@@ -50,7 +50,7 @@ void readValue(const JsonNode& node, const FieldTraits& traits, std::optional<Ma
 // A single motion of all pins is an object, without a list around it.
 [[nodiscard]] JsonPointer writeValue(const FieldTraits& traits, const std::vector<PinMotion>& values);
 [[nodiscard]] JsonPointer writeValue(const FieldTraits& traits, const std::optional<double>& value);
-[[nodiscard]] JsonPointer writeValue(const FieldTraits& traits, const StepCount& value);
+[[nodiscard]] JsonPointer writeValue(const FieldTraits& traits, const AutoCount& value);
 
 // What describe says of a type.
 [[nodiscard]] std::string typeName(const FieldTraits& traits, const bool&);
@@ -68,7 +68,7 @@ void readValue(const JsonNode& node, const FieldTraits& traits, std::optional<Ma
 [[nodiscard]] std::string typeName(const FieldTraits& traits, const Collider&);
 [[nodiscard]] std::string typeName(const FieldTraits& traits, const std::vector<PinMotion>&);
 [[nodiscard]] std::string typeName(const FieldTraits& traits, const std::optional<double>&);
-[[nodiscard]] std::string typeName(const FieldTraits& traits, const StepCount&);
+[[nodiscard]] std::string typeName(const FieldTraits& traits, const AutoCount&);
 [[nodiscard]] std::string typeName(const FieldTraits& traits, const std::optional<Material>&);
 
 // "sphere, plane, ...": what a collider's type may be.

@@ -95,7 +95,7 @@ struct MemberOf<Wind> {
 };
 template <>
 struct MemberOf<SolverSettings> {
-  using Type = MemberAmong<SolverSettings, Integrator, SelfCollision, FrictionLaw, StepCount>;
+  using Type = MemberAmong<SolverSettings, Integrator, SelfCollision, FrictionLaw, AutoCount>;
 };
 template <>
 struct MemberOf<CameraSettings> {

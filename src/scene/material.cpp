@@ -12,7 +12,9 @@
 namespace clothsim {
 namespace {
 
-constexpr double LONGEST_CHOSEN_STEP = 1.0 / 60;  // [s], by "auto"
+// What "auto" chooses.
+constexpr double LONGEST_CHOSEN_STEP = 1.0 / 60;  // [s]
+constexpr double ITERATIONS_PER_SECOND = 600, FEWEST_ITERATIONS = 10, MOST_ITERATIONS = 40;
 
 struct Preset {
   std::string_view name;
@@ -199,8 +201,21 @@ int stableSteps(const Scene& scene) {
   return static_cast<int>(std::clamp(steps, 1.0, static_cast<double>(mostSteps)));
 }
 
-void chooseSteps(Scene& scene) {
-  if (scene.solver.simulationSteps.automatic) scene.solver.simulationSteps.count = stableSteps(scene);
+namespace {
+
+// The longer the step, the further sound comes in it and the more there is to solve. (With 10 iterations
+// CS171's sheet at 1e6 N/m creeps in steps of 0.1 s and is 31 mm from rest after 200 s; with 20 it is there.)
+int iterationsFor(double step) {
+  const double iterations = std::ceil(step * ITERATIONS_PER_SECOND * (1 - 1e-9));
+  return static_cast<int>(std::clamp(iterations, FEWEST_ITERATIONS, MOST_ITERATIONS));
+}
+
+}  // namespace
+
+void chooseCounts(Scene& scene) {
+  SolverSettings& solver = scene.solver;
+  if (solver.simulationSteps.automatic) solver.simulationSteps.count = stableSteps(scene);
+  if (solver.cgIterations.automatic) solver.cgIterations.count = iterationsFor(stepLength(solver));
 }
 
 }  // namespace clothsim

@@ -40,7 +40,7 @@ struct LatticeStiffness {
 
 // The least number of steps a frame whose length is at most the stable step, and 1/60 s.
 [[nodiscard]] int stableSteps(const Scene& scene);
-// Sets solver.simulation_steps where it is "auto".
-void chooseSteps(Scene& scene);
+// Sets solver.simulation_steps and solver.cg_iterations where they are "auto".
+void chooseCounts(Scene& scene);
 
 }  // namespace clothsim

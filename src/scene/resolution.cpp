@@ -120,7 +120,7 @@ std::string changeResolution(Scene& scene, int columns, int rows, bool keepSteps
   }
   if (scene.solver.simulationSteps.automatic) {
     const int before = scene.solver.simulationSteps;
-    chooseSteps(scene);
+    chooseCounts(scene);
     add("simulation_steps", before, scene.solver.simulationSteps);
   } else if (!keepSteps) {
     const double steps =

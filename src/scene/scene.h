@@ -211,24 +211,24 @@ enum class SelfCollision { off, averaged, robust };
 // the depth pushed out, and planes are solid behind their normal.
 enum class FrictionLaw { cs184, coulomb };
 
-// Steps in a frame: given, or the least that is surely stable ("auto").
-struct StepCount {
-  int count = 30;
+// A count that is given, or follows from the rest of the scene ("auto").
+struct AutoCount {
+  int count = 1;
   bool automatic = false;
 
-  StepCount() = default;
-  StepCount(int steps) : count(steps) {}
+  AutoCount(int number) : count(number) {}
+  AutoCount(int number, bool isAutomatic) : count(number), automatic(isAutomatic) {}
   operator int() const { return count; }
-  friend bool operator==(const StepCount&, const StepCount&) = default;
-  friend bool operator==(const StepCount& a, int b) { return a.count == b; }
+  friend bool operator==(const AutoCount&, const AutoCount&) = default;
+  friend bool operator==(const AutoCount& a, int b) { return a.count == b; }
 };
 
 struct SolverSettings {
   Integrator integrator = Integrator::verlet;
-  double framesPerSec = 90;   // [1/s]
-  StepCount simulationSteps;  // a frame; h = 1 / (frames_per_sec * simulation_steps)
-  int newtonSteps = 4;        // of `implicit`, in a step: each makes a linear system,
-  int cgIterations = 10;      // solved by so many iterations of conjugate gradients
+  double framesPerSec = 90;             // [1/s]
+  AutoCount simulationSteps = 30;       // a frame; h = 1 / (frames_per_sec * simulation_steps)
+  int newtonSteps = 4;                  // of `implicit`, in a step: each makes a linear system,
+  AutoCount cgIterations = {10, true};  // solved by so many iterations of conjugate gradients
   std::optional<double>
       strainLimit;  // largest l/L - 1 after the limiter; none: no limiter. 0.1 in scenes with `ks`
   SelfCollision selfCollision = SelfCollision::off;  // averaged in scenes with `ks`, as CS184 does

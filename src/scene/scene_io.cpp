@@ -77,7 +77,7 @@ Scene loadScene(const fs::path& path) {
   }
   Scene scene = parseScene(text, path.string());
   findMeshes(scene, path);
-  chooseSteps(scene);  // again: those of a mesh follow from its file
+  chooseCounts(scene);  // again: those of a mesh follow from its file
   findTexture(scene, path);
   return scene;
 }

@@ -105,7 +105,7 @@ Scene readScene(const JsonNode& root) {
   readObject(root, scene, {"cloth", "plane", "sphere"});
   checkCloths(root, scene.cloths);
   checkFriction(root, scene);
-  chooseSteps(scene);
+  chooseCounts(scene);
   return scene;
 }
 

@@ -273,7 +273,7 @@ void FieldWidgets::control(const FieldTraits& field, std::string_view path, std:
 }
 
 // "auto" before the number that it stands for now.
-void FieldWidgets::control(const FieldTraits& field, std::string_view path, StepCount& value) {
+void FieldWidgets::control(const FieldTraits& field, std::string_view path, AutoCount& value) {
   beginRow(field, path, "");
   bool changed = ImGui::Checkbox("auto", &value.automatic);
   helpTip(helpOf(field, path));

@@ -64,7 +64,7 @@ class FieldWidgets {
   void control(const FieldTraits&, std::string_view, T&) {}
   void control(const FieldTraits& field, std::string_view path, bool& value);
   void control(const FieldTraits& field, std::string_view path, int& value);
-  void control(const FieldTraits& field, std::string_view path, StepCount& value);
+  void control(const FieldTraits& field, std::string_view path, AutoCount& value);
   void control(const FieldTraits& field, std::string_view path, double& value);
   void control(const FieldTraits& field, std::string_view path, std::string& value);
   void control(const FieldTraits& field, std::string_view path, Vec3d& value);

@@ -104,7 +104,7 @@ void drawSimulationPanel(PanelContext& context) {
   }
   ImGui::Separator();
   context.widgets.some(context.draft.solver, "solver", {"strain_limit", "self_collision", "self_friction"});
-  chooseSteps(context.draft);
+  chooseCounts(context.draft);
   ImGui::Separator();
   drawWind(context);
   ImGui::Separator();

@@ -94,7 +94,27 @@ TEST(SimulationSteps, AreChosenWhenAuto) {
   EXPECT_GT(scene.solver.simulationSteps, before);
   EXPECT_EQ(scene.solver.simulationSteps, stableSteps(scene));
   setSceneValue(scene, "solver.simulation_steps=7");
-  EXPECT_EQ(scene.solver.simulationSteps, StepCount(7));
+  EXPECT_EQ(scene.solver.simulationSteps, AutoCount(7));
+}
+
+TEST(CgIterations, GrowWithTheStepWhenAuto) {
+  const auto iterations = [](int framesPerSec) {
+    return sceneOf(R"({"cloth": {}, "solver": {"simulation_steps": 1, "frames_per_sec": )" +
+                   std::to_string(framesPerSec) + "}}")
+        .solver.cgIterations;
+  };
+  EXPECT_EQ(iterations(1000), AutoCount(10, true));
+  EXPECT_EQ(iterations(60), AutoCount(10, true));
+  EXPECT_EQ(iterations(30), AutoCount(20, true));
+  EXPECT_EQ(iterations(20), AutoCount(30, true));
+  EXPECT_EQ(iterations(5), AutoCount(40, true));
+  Scene scene = sceneOf(R"({"cloth": {}, "solver": {"simulation_steps": 1, "frames_per_sec": 60}})");
+  setSceneValue(scene, "solver.frames_per_sec=20");
+  EXPECT_EQ(scene.solver.cgIterations, AutoCount(30, true));
+  setSceneValue(scene, "solver.cg_iterations=7");
+  EXPECT_EQ(scene.solver.cgIterations, AutoCount(7));
+  setSceneValue(scene, "solver.cg_iterations=auto");
+  EXPECT_EQ(scene.solver.cgIterations, AutoCount(30, true));
 }
 
 TEST(ChangeResolution, LeavesAMaterialAndMultipliesItsSteps) {

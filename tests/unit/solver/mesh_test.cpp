@@ -179,7 +179,7 @@ TEST(MeshUnderAutomaticSteps, StaysStable) {
   scene.gravity = {0, 0, 0};
   scene.cloths[0].material->damping = 0;
   scene.solver.simulationSteps.automatic = true;
-  chooseSteps(scene);
+  chooseCounts(scene);
   const Cloth cloth(scene);
   CpuSolver<double> solver(cloth, scene);
   std::mt19937 engine(3);
