@@ -144,13 +144,13 @@ SHARED_STRUCT ColliderParams {
 
   uint type;
   uint moving;
-  real motionKept;  // 1 - friction, under CS184's law
-  real friction;    // under Coulomb's
+  uint coulomb;  // whether friction follows Coulomb's law, CS184's otherwise
+  real friction;
 
   real sweepSquared;   // a sphere looks for an entry when a way is longer [m^2],
   real grazeSquared;   // and ignores passages farther than this from its centre [m^2]
   real inverseRadius;  // of the sphere [1/m]
-  uint coulomb;        // whether friction follows Coulomb's law, CS184's otherwise
+  uint unusedSweep;
 
   // The shape's own axes in the world, at the end of the step: the rows of the rotation from the world.
   real axisXX;

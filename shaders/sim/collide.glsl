@@ -14,7 +14,7 @@ ColliderParams loadCollider(uint k) {
   r = texelFetch(colliderRows, row + 1);
   c.normalX = r.x, c.normalY = r.y, c.normalZ = r.z, c.radiusSquared = r.w;
   r = texelFetch(colliderRows, row + 2);
-  c.type = floatBitsToUint(r.x), c.moving = floatBitsToUint(r.y), c.motionKept = r.z, c.friction = r.w;
+  c.type = floatBitsToUint(r.x), c.moving = floatBitsToUint(r.y), c.friction = r.w;
   if (hasType(COLLIDER_SPHERE)) {
     r = texelFetch(colliderRows, row + COLLIDER_SWEEP_ROW);
     c.sweepSquared = r.x, c.grazeSquared = r.y, c.inverseRadius = r.z;
@@ -62,9 +62,9 @@ vec3 pointOf(ColliderParams collider) { return vec3(collider.pointX, collider.po
 
 struct Contact {
   bool touches;
-  vec3 surface;  // where the particle goes without friction
-  vec3 normal;   // of the collider there, outward
-  float depth;   // how far that is along the normal [m]
+  vec3 outward; // to the surface, where the particle goes without friction
+  vec3 normal;  // of the collider there, outward
+  float depth;  // how far that is along the normal [m]
 };
 
 // Inside the sphere: the nearest point of its surface; after a long way through it, the point where that entered.
@@ -73,18 +73,17 @@ Contact sphereContact(ColliderParams sphere, vec3 previous, vec3 x) {
   precise vec3 d = x - center;
   precise float distanceSquared = sumOfProducts(d, d);
   precise float inverseDistance = inverseSquareRoot(distanceSquared);
-  precise float scale = sphere.radius * inverseDistance;
   precise float distance = distanceSquared * inverseDistance;
   bool inside = distanceSquared < sphere.radiusSquared;
-  precise vec3 surface = center + scale * d;
   precise vec3 normal = inverseDistance * d;
   precise float depth = sphere.radius - distance;
+  precise vec3 outward = depth * normal;
 
   precise vec3 way = x - previous;
   precise vec3 from = previous - center;
   precise float waySquared = sumOfProducts(way, way);
   precise float along = sumOfProducts(from, way);
-  if (!(sphere.sweepSquared < waySquared && along < 0.0)) return Contact(inside, surface, normal, depth);
+  if (!(sphere.sweepSquared < waySquared && along < 0.0)) return Contact(inside, outward, normal, depth);
 
   precise float fromSquared = sumOfProducts(from, from);
   precise float alongSquared = along * along;
@@ -96,14 +95,14 @@ Contact sphereContact(ColliderParams sphere, vec3 previous, vec3 x) {
   precise float inverseWay = inverseSquareRoot(waySquared);
   precise float t = ((-along) - root) * (inverseWay * inverseWay);
   precise vec3 entryNormal = sphere.inverseRadius * (from + t * way);
-  precise vec3 entry = center + sphere.radius * entryNormal;
+  precise vec3 toEntry = sphere.radius * entryNormal - d;
   precise float facing = sumOfProducts(entryNormal, d);
   precise float sameSide = 0.5 * distance;
   bool passed = !inside && 0.0 < beyond && deeper < alongSquared;
   bool otherSide = inside && facing < sameSide;
   precise float entryDepth = sphere.radius - facing;
-  if (passed || otherSide) return Contact(true, entry, entryNormal, entryDepth);
-  return Contact(inside, surface, normal, depth);
+  if (passed || otherSide) return Contact(true, toEntry, entryNormal, entryDepth);
+  return Contact(inside, outward, normal, depth);
 }
 
 // CS184's plane, crossed since `previous`: the foot of the perpendicular, a little off on the side it came from.
@@ -117,8 +116,8 @@ Contact crossedPlane(ColliderParams plane, vec3 previous, vec3 x) {
   bool isAbove = !(height < 0.0);
   precise float side = wasAbove ? step.planeOffset : -step.planeOffset;
   precise float lift = side - height;
-  precise vec3 surface = x + lift * normal;
-  return Contact(wasAbove != isAbove, surface, normal, lift);
+  precise vec3 outward = lift * normal;
+  return Contact(wasAbove != isAbove, outward, normal, lift);
 }
 
 // A plane that is solid behind its normal: the foot of the perpendicular.
@@ -126,8 +125,8 @@ Contact solidPlane(ColliderParams plane, vec3 x) {
   vec3 normal = vec3(plane.normalX, plane.normalY, plane.normalZ);
   precise vec3 fromPoint = x - pointOf(plane);
   precise float height = sumOfProducts(fromPoint, normal);
-  precise vec3 surface = x - height * normal;
-  return Contact(height < 0.0, surface, normal, -height);
+  precise vec3 outward = (-height) * normal;
+  return Contact(height < 0.0, outward, normal, -height);
 }
 
 vec3 toOwnFrame(ColliderParams shape, vec3 x) {
@@ -152,7 +151,7 @@ Contact shapeContact(ColliderParams shape, vec3 previous, vec3 x) {
   precise vec3 moved = x - previous;
   precise float movedSquared = sumOfProducts(moved, moved);
   precise float distanceSquared = end.distance * end.distance;
-  if (0.0 < end.distance && movedSquared < distanceSquared) return Contact(false, x, end.normal, 0.0);
+  if (0.0 < end.distance && movedSquared < distanceSquared) return Contact(false, vec3(0.0), end.normal, 0.0);
 
   vec3 a = toOwnFrame(shape, previous);
   precise vec3 way = b - a;
@@ -183,8 +182,7 @@ Contact shapeContact(ColliderParams shape, vec3 previous, vec3 x) {
   float depth = otherSide ? lift : -end.distance;
   precise vec3 outward = depth * normal;
   vec3 offset = passed ? back : outward;
-  precise vec3 surface = x + toWorld(shape, offset);
-  return Contact(inside || passed, surface, toWorld(shape, normal), depth);
+  return Contact(inside || passed, toWorld(shape, offset), toWorld(shape, normal), depth);
 }
 
 Contact findContact(ColliderParams collider, vec3 previous, vec3 x) {
@@ -196,40 +194,36 @@ Contact findContact(ColliderParams collider, vec3 previous, vec3 x) {
   return shapeContact(collider, previous, x);
 }
 
-// CS184: the rest of the way to the surface that friction leaves. Coulomb: the way along the surface, shorter by friction
-// times the depth that the contact pushed the particle out.
-vec3 withFriction(ColliderParams collider, Contact contact, vec3 previous) {
-  precise vec3 way = contact.surface - previous;
+// What friction takes of the way to the surface. CS184: a share. Coulomb: of the way along the surface, friction times the
+// depth that the contact pushed the particle out.
+vec3 takenByFriction(ColliderParams collider, Contact contact, vec3 way) {
   if (!hasCoulombFriction) {
-    precise vec3 result = previous + collider.motionKept * way;
-    return result;
+    precise vec3 share = collider.friction * way;
+    return share;
   }
   precise float through = sumOfProducts(way, contact.normal);
-  precise vec3 across = through * contact.normal;
-  precise vec3 slide = way - across;
+  precise vec3 slide = way - through * contact.normal;
   precise float slideSquared = sumOfProducts(slide, slide);
-  precise float lost = (collider.friction * contact.depth) * inverseSquareRoot(slideSquared);
-  precise float rest = 1.0 - lost;
-  float kept = lost < 1.0 ? rest : 0.0;
-  precise vec3 result = (previous + across) + kept * slide;
+  precise float taken = (collider.friction * contact.depth) * inverseSquareRoot(slideSquared);
+  precise vec3 result = (taken < 1.0 ? taken : 1.0) * slide;
   return result;
 }
 
 // Friction may leave a particle a little inside a curved surface, or where it was inside before.
-vec3 pushedOut(ColliderParams collider, vec3 x) {
+vec3 furtherOut(ColliderParams collider, vec3 x) {
   if (hasType(COLLIDER_SPHERE) && collider.type == COLLIDER_SPHERE) {
     precise vec3 d = x - pointOf(collider);
     precise float distanceSquared = sumOfProducts(d, d);
-    precise float scale = collider.radius * inverseSquareRoot(distanceSquared);
-    precise vec3 surface = pointOf(collider) + scale * d;
-    return distanceSquared < collider.radiusSquared ? surface : x;
+    precise float inverseDistance = inverseSquareRoot(distanceSquared);
+    precise float depth = collider.radius - distanceSquared * inverseDistance;
+    precise vec3 outward = depth * (inverseDistance * d);
+    return distanceSquared < collider.radiusSquared ? outward : vec3(0.0);
   }
-  if (!hasShapes || collider.type == COLLIDER_PLANE) return x;
+  if (!hasShapes || collider.type == COLLIDER_PLANE) return vec3(0.0);
   Nearest nearest = nearestOnShape(collider, toOwnFrame(collider, x));
   float depth = nearest.distance < 0.0 ? -nearest.distance : 0.0;
   precise vec3 outward = depth * nearest.normal;
-  precise vec3 result = x + toWorld(collider, outward);
-  return result;
+  return toWorld(collider, outward);
 }
 
 Particle collideParticle(uint i, Particle particle) {
@@ -242,9 +236,13 @@ Particle collideParticle(uint i, Particle particle) {
     vec3 previous = carried(collider, start);
     Contact contact = findContact(collider, previous, x);
     if (!contact.touches) continue;
-    vec3 slid = withFriction(collider, contact, previous);
-    precise vec3 corrected = pushedOut(collider, slid);
-    precise vec3 kicked = v + step.inverseTimeStep * (corrected - x);
+    precise vec3 way = (x - previous) + contact.outward;
+    vec3 taken = takenByFriction(collider, contact, way);
+    precise vec3 slid = previous + (way - taken);
+    vec3 further = furtherOut(collider, slid);
+    precise vec3 corrected = slid + further;
+    precise vec3 push = (contact.outward - taken) + further;  // not a difference of positions, which holds their rounding
+    precise vec3 kicked = v + step.inverseTimeStep * push;
     x = canonical(corrected);
     v = canonical(kicked);
   }

@@ -368,9 +368,9 @@ std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
             "Newton steps in a step of the implicit integrator; more come nearer to its solution.")
           .within({.low = 1, .high = 100})
           .usually(1, 8),
-      field("cg_iterations", &S::cgIterations,
-            "Iterations of conjugate gradients in each Newton step of the implicit integrator; auto: 10, and "
-            "up to 40 where steps are longer than 1/60 s.")
+      field(
+          "cg_iterations", &S::cgIterations,
+          "Iterations for the linear system of each Newton step; auto: 10, up to 40 in steps beyond 1/60 s.")
           .within({.low = 1, .high = 10'000})
           .usually(1, 40),
       field("frames_per_sec", &S::framesPerSec,

@@ -272,9 +272,7 @@ ColliderParams<Real> makeColliderParams(const Scene& scene, const Collider& coll
   params.pointX = real<Real>(after.position.x);
   params.pointY = real<Real>(after.position.y);
   params.pointZ = real<Real>(after.position.z);
-  const double friction = std::visit([](const auto& shape) { return shape.friction; }, collider);
-  params.motionKept = real<Real>(1 - friction);
-  params.friction = real<Real>(friction);
+  params.friction = real<Real>(std::visit([](const auto& shape) { return shape.friction; }, collider));
   params.coulomb = scene.solver.frictionLaw == FrictionLaw::coulomb ? 1 : 0;
   params.type = colliderType(collider);
   std::visit([&](const auto& shape) { putShape(shape, after, params); }, collider);

@@ -12,14 +12,15 @@ void main() {
   GridPoint p = thisGridPoint();
   if (!p.exists) return;
   vec4 start = texelFetch(starts, int(p.index));
+  vec3 place = iterateAt(p.index).xyz;
   vec4 plane = vec4(0.0), carry = vec4(0.0);
   for (uint k = 0u; k < step.colliderCount && start.w != 0.0; ++k) {
     ColliderParams collider = loadCollider(step.firstCollider + k);
     vec3 previous = carried(collider, start.xyz);
-    Contact contact = findContact(collider, previous, iterateAt(p.index).xyz);
+    Contact contact = findContact(collider, previous, place);
     if (!contact.touches) continue;
     vec3 normal = contact.depth < 0.0 ? -contact.normal : contact.normal;  // a plane may be met from below
-    precise vec3 reach = contact.surface - start.xyz;
+    precise vec3 reach = (place - start.xyz) + contact.outward;
     precise float offset = sumOfProducts(normal, reach);
     precise vec3 carriedBy = previous - start.xyz;
     plane = vec4(normal, offset);

@@ -17,15 +17,6 @@ INLINE Vec3<Real> carried(const ColliderParams<Real>& collider, Vec3<Real> x) {
   return x + move;
 }
 
-template <bool moving, class Real>
-INLINE Vec3<Real> previousPosition(const ColliderParams<Real>& collider, Vec3<Real> start) {
-  if constexpr (moving) {
-    return carried(collider, start);
-  } else {
-    return start;
-  }
-}
-
 template <class Real>
 INLINE Vec3<Real> pointOf(const ColliderParams<Real>& collider) {
   return {collider.pointX, collider.pointY, collider.pointZ};
@@ -34,7 +25,7 @@ INLINE Vec3<Real> pointOf(const ColliderParams<Real>& collider) {
 template <class Real>
 struct Contact {
   bool touches;
-  Vec3<Real> surface;  // where the particle goes without friction
+  Vec3<Real> outward;  // to the surface, where the particle goes without friction
   Vec3<Real> normal;   // of the collider there, outward
   Real depth;          // how far that is along the normal [m]
 };
@@ -48,7 +39,6 @@ INLINE Contact<Real> sphereContact(const ColliderParams<Real>& sphere, Vec3<Real
   const Vec3<Real> d = x - center;
   const Real distanceSquared = dot(d, d);
   const Real inverseDistance = inverseSquareRoot(distanceSquared);
-  const Real scale = sphere.radius * inverseDistance;
   const Real distance = distanceSquared * inverseDistance;
   const bool inside = distanceSquared < sphere.radiusSquared;
 
@@ -65,7 +55,7 @@ INLINE Contact<Real> sphereContact(const ColliderParams<Real>& sphere, Vec3<Real
   const Real inverseWay = inverseSquareRoot(waySquared);
   const Real t = ((-along) - root) * (inverseWay * inverseWay);
   const Vec3<Real> entryNormal = (sphere.inverseRadius * (from + t * way));
-  const Vec3<Real> entry = center + sphere.radius * entryNormal;
+  const Vec3<Real> toEntry = sphere.radius * entryNormal - d;
   const Real facing = dot(entryNormal, d);
   const Real sameSide = Real(0.5) * distance;
   const bool sweeps = (sphere.sweepSquared < waySquared) & (along < Real(0));
@@ -73,11 +63,11 @@ INLINE Contact<Real> sphereContact(const ColliderParams<Real>& sphere, Vec3<Real
   const bool otherSide = sweeps & inside & (facing < sameSide);
   const bool entered = passed | otherSide;
 
-  const Vec3<Real> surface = select(entered, entry, center + scale * d);
   const Vec3<Real> normal = select(entered, entryNormal, inverseDistance * d);
   const Real depth = entered ? sphere.radius - facing : sphere.radius - distance;
+  const Vec3<Real> outward = select(entered, toEntry, depth * normal);
   const bool touches = inside | passed;
-  return {touches, surface, normal, depth};
+  return {touches, outward, normal, depth};
 }
 
 // CS184's plane, crossed since `previous`: the foot of the perpendicular, a little off on the side it came
@@ -92,7 +82,7 @@ INLINE Contact<Real> crossedPlane(const ColliderParams<Real>& plane, Real offset
   const bool isAbove = !(height < Real(0));
   const Real side = wasAbove ? offset : -offset;
   const Real lift = side - height;
-  return {wasAbove != isAbove, x + lift * normal, normal, lift};
+  return {wasAbove != isAbove, lift * normal, normal, lift};
 }
 
 // A plane that is solid behind its normal: the foot of the perpendicular.
@@ -100,7 +90,7 @@ template <class Real>
 INLINE Contact<Real> solidPlane(const ColliderParams<Real>& plane, Vec3<Real> x) {
   const Vec3<Real> normal{plane.normalX, plane.normalY, plane.normalZ};
   const Real height = dot(x - pointOf(plane), normal);
-  return {height < Real(0), x - height * normal, normal, -height};
+  return {height < Real(0), (-height) * normal, normal, -height};
 }
 
 // Components below 2^-40 are 0, so that their squares are no denormals.
@@ -132,7 +122,7 @@ INLINE Contact<Real> shapeContact(const ColliderParams<Real>& shape, Vec3<Real> 
   const Real movedSquared = dot(moved, moved);
   const Real distanceSquared = end.distance * end.distance;
   // No place of the way is nearer than the distance at its end less its length.
-  if ((Real(0) < end.distance) & (movedSquared < distanceSquared)) return {false, x, end.normal, Real(0)};
+  if ((Real(0) < end.distance) & (movedSquared < distanceSquared)) return {false, {}, end.normal, Real(0)};
 
   const Vec3<Real> a = toOwnFrame(shape, previous);
   const Vec3<Real> way = b - a;
@@ -165,65 +155,54 @@ INLINE Contact<Real> shapeContact(const ColliderParams<Real>& shape, Vec3<Real> 
   const Vec3<Real> out = depth * normal;
   const Vec3<Real> offset = select(passed, back, out);
   const bool touches = inside | passed;
-  return {touches, x + toWorld(shape, offset), toWorld(shape, normal), depth};
+  return {touches, toWorld(shape, offset), toWorld(shape, normal), depth};
 }
 
-template <std::uint32_t type, bool coulomb, class Real>
-INLINE Contact<Real> findContact(const ColliderParams<Real>& collider, Real offset, Vec3<Real> previous,
-                                 Vec3<Real> x, const float* distances) {
+template <std::uint32_t type, class Real>
+INLINE Contact<Real> findContact(const ColliderParams<Real>& collider, bool coulomb, Real offset,
+                                 Vec3<Real> previous, Vec3<Real> x, const float* distances) {
   if constexpr (type == COLLIDER_SPHERE) {
     return sphereContact(collider, previous, x);
-  } else if constexpr (type == COLLIDER_PLANE && coulomb) {
-    return solidPlane(collider, x);
   } else if constexpr (type == COLLIDER_PLANE) {
-    return crossedPlane(collider, offset, previous, x);
+    return coulomb ? solidPlane(collider, x) : crossedPlane(collider, offset, previous, x);
   } else {
     return shapeContact<type>(collider, previous, x, distances);
   }
 }
 
-// CS184: the rest of the way to the surface that friction leaves. Coulomb: the way along the surface, shorter
-// by friction times the depth that the contact pushed the particle out; what is left of it never turns
-// around.
-template <bool coulomb, class Real>
-INLINE Vec3<Real> withFriction(const ColliderParams<Real>& collider, const Contact<Real>& contact,
-                               Vec3<Real> previous) {
-  const Vec3<Real> way = contact.surface - previous;
-  if constexpr (coulomb) {
-    const Real through = dot(way, contact.normal);
-    const Vec3<Real> across = through * contact.normal;
-    const Vec3<Real> slide = way - across;
-    const Real slideSquared = dot(slide, slide);
-    const Real lost = (collider.friction * contact.depth) * inverseSquareRoot(slideSquared);
-    const Real kept = lost < Real(1) ? Real(1) - lost : Real(0);
-    return (previous + across) + kept * slide;
-  } else {
-    return previous + collider.motionKept * way;
-  }
+// What friction takes of the way to the surface. CS184: a share. Coulomb: of the way along the surface,
+// friction times the depth that the contact pushed the particle out; it never turns around.
+template <class Real>
+INLINE Vec3<Real> takenByFriction(const ColliderParams<Real>& collider, bool coulomb,
+                                  const Contact<Real>& contact, Vec3<Real> way) {
+  if (!coulomb) return collider.friction * way;
+  const Vec3<Real> slide = way - dot(way, contact.normal) * contact.normal;
+  const Real taken = (collider.friction * contact.depth) * inverseSquareRoot(dot(slide, slide));
+  return (taken < Real(1) ? taken : Real(1)) * slide;
 }
 
 // Friction may leave a particle a little inside a curved surface, or where it was inside before.
 template <std::uint32_t type, class Real>
-INLINE Vec3<Real> pushedOut(const ColliderParams<Real>& collider, Vec3<Real> x, const float* distances) {
+INLINE Vec3<Real> furtherOut(const ColliderParams<Real>& collider, Vec3<Real> x, const float* distances) {
   if constexpr (type == COLLIDER_SPHERE) {
     const Vec3<Real> d = x - pointOf(collider);
     const Real distanceSquared = dot(d, d);
-    const Real scale = collider.radius * inverseSquareRoot(distanceSquared);
-    return select(distanceSquared < collider.radiusSquared, pointOf(collider) + scale * d, x);
+    const Real inverseDistance = inverseSquareRoot(distanceSquared);
+    const Real depth = collider.radius - distanceSquared * inverseDistance;
+    const Vec3<Real> normal = inverseDistance * d;
+    return select(distanceSquared < collider.radiusSquared, depth * normal, Vec3<Real>{});
   } else if constexpr (type == COLLIDER_PLANE) {
-    return x;
+    return {};
   } else {
     const Nearest<Real> nearest = nearestOnShape<type>(collider, toOwnFrame(collider, x), distances);
-    const Real out = nearest.distance < Real(0) ? -nearest.distance : Real(0);
-    return x + toWorld(collider, out * nearest.normal);
+    const Real depth = nearest.distance < Real(0) ? -nearest.distance : Real(0);
+    return toWorld(collider, depth * nearest.normal);
   }
 }
 
-// One collider and a stretch of particles; compiled for each type and law, at rest and moving, so that the
-// loop runs in vector registers.
-template <std::uint32_t type, bool moving, bool coulomb, class Real>
+template <std::uint32_t type, class Real>
 INLINE void collideWith(const PassArguments<Real>& arguments, const ColliderParams<Real>& collider,
-                        Stretch particles) {
+                        bool moving, bool coulomb, Stretch particles) {
   const Components<Real>& old = arguments.before.positions;
   Components<Real>&p = arguments.after.positions, &v = arguments.after.velocities;
   const Real *x0 = old.x.data(), *y0 = old.y.data(), *z0 = old.z.data();
@@ -234,22 +213,27 @@ INLINE void collideWith(const PassArguments<Real>& arguments, const ColliderPara
   const auto body = [&](std::ptrdiff_t i) __attribute__((always_inline)) {
     const Vec3<Real> now = load(x, y, z, i), start = load(x0, y0, z0, i);
     const Vec3<Real> velocity = load(vx, vy, vz, i);
-    const Vec3<Real> previous = previousPosition<moving>(collider, start);
+    const Vec3<Real> previous = moving ? carried(collider, start) : start;
     const Contact<Real> contact =
-        findContact<type, coulomb>(collider, offset, previous, now, arguments.distances);
+        findContact<type>(collider, coulomb, offset, previous, now, arguments.distances);
     // Away from a shape with a frame of its own nothing more is worked out.
     if constexpr (type != COLLIDER_SPHERE && type != COLLIDER_PLANE)
       if (!contact.touches) return;
-    const Vec3<Real> slid = withFriction<coulomb>(collider, contact, previous);
-    const Vec3<Real> corrected = pushedOut<type>(collider, slid, arguments.distances);
-    const Vec3<Real> kicked = velocity + inverseTimeStep * (corrected - now);
-    const bool moves = contact.touches & (inverseMasses[i] > Real(0));
-    x[i] = moves ? canonical(corrected.x) : now.x;
-    y[i] = moves ? canonical(corrected.y) : now.y;
-    z[i] = moves ? canonical(corrected.z) : now.z;
-    vx[i] = moves ? canonical(kicked.x) : velocity.x;
-    vy[i] = moves ? canonical(kicked.y) : velocity.y;
-    vz[i] = moves ? canonical(kicked.z) : velocity.z;
+    const Vec3<Real> way = (now - previous) + contact.outward;
+    const Vec3<Real> taken = takenByFriction(collider, coulomb, contact, way);
+    const Vec3<Real> slid = previous + (way - taken);
+    const Vec3<Real> further = furtherOut<type>(collider, slid, arguments.distances);
+    const Vec3<Real> corrected = slid + further;
+    // Not from the difference of positions, which holds their rounding.
+    const Vec3<Real> push = (contact.outward - taken) + further;
+    const Vec3<Real> kicked = velocity + inverseTimeStep * push;
+    if (!contact.touches || inverseMasses[i] == Real(0)) return;
+    x[i] = canonical(corrected.x);
+    y[i] = canonical(corrected.y);
+    z[i] = canonical(corrected.z);
+    vx[i] = canonical(kicked.x);
+    vy[i] = canonical(kicked.y);
+    vz[i] = canonical(kicked.z);
   };
   if constexpr (type == COLLIDER_SPHERE || type == COLLIDER_PLANE) {
 #pragma omp simd
@@ -259,25 +243,34 @@ INLINE void collideWith(const PassArguments<Real>& arguments, const ColliderPara
   }
 }
 
+// Spheres and planes: compiled for each law, at rest and moving, so that the loop runs in vector registers.
 template <std::uint32_t type, class Real>
-INLINE void collideWithType(const PassArguments<Real>& arguments, const ColliderParams<Real>& collider,
-                            Stretch particles) {
+INLINE void collideInVectors(const PassArguments<Real>& arguments, const ColliderParams<Real>& of,
+                             Stretch particles) {
+  const ColliderParams<Real> collider = of;  // which no store to a particle changes
   const bool moving = collider.moving != 0, coulomb = collider.coulomb != 0;
   if (moving && coulomb)
-    collideWith<type, true, true>(arguments, collider, particles);
+    collideWith<type>(arguments, collider, true, true, particles);
   else if (moving)
-    collideWith<type, true, false>(arguments, collider, particles);
+    collideWith<type>(arguments, collider, true, false, particles);
   else if (coulomb)
-    collideWith<type, false, true>(arguments, collider, particles);
+    collideWith<type>(arguments, collider, false, true, particles);
   else
-    collideWith<type, false, false>(arguments, collider, particles);
+    collideWith<type>(arguments, collider, false, false, particles);
+}
+
+// Shapes with a frame of their own, particle by particle.
+template <std::uint32_t type, class Real>
+[[gnu::noinline]] void collideWithShape(const PassArguments<Real>& arguments,
+                                        const ColliderParams<Real>& collider, Stretch particles) {
+  collideWith<type>(arguments, collider, collider.moving != 0, collider.coulomb != 0, particles);
 }
 
 // body.operator()<COLLIDER_...>(collider) for each collider.
 template <class Real, class Body>
 INLINE void forEachCollider(const PassArguments<Real>& arguments, Body body) {
   for (std::uint32_t k = 0; k < arguments.step.colliderCount; ++k) {
-    const ColliderParams<Real> collider = arguments.colliders[k];
+    const ColliderParams<Real>& collider = arguments.colliders[k];
     switch (collider.type) {
       case COLLIDER_SPHERE:
         body.template operator()<COLLIDER_SPHERE>(collider);
@@ -305,8 +298,13 @@ template <class Real>
 INLINE void collideRow(const PassArguments<Real>& arguments, int row) {
   const Stretch particles = stretch(arguments.step, row);
   forEachCollider(
-      arguments, [&]<std::uint32_t type>(const ColliderParams<Real>& collider) __attribute__((
-                     always_inline)) { collideWithType<type>(arguments, collider, particles); });
+      arguments, [&]<std::uint32_t type>(const ColliderParams<Real>& collider)
+                     __attribute__((always_inline)) {
+                       if constexpr (type == COLLIDER_SPHERE || type == COLLIDER_PLANE)
+                         collideInVectors<type>(arguments, collider, particles);
+                       else
+                         collideWithShape<type>(arguments, collider, particles);
+                     });
   if (arguments.step.colliderCount > 0) watchVelocities(arguments, PASS_COLLIDE, row);
 }
 
@@ -332,14 +330,12 @@ void findPlanes(const PassArguments<Real>& arguments, const Components<Real>& pl
       const Vec3<Real> start = at(arguments.before.positions, i), place = at(places, i);
       const Vec3<Real> previous = collider.moving != 0 ? carried(collider, start) : start;
       const Contact<Real> contact =
-          collider.coulomb != 0
-              ? findContact<type, true>(collider, offset, previous, place, arguments.distances)
-              : findContact<type, false>(collider, offset, previous, place, arguments.distances);
+          findContact<type>(collider, collider.coulomb != 0, offset, previous, place, arguments.distances);
       if (!contact.touches) continue;
       // A plane may be met from below.
       const Vec3<Real> normal = contact.depth < Real(0) ? Real(-1) * contact.normal : contact.normal;
       put(planes.normals, i, normal);
-      planes.offsets.data()[i] = dot(normal, contact.surface - start);
+      planes.offsets.data()[i] = dot(normal, (place - start) + contact.outward);
       put(planes.carries, i, previous - start);
       planes.frictions.data()[i] = collider.coulomb != 0 ? collider.friction : Real(0);
     }

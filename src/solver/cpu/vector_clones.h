@@ -1,6 +1,7 @@
 // Loops over particles are compiled for several instruction sets, chosen when the program starts; with
 // contraction off (CMakeLists.txt) all of them give the same bits. Sanitizer builds and other compilers take
-// the plain one.
+// the plain one; there, laws stay functions (inlined everywhere, with a check at every access, they take a
+// minute to compile).
 #pragma once
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__)
@@ -8,4 +9,8 @@
 #else
 #define VECTOR_CLONES
 #endif
+#if defined(__SANITIZE_ADDRESS__)
+#define INLINE inline
+#else
 #define INLINE [[gnu::always_inline]] inline
+#endif

@@ -225,7 +225,7 @@ TEST_F(LayoutTest, OfCollidersIsTheRowsThatTheShaderFetches) {
   EXPECT_EQ(offsetof(ColliderRow, radius), 12u);
   EXPECT_EQ(offsetof(ColliderRow, normalX), 16u);
   EXPECT_EQ(offsetof(ColliderRow, type), 32u);
-  EXPECT_EQ(offsetof(ColliderRow, motionKept), 40u);
+  EXPECT_EQ(offsetof(ColliderRow, friction), 44u);
   EXPECT_EQ(offsetof(ColliderRow, friction), 44u);
   EXPECT_EQ(offsetof(ColliderRow, sweepSquared), COLLIDER_SWEEP_ROW * 16u);
   EXPECT_EQ(offsetof(ColliderRow, inverseRadius), COLLIDER_SWEEP_ROW * 16u + 8);
