@@ -23,6 +23,13 @@ constexpr std::pair<Integrator, const char*> integrators[] = {{Integrator::verle
                                                               {Integrator::euler, "symplectic euler"}};
 constexpr std::pair<Integrator, const char*> implicitEuler{Integrator::implicit, "implicit euler"};
 
+Scene swingScene(Integrator integrator, double step) {
+  Scene scene = springScene(1, STIFFNESS, MASS, step, integrator);
+  scene.solver.newtonSteps = 2;   // the spring stays straight,
+  scene.solver.cgIterations = 3;  // and three numbers are unknown
+  return scene;
+}
+
 // The mass starts a quarter of a metre below its place of rest, 1 m below the pin.
 template <class Real>
 struct Swing {
@@ -30,7 +37,7 @@ struct Swing {
   Cloth cloth{scene};
   CpuSolver<Real> solver{cloth, scene};
 
-  Swing(Integrator integrator, double step) : scene(springScene(1, STIFFNESS, MASS, step, integrator)) {
+  Swing(Integrator integrator, double step) : scene(swingScene(integrator, step)) {
     scene.solver.newtonSteps = 2;   // the spring stays straight,
     scene.solver.cgIterations = 3;  // and there are as many unknowns
     solver.setPosition(1, {0, static_cast<Real>(-1 - AMPLITUDE), 0});
