@@ -105,11 +105,11 @@ void expectErrorsFall(int points) {
   for (const int frame : {20, 35}) {
     solver.step(frame - static_cast<int>(solver.stepIndex()));
     const Motion motion = motionOf(solver, cloth.particleCount());
-    solveWith(precise, 120, 100);
+    solveWith(precise, 200, 100);
     const std::vector<Vec3d> converged = stepFrom<double>(motion, cloth, precise);
-    solveWith(precise, 160, 100);
+    solveWith(precise, 240, 100);
     EXPECT_LT(distance(stepFrom<double>(motion, cloth, precise), converged),
-              2e-3 * distance(inertialGuess(motion, cloth, scene), converged))
+              1e-3 * distance(inertialGuess(motion, cloth, scene), converged))
         << "the reference has not converged";
     const std::string when = std::to_string(points) + "^2, frame " + std::to_string(frame);
     expectNearConverged<double>(motion, cloth, scene, converged, when);
