@@ -31,7 +31,7 @@ std::string commandToGoOn(const BlowUpContext& context, const std::string& state
 }
 
 // Where nothing else lies, or the very same.
-fs::path freeName(const fs::path& folder, const std::string& stem, const std::string& bytes) {
+fs::path freeStateName(const fs::path& folder, const std::string& stem, const std::string& bytes) {
   for (int i = 1;; ++i) {
     const fs::path path = folder / (stem + (i > 1 ? "-" + std::to_string(i) : "") + ".state");
     std::error_code ignored;
@@ -55,7 +55,7 @@ void stopBlownUp(const Trouble& trouble, Simulation& simulation, const BlowUpCon
   try {
     const std::string bytes = formatStateFile(simulation.solver().state());
     const std::string stem = fs::path(context.scene.scene).stem().string() + "-frame" + frame + "-last-good";
-    const fs::path path = freeName(context.outputFolder, stem, bytes);
+    const fs::path path = freeStateName(context.outputFolder, stem, bytes);
     writeFileAtomically(path, bytes);
     message += "\nThe last good state, that of frame " + frame + ", is saved: " + path.string();
     if (!context.replays) message += "\nTo go on from it: " + commandToGoOn(context, path.string());

@@ -101,9 +101,9 @@ void addCheckCrossings(CLI::App& app, Arguments& a) {
                "count pairs of triangles that cross, exactly, at the end of every frame (needs CGAL)");
 }
 
-using Action = std::function<int()>;
+using Task = std::function<int()>;
 
-void declareRun(CLI::App& app, Arguments& a, Action& action) {
+void declareRun(CLI::App& app, Arguments& a, Task& task) {
   CLI::App* run =
       app.add_subcommand("run", "Simulate without a window, save states, and sum the run up in numbers");
   CLI::Option* scene = addSceneFlags(*run, a, false);
@@ -133,19 +133,19 @@ void declareRun(CLI::App& app, Arguments& a, Action& action) {
   addCheckCrossings(*run, a);
   addJson(*run, a);
   run->footer("Example: clothsim run -f sphere --frames 300 --save drape.obj --json");
-  run->callback([&a, &action, scene, frames, backend, replay] {
+  run->callback([&a, &task, scene, frames, backend, replay] {
     if (replay->count() == 0 && scene->count() == 0) throw CLI::RequiredError("-f,--scene or --replay");
     if (replay->count() == 0 && frames->count() == 0) throw CLI::RequiredError("--frames");
     RunOptions options{a.sceneOptions(), {},       {},     a.saves, a.every, a.from, a.json,
                        a.checkCrossings, a.jitter, a.seed, a.replay};
     if (frames->count() > 0) options.frames = a.frames;
     if (backend->count() > 0) options.backend = a.backend;
-    action = [options] { return runCommand(options); };
+    task = [options] { return runCommand(options); };
   });
 }
 
-void declareSimulationCommands(CLI::App& app, Arguments& a, Action& action) {
-  declareRun(app, a, action);
+void declareSimulationCommands(CLI::App& app, Arguments& a, Task& task) {
+  declareRun(app, a, task);
 
   CLI::App* compare =
       app.add_subcommand("compare", "Run both backends side by side; exit code 0 when every bit agrees");
@@ -156,7 +156,7 @@ void declareSimulationCommands(CLI::App& app, Arguments& a, Action& action) {
   addJson(*compare, a);
   compare->footer("Example: clothsim compare -f pinned2 --frames 300");
   compare->callback([&] {
-    action = [&] { return compareCommand({a.sceneOptions(), a.frames, a.json, a.checkCrossings}); };
+    task = [&] { return compareCommand({a.sceneOptions(), a.frames, a.json, a.checkCrossings}); };
   });
 
   CLI::App* bench = app.add_subcommand(
@@ -176,7 +176,7 @@ void declareSimulationCommands(CLI::App& app, Arguments& a, Action& action) {
   bench->footer(
       "Steps are timed in 7 stretches; the median counts. Example: clothsim bench --resolution 256x256");
   bench->callback([&] {
-    action = [&] {
+    task = [&] {
       BenchOptions options{
           {a.scene, std::nullopt, a.settings, {}}, {}, a.backends, a.seconds, a.frames, a.json, a.draw};
       for (const std::string& resolution : a.resolutions)
@@ -195,7 +195,7 @@ void addLooks(CLI::App& app, Arguments& a) {
       ->type_name("RIGHT,UP[,ZOOM]");
 }
 
-void declareRender(CLI::App& app, Arguments& a, Action& action) {
+void declareRender(CLI::App& app, Arguments& a, Task& task) {
   CLI::App* render =
       app.add_subcommand("render", "Simulate and draw into pictures or a film, without a window");
   addSceneFlags(*render, a, true);
@@ -218,7 +218,7 @@ void declareRender(CLI::App& app, Arguments& a, Action& action) {
   addSphereSegments(*render, a);
   render->footer("Example: clothsim render -f demo --frames 240 --out clip.mp4");
   render->callback([&] {
-    action = [&] {
+    task = [&] {
       const GridSize size = parsePixels(a.size);
       return renderCommand({a.sceneOptions(), a.frames, a.backend, a.outs, size.columns, size.rows, a.every,
                             a.fps, a.shader, a.around, a.down, a.from, parseView(a.view)});
@@ -226,7 +226,7 @@ void declareRender(CLI::App& app, Arguments& a, Action& action) {
   });
 }
 
-void declareSweep(CLI::App& app, Arguments& a, Action& action) {
+void declareSweep(CLI::App& app, Arguments& a, Task& task) {
   CLI::App* sweep = app.add_subcommand(
       "sweep", "Simulate every combination of some values; one labelled picture and a table of measures");
   addSceneFlags(*sweep, a, true);
@@ -254,8 +254,8 @@ void declareSweep(CLI::App& app, Arguments& a, Action& action) {
       "solver.integrator=verlet,implicit\n              --frames 60 --out sheet.png\n"
       "          clothsim sweep -f selfCollision --vary frame=20,50,90 --vary cloth.ks=500,5000 --out "
       "time.png");
-  sweep->callback([&a, &action, frames] {
-    action = [&a, frames] {
+  sweep->callback([&a, &task, frames] {
+    task = [&a, frames] {
       const GridSize size = parsePixels(a.cellSize);
       SweepOptions options{a.sceneOptions(), a.variations, {},       a.backend,         a.out,
                            size.columns,     size.rows,    a.shader, parseView(a.view), a.json};
@@ -265,26 +265,26 @@ void declareSweep(CLI::App& app, Arguments& a, Action& action) {
   });
 }
 
-void declareInfoCommands(CLI::App& app, Arguments& a, Action& action) {
+void declareInfoCommands(CLI::App& app, Arguments& a, Task& task) {
   // Without a footer of its own a command would print the viewer's.
   app.add_subcommand("scenes", "List the bundled scenes")
       ->footer("Example: clothsim -f twist shows the one of that name")
-      ->callback([&] { action = [] { return scenesCommand(); }; });
+      ->callback([&] { task = [] { return scenesCommand(); }; });
 
   CLI::App* doctor =
       app.add_subcommand("doctor", "Show the OpenGL device and its limits, and test that CPU and GPU agree");
   addJson(*doctor, a);
   doctor->footer("Exit code 0 when the backends agree, 1 when they do not, 4 without usable OpenGL");
-  doctor->callback([&] { action = [&] { return doctorCommand(a.json); }; });
+  doctor->callback([&] { task = [&] { return doctorCommand(a.json); }; });
 
   CLI::App* describe =
       app.add_subcommand("describe", "Explain every scene key: type, unit, range, default, meaning");
   describe->add_option("key", a.key, "one key or group, as cloth.ks, cloth or damping");
   describe->footer("Examples: clothsim describe, clothsim describe solver, clothsim describe strain_limit");
-  describe->callback([&] { action = [&] { return describeCommand(a.key); }; });
+  describe->callback([&] { task = [&] { return describeCommand(a.key); }; });
 }
 
-void declareViewer(CLI::App& app, Arguments& a, Action& action) {
+void declareViewer(CLI::App& app, Arguments& a, Task& task) {
   addSceneFlags(app, a, false);
   addResolution(app, a);
   addBackend(app, a);
@@ -293,7 +293,7 @@ void declareViewer(CLI::App& app, Arguments& a, Action& action) {
   app.footer("Without a command: the viewer.\n\nKeys and mouse in the viewer:\n" + viewerKeysText() +
              "\nExit codes: 0 done, 1 the simulation failed or differs, 2 wrong usage, 3 scene error,\n"
              "            4 no usable OpenGL or no display, 5 input/output");
-  action = [&] {
+  task = [&] {
     runViewer(loadScene(a.sceneOptions()), {a.scene, a.backend, a.around, a.down, a.timings});
     return 0;
   };
@@ -307,16 +307,16 @@ int runCommandLine(int argc, char** argv) {
   app.set_help_all_flag("--help-all", "help of all commands");
   app.require_subcommand(0, 1);
   Arguments arguments;
-  Action action;
-  declareViewer(app, arguments, action);
-  declareSimulationCommands(app, arguments, action);
-  declareRender(app, arguments, action);
-  declareSweep(app, arguments, action);
-  declareInfoCommands(app, arguments, action);
+  Task task;
+  declareViewer(app, arguments, task);
+  declareSimulationCommands(app, arguments, task);
+  declareRender(app, arguments, task);
+  declareSweep(app, arguments, task);
+  declareInfoCommands(app, arguments, task);
   try {
     app.parse(argc, argv);
     if (!app.get_subcommands().empty()) catchInterrupts();  // the viewer closes by its window
-    return action();
+    return task();
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::usage);
   } catch (const Error& error) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -56,6 +57,7 @@ struct ViewTurn {
   double right = 0, up = 0;  // [degrees]
   double zoom = 1;           // 2: from half the distance
 };
+inline constexpr double radians = std::numbers::pi / 180;  // in a degree
 
 struct RenderCommandOptions {
   SceneOptions scene;

@@ -12,7 +12,7 @@ namespace {
 constexpr int mostSteps = 900;     // that are compared
 constexpr double mostSeconds = 4;  // of both together
 constexpr double atOnce = 0.05;    // [s], of a backend before the window is looked after
-constexpr const char* columns[] = {"GPU", "CPU"};
+constexpr const char* backendLabels[] = {"GPU", "CPU"};
 
 std::string secondsText(double seconds) {
   char text[32];
@@ -100,7 +100,7 @@ void CompareCard::draw(PictureArea area) {
                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
   titleText("GPU and CPU");
   if (ImGui::BeginTable("sides", 3, ImGuiTableFlags_SizingFixedFit)) {
-    rowOf("", columns[0], columns[1]);
+    rowOf("", backendLabels[0], backendLabels[1]);
     rowOf("device", gpu_.device, cpu_.device);
     rowOf("time", secondsText(gpu_.seconds), secondsText(cpu_.seconds));
     const double work = static_cast<double>(particles_) * steps_;

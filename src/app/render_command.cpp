@@ -2,7 +2,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
-#include <numbers>
 
 #include "app/blow_up.h"
 #include "app/commands.h"
@@ -18,8 +17,6 @@
 
 namespace clothsim {
 namespace {
-
-constexpr double radians = std::numbers::pi / 180;  // in a degree
 
 PictureSettings settingsOf(const RenderCommandOptions& options) {
   return {options.frames, options.width, options.height, options.every, options.framesPerSecond};

@@ -9,11 +9,11 @@
 #include <iostream>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <regex>
 
 #include "app/commands.h"
 #include "app/contact_sheet.h"
+#include "app/formatted.h"
 #include "app/tally.h"
 #include "core/error.h"
 #include "core/files.h"
@@ -34,7 +34,6 @@ using nlohmann::ordered_json;
 // Two words that are no keys of a scene, and can be varied all the same.
 constexpr const char *frameWord = "frame", *resolutionWord = "resolution";
 constexpr int longestSide = 16'384;  // of the sheet [pixels]
-constexpr double radians = std::numbers::pi / 180;
 
 int parseFrame(const std::string& text) {
   int frame = -1;
@@ -51,7 +50,7 @@ struct Shot {
 };
 
 // One simulation, and the shots of it, by frame.
-struct Course {
+struct PlannedCourse {
   SceneOptions options;
   std::map<int, std::vector<Shot>> shots;
   [[nodiscard]] const Scene& scene() const { return shots.begin()->second.front().scene; }
@@ -74,8 +73,8 @@ void checkFrames(const SweepOptions& options, const SweepTable& table) {
 }
 
 // Reads every scene before any is simulated: a mistake in the last of them comes up at once.
-std::vector<Course> planCourses(const SweepOptions& options, const SweepTable& table) {
-  std::vector<Course> courses;
+std::vector<PlannedCourse> planCourses(const SweepOptions& options, const SweepTable& table) {
+  std::vector<PlannedCourse> courses;
   std::map<std::vector<std::string>, std::size_t> known;
   std::vector<std::string> remarks;
   for (std::size_t cell = 0; cell < table.cells(); ++cell) {
@@ -109,10 +108,10 @@ std::vector<Course> planCourses(const SweepOptions& options, const SweepTable& t
 // By cell. All pictures are taken from one place, so that they can be compared: where the one that needs most
 // room is seen from. A sweep of the camera has a place for each.
 std::vector<Camera> placeCameras(const SweepOptions& options, const SweepTable& table,
-                                 const std::vector<Course>& courses) {
+                                 const std::vector<PlannedCourse>& courses) {
   const double aspect = static_cast<double>(options.width) / options.height;
   std::map<std::size_t, Camera> places;
-  for (const Course& course : courses) {
+  for (const PlannedCourse& course : courses) {
     const Cloth cloth(course.scene());
     for (const auto& [frame, shots] : course.shots)
       for (const Shot& shot : shots) places.emplace(shot.cell, Camera(shot.scene, cloth, aspect));
@@ -130,12 +129,6 @@ std::vector<Camera> placeCameras(const SweepOptions& options, const SweepTable& 
   return cameras;
 }
 
-std::string formatted(const char* format, double number) {
-  std::array<char, 64> text{};
-  std::snprintf(text.data(), text.size(), format, number);
-  return text.data();
-}
-
 struct Cell {
   SheetPicture picture;
   ordered_json measures;
@@ -144,7 +137,7 @@ struct Cell {
 // Simulates one combination and fills the cells that show it.
 class Exhibit {
  public:
-  Exhibit(const SweepOptions& options, const Course& course, const std::vector<Camera>& cameras)
+  Exhibit(const SweepOptions& options, const PlannedCourse& course, const std::vector<Camera>& cameras)
       : options_(options),
         course_(course),
         cameras_(cameras),
@@ -230,7 +223,7 @@ class Exhibit {
   }
 
   const SweepOptions& options_;
-  const Course& course_;
+  const PlannedCourse& course_;
   const std::vector<Camera>& cameras_;
   Simulation simulation_;
   Renderer renderer_;
@@ -258,13 +251,13 @@ SheetHeading headingOf(const Variation& variation, const std::string& value,
   return {variation.key, unit.empty() ? value : value + " " + unit};
 }
 
-std::string subtitleOf(const SweepOptions& options, const std::vector<Course>& courses) {
+std::string subtitleOf(const SweepOptions& options, const std::vector<PlannedCourse>& courses) {
   std::string text;
   if (options.frames) {
     const double rate = courses.front().scene().solver.framesPerSec;
     text = "after " + std::to_string(*options.frames) + (*options.frames == 1 ? " frame" : " frames");
     if (std::all_of(courses.begin(), courses.end(),
-                    [&](const Course& course) { return course.scene().solver.framesPerSec == rate; }))
+                    [&](const PlannedCourse& course) { return course.scene().solver.framesPerSec == rate; }))
       text += " (" + formatted("%.2f", *options.frames / rate) + " s)";
   }
   for (const std::string& setting : options.scene.settings)
@@ -274,7 +267,7 @@ std::string subtitleOf(const SweepOptions& options, const std::vector<Course>& c
 
 // All but the pictures.
 ContactSheet makeSheet(const SweepOptions& options, const SweepTable& table,
-                       const std::vector<Course>& courses) {
+                       const std::vector<PlannedCourse>& courses) {
   const std::vector<FieldInfo> fields = describeFields();
   const Scene& scene = courses.front().scene();
   ContactSheet sheet;
@@ -383,7 +376,7 @@ int sweepCommand(const SweepOptions& options) {
   for (const std::string& text : options.variations) variations.push_back(parseVariation(text));
   const SweepTable table(std::move(variations), static_cast<double>(options.width) / options.height);
   checkFrames(options, table);
-  const std::vector<Course> courses = planCourses(options, table);
+  const std::vector<PlannedCourse> courses = planCourses(options, table);
   ContactSheet sheet = makeSheet(options, table, courses);
   checkSize(sheet, options);
   checkWritable(options.out);
@@ -392,10 +385,10 @@ int sweepCommand(const SweepOptions& options) {
   const gl::HeadlessContext context;
   const std::vector<Camera> cameras = placeCameras(options, table, courses);
   std::int64_t framesDone = 0, framesInAll = 0;
-  for (const Course& course : courses) framesInAll += course.lastFrame();
+  for (const PlannedCourse& course : courses) framesInAll += course.lastFrame();
   Progress progress("sweeping", framesInAll);
   std::vector<Cell> cells(table.cells());
-  for (const Course& course : courses) {
+  for (const PlannedCourse& course : courses) {
     Exhibit(options, course, cameras).run(cells, [&](int frame) { progress.update(framesDone + frame); });
     framesDone += course.lastFrame();
   }

@@ -109,7 +109,7 @@ int Viewer::simulate(double elapsed) {
   if (compare_.isRunning()) return 0;
   const int frames = paused_ ? std::exchange(stepAsked_, false) : pace_.framesDue(elapsed);
   if (frames == 0) return 0;
-  Clock clock;
+  LapClock clock;
   const int before = session().frame();
   stepping_ = true;
   std::optional<Trouble> trouble;

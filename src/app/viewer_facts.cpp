@@ -1,4 +1,5 @@
 #include "app/viewer_facts.h"
+#include "app/formatted.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -7,12 +8,6 @@
 
 namespace clothsim {
 namespace {
-
-std::string formatted(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
 
 // 9216 -> "9,216"
 std::string withCommas(std::uint64_t number) {

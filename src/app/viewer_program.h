@@ -32,7 +32,7 @@ namespace clothsim {
 // Antialiasing as fine as the device draws at a fluent rate.
 [[nodiscard]] RenderOptions renderOptions(const ViewerOptions& options);
 
-class Clock {
+class LapClock {
  public:
   // Seconds since the last call.
   double lap() {
@@ -132,7 +132,7 @@ class Viewer {
   PictureTaker taker_;
   Pace pace_;
   SpeedMeter meter_;
-  Clock clock_;
+  LapClock clock_;
   FrameTimings timings_{options_.timings};
   Notice notice_;
   ViewerConfig config_, savedConfig_;

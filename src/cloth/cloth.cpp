@@ -21,8 +21,6 @@ constexpr std::uint32_t JITTER_SEED = 184;
 
 double spacing(double length, int points) { return points > 1 ? length / (points - 1) : 0; }
 
-double length(Vec3d a) { return std::sqrt(dot(a, a)); }
-
 bool kindEnabled(const ClothSettings& settings, SpringKind kind) {
   switch (kind) {
     case SpringKind::structural:

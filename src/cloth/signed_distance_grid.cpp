@@ -12,8 +12,6 @@
 namespace clothsim {
 
 namespace {
-
-double length(Vec3d v) { return std::sqrt(dot(v, v)); }
 Vec3d normalized(Vec3d v) {
   const double l = length(v);
   return l > 0 ? (1 / l) * v : Vec3d{};

@@ -3,6 +3,8 @@
 // section 3).
 #pragma once
 
+#include <cmath>
+
 namespace clothsim {
 
 template <class Real>
@@ -40,5 +42,7 @@ template <class Real>
 constexpr Vec3<Real> cross(Vec3<Real> a, Vec3<Real> b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
+// Of measures and shapes; passes of the simulation have inverseSquareRoot (core/exact_math.h).
+inline double length(Vec3d v) { return std::sqrt(dot(v, v)); }
 
 }  // namespace clothsim

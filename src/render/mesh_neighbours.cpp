@@ -12,8 +12,6 @@ namespace {
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-double length(Vec3d v) { return std::sqrt(dot(v, v)); }
-
 // The two corners of a triangle that come after `corner`.
 std::array<std::uint32_t, 2> othersOf(const std::array<std::uint32_t, 3>& t, std::uint32_t corner) {
   if (t[0] == corner) return {t[1], t[2]};

@@ -22,8 +22,6 @@ using Edge = MeshShape::Edge;
 
 constexpr double FLATTEST = 1e-4;  // height of a triangle, of its longest side
 
-double length(Vec3d v) { return std::sqrt(dot(v, v)); }
-
 // How a face is called in messages: by its vertices as the file counts them.
 std::string faceText(const Triangle& t) {
   return std::to_string(t[0] + 1) + ", " + std::to_string(t[1] + 1) + ", " + std::to_string(t[2] + 1);

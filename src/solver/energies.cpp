@@ -6,8 +6,6 @@
 namespace clothsim {
 namespace {
 
-double length(Vec3d v) { return std::sqrt(dot(v, v)); }
-
 Vec3d vectorOf(const Particle4& p) { return Vec3f{p.x, p.y, p.z}.cast<double>(); }
 
 const Grid& gridOf(const Cloth& cloth, std::uint32_t particle) {

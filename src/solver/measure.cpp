@@ -14,8 +14,6 @@ Vec3d positionOf(const State& state, std::size_t i) {
   return Vec3f{x.x, x.y, x.z}.cast<double>();
 }
 
-double length(Vec3d v) { return std::sqrt(dot(v, v)); }
-
 bool finite(const Particle4& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 // Of one grid; none without springs.

@@ -17,10 +17,11 @@ using test::ViewerProgram;
 using Json = nlohmann::json;
 
 // The cloth hangs in the middle of the window, in every test at the same place.
-const char* const scene = "-f pinned2 --resolution 20x20 --set solver.simulation_steps=10 --backend cpu";
+const char* const heldScene = "-f pinned2 --resolution 20x20 --set solver.simulation_steps=10 --backend cpu";
 constexpr int stepsInAFrame = 10;
 // One that hangs at rest from the start, wherever the hands come.
-const std::string hanging = std::string(scene) + " --set cloth.orientation=1 --set 'cloth.pinned=[\"top\"]'";
+const std::string hanging =
+    std::string(heldScene) + " --set cloth.orientation=1 --set 'cloth.pinned=[\"top\"]'";
 
 class HandsUi : public testing::Test {
  protected:
@@ -133,7 +134,7 @@ TEST_F(HandsUi, PinsCutsAndBlowsAreRepeatedByAReplayWithTheSameBitsOnBothBackend
 }
 
 TEST_F(HandsUi, ShiftClickOnAPinLetsItGo) {
-  const ViewerProgram viewer(scene);
+  const ViewerProgram viewer(heldScene);
   // The upper right corner: a pin does not move.
   viewer.perform("keydown shift at 0.805 0.178 sleep 0.3 click 1 sleep 0.2 keyup shift");
   const Json recording =
@@ -145,7 +146,7 @@ TEST_F(HandsUi, ShiftClickOnAPinLetsItGo) {
 }
 
 TEST_F(HandsUi, BackendsToggledInMidSwingChangeNoBit) {
-  const ViewerProgram viewer(scene);
+  const ViewerProgram viewer(heldScene);
   viewer.press("b");
   EXPECT_TRUE(viewer.titleBecomesOneWith("- gpu -"));
   viewer.press("b");
@@ -157,7 +158,7 @@ TEST_F(HandsUi, BackendsToggledInMidSwingChangeNoBit) {
   const std::string frames = std::to_string(recording.at("frames").get<int>());
   EXPECT_NE(viewer.title().find("paused at frame " + frames), std::string::npos) << viewer.title();
   const Json toggled = replay(viewer, ""),
-             plain = jsonOf(viewer, "run " + std::string(scene) + " --json --frames " + frames);
+             plain = jsonOf(viewer, "run " + std::string(heldScene) + " --json --frames " + frames);
   EXPECT_EQ(toggled.at("state_hash"), plain.at("state_hash"));
 }
 

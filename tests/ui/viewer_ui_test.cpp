@@ -11,7 +11,7 @@ using test::seconds;
 using test::ViewerProgram;
 
 // A small cloth in a small window: llvmpipe draws it on a busy machine, too.
-const char* const scene = "-f pinned2 --resolution 24x24";
+const char* const shownScene = "-f pinned2 --resolution 24x24";
 
 bool isClothRed(Picture::Pixel p) { return p.r > 60 && p.r > 2 * p.g && p.r > 2 * p.b; }
 bool isDark(Picture::Pixel p) { return p.r < 60 && p.g < 60 && p.b < 60; }
@@ -22,7 +22,7 @@ class ViewerUi : public testing::Test {
 };
 
 TEST_F(ViewerUi, ShowsTheClothInItsColourAndThePanelOfFacts) {
-  const ViewerProgram viewer(scene);
+  const ViewerProgram viewer(shownScene);
   // At the start it is seen edge-on.
   EXPECT_TRUE(
       test::eventually(seconds(20), [&] { return viewer.picture().share(0, 0, 1, 1, isClothRed) > 0.03; }));
@@ -31,7 +31,7 @@ TEST_F(ViewerUi, ShowsTheClothInItsColourAndThePanelOfFacts) {
 }
 
 TEST_F(ViewerUi, NamesSceneAndBackendInTheTitleAndBChangesTheBackend) {
-  const ViewerProgram viewer(scene);
+  const ViewerProgram viewer(shownScene);
   EXPECT_NE(viewer.title().find("pinned2 - gpu - "), std::string::npos) << viewer.title();
   viewer.press("b");
   EXPECT_TRUE(viewer.titleBecomesOneWith("- cpu -")) << viewer.title();
@@ -40,7 +40,7 @@ TEST_F(ViewerUi, NamesSceneAndBackendInTheTitleAndBChangesTheBackend) {
 }
 
 TEST_F(ViewerUi, ChangesTheBackendWithoutMovingTheCloth) {
-  const ViewerProgram viewer(scene);
+  const ViewerProgram viewer(shownScene);
   viewer.press("F2");
   viewer.press("p");
   ASSERT_TRUE(viewer.titleBecomesOneWith("paused")) << viewer.title();
@@ -52,7 +52,7 @@ TEST_F(ViewerUi, ChangesTheBackendWithoutMovingTheCloth) {
 }
 
 TEST_F(ViewerUi, PStopsThePictureAndNMovesItOnByAFrame) {
-  const ViewerProgram viewer(scene);
+  const ViewerProgram viewer(shownScene);
   viewer.press("p");
   ASSERT_TRUE(viewer.titleBecomesOneWith("paused")) << viewer.title();
   const Picture before = viewer.stillPicture();
@@ -66,7 +66,7 @@ TEST_F(ViewerUi, PStopsThePictureAndNMovesItOnByAFrame) {
 }
 
 TEST_F(ViewerUi, RRestartsFromTheSameBeginning) {
-  const ViewerProgram viewer(scene);
+  const ViewerProgram viewer(shownScene);
   viewer.press("p");
   ASSERT_TRUE(viewer.titleBecomesOneWith("paused"));
   const Picture underWay = viewer.stillPicture();
@@ -81,7 +81,7 @@ TEST_F(ViewerUi, RRestartsFromTheSameBeginning) {
 }
 
 TEST_F(ViewerUi, MouseMovesTheCameraAndSpaceBringsItBack) {
-  const ViewerProgram viewer(scene);
+  const ViewerProgram viewer(shownScene);
   viewer.press("p");
   ASSERT_TRUE(viewer.titleBecomesOneWith("paused"));
   const Picture home = viewer.stillPicture();
@@ -100,7 +100,7 @@ TEST_F(ViewerUi, MouseMovesTheCameraAndSpaceBringsItBack) {
 }
 
 TEST_F(ViewerUi, F1ShowsTheListOfKeysAndF2HidesThePanel) {
-  const ViewerProgram viewer(scene);
+  const ViewerProgram viewer(shownScene);
   viewer.press("p");
   ASSERT_TRUE(viewer.titleBecomesOneWith("paused"));
   const auto darkCentre = [&] { return viewer.picture().share(0.3, 0.3, 0.7, 0.7, isDark); };
@@ -119,7 +119,7 @@ TEST_F(ViewerUi, F1ShowsTheListOfKeysAndF2HidesThePanel) {
 }
 
 TEST_F(ViewerUi, IChangesTheIntegratorThatThePanelNames) {
-  const ViewerProgram viewer(scene);
+  const ViewerProgram viewer(shownScene);
   viewer.press("p");
   ASSERT_TRUE(viewer.titleBecomesOneWith("paused"));
   const Picture verlet = viewer.stillPicture();
@@ -135,7 +135,7 @@ TEST_F(ViewerUi, IChangesTheIntegratorThatThePanelNames) {
 }
 
 TEST_F(ViewerUi, EscEndsItAtOnceWithExitCodeZeroAndNoFilesLeftBehind) {
-  ViewerProgram viewer(scene);
+  ViewerProgram viewer(shownScene);
   viewer.press("Escape");
   EXPECT_EQ(viewer.exitCodeWithin(seconds(5)), 0) << viewer.output();
   EXPECT_TRUE(viewer.leftNoFiles()) << "imgui.ini, perhaps";
@@ -164,7 +164,7 @@ TEST(ViewerWithoutAScreen, NamesTheCommandsThatNeedNoneAndEndsWithExitCodeFour) 
 
 TEST_F(ViewerUi, PausesWithAMessageWhenTheWatchdogFindsTroubleAndRTriesAgain) {
   // The free edge falls at 2 m/s^2: it is too fast after three quarters of a second.
-  const ViewerProgram viewer(std::string(scene) +
+  const ViewerProgram viewer(std::string(shownScene) +
                              " --set gravity=[0,-2,0] --set cloth.damping=0 --set solver.max_speed=1.5");
   ASSERT_TRUE(viewer.titleBecomesOneWith("paused")) << viewer.title();
   const auto isAlert = [](Picture::Pixel p) { return p.r > 180 && p.g > 130 && p.g < 210 && p.b < 120; };

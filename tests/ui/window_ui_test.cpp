@@ -20,7 +20,7 @@ using test::Picture;
 using test::seconds;
 using test::ViewerProgram;
 
-const char* const scene = "-f pinned2 --resolution 20x20 --backend cpu";
+const char* const windowScene = "-f pinned2 --resolution 20x20 --backend cpu";
 
 bool isAlert(Picture::Pixel p) { return p.r > 180 && p.g > 130 && p.g < 210 && p.b < 120; }
 
@@ -62,7 +62,7 @@ TEST_F(WindowUi, ClosesAtOnceWithinAFrameThatWouldTakeMinutes) {
 }
 
 TEST_F(WindowUi, TakesEveryKeyOfItsListAndGoesOn) {
-  ViewerProgram viewer(scene);
+  ViewerProgram viewer(windowScene);
   for (const ViewerKey& key : viewerKeys) {
     if (key.action == ViewerAction::none || key.action == ViewerAction::quit) continue;
     viewer.press(xdotoolName(key.input));
@@ -78,7 +78,7 @@ TEST_F(WindowUi, TakesEveryKeyOfItsListAndGoesOn) {
 }
 
 TEST_F(WindowUi, WritesScreenshotsAndClipsUnderNamesThatNothingHas) {
-  const ViewerProgram viewer(scene);
+  const ViewerProgram viewer(windowScene);
   viewer.press("ctrl+r");
   viewer.press("p");
   ASSERT_TRUE(viewer.titleBecomesOneWith("paused at frame "));
@@ -99,14 +99,14 @@ TEST_F(WindowUi, WritesScreenshotsAndClipsUnderNamesThatNothingHas) {
 }
 
 TEST_F(WindowUi, SavesASceneThatLoadsAgain) {
-  const ViewerProgram viewer(std::string(scene) + " --set cloth.damping=0.7");
+  const ViewerProgram viewer(std::string(windowScene) + " --set cloth.damping=0.7");
   viewer.press("ctrl+s");
   ASSERT_TRUE(viewer.eventuallyHas("pinned2.json"));
   EXPECT_EQ(loadScene(viewer.here() / "pinned2.json").cloths[0].damping, 0.7);
 }
 
 TEST_F(WindowUi, LooksBackOverKeptFramesAndGoesOnFromThere) {
-  const ViewerProgram viewer(scene);
+  const ViewerProgram viewer(windowScene);
   viewer.press("p");
   ASSERT_TRUE(viewer.titleBecomesOneWith("paused at frame "));
   viewer.press("r");
@@ -137,7 +137,7 @@ TEST_F(WindowUi, LooksBackOverKeptFramesAndGoesOnFromThere) {
 }
 
 TEST_F(WindowUi, UndoesAndRedoesAChangeOfAParameter) {
-  const ViewerProgram viewer(scene);
+  const ViewerProgram viewer(windowScene);
   viewer.press("p");
   ASSERT_TRUE(viewer.titleBecomesOneWith("paused at frame "));
   const auto settled = [&] {
@@ -158,7 +158,7 @@ TEST_F(WindowUi, ShowsWhatIsWrongWithAShaderAndGoesOnWithTheOldOne) {
   const test::TemporaryFolder root;
   for (const char* part : {"shaders", "assets"})
     fs::copy(fs::path(SOURCE_ROOT) / part, root / part, fs::copy_options::recursive);
-  const ViewerProgram viewer(scene, "CLOTHSIM_ROOT='" + root.path().string() + "'");
+  const ViewerProgram viewer(windowScene, "CLOTHSIM_ROOT='" + root.path().string() + "'");
   viewer.press("p");
   ASSERT_TRUE(viewer.titleBecomesOneWith("paused"));
   const fs::path shader = root / "shaders" / "render" / "tone.glsl";
@@ -188,11 +188,11 @@ class PanelsUi : public testing::Test {
 };
 
 TEST_F(PanelsUi, SaveTheClothAsItIsByTheNamesEnding) {
-  const ViewerProgram viewer(scene);
+  const ViewerProgram viewer(windowScene);
   click(viewer, 0);
   ASSERT_TRUE(settingsSay(viewer, "\"simulation\": false")) << viewer.settings();
   click(viewer, 4);
-  ASSERT_TRUE(settingsSay(viewer, "\"scene\": true")) << viewer.settings();
+  ASSERT_TRUE(settingsSay(viewer, "\"windowScene\": true")) << viewer.settings();
   // The line under "Reset to what was loaded", and its button. On a busy machine part of what is typed may be
   // lost.
   const std::string press = " sleep 0.3 mousedown 1 sleep 0.3 mouseup 1 sleep 0.3";
@@ -208,7 +208,7 @@ TEST_F(PanelsUi, SaveTheClothAsItIsByTheNamesEnding) {
 }
 
 TEST_F(PanelsUi, OpenAndFoldAtAClickAndAreRememberedInTheUsersFolderOfConfiguration) {
-  ViewerProgram viewer(scene);
+  ViewerProgram viewer(windowScene);
   click(viewer, 0);
   ASSERT_TRUE(settingsSay(viewer, "\"simulation\": false")) << viewer.settings();
   for (std::size_t panel = 0; panel < panelNames.size(); ++panel) {

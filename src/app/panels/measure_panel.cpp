@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <fstream>
 
+#include "app/formatted.h"
 #include "app/panels/plot.h"
 #include "app/ui_frame.h"
 #include "core/error.h"
@@ -24,13 +25,6 @@ constexpr int timedSteps = 60;
 
 double secondsNow() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-template <class... Values>
-std::string formatted(const char* format, Values... values) {
-  char text[96];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
 }
 
 void row(const char* label, const std::string& value, const char* help) {

@@ -22,15 +22,15 @@ namespace {
 namespace fs = std::filesystem;
 
 // Sets a variable of the environment for as long as it lives.
-class Environment {
+class ChangedEnvironment {
  public:
-  Environment(const char* name, const char* value) : name_(name) {
+  ChangedEnvironment(const char* name, const char* value) : name_(name) {
     if (const char* old = std::getenv(name)) old_ = old;
     value == nullptr ? ::unsetenv(name) : ::setenv(name, value, 1);
   }
-  ~Environment() { old_ ? ::setenv(name_, old_->c_str(), 1) : ::unsetenv(name_); }
-  Environment(const Environment&) = delete;
-  Environment& operator=(const Environment&) = delete;
+  ~ChangedEnvironment() { old_ ? ::setenv(name_, old_->c_str(), 1) : ::unsetenv(name_); }
+  ChangedEnvironment(const ChangedEnvironment&) = delete;
+  ChangedEnvironment& operator=(const ChangedEnvironment&) = delete;
 
  private:
   const char* name_;
@@ -106,16 +106,16 @@ TEST(ViewerConfigFile, ThatIsNoneIsPassedOverWithANoticeThatNamesIt) {
 }
 
 TEST(ViewerConfigFile, LiesInTheUsersFolderOfConfiguration) {
-  const Environment home("HOME", "/home/somebody");
+  const ChangedEnvironment home("HOME", "/home/somebody");
   {
-    const Environment xdg("XDG_CONFIG_HOME", "/elsewhere");
+    const ChangedEnvironment xdg("XDG_CONFIG_HOME", "/elsewhere");
     EXPECT_EQ(viewerConfigPath(), "/elsewhere/clothsim/viewer.json");
   }
   {
-    const Environment relative("XDG_CONFIG_HOME", "not/absolute");
+    const ChangedEnvironment relative("XDG_CONFIG_HOME", "not/absolute");
     EXPECT_EQ(viewerConfigPath(), "/home/somebody/.config/clothsim/viewer.json");
   }
-  const Environment none("XDG_CONFIG_HOME", nullptr), homeless("HOME", nullptr);
+  const ChangedEnvironment none("XDG_CONFIG_HOME", nullptr), homeless("HOME", nullptr);
   EXPECT_EQ(viewerConfigPath(), "");
   EXPECT_NE(saveViewerConfig({}, viewerConfigPath()), "");
 }
@@ -176,7 +176,7 @@ TEST(FieldText, EverySliderHasARangeThatHoldsItsDefaultAndLiesWithinTheLimits) {
 
 TEST(ClipRecorder, WithoutFfmpegWritesNumberedPicturesThatPlayInRealTime) {
   const test::TemporaryFolder folder;
-  const Environment noPrograms("PATH", folder.path().c_str());
+  const ChangedEnvironment noPrograms("PATH", folder.path().c_str());
   const Image picture{17, 9, std::vector<std::uint8_t>(3 * 17 * 9, 100)};
   ClipRecorder clip(folder.path(), "demo-cpu", 17, 9);
   EXPECT_EQ(clip.width(), 16) << "films want even sizes";

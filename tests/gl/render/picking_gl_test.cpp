@@ -9,7 +9,7 @@
 namespace clothsim {
 namespace {
 
-constexpr int width = 320, height = 200;
+constexpr int PICKED_WIDTH = 320, PICKED_HEIGHT = 200;
 
 class PickingTest : public GlTest {
  protected:
@@ -26,13 +26,13 @@ class PickingTest : public GlTest {
           renderer(drape.cloth, scene, {}) {}
 
     Pick pickAt(double x, double y) {
-      return renderer.pick(positions.name(), camera, 0, width, height, x, y);
+      return renderer.pick(positions.name(), camera, 0, PICKED_WIDTH, PICKED_HEIGHT, x, y);
     }
     // In pixels from the top left.
     glm::vec2 onScreen(glm::vec3 point) const {
       const glm::vec4 clip =
-          camera.projection(static_cast<double>(width) / height) * camera.view() * glm::vec4(point, 1);
-      return {(0.5f + 0.5f * clip.x / clip.w) * width, (0.5f - 0.5f * clip.y / clip.w) * height};
+          camera.projection(static_cast<double>(PICKED_WIDTH) / PICKED_HEIGHT) * camera.view() * glm::vec4(point, 1);
+      return {(0.5f + 0.5f * clip.x / clip.w) * PICKED_WIDTH, (0.5f - 0.5f * clip.y / clip.w) * PICKED_HEIGHT};
     }
     glm::vec3 place(std::uint32_t particle) const {
       const Particle4& p = drape.positions[particle];
@@ -94,7 +94,7 @@ TEST_F(PickingTest, TellsTheColliderBehindACutInTheCloth) {
 
   const glm::vec2 box = stand.onScreen({1.3, 0.2, 0.5});
   EXPECT_EQ(stand.pickAt(static_cast<double>(box.x), static_cast<double>(box.y)).collider, 2u);
-  const Pick floor = stand.pickAt(20, height - 10);
+  const Pick floor = stand.pickAt(20, PICKED_HEIGHT - 10);
   EXPECT_EQ(floor.kind, Pick::Kind::collider);
   EXPECT_EQ(floor.collider, 0u);
   EXPECT_NEAR(floor.point.y, -1, 1e-3);
@@ -102,7 +102,7 @@ TEST_F(PickingTest, TellsTheColliderBehindACutInTheCloth) {
 
 TEST_F(PickingTest, TheFloorOfASceneWithoutPlanesAndTheBackdropAreNothing) {
   Stand stand(test::drapeScene());
-  EXPECT_EQ(stand.pickAt(20, height - 10).kind, Pick::Kind::nothing);
+  EXPECT_EQ(stand.pickAt(20, PICKED_HEIGHT - 10).kind, Pick::Kind::nothing);
   EXPECT_EQ(stand.pickAt(20, 5).kind, Pick::Kind::nothing);
 }
 

@@ -7,8 +7,6 @@
 namespace clothsim {
 namespace {
 
-constexpr int width = 160, height = 120;
-
 Scene drapeWith(const std::string& model) {
   Scene scene = test::drapeScene();
   scene.camera.position = Vec3d{1.05, 0.85, 1.55};
@@ -25,14 +23,14 @@ Scene drapeWith(const std::string& model) {
 class ShadingModelPicture : public GlTest, public ::testing::WithParamInterface<std::string> {};
 
 TEST_P(ShadingModelPicture, IsTheStoredOne) {
-  const Image image = test::drawDrape(drapeWith(GetParam()), {}, width, height);
+  const Image image = test::drawDrape(drapeWith(GetParam()), {}, 160, 120);
   EXPECT_LT(test::differenceFromReference("model_" + GetParam(), image), test::TOLERANCE);
 }
 
 TEST_P(ShadingModelPicture, WithoutShadowsIsAnother) {
   RenderOptions without;
   without.shadows = false;
-  const Image image = test::drawDrape(drapeWith(GetParam()), without, width, height);
+  const Image image = test::drawDrape(drapeWith(GetParam()), without, 160, 120);
   EXPECT_GT(test::meanDifference(image, test::loadReference("model_" + GetParam())), 2 * test::TOLERANCE);
 }
 

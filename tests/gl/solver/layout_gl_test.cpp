@@ -24,7 +24,7 @@ using Step = StepParams<float>;
 using SpringRow = SpringParams<float>;
 using ColliderRow = ColliderParams<float>;
 
-PassFeatures everything() {
+PassFeatures allFeatures() {
   return {.wind = true,
           .airResistance = true,
           .movingColliders = true,
@@ -62,7 +62,7 @@ GLint blockSize(const gl::Program& program, const char* block) {
 
 TEST_F(LayoutTest, OfStepParamsIsTheDrivers) {
   PassLibrary library;
-  const PassPrograms programs = library.programsFor(everything());
+  const PassPrograms programs = library.programsFor(allFeatures());
   const std::vector<std::pair<std::string, std::size_t>> members = {
       MEMBER(Step, "StepBlock.step.", firstParticle),
       MEMBER(Step, "StepBlock.step.", columns),
@@ -101,7 +101,7 @@ TEST_F(LayoutTest, OfStepParamsIsTheDrivers) {
 }
 
 TEST_F(LayoutTest, OfWhatMeshesAddToStepParamsIsTheDrivers) {
-  PassFeatures features = everything();
+  PassFeatures features = allFeatures();
   features.mesh = true;
   PassLibrary library;
   EXPECT_EQ(uniformOffset(*library.programsFor(features).step, "step.maxStretch"),
@@ -114,7 +114,7 @@ TEST_F(LayoutTest, OfWhatMeshesAddToStepParamsIsTheDrivers) {
 
 TEST_F(LayoutTest, OfHandParamsIsTheDrivers) {
   using HandBlock = HandParams<float>;
-  PassFeatures features = everything();
+  PassFeatures features = allFeatures();
   features.hold = features.jet = features.cuts = true;
   PassLibrary library;
   const PassPrograms programs = library.programsFor(features);
@@ -135,7 +135,7 @@ TEST_F(LayoutTest, OfHandParamsIsTheDrivers) {
 TEST_F(LayoutTest, OfWhatTheImplicitIntegratorSharesIsTheDrivers) {
   using Level = LevelParams<float>;
   PassLibrary library;
-  PassFeatures features = everything();
+  PassFeatures features = allFeatures();
   features.limitSprings = features.hold = true;
   const gl::Program& begin = *library.find("implicit/begin", features);
   EXPECT_EQ(uniformOffset(begin, "step.inertia"), static_cast<GLint>(offsetof(Step, inertia)));
@@ -167,19 +167,19 @@ TEST_F(LayoutTest, OfWhatTheImplicitIntegratorSharesIsTheDrivers) {
 // Who toggles back and forth compiles nothing, nor for a pass that does not look at what was toggled.
 TEST_F(LayoutTest, OfProgramsIsSharedByScenesThatNeedTheSame) {
   PassLibrary library;
-  const PassPrograms before = library.programsFor(everything());
-  PassFeatures features = everything();
+  const PassPrograms before = library.programsFor(allFeatures());
+  PassFeatures features = allFeatures();
   features.hold = true;
   const PassPrograms held = library.programsFor(features);
   EXPECT_NE(held.step, before.step);
   EXPECT_EQ(held.limit, before.limit);
   EXPECT_EQ(held.kick, before.kick);
-  EXPECT_EQ(library.programsFor(everything()).step, before.step);
+  EXPECT_EQ(library.programsFor(allFeatures()).step, before.step);
 }
 
 TEST_F(LayoutTest, OfSpringsInStepParamsIsTheDrivers) {
   PassLibrary library;
-  const PassPrograms programs = library.programsFor(everything());
+  const PassPrograms programs = library.programsFor(allFeatures());
   for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot) {
     const std::string spring = "step.springs[" + std::to_string(slot) + "].";
     const std::size_t base = offsetof(Step, springs) + slot * sizeof(SpringRow);
@@ -194,7 +194,7 @@ TEST_F(LayoutTest, OfSpringsInStepParamsIsTheDrivers) {
 
 TEST_F(LayoutTest, OfLimitColorIsTheDrivers) {
   PassLibrary library;
-  const PassPrograms programs = library.programsFor(everything());
+  const PassPrograms programs = library.programsFor(allFeatures());
   const std::vector<std::pair<std::string, std::size_t>> members = {
       MEMBER(LimitColor, "color.", slot),       MEMBER(LimitColor, "color.", firstColumn),
       MEMBER(LimitColor, "color.", columnStep), MEMBER(LimitColor, "color.", columnRun),
@@ -208,7 +208,7 @@ TEST_F(LayoutTest, OfLimitColorIsTheDrivers) {
 
 TEST_F(LayoutTest, OfTheWatchdogsRowIsTheDrivers) {
   PassLibrary library;
-  const PassPrograms programs = library.programsFor(everything());
+  const PassPrograms programs = library.programsFor(allFeatures());
   for (const gl::Program* program : {programs.start, programs.step, programs.watchLimit, programs.kick}) {
     const GLuint index = glGetProgramResourceIndex(program->name(), GL_BUFFER_VARIABLE, "watchRow[0]");
     ASSERT_NE(index, GL_INVALID_INDEX);

@@ -6,11 +6,12 @@
 
 #include "core/error.h"
 #include "scene/scene_io.h"
+#include "support/scene_text.h"
 
 namespace clothsim {
 namespace {
 
-Scene sceneOf(const std::string& text) { return parseScene(text, "test"); }
+using test::sceneOf;
 
 TEST(MaterialPreset, IsReadByNameAndWrittenInFull) {
   for (const std::string& name : materialPresetNames()) {

@@ -7,12 +7,12 @@
 namespace clothsim {
 namespace {
 
-constexpr double tolerance = 1e-14;
+constexpr double poseTolerance = 1e-14;
 
 void expectNear(Vec3d a, Vec3d b) {
-  EXPECT_NEAR(a.x, b.x, tolerance);
-  EXPECT_NEAR(a.y, b.y, tolerance);
-  EXPECT_NEAR(a.z, b.z, tolerance);
+  EXPECT_NEAR(a.x, b.x, poseTolerance);
+  EXPECT_NEAR(a.y, b.y, poseTolerance);
+  EXPECT_NEAR(a.z, b.z, poseTolerance);
 }
 
 Sphere moving(bool loop) {

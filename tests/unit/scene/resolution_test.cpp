@@ -3,12 +3,13 @@
 
 #include "core/error.h"
 #include "scene/scene_io.h"
+#include "support/scene_text.h"
 #include "support/throws.h"
 
 namespace clothsim {
 namespace {
 
-Scene sceneOf(const std::string& text) { return parseScene(text, "test"); }
+using test::sceneOf;
 
 TEST(ChangeResolution, KeepsCornersCorners) {
   Scene scene = loadSceneByName("pinned4");

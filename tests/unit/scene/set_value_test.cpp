@@ -4,11 +4,13 @@
 #include "core/error.h"
 #include "scene/fields.h"
 #include "scene/scene_io.h"
+#include "support/scene_text.h"
 
 namespace clothsim {
 namespace {
 
-Scene sceneOf(const std::string& text) { return parseScene(text, "test"); }
+using test::sceneOf;
+
 Scene plain() { return sceneOf(R"({"cloth": {"ks": 5000}})"); }
 Scene withColliders() {
   return sceneOf(

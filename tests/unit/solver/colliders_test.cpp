@@ -18,8 +18,6 @@ using test::afterSteps;
 using test::particleScene;
 using test::sheetScene;
 
-double length(Vec3d v) { return std::sqrt(dot(v, v)); }
-
 // --- Distances
 
 // Every shape is what lies within a radius of its skeleton. Sampled densely, a skeleton gives the distance by
@@ -101,11 +99,16 @@ TEST(Shapes, HaveTheDistancesOfDenselySampledSkeletons) {
 TEST(Shapes, AreInsideWhereTheyShouldBe) {
   const Scene scene = particleScene(Box{}, 0.01);
   const auto inside = [&](const Collider& collider, auto distance, Vec3d p) {
-    return distance(makeColliderParams<double>(scene, collider, 0), p, nullptr).distance < 0;
+    return distance(makeColliderParams<double>(scene, collider, 0), p) < 0;
   };
-  const auto box = cpu::nearestOnShape<COLLIDER_BOX, double>;
-  const auto torus = cpu::nearestOnShape<COLLIDER_TORUS, double>;
-  const auto capsule = cpu::nearestOnShape<COLLIDER_CAPSULE, double>;
+  using Params = ColliderParams<double>;
+  const auto box = [](const Params& c, Vec3d p) { return cpu::nearestOnShape<COLLIDER_BOX>(c, p).distance; };
+  const auto torus = [](const Params& c, Vec3d p) {
+    return cpu::nearestOnShape<COLLIDER_TORUS>(c, p).distance;
+  };
+  const auto capsule = [](const Params& c, Vec3d p) {
+    return cpu::nearestOnShape<COLLIDER_CAPSULE>(c, p).distance;
+  };
   EXPECT_TRUE(inside(Box{.size = {2, 1, 1}}, box, {0.99, 0, 0}));
   EXPECT_FALSE(inside(Box{.size = {2, 1, 1}}, box, {0, 0.51, 0}));
   EXPECT_FALSE(inside(Box{.size = {1, 1, 1}, .rounding = 0.2}, box, {0.49, 0.49, 0.49})) << "rounded off";

@@ -17,8 +17,6 @@
 namespace clothsim {
 namespace {
 
-double length(Vec3d v) { return std::sqrt(dot(v, v)); }
-
 // A horizontal sheet of 1 m x 1 m in steps of 1/60 s.
 Scene implicitSheet(int n, const Material& material) {
   Scene scene = test::materialSheet(n, n, 1, 1, material);

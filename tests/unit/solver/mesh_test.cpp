@@ -14,8 +14,6 @@
 namespace clothsim {
 namespace {
 
-double length(Vec3d v) { return std::sqrt(dot(v, v)); }
-
 Scene materialScene(const test::MeshSheet& sheet, const Material& material) {
   Scene scene = test::meshScene(sheet);
   scene.cloths[0].ks.reset();

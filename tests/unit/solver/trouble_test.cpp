@@ -13,13 +13,13 @@
 namespace clothsim {
 namespace {
 
-Scene busyScene(int n) {
+Scene twoBusyCloths(int n) {
   return test::twoCloths(
       test::withWind(test::withColliders(test::withLimiter(test::vertical(test::sheetScene(n))))));
 }
 
 TEST(Watchdog, FindsNonFiniteNumbersInjectedAnywhereInTheNextStepAndNamesTheParticle) {
-  const Scene scene = busyScene(12);
+  const Scene scene = twoBusyCloths(12);
   const Cloth cloth(scene);
   CpuSolver<float> solver(cloth, scene);
   for (const test::Injection& injection : test::makeInjections(cloth, 200)) {
@@ -148,7 +148,7 @@ TEST(FirstTrouble, IsTheEarliestPassWhateverWasNotedAfterIt) {
 }
 
 TEST(TroubleText, NamesStepFramePassParticleAndItsPlaceOnTheCloth) {
-  const Scene scene = busyScene(12);
+  const Scene scene = twoBusyCloths(12);
   const Cloth cloth(scene);
   const std::uint32_t particle = cloth.grids()[1].particle(4, 2);
   const std::string text =

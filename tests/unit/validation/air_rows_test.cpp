@@ -65,7 +65,7 @@ TEST(RowWindOnAPlate, PressesAlongItsNormalWhateverTheTriangulation) {
   expectPressure<float>();
 }
 
-constexpr double GRAVITY = 9.81, DENSITY = 0.2;
+constexpr double DENSITY = 0.2;
 
 // A sheet that falls flat, and stiff enough in bending to stay so: a triangle's corners carry equal parts of
 // the air's force, but the sheet's corners have other masses.

@@ -32,7 +32,7 @@ Scene ropeScene(double length, double mass, double stretchStiffness, double time
   return scene;
 }
 
-constexpr double CHAIN_LENGTH = 1.5, CHAIN_MASS = 0.2, CHAIN_EA = 1000, GRAVITY = 9.81;
+constexpr double CHAIN_LENGTH = 1.5, CHAIN_MASS = 0.2, CHAIN_EA = 1000;
 
 struct Span {
   double across, sag;

@@ -19,8 +19,6 @@ namespace {
 
 using test::sheetScene;
 
-double length(Vec3d v) { return std::sqrt(dot(v, v)); }
-
 // A small cloth that lies on top of a sphere: the impulse of the contacts in a step is the difference to the
 // same step without the sphere.
 template <class Real>

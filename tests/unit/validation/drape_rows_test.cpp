@@ -13,8 +13,6 @@
 namespace clothsim::validation {
 namespace {
 
-constexpr double GRAVITY = 9.81;
-
 // A material and the sizes of the test, from which the same shape follows for the same B / (rho g l^3), l the
 // overhang: as long as it is next to inextensible, and only then whatever its stretch.
 struct Drape {
@@ -30,13 +28,13 @@ struct Drape {
 Cuts circleOf(const Cloth& cloth, const std::vector<double>& radii, double radius) {
   Cuts cuts(cloth.particleCount());
   const Grid& grid = cloth.grids()[0];
-  for (int row = 0; row < grid.rows; ++row)
+  for (int drapeRow = 0; drapeRow < grid.rows; ++drapeRow)
     for (int column = 0; column < grid.columns; ++column)
       for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot) {
         const int otherColumn = column + springOffsets[slot].columns,
-                  otherRow = row + springOffsets[slot].rows;
+                  otherRow = drapeRow + springOffsets[slot].rows;
         if (!grid.contains(otherColumn, otherRow)) continue;
-        const std::uint32_t owner = grid.particle(column, row);
+        const std::uint32_t owner = grid.particle(column, drapeRow);
         if (radii[owner] > radius || radii[grid.particle(otherColumn, otherRow)] > radius)
           cuts[owner] = static_cast<std::uint8_t>(cuts[owner] | 1u << slot);
       }
@@ -109,11 +107,11 @@ Scene drapeScene(const Drape& drape, int points) {
   scene.cloths[0].position = {-drape.clothRadius, -1, -drape.clothRadius};
   const Cloth free(scene);
   const std::vector<double> radii = radiiOf(free);
-  for (int row = 0; row < points; ++row)
+  for (int drapeRow = 0; drapeRow < points; ++drapeRow)
     for (int column = 0; column < points; ++column) {
-      const double radius = radii[free.grids()[0].particle(column, row)];
+      const double radius = radii[free.grids()[0].particle(column, drapeRow)];
       if (radius <= drape.discRadius + 0.5 * spacing || radius > drape.clothRadius)
-        scene.cloths[0].pinned.emplace_back(GridPoint{column, row});
+        scene.cloths[0].pinned.emplace_back(GridPoint{column, drapeRow});
     }
   return scene;
 }
@@ -151,16 +149,16 @@ double drapeCoefficient(const Drape& drape, int points) {
   return 100 * (shadow.area() - disc) / (whole - disc);
 }
 
-const std::string row = "Cusick drape";
+const std::string drapeRow = "Cusick drape";
 
 TEST(RowCusickDrape, LongDependsOnBendingOverWeightAlone) {
   const Drape cloth;
   const double middle = drapeCoefficient<float>(cloth, 61), fine = drapeCoefficient<float>(cloth, 91);
-  expectNear({row, "drape coefficient at 91 x 91, expected that at 61 x 61", "binary32", "%"}, fine, middle,
-             2);
-  expectNear({row, "drape coefficient at 121 x 121, expected that at 91 x 91", "binary32", "%"},
+  expectNear({drapeRow, "drape coefficient at 91 x 91, expected that at 61 x 61", "binary32", "%"}, fine,
+             middle, 2);
+  expectNear({drapeRow, "drape coefficient at 121 x 121, expected that at 91 x 91", "binary32", "%"},
              drapeCoefficient<float>(cloth, 121), fine, 2);
-  expectNear({row, "drape coefficient at 61 x 61, expected that in binary32", "double", "%"},
+  expectNear({drapeRow, "drape coefficient at 61 x 61, expected that in binary32", "double", "%"},
              drapeCoefficient<double>(cloth, 61), middle, 2);
   // Twice as heavy, half as large again, the stretch six times as large: B / (rho g l^3) is the same.
   const Drape other{.density = 2 * cloth.density,
@@ -169,14 +167,14 @@ TEST(RowCusickDrape, LongDependsOnBendingOverWeightAlone) {
                     .discRadius = 1.5 * cloth.discRadius,
                     .clothRadius = 1.5 * cloth.clothRadius};
   expectNear(
-      {row, "drape coefficient of a larger, heavier cloth of the same B / (rho g l^3)", "binary32", "%"},
+      {drapeRow, "drape coefficient of a larger, heavier cloth of the same B / (rho g l^3)", "binary32", "%"},
       drapeCoefficient<float>(other, 61), middle, 2);
   Drape softer = cloth, stiffer = cloth;
   softer.bend = 0.5 * cloth.bend;
   stiffer.bend = 2 * cloth.bend;
-  expectAtMost({row, "drape coefficient with half the B, less that with B", "binary32", "%"},
+  expectAtMost({drapeRow, "drape coefficient with half the B, less that with B", "binary32", "%"},
                drapeCoefficient<float>(softer, 61) - middle, 0);
-  expectAtMost({row, "drape coefficient with B, less that with twice the B", "binary32", "%"},
+  expectAtMost({drapeRow, "drape coefficient with B, less that with twice the B", "binary32", "%"},
                middle - drapeCoefficient<float>(stiffer, 61), 0);
 }
 

@@ -94,7 +94,8 @@ class Sheet {
                                           forces_,
                                           nullptr,
                                           watch_};
-    for (int row = 0; row < cpu::rowsOf(cloth_.grids()[0]); ++row) cpu::multiply({pass, own_}, row);
+    for (int derivativesRow = 0; derivativesRow < cpu::rowsOf(cloth_.grids()[0]); ++derivativesRow)
+      cpu::multiply({pass, own_}, derivativesRow);
     Field result(x.size());
     for (std::size_t i = 0; i < x.size(); ++i)
       result[i] = {own_.products.x[i], own_.products.y[i], own_.products.z[i]};
@@ -168,7 +169,7 @@ std::pair<double, double> strains(const Cloth& cloth, const Field& x) {
   return {least, most};
 }
 
-const std::string row = "implicit gradient and Hessian";
+const std::string derivativesRow = "implicit gradient and Hessian";
 
 void expectGradient(const std::string& what, Sheet sheet, const Cuts& cuts) {
   const test::ElasticEnergy energy(sheet.scene(), sheet.cloth(), cuts);
@@ -185,7 +186,7 @@ void expectGradient(const std::string& what, Sheet sheet, const Cuts& cuts) {
       x[i].*axis = place;
       differences[i].*axis = -(after - before) / (2 * step);
     }
-  expectAtMost({row, "forces against differences of the energy, " + what, "double", ""},
+  expectAtMost({derivativesRow, "forces against differences of the energy, " + what, "double", ""},
                relativeError(sheet.forces(x), differences), 1e-6);
 }
 
@@ -208,7 +209,8 @@ void expectHessian(const std::string& what, Sheet sheet, double disorder) {
     const Field p = sheet.random(1, true);
     error = std::max(error, relativeError(sheet.product(x, p), sheet.productByDifferences(x, p, 1e-6)));
   }
-  expectAtMost({row, "products against differences of the forces, " + what, "double", ""}, error, 1e-5);
+  expectAtMost({derivativesRow, "products against differences of the forces, " + what, "double", ""}, error,
+               1e-5);
 }
 
 TEST(RowImplicitGradientAndHessian, ProductsAreDerivativesOfTheForces) {

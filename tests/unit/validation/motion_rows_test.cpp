@@ -16,8 +16,6 @@ namespace {
 
 using test::sheetScene;
 
-double length(Vec3d v) { return std::sqrt(dot(v, v)); }
-
 // How far a free sheet has fallen after 1 s, less g t^2 / 2, relative to that.
 template <class Real>
 double freeFallError(Integrator integrator, int stepsPerSecond) {

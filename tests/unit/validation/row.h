@@ -13,6 +13,8 @@ namespace clothsim::validation {
 template <class Real>
 inline constexpr const char* precisionOf = std::is_same_v<Real, float> ? "binary32" : "double";
 
+inline constexpr double GRAVITY = 9.81;  // [m/s^2]
+
 struct Figure {
   std::string row;        // of the table
   std::string what;       // was measured, where a row has several numbers

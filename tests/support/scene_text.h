@@ -1,0 +1,12 @@
+// A scene as its text in a test.
+#pragma once
+
+#include <string>
+
+#include "scene/scene_io.h"
+
+namespace clothsim::test {
+
+inline Scene sceneOf(const std::string& text) { return parseScene(text, "test"); }
+
+}  // namespace clothsim::test
