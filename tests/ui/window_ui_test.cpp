@@ -192,7 +192,7 @@ TEST_F(PanelsUi, SaveTheClothAsItIsByTheNamesEnding) {
   click(viewer, 0);
   ASSERT_TRUE(settingsSay(viewer, "\"simulation\": false")) << viewer.settings();
   click(viewer, 4);
-  ASSERT_TRUE(settingsSay(viewer, "\"windowScene\": true")) << viewer.settings();
+  ASSERT_TRUE(settingsSay(viewer, "\"scene\": true")) << viewer.settings();
   // The line under "Reset to what was loaded", and its button. On a busy machine part of what is typed may be
   // lost.
   const std::string press = " sleep 0.3 mousedown 1 sleep 0.3 mouseup 1 sleep 0.3";
