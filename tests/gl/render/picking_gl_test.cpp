@@ -30,9 +30,10 @@ class PickingTest : public GlTest {
     }
     // In pixels from the top left.
     glm::vec2 onScreen(glm::vec3 point) const {
-      const glm::vec4 clip =
-          camera.projection(static_cast<double>(PICKED_WIDTH) / PICKED_HEIGHT) * camera.view() * glm::vec4(point, 1);
-      return {(0.5f + 0.5f * clip.x / clip.w) * PICKED_WIDTH, (0.5f - 0.5f * clip.y / clip.w) * PICKED_HEIGHT};
+      const glm::vec4 clip = camera.projection(static_cast<double>(PICKED_WIDTH) / PICKED_HEIGHT) *
+                             camera.view() * glm::vec4(point, 1);
+      return {(0.5f + 0.5f * clip.x / clip.w) * PICKED_WIDTH,
+              (0.5f - 0.5f * clip.y / clip.w) * PICKED_HEIGHT};
     }
     glm::vec3 place(std::uint32_t particle) const {
       const Particle4& p = drape.positions[particle];
