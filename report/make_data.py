@@ -85,7 +85,7 @@ def shown_demand(demand):
 
 
 def shown_case(case):
-    case = case.replace("e-0", "e-").replace(" x ", r"$\times$")
+    case = case.replace("e-0", "e-").replace(" x ", r"$\times$").replace(", newton_steps 4, cg_iterations 10", ", defaults")
     case = re.sub(r"(\d+)x(\d+) points", r"\1$\\times$\2", case)
     parts = re.split(r"(\$[^$]*\$)", case)
     shown = "".join(part if part.startswith("$") else escaped(part) for part in parts)
@@ -100,7 +100,7 @@ def validation():
     lines, notes = [], []
     for row, members in by_row.items():
         suites = sorted({re.search(r"gtest_filter=(\w+)\.", f["command"]).group(1) for f in members if "gtest_filter" in f["command"]})
-        source = " ".join(rf"\texttt{{{suite}}}" for suite in suites) or r"	exttt{tools/validate crossings}"
+        source = " ".join(rf"\texttt{{{suite}}}" for suite in suites) or r"\texttt{tools/validate crossings}"
         lines.append(rf"\multicolumn{{6}}{{@{{}}l}}{{\rule{{0pt}}{{2.7ex}}\textbf{{{raised(escaped(row[0].upper() + row[1:]))}}}\quad {source}}}\\*")
         pairs = defaultdict(dict)
         for figure in members:
