@@ -62,9 +62,9 @@ vec3 pointOf(ColliderParams collider) { return vec3(collider.pointX, collider.po
 
 struct Contact {
   bool touches;
-  vec3 outward; // to the surface, where the particle goes without friction
-  vec3 normal;  // of the collider there, outward
-  float depth;  // how far that is along the normal [m]
+  vec3 outward;  // to the surface, where the particle goes without friction
+  vec3 normal;   // of the collider there, outward
+  float depth;   // how far that is along the normal [m]
 };
 
 // Inside the sphere: the nearest point of its surface; after a long way through it, the point where that entered.

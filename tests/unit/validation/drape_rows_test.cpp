@@ -28,13 +28,13 @@ struct Drape {
 Cuts circleOf(const Cloth& cloth, const std::vector<double>& radii, double radius) {
   Cuts cuts(cloth.particleCount());
   const Grid& grid = cloth.grids()[0];
-  for (int drapeRow = 0; drapeRow < grid.rows; ++drapeRow)
+  for (int row = 0; row < grid.rows; ++row)
     for (int column = 0; column < grid.columns; ++column)
       for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot) {
         const int otherColumn = column + springOffsets[slot].columns,
-                  otherRow = drapeRow + springOffsets[slot].rows;
+                  otherRow = row + springOffsets[slot].rows;
         if (!grid.contains(otherColumn, otherRow)) continue;
-        const std::uint32_t owner = grid.particle(column, drapeRow);
+        const std::uint32_t owner = grid.particle(column, row);
         if (radii[owner] > radius || radii[grid.particle(otherColumn, otherRow)] > radius)
           cuts[owner] = static_cast<std::uint8_t>(cuts[owner] | 1u << slot);
       }
@@ -107,11 +107,11 @@ Scene drapeScene(const Drape& drape, int points) {
   scene.cloths[0].position = {-drape.clothRadius, -1, -drape.clothRadius};
   const Cloth free(scene);
   const std::vector<double> radii = radiiOf(free);
-  for (int drapeRow = 0; drapeRow < points; ++drapeRow)
+  for (int row = 0; row < points; ++row)
     for (int column = 0; column < points; ++column) {
-      const double radius = radii[free.grids()[0].particle(column, drapeRow)];
+      const double radius = radii[free.grids()[0].particle(column, row)];
       if (radius <= drape.discRadius + 0.5 * spacing || radius > drape.clothRadius)
-        scene.cloths[0].pinned.emplace_back(GridPoint{column, drapeRow});
+        scene.cloths[0].pinned.emplace_back(GridPoint{column, row});
     }
   return scene;
 }
