@@ -2,12 +2,16 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
+#include <new>
+#include <stdexcept>
 
 #include "app/commands.h"
 #include "app/viewer.h"
 #include "core/error.h"
 #include "core/interrupt.h"
+#include "core/standard_streams.h"
 
 namespace clothsim {
 namespace {
@@ -100,6 +104,8 @@ void addCheckCrossings(CLI::App& app, Arguments& a) {
   app.add_flag("--check-crossings", a.checkCrossings,
                "count pairs of triangles that cross, exactly, at the end of every frame (needs CGAL)");
 }
+
+constexpr const char* outOfMemory = "not enough memory for this cloth; use a smaller --resolution";
 
 using Task = std::function<int()>;
 
@@ -301,7 +307,9 @@ void declareViewer(CLI::App& app, Arguments& a, Task& task) {
 
 }  // namespace
 
-int runCommandLine(int argc, char** argv) {
+namespace {
+
+int parseAndRun(int argc, char** argv) {
   CLI::App app{"clothsim: cloth on the GPU and the CPU, the same to the bit", "clothsim"};
   app.set_version_flag("--version", "clothsim " CLOTHSIM_VERSION);
   app.set_help_all_flag("--help-all", "help of all commands");
@@ -315,17 +323,46 @@ int runCommandLine(int argc, char** argv) {
   declareInfoCommands(app, arguments, task);
   try {
     app.parse(argc, argv);
-    if (!app.get_subcommands().empty()) catchInterrupts();  // the viewer closes by its window
+    catchInterrupts();
     return task();
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::usage);
-  } catch (const Error& error) {
-    std::cerr << "clothsim: " << error.what() << '\n';
-    return static_cast<int>(error.exitCode());
-  } catch (const std::bad_alloc&) {
-    std::cerr << "clothsim: not enough memory for this cloth; use a smaller --resolution\n";
-    return static_cast<int>(ExitCode::failed);
   }
+}
+
+int fail(ExitCode code, const char* message) {
+  std::cerr << "clothsim: " << message << '\n';
+  return static_cast<int>(code);
+}
+
+// `work`, with whatever it throws told to the user.
+template <class Work>
+int exitCodeOf(Work work) {
+  try {
+    return work();
+  } catch (const Error& error) {
+    return fail(error.exitCode(), error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(ExitCode::failed, outOfMemory);
+  } catch (const std::length_error&) {  // more than could ever be addressed
+    return fail(ExitCode::failed, outOfMemory);
+  } catch (const std::filesystem::filesystem_error& error) {
+    return fail(ExitCode::inputOutput, error.what());
+  } catch (const std::exception& error) {
+    return fail(ExitCode::failed, error.what());
+  }
+}
+
+}  // namespace
+
+int runCommandLine(int argc, char** argv) {
+  holdStandardStreams();
+  const int code = exitCodeOf([&] { return parseAndRun(argc, argv); });
+  const int written = exitCodeOf([] {
+    finishStandardOutput();
+    return 0;
+  });
+  return code != 0 ? code : written;
 }
 
 }  // namespace clothsim
