@@ -2,6 +2,8 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <new>
@@ -57,20 +59,26 @@ struct Arguments {
   }
 };
 
-CLI::Option* addSceneFlags(CLI::App& app, Arguments& a, bool sceneRequired) {
+struct SceneFlags {
+  CLI::Option *file, *settings;
+};
+
+SceneFlags addSceneFlags(CLI::App& app, Arguments& a, bool sceneRequired) {
   CLI::Option* file = app.add_option("-f,--scene", a.scene,
                                      "a bundled scene's name, or a path (with a '/' or ending in .json)");
   if (sceneRequired) file->required();
-  app.add_option("--set", a.settings,
-                 "set any key of the scene: --set cloth.damping=0.5 (see `clothsim describe`)")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
-  return file;
+  CLI::Option* settings =
+      app.add_option("--set", a.settings,
+                     "set any key of the scene: --set cloth.damping=0.5 (see `clothsim describe`)")
+          ->type_name("KEY=VALUE")
+          ->allow_extra_args(false);
+  return {file, settings};
 }
 
-void addResolution(CLI::App& app, Arguments& a) {
-  app.add_option("--resolution", a.resolutions,
-                 "rebuild the cloth's grid with this many points; pins keep their place")
+CLI::Option* addResolution(CLI::App& app, Arguments& a) {
+  return app
+      .add_option("--resolution", a.resolutions,
+                  "rebuild the cloth's grid with this many points; pins keep their place")
       ->type_name("WxH")
       ->expected(1);
 }
@@ -112,9 +120,9 @@ using Task = std::function<int()>;
 void declareRun(CLI::App& app, Arguments& a, Task& task) {
   CLI::App* run =
       app.add_subcommand("run", "Simulate without a window, save states, and sum the run up in numbers");
-  CLI::Option* scene = addSceneFlags(*run, a, false);
+  const auto [scene, settings] = addSceneFlags(*run, a, false);
   CLI::Option* frames = addFrames(*run, a, false);
-  addResolution(*run, a);
+  CLI::Option* resolution = addResolution(*run, a);
   CLI::Option* backend = addBackend(*run, a);
   run->add_option("--save", a.saves,
                   "write the last state: .csv .ply .obj .png, or .state (exact); with %04d in the name every "
@@ -134,12 +142,11 @@ void declareRun(CLI::App& app, Arguments& a, Task& task) {
       run->add_option("--replay", a.replay,
                       "do again what a recording of the viewer holds, on its backends or that of --backend")
           ->type_name("FILE");
-  for (CLI::Option* other : {scene, from, jitter, run->get_option("--set"), run->get_option("--resolution")})
-    replay->excludes(other);
+  for (CLI::Option* other : {scene, from, jitter, settings, resolution}) replay->excludes(other);
   addCheckCrossings(*run, a);
   addJson(*run, a);
   run->footer("Example: clothsim run -f sphere --frames 300 --save drape.obj --json");
-  run->callback([&a, &task, scene, frames, backend, replay] {
+  run->callback([&a, &task, scene = scene, frames, backend, replay] {
     if (replay->count() == 0 && scene->count() == 0) throw CLI::RequiredError("-f,--scene or --replay");
     if (replay->count() == 0 && frames->count() == 0) throw CLI::RequiredError("--frames");
     RunOptions options{a.sceneOptions(), {},       {},     a.saves, a.every, a.from, a.json,
@@ -353,10 +360,18 @@ int exitCodeOf(Work work) {
   }
 }
 
+// Where no handler can be reached, as out of a destructor or a parallel loop: nothing is tidied up then.
+[[noreturn]] void endWithMessage() {
+  const std::exception_ptr thrown = std::current_exception();
+  if (!thrown) std::abort();
+  std::_Exit(exitCodeOf([&]() -> int { std::rethrow_exception(thrown); }));
+}
+
 }  // namespace
 
 int runCommandLine(int argc, char** argv) {
   holdStandardStreams();
+  std::set_terminate(endWithMessage);
   const int code = exitCodeOf([&] { return parseAndRun(argc, argv); });
   const int written = exitCodeOf([] {
     finishStandardOutput();

@@ -32,7 +32,7 @@ void ContactReport::write(nlohmann::ordered_json& json, const Cloth& cloth, cons
   }
   json["contact_sound"] = sound_ && counts.fastSteps == 0;
   if (isCut_) json["contact_sound"] = nullptr;
-  nlohmann::ordered_json& contact = json["contact"];
+  nlohmann::ordered_json& contact = json["contact"] = nlohmann::ordered_json::object();
   contact["distance"] = contactDistance(scene, cloth);
   contact["needed_distance"] = worst_.neededDistance;
   if (worst_.smallestDistance)
