@@ -23,6 +23,7 @@ class Process {
     argv.push_back(nullptr);
     pid_ = ::fork();
     if (pid_ != 0) return;
+    ::signal(SIGINT, SIG_DFL);  // ignored by what a script runs in the background
     const int file = ::open(output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
     ::dup2(file, STDOUT_FILENO);
     ::dup2(file, STDERR_FILENO);
@@ -51,7 +52,7 @@ class Process {
     }
     return exitCode_;
   }
-  void interrupt() { ::kill(pid_, SIGINT); }  // Ctrl-C
+  void send(int signal) { ::kill(pid_, signal); }
   [[nodiscard]] bool running() { return !waitFor(std::chrono::milliseconds(0)).has_value(); }
 
  private:

@@ -11,22 +11,17 @@
 
 #include "check/crossings.h"
 #include "core/files.h"
-#include "support/command.h"
 #include "support/process.h"
+#include "support/program.h"
 #include "support/temporary_folder.h"
 
 namespace clothsim {
 namespace {
 
 using nlohmann::json;
+using test::clothsim;
 using test::CommandResult;
 using test::runCommand;
-
-// Runs clothsim without a screen; `environment` as VAR=value words before it.
-CommandResult clothsim(const std::string& arguments, const std::string& environment = "") {
-  return runCommand("env -u DISPLAY -u WAYLAND_DISPLAY " + environment + " " CLOTHSIM_PROGRAM " " +
-                    arguments + " 2>&1");
-}
 
 // The JSON object on stdout.
 json jsonOf(const std::string& arguments, const std::string& environment = "") {
@@ -367,7 +362,7 @@ TEST(Program, LeavesNothingBehindWhenItIsInterruptedInAFilm) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   ASSERT_EQ(folder.fileCount(), 1) << "the film grows under a temporary name";
   ASSERT_FALSE(std::filesystem::exists(film));
-  render.interrupt();
+  render.send(SIGINT);
   EXPECT_EQ(render.waitFor(std::chrono::seconds(30)), 1);
   EXPECT_EQ(folder.fileCount(), 0);
 }
