@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cstdio>
-#include <iostream>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "app/bench.h"
 #include "app/commands.h"
+#include "app/print_json.h"
 #include "app/simulation.h"
 #include "core/interrupt.h"
 #include "core/progress.h"
@@ -142,7 +142,7 @@ int benchDrawing(const BenchOptions& options) {
       std::fflush(stdout);
     }
   }
-  if (options.json) std::cout << json.dump(2) << '\n';
+  if (options.json) printJson(json);
   return 0;
 }
 
@@ -172,7 +172,7 @@ int benchCommand(const BenchOptions& options) {
     }
   }
   if (needsGpu) json["demo_real_time"] = benchDemo(backends, !options.json);  // drawing needs the context
-  if (options.json) std::cout << json.dump(2) << '\n';
+  if (options.json) printJson(json);
   return 0;
 }
 

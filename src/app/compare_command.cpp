@@ -1,7 +1,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdio>
-#include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "app/blow_up.h"
@@ -9,6 +8,7 @@
 #include "app/compare.h"
 #include "app/contact_report.h"
 #include "app/crossings_json.h"
+#include "app/print_json.h"
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "core/progress.h"
@@ -55,7 +55,7 @@ int compareCommand(const CompareOptions& options) {
   contacts.write(json, cloth, scene, result.contacts);
   if (counter) json["crossings"] = toJson(crossings);
   if (options.json) {
-    std::cout << json.dump(2) << '\n';
+    printJson(json);
   } else if (result.differingFloats == 0) {
     std::printf(
         "%s: CPU and GPU (%s) agree in every bit of %llu floats after each of %d frames (%llu steps)\n",

@@ -1,12 +1,12 @@
 // `scenes`, `describe` and `doctor`: what there is, what it means, and whether this machine can do it.
 #include <algorithm>
 #include <cstdio>
-#include <iostream>
 #include <nlohmann/json.hpp>
 
 #include "app/bench.h"
 #include "app/commands.h"
 #include "app/compare.h"
+#include "app/print_json.h"
 #include "core/error.h"
 #include "core/nearest.h"
 #include "gl/context.h"
@@ -97,7 +97,7 @@ int doctorCommand(bool json) {
   report["bitwise_equal"] = healthy;
   report["suggested_demo_resolution"] = suggestedDemoResolution(info.software);
   if (json) {
-    std::cout << report.dump(2) << '\n';
+    printJson(report);
     return healthy ? 0 : 1;
   }
   std::printf("OpenGL         %s\n               %s, %s\n", info.renderer.c_str(), info.version.c_str(),

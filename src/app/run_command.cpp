@@ -9,6 +9,7 @@
 #include "app/blow_up.h"
 #include "app/commands.h"
 #include "app/crossings_json.h"
+#include "app/print_json.h"
 #include "app/replay.h"
 #include "app/saves.h"
 #include "app/simulation.h"
@@ -192,7 +193,7 @@ int runCommand(const RunOptions& options) {
   nlohmann::ordered_json json = summary(options, course, tally);
   if (counter) json["crossings"] = toJson(crossings);
   if (options.json)
-    std::cout << json.dump(2) << '\n';
+    printJson(json);
   else
     printForPeople(json);
   return 0;

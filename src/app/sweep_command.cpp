@@ -9,11 +9,11 @@
 #include <iostream>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <regex>
 
 #include "app/commands.h"
 #include "app/contact_sheet.h"
 #include "app/formatted.h"
+#include "app/print_json.h"
 #include "app/tally.h"
 #include "core/error.h"
 #include "core/files.h"
@@ -232,13 +232,23 @@ class Exhibit {
   std::optional<Trouble> trouble_;
 };
 
+// As clothsim describe lists a key that was typed: of any collider and any cloth.
+std::string listedKey(const std::string& typed) {
+  const std::size_t list = typed.find('.');
+  const std::string first = typed.substr(0, list);
+  if (list == std::string::npos) return typed;
+  if (first == "sphere" || first == "plane") return "colliders[]" + typed.substr(list);
+  const std::size_t number = typed.find_first_not_of("0123456789", list + 1);
+  if (number == std::string::npos || number == list + 1 || typed[number] != '.') return typed;
+  if (first == "colliders") return "colliders[]" + typed.substr(number);
+  return first == "cloths" ? "cloth" + typed.substr(number) : typed;
+}
+
 // The unit of a key as it is typed, "" for none.
 std::string unitOf(const std::string& typed, const std::vector<FieldInfo>& fields) {
-  const std::string collider =
-      std::regex_replace(typed, std::regex(R"(^(?:colliders\.[0-9]+|sphere|plane)\.)"), "colliders[].");
-  const std::string key = std::regex_replace(collider, std::regex(R"(^cloths\.[0-9]+\.)"), "cloth.");
   const auto found =
-      std::find_if(fields.begin(), fields.end(), [&](const FieldInfo& field) { return field.path == key; });
+      std::find_if(fields.begin(), fields.end(),
+                   [key = listedKey(typed)](const FieldInfo& field) { return field.path == key; });
   return found == fields.end() ? "" : found->unit;
 }
 
@@ -399,7 +409,7 @@ int sweepCommand(const SweepOptions& options) {
   writeFileAtomically(tableFile(options), formatTable(table, cells));
   savePng(options.out, page.width, page.height, page.rgb);
   if (options.json)
-    std::cout << toJson(options, table, sheet, cells).dump(2) << '\n';
+    printJson(toJson(options, table, sheet, cells));
   else
     std::printf("%s\n%s\n", options.out.c_str(), tableFile(options).string().c_str());
   return 0;

@@ -75,13 +75,26 @@ TEST(ProgramsFiles, HaveNamesThatAreAnsweredWhateverTheyAre) {
       {quickRun + " --save " + at + std::string(249, 'x') + ".pc2", 5},  // no room for _rest.obj
       {quickRun + " --save " + at + "circle.json/a.csv", 5},
       {quickRun + " --from " + at + longName + ".state", 5},
-      {"run --replay " + at + longName, 3}};
+      {"run --replay " + at + longName, 3},
+      {"sweep -f sphere --frames 1 --vary colliders." + std::string(100'000, '0') +
+           ".radius=1 --out /nowhere/a.png",
+       5}};
   for (const auto& [arguments, exitCode] : cases) {
     const CommandResult result = clothsim(arguments);
-    EXPECT_EQ(result.exitCode, exitCode) << arguments << "\n" << result.output;
+    EXPECT_EQ(result.exitCode, exitCode) << arguments.substr(0, 999) << "\n" << result.output;
     EXPECT_NE(result.output.find("clothsim: "), std::string::npos) << arguments << "\n" << result.output;
   }
   EXPECT_EQ(folder.fileCount(), 4) << "nothing was written";
+}
+
+TEST(ProgramsFiles, NeedNotHaveNamesInUtf8) {
+  const test::TemporaryFolder folder;
+  const fs::path scene = folder / "\xff.json";
+  fs::copy_file(fs::path(SOURCE_ROOT) / "assets/scenes/pinned2.json", scene);
+  const CommandResult result = runCommand(CLOTHSIM_PROGRAM " run -f " + scene.string() +
+                                          " --resolution 8x8 --frames 0 --backend cpu --json 2>/dev/null");
+  EXPECT_EQ(result.exitCode, 0);
+  EXPECT_NE(result.output.find("\xef\xbf\xbd.json"), std::string::npos) << result.output;
 }
 
 TEST(ProgramsFiles, AreSavedFromAFolderThatIsGone) {

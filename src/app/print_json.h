@@ -1,0 +1,14 @@
+// Results as JSON on standard output.
+#pragma once
+
+#include <iostream>
+#include <nlohmann/json.hpp>
+
+namespace clothsim {
+
+// File names may hold bytes that are no UTF-8, and JSON cannot: they become the replacement character.
+inline void printJson(const nlohmann::ordered_json& json) {
+  std::cout << json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << '\n';
+}
+
+}  // namespace clothsim
