@@ -5,16 +5,17 @@
 // answer.
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cerrno>
 #include <charconv>
 #include <csignal>
-#include <cstdio>
 #include <cstring>
 #include <vector>
 
@@ -55,9 +56,9 @@ struct VideoWriter::Pipe {
   std::filesystem::path path;
   TemporaryFile film;
   std::size_t frameBytes;
-  pid_t ffmpeg = -1;           // -1 once it has been waited for
-  int input = -1;              // our end of its standard input
-  std::FILE* words = nullptr;  // a nameless file that takes what it says
+  pid_t ffmpeg = -1;  // -1 once it has been waited for
+  int input = -1;     // our end of its standard input
+  int words = -1;     // takes what it says, in memory
 
   ~Pipe() {
     if (input >= 0) ::close(input);
@@ -65,7 +66,7 @@ struct VideoWriter::Pipe {
       ::kill(ffmpeg, SIGKILL);
       waitForEnd();
     }
-    if (words != nullptr) std::fclose(words);
+    if (words >= 0) ::close(words);
   }
   Pipe(const Pipe&) = delete;
   Pipe& operator=(const Pipe&) = delete;
@@ -95,18 +96,17 @@ void VideoWriter::Pipe::start(const std::vector<std::string>& arguments) {
   for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
 
-  words = std::tmpfile();
+  words = ::memfd_create("ffmpeg's words", MFD_CLOEXEC);
   int ends[2];
-  if (words == nullptr || ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
+  if (words < 0 || ::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
     throw InputOutputError("cannot start ffmpeg for '" + path.string() + "': " + std::strerror(errno));
-  ::fcntl(::fileno(words), F_SETFD, FD_CLOEXEC);
   input = ends[0];
 
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
-  posix_spawn_file_actions_adddup2(&actions, ::fileno(words), STDERR_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, words, STDERR_FILENO);
   posix_spawn_file_actions_adddup2(&actions, film.descriptor(), filmDescriptor);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
@@ -130,8 +130,7 @@ void VideoWriter::Pipe::start(const std::vector<std::string>& arguments) {
 void VideoWriter::Pipe::fail() {
   if (ffmpeg > 0) waitForEnd();
   std::string said(2000, '\0');
-  std::rewind(words);
-  said.resize(std::fread(said.data(), 1, said.size(), words));
+  said.resize(static_cast<std::size_t>(std::max<ssize_t>(::pread(words, said.data(), said.size(), 0), 0)));
   while (!said.empty() && said.back() == '\n') said.pop_back();
   throw InputOutputError("cannot write '" + path.string() + "': ffmpeg failed" +
                          (said.empty() ? "" : ": " + said));

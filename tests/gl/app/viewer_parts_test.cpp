@@ -133,6 +133,8 @@ TEST(NumberedFiles, NeverNameWhatIsThere) {
   EXPECT_EQ(freeName(folder.path(), "demo-gpu-7", ".png"), folder / "demo-gpu-7-2.png");
   fs::create_symlink("/nonexistent", folder / "demo-gpu-7-2.png");  // even where it leads nowhere
   EXPECT_EQ(freeName(folder.path(), "demo-gpu-7", ".png"), folder / "demo-gpu-7-3.png");
+  const std::string tooLong(300, 'x');  // no file can have it; writing it says so
+  EXPECT_EQ(freeName(folder.path(), tooLong, ".png"), folder / (tooLong + ".png"));
 }
 
 TEST(FieldText, SaysUnitsAsAPersonWouldWriteThem) {

@@ -52,6 +52,16 @@ TEST_F(TexturesTest, AFileThatIsMissingOrNoPictureIsNamed) {
   EXPECT_NE(messageOfLoading<InputOutputError>(wrong).find(wrong), std::string::npos);
 }
 
+// Its first 33 bytes claim 16384 x 16384 pixels of 16 bits, 2 GiB as read.
+TEST_F(TexturesTest, ASmallFileMayNotClaimAHugePicture) {
+  const test::TemporaryFolder folder;
+  const std::string bomb = (folder / "bomb.png").string();
+  std::ofstream(bomb) << std::string(
+      "\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR\0\0\x40\0\0\0\x40\0\x10\6\0\0\0\0\0\0\0", 33);
+  EXPECT_NE(messageOfLoading<InputOutputError>(bomb).find("has 16384 x 16384 pixels, more than"),
+            std::string::npos);
+}
+
 TEST_F(TexturesTest, AWrongChoiceLeavesTheTexturesThatWereThere) {
   RenderSettings settings;
   settings.shader = "texture";
