@@ -31,7 +31,7 @@ class StateFile : public testing::Test {
 
 TEST_F(StateFile, ReadsBackEveryBitThatWasWritten) {
   state_.positions[1].x = -0.0f;
-  state_.velocities[2].y = std::bit_cast<float>(0x7fc12345u);  // a NaN with a payload
+  state_.velocities[2].y = std::bit_cast<float>(0x00000001u);  // the smallest denormal
   test::TemporaryFolder folder;
   saveState(state_, cloth_, folder / "a.state");
   const State back = loadState(folder / "a.state", cloth_);
@@ -87,6 +87,17 @@ TEST_F(StateFile, ThatDoesNotExistIsNamedInTheMessage) {
   const std::string message =
       messageThrownBy<InputOutputError>([&] { (void)loadState("/nowhere/a.state", cloth_); });
   EXPECT_NE(message.find("/nowhere/a.state"), std::string::npos) << message;
+}
+
+TEST_F(StateFile, WithAParticleThatIsNowhereIsRefused) {
+  const State sound = state_;
+  state_.positions[3].y = std::bit_cast<float>(0x7f800000u);
+  EXPECT_NE(refusalOf(formatStateFile(state_)).find("place or velocity of particle 3 is inf"),
+            std::string::npos);
+  state_ = sound;
+  state_.velocities[5].z = std::bit_cast<float>(0x7fc12345u);
+  EXPECT_NE(refusalOf(formatStateFile(state_)).find("place or velocity of particle 5 is nan"),
+            std::string::npos);
 }
 
 TEST_F(StateFile, WithAnInverseMassThatNoBodyHasIsRefused) {
