@@ -25,6 +25,7 @@ void catchInterrupts() {
   }
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGCHLD, SIG_DFL);  // ignored by some that start us, it would hide how ffmpeg ended
 }
 
 bool isInterrupted() { return interrupted != 0; }

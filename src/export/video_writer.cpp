@@ -82,10 +82,11 @@ struct VideoWriter::Pipe {
   // Whether it ended well.
   bool waitForEnd() {
     int status = 0;
-    while (::waitpid(ffmpeg, &status, 0) < 0 && errno == EINTR)
+    pid_t ended = -1;
+    while ((ended = ::waitpid(ffmpeg, &status, 0)) < 0 && errno == EINTR)
       if (isInterrupted()) ::kill(ffmpeg, SIGKILL);
     ffmpeg = -1;
-    return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    return ended > 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0;
   }
   [[noreturn]] void fail();
 };

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <vector>
 
@@ -105,6 +106,15 @@ TEST_F(StandInTest, PassesOnWhatFfmpegSaysWhenItFails) {
     writer.close();
   });
   EXPECT_NE(message.find("a.mp4': ffmpeg failed: no such encoder"), std::string::npos) << message;
+  EXPECT_EQ(folder_.fileCount(), 1) << "no film, not even a part of one";
+}
+
+// Nobody can tell then how a child ended.
+TEST_F(StandInTest, DoesNotTakeAFailureForAFilmWhereTheEndOfChildrenIsIgnored) {
+  standIn("echo half >&3; exit 1");
+  ::signal(SIGCHLD, SIG_IGN);
+  EXPECT_THROW(VideoWriter(folder_ / "a.mp4", 33, 17, 30).close(), InputOutputError);
+  ::signal(SIGCHLD, SIG_DFL);
   EXPECT_EQ(folder_.fileCount(), 1) << "no film, not even a part of one";
 }
 
