@@ -15,10 +15,6 @@ std::unique_ptr<Solver> makeSolver(const std::string& backend, const Cloth& clot
 Simulation::Simulation(const Scene& scene, const std::string& backend)
     : scene_(scene), cloth_(std::make_unique<Cloth>(scene)), solver_(makeSolver(backend, *cloth_, scene)) {}
 
-double Simulation::time() const {
-  return static_cast<double>(solver_->stepIndex()) * stepLength(scene_.solver);
-}
-
 std::optional<Trouble> Simulation::checkFrame() {
   const std::optional<Trouble> trouble = solver_->trouble();
   if (trouble) {

@@ -25,7 +25,7 @@ class Simulation {
   [[nodiscard]] const Cloth& cloth() const { return *cloth_; }
   [[nodiscard]] Solver& solver() { return *solver_; }
   [[nodiscard]] const Solver& solver() const { return *solver_; }
-  [[nodiscard]] double time() const;  // simulated [s]
+  [[nodiscard]] double time() const { return solver_->clock().time(); }  // simulated [s]
   // Of all solvers that it has had.
   [[nodiscard]] ContactCounts contactCounts() { return contactsBefore_ + solver_->contactCounts(); }
 

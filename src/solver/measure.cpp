@@ -124,7 +124,7 @@ Measures measure(const Cloth& cloth, const Scene& scene, const State& state) {
     if (const auto ofGrid = maxStrain(cloth, grid, state))
       strain = std::max(strain.value_or(*ofGrid), *ofGrid);
   measures.maxStrain = strain.value_or(0);
-  const double time = static_cast<double>(state.step) * stepLength(scene.solver);
+  const double time = state.clock.time();
   for (const Collider& collider : scene.colliders) {
     const Solid solid(collider, scene, time);
     for (std::size_t i = 0; i < count; ++i)
@@ -136,7 +136,7 @@ Measures measure(const Cloth& cloth, const Scene& scene, const State& state) {
 }
 
 std::uint32_t particlesInColliders(const Cloth& cloth, const Scene& scene, const State& state) {
-  const double time = static_cast<double>(state.step) * stepLength(scene.solver);
+  const double time = state.clock.time();
   std::vector<Solid> solids;
   for (const Collider& collider : scene.colliders)
     if (!std::holds_alternative<Plane>(collider)) solids.emplace_back(collider, scene, time);

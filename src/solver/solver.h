@@ -41,8 +41,8 @@ class Solver {
   virtual ~Solver() = default;
 
   // Live parameters: gravity, wind, damping, colliders, integrator, step length... of `scene`, from the next
-  // step on. Changing the integrator converts the velocities by -+ h a / 2. The grids must be those of the
-  // solver's cloth.
+  // step on. The time stays what it is. Changing the integrator converts the velocities by -+ h a / 2. The
+  // grids must be those of the solver's cloth.
   virtual void configure(const Scene& scene) = 0;
 
   // Advances by `count` steps. Neither throws nor allocates; on the GPU nothing is waited for.
@@ -87,7 +87,8 @@ class Solver {
   // Pins a particle where it is now, off any path that the scene has for it; or gives it its mass back. It is
   // at rest after either.
   virtual void setPin(std::uint32_t particle, bool pinned) = 0;
-  [[nodiscard]] virtual std::uint64_t stepIndex() const = 0;
+  [[nodiscard]] virtual const StepClock& clock() const = 0;
+  [[nodiscard]] std::uint64_t stepIndex() const { return clock().step; }
   // A small blocking read-back on the GPU.
   [[nodiscard]] virtual ContactCounts contactCounts() = 0;
 
