@@ -1,6 +1,7 @@
 #include "app/simulation.h"
 
 #include "core/error.h"
+#include "core/interrupt.h"
 #include "solver/cpu/cpu_solver.h"
 #include "solver/gpu/gpu_solver.h"
 
@@ -16,6 +17,7 @@ Simulation::Simulation(const Scene& scene, const std::string& backend)
     : scene_(scene), cloth_(std::make_unique<Cloth>(scene)), solver_(makeSolver(backend, *cloth_, scene)) {}
 
 std::optional<Trouble> Simulation::checkFrame() {
+  stopIfInterrupted();
   const std::optional<Trouble> trouble = solver_->trouble();
   if (trouble) {
     solver_->revert();

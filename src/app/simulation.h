@@ -36,6 +36,7 @@ class Simulation {
   }
   // Looks for trouble in the last stepFrame() or stepFrames(). After trouble the state is the one before that
   // call, the last one known to be sound: what came after it is gone, and cannot be drawn or saved.
+  // @throws SimulationError when an interrupt cut the frames short
   [[nodiscard]] std::optional<Trouble> checkFrame();
   void finish() { solver_->finish(); }
   void restart();

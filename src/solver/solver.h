@@ -45,13 +45,15 @@ class Solver {
   // grids must be those of the solver's cloth.
   virtual void configure(const Scene& scene) = 0;
 
-  // Advances by `count` steps. Neither throws nor allocates; on the GPU nothing is waited for.
+  // Advances by `count` steps; by fewer once an interrupt has come (core/interrupt.h) or, on the CPU, after
+  // trouble. Neither throws nor allocates; on the GPU nothing is waited for.
   virtual void step(int count) = 0;
   // Waits until every step is done. @throws OpenGlError when the driver has reported an error meanwhile
   virtual void finish() = 0;
 
   // The first trouble since the solver was made or setState() was called; the same on both backends. Waits
-  // for the steps, and looks at a few bytes for each of them. Steps go on after trouble, to nowhere.
+  // for the steps, and looks at a few bytes for each of them. Steps after trouble lead nowhere and look for
+  // no contacts, which could take minutes in a heap of broken numbers.
   [[nodiscard]] virtual std::optional<Trouble> trouble() = 0;
 
   // A copy of the state where it lies, and back to it, which forgets trouble. On its own device nothing is

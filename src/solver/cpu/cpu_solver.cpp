@@ -4,6 +4,7 @@
 
 #include <cassert>
 
+#include "core/interrupt.h"
 #include "solver/cpu/collide.h"
 #include "solver/cpu/rows.h"
 #include "solver/cpu/snapshot.h"
@@ -196,6 +197,9 @@ void CpuSolver<Real>::stepOnce() {
     }
   };
 
+  // Broken numbers may lie in one heap, and contacts in it take very long.
+  const auto isBroken = [&] { return firstTrouble(watch_, clock_.step + 1).has_value(); };
+
   const int rounds = contactRounds(scene_);
   const bool implicit = scene_.solver.integrator == Integrator::implicit;
   const bool fusesCollide = fused_ && !implicit && !selfCollision_.isOn();
@@ -218,11 +222,13 @@ void CpuSolver<Real>::stepOnce() {
       limitStrain();
       collideAll();
     }
-    selfCollision_.separate(before_, after_, inverseMasses_);
-    selfCollision_.guard(before_, after_, inverseMasses_);
+    if (!isBroken()) {
+      selfCollision_.separate(before_, after_, inverseMasses_);
+      selfCollision_.guard(before_, after_, inverseMasses_);
+    }
     collideAll();
   } else {
-    if (selfCollision_.isOn()) selfCollision_.separate(before_, after_, inverseMasses_);
+    if (selfCollision_.isOn() && !isBroken()) selfCollision_.separate(before_, after_, inverseMasses_);
     if (!fusesCollide) collideAll();
     limitStrain();
     for (int round = 1; round < rounds; ++round) {
@@ -237,12 +243,12 @@ template <class Real>
 void CpuSolver<Real>::step(int count) {
   checkStart();
   convertVelocities();
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i < count && !trouble_ && !isInterrupted(); ++i) {
     prepareMotions();
     stepOnce();
     std::swap(before_, after_);
     ++clock_.step;
-    if (!trouble_) trouble_ = firstTrouble(watch_, clock_.step);
+    trouble_ = firstTrouble(watch_, clock_.step);
   }
 }
 

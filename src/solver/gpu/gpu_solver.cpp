@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "core/error.h"
+#include "core/interrupt.h"
 #include "solver/gpu/snapshot.h"
 
 namespace clothsim {
@@ -168,6 +169,7 @@ void GpuSolver::forgetTrouble() {
   glClearNamedBufferData(watch_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &sound);
   watchBase_ = clock_.step;
   trouble_.reset();
+  selfCollision_.forgetTrouble();
 }
 
 std::optional<Trouble> GpuSolver::trouble() {
@@ -335,7 +337,7 @@ void GpuSolver::step(int count) {
   distanceTexture_.bind(DISTANCES_UNIT);
   cuts_.bind();
   const bool timed = dependsOnTime(scene_);
-  for (int done = 0; done < count; ++done) {
+  for (int done = 0; done < count && !isInterrupted(); ++done) {
     const int k = timed ? done % BATCH_STEPS : 0;
     if (timed ? k == 0 : !paramsUploaded_) uploadParams(timed ? std::min(BATCH_STEPS, count - done) : 1);
     paramsUploaded_ = !timed;
