@@ -172,7 +172,7 @@ TEST(Interrupt, EndsALongFrameBetweenTwoSteps) {
   const test::TemporaryFolder folder;
   for (const char* backend : {"cpu", "gpu"}) {
     test::Process run(
-        {CLOTHSIM_PROGRAM, "run", "-f", "pinned2", "--resolution", "8x8", "--frames", "1", "--backend",
+        {CLOTHSIM_PROGRAM, "run", "-f", "pinned2", "--resolution", "32x32", "--frames", "1", "--backend",
          backend, "--set", "solver.simulation_steps=1000000", "--save", (folder / "never.state").string()},
         (folder / "log").string());
     std::this_thread::sleep_for(std::chrono::milliseconds(700));
