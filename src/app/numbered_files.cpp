@@ -28,7 +28,7 @@ fs::path outputFolder() {
 fs::path freeName(const fs::path& folder, const std::string& stem, const std::string& extension) {
   const auto isTaken = [](const fs::path& path) {
     std::error_code ignored;
-    return fs::symlink_status(path, ignored).type() != fs::file_type::not_found;
+    return fs::exists(fs::symlink_status(path, ignored));  // a name too long is free; writing it complains
   };
   fs::path path = folder / (stem + extension);
   for (int number = 2; isTaken(path); ++number)
