@@ -22,6 +22,12 @@ void ContactReport::add(const Cloth& cloth, const Scene& scene, const State& sta
     worst_.smallestDistance = std::min(worst_.smallestDistance.value_or(INFINITY), *last_.smallestDistance);
 }
 
+std::string ContactReport::remark(const Scene& scene) const {
+  if (scene.solver.selfCollision != SelfCollision::averaged || worst_.contacts == 0) return "";
+  return "the cloth touched itself, and self-collision \"averaged\", CS184's rule, lets fast cloth through; "
+         "--set solver.self_collision=robust does not";
+}
+
 void ContactReport::write(nlohmann::ordered_json& json, const Cloth& cloth, const Scene& scene,
                           const ContactCounts& counts) const {
   json["self_collision"] = selfCollisionName(scene.solver.selfCollision);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <string>
 
 #include "cloth/cloth.h"
 #include "scene/scene.h"
@@ -21,6 +22,9 @@ class ContactReport {
   // numbers behind that under `contact`.
   void write(nlohmann::ordered_json& json, const Cloth& cloth, const Scene& scene,
              const ContactCounts& counts) const;
+
+  // What to tell who runs with "averaged" once its cloth has touched itself; else "".
+  [[nodiscard]] std::string remark(const Scene& scene) const;
 
   [[nodiscard]] std::uint64_t overlapsAtStart() const { return overlapsAtStart_; }
   [[nodiscard]] std::uint64_t contacts() const { return last_.contacts; }

@@ -28,7 +28,8 @@ fs::path outputFolder() {
 fs::path freeName(const fs::path& folder, const std::string& stem, const std::string& extension) {
   const auto isTaken = [](const fs::path& path) {
     std::error_code ignored;
-    return fs::symlink_status(path, ignored).type() != fs::file_type::not_found;
+    const fs::file_type type = fs::symlink_status(path, ignored).type();
+    return type != fs::file_type::not_found && type != fs::file_type::none;  // none: no such name can be
   };
   fs::path path = folder / (stem + extension);
   for (int number = 2; isTaken(path); ++number)

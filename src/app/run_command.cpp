@@ -188,6 +188,8 @@ int runCommand(const RunOptions& options) {
   }
   saves.finish();
   progress.finish();
+  if (const std::string remark = tally.contacts.remark(course.scene()); !remark.empty())
+    std::cerr << "clothsim: " << remark << '\n';
 
   nlohmann::ordered_json json = summary(options, course, tally);
   if (counter) json["crossings"] = toJson(crossings);
