@@ -33,17 +33,6 @@ void checkStart(const RunOptions& options, const Measures& measures) {
                         " is not a finite number. Begin with another state.");
 }
 
-// Particles that start inside a collider are pushed out in the first step, and fast.
-void reportStartOverlaps(std::uint32_t inColliders, std::uint64_t pairs) {
-  if (inColliders > 0)
-    std::cerr << "clothsim: " << inColliders << (inColliders == 1 ? " particle starts" : " particles start")
-              << " inside a collider; the first step pushes them out\n";
-  if (pairs > 0)
-    std::cerr << "clothsim: " << pairs
-              << (pairs == 1 ? " pair of particles starts" : " pairs of particles start")
-              << " nearer than self-collision keeps them; the steps part them\n";
-}
-
 // What is run: a scene from its start or a saved state, or a recording.
 class Course {
  public:
@@ -143,8 +132,9 @@ nlohmann::ordered_json summary(const RunOptions& options, Course& course, const 
 
 void printForPeople(const nlohmann::ordered_json& json) {
   for (const auto& [key, value] : json.items())
-    std::printf("%-26s %s\n", key.c_str(),
-                value.is_string() ? value.get<std::string>().c_str() : value.dump().c_str());
+    if (key != "warnings")  // they follow, a line each
+      std::printf("%-26s %s\n", key.c_str(),
+                  value.is_string() ? value.get<std::string>().c_str() : value.dump().c_str());
 }
 
 }  // namespace
@@ -156,8 +146,6 @@ int runCommand(const RunOptions& options) {
   Tally tally;
   tally.add(course.simulation());
   checkStart(options, tally.measures);
-  tally.startInColliders = particlesInColliders(course.simulation().cloth(), course.scene(), tally.state);
-  reportStartOverlaps(tally.startInColliders, tally.contacts.overlapsAtStart());
   std::optional<CrossingCounter> counter;
   std::uint64_t countedCloth = course.clothGeneration();
   if (options.checkCrossings) counter.emplace(course.simulation().cloth());
@@ -188,8 +176,6 @@ int runCommand(const RunOptions& options) {
   }
   saves.finish();
   progress.finish();
-  if (const std::string remark = tally.contacts.remark(course.scene()); !remark.empty())
-    std::cerr << "clothsim: " << remark << '\n';
 
   nlohmann::ordered_json json = summary(options, course, tally);
   if (counter) json["crossings"] = toJson(crossings);
@@ -197,6 +183,9 @@ int runCommand(const RunOptions& options) {
     std::cout << json.dump(2) << '\n';
   else
     printForPeople(json);
+  const std::vector<Warning> warnings = tally.watch.warnings(course.scene());
+  print(warnings);
+  checkStrict(options.strict, warnings);
   return 0;
 }
 

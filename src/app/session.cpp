@@ -7,6 +7,7 @@
 
 #include "app/action_checks.h"
 #include "app/carry_over.h"
+#include "core/interrupt.h"
 #include "scene/moved_collider.h"
 
 namespace clothsim {
@@ -194,7 +195,9 @@ std::optional<Trouble> Session::stepFrame() {
   ring_.put(now_, simulation_.solver());
   startColliderMoves();
   const int steps = simulation_.scene().solver.simulationSteps;
-  if (!advance(steps)) {
+  const bool goesOn = advance(steps);
+  stopIfInterrupted();
+  if (!goesOn) {
     goTo(now_.number);
     return std::nullopt;
   }

@@ -51,6 +51,7 @@ Viewer::Viewer(const Scene& scene, const ViewerOptions& options, const std::opti
   }
   pace_ = Pace(open_->frameSeconds());
   watchSteps();
+  warnOfPaths();
 }
 
 std::optional<Salvage> Viewer::run() {
@@ -200,7 +201,6 @@ void Viewer::draw() {
 
 // Between two pictures, since picking draws elsewhere.
 void Viewer::measure() {
-  if (!showsPanels()) return;
   column_.measures().update(session(), now_, [&]() -> std::optional<std::uint32_t> {
     const ViewerWindow::Cursor cursor = window_.cursor();
     if (!isOverPicture(cursor)) return std::nullopt;
@@ -216,7 +216,8 @@ void Viewer::drawControls() {
   drawMarks(hands_.marks(reach(), window_.cursor()));
   const bool roomForBoth = area.width > 66 * em();
   if (config_.showOverlay && (roomForBoth || !showKeys_))
-    drawFacts(viewerFacts(*open_, meter_, paused_, looksBack()), area);
+    drawFacts(viewerFacts(*open_, meter_, paused_, looksBack(), column_.measures().warnings(open_->scene())),
+              area);
   if (showsPanels()) drawPanels();
   asked_.timeline =
       drawTimeline({session().oldestFrame(), session().frame(), session().newestFrame(),

@@ -270,6 +270,14 @@ void Viewer::openScene(const std::string& source) {
   pace_ = Pace(open_->frameSeconds());
   draftHeld_ = paused_ = false;
   notice_ = {};
+  warnOfPaths();
+}
+
+void Viewer::warnOfPaths() {
+  Simulation& simulation = session().simulation();
+  const std::vector<Warning> warnings =
+      pathWarnings(simulation.cloth(), simulation.scene(), simulation.solver().state());
+  if (!warnings.empty()) say(warnings.front().text, longNoticeSeconds);
 }
 
 // The scene, or by the name's ending the cloth as it is now. Files that were there before are written over

@@ -85,6 +85,7 @@ class Viewer {
   void actOnFile(ViewerAction action);
 
   void watchSteps();
+  void warnOfPaths();
 
   // --- what can be asked for, by key or panel
   void switchBackend(const std::string& backend);

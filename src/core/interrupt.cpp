@@ -21,8 +21,10 @@ void catchInterrupts() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
+bool isInterrupted() { return interrupted != 0; }
+
 void stopIfInterrupted() {
-  if (interrupted != 0) throw SimulationError("interrupted; no file was left half written");
+  if (isInterrupted()) throw SimulationError("interrupted; no file was left half written");
 }
 
 }  // namespace clothsim

@@ -6,6 +6,9 @@ namespace clothsim {
 
 void catchInterrupts();
 
+// Whether an interrupt has come. Solver::step() ends before its next step then.
+[[nodiscard]] bool isInterrupted();
+
 // For loops that take long. @throws SimulationError once an interrupt has come
 void stopIfInterrupted();
 

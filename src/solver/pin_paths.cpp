@@ -35,8 +35,8 @@ PinPaths makePinPaths(const Scene& scene, const Cloth& cloth, std::span<const st
 }
 
 template <class Real>
-PinMotionParams<Real> makePinMotionParams(const PinPath& path, double timeStep, std::uint64_t step) {
-  const Pose pose = poseAt(path.motion, static_cast<double>(step + 1) * timeStep);
+PinMotionParams<Real> makePinMotionParams(const PinPath& path, double time) {
+  const Pose pose = poseAt(path.motion, time);
   const auto& [rowX, rowY, rowZ] = pose.rotation;
   const Vec3d shift = pose.position - path.center;
   const auto real = [](double x) { return static_cast<Real>(x); };
@@ -59,7 +59,7 @@ PinMotionParams<Real> makePinMotionParams(const PinPath& path, double timeStep, 
   return params;
 }
 
-template PinMotionParams<float> makePinMotionParams(const PinPath&, double, std::uint64_t);
-template PinMotionParams<double> makePinMotionParams(const PinPath&, double, std::uint64_t);
+template PinMotionParams<float> makePinMotionParams(const PinPath&, double);
+template PinMotionParams<double> makePinMotionParams(const PinPath&, double);
 
 }  // namespace clothsim

@@ -273,7 +273,7 @@ TEST_F(SessionTest, KeepsPinsOnAnotherLattice) {
   session.act(EditScene{finer});
   const State state = session.simulation().solver().state();
   EXPECT_EQ(state.positions[23 * 10 + 22].w, 0);
-  EXPECT_EQ(state.step, 0u);
+  EXPECT_EQ(state.clock.step, 0u);
   EXPECT_EQ(session.step(), 20u) << "the session's own clock goes on";
   EXPECT_EQ(session.frameSinceStart(), 0) << "another grid begins anew";
   stepSoundly(session, 2);

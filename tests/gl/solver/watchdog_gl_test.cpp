@@ -126,7 +126,7 @@ TEST_F(WatchdogTest, RevertGoesBackToWhatWasKeptAndForgetsTheTrouble) {
   const State kept = gpu.state();
   State wrong = kept;
   wrong.positions[3].x = std::numeric_limits<float>::quiet_NaN();
-  wrong.step = 1000;
+  wrong.clock.step = 1000;
   gpu.setState(wrong);
   gpu.step(5);
   ASSERT_TRUE(gpu.trouble().has_value());
