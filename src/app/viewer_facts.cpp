@@ -68,7 +68,7 @@ const char* nameOf(Integrator integrator) {
 std::string viewerTitle(const OpenScene& open, const SpeedMeter& meter, bool paused) {
   const double rate = meter.framesPerSecond();
   return open.name() + " - " + open.backend() +
-         (paused     ? " - paused at frame " + std::to_string(open.session().frame())
+         (paused     ? " - paused at frame " + std::to_string(open.session().frameSinceStart())
           : rate > 0 ? formatted(" - %.0f fps", rate)
                      : "") +
          " - clothsim";

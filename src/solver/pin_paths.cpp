@@ -24,12 +24,9 @@ PinPaths makePinPaths(const Scene& scene, const Cloth& cloth, std::span<const st
       ++counts[motion];
     }
     for (std::size_t k = 0; k < settings.pinMotion.size(); ++k) {
-      const PinMotion& motion = settings.pinMotion[k];
       PinPath path;
       if (counts[k] > 0) path.center = (1 / counts[k]) * sums[k];
-      path.motion.loop = motion.loop;
-      for (const PinMotion::Key& key : motion.keys)
-        path.motion.keys.push_back({key.t, key.position.value_or(path.center), key.rotation});
+      path.motion = pathAbout(settings.pinMotion[k], path.center);
       result.paths.push_back(std::move(path));
     }
   }

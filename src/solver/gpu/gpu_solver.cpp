@@ -174,6 +174,7 @@ void GpuSolver::forgetTrouble() {
 
 std::optional<Trouble> GpuSolver::trouble() {
   if (trouble_) return trouble_;
+  gl::checkContext();
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   // The row of the next step counts: a kick may have come before it.
   const std::size_t rows = std::min<std::size_t>(clock_.step - watchBase_ + 1, WATCHED_STEPS);
@@ -357,6 +358,7 @@ void GpuSolver::finish() {
 }
 
 State GpuSolver::state() {
+  gl::checkContext();
   convertVelocities();
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   State state;

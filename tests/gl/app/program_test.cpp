@@ -42,6 +42,29 @@ TEST(Program, SumsARunUpInJson) {
   EXPECT_LT(run["min_y"].get<double>(), 1);
 }
 
+TEST(Program, SaysThatTheDeviceWasResetAndEndsWithExitCodeFour) {
+  // A sanitizer's library would rather come before the one that is preloaded.
+  const std::string lost =
+      "ASAN_OPTIONS=verify_asan_link_order=0 LOSE_CONTEXT_WHEN=/ LD_PRELOAD=" LOST_CONTEXT;
+  for (const char* command : {"run -f pinned2 --frames 3", "compare -f pinned2 --frames 3"}) {
+    const CommandResult result = clothsim(std::string(command) + " --resolution 8x8", lost);
+    EXPECT_EQ(result.exitCode, 4) << result.output;
+    EXPECT_NE(result.output.find("the OpenGL context was lost: the driver reset the GPU"), std::string::npos)
+        << result.output;
+  }
+}
+
+TEST(Program, AdvisesAgainstAveragedSelfCollisionOnceAndOnlyWhereItLeaked) {
+  const auto advice = [](const std::string& arguments) {
+    const std::string said = clothsim(arguments + " --backend cpu").output;
+    int count = 0;
+    for (std::size_t at = 0; (at = said.find("self_collision=robust", at)) != std::string::npos; ++at) ++count;
+    return count;
+  };
+  EXPECT_EQ(advice("run -f pinned2 --resolution 8x8 --frames 1"), 0);
+  EXPECT_EQ(advice("run -f selfCollision --resolution 20x20 --frames 40"), 1);
+}
+
 TEST(Program, GivesOneHashOnBothBackendsAtAnyNumberOfThreads) {
   const std::string run =
       "run -f pinned2 --resolution 50x50 --frames 5 --json --set solver.self_collision=false";
