@@ -57,7 +57,7 @@ void main() {
   if (hasUpperTriangle(point + ivec2(0, -1))) sum += cross(upperRight, upper);
   if (hasLowerTriangle(point + ivec2(0, -1))) sum += cross(right, upperRight);
   float area = length(sum);
-  vec3 normal = area > 0.0 ? sum / area : vec3(0, 1, 0);
+  vec3 normal = area > 0.0 ? grid.front * sum / area : vec3(0, 1, 0);
   normals[particleAt(point)] = vec4(normal, hollowAt(point, here, normal));
 
   if (isCut(point + ivec2(1, 0), TO_LEFT)) right = vec3(0);

@@ -22,7 +22,7 @@ float cover(float lattice, float width) {
 void main() {
   vec2 lattice = surface.uv * vec2(grid.columns - 1u, grid.rows - 1u);
   float sides = max(cover(lattice.x, WIDTH), cover(lattice.y, WIDTH));
-  float opacity = max(sides, 0.75 * cover(lattice.x + lattice.y, DIAGONAL_WIDTH));
+  float opacity = max(sides, 0.75 * cover(lattice.x + grid.front * lattice.y, DIAGONAL_WIDTH));
   if (grid.ring == 0u) opacity = 1.0;  // a mesh is drawn as lines
   float facing = abs(dot(normalize(surface.normal), normalize(frame.eye.xyz - surface.position)));
   vec3 light = albedoOfSide() * (0.55 + 0.6 * facing);

@@ -86,6 +86,8 @@ struct ClothGrid {
   float height;  // along v
   float longer;  // the larger of the two
   float reach;   // length of the ring's steps at rest [m]
+  float front;   // -1 where rows go up on the front (a standing sheet), else 1
+  float unused1, unused2, unused3;
 };
 
 #ifdef __cplusplus

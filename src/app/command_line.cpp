@@ -50,7 +50,7 @@ struct Arguments {
   int frames = 0, every = 1, around = 64, down = 48;
   double fps = 30, seconds = 1, jitter = 0;
   std::uint32_t seed = 1;
-  bool json = false, checkCrossings = false, timings = false;
+  bool json = false, checkCrossings = false, timings = false, strict = false;
 
   [[nodiscard]] SceneOptions sceneOptions() const {
     SceneOptions options{.scene = scene, .resolution = std::nullopt, .settings = settings, .varied = {}};
@@ -108,6 +108,11 @@ void addJson(CLI::App& app, Arguments& a) {
   app.add_flag("--json", a.json, "print one JSON object on stdout");
 }
 
+void addStrict(CLI::App& app, Arguments& a) {
+  app.add_flag("--strict", a.strict,
+               "end with exit code 1 when there was a warning: contact lost, springs stretched too far...");
+}
+
 void addCheckCrossings(CLI::App& app, Arguments& a) {
   app.add_flag("--check-crossings", a.checkCrossings,
                "count pairs of triangles that cross, exactly, at the end of every frame (needs CGAL)");
@@ -144,13 +149,14 @@ void declareRun(CLI::App& app, Arguments& a, Task& task) {
           ->type_name("FILE");
   for (CLI::Option* other : {scene, from, jitter, settings, resolution}) replay->excludes(other);
   addCheckCrossings(*run, a);
+  addStrict(*run, a);
   addJson(*run, a);
   run->footer("Example: clothsim run -f sphere --frames 300 --save drape.obj --json");
   run->callback([&a, &task, scene = scene, frames, backend, replay] {
     if (replay->count() == 0 && scene->count() == 0) throw CLI::RequiredError("-f,--scene or --replay");
     if (replay->count() == 0 && frames->count() == 0) throw CLI::RequiredError("--frames");
-    RunOptions options{a.sceneOptions(), {},       {},     a.saves, a.every, a.from, a.json,
-                       a.checkCrossings, a.jitter, a.seed, a.replay};
+    RunOptions options{a.sceneOptions(), {},       {},     a.saves,  a.every, a.from, a.json,
+                       a.checkCrossings, a.jitter, a.seed, a.replay, a.strict};
     if (frames->count() > 0) options.frames = a.frames;
     if (backend->count() > 0) options.backend = a.backend;
     task = [options] { return runCommand(options); };
@@ -229,12 +235,13 @@ void declareRender(CLI::App& app, Arguments& a, Task& task) {
   addLooks(*render, a);
   render->add_option("--from", a.from, "begin with a saved .state")->type_name("STATE");
   addSphereSegments(*render, a);
+  addStrict(*render, a);
   render->footer("Example: clothsim render -f demo --frames 240 --out clip.mp4");
   render->callback([&] {
     task = [&] {
       const GridSize size = parsePixels(a.size);
       return renderCommand({a.sceneOptions(), a.frames, a.backend, a.outs, size.columns, size.rows, a.every,
-                            a.fps, a.shader, a.around, a.down, a.from, parseView(a.view)});
+                            a.fps, a.shader, a.around, a.down, a.from, parseView(a.view), a.strict});
     };
   });
 }
@@ -261,6 +268,7 @@ void declareSweep(CLI::App& app, Arguments& a, Task& task) {
       ->capture_default_str();
   addLooks(*sweep, a);
   addJson(*sweep, a);
+  addStrict(*sweep, a);
   sweep->footer(
       "A combination that blows up is shown as it last was, and the others go on; `finite` is false for it.\n"
       "Examples: clothsim sweep -f pinned2 --vary cloth.ks=500,5000,50000 --vary "
@@ -271,7 +279,8 @@ void declareSweep(CLI::App& app, Arguments& a, Task& task) {
     task = [&a, frames] {
       const GridSize size = parsePixels(a.cellSize);
       SweepOptions options{a.sceneOptions(), a.variations, {},       a.backend,         a.out,
-                           size.columns,     size.rows,    a.shader, parseView(a.view), a.json};
+                           size.columns,     size.rows,    a.shader, parseView(a.view), a.json,
+                           a.strict};
       if (frames->count() > 0) options.frames = a.frames;
       return sweepCommand(options);
     };

@@ -49,6 +49,7 @@ struct RunOptions {
   double jitter = 0;       // start with every free particle moved by up to so much along each axis [m]
   std::uint32_t seed = 1;  // of the jitter
   std::string replay;      // a recording to do again, instead of a scene
+  bool strict = false;     // warnings end it with exit code 1
 };
 int runCommand(const RunOptions& options);
 
@@ -71,6 +72,7 @@ struct RenderCommandOptions {
   int sphereSegmentsAround = 64, sphereSegmentsDown = 48;
   std::string from;  // a .state file to begin with
   ViewTurn view{};
+  bool strict = false;  // warnings end it with exit code 1
 };
 int renderCommand(const RenderCommandOptions& options);
 
@@ -84,6 +86,7 @@ struct SweepOptions {
   std::string shader;             // "" for the scene's own
   ViewTurn view;
   bool json = false;
+  bool strict = false;  // warnings end it with exit code 1
 };
 int sweepCommand(const SweepOptions& options);
 

@@ -26,7 +26,7 @@ std::uint64_t firstDifferingStep(Simulation& cpu, Simulation& gpu, const State& 
     gpu.solver().step(1);
     if (difference(cpu.solver().state(), gpu.solver().state()).differing > 0) break;
   }
-  return std::max(cpu.solver().stepIndex(), equal.step + 1);
+  return std::max(cpu.solver().stepIndex(), equal.clock.step + 1);
 }
 
 }  // namespace
@@ -71,7 +71,7 @@ Comparison compareBackends(const Scene& scene, int frames,
     ++result.frames;
     if (atFrame) atFrame(result.frames, cpuState);
   }
-  result.steps = cpuState.step;
+  result.steps = cpuState.clock.step;
   result.contacts = cpu.solver().contactCounts();
   result.floats = now.floats;
   result.differingFloats = now.differing;

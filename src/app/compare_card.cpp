@@ -12,6 +12,9 @@ namespace {
 constexpr int mostSteps = 900;     // that are compared
 constexpr double mostSeconds = 4;  // of both together
 constexpr double atOnce = 0.05;    // [s], of a backend before the window is looked after
+constexpr double resultSeconds = 12;
+constexpr double mostCovered = 0.45;  // of the picture
+constexpr float margin = 0.8f;        // em
 constexpr const char* backendLabels[] = {"GPU", "CPU"};
 
 std::string secondsText(double seconds) {
@@ -75,6 +78,7 @@ void CompareCard::advance() {
   const bool done = steps_ >= mostSteps || gpu_.seconds + cpu_.seconds > mostSeconds;
   if (!done) return;
   running_ = false;
+  secondsLeft_ = resultSeconds;
   difference_ = difference(gpu_.solver->state(), cpu_.solver->state());
   gpu_.solver.reset();
   cpu_.solver.reset();
@@ -91,9 +95,23 @@ void CompareCard::close() {
   running_ = open_ = false;
 }
 
+void CompareCard::pass(double seconds) {
+  if (!open_ || running_ || pointedAt_) return;
+  secondsLeft_ -= seconds;
+  if (secondsLeft_ <= 0) close();
+}
+
+CoveredEdges CompareCard::coveredEdges(PictureArea area) const {
+  if (!open_ || area.width <= 0 || area.height <= 0) return {};
+  const double right = double{width_ / area.width}, top = double{height_ / area.height};
+  // Whichever leaves more of the picture.
+  if (right < top) return {.right = std::min(right, mostCovered)};
+  return {.top = std::min(top, mostCovered)};
+}
+
 void CompareCard::draw(PictureArea area) {
   if (!open_) return;
-  ImGui::SetNextWindowPos({area.width / 2, 0.42f * area.height}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowPos({area.width - margin * em(), margin * em()}, ImGuiCond_Always, {1, 0});
   ImGui::PushStyleColor(ImGuiCol_WindowBg, theme::sheet);
   ImGui::Begin("compare", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
@@ -117,6 +135,9 @@ void CompareCard::draw(PictureArea area) {
     coloredText(verdict, difference_.differing == 0 ? theme::good : theme::alert);
   }
   if (wideButton(running_ ? "Stop" : "Close")) close();
+  pointedAt_ = ImGui::IsWindowHovered(ImGuiHoveredFlags_RootAndChildWindows);
+  width_ = ImGui::GetWindowWidth() + 2 * margin * em();
+  height_ = ImGui::GetWindowHeight() + 2 * margin * em();
   ImGui::End();
   ImGui::PopStyleColor();
 }

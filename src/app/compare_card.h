@@ -9,6 +9,7 @@
 #include "app/compare.h"
 #include "app/session.h"
 #include "app/viewer_overlay.h"
+#include "render/camera.h"
 
 namespace clothsim {
 
@@ -21,8 +22,12 @@ class CompareCard {
   // A frame on each backend, or less where that takes long.
   void advance();
   void close();
+  // So much time has passed [s]: a result that nobody points at goes away after a while.
+  void pass(double seconds);
 
   void draw(PictureArea area);
+  // The part of the picture that it covers, for a camera that looks past it.
+  [[nodiscard]] CoveredEdges coveredEdges(PictureArea area) const;
 
  private:
   struct Side {
@@ -37,7 +42,9 @@ class CompareCard {
   int steps_ = 0, stepsAtOnce_ = 1;
   std::uint64_t particles_ = 0;
   StateDifference difference_;
-  bool running_ = false, open_ = false;
+  bool running_ = false, open_ = false, pointedAt_ = false;
+  double secondsLeft_ = 0;
+  float width_ = 0, height_ = 0;  // as it was drawn last [pixels]
 };
 
 }  // namespace clothsim

@@ -32,7 +32,7 @@ int compareCommand(const CompareOptions& options) {
     if (counter) crossings.add(frame, counter->count(state));
     const Measures measures = measure(cloth, scene, state);
     maxPenetration = std::max(maxPenetration, measures.maxPenetration);
-    contacts.add(cloth, scene, state, measures.maxStrain);
+    contacts.add(frame, cloth, scene, state, measures.maxStrain, {});
     progress.update(frame);
   });
   progress.finish();

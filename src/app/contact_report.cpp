@@ -7,12 +7,38 @@
 
 namespace clothsim {
 
-void ContactReport::add(const Cloth& cloth, const Scene& scene, const State& state, double stretch) {
+namespace {
+
+using Condition = ContactFailure::Condition;
+
+nlohmann::ordered_json toJson(const std::optional<ContactFailure>& failure) {
+  if (!failure) return nullptr;
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  const bool fast = failure->condition == Condition::fastStep;
+  json["condition"] = fast ? "fast_step" : "pairs_too_near";
+  json["frame"] = failure->frame;
+  if (fast) return json;
+  json["pairs"] = failure->pairs;
+  json["distance"] = failure->distance;
+  json["needed_distance"] = failure->neededDistance;
+  return json;
+}
+
+}  // namespace
+
+void ContactReport::add(int frame, const Cloth& cloth, const Scene& scene, const State& state, double stretch,
+                        const ContactCounts& counts) {
   last_ = measureContacts(cloth, scene, state, stretch);
-  if (!started_) overlapsAtStart_ = last_.overlaps;
-  started_ = true;
+  lastFrame_ = frame;
+  if (frame == 0) overlapsAtStart_ = last_.overlaps;
   isCut_ = isCut_ || !state.cuts.empty();
-  sound_ = sound_ && last_.overlaps == 0;
+  if (isCut_)
+    failure_.reset();
+  else if (!failure_ && last_.overlaps > 0)
+    failure_ = {Condition::pairsTooNear, frame, last_.overlaps, last_.smallestDistance.value_or(0),
+                last_.neededDistance};
+  else if (!failure_ && counts.fastSteps > 0)
+    failure_ = {Condition::fastStep, frame, 0, 0, 0};
   stretch_ = std::max(stretch_, stretch);
   worst_.contacts = std::max(worst_.contacts, last_.contacts);
   worst_.overlaps = std::max(worst_.overlaps, last_.overlaps);
@@ -30,9 +56,12 @@ void ContactReport::write(nlohmann::ordered_json& json, const Cloth& cloth, cons
     json["contact_sound"] = nullptr;
     return;
   }
-  json["contact_sound"] = sound_ && counts.fastSteps == 0;
+  std::optional<ContactFailure> failure = failure_;
+  if (!failure && !isCut_ && counts.fastSteps > 0) failure = {Condition::fastStep, lastFrame_, 0, 0, 0};
+  json["contact_sound"] = !failure;
   if (isCut_) json["contact_sound"] = nullptr;
   nlohmann::ordered_json& contact = json["contact"] = nlohmann::ordered_json::object();
+  contact["failed"] = toJson(failure);
   contact["distance"] = contactDistance(scene, cloth);
   contact["needed_distance"] = worst_.neededDistance;
   if (worst_.smallestDistance)

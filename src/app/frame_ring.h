@@ -22,6 +22,7 @@ using SceneStack = std::vector<std::shared_ptr<const Scene>>;
 // What a session knows besides the state of the solver.
 struct SessionFrame {
   int number = 0;
+  int start = 0;  // the number of the frame in which the simulation last began anew
   std::uint64_t step = 0;
   std::shared_ptr<const Scene> scene;
   Hand hand;

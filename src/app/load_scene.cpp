@@ -41,10 +41,6 @@ RemarkedScene readScene(const SceneOptions& options) {
                   stepLength(scene.solver), stableStep(scene), stableSteps(scene));
     read.remarks.emplace_back(text.data());
   }
-  if (scene.solver.selfCollision == SelfCollision::averaged)
-    read.remarks.emplace_back(
-        "self-collision \"averaged\" is CS184's rule and lets fast cloth through; "
-        "--set solver.self_collision=robust holds");
   return read;
 }
 

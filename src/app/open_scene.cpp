@@ -49,11 +49,12 @@ void OpenScene::update() {
   }
 }
 
-void OpenScene::frameFor(int width, int height) {
+void OpenScene::frameFor(int width, int height, const CoveredEdges& covered) {
   const double aspect = static_cast<double>(width) / std::max(1, height);
-  if (aspect == framedAspect_) return;
+  if (aspect == framedAspect_ && covered == framedBeside_) return;
   framedAspect_ = aspect;
-  camera_.setHome(Camera(loaded_, session_.simulation().cloth(), aspect));
+  framedBeside_ = covered;
+  camera_.setHome(Camera(loaded_, session_.simulation().cloth(), aspect, covered));
 }
 
 void OpenScene::draw(int width, int height) {

@@ -28,7 +28,7 @@ class OpenScene {
   [[nodiscard]] std::string backend() const { return session_.simulation().solver().backend(); }
   [[nodiscard]] double frameSeconds() const { return 1 / scene().solver.framesPerSec; }
 
-  ViewOptions view;
+  ViewOptions view{.showPins = true};
 
   // The scene with other parameters, checked as a file would be. `continues`: see Session::act.
   // @throws SceneError for what no scene may say; nothing has changed then
@@ -36,8 +36,9 @@ class OpenScene {
 
   // Makes the renderer show the session's scene, cloth and cuts as they are now. @throws as the constructor
   void update();
-  // Frames the scene for pictures of that shape; a camera that was moved stays where it is.
-  void frameFor(int width, int height);
+  // Frames the scene for pictures of that shape, of which `covered` is hidden; a camera that was moved stays
+  // where it is.
+  void frameFor(int width, int height, const CoveredEdges& covered);
   void draw(int width, int height);  // into the window's lower left
   [[nodiscard]] Image picture(int width, int height);
 
@@ -49,6 +50,7 @@ class OpenScene {
   RenderOptions options_;
   std::unique_ptr<Renderer> renderer_;
   double framedAspect_ = 0;
+  CoveredEdges framedBeside_;
   // What the renderer shows.
   std::uint64_t shownCloth_ = 0;
   Scene shownScene_;

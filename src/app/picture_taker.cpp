@@ -6,7 +6,8 @@
 namespace clothsim {
 
 std::string PictureTaker::screenshot(OpenScene& open, int width, int height) {
-  const std::string stem = open.name() + "-" + open.backend() + "-" + std::to_string(open.session().frame());
+  const std::string stem =
+      open.name() + "-" + open.backend() + "-" + std::to_string(open.session().frameSinceStart());
   const std::filesystem::path path = freeName(outputFolder(), stem, ".png");
   const Image image = open.picture(width, height);
   savePng(path, image.width, image.height, image.rgb);

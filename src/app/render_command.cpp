@@ -7,6 +7,7 @@
 #include "app/commands.h"
 #include "app/picture_output.h"
 #include "app/simulation.h"
+#include "app/tally.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/interrupt.h"
@@ -48,6 +49,7 @@ int renderCommand(const RenderCommandOptions& options) {
 
   std::vector<PictureOutput> outputs;
   for (const std::string& out : options.outs) outputs.emplace_back(out, settingsOf(options), scene);
+  Tally tally;
   Progress progress("rendering", options.frames);
   for (int frame = 0; frame <= options.frames; ++frame) {
     stopIfInterrupted();
@@ -56,6 +58,7 @@ int renderCommand(const RenderCommandOptions& options) {
       stopBlownUp(*trouble, simulation,
                   {options.scene, options.backend, frame, options.frames,
                    std::filesystem::path(options.outs.front()).parent_path()});
+    tally.add(simulation);
     if (std::any_of(outputs.begin(), outputs.end(),
                     [&](const PictureOutput& output) { return output.wants(frame); })) {
       const Image image = renderImage(renderer, simulation.positionsBuffer(), camera, simulation.time(),
@@ -68,6 +71,9 @@ int renderCommand(const RenderCommandOptions& options) {
   for (PictureOutput& output : outputs) output.close();
   progress.finish();
   for (const std::string& out : options.outs) std::printf("%s\n", out.c_str());
+  const std::vector<Warning> warnings = tally.watch.warnings(scene);
+  print(warnings);
+  checkStrict(options.strict, warnings);
   return 0;
 }
 

@@ -34,17 +34,6 @@ void checkStart(const RunOptions& options, const Measures& measures) {
                         " is not a finite number. Begin with another state.");
 }
 
-// Particles that start inside a collider are pushed out in the first step, and fast.
-void reportStartOverlaps(std::uint32_t inColliders, std::uint64_t pairs) {
-  if (inColliders > 0)
-    std::cerr << "clothsim: " << inColliders << (inColliders == 1 ? " particle starts" : " particles start")
-              << " inside a collider; the first step pushes them out\n";
-  if (pairs > 0)
-    std::cerr << "clothsim: " << pairs
-              << (pairs == 1 ? " pair of particles starts" : " pairs of particles start")
-              << " nearer than self-collision keeps them; the steps part them\n";
-}
-
 // What is run: a scene from its start or a saved state, or a recording.
 class Course {
  public:
@@ -144,8 +133,9 @@ nlohmann::ordered_json summary(const RunOptions& options, Course& course, const 
 
 void printForPeople(const nlohmann::ordered_json& json) {
   for (const auto& [key, value] : json.items())
-    std::printf("%-26s %s\n", key.c_str(),
-                value.is_string() ? value.get<std::string>().c_str() : value.dump().c_str());
+    if (key != "warnings")  // they follow, a line each
+      std::printf("%-26s %s\n", key.c_str(),
+                  value.is_string() ? value.get<std::string>().c_str() : value.dump().c_str());
 }
 
 }  // namespace
@@ -157,8 +147,6 @@ int runCommand(const RunOptions& options) {
   Tally tally;
   tally.add(course.simulation());
   checkStart(options, tally.measures);
-  tally.startInColliders = particlesInColliders(course.simulation().cloth(), course.scene(), tally.state);
-  reportStartOverlaps(tally.startInColliders, tally.contacts.overlapsAtStart());
   std::optional<CrossingCounter> counter;
   std::uint64_t countedCloth = course.clothGeneration();
   if (options.checkCrossings) counter.emplace(course.simulation().cloth());
@@ -196,6 +184,9 @@ int runCommand(const RunOptions& options) {
     printJson(json);
   else
     printForPeople(json);
+  const std::vector<Warning> warnings = tally.watch.warnings(course.scene());
+  print(warnings);
+  checkStrict(options.strict, warnings);
   return 0;
 }
 

@@ -7,6 +7,7 @@
 
 #include "app/action_checks.h"
 #include "app/carry_over.h"
+#include "core/interrupt.h"
 #include "scene/moved_collider.h"
 
 namespace clothsim {
@@ -106,6 +107,7 @@ bool Session::apply(const Restart&) {
   simulation_.solver().setHand(now_.hand);
   simulation_.restart();
   simulation_.solver().convertVelocities();
+  now_.start = now_.number;
   return true;
 }
 
@@ -132,6 +134,7 @@ void Session::rebuild(const Scene& scene) {
     solver.setHand(now_.hand);
   } else {
     now_.hand = {};
+    now_.start = now_.number;
     for (const SetPin& pin : pinsByHand(state, before, simulation_.cloth()))
       solver.setPin(pin.particle, pin.pinned);
   }
@@ -192,7 +195,7 @@ std::optional<Trouble> Session::stepFrame() {
   ring_.put(now_, simulation_.solver());
   startColliderMoves();
   const int steps = simulation_.scene().solver.simulationSteps;
-  if (!advance(steps)) {
+  if (!advance(steps) || isInterrupted()) {
     goTo(now_.number);
     return std::nullopt;
   }
@@ -233,6 +236,19 @@ void Session::finishColliderMoves() {
     for (std::shared_ptr<const Scene>& scene : *stack) scene = moved(*scene);
   simulation_.configure(*now_.scene);
   now_.colliderMoves.clear();
+}
+
+Session::Past Session::past() {
+  forgetLater();
+  return {recording_, now_.step};
+}
+
+void Session::goOnFrom(Past past) {
+  recording_ = std::move(past.recording);
+  now_.number = now_.start = recording_.frames;
+  now_.step = past.step;
+  record(SwitchBackend{simulation_.solver().backend()});
+  record(Restart{});
 }
 
 int Session::oldestFrame() const {

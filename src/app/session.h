@@ -43,6 +43,7 @@ class Session {
 
   // Steps, and remembers the state at the start of each frame. After trouble the state is that of the last
   // frame known to be sound, and the hand has let go; what came after it is forgotten, also by the recording.
+  // A frame that an interrupt cuts short is given up.
   [[nodiscard]] std::optional<Trouble> stepFrames(int frames);
 
   // Called about twenty times a second while frames are being stepped, so that somebody may look after a
@@ -61,11 +62,23 @@ class Session {
   [[nodiscard]] int oldestFrame() const;  // that can still be looked at
   [[nodiscard]] int frame() const { return now_.number; }
   [[nodiscard]] int newestFrame() const;
+  // Counted from the last restart before frame(), as a person counts.
+  [[nodiscard]] int frameSinceStart() const { return now_.number - now_.start; }
   [[nodiscard]] std::uint64_t step() const { return now_.step; }
   // Shows a remembered frame, oldestFrame() to newestFrame(), as it was when it was left: state, scene, pins,
   // cuts and hands, to the bit. (The hand may hold there: who does not want that acts a Release before
   // stepping.) Stepping or acting there forgets what came later. @throws SceneError, OpenGlError
   void seek(int frame);
+
+  // What is left when its device is lost: what was done up to frame(), and the step of it.
+  struct Past {
+    Recording recording;
+    std::uint64_t step = 0;
+  };
+  [[nodiscard]] Past past();
+  // Another session's, which ended in this one's scene: goes on counting and recording as if this had been
+  // that one, and been restarted on this backend. Before anything is stepped.
+  void goOnFrom(Past past);
 
   // The scene at the start, and what was done up to newestFrame().
   [[nodiscard]] const Recording& recording() const { return recording_; }

@@ -1,6 +1,7 @@
 #include "app/simulation.h"
 
 #include "core/error.h"
+#include "core/interrupt.h"
 #include "solver/cpu/cpu_solver.h"
 #include "solver/gpu/gpu_solver.h"
 
@@ -15,11 +16,8 @@ std::unique_ptr<Solver> makeSolver(const std::string& backend, const Cloth& clot
 Simulation::Simulation(const Scene& scene, const std::string& backend)
     : scene_(scene), cloth_(std::make_unique<Cloth>(scene)), solver_(makeSolver(backend, *cloth_, scene)) {}
 
-double Simulation::time() const {
-  return static_cast<double>(solver_->stepIndex()) * stepLength(scene_.solver);
-}
-
 std::optional<Trouble> Simulation::checkFrame() {
+  stopIfInterrupted();
   const std::optional<Trouble> trouble = solver_->trouble();
   if (trouble) {
     solver_->revert();

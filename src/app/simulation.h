@@ -25,7 +25,7 @@ class Simulation {
   [[nodiscard]] const Cloth& cloth() const { return *cloth_; }
   [[nodiscard]] Solver& solver() { return *solver_; }
   [[nodiscard]] const Solver& solver() const { return *solver_; }
-  [[nodiscard]] double time() const;  // simulated [s]
+  [[nodiscard]] double time() const { return solver_->clock().time(); }  // simulated [s]
   // Of all solvers that it has had.
   [[nodiscard]] ContactCounts contactCounts() { return contactsBefore_ + solver_->contactCounts(); }
 
@@ -36,6 +36,7 @@ class Simulation {
   }
   // Looks for trouble in the last stepFrame() or stepFrames(). After trouble the state is the one before that
   // call, the last one known to be sound: what came after it is gone, and cannot be drawn or saved.
+  // @throws SimulationError when an interrupt cut the frames short
   [[nodiscard]] std::optional<Trouble> checkFrame();
   void finish() { solver_->finish(); }
   void restart();

@@ -144,7 +144,6 @@ class Exhibit {
         simulation_(course.scene(), options.backend),
         renderer_(simulation_.cloth(), course.scene(), {}) {
     tally_.add(simulation_);
-    tally_.startInColliders = particlesInColliders(simulation_.cloth(), course.scene(), tally_.state);
   }
 
   // `atFrame` hears of every frame that is done.
@@ -164,7 +163,9 @@ class Exhibit {
       atFrame(frame_);
     }
     if (trouble_) showTrouble(cells);
+    print(warnings(), which());
   }
+  [[nodiscard]] std::vector<Warning> warnings() const { return tally_.watch.warnings(course_.scene()); }
 
  private:
   void show(std::vector<Cell>& cells) {
@@ -178,10 +179,15 @@ class Exhibit {
     for (const auto& [frame, shots] : course_.shots)
       for (const Shot& shot : shots)
         if (frame > frame_) cells[shot.cell] = cell(shot, frame);
-    std::string which;
-    for (const std::string& setting : course_.options.varied) which += setting + " ";
-    std::cerr << "clothsim: " << which << "blew up "
+    std::cerr << "clothsim: " << which() << "blew up "
               << troubleText(*trouble_, simulation_.cloth(), course_.scene()) << '\n';
+  }
+
+  // The varied settings, with a space behind each.
+  [[nodiscard]] std::string which() const {
+    std::string text;
+    for (const std::string& setting : course_.options.varied) text += setting + " ";
+    return text;
   }
 
   Cell cell(const Shot& shot, int wantedFrame) {
@@ -398,8 +404,11 @@ int sweepCommand(const SweepOptions& options) {
   for (const PlannedCourse& course : courses) framesInAll += course.lastFrame();
   Progress progress("sweeping", framesInAll);
   std::vector<Cell> cells(table.cells());
+  std::vector<Warning> warnings;
   for (const PlannedCourse& course : courses) {
-    Exhibit(options, course, cameras).run(cells, [&](int frame) { progress.update(framesDone + frame); });
+    Exhibit exhibit(options, course, cameras);
+    exhibit.run(cells, [&](int frame) { progress.update(framesDone + frame); });
+    std::ranges::move(exhibit.warnings(), std::back_inserter(warnings));
     framesDone += course.lastFrame();
   }
   progress.finish();
@@ -412,6 +421,7 @@ int sweepCommand(const SweepOptions& options) {
     printJson(toJson(options, table, sheet, cells));
   else
     std::printf("%s\n%s\n", options.out.c_str(), tableFile(options).string().c_str());
+  checkStrict(options.strict, warnings);
   return 0;
 }
 

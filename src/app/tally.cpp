@@ -10,7 +10,9 @@ namespace clothsim {
 void Tally::add(Simulation& simulation) {
   state = simulation.solver().state();
   measures = measure(simulation.cloth(), simulation.scene(), state);
-  contacts.add(simulation.cloth(), simulation.scene(), state, measures.maxStrain);
+  if (++frame == 0) watch.start(simulation.cloth(), simulation.scene(), state);
+  watch.add(frame, simulation.cloth(), simulation.scene(), state, measures.maxStrain,
+            simulation.contactCounts());
   peakStrain = std::max(peakStrain, measures.maxStrain);
   maxPenetration = std::max(maxPenetration, measures.maxPenetration);
 }
@@ -25,10 +27,11 @@ void Tally::write(nlohmann::ordered_json& json, Simulation& simulation) const {
   json["centroid"] = {measures.centroid.x, measures.centroid.y, measures.centroid.z};
   json["kinetic_energy"] = measure(cloth, scene, synchronized(cloth, scene, state)).kineticEnergy;
   json["max_penetration"] = maxPenetration;
-  json["start_overlaps"] = {{"colliders", startInColliders},        // particles,
-                            {"self", contacts.overlapsAtStart()}};  // pairs
+  json["start_overlaps"] = {{"colliders", watch.startInColliders().particles},  // particles,
+                            {"self", watch.contacts().overlapsAtStart()}};      // pairs
   json["finite"] = true;
-  contacts.write(json, cloth, scene, simulation.contactCounts());
+  json["warnings"] = toJson(watch.warnings(scene));
+  watch.contacts().write(json, cloth, scene, simulation.contactCounts());
 }
 
 }  // namespace clothsim

@@ -92,10 +92,10 @@ std::optional<int> drawTrack(const TimelineState& state, float width) {
 std::string timeText(const TimelineState& state) {
   char text[64];
   if (state.now < state.newest)
-    std::snprintf(text, sizeof text, "frame %d  (%.2f s back)", state.now,
+    std::snprintf(text, sizeof text, "frame %d  (%.2f s back)", state.shownNumber,
                   (state.newest - state.now) * state.frameSeconds);
   else
-    std::snprintf(text, sizeof text, "frame %d", state.now);
+    std::snprintf(text, sizeof text, "frame %d", state.shownNumber);
   return text;
 }
 

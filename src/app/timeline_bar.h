@@ -9,7 +9,8 @@
 namespace clothsim {
 
 struct TimelineState {
-  int oldest = 0, now = 0, newest = 0;  // frames
+  int oldest = 0, now = 0, newest = 0;  // frames, over all restarts
+  int shownNumber = 0;                  // of `now`, from its restart on
   double frameSeconds = 1.0 / 90;
   bool paused = false;
   std::optional<double> recordedSeconds;  // while a clip is being recorded

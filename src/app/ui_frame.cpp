@@ -1,7 +1,10 @@
 #include "app/ui_frame.h"
 
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <cmath>
@@ -79,13 +82,27 @@ void textUnformatted(std::string_view words) {
 
 }  // namespace
 
-UiFrame::UiFrame(GLFWwindow* window) {
+UiFrame::UiFrame(GLFWwindow* window, KeyQueue& typed) : window_(window), typed_(typed) {
   ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;  // no imgui.ini in the folder where the program happens to be started
   io.LogFilename = nullptr;
+  // Dear ImGui looks at keys once a frame: they reach it through the queue alone.
+  const GLFWkeyfun onKey = glfwSetKeyCallback(window, nullptr);
+  const GLFWcharfun onCharacter = glfwSetCharCallback(window, nullptr);
   ImGui_ImplGlfw_InitForOpenGL(window, true);
+  glfwSetKeyCallback(window, onKey);
+  glfwSetCharCallback(window, onCharacter);
   ImGui_ImplOpenGL3_Init("#version 450 core");
+}
+
+void UiFrame::passKeysOn() {
+  for (const TypedKey& typed : typed_.takeFrame()) {
+    if (typed.isCharacter)
+      ImGui_ImplGlfw_CharCallback(window_, typed.character);
+    else
+      ImGui_ImplGlfw_KeyCallback(window_, typed.key, typed.scancode, typed.action, typed.mods);
+  }
 }
 
 UiFrame::~UiFrame() {
@@ -115,10 +132,14 @@ void UiFrame::begin(double textScale) {
   if (textScale != textScale_) loadFonts(textScale);
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+  passKeysOn();
   ImGui::NewFrame();
 }
 
-void UiFrame::end() { ImGui::Render(); }
+void UiFrame::end() {
+  ImGui::ErrorCheckEndFrameRecover(nullptr);  // an exception may have left windows open
+  ImGui::Render();
+}
 void UiFrame::draw() { ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData()); }
 
 void coloredText(std::string_view words, const ImVec4& color) {

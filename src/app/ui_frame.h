@@ -6,6 +6,8 @@
 
 #include <string_view>
 
+#include "app/key_queue.h"
+
 struct GLFWwindow;
 
 namespace clothsim {
@@ -21,8 +23,8 @@ inline const ImVec4 glass{0.07f, 0.08f, 0.10f, 0.72f},  // over the picture
 
 class UiFrame {
  public:
-  // After the window's own input callbacks, which it lets through.
-  explicit UiFrame(GLFWwindow* window);
+  // After the window's own input callbacks, which it lets through. Keys come from `typed`, which they fill.
+  UiFrame(GLFWwindow* window, KeyQueue& typed);
   ~UiFrame();
   UiFrame(const UiFrame&) = delete;
   UiFrame& operator=(const UiFrame&) = delete;
@@ -37,7 +39,10 @@ class UiFrame {
 
  private:
   void loadFonts(double textScale);
+  void passKeysOn();
 
+  GLFWwindow* window_;
+  KeyQueue& typed_;
   double textScale_ = 0;
 };
 

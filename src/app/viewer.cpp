@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "app/blow_up.h"
+#include "app/numbered_files.h"
 #include "app/viewer_facts.h"
 #include "app/viewer_marks.h"
 #include "app/viewer_program.h"
@@ -29,11 +30,8 @@ RenderOptions renderOptions(const ViewerOptions& options) {
   return render;
 }
 
-Viewer::Viewer(const Scene& scene, const ViewerOptions& options)
-    : options_(options),
-      window_("clothsim", options.sceneName),
-      open_(std::make_unique<OpenScene>(scene, options.sceneName, options.backend, renderOptions(options))),
-      pace_(open_->frameSeconds()) {
+Viewer::Viewer(const Scene& scene, const ViewerOptions& options, const std::optional<Salvage>& salvage)
+    : options_(options), window_("clothsim", options.sceneName) {
   LoadedConfig loaded = loadViewerConfig(viewerConfigPath());
   config_ = savedConfig_ = loaded.config;
   if (!loaded.notice.empty()) say(loaded.notice, longNoticeSeconds);
@@ -41,27 +39,47 @@ Viewer::Viewer(const Scene& scene, const ViewerOptions& options)
   textures.insert(textures.begin(), "");
   widgets_.offer("render.texture", std::move(textures));
   listen();
+  const std::string source = salvage ? salvage->source : options.sceneName;
+  open_ = load(source, [&] {
+    return std::make_unique<OpenScene>(salvage ? salvage->loaded : scene, source,
+                                       salvage ? "cpu" : options.backend, renderOptions(options));
+  });
+  if (salvage) {
+    if (salvage->edited != salvage->loaded) open_->edit(salvage->edited, false);
+    session().goOnFrom(salvage->past);
+    complain(salvage->reason + "\nThe scene starts again on the CPU; edits and the recording are kept.");
+  }
+  pace_ = Pace(open_->frameSeconds());
   watchSteps();
+  warnOfPaths();
 }
 
-void Viewer::run() {
+std::optional<Salvage> Viewer::run() {
   clock_.lap();  // what loading took is not simulated time
-  while (!window_.shouldClose()) {
-    timings_.time(FrameTimings::input, [&] { isIdle() ? window_.waitEvents(0.25) : window_.pollEvents(); });
-    const double elapsed = clock_.lap();
-    now_ += elapsed;
-    int frames = 0;
-    timings_.time(FrameTimings::simulate, [&] { frames = simulate(elapsed); });
-    meter_.add(elapsed, frames * open_->frameSeconds());
-    attempt([&] { taker_.shown(*open_, paused_ ? elapsed : frames * open_->frameSeconds()); });
-    draw();
-    keepConfig();
-    notice_.secondsLeft -= elapsed;
-    // Without a display that sets the pace, nothing is gained by drawing the same picture again at once.
-    if (!paused_ && frames == 0 && !compare_.isRunning()) window_.waitEvents(pace_.secondsUntilDue());
-  }
+  while (!window_.shouldClose() && !lost_) turn();
   taker_.abandonClip();
+  if (lost_ && !window_.shouldClose())
+    return Salvage{open_->source(), open_->loaded(), open_->scene(), session().past(), *lost_};
   std::fputs(timings_.report().c_str(), stderr);
+  return std::nullopt;
+}
+
+void Viewer::turn() {
+  timings_.time(FrameTimings::input, [&] { isIdle() ? window_.waitEvents(0.25) : window_.pollEvents(); });
+  if (sceneToOpen_) attempt([&] { openScene(*std::exchange(sceneToOpen_, std::nullopt)); });
+  const double elapsed = clock_.lap();
+  now_ += elapsed;
+  int frames = 0;
+  timings_.time(FrameTimings::simulate, [&] { frames = simulate(elapsed); });
+  meter_.add(elapsed, frames * open_->frameSeconds());
+  attempt([&] { taker_.shown(*open_, paused_ ? elapsed : frames * open_->frameSeconds()); });
+  attempt([&] { draw(); });
+  keepConfig();
+  notice_.secondsLeft -= elapsed;
+  compare_.pass(elapsed);
+  // Without a display that sets the pace, nothing is gained by drawing the same picture again at once.
+  if (!paused_ && frames == 0 && !compare_.isRunning()) window_.waitEvents(pace_.secondsUntilDue());
+  attempt(gl::checkContext);
 }
 
 bool Viewer::showsPanels() const {
@@ -74,6 +92,13 @@ PictureArea Viewer::pictureArea() const {
   const auto width = static_cast<float>(size.width), height = static_cast<float>(size.height);
   if (!showsPanels()) return {width, height};
   return {width - PanelColumn::width(width, static_cast<float>(16 * window_.textScale())), height};
+}
+
+CoveredEdges Viewer::coveredEdges() const {
+  const PictureArea area = pictureArea();
+  CoveredEdges covered = compare_.coveredEdges(area);
+  covered.bottom = std::min(0.45, double{timelineHeight() / area.height});
+  return covered;
 }
 
 // Known without Dear ImGui, which learns where the mouse is only with the next frame.
@@ -94,8 +119,9 @@ Reach Viewer::reach() {
           paused_};
 }
 
-bool Viewer::isIdle() const {
-  return paused_ && !stepAsked_ && drawsLeft_ <= 0 && !compare_.isRunning() && !taker_.recordedSeconds();
+bool Viewer::isIdle() {
+  return paused_ && !stepAsked_ && drawsLeft_ <= 0 && window_.typedKeys().isEmpty() &&
+         !compare_.isRunning() && !taker_.recordedSeconds();
 }
 
 // Returns the number of frames that were simulated.
@@ -109,17 +135,25 @@ int Viewer::simulate(double elapsed) {
   if (compare_.isRunning()) return 0;
   const int frames = paused_ ? std::exchange(stepAsked_, false) : pace_.framesDue(elapsed);
   if (frames == 0) return 0;
+  return stepFrames(frames);
+}
+
+int Viewer::stepFrames(int frames) {
   LapClock clock;
   const int before = session().frame();
   stepping_ = true;
   std::optional<Trouble> trouble;
   double seconds = 0;
-  for (int i = 0; i < frames && !trouble && seconds < mostSimulationSeconds && !window_.shouldClose(); ++i) {
-    trouble = session().stepFrames(1);
-    session().simulation().finish();
-    seconds += clock.lap();
-  }
+  const bool went = attempt([&] {
+    for (int i = 0; i < frames && !trouble && seconds < mostSimulationSeconds && !window_.shouldClose();
+         ++i) {
+      trouble = session().stepFrames(1);
+      session().simulation().finish();
+      seconds += clock.lap();
+    }
+  });
   stepping_ = false;
+  if (!went) paused_ = true;
   for (const auto& deed : std::exchange(waiting_, {})) attempt(deed);
   if (trouble) {
     paused_ = true;
@@ -143,19 +177,23 @@ void Viewer::draw() {
   open_->view.showPins = wanted.showPins || now_ < pinsShownUntil_ || window_.holdsShift();
   attempt([&] { open_->update(); });
   open_->view = wanted;
-  open_->frameFor(static_cast<int>(area.width), static_cast<int>(area.height));
-  timings_.time(FrameTimings::picture,
-                [&] { open_->draw(static_cast<int>(area.width), static_cast<int>(area.height)); });
+  const auto width = static_cast<int>(area.width), height = static_cast<int>(area.height);
+  timings_.time(FrameTimings::picture, [&] {
+    attempt([&] {
+      open_->frameFor(width, height, coveredEdges());
+      open_->draw(width, height);
+    });
+  });
   timings_.time(FrameTimings::controls, [&] {
     ui_.begin(window_.textScale());
-    drawControls();
+    attempt([&] { drawControls(); });
     ui_.end();
   });
   timings_.time(FrameTimings::drawControls, [&] { ui_.draw(); });
   timings_.time(FrameTimings::swap, [&] { window_.swap(); });
   timings_.time(FrameTimings::after, [&] {
     heedControls();
-    measure();
+    attempt([&] { measure(); });
   });
   if (const std::string now = viewerTitle(*open_, meter_, paused_); now != title_)
     window_.setTitle(title_ = now);
@@ -163,7 +201,6 @@ void Viewer::draw() {
 
 // Between two pictures, since picking draws elsewhere.
 void Viewer::measure() {
-  if (!showsPanels()) return;
   column_.measures().update(session(), now_, [&]() -> std::optional<std::uint32_t> {
     const ViewerWindow::Cursor cursor = window_.cursor();
     if (!isOverPicture(cursor)) return std::nullopt;
@@ -179,11 +216,13 @@ void Viewer::drawControls() {
   drawMarks(hands_.marks(reach(), window_.cursor()));
   const bool roomForBoth = area.width > 66 * em();
   if (config_.showOverlay && (roomForBoth || !showKeys_))
-    drawFacts(viewerFacts(*open_, meter_, paused_, looksBack()), area);
+    drawFacts(viewerFacts(*open_, meter_, paused_, looksBack(), column_.measures().warnings(open_->scene())),
+              area);
   if (showsPanels()) drawPanels();
-  asked_.timeline = drawTimeline({session().oldestFrame(), session().frame(), session().newestFrame(),
-                                  open_->frameSeconds(), paused_, taker_.recordedSeconds()},
-                                 area);
+  asked_.timeline =
+      drawTimeline({session().oldestFrame(), session().frame(), session().newestFrame(),
+                    session().frameSinceStart(), open_->frameSeconds(), paused_, taker_.recordedSeconds()},
+                   area);
   compare_.draw(area);
   if (notice_.secondsLeft > 0) drawNotice(notice_.text, notice_.isError, area, timelineHeight());
   if (showKeys_) drawKeyList(area);
@@ -229,7 +268,7 @@ void Viewer::heed(const PanelRequests& requests) {
       edit(open_->loaded(), false);
       restart();
     }
-    if (requests.openScene) openScene(*requests.openScene);
+    if (requests.openScene) sceneToOpen_ = requests.openScene;
   });
 }
 
@@ -251,7 +290,22 @@ void Viewer::keepConfig() {
   if (!trouble.empty()) complain("The panels will not be remembered: " + trouble);
 }
 
-void runViewer(const Scene& scene, const ViewerOptions& options) { Viewer(scene, options).run(); }
+void runViewer(const Scene& scene, const ViewerOptions& options) {
+  std::optional<Salvage> salvage;
+  do {
+    try {
+      salvage = Viewer(scene, options, salvage).run();
+    } catch (const Error& error) {
+      if (!salvage || salvage->past.recording.events.empty()) throw;
+      // No second window can be had: at least nothing is lost.
+      const auto path = freeName(
+          outputFolder(), std::filesystem::path(salvage->source).stem().string() + "-recording", ".json");
+      salvage->past.recording.save(path);
+      throw OpenGlError(salvage->reason + "\n" + error.what() +
+                        "\nWhat was done is saved: clothsim run --replay " + path.string());
+    }
+  } while (salvage);
+}
 
 std::string viewerKeysText() {
   std::size_t widest = 0;

@@ -1,5 +1,8 @@
 // What keys, mouse and panels ask of the viewer.
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <future>
 
 #include "app/numbered_files.h"
 #include "app/viewer_facts.h"
@@ -33,9 +36,7 @@ void Viewer::listen() {
            },
        .drop =
            [this](const std::vector<std::string>& paths) {
-             whenIdle([=, this] {
-               if (!paths.empty()) openScene(paths.front());
-             });
+             if (!paths.empty()) sceneToOpen_ = paths.front();
            }});
 }
 
@@ -50,7 +51,7 @@ void Viewer::whenIdle(std::function<void()> deed) {
 
 void Viewer::onKey(const KeyStroke& stroke, bool repeated) {
   const ViewerAction action = ui_.wantsKeys() ? ViewerAction::none : actionOf(stroke);
-  if (action == ViewerAction::quit) return window_.requestClose();  // that waits for nothing
+  if (action == ViewerAction::quit) return escape();  // that waits for nothing
   // Held down, a key repeats what makes sense many times over.
   const bool repeats = action == ViewerAction::stepBack || action == ViewerAction::stepForward ||
                        action == ViewerAction::stepFrame || action == ViewerAction::undo ||
@@ -60,8 +61,20 @@ void Viewer::onKey(const KeyStroke& stroke, bool repeated) {
   });
 }
 
+// Closes what lies over the picture, and then the window.
+void Viewer::escape() {
+  drawsLeft_ = drawsAfterInput;
+  if (compare_.isOpen()) return compare_.close();
+  if (showKeys_) {
+    showKeys_ = false;
+    return;
+  }
+  window_.requestClose();
+}
+
 void Viewer::onPress(ViewerWindow::Button button, ViewerWindow::Cursor cursor, bool control, bool shift) {
   if (!isOverPicture(cursor)) return;
+  if (!compare_.isRunning()) compare_.close();
   const std::string said = hands_.press(reach(), button, cursor, {control, shift, window_.holds(cutKey)});
   if (said.empty()) return;
   pinsShownUntil_ = now_ + pinsShownSeconds;
@@ -69,6 +82,7 @@ void Viewer::onPress(ViewerWindow::Button button, ViewerWindow::Cursor cursor, b
 }
 
 void Viewer::act(ViewerAction action) {
+  if (!compare_.isRunning()) compare_.close();  // its result has been read
   switch (action) {
     case ViewerAction::none:
       return;
@@ -110,7 +124,7 @@ void Viewer::act(ViewerAction action) {
     case ViewerAction::reloadShaders:
       return reloadShaders();
     case ViewerAction::quit:
-      return window_.requestClose();
+      return escape();
     default:
       return actOnFile(action);
   }
@@ -204,9 +218,48 @@ void Viewer::restart() {
   notice_ = {};
 }
 
+std::unique_ptr<OpenScene> Viewer::load(const std::string& source,
+                                        const std::function<std::unique_ptr<OpenScene>()>& make) {
+  const std::string name = std::filesystem::path(source).stem().string();
+  window_.setTitle(title_ = name + " - loading - clothsim");
+  stepping_ = true;              // input waits
+  for (int i = 0; i < 2; ++i) {  // a window that has just been opened may lose its first picture
+    ui_.begin(window_.textScale());
+    drawLoading(name);
+    ui_.end();
+    ui_.draw();
+    window_.swap();
+    window_.pollEvents();
+  }
+  // On a thread of its own, which has the context meanwhile.
+  window_.lendContext();
+  std::future<std::unique_ptr<OpenScene>> making = std::async(std::launch::async, [&] {
+    window_.takeContext();
+    const std::shared_ptr<void> handBack(nullptr, [this](void*) {
+      window_.lendContext();
+      window_.wakeUp();
+    });
+    return make();
+  });
+  while (making.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+    window_.waitEvents(0.05);
+    if (!window_.shouldClose()) continue;
+    taker_.abandonClip();
+    std::fflush(nullptr);
+    std::_Exit(0);  // nothing waits for the thread
+  }
+  window_.takeContext();
+  stepping_ = false;
+  waiting_.clear();  // what was done to the picture that said so
+  clock_.lap();
+  return making.get();
+}
+
 void Viewer::openScene(const std::string& source) {
-  auto next =
-      std::make_unique<OpenScene>(loadSceneByName(source), source, open_->backend(), renderOptions(options_));
+  const std::string backend = open_->backend();
+  std::unique_ptr<OpenScene> next = load(source, [&] {
+    return std::make_unique<OpenScene>(loadSceneByName(source), source, backend, renderOptions(options_));
+  });
   next->view = open_->view;
   taker_.abandonClip();
   compare_.close();
@@ -217,6 +270,14 @@ void Viewer::openScene(const std::string& source) {
   pace_ = Pace(open_->frameSeconds());
   draftHeld_ = paused_ = false;
   notice_ = {};
+  warnOfPaths();
+}
+
+void Viewer::warnOfPaths() {
+  Simulation& simulation = session().simulation();
+  const std::vector<Warning> warnings =
+      pathWarnings(simulation.cloth(), simulation.scene(), simulation.solver().state());
+  if (!warnings.empty()) say(warnings.front().text, longNoticeSeconds);
 }
 
 // The scene, or by the name's ending the cloth as it is now. Files that were there before are written over

@@ -68,13 +68,14 @@ const char* nameOf(Integrator integrator) {
 std::string viewerTitle(const OpenScene& open, const SpeedMeter& meter, bool paused) {
   const double rate = meter.framesPerSecond();
   return open.name() + " - " + open.backend() +
-         (paused     ? " - paused at frame " + std::to_string(open.session().frame())
+         (paused     ? " - paused at frame " + std::to_string(open.session().frameSinceStart())
           : rate > 0 ? formatted(" - %.0f fps", rate)
                      : "") +
          " - clothsim";
 }
 
-OverlayFacts viewerFacts(const OpenScene& open, const SpeedMeter& meter, bool paused, bool looksBack) {
+OverlayFacts viewerFacts(const OpenScene& open, const SpeedMeter& meter, bool paused, bool looksBack,
+                         const std::vector<Warning>& warnings) {
   const Simulation& simulation = open.session().simulation();
   OverlayFacts facts;
   facts.title = open.name();
@@ -90,6 +91,7 @@ OverlayFacts viewerFacts(const OpenScene& open, const SpeedMeter& meter, bool pa
     facts.rows.push_back(speedRow(open, meter));
   if (meter.framesPerSecond() > 0 && !paused)
     facts.rows.push_back({"display", formatted("%.0f frames/s", meter.framesPerSecond())});
+  for (const Warning& warning : warnings) facts.rows.push_back({warning.kind, warning.brief, true, true});
   facts.rows.push_back({"help", "F1 lists the keys", false, true});
   return facts;
 }

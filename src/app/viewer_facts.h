@@ -2,9 +2,11 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "app/open_scene.h"
 #include "app/pace.h"
+#include "app/run_watch.h"
 #include "app/viewer_overlay.h"
 
 namespace clothsim {
@@ -12,6 +14,6 @@ namespace clothsim {
 [[nodiscard]] const char* nameOf(Integrator integrator);
 [[nodiscard]] std::string viewerTitle(const OpenScene& open, const SpeedMeter& meter, bool paused);
 [[nodiscard]] OverlayFacts viewerFacts(const OpenScene& open, const SpeedMeter& meter, bool paused,
-                                       bool looksBack);
+                                       bool looksBack, const std::vector<Warning>& warnings);
 
 }  // namespace clothsim

@@ -113,6 +113,18 @@ void drawKeyList(PictureArea area) {
   ImGui::PopStyleColor();
 }
 
+void drawLoading(const std::string& name) {
+  const ImVec2 whole = ImGui::GetIO().DisplaySize;
+  ImGui::GetBackgroundDrawList()->AddRectFilled({0, 0}, whole, ImGui::GetColorU32(theme::column));
+  ImGui::SetNextWindowPos({whole.x / 2, whole.y / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, theme::column);
+  ImGui::Begin("loading", nullptr, overlayFlags);
+  titleText("Loading " + name + " ...");
+  quietText("Esc quits");
+  ImGui::End();
+  ImGui::PopStyleColor();
+}
+
 void drawNotice(const std::string& words, bool isError, PictureArea area, float lift) {
   ImGui::SetNextWindowPos({area.width / 2, area.height - lift - 0.8f * em()}, ImGuiCond_Always, {0.5f, 1.0f});
   ImGui::PushStyleColor(ImGuiCol_WindowBg, isError ? theme::sheet : theme::glass);

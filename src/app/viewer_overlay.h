@@ -25,6 +25,8 @@ struct PictureArea {
 // In a narrow picture only the rows that are `important`.
 void drawFacts(const OverlayFacts& facts, PictureArea area);
 void drawKeyList(PictureArea area);
+// All of the window, while nothing else can be shown.
+void drawLoading(const std::string& name);
 // At the bottom of the picture, `lift` pixels up.
 void drawNotice(const std::string& words, bool isError, PictureArea area, float lift);
 

@@ -26,6 +26,7 @@
 #include "app/viewer_overlay.h"
 #include "app/viewer_window.h"
 #include "core/error.h"
+#include "gl/context.h"
 
 namespace clothsim {
 
@@ -44,11 +45,21 @@ class LapClock {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
+// What is left of a viewer whose device was lost.
+struct Salvage {
+  std::string source;    // of the scene, as -f was given
+  Scene loaded, edited;  // as the file had it, and as it was in the end
+  Session::Past past;
+  std::string reason;
+};
+
 class Viewer {
  public:
-  Viewer(const Scene& scene, const ViewerOptions& options);
+  // Shows the scene; or goes on with what was salvaged, on the CPU, from the start of its scene.
+  Viewer(const Scene& scene, const ViewerOptions& options, const std::optional<Salvage>& salvage);
 
-  void run();
+  // Until the window is closed, or the device is lost.
+  [[nodiscard]] std::optional<Salvage> run();
 
  private:
   struct Notice {
@@ -68,11 +79,13 @@ class Viewer {
   void listen();
   void whenIdle(std::function<void()> deed);
   void onKey(const KeyStroke& stroke, bool repeated);
+  void escape();
   void onPress(ViewerWindow::Button button, ViewerWindow::Cursor cursor, bool control, bool shift);
   void act(ViewerAction action);
   void actOnFile(ViewerAction action);
 
   void watchSteps();
+  void warnOfPaths();
 
   // --- what can be asked for, by key or panel
   void switchBackend(const std::string& backend);
@@ -83,12 +96,17 @@ class Viewer {
   void seek(int frame);
   void restart();
   void openScene(const std::string& source);
+  // While the window says what is being loaded; closed meanwhile, the program ends at once.
+  [[nodiscard]] std::unique_ptr<OpenScene> load(const std::string& source,
+                                                const std::function<std::unique_ptr<OpenScene>()>& make);
   void saveSceneAs(const std::filesystem::path& path);
   void reloadShaders();
   void togglePanels();
 
   // --- a turn of the loop
+  void turn();
   int simulate(double elapsed);
+  [[nodiscard]] int stepFrames(int frames);
   void draw();
   void measure();
   void drawControls();
@@ -103,34 +121,42 @@ class Viewer {
   [[nodiscard]] bool looksBack() const { return open_->session().frame() < open_->session().newestFrame(); }
   [[nodiscard]] bool showsPanels() const;
   [[nodiscard]] PictureArea pictureArea() const;
+  [[nodiscard]] CoveredEdges coveredEdges() const;
   [[nodiscard]] bool isOverPicture(ViewerWindow::Cursor cursor) const;
   [[nodiscard]] Reach reach();
-  [[nodiscard]] bool isIdle() const;
+  [[nodiscard]] bool isIdle();
 
   static constexpr int drawsAfterInput = 3;
   static constexpr double noticeSeconds = 2.5, longNoticeSeconds = 8;
   void say(const std::string& text, double seconds = noticeSeconds) { notice_ = {text, seconds, false}; }
   void complain(const std::string& text) { notice_ = {text, longNoticeSeconds, true}; }
-  // Something a person asked for, which may be impossible: then it says so and the window goes on.
+  // Something that may be impossible: then it says so, and the window goes on with whatever is unsaved in it.
+  // Returns whether it was done.
   template <class Deed>
-  void attempt(Deed&& deed) {
+  bool attempt(Deed&& deed) {
     try {
       deed();
-    } catch (const Error& error) {
+      return true;
+    } catch (const gl::ContextLost& error) {
+      lost_ = error.what();  // run() sees to it
+    } catch (const std::bad_alloc&) {
+      complain("There is not enough memory for this.");
+    } catch (const std::exception& error) {
       complain(error.what());
     }
+    return false;
   }
 
   ViewerOptions options_;
   ViewerWindow window_;
-  UiFrame ui_{window_.handle()};
+  UiFrame ui_{window_.handle(), window_.typedKeys()};
   std::unique_ptr<OpenScene> open_;
   Hands hands_;
   PanelColumn column_;
   FieldWidgets widgets_;
   CompareCard compare_;
   PictureTaker taker_;
-  Pace pace_;
+  Pace pace_{1.0 / 90};
   SpeedMeter meter_;
   LapClock clock_;
   FrameTimings timings_{options_.timings};
@@ -142,6 +168,8 @@ class Viewer {
   bool editContinues_ = false;        // the next edit belongs to the one before
   std::optional<int> explicitSteps_;  // a frame, before the implicit integrator chose its own
   std::string confirmed_;             // a file that the next Save may write over
+  std::optional<std::string> sceneToOpen_;
+  std::optional<std::string> lost_;  // why the device is
   std::string title_;
   double now_ = 0, pinsShownUntil_ = 0;         // [s] since the start
   int drawsLeft_ = drawsAfterInput;             // of a paused window, until controls have settled

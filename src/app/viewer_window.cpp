@@ -86,7 +86,10 @@ ViewerWindow::ViewerWindow(const std::string& title, const std::string& sceneNam
   glfwWindowHintString(GLFW_X11_CLASS_NAME, "clothsim");
   glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "clothsim");
   const auto [width, height] = firstSize();
-  window_ = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
+  for (const int robustness : {GLFW_LOSE_CONTEXT_ON_RESET, GLFW_NO_ROBUSTNESS}) {  // not every driver can
+    glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, robustness);
+    if (window_ == nullptr) window_ = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
+  }
   if (window_ == nullptr) {
     const std::string reason = lastGlfwError();
     glfwTerminate();
@@ -117,10 +120,14 @@ void ViewerWindow::onButton(int button, int action, int mods) {
 void ViewerWindow::installCallbacks() {
   glfwSetWindowUserPointer(window_, this);
   glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int scancode, int action, int mods) {
-    const ViewerWindow& self = selfOf(window);
+    ViewerWindow& self = selfOf(window);
+    self.typed_.add({.key = key, .scancode = scancode, .action = action, .mods = mods});
     if (action == GLFW_RELEASE || !self.input_.key) return;
     self.input_.key({nameOfKey(key, scancode), (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0},
                     action == GLFW_REPEAT);
+  });
+  glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned int character) {
+    selfOf(window).typed_.add({.isCharacter = true, .character = character});
   });
   glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int mods) {
     selfOf(window).onButton(button, action, mods);
@@ -146,6 +153,9 @@ void ViewerWindow::requestClose() { glfwSetWindowShouldClose(window_, GLFW_TRUE)
 void ViewerWindow::pollEvents() { glfwPollEvents(); }
 void ViewerWindow::waitEvents(double seconds) { glfwWaitEventsTimeout(seconds); }
 void ViewerWindow::swap() { glfwSwapBuffers(window_); }
+void ViewerWindow::lendContext() { glfwMakeContextCurrent(nullptr); }
+void ViewerWindow::takeContext() { glfwMakeContextCurrent(window_); }
+void ViewerWindow::wakeUp() { glfwPostEmptyEvent(); }
 void ViewerWindow::setTitle(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
 
 ViewerWindow::Size ViewerWindow::size() const {

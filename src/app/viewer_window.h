@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/key_queue.h"
 #include "app/viewer_keys.h"
 
 struct GLFWwindow;
@@ -40,11 +41,17 @@ class ViewerWindow {
   void setInput(Input input) { input_ = std::move(input); }
 
   [[nodiscard]] GLFWwindow* handle() const { return window_; }
+  // Everything typed, for the controls.
+  [[nodiscard]] KeyQueue& typedKeys() { return typed_; }
   [[nodiscard]] bool shouldClose() const;
   void requestClose();
   void pollEvents();
   void waitEvents(double seconds);  // or until something happens
   void swap();
+  // The context belongs to one thread at a time: lent by the window's own, taken by another, and back.
+  void lendContext();
+  void takeContext();
+  void wakeUp();  // from another thread: waitEvents ends
   void setTitle(const std::string& title);
 
   struct Size {
@@ -65,6 +72,7 @@ class ViewerWindow {
 
   GLFWwindow* window_ = nullptr;
   Input input_;
+  KeyQueue typed_;
 };
 
 }  // namespace clothsim

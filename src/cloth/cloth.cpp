@@ -59,6 +59,7 @@ Grid makeGrid(const ClothSettings& settings, std::uint32_t firstParticle) {
   grid.firstParticle = firstParticle;
   grid.columns = settings.numWidthPoints;
   grid.rows = settings.numHeightPoints;
+  grid.rowsGoUp = settings.orientation == Orientation::vertical;
   const double mass = settings.mass.value_or(settings.width * settings.height * settings.density);
   grid.particleMass = mass / grid.particleCount();
   const double dx = spacing(settings.width, grid.columns), dy = spacing(settings.height, grid.rows);
@@ -293,10 +294,8 @@ std::vector<std::array<std::uint32_t, 3>> Cloth::triangles() const {
                        lists_.triangles.begin() + grid.endTriangle);
     for (int row = 0; row + 1 < grid.rows; ++row) {
       for (int column = 0; column + 1 < grid.columns; ++column) {
-        const std::uint32_t a = grid.particle(column, row), b = grid.particle(column + 1, row);
-        const std::uint32_t c = grid.particle(column, row + 1), d = grid.particle(column + 1, row + 1);
-        triangles.push_back({a, c, b});
-        triangles.push_back({b, c, d});
+        const auto cell = grid.cellTriangles(column, row);
+        triangles.insert(triangles.end(), cell.begin(), cell.end());
       }
     }
   }
@@ -308,12 +307,14 @@ std::vector<std::array<float, 2>> Cloth::textureCoordinates() const {
   coordinates.reserve(particleCount());
   for (const Grid& grid : grids_)
     for (int row = 0; row < grid.rows; ++row)
-      for (int column = 0; column < grid.columns; ++column)
+      for (int column = 0; column < grid.columns; ++column) {
+        const int fromTop = grid.rowsGoUp ? grid.rows - 1 - row : row;
         coordinates.push_back(
             grid.isMesh
                 ? meshCoordinates_[grid.particle(column, row)]
                 : std::array{static_cast<float>(column) / static_cast<float>(std::max(1, grid.columns - 1)),
-                             static_cast<float>(row) / static_cast<float>(std::max(1, grid.rows - 1))});
+                             static_cast<float>(fromTop) / static_cast<float>(std::max(1, grid.rows - 1))});
+      }
   return coordinates;
 }
 

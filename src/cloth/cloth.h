@@ -74,7 +74,8 @@ inline constexpr std::array<std::array<Corner, 3>, 6> incidentTriangles{{{{{0, -
 struct Grid {
   std::uint32_t firstParticle = 0;
   int columns = 0, rows = 0;
-  double particleMass = 0;                           // of a particle inside; a mesh: their mean [kg]
+  bool rowsGoUp = false;    // a standing sheet: row 0 is its bottom, and its front faces +z
+  double particleMass = 0;  // of a particle inside; a mesh: their mean [kg]
   std::array<bool, SPRING_SLOTS> slotEnabled{};      // and long enough to lie on the grid
   std::array<double, SPRING_SLOTS> stiffness{};      // of a spring inside; a mesh: of its stiffest [N/m]
   std::array<double, SPRING_SLOTS> nominalLength{};  // [m], of the undisturbed lattice
@@ -97,6 +98,13 @@ struct Grid {
   [[nodiscard]] std::uint32_t particle(int column, int row) const {
     return firstParticle + static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(columns) +
            static_cast<std::uint32_t>(column);
+  }
+  // The two triangles of a cell, counterclockwise seen from the front.
+  [[nodiscard]] std::array<std::array<std::uint32_t, 3>, 2> cellTriangles(int column, int row) const {
+    const std::uint32_t a = particle(column, row), b = particle(column + 1, row);
+    const std::uint32_t c = particle(column, row + 1), d = particle(column + 1, row + 1);
+    if (rowsGoUp) return {{{a, b, c}, {b, d, c}}};
+    return {{{a, c, b}, {b, c, d}}};
   }
   // Of the material model: 1/2 for springs in `slot` along a border, else 1.
   [[nodiscard]] double springWeight(int column, int row, SpringSlot slot) const {
@@ -140,11 +148,12 @@ class Cloth {
     return hasMesh() && grids_[gridOf(particle)].isMesh;
   }
 
-  // Counter-clockwise seen from the front (+y of a horizontal sheet). Cell (c, r) has triangles 2 q and 2 q +
-  // 1, q = r (columns - 1) + c: with its corners A B / C D they are (A, C, B) and (B, C, D). Of a mesh those
-  // of its file.
+  // Counter-clockwise seen from the front: +y of a horizontal sheet, +z of a standing one. Cell (c, r) has
+  // triangles 2 q and 2 q + 1, q = r (columns - 1) + c: of its corners A B / C D they have A, B, C and B, C,
+  // D. Of a mesh those of its file.
   [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> triangles() const;
-  // u along columns, v along rows, 0 to 1; of a mesh those of its file, v downwards.
+  // 0 to 1, u along the columns and v downwards along the rows, which is from the last row to the first where
+  // rowsGoUp; of a mesh those of its file.
   [[nodiscard]] std::vector<std::array<float, 2>> textureCoordinates() const;
   // All enabled springs in ascending number; for measuring and drawing, not used while stepping.
   [[nodiscard]] std::vector<Spring> springs() const;

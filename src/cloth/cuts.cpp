@@ -129,11 +129,10 @@ std::vector<std::array<std::uint32_t, 3>> remainingTriangles(const Cloth& cloth,
                        listed.begin() + grid.endTriangle);
     for (int row = 0; row + 1 < grid.rows; ++row) {
       for (int column = 0; column + 1 < grid.columns; ++column) {
-        const std::uint32_t a = grid.particle(column, row), b = grid.particle(column + 1, row);
-        const std::uint32_t c = grid.particle(column, row + 1), d = grid.particle(column + 1, row + 1);
+        const auto [first, second] = grid.cellTriangles(column, row);
         const CellTriangles left = trianglesLeft(grid, cuts, column, row);
-        if (left.first) triangles.push_back({a, c, b});
-        if (left.second) triangles.push_back({b, c, d});
+        if (left.first) triangles.push_back(first);
+        if (left.second) triangles.push_back(second);
       }
     }
   }

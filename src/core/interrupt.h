@@ -8,7 +8,7 @@ namespace clothsim {
 // a pipe whose reader has gone (SIGXFSZ, SIGPIPE) become errors of writing rather than sudden ends.
 void catchInterrupts();
 
-// Whether one has come.
+// Whether an interrupt has come. Solver::step() ends before its next step then.
 [[nodiscard]] bool isInterrupted();
 
 // For loops that take long. @throws SimulationError once an interrupt has come

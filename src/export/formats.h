@@ -16,19 +16,22 @@ namespace clothsim {
 
 // The `.state` file, little-endian throughout:
 //   offset  0  8 bytes  "clothsim"
-//           8  u32      version of this layout, 1 or 2
+//           8  u32      version of this layout, 3
 //          12  u32      integrator: 0 verlet, 1 euler
 //          16  u64      particle count n
 //          24  u64      step
-//          32  n times  binary32 x, y, z [m], inverse mass [1/kg]
-//    32 + 16n  n times  binary32 vx, vy, vz [m/s], 0
-//    in version 2, which is written for a cloth that hands have cut, pinned or freed:
-//    32 + 32n  u64      number c of bytes of cuts, n or 0
-//    40 + 32n  c times  u8  the springs of a particle that are cut (cloth/cuts.h)
-//   40+32n+c   u64      number p of particles that hands have pinned or freed
-//   48+32n+c   p times  u32  those particles, ascending
-//    and in both, at the end:
+//          32  binary64 step length [s]
+//          40  binary64 time [s] when the step length became that one,
+//          48  u64      after so many steps (solver/step_clock.h)
+//          56  n times  binary32 x, y, z [m], inverse mass [1/kg]
+//    56 + 16n  n times  binary32 vx, vy, vz [m/s], support (solver/state.h)
+//    56 + 32n  u64      number c of bytes of cuts, n or 0
+//    64 + 32n  c times  u8  the springs of a particle that are cut (cloth/cuts.h)
+//   64+32n+c   u64      number p of particles that hands have pinned or freed
+//   72+32n+c   p times  u32  those particles, ascending
 //              u64      FNV-1a of all bytes before
+// Older files are read. Version 2 has no offsets 32 to 55: the time is then step times the step length of the
+// scene that it is loaded into. Version 1 has no cuts and pins by hand either.
 [[nodiscard]] std::string formatStateFile(const State& state);
 // `source` names the file in messages. @throws InputOutputError
 [[nodiscard]] State parseStateFile(const std::string& bytes, std::size_t particleCount,

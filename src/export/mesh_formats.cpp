@@ -70,7 +70,7 @@ std::string formatCsv(const State& state) {
 }
 
 std::string formatObj(const State& state, const Cloth& cloth) {
-  std::string text = "# clothsim, step " + std::to_string(state.step) + ", metres, y up\n";
+  std::string text = "# clothsim, step " + std::to_string(state.clock.step) + ", metres, y up\n";
   for (const Particle4& x : state.positions) appendLine(text, "v", {x.x, x.y, x.z});
   for (const auto& uv : pictureCoordinates(cloth)) appendLine(text, "vt", {uv[0], uv[1]});
   for (const Vec3f& n : vertexNormals(state, cloth)) appendLine(text, "vn", {n.x, n.y, n.z});
@@ -94,7 +94,7 @@ std::string formatPly(const State& state, const Cloth& cloth) {
   const auto normals = vertexNormals(state, cloth);
 
   std::string bytes = "ply\nformat binary_little_endian 1.0\ncomment clothsim, step " +
-                      std::to_string(state.step) + ", metres, y up\nelement vertex " +
+                      std::to_string(state.clock.step) + ", metres, y up\nelement vertex " +
                       std::to_string(state.positions.size()) + "\n";
   // s and t are the names that Blender and MeshLab know texture coordinates by.
   for (const char* name : {"x", "y", "z", "nx", "ny", "nz", "s", "t"})

@@ -21,8 +21,15 @@ struct Header {
 };
 static_assert(sizeof(Header) == 32);
 
+struct TimeBlock {  // behind the header since version 3; see StepClock
+  double stepLength, originTime;
+  std::uint64_t originStep;
+};
+static_assert(sizeof(TimeBlock) == 24);
+
 constexpr char fileMagic[] = "clothsim";
-constexpr std::uint32_t plainVersion = 1, handledVersion = 2;
+// What each version brought: cuts and pins by hand, time. Version 3 is written.
+constexpr std::uint32_t plainVersion = 1, handledVersion = 2, timedVersion = 3;
 
 std::uint64_t checksum(std::string_view bytes) {
   Fnv1a hash;
@@ -30,9 +37,12 @@ std::uint64_t checksum(std::string_view bytes) {
   return hash.value();
 }
 
-// Of the part that every version has.
-std::size_t plainSize(std::uint64_t particleCount) {
-  return sizeof(Header) + 2 * sizeof(Particle4) * particleCount;
+// Where positions and velocities begin, and where they end.
+std::size_t particlesBegin(std::uint32_t version) {
+  return sizeof(Header) + (version >= timedVersion ? sizeof(TimeBlock) : 0);
+}
+std::size_t particlesEnd(std::uint32_t version, std::uint64_t particleCount) {
+  return particlesBegin(version) + 2 * sizeof(Particle4) * particleCount;
 }
 
 template <class T>
@@ -50,16 +60,16 @@ Header checkedHeader(const std::string& bytes, std::size_t particleCount, const 
   if (bytes.size() < sizeof header || std::memcmp(bytes.data(), fileMagic, sizeof header.magic) != 0)
     refuse(source, "it is no state file of clothsim (those are written by `clothsim run --save NAME.state`)");
   std::memcpy(&header, bytes.data(), sizeof header);
-  if (header.version != plainVersion && header.version != handledVersion)
+  if (header.version < plainVersion || header.version > timedVersion)
     refuse(source, "it has version " + std::to_string(header.version) +
-                       " of the format, this program reads versions 1 and 2");
+                       " of the format, this program reads versions 1 to 3");
   if (header.particleCount != particleCount)
     refuse(source, "it holds " + std::to_string(header.particleCount) + " particles, the scene has " +
                        std::to_string(particleCount) + " (was it saved at another --resolution?)");
   return header;
 }
 
-// The lists of version 2: a count, then so many elements.
+// The lists since version 2: a count, then so many elements.
 class Lists {
  public:
   Lists(const std::string& bytes, std::size_t place, const std::string& source)
@@ -102,6 +112,23 @@ void checkChecksum(const std::string& bytes, const std::string& source) {
     refuse(source, "its checksum does not fit its content: the file is damaged");
 }
 
+StepClock readClock(const Header& header, const std::string& bytes, const std::string& source) {
+  StepClock clock;
+  clock.step = header.step;
+  if (header.version < timedVersion) return clock;
+  TimeBlock block{};
+  std::memcpy(&block, bytes.data() + sizeof header, sizeof block);
+  const bool sound = std::isfinite(block.stepLength) && block.stepLength >= 0 &&
+                     std::isfinite(block.originTime) && block.originTime >= 0 &&
+                     block.originStep <= header.step;
+  if (!sound)
+    refuse(source, "its time is no time: the step length and the time must be finite and not negative");
+  clock.stepLength = block.stepLength;
+  clock.originTime = block.originTime;
+  clock.originStep = block.originStep;
+  return clock;
+}
+
 // What only a wrong program can have written.
 void checkContent(const Header& header, const State& state, const std::string& source) {
   if (header.integrator > static_cast<std::uint32_t>(Integrator::euler))
@@ -136,24 +163,23 @@ void checkContent(const Header& header, const State& state, const std::string& s
 std::string formatStateFile(const State& state) {
   Header header{};
   std::memcpy(header.magic, fileMagic, sizeof header.magic);
-  const bool handled = !state.cuts.empty() || !state.offPath.empty();
-  header.version = handled ? handledVersion : plainVersion;
+  header.version = timedVersion;
   header.integrator = static_cast<std::uint32_t>(state.integrator);
   header.particleCount = state.positions.size();
-  header.step = state.step;
+  header.step = state.clock.step;
+  const TimeBlock time{state.clock.stepLength, state.clock.originTime, state.clock.originStep};
 
   std::string bytes;
-  bytes.reserve(plainSize(header.particleCount) + sizeof(std::uint64_t));
+  bytes.reserve(particlesEnd(timedVersion, header.particleCount) + 3 * sizeof(std::uint64_t));
   append(bytes, &header, 1);
+  append(bytes, &time, 1);
   append(bytes, state.positions.data(), state.positions.size());
   append(bytes, state.velocities.data(), state.velocities.size());
-  if (handled) {
-    const std::uint64_t counts[] = {state.cuts.size(), state.offPath.size()};
-    append(bytes, &counts[0], 1);
-    append(bytes, state.cuts.data(), state.cuts.size());
-    append(bytes, &counts[1], 1);
-    append(bytes, state.offPath.data(), state.offPath.size());
-  }
+  const std::uint64_t counts[] = {state.cuts.size(), state.offPath.size()};
+  append(bytes, &counts[0], 1);
+  append(bytes, state.cuts.data(), state.cuts.size());
+  append(bytes, &counts[1], 1);
+  append(bytes, state.offPath.data(), state.offPath.size());
   const std::uint64_t sum = checksum(bytes);
   append(bytes, &sum, 1);
   return bytes;
@@ -161,24 +187,25 @@ std::string formatStateFile(const State& state) {
 
 State parseStateFile(const std::string& bytes, std::size_t particleCount, const std::string& source) {
   const Header header = checkedHeader(bytes, particleCount, source);
-  Lists lists(bytes, plainSize(particleCount), source);
+  Lists lists(bytes, particlesEnd(header.version, particleCount), source);
   if (bytes.size() < lists.place()) lists.refuseLength(lists.place() + sizeof(std::uint64_t));
   State state;
-  if (header.version == handledVersion) {
+  if (header.version >= handledVersion) {
     state.cuts = lists.next<std::uint8_t>();
     state.offPath = lists.next<std::uint32_t>();
   }
   if (bytes.size() != lists.place() + sizeof(std::uint64_t))
     lists.refuseLength(lists.place() + sizeof(std::uint64_t));
   checkChecksum(bytes, source);
-  state.step = header.step;
+  state.clock = readClock(header, bytes, source);
   state.integrator = static_cast<Integrator>(header.integrator);
   state.positions.resize(particleCount);
   state.velocities.resize(particleCount);
   const std::size_t size = particleCount * sizeof(Particle4);
   if (size > 0) {
-    std::memcpy(state.positions.data(), bytes.data() + sizeof(Header), size);
-    std::memcpy(state.velocities.data(), bytes.data() + sizeof(Header) + size, size);
+    const char* begin = bytes.data() + particlesBegin(header.version);
+    std::memcpy(state.positions.data(), begin, size);
+    std::memcpy(state.velocities.data(), begin + size, size);
   }
   checkContent(header, state, source);
   return state;

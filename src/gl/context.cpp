@@ -50,6 +50,12 @@ const char* errorName(GLenum error) {
   }
 }
 
+const char* resetCause(GLenum status) {
+  if (status == GL_GUILTY_CONTEXT_RESET) return "after a fault of this program's work on it";
+  if (status == GL_INNOCENT_CONTEXT_RESET) return "after a fault of another program";
+  return "for an unknown reason";
+}
+
 }  // namespace
 
 ContextInfo initializeCurrentContext(void* (*getProcAddress)(const char*)) {
@@ -87,6 +93,14 @@ ContextInfo currentContextInfo() {
     glGetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, 0, &info.maxWorkGroupCountX);
   }
   return info;
+}
+
+void checkContext() {
+  const GLenum status = glGetGraphicsResetStatus();
+  if (status == GL_NO_ERROR) return;
+  throw ContextLost(std::string("the OpenGL context was lost: the driver reset the GPU ") +
+                    resetCause(status) +
+                    ", and everything on it is gone. Run it again, or with --backend cpu");
 }
 
 void checkErrors(const char* where) {

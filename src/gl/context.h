@@ -5,6 +5,8 @@
 #include <memory>
 #include <string>
 
+#include "core/error.h"
+
 namespace clothsim::gl {
 
 // Debug builds ask the driver for a debug context and for its messages at the call that caused them.
@@ -31,6 +33,13 @@ ContextInfo initializeCurrentContext(void* (*getProcAddress)(const char*));
 
 // @throws OpenGlError when the driver has reported an error since the last call.
 void checkErrors(const char* where);
+
+// The driver has reset the device: what lay on it is lost, and this context draws and computes no more.
+struct ContextLost : OpenGlError {
+  using OpenGlError::OpenGlError;
+};
+// Asks the driver, which takes microseconds. @throws ContextLost
+void checkContext();
 
 // A current EGL context for as long as the object lives. @throws OpenGlError
 class HeadlessContext {

@@ -96,13 +96,18 @@ std::vector<Candidate> displayCandidates() {
   return all;
 }
 
-EGLContext makeContext(EGLDisplay display, EGLConfig config, std::optional<std::pair<int, int>> version) {
+// `tellsOfResets`: glGetGraphicsResetStatus says when the device was reset.
+EGLContext makeContext(EGLDisplay display, EGLConfig config, std::optional<std::pair<int, int>> version,
+                       bool tellsOfResets) {
   std::vector<EGLint> attributes;
   if (version) {
     attributes = {EGL_CONTEXT_MAJOR_VERSION,       version->first,
                   EGL_CONTEXT_MINOR_VERSION,       version->second,
                   EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
     if (debugBuild) attributes.insert(attributes.end(), {EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE});
+    if (tellsOfResets)
+      attributes.insert(attributes.end(),
+                        {EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY, EGL_LOSE_CONTEXT_ON_RESET});
   }
   attributes.push_back(EGL_NONE);
   return eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data());
@@ -142,12 +147,14 @@ struct HeadlessContext::Handles {
     handles->display = candidate.display;
     if (eglBindAPI(EGL_OPENGL_API) != EGL_TRUE) fail("no desktop OpenGL: " + eglErrorName());
     const EGLConfig config = chooseConfig(candidate.display);
-    handles->context = makeContext(candidate.display, config, std::pair{4, 5});
+    for (const bool tellsOfResets : {true, false})  // not every driver can
+      if (handles->context == EGL_NO_CONTEXT)
+        handles->context = makeContext(candidate.display, config, std::pair{4, 5}, tellsOfResets);
     std::string refusal;
     if (handles->context == EGL_NO_CONTEXT) {
       // Any context at all, so that the message can say which version there is.
       refusal = "a 4.5 core context was refused (" + eglErrorName() + ")";
-      handles->context = makeContext(candidate.display, config, std::nullopt);
+      handles->context = makeContext(candidate.display, config, std::nullopt, false);
     }
     if (handles->context == EGL_NO_CONTEXT) fail(refusal);
     if (eglMakeCurrent(candidate.display, EGL_NO_SURFACE, EGL_NO_SURFACE, handles->context) != EGL_TRUE) {

@@ -27,10 +27,10 @@ struct Frame {
   double distance;
 };
 
-// A point as seen along the viewing direction: across the picture, and towards the viewer; `tangent` is that
-// of half the field of view that the point may use.
+// A point as seen along the viewing direction: across the picture, and towards the viewer; the tangents are
+// those of the field of view that the point may use, to either side of its middle.
 struct SeenPoint {
-  double across, toward, tangent;
+  double across, toward, tangentBelow, tangentAbove;
 };
 
 struct AxisFrame {
@@ -38,13 +38,14 @@ struct AxisFrame {
 };
 
 // The middle of the picture along one of its axes for which the viewer can be nearest. A point is inside both
-// edges when |across - middle| <= tangent * (distance - toward); the distance this needs is convex in the
-// middle.
+// edges when |across - middle| <= tangent * (distance - toward) of its side; the distance this needs is
+// convex in the middle.
 AxisFrame frameAxis(const std::vector<SeenPoint>& points) {
   const auto distanceFor = [&](double middle) {
     double distance = 0;
     for (const SeenPoint& p : points)
-      distance = std::max(distance, p.toward + std::abs(p.across - middle) / p.tangent);
+      distance = std::max(distance, p.toward + (p.across > middle ? (p.across - middle) / p.tangentAbove
+                                                                  : (middle - p.across) / p.tangentBelow));
     return distance;
   };
   double low = 1e30, high = -1e30;
@@ -60,19 +61,30 @@ AxisFrame frameAxis(const std::vector<SeenPoint>& points) {
   return {low, distanceFor(low)};
 }
 
-// The nearest place, looking along -direction, from which the stage is in the picture, with room around what
-// stays there.
-Frame frameStage(const Stage& stage, glm::vec3 direction, double fovDegrees, double aspect) {
+// The nearest place, looking along -direction, from which the stage is in the free part of the picture, with
+// room around what stays there.
+Frame frameStage(const Stage& stage, glm::vec3 direction, double fovDegrees, double aspect,
+                 const CoveredEdges& covered) {
   const glm::vec3 right = glm::normalize(glm::cross(glm::vec3(0, 1, 0), direction));
   const glm::vec3 up = glm::cross(direction, right);
   const glm::vec3 center = stage.view.center();
   std::vector<SeenPoint> horizontal, vertical;
+  const double free = std::max(0.2, 1 - covered.left - covered.right),
+               freeHeight = std::max(0.2, 1 - covered.bottom - covered.top);
   const auto add = [&](const std::vector<glm::vec3>& points, double margin) {
-    const double tangent = std::tan(glm::radians(fovDegrees) / 2) / margin;
+    const double tangent = std::tan(glm::radians(fovDegrees) / 2);
+    // Of the free part an even rim stays empty.
+    const double rim = 1 - 1 / margin;
+    const auto used = [&](double coveredPart, double freePart) {
+      return 1 - 2 * coveredPart - rim * freePart;
+    };
     for (const glm::vec3 point : points) {
       const glm::vec3 p = point - center;
-      horizontal.push_back({glm::dot(p, right), glm::dot(p, direction), tangent * aspect});
-      vertical.push_back({glm::dot(p, up), glm::dot(p, direction), tangent});
+      const double across = glm::dot(p, right), upward = glm::dot(p, up), toward = glm::dot(p, direction);
+      horizontal.push_back({across, toward, tangent * aspect * used(covered.left, free),
+                            tangent * aspect * used(covered.right, free)});
+      vertical.push_back({upward, toward, tangent * used(covered.bottom, freeHeight),
+                          tangent * used(covered.top, freeHeight)});
     }
   };
   add(stage.staying, stayingMargin);
@@ -84,7 +96,7 @@ Frame frameStage(const Stage& stage, glm::vec3 direction, double fovDegrees, dou
 
 }  // namespace
 
-Camera::Camera(const Scene& scene, const Cloth& cloth, double aspect) {
+Camera::Camera(const Scene& scene, const Cloth& cloth, double aspect, const CoveredEdges& covered) {
   const double framed = std::clamp(aspect, 0.2, widestFramed);
   const ClothOutline outline = outlineOf(cloth);
   const Stage stage = makeStage(outline, scene);
@@ -101,7 +113,8 @@ Camera::Camera(const Scene& scene, const Cloth& cloth, double aspect) {
     place.elevation = std::clamp(std::asin(offset.y / place.distance), -steepest, steepest);
     place.distance *= widestFramed / framed;
   } else {
-    const Frame frame = frameStage(stage, directionOf(place.azimuth, place.elevation), place.fov, framed);
+    const Frame frame =
+        frameStage(stage, directionOf(place.azimuth, place.elevation), place.fov, framed, covered);
     place.target = wanted.target ? toGlm(*wanted.target) : frame.target;
     place.distance = std::max(1e-3, frame.distance);
   }

@@ -8,11 +8,19 @@
 
 namespace clothsim {
 
+// What lies over a picture at its edges, as parts of its width or height, 0 to 0.8 on both sides together.
+struct CoveredEdges {
+  double left = 0, right = 0, bottom = 0, top = 0;
+  friend bool operator==(const CoveredEdges&, const CoveredEdges&) = default;
+};
+
 class Camera {
  public:
-  // From the scene's camera keys; what is absent is chosen so that cloth and colliders fill a picture of that
-  // aspect (width / height) well. One narrower than 16 : 9 is taken from farther away.
-  Camera(const Scene& scene, const Cloth& cloth, double aspect = 16.0 / 9.0);
+  // From the scene's camera keys; what is absent is chosen so that cloth and solids, wherever they may go,
+  // fill what is free of a picture of that aspect (width / height). A given position is kept, and the picture
+  // taken from farther away when it is narrower than 16 : 9.
+  Camera(const Scene& scene, const Cloth& cloth, double aspect = 16.0 / 9.0,
+         const CoveredEdges& covered = {});
 
   void orbit(double azimuthRadians, double elevationRadians);  // elevation stops short of the poles
   void pan(double right, double up);                           // in view heights at the target's distance

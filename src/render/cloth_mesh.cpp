@@ -20,6 +20,7 @@ shared::ClothGrid blockOfMesh(const Grid& mesh) {
   block.width = static_cast<float>(mesh.textureSize[0]);
   block.height = static_cast<float>(mesh.textureSize[1]);
   block.longer = std::max({block.width, block.height, 1e-9f});
+  block.front = 1;
   return block;
 }
 
@@ -37,6 +38,7 @@ shared::ClothGrid blockOf(const Grid& grid) {
   block.height = static_cast<float>(down * (grid.rows - 1));
   block.longer = std::max({block.width, block.height, 1e-9f});
   block.reach = static_cast<float>(spacing * static_cast<double>(ring));
+  block.front = grid.rowsGoUp ? -1.0f : 1.0f;
   return block;
 }
 

@@ -56,8 +56,8 @@ void describeCloth(std::span<const Grid> grids, std::uint32_t particle, const Pi
     pick.particle = particle;
     return;
   }
-  pick.lattice = {static_cast<double>(pixel.u) * (grid->columns - 1),
-                  static_cast<double>(pixel.v) * (grid->rows - 1)};
+  const double v = grid->rowsGoUp ? 1 - static_cast<double>(pixel.v) : static_cast<double>(pixel.v);
+  pick.lattice = {static_cast<double>(pixel.u) * (grid->columns - 1), v * (grid->rows - 1)};
   const GridPoint corner = nearestCorner(*grid, pick.lattice);
   pick.particle = grid->particle(corner.column, corner.row);
 }

@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "gl/buffer.h"
+#include "gl/context.h"
 #include "gl/framebuffer.h"
 #include "gl/timer.h"
 #include "render/cloth_mesh.h"
@@ -335,7 +336,9 @@ Image renderImage(Renderer& renderer, GLuint positions, const Camera& camera, do
                   int height) {
   const gl::Framebuffer picture("picture", {.width = width, .height = height, .color = GL_RGBA8});
   renderer.draw(positions, camera, time, picture.name(), width, height);
-  return {width, height, picture.readRgb()};
+  Image image{width, height, picture.readRgb()};
+  gl::checkContext();  // what it has read would be nothing
+  return image;
 }
 
 }  // namespace clothsim

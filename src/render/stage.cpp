@@ -7,13 +7,14 @@
 
 #include "cloth/signed_distance_grid.h"
 #include "render/look.h"
+#include "render/pinned_cloth.h"
 #include "scene/pose.h"
 
 namespace clothsim {
 namespace {
 
-constexpr float stretch = 1.08f;          // how far cloth hangs beyond its own length
 constexpr std::size_t samplesAlong = 64;  // points of a grid looked at along each of its sides
+constexpr int coarseAlong = 8;            // and where it is looked at many times over
 
 using GridSamples = ClothOutline::GridPoints;
 
@@ -22,7 +23,11 @@ GridSamples sampleGrid(const Cloth& cloth, const Grid& grid) {
   GridSamples samples;
   // A mesh has one row of all its particles.
   const int most = static_cast<int>(grid.isMesh ? samplesAlong * samplesAlong : samplesAlong);
-  const auto step = [&](int count) { return std::max(1, count / most); };
+  const int few = grid.isMesh ? coarseAlong * coarseAlong : coarseAlong;
+  const auto step = [](int count, int steps) { return std::max(1, count / steps); };
+  const auto isOn = [&](int index, int count, int steps) {
+    return index % step(count, steps) == 0 || index == count - 1;
+  };
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.columns; ++column) {
       const std::uint32_t particle =
@@ -30,55 +35,22 @@ GridSamples sampleGrid(const Cloth& cloth, const Grid& grid) {
           static_cast<std::uint32_t>(column);
       const glm::vec3 place = toGlm(cloth.positions()[particle]);
       const bool border = (row == grid.rows - 1 && !grid.isMesh) || column == grid.columns - 1;
-      if (border || (row % step(grid.rows) == 0 && column % step(grid.columns) == 0))
+      if (border || (row % step(grid.rows, most) == 0 && column % step(grid.columns, most) == 0))
         samples.points.push_back(place);
-      if (cloth.inverseMasses()[particle] == 0) samples.pins.push_back(place);
+      if (isOn(row, grid.rows, few) && isOn(column, grid.columns, few)) samples.coarse.push_back(place);
+      if (cloth.inverseMasses()[particle] == 0)
+        samples.pins.push_back({place, particle - grid.firstParticle});
     }
   }
   // A pinned side of a large grid would make the search below quadratic.
   if (samples.pins.size() > 2 * samplesAlong) {
-    std::vector<glm::vec3> fewer;
+    std::vector<ClothOutline::Pin> fewer;
     for (std::size_t i = 0; i < samples.pins.size(); i += samples.pins.size() / samplesAlong)
       fewer.push_back(samples.pins[i]);
     fewer.push_back(samples.pins.back());
     samples.pins = fewer;
   }
   return samples;
-}
-
-// Pinned cloth ends below its pins: each point stays within reach of the nearest one. Along the axes on which
-// pins hold the sheet apart it stays where it is; along the others it swings under the pins.
-void addHanging(const GridSamples& samples, const Bounds& rest, Stage& stage) {
-  Bounds pins;
-  for (const glm::vec3 pin : samples.pins) pins.add(pin);
-  const bool heldX = pins.size().x > 0.5f * rest.size().x, heldZ = pins.size().z > 0.5f * rest.size().z;
-  for (const glm::vec3 point : samples.points) {
-    glm::vec3 pin = samples.pins.front();
-    for (const glm::vec3 candidate : samples.pins) {
-      if (glm::distance(candidate, point) < glm::distance(pin, point)) pin = candidate;
-    }
-    const float reach = stretch * glm::distance(pin, point);
-    const glm::vec2 held{heldX ? point.x - pin.x : 0, heldZ ? point.z - pin.z : 0};
-    const float drop = std::sqrt(std::max(0.0f, reach * reach - glm::dot(held, held)));
-    stage.staying.emplace_back(pin.x + held.x, std::min(point.y, pin.y - drop), pin.z + held.y);
-    stage.reach.add(pin - glm::vec3(reach));
-    stage.reach.add(pin + glm::vec3(reach, 0.3f * reach, reach));
-  }
-}
-
-// The middles of pins on their paths come into the picture; the cloth around them must not leave the shadow
-// map.
-void addPinPaths(const ClothSettings& cloth, const Bounds& rest, Stage& stage) {
-  const glm::vec3 halfDiagonal(0.5f * glm::length(rest.size()));
-  for (const PinMotion& motion : cloth.pinMotion) {
-    for (const PinMotion::Key& key : motion.keys) {
-      if (!key.position) continue;
-      const glm::vec3 place = toGlm(*key.position);
-      stage.passing.push_back(place);
-      stage.reach.add(place - halfDiagonal);
-      stage.reach.add(place + halfDiagonal);
-    }
-  }
 }
 
 void addCorners(const Bounds& box, Stage& stage) {
@@ -147,7 +119,10 @@ void addFalling(const Bounds& cloth, const Scene& scene, Stage& stage) {
   }
   const glm::vec3 low{cloth.low.x, rest, cloth.low.z}, high{cloth.high.x, rest, cloth.high.z};
   const float folded = onSolid ? 0.15f : 0.0f;  // hanging in folds it is narrower
-  const glm::vec3 inward = folded * glm::vec3(high.x - low.x, 0, high.z - low.z);
+  glm::vec3 inward = folded * glm::vec3(high.x - low.x, 0, high.z - low.z);
+  // What stands may fall over to either side.
+  const float tipped = 0.35f * cloth.size().y;
+  inward = glm::min(inward, 0.5f * cloth.size() - glm::vec3(tipped, 0, tipped));
   addCorners({low + inward, high - inward}, stage);
   stage.reach.add(low - glm::vec3(halfDiagonal, 0, halfDiagonal));
   stage.reach.add(high + glm::vec3(halfDiagonal, 0, halfDiagonal));
@@ -175,7 +150,7 @@ glm::vec3 frontOf(const Cloth& cloth) {
   const glm::vec3 corner = toGlm(cloth.positions()[grid.firstParticle]);
   const glm::vec3 along = toGlm(cloth.positions()[lastColumn]) - corner;
   const glm::vec3 down = toGlm(cloth.positions()[lastRow]) - corner;
-  const glm::vec3 normal = glm::cross(down, along);
+  const glm::vec3 normal = (grid.rowsGoUp ? -1.0f : 1.0f) * glm::cross(down, along);
   const glm::vec3 horizontal{normal.x, 0, normal.z};
   if (glm::length(horizontal) <= 0.5f * glm::length(normal)) return {0, 0, 1};
   return glm::normalize(horizontal);
@@ -210,9 +185,8 @@ Stage makeStage(const ClothOutline& cloth, const Scene& scene) {
     if (grid.pins.empty()) {
       addFalling(rest, scene, stage);
     } else {
-      addHanging(grid, rest, stage);
+      addPinnedCloth(grid, scene.cloths[i], scene, rest, stage);
     }
-    addPinPaths(scene.cloths[i], rest, stage);
   }
   for (const Collider& collider : scene.colliders) {
     const auto addAt = [&](Vec3d position, const Matrix3& rotation) {
@@ -224,7 +198,10 @@ Stage makeStage(const ClothOutline& cloth, const Scene& scene) {
     const auto& motion = std::visit(
         [](const auto& shape) -> const auto& { return shape.motion; }, collider);
     if (!motion) continue;
-    for (const Motion::Key& key : motion->keys) addAt(key.position, rotationMatrix(key.rotation));
+    for (const double time : timesAlong(*motion)) {
+      const Pose then = poseAt(*motion, time);
+      addAt(then.position, then.rotation);
+    }
   }
   for (const glm::vec3 point : stage.staying) stage.view.add(point);
   stage.floorHeight = stage.view.low.y - 0.02f * glm::length(stage.view.size());

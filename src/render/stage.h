@@ -20,8 +20,13 @@ struct Bounds {
 
 // What is needed of a cloth to guess where it may go: some of its points and pins, grid by grid.
 struct ClothOutline {
+  struct Pin {
+    glm::vec3 place;      // at the start [m]
+    std::uint32_t point;  // its number on the grid
+  };
   struct GridPoints {
-    std::vector<glm::vec3> points, pins;  // at rest [m]
+    std::vector<glm::vec3> points, coarse;  // at the start [m]: its border and a raster; a few of them
+    std::vector<Pin> pins;
   };
   std::vector<GridPoints> grids;
   glm::vec3 front{0, 0, 1};  // horizontal direction from which the cloth shows its front

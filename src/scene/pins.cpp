@@ -132,6 +132,14 @@ std::vector<int> pinMotionOfPoints(const ClothSettings& cloth) {
   return motions;
 }
 
+Motion pathAbout(const PinMotion& motion, Vec3d center) {
+  Motion path;
+  path.loop = motion.loop;
+  for (const PinMotion::Key& key : motion.keys)
+    path.keys.push_back({key.t, key.position.value_or(center), key.rotation});
+  return path;
+}
+
 std::optional<PinConflict> findPinConflict(const ClothSettings& cloth) {
   if (cloth.pinMotion.empty()) return std::nullopt;
   constexpr int free = -2;

@@ -33,6 +33,9 @@ inline constexpr int NO_MOTION = -1;  // a pin that stays, or a free point
 // particlesOf
 [[nodiscard]] std::vector<int> pinMotionOfPoints(const ClothSettings& cloth);
 
+// The path of the centre of its pins, which begin around `center` [m].
+[[nodiscard]] Motion pathAbout(const PinMotion& motion, Vec3d center);
+
 // A point that a motion names although the cloth does not pin it, or although another motion moves it.
 struct PinConflict {
   std::size_t motion, pin;                 // pinMotion[motion], the pin of that number in pinsOf()

@@ -124,7 +124,7 @@ Measures measure(const Cloth& cloth, const Scene& scene, const State& state) {
     if (const auto ofGrid = maxStrain(cloth, grid, state))
       strain = std::max(strain.value_or(*ofGrid), *ofGrid);
   measures.maxStrain = strain.value_or(0);
-  const double time = static_cast<double>(state.step) * stepLength(scene.solver);
+  const double time = state.clock.time();
   for (const Collider& collider : scene.colliders) {
     const Solid solid(collider, scene, time);
     for (std::size_t i = 0; i < count; ++i)
@@ -135,19 +135,24 @@ Measures measure(const Cloth& cloth, const Scene& scene, const State& state) {
   return measures;
 }
 
-std::uint32_t particlesInColliders(const Cloth& cloth, const Scene& scene, const State& state) {
-  const double time = static_cast<double>(state.step) * stepLength(scene.solver);
+ColliderOverlaps overlapsWithColliders(const Cloth& cloth, const Scene& scene, const State& state) {
+  constexpr double contactShare = 0.02;  // of the spacing: what a first step that pushes it out hardly shows
+  double spacing = INFINITY;
+  for (const Grid& grid : cloth.grids())
+    spacing = std::min({spacing, grid.nominalLength[toLeft], grid.nominalLength[toUpper]});
   std::vector<Solid> solids;
   for (const Collider& collider : scene.colliders)
-    if (!std::holds_alternative<Plane>(collider)) solids.emplace_back(collider, scene, time);
-  std::uint32_t count = 0;
+    if (!std::holds_alternative<Plane>(collider)) solids.emplace_back(collider, scene, state.clock.time());
+  ColliderOverlaps overlaps;
   for (std::size_t i = 0; i < state.positions.size(); ++i) {
-    const bool inside = std::any_of(solids.begin(), solids.end(), [&](const Solid& solid) {
-      return solid.penetration(cloth.positions()[i], positionOf(state, i)) > 0;
-    });
-    count += inside && state.positions[i].w > 0 ? 1 : 0;
+    if (state.positions[i].w == 0) continue;
+    double depth = 0;
+    for (const Solid& solid : solids)
+      depth = std::max(depth, solid.penetration(cloth.positions()[i], positionOf(state, i)));
+    overlaps.particles += depth > contactShare * spacing ? 1 : 0;
+    overlaps.depth = std::max(overlaps.depth, depth);
   }
-  return count;
+  return overlaps;
 }
 
 }  // namespace clothsim

@@ -21,8 +21,14 @@ struct Measures {
   std::optional<std::uint32_t> firstNonFinite;  // lowest index of a particle with an infinity or NaN
 };
 
-// How many free particles lie inside a collider. Planes have no inside.
-[[nodiscard]] std::uint32_t particlesInColliders(const Cloth& cloth, const Scene& scene, const State& state);
+// Free particles that lie inside a collider, deeper than contact itself leaves them: by more than 2 % of the
+// smallest spacing. Planes have no inside.
+struct ColliderOverlaps {
+  std::uint32_t particles = 0;
+  double depth = 0;  // of the deepest [m]
+};
+[[nodiscard]] ColliderOverlaps overlapsWithColliders(const Cloth& cloth, const Scene& scene,
+                                                     const State& state);
 
 [[nodiscard]] Measures measure(const Cloth& cloth, const Scene& scene, const State& state);
 

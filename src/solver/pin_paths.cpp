@@ -24,12 +24,9 @@ PinPaths makePinPaths(const Scene& scene, const Cloth& cloth, std::span<const st
       ++counts[motion];
     }
     for (std::size_t k = 0; k < settings.pinMotion.size(); ++k) {
-      const PinMotion& motion = settings.pinMotion[k];
       PinPath path;
       if (counts[k] > 0) path.center = (1 / counts[k]) * sums[k];
-      path.motion.loop = motion.loop;
-      for (const PinMotion::Key& key : motion.keys)
-        path.motion.keys.push_back({key.t, key.position.value_or(path.center), key.rotation});
+      path.motion = pathAbout(settings.pinMotion[k], path.center);
       result.paths.push_back(std::move(path));
     }
   }
@@ -38,8 +35,8 @@ PinPaths makePinPaths(const Scene& scene, const Cloth& cloth, std::span<const st
 }
 
 template <class Real>
-PinMotionParams<Real> makePinMotionParams(const PinPath& path, double timeStep, std::uint64_t step) {
-  const Pose pose = poseAt(path.motion, static_cast<double>(step + 1) * timeStep);
+PinMotionParams<Real> makePinMotionParams(const PinPath& path, double time) {
+  const Pose pose = poseAt(path.motion, time);
   const auto& [rowX, rowY, rowZ] = pose.rotation;
   const Vec3d shift = pose.position - path.center;
   const auto real = [](double x) { return static_cast<Real>(x); };
@@ -62,7 +59,7 @@ PinMotionParams<Real> makePinMotionParams(const PinPath& path, double timeStep, 
   return params;
 }
 
-template PinMotionParams<float> makePinMotionParams(const PinPath&, double, std::uint64_t);
-template PinMotionParams<double> makePinMotionParams(const PinPath&, double, std::uint64_t);
+template PinMotionParams<float> makePinMotionParams(const PinPath&, double);
+template PinMotionParams<double> makePinMotionParams(const PinPath&, double);
 
 }  // namespace clothsim

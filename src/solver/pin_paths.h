@@ -30,11 +30,9 @@ struct PinPaths {
 [[nodiscard]] PinPaths makePinPaths(const Scene& scene, const Cloth& cloth,
                                     std::span<const std::uint32_t> offPath = {});
 
-// From the start positions to those at the end of step `step` (not from step to step, which would drift).
-// `timeStep` in seconds.
+// From the start positions to those at `time` [s] (not from step to step, which would drift).
 template <class Real>
-[[nodiscard]] PinMotionParams<Real> makePinMotionParams(const PinPath& path, double timeStep,
-                                                        std::uint64_t step);
+[[nodiscard]] PinMotionParams<Real> makePinMotionParams(const PinPath& path, double time);
 
 [[nodiscard]] inline bool hasPinMotion(const Scene& scene) {
   for (const ClothSettings& cloth : scene.cloths)

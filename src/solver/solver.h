@@ -41,17 +41,19 @@ class Solver {
   virtual ~Solver() = default;
 
   // Live parameters: gravity, wind, damping, colliders, integrator, step length... of `scene`, from the next
-  // step on. Changing the integrator converts the velocities by -+ h a / 2. The grids must be those of the
-  // solver's cloth.
+  // step on. The time stays what it is. Changing the integrator converts the velocities by -+ h a / 2. The
+  // grids must be those of the solver's cloth.
   virtual void configure(const Scene& scene) = 0;
 
-  // Advances by `count` steps. Neither throws nor allocates; on the GPU nothing is waited for.
+  // Advances by `count` steps; by fewer once an interrupt has come (core/interrupt.h) or, on the CPU, after
+  // trouble. Neither throws nor allocates; on the GPU nothing is waited for.
   virtual void step(int count) = 0;
   // Waits until every step is done. @throws OpenGlError when the driver has reported an error meanwhile
   virtual void finish() = 0;
 
   // The first trouble since the solver was made or setState() was called; the same on both backends. Waits
-  // for the steps, and looks at a few bytes for each of them. Steps go on after trouble, to nowhere.
+  // for the steps, and looks at a few bytes for each of them. Steps after trouble lead nowhere and look for
+  // no contacts, which could take minutes in a heap of broken numbers.
   [[nodiscard]] virtual std::optional<Trouble> trouble() = 0;
 
   // A copy of the state where it lies, and back to it, which forgets trouble. On its own device nothing is
@@ -87,7 +89,8 @@ class Solver {
   // Pins a particle where it is now, off any path that the scene has for it; or gives it its mass back. It is
   // at rest after either.
   virtual void setPin(std::uint32_t particle, bool pinned) = 0;
-  [[nodiscard]] virtual std::uint64_t stepIndex() const = 0;
+  [[nodiscard]] virtual const StepClock& clock() const = 0;
+  [[nodiscard]] std::uint64_t stepIndex() const { return clock().step; }
   // A small blocking read-back on the GPU.
   [[nodiscard]] virtual ContactCounts contactCounts() = 0;
 

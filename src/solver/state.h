@@ -1,4 +1,4 @@
-// What moves: positions and velocities of all particles at a step. The layout is that of the shader storage
+// What moves: positions and velocities of all particles at a time. The layout is that of the shader storage
 // buffers.
 #pragma once
 
@@ -8,6 +8,7 @@
 
 #include "cloth/cuts.h"
 #include "scene/scene.h"
+#include "solver/step_clock.h"
 
 namespace clothsim {
 
@@ -19,7 +20,7 @@ struct State {
   std::vector<Particle4> positions;   // xyz [m], w the inverse mass [1/kg], 0: pinned
   std::vector<Particle4> velocities;  // xyz [m/s]; of the half step before under `verlet`. w: what part of
                                       // its weight held a particle up in the last implicit step
-  std::uint64_t step = 0;             // steps since the start; the time is step * h
+  StepClock clock;
   Integrator integrator = Integrator::verlet;
   Cuts cuts;  // empty: none
   std::vector<std::uint32_t>

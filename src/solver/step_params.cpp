@@ -207,8 +207,7 @@ bool dependsOnTime(const Scene& scene) {
 }
 
 template <class Real>
-StepParams<Real> makeStepParams(const Scene& scene, const Cloth& cloth, std::size_t gridIndex,
-                                std::uint64_t step) {
+StepParams<Real> makeStepParams(const Scene& scene, const Cloth& cloth, std::size_t gridIndex, double time) {
   const Grid& grid = cloth.grids()[gridIndex];
   const double h = stepLength(scene.solver);
   StepParams<Real> params{};
@@ -232,7 +231,7 @@ StepParams<Real> makeStepParams(const Scene& scene, const Cloth& cloth, std::siz
   params.gravityZ = real<Real>(scene.gravity.z);
   params.planeOffset = real<Real>(PLANE_OFFSET);
   if (scene.wind) {
-    const Vec3d air = airVelocity(*scene.wind, static_cast<double>(step) * h);
+    const Vec3d air = airVelocity(*scene.wind, time);
     params.hasWind = 1;
     params.airVelocityX = real<Real>(air.x);
     params.airVelocityY = real<Real>(air.y);
@@ -264,10 +263,10 @@ std::uint32_t colliderType(const Collider& collider) {
 }
 
 template <class Real>
-ColliderParams<Real> makeColliderParams(const Scene& scene, const Collider& collider, std::uint64_t step) {
-  const double h = stepLength(scene.solver);
-  const Pose before = poseAt(collider, static_cast<double>(step) * h);
-  const Pose after = poseAt(collider, static_cast<double>(step + 1) * h);
+ColliderParams<Real> makeColliderParams(const Scene& scene, const Collider& collider, double begin,
+                                        double end) {
+  const Pose before = poseAt(collider, begin);
+  const Pose after = poseAt(collider, end);
   ColliderParams<Real> params{};
   params.pointX = real<Real>(after.position.x);
   params.pointY = real<Real>(after.position.y);
@@ -371,9 +370,9 @@ std::vector<LimitColor> makeLimitColors(const Grid& grid) {
 
 template std::vector<float> measureRestLengths(const Cloth&);
 template std::vector<double> measureRestLengths(const Cloth&);
-template StepParams<float> makeStepParams(const Scene&, const Cloth&, std::size_t, std::uint64_t);
-template StepParams<double> makeStepParams(const Scene&, const Cloth&, std::size_t, std::uint64_t);
-template ColliderParams<float> makeColliderParams(const Scene&, const Collider&, std::uint64_t);
-template ColliderParams<double> makeColliderParams(const Scene&, const Collider&, std::uint64_t);
+template StepParams<float> makeStepParams(const Scene&, const Cloth&, std::size_t, double);
+template StepParams<double> makeStepParams(const Scene&, const Cloth&, std::size_t, double);
+template ColliderParams<float> makeColliderParams(const Scene&, const Collider&, double, double);
+template ColliderParams<double> makeColliderParams(const Scene&, const Collider&, double, double);
 
 }  // namespace clothsim

@@ -21,10 +21,10 @@ template <class Real>
 using ColliderParams = shared::ColliderParams<Real>;
 using LimitColor = shared::LimitColor;
 
-// For one grid and the step from step * h to (step + 1) * h.
+// For one grid and the step that begins at `time` [s].
 template <class Real>
 [[nodiscard]] StepParams<Real> makeStepParams(const Scene& scene, const Cloth& cloth, std::size_t grid,
-                                              std::uint64_t step);
+                                              double time);
 
 // COLLIDER_SPHERE... of shared/step_params.h.
 [[nodiscard]] std::uint32_t colliderType(const Collider& collider);
@@ -33,10 +33,10 @@ template <class Real>
 // file is missing or wrong
 [[nodiscard]] std::vector<float> distanceSamples(const Scene& scene);
 
-// One a collider, in the scene's order, for the same step.
+// One a collider, in the scene's order, for the step from `begin` to `end` [s].
 template <class Real>
 [[nodiscard]] ColliderParams<Real> makeColliderParams(const Scene& scene, const Collider& collider,
-                                                      std::uint64_t step);
+                                                      double begin, double end);
 
 // Whether anything above changes from step to step.
 [[nodiscard]] bool dependsOnTime(const Scene& scene);

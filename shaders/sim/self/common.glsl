@@ -18,6 +18,7 @@ layout(std430, binding = CONTACT_FLAGS_BINDING) buffer ContactFlags {
   uint hashBuilds;    // so far,
   uint fastSteps;     // and steps with these
   uint guardedSteps;
+  uint broken;        // there was trouble (sim/watch.glsl): contacts in broken numbers could take minutes, and are left out
 }
 contacts;
 

@@ -23,7 +23,7 @@ void look(uint i, uint candidate) {
 
 void main() {
   GridPoint p = thisGridPoint();
-  if (!p.exists || positionAt(p.index).w == 0.0) return;
+  if (!p.exists || positionAt(p.index).w == 0.0 || contacts.broken != 0u) return;
   lookAtCandidates(p);
   if (found) contacts.tooNear = 1u;
 }

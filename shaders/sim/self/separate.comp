@@ -63,7 +63,7 @@ void main() {
   vec4 position = texelFetch(positionsSoFar, int(p.index));
   here = position.xyz;
   start = positionAt(p.index).xyz;
-  if (position.w > 0.0) lookAtCandidates(p);
+  if (position.w > 0.0 && contacts.broken == 0u) lookAtCandidates(p);
   if (contactCount == 0u) {
     newPositions[p.index] = position;
     return;

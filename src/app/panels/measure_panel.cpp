@@ -12,7 +12,6 @@
 #include "app/ui_frame.h"
 #include "core/error.h"
 #include "render/strain_scale.h"
-#include "solver/cpu/measure_contacts.h"
 #include "solver/gpu/gpu_solver.h"
 
 namespace clothsim {
@@ -94,6 +93,7 @@ void MeasurePanel::forget() {
   samples_.clear();
   nextSample_ = 0;
   passes_.clear();
+  watch_ = {};
 }
 
 void MeasurePanel::sample(Session& session, double now, std::optional<std::uint32_t> underCursor) {
@@ -104,6 +104,7 @@ void MeasurePanel::sample(Session& session, double now, std::optional<std::uint3
     springs_ = cloth.springs();
     springsOf_ = session.clothGeneration();
     samples_.clear();
+    watch_ = {};
   }
   const State state = session.simulation().solver().state();
   if (!samples_.empty() && simulation.time() < samples_.back().time) samples_.clear();
@@ -111,8 +112,9 @@ void MeasurePanel::sample(Session& session, double now, std::optional<std::uint3
                       energies(cloth, springs_, simulation.scene(), session.cuts(), state)};
   if (samples_.empty() || simulation.time() > samples_.back().time) samples_.push_back(sample);
   if (samples_.size() > mostSamples) samples_.pop_front();
-  contacts_ = measureContacts(cloth, simulation.scene(), state, sample.energies.maxStrain).contacts;
-  guardedSteps_ = session.simulation().contactCounts().guardedSteps;
+  const ContactCounts counts = session.simulation().contactCounts();
+  watch_.add(session.frame(), cloth, simulation.scene(), state, sample.energies.maxStrain, counts);
+  guardedSteps_ = counts.guardedSteps;
   strainUnderCursor_ =
       underCursor ? std::optional(strainAt(cloth, session.cuts(), state, *underCursor)) : std::nullopt;
   rate_ = seconds_ > 0 ? particleSteps_ / seconds_ : 0;
@@ -128,11 +130,12 @@ void MeasurePanel::drawNumbers(Session& session) {
   row("under the cursor", strainUnderCursor_ ? formatted("%+.2f %%", 100 * *strainUnderCursor_) : "-",
       "The strain of largest size among the springs at the particle under the mouse.");
   const bool hasContacts = session.simulation().scene().solver.selfCollision != SelfCollision::off;
+  const auto contacts = static_cast<unsigned long long>(watch_.contacts().contacts());
   row("self-contacts",
       !hasContacts ? "off"
       : guardedSteps_ > 0
-          ? formatted("%zu, %llu steps guarded", contacts_, static_cast<unsigned long long>(guardedSteps_))
-          : formatted("%zu", contacts_),
+          ? formatted("%llu, %llu steps guarded", contacts, static_cast<unsigned long long>(guardedSteps_))
+          : formatted("%llu", contacts),
       "Pairs of particles, not neighbours on the cloth, that touch. A guarded step is one in which motion "
       "had "
       "to be cut short.");

@@ -1,5 +1,6 @@
-// Measure: numbers and curves about the cloth. They need the state on the host, so it is read back only while
-// the panel is open, a few times a second and for no more than a tenth of the time.
+// Measure: numbers and curves about the cloth. They need the state on the host, so it is read back only a few
+// times a second and for no more than a tenth of the time; of large cloths only while the panel is open. The
+// warnings of the overlay come from the same samples.
 #pragma once
 
 #include <cstdint>
@@ -8,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/run_watch.h"
 #include "app/session.h"
 #include "solver/energies.h"
 #include "solver/gpu/pass_runner.h"
@@ -19,12 +21,15 @@ class MeasurePanel {
   // `look`: of the picture; where it shows strain as colours, there is a legend.
   void draw(Session& session, const RenderSettings& look);
 
-  // While the panel is open: takes a sample when it is time for one. `particleUnderCursor` is asked then.
+  // Takes a sample when it is time for one. `particleUnderCursor` is asked then.
   template <class UnderCursor>
   void update(Session& session, double now, UnderCursor&& particleUnderCursor) {
-    if (!open_ || now < nextSample_) return;
-    sample(session, now, particleUnderCursor());
+    const bool wanted = open_ || session.simulation().cloth().particleCount() <= ALWAYS_SAMPLED;
+    if (!wanted || now < nextSample_) return;
+    sample(session, now, open_ ? particleUnderCursor() : std::nullopt);
   }
+  // What the samples since the last start have shown.
+  [[nodiscard]] std::vector<Warning> warnings(const Scene& scene) const { return watch_.warnings(scene); }
   void setOpen(bool open) { open_ = open; }
   // So many particles times steps took so long.
   void stepped(double particleSteps, double seconds);
@@ -32,6 +37,8 @@ class MeasurePanel {
   void forget();
 
  private:
+  static constexpr std::uint32_t ALWAYS_SAMPLED = 65'536;  // particles
+
   struct Sample {
     double time = 0;
     Energies energies;
@@ -49,7 +56,7 @@ class MeasurePanel {
   std::vector<Spring> springs_;
   std::optional<std::uint64_t> springsOf_;  // the generation of the cloth they belong to
   std::optional<double> strainUnderCursor_;
-  std::size_t contacts_ = 0;
+  RunWatch watch_;
   std::uint64_t guardedSteps_ = 0;
   double particleSteps_ = 0, seconds_ = 0;  // since the last sample
   double rate_ = 0;                         // particle steps a second

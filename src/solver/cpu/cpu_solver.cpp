@@ -4,6 +4,7 @@
 
 #include <cassert>
 
+#include "core/interrupt.h"
 #include "solver/cpu/collide.h"
 #include "solver/cpu/rows.h"
 #include "solver/cpu/snapshot.h"
@@ -58,6 +59,7 @@ void CpuSolver<Real>::configure(const Scene& scene) {
          "configure() takes live edits of the solver's own scene");
   distances_ = distanceSamples(scene);
   scene_ = scene;
+  clock_.setStepLength(stepLength(scene.solver));
   colliders_.resize(scene.colliders.size());
   params_.resize(cloth_->grids().size());
   selfCollision_.configure(scene);
@@ -78,7 +80,7 @@ void CpuSolver<Real>::preparePins() {
 
 template <class Real>
 StepParams<Real> CpuSolver<Real>::paramsOf(std::size_t grid) const {
-  StepParams<Real> params = makeStepParams<Real>(scene_, *cloth_, grid, stepIndex_);
+  StepParams<Real> params = makeStepParams<Real>(scene_, *cloth_, grid, clock_.time());
   addJet(hand_, params);
   return params;
 }
@@ -115,11 +117,11 @@ void CpuSolver<Real>::forEachRow(int rows, Pass pass) {
 
 template <class Real>
 void CpuSolver<Real>::prepareMotions() {
-  handParams_ = makeHandParams<Real>(hand_, scene_, stepIndex_);
+  handParams_ = makeHandParams<Real>(hand_, scene_, clock_.step);
   for (std::size_t i = 0; i < colliders_.size(); ++i)
-    colliders_[i] = makeColliderParams<Real>(scene_, scene_.colliders[i], stepIndex_);
+    colliders_[i] = makeColliderParams<Real>(scene_, scene_.colliders[i], clock_.time(), clock_.timeAfter(1));
   for (std::size_t i = 0; i < pinMotions_.size(); ++i)
-    pinMotions_[i] = makePinMotionParams<Real>(pinPaths_.paths[i], stepLength(scene_.solver), stepIndex_);
+    pinMotions_[i] = makePinMotionParams<Real>(pinPaths_.paths[i], clock_.timeAfter(1));
 }
 
 template <class Real>
@@ -146,7 +148,7 @@ void CpuSolver<Real>::convertVelocities() {
   if (wanted == velocityMeaning_) return;
   checkStart();
   velocityMeaning_ = wanted;
-  handParams_ = makeHandParams<Real>(hand_, scene_, stepIndex_);
+  handParams_ = makeHandParams<Real>(hand_, scene_, clock_.step);
   for (std::size_t grid = 0; grid < cloth_->grids().size(); ++grid) {
     StepParams<Real> params = paramsOf(grid);
     params.kickTime = velocityConversionTime<Real>(scene_);
@@ -195,6 +197,9 @@ void CpuSolver<Real>::stepOnce() {
     }
   };
 
+  // Broken numbers may lie in one heap, and contacts in it take very long.
+  const auto isBroken = [&] { return firstTrouble(watch_, clock_.step + 1).has_value(); };
+
   const int rounds = contactRounds(scene_);
   const bool implicit = scene_.solver.integrator == Integrator::implicit;
   const bool fusesCollide = fused_ && !implicit && !selfCollision_.isOn();
@@ -217,11 +222,13 @@ void CpuSolver<Real>::stepOnce() {
       limitStrain();
       collideAll();
     }
-    selfCollision_.separate(before_, after_, inverseMasses_);
-    selfCollision_.guard(before_, after_, inverseMasses_);
+    if (!isBroken()) {
+      selfCollision_.separate(before_, after_, inverseMasses_);
+      selfCollision_.guard(before_, after_, inverseMasses_);
+    }
     collideAll();
   } else {
-    if (selfCollision_.isOn()) selfCollision_.separate(before_, after_, inverseMasses_);
+    if (selfCollision_.isOn() && !isBroken()) selfCollision_.separate(before_, after_, inverseMasses_);
     if (!fusesCollide) collideAll();
     limitStrain();
     for (int round = 1; round < rounds; ++round) {
@@ -236,18 +243,18 @@ template <class Real>
 void CpuSolver<Real>::step(int count) {
   checkStart();
   convertVelocities();
-  for (int i = 0; i < count; ++i) {
+  for (int i = 0; i < count && !trouble_ && !isInterrupted(); ++i) {
     prepareMotions();
     stepOnce();
     std::swap(before_, after_);
-    ++stepIndex_;
-    if (!trouble_) trouble_ = firstTrouble(watch_, stepIndex_);
+    ++clock_.step;
+    trouble_ = firstTrouble(watch_, clock_.step);
   }
 }
 
 template <class Real>
 std::optional<Trouble> CpuSolver<Real>::trouble() {
-  if (!trouble_) trouble_ = firstTrouble(watch_, stepIndex_ + 1);  // of a kick
+  if (!trouble_) trouble_ = firstTrouble(watch_, clock_.step + 1);  // of a kick
   return trouble_;
 }
 
@@ -258,7 +265,7 @@ std::unique_ptr<Snapshot> CpuSolver<Real>::snapshot(std::unique_ptr<Snapshot> re
   copy.particles = before_;
   copy.inverseMasses = inverseMasses_;
   copy.support = support_;
-  copy.stepIndex = stepIndex_;
+  copy.clock = clock_;
   copy.velocityMeaning = velocityMeaning_;
   copy.cuts = cuts_;
   copy.offPath = offPath_;
@@ -273,7 +280,8 @@ void CpuSolver<Real>::restore(const Snapshot& snapshot) {
   inverseMasses_ = own->inverseMasses;
   support_ = own->support;
   hasSupport_ = true;
-  stepIndex_ = own->stepIndex;
+  clock_ = own->clock;
+  clock_.setStepLength(stepLength(scene_.solver));
   velocityMeaning_ = own->velocityMeaning;
   offPath_ = own->offPath;
   preparePins();
@@ -299,7 +307,8 @@ void CpuSolver<Real>::setState(const State& state) {
     support_[i] = static_cast<Real>(v.w);
   }
   hasSupport_ = true;
-  stepIndex_ = state.step;
+  clock_ = state.clock;
+  clock_.setStepLength(stepLength(scene_.solver));
   velocityMeaning_ = state.integrator;
   offPath_ = state.offPath;
   preparePins();
@@ -366,7 +375,7 @@ std::vector<Vec3<Real>> CpuSolver<Real>::forces() {
   std::vector<Vec3<Real>> result(cloth_->particleCount());
   for (std::size_t grid = 0; grid < cloth_->grids().size(); ++grid) {
     const StepParams<Real> params = paramsOf(grid);
-    handParams_ = makeHandParams<Real>(hand_, scene_, stepIndex_);
+    handParams_ = makeHandParams<Real>(hand_, scene_, clock_.step);
     const cpu::PassArguments<Real> pass = arguments(params);
     forEachRow(cpu::rowsOf(cloth_->grids()[grid]), [&](int row) { cpu::gatherForces(pass, row); });
   }

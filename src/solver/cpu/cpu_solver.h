@@ -35,7 +35,7 @@ class CpuSolver final : public Solver {
   void setCuts(const Cuts& cuts) override;
   [[nodiscard]] const Cuts& cuts() const override { return cuts_; }
   void setPin(std::uint32_t particle, bool pinned) override;
-  [[nodiscard]] std::uint64_t stepIndex() const override { return stepIndex_; }
+  [[nodiscard]] const StepClock& clock() const override { return clock_; }
   [[nodiscard]] ContactCounts contactCounts() override { return selfCollision_.counts(); }
   [[nodiscard]] std::string backend() const override { return "cpu"; }
   [[nodiscard]] std::string device() const override;
@@ -65,7 +65,7 @@ class CpuSolver final : public Solver {
   bool fused_;
   bool parallel_;  // worth waking the threads for
   Integrator velocityMeaning_ = Integrator::verlet;
-  std::uint64_t stepIndex_ = 0;
+  StepClock clock_;
   CpuState<Real> before_, after_;
   bool startChecked_ = true;  // false once a state was handed in
   WatchRow watch_ = soundWatchRow();

@@ -14,7 +14,7 @@ struct CpuSnapshot final : Snapshot {
   CpuState<Real> particles;
   std::vector<Real> inverseMasses;
   std::vector<Real> support;
-  std::uint64_t stepIndex = 0;
+  StepClock clock;
   Integrator velocityMeaning = Integrator::verlet;
   Cuts cuts;
   std::vector<std::uint32_t> offPath;
@@ -33,7 +33,7 @@ struct CpuSnapshot final : Snapshot {
       state.positions[i] = {real(x.x[i]), real(x.y[i]), real(x.z[i]), real(inverseMasses[i])};
       state.velocities[i] = {real(v.x[i]), real(v.y[i]), real(v.z[i]), real(support[i])};
     }
-    state.step = stepIndex;
+    state.clock = clock;
     state.integrator = velocityMeaning;
     state.cuts = cuts;
     state.offPath = offPath;

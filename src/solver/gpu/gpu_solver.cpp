@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "core/error.h"
+#include "core/interrupt.h"
 #include "solver/gpu/snapshot.h"
 
 namespace clothsim {
@@ -62,6 +63,7 @@ void GpuSolver::configure(const Scene& scene) {
     stagedDistances_ = std::move(samples);
   }
   scene_ = scene;
+  clock_.setStepLength(stepLength(scene.solver));
   const std::size_t batch = dependsOnTime(scene) ? BATCH_STEPS : 1;
   if (stepSlots_.size() != batch * cloth_->grids().size()) {
     stagedSlots_.resize(batch * cloth_->grids().size());
@@ -118,24 +120,24 @@ void GpuSolver::choosePrograms() {
   implicit_->choosePrograms(library_, ofGrids);
 }
 
-void GpuSolver::uploadParams(std::uint64_t firstStep, int count) {
+void GpuSolver::uploadParams(int count) {
   const std::size_t grids = cloth_->grids().size(), colliders = scene_.colliders.size(),
                     pinMotions = pinPaths_.paths.size();
   for (std::size_t k = 0; k < static_cast<std::size_t>(count); ++k) {
     for (std::size_t grid = 0; grid < grids; ++grid) {
       StepParams<float>& params = stagedSlots_[k * grids + grid].params;
-      params = makeStepParams<float>(scene_, *cloth_, grid, firstStep + k);
+      params = makeStepParams<float>(scene_, *cloth_, grid, clock_.timeAfter(k));
       addJet(hand_.hand(), params);
       params.firstCollider = static_cast<std::uint32_t>(k * colliders);
       params.firstPinMotion = static_cast<std::uint32_t>(k * pinMotions);
       params.kickTime = velocityConversionTime<float>(scene_);
     }
     for (std::size_t i = 0; i < colliders; ++i)
-      stagedColliders_[k * colliders + i] =
-          makeColliderParams<float>(scene_, scene_.colliders[i], firstStep + k);
+      stagedColliders_[k * colliders + i] = makeColliderParams<float>(
+          scene_, scene_.colliders[i], clock_.timeAfter(k), clock_.timeAfter(k + 1));
     for (std::size_t i = 0; i < pinMotions; ++i)
       stagedPinMotions_[k * pinMotions + i] =
-          makePinMotionParams<float>(pinPaths_.paths[i], stepLength(scene_.solver), firstStep + k);
+          makePinMotionParams<float>(pinPaths_.paths[i], clock_.timeAfter(k + 1));
   }
   stepSlots_.upload({stagedSlots_.data(), static_cast<std::size_t>(count) * grids});
   colliders_.upload({stagedColliders_.data(), static_cast<std::size_t>(count) * colliders});
@@ -157,27 +159,29 @@ void GpuSolver::bindState() {
 
 // The row of the next step. What comes after trouble is of no interest and shares the last row.
 void GpuSolver::bindWatch() {
-  if (stepIndex_ - watchBase_ >= WATCHED_STEPS) (void)trouble();
-  watch_.bindStorageRange(WATCH_BINDING, std::min<std::size_t>(stepIndex_ - watchBase_, WATCHED_STEPS - 1),
+  if (clock_.step - watchBase_ >= WATCHED_STEPS) (void)trouble();
+  watch_.bindStorageRange(WATCH_BINDING, std::min<std::size_t>(clock_.step - watchBase_, WATCHED_STEPS - 1),
                           1);
 }
 
 void GpuSolver::forgetTrouble() {
   static constexpr GLuint sound = NO_TROUBLE;
   glClearNamedBufferData(watch_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &sound);
-  watchBase_ = stepIndex_;
+  watchBase_ = clock_.step;
   trouble_.reset();
+  selfCollision_.forgetTrouble();
 }
 
 std::optional<Trouble> GpuSolver::trouble() {
   if (trouble_) return trouble_;
+  gl::checkContext();
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   // The row of the next step counts: a kick may have come before it.
-  const std::size_t rows = std::min<std::size_t>(stepIndex_ - watchBase_ + 1, WATCHED_STEPS);
+  const std::size_t rows = std::min<std::size_t>(clock_.step - watchBase_ + 1, WATCHED_STEPS);
   const std::vector<WatchSlot> slots = watch_.download(0, rows);
   for (std::size_t i = 0; i < rows && !trouble_; ++i)
     trouble_ = firstTrouble(slots[i].row, watchBase_ + i + 1);
-  if (!trouble_) watchBase_ = stepIndex_;  // nothing was written: the rows serve again
+  if (!trouble_) watchBase_ = clock_.step;  // nothing was written: the rows serve again
   return trouble_;
 }
 
@@ -194,7 +198,7 @@ std::unique_ptr<Snapshot> GpuSolver::snapshot(std::unique_ptr<Snapshot> reuse) {
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   copy.positions.copyFrom(positions_[now_].buffer);
   copy.velocities.copyFrom(velocities_[now_].buffer);
-  copy.stepIndex = stepIndex_;
+  copy.clock = clock_;
   copy.velocityMeaning = velocityMeaning_;
   copy.cuts = cuts_.cuts();
   copy.offPath = offPath_;
@@ -207,7 +211,8 @@ void GpuSolver::restore(const Snapshot& snapshot) {
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   positions_[now_].buffer.copyFrom(own->positions);
   velocities_[now_].buffer.copyFrom(own->velocities);
-  stepIndex_ = own->stepIndex;
+  clock_ = own->clock;
+  clock_.setStepLength(stepLength(scene_.solver));
   velocityMeaning_ = own->velocityMeaning;
   offPath_ = own->offPath;
   preparePins();
@@ -291,7 +296,7 @@ void GpuSolver::stepOnce(std::size_t batchStep) {
 void GpuSolver::checkStart() {
   if (startChecked_) return;
   startChecked_ = true;
-  uploadParams(stepIndex_, 1);
+  uploadParams(1);
   paramsUploaded_ = !dependsOnTime(scene_);
   bindState();
   for (std::size_t grid = 0; grid < cloth_->grids().size(); ++grid) {
@@ -306,9 +311,9 @@ void GpuSolver::convertVelocities() {
   if (wanted == velocityMeaning_) return;
   checkStart();
   velocityMeaning_ = wanted;
-  uploadParams(stepIndex_, 1);
+  uploadParams(1);
   paramsUploaded_ = !dependsOnTime(scene_);
-  hand_.upload(scene_, stepIndex_, 1);
+  hand_.upload(scene_, clock_.step, 1);
   hand_.bind(0);
   cuts_.bind();
   bindState();
@@ -333,17 +338,16 @@ void GpuSolver::step(int count) {
   distanceTexture_.bind(DISTANCES_UNIT);
   cuts_.bind();
   const bool timed = dependsOnTime(scene_);
-  for (int done = 0; done < count; ++done) {
+  for (int done = 0; done < count && !isInterrupted(); ++done) {
     const int k = timed ? done % BATCH_STEPS : 0;
-    if (timed ? k == 0 : !paramsUploaded_)
-      uploadParams(stepIndex_, timed ? std::min(BATCH_STEPS, count - done) : 1);
+    if (timed ? k == 0 : !paramsUploaded_) uploadParams(timed ? std::min(BATCH_STEPS, count - done) : 1);
     paramsUploaded_ = !timed;
-    if (done % BATCH_STEPS == 0) hand_.upload(scene_, stepIndex_, std::min(BATCH_STEPS, count - done));
+    if (done % BATCH_STEPS == 0) hand_.upload(scene_, clock_.step, std::min(BATCH_STEPS, count - done));
     hand_.bind(static_cast<std::size_t>(done % BATCH_STEPS));
     bindState();
     stepOnce(static_cast<std::size_t>(k));
     now_ = 1 - now_;
-    ++stepIndex_;
+    ++clock_.step;
   }
   glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
@@ -354,12 +358,13 @@ void GpuSolver::finish() {
 }
 
 State GpuSolver::state() {
+  gl::checkContext();
   convertVelocities();
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   State state;
   state.positions = positions_[now_].buffer.download();
   state.velocities = velocities_[now_].buffer.download();
-  state.step = stepIndex_;
+  state.clock = clock_;
   state.integrator = velocityMeaning_;
   state.cuts = cuts_.cuts();
   state.offPath = offPath_;
@@ -370,7 +375,8 @@ void GpuSolver::setState(const State& state) {
   assert(state.positions.size() == cloth_->particleCount() && "the state must be of the solver's cloth");
   positions_[now_].buffer.upload(state.positions);
   velocities_[now_].buffer.upload(state.velocities);
-  stepIndex_ = state.step;
+  clock_ = state.clock;
+  clock_.setStepLength(stepLength(scene_.solver));
   velocityMeaning_ = state.integrator;
   offPath_ = state.offPath;
   preparePins();

@@ -50,7 +50,7 @@ class GpuSolver final : public Solver {
   void setCuts(const Cuts& cuts) override;
   [[nodiscard]] const Cuts& cuts() const override { return cuts_.cuts(); }
   void setPin(std::uint32_t particle, bool pinned) override;
-  [[nodiscard]] std::uint64_t stepIndex() const override { return stepIndex_; }
+  [[nodiscard]] const StepClock& clock() const override { return clock_; }
   [[nodiscard]] ContactCounts contactCounts() override { return selfCollision_.counts(); }
   [[nodiscard]] std::string backend() const override { return "gpu"; }
   [[nodiscard]] std::string device() const override;
@@ -78,7 +78,7 @@ class GpuSolver final : public Solver {
 
   void choosePrograms();
   void preparePins();
-  void uploadParams(std::uint64_t firstStep, int count);
+  void uploadParams(int count);
   void bindWatch();
   void forgetTrouble();
   void checkStart();
@@ -91,7 +91,7 @@ class GpuSolver final : public Solver {
   Scene scene_;
   GpuOptions options_;
   Integrator velocityMeaning_;
-  std::uint64_t stepIndex_ = 0;
+  StepClock clock_;
   bool paramsUploaded_ = false;  // for every step, when nothing depends on time
 
   PassLibrary library_;

@@ -110,6 +110,12 @@ void GpuSelfCollision::restart() {
                             GL_UNSIGNED_INT, &stale);
 }
 
+void GpuSelfCollision::forgetTrouble() {
+  if (flags_.name() == 0) return;
+  glClearNamedBufferSubData(flags_.name(), GL_R32UI, offsetof(Flags, broken), sizeof(Flags::broken),
+                            GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
+}
+
 void GpuSelfCollision::bind() const {
   params_.bindUniform(SELF_PARAMS_BINDING);
   flags_.bindStorage(CONTACT_FLAGS_BINDING);

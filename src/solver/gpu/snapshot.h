@@ -11,7 +11,7 @@ namespace clothsim {
 
 struct GpuSnapshot final : Snapshot {
   gl::Buffer<Particle4> positions, velocities;
-  std::uint64_t stepIndex = 0;
+  StepClock clock;
   Integrator velocityMeaning = Integrator::verlet;
   Cuts cuts;  // on the host
   std::vector<std::uint32_t> offPath;
@@ -22,7 +22,7 @@ struct GpuSnapshot final : Snapshot {
     State state;
     state.positions = positions.download();
     state.velocities = velocities.download();
-    state.step = stepIndex;
+    state.clock = clock;
     state.integrator = velocityMeaning;
     state.cuts = cuts;
     state.offPath = offPath;

@@ -21,15 +21,8 @@ namespace {
 using nlohmann::json;
 using test::clothsim;
 using test::CommandResult;
+using test::jsonOf;
 using test::runCommand;
-
-// The JSON object on stdout.
-json jsonOf(const std::string& arguments, const std::string& environment = "") {
-  const CommandResult result =
-      runCommand("env " + environment + " " CLOTHSIM_PROGRAM " " + arguments + " 2>/dev/null");
-  EXPECT_EQ(result.exitCode, 0) << arguments;
-  return json::parse(result.output, nullptr, false);
-}
 
 TEST(Program, SumsARunUpInJson) {
   const json run = jsonOf("run -f pinned2 --resolution 20x20 --frames 6 --backend cpu --json");
@@ -47,6 +40,30 @@ TEST(Program, SumsARunUpInJson) {
                           "peak_strain", "min_y", "kinetic_energy", "max_penetration"})
     EXPECT_TRUE(run.contains(key)) << key;
   EXPECT_LT(run["min_y"].get<double>(), 1);
+}
+
+TEST(Program, SaysThatTheDeviceWasResetAndEndsWithExitCodeFour) {
+  // A sanitizer's library would rather come before the one that is preloaded.
+  const std::string lost =
+      "ASAN_OPTIONS=verify_asan_link_order=0 LOSE_CONTEXT_WHEN=/ LD_PRELOAD=" LOST_CONTEXT;
+  for (const char* command : {"run -f pinned2 --frames 3", "compare -f pinned2 --frames 3"}) {
+    const CommandResult result = clothsim(std::string(command) + " --resolution 8x8", lost);
+    EXPECT_EQ(result.exitCode, 4) << result.output;
+    EXPECT_NE(result.output.find("the OpenGL context was lost: the driver reset the GPU"), std::string::npos)
+        << result.output;
+  }
+}
+
+TEST(Program, AdvisesAgainstAveragedSelfCollisionOnceAndOnlyWhereItLeaked) {
+  const auto advice = [](const std::string& arguments) {
+    const std::string said = clothsim(arguments + " --backend cpu").output;
+    int count = 0;
+    for (std::size_t at = 0; (at = said.find("self_collision=robust", at)) != std::string::npos; ++at)
+      ++count;
+    return count;
+  };
+  EXPECT_EQ(advice("run -f pinned2 --resolution 8x8 --frames 1"), 0);
+  EXPECT_EQ(advice("run -f selfCollision --resolution 20x20 --frames 40"), 1);
 }
 
 TEST(Program, GivesOneHashOnBothBackendsAtAnyNumberOfThreads) {

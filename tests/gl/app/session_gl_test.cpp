@@ -273,8 +273,9 @@ TEST_F(SessionTest, KeepsPinsOnAnotherLattice) {
   session.act(EditScene{finer});
   const State state = session.simulation().solver().state();
   EXPECT_EQ(state.positions[23 * 10 + 22].w, 0);
-  EXPECT_EQ(state.step, 0u);
+  EXPECT_EQ(state.clock.step, 0u);
   EXPECT_EQ(session.step(), 20u) << "the session's own clock goes on";
+  EXPECT_EQ(session.frameSinceStart(), 0) << "another grid begins anew";
   stepSoundly(session, 2);
   session.seek(1);
   EXPECT_EQ(session.simulation().cloth().particleCount(), 144u);
@@ -287,9 +288,13 @@ TEST_F(SessionTest, RestartsWithoutHandsAndStillLooksBack) {
   const std::uint64_t end = hashOf(session);
   session.act(Restart{});
   EXPECT_TRUE(session.cuts().empty());
+  EXPECT_EQ(session.frameSinceStart(), 0);
   stepSoundly(session, 1);
+  EXPECT_EQ(session.frameSinceStart(), 1);
+  EXPECT_EQ(session.frame(), 14) << "over all restarts";
   EXPECT_EQ(session.simulation().solver().stepIndex(), 10u);
   session.seek(12);
+  EXPECT_EQ(session.frameSinceStart(), 12) << "of the run before the restart";
   stepSoundly(session, 1);
   EXPECT_EQ(hashOf(session), end) << "as if it had never been restarted";
   session.seek(0);

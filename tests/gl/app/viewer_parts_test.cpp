@@ -5,6 +5,8 @@
 #include <set>
 
 #include "app/clip_recorder.h"
+#include "app/compare_card.h"
+#include "app/key_queue.h"
 #include "app/numbered_files.h"
 #include "app/panels/field_widgets.h"
 #include "app/session.h"
@@ -12,6 +14,7 @@
 #include "app/viewer_config.h"
 #include "app/viewer_keys.h"
 #include "core/files.h"
+#include "gl/gl_test.h"
 #include "scene/scene_io.h"
 #include "solver/state.h"
 #include "support/temporary_folder.h"
@@ -70,6 +73,45 @@ TEST(ViewerKeys, HelpHasEveryLineOfTheTable) {
     EXPECT_NE(help.find("  " + std::string(key.input) + "  "), std::string::npos) << key.input;
     EXPECT_NE(help.find("  " + std::string(key.effect) + "\n"), std::string::npos) << key.effect;
   }
+}
+
+TEST(TypedKeys, PressedAndLetGoBetweenTwoFramesArePressedInOneAndLetGoInTheNext) {
+  constexpr int letGo = 0, pressed = 1, one = 49, enter = 257;
+  KeyQueue queue;
+  queue.add({.key = one, .action = pressed});
+  queue.add({.isCharacter = true, .character = '1'});
+  queue.add({.key = enter, .action = pressed});
+  queue.add({.key = one, .action = letGo});
+  queue.add({.key = enter, .action = letGo});
+  const std::vector<TypedKey> first = queue.takeFrame();
+  ASSERT_EQ(first.size(), 3u);
+  EXPECT_EQ(first[2].key, enter);
+  EXPECT_EQ(first[2].action, pressed);
+  EXPECT_FALSE(queue.isEmpty());
+  const std::vector<TypedKey> second = queue.takeFrame();
+  ASSERT_EQ(second.size(), 2u);
+  EXPECT_EQ(second[1].key, enter);
+  EXPECT_EQ(second[1].action, letGo);
+  EXPECT_TRUE(queue.isEmpty());
+}
+
+using CompareCardTest = GlTest;
+
+TEST_F(CompareCardTest, GoesAwayAWhileAfterItsResult) {
+  Scene scene;
+  scene.cloths[0].numWidthPoints = scene.cloths[0].numHeightPoints = 4;
+  Session session(scene, "cpu");
+  CompareCard card;
+  card.start(session);
+  while (card.isRunning()) {
+    card.pass(3600);
+    ASSERT_TRUE(card.isOpen()) << "while it runs it stays";
+    card.advance();
+  }
+  card.pass(5);
+  EXPECT_TRUE(card.isOpen());
+  card.pass(10);
+  EXPECT_FALSE(card.isOpen());
 }
 
 TEST(ViewerConfigFile, IsReadAsItWasWritten) {
@@ -135,6 +177,11 @@ TEST(NumberedFiles, NeverNameWhatIsThere) {
   EXPECT_EQ(freeName(folder.path(), "demo-gpu-7", ".png"), folder / "demo-gpu-7-3.png");
   const std::string tooLong(300, 'x');  // no file can have it; writing it says so
   EXPECT_EQ(freeName(folder.path(), tooLong, ".png"), folder / (tooLong + ".png"));
+}
+
+TEST(NumberedFiles, LeaveANameThatIsTooLongToWhoWritesIt) {
+  const std::string stem(300, 'x');
+  EXPECT_EQ(freeName("/tmp", stem, ".png"), "/tmp/" + stem + ".png");
 }
 
 TEST(FieldText, SaysUnitsAsAPersonWouldWriteThem) {

@@ -5,7 +5,9 @@
 
 #include <cmath>
 
+#include "app/simulation.h"
 #include "render/stage.h"
+#include "scene/pose.h"
 #include "scene/scene_io.h"
 
 namespace clothsim {
@@ -68,6 +70,96 @@ std::vector<std::string> bundledNames() {
 }
 INSTANTIATE_TEST_SUITE_P(All, BundledFraming, ::testing::ValuesIn(bundledNames()),
                          [](const auto& name) { return name.param; });
+
+// How far from the middle of the picture cloth and spheres come at the ends of frames; 1 is its edge.
+float farthestFromMiddle(Scene scene, double time) {
+  if (!scene.cloths[0].isMesh()) (void)changeResolution(scene, 9, 9, true);
+  Simulation simulation(scene, "cpu");
+  const Camera camera(scene, simulation.cloth());
+  float farthest = 0;
+  const auto look = [&](glm::vec3 point) {
+    const glm::vec2 place = glm::abs(onScreen(camera, point));
+    farthest = std::max({farthest, place.x, place.y});
+  };
+  for (int frame = 0; simulation.time() < time; ++frame) {
+    if (frame > 0) simulation.stepFrame();
+    for (const Particle4& p : simulation.solver().state().positions) look({p.x, p.y, p.z});
+    for (const Collider& collider : scene.colliders) {
+      const auto* sphere = std::get_if<Sphere>(&collider);
+      if (sphere == nullptr) continue;
+      const glm::vec3 middle = toGlm(poseAt(collider, simulation.time()).position);
+      for (const double side : {-sphere->radius, sphere->radius})
+        look(middle + glm::vec3(0, static_cast<float>(side), 0));
+    }
+  }
+  return farthest;
+}
+
+TEST(AutomaticCamera, KeepsClothThatSwingsInThePicture) {
+  EXPECT_LT(farthestFromMiddle(withoutCamera("pinned2"), 1), 1);
+  EXPECT_LT(farthestFromMiddle(withoutCamera("cs171"), 2), 1) << "it stretches, too";
+}
+
+const char* const standing = R"({"cloth": {"num_width_points": 9, "num_height_points": 9, "orientation": 1,
+                                            "ks": 500, "density": 1.5, "pinned": ["top"])";
+
+TEST(AutomaticCamera, KeepsClothInTheWindInThePicture) {
+  const Scene scene = parseScene(std::string(standing) + R"(}, "wind": {"velocity": [0, 0, 9]}})", "flag");
+  EXPECT_LT(farthestFromMiddle(scene, 2), 1);
+}
+
+TEST(AutomaticCamera, KeepsPinsAndSolidsInThePictureAllAlongTheirPaths) {
+  const Scene carried = parseScene(std::string(standing) + R"(, "pin_motion": {"keys": [
+      {"t": 0}, {"t": 0.7, "position": [3, 2, 1]}, {"t": 1.4, "rotation": [0, 180, 0]}]}}})",
+                                   "carried");
+  EXPECT_LT(farthestFromMiddle(carried, 1.6), 1);
+  const Scene passing =
+      parseScene(std::string(standing) + R"(}, "colliders": [{"type": "sphere", "radius": 0.2,
+      "motion": {"keys": [{"t": 0, "position": [-3, 0.5, 1]}, {"t": 1, "position": [4, 0.5, 1]}]}}]})",
+                 "passing");
+  EXPECT_LT(farthestFromMiddle(passing, 1.1), 1);
+}
+
+TEST(AutomaticCamera, ShowsStandingClothFromTheFrontWithItsPictureUpright) {
+  const Scene scene = parseScene(std::string(standing) + "}}", "standing");
+  const Cloth cloth(scene);
+  const Camera camera(scene, cloth);
+  EXPECT_GT(camera.eye().z, 1) << "CS184's viewer looks from there, too";
+  const auto [a, b, c] = cloth.triangles()[0];
+  const glm::vec3 normal =
+      glm::cross(restPlace(cloth, b) - restPlace(cloth, a), restPlace(cloth, c) - restPlace(cloth, a));
+  EXPECT_GT(normal.z, 0) << "its front";
+  const auto uv = cloth.textureCoordinates();
+  const std::uint32_t lowerLeft = 0, upperRight = 80;
+  EXPECT_LT(onScreen(camera, restPlace(cloth, lowerLeft)).x,
+            onScreen(camera, restPlace(cloth, upperRight)).x);
+  EXPECT_LT(onScreen(camera, restPlace(cloth, lowerLeft)).y,
+            onScreen(camera, restPlace(cloth, upperRight)).y);
+  EXPECT_EQ(uv[lowerLeft], (std::array{0.0f, 1.0f})) << "v runs down the picture";
+  EXPECT_EQ(uv[upperRight], (std::array{1.0f, 0.0f}));
+}
+
+TEST(AutomaticCamera, FramesTheSceneInWhatIsLeftFreeOfThePicture) {
+  const Scene scene = parseScene(std::string(standing) + "}}", "standing");
+  const Cloth cloth(scene);
+  const Camera camera(scene, cloth, wide, {.right = 0.4, .bottom = 0.1});
+  Bounds seen;
+  for (std::uint32_t i = 0; i < cloth.particleCount(); ++i)
+    seen.add(glm::vec3(onScreen(camera, restPlace(cloth, i)), 0));
+  EXPECT_LT(seen.high.x, 0.2f) << "the card covers what is to the right of that";
+  EXPECT_GT(seen.low.y, -0.8f);
+  EXPECT_GT(seen.low.x, -1);
+  EXPECT_LT(seen.high.y, 1);
+  EXPECT_GT(seen.size().x, 0.4f) << "and it is no smaller than it must be";
+}
+
+TEST(AutomaticCamera, LeavesACameraOfTheScenesOwnWhereItIs) {
+  Scene scene = parseScene(std::string(standing) + "}}", "standing");
+  scene.camera.position = Vec3d{0, 1, 3};
+  scene.camera.target = Vec3d{0.5, 0.5, 0};
+  const Cloth cloth(scene);
+  EXPECT_EQ(Camera(scene, cloth, wide, {.right = 0.4}).eye(), Camera(scene, cloth).eye());
+}
 
 class CameraTest : public ::testing::Test {
  protected:

@@ -16,7 +16,7 @@ const std::vector<Collider> shapes{
     Box{.size = {0.4, 0.4, 0.002}, .rounding = 0}, Torus{.radius = 0.3, .tubeRadius = 0.1}};
 
 double distanceTo(const Collider& collider, Vec3d p) {
-  const auto params = makeColliderParams<double>(Scene{}, collider, 0);
+  const auto params = makeColliderParams<double>(Scene{}, collider, 0, 0);
   switch (params.type) {
     case COLLIDER_CAPSULE:
       return cpu::nearestOnShape<COLLIDER_CAPSULE>(params, p).distance;

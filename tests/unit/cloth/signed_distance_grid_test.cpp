@@ -96,8 +96,8 @@ TEST_F(MeshFile, IsInterpolatedWithinTheErrorOfItsGrid) {
   MeshCollider collider{.file = write(boxObj), .cells = 64};
   Scene scene;
   scene.colliders = {collider};
-  const auto params = makeColliderParams<double>(scene, scene.colliders[0], 0);
-  const auto single = makeColliderParams<float>(scene, scene.colliders[0], 0);
+  const auto params = makeColliderParams<double>(scene, scene.colliders[0], 0, 0);
+  const auto single = makeColliderParams<float>(scene, scene.colliders[0], 0, 0);
   const std::vector<float> samples = distanceSamples(scene);
   const double cell = 2.0 / 64;
   for (const Vec3d p : randomPoints(3000)) {

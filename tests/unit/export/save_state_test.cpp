@@ -47,7 +47,7 @@ TEST_F(SaveState, LeavesTheOldFileWhenTheDiskIsFull) {
   const auto path = folder_ / "a.state";
   saveState(state_, cloth_, path);
   const std::string before = readFile(path);
-  state_.step = 7;
+  state_.clock.step = 7;
 
   std::signal(SIGXFSZ, SIG_IGN);
   rlimit old{};

@@ -20,7 +20,7 @@ inline Scene smallScene() {
 // As the cloth lies, each particle with its own velocity.
 inline State smallState(const Cloth& cloth) {
   State state;
-  state.step = 12345678901;
+  state.clock = {12345678901, 0.25, 7.5, 3};
   state.integrator = Integrator::euler;
   for (std::uint32_t i = 0; i < cloth.particleCount(); ++i) {
     const Vec3f x = cloth.positions()[i].cast<float>();

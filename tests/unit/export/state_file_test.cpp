@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <cmath>
 #include <cstring>
 
 #include "core/error.h"
@@ -23,6 +24,12 @@ class StateFile : public testing::Test {
   State state_ = test::smallState(cloth_);
   std::string bytes_ = formatStateFile(state_);
 
+  static std::string withChecksum(const std::string& bytes) {
+    Fnv1a hash;
+    hash.add(bytes);
+    const std::uint64_t sum = hash.value();
+    return bytes + std::string(reinterpret_cast<const char*>(&sum), sizeof sum);
+  }
   std::string refusalOf(const std::string& bytes) {
     return messageThrownBy<InputOutputError>(
         [&] { (void)parseStateFile(bytes, cloth_.particleCount(), "a.state"); });
@@ -36,7 +43,7 @@ TEST_F(StateFile, ReadsBackEveryBitThatWasWritten) {
   saveState(state_, cloth_, folder / "a.state");
   const State back = loadState(folder / "a.state", cloth_);
 
-  EXPECT_EQ(back.step, state_.step);
+  EXPECT_EQ(back.clock, state_.clock);
   EXPECT_EQ(back.integrator, state_.integrator);
   ASSERT_EQ(back.positions.size(), state_.positions.size());
   ASSERT_EQ(back.velocities.size(), state_.velocities.size());
@@ -75,8 +82,8 @@ TEST_F(StateFile, OfAnotherSceneIsRefusedWithBothParticleCounts) {
 }
 
 TEST_F(StateFile, OfALaterVersionIsRefusedWithBothVersions) {
-  bytes_[8] = 3;
-  EXPECT_NE(refusalOf(bytes_).find("version 3"), std::string::npos);
+  bytes_[8] = 4;
+  EXPECT_NE(refusalOf(bytes_).find("version 4"), std::string::npos);
 }
 
 TEST_F(StateFile, IsNotMistakenForWhatIsNone) {
@@ -98,6 +105,33 @@ TEST_F(StateFile, WithAParticleThatIsNowhereIsRefused) {
   state_.velocities[5].z = std::bit_cast<float>(0x7fc12345u);
   EXPECT_NE(refusalOf(formatStateFile(state_)).find("place or velocity of particle 5 is nan"),
             std::string::npos);
+}
+
+// Versions 1 and 2, put together by hand.
+TEST_F(StateFile, OfAnOlderVersionIsReadAndLeavesTheStepLengthToTheScene) {
+  const std::string older = bytes_.substr(0, 8) + '\1' + bytes_.substr(9, 23) + bytes_.substr(56, 32 * 6);
+  const State first = parseStateFile(withChecksum(older), 6, "a.state");
+  std::string lists = older + std::string("\0\0\0\0\0\0\0\0\1\0\0\0\0\0\0\0\4\0\0\0", 20);
+  lists[8] = '\2';
+  const State second = parseStateFile(withChecksum(lists), 6, "a.state");
+  for (const State& state : {first, second}) {
+    EXPECT_EQ(state.clock, (StepClock{12345678901, 0, 0, 0}));
+    EXPECT_EQ(std::memcmp(state.velocities.data(), state_.velocities.data(), 6 * sizeof(Particle4)), 0);
+  }
+  EXPECT_EQ(second.offPath, std::vector<std::uint32_t>{4});
+}
+
+TEST_F(StateFile, IsRefusedWhenItsTimeIsNone) {
+  const auto refusal = [&](std::size_t place, double value) {
+    std::string bytes = bytes_.substr(0, bytes_.size() - 8);
+    std::memcpy(bytes.data() + place, &value, sizeof value);
+    return refusalOf(withChecksum(bytes));
+  };
+  for (const std::size_t place : {32, 40})
+    for (const double value : {-1.0, std::nan(""), HUGE_VAL})
+      EXPECT_NE(refusal(place, value).find("its time is no time"), std::string::npos)
+          << place << ' ' << value;
+  EXPECT_NE(refusal(48, 1.0).find("its time is no time"), std::string::npos) << "an origin behind the step";
 }
 
 TEST_F(StateFile, WithAnInverseMassThatNoBodyHasIsRefused) {
@@ -124,10 +158,7 @@ class HandledStateFile : public StateFile {
   std::string forged(std::size_t place, char value) {
     std::string bytes = bytes_.substr(0, bytes_.size() - 8);
     bytes[place] = value;
-    Fnv1a hash;
-    hash.add(bytes);
-    const std::uint64_t sum = hash.value();
-    return bytes.append(reinterpret_cast<const char*>(&sum), 8);
+    return withChecksum(bytes);
   }
 };
 
@@ -135,9 +166,8 @@ TEST_F(HandledStateFile, ReadsBackCutsAndPinsByHand) {
   const State back = parseStateFile(bytes_, cloth_.particleCount(), "a.state");
   EXPECT_EQ(back.cuts, state_.cuts);
   EXPECT_EQ(back.offPath, state_.offPath);
-  EXPECT_EQ(back.step, state_.step);
-  EXPECT_EQ(bytes_.substr(8, 4), std::string("\2\0\0\0", 4));
-  EXPECT_EQ(bytes_.size(), 32 + 32 * 6 + 8 + 6 + 8 + 2 * 4 + 8u);
+  EXPECT_EQ(back.clock, state_.clock);
+  EXPECT_EQ(bytes_.size(), 56 + 32 * 6 + 8 + 6 + 8 + 2 * 4 + 8u);
 }
 
 TEST_F(HandledStateFile, IsRefusedWhenCutOffOrDamagedAnywhere) {
@@ -151,7 +181,7 @@ TEST_F(HandledStateFile, IsRefusedWhenCutOffOrDamagedAnywhere) {
 }
 
 TEST_F(HandledStateFile, IsRefusedWhenItsListsMakeNoSense) {
-  const std::size_t cuts = 32 + 32 * 6;
+  const std::size_t cuts = 56 + 32 * 6;
   EXPECT_NE(refusalOf(forged(cuts + 8, 64)).find("the cuts of particle 0 are 64"), std::string::npos);
   EXPECT_NE(refusalOf(forged(cuts + 8 + 6 + 8, 5)).find("ascending"), std::string::npos);
   EXPECT_NE(refusalOf(forged(cuts + 8 + 6 + 8 + 4, 6)).find("below 6"), std::string::npos);
@@ -161,14 +191,20 @@ TEST_F(HandledStateFile, IsRefusedWhenItsListsMakeNoSense) {
 
 // The layout in formats.h, read by hand.
 TEST_F(StateFile, HasTheDocumentedLayout) {
-  ASSERT_EQ(bytes_.size(), 32 + 32 * 6 + 8u);
+  ASSERT_EQ(bytes_.size(), 56 + 32 * 6 + 8 + 8 + 8u);
   EXPECT_EQ(bytes_.substr(0, 8), "clothsim");
-  EXPECT_EQ(bytes_.substr(8, 4), std::string("\1\0\0\0", 4));
+  EXPECT_EQ(bytes_.substr(8, 4), std::string("\3\0\0\0", 4));
   EXPECT_EQ(bytes_.substr(12, 4), std::string("\1\0\0\0", 4));                  // euler
   EXPECT_EQ(bytes_.substr(16, 8), std::string("\6\0\0\0\0\0\0\0", 8));          // six particles
   EXPECT_EQ(bytes_.substr(24, 8), std::string("\x35\x1c\xdc\xdf\2\0\0\0", 8));  // 12345678901
+  double stepLength = 0, originTime = 0;
+  std::memcpy(&stepLength, bytes_.data() + 32, 8);
+  std::memcpy(&originTime, bytes_.data() + 40, 8);
+  EXPECT_EQ(stepLength, 0.25);
+  EXPECT_EQ(originTime, 7.5);
+  EXPECT_EQ(bytes_.substr(48, 8), std::string("\3\0\0\0\0\0\0\0", 8));
   float y = 0;
-  std::memcpy(&y, bytes_.data() + 32 + 4, 4);
+  std::memcpy(&y, bytes_.data() + 56 + 4, 4);
   EXPECT_EQ(y, state_.positions[0].y);
 }
 

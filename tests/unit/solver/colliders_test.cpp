@@ -69,8 +69,8 @@ double bruteForceDistance(const Skeleton& skeleton, Vec3d p) {
 template <std::uint32_t type>
 void expectDistances(const Collider& collider, const Skeleton& skeleton) {
   const Scene scene = particleScene(collider, 0.01);
-  const auto params = makeColliderParams<double>(scene, collider, 0);
-  const auto single = makeColliderParams<float>(scene, collider, 0);
+  const auto params = makeColliderParams<double>(scene, collider, 0, 0);
+  const auto single = makeColliderParams<float>(scene, collider, 0, 0);
   std::mt19937 engine(1);
   std::uniform_real_distribution<double> uniform(-0.6, 0.6);
   for (int i = 0; i < 300; ++i) {
@@ -99,7 +99,7 @@ TEST(Shapes, HaveTheDistancesOfDenselySampledSkeletons) {
 TEST(Shapes, AreInsideWhereTheyShouldBe) {
   const Scene scene = particleScene(Box{}, 0.01);
   const auto inside = [&](const Collider& collider, auto distance, Vec3d p) {
-    return distance(makeColliderParams<double>(scene, collider, 0), p) < 0;
+    return distance(makeColliderParams<double>(scene, collider, 0, 0), p) < 0;
   };
   using Params = ColliderParams<double>;
   const auto box = [](const Params& c, Vec3d p) { return cpu::nearestOnShape<COLLIDER_BOX>(c, p).distance; };
@@ -181,7 +181,7 @@ const Law laws[] = {{FrictionLaw::cs184, 0},   {FrictionLaw::cs184, 0.5},   {Fri
                     {FrictionLaw::coulomb, 0}, {FrictionLaw::coulomb, 0.5}, {FrictionLaw::coulomb, 3}};
 
 double signedDistance(const Collider& collider, Vec3d x) {
-  const auto params = makeColliderParams<double>(particleScene(collider, 0.01), collider, 0);
+  const auto params = makeColliderParams<double>(particleScene(collider, 0.01), collider, 0, 0);
   const Vec3d p = rotateBack(ownRotation(collider), x - poseAt(collider, 0).position);
   switch (params.type) {
     case COLLIDER_CAPSULE:

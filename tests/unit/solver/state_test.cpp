@@ -23,7 +23,7 @@ TEST(StateHash, IsFnv1aOverPositionAndVelocityOfEachParticleInTurn) {
 TEST(StateHash, LeavesMassStepAndIntegratorAside) {
   State other = twoParticles();
   other.positions[0].w = 0;
-  other.step = 7;
+  other.clock.step = 7;
   other.integrator = Integrator::euler;
   EXPECT_EQ(stateHash(other), stateHash(twoParticles()));
 }
