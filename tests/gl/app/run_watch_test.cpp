@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <csignal>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -177,7 +178,7 @@ TEST(Interrupt, EndsALongFrameBetweenTwoSteps) {
         (folder / "log").string());
     std::this_thread::sleep_for(std::chrono::milliseconds(700));
     ASSERT_TRUE(run.running()) << readFile(folder / "log");
-    run.interrupt();
+    run.send(SIGINT);
     EXPECT_EQ(run.waitFor(std::chrono::seconds(3)), 1) << backend;
     EXPECT_NE(readFile(folder / "log").find("interrupted"), std::string::npos) << readFile(folder / "log");
   }
