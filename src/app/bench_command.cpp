@@ -156,7 +156,7 @@ int benchCommand(const BenchOptions& options) {
   std::optional<gl::HeadlessContext> context;
   if (needsGpu) context.emplace();
 
-  nlohmann::ordered_json json;
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
   json["scene"] = options.scene.scene;
   for (const auto& resolution : resolutionsOf(options, {{64, 64}, {128, 128}, {256, 256}})) {
     SceneOptions sceneOptions = options.scene;

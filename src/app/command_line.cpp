@@ -2,12 +2,18 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
 #include <iostream>
+#include <new>
+#include <stdexcept>
 
 #include "app/commands.h"
 #include "app/viewer.h"
 #include "core/error.h"
 #include "core/interrupt.h"
+#include "core/standard_streams.h"
 
 namespace clothsim {
 namespace {
@@ -53,20 +59,26 @@ struct Arguments {
   }
 };
 
-CLI::Option* addSceneFlags(CLI::App& app, Arguments& a, bool sceneRequired) {
+struct SceneFlags {
+  CLI::Option *file, *settings;
+};
+
+SceneFlags addSceneFlags(CLI::App& app, Arguments& a, bool sceneRequired) {
   CLI::Option* file = app.add_option("-f,--scene", a.scene,
                                      "a bundled scene's name, or a path (with a '/' or ending in .json)");
   if (sceneRequired) file->required();
-  app.add_option("--set", a.settings,
-                 "set any key of the scene: --set cloth.damping=0.5 (see `clothsim describe`)")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
-  return file;
+  CLI::Option* settings =
+      app.add_option("--set", a.settings,
+                     "set any key of the scene: --set cloth.damping=0.5 (see `clothsim describe`)")
+          ->type_name("KEY=VALUE")
+          ->allow_extra_args(false);
+  return {file, settings};
 }
 
-void addResolution(CLI::App& app, Arguments& a) {
-  app.add_option("--resolution", a.resolutions,
-                 "rebuild the cloth's grid with this many points; pins keep their place")
+CLI::Option* addResolution(CLI::App& app, Arguments& a) {
+  return app
+      .add_option("--resolution", a.resolutions,
+                  "rebuild the cloth's grid with this many points; pins keep their place")
       ->type_name("WxH")
       ->expected(1);
 }
@@ -106,14 +118,16 @@ void addCheckCrossings(CLI::App& app, Arguments& a) {
                "count pairs of triangles that cross, exactly, at the end of every frame (needs CGAL)");
 }
 
+constexpr const char* outOfMemory = "not enough memory for this cloth; use a smaller --resolution";
+
 using Task = std::function<int()>;
 
 void declareRun(CLI::App& app, Arguments& a, Task& task) {
   CLI::App* run =
       app.add_subcommand("run", "Simulate without a window, save states, and sum the run up in numbers");
-  CLI::Option* scene = addSceneFlags(*run, a, false);
+  const auto [scene, settings] = addSceneFlags(*run, a, false);
   CLI::Option* frames = addFrames(*run, a, false);
-  addResolution(*run, a);
+  CLI::Option* resolution = addResolution(*run, a);
   CLI::Option* backend = addBackend(*run, a);
   run->add_option("--save", a.saves,
                   "write the last state: .csv .ply .obj .png, or .state (exact); with %04d in the name every "
@@ -133,13 +147,12 @@ void declareRun(CLI::App& app, Arguments& a, Task& task) {
       run->add_option("--replay", a.replay,
                       "do again what a recording of the viewer holds, on its backends or that of --backend")
           ->type_name("FILE");
-  for (CLI::Option* other : {scene, from, jitter, run->get_option("--set"), run->get_option("--resolution")})
-    replay->excludes(other);
+  for (CLI::Option* other : {scene, from, jitter, settings, resolution}) replay->excludes(other);
   addCheckCrossings(*run, a);
   addStrict(*run, a);
   addJson(*run, a);
   run->footer("Example: clothsim run -f sphere --frames 300 --save drape.obj --json");
-  run->callback([&a, &task, scene, frames, backend, replay] {
+  run->callback([&a, &task, scene = scene, frames, backend, replay] {
     if (replay->count() == 0 && scene->count() == 0) throw CLI::RequiredError("-f,--scene or --replay");
     if (replay->count() == 0 && frames->count() == 0) throw CLI::RequiredError("--frames");
     RunOptions options{a.sceneOptions(), {},       {},     a.saves,  a.every, a.from, a.json,
@@ -310,7 +323,9 @@ void declareViewer(CLI::App& app, Arguments& a, Task& task) {
 
 }  // namespace
 
-int runCommandLine(int argc, char** argv) {
+namespace {
+
+int parseAndRun(int argc, char** argv) {
   CLI::App app{"clothsim: cloth on the GPU and the CPU, the same to the bit", "clothsim"};
   app.set_version_flag("--version", "clothsim " CLOTHSIM_VERSION);
   app.set_help_all_flag("--help-all", "help of all commands");
@@ -324,17 +339,54 @@ int runCommandLine(int argc, char** argv) {
   declareInfoCommands(app, arguments, task);
   try {
     app.parse(argc, argv);
-    if (!app.get_subcommands().empty()) catchInterrupts();  // the viewer closes by its window
+    catchInterrupts();
     return task();
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::usage);
-  } catch (const Error& error) {
-    std::cerr << "clothsim: " << error.what() << '\n';
-    return static_cast<int>(error.exitCode());
-  } catch (const std::bad_alloc&) {
-    std::cerr << "clothsim: not enough memory for this cloth; use a smaller --resolution\n";
-    return static_cast<int>(ExitCode::failed);
   }
+}
+
+int fail(ExitCode code, const char* message) {
+  std::cerr << "clothsim: " << message << '\n';
+  return static_cast<int>(code);
+}
+
+// `work`, with whatever it throws told to the user.
+template <class Work>
+int exitCodeOf(Work work) {
+  try {
+    return work();
+  } catch (const Error& error) {
+    return fail(error.exitCode(), error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(ExitCode::failed, outOfMemory);
+  } catch (const std::length_error&) {  // more than could ever be addressed
+    return fail(ExitCode::failed, outOfMemory);
+  } catch (const std::filesystem::filesystem_error& error) {
+    return fail(ExitCode::inputOutput, error.what());
+  } catch (const std::exception& error) {
+    return fail(ExitCode::failed, error.what());
+  }
+}
+
+// Where no handler can be reached, as out of a destructor or a parallel loop: nothing is tidied up then.
+[[noreturn]] void endWithMessage() {
+  const std::exception_ptr thrown = std::current_exception();
+  if (!thrown) std::abort();
+  std::_Exit(exitCodeOf([&]() -> int { std::rethrow_exception(thrown); }));
+}
+
+}  // namespace
+
+int runCommandLine(int argc, char** argv) {
+  holdStandardStreams();
+  std::set_terminate(endWithMessage);
+  const int code = exitCodeOf([&] { return parseAndRun(argc, argv); });
+  const int written = exitCodeOf([] {
+    finishStandardOutput();
+    return 0;
+  });
+  return code != 0 ? code : written;
 }
 
 }  // namespace clothsim

@@ -37,7 +37,7 @@ int compareCommand(const CompareOptions& options) {
   });
   progress.finish();
 
-  nlohmann::ordered_json json;
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
   json["scene"] = options.scene.scene;
   json["device"] = result.device;
   json["frames"] = result.frames;

@@ -13,7 +13,7 @@ using Condition = ContactFailure::Condition;
 
 nlohmann::ordered_json toJson(const std::optional<ContactFailure>& failure) {
   if (!failure) return nullptr;
-  nlohmann::ordered_json json;
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
   const bool fast = failure->condition == Condition::fastStep;
   json["condition"] = fast ? "fast_step" : "pairs_too_near";
   json["frame"] = failure->frame;
@@ -60,7 +60,7 @@ void ContactReport::write(nlohmann::ordered_json& json, const Cloth& cloth, cons
   if (!failure && !isCut_ && counts.fastSteps > 0) failure = {Condition::fastStep, lastFrame_, 0, 0, 0};
   json["contact_sound"] = !failure;
   if (isCut_) json["contact_sound"] = nullptr;
-  nlohmann::ordered_json& contact = json["contact"];
+  nlohmann::ordered_json& contact = json["contact"] = nlohmann::ordered_json::object();
   contact["failed"] = toJson(failure);
   contact["distance"] = contactDistance(scene, cloth);
   contact["needed_distance"] = worst_.neededDistance;

@@ -8,7 +8,7 @@
 namespace clothsim {
 
 [[nodiscard]] inline nlohmann::ordered_json toJson(const CrossingSummary& crossings) {
-  nlohmann::ordered_json json;
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
   json["frames_checked"] = crossings.framesChecked;
   json["worst"] = crossings.worst;
   json["total"] = crossings.total;

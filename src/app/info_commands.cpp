@@ -80,7 +80,7 @@ int describeCommand(const std::string& key) {
 int doctorCommand(bool json) {
   const gl::HeadlessContext context;
   const gl::ContextInfo& info = context.info();
-  nlohmann::ordered_json report;
+  nlohmann::ordered_json report = nlohmann::ordered_json::object();
   report["vendor"] = info.vendor;
   report["renderer"] = info.renderer;
   report["version"] = info.version;

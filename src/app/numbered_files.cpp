@@ -28,8 +28,7 @@ fs::path outputFolder() {
 fs::path freeName(const fs::path& folder, const std::string& stem, const std::string& extension) {
   const auto isTaken = [](const fs::path& path) {
     std::error_code ignored;
-    const fs::file_type type = fs::symlink_status(path, ignored).type();
-    return type != fs::file_type::not_found && type != fs::file_type::none;  // none: no such name can be
+    return fs::exists(fs::symlink_status(path, ignored));  // a name too long is free; writing it complains
   };
   fs::path path = folder / (stem + extension);
   for (int number = 2; isTaken(path); ++number)

@@ -232,7 +232,7 @@ Recording readRecording(JsonNode& root) {
 
 }  // namespace
 
-void Recording::save(const std::filesystem::path& path) const {
+std::string Recording::format() const {
   JsonPointer root = makeObject();
   Writer writer(*root);
   writer("schema", std::string(SCHEMA));
@@ -241,20 +241,29 @@ void Recording::save(const std::filesystem::path& path) const {
   writer("scene", scene);
   JsonNode& list = root->append("events", makeList());
   for (const Event& event : events) list.append("", written(event));
-  writeFileAtomically(path, formatJson(*root));
+  return formatJson(*root);
 }
+
+Recording Recording::parse(std::string_view text, const std::string& source) {
+  try {
+    const JsonPointer root = parseJson(text);
+    Recording recording = readRecording(*root);
+    recording.source = source;
+    return recording;
+  } catch (const JsonComplaint& complaint) {
+    throw SceneError(located(source, complaint));
+  }
+}
+
+void Recording::save(const std::filesystem::path& path) const { writeFileAtomically(path, format()); }
 
 Recording Recording::load(const std::filesystem::path& path) {
   try {
-    const JsonPointer root = parseJson(readFile(path, LARGEST_FILE));
-    Recording recording = readRecording(*root);
-    recording.source = path.string();
+    Recording recording = parse(readFile(path, LARGEST_FILE), path.string());
     findMeshes(recording.scene, path);
     for (Event& event : recording.events)
       if (auto* edit = std::get_if<EditScene>(&event.action)) findMeshes(edit->scene, path);
     return recording;
-  } catch (const JsonComplaint& complaint) {
-    throw SceneError(located(path.string(), complaint));
   } catch (const InputOutputError& error) {
     throw SceneError(error.what());
   }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/actions.h"
@@ -25,9 +26,15 @@ struct Recording {
   std::vector<Event> events;    // in the order in which they acted
   std::string source;           // the file that it was loaded from, for messages; "" for none
 
-  // JSON ("clothsim-recording/1"), whole or not at all. @throws InputOutputError
+  // JSON ("clothsim-recording/1")
+  [[nodiscard]] std::string format() const;
+  // `source` names the text in messages. @throws SceneError for a text that is no recording, with its line
+  // and JSON path
+  [[nodiscard]] static Recording parse(std::string_view text, const std::string& source);
+
+  // Writes format() whole or not at all. @throws InputOutputError
   void save(const std::filesystem::path& path) const;
-  // @throws SceneError for a file that is none, with its line and JSON path
+  // Parses a file. Mesh files that lie beside it get their full path. @throws SceneError
   [[nodiscard]] static Recording load(const std::filesystem::path& path);
 };
 

@@ -30,7 +30,7 @@ void checkOutputs(const RenderCommandOptions& options) {
                        ": expected a name ending in .png or .mp4, as still.png, frame_%04d.png, clip.mp4");
     checkPicture("--out", out, settingsOf(options));
   }
-  for (const std::string& out : options.outs) checkWritable(out);
+  for (const std::string& out : options.outs) checkWritable(numberedName(out, options.frames));
 }
 
 }  // namespace

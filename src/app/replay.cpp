@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/interrupt.h"
 
 namespace clothsim {
 
@@ -16,6 +17,7 @@ Replay::Replay(Recording recording, const std::optional<std::string>& backend)
 
 std::optional<Trouble> Replay::stepFrame() {
   const std::optional<Trouble> trouble = session_.stepFrames(1);
+  stopIfInterrupted();
   if (!trouble) actOutDue();
   return trouble;
 }

@@ -110,7 +110,7 @@ nlohmann::ordered_json summary(const RunOptions& options, Course& course, const 
   const State& last = tally.state;
   const auto steps = static_cast<double>(course.steps());
   const double particles = simulation.cloth().particleCount();
-  nlohmann::ordered_json json;
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
   if (course.isReplay())
     json["replay"] = options.replay;
   else

@@ -16,7 +16,10 @@ void checkSaves(const RunOptions& options) {
       throw UsageError("--save " + save +
                        ": the extension is none of .csv, .ply, .obj, .state, .pc2, .usda, .png, .mp4");
   }
-  for (const std::string& save : options.saves) checkWritable(save);
+  for (const std::string& save : options.saves) {
+    checkWritable(numberedName(save, options.frames.value_or(0)));
+    if (isPointCache(save)) checkWritable(restMeshBeside(save));
+  }
 }
 
 bool savesPictures(const RunOptions& options) {

@@ -195,9 +195,7 @@ std::optional<Trouble> Session::stepFrame() {
   ring_.put(now_, simulation_.solver());
   startColliderMoves();
   const int steps = simulation_.scene().solver.simulationSteps;
-  const bool goesOn = advance(steps);
-  stopIfInterrupted();
-  if (!goesOn) {
+  if (!advance(steps) || isInterrupted()) {
     goTo(now_.number);
     return std::nullopt;
   }

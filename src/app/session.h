@@ -43,6 +43,7 @@ class Session {
 
   // Steps, and remembers the state at the start of each frame. After trouble the state is that of the last
   // frame known to be sound, and the hand has let go; what came after it is forgotten, also by the recording.
+  // A frame that an interrupt cuts short is given up.
   [[nodiscard]] std::optional<Trouble> stepFrames(int frames);
 
   // Called about twenty times a second while frames are being stepped, so that somebody may look after a

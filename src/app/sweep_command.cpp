@@ -210,7 +210,7 @@ class Exhibit {
   ordered_json measures(int wantedFrame) {
     const Scene& scene = course_.scene();
     const bool isSound = wantedFrame == frame_;
-    ordered_json json;
+    ordered_json json = ordered_json::object();
     json["frames"] = frame_;
     json["finite"] = isSound;
     json["trouble"] =
@@ -352,14 +352,14 @@ std::string formatTable(const SweepTable& table, const std::vector<Cell>& cells)
 ordered_json toJson(const SweepOptions& options, const SweepTable& table, const ContactSheet& sheet,
                     const std::vector<Cell>& cells) {
   const SheetPlan plan = planOf(sheet);
-  ordered_json json;
+  ordered_json json = ordered_json::object();
   json["scene"] = options.scene.scene;
   json["columns"] = table.columns();
   json["rows"] = table.rows();
   for (const Variation& variation : table.variations())
     json["vary"].push_back({{"key", variation.key}, {"values", variation.values}});
   for (std::size_t cell = 0; cell < table.cells(); ++cell) {
-    ordered_json entry;
+    ordered_json entry = ordered_json::object();
     for (std::size_t i = 0; i < table.variations().size(); ++i)
       entry["values"][table.variations()[i].key] = table.value(cell, i);
     entry["pixels"] = {plan.pictures[cell].x, plan.pictures[cell].y, options.width, options.height};

@@ -289,7 +289,8 @@ void Viewer::saveSceneAs(const std::filesystem::path& path) {
         " would hold many frames: save what was done (Ctrl+Shift+S), and clothsim run --replay FILE "
         "--save " +
         path.filename().string() + " makes it of that");
-  if (std::filesystem::exists(path) && confirmed_ != path.string()) {
+  std::error_code ignored;  // the writer complains
+  if (std::filesystem::exists(path, ignored) && confirmed_ != path.string()) {
     confirmed_ = path.string();
     return complain(path.string() + " is there already; Save again writes over it");
   }

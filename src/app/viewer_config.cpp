@@ -62,10 +62,11 @@ std::string saveViewerConfig(const ViewerConfig& config, const fs::path& path) {
   json["show_overlay"] = config.showOverlay;
   for (std::size_t i = 0; i < panelNames.size(); ++i)
     json["open"][std::string(panelNames[i])] = config.open[i];
+  std::error_code ignored;  // the writer complains
+  fs::create_directories(path.parent_path(), ignored);
   try {
-    fs::create_directories(path.parent_path());
     writeFileAtomically(path, json.dump(2) + "\n");
-  } catch (const std::exception& error) {  // of the file system, or ours
+  } catch (const Error& error) {
     return error.what();
   }
   return "";

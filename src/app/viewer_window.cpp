@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/interrupt.h"
 #include "gl/context.h"
 #include "gl/requirements.h"
 
@@ -145,7 +146,9 @@ void ViewerWindow::installCallbacks() {
   });
 }
 
-bool ViewerWindow::shouldClose() const { return glfwWindowShouldClose(window_) == GLFW_TRUE; }
+bool ViewerWindow::shouldClose() const {
+  return glfwWindowShouldClose(window_) == GLFW_TRUE || isInterrupted();
+}
 void ViewerWindow::requestClose() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
 void ViewerWindow::pollEvents() { glfwPollEvents(); }
 void ViewerWindow::waitEvents(double seconds) { glfwWaitEventsTimeout(seconds); }

@@ -1,9 +1,9 @@
 // Files read and written whole or not at all.
 #include "core/files.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "core/error.h"
+#include "core/interrupt.h"
 
 namespace clothsim {
 
@@ -86,50 +87,53 @@ std::string readFile(const fs::path& path, std::uintmax_t largest) {
 }
 
 GrowingFile::GrowingFile(const fs::path& path) : path_(path) {
-  std::error_code code;
-  const fs::file_status status = fs::status(path, code);
-  if (fs::is_directory(status)) throw InputOutputError(path.string() + ": is a folder, not a file");
-  // /dev/null and its kind must not be replaced by a file.
-  const bool replaces = !fs::exists(status) || fs::is_regular_file(status);
-  // Through a symbolic link to the file it names, as an ordinary write would.
-  target_ = fs::is_symlink(fs::symlink_status(path, code)) ? fs::weakly_canonical(path, code) : path;
-  if (replaces) temporary_ = temporaryNameBeside(target_);
-  errno = 0;
-  file_ = std::fopen((replaces ? temporary_ : path).c_str(), "wb");
-  if (file_ == nullptr) throw failure(path_, "cannot be written", errno);
-  if (fs::exists(status) && replaces) fs::permissions(temporary_, status.permissions(), code);
+  const Destination destination = destinationOf(path);
+  if (destination.isReplaced)
+    descriptor_ = temporary_.emplace(path, destination).descriptor();
+  else
+    descriptor_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY);
+  if (descriptor_ < 0) throw cannotBeWritten(path_, errno);
 }
 
 GrowingFile::~GrowingFile() {
-  if (file_ != nullptr) std::fclose(file_);
-  std::error_code ignored;
-  if (!temporary_.empty()) fs::remove(temporary_, ignored);
+  if (!temporary_ && descriptor_ >= 0) ::close(descriptor_);
+}
+
+void GrowingFile::write(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+    if (written > 0)
+      bytes.remove_prefix(static_cast<std::size_t>(written));
+    else if (written < 0 && errno == EINTR)
+      stopIfInterrupted();
+    else
+      throw cannotBeWritten(path_, written < 0 ? errno : EIO);
+  }
 }
 
 void GrowingFile::append(std::string_view bytes) {
-  errno = 0;
-  if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size())
-    throw failure(path_, "cannot be written", errno);
+  constexpr std::size_t worthWriting = 1 << 16;
+  if (pending_.size() + bytes.size() < worthWriting) {
+    pending_ += bytes;
+    return;
+  }
+  write(std::exchange(pending_, {}));
+  write(bytes);
 }
 
 void GrowingFile::overwrite(std::uint64_t offset, std::string_view bytes) {
-  errno = 0;
-  if (std::fseek(file_, static_cast<long>(offset), SEEK_SET) != 0)
-    throw failure(path_, "cannot be written", errno);
-  append(bytes);
-  if (std::fseek(file_, 0, SEEK_END) != 0) throw failure(path_, "cannot be written", errno);
+  write(std::exchange(pending_, {}));
+  if (::lseek(descriptor_, static_cast<off_t>(offset), SEEK_SET) < 0) throw cannotBeWritten(path_, errno);
+  write(bytes);
+  if (::lseek(descriptor_, 0, SEEK_END) < 0) throw cannotBeWritten(path_, errno);
 }
 
 void GrowingFile::close() {
-  errno = 0;
-  // A full disk may show only when the buffer is flushed by closing.
-  const bool closed = std::fclose(std::exchange(file_, nullptr)) == 0;
-  if (!closed) throw failure(path_, "cannot be written", errno);
-  if (temporary_.empty()) return;
-  std::error_code code;
-  fs::rename(temporary_, target_, code);
-  if (code) throw failure(path_, "cannot be written", code.value());
-  temporary_.clear();
+  write(std::exchange(pending_, {}));
+  if (temporary_)
+    temporary_->publish();
+  else if (::close(std::exchange(descriptor_, -1)) != 0)
+    throw cannotBeWritten(path_, errno);
 }
 
 void writeFileAtomically(const fs::path& path, std::string_view bytes) {
@@ -139,15 +143,10 @@ void writeFileAtomically(const fs::path& path, std::string_view bytes) {
 }
 
 void checkWritable(const fs::path& path) {
-  if (fs::is_directory(path)) throw failure(path, "cannot be written", EISDIR);
-  const fs::path folder = path.has_parent_path() ? path.parent_path() : ".";
-  if (access(folder.c_str(), W_OK | X_OK) != 0) throw failure(path, "cannot be written", errno);
-}
-
-fs::path temporaryNameBeside(const fs::path& path) {
-  static std::atomic<unsigned> counter{0};
-  const std::string name = ".clothsim-" + std::to_string(getpid()) + "-" + std::to_string(counter++);
-  return path.parent_path() / (name + path.extension().string());
+  const Destination destination = destinationOf(path);
+  // Only a try tells for sure: a file system may be read-only, out of inodes, or at its limit of a name's
+  // length.
+  if (destination.isReplaced) TemporaryFile(path, destination);
 }
 
 bool hasFrameNumber(const std::string& pattern) { return findFrameNumber(pattern).has_value(); }

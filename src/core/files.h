@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
+
+#include "core/temporary_file.h"
 
 namespace clothsim {
 
@@ -18,7 +20,7 @@ namespace clothsim {
 void writeFileAtomically(const std::filesystem::path& path, std::string_view bytes);
 
 // A file that grows piece by piece under a temporary name beside `path`, and takes the name when it is
-// complete.
+// complete; /dev/null and its kind are written to directly.
 // @throws InputOutputError, from every function
 class GrowingFile {
  public:
@@ -33,18 +35,17 @@ class GrowingFile {
   void close();
 
  private:
-  std::filesystem::path path_, target_;  // as given, and with links followed
-  std::filesystem::path temporary_;      // "" for /dev/null and its kind, which are written to directly
-  std::FILE* file_ = nullptr;
+  void write(std::string_view bytes);
+
+  std::filesystem::path path_;
+  std::optional<TemporaryFile> temporary_;  // none for a device
+  int descriptor_ = -1;                     // the temporary file's, or of the device, which is ours
+  std::string pending_;                     // small pieces go out together
 };
 
 // For commands that write at the end of long work: fails at once when no file could be made at `path`.
 // @throws InputOutputError
 void checkWritable(const std::filesystem::path& path);
-
-// Temporary name beside `path` for writers that stream (video): same folder, same extension, unlikely to
-// exist.
-[[nodiscard]] std::filesystem::path temporaryNameBeside(const std::filesystem::path& path);
 
 // "frame_%04d.png" with 7 -> "frame_0007.png". Only the first %d or %0Nd is understood;
 // hasFrameNumber tells whether there is one.

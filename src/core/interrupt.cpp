@@ -14,11 +14,17 @@ void remember(int) { interrupted = 1; }
 }  // namespace
 
 void catchInterrupts() {
-  struct sigaction action {};
-  action.sa_handler = remember;
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  sigaction(SIGINT, &action, nullptr);
-  sigaction(SIGTERM, &action, nullptr);
+  for (const int signal : {SIGINT, SIGHUP, SIGTERM, SIGXCPU}) {
+    struct sigaction action {
+    }, before{};
+    action.sa_handler = remember;
+    // The limit of processor time is told again every second, until that of killing.
+    action.sa_flags = signal == SIGXCPU ? 0 : static_cast<int>(SA_RESETHAND);
+    sigaction(signal, nullptr, &before);
+    if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
+  }
+  std::signal(SIGXFSZ, SIG_IGN);
+  std::signal(SIGPIPE, SIG_IGN);
 }
 
 bool isInterrupted() { return interrupted != 0; }

@@ -48,9 +48,7 @@ class PointCacheWriter final : public SequenceWriter {
 
   void close() override {
     file_.overwrite(0, bytesOf(header_));
-    std::filesystem::path mesh = path_;
-    mesh.replace_filename(path_.stem().string() + "_rest.obj");
-    saveState(rest_, cloth_, mesh);
+    saveState(rest_, cloth_, restMeshBeside(path_));
     file_.close();
   }
 

@@ -6,12 +6,19 @@
 namespace clothsim {
 
 bool isSequence(const std::filesystem::path& path) {
-  return path.extension() == ".pc2" || path.extension() == ".usda";
+  return isPointCache(path) || path.extension() == ".usda";
+}
+
+bool isPointCache(const std::filesystem::path& path) { return path.extension() == ".pc2"; }
+
+std::filesystem::path restMeshBeside(const std::filesystem::path& pointCache) {
+  std::filesystem::path mesh = pointCache;
+  return mesh.replace_filename(pointCache.stem().string() + "_rest.obj");
 }
 
 std::unique_ptr<SequenceWriter> makeSequenceWriter(const std::filesystem::path& path, const Cloth& cloth,
                                                    const FrameTimes& times) {
-  if (path.extension() == ".pc2") return makePointCacheWriter(path, cloth, times);
+  if (isPointCache(path)) return makePointCacheWriter(path, cloth, times);
   if (path.extension() == ".usda") return makeUsdWriter(path, cloth, times);
   throw UsageError("cannot save frames to '" + path.string() + "': its extension is '" +
                    path.extension().string() + "', expected .pc2 or .usda");

@@ -30,6 +30,9 @@ class SequenceWriter {
 // them in .pc2. A PC2 header tells `every` as frames a sample; Blender takes each sample for a frame: its
 // modifier's Frame Scale is to be 1 / every.
 [[nodiscard]] bool isSequence(const std::filesystem::path& path);
+[[nodiscard]] bool isPointCache(const std::filesystem::path& path);
+// The mesh that a point cache of that name moves.
+[[nodiscard]] std::filesystem::path restMeshBeside(const std::filesystem::path& pointCache);
 
 // @throws UsageError for another extension, InputOutputError
 [[nodiscard]] std::unique_ptr<SequenceWriter> makeSequenceWriter(const std::filesystem::path& path,

@@ -138,6 +138,10 @@ void checkContent(const Header& header, const State& state, const std::string& s
   if (!state.cuts.empty() && state.cuts.size() != particles)
     refuse(source, "it has cuts of " + std::to_string(state.cuts.size()) + " particles, expected " +
                        std::to_string(particles));
+  for (std::size_t i = 0; i < particles; ++i)
+    if (const float w = state.positions[i].w; !(w >= 0 && std::isfinite(w)))
+      refuse(source, "the inverse mass of particle " + std::to_string(i) + " is " + std::to_string(w) +
+                         " 1/kg, expected a finite number from 0");
   for (std::size_t i = 0; i < state.cuts.size(); ++i)
     if (state.cuts[i] >> SPRING_SLOTS != 0)
       refuse(source, "the cuts of particle " + std::to_string(i) + " are " + std::to_string(state.cuts[i]) +

@@ -1,6 +1,8 @@
 // Raw frames go to ffmpeg's standard input. It is started without a shell, and its end of the connection is a
 // socket rather than a pipe: writing to a socket whose reader has died can be told not to raise SIGPIPE,
-// which would end the whole program.
+// which would end the whole program. It writes to a file that we opened, and hears no name that it could take
+// for an option or a protocol. In a process group of its own it is left alone by Ctrl-C, which is for us to
+// answer.
 #include <fcntl.h>
 #include <spawn.h>
 #include <sys/socket.h>
@@ -17,7 +19,8 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/files.h"
+#include "core/interrupt.h"
+#include "core/temporary_file.h"
 #include "export/export.h"
 
 extern char** environ;
@@ -25,8 +28,9 @@ extern char** environ;
 namespace clothsim {
 namespace {
 
-std::vector<std::string> ffmpegArguments(const std::string& output, int width, int height,
-                                         double framesPerSecond) {
+constexpr int filmDescriptor = 3;  // in ffmpeg; it opens the file anew by this name, also to read
+
+std::vector<std::string> ffmpegArguments(int width, int height, double framesPerSecond) {
   std::array<char, 32> rate;
   const auto end = std::to_chars(rate.data(), rate.data() + rate.size(), framesPerSecond).ptr;
   return {"ffmpeg", "-hide_banner", "-nostdin", "-loglevel", "error", "-y",
@@ -39,14 +43,18 @@ std::vector<std::string> ffmpegArguments(const std::string& output, int width, i
           "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv", "-c:v", "libx264",
           "-preset", "medium", "-crf", "18", "-pix_fmt", "yuv420p", "-colorspace", "bt709",
           "-color_primaries", "bt709", "-color_trc", "bt709", "-color_range", "tv", "-movflags", "+faststart",
-          output};
+          "-f", "mp4", "file:/proc/self/fd/" + std::to_string(filmDescriptor)};
 }
 
 }  // namespace
 
 struct VideoWriter::Pipe {
-  std::filesystem::path path, temporaryPath;
-  std::size_t frameBytes = 0;
+  Pipe(const std::filesystem::path& wanted, std::size_t bytes)
+      : path(wanted), film(wanted, regularFile(wanted)), frameBytes(bytes) {}
+
+  std::filesystem::path path;
+  TemporaryFile film;
+  std::size_t frameBytes;
   pid_t ffmpeg = -1;           // -1 once it has been waited for
   int input = -1;              // our end of its standard input
   std::FILE* words = nullptr;  // a nameless file that takes what it says
@@ -58,15 +66,23 @@ struct VideoWriter::Pipe {
       waitForEnd();
     }
     if (words != nullptr) std::fclose(words);
-    std::error_code ignored;  // after close() there is nothing left to remove
-    std::filesystem::remove(temporaryPath, ignored);
   }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
 
+  // ffmpeg goes back and forth in a film.
+  static Destination regularFile(const std::filesystem::path& path) {
+    Destination destination = destinationOf(path);
+    if (!destination.isReplaced)
+      throw InputOutputError(path.string() + ": cannot be written: a film needs a regular file");
+    return destination;
+  }
   void start(const std::vector<std::string>& arguments);
   // Whether it ended well.
   bool waitForEnd() {
     int status = 0;
-    while (::waitpid(ffmpeg, &status, 0) < 0 && errno == EINTR) continue;
+    while (::waitpid(ffmpeg, &status, 0) < 0 && errno == EINTR)
+      if (isInterrupted()) ::kill(ffmpeg, SIGKILL);
     ffmpeg = -1;
     return WIFEXITED(status) && WEXITSTATUS(status) == 0;
   }
@@ -91,7 +107,13 @@ void VideoWriter::Pipe::start(const std::vector<std::string>& arguments) {
   posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_adddup2(&actions, ::fileno(words), STDERR_FILENO);
-  const int error = ::posix_spawnp(&ffmpeg, argv[0], &actions, nullptr, argv.data(), environ);
+  posix_spawn_file_actions_adddup2(&actions, film.descriptor(), filmDescriptor);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+  posix_spawnattr_setpgroup(&attributes, 0);  // of its own
+  const int error = ::posix_spawnp(&ffmpeg, argv[0], &actions, &attributes, argv.data(), environ);
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   ::close(ends[1]);
   if (error == 0) return;
@@ -116,11 +138,9 @@ void VideoWriter::Pipe::fail() {
 }
 
 VideoWriter::VideoWriter(const std::filesystem::path& path, int width, int height, double framesPerSecond)
-    : pipe_(std::make_unique<Pipe>()) {
-  pipe_->path = path;
-  pipe_->temporaryPath = temporaryNameBeside(path);
-  pipe_->frameBytes = 3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  pipe_->start(ffmpegArguments(pipe_->temporaryPath.string(), width, height, framesPerSecond));
+    : pipe_(std::make_unique<Pipe>(path,
+                                   3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height))) {
+  pipe_->start(ffmpegArguments(width, height, framesPerSecond));
 }
 
 VideoWriter::~VideoWriter() = default;
@@ -131,7 +151,9 @@ void VideoWriter::addFrame(std::span<const std::uint8_t> rgb) {
     const ssize_t written = ::send(pipe_->input, rgb.data(), rgb.size(), MSG_NOSIGNAL);
     if (written >= 0)
       rgb = rgb.subspan(static_cast<std::size_t>(written));
-    else if (errno != EINTR)
+    else if (errno == EINTR)
+      stopIfInterrupted();
+    else
       pipe_->fail();
   }
 }
@@ -139,10 +161,10 @@ void VideoWriter::addFrame(std::span<const std::uint8_t> rgb) {
 void VideoWriter::close() {
   ::close(pipe_->input);
   pipe_->input = -1;
-  if (!pipe_->waitForEnd()) pipe_->fail();
-  std::error_code error;
-  std::filesystem::rename(pipe_->temporaryPath, pipe_->path, error);
-  if (error) throw InputOutputError("cannot write '" + pipe_->path.string() + "': " + error.message());
+  const bool endedWell = pipe_->waitForEnd();
+  stopIfInterrupted();
+  if (!endedWell) pipe_->fail();
+  pipe_->film.publish();
 }
 
 }  // namespace clothsim

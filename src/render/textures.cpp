@@ -56,9 +56,9 @@ LoadedPng loadPng(const fs::path& path) {
 std::vector<std::string> bundledTextures() {
   std::vector<std::string> names;
   std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder(), ignored)) {
-    const std::string name = entry.path().stem().string();
-    if (entry.path().extension() == ".png" && !name.starts_with("weave_") && name != "sky")
+  for (fs::directory_iterator entry(folder(), ignored), end; entry != end; entry.increment(ignored)) {
+    const std::string name = entry->path().stem().string();
+    if (entry->path().extension() == ".png" && !name.starts_with("weave_") && name != "sky")
       names.push_back(name);
   }
   std::sort(names.begin(), names.end());

@@ -20,19 +20,26 @@ constexpr std::uintmax_t largestFile = 16 * 1024 * 1024;
 std::vector<std::string> sceneNamesIn(const fs::path& folder) {
   std::vector<std::string> names;
   std::error_code ignored;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
-    if (entry.path().extension() == ".json") names.push_back(entry.path().filename().string());
+  for (fs::directory_iterator entry(folder, ignored), end; entry != end; entry.increment(ignored))
+    if (entry->path().extension() == ".json") names.push_back(entry->path().filename().string());
   std::sort(names.begin(), names.end());
   return names;
 }
 
 fs::path bundledFolder() { return resourceRoot() / "assets" / "scenes"; }
 
+// Where it lies; as it was given where the current folder is gone.
+fs::path folderOf(const fs::path& file) {
+  std::error_code code;
+  const fs::path whole = fs::absolute(file, code);
+  return (code ? file : whole).parent_path();
+}
+
 // A texture's path is relative to the scene; bundled ones have no extension.
 void findTexture(Scene& scene, const fs::path& scenePath) {
   const fs::path texture = scene.render.texture;
   if (!isTexturePath(scene.render.texture) || texture.is_absolute()) return;
-  scene.render.texture = (fs::absolute(scenePath).parent_path() / texture).lexically_normal().string();
+  scene.render.texture = (folderOf(scenePath) / texture).lexically_normal().string();
 }
 
 bool isPath(const std::string& nameOrPath) {
@@ -44,8 +51,9 @@ bool isPath(const std::string& nameOrPath) {
 void findMeshes(Scene& scene, const fs::path& file) {
   const auto find = [&](std::string& mesh) {
     if (mesh.empty() || fs::path(mesh).is_absolute()) return;
-    const fs::path beside = fs::absolute(file).parent_path() / mesh;
-    if (fs::exists(beside)) mesh = beside.lexically_normal().string();
+    const fs::path beside = folderOf(file) / mesh;
+    std::error_code ignored;  // the reader complains
+    if (fs::exists(beside, ignored)) mesh = beside.lexically_normal().string();
   };
   for (Collider& collider : scene.colliders)
     if (auto* mesh = std::get_if<MeshCollider>(&collider)) find(mesh->file);
@@ -85,7 +93,8 @@ Scene loadScene(const fs::path& path) {
 Scene loadSceneByName(const std::string& nameOrPath) {
   if (isPath(nameOrPath)) return loadScene(nameOrPath);
   const fs::path path = bundledFolder() / (nameOrPath + ".json");
-  if (fs::exists(path)) return loadScene(path);
+  std::error_code ignored;
+  if (fs::exists(path, ignored)) return loadScene(path);
   std::vector<std::string> names;
   for (const std::string& file : sceneNamesIn(bundledFolder()))
     names.push_back(fs::path(file).stem().string());

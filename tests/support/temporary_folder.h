@@ -11,8 +11,8 @@ namespace clothsim::test {
 
 class TemporaryFolder {
  public:
-  TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "clothsim_test_XXXXXX").string();
+  explicit TemporaryFolder(const std::filesystem::path& within = std::filesystem::temp_directory_path()) {
+    std::string name = (within / "clothsim_test_XXXXXX").string();
     path_ = ::mkdtemp(name.data()) == nullptr ? "" : name;
     EXPECT_FALSE(path_.empty()) << "no temporary folder could be made";
   }

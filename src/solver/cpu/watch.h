@@ -19,9 +19,12 @@ inline void noteTrouble(WatchRow& watch, std::uint32_t pass, std::ptrdiff_t part
   }
 }
 
+// By bits without the sign: -0 is finite, too.
 template <class Real>
 bool finite(Real x) {
-  return !isBeyond(x < Real(0) ? -x : x, std::numeric_limits<Real>::max());
+  const auto bits = bitsOf(x);
+  const auto magnitude = bits & ~bitsOf(Real(-0.0));
+  return magnitude <= bitsOf(std::numeric_limits<Real>::max());
 }
 
 // For what a pass stored as a particle's velocity.

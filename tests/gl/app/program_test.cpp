@@ -11,30 +11,18 @@
 
 #include "check/crossings.h"
 #include "core/files.h"
-#include "support/command.h"
 #include "support/process.h"
+#include "support/program.h"
 #include "support/temporary_folder.h"
 
 namespace clothsim {
 namespace {
 
 using nlohmann::json;
+using test::clothsim;
 using test::CommandResult;
+using test::jsonOf;
 using test::runCommand;
-
-// Runs clothsim without a screen; `environment` as VAR=value words before it.
-CommandResult clothsim(const std::string& arguments, const std::string& environment = "") {
-  return runCommand("env -u DISPLAY -u WAYLAND_DISPLAY " + environment + " " CLOTHSIM_PROGRAM " " +
-                    arguments + " 2>&1");
-}
-
-// The JSON object on stdout.
-json jsonOf(const std::string& arguments, const std::string& environment = "") {
-  const CommandResult result =
-      runCommand("env " + environment + " " CLOTHSIM_PROGRAM " " + arguments + " 2>/dev/null");
-  EXPECT_EQ(result.exitCode, 0) << arguments;
-  return json::parse(result.output, nullptr, false);
-}
 
 TEST(Program, SumsARunUpInJson) {
   const json run = jsonOf("run -f pinned2 --resolution 20x20 --frames 6 --backend cpu --json");

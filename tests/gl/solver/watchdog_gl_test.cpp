@@ -117,6 +117,36 @@ TEST_F(WatchdogTest, FindsTheVeryStepInAnyNumberOfStepsBetweenTwoLooks) {
   EXPECT_EQ(gpu.trouble(), cpu.trouble()) << "the first one stays";
 }
 
+TEST_F(WatchdogTest, LooksForNoContactsAfterTroubleUntilItIsReverted) {
+  Scene scene = test::sheetScene(12);
+  scene.cloths[0].thickness = 0.03;
+  for (const SelfCollision mode : {SelfCollision::averaged, SelfCollision::robust}) {
+    scene.solver.selfCollision = mode;
+    const Cloth cloth(scene);
+    GpuSolver gpu(cloth, scene);
+    CpuSolver<float> cpu(cloth, scene);
+    gpu.step(3);
+    gpu.keep();
+    State heap = gpu.state();
+    for (Particle4& x : heap.positions) x = {1e6f, 0, 0, x.w};
+    heap.velocities[5].y = std::numeric_limits<float>::quiet_NaN();
+    const std::uint64_t builds = gpu.contactCounts().hashBuilds;
+    gpu.setState(heap);
+    cpu.setState(heap);
+    gpu.step(20);
+    cpu.step(20);
+    ASSERT_TRUE(gpu.trouble().has_value());
+    EXPECT_EQ(gpu.trouble(), cpu.trouble());
+    EXPECT_EQ(gpu.contactCounts().hashBuilds, builds);
+    gpu.revert();
+    gpu.step(20);
+    CpuSolver<float> undisturbed(cloth, scene);
+    undisturbed.step(23);
+    EXPECT_GT(gpu.contactCounts().hashBuilds, builds) << "contacts are looked for again";
+    EXPECT_EQ(difference(gpu.state(), undisturbed.state()).differing, 0u);
+  }
+}
+
 TEST_F(WatchdogTest, RevertGoesBackToWhatWasKeptAndForgetsTheTrouble) {
   const Scene scene = test::withWind(test::vertical(test::sheetScene(12)));
   const Cloth cloth(scene);

@@ -62,6 +62,56 @@ TEST(CheckWritable, RefusesBeforeTheWorkWhatCouldNotBeWrittenAfterIt) {
   EXPECT_FALSE(fs::exists(folder / "new.png")) << "asking writes nothing";
 }
 
+// Works for root, too, who may write to any folder.
+TEST(CheckWritable, RefusesNamesThatNoFileCanHave) {
+  const test::TemporaryFolder folder;
+  writeFileAtomically(folder / "file", "");
+  fs::create_symlink("circle.csv", folder / "circle.csv");
+  fs::create_symlink("missing/a.csv", folder / "nowhere.csv");
+  const std::pair<fs::path, const char*> cases[] = {
+      {folder / (std::string(260, 'x') + ".csv"), "File name too long"},
+      {folder / "circle.csv", "Too many levels of symbolic links"},
+      {folder / "nowhere.csv", "No such file or directory"},
+      {folder / "file" / "a.csv", "Not a directory"},
+      {folder.path() / std::string(5000, 'x'), "File name too long"}};
+  for (const auto& [path, reason] : cases) {
+    const std::string expected = path.string() + ": cannot be written: " + reason;
+    EXPECT_EQ(messageOf([&] { checkWritable(path); }), expected);
+    EXPECT_EQ(messageOf([&] { writeFileAtomically(path, "x"); }), expected);
+  }
+  EXPECT_EQ(filesIn(folder.path()), 3U);
+}
+
+// As two programs in two containers can have: one process number, one counter of files.
+TEST(GrowingFile, TakesNoNameThatAnotherProgramMayHaveTakenOrForeseen) {
+  const test::TemporaryFolder folder;
+  writeFileAtomically(folder / "dear", "to somebody");
+  for (int i = 0; i < 3000; ++i)
+    fs::create_symlink(
+        "dear", folder / (".clothsim-" + std::to_string(::getpid()) + "-" + std::to_string(i) + ".txt"));
+  writeFileAtomically(folder / "a.txt", "mine");
+  EXPECT_EQ(readFile(folder / "dear"), "to somebody");
+  EXPECT_EQ(readFile(folder / "a.txt"), "mine");
+  EXPECT_FALSE(fs::is_symlink(folder / "a.txt"));
+}
+
+TEST(GrowingFile, LetsTwoWriteOneFileAtATimeAndTheLastOneWins) {
+  const test::TemporaryFolder folder;
+  GrowingFile a(folder / "a"), b(folder / "a");
+  EXPECT_EQ(filesIn(folder.path()), 2U);
+  const std::string large(1 << 17, 'a');
+  a.append(large);
+  b.append("b");
+  a.append("!");
+  b.close();
+  EXPECT_EQ(readFile(folder / "a"), "b");
+  a.overwrite(1, "A");
+  a.append("!");
+  a.close();
+  EXPECT_EQ(readFile(folder / "a"), "aA" + large.substr(2) + "!!");
+  EXPECT_EQ(filesIn(folder.path()), 1U);
+}
+
 TEST(WriteFileAtomically, ReportsAFullDisk) {
   if (!fs::exists("/dev/full")) GTEST_SKIP() << "needs /dev/full";
   const std::string message = messageOf([] { writeFileAtomically("/dev/full", "x"); });
@@ -80,6 +130,11 @@ TEST(WriteFileAtomically, KeepsDevicesLinksAndPermissions) {
   EXPECT_TRUE(fs::is_symlink(folder / "link.txt"));
   EXPECT_EQ(readFile(folder / "target.txt"), "new");
   EXPECT_EQ(fs::status(folder / "target.txt").permissions(), fs::perms(0600));
+
+  fs::create_directory(folder / "deep");
+  fs::create_symlink("deep/new.txt", folder / "to_come.txt");
+  writeFileAtomically(folder / "to_come.txt", "made");
+  EXPECT_EQ(readFile(folder / "deep" / "new.txt"), "made");
 }
 
 TEST(ReadFile, SaysWhyAFileCannotBeRead) {
@@ -101,15 +156,6 @@ TEST(ReadFile, RefusesFilesBeyondTheLimit) {
   EXPECT_EQ(readFile(folder / "big", 8).size(), 8U);
   const std::string message = messageOf([&] { (void)readFile(folder / "big", 7); });
   EXPECT_NE(message.find("has 8 bytes, more than the limit of 7"), std::string::npos);
-}
-
-TEST(TemporaryNameBeside, HasTheSameFolderAndExtensionAndIsNew) {
-  const fs::path a = temporaryNameBeside("/some/where/clip.mp4"),
-                 b = temporaryNameBeside("/some/where/clip.mp4");
-  EXPECT_EQ(a.parent_path(), "/some/where");
-  EXPECT_EQ(a.extension(), ".mp4");
-  EXPECT_NE(a, b);
-  EXPECT_NE(a, "/some/where/clip.mp4");
 }
 
 TEST(NumberedName, FillsInTheFrame) {

@@ -123,6 +123,19 @@ TEST_F(StateFile, IsRefusedWhenItsTimeIsNone) {
   EXPECT_NE(refusal(48, 1.0).find("its time is no time"), std::string::npos) << "an origin behind the step";
 }
 
+TEST_F(StateFile, WithAnInverseMassThatNoBodyHasIsRefused) {
+  for (const auto& [mass, found] : {std::pair{-1.0f, "-1"},
+                                    {std::bit_cast<float>(0x7f800000u), "inf"},
+                                    {std::bit_cast<float>(0x7fc00000u), "nan"}}) {
+    state_.positions[4].w = mass;
+    const std::string message = refusalOf(formatStateFile(state_));
+    EXPECT_NE(message.find(std::string("the inverse mass of particle 4 is ") + found), std::string::npos)
+        << message;
+  }
+  state_.positions[4].w = 0;
+  EXPECT_EQ(parseStateFile(formatStateFile(state_), 6, "a.state").positions[4].w, 0) << "a pinned one";
+}
+
 class HandledStateFile : public StateFile {
  protected:
   HandledStateFile() {

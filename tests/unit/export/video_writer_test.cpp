@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <cstdlib>
 #include <vector>
 
@@ -49,16 +51,72 @@ TEST_F(VideoWriterTest, LeavesTheOldFilmWhenItIsAbandoned) {
   EXPECT_EQ(folder_.fileCount(), 1) << "a temporary file was left behind";
 }
 
+// Whatever a folder is called: ffmpeg must take no name for a protocol or an option.
+TEST_F(VideoWriterTest, WritesUnderNamesThatFfmpegWouldReadOtherwise) {
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder_.path());
+  for (const std::filesystem::path path : {"http:/a.mp4", "-f/a.mp4", "pipe:1.mp4", "a%03d.mp4"}) {
+    if (path.has_parent_path()) std::filesystem::create_directory(path.parent_path());
+    VideoWriter writer(path, 16, 16, 30);
+    writer.addFrame(std::vector<std::uint8_t>(16 * 16 * 3, 200));
+    writer.close();
+    EXPECT_EQ(readFile(path).substr(4, 4), "ftyp") << path;
+  }
+  std::filesystem::current_path(before);
+}
+
+TEST_F(VideoWriterTest, RefusesAPlaceThatCannotBeWrittenToBeforeTheFirstFrame) {
+  EXPECT_NE(messageThrownBy<InputOutputError>([&] {
+              VideoWriter(folder_ / "missing/a.mp4", 33, 17, 30);
+            }).find("missing/a.mp4: cannot be written: No such file or directory"),
+            std::string::npos);
+  std::filesystem::create_symlink("/dev/null", folder_ / "null.mp4");
+  EXPECT_NE(messageThrownBy<InputOutputError>([&] {
+              VideoWriter(folder_ / "null.mp4", 33, 17, 30);
+            }).find("a film needs a regular file"),
+            std::string::npos);
+}
+
+// Programs called ffmpeg that stand in for it.
+class StandInTest : public VideoWriterTest {
+ protected:
+  StandInTest() {
+    std::filesystem::create_directory(folder_ / "bin");
+    ::setenv("PATH", ((folder_ / "bin").string() + ":" + path_).c_str(), 1);
+  }
+  ~StandInTest() override { ::setenv("PATH", path_.c_str(), 1); }
+
+  void standIn(const std::string& script) {
+    writeFileAtomically(folder_ / "bin" / "ffmpeg", "#!/bin/sh\n" + script + "\n");
+    std::filesystem::permissions(folder_ / "bin" / "ffmpeg", std::filesystem::perms(0755));
+  }
+
+ private:
+  std::string path_ = std::getenv("PATH");
+};
+
 // More frames than the connection can hold in flight: a writer that did not mind SIGPIPE would end the test
 // here.
-TEST_F(VideoWriterTest, PassesOnWhatFfmpegSaysWhenItFails) {
+TEST_F(StandInTest, PassesOnWhatFfmpegSaysWhenItFails) {
+  standIn("echo 'no such encoder' >&2; exit 1");
   const std::string message = messageThrownBy<InputOutputError>([&] {
-    VideoWriter writer(folder_ / "missing/a.mp4", 33, 17, 30);
+    VideoWriter writer(folder_ / "a.mp4", 33, 17, 30);
     for (int i = 0; i < 5000; ++i) writer.addFrame(frame_);
     writer.close();
   });
-  EXPECT_NE(message.find("missing/a.mp4"), std::string::npos) << message;
-  EXPECT_NE(message.find("No such file or directory"), std::string::npos) << message;
+  EXPECT_NE(message.find("a.mp4': ffmpeg failed: no such encoder"), std::string::npos) << message;
+  EXPECT_EQ(folder_.fileCount(), 1) << "no film, not even a part of one";
+}
+
+// Ctrl-C goes to the whole process group in front of the terminal.
+TEST_F(StandInTest, HasAProcessGroupOfItsOwn) {
+  standIn("echo group $(cut -d' ' -f5 /proc/$$/stat) >&2; exit 1");
+  const std::string message =
+      messageThrownBy<InputOutputError>([&] { VideoWriter(folder_ / "a.mp4", 33, 17, 30).close(); });
+  const std::size_t at = message.rfind(' ');
+  ASSERT_NE(at, std::string::npos);
+  EXPECT_GT(std::atoi(message.c_str() + at), 1) << message;
+  EXPECT_NE(std::atoi(message.c_str() + at), ::getpgrp()) << message;
 }
 
 TEST_F(VideoWriterTest, WithoutFfmpegSaysHowToGetItAndWhatToUseInstead) {

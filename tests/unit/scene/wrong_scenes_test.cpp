@@ -4,7 +4,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <fstream>
 #include <sstream>
 
@@ -18,15 +17,44 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path wrongFolder = fs::path(TEST_DATA) / "unit" / "scene" / "wrong";
+const fs::path listFolder = fs::path(TEST_DATA) / "unit" / "scene";
 
-std::vector<std::string> wrongFiles() {
-  std::vector<std::string> names;
-  for (const fs::directory_entry& entry : fs::directory_iterator(wrongFolder))
-    if (entry.path().extension() == ".json") names.push_back(entry.path().stem().string());
-  std::sort(names.begin(), names.end());
-  return names;
+// A case of wrong_scenes.txt, which says how it is written.
+struct WrongCase {
+  std::string name, scene;
+  std::vector<std::string> messageParts;
+};
+
+// The case that a line "== NAME" or "== NAME < FILE" begins.
+WrongCase beginCase(const std::string& line) {
+  const std::size_t file = line.find(" < ");
+  return {.name = line.substr(3, file == std::string::npos ? file : file - 3),
+          .scene = file == std::string::npos ? "" : readFile(listFolder / line.substr(file + 3)),
+          .messageParts = {}};
 }
+
+std::vector<WrongCase> readCases() {
+  std::vector<WrongCase> cases;
+  std::istringstream lines(readFile(listFolder / "wrong_scenes.txt"));
+  bool inScene = false, firstLine = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("== ")) {
+      cases.push_back(beginCase(line));
+      inScene = firstLine = true;
+    } else if (line.starts_with("-> ") && !cases.empty()) {
+      cases.back().messageParts.push_back(line.substr(3));
+      inScene = false;
+    } else if (inScene) {
+      cases.back().scene += (firstLine ? "" : "\n") + line;
+      firstLine = false;
+    } else if (!line.empty() && !line.starts_with("#")) {
+      throw std::runtime_error("wrong_scenes.txt: this line belongs to no case: " + line);
+    }
+  }
+  return cases;
+}
+
+void PrintTo(const WrongCase& wrong, std::ostream* out) { *out << wrong.name; }
 
 std::string messageOfLoading(const fs::path& path) {
   try {
@@ -48,25 +76,23 @@ bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
 }
 
-class WrongScene : public testing::TestWithParam<std::string> {};
+class WrongScene : public testing::TestWithParam<WrongCase> {};
 
-// Each line of <name>.expected must be in the message.
 TEST_P(WrongScene, GetsItsMessage) {
-  const fs::path path = wrongFolder / (GetParam() + ".json");
+  const test::TemporaryFolder folder;
+  const fs::path path = folder / (GetParam().name + ".json");
+  writeFileAtomically(path, GetParam().scene);
   const std::string message = messageOfLoading(path);
   EXPECT_TRUE(message.starts_with(path.string() + ":")) << message;
   EXPECT_FALSE(contains(message, "json.exception")) << message;
   EXPECT_FALSE(contains(message, "syntax error while")) << "a raw message of the library: " << message;
-
-  std::istringstream lines(readFile(wrongFolder / (GetParam() + ".expected")));
-  int count = 0;
-  for (std::string line; std::getline(lines, line); ++count)
-    EXPECT_TRUE(contains(message, line)) << "expected: " << line << "\nmessage:  " << message;
-  EXPECT_GT(count, 0) << "the .expected file is empty";
+  EXPECT_FALSE(GetParam().messageParts.empty()) << "the list says nothing of the message";
+  for (const std::string& part : GetParam().messageParts)
+    EXPECT_TRUE(contains(message, part)) << "expected: " << part << "\nmessage:  " << message;
 }
 
-INSTANTIATE_TEST_SUITE_P(Files, WrongScene, testing::ValuesIn(wrongFiles()),
-                         [](const testing::TestParamInfo<std::string>& file) { return file.param; });
+INSTANTIATE_TEST_SUITE_P(Files, WrongScene, testing::ValuesIn(readCases()),
+                         [](const testing::TestParamInfo<WrongCase>& wrong) { return wrong.param.name; });
 
 TEST(WrongSceneFile, MissingNamesTheNearestFileInTheFolder) {
   const test::TemporaryFolder folder;

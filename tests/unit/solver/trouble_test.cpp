@@ -139,6 +139,37 @@ TEST(Watchdog, RevertGoesBackToWhatWasKeptAndForgetsTheTrouble) {
   EXPECT_EQ(stateHash(solver.state()), stateHash(straight.state()));
 }
 
+TEST(Watchdog, TakesANegativeZeroForTheNumberThatItIs) {
+  const Scene scene = test::sheetScene(4);
+  const Cloth cloth(scene);
+  State state = initialState(cloth, scene);
+  state.positions[5].x = state.velocities[6].y = -0.0f;
+  CpuSolver<float> solver(cloth, scene);
+  solver.setState(state);
+  solver.step(1);
+  EXPECT_EQ(solver.trouble(), std::nullopt);
+}
+
+TEST(Watchdog, EndsAtTheStepWithTroubleAndLooksForNoContactsInBrokenNumbers) {
+  Scene scene = test::sheetScene(12);
+  for (const SelfCollision mode : {SelfCollision::averaged, SelfCollision::robust}) {
+    scene.solver.selfCollision = mode;
+    const Cloth cloth(scene);
+    CpuSolver<float> solver(cloth, scene);
+    solver.step(3);
+    const std::uint64_t builds = solver.contactCounts().hashBuilds;
+    ASSERT_GT(builds, 0u);
+    for (std::uint32_t i = 0; i < cloth.particleCount(); ++i)  // one heap, out of reach of the last hash
+      solver.setPosition(i, {1e6f, 0, 0});
+    solver.setVelocity(5, {std::numeric_limits<float>::quiet_NaN(), 0, 0});
+    solver.step(50);
+    ASSERT_TRUE(solver.trouble().has_value());
+    EXPECT_EQ(solver.trouble()->step, 4u);
+    EXPECT_EQ(solver.stepIndex(), 4u);
+    EXPECT_EQ(solver.contactCounts().hashBuilds, builds);
+  }
+}
+
 TEST(FirstTrouble, IsTheEarliestPassWhateverWasNotedAfterIt) {
   WatchRow row = soundWatchRow();
   EXPECT_EQ(firstTrouble(row, 3), std::nullopt);
