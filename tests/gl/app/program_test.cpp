@@ -58,7 +58,8 @@ TEST(Program, AdvisesAgainstAveragedSelfCollisionOnceAndOnlyWhereItLeaked) {
   const auto advice = [](const std::string& arguments) {
     const std::string said = clothsim(arguments + " --backend cpu").output;
     int count = 0;
-    for (std::size_t at = 0; (at = said.find("self_collision=robust", at)) != std::string::npos; ++at) ++count;
+    for (std::size_t at = 0; (at = said.find("self_collision=robust", at)) != std::string::npos; ++at)
+      ++count;
     return count;
   };
   EXPECT_EQ(advice("run -f pinned2 --resolution 8x8 --frames 1"), 0);
