@@ -64,12 +64,12 @@ struct SceneFlags {
 };
 
 SceneFlags addSceneFlags(CLI::App& app, Arguments& a, bool sceneRequired) {
-  CLI::Option* file = app.add_option("-f,--scene", a.scene,
-                                     "a bundled scene's name, or a path (with a '/' or ending in .json)");
+  CLI::Option* file = app.add_option(
+      "-f,--scene", a.scene, "name of a bundled scene, or a path (containing '/' or ending in .json)");
   if (sceneRequired) file->required();
   CLI::Option* settings =
       app.add_option("--set", a.settings,
-                     "set any key of the scene: --set cloth.damping=0.5 (see `clothsim describe`)")
+                     "set any key of the scene, e.g. --set cloth.damping=0.5 (see `clothsim describe`)")
           ->type_name("KEY=VALUE")
           ->allow_extra_args(false);
   return {file, settings};
@@ -78,21 +78,20 @@ SceneFlags addSceneFlags(CLI::App& app, Arguments& a, bool sceneRequired) {
 CLI::Option* addResolution(CLI::App& app, Arguments& a) {
   return app
       .add_option("--resolution", a.resolutions,
-                  "rebuild the cloth's grid with this many points; pins keep their place")
+                  "change the number of grid points; pins keep their place on the cloth")
       ->type_name("WxH")
       ->expected(1);
 }
 
 CLI::Option* addBackend(CLI::App& app, Arguments& a) {
-  return app.add_option("--backend", a.backend, "gpu (compute shaders) or cpu: the same cloth to the bit")
+  return app.add_option("--backend", a.backend, "gpu (compute shaders) or cpu; results are bit-identical")
       ->check(CLI::IsMember({"gpu", "cpu"}))
       ->capture_default_str();
 }
 
 CLI::Option* addFrames(CLI::App& app, Arguments& a, bool required = true) {
   return app
-      .add_option("--frames", a.frames,
-                  "how many frames to simulate (solver.frames_per_sec of them make a second)")
+      .add_option("--frames", a.frames, "number of frames to simulate (solver.frames_per_sec per second)")
       ->required(required)
       ->check(CLI::Range(0, 10'000'000));
 }
@@ -115,7 +114,7 @@ void addStrict(CLI::App& app, Arguments& a) {
 
 void addCheckCrossings(CLI::App& app, Arguments& a) {
   app.add_flag("--check-crossings", a.checkCrossings,
-               "count pairs of triangles that cross, exactly, at the end of every frame (needs CGAL)");
+               "count intersecting pairs of triangles exactly, after every frame (needs CGAL)");
 }
 
 constexpr const char* outOfMemory = "not enough memory for this cloth; use a smaller --resolution";
@@ -123,29 +122,30 @@ constexpr const char* outOfMemory = "not enough memory for this cloth; use a sma
 using Task = std::function<int()>;
 
 void declareRun(CLI::App& app, Arguments& a, Task& task) {
-  CLI::App* run =
-      app.add_subcommand("run", "Simulate without a window, save states, and sum the run up in numbers");
+  CLI::App* run = app.add_subcommand("run", "Simulate without a window, save states, and print measurements");
   const auto [scene, settings] = addSceneFlags(*run, a, false);
   CLI::Option* frames = addFrames(*run, a, false);
   CLI::Option* resolution = addResolution(*run, a);
   CLI::Option* backend = addBackend(*run, a);
-  run->add_option("--save", a.saves,
-                  "write the last state: .csv .ply .obj .png, or .state (exact); with %04d in the name every "
-                  "K-th frame; all frames in one file: .pc2 (with the mesh it moves, FILE_rest.obj), .usda "
-                  "(every K-th), .mp4 (in real time; needs ffmpeg); may be repeated")
+  run->add_option(
+         "--save", a.saves,
+         "save the last state as .csv .ply .obj .png, or .state (exact); with %04d in the name every "
+         "K-th frame; all frames in one file: .pc2 (with its mesh, FILE_rest.obj), .usda "
+         "(every K-th), .mp4 (real time; needs ffmpeg); may be repeated")
       ->type_name("FILE")
       ->allow_extra_args(false);
   run->add_option("--every", a.every, "K for numbered files, .pc2 and .usda")
       ->check(CLI::Range(1, 1'000'000));
-  CLI::Option* from = run->add_option("--from", a.from, "begin with a saved .state")->type_name("STATE");
+  CLI::Option* from = run->add_option("--from", a.from, "start from a saved .state")->type_name("STATE");
   CLI::Option* jitter =
-      run->add_option("--jitter", a.jitter,
-                      "begin with free particles moved at random, by 0 to so many metres along each axis (0)")
+      run->add_option(
+             "--jitter", a.jitter,
+             "displace free particles at the start by up to this many metres along each axis (default 0)")
           ->check(CLI::Range(0.0, 1.0));
-  run->add_option("--seed", a.seed, "of --jitter (1)");
+  run->add_option("--seed", a.seed, "random seed of --jitter (default 1)");
   CLI::Option* replay =
       run->add_option("--replay", a.replay,
-                      "do again what a recording of the viewer holds, on its backends or that of --backend")
+                      "repeat the actions of a viewer recording, on its own backends or on --backend")
           ->type_name("FILE");
   for (CLI::Option* other : {scene, from, jitter, settings, resolution}) replay->excludes(other);
   addCheckCrossings(*run, a);
@@ -167,7 +167,7 @@ void declareSimulationCommands(CLI::App& app, Arguments& a, Task& task) {
   declareRun(app, a, task);
 
   CLI::App* compare =
-      app.add_subcommand("compare", "Run both backends side by side; exit code 0 when every bit agrees");
+      app.add_subcommand("compare", "Run both backends side by side; exit code 0 if they are bit-identical");
   addSceneFlags(*compare, a, true);
   addFrames(*compare, a);
   addResolution(*compare, a);
@@ -179,7 +179,7 @@ void declareSimulationCommands(CLI::App& app, Arguments& a, Task& task) {
   });
 
   CLI::App* bench = app.add_subcommand(
-      "bench", "Measure steps and passes on both backends, and the largest demo in real time");
+      "bench", "Measure steps and passes on both backends, and the largest demo that runs in real time");
   addSceneFlags(*bench, a, false);
   bench
       ->add_option("--resolution", a.resolutions,
@@ -187,13 +187,12 @@ void declareSimulationCommands(CLI::App& app, Arguments& a, Task& task) {
       ->type_name("WxH");
   bench->add_option("--backend", a.backends, "gpu, cpu; may be repeated (both)")
       ->check(CLI::IsMember({"gpu", "cpu"}));
-  bench->add_option("--seconds", a.seconds, "of measuring for each figure")->check(CLI::Range(0.01, 600.0));
-  bench->add_option("--after", a.frames, "measure the cloth as it lies after so many frames (0)")
+  bench->add_option("--seconds", a.seconds, "duration of each measurement")->check(CLI::Range(0.01, 600.0));
+  bench->add_option("--after", a.frames, "measure the cloth after this many frames (default 0)")
       ->check(CLI::NonNegativeNumber);
-  bench->add_flag("--draw", a.draw, "measure drawing instead: every shading model at 1280x720, pass by pass");
+  bench->add_flag("--draw", a.draw, "measure drawing instead: each pass of every shading model at 1280x720");
   addJson(*bench, a);
-  bench->footer(
-      "Steps are timed in 7 stretches; the median counts. Example: clothsim bench --resolution 256x256");
+  bench->footer("The median of 7 measurements is reported. Example: clothsim bench --resolution 256x256");
   bench->callback([&] {
     task = [&] {
       BenchOptions options{
@@ -207,16 +206,15 @@ void declareSimulationCommands(CLI::App& app, Arguments& a, Task& task) {
 
 void addLooks(CLI::App& app, Arguments& a) {
   app.add_option("--shader", a.shader, "shading model instead of the scene's own");
-  app.add_option(
-         "--view", a.view,
-         "turn the camera about what it looks at, to the right and up, in degrees, and go nearer by a "
-         "factor: 30,-10,1.5")
+  app.add_option("--view", a.view,
+                 "orbit the camera to the right and up, in degrees, and zoom in by a factor, "
+                 "e.g. 30,-10,1.5")
       ->type_name("RIGHT,UP[,ZOOM]");
 }
 
 void declareRender(CLI::App& app, Arguments& a, Task& task) {
   CLI::App* render =
-      app.add_subcommand("render", "Simulate and draw into pictures or a film, without a window");
+      app.add_subcommand("render", "Simulate and render pictures or a video, without a window");
   addSceneFlags(*render, a, true);
   addFrames(*render, a);
   addResolution(*render, a);
@@ -228,12 +226,12 @@ void declareRender(CLI::App& app, Arguments& a, Task& task) {
       ->type_name("FILE")
       ->allow_extra_args(false);
   render->add_option("--size", a.size, "pixels")->type_name("WxH")->capture_default_str();
-  render->add_option("--every", a.every, "numbered pictures: every so many frames")
+  render->add_option("--every", a.every, "numbered pictures: save every K-th frame")
       ->check(CLI::Range(1, 1'000'000));
-  render->add_option("--fps", a.fps, "pictures a second of a film, at most; it plays in real time")
+  render->add_option("--fps", a.fps, "maximum frame rate of a video; it plays in real time")
       ->check(CLI::Range(1.0, 1000.0));
   addLooks(*render, a);
-  render->add_option("--from", a.from, "begin with a saved .state")->type_name("STATE");
+  render->add_option("--from", a.from, "start from a saved .state")->type_name("STATE");
   addSphereSegments(*render, a);
   addStrict(*render, a);
   render->footer("Example: clothsim render -f demo --frames 240 --out clip.mp4");
@@ -248,7 +246,8 @@ void declareRender(CLI::App& app, Arguments& a, Task& task) {
 
 void declareSweep(CLI::App& app, Arguments& a, Task& task) {
   CLI::App* sweep = app.add_subcommand(
-      "sweep", "Simulate every combination of some values; one labelled picture and a table of measures");
+      "sweep",
+      "Simulate every combination of given values: one labelled picture and a table of measurements");
   addSceneFlags(*sweep, a, true);
   CLI::Option* frames = addFrames(*sweep, a, false);
   sweep
@@ -260,17 +259,18 @@ void declareSweep(CLI::App& app, Arguments& a, Task& task) {
       ->allow_extra_args(false);
   addResolution(*sweep, a);
   addBackend(*sweep, a);
-  sweep->add_option("--out", a.out, "sheet.png; the measures go to sheet.csv beside it")
+  sweep->add_option("--out", a.out, "sheet.png; the measurements are written to sheet.csv")
       ->required()
       ->type_name("FILE");
-  sweep->add_option("--size", a.cellSize, "pixels of each picture; the text grows with it")
+  sweep->add_option("--size", a.cellSize, "pixels of each picture; the text is scaled with it")
       ->type_name("WxH")
       ->capture_default_str();
   addLooks(*sweep, a);
   addJson(*sweep, a);
   addStrict(*sweep, a);
   sweep->footer(
-      "A combination that blows up is shown as it last was, and the others go on; `finite` is false for it.\n"
+      "A combination that blows up is shown in its last good state, with `finite` false; the others "
+      "continue.\n"
       "Examples: clothsim sweep -f pinned2 --vary cloth.ks=500,5000,50000 --vary "
       "solver.integrator=verlet,implicit\n              --frames 60 --out sheet.png\n"
       "          clothsim sweep -f selfCollision --vary frame=20,50,90 --vary cloth.ks=500,5000 --out "
@@ -290,11 +290,11 @@ void declareSweep(CLI::App& app, Arguments& a, Task& task) {
 void declareInfoCommands(CLI::App& app, Arguments& a, Task& task) {
   // Without a footer of its own a command would print the viewer's.
   app.add_subcommand("scenes", "List the bundled scenes")
-      ->footer("Example: clothsim -f twist shows the one of that name")
+      ->footer("Example: clothsim -f twist opens the scene twist")
       ->callback([&] { task = [] { return scenesCommand(); }; });
 
   CLI::App* doctor =
-      app.add_subcommand("doctor", "Show the OpenGL device and its limits, and test that CPU and GPU agree");
+      app.add_subcommand("doctor", "Show the OpenGL device and its limits, and check that CPU and GPU agree");
   addJson(*doctor, a);
   doctor->footer("Exit code 0 when the backends agree, 1 when they do not, 4 without usable OpenGL");
   doctor->callback([&] { task = [&] { return doctorCommand(a.json); }; });
@@ -311,10 +311,11 @@ void declareViewer(CLI::App& app, Arguments& a, Task& task) {
   addResolution(app, a);
   addBackend(app, a);
   addSphereSegments(app, a);
-  app.add_flag("--timings", a.timings, "viewer: print at the end where the time of a displayed frame went");
-  app.footer("Without a command: the viewer.\n\nKeys and mouse in the viewer:\n" + viewerKeysText() +
-             "\nExit codes: 0 done, 1 the simulation failed or differs, 2 wrong usage, 3 scene error,\n"
-             "            4 no usable OpenGL or no display, 5 input/output");
+  app.add_flag("--timings", a.timings, "viewer: print on exit how long each part of a displayed frame took");
+  app.footer(
+      "Without a command: the viewer.\n\nKeys and mouse in the viewer:\n" + viewerKeysText() +
+      "\nExit codes: 0 done, 1 the simulation failed or the backends differ, 2 wrong usage, 3 scene error,\n"
+      "            4 no usable OpenGL or no display, 5 input/output");
   task = [&] {
     runViewer(loadScene(a.sceneOptions()), {a.scene, a.backend, a.around, a.down, a.timings});
     return 0;
@@ -326,7 +327,7 @@ void declareViewer(CLI::App& app, Arguments& a, Task& task) {
 namespace {
 
 int parseAndRun(int argc, char** argv) {
-  CLI::App app{"clothsim: cloth on the GPU and the CPU, the same to the bit", "clothsim"};
+  CLI::App app{"clothsim: cloth simulation, bit-identical on GPU and CPU", "clothsim"};
   app.set_version_flag("--version", "clothsim " CLOTHSIM_VERSION);
   app.set_help_all_flag("--help-all", "help of all commands");
   app.require_subcommand(0, 1);

@@ -116,7 +116,7 @@ void CompareCard::draw(PictureArea area) {
   ImGui::Begin("compare", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing);
-  titleText("GPU and CPU");
+  titleText("GPU and CPU compared");
   if (ImGui::BeginTable("sides", 3, ImGuiTableFlags_SizingFixedFit)) {
     rowOf("", backendLabels[0], backendLabels[1]);
     rowOf("device", gpu_.device, cpu_.device);

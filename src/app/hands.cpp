@@ -109,7 +109,7 @@ std::string Hands::press(const Reach& reach, Button button, Cursor cursor, Modif
   }
   const Pick pick = pickAt(reach, cursor);
   if (held.cuts) {
-    if (isOnMesh(reach, pick)) return "A cloth made of a mesh cannot be cut";
+    if (isOnMesh(reach, pick)) return "A cloth made from a mesh cannot be cut";
     doing_ = Doing::cut;
     lastCut_ = pick;
     stroke_.assign(1, {cursor.x, cursor.y});
@@ -146,9 +146,9 @@ void Hands::grab(const Reach& reach, const Pick& pick) {
 std::string Hands::pin(const Reach& reach, const Pick& pick, Cursor cursor) {
   if (const auto pinned = pinUnder(reach, cursor)) {
     reach.session.act(SetPin{*pinned, false});
-    return "Let go of a pin";
+    return "Unpinned";
   }
-  if (pick.kind != Pick::Kind::cloth) return "Shift+click on the cloth pins it there";
+  if (pick.kind != Pick::Kind::cloth) return "Shift+click on the cloth to pin it there";
   reach.session.act(SetPin{pick.particle, true});
   return "Pinned";
 }

@@ -17,7 +17,7 @@ std::string PictureTaker::screenshot(OpenScene& open, int width, int height) {
 std::string PictureTaker::toggleClip(OpenScene& open, int width, int height) {
   if (!clip_) {
     clip_.emplace(outputFolder(), open.name() + "-" + open.backend(), width, height);
-    return "Recording; Ctrl+R ends the clip";
+    return "Recording; Ctrl+R stops";
   }
   ClipRecorder clip = std::move(*clip_);
   clip_.reset();

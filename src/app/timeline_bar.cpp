@@ -85,7 +85,7 @@ std::optional<int> drawTrack(const TimelineState& state, float width) {
                      ImGui::GetColorU32(ImVec4(0.29f, 0.47f, 0.61f, 1)), half);
   const bool held = ImGui::IsItemActive() || ImGui::IsItemHovered();
   list.AddCircleFilled({x, middle}, (held ? 0.46f : 0.38f) * em(), ImGui::GetColorU32(theme::accent));
-  helpTip("The frames that are kept. Drag to look back; P goes on from the one that is shown.");
+  helpTip("The frames kept in memory. Drag to go back; P resumes from the one shown.");
   return chosen;
 }
 
@@ -115,13 +115,13 @@ TimelineRequests drawTimeline(const TimelineState& state, PictureArea area) {
   ImGui::Begin("timeline", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav);
-  requests.stepBack = symbolButton("##back", Symbol::back, false, "One frame earlier (Left)");
+  requests.stepBack = symbolButton("##back", Symbol::back, false, "Back one frame (Left)");
   ImGui::SameLine();
   requests.togglePause = symbolButton("##pause", state.paused ? Symbol::play : Symbol::pause, state.paused,
-                                      state.paused ? "Go on from here (P)" : "Pause (P)");
+                                      state.paused ? "Resume from here (P)" : "Pause (P)");
   ImGui::SameLine();
   requests.stepForward =
-      symbolButton("##forward", Symbol::forward, false, "One frame later (Right; N simulates one)");
+      symbolButton("##forward", Symbol::forward, false, "Forward one frame (Right; N simulates a new one)");
   ImGui::SameLine();
   const std::string time = timeText(state);
   char clip[32] = "";
@@ -143,7 +143,7 @@ TimelineRequests drawTimeline(const TimelineState& state, PictureArea area) {
   ImGui::SameLine();
   const bool recording = state.recordedSeconds.has_value();
   requests.toggleRecording = symbolButton("##record", recording ? Symbol::stop : Symbol::record, recording,
-                                          recording ? "End the clip (Ctrl+R)" : "Record a clip (Ctrl+R)");
+                                          recording ? "Stop recording (Ctrl+R)" : "Record a clip (Ctrl+R)");
   if (recording) {
     ImGui::SameLine();
     coloredText(clip, {0.95f, 0.5f, 0.5f, 1});

@@ -82,26 +82,35 @@ void textUnformatted(std::string_view words) {
 
 }  // namespace
 
-UiFrame::UiFrame(GLFWwindow* window, KeyQueue& typed) : window_(window), typed_(typed) {
+UiFrame::UiFrame(GLFWwindow* window, InputQueue& input) : window_(window), input_(input) {
   ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;  // no imgui.ini in the folder where the program happens to be started
   io.LogFilename = nullptr;
-  // Dear ImGui looks at keys once a frame: they reach it through the queue alone.
+  // Dear ImGui looks at them once a frame: they reach it through the queue alone.
   const GLFWkeyfun onKey = glfwSetKeyCallback(window, nullptr);
   const GLFWcharfun onCharacter = glfwSetCharCallback(window, nullptr);
+  const GLFWmousebuttonfun onButton = glfwSetMouseButtonCallback(window, nullptr);
   ImGui_ImplGlfw_InitForOpenGL(window, true);
   glfwSetKeyCallback(window, onKey);
   glfwSetCharCallback(window, onCharacter);
+  glfwSetMouseButtonCallback(window, onButton);
   ImGui_ImplOpenGL3_Init("#version 450 core");
 }
 
-void UiFrame::passKeysOn() {
-  for (const TypedKey& typed : typed_.takeFrame()) {
-    if (typed.isCharacter)
-      ImGui_ImplGlfw_CharCallback(window_, typed.character);
-    else
-      ImGui_ImplGlfw_KeyCallback(window_, typed.key, typed.scancode, typed.action, typed.mods);
+void UiFrame::passInputOn() {
+  for (const InputEvent& event : input_.takeFrame()) {
+    switch (event.kind) {
+      case InputEvent::Kind::key:
+        ImGui_ImplGlfw_KeyCallback(window_, event.code, event.scancode, event.action, event.mods);
+        break;
+      case InputEvent::Kind::character:
+        ImGui_ImplGlfw_CharCallback(window_, static_cast<unsigned int>(event.code));
+        break;
+      case InputEvent::Kind::button:
+        ImGui_ImplGlfw_MouseButtonCallback(window_, event.code, event.action, event.mods);
+        break;
+    }
   }
 }
 
@@ -131,8 +140,8 @@ void UiFrame::loadFonts(double textScale) {
 void UiFrame::begin(double textScale) {
   if (textScale != textScale_) loadFonts(textScale);
   ImGui_ImplOpenGL3_NewFrame();
+  passInputOn();
   ImGui_ImplGlfw_NewFrame();
-  passKeysOn();
   ImGui::NewFrame();
 }
 

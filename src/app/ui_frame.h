@@ -6,7 +6,7 @@
 
 #include <string_view>
 
-#include "app/key_queue.h"
+#include "app/input_queue.h"
 
 struct GLFWwindow;
 
@@ -23,8 +23,9 @@ inline const ImVec4 glass{0.07f, 0.08f, 0.10f, 0.72f},  // over the picture
 
 class UiFrame {
  public:
-  // After the window's own input callbacks, which it lets through. Keys come from `typed`, which they fill.
-  UiFrame(GLFWwindow* window, KeyQueue& typed);
+  // After the window's own input callbacks, which it lets through. Keys and clicks come from `input`, which
+  // they fill.
+  UiFrame(GLFWwindow* window, InputQueue& input);
   ~UiFrame();
   UiFrame(const UiFrame&) = delete;
   UiFrame& operator=(const UiFrame&) = delete;
@@ -39,10 +40,10 @@ class UiFrame {
 
  private:
   void loadFonts(double textScale);
-  void passKeysOn();
+  void passInputOn();
 
   GLFWwindow* window_;
-  KeyQueue& typed_;
+  InputQueue& input_;
   double textScale_ = 0;
 };
 

@@ -47,7 +47,7 @@ Viewer::Viewer(const Scene& scene, const ViewerOptions& options, const std::opti
   if (salvage) {
     if (salvage->edited != salvage->loaded) open_->edit(salvage->edited, false);
     session().goOnFrom(salvage->past);
-    complain(salvage->reason + "\nThe scene starts again on the CPU; edits and the recording are kept.");
+    complain(salvage->reason + "\nThe scene restarts on the CPU; your edits and the recording are kept.");
   }
   pace_ = Pace(open_->frameSeconds());
   watchSteps();
@@ -120,7 +120,7 @@ Reach Viewer::reach() {
 }
 
 bool Viewer::isIdle() {
-  return paused_ && !stepAsked_ && drawsLeft_ <= 0 && window_.typedKeys().isEmpty() &&
+  return paused_ && !stepAsked_ && drawsLeft_ <= 0 && window_.inputQueue().isEmpty() &&
          !compare_.isRunning() && !taker_.recordedSeconds();
 }
 
@@ -158,7 +158,7 @@ int Viewer::stepFrames(int frames) {
   if (trouble) {
     paused_ = true;
     notice_ = {blowUpText(*trouble, session().simulation().cloth(), open_->scene()) +
-                   "\nPaused at the last good state. R restarts.",
+                   "\nPaused at the last good state. Press R to restart.",
                1e9, true};
   }
   const int done = std::max(0, session().frame() - before);
@@ -287,7 +287,7 @@ void Viewer::keepConfig() {
   if (config_ == savedConfig_) return;
   const std::string trouble = saveViewerConfig(config_, viewerConfigPath());
   savedConfig_ = config_;  // one try for each change
-  if (!trouble.empty()) complain("The panels will not be remembered: " + trouble);
+  if (!trouble.empty()) complain("The state of the panels cannot be saved: " + trouble);
 }
 
 void runViewer(const Scene& scene, const ViewerOptions& options) {
@@ -302,7 +302,7 @@ void runViewer(const Scene& scene, const ViewerOptions& options) {
           outputFolder(), std::filesystem::path(salvage->source).stem().string() + "-recording", ".json");
       salvage->past.recording.save(path);
       throw OpenGlError(salvage->reason + "\n" + error.what() +
-                        "\nWhat was done is saved: clothsim run --replay " + path.string());
+                        "\nYour actions are saved; to repeat them: clothsim run --replay " + path.string());
     }
   } while (salvage);
 }

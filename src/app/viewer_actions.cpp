@@ -139,7 +139,7 @@ void Viewer::actOnFile(ViewerAction action) {
   if (action == ViewerAction::saveRecording) {
     const auto path = freeName(outputFolder(), open_->name() + "-recording", ".json");
     session().recording().save(path);
-    say("Saved " + path.string() + "; clothsim run --replay " + path.string() + " repeats it",
+    say("Saved " + path.string() + "; clothsim run --replay " + path.string() + " repeats your actions",
         longNoticeSeconds);
   }
 }
@@ -154,8 +154,7 @@ void Viewer::watchSteps() {
 
 void Viewer::switchBackend(const std::string& backend) {
   session().act(SwitchBackend{backend});
-  say(std::string("Continues on the ") + (backend == "gpu" ? "GPU" : "CPU") +
-      ", from the same state to the bit");
+  say(std::string("Now on the ") + (backend == "gpu" ? "GPU" : "CPU") + ", from the bit-identical state");
 }
 
 void Viewer::switchIntegrator() {
@@ -173,7 +172,7 @@ void Viewer::switchIntegrator() {
     scene.solver.simulationSteps = *explicitSteps_;
   }
   edit(scene, false);
-  say(std::string("Continues with ") + nameOf(integrator));
+  say(std::string("Integrator: ") + nameOf(integrator));
 }
 
 void Viewer::nextShader() {
@@ -202,7 +201,7 @@ void Viewer::undo(bool again) {
 void Viewer::seek(int frame) {
   if (frame < session().oldestFrame() || frame > session().newestFrame())
     return say(frame > session().newestFrame() ? "This is the newest frame; N simulates the next one"
-                                               : "No earlier frame is kept");
+                                               : "No earlier frame is kept in memory");
   if (frame == session().frame()) return;
   hands_.letGo(session());
   session().seek(frame);
@@ -286,13 +285,13 @@ void Viewer::saveSceneAs(const std::filesystem::path& path) {
   if (isSequence(path))
     return complain(
         path.string() +
-        " would hold many frames: save what was done (Ctrl+Shift+S), and clothsim run --replay FILE "
+        " would hold many frames. Save your actions (Ctrl+Shift+S) and run: clothsim run --replay FILE "
         "--save " +
-        path.filename().string() + " makes it of that");
+        path.filename().string());
   std::error_code ignored;  // the writer complains
   if (std::filesystem::exists(path, ignored) && confirmed_ != path.string()) {
     confirmed_ = path.string();
-    return complain(path.string() + " is there already; Save again writes over it");
+    return complain(path.string() + " already exists; press Save again to overwrite it");
   }
   Simulation& simulation = session().simulation();
   if (canSaveStateAs(path))
@@ -306,9 +305,9 @@ void Viewer::saveSceneAs(const std::filesystem::path& path) {
 
 void Viewer::reloadShaders() {
   if (const std::optional<std::string> trouble = open_->renderer().reloadShaders())
-    notice_ = {*trouble + "\nThe shaders from before are still in use.", 1e9, true};
+    notice_ = {*trouble + "\nThe previous shaders are still in use.", 1e9, true};
   else
-    say("Shaders loaded again");
+    say("Shaders reloaded");
 }
 
 void Viewer::togglePanels() { config_.showPanels = !showsPanels(); }

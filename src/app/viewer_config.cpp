@@ -49,9 +49,9 @@ LoadedConfig loadViewerConfig(const fs::path& path) {
   try {
     return {parse(readFile(path, largestFile)), ""};
   } catch (const nlohmann::json::exception&) {
-    return {{}, path.string() + " is no settings file of the viewer, and is passed over"};
+    return {{}, path.string() + " is not a settings file of the viewer and is ignored"};
   } catch (const Error& error) {
-    return {{}, std::string("Settings are passed over: ") + error.what()};
+    return {{}, std::string("The settings are ignored: ") + error.what()};
   }
 }
 

@@ -85,8 +85,7 @@ OverlayFacts viewerFacts(const OpenScene& open, const SpeedMeter& meter, bool pa
                 {"integrator", nameOf(open.scene().solver.integrator), false, true},
                 {"time", formatted("%.2f s", simulation.time())}};
   if (paused)
-    facts.rows.push_back(
-        {"speed", looksBack ? "looking back (P goes on)" : "paused (N: one frame)", true, true});
+    facts.rows.push_back({"speed", looksBack ? "in the past (P: resume)" : "paused (P: resume)", true, true});
   else
     facts.rows.push_back(speedRow(open, meter));
   if (meter.framesPerSecond() > 0 && !paused)

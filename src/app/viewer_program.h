@@ -149,7 +149,7 @@ class Viewer {
 
   ViewerOptions options_;
   ViewerWindow window_;
-  UiFrame ui_{window_.handle(), window_.typedKeys()};
+  UiFrame ui_{window_.handle(), window_.inputQueue()};
   std::unique_ptr<OpenScene> open_;
   Hands hands_;
   PanelColumn column_;

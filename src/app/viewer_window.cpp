@@ -110,6 +110,7 @@ ViewerWindow::ViewerWindow(const std::string& title, const std::string& sceneNam
 ViewerWindow::~ViewerWindow() { glfwTerminate(); }
 
 void ViewerWindow::onButton(int button, int action, int mods) {
+  queue_.add({.kind = InputEvent::Kind::button, .code = button, .action = action, .mods = mods});
   if (button != GLFW_MOUSE_BUTTON_LEFT && button != GLFW_MOUSE_BUTTON_RIGHT) return;
   const Button which = button == GLFW_MOUSE_BUTTON_LEFT ? Button::left : Button::right;
   if (action == GLFW_PRESS && input_.press)
@@ -121,13 +122,13 @@ void ViewerWindow::installCallbacks() {
   glfwSetWindowUserPointer(window_, this);
   glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int scancode, int action, int mods) {
     ViewerWindow& self = selfOf(window);
-    self.typed_.add({.key = key, .scancode = scancode, .action = action, .mods = mods});
+    self.queue_.add({InputEvent::Kind::key, key, scancode, action, mods});
     if (action == GLFW_RELEASE || !self.input_.key) return;
     self.input_.key({nameOfKey(key, scancode), (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0},
                     action == GLFW_REPEAT);
   });
   glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned int character) {
-    selfOf(window).typed_.add({.isCharacter = true, .character = character});
+    selfOf(window).queue_.add({.kind = InputEvent::Kind::character, .code = static_cast<int>(character)});
   });
   glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int mods) {
     selfOf(window).onButton(button, action, mods);

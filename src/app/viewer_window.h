@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/key_queue.h"
+#include "app/input_queue.h"
 #include "app/viewer_keys.h"
 
 struct GLFWwindow;
@@ -41,8 +41,8 @@ class ViewerWindow {
   void setInput(Input input) { input_ = std::move(input); }
 
   [[nodiscard]] GLFWwindow* handle() const { return window_; }
-  // Everything typed, for the controls.
-  [[nodiscard]] KeyQueue& typedKeys() { return typed_; }
+  // Everything typed and clicked, for the controls.
+  [[nodiscard]] InputQueue& inputQueue() { return queue_; }
   [[nodiscard]] bool shouldClose() const;
   void requestClose();
   void pollEvents();
@@ -72,7 +72,7 @@ class ViewerWindow {
 
   GLFWwindow* window_ = nullptr;
   Input input_;
-  KeyQueue typed_;
+  InputQueue queue_;
 };
 
 }  // namespace clothsim

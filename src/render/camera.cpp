@@ -14,7 +14,7 @@ constexpr double steepest = 1.55;  // [rad], short of the poles, where "up" has 
 constexpr double defaultAzimuth = 0.55,
                  defaultElevation = 0.30;                     // [rad], three-quarter view from slightly above
 constexpr double widestFramed = 16.0 / 9.0;                   // wider pictures show more at the sides
-constexpr double stayingMargin = 1.14, passingMargin = 1.02;  // room around what is framed
+constexpr double stayingMargin = 1.14, passingMargin = 1.05;  // room around what is framed
 
 glm::vec3 directionOf(double azimuth, double elevation) {
   return {static_cast<float>(std::sin(azimuth) * std::cos(elevation)),

@@ -25,13 +25,13 @@ Field<Owner> field(std::string_view key, T Owner::*member, std::string_view help
 template <class Shape>
 Field<Shape> frictionField() {
   return field("friction", &Shape::friction,
-               "0 slides; 1 sticks under cs184, which allows no more; Coulomb's coefficient under coulomb.")
+               "With cs184: 0 slides, 1 (the maximum) sticks. With coulomb: Coulomb's coefficient.")
       .within(notNegative)
       .usually(0, 1);
 }
 template <class Shape>
 Field<Shape> motionField() {
-  return field("motion", &Shape::motion, "A path in time, on which the collider moves as a rigid body.");
+  return field("motion", &Shape::motion, "A path in time along which the collider moves as a rigid body.");
 }
 
 }  // namespace
@@ -39,9 +39,9 @@ Field<Shape> motionField() {
 template <>
 std::span<const Field<Scene>> fieldsOf<Scene>() {
   static const std::array fields{
-      field("schema", &Scene::schema, "Version of the format; \"clothsim/1\".").alwaysWritten(),
+      field("schema", &Scene::schema, "Version of the format: \"clothsim/1\".").alwaysWritten(),
       field("name", &Scene::name, "Short name for titles and lists."),
-      field("description", &Scene::description, "What there is to see, in a sentence."),
+      field("description", &Scene::description, "One sentence about the scene."),
       field("cloths", &Scene::cloths,
             "The cloths, one object each; a single one may be the object `cloth`, as in CS184.")
           .required()
@@ -56,11 +56,11 @@ std::span<const Field<Scene>> fieldsOf<Scene>() {
           .within(notNegative)
           .usually(0, 0.01),
       field("solver", &Scene::solver,
-            "How time advances: integrator, steps, strain limit, contacts, watchdog."),
+            "Time integration: integrator, steps, strain limit, contacts, watchdog."),
       field("camera", &Scene::camera,
-            "Where the picture is taken from; without a position it frames the scene."),
-      field("render", &Scene::render, "Looks: shading model, colours, weave, light, background."),
-      field("expect", &Scene::expect, "What a run of the scene must show; the tests check it."),
+            "The camera; without a position it shows the whole scene from the front."),
+      field("render", &Scene::render, "Appearance: shading model, colours, weave, light, background."),
+      field("expect", &Scene::expect, "Expected results of a run, checked by the tests."),
   };
   return fields;
 }
@@ -70,37 +70,43 @@ std::span<const Field<ClothSettings>> fieldsOf<ClothSettings>() {
   using C = ClothSettings;
   static const std::array fields{
       field("mesh", &C::mesh,
-            "OBJ file of a cloth that is no grid, beside the scene file or in clothsim's own folder.")
+            "OBJ file for a cloth that is not a grid; looked up beside the scene file, then in clothsim's "
+            "folder.")
           .byDefault("none: a grid")
           .rebuilds(),
-      field("scale", &C::scale, "Metres in a unit of the cloth's mesh file.")
+      field("scale", &C::scale, "Metres per unit of the cloth's mesh file.")
           .within(positive)
           .usually(0.01, 10)
           .rebuilds(),
-      field("width", &C::width, "Length along x, before turning.")
+      field("width", &C::width, "Length along the rows (x, before rotation).")
           .in("m")
           .within(positive)
           .usually(0.1, 4)
           .rebuilds(),
-      field("height", &C::height, "Length along the columns.")
+      field("height", &C::height,
+            "Length along the columns (z of a lying cloth, y of a standing one, before rotation).")
           .in("m")
           .within(positive)
           .usually(0.1, 4)
           .rebuilds(),
-      field("num_width_points", &C::numWidthPoints, "Grid points in a row.")
+      field("num_width_points", &C::numWidthPoints, "Grid points per row.")
           .within(gridSide)
           .usually(4, 512)
           .rebuilds(),
-      field("num_height_points", &C::numHeightPoints, "Grid points in a column.")
+      field("num_height_points", &C::numHeightPoints, "Grid points per column.")
           .within(gridSide)
           .usually(4, 512)
           .rebuilds(),
-      field("orientation", &C::orientation, "Lying at y = 1 m, or standing in the plane z = 0.").rebuilds(),
-      field("position", &C::position, "Added to every point: where the cloth stands.").in("m").rebuilds(),
-      field("rotation", &C::rotation, "Turn about grid point (0, 0), or a mesh's origin: axis times angle.")
+      field("orientation", &C::orientation,
+            "Lying at y = 1 m, row 0 at z = 0; or standing at z = 0, facing +z, with row 0 at the bottom.")
+          .rebuilds(),
+      field("position", &C::position, "Offset added to every point.").in("m").rebuilds(),
+      field("rotation", &C::rotation,
+            "Rotation about grid point [0, 0] or the mesh's origin: axis times angle.")
           .in("degrees")
           .rebuilds(),
-      field("density", &C::density, "Mass per area; a particle weighs width * height * density / points.")
+      field("density", &C::density,
+            "Mass per area; the mass of a particle is width * height * density / points.")
           .in("kg/m^2")
           .within(positive)
           .usually(1, 1000)
@@ -110,28 +116,28 @@ std::span<const Field<ClothSettings>> fieldsOf<ClothSettings>() {
           .within(positive)
           .usually(0.01, 100)
           .rebuilds(),
-      field("ks", &C::ks, "Spring constant, bending springs 0.2 ks (CS184's model).")
+      field("ks", &C::ks, "Spring constant; 0.2 ks for bending springs (CS184's model).")
           .in("N/m")
           .within(positive)
           .usually(50, 50000)
           .byDefault("5000, unless stiffness_reference is given")
           .rebuilds(),
       field("stiffness_reference", &C::stiffnessReference,
-            "Instead of ks: springs of stiffness_reference * reference_length / length (CS171's model).")
+            "Instead of ks: spring constant stiffness_reference * reference_length / length (CS171's model).")
           .in("N/m")
           .within(positive)
           .usually(1, 1000)
           .rebuilds(),
       field("reference_length", &C::referenceLength,
-            "Length at which a spring has the stiffness reference; does not follow the resolution.")
+            "Length of a spring whose constant is stiffness_reference; independent of the resolution.")
           .in("m")
           .within(positive)
           .usually(0.01, 1)
           .rebuilds(),
       field("material", &C::material,
-            "Instead of ks, density, mass, damping, thickness: a fabric in SI units, or a preset's name.")
+            "A fabric in SI units, or a preset's name; replaces ks, density, mass, damping and thickness.")
           .rebuilds(),
-      field("damping", &C::damping, "Velocity lost in a step; with the implicit integrator, in 1/2700 s.")
+      field("damping", &C::damping, "Velocity lost per step; with the implicit integrator, per 1/2700 s.")
           .in("%")
           .within({.low = 0, .high = 100})
           .usually(0, 2),
@@ -149,10 +155,11 @@ std::span<const Field<ClothSettings>> fieldsOf<ClothSettings>() {
             "Springs to the second neighbours left and above; across the edges of a mesh.")
           .rebuilds(),
       field("pinned", &C::pinned,
-            "Points that forces do not move; [column, row] or a mesh's vertex, counted from 0.")
+            "Points held in place: [column, row] from 0 (row 0: bottom of a standing cloth), sides, mesh "
+            "vertices.")
           .rebuilds(),
       field("pin_motion", &C::pinMotion,
-            "A path in time of the pins, or a list of paths with the pins that follow each.")
+            "A path in time for the pins, or a list of paths with the pins that follow each.")
           .byDefault("none"),
   };
   return fields;
@@ -172,21 +179,22 @@ std::span<const Field<Material>> fieldsOf<Material>() {
           .within(positive)
           .rebuilds()
           .alwaysWritten(),
-      field("shear", &M::shear, "Shear modulus of the sheet; of woven cloth it is far smaller than stretch.")
+      field("shear", &M::shear, "Shear modulus of the sheet; far smaller than stretch in woven cloth.")
           .in("N/m")
           .within(positive)
           .rebuilds()
           .alwaysWritten(),
-      field("bend", &M::bend, "Bending rigidity: moment over width and curvature.")
+      field("bend", &M::bend, "Bending rigidity: moment per width and curvature.")
           .in("N m")
           .within(notNegative)
           .rebuilds()
           .alwaysWritten(),
-      field("damping", &M::damping, "Rate at which motion dies down, as exp(-damping t).")
+      field("damping", &M::damping, "Rate at which motion decays, as exp(-damping t).")
           .in("1/s")
           .within(notNegative)
           .alwaysWritten(),
-      field("thickness", &M::thickness, "Of the fabric; self-collision keeps layers at least so far apart.")
+      field("thickness", &M::thickness,
+            "Thickness of the fabric; self-collision keeps layers at least this far apart.")
           .in("m")
           .within(notNegative)
           .rebuilds()
@@ -216,7 +224,7 @@ template <>
 std::span<const Field<Plane>> fieldsOf<Plane>() {
   static const std::array fields{
       field("point", &Plane::point, "Any point of a plane.").in("m"),
-      field("normal", &Plane::normal, "Direction across a plane, of any length.").within({.nonZero = true}),
+      field("normal", &Plane::normal, "Normal of a plane, of any length.").within({.nonZero = true}),
       frictionField<Plane>(),
       motionField<Plane>(),
   };
@@ -227,9 +235,9 @@ template <>
 std::span<const Field<Capsule>> fieldsOf<Capsule>() {
   static const std::array fields{
       field("origin", &Capsule::origin, "Middle of a capsule.").in("m"),
-      field("axis", &Capsule::axis, "Along a capsule, or through the hole of a torus; of any length.")
+      field("axis", &Capsule::axis, "Direction of a capsule, or through the hole of a torus; of any length.")
           .within({.nonZero = true}),
-      field("length", &Capsule::length, "Of a capsule, without its round ends.")
+      field("length", &Capsule::length, "Length of a capsule without its round ends.")
           .in("m")
           .within(notNegative)
           .usually(0, 2),
@@ -244,8 +252,9 @@ template <>
 std::span<const Field<Box>> fieldsOf<Box>() {
   static const std::array fields{
       field("origin", &Box::origin, "Centre of a box.").in("m"),
-      field("size", &Box::size, "Of a box from face to face.").in("m").within(positive).usually(0.01, 3),
-      field("rotation", &Box::rotation, "Own turn of a box or mesh: axis times angle; its motion adds to it.")
+      field("size", &Box::size, "Size of a box from face to face.").in("m").within(positive).usually(0.01, 3),
+      field("rotation", &Box::rotation,
+            "Rotation of a box or mesh: axis times angle; its motion is added to it.")
           .in("degrees"),
       field("rounding", &Box::rounding, "Radius of a box's edges, at most half its smallest size.")
           .in("m")
@@ -262,11 +271,11 @@ std::span<const Field<Torus>> fieldsOf<Torus>() {
   static const std::array fields{
       field("origin", &Torus::origin, "Centre of a torus.").in("m"),
       field("axis", &Torus::axis, "Through the hole of a torus.").within({.nonZero = true}),
-      field("radius", &Torus::radius, "Of the circle inside the tube.")
+      field("radius", &Torus::radius, "Radius of the circle inside the tube.")
           .in("m")
           .within(positive)
           .usually(0.01, 1),
-      field("tube_radius", &Torus::tubeRadius, "Of the tube of a torus, smaller than its radius.")
+      field("tube_radius", &Torus::tubeRadius, "Radius of the tube of a torus, smaller than its radius.")
           .in("m")
           .within(positive)
           .usually(0.01, 1),
@@ -280,15 +289,15 @@ template <>
 std::span<const Field<MeshCollider>> fieldsOf<MeshCollider>() {
   using M = MeshCollider;
   static const std::array fields{
-      field("file", &M::file, "OBJ file of a closed mesh, beside the scene file or in clothsim's own folder.")
+      field("file", &M::file,
+            "OBJ file of a closed mesh; looked up beside the scene file, then in clothsim's folder.")
           .required()
           .rebuilds(),
-      field("origin", &M::origin, "Where the mesh's own origin stands.").in("m"),
-      field("rotation", &M::rotation, "Own turn of a box or mesh.").in("degrees"),
-      field("scale", &M::scale, "Metres in a unit of the mesh file.").within(positive).usually(0.1, 10),
+      field("origin", &M::origin, "Position of the mesh's origin.").in("m"),
+      field("rotation", &M::rotation, "Rotation of a box or mesh.").in("degrees"),
+      field("scale", &M::scale, "Metres per unit of the mesh file.").within(positive).usually(0.1, 10),
       field("cells", &M::cells,
-            "Cells of the mesh's signed distance grid along its longest side: more are finer and slower to "
-            "make.")
+            "Cells of the mesh's signed distance grid along its longest side; more are finer but slower.")
           .within({.low = 8, .high = 256}),
       frictionField<M>(),
       motionField<M>(),
@@ -299,8 +308,8 @@ std::span<const Field<MeshCollider>> fieldsOf<MeshCollider>() {
 template <>
 std::span<const Field<Motion>> fieldsOf<Motion>() {
   static const std::array fields{
-      field("keys", &Motion::keys, "Places along the path; straight lines in between.").required(),
-      field("loop", &Motion::loop, "Begin again after the last key; otherwise stop there."),
+      field("keys", &Motion::keys, "Keys along the path, interpolated linearly.").required(),
+      field("loop", &Motion::loop, "Repeat after the last key; otherwise stop there."),
   };
   return fields;
 }
@@ -310,11 +319,12 @@ std::span<const Field<Motion::Key>> fieldsOf<Motion::Key>() {
   using K = Motion::Key;
   static const std::array fields{
       field("t", &K::t, "Time of the key, later than the one before.").in("s").within(notNegative).required(),
-      field("position", &K::position, "Where the collider's origin, or the plane's point, is then.")
+      field("position", &K::position,
+            "Position of the collider's origin, or the plane's point, at that time.")
           .in("m")
           .alwaysWritten()
           .byDefault("the collider's own place"),
-      field("rotation", &K::rotation, "Turn: axis times angle; may exceed 360.").in("degrees"),
+      field("rotation", &K::rotation, "Rotation: axis times angle; may exceed 360.").in("degrees"),
   };
   return fields;
 }
@@ -323,15 +333,15 @@ template <>
 std::span<const Field<Wind>> fieldsOf<Wind>() {
   static const std::array fields{
       field("velocity", &Wind::velocity,
-            "Steady wind; what counts is how it blows past each triangle, which may move itself.")
+            "Steady wind; forces depend on the velocity relative to each triangle.")
           .in("m/s")
           .usually(-10, 10),
       field("gust", &Wind::gust,
-            "Random change of the wind's speed along its direction, the same in every run."),
+            "Random variation of the wind speed along its direction, identical in every run."),
       field("drag", &Wind::drag, "Coefficient of the pressure along a triangle's normal.")
           .within(notNegative)
           .usually(0, 3),
-      field("lift", &Wind::lift, "Coefficient of the force across the relative wind.")
+      field("lift", &Wind::lift, "Coefficient of the force perpendicular to the relative wind.")
           .within(notNegative)
           .usually(0, 3),
       field("air_density", &Wind::airDensity, "Density of the air; drag and lift grow with it.")
@@ -349,7 +359,7 @@ std::span<const Field<Gust>> fieldsOf<Gust>() {
           .in("m/s")
           .within(notNegative)
           .usually(0, 10),
-      field("frequency", &Gust::frequency, "How often gusts come, about so many a second.")
+      field("frequency", &Gust::frequency, "Approximate number of gusts per second.")
           .in("Hz")
           .within(positive)
           .usually(0.05, 5),
@@ -364,8 +374,7 @@ std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
   static const std::array fields{
       field("integrator", &S::integrator,
             "Leapfrog Verlet; symplectic Euler; or implicit: backward Euler, stable at any step."),
-      field("newton_steps", &S::newtonSteps,
-            "Newton steps in a step of the implicit integrator; more come nearer to its solution.")
+      field("newton_steps", &S::newtonSteps, "Newton iterations per implicit step; more are more accurate.")
           .within({.low = 1, .high = 100})
           .usually(1, 8),
       field(
@@ -374,7 +383,7 @@ std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
           .within({.low = 1, .high = 10'000})
           .usually(1, 40),
       field("frames_per_sec", &S::framesPerSec,
-            "Frames in a simulated second; states and pictures are made at their ends.")
+            "Frames per simulated second; states and pictures are taken at the end of a frame.")
           .in("1/s")
           .within(positive)
           .usually(15, 240),
@@ -383,15 +392,14 @@ std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
           .within({.low = 1, .high = mostSteps})
           .usually(1, 200),
       field("strain_limit", &S::strainLimit,
-            "Longest stretch l/L - 1: a pass after the step; with the implicit integrator a second, stiff "
-            "spring.")
+            "Largest allowed stretch l/L - 1: a pass after each step; a second, stiff spring with implicit.")
           .within(notNegative)
           .usually(0, 0.5)
           .as(Format::orFalse)
           .byDefault("0.1 in scenes with ks, else false"),
-      field(
-          "self_collision", &S::selfCollision,
-          "Keep layers of cloth apart: averaged is CS184's rule and leaks, robust holds; true: see default.")
+      field("self_collision", &S::selfCollision,
+            "Keeps layers of cloth apart. averaged: CS184's rule, leaks; robust: does not leak; true: see "
+            "default.")
           .byDefault("false; in scenes with ks averaged. true means averaged there, else robust"),
       field("self_friction", &S::selfFriction,
             "Coulomb's coefficient of friction between layers of cloth; robust self-collision only.")
@@ -399,13 +407,13 @@ std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
           .usually(0, 1)
           .byDefault("the material's, else 0.3"),
       field("friction_law", &S::frictionLaw,
-            "What a collider's friction means: CS184's factor, or Coulomb's coefficient.")
+            "Meaning of a collider's friction: CS184's factor or Coulomb's coefficient.")
           .byDefault("\"cs184\"; in scenes with a material \"coulomb\""),
-      field("max_speed", &S::maxSpeed, "The watchdog stops a run in which a particle is faster.")
+      field("max_speed", &S::maxSpeed, "A run in which a particle is faster is stopped.")
           .in("m/s")
           .within(positive)
           .usually(1, 10000),
-      field("max_strain", &S::maxStrain, "The watchdog stops a run in which a spring's l/L - 1 is larger.")
+      field("max_strain", &S::maxStrain, "A run in which a spring's l/L - 1 is larger is stopped.")
           .within(positive)
           .usually(0.1, 100),
   };
@@ -416,12 +424,15 @@ template <>
 std::span<const Field<CameraSettings>> fieldsOf<CameraSettings>() {
   using C = CameraSettings;
   static const std::array fields{
-      field("position", &C::position, "Where the eye is.").in("m").byDefault("frames the scene"),
+      field("position", &C::position, "Position of the camera.")
+          .in("m")
+          .byDefault("automatic: the whole scene from the front"),
       field("target", &C::target,
-            "The point in the middle of the picture, about which the viewer's camera turns.")
+            "The point in the middle of the picture, about which the viewer's camera orbits.")
           .in("m")
           .byDefault("middle of the scene"),
-      field("fov", &C::fov, "Vertical field of view; small is a telephoto lens, large a wide angle.")
+      field("fov", &C::fov,
+            "Vertical field of view; small values act as a telephoto lens, large ones as a wide angle.")
           .in("degrees")
           .within({.low = 1, .high = 170})
           .usually(15, 90),
@@ -434,8 +445,9 @@ std::span<const Field<RenderSettings>> fieldsOf<RenderSettings>() {
   using R = RenderSettings;
   constexpr Limits channel{.low = 0, .high = 1};
   static const std::array fields{
-      field("shader", &R::shader, "Shading model: how the cloth is looked at.").oneOf(shadingModels),
-      field("color", &R::color, "Colour of the front of the cloth.")
+      field("shader", &R::shader, "Shading model of the cloth.").oneOf(shadingModels),
+      field("color", &R::color,
+            "Colour of the front: the upper side of a lying cloth, the side facing +z of a standing one.")
           .in("sRGB")
           .within(channel)
           .as(Format::color),
@@ -446,36 +458,36 @@ std::span<const Field<RenderSettings>> fieldsOf<RenderSettings>() {
       field("texture", &R::texture,
             "Print (tartan, stripes, checker) or height map (quilt, knit, hammered), or the path of a PNG.")
           .byDefault("of texture: tartan; of bump and displacement: quilt; of fabric: none"),
-      field("texture_repeat", &R::textureRepeat, "How often the texture fits along a cloth's longer side.")
+      field("texture_repeat", &R::textureRepeat, "Repeats of the texture along the cloth's longer side.")
           .within({.low = 0.01, .high = 1000})
           .usually(0.5, 50),
-      field("weave", &R::weave, "How fabric's threads cross.").oneOf(weaves),
+      field("weave", &R::weave, "Weave of the model fabric.").oneOf(weaves),
       field("thread_spacing", &R::threadSpacing,
-            "From thread to thread of fabric; real cloth has 0.0003 to 0.002.")
+            "Distance between threads of the model fabric; 0.0003 to 0.002 in real cloth.")
           .in("m")
           .within({.low = 1e-5, .high = 1})
           .usually(2e-4, 0.02),
-      field("gloss", &R::gloss, "Shine of fabric's threads: 0 is wool, 1 is silk.").within(channel),
+      field("gloss", &R::gloss, "Gloss of the model fabric: 0 is wool, 1 is silk.").within(channel),
       field("normal_strength", &R::normalStrength,
-            "How much weaves and bumps tilt the normal: 0 flat, 1 true to their height.")
+            "Strength of weaves and bumps: 0 is flat, 1 true to their height.")
           .within({.low = 0, .high = 10})
           .usually(0, 3),
       field("height", &R::height, "Height of bump and displacement maps, from black to white.")
           .in("m")
           .within({.low = -1, .high = 1})
           .usually(-0.05, 0.05),
-      field("strain_range", &R::strainRange, "Stretch, l/L - 1, at which the strain map's scale ends.")
+      field("strain_range", &R::strainRange, "Stretch l/L - 1 at the end of the strain map's colour scale.")
           .within({.low = 1e-6, .high = 100})
           .usually(0.001, 1),
       field("light", &R::light, "Direction towards the main light, of any length.")
           .within({.nonZero = true})
           .byDefault("from the viewer's side, upper left"),
-      field("background", &R::background, "What is behind the cloth.").oneOf(backgrounds),
+      field("background", &R::background, "Background of the picture.").oneOf(backgrounds),
       field("background_color", &R::backgroundColor, "Colour of the plain background.")
           .in("sRGB")
           .within(channel)
           .as(Format::color),
-      field("ground", &R::ground, "Draw a floor when the scene has no level plane."),
+      field("ground", &R::ground, "Draw a floor if the scene has no horizontal plane."),
   };
   return fields;
 }
@@ -484,20 +496,20 @@ template <>
 std::span<const Field<Expect>> fieldsOf<Expect>() {
   using E = Expect;
   static const std::array fields{
-      field("frames", &E::frames, "Frames to run before looking.").within({.low = 1, .high = 1e6}).required(),
-      field("centroid", &E::centroid, "Mean of all particles' places.").in("m"),
-      field("centroid_tolerance", &E::centroidTolerance,
-            "How far each coordinate of the centroid may be off.")
+      field("frames", &E::frames, "Number of frames to run.").within({.low = 1, .high = 1e6}).required(),
+      field("centroid", &E::centroid, "Mean position of all particles.").in("m"),
+      field("centroid_tolerance", &E::centroidTolerance, "Tolerance of each coordinate of the centroid.")
           .in("m")
           .within(positive),
-      field("min_y", &E::minY, "Height of the lowest particle, from and to.").in("m"),
-      field("max_strain", &E::maxStrain, "Largest l/L - 1 of all springs, from and to."),
-      field("kinetic_energy", &E::kineticEnergy, "Kinetic energy of all particles, from and to.").in("J"),
+      field("min_y", &E::minY, "Height of the lowest particle: [minimum, maximum].").in("m"),
+      field("max_strain", &E::maxStrain, "Largest l/L - 1 of all springs: [minimum, maximum]."),
+      field("kinetic_energy", &E::kineticEnergy, "Kinetic energy of all particles: [minimum, maximum].")
+          .in("J"),
       field("max_penetration", &E::maxPenetration,
-            "Deepest that a particle was inside a collider over the run, from and to.")
+            "Largest depth of a particle inside a collider over the run: [minimum, maximum].")
           .in("m"),
       field("crossings", &E::crossings,
-            "Most crossing pairs of triangles that are no neighbours, of all frames."),
+            "Largest number of intersecting pairs of triangles in any frame: [minimum, maximum]."),
   };
   return fields;
 }

@@ -101,7 +101,7 @@ std::string guessFromText(std::string_view text, std::size_t at) {
     return "JSON has no comments; write them as a key, \"comment\": \"...\"";
   if (c == '\'') return "strings stand in double quotes in JSON, not in single quotes";
   if ((c == '}' || c == ']') && lastBefore(text, at) == ',')
-    return "the comma before this closing bracket is one too many";
+    return "trailing comma before the closing bracket";
   if (c == '+' || c == '.') return "a number begins with a digit or -, such as 0.5";
   return "";
 }

@@ -19,8 +19,11 @@ Field<Owner> field(std::string_view key, T Owner::*member, std::string_view help
 template <>
 std::span<const Field<GridRange>> fieldsOf<GridRange>() {
   static const std::array fields{
-      field("from", &GridRange::from, "First [column, row] of a block of points.").required().rebuilds(),
-      field("to", &GridRange::to, "Last [column, row], pinned too.").required().rebuilds(),
+      field("from", &GridRange::from,
+            "First [column, row] of a block of points; row 0 is the bottom of a standing cloth.")
+          .required()
+          .rebuilds(),
+      field("to", &GridRange::to, "Last [column, row], inclusive.").required().rebuilds(),
   };
   return fields;
 }
@@ -28,7 +31,7 @@ std::span<const Field<GridRange>> fieldsOf<GridRange>() {
 template <>
 std::span<const Field<VertexPin>> fieldsOf<VertexPin>() {
   static const std::array fields{
-      field("vertex", &VertexPin::vertex, "Number of a mesh's vertex, from 0.")
+      field("vertex", &VertexPin::vertex, "Index of a mesh vertex, from 0.")
           .within(notNegative)
           .required()
           .rebuilds(),
@@ -48,8 +51,7 @@ std::span<const Field<Region>> fieldsOf<Region>() {
 template <>
 std::span<const Field<RegionPin>> fieldsOf<RegionPin>() {
   static const std::array fields{
-      field("region", &RegionPin::region,
-            "A box that holds vertices of a mesh, as it is placed at the start.")
+      field("region", &RegionPin::region, "A box; all mesh vertices inside it at the start are pinned.")
           .required()
           .rebuilds(),
   };
@@ -59,7 +61,7 @@ std::span<const Field<RegionPin>> fieldsOf<RegionPin>() {
 template <>
 std::span<const Field<GroupPin>> fieldsOf<GroupPin>() {
   static const std::array fields{
-      field("group", &GroupPin::group, "Name of a group (g) of a mesh's faces, of which all vertices count.")
+      field("group", &GroupPin::group, "Name of a group (g) of mesh faces; all its vertices are pinned.")
           .required()
           .rebuilds(),
   };
@@ -69,9 +71,9 @@ std::span<const Field<GroupPin>> fieldsOf<GroupPin>() {
 template <>
 std::span<const Field<PinMotion>> fieldsOf<PinMotion>() {
   static const std::array fields{
-      field("keys", &PinMotion::keys, "Places along the path; straight lines in between.").required(),
-      field("loop", &PinMotion::loop, "Begin again after the last key; otherwise stop there."),
-      field("pinned", &PinMotion::pinned, "The pins that follow this path, some of the cloth's own.")
+      field("keys", &PinMotion::keys, "Keys along the path, interpolated linearly.").required(),
+      field("loop", &PinMotion::loop, "Repeat after the last key; otherwise stop there."),
+      field("pinned", &PinMotion::pinned, "The pins that follow this path; they must be pins of the cloth.")
           .byDefault("all pins of the cloth"),
   };
   return fields;
@@ -82,10 +84,10 @@ std::span<const Field<PinMotion::Key>> fieldsOf<PinMotion::Key>() {
   using K = PinMotion::Key;
   static const std::array fields{
       field("t", &K::t, "Time of the key, later than the one before.").in("s").within(notNegative).required(),
-      field("position", &K::position, "Where the centre of these pins is then.")
+      field("position", &K::position, "Position of the centre of these pins at that time.")
           .in("m")
           .byDefault("the mean of their start positions"),
-      field("rotation", &K::rotation, "Turn about that centre: axis times angle; may exceed 360.")
+      field("rotation", &K::rotation, "Rotation about that centre: axis times angle; may exceed 360.")
           .in("degrees"),
   };
   return fields;

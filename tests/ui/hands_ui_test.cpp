@@ -12,6 +12,7 @@
 namespace clothsim {
 namespace {
 
+using test::Picture;
 using test::seconds;
 using test::ViewerProgram;
 using Json = nlohmann::json;
@@ -135,8 +136,15 @@ TEST_F(HandsUi, PinsCutsAndBlowsAreRepeatedByAReplayWithTheSameBitsOnBothBackend
 
 TEST_F(HandsUi, ShiftClickOnAPinLetsItGo) {
   const ViewerProgram viewer(heldScene);
-  // The upper right corner: a pin does not move.
-  viewer.perform("keydown shift at 0.805 0.178 sleep 0.3 click 1 sleep 0.2 keyup shift");
+  // The mark of the upper right corner: a pin does not move.
+  const Picture picture = viewer.picture();
+  int x = 0, y = 0;
+  for (int row = 0; row < picture.height; ++row)
+    for (int column = x; column < picture.width; ++column)
+      if (test::isPinYellow(picture.at(column, row))) x = column, y = row;
+  ASSERT_GT(x, picture.width / 2) << "no mark of a pin";
+  viewer.perform("keydown shift at " + std::to_string((x + 0.5) / picture.width) + " " +
+                 std::to_string((y + 0.5) / picture.height) + " sleep 0.3 click 1 sleep 0.2 keyup shift");
   const Json recording =
       recordingWhere(viewer, [&](const Json& now) { return !actionsIn(now, "set_pin").empty(); });
   const std::vector<Json> pins = actionsIn(recording, "set_pin");

@@ -70,6 +70,9 @@ struct Picture {
   }
 };
 
+// The mark of a pin.
+inline bool isPinYellow(Picture::Pixel p) { return p.r > 235 && p.g > 185 && p.b < 80; }
+
 class Screen {
  public:
   Screen(int width, int height) {

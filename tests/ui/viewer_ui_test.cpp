@@ -14,7 +14,6 @@ using test::ViewerProgram;
 const char* const shownScene = "-f pinned2 --resolution 24x24";
 
 bool isClothRed(Picture::Pixel p) { return p.r > 60 && p.r > 2 * p.g && p.r > 2 * p.b; }
-bool isPinYellow(Picture::Pixel p) { return p.r > 235 && p.g > 185 && p.b < 80; }
 bool isDark(Picture::Pixel p) { return p.r < 60 && p.g < 60 && p.b < 60; }
 
 class ViewerUi : public testing::Test {
@@ -29,7 +28,7 @@ TEST_F(ViewerUi, ShowsTheClothInItsColourAndThePanelOfFacts) {
       test::eventually(seconds(20), [&] { return viewer.picture().share(0, 0, 1, 1, isClothRed) > 0.03; }));
   const Picture picture = viewer.picture();
   EXPECT_LT(picture.share(0.9, 0, 1, 1, isClothRed), 0.5) << "the cloth is framed with room around it";
-  EXPECT_GT(picture.share(0, 0, 1, 1, isPinYellow), 0) << "and its pins are marked";
+  EXPECT_GT(picture.share(0, 0, 1, 1, test::isPinYellow), 0) << "and its pins are marked";
 }
 
 TEST_F(ViewerUi, NamesSceneAndBackendInTheTitleAndBChangesTheBackend) {

@@ -73,7 +73,7 @@ void drawCollidersPanel(PanelContext& context) {
       break;
     }
   }
-  if (colliders.empty()) quietText("None in this scene.");
+  if (colliders.empty()) quietText("No colliders in this scene.");
   drawAddition(context);
 }
 

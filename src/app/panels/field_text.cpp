@@ -35,8 +35,9 @@ std::string helpOf(const FieldTraits& field, std::string_view path) {
   text += "\n\n" + std::string(path) + (path.empty() ? "" : ".") + std::string(field.key);
   if (!field.unit.empty()) text += " [" + unitText(field.unit) + "]";
   if (const std::string limits = limitsText(field.limits); !limits.empty()) text += ", " + limits;
-  if (!field.defaultText.empty()) text += "\nby default: " + std::string(field.defaultText);
-  text += field.change == Change::live ? "\nActs at once." : "\nRebuilds the cloth, and keeps the pins.";
+  if (!field.defaultText.empty()) text += "\ndefault: " + std::string(field.defaultText);
+  text +=
+      field.change == Change::live ? "\nTakes effect immediately." : "\nRebuilds the cloth; pins are kept.";
   return text;
 }
 

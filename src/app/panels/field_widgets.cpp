@@ -221,7 +221,7 @@ void FieldWidgets::control(const FieldTraits& field, std::string_view path, std:
     changed = vector(field, *value) || changed;
     finished = ImGui::IsItemDeactivatedAfterEdit() || finished;
   } else {
-    quietText("by itself");
+    quietText("automatic");
   }
   endRow(field, path, changed, finished);
 }
@@ -289,7 +289,7 @@ void FieldWidgets::control(const FieldTraits& field, std::string_view path, Auto
 
 // Only which it is; its values are rows of their own.
 void FieldWidgets::control(const FieldTraits& field, std::string_view path, std::optional<Material>& value) {
-  const std::string springs = "none: springs", own = "of its own";
+  const std::string springs = "none: springs", own = "custom";
   beginRow(field, path, "");
   std::vector<std::string> words = materialPresetNames();
   std::string word = value ? own : springs;

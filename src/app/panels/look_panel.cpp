@@ -7,15 +7,14 @@ namespace clothsim {
 void drawLookPanel(PanelContext& context) {
   context.widgets.all(context.draft.render, "render");
   ImGui::Separator();
-  quietText("draw as well");
-  const char* const kinds[] = {"structural springs", "shearing springs", "bending springs"};
+  quietText("also draw");
+  const char* const kinds[] = {"structural springs", "shear springs", "bending springs"};
   for (std::size_t i = 0; i < std::size(kinds); ++i) {
     ImGui::Checkbox(kinds[i], &context.view.showSprings[i]);
-    helpTip(
-        "Draws the springs of this kind as lines over the cloth. Belongs to the viewer, not to the scene.");
+    helpTip("Draws these springs as lines over the cloth. A setting of the viewer, not of the scene.");
   }
   ImGui::Checkbox("pins", &context.view.showPins);
-  helpTip("Marks the particles that are pinned. Belongs to the viewer, not to the scene.");
+  helpTip("Marks the pinned particles. A setting of the viewer, not of the scene.");
 }
 
 }  // namespace clothsim

@@ -126,9 +126,9 @@ void MeasurePanel::drawNumbers(Session& session) {
   if (!beginRows("numbers")) return;
   const Energies last = samples_.empty() ? Energies{} : samples_.back().energies;
   row("max strain", formatted("%.2f %%", 100 * last.maxStrain),
-      "The longest stretch of a spring, l/L - 1, of those that are enabled and whole.");
+      "The largest stretch l/L - 1 of all springs that are enabled and not cut.");
   row("under the cursor", strainUnderCursor_ ? formatted("%+.2f %%", 100 * *strainUnderCursor_) : "-",
-      "The strain of largest size among the springs at the particle under the mouse.");
+      "The largest strain of the springs at the particle under the mouse.");
   const bool hasContacts = session.simulation().scene().solver.selfCollision != SelfCollision::off;
   const auto contacts = static_cast<unsigned long long>(watch_.contacts().contacts());
   row("self-contacts",
@@ -136,11 +136,10 @@ void MeasurePanel::drawNumbers(Session& session) {
       : guardedSteps_ > 0
           ? formatted("%llu, %llu steps guarded", contacts, static_cast<unsigned long long>(guardedSteps_))
           : formatted("%llu", contacts),
-      "Pairs of particles, not neighbours on the cloth, that touch. A guarded step is one in which motion "
-      "had "
-      "to be cut short.");
+      "Pairs of particles that touch and are not neighbours on the cloth. In a guarded step motion had to "
+      "be shortened.");
   row("particle steps", rate_ > 0 ? formatted("%.3g million/s", rate_ / 1e6) : "-",
-      "How many particles are advanced by a step in a second of computing.");
+      "Particles times steps computed per second.");
   ImGui::EndTable();
 }
 
@@ -157,9 +156,9 @@ void MeasurePanel::drawPlots() {
     strain[0].values.push_back(static_cast<float>(100 * sample.energies.maxStrain));
   }
   drawPlot("energy", times, energy, " J");
-  helpTip("Energy over the simulated time: of motion, of height over the start, and stored in springs.");
+  helpTip("Energy over simulated time: kinetic, potential (relative to the start) and stored in springs.");
   drawPlot("strain", times, strain, " %");
-  helpTip("The longest stretch of a spring over the simulated time.");
+  helpTip("The largest stretch of a spring over simulated time.");
 }
 
 void MeasurePanel::drawPasses(Session& session) {
@@ -177,22 +176,22 @@ void MeasurePanel::drawPasses(Session& session) {
       passTrouble_ = error.what();
     }
   }
-  helpTip("Steps a copy of the cloth 60 times, with a timer around every pass on the GPU.");
+  helpTip("Simulates 60 steps on a copy of the cloth and times each pass on the GPU.");
   if (!passTrouble_.empty()) wrappedText(passTrouble_, theme::alert);
   if (passes_.empty() || !beginRows("passes")) return;
   for (const PassTime& pass : passes_)
     row(pass.name.c_str(), formatted("%.1f \u00b5s", 1e6 * pass.seconds / passSteps_),
-        "The time of this pass in one step, on the GPU.");
+        "Time of this pass per step on the GPU.");
   ImGui::EndTable();
 }
 
 void MeasurePanel::drawMemory(Session& session) {
   if (!beginRows("memory")) return;
-  row("memory", megabytes(residentBytes()), "What the program holds in main memory.");
+  row("memory", megabytes(residentBytes()), "Main memory used by the program.");
   row("frames kept",
       formatted("%d in ", session.newestFrame() - session.oldestFrame() + 1) +
           megabytes(session.snapshotBytes()),
-      "Frames that can be looked back at, and the memory on the device that they take.");
+      "Frames you can go back to, and the device memory they use.");
   ImGui::EndTable();
 }
 

@@ -33,17 +33,16 @@ void ScenePanel::draw(PanelContext& context) {
     }
   }
   if (!context.draft.description.empty()) wrappedText(context.draft.description, theme::quiet);
-  if (wideButton("Reset to what was loaded")) context.requests.resetScene = true;
-  helpTip("Takes back every parameter, and starts again.");
+  if (wideButton("Reset to the loaded scene")) context.requests.resetScene = true;
+  helpTip("Undoes all parameter changes and restarts.");
   if (pathLine("save", "my_scene.json, cloth.obj", save_, sizeof save_, "Save"))
     context.requests.saveSceneAs = save_;
   helpTip(
-      "Writes the scene with its edits as JSON (Ctrl+S). Hands, pins and cuts are in the recording "
-      "instead (Ctrl+Shift+S). A name that ends with .obj, .ply, .csv or .state takes the cloth as it is "
-      "now.");
+      "Saves the scene with its edits as JSON (Ctrl+S). What you did with the mouse is saved by "
+      "Ctrl+Shift+S instead. A name ending in .obj, .ply, .csv or .state saves the cloth as it is now.");
   if (pathLine("open", "path of a scene, or drop a file", open_, sizeof open_, "Open"))
     context.requests.openScene = open_;
-  helpTip("A scene file; one can be dropped on the window, too.");
+  helpTip("Opens a scene file. You can also drop one on the window.");
   ImGui::Separator();
   for (const BundledScene& scene : bundled_) {
     const ImVec2 at = ImGui::GetCursorScreenPos();

@@ -12,11 +12,11 @@ void drawBackend(PanelContext& context) {
   const char* const names[] = {"GPU", "CPU"};
   const int now = context.session.simulation().solver().backend() == "gpu" ? 0 : 1;
   const int chosen = segmentedButtons("backend", names, 2, now);
-  helpTip("Where the cloth is computed. It goes on from the same state, to the bit (B).");
+  helpTip("Where the cloth is computed. Switching continues from the bit-identical state (B).");
   if (chosen != now) context.requests.backend = chosen == 0 ? "gpu" : "cpu";
   if (wideButton("Compare GPU and CPU from here"))
     context.requests.actions.push_back(ViewerAction::compareBackends);
-  helpTip("Steps both from this state, and counts the floats that differ (C).");
+  helpTip("Runs both from this state and counts the numbers that differ (C).");
 }
 
 // The three kinds of springs in a row, as their toggles stand in CS184's program.
@@ -76,7 +76,9 @@ void drawWind(PanelContext& context) {
     if (blows) context.draft.wind->velocity = firstWind;
     context.widgets.changed(Change::live);
   }
-  helpTip("Air that moves past the cloth; without it no wind forces are computed.\n\nwind\nActs at once.");
+  helpTip(
+      "Air that moves past the cloth; without it no wind forces are computed.\n\nwind\nTakes effect "
+      "immediately.");
   if (!context.draft.wind) return;
   context.widgets.all(*context.draft.wind, "wind");
   context.widgets.all(context.draft.wind->gust, "wind.gust");
@@ -108,7 +110,7 @@ void drawSimulationPanel(PanelContext& context) {
   ImGui::Separator();
   drawWind(context);
   ImGui::Separator();
-  // What the solver has beyond these, where a new key would turn up by itself.
+  // All other settings of the solver: a new key appears here automatically.
   if (ImGui::TreeNode("more")) {
     context.widgets.all(context.draft.solver, "solver",
                         {"integrator", "frames_per_sec", "simulation_steps", "strain_limit", "self_collision",

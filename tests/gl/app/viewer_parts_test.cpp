@@ -6,7 +6,7 @@
 
 #include "app/clip_recorder.h"
 #include "app/compare_card.h"
-#include "app/key_queue.h"
+#include "app/input_queue.h"
 #include "app/numbered_files.h"
 #include "app/panels/field_widgets.h"
 #include "app/session.h"
@@ -75,24 +75,40 @@ TEST(ViewerKeys, HelpHasEveryLineOfTheTable) {
   }
 }
 
-TEST(TypedKeys, PressedAndLetGoBetweenTwoFramesArePressedInOneAndLetGoInTheNext) {
-  constexpr int letGo = 0, pressed = 1, one = 49, enter = 257;
-  KeyQueue queue;
-  queue.add({.key = one, .action = pressed});
-  queue.add({.isCharacter = true, .character = '1'});
-  queue.add({.key = enter, .action = pressed});
-  queue.add({.key = one, .action = letGo});
-  queue.add({.key = enter, .action = letGo});
-  const std::vector<TypedKey> first = queue.takeFrame();
+using Kind = InputEvent::Kind;
+constexpr int letGo = 0, pressed = 1, enterKey = 257, controlKey = 341;
+
+TEST(InputBetweenFrames, IsPressedInOneFrameAndLetGoInTheNext) {
+  InputQueue queue;
+  queue.add({.kind = Kind::key, .code = '1', .action = pressed});  // its character says as much
+  queue.add({.kind = Kind::character, .code = '1'});
+  queue.add({.kind = Kind::key, .code = '1', .action = letGo});
+  queue.add({.kind = Kind::key, .code = enterKey, .action = pressed});
+  queue.add({.kind = Kind::key, .code = enterKey, .action = letGo});
+  const std::vector<InputEvent> first = queue.takeFrame();
   ASSERT_EQ(first.size(), 3u);
-  EXPECT_EQ(first[2].key, enter);
+  EXPECT_EQ(first[0].kind, Kind::character);
+  EXPECT_EQ(first[2].code, enterKey);
   EXPECT_EQ(first[2].action, pressed);
   EXPECT_FALSE(queue.isEmpty());
-  const std::vector<TypedKey> second = queue.takeFrame();
-  ASSERT_EQ(second.size(), 2u);
-  EXPECT_EQ(second[1].key, enter);
-  EXPECT_EQ(second[1].action, letGo);
+  const std::vector<InputEvent> second = queue.takeFrame();
+  ASSERT_EQ(second.size(), 1u);
+  EXPECT_EQ(second[0].code, enterKey);
+  EXPECT_EQ(second[0].action, letGo);
   EXPECT_TRUE(queue.isEmpty());
+}
+
+TEST(InputBetweenFrames, ClicksWithTheModifiersThatWereHeld) {
+  InputQueue queue;
+  queue.add({.kind = Kind::key, .code = controlKey, .action = pressed});
+  ASSERT_EQ(queue.takeFrame().size(), 1u);
+  queue.add({.kind = Kind::button, .code = 0, .action = pressed});
+  queue.add({.kind = Kind::button, .code = 0, .action = letGo});
+  queue.add({.kind = Kind::key, .code = controlKey, .action = letGo});
+  EXPECT_EQ(queue.takeFrame().size(), 1u) << "the press alone";
+  const std::vector<InputEvent> last = queue.takeFrame();
+  ASSERT_EQ(last.size(), 1u);
+  EXPECT_EQ(last[0].code, controlKey);
 }
 
 using CompareCardTest = GlTest;
