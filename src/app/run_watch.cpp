@@ -68,8 +68,9 @@ std::string stepsAdvice(const Scene& scene) {
 
 Warning contactWarning(const ContactFailure& failure, const Scene& scene) {
   Warning warning{"contact", failure.frame, "", ""};
-  warning.brief = "lost in frame " + std::to_string(failure.frame);
   const bool averaged = scene.solver.selfCollision == SelfCollision::averaged;
+  warning.brief = "lost in frame " + std::to_string(failure.frame) + ": " +
+                  (averaged ? "set self_collision=robust" : "raise simulation_steps");
   const std::string advice =
       averaged ? "set solver.self_collision=robust, which keeps layers apart" : stepsAdvice(scene);
   if (failure.condition == ContactFailure::Condition::fastStep)
@@ -143,7 +144,8 @@ std::vector<Warning> RunWatch::warnings(const Scene& scene) const {
   warnings.insert(warnings.end(), paths_.begin(), paths_.end());
   if (const auto& failure = contacts_.failure()) warnings.push_back(contactWarning(*failure, scene));
   if (doubtfulFrame_)
-    warnings.push_back({"strain", doubtfulFrame_, formatted("%.0f %% stretch", 100 * peakStrain_),
+    warnings.push_back({"strain", doubtfulFrame_,
+                        formatted("springs stretched by %.0f %%: raise simulation_steps", 100 * peakStrain_),
                         "a spring is stretched by " + formatted("%.0f %%", 100 * doubtfulStrain(scene)) +
                             " or more, in this run by up to " + formatted("%.0f %%", 100 * peakStrain_) +
                             "; " + stepsAdvice(scene) + ", or set solver.strain_limit"});

@@ -113,7 +113,7 @@ void MeasurePanel::sample(Session& session, double now, std::optional<std::uint3
   if (samples_.empty() || simulation.time() > samples_.back().time) samples_.push_back(sample);
   if (samples_.size() > mostSamples) samples_.pop_front();
   const ContactCounts counts = session.simulation().contactCounts();
-  watch_.add(session.frame(), cloth, simulation.scene(), state, sample.energies.maxStrain, counts);
+  watch_.add(session.frameSinceStart(), cloth, simulation.scene(), state, sample.energies.maxStrain, counts);
   guardedSteps_ = counts.guardedSteps;
   strainUnderCursor_ =
       underCursor ? std::optional(strainAt(cloth, session.cuts(), state, *underCursor)) : std::nullopt;
