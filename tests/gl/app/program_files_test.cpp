@@ -129,9 +129,9 @@ TEST(ProgramsMemory, EndsWithAMessage) {
   EXPECT_NE(result.output.find("not enough memory"), std::string::npos) << result.output;
 }
 
-class ProgramsEnd : public testing::TestWithParam<int> {};
+class ProgramsEndBy : public testing::TestWithParam<int> {};
 
-TEST_P(ProgramsEnd, BySignalLeavesNoFile) {
+TEST_P(ProgramsEndBy, SignalLeavesNoFile) {
   const test::TemporaryFolder folder, apart;
   test::Process run({CLOTHSIM_PROGRAM, "run", "-f", "pinned2", "--resolution", "16x16", "--frames",
                      "10000000", "--backend", "cpu", "--save", (folder / "a.pc2").string()},
@@ -145,7 +145,24 @@ TEST_P(ProgramsEnd, BySignalLeavesNoFile) {
   EXPECT_NE(readFile(apart / "said").find("interrupted"), std::string::npos);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ProgramsEnd, testing::Values(SIGINT, SIGTERM, SIGHUP, SIGXCPU),
+TEST(ProgramsEnd, DoesNotComeByASignalThatWasIgnoredBefore) {
+  const test::TemporaryFolder folder;
+  const std::string save = (folder / "a.pc2").string();
+  test::Process run({"bash", "-c",
+                     "trap '' HUP; exec " CLOTHSIM_PROGRAM
+                     " run -f pinned2 --resolution 16x16 --frames 10000000 --backend cpu --save " +
+                         save},
+                    "/dev/null");
+  for (int i = 0; i < 600 && folder.fileCount() == 0; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  ASSERT_EQ(folder.fileCount(), 1);
+  run.send(SIGHUP);  // as to nohup
+  EXPECT_FALSE(run.waitFor(std::chrono::milliseconds(200)).has_value());
+  run.send(SIGTERM);
+  EXPECT_EQ(run.waitFor(std::chrono::seconds(30)), 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ProgramsEndBy, testing::Values(SIGINT, SIGTERM, SIGHUP, SIGXCPU),
                          [](const auto& instance) {
                            return std::string("Signal") + ::sigabbrev_np(instance.param);
                          });
