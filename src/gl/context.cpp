@@ -104,15 +104,18 @@ void checkContext() {
 }
 
 void checkErrors(const char* where) {
-  std::string messages;
-  for (const std::string& text : driverErrors) messages += "\n  " + text;
-  driverErrors.clear();
+  // Asked first: a driver that runs calls in a thread of its own catches up here, and reports what it found.
   // Bounded: a lost context reports errors for ever.
+  std::string names;
   for (int i = 0; i < 16; ++i) {
     const GLenum error = glGetError();
     if (error == GL_NO_ERROR) break;
-    messages += std::string("\n  ") + errorName(error);
+    names += std::string("\n  ") + errorName(error);
   }
+  std::string messages;
+  for (const std::string& text : driverErrors) messages += "\n  " + text;
+  driverErrors.clear();
+  messages += names;
   if (!messages.empty()) throw OpenGlError(std::string("OpenGL error in ") + where + ":" + messages);
 }
 

@@ -1,0 +1,32 @@
+// What the CPU backend makes of a scene, as a hash: hash_scene FRAMES SCENE [KEY=VALUE...]
+// Prints particles, steps and the hash of the last frame's state. Links no OpenGL, so that any compiler builds it
+// from a few files (tools/validate determinism).
+#include <cstdio>
+#include <exception>
+#include <string>
+
+#include "core/error.h"
+#include "scene/scene_io.h"
+#include "solver/cpu/cpu_solver.h"
+
+using namespace clothsim;
+
+int main(int count, char** words) {
+  if (count < 3) {
+    std::fprintf(stderr, "usage: hash_scene FRAMES SCENE [KEY=VALUE...]\n");
+    return 2;
+  }
+  try {
+    Scene scene = loadSceneByName(words[2]);
+    for (int i = 3; i < count; ++i) setSceneValue(scene, words[i]);
+    const Cloth cloth(scene);
+    CpuSolver<float> solver(cloth, scene);
+    const int steps = std::stoi(words[1]) * scene.solver.simulationSteps;
+    solver.step(steps);
+    if (solver.trouble()) throw SimulationError("the scene blows up: its hash would be that of garbage");
+    std::printf("%u %d %s\n", cloth.particleCount(), steps, hashText(stateHash(solver.state())).c_str());
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "hash_scene: %s\n", error.what());
+    return 1;
+  }
+}
