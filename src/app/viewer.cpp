@@ -214,8 +214,8 @@ void Viewer::measure() {
 void Viewer::drawControls() {
   const PictureArea area = pictureArea();
   drawMarks(hands_.marks(reach(), window_.cursor()));
-  const bool roomForBoth = area.width > 66 * em();
-  if (config_.showOverlay && (roomForBoth || !showKeys_))
+  const float neededByOthers = showKeys_ ? 66.0f : compare_.isOpen() ? 40.0f : 0.0f;  // em
+  if (config_.showOverlay && area.width >= neededByOthers * em())
     drawFacts(viewerFacts(*open_, meter_, paused_, looksBack(), column_.measures().warnings(open_->scene())),
               area);
   if (showsPanels()) drawPanels();
