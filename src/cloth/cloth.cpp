@@ -1,5 +1,6 @@
 #include "cloth/cloth.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <string>
@@ -17,6 +18,7 @@ namespace {
 constexpr std::uint64_t MAX_PARTICLES = 1ull << 26;
 constexpr double NOMINAL_LENGTH_TOLERANCE = 1e-6;  // [m]
 constexpr double JITTER = 0.001;                   // [m], z of a vertical sheet, so that it can buckle
+constexpr double JITTER_OF_SPACING = 0.002;        // no spring of a flat rest shape starts at more than 1e-5
 constexpr std::uint32_t JITTER_SEED = 184;
 
 double spacing(double length, int points) { return points > 1 ? length / (points - 1) : 0; }
@@ -74,12 +76,27 @@ Grid makeGrid(const ClothSettings& settings, std::uint32_t firstParticle) {
   return grid;
 }
 
+// CS184 measures rest lengths on the sheet as it starts, jitter included. Fabrics, and CS171's sheet, are cut
+// from a flat one.
+bool restsAsItStarts(const ClothSettings& settings) {
+  return !settings.material && !settings.stiffnessReference;
+}
+
+// Largest |z| of a vertical sheet at the start [m].
+double jitterOf(const ClothSettings& settings) {
+  if (restsAsItStarts(settings)) return JITTER;
+  const double dx = spacing(settings.width, settings.numWidthPoints),
+               dy = spacing(settings.height, settings.numHeightPoints);
+  return std::min(JITTER, JITTER_OF_SPACING * std::min(dx, dy));
+}
+
 // Where the lattice begins: (u, 1, v) or (u, v, z) with z from a hash, turned and moved [m].
 void appendPositions(const ClothSettings& settings, std::uint32_t firstParticle,
                      std::vector<Vec3d>& positions) {
   const Matrix3 turn = rotationMatrix(settings.rotation);
   const int columns = settings.numWidthPoints, rows = settings.numHeightPoints;
   const Vec3d origin = settings.orientation == Orientation::horizontal ? Vec3d{0, 1, 0} : Vec3d{0, 0, 0};
+  const double jitter = jitterOf(settings);
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
       const double u = columns > 1 ? settings.width * column / (columns - 1) : 0;
@@ -87,7 +104,7 @@ void appendPositions(const ClothSettings& settings, std::uint32_t firstParticle,
       const auto index = static_cast<std::uint32_t>(positions.size()) - firstParticle;
       const Vec3d local = settings.orientation == Orientation::horizontal
                               ? Vec3d{u, 0, v}
-                              : Vec3d{u, v, JITTER * (2 * uniform01(JITTER_SEED, index) - 1)};
+                              : Vec3d{u, v, jitter * (2 * uniform01(JITTER_SEED, index) - 1)};
       positions.push_back(origin + rotate(turn, local) + settings.position);
     }
   }
@@ -194,7 +211,7 @@ void Cloth::addGrid(const ClothSettings& settings) {
       inverseMasses_.push_back(1 / (grid.particleMass * grid.massWeight(column, row)));
   for (const auto& particles : particlesOf(settings.pinned, settings))
     for (const std::uint32_t particle : particles) inverseMasses_[grid.firstParticle + particle] = 0;
-  grid.hasRestLengthTable = differsFromNominal(grid, positions_);
+  grid.hasRestLengthTable = restsAsItStarts(settings) && differsFromNominal(grid, positions_);
   grids_.push_back(grid);
 }
 

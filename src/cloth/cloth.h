@@ -82,7 +82,8 @@ struct Grid {
   // energy 1/2 b |x(i-1) - 2 x(i) + x(i+1)|^2 a particle and direction instead of springs.
   bool hasMaterial = false;
   double bendAlongRow = 0, bendAlongColumn = 0;  // b [N/m]
-  bool hasRestLengthTable = false;  // some spring of a kind differs from nominal by more than 1e-6 m
+  // Of CS184's model: some spring of a kind starts by more than 1e-6 m off nominal, and rests as it starts.
+  bool hasRestLengthTable = false;
 
   // Of a mesh alone; nominalLength is the mean edge for all slots then, none of which is enabled.
   bool isMesh = false;

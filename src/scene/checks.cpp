@@ -97,7 +97,7 @@ void leaveOutOwnPlace(JsonNode& collider, const std::optional<Motion>& motion, V
   if (!motion) return;
   JsonNode& keys = *collider.find("motion")->find("keys");
   for (std::size_t i = 0; i < motion->keys.size(); ++i)
-    if (motion->keys[i].position == place)
+    if (sameWritten(motion->keys[i].position, place))
       std::erase_if(keys.children[i]->children, [](const auto& member) { return member->key == "position"; });
 }
 

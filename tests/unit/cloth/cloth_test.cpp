@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -132,6 +133,29 @@ TEST(Cloth, UsesNominalLengthsOnAFlatLatticeAndATableOnAJitteredOne) {
   EXPECT_FALSE(Cloth(scene).hasRestLengthTable());
   scene.cloths[0].orientation = Orientation::vertical;
   EXPECT_TRUE(Cloth(scene).hasRestLengthTable());
+}
+
+// The noise that lets a standing sheet buckle is part of CS184's rest shape, and of no other model's.
+TEST(Cloth, RestsFlatThoughItStandsCrookedUnlessItIsCs184s) {
+  Scene scene = sheetScene(65);
+  ClothSettings& sheet = scene.cloths[0];
+  sheet.orientation = Orientation::vertical;
+  sheet.ks.reset();
+  for (const bool isFabric : {true, false}) {
+    sheet.material = isFabric ? std::optional(Material{}) : std::nullopt;
+    sheet.stiffnessReference = isFabric ? std::nullopt : std::optional(40.0);
+    const Cloth cloth(scene);
+    EXPECT_FALSE(cloth.hasRestLengthTable());
+    double largestDepth = 0, largestStrain = 0;
+    for (const Spring& spring : cloth.springs()) {
+      EXPECT_EQ(spring.restLength, cloth.grids()[0].nominalLength[spring.number % SPRING_SLOTS]);
+      const Vec3d a = cloth.positions()[spring.a], b = cloth.positions()[spring.b];
+      largestDepth = std::max(largestDepth, std::abs(a.z));
+      largestStrain = std::max(largestStrain, length(b - a) / spring.restLength - 1);
+    }
+    EXPECT_GT(largestDepth, 0) << "it can buckle";
+    EXPECT_LE(largestStrain, 1e-5) << "and is hardly stretched by that";
+  }
 }
 
 TEST(Cloth, KeepsSeveralGridsInContiguousRanges) {

@@ -170,7 +170,7 @@ TEST(MeshScene, HasNoResolutionToChange) {
 
 TEST(MeshScene, TakesItsStepsFromTheFile) {
   Scene scene = parseScene(sceneText(", \"material\": \"jersey\""), "mesh.json");
-  setSceneValue(scene, "solver.simulation_steps=auto");
+  setSceneValue(scene, "solver.integrator=verlet");
   EXPECT_GE(1 / (90.0 * scene.solver.simulationSteps), 0.5 * stableStep(scene));
   EXPECT_LE(1 / (90.0 * scene.solver.simulationSteps), stableStep(scene));
   const int steps = scene.solver.simulationSteps;
