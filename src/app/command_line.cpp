@@ -1,8 +1,12 @@
 // The command line of DESIGN.md section 5: argv in, options out.
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <iostream>
+#include <sstream>
+#include <type_traits>
 
 #include "app/commands.h"
 #include "app/viewer.h"
@@ -18,7 +22,9 @@ ViewTurn parseView(const std::string& text) {
   int afterTwo = 0, afterThree = 0;
   const int numbers =
       std::sscanf(text.c_str(), "%lf,%lf%n,%lf%n", &turn.right, &turn.up, &afterTwo, &turn.zoom, &afterThree);
-  const bool isWhole = static_cast<std::size_t>(numbers == 3 ? afterThree : afterTwo) == text.size();
+  const bool isPlain = text.find_first_not_of("+-.,0123456789eE") == std::string::npos;
+  const bool isWhole =
+      isPlain && static_cast<std::size_t>(numbers == 3 ? afterThree : afterTwo) == text.size();
   if (numbers < 2 || !isWhole || !(std::abs(turn.right) <= 360) || !(std::abs(turn.up) <= 180) ||
       !(turn.zoom >= 0.01 && turn.zoom <= 100))
     throw UsageError(
@@ -34,6 +40,27 @@ GridSize parsePixels(const std::string& text) {
     throw UsageError("--size " + text + ": expected 16x16 to 8192x8192 pixels");
   return size;
 }
+
+// CLI11's own checks let NaN pass, and read 010 as 8.
+template <class Number>
+CLI::Validator numberWithin(Number low, Number high, const std::string& what) {
+  const auto read = [low, high, what](std::string& text) -> std::string {
+    Number number{};
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (code == std::errc() && end == text.data() + text.size() && low <= number && number <= high) {
+      if constexpr (std::is_integral_v<Number>) text = std::to_string(number);
+      return "";
+    }
+    std::ostringstream message;
+    message << "expected " << what << " from " << low << " to " << high << ", found \"" << text << '"';
+    return message.str();
+  };
+  return {read, ""};
+}
+CLI::Validator wholeNumber(std::int64_t low, std::int64_t high) {
+  return numberWithin(low, high, "a whole number");
+}
+CLI::Validator number(double low, double high) { return numberWithin(low, high, "a number"); }
 
 // The flags as they arrive; each command takes the ones it declared.
 struct Arguments {
@@ -82,14 +109,14 @@ CLI::Option* addFrames(CLI::App& app, Arguments& a, bool required = true) {
       .add_option("--frames", a.frames,
                   "how many frames to simulate (solver.frames_per_sec of them make a second)")
       ->required(required)
-      ->check(CLI::Range(0, 10'000'000));
+      ->transform(wholeNumber(0, 10'000'000));
 }
 
 void addSphereSegments(CLI::App& app, Arguments& a) {
   app.add_option("-a,--sphere-around", a.around, "horizontal segments of drawn spheres")
-      ->check(CLI::Range(3, 1024));
+      ->transform(wholeNumber(3, 1024));
   app.add_option("-o,--sphere-down", a.down, "vertical segments of drawn spheres")
-      ->check(CLI::Range(2, 1024));
+      ->transform(wholeNumber(2, 1024));
 }
 
 void addJson(CLI::App& app, Arguments& a) {
@@ -117,13 +144,13 @@ void declareRun(CLI::App& app, Arguments& a, Task& task) {
       ->type_name("FILE")
       ->allow_extra_args(false);
   run->add_option("--every", a.every, "K for numbered files, .pc2 and .usda")
-      ->check(CLI::Range(1, 1'000'000));
+      ->transform(wholeNumber(1, 1'000'000));
   CLI::Option* from = run->add_option("--from", a.from, "begin with a saved .state")->type_name("STATE");
   CLI::Option* jitter =
       run->add_option("--jitter", a.jitter,
                       "begin with free particles moved at random, by 0 to so many metres along each axis (0)")
-          ->check(CLI::Range(0.0, 1.0));
-  run->add_option("--seed", a.seed, "of --jitter (1)");
+          ->transform(number(0.0, 1.0));
+  run->add_option("--seed", a.seed, "of --jitter (1)")->transform(wholeNumber(0, UINT32_MAX));
   CLI::Option* replay =
       run->add_option("--replay", a.replay,
                       "do again what a recording of the viewer holds, on its backends or that of --backend")
@@ -168,9 +195,9 @@ void declareSimulationCommands(CLI::App& app, Arguments& a, Task& task) {
       ->type_name("WxH");
   bench->add_option("--backend", a.backends, "gpu, cpu; may be repeated (both)")
       ->check(CLI::IsMember({"gpu", "cpu"}));
-  bench->add_option("--seconds", a.seconds, "of measuring for each figure")->check(CLI::Range(0.01, 600.0));
+  bench->add_option("--seconds", a.seconds, "of measuring for each figure")->transform(number(0.01, 600.0));
   bench->add_option("--after", a.frames, "measure the cloth as it lies after so many frames (0)")
-      ->check(CLI::NonNegativeNumber);
+      ->transform(wholeNumber(0, 10'000'000));
   bench->add_flag("--draw", a.draw, "measure drawing instead: every shading model at 1280x720, pass by pass");
   addJson(*bench, a);
   bench->footer(
@@ -210,9 +237,9 @@ void declareRender(CLI::App& app, Arguments& a, Task& task) {
       ->allow_extra_args(false);
   render->add_option("--size", a.size, "pixels")->type_name("WxH")->capture_default_str();
   render->add_option("--every", a.every, "numbered pictures: every so many frames")
-      ->check(CLI::Range(1, 1'000'000));
+      ->transform(wholeNumber(1, 1'000'000));
   render->add_option("--fps", a.fps, "pictures a second of a film, at most; it plays in real time")
-      ->check(CLI::Range(1.0, 1000.0));
+      ->transform(number(1.0, 1000.0));
   addLooks(*render, a);
   render->add_option("--from", a.from, "begin with a saved .state")->type_name("STATE");
   addSphereSegments(*render, a);

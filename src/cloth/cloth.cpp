@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/hash.h"
+#include "scene/budget.h"
 #include "scene/material.h"
 #include "scene/mesh_shape.h"
 #include "scene/pins.h"
@@ -200,6 +201,13 @@ void Cloth::checkSize(std::uint64_t more) const {
     throw SceneError("the cloths hold " + std::to_string(total) + " particles together; at most " +
                      std::to_string(MAX_PARTICLES) +
                      " are possible. Use fewer points or a smaller --resolution.");
+  checkMemory(static_cast<double>(total));
+}
+
+void Cloth::holdPins(const ClothSettings& settings, std::uint32_t first) {
+  const std::vector<bool> pinned = pinnedParticles(settings);
+  for (std::size_t i = 0; i < pinned.size(); ++i)
+    if (pinned[i]) inverseMasses_[first + i] = 0;
 }
 
 void Cloth::addGrid(const ClothSettings& settings) {
@@ -209,8 +217,7 @@ void Cloth::addGrid(const ClothSettings& settings) {
   for (int row = 0; row < grid.rows; ++row)
     for (int column = 0; column < grid.columns; ++column)
       inverseMasses_.push_back(1 / (grid.particleMass * grid.massWeight(column, row)));
-  for (const auto& particles : particlesOf(settings.pinned, settings))
-    for (const std::uint32_t particle : particles) inverseMasses_[grid.firstParticle + particle] = 0;
+  holdPins(settings, grid.firstParticle);
   grid.hasRestLengthTable = restsAsItStarts(settings) && differsFromNominal(grid, positions_);
   grids_.push_back(grid);
 }
@@ -239,8 +246,7 @@ void Cloth::addMesh(const ClothSettings& settings) {
 
   positions_.insert(positions_.end(), points.begin(), points.end());
   for (const double mass : mechanics.masses) inverseMasses_.push_back(1 / mass);
-  for (const auto& particles : particlesOf(settings.pinned, settings))
-    for (const std::uint32_t particle : particles) inverseMasses_[first + particle] = 0;
+  holdPins(settings, first);
   meshMasses_.resize(first);
   meshMasses_.insert(meshMasses_.end(), mechanics.masses.begin(), mechanics.masses.end());
   meshCoordinates_.resize(first);
@@ -271,9 +277,10 @@ double Cloth::massOf(std::uint32_t particle) const {
 }
 
 std::size_t Cloth::gridOf(std::uint32_t particle) const {
-  std::size_t grid = 0;
-  while (particle - grids_[grid].firstParticle >= grids_[grid].particleCount()) ++grid;
-  return grid;
+  const auto next =
+      std::upper_bound(grids_.begin(), grids_.end(), particle,
+                       [](std::uint32_t wanted, const Grid& grid) { return wanted < grid.firstParticle; });
+  return static_cast<std::size_t>(next - grids_.begin()) - 1;
 }
 
 bool Cloth::hasRestLengthTable() const {

@@ -115,6 +115,9 @@ struct Grid {
   }
 };
 
+// Whether a pass over the grid's particles gains more from threads than waking them costs.
+[[nodiscard]] inline bool isWorthThreads(const Grid& grid) { return grid.particleCount() >= 2048; }
+
 struct Spring {
   // Of a grid 6 * owner + slot; of a mesh its place in Cloth::lists(), behind all those.
   std::uint32_t number;
@@ -125,7 +128,8 @@ struct Spring {
 
 class Cloth {
  public:
-  // @throws SceneError when the cloths hold more particles than 2^26, or a mesh or the pins on it are wrong
+  // @throws SceneError when the cloths hold more particles than 2^26 or than memory has room for, or a mesh
+  // or the pins on it are wrong
   explicit Cloth(const Scene& scene);
 
   [[nodiscard]] std::uint32_t particleCount() const { return static_cast<std::uint32_t>(positions_.size()); }
@@ -158,6 +162,7 @@ class Cloth {
   void addGrid(const ClothSettings& settings);
   void addMesh(const ClothSettings& settings);
   void checkSize(std::uint64_t more) const;
+  void holdPins(const ClothSettings& settings, std::uint32_t first);
 
   std::vector<double> inverseMasses_;
   std::vector<double> meshMasses_;                     // by particle; empty without meshes

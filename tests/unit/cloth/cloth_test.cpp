@@ -7,7 +7,9 @@
 #include <set>
 
 #include "core/error.h"
+#include "scene/budget.h"
 #include "support/test_scenes.h"
+#include "support/throws.h"
 
 namespace clothsim {
 namespace {
@@ -185,6 +187,38 @@ TEST(Cloth, FrontsOfAHorizontalSheetLookUp) {
 TEST(Cloth, RefusesMoreParticlesThanBuffersCanHold) {
   Scene scene = sheetScene(16384);
   EXPECT_THROW(Cloth{scene}, SceneError);
+}
+
+TEST(Cloth, FindsTheGridOfEveryParticleAmongThousands) {
+  Scene scene = sheetScene(2);
+  scene.cloths.assign(3000, scene.cloths[0]);
+  scene.cloths[1].numWidthPoints = 5;
+  const Cloth cloth(scene);
+  for (std::size_t grid = 0; grid < cloth.grids().size(); ++grid) {
+    const Grid& found = cloth.grids()[grid];
+    EXPECT_EQ(cloth.gridOf(found.firstParticle), grid);
+    EXPECT_EQ(cloth.gridOf(found.firstParticle + found.particleCount() - 1), grid);
+  }
+}
+
+// Ten thousand blocks of nearly a million points each; going through every point of each would take minutes.
+TEST(Cloth, MergesPinsThatOverlap) {
+  Scene scene = sheetScene(1000);
+  for (int i = 0; i < 10'000; ++i)
+    scene.cloths[0].pinned.push_back(GridRange{{i % 10, i % 7}, {998 - i % 3, 998}});
+  const Cloth cloth(scene);
+  const auto pinned = std::count(cloth.inverseMasses().begin(), cloth.inverseMasses().end(), 0.0);
+  EXPECT_EQ(pinned, 999 * 999);
+  EXPECT_NE(cloth.inverseMasses()[999], 0);
+}
+
+TEST(Budget, NamesWhatIsNeededAndWhatIsThere) {
+  checkMemory(1e6, 600e6);
+  const std::string message = test::messageThrownBy<SceneError>([] { checkMemory(67'108'864, 24e9); });
+  EXPECT_NE(message.find("67108864 particles together, which need about 40.3 GB; this machine has 24.0 GB"),
+            std::string::npos)
+      << message;
+  EXPECT_GT(machineMemory(), 1e8);
 }
 
 }  // namespace
