@@ -5,6 +5,7 @@
 #include <numeric>
 #include <string>
 
+#include "cloth/contact_memory.h"
 #include "core/error.h"
 #include "core/hash.h"
 #include "scene/budget.h"
@@ -187,6 +188,7 @@ void appendHinges(const MeshShape& shape, const MeshMechanics& mechanics, std::u
 }  // namespace
 
 Cloth::Cloth(const Scene& scene) {
+  checkContactMemory(scene);
   for (const ClothSettings& settings : scene.cloths)
     settings.isMesh() ? addMesh(settings) : addGrid(settings);
   if (lists_.empty()) return;

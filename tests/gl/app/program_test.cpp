@@ -129,7 +129,7 @@ TEST(Program, TakesEitherASceneOrARecording) {
 }
 
 TEST(Program, RefusesWhatIsNoPlainNumber) {
-  for (const std::string number : {"nan", "inf", "-inf", "0x1", "010x", "''", "1e999", "' 1'", "1,5"}) {
+  for (const std::string number : {"nan", "inf", "-inf", "0x1", "010x", "''", "1e999", "' 1'", "'1;5'"}) {
     for (const std::string command :
          {"run -f pinned2 --frames 1 --jitter ", "run -f pinned2 --frames 1 --seed ",
           "run -f pinned2 --frames ", "render -f pinned2 --frames 1 --out a.mp4 --fps ", "bench --seconds ",

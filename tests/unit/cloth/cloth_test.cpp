@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "cloth/contact_memory.h"
 #include "core/error.h"
 #include "scene/budget.h"
 #include "support/test_scenes.h"
@@ -201,15 +202,28 @@ TEST(Cloth, FindsTheGridOfEveryParticleAmongThousands) {
   }
 }
 
-// Ten thousand blocks of nearly a million points each; going through every point of each would take minutes.
+// Thousands of blocks of a quarter of a million points each: going through every point of each would take
+// seconds, and holding them all gigabytes.
 TEST(Cloth, MergesPinsThatOverlap) {
-  Scene scene = sheetScene(1000);
-  for (int i = 0; i < 10'000; ++i)
-    scene.cloths[0].pinned.push_back(GridRange{{i % 10, i % 7}, {998 - i % 3, 998}});
+  Scene scene = sheetScene(500);
+  for (int i = 0; i < 3000; ++i)
+    scene.cloths[0].pinned.push_back(GridRange{{i % 10, i % 7}, {498 - i % 3, 498}});
   const Cloth cloth(scene);
   const auto pinned = std::count(cloth.inverseMasses().begin(), cloth.inverseMasses().end(), 0.0);
-  EXPECT_EQ(pinned, 999 * 999);
-  EXPECT_NE(cloth.inverseMasses()[999], 0);
+  EXPECT_EQ(pinned, 499 * 499);
+  EXPECT_NE(cloth.inverseMasses()[499], 0);
+}
+
+TEST(Cloth, IsNotMadeWhereItsContactsWouldTakeAllMemory) {
+  Scene scene = sheetScene(2000);
+  scene.cloths.assign(15, scene.cloths[0]);
+  scene.solver.selfCollision = SelfCollision::averaged;
+  const std::string message = test::messageThrownBy<SceneError>([&] { checkContactMemory(scene, 100e9); });
+  EXPECT_NE(message.find("this machine has 100.0 GB"), std::string::npos) << message;
+  EXPECT_NE(message.find("thickness"), std::string::npos) << message;
+  checkContactMemory(scene, 1e12);
+  scene.solver.selfCollision = SelfCollision::robust;
+  checkContactMemory(scene, 100e9);
 }
 
 TEST(Budget, NamesWhatIsNeededAndWhatIsThere) {
