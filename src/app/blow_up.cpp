@@ -20,11 +20,19 @@ std::string quoted(const std::string& word) {
   return text + "'";
 }
 
-std::string commandToGoOn(const BlowUpContext& context, const std::string& stateFile) {
+std::string keyOf(const std::string& setting) { return setting.substr(0, setting.find('=')); }
+
+// With what `changes` set instead of what was set.
+std::string commandToGoOn(const BlowUpContext& context, const std::string& stateFile,
+                          const std::vector<std::string>& changes) {
   std::string command = "clothsim run -f " + quoted(context.scene.scene);
   if (const auto& size = context.scene.resolution)
     command += " --resolution " + std::to_string(size->columns) + "x" + std::to_string(size->rows);
-  for (const std::string& setting : context.scene.settings) command += " --set " + quoted(setting);
+  std::vector<std::string> settings = context.scene.settings;
+  for (const std::string& change : changes)
+    std::erase_if(settings, [&](const std::string& setting) { return keyOf(setting) == keyOf(change); });
+  settings.insert(settings.end(), changes.begin(), changes.end());
+  for (const std::string& setting : settings) command += " --set " + quoted(setting);
   if (context.backend != "gpu") command += " --backend " + context.backend;
   return command + " --from " + quoted(stateFile) + " --frames " +
          std::to_string(context.frames - context.frame + 1);
@@ -46,7 +54,7 @@ fs::path freeStateName(const fs::path& folder, const std::string& stem, const st
 
 std::string blowUpText(const Trouble& trouble, const Cloth& cloth, const Scene& scene) {
   return "the simulation blew up: " + troubleText(trouble, cloth, scene) + ". " +
-         troubleAdvice(trouble, scene);
+         remedyFor(trouble, scene).text;
 }
 
 void stopBlownUp(const Trouble& trouble, Simulation& simulation, const BlowUpContext& context) {
@@ -58,7 +66,9 @@ void stopBlownUp(const Trouble& trouble, Simulation& simulation, const BlowUpCon
     const fs::path path = freeStateName(context.outputFolder, stem, bytes);
     writeFileAtomically(path, bytes);
     message += "\nThe last good state, that of frame " + frame + ", is saved: " + path.string();
-    if (!context.replays) message += "\nTo go on from it: " + commandToGoOn(context, path.string());
+    const std::vector<std::string> changes = remedyFor(trouble, simulation.scene()).settings;
+    if (!context.replays && !changes.empty())
+      message += "\nTo go on from it: " + commandToGoOn(context, path.string(), changes);
   } catch (const Error& error) {
     message += "\nThe last good state, that of frame " + frame + ", could not be saved: " + error.what();
   }

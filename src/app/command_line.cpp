@@ -1,13 +1,17 @@
 // The command line of DESIGN.md section 5: argv in, options out.
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <sstream>
 #include <stdexcept>
+#include <type_traits>
 
 #include "app/commands.h"
 #include "app/viewer.h"
@@ -24,7 +28,9 @@ ViewTurn parseView(const std::string& text) {
   int afterTwo = 0, afterThree = 0;
   const int numbers =
       std::sscanf(text.c_str(), "%lf,%lf%n,%lf%n", &turn.right, &turn.up, &afterTwo, &turn.zoom, &afterThree);
-  const bool isWhole = static_cast<std::size_t>(numbers == 3 ? afterThree : afterTwo) == text.size();
+  const bool isPlain = text.find_first_not_of("+-.,0123456789eE") == std::string::npos;
+  const bool isWhole =
+      isPlain && static_cast<std::size_t>(numbers == 3 ? afterThree : afterTwo) == text.size();
   if (numbers < 2 || !isWhole || !(std::abs(turn.right) <= 360) || !(std::abs(turn.up) <= 180) ||
       !(turn.zoom >= 0.01 && turn.zoom <= 100))
     throw UsageError(
@@ -40,6 +46,27 @@ GridSize parsePixels(const std::string& text) {
     throw UsageError("--size " + text + ": expected 16x16 to 8192x8192 pixels");
   return size;
 }
+
+// CLI11's own checks let NaN pass, and read 010 as 8.
+template <class Number>
+CLI::Validator numberWithin(Number low, Number high, const std::string& what) {
+  const auto read = [low, high, what](std::string& text) -> std::string {
+    Number number{};
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (code == std::errc() && end == text.data() + text.size() && low <= number && number <= high) {
+      if constexpr (std::is_integral_v<Number>) text = std::to_string(number);
+      return "";
+    }
+    std::ostringstream message;
+    message << "expected " << what << " from " << low << " to " << high << ", found \"" << text << '"';
+    return message.str();
+  };
+  return {read, ""};
+}
+CLI::Validator wholeNumber(std::int64_t low, std::int64_t high) {
+  return numberWithin(low, high, "a whole number");
+}
+CLI::Validator number(double low, double high) { return numberWithin(low, high, "a number"); }
 
 // The flags as they arrive; each command takes the ones it declared.
 struct Arguments {
@@ -93,14 +120,14 @@ CLI::Option* addFrames(CLI::App& app, Arguments& a, bool required = true) {
   return app
       .add_option("--frames", a.frames, "number of frames to simulate (solver.frames_per_sec per second)")
       ->required(required)
-      ->check(CLI::Range(0, 10'000'000));
+      ->transform(wholeNumber(0, 10'000'000));
 }
 
 void addSphereSegments(CLI::App& app, Arguments& a) {
   app.add_option("-a,--sphere-around", a.around, "horizontal segments of drawn spheres")
-      ->check(CLI::Range(3, 1024));
+      ->transform(wholeNumber(3, 1024));
   app.add_option("-o,--sphere-down", a.down, "vertical segments of drawn spheres")
-      ->check(CLI::Range(2, 1024));
+      ->transform(wholeNumber(2, 1024));
 }
 
 void addJson(CLI::App& app, Arguments& a) {
@@ -135,14 +162,15 @@ void declareRun(CLI::App& app, Arguments& a, Task& task) {
       ->type_name("FILE")
       ->allow_extra_args(false);
   run->add_option("--every", a.every, "K for numbered files, .pc2 and .usda")
-      ->check(CLI::Range(1, 1'000'000));
+      ->transform(wholeNumber(1, 1'000'000));
   CLI::Option* from = run->add_option("--from", a.from, "start from a saved .state")->type_name("STATE");
   CLI::Option* jitter =
       run->add_option(
              "--jitter", a.jitter,
              "displace free particles at the start by up to this many metres along each axis (default 0)")
-          ->check(CLI::Range(0.0, 1.0));
-  run->add_option("--seed", a.seed, "random seed of --jitter (default 1)");
+          ->transform(number(0.0, 1.0));
+  run->add_option("--seed", a.seed, "random seed of --jitter (default 1)")
+      ->transform(wholeNumber(0, UINT32_MAX));
   CLI::Option* replay =
       run->add_option("--replay", a.replay,
                       "repeat the actions of a viewer recording, on its own backends or on --backend")
@@ -187,9 +215,9 @@ void declareSimulationCommands(CLI::App& app, Arguments& a, Task& task) {
       ->type_name("WxH");
   bench->add_option("--backend", a.backends, "gpu, cpu; may be repeated (both)")
       ->check(CLI::IsMember({"gpu", "cpu"}));
-  bench->add_option("--seconds", a.seconds, "duration of each measurement")->check(CLI::Range(0.01, 600.0));
+  bench->add_option("--seconds", a.seconds, "duration of each measurement")->transform(number(0.01, 600.0));
   bench->add_option("--after", a.frames, "measure the cloth after this many frames (default 0)")
-      ->check(CLI::NonNegativeNumber);
+      ->transform(wholeNumber(0, 10'000'000));
   bench->add_flag("--draw", a.draw, "measure drawing instead: each pass of every shading model at 1280x720");
   addJson(*bench, a);
   bench->footer("The median of 7 measurements is reported. Example: clothsim bench --resolution 256x256");
@@ -227,9 +255,9 @@ void declareRender(CLI::App& app, Arguments& a, Task& task) {
       ->allow_extra_args(false);
   render->add_option("--size", a.size, "pixels")->type_name("WxH")->capture_default_str();
   render->add_option("--every", a.every, "numbered pictures: save every K-th frame")
-      ->check(CLI::Range(1, 1'000'000));
+      ->transform(wholeNumber(1, 1'000'000));
   render->add_option("--fps", a.fps, "maximum frame rate of a video; it plays in real time")
-      ->check(CLI::Range(1.0, 1000.0));
+      ->transform(number(1.0, 1000.0));
   addLooks(*render, a);
   render->add_option("--from", a.from, "start from a saved .state")->type_name("STATE");
   addSphereSegments(*render, a);

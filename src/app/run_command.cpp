@@ -124,6 +124,10 @@ nlohmann::ordered_json summary(const RunOptions& options, Course& course, const 
   json["frames"] = course.frames();
   json["steps"] = course.steps();
   json["dt"] = stepLength(scene.solver);
+  json["integrator"] = integratorName(scene.solver.integrator);
+  json["simulation_steps"] = scene.solver.simulationSteps.count;
+  if (scene.solver.integrator == Integrator::implicit)
+    json["cg_iterations"] = scene.solver.cgIterations.count;
   json["sim_seconds"] = course.isReplay() ? course.simulatedSeconds() : steps * stepLength(scene.solver);
   json["seconds"] = tally.seconds;
   json["particle_steps_per_second"] = tally.seconds > 0 ? particles * steps / tally.seconds : 0;

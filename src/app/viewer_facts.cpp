@@ -53,17 +53,7 @@ OverlayFacts::Row speedRow(const OpenScene& open, const SpeedMeter& meter) {
 
 }  // namespace
 
-const char* nameOf(Integrator integrator) {
-  switch (integrator) {
-    case Integrator::verlet:
-      return "verlet";
-    case Integrator::euler:
-      return "euler";
-    case Integrator::implicit:
-      return "implicit";
-  }
-  return "";
-}
+const char* nameOf(Integrator integrator) { return integratorName(integrator); }
 
 std::string viewerTitle(const OpenScene& open, const SpeedMeter& meter, bool paused) {
   const double rate = meter.framesPerSecond();

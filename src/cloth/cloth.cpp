@@ -1,11 +1,14 @@
 #include "cloth/cloth.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <string>
 
+#include "cloth/contact_memory.h"
 #include "core/error.h"
 #include "core/hash.h"
+#include "scene/budget.h"
 #include "scene/material.h"
 #include "scene/mesh_shape.h"
 #include "scene/pins.h"
@@ -17,6 +20,7 @@ namespace {
 constexpr std::uint64_t MAX_PARTICLES = 1ull << 26;
 constexpr double NOMINAL_LENGTH_TOLERANCE = 1e-6;  // [m]
 constexpr double JITTER = 0.001;                   // [m], z of a vertical sheet, so that it can buckle
+constexpr double JITTER_OF_SPACING = 0.002;        // no spring of a flat rest shape starts at more than 1e-5
 constexpr std::uint32_t JITTER_SEED = 184;
 
 double spacing(double length, int points) { return points > 1 ? length / (points - 1) : 0; }
@@ -75,12 +79,27 @@ Grid makeGrid(const ClothSettings& settings, std::uint32_t firstParticle) {
   return grid;
 }
 
+// CS184 measures rest lengths on the sheet as it starts, jitter included. Fabrics, and CS171's sheet, are cut
+// from a flat one.
+bool restsAsItStarts(const ClothSettings& settings) {
+  return !settings.material && !settings.stiffnessReference;
+}
+
+// Largest |z| of a vertical sheet at the start [m].
+double jitterOf(const ClothSettings& settings) {
+  if (restsAsItStarts(settings)) return JITTER;
+  const double dx = spacing(settings.width, settings.numWidthPoints),
+               dy = spacing(settings.height, settings.numHeightPoints);
+  return std::min(JITTER, JITTER_OF_SPACING * std::min(dx, dy));
+}
+
 // Where the lattice begins: (u, 1, v) or (u, v, z) with z from a hash, turned and moved [m].
 void appendPositions(const ClothSettings& settings, std::uint32_t firstParticle,
                      std::vector<Vec3d>& positions) {
   const Matrix3 turn = rotationMatrix(settings.rotation);
   const int columns = settings.numWidthPoints, rows = settings.numHeightPoints;
   const Vec3d origin = settings.orientation == Orientation::horizontal ? Vec3d{0, 1, 0} : Vec3d{0, 0, 0};
+  const double jitter = jitterOf(settings);
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
       const double u = columns > 1 ? settings.width * column / (columns - 1) : 0;
@@ -88,7 +107,7 @@ void appendPositions(const ClothSettings& settings, std::uint32_t firstParticle,
       const auto index = static_cast<std::uint32_t>(positions.size()) - firstParticle;
       const Vec3d local = settings.orientation == Orientation::horizontal
                               ? Vec3d{u, 0, v}
-                              : Vec3d{u, v, JITTER * (2 * uniform01(JITTER_SEED, index) - 1)};
+                              : Vec3d{u, v, jitter * (2 * uniform01(JITTER_SEED, index) - 1)};
       positions.push_back(origin + rotate(turn, local) + settings.position);
     }
   }
@@ -170,6 +189,7 @@ void appendHinges(const MeshShape& shape, const MeshMechanics& mechanics, std::u
 }  // namespace
 
 Cloth::Cloth(const Scene& scene) {
+  checkContactMemory(scene);
   for (const ClothSettings& settings : scene.cloths)
     settings.isMesh() ? addMesh(settings) : addGrid(settings);
   if (lists_.empty()) return;
@@ -184,6 +204,13 @@ void Cloth::checkSize(std::uint64_t more) const {
     throw SceneError("the cloths hold " + std::to_string(total) + " particles together; at most " +
                      std::to_string(MAX_PARTICLES) +
                      " are possible. Use fewer points or a smaller --resolution.");
+  checkMemory(static_cast<double>(total));
+}
+
+void Cloth::holdPins(const ClothSettings& settings, std::uint32_t first) {
+  const std::vector<bool> pinned = pinnedParticles(settings);
+  for (std::size_t i = 0; i < pinned.size(); ++i)
+    if (pinned[i]) inverseMasses_[first + i] = 0;
 }
 
 void Cloth::addGrid(const ClothSettings& settings) {
@@ -193,9 +220,8 @@ void Cloth::addGrid(const ClothSettings& settings) {
   for (int row = 0; row < grid.rows; ++row)
     for (int column = 0; column < grid.columns; ++column)
       inverseMasses_.push_back(1 / (grid.particleMass * grid.massWeight(column, row)));
-  for (const auto& particles : particlesOf(settings.pinned, settings))
-    for (const std::uint32_t particle : particles) inverseMasses_[grid.firstParticle + particle] = 0;
-  grid.hasRestLengthTable = differsFromNominal(grid, positions_);
+  holdPins(settings, grid.firstParticle);
+  grid.hasRestLengthTable = restsAsItStarts(settings) && differsFromNominal(grid, positions_);
   grids_.push_back(grid);
 }
 
@@ -223,8 +249,7 @@ void Cloth::addMesh(const ClothSettings& settings) {
 
   positions_.insert(positions_.end(), points.begin(), points.end());
   for (const double mass : mechanics.masses) inverseMasses_.push_back(1 / mass);
-  for (const auto& particles : particlesOf(settings.pinned, settings))
-    for (const std::uint32_t particle : particles) inverseMasses_[first + particle] = 0;
+  holdPins(settings, first);
   meshMasses_.resize(first);
   meshMasses_.insert(meshMasses_.end(), mechanics.masses.begin(), mechanics.masses.end());
   meshCoordinates_.resize(first);
@@ -255,9 +280,10 @@ double Cloth::massOf(std::uint32_t particle) const {
 }
 
 std::size_t Cloth::gridOf(std::uint32_t particle) const {
-  std::size_t grid = 0;
-  while (particle - grids_[grid].firstParticle >= grids_[grid].particleCount()) ++grid;
-  return grid;
+  const auto next =
+      std::upper_bound(grids_.begin(), grids_.end(), particle,
+                       [](std::uint32_t wanted, const Grid& grid) { return wanted < grid.firstParticle; });
+  return static_cast<std::size_t>(next - grids_.begin()) - 1;
 }
 
 bool Cloth::hasRestLengthTable() const {

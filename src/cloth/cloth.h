@@ -83,7 +83,8 @@ struct Grid {
   // energy 1/2 b |x(i-1) - 2 x(i) + x(i+1)|^2 a particle and direction instead of springs.
   bool hasMaterial = false;
   double bendAlongRow = 0, bendAlongColumn = 0;  // b [N/m]
-  bool hasRestLengthTable = false;  // some spring of a kind differs from nominal by more than 1e-6 m
+  // Of CS184's model: some spring of a kind starts by more than 1e-6 m off nominal, and rests as it starts.
+  bool hasRestLengthTable = false;
 
   // Of a mesh alone; nominalLength is the mean edge for all slots then, none of which is enabled.
   bool isMesh = false;
@@ -122,6 +123,9 @@ struct Grid {
   }
 };
 
+// Whether a pass over the grid's particles gains more from threads than waking them costs.
+[[nodiscard]] inline bool isWorthThreads(const Grid& grid) { return grid.particleCount() >= 2048; }
+
 struct Spring {
   // Of a grid 6 * owner + slot; of a mesh its place in Cloth::lists(), behind all those.
   std::uint32_t number;
@@ -132,7 +136,8 @@ struct Spring {
 
 class Cloth {
  public:
-  // @throws SceneError when the cloths hold more particles than 2^26, or a mesh or the pins on it are wrong
+  // @throws SceneError when the cloths hold more particles than 2^26 or than memory has room for, or a mesh
+  // or the pins on it are wrong
   explicit Cloth(const Scene& scene);
 
   [[nodiscard]] std::uint32_t particleCount() const { return static_cast<std::uint32_t>(positions_.size()); }
@@ -166,6 +171,7 @@ class Cloth {
   void addGrid(const ClothSettings& settings);
   void addMesh(const ClothSettings& settings);
   void checkSize(std::uint64_t more) const;
+  void holdPins(const ClothSettings& settings, std::uint32_t first);
 
   std::vector<double> inverseMasses_;
   std::vector<double> meshMasses_;                     // by particle; empty without meshes

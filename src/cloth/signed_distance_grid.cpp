@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <mutex>
+#include <tuple>
 
 #include "core/error.h"
 #include "core/exact_math.h"
@@ -159,19 +160,40 @@ class TriangleTree {
   std::vector<std::array<Vec3d, 7>> pseudonormals_;
 };
 
-SignedDistanceGrid::SignedDistanceGrid(SolidMesh mesh, int cells)
-    : mesh_(std::move(mesh)), tree_(std::make_unique<TriangleTree>(mesh_)) {
-  Vec3d low = mesh_.points.front(), high = low;
-  for (const Vec3d point : mesh_.points) {
+namespace {
+
+struct GridBox {
+  Vec3d low;
+  double cell;
+  std::array<std::uint32_t, 3> counts;
+};
+
+GridBox boxAround(const SolidMesh& mesh, int cells) {
+  Vec3d low = mesh.points.front(), high = low;
+  for (const Vec3d point : mesh.points) {
     low = lowest(low, point);
     high = highest(high, point);
   }
   const Vec3d size = high - low;
-  cell_ = std::max({size.x, size.y, size.z}) / cells;
+  const double cell = std::max({size.x, size.y, size.z}) / cells;
   // Two cells more on each side: one that the mesh may not reach, and one against rounding.
-  const auto count = [&](double side) { return static_cast<std::uint32_t>(std::ceil(side / cell_)) + 5; };
-  counts_ = {count(size.x), count(size.y), count(size.z)};
-  origin_ = low - 2 * cell_ * Vec3d{1, 1, 1};
+  const auto count = [&](double side) { return static_cast<std::uint32_t>(std::ceil(side / cell)) + 5; };
+  return {low, cell, {count(size.x), count(size.y), count(size.z)}};
+}
+
+}  // namespace
+
+std::size_t SignedDistanceGrid::sampleCount(const SolidMesh& mesh, int cells) {
+  const GridBox box = boxAround(mesh, cells);
+  return static_cast<std::size_t>(box.counts[0]) * box.counts[1] * box.counts[2];
+}
+
+SignedDistanceGrid::SignedDistanceGrid(SolidMesh mesh, int cells)
+    : mesh_(std::move(mesh)), tree_(std::make_unique<TriangleTree>(mesh_)) {
+  const GridBox box = boxAround(mesh_, cells);
+  cell_ = box.cell;
+  counts_ = box.counts;
+  origin_ = box.low - 2 * cell_ * Vec3d{1, 1, 1};
   samples_.resize(static_cast<std::size_t>(counts_[0]) * counts_[1] * counts_[2]);
   const auto columns = static_cast<std::ptrdiff_t>(counts_[0]),
              rows = static_cast<std::ptrdiff_t>(counts_[1]), layers = static_cast<std::ptrdiff_t>(counts_[2]);
@@ -271,22 +293,90 @@ SolidMesh loadSolidMesh(const std::string& file, double scale) {
   return mesh;
 }
 
-const SignedDistanceGrid& distanceGridOf(const MeshCollider& collider) {
+namespace {
+
+// All that somebody holds, and the latest of the others up to a limit.
+class KnownGrids {
+ public:
+  using Pointer = std::shared_ptr<const SignedDistanceGrid>;
+
+  Pointer find(const MeshCollider& collider) {
+    const std::lock_guard lock(mutex_);
+    for (std::size_t i = 0; i < known_.size(); ++i)
+      if (known_[i].matches(collider))
+        if (Pointer grid = known_[i].grid.lock()) {
+          std::rotate(known_.begin(), known_.begin() + static_cast<std::ptrdiff_t>(i),
+                      known_.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+          known_.front().kept = grid;
+          return grid;
+        }
+    return nullptr;
+  }
+
+  Pointer add(const MeshCollider& collider, SolidMesh mesh) {
+    auto grid = std::make_shared<const SignedDistanceGrid>(std::move(mesh), collider.cells);
+    const std::lock_guard lock(mutex_);
+    known_.insert(known_.begin(), {collider.file, collider.scale, collider.cells, grid, grid});
+    std::size_t samples = 0;
+    for (Known& known : known_)
+      if (known.kept && (samples += known.kept->samples().size()) > MOST_DISTANCE_SAMPLES) known.kept.reset();
+    std::erase_if(known_, [](const Known& known) { return known.grid.expired(); });
+    return grid;
+  }
+
+ private:
   struct Known {
     std::string file;
     double scale;
     int cells;
-    std::unique_ptr<SignedDistanceGrid> grid;
+    std::weak_ptr<const SignedDistanceGrid> grid;
+    Pointer kept;
+    [[nodiscard]] bool matches(const MeshCollider& collider) const {
+      return file == collider.file && scale == collider.scale && cells == collider.cells;
+    }
   };
-  static std::mutex mutex;
-  static std::vector<Known> all;
-  const std::lock_guard lock(mutex);
-  for (const Known& known : all)
-    if (known.file == collider.file && known.scale == collider.scale && known.cells == collider.cells)
-      return *known.grid;
-  auto grid =
-      std::make_unique<SignedDistanceGrid>(loadSolidMesh(collider.file, collider.scale), collider.cells);
-  return *all.emplace_back(Known{collider.file, collider.scale, collider.cells, std::move(grid)}).grid;
+  std::mutex mutex_;
+  std::vector<Known> known_;  // the latest first
+};
+
+KnownGrids& knownGrids() {
+  static KnownGrids grids;
+  return grids;
+}
+
+[[noreturn]] void failForSamples(std::size_t place, std::size_t samples, std::size_t most) {
+  throw SceneError("colliders." + std::to_string(place) +
+                   ": with this one the meshes among the colliders need " + std::to_string(samples) +
+                   " samples of distance, expected at most " + std::to_string(most) +
+                   "; lower their `cells`, or use fewer of them");
+}
+
+}  // namespace
+
+std::shared_ptr<const SignedDistanceGrid> distanceGridOf(const MeshCollider& collider) {
+  if (auto grid = knownGrids().find(collider)) return grid;
+  return knownGrids().add(collider, loadSolidMesh(collider.file, collider.scale));
+}
+
+DistanceGrids distanceGridsOf(const Scene& scene, std::size_t most) {
+  std::map<std::tuple<std::string, double, int>, std::size_t> sampleCounts;
+  std::size_t samples = 0;
+  for (std::size_t i = 0; i < scene.colliders.size(); ++i)
+    if (const auto* mesh = std::get_if<MeshCollider>(&scene.colliders[i])) {
+      const auto [known, isNew] = sampleCounts.try_emplace({mesh->file, mesh->scale, mesh->cells});
+      if (isNew) {
+        const auto grid = knownGrids().find(*mesh);
+        known->second =
+            grid ? grid->samples().size()
+                 : SignedDistanceGrid::sampleCount(loadSolidMesh(mesh->file, mesh->scale), mesh->cells);
+      }
+      samples += known->second;
+      if (samples > most) failForSamples(i, samples, most);
+    }
+  DistanceGrids grids;
+  for (const Collider& collider : scene.colliders)
+    if (const auto* mesh = std::get_if<MeshCollider>(&collider)) grids.push_back(distanceGridOf(*mesh));
+  return grids;
 }
 
 }  // namespace clothsim

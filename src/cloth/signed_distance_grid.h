@@ -10,6 +10,7 @@
 #include <memory>
 #include <vector>
 
+#include "scene/budget.h"
 #include "scene/scene.h"
 
 namespace clothsim {
@@ -34,6 +35,8 @@ class SignedDistanceGrid {
   [[nodiscard]] Vec3d origin() const { return origin_; }                         // of the first sample [m]
   [[nodiscard]] double cell() const { return cell_; }                            // edge of a cell [m]
   [[nodiscard]] const std::vector<float>& samples() const { return samples_; }   // x fastest [m]
+  // How many samples a grid of the mesh has, at least `cells` of them along its longest side.
+  [[nodiscard]] static std::size_t sampleCount(const SolidMesh& mesh, int cells);
   // Exact, negative inside [m].
   [[nodiscard]] double distance(Vec3d p) const;
 
@@ -49,8 +52,15 @@ class SignedDistanceGrid {
 // Reads an OBJ file. @throws SceneError when it cannot be read, holds no triangles, or is not closed
 [[nodiscard]] SolidMesh loadSolidMesh(const std::string& file, double scale);
 
-// The grid of a collider, computed once for each file, scale and number of cells. @throws SceneError as
+// The grid of a collider, for each file, scale and number of cells. Computed again only when nobody holds it
+// and others have been asked for that take MOST_DISTANCE_SAMPLES together. @throws SceneError as
 // loadSolidMesh
-[[nodiscard]] const SignedDistanceGrid& distanceGridOf(const MeshCollider& collider);
+[[nodiscard]] std::shared_ptr<const SignedDistanceGrid> distanceGridOf(const MeshCollider& collider);
+
+using DistanceGrids = std::vector<std::shared_ptr<const SignedDistanceGrid>>;
+// Those of all mesh colliders. Who holds them never sees another grid in their place, whatever becomes of
+// their files. @throws SceneError as loadSolidMesh, and before any is computed when they have more than
+// `most` samples together
+[[nodiscard]] DistanceGrids distanceGridsOf(const Scene& scene, std::size_t most = MOST_DISTANCE_SAMPLES);
 
 }  // namespace clothsim

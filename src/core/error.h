@@ -4,14 +4,18 @@
 #include <stdexcept>
 #include <string>
 
+#include "core/printable.h"
+
 namespace clothsim {
 
 enum class ExitCode : int { done = 0, failed = 1, usage = 2, scene = 3, openGl = 4, inputOutput = 5 };
 
-// A message for a person: the file and place, what was found, what was expected, and what to do.
+// A message for a person: the file and place, what was found, what was expected, and what to do. It may quote
+// files of others: what() is printable().
 class Error : public std::runtime_error {
  public:
-  Error(ExitCode exitCode, const std::string& message) : std::runtime_error(message), exitCode_(exitCode) {}
+  Error(ExitCode exitCode, const std::string& message)
+      : std::runtime_error(printable(message)), exitCode_(exitCode) {}
   [[nodiscard]] ExitCode exitCode() const { return exitCode_; }
 
  private:

@@ -103,9 +103,9 @@ ShapeSurface surfaceOf(const Torus& torus, double longestEdge) {
 
 // Moved inwards along the points' normals by what keeps it apart from the cloth in the depth buffer.
 ShapeSurface surfaceOf(const MeshCollider& collider, double longestEdge) {
-  const SignedDistanceGrid& grid = distanceGridOf(collider);
-  const SolidMesh& mesh = grid.mesh();
-  const double inset = std::min(0.15 * grid.cell() + 0.05 * longestEdge, grid.cell());
+  const auto grid = distanceGridOf(collider);
+  const SolidMesh& mesh = grid->mesh();
+  const double inset = std::min(0.15 * grid->cell() + 0.05 * longestEdge, grid->cell());
   ShapeSurface surface;
   for (std::size_t i = 0; i < mesh.points.size(); ++i) {
     const Vec3d p = mesh.points[i] - inset * mesh.normals[i], n = mesh.normals[i];

@@ -85,8 +85,8 @@ glm::vec3 halfExtent(const Collider& collider, const Matrix3& motion) {
   }
   if (const auto* mesh = std::get_if<MeshCollider>(&collider)) {
     glm::vec3 half(0);  // to either side of the origin alike
-    for (const Vec3d& point : distanceGridOf(*mesh).mesh().points)
-      half = glm::max(half, glmMagnitude(rotate(r, point)));
+    const auto grid = distanceGridOf(*mesh);
+    for (const Vec3d& point : grid->mesh().points) half = glm::max(half, glmMagnitude(rotate(r, point)));
     return half;
   }
   return glm::vec3(0);

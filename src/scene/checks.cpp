@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "core/nearest.h"
+#include "scene/budget.h"
 #include "scene/codec.h"
 #include "scene/fields.h"
 #include "scene/material.h"
@@ -49,7 +50,8 @@ void checkPins(const JsonNode& owner, const std::vector<Pin>& pins, const ClothS
 void checkPinMotions(const JsonNode& cloth, const ClothSettings& settings) {
   const double points =
       settings.isMesh() ? 0 : static_cast<double>(settings.numWidthPoints) * settings.numHeightPoints;
-  if (settings.pinMotion.empty() || points > mostParticles) return;  // too many: a complaint of its own
+  const bool isTooLarge = points > mostParticles || points * BYTES_A_PARTICLE > machineMemory();
+  if (settings.pinMotion.empty() || isTooLarge) return;  // a complaint of its own
   const JsonNode& motions = *cloth.find("pin_motion");
   const auto nodeOf = [&](std::size_t i) -> const JsonNode& {
     return motions.kind == JsonKind::list ? *motions.children[i] : motions;
@@ -97,7 +99,7 @@ void leaveOutOwnPlace(JsonNode& collider, const std::optional<Motion>& motion, V
   if (!motion) return;
   JsonNode& keys = *collider.find("motion")->find("keys");
   for (std::size_t i = 0; i < motion->keys.size(); ++i)
-    if (motion->keys[i].position == place)
+    if (sameWritten(motion->keys[i].position, place))
       std::erase_if(keys.children[i]->children, [](const auto& member) { return member->key == "position"; });
 }
 

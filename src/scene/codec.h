@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -148,6 +149,25 @@ void readObject(const JsonNode& node, Owner& target, const std::vector<std::stri
   settle(node, target);
 }
 
+// Whether two values are written alike: -0 is not 0, and one "auto" is as good as another.
+template <class T>
+[[nodiscard]] bool sameWritten(const T& a, const T& b) {
+  return a == b;
+}
+[[nodiscard]] inline bool sameWritten(const double& a, const double& b) {
+  return a == b && std::signbit(a) == std::signbit(b);
+}
+[[nodiscard]] inline bool sameWritten(const Vec3d& a, const Vec3d& b) {
+  return sameWritten(a.x, b.x) && sameWritten(a.y, b.y) && sameWritten(a.z, b.z);
+}
+[[nodiscard]] inline bool sameWritten(const AutoCount& a, const AutoCount& b) {
+  return a == b || (a.automatic && b.automatic);
+}
+template <class T>
+[[nodiscard]] bool sameWritten(const std::optional<T>& a, const std::optional<T>& b) {
+  return a.has_value() == b.has_value() && (!a || sameWritten(*a, *b));
+}
+
 // Writes what differs from `defaults`.
 template <class Owner>
 [[nodiscard]] JsonPointer writeObject(const Owner& value, const Owner& defaults) {
@@ -156,11 +176,15 @@ template <class Owner>
     std::visit(
         [&](auto pointer) {
           using T = std::remove_cvref_t<decltype(value.*pointer)>;
-          if (field.presence == Presence::optional && value.*pointer == defaults.*pointer) return;
-          if constexpr (HasFields<T>)
-            node->append(std::string(field.key), writeObject(value.*pointer, defaults.*pointer));
-          else
+          const bool isOptional = field.presence == Presence::optional;
+          if constexpr (HasFields<T>) {
+            JsonPointer members = writeObject(value.*pointer, defaults.*pointer);
+            if (isOptional && members->children.empty()) return;
+            node->append(std::string(field.key), std::move(members));
+          } else {
+            if (isOptional && sameWritten(value.*pointer, defaults.*pointer)) return;
             node->append(std::string(field.key), writeValue(field, value.*pointer));
+          }
         },
         field.member);
   }

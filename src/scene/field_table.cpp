@@ -373,13 +373,15 @@ std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
   using S = SolverSettings;
   static const std::array fields{
       field("integrator", &S::integrator,
-            "Leapfrog Verlet; symplectic Euler; or implicit: backward Euler, stable at any step."),
+            "Leapfrog Verlet; symplectic Euler; or implicit: backward Euler, stable at any step.")
+          .byDefault("\"verlet\"; in scenes with a material \"implicit\""),
       field("newton_steps", &S::newtonSteps, "Newton iterations per implicit step; more are more accurate.")
           .within({.low = 1, .high = 100})
           .usually(1, 8),
-      field(
-          "cg_iterations", &S::cgIterations,
-          "Iterations for the linear system of each Newton step; auto: 10, up to 40 in steps beyond 1/60 s.")
+      field("cg_iterations", &S::cgIterations,
+            "Conjugate gradient iterations per Newton iteration; auto: 10, up to 40 in steps beyond 1/60 s; "
+            "with a "
+            "material 40, or 60 where a side has other than 2^k + 1 points.")
           .within({.low = 1, .high = 10'000})
           .usually(1, 40),
       field("frames_per_sec", &S::framesPerSec,
@@ -390,7 +392,8 @@ std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
       field("simulation_steps", &S::simulationSteps,
             "Steps in a frame, each 1 / (frames_per_sec * simulation_steps) s; auto: as few as are stable.")
           .within({.low = 1, .high = mostSteps})
-          .usually(1, 200),
+          .usually(1, 200)
+          .byDefault("30; in scenes with a material \"auto\""),
       field("strain_limit", &S::strainLimit,
             "Largest allowed stretch l/L - 1: a pass after each step; a second, stiff spring with implicit.")
           .within(notNegative)
@@ -516,7 +519,11 @@ std::span<const Field<Expect>> fieldsOf<Expect>() {
 
 SolverSettings solverDefaults(bool usesKs, bool usesMaterial) {
   SolverSettings solver;
-  if (usesMaterial) solver.frictionLaw = FrictionLaw::coulomb;
+  if (usesMaterial) {
+    solver.frictionLaw = FrictionLaw::coulomb;
+    solver.integrator = Integrator::implicit;
+    solver.simulationSteps.automatic = true;
+  }
   if (usesKs) {
     solver.strainLimit = 0.1;
     solver.selfCollision = SelfCollision::averaged;

@@ -222,7 +222,7 @@ inline constexpr double mostParticles = 67'108'864;  // 2^26, of all cloths toge
 inline constexpr int mostSteps = 1'000'000;          // a frame
 
 // Scenes with `ks` get CS184's limiter and self-collision unless they say otherwise, scenes with a material
-// Coulomb's friction.
+// Coulomb's friction and the implicit integrator in as many steps as it needs.
 [[nodiscard]] SolverSettings solverDefaults(bool usesKs, bool usesMaterial);
 // Whether some cloth follows CS184's model. A cloth with neither constant does: the reader gives it
 // defaultKs.

@@ -141,8 +141,8 @@ class TreeBuilder {
 
   bool null() { return add(std::make_unique<JsonNode>()); }
   bool boolean(bool value) { return add(makeBoolean(value)); }
-  bool number_integer(std::int64_t value) {
-    return addNumber(static_cast<double>(value), std::to_string(value));
+  bool number_integer(std::int64_t value) {  // below 0, and -0
+    return value == 0 ? addNumber(-0.0, "-0") : addNumber(static_cast<double>(value), std::to_string(value));
   }
   bool number_unsigned(std::uint64_t value) {
     return addNumber(static_cast<double>(value), std::to_string(value));
@@ -246,6 +246,11 @@ JsonPointer parseJson(std::string_view text) {
   TreeBuilder builder(text, &consumed);
   nlohmann::json::sax_parse(MarkingIterator(text.data(), &consumed),
                             MarkingIterator(text.data() + text.size(), &unused), &builder);
+  // nlohmann's lexer takes it for the end of the text.
+  if (const std::size_t at = text.find('\0'); at != std::string_view::npos)
+    throw JsonComplaint(
+        1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n')),
+        0, "", "found a NUL character, expected text; nothing may follow the closing brace of the scene");
   return builder.takeRoot();
 }
 

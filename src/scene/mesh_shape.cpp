@@ -20,7 +20,8 @@ namespace {
 using Triangle = MeshShape::Triangle;
 using Edge = MeshShape::Edge;
 
-constexpr double FLATTEST = 1e-4;  // height of a triangle, of its longest side
+constexpr std::size_t MOST_MEMBERSHIPS = std::size_t{1} << 26;  // of corners of faces in groups
+constexpr double FLATTEST = 1e-4;                               // height of a triangle, of its longest side
 
 // How a face is called in messages: by its vertices as the file counts them.
 std::string faceText(const Triangle& t) {
@@ -78,8 +79,13 @@ void readFaces(const std::string& file, const ObjFile& obj, MeshShape& shape) {
   std::vector<bool> hasCoordinates(points);
   std::map<std::string, std::set<std::uint32_t>> groups;
   const std::vector<float>& uv = obj.attributes.texcoords;
+  std::size_t memberships = 0;
   for (const tinyobj::shape_t& part : obj.shapes) {
     const std::vector<std::string> names = wordsOf(part.name);
+    memberships += names.size() * part.mesh.indices.size();
+    if (memberships > MOST_MEMBERSHIPS)
+      fail(file, "expected groups whose faces have at most " + std::to_string(MOST_MEMBERSHIPS) +
+                     " corners together, found more; a face may be in several groups, but not in thousands");
     for (std::size_t first = 0; first + 2 < part.mesh.indices.size(); first += 3) {
       const Triangle corners = cornersOf(file, part.mesh.indices, first, points);
       shape.triangles.push_back(corners);

@@ -1,5 +1,9 @@
 #include "scene/pins.h"
 
+#include <algorithm>
+#include <memory>
+#include <numeric>
+
 #include "core/error.h"
 #include "core/nearest.h"
 #include "scene/mesh_shape.h"
@@ -20,47 +24,27 @@ std::string particleText(std::uint32_t particle, const ClothSettings& cloth) {
   return pointText({place % cloth.numWidthPoints, place / cloth.numWidthPoints});
 }
 
-std::vector<std::uint32_t> pointsOfBlock(const GridRange& range, const ClothSettings& cloth) {
-  std::vector<std::uint32_t> points;
-  for (int row = range.from.row; row <= range.to.row; ++row)
-    for (int column = range.from.column; column <= range.to.column; ++column)
-      points.push_back(static_cast<std::uint32_t>(row * cloth.numWidthPoints + column));
-  return points;
-}
-
 // --- Of a mesh
 
 [[noreturn]] void fail(const ClothSettings& cloth, const std::string& what) {
   throw SceneError("cloth.pinned: " + what + " (" + cloth.mesh + ")");
 }
 
-std::vector<std::uint32_t> verticesOf(const VertexPin& pin, const ClothSettings& cloth,
-                                      const MeshShape& shape) {
+std::uint32_t vertexOf(const VertexPin& pin, const ClothSettings& cloth, const MeshShape& shape) {
   if (static_cast<std::size_t>(pin.vertex) >= shape.points.size())
     fail(cloth, "expected a vertex from 0 to " + std::to_string(shape.points.size() - 1) +
                     " of the mesh, found " + std::to_string(pin.vertex));
-  return {static_cast<std::uint32_t>(pin.vertex)};
+  return static_cast<std::uint32_t>(pin.vertex);
 }
 
-std::vector<std::uint32_t> verticesOf(const RegionPin& pin, const ClothSettings& cloth,
-                                      const MeshShape& shape) {
+bool isInside(const Region& region, Vec3d p) {
   const auto isBetween = [](double x, double from, double to) { return from <= x && x <= to; };
-  const auto& [from, to] = pin.region;
-  std::vector<std::uint32_t> inside;
-  const std::vector<Vec3d> points = placedPoints(shape, cloth);
-  for (std::size_t i = 0; i < points.size(); ++i)
-    if (isBetween(points[i].x, from.x, to.x) && isBetween(points[i].y, from.y, to.y) &&
-        isBetween(points[i].z, from.z, to.z))
-      inside.push_back(static_cast<std::uint32_t>(i));
-  if (inside.empty())
-    fail(cloth,
-         "expected a region that holds vertices of the mesh as it is placed at the start, found one that "
-         "holds none");
-  return inside;
+  const auto& [from, to] = region;
+  return isBetween(p.x, from.x, to.x) && isBetween(p.y, from.y, to.y) && isBetween(p.z, from.z, to.z);
 }
 
-std::vector<std::uint32_t> verticesOf(const GroupPin& pin, const ClothSettings& cloth,
-                                      const MeshShape& shape) {
+const std::vector<std::uint32_t>& verticesOf(const GroupPin& pin, const ClothSettings& cloth,
+                                             const MeshShape& shape) {
   if (const auto found = shape.groups.find(pin.group); found != shape.groups.end()) return found->second;
   std::vector<std::string> names;
   std::string list;
@@ -72,10 +56,98 @@ std::vector<std::uint32_t> verticesOf(const GroupPin& pin, const ClothSettings& 
                   (list.empty() ? "none" : list));
 }
 
-template <class GridPin>
-std::vector<std::uint32_t> verticesOf(const GridPin&, const ClothSettings&, const MeshShape&) {
-  return {};  // the reader has complained
-}
+// Goes through the particles of pins. Of a grid it visits each only once until forget(), however often pins
+// name it: blocks that overlap cost no more than their rows.
+class PinnedParticles {
+ public:
+  explicit PinnedParticles(const ClothSettings& cloth) : cloth_(&cloth) {
+    if (cloth.isMesh()) {
+      shape_ = meshShapeOf(cloth.mesh);
+      return;
+    }
+    width_ = static_cast<std::size_t>(cloth.numWidthPoints) + 1;
+    next_.resize(width_ * static_cast<std::size_t>(cloth.numHeightPoints));
+    std::iota(next_.begin(), next_.end(), 0u);
+  }
+
+  // Until `visit(particle)` returns false; returns false then. @throws SceneError when the mesh does not have
+  // what the pin names, or when there is too much to look at
+  template <class Visit>
+  bool forEach(const Pin& pin, Visit visit) {
+    if (!shape_) return forEachPoint(pointsOf(pin, *cloth_), visit);
+    if (const auto* vertex = std::get_if<VertexPin>(&pin)) return visit(vertexOf(*vertex, *cloth_, *shape_));
+    if (const auto* group = std::get_if<GroupPin>(&pin)) {
+      const std::vector<std::uint32_t>& members = verticesOf(*group, *cloth_, *shape_);
+      countWork(members.size());
+      return std::all_of(members.begin(), members.end(), visit);
+    }
+    const auto* region = std::get_if<RegionPin>(&pin);
+    return region == nullptr || forEachInside(region->region, visit);  // of others the reader has complained
+  }
+
+  // All of them are visited anew.
+  void forget() {
+    for (const std::size_t place : visited_) next_[place] = static_cast<std::uint32_t>(place);
+    visited_.clear();
+  }
+
+ private:
+  // The first place from `place` on that was not visited, or the end of its row.
+  std::size_t unvisited(std::size_t place) {
+    while (next_[place] != place) {
+      next_[place] = next_[next_[place]];
+      place = next_[place];
+    }
+    return place;
+  }
+
+  template <class Visit>
+  bool forEachPoint(const GridRange& block, Visit visit) {
+    countWork(static_cast<std::size_t>(block.to.row - block.from.row) + 1);
+    for (int row = block.from.row; row <= block.to.row; ++row) {
+      const std::size_t first = width_ * static_cast<std::size_t>(row);
+      const std::size_t last = first + static_cast<std::size_t>(block.to.column);
+      for (std::size_t at = unvisited(first + static_cast<std::size_t>(block.from.column)); at <= last;
+           at = unvisited(at)) {
+        next_[at] = static_cast<std::uint32_t>(at + 1);
+        visited_.push_back(static_cast<std::uint32_t>(at));
+        if (!visit(static_cast<std::uint32_t>(at - static_cast<std::size_t>(row)))) return false;
+      }
+    }
+    return true;
+  }
+
+  template <class Visit>
+  bool forEachInside(const Region& region, Visit visit) {
+    if (points_.empty()) points_ = placedPoints(*shape_, *cloth_);
+    countWork(points_.size());
+    bool isEmpty = true;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      if (!isInside(region, points_[i])) continue;
+      isEmpty = false;
+      if (!visit(static_cast<std::uint32_t>(i))) return false;
+    }
+    if (isEmpty)
+      fail(*cloth_,
+           "expected a region that holds vertices of the mesh as it is placed at the start, found one that "
+           "holds none");
+    return true;
+  }
+
+  void countWork(std::size_t more) {
+    constexpr std::size_t most = std::size_t{1} << 28;
+    work_ += more;
+    if (work_ > most)
+      throw SceneError("cloth.pinned: the pins name " + std::string(shape_ ? "vertices" : "rows of points") +
+                       " more than " + std::to_string(most) + " times; expected fewer pins that overlap");
+  }
+
+  const ClothSettings* cloth_;
+  std::shared_ptr<const MeshShape> shape_;  // null: a grid
+  std::vector<Vec3d> points_;               // of the mesh, when they are needed
+  std::size_t width_ = 0, work_ = 0;        // places in a row: its points, and its end
+  std::vector<std::uint32_t> next_, visited_;
+};
 
 }  // namespace
 
@@ -84,15 +156,13 @@ bool isMeshPin(const Pin& pin) {
          std::holds_alternative<GroupPin>(pin);
 }
 
-std::vector<std::vector<std::uint32_t>> particlesOf(const std::vector<Pin>& pins,
-                                                    const ClothSettings& cloth) {
-  std::vector<std::vector<std::uint32_t>> particles;
-  const std::shared_ptr<const MeshShape> shape = cloth.isMesh() ? meshShapeOf(cloth.mesh) : nullptr;
-  for (const Pin& pin : pins)
-    particles.push_back(
-        shape ? std::visit([&](const auto& which) { return verticesOf(which, cloth, *shape); }, pin)
-              : pointsOfBlock(pointsOf(pin, cloth), cloth));
-  return particles;
+std::vector<bool> pinnedParticles(const ClothSettings& cloth) {
+  std::vector<bool> pinned(particleCount(cloth));
+  if (cloth.pinned.empty()) return pinned;
+  PinnedParticles particles(cloth);
+  for (const Pin& pin : cloth.pinned)
+    particles.forEach(pin, [&](std::uint32_t particle) { return pinned[particle] = true; });
+  return pinned;
 }
 
 std::string pointText(GridPoint point) {
@@ -126,9 +196,13 @@ const std::vector<Pin>& pinsOf(const PinMotion& motion, const ClothSettings& clo
 
 std::vector<int> pinMotionOfPoints(const ClothSettings& cloth) {
   std::vector<int> motions(particleCount(cloth), NO_MOTION);
+  PinnedParticles particles(cloth);
   for (std::size_t i = 0; i < cloth.pinMotion.size(); ++i)
-    for (const auto& particles : particlesOf(pinsOf(cloth.pinMotion[i], cloth), cloth))
-      for (const std::uint32_t particle : particles) motions[particle] = static_cast<int>(i);
+    for (const Pin& pin : pinsOf(cloth.pinMotion[i], cloth))
+      particles.forEach(pin, [&](std::uint32_t particle) {
+        motions[particle] = static_cast<int>(i);
+        return true;
+      });
   return motions;
 }
 
@@ -142,20 +216,23 @@ Motion pathAbout(const PinMotion& motion, Vec3d center) {
 
 std::optional<PinConflict> findPinConflict(const ClothSettings& cloth) {
   if (cloth.pinMotion.empty()) return std::nullopt;
-  constexpr int free = -2;
-  std::vector<int> motions(particleCount(cloth), free);
-  for (const auto& particles : particlesOf(cloth.pinned, cloth))
-    for (const std::uint32_t particle : particles) motions[particle] = NO_MOTION;
+  const std::vector<bool> pinned = pinnedParticles(cloth);
+  std::vector<int> motions(pinned.size(), NO_MOTION);
+  PinnedParticles particles(cloth);
+  std::optional<PinConflict> conflict;
   for (std::size_t i = 0; i < cloth.pinMotion.size(); ++i) {
-    const auto pins = particlesOf(pinsOf(cloth.pinMotion[i], cloth), cloth);
-    for (std::size_t k = 0; k < pins.size(); ++k)
-      for (const std::uint32_t particle : pins[k]) {
+    const std::vector<Pin>& pins = pinsOf(cloth.pinMotion[i], cloth);
+    for (std::size_t k = 0; k < pins.size() && !conflict; ++k)
+      particles.forEach(pins[k], [&](std::uint32_t particle) {
         int& motion = motions[particle];
-        if (motion == free) return PinConflict{i, k, particleText(particle, cloth), std::nullopt};
+        if (!pinned[particle]) conflict = PinConflict{i, k, particleText(particle, cloth), std::nullopt};
         if (motion != NO_MOTION && motion != static_cast<int>(i))
-          return PinConflict{i, k, particleText(particle, cloth), static_cast<std::size_t>(motion)};
+          conflict = PinConflict{i, k, particleText(particle, cloth), static_cast<std::size_t>(motion)};
         motion = static_cast<int>(i);
-      }
+        return !conflict;
+      });
+    if (conflict) return conflict;
+    particles.forget();  // so that another motion finds them
   }
   return std::nullopt;
 }

@@ -18,10 +18,10 @@ namespace clothsim {
 
 // Whether the pin is one of meshes: a vertex, a region or a group.
 [[nodiscard]] bool isMeshPin(const Pin& pin);
-// The particles that each of some pins holds, counted from the cloth's first one. @throws SceneError when its
-// mesh cannot be read, or does not have what a pin names
-[[nodiscard]] std::vector<std::vector<std::uint32_t>> particlesOf(const std::vector<Pin>& pins,
-                                                                  const ClothSettings& cloth);
+// By particle, counted from the cloth's first one: whether a pin holds it. @throws SceneError when its mesh
+// cannot be read or does not have what a pin names, or when the pins overlap so often that going through them
+// would take minutes
+[[nodiscard]] std::vector<bool> pinnedParticles(const ClothSettings& cloth);
 
 // What `pinMotion[i].pinned` means: the cloth's own pins when it is empty.
 [[nodiscard]] const std::vector<Pin>& pinsOf(const PinMotion& motion, const ClothSettings& cloth);
@@ -30,7 +30,7 @@ inline constexpr int NO_MOTION = -1;  // a pin that stays, or a free point
 
 // For each grid point, row-major, or vertex: the place in `pinMotion` of the motion that it follows, or
 // NO_MOTION. In a cloth without conflicts (below) every pin follows at most one. @throws SceneError as
-// particlesOf
+// pinnedParticles
 [[nodiscard]] std::vector<int> pinMotionOfPoints(const ClothSettings& cloth);
 
 // The path of the centre of its pins, which begin around `center` [m].
@@ -42,7 +42,7 @@ struct PinConflict {
   std::string point;                       // where, for messages
   std::optional<std::size_t> otherMotion;  // none: not pinned
 };
-// The first one; all pins must lie on the grid. @throws SceneError as particlesOf
+// The first one; all pins must lie on the grid. @throws SceneError as pinnedParticles
 [[nodiscard]] std::optional<PinConflict> findPinConflict(const ClothSettings& cloth);
 
 }  // namespace clothsim

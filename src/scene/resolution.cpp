@@ -128,6 +128,7 @@ std::string changeResolution(Scene& scene, int columns, int rows, bool keepSteps
     add("simulation_steps", scene.solver.simulationSteps, steps);
     scene.solver.simulationSteps = static_cast<int>(steps);
   }
+  chooseCounts(scene);
   if (changes.empty()) return "";
   return "at " + std::to_string(columns) + "x" + std::to_string(rows) + ": " + changes;
 }

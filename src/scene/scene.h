@@ -198,6 +198,9 @@ struct Wind {
 
 // implicit: backward Euler, stable at any step (solver/implicit.h).
 enum class Integrator { verlet, euler, implicit };
+[[nodiscard]] inline const char* integratorName(Integrator integrator) {
+  return integrator == Integrator::verlet ? "verlet" : integrator == Integrator::euler ? "euler" : "implicit";
+}
 
 // averaged: CS184's rule, particles within 2 thickness are pushed apart by the mean of what each pair asks
 // for. robust: no particle comes so near to a stranger that triangles could cross (solver/self_collision.h).
@@ -224,9 +227,10 @@ struct AutoCount {
 };
 
 struct SolverSettings {
-  Integrator integrator = Integrator::verlet;
-  double framesPerSec = 90;             // [1/s]
-  AutoCount simulationSteps = 30;       // a frame; h = 1 / (frames_per_sec * simulation_steps)
+  Integrator integrator = Integrator::verlet;  // implicit in scenes with a material
+  double framesPerSec = 90;                    // [1/s]
+  // A frame; h = 1 / (frames_per_sec * simulation_steps). Automatic in scenes with a material.
+  AutoCount simulationSteps = 30;
   int newtonSteps = 4;                  // of `implicit`, in a step: each makes a linear system,
   AutoCount cgIterations = {10, true};  // solved by so many iterations of conjugate gradients
   std::optional<double>

@@ -8,6 +8,7 @@
 #include "core/nearest.h"
 #include "scene/fields.h"
 #include "scene/json_tree.h"
+#include "scene/material.h"
 #include "scene/scene_io.h"
 #include "scene/scene_tree.h"
 
@@ -164,6 +165,13 @@ void leaveToMaterial(JsonNode& root, const Steps& steps) {
     erase(*cloth, key);
 }
 
+// Integrator and steps that were right for springs are not for the first material: its defaults hold then.
+void leaveSolverToMaterial(JsonNode& root) {
+  JsonNode* solver = root.find("solver");
+  if (solver == nullptr) return;
+  for (const char* key : {"integrator", "simulation_steps"}) erase(*solver, key);
+}
+
 // A cloth that becomes a mesh leaves to it what a grid has.
 void leaveToMesh(JsonNode& root, const Steps& steps, const JsonNode& value) {
   if (steps.size() != 3 || steps.back() != "mesh" || value.kind != JsonKind::string) return;
@@ -198,7 +206,12 @@ void setSceneValue(Scene& scene, const std::string& keyEqualsValue, const std::s
     leaveToMaterial(*root, resolved);
     leaveToMesh(*root, resolved, *value);
     setAt(*root, resolved, std::move(value));
-    scene = readScene(*root);
+    Scene changed = readScene(*root);
+    if (usesMaterial(changed) && !usesMaterial(scene)) {
+      leaveSolverToMaterial(*root);
+      changed = readScene(*root);
+    }
+    scene = std::move(changed);
   } catch (const JsonComplaint& complaint) {
     const std::string path = asTyped(complaint.path, typed, resolved);
     throw SceneError(flag + " " + keyEqualsValue + ": " + (path.empty() ? "" : path + ": ") +

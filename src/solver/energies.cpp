@@ -8,13 +8,6 @@ namespace {
 
 Vec3d vectorOf(const Particle4& p) { return Vec3f{p.x, p.y, p.z}.cast<double>(); }
 
-const Grid& gridOf(const Cloth& cloth, std::uint32_t particle) {
-  std::size_t found = 0;
-  for (std::size_t i = 0; i < cloth.grids().size(); ++i)
-    if (cloth.grids()[i].firstParticle <= particle) found = i;
-  return cloth.grids()[found];
-}
-
 }  // namespace
 
 Energies energies(const Cloth& cloth, std::span<const Spring> springs, const Scene& scene, const Cuts& cuts,
@@ -54,7 +47,7 @@ double strainOnMesh(const Cloth& cloth, const State& state, std::uint32_t partic
 }  // namespace
 
 double strainAt(const Cloth& cloth, const Cuts& cuts, const State& state, std::uint32_t particle) {
-  const Grid& grid = gridOf(cloth, particle);
+  const Grid& grid = cloth.grids()[cloth.gridOf(particle)];
   if (grid.isMesh) return strainOnMesh(cloth, state, particle);
   const std::uint32_t place = particle - grid.firstParticle;
   const auto columns = static_cast<std::uint32_t>(grid.columns);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <type_traits>
 
 #include "cloth/signed_distance_grid.h"
 #include "scene/pose.h"
@@ -19,7 +21,7 @@ bool finite(const Particle4& v) { return std::isfinite(v.x) && std::isfinite(v.y
 // Of one grid; none without springs.
 std::optional<double> maxStrain(const Cloth& cloth, const Grid& grid, const State& state) {
   double largest = -1;  // a spring of no length, the smallest that can be
-#pragma omp parallel for reduction(max : largest)
+#pragma omp parallel for reduction(max : largest) if (isWorthThreads(grid))
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.columns; ++column) {
       for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot) {
@@ -68,8 +70,6 @@ double depthIn(const Torus& torus, Vec3d p) {
   return torus.tubeRadius - std::hypot(std::hypot(p.x, p.z) - torus.radius, p.y);
 }
 
-double depthIn(const MeshCollider& mesh, Vec3d p) { return -distanceGridOf(mesh).distance(p); }
-
 // One collider at one time, as seen by particles.
 class Solid {
  public:
@@ -79,12 +79,20 @@ class Solid {
         first_(poseAt(collider, 0)),
         rotation_(product(now_.rotation, ownRotation(collider))),
         twoSided_(std::holds_alternative<Plane>(collider) && scene.solver.frictionLaw == FrictionLaw::cs184) {
+    if (const auto* mesh = std::get_if<MeshCollider>(&collider)) grid_ = distanceGridOf(*mesh);
   }
 
   // Of a particle at x that started at `start`: CS184's planes keep each on its own side.
   [[nodiscard]] double penetration(Vec3d start, Vec3d x) const {
     const Vec3d p = rotateBack(rotation_, x - now_.position);
-    const double depth = std::visit([&](const auto& shape) { return depthIn(shape, p); }, *collider_);
+    const double depth = std::visit(
+        [&](const auto& shape) {
+          if constexpr (std::is_same_v<std::remove_cvref_t<decltype(shape)>, MeshCollider>)
+            return -grid_->distance(p);
+          else
+            return depthIn(shape, p);
+        },
+        *collider_);
     return twoSided_ && startedBehind(start) ? -depth : depth;
   }
 
@@ -94,6 +102,7 @@ class Solid {
   }
 
   const Collider* collider_;
+  std::shared_ptr<const SignedDistanceGrid> grid_;  // of a mesh
   Pose now_, first_;
   Matrix3 rotation_;
   bool twoSided_;

@@ -66,15 +66,15 @@ void putShape(const Torus& torus, const Pose&, ColliderParams<Real>& params) {
 
 template <class Real>
 void putShape(const MeshCollider& mesh, const Pose&, ColliderParams<Real>& params) {
-  const SignedDistanceGrid& grid = distanceGridOf(mesh);
-  params.radius = real<Real>(grid.cell());
-  params.gridX = real<Real>(grid.origin().x);
-  params.gridY = real<Real>(grid.origin().y);
-  params.gridZ = real<Real>(grid.origin().z);
-  params.inverseCell = real<Real>(1 / grid.cell());
-  params.gridColumns = grid.counts()[0];
-  params.gridRows = grid.counts()[1];
-  params.gridLayers = grid.counts()[2];
+  const std::shared_ptr<const SignedDistanceGrid> grid = distanceGridOf(mesh);
+  params.radius = real<Real>(grid->cell());
+  params.gridX = real<Real>(grid->origin().x);
+  params.gridY = real<Real>(grid->origin().y);
+  params.gridZ = real<Real>(grid->origin().z);
+  params.inverseCell = real<Real>(1 / grid->cell());
+  params.gridColumns = grid->counts()[0];
+  params.gridRows = grid->counts()[1];
+  params.gridLayers = grid->counts()[2];
 }
 
 // Where the samples of a mesh begin among those of all.
@@ -83,7 +83,7 @@ std::uint32_t firstSampleOf(const Scene& scene, const Collider& wanted) {
   for (const Collider& collider : scene.colliders) {
     if (&collider == &wanted) break;
     if (const auto* mesh = std::get_if<MeshCollider>(&collider))
-      first += distanceGridOf(*mesh).samples().size();
+      first += distanceGridOf(*mesh)->samples().size();
   }
   return static_cast<std::uint32_t>(first);
 }
@@ -303,13 +303,10 @@ ColliderParams<Real> makeColliderParams(const Scene& scene, const Collider& coll
   return params;
 }
 
-std::vector<float> distanceSamples(const Scene& scene) {
+std::vector<float> distanceSamples(const DistanceGrids& grids) {
   std::vector<float> samples;
-  for (const Collider& collider : scene.colliders)
-    if (const auto* mesh = std::get_if<MeshCollider>(&collider)) {
-      const std::vector<float>& grid = distanceGridOf(*mesh).samples();
-      samples.insert(samples.end(), grid.begin(), grid.end());
-    }
+  for (const auto& grid : grids)
+    samples.insert(samples.end(), grid->samples().begin(), grid->samples().end());
   return samples;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cloth/cloth.h"
+#include "cloth/signed_distance_grid.h"
 #include "core/exact_math.h"
 #include "scene/scene.h"
 #include "shared/step_params.h"
@@ -29,9 +30,8 @@ template <class Real>
 // COLLIDER_SPHERE... of shared/step_params.h.
 [[nodiscard]] std::uint32_t colliderType(const Collider& collider);
 
-// The signed distances of all mesh colliders, one grid after the other [m]. @throws SceneError when a mesh
-// file is missing or wrong
-[[nodiscard]] std::vector<float> distanceSamples(const Scene& scene);
+// The signed distances of some grids, one after the other [m].
+[[nodiscard]] std::vector<float> distanceSamples(const DistanceGrids& grids);
 
 // One a collider, in the scene's order, for the step from `begin` to `end` [s].
 template <class Real>

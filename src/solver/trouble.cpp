@@ -1,6 +1,10 @@
 #include "solver/trouble.h"
 
+#include <algorithm>
 #include <cstdio>
+
+#include "scene/field_table.h"
+#include "scene/material.h"
 
 namespace clothsim {
 namespace {
@@ -27,9 +31,9 @@ std::string what(const Trouble& trouble, const Scene& scene) {
     case TroubleReason::nonFinite:
       return "is no longer a finite number";
     case TroubleReason::runawaySpeed:
-      return "runs away: it is faster than solver.max_speed, " + number(scene.solver.maxSpeed) + " m/s";
+      return "exceeded solver.max_speed, " + number(scene.solver.maxSpeed) + " m/s";
     case TroubleReason::runawayStrain:
-      return "runs away: a spring at it is stretched by more than solver.max_strain, " +
+      return "exceeded solver.max_strain: a spring at it is stretched by more than " +
              number(scene.solver.maxStrain) + " times its rest length";
   }
   return "";
@@ -77,15 +81,55 @@ std::string troubleText(const Trouble& trouble, const Cloth& cloth, const Scene&
          placeOnTheCloth(trouble.particle, cloth) + ") " + what(trouble, scene);
 }
 
-std::string troubleAdvice(const Trouble& trouble, const Scene& scene) {
+namespace {
+
+// An explicit integrator with this many times the steps takes longer than the implicit one.
+constexpr int MOST_TIMES_THE_STEPS = 20;
+constexpr int SHORTER_IMPLICIT_STEPS = 4;
+
+std::string stepsSetting(int steps) { return "solver.simulation_steps=" + std::to_string(steps); }
+
+Remedy forImplicitSteps(const Scene& scene) {
+  const int steps = std::min(scene.solver.simulationSteps * SHORTER_IMPLICIT_STEPS, mostSteps);
+  return {"Implicit steps are stable, but in one of " + number(stepLength(scene.solver)) +
+              " s fast pins, colliders or hands outrun the cloth. Take shorter ones: --set " +
+              stepsSetting(steps) + ".",
+          {stepsSetting(steps)}};
+}
+
+Remedy forExplicitSteps(const Scene& scene) {
+  const double h = stepLength(scene.solver), stable = stableStep(scene);
+  const std::string implicit = "solver.integrator=implicit";
+  if (h <= stable * (1 + 1e-9))
+    return {"The springs are not the cause: steps up to " + number(stable) +
+                " s are guaranteed stable, and " + "these are of " + number(h) +
+                " s. Pins, colliders, wind or hands may move too fast for " + "explicit steps: --set " +
+                implicit + ".",
+            {implicit}};
+  const int steps = stableSteps(scene);
+  const bool stableStepsExist = 1 / (scene.solver.framesPerSec * steps) <= stable * (1 + 1e-9);
+  std::string text = "Steps of " + number(h) + " s are too long for these springs; steps up to " +
+                     number(stable) + " s are guaranteed stable: ";
+  if (stableStepsExist)
+    text +=
+        "--set " + stepsSetting(steps) + " (now " + std::to_string(scene.solver.simulationSteps) + "), or ";
+  const bool keepsIntegrator = stableStepsExist && !usesMaterial(scene) &&
+                               steps <= MOST_TIMES_THE_STEPS * scene.solver.simulationSteps;
+  return {text + "--set " + implicit + ".", {keepsIntegrator ? stepsSetting(steps) : implicit}};
+}
+
+}  // namespace
+
+Remedy remedyFor(const Trouble& trouble, const Scene& scene) {
   if (trouble.pass == Pass::start)
-    return "The state that the step began with was wrong already: begin with another one.";
-  std::string advice = "The explicit step of " + number(stepLength(scene.solver)) +
-                       " s is most likely too long for these springs: raise solver.simulation_steps (now " +
-                       std::to_string(scene.solver.simulationSteps) + "), or lower the stiffness.";
-  if (trouble.reason == TroubleReason::runawaySpeed) advice += " If it is meant, raise solver.max_speed.";
-  if (trouble.reason == TroubleReason::runawayStrain) advice += " If it is meant, raise solver.max_strain.";
-  return advice;
+    return {"The state that the step began with was wrong already: begin with another one.", {}};
+  const bool isImplicit = scene.solver.integrator == Integrator::implicit;
+  Remedy remedy = isImplicit ? forImplicitSteps(scene) : forExplicitSteps(scene);
+  if (trouble.reason == TroubleReason::runawaySpeed)
+    remedy.text += " If it is meant, raise solver.max_speed.";
+  if (trouble.reason == TroubleReason::runawayStrain)
+    remedy.text += " If it is meant, raise solver.max_strain.";
+  return remedy;
 }
 
 }  // namespace clothsim

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "cloth/cloth.h"
 #include "scene/scene.h"
@@ -52,7 +53,11 @@ using WatchRow = std::array<std::uint32_t, PASSES>;
 // For a person, as a sentence without its full stop: "in step 7 (frame 1), pass integrate, particle 12 (cloth
 // 0, column 2, row 1) ...".
 [[nodiscard]] std::string troubleText(const Trouble& trouble, const Cloth& cloth, const Scene& scene);
-// What may help against it, as sentences.
-[[nodiscard]] std::string troubleAdvice(const Trouble& trouble, const Scene& scene);
+// What may help against it: in sentences, and as key=value for --set.
+struct Remedy {
+  std::string text;
+  std::vector<std::string> settings;  // empty when no setting of the scene helps
+};
+[[nodiscard]] Remedy remedyFor(const Trouble& trouble, const Scene& scene);
 
 }  // namespace clothsim

@@ -41,11 +41,14 @@ void drawSpringKinds(PanelContext& context, ClothSettings& cloth, const std::str
   }
 }
 
-// A material takes the place of springs by hand, and needs more steps than they do; without it they are back.
+// A material takes the place of springs by hand, and of the steps that were right for them; without it they
+// are back.
 void chooseModel(Scene& scene, ClothSettings& cloth) {
   if (cloth.material && (cloth.ks || cloth.stiffnessReference)) {
     giveMaterial(cloth, Material{*cloth.material});
-    scene.solver.simulationSteps.automatic = true;
+    const SolverSettings usual = solverDefaults(usesKs(scene), true);
+    scene.solver.integrator = usual.integrator;
+    scene.solver.simulationSteps = usual.simulationSteps;
   }
   if (!cloth.material && !cloth.ks && !cloth.stiffnessReference) cloth.ks = defaultKs;
 }

@@ -57,7 +57,8 @@ template <class Real>
 void CpuSolver<Real>::configure(const Scene& scene) {
   assert(scene.cloths.size() == cloth_->grids().size() &&
          "configure() takes live edits of the solver's own scene");
-  distances_ = distanceSamples(scene);
+  distanceGrids_ = distanceGridsOf(scene);
+  distances_ = distanceSamples(distanceGrids_);
   scene_ = scene;
   clock_.setStepLength(stepLength(scene.solver));
   colliders_.resize(scene.colliders.size());
@@ -110,8 +111,8 @@ cpu::PassArguments<Real> CpuSolver<Real>::arguments(const StepParams<Real>& para
 
 template <class Real>
 template <class Pass>
-void CpuSolver<Real>::forEachRow(int rows, Pass pass) {
-#pragma omp parallel for schedule(static) if (parallel_)
+void CpuSolver<Real>::forEachRow(const Grid& grid, int rows, Pass pass) {
+#pragma omp parallel for schedule(static) if (parallel_ && isWorthThreads(grid))
   for (int row = 0; row < rows; ++row) pass(row);
 }
 
@@ -137,7 +138,8 @@ void CpuSolver<Real>::checkStart() {
   for (std::size_t grid = 0; grid < cloth_->grids().size(); ++grid) {
     const StepParams<Real> params = paramsOf(grid);
     const cpu::PassArguments<Real> pass = arguments(params);
-    forEachRow(cpu::rowsOf(cloth_->grids()[grid]), [&](int row) { cpu::checkStart(pass, row); });
+    forEachRow(cloth_->grids()[grid], cpu::rowsOf(cloth_->grids()[grid]),
+               [&](int row) { cpu::checkStart(pass, row); });
   }
 }
 
@@ -153,8 +155,10 @@ void CpuSolver<Real>::convertVelocities() {
     StepParams<Real> params = paramsOf(grid);
     params.kickTime = velocityConversionTime<Real>(scene_);
     const cpu::PassArguments<Real> pass = arguments(params);
-    forEachRow(cpu::rowsOf(cloth_->grids()[grid]), [&](int row) { cpu::gatherForces(pass, row); });
-    forEachRow(cpu::rowsOf(cloth_->grids()[grid]), [&](int row) { cpu::kick(pass, row); });
+    forEachRow(cloth_->grids()[grid], cpu::rowsOf(cloth_->grids()[grid]),
+               [&](int row) { cpu::gatherForces(pass, row); });
+    forEachRow(cloth_->grids()[grid], cpu::rowsOf(cloth_->grids()[grid]),
+               [&](int row) { cpu::kick(pass, row); });
   }
   std::swap(before_.velocities, after_.velocities);
   forgetSupport();
@@ -174,7 +178,8 @@ void CpuSolver<Real>::stepOnce() {
   const auto forEachGridRow = [&](auto pass) {
     for (std::size_t grid = 0; grid < grids; ++grid) {
       const cpu::PassArguments<Real> ofGrid = arguments(params_[grid]);
-      forEachRow(cpu::rowsOf(cloth_->grids()[grid]), [&](int row) { pass(ofGrid, row); });
+      forEachRow(cloth_->grids()[grid], cpu::rowsOf(cloth_->grids()[grid]),
+                 [&](int row) { pass(ofGrid, row); });
     }
   };
   using Arguments = cpu::PassArguments<Real>;
@@ -190,10 +195,11 @@ void CpuSolver<Real>::stepOnce() {
       const Arguments pass = arguments(params_[grid]);
       for (const LimitColor& color : limitColors_[grid]) {
         const std::uint32_t count = cpu::limitRows(cloth_->grids()[grid], color);
-        forEachRow(static_cast<int>(count),
+        forEachRow(cloth_->grids()[grid], static_cast<int>(count),
                    [&](int j) { cpu::limitStrain(pass, color, static_cast<std::uint32_t>(j)); });
       }
-      forEachRow(cpu::rowsOf(cloth_->grids()[grid]), [&](int row) { cpu::watchLimit(pass, row); });
+      forEachRow(cloth_->grids()[grid], cpu::rowsOf(cloth_->grids()[grid]),
+                 [&](int row) { cpu::watchLimit(pass, row); });
     }
   };
 
@@ -377,7 +383,8 @@ std::vector<Vec3<Real>> CpuSolver<Real>::forces() {
     const StepParams<Real> params = paramsOf(grid);
     handParams_ = makeHandParams<Real>(hand_, scene_, clock_.step);
     const cpu::PassArguments<Real> pass = arguments(params);
-    forEachRow(cpu::rowsOf(cloth_->grids()[grid]), [&](int row) { cpu::gatherForces(pass, row); });
+    forEachRow(cloth_->grids()[grid], cpu::rowsOf(cloth_->grids()[grid]),
+               [&](int row) { cpu::gatherForces(pass, row); });
   }
   for (std::size_t i = 0; i < result.size(); ++i) result[i] = at(forces_, i);
   return result;

@@ -58,7 +58,7 @@ class CpuSolver final : public Solver {
   void checkStart();
   void stepOnce();
   template <class Pass>
-  void forEachRow(int rows, Pass pass);
+  void forEachRow(const Grid& grid, int rows, Pass pass);
 
   const Cloth* cloth_;
   Scene scene_;
@@ -76,7 +76,8 @@ class CpuSolver final : public Solver {
   std::vector<Real> inverseMasses_, restLengths_;
   MeshLists<Real> lists_;
   std::vector<ColliderParams<Real>> colliders_;  // of this step,
-  std::vector<float> distances_;                 // samples of the mesh colliders' grids
+  DistanceGrids distanceGrids_;
+  std::vector<float> distances_;  // samples of the mesh colliders' grids
   PinPaths pinPaths_;
   std::vector<std::uint32_t> offPath_;
   Hand hand_;

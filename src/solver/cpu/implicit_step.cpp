@@ -40,8 +40,9 @@ template <class Real>
 template <class Pass>
 void ImplicitStep<Real>::forEachRow(const std::vector<ImplicitArguments<Real>>& grids, Pass pass) {
   for (const ImplicitArguments<Real>& grid : grids) {
-    const int rows = rowsOf(cloth_->grids()[grid.step.step.grid]);
-#pragma omp parallel for schedule(static) if (parallel_)
+    const Grid& lattice = cloth_->grids()[grid.step.step.grid];
+    const int rows = rowsOf(lattice);
+#pragma omp parallel for schedule(static) if (parallel_ && isWorthThreads(lattice))
     for (int row = 0; row < rows; ++row) pass(grid, row);
   }
 }
@@ -54,8 +55,9 @@ void ImplicitStep<Real>::gatherElasticForces(const std::vector<ImplicitArguments
     elastic.hasWind = 0;
     elastic.airResistance = 0;
     const PassArguments<Real> pass = withState(grid.step, elastic, own_.iterate, grid.step.forces);
-    const int rows = rowsOf(cloth_->grids()[elastic.grid]);
-#pragma omp parallel for schedule(static) if (parallel_)
+    const Grid& lattice = cloth_->grids()[elastic.grid];
+    const int rows = rowsOf(lattice);
+#pragma omp parallel for schedule(static) if (parallel_ && isWorthThreads(lattice))
     for (int row = 0; row < rows; ++row) gatherForces(pass, row);
   }
 }

@@ -55,7 +55,8 @@ GpuSolver::GpuSolver(const Cloth& cloth, const Scene& scene, const GpuOptions& o
 void GpuSolver::configure(const Scene& scene) {
   assert(scene.cloths.size() == cloth_->grids().size() &&
          "configure() takes live edits of the solver's own scene");
-  if (std::vector<float> samples = distanceSamples(scene);
+  distanceGrids_ = distanceGridsOf(scene);
+  if (std::vector<float> samples = distanceSamples(distanceGrids_);
       distances_.name() == 0 || samples != stagedDistances_) {
     checkFits(samples.size(), sizeof(float), "samples of mesh colliders' distances");
     distances_ = gl::Buffer<float>("distances", std::span<const float>(samples));

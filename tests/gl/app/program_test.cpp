@@ -140,6 +140,34 @@ TEST(Program, TakesEitherASceneOrARecording) {
       << wrong.output;
 }
 
+TEST(Program, RefusesWhatIsNoPlainNumber) {
+  for (const std::string number : {"nan", "inf", "-inf", "0x1", "010x", "''", "1e999", "' 1'", "'1;5'"}) {
+    for (const std::string command :
+         {"run -f pinned2 --frames 1 --jitter ", "run -f pinned2 --frames 1 --seed ",
+          "run -f pinned2 --frames ", "render -f pinned2 --frames 1 --out a.mp4 --fps ", "bench --seconds ",
+          "bench --after ", "render -f pinned2 --frames 1 --out a.png --view 0,"}) {
+      const CommandResult result = clothsim(command + number);
+      EXPECT_EQ(result.exitCode, 2) << command << number << "\n" << result.output;
+    }
+  }
+  EXPECT_EQ(jsonOf("run -f pinned2 --resolution 4x4 --backend cpu --json --frames 010")["frames"], 10);
+}
+
+TEST(Program, SaysHowToGoOnAfterAnExplosionWithSettingsThatAreStable) {
+  const test::TemporaryFolder folder;
+  const CommandResult run = clothsim(
+      "run -f pinned2 --resolution 25x25 --set cloth.material=silk --set solver.integrator=verlet "
+      "--set solver.simulation_steps=3 --backend cpu --frames 5 --save " +
+      (folder / "end.csv").string());
+  EXPECT_EQ(run.exitCode, 1) << run.output;
+  const std::string beginning = "To go on from it: clothsim ";
+  const std::size_t at = run.output.find(beginning);
+  ASSERT_NE(at, std::string::npos) << run.output;
+  const std::size_t from = at + beginning.size();
+  const CommandResult on = clothsim(run.output.substr(from, run.output.find('\n', from) - from));
+  EXPECT_EQ(on.exitCode, 0) << on.output;
+}
+
 TEST(Program, FailsWithOneWhenTheSimulationBlowsUp) {
   const test::TemporaryFolder folder;  // also of the last good state
   const CommandResult result = clothsim(

@@ -2,11 +2,15 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
+#include "cloth/contact_memory.h"
 #include "core/error.h"
+#include "scene/budget.h"
 #include "support/test_scenes.h"
+#include "support/throws.h"
 
 namespace clothsim {
 namespace {
@@ -134,6 +138,29 @@ TEST(Cloth, UsesNominalLengthsOnAFlatLatticeAndATableOnAJitteredOne) {
   EXPECT_TRUE(Cloth(scene).hasRestLengthTable());
 }
 
+// The noise that lets a standing sheet buckle is part of CS184's rest shape, and of no other model's.
+TEST(Cloth, RestsFlatThoughItStandsCrookedUnlessItIsCs184s) {
+  Scene scene = sheetScene(65);
+  ClothSettings& sheet = scene.cloths[0];
+  sheet.orientation = Orientation::vertical;
+  sheet.ks.reset();
+  for (const bool isFabric : {true, false}) {
+    sheet.material = isFabric ? std::optional(Material{}) : std::nullopt;
+    sheet.stiffnessReference = isFabric ? std::nullopt : std::optional(40.0);
+    const Cloth cloth(scene);
+    EXPECT_FALSE(cloth.hasRestLengthTable());
+    double largestDepth = 0, largestStrain = 0;
+    for (const Spring& spring : cloth.springs()) {
+      EXPECT_EQ(spring.restLength, cloth.grids()[0].nominalLength[spring.number % SPRING_SLOTS]);
+      const Vec3d a = cloth.positions()[spring.a], b = cloth.positions()[spring.b];
+      largestDepth = std::max(largestDepth, std::abs(a.z));
+      largestStrain = std::max(largestStrain, length(b - a) / spring.restLength - 1);
+    }
+    EXPECT_GT(largestDepth, 0) << "it can buckle";
+    EXPECT_LE(largestStrain, 1e-5) << "and is hardly stretched by that";
+  }
+}
+
 TEST(Cloth, KeepsSeveralGridsInContiguousRanges) {
   Scene scene = sheetScene(5);
   scene.cloths.push_back(scene.cloths[0]);
@@ -161,6 +188,51 @@ TEST(Cloth, FrontsOfAHorizontalSheetLookUp) {
 TEST(Cloth, RefusesMoreParticlesThanBuffersCanHold) {
   Scene scene = sheetScene(16384);
   EXPECT_THROW(Cloth{scene}, SceneError);
+}
+
+TEST(Cloth, FindsTheGridOfEveryParticleAmongThousands) {
+  Scene scene = sheetScene(2);
+  scene.cloths.assign(3000, scene.cloths[0]);
+  scene.cloths[1].numWidthPoints = 5;
+  const Cloth cloth(scene);
+  for (std::size_t grid = 0; grid < cloth.grids().size(); ++grid) {
+    const Grid& found = cloth.grids()[grid];
+    EXPECT_EQ(cloth.gridOf(found.firstParticle), grid);
+    EXPECT_EQ(cloth.gridOf(found.firstParticle + found.particleCount() - 1), grid);
+  }
+}
+
+// Thousands of blocks of a quarter of a million points each: going through every point of each would take
+// seconds, and holding them all gigabytes.
+TEST(Cloth, MergesPinsThatOverlap) {
+  Scene scene = sheetScene(500);
+  for (int i = 0; i < 3000; ++i)
+    scene.cloths[0].pinned.push_back(GridRange{{i % 10, i % 7}, {498 - i % 3, 498}});
+  const Cloth cloth(scene);
+  const auto pinned = std::count(cloth.inverseMasses().begin(), cloth.inverseMasses().end(), 0.0);
+  EXPECT_EQ(pinned, 499 * 499);
+  EXPECT_NE(cloth.inverseMasses()[499], 0);
+}
+
+TEST(Cloth, IsNotMadeWhereItsContactsWouldTakeAllMemory) {
+  Scene scene = sheetScene(2000);
+  scene.cloths.assign(15, scene.cloths[0]);
+  scene.solver.selfCollision = SelfCollision::averaged;
+  const std::string message = test::messageThrownBy<SceneError>([&] { checkContactMemory(scene, 100e9); });
+  EXPECT_NE(message.find("this machine has 100.0 GB"), std::string::npos) << message;
+  EXPECT_NE(message.find("thickness"), std::string::npos) << message;
+  checkContactMemory(scene, 1e12);
+  scene.solver.selfCollision = SelfCollision::robust;
+  checkContactMemory(scene, 100e9);
+}
+
+TEST(Budget, NamesWhatIsNeededAndWhatIsThere) {
+  checkMemory(1e6, 600e6);
+  const std::string message = test::messageThrownBy<SceneError>([] { checkMemory(67'108'864, 24e9); });
+  EXPECT_NE(message.find("67108864 particles together, which need about 40.3 GB; this machine has 24.0 GB"),
+            std::string::npos)
+      << message;
+  EXPECT_GT(machineMemory(), 1e8);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "scene/scene_io.h"
 #include "solver/cpu/shapes.h"
 #include "support/temporary_folder.h"
+#include "support/throws.h"
 
 namespace clothsim {
 namespace {
@@ -98,7 +99,7 @@ TEST_F(MeshFile, IsInterpolatedWithinTheErrorOfItsGrid) {
   scene.colliders = {collider};
   const auto params = makeColliderParams<double>(scene, scene.colliders[0], 0, 0);
   const auto single = makeColliderParams<float>(scene, scene.colliders[0], 0, 0);
-  const std::vector<float> samples = distanceSamples(scene);
+  const std::vector<float> samples = distanceSamples(distanceGridsOf(scene));
   const double cell = 2.0 / 64;
   for (const Vec3d p : randomPoints(3000)) {
     const double exact = boxDistance(p);
@@ -122,11 +123,36 @@ TEST_F(MeshFile, IsFoundBesideTheScene) {
   writeFileAtomically(folder_ / "scene.json",
                       R"({"cloth": {}, "colliders": [{"type": "mesh", "file": "mesh.obj"}]})");
   const Scene scene = loadScene(folder_ / "scene.json");
-  EXPECT_EQ(distanceGridOf(std::get<MeshCollider>(scene.colliders[0])).mesh().triangles.size(), 12u);
+  EXPECT_EQ(distanceGridOf(std::get<MeshCollider>(scene.colliders[0]))->mesh().triangles.size(), 12u);
 }
 
 TEST(BundledMeshes, AreClosed) {
   EXPECT_GT(loadSolidMesh("assets/meshes/pawn.obj", 1).triangles.size(), 1000u);
+}
+
+TEST_F(MeshFile, IsForgottenWithItsLastHolderOnceOthersFillTheBudget) {
+  write(boxObj);
+  MeshCollider collider{.file = (folder_ / "mesh.obj").string(), .scale = 0.37, .cells = 8};
+  std::weak_ptr<const SignedDistanceGrid> first = distanceGridOf(collider);
+  EXPECT_EQ(distanceGridOf(collider), first.lock()) << "computed once";
+  const auto held = first.lock();
+  write("f 1 2 3\n");
+  EXPECT_EQ(distanceGridOf(collider), held) << "whatever becomes of the file";
+}
+
+TEST_F(MeshFile, SIsNotComputedBeyondTheBudgetOfAllGridsTogether) {
+  write(boxObj);
+  Scene scene;
+  const MeshCollider collider{.file = (folder_ / "mesh.obj").string(), .cells = 8};
+  scene.colliders.assign(3, collider);
+  const std::size_t each = SignedDistanceGrid::sampleCount(loadSolidMesh(collider.file, 1), 8);
+  EXPECT_EQ(distanceGridOf(collider)->samples().size(), each);
+  EXPECT_EQ(distanceGridsOf(scene, 3 * each).size(), 3u);
+  const std::string message =
+      test::messageThrownBy<SceneError>([&] { (void)distanceGridsOf(scene, 3 * each - 1); });
+  EXPECT_EQ(message, "colliders.2: with this one the meshes among the colliders need " +
+                         std::to_string(3 * each) + " samples of distance, expected at most " +
+                         std::to_string(3 * each - 1) + "; lower their `cells`, or use fewer of them");
 }
 
 }  // namespace

@@ -29,6 +29,26 @@ TEST(Material, BringsCoulombsFrictionAndNoneOfCs184sRules) {
   EXPECT_EQ(scene.solver.selfCollision, SelfCollision::off);
 }
 
+TEST(Material, BringsTheImplicitIntegratorInAsManyStepsAsItNeeds) {
+  const auto isImplicit = [](const Scene& scene) {
+    return scene.solver.integrator == Integrator::implicit && scene.solver.simulationSteps.automatic &&
+           scene.solver.simulationSteps == 1;
+  };
+  EXPECT_TRUE(isImplicit(sceneOf(R"({"cloth": {"material": "silk"}})")));
+  Scene scene = sceneOf(R"({"cloth": {}, "solver": {"integrator": "euler", "simulation_steps": 7}})");
+  setSceneValue(scene, "cloth.material=silk");
+  EXPECT_TRUE(isImplicit(scene)) << "what was right for springs is not for silk";
+  setSceneValue(scene, "solver.integrator=verlet");
+  setSceneValue(scene, "cloth.material=denim");
+  EXPECT_EQ(scene.solver.integrator, Integrator::verlet) << "chosen for a material";
+  EXPECT_EQ(scene.solver.simulationSteps, stableSteps(scene));
+  EXPECT_EQ(sceneOf(formatScene(scene)), scene);
+  setSceneValue(scene, "solver.integrator=null");
+  EXPECT_TRUE(isImplicit(scene));
+  setSceneValue(scene, "cloth.material=null");
+  EXPECT_EQ(scene.solver, sceneOf(R"({"cloth": {}})").solver);
+}
+
 TEST(Material, ReplacesKsWhenItIsSet) {
   Scene scene = sceneOf(R"({"cloth": {"ks": 900, "damping": 1, "thickness": 0.02}})");
   setSceneValue(scene, "cloth.material=denim");
@@ -83,7 +103,8 @@ TEST(LatticeStiffness, GivesOblongCellsTheSameModuli) {
 }
 
 TEST(SimulationSteps, AreChosenWhenAuto) {
-  Scene scene = sceneOf(R"({"cloth": {"material": "cotton"}, "solver": {"simulation_steps": "auto"}})");
+  Scene scene = sceneOf(
+      R"({"cloth": {"material": "cotton"}, "solver": {"integrator": "verlet", "simulation_steps": "auto"}})");
   EXPECT_EQ(scene.solver.simulationSteps, stableSteps(scene));
   EXPECT_LE(stepLength(scene.solver), stableStep(scene));
   EXPECT_GT(stepLength(scene.solver) * scene.solver.simulationSteps / (scene.solver.simulationSteps - 1),
@@ -118,9 +139,24 @@ TEST(CgIterations, GrowWithTheStepWhenAuto) {
   EXPECT_EQ(scene.solver.cgIterations, AutoCount(30, true));
 }
 
+TEST(CgIterations, AreThoseThatFabricsNeedOnTheirLattice) {
+  const auto iterations = [](const std::string& points) {
+    return sceneOf(R"({"cloth": {"material": "silk", "num_width_points": )" + points +
+                   R"(, "num_height_points": 65}})")
+        .solver.cgIterations;
+  };
+  EXPECT_EQ(iterations("65"), AutoCount(40, true));
+  EXPECT_EQ(iterations("49"), AutoCount(40, true));
+  EXPECT_EQ(iterations("50"), AutoCount(60, true));
+  Scene scene = sceneOf(R"({"cloth": {"material": "silk"}})");
+  (void)changeResolution(scene, 65, 65, false);
+  EXPECT_EQ(scene.solver.cgIterations, AutoCount(40, true));
+}
+
 TEST(ChangeResolution, LeavesAMaterialAndMultipliesItsSteps) {
   Scene scene =
-      sceneOf(R"({"cloth": {"material": {"bend": 0}, "num_width_points": 11, "num_height_points": 11}})");
+      sceneOf(R"({"cloth": {"material": {"bend": 0}, "num_width_points": 11, "num_height_points": 11},
+                  "solver": {"integrator": "verlet", "simulation_steps": 30}})");
   const Scene before = scene;
   (void)changeResolution(scene, 41, 41, false);
   EXPECT_EQ(scene.cloths[0].material, before.cloths[0].material);

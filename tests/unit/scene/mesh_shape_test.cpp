@@ -170,7 +170,7 @@ TEST(MeshScene, HasNoResolutionToChange) {
 
 TEST(MeshScene, TakesItsStepsFromTheFile) {
   Scene scene = parseScene(sceneText(", \"material\": \"jersey\""), "mesh.json");
-  setSceneValue(scene, "solver.simulation_steps=auto");
+  setSceneValue(scene, "solver.integrator=verlet");
   EXPECT_GE(1 / (90.0 * scene.solver.simulationSteps), 0.5 * stableStep(scene));
   EXPECT_LE(1 / (90.0 * scene.solver.simulationSteps), stableStep(scene));
   const int steps = scene.solver.simulationSteps;
@@ -186,6 +186,26 @@ TEST(MeshScene, IsMadeOfAGridByOneSetting) {
   setSceneValue(scene, "cloth.mesh=" + test::meshSheetFile({}));
   EXPECT_TRUE(scene.cloths[0].isMesh());
   EXPECT_TRUE(scene.cloths[0].pinned.empty());
+}
+
+TEST(MeshShape, RefusesNumbersThatTheirReaderWouldWrapAround) {
+  expectInMessage(squarePoints + "f 1 2 4294967298\n",
+                  ":5: expected numbers of points of at most 2147483647");
+  expectInMessage(squarePoints + "f 1/9999999999 2/1 3/1\n", ":5: expected numbers of points");
+  expectInMessage(squarePoints + "f -99999999999 2 3\n", ":5: expected numbers of points");
+}
+
+// Each of these few bytes would have taken gigabytes, or hours.
+TEST(MeshShape, DoesNotGiveWhatAFewBytesAskFor) {
+  EXPECT_EQ(meshShapeOf(test::meshFile(squarePoints + "f 1 2 3 4\nt tag 2000000000/0/0\n"))->points.size(),
+            4u);
+  std::string corners, names = "g";
+  for (int i = 0; i < 20'000; ++i) corners += " " + std::to_string(1 + i % 4);
+  expectInMessage(squarePoints + "f" + corners + "\n", ":5: expected a face of at most 1000 corners");
+  for (int i = 0; i < 20'000; ++i) names += " " + std::to_string(i);
+  std::string faces;
+  for (int i = 0; i < 20'000; ++i) faces += "f 1 2 3\n";
+  expectInMessage(squarePoints + names + "\n" + faces, "expected groups");
 }
 
 }  // namespace

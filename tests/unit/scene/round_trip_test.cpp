@@ -261,5 +261,20 @@ TEST(FormatScene, WritesAMotionOfAllPinsAsOneObject) {
   EXPECT_NE(formatScene(scene).find("\"pin_motion\": ["), std::string::npos);
 }
 
+TEST(SavedScene, KeepsTheSignOfZero) {
+  const Scene scene = parseScene(R"({"cloth": {"position": [0, -0, 0]}, "gravity": [-0, -9.8, -0.0],
+      "sphere": {"motion": {"keys": [{"t": 0, "position": [0, 0, -0]}]}}, "air_resistance": -0})",
+                                 "zeros");
+  const Scene again = parseScene(formatScene(scene), "saved");
+  for (const Scene& read : {scene, again}) {
+    EXPECT_TRUE(std::signbit(read.cloths[0].position.y));
+    EXPECT_FALSE(std::signbit(read.cloths[0].position.x));
+    EXPECT_TRUE(std::signbit(read.gravity.x));
+    EXPECT_TRUE(std::signbit(read.gravity.z));
+    EXPECT_TRUE(std::signbit(read.airResistance));
+    EXPECT_TRUE(std::signbit(std::get<Sphere>(read.colliders[0]).motion->keys[0].position.z));
+  }
+}
+
 }  // namespace
 }  // namespace clothsim

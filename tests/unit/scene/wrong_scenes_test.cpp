@@ -11,6 +11,7 @@
 #include "core/files.h"
 #include "scene/scene_io.h"
 #include "support/temporary_folder.h"
+#include "support/throws.h"
 
 namespace clothsim {
 namespace {
@@ -184,6 +185,15 @@ TEST(WrongSceneFile, CutAnywhereIsAnErrorAndNoCrash) {
   const std::size_t end = text.rfind('}');
   for (std::size_t length = 0; length <= end; ++length)
     EXPECT_THROW((void)parseScene(text.substr(0, length), "cut"), SceneError) << length;
+}
+
+TEST(WrongSceneFile, EndsWithItsLastBrace) {
+  for (const std::string& more : {std::string("\0", 1), std::string("\n\0 {", 4), std::string("x"),
+                                  std::string("{}"), std::string("\xff")}) {
+    const std::string message =
+        test::messageThrownBy<SceneError>([&] { (void)parseScene("{\"cloth\": {}}" + more, "more"); });
+    EXPECT_TRUE(message.starts_with(more.size() == 4 ? "more:2:" : "more:1:")) << message;
+  }
 }
 
 // A changed byte may leave a right scene; it must not end in anything but a scene or a SceneError.

@@ -72,5 +72,35 @@ TEST(StableStep, IsStableForACrumpledSheetAndNotFarFromTheLargestOne) {
   EXPECT_FALSE(speedAfter(2) < 1e3) << "the bound is within a factor of two";
 }
 
+// A sheet of cotton that hangs from its top sags by rho g L^2 / (2 Y), standing from the start or turned into
+// place from lying.
+double sagOfHungCotton(int points, bool stands) {
+  const Material cotton = *materialPreset("cotton");
+  Scene scene = materialSheet(points, points, 1, 1, cotton);
+  ClothSettings& sheet = scene.cloths[0];
+  sheet.orientation = stands ? Orientation::vertical : Orientation::horizontal;
+  if (!stands) sheet.rotation = {90, 0, 0};
+  sheet.pinned = {GridSide::top};
+  scene.solver.integrator = Integrator::implicit;
+  scene.solver.simulationSteps = 1;
+  scene.solver.newtonSteps = 1;
+  scene.solver.cgIterations = 25;
+  const Cloth cloth(scene);
+  CpuSolver<double> solver(cloth, scene);
+  solver.step(5);
+  const std::uint32_t bottom = cloth.grids()[0].particle(points / 2, stands ? 0 : points - 1);
+  return cloth.positions()[bottom].y - solver.position(bottom).y;
+}
+
+TEST(HungSheet, SagsByItsStretchAloneHoweverItWasPutThere) {
+  const Material cotton = *materialPreset("cotton");
+  const double expected = cotton.density * 9.81 / (2 * cotton.stretch);
+  for (const int points : {33, 65}) {
+    const double stood = sagOfHungCotton(points, true), turned = sagOfHungCotton(points, false);
+    EXPECT_NEAR(stood / expected, 1, 0.1) << points;
+    EXPECT_NEAR(stood / turned, 1, 0.1) << points;
+  }
+}
+
 }  // namespace
 }  // namespace clothsim

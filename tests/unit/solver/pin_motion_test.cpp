@@ -226,5 +226,21 @@ TEST(PinPaths, AreEmptyWithoutMotions) {
   EXPECT_TRUE(dependsOnTime(test::withPinMotion(scene)));
 }
 
+TEST(FindPinConflict, SeesWhatTwoMotionsShareThoughEachNamesItsPinsTwice) {
+  ClothSettings cloth;
+  cloth.numWidthPoints = cloth.numHeightPoints = 100;
+  cloth.pinned = {GridSide::left, GridSide::bottom};
+  cloth.pinMotion = {PinMotion{{}, false, {GridSide::left, GridPoint{0, 7}, GridSide::left}},
+                     PinMotion{{}, false, {GridRange{{1, 99}, {9, 99}}, GridRange{{3, 99}, {99, 99}}}}};
+  EXPECT_EQ(findPinConflict(cloth), std::nullopt);
+  cloth.pinMotion[1].pinned.push_back(GridSide::bottom);
+  const auto conflict = findPinConflict(cloth);
+  ASSERT_TRUE(conflict);
+  EXPECT_EQ(conflict->point, "[0, 99]");
+  EXPECT_EQ(conflict->motion, 1u);
+  EXPECT_EQ(conflict->pin, 2u);
+  EXPECT_EQ(conflict->otherMotion, 0u);
+}
+
 }  // namespace
 }  // namespace clothsim

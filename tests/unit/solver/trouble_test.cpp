@@ -6,9 +6,11 @@
 #include <cmath>
 #include <limits>
 
+#include "scene/material.h"
 #include "solver/cpu/cpu_solver.h"
 #include "support/compared_scenes.h"
 #include "support/injections.h"
+#include "support/scene_text.h"
 
 namespace clothsim {
 namespace {
@@ -190,6 +192,42 @@ TEST(TroubleText, NamesStepFramePassParticleAndItsPlaceOnTheCloth) {
             std::string::npos)
       << text;
   EXPECT_NE(text.find("solver.max_speed, 10000 m/s"), std::string::npos) << text;
+}
+
+// The shortest scene of a fabric, and what the watchdog proposes where somebody sets CS184's steps for it.
+TEST(Remedy, IsNotNeededByTheShortestSceneOfAFabricAndHelpsWhereStepsAreTooLong) {
+  for (const std::string& name : materialPresetNames()) {
+    Scene scene = test::sceneOf(R"({"cloth": {"width": 1, "height": 1, "material": ")" + name +
+                                R"(", "num_width_points": 25, "num_height_points": 25, "pinned": ["top"]}})");
+    const Cloth cloth(scene);
+    const auto troubleIn = [&](int steps) {
+      CpuSolver<float> solver(cloth, scene);
+      solver.step(steps);
+      return solver.trouble();
+    };
+    EXPECT_EQ(troubleIn(1), std::nullopt) << name;
+    setSceneValue(scene, "solver.integrator=verlet");
+    setSceneValue(scene, "solver.simulation_steps=1");
+    const std::optional<Trouble> trouble = troubleIn(30);
+    ASSERT_TRUE(trouble.has_value()) << name;
+    for (const std::string& setting : remedyFor(*trouble, scene).settings) setSceneValue(scene, setting);
+    EXPECT_LE(stepLength(scene.solver), stableStep(scene)) << name;
+  }
+}
+
+TEST(Remedy, KeepsCs184sIntegratorWhereAStableNumberOfStepsIsNear) {
+  const Trouble trouble{TroubleReason::runawaySpeed, Pass::integrate, 1, 0};
+  Scene scene = test::sceneOf(R"({"cloth": {"ks": 500000}})");
+  const Remedy steps = remedyFor(trouble, scene);
+  const std::string setting = "solver.simulation_steps=" + std::to_string(stableSteps(scene));
+  EXPECT_EQ(steps.settings, std::vector{setting});
+  EXPECT_NE(steps.text.find(setting + " (now 30)"), std::string::npos) << steps.text;
+  scene.cloths[0].ks = 5e9;
+  EXPECT_EQ(remedyFor(trouble, scene).settings, std::vector<std::string>{"solver.integrator=implicit"});
+  scene.cloths[0].ks = 5000;  // its steps are short enough
+  EXPECT_NE(remedyFor(trouble, scene).text.find("The springs are not the cause"), std::string::npos);
+  scene.solver.integrator = Integrator::implicit;
+  EXPECT_EQ(remedyFor(trouble, scene).settings, std::vector<std::string>{"solver.simulation_steps=120"});
 }
 
 }  // namespace
