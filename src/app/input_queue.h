@@ -1,7 +1,7 @@
 // Keys and clicks between two frames of the window, for a user interface that looks at their state once a
 // frame: what was pressed and let go within a frame must be seen pressed in one and let go in the next, and a
-// click together with Ctrl or Shift as they were held then. Text needs no such care: it arrives as
-// characters.
+// click where it was, together with Ctrl or Shift as they were held then. Text needs no such care: it arrives
+// as characters.
 #pragma once
 
 #include <deque>
@@ -14,6 +14,7 @@ struct InputEvent {
   Kind kind = Kind::key;
   int code = 0;  // of the key, the character or the button, as GLFW numbers them
   int scancode = 0, action = 0, mods = 0;
+  double x = 0, y = 0;  // of a button: where the cursor was, in units of the window
 };
 
 class InputQueue {
@@ -21,9 +22,7 @@ class InputQueue {
   void add(const InputEvent& event) {
     const bool isText = event.kind == InputEvent::Kind::key && event.code < endOfPrintableKeys &&
                         event.action != letGo && (event.mods & control) == 0;
-    const bool isRelease =
-        event.kind == InputEvent::Kind::button && event.action == letGo;  // it looks itself
-    if (!isText && !isRelease) waiting_.push_back(event);
+    if (!isText) waiting_.push_back(event);
   }
   [[nodiscard]] bool isEmpty() const { return waiting_.empty(); }
 
@@ -44,8 +43,8 @@ class InputQueue {
     if (next.kind == InputEvent::Kind::character) return false;
     for (const InputEvent& event : before) {
       if (event.kind == next.kind && event.code == next.code && event.action != next.action) return true;
-      if (event.kind == InputEvent::Kind::button && next.kind == InputEvent::Kind::key &&
-          next.code >= firstModifier)
+      if (event.kind == InputEvent::Kind::button && event.action != letGo &&
+          next.kind == InputEvent::Kind::key && next.code >= firstModifier)
         return true;
     }
     return false;

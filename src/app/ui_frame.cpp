@@ -98,7 +98,9 @@ UiFrame::UiFrame(GLFWwindow* window, InputQueue& input) : window_(window), input
   ImGui_ImplOpenGL3_Init("#version 450 core");
 }
 
-void UiFrame::passInputOn() {
+// Returns where a button was pressed or let go.
+std::optional<ImVec2> UiFrame::passInputOn() {
+  std::optional<ImVec2> clickedAt;
   for (const InputEvent& event : input_.takeFrame()) {
     switch (event.kind) {
       case InputEvent::Kind::key:
@@ -109,9 +111,11 @@ void UiFrame::passInputOn() {
         break;
       case InputEvent::Kind::button:
         ImGui_ImplGlfw_MouseButtonCallback(window_, event.code, event.action, event.mods);
+        clickedAt = {static_cast<float>(event.x), static_cast<float>(event.y)};
         break;
     }
   }
+  return clickedAt;
 }
 
 UiFrame::~UiFrame() {
@@ -140,8 +144,9 @@ void UiFrame::loadFonts(double textScale) {
 void UiFrame::begin(double textScale) {
   if (textScale != textScale_) loadFonts(textScale);
   ImGui_ImplOpenGL3_NewFrame();
-  passInputOn();
+  const std::optional<ImVec2> clickedAt = passInputOn();
   ImGui_ImplGlfw_NewFrame();
+  if (clickedAt) ImGui::GetIO().MousePos = *clickedAt;  // the cursor may be elsewhere by now
   ImGui::NewFrame();
 }
 

@@ -4,6 +4,7 @@
 
 #include <imgui.h>
 
+#include <optional>
 #include <string_view>
 
 #include "app/input_queue.h"
@@ -40,7 +41,7 @@ class UiFrame {
 
  private:
   void loadFonts(double textScale);
-  void passInputOn();
+  std::optional<ImVec2> passInputOn();
 
   GLFWwindow* window_;
   InputQueue& input_;

@@ -110,7 +110,9 @@ ViewerWindow::ViewerWindow(const std::string& title, const std::string& sceneNam
 ViewerWindow::~ViewerWindow() { glfwTerminate(); }
 
 void ViewerWindow::onButton(int button, int action, int mods) {
-  queue_.add({.kind = InputEvent::Kind::button, .code = button, .action = action, .mods = mods});
+  InputEvent event{.kind = InputEvent::Kind::button, .code = button, .action = action, .mods = mods};
+  glfwGetCursorPos(window_, &event.x, &event.y);
+  queue_.add(event);
   if (button != GLFW_MOUSE_BUTTON_LEFT && button != GLFW_MOUSE_BUTTON_RIGHT) return;
   const Button which = button == GLFW_MOUSE_BUTTON_LEFT ? Button::left : Button::right;
   if (action == GLFW_PRESS && input_.press)

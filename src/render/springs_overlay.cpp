@@ -1,5 +1,7 @@
 #include "render/springs_overlay.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -11,6 +13,14 @@ namespace {
 // Structural lies over bending, which covers the same way twice as far: the wider line goes first.
 constexpr std::array<SpringKind, 3> drawingOrder{SpringKind::bending, SpringKind::shear,
                                                  SpringKind::structural};
+
+// Of a pin's mark: a whole row of them is not to hide the cloth.
+float pinSize(const Cloth& cloth) {
+  constexpr float smallest = 0.4f, fewPins = 16;
+  const auto masses = cloth.inverseMasses();
+  const auto pins = static_cast<float>(std::count(masses.begin(), masses.end(), 0));
+  return std::max(smallest, std::sqrt(fewPins / std::max(fewPins, pins)));
+}
 
 std::vector<std::uint32_t> endsOf(const Cloth& cloth, const Cuts& cuts, SpringKind kind) {
   std::vector<std::uint32_t> ends;
@@ -55,6 +65,8 @@ void SpringsOverlay::draw(const ViewOptions& view, const OverlayPrograms& progra
   if (view.showPins) {
     glEnable(GL_PROGRAM_POINT_SIZE);
     programs.pins.bind();
+    if (!pinSize_) pinSize_ = pinSize(cloth);
+    glVertexAttrib4f(LINE_LOOK_LOCATION, 0, 0, 0, *pinSize_);
     glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(cloth.particleCount()));
     glDisable(GL_PROGRAM_POINT_SIZE);
   }

@@ -40,6 +40,7 @@ class SpringsOverlay {
  private:
   gl::VertexArray vertices_;
   std::array<std::optional<gl::Buffer<std::uint32_t>>, 3> kinds_;  // pairs of particles
+  std::optional<float> pinSize_;
 };
 
 }  // namespace clothsim
