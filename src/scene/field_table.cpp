@@ -370,9 +370,8 @@ std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
           .within({.low = 1, .high = 100})
           .usually(1, 8),
       field("cg_iterations", &S::cgIterations,
-            "Iterations for the linear system of each Newton step; auto: 10, in steps beyond 1/60 s up to "
-            "40; of "
-            "a material 40, on sides of other than 2^k + 1 points 60.")
+            "For the linear system of each Newton step; auto: 10, up to 40 in steps beyond 1/60 s, 40 or 60 "
+            "of fabrics.")
           .within({.low = 1, .high = 10'000})
           .usually(1, 40),
       field("frames_per_sec", &S::framesPerSec,
