@@ -379,9 +379,7 @@ std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
           .within({.low = 1, .high = 100})
           .usually(1, 8),
       field("cg_iterations", &S::cgIterations,
-            "Conjugate gradient iterations per Newton iteration; auto: 10, up to 40 in steps beyond 1/60 s; "
-            "with a "
-            "material 40, or 60 where a side has other than 2^k + 1 points.")
+            "CG iterations per Newton iteration; auto: 10 to 40 by the step length, 40 or 60 for a material.")
           .within({.low = 1, .high = 10'000})
           .usually(1, 40),
       field("frames_per_sec", &S::framesPerSec,

@@ -83,9 +83,9 @@ TEST_F(HandsUi, ADragOnTheClothTakesItAlongToTheCursor) {
   viewer.perform("at 0.5 0.5 sleep 0.3 mousedown 1 sleep 0.3 at 0.55 0.45 sleep 0.1 at 0.6 0.4");
   const Json recording = recordingWhere(viewer, [&](const Json& now) {
     const std::vector<Json> moves = actionsIn(now, "move_hand");
-    // Half a second of simulated time to follow in.
+    // A second of simulated time to follow in, and for the cloth to come to rest behind the hand.
     return !moves.empty() &&
-           (now.at("frames").get<int>() - 45) * stepsInAFrame > moves.back().at("step").get<int>();
+           (now.at("frames").get<int>() - 90) * stepsInAFrame > moves.back().at("step").get<int>();
   });
   const std::vector<Json> grabs = actionsIn(recording, "grab");
   ASSERT_EQ(grabs.size(), 1u);

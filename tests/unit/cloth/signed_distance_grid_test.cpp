@@ -130,7 +130,7 @@ TEST(BundledMeshes, AreClosed) {
   EXPECT_GT(loadSolidMesh("assets/meshes/pawn.obj", 1).triangles.size(), 1000u);
 }
 
-TEST_F(MeshFile, IsForgottenWithItsLastHolderOnceOthersFillTheBudget) {
+TEST_F(MeshFile, StaysTheSameForWhoHoldsItWhateverBecomesOfTheFile) {
   write(boxObj);
   MeshCollider collider{.file = (folder_ / "mesh.obj").string(), .scale = 0.37, .cells = 8};
   std::weak_ptr<const SignedDistanceGrid> first = distanceGridOf(collider);
@@ -140,7 +140,7 @@ TEST_F(MeshFile, IsForgottenWithItsLastHolderOnceOthersFillTheBudget) {
   EXPECT_EQ(distanceGridOf(collider), held) << "whatever becomes of the file";
 }
 
-TEST_F(MeshFile, SIsNotComputedBeyondTheBudgetOfAllGridsTogether) {
+TEST_F(MeshFile, IsNotSampledBeyondTheBudgetOfAllCollidersTogether) {
   write(boxObj);
   Scene scene;
   const MeshCollider collider{.file = (folder_ / "mesh.obj").string(), .cells = 8};

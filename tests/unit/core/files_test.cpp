@@ -1,4 +1,5 @@
 #include "core/files.h"
+#include "core/printable.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -75,7 +76,7 @@ TEST(CheckWritable, RefusesNamesThatNoFileCanHave) {
       {folder / "file" / "a.csv", "Not a directory"},
       {folder.path() / std::string(5000, 'x'), "File name too long"}};
   for (const auto& [path, reason] : cases) {
-    const std::string expected = path.string() + ": cannot be written: " + reason;
+    const std::string expected = printable(path.string() + ": cannot be written: " + reason);
     EXPECT_EQ(messageOf([&] { checkWritable(path); }), expected);
     EXPECT_EQ(messageOf([&] { writeFileAtomically(path, "x"); }), expected);
   }

@@ -32,7 +32,7 @@ TEST(DescribeFields, TellsTypeUnitRangeDefaultAndWhenAChangeTakesEffect) {
   EXPECT_EQ(fieldAt("cloth.ks").unit, "N/m");
   EXPECT_EQ(fieldAt("cloth.ks").range, "> 0");
   EXPECT_EQ(fieldAt("solver.integrator").type, "one of verlet, euler, implicit");
-  EXPECT_EQ(fieldAt("solver.integrator").defaultValue, "\"verlet\"");
+  EXPECT_EQ(fieldAt("solver.integrator").defaultValue, "\"verlet\"; in scenes with a material \"implicit\"");
   EXPECT_EQ(fieldAt("solver.strain_limit").type, "false or number");
   EXPECT_EQ(fieldAt("gravity").type, "[x, y, z]");
   EXPECT_EQ(fieldAt("gravity").defaultValue, "[0, -9.8, 0]");

@@ -110,7 +110,7 @@ TEST(SimulationSteps, AreChosenWhenAuto) {
   EXPECT_GT(stepLength(scene.solver) * scene.solver.simulationSteps / (scene.solver.simulationSteps - 1),
             stableStep(scene))
       << "no more than needed";
-  EXPECT_NE(formatScene(scene).find(R"("simulation_steps": "auto")"), std::string::npos);
+  EXPECT_EQ(sceneOf(formatScene(scene)).solver.simulationSteps, AutoCount(stableSteps(scene), true));
   const int before = scene.solver.simulationSteps;
   (void)changeResolution(scene, 100, 100, false);
   EXPECT_GT(scene.solver.simulationSteps, before);
