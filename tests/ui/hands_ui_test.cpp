@@ -83,9 +83,9 @@ TEST_F(HandsUi, ADragOnTheClothTakesItAlongToTheCursor) {
   viewer.perform("at 0.5 0.5 sleep 0.3 mousedown 1 sleep 0.3 at 0.55 0.45 sleep 0.1 at 0.6 0.4");
   const Json recording = recordingWhere(viewer, [&](const Json& now) {
     const std::vector<Json> moves = actionsIn(now, "move_hand");
-    // A second of simulated time to follow in, and for the cloth to come to rest behind the hand.
+    // Half a second of simulated time to follow in.
     return !moves.empty() &&
-           (now.at("frames").get<int>() - 90) * stepsInAFrame > moves.back().at("step").get<int>();
+           (now.at("frames").get<int>() - 45) * stepsInAFrame > moves.back().at("step").get<int>();
   });
   const std::vector<Json> grabs = actionsIn(recording, "grab");
   ASSERT_EQ(grabs.size(), 1u);
@@ -105,7 +105,7 @@ TEST_F(HandsUi, ADragOnTheClothTakesItAlongToTheCursor) {
   };
   const double soft = missedBy(1), strong = missedBy(100);
   EXPECT_LT(soft, 0.05) << "less than a spacing, in the hand as it is";
-  EXPECT_LT(strong, 0.002) << "a hundred times as strong; as it is " << soft;
+  EXPECT_LT(strong, 0.2 * soft) << "a hundred times as strong; what is left of it is the strain limit's";
 
   viewer.perform("mouseup 1");
   (void)recordingWhere(viewer, [&](const Json& now) { return !actionsIn(now, "release").empty(); });
