@@ -85,6 +85,7 @@ ContextInfo currentContextInfo() {
   for (const char* name : {"llvmpipe", "softpipe", "swrast", "SWR"}) {
     if (info.renderer.find(name) != std::string::npos) info.software = true;
   }
+  info.needsFlushes = info.renderer.starts_with("zink");
   if (info.major * 10 + info.minor >= 43) {  // older contexts do not know these names
     GLint64 bytes = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);

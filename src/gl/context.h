@@ -22,6 +22,10 @@ struct ContextInfo {
   long long maxStorageBlockBytes = 0;
   int maxWorkGroupInvocations = 0, maxWorkGroupCountX = 0;
   bool software = false;  // llvmpipe, softpipe, swrast
+  // Dispatches of one batch do not see each other's writes as texels, whatever barrier stands between them,
+  // so that each needs a batch of its own: zink. Seen with Mesa 22.3.6 on lavapipe (tools/validate
+  // determinism).
+  bool needsFlushes = false;
 };
 
 // Loads the functions of the current context, checks version 4.5 and the limits that the shaders need, and

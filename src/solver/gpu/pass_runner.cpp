@@ -11,6 +11,7 @@ void PassRunner::runTimed(const gl::Program& pass, const char* name, Dispatch di
   if (timer_ != nullptr) timer_->begin();
   dispatch();
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+  if (flushes_) glFlush();
   if (timer_ == nullptr) return;
   timer_->end();
   auto found =

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gl/buffer.h"
+#include "gl/context.h"
 #include "gl/program.h"
 #include "gl/timer.h"
 
@@ -24,7 +25,9 @@ struct Groups {
 
 class PassRunner {
  public:
-  PassRunner(int groupColumns, int groupRows) : groupColumns_(groupColumns), groupRows_(groupRows) {}
+  // For the current context.
+  PassRunner(int groupColumns, int groupRows)
+      : groupColumns_(groupColumns), groupRows_(groupRows), flushes_(gl::currentContextInfo().needsFlushes) {}
 
   // One invocation a grid point.
   void run(const gl::Program& pass, const char* name, std::uint32_t columns, std::uint32_t rows);
@@ -42,6 +45,7 @@ class PassRunner {
   void runTimed(const gl::Program& pass, const char* name, Dispatch dispatch);
 
   int groupColumns_, groupRows_;
+  bool flushes_;
   gl::Timer* timer_ = nullptr;
   std::vector<PassTime> times_;
 };
