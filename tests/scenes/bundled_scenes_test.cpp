@@ -1,5 +1,6 @@
-// Every bundled scene runs on both backends, agrees in every bit, and keeps the promises of its `expect`
-// block.
+// Every bundled scene keeps the promises of its `expect` block on the CPU. The GPU, which is a slow one here,
+// takes over the state again and again, goes a stretch of the way with it, and agrees in every bit;
+// tools/compare_scenes goes the whole way.
 #include <gtest/gtest.h>
 
 #include "app/compare.h"
@@ -13,6 +14,8 @@
 namespace clothsim {
 namespace {
 
+constexpr int EVERY = 30, STRETCH = 3;  // frames
+
 class BundledSceneTest : public testing::TestWithParam<std::string> {
  protected:
   void SetUp() override { testContext(); }
@@ -25,7 +28,7 @@ void expectWithin(double value, const std::optional<Range>& range, const char* w
   EXPECT_LE(value, range->high) << what;
 }
 
-TEST_P(BundledSceneTest, KeepsItsPromisesOnBothBackends) {
+TEST_P(BundledSceneTest, KeepsItsPromisesAndAgreesOnBothBackends) {
   const Scene scene = loadSceneByName(GetParam());
   ASSERT_TRUE(scene.expect.has_value()) << "a bundled scene says what to expect of it";
   const Expect& expect = *scene.expect;
@@ -35,16 +38,23 @@ TEST_P(BundledSceneTest, KeepsItsPromisesOnBothBackends) {
   std::optional<CrossingCounter> counter;
   if (expect.crossings && CrossingCounter::available()) counter.emplace(cpu.cloth());
   CrossingSummary crossings;
+  const auto goesAlong = [&](int frame) {
+    return frame >= 0 && frame < expect.frames &&
+           (frame % EVERY < STRETCH || frame >= expect.frames - STRETCH);
+  };
   for (int frame = 0; frame < expect.frames; ++frame) {
+    if (goesAlong(frame) && !goesAlong(frame - 1)) gpu.solver().setState(cpu.solver().state());
     cpu.stepFrame();
-    gpu.stepFrame();
+    if (goesAlong(frame)) gpu.stepFrame();
     state = cpu.solver().state();
+    if (goesAlong(frame) && !goesAlong(frame + 1)) {
+      EXPECT_EQ(difference(state, gpu.solver().state()).differing, 0u) << "after frame " << frame;
+    }
     maxPenetration = std::max(maxPenetration, measure(cpu.cloth(), scene, state).maxPenetration);
     // Counting is dear, and what crosses stays so for some frames.
     if (counter && (frame % 5 == 4 || frame + 1 == expect.frames))
       crossings.add(frame, counter->count(state));
   }
-  EXPECT_EQ(difference(state, gpu.solver().state()).differing, 0u);
 
   const Measures atEnd = measure(cpu.cloth(), scene, state);
   ASSERT_FALSE(atEnd.firstNonFinite.has_value());
