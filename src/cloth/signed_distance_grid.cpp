@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <mutex>
 #include <tuple>
 
 #include "core/error.h"
 #include "core/exact_math.h"
+#include "core/recent.h"
 #include "scene/obj_file.h"
 
 namespace clothsim {
@@ -295,52 +295,11 @@ SolidMesh loadSolidMesh(const std::string& file, double scale) {
 
 namespace {
 
-// All that somebody holds, and the latest of the others up to a limit.
-class KnownGrids {
- public:
-  using Pointer = std::shared_ptr<const SignedDistanceGrid>;
+using GridKey = std::tuple<std::string, double, int>;  // file, scale, cells
+GridKey keyOf(const MeshCollider& collider) { return {collider.file, collider.scale, collider.cells}; }
 
-  Pointer find(const MeshCollider& collider) {
-    const std::lock_guard lock(mutex_);
-    for (std::size_t i = 0; i < known_.size(); ++i)
-      if (known_[i].matches(collider))
-        if (Pointer grid = known_[i].grid.lock()) {
-          std::rotate(known_.begin(), known_.begin() + static_cast<std::ptrdiff_t>(i),
-                      known_.begin() + static_cast<std::ptrdiff_t>(i) + 1);
-          known_.front().kept = grid;
-          return grid;
-        }
-    return nullptr;
-  }
-
-  Pointer add(const MeshCollider& collider, SolidMesh mesh) {
-    auto grid = std::make_shared<const SignedDistanceGrid>(std::move(mesh), collider.cells);
-    const std::lock_guard lock(mutex_);
-    known_.insert(known_.begin(), {collider.file, collider.scale, collider.cells, grid, grid});
-    std::size_t samples = 0;
-    for (Known& known : known_)
-      if (known.kept && (samples += known.kept->samples().size()) > MOST_DISTANCE_SAMPLES) known.kept.reset();
-    std::erase_if(known_, [](const Known& known) { return known.grid.expired(); });
-    return grid;
-  }
-
- private:
-  struct Known {
-    std::string file;
-    double scale;
-    int cells;
-    std::weak_ptr<const SignedDistanceGrid> grid;
-    Pointer kept;
-    [[nodiscard]] bool matches(const MeshCollider& collider) const {
-      return file == collider.file && scale == collider.scale && cells == collider.cells;
-    }
-  };
-  std::mutex mutex_;
-  std::vector<Known> known_;  // the latest first
-};
-
-KnownGrids& knownGrids() {
-  static KnownGrids grids;
+Recent<GridKey, SignedDistanceGrid>& knownGrids() {
+  static Recent<GridKey, SignedDistanceGrid> grids(MOST_DISTANCE_SAMPLES);
   return grids;
 }
 
@@ -354,18 +313,21 @@ KnownGrids& knownGrids() {
 }  // namespace
 
 std::shared_ptr<const SignedDistanceGrid> distanceGridOf(const MeshCollider& collider) {
-  if (auto grid = knownGrids().find(collider)) return grid;
-  return knownGrids().add(collider, loadSolidMesh(collider.file, collider.scale));
+  if (auto grid = knownGrids().find(keyOf(collider))) return grid;
+  auto grid = std::make_shared<const SignedDistanceGrid>(loadSolidMesh(collider.file, collider.scale),
+                                                         collider.cells);
+  knownGrids().add(keyOf(collider), grid, grid->samples().size());
+  return grid;
 }
 
 DistanceGrids distanceGridsOf(const Scene& scene, std::size_t most) {
-  std::map<std::tuple<std::string, double, int>, std::size_t> sampleCounts;
+  std::map<GridKey, std::size_t> sampleCounts;
   std::size_t samples = 0;
   for (std::size_t i = 0; i < scene.colliders.size(); ++i)
     if (const auto* mesh = std::get_if<MeshCollider>(&scene.colliders[i])) {
-      const auto [known, isNew] = sampleCounts.try_emplace({mesh->file, mesh->scale, mesh->cells});
+      const auto [known, isNew] = sampleCounts.try_emplace(keyOf(*mesh));
       if (isNew) {
-        const auto grid = knownGrids().find(*mesh);
+        const auto grid = knownGrids().find(keyOf(*mesh));
         known->second =
             grid ? grid->samples().size()
                  : SignedDistanceGrid::sampleCount(loadSolidMesh(mesh->file, mesh->scale), mesh->cells);

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <mutex>
 #include <set>
 #include <sstream>
 
 #include "core/error.h"
+#include "core/recent.h"
 #include "scene/obj_file.h"
 #include "scene/pose.h"
 
@@ -21,6 +21,7 @@ using Triangle = MeshShape::Triangle;
 using Edge = MeshShape::Edge;
 
 constexpr std::size_t MOST_MEMBERSHIPS = std::size_t{1} << 26;  // of corners of faces in groups
+constexpr std::size_t MOST_KEPT_POINTS = std::size_t{1} << 22;  // of meshes that nobody holds
 constexpr double FLATTEST = 1e-4;                               // height of a triangle, of its longest side
 
 // How a face is called in messages: by its vertices as the file counts them.
@@ -193,20 +194,14 @@ MeshShape load(const std::string& file) {
 }  // namespace
 
 std::shared_ptr<const MeshShape> meshShapeOf(const std::string& file) {
-  struct Known {
-    fs::file_time_type written;
-    std::shared_ptr<const MeshShape> shape;
-  };
-  static std::mutex mutex;
-  static std::map<std::string, Known> all;
-  const std::lock_guard lock(mutex);
+  using Version = std::pair<std::string, fs::file_time_type>;  // of a file
+  static Recent<Version, MeshShape> shapes(MOST_KEPT_POINTS);
   const fs::path path = meshPath(file);
   std::error_code missing;  // the reader complains
-  const fs::file_time_type written = fs::last_write_time(path, missing);
-  const auto known = all.find(path.string());
-  if (known != all.end() && !missing && known->second.written == written) return known->second.shape;
+  const Version version{path.string(), fs::last_write_time(path, missing)};
+  if (auto shape = shapes.find(version); shape && !missing) return shape;
   auto shape = std::make_shared<const MeshShape>(load(file));
-  all[path.string()] = {written, shape};
+  shapes.add(version, shape, shape->points.size());
   return shape;
 }
 

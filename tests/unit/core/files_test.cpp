@@ -1,5 +1,4 @@
 #include "core/files.h"
-#include "core/printable.h"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -8,6 +7,7 @@
 #include <functional>
 
 #include "core/error.h"
+#include "core/printable.h"
 #include "support/temporary_folder.h"
 
 namespace clothsim {
