@@ -1,6 +1,8 @@
 // --resolution: the same cloth with another number of points.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 
 #include "core/error.h"
 #include "scene/field_table.h"
@@ -89,6 +91,13 @@ void checkSides(std::size_t grids, int columns, int rows) {
                      formatNumber(particles));
 }
 
+// For a remark: without the last digits of a product, with all of a step count.
+std::string shortNumber(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.7g", value);
+  return text.data();
+}
+
 }  // namespace
 
 std::string changeResolution(Scene& scene, int columns, int rows, bool keepSteps) {
@@ -101,7 +110,7 @@ std::string changeResolution(Scene& scene, int columns, int rows, bool keepSteps
   const auto add = [&](const std::string& name, double before, double after) {
     if (before != after)
       changes +=
-          (changes.empty() ? "" : ", ") + name + " " + formatNumber(before) + " -> " + formatNumber(after);
+          (changes.empty() ? "" : ", ") + name + " " + shortNumber(before) + " -> " + shortNumber(after);
   };
 
   keepSteps = keepSteps || scene.solver.integrator == Integrator::implicit;
