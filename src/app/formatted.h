@@ -7,10 +7,10 @@
 
 namespace clothsim {
 
-// By printf's rules; 95 characters at most.
+// By printf's rules; 255 characters at most.
 template <class... Values>
 std::string formatted(const char* format, Values... values) {
-  std::array<char, 96> text{};
+  std::array<char, 256> text{};
   std::snprintf(text.data(), text.size(), format, values...);
   return text.data();
 }

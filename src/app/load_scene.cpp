@@ -1,10 +1,9 @@
 #include <algorithm>
-#include <array>
-#include <cstdio>
 #include <iostream>
 #include <regex>
 
 #include "app/commands.h"
+#include "app/formatted.h"
 #include "core/error.h"
 #include "scene/material.h"
 #include "scene/scene_io.h"
@@ -31,13 +30,6 @@ std::vector<Setting> settingsInOrder(const SceneOptions& options) {
 bool setsSteps(const Setting& setting) {
   return setting.text.starts_with("solver.simulation_steps=") ||
          setting.text == "solver.integrator=implicit" || setting.text.find(".material=") != std::string::npos;
-}
-
-template <class... Values>
-std::string formatted(const char* format, Values... values) {
-  std::array<char, 256> text{};
-  std::snprintf(text.data(), text.size(), format, values...);
-  return text.data();
 }
 
 // What "auto" stands for in this scene; empty when nothing that counts is automatic.

@@ -19,10 +19,8 @@ constexpr double DOUBTFUL_TURN = 5;  // degrees in one step
 
 // Half the smallest spacing: pins that are moved so far at once stretch their springs by half.
 double doubtfulDistance(const Cloth& cloth) {
-  double smallest = INFINITY;
-  for (const Grid& grid : cloth.grids())
-    smallest = std::min({smallest, grid.nominalLength[toLeft], grid.nominalLength[toUpper]});
-  return 0.5 * smallest;
+  constexpr double least = 1e-3;  // [m]
+  return std::max(0.5 * smallestSpacing(cloth), least);
 }
 
 std::string nameOfCloth(const Scene& scene, std::size_t cloth) {

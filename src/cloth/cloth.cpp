@@ -371,4 +371,12 @@ std::vector<Spring> Cloth::springs() const {
   return springs;
 }
 
+double smallestSpacing(const Cloth& cloth) {
+  double smallest = INFINITY;
+  for (const Grid& grid : cloth.grids())
+    for (const std::size_t slot : {toLeft, toUpper})  // 0 across a rope, which has one row
+      if (grid.nominalLength[slot] > 0) smallest = std::min(smallest, grid.nominalLength[slot]);
+  return std::isfinite(smallest) ? smallest : 0;
+}
+
 }  // namespace clothsim

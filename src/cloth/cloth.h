@@ -134,6 +134,10 @@ struct Spring {
   double stiffness, restLength;
 };
 
+class Cloth;
+// The smallest distance of two neighbours at rest, on grids and meshes; 0 for particles without any [m].
+[[nodiscard]] double smallestSpacing(const Cloth& cloth);
+
 class Cloth {
  public:
   // @throws SceneError when the cloths hold more particles than 2^26 or than memory has room for, or a mesh

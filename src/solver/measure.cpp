@@ -146,9 +146,8 @@ Measures measure(const Cloth& cloth, const Scene& scene, const State& state) {
 
 ColliderOverlaps overlapsWithColliders(const Cloth& cloth, const Scene& scene, const State& state) {
   constexpr double contactShare = 0.02;  // of the spacing: what a first step that pushes it out hardly shows
-  double spacing = INFINITY;
-  for (const Grid& grid : cloth.grids())
-    spacing = std::min({spacing, grid.nominalLength[toLeft], grid.nominalLength[toUpper]});
+  constexpr double rounding = 1e-6;      // [m]
+  const double fromContact = std::max(contactShare * smallestSpacing(cloth), rounding);
   std::vector<Solid> solids;
   for (const Collider& collider : scene.colliders)
     if (!std::holds_alternative<Plane>(collider)) solids.emplace_back(collider, scene, state.clock.time());
@@ -158,7 +157,7 @@ ColliderOverlaps overlapsWithColliders(const Cloth& cloth, const Scene& scene, c
     double depth = 0;
     for (const Solid& solid : solids)
       depth = std::max(depth, solid.penetration(cloth.positions()[i], positionOf(state, i)));
-    overlaps.particles += depth > contactShare * spacing ? 1 : 0;
+    overlaps.particles += depth > fromContact ? 1 : 0;
     overlaps.depth = std::max(overlaps.depth, depth);
   }
   return overlaps;

@@ -59,6 +59,13 @@ TEST(PathWarnings, TellHowFarAPathBeginsFromItsPins) {
   EXPECT_NE(late[0].text.find("1 m away from its pins at 0.5 s"), std::string::npos) << late[0].text;
 }
 
+TEST(PathWarnings, AreNotOfTheNoiseOfAStandingSheet) {
+  EXPECT_TRUE(pathWarningsOf(std::string(R"({"cloth": {"orientation": 1, "pin_motion":
+      {"keys": [{"t": 0, "position": [0.5, 1, 0]}]},)") +
+                             SHEET + "}}")
+                  .empty());
+}
+
 TEST(PathWarnings, SeePinsThatAreTurned) {
   const auto turned = warningsOnPath(R"({"t": 0, "rotation": [0, 0, 180]})");
   ASSERT_EQ(turned.size(), 1u);
