@@ -20,7 +20,7 @@ void checkMessage(const Error& error) {
   demand(!message.empty(), "an error without a message");
   demand(message.size() <= longest, "a message of " + std::to_string(message.size()) + " bytes");
   for (const char c : message)
-    demand((static_cast<unsigned char>(c) >= 0x20 && c != 0x7f) || c == '\n',
+    demand((static_cast<unsigned char>(c) >= 0x20 && c != 0x7f) || c == '\n' || c == '\t',
            "a message with a control character: " + message);
 }
 
