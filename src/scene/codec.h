@@ -89,33 +89,22 @@ template <>
 void settle(const JsonNode& node, Motion& motion);
 template <>
 void settle(const JsonNode& node, PinMotion& motion);
-template <>
-void settle(const JsonNode& node, Sphere& sphere);
-template <>
-void settle(const JsonNode& node, Plane& plane);
-template <>
-void settle(const JsonNode& node, Capsule& capsule);
-template <>
-void settle(const JsonNode& node, Box& box);
-template <>
-void settle(const JsonNode& node, Torus& torus);
-template <>
-void settle(const JsonNode& node, MeshCollider& mesh);
+
+// Keys of a motion without a position stay at the collider's own place.
+void settleMotion(const JsonNode& collider, std::optional<Motion>& motion, Vec3d place);
+template <WrittenShape Shape>
+void settle(const JsonNode& node, Shape& shape) {
+  settleMotion(node, shape.motion, shape.place());
+  if constexpr (requires { shape.check(node); }) shape.check(node);
+}
 
 template <class T>
 void leaveOut(JsonNode&, const T&) {}
-template <>
-void leaveOut(JsonNode& node, const Sphere& sphere);
-template <>
-void leaveOut(JsonNode& node, const Capsule& capsule);
-template <>
-void leaveOut(JsonNode& node, const Box& box);
-template <>
-void leaveOut(JsonNode& node, const Torus& torus);
-template <>
-void leaveOut(JsonNode& node, const MeshCollider& mesh);
-template <>
-void leaveOut(JsonNode& node, const Plane& plane);
+void leaveOutOwnPlace(JsonNode& collider, const std::optional<Motion>& motion, Vec3d place);
+template <WrittenShape Shape>
+void leaveOut(JsonNode& node, const Shape& shape) {
+  leaveOutOwnPlace(node, shape.motion, shape.place());
+}
 
 // --- Objects
 void expectObject(const JsonNode& node);

@@ -21,6 +21,9 @@ struct Limits {
   bool nonZero = false;  // a vector other than [0, 0, 0]
 };
 
+inline constexpr Limits positive{.low = 0, .lowOpen = true};
+inline constexpr Limits notNegative{.low = 0};
+
 // Where a slider begins and ends: what is commonly used. Typed numbers may go as far as the limits.
 struct Usual {
   double low = 0, high = 0;  // both 0: nothing is said
@@ -157,9 +160,20 @@ struct Field : FieldTraits {
   }
 };
 
+// An entry of a table, with nothing yet but its name and what it means.
+template <class Owner, class T>
+[[nodiscard]] Field<Owner> field(std::string_view key, T Owner::*member, std::string_view help) {
+  return {key, member, help};
+}
+
 // The table of a struct; a type that has one is a JSON object.
 template <class Owner>
 [[nodiscard]] std::span<const Field<Owner>> fieldsOf() = delete;
+
+template <WrittenShape Shape>
+[[nodiscard]] std::span<const Field<Shape>> fieldsOf() {
+  return Shape::fields();
+}
 
 template <>
 std::span<const Field<Scene>> fieldsOf<Scene>();
@@ -177,18 +191,6 @@ template <>
 std::span<const Field<RegionPin>> fieldsOf<RegionPin>();
 template <>
 std::span<const Field<GroupPin>> fieldsOf<GroupPin>();
-template <>
-std::span<const Field<Sphere>> fieldsOf<Sphere>();
-template <>
-std::span<const Field<Plane>> fieldsOf<Plane>();
-template <>
-std::span<const Field<Capsule>> fieldsOf<Capsule>();
-template <>
-std::span<const Field<Box>> fieldsOf<Box>();
-template <>
-std::span<const Field<Torus>> fieldsOf<Torus>();
-template <>
-std::span<const Field<MeshCollider>> fieldsOf<MeshCollider>();
 template <>
 std::span<const Field<Motion>> fieldsOf<Motion>();
 template <>

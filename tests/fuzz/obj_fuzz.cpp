@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "cloth/signed_distance_grid.h"
 #include "demands.h"
+#include "scene/colliders/signed_distance_grid.h"
 #include "scene/mesh_shape.h"
 
 using namespace clothsim;

@@ -57,8 +57,7 @@ template <class Real>
 void CpuSolver<Real>::configure(const Scene& scene) {
   assert(scene.cloths.size() == cloth_->grids().size() &&
          "configure() takes live edits of the solver's own scene");
-  distanceGrids_ = distanceGridsOf(scene);
-  distances_ = distanceSamples(distanceGrids_);
+  colliderSet_ = ColliderSet(scene);
   scene_ = scene;
   clock_.setStepLength(stepLength(scene.solver));
   colliders_.resize(scene.colliders.size());
@@ -91,7 +90,7 @@ cpu::PassArguments<Real> CpuSolver<Real>::arguments(const StepParams<Real>& para
   const bool holds = hand_.hold && hand_.hold->grid == params.grid;
   return {params,
           colliders_.data(),
-          distances_.data(),
+          colliderSet_.distances().data(),
           pinMotions_.data(),
           pinPaths_.paths.empty() ? nullptr : pinPaths_.numbers.data(),
           pinStarts_,
@@ -120,7 +119,7 @@ template <class Real>
 void CpuSolver<Real>::prepareMotions() {
   handParams_ = makeHandParams<Real>(hand_, scene_, clock_.step);
   for (std::size_t i = 0; i < colliders_.size(); ++i)
-    colliders_[i] = makeColliderParams<Real>(scene_, scene_.colliders[i], clock_.time(), clock_.timeAfter(1));
+    colliders_[i] = colliderSet_.params<Real>(i, clock_.time(), clock_.timeAfter(1));
   for (std::size_t i = 0; i < pinMotions_.size(); ++i)
     pinMotions_[i] = makePinMotionParams<Real>(pinPaths_.paths[i], clock_.timeAfter(1));
 }

@@ -76,8 +76,7 @@ class CpuSolver final : public Solver {
   std::vector<Real> inverseMasses_, restLengths_;
   MeshLists<Real> lists_;
   std::vector<ColliderParams<Real>> colliders_;  // of this step,
-  DistanceGrids distanceGrids_;
-  std::vector<float> distances_;  // samples of the mesh colliders' grids
+  ColliderSet colliderSet_;
   PinPaths pinPaths_;
   std::vector<std::uint32_t> offPath_;
   Hand hand_;

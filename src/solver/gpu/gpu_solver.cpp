@@ -55,14 +55,14 @@ GpuSolver::GpuSolver(const Cloth& cloth, const Scene& scene, const GpuOptions& o
 void GpuSolver::configure(const Scene& scene) {
   assert(scene.cloths.size() == cloth_->grids().size() &&
          "configure() takes live edits of the solver's own scene");
-  distanceGrids_ = distanceGridsOf(scene);
-  if (std::vector<float> samples = distanceSamples(distanceGrids_);
-      distances_.name() == 0 || samples != stagedDistances_) {
+  ColliderSet colliderSet(scene);
+  if (distances_.name() == 0 || !colliderSet.hasSamplesOf(colliderSet_)) {
+    const std::vector<float>& samples = colliderSet.distances();
     checkFits(samples.size(), sizeof(float), "samples of mesh colliders' distances");
     distances_ = gl::Buffer<float>("distances", std::span<const float>(samples));
     distanceTexture_ = gl::BufferTexture("distances", distances_.name(), GL_R32F);
-    stagedDistances_ = std::move(samples);
   }
+  colliderSet_ = std::move(colliderSet);
   scene_ = scene;
   clock_.setStepLength(stepLength(scene.solver));
   const std::size_t batch = dependsOnTime(scene) ? BATCH_STEPS : 1;
@@ -134,8 +134,8 @@ void GpuSolver::uploadParams(int count) {
       params.kickTime = velocityConversionTime<float>(scene_);
     }
     for (std::size_t i = 0; i < colliders; ++i)
-      stagedColliders_[k * colliders + i] = makeColliderParams<float>(
-          scene_, scene_.colliders[i], clock_.timeAfter(k), clock_.timeAfter(k + 1));
+      stagedColliders_[k * colliders + i] =
+          colliderSet_.params<float>(i, clock_.timeAfter(k), clock_.timeAfter(k + 1));
     for (std::size_t i = 0; i < pinMotions; ++i)
       stagedPinMotions_[k * pinMotions + i] =
           makePinMotionParams<float>(pinPaths_.paths[i], clock_.timeAfter(k + 1));

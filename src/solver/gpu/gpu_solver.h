@@ -111,8 +111,7 @@ class GpuSolver final : public Solver {
   gl::BufferTexture pinStartTexture_;
   gl::Buffer<PinMotionParams<float>> pinMotions_;  // the same batch, each with all paths
   gl::BufferTexture pinMotionTexture_;
-  std::vector<float> stagedDistances_;
-  DistanceGrids distanceGrids_;
+  ColliderSet colliderSet_;
   gl::Buffer<float> distances_;  // samples of the mesh colliders' grids
   gl::BufferTexture distanceTexture_;
   gl::Buffer<ColorSlot> limitColors_;
