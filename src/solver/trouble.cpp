@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "scene/field_table.h"
-#include "scene/material.h"
+#include "cloth/material.h"
+#include "scene/budget.h"
 
 namespace clothsim {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "app/compare.h"
 #include "gl/gl_test.h"
+#include "simulation/compare.h"
 #include "solver/cpu/cpu_solver.h"
 #include "support/compared_scenes.h"
 

@@ -4,8 +4,8 @@
 
 #include <limits>
 
-#include "app/compare.h"
 #include "gl/gl_test.h"
+#include "simulation/compare.h"
 #include "solver/cpu/cpu_solver.h"
 #include "solver/gpu/gpu_solver.h"
 #include "support/compared_scenes.h"

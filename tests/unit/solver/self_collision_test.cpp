@@ -8,8 +8,8 @@
 #include <random>
 #include <set>
 
+#include "measure/measure_contacts.h"
 #include "solver/cpu/cpu_solver.h"
-#include "solver/cpu/measure_contacts.h"
 #include "solver/cpu/self_collision.h"
 #include "support/compared_scenes.h"
 #include "support/point_clouds.h"

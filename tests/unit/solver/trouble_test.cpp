@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "scene/material.h"
+#include "cloth/material.h"
 #include "solver/cpu/cpu_solver.h"
 #include "support/compared_scenes.h"
 #include "support/injections.h"
