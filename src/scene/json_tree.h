@@ -1,7 +1,6 @@
 // JSON as a tree that remembers keys in order and the line of every value, so that a wrong scene can be
-// reported with its place. nlohmann::json reads the text; its own tree keeps neither lines nor duplicate
-// keys. Private to src/scene, and to
-// files that hold scenes among other things (app/recording.cpp).
+// reported with its place. Libraries' own trees keep neither lines nor duplicate keys. For src/scene, and for
+// readers of files that hold scenes among other things.
 #pragma once
 
 #include <memory>

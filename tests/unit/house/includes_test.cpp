@@ -26,7 +26,7 @@ struct Room {
 // A room is a folder below src/. The innermost folder named here is the one that a file belongs to.
 const std::map<std::string, Room> rooms{
     {"core", {{}, {}}},
-    {"scene", {{"core"}, {"nlohmann", "tinyobj"}}},
+    {"scene", {{"core"}, {"rapidjson", "tinyobj"}}},
     {"cloth", {{"core", "scene"}, {}}},
     {"solver", {{"core", "scene", "cloth"}, {}}},
     {"solver/cpu", {{"core", "scene", "cloth", "solver"}, {"omp"}}},
@@ -43,11 +43,10 @@ const std::map<std::string, Room> rooms{
 // The libraries whose place matters, by how their headers begin. Everybody may include the standard library
 // and POSIX.
 const std::vector<std::pair<std::string, std::string>> libraries{
-    {"GLFW/", "glfw"},         {"imgui", "imgui"},     {"backends/imgui", "imgui"},
-    {"glad/", "opengl"},       {"EGL/", "opengl"},     {"GL/", "opengl"},
-    {"GLES", "opengl"},        {"gl/api.h", "opengl"}, {"glm/", "glm"},
-    {"nlohmann/", "nlohmann"}, {"CLI/", "cli"},        {"stb", "stb"},
-    {"omp.h", "omp"},          {"CGAL/", "cgal"},      {"tiny_obj", "tinyobj"},
+    {"GLFW/", "glfw"},  {"imgui", "imgui"},        {"backends/imgui", "imgui"}, {"glad/", "opengl"},
+    {"EGL/", "opengl"}, {"GL/", "opengl"},         {"GLES", "opengl"},          {"gl/api.h", "opengl"},
+    {"glm/", "glm"},    {"nlohmann/", "nlohmann"}, {"rapidjson/", "rapidjson"}, {"CLI/", "cli"},
+    {"stb", "stb"},     {"omp.h", "omp"},          {"CGAL/", "cgal"},           {"tiny_obj", "tinyobj"},
 };
 
 // The longest room that begins the path: "solver/gpu" for "solver/gpu/pipeline.h", "" when there is none.
