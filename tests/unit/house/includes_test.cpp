@@ -1,4 +1,4 @@
-// Includes point one way (DESIGN.md section 2). The table below is that rule; the tests hold every file in
+// Includes point one way. The table below is that rule; the tests hold every file in
 // src/ to it.
 #include <gtest/gtest.h>
 
@@ -49,7 +49,7 @@ const std::vector<std::pair<std::string, std::string>> libraries{
     {"stb", "stb"},     {"omp.h", "omp"},          {"CGAL/", "cgal"},           {"tiny_obj", "tinyobj"},
 };
 
-// The longest room that begins the path: "solver/gpu" for "solver/gpu/pipeline.h", "" when there is none.
+// The longest room that begins the path: "solver/gpu" for "solver/gpu/gpu_solver.h", "" when there is none.
 std::string roomOf(const std::string& path) {
   std::string found;
   for (const auto& [name, room] : rooms)
