@@ -104,7 +104,7 @@ class Course {
   std::optional<Trouble> replayTrouble_;
 };
 
-// What a run is summed up in; names as in DESIGN.md section 5.
+// What `run --json` prints.
 nlohmann::ordered_json summary(const RunOptions& options, Course& course, const Tally& tally) {
   Simulation& simulation = course.simulation();
   const Scene& scene = course.scene();

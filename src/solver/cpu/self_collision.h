@@ -1,4 +1,4 @@
-// Self-collision on the CPU: the twin of shaders/sim/self_*.comp (what and why: solver/self_collision.h).
+// Self-collision on the CPU: the twin of shaders/sim/self/*.comp (what and why: solver/self_collision.h).
 #pragma once
 
 #include <cstdint>
