@@ -12,6 +12,7 @@
 #include "scene_io/fields.h"
 #include "scene_io/scene_io.h"
 #include "simulation/compare.h"
+#include "solver/step_list.h"
 
 namespace clothsim {
 namespace {
@@ -74,6 +75,12 @@ int describeCommand(const std::string& key) {
   if (!found)
     throw UsageError("there is no scene key \"" + key + "\"" + didYouMean(key, paths) +
                      " `clothsim describe` lists all.");
+  return 0;
+}
+
+int describeStepCommand(const SceneOptions& options) {
+  const Scene scene = loadScene(options);
+  std::printf("%s", describe(makeStep(scene, Cloth(scene))).c_str());
   return 0;
 }
 
