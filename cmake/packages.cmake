@@ -8,6 +8,18 @@ FetchContent_Declare(nlohmann_json URL https://github.com/nlohmann/json/releases
                      FIND_PACKAGE_ARGS 3.10)
 FetchContent_MakeAvailable(nlohmann_json)
 
+# Scene files are read with RapidJSON, which tells where a value or a mistake is; results are written with nlohmann::json.
+# SOURCE_SUBDIR has no CMakeLists.txt: of what is fetched only the headers are used.
+FetchContent_Declare(RapidJSON URL https://github.com/Tencent/rapidjson/archive/refs/tags/v1.1.0.tar.gz SOURCE_SUBDIR include
+                     FIND_PACKAGE_ARGS 1.1)
+FetchContent_MakeAvailable(RapidJSON)
+add_library(clothsim_rapidjson INTERFACE)
+if(RapidJSON_FOUND)
+  target_include_directories(clothsim_rapidjson SYSTEM INTERFACE ${RAPIDJSON_INCLUDE_DIRS})
+else()
+  target_include_directories(clothsim_rapidjson SYSTEM INTERFACE ${rapidjson_SOURCE_DIR}/include)
+endif()
+
 FetchContent_Declare(tinyobjloader GIT_REPOSITORY https://github.com/tinyobjloader/tinyobjloader GIT_TAG v2.0.0rc10
                      FIND_PACKAGE_ARGS)
 FetchContent_MakeAvailable(tinyobjloader)
@@ -22,7 +34,7 @@ add_library(clothsim_stb INTERFACE)
 target_include_directories(clothsim_stb SYSTEM INTERFACE ${STB_INCLUDE_DIR})
 target_link_libraries(clothsim_stb INTERFACE ${STB_LIBRARY})
 
-# Counts crossings (src/check). Not needed to simulate: without it --check-crossings says what to install.
+# Counts crossings (src/measure/crossings.cpp). Not needed to simulate: without it --check-crossings says what to install.
 set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)
 find_package(CGAL 5.0 QUIET)
 

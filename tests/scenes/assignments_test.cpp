@@ -1,15 +1,14 @@
-// The assignments' scenes end where their own programs, run in double precision, end (PHYSICS.md and the
-// issue name the figures).
+// The assignments' scenes end where their own programs, run in double precision, end.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <vector>
 
-#include "scene/scene_io.h"
+#include "measure/measure.h"
+#include "scene_io/scene_io.h"
 #include "solver/cpu/cpu_solver.h"
 #include "solver/cpu/synchronized.h"
-#include "solver/measure.h"
 
 namespace clothsim {
 namespace {

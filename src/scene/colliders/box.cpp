@@ -5,7 +5,6 @@
 
 #include "scene/colliders/shape_fields.h"
 #include "scene/colliders/surface.h"
-#include "scene/json_tree.h"
 
 namespace clothsim {
 
@@ -26,13 +25,12 @@ std::span<const Field<Box>> Box::fields() {
   return fields;
 }
 
-void Box::check(const JsonNode& node) {
+std::optional<Misfit> Box::settle(const IsGiven& isGiven) {
   const double most = 0.5 * std::min({size.x, size.y, size.z});
-  if (rounding <= most) return;
-  // A box thinner than the default rounding is simply round.
-  if (const JsonNode* given = node.find("rounding"))
-    complainExpected(*given, "at most half the smallest size of the box, " + formatNumber(most));
-  rounding = most;
+  if (rounding <= most) return std::nullopt;
+  if (isGiven("rounding")) return Misfit{"rounding", "at most half the smallest size of the box, ", most};
+  rounding = most;  // a box thinner than the default rounding is simply round
+  return std::nullopt;
 }
 
 double Box::distance(Vec3d p) const {

@@ -4,8 +4,6 @@
 
 namespace clothsim {
 
-struct JsonNode;
-
 struct Box {
   static constexpr std::string_view type = "box";
   Vec3d origin{0, 0, 0};      // centre [m]
@@ -17,7 +15,7 @@ struct Box {
   friend bool operator==(const Box&, const Box&) = default;
 
   [[nodiscard]] static std::span<const Field<Box>> fields();
-  void check(const JsonNode& node);
+  [[nodiscard]] std::optional<Misfit> settle(const IsGiven& isGiven);
   [[nodiscard]] Vec3d& place() { return origin; }
   [[nodiscard]] const Vec3d& place() const { return origin; }
   [[nodiscard]] Matrix3 ownRotation() const { return rotationMatrix(rotation); }

@@ -30,8 +30,7 @@ class ColliderSet {
   template <class Real>
   [[nodiscard]] ColliderParams<Real> params(std::size_t i, double begin, double end) const;
   // The samples of all distance grids, one after the other [m].
-  [[nodiscard]] const std::vector<float>& distances() const { return *distances_; }
-  [[nodiscard]] bool hasSamplesOf(const ColliderSet& other) const { return grids_ == other.grids_; }
+  [[nodiscard]] const std::shared_ptr<const std::vector<float>>& distances() const { return distances_; }
 
   // By which the own frame of a collider is rotated in the world at `time` [s].
   [[nodiscard]] Matrix3 rotationAt(std::size_t i, double time) const;

@@ -1,7 +1,6 @@
 #include "scene/colliders/mesh_collider.h"
 
 #include "scene/colliders/shape_fields.h"
-#include "scene/json_tree.h"
 
 namespace clothsim {
 
@@ -24,8 +23,9 @@ std::span<const Field<MeshCollider>> MeshCollider::fields() {
   return fields;
 }
 
-void MeshCollider::check(const JsonNode& node) const {
-  if (file.empty()) complainExpected(*node.find("file"), "the name of an OBJ file");
+std::optional<Misfit> MeshCollider::settle(const IsGiven&) const {
+  if (file.empty()) return Misfit{"file", "the name of an OBJ file"};
+  return std::nullopt;
 }
 
 }  // namespace clothsim

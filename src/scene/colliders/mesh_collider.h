@@ -6,8 +6,6 @@
 
 namespace clothsim {
 
-struct JsonNode;
-
 // The inside of a closed triangle mesh.
 struct MeshCollider {
   static constexpr std::string_view type = "mesh";
@@ -21,7 +19,7 @@ struct MeshCollider {
   friend bool operator==(const MeshCollider&, const MeshCollider&) = default;
 
   [[nodiscard]] static std::span<const Field<MeshCollider>> fields();
-  void check(const JsonNode& node) const;
+  [[nodiscard]] std::optional<Misfit> settle(const IsGiven& isGiven) const;
   [[nodiscard]] Vec3d& place() { return origin; }
   [[nodiscard]] const Vec3d& place() const { return origin; }
   [[nodiscard]] Matrix3 ownRotation() const { return rotationMatrix(rotation); }

@@ -4,6 +4,7 @@
 
 #include <concepts>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -16,7 +17,7 @@
 namespace clothsim {
 
 template <class Owner>
-struct Field;  // scene/field_table.h
+struct Field;  // scene/field.h
 
 // The surface of a shape in its own frame, for drawing; triangles are counter-clockwise from outside.
 struct Surface {
@@ -27,8 +28,16 @@ struct Surface {
   std::vector<std::uint32_t> indices;
 };
 
-// What the user writes. A shape may have `void check(const JsonNode&)`, too, which complains about keys that
-// do not fit each other.
+// A key of a shape whose value does not fit the others.
+struct Misfit {
+  std::string_view key;
+  std::string_view expected;      // "a tube_radius below the radius ",
+  std::optional<double> limit{};  // and the number at the end of that
+};
+
+// What the user writes. A shape may have `std::optional<Misfit> settle(const IsGiven&)`, too, which is called
+// after reading, and makes defaults fit to what is given.
+using IsGiven = std::function<bool(std::string_view key)>;
 template <class S>
 concept WrittenShape = requires(S shape, const S& fixed) {
   { S::type } -> std::convertible_to<std::string_view>;               // in scene files

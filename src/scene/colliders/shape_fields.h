@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "scene/field_table.h"
+#include "scene/field.h"
 
 namespace clothsim {
 

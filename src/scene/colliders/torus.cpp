@@ -5,7 +5,6 @@
 
 #include "scene/colliders/shape_fields.h"
 #include "scene/colliders/surface.h"
-#include "scene/json_tree.h"
 
 namespace clothsim {
 
@@ -27,12 +26,9 @@ std::span<const Field<Torus>> Torus::fields() {
   return fields;
 }
 
-void Torus::check(const JsonNode& node) const {
-  if (tubeRadius < radius) return;
-  const JsonNode* given = node.find("tube_radius");
-  complain(given != nullptr ? *given : node, "expected a tube_radius below the radius " +
-                                                 formatNumber(radius) + ", found " +
-                                                 formatNumber(tubeRadius));
+std::optional<Misfit> Torus::settle(const IsGiven&) const {
+  if (tubeRadius < radius) return std::nullopt;
+  return Misfit{"tube_radius", "a tube_radius below the radius ", radius};
 }
 
 double Torus::distance(Vec3d p) const { return std::hypot(std::hypot(p.x, p.z) - radius, p.y) - tubeRadius; }

@@ -4,8 +4,6 @@
 
 namespace clothsim {
 
-struct JsonNode;
-
 // All points within `tubeRadius` of a circle; its own frame has the circle around y.
 struct Torus {
   static constexpr std::string_view type = "torus";
@@ -18,7 +16,7 @@ struct Torus {
   friend bool operator==(const Torus&, const Torus&) = default;
 
   [[nodiscard]] static std::span<const Field<Torus>> fields();
-  void check(const JsonNode& node) const;
+  [[nodiscard]] std::optional<Misfit> settle(const IsGiven& isGiven) const;
   [[nodiscard]] Vec3d& place() { return origin; }
   [[nodiscard]] const Vec3d& place() const { return origin; }
   [[nodiscard]] Matrix3 ownRotation() const { return rotationFromY(axis); }

@@ -1,0 +1,46 @@
+// The material model: from a fabric as it is measured to the springs of a lattice, so that drape, sag and the
+// time it takes do not change with the resolution (docs/physics.md). And how long an explicit step may be.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace clothsim {
+
+// Whether some cloth has a material.
+[[nodiscard]] bool usesMaterial(const Scene& scene);
+
+// What a preset's name stands for; none for a name that is none.
+[[nodiscard]] std::optional<Material> materialPreset(std::string_view name);
+[[nodiscard]] std::vector<std::string> materialPresetNames();
+
+// Makes the cloth one of that material; what a material tells is told by nothing else then.
+void giveMaterial(ClothSettings& cloth, const Material& material);
+
+// Springs of a lattice with cells of `dx` by `dy` [m] that stretches and shears as the material does:
+// C11 = (Y + sqrt(Y^2 + 4 G^2)) / 2 in both directions and C12 = G, the only choice that central forces
+// leave. All of them count half along a border of the sheet.
+struct LatticeStiffness {
+  double alongRow = 0, alongColumn = 0;  // structural [N/m]; below 0 when the cells are too oblong
+  double diagonal = 0;                   // shear [N/m]
+  // Of the energy 1/2 b |x(i-1) - 2 x(i) + x(i+1)|^2 a particle and direction [N/m].
+  double bendAlongRow = 0, bendAlongColumn = 0;
+};
+[[nodiscard]] LatticeStiffness latticeStiffness(const Material& material, double dx, double dy);
+
+// A step that no explicit integrator becomes unstable at, whatever the cloth's shape [s]: 2 / omega, where
+// omega^2 bounds the largest eigenvalue of K/m by Gershgorin's circles over blocks. Infinite without springs.
+[[nodiscard]] double stableStep(const ClothSettings& cloth);
+// The smallest of its cloths; infinite under the implicit integrator.
+[[nodiscard]] double stableStep(const Scene& scene);
+
+// The least number of steps a frame whose length is at most the stable step, and 1/60 s.
+[[nodiscard]] int stableSteps(const Scene& scene);
+// Sets solver.simulation_steps and solver.cg_iterations where they are "auto".
+void chooseCounts(Scene& scene);
+
+}  // namespace clothsim

@@ -1,0 +1,120 @@
+// The subcommands behind `clothsim`, one function each; command_line.cpp turns argv into their options.
+// Results go to stdout, progress and remarks to stderr. Each returns the exit code or throws an
+// Error.
+#pragma once
+
+#include <cstdint>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace clothsim {
+
+struct GridSize {
+  int columns = 0, rows = 0;
+};
+
+// What every command that simulates takes.
+struct SceneOptions {
+  std::string scene = "pinned2";       // -f
+  std::optional<GridSize> resolution;  // --resolution
+  std::vector<std::string> settings;   // --set key=value
+  std::vector<std::string> varied{};   // --vary: one combination of its values, set after the settings
+};
+// "512x512". @throws UsageError that names the flag
+[[nodiscard]] GridSize parseSize(const std::string& text, const std::string& flag);
+
+// The scene, its resolution changed and --set applied, and what the user should know of the result.
+// @throws SceneError, UsageError
+struct RemarkedScene {
+  Scene scene;
+  std::vector<std::string> remarks;  // sentences
+};
+[[nodiscard]] RemarkedScene readScene(const SceneOptions& options);
+// readScene(), with its remarks on stderr.
+[[nodiscard]] Scene loadScene(const SceneOptions& options);
+
+struct RunOptions {
+  SceneOptions scene;
+  std::optional<int> frames;           // not given: as many as the recording has
+  std::optional<std::string> backend;  // not given: gpu, or those of the recording
+  std::vector<std::string> saves;      // files by extension; numbered ones take every `every`-th frame
+  int every = 1;
+  std::string from;  // a .state file to begin with
+  bool json = false;
+  bool checkCrossings = false;
+  double jitter = 0;       // start with every free particle moved by up to so much along each axis [m]
+  std::uint32_t seed = 1;  // of the jitter
+  std::string replay;      // a recording to do again, instead of a scene
+  bool strict = false;     // warnings end it with exit code 1
+};
+int runCommand(const RunOptions& options);
+
+// How the camera goes around what it looks at, from where the scene puts it, and how much nearer.
+struct ViewTurn {
+  double right = 0, up = 0;  // [degrees]
+  double zoom = 1;           // 2: from half the distance
+};
+inline constexpr double radians = std::numbers::pi / 180;  // in a degree
+
+struct RenderCommandOptions {
+  SceneOptions scene;
+  int frames = 0;
+  std::string backend = "gpu";
+  std::vector<std::string> outs;  // still.png, frame_%04d.png, clip.mp4
+  int width = 1280, height = 720;
+  int every = 1;                // numbered pictures: every so many frames
+  double framesPerSecond = 30;  // of a film, at most
+  std::string shader;           // "" for the scene's own
+  int sphereSegmentsAround = 64, sphereSegmentsDown = 48;
+  std::string from;  // a .state file to begin with
+  ViewTurn view{};
+  bool strict = false;  // warnings end it with exit code 1
+};
+int renderCommand(const RenderCommandOptions& options);
+
+struct SweepOptions {
+  SceneOptions scene;
+  std::vector<std::string> variations;  // --vary key=value,value...; also of `frame` and `resolution`
+  std::optional<int> frames;            // not given: the values of `frame`
+  std::string backend = "gpu";
+  std::string out;                // sheet.png, with sheet.csv beside it
+  int width = 560, height = 420;  // of one picture
+  std::string shader;             // "" for the scene's own
+  ViewTurn view;
+  bool json = false;
+  bool strict = false;  // warnings end it with exit code 1
+};
+int sweepCommand(const SweepOptions& options);
+
+struct CompareOptions {
+  SceneOptions scene;
+  int frames = 0;
+  bool json = false;
+  bool checkCrossings = false;
+};
+int compareCommand(const CompareOptions& options);
+
+struct BenchOptions {
+  SceneOptions scene;
+  std::vector<GridSize> resolutions;
+  std::vector<std::string> backends;
+  double seconds = 1;   // of measuring, for each figure
+  int afterFrames = 0;  // measure the cloth as it lies then
+  bool json = false;
+  bool draw = false;  // measure drawing instead: every shading model, pass by pass
+};
+int benchCommand(const BenchOptions& options);
+
+int doctorCommand(bool json);
+int scenesCommand();
+int describeCommand(const std::string& key);  // "" for all
+int describeStepCommand(const SceneOptions& options);
+
+// Parses argv, runs the subcommand, prints errors to stderr; returns the exit code.
+int runCommandLine(int argc, char** argv);
+
+}  // namespace clothsim

@@ -1,0 +1,127 @@
+// The tables of all structs of a scene. JSON reading and writing, --set, describe and the panels of the
+// viewer walk over them. The codecs (codec.h) know how a type looks in JSON.
+#pragma once
+
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "scene/budget.h"
+#include "scene/field.h"
+#include "scene/scene.h"
+
+namespace clothsim {
+
+// "> 0", "0 to 1", "" for any.
+[[nodiscard]] std::string limitsText(const Limits& limits);
+
+// The ends of a slider for the field: what is usual, else its limits, else a tenfold of what it is now.
+[[nodiscard]] Usual sliderRange(const FieldTraits& traits, double now);
+
+template <>
+struct MemberOf<Scene> {
+  using Type = MemberAmong<Scene, std::vector<ClothSettings>, std::vector<Collider>, std::optional<Wind>,
+                           SolverSettings, CameraSettings, RenderSettings, std::optional<Expect>>;
+};
+template <>
+struct MemberOf<ClothSettings> {
+  using Type = MemberAmong<ClothSettings, Orientation, std::vector<Pin>, std::vector<PinMotion>,
+                           std::optional<Material>, std::optional<Vec3d>>;
+};
+template <>
+struct MemberOf<RegionPin> {
+  using Type = MemberAmong<RegionPin, Region>;
+};
+template <>
+struct MemberOf<Motion> {
+  using Type = MemberAmong<Motion, std::vector<Motion::Key>>;
+};
+template <>
+struct MemberOf<PinMotion> {
+  using Type = MemberAmong<PinMotion, std::vector<Pin>, std::vector<PinMotion::Key>>;
+};
+template <>
+struct MemberOf<PinMotion::Key> {
+  using Type = MemberAmong<PinMotion::Key, std::optional<Vec3d>>;
+};
+template <>
+struct MemberOf<Wind> {
+  using Type = MemberAmong<Wind, Gust>;
+};
+template <>
+struct MemberOf<SolverSettings> {
+  using Type = MemberAmong<SolverSettings, Integrator, SelfCollision, FrictionLaw, AutoCount>;
+};
+template <>
+struct MemberOf<CameraSettings> {
+  using Type = MemberAmong<CameraSettings, std::optional<Vec3d>>;
+};
+template <>
+struct MemberOf<RenderSettings> {
+  using Type = MemberAmong<RenderSettings, std::optional<Vec3d>>;
+};
+template <>
+struct MemberOf<Expect> {
+  using Type = MemberAmong<Expect, std::optional<Range>, std::optional<Vec3d>>;
+};
+// The table of a struct; a type that has one is a JSON object.
+template <class Owner>
+[[nodiscard]] std::span<const Field<Owner>> fieldsOf() = delete;
+
+template <WrittenShape Shape>
+[[nodiscard]] std::span<const Field<Shape>> fieldsOf() {
+  return Shape::fields();
+}
+
+template <>
+std::span<const Field<Scene>> fieldsOf<Scene>();
+template <>
+std::span<const Field<ClothSettings>> fieldsOf<ClothSettings>();
+template <>
+std::span<const Field<Material>> fieldsOf<Material>();
+template <>
+std::span<const Field<GridRange>> fieldsOf<GridRange>();
+template <>
+std::span<const Field<VertexPin>> fieldsOf<VertexPin>();
+template <>
+std::span<const Field<Region>> fieldsOf<Region>();
+template <>
+std::span<const Field<RegionPin>> fieldsOf<RegionPin>();
+template <>
+std::span<const Field<GroupPin>> fieldsOf<GroupPin>();
+template <>
+std::span<const Field<Motion>> fieldsOf<Motion>();
+template <>
+std::span<const Field<Motion::Key>> fieldsOf<Motion::Key>();
+template <>
+std::span<const Field<PinMotion>> fieldsOf<PinMotion>();
+template <>
+std::span<const Field<PinMotion::Key>> fieldsOf<PinMotion::Key>();
+template <>
+std::span<const Field<Wind>> fieldsOf<Wind>();
+template <>
+std::span<const Field<Gust>> fieldsOf<Gust>();
+template <>
+std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>();
+template <>
+std::span<const Field<CameraSettings>> fieldsOf<CameraSettings>();
+template <>
+std::span<const Field<RenderSettings>> fieldsOf<RenderSettings>();
+template <>
+std::span<const Field<Expect>> fieldsOf<Expect>();
+
+template <class T>
+concept HasFields = requires {
+  fieldsOf<T>();
+};
+
+// Scenes with `ks` get CS184's limiter and self-collision unless they say otherwise, scenes with a material
+// Coulomb's friction and the implicit integrator in as many steps as it needs.
+[[nodiscard]] SolverSettings solverDefaults(bool usesKs, bool usesMaterial);
+// Whether some cloth follows CS184's model. A cloth with neither constant does: the reader gives it
+// defaultKs.
+[[nodiscard]] bool usesKs(const Scene& scene);
+
+}  // namespace clothsim

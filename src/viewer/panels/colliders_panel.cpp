@@ -1,0 +1,71 @@
+// Colliders: the solid shapes, each with the fields of its type.
+#include <algorithm>
+
+#include "scene/field.h"
+#include "viewer/panels/panels.h"
+#include "viewer/ui_frame.h"
+
+namespace clothsim {
+namespace {
+
+// Whether a scene file must name something of it, as the file of a mesh.
+bool needsFile(const Collider& collider) {
+  return std::visit(
+      [](const auto& shape) {
+        const auto fields = shape.fields();
+        return std::any_of(fields.begin(), fields.end(),
+                           [](const FieldTraits& field) { return field.presence == Presence::required; });
+      },
+      collider);
+}
+
+void drawFields(PanelContext& context, Collider& collider, const std::string& path) {
+  std::visit(
+      [&](auto& shape) {
+        context.widgets.all(shape, path);
+        if (shape.motion)
+          quietText("moves along a path of " + std::to_string(shape.motion->keys.size()) + " keys");
+      },
+      collider);
+}
+
+void drawAddition(PanelContext& context) {
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  if (!ImGui::BeginCombo("##add", "Add a collider")) return;
+  for (Collider& collider : defaultColliders()) {
+    if (needsFile(collider) || !ImGui::Selectable(typeOf(collider).data())) continue;
+    placeOf(collider) = context.lookedAt;
+    context.draft.colliders.push_back(collider);
+    context.widgets.changed(Change::live);
+  }
+  ImGui::EndCombo();
+}
+
+}  // namespace
+
+void drawCollidersPanel(PanelContext& context) {
+  context.widgets.some(context.draft.solver, "solver", {"friction_law"});
+  std::vector<Collider>& colliders = context.draft.colliders;
+  for (std::size_t i = 0; i < colliders.size(); ++i) {
+    ImGui::PushID(static_cast<int>(i));
+    const std::string label = std::string(typeOf(colliders[i])) + " " + std::to_string(i + 1);
+    const bool open =
+        ImGui::TreeNodeEx(label.c_str(), colliders.size() < 4 ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+    bool removed = false;
+    if (open) {
+      drawFields(context, colliders[i], "colliders." + std::to_string(i));
+      removed = ImGui::SmallButton("Remove");
+      ImGui::TreePop();
+    }
+    ImGui::PopID();
+    if (removed) {
+      colliders.erase(colliders.begin() + static_cast<std::ptrdiff_t>(i));
+      context.widgets.changed(Change::live);
+      break;
+    }
+  }
+  if (colliders.empty()) quietText("No colliders in this scene.");
+  drawAddition(context);
+}
+
+}  // namespace clothsim
