@@ -34,7 +34,7 @@ add_library(clothsim_stb INTERFACE)
 target_include_directories(clothsim_stb SYSTEM INTERFACE ${STB_INCLUDE_DIR})
 target_link_libraries(clothsim_stb INTERFACE ${STB_LIBRARY})
 
-# Counts crossings (src/check). Not needed to simulate: without it --check-crossings says what to install.
+# Counts crossings (src/measure/crossings.cpp). Not needed to simulate: without it --check-crossings says what to install.
 set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)
 find_package(CGAL 5.0 QUIET)
 

@@ -196,7 +196,7 @@ def implicit_errors(errors):
 
 
 def materials():
-    text = (root / "src/scene/material.cpp").read_text()
+    text = (root / "src/cloth/material.cpp").read_text()
     keys = "density stretch shear bend damping thickness friction".split()
     lines = []
     for name, body in re.findall(r'\{"(\w+)",\s*\{(\.density.*?)\}\}', text, re.S):

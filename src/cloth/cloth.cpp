@@ -6,12 +6,12 @@
 #include <string>
 
 #include "cloth/contact_memory.h"
+#include "cloth/material.h"
+#include "cloth/mesh_shape.h"
+#include "cloth/pins.h"
 #include "core/error.h"
 #include "core/hash.h"
 #include "scene/budget.h"
-#include "scene/material.h"
-#include "scene/mesh_shape.h"
-#include "scene/pins.h"
 #include "scene/pose.h"
 
 namespace clothsim {
@@ -45,7 +45,7 @@ double springStiffness(const ClothSettings& settings, SpringKind kind, double re
   return kind == SpringKind::bending ? 0.2 * ks : ks;
 }
 
-// The springs and masses of a material (scene/material.h).
+// The springs and masses of a material (cloth/material.h).
 void putMaterial(const ClothSettings& settings, Grid& grid) {
   const double dx = spacing(settings.width, grid.columns), dy = spacing(settings.height, grid.rows);
   const LatticeStiffness k = latticeStiffness(*settings.material, dx, dy);

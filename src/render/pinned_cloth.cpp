@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "scene/pins.h"
+#include "cloth/pins.h"
 #include "scene/pose.h"
 
 namespace clothsim {

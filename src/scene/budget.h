@@ -5,6 +5,10 @@
 
 namespace clothsim {
 
+inline constexpr int smallestSide = 2, largestSide = 16384;  // of a grid [points]
+inline constexpr double mostParticles = 67'108'864;          // 2^26, of all cloths together
+inline constexpr int mostSteps = 1'000'000;                  // a frame
+
 // Of a particle with all that belongs to it, in a run on the CPU at 1024 x 1024 (the largest of integrators
 // and self-collisions) [bytes].
 inline constexpr double BYTES_A_PARTICLE = 600;

@@ -143,7 +143,7 @@ struct PinMotion {
   friend bool operator==(const PinMotion&, const PinMotion&) = default;
 };
 
-// A fabric as it is measured, independent of the grid; spring constants follow from it (scene/material.h).
+// A fabric as it is measured, independent of the grid; spring constants follow from it (cloth/material.h).
 struct Material {
   double density = 0.15;      // mass per area [kg/m^2]
   double stretch = 10'000;    // Young's modulus of the sheet: its modulus times its thickness [N/m]
@@ -154,6 +154,9 @@ struct Material {
   double friction = 0.4;      // Coulomb's coefficient between layers of it
   friend bool operator==(const Material&, const Material&) = default;
 };
+
+// CS184's stiffness, when a cloth names none [N/m].
+inline constexpr double defaultKs = 5000;
 
 struct ClothSettings {
   std::string mesh;              // OBJ, beside the scene file or below the resource root; "": a grid

@@ -1,6 +1,6 @@
 #include "solver/pin_paths.h"
 
-#include "scene/pins.h"
+#include "cloth/pins.h"
 #include "scene/pose.h"
 
 namespace clothsim {

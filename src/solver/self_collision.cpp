@@ -4,8 +4,8 @@
 #include <bit>
 #include <cmath>
 
+#include "cloth/material.h"
 #include "core/exact_math.h"
-#include "scene/material.h"
 #include "solver/step_params.h"
 
 namespace clothsim {

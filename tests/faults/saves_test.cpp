@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "app/commands.h"
+#include "commands/commands.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "export/export.h"

@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "cloth/cloth.h"
-#include "scene/scene_io.h"
+#include "scene_io/scene_io.h"
 
 namespace clothsim::fuzz {
 

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include "cloth/mesh_shape.h"
 #include "cloth/signed_distance_grid.h"
 #include "demands.h"
-#include "scene/mesh_shape.h"
 
 using namespace clothsim;
 namespace fs = std::filesystem;

@@ -1,6 +1,6 @@
 // Recordings of what was done by hand.
-#include "app/recording.h"
 #include "demands.h"
+#include "session/recording.h"
 
 using namespace clothsim;
 

@@ -1,6 +1,6 @@
 // Scene files.
 #include "demands.h"
-#include "scene/scene_io.h"
+#include "scene_io/scene_io.h"
 
 using namespace clothsim;
 

@@ -2,11 +2,11 @@
 // it: fuzz_seeds FOLDER
 #include <filesystem>
 
-#include "app/recording.h"
 #include "core/files.h"
 #include "export/formats.h"
-#include "scene/fields.h"
-#include "scene/scene_io.h"
+#include "scene_io/fields.h"
+#include "scene_io/scene_io.h"
+#include "session/recording.h"
 
 using namespace clothsim;
 namespace fs = std::filesystem;

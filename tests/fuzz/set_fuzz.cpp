@@ -2,7 +2,7 @@
 #include <sstream>
 
 #include "demands.h"
-#include "scene/scene_io.h"
+#include "scene_io/scene_io.h"
 
 using namespace clothsim;
 

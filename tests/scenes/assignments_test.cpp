@@ -5,10 +5,10 @@
 #include <cstdio>
 #include <vector>
 
-#include "scene/scene_io.h"
+#include "measure/measure.h"
+#include "scene_io/scene_io.h"
 #include "solver/cpu/cpu_solver.h"
 #include "solver/cpu/synchronized.h"
-#include "solver/measure.h"
 
 namespace clothsim {
 namespace {

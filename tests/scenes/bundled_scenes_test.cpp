@@ -3,13 +3,13 @@
 // tools/compare_scenes goes the whole way.
 #include <gtest/gtest.h>
 
-#include "app/compare.h"
-#include "app/simulation.h"
-#include "check/crossings.h"
 #include "gl/gl_test.h"
-#include "scene/scene_io.h"
+#include "measure/crossings.h"
+#include "measure/measure.h"
+#include "scene_io/scene_io.h"
+#include "simulation/compare.h"
+#include "simulation/simulation.h"
 #include "solver/cpu/synchronized.h"
-#include "solver/measure.h"
 
 namespace clothsim {
 namespace {

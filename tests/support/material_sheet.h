@@ -1,7 +1,7 @@
 // A sheet of a material, in explicit steps that are surely stable.
 #pragma once
 
-#include "scene/material.h"
+#include "cloth/material.h"
 
 namespace clothsim::test {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "scene/scene_io.h"
+#include "scene_io/scene_io.h"
 
 namespace clothsim::test {
 

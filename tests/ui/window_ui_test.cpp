@@ -6,11 +6,11 @@
 #include <cctype>
 #include <fstream>
 
-#include "app/viewer_config.h"
-#include "app/viewer_keys.h"
 #include "core/files.h"
-#include "scene/scene_io.h"
+#include "scene_io/scene_io.h"
 #include "ui/screen.h"
+#include "viewer/viewer_config.h"
+#include "viewer/viewer_keys.h"
 
 namespace clothsim {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/error.h"
-#include "scene/scene_io.h"
+#include "scene_io/scene_io.h"
 #include "solver/cpu/cpu_solver.h"
 
 using namespace clothsim;

@@ -5,10 +5,10 @@
 
 #include <cmath>
 
-#include "app/simulation.h"
 #include "render/stage.h"
 #include "scene/pose.h"
-#include "scene/scene_io.h"
+#include "scene_io/scene_io.h"
+#include "simulation/simulation.h"
 
 namespace clothsim {
 namespace {

@@ -1,13 +1,13 @@
 // Cloth made of a mesh as it is drawn, picked and held by hand.
 #include <gtest/gtest.h>
 
-#include "app/session.h"
 #include "core/error.h"
 #include "export/formats.h"
 #include "gl/gl_test.h"
 #include "render/camera.h"
 #include "render/cloth_mesh.h"
 #include "render/renderer.h"
+#include "session/session.h"
 #include "solver/gpu/gpu_solver.h"
 #include "support/mesh_sheet.h"
 #include "support/throws.h"

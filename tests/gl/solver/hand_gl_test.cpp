@@ -3,8 +3,8 @@
 
 #include <memory>
 
-#include "app/compare.h"
 #include "gl/gl_test.h"
+#include "simulation/compare.h"
 #include "solver/cpu/cpu_solver.h"
 #include "solver/gpu/gpu_solver.h"
 #include "support/compared_scenes.h"

@@ -7,7 +7,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
-#include "scene/scene_io.h"
+#include "scene_io/scene_io.h"
 #include "solver/cpu/shapes.h"
 #include "support/temporary_folder.h"
 #include "support/throws.h"

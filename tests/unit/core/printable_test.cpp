@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "scene/scene_io.h"
+#include "scene_io/scene_io.h"
 #include "support/throws.h"
 
 namespace clothsim {

@@ -4,8 +4,8 @@
 #include <cstring>
 #include <sstream>
 
+#include "cloth/mesh_shape.h"
 #include "export/formats.h"
-#include "scene/mesh_shape.h"
 #include "solver/solver.h"
 #include "support/mesh_sheet.h"
 #include "unit/export/small_cloth.h"

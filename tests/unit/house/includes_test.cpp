@@ -26,18 +26,27 @@ struct Room {
 // A room is a folder below src/. The innermost folder named here is the one that a file belongs to.
 const std::map<std::string, Room> rooms{
     {"core", {{}, {}}},
-    {"scene", {{"core"}, {"rapidjson", "tinyobj"}}},
+    {"scene", {{"core"}, {"tinyobj"}}},
     {"cloth", {{"core", "scene"}, {}}},
+    {"scene_io", {{"core", "scene", "cloth"}, {"rapidjson"}}},
     {"solver", {{"core", "scene", "cloth"}, {}}},
     {"solver/cpu", {{"core", "scene", "cloth", "solver"}, {"omp"}}},
     {"gl", {{"core"}, {"opengl"}}},
     {"solver/gpu", {{"core", "scene", "cloth", "solver", "gl"}, {"opengl"}}},
     {"render", {{"core", "scene", "cloth", "gl"}, {"opengl", "glm", "stb"}}},
     {"export", {{"core", "scene", "cloth", "solver"}, {"stb"}}},
-    {"check", {{"core", "scene", "cloth", "solver"}, {"cgal"}}},
-    {"app",
-     {{"core", "scene", "cloth", "solver", "solver/cpu", "solver/gpu", "gl", "render", "export", "check"},
-      {"glfw", "imgui", "cli", "nlohmann", "glm", "omp"}}},
+    {"measure", {{"core", "scene", "cloth", "solver", "solver/cpu"}, {"cgal", "nlohmann"}}},
+    {"simulation", {{"core", "scene", "cloth", "solver", "solver/cpu", "solver/gpu", "gl", "measure"}, {}}},
+    {"session", {{"core", "scene", "cloth", "scene_io", "solver", "simulation"}, {"nlohmann"}}},
+    {"output", {{"core", "scene", "render", "export"}, {"imgui"}}},
+    {"viewer",
+     {{"core", "scene", "cloth", "scene_io", "solver", "solver/gpu", "gl", "render", "export", "measure",
+       "simulation", "session", "output"},
+      {"glfw", "imgui", "nlohmann", "glm"}}},
+    {"commands",
+     {{"core", "scene", "cloth", "scene_io", "solver", "solver/cpu", "solver/gpu", "gl", "render", "export",
+       "measure", "simulation", "session", "output", "viewer"},
+      {"cli", "nlohmann", "omp"}}},
 };
 
 // The libraries whose place matters, by how their headers begin. Everybody may include the standard library
@@ -139,14 +148,15 @@ TEST(Includes, CheckCatchesEachKindOfViolation) {
       {"export/png.cpp", "#include \"render/image.h\""},
       {"render/renderer.cpp", "#include <GLFW/glfw3.h>"},
       {"render/panel.cpp", "  #  include <imgui.h>"},
-      {"app/viewer.cpp", "#include <glad/gl.h>"},
-      {"app/viewer.cpp", "#include \"gl/api.h\""},
-      {"app/viewer.cpp", "  glViewport(0, 0, 1, 1);"},
+      {"viewer/viewer.cpp", "#include <glad/gl.h>"},
+      {"viewer/viewer.cpp", "#include \"gl/api.h\""},
+      {"viewer/viewer.cpp", "  glViewport(0, 0, 1, 1);"},
       {"cloth/cloth.cpp", "#include <glm/glm.hpp>"},
       {"core/files.cpp", "#include \"../scene/scene.h\""},
       {"core/files.cpp", "#include \"misc/things.h\""},
-      {"app/run_command.cpp", "#include <CGAL/intersections.h>"},
-      {"solver/solver.cpp", "#include \"check/crossings.h\""},  // no step depends on checks
+      {"commands/run_command.cpp", "#include <CGAL/intersections.h>"},
+      {"solver/solver.cpp", "#include \"measure/crossings.h\""},  // no step depends on measures
+      {"viewer/viewer.cpp", "#include \"commands/commands.h\""},
       {"attic/old.cpp", "int x;"},
   };
   for (const Example& example : examples)
@@ -160,10 +170,10 @@ TEST(Includes, CheckLetsPassWhatTheHouseAllows) {
       {"solver/cpu/cpu_solver.cpp", "#include \"shared/step_params.h\""},
       {"solver/gpu/gpu_solver.cpp", "  glDispatchCompute(1, 1, 1);"},
       {"render/renderer.cpp", "#include \"gl/api.h\""},
-      {"app/viewer.cpp", "  glfwPollEvents();"},
-      {"app/viewer.cpp", "  // glViewport(0, 0, 1, 1) is the renderer's affair"},
-      {"app/viewer.cpp", "  gl::initializeCurrentContext(load);"},
-      {"app/doctor.cpp", "#include \"solver/gpu/gpu_solver.h\""},
+      {"viewer/viewer.cpp", "  glfwPollEvents();"},
+      {"viewer/viewer.cpp", "  // glViewport(0, 0, 1, 1) is the renderer's affair"},
+      {"viewer/viewer.cpp", "  gl::initializeCurrentContext(load);"},
+      {"commands/doctor.cpp", "#include \"solver/gpu/gpu_solver.h\""},
   };
   for (const Example& example : examples)
     EXPECT_EQ(violationsIn(example.path, example.line), std::vector<std::string>{})

@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "cloth/material.h"
 #include "core/files.h"
-#include "scene/material.h"
 
 namespace clothsim {
 namespace {

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "app/viewer_keys.h"
 #include "core/files.h"
-#include "scene/scene_io.h"
+#include "scene_io/scene_io.h"
+#include "viewer/viewer_keys.h"
 
 namespace clothsim {
 namespace {

@@ -5,10 +5,10 @@
 #include <numbers>
 #include <random>
 
+#include "measure/measure.h"
 #include "scene/pose.h"
 #include "solver/cpu/cpu_solver.h"
 #include "solver/cpu/shapes.h"
-#include "solver/measure.h"
 #include "support/lone_particle.h"
 
 namespace clothsim {

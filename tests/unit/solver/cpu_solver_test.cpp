@@ -10,7 +10,7 @@
 #include <cstring>
 #include <numbers>
 
-#include "solver/measure.h"
+#include "measure/measure.h"
 #include "support/compared_scenes.h"
 
 namespace clothsim {

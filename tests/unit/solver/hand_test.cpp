@@ -5,9 +5,9 @@
 
 #include <cmath>
 
+#include "measure/measure.h"
+#include "measure/measure_contacts.h"
 #include "solver/cpu/cpu_solver.h"
-#include "solver/cpu/measure_contacts.h"
-#include "solver/measure.h"
 #include "support/compared_scenes.h"
 #include "support/hands.h"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "measure/measure.h"
 #include "solver/cpu/cpu_solver.h"
-#include "solver/measure.h"
 #include "support/material_sheet.h"
 
 namespace clothsim {

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <random>
 
-#include "check/crossings.h"
-#include "scene/material.h"
+#include "cloth/material.h"
+#include "measure/crossings.h"
+#include "measure/energies.h"
+#include "measure/measure.h"
 #include "solver/cpu/cpu_solver.h"
-#include "solver/energies.h"
-#include "solver/measure.h"
 #include "support/mesh_sheet.h"
 
 namespace clothsim {

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "scene/pins.h"
+#include "cloth/pins.h"
+#include "measure/measure.h"
 #include "scene/pose.h"
-#include "scene/scene_io.h"
+#include "scene_io/scene_io.h"
 #include "solver/cpu/cpu_solver.h"
 #include "solver/cpu/synchronized.h"
-#include "solver/measure.h"
 #include "solver/pin_paths.h"
 #include "support/compared_scenes.h"
 

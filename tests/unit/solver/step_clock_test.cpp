@@ -2,9 +2,9 @@
 // in gusts.
 #include <gtest/gtest.h>
 
-#include "scene/scene_io.h"
+#include "measure/measure.h"
+#include "scene_io/scene_io.h"
 #include "solver/cpu/cpu_solver.h"
-#include "solver/measure.h"
 
 namespace clothsim {
 namespace {

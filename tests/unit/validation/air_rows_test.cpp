@@ -5,7 +5,7 @@
 #include <numbers>
 #include <random>
 
-#include "scene/material.h"
+#include "cloth/material.h"
 #include "solver/cpu/cpu_solver.h"
 #include "support/test_scenes.h"
 #include "unit/validation/row.h"

@@ -3,9 +3,9 @@
 
 #include <cmath>
 
-#include "scene/material.h"
+#include "cloth/material.h"
+#include "measure/measure.h"
 #include "solver/cpu/cpu_solver.h"
-#include "solver/measure.h"
 #include "unit/validation/row.h"
 
 namespace clothsim::validation {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "scene/material.h"
+#include "cloth/material.h"
 #include "solver/cpu/cpu_solver.h"
 #include "support/material_sheet.h"
 #include "unit/validation/row.h"

@@ -1,0 +1,290 @@
+#include "cloth/mesh_shape.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+#include <sstream>
+
+#include "core/error.h"
+#include "core/recent.h"
+#include "scene/obj_file.h"
+#include "scene/pose.h"
+
+namespace clothsim {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+using Triangle = MeshShape::Triangle;
+using Edge = MeshShape::Edge;
+
+constexpr std::size_t MOST_MEMBERSHIPS = std::size_t{1} << 26;  // of corners of faces in groups
+constexpr std::size_t MOST_KEPT_POINTS = std::size_t{1} << 22;  // of meshes that nobody holds
+constexpr double FLATTEST = 1e-4;                               // height of a triangle, of its longest side
+
+// How a face is called in messages: by its vertices as the file counts them.
+std::string faceText(const Triangle& t) {
+  return std::to_string(t[0] + 1) + ", " + std::to_string(t[1] + 1) + ", " + std::to_string(t[2] + 1);
+}
+
+[[noreturn]] void fail(const std::string& file, const std::string& what) {
+  throw SceneError(file + ": " + what);
+}
+
+// --- From the file
+
+Triangle cornersOf(const std::string& file, const std::vector<tinyobj::index_t>& indices, std::size_t first,
+                   std::size_t points) {
+  Triangle corners{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const int index = indices[first + k].vertex_index;
+    if (index < 0 || static_cast<std::size_t>(index) >= points)
+      fail(file, "a face names a point that the file does not have, expected 1 to " + std::to_string(points));
+    corners[k] = static_cast<std::uint32_t>(index);
+  }
+  return corners;
+}
+
+std::vector<std::string> wordsOf(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> words;
+  for (std::string word; stream >> word;) words.push_back(word);
+  return words;
+}
+
+// The two longest sides of the box around the points as u and v.
+void projectTextureCoordinates(MeshShape& shape) {
+  Vec3d low = shape.points[0], high = low;
+  for (const Vec3d& p : shape.points) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+  }
+  const Vec3d size = high - low;
+  const auto part = [](double x, double from, double extent) {
+    return static_cast<float>(extent > 0 ? (x - from) / extent : 0);
+  };
+  const bool flatInX = size.x < size.y && size.x < size.z,
+             flatInY = !flatInX && size.y < size.z && size.y < size.x;
+  for (std::size_t i = 0; i < shape.points.size(); ++i) {
+    const Vec3d& p = shape.points[i];
+    const float x = part(p.x, low.x, size.x), y = 1 - part(p.y, low.y, size.y), z = part(p.z, low.z, size.z);
+    shape.textureCoordinates[i] = flatInX ? std::array{z, y} : flatInY ? std::array{x, z} : std::array{x, y};
+  }
+}
+
+// OBJ's v points up, ours down.
+void readFaces(const std::string& file, const ObjFile& obj, MeshShape& shape) {
+  const std::size_t points = shape.points.size();
+  std::vector<bool> hasCoordinates(points);
+  std::map<std::string, std::set<std::uint32_t>> groups;
+  const std::vector<float>& uv = obj.attributes.texcoords;
+  std::size_t memberships = 0;
+  for (const tinyobj::shape_t& part : obj.shapes) {
+    const std::vector<std::string> names = wordsOf(part.name);
+    memberships += names.size() * part.mesh.indices.size();
+    if (memberships > MOST_MEMBERSHIPS)
+      fail(file, "expected groups whose faces have at most " + std::to_string(MOST_MEMBERSHIPS) +
+                     " corners together, found more; a face may be in several groups, but not in thousands");
+    for (std::size_t first = 0; first + 2 < part.mesh.indices.size(); first += 3) {
+      const Triangle corners = cornersOf(file, part.mesh.indices, first, points);
+      shape.triangles.push_back(corners);
+      for (const std::string& name : names) groups[name].insert(corners.begin(), corners.end());
+      for (std::size_t k = 0; k < 3; ++k) {
+        const int at = part.mesh.indices[first + k].texcoord_index;
+        if (at < 0 || 2 * static_cast<std::size_t>(at) + 1 >= uv.size() || hasCoordinates[corners[k]])
+          continue;
+        hasCoordinates[corners[k]] = true;
+        shape.textureCoordinates[corners[k]] = {uv[2 * static_cast<std::size_t>(at)],
+                                                1 - uv[2 * static_cast<std::size_t>(at) + 1]};
+      }
+    }
+  }
+  if (std::find(hasCoordinates.begin(), hasCoordinates.end(), true) == hasCoordinates.end())
+    projectTextureCoordinates(shape);
+  for (const auto& [name, members] : groups) shape.groups[name].assign(members.begin(), members.end());
+}
+
+void checkTriangles(const std::string& file, const MeshShape& shape) {
+  for (const Triangle& t : shape.triangles) {
+    const Vec3d a = shape.points[t[0]], b = shape.points[t[1]], c = shape.points[t[2]];
+    const double longest = std::max({length(b - a), length(c - b), length(a - c)});
+    if (length(cross(b - a, c - a)) > FLATTEST * longest * longest) continue;
+    fail(file,
+         "the triangle of points " + faceText(t) +
+             " has no area. Dissolve degenerate faces in a modelling program (in Blender: Mesh, Clean Up, "
+             "Degenerate Dissolve).");
+  }
+}
+
+void checkPointsAreUsed(const std::string& file, const MeshShape& shape) {
+  std::vector<bool> used(shape.points.size());
+  for (const Triangle& t : shape.triangles)
+    for (const std::uint32_t corner : t) used[corner] = true;
+  const auto loose = static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
+  if (loose == 0) return;
+  const auto first = std::find(used.begin(), used.end(), false) - used.begin();
+  fail(file, std::to_string(loose) + " points belong to no face, the first is point " +
+                 std::to_string(first + 1) +
+                 ". Delete loose points (in Blender: Mesh, Clean Up, Delete Loose).");
+}
+
+// --- Edges
+
+struct Side {  // of a triangle, from its lower to its higher point
+  std::uint32_t a, b, opposite;
+  bool forwards;  // whether the triangle goes from a to b
+};
+
+std::vector<Side> sidesOf(const MeshShape& shape) {
+  std::vector<Side> sides;
+  sides.reserve(3 * shape.triangles.size());
+  for (const Triangle& t : shape.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t from = t[k], to = t[(k + 1) % 3];
+      sides.push_back({std::max(from, to), std::min(from, to), t[(k + 2) % 3], from > to});
+    }
+  std::stable_sort(sides.begin(), sides.end(),
+                   [](const Side& x, const Side& y) { return std::pair(x.a, x.b) < std::pair(y.a, y.b); });
+  return sides;
+}
+
+void findEdges(const std::string& file, MeshShape& shape) {
+  const std::vector<Side> sides = sidesOf(shape);
+  for (const Side& side : sides) {
+    Edge* last = shape.edges.empty() ? nullptr : &shape.edges.back();
+    const std::string place =
+        "the edge of points " + std::to_string(side.a + 1) + " and " + std::to_string(side.b + 1);
+    if (last == nullptr || last->a != side.a || last->b != side.b) {
+      shape.edges.push_back({side.a, side.b, {side.opposite, side.opposite}, 1});
+    } else if (last->triangles == 2) {
+      fail(file,
+           place +
+               " has more than two triangles: cloth is a surface, on which at most two meet. Take layers "
+               "apart (in Blender: Select, All by Trait, Non Manifold).");
+    } else {
+      const bool before = (&side - 1)->forwards;
+      if (before == side.forwards)
+        fail(file, place +
+                       " has two triangles of opposite orientation. Unify the normals (in Blender: Mesh, "
+                       "Normals, Recalculate Outside).");
+      last->triangles = 2;
+      (side.forwards ? last->opposite[0] : last->opposite[1]) = side.opposite;
+    }
+  }
+}
+
+MeshShape load(const std::string& file) {
+  const ObjFile obj = readObjFile(file, "cloth's `mesh`");
+  MeshShape shape;
+  const std::vector<float>& xyz = obj.attributes.vertices;
+  for (std::size_t i = 0; i + 2 < xyz.size(); i += 3)
+    shape.points.push_back({xyz[i], xyz[i + 1], xyz[i + 2]});
+  shape.textureCoordinates.resize(shape.points.size());
+  if (!shape.points.empty()) readFaces(file, obj, shape);
+  if (shape.triangles.empty())
+    fail(file, "expected an OBJ file with faces (lines that begin with f), found none");
+  checkTriangles(file, shape);
+  checkPointsAreUsed(file, shape);
+  findEdges(file, shape);
+  return shape;
+}
+
+}  // namespace
+
+std::shared_ptr<const MeshShape> meshShapeOf(const std::string& file) {
+  using Version = std::pair<std::string, fs::file_time_type>;  // of a file
+  static Recent<Version, MeshShape> shapes(MOST_KEPT_POINTS);
+  const fs::path path = meshPath(file);
+  std::error_code missing;  // the reader complains
+  const Version version{path.string(), fs::last_write_time(path, missing)};
+  if (auto shape = shapes.find(version); shape && !missing) return shape;
+  auto shape = std::make_shared<const MeshShape>(load(file));
+  shapes.add(version, shape, shape->points.size());
+  return shape;
+}
+
+std::vector<Vec3d> placedPoints(const MeshShape& shape, const ClothSettings& cloth) {
+  const Matrix3 turn = rotationMatrix(cloth.rotation);
+  std::vector<Vec3d> points;
+  points.reserve(shape.points.size());
+  for (const Vec3d& p : shape.points) points.push_back(rotate(turn, cloth.scale * p) + cloth.position);
+  return points;
+}
+
+// --- Mechanics
+
+namespace {
+
+double cotangent(Vec3d at, Vec3d p, Vec3d q) {
+  const Vec3d a = p - at, b = q - at;
+  return dot(a, b) / length(cross(a, b));
+}
+
+double areaOf(Vec3d a, Vec3d b, Vec3d c) { return 0.5 * length(cross(b - a, c - a)); }
+
+std::vector<double> massesOf(const MeshShape& shape, const std::vector<Vec3d>& points,
+                             const ClothSettings& cloth) {
+  std::vector<double> masses(points.size());
+  double total = 0;
+  for (const Triangle& t : shape.triangles) {
+    const double area = areaOf(points[t[0]], points[t[1]], points[t[2]]);
+    total += area;
+    for (const std::uint32_t corner : t) masses[corner] += area / 3;
+  }
+  const double density = cloth.material ? cloth.material->density
+                         : cloth.mass   ? *cloth.mass / total
+                                        : cloth.density;
+  for (double& mass : masses) mass *= density;
+  return masses;
+}
+
+double sumOfAreas(const Edge& edge, const std::vector<Vec3d>& points) {
+  double sum = 0;
+  for (std::size_t k = 0; k < static_cast<std::size_t>(edge.triangles); ++k)
+    sum += areaOf(points[edge.a], points[edge.b], points[edge.opposite[k]]);
+  return sum;
+}
+
+std::array<double, 4> bendingAcross(const Edge& edge, const std::vector<Vec3d>& points, double rigidity) {
+  const Vec3d a = points[edge.a], b = points[edge.b], p = points[edge.opposite[0]],
+              q = points[edge.opposite[1]];
+  const double ap = cotangent(a, b, p), aq = cotangent(a, b, q), bp = cotangent(b, a, p),
+               bq = cotangent(b, a, q);
+  const double weight = std::sqrt(rigidity / sumOfAreas(edge, points));
+  return {weight * (bp + bq), weight * (ap + aq), -weight * (ap + bp), -weight * (aq + bq)};
+}
+
+// Of the assignments' models [N/m].
+double springOf(const ClothSettings& cloth, double restLength, bool across) {
+  if (cloth.stiffnessReference) return *cloth.stiffnessReference * cloth.referenceLength / restLength;
+  return (across ? 0.2 : 1) * cloth.ks.value_or(0);
+}
+
+}  // namespace
+
+MeshMechanics mechanicsOf(const MeshShape& shape, const std::vector<Vec3d>& points,
+                          const ClothSettings& cloth) {
+  MeshMechanics mechanics;
+  mechanics.masses = massesOf(shape, points, cloth);
+  for (const Edge& edge : shape.edges) {
+    const double l = length(points[edge.a] - points[edge.b]);
+    const bool isInner = edge.triangles == 2;
+    const bool bends = isInner && cloth.enableBending;
+    double along = 0, across = 0;
+    if (cloth.material) {
+      along = cloth.material->stretch * sumOfAreas(edge, points) / (l * l);
+      if (bends) mechanics.bending.push_back(bendingAcross(edge, points, cloth.material->bend));
+      if (!bends) mechanics.bending.push_back({});
+    } else {
+      along = springOf(cloth, l, false);
+      if (bends) across = springOf(cloth, length(points[edge.opposite[0]] - points[edge.opposite[1]]), true);
+    }
+    mechanics.stretch.push_back(cloth.enableStructural ? along : 0);
+    mechanics.across.push_back(across);
+  }
+  return mechanics;
+}
+
+}  // namespace clothsim

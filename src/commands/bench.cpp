@@ -1,0 +1,155 @@
+#include "commands/bench.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "commands/blow_up.h"
+#include "core/error.h"
+#include "gl/framebuffer.h"
+#include "gl/timer.h"
+#include "render/renderer.h"
+#include "scene_io/scene_io.h"
+#include "simulation/simulation.h"
+
+namespace clothsim {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr int REPETITIONS = 7;
+constexpr double DEMO_FRAME = 1.0 / 30;  // [s]
+
+double secondsSince(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+double timeSteps(Solver& solver, int steps) {
+  const Clock::time_point start = Clock::now();
+  solver.step(steps);
+  solver.finish();
+  return secondsSince(start);
+}
+
+// Figures of a simulation that has blown up are worth nothing.
+void checkSound(Solver& solver, const Cloth& cloth, const Scene& scene) {
+  if (const std::optional<Trouble> trouble = solver.trouble())
+    throw SimulationError(blowUpText(*trouble, cloth, scene));
+}
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
+                   values.end());
+  return values[values.size() / 2];
+}
+
+}  // namespace
+
+StepRate measureStepRate(const Scene& scene, const std::string& backend, double seconds, const State& state) {
+  const Cloth cloth(scene);
+  const std::unique_ptr<Solver> solver = makeSolver(backend, cloth, scene);
+  if (!state.positions.empty()) solver->setState(state);
+  timeSteps(*solver, 2);  // compiles on some drivers
+  const double once = std::max(1e-6, timeSteps(*solver, 4) / 4);
+  const int steps = std::clamp(static_cast<int>(seconds / REPETITIONS / once), 1, 20000);
+  std::vector<double> times;
+  for (int i = 0; i < REPETITIONS; ++i) times.push_back(timeSteps(*solver, steps) / steps);
+
+  checkSound(*solver, cloth, scene);
+
+  StepRate rate;
+  rate.backend = backend;
+  rate.device = solver->device();
+  rate.columns = cloth.grids()[0].columns;
+  rate.rows = cloth.grids()[0].rows;
+  rate.cloths = cloth.grids().size();
+  rate.limiter = scene.solver.strainLimit.has_value();
+  rate.selfCollision = scene.solver.selfCollision;
+  rate.repetitions = REPETITIONS;
+  rate.secondsPerStep = median(times);
+  rate.particleStepsPerSecond = cloth.particleCount() / rate.secondsPerStep;
+  if (auto* gpu = dynamic_cast<GpuSolver*>(solver.get())) {
+    const int timed = std::clamp(steps, 1, 20);
+    rate.passes = gpu->timePasses(timed);
+    for (PassTime& pass : rate.passes) pass.seconds /= timed;
+  }
+  return rate;
+}
+
+DrawRate measureDrawing(const Scene& scene, const State& state, int samples, int width, int height) {
+  const Cloth cloth(scene);
+  const gl::Buffer<Particle4> positions("positions to draw", state.positions);
+  RenderOptions options;
+  options.samples = gl::supportedSamples(samples);
+  Renderer renderer(cloth, scene, options);
+  const Camera camera(scene, cloth);
+  const gl::Framebuffer target("bench", {.width = width, .height = height, .color = GL_RGBA8});
+  DrawRate rate;
+  rate.shader = scene.render.shader;
+  rate.samples = options.samples;
+  gl::Timer timer;
+  std::vector<double> whole;
+  std::vector<std::vector<double>> passes;
+  for (int i = 0; i <= 7; ++i) {
+    timer.begin();
+    renderer.draw(positions.name(), camera, 0, target.name(), width, height);
+    timer.end();
+    const double seconds = timer.seconds();
+    rate.passes = renderer.timeDraw(positions.name(), camera, 0, target.name(), width, height);
+    if (i == 0) continue;  // shaders are compiled when first used
+    whole.push_back(seconds);
+    passes.resize(rate.passes.size());
+    for (std::size_t pass = 0; pass < passes.size(); ++pass)
+      passes[pass].push_back(rate.passes[pass].seconds);
+  }
+  rate.seconds = median(whole);
+  for (std::size_t pass = 0; pass < passes.size(); ++pass) rate.passes[pass].seconds = median(passes[pass]);
+  return rate;
+}
+
+DemoRate measureDemo(int size, const std::string& backend, int width, int height) {
+  Scene scene = loadSceneByName("demo");
+  (void)changeResolution(scene, size, size, false);
+  Simulation simulation(scene, backend);
+  DemoRate rate;
+  rate.size = size;
+  const int steps = std::max(1, static_cast<int>(std::lround(DEMO_FRAME / stepLength(scene.solver))));
+  timeSteps(simulation.solver(), 2);
+  const int timed = std::min(steps, 64);
+  rate.simulationSeconds = timeSteps(simulation.solver(), timed) * steps / timed;
+  checkSound(simulation.solver(), simulation.cloth(), scene);
+  if (width == 0) return rate;
+
+  Renderer renderer(simulation.cloth(), scene, {});
+  const Camera camera(scene, simulation.cloth());
+  const gl::Framebuffer target(
+      "bench", {.width = width, .height = height, .color = GL_SRGB8_ALPHA8, .depth = GL_DEPTH_COMPONENT24});
+  const auto draw = [&] {
+    const Clock::time_point start = Clock::now();
+    renderer.draw(simulation.positionsBuffer(), camera, simulation.time(), target.name(), width, height);
+    simulation.finish();
+    return secondsSince(start);
+  };
+  draw();
+  rate.drawSeconds = median({draw(), draw(), draw()});
+  return rate;
+}
+
+DemoRate largestRealTimeDemo(const std::string& backend, int width, int height) {
+  constexpr int grain = 16;
+  DemoRate best;
+  int low = 0, high = 1;  // in grains; grows until one is too slow, then the gap is halved
+  const auto holds = [&](int grains) {
+    const DemoRate rate = measureDemo(grains * grain, backend, width, height);
+    if (rate.perFrame() > DEMO_FRAME) return false;
+    best = rate;
+    return true;
+  };
+  while (high * grain <= 4096 && holds(high)) low = std::exchange(high, 2 * high);
+  while (high - low > 1) {
+    const int middle = (low + high) / 2;
+    (holds(middle) ? low : high) = middle;
+  }
+  return best;
+}
+
+}  // namespace clothsim

@@ -1,0 +1,73 @@
+#include "commands/blow_up.h"
+
+#include "core/error.h"
+#include "core/files.h"
+#include "export/formats.h"
+
+namespace clothsim {
+namespace {
+
+namespace fs = std::filesystem;
+
+// As a shell takes it for one word.
+std::string quoted(const std::string& word) {
+  const bool plain = word.find_first_not_of(
+                         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789"
+                         "_-+=./:,%@") == std::string::npos;
+  if (plain && !word.empty()) return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+std::string keyOf(const std::string& setting) { return setting.substr(0, setting.find('=')); }
+
+// With what `changes` set instead of what was set.
+std::string commandToGoOn(const BlowUpContext& context, const std::string& stateFile,
+                          const std::vector<std::string>& changes) {
+  std::string command = "clothsim run -f " + quoted(context.scene.scene);
+  if (const auto& size = context.scene.resolution)
+    command += " --resolution " + std::to_string(size->columns) + "x" + std::to_string(size->rows);
+  std::vector<std::string> settings = context.scene.settings;
+  for (const std::string& change : changes)
+    std::erase_if(settings, [&](const std::string& setting) { return keyOf(setting) == keyOf(change); });
+  settings.insert(settings.end(), changes.begin(), changes.end());
+  for (const std::string& setting : settings) command += " --set " + quoted(setting);
+  if (context.backend != "gpu") command += " --backend " + context.backend;
+  return command + " --from " + quoted(stateFile) + " --frames " +
+         std::to_string(context.frames - context.frame + 1);
+}
+
+// Where nothing else lies, or the very same.
+fs::path freeStateName(const fs::path& folder, const std::string& stem, const std::string& bytes) {
+  for (int i = 1;; ++i) {
+    const fs::path path = folder / (stem + (i > 1 ? "-" + std::to_string(i) : "") + ".state");
+    std::error_code ignored;
+    if (!fs::exists(fs::symlink_status(path, ignored))) return path;
+    if (fs::is_regular_file(path, ignored) && fs::file_size(path, ignored) == bytes.size() &&
+        readFile(path) == bytes)
+      return path;
+  }
+}
+
+}  // namespace
+
+void stopBlownUp(const Trouble& trouble, Simulation& simulation, const BlowUpContext& context) {
+  std::string message = blowUpText(trouble, simulation.cloth(), simulation.scene());
+  const std::string frame = std::to_string(context.frame - 1);
+  try {
+    const std::string bytes = formatStateFile(simulation.solver().state());
+    const std::string stem = fs::path(context.scene.scene).stem().string() + "-frame" + frame + "-last-good";
+    const fs::path path = freeStateName(context.outputFolder, stem, bytes);
+    writeFileAtomically(path, bytes);
+    message += "\nThe last good state, that of frame " + frame + ", is saved: " + path.string();
+    const std::vector<std::string> changes = remedyFor(trouble, simulation.scene()).settings;
+    if (!context.replays && !changes.empty())
+      message += "\nTo go on from it: " + commandToGoOn(context, path.string(), changes);
+  } catch (const Error& error) {
+    message += "\nThe last good state, that of frame " + frame + ", could not be saved: " + error.what();
+  }
+  throw SimulationError(message);
+}
+
+}  // namespace clothsim

@@ -1,0 +1,88 @@
+#include <bit>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "commands/blow_up.h"
+#include "commands/commands.h"
+#include "commands/print_json.h"
+#include "core/error.h"
+#include "core/interrupt.h"
+#include "core/progress.h"
+#include "gl/context.h"
+#include "measure/contact_report.h"
+#include "measure/crossings_json.h"
+#include "measure/measure.h"
+#include "simulation/compare.h"
+
+namespace clothsim {
+
+int compareCommand(const CompareOptions& options) {
+  const Scene scene = loadScene(options.scene);
+  const gl::HeadlessContext context;
+  Progress progress("comparing", options.frames);
+  const Cloth cloth(scene);
+  std::optional<CrossingCounter> counter;
+  if (options.checkCrossings) counter.emplace(cloth);
+  CrossingSummary crossings;
+  ContactReport contacts;
+  double maxPenetration = 0;
+  const Comparison result = compareBackends(scene, options.frames, [&](int frame, const State& state) {
+    stopIfInterrupted();
+    if (counter) crossings.add(frame, counter->count(state));
+    const Measures measures = measure(cloth, scene, state);
+    maxPenetration = std::max(maxPenetration, measures.maxPenetration);
+    contacts.add(frame, cloth, scene, state, measures.maxStrain, {});
+    progress.update(frame);
+  });
+  progress.finish();
+
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  json["scene"] = options.scene.scene;
+  json["device"] = result.device;
+  json["frames"] = result.frames;
+  json["steps"] = result.steps;
+  json["floats"] = result.floats;
+  json["differing_floats"] = result.differingFloats;
+  json["max_abs_difference"] = result.maxAbsDifference;
+  json["first_differing_step"] =
+      result.firstDifferingStep ? nlohmann::ordered_json(*result.firstDifferingStep) : nullptr;
+  json["bitwise_equal"] = result.differingFloats == 0;
+  json["finite"] = result.finite;
+  json["same_trouble"] = result.cpuTrouble == result.gpuTrouble;  // on both backends, or on none
+  json["state_hash"] = {{"cpu", result.cpuHash}, {"gpu", result.gpuHash}};
+  json["max_penetration"] = maxPenetration;
+  contacts.write(json, cloth, scene, result.contacts);
+  if (counter) json["crossings"] = toJson(crossings);
+  if (options.json) {
+    printJson(json);
+  } else if (result.differingFloats == 0) {
+    std::printf(
+        "%s: CPU and GPU (%s) agree in every bit of %llu floats after each of %d frames (%llu steps)\n",
+        options.scene.scene.c_str(), result.device.c_str(), static_cast<unsigned long long>(result.floats),
+        result.frames, static_cast<unsigned long long>(result.steps));
+  } else {
+    std::printf("%s: CPU and GPU (%s) differ in %llu of %llu floats, by at most %g, first in step %llu\n",
+                options.scene.scene.c_str(), result.device.c_str(),
+                static_cast<unsigned long long>(result.differingFloats),
+                static_cast<unsigned long long>(result.floats), result.maxAbsDifference,
+                static_cast<unsigned long long>(result.firstDifferingStep.value_or(0)));
+  }
+  if (counter && !options.json)
+    std::printf("crossing pairs of triangles: at most %llu apart and %llu neighbours, in %d frames\n",
+                static_cast<unsigned long long>(crossings.worst),
+                static_cast<unsigned long long>(crossings.neighbours), crossings.framesChecked);
+  const auto blowUp = [&](const std::optional<Trouble>& trouble, const char* backend) {
+    if (trouble)
+      throw SimulationError(std::string(backend) + blowUpText(*trouble, Cloth(scene), scene) +
+                            "\n`clothsim run` saves the last good state.");
+  };
+  if (result.cpuTrouble != result.gpuTrouble) {
+    blowUp(result.cpuTrouble, "differently on the two backends; on the CPU ");
+    blowUp(result.gpuTrouble, "on the GPU alone ");
+  }
+  blowUp(result.cpuTrouble, "");
+  return result.differingFloats == 0 && result.finite ? 0 : 1;
+}
+
+}  // namespace clothsim

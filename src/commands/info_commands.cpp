@@ -1,0 +1,120 @@
+// `scenes`, `describe` and `doctor`: what there is, what it means, and whether this machine can do it.
+#include <algorithm>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "commands/bench.h"
+#include "commands/commands.h"
+#include "commands/print_json.h"
+#include "core/error.h"
+#include "core/nearest.h"
+#include "gl/context.h"
+#include "scene_io/fields.h"
+#include "scene_io/scene_io.h"
+#include "simulation/compare.h"
+
+namespace clothsim {
+namespace {
+
+void printField(const FieldInfo& field) {
+  std::string facts = field.type;
+  if (!field.unit.empty()) facts += " [" + field.unit + "]";
+  if (!field.range.empty()) facts += ", " + field.range;
+  if (!field.defaultValue.empty()) facts += ", default " + field.defaultValue;
+  std::printf("%s\n    %s%s\n    %s\n", field.path.c_str(), facts.c_str(), field.live ? ", live" : "",
+              field.help.c_str());
+}
+
+// The scenes that the self-test compares: every pass takes part in one of them.
+std::vector<Scene> selfTestScenes() {
+  std::vector<Scene> scenes;
+  for (const char* name : {"pinned2", "sphere", "plane", "cs171", "demo"}) {
+    scenes.push_back(loadSceneByName(name));
+    scenes.back().name = name;
+    (void)changeResolution(scenes.back(), 40, 40, false);
+  }
+  return scenes;
+}
+
+// The demo should move at a pleasant rate on a screen, and be rendered within minutes without one.
+std::string suggestedDemoResolution(bool software) {
+  int best = 64;
+  const double limit = software ? 6.0 / 30 : 1.0 / 40;  // [s] of simulation for a 30th of a second
+  for (const int size : {96, 128, 192, 256, 384, 512, 768, 1024}) {
+    if (measureDemo(size, "gpu", 0, 0).simulationSeconds > limit) break;
+    best = size;
+  }
+  return std::to_string(best) + "x" + std::to_string(best);
+}
+
+}  // namespace
+
+int scenesCommand() {
+  for (const BundledScene& scene : bundledScenes())
+    std::printf("%-16s %s\n", scene.name.c_str(), scene.description.c_str());
+  return 0;
+}
+
+int describeCommand(const std::string& key) {
+  const std::vector<FieldInfo> fields = describeFields();
+  if (key.empty()) {
+    for (const FieldInfo& field : fields) printField(field);
+    return 0;
+  }
+  bool found = false;
+  std::vector<std::string> paths;
+  for (const FieldInfo& field : fields) {
+    paths.push_back(field.path);
+    const bool inside = field.path.starts_with(key + ".") || field.path.starts_with(key + "[]");
+    const bool last = field.path.ends_with("." + key);
+    if (field.path != key && !inside && !last) continue;
+    printField(field);
+    found = true;
+  }
+  if (!found)
+    throw UsageError("there is no scene key \"" + key + "\"" + didYouMean(key, paths) +
+                     " `clothsim describe` lists all.");
+  return 0;
+}
+
+int doctorCommand(bool json) {
+  const gl::HeadlessContext context;
+  const gl::ContextInfo& info = context.info();
+  nlohmann::ordered_json report = nlohmann::ordered_json::object();
+  report["vendor"] = info.vendor;
+  report["renderer"] = info.renderer;
+  report["version"] = info.version;
+  report["software"] = info.software;
+  report["max_storage_block_mib"] = info.maxStorageBlockBytes >> 20;
+  report["max_work_group_invocations"] = info.maxWorkGroupInvocations;
+  report["max_work_group_count"] = info.maxWorkGroupCountX;
+  bool healthy = true;
+  for (const Scene& scene : selfTestScenes()) {
+    const Comparison result = compareBackends(scene, 5);
+    healthy = healthy && result.differingFloats == 0 && result.finite;
+    report["self_test"][scene.name] = {{"steps", result.steps}, {"differing_floats", result.differingFloats}};
+  }
+  report["bitwise_equal"] = healthy;
+  report["suggested_demo_resolution"] = suggestedDemoResolution(info.software);
+  if (json) {
+    printJson(report);
+    return healthy ? 0 : 1;
+  }
+  std::printf("OpenGL         %s\n               %s, %s\n", info.renderer.c_str(), info.version.c_str(),
+              info.vendor.c_str());
+  std::printf(
+      "limits         storage blocks of %lld MiB, work groups of %d invocations, %d groups a dispatch\n",
+      info.maxStorageBlockBytes >> 20, info.maxWorkGroupInvocations, info.maxWorkGroupCountX);
+  for (const auto& [name, result] : report["self_test"].items())
+    std::printf("self-test      %-10s %4d steps on CPU and GPU: %d floats differ\n", name.c_str(),
+                result["steps"].get<int>(), result["differing_floats"].get<int>());
+  std::printf("demo           runs well here at %s\n",
+              report["suggested_demo_resolution"].get<std::string>().c_str());
+  std::printf("%s\n",
+              healthy
+                  ? "All is well: CPU and GPU agree in every bit."
+                  : "This driver does not keep to the numeric contract: CPU and GPU differ. Trust the CPU.");
+  return healthy ? 0 : 1;
+}
+
+}  // namespace clothsim

@@ -1,0 +1,80 @@
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+
+#include "commands/blow_up.h"
+#include "commands/commands.h"
+#include "commands/tally.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "core/interrupt.h"
+#include "core/progress.h"
+#include "export/export.h"
+#include "gl/context.h"
+#include "output/picture_output.h"
+#include "render/renderer.h"
+#include "simulation/simulation.h"
+
+namespace clothsim {
+namespace {
+
+PictureSettings settingsOf(const RenderCommandOptions& options) {
+  return {options.frames, options.width, options.height, options.every, options.framesPerSecond};
+}
+
+void checkOutputs(const RenderCommandOptions& options) {
+  for (const std::string& out : options.outs) {
+    if (!isPicture(out))
+      throw UsageError("--out " + out +
+                       ": expected a name ending in .png or .mp4, as still.png, frame_%04d.png, clip.mp4");
+    checkPicture("--out", out, settingsOf(options));
+  }
+  for (const std::string& out : options.outs) checkWritable(numberedName(out, options.frames));
+}
+
+}  // namespace
+
+int renderCommand(const RenderCommandOptions& options) {
+  checkOutputs(options);
+  Scene scene = loadScene(options.scene);
+  if (!options.shader.empty()) scene.render.shader = options.shader;
+  const gl::HeadlessContext context;
+  Simulation simulation(scene, options.backend);
+  if (!options.from.empty()) simulation.solver().setState(loadState(options.from, simulation.cloth()));
+  Renderer renderer(simulation.cloth(), scene, {options.sphereSegmentsAround, options.sphereSegmentsDown});
+  Camera camera(scene, simulation.cloth());
+  camera.orbit(options.view.right * radians, options.view.up * radians);
+  camera.zoom(1 / options.view.zoom);
+
+  std::vector<PictureOutput> outputs;
+  for (const std::string& out : options.outs) outputs.emplace_back(out, settingsOf(options), scene);
+  Tally tally;
+  Progress progress("rendering", options.frames);
+  for (int frame = 0; frame <= options.frames; ++frame) {
+    stopIfInterrupted();
+    if (frame > 0) simulation.stepFrame();
+    if (const std::optional<Trouble> trouble = simulation.checkFrame())
+      stopBlownUp(*trouble, simulation,
+                  {options.scene, options.backend, frame, options.frames,
+                   std::filesystem::path(options.outs.front()).parent_path()});
+    tally.add(simulation);
+    if (std::any_of(outputs.begin(), outputs.end(),
+                    [&](const PictureOutput& output) { return output.wants(frame); })) {
+      const Image image = renderImage(renderer, simulation.positionsBuffer(), camera, simulation.time(),
+                                      options.width, options.height);
+      for (PictureOutput& output : outputs)
+        if (output.wants(frame)) output.add(image, frame);
+    }
+    progress.update(frame);
+  }
+  for (PictureOutput& output : outputs) output.close();
+  progress.finish();
+  for (const std::string& out : options.outs) std::printf("%s\n", out.c_str());
+  const std::vector<Warning> warnings = tally.watch.warnings(scene);
+  print(warnings);
+  checkStrict(options.strict, warnings);
+  return 0;
+}
+
+}  // namespace clothsim

@@ -1,0 +1,428 @@
+// `sweep`: a scene with every combination of some values, side by side on one sheet, with a table of
+// measures.
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "commands/commands.h"
+#include "commands/print_json.h"
+#include "commands/tally.h"
+#include "core/error.h"
+#include "core/files.h"
+#include "core/formatted.h"
+#include "core/interrupt.h"
+#include "core/progress.h"
+#include "export/export.h"
+#include "gl/context.h"
+#include "output/contact_sheet.h"
+#include "render/renderer.h"
+#include "scene_io/fields.h"
+#include "scene_io/variations.h"
+
+namespace clothsim {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using nlohmann::ordered_json;
+
+// Two words that are no keys of a scene, and can be varied all the same.
+constexpr const char *frameWord = "frame", *resolutionWord = "resolution";
+constexpr int longestSide = 16'384;  // of the sheet [pixels]
+
+int parseFrame(const std::string& text) {
+  int frame = -1;
+  const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), frame);
+  if (code != std::errc() || end != text.data() + text.size() || frame < 0 || frame > 10'000'000)
+    throw UsageError("--vary frame=" + text + ": expected the number of a frame, 0 to 10000000");
+  return frame;
+}
+
+// What a cell shows: the scene with its looks, and from where.
+struct Shot {
+  std::size_t cell;
+  Scene scene;
+};
+
+// One simulation, and the shots of it, by frame.
+struct PlannedCourse {
+  SceneOptions options;
+  std::map<int, std::vector<Shot>> shots;
+  [[nodiscard]] const Scene& scene() const { return shots.begin()->second.front().scene; }
+  [[nodiscard]] int lastFrame() const { return shots.rbegin()->first; }
+};
+
+// Whether a key changes the picture and nothing in the simulation.
+bool isLook(const std::string& key) { return key.starts_with("render") || key.starts_with("camera"); }
+
+bool varies(const SweepTable& table, const std::string& beginning) {
+  return std::any_of(table.variations().begin(), table.variations().end(),
+                     [&](const Variation& variation) { return variation.key.starts_with(beginning); });
+}
+
+void checkFrames(const SweepOptions& options, const SweepTable& table) {
+  const bool variesFrame = varies(table, frameWord);
+  if (variesFrame && options.frames)
+    throw UsageError("--frames and --vary frame=... both say which frame to show; give one of them");
+  if (!variesFrame && !options.frames) throw UsageError("--frames is required, or --vary frame=30,60,90");
+}
+
+// Reads every scene before any is simulated: a mistake in the last of them comes up at once.
+std::vector<PlannedCourse> planCourses(const SweepOptions& options, const SweepTable& table) {
+  std::vector<PlannedCourse> courses;
+  std::map<std::vector<std::string>, std::size_t> known;
+  std::vector<std::string> remarks;
+  for (std::size_t cell = 0; cell < table.cells(); ++cell) {
+    SceneOptions chosen = options.scene;
+    int frame = options.frames.value_or(0);
+    std::vector<std::string> choice;  // what the simulation depends on
+    for (std::size_t i = 0; i < table.variations().size(); ++i) {
+      const std::string &key = table.variations()[i].key, &value = table.value(cell, i);
+      if (key == frameWord) {
+        frame = parseFrame(value);
+        continue;
+      }
+      if (!isLook(key)) choice.push_back(value);
+      if (key == resolutionWord)
+        chosen.resolution = parseSize(value, "--vary resolution");
+      else
+        chosen.varied.push_back(key + "=" + value);
+    }
+    RemarkedScene read = readScene(chosen);
+    if (!options.shader.empty() && !varies(table, "render.shader")) read.scene.render.shader = options.shader;
+    for (const std::string& remark : read.remarks)
+      if (std::find(remarks.begin(), remarks.end(), remark) == remarks.end()) remarks.push_back(remark);
+    const auto [place, isNew] = known.emplace(choice, courses.size());
+    if (isNew) courses.push_back({chosen, {}});
+    courses[place->second].shots[frame].push_back({cell, std::move(read.scene)});
+  }
+  for (const std::string& remark : remarks) std::cerr << "clothsim: " << remark << '\n';
+  return courses;
+}
+
+// By cell. All pictures are taken from one place, so that they can be compared: where the one that needs most
+// room is seen from. A sweep of the camera has a place for each.
+std::vector<Camera> placeCameras(const SweepOptions& options, const SweepTable& table,
+                                 const std::vector<PlannedCourse>& courses) {
+  const double aspect = static_cast<double>(options.width) / options.height;
+  std::map<std::size_t, Camera> places;
+  for (const PlannedCourse& course : courses) {
+    const Cloth cloth(course.scene());
+    for (const auto& [frame, shots] : course.shots)
+      for (const Shot& shot : shots) places.emplace(shot.cell, Camera(shot.scene, cloth, aspect));
+  }
+  const auto distance = [](const Camera& camera) { return glm::length(camera.eye() - camera.target()); };
+  const auto farthest = std::max_element(places.begin(), places.end(), [&](const auto& a, const auto& b) {
+    return distance(a.second) < distance(b.second);
+  });
+  std::vector<Camera> cameras;
+  for (const auto& [cell, own] : places) {
+    cameras.push_back(varies(table, "camera") ? own : farthest->second);
+    cameras.back().orbit(options.view.right * radians, options.view.up * radians);
+    cameras.back().zoom(1 / options.view.zoom);
+  }
+  return cameras;
+}
+
+struct Cell {
+  SheetPicture picture;
+  ordered_json measures;
+};
+
+// Simulates one combination and fills the cells that show it.
+class Exhibit {
+ public:
+  Exhibit(const SweepOptions& options, const PlannedCourse& course, const std::vector<Camera>& cameras)
+      : options_(options),
+        course_(course),
+        cameras_(cameras),
+        simulation_(course.scene(), options.backend),
+        renderer_(simulation_.cloth(), course.scene(), {}) {
+    tally_.add(simulation_);
+  }
+
+  // `atFrame` hears of every frame that is done.
+  template <class AtFrame>
+  void run(std::vector<Cell>& cells, AtFrame atFrame) {
+    show(cells);
+    while (frame_ < course_.lastFrame()) {
+      stopIfInterrupted();
+      const Clock::time_point start = Clock::now();
+      simulation_.stepFrame();
+      simulation_.finish();
+      tally_.seconds += std::chrono::duration<double>(Clock::now() - start).count();
+      if ((trouble_ = simulation_.checkFrame())) break;
+      tally_.add(simulation_);
+      ++frame_;
+      show(cells);
+      atFrame(frame_);
+    }
+    if (trouble_) showTrouble(cells);
+    print(warnings(), which());
+  }
+  [[nodiscard]] std::vector<Warning> warnings() const { return tally_.watch.warnings(course_.scene()); }
+
+ private:
+  void show(std::vector<Cell>& cells) {
+    const auto found = course_.shots.find(frame_);
+    if (found == course_.shots.end()) return;
+    for (const Shot& shot : found->second) cells[shot.cell] = cell(shot, frame_);
+  }
+
+  // The frames that were not reached.
+  void showTrouble(std::vector<Cell>& cells) {
+    for (const auto& [frame, shots] : course_.shots)
+      for (const Shot& shot : shots)
+        if (frame > frame_) cells[shot.cell] = cell(shot, frame);
+    std::cerr << "clothsim: " << which() << "blew up "
+              << troubleText(*trouble_, simulation_.cloth(), course_.scene()) << '\n';
+  }
+
+  // The varied settings, with a space behind each.
+  [[nodiscard]] std::string which() const {
+    std::string text;
+    for (const std::string& setting : course_.options.varied) text += setting + " ";
+    return text;
+  }
+
+  Cell cell(const Shot& shot, int wantedFrame) {
+    Cell cell;
+    cell.measures = measures(wantedFrame);
+    renderer_.configure(shot.scene);
+    cell.picture.image = renderImage(renderer_, simulation_.positionsBuffer(), cameras_[shot.cell],
+                                     simulation_.time(), options_.width, options_.height);
+    if (wantedFrame > frame_) {
+      cell.picture.alert = "blew up in frame " + std::to_string(frame_ + 1);
+      cell.picture.caption =
+          frame_ == 0 ? "shown as it began" : "shown as it was in frame " + std::to_string(frame_);
+    } else {
+      cell.picture.caption = "stretch " + formatted("%.1f", 100 * tally_.measures.maxStrain) +
+                             " %,  lowest point " + formatted("%.3f", tally_.measures.minY) + " m";
+    }
+    return cell;
+  }
+
+  ordered_json measures(int wantedFrame) {
+    const Scene& scene = course_.scene();
+    const bool isSound = wantedFrame == frame_;
+    ordered_json json = ordered_json::object();
+    json["frames"] = frame_;
+    json["finite"] = isSound;
+    json["trouble"] =
+        isSound ? ordered_json(nullptr) : ordered_json(troubleText(*trouble_, simulation_.cloth(), scene));
+    json["backend"] = simulation_.solver().backend();
+    json["device"] = simulation_.solver().device();
+    json["particles"] = simulation_.cloth().particleCount();
+    json["steps"] = frame_ * static_cast<std::int64_t>(scene.solver.simulationSteps);
+    json["dt"] = stepLength(scene.solver);
+    json["sim_seconds"] = frame_ / scene.solver.framesPerSec;
+    json["seconds"] = tally_.seconds;
+    json["ms_per_frame"] = frame_ > 0 ? ordered_json(1000 * tally_.seconds / frame_) : ordered_json(nullptr);
+    tally_.write(json, simulation_);
+    json["finite"] = isSound;
+    return json;
+  }
+
+  const SweepOptions& options_;
+  const PlannedCourse& course_;
+  const std::vector<Camera>& cameras_;
+  Simulation simulation_;
+  Renderer renderer_;
+  Tally tally_;
+  int frame_ = 0;  // the last one that is done and sound
+  std::optional<Trouble> trouble_;
+};
+
+// As clothsim describe lists a key that was typed: of any collider and any cloth.
+std::string listedKey(const std::string& typed) {
+  const std::size_t list = typed.find('.');
+  const std::string first = typed.substr(0, list);
+  if (list == std::string::npos) return typed;
+  if (first == "sphere" || first == "plane") return "colliders[]" + typed.substr(list);
+  const std::size_t number = typed.find_first_not_of("0123456789", list + 1);
+  if (number == std::string::npos || number == list + 1 || typed[number] != '.') return typed;
+  if (first == "colliders") return "colliders[]" + typed.substr(number);
+  return first == "cloths" ? "cloth" + typed.substr(number) : typed;
+}
+
+// The unit of a key as it is typed, "" for none.
+std::string unitOf(const std::string& typed, const std::vector<FieldInfo>& fields) {
+  const auto found =
+      std::find_if(fields.begin(), fields.end(),
+                   [key = listedKey(typed)](const FieldInfo& field) { return field.path == key; });
+  return found == fields.end() ? "" : found->unit;
+}
+
+SheetHeading headingOf(const Variation& variation, const std::string& value,
+                       const std::vector<FieldInfo>& fields) {
+  double number = 0;
+  const auto [end, code] = std::from_chars(value.data(), value.data() + value.size(), number);
+  const bool isNumber = code == std::errc() && end == value.data() + value.size();
+  const std::string unit = isNumber ? unitOf(variation.key, fields) : "";
+  return {variation.key, unit.empty() ? value : value + " " + unit};
+}
+
+std::string subtitleOf(const SweepOptions& options, const std::vector<PlannedCourse>& courses) {
+  std::string text;
+  if (options.frames) {
+    const double rate = courses.front().scene().solver.framesPerSec;
+    text = "after " + std::to_string(*options.frames) + (*options.frames == 1 ? " frame" : " frames");
+    if (std::all_of(courses.begin(), courses.end(),
+                    [&](const PlannedCourse& course) { return course.scene().solver.framesPerSec == rate; }))
+      text += " (" + formatted("%.2f", *options.frames / rate) + " s)";
+  }
+  for (const std::string& setting : options.scene.settings)
+    if (!isLook(setting)) text += (text.empty() ? "" : ", ") + setting;
+  return text;
+}
+
+// All but the pictures.
+ContactSheet makeSheet(const SweepOptions& options, const SweepTable& table,
+                       const std::vector<PlannedCourse>& courses) {
+  const std::vector<FieldInfo> fields = describeFields();
+  const Scene& scene = courses.front().scene();
+  ContactSheet sheet;
+  sheet.title = scene.name.empty() ? std::filesystem::path(options.scene.scene).stem().string() : scene.name;
+  sheet.subtitle = subtitleOf(options, courses);
+  sheet.columnCount = table.columns();
+  sheet.pictureWidth = options.width;
+  sheet.pictureHeight = options.height;
+  sheet.pictures.resize(table.cells());
+  if (table.isWrapped()) return sheet;
+  for (std::size_t column = 0; column < table.columns(); ++column)
+    sheet.columns.push_back(headingOf(table.variations()[0], table.value(column, 0), fields));
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    sheet.rows.emplace_back();
+    for (std::size_t i = 1; i < table.variations().size(); ++i)
+      sheet.rows.back().push_back(
+          headingOf(table.variations()[i], table.value(row * table.columns(), i), fields));
+  }
+  return sheet;
+}
+
+void checkSize(const ContactSheet& sheet, const SweepOptions& options) {
+  const SheetPlan size = planOf(sheet);
+  if (size.width <= longestSide && size.height <= longestSide) return;
+  throw UsageError("a sheet of " + std::to_string(sheet.pictures.size()) + " pictures of " +
+                   std::to_string(options.width) + "x" + std::to_string(options.height) + " would have " +
+                   std::to_string(size.width) + "x" + std::to_string(size.height) + " pixels; at most " +
+                   std::to_string(longestSide) + " a side can be written. Choose a smaller --size.");
+}
+
+// Takes the cells' pictures.
+void fillSheet(ContactSheet& sheet, const SweepTable& table, std::vector<Cell>& cells) {
+  const std::vector<FieldInfo> fields = describeFields();
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    sheet.pictures[i] = std::move(cells[i].picture);
+    if (table.isWrapped())
+      sheet.pictures[i].heading = headingOf(table.variations()[0], table.value(i, 0), fields);
+  }
+  const bool isOneState = std::all_of(table.variations().begin(), table.variations().end(),
+                                      [](const Variation& variation) { return isLook(variation.key); });
+  if (isOneState)
+    for (SheetPicture& picture : sheet.pictures) picture.caption = "";
+}
+
+// As RFC 4180 has it.
+std::string csvWord(const ordered_json& value) {
+  if (value.is_null()) return "";
+  const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+  if (text.find_first_of(",\"\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+// One line a cell: the varied values, then measures by name; `centroid` is three of them.
+std::string formatTable(const SweepTable& table, const std::vector<Cell>& cells) {
+  constexpr std::array columns{
+      "frames",      "finite",         "trouble",         "max_strain",    "peak_strain",
+      "min_y",       "kinetic_energy", "max_penetration", "self_contacts", "contact_sound",
+      "backend",     "device",         "particles",       "steps",         "dt",
+      "sim_seconds", "seconds",        "ms_per_frame",    "state_hash"};
+  std::string text;
+  for (const Variation& variation : table.variations()) text += csvWord(variation.key) + ",";
+  for (const char* column : columns) text += column + std::string(",");
+  text += "centroid_x,centroid_y,centroid_z\n";
+  for (std::size_t cell = 0; cell < table.cells(); ++cell) {
+    for (std::size_t i = 0; i < table.variations().size(); ++i) text += csvWord(table.value(cell, i)) + ",";
+    const ordered_json& measures = cells[cell].measures;
+    for (const char* column : columns) text += csvWord(measures.at(column)) + ",";
+    const ordered_json& centroid = measures.at("centroid");
+    text += csvWord(centroid[0]) + "," + csvWord(centroid[1]) + "," + csvWord(centroid[2]) + "\n";
+  }
+  return text;
+}
+
+ordered_json toJson(const SweepOptions& options, const SweepTable& table, const ContactSheet& sheet,
+                    const std::vector<Cell>& cells) {
+  const SheetPlan plan = planOf(sheet);
+  ordered_json json = ordered_json::object();
+  json["scene"] = options.scene.scene;
+  json["columns"] = table.columns();
+  json["rows"] = table.rows();
+  for (const Variation& variation : table.variations())
+    json["vary"].push_back({{"key", variation.key}, {"values", variation.values}});
+  for (std::size_t cell = 0; cell < table.cells(); ++cell) {
+    ordered_json entry = ordered_json::object();
+    for (std::size_t i = 0; i < table.variations().size(); ++i)
+      entry["values"][table.variations()[i].key] = table.value(cell, i);
+    entry["pixels"] = {plan.pictures[cell].x, plan.pictures[cell].y, options.width, options.height};
+    entry.update(cells[cell].measures);
+    json["cells"].push_back(std::move(entry));
+  }
+  return json;
+}
+
+std::filesystem::path tableFile(const SweepOptions& options) {
+  return std::filesystem::path(options.out).replace_extension(".csv");
+}
+
+}  // namespace
+
+int sweepCommand(const SweepOptions& options) {
+  if (!options.out.ends_with(".png"))
+    throw UsageError("--out " + options.out + ": expected a name ending in .png, as sheet.png");
+  std::vector<Variation> variations;
+  for (const std::string& text : options.variations) variations.push_back(parseVariation(text));
+  const SweepTable table(std::move(variations), static_cast<double>(options.width) / options.height);
+  checkFrames(options, table);
+  const std::vector<PlannedCourse> courses = planCourses(options, table);
+  ContactSheet sheet = makeSheet(options, table, courses);
+  checkSize(sheet, options);
+  checkWritable(options.out);
+  checkWritable(tableFile(options));
+
+  const gl::HeadlessContext context;
+  const std::vector<Camera> cameras = placeCameras(options, table, courses);
+  std::int64_t framesDone = 0, framesInAll = 0;
+  for (const PlannedCourse& course : courses) framesInAll += course.lastFrame();
+  Progress progress("sweeping", framesInAll);
+  std::vector<Cell> cells(table.cells());
+  std::vector<Warning> warnings;
+  for (const PlannedCourse& course : courses) {
+    Exhibit exhibit(options, course, cameras);
+    exhibit.run(cells, [&](int frame) { progress.update(framesDone + frame); });
+    std::ranges::move(exhibit.warnings(), std::back_inserter(warnings));
+    framesDone += course.lastFrame();
+  }
+  progress.finish();
+
+  fillSheet(sheet, table, cells);
+  const Image page = drawSheet(sheet);
+  writeFileAtomically(tableFile(options), formatTable(table, cells));
+  savePng(options.out, page.width, page.height, page.rgb);
+  if (options.json)
+    printJson(toJson(options, table, sheet, cells));
+  else
+    std::printf("%s\n%s\n", options.out.c_str(), tableFile(options).string().c_str());
+  checkStrict(options.strict, warnings);
+  return 0;
+}
+
+}  // namespace clothsim

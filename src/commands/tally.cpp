@@ -1,0 +1,37 @@
+#include "commands/tally.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "solver/cpu/synchronized.h"
+
+namespace clothsim {
+
+void Tally::add(Simulation& simulation) {
+  state = simulation.solver().state();
+  measures = measure(simulation.cloth(), simulation.scene(), state);
+  if (++frame == 0) watch.start(simulation.cloth(), simulation.scene(), state);
+  watch.add(frame, simulation.cloth(), simulation.scene(), state, measures.maxStrain,
+            simulation.contactCounts());
+  peakStrain = std::max(peakStrain, measures.maxStrain);
+  maxPenetration = std::max(maxPenetration, measures.maxPenetration);
+}
+
+void Tally::write(nlohmann::ordered_json& json, Simulation& simulation) const {
+  const Cloth& cloth = simulation.cloth();
+  const Scene& scene = simulation.scene();
+  json["state_hash"] = hashText(stateHash(state));
+  json["max_strain"] = measures.maxStrain;
+  json["peak_strain"] = peakStrain;
+  json["min_y"] = measures.minY;
+  json["centroid"] = {measures.centroid.x, measures.centroid.y, measures.centroid.z};
+  json["kinetic_energy"] = measure(cloth, scene, synchronized(cloth, scene, state)).kineticEnergy;
+  json["max_penetration"] = maxPenetration;
+  json["start_overlaps"] = {{"colliders", watch.startInColliders().particles},  // particles,
+                            {"self", watch.contacts().overlapsAtStart()}};      // pairs
+  json["finite"] = true;
+  json["warnings"] = toJson(watch.warnings(scene));
+  watch.contacts().write(json, cloth, scene, simulation.contactCounts());
+}
+
+}  // namespace clothsim

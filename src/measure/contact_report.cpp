@@ -1,0 +1,79 @@
+#include "measure/contact_report.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "solver/self_collision.h"
+
+namespace clothsim {
+
+namespace {
+
+using Condition = ContactFailure::Condition;
+
+nlohmann::ordered_json toJson(const std::optional<ContactFailure>& failure) {
+  if (!failure) return nullptr;
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  const bool fast = failure->condition == Condition::fastStep;
+  json["condition"] = fast ? "fast_step" : "pairs_too_near";
+  json["frame"] = failure->frame;
+  if (fast) return json;
+  json["pairs"] = failure->pairs;
+  json["distance"] = failure->distance;
+  json["needed_distance"] = failure->neededDistance;
+  return json;
+}
+
+}  // namespace
+
+void ContactReport::add(int frame, const Cloth& cloth, const Scene& scene, const State& state, double stretch,
+                        const ContactCounts& counts) {
+  last_ = measureContacts(cloth, scene, state, stretch);
+  lastFrame_ = frame;
+  if (frame == 0) overlapsAtStart_ = last_.overlaps;
+  isCut_ = isCut_ || !state.cuts.empty();
+  if (isCut_)
+    failure_.reset();
+  else if (!failure_ && last_.overlaps > 0)
+    failure_ = {Condition::pairsTooNear, frame, last_.overlaps, last_.smallestDistance.value_or(0),
+                last_.neededDistance};
+  else if (!failure_ && counts.fastSteps > 0)
+    failure_ = {Condition::fastStep, frame, 0, 0, 0};
+  stretch_ = std::max(stretch_, stretch);
+  worst_.contacts = std::max(worst_.contacts, last_.contacts);
+  worst_.overlaps = std::max(worst_.overlaps, last_.overlaps);
+  worst_.relativeMotion = std::max(worst_.relativeMotion, last_.relativeMotion);
+  worst_.neededDistance = std::max(worst_.neededDistance, last_.neededDistance);
+  if (last_.smallestDistance)
+    worst_.smallestDistance = std::min(worst_.smallestDistance.value_or(INFINITY), *last_.smallestDistance);
+}
+
+void ContactReport::write(nlohmann::ordered_json& json, const Cloth& cloth, const Scene& scene,
+                          const ContactCounts& counts) const {
+  json["self_collision"] = selfCollisionName(scene.solver.selfCollision);
+  json["self_contacts"] = last_.contacts;
+  if (!collidesWithItself(scene, cloth)) {
+    json["contact_sound"] = nullptr;
+    return;
+  }
+  std::optional<ContactFailure> failure = failure_;
+  if (!failure && !isCut_ && counts.fastSteps > 0) failure = {Condition::fastStep, lastFrame_, 0, 0, 0};
+  json["contact_sound"] = !failure;
+  if (isCut_) json["contact_sound"] = nullptr;
+  nlohmann::ordered_json& contact = json["contact"] = nlohmann::ordered_json::object();
+  contact["failed"] = toJson(failure);
+  contact["distance"] = contactDistance(scene, cloth);
+  contact["needed_distance"] = worst_.neededDistance;
+  if (worst_.smallestDistance)
+    contact["smallest_distance"] = *worst_.smallestDistance;
+  else
+    contact["smallest_distance"] = nullptr;
+  contact["largest_stretch"] = stretch_;
+  contact["largest_relative_motion"] = worst_.relativeMotion;
+  contact["most_overlaps"] = worst_.overlaps;
+  contact["guarded_steps"] = counts.guardedSteps;
+  contact["fast_steps"] = counts.fastSteps;
+  contact["hash_builds"] = counts.hashBuilds;
+}
+
+}  // namespace clothsim

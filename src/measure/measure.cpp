@@ -1,0 +1,166 @@
+#include "measure/measure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <type_traits>
+
+#include "cloth/signed_distance_grid.h"
+#include "scene/pose.h"
+
+namespace clothsim {
+namespace {
+
+Vec3d positionOf(const State& state, std::size_t i) {
+  const Particle4& x = state.positions[i];
+  return Vec3f{x.x, x.y, x.z}.cast<double>();
+}
+
+bool finite(const Particle4& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+// Of one grid; none without springs.
+std::optional<double> maxStrain(const Cloth& cloth, const Grid& grid, const State& state) {
+  double largest = -1;  // a spring of no length, the smallest that can be
+#pragma omp parallel for reduction(max : largest) if (isWorthThreads(grid))
+  for (int row = 0; row < grid.rows; ++row) {
+    for (int column = 0; column < grid.columns; ++column) {
+      for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot) {
+        const SpringOffset& offset = springOffsets[slot];
+        if (!grid.slotEnabled[slot] || !grid.contains(column + offset.columns, row + offset.rows)) continue;
+        const std::uint32_t a = grid.particle(column, row);
+        if (isCut(state.cuts, a, static_cast<SpringSlot>(slot))) continue;
+        const std::uint32_t b = grid.particle(column + offset.columns, row + offset.rows);
+        const double rest = grid.hasRestLengthTable ? length(cloth.positions()[b] - cloth.positions()[a])
+                                                    : grid.nominalLength[slot];
+        largest = std::max(largest, length(positionOf(state, b) - positionOf(state, a)) / rest - 1);
+      }
+    }
+  }
+  if (std::find(grid.slotEnabled.begin(), grid.slotEnabled.end(), true) == grid.slotEnabled.end())
+    return std::nullopt;
+  return largest;
+}
+
+// Of all meshes; none without springs.
+std::optional<double> maxStrain(const Cloth& cloth, const std::vector<ListedSpring>& springs,
+                                const State& state) {
+  if (springs.empty()) return std::nullopt;
+  double largest = -1;
+  for (const ListedSpring& spring : springs) {
+    const double rest = length(cloth.positions()[spring.b] - cloth.positions()[spring.a]);
+    largest = std::max(largest, length(positionOf(state, spring.b) - positionOf(state, spring.a)) / rest - 1);
+  }
+  return largest;
+}
+
+// Depth below the surface of a shape, from a point of its own frame; negative outside.
+double depthIn(const Sphere& sphere, Vec3d p) { return sphere.radius - length(p); }
+double depthIn(const Plane&, Vec3d p) { return -p.y; }
+double depthIn(const Capsule& capsule, Vec3d p) {
+  const double half = 0.5 * capsule.length;
+  return capsule.radius - length({p.x, p.y - std::clamp(p.y, -half, half), p.z});
+}
+double depthIn(const Box& box, Vec3d p) {
+  const auto beyond = [&](double x, double size) { return std::abs(x) - (0.5 * size - box.rounding); };
+  const Vec3d q{beyond(p.x, box.size.x), beyond(p.y, box.size.y), beyond(p.z, box.size.z)};
+  const double inside = std::min(std::max({q.x, q.y, q.z}), 0.0);
+  return box.rounding - inside - length({std::max(q.x, 0.0), std::max(q.y, 0.0), std::max(q.z, 0.0)});
+}
+double depthIn(const Torus& torus, Vec3d p) {
+  return torus.tubeRadius - std::hypot(std::hypot(p.x, p.z) - torus.radius, p.y);
+}
+
+// One collider at one time, as seen by particles.
+class Solid {
+ public:
+  Solid(const Collider& collider, const Scene& scene, double time)
+      : collider_(&collider),
+        now_(poseAt(collider, time)),
+        first_(poseAt(collider, 0)),
+        rotation_(product(now_.rotation, ownRotation(collider))),
+        twoSided_(std::holds_alternative<Plane>(collider) && scene.solver.frictionLaw == FrictionLaw::cs184) {
+    if (const auto* mesh = std::get_if<MeshCollider>(&collider)) grid_ = distanceGridOf(*mesh);
+  }
+
+  // Of a particle at x that started at `start`: CS184's planes keep each on its own side.
+  [[nodiscard]] double penetration(Vec3d start, Vec3d x) const {
+    const Vec3d p = rotateBack(rotation_, x - now_.position);
+    const double depth = std::visit(
+        [&](const auto& shape) {
+          if constexpr (std::is_same_v<std::remove_cvref_t<decltype(shape)>, MeshCollider>)
+            return -grid_->distance(p);
+          else
+            return depthIn(shape, p);
+        },
+        *collider_);
+    return twoSided_ && startedBehind(start) ? -depth : depth;
+  }
+
+ private:
+  [[nodiscard]] bool startedBehind(Vec3d start) const {
+    return dot(start - first_.position, rotate(first_.rotation, std::get<Plane>(*collider_).normal)) < 0;
+  }
+
+  const Collider* collider_;
+  std::shared_ptr<const SignedDistanceGrid> grid_;  // of a mesh
+  Pose now_, first_;
+  Matrix3 rotation_;
+  bool twoSided_;
+};
+
+}  // namespace
+
+Measures measure(const Cloth& cloth, const Scene& scene, const State& state) {
+  Measures measures;
+  const std::size_t count = state.positions.size();
+  for (std::size_t i = 0; i < count && !measures.firstNonFinite; ++i)
+    if (!finite(state.positions[i]) || !finite(state.velocities[i]))
+      measures.firstNonFinite = static_cast<std::uint32_t>(i);
+
+  measures.minY = positionOf(state, 0).y;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Particle4& v = state.velocities[i];
+    const Vec3d x = positionOf(state, i), velocity = Vec3f{v.x, v.y, v.z}.cast<double>();
+    measures.minY = std::min(measures.minY, x.y);
+    measures.centroid = measures.centroid + x;
+    if (state.positions[i].w > 0)
+      measures.kineticEnergy += 0.5 * dot(velocity, velocity) / static_cast<double>(state.positions[i].w);
+  }
+  measures.centroid = (1.0 / static_cast<double>(count)) * measures.centroid;
+
+  std::optional<double> strain = maxStrain(cloth, cloth.lists().springs, state);
+  for (const Grid& grid : cloth.grids())
+    if (const auto ofGrid = maxStrain(cloth, grid, state))
+      strain = std::max(strain.value_or(*ofGrid), *ofGrid);
+  measures.maxStrain = strain.value_or(0);
+  const double time = state.clock.time();
+  for (const Collider& collider : scene.colliders) {
+    const Solid solid(collider, scene, time);
+    for (std::size_t i = 0; i < count; ++i)
+      if (state.positions[i].w > 0)
+        measures.maxPenetration =
+            std::max(measures.maxPenetration, solid.penetration(cloth.positions()[i], positionOf(state, i)));
+  }
+  return measures;
+}
+
+ColliderOverlaps overlapsWithColliders(const Cloth& cloth, const Scene& scene, const State& state) {
+  constexpr double contactShare = 0.02;  // of the spacing: what a first step that pushes it out hardly shows
+  constexpr double rounding = 1e-6;      // [m]
+  const double fromContact = std::max(contactShare * smallestSpacing(cloth), rounding);
+  std::vector<Solid> solids;
+  for (const Collider& collider : scene.colliders)
+    if (!std::holds_alternative<Plane>(collider)) solids.emplace_back(collider, scene, state.clock.time());
+  ColliderOverlaps overlaps;
+  for (std::size_t i = 0; i < state.positions.size(); ++i) {
+    if (state.positions[i].w == 0) continue;
+    double depth = 0;
+    for (const Solid& solid : solids)
+      depth = std::max(depth, solid.penetration(cloth.positions()[i], positionOf(state, i)));
+    overlaps.particles += depth > fromContact ? 1 : 0;
+    overlaps.depth = std::max(overlaps.depth, depth);
+  }
+  return overlaps;
+}
+
+}  // namespace clothsim

@@ -1,0 +1,177 @@
+#include "measure/run_watch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "cloth/material.h"
+#include "core/error.h"
+#include "core/formatted.h"
+#include "scene/pose.h"
+#include "solver/pin_paths.h"
+
+namespace clothsim {
+namespace {
+
+constexpr double DOUBTFUL_TURN = 5;  // degrees in one step
+
+// Half the smallest spacing: pins that are moved so far at once stretch their springs by half.
+double doubtfulDistance(const Cloth& cloth) {
+  constexpr double least = 1e-3;  // [m]
+  return std::max(0.5 * smallestSpacing(cloth), least);
+}
+
+std::string nameOfCloth(const Scene& scene, std::size_t cloth) {
+  return scene.cloths.size() == 1 ? "cloth" : "cloths." + std::to_string(cloth);
+}
+
+double degreesBetween(const Pose& a, const Pose& b) {
+  double trace = 0;
+  for (std::size_t i = 0; i < 3; ++i) trace += dot(a.rotation[i], b.rotation[i]);
+  return std::acos(std::clamp(0.5 * (trace - 1), -1.0, 1.0)) * 180 / std::numbers::pi;
+}
+
+// From the end of a loop to its beginning.
+std::optional<Warning> jumpOf(const Motion& motion, const std::string& name, double doubtful) {
+  if (!motion.loop || motion.keys.size() < 2) return std::nullopt;
+  const Motion::Key& last = motion.keys.back();
+  const Pose end{last.position, rotationMatrix(last.rotation)}, begin = poseAt(motion, 0);
+  const double distance = length(begin.position - end.position), degrees = degreesBetween(end, begin);
+  if (distance < doubtful && degrees < DOUBTFUL_TURN) return std::nullopt;
+  const std::string far = formatted("%.3g m", distance) + " and " + formatted("%.3g degrees", degrees);
+  return Warning{"path", std::nullopt, name + " jumps by " + far,
+                 name + " jumps by " + far + " within one step whenever its loop begins again, first at " +
+                     formatted("%.3g s", last.t) + ": let its last key equal its first"};
+}
+
+// The largest distance from the pins of a path, counted over all cloths, to where the path puts them now [m].
+double distanceFromPath(const Cloth& cloth, const State& state, const PinPaths& paths, std::size_t path) {
+  const Pose pose = poseAt(paths.paths[path].motion, state.clock.time());
+  const Vec3d center = paths.paths[path].center;
+  double largest = 0;
+  for (std::size_t i = 0; i < paths.numbers.size(); ++i) {
+    if (paths.numbers[i] != path + 1) continue;
+    const Particle4& x = state.positions[i];
+    const Vec3d onPath = pose.position + rotate(pose.rotation, cloth.positions()[i] - center);
+    largest = std::max(largest, length(onPath - Vec3f{x.x, x.y, x.z}.cast<double>()));
+  }
+  return largest;
+}
+
+std::string stepsAdvice(const Scene& scene) {
+  return "raise solver.simulation_steps (now " + std::to_string(scene.solver.simulationSteps) + ")";
+}
+
+Warning contactWarning(const ContactFailure& failure, const Scene& scene) {
+  Warning warning{"contact", failure.frame, "", ""};
+  const bool averaged = scene.solver.selfCollision == SelfCollision::averaged;
+  warning.brief = "lost in frame " + std::to_string(failure.frame) + ": " +
+                  (averaged ? "set self_collision=robust" : "raise simulation_steps");
+  const std::string advice =
+      averaged ? "set solver.self_collision=robust, which keeps layers apart" : stepsAdvice(scene);
+  if (failure.condition == ContactFailure::Condition::fastStep)
+    warning.text =
+        "contact is not certain: a particle moved farther in a step than the search for contacts reaches; " +
+        advice;
+  else
+    warning.text = "contact was lost: " + formatted("%.0f", static_cast<double>(failure.pairs)) +
+                   (failure.pairs == 1 ? " pair" : " pairs") + " of particles nearer than " +
+                   formatted("%.3g mm", 1000 * failure.neededDistance) +
+                   ", below which triangles can cross; nearest " +
+                   formatted("%.3g mm", 1000 * failure.distance) + "; " +
+                   (failure.frame == 0 ? "begin with the layers farther apart" : advice);
+  return warning;
+}
+
+}  // namespace
+
+double doubtfulStrain(const Scene& scene) { return usesMaterial(scene) ? 0.5 : 1; }
+
+std::vector<Warning> pathWarnings(const Cloth& cloth, const Scene& scene, const State& state) {
+  std::vector<Warning> warnings;
+  const double doubtful = doubtfulDistance(cloth);
+  const auto addJump = [&](const Motion& motion, const std::string& name) {
+    if (std::optional<Warning> jump = jumpOf(motion, name, doubtful)) warnings.push_back(std::move(*jump));
+  };
+  const PinPaths paths = makePinPaths(scene, cloth, state.offPath);
+  std::size_t path = 0;
+  for (std::size_t i = 0; i < scene.cloths.size(); ++i)
+    for (std::size_t k = 0; k < scene.cloths[i].pinMotion.size(); ++k, ++path) {
+      const std::string name = nameOfCloth(scene, i) + ".pin_motion." + std::to_string(k);
+      const double distance = distanceFromPath(cloth, state, paths, path);
+      if (distance > doubtful) {
+        const std::string far = name + " is " + formatted("%.3g m", distance) + " away from its pins";
+        warnings.push_back({"path", 0, far,
+                            far + formatted(" at %.3g s", state.clock.time()) +
+                                ", and the first step moves them there: let it begin where they are"});
+      }
+      addJump(paths.paths[path].motion, name);
+    }
+  for (std::size_t i = 0; i < scene.colliders.size(); ++i)
+    std::visit(
+        [&](const auto& shape) {
+          if (shape.motion) addJump(*shape.motion, "colliders." + std::to_string(i) + ".motion");
+        },
+        scene.colliders[i]);
+  return warnings;
+}
+
+void RunWatch::start(const Cloth& cloth, const Scene& scene, const State& state) {
+  startInColliders_ = overlapsWithColliders(cloth, scene, state);
+  paths_ = pathWarnings(cloth, scene, state);
+}
+
+void RunWatch::add(int frame, const Cloth& cloth, const Scene& scene, const State& state, double strain,
+                   const ContactCounts& counts) {
+  contacts_.add(frame, cloth, scene, state, strain, counts);
+  peakStrain_ = std::max(peakStrain_, strain);
+  if (strain > doubtfulStrain(scene) && !doubtfulFrame_) doubtfulFrame_ = frame;
+}
+
+std::vector<Warning> RunWatch::warnings(const Scene& scene) const {
+  std::vector<Warning> warnings;
+  if (startInColliders_.particles > 0)
+    warnings.push_back({"start", 0, "starts inside a collider",
+                        std::to_string(startInColliders_.particles) +
+                            (startInColliders_.particles == 1 ? " particle starts" : " particles start") +
+                            " inside a collider, up to " +
+                            formatted("%.3g mm", 1000 * startInColliders_.depth) +
+                            " deep; the first step pushes them out"});
+  warnings.insert(warnings.end(), paths_.begin(), paths_.end());
+  if (const auto& failure = contacts_.failure()) warnings.push_back(contactWarning(*failure, scene));
+  if (doubtfulFrame_)
+    warnings.push_back({"strain", doubtfulFrame_,
+                        formatted("springs stretched by %.0f %%: raise simulation_steps", 100 * peakStrain_),
+                        "a spring is stretched by " + formatted("%.0f %%", 100 * doubtfulStrain(scene)) +
+                            " or more, in this run by up to " + formatted("%.0f %%", 100 * peakStrain_) +
+                            "; " + stepsAdvice(scene) + ", or set solver.strain_limit"});
+  return warnings;
+}
+
+void print(const std::vector<Warning>& warnings, const std::string& which) {
+  for (const Warning& warning : warnings) {
+    std::cerr << "clothsim: warning: " << which;
+    if (warning.frame) std::cerr << "frame " << *warning.frame << ": ";
+    std::cerr << warning.text << '\n';
+  }
+}
+
+nlohmann::ordered_json toJson(const std::vector<Warning>& warnings) {
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const Warning& warning : warnings) {
+    const nlohmann::ordered_json frame =
+        warning.frame ? nlohmann::ordered_json(*warning.frame) : nlohmann::ordered_json(nullptr);
+    list.push_back({{"kind", warning.kind}, {"frame", frame}, {"text", warning.text}});
+  }
+  return list;
+}
+
+void checkStrict(bool strict, const std::vector<Warning>& warnings) {
+  if (!strict || warnings.empty()) return;
+  throw SimulationError("--strict: the run ended with " + std::to_string(warnings.size()) +
+                        (warnings.size() == 1 ? " warning" : " warnings"));
+}
+
+}  // namespace clothsim

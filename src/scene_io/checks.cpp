@@ -1,0 +1,271 @@
+// What must hold between the keys of an object, and complaints about keys.
+#include <algorithm>
+
+#include "cloth/material.h"
+#include "cloth/pins.h"
+#include "core/nearest.h"
+#include "scene/budget.h"
+#include "scene_io/codec.h"
+#include "scene_io/fields.h"
+
+namespace clothsim {
+
+namespace {
+
+std::string gridText(const ClothSettings& cloth) {
+  return "a column from 0 to " + std::to_string(cloth.numWidthPoints - 1) + " and a row from 0 to " +
+         std::to_string(cloth.numHeightPoints - 1);
+}
+
+void checkOnGrid(const JsonNode& node, GridPoint point, const ClothSettings& cloth) {
+  const bool inside = point.column >= 0 && point.column < cloth.numWidthPoints && point.row >= 0 &&
+                      point.row < cloth.numHeightPoints;
+  if (!inside)
+    complain(node,
+             "expected [column, row] on the grid, " + gridText(cloth) + ", found " + formatJsonLine(node));
+}
+
+// `owner`: the cloth or the motion that has the key "pinned".
+void checkPins(const JsonNode& owner, const std::vector<Pin>& pins, const ClothSettings& settings) {
+  const JsonNode* list = owner.find("pinned");
+  for (std::size_t i = 0; i < pins.size(); ++i) {
+    const JsonNode& node = *list->children[i];
+    if (isMeshPin(pins[i]) != settings.isMesh())
+      complain(
+          node,
+          settings.isMesh()
+              ? "expected a pin of a mesh, {\"vertex\": number}, {\"region\": {from, to}} or {\"group\": "
+                "name}, found " +
+                    formatJsonLine(node)
+              : "expected a pin of a grid, since the cloth has no \"mesh\", found " + formatJsonLine(node));
+    if (const auto* point = std::get_if<GridPoint>(&pins[i])) checkOnGrid(node, *point, settings);
+    if (const auto* range = std::get_if<GridRange>(&pins[i])) {
+      checkOnGrid(*node.find("from"), range->from, settings);
+      checkOnGrid(*node.find("to"), range->to, settings);
+    }
+  }
+}
+
+// Each motion moves pins of the cloth, and no other motion moves the same.
+void checkPinMotions(const JsonNode& cloth, const ClothSettings& settings) {
+  const double points =
+      settings.isMesh() ? 0 : static_cast<double>(settings.numWidthPoints) * settings.numHeightPoints;
+  const bool isTooLarge = points > mostParticles || points * BYTES_A_PARTICLE > machineMemory();
+  if (settings.pinMotion.empty() || isTooLarge) return;  // a complaint of its own
+  const JsonNode& motions = *cloth.find("pin_motion");
+  const auto nodeOf = [&](std::size_t i) -> const JsonNode& {
+    return motions.kind == JsonKind::list ? *motions.children[i] : motions;
+  };
+  if (settings.pinned.empty())
+    complain(motions, "expected pins to move, found none: the cloth's key \"pinned\" names no point");
+  for (std::size_t i = 0; i < settings.pinMotion.size(); ++i)
+    checkPins(nodeOf(i), settings.pinMotion[i].pinned, settings);
+  if (settings.isMesh()) return;  // where its file lies is known later: Cloth looks
+  const auto conflict = findPinConflict(settings);
+  if (!conflict) return;
+  const JsonNode& motion = nodeOf(conflict->motion);
+  const JsonNode* pins = motion.find("pinned");
+  const JsonNode& place = pins == nullptr ? motion : *pins->children[conflict->pin];
+  if (!conflict->otherMotion)
+    complain(place, "expected only pins of the cloth, found " + conflict->point +
+                        ", which the cloth's key \"pinned\" does not name");
+  complain(place, "expected each pin in one motion, found " + conflict->point + " in pin_motion." +
+                      std::to_string(*conflict->otherMotion) + ", too" +
+                      (pins == nullptr ? "; a motion without the key \"pinned\" moves all pins" : ""));
+}
+
+// Of a motion of either kind.
+template <class Keys>
+void checkKeys(const JsonNode& motion, const Keys& keys, bool loop) {
+  const JsonNode& list = *motion.find("keys");
+  if (keys.empty()) complain(list, "expected at least one key {t, position, rotation}, found an empty list");
+  for (std::size_t i = 1; i < keys.size(); ++i)
+    if (keys[i].t <= keys[i - 1].t)
+      complainExpected(*list.children[i]->find("t"),
+                       "a time later than the key before, > " + formatNumber(keys[i - 1].t));
+  if (loop && keys.back().t <= 0)
+    complain(*list.children.back()->find("t"), "expected a number > 0 in the last key of a loop, found 0");
+}
+
+// Keys of a motion without a position stay at the collider's own place.
+void settleMotion(const JsonNode& collider, std::optional<Motion>& motion, Vec3d place) {
+  if (!motion) return;
+  const JsonNode& keys = *collider.find("motion")->find("keys");
+  for (std::size_t i = 0; i < motion->keys.size(); ++i)
+    if (keys.children[i]->find("position") == nullptr) motion->keys[i].position = place;
+}
+
+void leaveOutOwnPlace(JsonNode& collider, const std::optional<Motion>& motion, Vec3d place) {
+  if (!motion) return;
+  JsonNode& keys = *collider.find("motion")->find("keys");
+  for (std::size_t i = 0; i < motion->keys.size(); ++i)
+    if (sameWritten(motion->keys[i].position, place))
+      std::erase_if(keys.children[i]->children, [](const auto& member) { return member->key == "position"; });
+}
+
+// A material says these itself; and oblong cells that would need springs that push have none.
+void checkMaterial(const JsonNode& node, const ClothSettings& cloth) {
+  for (const char* key : {"ks", "stiffness_reference", "density", "mass", "damping", "thickness"})
+    if (const JsonNode* given = node.find(key))
+      complain(*given, std::string("found both ") + key +
+                           " and material, expected one of them: a material tells " +
+                           "mass, stiffness, damping and thickness");
+  if (cloth.isMesh()) return;
+  const LatticeStiffness k = latticeStiffness(*cloth.material, cloth.width / (cloth.numWidthPoints - 1),
+                                              cloth.height / (cloth.numHeightPoints - 1));
+  if (k.alongRow <= 0 || k.alongColumn <= 0)
+    complain(*node.find("material"),
+             "no springs on a lattice with cells of this shape make this material: the cells are too oblong, "
+             "or shear "
+             "is too large beside stretch; choose num_width_points and num_height_points for square cells");
+}
+
+// What a mesh has from its file.
+void checkMesh(const JsonNode& node, const ClothSettings& cloth) {
+  if (!cloth.isMesh()) {
+    if (const JsonNode* given = node.find("mesh")) complainExpected(*given, "the name of an OBJ file");
+    if (const JsonNode* given = node.find("scale"); given != nullptr && cloth.scale != 1)
+      complain(*given, "only a cloth with the key \"mesh\" has a scale; a grid has width and height");
+    return;
+  }
+  for (const char* key :
+       {"width", "height", "num_width_points", "num_height_points", "orientation", "enable_shearing"})
+    if (const JsonNode* given = node.find(key))
+      complain(*given, std::string("found both ") + key + " and mesh, expected one of them: " + key +
+                           " belongs to a grid; a mesh has its shape from its file and is placed by scale, "
+                           "rotation and position");
+}
+
+// Where else in the scene the key would be right: "strain_limit" written into a cloth.
+std::string placeOfKey(const std::string& key) {
+  std::string shortest;
+  for (const FieldInfo& field : describeFields())
+    if (field.path.ends_with("." + key) && (shortest.empty() || field.path.size() < shortest.size()))
+      shortest = field.path;
+  return shortest;
+}
+
+}  // namespace
+
+template <>
+void settle(const JsonNode& node, ClothSettings& cloth) {
+  if (cloth.ks && cloth.stiffnessReference)
+    complain(
+        *node.find("stiffness_reference"),
+        "found both ks and stiffness_reference, expected one of them: ks is CS184's stiffness of a spring, "
+        "stiffness_reference CS171's");
+  if (cloth.material)
+    checkMaterial(node, cloth);
+  else if (!cloth.ks && !cloth.stiffnessReference)
+    cloth.ks = defaultKs;
+  checkMesh(node, cloth);
+  checkPins(node, cloth.pinned, cloth);
+  checkPinMotions(node, cloth);
+}
+
+template <>
+void settle(const JsonNode& node, GridRange& range) {
+  if (range.from.column > range.to.column || range.from.row > range.to.row)
+    complain(node, "expected \"from\" at most \"to\" in column and in row, found " + formatJsonLine(node));
+}
+
+template <>
+void settle(const JsonNode& node, Region& region) {
+  if (region.from.x > region.to.x || region.from.y > region.to.y || region.from.z > region.to.z)
+    complain(node, "expected \"from\" at most \"to\" in x, y and z, found " + formatJsonLine(node));
+}
+
+template <>
+void settle(const JsonNode& node, Motion& motion) {
+  checkKeys(node, motion.keys, motion.loop);
+}
+
+template <>
+void settle(const JsonNode& node, PinMotion& motion) {
+  checkKeys(node, motion.keys, motion.loop);
+  if (const JsonNode* pins = node.find("pinned"); pins != nullptr && motion.pinned.empty())
+    complain(*pins, "expected at least one pin, found an empty list; leave the key out to move all pins");
+}
+
+template <>
+void settle(const JsonNode& node, Sphere& sphere) {
+  settleMotion(node, sphere.motion, sphere.origin);
+}
+template <>
+void settle(const JsonNode& node, Plane& plane) {
+  settleMotion(node, plane.motion, plane.point);
+}
+template <>
+void settle(const JsonNode& node, Capsule& capsule) {
+  settleMotion(node, capsule.motion, capsule.origin);
+}
+template <>
+void settle(const JsonNode& node, Box& box) {
+  settleMotion(node, box.motion, box.origin);
+  const double most = 0.5 * std::min({box.size.x, box.size.y, box.size.z});
+  if (box.rounding <= most) return;
+  // A box thinner than the default rounding is simply round.
+  if (const JsonNode* given = node.find("rounding"))
+    complainExpected(*given, "at most half the smallest size of the box, " + formatNumber(most));
+  box.rounding = most;
+}
+template <>
+void settle(const JsonNode& node, Torus& torus) {
+  settleMotion(node, torus.motion, torus.origin);
+  if (torus.tubeRadius < torus.radius) return;
+  const JsonNode* given = node.find("tube_radius");
+  complain(given != nullptr ? *given : node, "expected a tube_radius below the radius " +
+                                                 formatNumber(torus.radius) + ", found " +
+                                                 formatNumber(torus.tubeRadius));
+}
+template <>
+void settle(const JsonNode& node, MeshCollider& mesh) {
+  settleMotion(node, mesh.motion, mesh.origin);
+  if (mesh.file.empty()) complainExpected(*node.find("file"), "the name of an OBJ file");
+}
+template <>
+void leaveOut(JsonNode& node, const MeshCollider& mesh) {
+  leaveOutOwnPlace(node, mesh.motion, mesh.origin);
+}
+template <>
+void leaveOut(JsonNode& node, const Capsule& capsule) {
+  leaveOutOwnPlace(node, capsule.motion, capsule.origin);
+}
+template <>
+void leaveOut(JsonNode& node, const Box& box) {
+  leaveOutOwnPlace(node, box.motion, box.origin);
+}
+template <>
+void leaveOut(JsonNode& node, const Torus& torus) {
+  leaveOutOwnPlace(node, torus.motion, torus.origin);
+}
+template <>
+void leaveOut(JsonNode& node, const Sphere& sphere) {
+  leaveOutOwnPlace(node, sphere.motion, sphere.origin);
+}
+template <>
+void leaveOut(JsonNode& node, const Plane& plane) {
+  leaveOutOwnPlace(node, plane.motion, plane.point);
+}
+
+void expectObject(const JsonNode& node) {
+  if (node.kind != JsonKind::object) complainExpected(node, "an object {...}");
+}
+
+void complainUnknownKey(const JsonNode& member, const std::vector<std::string>& known) {
+  std::string advice = didYouMean(member.key, known);
+  if (advice.empty()) {
+    const std::string place = placeOfKey(member.key);
+    if (!place.empty()) advice = "; it belongs to " + place;
+  }
+  if (advice.empty()) {
+    for (const std::string& key : known) advice += (advice.empty() ? "; known here: " : ", ") + key;
+  }
+  complain(member, "unknown key" + advice);
+}
+
+void complainMissingKey(const JsonNode& object, const FieldTraits& missing) {
+  complain(object, "the key \"" + std::string(missing.key) + "\" is missing: " + std::string(missing.help));
+}
+
+}  // namespace clothsim

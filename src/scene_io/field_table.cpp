@@ -1,0 +1,555 @@
+// The table of scene keys: names, units, ranges and help texts. The order is that of the written file.
+#include "scene_io/field_table.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "scene_io/json_tree.h"
+
+namespace clothsim {
+
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr Limits positive{.low = 0, .lowOpen = true};
+constexpr Limits notNegative{.low = 0};
+constexpr Limits gridSide{.low = smallestSide, .high = largestSide};
+
+template <class Owner, class T>
+Field<Owner> field(std::string_view key, T Owner::*member, std::string_view help) {
+  return {key, member, help};
+}
+
+// What every collider has at the end. The upper limit of friction depends on its law (scene_tree.cpp).
+template <class Shape>
+Field<Shape> frictionField() {
+  return field("friction", &Shape::friction,
+               "With cs184: 0 slides, 1 (the maximum) sticks. With coulomb: Coulomb's coefficient.")
+      .within(notNegative)
+      .usually(0, 1);
+}
+template <class Shape>
+Field<Shape> motionField() {
+  return field("motion", &Shape::motion, "A path in time along which the collider moves as a rigid body.");
+}
+
+}  // namespace
+
+template <>
+std::span<const Field<Scene>> fieldsOf<Scene>() {
+  static const std::array fields{
+      field("schema", &Scene::schema, "Version of the format: \"clothsim/1\".").alwaysWritten(),
+      field("name", &Scene::name, "Short name for titles and lists."),
+      field("description", &Scene::description, "One sentence about the scene."),
+      field("cloths", &Scene::cloths,
+            "The cloths, one object each; a single one may be the object `cloth`, as in CS184.")
+          .required()
+          .rebuilds(),
+      field("colliders", &Scene::colliders,
+            "Solid shapes; CS184's objects `plane` and `sphere` come before this list, in that order."),
+      field("gravity", &Scene::gravity, "Acceleration of every free particle.").in("m/s^2").usually(-20, 20),
+      field("wind", &Scene::wind, "Air that moves past the cloth; without it no wind forces are computed."),
+      field("air_resistance", &Scene::airResistance,
+            "Factor a of the force -a |v| v on each particle, as in CS171.")
+          .in("kg/m")
+          .within(notNegative)
+          .usually(0, 0.01),
+      field("solver", &Scene::solver,
+            "Time integration: integrator, steps, strain limit, contacts, watchdog."),
+      field("camera", &Scene::camera,
+            "The camera; without a position it shows the whole scene from the front."),
+      field("render", &Scene::render, "Appearance: shading model, colours, weave, light, background."),
+      field("expect", &Scene::expect, "Expected results of a run, checked by the tests."),
+  };
+  return fields;
+}
+
+template <>
+std::span<const Field<ClothSettings>> fieldsOf<ClothSettings>() {
+  using C = ClothSettings;
+  static const std::array fields{
+      field("mesh", &C::mesh,
+            "OBJ file for a cloth that is not a grid; looked up beside the scene file, then in clothsim's "
+            "folder.")
+          .byDefault("none: a grid")
+          .rebuilds(),
+      field("scale", &C::scale, "Metres per unit of the cloth's mesh file.")
+          .within(positive)
+          .usually(0.01, 10)
+          .rebuilds(),
+      field("width", &C::width, "Length along the rows (x, before rotation).")
+          .in("m")
+          .within(positive)
+          .usually(0.1, 4)
+          .rebuilds(),
+      field("height", &C::height,
+            "Length along the columns (z of a lying cloth, y of a standing one, before rotation).")
+          .in("m")
+          .within(positive)
+          .usually(0.1, 4)
+          .rebuilds(),
+      field("num_width_points", &C::numWidthPoints, "Grid points per row.")
+          .within(gridSide)
+          .usually(4, 512)
+          .rebuilds(),
+      field("num_height_points", &C::numHeightPoints, "Grid points per column.")
+          .within(gridSide)
+          .usually(4, 512)
+          .rebuilds(),
+      field("orientation", &C::orientation,
+            "Lying at y = 1 m, row 0 at z = 0; or standing at z = 0, facing +z, with row 0 at the bottom.")
+          .rebuilds(),
+      field("position", &C::position, "Offset added to every point.").in("m").rebuilds(),
+      field("rotation", &C::rotation,
+            "Rotation about grid point [0, 0] or the mesh's origin: axis times angle.")
+          .in("degrees")
+          .rebuilds(),
+      field("density", &C::density,
+            "Mass per area; the mass of a particle is width * height * density / points.")
+          .in("kg/m^2")
+          .within(positive)
+          .usually(1, 1000)
+          .rebuilds(),
+      field("mass", &C::mass, "Total mass; replaces density.")
+          .in("kg")
+          .within(positive)
+          .usually(0.01, 100)
+          .rebuilds(),
+      field("ks", &C::ks, "Spring constant; 0.2 ks for bending springs (CS184's model).")
+          .in("N/m")
+          .within(positive)
+          .usually(50, 50000)
+          .byDefault("5000, unless stiffness_reference is given")
+          .rebuilds(),
+      field("stiffness_reference", &C::stiffnessReference,
+            "Instead of ks: spring constant stiffness_reference * reference_length / length (CS171's model).")
+          .in("N/m")
+          .within(positive)
+          .usually(1, 1000)
+          .rebuilds(),
+      field("reference_length", &C::referenceLength,
+            "Length of a spring whose constant is stiffness_reference; independent of the resolution.")
+          .in("m")
+          .within(positive)
+          .usually(0.01, 1)
+          .rebuilds(),
+      field("material", &C::material,
+            "A fabric in SI units, or a preset's name; replaces ks, density, mass, damping and thickness.")
+          .rebuilds(),
+      field("damping", &C::damping, "Velocity lost per step; with the implicit integrator, per 1/2700 s.")
+          .in("%")
+          .within({.low = 0, .high = 100})
+          .usually(0, 2),
+      field("thickness", &C::thickness,
+            "Self-collision keeps particles 2 thickness apart (averaged), or at least 1 (robust).")
+          .in("m")
+          .within(notNegative)
+          .usually(0.001, 0.1)
+          .rebuilds(),
+      field("enable_structural", &C::enableStructural,
+            "Springs to left and upper neighbours; along the edges of a mesh.")
+          .rebuilds(),
+      field("enable_shearing", &C::enableShearing, "Springs to diagonal neighbours.").rebuilds(),
+      field("enable_bending", &C::enableBending,
+            "Springs to the second neighbours left and above; across the edges of a mesh.")
+          .rebuilds(),
+      field("pinned", &C::pinned,
+            "Points held in place: [column, row] from 0 (row 0: bottom of a standing cloth), sides, mesh "
+            "vertices.")
+          .rebuilds(),
+      field("pin_motion", &C::pinMotion,
+            "A path in time for the pins, or a list of paths with the pins that follow each.")
+          .byDefault("none"),
+  };
+  return fields;
+}
+
+template <>
+std::span<const Field<Material>> fieldsOf<Material>() {
+  using M = Material;
+  static const std::array fields{
+      field("density", &M::density, "Mass per area.")
+          .in("kg/m^2")
+          .within(positive)
+          .rebuilds()
+          .alwaysWritten(),
+      field("stretch", &M::stretch, "Young's modulus of the sheet: of the fabric, times its thickness.")
+          .in("N/m")
+          .within(positive)
+          .rebuilds()
+          .alwaysWritten(),
+      field("shear", &M::shear, "Shear modulus of the sheet; far smaller than stretch in woven cloth.")
+          .in("N/m")
+          .within(positive)
+          .rebuilds()
+          .alwaysWritten(),
+      field("bend", &M::bend, "Bending rigidity: moment per width and curvature.")
+          .in("N m")
+          .within(notNegative)
+          .rebuilds()
+          .alwaysWritten(),
+      field("damping", &M::damping, "Rate at which motion decays, as exp(-damping t).")
+          .in("1/s")
+          .within(notNegative)
+          .alwaysWritten(),
+      field("thickness", &M::thickness,
+            "Thickness of the fabric; self-collision keeps layers at least this far apart.")
+          .in("m")
+          .within(notNegative)
+          .rebuilds()
+          .alwaysWritten(),
+      field("friction", &M::friction, "Coulomb's coefficient between layers of the fabric.")
+          .within({.low = 0, .high = 10})
+          .alwaysWritten(),
+  };
+  return fields;
+}
+
+template <>
+std::span<const Field<Sphere>> fieldsOf<Sphere>() {
+  static const std::array fields{
+      field("origin", &Sphere::origin, "Centre of a shape other than a plane.").in("m"),
+      field("radius", &Sphere::radius, "Radius of a sphere or a capsule, or of the circle inside a torus.")
+          .in("m")
+          .within(positive)
+          .usually(0.01, 1),
+      frictionField<Sphere>(),
+      motionField<Sphere>(),
+  };
+  return fields;
+}
+
+template <>
+std::span<const Field<Plane>> fieldsOf<Plane>() {
+  static const std::array fields{
+      field("point", &Plane::point, "Any point of a plane.").in("m"),
+      field("normal", &Plane::normal, "Normal of a plane, of any length.").within({.nonZero = true}),
+      frictionField<Plane>(),
+      motionField<Plane>(),
+  };
+  return fields;
+}
+
+template <>
+std::span<const Field<Capsule>> fieldsOf<Capsule>() {
+  static const std::array fields{
+      field("origin", &Capsule::origin, "Middle of a capsule.").in("m"),
+      field("axis", &Capsule::axis, "Direction of a capsule, or through the hole of a torus; of any length.")
+          .within({.nonZero = true}),
+      field("length", &Capsule::length, "Length of a capsule without its round ends.")
+          .in("m")
+          .within(notNegative)
+          .usually(0, 2),
+      field("radius", &Capsule::radius, "Radius of a capsule.").in("m").within(positive).usually(0.01, 1),
+      frictionField<Capsule>(),
+      motionField<Capsule>(),
+  };
+  return fields;
+}
+
+template <>
+std::span<const Field<Box>> fieldsOf<Box>() {
+  static const std::array fields{
+      field("origin", &Box::origin, "Centre of a box.").in("m"),
+      field("size", &Box::size, "Size of a box from face to face.").in("m").within(positive).usually(0.01, 3),
+      field("rotation", &Box::rotation,
+            "Rotation of a box or mesh: axis times angle; its motion is added to it.")
+          .in("degrees"),
+      field("rounding", &Box::rounding, "Radius of a box's edges, at most half its smallest size.")
+          .in("m")
+          .within(notNegative)
+          .usually(0, 0.2),
+      frictionField<Box>(),
+      motionField<Box>(),
+  };
+  return fields;
+}
+
+template <>
+std::span<const Field<Torus>> fieldsOf<Torus>() {
+  static const std::array fields{
+      field("origin", &Torus::origin, "Centre of a torus.").in("m"),
+      field("axis", &Torus::axis, "Through the hole of a torus.").within({.nonZero = true}),
+      field("radius", &Torus::radius, "Radius of the circle inside the tube.")
+          .in("m")
+          .within(positive)
+          .usually(0.01, 1),
+      field("tube_radius", &Torus::tubeRadius, "Radius of the tube of a torus, smaller than its radius.")
+          .in("m")
+          .within(positive)
+          .usually(0.01, 1),
+      frictionField<Torus>(),
+      motionField<Torus>(),
+  };
+  return fields;
+}
+
+template <>
+std::span<const Field<MeshCollider>> fieldsOf<MeshCollider>() {
+  using M = MeshCollider;
+  static const std::array fields{
+      field("file", &M::file,
+            "OBJ file of a closed mesh; looked up beside the scene file, then in clothsim's folder.")
+          .required()
+          .rebuilds(),
+      field("origin", &M::origin, "Position of the mesh's origin.").in("m"),
+      field("rotation", &M::rotation, "Rotation of a box or mesh.").in("degrees"),
+      field("scale", &M::scale, "Metres per unit of the mesh file.").within(positive).usually(0.1, 10),
+      field("cells", &M::cells,
+            "Cells of the mesh's signed distance grid along its longest side; more are finer but slower.")
+          .within({.low = 8, .high = 256}),
+      frictionField<M>(),
+      motionField<M>(),
+  };
+  return fields;
+}
+
+template <>
+std::span<const Field<Motion>> fieldsOf<Motion>() {
+  static const std::array fields{
+      field("keys", &Motion::keys, "Keys along the path, interpolated linearly.").required(),
+      field("loop", &Motion::loop, "Repeat after the last key; otherwise stop there."),
+  };
+  return fields;
+}
+
+template <>
+std::span<const Field<Motion::Key>> fieldsOf<Motion::Key>() {
+  using K = Motion::Key;
+  static const std::array fields{
+      field("t", &K::t, "Time of the key, later than the one before.").in("s").within(notNegative).required(),
+      field("position", &K::position,
+            "Position of the collider's origin, or the plane's point, at that time.")
+          .in("m")
+          .alwaysWritten()
+          .byDefault("the collider's own place"),
+      field("rotation", &K::rotation, "Rotation: axis times angle; may exceed 360.").in("degrees"),
+  };
+  return fields;
+}
+
+template <>
+std::span<const Field<Wind>> fieldsOf<Wind>() {
+  static const std::array fields{
+      field("velocity", &Wind::velocity,
+            "Steady wind; forces depend on the velocity relative to each triangle.")
+          .in("m/s")
+          .usually(-10, 10),
+      field("gust", &Wind::gust,
+            "Random variation of the wind speed along its direction, identical in every run."),
+      field("drag", &Wind::drag, "Coefficient of the pressure along a triangle's normal.")
+          .within(notNegative)
+          .usually(0, 3),
+      field("lift", &Wind::lift, "Coefficient of the force perpendicular to the relative wind.")
+          .within(notNegative)
+          .usually(0, 3),
+      field("air_density", &Wind::airDensity, "Density of the air; drag and lift grow with it.")
+          .in("kg/m^3")
+          .within(notNegative)
+          .usually(0, 2),
+  };
+  return fields;
+}
+
+template <>
+std::span<const Field<Gust>> fieldsOf<Gust>() {
+  static const std::array fields{
+      field("strength", &Gust::strength, "Standard deviation of the speed; 0 is a steady wind.")
+          .in("m/s")
+          .within(notNegative)
+          .usually(0, 10),
+      field("frequency", &Gust::frequency, "Approximate number of gusts per second.")
+          .in("Hz")
+          .within(positive)
+          .usually(0.05, 5),
+      field("seed", &Gust::seed, "The same seed gives the same gusts.").within(notNegative).usually(1, 100),
+  };
+  return fields;
+}
+
+template <>
+std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
+  using S = SolverSettings;
+  static const std::array fields{
+      field("integrator", &S::integrator,
+            "Leapfrog Verlet; symplectic Euler; or implicit: backward Euler, stable at any step.")
+          .byDefault("\"verlet\"; in scenes with a material \"implicit\""),
+      field("newton_steps", &S::newtonSteps, "Newton iterations per implicit step; more are more accurate.")
+          .within({.low = 1, .high = 100})
+          .usually(1, 8),
+      field("cg_iterations", &S::cgIterations,
+            "CG iterations per Newton iteration; auto: 10 to 40 by the step length, 40 or 60 for a material.")
+          .within({.low = 1, .high = 10'000})
+          .usually(1, 40),
+      field("frames_per_sec", &S::framesPerSec,
+            "Frames per simulated second; states and pictures are taken at the end of a frame.")
+          .in("1/s")
+          .within(positive)
+          .usually(15, 240),
+      field("simulation_steps", &S::simulationSteps,
+            "Steps in a frame, each 1 / (frames_per_sec * simulation_steps) s; auto: as few as are stable.")
+          .within({.low = 1, .high = mostSteps})
+          .usually(1, 200)
+          .byDefault("30; in scenes with a material \"auto\""),
+      field("strain_limit", &S::strainLimit,
+            "Largest allowed stretch l/L - 1: a pass after each step; a second, stiff spring with implicit.")
+          .within(notNegative)
+          .usually(0, 0.5)
+          .as(Format::orFalse)
+          .byDefault("0.1 in scenes with ks, else false"),
+      field("self_collision", &S::selfCollision,
+            "Keeps layers of cloth apart. averaged: CS184's rule, leaks; robust: does not leak; true: see "
+            "default.")
+          .byDefault("false; in scenes with ks averaged. true means averaged there, else robust"),
+      field("self_friction", &S::selfFriction,
+            "Coulomb's coefficient of friction between layers of cloth; robust self-collision only.")
+          .within({.low = 0, .high = 10})
+          .usually(0, 1)
+          .byDefault("the material's, else 0.3"),
+      field("friction_law", &S::frictionLaw,
+            "Meaning of a collider's friction: CS184's factor or Coulomb's coefficient.")
+          .byDefault("\"cs184\"; in scenes with a material \"coulomb\""),
+      field("max_speed", &S::maxSpeed, "A run in which a particle is faster is stopped.")
+          .in("m/s")
+          .within(positive)
+          .usually(1, 10000),
+      field("max_strain", &S::maxStrain, "A run in which a spring's l/L - 1 is larger is stopped.")
+          .within(positive)
+          .usually(0.1, 100),
+  };
+  return fields;
+}
+
+template <>
+std::span<const Field<CameraSettings>> fieldsOf<CameraSettings>() {
+  using C = CameraSettings;
+  static const std::array fields{
+      field("position", &C::position, "Position of the camera.")
+          .in("m")
+          .byDefault("automatic: the whole scene from the front"),
+      field("target", &C::target,
+            "The point in the middle of the picture, about which the viewer's camera orbits.")
+          .in("m")
+          .byDefault("middle of the scene"),
+      field("fov", &C::fov,
+            "Vertical field of view; small values act as a telephoto lens, large ones as a wide angle.")
+          .in("degrees")
+          .within({.low = 1, .high = 170})
+          .usually(15, 90),
+  };
+  return fields;
+}
+
+template <>
+std::span<const Field<RenderSettings>> fieldsOf<RenderSettings>() {
+  using R = RenderSettings;
+  constexpr Limits channel{.low = 0, .high = 1};
+  static const std::array fields{
+      field("shader", &R::shader, "Shading model of the cloth.").oneOf(shadingModels),
+      field("color", &R::color,
+            "Colour of the front: the upper side of a lying cloth, the side facing +z of a standing one.")
+          .in("sRGB")
+          .within(channel)
+          .as(Format::color),
+      field("back_color", &R::backColor, "Colour of the back of the cloth.")
+          .in("sRGB")
+          .within(channel)
+          .as(Format::color),
+      field("texture", &R::texture,
+            "Print (tartan, stripes, checker) or height map (quilt, knit, hammered), or the path of a PNG.")
+          .byDefault("of texture: tartan; of bump and displacement: quilt; of fabric: none"),
+      field("texture_repeat", &R::textureRepeat, "Repeats of the texture along the cloth's longer side.")
+          .within({.low = 0.01, .high = 1000})
+          .usually(0.5, 50),
+      field("weave", &R::weave, "Weave of the model fabric.").oneOf(weaves),
+      field("thread_spacing", &R::threadSpacing,
+            "Distance between threads of the model fabric; 0.0003 to 0.002 in real cloth.")
+          .in("m")
+          .within({.low = 1e-5, .high = 1})
+          .usually(2e-4, 0.02),
+      field("gloss", &R::gloss, "Gloss of the model fabric: 0 is wool, 1 is silk.").within(channel),
+      field("normal_strength", &R::normalStrength,
+            "Strength of weaves and bumps: 0 is flat, 1 true to their height.")
+          .within({.low = 0, .high = 10})
+          .usually(0, 3),
+      field("height", &R::height, "Height of bump and displacement maps, from black to white.")
+          .in("m")
+          .within({.low = -1, .high = 1})
+          .usually(-0.05, 0.05),
+      field("strain_range", &R::strainRange, "Stretch l/L - 1 at the end of the strain map's colour scale.")
+          .within({.low = 1e-6, .high = 100})
+          .usually(0.001, 1),
+      field("light", &R::light, "Direction towards the main light, of any length.")
+          .within({.nonZero = true})
+          .byDefault("from the viewer's side, upper left"),
+      field("background", &R::background, "Background of the picture.").oneOf(backgrounds),
+      field("background_color", &R::backgroundColor, "Colour of the plain background.")
+          .in("sRGB")
+          .within(channel)
+          .as(Format::color),
+      field("ground", &R::ground, "Draw a floor if the scene has no horizontal plane."),
+  };
+  return fields;
+}
+
+template <>
+std::span<const Field<Expect>> fieldsOf<Expect>() {
+  using E = Expect;
+  static const std::array fields{
+      field("frames", &E::frames, "Number of frames to run.").within({.low = 1, .high = 1e6}).required(),
+      field("centroid", &E::centroid, "Mean position of all particles.").in("m"),
+      field("centroid_tolerance", &E::centroidTolerance, "Tolerance of each coordinate of the centroid.")
+          .in("m")
+          .within(positive),
+      field("min_y", &E::minY, "Height of the lowest particle: [minimum, maximum].").in("m"),
+      field("max_strain", &E::maxStrain, "Largest l/L - 1 of all springs: [minimum, maximum]."),
+      field("kinetic_energy", &E::kineticEnergy, "Kinetic energy of all particles: [minimum, maximum].")
+          .in("J"),
+      field("max_penetration", &E::maxPenetration,
+            "Largest depth of a particle inside a collider over the run: [minimum, maximum].")
+          .in("m"),
+      field("crossings", &E::crossings,
+            "Largest number of intersecting pairs of triangles in any frame: [minimum, maximum]."),
+  };
+  return fields;
+}
+
+SolverSettings solverDefaults(bool usesKs, bool usesMaterial) {
+  SolverSettings solver;
+  if (usesMaterial) {
+    solver.frictionLaw = FrictionLaw::coulomb;
+    solver.integrator = Integrator::implicit;
+    solver.simulationSteps.automatic = true;
+  }
+  if (usesKs) {
+    solver.strainLimit = 0.1;
+    solver.selfCollision = SelfCollision::averaged;
+  }
+  return solver;
+}
+
+bool usesKs(const Scene& scene) {
+  return std::any_of(scene.cloths.begin(), scene.cloths.end(),
+                     [](const ClothSettings& cloth) { return !cloth.stiffnessReference && !cloth.material; });
+}
+
+Usual sliderRange(const FieldTraits& traits, double now) {
+  if (traits.usual.low < traits.usual.high) return traits.usual;
+  const Limits& limits = traits.limits;
+  const double span = now == 0 ? 1 : 10 * std::abs(now);
+  return {limits.low > -infinite ? limits.low : -span, limits.high < infinite ? limits.high : span};
+}
+
+std::string limitsText(const Limits& limits) {
+  if (limits.nonZero) return "not [0, 0, 0]";
+  const bool hasLow = limits.low > -infinite, hasHigh = limits.high < infinite;
+  if (hasLow && hasHigh && !limits.lowOpen)
+    return formatNumber(limits.low) + " to " + formatNumber(limits.high);
+  std::string text;
+  if (hasLow) text = (limits.lowOpen ? "> " : ">= ") + formatNumber(limits.low);
+  if (hasHigh) text += (hasLow ? " and <= " : "<= ") + formatNumber(limits.high);
+  return text;
+}
+
+}  // namespace clothsim

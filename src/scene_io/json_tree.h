@@ -1,0 +1,77 @@
+// JSON as a tree that remembers keys in order and the line of every value, so that a wrong scene can be
+// reported with its place. Libraries' own trees keep neither lines nor duplicate keys. For src/scene_io, and
+// for readers of files that hold scenes among other things.
+#pragma once
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/vec.h"
+
+namespace clothsim {
+
+enum class JsonKind { null, boolean, number, string, list, object };
+
+struct JsonNode {
+  JsonKind kind = JsonKind::null;
+  bool boolean = false;
+  double number = 0;
+  std::string text;  // of a string; of a number as it was spelled
+  std::string key;   // in the object around it
+  int line = 0;      // 1 is the first; 0: not from a file
+  JsonNode* parent = nullptr;
+  std::vector<std::unique_ptr<JsonNode>> children;
+
+  // The member of that key, or null.
+  [[nodiscard]] const JsonNode* find(std::string_view name) const;
+  [[nodiscard]] JsonNode* find(std::string_view name);
+  // Appends and returns the child.
+  JsonNode& append(std::string name, std::unique_ptr<JsonNode> child);
+};
+using JsonPointer = std::unique_ptr<JsonNode>;
+
+[[nodiscard]] JsonPointer makeBoolean(bool value);
+[[nodiscard]] JsonPointer makeNumber(double value);
+[[nodiscard]] JsonPointer makeString(std::string_view value);
+[[nodiscard]] JsonPointer makeList();
+[[nodiscard]] JsonPointer makeObject();
+[[nodiscard]] JsonPointer makeVector(Vec3d value);
+
+// Something wrong with a value. parseScene and setSceneValue turn it into a SceneError with the name of the
+// source.
+struct JsonComplaint : std::runtime_error {
+  JsonComplaint(int line_, int column_, std::string path_, const std::string& message)
+      : std::runtime_error(message), line(line_), column(column_), path(std::move(path_)) {}
+  int line, column;  // 0: unknown
+  std::string path;
+};
+
+// "cloth.json:12: cloth.ks: expected ..."; with a column only where the syntax is wrong.
+[[nodiscard]] std::string located(const std::string& source, const JsonComplaint& complaint);
+
+// Throws the complaint about `node`: "cloth.ks: <message>" with its line.
+[[noreturn]] void complain(const JsonNode& node, const std::string& message);
+// "expected <what>, found <the value>"
+[[noreturn]] void complainExpected(const JsonNode& node, const std::string& what);
+
+// "cloth.pinned.0.1", as --set takes it; empty for the root.
+[[nodiscard]] std::string pathOf(const JsonNode& node);
+// The value for a message: `"stiff"`, `50.5`, `a list of 3`, `an object`.
+[[nodiscard]] std::string foundText(const JsonNode& node);
+// A comment for people: a key "comment", or one that begins with "//". Readers pass over it.
+[[nodiscard]] bool isComment(std::string_view key);
+
+// @throws JsonComplaint: wrong syntax, duplicate keys, invalid UTF-8, more than 64 levels or a million values
+[[nodiscard]] JsonPointer parseJson(std::string_view text);
+
+// Two spaces a level; a list or object that fits is kept on one line. Numbers in the fewest digits that read
+// back exactly.
+[[nodiscard]] std::string formatJson(const JsonNode& root);
+// All on one line.
+[[nodiscard]] std::string formatJsonLine(const JsonNode& node);
+[[nodiscard]] std::string formatNumber(double value);
+
+}  // namespace clothsim

@@ -1,0 +1,96 @@
+// The part of the table of scene keys that tells of pins and their motions.
+#include <array>
+
+#include "scene_io/field_table.h"
+
+namespace clothsim {
+
+namespace {
+
+constexpr Limits notNegative{.low = 0};
+
+template <class Owner, class T>
+Field<Owner> field(std::string_view key, T Owner::*member, std::string_view help) {
+  return {key, member, help};
+}
+
+}  // namespace
+
+template <>
+std::span<const Field<GridRange>> fieldsOf<GridRange>() {
+  static const std::array fields{
+      field("from", &GridRange::from,
+            "First [column, row] of a block of points; row 0 is the bottom of a standing cloth.")
+          .required()
+          .rebuilds(),
+      field("to", &GridRange::to, "Last [column, row], inclusive.").required().rebuilds(),
+  };
+  return fields;
+}
+
+template <>
+std::span<const Field<VertexPin>> fieldsOf<VertexPin>() {
+  static const std::array fields{
+      field("vertex", &VertexPin::vertex, "Index of a mesh vertex, from 0.")
+          .within(notNegative)
+          .required()
+          .rebuilds(),
+  };
+  return fields;
+}
+
+template <>
+std::span<const Field<Region>> fieldsOf<Region>() {
+  static const std::array fields{
+      field("from", &Region::from, "Lowest corner of a box.").in("m").required().rebuilds(),
+      field("to", &Region::to, "Highest corner of a box.").in("m").required().rebuilds(),
+  };
+  return fields;
+}
+
+template <>
+std::span<const Field<RegionPin>> fieldsOf<RegionPin>() {
+  static const std::array fields{
+      field("region", &RegionPin::region, "A box; all mesh vertices inside it at the start are pinned.")
+          .required()
+          .rebuilds(),
+  };
+  return fields;
+}
+
+template <>
+std::span<const Field<GroupPin>> fieldsOf<GroupPin>() {
+  static const std::array fields{
+      field("group", &GroupPin::group, "Name of a group (g) of mesh faces; all its vertices are pinned.")
+          .required()
+          .rebuilds(),
+  };
+  return fields;
+}
+
+template <>
+std::span<const Field<PinMotion>> fieldsOf<PinMotion>() {
+  static const std::array fields{
+      field("keys", &PinMotion::keys, "Keys along the path, interpolated linearly.").required(),
+      field("loop", &PinMotion::loop, "Repeat after the last key; otherwise stop there."),
+      field("pinned", &PinMotion::pinned, "The pins that follow this path; they must be pins of the cloth.")
+          .byDefault("all pins of the cloth"),
+  };
+  return fields;
+}
+
+template <>
+std::span<const Field<PinMotion::Key>> fieldsOf<PinMotion::Key>() {
+  using K = PinMotion::Key;
+  static const std::array fields{
+      field("t", &K::t, "Time of the key, later than the one before.").in("s").within(notNegative).required(),
+      field("position", &K::position, "Position of the centre of these pins at that time.")
+          .in("m")
+          .byDefault("the mean of their start positions"),
+      field("rotation", &K::rotation, "Rotation about that centre: axis times angle; may exceed 360.")
+          .in("degrees"),
+  };
+  return fields;
+}
+
+}  // namespace clothsim

@@ -1,0 +1,145 @@
+// --resolution: the same cloth with another number of points.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "cloth/material.h"
+#include "cloth/pins.h"
+#include "core/error.h"
+#include "scene_io/field_table.h"
+#include "scene_io/json_tree.h"
+#include "scene_io/scene_io.h"
+
+namespace clothsim {
+
+namespace {
+
+double smallerSpacing(const ClothSettings& cloth) {
+  return std::min(cloth.width / (cloth.numWidthPoints - 1), cloth.height / (cloth.numHeightPoints - 1));
+}
+
+// Point i of n to the nearest of m points; ends stay ends.
+int movedIndex(int i, int n, int m) {
+  return static_cast<int>(std::lround(static_cast<double>(i) * (m - 1) / (n - 1)));
+}
+
+void movePins(ClothSettings& cloth, int columns, int rows) {
+  const auto moved = [&](GridPoint point) {
+    return GridPoint{movedIndex(point.column, cloth.numWidthPoints, columns),
+                     movedIndex(point.row, cloth.numHeightPoints, rows)};
+  };
+  const auto moveAll = [&](std::vector<Pin>& pins) {
+    for (Pin& pin : pins) {
+      if (auto* point = std::get_if<GridPoint>(&pin)) *point = moved(*point);
+      if (auto* range = std::get_if<GridRange>(&pin)) *range = {moved(range->from), moved(range->to)};
+    }
+  };
+  moveAll(cloth.pinned);
+  for (PinMotion& motion : cloth.pinMotion) moveAll(motion.pinned);
+}
+
+// On a grid that is too coarse, pins that move apart from each other would become one point.
+void checkPinsStayApart(const std::vector<ClothSettings>& cloths, int columns, int rows) {
+  for (ClothSettings cloth : cloths) {
+    if (cloth.pinMotion.empty() || cloth.isMesh()) continue;
+    movePins(cloth, columns, rows);
+    cloth.numWidthPoints = columns;
+    cloth.numHeightPoints = rows;
+    const auto conflict = findPinConflict(cloth);
+    if (!conflict) continue;
+    const std::string asked = "--resolution " + std::to_string(columns) + "x" + std::to_string(rows);
+    const std::string& point = conflict->point;
+    if (conflict->otherMotion)
+      throw UsageError(asked + ": two of a cloth's pin motions would meet in point " + point +
+                       "; expected a grid fine enough to tell their pins apart");
+    throw UsageError(asked + ": a pin motion would move point " + point +
+                     ", which is not pinned then; expected \"pinned\" and \"pin_motion\" to name the same "
+                     "ranges or points");
+  }
+}
+
+// How many steps an explicit integrator needs for one of before. In `ks` scenes a particle gets lighter with
+// the square of the spacing ratio while ks stays, and the stable step goes with sqrt(m/k); with
+// stiffness_reference k grows, too.
+int stepFactor(const ClothSettings& cloth, int columns, int rows) {
+  if (cloth.material) {
+    ClothSettings finer = cloth;
+    finer.numWidthPoints = columns;
+    finer.numHeightPoints = rows;
+    return std::max(1, static_cast<int>(std::ceil(stableStep(cloth) / stableStep(finer) - 1e-9)));
+  }
+  const double ratio = std::max(static_cast<double>(columns - 1) / (cloth.numWidthPoints - 1),
+                                static_cast<double>(rows - 1) / (cloth.numHeightPoints - 1));
+  const double needed = cloth.stiffnessReference ? std::pow(ratio, 1.5) : ratio;
+  return std::max(1, static_cast<int>(std::ceil(needed - 1e-9)));
+}
+
+void checkSides(std::size_t grids, int columns, int rows) {
+  const std::string asked = "--resolution " + std::to_string(columns) + "x" + std::to_string(rows) + ": ";
+  if (grids == 0)
+    throw UsageError(asked +
+                     "expected a scene with a grid, found only meshes, whose resolution is that of their "
+                     "files; subdivide them in a modelling program");
+  for (const int side : {columns, rows})
+    if (side < smallestSide || side > largestSide)
+      throw UsageError(asked + "expected " + std::to_string(smallestSide) + " to " +
+                       std::to_string(largestSide) + " points on each side, found " + std::to_string(side));
+  const double particles = static_cast<double>(grids) * columns * rows;
+  if (particles > mostParticles)
+    throw UsageError(asked + "expected at most " + formatNumber(mostParticles) + " particles, found " +
+                     formatNumber(particles));
+}
+
+// For a remark: without the last digits of a product, with all of a step count.
+std::string shortNumber(double value) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.7g", value);
+  return text.data();
+}
+
+}  // namespace
+
+std::string changeResolution(Scene& scene, int columns, int rows, bool keepSteps) {
+  checkSides(
+      static_cast<std::size_t>(std::count_if(scene.cloths.begin(), scene.cloths.end(),
+                                             [](const ClothSettings& cloth) { return !cloth.isMesh(); })),
+      columns, rows);
+  checkPinsStayApart(scene.cloths, columns, rows);
+  std::string changes;
+  const auto add = [&](const std::string& name, double before, double after) {
+    if (before != after)
+      changes +=
+          (changes.empty() ? "" : ", ") + name + " " + shortNumber(before) + " -> " + shortNumber(after);
+  };
+
+  keepSteps = keepSteps || scene.solver.integrator == Integrator::implicit;
+  int factor = 1;
+  for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
+    ClothSettings& cloth = scene.cloths[i];
+    if (cloth.isMesh()) continue;
+    factor = std::max(factor, stepFactor(cloth, columns, rows));
+    movePins(cloth, columns, rows);
+    const double before = smallerSpacing(cloth), thickness = cloth.thickness;
+    cloth.numWidthPoints = columns;
+    cloth.numHeightPoints = rows;
+    if (cloth.ks) cloth.thickness *= smallerSpacing(cloth) / before;
+    add((scene.cloths.size() > 1 ? "cloths." + std::to_string(i) + "." : "") + "thickness", thickness,
+        cloth.thickness);
+  }
+  if (scene.solver.simulationSteps.automatic) {
+    const int before = scene.solver.simulationSteps;
+    chooseCounts(scene);
+    add("simulation_steps", before, scene.solver.simulationSteps);
+  } else if (!keepSteps) {
+    const double steps =
+        std::min(static_cast<double>(scene.solver.simulationSteps) * factor, double{mostSteps});
+    add("simulation_steps", scene.solver.simulationSteps, steps);
+    scene.solver.simulationSteps = static_cast<int>(steps);
+  }
+  chooseCounts(scene);
+  if (changes.empty()) return "";
+  return "at " + std::to_string(columns) + "x" + std::to_string(rows) + ": " + changes;
+}
+
+}  // namespace clothsim

@@ -1,0 +1,118 @@
+// The scene's own rules on top of the field table: CS184's single objects, defaults that follow the model,
+// limits that concern all cloths together.
+#include "scene_io/scene_tree.h"
+
+#include <algorithm>
+
+#include "cloth/material.h"
+#include "scene_io/codec.h"
+
+namespace clothsim {
+
+namespace {
+
+// Puts `member` of the root at `place` of the list, which is made if there is none. The member keeps the root
+// as parent.
+void moveIntoList(JsonNode& root, std::string_view key, std::string_view listKey, std::size_t place) {
+  const auto at = std::find_if(root.children.begin(), root.children.end(),
+                               [&](const auto& child) { return child->key == key; });
+  JsonPointer member = std::move(*at);
+  root.children.erase(at);
+  JsonNode* list = root.find(listKey);
+  if (list == nullptr) {
+    list = &root.append(std::string(listKey), makeList());
+    list->line = member->line;
+  }
+  list->children.insert(list->children.begin() + static_cast<std::ptrdiff_t>(place), std::move(member));
+}
+
+void gatherCollider(JsonNode& root, const std::string& type) {
+  JsonNode* member = root.find(type);
+  if (member == nullptr) return;
+  expectObject(*member);
+  if (const JsonNode* given = member->find("type"))
+    complain(*given, "unknown key; only entries of the list \"colliders\" have a type");
+  if (const JsonNode* list = root.find("colliders"); list != nullptr && list->kind != JsonKind::list)
+    complainExpected(*list, "a list of colliders");
+  member->append("type", makeString(type));
+  moveIntoList(root, type, "colliders", 0);
+}
+
+// Known before the cloths are read, so that the solver's keys are read over the right defaults.
+SolverSettings defaultsFor(const JsonNode& root) {
+  bool ks = false, material = false;
+  if (const JsonNode* cloths = root.find("cloths"))
+    for (const auto& cloth : cloths->children) {
+      const bool hasMaterial = cloth->find("material") != nullptr;
+      material |= hasMaterial;
+      ks |= !hasMaterial && cloth->find("stiffness_reference") == nullptr;
+    }
+  return solverDefaults(ks, material);
+}
+
+// First of all checks: in a file of a later version, other complaints would mislead.
+void checkSchema(const JsonNode& root) {
+  const JsonNode* schema = root.find("schema");
+  const std::string known = Scene{}.schema;
+  if (schema != nullptr && schema->kind == JsonKind::string && schema->text != known)
+    complain(*schema, "unknown version " + foundText(*schema) +
+                          " of the scene format; this program reads \"" + known + "\"");
+}
+
+void checkCloths(const JsonNode& root, const std::vector<ClothSettings>& cloths) {
+  const JsonNode& list = *root.find("cloths");
+  if (cloths.empty()) complain(list, "expected at least one cloth, found an empty list");
+  double particles = 0;
+  for (std::size_t i = 0; i < cloths.size(); ++i) {
+    if (cloths[i].isMesh()) continue;  // counted when it is read
+    particles += static_cast<double>(cloths[i].numWidthPoints) * cloths[i].numHeightPoints;
+    if (particles > mostParticles)
+      complain(*list.children[i], "expected at most " + formatNumber(mostParticles) +
+                                      " particles in all cloths together, found " + formatNumber(particles));
+  }
+}
+
+// CS184's friction is a share of the way.
+void checkFriction(const JsonNode& root, const Scene& scene) {
+  if (scene.solver.frictionLaw != FrictionLaw::cs184) return;
+  for (std::size_t i = 0; i < scene.colliders.size(); ++i) {
+    const double friction = std::visit([](const auto& shape) { return shape.friction; }, scene.colliders[i]);
+    if (friction <= 1) continue;
+    complain(*root.find("colliders")->children[i]->find("friction"),
+             "expected a number from 0 to 1, found " + formatNumber(friction) +
+                 "; larger ones are Coulomb's coefficient and need \"friction_law\": \"coulomb\" in solver");
+  }
+}
+
+}  // namespace
+
+void gatherLists(JsonNode& root) {
+  expectObject(root);
+  if (const JsonNode* cloth = root.find("cloth")) {
+    if (root.find("cloths") != nullptr)
+      complain(*cloth, "found both \"cloth\" and \"cloths\", expected one of them");
+    expectObject(*cloth);
+    moveIntoList(root, "cloth", "cloths", 0);
+  }
+  gatherCollider(root, "sphere");
+  gatherCollider(root, "plane");  // comes to stand before the sphere
+}
+
+Scene readScene(const JsonNode& root) {
+  checkSchema(root);
+  Scene scene;
+  scene.solver = defaultsFor(root);
+  readObject(root, scene, {"cloth", "plane", "sphere"});
+  checkCloths(root, scene.cloths);
+  checkFriction(root, scene);
+  chooseCounts(scene);
+  return scene;
+}
+
+JsonPointer writeScene(const Scene& scene) {
+  Scene defaults;
+  defaults.solver = solverDefaults(usesKs(scene), usesMaterial(scene));
+  return writeObject(scene, defaults);
+}
+
+}  // namespace clothsim

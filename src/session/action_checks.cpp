@@ -1,0 +1,96 @@
+#include "session/action_checks.h"
+
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+#include "core/error.h"
+
+namespace clothsim {
+namespace {
+
+constexpr double FARTHEST = 1e6;  // [m], [m/s]: beyond it binary32 knows no cloth
+
+std::string text(double number) {
+  char digits[32];
+  std::snprintf(digits, sizeof digits, "%g", number);
+  return digits;
+}
+
+void require(bool holds, const std::string& message) {
+  if (!holds) throw UsageError(message);
+}
+
+// Also for NaN.
+bool isWithin(double x, double low, double high) { return low <= x && x <= high; }
+
+void checkPlace(const char* what, Vec3d place) {
+  for (const double x : {place.x, place.y, place.z})
+    require(isWithin(x, -FARTHEST, FARTHEST),
+            std::string(what) + ": expected coordinates from -1e6 to 1e6, found " + text(x));
+}
+
+void checkParticle(const char* what, std::uint32_t particle, const Cloth& cloth) {
+  require(particle < cloth.particleCount(), std::string(what) + ": there is no particle " +
+                                                std::to_string(particle) + ", expected 0 to " +
+                                                std::to_string(cloth.particleCount() - 1));
+}
+
+class Checks {
+ public:
+  Checks(const Cloth& cloth, const Scene& scene) : cloth_(cloth), scene_(scene) {}
+
+  void operator()(const EditScene&) const {}  // the scene checks itself
+  void operator()(const Release&) const {}
+  void operator()(const Restart&) const {}
+  void operator()(const SwitchBackend&) const {}  // the name is checked where solvers are made
+  void operator()(const MoveHand& move) const { checkPlace("move_hand: target", move.target); }
+  void operator()(const SetPin& pin) const { checkParticle("set_pin", pin.particle, cloth_); }
+  void operator()(const Grab& grab) const {
+    checkParticle("grab", grab.particle, cloth_);
+    checkPlace("grab: target", grab.target);
+    require(grab.strength > 0 && std::isfinite(grab.strength),
+            "grab: strength: expected a number > 0, found " + text(grab.strength));
+    require(isWithin(grab.radius, 0, FARTHEST),
+            "grab: radius: expected 0 to 1e6, found " + text(grab.radius));
+  }
+  void operator()(const CutStroke& stroke) const {
+    const std::size_t grids = cloth_.grids().size();
+    require(stroke.grid < grids, "cut: there is no cloth " + std::to_string(stroke.grid) +
+                                     ", expected 0 to " + std::to_string(grids - 1));
+    require(!cloth_.grids()[stroke.grid].isMesh, "cut: cloth " + std::to_string(stroke.grid) +
+                                                     " is a mesh, expected a grid: meshes cannot be cut");
+    for (const LatticePoint& point : {stroke.from, stroke.to})
+      for (const double x : {point.column, point.row})
+        require(isWithin(x, -FARTHEST, FARTHEST),
+                "cut: expected columns and rows from -1e6 to 1e6, found " + text(x));
+  }
+  void operator()(const Blow& blow) const {
+    checkPlace("blow: origin", blow.origin);
+    checkPlace("blow: direction", blow.direction);
+    require(isWithin(blow.speed, 0, 1000), "blow: speed: expected 0 to 1000, found " + text(blow.speed));
+    if (blow.speed == 0) return;
+    require(blow.direction != Vec3d{}, "blow: direction: expected any length but 0");
+    require(isWithin(blow.radius, 1e-6, FARTHEST),
+            "blow: radius: expected 1e-6 to 1e6, found " + text(blow.radius));
+  }
+  void operator()(const MoveCollider& move) const {
+    const std::size_t colliders = scene_.colliders.size();
+    require(move.collider < colliders, "move_collider: there is no collider " +
+                                           std::to_string(move.collider) + ", the scene has " +
+                                           std::to_string(colliders));
+    checkPlace("move_collider: position", move.position);
+  }
+
+ private:
+  const Cloth& cloth_;
+  const Scene& scene_;
+};
+
+}  // namespace
+
+void checkAction(const Action& action, const Cloth& cloth, const Scene& scene) {
+  std::visit(Checks(cloth, scene), action);
+}
+
+}  // namespace clothsim

@@ -1,0 +1,58 @@
+#include "session/carry_over.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace clothsim {
+
+bool needsRebuild(const Scene& before, const Scene& after) {
+  if (before.cloths.size() != after.cloths.size()) return true;
+  for (std::size_t i = 0; i < before.cloths.size(); ++i) {
+    ClothSettings cloth = before.cloths[i];
+    cloth.damping = after.cloths[i].damping;
+    cloth.pinMotion = after.cloths[i].pinMotion;
+    if (cloth != after.cloths[i]) return true;
+  }
+  return false;
+}
+
+bool haveSameLattice(const Cloth& a, const Cloth& b) {
+  return std::ranges::equal(
+             a.grids(), b.grids(),
+             [](const Grid& x, const Grid& y) { return x.columns == y.columns && x.rows == y.rows; }) &&
+         std::ranges::equal(a.positions(), b.positions()) && a.lists().triangles == b.lists().triangles;
+}
+
+State carriedOver(const State& state, const Cloth& before, const Cloth& after) {
+  State result = state;
+  for (const Grid& grid : after.grids()) {
+    for (std::uint32_t i = grid.firstParticle; i < grid.firstParticle + grid.particleCount(); ++i) {
+      const bool wasPinned = before.inverseMasses()[i] == 0, isPinned = after.inverseMasses()[i] == 0;
+      const bool pinned = wasPinned == isPinned ? state.positions[i].w == 0 : isPinned;
+      result.positions[i].w = pinned ? 0 : static_cast<float>(1 / after.massOf(i));
+      if (pinned && state.positions[i].w != 0) result.velocities[i] = {};
+    }
+  }
+  return result;
+}
+
+std::vector<SetPin> pinsByHand(const State& state, const Cloth& before, const Cloth& after) {
+  std::vector<SetPin> pins;
+  for (const std::uint32_t particle : state.offPath) {
+    const std::size_t index = before.gridOf(particle);
+    if (index >= after.grids().size()) continue;
+    const Grid &from = before.grids()[index], &to = after.grids()[index];
+    if (from.isMesh || to.isMesh) continue;  // no place on the one is a place on the other
+    const int place = static_cast<int>(particle - from.firstParticle);
+    const auto nearest = [](int point, int points, int newPoints) {
+      const double part = points > 1 ? double(point) / (points - 1) : 0;
+      return static_cast<int>(std::lround(part * (newPoints - 1)));
+    };
+    pins.push_back({to.particle(nearest(place % from.columns, from.columns, to.columns),
+                                nearest(place / from.columns, from.rows, to.rows)),
+                    state.positions[particle].w == 0});
+  }
+  return pins;
+}
+
+}  // namespace clothsim

@@ -1,0 +1,290 @@
+#include "session/session.h"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <utility>
+
+#include "core/interrupt.h"
+#include "scene/moved_collider.h"
+#include "session/action_checks.h"
+#include "session/carry_over.h"
+
+namespace clothsim {
+
+Session::Session(const Scene& scene, const std::string& backend, std::size_t snapshotBudget)
+    : simulation_(scene, backend), ring_(snapshotBudget) {
+  recording_.scene = scene;
+  recording_.backend = backend;
+  now_.scene = std::make_shared<const Scene>(scene);
+  simulation_.solver().convertVelocities();  // now, and not whenever somebody happens to look at the state
+}
+
+void Session::act(const Action& action, bool continues) {
+  checkAction(action, simulation_.cloth(), simulation_.scene());
+  const std::shared_ptr<const Scene> before = now_.scene;
+  if (!std::visit([this](const auto& now) { return apply(now); }, action)) return;
+  simulation_.touch();
+  if (std::holds_alternative<EditScene>(action)) {
+    if (!continues || now_.undo.empty()) now_.undo.push_back(before);
+    now_.redo.clear();
+  }
+  record(action);
+}
+
+// What is done while looking back makes a new future.
+void Session::record(const Action& action) {
+  forgetLater();
+  recording_.events.push_back({now_.step, action});
+}
+
+bool Session::apply(const EditScene& edit) {
+  changeScene(edit.scene);
+  return true;
+}
+
+bool Session::apply(const Grab& grab) {
+  Solver& solver = simulation_.solver();
+  now_.hand.hold =
+      takeHold(simulation_.cloth(), grab.particle, grab.strength, grab.radius,
+               [&](std::uint32_t first, std::uint32_t count) { return solver.positions(first, count); });
+  apply(MoveHand{grab.target});
+  return true;
+}
+
+bool Session::apply(const MoveHand& move) {
+  if (!now_.hand.hold) return false;
+  moveTo(*now_.hand.hold, move.target, simulation_.solver().stepIndex(),
+         simulation_.scene().solver.simulationSteps);
+  simulation_.solver().setHand(now_.hand);
+  return true;
+}
+
+bool Session::apply(const Release&) {
+  if (!now_.hand.hold) return false;
+  now_.hand.hold.reset();
+  simulation_.solver().setHand(now_.hand);
+  return true;
+}
+
+bool Session::apply(const SetPin& pin) {
+  simulation_.solver().setPin(pin.particle, pin.pinned);
+  return true;
+}
+
+bool Session::apply(const CutStroke& stroke) {
+  Cuts cuts = simulation_.solver().cuts();
+  if (!cutAlong(cuts, simulation_.cloth(), stroke.grid, stroke.from, stroke.to)) return false;
+  simulation_.solver().setCuts(cuts);
+  return true;
+}
+
+bool Session::apply(const Blow& blow) {
+  const bool blows = blow.speed != 0;
+  if (!blows && !now_.hand.jet) return false;
+  now_.hand.jet.reset();
+  if (blows) now_.hand.jet = Jet{blow.origin, blow.direction, blow.speed, blow.radius};
+  simulation_.solver().setHand(now_.hand);
+  return true;
+}
+
+bool Session::apply(const MoveCollider& move) {
+  std::erase_if(now_.colliderMoves,
+                [&](const MoveCollider& other) { return other.collider == move.collider; });
+  now_.colliderMoves.push_back(move);
+  return true;
+}
+
+bool Session::apply(const SwitchBackend& to) {
+  simulation_.switchBackend(to.backend);
+  simulation_.solver().setHand(now_.hand);
+  return true;
+}
+
+bool Session::apply(const Restart&) {
+  now_.hand = {};
+  now_.colliderMoves.clear();
+  simulation_.solver().setHand(now_.hand);
+  simulation_.restart();
+  simulation_.solver().convertVelocities();
+  now_.start = now_.number;
+  return true;
+}
+
+void Session::changeScene(const Scene& scene) {
+  if (needsRebuild(simulation_.scene(), scene))
+    rebuild(scene);
+  else
+    simulation_.configure(scene);
+  simulation_.solver().convertVelocities();
+  // A move may have lost its collider.
+  std::erase_if(now_.colliderMoves,
+                [&](const MoveCollider& move) { return move.collider >= scene.colliders.size(); });
+  now_.scene = std::make_shared<const Scene>(scene);
+}
+
+void Session::rebuild(const Scene& scene) {
+  const Cloth before = simulation_.cloth();
+  const State state = simulation_.solver().state();
+  simulation_.rebuild(scene);
+  ++clothGeneration_;
+  Solver& solver = simulation_.solver();
+  if (haveSameLattice(before, simulation_.cloth())) {
+    solver.setState(carriedOver(state, before, simulation_.cloth()));
+    solver.setHand(now_.hand);
+  } else {
+    now_.hand = {};
+    now_.start = now_.number;
+    for (const SetPin& pin : pinsByHand(state, before, simulation_.cloth()))
+      solver.setPin(pin.particle, pin.pinned);
+  }
+}
+
+void Session::undo() { goBetween(now_.undo, now_.redo); }
+void Session::redo() { goBetween(now_.redo, now_.undo); }
+
+void Session::goBetween(SceneStack& from, SceneStack& to) {
+  if (from.empty()) return;
+  const std::shared_ptr<const Scene> before = now_.scene;
+  changeScene(*from.back());
+  record(EditScene{*now_.scene});
+  from.pop_back();
+  to.push_back(before);
+  simulation_.touch();
+}
+
+std::optional<Trouble> Session::stepFrames(int frames) {
+  if (frames > 0) forgetLater();
+  goesOn_ = true;
+  for (int i = 0; i < frames && goesOn_; ++i)
+    if (const std::optional<Trouble> trouble = stepFrame()) return trouble;
+  return std::nullopt;
+}
+
+// Returns false when the pulse wants no more of it.
+bool Session::advance(int steps) {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::milliseconds pulseTime{50};
+  Solver& solver = simulation_.solver();
+  if (!pulse_) {
+    solver.step(steps);
+    return true;
+  }
+  Clock::time_point lastPulse = Clock::now();
+  for (int done = 0; done < steps && goesOn_;) {
+    const int count = std::min(stepsAtOnce_, steps - done);
+    const Clock::time_point start = Clock::now();
+    solver.step(count);
+    solver.finish();
+    const Clock::time_point end = Clock::now();
+    done += count;
+    if (end - start > pulseTime)
+      stepsAtOnce_ = std::max(1, count / 2);
+    else if (end - start < pulseTime / 4 && count == stepsAtOnce_ && stepsAtOnce_ < 1 << 20)
+      stepsAtOnce_ *= 2;
+    // Steps that settle at less than a pulse's time at once must not put it off for ever.
+    if (end - lastPulse > pulseTime / 2) {
+      goesOn_ = pulse_();
+      lastPulse = end;
+    }
+  }
+  return goesOn_;
+}
+
+std::optional<Trouble> Session::stepFrame() {
+  ring_.put(now_, simulation_.solver());
+  startColliderMoves();
+  const int steps = simulation_.scene().solver.simulationSteps;
+  if (!advance(steps) || isInterrupted()) {
+    goTo(now_.number);
+    return std::nullopt;
+  }
+  if (const std::optional<Trouble> trouble = simulation_.solver().trouble()) {
+    goTo(now_.number);
+    if (isHolding()) act(Release{});
+    if (isBlowing()) act(Blow{});
+    return trouble;
+  }
+  finishColliderMoves();
+  simulation_.touch();
+  now_.step += static_cast<std::uint64_t>(steps);
+  recording_.frames = ++now_.number;
+  return std::nullopt;
+}
+
+void Session::startColliderMoves() {
+  if (now_.colliderMoves.empty()) return;
+  Scene scene = *now_.scene;
+  const double frame = 1 / scene.solver.framesPerSec, start = simulation_.time();
+  for (const MoveCollider& move : now_.colliderMoves)
+    scene = withColliderOnItsWay(std::move(scene), move.collider, move.position, start, start + frame);
+  simulation_.configure(scene);
+}
+
+void Session::finishColliderMoves() {
+  if (now_.colliderMoves.empty()) return;
+  const double time = simulation_.time();
+  const auto moved = [&](const Scene& scene) {
+    Scene result = scene;
+    for (const MoveCollider& move : now_.colliderMoves)
+      if (move.collider < scene.colliders.size())
+        result = withColliderAt(std::move(result), move.collider, move.position, time);
+    return std::make_shared<const Scene>(std::move(result));
+  };
+  now_.scene = moved(*now_.scene);
+  for (SceneStack* stack : {&now_.undo, &now_.redo})
+    for (std::shared_ptr<const Scene>& scene : *stack) scene = moved(*scene);
+  simulation_.configure(*now_.scene);
+  now_.colliderMoves.clear();
+}
+
+Session::Past Session::past() {
+  forgetLater();
+  return {recording_, now_.step};
+}
+
+void Session::goOnFrom(Past past) {
+  recording_ = std::move(past.recording);
+  now_.number = now_.start = recording_.frames;
+  now_.step = past.step;
+  record(SwitchBackend{simulation_.solver().backend()});
+  record(Restart{});
+}
+
+int Session::oldestFrame() const {
+  return ring_.isEmpty() ? now_.number : std::min(ring_.oldest(), now_.number);
+}
+int Session::newestFrame() const {
+  return ring_.isEmpty() ? now_.number : std::max(ring_.newest(), now_.number);
+}
+
+void Session::forgetLater() {
+  if (now_.number == newestFrame()) return;
+  ring_.forgetAfter(now_.number);
+  std::erase_if(recording_.events, [&](const Recording::Event& event) { return event.step > now_.step; });
+  recording_.frames = now_.number;
+}
+
+void Session::seek(int frame) {
+  assert(frame >= oldestFrame() && frame <= newestFrame() && "only frames that are remembered");
+  if (frame == now_.number) return;
+  ring_.putBeyondBudget(now_, simulation_.solver());
+  goTo(std::clamp(frame, ring_.oldest(), ring_.newest()));
+}
+
+void Session::goTo(int frame) {
+  const FrameRing::Entry& entry = ring_.at(frame);
+  const Scene& scene = *entry.frame.scene;
+  if (needsRebuild(simulation_.scene(), scene)) {
+    simulation_.rebuild(scene);
+    ++clothGeneration_;
+  } else if (scene != simulation_.scene()) {
+    simulation_.configure(scene);
+  }
+  simulation_.solver().restore(*entry.snapshot);
+  simulation_.solver().setHand(entry.frame.hand);
+  simulation_.touch();
+  now_ = entry.frame;
+}
+
+}  // namespace clothsim

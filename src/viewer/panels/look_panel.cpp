@@ -1,0 +1,20 @@
+// Look: shading model, colours and everything else that render.* says, and what is drawn on top.
+#include "viewer/panels/panels.h"
+#include "viewer/ui_frame.h"
+
+namespace clothsim {
+
+void drawLookPanel(PanelContext& context) {
+  context.widgets.all(context.draft.render, "render");
+  ImGui::Separator();
+  quietText("also draw");
+  const char* const kinds[] = {"structural springs", "shear springs", "bending springs"};
+  for (std::size_t i = 0; i < std::size(kinds); ++i) {
+    ImGui::Checkbox(kinds[i], &context.view.showSprings[i]);
+    helpTip("Draws these springs as lines over the cloth. A setting of the viewer, not of the scene.");
+  }
+  ImGui::Checkbox("pins", &context.view.showPins);
+  helpTip("Marks the pinned particles. A setting of the viewer, not of the scene.");
+}
+
+}  // namespace clothsim

@@ -1,0 +1,206 @@
+#include "viewer/panels/measure_panel.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+
+#include "core/error.h"
+#include "core/formatted.h"
+#include "render/strain_scale.h"
+#include "solver/gpu/gpu_solver.h"
+#include "viewer/panels/plot.h"
+#include "viewer/ui_frame.h"
+
+namespace clothsim {
+namespace {
+
+constexpr double sampleSeconds = 0.25;  // between two samples, at least
+constexpr double shareOfTime = 0.1;     // that sampling may take
+constexpr std::size_t mostSamples = 240;
+constexpr int timedSteps = 60;
+
+double secondsNow() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+void row(const char* label, const std::string& value, const char* help) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  quietText(label);
+  helpTip(help);
+  ImGui::TableNextColumn();
+  ImGui::TextUnformatted(value.c_str());
+  helpTip(help);
+}
+
+bool beginRows(const char* id) { return ImGui::BeginTable(id, 2, ImGuiTableFlags_SizingStretchProp); }
+
+// What the process holds in memory [bytes], as Linux counts it; 0 where it cannot be asked.
+std::size_t residentBytes() {
+  std::ifstream statm("/proc/self/statm");
+  std::size_t all = 0, resident = 0;
+  statm >> all >> resident;
+  return resident * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+}
+
+std::string megabytes(std::size_t bytes) {
+  return formatted("%.1f MiB", static_cast<double>(bytes) / (1024.0 * 1024.0));
+}
+
+ImU32 colorOf(const StrainStop& stop) {
+  return ImGui::GetColorU32(ImVec4(stop.srgb[0], stop.srgb[1], stop.srgb[2], 1));
+}
+
+// The colours of the strain map, with what lies under the cursor as a mark on them.
+void drawStrainLegend(const RenderSettings& look, std::optional<double> underCursor) {
+  const std::vector<StrainStop> stops = strainScale(look);
+  const double low = stops.front().strain, span = stops.back().strain - low;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = ImGui::GetContentRegionAvail().x, height = 0.8f * em();
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const auto place = [&](double strain) {
+    return at.x + width * static_cast<float>(std::clamp((strain - low) / span, 0.0, 1.0));
+  };
+  for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+    const ImU32 left = colorOf(stops[i]), right = colorOf(stops[i + 1]);
+    list.AddRectFilledMultiColor({place(stops[i].strain), at.y}, {place(stops[i + 1].strain), at.y + height},
+                                 left, right, right, left);
+  }
+  if (underCursor) {
+    const float x = place(*underCursor);
+    list.AddRectFilled({x - 2, at.y - 3}, {x + 2, at.y + height + 3}, ImGui::GetColorU32(theme::plain), 1);
+  }
+  ImGui::Dummy({width, height + 0.1f * em()});
+  const std::string most = formatted("%+.3g %%", 100 * stops.back().strain);
+  quietText(formatted("%+.3g %%", 100 * low));
+  ImGui::SameLine(ImGui::GetCursorPosX() + 0.5f * width - 0.5f * em());
+  quietText("0");
+  ImGui::SameLine(ImGui::GetCursorPosX() + width - ImGui::CalcTextSize(most.c_str()).x);
+  quietText(most);
+}
+
+}  // namespace
+
+void MeasurePanel::stepped(double particleSteps, double seconds) {
+  particleSteps_ += particleSteps;
+  seconds_ += seconds;
+}
+
+void MeasurePanel::forget() {
+  samples_.clear();
+  nextSample_ = 0;
+  passes_.clear();
+  watch_ = {};
+}
+
+void MeasurePanel::sample(Session& session, double now, std::optional<std::uint32_t> underCursor) {
+  const double began = secondsNow();
+  const Simulation& simulation = session.simulation();
+  const Cloth& cloth = simulation.cloth();
+  if (springsOf_ != session.clothGeneration()) {
+    springs_ = cloth.springs();
+    springsOf_ = session.clothGeneration();
+    samples_.clear();
+    watch_ = {};
+  }
+  const State state = session.simulation().solver().state();
+  if (!samples_.empty() && simulation.time() < samples_.back().time) samples_.clear();
+  const Sample sample{simulation.time(),
+                      energies(cloth, springs_, simulation.scene(), session.cuts(), state)};
+  if (samples_.empty() || simulation.time() > samples_.back().time) samples_.push_back(sample);
+  if (samples_.size() > mostSamples) samples_.pop_front();
+  const ContactCounts counts = session.simulation().contactCounts();
+  watch_.add(session.frameSinceStart(), cloth, simulation.scene(), state, sample.energies.maxStrain, counts);
+  guardedSteps_ = counts.guardedSteps;
+  strainUnderCursor_ =
+      underCursor ? std::optional(strainAt(cloth, session.cuts(), state, *underCursor)) : std::nullopt;
+  rate_ = seconds_ > 0 ? particleSteps_ / seconds_ : 0;
+  particleSteps_ = seconds_ = 0;
+  nextSample_ = now + std::max(sampleSeconds, (secondsNow() - began) / shareOfTime);
+}
+
+void MeasurePanel::drawNumbers(Session& session) {
+  if (!beginRows("numbers")) return;
+  const Energies last = samples_.empty() ? Energies{} : samples_.back().energies;
+  row("max strain", formatted("%.2f %%", 100 * last.maxStrain),
+      "The largest stretch l/L - 1 of all springs that are enabled and not cut.");
+  row("under the cursor", strainUnderCursor_ ? formatted("%+.2f %%", 100 * *strainUnderCursor_) : "-",
+      "The largest strain of the springs at the particle under the mouse.");
+  const bool hasContacts = session.simulation().scene().solver.selfCollision != SelfCollision::off;
+  const auto contacts = static_cast<unsigned long long>(watch_.contacts().contacts());
+  row("self-contacts",
+      !hasContacts ? "off"
+      : guardedSteps_ > 0
+          ? formatted("%llu, %llu steps guarded", contacts, static_cast<unsigned long long>(guardedSteps_))
+          : formatted("%llu", contacts),
+      "Pairs of particles that touch and are not neighbours on the cloth. In a guarded step motion had to "
+      "be shortened.");
+  row("particle steps", rate_ > 0 ? formatted("%.3g million/s", rate_ / 1e6) : "-",
+      "Particles times steps computed per second.");
+  ImGui::EndTable();
+}
+
+void MeasurePanel::drawPlots() {
+  std::vector<float> times;
+  std::vector<Curve> energy{
+      {"kinetic", {0.95f, 0.62f, 0.35f, 1}, {}}, {"height", theme::accent, {}}, {"springs", theme::good, {}}};
+  std::vector<Curve> strain{{"max strain", {0.93f, 0.47f, 0.55f, 1}, {}}};
+  for (const Sample& sample : samples_) {
+    times.push_back(static_cast<float>(sample.time));
+    energy[0].values.push_back(static_cast<float>(sample.energies.kinetic));
+    energy[1].values.push_back(static_cast<float>(sample.energies.gravity));
+    energy[2].values.push_back(static_cast<float>(sample.energies.springs));
+    strain[0].values.push_back(static_cast<float>(100 * sample.energies.maxStrain));
+  }
+  drawPlot("energy", times, energy, " J");
+  helpTip("Energy over simulated time: kinetic, potential (relative to the start) and stored in springs.");
+  drawPlot("strain", times, strain, " %");
+  helpTip("The largest stretch of a spring over simulated time.");
+}
+
+void MeasurePanel::drawPasses(Session& session) {
+  if (session.simulation().solver().backend() != "gpu") return;
+  if (wideButton("Time the passes of a step")) {
+    // On a solver of its own: timing slows a step, and the cloth is to stay where it is.
+    try {
+      const Simulation& simulation = session.simulation();
+      GpuSolver solver(simulation.cloth(), simulation.scene());
+      solver.setState(session.simulation().solver().state());
+      passes_ = solver.timePasses(timedSteps);
+      passSteps_ = timedSteps;
+      passTrouble_.clear();
+    } catch (const Error& error) {
+      passTrouble_ = error.what();
+    }
+  }
+  helpTip("Simulates 60 steps on a copy of the cloth and times each pass on the GPU.");
+  if (!passTrouble_.empty()) wrappedText(passTrouble_, theme::alert);
+  if (passes_.empty() || !beginRows("passes")) return;
+  for (const PassTime& pass : passes_)
+    row(pass.name.c_str(), formatted("%.1f \u00b5s", 1e6 * pass.seconds / passSteps_),
+        "Time of this pass per step on the GPU.");
+  ImGui::EndTable();
+}
+
+void MeasurePanel::drawMemory(Session& session) {
+  if (!beginRows("memory")) return;
+  row("memory", megabytes(residentBytes()), "Main memory used by the program.");
+  row("frames kept",
+      formatted("%d in ", session.newestFrame() - session.oldestFrame() + 1) +
+          megabytes(session.snapshotBytes()),
+      "Frames you can go back to, and the device memory they use.");
+  ImGui::EndTable();
+}
+
+void MeasurePanel::draw(Session& session, const RenderSettings& look) {
+  if (look.shader == "strain") drawStrainLegend(look, strainUnderCursor_);
+  drawNumbers(session);
+  drawPlots();
+  drawPasses(session);
+  drawMemory(session);
+}
+
+}  // namespace clothsim

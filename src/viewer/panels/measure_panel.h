@@ -1,0 +1,68 @@
+// Measure: numbers and curves about the cloth. They need the state on the host, so it is read back only a few
+// times a second and for no more than a tenth of the time; of large cloths only while the panel is open. The
+// warnings of the overlay come from the same samples.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "measure/energies.h"
+#include "measure/run_watch.h"
+#include "session/session.h"
+#include "solver/gpu/pass_runner.h"
+
+namespace clothsim {
+
+class MeasurePanel {
+ public:
+  // `look`: of the picture; where it shows strain as colours, there is a legend.
+  void draw(Session& session, const RenderSettings& look);
+
+  // Takes a sample when it is time for one. `particleUnderCursor` is asked then.
+  template <class UnderCursor>
+  void update(Session& session, double now, UnderCursor&& particleUnderCursor) {
+    const bool wanted = open_ || session.simulation().cloth().particleCount() <= ALWAYS_SAMPLED;
+    if (!wanted || now < nextSample_) return;
+    sample(session, now, open_ ? particleUnderCursor() : std::nullopt);
+  }
+  // What the samples since the last start have shown.
+  [[nodiscard]] std::vector<Warning> warnings(const Scene& scene) const { return watch_.warnings(scene); }
+  void setOpen(bool open) { open_ = open; }
+  // So many particles times steps took so long.
+  void stepped(double particleSteps, double seconds);
+  // The simulation began anew: so do the curves.
+  void forget();
+
+ private:
+  static constexpr std::uint32_t ALWAYS_SAMPLED = 65'536;  // particles
+
+  struct Sample {
+    double time = 0;
+    Energies energies;
+  };
+
+  void sample(Session& session, double now, std::optional<std::uint32_t> underCursor);
+  void drawNumbers(Session& session);
+  void drawPlots();
+  void drawPasses(Session& session);
+  void drawMemory(Session& session);
+
+  bool open_ = false;
+  double nextSample_ = 0;
+  std::deque<Sample> samples_;
+  std::vector<Spring> springs_;
+  std::optional<std::uint64_t> springsOf_;  // the generation of the cloth they belong to
+  std::optional<double> strainUnderCursor_;
+  RunWatch watch_;
+  std::uint64_t guardedSteps_ = 0;
+  double particleSteps_ = 0, seconds_ = 0;  // since the last sample
+  double rate_ = 0;                         // particle steps a second
+  std::vector<PassTime> passes_;
+  int passSteps_ = 0;
+  std::string passTrouble_;
+};
+
+}  // namespace clothsim

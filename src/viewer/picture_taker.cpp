@@ -1,0 +1,37 @@
+#include "viewer/picture_taker.h"
+
+#include "export/export.h"
+#include "output/numbered_files.h"
+
+namespace clothsim {
+
+std::string PictureTaker::screenshot(OpenScene& open, int width, int height) {
+  const std::string stem =
+      open.name() + "-" + open.backend() + "-" + std::to_string(open.session().frameSinceStart());
+  const std::filesystem::path path = freeName(outputFolder(), stem, ".png");
+  const Image image = open.picture(width, height);
+  savePng(path, image.width, image.height, image.rgb);
+  return "Saved " + path.string();
+}
+
+std::string PictureTaker::toggleClip(OpenScene& open, int width, int height) {
+  if (!clip_) {
+    clip_.emplace(outputFolder(), open.name() + "-" + open.backend(), width, height);
+    return "Recording; Ctrl+R stops";
+  }
+  ClipRecorder clip = std::move(*clip_);
+  clip_.reset();
+  return "Saved " + clip.finish();
+}
+
+void PictureTaker::shown(OpenScene& open, double seconds) {
+  if (!clip_) return;
+  try {
+    clip_->add(seconds, [&] { return open.picture(clip_->width(), clip_->height()); });
+  } catch (...) {
+    clip_.reset();  // what could not be written once will not be again
+    throw;
+  }
+}
+
+}  // namespace clothsim

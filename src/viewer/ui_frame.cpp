@@ -1,0 +1,249 @@
+#include "viewer/ui_frame.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui_internal.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "output/typeface.h"
+
+namespace clothsim {
+namespace {
+
+constexpr float textSize = 16, titleSize = 22;  // on an ordinary screen [pixels]
+
+// A calm dark theme: surfaces differ by little, the accent is kept for what is on and what is held.
+void colorize(ImVec4* colors) {
+  const auto surface = [](float light, float alpha = 1) {
+    return ImVec4(light, light * 1.09f, light * 1.28f, alpha);
+  };
+  const auto accent = [](float light, float alpha = 1) {
+    return ImVec4(0.42f * light, 0.67f * light, 0.86f * light, alpha);
+  };
+  colors[ImGuiCol_Text] = theme::plain;
+  colors[ImGuiCol_TextDisabled] = theme::quiet;
+  colors[ImGuiCol_WindowBg] = theme::column;
+  colors[ImGuiCol_PopupBg] = theme::sheet;
+  colors[ImGuiCol_Border] = surface(0.25f, 0.6f);
+  colors[ImGuiCol_FrameBg] = surface(0.165f);
+  colors[ImGuiCol_FrameBgHovered] = surface(0.205f);
+  colors[ImGuiCol_FrameBgActive] = surface(0.225f);
+  colors[ImGuiCol_ScrollbarBg] = {0, 0, 0, 0};
+  colors[ImGuiCol_ScrollbarGrab] = surface(0.24f);
+  colors[ImGuiCol_ScrollbarGrabHovered] = surface(0.30f);
+  colors[ImGuiCol_ScrollbarGrabActive] = surface(0.36f);
+  colors[ImGuiCol_CheckMark] = theme::accent;
+  colors[ImGuiCol_SliderGrab] = accent(0.82f);
+  colors[ImGuiCol_SliderGrabActive] = theme::accent;
+  colors[ImGuiCol_Button] = surface(0.20f);
+  colors[ImGuiCol_ButtonHovered] = surface(0.26f);
+  colors[ImGuiCol_ButtonActive] = accent(0.60f);
+  colors[ImGuiCol_Header] = surface(0.155f);
+  colors[ImGuiCol_HeaderHovered] = surface(0.20f);
+  colors[ImGuiCol_HeaderActive] = surface(0.24f);
+  colors[ImGuiCol_Separator] = surface(0.20f);
+  colors[ImGuiCol_PlotLines] = theme::accent;
+  colors[ImGuiCol_TextSelectedBg] = accent(0.55f, 0.6f);
+  colors[ImGuiCol_NavHighlight] = accent(0.8f);
+}
+
+ImGuiStyle styleFor(float scale) {
+  ImGuiStyle style;
+  colorize(style.Colors);
+  style.WindowRounding = 10;
+  style.FrameRounding = 5;
+  style.GrabRounding = 4;
+  style.PopupRounding = 8;
+  style.ScrollbarRounding = 6;
+  style.WindowBorderSize = 0;
+  style.PopupBorderSize = 1;
+  style.WindowPadding = {14, 12};
+  style.FramePadding = {8, 4};
+  style.ItemSpacing = {8, 6};
+  style.ItemInnerSpacing = {6, 4};
+  style.CellPadding = {4, 3};
+  style.ScrollbarSize = 11;
+  style.GrabMinSize = 12;
+  style.IndentSpacing = 14;
+  style.WindowMinSize = {8, 8};
+  style.ScaleAllSizes(scale);
+  return style;
+}
+
+ImFont* titleFont() { return ImGui::GetIO().Fonts->Fonts.back(); }
+
+void textUnformatted(std::string_view words) {
+  ImGui::TextUnformatted(words.data(), words.data() + words.size());
+}
+
+}  // namespace
+
+UiFrame::UiFrame(GLFWwindow* window, InputQueue& input) : window_(window), input_(input) {
+  ImGui::CreateContext();
+  ImGuiIO& io = ImGui::GetIO();
+  io.IniFilename = nullptr;  // no imgui.ini in the folder where the program happens to be started
+  io.LogFilename = nullptr;
+  // Dear ImGui looks at them once a frame: they reach it through the queue alone.
+  const GLFWkeyfun onKey = glfwSetKeyCallback(window, nullptr);
+  const GLFWcharfun onCharacter = glfwSetCharCallback(window, nullptr);
+  const GLFWmousebuttonfun onButton = glfwSetMouseButtonCallback(window, nullptr);
+  ImGui_ImplGlfw_InitForOpenGL(window, true);
+  glfwSetKeyCallback(window, onKey);
+  glfwSetCharCallback(window, onCharacter);
+  glfwSetMouseButtonCallback(window, onButton);
+  ImGui_ImplOpenGL3_Init("#version 450 core");
+}
+
+// Returns where a button was pressed or let go.
+std::optional<ImVec2> UiFrame::passInputOn() {
+  std::optional<ImVec2> clickedAt;
+  for (const InputEvent& event : input_.takeFrame()) {
+    switch (event.kind) {
+      case InputEvent::Kind::key:
+        ImGui_ImplGlfw_KeyCallback(window_, event.code, event.scancode, event.action, event.mods);
+        break;
+      case InputEvent::Kind::character:
+        ImGui_ImplGlfw_CharCallback(window_, static_cast<unsigned int>(event.code));
+        break;
+      case InputEvent::Kind::button:
+        ImGui_ImplGlfw_MouseButtonCallback(window_, event.code, event.action, event.mods);
+        clickedAt = {static_cast<float>(event.x), static_cast<float>(event.y)};
+        break;
+    }
+  }
+  return clickedAt;
+}
+
+UiFrame::~UiFrame() {
+  ImGui_ImplOpenGL3_Shutdown();
+  ImGui_ImplGlfw_Shutdown();
+  ImGui::DestroyContext();
+}
+
+bool UiFrame::wantsMouse() const { return ImGui::GetIO().WantCaptureMouse; }
+bool UiFrame::hasPopup() const {
+  return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+}
+bool UiFrame::wantsKeys() const { return ImGui::GetIO().WantTextInput; }
+
+void UiFrame::loadFonts(double textScale) {
+  textScale_ = textScale;
+  const auto scale = static_cast<float>(textScale);
+  ImGuiIO& io = ImGui::GetIO();
+  io.Fonts->Clear();
+  for (const float size : {textSize, titleSize}) addTypeface(*io.Fonts, std::round(size * scale));
+  ImGui_ImplOpenGL3_DestroyFontsTexture();
+  ImGui_ImplOpenGL3_CreateFontsTexture();
+  ImGui::GetStyle() = styleFor(scale);
+}
+
+void UiFrame::begin(double textScale) {
+  if (textScale != textScale_) loadFonts(textScale);
+  ImGui_ImplOpenGL3_NewFrame();
+  const std::optional<ImVec2> clickedAt = passInputOn();
+  ImGui_ImplGlfw_NewFrame();
+  if (clickedAt) ImGui::GetIO().MousePos = *clickedAt;  // the cursor may be elsewhere by now
+  ImGui::NewFrame();
+}
+
+void UiFrame::end() {
+  ImGui::ErrorCheckEndFrameRecover(nullptr);  // an exception may have left windows open
+  ImGui::Render();
+}
+void UiFrame::draw() { ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData()); }
+
+void coloredText(std::string_view words, const ImVec4& color) {
+  ImGui::PushStyleColor(ImGuiCol_Text, color);
+  textUnformatted(words);
+  ImGui::PopStyleColor();
+}
+
+void quietText(std::string_view words) { coloredText(words, theme::quiet); }
+
+void titleText(std::string_view words) {
+  ImGui::PushFont(titleFont());
+  coloredText(words, theme::plain);
+  ImGui::PopFont();
+}
+
+void wrappedText(std::string_view words, const ImVec4& color) {
+  ImGui::PushTextWrapPos(0);
+  coloredText(words, color);
+  ImGui::PopTextWrapPos();
+}
+
+void helpTip(std::string_view words) {
+  if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) || ImGui::IsAnyItemActive()) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(20 * em());
+  textUnformatted(words);
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+bool barSlider(ImGuiDataType type, void* value, double low, double high, const char* format,
+               bool logarithmic) {
+  const bool isInteger = type == ImGuiDataType_S32;
+  const double now = isInteger ? *static_cast<int*>(value) : *static_cast<double*>(value);
+  const double share =
+      logarithmic ? std::log(std::max(now, low) / low) / std::log(high / low) : (now - low) / (high - low);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const ImVec2 size{ImGui::CalcItemWidth(), ImGui::GetFrameHeight()};
+  const float rounding = ImGui::GetStyle().FrameRounding;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, ImGui::GetColorU32(ImGuiCol_FrameBg), rounding);
+  const float filled = size.x * static_cast<float>(std::clamp(share, 0.0, 1.0));
+  if (filled > 1) {
+    list.PushClipRect(at, {at.x + filled, at.y + size.y}, true);
+    list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, ImGui::GetColorU32(theme::fill), rounding);
+    list.PopClipRect();
+  }
+  const ImVec4 nothing{0, 0, 0, 0}, veil{1, 1, 1, 0.05f};
+  ImGui::PushStyleColor(ImGuiCol_FrameBg, nothing);
+  ImGui::PushStyleColor(ImGuiCol_FrameBgHovered, veil);
+  ImGui::PushStyleColor(ImGuiCol_FrameBgActive, veil);
+  ImGui::PushStyleColor(ImGuiCol_SliderGrab, nothing);
+  ImGui::PushStyleColor(ImGuiCol_SliderGrabActive, nothing);
+  const ImGuiSliderFlags scale = logarithmic ? ImGuiSliderFlags_Logarithmic : 0;
+  const int lowInteger = static_cast<int>(low), highInteger = static_cast<int>(high);
+  const void *const first = isInteger ? static_cast<const void*>(&lowInteger) : &low,
+                    *const last = isInteger ? static_cast<const void*>(&highInteger) : &high;
+  const bool changed = ImGui::SliderScalar("##value", type, value, first, last, format, scale);
+  ImGui::PopStyleColor(5);
+  return changed;
+}
+
+bool toggleButton(const char* label, bool& on, float width) {
+  if (on) {
+    ImGui::PushStyleColor(ImGuiCol_Button, theme::fill);
+    ImGui::PushStyleColor(ImGuiCol_ButtonHovered, theme::fillHovered);
+  } else {
+    ImGui::PushStyleColor(ImGuiCol_Text, theme::quiet);
+  }
+  const bool changed = ImGui::Button(label, {width, 0});
+  ImGui::PopStyleColor(on ? 2 : 1);
+  if (changed) on = !on;
+  return changed;
+}
+
+bool wideButton(const char* label) { return ImGui::Button(label, {-FLT_MIN, 0}); }
+
+int segmentedButtons(const char* id, const char* const* labels, int count, int chosen) {
+  ImGui::PushID(id);
+  const float gap = 0.12f * em();
+  const float width =
+      (ImGui::GetContentRegionAvail().x - gap * static_cast<float>(count - 1)) / static_cast<float>(count);
+  for (int i = 0; i < count; ++i) {
+    if (i > 0) ImGui::SameLine(0, gap);
+    bool on = i == chosen;
+    if (toggleButton(labels[i], on, width)) chosen = i;
+  }
+  ImGui::PopID();
+  return chosen;
+}
+
+}  // namespace clothsim

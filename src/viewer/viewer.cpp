@@ -1,0 +1,321 @@
+// The loop of the window: simulation, picture, panels. What the mouse does is in hands.h, what is open in
+// open_scene.h, what the panels hold in panels/.
+#include "viewer/viewer.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "gl/context.h"
+#include "output/numbered_files.h"
+#include "render/textures.h"
+#include "viewer/viewer_facts.h"
+#include "viewer/viewer_marks.h"
+#include "viewer/viewer_program.h"
+
+namespace clothsim {
+namespace {
+
+constexpr float panelsFrom = 54;  // em of window width, for the panels to be open at the first start
+constexpr double mostSimulationSeconds = 0.1;  // between two pictures, where a frame takes less
+
+}  // namespace
+
+RenderOptions renderOptions(const ViewerOptions& options) {
+  RenderOptions render;
+  render.sphereSegmentsAround = options.sphereSegmentsAround;
+  render.sphereSegmentsDown = options.sphereSegmentsDown;
+  // llvmpipe pays for every sample: edges are smoothed afterwards instead.
+  if (gl::currentContextInfo().software) render.samples = 1;
+  return render;
+}
+
+Viewer::Viewer(const Scene& scene, const ViewerOptions& options, const std::optional<Salvage>& salvage)
+    : options_(options), window_("clothsim", options.sceneName) {
+  LoadedConfig loaded = loadViewerConfig(viewerConfigPath());
+  config_ = savedConfig_ = loaded.config;
+  if (!loaded.notice.empty()) say(loaded.notice, longNoticeSeconds);
+  std::vector<std::string> textures = bundledTextures();
+  textures.insert(textures.begin(), "");
+  widgets_.offer("render.texture", std::move(textures));
+  listen();
+  const std::string source = salvage ? salvage->source : options.sceneName;
+  open_ = load(source, [&] {
+    return std::make_unique<OpenScene>(salvage ? salvage->loaded : scene, source,
+                                       salvage ? "cpu" : options.backend, renderOptions(options));
+  });
+  if (salvage) {
+    if (salvage->edited != salvage->loaded) open_->edit(salvage->edited, false);
+    session().goOnFrom(salvage->past);
+    complain(salvage->reason + "\nThe scene restarts on the CPU; your edits and the recording are kept.");
+  }
+  pace_ = Pace(open_->frameSeconds());
+  watchSteps();
+  warnOfPaths();
+}
+
+std::optional<Salvage> Viewer::run() {
+  clock_.lap();  // what loading took is not simulated time
+  while (!window_.shouldClose() && !lost_) turn();
+  taker_.abandonClip();
+  if (lost_ && !window_.shouldClose())
+    return Salvage{open_->source(), open_->loaded(), open_->scene(), session().past(), *lost_};
+  std::fputs(timings_.report().c_str(), stderr);
+  return std::nullopt;
+}
+
+void Viewer::turn() {
+  timings_.time(FrameTimings::input, [&] { isIdle() ? window_.waitEvents(0.25) : window_.pollEvents(); });
+  if (sceneToOpen_) attempt([&] { openScene(*std::exchange(sceneToOpen_, std::nullopt)); });
+  const double elapsed = clock_.lap();
+  now_ += elapsed;
+  int frames = 0;
+  timings_.time(FrameTimings::simulate, [&] { frames = simulate(elapsed); });
+  meter_.add(elapsed, frames * open_->frameSeconds());
+  attempt([&] { taker_.shown(*open_, paused_ ? elapsed : frames * open_->frameSeconds()); });
+  attempt([&] { draw(); });
+  keepConfig();
+  notice_.secondsLeft -= elapsed;
+  compare_.pass(elapsed);
+  // Without a display that sets the pace, nothing is gained by drawing the same picture again at once.
+  if (!paused_ && frames == 0 && !compare_.isRunning()) window_.waitEvents(pace_.secondsUntilDue());
+  attempt(gl::checkContext);
+}
+
+bool Viewer::showsPanels() const {
+  const double wanted = static_cast<double>(panelsFrom) * 16 * window_.textScale();
+  return config_.showPanels.value_or(window_.size().width >= wanted);
+}
+
+PictureArea Viewer::pictureArea() const {
+  const ViewerWindow::Size size = window_.size();
+  const auto width = static_cast<float>(size.width), height = static_cast<float>(size.height);
+  if (!showsPanels()) return {width, height};
+  return {width - PanelColumn::width(width, static_cast<float>(16 * window_.textScale())), height};
+}
+
+CoveredEdges Viewer::coveredEdges() const {
+  const PictureArea area = pictureArea();
+  CoveredEdges covered = compare_.coveredEdges(area);
+  covered.bottom = std::min(0.45, double{timelineHeight() / area.height});
+  return covered;
+}
+
+// Known without Dear ImGui, which learns where the mouse is only with the next frame.
+bool Viewer::isOverPicture(ViewerWindow::Cursor cursor) const {
+  const PictureArea area = pictureArea();
+  const bool inside = cursor.x >= 0 && cursor.x < static_cast<double>(area.width) && cursor.y >= 0 &&
+                      cursor.y < static_cast<double>(area.height - timelineHeight());
+  return inside && !((ui_.hasPopup() || compare_.isOpen()) && ui_.wantsMouse());
+}
+
+Reach Viewer::reach() {
+  const PictureArea area = pictureArea();
+  return {session(),
+          open_->renderer(),
+          open_->camera(),
+          std::max(1, static_cast<int>(area.width)),
+          std::max(1, static_cast<int>(area.height)),
+          paused_};
+}
+
+bool Viewer::isIdle() {
+  return paused_ && !stepAsked_ && drawsLeft_ <= 0 && window_.inputQueue().isEmpty() &&
+         !compare_.isRunning() && !taker_.recordedSeconds();
+}
+
+// Returns the number of frames that were simulated.
+int Viewer::simulate(double elapsed) {
+  if (drawsLeft_ > 0) --drawsLeft_;
+  attempt([&] {
+    compare_.advance();
+    const bool blows = !paused_ && !ui_.wantsKeys() && window_.holds(blowKey);
+    hands_.beforeStep(reach(), window_.cursor(), blows);
+  });
+  if (compare_.isRunning()) return 0;
+  const int frames = paused_ ? std::exchange(stepAsked_, false) : pace_.framesDue(elapsed);
+  if (frames == 0) return 0;
+  return stepFrames(frames);
+}
+
+int Viewer::stepFrames(int frames) {
+  LapClock clock;
+  const int before = session().frame();
+  stepping_ = true;
+  std::optional<Trouble> trouble;
+  double seconds = 0;
+  const bool went = attempt([&] {
+    for (int i = 0; i < frames && !trouble && seconds < mostSimulationSeconds && !window_.shouldClose();
+         ++i) {
+      trouble = session().stepFrames(1);
+      session().simulation().finish();
+      seconds += clock.lap();
+    }
+  });
+  stepping_ = false;
+  if (!went) paused_ = true;
+  for (const auto& deed : std::exchange(waiting_, {})) attempt(deed);
+  if (trouble) {
+    paused_ = true;
+    notice_ = {blowUpText(*trouble, session().simulation().cloth(), open_->scene()) +
+                   "\nPaused at the last good state. Press R to restart.",
+               1e9, true};
+  }
+  const int done = std::max(0, session().frame() - before);
+  pace_.simulated(done, seconds);
+  column_.measures().stepped(static_cast<double>(session().simulation().cloth().particleCount()) * done *
+                                 open_->scene().solver.simulationSteps,
+                             seconds);
+  return done;
+}
+
+void Viewer::draw() {
+  const ViewerWindow::Size size = window_.size();
+  if (size.width == 0 || size.height == 0) return;  // minimised
+  const PictureArea area = pictureArea();
+  const ViewOptions wanted = open_->view;
+  open_->view.showPins = wanted.showPins || now_ < pinsShownUntil_ || window_.holdsShift();
+  attempt([&] { open_->update(); });
+  open_->view = wanted;
+  const auto width = static_cast<int>(area.width), height = static_cast<int>(area.height);
+  timings_.time(FrameTimings::picture, [&] {
+    attempt([&] {
+      open_->frameFor(width, height, coveredEdges());
+      open_->draw(width, height);
+    });
+  });
+  timings_.time(FrameTimings::controls, [&] {
+    ui_.begin(window_.textScale());
+    attempt([&] { drawControls(); });
+    ui_.end();
+  });
+  timings_.time(FrameTimings::drawControls, [&] { ui_.draw(); });
+  timings_.time(FrameTimings::swap, [&] { window_.swap(); });
+  timings_.time(FrameTimings::after, [&] {
+    heedControls();
+    attempt([&] { measure(); });
+  });
+  if (const std::string now = viewerTitle(*open_, meter_, paused_); now != title_)
+    window_.setTitle(title_ = now);
+}
+
+// Between two pictures, since picking draws elsewhere.
+void Viewer::measure() {
+  column_.measures().update(session(), now_, [&]() -> std::optional<std::uint32_t> {
+    const ViewerWindow::Cursor cursor = window_.cursor();
+    if (!isOverPicture(cursor)) return std::nullopt;
+    const Reach r = reach();
+    const Pick pick = r.renderer.pick(r.session.simulation().positionsBuffer(), r.camera,
+                                      r.session.simulation().time(), r.width, r.height, cursor.x, cursor.y);
+    return pick.kind == Pick::Kind::cloth ? std::optional(pick.particle) : std::nullopt;
+  });
+}
+
+void Viewer::drawControls() {
+  const PictureArea area = pictureArea();
+  drawMarks(hands_.marks(reach(), window_.cursor()));
+  const float neededByOthers = showKeys_ ? 66.0f : compare_.isOpen() ? 40.0f : 0.0f;  // em
+  if (config_.showOverlay && area.width >= neededByOthers * em())
+    drawFacts(viewerFacts(*open_, meter_, paused_, looksBack(), column_.measures().warnings(open_->scene())),
+              area);
+  if (showsPanels()) drawPanels();
+  asked_.timeline =
+      drawTimeline({session().oldestFrame(), session().frame(), session().newestFrame(),
+                    session().frameSinceStart(), open_->frameSeconds(), paused_, taker_.recordedSeconds()},
+                   area);
+  compare_.draw(area);
+  if (notice_.secondsLeft > 0) drawNotice(notice_.text, notice_.isError, area, timelineHeight());
+  if (showKeys_) drawKeyList(area);
+}
+
+void Viewer::drawPanels() {
+  if (!draftHeld_) draft_ = open_->scene();
+  const glm::vec3 target = open_->camera().target();
+  const std::string name = open_->name();
+  PanelContext context{draft_, widgets_, session(), open_->view, {target.x, target.y, target.z}, name};
+  column_.draw(context, config_);
+  asked_.edits = widgets_.takeEdits();
+  asked_.panels = std::move(context.requests);
+}
+
+// What the controls of the last picture ask for.
+void Viewer::heedControls() {
+  const Asked asked = std::exchange(asked_, {});
+  heed(asked.edits);
+  heed(asked.panels);
+  heed(asked.timeline);
+}
+
+void Viewer::heed(const FieldEdits& edits) {
+  draftHeld_ = edits.holding;
+  const bool edited = edits.live || edits.rebuild;
+  if (edited) {
+    attempt([&] {
+      draftHeld_ = false;  // should the edit be impossible, the panels show what is
+      edit(draft_, editContinues_);
+      draftHeld_ = edits.holding;
+    });
+  }
+  editContinues_ = edits.holding && (editContinues_ || edited);
+}
+
+void Viewer::heed(const PanelRequests& requests) {
+  attempt([&] {
+    for (const ViewerAction action : requests.actions) act(action);
+    if (requests.backend) switchBackend(*requests.backend);
+    if (requests.saveSceneAs) saveSceneAs(*requests.saveSceneAs);
+    if (requests.resetScene) {
+      edit(open_->loaded(), false);
+      restart();
+    }
+    if (requests.openScene) sceneToOpen_ = requests.openScene;
+  });
+}
+
+void Viewer::heed(const TimelineRequests& requests) {
+  attempt([&] {
+    if (requests.seek) seek(*requests.seek);
+    if (requests.stepBack) act(ViewerAction::stepBack);
+    if (requests.stepForward) act(ViewerAction::stepForward);
+    if (requests.togglePause) act(ViewerAction::pause);
+    if (requests.screenshot) act(ViewerAction::screenshot);
+    if (requests.toggleRecording) act(ViewerAction::recordClip);
+  });
+}
+
+void Viewer::keepConfig() {
+  if (config_ == savedConfig_) return;
+  const std::string trouble = saveViewerConfig(config_, viewerConfigPath());
+  savedConfig_ = config_;  // one try for each change
+  if (!trouble.empty()) complain("The state of the panels cannot be saved: " + trouble);
+}
+
+void runViewer(const Scene& scene, const ViewerOptions& options) {
+  std::optional<Salvage> salvage;
+  do {
+    try {
+      salvage = Viewer(scene, options, salvage).run();
+    } catch (const Error& error) {
+      if (!salvage || salvage->past.recording.events.empty()) throw;
+      // No second window can be had: at least nothing is lost.
+      const auto path = freeName(
+          outputFolder(), std::filesystem::path(salvage->source).stem().string() + "-recording", ".json");
+      salvage->past.recording.save(path);
+      throw OpenGlError(salvage->reason + "\n" + error.what() +
+                        "\nYour actions are saved; to repeat them: clothsim run --replay " + path.string());
+    }
+  } while (salvage);
+}
+
+std::string viewerKeysText() {
+  std::size_t widest = 0;
+  for (const ViewerKey& key : viewerKeys) widest = std::max(widest, key.input.size());
+  std::string text;
+  for (const ViewerKey& key : viewerKeys) {
+    text += "  " + std::string(key.input);
+    text.append(widest + 2 - key.input.size(), ' ');
+    text += std::string(key.effect) + "\n";
+  }
+  return text;
+}
+
+}  // namespace clothsim

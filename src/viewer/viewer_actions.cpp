@@ -1,0 +1,315 @@
+// What keys, mouse and panels ask of the viewer.
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <future>
+
+#include "cloth/material.h"
+#include "export/export.h"
+#include "export/sequence.h"
+#include "output/numbered_files.h"
+#include "render/shading_models.h"
+#include "scene_io/scene_io.h"
+#include "viewer/viewer_facts.h"
+#include "viewer/viewer_program.h"
+
+namespace clothsim {
+namespace {
+
+constexpr double pinsShownSeconds = 2;  // after one was set
+
+}  // namespace
+
+void Viewer::listen() {
+  window_.setInput(
+      {.key = [this](const KeyStroke& stroke, bool repeated) { onKey(stroke, repeated); },
+       .press = [this](ViewerWindow::Button button, ViewerWindow::Cursor cursor, bool control,
+                       bool shift) { whenIdle([=, this] { onPress(button, cursor, control, shift); }); },
+       .move = [this](ViewerWindow::Cursor cursor) { whenIdle([=, this] { hands_.move(reach(), cursor); }); },
+       .release =
+           [this](ViewerWindow::Button button) { whenIdle([=, this] { hands_.release(reach(), button); }); },
+       .scroll =
+           [this](double steps, ViewerWindow::Cursor cursor) {
+             whenIdle([=, this] {
+               if (isOverPicture(cursor)) hands_.scroll(reach(), steps, cursor);
+             });
+           },
+       .drop =
+           [this](const std::vector<std::string>& paths) {
+             if (!paths.empty()) sceneToOpen_ = paths.front();
+           }});
+}
+
+// Input may come between two steps of a frame that takes long: then it has to wait for the frame's end.
+void Viewer::whenIdle(std::function<void()> deed) {
+  drawsLeft_ = drawsAfterInput;
+  if (stepping_)
+    waiting_.push_back(std::move(deed));
+  else
+    attempt(deed);
+}
+
+void Viewer::onKey(const KeyStroke& stroke, bool repeated) {
+  const ViewerAction action = ui_.wantsKeys() ? ViewerAction::none : actionOf(stroke);
+  if (action == ViewerAction::quit) return escape();  // that waits for nothing
+  // Held down, a key repeats what makes sense many times over.
+  const bool repeats = action == ViewerAction::stepBack || action == ViewerAction::stepForward ||
+                       action == ViewerAction::stepFrame || action == ViewerAction::undo ||
+                       action == ViewerAction::redo;
+  whenIdle([=, this] {
+    if (!repeated || repeats) act(action);
+  });
+}
+
+// Closes what lies over the picture, and then the window.
+void Viewer::escape() {
+  drawsLeft_ = drawsAfterInput;
+  if (compare_.isOpen()) return compare_.close();
+  if (showKeys_) {
+    showKeys_ = false;
+    return;
+  }
+  window_.requestClose();
+}
+
+void Viewer::onPress(ViewerWindow::Button button, ViewerWindow::Cursor cursor, bool control, bool shift) {
+  if (!isOverPicture(cursor)) return;
+  if (!compare_.isRunning()) compare_.close();
+  const std::string said = hands_.press(reach(), button, cursor, {control, shift, window_.holds(cutKey)});
+  if (said.empty()) return;
+  pinsShownUntil_ = now_ + pinsShownSeconds;
+  say(said);
+}
+
+void Viewer::act(ViewerAction action) {
+  if (!compare_.isRunning()) compare_.close();  // its result has been read
+  switch (action) {
+    case ViewerAction::none:
+      return;
+    case ViewerAction::pause:
+      paused_ = !paused_;
+      if (notice_.isError) notice_ = {};
+      return;
+    case ViewerAction::stepFrame:
+      stepAsked_ = paused_;
+      return;
+    case ViewerAction::restart:
+      return restart();
+    case ViewerAction::stepBack:
+      return seek(session().frame() - 1);
+    case ViewerAction::stepForward:
+      return seek(session().frame() + 1);
+    case ViewerAction::toggleBackend:
+      return switchBackend(open_->backend() == "gpu" ? "cpu" : "gpu");
+    case ViewerAction::compareBackends:
+      return compare_.start(session());
+    case ViewerAction::toggleIntegrator:
+      return switchIntegrator();
+    case ViewerAction::nextShader:
+      return nextShader();
+    case ViewerAction::resetCamera:
+      return open_->camera().reset();
+    case ViewerAction::undo:
+      return undo(false);
+    case ViewerAction::redo:
+      return undo(true);
+    case ViewerAction::toggleKeyList:
+      showKeys_ = !showKeys_;
+      return;
+    case ViewerAction::toggleOverlay:
+      config_.showOverlay = !config_.showOverlay;
+      return;
+    case ViewerAction::togglePanels:
+      return togglePanels();
+    case ViewerAction::reloadShaders:
+      return reloadShaders();
+    case ViewerAction::quit:
+      return escape();
+    default:
+      return actOnFile(action);
+  }
+}
+
+void Viewer::actOnFile(ViewerAction action) {
+  const PictureArea area = pictureArea();
+  const int width = static_cast<int>(area.width), height = static_cast<int>(area.height);
+  if (action == ViewerAction::screenshot) say(taker_.screenshot(*open_, width, height), longNoticeSeconds);
+  if (action == ViewerAction::recordClip) say(taker_.toggleClip(*open_, width, height), longNoticeSeconds);
+  if (action == ViewerAction::saveScene) saveSceneAs(freeName(outputFolder(), open_->name(), ".json"));
+  if (action == ViewerAction::saveRecording) {
+    const auto path = freeName(outputFolder(), open_->name() + "-recording", ".json");
+    session().recording().save(path);
+    say("Saved " + path.string() + "; clothsim run --replay " + path.string() + " repeats your actions",
+        longNoticeSeconds);
+  }
+}
+
+// The window stays alive while a frame is being simulated, and can be closed.
+void Viewer::watchSteps() {
+  session().setPulse([this] {
+    window_.pollEvents();
+    return !window_.shouldClose();
+  });
+}
+
+void Viewer::switchBackend(const std::string& backend) {
+  session().act(SwitchBackend{backend});
+  say(std::string("Now on the ") + (backend == "gpu" ? "GPU" : "CPU") + ", from the bit-identical state");
+}
+
+void Viewer::switchIntegrator() {
+  Scene scene = open_->scene();
+  Integrator& integrator = scene.solver.integrator;
+  integrator = integrator == Integrator::verlet  ? Integrator::euler
+               : integrator == Integrator::euler ? Integrator::implicit
+                                                 : Integrator::verlet;
+  if (integrator == Integrator::implicit) {  // one long step costs as much as dozens of short ones
+    explicitSteps_.reset();
+    if (!scene.solver.simulationSteps.automatic) explicitSteps_ = scene.solver.simulationSteps.count;
+    scene.solver.simulationSteps.automatic = true;
+    chooseCounts(scene);
+  } else if (scene.solver.simulationSteps.automatic && explicitSteps_) {
+    scene.solver.simulationSteps = *explicitSteps_;
+  }
+  edit(scene, false);
+  say(std::string("Integrator: ") + nameOf(integrator));
+}
+
+void Viewer::nextShader() {
+  const std::vector<std::string> names = shadingModelNames();
+  Scene scene = open_->scene();
+  const auto at = std::find(names.begin(), names.end(), scene.render.shader);
+  scene.render.shader = at == names.end() || at + 1 == names.end() ? names.front() : *(at + 1);
+  edit(scene, false);
+  say("Shading model: " + scene.render.shader);
+}
+
+void Viewer::edit(const Scene& scene, bool continues) {
+  const double before = open_->frameSeconds();
+  open_->edit(scene, continues);
+  if (open_->frameSeconds() != before) pace_ = Pace(open_->frameSeconds());
+}
+
+void Viewer::undo(bool again) {
+  if (again ? !session().canRedo() : !session().canUndo())
+    return say(again ? "Nothing to redo" : "Nothing to undo");
+  again ? session().redo() : session().undo();
+  pace_ = Pace(open_->frameSeconds());
+  say(again ? "Redone" : "Undone");
+}
+
+void Viewer::seek(int frame) {
+  if (frame < session().oldestFrame() || frame > session().newestFrame())
+    return say(frame > session().newestFrame() ? "This is the newest frame; N simulates the next one"
+                                               : "No earlier frame is kept in memory");
+  if (frame == session().frame()) return;
+  hands_.letGo(session());
+  session().seek(frame);
+  paused_ = true;
+  pace_ = Pace(open_->frameSeconds());
+}
+
+void Viewer::restart() {
+  hands_.letGo(session());
+  session().act(Restart{});
+  column_.measures().forget();
+  if (notice_.isError) paused_ = false;  // trouble had paused it
+  notice_ = {};
+}
+
+std::unique_ptr<OpenScene> Viewer::load(const std::string& source,
+                                        const std::function<std::unique_ptr<OpenScene>()>& make) {
+  const std::string name = std::filesystem::path(source).stem().string();
+  window_.setTitle(title_ = name + " - loading - clothsim");
+  stepping_ = true;              // input waits
+  for (int i = 0; i < 2; ++i) {  // a window that has just been opened may lose its first picture
+    ui_.begin(window_.textScale());
+    drawLoading(name);
+    ui_.end();
+    ui_.draw();
+    window_.swap();
+    window_.pollEvents();
+  }
+  // On a thread of its own, which has the context meanwhile.
+  window_.lendContext();
+  std::future<std::unique_ptr<OpenScene>> making = std::async(std::launch::async, [&] {
+    window_.takeContext();
+    const std::shared_ptr<void> handBack(nullptr, [this](void*) {
+      window_.lendContext();
+      window_.wakeUp();
+    });
+    return make();
+  });
+  while (making.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+    window_.waitEvents(0.05);
+    if (!window_.shouldClose()) continue;
+    taker_.abandonClip();
+    std::fflush(nullptr);
+    std::_Exit(0);  // nothing waits for the thread
+  }
+  window_.takeContext();
+  stepping_ = false;
+  waiting_.clear();  // what was done to the picture that said so
+  clock_.lap();
+  return making.get();
+}
+
+void Viewer::openScene(const std::string& source) {
+  const std::string backend = open_->backend();
+  std::unique_ptr<OpenScene> next = load(source, [&] {
+    return std::make_unique<OpenScene>(loadSceneByName(source), source, backend, renderOptions(options_));
+  });
+  next->view = open_->view;
+  taker_.abandonClip();
+  compare_.close();
+  hands_ = {};
+  open_ = std::move(next);
+  watchSteps();
+  column_.measures().forget();
+  pace_ = Pace(open_->frameSeconds());
+  draftHeld_ = paused_ = false;
+  notice_ = {};
+  warnOfPaths();
+}
+
+void Viewer::warnOfPaths() {
+  Simulation& simulation = session().simulation();
+  const std::vector<Warning> warnings =
+      pathWarnings(simulation.cloth(), simulation.scene(), simulation.solver().state());
+  if (!warnings.empty()) say(warnings.front().text, longNoticeSeconds);
+}
+
+// The scene, or by the name's ending the cloth as it is now. Files that were there before are written over
+// only when that is asked for twice.
+void Viewer::saveSceneAs(const std::filesystem::path& path) {
+  if (isSequence(path))
+    return complain(
+        path.string() +
+        " would hold many frames. Save your actions (Ctrl+Shift+S) and run: clothsim run --replay FILE "
+        "--save " +
+        path.filename().string());
+  std::error_code ignored;  // the writer complains
+  if (std::filesystem::exists(path, ignored) && confirmed_ != path.string()) {
+    confirmed_ = path.string();
+    return complain(path.string() + " already exists; press Save again to overwrite it");
+  }
+  Simulation& simulation = session().simulation();
+  if (canSaveStateAs(path))
+    saveState(simulation.solver().state(), simulation.cloth(), path);
+  else
+    saveScene(open_->scene(), path);
+  confirmed_ = path.string();
+  column_.scenes().remember(path.string());
+  say("Saved " + path.string(), longNoticeSeconds);
+}
+
+void Viewer::reloadShaders() {
+  if (const std::optional<std::string> trouble = open_->renderer().reloadShaders())
+    notice_ = {*trouble + "\nThe previous shaders are still in use.", 1e9, true};
+  else
+    say("Shaders reloaded");
+}
+
+void Viewer::togglePanels() { config_.showPanels = !showsPanels(); }
+
+}  // namespace clothsim

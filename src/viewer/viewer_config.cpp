@@ -1,0 +1,75 @@
+#include "viewer/viewer_config.h"
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "core/error.h"
+#include "core/files.h"
+
+namespace clothsim {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::uintmax_t largestFile = 64 * 1024;
+
+// A value of that type, or the one it has; a file from a newer or older version may lack keys.
+void read(const nlohmann::json& object, const std::string& key, bool& value) {
+  if (const auto found = object.find(key); found != object.end()) value = found->get<bool>();
+}
+
+ViewerConfig parse(const std::string& text) {
+  const nlohmann::json json = nlohmann::json::parse(text);
+  (void)json.get_ref<const nlohmann::json::object_t&>();  // throws for anything but an object
+  ViewerConfig config;
+  if (json.contains("show_panels")) config.showPanels = json.at("show_panels").get<bool>();
+  read(json, "show_overlay", config.showOverlay);
+  if (const auto open = json.find("open"); open != json.end())
+    for (std::size_t i = 0; i < panelNames.size(); ++i)
+      read(*open, std::string(panelNames[i]), config.open[i]);
+  return config;
+}
+
+}  // namespace
+
+fs::path viewerConfigPath() {
+  // The specification of XDG's folders has relative paths ignored.
+  const char* xdg = std::getenv("XDG_CONFIG_HOME");
+  if (xdg != nullptr && fs::path(xdg).is_absolute()) return fs::path(xdg) / "clothsim" / "viewer.json";
+  const char* home = std::getenv("HOME");
+  if (home != nullptr && fs::path(home).is_absolute())
+    return fs::path(home) / ".config" / "clothsim" / "viewer.json";
+  return {};
+}
+
+LoadedConfig loadViewerConfig(const fs::path& path) {
+  std::error_code ignored;
+  if (path.empty() || fs::status(path, ignored).type() == fs::file_type::not_found) return {};
+  try {
+    return {parse(readFile(path, largestFile)), ""};
+  } catch (const nlohmann::json::exception&) {
+    return {{}, path.string() + " is not a settings file of the viewer and is ignored"};
+  } catch (const Error& error) {
+    return {{}, std::string("The settings are ignored: ") + error.what()};
+  }
+}
+
+std::string saveViewerConfig(const ViewerConfig& config, const fs::path& path) {
+  if (path.empty()) return "neither XDG_CONFIG_HOME nor HOME names a folder for settings";
+  nlohmann::ordered_json json;
+  if (config.showPanels) json["show_panels"] = *config.showPanels;
+  json["show_overlay"] = config.showOverlay;
+  for (std::size_t i = 0; i < panelNames.size(); ++i)
+    json["open"][std::string(panelNames[i])] = config.open[i];
+  std::error_code ignored;  // the writer complains
+  fs::create_directories(path.parent_path(), ignored);
+  try {
+    writeFileAtomically(path, json.dump(2) + "\n");
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace clothsim

@@ -1,0 +1,88 @@
+#include "viewer/viewer_facts.h"
+#include "core/formatted.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "gl/context.h"
+
+namespace clothsim {
+namespace {
+
+// 9216 -> "9,216"
+std::string withCommas(std::uint64_t number) {
+  const std::string digits = std::to_string(number);
+  std::string text;
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) text += ',';
+    text += digits[i];
+  }
+  return text;
+}
+
+// "gpu", "llvmpipe (LLVM 15.0.6, 256 bits)" -> "GPU: llvmpipe"; "gpu", "NVIDIA H200/PCIe/SSE2" -> "GPU:
+// NVIDIA H200"; "cpu", "CPU, 2 threads" -> "CPU: 2 threads"
+std::string backendText(const Solver& solver) {
+  std::string device = solver.device();
+  if (device.starts_with("CPU, ")) device.erase(0, 5);
+  device.erase(std::min(device.size(), device.find_first_of("(/")));
+  return (solver.backend() == "gpu" ? "GPU: " : "CPU: ") + device;
+}
+
+// "50 x 50", or several of them.
+std::string gridSizes(const Cloth& cloth) {
+  std::string text;
+  for (const Grid& grid : cloth.grids())
+    text += (text.empty() ? "" : ", ") +
+            (grid.isMesh ? "mesh of " + withCommas(grid.endTriangle - grid.firstTriangle) + " triangles"
+                         : std::to_string(grid.columns) + " \u00d7 " + std::to_string(grid.rows));
+  return text;
+}
+
+OverlayFacts::Row speedRow(const OpenScene& open, const SpeedMeter& meter) {
+  const double factor = meter.realTimeFactor();
+  if (meter.framesPerSecond() == 0) return {"speed", "measuring", false, true};
+  const bool slow = factor < 0.95;
+  // OpenGL may be the CPU in disguise, and slower.
+  const bool cpuMayBeFaster = slow && gl::currentContextInfo().software && open.backend() == "gpu";
+  return {"speed",
+          formatted(slow ? "%.2f" : "%.1f", factor) + "\u00d7 real time" +
+              (cpuMayBeFaster ? ", B: try the CPU" : ""),
+          slow, true};
+}
+
+}  // namespace
+
+const char* nameOf(Integrator integrator) { return integratorName(integrator); }
+
+std::string viewerTitle(const OpenScene& open, const SpeedMeter& meter, bool paused) {
+  const double rate = meter.framesPerSecond();
+  return open.name() + " - " + open.backend() +
+         (paused     ? " - paused at frame " + std::to_string(open.session().frameSinceStart())
+          : rate > 0 ? formatted(" - %.0f fps", rate)
+                     : "") +
+         " - clothsim";
+}
+
+OverlayFacts viewerFacts(const OpenScene& open, const SpeedMeter& meter, bool paused, bool looksBack,
+                         const std::vector<Warning>& warnings) {
+  const Simulation& simulation = open.session().simulation();
+  OverlayFacts facts;
+  facts.title = open.name();
+  facts.rows = {{"backend", backendText(simulation.solver()), false, true},
+                {"cloth", gridSizes(simulation.cloth()) + " = " +
+                              withCommas(simulation.cloth().particleCount()) + " particles"},
+                {"integrator", nameOf(open.scene().solver.integrator), false, true},
+                {"time", formatted("%.2f s", simulation.time())}};
+  if (paused)
+    facts.rows.push_back({"speed", looksBack ? "in the past (P: resume)" : "paused (P: resume)", true, true});
+  else
+    facts.rows.push_back(speedRow(open, meter));
+  if (meter.framesPerSecond() > 0 && !paused)
+    facts.rows.push_back({"display", formatted("%.0f frames/s", meter.framesPerSecond())});
+  for (const Warning& warning : warnings) facts.rows.push_back({warning.kind, warning.brief, true, true});
+  facts.rows.push_back({"help", "F1 lists the keys", false, true});
+  return facts;
+}
+
+}  // namespace clothsim

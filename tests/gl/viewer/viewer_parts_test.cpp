@@ -1,0 +1,292 @@
+// Parts of the viewer that need no window.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <set>
+
+#include "core/files.h"
+#include "gl/gl_test.h"
+#include "output/clip_recorder.h"
+#include "output/numbered_files.h"
+#include "scene_io/scene_io.h"
+#include "session/session.h"
+#include "solver/state.h"
+#include "support/temporary_folder.h"
+#include "viewer/compare_card.h"
+#include "viewer/input_queue.h"
+#include "viewer/panels/field_widgets.h"
+#include "viewer/viewer.h"
+#include "viewer/viewer_config.h"
+#include "viewer/viewer_keys.h"
+
+namespace clothsim {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Sets a variable of the environment for as long as it lives.
+class ChangedEnvironment {
+ public:
+  ChangedEnvironment(const char* name, const char* value) : name_(name) {
+    if (const char* old = std::getenv(name)) old_ = old;
+    value == nullptr ? ::unsetenv(name) : ::setenv(name, value, 1);
+  }
+  ~ChangedEnvironment() { old_ ? ::setenv(name_, old_->c_str(), 1) : ::unsetenv(name_); }
+  ChangedEnvironment(const ChangedEnvironment&) = delete;
+  ChangedEnvironment& operator=(const ChangedEnvironment&) = delete;
+
+ private:
+  const char* name_;
+  std::optional<std::string> old_;
+};
+
+TEST(ViewerKeys, EachInputStandsInTheTableOnce) {
+  std::set<std::string_view> inputs;
+  for (const ViewerKey& key : viewerKeys) EXPECT_TRUE(inputs.insert(key.input).second) << key.input;
+}
+
+TEST(ViewerKeys, EachActionIsFoundByItsOwnKey) {
+  for (const ViewerKey& key : viewerKeys) {
+    if (key.action == ViewerAction::none) continue;
+    EXPECT_EQ(actionOf(keyStroke(key.input)), key.action) << key.input;
+  }
+}
+
+TEST(ViewerKeys, CS184sKeysDoWhatTheyDidThere) {
+  EXPECT_EQ(actionOf({"P"}), ViewerAction::pause);
+  EXPECT_EQ(actionOf({"N"}), ViewerAction::stepFrame);
+  EXPECT_EQ(actionOf({"R"}), ViewerAction::restart);
+  EXPECT_EQ(actionOf({"Space"}), ViewerAction::resetCamera);
+  EXPECT_EQ(actionOf({"Esc"}), ViewerAction::quit);
+}
+
+TEST(ViewerKeys, ControlAndShiftMakeOtherStrokesOfAKey) {
+  EXPECT_EQ(actionOf({"P", true, false}), ViewerAction::screenshot);
+  EXPECT_EQ(actionOf({"Z"}), ViewerAction::none);
+  EXPECT_EQ(actionOf({"Z", true, false}), ViewerAction::undo);
+  EXPECT_EQ(actionOf({"Z", true, true}), ViewerAction::redo);
+}
+
+TEST(ViewerKeys, HelpHasEveryLineOfTheTable) {
+  const std::string help = viewerKeysText();
+  for (const ViewerKey& key : viewerKeys) {
+    EXPECT_NE(help.find("  " + std::string(key.input) + "  "), std::string::npos) << key.input;
+    EXPECT_NE(help.find("  " + std::string(key.effect) + "\n"), std::string::npos) << key.effect;
+  }
+}
+
+using Kind = InputEvent::Kind;
+constexpr int letGo = 0, pressed = 1, enterKey = 257, controlKey = 341;
+
+TEST(InputBetweenFrames, IsPressedInOneFrameAndLetGoInTheNext) {
+  InputQueue queue;
+  queue.add({.kind = Kind::key, .code = '1', .action = pressed});  // its character says as much
+  queue.add({.kind = Kind::character, .code = '1'});
+  queue.add({.kind = Kind::key, .code = '1', .action = letGo});
+  queue.add({.kind = Kind::key, .code = enterKey, .action = pressed});
+  queue.add({.kind = Kind::key, .code = enterKey, .action = letGo});
+  const std::vector<InputEvent> first = queue.takeFrame();
+  ASSERT_EQ(first.size(), 3u);
+  EXPECT_EQ(first[0].kind, Kind::character);
+  EXPECT_EQ(first[2].code, enterKey);
+  EXPECT_EQ(first[2].action, pressed);
+  EXPECT_FALSE(queue.isEmpty());
+  const std::vector<InputEvent> second = queue.takeFrame();
+  ASSERT_EQ(second.size(), 1u);
+  EXPECT_EQ(second[0].code, enterKey);
+  EXPECT_EQ(second[0].action, letGo);
+  EXPECT_TRUE(queue.isEmpty());
+}
+
+TEST(InputBetweenFrames, ClicksWithTheModifiersThatWereHeld) {
+  InputQueue queue;
+  queue.add({.kind = Kind::key, .code = controlKey, .action = pressed});
+  ASSERT_EQ(queue.takeFrame().size(), 1u);
+  queue.add({.kind = Kind::button, .code = 0, .action = pressed});
+  queue.add({.kind = Kind::button, .code = 0, .action = letGo});
+  queue.add({.kind = Kind::key, .code = controlKey, .action = letGo});
+  EXPECT_EQ(queue.takeFrame().size(), 1u) << "the press alone";
+  const std::vector<InputEvent> last = queue.takeFrame();
+  ASSERT_EQ(last.size(), 2u);
+  EXPECT_EQ(last[1].code, controlKey);
+}
+
+using CompareCardTest = GlTest;
+
+TEST_F(CompareCardTest, GoesAwayAWhileAfterItsResult) {
+  Scene scene;
+  scene.cloths[0].numWidthPoints = scene.cloths[0].numHeightPoints = 4;
+  Session session(scene, "cpu");
+  CompareCard card;
+  card.start(session);
+  while (card.isRunning()) {
+    card.pass(3600);
+    ASSERT_TRUE(card.isOpen()) << "while it runs it stays";
+    card.advance();
+  }
+  card.pass(5);
+  EXPECT_TRUE(card.isOpen());
+  card.pass(10);
+  EXPECT_FALSE(card.isOpen());
+}
+
+TEST(ViewerConfigFile, IsReadAsItWasWritten) {
+  const test::TemporaryFolder folder;
+  const fs::path path = folder / "a" / "b" / "viewer.json";
+  ViewerConfig config;
+  config.showPanels = false;
+  config.showOverlay = false;
+  config.open = {false, true, false, true, true};
+  EXPECT_EQ(saveViewerConfig(config, path), "");
+  const LoadedConfig loaded = loadViewerConfig(path);
+  EXPECT_EQ(loaded.config, config);
+  EXPECT_EQ(loaded.notice, "");
+}
+
+TEST(ViewerConfigFile, ThatIsMissingMeansDefaultsAndNoNotice) {
+  const test::TemporaryFolder folder;
+  const LoadedConfig loaded = loadViewerConfig(folder / "viewer.json");
+  EXPECT_EQ(loaded.config, ViewerConfig{});
+  EXPECT_EQ(loaded.notice, "");
+}
+
+TEST(ViewerConfigFile, ThatIsNoneIsPassedOverWithANoticeThatNamesIt) {
+  const test::TemporaryFolder folder;
+  for (const char* text : {"{\"show_panels\": ", "[1, 2]", "{\"open\": {\"look\": 3}}", "\xff\xfe"}) {
+    writeFileAtomically(folder / "viewer.json", text);
+    const LoadedConfig loaded = loadViewerConfig(folder / "viewer.json");
+    EXPECT_EQ(loaded.config, ViewerConfig{}) << text;
+    EXPECT_NE(loaded.notice.find("viewer.json"), std::string::npos) << text;
+  }
+  fs::remove(folder / "viewer.json");
+  fs::create_directory(folder / "viewer.json");
+  EXPECT_NE(loadViewerConfig(folder / "viewer.json").notice, "");
+}
+
+TEST(ViewerConfigFile, LiesInTheUsersFolderOfConfiguration) {
+  const ChangedEnvironment home("HOME", "/home/somebody");
+  {
+    const ChangedEnvironment xdg("XDG_CONFIG_HOME", "/elsewhere");
+    EXPECT_EQ(viewerConfigPath(), "/elsewhere/clothsim/viewer.json");
+  }
+  {
+    const ChangedEnvironment relative("XDG_CONFIG_HOME", "not/absolute");
+    EXPECT_EQ(viewerConfigPath(), "/home/somebody/.config/clothsim/viewer.json");
+  }
+  const ChangedEnvironment none("XDG_CONFIG_HOME", nullptr), homeless("HOME", nullptr);
+  EXPECT_EQ(viewerConfigPath(), "");
+  EXPECT_NE(saveViewerConfig({}, viewerConfigPath()), "");
+}
+
+TEST(ViewerConfigFile, ThatCannotBeWrittenIsATroubleInWordsAndNoCrash) {
+  const test::TemporaryFolder folder;
+  writeFileAtomically(folder / "file", "no folder");
+  EXPECT_NE(saveViewerConfig({}, folder / "file" / "clothsim" / "viewer.json"), "");
+}
+
+TEST(NumberedFiles, NeverNameWhatIsThere) {
+  const test::TemporaryFolder folder;
+  EXPECT_EQ(freeName(folder.path(), "demo-gpu-7", ".png"), folder / "demo-gpu-7.png");
+  writeFileAtomically(folder / "demo-gpu-7.png", "");
+  EXPECT_EQ(freeName(folder.path(), "demo-gpu-7", ".png"), folder / "demo-gpu-7-2.png");
+  fs::create_symlink("/nonexistent", folder / "demo-gpu-7-2.png");  // even where it leads nowhere
+  EXPECT_EQ(freeName(folder.path(), "demo-gpu-7", ".png"), folder / "demo-gpu-7-3.png");
+  const std::string tooLong(300, 'x');  // no file can have it; writing it says so
+  EXPECT_EQ(freeName(folder.path(), tooLong, ".png"), folder / (tooLong + ".png"));
+}
+
+TEST(NumberedFiles, LeaveANameThatIsTooLongToWhoWritesIt) {
+  const std::string stem(300, 'x');
+  EXPECT_EQ(freeName("/tmp", stem, ".png"), "/tmp/" + stem + ".png");
+}
+
+TEST(FieldText, SaysUnitsAsAPersonWouldWriteThem) {
+  EXPECT_EQ(unitText("kg/m^2"), "kg/m\u00b2");
+  EXPECT_EQ(unitText("kg/m^3"), "kg/m\u00b3");
+  EXPECT_EQ(numberFormat("%"), "%.4g %%");
+  EXPECT_EQ(numberFormat(""), "%.4g");
+  EXPECT_EQ(labelOf("num_width_points"), "num width points");
+}
+
+TEST(FieldText, EverySliderHasARangeThatHoldsItsDefaultAndLiesWithinTheLimits) {
+  const auto check = [](const auto& owner, const auto& fields) {
+    for (const auto& field : fields) {
+      std::visit(
+          [&](auto member) {
+            const auto& value = owner.*member;
+            using T = std::remove_cvref_t<decltype(value)>;
+            if constexpr (std::is_same_v<T, double> || std::is_same_v<T, int>) {
+              const Usual range = sliderRange(field, static_cast<double>(value));
+              EXPECT_LT(range.low, range.high) << field.key;
+              EXPECT_GE(range.low, field.limits.low) << field.key;
+              EXPECT_LE(range.high, field.limits.high) << field.key;
+              EXPECT_LE(range.low, static_cast<double>(value)) << field.key;
+              EXPECT_GE(range.high, static_cast<double>(value)) << field.key;
+            }
+          },
+          field.member);
+    }
+  };
+  check(Scene{}, fieldsOf<Scene>());
+  check(ClothSettings{}, fieldsOf<ClothSettings>());
+  check(SolverSettings{}, fieldsOf<SolverSettings>());
+  check(Wind{}, fieldsOf<Wind>());
+  check(Gust{}, fieldsOf<Gust>());
+  check(RenderSettings{}, fieldsOf<RenderSettings>());
+  check(Sphere{}, fieldsOf<Sphere>());
+  check(Capsule{}, fieldsOf<Capsule>());
+  check(Box{}, fieldsOf<Box>());
+  check(Torus{}, fieldsOf<Torus>());
+}
+
+TEST(ClipRecorder, WithoutFfmpegWritesNumberedPicturesThatPlayInRealTime) {
+  const test::TemporaryFolder folder;
+  const ChangedEnvironment noPrograms("PATH", folder.path().c_str());
+  const Image picture{17, 9, std::vector<std::uint8_t>(3 * 17 * 9, 100)};
+  ClipRecorder clip(folder.path(), "demo-cpu", 17, 9);
+  EXPECT_EQ(clip.width(), 16) << "films want even sizes";
+  EXPECT_EQ(clip.height(), 8);
+  const Image even{16, 8, std::vector<std::uint8_t>(3 * 16 * 8, 100)};
+  for (int frame = 0; frame < 90; ++frame) clip.add(1.0 / 90, [&] { return even; });
+  EXPECT_NEAR(clip.seconds(), 1, 0.04);
+  EXPECT_NE(clip.finish().find("demo-cpu-frames"), std::string::npos);
+  EXPECT_TRUE(fs::exists(folder / "demo-cpu-frames" / "frame_0029.png"));
+  EXPECT_FALSE(fs::exists(folder / "demo-cpu-frames" / "frame_0032.png"));
+}
+
+Scene smallScene() {
+  Scene scene = loadSceneByName("pinned2");
+  (void)changeResolution(scene, 12, 12, true);
+  return scene;
+}
+
+TEST(SessionPulse, ChangesNoBitHoweverAFrameIsDividedByIt) {
+  Session plain(smallScene(), "cpu"), watched(smallScene(), "cpu");
+  int pulses = 0;
+  watched.setPulse([&] {
+    ++pulses;
+    return true;
+  });
+  for (Session* session : {&plain, &watched}) {
+    EXPECT_FALSE(session->stepFrames(3));
+    session->act(Grab{.particle = 70, .target = {0.5, 1.2, 0.5}, .strength = 1e4, .radius = 0.2});
+    EXPECT_FALSE(session->stepFrames(3));
+  }
+  EXPECT_EQ(stateHash(plain.simulation().solver().state()), stateHash(watched.simulation().solver().state()));
+}
+
+TEST(SessionPulse, ThatSaysNoEndsSteppingAndLeavesTheFrameBefore) {
+  // A frame of so many steps takes longer than a pulse waits.
+  Scene scene = loadSceneByName("pinned2");
+  scene.solver.simulationSteps = 100000;
+  Session session(scene, "cpu");
+  const std::uint64_t before = stateHash(session.simulation().solver().state());
+  session.setPulse([] { return false; });
+  EXPECT_FALSE(session.stepFrames(2));
+  EXPECT_EQ(session.frame(), 0);
+  EXPECT_EQ(session.step(), 0u);
+  EXPECT_EQ(stateHash(session.simulation().solver().state()), before);
+}
+
+}  // namespace
+}  // namespace clothsim

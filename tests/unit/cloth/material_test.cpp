@@ -1,0 +1,167 @@
+#include "cloth/material.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/error.h"
+#include "scene_io/scene_io.h"
+#include "support/scene_text.h"
+
+namespace clothsim {
+namespace {
+
+using test::sceneOf;
+
+TEST(MaterialPreset, IsReadByNameAndWrittenInFull) {
+  for (const std::string& name : materialPresetNames()) {
+    const Scene scene = sceneOf(R"({"cloth": {"material": ")" + name + R"("}})");
+    EXPECT_EQ(scene.cloths[0].material, materialPreset(name));
+    EXPECT_FALSE(scene.cloths[0].ks) << "no second stiffness";
+    EXPECT_EQ(sceneOf(formatScene(scene)), scene);
+  }
+}
+
+TEST(Material, BringsCoulombsFrictionAndNoneOfCs184sRules) {
+  const Scene scene = sceneOf(R"({"cloth": {"material": "silk"}})");
+  EXPECT_EQ(scene.solver.frictionLaw, FrictionLaw::coulomb);
+  EXPECT_FALSE(scene.solver.strainLimit);
+  EXPECT_EQ(scene.solver.selfCollision, SelfCollision::off);
+}
+
+TEST(Material, BringsTheImplicitIntegratorInAsManyStepsAsItNeeds) {
+  const auto isImplicit = [](const Scene& scene) {
+    return scene.solver.integrator == Integrator::implicit && scene.solver.simulationSteps.automatic &&
+           scene.solver.simulationSteps == 1;
+  };
+  EXPECT_TRUE(isImplicit(sceneOf(R"({"cloth": {"material": "silk"}})")));
+  Scene scene = sceneOf(R"({"cloth": {}, "solver": {"integrator": "euler", "simulation_steps": 7}})");
+  setSceneValue(scene, "cloth.material=silk");
+  EXPECT_TRUE(isImplicit(scene)) << "what was right for springs is not for silk";
+  setSceneValue(scene, "solver.integrator=verlet");
+  setSceneValue(scene, "cloth.material=denim");
+  EXPECT_EQ(scene.solver.integrator, Integrator::verlet) << "chosen for a material";
+  EXPECT_EQ(scene.solver.simulationSteps, stableSteps(scene));
+  EXPECT_EQ(sceneOf(formatScene(scene)), scene);
+  setSceneValue(scene, "solver.integrator=null");
+  EXPECT_TRUE(isImplicit(scene));
+  setSceneValue(scene, "cloth.material=null");
+  EXPECT_EQ(scene.solver, sceneOf(R"({"cloth": {}})").solver);
+}
+
+TEST(Material, ReplacesKsWhenItIsSet) {
+  Scene scene = sceneOf(R"({"cloth": {"ks": 900, "damping": 1, "thickness": 0.02}})");
+  setSceneValue(scene, "cloth.material=denim");
+  EXPECT_EQ(scene.cloths[0].material, materialPreset("denim"));
+  EXPECT_FALSE(scene.cloths[0].ks);
+  setSceneValue(scene, "cloth.material.bend=2e-5");
+  Material expected = *materialPreset("denim");
+  expected.bend = 2e-5;
+  EXPECT_EQ(scene.cloths[0].material, expected);
+}
+
+TEST(GiveMaterial, LeavesNothingThatAMaterialTells) {
+  Scene scene =
+      sceneOf(R"({"cloth": {"ks": 900, "density": 3, "mass": 2, "damping": 1, "thickness": 0.02}})");
+  giveMaterial(scene.cloths[0], *materialPreset("wool"));
+  EXPECT_EQ(sceneOf(formatScene(scene)).cloths, scene.cloths);
+}
+
+// On square cells (docs/physics.md): k_d = G, k_s = C11 - G; isotropic at k_s = 2 k_d with Y = 8/3 k_d.
+TEST(LatticeStiffness, IsTheKnownOneOnSquares) {
+  Material material;
+  material.shear = 300;
+  material.stretch = 8.0 / 3 * 300;
+  const LatticeStiffness k = latticeStiffness(material, 0.01, 0.01);
+  EXPECT_NEAR(k.diagonal, 300, 1e-9);
+  EXPECT_NEAR(k.alongRow, 600, 1e-9);
+  EXPECT_NEAR(k.alongColumn, 600, 1e-9);
+  EXPECT_NEAR(k.bendAlongRow, material.bend / 1e-4, 1e-12);
+}
+
+// The energy of a cell under a small homogeneous strain is that of the sheet, whatever the cell's shape.
+TEST(LatticeStiffness, GivesOblongCellsTheSameModuli) {
+  const Material material{.stretch = 1000, .shear = 200};
+  const double c11 = 0.5 * (1000 + std::sqrt(1e6 + 4 * 200.0 * 200));
+  for (const auto& [dx, dy] : {std::pair{0.01, 0.01}, {0.012, 0.01}, {0.01, 0.015}}) {
+    const LatticeStiffness k = latticeStiffness(material, dx, dy);
+    const auto energy = [&](double xx, double yy, double xy) {  // strains; per area
+      const double l = std::hypot(dx, dy);
+      const auto spring = [](double stiffness, double stretch) {
+        return 0.5 * stiffness * stretch * stretch;
+      };
+      const double even = (xx * dx * dx + yy * dy * dy) / l, odd = 2 * xy * dx * dy / l;
+      return (spring(k.alongRow, xx * dx) + spring(k.alongColumn, yy * dy) + spring(k.diagonal, even + odd) +
+              spring(k.diagonal, even - odd)) /
+             (dx * dy);
+    };
+    EXPECT_NEAR(energy(1e-3, 0, 0), 0.5 * c11 * 1e-6, 1e-12);
+    EXPECT_NEAR(energy(0, 1e-3, 0), 0.5 * c11 * 1e-6, 1e-12);
+    EXPECT_NEAR(energy(1e-3, 1e-3, 0), (c11 + 200) * 1e-6, 1e-12);
+    EXPECT_NEAR(energy(0, 0, 1e-3), 2 * 200 * 1e-6, 1e-12);
+  }
+}
+
+TEST(SimulationSteps, AreChosenWhenAuto) {
+  Scene scene = sceneOf(
+      R"({"cloth": {"material": "cotton"}, "solver": {"integrator": "verlet", "simulation_steps": "auto"}})");
+  EXPECT_EQ(scene.solver.simulationSteps, stableSteps(scene));
+  EXPECT_LE(stepLength(scene.solver), stableStep(scene));
+  EXPECT_GT(stepLength(scene.solver) * scene.solver.simulationSteps / (scene.solver.simulationSteps - 1),
+            stableStep(scene))
+      << "no more than needed";
+  EXPECT_EQ(sceneOf(formatScene(scene)).solver.simulationSteps, AutoCount(stableSteps(scene), true));
+  const int before = scene.solver.simulationSteps;
+  (void)changeResolution(scene, 100, 100, false);
+  EXPECT_GT(scene.solver.simulationSteps, before);
+  EXPECT_EQ(scene.solver.simulationSteps, stableSteps(scene));
+  setSceneValue(scene, "solver.simulation_steps=7");
+  EXPECT_EQ(scene.solver.simulationSteps, AutoCount(7));
+}
+
+TEST(CgIterations, GrowWithTheStepWhenAuto) {
+  const auto iterations = [](int framesPerSec) {
+    return sceneOf(R"({"cloth": {}, "solver": {"simulation_steps": 1, "frames_per_sec": )" +
+                   std::to_string(framesPerSec) + "}}")
+        .solver.cgIterations;
+  };
+  EXPECT_EQ(iterations(1000), AutoCount(10, true));
+  EXPECT_EQ(iterations(60), AutoCount(10, true));
+  EXPECT_EQ(iterations(30), AutoCount(20, true));
+  EXPECT_EQ(iterations(20), AutoCount(30, true));
+  EXPECT_EQ(iterations(5), AutoCount(40, true));
+  Scene scene = sceneOf(R"({"cloth": {}, "solver": {"simulation_steps": 1, "frames_per_sec": 60}})");
+  setSceneValue(scene, "solver.frames_per_sec=20");
+  EXPECT_EQ(scene.solver.cgIterations, AutoCount(30, true));
+  setSceneValue(scene, "solver.cg_iterations=7");
+  EXPECT_EQ(scene.solver.cgIterations, AutoCount(7));
+  setSceneValue(scene, "solver.cg_iterations=auto");
+  EXPECT_EQ(scene.solver.cgIterations, AutoCount(30, true));
+}
+
+TEST(CgIterations, AreThoseThatFabricsNeedOnTheirLattice) {
+  const auto iterations = [](const std::string& points) {
+    return sceneOf(R"({"cloth": {"material": "silk", "num_width_points": )" + points +
+                   R"(, "num_height_points": 65}})")
+        .solver.cgIterations;
+  };
+  EXPECT_EQ(iterations("65"), AutoCount(40, true));
+  EXPECT_EQ(iterations("49"), AutoCount(40, true));
+  EXPECT_EQ(iterations("50"), AutoCount(60, true));
+  Scene scene = sceneOf(R"({"cloth": {"material": "silk"}})");
+  (void)changeResolution(scene, 65, 65, false);
+  EXPECT_EQ(scene.solver.cgIterations, AutoCount(40, true));
+}
+
+TEST(ChangeResolution, LeavesAMaterialAndMultipliesItsSteps) {
+  Scene scene =
+      sceneOf(R"({"cloth": {"material": {"bend": 0}, "num_width_points": 11, "num_height_points": 11},
+                  "solver": {"integrator": "verlet", "simulation_steps": 30}})");
+  const Scene before = scene;
+  (void)changeResolution(scene, 41, 41, false);
+  EXPECT_EQ(scene.cloths[0].material, before.cloths[0].material);
+  EXPECT_EQ(scene.solver.simulationSteps, 4 * before.solver.simulationSteps);
+}
+
+}  // namespace
+}  // namespace clothsim
