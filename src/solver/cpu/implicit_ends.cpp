@@ -1,4 +1,5 @@
-// The first and the last pass of an implicit step; the twin of shaders/sim/implicit/{begin,initial_guess,end}.comp.
+// The first and the last pass of an implicit step; the twin of
+// shaders/sim/implicit/{begin,initial_guess,end}.comp.
 #include "solver/cpu/implicit_contact.h"
 #include "solver/cpu/rows.h"
 #include "solver/cpu/watch.h"

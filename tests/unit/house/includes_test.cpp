@@ -38,7 +38,7 @@ const std::map<std::string, Room> rooms{
     {"measure", {{"core", "scene", "cloth", "solver", "solver/cpu"}, {"cgal", "nlohmann"}}},
     {"simulation", {{"core", "scene", "cloth", "solver", "solver/cpu", "solver/gpu", "gl", "measure"}, {}}},
     {"session", {{"core", "scene", "cloth", "scene_io", "solver", "simulation"}, {"nlohmann"}}},
-    {"output", {{"core", "scene", "render", "export"}, {"imgui"}}},
+    {"output", {{"core", "scene", "render", "export"}, {"stb"}}},
     {"viewer",
      {{"core", "scene", "cloth", "scene_io", "solver", "solver/gpu", "gl", "render", "export", "measure",
        "simulation", "session", "output"},
