@@ -166,7 +166,7 @@ void MeasurePanel::drawPasses(Session& session) {
     try {
       Simulation& simulation = session.simulation();
       const std::unique_ptr<Solver> solver =
-          makeSolver(simulation.solver().backend(), simulation.cloth(), simulation.scene());
+          makeSolver(simulation.solver().backend(), simulation.sharedCloth(), simulation.sharedScene());
       solver->setState(simulation.solver().state());
       passes_ = solver->timePasses(timedSteps);
       passSteps_ = timedSteps;
