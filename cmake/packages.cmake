@@ -8,6 +8,18 @@ FetchContent_Declare(nlohmann_json URL https://github.com/nlohmann/json/releases
                      FIND_PACKAGE_ARGS 3.10)
 FetchContent_MakeAvailable(nlohmann_json)
 
+# Scene files are read with RapidJSON, which tells where a value or a mistake is; results are written with nlohmann::json.
+# SOURCE_SUBDIR has no CMakeLists.txt: of what is fetched only the headers are used.
+FetchContent_Declare(RapidJSON URL https://github.com/Tencent/rapidjson/archive/refs/tags/v1.1.0.tar.gz SOURCE_SUBDIR include
+                     FIND_PACKAGE_ARGS 1.1)
+FetchContent_MakeAvailable(RapidJSON)
+add_library(clothsim_rapidjson INTERFACE)
+if(RapidJSON_FOUND)
+  target_include_directories(clothsim_rapidjson SYSTEM INTERFACE ${RAPIDJSON_INCLUDE_DIRS})
+else()
+  target_include_directories(clothsim_rapidjson SYSTEM INTERFACE ${rapidjson_SOURCE_DIR}/include)
+endif()
+
 FetchContent_Declare(tinyobjloader GIT_REPOSITORY https://github.com/tinyobjloader/tinyobjloader GIT_TAG v2.0.0rc10
                      FIND_PACKAGE_ARGS)
 FetchContent_MakeAvailable(tinyobjloader)

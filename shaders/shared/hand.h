@@ -62,10 +62,10 @@ SHARED_STRUCT HandParams {
 
   // Of `implicit`: the hold is a spring of the stiffness resistance m / h^2 to the place that is
   // reach (B (goal - x) + push) from x.
-  real resistance;  // 2 h w + h^2 w^2
-  real reach;       // h (1 + resistance) / resistance [s]
-  real largestWay;  // h largestSpeed [m],
-  real largestWaySquared;
+  real resistance;           // 2 h w + h^2 w^2
+  real reach;                // h (1 + resistance) / resistance [s]
+  real largestDisplacement;  // h largestSpeed [m],
+  real largestDisplacementSquared;
 };
 
 #ifdef __cplusplus

@@ -16,11 +16,20 @@ using uint = std::uint32_t;
 
 #define LEVEL_PARAMS_BINDING 4  // uniform block
 
-// Storage blocks: what a pass writes, and the scalars of the iteration.
-#define FIRST_OUTPUT_BINDING 4
-#define SECOND_OUTPUT_BINDING 5
-#define THIRD_OUTPUT_BINDING 6
-#define FOURTH_OUTPUT_BINDING 7
+// Storage blocks, by array (src/solver/pass.h). What no pass writes together may share a binding.
+#define RIGHT_HAND_SIDES_BINDING 4
+#define RESIDUALS_BINDING 4
+#define CORRECTIONS_BINDING 4
+#define DIRECTIONS_BINDING 4
+#define PRODUCTS_BINDING 4
+#define CONTACT_PLANES_BINDING 4
+#define PARTIAL_SUMS_BINDING 4
+#define DISPLACEMENTS_BINDING 5
+#define INCREMENTS_BINDING 5
+#define ITERATES_BINDING 6
+#define FACTORS_BINDING 6
+#define AIR_BLOCKS_BINDING 7
+#define BLOCKS_BINDING 7
 #define SCALARS_BINDING 7
 
 // Buffers read as texels, a vec4 a particle; the first four of them go on with the vertices of the coarse
@@ -29,14 +38,15 @@ using uint = std::uint32_t;
 #define CORRECTIONS_UNIT 26  // z = preconditioned r [m]
 #define FACTORS_UNIT 27      // two texels each: L D L^T of the diagonal block, l21 l31 l32 and 1/d1 1/d2 1/d3
 #define BLOCKS_UNIT 28       // four texels each: what coarse diagonal blocks are made of
-#define ANCHORS_UNIT 29      // b and a of the energy 1/2 a |d|^2 - b.d of a particle's way d
-#define AIR_BLOCKS_UNIT 30   // two texels each: what the air adds to a, a symmetric matrix
-#define WAYS_UNIT 31         // d, from the start of the step [m]
-#define ITERATES_UNIT 32     // x + d, and the inverse mass
-#define DIRECTIONS_UNIT 33   // p of conjugate gradients, and the inverse mass
-#define PRODUCTS_UNIT 34     // H p; later a particle's change of energy at four lengths of the Newton step
-#define INCREMENTS_UNIT 35   // the Newton step so far [m]
-#define STARTS_UNIT 36       // x at the start of the step, and the inverse mass
+#define RIGHT_HAND_SIDES_UNIT \
+  29  // b, and the diagonal a, of the energy 1/2 a |d|^2 - b.d of inertia, air and grabs
+#define AIR_BLOCKS_UNIT 30     // two texels each: what the air adds to a, a symmetric matrix
+#define DISPLACEMENTS_UNIT 31  // d, from the start of the step [m]
+#define ITERATES_UNIT 32       // x + d, and the inverse mass
+#define DIRECTIONS_UNIT 33     // p of conjugate gradients, and the inverse mass
+#define PRODUCTS_UNIT 34       // H p; later a particle's change of energy at four lengths of the Newton step
+#define INCREMENTS_UNIT 35     // the Newton step so far [m]
+#define STARTS_UNIT 36         // x at the start of the step, and the inverse mass
 #define PARTIAL_SUMS_UNIT 37
 #define CUT_LINKS_UNIT 38       // an unsigned number a vertex: makeCutLinks() of src/solver/implicit.h
 #define CONTACT_PLANES_UNIT 39  // two texels each: n and offset, carry and friction (cpu/collide.h)
@@ -63,9 +73,9 @@ using uint = std::uint32_t;
 // What becomes of a sum.
 #define SUM_FIRST 0   // r.z at the start of conjugate gradients
 #define SUM_STEP 1    // p.Hp: the length of a step along p
-#define SUM_TURN 2    // r.z: how much of the last direction is kept
+#define SUM_NEXT 2    // r.z: how much of the last direction is kept
 #define SUM_LENGTH 3  // changes of energy: the length of the Newton step,
-#define SUM_START 4   // and how much of the likely way is taken to start from
+#define SUM_START 4   // and how much of the initial guess is taken
 
 // A level of a grid and the next coarser one, of about half as many points in a direction (never fewer than
 // 2).
@@ -88,10 +98,10 @@ SHARED_STRUCT LevelParams {
 
 // Kept between the passes of a Newton step.
 SHARED_STRUCT ImplicitScalars {
-  real residual;  // r.z
-  real stepSize;  // alpha
-  real kept;      // beta
-  real promised;  // how much the quadratic model falls along the Newton step, twice
+  real residual;           // r.z
+  real stepSize;           // alpha
+  real kept;               // beta
+  real predictedDecrease;  // how much the quadratic model falls along the Newton step, twice
 
   real newtonLength;  // 0 to 1
   real unusedX;

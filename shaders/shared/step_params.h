@@ -116,7 +116,8 @@ SHARED_STRUCT StepParams {
   real bendAlongColumn;  // [N/m]
   real limitStiffness;   // of `implicit`: what a spring longer than limitLength adds to it [N/m]
 
-  // Of `implicit`, for a particle of mass m: the energy 1/2 m inertia |d - guess|^2 of its way d in the step,
+  // Of `implicit`, for a particle of mass m: the energy 1/2 m inertia |d - guess|^2 of its displacement d in
+  // the step,
   real inertia;           // (1 + c h) / h^2, c the rate of damping [1/s^2]
   real guessTime;         // guess = guessTime (v + h g), h / (1 + c h) [s]
   real supportScale;      // 1 / (h |g|^2), 0 without gravity [s^3/m^2]

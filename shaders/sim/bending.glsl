@@ -1,5 +1,5 @@
 // Bending of a material: the energy 1/2 b |x(i-1) - 2 x(i) + x(i+1)|^2 of every three particles in a line, along rows and
-// along columns (PHYSICS.md section 2).
+// along columns (docs/physics.md).
 
 // b (a - 2 m + c), the force on a and c; that on m, in the middle, is -2 times as large. Where the pins of a clamp end, the
 // curvature of the first half cell shows at the last pin, half as large as it is: it counts twice.

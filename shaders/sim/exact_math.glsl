@@ -1,5 +1,5 @@
 // The functions beyond + - * that a step may use; the twins of src/core/exact_math.h. Every intermediate is a named
-// `precise` local, so that no driver may fuse or reorder it (NUMERICS.md, rules 1 to 7).
+// `precise` local, so that no driver may fuse or reorder it (docs/numeric-contract.md).
 
 // 1 / sqrt(x) for 0 < x < 2^126 within 1.2 ulp, finite at 0.
 float inverseSquareRoot(float x) {

@@ -37,7 +37,7 @@ bool kindEnabled(const ClothSettings& settings, SpringKind kind) {
   return false;
 }
 
-// Spring constants of the assignments' models (DESIGN.md section 4) [N/m].
+// Spring constants of CS184's and CS171's models (docs/physics.md) [N/m].
 double springStiffness(const ClothSettings& settings, SpringKind kind, double restLength) {
   if (settings.stiffnessReference)
     return *settings.stiffnessReference * settings.referenceLength / restLength;

@@ -1,5 +1,5 @@
 // The material model: from a fabric as it is measured to the springs of a lattice, so that drape, sag and the
-// time it takes do not change with the resolution (PHYSICS.md section 2). And what an explicit step may be.
+// time it takes do not change with the resolution (docs/physics.md). And how long an explicit step may be.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// The command line of DESIGN.md section 5: argv in, options out.
+// The command line: argv in, options out.
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>

@@ -1,6 +1,6 @@
 // The subcommands behind `clothsim`, one function each; command_line.cpp turns argv into their options.
-// Results go to stdout, progress and remarks to stderr. Each returns the exit code of DESIGN.md section 5 or
-// throws an Error.
+// Results go to stdout, progress and remarks to stderr. Each returns the exit code or throws an
+// Error.
 #pragma once
 
 #include <cstdint>

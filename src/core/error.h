@@ -1,4 +1,4 @@
-// The errors meant for the user. Each kind maps to one exit code of the command line (DESIGN.md section 5).
+// The errors meant for the user. Each kind maps to one exit code of the command line.
 #pragma once
 
 #include <stdexcept>

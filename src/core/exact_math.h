@@ -1,6 +1,6 @@
 // The functions beyond + - * that a step may use, built from them and integer operations so that GLSL and C++
-// come to the same bits (NUMERICS.md). The binary32 versions are the twins of shaders/sim/exact_math.glsl;
-// the double versions serve the tests of the physics and use the library.
+// come to the same bits (docs/numeric-contract.md). The binary32 versions are the twins of
+// shaders/sim/exact_math.glsl; the double versions serve the tests of the physics and use the library.
 #pragma once
 
 #include <bit>
@@ -15,7 +15,7 @@ namespace clothsim {
 [[gnu::always_inline]] inline float floatFromBits(std::uint32_t bits) { return std::bit_cast<float>(bits); }
 
 // 1 / sqrt(x) for 0 < x < 2^126 within 1.2 ulp, finite at 0: a guess of 12 bits, whose square is exact, then
-// the quartic in the residual r = 1 - x y^2 that is 1/sqrt(1 - r) - 1 (NUMERICS.md, "Functions").
+// the quartic in the residual r = 1 - x y^2 that is 1/sqrt(1 - r) - 1.
 [[gnu::always_inline]] inline float inverseSquareRoot(float x) {
   const float y = floatFromBits((0x5f330000u - (std::bit_cast<std::uint32_t>(x) >> 1)) & 0xfffff000u);
   const float r = 1.0f - x * (y * y);

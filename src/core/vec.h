@@ -1,6 +1,6 @@
 // Three-vectors in a fixed order of rounding: only + - * on components, sums from left to right. Simulation
-// code uses these instead of GLM, because the order of rounding is part of the numeric contract (DESIGN.md
-// section 3).
+// code uses these instead of GLM, because the order of rounding is part of the numeric contract
+// (docs/numeric-contract.md).
 #pragma once
 
 #include <cmath>

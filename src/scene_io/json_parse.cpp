@@ -1,9 +1,13 @@
-// JSON text to a tree with line numbers. nlohmann::json's lexer calls our handler with the values; an
-// iterator that notes how far the lexer has read tells where they are.
+// JSON text to a tree with line numbers. RapidJSON reads the text and hands its values to a builder; the
+// offsets of its stream tell where they are, and its error codes what is wrong.
+#include <rapidjson/memorystream.h>
+#include <rapidjson/reader.h>
+
 #include <algorithm>
 #include <cctype>
-#include <iterator>
-#include <nlohmann/json.hpp>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
 #include <set>
 
 #include "scene_io/json_tree.h"
@@ -14,39 +18,34 @@ namespace {
 
 constexpr std::size_t deepest = 64;
 constexpr std::size_t mostValues = 1'000'000;
+constexpr std::string_view byteOrderMark = "\xEF\xBB\xBF";
+constexpr std::string_view incompleteEscape = "a \\u escape is incomplete; write the character itself";
 
-// Walks over the text and leaves a mark of the farthest character read.
-class MarkingIterator {
- public:
-  using iterator_category = std::input_iterator_tag;
-  using value_type = char;
-  using difference_type = std::ptrdiff_t;
-  using pointer = const char*;
-  using reference = const char&;
+// Numbers are handed over as they are spelled, for messages; std::strtod rounds them correctly.
+constexpr unsigned readerFlags =
+    rapidjson::kParseValidateEncodingFlag | rapidjson::kParseNumbersAsStringsFlag;
 
-  MarkingIterator(const char* at, std::size_t* consumed) : at_(at), consumed_(consumed) {}
-  reference operator*() const { return *at_; }
-  MarkingIterator& operator++() {
-    ++at_;
-    ++*consumed_;
-    return *this;
-  }
-  MarkingIterator operator++(int) {
-    MarkingIterator old = *this;
-    ++*this;
-    return old;
-  }
-  bool operator==(const MarkingIterator& other) const { return at_ == other.at_; }
-
- private:
-  const char* at_;
-  std::size_t* consumed_;
+// What is wrong with the syntax, and the byte that shows it.
+struct Mistake {
+  rapidjson::ParseErrorCode code;
+  std::size_t at;
 };
+
+[[noreturn]] void complainAt(std::string_view text, std::size_t at, const std::string& message) {
+  const std::string_view before = text.substr(0, at);
+  const std::size_t lineStart = before.rfind('\n') + 1;  // npos + 1 is 0
+  throw JsonComplaint(1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
+                      1 + static_cast<int>(at - lineStart), "", message);
+}
 
 std::string printable(std::string_view text) {
   std::string result;
   for (const char c : text) result += c >= ' ' && c <= '~' ? c : '?';
   return result.size() > 160 ? result.substr(0, 160) + "..." : result;
+}
+
+[[noreturn]] void complainTooLarge(std::string_view text, std::size_t begin, std::size_t end) {
+  complainAt(text, end - 1, "the number " + printable(text.substr(begin, end - begin)) + " is too large");
 }
 
 // The word or single character at `at`, for messages and to guess what was meant.
@@ -65,26 +64,40 @@ char lastBefore(std::string_view text, std::size_t at) {
   return place == std::string_view::npos ? '\0' : text[place];
 }
 
-// nlohmann's words for a mistake, and ours, which tell what to do.
-struct Rewording {
-  std::string_view theirs, ours;
-};
-constexpr Rewording rewordings[] = {
-    {"ill-formed UTF-8", "a string holds bytes that are not valid UTF-8"},
-    {"invalid BOM", "the file is not text in UTF-8"},
-    {"control character",
-     "a string runs over the end of its line, or holds a control character; write \\n or \\t"},
-    {"forbidden character after backslash",
-     "after a backslash only \" \\ / b f n r t u may follow; a backslash itself is \\\\"},
-    {"expected end of input", "there is more text after the closing brace of the scene"},
-    {"parsing object separator", "a colon is missing between a key and its value"},
-    {"parsing object key", "expected a key in double quotes"},
-    {"invalid number", "this is not a number; write 0.5 or 1e-3"},
-    {"must be followed by", "a \\u escape is incomplete; write the character itself"},
-    {"parsing object - ", "expected a comma or a closing brace before this"},
-    {"parsing array - ", "expected a comma or a closing bracket before this"},
-    {"parsing value - ", "expected a value here: a number, \"text\", true, false, [list] or {object}"},
-};
+bool isInString(rapidjson::ParseErrorCode code) {
+  return code >= rapidjson::kParseErrorStringUnicodeEscapeInvalidHex &&
+         code <= rapidjson::kParseErrorStringInvalidEncoding;
+}
+
+// What is wrong, for a user who wants to know what to do.
+std::string_view sentenceAbout(rapidjson::ParseErrorCode code) {
+  switch (code) {
+    case rapidjson::kParseErrorStringInvalidEncoding:
+      return "a string holds bytes that are not valid UTF-8";
+    case rapidjson::kParseErrorStringMissQuotationMark:
+      return "a string runs over the end of its line, or holds a control character; write \\n or \\t";
+    case rapidjson::kParseErrorStringEscapeInvalid:
+      return "after a backslash only \" \\ / b f n r t u may follow; a backslash itself is \\\\";
+    case rapidjson::kParseErrorStringUnicodeEscapeInvalidHex:
+    case rapidjson::kParseErrorStringUnicodeSurrogateInvalid:
+      return incompleteEscape;
+    case rapidjson::kParseErrorDocumentRootNotSingular:
+      return "there is more text after the closing brace of the scene";
+    case rapidjson::kParseErrorObjectMissColon:
+      return "a colon is missing between a key and its value";
+    case rapidjson::kParseErrorObjectMissName:
+      return "expected a key in double quotes";
+    case rapidjson::kParseErrorNumberMissFraction:
+    case rapidjson::kParseErrorNumberMissExponent:
+      return "this is not a number; write 0.5 or 1e-3";
+    case rapidjson::kParseErrorObjectMissCommaOrCurlyBracket:
+      return "expected a comma or a closing brace before this";
+    case rapidjson::kParseErrorArrayMissCommaOrSquareBracket:
+      return "expected a comma or a closing bracket before this";
+    default:
+      return "expected a value here: a number, \"text\", true, false, [list] or {object}";
+  }
+}
 
 // What a word or character at the place of the mistake was probably meant to be.
 std::string guessFromText(std::string_view text, std::size_t at) {
@@ -106,95 +119,163 @@ std::string guessFromText(std::string_view text, std::size_t at) {
   return "";
 }
 
-// The digits of a number that ends at `at`.
+// Whether the digits that end at `at` begin with a zero too many.
 bool hasLeadingZero(std::string_view text, std::size_t at) {
   std::size_t begin = at;
   while (begin > 0 && std::isdigit(static_cast<unsigned char>(text[begin - 1])) != 0) --begin;
   return begin < at && text[begin] == '0' && std::isdigit(static_cast<unsigned char>(text[at])) != 0;
 }
 
-// The message of a wrong syntax; `error` is nlohmann's, for what we do not know better.
-std::string syntaxMessage(std::string_view text, std::size_t at, const std::string& error) {
-  constexpr std::string_view overflow = "number overflow parsing '";
-  if (const std::size_t place = error.find(overflow); place != std::string::npos)
-    return "the number " +
-           printable(error.substr(place + overflow.size(), error.rfind('\'') - place - overflow.size())) +
-           " is too large";
-  if (at >= text.size()) return "the file ends too early: a brace, bracket or quote is not closed";
-  const auto byte = static_cast<unsigned char>(text[at]);
-  if (at == 0 && (byte >= 0x7F || (byte < ' ' && byte != '\n'))) return "the file is not text in UTF-8";
-  const bool insideString = error.find("invalid string") != std::string::npos;
-  if (!insideString) {
-    if (hasLeadingZero(text, at)) return "a number has no leading zeros";
-    if (std::string guess = guessFromText(text, at); !guess.empty()) return guess;
+std::string syntaxMessage(std::string_view text, Mistake mistake) {
+  if (mistake.at >= text.size()) return "the file ends too early: a brace, bracket or quote is not closed";
+  const auto byte = static_cast<unsigned char>(text[mistake.at]);
+  if (mistake.at == 0 && (byte >= 0x7F || (byte < ' ' && byte != '\n')))
+    return "the file is not text in UTF-8";
+  if (!isInString(mistake.code)) {
+    if (hasLeadingZero(text, mistake.at)) return "a number has no leading zeros";
+    if (std::string guess = guessFromText(text, mistake.at); !guess.empty()) return guess;
   }
-  for (const auto& [theirs, ours] : rewordings)
-    if (error.find(theirs) != std::string::npos) return std::string(ours);
-  const std::size_t sentence = error.find("syntax error");
-  return printable(sentence == std::string::npos ? error : error.substr(sentence));
+  return std::string(sentenceAbout(mistake.code));
 }
 
-// nlohmann's SAX interface: builds the tree, and refuses what its own tree would swallow.
+// The first byte that does not continue the character of UTF-8 that begins at `at` (Unicode 15, table 3-7).
+std::size_t illFormedByte(std::string_view text, std::size_t at) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(i < text.size() ? text[i] : 0); };
+  const unsigned char lead = byte(at), second = byte(at + 1);
+  if (lead < 0xC2 || lead > 0xF4) return at;
+  const int lowest = lead == 0xE0 ? 0xA0 : lead == 0xF0 ? 0x90 : 0x80;
+  const int highest = lead == 0xED ? 0x9F : lead == 0xF4 ? 0x8F : 0xBF;
+  if (second < lowest || second > highest) return at + 1;
+  return (byte(at + 2) & 0xC0U) == 0x80U ? at + 3 : at + 2;
+}
+
+// The first byte that is wrong in the escape that begins at `at`: a pair of \uXXXX is the longest.
+std::size_t wrongByteOfEscape(std::string_view text, std::size_t at) {
+  for (const char expected : std::string_view("\\uXXXX\\uXXXX")) {
+    const char c = at < text.size() ? text[at] : '\0';
+    if (expected == 'X' ? std::isxdigit(static_cast<unsigned char>(c)) == 0 : c != expected) return at;
+    ++at;
+  }
+  return at - 1;
+}
+
+// The end of the number that begins at `begin`.
+std::size_t numberEnd(std::string_view text, std::size_t begin) {
+  double value = 0;
+  return static_cast<std::size_t>(std::from_chars(text.data() + begin, text.data() + text.size(), value).ptr -
+                                  text.data());
+}
+
+// Takes what it is told and keeps nothing.
+using Ignore = rapidjson::BaseReaderHandler<>;
+
+Mistake refined(std::string_view text, Mistake mistake);
+
+// A token stands where another kind was expected: the mistake is within the token, or else shown at its end.
+Mistake atMisplacedToken(std::string_view text, Mistake mistake) {
+  if (mistake.at >= text.size() ||
+      std::string_view("{}[]:,").find(text[mistake.at]) != std::string_view::npos)
+    return mistake;
+  rapidjson::MemoryStream stream(text.data() + mistake.at, text.size() - mistake.at);
+  rapidjson::Reader reader;
+  Ignore ignore;
+  const auto result = reader.Parse<readerFlags | rapidjson::kParseStopWhenDoneFlag>(stream, ignore);
+  if (!result.IsError()) return {mistake.code, mistake.at + stream.Tell() - 1};
+  const Mistake inToken = refined(text, {result.Code(), mistake.at + result.Offset()});
+  if (inToken.code == rapidjson::kParseErrorNumberTooBig)
+    return {mistake.code, numberEnd(text, mistake.at) - 1};
+  const bool commaIsMissing = mistake.code == rapidjson::kParseErrorObjectMissCommaOrCurlyBracket ||
+                              mistake.code == rapidjson::kParseErrorArrayMissCommaOrSquareBracket;
+  const bool isWrongNumber = inToken.code == rapidjson::kParseErrorNumberMissFraction ||
+                             inToken.code == rapidjson::kParseErrorNumberMissExponent;
+  if (isInString(inToken.code) || (isWrongNumber && commaIsMissing)) return inToken;
+  return {mistake.code, inToken.at};
+}
+
+// RapidJSON reports where a token begins; people look where it goes wrong.
+Mistake refined(std::string_view text, Mistake mistake) {
+  switch (mistake.code) {
+    case rapidjson::kParseErrorObjectMissName:
+    case rapidjson::kParseErrorObjectMissColon:
+    case rapidjson::kParseErrorObjectMissCommaOrCurlyBracket:
+    case rapidjson::kParseErrorArrayMissCommaOrSquareBracket:
+    case rapidjson::kParseErrorDocumentRootNotSingular:
+      return atMisplacedToken(text, mistake);
+    case rapidjson::kParseErrorStringEscapeInvalid:  // of a control character, too
+      if (text[mistake.at] != '\\') return {rapidjson::kParseErrorStringMissQuotationMark, mistake.at};
+      return {mistake.code, wrongByteOfEscape(text, mistake.at)};
+    case rapidjson::kParseErrorStringUnicodeEscapeInvalidHex:
+    case rapidjson::kParseErrorStringUnicodeSurrogateInvalid:
+      return {mistake.code, wrongByteOfEscape(text, mistake.at)};
+    case rapidjson::kParseErrorStringInvalidEncoding:
+      return {mistake.code, illFormedByte(text, mistake.at)};
+    case rapidjson::kParseErrorValueInvalid:  // of a minus without a number, too
+      if (mistake.at > 0 && text[mistake.at - 1] == '-')
+        return {rapidjson::kParseErrorNumberMissFraction, mistake.at};
+      return mistake;
+    default:
+      return mistake;
+  }
+}
+
+// RapidJSON's handler: builds the tree, and refuses duplicate keys and what is too deep or too much.
 class TreeBuilder {
  public:
-  TreeBuilder(std::string_view text, const std::size_t* consumed) : text_(text), consumed_(consumed) {}
+  TreeBuilder(std::string_view text, const rapidjson::MemoryStream& stream) : text_(text), stream_(stream) {}
 
-  bool null() { return add(std::make_unique<JsonNode>()); }
-  bool boolean(bool value) { return add(makeBoolean(value)); }
-  bool number_integer(std::int64_t value) {  // below 0, and -0
-    return value == 0 ? addNumber(-0.0, "-0") : addNumber(static_cast<double>(value), std::to_string(value));
+  bool Null() { return add(std::make_unique<JsonNode>()); }
+  bool Bool(bool value) { return add(makeBoolean(value)); }
+  bool RawNumber(const char* spelled, rapidjson::SizeType length, bool) {
+    JsonPointer node = makeNumber(std::strtod(spelled, nullptr));
+    node->text.assign(spelled, length);
+    if (!std::isfinite(node->number)) complainTooLarge(text_, stream_.Tell() - length, stream_.Tell());
+    return add(std::move(node));
   }
-  bool number_unsigned(std::uint64_t value) {
-    return addNumber(static_cast<double>(value), std::to_string(value));
+  bool String(const char* value, rapidjson::SizeType length, bool) {
+    return add(makeString(checked({value, length})));
   }
-  bool number_float(double value, const std::string& spelled) { return addNumber(value, spelled); }
-  bool string(std::string& value) { return add(makeString(value)); }
-  bool binary(nlohmann::json::binary_t&) { return false; }
-  bool start_object(std::size_t) { return open(makeObject()); }
-  bool start_array(std::size_t) { return open(makeList()); }
-  bool end_object() { return close(); }
-  bool end_array() { return close(); }
+  bool StartObject() { return open(makeObject()); }
+  bool StartArray() { return open(makeList()); }
+  bool EndObject(rapidjson::SizeType) { return close(); }
+  bool EndArray(rapidjson::SizeType) { return close(); }
 
-  bool key(std::string& name) {
-    key_ = name;
-    if (!isComment(name) && !keys_.back().insert(name).second) {
+  bool Key(const char* name, rapidjson::SizeType length, bool) {
+    key_ = checked({name, length});
+    if (!isComment(key_) && !keys_.back().insert(key_).second) {
       JsonNode duplicate;
-      duplicate.key = name;
+      duplicate.key = key_;
       duplicate.parent = open_.back();
       duplicate.line = currentLine();
       complain(duplicate,
-               "the key is there twice, first in line " + std::to_string(open_.back()->find(name)->line));
+               "the key is there twice, first in line " + std::to_string(open_.back()->find(key_)->line));
     }
     return true;
   }
 
-  bool parse_error(std::size_t position, const std::string&, const nlohmann::detail::exception& error) {
-    const std::size_t at = std::min(position == 0 ? 0 : position - 1, text_.size());
-    const std::string_view before = text_.substr(0, at);
-    const std::size_t lineStart = before.rfind('\n') + 1;  // npos + 1 is 0
-    const int line = 1 + static_cast<int>(std::count(before.begin(), before.end(), '\n'));
-    throw JsonComplaint(line, 1 + static_cast<int>(at - lineStart), "",
-                        syntaxMessage(text_, at, error.what()));
-  }
+  // Numbers come as they are spelled.
+  static bool Int(int) { return false; }
+  static bool Uint(unsigned) { return false; }
+  static bool Int64(std::int64_t) { return false; }
+  static bool Uint64(std::uint64_t) { return false; }
+  static bool Double(double) { return false; }
 
   JsonPointer takeRoot() { return std::move(root_); }
 
  private:
-  // The line of the token just read. The character read last is either its end or, after a number, the one
-  // behind it.
+  // The line of the token just read.
   int currentLine() {
-    const std::size_t end = *consumed_ == 0 ? 0 : std::min(*consumed_ - 1, text_.size());
-    line_ += static_cast<int>(std::count(text_.begin() + static_cast<std::ptrdiff_t>(counted_),
-                                         text_.begin() + static_cast<std::ptrdiff_t>(std::max(end, counted_)),
-                                         '\n'));
-    counted_ = std::max(end, counted_);
+    const char* const end = text_.data() + stream_.Tell();
+    line_ += static_cast<int>(std::count(text_.data() + counted_, end, '\n'));
+    counted_ = stream_.Tell();
     return line_;
   }
 
-  bool addNumber(double value, std::string spelled) {
-    JsonPointer node = makeNumber(value);
-    node->text = std::move(spelled);
-    return add(std::move(node));
+  // RapidJSON 1.1 takes the second half of a surrogate pair for a character.
+  std::string_view checked(std::string_view string) {
+    for (std::size_t at = string.find('\xED'); at != std::string_view::npos; at = string.find('\xED', at + 1))
+      if (static_cast<unsigned char>(string[at + 1]) >= 0xA0)
+        throw JsonComplaint(currentLine(), 0, "", std::string(incompleteEscape));
+    return string;
   }
 
   bool add(JsonPointer node) {
@@ -228,7 +309,7 @@ class TreeBuilder {
   }
 
   std::string_view text_;
-  const std::size_t* consumed_;
+  const rapidjson::MemoryStream& stream_;
   std::size_t counted_ = 0, values_ = 0;
   int line_ = 1;
   std::string key_;
@@ -242,11 +323,22 @@ class TreeBuilder {
 JsonPointer parseJson(std::string_view text) {
   if (text.find_first_not_of(" \t\r\n\xEF\xBB\xBF") == std::string_view::npos)
     throw JsonComplaint(0, 0, "", "the file is empty; expected a scene, {...}");
-  std::size_t consumed = 0, unused = 0;
-  TreeBuilder builder(text, &consumed);
-  nlohmann::json::sax_parse(MarkingIterator(text.data(), &consumed),
-                            MarkingIterator(text.data() + text.size(), &unused), &builder);
-  // nlohmann's lexer takes it for the end of the text.
+  rapidjson::MemoryStream stream(text.data(), text.size());
+  for (const char byte : byteOrderMark) {
+    if (!text.starts_with(byteOrderMark.front())) break;
+    if (stream.Peek() != byte) complainAt(text, stream.Tell(), "the file is not text in UTF-8");
+    stream.Take();
+  }
+  TreeBuilder builder(text, stream);
+  rapidjson::Reader reader;
+  const rapidjson::ParseResult result = reader.Parse<readerFlags>(stream, builder);
+  if (result.Code() == rapidjson::kParseErrorNumberTooBig)
+    complainTooLarge(text, result.Offset(), numberEnd(text, result.Offset()));
+  if (result.IsError()) {
+    const Mistake mistake = refined(text, {result.Code(), result.Offset()});
+    complainAt(text, mistake.at, syntaxMessage(text, mistake));
+  }
+  // To RapidJSON it is the end of the text.
   if (const std::size_t at = text.find('\0'); at != std::string_view::npos)
     throw JsonComplaint(
         1 + static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n')),

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/utf8.h"
+
 namespace clothsim {
 
 namespace {
@@ -37,7 +39,7 @@ std::string quoted(std::string_view text) {
 std::string shortened(const std::string& text, std::size_t limit) {
   if (text.size() <= limit) return text;
   std::size_t end = limit;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
+  while (end > 0 && continuesCharacter(text[end])) --end;
   return text.substr(0, end) + "...";
 }
 

@@ -1,6 +1,6 @@
 // JSON as a tree that remembers keys in order and the line of every value, so that a wrong scene can be
-// reported with its place. nlohmann::json reads the text; its own tree keeps neither lines nor duplicate
-// keys. Private to src/scene_io, and to files that hold scenes among other things (session/recording.cpp).
+// reported with its place. Libraries' own trees keep neither lines nor duplicate keys. For src/scene_io, and
+// for readers of files that hold scenes among other things.
 #pragma once
 
 #include <memory>

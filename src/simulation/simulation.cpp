@@ -8,7 +8,7 @@ namespace clothsim {
 
 std::unique_ptr<Solver> makeCpuSolver(const std::string& backend, const Shared<Cloth>& cloth,
                                       const Shared<Scene>& scene) {
-  if (backend == "cpu") return std::make_unique<CpuSolver<float>>(*cloth, *scene);
+  if (backend == "cpu") return std::make_unique<CpuSolver<float>>(*cloth, scene);
   throw UsageError("there is no backend \"" + backend + "\" here; expected cpu");
 }
 
@@ -41,7 +41,7 @@ void Simulation::setState(const State& state) {
 void Simulation::restart() { setState(initialState(*cloth_, *scene_)); }
 
 void Simulation::configure(const Shared<Scene>& scene) {
-  solver_->configure(*scene);
+  solver_->configure(scene);
   scene_ = scene;
 }
 

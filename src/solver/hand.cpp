@@ -97,8 +97,8 @@ void putHold(const Hold& hold, double h, std::uint64_t step, HandParams<Real>& p
   params.rows = hold.rows;
   params.resistance = real<Real>(resistance);
   params.reach = real<Real>(resistance > 0 ? h * (1 + resistance) / resistance : 0);
-  params.largestWay = real<Real>(h * LARGEST_HAND_SPEED);
-  params.largestWaySquared = real<Real>(h * h * LARGEST_HAND_SPEED * LARGEST_HAND_SPEED);
+  params.largestDisplacement = real<Real>(h * LARGEST_HAND_SPEED);
+  params.largestDisplacementSquared = real<Real>(h * h * LARGEST_HAND_SPEED * LARGEST_HAND_SPEED);
   params.largestSpeed = real<Real>(LARGEST_HAND_SPEED);
   params.largestSpeedSquared = real<Real>(LARGEST_HAND_SPEED * LARGEST_HAND_SPEED);
 }

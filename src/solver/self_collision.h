@@ -1,7 +1,7 @@
 // Self-collision as both backends see it: distances, the hash and its margins, evaluated on the host.
 //
 // Two triangles of a lattice of spacing h, stretched by at most e, cannot cross unless two of their
-// particles, one of each, are nearer than D = (1 + e) h (PHYSICS.md section 4; h is sqrt((hx^2 + hy^2) / 2)
+// particles, one of each, are nearer than D = (1 + e) h (docs/physics.md; h is sqrt((hx^2 + hy^2) / 2)
 // where the spacings differ). "robust" therefore pushes strangers, particles not in one cell of a grid, apart
 // to d = max(thickness, D + delta / 2), delta the relative motion allowed for in a step, and never ends a
 // step with a pair nearer than D that was not so before. "averaged" is CS184's rule: d = 2 thickness for all

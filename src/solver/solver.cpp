@@ -2,18 +2,151 @@
 
 #include "core/exact_math.h"
 #include "core/hash.h"
+#include "core/interrupt.h"
 #include "solver/step_params.h"
 
 namespace clothsim {
 
-State initialState(const Cloth& cloth, const Scene& scene) {
+State Snapshot::state() const {
   State state;
-  state.positions.resize(cloth.particleCount());
-  state.velocities.resize(cloth.particleCount());
-  for (std::size_t i = 0; i < state.positions.size(); ++i) {
-    const auto x = startPosition<float>(cloth, i);
-    state.positions[i] = {x.x, x.y, x.z, static_cast<float>(cloth.inverseMasses()[i])};
+  particles->download(state);
+  state.clock = clock;
+  state.integrator = integrator;
+  state.cuts = cuts;
+  state.offPath = offPath;
+  return state;
+}
+
+Solver::Solver(const Cloth& cloth, const Shared<Scene>& scene, std::unique_ptr<Executor> executor)
+    : executor_(std::move(executor)) {
+  inputs_.cloth = &cloth;
+  inputs_.velocityMeaning = startingVelocityMeaning(*scene);
+  executor_->forgetTrouble(0);
+  configure(scene);
+}
+
+void Solver::configure(const Shared<Scene>& scene) {
+  assert(scene->cloths.size() == inputs_.cloth->grids().size() &&
+         "configure() takes live edits of the solver's own scene");
+  inputs_.distanceGrids = distanceGridsOf(*scene);
+  inputs_.scene = scene;
+  inputs_.clock.setStepLength(stepLength(inputs_.scene->solver));
+  step_ = makeStep(*inputs_.scene, *inputs_.cloth);
+  executor_->setScene(inputs_);
+  setOffPath(inputs_.offPath);
+}
+
+void Solver::setOffPath(std::vector<std::uint32_t> offPath) {
+  inputs_.offPath = std::move(offPath);
+  inputs_.pinPaths = makePinPaths(*inputs_.scene, *inputs_.cloth, inputs_.offPath);
+  executor_->prepare(inputs_, step_);
+}
+
+void Solver::checkStart() {
+  if (startIsChecked_) return;
+  startIsChecked_ = true;
+  executor_->run(inputs_, startCheck_, 1);
+}
+
+// verlet carries v(n - 1/2), euler v(n): the difference is h a / 2.
+void Solver::convertVelocities() {
+  const Integrator wanted = velocityMeaningOf(inputs_.scene->solver.integrator);
+  if (wanted == inputs_.velocityMeaning) return;
+  checkStart();
+  inputs_.velocityMeaning = wanted;
+  executor_->run(inputs_, conversion_, 1);
+}
+
+void Solver::step(int count) {
+  checkStart();
+  convertVelocities();
+  for (int i = 0; i < count && !trouble_ && !isInterrupted(); ++i) {
+    executor_->run(inputs_, step_, count - i);
+    ++inputs_.clock.step;
+    trouble_ = executor_->findTrouble(inputs_.clock.step, false);
   }
+  executor_->flush();
+}
+
+std::vector<PassTime> Solver::timePasses(int steps) {
+  executor_->startTiming();
+  step(steps);
+  return executor_->stopTiming();
+}
+
+std::optional<Trouble> Solver::trouble() {
+  // A conversion belongs to the step that follows it.
+  if (!trouble_) trouble_ = executor_->findTrouble(inputs_.clock.step + 1, true);
+  return trouble_;
+}
+
+std::unique_ptr<Snapshot> Solver::snapshot(std::unique_ptr<Snapshot> reuse) {
+  if (!reuse) reuse = std::make_unique<Snapshot>();
+  reuse->particles = executor_->copy(std::move(reuse->particles));
+  reuse->clock = inputs_.clock;
+  reuse->integrator = inputs_.velocityMeaning;
+  reuse->cuts = inputs_.cuts;
+  reuse->offPath = inputs_.offPath;
+  return reuse;
+}
+
+void Solver::restore(const Snapshot& snapshot) {
+  if (!executor_->restore(*snapshot.particles)) return setState(snapshot.state());
+  setBooks(snapshot.clock, snapshot.integrator, snapshot.offPath, snapshot.cuts);
+}
+
+State Solver::state() {
+  convertVelocities();
+  State state;
+  executor_->download(state);
+  state.clock = inputs_.clock;
+  state.integrator = inputs_.velocityMeaning;
+  state.cuts = inputs_.cuts;
+  state.offPath = inputs_.offPath;
+  return state;
+}
+
+void Solver::setState(const State& state) {
+  assert(state.positions.size() == inputs_.cloth->particleCount() &&
+         "the state must be of the solver's cloth");
+  executor_->upload(state);
+  setBooks(state.clock, state.integrator, state.offPath, state.cuts);
+}
+
+// What a state holds besides the particles.
+void Solver::setBooks(const StepClock& clock, Integrator integrator,
+                      const std::vector<std::uint32_t>& offPath, const Cuts& cuts) {
+  inputs_.clock = clock;
+  inputs_.clock.setStepLength(stepLength(inputs_.scene->solver));
+  inputs_.velocityMeaning = integrator;
+  setOffPath(offPath);
+  if (inputs_.cuts != cuts) setCuts(cuts);
+  startIsChecked_ = false;
+  trouble_.reset();
+  executor_->forgetTrouble(inputs_.clock.step);
+}
+
+void Solver::setHand(const Hand& hand) {
+  inputs_.hand = hand;
+  executor_->prepare(inputs_, step_);
+}
+
+void Solver::setCuts(const Cuts& cuts) {
+  inputs_.cuts = cuts;
+  inputs_.cutMasks = makeCutMasks(*inputs_.cloth, cuts);
+  executor_->setCuts(inputs_);
+  executor_->prepare(inputs_, step_);
+}
+
+void Solver::setPin(std::uint32_t particle, bool pinned) {
+  executor_->setInverseMass(particle, pinned ? 0 : 1 / inputs_.cloth->massOf(particle));
+  std::vector<std::uint32_t> offPath = inputs_.offPath;
+  leavePath(offPath, particle);
+  setOffPath(std::move(offPath));
+}
+
+State initialState(const Cloth& cloth, const Scene& scene) {
+  State state = stateAtRest(cloth);
   state.integrator = startingVelocityMeaning(scene);
   return state;
 }

@@ -1,5 +1,5 @@
-// The only place where time advances. Both backends run the same passes in the same order and agree in every
-// bit.
+// The only place where time advances. It holds what a step depends on - scene, clock, hand, cuts, pins - and
+// the list of passes that a step is made of; an executor does them. Both executors agree in every bit.
 #pragma once
 
 #include <cassert>
@@ -11,56 +11,59 @@
 
 #include "cloth/cloth.h"
 #include "cloth/cuts.h"
+#include "core/shared.h"
+#include "solver/executor.h"
 #include "solver/hand.h"
 #include "solver/state.h"
 #include "solver/trouble.h"
 
 namespace clothsim {
 
-// What self-collision had to do since the solver was made.
-struct ContactCounts {
-  std::uint64_t hashBuilds = 0;
-  std::uint64_t guardedSteps = 0;  // in which motion had to be cut short
-  std::uint64_t fastSteps = 0;     // in which some particle moved farther than the search reaches
+// A state, its particles on the device of a solver. Outlives the solver, on the GPU not the context.
+struct Snapshot {
+  std::unique_ptr<ParticleCopy> particles;
+  StepClock clock;
+  Integrator integrator = Integrator::verlet;
+  Cuts cuts;
+  std::vector<std::uint32_t> offPath;
 
-  friend ContactCounts operator+(const ContactCounts& a, const ContactCounts& b) {
-    return {a.hashBuilds + b.hashBuilds, a.guardedSteps + b.guardedSteps, a.fastSteps + b.fastSteps};
-  }
-};
-
-// A state on the device of a solver. Outlives the solver, on the GPU not the context.
-class Snapshot {
- public:
-  virtual ~Snapshot() = default;
-  [[nodiscard]] virtual std::size_t bytes() const = 0;  // on the device
-  [[nodiscard]] virtual State state() const = 0;        // blocking
+  [[nodiscard]] std::size_t bytes() const { return particles->bytes(); }  // on the device
+  [[nodiscard]] State state() const;                                      // blocking
 };
 
 class Solver {
  public:
+  // At the start, at rest. `cloth` must outlive the solver.
+  Solver(const Cloth& cloth, const Shared<Scene>& scene, std::unique_ptr<Executor> executor);
   virtual ~Solver() = default;
+  Solver(const Solver&) = delete;
+  Solver& operator=(const Solver&) = delete;
 
   // Live parameters: gravity, wind, damping, colliders, integrator, step length... of `scene`, from the next
   // step on. The time stays what it is. Changing the integrator converts the velocities by -+ h a / 2. The
   // grids must be those of the solver's cloth.
-  virtual void configure(const Scene& scene) = 0;
+  void configure(const Shared<Scene>& scene);
 
   // Advances by `count` steps; by fewer once an interrupt has come (core/interrupt.h) or, on the CPU, after
   // trouble. Neither throws nor allocates; on the GPU nothing is waited for.
-  virtual void step(int count) = 0;
+  void step(int count);
   // Waits until every step is done. @throws OpenGlError when the driver has reported an error meanwhile
-  virtual void finish() = 0;
+  void finish() { executor_->finish(); }
+  // The passes of a step.
+  [[nodiscard]] const PassList& passes() const { return step_; }
+  // Steps, and times every pass, which slows the whole.
+  [[nodiscard]] std::vector<PassTime> timePasses(int steps);
 
   // The first trouble since the solver was made or setState() was called; the same on both backends. Waits
   // for the steps, and looks at a few bytes for each of them. Steps after trouble lead nowhere and look for
   // no contacts, which could take minutes in a heap of broken numbers.
-  [[nodiscard]] virtual std::optional<Trouble> trouble() = 0;
+  [[nodiscard]] std::optional<Trouble> trouble();
 
   // A copy of the state where it lies, and back to it, which forgets trouble. On its own device nothing is
   // waited for; a snapshot of the other backend's solver for the same number of particles serves as well.
   // `reuse`: a snapshot that is needed no more, whose memory may be taken.
-  [[nodiscard]] virtual std::unique_ptr<Snapshot> snapshot(std::unique_ptr<Snapshot> reuse = nullptr) = 0;
-  virtual void restore(const Snapshot& snapshot) = 0;
+  [[nodiscard]] std::unique_ptr<Snapshot> snapshot(std::unique_ptr<Snapshot> reuse = nullptr);
+  void restore(const Snapshot& snapshot);
   // keep() remembers a snapshot, revert() goes back to it.
   void keep() { kept_ = snapshot(std::move(kept_)); }
   void revert() {
@@ -70,34 +73,53 @@ class Solver {
 
   // A blocking copy of the state, and its inverse: together they hand a simulation from one backend to the
   // other.
-  [[nodiscard]] virtual State state() = 0;
-  virtual void setState(const State& state) = 0;
+  [[nodiscard]] State state();
+  void setState(const State& state);
   // Does at once what the next step or state() would begin with: turns the velocities into those of an
   // integrator that configure() has brought.
-  virtual void convertVelocities() = 0;
+  void convertVelocities();
   // Positions of a few particles [first, first + count); a small blocking read-back on the GPU.
-  [[nodiscard]] virtual std::vector<Particle4> positions(std::uint32_t first, std::uint32_t count) = 0;
+  [[nodiscard]] std::vector<Particle4> positions(std::uint32_t first, std::uint32_t count) {
+    return executor_->positions(first, count);
+  }
 
   // What a hand does from the next step on.
-  virtual void setHand(const Hand& hand) = 0;
+  void setHand(const Hand& hand);
   // Springs that are cut exert no force, are not limited and not watched; triangles that lost a side meet no
   // air. Under robust self-collision particles of one cell become strangers once the spring between them is
   // cut: they are kept at their distance at rest, like other pairs that lie near each other then. That is
   // less than D (self_collision.h), so it keeps the two sides of a cut apart in practice, but proves nothing.
-  virtual void setCuts(const Cuts& cuts) = 0;
-  [[nodiscard]] virtual const Cuts& cuts() const = 0;
+  void setCuts(const Cuts& cuts);
+  [[nodiscard]] const Cuts& cuts() const { return inputs_.cuts; }
   // Pins a particle where it is now, off any path that the scene has for it; or gives it its mass back. It is
   // at rest after either.
-  virtual void setPin(std::uint32_t particle, bool pinned) = 0;
-  [[nodiscard]] virtual const StepClock& clock() const = 0;
+  void setPin(std::uint32_t particle, bool pinned);
+  [[nodiscard]] const StepClock& clock() const { return inputs_.clock; }
   [[nodiscard]] std::uint64_t stepIndex() const { return clock().step; }
   // A small blocking read-back on the GPU.
-  [[nodiscard]] virtual ContactCounts contactCounts() = 0;
+  [[nodiscard]] ContactCounts contactCounts() { return executor_->contactCounts(); }
 
-  [[nodiscard]] virtual std::string backend() const = 0;  // "cpu" or "gpu"
-  [[nodiscard]] virtual std::string device() const = 0;   // what it runs on, for people
+  [[nodiscard]] std::string backend() const { return executor_->backend(); }  // "cpu" or "gpu"
+  [[nodiscard]] std::string device() const { return executor_->device(); }    // what it runs on, for people
+
+ protected:
+  [[nodiscard]] Executor& executor() const { return *executor_; }
+  [[nodiscard]] const StepInputs& inputs() const { return inputs_; }
+  // After a change of the state from outside: it may hold anything.
+  void distrustState() { startIsChecked_ = false; }
 
  private:
+  void setBooks(const StepClock& clock, Integrator integrator, const std::vector<std::uint32_t>& offPath,
+                const Cuts& cuts);
+  void setOffPath(std::vector<std::uint32_t> offPath);
+  void checkStart();
+
+  StepInputs inputs_;
+  PassList step_;
+  const PassList conversion_ = makeConversion(), startCheck_ = makeStartCheck();
+  std::unique_ptr<Executor> executor_;
+  bool startIsChecked_ = true;  // false once a state was handed in
+  std::optional<Trouble> trouble_;
   std::unique_ptr<Snapshot> kept_;
 };
 

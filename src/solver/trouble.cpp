@@ -39,26 +39,12 @@ std::string what(const Trouble& trouble, const Scene& scene) {
   return "";
 }
 
-}  // namespace
+// By PASS_... of shared/step_params.h, in the order of a step. Self-collision is none of them, since it moves
+// particles by no more than their distance.
+constexpr std::array<Pass, PASSES> watchedPasses{
+    Pass::checkStart, Pass::kick, Pass::forces, Pass::integrate, Pass::limit, Pass::collide, Pass::limit};
 
-std::string nameOf(Pass pass) {
-  switch (pass) {
-    case Pass::start:
-      return "start";
-    case Pass::kick:
-      return "kick";
-    case Pass::forces:
-      return "forces";
-    case Pass::integrate:
-      return "integrate";
-    case Pass::collide:
-      return "collide";
-    case Pass::earlyLimit:
-    case Pass::limit:
-      return "limit";
-  }
-  return "";
-}
+}  // namespace
 
 WatchRow soundWatchRow() {
   WatchRow row;
@@ -69,7 +55,7 @@ WatchRow soundWatchRow() {
 std::optional<Trouble> firstTrouble(const WatchRow& row, std::uint64_t step) {
   for (std::uint32_t pass = 0; pass < PASSES; ++pass)
     if (row[pass] != NO_TROUBLE)
-      return Trouble{static_cast<TroubleReason>(row[pass] % 4), static_cast<Pass>(pass), step, row[pass] / 4};
+      return Trouble{static_cast<TroubleReason>(row[pass] % 4), watchedPasses[pass], step, row[pass] / 4};
   return std::nullopt;
 }
 
@@ -121,7 +107,7 @@ Remedy forExplicitSteps(const Scene& scene) {
 }  // namespace
 
 Remedy remedyFor(const Trouble& trouble, const Scene& scene) {
-  if (trouble.pass == Pass::start)
+  if (trouble.pass == Pass::checkStart)
     return {"The state that the step began with was wrong already: begin with another one.", {}};
   const bool isImplicit = scene.solver.integrator == Integrator::implicit;
   Remedy remedy = isImplicit ? forImplicitSteps(scene) : forExplicitSteps(scene);

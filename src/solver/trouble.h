@@ -11,21 +11,9 @@
 #include "cloth/cloth.h"
 #include "scene/scene.h"
 #include "shared/step_params.h"
+#include "solver/pass.h"
 
 namespace clothsim {
-
-// In the order of a step; self-collision is none of them, since it moves particles by no more than their
-// distance. `start` is the state that a step began with, when it was handed in by setState().
-enum class Pass : std::uint32_t {
-  start = PASS_START,
-  kick = PASS_KICK,
-  forces = PASS_FORCES,
-  integrate = PASS_INTEGRATE,
-  earlyLimit = PASS_EARLY_LIMIT,
-  collide = PASS_COLLIDE,
-  limit = PASS_LIMIT
-};
-[[nodiscard]] std::string nameOf(Pass pass);
 
 enum class TroubleReason : std::uint32_t {
   nonFinite = REASON_NON_FINITE,         // an infinity or a NaN, or a speed beyond 1.8e19 m/s
@@ -36,15 +24,15 @@ enum class TroubleReason : std::uint32_t {
 // The first trouble of a simulation: the earliest step, in it the earliest pass, in that the lowest particle.
 struct Trouble {
   TroubleReason reason = TroubleReason::nonFinite;
-  Pass pass = Pass::start;
+  Pass pass = Pass::checkStart;
   std::uint64_t step = 0;      // counted from 1: stepIndex() at the end of that step
   std::uint32_t particle = 0;  // of a spring: the end with the larger index, its owner (cloth/cloth.h)
   friend bool operator==(const Trouble&, const Trouble&) = default;
 };
 
-// What the passes of one step have noted, by pass: 4 * particle + reason, the lowest that came up, or
-// NO_TROUBLE. A minimum does not depend on the order in which particles are visited, nor grids stepped, nor
-// on whether passes are fused.
+// What the passes of one step have noted, by PASS_... of shared/step_params.h: 4 * particle + reason, the
+// lowest that came up, or NO_TROUBLE. A minimum does not depend on the order in which particles are visited,
+// nor grids stepped, nor on whether passes are fused.
 using WatchRow = std::array<std::uint32_t, PASSES>;
 [[nodiscard]] WatchRow soundWatchRow();
 // `step` as in Trouble.

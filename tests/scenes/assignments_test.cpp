@@ -1,5 +1,4 @@
-// The assignments' scenes end where their own programs, run in double precision, end (PHYSICS.md and the
-// issue name the figures).
+// The assignments' scenes end where their own programs, run in double precision, end.
 #include <gtest/gtest.h>
 
 #include <algorithm>

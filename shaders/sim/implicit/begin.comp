@@ -1,28 +1,28 @@
-// The start of an implicit step: what inertia, air and hands make of a particle's way d, the energy 1/2 a |d|^2 - b.d with
+// The start of an implicit step: what inertia, air and hands make of a particle's displacement d, the energy 1/2 a |d|^2 - b.d with
 // a symmetric matrix beside a where wind blows. Pins go where their paths take them.
 #include "sim/implicit/common.glsl"
 #include "sim/watch.glsl"
 #include "sim/forces.glsl"
 #include "sim/integrate.glsl"
 
-layout(std430, binding = FIRST_OUTPUT_BINDING) writeonly buffer Anchors { vec4 newAnchors[]; };
-layout(std430, binding = SECOND_OUTPUT_BINDING) writeonly buffer Ways { vec4 newWays[]; };
-layout(std430, binding = THIRD_OUTPUT_BINDING) writeonly buffer Iterates { vec4 newIterates[]; };
-layout(std430, binding = FOURTH_OUTPUT_BINDING) writeonly buffer AirBlocks { vec4 newAirBlocks[]; };
+layout(std430, binding = RIGHT_HAND_SIDES_BINDING) writeonly buffer RightHandSides { vec4 newRightHandSides[]; };
+layout(std430, binding = DISPLACEMENTS_BINDING) writeonly buffer Displacements { vec4 newDisplacements[]; };
+layout(std430, binding = ITERATES_BINDING) writeonly buffer Iterates { vec4 newIterates[]; };
+layout(std430, binding = AIR_BLOCKS_BINDING) writeonly buffer AirBlocks { vec4 newAirBlocks[]; };
 
-vec4 holdParticle(GridPoint p, vec3 x, float mass, vec4 anchor) {
+vec4 holdParticle(GridPoint p, vec3 x, float mass, vec4 rightHandSide) {
   uint column = p.column - hand.firstColumn, row = p.row - hand.firstRow;  // before the block: beyond it
-  if (column >= hand.columns || row >= hand.rows) return anchor;
+  if (column >= hand.columns || row >= hand.rows) return rightHandSide;
   vec4 point = texelFetch(held, int(row * hand.columns + column));
   precise vec3 goal = vec3(hand.goalX, hand.goalY, hand.goalZ) + point.xyz;
   precise vec3 towards = goal - x;
-  precise vec3 way = hand.reach * (hand.pull * towards + vec3(hand.pushX, hand.pushY, hand.pushZ));
-  precise float waySquared = sumOfProducts(way, way);
-  precise float shorter = hand.largestWay * inverseSquareRoot(waySquared);
-  if (hand.largestWaySquared < waySquared) way = shorter * way;
+  precise vec3 displacement = hand.reach * (hand.pull * towards + vec3(hand.pushX, hand.pushY, hand.pushZ));
+  precise float displacementSquared = sumOfProducts(displacement, displacement);
+  precise float shorter = hand.largestDisplacement * inverseSquareRoot(displacementSquared);
+  if (hand.largestDisplacementSquared < displacementSquared) displacement = shorter * displacement;
   precise float stiffness = (point.w * hand.resistance) * ((mass * step.inverseTimeStep) * step.inverseTimeStep);
-  precise vec3 b = anchor.xyz + stiffness * way;
-  precise float a = anchor.w + stiffness;
+  precise vec3 b = rightHandSide.xyz + stiffness * displacement;
+  precise float a = rightHandSide.w + stiffness;
   return vec4(b, a);
 }
 
@@ -35,9 +35,9 @@ void main() {
   if (x.w == 0.0) {
     vec3 target = x.xyz;
     if (hasMovingPins) target = movePin(i, x).position.xyz;
-    precise vec3 way = target - x.xyz;
-    newAnchors[i] = vec4(0.0);
-    newWays[i] = vec4(way, 0.0);
+    precise vec3 displacement = target - x.xyz;
+    newRightHandSides[i] = vec4(0.0);
+    newDisplacements[i] = vec4(displacement, 0.0);
     newIterates[i] = vec4(target, 0.0);
     return;
   }
@@ -65,9 +65,9 @@ void main() {
     newAirBlocks[2u * i] = vec4(diagonal, 0.0);
     newAirBlocks[2u * i + 1u] = vec4(others, 0.0);
   }
-  vec4 anchor = vec4(b, stiffness);
-  if (hasHold) anchor = holdParticle(p, x.xyz, mass, anchor);
-  newAnchors[i] = anchor;
-  newWays[i] = vec4(0.0);
+  vec4 rightHandSide = vec4(b, stiffness);
+  if (hasHold) rightHandSide = holdParticle(p, x.xyz, mass, rightHandSide);
+  newRightHandSides[i] = rightHandSide;
+  newDisplacements[i] = vec4(0.0);
   newIterates[i] = x;
 }

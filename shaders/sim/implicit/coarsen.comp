@@ -1,8 +1,8 @@
 // The blocks of a coarse level's vertices, from the next finer one (src/solver/implicit.h).
 #include "sim/implicit/level.glsl"
 
-layout(std430, binding = SECOND_OUTPUT_BINDING) writeonly buffer FactorsOut { vec4 newFactors[]; };
-layout(std430, binding = THIRD_OUTPUT_BINDING) writeonly buffer Blocks { vec4 newBlocks[]; };
+layout(std430, binding = FACTORS_BINDING) writeonly buffer FactorsOut { vec4 newFactors[]; };
+layout(std430, binding = BLOCKS_BINDING) writeonly buffer Blocks { vec4 newBlocks[]; };
 
 void main() {
   uvec2 coarse = gl_GlobalInvocationID.xy;

@@ -6,17 +6,17 @@
 #include "sim/implicit/contact.glsl"
 
 // How much of its weight something held up, 0 to 1 (src/solver/implicit.h).
-float supportOf(vec3 before, vec3 way) {
+float supportOf(vec3 before, vec3 displacement) {
   precise float scale = step.inertia * step.timeStep;
-  precise vec3 fallen = scale * way - before;
+  precise vec3 fallen = scale * displacement - before;
   precise float support = 1.0 - sumOfProducts(fallen, vec3(step.gravityX, step.gravityY, step.gravityZ)) * step.supportScale;
   float atLeast = 0.0 < support ? support : 0.0;
   return atLeast < 1.0 ? atLeast : 1.0;
 }
 
 // Friction takes back, along the surface, up to its coefficient times how far the collider pushed the particle out.
-vec3 withFriction(vec3 normal, vec4 carry, float depth, vec3 way) {
-  precise vec3 relative = way - carry.xyz;
+vec3 withFriction(vec3 normal, vec4 carry, float depth, vec3 displacement) {
+  precise vec3 relative = displacement - carry.xyz;
   precise vec3 across = sumOfProducts(relative, normal) * normal;
   precise vec3 slide = relative - across;
   precise float lost = (carry.w * depth) * inverseSquareRoot(sumOfProducts(slide, slide));
@@ -36,23 +36,23 @@ void main() {
   if (x.w == 0.0) {
     if (hasMovingPins) particle = movePin(i, x);
   } else {
-    vec3 way = texelFetch(ways, int(i)).xyz;
+    vec3 displacement = texelFetch(displacements, int(i)).xyz;
     vec4 place = iterateAt(i);
-    precise vec3 held = way;  // without what a collider did
+    precise vec3 held = displacement;  // without what a collider did
     if (hasContacts) {
       vec4 plane = contactPlaneAt(i);
-      float push = contactPush(plane, texelFetch(anchors, int(i)).w, way);
+      float push = contactPush(plane, texelFetch(rightHandSides, int(i)).w, displacement);
       precise float inertia = reciprocal(x.w) * step.inertia;
       precise float pushedBy = push * reciprocal(inertia);
       float depth = push > 0.0 ? pushedBy : 0.0;
-      held = way - depth * plane.xyz;
+      held = displacement - depth * plane.xyz;
       if (depth > 0.0) {
-        way = withFriction(plane.xyz, texelFetch(contactPlanes, int(2u * i + 1u)), depth, way);
-        precise vec3 slid = x.xyz + way;
+        displacement = withFriction(plane.xyz, texelFetch(contactPlanes, int(2u * i + 1u)), depth, displacement);
+        precise vec3 slid = x.xyz + displacement;
         place = vec4(canonical(slid), x.w);
       }
     }
-    precise vec3 v = step.inverseTimeStep * way;
+    precise vec3 v = step.inverseTimeStep * displacement;
     support = supportOf(velocityAt(i), held);
     particle = Particle(place, canonical(v));
     watchVelocity(PASS_INTEGRATE, i, particle.velocity);

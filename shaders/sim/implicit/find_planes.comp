@@ -6,7 +6,7 @@
 #include "sim/integrate.glsl"
 #include "sim/collide.glsl"
 
-layout(std430, binding = FIRST_OUTPUT_BINDING) writeonly buffer Planes { vec4 newPlanes[]; };
+layout(std430, binding = CONTACT_PLANES_BINDING) writeonly buffer Planes { vec4 newPlanes[]; };
 
 void main() {
   GridPoint p = thisGridPoint();

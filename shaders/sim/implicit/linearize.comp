@@ -8,10 +8,10 @@
 #include "sim/implicit/listed.glsl"
 #endif
 
-layout(std430, binding = FIRST_OUTPUT_BINDING) writeonly buffer Residuals { vec4 newResiduals[]; };
-layout(std430, binding = SECOND_OUTPUT_BINDING) writeonly buffer FactorsOut { vec4 newFactors[]; };
-layout(std430, binding = THIRD_OUTPUT_BINDING) writeonly buffer Blocks { vec4 newBlocks[]; };
-layout(std430, binding = FOURTH_OUTPUT_BINDING) writeonly buffer Increments { vec4 newIncrements[]; };
+layout(std430, binding = RESIDUALS_BINDING) writeonly buffer Residuals { vec4 newResiduals[]; };
+layout(std430, binding = FACTORS_BINDING) writeonly buffer FactorsOut { vec4 newFactors[]; };
+layout(std430, binding = BLOCKS_BINDING) writeonly buffer Blocks { vec4 newBlocks[]; };
+layout(std430, binding = INCREMENTS_BINDING) writeonly buffer Increments { vec4 newIncrements[]; };
 
 // What bending adds to the diagonal block of particle i of `count` in a line, of those `stride` apart.
 float bendingBlock(uint index, uint i, uint count, uint stride, float b, uint cut, uint before, uint around, uint after) {
@@ -59,13 +59,13 @@ void main() {
   for (uint k = 0u; k < 4u; ++k) newBlocks[4u * i + k] = vec4(0.0);
   if (x.w == 0.0) return;
 
-  vec4 anchor = texelFetch(anchors, int(i));
-  Symmetric block = Symmetric(vec3(anchor.w), vec3(0.0)), air = Symmetric(vec3(0.0), vec3(0.0));
+  vec4 rightHandSide = texelFetch(rightHandSides, int(i));
+  Symmetric block = Symmetric(vec3(rightHandSide.w), vec3(0.0)), air = Symmetric(vec3(0.0), vec3(0.0));
   if (hasWind) {
     air = airBlockAt(i);
     block = sumOf(block, air);
   }
-  if (hasContacts) block = sumOf(block, outerProduct3(contactStiffness(anchor.w), contactPlaneAt(i).xyz));
+  if (hasContacts) block = sumOf(block, outerProduct3(contactStiffness(rightHandSide.w), contactPlaneAt(i).xyz));
   Symmetric inertia = block, stretch = Symmetric(vec3(0.0), vec3(0.0));
 #if HAS_MESH
   block = addListedBlocks(i, block);
@@ -88,10 +88,10 @@ void main() {
   if (hasMaterial) block = addBendingBlock(p, block);
 #endif
 
-  vec3 way = texelFetch(ways, int(i)).xyz;
-  precise vec3 pull = anchor.xyz - anchor.w * way;
-  if (hasWind) pull = pull - timesVector(air, way);
-  if (hasContacts) pull = pull + contactPush(contactPlaneAt(i), anchor.w, way) * contactPlaneAt(i).xyz;
+  vec3 displacement = texelFetch(displacements, int(i)).xyz;
+  precise vec3 pull = rightHandSide.xyz - rightHandSide.w * displacement;
+  if (hasWind) pull = pull - timesVector(air, displacement);
+  if (hasContacts) pull = pull + contactPush(contactPlaneAt(i), rightHandSide.w, displacement) * contactPlaneAt(i).xyz;
   precise vec3 residual = pull + forces[i].xyz;
   newResiduals[i] = vec4(canonical(residual), 0.0);
   Factors f = factorize(block);

@@ -8,7 +8,7 @@
 #include "sim/implicit/listed.glsl"
 #endif
 
-layout(std430, binding = FIRST_OUTPUT_BINDING) writeonly buffer Products { vec4 newProducts[]; };
+layout(std430, binding = PRODUCTS_BINDING) writeonly buffer Products { vec4 newProducts[]; };
 
 void main() {
   GridPoint point = thisGridPoint();
@@ -32,12 +32,12 @@ void main() {
   }
   if (hasMaterial) force = addBending(point, force);
 #endif
-  float anchorStiffness = texelFetch(anchors, int(i)).w;
-  precise vec3 product = anchorStiffness * p;
+  float diagonal = texelFetch(rightHandSides, int(i)).w;
+  precise vec3 product = diagonal * p;
   if (hasWind) product = product + timesVector(airBlockAt(i), p);
   if (hasContacts) {
     vec3 normal = contactPlaneAt(i).xyz;
-    product = product + (contactStiffness(anchorStiffness) * sumOfProducts(normal, p)) * normal;
+    product = product + (contactStiffness(diagonal) * sumOfProducts(normal, p)) * normal;
   }
   precise vec3 result = product - force;
   newProducts[i] = vec4(x.w == 0.0 ? vec3(0.0) : canonical(result), 0.0);

@@ -1,7 +1,7 @@
 // Corrections of a level: its own, D^-1 r, and that of the next coarser one between its vertices. Pinned particles get 0.
 #include "sim/implicit/level.glsl"
 
-layout(std430, binding = FIRST_OUTPUT_BINDING) writeonly buffer Corrections { vec4 newCorrections[]; };
+layout(std430, binding = CORRECTIONS_BINDING) writeonly buffer Corrections { vec4 newCorrections[]; };
 
 // Nothing across a cut.
 vec3 from(uint vertex, bool isCut) { return isCut ? vec3(0.0) : texelFetch(corrections, int(vertex)).xyz; }

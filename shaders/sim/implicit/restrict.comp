@@ -1,7 +1,7 @@
 // Residuals of a coarse level, P^T r.
 #include "sim/implicit/level.glsl"
 
-layout(std430, binding = FIRST_OUTPUT_BINDING) writeonly buffer Residuals { vec4 newResiduals[]; };
+layout(std430, binding = RESIDUALS_BINDING) writeonly buffer Residuals { vec4 newResiduals[]; };
 
 void main() {
   uvec2 coarse = gl_GlobalInvocationID.xy;

@@ -1,7 +1,7 @@
 // Corrections of the coarsest level, D^-1 r.
 #include "sim/implicit/level.glsl"
 
-layout(std430, binding = FIRST_OUTPUT_BINDING) writeonly buffer Corrections { vec4 newCorrections[]; };
+layout(std430, binding = CORRECTIONS_BINDING) writeonly buffer Corrections { vec4 newCorrections[]; };
 
 void main() {
   uvec2 coarse = gl_GlobalInvocationID.xy;

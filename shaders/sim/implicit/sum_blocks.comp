@@ -9,7 +9,7 @@ layout(binding = RESIDUALS_UNIT) uniform samplerBuffer residuals;
 layout(binding = CORRECTIONS_UNIT) uniform samplerBuffer corrections;
 layout(binding = DIRECTIONS_UNIT) uniform samplerBuffer directions;
 layout(binding = PRODUCTS_UNIT) uniform samplerBuffer products;
-layout(std430, binding = FIRST_OUTPUT_BINDING) writeonly buffer PartialSums { vec4 partialSums[]; };
+layout(std430, binding = PARTIAL_SUMS_BINDING) writeonly buffer PartialSums { vec4 partialSums[]; };
 
 #include "sim/exact_math.glsl"
 #include "sim/implicit/lanes.glsl"

@@ -19,7 +19,7 @@ float quotient(float a, float b) {
 
 // Whether the energy falls enough along the Newton step.
 bool fallsEnough(float change, float len) {
-  precise float needed = -((uintBitsToFloat(0x39000000u) * len) * scalars.promised);  // SUFFICIENT_DECREASE
+  precise float needed = -((uintBitsToFloat(0x39000000u) * len) * scalars.predictedDecrease);  // SUFFICIENT_DECREASE
   return change <= needed;
 }
 
@@ -33,18 +33,18 @@ void main() {
 #if SUM_KIND == SUM_FIRST
   scalars.residual = total.x < 0.0 ? 0.0 : total.x;
   scalars.kept = 0.0;
-  scalars.promised = 0.0;
+  scalars.predictedDecrease = 0.0;
 #elif SUM_KIND == SUM_STEP
   scalars.stepSize = quotient(scalars.residual, total.x);
-  precise float promised = scalars.promised + scalars.stepSize * scalars.residual;
-  scalars.promised = promised;
-#elif SUM_KIND == SUM_TURN
+  precise float predicted = scalars.predictedDecrease + scalars.stepSize * scalars.residual;
+  scalars.predictedDecrease = predicted;
+#elif SUM_KIND == SUM_NEXT
   float residual = total.x < 0.0 ? 0.0 : total.x;
   scalars.kept = quotient(residual, scalars.residual);
   scalars.residual = residual;
 #else
 #if SUM_KIND == SUM_START
-  scalars.promised = 0.0;
+  scalars.predictedDecrease = 0.0;
 #endif
   scalars.newtonLength = fallsEnough(total.x, 1.0)    ? 1.0
                          : fallsEnough(total.y, 0.5)  ? 0.5

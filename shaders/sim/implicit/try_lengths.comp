@@ -1,4 +1,4 @@
-// How a particle's part of the energy would change along the Newton step, at four lengths of it: its anchor, the springs it
+// How a particle's part of the energy would change along the Newton step, at four lengths of it: its inertia, the springs it
 // owns and the lines of bending that it is in the middle of. Differences are taken where they arise, so that little ones
 // are exact.
 #include "sim/implicit/common.glsl"
@@ -10,7 +10,7 @@
 #include "sim/implicit/listed.glsl"
 #endif
 
-layout(std430, binding = FIRST_OUTPUT_BINDING) writeonly buffer Trials { vec4 trials[]; };
+layout(std430, binding = PRODUCTS_BINDING) writeonly buffer Trials { vec4 trials[]; };
 
 // A line of three particles around one in the middle: b (l k.dk + l^2/2 |dk|^2), k = (m - a) + (m - c).
 vec4 addBendingTrial(vec4 trial, uint m, uint stride, float b) {
@@ -39,20 +39,20 @@ void main() {
   GridPoint p = thisGridPoint();
   if (!p.exists) return;
   uint i = p.index;
-  vec3 x = iterateAt(i).xyz, e = incrementAt(i), way = texelFetch(ways, int(i)).xyz;
-  vec4 anchor = texelFetch(anchors, int(i));
-  precise vec3 force = anchor.w * way;
-  precise vec3 product = anchor.w * e;
+  vec3 x = iterateAt(i).xyz, e = incrementAt(i), displacement = texelFetch(displacements, int(i)).xyz;
+  vec4 rightHandSide = texelFetch(rightHandSides, int(i));
+  precise vec3 force = rightHandSide.w * displacement;
+  precise vec3 product = rightHandSide.w * e;
   if (hasWind && iterateAt(i).w != 0.0) {
-    force = force + timesVector(airBlockAt(i), way);
+    force = force + timesVector(airBlockAt(i), displacement);
     product = product + timesVector(airBlockAt(i), e);
   }
   if (hasContacts) {
     vec4 plane = contactPlaneAt(i);
-    force = force - contactPush(plane, anchor.w, way) * plane.xyz;
-    product = product + (contactStiffness(anchor.w) * sumOfProducts(plane.xyz, e)) * plane.xyz;
+    force = force - contactPush(plane, rightHandSide.w, displacement) * plane.xyz;
+    product = product + (contactStiffness(rightHandSide.w) * sumOfProducts(plane.xyz, e)) * plane.xyz;
   }
-  precise vec3 slope = force - anchor.xyz;
+  precise vec3 slope = force - rightHandSide.xyz;
   precise float first = sumOfProducts(slope, e);
   precise float second = 0.5 * sumOfProducts(product, e);
   precise vec4 trial = lengthsTried * (first + lengthsTried * second);

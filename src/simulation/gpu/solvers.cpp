@@ -7,7 +7,7 @@ namespace clothsim {
 
 std::unique_ptr<Solver> makeSolver(const std::string& backend, const Shared<Cloth>& cloth,
                                    const Shared<Scene>& scene) {
-  if (backend == "gpu") return std::make_unique<GpuSolver>(*cloth, *scene);
+  if (backend == "gpu") return std::make_unique<GpuSolver>(*cloth, scene);
   if (backend == "cpu") return makeCpuSolver(backend, cloth, scene);
   throw UsageError("there is no backend \"" + backend + "\"; choose gpu or cpu");
 }

@@ -1,5 +1,6 @@
 // What two particles do to each other under self-collision, on the CPU: the twin of
-// shaders/sim/self/separate.comp, guard_check.comp and guard.comp. What and why: solver/self_collision.h.
+// shaders/sim/self/resolve_contacts.comp, check_motion.comp and clamp_motion.comp. What and why:
+// solver/self_collision.h.
 #pragma once
 
 #include <array>

@@ -14,10 +14,9 @@ INLINE bool hasContacts(const ImplicitArguments<Real>& arguments) {
 // How stiffly a collider pushes back (CONTACT_OVER_INERTIA).
 template <class Real>
 INLINE Real contactStiffness(const ImplicitArguments<Real>& arguments, std::ptrdiff_t i) {
-  return Real(CONTACT_OVER_INERTIA) * arguments.own.anchorStiffness.data()[i] +
-         arguments.step.step.contactStiffness;
+  return Real(CONTACT_OVER_INERTIA) * arguments.own.diagonal.data()[i] + arguments.step.step.contactStiffness;
 }
-// With what force along the plane's normal, for a way d; 0 where nothing is touched [N].
+// With what force along the plane's normal, for a displacement d; 0 where nothing is touched [N].
 template <class Real>
 INLINE Real contactPush(const ImplicitArguments<Real>& arguments, std::ptrdiff_t i, Vec3<Real> d) {
   const ContactPlanes<Real>& planes = arguments.own.planes;

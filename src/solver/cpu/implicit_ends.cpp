@@ -1,4 +1,5 @@
-// The first and the last pass of an implicit step; the twin of shaders/sim/implicit/{begin,start,end}.comp.
+// The first and the last pass of an implicit step; the twin of
+// shaders/sim/implicit/{begin,initial_guess,end}.comp.
 #include "solver/cpu/implicit_contact.h"
 #include "solver/cpu/rows.h"
 #include "solver/cpu/watch.h"
@@ -6,7 +7,7 @@
 namespace clothsim::cpu {
 namespace {
 
-// What of a particle's anchor a hand makes (solver/hand.h).
+// What a grab adds to a particle's diagonal and right-hand side (solver/hand.h).
 template <class Real>
 void holdParticle(const ImplicitArguments<Real>& arguments, int row, std::ptrdiff_t i, Real mass) {
   const PassArguments<Real>& pass = arguments.step;
@@ -20,15 +21,16 @@ void holdParticle(const ImplicitArguments<Real>& arguments, int row, std::ptrdif
   const Hold::Point& point = pass.held[blockRow * hand.columns + blockColumn];
   const Vec3<Real> goal = Vec3<Real>{hand.goalX, hand.goalY, hand.goalZ} + point.offset.cast<Real>();
   const Vec3<Real> towards = goal - at(pass.before.positions, i);
-  Vec3<Real> way = hand.reach * (hand.pull * towards + Vec3<Real>{hand.pushX, hand.pushY, hand.pushZ});
-  const Real waySquared = dot(way, way);
-  const Real shorter = hand.largestWay * inverseSquareRoot(waySquared);
-  if (hand.largestWaySquared < waySquared) way = shorter * way;
+  Vec3<Real> displacement =
+      hand.reach * (hand.pull * towards + Vec3<Real>{hand.pushX, hand.pushY, hand.pushZ});
+  const Real displacementSquared = dot(displacement, displacement);
+  const Real shorter = hand.largestDisplacement * inverseSquareRoot(displacementSquared);
+  if (hand.largestDisplacementSquared < displacementSquared) displacement = shorter * displacement;
   const Real inverseTimeStep = pass.step.inverseTimeStep;
   const Real stiffness =
       (static_cast<Real>(point.weight) * hand.resistance) * ((mass * inverseTimeStep) * inverseTimeStep);
-  arguments.own.anchorStiffness[static_cast<std::size_t>(i)] += stiffness;
-  put(arguments.own.anchors, i, at(arguments.own.anchors, i) + stiffness * way);
+  arguments.own.diagonal[static_cast<std::size_t>(i)] += stiffness;
+  put(arguments.own.rightHandSide, i, at(arguments.own.rightHandSide, i) + stiffness * displacement);
 }
 
 }  // namespace
@@ -51,10 +53,9 @@ void begin(const ImplicitArguments<Real>& arguments, int row) {
     const Vec3<Real> x = at(pass.before.positions, i), v = at(pass.before.velocities, i);
     if (pass.inverseMasses[i] == Real(0)) {
       const Vec3<Real> target = at(pass.after.positions, i);
-      put(own.anchors, i, zero);
-      own.anchorStiffness[static_cast<std::size_t>(i)] = 0;
-      put(own.ways, i, target - x);
-      put(own.increments, i, zero);
+      put(own.rightHandSide, i, zero);
+      own.diagonal[static_cast<std::size_t>(i)] = 0;
+      put(own.displacements, i, target - x);
       put(own.iterate.positions, i, target);
       continue;
     }
@@ -72,22 +73,56 @@ void begin(const ImplicitArguments<Real>& arguments, int row) {
       b = b + (at(pass.forces, i) + resistance * v);
       put(own.air, i, step.inverseTimeStep * resistance);
     }
-    put(own.anchors, i, b);
-    own.anchorStiffness[static_cast<std::size_t>(i)] = stiffness;
-    const Real falls = 1 - pass.support[i];
-    put(own.increments, i, canonical(step.guessTime * (v + (falls * step.timeStep) * gravity)));
-    put(own.ways, i, zero);
+    put(own.rightHandSide, i, b);
+    own.diagonal[static_cast<std::size_t>(i)] = stiffness;
+    put(own.displacements, i, zero);
     put(own.iterate.positions, i, x);
     if (pass.held != nullptr) holdParticle(arguments, row, i, mass);
   }
+}
+
+// What of its fall was not held up in the step before (solver/implicit.h).
+template <class Real>
+void initialGuess(const ImplicitArguments<Real>& arguments, int row) {
+  const PassArguments<Real>& pass = arguments.step;
+  const StepParams<Real>& step = pass.step;
+  const Stretch all = stretch(step, row);
+  const Vec3<Real> gravity{step.gravityX, step.gravityY, step.gravityZ};
+  for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
+    const Real falls = 1 - pass.support[i];
+    const Vec3<Real> fall =
+        step.guessTime * (at(pass.before.velocities, i) + (falls * step.timeStep) * gravity);
+    const bool pinned = pass.inverseMasses[i] == Real(0);
+    put(arguments.own.increments, i, selected(pinned, Vec3<Real>{}, canonical(fall)));
+  }
+}
+
+template <class Real>
+void gatherElasticForces(const ImplicitArguments<Real>& arguments, int row) {
+  StepParams<Real> elastic = arguments.step.step;  // air is in the right-hand side
+  elastic.hasWind = 0;
+  elastic.airResistance = 0;
+  gatherForces(withState(arguments.step, elastic, arguments.own.iterate, arguments.step.forces), row);
+}
+
+template <class Real>
+void ImplicitState<Real>::resize(std::size_t particles, std::size_t vertices) {
+  for (Components<Real>* c :
+       {&rightHandSide, &displacements, &iterate.positions, &directions.positions, &products, &increments})
+    c->resize(particles);
+  diagonal.resize(particles);
+  air.resize(particles);
+  for (std::vector<Real>& trial : trials) trial.resize(particles);
+  for (Components<Real>* c : {&residuals, &corrections}) c->resize(vertices);
+  for (SymmetricField<Real>* field : {&stretch, &inertia, &factors}) field->resize(vertices);
 }
 
 namespace {
 
 // How far the collider that a particle touches pushed it out in the step [m].
 template <class Real>
-INLINE Real pushedOut(const ImplicitArguments<Real>& arguments, std::ptrdiff_t i, Vec3<Real> way) {
-  const Real push = contactPush(arguments, i, way);
+INLINE Real pushedOut(const ImplicitArguments<Real>& arguments, std::ptrdiff_t i, Vec3<Real> displacement) {
+  const Real push = contactPush(arguments, i, displacement);
   const PassArguments<Real>& pass = arguments.step;
   const Real inertia = reciprocal(pass.inverseMasses[i]) * pass.step.inertia;
   return push > Real(0) ? push * reciprocal(inertia) : Real(0);
@@ -95,9 +130,9 @@ INLINE Real pushedOut(const ImplicitArguments<Real>& arguments, std::ptrdiff_t i
 // Coulomb: the way along the surface, shorter by the coefficient times that depth.
 template <class Real>
 INLINE Vec3<Real> withFriction(const ContactPlanes<Real>& planes, std::ptrdiff_t i, Real depth,
-                               Vec3<Real> way) {
+                               Vec3<Real> displacement) {
   const Vec3<Real> normal = at(planes.normals, i), carry = at(planes.carries, i);
-  const Vec3<Real> relative = way - carry;
+  const Vec3<Real> relative = displacement - carry;
   const Vec3<Real> across = dot(relative, normal) * normal;
   const Vec3<Real> slide = relative - across;
   const Real lost = (planes.frictions.data()[i] * depth) * inverseSquareRoot(dot(slide, slide));
@@ -107,8 +142,8 @@ INLINE Vec3<Real> withFriction(const ContactPlanes<Real>& planes, std::ptrdiff_t
 
 // How much of its weight something held up, 0 to 1 (solver/implicit.h).
 template <class Real>
-INLINE Real supportOf(const StepParams<Real>& step, Vec3<Real> before, Vec3<Real> way) {
-  const Vec3<Real> fallen = (step.inertia * step.timeStep) * way - before;
+INLINE Real supportOf(const StepParams<Real>& step, Vec3<Real> before, Vec3<Real> displacement) {
+  const Vec3<Real> fallen = (step.inertia * step.timeStep) * displacement - before;
   const Real support =
       1 - dot(fallen, Vec3<Real>{step.gravityX, step.gravityY, step.gravityZ}) * step.supportScale;
   const Real atLeast = Real(0) < support ? support : Real(0);
@@ -127,25 +162,32 @@ void end(const ImplicitArguments<Real>& arguments, int row) {
     pass.support[i] = 0;
     if (pinned) continue;  // begin() has moved pins
     const Vec3<Real> v = at(pass.before.velocities, i);
-    Vec3<Real> way = at(arguments.own.ways, i), place = at(arguments.own.iterate.positions, i), held = way;
+    Vec3<Real> displacement = at(arguments.own.displacements, i),
+               place = at(arguments.own.iterate.positions, i), held = displacement;
     if (contacts) {
       const Vec3<Real> normal = at(arguments.own.planes.normals, i);
-      const Real depth = pushedOut(arguments, i, way);
-      held = way - depth * normal;
+      const Real depth = pushedOut(arguments, i, displacement);
+      held = displacement - depth * normal;
       if (depth > Real(0)) {
-        way = canonical(withFriction(arguments.own.planes, i, depth, way));
-        place = canonical(at(pass.before.positions, i) + way);
+        displacement = canonical(withFriction(arguments.own.planes, i, depth, displacement));
+        place = canonical(at(pass.before.positions, i) + displacement);
       }
     }
     pass.support[i] = supportOf(pass.step, v, held);
     put(pass.after.positions, i, place);
-    put(pass.after.velocities, i, canonical(pass.step.inverseTimeStep * way));
+    put(pass.after.velocities, i, canonical(pass.step.inverseTimeStep * displacement));
   }
   watchVelocities(pass, PASS_INTEGRATE, row);
 }
 
 template void begin(const ImplicitArguments<float>&, int);
 template void begin(const ImplicitArguments<double>&, int);
+template void initialGuess(const ImplicitArguments<float>&, int);
+template void initialGuess(const ImplicitArguments<double>&, int);
+template void gatherElasticForces(const ImplicitArguments<float>&, int);
+template void gatherElasticForces(const ImplicitArguments<double>&, int);
+template struct ImplicitState<float>;
+template struct ImplicitState<double>;
 template void end(const ImplicitArguments<float>&, int);
 template void end(const ImplicitArguments<double>&, int);
 

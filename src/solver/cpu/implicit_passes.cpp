@@ -87,8 +87,8 @@ INLINE void tryLengthsRow(const ImplicitArguments<Real>& arguments, int row) {
   const Stretch all = stretch(pass.step, row);
   const bool contacts = hasContacts(arguments);
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
-    const Vec3<Real> e = at(own.increments, i), d = at(own.ways, i);
-    Vec3<Real> force = own.anchorStiffness.data()[i] * d, product = own.anchorStiffness.data()[i] * e;
+    const Vec3<Real> e = at(own.increments, i), d = at(own.displacements, i);
+    Vec3<Real> force = own.diagonal.data()[i] * d, product = own.diagonal.data()[i] * e;
     if (pass.step.hasWind != 0) {
       force = force + at(own.air, i) * d;
       product = product + at(own.air, i) * e;
@@ -98,7 +98,7 @@ INLINE void tryLengthsRow(const ImplicitArguments<Real>& arguments, int row) {
       force = force - contactPush(arguments, i, d) * normal;
       product = product + (contactStiffness(arguments, i) * dot(normal, e)) * normal;
     }
-    const Real first = dot(force - at(own.anchors, i), e), second = Real(0.5) * dot(product, e);
+    const Real first = dot(force - at(own.rightHandSide, i), e), second = Real(0.5) * dot(product, e);
     for (std::size_t k = 0; k < LENGTHS_TRIED; ++k) {
       const Real l = lengthTried<Real>(k);
       own.trials[k].data()[i] = l * (first + l * second);
@@ -189,7 +189,7 @@ INLINE void linearizeRow(const ImplicitArguments<Real>& arguments, int row) {
   const Stretch all = stretch(pass.step, row);
   const bool wind = pass.step.hasWind != 0, contacts = hasContacts(arguments);
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
-    const Real a = own.anchorStiffness.data()[i];
+    const Real a = own.diagonal.data()[i];
     Symmetric<Real> block{{a, a, a}, {}};
     if (wind) block = block + at(own.air, i);
     if (contacts) block = block + outerProduct(contactStiffness(arguments, i), at(own.planes.normals, i));
@@ -205,11 +205,11 @@ INLINE void linearizeRow(const ImplicitArguments<Real>& arguments, int row) {
   }
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
     const bool pinned = pass.inverseMasses[i] == Real(0);
-    const Vec3<Real> d = at(own.ways, i), zero{};
-    Vec3<Real> anchor = at(own.anchors, i) - own.anchorStiffness.data()[i] * d;
-    if (wind) anchor = anchor - at(own.air, i) * d;
-    if (contacts) anchor = anchor + contactPush(arguments, i, d) * at(own.planes.normals, i);
-    put(own.residuals, i, selected(pinned, zero, canonical(anchor + at(pass.forces, i))));
+    const Vec3<Real> d = at(own.displacements, i), zero{};
+    Vec3<Real> residual = at(own.rightHandSide, i) - own.diagonal.data()[i] * d;
+    if (wind) residual = residual - at(own.air, i) * d;
+    if (contacts) residual = residual + contactPush(arguments, i, d) * at(own.planes.normals, i);
+    put(own.residuals, i, selected(pinned, zero, canonical(residual + at(pass.forces, i))));
     put(own.increments, i, zero);
     put(own.directions.positions, i, zero);
     const Factors<Real> factors = factorize(at(own.factors, i));
@@ -253,7 +253,7 @@ INLINE void multiplyRow(const ImplicitArguments<Real>& arguments, int row) {
   const Vec3<Real> zero{};
   const Arrays<Real> products = arraysOf(own.products), directions = arraysOf(own.directions.positions);
   const SymmetricArrays<Real> air = arraysOf(own.air);
-  const Real *stiffness = own.anchorStiffness.data(), *w = pass.inverseMasses;
+  const Real *stiffness = own.diagonal.data(), *w = pass.inverseMasses;
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i) put(products, i, zero);
   if (pass.step.isMesh != 0) {
     addListedProducts(arguments, row);
@@ -289,7 +289,7 @@ INLINE void multiplyRow(const ImplicitArguments<Real>& arguments, int row) {
 }
 
 template <class Real>
-INLINE void directRow(const ImplicitArguments<Real>& arguments, int row) {
+INLINE void updateDirectionRow(const ImplicitArguments<Real>& arguments, int row) {
   ImplicitState<Real>& own = arguments.own;
   const Stretch all = stretch(arguments.step.step, row);
   const Arrays<Real> directions = arraysOf(own.directions.positions), corrections = arraysOf(own.corrections);
@@ -300,7 +300,7 @@ INLINE void directRow(const ImplicitArguments<Real>& arguments, int row) {
 }
 
 template <class Real>
-INLINE void advanceRow(const ImplicitArguments<Real>& arguments, int row) {
+INLINE void updateSolutionRow(const ImplicitArguments<Real>& arguments, int row) {
   ImplicitState<Real>& own = arguments.own;
   const Stretch all = stretch(arguments.step.step, row);
   const Arrays<Real> directions = arraysOf(own.directions.positions), products = arraysOf(own.products),
@@ -319,9 +319,9 @@ INLINE void acceptRow(const ImplicitArguments<Real>& arguments, int row) {
   const Stretch all = stretch(arguments.step.step, row);
   const Real length = own.scalars.newtonLength;
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
-    const Vec3<Real> way = canonical(at(own.ways, i) + length * at(own.increments, i));
-    put(own.ways, i, way);
-    put(own.iterate.positions, i, canonical(at(arguments.step.before.positions, i) + way));
+    const Vec3<Real> displacement = canonical(at(own.displacements, i) + length * at(own.increments, i));
+    put(own.displacements, i, displacement);
+    put(own.iterate.positions, i, canonical(at(arguments.step.before.positions, i) + displacement));
   }
 }
 
@@ -335,10 +335,18 @@ VECTOR_CLONES void multiply(const ImplicitArguments<float>& arguments, int row) 
   multiplyRow(arguments, row);
 }
 void multiply(const ImplicitArguments<double>& arguments, int row) { multiplyRow(arguments, row); }
-VECTOR_CLONES void direct(const ImplicitArguments<float>& arguments, int row) { directRow(arguments, row); }
-void direct(const ImplicitArguments<double>& arguments, int row) { directRow(arguments, row); }
-VECTOR_CLONES void advance(const ImplicitArguments<float>& arguments, int row) { advanceRow(arguments, row); }
-void advance(const ImplicitArguments<double>& arguments, int row) { advanceRow(arguments, row); }
+VECTOR_CLONES void updateDirection(const ImplicitArguments<float>& arguments, int row) {
+  updateDirectionRow(arguments, row);
+}
+void updateDirection(const ImplicitArguments<double>& arguments, int row) {
+  updateDirectionRow(arguments, row);
+}
+VECTOR_CLONES void updateSolution(const ImplicitArguments<float>& arguments, int row) {
+  updateSolutionRow(arguments, row);
+}
+void updateSolution(const ImplicitArguments<double>& arguments, int row) {
+  updateSolutionRow(arguments, row);
+}
 VECTOR_CLONES void tryLengths(const ImplicitArguments<float>& arguments, int row) {
   tryLengthsRow(arguments, row);
 }

@@ -17,23 +17,26 @@ namespace clothsim::cpu {
 // vertices.
 template <class Real>
 struct ImplicitState {
-  Components<Real> anchors;           // b and
-  std::vector<Real> anchorStiffness;  // a of the energy 1/2 a |d|^2 - b.d of a particle's way d
-  SymmetricField<Real> air;           // what the air adds to a; empty without wind
-  ContactPlanes<Real> planes;         // of particles in colliders; empty without colliders
-  Components<Real> ways;              // d [m]
-  CpuState<Real> iterate;             // x + d; no velocities
-  Components<Real> residuals;         // * r
-  Components<Real> corrections;       // * z
-  SymmetricField<Real> stretch;       // * S of solver/implicit.h,
-  SymmetricField<Real> inertia;       // * T,
-  SymmetricField<Real> factors;       // * L D L^T of diagonal blocks: 1/d1 1/d2 1/d3 and l21 l31 l32
-  CpuState<Real> directions;          // p; no velocities
-  Components<Real> products;          // H p
-  Components<Real> increments;        // the Newton step so far
+  Components<Real> rightHandSide;  // b and
+  std::vector<Real> diagonal;      // a of the energy 1/2 a |d|^2 - b.d of inertia, air and grabs
+  SymmetricField<Real> air;        // what the air adds to a; empty without wind
+  ContactPlanes<Real> planes;      // of particles in colliders; empty without colliders
+  Components<Real> displacements;  // d of the step so far [m]
+  CpuState<Real> iterate;          // x + d; no velocities
+  Components<Real> residuals;      // * r
+  Components<Real> corrections;    // * z
+  SymmetricField<Real> stretch;    // * S of solver/implicit.h,
+  SymmetricField<Real> inertia;    // * T,
+  SymmetricField<Real> factors;    // * L D L^T of diagonal blocks: 1/d1 1/d2 1/d3 and l21 l31 l32
+  CpuState<Real> directions;       // p; no velocities
+  Components<Real> products;       // H p
+  Components<Real> increments;     // the Newton step so far
   std::array<std::vector<Real>, LENGTHS_TRIED> trials;  // a particle's change of energy
   ImplicitScalars<Real> scalars;
   std::vector<std::uint32_t> cutLinks;  // * makeCutLinks()
+
+  // Without planes and cut links.
+  void resize(std::size_t particles, std::size_t vertices);
 };
 
 template <class Real>
@@ -42,9 +45,15 @@ struct ImplicitArguments {
   ImplicitState<Real>& own;
 };
 
-// Anchors, and the guess to start from; pins go where their paths take them.
+// Right-hand side and diagonal; pins go where their paths take them.
 template <class Real>
 void begin(const ImplicitArguments<Real>& arguments, int row);
+// increments = where the search starts.
+template <class Real>
+void initialGuess(const ImplicitArguments<Real>& arguments, int row);
+// step.forces = those of springs and bending at the iterate.
+template <class Real>
+void gatherElasticForces(const ImplicitArguments<Real>& arguments, int row);
 // From the elastic forces at the iterate, in step.forces: residuals, blocks of the preconditioner; clears the
 // increments.
 void linearize(const ImplicitArguments<float>& arguments, int row);
@@ -53,15 +62,15 @@ void linearize(const ImplicitArguments<double>& arguments, int row);
 void multiply(const ImplicitArguments<float>& arguments, int row);
 void multiply(const ImplicitArguments<double>& arguments, int row);
 // directions = corrections + kept * directions
-void direct(const ImplicitArguments<float>& arguments, int row);
-void direct(const ImplicitArguments<double>& arguments, int row);
+void updateDirection(const ImplicitArguments<float>& arguments, int row);
+void updateDirection(const ImplicitArguments<double>& arguments, int row);
 // increments += stepSize * directions, residuals -= stepSize * products
-void advance(const ImplicitArguments<float>& arguments, int row);
-void advance(const ImplicitArguments<double>& arguments, int row);
+void updateSolution(const ImplicitArguments<float>& arguments, int row);
+void updateSolution(const ImplicitArguments<double>& arguments, int row);
 // trials: how the energy would change along the increments.
 void tryLengths(const ImplicitArguments<float>& arguments, int row);
 void tryLengths(const ImplicitArguments<double>& arguments, int row);
-// ways += newtonLength * increments
+// displacements += newtonLength * increments
 void accept(const ImplicitArguments<float>& arguments, int row);
 void accept(const ImplicitArguments<double>& arguments, int row);
 // Positions and velocities at the end of the step.

@@ -107,7 +107,7 @@ SelfCollision<Real>::SelfCollision(const Cloth& cloth, bool parallel) : cloth_(&
 template <class Real>
 void SelfCollision<Real>::configure(const Scene& scene) {
   mode_ = collidesWithItself(scene, *cloth_) ? scene.solver.selfCollision : clothsim::SelfCollision::off;
-  isHashed_ = false;
+  isStale_ = true;
   if (!isOn()) return;
   params_ = makeSelfParams<Real>(scene, *cloth_);
   distances_ = makeContactDistances<Real>(scene, *cloth_);
@@ -135,7 +135,7 @@ void SelfCollision<Real>::configure(const Scene& scene) {
 template <class Real>
 void SelfCollision<Real>::setCutMasks(std::vector<std::uint32_t> masks) {
   cutMasks_ = std::move(masks);
-  isHashed_ = false;
+  isStale_ = true;
 }
 
 // Pairs that are all but one at rest are left alone.
@@ -179,7 +179,7 @@ void SelfCollision<Real>::forEachBlock(Work work) {
 template <class Real>
 void SelfCollision<Real>::buildHash(const Components<Real>& positions) {
   ++counts_.hashBuilds;
-  isHashed_ = true;
+  isStale_ = false;
   hashedPositions_ = positions;
   std::fill(bucketStarts_.begin(), bucketStarts_.end(), 0);
   forEachBlock([&](const Block& block) {  // histogram: the ranks are in no particular order
@@ -199,7 +199,6 @@ void SelfCollision<Real>::buildHash(const Components<Real>& positions) {
       sortedPositions_.z[entry] = positions.z[i];
     }
   });
-  findCandidates();
 }
 
 template <class Real>
@@ -248,8 +247,8 @@ void SelfCollision<Real>::walk(const Block& block, std::uint32_t i, Visit visit)
 }
 
 template <class Real>
-void SelfCollision<Real>::separateContacts(const CpuState<Real>& before, CpuState<Real>& after,
-                                           const std::vector<Real>& inverseMasses) {
+void SelfCollision<Real>::resolveContacts(const CpuState<Real>& before, CpuState<Real>& after,
+                                          const std::vector<Real>& inverseMasses) {
   forEachBlock([&](const Block& block) {
     const View<Real> view = viewOf(params_, before, after, inverseMasses, distances_, block);
     Sums<Real> sums;
@@ -269,24 +268,21 @@ void SelfCollision<Real>::separateContacts(const CpuState<Real>& before, CpuStat
 }
 
 template <class Real>
-void SelfCollision<Real>::separate(const CpuState<Real>& before, CpuState<Real>& after,
-                                   const std::vector<Real>& inverseMasses) {
-  std::atomic<bool> stale = !isHashed_, fast = false;
+void SelfCollision<Real>::checkHash(const CpuState<Real>& before, const CpuState<Real>& after) {
+  std::atomic<bool> stale = isStale_, fast = false;
   forEachBlock([&](const Block& block) {
     if (!stale && anyMovedFarther(after.positions, hashedPositions_, block, params_.reuseSquared))
       stale = true;
     if (isRobust() && !fast && anyMovedFarther(after.positions, before.positions, block, params_.fastSquared))
       fast = true;
   });
-  if (stale) buildHash(after.positions);
+  isStale_ = stale;
   if (fast) ++counts_.fastSteps;
-  separateContacts(before, after, inverseMasses);
 }
 
 template <class Real>
-void SelfCollision<Real>::guard(const CpuState<Real>& before, CpuState<Real>& after,
-                                const std::vector<Real>& inverseMasses) {
-  assert(isHashed_ && "separate() comes first");
+void SelfCollision<Real>::checkMotion(const CpuState<Real>& before, const CpuState<Real>& after,
+                                      const std::vector<Real>& inverseMasses) {
   std::atomic<bool> any = false;
   forEachBlock([&](const Block& block) {
     if (any) return;
@@ -297,10 +293,40 @@ void SelfCollision<Real>::guard(const CpuState<Real>& before, CpuState<Real>& af
         walk(block, i, [&](std::uint32_t candidate) { found = found || tooNear<true>(view, i, candidate); });
     if (found) any = true;
   });
-  if (!any) return;
-  ++counts_.guardedSteps;
-  buildHash(
-      before.positions);  // the hash of another step need not know all that were near when this one began
+  needsClamp_ = any;
+  if (any) ++counts_.guardedSteps;
+}
+
+template <class Real>
+void SelfCollision<Real>::run(PassCall call, const CpuState<Real>& before, CpuState<Real>& after,
+                              const std::vector<Real>& inverseMasses) {
+  switch (call.pass) {
+    case Pass::checkHash:
+      return checkHash(before, after);
+    case Pass::buildHash:
+      // The hash of another step need not know all pairs that were near when this one began: the clamp needs
+      // one of its own.
+      isRebuilt_ = call.index == HASHES_START ? needsClamp_ : isStale_;
+      if (isRebuilt_) buildHash(call.index == HASHES_START ? before.positions : after.positions);
+      return;
+    case Pass::findCandidates:
+      if (isRebuilt_) findCandidates();
+      return;
+    case Pass::resolveContacts:
+      return resolveContacts(before, after, inverseMasses);
+    case Pass::checkMotion:
+      return checkMotion(before, after, inverseMasses);
+    case Pass::clampMotion:
+      if (needsClamp_) clampMotion(before, after, inverseMasses);
+      return;
+    default:
+      assert(false && "this pass is not one of self-collision");
+  }
+}
+
+template <class Real>
+void SelfCollision<Real>::clampMotion(const CpuState<Real>& before, CpuState<Real>& after,
+                                      const std::vector<Real>& inverseMasses) {
   forEachBlock([&](const Block& block) {
     const View<Real> view = viewOf(params_, before, after, inverseMasses, distances_, block);
     for (std::uint32_t i = block.begin; i < block.end; ++i) {
@@ -332,6 +358,7 @@ template <class Real>
 std::vector<std::pair<std::uint32_t, std::uint32_t>> SelfCollision<Real>::candidatePairs(
     const Components<Real>& positions) {
   buildHash(positions);
+  findCandidates();
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
   for (const Block& block : blocks_) {
     for (std::uint32_t i = block.begin; i < block.end; ++i) {

@@ -1,4 +1,4 @@
-// Self-collision on the CPU: the twin of shaders/sim/self_*.comp (what and why: solver/self_collision.h).
+// Self-collision on the CPU: the twin of shaders/sim/self/*.comp (what and why: solver/self_collision.h).
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 #include "cloth/cloth.h"
 #include "solver/cpu/contact_blocks.h"
 #include "solver/cpu/cpu_state.h"
+#include "solver/executor.h"
 #include "solver/self_collision.h"
-#include "solver/solver.h"
 
 namespace clothsim::cpu {
 
@@ -24,16 +24,14 @@ class SelfCollision {
   [[nodiscard]] bool isOn() const { return mode_ != clothsim::SelfCollision::off; }
   [[nodiscard]] bool isRobust() const { return mode_ == clothsim::SelfCollision::robust; }
 
-  // Pass 3, over `after`: pushes particles apart that are too near. Builds the hash anew when it has to.
-  void separate(const CpuState<Real>& before, CpuState<Real>& after, const std::vector<Real>& inverseMasses);
-  // Robust only, the last word of pass 3: when some pair of strangers has come nearer than D, shortens all
-  // motion of the step by pairs until none has. Each of two may go half of the way that is left between them,
-  // so they cannot meet.
-  void guard(const CpuState<Real>& before, CpuState<Real>& after, const std::vector<Real>& inverseMasses);
+  // Does a pass of Domain::contacts. Building the hash and finding candidates, and clamping, are skipped in
+  // steps in which the checks before them have found that there is no need.
+  void run(PassCall call, const CpuState<Real>& before, CpuState<Real>& after,
+           const std::vector<Real>& inverseMasses);
   // By makeCutMasks(); empty: none.
   void setCutMasks(std::vector<std::uint32_t> masks);
   // For a new state: forgets the hash.
-  void restart() { isHashed_ = false; }
+  void restart() { isStale_ = true; }
 
   [[nodiscard]] ContactCounts counts() const { return counts_; }
 
@@ -48,10 +46,19 @@ class SelfCollision {
   // The candidate (shared/self_collision.h), or EXCLUDED for a pair that is left to its springs.
   [[nodiscard]] std::uint32_t encode(const Block& block, std::uint32_t i, std::uint32_t j) const;
   [[nodiscard]] std::uint32_t encodeListed(std::uint32_t i, std::uint32_t j) const;  // of one mesh
+  void checkHash(const CpuState<Real>& before, const CpuState<Real>& after);
   void buildHash(const Components<Real>& positions);
   void findCandidates();
-  void separateContacts(const CpuState<Real>& before, CpuState<Real>& after,
-                        const std::vector<Real>& inverseMasses);
+  // Pushes particles apart that are too near.
+  void resolveContacts(const CpuState<Real>& before, CpuState<Real>& after,
+                       const std::vector<Real>& inverseMasses);
+  // Whether some pair of strangers has come nearer than D: needsClamp_.
+  void checkMotion(const CpuState<Real>& before, const CpuState<Real>& after,
+                   const std::vector<Real>& inverseMasses);
+  // Shortens all motion of the step by pairs until none has. Each of two may go half of the way that is left
+  // between them, so they cannot meet.
+  void clampMotion(const CpuState<Real>& before, CpuState<Real>& after,
+                   const std::vector<Real>& inverseMasses);
   // `visit` sees what would be the candidates of a particle that has too many to remember.
   template <class Visit>
   void walk(const Block& block, std::uint32_t particle, Visit visit) const;
@@ -66,7 +73,9 @@ class SelfCollision {
   std::vector<Vec3<Real>> places_;  // at rest [m]; empty without meshes
   std::vector<std::uint32_t> cutMasks_;
   bool hasNearCodes_ = false;
-  bool isHashed_ = false;
+  bool isStale_ = true;     // the hash no longer serves
+  bool isRebuilt_ = false;  // by the last buildHash()
+  bool needsClamp_ = false;
   ContactCounts counts_;
 
   Components<Real> hashedPositions_, sortedPositions_, moved_;

@@ -1,5 +1,9 @@
 #include "solver/gpu/pass_programs.h"
 
+#include <algorithm>
+#include <cassert>
+
+#include "shared/implicit.h"
 #include "solver/step_params.h"
 
 namespace clothsim {
@@ -29,6 +33,28 @@ PassFeatures featuresOf(const Scene& scene, const Cloth& cloth, std::size_t grid
   return features;
 }
 
+PassFeatures restricted(const PassFeatures& all, Features to) {
+  PassFeatures features;
+  const auto take = [&](Feature feature, auto... members) {
+    if (to.contains(feature)) ((features.*members = all.*members), ...);
+  };
+  features.groupColumns = all.groupColumns;
+  features.groupRows = all.groupRows;
+  take(Feature::springs, &PassFeatures::enabledSlots, &PassFeatures::material, &PassFeatures::limitSprings);
+  take(Feature::restLengths, &PassFeatures::restLengthTable);
+  take(Feature::meshes, &PassFeatures::mesh);
+  take(Feature::wind, &PassFeatures::wind);
+  take(Feature::airResistance, &PassFeatures::airResistance);
+  take(Feature::jets, &PassFeatures::jet);
+  take(Feature::grabs, &PassFeatures::hold);
+  take(Feature::cuts, &PassFeatures::cuts);
+  take(Feature::movingPins, &PassFeatures::movingPins);
+  take(Feature::colliders, &PassFeatures::colliderTypes, &PassFeatures::movingColliders,
+       &PassFeatures::coulombFriction);
+  take(Feature::planes, &PassFeatures::contactPlanes);
+  return features;
+}
+
 gl::Defines definesFor(const PassFeatures& features) {
   return {{"WORK_GROUP_COLUMNS", std::to_string(features.groupColumns)},
           {"WORK_GROUP_ROWS", std::to_string(features.groupRows)},
@@ -43,99 +69,80 @@ gl::Defines definesFor(const PassFeatures& features) {
           {"HAS_MESH", std::to_string(features.mesh)},
           {"HAS_LIMIT_SPRINGS", std::to_string(features.limitSprings)},
           {"HAS_CONTACT_PLANES", std::to_string(features.contactPlanes)},
-          {"SUM_KIND", std::to_string(features.sumKind)},
           {"HAS_HOLD", std::to_string(features.hold)},
           {"HAS_JET", std::to_string(features.jet)},
           {"HAS_CUTS", std::to_string(features.cuts)},
-          {"COLLIDES_IN_STEP", std::to_string(features.collidesInStep)},
           {"ENABLED_SLOTS", std::to_string(features.enabledSlots) + "u"}};
 }
 
-namespace {
-
-// The features that a pass looks at, all others at their defaults.
-PassFeatures featuresOfPass(const std::string& pass, const PassFeatures& all) {
-  PassFeatures features;
-  features.groupColumns = all.groupColumns;
-  features.groupRows = all.groupRows;
-  if (pass == "step" || pass == "forces" || pass == "kick") {
-    features.wind = all.wind;
-    features.airResistance = all.airResistance;
-    features.restLengthTable = all.restLengthTable;
-    features.enabledSlots = all.enabledSlots;
-    features.material = all.material;
-    features.mesh = all.mesh;
-    features.jet = all.jet;
-    features.cuts = all.cuts;
-  }
-  if (pass == "implicit/begin") {
-    features.mesh = all.mesh;
-    features.wind = all.wind;
-    features.airResistance = all.airResistance;
-    features.jet = all.jet;
-    features.cuts = all.cuts;
-  }
-  if (pass == "implicit/linearize" || pass == "implicit/multiply" || pass == "implicit/try_lengths") {
-    features.contactPlanes = all.contactPlanes;
-    features.mesh = all.mesh;
-    features.wind = all.wind;
-    features.restLengthTable = all.restLengthTable;
-    features.enabledSlots = all.enabledSlots;
-    features.material = all.material;
-    features.cuts = all.cuts;
-  }
-  if (pass == "implicit/coarsen" || pass == "implicit/restrict" || pass == "implicit/prolong")
-    features.cuts = all.cuts;
-  features.limitSprings =
-      all.limitSprings && (features.enabledSlots != 0 || features.mesh);  // of passes that look at springs
-  if (pass.starts_with("implicit/sum")) features.sumKind = all.sumKind;
-  if (pass == "implicit/end") {
-    features.movingPins = all.movingPins;
-    features.contactPlanes = all.contactPlanes;
-  }
-  if (pass == "step" || pass == "integrate" || pass == "implicit/begin") {
-    features.movingPins = all.movingPins;
-    features.hold = all.hold;
-  }
-  features.collidesInStep = pass == "step" && all.collidesInStep;
-  if (features.collidesInStep || pass == "collide" || pass == "implicit/find_planes") {
-    features.colliderTypes = all.colliderTypes;
-    features.movingColliders = all.movingColliders;
-    features.coulombFriction = all.coulombFriction;
-  }
-  if (pass == "limit") {
-    features.mesh = all.mesh;
-    features.restLengthTable = all.restLengthTable;
-    features.cuts = all.cuts;
-  }
-  return features;
+const std::vector<Kernel>& kernels() {
+  const auto sum = [](Pass pass, int kind) {
+    return Kernel{
+        {pass}, {"implicit/sum_blocks", "implicit/sum_totals"}, {{"SUM_KIND", std::to_string(kind)}}};
+  };
+  static const std::vector<Kernel> all{
+      {{Pass::forces, Pass::integrate, Pass::collide}, {"step"}, {{"COLLIDES_IN_STEP", "1"}}},
+      {{Pass::forces, Pass::integrate}, {"step"}, {{"COLLIDES_IN_STEP", "0"}}},
+      {{Pass::forces, Pass::kick}, {"kick"}, {}},
+      {{Pass::checkStart}, {"start"}, {}},
+      {{Pass::forces}, {"forces"}, {}},
+      {{Pass::integrate}, {"integrate"}, {}},
+      {{Pass::begin}, {"implicit/begin"}, {}},
+      {{Pass::findPlanes}, {"implicit/find_planes"}, {}},
+      {{Pass::initialGuess}, {"implicit/initial_guess"}, {}},
+      {{Pass::elasticForces}, {"forces"}, {}},
+      {{Pass::linearize}, {"implicit/linearize"}, {}},
+      {{Pass::coarsen}, {"implicit/coarsen"}, {}},
+      {{Pass::restrict}, {"implicit/restrict"}, {}},
+      {{Pass::solveCoarsest}, {"implicit/solve_coarsest"}, {}},
+      {{Pass::prolong}, {"implicit/prolong"}, {}},
+      sum(Pass::sumFirstResidual, SUM_FIRST),
+      {{Pass::updateDirection}, {"implicit/update_direction"}, {}},
+      {{Pass::multiply}, {"implicit/multiply"}, {}},
+      sum(Pass::sumCurvature, SUM_STEP),
+      {{Pass::updateSolution}, {"implicit/update_solution"}, {}},
+      sum(Pass::sumNextResidual, SUM_NEXT),
+      {{Pass::tryLengths}, {"implicit/try_lengths"}, {}},
+      sum(Pass::sumStartEnergies, SUM_START),
+      sum(Pass::sumEnergies, SUM_LENGTH),
+      {{Pass::accept}, {"implicit/accept"}, {}},
+      {{Pass::end}, {"implicit/end"}, {}},
+      {{Pass::collide}, {"collide"}, {}},
+      {{Pass::limit}, {"limit"}, {}},
+      {{Pass::watchLimit}, {"watch_limit"}, {}},
+  };
+  return all;
 }
 
-}  // namespace
-
-const gl::Program* PassLibrary::find(const std::string& pass, const PassFeatures& features) {
-  const std::pair key{pass, featuresOfPass(pass, features)};
-  auto found = programs_.find(key);
-  if (found == programs_.end())
-    found = programs_.emplace(key, gl::Program::makeCompute("sim/" + pass + ".comp", definesFor(key.second)))
-                .first;
-  return &found->second;
+std::size_t kernelFor(std::span<const PassCall> passes, bool fused) {
+  const auto begins = [&](const Kernel& kernel) {
+    const std::vector<Pass>& own = kernel.passes;
+    if (own.size() > passes.size() || (!fused && own.size() > 1 && own.back() != Pass::kick)) return false;
+    return std::equal(own.begin(), own.end(), passes.begin(),
+                      [](Pass pass, const PassCall& call) { return pass == call.pass; });
+  };
+  const auto found = std::find_if(kernels().begin(), kernels().end(), begins);
+  assert(found != kernels().end() && "every pass has a kernel, and the kick one with the forces");
+  return static_cast<std::size_t>(found - kernels().begin());
 }
 
-PassPrograms PassLibrary::programsFor(const PassFeatures& features) {
-  PassPrograms programs;
-  if (features.fused) {
-    programs.step = find("step", features);
-  } else {
-    programs.forces = find("forces", features);
-    programs.integrate = find("integrate", features);
+std::vector<const gl::Program*> PassLibrary::find(const Kernel& kernel, const PassFeatures& features) {
+  Features seen;
+  for (const Pass pass : kernel.passes) seen = seen | traitsOf(pass).features;
+  const PassFeatures own = restricted(features, seen);
+  gl::Defines defines = definesFor(own);
+  defines.insert(defines.end(), kernel.defines.begin(), kernel.defines.end());
+  std::vector<const gl::Program*> programs;
+  for (const std::string& shader : kernel.shaders) {
+    std::string name = shader;
+    for (const auto& [macro, value] : kernel.defines) name += " " + macro + "=" + value;
+    auto found = programs_.find({name, own});
+    if (found == programs_.end())
+      found = programs_
+                  .emplace(std::pair{name, own}, gl::Program::makeCompute("sim/" + shader + ".comp", defines))
+                  .first;
+    programs.push_back(&found->second);
   }
-  if (!features.fused || !features.collidesInStep || features.collidesAgain)
-    programs.collide = find("collide", features);
-  programs.limit = find("limit", features);
-  programs.watchLimit = find("watch_limit", features);
-  programs.kick = find("kick", features);
-  programs.start = find("start", features);
   return programs;
 }
 

@@ -6,39 +6,37 @@
 namespace clothsim {
 
 template <class Dispatch>
-void PassRunner::runTimed(const gl::Program& pass, const char* name, Dispatch dispatch) {
+void PassRunner::runTimed(const gl::Program& pass, const std::string& name, Dispatch dispatch) {
   pass.bind();
-  if (timer_ != nullptr) timer_->begin();
+  if (timer_) timer_->begin();
   dispatch();
   glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
   if (flushes_) glFlush();
-  if (timer_ == nullptr) return;
+  if (!timer_) return;
   timer_->end();
-  auto found =
-      std::find_if(times_.begin(), times_.end(), [&](const PassTime& time) { return time.name == name; });
-  if (found == times_.end()) found = times_.insert(found, {name, 0});
-  found->seconds += timer_->seconds();
+  addTime(times_, name, timer_->seconds());
 }
 
-void PassRunner::run(const gl::Program& pass, const char* name, std::uint32_t columns, std::uint32_t rows) {
+void PassRunner::run(const gl::Program& pass, const std::string& name, std::uint32_t columns,
+                     std::uint32_t rows) {
   runTimed(pass, name, [&] { gl::dispatch(columns, rows, groupColumns_, groupRows_); });
 }
 
-void PassRunner::runGroups(const gl::Program& pass, const char* name, std::uint32_t groups) {
+void PassRunner::runGroups(const gl::Program& pass, const std::string& name, std::uint32_t groups) {
   runTimed(pass, name, [&] { gl::dispatch(groups, 1); });
 }
 
-void PassRunner::runIndirect(const gl::Program& pass, const char* name, std::size_t place) {
+void PassRunner::runIndirect(const gl::Program& pass, const std::string& name, std::size_t place) {
   runTimed(pass, name, [&] { glDispatchComputeIndirect(static_cast<GLintptr>(place * sizeof(Groups))); });
 }
 
-void PassRunner::startTiming(gl::Timer& timer) {
-  timer_ = &timer;
+void PassRunner::startTiming() {
+  timer_.emplace();
   times_.clear();
 }
 
 std::vector<PassTime> PassRunner::stopTiming() {
-  timer_ = nullptr;
+  timer_.reset();
   return std::move(times_);
 }
 

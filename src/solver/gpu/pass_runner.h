@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,13 +11,9 @@
 #include "gl/context.h"
 #include "gl/program.h"
 #include "gl/timer.h"
+#include "solver/executor.h"
 
 namespace clothsim {
-
-struct PassTime {
-  std::string name;
-  double seconds = 0;  // on the GPU, of all dispatches together
-};
 
 // What glDispatchComputeIndirect reads, in steps of 16 bytes.
 struct Groups {
@@ -30,23 +27,25 @@ class PassRunner {
       : groupColumns_(groupColumns), groupRows_(groupRows), flushes_(gl::currentContextInfo().needsFlushes) {}
 
   // One invocation a grid point.
-  void run(const gl::Program& pass, const char* name, std::uint32_t columns, std::uint32_t rows);
+  void run(const gl::Program& pass, const std::string& name, std::uint32_t columns, std::uint32_t rows);
   // `groups` work groups.
-  void runGroups(const gl::Program& pass, const char* name, std::uint32_t groups);
+  void runGroups(const gl::Program& pass, const std::string& name, std::uint32_t groups);
   // As many work groups as the bound dispatch buffer says at that place.
-  void runIndirect(const gl::Program& pass, const char* name, std::size_t place);
+  void runIndirect(const gl::Program& pass, const std::string& name, std::size_t place);
 
-  // Between these, every dispatch is timed (which slows the whole), and times add up by name.
-  void startTiming(gl::Timer& timer);
+  // Between these, every dispatch is timed (which slows the whole), and times add up by name. Names
+  // serve for nothing else.
+  void startTiming();
   [[nodiscard]] std::vector<PassTime> stopTiming();
+  [[nodiscard]] bool isTiming() const { return timer_.has_value(); }
 
  private:
   template <class Dispatch>
-  void runTimed(const gl::Program& pass, const char* name, Dispatch dispatch);
+  void runTimed(const gl::Program& pass, const std::string& name, Dispatch dispatch);
 
   int groupColumns_, groupRows_;
   bool flushes_;
-  gl::Timer* timer_ = nullptr;
+  std::optional<gl::Timer> timer_;
   std::vector<PassTime> times_;
 };
 

@@ -1,5 +1,6 @@
 #include "solver/gpu/self_collision.h"
 
+#include <cassert>
 #include <cstddef>
 #include <span>
 #include <string>
@@ -62,10 +63,10 @@ void GpuSelfCollision::choosePrograms() {
   now_.scanTotals = program("scan_totals", any);
   now_.scatter = program("scatter", any);
   now_.find = program("find", pairs);
-  now_.separate = program("separate", pairs);
+  now_.resolve = program("resolve_contacts", pairs);
   if (!isRobust()) return;
-  now_.guardCheck = program("guard_check", pairs);
-  now_.guard = program("guard", pairs);
+  now_.checkMotion = program("check_motion", pairs);
+  now_.clamp = program("clamp_motion", pairs);
 }
 
 void GpuSelfCollision::setCut(bool cut) {
@@ -128,7 +129,7 @@ void GpuSelfCollision::bind() const {
   distancesTexture_.bind(CONTACT_DISTANCES_UNIT);
 }
 
-void GpuSelfCollision::runOnGrids(PassRunner& runner, const gl::Program& pass, const char* name,
+void GpuSelfCollision::runOnGrids(PassRunner& runner, const gl::Program& pass, const std::string& name,
                                   const BindGrid& bindGrid) const {
   for (std::size_t i = 0; i < cloth_->grids().size(); ++i) {
     const Grid& grid = cloth_->grids()[i];
@@ -137,9 +138,8 @@ void GpuSelfCollision::runOnGrids(PassRunner& runner, const gl::Program& pass, c
   }
 }
 
-void GpuSelfCollision::buildHash(PassRunner& runner, const ParticleArray& positions,
-                                 const BindGrid& bindGrid) const {
-  constexpr const char* name = "self-collision, hash";
+void GpuSelfCollision::buildHash(PassRunner& runner, const std::string& name,
+                                 const ParticleArray& positions) const {
   dispatches_.bindStorage(DISPATCHES_BINDING);
   runner.runGroups(*now_.plan, name, 1);
   dispatches_.bindDispatches();
@@ -152,28 +152,43 @@ void GpuSelfCollision::buildHash(PassRunner& runner, const ParticleArray& positi
   runner.runIndirect(*now_.scanTotals, name, scanTotalsPlace);
   sorted_.buffer.bindStorage(HASHED_BINDING);
   runner.runIndirect(*now_.scatter, name, scatterPlace);
+}
+
+void GpuSelfCollision::findCandidates(PassRunner& runner, const std::string& name,
+                                      const BindGrid& bindGrid) const {
   candidates_.bindStorage(CANDIDATES_BINDING);
   for (std::size_t grid = 0; grid < cloth_->grids().size(); ++grid) {
     bindGrid(grid);
-    runner.runIndirect(*now_.find, "self-collision, candidates", findPlace + grid);
+    runner.runIndirect(*now_.find, name, findPlace + grid);
   }
 }
 
-void GpuSelfCollision::separate(PassRunner& runner, ParticleArray& newPositions, const BindGrid& bindGrid) {
-  bind();
-  runOnGrids(runner, *now_.check, "self-collision, check", bindGrid);
-  buildHash(runner, newPositions, bindGrid);
-  spare_.buffer.bindStorage(NEW_POSITIONS_BINDING);
-  runOnGrids(runner, *now_.separate, "self-collision, separate", bindGrid);
-  std::swap(newPositions, spare_);
-  newPositions.texture.bind(NEW_POSITIONS_UNIT);
-  newPositions.buffer.bindStorage(NEW_POSITIONS_BINDING);
-}
-
-void GpuSelfCollision::guard(PassRunner& runner, const ParticleArray& positions, const BindGrid& bindGrid) {
-  runOnGrids(runner, *now_.guardCheck, "self-collision, guard", bindGrid);
-  buildHash(runner, positions, bindGrid);
-  runOnGrids(runner, *now_.guard, "self-collision, guard", bindGrid);
+void GpuSelfCollision::run(PassRunner& runner, PassCall call, GpuArrays& arrays, const BindGrid& bindGrid) {
+  const std::string name = runner.isTiming() ? nameOf(call.pass) : "";
+  ParticleArray& newPositions = arrays[Array::newPositions];
+  arrays.bindFor(call.pass);
+  switch (call.pass) {
+    case Pass::checkHash:
+      bind();
+      return runOnGrids(runner, *now_.check, name, bindGrid);
+    case Pass::buildHash:
+      return buildHash(runner, name, call.index == HASHES_START ? arrays[Array::positions] : newPositions);
+    case Pass::findCandidates:
+      return findCandidates(runner, name, bindGrid);
+    case Pass::resolveContacts:
+      // All particles read where the others were before: the new places go into another buffer.
+      spare_.buffer.bindStorage(NEW_POSITIONS_BINDING);
+      runOnGrids(runner, *now_.resolve, name, bindGrid);
+      std::swap(newPositions, spare_);
+      newPositions.texture.bind(NEW_POSITIONS_UNIT);
+      return newPositions.buffer.bindStorage(NEW_POSITIONS_BINDING);
+    case Pass::checkMotion:
+      return runOnGrids(runner, *now_.checkMotion, name, bindGrid);
+    case Pass::clampMotion:
+      return runOnGrids(runner, *now_.clamp, name, bindGrid);
+    default:
+      assert(false && "this pass is not one of self-collision");
+  }
 }
 
 ContactCounts GpuSelfCollision::counts() const {

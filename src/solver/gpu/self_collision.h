@@ -16,10 +16,11 @@
 #include "gl/buffer_texture.h"
 #include "gl/program.h"
 #include "scene/scene.h"
+#include "solver/executor.h"
+#include "solver/gpu/arrays.h"
 #include "solver/gpu/particle_array.h"
 #include "solver/gpu/pass_runner.h"
 #include "solver/self_collision.h"
-#include "solver/solver.h"
 
 namespace clothsim {
 
@@ -35,12 +36,9 @@ class GpuSelfCollision {
   [[nodiscard]] bool isOn() const { return mode_ != SelfCollision::off; }
   [[nodiscard]] bool isRobust() const { return mode_ == SelfCollision::robust; }
 
-  // Pass 3 over the positions at the end of the step, which it exchanges for corrected ones. The state is
-  // bound, and `bindGrid(grid)` binds the parameters of a grid.
-  void separate(PassRunner& runner, ParticleArray& newPositions, const BindGrid& bindGrid);
-  // Robust only: cuts motion short where strangers came nearer than D; in place. `positions`: at the start of
-  // the step.
-  void guard(PassRunner& runner, const ParticleArray& positions, const BindGrid& bindGrid);
+  // Does a pass of Domain::contacts. Building the hash and finding candidates are dispatched with no work
+  // groups where there is no need.
+  void run(PassRunner& runner, PassCall call, GpuArrays& arrays, const BindGrid& bindGrid);
   // Whether the masks of cuts are bound in the passes. Forgets the hash.
   void setCut(bool cut);
   // For a new state: forgets the hash. The counts go on.
@@ -62,7 +60,7 @@ class GpuSelfCollision {
   struct Programs {
     const gl::Program *check = nullptr, *plan = nullptr, *clear = nullptr, *count = nullptr,
                       *scanBlocks = nullptr, *scanTotals = nullptr, *scatter = nullptr, *find = nullptr,
-                      *separate = nullptr, *guardCheck = nullptr, *guard = nullptr;
+                      *resolve = nullptr, *checkMotion = nullptr, *clamp = nullptr;
   };
   // Places in the dispatch buffer; those of `find` follow, one a grid.
   enum Place : std::size_t {
@@ -78,8 +76,9 @@ class GpuSelfCollision {
   void choosePrograms();
   void allocate(const SelfParams<float>& params);
   void bind() const;
-  void buildHash(PassRunner& runner, const ParticleArray& positions, const BindGrid& bindGrid) const;
-  void runOnGrids(PassRunner& runner, const gl::Program& pass, const char* name,
+  void buildHash(PassRunner& runner, const std::string& name, const ParticleArray& positions) const;
+  void findCandidates(PassRunner& runner, const std::string& name, const BindGrid& bindGrid) const;
+  void runOnGrids(PassRunner& runner, const gl::Program& pass, const std::string& name,
                   const BindGrid& bindGrid) const;
 
   const Cloth* cloth_;

@@ -34,8 +34,7 @@ PassFeatures allFeatures() {
           .colliderTypes = 0xffffffff,
           .enabledSlots = 63,
           .groupColumns = 64,
-          .groupRows = 1,
-          .fused = true};
+          .groupRows = 1};
 }
 
 // Offset that the driver gives a member of a uniform block; -1: the program does not use it.
@@ -57,12 +56,29 @@ GLint blockSize(const gl::Program& program, const char* block) {
   return size;
 }
 
+const gl::Program& programOf(PassLibrary& library, std::initializer_list<Pass> passes,
+                             const PassFeatures& features) {
+  std::vector<PassCall> calls;
+  for (const Pass pass : passes) calls.push_back({pass});
+  return *library.find(kernels()[kernelFor(calls, true)], features).back();
+}
+
+struct Programs {
+  Programs(PassLibrary& library, const PassFeatures& features)
+      : step(&programOf(library, {Pass::forces, Pass::integrate, Pass::collide}, features)),
+        limit(&programOf(library, {Pass::limit}, features)),
+        watchLimit(&programOf(library, {Pass::watchLimit}, features)),
+        kick(&programOf(library, {Pass::forces, Pass::kick}, features)),
+        start(&programOf(library, {Pass::checkStart}, features)) {}
+  const gl::Program *step, *limit, *watchLimit, *kick, *start;
+};
+
 #define MEMBER(Struct, prefix, member) \
   { prefix #member, offsetof(Struct, member) }
 
 TEST_F(LayoutTest, OfStepParamsIsTheDrivers) {
   PassLibrary library;
-  const PassPrograms programs = library.programsFor(allFeatures());
+  const Programs programs(library, allFeatures());
   const std::vector<std::pair<std::string, std::size_t>> members = {
       MEMBER(Step, "StepBlock.step.", firstParticle),
       MEMBER(Step, "StepBlock.step.", columns),
@@ -104,7 +120,7 @@ TEST_F(LayoutTest, OfWhatMeshesAddToStepParamsIsTheDrivers) {
   PassFeatures features = allFeatures();
   features.mesh = true;
   PassLibrary library;
-  EXPECT_EQ(uniformOffset(*library.programsFor(features).step, "step.maxStretch"),
+  EXPECT_EQ(uniformOffset(*Programs(library, features).step, "step.maxStretch"),
             static_cast<GLint>(offsetof(Step, maxStretch)));
   EXPECT_EQ(sizeof(MeshLists<float>::Starts), 16u) << "a texel";
   EXPECT_EQ(sizeof(MeshLists<float>::SpringAt), 16u);
@@ -117,7 +133,7 @@ TEST_F(LayoutTest, OfHandParamsIsTheDrivers) {
   PassFeatures features = allFeatures();
   features.hold = features.jet = features.cuts = true;
   PassLibrary library;
-  const PassPrograms programs = library.programsFor(features);
+  const Programs programs(library, features);
   const std::vector<std::pair<std::string, std::size_t>> members = {
       MEMBER(HandBlock, "hand.", goalX),         MEMBER(HandBlock, "hand.", velocityKept),
       MEMBER(HandBlock, "hand.", pushX),         MEMBER(HandBlock, "hand.", pull),
@@ -137,19 +153,19 @@ TEST_F(LayoutTest, OfWhatTheImplicitIntegratorSharesIsTheDrivers) {
   PassLibrary library;
   PassFeatures features = allFeatures();
   features.limitSprings = features.hold = true;
-  const gl::Program& begin = *library.find("implicit/begin", features);
+  const gl::Program& begin = programOf(library, {Pass::begin}, features);
   EXPECT_EQ(uniformOffset(begin, "step.inertia"), static_cast<GLint>(offsetof(Step, inertia)));
   EXPECT_EQ(uniformOffset(begin, "step.guessTime"), static_cast<GLint>(offsetof(Step, guessTime)));
-  EXPECT_EQ(uniformOffset(*library.find("implicit/end", features), "step.supportScale"),
+  EXPECT_EQ(uniformOffset(programOf(library, {Pass::end}, features), "step.supportScale"),
             static_cast<GLint>(offsetof(Step, supportScale)));
   EXPECT_EQ(uniformOffset(begin, "hand.resistance"),
             static_cast<GLint>(offsetof(HandParams<float>, resistance)));
-  EXPECT_EQ(uniformOffset(begin, "hand.largestWaySquared"),
-            static_cast<GLint>(offsetof(HandParams<float>, largestWaySquared)));
-  EXPECT_EQ(uniformOffset(*library.find("implicit/multiply", features), "step.limitStiffness"),
+  EXPECT_EQ(uniformOffset(begin, "hand.largestDisplacementSquared"),
+            static_cast<GLint>(offsetof(HandParams<float>, largestDisplacementSquared)));
+  EXPECT_EQ(uniformOffset(programOf(library, {Pass::multiply}, features), "step.limitStiffness"),
             static_cast<GLint>(offsetof(Step, limitStiffness)));
 
-  const gl::Program& coarsen = *library.find("implicit/coarsen", features);
+  const gl::Program& coarsen = programOf(library, {Pass::coarsen}, features);
   for (const auto& [name, offset] : std::vector<std::pair<std::string, std::size_t>>{
            MEMBER(Level, "level.", fineFirst), MEMBER(Level, "level.", coarseFirst),
            MEMBER(Level, "level.", coarseRows), MEMBER(Level, "level.", stretchFactor),
@@ -157,7 +173,7 @@ TEST_F(LayoutTest, OfWhatTheImplicitIntegratorSharesIsTheDrivers) {
     EXPECT_EQ(uniformOffset(coarsen, name), static_cast<GLint>(offset)) << name;
   EXPECT_EQ(blockSize(coarsen, "LevelBlock"), static_cast<GLint>(sizeof(Level)));
 
-  const gl::Program& totals = *library.find("implicit/sum_totals", features);
+  const gl::Program& totals = programOf(library, {Pass::sumFirstResidual}, features);
   const GLuint index = glGetProgramResourceIndex(totals.name(), GL_BUFFER_VARIABLE, "scalars.residual");
   ASSERT_NE(index, GL_INVALID_INDEX);
   EXPECT_EQ(sizeof(ImplicitScalars<float>), 32u);
@@ -167,19 +183,19 @@ TEST_F(LayoutTest, OfWhatTheImplicitIntegratorSharesIsTheDrivers) {
 // Who toggles back and forth compiles nothing, nor for a pass that does not look at what was toggled.
 TEST_F(LayoutTest, OfProgramsIsSharedByScenesThatNeedTheSame) {
   PassLibrary library;
-  const PassPrograms before = library.programsFor(allFeatures());
+  const Programs before(library, allFeatures());
   PassFeatures features = allFeatures();
   features.hold = true;
-  const PassPrograms held = library.programsFor(features);
+  const Programs held(library, features);
   EXPECT_NE(held.step, before.step);
   EXPECT_EQ(held.limit, before.limit);
   EXPECT_EQ(held.kick, before.kick);
-  EXPECT_EQ(library.programsFor(allFeatures()).step, before.step);
+  EXPECT_EQ(Programs(library, allFeatures()).step, before.step);
 }
 
 TEST_F(LayoutTest, OfSpringsInStepParamsIsTheDrivers) {
   PassLibrary library;
-  const PassPrograms programs = library.programsFor(allFeatures());
+  const Programs programs(library, allFeatures());
   for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot) {
     const std::string spring = "step.springs[" + std::to_string(slot) + "].";
     const std::size_t base = offsetof(Step, springs) + slot * sizeof(SpringRow);
@@ -194,7 +210,7 @@ TEST_F(LayoutTest, OfSpringsInStepParamsIsTheDrivers) {
 
 TEST_F(LayoutTest, OfLimitColorIsTheDrivers) {
   PassLibrary library;
-  const PassPrograms programs = library.programsFor(allFeatures());
+  const Programs programs(library, allFeatures());
   const std::vector<std::pair<std::string, std::size_t>> members = {
       MEMBER(LimitColor, "color.", slot),       MEMBER(LimitColor, "color.", firstColumn),
       MEMBER(LimitColor, "color.", columnStep), MEMBER(LimitColor, "color.", columnRun),
@@ -208,7 +224,7 @@ TEST_F(LayoutTest, OfLimitColorIsTheDrivers) {
 
 TEST_F(LayoutTest, OfTheWatchdogsRowIsTheDrivers) {
   PassLibrary library;
-  const PassPrograms programs = library.programsFor(allFeatures());
+  const Programs programs(library, allFeatures());
   for (const gl::Program* program : {programs.start, programs.step, programs.watchLimit, programs.kick}) {
     const GLuint index = glGetProgramResourceIndex(program->name(), GL_BUFFER_VARIABLE, "watchRow[0]");
     ASSERT_NE(index, GL_INVALID_INDEX);

@@ -31,7 +31,7 @@ TEST_F(WatchdogTest, FindsTwoHundredInjectedInfinitiesAndNansInTheNextStep) {
     cpu.setState(wrong);
     gpu.step(1);
     cpu.step(1);
-    const Trouble expected{TroubleReason::nonFinite, Pass::start,
+    const Trouble expected{TroubleReason::nonFinite, Pass::checkStart,
                            static_cast<std::uint64_t>(injection.step) + 1, injection.particle};
     EXPECT_EQ(gpu.trouble(), expected) << injection.text();
     EXPECT_EQ(cpu.trouble(), expected) << injection.text();

@@ -67,7 +67,7 @@ TEST(GiveMaterial, LeavesNothingThatAMaterialTells) {
   EXPECT_EQ(sceneOf(formatScene(scene)).cloths, scene.cloths);
 }
 
-// PHYSICS.md section 2: k_d = G, k_s = C11 - G; isotropic at k_s = 2 k_d with Y = 8/3 k_d.
+// On square cells (docs/physics.md): k_d = G, k_s = C11 - G; isotropic at k_s = 2 k_d with Y = 8/3 k_d.
 TEST(LatticeStiffness, IsTheKnownOneOnSquares) {
   Material material;
   material.shear = 300;

@@ -28,6 +28,14 @@ struct Pushed {
   Components<float> velocities;
 };
 
+// Contacts of a step from `before` to `after`, resolved.
+void resolveContacts(cpu::SelfCollision<float>& collision, const CpuState<float>& before,
+                     CpuState<float>& after, const std::vector<float>& inverseMasses) {
+  for (const PassCall call : {PassCall{Pass::checkHash}, PassCall{Pass::buildHash, HASHES_END},
+                              PassCall{Pass::findCandidates}, PassCall{Pass::resolveContacts}})
+    collision.run(call, before, after, inverseMasses);
+}
+
 Pushed separated(const Scene& scene, const Cloth& cloth, const Components<float>& points,
                  const std::vector<float>& inverseMasses) {
   cpu::SelfCollision<float> collision(cloth, false);
@@ -35,7 +43,7 @@ Pushed separated(const Scene& scene, const Cloth& cloth, const Components<float>
   CpuState<float> before, after;
   before.positions = after.positions = points;
   before.velocities = after.velocities = cloud(points.x.size());
-  collision.separate(before, after, inverseMasses);
+  resolveContacts(collision, before, after, inverseMasses);
   Pushed result{{}, after.velocities};
   for (std::size_t i = 0; i < points.x.size(); ++i)
     result.moves.push_back(point(after.positions, i) - point(points, i));
@@ -139,7 +147,7 @@ TEST(Separate, TakesBackSlipUpToFriction) {
     after.positions = before.positions;
     after.positions.x[57] += static_cast<float>(slip);
     before.velocities = after.velocities = cloud(100);
-    collision.separate(before, after, std::vector<float>(100, 1.0f));
+    resolveContacts(collision, before, after, std::vector<float>(100, 1.0f));
     return static_cast<double>(after.positions.x[57] - after.positions.x[4]);
   };
   const double depth = 0.01 * distance, slip = 0.02 * distance;

@@ -30,7 +30,7 @@ TEST(Watchdog, FindsNonFiniteNumbersInjectedAnywhereInTheNextStepAndNamesThePart
     ASSERT_EQ(solver.trouble(), std::nullopt);
     solver.setState(injection.into(solver.state()));
     solver.step(1);
-    const Trouble expected{TroubleReason::nonFinite, Pass::start,
+    const Trouble expected{TroubleReason::nonFinite, Pass::checkStart,
                            static_cast<std::uint64_t>(injection.step) + 1, injection.particle};
     EXPECT_EQ(solver.trouble(), expected) << injection.text();
   }

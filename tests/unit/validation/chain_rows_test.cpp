@@ -80,7 +80,7 @@ double settledSag() {
 
 TEST(RowHangingChain, SagsToTheRootOfTheDiscreteChain) {
   const double expected = discreteSag();
-  EXPECT_NEAR(expected, 0.503586498, 1e-9) << "as PHYSICS.md says";
+  EXPECT_NEAR(expected, 0.503586498, 1e-9) << "the root, worked out by an independent program";
   expectNear({"hanging chain", "sag of 32 links", "double", "m"}, settledSag<double>(), expected, 1e-9);
   expectNear({"hanging chain", "sag of 32 links", "binary32", "m"}, settledSag<float>(), expected, 1e-4);
 }

@@ -28,7 +28,7 @@ void solveWith(Scene& scene, int newtonSteps, int cgIterations) {
   scene.solver.cgIterations = cgIterations;
 }
 
-// The sheet of PHYSICS.md section 3, held by two clips of W/32: structural springs of 1e4 N/m and shear
+// A sheet of width W, held by two clips of W/32: structural springs of 1e4 N/m and shear
 // springs of 5e3 N/m, that is C11 = 15000 N/m and G = 5000 N/m. (Its weak springs over two cells are left
 // out.)
 Scene clippedSheet(int points) {

@@ -48,8 +48,8 @@ class Sheet {
     const std::size_t count = cloth_.particleCount();
     for (Components<double>* c : {&own_.iterate.positions, &own_.directions.positions, &own_.products})
       c->resize(count);
-    own_.anchorStiffness.resize(count);
-    for (std::size_t i = 0; i < count; ++i) own_.anchorStiffness[i] = 1 + static_cast<double>(i % 5);
+    own_.diagonal.resize(count);
+    for (std::size_t i = 0; i < count; ++i) own_.diagonal[i] = 1 + static_cast<double>(i % 5);
   }
 
   [[nodiscard]] const Cloth& cloth() const { return cloth_; }
@@ -112,7 +112,7 @@ class Sheet {
     Field result(x.size());
     for (std::size_t i = 0; i < x.size(); ++i)
       if (cloth_.inverseMasses()[i] > 0)
-        result[i] = own_.anchorStiffness[i] * p[i] - (0.5 / step) * (after[i] - before[i]);
+        result[i] = own_.diagonal[i] * p[i] - (0.5 / step) * (after[i] - before[i]);
     return result;
   }
 

@@ -2,7 +2,7 @@
 #include "sim/implicit/common.glsl"
 #include "sim/implicit/scalars.glsl"
 
-layout(std430, binding = FIRST_OUTPUT_BINDING) writeonly buffer Directions { vec4 newDirections[]; };
+layout(std430, binding = DIRECTIONS_BINDING) writeonly buffer Directions { vec4 newDirections[]; };
 
 void main() {
   uint i = thisParticle();

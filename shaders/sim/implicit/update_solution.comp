@@ -2,8 +2,8 @@
 #include "sim/implicit/common.glsl"
 #include "sim/implicit/scalars.glsl"
 
-layout(std430, binding = FIRST_OUTPUT_BINDING) writeonly buffer Residuals { vec4 newResiduals[]; };
-layout(std430, binding = SECOND_OUTPUT_BINDING) writeonly buffer Increments { vec4 newIncrements[]; };
+layout(std430, binding = RESIDUALS_BINDING) writeonly buffer Residuals { vec4 newResiduals[]; };
+layout(std430, binding = INCREMENTS_BINDING) writeonly buffer Increments { vec4 newIncrements[]; };
 
 void main() {
   uint i = thisParticle();

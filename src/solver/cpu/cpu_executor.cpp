@@ -1,0 +1,426 @@
+#include "solver/cpu/cpu_executor.h"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <chrono>
+#include <utility>
+
+#include "core/exact_math.h"
+#include "solver/cpu/arrays.h"
+#include "solver/cpu/fixed_sum.h"
+#include "solver/cpu/rows.h"
+
+namespace clothsim {
+namespace {
+
+// Below this many particles a row-parallel pass costs more in waking threads than it saves; and a level below
+// this many vertices.
+constexpr std::uint32_t PARALLEL_PARTICLES = 8192;
+
+// Sums below this count as 0: their reciprocal would not be safe.
+template <class Real>
+constexpr Real leastSum = static_cast<Real>(0x1p-110f);
+
+// What a pass does with one row of a grid, or of a mesh (rows.h).
+template <class Real>
+using RowPass = void (*)(const cpu::ImplicitArguments<Real>&, int row);
+
+template <class Real>
+RowPass<Real> rowPassOf(Pass pass) {
+  using Arguments = cpu::ImplicitArguments<Real>;
+  switch (pass) {
+    case Pass::checkStart:
+      return [](const Arguments& grid, int row) { cpu::checkStart(grid.step, row); };
+    case Pass::kick:
+      return [](const Arguments& grid, int row) { cpu::kick(grid.step, row); };
+    case Pass::forces:
+      return [](const Arguments& grid, int row) { cpu::gatherForces(grid.step, row); };
+    case Pass::integrate:
+      return [](const Arguments& grid, int row) { cpu::integrate(grid.step, row); };
+    case Pass::collide:
+      return [](const Arguments& grid, int row) { cpu::collide(grid.step, row); };
+    case Pass::watchLimit:
+      return [](const Arguments& grid, int row) { cpu::watchLimit(grid.step, row); };
+    case Pass::begin:
+      return [](const Arguments& grid, int row) { cpu::begin(grid, row); };
+    case Pass::findPlanes:
+      return [](const Arguments& grid, int row) {
+        cpu::findPlanes(grid.step, grid.own.iterate.positions, grid.own.planes, row);
+      };
+    case Pass::initialGuess:
+      return [](const Arguments& grid, int row) { cpu::initialGuess(grid, row); };
+    case Pass::elasticForces:
+      return [](const Arguments& grid, int row) { cpu::gatherElasticForces(grid, row); };
+    case Pass::linearize:
+      return [](const Arguments& grid, int row) { cpu::linearize(grid, row); };
+    case Pass::updateDirection:
+      return [](const Arguments& grid, int row) { cpu::updateDirection(grid, row); };
+    case Pass::multiply:
+      return [](const Arguments& grid, int row) { cpu::multiply(grid, row); };
+    case Pass::updateSolution:
+      return [](const Arguments& grid, int row) { cpu::updateSolution(grid, row); };
+    case Pass::tryLengths:
+      return [](const Arguments& grid, int row) { cpu::tryLengths(grid, row); };
+    case Pass::accept:
+      return [](const Arguments& grid, int row) { cpu::accept(grid, row); };
+    case Pass::end:
+      return [](const Arguments& grid, int row) { cpu::end(grid, row); };
+    default:
+      assert(false && "this pass does not run over rows");
+      return nullptr;
+  }
+}
+
+}  // namespace
+
+template <class Real>
+struct CpuExecutor<Real>::Copy final : ParticleCopy {
+  Particles particles;
+
+  [[nodiscard]] std::size_t bytes() const override {
+    return 8 * particles.inverseMasses.size() * sizeof(Real);
+  }
+  void download(State& state) const override {
+    const std::size_t count = particles.inverseMasses.size();
+    state.positions.resize(count);
+    state.velocities.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto place = static_cast<std::ptrdiff_t>(i);
+      const Vec3f x = cpu::at(particles.state.positions, place).template cast<float>(),
+                  v = cpu::at(particles.state.velocities, place).template cast<float>();
+      state.positions[i] = {x.x, x.y, x.z, static_cast<float>(particles.inverseMasses[i])};
+      state.velocities[i] = {v.x, v.y, v.z, static_cast<float>(particles.support[i])};
+    }
+  }
+};
+
+template <class Real>
+CpuExecutor<Real>::CpuExecutor(const Cloth& cloth, bool sweeps)
+    : cloth_(&cloth),
+      sweeps_(sweeps),
+      parallel_(cloth.particleCount() >= PARALLEL_PARTICLES),
+      restLengths_(measureRestLengths<Real>(cloth)),
+      lists_(makeMeshLists<Real>(cloth)),
+      selfCollision_(cloth, parallel_) {
+  const std::size_t count = cloth.particleCount();
+  for (CpuState<Real>* state : {&particles_.state, &after_}) {
+    state->positions.resize(count);
+    state->velocities.resize(count);
+  }
+  forces_.resize(count);
+  particles_.support.resize(count);
+  particles_.inverseMasses.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    cpu::put(particles_.state.positions, static_cast<std::ptrdiff_t>(i), startPosition<Real>(cloth, i));
+    particles_.inverseMasses[i] = static_cast<Real>(cloth.inverseMasses()[i]);
+  }
+  for (const Grid& grid : cloth.grids()) limitColors_.push_back(makeLimitColors(grid));
+}
+
+template <class Real>
+void CpuExecutor<Real>::setScene(const StepInputs& inputs) {
+  distances_ = distanceSamples(inputs.distanceGrids);
+  selfCollision_.configure(*inputs.scene);
+}
+
+template <class Real>
+void CpuExecutor<Real>::setCuts(const StepInputs& inputs) {
+  selfCollision_.setCutMasks(inputs.cutMasks);
+  if (hierarchy_.vertices != 0) implicit_.cutLinks = makeCutLinks(*cloth_, inputs.cutMasks, hierarchy_);
+}
+
+template <class Real>
+void CpuExecutor<Real>::prepare(const StepInputs& inputs, const PassList& list) {
+  if (pinStarts_.x.size() != inputs.pinPaths.numbers.size()) {
+    pinStarts_.resize(inputs.pinPaths.numbers.size());
+    for (std::size_t i = 0; i < pinStarts_.x.size(); ++i)
+      cpu::put(pinStarts_, static_cast<std::ptrdiff_t>(i), startPosition<Real>(*cloth_, i));
+  }
+  if (list.contains(Pass::begin) && hierarchy_.vertices == 0) {
+    hierarchy_ = makeHierarchy<Real>(*cloth_);
+    implicit_.resize(cloth_->particleCount(), hierarchy_.vertices);
+    implicit_.cutLinks = makeCutLinks(*cloth_, inputs.cutMasks, hierarchy_);
+  }
+  if (list.contains(Pass::findPlanes)) implicit_.planes.resize(cloth_->particleCount());
+}
+
+template <class Real>
+cpu::PassArguments<Real> CpuExecutor<Real>::argumentsOf(const StepInputs& inputs, std::size_t grid) {
+  const Hand& hand = inputs.hand;
+  const bool holds = hand.hold && hand.hold->grid == grid;
+  return {parameters_.grids[grid],
+          parameters_.colliders.data(),
+          distances_.data(),
+          parameters_.pinMotions.data(),
+          inputs.pinPaths.paths.empty() ? nullptr : inputs.pinPaths.numbers.data(),
+          pinStarts_,
+          particles_.inverseMasses.data(),
+          restLengths_.data(),
+          lists_,
+          parameters_.hand,
+          holds ? hand.hold->points->data() : nullptr,
+          hand.jet.has_value(),
+          inputs.cutMasks.empty() ? nullptr : inputs.cutMasks.data(),
+          particles_.state,
+          after_,
+          forces_,
+          particles_.support.data(),
+          watch_};
+}
+
+template <class Real>
+void CpuExecutor<Real>::run(const StepInputs& inputs, const PassList& list, int) {
+  evaluate(inputs, 0, parameters_);
+  grids_.clear();
+  for (std::size_t grid = 0; grid < cloth_->grids().size(); ++grid)
+    grids_.push_back({argumentsOf(inputs, grid), implicit_});
+  // Only implicit steps know what holds particles up.
+  const bool givesSupport = list.contains(Pass::end);
+  if (!givesSupport && list.outcome != Outcome::nothing && std::exchange(particles_.hasSupport, false))
+    std::fill(particles_.support.begin(), particles_.support.end(), Real(0));
+  particles_.hasSupport = particles_.hasSupport || givesSupport;
+
+  for (std::span<const PassCall> rest = list.passes; !rest.empty();) {
+    const std::size_t count = sweeps_ ? sweepLength(rest) : 1;
+    runSweep(rest.first(count));
+    rest = rest.subspan(count);
+  }
+  adopt(list.outcome);
+}
+
+template <class Real>
+void CpuExecutor<Real>::adopt(Outcome outcome) {
+  if (outcome == Outcome::state) std::swap(particles_.state, after_);
+  if (outcome == Outcome::velocities) std::swap(particles_.state.velocities, after_.velocities);
+}
+
+template <class Real>
+void CpuExecutor<Real>::runSweep(std::span<const PassCall> passes) {
+  const auto begin = std::chrono::steady_clock::now();
+  const PassCall first = passes.front();
+  switch (first.traits().domain) {
+    case Domain::gridPoints:
+    case Domain::particles:
+      runByRows(passes);
+      break;
+    case Domain::springs:
+      runOnColor(first.index);
+      break;
+    case Domain::coarseVertices:
+    case Domain::fineVertices:
+      runOnLevel(first);
+      break;
+    case Domain::sums:
+      sum(first.pass);
+      break;
+    case Domain::contacts:
+      runContacts(first);
+      break;
+  }
+  if (isTimed_)
+    addTime(times_, nameOf(passes),
+            std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+}
+
+template <class Real>
+void CpuExecutor<Real>::runByRows(std::span<const PassCall> passes) {
+  std::array<RowPass<Real>, PASS_COUNT> rowPasses;
+  for (std::size_t k = 0; k < passes.size(); ++k) rowPasses[k] = rowPassOf<Real>(passes[k].pass);
+  for (const cpu::ImplicitArguments<Real>& grid : grids_) {
+    const Grid& lattice = cloth_->grids()[grid.step.step.grid];
+    const int rows = cpu::rowsOf(lattice);
+#pragma omp parallel for schedule(static) if (parallel_ && isWorthThreads(lattice))
+    for (int row = 0; row < rows; ++row)
+      for (std::size_t k = 0; k < passes.size(); ++k) rowPasses[k](grid, row);
+  }
+}
+
+template <class Real>
+void CpuExecutor<Real>::runOnColor(std::size_t index) {
+  for (std::size_t grid = 0; grid < grids_.size(); ++grid) {
+    if (index >= limitColors_[grid].size()) continue;
+    const Grid& lattice = cloth_->grids()[grid];
+    const LimitColor& color = limitColors_[grid][index];
+    const std::uint32_t rows = cpu::limitRows(lattice, color);
+#pragma omp parallel for schedule(static) if (parallel_ && isWorthThreads(lattice))
+    for (std::uint32_t j = 0; j < rows; ++j) cpu::limitStrain(grids_[grid].step, color, j);
+  }
+}
+
+template <class Real>
+void CpuExecutor<Real>::runOnLevel(PassCall call) {
+  const auto forEachRow = [](std::uint32_t columns, std::uint32_t rows, auto pass) {
+#pragma omp parallel for schedule(static) if (columns * rows >= PARALLEL_PARTICLES)
+    for (std::uint32_t row = 0; row < rows; ++row) pass(static_cast<int>(row));
+  };
+  for (std::size_t grid = 0; grid < grids_.size(); ++grid) {
+    const std::vector<LevelParams<Real>>& levels = hierarchy_.grids[grid];
+    if (call.pass == Pass::solveCoarsest) {
+      const LevelParams<Real> level = levels.empty() ? onlyLevel<Real>(cloth_->grids()[grid]) : levels.back();
+      forEachRow(level.coarseColumns, level.coarseRows,
+                 [&](int row) { cpu::solveCoarsest(level, implicit_, row); });
+      continue;
+    }
+    if (call.index >= levels.size()) continue;
+    const LevelParams<Real>& level = levels[call.index];
+    const Real* pinned = call.index == 0 ? particles_.inverseMasses.data() : nullptr;
+    if (call.pass == Pass::coarsen)
+      forEachRow(level.coarseColumns, level.coarseRows,
+                 [&](int row) { cpu::coarsenBlocks(level, implicit_, row); });
+    else if (call.pass == Pass::restrict)
+      forEachRow(level.coarseColumns, level.coarseRows,
+                 [&](int row) { cpu::restrictResiduals(level, implicit_, row); });
+    else
+      forEachRow(level.fineColumns, level.fineRows,
+                 [&](int row) { cpu::prolong(level, implicit_, pinned, row); });
+  }
+}
+
+template <class Real>
+void CpuExecutor<Real>::runContacts(PassCall call) {
+  // Broken numbers may lie in one heap, and contacts in it take very long.
+  if (firstTrouble(watch_, 0).has_value()) return;
+  selfCollision_.run(call, particles_.state, after_, particles_.inverseMasses);
+}
+
+// Where nothing is left, sums are 0 and nothing moves.
+template <class Real>
+void CpuExecutor<Real>::sum(Pass pass) {
+  ImplicitScalars<Real>& scalars = implicit_.scalars;
+  const auto product = [&](const Components<Real>& a, const Components<Real>& b) {
+    const cpu::Arrays<const Real> left = cpu::arraysOf(a), right = cpu::arraysOf(b);
+    return cpu::fixedSum<Real>(cloth_->particleCount(), parallel_, partialSums_, [&](std::size_t i) {
+      const auto place = static_cast<std::ptrdiff_t>(i);
+      return dot(cpu::at(left, place), cpu::at(right, place));
+    });
+  };
+  const auto residual = [&] {
+    return cpu::larger(product(implicit_.residuals, implicit_.corrections), Real(0));
+  };
+  switch (pass) {
+    case Pass::sumFirstResidual:
+      scalars = {};
+      scalars.residual = residual();
+      break;
+    case Pass::sumCurvature: {
+      const Real curvature = product(implicit_.directions.positions, implicit_.products);
+      scalars.stepSize = curvature > leastSum<Real> ? scalars.residual * reciprocal(curvature) : Real(0);
+      scalars.predictedDecrease = scalars.predictedDecrease + scalars.stepSize * scalars.residual;
+      break;
+    }
+    case Pass::sumNextResidual: {
+      const Real next = residual();
+      scalars.kept = scalars.residual > leastSum<Real> ? next * reciprocal(scalars.residual) : Real(0);
+      scalars.residual = next;
+      break;
+    }
+    case Pass::sumStartEnergies:
+      scalars = {};
+      chooseLength();
+      break;
+    default:
+      chooseLength();
+  }
+}
+
+// The longest of the lengths tried that lowers the energy enough, else the shortest.
+template <class Real>
+void CpuExecutor<Real>::chooseLength() {
+  constexpr Real enough = static_cast<Real>(SUFFICIENT_DECREASE);
+  Real length = 1;
+  for (int k = 0; k < LENGTHS_TRIED; ++k) {
+    const std::vector<Real>& trial = implicit_.trials[static_cast<std::size_t>(k)];
+    const Real change = cpu::fixedSum<Real>(trial.size(), parallel_, partialSums_,
+                                            [&](std::size_t i) { return trial.data()[i]; });
+    if (change <= -((enough * length) * implicit_.scalars.predictedDecrease) || k + 1 == LENGTHS_TRIED) break;
+    length = Real(0.5) * length;
+  }
+  implicit_.scalars.newtonLength = length;
+}
+
+template <class Real>
+void CpuExecutor<Real>::upload(const State& state) {
+  for (std::size_t i = 0; i < state.positions.size(); ++i) {
+    const Particle4 &x = state.positions[i], &v = state.velocities[i];
+    const auto place = static_cast<std::ptrdiff_t>(i);
+    cpu::put(particles_.state.positions, place, Vec3f{x.x, x.y, x.z}.cast<Real>());
+    cpu::put(particles_.state.velocities, place, Vec3f{v.x, v.y, v.z}.cast<Real>());
+    particles_.inverseMasses[i] = static_cast<Real>(x.w);
+    particles_.support[i] = static_cast<Real>(v.w);
+  }
+  particles_.hasSupport = true;
+  selfCollision_.restart();
+}
+
+template <class Real>
+void CpuExecutor<Real>::download(State& state) {
+  copy(nullptr)->download(state);
+}
+
+template <class Real>
+std::vector<Particle4> CpuExecutor<Real>::positions(std::uint32_t first, std::uint32_t count) {
+  std::vector<Particle4> result(count);
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const Vec3f x = cpu::at(particles_.state.positions, first + k).template cast<float>();
+    result[k] = {x.x, x.y, x.z, static_cast<float>(particles_.inverseMasses[first + k])};
+  }
+  return result;
+}
+
+template <class Real>
+void CpuExecutor<Real>::setInverseMass(std::uint32_t particle, double inverseMass) {
+  particles_.inverseMasses[particle] = static_cast<Real>(inverseMass);
+  cpu::put(particles_.state.velocities, particle, Vec3<Real>{});
+  particles_.support[particle] = 0;
+}
+
+template <class Real>
+std::unique_ptr<ParticleCopy> CpuExecutor<Real>::copy(std::unique_ptr<ParticleCopy> reuse) {
+  if (dynamic_cast<Copy*>(reuse.get()) == nullptr) reuse = std::make_unique<Copy>();
+  static_cast<Copy&>(*reuse).particles = particles_;
+  return reuse;
+}
+
+template <class Real>
+bool CpuExecutor<Real>::restore(const ParticleCopy& copy) {
+  const auto* own = dynamic_cast<const Copy*>(&copy);
+  if (own == nullptr) return false;
+  particles_ = own->particles;
+  return true;
+}
+
+template <class Real>
+std::optional<Trouble> CpuExecutor<Real>::findTrouble(std::uint64_t step, bool) {
+  return firstTrouble(watch_, step);
+}
+
+template <class Real>
+void CpuExecutor<Real>::forgetTrouble(std::uint64_t) {
+  watch_ = soundWatchRow();
+}
+
+template <class Real>
+void CpuExecutor<Real>::startTiming() {
+  isTimed_ = true;
+  times_.clear();
+}
+
+template <class Real>
+std::vector<PassTime> CpuExecutor<Real>::stopTiming() {
+  isTimed_ = false;
+  return std::move(times_);
+}
+
+template <class Real>
+std::string CpuExecutor<Real>::device() const {
+  const int threads = omp_get_max_threads();
+  return "CPU, " + std::to_string(threads) + (threads == 1 ? " thread" : " threads");
+}
+
+template class CpuExecutor<float>;
+template class CpuExecutor<double>;
+
+}  // namespace clothsim

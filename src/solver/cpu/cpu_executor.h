@@ -1,0 +1,94 @@
+// Executes passes on the CPU, with OpenMP: row by row, neighbouring passes in one sweep where they allow it.
+// CpuExecutor<float> is the bitwise twin of the GPU's, CpuExecutor<double> checks the physics.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "solver/cpu/cpu_state.h"
+#include "solver/cpu/implicit_passes.h"
+#include "solver/cpu/passes.h"
+#include "solver/cpu/self_collision.h"
+#include "solver/executor.h"
+
+namespace clothsim {
+
+template <class Real>
+class CpuExecutor final : public Executor {
+ public:
+  // `cloth` must outlive it. With `sweeps` a row goes through all passes that can share a sweep before the
+  // next one; the bits are the same either way.
+  CpuExecutor(const Cloth& cloth, bool sweeps);
+
+  void prepare(const StepInputs& inputs, const PassList& list) override;
+  void setScene(const StepInputs& inputs) override;
+  void setCuts(const StepInputs& inputs) override;
+  void run(const StepInputs& inputs, const PassList& list, int steps) override;
+  void flush() override {}
+  void finish() override {}
+  void upload(const State& state) override;
+  void download(State& state) override;
+  [[nodiscard]] std::vector<Particle4> positions(std::uint32_t first, std::uint32_t count) override;
+  void setInverseMass(std::uint32_t particle, double inverseMass) override;
+  [[nodiscard]] std::unique_ptr<ParticleCopy> copy(std::unique_ptr<ParticleCopy> reuse) override;
+  [[nodiscard]] bool restore(const ParticleCopy& copy) override;
+  [[nodiscard]] std::optional<Trouble> findTrouble(std::uint64_t step, bool wait) override;
+  void forgetTrouble(std::uint64_t step) override;
+  [[nodiscard]] ContactCounts contactCounts() override { return selfCollision_.counts(); }
+  void startTiming() override;
+  [[nodiscard]] std::vector<PassTime> stopTiming() override;
+  [[nodiscard]] std::string backend() const override { return "cpu"; }
+  [[nodiscard]] std::string device() const override;
+
+  // The state in full precision, for tests.
+  [[nodiscard]] CpuState<Real>& state() { return particles_.state; }
+  [[nodiscard]] const Components<Real>& forces() const { return forces_; }
+
+ private:
+  struct Particles {
+    CpuState<Real> state;
+    std::vector<Real> inverseMasses;
+    std::vector<Real> support;
+    bool hasSupport = false;  // otherwise all of it is 0
+  };
+  struct Copy;
+
+  [[nodiscard]] cpu::PassArguments<Real> argumentsOf(const StepInputs& inputs, std::size_t grid);
+  void runSweep(std::span<const PassCall> passes);
+  void runByRows(std::span<const PassCall> passes);
+  void runOnColor(std::size_t color);
+  void runOnLevel(PassCall call);
+  void runContacts(PassCall call);
+  void sum(Pass pass);
+  void chooseLength();
+  void adopt(Outcome outcome);
+
+  const Cloth* cloth_;
+  bool sweeps_;
+  bool parallel_;  // worth waking the threads for
+  Particles particles_;
+  CpuState<Real> after_;  // at the end of the step
+  Components<Real> forces_;
+  WatchRow watch_ = soundWatchRow();
+  std::vector<Real> restLengths_;
+  MeshLists<Real> lists_;
+  std::vector<std::vector<LimitColor>> limitColors_;  // by grid
+  std::vector<float> distances_;                      // samples of the mesh colliders' grids
+  Components<Real> pinStarts_;                        // empty without paths
+  StepParameters<Real> parameters_;                   // of this step,
+  std::vector<cpu::ImplicitArguments<Real>> grids_;   // and what passes get, by grid
+  Hierarchy<Real> hierarchy_;                         // empty until an implicit step needs it
+  cpu::ImplicitState<Real> implicit_;
+  std::vector<Real> partialSums_;
+  cpu::SelfCollision<Real> selfCollision_;
+  bool isTimed_ = false;
+  std::vector<PassTime> times_;
+};
+
+extern template class CpuExecutor<float>;
+extern template class CpuExecutor<double>;
+
+}  // namespace clothsim

@@ -1,0 +1,95 @@
+// Executes lists of passes on one device, where it keeps the particles. What a step is made of, and what it
+// depends on, it is told (solver/solver.h).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "solver/state.h"
+#include "solver/step_inputs.h"
+#include "solver/step_list.h"
+#include "solver/trouble.h"
+
+namespace clothsim {
+
+// What self-collision had to do since the solver was made.
+struct ContactCounts {
+  std::uint64_t hashBuilds = 0;
+  std::uint64_t guardedSteps = 0;  // in which motion had to be cut short
+  std::uint64_t fastSteps = 0;     // in which some particle moved farther than the search reaches
+
+  friend ContactCounts operator+(const ContactCounts& a, const ContactCounts& b) {
+    return {a.hashBuilds + b.hashBuilds, a.guardedSteps + b.guardedSteps, a.fastSteps + b.fastSteps};
+  }
+};
+
+struct PassTime {
+  std::string name;    // of the pass, or of those that were done in one sweep or dispatch
+  double seconds = 0;  // all of them together
+};
+
+// Adds to the time of that name, or appends it.
+void addTime(std::vector<PassTime>& times, const std::string& name, double seconds);
+
+// On the lattice, at time 0.
+[[nodiscard]] State stateAtRest(const Cloth& cloth);
+
+// Positions, velocities, support and inverse masses on a device. Outlives the executor, on the GPU not the
+// context.
+class ParticleCopy {
+ public:
+  virtual ~ParticleCopy() = default;
+  [[nodiscard]] virtual std::size_t bytes() const = 0;  // on the device
+  virtual void download(State& state) const = 0;        // its positions and velocities; blocking
+};
+
+class Executor {
+ public:
+  virtual ~Executor() = default;
+
+  // Allocates and compiles what the lists need with these inputs: at the start, and after every change of the
+  // inputs but the clock. `list` is that of the steps; conversion and start check are always at hand.
+  virtual void prepare(const StepInputs& inputs, const PassList& list) = 0;
+  // The scene, or the cuts, are other ones; prepare() follows.
+  virtual void setScene(const StepInputs& inputs) = 0;
+  virtual void setCuts(const StepInputs& inputs) = 0;
+
+  // Executes a list that belongs to the next step. `steps`: how many steps may follow with these inputs, this
+  // one included, so that their parameters may be made at once. Neither throws nor allocates; on the GPU
+  // nothing is waited for.
+  virtual void run(const StepInputs& inputs, const PassList& list, int steps) = 0;
+  // After the last list for now: others may look at the particles.
+  virtual void flush() = 0;
+  // Waits until every list is done. @throws OpenGlError when the driver has reported an error meanwhile
+  virtual void finish() = 0;
+
+  // Positions and velocities of a state, and back; blocking. What was known of contacts is forgotten.
+  virtual void upload(const State& state) = 0;
+  virtual void download(State& state) = 0;
+  [[nodiscard]] virtual std::vector<Particle4> positions(std::uint32_t first, std::uint32_t count) = 0;
+  // The particle is at rest then. 0 [1/kg]: pinned.
+  virtual void setInverseMass(std::uint32_t particle, double inverseMass) = 0;
+  // A copy on the device, in the memory of `reuse` where it fits, and back. False for another device's copy.
+  [[nodiscard]] virtual std::unique_ptr<ParticleCopy> copy(std::unique_ptr<ParticleCopy> reuse) = 0;
+  [[nodiscard]] virtual bool restore(const ParticleCopy& copy) = 0;
+
+  // What the watchdog has found up to the step after `step` steps. With `wait` false only what is known
+  // without waiting for the device.
+  [[nodiscard]] virtual std::optional<Trouble> findTrouble(std::uint64_t step, bool wait) = 0;
+  // From the step after `step` steps on, everything counts as sound.
+  virtual void forgetTrouble(std::uint64_t step) = 0;
+  // A small blocking read-back on the GPU.
+  [[nodiscard]] virtual ContactCounts contactCounts() = 0;
+
+  // Between these, passes are timed (which slows the whole), and times add up by name.
+  virtual void startTiming() = 0;
+  [[nodiscard]] virtual std::vector<PassTime> stopTiming() = 0;
+
+  [[nodiscard]] virtual std::string backend() const = 0;  // "cpu" or "gpu"
+  [[nodiscard]] virtual std::string device() const = 0;   // what it runs on, for people
+};
+
+}  // namespace clothsim

@@ -1,0 +1,126 @@
+#include "solver/gpu/arrays.h"
+
+#include <string>
+
+#include "shared/implicit.h"
+#include "shared/step_params.h"
+
+namespace clothsim {
+namespace {
+
+constexpr std::size_t FACTOR_TEXELS = 2, BLOCK_TEXELS = 4, AIR_TEXELS = 2, PLANE_TEXELS = 2;
+
+}  // namespace
+
+ArrayPlace placeOf(Array array) {
+  switch (array) {
+    case Array::positions:
+      return {STARTS_UNIT, -1};
+    case Array::velocities:
+      return {VELOCITIES_UNIT, -1};
+    case Array::newPositions:
+      return {NEW_POSITIONS_UNIT, NEW_POSITIONS_BINDING};
+    case Array::newVelocities:
+      return {NEW_VELOCITIES_UNIT, NEW_VELOCITIES_BINDING};
+    case Array::forces:
+      return {-1, FORCES_BINDING};
+    case Array::planes:
+      return {CONTACT_PLANES_UNIT, CONTACT_PLANES_BINDING};
+    case Array::rightHandSides:
+      return {RIGHT_HAND_SIDES_UNIT, RIGHT_HAND_SIDES_BINDING};
+    case Array::airBlocks:
+      return {AIR_BLOCKS_UNIT, AIR_BLOCKS_BINDING};
+    case Array::displacements:
+      return {DISPLACEMENTS_UNIT, DISPLACEMENTS_BINDING};
+    case Array::iterates:
+      return {ITERATES_UNIT, ITERATES_BINDING};
+    case Array::residuals:
+      return {RESIDUALS_UNIT, RESIDUALS_BINDING};
+    case Array::corrections:
+      return {CORRECTIONS_UNIT, CORRECTIONS_BINDING};
+    case Array::factors:
+      return {FACTORS_UNIT, FACTORS_BINDING};
+    case Array::blocks:
+      return {BLOCKS_UNIT, BLOCKS_BINDING};
+    case Array::directions:
+      return {DIRECTIONS_UNIT, DIRECTIONS_BINDING};
+    case Array::products:
+      return {PRODUCTS_UNIT, PRODUCTS_BINDING};
+    case Array::increments:
+      return {INCREMENTS_UNIT, INCREMENTS_BINDING};
+    case Array::partialSums:
+      return {PARTIAL_SUMS_UNIT, PARTIAL_SUMS_BINDING};
+    case Array::scalars:
+      return {-1, SCALARS_BINDING};
+    case Array::watch:
+      return {-1, WATCH_BINDING};
+    case Array::hash:
+    case Array::candidates:
+    case Array::contactFlags:
+      return {};  // in buffers of self-collision's own
+  }
+  return {};
+}
+
+Array positionsOf(Pass pass) {
+  switch (pass) {
+    case Pass::elasticForces:
+    case Pass::linearize:
+      return Array::iterates;
+    case Pass::multiply:
+      return Array::directions;
+    default:
+      return Array::positions;
+  }
+}
+
+GpuArrays::GpuArrays(std::size_t particles) {
+  checkFits(particles, sizeof(Particle4), "particles");
+  for (const Array array :
+       {Array::positions, Array::velocities, Array::newPositions, Array::newVelocities, Array::forces})
+    (*this)[array] = ParticleArray(std::string(nameOf(array)), particles);
+}
+
+void GpuArrays::addImplicit(std::size_t particles, std::size_t vertices, bool wind, bool colliders) {
+  const auto add = [&](Array array, std::size_t texels) {
+    if ((*this)[array].buffer.name() != 0 && (*this)[array].buffer.size() >= texels) return;
+    const std::string label(nameOf(array));
+    checkFits(texels, sizeof(Particle4), label.c_str());
+    (*this)[array] = ParticleArray(label, texels);
+  };
+  for (const Array array : {Array::rightHandSides, Array::displacements, Array::iterates, Array::directions,
+                            Array::products, Array::increments})
+    add(array, particles);
+  add(Array::residuals, vertices);
+  add(Array::corrections, vertices);
+  add(Array::factors, FACTOR_TEXELS * vertices);
+  add(Array::blocks, BLOCK_TEXELS * vertices);
+  add(Array::airBlocks, wind ? AIR_TEXELS * particles : 1);
+  add(Array::planes, colliders ? PLANE_TEXELS * particles : 1);
+  add(Array::partialSums, (particles + SUM_BLOCK - 1) / SUM_BLOCK);
+  if (scalars_.name() == 0) scalars_ = gl::Buffer<ImplicitScalars<float>>("implicit scalars", 1);
+}
+
+void GpuArrays::bindTextures() const {
+  for (int i = 0; i < ARRAY_COUNT; ++i) {
+    const int unit = placeOf(static_cast<Array>(i)).unit;
+    const ParticleArray& array = arrays_[static_cast<std::size_t>(i)];
+    if (unit >= 0 && array.buffer.name() != 0) array.texture.bind(static_cast<GLuint>(unit));
+  }
+}
+
+void GpuArrays::bindFor(Pass pass) const {
+  (*this)[positionsOf(pass)].texture.bind(POSITIONS_UNIT);
+  const PassTraits& traits = traitsOf(pass);
+  const Arrays used = traits.reads | traits.writes;
+  if (used.contains(Array::scalars)) scalars_.bindStorage(SCALARS_BINDING);
+  for (int i = 0; i < ARRAY_COUNT; ++i) {
+    const auto array = static_cast<Array>(i);
+    const int binding = placeOf(array).binding;
+    if (binding >= 0 && used.contains(array) && (*this)[array].buffer.name() != 0)
+      if (traits.writes.contains(array) || array == Array::forces)
+        (*this)[array].buffer.bindStorage(static_cast<GLuint>(binding));
+  }
+}
+
+}  // namespace clothsim

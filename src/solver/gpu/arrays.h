@@ -1,0 +1,49 @@
+// The arrays that passes on the GPU work on (solver/pass.h), in buffers that are written through storage
+// blocks and read as texels.
+#pragma once
+
+#include <array>
+
+#include "gl/buffer.h"
+#include "gl/buffer_texture.h"
+#include "solver/gpu/particle_array.h"
+#include "solver/implicit.h"
+#include "solver/pass.h"
+
+namespace clothsim {
+
+class GpuArrays {
+ public:
+  GpuArrays() = default;
+  // @throws OpenGlError when a buffer is larger than the driver allows, or memory runs out
+  explicit GpuArrays(std::size_t particles);
+
+  // What implicit steps need besides; `vertices` those of all levels. Does nothing where that is there.
+  // @throws as the constructor
+  void addImplicit(std::size_t particles, std::size_t vertices, bool wind, bool colliders);
+
+  [[nodiscard]] ParticleArray& operator[](Array array) { return arrays_[static_cast<std::size_t>(array)]; }
+  [[nodiscard]] const ParticleArray& operator[](Array array) const {
+    return arrays_[static_cast<std::size_t>(array)];
+  }
+
+  // All that can be read, once a list.
+  void bindTextures() const;
+  // What a pass writes, and the array that it takes for the positions.
+  void bindFor(Pass pass) const;
+
+ private:
+  std::array<ParticleArray, ARRAY_COUNT> arrays_;  // unused ones are empty
+  gl::Buffer<ImplicitScalars<float>> scalars_;
+};
+
+// Where shaders find an array: the texture unit to read it from, the binding of the storage block to write it
+// through; -1 where they do not.
+struct ArrayPlace {
+  int unit = -1, binding = -1;
+};
+[[nodiscard]] ArrayPlace placeOf(Array array);
+// The array whose texels a pass sees as `positions`.
+[[nodiscard]] Array positionsOf(Pass pass);
+
+}  // namespace clothsim

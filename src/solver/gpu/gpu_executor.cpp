@@ -1,0 +1,327 @@
+#include "solver/gpu/gpu_executor.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "core/error.h"
+
+namespace clothsim {
+namespace {
+
+// How many steps the watchdog remembers one by one. Who takes more without asking for trouble has it looked
+// for once in so many.
+constexpr std::uint64_t WATCHED_STEPS = 1024;
+
+std::uint32_t ownersAcross(const LimitColor& color) {
+  return ownerCount(color.firstColumn, color.columnStep, color.columnRun, color.endColumn);
+}
+std::uint32_t ownersAlong(const LimitColor& color) {
+  return ownerCount(color.firstRow, color.rowStep, color.rowRun, color.endRow);
+}
+
+}  // namespace
+
+struct GpuExecutor::Copy final : ParticleCopy {
+  gl::Buffer<Particle4> positions, velocities;
+
+  [[nodiscard]] std::size_t bytes() const override { return positions.bytes() + velocities.bytes(); }
+  void download(State& state) const override {
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    state.positions = positions.download();
+    state.velocities = velocities.download();
+  }
+};
+
+GpuExecutor::GpuExecutor(const Cloth& cloth, const GpuOptions& options)
+    : cloth_(&cloth),
+      options_(options),
+      arrays_(cloth.particleCount()),
+      lists_(cloth),
+      kernels_(kernels().size()),
+      selfCollision_(cloth, options.groupColumns, options.groupRows),
+      runner_(options.groupColumns, options.groupRows),
+      watch_("watchdog", WATCHED_STEPS) {
+  const std::vector<float> restLengths = measureRestLengths<float>(cloth);
+  checkFits(restLengths.size(), sizeof(float), "rest lengths");
+  restLengths_ = gl::Buffer<float>("rest lengths", std::span<const float>(restLengths));
+  restLengthTexture_ = gl::BufferTexture("rest lengths", restLengths_.name(), GL_R32F);
+  std::vector<ColorSlot> slots;
+  for (const Grid& grid : cloth.grids()) {
+    firstColors_.push_back(slots.size());
+    colors_.push_back(makeLimitColors(grid));
+    for (const LimitColor& color : colors_.back()) slots.push_back({color});
+  }
+  colorSlots_ = gl::Buffer<ColorSlot>("strain limit colours", std::span<const ColorSlot>(slots));
+  upload(stateAtRest(cloth));
+  gl::checkErrors("the making of the GPU solver");  // above all: out of memory
+}
+
+void GpuExecutor::setScene(const StepInputs& inputs) {
+  std::vector<float> samples = distanceSamples(inputs.distanceGrids);
+  if (distances_.name() == 0 || samples != stagedDistances_) {
+    checkFits(samples.size(), sizeof(float), "samples of mesh colliders' distances");
+    distances_ = gl::Buffer<float>("distances", std::span<const float>(samples));
+    distanceTexture_ = gl::BufferTexture("distances", distances_.name(), GL_R32F);
+    stagedDistances_ = std::move(samples);
+  }
+  selfCollision_.configure(*inputs.scene);
+}
+
+void GpuExecutor::setCuts(const StepInputs& inputs) {
+  const auto put = [](gl::Buffer<std::uint32_t>& buffer, gl::BufferTexture& texture, const char* label,
+                      const std::vector<std::uint32_t>& numbers) {
+    if (numbers.empty()) return;
+    if (buffer.size() != numbers.size()) {
+      buffer = gl::Buffer<std::uint32_t>(label, numbers.size());
+      texture = gl::BufferTexture(label, buffer.name(), GL_R32UI);
+    }
+    buffer.upload(numbers);
+  };
+  put(cutMasks_, cutMaskTexture_, "cut masks", inputs.cutMasks);
+  if (hierarchy_.vertices != 0)
+    put(cutLinks_, cutLinkTexture_, "cut links", makeCutLinks(*cloth_, inputs.cutMasks, hierarchy_));
+  selfCollision_.setCut(!inputs.cuts.empty());
+}
+
+void GpuExecutor::prepareLevels(const StepInputs& inputs) {
+  if (hierarchy_.vertices != 0) return;
+  hierarchy_ = makeHierarchy<float>(*cloth_);
+  std::vector<LevelSlot> slots;
+  for (std::size_t grid = 0; grid < hierarchy_.grids.size(); ++grid) {
+    firstLevels_.push_back(slots.size());
+    for (const LevelParams<float>& level : hierarchy_.grids[grid]) slots.push_back({level});
+    if (hierarchy_.grids[grid].empty()) slots.push_back({onlyLevel<float>(cloth_->grids()[grid])});
+  }
+  levelSlots_ = gl::Buffer<LevelSlot>("levels", std::span<const LevelSlot>(slots));
+  setCuts(inputs);  // the links between the levels' vertices
+}
+
+void GpuExecutor::prepare(const StepInputs& inputs, const PassList& list) {
+  parameters_.prepare(inputs);
+  if (list.contains(Pass::begin)) {
+    prepareLevels(inputs);
+    arrays_.addImplicit(cloth_->particleCount(), hierarchy_.vertices,
+                        inputs.scene->wind.has_value() || inputs.hand.jet.has_value(),
+                        !inputs.scene->colliders.empty());
+  }
+  for (std::vector<Programs>& ofGrids : kernels_) ofGrids.clear();
+  compile(inputs, list);
+  compile(inputs, makeConversion());
+  compile(inputs, makeStartCheck());
+}
+
+void GpuExecutor::compile(const StepInputs& inputs, const PassList& list) {
+  for (std::span<const PassCall> rest = list.passes; !rest.empty();) {
+    std::size_t count = 1;
+    if (rest.front().traits().domain != Domain::contacts) {
+      const std::size_t number = kernelFor(rest, options_.fused);
+      const Kernel& kernel = kernels()[number];
+      count = kernel.passes.size();
+      assert(count <= sweepLength(rest) && "passes of a kernel must be able to share a sweep");
+      for (std::size_t grid = kernels_[number].size(); grid < cloth_->grids().size(); ++grid) {
+        PassFeatures features = featuresOf(*inputs.scene, *cloth_, grid, inputs.hand, inputs.cuts);
+        features.groupColumns = options_.groupColumns;
+        features.groupRows = options_.groupRows;
+        kernels_[number].push_back(library_.find(kernel, features));
+      }
+    }
+    rest = rest.subspan(count);
+  }
+}
+
+void GpuExecutor::run(const StepInputs& inputs, const PassList& list, int steps) {
+  parameters_.bind(inputs, steps);
+  arrays_.bindTextures();
+  arrays_[Array::forces].buffer.bindStorage(FORCES_BINDING);
+  restLengthTexture_.bind(REST_LENGTHS_UNIT);
+  distanceTexture_.bind(DISTANCES_UNIT);
+  lists_.bind();
+  if (!inputs.cuts.empty()) cutMaskTexture_.bind(CUT_MASKS_UNIT);
+  if (cutLinks_.name() != 0) cutLinkTexture_.bind(CUT_LINKS_UNIT);
+  bindWatch(inputs.clock.step);
+
+  for (std::span<const PassCall> rest = list.passes; !rest.empty();) rest = rest.subspan(runKernel(rest));
+
+  if (list.outcome == Outcome::state) std::swap(arrays_[Array::positions], arrays_[Array::newPositions]);
+  if (list.outcome != Outcome::nothing) std::swap(arrays_[Array::velocities], arrays_[Array::newVelocities]);
+}
+
+// Returns how many passes it took.
+std::size_t GpuExecutor::runKernel(std::span<const PassCall> passes) {
+  const PassCall& call = passes.front();
+  if (call.traits().domain == Domain::contacts) {
+    selfCollision_.run(runner_, call, arrays_, [&](std::size_t grid) { parameters_.bindGrid(grid); });
+    return 1;
+  }
+  const std::size_t number = kernelFor(passes, options_.fused);
+  const std::size_t count = kernels()[number].passes.size();
+  const std::vector<Programs>& programs = kernels_[number];
+  const std::string name = runner_.isTiming() ? nameOf(passes.first(count)) : "";
+  for (const PassCall& own : passes.first(count)) arrays_.bindFor(own.pass);
+  switch (call.traits().domain) {
+    case Domain::gridPoints:
+      runOnGrids(programs, call, name);
+      break;
+    case Domain::particles:
+      runner_.run(*programs[0][0], name, std::min(cloth_->particleCount(), PARTICLES_A_ROW),
+                  (cloth_->particleCount() + PARTICLES_A_ROW - 1) / PARTICLES_A_ROW);
+      break;
+    case Domain::springs:
+      runOnColor(programs, call, name);
+      break;
+    case Domain::coarseVertices:
+    case Domain::fineVertices:
+      runOnLevel(*programs[0][0], call, name);
+      break;
+    case Domain::sums:
+      runSum(programs[0], name);
+      break;
+    case Domain::contacts:
+      break;
+  }
+  return count;
+}
+
+void GpuExecutor::runOnGrids(const std::vector<Programs>& programs, const PassCall& call,
+                             const std::string& name) {
+  for (std::size_t i = 0; i < programs.size(); ++i) {
+    const Grid& grid = cloth_->grids()[i];
+    const auto columns = static_cast<std::uint32_t>(grid.columns);
+    auto rows = static_cast<std::uint32_t>(grid.rows);
+    if (call.pass == Pass::watchLimit) rows = (rows + WATCHED_ROWS - 1) / WATCHED_ROWS;
+    parameters_.bindGrid(i);
+    runner_.run(*programs[i][0], name, columns, rows);
+  }
+}
+
+void GpuExecutor::runOnColor(const std::vector<Programs>& programs, const PassCall& call,
+                             const std::string& name) {
+  for (std::size_t i = 0; i < programs.size(); ++i) {
+    if (call.index >= colors_[i].size()) continue;
+    const LimitColor& color = colors_[i][call.index];
+    parameters_.bindGrid(i);
+    colorSlots_.bindUniformRange(LIMIT_COLOR_BINDING, firstColors_[i] + call.index, 1);
+    runner_.run(*programs[i][0], name, ownersAcross(color), ownersAlong(color));
+  }
+}
+
+void GpuExecutor::runOnLevel(const gl::Program& program, const PassCall& call, const std::string& name) {
+  for (std::size_t i = 0; i < hierarchy_.grids.size(); ++i) {
+    const std::vector<LevelParams<float>>& levels = hierarchy_.grids[i];
+    const bool coarsest = call.pass == Pass::solveCoarsest;
+    if (!coarsest && call.index >= levels.size()) continue;
+    const std::size_t index = coarsest ? std::max<std::size_t>(levels.size(), 1) - 1 : call.index;
+    const LevelParams<float> level = levels.empty() ? onlyLevel<float>(cloth_->grids()[i]) : levels[index];
+    levelSlots_.bindUniformRange(LEVEL_PARAMS_BINDING, firstLevels_[i] + index, 1);
+    if (call.traits().domain == Domain::fineVertices)
+      runner_.run(program, name, level.fineColumns, level.fineRows);
+    else
+      runner_.run(program, name, level.coarseColumns, level.coarseRows);
+  }
+}
+
+// First the sums of blocks of particles, then their total and what becomes of it.
+void GpuExecutor::runSum(const Programs& programs, const std::string& name) {
+  runner_.runGroups(*programs[0], name,
+                    static_cast<std::uint32_t>(arrays_[Array::partialSums].buffer.size()));
+  runner_.runGroups(*programs[1], name, 1);
+}
+
+void GpuExecutor::flush() {
+  glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+}
+
+void GpuExecutor::finish() {
+  glFinish();
+  gl::checkErrors("the steps on the GPU");
+}
+
+void GpuExecutor::upload(const State& state) {
+  arrays_[Array::positions].buffer.upload(state.positions);
+  arrays_[Array::velocities].buffer.upload(state.velocities);
+  selfCollision_.restart();
+}
+
+void GpuExecutor::download(State& state) {
+  gl::checkContext();
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  state.positions = arrays_[Array::positions].buffer.download();
+  state.velocities = arrays_[Array::velocities].buffer.download();
+}
+
+std::vector<Particle4> GpuExecutor::positions(std::uint32_t first, std::uint32_t count) {
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  return arrays_[Array::positions].buffer.download(first, count);
+}
+
+// A few bytes are read back.
+void GpuExecutor::setInverseMass(std::uint32_t particle, double inverseMass) {
+  Particle4 x = positions(particle, 1)[0];
+  const Particle4 atRest;
+  x.w = static_cast<float>(inverseMass);
+  arrays_[Array::positions].buffer.upload({&x, 1}, particle);
+  arrays_[Array::velocities].buffer.upload({&atRest, 1}, particle);
+}
+
+std::unique_ptr<ParticleCopy> GpuExecutor::copy(std::unique_ptr<ParticleCopy> reuse) {
+  const std::size_t count = cloth_->particleCount();
+  const auto* old = dynamic_cast<const Copy*>(reuse.get());
+  if (old == nullptr || old->positions.size() != count) {
+    auto fresh = std::make_unique<Copy>();
+    fresh->positions = gl::Buffer<Particle4>("kept positions", count);
+    fresh->velocities = gl::Buffer<Particle4>("kept velocities", count);
+    reuse = std::move(fresh);
+  }
+  auto& copy = static_cast<Copy&>(*reuse);
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  copy.positions.copyFrom(arrays_[Array::positions].buffer);
+  copy.velocities.copyFrom(arrays_[Array::velocities].buffer);
+  return reuse;
+}
+
+bool GpuExecutor::restore(const ParticleCopy& copy) {
+  const auto* own = dynamic_cast<const Copy*>(&copy);
+  if (own == nullptr) return false;
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  arrays_[Array::positions].buffer.copyFrom(own->positions);
+  arrays_[Array::velocities].buffer.copyFrom(own->velocities);
+  return true;
+}
+
+// The row of the step after `step` others. What comes after trouble is of no interest and shares the last
+// row.
+void GpuExecutor::bindWatch(std::uint64_t step) {
+  if (step - watchBase_ >= WATCHED_STEPS) (void)findTrouble(step + 1, true);
+  watch_.bindStorageRange(WATCH_BINDING, std::min(step - watchBase_, WATCHED_STEPS - 1), 1);
+}
+
+void GpuExecutor::forgetTrouble(std::uint64_t step) {
+  static constexpr GLuint sound = NO_TROUBLE;
+  glClearNamedBufferData(watch_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &sound);
+  watchBase_ = step;
+  trouble_.reset();
+  selfCollision_.forgetTrouble();
+}
+
+std::optional<Trouble> GpuExecutor::findTrouble(std::uint64_t step, bool wait) {
+  if (trouble_ || !wait) return trouble_;
+  gl::checkContext();
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  const std::uint64_t rows = std::min(step - watchBase_, WATCHED_STEPS);
+  const std::vector<WatchSlot> slots = watch_.download(0, rows);
+  for (std::uint64_t i = 0; i < rows && !trouble_; ++i)
+    trouble_ = firstTrouble(slots[i].row, watchBase_ + i + 1);
+  if (!trouble_) watchBase_ = step - 1;  // nothing was written: the rows serve again
+  return trouble_;
+}
+
+void GpuExecutor::startTiming() { runner_.startTiming(); }
+
+std::vector<PassTime> GpuExecutor::stopTiming() { return runner_.stopTiming(); }
+
+std::string GpuExecutor::device() const {
+  const gl::ContextInfo info = gl::currentContextInfo();
+  return info.renderer + ", OpenGL " + std::to_string(info.major) + "." + std::to_string(info.minor);
+}
+
+}  // namespace clothsim

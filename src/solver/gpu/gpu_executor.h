@@ -1,0 +1,108 @@
+// Executes passes on the GPU: compute shaders over storage buffers, from which the renderer draws.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gl/buffer.h"
+#include "gl/buffer_texture.h"
+#include "gl/program.h"
+#include "solver/executor.h"
+#include "solver/gpu/arrays.h"
+#include "solver/gpu/mesh_lists.h"
+#include "solver/gpu/parameters.h"
+#include "solver/gpu/pass_programs.h"
+#include "solver/gpu/pass_runner.h"
+#include "solver/gpu/self_collision.h"
+
+namespace clothsim {
+
+struct GpuOptions {
+  bool fused = true;  // passes that share a sweep in one dispatch, where there is a kernel for them; the bits
+                      // are the same either way
+  int groupColumns = 64;  // work group, in grid points
+  int groupRows = 1;
+};
+
+class GpuExecutor final : public Executor {
+ public:
+  // Needs a current context; `cloth` must outlive it. @throws OpenGlError when a buffer is larger than the
+  // driver allows, memory runs out, or a shader does not compile
+  GpuExecutor(const Cloth& cloth, const GpuOptions& options);
+
+  void prepare(const StepInputs& inputs, const PassList& list) override;
+  void setScene(const StepInputs& inputs) override;
+  void setCuts(const StepInputs& inputs) override;
+  void run(const StepInputs& inputs, const PassList& list, int steps) override;
+  void flush() override;
+  void finish() override;
+  void upload(const State& state) override;
+  void download(State& state) override;
+  [[nodiscard]] std::vector<Particle4> positions(std::uint32_t first, std::uint32_t count) override;
+  void setInverseMass(std::uint32_t particle, double inverseMass) override;
+  [[nodiscard]] std::unique_ptr<ParticleCopy> copy(std::unique_ptr<ParticleCopy> reuse) override;
+  [[nodiscard]] bool restore(const ParticleCopy& copy) override;
+  [[nodiscard]] std::optional<Trouble> findTrouble(std::uint64_t step, bool wait) override;
+  void forgetTrouble(std::uint64_t step) override;
+  [[nodiscard]] ContactCounts contactCounts() override { return selfCollision_.counts(); }
+  void startTiming() override;
+  [[nodiscard]] std::vector<PassTime> stopTiming() override;
+  [[nodiscard]] std::string backend() const override { return "gpu"; }
+  [[nodiscard]] std::string device() const override;
+
+  // One vec4 a particle: xyz and the inverse mass. The name changes from step to step (two buffers in turn).
+  [[nodiscard]] GLuint positionsBuffer() const { return arrays_[Array::positions].buffer.name(); }
+
+ private:
+  using Programs = std::vector<const gl::Program*>;  // of a kernel, one a shader
+  struct alignas(256) ColorSlot {                    // every driver takes uniform offsets in multiples of 256
+    LimitColor color;
+  };
+  struct alignas(256) LevelSlot {
+    LevelParams<float> params;
+  };
+  struct alignas(256) WatchSlot {  // as every driver takes storage offsets
+    WatchRow row;
+  };
+  struct Copy;
+
+  void compile(const StepInputs& inputs, const PassList& list);
+  void prepareLevels(const StepInputs& inputs);
+  void bindWatch(std::uint64_t step);
+  std::size_t runKernel(std::span<const PassCall> passes);
+  void runOnGrids(const std::vector<Programs>& programs, const PassCall& call, const std::string& name);
+  void runOnColor(const std::vector<Programs>& programs, const PassCall& call, const std::string& name);
+  void runOnLevel(const gl::Program& program, const PassCall& call, const std::string& name);
+  void runSum(const Programs& programs, const std::string& name);
+  [[nodiscard]] std::vector<WatchSlot> watchedRows(std::uint64_t steps);
+
+  const Cloth* cloth_;
+  GpuOptions options_;
+  GpuArrays arrays_;
+  GpuParameters parameters_;
+  GpuMeshLists lists_;
+  gl::Buffer<float> restLengths_, distances_;  // distances_: samples of the mesh colliders' grids
+  gl::Buffer<std::uint32_t> cutMasks_, cutLinks_;
+  gl::BufferTexture restLengthTexture_, distanceTexture_, cutMaskTexture_, cutLinkTexture_;
+  std::vector<float> stagedDistances_;
+
+  std::vector<std::vector<LimitColor>> colors_;  // by grid,
+  std::vector<std::size_t> firstColors_;         // and where they begin in
+  gl::Buffer<ColorSlot> colorSlots_;
+  Hierarchy<float> hierarchy_;  // empty until an implicit step needs it
+  std::vector<std::size_t> firstLevels_;
+  gl::Buffer<LevelSlot> levelSlots_;
+
+  PassLibrary library_;
+  std::vector<std::vector<Programs>> kernels_;  // by kernel and grid; empty where no list needs it
+  GpuSelfCollision selfCollision_;
+  PassRunner runner_;
+
+  gl::Buffer<WatchSlot> watch_;     // a row a step since watchBase_
+  std::uint64_t watchBase_ = 0;     // the step whose row is the first one; steps before it were sound
+  std::optional<Trouble> trouble_;  // as far as it was looked for
+};
+
+}  // namespace clothsim

@@ -1,0 +1,107 @@
+#include "solver/gpu/parameters.h"
+
+#include <algorithm>
+
+namespace clothsim {
+namespace {
+
+// How many steps' parameters are uploaded at once when they differ.
+constexpr std::size_t BATCH_STEPS = 64;
+
+// Grows; does not shrink.
+template <class Element>
+bool reserve(gl::Buffer<Element>& buffer, std::vector<Element>& staged, const char* label,
+             std::size_t count) {
+  if (buffer.name() != 0 && buffer.size() >= count) return false;
+  staged.resize(count);
+  buffer = gl::Buffer<Element>(label, count);
+  return true;
+}
+
+}  // namespace
+
+void GpuParameters::prepare(const StepInputs& inputs) {
+  const Hand& hand = inputs.hand;
+  holds_ = hand.hold.has_value();
+  grabs_ = holds_ || hand.jet.has_value();
+  changes_ = grabs_ || dependsOnTime(*inputs.scene);
+  grids_ = inputs.cloth->grids().size();
+  colliderCount_ = inputs.scene->colliders.size();
+  pathCount_ = inputs.pinPaths.paths.size();
+  const std::size_t batch = changes_ ? BATCH_STEPS : 1;
+  reserve(steps_, stagedSteps_, "step parameters", batch * grids_);
+  if (reserve(colliders_, stagedColliders_, "colliders", batch * colliderCount_))
+    colliderTexture_ = gl::BufferTexture("colliders", colliders_.name(), GL_RGBA32F);
+  preparePins(inputs.pinPaths, *inputs.cloth, batch);
+  if (grabs_) prepareHand(hand, batch);
+  batchSteps_ = 0;
+}
+
+void GpuParameters::preparePins(const PinPaths& paths, const Cloth& cloth, std::size_t batch) {
+  if (reserve(pinMotions_, stagedPinMotions_, "pin motions", batch * paths.paths.size()))
+    pinMotionTexture_ = gl::BufferTexture("pin motions", pinMotions_.name(), GL_RGBA32F);
+  if (pinStarts_.name() != 0 && pinNumbers_ == paths.numbers) return;
+  pinNumbers_ = paths.numbers;
+  std::vector<Particle4> starts(pinNumbers_.size());
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const auto x = startPosition<float>(cloth, i);
+    starts[i] = {x.x, x.y, x.z, static_cast<float>(pinNumbers_[i])};
+  }
+  pinStarts_ = gl::Buffer<Particle4>("start positions of pins", std::span<const Particle4>(starts));
+  pinStartTexture_ = gl::BufferTexture("start positions of pins", pinStarts_.name(), GL_RGBA32F);
+}
+
+void GpuParameters::prepareHand(const Hand& hand, std::size_t batch) {
+  reserve(hands_, stagedHands_, "hand parameters", batch);
+  if (!hand.hold || hand.hold->points == heldPoints_) return;
+  heldPoints_ = hand.hold->points;
+  held_ = gl::Buffer<Hold::Point>("held points", std::span<const Hold::Point>(*heldPoints_));
+  heldTexture_ = gl::BufferTexture("held points", held_.name(), GL_RGBA32F);
+}
+
+bool GpuParameters::hasStep(const StepClock& clock) const {
+  if (batchSteps_ == 0 || !changes_) return batchSteps_ != 0;
+  StepClock first = clock;
+  first.step = batchStart_.step;
+  return first == batchStart_ && clock.step >= first.step && clock.step - first.step < batchSteps_;
+}
+
+void GpuParameters::upload(const StepInputs& inputs, std::size_t steps) {
+  for (std::size_t k = 0; k < steps; ++k) {
+    evaluate(inputs, k, evaluated_);
+    for (std::size_t grid = 0; grid < grids_; ++grid) {
+      StepParams<float>& params = stagedSteps_[k * grids_ + grid].params;
+      params = evaluated_.grids[grid];
+      params.firstCollider = static_cast<std::uint32_t>(k * colliderCount_);
+      params.firstPinMotion = static_cast<std::uint32_t>(k * pathCount_);
+    }
+    std::copy(evaluated_.colliders.begin(), evaluated_.colliders.end(),
+              stagedColliders_.begin() + static_cast<std::ptrdiff_t>(k * colliderCount_));
+    std::copy(evaluated_.pinMotions.begin(), evaluated_.pinMotions.end(),
+              stagedPinMotions_.begin() + static_cast<std::ptrdiff_t>(k * pathCount_));
+    if (grabs_) stagedHands_[k].params = evaluated_.hand;
+  }
+  steps_.upload({stagedSteps_.data(), steps * grids_});
+  colliders_.upload({stagedColliders_.data(), steps * colliderCount_});
+  if (pathCount_ > 0) pinMotions_.upload({stagedPinMotions_.data(), steps * pathCount_});
+  if (grabs_) hands_.upload({stagedHands_.data(), steps});
+  batchStart_ = inputs.clock;
+  batchSteps_ = steps;
+}
+
+void GpuParameters::bind(const StepInputs& inputs, int steps) {
+  if (!hasStep(inputs.clock))
+    upload(inputs, changes_ ? std::min(BATCH_STEPS, static_cast<std::size_t>(std::max(steps, 1))) : 1);
+  step_ = changes_ ? static_cast<std::size_t>(inputs.clock.step - batchStart_.step) : 0;
+  colliderTexture_.bind(COLLIDERS_UNIT);
+  pinStartTexture_.bind(PIN_STARTS_UNIT);
+  pinMotionTexture_.bind(PIN_MOTIONS_UNIT);
+  if (grabs_) hands_.bindUniformRange(HAND_PARAMS_BINDING, step_, 1);
+  if (holds_) heldTexture_.bind(HELD_UNIT);
+}
+
+void GpuParameters::bindGrid(std::size_t grid) const {
+  steps_.bindUniformRange(STEP_PARAMS_BINDING, step_ * grids_ + grid, 1);
+}
+
+}  // namespace clothsim

@@ -1,0 +1,281 @@
+#include "solver/pass.h"
+
+#include <array>
+
+namespace clothsim {
+namespace {
+
+using enum Array;
+using F = Feature;
+
+constexpr Features elastic{F::springs, F::restLengths, F::meshes, F::cuts};
+constexpr Features air{F::wind, F::airResistance, F::jets, F::meshes, F::cuts};
+constexpr Features solved = elastic | Features{F::wind, F::planes};  // what the linear system is made of
+
+constexpr std::array<PassTraits, PASS_COUNT> table{{
+    // pass, name, runs over, reach, gathers, reads, writes, features
+    {Pass::checkStart, "start", Domain::gridPoints, 0, {}, {positions, velocities}, {watch}, {}},
+    {Pass::kick,
+     "kick",
+     Domain::gridPoints,
+     0,
+     {},
+     {positions, velocities, forces},
+     {newVelocities, watch},
+     {}},
+
+    {Pass::forces,
+     "forces",
+     Domain::gridPoints,
+     2,
+     {positions, velocities},
+     {},
+     {forces, watch},
+     elastic | air},
+    {Pass::integrate,
+     "integrate",
+     Domain::gridPoints,
+     0,
+     {},
+     {positions, velocities, forces},
+     {newPositions, newVelocities, watch},
+     {F::movingPins, F::grabs}},
+
+    {Pass::begin,
+     "begin",
+     Domain::gridPoints,
+     1,
+     {positions, velocities},
+     {},
+     {newPositions, newVelocities, forces, rightHandSides, airBlocks, displacements, iterates},
+     air | Features{F::movingPins, F::grabs}},
+    {Pass::findPlanes,
+     "contact planes",
+     Domain::gridPoints,
+     0,
+     {},
+     {positions, iterates},
+     {planes},
+     {F::colliders}},
+    {Pass::initialGuess,
+     "initial guess",
+     Domain::gridPoints,
+     0,
+     {},
+     {positions, velocities},
+     {increments},
+     {}},
+    {Pass::elasticForces, "elastic forces", Domain::gridPoints, 2, {iterates}, {}, {forces, watch}, elastic},
+    {Pass::linearize,
+     "linearize",
+     Domain::gridPoints,
+     2,
+     {iterates},
+     {forces, rightHandSides, airBlocks, planes, displacements},
+     {residuals, factors, blocks, increments},
+     solved},
+    {Pass::coarsen, "coarsen", Domain::coarseVertices, 1, {blocks}, {}, {factors, blocks}, {F::cuts}},
+    {Pass::restrict, "restrict", Domain::coarseVertices, 1, {residuals}, {}, {residuals}, {F::cuts}},
+    {Pass::solveCoarsest,
+     "solve coarsest",
+     Domain::coarseVertices,
+     0,
+     {},
+     {residuals, factors},
+     {corrections},
+     {}},
+    {Pass::prolong,
+     "prolong",
+     Domain::fineVertices,
+     1,
+     {corrections},
+     {residuals, factors},
+     {corrections},
+     {F::cuts}},
+    {Pass::sumFirstResidual,
+     "sum r.z",
+     Domain::sums,
+     0,
+     {},
+     {residuals, corrections},
+     {partialSums, scalars},
+     {}},
+    {Pass::updateDirection,
+     "update direction",
+     Domain::particles,
+     0,
+     {},
+     {iterates, corrections, directions, scalars},
+     {directions},
+     {}},
+    {Pass::multiply,
+     "multiply",
+     Domain::gridPoints,
+     2,
+     {iterates, directions},
+     {rightHandSides, airBlocks, planes},
+     {products},
+     solved},
+    {Pass::sumCurvature, "sum p.Hp", Domain::sums, 0, {}, {directions, products}, {partialSums, scalars}, {}},
+    {Pass::updateSolution,
+     "update solution",
+     Domain::particles,
+     0,
+     {},
+     {directions, products, increments, residuals, scalars},
+     {increments, residuals},
+     {}},
+    {Pass::sumNextResidual,
+     "sum r.z",
+     Domain::sums,
+     0,
+     {},
+     {residuals, corrections},
+     {partialSums, scalars},
+     {}},
+    {Pass::tryLengths,
+     "try lengths",
+     Domain::gridPoints,
+     2,
+     {iterates, increments},
+     {rightHandSides, airBlocks, planes, displacements},
+     {products},
+     solved},
+    {Pass::sumStartEnergies, "sum energies", Domain::sums, 0, {}, {products}, {partialSums, scalars}, {}},
+    {Pass::sumEnergies, "sum energies", Domain::sums, 0, {}, {products}, {partialSums, scalars}, {}},
+    {Pass::accept,
+     "accept",
+     Domain::particles,
+     0,
+     {},
+     {positions, increments, displacements, scalars},
+     {displacements, iterates},
+     {}},
+    {Pass::end,
+     "end",
+     Domain::gridPoints,
+     0,
+     {},
+     {positions, velocities, displacements, iterates, planes},
+     {newPositions, newVelocities, watch},
+     {F::movingPins, F::planes}},
+
+    {Pass::checkHash,
+     "check hash",
+     Domain::contacts,
+     0,
+     {},
+     {positions, newPositions, hash},
+     {contactFlags},
+     {}},
+    {Pass::buildHash,
+     "build hash",
+     Domain::contacts,
+     0,
+     {positions, newPositions},
+     {contactFlags, watch},
+     {hash, contactFlags},
+     {}},
+    {Pass::findCandidates,
+     "find candidates",
+     Domain::contacts,
+     0,
+     {hash},
+     {contactFlags},
+     {candidates},
+     {F::meshes, F::cuts}},
+    {Pass::resolveContacts,
+     "resolve contacts",
+     Domain::contacts,
+     0,
+     {positions, newPositions, hash, candidates},
+     {contactFlags},
+     {newPositions, newVelocities},
+     {F::meshes, F::cuts}},
+    {Pass::checkMotion,
+     "check motion",
+     Domain::contacts,
+     0,
+     {positions, newPositions, hash, candidates},
+     {},
+     {contactFlags},
+     {F::meshes, F::cuts}},
+    {Pass::clampMotion,
+     "clamp motion",
+     Domain::contacts,
+     0,
+     {positions, newPositions, hash, candidates},
+     {contactFlags},
+     {newPositions, newVelocities},
+     {F::meshes, F::cuts}},
+    {Pass::collide,
+     "collide",
+     Domain::gridPoints,
+     0,
+     {},
+     {positions, newPositions, newVelocities},
+     {newPositions, newVelocities, watch},
+     {F::colliders}},
+    {Pass::limit,
+     "limit",
+     Domain::springs,
+     2,
+     {newPositions, newVelocities},
+     {},
+     {newPositions, newVelocities},
+     {F::restLengths, F::meshes, F::cuts}},
+    {Pass::watchLimit, "watch limit", Domain::gridPoints, 0, {}, {newVelocities}, {watch}, {}},
+}};
+
+constexpr bool isInOrder() {
+  for (std::size_t i = 0; i < table.size(); ++i)
+    if (static_cast<std::size_t>(table[i].pass) != i) return false;
+  return true;
+}
+static_assert(isInOrder(), "the table has the order of the enumerators");
+
+constexpr std::array<std::string_view, ARRAY_COUNT> arrayNames{
+    "positions",        "velocities", "new positions", "new velocities", "forces",     "planes",
+    "right-hand sides", "air blocks", "displacements", "iterates",       "residuals",  "corrections",
+    "factors",          "blocks",     "directions",    "products",       "increments", "partial sums",
+    "scalars",          "hash",       "candidates",    "contact flags",  "watch"};
+
+constexpr std::array<std::string_view, FEATURE_COUNT> featureNames{
+    "springs", "rest lengths", "meshes",      "wind",      "air resistance", "jets",
+    "grabs",   "cuts",         "moving pins", "colliders", "planes"};
+
+bool runsByRows(Domain domain) { return domain == Domain::gridPoints || domain == Domain::particles; }
+
+}  // namespace
+
+std::string_view nameOf(Array array) { return arrayNames[static_cast<std::size_t>(array)]; }
+std::string_view nameOf(Feature feature) { return featureNames[static_cast<std::size_t>(feature)]; }
+
+std::string_view nameOf(Domain domain) {
+  switch (domain) {
+    case Domain::gridPoints:
+      return "grid points";
+    case Domain::particles:
+      return "particles";
+    case Domain::springs:
+      return "springs of a colour";
+    case Domain::coarseVertices:
+      return "coarse vertices";
+    case Domain::fineVertices:
+      return "fine vertices";
+    case Domain::sums:
+      return "a sum of all";
+    case Domain::contacts:
+      return "particles in cells";
+  }
+  return "";
+}
+
+const PassTraits& traitsOf(Pass pass) { return table[static_cast<std::size_t>(pass)]; }
+
+bool canShareSweep(const PassTraits& earlier, const PassTraits& later) {
+  return runsByRows(earlier.domain) && runsByRows(later.domain) && !later.gathers.overlaps(earlier.writes) &&
+         !earlier.gathers.overlaps(later.writes);
+}
+
+}  // namespace clothsim

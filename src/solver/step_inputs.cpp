@@ -1,0 +1,28 @@
+#include "solver/step_inputs.h"
+
+namespace clothsim {
+
+template <class Real>
+void evaluate(const StepInputs& inputs, std::uint64_t ahead, StepParameters<Real>& parameters) {
+  const Scene& scene = *inputs.scene;
+  const double begin = inputs.clock.timeAfter(ahead), end = inputs.clock.timeAfter(ahead + 1);
+  parameters.grids.resize(inputs.cloth->grids().size());
+  for (std::size_t grid = 0; grid < parameters.grids.size(); ++grid) {
+    StepParams<Real>& params = parameters.grids[grid];
+    params = makeStepParams<Real>(scene, *inputs.cloth, grid, begin);
+    params.kickTime = velocityConversionTime<Real>(scene);
+    addJet(inputs.hand, params);
+  }
+  parameters.colliders.resize(scene.colliders.size());
+  for (std::size_t i = 0; i < parameters.colliders.size(); ++i)
+    parameters.colliders[i] = makeColliderParams<Real>(scene, scene.colliders[i], begin, end);
+  parameters.pinMotions.resize(inputs.pinPaths.paths.size());
+  for (std::size_t i = 0; i < parameters.pinMotions.size(); ++i)
+    parameters.pinMotions[i] = makePinMotionParams<Real>(inputs.pinPaths.paths[i], end);
+  parameters.hand = makeHandParams<Real>(inputs.hand, scene, inputs.clock.step + ahead);
+}
+
+template void evaluate(const StepInputs&, std::uint64_t, StepParameters<float>&);
+template void evaluate(const StepInputs&, std::uint64_t, StepParameters<double>&);
+
+}  // namespace clothsim

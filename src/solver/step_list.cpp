@@ -1,0 +1,267 @@
+#include "solver/step_list.h"
+
+#include <algorithm>
+#include <iomanip>
+#include <sstream>
+#include <utility>
+
+#include "solver/implicit.h"
+#include "solver/self_collision.h"
+#include "solver/step_params.h"
+
+namespace clothsim {
+namespace {
+
+class ListBuilder {
+ public:
+  void add(Pass pass, std::size_t index = 0) {
+    list_.passes.push_back({pass, static_cast<std::uint16_t>(index)});
+  }
+  template <class Body>
+  void repeat(const char* name, int times, Body body) {
+    const std::size_t loop = list_.loops.size(), first = list_.passes.size();
+    list_.loops.push_back({name, first, 0, static_cast<std::size_t>(std::max(times, 0))});
+    for (int k = 0; k < times; ++k) {
+      const std::size_t loops = list_.loops.size();
+      body();
+      if (k == 0)
+        list_.loops[loop].count = list_.passes.size() - first;
+      else
+        list_.loops.resize(loops);  // those inside are told of once
+    }
+    if (list_.loops[loop].count == 0) list_.loops.resize(loop);
+  }
+  PassList finish(Outcome outcome) {
+    list_.outcome = outcome;
+    return std::move(list_);
+  }
+
+ private:
+  PassList list_;
+};
+
+// How many coarser levels the finest of the cloths has, and the most colours of a strain limit.
+std::size_t mostLevels(const Cloth& cloth) {
+  std::size_t most = 0;
+  for (const auto& levels : makeHierarchy<float>(cloth).grids) most = std::max(most, levels.size());
+  return most;
+}
+std::size_t mostColors(const Cloth& cloth) {
+  std::size_t most = 0;
+  for (const Grid& grid : cloth.grids()) most = std::max(most, makeLimitColors(grid).size());
+  return most;
+}
+
+class StepBuilder {
+ public:
+  StepBuilder(const Scene& scene, const Cloth& cloth)
+      : solver_(scene.solver),
+        hasColliders_(!scene.colliders.empty()),
+        isImplicit_(scene.solver.integrator == Integrator::implicit),
+        contacts_(collidesWithItself(scene, cloth) ? scene.solver.selfCollision : SelfCollision::off),
+        rounds_(contactRounds(scene)),
+        levels_(isImplicit_ ? mostLevels(cloth) : 0),
+        colors_(limitsInPasses(scene) ? mostColors(cloth) : 0) {}
+
+  PassList step() {
+    isImplicit_ ? moveImplicitly() : moveExplicitly();
+    contacts_ == SelfCollision::robust ? endRobustly() : endAsCs184Does();
+    return list_.finish(Outcome::state);
+  }
+
+ private:
+  void moveExplicitly() {
+    list_.add(Pass::forces);
+    list_.add(Pass::integrate);
+  }
+
+  void moveImplicitly() {
+    list_.add(Pass::begin);
+    findPlanes();
+    list_.add(Pass::initialGuess);
+    searchLine(Pass::sumStartEnergies);
+    list_.repeat("Newton step", solver_.newtonSteps, [&] {
+      findPlanes();
+      list_.add(Pass::elasticForces);
+      list_.add(Pass::linearize);
+      for (std::size_t level = 0; level < levels_; ++level) list_.add(Pass::coarsen, level);
+      solve();
+      searchLine(Pass::sumEnergies);
+    });
+    list_.add(Pass::end);
+  }
+
+  // Conjugate gradients. The last iteration needs no new direction.
+  void solve() {
+    const auto iterate = [&] {
+      list_.add(Pass::updateDirection);
+      list_.add(Pass::multiply);
+      list_.add(Pass::sumCurvature);
+      list_.add(Pass::updateSolution);
+    };
+    precondition();
+    list_.add(Pass::sumFirstResidual);
+    list_.repeat("iteration", solver_.cgIterations - 1, [&] {
+      iterate();
+      precondition();
+      list_.add(Pass::sumNextResidual);
+    });
+    if (solver_.cgIterations > 0) iterate();
+  }
+
+  void precondition() {
+    for (std::size_t level = 0; level < levels_; ++level) list_.add(Pass::restrict, level);
+    list_.add(Pass::solveCoarsest);
+    for (std::size_t level = levels_; level-- > 0;) list_.add(Pass::prolong, level);
+  }
+
+  void searchLine(Pass sum) {
+    list_.add(Pass::tryLengths);
+    list_.add(sum);
+    list_.add(Pass::accept);
+  }
+
+  void findPlanes() {
+    if (hasColliders_) list_.add(Pass::findPlanes);
+  }
+
+  void limitStrain() {
+    for (std::size_t color = 0; color < colors_; ++color) list_.add(Pass::limit, color);
+    if (colors_ > 0) list_.add(Pass::watchLimit);
+  }
+  void collide() {
+    if (hasColliders_) list_.add(Pass::collide);
+  }
+
+  void resolveContacts() {
+    list_.add(Pass::checkHash);
+    list_.add(Pass::buildHash, HASHES_END);
+    list_.add(Pass::findCandidates);
+    list_.add(Pass::resolveContacts);
+  }
+
+  // Contacts between particles come last but for the colliders: nothing may move particles through the cloth
+  // after them.
+  void endRobustly() {
+    list_.repeat("round of limits and colliders", rounds_, [&] {
+      limitStrain();
+      collide();
+    });
+    resolveContacts();
+    list_.add(Pass::checkMotion);
+    list_.add(Pass::buildHash, HASHES_START);
+    list_.add(Pass::findCandidates);
+    list_.add(Pass::clampMotion);
+    collide();
+  }
+
+  void endAsCs184Does() {
+    if (contacts_ == SelfCollision::averaged) resolveContacts();
+    collide();
+    limitStrain();
+    list_.repeat("round of colliders and limits", rounds_ - 1, [&] {
+      collide();
+      limitStrain();
+    });
+    if (rounds_ > 1) collide();
+  }
+
+  const SolverSettings& solver_;
+  bool hasColliders_, isImplicit_;
+  SelfCollision contacts_;
+  int rounds_;
+  std::size_t levels_, colors_;
+  ListBuilder list_;
+};
+
+template <class Enum>
+std::string namesIn(SetOf<Enum> set, int count) {
+  std::string names;
+  for (int i = 0; i < count; ++i)
+    if (set.contains(static_cast<Enum>(i)))
+      names += (names.empty() ? "" : ", ") + std::string(nameOf(static_cast<Enum>(i)));
+  return names.empty() ? "-" : names;
+}
+
+std::string nameOf(const PassCall& call) {
+  std::string name(call.traits().name);
+  if (call.pass == Pass::limit) return name + ", colour " + std::to_string(call.index);
+  if (call.pass == Pass::coarsen || call.pass == Pass::restrict || call.pass == Pass::prolong)
+    return name + ", level " + std::to_string(call.index);
+  if (call.pass == Pass::buildHash)
+    return name + (call.index == HASHES_START ? " of the start" : " of the end");
+  return name;
+}
+
+// One pass as a line of columns.
+std::string line(int indent, const std::string& name, const std::string& domain, const std::string& reach,
+                 const std::string& reads, const std::string& writes, const std::string& features) {
+  std::ostringstream text;
+  text << std::left << std::string(static_cast<std::size_t>(indent), ' ') << std::setw(26 - indent) << name
+       << std::setw(21) << domain << std::setw(7) << reach << std::setw(52) << reads << std::setw(44)
+       << writes << features;
+  std::string result = text.str();
+  result.erase(result.find_last_not_of(' ') + 1);
+  return result + "\n";
+}
+
+std::string line(int indent, const PassCall& call) {
+  const PassTraits& traits = call.traits();
+  return line(indent, nameOf(call), std::string(nameOf(traits.domain)), std::to_string(traits.reach),
+              namesIn(traits.gathers | traits.reads, ARRAY_COUNT), namesIn(traits.writes, ARRAY_COUNT),
+              namesIn(traits.features, FEATURE_COUNT));
+}
+
+// The passes [first, end), which the loops from `loop` on are in; returns the first loop behind them.
+std::size_t describe(const PassList& list, std::size_t first, std::size_t end, std::size_t loop, int indent,
+                     std::string& text) {
+  for (std::size_t i = first; i < end;) {
+    if (loop == list.loops.size() || list.loops[loop].first != i) {
+      text += line(indent, list.passes[i++]);
+      continue;
+    }
+    const PassList::Loop& own = list.loops[loop];
+    text += std::string(static_cast<std::size_t>(indent), ' ') + std::to_string(own.times) + " x " +
+            own.name + ":\n";
+    loop = describe(list, i, i + own.count, loop + 1, indent + 2, text);
+    i += own.count * own.times;
+  }
+  return loop;
+}
+
+}  // namespace
+
+bool PassList::contains(Pass pass) const {
+  return std::any_of(passes.begin(), passes.end(), [&](const PassCall& call) { return call.pass == pass; });
+}
+
+PassList makeStep(const Scene& scene, const Cloth& cloth) { return StepBuilder(scene, cloth).step(); }
+
+PassList makeConversion() { return {{{Pass::forces}, {Pass::kick}}, {}, Outcome::velocities}; }
+
+PassList makeStartCheck() { return {{{Pass::checkStart}}, {}, Outcome::nothing}; }
+
+std::size_t sweepLength(std::span<const PassCall> passes) {
+  const auto fits = [&](std::size_t count) {
+    return std::all_of(
+        passes.begin(), passes.begin() + static_cast<std::ptrdiff_t>(count),
+        [&](const PassCall& earlier) { return canShareSweep(earlier.traits(), passes[count].traits()); });
+  };
+  std::size_t count = 1;
+  while (count < passes.size() && fits(count)) ++count;
+  return count;
+}
+
+std::string nameOf(std::span<const PassCall> passes) {
+  std::string names;
+  for (const PassCall& call : passes) names += (names.empty() ? "" : ", ") + nameOf(call.pass);
+  return names;
+}
+
+std::string describe(const PassList& list) {
+  std::string text = line(0, "pass", "runs over", "reach", "reads", "writes", "features");
+  describe(list, 0, list.passes.size(), 0, 0, text);
+  return text;
+}
+
+}  // namespace clothsim

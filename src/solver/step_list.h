@@ -1,0 +1,64 @@
+// The order of a step, written once: which passes it is made of, for a scene. Both backends execute the list.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cloth/cloth.h"
+#include "scene/scene.h"
+#include "solver/pass.h"
+
+namespace clothsim {
+
+// A pass of a list. It runs over all cloths.
+struct PassCall {
+  Pass pass;
+  // limit: the colour; coarsen, restrict, prolong: the level, 0 the finest; buildHash: HASHES_START or
+  // HASHES_END.
+  std::uint16_t index = 0;
+
+  [[nodiscard]] const PassTraits& traits() const { return traitsOf(pass); }
+  friend bool operator==(const PassCall&, const PassCall&) = default;
+};
+inline constexpr std::uint16_t HASHES_START = 0, HASHES_END = 1;  // positions at the start or end of the step
+
+// Which of the new arrays are the state once a list is done.
+enum class Outcome : std::uint8_t { nothing, velocities, state };
+
+struct PassList {
+  // Passes that are done several times: `times` times `count` passes from `first` on. Loops may contain
+  // others; the outer one comes first.
+  struct Loop {
+    std::string name;
+    std::size_t first = 0, count = 0, times = 0;
+  };
+
+  std::vector<PassCall> passes;  // in order, loops unrolled
+  std::vector<Loop> loops;       // for people
+  Outcome outcome = Outcome::nothing;
+
+  [[nodiscard]] bool contains(Pass pass) const;
+};
+
+// A step of the scene. The cloth's levels and colours decide how many passes some parts have.
+[[nodiscard]] PassList makeStep(const Scene& scene, const Cloth& cloth);
+// Turns the velocities into those of the scene's integrator.
+[[nodiscard]] PassList makeConversion();
+// Looks at a state that was handed in.
+[[nodiscard]] PassList makeStartCheck();
+
+// How many of the passes, from the first on, may share a sweep: an executor may take a row through all of
+// them before the next row.
+[[nodiscard]] std::size_t sweepLength(std::span<const PassCall> passes);
+
+// The names of passes that share a sweep: "forces, integrate".
+[[nodiscard]] std::string nameOf(std::span<const PassCall> passes);
+
+// The list for people, a line a pass, with what it runs over, its reach, what it reads and writes, and the
+// features of the scene that it depends on; loops once, with how often they run.
+[[nodiscard]] std::string describe(const PassList& list);
+
+}  // namespace clothsim
