@@ -68,11 +68,9 @@ StepRate measureStepRate(const Scene& scene, const std::string& backend, double 
   rate.repetitions = REPETITIONS;
   rate.secondsPerStep = median(times);
   rate.particleStepsPerSecond = cloth.particleCount() / rate.secondsPerStep;
-  if (auto* gpu = dynamic_cast<GpuSolver*>(solver.get())) {
-    const int timed = std::clamp(steps, 1, 20);
-    rate.passes = gpu->timePasses(timed);
-    for (PassTime& pass : rate.passes) pass.seconds /= timed;
-  }
+  const int timed = std::clamp(steps, 1, 20);
+  rate.passes = solver->timePasses(timed);
+  for (PassTime& pass : rate.passes) pass.seconds /= timed;
   return rate;
 }
 

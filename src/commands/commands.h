@@ -95,6 +95,7 @@ int benchCommand(const BenchOptions& options);
 int doctorCommand(bool json);
 int scenesCommand();
 int describeCommand(const std::string& key);  // "" for all
+int describeStepCommand(const SceneOptions& options);
 
 // Parses argv, runs the subcommand, prints errors to stderr; returns the exit code.
 int runCommandLine(int argc, char** argv);

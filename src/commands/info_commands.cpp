@@ -13,6 +13,7 @@
 #include "scene_io/scene_io.h"
 #include "simulation/compare.h"
 #include "simulation/gpu/solvers.h"
+#include "solver/step_list.h"
 
 namespace clothsim {
 namespace {
@@ -75,6 +76,12 @@ int describeCommand(const std::string& key) {
   if (!found)
     throw UsageError("there is no scene key \"" + key + "\"" + didYouMean(key, paths) +
                      " `clothsim describe` lists all.");
+  return 0;
+}
+
+int describeStepCommand(const SceneOptions& options) {
+  const Scene scene = loadScene(options);
+  std::printf("%s", describe(makeStep(scene, Cloth(scene))).c_str());
   return 0;
 }
 

@@ -11,7 +11,7 @@ namespace clothsim {
 enum class ExitCode : int { done = 0, failed = 1, usage = 2, scene = 3, openGl = 4, inputOutput = 5 };
 
 // A message for a person: the file and place, what was found, what was expected, and what to do. It may quote
-// files of others: what() is printable().
+// foreign files: what() has been through printable().
 class Error : public std::runtime_error {
  public:
   Error(ExitCode exitCode, const std::string& message)

@@ -37,8 +37,8 @@ namespace clothsim {
 }
 [[gnu::always_inline]] inline double reciprocal(double x) { return 1 / x; }
 
-// What state may hold: no denormal, no -0. Differences of two such numbers are 0 or at least 2^-63, so that
-// their squares are normal.
+// The number as the state may hold it: without denormals and without -0. The difference of two such numbers
+// is 0 or at least 2^-63, so that its square is normal.
 [[gnu::always_inline]] inline float canonical(float x) {
   const float magnitude = x < 0.0f ? -x : x;
   return magnitude < 0x1p-40f ? 0.0f : x;

@@ -25,12 +25,12 @@ void writeFileAtomically(const std::filesystem::path& path, std::string_view byt
 class GrowingFile {
  public:
   explicit GrowingFile(const std::filesystem::path& path);
-  ~GrowingFile();  // without close(): nothing is left of it
+  ~GrowingFile();  // Without close() the file is removed.
   GrowingFile(const GrowingFile&) = delete;
   GrowingFile& operator=(const GrowingFile&) = delete;
 
   void append(std::string_view bytes);
-  // Of what was written before; what comes next is appended again.
+  // Replaces bytes that were written before. append() still continues at the end.
   void overwrite(std::uint64_t offset, std::string_view bytes);
   void close();
 
@@ -39,8 +39,8 @@ class GrowingFile {
 
   std::filesystem::path path_;
   std::optional<TemporaryFile> temporary_;  // none for a device
-  int descriptor_ = -1;                     // the temporary file's, or of the device, which is ours
-  std::string pending_;                     // small pieces go out together
+  int descriptor_ = -1;                     // of the temporary file, or of a device, which we close
+  std::string pending_;                     // collects small pieces, to write them together
 };
 
 // For commands that write at the end of long work: fails at once when no file could be made at `path`.

@@ -18,14 +18,14 @@ void catchInterrupts() {
     struct sigaction action {
     }, before{};
     action.sa_handler = remember;
-    // The limit of processor time is told again every second, until that of killing.
+    // SIGXCPU is repeated every second until the hard limit kills the process, so that its handler must stay.
     action.sa_flags = signal == SIGXCPU ? 0 : static_cast<int>(SA_RESETHAND);
     sigaction(signal, nullptr, &before);
     if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
   }
   std::signal(SIGXFSZ, SIG_IGN);
   std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGCHLD, SIG_DFL);  // ignored by some that start us, it would hide how ffmpeg ended
+  std::signal(SIGCHLD, SIG_DFL);  // a parent may have it ignored, which would hide how ffmpeg ended
 }
 
 bool isInterrupted() { return interrupted != 0; }

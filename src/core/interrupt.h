@@ -1,14 +1,15 @@
 // Ctrl-C, a terminal that closes and a request to end (SIGINT, SIGHUP, SIGTERM, SIGXCPU) let a command stop
-// between two frames and tidy up after itself; a second one ends it at once.
+// between two frames and tidy up. A second one ends it at once.
 #pragma once
 
 namespace clothsim {
 
-// What was ignored from the start, as by nohup, stays so. A file that grows beyond the limit of its size and
-// a pipe whose reader has gone (SIGXFSZ, SIGPIPE) become errors of writing rather than sudden ends.
+// Signals that were ignored from the start, as under nohup, stay ignored. A file that exceeds the limit of
+// file sizes and a pipe whose reader has gone (SIGXFSZ, SIGPIPE) become errors of writing instead of ending
+// the program.
 void catchInterrupts();
 
-// Whether an interrupt has come. Solver::step() ends before its next step then.
+// Whether an interrupt has come. Solver::step() then ends before its next step.
 [[nodiscard]] bool isInterrupted();
 
 // For loops that take long. @throws SimulationError once an interrupt has come

@@ -21,7 +21,7 @@ class Progress {
 
   // Redraws at most ten times a second.
   void update(std::int64_t done);
-  // Clears the bar's line, so that what is printed next stands alone. The destructor does it, too.
+  // Clears the bar's line, so that what is printed next stands alone. The destructor does so, too.
   void finish();
 
  private:
@@ -32,7 +32,7 @@ class Progress {
   Clock::time_point start_;
   Clock::time_point drawn_;
   bool visible_;  // stderr is a terminal
-  bool color_;    // and NO_COLOR is not set
+  bool color_;    // stderr is a terminal, and NO_COLOR is not set
   bool onScreen_ = false;
 };
 

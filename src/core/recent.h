@@ -1,5 +1,5 @@
-// What was loaded or computed last, by key: at hand while somebody holds it, and beyond that as long as the
-// latest ones together stay below a limit. Older ones are forgotten.
+// A cache by key. A value that somebody holds is always found. Of those that nobody holds, the latest used
+// are kept up to a limit of their total size, and older ones are forgotten.
 #pragma once
 
 #include <algorithm>
@@ -16,11 +16,10 @@ class Recent {
  public:
   using Pointer = std::shared_ptr<const Value>;
 
-  // The sizes of what is kept without being held add up to at most `mostKept`, in whatever unit add() is
-  // told.
+  // `mostKept`: the limit, in the unit in which add() is told sizes.
   explicit Recent(std::size_t mostKept) : mostKept_(mostKept) {}
 
-  // Null when it is not known, or was forgotten.
+  // Null when the key was never added, or its value was forgotten.
   [[nodiscard]] Pointer find(const Key& key) {
     const std::lock_guard lock(mutex_);
     const auto known =
@@ -34,7 +33,7 @@ class Recent {
     return value;
   }
 
-  // In place of what the key stood for before.
+  // Replaces what the key stood for before.
   void add(Key key, Pointer value, std::size_t size) {
     const std::lock_guard lock(mutex_);
     std::erase_if(known_, [&](const Known& known) { return known.key == key; });

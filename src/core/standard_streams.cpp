@@ -17,8 +17,8 @@ namespace clothsim {
 void holdStandardStreams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (::fcntl(stream, F_GETFD) != -1 || errno != EBADF) continue;
-    // Opened the wrong way round: what is printed is not lost without a word. The lowest free number is
-    // taken.
+    // It is opened for the wrong direction, so that printing fails instead of vanishing. open() takes the
+    // lowest free number, which is this one.
     (void)::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
   }
 }

@@ -3,12 +3,11 @@
 
 namespace clothsim {
 
-// Where one of the three was closed (`clothsim run ... >&-`), the next file opened would take its number, and
-// get what is printed. Their numbers are held instead; writing to them fails.
+// If one of the three was closed (`clothsim run ... >&-`), the next file that is opened would take its number
+// and receive what is printed. This takes those numbers first, with descriptors to which writing fails.
 void holdStandardStreams();
 
-// Sends what was printed on its way. A reader that has gone, as of `clothsim describe | head`, has had
-// enough.
+// Flushes what was printed. A reader that has closed its end, as in `clothsim describe | head`, is no error.
 // @throws InputOutputError when some of it was lost, as on a full disk
 void finishStandardOutput();
 

@@ -82,7 +82,7 @@ TemporaryFile::TemporaryFile(fs::path path, Destination destination)
   descriptor_ =
       ::open(name_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, destination_.permissions);
   if (descriptor_ < 0) throw cannotBeWritten(path_, errno);
-  // The umask may have taken some away.
+  // open() has taken away the permissions that the umask denies; those of a replaced file are restored.
   if (destination_.exists) (void)::fchmod(descriptor_, destination_.permissions);
 }
 
@@ -93,7 +93,7 @@ TemporaryFile::~TemporaryFile() {
 
 void TemporaryFile::publish() {
   if (!isSynchronised(descriptor_)) throw cannotBeWritten(path_, errno);
-  // Some file systems tell only now that the disk is full.
+  // Some file systems report only here that the disk is full.
   if (::close(std::exchange(descriptor_, -1)) != 0) throw cannotBeWritten(path_, errno);
   if (::rename(name_.c_str(), destination_.file.c_str()) != 0) throw cannotBeWritten(path_, errno);
   name_.clear();

@@ -42,7 +42,7 @@ template <class Real>
 constexpr Vec3<Real> cross(Vec3<Real> a, Vec3<Real> b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-// Of measures and shapes; passes of the simulation have inverseSquareRoot (core/exact_math.h).
+// For measuring and for shapes. Passes of the simulation use inverseSquareRoot (core/exact_math.h) instead.
 inline double length(Vec3d v) { return std::sqrt(dot(v, v)); }
 
 }  // namespace clothsim

@@ -1,4 +1,4 @@
-// State and pictures to files, whole or not at all. The file's extension chooses the format.
+// Writes states and pictures to files, whole or not at all. The extension of the name chooses the format.
 #pragma once
 
 #include <filesystem>
@@ -28,7 +28,7 @@ class VideoWriter {
  public:
   // @throws InputOutputError when ffmpeg is not installed (says how to get it) or does not start
   VideoWriter(const std::filesystem::path& path, int width, int height, double framesPerSecond);
-  ~VideoWriter();  // without close(): stops ffmpeg and removes the temporary file
+  ~VideoWriter();  // Without close() it stops ffmpeg and removes the temporary file.
   void addFrame(std::span<const std::uint8_t> rgb);
   void close();  // @throws InputOutputError with ffmpeg's own last words when it failed
 

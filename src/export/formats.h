@@ -27,7 +27,7 @@ namespace clothsim {
 //    56 + 16n  n times  binary32 vx, vy, vz [m/s], support (solver/state.h)
 //    56 + 32n  u64      number c of bytes of cuts, n or 0
 //    64 + 32n  c times  u8  the springs of a particle that are cut (cloth/cuts.h)
-//   64+32n+c   u64      number p of particles that hands have pinned or freed
+//   64+32n+c   u64      number p of particles pinned or freed during the run
 //   72+32n+c   p times  u32  those particles, ascending
 //              u64      FNV-1a of all bytes before
 // Older files are read. Version 2 has no offsets 32 to 55: the time is then step times the step length of the
@@ -37,8 +37,8 @@ namespace clothsim {
 [[nodiscard]] State parseStateFile(const std::string& bytes, std::size_t particleCount,
                                    const std::string& source);
 
-// As OBJ, PLY and USD have them: v begins at the lower edge of a picture. The cloth's own begin at the upper
-// one.
+// Texture coordinates as OBJ, PLY and USD define them, with v counted from the lower edge of a picture. The
+// cloth counts its own from the upper edge.
 [[nodiscard]] std::vector<std::array<float, 2>> pictureCoordinates(const Cloth& cloth);
 
 // Unit normals from the triangles around each particle, weighted by their areas; +y where those cancel out.

@@ -22,7 +22,7 @@ constexpr std::array<Extension, 4> extensions{{
     {".state", [](const State& state, const Cloth&) { return formatStateFile(state); }},
 }};
 
-// null for an extension that nobody writes
+// Null for an extension that no format has.
 Format formatFor(const std::filesystem::path& path) {
   const std::string wanted = path.extension().string();
   for (const Extension& extension : extensions)

@@ -1,5 +1,5 @@
-// Files that hold all saved frames of a run: a point cache and an animated mesh. They grow as the frames
-// come, and are there when they are complete, or not at all.
+// Files that hold all saved frames of a run: a point cache and an animated mesh. They grow frame by frame
+// under a temporary name and take their own when they are complete.
 #pragma once
 
 #include <filesystem>
@@ -18,8 +18,8 @@ struct FrameTimes {
 
 class SequenceWriter {
  public:
-  virtual ~SequenceWriter() = default;  // without close(): leaves nothing
-  // The frames in turn. @throws InputOutputError, also for another number of particles than before
+  virtual ~SequenceWriter() = default;  // Without close() it leaves no file.
+  // Adds the next frame. @throws InputOutputError, also for another number of particles than before
   virtual void addFrame(const State& state) = 0;
   virtual void close() = 0;  // @throws InputOutputError
 };
@@ -27,8 +27,8 @@ class SequenceWriter {
 // .pc2: PC2 point cache, positions of the particles [m], little-endian; and beside cloth.pc2 the mesh that it
 // moves, cloth_rest.obj, the first frame with uv. .usda: USD as text, one mesh with animated points, in
 // metres, y up, with the frame rate. A mesh that is cut on the way changes its triangles in .usda, and keeps
-// them in .pc2. A PC2 header tells `every` as frames a sample; Blender takes each sample for a frame: its
-// modifier's Frame Scale is to be 1 / every.
+// them in .pc2. The PC2 header says that a sample stands for `every` frames. Blender takes each sample for
+// one frame, so that its modifier's Frame Scale must be 1 / every.
 [[nodiscard]] bool isSequence(const std::filesystem::path& path);
 [[nodiscard]] bool isPointCache(const std::filesystem::path& path);
 // The mesh that a point cache of that name moves.

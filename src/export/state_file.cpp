@@ -75,7 +75,7 @@ class Lists {
   Lists(const std::string& bytes, std::size_t place, const std::string& source)
       : bytes_(bytes), place_(place), source_(source) {}
 
-  // Where the next byte is looked for.
+  // Offset of the next byte to read.
   [[nodiscard]] std::size_t place() const { return place_; }
 
   template <class T>
@@ -129,7 +129,7 @@ StepClock readClock(const Header& header, const std::string& bytes, const std::s
   return clock;
 }
 
-// What only a wrong program can have written.
+// Refuses values that no working program writes, though the checksum fits them.
 void checkContent(const Header& header, const State& state, const std::string& source) {
   if (header.integrator > static_cast<std::uint32_t>(Integrator::euler))
     refuse(source, "it names integrator number " + std::to_string(header.integrator) +

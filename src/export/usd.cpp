@@ -1,5 +1,5 @@
-// USD in its text form (.usda, openusd.org): one mesh with time samples. What a stage knows beside it is
-// written, too: metres, y up, frames a second.
+// USD in its text form (.usda, openusd.org): one mesh with time samples. The stage's
+// own settings are written, too: metres, y up, frames a second.
 #include <algorithm>
 #include <charconv>
 #include <utility>

@@ -29,18 +29,19 @@ extern char** environ;
 namespace clothsim {
 namespace {
 
-constexpr int filmDescriptor = 3;  // in ffmpeg; it opens the file anew by this name, also to read
+constexpr int filmDescriptor =
+    3;  // the film's number in ffmpeg, which opens it anew through /proc, also to read
 
 std::vector<std::string> ffmpegArguments(int width, int height, double framesPerSecond) {
   std::array<char, 32> rate;
   const auto end = std::to_chars(rate.data(), rate.data() + rate.size(), framesPerSecond).ptr;
   return {"ffmpeg", "-hide_banner", "-nostdin", "-loglevel", "error", "-y",
-          // what comes in
+          // The input.
           "-f", "rawvideo", "-pixel_format", "rgb24", "-video_size",
           std::to_string(width) + "x" + std::to_string(height), "-framerate", std::string(rate.data(), end),
           "-i", "pipe:0",
-          // what goes out: yuv420p, which every player shows, takes even sizes only; colours are said to be
-          // BT.709 and are
+          // The output. yuv420p, which every player shows, takes even sizes only. The colours are converted
+          // to BT.709, and labelled so.
           "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv", "-c:v", "libx264",
           "-preset", "medium", "-crf", "18", "-pix_fmt", "yuv420p", "-colorspace", "bt709",
           "-color_primaries", "bt709", "-color_trc", "bt709", "-color_range", "tv", "-movflags", "+faststart",
@@ -56,9 +57,9 @@ struct VideoWriter::Pipe {
   std::filesystem::path path;
   TemporaryFile film;
   std::size_t frameBytes;
-  pid_t ffmpeg = -1;  // -1 once it has been waited for
+  pid_t ffmpeg = -1;  // -1 before it was started and once it has been waited for
   int input = -1;     // our end of its standard input
-  int words = -1;     // takes what it says, in memory
+  int words = -1;     // a file in memory that takes its messages
 
   ~Pipe() {
     if (input >= 0) ::close(input);
@@ -71,7 +72,7 @@ struct VideoWriter::Pipe {
   Pipe(const Pipe&) = delete;
   Pipe& operator=(const Pipe&) = delete;
 
-  // ffmpeg goes back and forth in a film.
+  // ffmpeg seeks within the film it writes, which a device or a pipe does not allow.
   static Destination regularFile(const std::filesystem::path& path) {
     Destination destination = destinationOf(path);
     if (!destination.isReplaced)

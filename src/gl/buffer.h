@@ -47,13 +47,13 @@ class Buffer {
                               static_cast<GLsizeiptr>(count * sizeof(T)), data.data());
     return data;
   }
-  // All of another buffer of the same size, on the device.
+  // Copies another buffer of the same size, on the device.
   void copyFrom(const Buffer& other) {
     assert(other.size_ == size_ && "only buffers of one size are copied");
     glCopyNamedBufferSubData(other.name_, name_, 0, 0, static_cast<GLsizeiptr>(bytes()));
   }
   void bindStorage(GLuint binding) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, name_); }
-  // For glDispatchComputeIndirect.
+  // Binds it as the source of glDispatchComputeIndirect.
   void bindDispatches() const { glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, name_); }
   void bindStorageRange(GLuint binding, std::size_t firstElement, std::size_t count) const {
     bindRange(GL_SHADER_STORAGE_BUFFER, binding, firstElement, count);

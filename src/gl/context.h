@@ -1,5 +1,5 @@
 // An OpenGL 4.5 core context without a window, by EGL: a real GPU's device display first, then surfaceless.
-// (The viewer's window context comes from GLFW in src/viewer.)
+// (The viewer's context comes from GLFW.)
 #pragma once
 
 #include <memory>

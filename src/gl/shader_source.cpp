@@ -19,7 +19,8 @@ std::optional<std::string> includedFile(const std::string& line) {
   return match[1].str();
 }
 
-// Mesa forgets the source number of most errors, so the line numbers that it is told tell the file, too.
+// Mesa drops the source number from most errors. Lines of file i are therefore numbered from i * 10,000, so
+// that a line number alone tells the file.
 constexpr std::size_t linesPerFile = 10'000;
 
 std::string lineDirective(std::size_t line, std::size_t file) {

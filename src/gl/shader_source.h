@@ -11,8 +11,9 @@ namespace clothsim::gl {
 using Defines = std::vector<std::pair<std::string, std::string>>;  // name, value
 
 struct ShaderSource {
-  std::string text;                // begins with #version 450 core
-  std::vector<std::string> files;  // an index into this is #line's source number, and its line over 10,000
+  std::string text;  // begins with #version 450 core
+  // #line directives in `text` number each line by the index here of the file that it came from.
+  std::vector<std::string> files;
 };
 // @throws InputOutputError for a missing file, OpenGlError for an include that goes round in a circle
 [[nodiscard]] ShaderSource loadShaderSource(const std::string& file, const Defines& defines);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "output/lettering.h"
+#include "output/picture_font.h"
 
 namespace clothsim {
 namespace {
@@ -19,12 +19,11 @@ struct Layout {
         headingSize(at(30)),
         smallSize(at(21)),
         margin(at(36)),
-        gap(at(22)),
-        letters({titleSize, headingSize, smallSize}) {
+        gap(at(22)) {
     for (const std::vector<SheetHeading>& row : sheet.rows)
       for (const SheetHeading& heading : row)
         rowHeadings = std::max(
-            {rowHeadings, letters.width(heading.name, smallSize), letters.width(heading.value, headingSize)});
+            {rowHeadings, font.width(heading.name, smallSize), font.width(heading.value, headingSize)});
     if (rowHeadings > 0) rowHeadings = std::min(rowHeadings, sheet.pictureWidth) + at(28);
     left = margin + rowHeadings;
     const bool hasCaptions =
@@ -51,7 +50,7 @@ struct Layout {
 
   double scale;
   int titleSize, headingSize, smallSize, margin, gap;
-  Lettering letters;
+  PictureFont font;
   int rowHeadings = 0, left = 0, top = 0, aboveCell = 0, cellHeight = 0, columns = 0, rows = 0, stepX = 0,
       stepY = 0;
   int width = 0, height = 0;
@@ -60,13 +59,13 @@ struct Layout {
 // "cloth.ks  500 N/m" on one baseline.
 void drawHeading(Image& page, const Layout& layout, const SheetHeading& heading, int x, int baseline,
                  int room) {
-  const Lettering& letters = layout.letters;
-  const std::string value = letters.fitted(heading.value, layout.headingSize, room);
+  const PictureFont& font = layout.font;
+  const std::string value = font.fitted(heading.value, layout.headingSize, room);
   const int space = layout.at(12);
-  const int nameRoom = room - letters.width(value, layout.headingSize) - space;
-  if (letters.width(heading.name, layout.smallSize) <= nameRoom)
-    x = letters.draw(page, heading.name, layout.smallSize, x, baseline, quiet) + space;
-  letters.draw(page, value, layout.headingSize, x, baseline, ink);
+  const int nameRoom = room - font.width(value, layout.headingSize) - space;
+  if (font.width(heading.name, layout.smallSize) <= nameRoom)
+    x = font.draw(page, heading.name, layout.smallSize, x, baseline, quiet) + space;
+  font.draw(page, value, layout.headingSize, x, baseline, ink);
 }
 
 // The headings of a row, one below the other, in the middle of its height.
@@ -75,11 +74,11 @@ void drawRowHeadings(Image& page, const Layout& layout, const std::vector<SheetH
   const int line = layout.at(84), room = layout.rowHeadings - layout.at(20);
   int y = middle - line * static_cast<int>(headings.size()) / 2;
   for (const SheetHeading& heading : headings) {
-    const Lettering& letters = layout.letters;
-    letters.draw(page, letters.fitted(heading.name, layout.smallSize, room), layout.smallSize, layout.margin,
-                 y + layout.at(26), quiet);
-    letters.draw(page, letters.fitted(heading.value, layout.headingSize, room), layout.headingSize,
-                 layout.margin, y + layout.at(60), ink);
+    const PictureFont& font = layout.font;
+    font.draw(page, font.fitted(heading.name, layout.smallSize, room), layout.smallSize, layout.margin,
+              y + layout.at(26), quiet);
+    font.draw(page, font.fitted(heading.value, layout.headingSize, room), layout.headingSize, layout.margin,
+              y + layout.at(60), ink);
     y += line;
   }
 }
@@ -113,26 +112,26 @@ void drawPicture(Image& page, const Image& image, int left, int top, double radi
 // In the middle of a picture.
 void drawAlert(Image& page, const Layout& layout, const std::string& alert, int left, int top, int width,
                int height) {
-  const Lettering& letters = layout.letters;
-  const std::string text = letters.fitted(alert, layout.smallSize, width - layout.at(60));
-  const int plateWidth = letters.width(text, layout.smallSize) + layout.at(36), plateHeight = layout.at(46);
+  const PictureFont& font = layout.font;
+  const std::string text = font.fitted(alert, layout.smallSize, width - layout.at(60));
+  const int plateWidth = font.width(text, layout.smallSize) + layout.at(36), plateHeight = layout.at(46);
   const int x0 = left + (width - plateWidth) / 2, y0 = top + (height - plateHeight) / 2;
   for (int y = 0; y < plateHeight; ++y)
     for (int x = 0; x < plateWidth; ++x)
       blend(page, x0 + x, y0 + y, alertPaper,
             0.92 * roundedCover(x + 0.5, y + 0.5, plateWidth, plateHeight, layout.at(10)));
-  letters.draw(page, text, layout.smallSize, x0 + layout.at(18), y0 + layout.at(30), alertInk);
+  font.draw(page, text, layout.smallSize, x0 + layout.at(18), y0 + layout.at(30), alertInk);
 }
 
 void drawTitle(Image& page, const Layout& layout, const ContactSheet& sheet) {
-  const Lettering& letters = layout.letters;
+  const PictureFont& font = layout.font;
   const int baseline = layout.margin + layout.at(30), room = layout.width - 2 * layout.margin;
-  const std::string title = letters.fitted(sheet.title, layout.titleSize, room);
-  const int end = letters.draw(page, title, layout.titleSize, layout.margin, baseline, ink) + layout.at(20);
+  const std::string title = font.fitted(sheet.title, layout.titleSize, room);
+  const int end = font.draw(page, title, layout.titleSize, layout.margin, baseline, ink) + layout.at(20);
   const int rest = layout.width - layout.margin - end;
   if (rest > layout.at(80))
-    letters.draw(page, letters.fitted(sheet.subtitle, layout.smallSize, rest), layout.smallSize, end,
-                 baseline, quiet);
+    font.draw(page, font.fitted(sheet.subtitle, layout.smallSize, rest), layout.smallSize, end, baseline,
+              quiet);
 }
 
 }  // namespace
@@ -165,8 +164,8 @@ Image drawSheet(const ContactSheet& sheet) {
     drawPicture(page, picture.image, x, y, layout.at(10), !picture.alert.empty());
     if (!picture.alert.empty())
       drawAlert(page, layout, picture.alert, x, y, sheet.pictureWidth, sheet.pictureHeight);
-    layout.letters.draw(page, layout.letters.fitted(picture.caption, layout.smallSize, sheet.pictureWidth),
-                        layout.smallSize, x, y + sheet.pictureHeight + layout.at(29), quiet);
+    layout.font.draw(page, layout.font.fitted(picture.caption, layout.smallSize, sheet.pictureWidth),
+                     layout.smallSize, x, y + sheet.pictureHeight + layout.at(29), quiet);
   }
   return page;
 }

@@ -8,13 +8,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
-#include "output/typeface.h"
+#include "output/picture_font.h"
 
 namespace clothsim {
 namespace {
 
 constexpr float textSize = 16, titleSize = 22;  // on an ordinary screen [pixels]
+
+// Adds the program's typeface in a size [pixels], or Dear ImGui's own bitmap font where the system has none.
+void addTypeface(ImFontAtlas& atlas, float size) {
+  // Latin, and marks of punctuation: dashes, ellipsis, minus.
+  static constexpr ImWchar characters[] = {0x20, 0xff, 0x2010, 0x2026, 0x2212, 0x2212, 0};
+  ImFontConfig config;
+  config.SizePixels = size;
+  const std::filesystem::path file = typefaceFile();
+  if (file.empty())
+    atlas.AddFontDefault(&config);
+  else
+    atlas.AddFontFromFileTTF(file.c_str(), size, nullptr, characters);
+}
 
 // A calm dark theme: surfaces differ by little, the accent is kept for what is on and what is held.
 void colorize(ImVec4* colors) {

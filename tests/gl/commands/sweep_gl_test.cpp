@@ -6,7 +6,7 @@
 
 #include "core/files.h"
 #include "output/contact_sheet.h"
-#include "output/lettering.h"
+#include "output/picture_font.h"
 #include "render/textures.h"
 #include "support/command.h"
 #include "support/temporary_folder.h"
@@ -201,13 +201,30 @@ TEST(ContactSheet, PalesAPictureUnderAnAlert) {
   EXPECT_GT(page.rgb[3 * static_cast<std::size_t>((y + 6) * page.width + x + 30)], 100) << "black no more";
 }
 
-TEST(Lettering, FitsWordsIntoTheRoomThereIs) {
-  const Lettering letters({20});
-  EXPECT_EQ(letters.fitted("short", 20, 500), "short");
-  const std::string cut = letters.fitted("a long text with \xc3\xa4 in it", 20, 90);
-  EXPECT_TRUE(cut.ends_with("..."));
-  EXPECT_LE(letters.width(cut, 20), 90);
-  EXPECT_EQ(letters.fitted("abc", 20, 1), "...");
+// Of the program's typeface, and of the block letters that stand in where there is none.
+TEST(PictureFont, FitsWordsIntoTheRoomThereIs) {
+  for (const auto& file : {typefaceFile(), std::filesystem::path{}}) {
+    const PictureFont font(file);
+    EXPECT_EQ(font.fitted("short", 20, 500), "short");
+    const std::string cut = font.fitted("a long text with \xc3\xa4 in it", 20, 90);
+    EXPECT_TRUE(cut.ends_with("..."));
+    EXPECT_LE(font.width(cut, 20), 90);
+    EXPECT_EQ(font.fitted("abc", 20, 1), "...");
+  }
+}
+
+TEST(PictureFont, DrawsAboveTheBaselineAndNoFartherThanItsWidth) {
+  for (const auto& file : {typefaceFile(), std::filesystem::path{}}) {
+    const PictureFont font(file);
+    Image page{200, 60, std::vector<std::uint8_t>(std::size_t{3} * 200 * 60, 255)};
+    const int end = font.draw(page, "NEW", 24, 30, 40, {0, 0, 0});
+    EXPECT_EQ(end, 30 + font.width("NEW", 24));
+    EXPECT_GT(darkPixels(page, 30, 18, end, 40), 60);
+    EXPECT_EQ(darkPixels(page, 0, 0, 200, 60), darkPixels(page, 29, 18, end + 1, 41))
+        << "nothing beside the word";
+    font.draw(page, "NEW", 24, 190, 10, {0, 0, 0});
+    font.draw(page, "", 24, 10, 10, {0, 0, 0});
+  }
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ const std::map<std::string, Room> rooms{
     {"session", {{"core", "scene", "cloth", "scene_io", "solver", "simulation"}, {"nlohmann"}}},
     {"simulation/gpu",
      {{"core", "scene", "cloth", "solver", "solver/gpu", "gl", "render", "simulation"}, {"opengl"}}},
-    {"output", {{"core", "scene", "render", "export"}, {"imgui"}}},
+    {"output", {{"core", "scene", "render", "export"}, {"stb"}}},
     {"viewer",
      {{"core", "scene", "cloth", "scene_io", "solver", "solver/gpu", "gl", "render", "export", "measure",
        "simulation", "simulation/gpu", "session", "output"},
