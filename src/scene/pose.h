@@ -23,7 +23,7 @@ struct Pose {
 // The rotation by which a shape's own frame (capsules and tori around y, planes with the normal along y,
 // boxes along the axes) stands in the world, before any motion.
 [[nodiscard]] Matrix3 ownRotation(const Collider& collider);
-// b first, then a.
+// The product a b, which applies b first.
 [[nodiscard]] Matrix3 product(const Matrix3& a, const Matrix3& b);
 
 // The key of a motion, which has at least one, at time t [s]: linear between those given.
@@ -31,7 +31,7 @@ struct Pose {
 
 // The pose at time t [s]; without a motion the collider's own place, unrotated.
 [[nodiscard]] Pose poseAt(const Collider& collider, double t);
-// Of a motion, which has at least one key.
+// The pose of a motion that has at least one key.
 [[nodiscard]] Pose poseAt(const Motion& motion, double t);
 
 }  // namespace clothsim

@@ -14,7 +14,7 @@
 
 namespace clothsim {
 
-// What a number may be. In a vector it holds for each component.
+// The range of a number. In a vector it holds for each component.
 struct Limits {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();
@@ -24,7 +24,7 @@ struct Limits {
 
 // Where a slider begins and ends: what is commonly used. Typed numbers may go as far as the limits.
 struct Usual {
-  double low = 0, high = 0;  // both 0: nothing is said
+  double low = 0, high = 0;  // both 0: not known
 };
 
 // "> 0", "0 to 1", "" for any.
@@ -52,11 +52,11 @@ struct FieldTraits {
   Usual usual{};
 };
 
-// The ends of a slider for the field: what is usual, else its limits, else a tenfold of what it is now.
+// The ends of a slider for the field: what is usual, else its limits, else ten times its value `now`.
 [[nodiscard]] Usual sliderRange(const FieldTraits& traits, double now);
 
-// What a member may be: one of these types, or of those that its owner has besides. (One list for all owners
-// would have each walk over a table compiled for types that the table does not have.)
+// The types that members of a struct may have: these, and those that its owner adds. (With one list for all
+// owners each walk over a table would be compiled for types that the table does not have.)
 template <class Owner, class... More>
 using MemberAmong = std::variant<bool Owner::*, int Owner::*, double Owner::*, std::string Owner::*,
                                  Vec3d Owner::*, std::optional<double> Owner::*, More Owner::*...>;
