@@ -4,13 +4,13 @@
 #include <chrono>
 #include <cmath>
 
-#include "commands/blow_up.h"
 #include "core/error.h"
 #include "gl/framebuffer.h"
 #include "gl/timer.h"
 #include "render/renderer.h"
 #include "scene_io/scene_io.h"
-#include "simulation/simulation.h"
+#include "simulation/gpu/simulation_renderer.h"
+#include "simulation/gpu/solvers.h"
 
 namespace clothsim {
 namespace {
@@ -45,8 +45,9 @@ double median(std::vector<double> values) {
 }  // namespace
 
 StepRate measureStepRate(const Scene& scene, const std::string& backend, double seconds, const State& state) {
-  const Cloth cloth(scene);
-  const std::unique_ptr<Solver> solver = makeSolver(backend, cloth, scene);
+  const Shared<Cloth> sharedCloth = Cloth(scene);
+  const Cloth& cloth = *sharedCloth;
+  const std::unique_ptr<Solver> solver = makeSolver(backend, sharedCloth, scene);
   if (!state.positions.empty()) solver->setState(state);
   timeSteps(*solver, 2);  // compiles on some drivers
   const double once = std::max(1e-6, timeSteps(*solver, 4) / 4);
@@ -67,11 +68,9 @@ StepRate measureStepRate(const Scene& scene, const std::string& backend, double 
   rate.repetitions = REPETITIONS;
   rate.secondsPerStep = median(times);
   rate.particleStepsPerSecond = cloth.particleCount() / rate.secondsPerStep;
-  if (auto* gpu = dynamic_cast<GpuSolver*>(solver.get())) {
-    const int timed = std::clamp(steps, 1, 20);
-    rate.passes = gpu->timePasses(timed);
-    for (PassTime& pass : rate.passes) pass.seconds /= timed;
-  }
+  const int timed = std::clamp(steps, 1, 20);
+  rate.passes = solver->timePasses(timed);
+  for (PassTime& pass : rate.passes) pass.seconds /= timed;
   return rate;
 }
 
@@ -109,7 +108,7 @@ DrawRate measureDrawing(const Scene& scene, const State& state, int samples, int
 DemoRate measureDemo(int size, const std::string& backend, int width, int height) {
   Scene scene = loadSceneByName("demo");
   (void)changeResolution(scene, size, size, false);
-  Simulation simulation(scene, backend);
+  Simulation simulation(scene, backend, makeSolver);
   DemoRate rate;
   rate.size = size;
   const int steps = std::max(1, static_cast<int>(std::lround(DEMO_FRAME / stepLength(scene.solver))));
@@ -119,13 +118,13 @@ DemoRate measureDemo(int size, const std::string& backend, int width, int height
   checkSound(simulation.solver(), simulation.cloth(), scene);
   if (width == 0) return rate;
 
-  Renderer renderer(simulation.cloth(), scene, {});
+  SimulationRenderer renderer(simulation, {});
   const Camera camera(scene, simulation.cloth());
   const gl::Framebuffer target(
       "bench", {.width = width, .height = height, .color = GL_SRGB8_ALPHA8, .depth = GL_DEPTH_COMPONENT24});
   const auto draw = [&] {
     const Clock::time_point start = Clock::now();
-    renderer.draw(simulation.positionsBuffer(), camera, simulation.time(), target.name(), width, height);
+    renderer.draw(camera, target.name(), width, height);
     simulation.finish();
     return secondsSince(start);
   };

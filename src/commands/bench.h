@@ -7,7 +7,7 @@
 
 #include "render/renderer.h"
 #include "scene/scene.h"
-#include "solver/gpu/gpu_solver.h"
+#include "solver/solver.h"
 
 namespace clothsim {
 
@@ -20,7 +20,7 @@ struct StepRate {
   int repetitions = 0;  // timed stretches of steps; the median counts
   double secondsPerStep = 0;
   double particleStepsPerSecond = 0;
-  std::vector<PassTime> passes;  // GPU only: seconds a step
+  std::vector<PassTime> passes;  // seconds a step
 };
 
 // Steps the scene for about `seconds`, after a warm-up, beginning with `state`, or at the start when it is

@@ -95,7 +95,7 @@ State stateAfter(const Scene& scene, int frames) {
     progress.update(frame);
   }
   progress.finish();
-  return simulation.solver().state();
+  return simulation.state();
 }
 
 // Springs alone, with the strain limit, and with either self-collision on top of that.

@@ -71,6 +71,7 @@ CLI::Validator number(double low, double high) { return numberWithin(low, high, 
 // The flags as they arrive; each command takes the ones it declared.
 struct Arguments {
   bool draw = false;
+  bool describeStep = false;
   std::string scene = "pinned2", backend = "gpu", from, shader, size = "1280x720", key, replay;
   std::string cellSize = "560x420", out, view = "0,0";
   std::vector<std::string> variations, settings, saves, outs, resolutions, backends;
@@ -327,11 +328,23 @@ void declareInfoCommands(CLI::App& app, Arguments& a, Task& task) {
   doctor->footer("Exit code 0 when the backends agree, 1 when they do not, 4 without usable OpenGL");
   doctor->callback([&] { task = [&] { return doctorCommand(a.json); }; });
 
-  CLI::App* describe =
-      app.add_subcommand("describe", "Explain every scene key: type, unit, range, default, meaning");
-  describe->add_option("key", a.key, "one key or group, as cloth.ks, cloth or damping");
-  describe->footer("Examples: clothsim describe, clothsim describe solver, clothsim describe strain_limit");
-  describe->callback([&] { task = [&] { return describeCommand(a.key); }; });
+  CLI::App* describe = app.add_subcommand(
+      "describe", "Explain every scene key: type, unit, range, default, meaning; or a step");
+  CLI::Option* key = describe->add_option("key", a.key, "one key or group, as cloth.ks, cloth or damping");
+  CLI::Option* step =
+      describe
+          ->add_flag("--step", a.describeStep,
+                     "list the passes that a step of the scene is made of, in order: what each "
+                     "runs over, reads, writes and depends on")
+          ->excludes(key);
+  const SceneFlags scene = addSceneFlags(*describe, a, false);
+  for (CLI::Option* option : {scene.file, scene.settings, addResolution(*describe, a)}) option->needs(step);
+  describe->footer(
+      "Examples: clothsim describe, clothsim describe solver, clothsim describe strain_limit,\n"
+      "          clothsim describe --step -f pinned2 --set solver.integrator=implicit");
+  describe->callback([&] {
+    task = [&] { return a.describeStep ? describeStepCommand(a.sceneOptions()) : describeCommand(a.key); };
+  });
 }
 
 void declareViewer(CLI::App& app, Arguments& a, Task& task) {

@@ -10,30 +10,13 @@
 #include <vector>
 
 #include "scene/scene.h"
+#include "scene_io/scene_options.h"
 
 namespace clothsim {
 
-struct GridSize {
-  int columns = 0, rows = 0;
-};
-
-// What every command that simulates takes.
-struct SceneOptions {
-  std::string scene = "pinned2";       // -f
-  std::optional<GridSize> resolution;  // --resolution
-  std::vector<std::string> settings;   // --set key=value
-  std::vector<std::string> varied{};   // --vary: one combination of its values, set after the settings
-};
 // "512x512". @throws UsageError that names the flag
 [[nodiscard]] GridSize parseSize(const std::string& text, const std::string& flag);
 
-// The scene, its resolution changed and --set applied, and what the user should know of the result.
-// @throws SceneError, UsageError
-struct RemarkedScene {
-  Scene scene;
-  std::vector<std::string> remarks;  // sentences
-};
-[[nodiscard]] RemarkedScene readScene(const SceneOptions& options);
 // readScene(), with its remarks on stderr.
 [[nodiscard]] Scene loadScene(const SceneOptions& options);
 
@@ -112,6 +95,7 @@ int benchCommand(const BenchOptions& options);
 int doctorCommand(bool json);
 int scenesCommand();
 int describeCommand(const std::string& key);  // "" for all
+int describeStepCommand(const SceneOptions& options);
 
 // Parses argv, runs the subcommand, prints errors to stderr; returns the exit code.
 int runCommandLine(int argc, char** argv);

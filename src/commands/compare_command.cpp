@@ -14,27 +14,31 @@
 #include "measure/crossings_json.h"
 #include "measure/measure.h"
 #include "simulation/compare.h"
+#include "simulation/gpu/solvers.h"
 
 namespace clothsim {
 
 int compareCommand(const CompareOptions& options) {
-  const Scene scene = loadScene(options.scene);
+  const Shared<Scene> sharedScene = loadScene(options.scene);
+  const Scene& scene = *sharedScene;
   const gl::HeadlessContext context;
   Progress progress("comparing", options.frames);
-  const Cloth cloth(scene);
+  const Shared<Cloth> sharedCloth = Cloth(scene);
+  const Cloth& cloth = *sharedCloth;
   std::optional<CrossingCounter> counter;
-  if (options.checkCrossings) counter.emplace(cloth);
+  if (options.checkCrossings) counter.emplace(sharedCloth);
   CrossingSummary crossings;
   ContactReport contacts;
   double maxPenetration = 0;
-  const Comparison result = compareBackends(scene, options.frames, [&](int frame, const State& state) {
-    stopIfInterrupted();
-    if (counter) crossings.add(frame, counter->count(state));
-    const Measures measures = measure(cloth, scene, state);
-    maxPenetration = std::max(maxPenetration, measures.maxPenetration);
-    contacts.add(frame, cloth, scene, state, measures.maxStrain, {});
-    progress.update(frame);
-  });
+  const Comparison result =
+      compareBackends(sharedScene, options.frames, makeSolver, [&](int frame, const State& state) {
+        stopIfInterrupted();
+        if (counter) crossings.add(frame, counter->count(state));
+        const Measures measures = measure(cloth, scene, state);
+        maxPenetration = std::max(maxPenetration, measures.maxPenetration);
+        contacts.add(frame, cloth, scene, state, measures.maxStrain, {});
+        progress.update(frame);
+      });
   progress.finish();
 
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
@@ -74,7 +78,7 @@ int compareCommand(const CompareOptions& options) {
                 static_cast<unsigned long long>(crossings.neighbours), crossings.framesChecked);
   const auto blowUp = [&](const std::optional<Trouble>& trouble, const char* backend) {
     if (trouble)
-      throw SimulationError(std::string(backend) + blowUpText(*trouble, Cloth(scene), scene) +
+      throw SimulationError(std::string(backend) + blowUpText(*trouble, cloth, scene) +
                             "\n`clothsim run` saves the last good state.");
   };
   if (result.cpuTrouble != result.gpuTrouble) {

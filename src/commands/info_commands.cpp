@@ -12,6 +12,8 @@
 #include "scene_io/fields.h"
 #include "scene_io/scene_io.h"
 #include "simulation/compare.h"
+#include "simulation/gpu/solvers.h"
+#include "solver/step_list.h"
 
 namespace clothsim {
 namespace {
@@ -77,6 +79,12 @@ int describeCommand(const std::string& key) {
   return 0;
 }
 
+int describeStepCommand(const SceneOptions& options) {
+  const Scene scene = loadScene(options);
+  std::printf("%s", describe(makeStep(scene, Cloth(scene))).c_str());
+  return 0;
+}
+
 int doctorCommand(bool json) {
   const gl::HeadlessContext context;
   const gl::ContextInfo& info = context.info();
@@ -90,7 +98,7 @@ int doctorCommand(bool json) {
   report["max_work_group_count"] = info.maxWorkGroupCountX;
   bool healthy = true;
   for (const Scene& scene : selfTestScenes()) {
-    const Comparison result = compareBackends(scene, 5);
+    const Comparison result = compareBackends(scene, 5, makeSolver);
     healthy = healthy && result.differingFloats == 0 && result.finite;
     report["self_test"][scene.name] = {{"steps", result.steps}, {"differing_floats", result.differingFloats}};
   }

@@ -1,75 +1,16 @@
-#include <algorithm>
 #include <iostream>
 #include <regex>
 
-#include "cloth/material.h"
 #include "commands/commands.h"
 #include "core/error.h"
-#include "core/formatted.h"
-#include "scene_io/scene_io.h"
 
 namespace clothsim {
-namespace {
-
-struct Setting {
-  std::string text;  // key=value
-  const char* flag;
-};
-
-// Those of cloths first: a cloth's model decides what the solver's defaults are.
-std::vector<Setting> settingsInOrder(const SceneOptions& options) {
-  std::vector<Setting> settings;
-  for (const std::string& text : options.settings) settings.push_back({text, "--set"});
-  for (const std::string& text : options.varied) settings.push_back({text, "--vary"});
-  std::stable_partition(settings.begin(), settings.end(),
-                        [](const Setting& setting) { return setting.text.starts_with("cloth"); });
-  return settings;
-}
-
-// Whether the setting leaves --resolution nothing to say of steps.
-bool setsSteps(const Setting& setting) {
-  return setting.text.starts_with("solver.simulation_steps=") ||
-         setting.text == "solver.integrator=implicit" || setting.text.find(".material=") != std::string::npos;
-}
-
-// What "auto" stands for in this scene; empty when nothing that counts is automatic.
-std::string chosenCounts(const SolverSettings& solver) {
-  std::string text;
-  if (solver.simulationSteps.automatic)
-    text = formatted("solver.simulation_steps=%d, %s steps of %.3g s", solver.simulationSteps.count,
-                     integratorName(solver.integrator), stepLength(solver));
-  if (solver.integrator == Integrator::implicit && solver.cgIterations.automatic)
-    text += (text.empty() ? "" : "; ") + formatted("solver.cg_iterations=%d", solver.cgIterations.count);
-  return text.empty() ? "" : "auto chose " + text;
-}
-
-}  // namespace
 
 GridSize parseSize(const std::string& text, const std::string& flag) {
   std::smatch match;
   if (!std::regex_match(text, match, std::regex("([0-9]{1,5})[xX]([0-9]{1,5})")))
     throw UsageError(flag + " " + text + ": expected WIDTHxHEIGHT, as 512x512");
   return {std::stoi(match[1]), std::stoi(match[2])};
-}
-
-RemarkedScene readScene(const SceneOptions& options) {
-  RemarkedScene read{loadSceneByName(options.scene), {}};
-  Scene& scene = read.scene;
-  const std::vector<Setting> settings = settingsInOrder(options);
-  if (options.resolution) {
-    const bool keepsSteps = std::any_of(settings.begin(), settings.end(), setsSteps);
-    const std::string remark =
-        changeResolution(scene, options.resolution->columns, options.resolution->rows, keepsSteps);
-    if (!remark.empty()) read.remarks.push_back(remark);
-  }
-  for (const Setting& setting : settings) setSceneValue(scene, setting.text, setting.flag);
-  if (const std::string chosen = chosenCounts(scene.solver); !chosen.empty()) read.remarks.push_back(chosen);
-  if (usesMaterial(scene) && stepLength(scene.solver) > stableStep(scene) * (1 + 1e-9))
-    read.remarks.push_back(
-        formatted("steps of %.3g s may be too long for this material; steps up to %.3g s are guaranteed "
-                  "stable: --set solver.simulation_steps=%d, or auto; or --set solver.integrator=implicit",
-                  stepLength(scene.solver), stableStep(scene), stableSteps(scene)));
-  return read;
 }
 
 Scene loadScene(const SceneOptions& options) {

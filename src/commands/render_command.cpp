@@ -5,7 +5,6 @@
 
 #include "commands/blow_up.h"
 #include "commands/commands.h"
-#include "commands/tally.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/interrupt.h"
@@ -13,8 +12,9 @@
 #include "export/export.h"
 #include "gl/context.h"
 #include "output/picture_output.h"
-#include "render/renderer.h"
-#include "simulation/simulation.h"
+#include "simulation/gpu/simulation_renderer.h"
+#include "simulation/gpu/solvers.h"
+#include "simulation/run_summary.h"
 
 namespace clothsim {
 namespace {
@@ -40,16 +40,17 @@ int renderCommand(const RenderCommandOptions& options) {
   Scene scene = loadScene(options.scene);
   if (!options.shader.empty()) scene.render.shader = options.shader;
   const gl::HeadlessContext context;
-  Simulation simulation(scene, options.backend);
-  if (!options.from.empty()) simulation.solver().setState(loadState(options.from, simulation.cloth()));
-  Renderer renderer(simulation.cloth(), scene, {options.sphereSegmentsAround, options.sphereSegmentsDown});
+  Simulation simulation(scene, options.backend, makeSolver);
+  if (!options.from.empty()) simulation.setState(loadState(options.from, simulation.cloth()));
+  SimulationRenderer renderer(simulation, {options.sphereSegmentsAround, options.sphereSegmentsDown});
+  renderer.update();  // of a state that was loaded the cuts are drawn
   Camera camera(scene, simulation.cloth());
   camera.orbit(options.view.right * radians, options.view.up * radians);
   camera.zoom(1 / options.view.zoom);
 
   std::vector<PictureOutput> outputs;
   for (const std::string& out : options.outs) outputs.emplace_back(out, settingsOf(options), scene);
-  Tally tally;
+  RunSummary summary;
   Progress progress("rendering", options.frames);
   for (int frame = 0; frame <= options.frames; ++frame) {
     stopIfInterrupted();
@@ -58,11 +59,10 @@ int renderCommand(const RenderCommandOptions& options) {
       stopBlownUp(*trouble, simulation,
                   {options.scene, options.backend, frame, options.frames,
                    std::filesystem::path(options.outs.front()).parent_path()});
-    tally.add(simulation);
+    summary.add(simulation);
     if (std::any_of(outputs.begin(), outputs.end(),
                     [&](const PictureOutput& output) { return output.wants(frame); })) {
-      const Image image = renderImage(renderer, simulation.positionsBuffer(), camera, simulation.time(),
-                                      options.width, options.height);
+      const Image image = renderer.picture(camera, options.width, options.height);
       for (PictureOutput& output : outputs)
         if (output.wants(frame)) output.add(image, frame);
     }
@@ -71,7 +71,7 @@ int renderCommand(const RenderCommandOptions& options) {
   for (PictureOutput& output : outputs) output.close();
   progress.finish();
   for (const std::string& out : options.outs) std::printf("%s\n", out.c_str());
-  const std::vector<Warning> warnings = tally.watch.warnings(scene);
+  const std::vector<Warning> warnings = summary.watch.warnings(scene);
   print(warnings);
   checkStrict(options.strict, warnings);
   return 0;

@@ -9,8 +9,7 @@
 #include "commands/blow_up.h"
 #include "commands/commands.h"
 #include "commands/print_json.h"
-#include "commands/saves.h"
-#include "commands/tally.h"
+#include "commands/saved_pictures.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/interrupt.h"
@@ -20,12 +19,42 @@
 #include "measure/crossings_json.h"
 #include "measure/measure.h"
 #include "session/replay.h"
-#include "simulation/simulation.h"
+#include "simulation/gpu/solvers.h"
+#include "simulation/run_summary.h"
+#include "simulation/saved_files.h"
 
 namespace clothsim {
 namespace {
 
 using Clock = std::chrono::steady_clock;
+
+// Before the run. @throws UsageError for names that say nothing to us, InputOutputError
+void checkSaves(const RunOptions& options) {
+  for (const std::string& save : options.saves) {
+    if (isSequence(save) && hasFrameNumber(save))
+      throw UsageError("--save " + save +
+                       ": a file of this kind holds all frames; leave the number out of its name");
+    if (!isSequence(save) && !isPicture(save) && !canSaveStateAs(save))
+      throw UsageError("--save " + save +
+                       ": the extension is none of .csv, .ply, .obj, .state, .pc2, .usda, .png, .mp4");
+  }
+  for (const std::string& save : options.saves) {
+    checkWritable(numberedName(save, options.frames.value_or(0)));
+    if (isPointCache(save)) checkWritable(restMeshBeside(save));
+  }
+}
+
+// Whether there is something to draw, which takes OpenGL.
+bool savesPictures(const RunOptions& options) {
+  return std::any_of(options.saves.begin(), options.saves.end(), isPicture);
+}
+
+// All that is to be saved but pictures.
+std::vector<std::string> filesOf(const RunOptions& options) {
+  std::vector<std::string> files;
+  std::remove_copy_if(options.saves.begin(), options.saves.end(), std::back_inserter(files), isPicture);
+  return files;
+}
 
 // A state file may hold anything; what the steps make of it is the watchdog's affair.
 void checkStart(const RunOptions& options, const Measures& measures) {
@@ -35,25 +64,25 @@ void checkStart(const RunOptions& options, const Measures& measures) {
 }
 
 // What is run: a scene from its start or a saved state, or a recording.
-class Course {
+class Run {
  public:
-  explicit Course(const RunOptions& options) : isReplay_(!options.replay.empty()) {
+  explicit Run(const RunOptions& options) : isReplay_(!options.replay.empty()) {
     if (isReplay_) {
       Recording recording = Recording::load(options.replay);
       frames_ = options.frames.value_or(recording.frames);
       if (usesGpu(recording, options) || savesPictures(options)) context_.emplace();
-      replay_.emplace(std::move(recording), options.backend);
+      replay_.emplace(std::move(recording), options.backend, makeSolver);
     } else {
-      const Scene scene = loadScene(options.scene);
+      const Shared<Scene> scene = loadScene(options.scene);
       const std::string backend = options.backend.value_or("gpu");
       frames_ = options.frames.value_or(0);
       if (backend == "gpu" || savesPictures(options)) context_.emplace();
-      plain_.emplace(scene, backend);
-      if (!options.from.empty()) plain_->solver().setState(loadState(options.from, plain_->cloth()));
+      plain_.emplace(scene, backend, makeSolver);
+      if (!options.from.empty()) plain_->setState(loadState(options.from, plain_->cloth()));
       if (options.jitter > 0) {
-        State jittered = plain_->solver().state();
+        State jittered = plain_->state();
         jitter(jittered, options.jitter, options.seed);
-        plain_->solver().setState(jittered);
+        plain_->setState(jittered);
       }
     }
   }
@@ -62,10 +91,6 @@ class Course {
   [[nodiscard]] bool isReplay() const { return isReplay_; }
   [[nodiscard]] std::uint64_t steps() const { return steps_; }
   [[nodiscard]] double simulatedSeconds() const { return simulatedSeconds_; }
-  // Another one after an edit that rebuilds the cloth.
-  [[nodiscard]] std::uint64_t clothGeneration() {
-    return isReplay_ ? replay_->session().clothGeneration() : 0;
-  }
   [[nodiscard]] Simulation& simulation() { return isReplay_ ? replay_->session().simulation() : *plain_; }
   [[nodiscard]] const Scene& scene() { return simulation().scene(); }
 
@@ -104,15 +129,15 @@ class Course {
   std::optional<Trouble> replayTrouble_;
 };
 
-// What `run --json` prints.
-nlohmann::ordered_json summary(const RunOptions& options, Course& course, const Tally& tally) {
-  Simulation& simulation = course.simulation();
-  const Scene& scene = course.scene();
-  const State& last = tally.state;
-  const auto steps = static_cast<double>(course.steps());
+// The object that is printed.
+nlohmann::ordered_json summary(const RunOptions& options, Run& run, const RunSummary& seen) {
+  Simulation& simulation = run.simulation();
+  const Scene& scene = run.scene();
+  const State& last = seen.state;
+  const auto steps = static_cast<double>(run.steps());
   const double particles = simulation.cloth().particleCount();
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
-  if (course.isReplay())
+  if (run.isReplay())
     json["replay"] = options.replay;
   else
     json["scene"] = options.scene.scene;
@@ -121,17 +146,17 @@ nlohmann::ordered_json summary(const RunOptions& options, Course& course, const 
   json["particles"] = simulation.cloth().particleCount();
   json["springs"] = remainingSpringCount(simulation.cloth(), last.cuts);
   json["triangles"] = remainingTriangleCount(simulation.cloth(), last.cuts);
-  json["frames"] = course.frames();
-  json["steps"] = course.steps();
+  json["frames"] = run.frames();
+  json["steps"] = run.steps();
   json["dt"] = stepLength(scene.solver);
   json["integrator"] = integratorName(scene.solver.integrator);
   json["simulation_steps"] = scene.solver.simulationSteps.count;
   if (scene.solver.integrator == Integrator::implicit)
     json["cg_iterations"] = scene.solver.cgIterations.count;
-  json["sim_seconds"] = course.isReplay() ? course.simulatedSeconds() : steps * stepLength(scene.solver);
-  json["seconds"] = tally.seconds;
-  json["particle_steps_per_second"] = tally.seconds > 0 ? particles * steps / tally.seconds : 0;
-  tally.write(json, simulation);
+  json["sim_seconds"] = run.isReplay() ? run.simulatedSeconds() : steps * stepLength(scene.solver);
+  json["seconds"] = seen.seconds;
+  json["particle_steps_per_second"] = seen.seconds > 0 ? particles * steps / seen.seconds : 0;
+  seen.write(json, simulation);
   return json;
 }
 
@@ -146,49 +171,57 @@ void printForPeople(const nlohmann::ordered_json& json) {
 
 int runCommand(const RunOptions& options) {
   checkSaves(options);
-  Course course(options);
-  const int frames = course.frames();
-  Tally tally;
-  tally.add(course.simulation());
-  checkStart(options, tally.measures);
+  Run run(options);
+  const int frames = run.frames();
+  RunSummary seen;
+  seen.add(run.simulation());
+  checkStart(options, seen.measures);
   std::optional<CrossingCounter> counter;
-  std::uint64_t countedCloth = course.clothGeneration();
-  if (options.checkCrossings) counter.emplace(course.simulation().cloth());
+  Shared<Cloth> countedCloth = run.simulation().sharedCloth();
+  if (options.checkCrossings) counter.emplace(countedCloth);
   CrossingSummary crossings;
-  if (counter) crossings.add(0, counter->count(tally.state));
-  Saves saves(options, course.simulation(), frames);
-  saves.add(course.simulation(), course.clothGeneration(), tally.state, 0);
+  if (counter) crossings.add(0, counter->count(seen.state));
+  SavedFiles files(filesOf(options), options.every, frames, run.simulation());
+  SavedPictures pictures(options, run.scene(), frames);
+  const auto save = [&](int frame) {
+    files.add(run.simulation(), seen.state, frame);
+    pictures.add(run.simulation(), frame);
+  };
+  save(0);
   Progress progress("simulating", frames);
   for (int frame = 1; frame <= frames; ++frame) {
     stopIfInterrupted();
     const Clock::time_point start = Clock::now();
-    course.stepFrame();
-    tally.seconds += std::chrono::duration<double>(Clock::now() - start).count();
-    if (const std::optional<Trouble> trouble = course.checkFrame()) {
+    run.stepFrame();
+    seen.seconds += std::chrono::duration<double>(Clock::now() - start).count();
+    if (const std::optional<Trouble> trouble = run.checkFrame()) {
       SceneOptions scene = options.scene;
-      if (course.isReplay()) scene.scene = options.replay;
-      stopBlownUp(*trouble, course.simulation(),
-                  {scene, course.simulation().solver().backend(), frame, frames,
+      if (run.isReplay()) scene.scene = options.replay;
+      stopBlownUp(*trouble, run.simulation(),
+                  {scene, run.simulation().solver().backend(), frame, frames,
                    options.saves.empty() ? "" : std::filesystem::path(options.saves.front()).parent_path(),
-                   course.isReplay()});
+                   run.isReplay()});
     }
-    tally.add(course.simulation());
-    if (counter && std::exchange(countedCloth, course.clothGeneration()) != course.clothGeneration())
-      counter.emplace(course.simulation().cloth());
-    if (counter) crossings.add(frame, counter->count(tally.state));
-    saves.add(course.simulation(), course.clothGeneration(), tally.state, frame);
+    seen.add(run.simulation());
+    if (counter && !countedCloth.isSameAs(run.simulation().sharedCloth())) {
+      countedCloth = run.simulation().sharedCloth();
+      counter.emplace(countedCloth);
+    }
+    if (counter) crossings.add(frame, counter->count(seen.state));
+    save(frame);
     progress.update(frame);
   }
-  saves.finish();
+  files.finish();
+  pictures.finish();
   progress.finish();
 
-  nlohmann::ordered_json json = summary(options, course, tally);
+  nlohmann::ordered_json json = summary(options, run, seen);
   if (counter) json["crossings"] = toJson(crossings);
   if (options.json)
     printJson(json);
   else
     printForPeople(json);
-  const std::vector<Warning> warnings = tally.watch.warnings(course.scene());
+  const std::vector<Warning> warnings = seen.watch.warnings(run.scene());
   print(warnings);
   checkStrict(options.strict, warnings);
   return 0;

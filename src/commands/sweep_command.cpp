@@ -12,7 +12,6 @@
 
 #include "commands/commands.h"
 #include "commands/print_json.h"
-#include "commands/tally.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/formatted.h"
@@ -21,9 +20,11 @@
 #include "export/export.h"
 #include "gl/context.h"
 #include "output/contact_sheet.h"
-#include "render/renderer.h"
 #include "scene_io/fields.h"
 #include "scene_io/variations.h"
+#include "simulation/gpu/simulation_renderer.h"
+#include "simulation/gpu/solvers.h"
+#include "simulation/run_summary.h"
 
 namespace clothsim {
 namespace {
@@ -46,14 +47,15 @@ int parseFrame(const std::string& text) {
 // What a cell shows: the scene with its looks, and from where.
 struct Shot {
   std::size_t cell;
-  Scene scene;
+  Shared<Scene> scene;
 };
 
 // One simulation, and the shots of it, by frame.
 struct PlannedCourse {
   SceneOptions options;
   std::map<int, std::vector<Shot>> shots;
-  [[nodiscard]] const Scene& scene() const { return shots.begin()->second.front().scene; }
+  [[nodiscard]] const Shared<Scene>& sharedScene() const { return shots.begin()->second.front().scene; }
+  [[nodiscard]] const Scene& scene() const { return *sharedScene(); }
   [[nodiscard]] int lastFrame() const { return shots.rbegin()->first; }
 };
 
@@ -114,7 +116,7 @@ std::vector<Camera> placeCameras(const SweepOptions& options, const SweepTable& 
   for (const PlannedCourse& course : courses) {
     const Cloth cloth(course.scene());
     for (const auto& [frame, shots] : course.shots)
-      for (const Shot& shot : shots) places.emplace(shot.cell, Camera(shot.scene, cloth, aspect));
+      for (const Shot& shot : shots) places.emplace(shot.cell, Camera(*shot.scene, cloth, aspect));
   }
   const auto distance = [](const Camera& camera) { return glm::length(camera.eye() - camera.target()); };
   const auto farthest = std::max_element(places.begin(), places.end(), [&](const auto& a, const auto& b) {
@@ -141,9 +143,9 @@ class Exhibit {
       : options_(options),
         course_(course),
         cameras_(cameras),
-        simulation_(course.scene(), options.backend),
-        renderer_(simulation_.cloth(), course.scene(), {}) {
-    tally_.add(simulation_);
+        simulation_(course.sharedScene(), options.backend, makeSolver),
+        renderer_(simulation_, {}) {
+    summary_.add(simulation_);
   }
 
   // `atFrame` hears of every frame that is done.
@@ -155,9 +157,9 @@ class Exhibit {
       const Clock::time_point start = Clock::now();
       simulation_.stepFrame();
       simulation_.finish();
-      tally_.seconds += std::chrono::duration<double>(Clock::now() - start).count();
+      summary_.seconds += std::chrono::duration<double>(Clock::now() - start).count();
       if ((trouble_ = simulation_.checkFrame())) break;
-      tally_.add(simulation_);
+      summary_.add(simulation_);
       ++frame_;
       show(cells);
       atFrame(frame_);
@@ -165,7 +167,7 @@ class Exhibit {
     if (trouble_) showTrouble(cells);
     print(warnings(), which());
   }
-  [[nodiscard]] std::vector<Warning> warnings() const { return tally_.watch.warnings(course_.scene()); }
+  [[nodiscard]] std::vector<Warning> warnings() const { return summary_.watch.warnings(course_.scene()); }
 
  private:
   void show(std::vector<Cell>& cells) {
@@ -193,16 +195,15 @@ class Exhibit {
   Cell cell(const Shot& shot, int wantedFrame) {
     Cell cell;
     cell.measures = measures(wantedFrame);
-    renderer_.configure(shot.scene);
-    cell.picture.image = renderImage(renderer_, simulation_.positionsBuffer(), cameras_[shot.cell],
-                                     simulation_.time(), options_.width, options_.height);
+    renderer_.renderer().configure(shot.scene);
+    cell.picture.image = renderer_.picture(cameras_[shot.cell], options_.width, options_.height);
     if (wantedFrame > frame_) {
       cell.picture.alert = "blew up in frame " + std::to_string(frame_ + 1);
       cell.picture.caption =
           frame_ == 0 ? "shown as it began" : "shown as it was in frame " + std::to_string(frame_);
     } else {
-      cell.picture.caption = "stretch " + formatted("%.1f", 100 * tally_.measures.maxStrain) +
-                             " %,  lowest point " + formatted("%.3f", tally_.measures.minY) + " m";
+      cell.picture.caption = "stretch " + formatted("%.1f", 100 * summary_.measures.maxStrain) +
+                             " %,  lowest point " + formatted("%.3f", summary_.measures.minY) + " m";
     }
     return cell;
   }
@@ -221,9 +222,10 @@ class Exhibit {
     json["steps"] = frame_ * static_cast<std::int64_t>(scene.solver.simulationSteps);
     json["dt"] = stepLength(scene.solver);
     json["sim_seconds"] = frame_ / scene.solver.framesPerSec;
-    json["seconds"] = tally_.seconds;
-    json["ms_per_frame"] = frame_ > 0 ? ordered_json(1000 * tally_.seconds / frame_) : ordered_json(nullptr);
-    tally_.write(json, simulation_);
+    json["seconds"] = summary_.seconds;
+    json["ms_per_frame"] =
+        frame_ > 0 ? ordered_json(1000 * summary_.seconds / frame_) : ordered_json(nullptr);
+    summary_.write(json, simulation_);
     json["finite"] = isSound;
     return json;
   }
@@ -232,8 +234,8 @@ class Exhibit {
   const PlannedCourse& course_;
   const std::vector<Camera>& cameras_;
   Simulation simulation_;
-  Renderer renderer_;
-  Tally tally_;
+  SimulationRenderer renderer_;
+  RunSummary summary_;
   int frame_ = 0;  // the last one that is done and sound
   std::optional<Trouble> trouble_;
 };

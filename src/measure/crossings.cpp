@@ -26,8 +26,8 @@ bool CrossingCounter::areNeighbours(const Triangle& a, const Triangle& b) const 
     const Place& p = places_[i];
     for (const std::uint32_t j : b) {
       const Place& q = places_[j];
-      if (cloth_.hasMesh() && p.grid == q.grid && cloth_.grids()[p.grid].isMesh) {
-        if (i == j || cloth_.lists().joins(i, j)) return true;
+      if (cloth_->hasMesh() && p.grid == q.grid && cloth_->grids()[p.grid].isMesh) {
+        if (i == j || cloth_->lists().joins(i, j)) return true;
       } else if (p.grid == q.grid && std::abs(p.column - q.column) <= 1 && std::abs(p.row - q.row) <= 1) {
         return true;
       }
@@ -75,10 +75,10 @@ bool cross(const std::vector<Point>& points, Triangle a, Triangle b) {
 
 bool CrossingCounter::available() { return true; }
 
-CrossingCounter::CrossingCounter(const Cloth& cloth) : cloth_(cloth) {
-  for (std::uint32_t grid = 0; grid < cloth.grids().size(); ++grid)
-    for (int row = 0; row < cloth.grids()[grid].rows; ++row)
-      for (int column = 0; column < cloth.grids()[grid].columns; ++column)
+CrossingCounter::CrossingCounter(const Shared<Cloth>& cloth) : cloth_(cloth) {
+  for (std::uint32_t grid = 0; grid < cloth->grids().size(); ++grid)
+    for (int row = 0; row < cloth->grids()[grid].rows; ++row)
+      for (int column = 0; column < cloth->grids()[grid].columns; ++column)
         places_.push_back({grid, column, row});
 }
 
@@ -86,7 +86,7 @@ CrossingCount CrossingCounter::count(const State& state) const {
   std::vector<Point> points;
   points.reserve(state.positions.size());
   for (const Particle4& x : state.positions) points.emplace_back(x.x, x.y, x.z);  // exact: binary32 to double
-  const std::vector<Triangle> triangles = remainingTriangles(cloth_, state.cuts);
+  const std::vector<Triangle> triangles = remainingTriangles(*cloth_, state.cuts);
   std::vector<TriangleBox> boxes;
   boxes.reserve(triangles.size());
   for (std::uint32_t i = 0; i < triangles.size(); ++i) {
@@ -112,7 +112,7 @@ CrossingCount CrossingCounter::count(const State& state) const {
 
 bool CrossingCounter::available() { return false; }
 
-CrossingCounter::CrossingCounter(const Cloth& cloth) : cloth_(cloth) {
+CrossingCounter::CrossingCounter(const Shared<Cloth>& cloth) : cloth_(cloth) {
   throw UsageError(
       "counting crossings needs CGAL, which this program was built without. Install it (Debian: libcgal-dev; "
       "tools/setup --test does) and build again.");

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cloth/cloth.h"
+#include "core/shared.h"
 #include "solver/state.h"
 
 namespace clothsim {
@@ -28,7 +29,7 @@ class CrossingCounter {
   // Whether this program was built with CGAL.
   [[nodiscard]] static bool available();
   // @throws UsageError, naming the package to install, when it was not
-  explicit CrossingCounter(const Cloth& cloth);
+  explicit CrossingCounter(const Shared<Cloth>& cloth);
 
   // Of a state whose positions are finite. Triangles that are cut away do not count; the rest may cross
   // across a cut, as neighbours.
@@ -42,7 +43,7 @@ class CrossingCounter {
   using Triangle = std::array<std::uint32_t, 3>;
   [[nodiscard]] bool areNeighbours(const Triangle& a, const Triangle& b) const;
 
-  Cloth cloth_;
+  Shared<Cloth> cloth_;
   std::vector<Place> places_;  // by particle
 };
 

@@ -53,9 +53,9 @@ struct Renderer::Parts {
     int width, height;
   };
 
-  Parts(const Cloth& drawn, const Scene& first, const RenderOptions& wanted);
+  Parts(const Shared<Cloth>& drawn, const Shared<Scene>& first, const RenderOptions& wanted);
 
-  void configure(const Scene& edited);
+  void configure(const Shared<Scene>& edited);
   // The passes of a picture in their order, each through around(name, pass).
   template <class Around>
   void draw(const Picture& picture, Around around);
@@ -70,12 +70,12 @@ struct Renderer::Parts {
   void drawBackdrop(int width, int height);
   void resolveInto(GLuint destination, int width, int height);
 
-  Cloth cloth;
+  Shared<Cloth> cloth;
   Cuts cuts;
   RenderOptions options;
   ViewOptions view;
   ClothOutline outline;
-  Scene scene;
+  Shared<Scene> scene;
   Stage stage;
   ShadingModel model;
   shared::RenderFrame frame{};
@@ -93,32 +93,32 @@ struct Renderer::Parts {
   gl::VertexArray noVertices{"no vertices"};
 };
 
-Renderer::Parts::Parts(const Cloth& drawn, const Scene& first, const RenderOptions& wanted)
+Renderer::Parts::Parts(const Shared<Cloth>& drawn, const Shared<Scene>& first, const RenderOptions& wanted)
     : cloth(drawn),
       options(withSupportedSamples(wanted)),
-      outline(outlineOf(cloth)),
+      outline(outlineOf(*cloth)),
       scene(first),
-      model(shadingModelOf(first.render)),
-      programs(model, first.render.background, options.samples),
-      clothMesh(cloth),
-      colliders(wanted.sphereSegmentsAround, wanted.sphereSegmentsDown, longestEdge(cloth)),
+      model(shadingModelOf(first->render)),
+      programs(model, first->render.background, options.samples),
+      clothMesh(*cloth),
+      colliders(wanted.sphereSegmentsAround, wanted.sphereSegmentsDown, longestEdge(*cloth)),
       shadowMap(wanted.shadowMapSize) {
   configure(first);
 }
 
 // What can fail comes first: after an error all is as it was.
-void Renderer::Parts::configure(const Scene& edited) {
-  const ShadingModel wanted = shadingModelOf(edited.render);
-  textures.choose(wanted, edited.render.background);
-  if (edited.render.background != scene.render.background)
-    programs.chooseBackground(edited.render.background);
+void Renderer::Parts::configure(const Shared<Scene>& edited) {
+  const ShadingModel wanted = shadingModelOf(edited->render);
+  textures.choose(wanted, edited->render.background);
+  if (edited->render.background != scene->render.background)
+    programs.chooseBackground(edited->render.background);
   if (!(wanted == model)) programs.chooseModel(wanted);
   model = wanted;
-  if (model.measuresStrain) clothMesh.keepRestPositions(cloth);
+  if (model.measuresStrain) clothMesh.keepRestPositions(*cloth);
   scene = edited;
-  stage = makeStage(outline, scene);
-  colliders.build(scene);
-  frame = makeLook(scene.render, outline.front, textures.irradiance());
+  stage = makeStage(outline, *scene);
+  colliders.build(*scene);
+  frame = makeLook(scene->render, outline.front, textures.irradiance());
   shadowMap.cover(stage.reach, glm::vec3(frame.toKeyLight));
   frame.shadowFromWorld = shadowMap.shadowFromWorld();
   frame.toKeyLight.w = shadowMap.texelLength();
@@ -144,7 +144,7 @@ void Renderer::Parts::uploadFrame() {
 
 void Renderer::Parts::computeNormals(GLuint positions) {
   clothMesh.computeNormals(
-      {programs.normals(clothMesh.hasCuts()), cloth.hasMesh() ? &programs.meshNormals() : nullptr},
+      {programs.normals(clothMesh.hasCuts()), cloth->hasMesh() ? &programs.meshNormals() : nullptr},
       positions);
 }
 
@@ -209,7 +209,7 @@ void Renderer::Parts::drawCloth(GLuint positions) {
 
 void Renderer::Parts::drawOverlay(GLuint positions) {
   if (view == ViewOptions{}) return;
-  springs.draw(view, programs.overlays(), cloth, cuts, positions);
+  springs.draw(view, programs.overlays(), *cloth, cuts, positions);
 }
 
 void Renderer::Parts::drawIdentities(GLuint positions) {
@@ -227,7 +227,7 @@ void Renderer::Parts::drawIdentities(GLuint positions) {
 // Only the sky turns with the camera; others are drawn once.
 void Renderer::Parts::drawBackdrop(int width, int height) {
   const gl::FramebufferFormat format{.width = width, .height = height, .color = backdropFormat};
-  if (backdropIsCurrent && backdrop.format() == format && scene.render.background != "sky") return;
+  if (backdropIsCurrent && backdrop.format() == format && scene->render.background != "sky") return;
   if (!(backdrop.format() == format)) backdrop = gl::Framebuffer("backdrop", format);
   backdrop.bind();
   glDisable(GL_DEPTH_TEST);
@@ -248,26 +248,26 @@ void Renderer::Parts::resolveInto(GLuint destination, int width, int height) {
   glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-Renderer::Renderer(const Cloth& cloth, const Scene& scene, const RenderOptions& options)
+Renderer::Renderer(const Shared<Cloth>& cloth, const Shared<Scene>& scene, const RenderOptions& options)
     : parts_(std::make_unique<Parts>(cloth, scene, options)) {}
 
 Renderer::~Renderer() = default;
 
-void Renderer::configure(const Scene& scene) { parts_->configure(scene); }
+void Renderer::configure(const Shared<Scene>& scene) { parts_->configure(scene); }
 
 void Renderer::setView(const ViewOptions& view) { parts_->view = view; }
 
 void Renderer::setCuts(const Cuts& cuts) {
   parts_->cuts = cuts;
-  parts_->clothMesh.setCuts(parts_->cloth, cuts);
+  parts_->clothMesh.setCuts(*parts_->cloth, cuts);
   parts_->springs.forgetCuts();
 }
 
 std::optional<std::string> Renderer::reloadShaders() {
   try {
-    tryAllShaders(parts_->scene.render, parts_->options.samples);
+    tryAllShaders(parts_->scene->render, parts_->options.samples);
     parts_->programs =
-        RenderPrograms(parts_->model, parts_->scene.render.background, parts_->options.samples);
+        RenderPrograms(parts_->model, parts_->scene->render.background, parts_->options.samples);
     parts_->backdropIsCurrent = false;
     return std::nullopt;
   } catch (const Error& error) {
@@ -286,7 +286,7 @@ Pick Renderer::pick(GLuint positions, const Camera& camera, double time, int wid
   if (width <= 0 || height <= 0) return {};
   Parts& parts = *parts_;
   if (!parts.pickTarget) parts.pickTarget.emplace();
-  parts.colliders.place(parts.scene, parts.stage, time);
+  parts.colliders.place(*parts.scene, parts.stage, time);
   parts.lookFrom(camera, width, height);
   const glm::mat4 clipFromWorld = parts.frame.clipFromWorld;
   parts.frame.clipFromWorld = PickTarget::clipFromPicture(width, height, x, y) * clipFromWorld;
@@ -295,14 +295,14 @@ Pick Renderer::pick(GLuint positions, const Camera& camera, double time, int wid
   parts.drawIdentities(positions);
   parts.pickTarget->end();
   const glm::vec2 ndc{2 * x / width - 1, 1 - 2 * y / height};
-  return parts.pickTarget->read(parts.cloth.grids(), clipFromWorld, ndc, camera.eye());
+  return parts.pickTarget->read(parts.cloth->grids(), clipFromWorld, ndc, camera.eye());
 }
 
 template <class Around>
 void Renderer::Parts::draw(const Picture& picture, Around around) {
   const auto [positions, camera, time, target, width, height] = picture;
   if (width <= 0 || height <= 0) return;  // a minimised window
-  colliders.place(scene, stage, time);
+  colliders.place(*scene, stage, time);
   lookFrom(*camera, width, height);
   uploadFrame();
   textures.bind();

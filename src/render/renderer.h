@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cloth/cloth.h"
+#include "core/shared.h"
 #include "gl/api.h"
 #include "render/camera.h"
 #include "render/image.h"
@@ -34,7 +35,7 @@ struct DrawTime {
 class Renderer {
  public:
   // Builds what does not move: indices, texture coordinates, sphere mesh, programs. @throws OpenGlError
-  Renderer(const Cloth& cloth, const Scene& scene, const RenderOptions& options);
+  Renderer(const Shared<Cloth>& cloth, const Shared<Scene>& scene, const RenderOptions& options);
   ~Renderer();
 
   // `positions` is a buffer of one vec4 a particle. `time` [s] places moving colliders. Draws into the
@@ -47,7 +48,7 @@ class Renderer {
                                  int width, int height);
 
   // Colours, colliders, camera-independent looks from an edited scene with the same grids.
-  void configure(const Scene& scene);
+  void configure(const Shared<Scene>& scene);
   void setView(const ViewOptions& view);
   // Cut cloth: its drawn triangles, their normals and their shadow. Empty: whole again.
   void setCuts(const Cuts& cuts);

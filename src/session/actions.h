@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "cloth/cuts.h"
+#include "core/shared.h"
 #include "scene/scene.h"
 
 namespace clothsim {
@@ -16,7 +17,7 @@ namespace clothsim {
 // with its pins and cuts, unless it begins from another lattice: then it starts anew with the pins set by
 // hand at their places.
 struct EditScene {
-  Scene scene;
+  Shared<Scene> scene;
 };
 // A soft spring from a particle to the hand, critically damped, stable at any strength. Particles within
 // `radius` of it on the lattice at rest follow in formation, ever softer with the distance. The hand begins

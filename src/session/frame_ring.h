@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include "core/shared.h"
 #include "scene/scene.h"
 #include "session/actions.h"
 #include "solver/hand.h"
@@ -17,14 +18,14 @@
 namespace clothsim {
 
 // Scenes that undo() and redo() lead to; the last one is the next to come.
-using SceneStack = std::vector<std::shared_ptr<const Scene>>;
+using SceneStack = std::vector<Shared<Scene>>;
 
 // What a session knows besides the state of the solver.
 struct SessionFrame {
   int number = 0;
   int start = 0;  // the number of the frame in which the simulation last began anew
   std::uint64_t step = 0;
-  std::shared_ptr<const Scene> scene;
+  Shared<Scene> scene;
   Hand hand;
   std::vector<MoveCollider> colliderMoves;  // of the next frame
   SceneStack undo, redo;

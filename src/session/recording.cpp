@@ -78,7 +78,9 @@ class Writer {
  public:
   explicit Writer(JsonNode& object) : object_(object) {}
 
-  void operator()(const char* key, const Scene& scene) { object_.append(key, parseJson(formatScene(scene))); }
+  void operator()(const char* key, const Shared<Scene>& scene) {
+    object_.append(key, parseJson(formatScene(*scene)));
+  }
   void operator()(const char* key, Vec3d value) { object_.append(key, makeVector(value)); }
   void operator()(const char* key, double value) { object_.append(key, makeNumber(value)); }
   void operator()(const char* key, std::uint32_t value) { object_.append(key, makeNumber(value)); }
@@ -112,7 +114,7 @@ class Reader {
     return *found;
   }
 
-  void operator()(const char* key, Scene& scene) {
+  void operator()(const char* key, Shared<Scene>& scene) {
     JsonNode& node = member(key);
     gatherLists(node);
     scene = readScene(node);
@@ -260,9 +262,14 @@ void Recording::save(const std::filesystem::path& path) const { writeFileAtomica
 Recording Recording::load(const std::filesystem::path& path) {
   try {
     Recording recording = parse(readFile(path, LARGEST_FILE), path.string());
-    findMeshes(recording.scene, path);
+    const auto findMeshesOf = [&](Shared<Scene>& shared) {
+      Scene scene = *shared;
+      findMeshes(scene, path);
+      shared = std::move(scene);
+    };
+    findMeshesOf(recording.scene);
     for (Event& event : recording.events)
-      if (auto* edit = std::get_if<EditScene>(&event.action)) findMeshes(edit->scene, path);
+      if (auto* edit = std::get_if<EditScene>(&event.action)) findMeshesOf(edit->scene);
     return recording;
   } catch (const InputOutputError& error) {
     throw SceneError(error.what());

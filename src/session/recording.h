@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/shared.h"
 #include "scene/scene.h"
 #include "session/actions.h"
 
@@ -20,7 +21,7 @@ struct Recording {
     Action action;
   };
 
-  Scene scene;                  // as at the start
+  Shared<Scene> scene;          // as at the start
   std::string backend = "gpu";  // at the start
   int frames = 0;               // done so far
   std::vector<Event> events;    // in the order in which they acted

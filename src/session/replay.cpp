@@ -8,10 +8,10 @@
 
 namespace clothsim {
 
-Replay::Replay(Recording recording, const std::optional<std::string>& backend)
+Replay::Replay(Recording recording, const std::optional<std::string>& backend, SolverFactory makeSolver)
     : recording_(std::move(recording)),
       keepsBackend_(backend.has_value()),
-      session_(recording_.scene, backend.value_or(recording_.backend), 0) {
+      session_(recording_.scene, backend.value_or(recording_.backend), makeSolver, 0) {
   actOutDue();
 }
 

@@ -13,7 +13,7 @@ class Replay {
  public:
   // On the recording's own backends, changing as it did; or all of it on `backend`. @throws as Session, and
   // SceneError that names the event when it makes no sense in its place
-  explicit Replay(Recording recording, const std::optional<std::string>& backend = std::nullopt);
+  Replay(Recording recording, const std::optional<std::string>& backend, SolverFactory makeSolver);
 
   [[nodiscard]] Session& session() { return session_; }
   // Steps a frame, then does what was done at its end. Goes on without hands where the recording ends.

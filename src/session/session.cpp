@@ -12,17 +12,18 @@
 
 namespace clothsim {
 
-Session::Session(const Scene& scene, const std::string& backend, std::size_t snapshotBudget)
-    : simulation_(scene, backend), ring_(snapshotBudget) {
+Session::Session(const Shared<Scene>& scene, const std::string& backend, SolverFactory makeSolver,
+                 std::size_t snapshotBudget)
+    : simulation_(scene, backend, makeSolver), ring_(snapshotBudget) {
   recording_.scene = scene;
   recording_.backend = backend;
-  now_.scene = std::make_shared<const Scene>(scene);
+  now_.scene = scene;
   simulation_.solver().convertVelocities();  // now, and not whenever somebody happens to look at the state
 }
 
 void Session::act(const Action& action, bool continues) {
   checkAction(action, simulation_.cloth(), simulation_.scene());
-  const std::shared_ptr<const Scene> before = now_.scene;
+  const Shared<Scene> before = now_.scene;
   if (!std::visit([this](const auto& now) { return apply(now); }, action)) return;
   simulation_.touch();
   if (std::holds_alternative<EditScene>(action)) {
@@ -111,31 +112,31 @@ bool Session::apply(const Restart&) {
   return true;
 }
 
-void Session::changeScene(const Scene& scene) {
-  if (needsRebuild(simulation_.scene(), scene))
+void Session::changeScene(const Shared<Scene>& scene) {
+  if (needsRebuild(simulation_.scene(), *scene))
     rebuild(scene);
   else
     simulation_.configure(scene);
   simulation_.solver().convertVelocities();
   // A move may have lost its collider.
   std::erase_if(now_.colliderMoves,
-                [&](const MoveCollider& move) { return move.collider >= scene.colliders.size(); });
-  now_.scene = std::make_shared<const Scene>(scene);
+                [&](const MoveCollider& move) { return move.collider >= scene->colliders.size(); });
+  now_.scene = scene;
 }
 
-void Session::rebuild(const Scene& scene) {
-  const Cloth before = simulation_.cloth();
+void Session::rebuild(const Shared<Scene>& scene) {
+  const Shared<Cloth> before = simulation_.sharedCloth();
   const State state = simulation_.solver().state();
   simulation_.rebuild(scene);
   ++clothGeneration_;
   Solver& solver = simulation_.solver();
-  if (haveSameLattice(before, simulation_.cloth())) {
-    solver.setState(carriedOver(state, before, simulation_.cloth()));
+  if (haveSameLattice(*before, simulation_.cloth())) {
+    solver.setState(carriedOver(state, *before, simulation_.cloth()));
     solver.setHand(now_.hand);
   } else {
     now_.hand = {};
     now_.start = now_.number;
-    for (const SetPin& pin : pinsByHand(state, before, simulation_.cloth()))
+    for (const SetPin& pin : pinsByHand(state, *before, simulation_.cloth()))
       solver.setPin(pin.particle, pin.pinned);
   }
 }
@@ -145,9 +146,9 @@ void Session::redo() { goBetween(now_.redo, now_.undo); }
 
 void Session::goBetween(SceneStack& from, SceneStack& to) {
   if (from.empty()) return;
-  const std::shared_ptr<const Scene> before = now_.scene;
-  changeScene(*from.back());
-  record(EditScene{*now_.scene});
+  const Shared<Scene> before = now_.scene;
+  changeScene(from.back());
+  record(EditScene{now_.scene});
   from.pop_back();
   to.push_back(before);
   simulation_.touch();
@@ -218,23 +219,23 @@ void Session::startColliderMoves() {
   const double frame = 1 / scene.solver.framesPerSec, start = simulation_.time();
   for (const MoveCollider& move : now_.colliderMoves)
     scene = withColliderOnItsWay(std::move(scene), move.collider, move.position, start, start + frame);
-  simulation_.configure(scene);
+  simulation_.configure(std::move(scene));
 }
 
 void Session::finishColliderMoves() {
   if (now_.colliderMoves.empty()) return;
   const double time = simulation_.time();
-  const auto moved = [&](const Scene& scene) {
-    Scene result = scene;
+  const auto moved = [&](const Shared<Scene>& scene) {
+    Scene result = *scene;
     for (const MoveCollider& move : now_.colliderMoves)
-      if (move.collider < scene.colliders.size())
+      if (move.collider < scene->colliders.size())
         result = withColliderAt(std::move(result), move.collider, move.position, time);
-    return std::make_shared<const Scene>(std::move(result));
+    return Shared<Scene>(std::move(result));
   };
-  now_.scene = moved(*now_.scene);
+  now_.scene = moved(now_.scene);
   for (SceneStack* stack : {&now_.undo, &now_.redo})
-    for (std::shared_ptr<const Scene>& scene : *stack) scene = moved(*scene);
-  simulation_.configure(*now_.scene);
+    for (Shared<Scene>& scene : *stack) scene = moved(scene);
+  simulation_.configure(now_.scene);
   now_.colliderMoves.clear();
 }
 
@@ -274,11 +275,11 @@ void Session::seek(int frame) {
 
 void Session::goTo(int frame) {
   const FrameRing::Entry& entry = ring_.at(frame);
-  const Scene& scene = *entry.frame.scene;
-  if (needsRebuild(simulation_.scene(), scene)) {
+  const Shared<Scene>& scene = entry.frame.scene;
+  if (needsRebuild(simulation_.scene(), *scene)) {
     simulation_.rebuild(scene);
     ++clothGeneration_;
-  } else if (scene != simulation_.scene()) {
+  } else if (scene != simulation_.sharedScene()) {
     simulation_.configure(scene);
   }
   simulation_.solver().restore(*entry.snapshot);

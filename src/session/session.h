@@ -21,7 +21,7 @@ inline constexpr std::size_t DEFAULT_SNAPSHOT_BUDGET = std::size_t{256} << 20;  
 class Session {
  public:
   // @throws as Simulation
-  Session(const Scene& scene, const std::string& backend,
+  Session(const Shared<Scene>& scene, const std::string& backend, SolverFactory makeSolver,
           std::size_t snapshotBudget = DEFAULT_SNAPSHOT_BUDGET);
 
   // To look at, draw and measure. Whoever steps or changes it past the session spoils the recording.
@@ -100,8 +100,8 @@ class Session {
   bool apply(const SwitchBackend& to);
   bool apply(const Restart& restart);
   void record(const Action& action);
-  void changeScene(const Scene& scene);
-  void rebuild(const Scene& scene);
+  void changeScene(const Shared<Scene>& scene);
+  void rebuild(const Shared<Scene>& scene);
   void goBetween(SceneStack& from, SceneStack& to);
   [[nodiscard]] std::optional<Trouble> stepFrame();
   [[nodiscard]] bool advance(int steps);

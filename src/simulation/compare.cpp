@@ -45,9 +45,9 @@ StateDifference difference(const State& a, const State& b) {
   return result;
 }
 
-Comparison compareBackends(const Scene& scene, int frames,
+Comparison compareBackends(const Shared<Scene>& scene, int frames, SolverFactory makeSolver,
                            const std::function<void(int, const State&)>& atFrame) {
-  Simulation cpu(scene, "cpu"), gpu(scene, "gpu");
+  Simulation cpu(scene, "cpu", makeSolver), gpu(scene, "gpu", makeSolver);
   Comparison result;
   result.device = gpu.solver().device();
   State cpuState = cpu.solver().state(), gpuState = gpu.solver().state();

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "scene/scene.h"
+#include "simulation/simulation.h"
 #include "solver/solver.h"
 #include "solver/state.h"
 #include "solver/trouble.h"
@@ -36,9 +36,9 @@ struct StateDifference {
 };
 [[nodiscard]] StateDifference difference(const State& a, const State& b);
 
-// Needs a current context. `atFrame` hears of frame 0 and every frame that is done, with the CPU's state.
-// Stops after the first frame that differs or has trouble.
-[[nodiscard]] Comparison compareBackends(const Scene& scene, int frames,
+// `makeSolver` knows "cpu" and "gpu". `atFrame` hears of frame 0 and every frame that is done, with the CPU's
+// state. Stops after the first frame that differs or has trouble.
+[[nodiscard]] Comparison compareBackends(const Shared<Scene>& scene, int frames, SolverFactory makeSolver,
                                          const std::function<void(int, const State&)>& atFrame = {});
 
 }  // namespace clothsim

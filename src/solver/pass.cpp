@@ -89,7 +89,7 @@ constexpr std::array<PassTraits, PASS_COUNT> table{{
      Domain::fineVertices,
      1,
      {corrections},
-     {residuals, factors},
+     {iterates, residuals, factors},
      {corrections},
      {F::cuts}},
     {Pass::sumFirstResidual,
@@ -156,7 +156,7 @@ constexpr std::array<PassTraits, PASS_COUNT> table{{
      Domain::gridPoints,
      0,
      {},
-     {positions, velocities, displacements, iterates, planes},
+     {positions, velocities, rightHandSides, displacements, iterates, planes},
      {newPositions, newVelocities, watch},
      {F::movingPins, F::planes}},
 

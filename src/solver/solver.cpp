@@ -17,19 +17,19 @@ State Snapshot::state() const {
   return state;
 }
 
-Solver::Solver(const Cloth& cloth, const SharedScene& scene, std::unique_ptr<Executor> executor)
+Solver::Solver(const Cloth& cloth, const Shared<Scene>& scene, std::unique_ptr<Executor> executor)
     : executor_(std::move(executor)) {
   inputs_.cloth = &cloth;
-  inputs_.velocityMeaning = startingVelocityMeaning(*scene.get());
+  inputs_.velocityMeaning = startingVelocityMeaning(*scene);
   executor_->forgetTrouble(0);
   configure(scene);
 }
 
-void Solver::configure(const SharedScene& scene) {
-  assert(scene.get()->cloths.size() == inputs_.cloth->grids().size() &&
+void Solver::configure(const Shared<Scene>& scene) {
+  assert(scene->cloths.size() == inputs_.cloth->grids().size() &&
          "configure() takes live edits of the solver's own scene");
-  inputs_.distanceGrids = distanceGridsOf(*scene.get());
-  inputs_.scene = scene.get();
+  inputs_.distanceGrids = distanceGridsOf(*scene);
+  inputs_.scene = scene;
   inputs_.clock.setStepLength(stepLength(inputs_.scene->solver));
   step_ = makeStep(*inputs_.scene, *inputs_.cloth);
   executor_->setScene(inputs_);

@@ -11,6 +11,7 @@
 
 #include "cloth/cloth.h"
 #include "cloth/cuts.h"
+#include "core/shared.h"
 #include "solver/executor.h"
 #include "solver/hand.h"
 #include "solver/state.h"
@@ -30,21 +31,10 @@ struct Snapshot {
   [[nodiscard]] State state() const;                                      // blocking
 };
 
-// A scene, shared with those who show or change it. Implicitly made from a scene, by copying it.
-class SharedScene {
- public:
-  SharedScene(std::shared_ptr<const Scene> scene) : scene_(std::move(scene)) {}
-  SharedScene(const Scene& scene) : scene_(std::make_shared<const Scene>(scene)) {}
-  [[nodiscard]] const std::shared_ptr<const Scene>& get() const { return scene_; }
-
- private:
-  std::shared_ptr<const Scene> scene_;
-};
-
 class Solver {
  public:
   // At the start, at rest. `cloth` must outlive the solver.
-  Solver(const Cloth& cloth, const SharedScene& scene, std::unique_ptr<Executor> executor);
+  Solver(const Cloth& cloth, const Shared<Scene>& scene, std::unique_ptr<Executor> executor);
   virtual ~Solver() = default;
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;
@@ -52,7 +42,7 @@ class Solver {
   // Live parameters: gravity, wind, damping, colliders, integrator, step length... of `scene`, from the next
   // step on. The time stays what it is. Changing the integrator converts the velocities by -+ h a / 2. The
   // grids must be those of the solver's cloth.
-  void configure(const SharedScene& scene);
+  void configure(const Shared<Scene>& scene);
 
   // Advances by `count` steps; by fewer once an interrupt has come (core/interrupt.h) or, on the CPU, after
   // trouble. Neither throws nor allocates; on the GPU nothing is waited for.

@@ -2,11 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "cloth/cloth.h"
 #include "cloth/cuts.h"
+#include "core/shared.h"
 #include "scene/scene.h"
 #include "solver/hand.h"
 #include "solver/pin_paths.h"
@@ -17,7 +17,7 @@ namespace clothsim {
 
 struct StepInputs {
   const Cloth* cloth = nullptr;
-  std::shared_ptr<const Scene> scene;
+  Shared<Scene> scene;
   StepClock clock;
   Integrator velocityMeaning = Integrator::verlet;  // what the velocities of the state mean
   Hand hand;

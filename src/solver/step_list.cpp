@@ -180,7 +180,7 @@ std::string namesIn(SetOf<Enum> set, int count) {
   for (int i = 0; i < count; ++i)
     if (set.contains(static_cast<Enum>(i)))
       names += (names.empty() ? "" : ", ") + std::string(nameOf(static_cast<Enum>(i)));
-  return names.empty() ? "-" : names;
+  return names;
 }
 
 std::string nameOf(const PassCall& call) {
@@ -193,23 +193,22 @@ std::string nameOf(const PassCall& call) {
   return name;
 }
 
-// One pass as a line of columns.
+// Columns, of which the last two may be of any length.
 std::string line(int indent, const std::string& name, const std::string& domain, const std::string& reach,
-                 const std::string& reads, const std::string& writes, const std::string& features) {
+                 const std::string& arrays, const std::string& features) {
   std::ostringstream text;
   text << std::left << std::string(static_cast<std::size_t>(indent), ' ') << std::setw(26 - indent) << name
-       << std::setw(21) << domain << std::setw(7) << reach << std::setw(52) << reads << std::setw(44)
-       << writes << features;
-  std::string result = text.str();
-  result.erase(result.find_last_not_of(' ') + 1);
-  return result + "\n";
+       << std::setw(21) << domain << std::setw(7) << reach << arrays << features << '\n';
+  return text.str();
 }
 
 std::string line(int indent, const PassCall& call) {
   const PassTraits& traits = call.traits();
-  return line(indent, nameOf(call), std::string(nameOf(traits.domain)), std::to_string(traits.reach),
-              namesIn(traits.gathers | traits.reads, ARRAY_COUNT), namesIn(traits.writes, ARRAY_COUNT),
-              namesIn(traits.features, FEATURE_COUNT));
+  const std::string features = namesIn(traits.features, FEATURE_COUNT);
+  return line(
+      indent, nameOf(call), std::string(nameOf(traits.domain)), std::to_string(traits.reach),
+      namesIn(traits.gathers | traits.reads, ARRAY_COUNT) + " -> " + namesIn(traits.writes, ARRAY_COUNT),
+      features.empty() ? "" : "  (" + features + ")");
 }
 
 // The passes [first, end), which the loops from `loop` on are in; returns the first loop behind them.
@@ -259,7 +258,7 @@ std::string nameOf(std::span<const PassCall> passes) {
 }
 
 std::string describe(const PassList& list) {
-  std::string text = line(0, "pass", "runs over", "reach", "reads", "writes", "features");
+  std::string text = line(0, "pass", "runs over", "reach", "reads -> writes", "  (depends on)");
   describe(list, 0, list.passes.size(), 0, 0, text);
   return text;
 }

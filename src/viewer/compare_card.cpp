@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdio>
 
+#include "simulation/gpu/solvers.h"
 #include "viewer/ui_frame.h"
 
 namespace clothsim {
@@ -47,16 +48,16 @@ void rowOf(const char* label, const std::string& gpu, const std::string& cpu) {
 void CompareCard::start(Session& session) {
   close();
   const Simulation& simulation = session.simulation();
-  const State state = session.simulation().solver().state();
-  cloth_.emplace(simulation.cloth());
+  const State state = session.simulation().state();
+  cloth_ = simulation.sharedCloth();
   for (Side* side : {&gpu_, &cpu_}) {
-    side->solver = makeSolver(side == &gpu_ ? "gpu" : "cpu", *cloth_, simulation.scene());
+    side->solver = makeSolver(side == &gpu_ ? "gpu" : "cpu", *cloth_, simulation.sharedScene());
     side->solver->setState(state);
     side->device = side->solver->device();
     side->device.erase(std::min(side->device.size(), side->device.find_first_of("(/")));
     if (side->device.starts_with("CPU, ")) side->device.erase(0, 5);
   }
-  particles_ = cloth_->particleCount();
+  particles_ = (*cloth_)->particleCount();
   running_ = open_ = true;
 }
 

@@ -37,7 +37,7 @@ class CompareCard {
   };
   void step(Side& side, int count) const;
 
-  std::optional<Cloth> cloth_;  // the solvers keep a pointer to it
+  std::optional<Shared<Cloth>> cloth_;  // the solvers keep a pointer to it
   Side gpu_, cpu_;
   int steps_ = 0, stepsAtOnce_ = 1;
   std::uint64_t particles_ = 0;

@@ -27,9 +27,7 @@ constexpr double cellsBeyondTheEdge = 1.5;  // that a stroke which leaves the cl
 Vec3d toVec3d(glm::vec3 v) { return {v.x, v.y, v.z}; }
 
 Pick pickAt(const Reach& reach, Cursor cursor) {
-  return reach.renderer.pick(reach.session.simulation().positionsBuffer(), reach.camera,
-                             reach.session.simulation().time(), reach.width, reach.height, cursor.x,
-                             cursor.y);
+  return reach.renderer.pick(reach.camera, reach.width, reach.height, cursor.x, cursor.y);
 }
 
 bool isOnMesh(const Reach& reach, const Pick& pick) {

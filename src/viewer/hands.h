@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "render/camera.h"
-#include "render/renderer.h"
 #include "session/session.h"
+#include "simulation/gpu/simulation_renderer.h"
 #include "viewer/viewer_window.h"
 
 namespace clothsim {
@@ -17,7 +17,7 @@ namespace clothsim {
 // What the hands reach into: the scene as it is shown in a picture of that size [pixels].
 struct Reach {
   Session& session;
-  Renderer& renderer;
+  SimulationRenderer& renderer;
   Camera& camera;
   int width, height;
   bool paused;

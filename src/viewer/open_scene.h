@@ -2,27 +2,28 @@
 // show it, kept in step with each other.
 #pragma once
 
-#include <memory>
 #include <string>
 
 #include "render/camera.h"
-#include "render/renderer.h"
 #include "session/session.h"
+#include "simulation/gpu/simulation_renderer.h"
 
 namespace clothsim {
 
 class OpenScene {
  public:
   // `source`: as -f was given. @throws SceneError, UsageError, OpenGlError
-  OpenScene(const Scene& scene, std::string source, const std::string& backend, const RenderOptions& options);
+  OpenScene(const Shared<Scene>& scene, std::string source, const std::string& backend,
+            const RenderOptions& options);
 
   [[nodiscard]] Session& session() { return session_; }
   [[nodiscard]] const Session& session() const { return session_; }
   [[nodiscard]] Camera& camera() { return camera_; }
   [[nodiscard]] const Camera& camera() const { return camera_; }
-  [[nodiscard]] Renderer& renderer() { return *renderer_; }
+  [[nodiscard]] SimulationRenderer& renderer() { return renderer_; }
   [[nodiscard]] const Scene& scene() const { return session_.simulation().scene(); }
-  [[nodiscard]] const Scene& loaded() const { return loaded_; }
+  [[nodiscard]] const Shared<Scene>& sharedScene() const { return session_.simulation().sharedScene(); }
+  [[nodiscard]] const Shared<Scene>& loaded() const { return loaded_; }
   [[nodiscard]] const std::string& source() const { return source_; }
   [[nodiscard]] std::string name() const;  // "pinned2", also for "my/scenes/pinned2.json"
   [[nodiscard]] std::string backend() const { return session_.simulation().solver().backend(); }
@@ -44,18 +45,14 @@ class OpenScene {
 
  private:
   std::string source_;
-  Scene loaded_;
+  Shared<Scene> loaded_;
   Session session_;
   Camera camera_;
-  RenderOptions options_;
-  std::unique_ptr<Renderer> renderer_;
+  SimulationRenderer renderer_;
+  ViewOptions shownView_;  // by the renderer of the cloth of that generation
+  std::uint64_t shownCloth_ = 0;
   double framedAspect_ = 0;
   CoveredEdges framedBeside_;
-  // What the renderer shows.
-  std::uint64_t shownCloth_ = 0;
-  Scene shownScene_;
-  Cuts shownCuts_;
-  ViewOptions shownView_;
 };
 
 }  // namespace clothsim

@@ -29,7 +29,8 @@ RenderOptions renderOptions(const ViewerOptions& options) {
   return render;
 }
 
-Viewer::Viewer(const Scene& scene, const ViewerOptions& options, const std::optional<Salvage>& salvage)
+Viewer::Viewer(const Shared<Scene>& scene, const ViewerOptions& options,
+               const std::optional<Salvage>& salvage)
     : options_(options), window_("clothsim", options.sceneName) {
   LoadedConfig loaded = loadViewerConfig(viewerConfigPath());
   config_ = savedConfig_ = loaded.config;
@@ -44,7 +45,7 @@ Viewer::Viewer(const Scene& scene, const ViewerOptions& options, const std::opti
                                        salvage ? "cpu" : options.backend, renderOptions(options));
   });
   if (salvage) {
-    if (salvage->edited != salvage->loaded) open_->edit(salvage->edited, false);
+    if (salvage->edited != salvage->loaded) open_->edit(*salvage->edited, false);
     session().goOnFrom(salvage->past);
     complain(salvage->reason + "\nThe scene restarts on the CPU; your edits and the recording are kept.");
   }
@@ -58,7 +59,7 @@ std::optional<Salvage> Viewer::run() {
   while (!window_.shouldClose() && !lost_) turn();
   taker_.abandonClip();
   if (lost_ && !window_.shouldClose())
-    return Salvage{open_->source(), open_->loaded(), open_->scene(), session().past(), *lost_};
+    return Salvage{open_->source(), open_->loaded(), open_->sharedScene(), session().past(), *lost_};
   std::fputs(timings_.report().c_str(), stderr);
   return std::nullopt;
 }
@@ -204,8 +205,7 @@ void Viewer::measure() {
     const ViewerWindow::Cursor cursor = window_.cursor();
     if (!isOverPicture(cursor)) return std::nullopt;
     const Reach r = reach();
-    const Pick pick = r.renderer.pick(r.session.simulation().positionsBuffer(), r.camera,
-                                      r.session.simulation().time(), r.width, r.height, cursor.x, cursor.y);
+    const Pick pick = r.renderer.pick(r.camera, r.width, r.height, cursor.x, cursor.y);
     return pick.kind == Pick::Kind::cloth ? std::optional(pick.particle) : std::nullopt;
   });
 }
@@ -264,7 +264,7 @@ void Viewer::heed(const PanelRequests& requests) {
     if (requests.backend) switchBackend(*requests.backend);
     if (requests.saveSceneAs) saveSceneAs(*requests.saveSceneAs);
     if (requests.resetScene) {
-      edit(open_->loaded(), false);
+      edit(*open_->loaded(), false);
       restart();
     }
     if (requests.openScene) sceneToOpen_ = requests.openScene;
@@ -289,7 +289,7 @@ void Viewer::keepConfig() {
   if (!trouble.empty()) complain("The state of the panels cannot be saved: " + trouble);
 }
 
-void runViewer(const Scene& scene, const ViewerOptions& options) {
+void runViewer(const Shared<Scene>& scene, const ViewerOptions& options) {
   std::optional<Salvage> salvage;
   do {
     try {

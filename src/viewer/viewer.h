@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "core/shared.h"
 #include "scene/scene.h"
 
 namespace clothsim {
@@ -17,7 +18,7 @@ struct ViewerOptions {
 
 // Opens the window and returns when it is closed. @throws OpenGlError when there is no display or no
 // OpenGL 4.5 (says what was found and which commands need neither)
-void runViewer(const Scene& scene, const ViewerOptions& options);
+void runViewer(const Shared<Scene>& scene, const ViewerOptions& options);
 
 // The table of viewer_keys.h as lines for `--help`.
 [[nodiscard]] std::string viewerKeysText();

@@ -47,8 +47,8 @@ class LapClock {
 
 // What is left of a viewer whose device was lost.
 struct Salvage {
-  std::string source;    // of the scene, as -f was given
-  Scene loaded, edited;  // as the file had it, and as it was in the end
+  std::string source;            // of the scene, as -f was given
+  Shared<Scene> loaded, edited;  // as the file had it, and as it was in the end
   Session::Past past;
   std::string reason;
 };
@@ -56,7 +56,7 @@ struct Salvage {
 class Viewer {
  public:
   // Shows the scene; or goes on with what was salvaged, on the CPU, from the start of its scene.
-  Viewer(const Scene& scene, const ViewerOptions& options, const std::optional<Salvage>& salvage);
+  Viewer(const Shared<Scene>& scene, const ViewerOptions& options, const std::optional<Salvage>& salvage);
 
   // Until the window is closed, or the device is lost.
   [[nodiscard]] std::optional<Salvage> run();
@@ -163,7 +163,7 @@ class Viewer {
   Notice notice_;
   ViewerConfig config_, savedConfig_;
   Asked asked_;
-  Scene draft_;                       // what the panels edit
+  Scene draft_;                       // what the panels edit, a copy
   bool draftHeld_ = false;            // some control of theirs is held: the draft is ahead of the scene
   bool editContinues_ = false;        // the next edit belongs to the one before
   std::optional<int> explicitSteps_;  // a frame, before the implicit integrator chose its own

@@ -8,7 +8,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   Recording recording;
   if (!fuzz::isRead([&] { recording = Recording::parse(fuzz::textOf(bytes, size), "fuzzed.json"); }))
     return 0;
-  fuzz::checkRoundTrip(recording.scene);
+  fuzz::checkRoundTrip(*recording.scene);
   const std::string text = recording.format();
   Recording back;
   fuzz::demand(fuzz::isRead([&] { back = Recording::parse(text, "saved"); }),

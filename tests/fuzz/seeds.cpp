@@ -39,8 +39,10 @@ void writeStates(const fs::path& folder) {
 
 // One event of every kind.
 void writeRecording(const fs::path& path) {
+  Scene scene;
+  scene.cloths[0].ks = 5000;
   Recording recording;
-  recording.scene.cloths[0].ks = 5000;
+  recording.scene = scene;
   recording.frames = 20;
   const Action actions[] = {EditScene{recording.scene},
                             Grab{.particle = 3, .target = {1, 2, 3}, .radius = 0.1},

@@ -8,7 +8,7 @@
 #include "measure/measure.h"
 #include "scene_io/scene_io.h"
 #include "simulation/compare.h"
-#include "simulation/simulation.h"
+#include "simulation/gpu/solvers.h"
 #include "solver/cpu/synchronized.h"
 
 namespace clothsim {
@@ -32,11 +32,11 @@ TEST_P(BundledSceneTest, KeepsItsPromisesAndAgreesOnBothBackends) {
   const Scene scene = loadSceneByName(GetParam());
   ASSERT_TRUE(scene.expect.has_value()) << "a bundled scene says what to expect of it";
   const Expect& expect = *scene.expect;
-  Simulation cpu(scene, "cpu"), gpu(scene, "gpu");
+  Simulation cpu(scene, "cpu", makeSolver), gpu(scene, "gpu", makeSolver);
   double maxPenetration = 0;
   State state;
   std::optional<CrossingCounter> counter;
-  if (expect.crossings && CrossingCounter::available()) counter.emplace(cpu.cloth());
+  if (expect.crossings && CrossingCounter::available()) counter.emplace(cpu.sharedCloth());
   CrossingSummary crossings;
   const auto goesAlong = [&](int frame) {
     return frame >= 0 && frame < expect.frames &&

@@ -4,10 +4,11 @@
 #include <cstdio>
 #include <exception>
 #include <string>
+#include <utility>
 
 #include "core/error.h"
 #include "scene_io/scene_io.h"
-#include "solver/cpu/cpu_solver.h"
+#include "simulation/simulation.h"
 
 using namespace clothsim;
 
@@ -19,12 +20,14 @@ int main(int count, char** words) {
   try {
     Scene scene = loadSceneByName(words[2]);
     for (int i = 3; i < count; ++i) setSceneValue(scene, words[i]);
-    const Cloth cloth(scene);
-    CpuSolver<float> solver(cloth, scene);
-    const int steps = std::stoi(words[1]) * scene.solver.simulationSteps;
-    solver.step(steps);
-    if (solver.trouble()) throw SimulationError("the scene blows up: its hash would be that of garbage");
-    std::printf("%u %d %s\n", cloth.particleCount(), steps, hashText(stateHash(solver.state())).c_str());
+    Simulation simulation(std::move(scene));
+    const int frames = std::stoi(words[1]);
+    simulation.stepFrames(frames);
+    if (simulation.checkFrame())
+      throw SimulationError("the scene blows up: its hash would be that of garbage");
+    std::printf("%u %d %s\n", simulation.cloth().particleCount(),
+                frames * simulation.scene().solver.simulationSteps,
+                hashText(stateHash(simulation.state())).c_str());
   } catch (const std::exception& error) {
     std::fprintf(stderr, "hash_scene: %s\n", error.what());
     return 1;

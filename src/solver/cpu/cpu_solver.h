@@ -12,7 +12,7 @@ template <class Real>
 class CpuSolver final : public Solver {
  public:
   // `cloth` must outlive the solver. `sweeps`: see CpuExecutor.
-  CpuSolver(const Cloth& cloth, const SharedScene& scene, bool sweeps = true)
+  CpuSolver(const Cloth& cloth, const Shared<Scene>& scene, bool sweeps = true)
       : Solver(cloth, scene, std::make_unique<CpuExecutor<Real>>(cloth, sweeps)) {}
 
   // The state in full precision, for tests; velocities of the half step before under `verlet`.

@@ -10,7 +10,6 @@
 #include "core/error.h"
 #include "core/formatted.h"
 #include "render/strain_scale.h"
-#include "solver/gpu/gpu_solver.h"
 #include "viewer/panels/plot.h"
 #include "viewer/ui_frame.h"
 
@@ -162,26 +161,26 @@ void MeasurePanel::drawPlots() {
 }
 
 void MeasurePanel::drawPasses(Session& session) {
-  if (session.simulation().solver().backend() != "gpu") return;
   if (wideButton("Time the passes of a step")) {
     // On a solver of its own: timing slows a step, and the cloth is to stay where it is.
     try {
-      const Simulation& simulation = session.simulation();
-      GpuSolver solver(simulation.cloth(), simulation.scene());
-      solver.setState(session.simulation().solver().state());
-      passes_ = solver.timePasses(timedSteps);
+      Simulation& simulation = session.simulation();
+      const std::unique_ptr<Solver> solver =
+          makeSolver(simulation.solver().backend(), simulation.sharedCloth(), simulation.sharedScene());
+      solver->setState(simulation.solver().state());
+      passes_ = solver->timePasses(timedSteps);
       passSteps_ = timedSteps;
       passTrouble_.clear();
     } catch (const Error& error) {
       passTrouble_ = error.what();
     }
   }
-  helpTip("Simulates 60 steps on a copy of the cloth and times each pass on the GPU.");
+  helpTip("Simulates 60 steps on a copy of the cloth and times each pass.");
   if (!passTrouble_.empty()) wrappedText(passTrouble_, theme::alert);
   if (passes_.empty() || !beginRows("passes")) return;
   for (const PassTime& pass : passes_)
     row(pass.name.c_str(), formatted("%.1f \u00b5s", 1e6 * pass.seconds / passSteps_),
-        "Time of this pass per step on the GPU.");
+        "Time of this pass per step.");
   ImGui::EndTable();
 }
 

@@ -12,7 +12,7 @@
 #include "measure/energies.h"
 #include "measure/run_watch.h"
 #include "session/session.h"
-#include "solver/gpu/pass_runner.h"
+#include "solver/solver.h"
 
 namespace clothsim {
 

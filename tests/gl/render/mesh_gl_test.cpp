@@ -8,6 +8,7 @@
 #include "render/cloth_mesh.h"
 #include "render/renderer.h"
 #include "session/session.h"
+#include "simulation/gpu/solvers.h"
 #include "solver/gpu/gpu_solver.h"
 #include "support/mesh_sheet.h"
 #include "support/throws.h"
@@ -133,7 +134,7 @@ TEST_F(MeshTest, IsPickedAtACornerOfTheTriangleUnderTheCursor) {
 TEST_F(MeshTest, IsHeldPinnedAndBlownAtButNotCut) {
   const Scene scene = waveScene();
   for (const char* backend : {"cpu", "gpu"}) {
-    Session session(scene, backend);
+    Session session(scene, backend, makeSolver);
     session.act(Grab{200, {0.4, 0.5, 0.8}, 1e4, 0.1});
     session.act(SetPin{0, true});
     session.act(Blow{{0.3, 0.3, 2}, {0, 0, -1}, 5, 0.3});

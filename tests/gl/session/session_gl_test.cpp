@@ -1,5 +1,6 @@
 // Everything done to a simulation by hand, looked back at, and done again.
 #include "session/session.h"
+#include "simulation/gpu/solvers.h"
 
 #include <gtest/gtest.h>
 
@@ -70,7 +71,8 @@ TEST_F(SessionTest, GivesTheSameBitsOnBothBackendsAndWhenToggledInMidSwing) {
   for (const Scene& scene : {sheet(), fewSteps(test::layeredSheets(12, SelfCollision::robust))}) {
     Scene played = scene;
     if (played.colliders.empty()) played.colliders = sheet().colliders;
-    Session cpu(played, "cpu"), gpu(played, "gpu"), toggled(played, "cpu");
+    Session cpu(played, "cpu", makeSolver), gpu(played, "gpu", makeSolver),
+        toggled(played, "cpu", makeSolver);
     play(cpu);
     play(gpu);
     play(toggled, true);
@@ -83,17 +85,17 @@ TEST_F(SessionTest, GivesTheSameBitsOnBothBackendsAndWhenToggledInMidSwing) {
 }
 
 TEST_F(SessionTest, ReplaysItsRecordingToTheBit) {
-  Session live(sheet(), "gpu");
+  Session live(sheet(), "gpu", makeSolver);
   play(live, true);
   const test::TemporaryFolder folder;
   live.recording().save(folder / "a.json");
   const Recording loaded = Recording::load(folder / "a.json");
   EXPECT_EQ(loaded.frames, 13);
-  EXPECT_EQ(loaded.scene, live.recording().scene);
+  EXPECT_EQ(*loaded.scene, *live.recording().scene);
   ASSERT_EQ(loaded.events.size(), live.recording().events.size());
   for (const std::optional<std::string>& backend :
        {std::optional<std::string>(), std::optional<std::string>("cpu"), std::optional<std::string>("gpu")}) {
-    Replay replay(loaded, backend);
+    Replay replay(loaded, backend, makeSolver);
     for (int frame = 0; frame < loaded.frames; ++frame) ASSERT_EQ(replay.stepFrame(), std::nullopt);
     EXPECT_EQ(hashOf(replay.session()), hashOf(live)) << backend.value_or("as recorded");
     EXPECT_EQ(replay.session().simulation().solver().backend(), backend.value_or("cpu"));
@@ -102,7 +104,7 @@ TEST_F(SessionTest, ReplaysItsRecordingToTheBit) {
 
 TEST_F(SessionTest, LooksBackAndGoesOnToTheBit) {
   for (const std::string backend : {"cpu", "gpu"}) {
-    Session session(sheet(), backend);
+    Session session(sheet(), backend, makeSolver);
     play(session);
     const std::uint64_t end = hashOf(session);
     EXPECT_EQ(session.oldestFrame(), 0);
@@ -124,20 +126,20 @@ TEST_F(SessionTest, LooksBackAndGoesOnToTheBit) {
 }
 
 TEST_F(SessionTest, ForgetsWhatCameLaterWhenItGoesOnFromTheMiddle) {
-  Session session(sheet(), "gpu"), other(sheet(), "gpu");
+  Session session(sheet(), "gpu", makeSolver), other(sheet(), "gpu", makeSolver);
   play(session);
   session.seek(5);
   stepSoundly(session, 2);
   EXPECT_EQ(session.newestFrame(), 7);
   EXPECT_EQ(session.recording().frames, 7);
-  Replay replay(session.recording(), "cpu");
+  Replay replay(session.recording(), "cpu", makeSolver);
   for (int frame = 0; frame < 7; ++frame) ASSERT_EQ(replay.stepFrame(), std::nullopt);
   EXPECT_EQ(hashOf(replay.session()), hashOf(session));
   EXPECT_EQ(session.recording().events.back().step, 50u);
 }
 
 TEST_F(SessionTest, KeepsItsRingOverAChangeOfBackends) {
-  Session session(sheet(), "gpu");
+  Session session(sheet(), "gpu", makeSolver);
   std::vector<std::uint64_t> hashes;
   for (int frame = 0; frame < 6; ++frame) {
     hashes.push_back(hashOf(session));
@@ -152,7 +154,7 @@ TEST_F(SessionTest, KeepsItsRingOverAChangeOfBackends) {
 
 TEST_F(SessionTest, KeepsWithinItsBudgetAndForgetsTheOldestFirst) {
   const std::size_t frameBytes = 32 * 12 * 12;
-  Session session(sheet(), "gpu", 5 * frameBytes);
+  Session session(sheet(), "gpu", makeSolver, 5 * frameBytes);
   stepSoundly(session, 9);
   EXPECT_EQ(session.snapshotBytes(), 5 * frameBytes);
   EXPECT_EQ(session.oldestFrame(), 4);
@@ -168,7 +170,7 @@ TEST_F(SessionTest, KeepsWithinItsBudgetAndForgetsTheOldestFirst) {
 
 TEST_F(SessionTest, GoesBackToTheLastSoundFrameAndLetsGoAfterTrouble) {
   for (const std::string backend : {"cpu", "gpu"}) {
-    Session session(sheet(), backend);
+    Session session(sheet(), backend, makeSolver);
     stepSoundly(session, 2);
     session.act(Grab{5, {0.5, 0.2, 0.3}, 1e5, 0});
     stepSoundly(session, 1);
@@ -182,14 +184,14 @@ TEST_F(SessionTest, GoesBackToTheLastSoundFrameAndLetsGoAfterTrouble) {
     EXPECT_FALSE(session.isHolding());
     session.undo();
     stepSoundly(session, 2);
-    Replay replay(session.recording(), backend);
+    Replay replay(session.recording(), backend, makeSolver);
     for (int frame = 0; frame < 5; ++frame) ASSERT_EQ(replay.stepFrame(), std::nullopt);
     EXPECT_EQ(hashOf(replay.session()), hashOf(session)) << "the trouble left no trace";
   }
 }
 
 TEST_F(SessionTest, UndoesAndRedoesEditsOneByOne) {
-  Session session(sheet(), "cpu");
+  Session session(sheet(), "cpu", makeSolver);
   const Scene first = session.simulation().scene();
   Scene second = first, third = first;
   second.gravity = {0, -1, 0};
@@ -208,7 +210,7 @@ TEST_F(SessionTest, UndoesAndRedoesEditsOneByOne) {
 }
 
 TEST_F(SessionTest, LeavesMovedCollidersWhereTheyAreWhenItUndoes) {
-  Session session(sheet(), "cpu");
+  Session session(sheet(), "cpu", makeSolver);
   Scene edited = session.simulation().scene();
   edited.gravity = {0, -1, 0};
   session.act(EditScene{edited});
@@ -223,7 +225,7 @@ TEST_F(SessionTest, PushesTheClothWithAColliderThatIsDragged) {
   for (const std::string backend : {"cpu", "gpu"}) {
     Scene scene = sheet();
     scene.gravity = {0, 0, 0};
-    Session session(scene, backend);
+    Session session(scene, backend, makeSolver);
     for (int frame = 1; frame <= 10; ++frame) {
       session.act(MoveCollider{0, {0.5, 0.5, 0.5 - 0.05 * frame}});
       stepSoundly(session, 1);
@@ -237,7 +239,7 @@ TEST_F(SessionTest, PushesTheClothWithAColliderThatIsDragged) {
 }
 
 TEST_F(SessionTest, RebuildsInPlaceWhatKeepsItsLattice) {
-  Session session(sheet(), "gpu");
+  Session session(sheet(), "gpu", makeSolver);
   session.act(SetPin{60, true});
   session.act(CutStroke{0, {3.5, -1}, {5.2, 7.3}});
   stepSoundly(session, 3);
@@ -263,7 +265,7 @@ TEST_F(SessionTest, RebuildsInPlaceWhatKeepsItsLattice) {
 }
 
 TEST_F(SessionTest, KeepsPinsOnAnotherLattice) {
-  Session session(sheet(), "cpu");
+  Session session(sheet(), "cpu", makeSolver);
   session.act(SetPin{12 * 5 + 11, true});
   stepSoundly(session, 2);
   Scene finer = session.simulation().scene();
@@ -282,7 +284,7 @@ TEST_F(SessionTest, KeepsPinsOnAnotherLattice) {
 }
 
 TEST_F(SessionTest, RestartsWithoutHandsAndStillLooksBack) {
-  Session session(sheet(), "gpu");
+  Session session(sheet(), "gpu", makeSolver);
   const std::uint64_t start = hashOf(session);
   play(session);
   const std::uint64_t end = hashOf(session);
@@ -302,7 +304,7 @@ TEST_F(SessionTest, RestartsWithoutHandsAndStillLooksBack) {
 }
 
 TEST_F(SessionTest, RefusesWhatMakesNoSenseAndChangesNothing) {
-  Session session(sheet(), "cpu");
+  Session session(sheet(), "cpu", makeSolver);
   const auto refusal = [&](const Action& action) {
     return messageThrownBy<UsageError>([&] { session.act(action); });
   };
@@ -342,7 +344,7 @@ TEST(RecordingTest, ReadsBackEveryDigit) {
   const auto& grab = std::get<Grab>(back.events[0].action);
   EXPECT_EQ(grab.target, (Vec3d{0.1, 1.0 / 3, -1e-17}));
   EXPECT_EQ(grab.strength, 12345.678901234567);
-  EXPECT_EQ(std::get<EditScene>(back.events[4].action).scene, sheet(20));
+  EXPECT_EQ(*std::get<EditScene>(back.events[4].action).scene, sheet(20));
   EXPECT_EQ(back.events[9].step, 9007199254740991u);
   EXPECT_EQ(back.backend, "cpu");
 }
@@ -381,12 +383,13 @@ TEST(RecordingTest, NamesFileLineAndPathOfWhatIsWrong) {
 TEST(RecordingTest, FindsTheMeshesOfItsScene) {
   const test::TemporaryFolder folder;
   Recording recording;
-  recording.scene = sheet();
-  recording.scene.colliders = {MeshCollider{.file = "thing.obj"}};
+  Scene scene = sheet();
+  scene.colliders = {MeshCollider{.file = "thing.obj"}};
+  recording.scene = scene;
   writeFileAtomically(folder / "thing.obj", "");
   recording.save(folder / "r.json");
   const Recording back = Recording::load(folder / "r.json");
-  EXPECT_EQ(std::get<MeshCollider>(back.scene.colliders[0]).file, (folder / "thing.obj").string());
+  EXPECT_EQ(std::get<MeshCollider>(back.scene->colliders[0]).file, (folder / "thing.obj").string());
 }
 
 }  // namespace

@@ -116,7 +116,7 @@ using CompareCardTest = GlTest;
 TEST_F(CompareCardTest, GoesAwayAWhileAfterItsResult) {
   Scene scene;
   scene.cloths[0].numWidthPoints = scene.cloths[0].numHeightPoints = 4;
-  Session session(scene, "cpu");
+  Session session(scene, "cpu", makeCpuSolver);
   CompareCard card;
   card.start(session);
   while (card.isRunning()) {
@@ -261,7 +261,7 @@ Scene smallScene() {
 }
 
 TEST(SessionPulse, ChangesNoBitHoweverAFrameIsDividedByIt) {
-  Session plain(smallScene(), "cpu"), watched(smallScene(), "cpu");
+  Session plain(smallScene(), "cpu", makeCpuSolver), watched(smallScene(), "cpu", makeCpuSolver);
   int pulses = 0;
   watched.setPulse([&] {
     ++pulses;
@@ -279,7 +279,7 @@ TEST(SessionPulse, ThatSaysNoEndsSteppingAndLeavesTheFrameBefore) {
   // A frame of so many steps takes longer than a pulse waits.
   Scene scene = loadSceneByName("pinned2");
   scene.solver.simulationSteps = 100000;
-  Session session(scene, "cpu");
+  Session session(scene, "cpu", makeCpuSolver);
   const std::uint64_t before = stateHash(session.simulation().solver().state());
   session.setPulse([] { return false; });
   EXPECT_FALSE(session.stepFrames(2));

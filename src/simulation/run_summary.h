@@ -10,7 +10,7 @@
 
 namespace clothsim {
 
-struct Tally {
+struct RunSummary {
   double seconds = 0;  // wall time of the step loop, which whoever steps adds to
   double peakStrain = -1, maxPenetration = 0;
   int frame = -1;     // the last one that was looked at
@@ -20,7 +20,7 @@ struct Tally {
 
   // Looks at the start, which is frame 0, and at the end of every frame.
   void add(Simulation& simulation);
-  // state_hash, max_strain, peak_strain, ... of `run --json`.
+  // state_hash, max_strain, peak_strain, ... ; the names that `run --json` prints.
   void write(nlohmann::ordered_json& json, Simulation& simulation) const;
 };
 

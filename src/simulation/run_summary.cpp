@@ -1,4 +1,4 @@
-#include "commands/tally.h"
+#include "simulation/run_summary.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -7,7 +7,7 @@
 
 namespace clothsim {
 
-void Tally::add(Simulation& simulation) {
+void RunSummary::add(Simulation& simulation) {
   state = simulation.solver().state();
   measures = measure(simulation.cloth(), simulation.scene(), state);
   if (++frame == 0) watch.start(simulation.cloth(), simulation.scene(), state);
@@ -17,7 +17,7 @@ void Tally::add(Simulation& simulation) {
   maxPenetration = std::max(maxPenetration, measures.maxPenetration);
 }
 
-void Tally::write(nlohmann::ordered_json& json, Simulation& simulation) const {
+void RunSummary::write(nlohmann::ordered_json& json, Simulation& simulation) const {
   const Cloth& cloth = simulation.cloth();
   const Scene& scene = simulation.scene();
   json["state_hash"] = hashText(stateHash(state));

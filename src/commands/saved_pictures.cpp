@@ -1,0 +1,31 @@
+#include "commands/saved_pictures.h"
+
+#include <algorithm>
+
+namespace clothsim {
+
+SavedPictures::SavedPictures(const RunOptions& options, const Scene& scene, int frames) {
+  settings_.frames = frames;
+  settings_.every = options.every;
+  for (const std::string& save : options.saves)
+    if (isPicture(save)) pictures_.emplace_back(save, settings_, scene);
+}
+
+void SavedPictures::add(Simulation& simulation, int frame) {
+  const auto wants = [&](const PictureOutput& picture) { return picture.wants(frame); };
+  if (std::none_of(pictures_.begin(), pictures_.end(), wants)) return;
+  if (!renderer_) {
+    renderer_.emplace(simulation, RenderOptions{});
+    camera_.emplace(simulation.scene(), simulation.cloth());
+  }
+  renderer_->update();  // a recording changes scene, cloth and cuts
+  const Image image = renderer_->picture(*camera_, settings_.width, settings_.height);
+  for (PictureOutput& picture : pictures_)
+    if (picture.wants(frame)) picture.add(image, frame);
+}
+
+void SavedPictures::finish() {
+  for (PictureOutput& picture : pictures_) picture.close();
+}
+
+}  // namespace clothsim

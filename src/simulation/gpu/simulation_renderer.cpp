@@ -1,0 +1,56 @@
+#include "simulation/gpu/simulation_renderer.h"
+
+#include "solver/gpu/gpu_solver.h"
+
+namespace clothsim {
+
+SimulationRenderer::SimulationRenderer(Simulation& simulation, const RenderOptions& options)
+    : simulation_(simulation),
+      options_(options),
+      cloth_(simulation.sharedCloth()),
+      scene_(simulation.sharedScene()) {
+  renderer_.emplace(cloth_, scene_, options_);
+}
+
+void SimulationRenderer::update() {
+  if (!cloth_.isSameAs(simulation_.sharedCloth())) {
+    renderer_.emplace(simulation_.sharedCloth(), simulation_.sharedScene(), options_);
+    cloth_ = simulation_.sharedCloth();
+    scene_ = simulation_.sharedScene();
+    cuts_.clear();
+  }
+  if (scene_ != simulation_.sharedScene()) renderer_->configure(simulation_.sharedScene());
+  scene_ = simulation_.sharedScene();
+  if (const Cuts& cuts = simulation_.solver().cuts(); cuts != cuts_) {
+    renderer_->setCuts(cuts);
+    cuts_ = cuts;
+  }
+}
+
+GLuint SimulationRenderer::positionsBuffer() {
+  if (const auto* gpu = dynamic_cast<const GpuSolver*>(&simulation_.solver())) return gpu->positionsBuffer();
+  const std::uint64_t version = simulation_.version(), step = simulation_.solver().stepIndex();
+  const std::size_t particles = simulation_.cloth().particleCount();
+  const bool isNew = uploaded_.name() == 0 || uploaded_.size() != particles;
+  if (isNew) uploaded_ = gl::Buffer<Particle4>("positions to draw", particles);
+  if (isNew || uploadedVersion_ != version || uploadedStep_ != step) {
+    uploaded_.upload(simulation_.state().positions);
+    uploadedVersion_ = version;
+    uploadedStep_ = step;
+  }
+  return uploaded_.name();
+}
+
+void SimulationRenderer::draw(const Camera& camera, GLuint target, int width, int height) {
+  renderer_->draw(positionsBuffer(), camera, simulation_.time(), target, width, height);
+}
+
+Image SimulationRenderer::picture(const Camera& camera, int width, int height) {
+  return renderImage(*renderer_, positionsBuffer(), camera, simulation_.time(), width, height);
+}
+
+Pick SimulationRenderer::pick(const Camera& camera, int width, int height, double x, double y) {
+  return renderer_->pick(positionsBuffer(), camera, simulation_.time(), width, height, x, y);
+}
+
+}  // namespace clothsim

@@ -1,0 +1,36 @@
+#include "simulation/saved_files.h"
+
+#include "core/error.h"
+#include "core/files.h"
+#include "export/export.h"
+
+namespace clothsim {
+
+SavedFiles::SavedFiles(const std::vector<std::string>& names, int every, int frames,
+                       const Simulation& simulation)
+    : every_(every), frames_(frames) {
+  for (const std::string& name : names) {
+    if (isSequence(name))
+      sequences_.push_back(makeSequenceWriter(
+          name, simulation.cloth(), {simulation.scene().solver.framesPerSec, every, frames / every * every}));
+    else if (canSaveStateAs(name))
+      states_.push_back(name);
+    else
+      throw UsageError(name + ": the extension is none of .csv, .ply, .obj, .state, .pc2, .usda");
+  }
+}
+
+void SavedFiles::add(const Simulation& simulation, const State& state, int frame) {
+  const bool isDue = frame % every_ == 0;
+  for (const auto& sequence : sequences_)
+    if (isDue) sequence->addFrame(state);
+  for (const std::string& name : states_)
+    if (hasFrameNumber(name) ? isDue : frame == frames_)
+      saveState(state, simulation.cloth(), numberedName(name, frame));
+}
+
+void SavedFiles::finish() {
+  for (const auto& sequence : sequences_) sequence->close();
+}
+
+}  // namespace clothsim

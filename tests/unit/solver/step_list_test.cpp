@@ -1,0 +1,167 @@
+// The order of a step, and what passes may share a sweep.
+#include "solver/step_list.h"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "solver/cpu/cpu_solver.h"
+#include "support/test_scenes.h"
+
+namespace clothsim {
+namespace {
+
+// The names of the passes in order; a run of the same one once.
+std::string order(const PassList& list) {
+  std::string names, last;
+  for (const PassCall& call : list.passes) {
+    const std::string name = nameOf(call.pass);
+    if (name != last) names += (names.empty() ? "" : ", ") + name;
+    last = name;
+  }
+  return names;
+}
+
+Scene sheet() { return test::sheetScene(9); }
+Scene implicitSheet() {
+  Scene scene = sheet();
+  scene.solver.integrator = Integrator::implicit;
+  scene.solver.newtonSteps = 2;
+  scene.solver.cgIterations = 3;
+  return scene;
+}
+Scene withBall(Scene scene) {
+  scene.colliders = {Sphere{}};
+  return scene;
+}
+PassList stepOf(const Scene& scene) { return makeStep(scene, Cloth(scene)); }
+
+TEST(StepList, OfCs184CollidesAndLimitsAfterTheIntegration) {
+  Scene scene = withBall(test::withLimiter(sheet()));
+  EXPECT_EQ(order(stepOf(scene)), "forces, integrate, collide, limit, watch limit");
+  scene.solver.selfCollision = SelfCollision::averaged;
+  scene.cloths[0].thickness = 0.01;
+  EXPECT_EQ(order(stepOf(scene)),
+            "forces, integrate, check hash, build hash, find candidates, resolve contacts, collide, limit, "
+            "watch limit");
+}
+
+TEST(StepList, LetsRobustContactsMoveParticlesAfterTheLimit) {
+  Scene scene = withBall(test::withLimiter(sheet()));
+  scene.solver.selfCollision = SelfCollision::robust;
+  EXPECT_EQ(order(stepOf(scene)),
+            "forces, integrate, limit, watch limit, collide, check hash, build hash, find candidates, "
+            "resolve contacts, check motion, build hash, find candidates, clamp motion, collide");
+}
+
+TEST(StepList, RepeatsLimitsAndCollidersWhereACollidersTravels) {
+  Scene scene = withBall(test::withLimiter(sheet()));
+  Sphere sphere;
+  sphere.motion = Motion{{{0, {0, 0, 0}, {}}, {1, {1, 0, 0}, {}}}, false};
+  scene.colliders = {sphere};
+  ASSERT_EQ(contactRounds(scene), 3);
+  EXPECT_EQ(order(stepOf(scene)),
+            "forces, integrate, collide, limit, watch limit, collide, limit, watch limit, collide, limit, "
+            "watch limit, collide");
+}
+
+TEST(StepList, SolvesAnImplicitStepByNewtonAndConjugateGradients) {
+  const PassList step = stepOf(implicitSheet());
+  const std::string precondition = "restrict, solve coarsest, prolong, ",
+                    iterate = "update direction, multiply, sum p.Hp, update solution, ",
+                    again = iterate + precondition + "sum r.z, ",
+                    newton = "elastic forces, linearize, coarsen, " + precondition + "sum r.z, " + again +
+                             again + iterate + "try lengths, sum energies, accept, ";
+  EXPECT_EQ(order(step),
+            "begin, initial guess, try lengths, sum energies, accept, " + newton + newton + "end");
+  ASSERT_EQ(step.loops.size(), 2u);
+  EXPECT_EQ(step.loops[0].times, 2u);
+  EXPECT_EQ(step.loops[1].times, 2u) << "the last iteration needs no new direction";
+}
+
+// Each array that a pass reads is one of the state, or an earlier pass has written it.
+TEST(StepList, ReadsNothingBeforeItIsWritten) {
+  std::vector<Scene> scenes{sheet(), implicitSheet(), withBall(test::withLimiter(sheet())),
+                            withBall(implicitSheet())};
+  for (const SelfCollision mode : {SelfCollision::averaged, SelfCollision::robust}) {
+    scenes.push_back(scenes[3]);
+    scenes.back().solver.selfCollision = mode;
+    scenes.back().cloths[0].thickness = 0.01;
+  }
+  for (const Scene& scene : scenes) {
+    // Wind and planes that are not there are not read. The first direction ignores what was there.
+    Arrays known{Array::positions, Array::velocities, Array::hash,   Array::contactFlags,
+                 Array::watch,     Array::airBlocks,  Array::planes, Array::directions};
+    for (const PassCall& call : stepOf(scene).passes) {
+      const PassTraits& traits = call.traits();
+      for (int i = 0; i < ARRAY_COUNT; ++i) {
+        const auto array = static_cast<Array>(i);
+        const bool isRead = (traits.gathers | traits.reads).contains(array);
+        EXPECT_TRUE(!isRead || known.contains(array)) << traits.name << " reads " << nameOf(array);
+      }
+      known = known | traits.writes;
+    }
+    EXPECT_TRUE(known.contains(Array::newPositions));
+    EXPECT_TRUE(known.contains(Array::newVelocities));
+  }
+}
+
+TEST(Sweep, TakesNeighbouringPassesThatLookAtTheirOwnRowOnly) {
+  const PassList step = stepOf(withBall(test::withLimiter(sheet())));
+  EXPECT_EQ(sweepLength(step.passes), 3u);
+  EXPECT_EQ(nameOf(std::span(step.passes).first(3)), "forces, integrate, collide");
+  EXPECT_EQ(sweepLength(std::span(step.passes).subspan(3)), 1u) << "colours of the limit";
+}
+
+TEST(Sweep, EndsBeforeAPassThatReadsItsNeighbours) {
+  EXPECT_TRUE(canShareSweep(traitsOf(Pass::elasticForces), traitsOf(Pass::linearize)));
+  EXPECT_TRUE(canShareSweep(traitsOf(Pass::accept), traitsOf(Pass::findPlanes)));
+  EXPECT_FALSE(canShareSweep(traitsOf(Pass::findPlanes), traitsOf(Pass::coarsen)));
+  EXPECT_FALSE(canShareSweep(traitsOf(Pass::accept), traitsOf(Pass::elasticForces))) << "iterates around it";
+  EXPECT_FALSE(canShareSweep(traitsOf(Pass::updateDirection), traitsOf(Pass::multiply)));
+  EXPECT_FALSE(canShareSweep(traitsOf(Pass::multiply), traitsOf(Pass::updateDirection)))
+      << "other rows still read the old directions";
+}
+
+TEST(StepList, IsPrintedWithItsLoopsOnce) {
+  Scene scene = implicitSheet();
+  scene.cloths[0].numWidthPoints = scene.cloths[0].numHeightPoints = 3;
+  std::string names, line;
+  for (std::istringstream lines(describe(stepOf(scene))); std::getline(lines, line);)
+    names += line.substr(0, line.find("  ", line.find_first_not_of(' '))) + "\n";
+  EXPECT_EQ(names,
+            "pass\nbegin\ninitial guess\ntry lengths\nsum energies\naccept\n"
+            "2 x Newton step:\n"
+            "  elastic forces\n  linearize\n  coarsen, level 0\n  restrict, level 0\n  solve coarsest\n"
+            "  prolong, level 0\n  sum r.z\n"
+            "  2 x iteration:\n"
+            "    update direction\n    multiply\n    sum p.Hp\n    update solution\n    restrict, level 0\n"
+            "    solve coarsest\n    prolong, level 0\n    sum r.z\n"
+            "  update direction\n  multiply\n  sum p.Hp\n  update solution\n"
+            "  try lengths\n  sum energies\n  accept\n"
+            "end\n");
+  EXPECT_NE(describe(stepOf(scene))
+                .find("multiply              grid points          2      planes, right-hand sides, air "
+                      "blocks, iterates, "
+                      "directions -> products  (springs, rest lengths, meshes, wind, cuts, planes)\n"),
+            std::string::npos)
+      << describe(stepOf(scene));
+}
+
+TEST(StepList, NamesTheTimesOfTheCpu) {
+  const Scene scene = withBall(test::withLimiter(test::vertical(test::sheetScene(16))));
+  const Cloth cloth(scene);
+  CpuSolver<float> solver(cloth, scene);
+  const std::vector<PassTime> times = solver.timePasses(3);
+  ASSERT_EQ(times.size(), 3u);
+  EXPECT_EQ(times[0].name, "forces, integrate, collide");
+  EXPECT_EQ(times[1].name, "limit");
+  EXPECT_EQ(times[2].name, "watch limit");
+  for (const PassTime& time : times) EXPECT_GT(time.seconds, 0) << time.name;
+  EXPECT_EQ(solver.stepIndex(), 3u);
+}
+
+}  // namespace
+}  // namespace clothsim
