@@ -12,7 +12,7 @@
 namespace clothsim {
 namespace {
 
-// What "auto" chooses.
+// The counts that "auto" chooses.
 constexpr double LONGEST_CHOSEN_STEP = 1.0 / 60;  // [s]
 constexpr double ITERATIONS_PER_SECOND = 600, FEWEST_ITERATIONS = 10, MOST_ITERATIONS = 40;
 constexpr int FABRIC_ITERATIONS = 40, FABRIC_ITERATIONS_UNEVEN = 60;
@@ -27,7 +27,8 @@ struct Preset {
 // N/m, 1 gf cm^2/cm = 9.81e-5 N m, 1 gf/(cm degree) = 56.2 N/m a radian. They are not measurements of one
 // cloth. Jersey is knitted, not woven: its loops give way, so it stretches some thirty times as easily.
 // Rubber: a latex sheet of 0.4 mm, E = 1.5 MPa, Poisson 1/2, 930 kg/m^3. Paper: 80 g/m^2, 0.1 mm, E = 3.5
-// GPa, B = E t^3 / 12. Damping is ours: what keeps motion lively without ringing on.
+// GPa, B = E t^3 / 12. Damping is chosen so that motion stays lively without
+// ringing on.
 constexpr std::array<Preset, 7> presets{{
     {"silk",
      {.density = 0.06,
@@ -137,7 +138,7 @@ LatticeStiffness latticeStiffness(const Material& material, double dx, double dy
 
 namespace {
 
-// Of a mesh; infinite when its file cannot be read, of which who needs it complains.
+// The stable step of a mesh; infinite when its file cannot be read, which building the cloth will report.
 double stableStepOfMesh(const ClothSettings& cloth) {
   std::shared_ptr<const MeshShape> shape;
   try {
@@ -170,8 +171,8 @@ double stableStep(const ClothSettings& cloth) {
                dy = spacing(cloth.height, cloth.numHeightPoints);
   const double structural = cloth.enableStructural ? 1 : 0, shear = cloth.enableShearing ? 1 : 0,
                bending = cloth.enableBending ? 1 : 0;
-  double sum =
-      0;  // of |K| in a block row: a spring adds its constant to the diagonal and to one block beside it
+  // The sum of |K| over a block row. A spring adds its constant to the diagonal block and to one other.
+  double sum = 0;
   double mass = cloth.mass.value_or(cloth.width * cloth.height * cloth.density) /
                 (static_cast<double>(cloth.numWidthPoints) * cloth.numHeightPoints);
   if (cloth.material) {

@@ -1,5 +1,6 @@
-// The material model: from a fabric as it is measured to the springs of a lattice, so that drape, sag and the
-// time it takes do not change with the resolution (docs/physics.md). And how long an explicit step may be.
+// The material model: it turns what is measured of a fabric into springs of a lattice, so that drape, sag and
+// the time they take do not change with the resolution (docs/physics.md). Also how long an explicit step may
+// be.
 #pragma once
 
 #include <optional>
@@ -14,11 +15,11 @@ namespace clothsim {
 // Whether some cloth has a material.
 [[nodiscard]] bool usesMaterial(const Scene& scene);
 
-// What a preset's name stands for; none for a name that is none.
+// The material of a preset's name; none for an unknown name.
 [[nodiscard]] std::optional<Material> materialPreset(std::string_view name);
 [[nodiscard]] std::vector<std::string> materialPresetNames();
 
-// Makes the cloth one of that material; what a material tells is told by nothing else then.
+// Gives the cloth a material, and takes back to their defaults the settings that a material replaces.
 void giveMaterial(ClothSettings& cloth, const Material& material);
 
 // Springs of a lattice with cells of `dx` by `dy` [m] that stretches and shears as the material does:
@@ -32,13 +33,14 @@ struct LatticeStiffness {
 };
 [[nodiscard]] LatticeStiffness latticeStiffness(const Material& material, double dx, double dy);
 
-// A step that no explicit integrator becomes unstable at, whatever the cloth's shape [s]: 2 / omega, where
-// omega^2 bounds the largest eigenvalue of K/m by Gershgorin's circles over blocks. Infinite without springs.
+// The length of a step with which explicit integrators are stable, whatever the cloth's shape [s]: 2 / omega,
+// where omega^2 bounds the largest eigenvalue of K/m by Gershgorin's circles over blocks. Infinite without
+// springs.
 [[nodiscard]] double stableStep(const ClothSettings& cloth);
-// The smallest of its cloths; infinite under the implicit integrator.
+// The smallest stable step of its cloths; infinite under the implicit integrator.
 [[nodiscard]] double stableStep(const Scene& scene);
 
-// The least number of steps a frame whose length is at most the stable step, and 1/60 s.
+// The least number of steps in a frame with which a step is no longer than the stable one, nor than 1/60 s.
 [[nodiscard]] int stableSteps(const Scene& scene);
 // Sets solver.simulation_steps and solver.cg_iterations where they are "auto".
 void chooseCounts(Scene& scene);

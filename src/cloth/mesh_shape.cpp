@@ -21,10 +21,10 @@ using Triangle = MeshShape::Triangle;
 using Edge = MeshShape::Edge;
 
 constexpr std::size_t MOST_MEMBERSHIPS = std::size_t{1} << 26;  // of corners of faces in groups
-constexpr std::size_t MOST_KEPT_POINTS = std::size_t{1} << 22;  // of meshes that nobody holds
-constexpr double FLATTEST = 1e-4;                               // height of a triangle, of its longest side
+constexpr std::size_t MOST_KEPT_POINTS = std::size_t{1} << 22;  // of all meshes that nobody holds
+constexpr double FLATTEST = 1e-4;  // the least height of a triangle, as a part of its longest side
 
-// How a face is called in messages: by its vertices as the file counts them.
+// The name of a face in messages: its vertices as the file counts them.
 std::string faceText(const Triangle& t) {
   return std::to_string(t[0] + 1) + ", " + std::to_string(t[1] + 1) + ", " + std::to_string(t[2] + 1);
 }
@@ -197,7 +197,7 @@ std::shared_ptr<const MeshShape> meshShapeOf(const std::string& file) {
   using Version = std::pair<std::string, fs::file_time_type>;  // of a file
   static Recent<Version, MeshShape> shapes(MOST_KEPT_POINTS);
   const fs::path path = meshPath(file);
-  std::error_code missing;  // the reader complains
+  std::error_code missing;  // Reading the file will report it.
   const Version version{path.string(), fs::last_write_time(path, missing)};
   if (auto shape = shapes.find(version); shape && !missing) return shape;
   auto shape = std::make_shared<const MeshShape>(load(file));

@@ -15,7 +15,7 @@ namespace clothsim {
 
 struct MeshShape {
   using Triangle = std::array<std::uint32_t, 3>;
-  // Where one or two triangles meet. b < a; of those seen from a to b the first lies to the left.
+  // An edge of one or two triangles. b < a; seen from a to b the first triangle lies to the left.
   struct Edge {
     std::uint32_t a = 0, b = 0;
     std::array<std::uint32_t, 2> opposite{};  // the third corners; `triangles` of them
@@ -31,14 +31,14 @@ struct MeshShape {
   std::map<std::string, std::vector<std::uint32_t>> groups;  // points of the faces of each, ascending
 };
 
-// Reads the OBJ file of a cloth; a second time only when it has changed. `file`: a path, or one below the
-// resource root. Vertices are those of the file (`v`): corners that differ in texture coordinates or normals
-// alone are one. @throws SceneError when it cannot be read, has no faces, a number that is none, a corner
-// that is no vertex, a vertex in no face, a triangle without area, or an edge with more than two triangles or
-// with two of opposite orientation
+// Reads the OBJ file of a cloth, and reads it again only when it has changed. `file`: a path, or one below
+// the resource root. Vertices are those of the file (`v`): corners that differ in texture coordinates or
+// normals alone are one. @throws SceneError when it cannot be read, has no faces, a number that is none, a
+// corner that is no vertex, a vertex in no face, a triangle without area, or an edge with more than two
+// triangles or with two of opposite orientation
 [[nodiscard]] std::shared_ptr<const MeshShape> meshShapeOf(const std::string& file);
 
-// The shape of the cloth's mesh where the scene puts it at the start: scaled, turned, moved [m].
+// The points of a mesh where the scene puts them at the start: scaled, rotated, translated [m].
 [[nodiscard]] std::vector<Vec3d> placedPoints(const MeshShape& shape, const ClothSettings& cloth);
 
 // Stiffness, masses and bending of a mesh from what its cloth is made of, in the order of edges or points.

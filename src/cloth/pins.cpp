@@ -56,8 +56,8 @@ const std::vector<std::uint32_t>& verticesOf(const GroupPin& pin, const ClothSet
                   (list.empty() ? "none" : list));
 }
 
-// Goes through the particles of pins. Of a grid it visits each only once until forget(), however often pins
-// name it: blocks that overlap cost no more than their rows.
+// Visits the particles of pins. It visits a grid's only once until forget(), however often pins name them, so
+// that overlapping blocks cost no more than their rows.
 class PinnedParticles {
  public:
   explicit PinnedParticles(const ClothSettings& cloth) : cloth_(&cloth) {
@@ -70,8 +70,8 @@ class PinnedParticles {
     std::iota(next_.begin(), next_.end(), 0u);
   }
 
-  // Until `visit(particle)` returns false; returns false then. @throws SceneError when the mesh does not have
-  // what the pin names, or when there is too much to look at
+  // Calls visit(particle) until it returns false, and returns whether it never did. @throws SceneError when
+  // the mesh does not have what the pin names, or when there is too much to look at
   template <class Visit>
   bool forEach(const Pin& pin, Visit visit) {
     if (!shape_) return forEachPoint(pointsOf(pin, *cloth_), visit);
@@ -82,17 +82,17 @@ class PinnedParticles {
       return std::all_of(members.begin(), members.end(), visit);
     }
     const auto* region = std::get_if<RegionPin>(&pin);
-    return region == nullptr || forEachInside(region->region, visit);  // of others the reader has complained
+    return region == nullptr || forEachInside(region->region, visit);  // The reader has complained of others.
   }
 
-  // All of them are visited anew.
+  // From now on visits all particles once more.
   void forget() {
     for (const std::size_t place : visited_) next_[place] = static_cast<std::uint32_t>(place);
     visited_.clear();
   }
 
  private:
-  // The first place from `place` on that was not visited, or the end of its row.
+  // The first place from `place` on that was not visited, or the end of the row.
   std::size_t unvisited(std::size_t place) {
     while (next_[place] != place) {
       next_[place] = next_[next_[place]];

@@ -1,4 +1,4 @@
-// Which points of a grid the pins of a cloth are, and which motion each of them follows.
+// Which particles of a cloth its pins hold, and which motion each of them follows.
 #pragma once
 
 #include <cstddef>
@@ -18,22 +18,22 @@ namespace clothsim {
 
 // Whether the pin is one of meshes: a vertex, a region or a group.
 [[nodiscard]] bool isMeshPin(const Pin& pin);
-// By particle, counted from the cloth's first one: whether a pin holds it. @throws SceneError when its mesh
-// cannot be read or does not have what a pin names, or when the pins overlap so often that going through them
-// would take minutes
+// Whether a pin holds a particle, by particle, counted from the cloth's first one. @throws SceneError when
+// its mesh cannot be read or does not have what a pin names, or when the pins overlap so often that going
+// through them would take minutes
 [[nodiscard]] std::vector<bool> pinnedParticles(const ClothSettings& cloth);
 
-// What `pinMotion[i].pinned` means: the cloth's own pins when it is empty.
+// The pins that a motion moves: its own list, or all pins of the cloth where that is empty.
 [[nodiscard]] const std::vector<Pin>& pinsOf(const PinMotion& motion, const ClothSettings& cloth);
 
 inline constexpr int NO_MOTION = -1;  // a pin that stays, or a free point
 
-// For each grid point, row-major, or vertex: the place in `pinMotion` of the motion that it follows, or
-// NO_MOTION. In a cloth without conflicts (below) every pin follows at most one. @throws SceneError as
+// For each grid point, row-major, or vertex: the index in `pinMotion` of the motion that it follows, or
+// NO_MOTION. In a cloth without conflicts (see below) every pin follows at most one. @throws SceneError as
 // pinnedParticles
 [[nodiscard]] std::vector<int> pinMotionOfPoints(const ClothSettings& cloth);
 
-// The path of the centre of its pins, which begin around `center` [m].
+// The path of the centre of a motion's pins, whose mean start position is `center` [m].
 [[nodiscard]] Motion pathAbout(const PinMotion& motion, Vec3d center);
 
 // A point that a motion names although the cloth does not pin it, or although another motion moves it.
@@ -42,7 +42,7 @@ struct PinConflict {
   std::string point;                       // where, for messages
   std::optional<std::size_t> otherMotion;  // none: not pinned
 };
-// The first one; all pins must lie on the grid. @throws SceneError as pinnedParticles
+// The first conflict of a cloth, whose pins must all lie on the grid. @throws SceneError as pinnedParticles
 [[nodiscard]] std::optional<PinConflict> findPinConflict(const ClothSettings& cloth);
 
 }  // namespace clothsim

@@ -12,7 +12,7 @@ Scene withColliderOnItsWay(Scene scene, std::size_t index, Vec3d position, doubl
         way.keys = {{from, start, {0, 0, 0}}, {until, position, {0, 0, 0}}};
         if (shape.motion && !shape.motion->keys.empty()) {
           const Motion::Key before = keyAt(*shape.motion, from), after = keyAt(*shape.motion, until);
-          const bool beginsAnew = after.t < before.t;  // of a loop
+          const bool beginsAnew = after.t < before.t;  // the path is a loop, whose end it passes
           way.keys[0].rotation = before.rotation;
           way.keys[1].rotation = beginsAnew ? before.rotation : after.rotation;
         }

@@ -1,4 +1,4 @@
-// Colliders that a hand moves from one place to another.
+// Colliders that the user moves from one place to another.
 #pragma once
 
 #include <cstddef>
@@ -7,8 +7,8 @@
 
 namespace clothsim {
 
-// The scene while the collider goes from where it is at `from` [s] straight to `position` [m], where it
-// arrives at `until`. A path of its own is left alone meanwhile, but for the turning.
+// The scene while the collider goes straight from where it is at time `from` [s] to `position` [m], where it
+// arrives at `until`. Meanwhile only the rotation of its own path goes on.
 [[nodiscard]] Scene withColliderOnItsWay(Scene scene, std::size_t collider, Vec3d position, double from,
                                          double until);
 // The scene once it is at `position` at time `now` [s]: it stays there, or its whole path is shifted.

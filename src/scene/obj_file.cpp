@@ -60,7 +60,7 @@ class Line {
   std::string_view text_;
 };
 
-// tinyobjloader wraps larger numbers around. `corners`: "1 2/3 -4//5".
+// Refuses numbers so large that tinyobjloader would wrap them around. `corners`: "1 2/3 -4//5".
 void checkFace(const Line& line, std::string_view corners) {
   std::size_t count = 0;
   while (!corners.empty()) {
@@ -84,8 +84,8 @@ void checkFace(const Line& line, std::string_view corners) {
   }
 }
 
-// The lines that a cloth or a collider needs, checked. tinyobjloader takes what is no number for 0, and for
-// some other lines memory as they ask for it.
+// The lines that a cloth or a collider needs, checked: tinyobjloader reads what is no number as 0, and for
+// some other lines allocates as much memory as they ask for.
 std::string checkedLines(const std::string& file, std::string_view text) {
   std::string kept;
   kept.reserve(text.size() + 1);
@@ -109,7 +109,7 @@ std::string checkedLines(const std::string& file, std::string_view text) {
 }  // namespace
 
 fs::path meshPath(const std::string& file) {
-  std::error_code ignored;  // the reader complains
+  std::error_code ignored;  // Reading the file will report it.
   return fs::path(file).is_absolute() || fs::exists(file, ignored) ? fs::path(file) : resourceRoot() / file;
 }
 
@@ -121,7 +121,7 @@ ObjFile readObjFile(const std::string& file, const std::string& use) {
   const bool read =
       tinyobj::LoadObj(&obj.attributes, &obj.shapes, &materials, &warnings, &errors, &text, nullptr, true);
   if (!read) throw SceneError(file + ": cannot be read as an OBJ file: " + errors);
-  // Of polygons with such a corner it leaves some triangles out.
+  // tinyobjloader leaves out triangles of polygons with such a corner.
   if (warnings.find("Vertex indices out of bounds") != std::string::npos ||
       warnings.find("invalid vertex index") != std::string::npos)
     throw SceneError(file + ": a face names a point that the file does not have, expected 1 to " +

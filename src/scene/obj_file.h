@@ -16,7 +16,7 @@ struct ObjFile {
   tinyobj::attrib_t attributes;
   std::vector<tinyobj::shape_t> shapes;
 };
-// All polygons are split into triangles. `use` says in a message what the file was wanted for. @throws
+// All polygons are split into triangles. `use` tells messages what the file is for. @throws
 // SceneError when it cannot be read, or a line of it makes no sense
 [[nodiscard]] ObjFile readObjFile(const std::string& file, const std::string& use);
 

@@ -21,7 +21,7 @@ struct Pose {
 
 // The pose at time t [s]; without a motion the collider's own place, unrotated.
 [[nodiscard]] Pose poseAt(const Collider& collider, double t);
-// Of a motion, which has at least one key.
+// The pose of a motion that has at least one key.
 [[nodiscard]] Pose poseAt(const Motion& motion, double t);
 
 }  // namespace clothsim

@@ -15,63 +15,67 @@
 
 namespace clothsim {
 
-enum class Orientation { horizontal = 0, vertical = 1 };  // (u, 1, v) or (u, v, jitter)
+// horizontal: points lie at (u, 1, v). vertical: at (u, v, z), z a jitter of up to 0.001 m.
+enum class Orientation { horizontal = 0, vertical = 1 };
 
 struct GridPoint {
   int column = 0, row = 0;
   friend bool operator==(const GridPoint&, const GridPoint&) = default;
 };
-struct GridRange {  // both ends belong to it; `from` <= `to` in column and row
+// Both ends belong to it; `from` <= `to` in column and row.
+struct GridRange {
   GridPoint from, to;
   friend bool operator==(const GridRange&, const GridRange&) = default;
 };
 // top: row 0 of a horizontal cloth, the last row of a vertical one (its upper edge); bottom: the opposite
 // row; left: column 0; right: the last column.
 enum class GridSide { top, bottom, left, right };
-// Of a mesh: one vertex, counted from 0 in the order of the file; all vertices in a box, as the mesh is
-// placed at the start; all vertices of the faces of a group.
+// A vertex of a mesh, counted from 0 in the order of the file.
 struct VertexPin {
   int vertex = 0;
   friend bool operator==(const VertexPin&, const VertexPin&) = default;
 };
-struct Region {  // `from` <= `to` in each coordinate [m]; its border belongs to it
+// A box; `from` <= `to` in each coordinate [m]. Its border belongs to it.
+struct Region {
   Vec3d from, to;
   friend bool operator==(const Region&, const Region&) = default;
 };
+// All vertices of a mesh that lie in a box at the start.
 struct RegionPin {
   Region region;
   friend bool operator==(const RegionPin&, const RegionPin&) = default;
 };
+// All vertices of a mesh that belong to faces of a group of its file.
 struct GroupPin {
   std::string group;
   friend bool operator==(const GroupPin&, const GroupPin&) = default;
 };
 using Pin = std::variant<GridPoint, GridRange, GridSide, VertexPin, RegionPin, GroupPin>;
 
-// A path of pins, which move as one rigid body about their centre, the mean of their start positions. Times
-// and rotations are those of Motion.
+// A path of pins. They move as one rigid body about their centre, the mean of their start positions. Times
+// and rotations are like those of Motion.
 struct PinMotion {
   struct Key {
     double t = 0;                   // [s], ascending
-    std::optional<Vec3d> position;  // where the centre is then [m]; none: where it was at the start
+    std::optional<Vec3d> position;  // of the centre [m]; none: where it was at the start
     Vec3d rotation;                 // rotation vector about the centre [degrees]
     friend bool operator==(const Key&, const Key&) = default;
   };
   std::vector<Key> keys;
   bool loop = false;
-  std::vector<Pin> pinned;  // those that move, all of them pins of the cloth; empty: all its pins
+  std::vector<Pin> pinned;  // the pins that move, which the cloth must have; empty: all pins of the cloth
   friend bool operator==(const PinMotion&, const PinMotion&) = default;
 };
 
-// A fabric as it is measured, independent of the grid; spring constants follow from it (cloth/material.h).
+// What is measured of a fabric, independent of the grid. Spring constants follow from it (cloth/material.h).
 struct Material {
   double density = 0.15;      // mass per area [kg/m^2]
-  double stretch = 10'000;    // Young's modulus of the sheet: its modulus times its thickness [N/m]
+  double stretch = 10'000;    // Young's modulus of the sheet, the bulk modulus times the thickness [N/m]
   double shear = 50;          // shear modulus of the sheet [N/m]
   double bend = 1e-5;         // bending rigidity [N m]
-  double damping = 0.5;       // rate at which motion dies down [1/s]
+  double damping = 0.5;       // rate at which velocities decay [1/s]
   double thickness = 0.0005;  // [m]
-  double friction = 0.4;      // Coulomb's coefficient between layers of it
+  double friction = 0.4;      // Coulomb's coefficient between layers of the fabric
   friend bool operator==(const Material&, const Material&) = default;
 };
 
@@ -79,32 +83,35 @@ struct Material {
 inline constexpr double defaultKs = 5000;
 
 struct ClothSettings {
-  std::string mesh;              // OBJ, beside the scene file or below the resource root; "": a grid
+  std::string mesh;              // an OBJ file, beside the scene file or below the resource root; "": a grid
   double scale = 1;              // metres in a unit of the mesh file
   double width = 1, height = 1;  // of a grid [m]
   int numWidthPoints = 50, numHeightPoints = 50;
   Orientation orientation = Orientation::horizontal;
   Vec3d position{0, 0, 0};  // added to every point [m]
-  Vec3d rotation{
-      0, 0, 0};  // rotation vector [degrees] about grid point (0, 0) or the mesh's origin, before `position`
+  // Axis times angle [degrees], about grid point (0, 0) or the mesh's origin, before `position` is added.
+  Vec3d rotation{0, 0, 0};
   double density = 150;        // mass per area [kg/m^2]; CS184: m = width * height * density / points
   std::optional<double> mass;  // total mass [kg]; replaces density when given
-  std::optional<double> ks;    // spring constant [N/m], bending springs 0.2 ks: CS184's model
-  std::optional<double>
-      stiffnessReference;            // CS171's model [N/m]: k = stiffness_reference reference_length / L
-  double referenceLength = 0.1;      // [m]
-  std::optional<Material> material;  // instead of ks, density, mass, damping and thickness
-  double damping = 0.2;              // CS184: percent of the velocity lost in a step
-  double thickness = 0.0095;         // [m]
+  // One of three models sets the stiffness of springs (docs/physics.md). CS184's: a constant for all, 0.2 ks
+  // for bending springs [N/m].
+  std::optional<double> ks;
+  // CS171's: k = stiffness_reference reference_length / L [N/m].
+  std::optional<double> stiffnessReference;
+  double referenceLength = 0.1;  // [m]
+  // A fabric. It replaces ks, density, mass, damping and thickness.
+  std::optional<Material> material;
+  double damping = 0.2;       // percent of the velocity that is lost in a step, as in CS184
+  double thickness = 0.0095;  // [m]
   bool enableStructural = true, enableShearing = true, enableBending = true;
   std::vector<Pin> pinned;
-  std::vector<PinMotion> pinMotion;  // no pin is in two of them; pins in none never move
+  std::vector<PinMotion> pinMotion;  // A pin is moved by one of these at most, and otherwise stays.
   [[nodiscard]] bool isMesh() const { return !mesh.empty(); }
   friend bool operator==(const ClothSettings&, const ClothSettings&) = default;
 };
 
 struct Gust {
-  double strength = 0;     // [m/s], standard deviation of the gust along the wind's direction
+  double strength = 0;     // standard deviation of the speed along the wind's direction [m/s]
   double frequency = 0.5;  // [Hz]
   int seed = 1;
   friend bool operator==(const Gust&, const Gust&) = default;
@@ -119,25 +126,25 @@ struct Wind {
   friend bool operator==(const Wind&, const Wind&) = default;
 };
 
-// implicit: backward Euler, stable at any step (solver/implicit.h).
+// verlet: leapfrog. euler: symplectic Euler. implicit: backward Euler, stable at any step (docs/physics.md).
 enum class Integrator { verlet, euler, implicit };
 [[nodiscard]] inline const char* integratorName(Integrator integrator) {
   return integrator == Integrator::verlet ? "verlet" : integrator == Integrator::euler ? "euler" : "implicit";
 }
 
-// averaged: CS184's rule, particles within 2 thickness are pushed apart by the mean of what each pair asks
-// for. robust: no particle comes so near to a stranger that triangles could cross (solver/self_collision.h).
+// averaged: CS184's rule, particles nearer than 2 thickness move apart by the mean over their contacts.
+// robust: no non-adjacent pair of particles comes so near that triangles could cross
+// (solver/self_collision.h).
 enum class SelfCollision { off, averaged, robust };
 [[nodiscard]] inline const char* selfCollisionName(SelfCollision mode) {
   return mode == SelfCollision::off ? "off" : mode == SelfCollision::averaged ? "averaged" : "robust";
 }
 
-// What a collider's `friction` means. cs184: a particle that touches goes to x- + (1 - friction) (surface -
-// x-), with x- carried along by the collider. coulomb: the slide along the surface shrinks by friction times
-// the depth pushed out, and planes are solid behind their normal.
+// What a collider's `friction` means (docs/physics.md). cs184: the part of its motion that a touching
+// particle loses. coulomb: the coefficient of friction; planes are then solid behind their normal.
 enum class FrictionLaw { cs184, coulomb };
 
-// A count that is given, or follows from the rest of the scene ("auto").
+// A count that is given, or that follows from the rest of the scene ("auto").
 struct AutoCount {
   int count = 1;
   bool automatic = false;
@@ -152,31 +159,31 @@ struct AutoCount {
 struct SolverSettings {
   Integrator integrator = Integrator::verlet;  // implicit in scenes with a material
   double framesPerSec = 90;                    // [1/s]
-  // A frame; h = 1 / (frames_per_sec * simulation_steps). Automatic in scenes with a material.
+  // Steps in a frame: h = 1 / (frames_per_sec * simulation_steps). Automatic in scenes with a material.
   AutoCount simulationSteps = 30;
-  int newtonSteps = 4;                  // of `implicit`, in a step: each makes a linear system,
-  AutoCount cgIterations = {10, true};  // solved by so many iterations of conjugate gradients
-  std::optional<double>
-      strainLimit;  // largest l/L - 1 after the limiter; none: no limiter. 0.1 in scenes with `ks`
+  int newtonSteps = 4;                  // Newton steps in a step of `implicit`
+  AutoCount cgIterations = {10, true};  // iterations of conjugate gradients in a Newton step
+  // The largest l/L - 1 of a spring after the limiter; none: no limiter. 0.1 in scenes with `ks`.
+  std::optional<double> strainLimit;
   SelfCollision selfCollision = SelfCollision::off;  // averaged in scenes with `ks`, as CS184 does
-  std::optional<double> selfFriction;  // Coulomb's coefficient between layers, robust only; none: the
-                                       // material's, or 0.3
+  // Coulomb's coefficient between layers, under robust self-collision; none: that of the material, or 0.3.
+  std::optional<double> selfFriction;
   FrictionLaw frictionLaw = FrictionLaw::cs184;
-  // The watchdog's: beyond them a run stops. No cloth comes near, one that explodes passes them in a few
-  // steps.
+  // Limits of the watchdog, beyond which a run stops. No cloth comes near them, and an unstable one passes
+  // them within a few steps.
   double maxSpeed = 10'000;  // of a particle [m/s]
-  double maxStrain = 100;    // l/L - 1 of a spring, L its nominal rest length
+  double maxStrain = 100;    // l/L - 1 of a spring, with L its nominal rest length
   friend bool operator==(const SolverSettings&, const SolverSettings&) = default;
 };
 
-// Both absent: the camera frames the scene by itself.
+// Without position and target the camera frames the scene by itself.
 struct CameraSettings {
   std::optional<Vec3d> position, target;  // [m]
   double fov = 35;                        // vertical field of view [degrees]
   friend bool operator==(const CameraSettings&, const CameraSettings&) = default;
 };
 
-// What render.shader, render.weave and render.background may be; the renderer has something for each.
+// The values of render.shader, render.weave and render.background.
 inline constexpr std::array<std::string_view, 10> shadingModels{
     "fabric",       "phong",  "diffuse", "texture",   "bump",
     "displacement", "mirror", "normal",  "wireframe", "strain"};
@@ -194,8 +201,8 @@ struct RenderSettings {
   double gloss = 0.3;                 // of fabric: 0 wool, 1 silk
   double normalStrength = 1;          // of weaves and bumps: 0 flat, 1 as high as they are
   double height = 0.012;              // of bump and displacement maps, from black to white [m]
-  double strainRange = 0.1;           // where the strain map's scale ends, l/L - 1
-  std::optional<Vec3d> light;         // direction towards the main light; none: from the front, upper left
+  double strainRange = 0.1;           // l/L - 1 at the end of the strain map's scale
+  std::optional<Vec3d> light;         // direction towards the main light; none: the upper left of the front
   std::string background = "studio";
   Vec3d backgroundColor{0.62, 0.67, 0.72};  // of the plain background
   bool ground = true;  // draw a floor below everything when the scene has no horizontal plane
@@ -207,7 +214,7 @@ struct Range {
   friend bool operator==(const Range&, const Range&) = default;
 };
 
-// What a bundled scene promises after `frames` frames on either backend; tests/scenes checks it.
+// What a bundled scene promises after `frames` frames on either backend. The tests in tests/scenes hold it.
 struct Expect {
   int frames = 0;
   std::optional<Vec3d> centroid;    // [m]
@@ -219,11 +226,11 @@ struct Expect {
 struct Scene {
   std::string schema = "clothsim/1";
   std::string name, description;
-  std::vector<ClothSettings> cloths{ClothSettings{}};  // at least one; `cloth` in JSON when there is just one
-  std::vector<Collider> colliders;                     // CS184's `sphere` and `plane` objects land here, too
+  std::vector<ClothSettings> cloths{ClothSettings{}};  // at least one; a single one is `cloth` in JSON
+  std::vector<Collider> colliders;                     // also those of CS184's `sphere` and `plane` objects
   Vec3d gravity{0, -9.8, 0};                           // [m/s^2]
-  std::optional<Wind> wind;                            // absent: no wind forces at all
-  double airResistance = 0;                            // a of -a |v| v, per particle [kg/m]
+  std::optional<Wind> wind;                            // none: no forces of the air on triangles
+  double airResistance = 0;                            // a of the force -a |v| v on each particle [kg/m]
   SolverSettings solver;
   CameraSettings camera;
   RenderSettings render;
@@ -231,7 +238,7 @@ struct Scene {
   friend bool operator==(const Scene&, const Scene&) = default;
 };
 
-// Whether render.texture is the path of a file, and not a bundled name.
+// Whether render.texture is the path of a file rather than the name of a bundled texture.
 [[nodiscard]] inline bool isTexturePath(std::string_view texture) {
   return texture.find('/') != texture.npos || texture.ends_with(".png");
 }

@@ -1,4 +1,4 @@
-// What must hold between the keys of an object, and complaints about keys.
+// Checks what must hold between the keys of an object, and complains about wrong keys.
 #include <algorithm>
 
 #include "cloth/material.h"
@@ -46,12 +46,12 @@ void checkPins(const JsonNode& owner, const std::vector<Pin>& pins, const ClothS
   }
 }
 
-// Each motion moves pins of the cloth, and no other motion moves the same.
+// Each motion must move pins of the cloth that no other motion moves.
 void checkPinMotions(const JsonNode& cloth, const ClothSettings& settings) {
   const double points =
       settings.isMesh() ? 0 : static_cast<double>(settings.numWidthPoints) * settings.numHeightPoints;
   const bool isTooLarge = points > mostParticles || points * BYTES_A_PARTICLE > machineMemory();
-  if (settings.pinMotion.empty() || isTooLarge) return;  // a complaint of its own
+  if (settings.pinMotion.empty() || isTooLarge) return;  // Too large a grid has its own complaint.
   const JsonNode& motions = *cloth.find("pin_motion");
   const auto nodeOf = [&](std::size_t i) -> const JsonNode& {
     return motions.kind == JsonKind::list ? *motions.children[i] : motions;
@@ -60,7 +60,7 @@ void checkPinMotions(const JsonNode& cloth, const ClothSettings& settings) {
     complain(motions, "expected pins to move, found none: the cloth's key \"pinned\" names no point");
   for (std::size_t i = 0; i < settings.pinMotion.size(); ++i)
     checkPins(nodeOf(i), settings.pinMotion[i].pinned, settings);
-  if (settings.isMesh()) return;  // where its file lies is known later: Cloth looks
+  if (settings.isMesh()) return;  // The place of its file is known later, so that Cloth checks this.
   const auto conflict = findPinConflict(settings);
   if (!conflict) return;
   const JsonNode& motion = nodeOf(conflict->motion);
@@ -87,7 +87,7 @@ void checkKeys(const JsonNode& motion, const Keys& keys, bool loop) {
     complain(*list.children.back()->find("t"), "expected a number > 0 in the last key of a loop, found 0");
 }
 
-// A material says these itself; and oblong cells that would need springs that push have none.
+// Refuses keys that a material replaces, and cells so oblong that a spring would need a negative constant.
 void checkMaterial(const JsonNode& node, const ClothSettings& cloth) {
   for (const char* key : {"ks", "stiffness_reference", "density", "mass", "damping", "thickness"})
     if (const JsonNode* given = node.find(key))
@@ -104,7 +104,7 @@ void checkMaterial(const JsonNode& node, const ClothSettings& cloth) {
              "is too large beside stretch; choose num_width_points and num_height_points for square cells");
 }
 
-// What a mesh has from its file.
+// Refuses keys of what a mesh takes from its file.
 void checkMesh(const JsonNode& node, const ClothSettings& cloth) {
   if (!cloth.isMesh()) {
     if (const JsonNode* given = node.find("mesh")) complainExpected(*given, "the name of an OBJ file");

@@ -12,7 +12,7 @@ namespace clothsim {
 
 namespace {
 
-// Larger numbers overflow when binary32 squares them; smaller ones vanish in it.
+// Squares of larger numbers overflow in binary32, and those of smaller ones vanish.
 constexpr double largestNumber = 1e15, smallestNumber = 1e-20;
 
 template <class Enum, std::size_t count = 2>

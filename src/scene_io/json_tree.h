@@ -19,9 +19,9 @@ struct JsonNode {
   JsonKind kind = JsonKind::null;
   bool boolean = false;
   double number = 0;
-  std::string text;  // of a string; of a number as it was spelled
-  std::string key;   // in the object around it
-  int line = 0;      // 1 is the first; 0: not from a file
+  std::string text;  // the content of a string, or a number as it was spelled
+  std::string key;   // its name in the object that it is a member of
+  int line = 0;      // from 1; 0: it does not come from a file
   JsonNode* parent = nullptr;
   std::vector<std::unique_ptr<JsonNode>> children;
 
@@ -61,7 +61,7 @@ struct JsonComplaint : std::runtime_error {
 [[nodiscard]] std::string pathOf(const JsonNode& node);
 // The value for a message: `"stiff"`, `50.5`, `a list of 3`, `an object`.
 [[nodiscard]] std::string foundText(const JsonNode& node);
-// A comment for people: a key "comment", or one that begins with "//". Readers pass over it.
+// Whether a key is a comment for people, which readers pass over: "comment", or one that begins with "//".
 [[nodiscard]] bool isComment(std::string_view key);
 
 // @throws JsonComplaint: wrong syntax, duplicate keys, invalid UTF-8, more than 64 levels or a million values
@@ -70,7 +70,7 @@ struct JsonComplaint : std::runtime_error {
 // Two spaces a level; a list or object that fits is kept on one line. Numbers in the fewest digits that read
 // back exactly.
 [[nodiscard]] std::string formatJson(const JsonNode& root);
-// All on one line.
+// The same on one line.
 [[nodiscard]] std::string formatJsonLine(const JsonNode& node);
 [[nodiscard]] std::string formatNumber(double value);
 

@@ -39,7 +39,7 @@ void movePins(ClothSettings& cloth, int columns, int rows) {
   for (PinMotion& motion : cloth.pinMotion) moveAll(motion.pinned);
 }
 
-// On a grid that is too coarse, pins that move apart from each other would become one point.
+// On a grid that is too coarse, pins of different motions would fall on one point.
 void checkPinsStayApart(const std::vector<ClothSettings>& cloths, int columns, int rows) {
   for (ClothSettings cloth : cloths) {
     if (cloth.pinMotion.empty() || cloth.isMesh()) continue;
@@ -59,9 +59,9 @@ void checkPinsStayApart(const std::vector<ClothSettings>& cloths, int columns, i
   }
 }
 
-// How many steps an explicit integrator needs for one of before. In `ks` scenes a particle gets lighter with
-// the square of the spacing ratio while ks stays, and the stable step goes with sqrt(m/k); with
-// stiffness_reference k grows, too.
+// How many steps an explicit integrator needs in place of one before the change. In scenes with `ks` a
+// particle gets lighter with the square of the spacing ratio while ks stays, and the stable step is
+// proportional to sqrt(m/k). With stiffness_reference k grows, too.
 int stepFactor(const ClothSettings& cloth, int columns, int rows) {
   if (cloth.material) {
     ClothSettings finer = cloth;
@@ -91,7 +91,7 @@ void checkSides(std::size_t grids, int columns, int rows) {
                      formatNumber(particles));
 }
 
-// For a remark: without the last digits of a product, with all of a step count.
+// A number for a remark: rounded, but with all digits of a count of steps.
 std::string shortNumber(double value) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.7g", value);

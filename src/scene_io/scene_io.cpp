@@ -28,7 +28,7 @@ std::vector<std::string> sceneNamesIn(const fs::path& folder) {
 
 fs::path bundledFolder() { return resourceRoot() / "assets" / "scenes"; }
 
-// Where it lies; as it was given where the current folder is gone.
+// The folder of the file, absolute unless the current folder no longer exists.
 fs::path folderOf(const fs::path& file) {
   std::error_code code;
   const fs::path whole = fs::absolute(file, code);
@@ -52,7 +52,7 @@ void findMeshes(Scene& scene, const fs::path& file) {
   const auto find = [&](std::string& mesh) {
     if (mesh.empty() || fs::path(mesh).is_absolute()) return;
     const fs::path beside = folderOf(file) / mesh;
-    std::error_code ignored;  // the reader complains
+    std::error_code ignored;  // Reading the file will report it.
     if (fs::exists(beside, ignored)) mesh = beside.lexically_normal().string();
   };
   for (Collider& collider : scene.colliders)
@@ -85,7 +85,7 @@ Scene loadScene(const fs::path& path) {
   }
   Scene scene = parseScene(text, path.string());
   findMeshes(scene, path);
-  chooseCounts(scene);  // again: those of a mesh follow from its file
+  chooseCounts(scene);  // once more, since the counts of a mesh follow from its file
   findTexture(scene, path);
   return scene;
 }

@@ -1,5 +1,5 @@
-// Scenes in and out of JSON, and the bundled ones. Everything the user got wrong becomes a SceneError that
-// names the file, the line or JSON path, what was found, what was expected, and the nearest known key.
+// Reads and writes scenes as JSON, and finds the bundled ones. Every mistake of the user becomes a SceneError
+// that names the file, the line or JSON path, what was found, what was expected, and the nearest known key.
 #pragma once
 
 #include <filesystem>
@@ -24,7 +24,8 @@ void findMeshes(Scene& scene, const std::filesystem::path& file);
 // scene)
 [[nodiscard]] Scene loadScene(const std::filesystem::path& path);
 
-// `-f`'s rule: with a '/' or ending in ".json" a path, else the name of a bundled scene. @throws SceneError
+// Loads what the flag -f names: a path if it has a '/' or ends in ".json", else a bundled scene. @throws
+// SceneError
 [[nodiscard]] Scene loadSceneByName(const std::string& nameOrPath);
 
 // JSON text that parseScene turns into an equal scene. Keys at their defaults are left out.

@@ -64,7 +64,7 @@ void checkCloths(const JsonNode& root, const std::vector<ClothSettings>& cloths)
   if (cloths.empty()) complain(list, "expected at least one cloth, found an empty list");
   double particles = 0;
   for (std::size_t i = 0; i < cloths.size(); ++i) {
-    if (cloths[i].isMesh()) continue;  // counted when it is read
+    if (cloths[i].isMesh()) continue;  // Its particles are counted when its file is read.
     particles += static_cast<double>(cloths[i].numWidthPoints) * cloths[i].numHeightPoints;
     if (particles > mostParticles)
       complain(*list.children[i], "expected at most " + formatNumber(mostParticles) +
@@ -72,7 +72,7 @@ void checkCloths(const JsonNode& root, const std::vector<ClothSettings>& cloths)
   }
 }
 
-// CS184's friction is a share of the way.
+// Under CS184's law friction is a part of the motion, so that it cannot exceed 1.
 void checkFriction(const JsonNode& root, const Scene& scene) {
   if (scene.solver.frictionLaw != FrictionLaw::cs184) return;
   for (std::size_t i = 0; i < scene.colliders.size(); ++i) {

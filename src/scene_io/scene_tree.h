@@ -1,5 +1,5 @@
-// A scene as a JSON tree and back: the middle step of reading, writing and --set. Private to src/scene_io,
-// and to files that hold scenes among other things (session/recording.cpp).
+// A scene as a JSON tree and back: the middle step of reading, writing and --set. For src/scene_io, and
+// for readers of files that hold scenes among other things.
 #pragma once
 
 #include "scene/scene.h"

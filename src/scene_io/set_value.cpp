@@ -34,7 +34,7 @@ JsonPointer parseValue(const std::string& text) {
   try {
     return parseJson(text);
   } catch (const JsonComplaint&) {
-    // Written and parsed, since a bare word must be valid UTF-8 like any other string.
+    // It is written and parsed, since a bare word must be valid UTF-8 like any other string.
     return parseJson(formatJsonLine(*makeString(text)));
   }
 }
@@ -44,7 +44,7 @@ void forgetLines(JsonNode& node) {
   for (const auto& child : node.children) forgetLines(*child);
 }
 
-// The place of the first collider of that type; their number if there is none.
+// The index of the first collider of that type, or the number of colliders if there is none.
 std::size_t firstCollider(const JsonNode& colliders, const std::string& type) {
   const auto at = std::find_if(colliders.children.begin(), colliders.children.end(),
                                [&](const auto& collider) { return collider->find("type")->text == type; });
@@ -117,7 +117,7 @@ std::string tablePath(const Steps& steps, std::size_t count) {
   return path.starts_with(cloths) ? "cloth" + path.substr(cloths.size()) : path;
 }
 
-// A list that the writer left out has its default value. Null if the key has none.
+// The default of a list that the writer left out. Null if the key has none.
 JsonPointer defaultList(const std::string& path) {
   for (const FieldInfo& field : describeFields())
     if (field.path == path && field.defaultValue.starts_with('[')) return parseJson(field.defaultValue);
@@ -141,7 +141,7 @@ JsonNode& descend(JsonNode& node, const Steps& steps, std::size_t i) {
 }
 
 void setAt(JsonNode& root, const Steps& steps, JsonPointer value) {
-  // In a file comments are passed over; here one would be a change without effect.
+  // Readers of files pass over comments, but to set one is a change without effect.
   for (const std::string& step : steps)
     if (step.empty() || isComment(step))
       throw JsonComplaint(0, 0, "", "\"" + step + "\" is not a key that can be set");
@@ -155,7 +155,7 @@ void setAt(JsonNode& root, const Steps& steps, JsonPointer value) {
     replace(*node, steps.back(), std::move(value));
 }
 
-// A cloth that is given a material, or a part of one, leaves to it what a material tells.
+// Where a cloth is given a material, or a part of one, the keys that a material replaces are removed.
 void leaveToMaterial(JsonNode& root, const Steps& steps) {
   const auto material = std::find(steps.begin(), steps.end(), "material");
   if (material == steps.end()) return;
@@ -165,14 +165,15 @@ void leaveToMaterial(JsonNode& root, const Steps& steps) {
     erase(*cloth, key);
 }
 
-// Integrator and steps that were right for springs are not for the first material: its defaults hold then.
+// Integrator and steps chosen for springs do not suit a material: with the first one they return to their
+// defaults.
 void leaveSolverToMaterial(JsonNode& root) {
   JsonNode* solver = root.find("solver");
   if (solver == nullptr) return;
   for (const char* key : {"integrator", "simulation_steps"}) erase(*solver, key);
 }
 
-// A cloth that becomes a mesh leaves to it what a grid has.
+// Where a cloth becomes a mesh, the keys of a grid are removed.
 void leaveToMesh(JsonNode& root, const Steps& steps, const JsonNode& value) {
   if (steps.size() != 3 || steps.back() != "mesh" || value.kind != JsonKind::string) return;
   JsonNode& cloth = descend(descend(root, steps, 0), steps, 1);

@@ -35,7 +35,7 @@ std::vector<std::string> splitValues(const std::string& text) {
   return values;
 }
 
-// So many cells a row that the whole comes near to 16 : 9 and few places stay empty.
+// The number of cells in a row with which the whole comes near to 16 : 9 and few places stay empty.
 std::size_t wrappedColumns(std::size_t count, double aspect) {
   if (count <= longestRow) return count;
   std::size_t best = count;
