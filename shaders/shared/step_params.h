@@ -59,13 +59,7 @@ using uint = std::uint32_t;
 #define COLLIDER_AXES_ROW 4    // read for shapes that have a frame of their own
 #define COLLIDER_GRID_ROW 7    // read for meshes
 #define COLLIDER_MOTION_ROW 9  // read where some collider moves
-#define COLLIDER_SPHERE 0u
-#define COLLIDER_PLANE 1u
-#define COLLIDER_CAPSULE 2u
-#define COLLIDER_BOX 3u
-#define COLLIDER_TORUS 4u
-#define COLLIDER_MESH 5u
-#define SWEEP_STEPS 8  // of the search for the place where a particle entered a shape
+#define SWEEP_STEPS 8          // of the search for the place where a particle entered a shape
 
 // The springs of one slot (cloth/cloth.h).
 SHARED_STRUCT SpringParams {
@@ -136,9 +130,9 @@ SHARED_STRUCT ColliderParams {
   real pointX;  // the shape's origin or plane's point at the end of the step [m]
   real pointY;
   real pointZ;
-  real radius;  // of the sphere, capsule, torus' tube, box's edges; a mesh's grid: edge of a cell [m]
+  real radius;  // this and the sizes mean what the shape's law says (shared/shapes/) [m]
 
-  real normalX;  // plane
+  real normalX;  // of the plane
   real normalY;
   real normalZ;
   real radiusSquared;
@@ -157,8 +151,7 @@ SHARED_STRUCT ColliderParams {
   real axisXX;
   real axisXY;
   real axisXZ;
-  real sizeX;  // box: half sizes without the rounding; capsule: half the segment in y; torus: ring's radius
-               // in x
+  real sizeX;
 
   real axisYX;
   real axisYY;

@@ -2,9 +2,6 @@
 // explained.
 #include "sim/shapes.glsl"
 
-const uint shapesWithAxes = ~(1u << COLLIDER_SPHERE | 1u << COLLIDER_PLANE);
-const bool hasShapes = (colliderTypes & shapesWithAxes) != 0u;
-
 // Row by row as shared/step_params.h lays it out, as far as this scene's colliders need it.
 ColliderParams loadCollider(uint k) {
   int row = int(k) * COLLIDER_ROWS;

@@ -129,7 +129,7 @@ class Run {
   std::optional<Trouble> replayTrouble_;
 };
 
-// The object that is printed.
+// What `run --json` prints.
 nlohmann::ordered_json summary(const RunOptions& options, Run& run, const RunSummary& seen) {
   Simulation& simulation = run.simulation();
   const Scene& scene = run.scene();

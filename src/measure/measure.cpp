@@ -2,11 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
-#include <type_traits>
 
-#include "cloth/signed_distance_grid.h"
-#include "scene/pose.h"
+#include "scene/colliders/collider_set.h"
 
 namespace clothsim {
 namespace {
@@ -53,56 +50,32 @@ std::optional<double> maxStrain(const Cloth& cloth, const std::vector<ListedSpri
   return largest;
 }
 
-// Depth below the surface of a shape, from a point of its own frame; negative outside.
-double depthIn(const Sphere& sphere, Vec3d p) { return sphere.radius - length(p); }
-double depthIn(const Plane&, Vec3d p) { return -p.y; }
-double depthIn(const Capsule& capsule, Vec3d p) {
-  const double half = 0.5 * capsule.length;
-  return capsule.radius - length({p.x, p.y - std::clamp(p.y, -half, half), p.z});
-}
-double depthIn(const Box& box, Vec3d p) {
-  const auto beyond = [&](double x, double size) { return std::abs(x) - (0.5 * size - box.rounding); };
-  const Vec3d q{beyond(p.x, box.size.x), beyond(p.y, box.size.y), beyond(p.z, box.size.z)};
-  const double inside = std::min(std::max({q.x, q.y, q.z}), 0.0);
-  return box.rounding - inside - length({std::max(q.x, 0.0), std::max(q.y, 0.0), std::max(q.z, 0.0)});
-}
-double depthIn(const Torus& torus, Vec3d p) {
-  return torus.tubeRadius - std::hypot(std::hypot(p.x, p.z) - torus.radius, p.y);
-}
-
 // One collider at one time, as seen by particles.
 class Solid {
  public:
-  Solid(const Collider& collider, const Scene& scene, double time)
-      : collider_(&collider),
-        now_(poseAt(collider, time)),
-        first_(poseAt(collider, 0)),
-        rotation_(product(now_.rotation, ownRotation(collider))),
-        twoSided_(std::holds_alternative<Plane>(collider) && scene.solver.frictionLaw == FrictionLaw::cs184) {
-    if (const auto* mesh = std::get_if<MeshCollider>(&collider)) grid_ = distanceGridOf(*mesh);
-  }
+  Solid(const ColliderSet& colliders, std::size_t number, const Scene& scene, double time)
+      : colliders_(&colliders),
+        number_(number),
+        now_(poseAt(colliders[number], time)),
+        first_(poseAt(colliders[number], 0)),
+        rotation_(colliders.rotationAt(number, time)),
+        twoSided_(std::holds_alternative<Plane>(colliders[number]) &&
+                  scene.solver.frictionLaw == FrictionLaw::cs184) {}
 
   // Of a particle at x that started at `start`: CS184's planes keep each on its own side.
   [[nodiscard]] double penetration(Vec3d start, Vec3d x) const {
-    const Vec3d p = rotateBack(rotation_, x - now_.position);
-    const double depth = std::visit(
-        [&](const auto& shape) {
-          if constexpr (std::is_same_v<std::remove_cvref_t<decltype(shape)>, MeshCollider>)
-            return -grid_->distance(p);
-          else
-            return depthIn(shape, p);
-        },
-        *collider_);
+    const double depth = -colliders_->distance(number_, rotateBack(rotation_, x - now_.position));
     return twoSided_ && startedBehind(start) ? -depth : depth;
   }
 
  private:
   [[nodiscard]] bool startedBehind(Vec3d start) const {
-    return dot(start - first_.position, rotate(first_.rotation, std::get<Plane>(*collider_).normal)) < 0;
+    return dot(start - first_.position,
+               rotate(first_.rotation, std::get<Plane>((*colliders_)[number_]).normal)) < 0;
   }
 
-  const Collider* collider_;
-  std::shared_ptr<const SignedDistanceGrid> grid_;  // of a mesh
+  const ColliderSet* colliders_;
+  std::size_t number_;
   Pose now_, first_;
   Matrix3 rotation_;
   bool twoSided_;
@@ -134,8 +107,9 @@ Measures measure(const Cloth& cloth, const Scene& scene, const State& state) {
       strain = std::max(strain.value_or(*ofGrid), *ofGrid);
   measures.maxStrain = strain.value_or(0);
   const double time = state.clock.time();
-  for (const Collider& collider : scene.colliders) {
-    const Solid solid(collider, scene, time);
+  const ColliderSet colliders(scene);
+  for (std::size_t number = 0; number < colliders.size(); ++number) {
+    const Solid solid(colliders, number, scene, time);
     for (std::size_t i = 0; i < count; ++i)
       if (state.positions[i].w > 0)
         measures.maxPenetration =
@@ -149,8 +123,10 @@ ColliderOverlaps overlapsWithColliders(const Cloth& cloth, const Scene& scene, c
   constexpr double rounding = 1e-6;      // [m]
   const double fromContact = std::max(contactShare * smallestSpacing(cloth), rounding);
   std::vector<Solid> solids;
-  for (const Collider& collider : scene.colliders)
-    if (!std::holds_alternative<Plane>(collider)) solids.emplace_back(collider, scene, state.clock.time());
+  const ColliderSet colliders(scene);
+  for (std::size_t number = 0; number < colliders.size(); ++number)
+    if (!std::holds_alternative<Plane>(colliders[number]))
+      solids.emplace_back(colliders, number, scene, state.clock.time());
   ColliderOverlaps overlaps;
   for (std::size_t i = 0; i < state.positions.size(); ++i) {
     if (state.positions[i].w == 0) continue;

@@ -107,13 +107,4 @@ void PlaneMesh::draw() const {
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count_);
 }
 
-double sphereShrink(double radius, double longestEdge) {
-  // The hypotenuse of a right triangle is its circumscribed circle's diameter. Stretched cloth has longer
-  // edges: 10 %.
-  const double half = std::min(0.5 * 1.1 * longestEdge, radius);
-  const double sagitta = radius - std::sqrt(radius * radius - half * half);
-  const double againstFlicker = 0.003 * radius;  // keeps the two surfaces apart in the depth buffer
-  return std::min(sagitta + againstFlicker, 0.5 * radius);
-}
-
 }  // namespace clothsim

@@ -49,10 +49,4 @@ class PlaneMesh {
   GLsizei count_ = 0;
 };
 
-// How much smaller than its true radius a sphere must be drawn so that cloth on it never dips below what is
-// drawn. The particles lie on the sphere; the flat triangles between them sink under it by the sagitta of
-// their circumscribed circle. (The drawn sphere's own facets only sink further.)
-// @param longestEdge  the longest side of the cloth's triangles [m]
-[[nodiscard]] double sphereShrink(double radius, double longestEdge);
-
 }  // namespace clothsim

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "scene/pose.h"
+#include "scene/colliders/surface.h"
 
 namespace clothsim {
 namespace {
@@ -13,6 +13,11 @@ constexpr float floorRadius = 4.5f;  // of the stage's size: where planes have f
 bool isHorizontal(const Plane& plane) { return std::abs(glm::normalize(toGlm(plane.normal)).y) > 0.95f; }
 
 }  // namespace
+
+void Colliders::build(const Scene& scene) {
+  colliders_ = ColliderSet(scene);
+  shapes_.build(colliders_, longestEdge_);
+}
 
 void Colliders::place(const Scene& scene, const Stage& stage, double time) {
   std::vector<SpherePlace> places;
@@ -24,8 +29,8 @@ void Colliders::place(const Scene& scene, const Stage& stage, double time) {
     discs.push_back({glm::vec4(center, radius), glm::vec4(normal, collider)});
   };
   bool hasFloor = false;
-  for (std::size_t i = 0; i < scene.colliders.size(); ++i) {
-    const Collider& collider = scene.colliders[i];
+  for (std::size_t i = 0; i < colliders_.size(); ++i) {
+    const Collider& collider = colliders_[i];
     const auto number = static_cast<float>(i);
     const Pose pose = poseAt(collider, time);
     if (const auto* sphere = std::get_if<Sphere>(&collider)) {
@@ -38,7 +43,7 @@ void Colliders::place(const Scene& scene, const Stage& stage, double time) {
   }
   if (scene.render.ground && !hasFloor) addDisc({middle.x, stage.floorHeight, middle.z}, {0, 1, 0}, -1);
   spheres_.place(places);
-  shapes_.place(scene.colliders, time);
+  shapes_.place(colliders_, time);
   planes_.place(discs);
 }
 

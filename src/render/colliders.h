@@ -15,7 +15,8 @@ class Colliders {
   Colliders(int sphereSegmentsAround, int sphereSegmentsDown, double longestEdge)
       : longestEdge_(longestEdge), spheres_(sphereSegmentsAround, sphereSegmentsDown) {}
 
-  void build(const Scene& scene) { shapes_.build(scene.colliders, longestEdge_); }
+  void build(const Scene& scene);
+  // Where those of the scene that was built are at `time` [s].
   void place(const Scene& scene, const Stage& stage, double time);
 
   void drawSolids(const gl::Program& sphere, const gl::Program& shape) const;
@@ -23,6 +24,7 @@ class Colliders {
 
  private:
   double longestEdge_;
+  ColliderSet colliders_;
   SphereMesh spheres_;
   ShapeMeshes shapes_;
   PlaneMesh planes_;

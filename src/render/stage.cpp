@@ -5,10 +5,9 @@
 #include <limits>
 #include <vector>
 
-#include "cloth/signed_distance_grid.h"
 #include "render/look.h"
 #include "render/pinned_cloth.h"
-#include "scene/pose.h"
+#include "scene/colliders/collider_set.h"
 
 namespace clothsim {
 namespace {
@@ -61,57 +60,26 @@ void addCorners(const Bounds& box, Stage& stage) {
   }
 }
 
-glm::vec3 glmMagnitude(Vec3d v) {
-  return {static_cast<float>(std::abs(v.x)), static_cast<float>(std::abs(v.y)),
-          static_cast<float>(std::abs(v.z))};
-}
-
-// Half the sides of the axis-aligned box around a solid that stands in a given rotation; zero for a plane.
-glm::vec3 halfExtent(const Collider& collider, const Matrix3& motion) {
-  const Matrix3 r = product(motion, ownRotation(collider));
-  if (const auto* sphere = std::get_if<Sphere>(&collider))
-    return glm::vec3(static_cast<float>(sphere->radius));
-  if (const auto* capsule = std::get_if<Capsule>(&collider))
-    return glmMagnitude(rotate(r, {0, 0.5 * capsule->length, 0})) +
-           glm::vec3(static_cast<float>(capsule->radius));
-  if (const auto* box = std::get_if<Box>(&collider))
-    return glmMagnitude(rotate(r, {0.5 * box->size.x, 0, 0})) +
-           glmMagnitude(rotate(r, {0, 0.5 * box->size.y, 0})) +
-           glmMagnitude(rotate(r, {0, 0, 0.5 * box->size.z}));
-  if (const auto* torus = std::get_if<Torus>(&collider)) {
-    const auto across = [&](const Vec3d& row) { return std::hypot(row.x, row.z) * torus->radius; };
-    return glmMagnitude({across(r[0]), across(r[1]), across(r[2])}) +
-           glm::vec3(static_cast<float>(torus->tubeRadius));
-  }
-  if (const auto* mesh = std::get_if<MeshCollider>(&collider)) {
-    glm::vec3 half(0);  // to either side of the origin alike
-    const auto grid = distanceGridOf(*mesh);
-    for (const Vec3d& point : grid->mesh().points) half = glm::max(half, glmMagnitude(rotate(r, point)));
-    return half;
-  }
-  return glm::vec3(0);
-}
-
 // Free cloth falls onto the solids below it and hangs down around them, or onto the highest plane.
-void addFalling(const Bounds& cloth, const Scene& scene, Stage& stage) {
+void addFalling(const Bounds& cloth, const ColliderSet& colliders, Stage& stage) {
   const float halfDiagonal = 0.5f * glm::length(cloth.size());
   float rest = cloth.low.y - 2 * halfDiagonal;
   bool onSolid = false;
-  for (const Collider& collider : scene.colliders) {
-    const Pose pose = poseAt(collider, 0);
-    const glm::vec3 place = toGlm(pose.position), half = halfExtent(collider, pose.rotation);
+  for (std::size_t i = 0; i < colliders.size(); ++i) {
+    const Pose pose = poseAt(colliders[i], 0);
+    const glm::vec3 place = toGlm(pose.position), half = toGlm(colliders.halfExtent(i, pose.rotation));
     if (half == glm::vec3(0)) continue;
     // Over the top, a quarter of the way around, and straight down from there.
     const float overhang = std::max(0.0f, halfDiagonal - 1.5708f * 0.5f * (half.x + half.z));
     rest = onSolid ? std::min(rest, place.y - overhang) : place.y - overhang;
     onSolid = true;
   }
-  for (const Collider& collider : scene.colliders) {
-    const auto* plane = std::get_if<Plane>(&collider);
+  for (std::size_t i = 0; i < colliders.size(); ++i) {
+    const auto* plane = std::get_if<Plane>(&colliders[i]);
     if (plane == nullptr) continue;
     const glm::vec3 normal = glm::normalize(toGlm(plane->normal));
     if (normal.y < 0.3f) continue;
-    const glm::vec3 point = toGlm(poseAt(collider, 0).position);
+    const glm::vec3 point = toGlm(poseAt(colliders[i], 0).position);
     const glm::vec3 middle = cloth.center();
     const float height =
         point.y - (normal.x * (middle.x - point.x) + normal.z * (middle.z - point.z)) / normal.y;
@@ -176,6 +144,7 @@ ClothOutline outlineOf(const Cloth& cloth) {
 }
 
 Stage makeStage(const ClothOutline& cloth, const Scene& scene) {
+  const ColliderSet colliders(scene);
   Stage stage;
   for (std::size_t i = 0; i < cloth.grids.size(); ++i) {
     const GridSamples& grid = cloth.grids[i];
@@ -183,14 +152,15 @@ Stage makeStage(const ClothOutline& cloth, const Scene& scene) {
     for (const glm::vec3 point : grid.points) rest.add(point);
     stage.passing.insert(stage.passing.end(), grid.points.begin(), grid.points.end());
     if (grid.pins.empty()) {
-      addFalling(rest, scene, stage);
+      addFalling(rest, colliders, stage);
     } else {
       addPinnedCloth(grid, scene.cloths[i], scene, rest, stage);
     }
   }
-  for (const Collider& collider : scene.colliders) {
+  for (std::size_t i = 0; i < colliders.size(); ++i) {
+    const Collider& collider = colliders[i];
     const auto addAt = [&](Vec3d position, const Matrix3& rotation) {
-      const glm::vec3 place = toGlm(position), half = halfExtent(collider, rotation);
+      const glm::vec3 place = toGlm(position), half = toGlm(colliders.halfExtent(i, rotation));
       if (half != glm::vec3(0)) addCorners({place - half, place + half}, stage);
     };
     const Pose pose = poseAt(collider, 0);

@@ -3,16 +3,6 @@
 #include "scene/pose.h"
 
 namespace clothsim {
-namespace {
-
-template <class Shape>
-Vec3d& placeOf(Shape& shape) {
-  return shape.origin;
-}
-Vec3d& placeOf(Plane& plane) { return plane.point; }
-
-}  // namespace
-
 Scene withColliderOnItsWay(Scene scene, std::size_t index, Vec3d position, double from, double until) {
   Collider& collider = scene.colliders[index];
   const Vec3d start = poseAt(collider, from).position;
@@ -35,9 +25,9 @@ Scene withColliderOnItsWay(Scene scene, std::size_t index, Vec3d position, doubl
 Scene withColliderAt(Scene scene, std::size_t index, Vec3d position, double now) {
   Collider& collider = scene.colliders[index];
   const Vec3d offset = position - poseAt(collider, now).position;
+  placeOf(collider) = position;
   std::visit(
       [&](auto& shape) {
-        placeOf(shape) = position;
         if (!shape.motion) return;
         for (Motion::Key& key : shape.motion->keys) key.position = key.position + offset;
       },

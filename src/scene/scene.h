@@ -11,88 +11,9 @@
 #include <vector>
 
 #include "core/vec.h"
+#include "scene/colliders/collider.h"
 
 namespace clothsim {
-
-// A path through keys, linear in between. The pose stands still before the first key and after the last,
-// unless the path is a loop.
-struct Motion {
-  struct Key {
-    double t = 0;    // [s], ascending
-    Vec3d position;  // [m], replaces the collider's origin or point
-    Vec3d rotation;  // axis times angle [degrees]; interpolated as it is, so that it may make many turns
-    friend bool operator==(const Key&, const Key&) = default;
-  };
-  std::vector<Key> keys;
-  bool loop = false;
-  friend bool operator==(const Motion&, const Motion&) = default;
-};
-
-struct Sphere {
-  Vec3d origin{0, 0, 0};  // centre [m]
-  double radius = 0.2;    // [m]
-  double friction = 0.5;  // CS184's factor, 0 slides, 1 sticks; Coulomb's coefficient under `coulomb`
-  std::optional<Motion> motion{};
-  friend bool operator==(const Sphere&, const Sphere&) = default;
-};
-
-struct Plane {
-  Vec3d point{0, 0, 0};   // [m]
-  Vec3d normal{0, 1, 0};  // any length but 0
-  double friction = 0.5;
-  std::optional<Motion> motion{};
-  friend bool operator==(const Plane&, const Plane&) = default;
-};
-
-// All points within `radius` of a line segment.
-struct Capsule {
-  Vec3d origin{0, 0, 0};  // middle of the segment [m]
-  Vec3d axis{0, 1, 0};    // its direction, any length but 0
-  double length = 0.5;    // of the segment, without the round ends [m]
-  double radius = 0.1;    // [m]
-  double friction = 0.5;
-  std::optional<Motion> motion{};
-  friend bool operator==(const Capsule&, const Capsule&) = default;
-};
-
-struct Box {
-  Vec3d origin{0, 0, 0};      // centre [m]
-  Vec3d size{0.5, 0.5, 0.5};  // from face to face, rounding included [m]
-  Vec3d rotation{0, 0, 0};    // rotation vector [degrees]; a motion turns the box beyond this
-  double rounding = 0.01;     // radius of its edges [m], at most half the smallest size
-  double friction = 0.5;
-  std::optional<Motion> motion{};
-  friend bool operator==(const Box&, const Box&) = default;
-};
-
-// All points within `tubeRadius` of a circle.
-struct Torus {
-  Vec3d origin{0, 0, 0};    // centre [m]
-  Vec3d axis{0, 1, 0};      // through the hole, any length but 0
-  double radius = 0.3;      // of the circle [m]
-  double tubeRadius = 0.1;  // [m], smaller than radius
-  double friction = 0.5;
-  std::optional<Motion> motion{};
-  friend bool operator==(const Torus&, const Torus&) = default;
-};
-
-// The inside of a closed triangle mesh.
-struct MeshCollider {
-  std::string file;         // OBJ, beside the scene file or below the resource root
-  Vec3d origin{0, 0, 0};    // where the mesh's own origin stands [m]
-  Vec3d rotation{0, 0, 0};  // rotation vector [degrees]; a motion turns the mesh beyond this
-  double scale = 1;         // metres in a unit of the file
-  int cells = 64;           // of the signed distance grid, along the longest side
-  double friction = 0.5;
-  std::optional<Motion> motion{};
-  friend bool operator==(const MeshCollider&, const MeshCollider&) = default;
-};
-
-using Collider = std::variant<Sphere, Plane, Capsule, Box, Torus, MeshCollider>;
-
-[[nodiscard]] inline bool moves(const Collider& collider) {
-  return std::visit([](const auto& c) { return c.motion.has_value(); }, collider);
-}
 
 // horizontal: points lie at (u, 1, v). vertical: at (u, v, z), z a jitter of up to 0.001 m.
 enum class Orientation { horizontal = 0, vertical = 1 };

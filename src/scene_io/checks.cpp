@@ -87,22 +87,6 @@ void checkKeys(const JsonNode& motion, const Keys& keys, bool loop) {
     complain(*list.children.back()->find("t"), "expected a number > 0 in the last key of a loop, found 0");
 }
 
-// Keys of a motion without a position stay at the collider's own place.
-void settleMotion(const JsonNode& collider, std::optional<Motion>& motion, Vec3d place) {
-  if (!motion) return;
-  const JsonNode& keys = *collider.find("motion")->find("keys");
-  for (std::size_t i = 0; i < motion->keys.size(); ++i)
-    if (keys.children[i]->find("position") == nullptr) motion->keys[i].position = place;
-}
-
-void leaveOutOwnPlace(JsonNode& collider, const std::optional<Motion>& motion, Vec3d place) {
-  if (!motion) return;
-  JsonNode& keys = *collider.find("motion")->find("keys");
-  for (std::size_t i = 0; i < motion->keys.size(); ++i)
-    if (sameWritten(motion->keys[i].position, place))
-      std::erase_if(keys.children[i]->children, [](const auto& member) { return member->key == "position"; });
-}
-
 // Refuses keys that a material replaces, and cells so oblong that a spring would need a negative constant.
 void checkMaterial(const JsonNode& node, const ClothSettings& cloth) {
   for (const char* key : {"ks", "stiffness_reference", "density", "mass", "damping", "thickness"})
@@ -187,65 +171,26 @@ void settle(const JsonNode& node, PinMotion& motion) {
     complain(*pins, "expected at least one pin, found an empty list; leave the key out to move all pins");
 }
 
-template <>
-void settle(const JsonNode& node, Sphere& sphere) {
-  settleMotion(node, sphere.motion, sphere.origin);
+void settleMotion(const JsonNode& collider, std::optional<Motion>& motion, Vec3d place) {
+  if (!motion) return;
+  const JsonNode& keys = *collider.find("motion")->find("keys");
+  for (std::size_t i = 0; i < motion->keys.size(); ++i)
+    if (keys.children[i]->find("position") == nullptr) motion->keys[i].position = place;
 }
-template <>
-void settle(const JsonNode& node, Plane& plane) {
-  settleMotion(node, plane.motion, plane.point);
+
+void complainOfMisfit(const JsonNode& collider, const Misfit& misfit, const JsonNode& found) {
+  const JsonNode* given = collider.find(misfit.key);
+  complain(given != nullptr ? *given : collider, "expected " + std::string(misfit.expected) +
+                                                     (misfit.limit ? formatNumber(*misfit.limit) : "") +
+                                                     ", found " + formatJsonLine(found));
 }
-template <>
-void settle(const JsonNode& node, Capsule& capsule) {
-  settleMotion(node, capsule.motion, capsule.origin);
-}
-template <>
-void settle(const JsonNode& node, Box& box) {
-  settleMotion(node, box.motion, box.origin);
-  const double most = 0.5 * std::min({box.size.x, box.size.y, box.size.z});
-  if (box.rounding <= most) return;
-  // A box thinner than the default rounding is simply round.
-  if (const JsonNode* given = node.find("rounding"))
-    complainExpected(*given, "at most half the smallest size of the box, " + formatNumber(most));
-  box.rounding = most;
-}
-template <>
-void settle(const JsonNode& node, Torus& torus) {
-  settleMotion(node, torus.motion, torus.origin);
-  if (torus.tubeRadius < torus.radius) return;
-  const JsonNode* given = node.find("tube_radius");
-  complain(given != nullptr ? *given : node, "expected a tube_radius below the radius " +
-                                                 formatNumber(torus.radius) + ", found " +
-                                                 formatNumber(torus.tubeRadius));
-}
-template <>
-void settle(const JsonNode& node, MeshCollider& mesh) {
-  settleMotion(node, mesh.motion, mesh.origin);
-  if (mesh.file.empty()) complainExpected(*node.find("file"), "the name of an OBJ file");
-}
-template <>
-void leaveOut(JsonNode& node, const MeshCollider& mesh) {
-  leaveOutOwnPlace(node, mesh.motion, mesh.origin);
-}
-template <>
-void leaveOut(JsonNode& node, const Capsule& capsule) {
-  leaveOutOwnPlace(node, capsule.motion, capsule.origin);
-}
-template <>
-void leaveOut(JsonNode& node, const Box& box) {
-  leaveOutOwnPlace(node, box.motion, box.origin);
-}
-template <>
-void leaveOut(JsonNode& node, const Torus& torus) {
-  leaveOutOwnPlace(node, torus.motion, torus.origin);
-}
-template <>
-void leaveOut(JsonNode& node, const Sphere& sphere) {
-  leaveOutOwnPlace(node, sphere.motion, sphere.origin);
-}
-template <>
-void leaveOut(JsonNode& node, const Plane& plane) {
-  leaveOutOwnPlace(node, plane.motion, plane.point);
+
+void leaveOutOwnPlace(JsonNode& collider, const std::optional<Motion>& motion, Vec3d place) {
+  if (!motion) return;
+  JsonNode& keys = *collider.find("motion")->find("keys");
+  for (std::size_t i = 0; i < motion->keys.size(); ++i)
+    if (sameWritten(motion->keys[i].position, place))
+      std::erase_if(keys.children[i]->children, [](const auto& member) { return member->key == "position"; });
 }
 
 void expectObject(const JsonNode& node) {

@@ -94,14 +94,12 @@ void checkNumber(const JsonNode& node, const Limits& limits, const std::string& 
 
 const FieldTraits anyNumber{.key = "", .help = ""};
 
-// The alternatives of Collider, in its order.
-const std::array<std::pair<std::string_view, Collider>, std::variant_size_v<Collider>> shapes{
-    {{"sphere", Sphere{}},
-     {"plane", Plane{}},
-     {"capsule", Capsule{}},
-     {"box", Box{}},
-     {"torus", Torus{}},
-     {"mesh", MeshCollider{}}}};
+// The shapes by their names, each with its defaults.
+std::vector<std::pair<std::string_view, Collider>> shapes() {
+  std::vector<std::pair<std::string_view, Collider>> table;
+  for (const Collider& collider : defaultColliders()) table.emplace_back(typeOf(collider), collider);
+  return table;
+}
 
 }  // namespace
 
@@ -233,7 +231,7 @@ void readValue(const JsonNode& node, const FieldTraits&, Collider& target) {
   const std::string expected = "one of " + colliderTypes();
   const JsonNode* type = node.find("type");
   if (type == nullptr) complain(node, "the collider needs the key \"type\": " + expected);
-  target = readWord(*type, shapes, expected);
+  target = readWord(*type, shapes(), expected);
   std::visit([&](auto& shape) { readObject(node, shape, {"type"}); }, target);
 }
 
@@ -323,7 +321,7 @@ JsonPointer writeValue(const FieldTraits& traits, const Pin& value) {
 
 JsonPointer writeValue(const FieldTraits&, const Collider& value) {
   JsonPointer node = makeObject();
-  node->append("type", makeString(shapes[value.index()].first));
+  node->append("type", makeString(std::string(typeOf(value))));
   JsonPointer members = std::visit(
       [](const auto& shape) { return writeObject(shape, std::remove_cvref_t<decltype(shape)>{}); }, value);
   for (auto& member : members->children) {
@@ -348,7 +346,7 @@ JsonPointer writeValue(const FieldTraits& traits, const AutoCount& value) {
   return value.automatic ? makeString("auto") : writeValue(traits, value.count);
 }
 
-std::string colliderTypes() { return joined(wordsOf(shapes)); }
+std::string colliderTypes() { return joined(wordsOf(shapes())); }
 
 std::string typeName(const FieldTraits&, const bool&) { return "boolean"; }
 std::string typeName(const FieldTraits&, const int&) { return "integer"; }

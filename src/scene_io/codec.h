@@ -89,33 +89,31 @@ template <>
 void settle(const JsonNode& node, Motion& motion);
 template <>
 void settle(const JsonNode& node, PinMotion& motion);
-template <>
-void settle(const JsonNode& node, Sphere& sphere);
-template <>
-void settle(const JsonNode& node, Plane& plane);
-template <>
-void settle(const JsonNode& node, Capsule& capsule);
-template <>
-void settle(const JsonNode& node, Box& box);
-template <>
-void settle(const JsonNode& node, Torus& torus);
-template <>
-void settle(const JsonNode& node, MeshCollider& mesh);
+
+// Keys of a motion without a position stay at the collider's own place.
+void settleMotion(const JsonNode& collider, std::optional<Motion>& motion, Vec3d place);
+// @param found  the value of the misfit's key, which may be a default
+[[noreturn]] void complainOfMisfit(const JsonNode& collider, const Misfit& misfit, const JsonNode& found);
+template <WrittenShape Shape>
+void settle(const JsonNode& node, Shape& shape) {
+  settleMotion(node, shape.motion, shape.place());
+  if constexpr (requires { shape.settle(IsGiven{}); }) {
+    const auto misfit = shape.settle([&](std::string_view key) { return node.find(key) != nullptr; });
+    if (!misfit) return;
+    for (const Field<Shape>& field : shape.fields())
+      if (field.key == misfit->key)
+        std::visit([&](auto pointer) { complainOfMisfit(node, *misfit, *writeValue(field, shape.*pointer)); },
+                   field.member);
+  }
+}
 
 template <class T>
 void leaveOut(JsonNode&, const T&) {}
-template <>
-void leaveOut(JsonNode& node, const Sphere& sphere);
-template <>
-void leaveOut(JsonNode& node, const Capsule& capsule);
-template <>
-void leaveOut(JsonNode& node, const Box& box);
-template <>
-void leaveOut(JsonNode& node, const Torus& torus);
-template <>
-void leaveOut(JsonNode& node, const MeshCollider& mesh);
-template <>
-void leaveOut(JsonNode& node, const Plane& plane);
+void leaveOutOwnPlace(JsonNode& collider, const std::optional<Motion>& motion, Vec3d place);
+template <WrittenShape Shape>
+void leaveOut(JsonNode& node, const Shape& shape) {
+  leaveOutOwnPlace(node, shape.motion, shape.place());
+}
 
 // --- Objects
 void expectObject(const JsonNode& node);

@@ -12,27 +12,7 @@ namespace clothsim {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr Limits positive{.low = 0, .lowOpen = true};
-constexpr Limits notNegative{.low = 0};
 constexpr Limits gridSide{.low = smallestSide, .high = largestSide};
-
-template <class Owner, class T>
-Field<Owner> field(std::string_view key, T Owner::*member, std::string_view help) {
-  return {key, member, help};
-}
-
-// What every collider has at the end. The upper limit of friction depends on its law (scene_tree.cpp).
-template <class Shape>
-Field<Shape> frictionField() {
-  return field("friction", &Shape::friction,
-               "With cs184: 0 slides, 1 (the maximum) sticks. With coulomb: Coulomb's coefficient.")
-      .within(notNegative)
-      .usually(0, 1);
-}
-template <class Shape>
-Field<Shape> motionField() {
-  return field("motion", &Shape::motion, "A path in time along which the collider moves as a rigid body.");
-}
 
 }  // namespace
 
@@ -202,105 +182,6 @@ std::span<const Field<Material>> fieldsOf<Material>() {
       field("friction", &M::friction, "Coulomb's coefficient between layers of the fabric.")
           .within({.low = 0, .high = 10})
           .alwaysWritten(),
-  };
-  return fields;
-}
-
-template <>
-std::span<const Field<Sphere>> fieldsOf<Sphere>() {
-  static const std::array fields{
-      field("origin", &Sphere::origin, "Centre of a shape other than a plane.").in("m"),
-      field("radius", &Sphere::radius, "Radius of a sphere or a capsule, or of the circle inside a torus.")
-          .in("m")
-          .within(positive)
-          .usually(0.01, 1),
-      frictionField<Sphere>(),
-      motionField<Sphere>(),
-  };
-  return fields;
-}
-
-template <>
-std::span<const Field<Plane>> fieldsOf<Plane>() {
-  static const std::array fields{
-      field("point", &Plane::point, "Any point of a plane.").in("m"),
-      field("normal", &Plane::normal, "Normal of a plane, of any length.").within({.nonZero = true}),
-      frictionField<Plane>(),
-      motionField<Plane>(),
-  };
-  return fields;
-}
-
-template <>
-std::span<const Field<Capsule>> fieldsOf<Capsule>() {
-  static const std::array fields{
-      field("origin", &Capsule::origin, "Middle of a capsule.").in("m"),
-      field("axis", &Capsule::axis, "Direction of a capsule, or through the hole of a torus; of any length.")
-          .within({.nonZero = true}),
-      field("length", &Capsule::length, "Length of a capsule without its round ends.")
-          .in("m")
-          .within(notNegative)
-          .usually(0, 2),
-      field("radius", &Capsule::radius, "Radius of a capsule.").in("m").within(positive).usually(0.01, 1),
-      frictionField<Capsule>(),
-      motionField<Capsule>(),
-  };
-  return fields;
-}
-
-template <>
-std::span<const Field<Box>> fieldsOf<Box>() {
-  static const std::array fields{
-      field("origin", &Box::origin, "Centre of a box.").in("m"),
-      field("size", &Box::size, "Size of a box from face to face.").in("m").within(positive).usually(0.01, 3),
-      field("rotation", &Box::rotation,
-            "Rotation of a box or mesh: axis times angle; its motion is added to it.")
-          .in("degrees"),
-      field("rounding", &Box::rounding, "Radius of a box's edges, at most half its smallest size.")
-          .in("m")
-          .within(notNegative)
-          .usually(0, 0.2),
-      frictionField<Box>(),
-      motionField<Box>(),
-  };
-  return fields;
-}
-
-template <>
-std::span<const Field<Torus>> fieldsOf<Torus>() {
-  static const std::array fields{
-      field("origin", &Torus::origin, "Centre of a torus.").in("m"),
-      field("axis", &Torus::axis, "Through the hole of a torus.").within({.nonZero = true}),
-      field("radius", &Torus::radius, "Radius of the circle inside the tube.")
-          .in("m")
-          .within(positive)
-          .usually(0.01, 1),
-      field("tube_radius", &Torus::tubeRadius, "Radius of the tube of a torus, smaller than its radius.")
-          .in("m")
-          .within(positive)
-          .usually(0.01, 1),
-      frictionField<Torus>(),
-      motionField<Torus>(),
-  };
-  return fields;
-}
-
-template <>
-std::span<const Field<MeshCollider>> fieldsOf<MeshCollider>() {
-  using M = MeshCollider;
-  static const std::array fields{
-      field("file", &M::file,
-            "OBJ file of a closed mesh; looked up beside the scene file, then in clothsim's folder.")
-          .required()
-          .rebuilds(),
-      field("origin", &M::origin, "Position of the mesh's origin.").in("m"),
-      field("rotation", &M::rotation, "Rotation of a box or mesh.").in("degrees"),
-      field("scale", &M::scale, "Metres per unit of the mesh file.").within(positive).usually(0.1, 10),
-      field("cells", &M::cells,
-            "Cells of the mesh's signed distance grid along its longest side; more are finer but slower.")
-          .within({.low = 8, .high = 256}),
-      frictionField<M>(),
-      motionField<M>(),
   };
   return fields;
 }

@@ -78,12 +78,10 @@ void describeInside(const std::string& path, const std::vector<Pin>&, Infos& inf
 void describeInside(const std::string& path, const std::vector<Collider>&, Infos& infos) {
   infos.push_back(
       entry(path + "[].type", "one of " + colliderTypes(), "required", "Shape of the collider.", true));
-  describeObject<Sphere>(path + "[].", infos);
-  describeObject<Plane>(path + "[].", infos);
-  describeObject<Capsule>(path + "[].", infos);
-  describeObject<Box>(path + "[].", infos);
-  describeObject<Torus>(path + "[].", infos);
-  describeObject<MeshCollider>(path + "[].", infos);
+  for (const Collider& collider : defaultColliders())
+    std::visit(
+        [&](const auto& shape) { describeObject<std::remove_cvref_t<decltype(shape)>>(path + "[].", infos); },
+        collider);
   infos.push_back(
       entry("plane", "object", "none",
             "A plane collider, as in CS184; cloth on it never quite rests, as each touch lifts it by 0.1 mm.",

@@ -5,17 +5,6 @@
 
 namespace clothsim {
 
-namespace {
-
-constexpr Limits notNegative{.low = 0};
-
-template <class Owner, class T>
-Field<Owner> field(std::string_view key, T Owner::*member, std::string_view help) {
-  return {key, member, help};
-}
-
-}  // namespace
-
 template <>
 std::span<const Field<GridRange>> fieldsOf<GridRange>() {
   static const std::array fields{

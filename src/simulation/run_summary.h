@@ -20,7 +20,7 @@ struct RunSummary {
 
   // Looks at the start, which is frame 0, and at the end of every frame.
   void add(Simulation& simulation);
-  // state_hash, max_strain, peak_strain, ... ; the names that `run --json` prints.
+  // state_hash, max_strain, peak_strain, ... of `run --json`.
   void write(nlohmann::ordered_json& json, Simulation& simulation) const;
 };
 

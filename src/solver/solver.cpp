@@ -28,7 +28,7 @@ Solver::Solver(const Cloth& cloth, const Shared<Scene>& scene, std::unique_ptr<E
 void Solver::configure(const Shared<Scene>& scene) {
   assert(scene->cloths.size() == inputs_.cloth->grids().size() &&
          "configure() takes live edits of the solver's own scene");
-  inputs_.distanceGrids = distanceGridsOf(*scene);
+  inputs_.colliders = ColliderSet(*scene);
   inputs_.scene = scene;
   inputs_.clock.setStepLength(stepLength(inputs_.scene->solver));
   step_ = makeStep(*inputs_.scene, *inputs_.cloth);

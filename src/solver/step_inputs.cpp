@@ -13,9 +13,9 @@ void evaluate(const StepInputs& inputs, std::uint64_t ahead, StepParameters<Real
     params.kickTime = velocityConversionTime<Real>(scene);
     addJet(inputs.hand, params);
   }
-  parameters.colliders.resize(scene.colliders.size());
+  parameters.colliders.resize(inputs.colliders.size());
   for (std::size_t i = 0; i < parameters.colliders.size(); ++i)
-    parameters.colliders[i] = makeColliderParams<Real>(scene, scene.colliders[i], begin, end);
+    parameters.colliders[i] = inputs.colliders.params<Real>(i, begin, end);
   parameters.pinMotions.resize(inputs.pinPaths.paths.size());
   for (std::size_t i = 0; i < parameters.pinMotions.size(); ++i)
     parameters.pinMotions[i] = makePinMotionParams<Real>(inputs.pinPaths.paths[i], end);

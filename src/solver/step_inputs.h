@@ -25,7 +25,7 @@ struct StepInputs {
   std::vector<std::uint32_t> cutMasks;  // makeCutMasks(); empty: none
   std::vector<std::uint32_t> offPath;   // State::offPath
   PinPaths pinPaths;
-  DistanceGrids distanceGrids;
+  ColliderSet colliders;
 };
 
 // The inputs of one step, evaluated on the host.

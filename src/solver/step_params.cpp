@@ -6,9 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "cloth/signed_distance_grid.h"
 #include "core/hash.h"
-#include "scene/pose.h"
 #include "solver/pin_paths.h"
 
 namespace clothsim {
@@ -26,80 +24,6 @@ Real real(double x) {
 // The square of a limit, as binary32 can hold it: what is larger is not finite there.
 double squareInRange(double limit) {
   return std::min(limit * limit, static_cast<double>(std::numeric_limits<float>::max()));
-}
-
-// What is particular to a shape. A sphere sweeps when a step is longer than 0.39 radii, below which no
-// particle gets past the cap it entered by, and ignores passages that dip by less than 8 % of the radius.
-template <class Real>
-void putShape(const Sphere& sphere, const Pose&, ColliderParams<Real>& params) {
-  const double radiusSquared = sphere.radius * sphere.radius;
-  params.radius = real<Real>(sphere.radius);
-  params.radiusSquared = real<Real>(radiusSquared);
-  params.sweepSquared = real<Real>(0.15 * radiusSquared);
-  params.grazeSquared = real<Real>(0.85 * radiusSquared);
-  params.inverseRadius = real<Real>(1 / sphere.radius);
-}
-template <class Real>
-void putShape(const Plane& plane, const Pose& pose, ColliderParams<Real>& params) {
-  const Vec3d normal = normalized(rotate(pose.rotation, plane.normal));
-  params.normalX = real<Real>(normal.x);
-  params.normalY = real<Real>(normal.y);
-  params.normalZ = real<Real>(normal.z);
-}
-template <class Real>
-void putShape(const Capsule& capsule, const Pose&, ColliderParams<Real>& params) {
-  params.radius = real<Real>(capsule.radius);
-  params.sizeY = real<Real>(0.5 * capsule.length);
-}
-template <class Real>
-void putShape(const Box& box, const Pose&, ColliderParams<Real>& params) {
-  params.radius = real<Real>(box.rounding);
-  params.sizeX = real<Real>(0.5 * box.size.x - box.rounding);
-  params.sizeY = real<Real>(0.5 * box.size.y - box.rounding);
-  params.sizeZ = real<Real>(0.5 * box.size.z - box.rounding);
-}
-template <class Real>
-void putShape(const Torus& torus, const Pose&, ColliderParams<Real>& params) {
-  params.radius = real<Real>(torus.tubeRadius);
-  params.sizeX = real<Real>(torus.radius);
-}
-
-template <class Real>
-void putShape(const MeshCollider& mesh, const Pose&, ColliderParams<Real>& params) {
-  const std::shared_ptr<const SignedDistanceGrid> grid = distanceGridOf(mesh);
-  params.radius = real<Real>(grid->cell());
-  params.gridX = real<Real>(grid->origin().x);
-  params.gridY = real<Real>(grid->origin().y);
-  params.gridZ = real<Real>(grid->origin().z);
-  params.inverseCell = real<Real>(1 / grid->cell());
-  params.gridColumns = grid->counts()[0];
-  params.gridRows = grid->counts()[1];
-  params.gridLayers = grid->counts()[2];
-}
-
-// Where the samples of a mesh begin among those of all.
-std::uint32_t firstSampleOf(const Scene& scene, const Collider& wanted) {
-  std::size_t first = 0;
-  for (const Collider& collider : scene.colliders) {
-    if (&collider == &wanted) break;
-    if (const auto* mesh = std::get_if<MeshCollider>(&collider))
-      first += distanceGridOf(*mesh)->samples().size();
-  }
-  return static_cast<std::uint32_t>(first);
-}
-
-// The shape's own axes are the columns of its rotation.
-template <class Real>
-void putAxes(const Matrix3& rotation, ColliderParams<Real>& params) {
-  params.axisXX = real<Real>(rotation[0].x);
-  params.axisXY = real<Real>(rotation[1].x);
-  params.axisXZ = real<Real>(rotation[2].x);
-  params.axisYX = real<Real>(rotation[0].y);
-  params.axisYY = real<Real>(rotation[1].y);
-  params.axisYZ = real<Real>(rotation[2].y);
-  params.axisZX = real<Real>(rotation[0].z);
-  params.axisZY = real<Real>(rotation[1].z);
-  params.axisZZ = real<Real>(rotation[2].z);
 }
 
 }  // namespace
@@ -255,61 +179,6 @@ StepParams<Real> makeStepParams(const Scene& scene, const Cloth& cloth, std::siz
   return params;
 }
 
-std::uint32_t colliderType(const Collider& collider) {
-  constexpr std::array types{COLLIDER_SPHERE, COLLIDER_PLANE, COLLIDER_CAPSULE,
-                             COLLIDER_BOX,    COLLIDER_TORUS, COLLIDER_MESH};
-  static_assert(types.size() == std::variant_size_v<Collider>);
-  return types[collider.index()];
-}
-
-template <class Real>
-ColliderParams<Real> makeColliderParams(const Scene& scene, const Collider& collider, double begin,
-                                        double end) {
-  const Pose before = poseAt(collider, begin);
-  const Pose after = poseAt(collider, end);
-  ColliderParams<Real> params{};
-  params.pointX = real<Real>(after.position.x);
-  params.pointY = real<Real>(after.position.y);
-  params.pointZ = real<Real>(after.position.z);
-  params.friction = real<Real>(std::visit([](const auto& shape) { return shape.friction; }, collider));
-  params.coulomb = scene.solver.frictionLaw == FrictionLaw::coulomb ? 1 : 0;
-  params.type = colliderType(collider);
-  std::visit([&](const auto& shape) { putShape(shape, after, params); }, collider);
-  if (params.type == COLLIDER_MESH) params.firstSample = firstSampleOf(scene, collider);
-  putAxes(product(after.rotation, ownRotation(collider)), params);
-  if (!moves(collider)) return params;
-
-  // turn = R(after) R(before)^T - 1, shift = position(after) - position(before)
-  params.moving = 1;
-  const Vec3d columnX = rotate(after.rotation, rotateBack(before.rotation, {1, 0, 0}));
-  const Vec3d columnY = rotate(after.rotation, rotateBack(before.rotation, {0, 1, 0}));
-  const Vec3d columnZ = rotate(after.rotation, rotateBack(before.rotation, {0, 0, 1}));
-  const Vec3d shift = after.position - before.position;
-  params.turnXX = real<Real>(columnX.x - 1);
-  params.turnXY = real<Real>(columnY.x);
-  params.turnXZ = real<Real>(columnZ.x);
-  params.shiftX = real<Real>(shift.x);
-  params.turnYX = real<Real>(columnX.y);
-  params.turnYY = real<Real>(columnY.y - 1);
-  params.turnYZ = real<Real>(columnZ.y);
-  params.shiftY = real<Real>(shift.y);
-  params.turnZX = real<Real>(columnX.z);
-  params.turnZY = real<Real>(columnY.z);
-  params.turnZZ = real<Real>(columnZ.z - 1);
-  params.shiftZ = real<Real>(shift.z);
-  params.pivotX = real<Real>(before.position.x);
-  params.pivotY = real<Real>(before.position.y);
-  params.pivotZ = real<Real>(before.position.z);
-  return params;
-}
-
-std::vector<float> distanceSamples(const DistanceGrids& grids) {
-  std::vector<float> samples;
-  for (const auto& grid : grids)
-    samples.insert(samples.end(), grid->samples().begin(), grid->samples().end());
-  return samples;
-}
-
 template <class Real>
 std::vector<Real> measureRestLengths(const Cloth& cloth) {
   std::vector<Real> lengths;
@@ -369,7 +238,5 @@ template std::vector<float> measureRestLengths(const Cloth&);
 template std::vector<double> measureRestLengths(const Cloth&);
 template StepParams<float> makeStepParams(const Scene&, const Cloth&, std::size_t, double);
 template StepParams<double> makeStepParams(const Scene&, const Cloth&, std::size_t, double);
-template ColliderParams<float> makeColliderParams(const Scene&, const Collider&, double, double);
-template ColliderParams<double> makeColliderParams(const Scene&, const Collider&, double, double);
 
 }  // namespace clothsim

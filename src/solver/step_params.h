@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "cloth/cloth.h"
-#include "cloth/signed_distance_grid.h"
 #include "core/exact_math.h"
+#include "scene/colliders/collider_set.h"
 #include "scene/scene.h"
 #include "shared/step_params.h"
 
@@ -18,25 +18,12 @@ template <class Real>
 using StepParams = shared::StepParams<Real>;
 template <class Real>
 using SpringParams = shared::SpringParams<Real>;
-template <class Real>
-using ColliderParams = shared::ColliderParams<Real>;
 using LimitColor = shared::LimitColor;
 
 // For one grid and the step that begins at `time` [s].
 template <class Real>
 [[nodiscard]] StepParams<Real> makeStepParams(const Scene& scene, const Cloth& cloth, std::size_t grid,
                                               double time);
-
-// COLLIDER_SPHERE... of shared/step_params.h.
-[[nodiscard]] std::uint32_t colliderType(const Collider& collider);
-
-// The signed distances of some grids, one after the other [m].
-[[nodiscard]] std::vector<float> distanceSamples(const DistanceGrids& grids);
-
-// One a collider, in the scene's order, for the step from `begin` to `end` [s].
-template <class Real>
-[[nodiscard]] ColliderParams<Real> makeColliderParams(const Scene& scene, const Collider& collider,
-                                                      double begin, double end);
 
 // Whether anything above changes from step to step.
 [[nodiscard]] bool dependsOnTime(const Scene& scene);

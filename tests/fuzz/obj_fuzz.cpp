@@ -7,8 +7,8 @@
 #include <fstream>
 
 #include "cloth/mesh_shape.h"
-#include "cloth/signed_distance_grid.h"
 #include "demands.h"
+#include "scene/colliders/signed_distance_grid.h"
 
 using namespace clothsim;
 namespace fs = std::filesystem;

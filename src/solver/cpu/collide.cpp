@@ -6,6 +6,11 @@
 namespace clothsim::cpu {
 namespace {
 
+template <class Real>
+INLINE Vec3<Real> select(bool which, Vec3<Real> a, Vec3<Real> b) {
+  return {which ? a.x : b.x, which ? a.y : b.y, which ? a.z : b.z};
+}
+
 // Where the particle was at the start of the step, carried along with a moving collider.
 template <class Real>
 INLINE Vec3<Real> carried(const ColliderParams<Real>& collider, Vec3<Real> x) {
@@ -272,24 +277,14 @@ INLINE void forEachCollider(const PassArguments<Real>& arguments, Body body) {
   for (std::uint32_t k = 0; k < arguments.step.colliderCount; ++k) {
     const ColliderParams<Real>& collider = arguments.colliders[k];
     switch (collider.type) {
-      case COLLIDER_SPHERE:
-        body.template operator()<COLLIDER_SPHERE>(collider);
-        break;
-      case COLLIDER_PLANE:
-        body.template operator()<COLLIDER_PLANE>(collider);
-        break;
-      case COLLIDER_CAPSULE:
-        body.template operator()<COLLIDER_CAPSULE>(collider);
-        break;
-      case COLLIDER_BOX:
-        body.template operator()<COLLIDER_BOX>(collider);
-        break;
-      case COLLIDER_MESH:
-        body.template operator()<COLLIDER_MESH>(collider);
-        break;
-      default:
-        body.template operator()<COLLIDER_TORUS>(collider);
-        break;
+#define CASE(number, Struct, law)               \
+  case number:                                  \
+    body.template operator()<number>(collider); \
+    break;
+      CASE(COLLIDER_SPHERE, Sphere, )
+      CASE(COLLIDER_PLANE, Plane, )
+      DISTANCE_SHAPES(CASE)
+#undef CASE
     }
   }
 }

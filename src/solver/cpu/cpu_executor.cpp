@@ -122,7 +122,7 @@ CpuExecutor<Real>::CpuExecutor(const Cloth& cloth, bool sweeps)
 
 template <class Real>
 void CpuExecutor<Real>::setScene(const StepInputs& inputs) {
-  distances_ = distanceSamples(inputs.distanceGrids);
+  distances_ = inputs.colliders.distances();
   selfCollision_.configure(*inputs.scene);
 }
 
@@ -153,7 +153,7 @@ cpu::PassArguments<Real> CpuExecutor<Real>::argumentsOf(const StepInputs& inputs
   const bool holds = hand.hold && hand.hold->grid == grid;
   return {parameters_.grids[grid],
           parameters_.colliders.data(),
-          distances_.data(),
+          distances_->data(),
           parameters_.pinMotions.data(),
           inputs.pinPaths.paths.empty() ? nullptr : inputs.pinPaths.numbers.data(),
           pinStarts_,

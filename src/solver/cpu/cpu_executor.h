@@ -75,12 +75,12 @@ class CpuExecutor final : public Executor {
   WatchRow watch_ = soundWatchRow();
   std::vector<Real> restLengths_;
   MeshLists<Real> lists_;
-  std::vector<std::vector<LimitColor>> limitColors_;  // by grid
-  std::vector<float> distances_;                      // samples of the mesh colliders' grids
-  Components<Real> pinStarts_;                        // empty without paths
-  StepParameters<Real> parameters_;                   // of this step,
-  std::vector<cpu::ImplicitArguments<Real>> grids_;   // and what passes get, by grid
-  Hierarchy<Real> hierarchy_;                         // empty until an implicit step needs it
+  std::vector<std::vector<LimitColor>> limitColors_;     // by grid
+  std::shared_ptr<const std::vector<float>> distances_;  // samples of the mesh colliders' grids
+  Components<Real> pinStarts_;                           // empty without paths
+  StepParameters<Real> parameters_;                      // of this step,
+  std::vector<cpu::ImplicitArguments<Real>> grids_;      // and what passes get, by grid
+  Hierarchy<Real> hierarchy_;                            // empty until an implicit step needs it
   cpu::ImplicitState<Real> implicit_;
   std::vector<Real> partialSums_;
   cpu::SelfCollision<Real> selfCollision_;

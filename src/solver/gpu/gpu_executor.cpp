@@ -57,12 +57,11 @@ GpuExecutor::GpuExecutor(const Cloth& cloth, const GpuOptions& options)
 }
 
 void GpuExecutor::setScene(const StepInputs& inputs) {
-  std::vector<float> samples = distanceSamples(inputs.distanceGrids);
-  if (distances_.name() == 0 || samples != stagedDistances_) {
-    checkFits(samples.size(), sizeof(float), "samples of mesh colliders' distances");
-    distances_ = gl::Buffer<float>("distances", std::span<const float>(samples));
+  if (distances_.name() == 0 || *inputs.colliders.distances() != *stagedDistances_) {
+    stagedDistances_ = inputs.colliders.distances();
+    checkFits(stagedDistances_->size(), sizeof(float), "samples of mesh colliders' distances");
+    distances_ = gl::Buffer<float>("distances", std::span<const float>(*stagedDistances_));
     distanceTexture_ = gl::BufferTexture("distances", distances_.name(), GL_R32F);
-    stagedDistances_ = std::move(samples);
   }
   selfCollision_.configure(*inputs.scene);
 }

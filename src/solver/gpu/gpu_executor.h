@@ -86,7 +86,7 @@ class GpuExecutor final : public Executor {
   gl::Buffer<float> restLengths_, distances_;  // distances_: samples of the mesh colliders' grids
   gl::Buffer<std::uint32_t> cutMasks_, cutLinks_;
   gl::BufferTexture restLengthTexture_, distanceTexture_, cutMaskTexture_, cutLinkTexture_;
-  std::vector<float> stagedDistances_;
+  std::shared_ptr<const std::vector<float>> stagedDistances_;  // those in distances_
 
   std::vector<std::vector<LimitColor>> colors_;  // by grid,
   std::vector<std::size_t> firstColors_;         // and where they begin in

@@ -18,7 +18,7 @@ PassFeatures featuresOf(const Scene& scene, const Cloth& cloth, std::size_t grid
   features.cuts = !cuts.empty();
   features.airResistance = scene.airResistance > 0;
   for (const Collider& collider : scene.colliders) {
-    features.colliderTypes |= 1u << colliderType(collider);
+    features.colliderTypes |= 1u << collider.index();
     features.movingColliders |= moves(collider);
   }
   features.coulombFriction = !scene.colliders.empty() && scene.solver.frictionLaw == FrictionLaw::coulomb;

@@ -23,7 +23,7 @@ struct PassFeatures {
   bool limitSprings = false;                     // the strain limit of the implicit integrator
   bool contactPlanes = false;                    // colliders in the implicit integrator
   bool hold = false, jet = false, cuts = false;  // a hand's doing
-  std::uint32_t colliderTypes = 0;               // one bit a COLLIDER_... type of shared/step_params.h
+  std::uint32_t colliderTypes = 0;               // one bit a COLLIDER_... of shared/shapes.h
   std::uint32_t enabledSlots = 0;                // one bit a SpringSlot
   int groupColumns = 64, groupRows = 1;
   friend auto operator<=>(const PassFeatures&, const PassFeatures&) = default;

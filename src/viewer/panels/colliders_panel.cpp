@@ -1,31 +1,22 @@
 // Colliders: the solid shapes, each with the fields of its type.
-#include <type_traits>
+#include <algorithm>
 
+#include "scene/field.h"
 #include "viewer/panels/panels.h"
 #include "viewer/ui_frame.h"
 
 namespace clothsim {
 namespace {
 
-constexpr const char* typeNames[] = {"sphere", "plane", "capsule", "box", "torus", "mesh"};
-static_assert(std::size(typeNames) == std::variant_size_v<Collider>);
-
-// A new one, where the camera looks. A mesh needs a file that only a scene can name.
-Collider newCollider(std::size_t type, Vec3d place) {
-  Collider collider = type == 1   ? Collider(Plane{})
-                      : type == 2 ? Collider(Capsule{})
-                      : type == 3 ? Collider(Box{})
-                      : type == 4 ? Collider(Torus{})
-                                  : Collider(Sphere{});
-  std::visit(
-      [&](auto& shape) {
-        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(shape)>, Plane>)
-          shape.point = place;
-        else
-          shape.origin = place;
+// Whether a scene file must name something of it, as the file of a mesh.
+bool needsFile(const Collider& collider) {
+  return std::visit(
+      [](const auto& shape) {
+        const auto fields = shape.fields();
+        return std::any_of(fields.begin(), fields.end(),
+                           [](const FieldTraits& field) { return field.presence == Presence::required; });
       },
       collider);
-  return collider;
 }
 
 void drawFields(PanelContext& context, Collider& collider, const std::string& path) {
@@ -41,10 +32,10 @@ void drawFields(PanelContext& context, Collider& collider, const std::string& pa
 void drawAddition(PanelContext& context) {
   ImGui::SetNextItemWidth(-FLT_MIN);
   if (!ImGui::BeginCombo("##add", "Add a collider")) return;
-  for (std::size_t type = 0; type < std::size(typeNames); ++type) {
-    if (std::string_view(typeNames[type]) == "mesh") continue;
-    if (!ImGui::Selectable(typeNames[type])) continue;
-    context.draft.colliders.push_back(newCollider(type, context.lookedAt));
+  for (Collider& collider : defaultColliders()) {
+    if (needsFile(collider) || !ImGui::Selectable(typeOf(collider).data())) continue;
+    placeOf(collider) = context.lookedAt;
+    context.draft.colliders.push_back(collider);
     context.widgets.changed(Change::live);
   }
   ImGui::EndCombo();
@@ -57,7 +48,7 @@ void drawCollidersPanel(PanelContext& context) {
   std::vector<Collider>& colliders = context.draft.colliders;
   for (std::size_t i = 0; i < colliders.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
-    const std::string label = std::string(typeNames[colliders[i].index()]) + " " + std::to_string(i + 1);
+    const std::string label = std::string(typeOf(colliders[i])) + " " + std::to_string(i + 1);
     const bool open =
         ImGui::TreeNodeEx(label.c_str(), colliders.size() < 4 ? ImGuiTreeNodeFlags_DefaultOpen : 0);
     bool removed = false;

@@ -165,9 +165,9 @@ void MeasurePanel::drawPasses(Session& session) {
     // On a solver of its own: timing slows a step, and the cloth is to stay where it is.
     try {
       Simulation& simulation = session.simulation();
-      const std::unique_ptr<Solver> solver =
-          makeSolver(simulation.solver().backend(), simulation.sharedCloth(), simulation.sharedScene());
-      solver->setState(simulation.solver().state());
+      const std::unique_ptr<Solver> solver = simulation.solverFactory()(
+          simulation.solver().backend(), simulation.sharedCloth(), simulation.sharedScene());
+      solver->setState(simulation.state());
       passes_ = solver->timePasses(timedSteps);
       passSteps_ = timedSteps;
       passTrouble_.clear();

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "render/collider_meshes.h"
+#include "scene/colliders/surface.h"
 
 namespace clothsim {
 namespace {

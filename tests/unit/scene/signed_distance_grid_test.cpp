@@ -1,4 +1,4 @@
-#include "cloth/signed_distance_grid.h"
+#include "scene/colliders/signed_distance_grid.h"
 
 #include <gtest/gtest.h>
 
@@ -97,14 +97,15 @@ TEST_F(MeshFile, IsInterpolatedWithinTheErrorOfItsGrid) {
   MeshCollider collider{.file = write(boxObj), .cells = 64};
   Scene scene;
   scene.colliders = {collider};
-  const auto params = makeColliderParams<double>(scene, scene.colliders[0], 0, 0);
-  const auto single = makeColliderParams<float>(scene, scene.colliders[0], 0, 0);
-  const std::vector<float> samples = distanceSamples(distanceGridsOf(scene));
+  const ColliderSet colliders(scene);
+  const auto params = colliders.params<double>(0, 0, 0);
+  const auto single = colliders.params<float>(0, 0, 0);
+  const float* samples = colliders.distances().data();
   const double cell = 2.0 / 64;
   for (const Vec3d p : randomPoints(3000)) {
     const double exact = boxDistance(p);
-    const auto nearest = cpu::nearestOnMesh(params, samples.data(), p);
-    const auto rounded = cpu::nearestOnMesh(single, samples.data(), p.cast<float>());
+    const auto nearest = cpu::nearestOnShape<COLLIDER_MESH>(params, p, samples);
+    const auto rounded = cpu::nearestOnShape<COLLIDER_MESH>(single, p.cast<float>(), samples);
     if (exact < 1.5 * cell) {
       EXPECT_NEAR(nearest.distance, exact, 0.5 * cell) << "at edges and corners";
     } else {
@@ -113,7 +114,7 @@ TEST_F(MeshFile, IsInterpolatedWithinTheErrorOfItsGrid) {
     EXPECT_NEAR(static_cast<double>(rounded.distance), nearest.distance, 1e-5);
     EXPECT_NEAR(std::sqrt(dot(nearest.normal, nearest.normal)), 1, 1e-9);
   }
-  const auto top = cpu::nearestOnMesh(params, samples.data(), Vec3d{0.2, 0.52, 0.05});
+  const auto top = cpu::nearestOnShape<COLLIDER_MESH>(params, Vec3d{0.2, 0.52, 0.05}, samples);
   EXPECT_NEAR(top.distance, 0.02, 1e-6) << "exact over faces";
   EXPECT_NEAR(top.normal.y, 1, 1e-6);
 }
@@ -147,9 +148,9 @@ TEST_F(MeshFile, IsNotSampledBeyondTheBudgetOfAllCollidersTogether) {
   scene.colliders.assign(3, collider);
   const std::size_t each = SignedDistanceGrid::sampleCount(loadSolidMesh(collider.file, 1), 8);
   EXPECT_EQ(distanceGridOf(collider)->samples().size(), each);
-  EXPECT_EQ(distanceGridsOf(scene, 3 * each).size(), 3u);
+  EXPECT_EQ(ColliderSet(scene, 3 * each).distances().size(), 3 * each);
   const std::string message =
-      test::messageThrownBy<SceneError>([&] { (void)distanceGridsOf(scene, 3 * each - 1); });
+      test::messageThrownBy<SceneError>([&] { (void)ColliderSet(scene, 3 * each - 1); });
   EXPECT_EQ(message, "colliders.2: with this one the meshes among the colliders need " +
                          std::to_string(3 * each) + " samples of distance, expected at most " +
                          std::to_string(3 * each - 1) + "; lower their `cells`, or use fewer of them");

@@ -1,4 +1,4 @@
-#include "cloth/signed_distance_grid.h"
+#include "scene/colliders/signed_distance_grid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -320,11 +320,11 @@ std::shared_ptr<const SignedDistanceGrid> distanceGridOf(const MeshCollider& col
   return grid;
 }
 
-DistanceGrids distanceGridsOf(const Scene& scene, std::size_t most) {
+DistanceGrids distanceGridsOf(std::span<const Collider> colliders, std::size_t most) {
   std::map<GridKey, std::size_t> sampleCounts;
   std::size_t samples = 0;
-  for (std::size_t i = 0; i < scene.colliders.size(); ++i)
-    if (const auto* mesh = std::get_if<MeshCollider>(&scene.colliders[i])) {
+  for (std::size_t i = 0; i < colliders.size(); ++i)
+    if (const auto* mesh = std::get_if<MeshCollider>(&colliders[i])) {
       const auto [known, isNew] = sampleCounts.try_emplace(keyOf(*mesh));
       if (isNew) {
         const auto grid = knownGrids().find(keyOf(*mesh));
@@ -335,9 +335,9 @@ DistanceGrids distanceGridsOf(const Scene& scene, std::size_t most) {
       samples += known->second;
       if (samples > most) failForSamples(i, samples, most);
     }
-  DistanceGrids grids;
-  for (const Collider& collider : scene.colliders)
-    if (const auto* mesh = std::get_if<MeshCollider>(&collider)) grids.push_back(distanceGridOf(*mesh));
+  DistanceGrids grids(colliders.size());
+  for (std::size_t i = 0; i < colliders.size(); ++i)
+    if (const auto* mesh = std::get_if<MeshCollider>(&colliders[i])) grids[i] = distanceGridOf(*mesh);
   return grids;
 }
 

@@ -8,10 +8,12 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "scene/budget.h"
-#include "scene/scene.h"
+#include "scene/colliders/collider.h"
 
 namespace clothsim {
 
@@ -57,10 +59,11 @@ class SignedDistanceGrid {
 // loadSolidMesh
 [[nodiscard]] std::shared_ptr<const SignedDistanceGrid> distanceGridOf(const MeshCollider& collider);
 
+// One a collider, null for what is no mesh. Who holds them never sees another grid in their place, whatever
+// becomes of their files.
 using DistanceGrids = std::vector<std::shared_ptr<const SignedDistanceGrid>>;
-// Those of all mesh colliders. Who holds them never sees another grid in their place, whatever becomes of
-// their files. @throws SceneError as loadSolidMesh, and before any is computed when they have more than
-// `most` samples together
-[[nodiscard]] DistanceGrids distanceGridsOf(const Scene& scene, std::size_t most = MOST_DISTANCE_SAMPLES);
+// @throws SceneError as loadSolidMesh, and before any is computed when they have more than `most` samples
+// together
+[[nodiscard]] DistanceGrids distanceGridsOf(std::span<const Collider> colliders, std::size_t most);
 
 }  // namespace clothsim

@@ -1,0 +1,117 @@
+#include "scene/colliders/collider_set.h"
+
+#include <type_traits>
+
+#include "scene/colliders/sampled_mesh.h"
+
+namespace clothsim {
+namespace {
+
+// The shape's own axes are the columns of its rotation.
+template <class Real>
+void putAxes(const Matrix3& rotation, ColliderParams<Real>& params) {
+  put(params.axisXX, rotation[0].x);
+  put(params.axisXY, rotation[1].x);
+  put(params.axisXZ, rotation[2].x);
+  put(params.axisYX, rotation[0].y);
+  put(params.axisYY, rotation[1].y);
+  put(params.axisYZ, rotation[2].y);
+  put(params.axisZX, rotation[0].z);
+  put(params.axisZY, rotation[1].z);
+  put(params.axisZZ, rotation[2].z);
+}
+
+// rotation = R(after) R(before)^T - 1, translation = position(after) - position(before)
+template <class Real>
+void putMotion(const Pose& before, const Pose& after, ColliderParams<Real>& params) {
+  params.moving = 1;
+  const Vec3d columnX = rotate(after.rotation, rotateBack(before.rotation, {1, 0, 0}));
+  const Vec3d columnY = rotate(after.rotation, rotateBack(before.rotation, {0, 1, 0}));
+  const Vec3d columnZ = rotate(after.rotation, rotateBack(before.rotation, {0, 0, 1}));
+  const Vec3d translation = after.position - before.position;
+  put(params.turnXX, columnX.x - 1);
+  put(params.turnXY, columnY.x);
+  put(params.turnXZ, columnZ.x);
+  put(params.shiftX, translation.x);
+  put(params.turnYX, columnX.y);
+  put(params.turnYY, columnY.y - 1);
+  put(params.turnYZ, columnZ.y);
+  put(params.shiftY, translation.y);
+  put(params.turnZX, columnX.z);
+  put(params.turnZY, columnY.z);
+  put(params.turnZZ, columnZ.z - 1);
+  put(params.shiftZ, translation.z);
+  put(params.pivotX, before.position.x);
+  put(params.pivotY, before.position.y);
+  put(params.pivotZ, before.position.z);
+}
+
+}  // namespace
+
+ColliderSet::ColliderSet(const Scene& scene, std::size_t mostSamples)
+    : colliders_(scene.colliders),
+      grids_(distanceGridsOf(scene.colliders, mostSamples)),
+      coulomb_(scene.solver.frictionLaw == FrictionLaw::coulomb) {
+  auto distances = std::make_shared<std::vector<float>>();
+  for (const auto& grid : grids_) {
+    firstSamples_.push_back(distances->size());
+    if (grid) distances->insert(distances->end(), grid->samples().begin(), grid->samples().end());
+  }
+  distances_ = std::move(distances);
+}
+
+// Calls `use` with the shape, or with a mesh that has its samples.
+template <class Use>
+decltype(auto) ColliderSet::withSolid(std::size_t i, Use use) const {
+  return std::visit(
+      [&](const auto& shape) {
+        using Shape = std::remove_cvref_t<decltype(shape)>;
+        if constexpr (std::is_same_v<Shape, MeshCollider>) {
+          return use(SampledMesh{*grids_[i], firstSamples_[i]});
+        } else {
+          static_assert(SolidShape<Shape, ColliderParams<float>>);
+          return use(shape);
+        }
+      },
+      colliders_[i]);
+}
+
+template <class Real>
+ColliderParams<Real> ColliderSet::params(std::size_t i, double begin, double end) const {
+  const Collider& collider = colliders_[i];
+  const Pose before = poseAt(collider, begin);
+  const Pose after = poseAt(collider, end);
+  ColliderParams<Real> params{};
+  put(params.pointX, after.position.x);
+  put(params.pointY, after.position.y);
+  put(params.pointZ, after.position.z);
+  put(params.friction, std::visit([](const auto& shape) { return shape.friction; }, collider));
+  params.coulomb = coulomb_ ? 1 : 0;
+  params.type = static_cast<std::uint32_t>(collider.index());
+  withSolid(i, [&](const auto& solid) { solid.pack(params, after.rotation); });
+  putAxes(product(after.rotation, clothsim::ownRotation(collider)), params);
+  if (moves(collider)) putMotion(before, after, params);
+  return params;
+}
+
+Matrix3 ColliderSet::rotationAt(std::size_t i, double time) const {
+  return product(poseAt(colliders_[i], time).rotation, ownRotation(colliders_[i]));
+}
+
+double ColliderSet::distance(std::size_t i, Vec3d p) const {
+  return withSolid(i, [&](const auto& solid) { return solid.distance(p); });
+}
+
+Surface ColliderSet::drawnSurface(std::size_t i, double longestEdge) const {
+  return withSolid(i, [&](const auto& solid) { return solid.surface(longestEdge); });
+}
+
+Vec3d ColliderSet::halfExtent(std::size_t i, const Matrix3& motion) const {
+  const Matrix3 rotation = product(motion, ownRotation(colliders_[i]));
+  return withSolid(i, [&](const auto& solid) { return solid.halfExtent(rotation); });
+}
+
+template ColliderParams<float> ColliderSet::params(std::size_t, double, double) const;
+template ColliderParams<double> ColliderSet::params(std::size_t, double, double) const;
+
+}  // namespace clothsim

@@ -1,0 +1,32 @@
+#include "scene/colliders/sampled_mesh.h"
+
+#include <algorithm>
+
+#include "scene/colliders/surface.h"
+
+namespace clothsim {
+
+// Moved inwards along the points' normals by what keeps it apart from the cloth in the depth buffer.
+Surface SampledMesh::surface(double longestEdge) const {
+  const SolidMesh& mesh = grid.mesh();
+  const double inset = std::min(0.15 * grid.cell() + 0.05 * longestEdge, grid.cell());
+  Surface surface;
+  for (std::size_t i = 0; i < mesh.points.size(); ++i)
+    surface.vertices.push_back(
+        {(mesh.points[i] - inset * mesh.normals[i]).cast<float>(), mesh.normals[i].cast<float>()});
+  for (const SolidMesh::Triangle& t : mesh.triangles)
+    surface.indices.insert(surface.indices.end(), t.begin(), t.end());
+  return surface;
+}
+
+// To either side of the origin alike.
+Vec3d SampledMesh::halfExtent(const Matrix3& rotation) const {
+  Vec3d half;
+  for (const Vec3d& point : grid.mesh().points) {
+    const Vec3d reach = magnitude(rotate(rotation, point));
+    half = {std::max(half.x, reach.x), std::max(half.y, reach.y), std::max(half.z, reach.z)};
+  }
+  return half;
+}
+
+}  // namespace clothsim
