@@ -171,7 +171,7 @@ std::size_t numberEnd(std::string_view text, std::size_t begin) {
                                   text.data());
 }
 
-// Takes what it is told and keeps nothing.
+// A handler that ignores all values.
 using Ignore = rapidjson::BaseReaderHandler<>;
 
 Mistake refined(std::string_view text, Mistake mistake);
