@@ -100,7 +100,7 @@ TEST_F(MeshFile, IsInterpolatedWithinTheErrorOfItsGrid) {
   const ColliderSet colliders(scene);
   const auto params = colliders.params<double>(0, 0, 0);
   const auto single = colliders.params<float>(0, 0, 0);
-  const float* samples = colliders.distances().data();
+  const float* samples = colliders.distances()->data();
   const double cell = 2.0 / 64;
   for (const Vec3d p : randomPoints(3000)) {
     const double exact = boxDistance(p);
@@ -148,7 +148,7 @@ TEST_F(MeshFile, IsNotSampledBeyondTheBudgetOfAllCollidersTogether) {
   scene.colliders.assign(3, collider);
   const std::size_t each = SignedDistanceGrid::sampleCount(loadSolidMesh(collider.file, 1), 8);
   EXPECT_EQ(distanceGridOf(collider)->samples().size(), each);
-  EXPECT_EQ(ColliderSet(scene, 3 * each).distances().size(), 3 * each);
+  EXPECT_EQ(ColliderSet(scene, 3 * each).distances()->size(), 3 * each);
   const std::string message =
       test::messageThrownBy<SceneError>([&] { (void)ColliderSet(scene, 3 * each - 1); });
   EXPECT_EQ(message, "colliders.2: with this one the meshes among the colliders need " +

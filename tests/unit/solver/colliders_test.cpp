@@ -107,7 +107,7 @@ Distances distancesOf(const Collider& collider, Vec3d ownPoint) {
   Distances distances{.passes = 1e30, .measuring = colliders.distance(0, ownPoint)};
 #define IN_PASSES(number, Struct, law) \
   if (params.type == number)           \
-    distances.passes = cpu::nearestOnShape<number>(params, ownPoint, colliders.distances().data()).distance;
+    distances.passes = cpu::nearestOnShape<number>(params, ownPoint, colliders.distances()->data()).distance;
   DISTANCE_SHAPES(IN_PASSES)
 #undef IN_PASSES
   if (params.type == COLLIDER_SPHERE) distances.passes = length(ownPoint) - params.radius;
