@@ -146,7 +146,7 @@ void Viewer::actOnFile(ViewerAction action) {
 
 // The window stays alive while a frame is being simulated, and can be closed.
 void Viewer::watchSteps() {
-  session().setPulse([this] {
+  session().setPoll([this] {
     window_.pollEvents();
     return !window_.shouldClose();
   });
