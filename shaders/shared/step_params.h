@@ -34,8 +34,9 @@ using uint = std::uint32_t;
 #define COLLIDERS_UNIT 5  // COLLIDER_ROWS texels each
 #define DISTANCES_UNIT 8  // samples of the signed distance grids of all mesh colliders
 
-// The watchdog (src/solver/trouble.h). A row has an entry a pass: 4 * particle + reason, the lowest that came
-// up. The numbers are the order of the passes in a step: the first one that has an entry is where it began.
+// The watchdog (src/solver/divergence.h). A row has an entry a pass: 4 * particle + reason, the lowest that
+// came up. The numbers are the order of the passes in a step: the first one that has an entry is where it
+// began.
 #define PASS_START 0u  // the state that a step began with, when it was handed in from outside
 #define PASS_KICK 1u   // the conversion of velocities to another integrator
 #define PASS_FORCES 2u
@@ -47,7 +48,7 @@ using uint = std::uint32_t;
 #define REASON_NON_FINITE 0u
 #define REASON_RUNAWAY_SPEED 1u
 #define REASON_RUNAWAY_STRAIN 2u
-#define NO_TROUBLE 0xffffffffu
+#define NO_DIVERGENCE 0xffffffffu
 #define WATCHED_ROWS 8u  // of the grid, by one invocation of sim/watch_limit.comp
 
 #define PIN_STARTS_UNIT 6   // a texel a particle: start position, and the number of its path + 1 (0: none)
@@ -174,22 +175,22 @@ SHARED_STRUCT ColliderParams {
   uint gridLayers;
   uint firstSample;  // among those of all meshes
 
-  // The rigid motion over the step: x + (turn (x - pivot) + shift), where turn is the rotation minus the
-  // identity.
-  real turnXX;
-  real turnXY;
-  real turnXZ;
-  real shiftX;
+  // The rigid motion over the step: x + (rotation (x - pivot) + translation), where rotation is the rotation
+  // minus the identity.
+  real rotationXX;
+  real rotationXY;
+  real rotationXZ;
+  real translationX;
 
-  real turnYX;
-  real turnYY;
-  real turnYZ;
-  real shiftY;
+  real rotationYX;
+  real rotationYY;
+  real rotationYZ;
+  real translationY;
 
-  real turnZX;
-  real turnZY;
-  real turnZZ;
-  real shiftZ;
+  real rotationZX;
+  real rotationZY;
+  real rotationZZ;
+  real translationZ;
 
   real pivotX;  // the shape's origin or plane's point at the start of the step
   real pivotY;
@@ -197,24 +198,24 @@ SHARED_STRUCT ColliderParams {
   real unusedPivot;
 };
 
-// The rigid motion of pins from the start of the simulation to the end of the step: x + (turn (x - pivot) +
-// shift), where turn is the rotation minus the identity. Pins that have not left their place are there to the
-// bit.
+// The rigid motion of pins from the start of the simulation to the end of the step: x + (rotation (x - pivot)
+// + translation), where rotation is the rotation minus the identity. Pins that have not left their place are
+// there to the bit.
 SHARED_STRUCT PinMotionParams {
-  real turnXX;
-  real turnXY;
-  real turnXZ;
-  real shiftX;  // [m]
+  real rotationXX;
+  real rotationXY;
+  real rotationXZ;
+  real translationX;  // [m]
 
-  real turnYX;
-  real turnYY;
-  real turnYZ;
-  real shiftY;
+  real rotationYX;
+  real rotationYY;
+  real rotationYZ;
+  real translationY;
 
-  real turnZX;
-  real turnZY;
-  real turnZZ;
-  real shiftZ;
+  real rotationZX;
+  real rotationZY;
+  real rotationZZ;
+  real translationZ;
 
   real pivotX;  // mean of the start positions [m]
   real pivotY;

@@ -1,4 +1,4 @@
-#include "sim/hand.glsl"
+#include "sim/grab.glsl"
 
 // x' = x + h v', v' = (1 - damping) v + h (g + w f); pinned particles rest or follow their path.
 struct Particle {
@@ -16,10 +16,10 @@ Particle movePin(uint i, vec4 x) {
   vec4 rowZ = texelFetch(pinMotionRows, row + 2);
   vec4 pivot = texelFetch(pinMotionRows, row + 3);
   precise vec3 d = start.xyz - pivot.xyz;
-  precise float turnX = sumOfProducts(rowX.xyz, d);
-  precise float turnY = sumOfProducts(rowY.xyz, d);
-  precise float turnZ = sumOfProducts(rowZ.xyz, d);
-  precise vec3 move = vec3(turnX, turnY, turnZ) + vec3(rowX.w, rowY.w, rowZ.w);
+  precise float rotationX = sumOfProducts(rowX.xyz, d);
+  precise float rotationY = sumOfProducts(rowY.xyz, d);
+  precise float rotationZ = sumOfProducts(rowZ.xyz, d);
+  precise vec3 move = vec3(rotationX, rotationY, rotationZ) + vec3(rowX.w, rowY.w, rowZ.w);
   precise vec3 sum = start.xyz + move;
   precise vec3 newX = canonical(sum);
   precise vec3 newV = step.inverseTimeStep * (newX - x.xyz);
@@ -36,7 +36,7 @@ Particle integrateParticle(GridPoint p, vec3 force) {
   if (x.w == 0.0) return Particle(x, vec3(0.0));
   vec3 acceleration = accelerationOf(force, x.w);
   precise vec3 newV = step.velocityKept * v + step.timeStep * acceleration;
-  if (hasHold) newV = pulledVelocity(p, x.xyz, newV);
+  if (hasGrab) newV = pulledVelocity(p, x.xyz, newV);
   precise vec3 newX = x.xyz + step.timeStep * newV;
   precise vec3 storedV = canonical(newV);
   watchVelocity(PASS_INTEGRATE, i, storedV);
