@@ -10,9 +10,11 @@
 #define COLLIDER_BOX 3u
 #define COLLIDER_TORUS 4u
 #define COLLIDER_MESH 5u
+#define COLLIDER_CYLINDER 6u
 
 #include "shared/shapes/box.h"
 #include "shared/shapes/capsule.h"
+#include "shared/shapes/cylinder.h"
 #include "shared/shapes/mesh.h"
 #include "shared/shapes/torus.h"
 
@@ -22,4 +24,5 @@
   EACH(COLLIDER_CAPSULE, Capsule, nearestOnCapsule) \
   EACH(COLLIDER_BOX, Box, nearestOnBox)             \
   EACH(COLLIDER_TORUS, Torus, nearestOnTorus)       \
-  EACH(COLLIDER_MESH, MeshCollider, nearestOnMesh)
+  EACH(COLLIDER_MESH, MeshCollider, nearestOnMesh)  \
+  EACH(COLLIDER_CYLINDER, Cylinder, nearestOnCylinder)

@@ -61,6 +61,13 @@ inline Scene withShapes(Scene scene, FrictionLaw law) {
             .tubeRadius = 0.03,
             .friction = 0.8,
             .motion = flyingPast({0.5, 0.5, 0.5}, {0.5, 0.5, -0.5})},
+      Cylinder{.origin = {0.1, 0.2, 0.1}, .axis = {1, 0.3, 0}, .height = 0.3, .radius = 0.1},
+      Cylinder{.origin = {0.8, 0.5, 0.4},
+               .axis = {0.1, 1, 0},
+               .height = 0.4,
+               .radius = 0.07,
+               .friction = 0.6,
+               .motion = flyingPast({0.8, 0.5, 0.4}, {0.8, 0.6, -0.4})},
       Plane{.point = {0, 0.02, 0}, .normal = {0.1, 1, 0}, .friction = 0.4, .motion = std::nullopt}};
   return scene;
 }

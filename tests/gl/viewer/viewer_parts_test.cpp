@@ -237,6 +237,7 @@ TEST(FieldText, EverySliderHasARangeThatHoldsItsDefaultAndLiesWithinTheLimits) {
   check(Capsule{}, fieldsOf<Capsule>());
   check(Box{}, fieldsOf<Box>());
   check(Torus{}, fieldsOf<Torus>());
+  check(Cylinder{}, fieldsOf<Cylinder>());
 }
 
 TEST(ClipRecorder, WithoutFfmpegWritesNumberedPicturesThatPlayInRealTime) {

@@ -148,7 +148,9 @@ class RandomScene {
     if (maybe()) motion = path();
     const Vec3d direction{1, number(), number()};
     const double size = positive();
-    switch (whole(0, 5)) {
+    switch (whole(0, 6)) {
+      case 6:
+        return Cylinder{vector(), direction, positive(), size, fraction(), motion};
       case 5:
         return MeshCollider{text() + "x", vector(), vector(), size, whole(8, 256), fraction(), motion};
       case 0:
