@@ -68,6 +68,14 @@ inline Scene withShapes(Scene scene, FrictionLaw law) {
                .radius = 0.07,
                .friction = 0.6,
                .motion = flyingPast({0.8, 0.5, 0.4}, {0.8, 0.6, -0.4})},
+      Cone{.origin = {0.6, 0.2, 0.15}, .axis = {0, 0.2, -1}, .height = 0.3, .radius = 0.12},
+      Cone{.origin = {0.2, 0.6, 0.4},
+           .axis = {0.1, -1, 0},
+           .height = 0.3,
+           .radius = 0.04,
+           .topRadius = 0.1,
+           .friction = 0.6,
+           .motion = flyingPast({0.2, 0.6, 0.4}, {0.3, 0.6, -0.4})},
       Plane{.point = {0, 0.02, 0}, .normal = {0.1, 1, 0}, .friction = 0.4, .motion = std::nullopt}};
   return scene;
 }

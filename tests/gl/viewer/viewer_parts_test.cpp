@@ -238,6 +238,7 @@ TEST(FieldText, EverySliderHasARangeThatHoldsItsDefaultAndLiesWithinTheLimits) {
   check(Box{}, fieldsOf<Box>());
   check(Torus{}, fieldsOf<Torus>());
   check(Cylinder{}, fieldsOf<Cylinder>());
+  check(Cone{}, fieldsOf<Cone>());
 }
 
 TEST(ClipRecorder, WithoutFfmpegWritesNumberedPicturesThatPlayInRealTime) {

@@ -148,7 +148,9 @@ class RandomScene {
     if (maybe()) motion = path();
     const Vec3d direction{1, number(), number()};
     const double size = positive();
-    switch (whole(0, 6)) {
+    switch (whole(0, 7)) {
+      case 7:
+        return Cone{vector(), direction, positive(), size, fraction() * size, fraction(), motion};
       case 6:
         return Cylinder{vector(), direction, positive(), size, fraction(), motion};
       case 5:

@@ -127,6 +127,9 @@ TEST(Shapes, HaveTheDistancesOfDenselySampledSkeletons) {
   expectDistances<COLLIDER_BOX>(sharp, boxSkeleton(sharp));
   const Cylinder cylinder{.height = 0.5, .radius = 0.3};
   expectRevolvedDistances<COLLIDER_CYLINDER>(cylinder, {{0, 0.25}, {0.3, 0.25}, {0.3, -0.25}, {0, -0.25}});
+  const Cone pointed{.height = 0.5, .radius = 0.3}, bucket{.height = 0.4, .radius = 0.1, .topRadius = 0.4};
+  expectRevolvedDistances<COLLIDER_CONE>(pointed, {{0, 0.25}, {0.3, -0.25}, {0, -0.25}});
+  expectRevolvedDistances<COLLIDER_CONE>(bucket, {{0, 0.2}, {0.4, 0.2}, {0.1, -0.2}, {0, -0.2}});
 }
 
 // The law of the passes, and the one that measuring has for itself.
@@ -173,6 +176,10 @@ TEST(Shapes, AreInsideWhereTheyShouldBe) {
   EXPECT_TRUE(inside(Cylinder{.height = 1, .radius = 0.1}, {0.07, 0.49, 0.07})) << "sharp rims";
   EXPECT_FALSE(inside(Cylinder{.height = 1, .radius = 0.1}, {0.08, 0, 0.08}));
   EXPECT_FALSE(inside(Cylinder{.height = 1, .radius = 0.1}, {0, 0.51, 0}));
+  EXPECT_TRUE(inside(Cone{.height = 1, .radius = 0.4}, {0, 0.49, 0}));
+  EXPECT_FALSE(inside(Cone{.height = 1, .radius = 0.4}, {0.1, 0.4, 0}));
+  EXPECT_TRUE(inside(Cone{.height = 1, .radius = 0.4, .topRadius = 0.2}, {0, 0, 0.29}));
+  EXPECT_FALSE(inside(Cone{.height = 1, .radius = 0.4, .topRadius = 0.2}, {0, 0, 0.31}));
 }
 
 // --- Places: axis, rotation, motion
@@ -200,6 +207,9 @@ TEST(Shapes, StandWhereTheirKeysPutThem) {
   const Cylinder lying{.origin = {1, 2, 3}, .axis = {0, 0, -2}, .height = 1, .radius = 0.2};
   expectPushedOut(lying, {1.05, 2, 3.5}, {0, 0, 1});
   expectPushedOut(lying, {1, 2.2, 3.3}, {0, 1, 0});
+  const Cone funnel{.origin = {1, 2, 3}, .axis = {0, 0, -2}, .height = 0.4, .radius = 0.5, .topRadius = 0.1};
+  expectPushedOut(funnel, {1.05, 2, 3.2}, {0, 0, 1});
+  expectPushedOut(funnel, {1, 2.3, 3}, {0, r, -r});
   expectPushedOut(Box{.origin = {1, 2, 3}, .size = {0.4, 2, 1}, .rotation = {0, 0, 45}},
                   Vec3d{1, 2, 3} + 0.2 * Vec3d{r, r, 0}, {r, r, 0});
 }
@@ -212,7 +222,8 @@ TEST(Shapes, CarryAParticleThatSticksToThemAlongAndAround) {
       {Box{.size = {2, 1, 1}, .friction = 1, .motion = motion}, {1, 0, 0}},
       {Torus{.axis = {0, 0, 1}, .radius = 0.8, .tubeRadius = 0.2, .friction = 1, .motion = motion},
        {1, 0, 0}},
-      {Cylinder{.axis = {1, 0, 0}, .height = 2, .radius = 0.5, .friction = 1, .motion = motion}, {1, 0, 0}}};
+      {Cylinder{.axis = {1, 0, 0}, .height = 2, .radius = 0.5, .friction = 1, .motion = motion}, {1, 0, 0}},
+      {Cone{.axis = {-1, 0, 0}, .height = 2, .radius = 0.5, .friction = 1, .motion = motion}, {1, 0, 0}}};
   for (const auto& [collider, x] : shapes) {
     Scene scene = particleScene(collider, 0.01);
     scene.gravity = {0, 0, 0};
@@ -233,7 +244,9 @@ std::vector<Collider> obstacles() {
           Box{.size = {1, 0.002, 1}, .rotation = {0, 0, 60}, .rounding = 0},
           Torus{.origin = {-0.3, 0, 0}, .radius = 0.3, .tubeRadius = 0.01},
           Cylinder{.axis = {0.1, 1, 0}, .height = 0.002, .radius = 0.5},
-          Cylinder{.axis = {0, 0, 1}, .height = 1, .radius = 0.01}};
+          Cylinder{.axis = {0, 0, 1}, .height = 1, .radius = 0.01},
+          Cone{.axis = {0.1, 1, 0}, .height = 0.004, .radius = 0.5, .topRadius = 0.4},
+          Cone{.axis = {0, 0, 1}, .height = 1, .radius = 0.02}};
 }
 
 struct Law {
@@ -410,7 +423,9 @@ TEST(Penetration, IsMeasuredForEveryShape) {
       {Box{.origin = {0, -0.4, 0}, .size = {1, 1, 3}, .rotation = {0, 30, 0}, .rounding = 0.2}, 0.1},
       {Torus{.origin = {0.5, 0, 0.05}, .axis = {0, 0, 1}, .radius = 0.5, .tubeRadius = 0.2}, 0.15},
       {Cylinder{.origin = {0, 0.4, 0}, .axis = {0, 2, 0}, .height = 1, .radius = 0.3}, 0.1},
-      {Cylinder{.origin = {0, 0.25, 0}, .axis = {3, 0, 0}, .height = 1, .radius = 0.3}, 0.05}};
+      {Cylinder{.origin = {0, 0.25, 0}, .axis = {3, 0, 0}, .height = 1, .radius = 0.3}, 0.05},
+      {Cone{.origin = {0, 0.45, 0}, .height = 1, .radius = 0.3, .topRadius = 0.2}, 0.05},
+      {Cone{.origin = {0, 0.3, 0}, .axis = {0, 1, 0}, .height = 1, .radius = 1, .topRadius = 0}, 0.2}};
   for (const auto& [collider, depth] : depths) {
     Scene scene = particleScene(collider, 0.01, FrictionLaw::coulomb);
     const Cloth cloth(scene);

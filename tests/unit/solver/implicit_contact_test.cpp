@@ -44,7 +44,8 @@ TEST(ImplicitContact, BendsASheetAroundABallWithoutCrumplingIt) {
 
 TEST(ImplicitContact, LaysASheetOnAFlatCap) {
   for (const Collider& collider : std::initializer_list<Collider>{
-           Cylinder{.origin = {0.5, 0.7, 0.5}, .height = 0.5, .radius = 0.25, .friction = 0.4}}) {
+           Cylinder{.origin = {0.5, 0.7, 0.5}, .height = 0.5, .radius = 0.25, .friction = 0.4},
+           Cone{.origin = {0.5, 0.7, 0.5}, .height = 0.5, .radius = 0.35, .topRadius = 0.25}}) {
     const Scene scene = sheetOver(collider, 11);
     const Cloth cloth(scene);
     CpuSolver<float> solver(cloth, scene);
