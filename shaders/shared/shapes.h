@@ -13,12 +13,14 @@
 #define COLLIDER_CYLINDER 6u
 #define COLLIDER_CONE 7u
 
+#ifdef LAW
 #include "shared/shapes/box.h"
 #include "shared/shapes/capsule.h"
 #include "shared/shapes/cone.h"
 #include "shared/shapes/cylinder.h"
 #include "shared/shapes/mesh.h"
 #include "shared/shapes/torus.h"
+#endif
 
 // EACH(number, struct of the scene, law): all shapes but the sphere and the plane, whose contacts have laws
 // of their own.

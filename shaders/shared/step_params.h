@@ -10,10 +10,10 @@ using uint = std::uint32_t;
 #define SHARED_STRUCT   \
   template <class real> \
   struct
-#define SPRING_ROWS(Row) Row<real>
+#define ROWS_OF(Row) Row<real>
 #else
 #define SHARED_STRUCT struct
-#define SPRING_ROWS(Row) Row
+#define ROWS_OF(Row) Row
 #define real float
 #endif
 
@@ -118,12 +118,12 @@ SHARED_STRUCT StepParams {
   real contactStiffness;  // what a collider's surface has beside CONTACT_OVER_INERTIA (shared/implicit.h)
                           // [N/m]
 
-  uint isMesh;      // springs, bending and triangles come from lists (shared/mesh_lists.h)
-  real maxStretch;  // 1 + max_strain, for the watchdog
-  uint unusedMeshA;
-  uint unusedMeshB;
+  uint isMesh;          // springs, bending and triangles come from lists (shared/mesh_lists.h)
+  real maxStretch;      // 1 + max_strain, for the watchdog
+  uint particleForces;  // those that act, a bit a FORCE_... of shared/forces.h
+  uint unusedForces;
 
-  SPRING_ROWS(SpringParams) springs[6];
+  ROWS_OF(SpringParams) springs[6];
 };
 
 SHARED_STRUCT ColliderParams {
@@ -174,22 +174,22 @@ SHARED_STRUCT ColliderParams {
   uint gridLayers;
   uint firstSample;  // among those of all meshes
 
-  // The rigid motion over the step: x + (turn (x - pivot) + shift), where turn is the rotation minus the
+  // The rigid motion over the step: x + (rotation (x - pivot) + translation), where `rotation` lacks the
   // identity.
-  real turnXX;
-  real turnXY;
-  real turnXZ;
-  real shiftX;
+  real rotationXX;
+  real rotationXY;
+  real rotationXZ;
+  real translationX;
 
-  real turnYX;
-  real turnYY;
-  real turnYZ;
-  real shiftY;
+  real rotationYX;
+  real rotationYY;
+  real rotationYZ;
+  real translationY;
 
-  real turnZX;
-  real turnZY;
-  real turnZZ;
-  real shiftZ;
+  real rotationZX;
+  real rotationZY;
+  real rotationZZ;
+  real translationZ;
 
   real pivotX;  // the shape's origin or plane's point at the start of the step
   real pivotY;
@@ -197,24 +197,24 @@ SHARED_STRUCT ColliderParams {
   real unusedPivot;
 };
 
-// The rigid motion of pins from the start of the simulation to the end of the step: x + (turn (x - pivot) +
-// shift), where turn is the rotation minus the identity. Pins that have not left their place are there to the
+// The rigid motion of pins from the start of the simulation to the end of the step: x + (rotation (x - pivot)
+// + translation), where `rotation` lacks the identity. Pins that have not left their place are there to the
 // bit.
 SHARED_STRUCT PinMotionParams {
-  real turnXX;
-  real turnXY;
-  real turnXZ;
-  real shiftX;  // [m]
+  real rotationXX;
+  real rotationXY;
+  real rotationXZ;
+  real translationX;  // [m]
 
-  real turnYX;
-  real turnYY;
-  real turnYZ;
-  real shiftY;
+  real rotationYX;
+  real rotationYY;
+  real rotationYZ;
+  real translationY;
 
-  real turnZX;
-  real turnZY;
-  real turnZZ;
-  real shiftZ;
+  real rotationZX;
+  real rotationZY;
+  real rotationZZ;
+  real translationZ;
 
   real pivotX;  // mean of the start positions [m]
   real pivotY;
@@ -244,6 +244,6 @@ struct LimitColor {
 
 #ifdef __cplusplus
 #undef SHARED_STRUCT
-#undef SPRING_ROWS
+#undef ROWS_OF
 }  // namespace clothsim::shared
 #endif

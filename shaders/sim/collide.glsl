@@ -32,11 +32,11 @@ ColliderParams loadCollider(uint k) {
   }
   if (hasMovingColliders) {
     r = texelFetch(colliderRows, row + COLLIDER_MOTION_ROW);
-    c.turnXX = r.x, c.turnXY = r.y, c.turnXZ = r.z, c.shiftX = r.w;
+    c.rotationXX = r.x, c.rotationXY = r.y, c.rotationXZ = r.z, c.translationX = r.w;
     r = texelFetch(colliderRows, row + COLLIDER_MOTION_ROW + 1);
-    c.turnYX = r.x, c.turnYY = r.y, c.turnYZ = r.z, c.shiftY = r.w;
+    c.rotationYX = r.x, c.rotationYY = r.y, c.rotationYZ = r.z, c.translationY = r.w;
     r = texelFetch(colliderRows, row + COLLIDER_MOTION_ROW + 2);
-    c.turnZX = r.x, c.turnZY = r.y, c.turnZZ = r.z, c.shiftZ = r.w;
+    c.rotationZX = r.x, c.rotationZY = r.y, c.rotationZZ = r.z, c.translationZ = r.w;
     r = texelFetch(colliderRows, row + COLLIDER_MOTION_ROW + 3);
     c.pivotX = r.x, c.pivotY = r.y, c.pivotZ = r.z;
   }
@@ -47,10 +47,11 @@ ColliderParams loadCollider(uint k) {
 vec3 carried(ColliderParams collider, vec3 x) {
   if (!hasMovingColliders || collider.moving == 0u) return x;
   precise vec3 d = x - vec3(collider.pivotX, collider.pivotY, collider.pivotZ);
-  precise float turnX = sumOfProducts(vec3(collider.turnXX, collider.turnXY, collider.turnXZ), d);
-  precise float turnY = sumOfProducts(vec3(collider.turnYX, collider.turnYY, collider.turnYZ), d);
-  precise float turnZ = sumOfProducts(vec3(collider.turnZX, collider.turnZY, collider.turnZZ), d);
-  precise vec3 move = vec3(turnX, turnY, turnZ) + vec3(collider.shiftX, collider.shiftY, collider.shiftZ);
+  precise float rotatedX = sumOfProducts(vec3(collider.rotationXX, collider.rotationXY, collider.rotationXZ), d);
+  precise float rotatedY = sumOfProducts(vec3(collider.rotationYX, collider.rotationYY, collider.rotationYZ), d);
+  precise float rotatedZ = sumOfProducts(vec3(collider.rotationZX, collider.rotationZY, collider.rotationZZ), d);
+  precise vec3 move = vec3(rotatedX, rotatedY, rotatedZ) +
+                      vec3(collider.translationX, collider.translationY, collider.translationZ);
   precise vec3 result = x + move;
   return result;
 }

@@ -223,6 +223,9 @@ template <class T>
 template <class T>
 void readValue(const JsonNode& node, const FieldTraits& traits, std::vector<T>& target) {
   if (node.kind != JsonKind::list) complainExpected(node, "a " + typeName(traits, target));
+  if (static_cast<double>(node.children.size()) > traits.limits.high)
+    complain(node, "expected a list of at most " + formatNumber(traits.limits.high) +
+                       " entries, found a list of " + std::to_string(node.children.size()));
   target.clear();
   for (const auto& child : node.children) {
     T value{};

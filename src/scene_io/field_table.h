@@ -70,10 +70,10 @@ struct MemberOf<Expect> {
 template <class Owner>
 [[nodiscard]] std::span<const Field<Owner>> fieldsOf() = delete;
 
-template <WrittenShape Shape>
-[[nodiscard]] std::span<const Field<Shape>> fieldsOf() {
-  return Shape::fields();
-}
+// Of what knows its own.
+template <class Owner>
+requires requires { Owner::fields(); }
+[[nodiscard]] std::span<const Field<Owner>> fieldsOf() { return Owner::fields(); }
 
 template <>
 std::span<const Field<Scene>> fieldsOf<Scene>();

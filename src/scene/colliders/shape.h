@@ -12,6 +12,7 @@
 
 #include "core/vec.h"
 #include "scene/motion.h"
+#include "scene/put.h"
 #include "scene/rotation.h"
 
 namespace clothsim {
@@ -56,11 +57,5 @@ concept SolidShape = requires(const S& shape, Params& params, Vec3d p, const Mat
   { shape.surface(0.1) } -> std::same_as<Surface>;        // see drawnSurface() in collider_set.h
   { shape.halfExtent(rotation) } -> std::same_as<Vec3d>;  // of the box around it when it is rotated [m]
 };
-
-// Stores what was evaluated in double, rounded once.
-template <class Real>
-void put(Real& to, double value) {
-  to = static_cast<Real>(value);
-}
 
 }  // namespace clothsim

@@ -26,12 +26,12 @@ using ColliderRow = ColliderParams<float>;
 
 PassFeatures allFeatures() {
   return {.wind = true,
-          .airResistance = true,
           .movingColliders = true,
           .coulombFriction = true,
           .movingPins = true,
           .restLengthTable = true,
           .colliderTypes = 0xffffffff,
+          .particleForces = ~0u,
           .enabledSlots = 63,
           .groupColumns = 64,
           .groupRows = 1};
@@ -248,20 +248,20 @@ TEST_F(LayoutTest, OfCollidersIsTheRowsThatTheShaderFetches) {
   EXPECT_EQ(offsetof(ColliderRow, axisXX), COLLIDER_AXES_ROW * 16u);
   EXPECT_EQ(offsetof(ColliderRow, sizeX), COLLIDER_AXES_ROW * 16u + 12);
   EXPECT_EQ(offsetof(ColliderRow, axisZX), COLLIDER_AXES_ROW * 16u + 32);
-  EXPECT_EQ(offsetof(ColliderRow, turnXX), COLLIDER_MOTION_ROW * 16u);
-  EXPECT_EQ(offsetof(ColliderRow, shiftX), COLLIDER_MOTION_ROW * 16u + 12);
-  EXPECT_EQ(offsetof(ColliderRow, turnZX), COLLIDER_MOTION_ROW * 16u + 32);
+  EXPECT_EQ(offsetof(ColliderRow, rotationXX), COLLIDER_MOTION_ROW * 16u);
+  EXPECT_EQ(offsetof(ColliderRow, translationX), COLLIDER_MOTION_ROW * 16u + 12);
+  EXPECT_EQ(offsetof(ColliderRow, rotationZX), COLLIDER_MOTION_ROW * 16u + 32);
   EXPECT_EQ(offsetof(ColliderRow, pivotX), COLLIDER_MOTION_ROW * 16u + 48);
 }
 
 TEST_F(LayoutTest, OfPinMotionsIsTheRowsThatTheShaderFetches) {
   using PinMotionRow = PinMotionParams<float>;
   EXPECT_EQ(sizeof(PinMotionRow), PIN_MOTION_ROWS * 16u);
-  EXPECT_EQ(offsetof(PinMotionRow, turnXX), 0u);
-  EXPECT_EQ(offsetof(PinMotionRow, shiftX), 12u);
-  EXPECT_EQ(offsetof(PinMotionRow, turnYX), 16u);
-  EXPECT_EQ(offsetof(PinMotionRow, turnZX), 32u);
-  EXPECT_EQ(offsetof(PinMotionRow, shiftZ), 44u);
+  EXPECT_EQ(offsetof(PinMotionRow, rotationXX), 0u);
+  EXPECT_EQ(offsetof(PinMotionRow, translationX), 12u);
+  EXPECT_EQ(offsetof(PinMotionRow, rotationYX), 16u);
+  EXPECT_EQ(offsetof(PinMotionRow, rotationZX), 32u);
+  EXPECT_EQ(offsetof(PinMotionRow, translationZ), 44u);
   EXPECT_EQ(offsetof(PinMotionRow, pivotX), 48u);
 }
 
