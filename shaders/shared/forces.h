@@ -9,10 +9,14 @@
 
 // Bits of StepParams.particleForces.
 #define FORCE_AIR_RESISTANCE 0u
+#define FORCE_ATTRACTORS 1u
 
 #ifdef LAW
 #include "shared/forces/air_resistance.h"
+#include "shared/forces/attractors.h"
 #endif
 
 // EACH(number, struct that packs it (src/scene/forces/), law)
-#define PARTICLE_FORCES(EACH) EACH(FORCE_AIR_RESISTANCE, AirResistance, airResistance)
+#define PARTICLE_FORCES(EACH)                              \
+  EACH(FORCE_AIR_RESISTANCE, AirResistance, airResistance) \
+  EACH(FORCE_ATTRACTORS, Attractors, attraction)

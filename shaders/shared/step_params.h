@@ -69,6 +69,19 @@ SHARED_STRUCT SpringParams {
   real maxLengthSquared;  // ((1 + max_strain) restLength)^2, for the watchdog [m^2]
 };
 
+#define MOST_ATTRACTORS 16
+SHARED_STRUCT AttractorParams {
+  real x;  // [m]
+  real y;
+  real z;
+  real pull;  // acceleration towards it in a unit of distance, at its place [1/s^2]
+
+  real inverseRadiusSquared;  // [1/m^2]
+  real unusedA;
+  real unusedB;
+  real unusedC;
+};
+
 SHARED_STRUCT StepParams {
   uint firstParticle;
   uint columns;
@@ -121,9 +134,10 @@ SHARED_STRUCT StepParams {
   uint isMesh;          // springs, bending and triangles come from lists (shared/mesh_lists.h)
   real maxStretch;      // 1 + max_strain, for the watchdog
   uint particleForces;  // those that act, a bit a FORCE_... of shared/forces.h
-  uint unusedForces;
+  uint attractorCount;
 
   ROWS_OF(SpringParams) springs[6];
+  ROWS_OF(AttractorParams) attractors[MOST_ATTRACTORS];
 };
 
 SHARED_STRUCT ColliderParams {

@@ -22,8 +22,9 @@ namespace clothsim {
 
 template <>
 struct MemberOf<Scene> {
-  using Type = MemberAmong<Scene, std::vector<ClothSettings>, std::vector<Collider>, std::optional<Wind>,
-                           SolverSettings, CameraSettings, RenderSettings, std::optional<Expect>>;
+  using Type =
+      MemberAmong<Scene, std::vector<ClothSettings>, std::vector<Collider>, std::vector<Attractor>,
+                  std::optional<Wind>, SolverSettings, CameraSettings, RenderSettings, std::optional<Expect>>;
 };
 template <>
 struct MemberOf<ClothSettings> {

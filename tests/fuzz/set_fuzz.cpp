@@ -17,7 +17,7 @@ const Scene& wholeScene() {
     "sphere": {"motion": {"keys": [{"t": 0}, {"t": 1, "position": [0, 1, 0]}], "loop": true}},
     "plane": {},
     "colliders": [{"type": "capsule"}, {"type": "box"}, {"type": "torus"}, {"type": "cylinder"}, {"type": "cone"}],
-    "wind": {"gust": {"strength": 1}}, "camera": {}, "solver": {"integrator": "implicit"},
+    "attractors": [{}, {"strength": -1}], "wind": {"gust": {"strength": 1}}, "camera": {}, "solver": {"integrator": "implicit"},
     "expect": {"frames": 1}})",
                                         "the harness");
   return scene;

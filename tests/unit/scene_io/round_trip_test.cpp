@@ -26,6 +26,7 @@ class RandomScene {
       scene.wind =
           Wind{vector(), {positive(), positive(), whole(0, 1 << 30)}, positive(), positive(), positive()};
     if (maybe()) scene.airResistance = positive();
+    for (int i = whole(0, 2); i > 0; --i) scene.attractors.push_back({vector(), fraction(), positive()});
     scene.solver = {.integrator = static_cast<Integrator>(whole(0, 2)),
                     .framesPerSec = positive(),
                     .simulationSteps = whole(1, 1'000'000),
