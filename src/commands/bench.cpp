@@ -30,7 +30,7 @@ double timeSteps(Solver& solver, int steps) {
   return secondsSince(start);
 }
 
-// Figures of a simulation that has blown up are worth nothing.
+// Timings of a simulation that has blown up mean nothing.
 void checkSound(Solver& solver, const Cloth& cloth, const Scene& scene) {
   if (const std::optional<Trouble> trouble = solver.trouble())
     throw SimulationError(blowUpText(*trouble, cloth, scene));
@@ -49,7 +49,7 @@ StepRate measureStepRate(const Scene& scene, const std::string& backend, double 
   const Cloth& cloth = *sharedCloth;
   const std::unique_ptr<Solver> solver = makeSolver(backend, sharedCloth, scene);
   if (!state.positions.empty()) solver->setState(state);
-  timeSteps(*solver, 2);  // compiles on some drivers
+  timeSteps(*solver, 2);  // some drivers compile shaders now
   const double once = std::max(1e-6, timeSteps(*solver, 4) / 4);
   const int steps = std::clamp(static_cast<int>(seconds / REPETITIONS / once), 1, 20000);
   std::vector<double> times;
@@ -94,7 +94,7 @@ DrawRate measureDrawing(const Scene& scene, const State& state, int samples, int
     timer.end();
     const double seconds = timer.seconds();
     rate.passes = renderer.timeDraw(positions.name(), camera, 0, target.name(), width, height);
-    if (i == 0) continue;  // shaders are compiled when first used
+    if (i == 0) continue;  // the first picture compiles shaders
     whole.push_back(seconds);
     passes.resize(rate.passes.size());
     for (std::size_t pass = 0; pass < passes.size(); ++pass)
@@ -136,7 +136,7 @@ DemoRate measureDemo(int size, const std::string& backend, int width, int height
 DemoRate largestRealTimeDemo(const std::string& backend, int width, int height) {
   constexpr int grain = 16;
   DemoRate best;
-  int low = 0, high = 1;  // in grains; grows until one is too slow, then the gap is halved
+  int low = 0, high = 1;  // in multiples of 16: doubled until one is too slow, then bisected
   const auto holds = [&](int grains) {
     const DemoRate rate = measureDemo(grains * grain, backend, width, height);
     if (rate.perFrame() > DEMO_FRAME) return false;

@@ -1,5 +1,5 @@
-// Measurements behind `clothsim bench` and `doctor`: how fast a backend steps a scene, and how large a demo
-// it holds in real time.
+// Timings for `clothsim bench` and `doctor`: the rate at which a backend steps a scene, and the largest demo
+// that runs in real time.
 #pragma once
 
 #include <string>
@@ -17,14 +17,14 @@ struct StepRate {
   std::size_t cloths = 1;
   bool limiter = false;
   SelfCollision selfCollision = SelfCollision::off;
-  int repetitions = 0;  // timed stretches of steps; the median counts
+  int repetitions = 0;  // number of timings, of which the median is taken
   double secondsPerStep = 0;
   double particleStepsPerSecond = 0;
   std::vector<PassTime> passes;  // seconds a step
 };
 
-// Steps the scene for about `seconds`, after a warm-up, beginning with `state`, or at the start when it is
-// empty. The GPU needs a current context.
+// Steps the scene for about `seconds` after a warm-up. It begins with `state`, or at the start where `state`
+// is empty. The GPU needs a current context.
 [[nodiscard]] StepRate measureStepRate(const Scene& scene, const std::string& backend, double seconds,
                                        const State& state = {});
 
@@ -32,24 +32,24 @@ struct DrawRate {
   std::string shader;
   int samples = 0;               // of each pixel
   double seconds = 0;            // for a picture, as the viewer draws it
-  std::vector<DrawTime> passes;  // each waited for
+  std::vector<DrawTime> passes;  // each timed on its own
 };
-// Of a picture of the scene with `state`; medians. Needs a current context.
+// The median times to draw a picture of the scene with `state`. Needs a current context.
 [[nodiscard]] DrawRate measureDrawing(const Scene& scene, const State& state, int samples, int width,
                                       int height);
 
 struct DemoRate {
   int size = 0;                  // N of N x N
-  double simulationSeconds = 0;  // wall time for one 30th of a second of the demo,
-  double drawSeconds = 0;        // and for drawing one picture of it
+  double simulationSeconds = 0;  // wall time to simulate a 30th of a second
+  double drawSeconds = 0;        // wall time to draw one picture
   [[nodiscard]] double perFrame() const { return simulationSeconds + drawSeconds; }
 };
-// Of the demo scene at size x size, drawn into width x height pixels; 0 x 0: not drawn, which needs no
-// context on the CPU.
+// Times the demo scene at size x size, drawn into width x height pixels. With 0 x 0 it is not drawn, which
+// needs no context on the CPU.
 [[nodiscard]] DemoRate measureDemo(int size, const std::string& backend, int width, int height);
 
-// The largest N (a multiple of 16) at which the demo holds 30 frames a second in real time; `size` 0: none
-// does.
+// The largest N, a multiple of 16, at which the demo runs in real time at 30 frames a second. `size` is 0
+// where even the smallest is too slow.
 [[nodiscard]] DemoRate largestRealTimeDemo(const std::string& backend, int width, int height);
 
 }  // namespace clothsim

@@ -56,8 +56,8 @@ void print(const DemoRate& rate, const std::string& backend, const std::string& 
   std::fflush(stdout);
 }
 
-// The largest demo in real time at 30 frames/s on each backend: alone, and drawn in a small and in the usual
-// window.
+// The largest demo in real time at 30 frames/s on each backend: not drawn, and drawn in a small and in the
+// default window.
 nlohmann::ordered_json benchDemo(const std::vector<std::string>& backends, bool printed) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const std::string& backend : backends) {
@@ -75,7 +75,7 @@ nlohmann::ordered_json benchDemo(const std::vector<std::string>& backends, bool 
   return json;
 }
 
-// Those that were asked for, else `usual`; meshes have none.
+// The resolutions that were asked for, else `usual`. A scene of meshes alone has none.
 std::vector<std::optional<GridSize>> resolutionsOf(const BenchOptions& options,
                                                    const std::vector<GridSize>& usual) {
   if (!options.resolutions.empty()) return {options.resolutions.begin(), options.resolutions.end()};
@@ -98,7 +98,7 @@ State stateAfter(const Scene& scene, int frames) {
   return simulation.state();
 }
 
-// Springs alone, with the strain limit, and with either self-collision on top of that.
+// The scene with springs alone, with the strain limit, and with the limit and either self-collision.
 std::vector<Scene> variantsOf(const Scene& scene) {
   std::vector<Scene> variants(4, scene);
   for (Scene& variant : variants) {
@@ -111,8 +111,8 @@ std::vector<Scene> variantsOf(const Scene& scene) {
   return variants;
 }
 
-// Every shading model on the cloth as it lies after some frames: smoothed afterwards as the viewer does on
-// software renderers, and multisampled.
+// Times every shading model on the cloth after some frames: with 1 sample a pixel, as the viewer draws on
+// software renderers, and with 4.
 int benchDrawing(const BenchOptions& options) {
   constexpr int width = 1280, height = 720;
   const gl::HeadlessContext context;

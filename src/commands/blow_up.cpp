@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// As a shell takes it for one word.
+// Quoted so that a shell reads it as one word.
 std::string quoted(const std::string& word) {
   const bool plain = word.find_first_not_of(
                          "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789"
@@ -22,7 +22,7 @@ std::string quoted(const std::string& word) {
 
 std::string keyOf(const std::string& setting) { return setting.substr(0, setting.find('=')); }
 
-// With what `changes` set instead of what was set.
+// The command line that continues from the state, with the settings in `changes`.
 std::string commandToGoOn(const BlowUpContext& context, const std::string& stateFile,
                           const std::vector<std::string>& changes) {
   std::string command = "clothsim run -f " + quoted(context.scene.scene);
@@ -38,7 +38,7 @@ std::string commandToGoOn(const BlowUpContext& context, const std::string& state
          std::to_string(context.frames - context.frame + 1);
 }
 
-// Where nothing else lies, or the very same.
+// The first name under which no file lies, or a file with the same bytes.
 fs::path freeStateName(const fs::path& folder, const std::string& stem, const std::string& bytes) {
   for (int i = 1;; ++i) {
     const fs::path path = folder / (stem + (i > 1 ? "-" + std::to_string(i) : "") + ".state");

@@ -1,5 +1,5 @@
-// What a command does when the watchdog has found trouble: save the last good state, and end with a message
-// that says where the trouble began and how to go on.
+// How a command ends when the watchdog has found trouble: it saves the last sound state and throws a message
+// that says where the trouble began and how to continue.
 #pragma once
 
 #include <filesystem>
@@ -13,12 +13,12 @@ namespace clothsim {
 struct BlowUpContext {
   const SceneOptions& scene;
   std::string backend;
-  int frame = 0, frames = 0;           // the one with the trouble, and how many were asked for
-  std::filesystem::path outputFolder;  // "" for the current one
-  bool replays = false;                // scene.scene is a recording, which no command goes on with
+  int frame = 0, frames = 0;           // of the trouble, and in the whole run
+  std::filesystem::path outputFolder;  // "" for the current folder
+  bool replays = false;                // scene.scene is a recording, from which no command can continue
 };
-// After simulation.checkFrame(): saves the state as <scene>-frame<N>-last-good.state in the folder, under a
-// free name where another file has that one. @throws SimulationError always
+// To be called after simulation.checkFrame(). Saves the state as <scene>-frame<N>-last-good.state in the
+// folder, with a number added where another file has that name. @throws SimulationError always
 [[noreturn]] void stopBlownUp(const Trouble& trouble, Simulation& simulation, const BlowUpContext& context);
 
 }  // namespace clothsim

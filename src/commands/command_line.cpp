@@ -1,4 +1,4 @@
-// The command line: argv in, options out.
+// Reads the command line with CLI11 and runs the subcommand.
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
@@ -22,7 +22,7 @@
 namespace clothsim {
 namespace {
 
-// "30,-10", "30,-10,1.5".
+// Reads "30,-10" or "30,-10,1.5".
 ViewTurn parseView(const std::string& text) {
   ViewTurn turn;
   int afterTwo = 0, afterThree = 0;
@@ -39,7 +39,7 @@ ViewTurn parseView(const std::string& text) {
   return turn;
 }
 
-// Of a picture, within bounds.
+// The size of a picture, within bounds.
 GridSize parsePixels(const std::string& text) {
   const GridSize size = parseSize(text, "--size");
   if (size.columns < 16 || size.rows < 16 || size.columns > 8192 || size.rows > 8192)
@@ -47,7 +47,7 @@ GridSize parsePixels(const std::string& text) {
   return size;
 }
 
-// CLI11's own checks let NaN pass, and read 010 as 8.
+// CLI11's own checks accept NaN, and read 010 as 8.
 template <class Number>
 CLI::Validator numberWithin(Number low, Number high, const std::string& what) {
   const auto read = [low, high, what](std::string& text) -> std::string {
@@ -68,7 +68,7 @@ CLI::Validator wholeNumber(std::int64_t low, std::int64_t high) {
 }
 CLI::Validator number(double low, double high) { return numberWithin(low, high, "a number"); }
 
-// The flags as they arrive; each command takes the ones it declared.
+// The values of all flags. Each command uses those that it declares.
 struct Arguments {
   bool draw = false;
   bool describeStep = false;
@@ -317,7 +317,7 @@ void declareSweep(CLI::App& app, Arguments& a, Task& task) {
 }
 
 void declareInfoCommands(CLI::App& app, Arguments& a, Task& task) {
-  // Without a footer of its own a command would print the viewer's.
+  // A command without a footer would print the viewer's.
   app.add_subcommand("scenes", "List the bundled scenes")
       ->footer("Example: clothsim -f twist opens the scene twist")
       ->callback([&] { task = [] { return scenesCommand(); }; });
@@ -393,7 +393,7 @@ int fail(ExitCode code, const char* message) {
   return static_cast<int>(code);
 }
 
-// `work`, with whatever it throws told to the user.
+// Runs `work` and prints what it throws.
 template <class Work>
 int exitCodeOf(Work work) {
   try {
@@ -402,7 +402,7 @@ int exitCodeOf(Work work) {
     return fail(error.exitCode(), error.what());
   } catch (const std::bad_alloc&) {
     return fail(ExitCode::failed, outOfMemory);
-  } catch (const std::length_error&) {  // more than could ever be addressed
+  } catch (const std::length_error&) {  // a vector beyond the address space
     return fail(ExitCode::failed, outOfMemory);
   } catch (const std::filesystem::filesystem_error& error) {
     return fail(ExitCode::inputOutput, error.what());
@@ -411,7 +411,7 @@ int exitCodeOf(Work work) {
   }
 }
 
-// Where no handler can be reached, as out of a destructor or a parallel loop: nothing is tidied up then.
+// Called where no handler can catch, as in a destructor or a parallel loop. Nothing is cleaned up then.
 [[noreturn]] void endWithMessage() {
   const std::exception_ptr thrown = std::current_exception();
   if (!thrown) std::abort();

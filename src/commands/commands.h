@@ -1,6 +1,5 @@
-// The subcommands behind `clothsim`, one function each; command_line.cpp turns argv into their options.
-// Results go to stdout, progress and remarks to stderr. Each returns the exit code or throws an
-// Error.
+// The subcommands of `clothsim`, one function each; command_line.cpp turns argv into their options. Results
+// go to stdout, progress and remarks to stderr. Each returns the exit code or throws an Error.
 #pragma once
 
 #include <cstdint>
@@ -14,29 +13,29 @@
 
 namespace clothsim {
 
-// "512x512". @throws UsageError that names the flag
+// Reads "512x512". @throws UsageError that names the flag
 [[nodiscard]] GridSize parseSize(const std::string& text, const std::string& flag);
 
-// readScene(), with its remarks on stderr.
+// readScene(); prints its remarks on stderr.
 [[nodiscard]] Scene loadScene(const SceneOptions& options);
 
 struct RunOptions {
   SceneOptions scene;
-  std::optional<int> frames;           // not given: as many as the recording has
-  std::optional<std::string> backend;  // not given: gpu, or those of the recording
-  std::vector<std::string> saves;      // files by extension; numbered ones take every `every`-th frame
+  std::optional<int> frames;           // none: as many as the recording has
+  std::optional<std::string> backend;  // none: gpu, or those of the recording
+  std::vector<std::string> saves;      // files by extension; numbered ones get every `every`-th frame
   int every = 1;
   std::string from;  // a .state file to begin with
   bool json = false;
   bool checkCrossings = false;
-  double jitter = 0;       // start with every free particle moved by up to so much along each axis [m]
+  double jitter = 0;       // moves every free particle at the start by up to this along each axis [m]
   std::uint32_t seed = 1;  // of the jitter
-  std::string replay;      // a recording to do again, instead of a scene
+  std::string replay;      // a recording to repeat instead of a scene
   bool strict = false;     // warnings end it with exit code 1
 };
 int runCommand(const RunOptions& options);
 
-// How the camera goes around what it looks at, from where the scene puts it, and how much nearer.
+// How the camera is rotated about its target, from where the scene puts it, and how much nearer it is.
 struct ViewTurn {
   double right = 0, up = 0;  // [degrees]
   double zoom = 1;           // 2: from half the distance
@@ -62,7 +61,7 @@ int renderCommand(const RenderCommandOptions& options);
 struct SweepOptions {
   SceneOptions scene;
   std::vector<std::string> variations;  // --vary key=value,value...; also of `frame` and `resolution`
-  std::optional<int> frames;            // not given: the values of `frame`
+  std::optional<int> frames;            // none: the values of `frame`
   std::string backend = "gpu";
   std::string out;                // sheet.png, with sheet.csv beside it
   int width = 560, height = 420;  // of one picture
@@ -85,16 +84,16 @@ struct BenchOptions {
   SceneOptions scene;
   std::vector<GridSize> resolutions;
   std::vector<std::string> backends;
-  double seconds = 1;   // of measuring, for each figure
-  int afterFrames = 0;  // measure the cloth as it lies then
+  double seconds = 1;   // spent on each timing
+  int afterFrames = 0;  // simulated before the timing
   bool json = false;
-  bool draw = false;  // measure drawing instead: every shading model, pass by pass
+  bool draw = false;  // times drawing instead: every shading model, pass by pass
 };
 int benchCommand(const BenchOptions& options);
 
 int doctorCommand(bool json);
 int scenesCommand();
-int describeCommand(const std::string& key);  // "" for all
+int describeCommand(const std::string& key);  // "": all keys
 int describeStepCommand(const SceneOptions& options);
 
 // Parses argv, runs the subcommand, prints errors to stderr; returns the exit code.

@@ -1,4 +1,4 @@
-// `scenes`, `describe` and `doctor`: what there is, what it means, and whether this machine can do it.
+// `scenes` lists the scenes, `describe` explains their keys, `doctor` checks this machine.
 #include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -27,7 +27,7 @@ void printField(const FieldInfo& field) {
               field.help.c_str());
 }
 
-// The scenes that the self-test compares: every pass takes part in one of them.
+// The scenes of the self-test. Together they use every pass.
 std::vector<Scene> selfTestScenes() {
   std::vector<Scene> scenes;
   for (const char* name : {"pinned2", "sphere", "plane", "cs171", "demo"}) {
@@ -38,10 +38,10 @@ std::vector<Scene> selfTestScenes() {
   return scenes;
 }
 
-// The demo should move at a pleasant rate on a screen, and be rendered within minutes without one.
+// The largest size at which the demo moves fluently on a screen, or is rendered within minutes without one.
 std::string suggestedDemoResolution(bool software) {
   int best = 64;
-  const double limit = software ? 6.0 / 30 : 1.0 / 40;  // [s] of simulation for a 30th of a second
+  const double limit = software ? 6.0 / 30 : 1.0 / 40;  // to simulate a 30th of a second [s]
   for (const int size : {96, 128, 192, 256, 384, 512, 768, 1024}) {
     if (measureDemo(size, "gpu", 0, 0).simulationSeconds > limit) break;
     best = size;

@@ -6,7 +6,7 @@
 
 namespace clothsim {
 
-// File names may hold bytes that are no UTF-8, and JSON cannot: they become the replacement character.
+// File names may contain bytes that are not UTF-8. JSON cannot: they become the replacement character.
 inline void printJson(const nlohmann::ordered_json& json) {
   std::cout << json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << '\n';
 }

@@ -43,7 +43,7 @@ int renderCommand(const RenderCommandOptions& options) {
   Simulation simulation(scene, options.backend, makeSolver);
   if (!options.from.empty()) simulation.setState(loadState(options.from, simulation.cloth()));
   SimulationRenderer renderer(simulation, {options.sphereSegmentsAround, options.sphereSegmentsDown});
-  renderer.update();  // of a state that was loaded the cuts are drawn
+  renderer.update();  // a loaded state may have cuts
   Camera camera(scene, simulation.cloth());
   camera.orbit(options.view.right * radians, options.view.up * radians);
   camera.zoom(1 / options.view.zoom);

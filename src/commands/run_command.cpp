@@ -28,7 +28,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// Before the run. @throws UsageError for names that say nothing to us, InputOutputError
+// Checks the names before the run. @throws UsageError for unknown extensions, InputOutputError
 void checkSaves(const RunOptions& options) {
   for (const std::string& save : options.saves) {
     if (isSequence(save) && hasFrameNumber(save))
@@ -44,26 +44,26 @@ void checkSaves(const RunOptions& options) {
   }
 }
 
-// Whether there is something to draw, which takes OpenGL.
+// Whether there are pictures to draw, which needs OpenGL.
 bool savesPictures(const RunOptions& options) {
   return std::any_of(options.saves.begin(), options.saves.end(), isPicture);
 }
 
-// All that is to be saved but pictures.
+// The names of options.saves that are not pictures.
 std::vector<std::string> filesOf(const RunOptions& options) {
   std::vector<std::string> files;
   std::remove_copy_if(options.saves.begin(), options.saves.end(), std::back_inserter(files), isPicture);
   return files;
 }
 
-// A state file may hold anything; what the steps make of it is the watchdog's affair.
+// A state file may hold anything. The watchdog checks only what steps compute.
 void checkStart(const RunOptions& options, const Measures& measures) {
   if (!measures.firstNonFinite) return;
   throw SimulationError("--from " + options.from + ": particle " + std::to_string(*measures.firstNonFinite) +
                         " is not a finite number. Begin with another state.");
 }
 
-// What is run: a scene from its start or a saved state, or a recording.
+// A run of a scene, from its start or from a saved state, or of a recording.
 class Run {
  public:
   explicit Run(const RunOptions& options) : isReplay_(!options.replay.empty()) {
@@ -104,7 +104,7 @@ class Run {
       plain_->stepFrame();
     simulation().finish();
   }
-  // In the frame just done.
+  // Returns the trouble in the last frame, if any.
   [[nodiscard]] std::optional<Trouble> checkFrame() {
     return isReplay_ ? replayTrouble_ : plain_->checkFrame();
   }
@@ -162,7 +162,7 @@ nlohmann::ordered_json summary(const RunOptions& options, Run& run, const RunSum
 
 void printForPeople(const nlohmann::ordered_json& json) {
   for (const auto& [key, value] : json.items())
-    if (key != "warnings")  // they follow, a line each
+    if (key != "warnings")  // these are printed on stderr
       std::printf("%-26s %s\n", key.c_str(),
                   value.is_string() ? value.get<std::string>().c_str() : value.dump().c_str());
 }

@@ -1,4 +1,4 @@
-// The pictures and films that `run --save` asks for, as the run goes on.
+// The pictures and films that `run --save` asks for, frame by frame.
 #pragma once
 
 #include <optional>
@@ -12,18 +12,18 @@ namespace clothsim {
 
 class SavedPictures {
  public:
-  // Of the names in options.saves those that isPicture(). @throws InputOutputError
+  // Saves those names in options.saves for which isPicture() holds. @throws InputOutputError
   SavedPictures(const RunOptions& options, const Scene& scene, int frames);
 
-  // Frame 0 and every frame that is done, in turn, of one simulation. @throws InputOutputError, as finish()
-  // does, and OpenGlError
+  // To be called for frame 0 and after every frame, with the same simulation. @throws InputOutputError as
+  // finish() does, and OpenGlError
   void add(Simulation& simulation, int frame);
   void finish();
 
  private:
   PictureSettings settings_;
   std::vector<PictureOutput> pictures_;
-  std::optional<SimulationRenderer> renderer_;  // from the first picture on
+  std::optional<SimulationRenderer> renderer_;  // made for the first picture
   std::optional<Camera> camera_;
 };
 

@@ -1,5 +1,5 @@
-// `sweep`: a scene with every combination of some values, side by side on one sheet, with a table of
-// measures.
+// `sweep`: simulates a scene with every combination of some values and puts the pictures on one sheet, with a
+// table of measures.
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -32,7 +32,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using nlohmann::ordered_json;
 
-// Two words that are no keys of a scene, and can be varied all the same.
+// These two can be varied although they are not keys of a scene.
 constexpr const char *frameWord = "frame", *resolutionWord = "resolution";
 constexpr int longestSide = 16'384;  // of the sheet [pixels]
 
@@ -44,14 +44,14 @@ int parseFrame(const std::string& text) {
   return frame;
 }
 
-// What a cell shows: the scene with its looks, and from where.
+// The picture of a cell: its scene differs from that of the simulation in render and camera keys only.
 struct Shot {
   std::size_t cell;
   Shared<Scene> scene;
 };
 
-// One simulation, and the shots of it, by frame.
-struct PlannedCourse {
+// One simulation and the pictures to take of it, by frame.
+struct PlannedRun {
   SceneOptions options;
   std::map<int, std::vector<Shot>> shots;
   [[nodiscard]] const Shared<Scene>& sharedScene() const { return shots.begin()->second.front().scene; }
@@ -59,7 +59,7 @@ struct PlannedCourse {
   [[nodiscard]] int lastFrame() const { return shots.rbegin()->first; }
 };
 
-// Whether a key changes the picture and nothing in the simulation.
+// Whether a key changes only the picture and not the simulation.
 bool isLook(const std::string& key) { return key.starts_with("render") || key.starts_with("camera"); }
 
 bool varies(const SweepTable& table, const std::string& beginning) {
@@ -74,9 +74,9 @@ void checkFrames(const SweepOptions& options, const SweepTable& table) {
   if (!variesFrame && !options.frames) throw UsageError("--frames is required, or --vary frame=30,60,90");
 }
 
-// Reads every scene before any is simulated: a mistake in the last of them comes up at once.
-std::vector<PlannedCourse> planCourses(const SweepOptions& options, const SweepTable& table) {
-  std::vector<PlannedCourse> courses;
+// Reads every scene before any is simulated, so that a mistake in the last one is reported at once.
+std::vector<PlannedRun> planRuns(const SweepOptions& options, const SweepTable& table) {
+  std::vector<PlannedRun> runs;
   std::map<std::vector<std::string>, std::size_t> known;
   std::vector<std::string> remarks;
   for (std::size_t cell = 0; cell < table.cells(); ++cell) {
@@ -99,23 +99,23 @@ std::vector<PlannedCourse> planCourses(const SweepOptions& options, const SweepT
     if (!options.shader.empty() && !varies(table, "render.shader")) read.scene.render.shader = options.shader;
     for (const std::string& remark : read.remarks)
       if (std::find(remarks.begin(), remarks.end(), remark) == remarks.end()) remarks.push_back(remark);
-    const auto [place, isNew] = known.emplace(choice, courses.size());
-    if (isNew) courses.push_back({chosen, {}});
-    courses[place->second].shots[frame].push_back({cell, std::move(read.scene)});
+    const auto [place, isNew] = known.emplace(choice, runs.size());
+    if (isNew) runs.push_back({chosen, {}});
+    runs[place->second].shots[frame].push_back({cell, std::move(read.scene)});
   }
   for (const std::string& remark : remarks) std::cerr << "clothsim: " << remark << '\n';
-  return courses;
+  return runs;
 }
 
-// By cell. All pictures are taken from one place, so that they can be compared: where the one that needs most
-// room is seen from. A sweep of the camera has a place for each.
+// The cameras by cell. All pictures are taken with one camera so that they can be compared: the one that
+// stands farthest away. When the sweep varies the camera, each cell has its own.
 std::vector<Camera> placeCameras(const SweepOptions& options, const SweepTable& table,
-                                 const std::vector<PlannedCourse>& courses) {
+                                 const std::vector<PlannedRun>& runs) {
   const double aspect = static_cast<double>(options.width) / options.height;
   std::map<std::size_t, Camera> places;
-  for (const PlannedCourse& course : courses) {
-    const Cloth cloth(course.scene());
-    for (const auto& [frame, shots] : course.shots)
+  for (const PlannedRun& planned : runs) {
+    const Cloth cloth(planned.scene());
+    for (const auto& [frame, shots] : planned.shots)
       for (const Shot& shot : shots) places.emplace(shot.cell, Camera(*shot.scene, cloth, aspect));
   }
   const auto distance = [](const Camera& camera) { return glm::length(camera.eye() - camera.target()); };
@@ -137,22 +137,22 @@ struct Cell {
 };
 
 // Simulates one combination and fills the cells that show it.
-class Exhibit {
+class SweepRun {
  public:
-  Exhibit(const SweepOptions& options, const PlannedCourse& course, const std::vector<Camera>& cameras)
+  SweepRun(const SweepOptions& options, const PlannedRun& planned, const std::vector<Camera>& cameras)
       : options_(options),
-        course_(course),
+        planned_(planned),
         cameras_(cameras),
-        simulation_(course.sharedScene(), options.backend, makeSolver),
+        simulation_(planned.sharedScene(), options.backend, makeSolver),
         renderer_(simulation_, {}) {
     summary_.add(simulation_);
   }
 
-  // `atFrame` hears of every frame that is done.
+  // `atFrame` is called after every frame.
   template <class AtFrame>
   void run(std::vector<Cell>& cells, AtFrame atFrame) {
     show(cells);
-    while (frame_ < course_.lastFrame()) {
+    while (frame_ < planned_.lastFrame()) {
       stopIfInterrupted();
       const Clock::time_point start = Clock::now();
       simulation_.stepFrame();
@@ -167,28 +167,28 @@ class Exhibit {
     if (trouble_) showTrouble(cells);
     print(warnings(), which());
   }
-  [[nodiscard]] std::vector<Warning> warnings() const { return summary_.watch.warnings(course_.scene()); }
+  [[nodiscard]] std::vector<Warning> warnings() const { return summary_.watch.warnings(planned_.scene()); }
 
  private:
   void show(std::vector<Cell>& cells) {
-    const auto found = course_.shots.find(frame_);
-    if (found == course_.shots.end()) return;
+    const auto found = planned_.shots.find(frame_);
+    if (found == planned_.shots.end()) return;
     for (const Shot& shot : found->second) cells[shot.cell] = cell(shot, frame_);
   }
 
-  // The frames that were not reached.
+  // Fills the cells of the frames after the trouble.
   void showTrouble(std::vector<Cell>& cells) {
-    for (const auto& [frame, shots] : course_.shots)
+    for (const auto& [frame, shots] : planned_.shots)
       for (const Shot& shot : shots)
         if (frame > frame_) cells[shot.cell] = cell(shot, frame);
     std::cerr << "clothsim: " << which() << "blew up "
-              << troubleText(*trouble_, simulation_.cloth(), course_.scene()) << '\n';
+              << troubleText(*trouble_, simulation_.cloth(), planned_.scene()) << '\n';
   }
 
-  // The varied settings, with a space behind each.
+  // The varied settings, each followed by a space.
   [[nodiscard]] std::string which() const {
     std::string text;
-    for (const std::string& setting : course_.options.varied) text += setting + " ";
+    for (const std::string& setting : planned_.options.varied) text += setting + " ";
     return text;
   }
 
@@ -209,7 +209,7 @@ class Exhibit {
   }
 
   ordered_json measures(int wantedFrame) {
-    const Scene& scene = course_.scene();
+    const Scene& scene = planned_.scene();
     const bool isSound = wantedFrame == frame_;
     ordered_json json = ordered_json::object();
     json["frames"] = frame_;
@@ -231,16 +231,16 @@ class Exhibit {
   }
 
   const SweepOptions& options_;
-  const PlannedCourse& course_;
+  const PlannedRun& planned_;
   const std::vector<Camera>& cameras_;
   Simulation simulation_;
   SimulationRenderer renderer_;
   RunSummary summary_;
-  int frame_ = 0;  // the last one that is done and sound
+  int frame_ = 0;  // the last sound one
   std::optional<Trouble> trouble_;
 };
 
-// As clothsim describe lists a key that was typed: of any collider and any cloth.
+// A key as `clothsim describe` lists it: without the number of the collider or the cloth.
 std::string listedKey(const std::string& typed) {
   const std::size_t list = typed.find('.');
   const std::string first = typed.substr(0, list);
@@ -252,7 +252,7 @@ std::string listedKey(const std::string& typed) {
   return first == "cloths" ? "cloth" + typed.substr(number) : typed;
 }
 
-// The unit of a key as it is typed, "" for none.
+// The unit of a key that was typed; "" for none.
 std::string unitOf(const std::string& typed, const std::vector<FieldInfo>& fields) {
   const auto found =
       std::find_if(fields.begin(), fields.end(),
@@ -269,13 +269,13 @@ SheetHeading headingOf(const Variation& variation, const std::string& value,
   return {variation.key, unit.empty() ? value : value + " " + unit};
 }
 
-std::string subtitleOf(const SweepOptions& options, const std::vector<PlannedCourse>& courses) {
+std::string subtitleOf(const SweepOptions& options, const std::vector<PlannedRun>& runs) {
   std::string text;
   if (options.frames) {
-    const double rate = courses.front().scene().solver.framesPerSec;
+    const double rate = runs.front().scene().solver.framesPerSec;
     text = "after " + std::to_string(*options.frames) + (*options.frames == 1 ? " frame" : " frames");
-    if (std::all_of(courses.begin(), courses.end(),
-                    [&](const PlannedCourse& course) { return course.scene().solver.framesPerSec == rate; }))
+    if (std::all_of(runs.begin(), runs.end(),
+                    [&](const PlannedRun& planned) { return planned.scene().solver.framesPerSec == rate; }))
       text += " (" + formatted("%.2f", *options.frames / rate) + " s)";
   }
   for (const std::string& setting : options.scene.settings)
@@ -283,14 +283,14 @@ std::string subtitleOf(const SweepOptions& options, const std::vector<PlannedCou
   return text;
 }
 
-// All but the pictures.
+// The sheet without its pictures.
 ContactSheet makeSheet(const SweepOptions& options, const SweepTable& table,
-                       const std::vector<PlannedCourse>& courses) {
+                       const std::vector<PlannedRun>& runs) {
   const std::vector<FieldInfo> fields = describeFields();
-  const Scene& scene = courses.front().scene();
+  const Scene& scene = runs.front().scene();
   ContactSheet sheet;
   sheet.title = scene.name.empty() ? std::filesystem::path(options.scene.scene).stem().string() : scene.name;
-  sheet.subtitle = subtitleOf(options, courses);
+  sheet.subtitle = subtitleOf(options, runs);
   sheet.columnCount = table.columns();
   sheet.pictureWidth = options.width;
   sheet.pictureHeight = options.height;
@@ -316,7 +316,7 @@ void checkSize(const ContactSheet& sheet, const SweepOptions& options) {
                    std::to_string(longestSide) + " a side can be written. Choose a smaller --size.");
 }
 
-// Takes the cells' pictures.
+// Moves the pictures of the cells into the sheet.
 void fillSheet(ContactSheet& sheet, const SweepTable& table, std::vector<Cell>& cells) {
   const std::vector<FieldInfo> fields = describeFields();
   for (std::size_t i = 0; i < cells.size(); ++i) {
@@ -330,7 +330,7 @@ void fillSheet(ContactSheet& sheet, const SweepTable& table, std::vector<Cell>& 
     for (SheetPicture& picture : sheet.pictures) picture.caption = "";
 }
 
-// As RFC 4180 has it.
+// A field of a CSV file, quoted as RFC 4180 demands.
 std::string csvWord(const ordered_json& value) {
   if (value.is_null()) return "";
   const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
@@ -340,7 +340,7 @@ std::string csvWord(const ordered_json& value) {
   return quoted + "\"";
 }
 
-// One line a cell: the varied values, then measures by name; `centroid` is three of them.
+// A line for each cell: the varied values, then the measures by name. `centroid` makes three columns.
 std::string formatTable(const SweepTable& table, const std::vector<Cell>& cells) {
   constexpr std::array columns{
       "frames",      "finite",         "trouble",         "max_strain",    "peak_strain",
@@ -394,24 +394,24 @@ int sweepCommand(const SweepOptions& options) {
   for (const std::string& text : options.variations) variations.push_back(parseVariation(text));
   const SweepTable table(std::move(variations), static_cast<double>(options.width) / options.height);
   checkFrames(options, table);
-  const std::vector<PlannedCourse> courses = planCourses(options, table);
-  ContactSheet sheet = makeSheet(options, table, courses);
+  const std::vector<PlannedRun> runs = planRuns(options, table);
+  ContactSheet sheet = makeSheet(options, table, runs);
   checkSize(sheet, options);
   checkWritable(options.out);
   checkWritable(tableFile(options));
 
   const gl::HeadlessContext context;
-  const std::vector<Camera> cameras = placeCameras(options, table, courses);
+  const std::vector<Camera> cameras = placeCameras(options, table, runs);
   std::int64_t framesDone = 0, framesInAll = 0;
-  for (const PlannedCourse& course : courses) framesInAll += course.lastFrame();
+  for (const PlannedRun& planned : runs) framesInAll += planned.lastFrame();
   Progress progress("sweeping", framesInAll);
   std::vector<Cell> cells(table.cells());
   std::vector<Warning> warnings;
-  for (const PlannedCourse& course : courses) {
-    Exhibit exhibit(options, course, cameras);
-    exhibit.run(cells, [&](int frame) { progress.update(framesDone + frame); });
-    std::ranges::move(exhibit.warnings(), std::back_inserter(warnings));
-    framesDone += course.lastFrame();
+  for (const PlannedRun& planned : runs) {
+    SweepRun run(options, planned, cameras);
+    run.run(cells, [&](int frame) { progress.update(framesDone + frame); });
+    std::ranges::move(run.warnings(), std::back_inserter(warnings));
+    framesDone += planned.lastFrame();
   }
   progress.finish();
 

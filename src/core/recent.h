@@ -16,7 +16,7 @@ class Recent {
  public:
   using Pointer = std::shared_ptr<const Value>;
 
-  // `mostKept`: the limit, in the unit in which add() is told sizes.
+  // `mostKept`: the limit, in the unit of the sizes that add() takes.
   explicit Recent(std::size_t mostKept) : mostKept_(mostKept) {}
 
   // Null when the key was never added, or its value was forgotten.

@@ -16,7 +16,7 @@ struct Utf8Character {
 // The character at the beginning of a text that is not empty.
 [[nodiscard]] Utf8Character firstCharacter(std::string_view text);
 
-// Whether the byte goes on with a character that began before it.
+// Whether the byte continues a character that began before it.
 [[nodiscard]] inline bool continuesCharacter(char byte) {
   return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U;
 }

@@ -28,7 +28,7 @@ struct TimeBlock {  // behind the header since version 3; see StepClock
 static_assert(sizeof(TimeBlock) == 24);
 
 constexpr char fileMagic[] = "clothsim";
-// What each version brought: cuts and pins by hand, time. Version 3 is written.
+// Version 2 added cuts and pins set during the run, version 3 the time. Version 3 is written.
 constexpr std::uint32_t plainVersion = 1, handledVersion = 2, timedVersion = 3;
 
 std::uint64_t checksum(std::string_view bytes) {

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int neededStorageBlocks = 6;  // of the busiest simulation pass
 
-// Some drivers announce compute shaders that do not run; one number through a buffer tells.
+// Some drivers announce compute shaders that do not run. This lets one write a number into a buffer.
 bool computeWorks() {
   constexpr GLuint expected = 42;
   const char* text = R"(#version 450 core
@@ -39,7 +39,7 @@ void main() { answer = 42u; }
   return answer == expected;
 }
 
-// Each may hold OpenGL below what the hardware can do.
+// Advice about environment variables that may limit OpenGL to less than the hardware can do.
 std::string limitingVariables() {
   std::string text;
   for (const char* name :

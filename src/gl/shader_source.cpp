@@ -20,7 +20,7 @@ std::optional<std::string> includedFile(const std::string& line) {
 }
 
 // Mesa drops the source number from most errors. Lines of file i are therefore numbered from i * 10,000, so
-// that a line number alone tells the file.
+// that a line number alone identifies the file.
 constexpr std::size_t linesPerFile = 10'000;
 
 std::string lineDirective(std::size_t line, std::size_t file) {

@@ -26,9 +26,9 @@ nlohmann::ordered_json toJson(const std::optional<ContactFailure>& failure) {
 
 }  // namespace
 
-void ContactReport::add(int frame, const Cloth& cloth, const Scene& scene, const State& state, double stretch,
+void ContactReport::add(int frame, const Cloth& cloth, const Scene& scene, const State& state, double strain,
                         const ContactCounts& counts) {
-  last_ = measureContacts(cloth, scene, state, stretch);
+  last_ = measureContacts(cloth, scene, state, strain);
   lastFrame_ = frame;
   if (frame == 0) overlapsAtStart_ = last_.overlaps;
   isCut_ = isCut_ || !state.cuts.empty();
@@ -39,7 +39,7 @@ void ContactReport::add(int frame, const Cloth& cloth, const Scene& scene, const
                 last_.neededDistance};
   else if (!failure_ && counts.fastSteps > 0)
     failure_ = {Condition::fastStep, frame, 0, 0, 0};
-  stretch_ = std::max(stretch_, stretch);
+  largestStrain_ = std::max(largestStrain_, strain);
   worst_.contacts = std::max(worst_.contacts, last_.contacts);
   worst_.overlaps = std::max(worst_.overlaps, last_.overlaps);
   worst_.relativeMotion = std::max(worst_.relativeMotion, last_.relativeMotion);
@@ -68,7 +68,7 @@ void ContactReport::write(nlohmann::ordered_json& json, const Cloth& cloth, cons
     contact["smallest_distance"] = *worst_.smallestDistance;
   else
     contact["smallest_distance"] = nullptr;
-  contact["largest_stretch"] = stretch_;
+  contact["largest_stretch"] = largestStrain_;
   contact["largest_relative_motion"] = worst_.relativeMotion;
   contact["most_overlaps"] = worst_.overlaps;
   contact["guarded_steps"] = counts.guardedSteps;

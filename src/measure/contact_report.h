@@ -1,4 +1,5 @@
-// What a run tells of self-contact: the numbers of `run --json` and `compare --json`, gathered at frame ends.
+// Measures of self-contact that `run --json` and `compare --json` report, collected at the end of every
+// frame.
 #pragma once
 
 #include <cstdint>
@@ -13,29 +14,30 @@
 
 namespace clothsim {
 
-// The condition of contact that did not hold, first of all in a run.
+// The first violation in a run of the conditions under which no triangles can cross.
 struct ContactFailure {
   enum class Condition { pairsTooNear, fastStep };
   Condition condition = Condition::pairsTooNear;
-  int frame = 0;                            // at whose end it was seen; 0: the start
-  std::uint64_t pairs = 0;                  // nearer than
-  double distance = 0, neededDistance = 0;  // D; the nearest of them [m]
+  int frame = 0;                            // at whose end it was found; 0: the start
+  std::uint64_t pairs = 0;                  // of particles that are too near
+  double distance = 0, neededDistance = 0;  // of the nearest pair, and what it should be [m]
 };
 
 class ContactReport {
  public:
-  // Looks at the end of a frame; frame 0 is the start. `stretch` as in Measures::maxStrain, `counts` up to
-  // now.
-  void add(int frame, const Cloth& cloth, const Scene& scene, const State& state, double stretch,
+  // To be called at the end of every frame; frame 0 is the start. `strain` is Measures::maxStrain, `counts`
+  // are those since the start.
+  void add(int frame, const Cloth& cloth, const Scene& scene, const State& state, double strain,
            const ContactCounts& counts);
 
-  // self_contacts of the last frame; contact_sound, whether no two triangles of strangers can have crossed at
-  // any frame end (null where that is not known: without self-collision, and once cloth is cut); and the
-  // numbers behind that under `contact`, with the condition that failed first. `counts` of the whole run.
+  // Adds to the object: self_contacts of the last frame; contact_sound, whether no two non-adjacent triangles
+  // can have crossed at the end of any frame; and the measures behind that, with the first violation, under
+  // `contact`. Without self-collision and in cloth that is cut this is not known, and contact_sound is null.
+  // `counts` are those of the whole run.
   void write(nlohmann::ordered_json& json, const Cloth& cloth, const Scene& scene,
              const ContactCounts& counts) const;
 
-  // None where contact is sound, or nothing is known of it.
+  // None where contact is sound or not known.
   [[nodiscard]] const std::optional<ContactFailure>& failure() const { return failure_; }
 
   [[nodiscard]] std::uint64_t overlapsAtStart() const { return overlapsAtStart_; }
@@ -43,7 +45,7 @@ class ContactReport {
 
  private:
   ContactMeasures last_, worst_;
-  double stretch_ = 0;
+  double largestStrain_ = 0;
   std::optional<ContactFailure> failure_;
   int lastFrame_ = 0;
   bool isCut_ = false;

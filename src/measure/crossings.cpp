@@ -50,7 +50,7 @@ Kernel::Triangle_3 solid(const std::vector<Point>& points, const Triangle& t) {
   return {points[t[0]], points[t[1]], points[t[2]]};
 }
 
-// The triangle's particles with those shared with the other one first; how many are.
+// The corners of a triangle, beginning with those that the other triangle shares, and the number of these.
 int sharedFirst(Triangle& t, const Triangle& other) {
   const auto end = std::stable_partition(t.begin(), t.end(), [&](std::uint32_t i) {
     return std::find(other.begin(), other.end(), i) != other.end();
@@ -58,7 +58,7 @@ int sharedFirst(Triangle& t, const Triangle& other) {
   return static_cast<int>(end - t.begin());
 }
 
-// Beyond what they share by their making; the rules are those of CGAL's Polygon_mesh_processing.
+// Whether they cross beyond what they share. The rules are those of CGAL's Polygon_mesh_processing.
 bool cross(const std::vector<Point>& points, Triangle a, Triangle b) {
   const Triangle ofA = a;
   const int shared = sharedFirst(a, b);

@@ -1,5 +1,5 @@
-// How many pairs of triangles of a state cross: decided by exact predicates (CGAL), not by tolerances. A tool
-// for checking runs and for tests; no step depends on it. Built without CGAL, it only says that it cannot.
+// Counts the pairs of triangles of a state that cross, by the exact predicates of CGAL and not by tolerances.
+// It checks runs and serves tests; no step depends on it. Built without CGAL it throws.
 #pragma once
 
 #include <array>
@@ -13,13 +13,13 @@
 
 namespace clothsim {
 
-// Pairs of triangles that have a point in common; those that only touch do, too. Triangles of zero area are
-// left out: what crosses them, crosses the triangles at their edges.
+// Pairs of triangles that have a point in common, also where they only touch. Triangles of zero area are not
+// counted: whatever crosses them crosses the triangles at their edges.
 struct CrossingCount {
-  std::uint64_t apart = 0;  // pairs that are no neighbours on the cloth
-  // Pairs of which some particles are the same or lie at most one column and one row from each other on the
-  // same grid. What they share by their making does not count: with a common particle, an edge across from it
-  // must reach the other triangle; with a common edge, one must lie folded onto the other, in one plane.
+  std::uint64_t apart = 0;  // pairs that are not neighbours
+  // Pairs in which some particles are the same, or lie on one grid at most one column and one row apart. The
+  // common corner or edge itself is no crossing: with a common particle, the edge opposite to it must reach
+  // the other triangle; with a common edge, one triangle must lie folded onto the other in one plane.
   std::uint64_t neighbours = 0;
   friend bool operator==(const CrossingCount&, const CrossingCount&) = default;
 };
@@ -28,11 +28,11 @@ class CrossingCounter {
  public:
   // Whether this program was built with CGAL.
   [[nodiscard]] static bool available();
-  // @throws UsageError, naming the package to install, when it was not
+  // @throws UsageError that names the package to install when the program was built without CGAL
   explicit CrossingCounter(const Shared<Cloth>& cloth);
 
-  // Of a state whose positions are finite. Triangles that are cut away do not count; the rest may cross
-  // across a cut, as neighbours.
+  // The positions of the state must be finite. Triangles with a cut side are not counted. Triangles on the
+  // two sides of a cut count as neighbours.
   [[nodiscard]] CrossingCount count(const State& state) const;
 
  private:
@@ -44,16 +44,16 @@ class CrossingCounter {
   [[nodiscard]] bool areNeighbours(const Triangle& a, const Triangle& b) const;
 
   Shared<Cloth> cloth_;
-  std::vector<Place> places_;  // by particle
+  std::vector<Place> places_;  // of each particle
 };
 
-// Over the frames of a run.
+// Sums up the counts over the frames of a run.
 struct CrossingSummary {
   int framesChecked = 0;
-  std::uint64_t worst = 0;  // most pairs apart at the end of a frame,
-  std::uint64_t total = 0;  // and their sum over all of them
+  std::uint64_t worst = 0;  // the largest `apart` of a frame
+  std::uint64_t total = 0;  // the sum of `apart` over all frames
   std::optional<int> firstFrame;
-  std::uint64_t neighbours = 0;  // most pairs of neighbours
+  std::uint64_t neighbours = 0;  // the largest of a frame
 
   void add(int frame, const CrossingCount& count);
 };

@@ -1,4 +1,4 @@
-// The object `crossings` that `run` and `compare` print.
+// The object `crossings` that `run --json` and `compare --json` print.
 #pragma once
 
 #include <nlohmann/json.hpp>

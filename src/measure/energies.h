@@ -1,5 +1,5 @@
-// Where the energy of a cloth is, and how far it is stretched at one place: numbers to plot, computed on the
-// host in double from a read-back.
+// Energies of a cloth and the strain at a particle, for plots. Computed on the host in double precision from
+// a copy of the state.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +11,18 @@
 namespace clothsim {
 
 struct Energies {      // [J]
-  double kinetic = 0;  // 1/2 m v^2, from the velocities as given: under verlet those of the half step before
+  double kinetic = 0;  // 1/2 m v^2, with the velocities as given: under verlet those of the half step before
   double gravity = 0;  // m g h above where the particles started
   double springs = 0;  // 1/2 k (l - L)^2 over enabled springs that are not cut
-  double maxStrain = 0;  // largest l/L - 1 of those springs; no energy, but found on the same way
+  double maxStrain = 0;  // largest l/L - 1 of those springs; no energy, but found in the same loop
   [[nodiscard]] double total() const { return kinetic + gravity + springs; }
 };
 
-// `springs` are those of cloth.springs(), which takes a while to make.
+// `springs` is cloth.springs(), which callers keep because it is slow.
 [[nodiscard]] Energies energies(const Cloth& cloth, std::span<const Spring> springs, const Scene& scene,
                                 const Cuts& cuts, const State& state);
 
-// The l/L - 1 of largest size among the springs at a particle, with its sign; 0 without any.
+// The strain l/L - 1 of largest magnitude among the springs of a particle, with its sign; 0 without springs.
 [[nodiscard]] double strainAt(const Cloth& cloth, const Cuts& cuts, const State& state,
                               std::uint32_t particle);
 

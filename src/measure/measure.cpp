@@ -15,9 +15,9 @@ Vec3d positionOf(const State& state, std::size_t i) {
 
 bool finite(const Particle4& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-// Of one grid; none without springs.
+// The largest strain of one grid, -1 without springs.
 std::optional<double> maxStrain(const Cloth& cloth, const Grid& grid, const State& state) {
-  double largest = -1;  // a spring of no length, the smallest that can be
+  double largest = -1;  // that of a spring of length 0, the least possible
 #pragma omp parallel for reduction(max : largest) if (isWorthThreads(grid))
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.columns; ++column) {
@@ -38,7 +38,7 @@ std::optional<double> maxStrain(const Cloth& cloth, const Grid& grid, const Stat
   return largest;
 }
 
-// Of all meshes; none without springs.
+// The largest strain of all meshes, -1 without springs.
 std::optional<double> maxStrain(const Cloth& cloth, const std::vector<ListedSpring>& springs,
                                 const State& state) {
   if (springs.empty()) return std::nullopt;
@@ -50,7 +50,7 @@ std::optional<double> maxStrain(const Cloth& cloth, const std::vector<ListedSpri
   return largest;
 }
 
-// One collider at one time, as seen by particles.
+// A collider at one time.
 class Solid {
  public:
   Solid(const ColliderSet& colliders, std::size_t number, const Scene& scene, double time)
@@ -62,7 +62,7 @@ class Solid {
         twoSided_(std::holds_alternative<Plane>(colliders[number]) &&
                   scene.solver.frictionLaw == FrictionLaw::cs184) {}
 
-  // Of a particle at x that started at `start`: CS184's planes keep each on its own side.
+  // The depth of a particle at x that started at `start`. CS184's planes keep each particle on its side.
   [[nodiscard]] double penetration(Vec3d start, Vec3d x) const {
     const double depth = -colliders_->distance(number_, rotateBack(rotation_, x - now_.position));
     return twoSided_ && startedBehind(start) ? -depth : depth;
@@ -119,7 +119,7 @@ Measures measure(const Cloth& cloth, const Scene& scene, const State& state) {
 }
 
 ColliderOverlaps overlapsWithColliders(const Cloth& cloth, const Scene& scene, const State& state) {
-  constexpr double contactShare = 0.02;  // of the spacing: what a first step that pushes it out hardly shows
+  constexpr double contactShare = 0.02;  // of the spacing: pushing a particle out so far is hardly visible
   constexpr double rounding = 1e-6;      // [m]
   const double fromContact = std::max(contactShare * smallestSpacing(cloth), rounding);
   std::vector<Solid> solids;

@@ -1,5 +1,5 @@
-// Numbers about a state that a person can judge: how far springs are stretched, how fast the cloth moves, how
-// deep it sits in a collider. Computed on the host in double from a read-back.
+// Measures of a state: strain, kinetic energy, penetration of colliders and more. Computed on the host in
+// double precision from a copy of the state.
 #pragma once
 
 #include <cstdint>
@@ -14,15 +14,16 @@ namespace clothsim {
 struct Measures {
   double maxStrain = 0;      // largest l/L - 1 over enabled springs that are not cut, 0 without any
   double minY = 0;           // [m]
-  double kineticEnergy = 0;  // [J], of free particles, from the velocities as given
-  double maxPenetration =
-      0;           // [m], >= 0: into colliders, and across CS184's planes from the side a particle started on
-  Vec3d centroid;  // of all particles [m]
+  double kineticEnergy = 0;  // of free particles, with the velocities as given [J]
+  // The deepest penetration of a collider [m], >= 0. CS184's planes are penetrated from the side on which a
+  // particle started.
+  double maxPenetration = 0;
+  Vec3d centroid;                               // mean of all particles [m]
   std::optional<std::uint32_t> firstNonFinite;  // lowest index of a particle with an infinity or NaN
 };
 
-// Free particles that lie inside a collider, deeper than contact itself leaves them: by more than 2 % of the
-// smallest spacing. Planes have no inside.
+// The number of free particles inside a collider. A depth up to 2 % of the smallest spacing is not counted,
+// since contact itself leaves as much. Planes have no inside.
 struct ColliderOverlaps {
   std::uint32_t particles = 0;
   double depth = 0;  // of the deepest [m]

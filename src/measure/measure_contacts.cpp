@@ -9,12 +9,13 @@
 namespace clothsim {
 namespace {
 
-constexpr double CONTACT_REACH = 1.05;  // pairs are at d or a little more once they have been parted
+constexpr double CONTACT_REACH =
+    1.05;  // a resolved contact leaves a pair at the contact distance or slightly more
 
 Vec3d vectorOf(const Particle4& p) { return Vec3f{p.x, p.y, p.z}.cast<double>(); }
 
-// Particles of one grid: how far apart they lie at rest, unless they share a cell and a spring. Of two grids:
-// infinity.
+// The distance at rest of two particles of one grid, unless they share a cell and a spring. Infinite for
+// particles of two grids.
 std::optional<double> restDistance(const Cloth& cloth, const Grid& grid,
                                    const std::vector<std::uint32_t>& cutMasks, std::uint32_t i,
                                    std::uint32_t j) {
@@ -38,11 +39,11 @@ std::optional<double> restDistance(const Cloth& cloth, const Grid& grid,
 
 }  // namespace
 
-ContactMeasures measureContacts(const Cloth& cloth, const Scene& scene, const State& state, double stretch) {
+ContactMeasures measureContacts(const Cloth& cloth, const Scene& scene, const State& state, double strain) {
   ContactMeasures measures;
   if (!collidesWithItself(scene, cloth)) return measures;
   const double d = contactDistance(scene, cloth), h = stepLength(scene.solver);
-  measures.neededDistance = crossingDistance(cloth, std::max(stretch, 0.0));
+  measures.neededDistance = crossingDistance(cloth, std::max(strain, 0.0));
 
   Components<float> positions;
   positions.resize(state.positions.size());
@@ -63,7 +64,7 @@ ContactMeasures measureContacts(const Cloth& cloth, const Scene& scene, const St
     const Vec3d relative = vectorOf(state.velocities[i]) - vectorOf(state.velocities[j]);
     const double distance = std::sqrt(dot(apart, apart));
     measures.contacts += distance < CONTACT_REACH * std::min(d, *rest);
-    // A pair that lies nearer at rest than strangers may come has to keep that part of its distance.
+    // A pair that lies nearer at rest than D needs the same share of its own distance.
     measures.overlaps += distance < measures.neededDistance * std::min(1.0, *rest / d);
     measures.smallestDistance = std::min(measures.smallestDistance.value_or(distance), distance);
     measures.relativeMotion = std::max(measures.relativeMotion, h * std::sqrt(dot(relative, relative)));

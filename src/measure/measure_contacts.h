@@ -1,5 +1,5 @@
-// Numbers about self-contact that a person can judge, and whether the condition held under which no two
-// triangles can have crossed (solver/self_collision.h). Computed on the host from a read-back.
+// Measures of self-contact, and of the condition under which no two triangles can cross
+// (solver/self_collision.h). Computed on the host from a copy of the state.
 #pragma once
 
 #include <cstdint>
@@ -12,15 +12,15 @@
 namespace clothsim {
 
 struct ContactMeasures {
-  std::uint64_t contacts = 0;              // pairs of strangers within 1.05 contact distances
-  std::uint64_t overlaps = 0;              // nearer than D: their triangles may cross
-  std::optional<double> smallestDistance;  // of strangers in reach of each other [m]
-  double neededDistance = 0;               // D for the stretch that there is [m]
-  double relativeMotion = 0;               // delta: the largest of strangers in reach, in a step [m]
+  std::uint64_t contacts = 0;  // non-adjacent pairs of particles within 1.05 contact distances
+  std::uint64_t overlaps = 0;  // non-adjacent pairs nearer than neededDistance: triangles may cross
+  std::optional<double> smallestDistance;  // of the nearest non-adjacent pair, if any is near [m]
+  double neededDistance = 0;               // D of solver/self_collision.h at this strain [m]
+  double relativeMotion = 0;               // largest of near non-adjacent pairs in a step [m]
 };
 
-// `stretch` is the largest l / L - 1 of the state. Nothing is measured in a scene without self-collision.
+// `strain` is the largest l/L - 1 of the state. In a scene without self-collision all measures are 0.
 [[nodiscard]] ContactMeasures measureContacts(const Cloth& cloth, const Scene& scene, const State& state,
-                                              double stretch);
+                                              double strain);
 
 }  // namespace clothsim

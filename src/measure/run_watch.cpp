@@ -17,7 +17,7 @@ namespace {
 
 constexpr double DOUBTFUL_TURN = 5;  // degrees in one step
 
-// Half the smallest spacing: pins that are moved so far at once stretch their springs by half.
+// Half the smallest spacing: pins that jump so far stretch their springs by half.
 double doubtfulDistance(const Cloth& cloth) {
   constexpr double least = 1e-3;  // [m]
   return std::max(0.5 * smallestSpacing(cloth), least);
@@ -33,7 +33,7 @@ double degreesBetween(const Pose& a, const Pose& b) {
   return std::acos(std::clamp(0.5 * (trace - 1), -1.0, 1.0)) * 180 / std::numbers::pi;
 }
 
-// From the end of a loop to its beginning.
+// The jump from the end of a loop to its beginning, if it is too large.
 std::optional<Warning> jumpOf(const Motion& motion, const std::string& name, double doubtful) {
   if (!motion.loop || motion.keys.size() < 2) return std::nullopt;
   const Motion::Key& last = motion.keys.back();

@@ -1,6 +1,5 @@
-// What may make the numbers or pictures of a run useless although it ended: contact that was lost, springs
-// stretched beyond what cloth bears, paths that jump. Gathered at frame ends; said in one line each,
-// everywhere.
+// Warnings that the results of a run may be of no use although it completed: contact was lost, springs are
+// stretched too far, paths jump. They are collected at the end of every frame.
 #pragma once
 
 #include <cstdint>
@@ -19,30 +18,31 @@ namespace clothsim {
 
 struct Warning {
   std::string kind;          // "start", "path", "contact" or "strain"
-  std::optional<int> frame;  // in which it was seen first
-  std::string brief;         // for the viewer's overlay
-  std::string text;          // what it is, and what to set
+  std::optional<int> frame;  // in which it was found first
+  std::string brief;         // a few words, for the viewer's overlay
+  std::string text;          // a sentence with advice
 };
 
-// The strain (l/L - 1) from which on a scene's results are doubtful: half its length for a scene with a
-// material, which no fabric bears; its whole length for springs alone, which students also make soft.
+// The strain l/L - 1 above which results are doubtful: 0.5 in a scene with a material, since no fabric
+// stretches so far, and 1 in other scenes, since assignments use soft springs, too.
 [[nodiscard]] double doubtfulStrain(const Scene& scene);
 
-// Paths that begin away from their pins, and loops that jump where they begin again. `state` is that of the
-// start.
+// Warns of paths that begin away from their pins and of loops that jump where they begin again. `state` is
+// the state at the start.
 [[nodiscard]] std::vector<Warning> pathWarnings(const Cloth& cloth, const Scene& scene, const State& state);
 
 class RunWatch {
  public:
-  // Looks at the state that a run begins with, before the first step.
+  // To be called with the state before the first step.
   void start(const Cloth& cloth, const Scene& scene, const State& state);
-  // Looks at the end of a frame; frame 0 is the start. `strain` as Measures::maxStrain, `counts` up to now.
+  // To be called at the end of every frame; frame 0 is the start. `strain` is Measures::maxStrain, `counts`
+  // are those since the start.
   void add(int frame, const Cloth& cloth, const Scene& scene, const State& state, double strain,
            const ContactCounts& counts);
 
   [[nodiscard]] const ContactReport& contacts() const { return contacts_; }
   [[nodiscard]] const ColliderOverlaps& startInColliders() const { return startInColliders_; }
-  // In the order start, path, contact, strain; of each kind but paths at most one.
+  // In the order start, path, contact, strain. There is at most one of each kind, except of paths.
   [[nodiscard]] std::vector<Warning> warnings(const Scene& scene) const;
 
  private:
@@ -53,10 +53,11 @@ class RunWatch {
   double peakStrain_ = 0;
 };
 
-// One line each on stderr: "clothsim: warning: frame 12: ...". `which` tells which run of several it is.
+// Prints a line for each on stderr: "clothsim: warning: frame 12: ...". `which` names the run where there are
+// several.
 void print(const std::vector<Warning>& warnings, const std::string& which = "");
 [[nodiscard]] nlohmann::ordered_json toJson(const std::vector<Warning>& warnings);
-// Under `strict` @throws SimulationError when there is any warning
+// @throws SimulationError when `strict` and there is any warning
 void checkStrict(bool strict, const std::vector<Warning>& warnings);
 
 }  // namespace clothsim

@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int mostAtOnce = 8;  // pictures of a window that hung
+constexpr int mostAtOnce = 8;  // limits the copies of a picture after the window has hung
 
 int evenBelow(int size) { return std::max(2, size - size % 2); }
 
@@ -23,7 +23,7 @@ ClipRecorder::ClipRecorder(const fs::path& folder, const std::string& stem, int 
   try {
     film_ = std::make_unique<VideoWriter>(path_, width_, height_, framesPerSecond);
   } catch (const InputOutputError&) {
-    // Without ffmpeg: pictures, from which a film can be made elsewhere.
+    // Without ffmpeg pictures are saved, from which a film can be made elsewhere.
     path_ = freeName(folder, stem + "-frames", "");
     std::error_code failure;
     if (!fs::create_directory(path_, failure))

@@ -11,7 +11,7 @@ namespace {
 constexpr Color8 paper{0xf6, 0xf5, 0xf2}, ink{0x22, 0x26, 0x2b}, quiet{0x6d, 0x74, 0x7c},
     alertInk{0xff, 0xd2, 0x8a}, alertPaper{0x2b, 0x24, 0x1d};
 
-// Where everything goes, for pictures of a size.
+// The layout of a sheet for pictures of a given size.
 struct Layout {
   explicit Layout(const ContactSheet& sheet)
       : scale(std::clamp(std::min(sheet.pictureWidth / 460.0, sheet.pictureHeight / 345.0), 0.5, 8.0)),
@@ -56,7 +56,7 @@ struct Layout {
   int width = 0, height = 0;
 };
 
-// "cloth.ks  500 N/m" on one baseline.
+// Draws a heading such as "cloth.ks  500 N/m" on one baseline.
 void drawHeading(Image& page, const Layout& layout, const SheetHeading& heading, int x, int baseline,
                  int room) {
   const PictureFont& font = layout.font;
@@ -68,7 +68,7 @@ void drawHeading(Image& page, const Layout& layout, const SheetHeading& heading,
   font.draw(page, value, layout.headingSize, x, baseline, ink);
 }
 
-// The headings of a row, one below the other, in the middle of its height.
+// Draws the headings of a row one below the other, centred in its height.
 void drawRowHeadings(Image& page, const Layout& layout, const std::vector<SheetHeading>& headings,
                      int middle) {
   const int line = layout.at(84), room = layout.rowHeadings - layout.at(20);
@@ -83,14 +83,14 @@ void drawRowHeadings(Image& page, const Layout& layout, const std::vector<SheetH
   }
 }
 
-// How much of a pixel's middle lies in a rectangle with round corners, softened over a pixel.
+// The coverage of a pixel by a rectangle with round corners, smoothed over one pixel.
 double roundedCover(double x, double y, double width, double height, double radius) {
   const double dx = std::max({radius - x, x - (width - radius), 0.0});
   const double dy = std::max({radius - y, y - (height - radius), 0.0});
   return std::clamp(radius - std::hypot(dx, dy) + 0.5, 0.0, 1.0);
 }
 
-// @param dimmed  grey and pale, so that it is not taken for a result
+// @param dimmed  draws it grey and pale, so that it is not taken for a result
 void drawPicture(Image& page, const Image& image, int left, int top, double radius, bool dimmed) {
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
@@ -109,7 +109,7 @@ void drawPicture(Image& page, const Image& image, int left, int top, double radi
     }
 }
 
-// In the middle of a picture.
+// Writes text in the middle of a picture.
 void drawAlert(Image& page, const Layout& layout, const std::string& alert, int left, int top, int width,
                int height) {
   const PictureFont& font = layout.font;

@@ -1,4 +1,4 @@
-// A contact sheet: pictures in rows and columns on one page, with headings in words.
+// A contact sheet: pictures in rows and columns on one page, with headings.
 #pragma once
 
 #include <string>
@@ -15,21 +15,21 @@ struct SheetHeading {
 struct SheetPicture {
   Image image;
   std::string caption;   // below it
-  std::string alert;     // "" for none; the picture is dimmed and this stands upon it
-  SheetHeading heading;  // above it, on a sheet without headings of columns
+  std::string alert;     // written on the picture, which is dimmed then; "" for none
+  SheetHeading heading;  // above it where the columns have no headings
 };
 
 struct ContactSheet {
   std::string title, subtitle;
-  std::vector<SheetHeading> columns;            // headings; empty: each picture has its own
-  std::vector<std::vector<SheetHeading>> rows;  // headings, one below the other; empty: none
+  std::vector<SheetHeading> columns;            // headings; empty: each picture has one
+  std::vector<std::vector<SheetHeading>> rows;  // headings, several a row; empty: none
   std::size_t columnCount = 1;
   int pictureWidth = 0, pictureHeight = 0;
   std::vector<SheetPicture> pictures;  // row by row
 };
 
-// The page, and where its pictures lie upon it [pixels from the top left]; what is in them does not matter.
-// All text grows with them.
+// The size of the page and the places of the pictures [pixels from the top left]. The size of text follows
+// that of the pictures.
 struct SheetPlan {
   struct Place {
     int x = 0, y = 0;

@@ -28,7 +28,8 @@ fs::path outputFolder() {
 fs::path freeName(const fs::path& folder, const std::string& stem, const std::string& extension) {
   const auto isTaken = [](const fs::path& path) {
     std::error_code ignored;
-    return fs::exists(fs::symlink_status(path, ignored));  // a name too long is free; writing it complains
+    return fs::exists(fs::symlink_status(
+        path, ignored));  // a name that is too long counts as free; writing it fails with a message
   };
   fs::path path = folder / (stem + extension);
   for (int number = 2; isTaken(path); ++number)

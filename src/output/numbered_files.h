@@ -1,5 +1,5 @@
-// Names for screenshots, clips and recordings: scene-backend-frame.png, with a number added where that name
-// is taken.
+// File names for screenshots, clips and recordings: scene-backend-frame.png, with a number added where a file
+// has that name.
 #pragma once
 
 #include <filesystem>
@@ -7,11 +7,11 @@
 
 namespace clothsim {
 
-// The folder for what the viewer writes on request: the current one, or the user's pictures or home folder
-// where that cannot be written to.
+// The folder for the viewer's files: the current one; where it is not writable, the user's folder of pictures
+// or the home folder.
 [[nodiscard]] std::filesystem::path outputFolder();
 
-// folder/stem.extension, or with -2, -3 ... behind the stem: the first name that nothing has.
+// The first name without a file: folder/stem.extension, or with -2, -3 ... after the stem.
 [[nodiscard]] std::filesystem::path freeName(const std::filesystem::path& folder, const std::string& stem,
                                              const std::string& extension);
 

@@ -19,7 +19,7 @@ void checkPicture(const std::string& flag, const std::string& name, const Pictur
 PictureOutput::PictureOutput(std::string name, const PictureSettings& settings, const Scene& scene)
     : name_(std::move(name)), frames_(settings.frames) {
   if (name_.ends_with(".mp4")) {
-    // A film plays in real time: every so many frames that it stays at or below the rate asked for.
+    // A film plays in real time. Frames are left out to stay at or below the given rate.
     const double rate = scene.solver.framesPerSec;
     every_ = std::max(1, static_cast<int>(std::ceil(rate / settings.picturesPerSecond - 1e-9)));
     video_ = std::make_unique<VideoWriter>(name_, settings.width, settings.height, rate / every_);

@@ -1,4 +1,4 @@
-// Where the pictures of a run go: still.png (the last frame), frame_%04d.png, clip.mp4.
+// Saves the pictures of a run: still.png gets the last frame, frame_%04d.png and clip.mp4 many.
 #pragma once
 
 #include <memory>
@@ -22,7 +22,7 @@ struct PictureSettings {
 
 class PictureOutput {
  public:
-  // @throws InputOutputError when a film cannot be begun
+  // @throws InputOutputError when a film cannot be started
   PictureOutput(std::string name, const PictureSettings& settings, const Scene& scene);
 
   [[nodiscard]] bool wants(int frame) const { return every_ > 0 ? frame % every_ == 0 : frame == frames_; }
@@ -36,7 +36,8 @@ class PictureOutput {
   std::unique_ptr<VideoWriter> video_;
 };
 
-// Before long work. @throws UsageError for a film of an odd width or height; `flag` is where its name stands
+// To be called before long work; `flag` is named in messages. @throws UsageError for a film of an odd width
+// or height
 void checkPicture(const std::string& flag, const std::string& name, const PictureSettings& settings);
 
 }  // namespace clothsim

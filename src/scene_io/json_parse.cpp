@@ -44,8 +44,13 @@ std::string printable(std::string_view text) {
   return result.size() > 160 ? result.substr(0, 160) + "..." : result;
 }
 
-[[noreturn]] void complainTooLarge(std::string_view text, std::size_t begin, std::size_t end) {
-  complainAt(text, end - 1, "the number " + printable(text.substr(begin, end - begin)) + " is too large");
+// RapidJSON gives up on some numbers that are spelled as no person would: 0e400, or 400 digits and e-300.
+[[noreturn]] void complainOfNumber(std::string_view text, std::size_t begin, std::size_t end) {
+  const std::string spelled(text.substr(begin, end - begin));
+  const bool isTooLarge = !std::isfinite(std::strtod(spelled.c_str(), nullptr));
+  complainAt(text, end - 1,
+             "the number " + printable(spelled) +
+                 (isTooLarge ? " is too large" : " has too many digits or too large an exponent"));
 }
 
 // The word or single character at `at`, for messages and to guess what was meant.
@@ -166,7 +171,7 @@ std::size_t numberEnd(std::string_view text, std::size_t begin) {
                                   text.data());
 }
 
-// Takes what it is told and keeps nothing.
+// A handler that ignores all values.
 using Ignore = rapidjson::BaseReaderHandler<>;
 
 Mistake refined(std::string_view text, Mistake mistake);
@@ -228,7 +233,7 @@ class TreeBuilder {
   bool RawNumber(const char* spelled, rapidjson::SizeType length, bool) {
     JsonPointer node = makeNumber(std::strtod(spelled, nullptr));
     node->text.assign(spelled, length);
-    if (!std::isfinite(node->number)) complainTooLarge(text_, stream_.Tell() - length, stream_.Tell());
+    if (!std::isfinite(node->number)) complainOfNumber(text_, stream_.Tell() - length, stream_.Tell());
     return add(std::move(node));
   }
   bool String(const char* value, rapidjson::SizeType length, bool) {
@@ -324,16 +329,16 @@ JsonPointer parseJson(std::string_view text) {
   if (text.find_first_not_of(" \t\r\n\xEF\xBB\xBF") == std::string_view::npos)
     throw JsonComplaint(0, 0, "", "the file is empty; expected a scene, {...}");
   rapidjson::MemoryStream stream(text.data(), text.size());
-  for (const char byte : byteOrderMark) {
-    if (!text.starts_with(byteOrderMark.front())) break;
-    if (stream.Peek() != byte) complainAt(text, stream.Tell(), "the file is not text in UTF-8");
-    stream.Take();
-  }
+  if (text.starts_with(byteOrderMark.front()))
+    for (const char byte : byteOrderMark) {
+      if (stream.Peek() != byte) complainAt(text, stream.Tell(), "the file is not text in UTF-8");
+      stream.Take();
+    }
   TreeBuilder builder(text, stream);
   rapidjson::Reader reader;
   const rapidjson::ParseResult result = reader.Parse<readerFlags>(stream, builder);
   if (result.Code() == rapidjson::kParseErrorNumberTooBig)
-    complainTooLarge(text, result.Offset(), numberEnd(text, result.Offset()));
+    complainOfNumber(text, result.Offset(), numberEnd(text, result.Offset()));
   if (result.IsError()) {
     const Mistake mistake = refined(text, {result.Code(), result.Offset()});
     complainAt(text, mistake.at, syntaxMessage(text, mistake));

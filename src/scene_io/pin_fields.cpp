@@ -1,4 +1,4 @@
-// The part of the table of scene keys that tells of pins and their motions.
+// The entries of the table of scene keys for pins and their motions.
 #include <array>
 
 #include "scene_io/field_table.h"

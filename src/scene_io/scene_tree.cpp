@@ -95,7 +95,7 @@ void gatherLists(JsonNode& root) {
     moveIntoList(root, "cloth", "cloths", 0);
   }
   gatherCollider(root, "sphere");
-  gatherCollider(root, "plane");  // comes to stand before the sphere
+  gatherCollider(root, "plane");  // is put before the sphere
 }
 
 Scene readScene(const JsonNode& root) {

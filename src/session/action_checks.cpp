@@ -9,7 +9,7 @@
 namespace clothsim {
 namespace {
 
-constexpr double FARTHEST = 1e6;  // [m], [m/s]: beyond it binary32 knows no cloth
+constexpr double FARTHEST = 1e6;  // [m], [m/s]: beyond it binary32 cannot resolve a cloth
 
 std::string text(double number) {
   char digits[32];
@@ -21,7 +21,7 @@ void require(bool holds, const std::string& message) {
   if (!holds) throw UsageError(message);
 }
 
-// Also for NaN.
+// False for NaN.
 bool isWithin(double x, double low, double high) { return low <= x && x <= high; }
 
 void checkPlace(const char* what, Vec3d place) {
@@ -40,10 +40,10 @@ class Checks {
  public:
   Checks(const Cloth& cloth, const Scene& scene) : cloth_(cloth), scene_(scene) {}
 
-  void operator()(const EditScene&) const {}  // the scene checks itself
+  void operator()(const EditScene&) const {}  // a Scene has been checked by its reader
   void operator()(const Release&) const {}
   void operator()(const Restart&) const {}
-  void operator()(const SwitchBackend&) const {}  // the name is checked where solvers are made
+  void operator()(const SwitchBackend&) const {}  // the solver factory checks the name
   void operator()(const MoveHand& move) const { checkPlace("move_hand: target", move.target); }
   void operator()(const SetPin& pin) const { checkParticle("set_pin", pin.particle, cloth_); }
   void operator()(const Grab& grab) const {

@@ -1,4 +1,4 @@
-// Whether an action makes sense where it is to act: hands may come from a recording that somebody has edited.
+// Checks an action before it is applied. A recording may have been edited by hand and ask for anything.
 #pragma once
 
 #include "cloth/cloth.h"

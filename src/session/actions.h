@@ -1,6 +1,6 @@
-// Everything that can be done to a running simulation by hand: plain values, so that they can be recorded
-// with the step before which they acted, and acted again (session.h, recording.h). None depends on the
-// camera.
+// Everything that a user can do to a running simulation. Actions are plain values: a recording stores each
+// with the step before which it was applied, and a replay applies it again (session.h, recording.h). None
+// depends on the camera.
 #pragma once
 
 #include <cstdint>
@@ -13,43 +13,48 @@
 
 namespace clothsim {
 
-// Parameters of the scene: live ones from the next step on. Others rebuild the cloth; it stays where it is,
-// with its pins and cuts, unless it begins from another lattice: then it starts anew with the pins set by
-// hand at their places.
+// Changes the scene. Live fields take effect in the next step. Other fields rebuild the cloth: on the same
+// lattice it keeps its state, pins and cuts; on another lattice it starts anew, and only the pins that the
+// user has set are carried over, to the nearest points.
 struct EditScene {
   Shared<Scene> scene;
 };
-// A soft spring from a particle to the hand, critically damped, stable at any strength. Particles within
-// `radius` of it on the lattice at rest follow in formation, ever softer with the distance. The hand begins
-// at the particle and goes to `target` over the next frame.
+// Pulls a particle by a spring to a point that the user moves. The spring is critically damped and stable at
+// any strength. Particles within `radius` of it on the lattice at rest are pulled likewise and keep their
+// formation; the farther away, the weaker. The point begins at the particle and moves to `target` over the
+// next frame.
 struct Grab {
   std::uint32_t particle = 0;
   Vec3d target;  // [m]
-  double strength =
-      1e4;  // of the spring, per mass [1/s^2]: what is held follows within about 5 / sqrt(strength) s
-  double radius = 0;  // [m], >= 0; 0 holds one particle
+  // Stiffness of the spring over the particle's mass [1/s^2], > 0. The particle follows within about
+  // 5 / sqrt(strength) seconds.
+  double strength = 1e4;
+  double radius = 0;  // [m], >= 0; 0: one particle
 };
-struct MoveHand {  // linearly over the next frame
-  Vec3d target;    // [m]
+// Moves the point that pulls, linearly over the next frame.
+struct MoveHand {
+  Vec3d target;  // [m]
 };
+// Ends a Grab.
 struct Release {};
-// The particle stays where it is now, off any path that the scene has for it; or gets its mass back.
+// Pins a particle where it is now, or frees it. It leaves any path that the scene has for it.
 struct SetPin {
   std::uint32_t particle = 0;
   bool pinned = true;
 };
-struct CutStroke {  // as cutAlong() of cloth/cuts.h
+// Cuts a cloth along a line of its lattice, as cutAlong() in cloth/cuts.h does.
+struct CutStroke {
   std::size_t grid = 0;
   LatticePoint from, to;
 };
-// A jet of air, until the next Blow. Without wind in the scene, drag acts in the jet alone.
+// A jet of air that lasts until the next Blow. In a scene without wind, drag acts only within the jet.
 struct Blow {
   Vec3d origin, direction;  // [m], any length but 0
-  double speed = 0;         // on the axis [m/s]; 0 ends it
-  double radius = 0.1;      // beyond which the air rests [m], > 0
+  double speed = 0;         // on the axis [m/s], 0 to 1000; 0 ends the jet
+  double radius = 0.1;      // of the jet [m], > 0; the air outside is at rest
 };
-// Linearly over the next frame, at a velocity that friction feels; then it stays. A collider on a path of its
-// own is off it during that frame; afterwards the whole path is shifted.
+// Moves a collider linearly over the next frame; friction sees its velocity. A collider with a path of its
+// own leaves the path during that frame; afterwards the whole path is shifted by the same vector.
 struct MoveCollider {
   std::size_t collider = 0;  // in scene.colliders
   Vec3d position;            // of its origin or point [m]
@@ -57,7 +62,8 @@ struct MoveCollider {
 struct SwitchBackend {
   std::string backend;  // "cpu" or "gpu"
 };
-struct Restart {};  // from the start of the scene: without cuts, hands and pins set by hand
+// Back to the start of the scene. Cuts, the Grab, the jet and the pins that the user has set are gone.
+struct Restart {};
 
 using Action = std::variant<EditScene, Grab, MoveHand, Release, SetPin, CutStroke, Blow, MoveCollider,
                             SwitchBackend, Restart>;

@@ -42,7 +42,7 @@ std::vector<SetPin> pinsByHand(const State& state, const Cloth& before, const Cl
     const std::size_t index = before.gridOf(particle);
     if (index >= after.grids().size()) continue;
     const Grid &from = before.grids()[index], &to = after.grids()[index];
-    if (from.isMesh || to.isMesh) continue;  // no place on the one is a place on the other
+    if (from.isMesh || to.isMesh) continue;  // a vertex of a mesh has no place on another cloth
     const int place = static_cast<int>(particle - from.firstParticle);
     const auto nearest = [](int point, int points, int newPoints) {
       const double part = points > 1 ? double(point) / (points - 1) : 0;

@@ -1,4 +1,4 @@
-// What stays of a simulation when an edit of the scene makes a new cloth.
+// What is kept of a state when an edit of the scene makes a new cloth.
 #pragma once
 
 #include <vector>
@@ -10,14 +10,14 @@
 
 namespace clothsim {
 
-// Whether the solvers cannot take the edit live (Solver::configure()).
+// Whether the edit needs a new cloth; Solver::configure() takes all other edits.
 [[nodiscard]] bool needsRebuild(const Scene& before, const Scene& after);
-// Grids of the same sizes that start at the same places.
+// Whether the grids have the same sizes and their points start at the same places.
 [[nodiscard]] bool haveSameLattice(const Cloth& a, const Cloth& b);
-// The state for a new cloth on the same lattice: particles stay pinned or free as they are, unless the pins
-// of the scene differ there; their masses are the new ones.
+// The state for a new cloth on the same lattice. A particle stays pinned or free unless the pins of the scene
+// have changed there. Masses are those of the new cloth.
 [[nodiscard]] State carriedOver(const State& state, const Cloth& before, const Cloth& after);
-// Pins set by hand, at the nearest points of a cloth on another lattice.
+// The pins that the user has set, at the nearest points of a cloth on another lattice.
 [[nodiscard]] std::vector<SetPin> pinsByHand(const State& state, const Cloth& before, const Cloth& after);
 
 }  // namespace clothsim

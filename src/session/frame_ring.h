@@ -1,7 +1,6 @@
-// The frames of a session that can be looked at again: each with all that is needed to go on from there to
-// the bit. The oldest ones go first when there is no room for more.
-// A frame costs a copy of 32 bytes a particle on the GPU, 28 on the CPU: about as much as half a step of the
-// many in it.
+// A ring buffer of past frames. Each holds all that is needed to continue from it with the same bits. When
+// the memory budget is used up, the oldest frames are dropped. To store a frame takes about half the time of
+// a step: the copy has 32 bytes a particle on the GPU and 28 on the CPU.
 #pragma once
 
 #include <cstdint>
@@ -17,17 +16,17 @@
 
 namespace clothsim {
 
-// Scenes that undo() and redo() lead to; the last one is the next to come.
+// The scenes that undo() or redo() return to. The last one is the next.
 using SceneStack = std::vector<Shared<Scene>>;
 
-// What a session knows besides the state of the solver.
+// What a session holds besides the state of the solver.
 struct SessionFrame {
   int number = 0;
-  int start = 0;  // the number of the frame in which the simulation last began anew
+  int start = 0;  // number of the frame in which the simulation was last restarted
   std::uint64_t step = 0;
   Shared<Scene> scene;
   Hand hand;
-  std::vector<MoveCollider> colliderMoves;  // of the next frame
+  std::vector<MoveCollider> colliderMoves;  // to be done in the next frame
   SceneStack undo, redo;
 };
 
@@ -45,17 +44,17 @@ class FrameRing {
     SessionFrame frame;
     std::unique_ptr<Snapshot> snapshot;
   };
-  // Remembers a frame up to newest() + 1, in the place of what was known of it; one before oldest() is
-  // forgotten for good. The last frame is kept whatever the budget.
+  // Stores a frame and replaces what was stored under its number, which is at most newest() + 1. A frame
+  // before oldest() is not stored. The newest frame is kept whatever the budget.
   void put(const SessionFrame& frame, Solver& solver);
-  // The same, without forgetting another one for it: until the next put().
+  // The same, but no frame is dropped for it until the next put().
   void putBeyondBudget(const SessionFrame& frame, Solver& solver);
-  // From oldest() to newest().
+  // `number` is from oldest() to newest().
   [[nodiscard]] const Entry& at(int number) const;
   void forgetAfter(int number);
 
  private:
-  // What fell out, if anything.
+  // Drops frames until another one fits. Returns a snapshot whose memory can be reused, if there is one.
   std::unique_ptr<Snapshot> makeRoom();
   void place(const SessionFrame& frame, Solver& solver, std::unique_ptr<Snapshot> spare);
   void dropOldest();

@@ -1,4 +1,4 @@
-// Recordings as JSON: one description of each action's fields serves writing and reading.
+// Recordings as JSON. The fields of each action are listed once, for writing and for reading.
 #include "session/recording.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace {
 constexpr std::string_view SCHEMA = "clothsim-recording/1";
 constexpr std::uintmax_t LARGEST_FILE = std::uintmax_t{256} << 20;
 
-// The name and the fields of every action; `io(key, value)` writes or reads one.
+// The fields of every action. `io(key, value)` writes or reads one of them.
 template <class Io>
 void fields(Io& io, EditScene& action) {
   io("scene", action.scene);
@@ -68,7 +68,7 @@ void fields(Io& io, SwitchBackend& action) {
 template <class Io>
 void fields(Io&, Restart&) {}
 
-// In the order of the variant.
+// In the order of the variant Action.
 constexpr std::string_view actionNames[] = {"edit_scene",     "grab",   "move_hand", "release",
                                             "set_pin",        "cut",    "blow",      "move_collider",
                                             "switch_backend", "restart"};
@@ -99,14 +99,14 @@ class Writer {
   JsonNode& object_;
 };
 
-// Takes every field out of an object once; finish() complains about what is left.
+// Reads the fields of an object. finish() complains about keys that were not read.
 class Reader {
  public:
   explicit Reader(JsonNode& object) : object_(object) {
     if (object.kind != JsonKind::object) complainExpected(object, "an object");
   }
 
-  // The member, which must be there.
+  // A member that must be there. @throws JsonComplaint
   JsonNode& member(const std::string& key) {
     known_.push_back(key);
     JsonNode* found = object_.find(key);

@@ -1,6 +1,5 @@
-// What was done to a simulation, from its start on: enough to do it again with the same bits on either
-// backend
-// (`clothsim run --replay FILE`).
+// All actions on a simulation since its start. `clothsim run --replay FILE` applies them again and gets the
+// same bits on either backend.
 #pragma once
 
 #include <cstdint>
@@ -17,20 +16,20 @@ namespace clothsim {
 
 struct Recording {
   struct Event {
-    std::uint64_t step = 0;  // steps done before it, over all restarts
+    std::uint64_t step = 0;  // number of steps before it, counted over all restarts
     Action action;
   };
 
-  Shared<Scene> scene;          // as at the start
+  Shared<Scene> scene;          // at the start
   std::string backend = "gpu";  // at the start
-  int frames = 0;               // done so far
-  std::vector<Event> events;    // in the order in which they acted
+  int frames = 0;               // simulated so far
+  std::vector<Event> events;    // in the order in which they were applied
   std::string source;           // the file that it was loaded from, for messages; "" for none
 
-  // JSON ("clothsim-recording/1")
+  // As JSON, in the format "clothsim-recording/1".
   [[nodiscard]] std::string format() const;
-  // `source` names the text in messages. @throws SceneError for a text that is no recording, with its line
-  // and JSON path
+  // `source` names the text in messages. @throws SceneError with line and JSON path when the text is not a
+  // recording
   [[nodiscard]] static Recording parse(std::string_view text, const std::string& source);
 
   // Writes format() whole or not at all. @throws InputOutputError

@@ -12,17 +12,17 @@ Replay::Replay(Recording recording, const std::optional<std::string>& backend, S
     : recording_(std::move(recording)),
       keepsBackend_(backend.has_value()),
       session_(recording_.scene, backend.value_or(recording_.backend), makeSolver, 0) {
-  actOutDue();
+  applyDueEvents();
 }
 
 std::optional<Trouble> Replay::stepFrame() {
   const std::optional<Trouble> trouble = session_.stepFrames(1);
   stopIfInterrupted();
-  if (!trouble) actOutDue();
+  if (!trouble) applyDueEvents();
   return trouble;
 }
 
-void Replay::actOutDue() {
+void Replay::applyDueEvents() {
   for (; next_ < recording_.events.size() && recording_.events[next_].step <= session_.step(); ++next_) {
     const Action& action = recording_.events[next_].action;
     if (keepsBackend_ && std::holds_alternative<SwitchBackend>(action)) continue;

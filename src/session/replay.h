@@ -1,4 +1,4 @@
-// A recording done again, frame by frame: the same bits on either backend.
+// Repeats a recording frame by frame, with the same bits on either backend.
 #pragma once
 
 #include <optional>
@@ -11,22 +11,22 @@ namespace clothsim {
 
 class Replay {
  public:
-  // On the recording's own backends, changing as it did; or all of it on `backend`. @throws as Session, and
-  // SceneError that names the event when it makes no sense in its place
+  // Without `backend` each part runs on the backend that it was recorded on. @throws as Session, and
+  // SceneError that names an event that cannot be applied
   Replay(Recording recording, const std::optional<std::string>& backend, SolverFactory makeSolver);
 
   [[nodiscard]] Session& session() { return session_; }
-  // Steps a frame, then does what was done at its end. Goes on without hands where the recording ends.
-  // @throws likewise
+  // Simulates a frame, then applies the actions recorded at its end. Beyond the end of the recording frames
+  // are simulated without any action. @throws as the constructor
   [[nodiscard]] std::optional<Trouble> stepFrame();
 
  private:
-  void actOutDue();
+  void applyDueEvents();
 
   Recording recording_;
   bool keepsBackend_;
   Session session_;
-  std::size_t next_ = 0;  // event
+  std::size_t next_ = 0;  // index of the first event that is not applied yet
 };
 
 }  // namespace clothsim

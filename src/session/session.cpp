@@ -18,7 +18,7 @@ Session::Session(const Shared<Scene>& scene, const std::string& backend, SolverF
   recording_.scene = scene;
   recording_.backend = backend;
   now_.scene = scene;
-  simulation_.solver().convertVelocities();  // now, and not whenever somebody happens to look at the state
+  simulation_.solver().convertVelocities();  // the bits must not depend on when the state is first read
 }
 
 void Session::act(const Action& action, bool continues) {
@@ -33,9 +33,9 @@ void Session::act(const Action& action, bool continues) {
   record(action);
 }
 
-// What is done while looking back makes a new future.
+// An action in an earlier frame drops the later ones.
 void Session::record(const Action& action) {
-  forgetLater();
+  dropLaterFrames();
   recording_.events.push_back({now_.step, action});
 }
 
@@ -118,7 +118,7 @@ void Session::changeScene(const Shared<Scene>& scene) {
   else
     simulation_.configure(scene);
   simulation_.solver().convertVelocities();
-  // A move may have lost its collider.
+  // The edit may have removed a collider that was to be moved.
   std::erase_if(now_.colliderMoves,
                 [&](const MoveCollider& move) { return move.collider >= scene->colliders.size(); });
   now_.scene = scene;
@@ -155,41 +155,41 @@ void Session::goBetween(SceneStack& from, SceneStack& to) {
 }
 
 std::optional<Trouble> Session::stepFrames(int frames) {
-  if (frames > 0) forgetLater();
-  goesOn_ = true;
-  for (int i = 0; i < frames && goesOn_; ++i)
+  if (frames > 0) dropLaterFrames();
+  isContinued_ = true;
+  for (int i = 0; i < frames && isContinued_; ++i)
     if (const std::optional<Trouble> trouble = stepFrame()) return trouble;
   return std::nullopt;
 }
 
-// Returns false when the pulse wants no more of it.
+// Returns false when the poll has asked to stop.
 bool Session::advance(int steps) {
   using Clock = std::chrono::steady_clock;
-  constexpr std::chrono::milliseconds pulseTime{50};
+  constexpr std::chrono::milliseconds pollTime{50};
   Solver& solver = simulation_.solver();
-  if (!pulse_) {
+  if (!poll_) {
     solver.step(steps);
     return true;
   }
-  Clock::time_point lastPulse = Clock::now();
-  for (int done = 0; done < steps && goesOn_;) {
+  Clock::time_point lastPoll = Clock::now();
+  for (int done = 0; done < steps && isContinued_;) {
     const int count = std::min(stepsAtOnce_, steps - done);
     const Clock::time_point start = Clock::now();
     solver.step(count);
     solver.finish();
     const Clock::time_point end = Clock::now();
     done += count;
-    if (end - start > pulseTime)
+    if (end - start > pollTime)
       stepsAtOnce_ = std::max(1, count / 2);
-    else if (end - start < pulseTime / 4 && count == stepsAtOnce_ && stepsAtOnce_ < 1 << 20)
+    else if (end - start < pollTime / 4 && count == stepsAtOnce_ && stepsAtOnce_ < 1 << 20)
       stepsAtOnce_ *= 2;
-    // Steps that settle at less than a pulse's time at once must not put it off for ever.
-    if (end - lastPulse > pulseTime / 2) {
-      goesOn_ = pulse_();
-      lastPulse = end;
+    // Counted over several batches: single batches may stay shorter than the interval.
+    if (end - lastPoll > pollTime / 2) {
+      isContinued_ = poll_();
+      lastPoll = end;
     }
   }
-  return goesOn_;
+  return isContinued_;
 }
 
 std::optional<Trouble> Session::stepFrame() {
@@ -240,7 +240,7 @@ void Session::finishColliderMoves() {
 }
 
 Session::Past Session::past() {
-  forgetLater();
+  dropLaterFrames();
   return {recording_, now_.step};
 }
 
@@ -259,7 +259,7 @@ int Session::newestFrame() const {
   return ring_.isEmpty() ? now_.number : std::max(ring_.newest(), now_.number);
 }
 
-void Session::forgetLater() {
+void Session::dropLaterFrames() {
   if (now_.number == newestFrame()) return;
   ring_.forgetAfter(now_.number);
   std::erase_if(recording_.events, [&](const Recording::Event& event) { return event.step > now_.step; });

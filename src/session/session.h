@@ -1,5 +1,5 @@
-// A simulation with hands on it: everything done to it goes through act(), which records it, and its frames
-// are remembered for a while, so that one can look back and go on from there.
+// A simulation that a user acts on. Every action goes through act(), which records it. Past frames are kept
+// within a memory budget: one can look back and continue from there.
 #pragma once
 
 #include <cstdint>
@@ -24,71 +24,72 @@ class Session {
   Session(const Shared<Scene>& scene, const std::string& backend, SolverFactory makeSolver,
           std::size_t snapshotBudget = DEFAULT_SNAPSHOT_BUDGET);
 
-  // To look at, draw and measure. Whoever steps or changes it past the session spoils the recording.
+  // To be drawn and measured. Steps and changes that bypass the session are missing in the recording.
   [[nodiscard]] Simulation& simulation() { return simulation_; }
   [[nodiscard]] const Simulation& simulation() const { return simulation_; }
   [[nodiscard]] const Cuts& cuts() const { return simulation_.solver().cuts(); }
-  [[nodiscard]] bool isHolding() const { return now_.hand.hold.has_value(); }  // between Grab and Release
+  [[nodiscard]] bool isHolding() const {
+    return now_.hand.hold.has_value();
+  }  // between a Grab and its Release
   [[nodiscard]] bool isBlowing() const { return now_.hand.jet.has_value(); }
-  [[nodiscard]] const Hand& hand() const { return now_.hand; }  // what is held, where, and the jet
-  // Grows whenever simulation().cloth() is another one: by an edit of a field that rebuilds, or seek() across
-  // one. Whatever was made of the old cloth (a renderer) is to be made anew.
+  [[nodiscard]] const Hand& hand() const { return now_.hand; }  // the Grab and the jet
+  // Grows whenever simulation() gets another cloth: by an edit that rebuilds it, or by seek() across such an
+  // edit.
   [[nodiscard]] std::uint64_t clothGeneration() const { return clothGeneration_; }
 
-  // Acts at once, and goes into the recording; what has no effect (a Release of nothing, a stroke beside the
-  // cloth) does not. An EditScene that `continues` the one before it (a slider being dragged) is undone
-  // together with it. @throws UsageError for what makes no sense here, SceneError, OpenGlError; nothing has
-  // changed then
+  // Applies an action now and records it, unless it has no effect: a Release without a Grab, a cut beside the
+  // cloth. An EditScene that `continues` the one before it, as while a slider is dragged, is undone together
+  // with that one. @throws UsageError for an action that is impossible now, SceneError, OpenGlError; then
+  // nothing has changed
   void act(const Action& action, bool continues = false);
 
-  // Steps, and remembers the state at the start of each frame. After trouble the state is that of the last
-  // frame known to be sound, and the hand has let go; what came after it is forgotten, also by the recording.
-  // A frame that an interrupt cuts short is given up.
+  // Simulates frames and stores the start of each. After trouble the state is that of the last sound frame;
+  // later frames are dropped, also from the recording, and the Grab and the jet end. A frame that an
+  // interrupt cuts short is dropped.
   [[nodiscard]] std::optional<Trouble> stepFrames(int frames);
 
-  // Called about twenty times a second while frames are being stepped, so that somebody may look after a
-  // window; it must not touch the session. When it says false, stepFrames() ends at once: the frame that it
-  // was in is given up, and the state is that of the frame before.
-  void setPulse(std::function<bool()> pulse) { pulse_ = std::move(pulse); }
+  // `poll` is called about twenty times a second during stepFrames(), for example to process the events of a
+  // window. It must not use the session. When it returns false, stepFrames() drops the current frame and
+  // returns; the state is that of the frame before.
+  void setPoll(std::function<bool()> poll) { poll_ = std::move(poll); }
 
-  // Of EditScene; each of them acts and is recorded as an EditScene itself. Colliders moved by hand stay
-  // where they are.
+  // Undo and redo EditScene actions. Each is recorded as another EditScene. Colliders that the user has moved
+  // stay where they are.
   [[nodiscard]] bool canUndo() const { return !now_.undo.empty(); }
   [[nodiscard]] bool canRedo() const { return !now_.redo.empty(); }
   void undo();
   void redo();
 
-  // Frames and steps are counted from the start of the session, over all restarts.
-  [[nodiscard]] int oldestFrame() const;  // that can still be looked at
+  // Frames and steps are counted from the start of the session; a restart does not reset the counters.
+  [[nodiscard]] int oldestFrame() const;  // of those that are stored
   [[nodiscard]] int frame() const { return now_.number; }
   [[nodiscard]] int newestFrame() const;
-  // Counted from the last restart before frame(), as a person counts.
+  // The number of frames since the last restart before frame().
   [[nodiscard]] int frameSinceStart() const { return now_.number - now_.start; }
   [[nodiscard]] std::uint64_t step() const { return now_.step; }
-  // Shows a remembered frame, oldestFrame() to newestFrame(), as it was when it was left: state, scene, pins,
-  // cuts and hands, to the bit. (The hand may hold there: who does not want that acts a Release before
-  // stepping.) Stepping or acting there forgets what came later. @throws SceneError, OpenGlError
+  // Goes to a stored frame, oldestFrame() to newestFrame(), with the state, scene, pins, cuts and the Grab
+  // that it had. To step or act there drops all later frames. @throws SceneError, OpenGlError
   void seek(int frame);
 
-  // What is left when its device is lost: what was done up to frame(), and the step of it.
+  // The recording up to frame() and the number of its steps: what is left when the device is lost.
   struct Past {
     Recording recording;
     std::uint64_t step = 0;
   };
   [[nodiscard]] Past past();
-  // Another session's, which ended in this one's scene: goes on counting and recording as if this had been
-  // that one, and been restarted on this backend. Before anything is stepped.
+  // Continues the counters and the recording of another session, which ended with this one's scene, as if
+  // that session had switched to this backend and restarted. To be called before the first step.
   void goOnFrom(Past past);
 
-  // The scene at the start, and what was done up to newestFrame().
+  // The scene at the start, and the actions up to newestFrame().
   [[nodiscard]] const Recording& recording() const { return recording_; }
 
   [[nodiscard]] std::size_t snapshotBytes() const { return ring_.bytes(); }
-  // The frame that was left last is remembered whatever the budget.
+  // The newest stored frame is kept whatever the budget.
   void setSnapshotBudget(std::size_t bytes) { ring_.setBudget(bytes); }
 
  private:
-  // Each returns whether it had an effect.
+  // Each returns whether the action had an effect.
   bool apply(const EditScene& edit);
   bool apply(const Grab& grab);
   bool apply(const MoveHand& move);
@@ -107,7 +108,7 @@ class Session {
   [[nodiscard]] bool advance(int steps);
   void startColliderMoves();
   void finishColliderMoves();
-  void forgetLater();
+  void dropLaterFrames();
   void goTo(int frame);
 
   Simulation simulation_;
@@ -115,9 +116,9 @@ class Session {
   SessionFrame now_;
   FrameRing ring_;
   std::uint64_t clothGeneration_ = 0;
-  std::function<bool()> pulse_;
-  int stepsAtOnce_ = 1;  // between two looks at the clock, for the pulse
-  bool goesOn_ = true;   // as the pulse said
+  std::function<bool()> poll_;
+  int stepsAtOnce_ = 1;      // between two readings of the clock
+  bool isContinued_ = true;  // as poll_ last returned
 };
 
 }  // namespace clothsim

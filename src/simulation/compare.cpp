@@ -17,7 +17,7 @@ void compareFloat(float a, float b, StateDifference& result) {
   result.maxAbs = std::max(result.maxAbs, std::abs(static_cast<double>(a) - static_cast<double>(b)));
 }
 
-// Both go through the frame again, a step at a time, from the state they still shared.
+// Repeats the frame on both backends step by step, from the last state that was equal.
 std::uint64_t firstDifferingStep(Simulation& cpu, Simulation& gpu, const State& equal) {
   cpu.solver().setState(equal);
   gpu.solver().setState(equal);

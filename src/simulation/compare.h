@@ -1,5 +1,5 @@
-// The comparison behind `clothsim compare`, `doctor` and the tests: the same scene on both backends, bit by
-// bit.
+// Simulates a scene on both backends and compares their states bit by bit. Used by `clothsim compare`, by
+// `doctor` and by tests.
 #pragma once
 
 #include <cstdint>
@@ -15,29 +15,29 @@
 namespace clothsim {
 
 struct Comparison {
-  int frames = 0;  // that were run; fewer than asked for when they differ
+  int frames = 0;  // simulated; fewer than asked for when the backends differ
   std::uint64_t steps = 0;
-  std::uint64_t floats = 0;           // of a state, 6 a particle
+  std::uint64_t floats = 0;           // in a state: 6 a particle
   std::uint64_t differingFloats = 0;  // in the first frame that differs
   double maxAbsDifference = 0;
-  std::optional<std::uint64_t> firstDifferingStep;  // found by repeating that frame step by step
+  std::optional<std::uint64_t> firstDifferingStep;  // the frame is repeated step by step to find it
   bool finite = true;
-  // Either backend's; they differ only when a driver breaks the agreement. The frame that it came up in
-  // counts as run, and is not compared.
+  // The trouble of each backend; they differ only when a driver breaks the numeric contract. The frame in
+  // which it occurred counts as simulated and is not compared.
   std::optional<Trouble> cpuTrouble, gpuTrouble;
-  ContactCounts contacts;  // the CPU's
+  ContactCounts contacts;  // of the CPU backend
   std::string device, cpuHash, gpuHash;
 };
 
 struct StateDifference {
   std::uint64_t floats = 0, differing = 0;
   double maxAbs = 0;
-  bool finite = true;  // of both
+  bool finite = true;  // whether both states are
 };
 [[nodiscard]] StateDifference difference(const State& a, const State& b);
 
-// `makeSolver` knows "cpu" and "gpu". `atFrame` hears of frame 0 and every frame that is done, with the CPU's
-// state. Stops after the first frame that differs or has trouble.
+// `makeSolver` knows "cpu" and "gpu". `atFrame` is called for frame 0 and after every frame with the state of
+// the CPU backend. Stops after the first frame that differs or has trouble.
 [[nodiscard]] Comparison compareBackends(const Shared<Scene>& scene, int frames, SolverFactory makeSolver,
                                          const std::function<void(int, const State&)>& atFrame = {});
 

@@ -1,4 +1,4 @@
-// What a run is summed up in, gathered at the end of every frame: the measures of `run --json` and `sweep`.
+// Measures of a run that `run --json` and `sweep` report. They are collected at the end of every frame.
 #pragma once
 
 #include <cstdint>
@@ -11,16 +11,16 @@
 namespace clothsim {
 
 struct RunSummary {
-  double seconds = 0;  // wall time of the step loop, which whoever steps adds to
+  double seconds = 0;  // wall time of all steps; the caller adds to it
   double peakStrain = -1, maxPenetration = 0;
-  int frame = -1;     // the last one that was looked at
-  State state;        // at its end
+  int frame = -1;     // number of the last add()
+  State state;        // at the end of that frame
   Measures measures;  // of that state
   RunWatch watch;
 
-  // Looks at the start, which is frame 0, and at the end of every frame.
+  // To be called at the start, which is frame 0, and at the end of every frame.
   void add(Simulation& simulation);
-  // state_hash, max_strain, peak_strain, ... of `run --json`.
+  // Adds state_hash, max_strain, peak_strain and more to the object that `run --json` prints.
   void write(nlohmann::ordered_json& json, Simulation& simulation) const;
 };
 

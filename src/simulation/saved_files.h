@@ -1,4 +1,4 @@
-// The states and sequences of states that a run saves under the names that were asked for, as it goes on.
+// The states and sequences of states that a run saves, frame by frame.
 #pragma once
 
 #include <memory>
@@ -12,15 +12,15 @@ namespace clothsim {
 
 class SavedFiles {
  public:
-  // By extension: what makeSequenceWriter() and saveState() know. A sequence and a name with %04d take frame
-  // 0 and every `every`-th one, another name the last of `frames` alone.
+  // The extension of a name chooses the format; makeSequenceWriter() and saveState() list them. Sequences and
+  // names with %04d get frame 0 and every `every`-th frame. Other names get the last of `frames` frames.
   // @throws UsageError for another extension, InputOutputError
   SavedFiles(const std::vector<std::string>& names, int every, int frames, const Simulation& simulation);
 
-  // Frame 0 and every frame that is done, in turn; `state` is that of its end. @throws InputOutputError, as
+  // To be called for frame 0 and after every frame, with the state then. @throws InputOutputError, as
   // finish() does
   void add(const Simulation& simulation, const State& state, int frame);
-  // Sequences are there from now on.
+  // Closes the sequences, which are complete from then on.
   void finish();
 
  private:

@@ -49,7 +49,7 @@ void Simulation::rebuild(const Shared<Scene>& scene) {
   const Shared<Cloth> cloth(Cloth{*scene});
   std::unique_ptr<Solver> solver = makeSolver_(solver_->backend(), cloth, scene);
   contactsBefore_ = contactCounts();
-  solver_ = std::move(solver);  // before the cloth that the old one points to
+  solver_ = std::move(solver);  // before its cloth goes
   cloth_ = cloth;
   scene_ = scene;
   touch();

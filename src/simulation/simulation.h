@@ -1,9 +1,9 @@
-// A scene being simulated: its cloth, the solver on the chosen backend, and the clock in frames. Needs no
-// OpenGL: a program that has it brings the GPU's solver from simulation/gpu/solvers.h.
+// A scene being simulated: the scene, its cloth, and a solver on the chosen backend. It needs no OpenGL. A
+// program with OpenGL passes makeSolver() of simulation/gpu/solvers.h, which knows the GPU backend.
 //
-// All that `clothsim run` does without pictures is in this library: loadSceneByName() or readScene() load a
-// scene (scene_io/), a Simulation steps it, RunSummary measures it (run_summary.h), SavedFiles and
-// saveState() export it (saved_files.h, export/).
+// The library cloth_core does all that `clothsim run` does without pictures: loadSceneByName() and
+// readScene() in scene_io/ load a scene, Simulation steps it, RunSummary in run_summary.h measures it, and
+// SavedFiles in saved_files.h and saveState() in export/ save it.
 #pragma once
 
 #include <cstdint>
@@ -18,16 +18,16 @@
 
 namespace clothsim {
 
-// Makes the solver of a backend by its name. @throws UsageError for a name that it does not know, OpenGlError
+// Makes a solver on the backend of that name. @throws UsageError for an unknown name, OpenGlError
 using SolverFactory = std::unique_ptr<Solver> (*)(const std::string& backend, const Shared<Cloth>& cloth,
                                                   const Shared<Scene>& scene);
-// Knows "cpu" alone.
+// The factory of programs without OpenGL: it knows "cpu" only.
 [[nodiscard]] std::unique_ptr<Solver> makeCpuSolver(const std::string& backend, const Shared<Cloth>& cloth,
                                                     const Shared<Scene>& scene);
 
 class Simulation {
  public:
-  // At the start of the scene. @throws SceneError, UsageError, OpenGlError
+  // A simulation at the start of the scene. @throws SceneError, UsageError, OpenGlError
   explicit Simulation(const Shared<Scene>& scene, const std::string& backend = "cpu",
                       SolverFactory makeSolver = makeCpuSolver);
 
@@ -39,35 +39,38 @@ class Simulation {
   [[nodiscard]] const Solver& solver() const { return *solver_; }
   [[nodiscard]] SolverFactory solverFactory() const { return makeSolver_; }
   [[nodiscard]] double time() const { return solver_->clock().time(); }  // simulated [s]
-  // Of all solvers that it has had.
+  // Summed over all solvers that this simulation has had.
   [[nodiscard]] ContactCounts contactCounts() { return contactsBefore_ + solver_->contactCounts(); }
 
   void stepFrame() { stepFrames(1); }
   void stepFrames(int frames);
-  // Looks for trouble in the last stepFrame() or stepFrames(). After trouble the state is the one before that
-  // call, the last one known to be sound: what came after it is gone, and cannot be drawn or saved.
-  // @throws SimulationError when an interrupt cut the frames short
+  // Returns the trouble in the last stepFrame() or stepFrames(), if any. The state is then the sound one from
+  // before that call, so that nothing broken can be drawn or saved. @throws SimulationError when an interrupt
+  // cut the frames short
   [[nodiscard]] std::optional<Trouble> checkFrame();
-  // Waits until every step is done.
+  // Waits for the GPU until every step is done.
   void finish() { solver_->finish(); }
 
-  // A copy of the state, waited for; and going on from one, also of another simulation of the same cloth.
+  // A copy of the state; waits for the GPU. setState() also takes one of another simulation of the same
+  // cloth.
   [[nodiscard]] State state() { return solver_->state(); }
   void setState(const State& state);
   // Back to the start of the scene.
   void restart();
 
-  // Live edits: everything but the cloths' grids.
+  // Takes live edits: everything but the lattice and the springs of the cloths (needsRebuild() in
+  // session/carry_over.h).
   void configure(const Shared<Scene>& scene);
-  // Any edit: makes a new cloth and solver and begins at the start. What was there stays when it throws.
+  // Takes any edit: makes a new cloth and a new solver and restarts. After an exception nothing has changed.
   // @throws as the constructor
   void rebuild(const Shared<Scene>& scene);
-  // Goes on from the same state, to the bit. @throws as makeSolver, leaving the old solver in place
+  // Continues from the same bits on another backend. After an exception nothing has changed. @throws as
+  // makeSolver
   void switchBackend(const std::string& backend);
 
-  // After a change of the solver's state from outside.
+  // To be called after the state was changed through solver().
   void touch() { ++version_; }
-  // Another one whenever the state is another one by anything but steps: what was made of it is out of date.
+  // Changes whenever the state changes other than by steps. Copies made before are out of date then.
   [[nodiscard]] std::uint64_t version() const { return version_; }
 
  private:
@@ -79,7 +82,7 @@ class Simulation {
   std::uint64_t version_ = 0;
 };
 
-// "the simulation blew up: in step ... . What to do."
+// The message "the simulation blew up: in step ..." with advice.
 [[nodiscard]] std::string blowUpText(const Trouble& trouble, const Cloth& cloth, const Scene& scene);
 
 }  // namespace clothsim

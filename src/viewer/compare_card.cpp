@@ -11,8 +11,8 @@ namespace clothsim {
 namespace {
 
 constexpr int mostComparedSteps = 900;
-constexpr double mostSeconds = 4;  // of both together
-constexpr double atOnce = 0.05;    // [s], of a backend before the window is looked after
+constexpr double mostSeconds = 4;  // for both backends together
+constexpr double atOnce = 0.05;    // on a backend before the window is served [s]
 constexpr double resultSeconds = 12;
 constexpr double mostCovered = 0.45;  // of the picture
 constexpr float margin = 0.8f;        // em
@@ -105,7 +105,7 @@ void CompareCard::pass(double seconds) {
 CoveredEdges CompareCard::coveredEdges(PictureArea area) const {
   if (!open_ || area.width <= 0 || area.height <= 0) return {};
   const double right = double{width_ / area.width}, top = double{height_ / area.height};
-  // Whichever leaves more of the picture.
+  // The card counts as covering the edge that leaves more of the picture.
   if (right < top) return {.right = std::min(right, mostCovered)};
   return {.top = std::min(top, mostCovered)};
 }

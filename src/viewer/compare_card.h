@@ -1,5 +1,5 @@
-// Compare: both backends step on from the state that is shown, on solvers of their own, and a card tells how
-// many floats differ and how long each took.
+// Compares the backends from the state that is shown, on two solvers of its own. A card over the picture
+// tells how many floats differ and how long each took.
 #pragma once
 
 #include <memory>
@@ -15,18 +15,19 @@ namespace clothsim {
 
 class CompareCard {
  public:
-  // Begins anew. @throws OpenGlError when the device has no room for a second solver
+  // Starts a comparison. @throws OpenGlError when the device has no memory for a second solver
   void start(Session& session);
   [[nodiscard]] bool isRunning() const { return running_; }
   [[nodiscard]] bool isOpen() const { return open_; }
-  // A frame on each backend, or less where that takes long.
+  // Steps both solvers for a short time.
   void advance();
   void close();
-  // So much time has passed [s]: a result that nobody points at goes away after a while.
+  // To be called every frame with the time since the last one [s]. A result disappears after a while unless
+  // the mouse points at it.
   void pass(double seconds);
 
   void draw(PictureArea area);
-  // The part of the picture that it covers, for a camera that looks past it.
+  // The part of the picture that the card covers; the camera keeps the scene out of it.
   [[nodiscard]] CoveredEdges coveredEdges(PictureArea area) const;
 
  private:
@@ -44,7 +45,7 @@ class CompareCard {
   StateDifference difference_;
   bool running_ = false, open_ = false, pointedAt_ = false;
   double secondsLeft_ = 0;
-  float width_ = 0, height_ = 0;  // as it was drawn last [pixels]
+  float width_ = 0, height_ = 0;  // when it was last drawn [pixels]
 };
 
 }  // namespace clothsim

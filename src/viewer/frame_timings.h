@@ -1,5 +1,5 @@
-// Where the time of a displayed frame goes, for `clothsim --timings`: each phase by the host's clock, with
-// what it draws finished, and what the device says of those that draw. Off, it costs nothing.
+// Times the phases of a displayed frame for `clothsim --timings`: by the host's clock, waiting for what a
+// phase draws, and by the device's. Costs nothing when it is off.
 #pragma once
 
 #include <array>
@@ -29,12 +29,12 @@ class FrameTimings {
     if (draws) timer_->begin();
     work();
     if (draws) timer_->end();
-    if (draws) device_[phase] += timer_->seconds();  // waits for it
+    if (draws) device_[phase] += timer_->seconds();  // waits for the device
     host_[phase] += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     frames_ += phase == swap ? 1 : 0;
   }
 
-  // A line a phase; "" when off or nothing was drawn.
+  // A line for each phase; "" when it is off or nothing was drawn.
   [[nodiscard]] std::string report() const;
 
  private:

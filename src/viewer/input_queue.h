@@ -1,7 +1,7 @@
-// Keys and clicks between two frames of the window, for a user interface that looks at their state once a
-// frame: what was pressed and let go within a frame must be seen pressed in one and let go in the next, and a
-// click where it was, together with Ctrl or Shift as they were held then. Text needs no such care: it arrives
-// as characters.
+// Queues keys and clicks for Dear ImGui, which reads their state once a frame. A key that is pressed and
+// released within a frame is reported as pressed in one frame and as released in the next. A click is
+// reported at its place and with Ctrl and Shift as they were then. Text needs no queue, because it arrives as
+// characters.
 #pragma once
 
 #include <deque>
@@ -12,9 +12,9 @@ namespace clothsim {
 struct InputEvent {
   enum class Kind { key, character, button };
   Kind kind = Kind::key;
-  int code = 0;  // of the key, the character or the button, as GLFW numbers them
+  int code = 0;  // of the key, character or button, by GLFW's numbers
   int scancode = 0, action = 0, mods = 0;
-  double x = 0, y = 0;  // of a button: where the cursor was, in units of the window
+  double x = 0, y = 0;  // of the cursor when a button was pressed or released, in units of the window
 };
 
 class InputQueue {
@@ -26,7 +26,7 @@ class InputQueue {
   }
   [[nodiscard]] bool isEmpty() const { return waiting_.empty(); }
 
-  // What one frame is told, in order.
+  // The events to report in the next frame, in order.
   [[nodiscard]] std::vector<InputEvent> takeFrame() {
     std::vector<InputEvent> taken;
     while (!waiting_.empty() && !mustWait(waiting_.front(), taken)) {

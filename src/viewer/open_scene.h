@@ -1,5 +1,5 @@
-// The scene that the viewer has open: the session in which it is simulated, and the camera and renderer that
-// show it, kept in step with each other.
+// The scene that is open in the viewer: the session that simulates it, and the camera and the renderer that
+// show it.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ namespace clothsim {
 
 class OpenScene {
  public:
-  // `source`: as -f was given. @throws SceneError, UsageError, OpenGlError
+  // `source` is the argument of -f. @throws SceneError, UsageError, OpenGlError
   OpenScene(const Shared<Scene>& scene, std::string source, const std::string& backend,
             const RenderOptions& options);
 
@@ -31,16 +31,16 @@ class OpenScene {
 
   ViewOptions view{.showPins = true};
 
-  // The scene with other parameters, checked as a file would be. `continues`: see Session::act.
-  // @throws SceneError for what no scene may say; nothing has changed then
+  // Changes the scene, which is checked as one from a file. `continues` as in Session::act. @throws
+  // SceneError for an invalid scene; then nothing has changed
   void edit(const Scene& scene, bool continues);
 
-  // Makes the renderer show the session's scene, cloth and cuts as they are now. @throws as the constructor
+  // Takes over the scene, cloth and cuts of the session into the picture. @throws as the constructor
   void update();
-  // Frames the scene for pictures of that shape, of which `covered` is hidden; a camera that was moved stays
-  // where it is.
+  // Frames the scene for pictures of that size of which `covered` is hidden. A camera that the user has moved
+  // stays.
   void frameFor(int width, int height, const CoveredEdges& covered);
-  void draw(int width, int height);  // into the window's lower left
+  void draw(int width, int height);  // into the lower left of the window
   [[nodiscard]] Image picture(int width, int height);
 
  private:
@@ -49,7 +49,7 @@ class OpenScene {
   Session session_;
   Camera camera_;
   SimulationRenderer renderer_;
-  ViewOptions shownView_;  // by the renderer of the cloth of that generation
+  ViewOptions shownView_;  // that the renderer has, for the cloth of this generation
   std::uint64_t shownCloth_ = 0;
   double framedAspect_ = 0;
   CoveredEdges framedBeside_;

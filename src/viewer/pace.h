@@ -1,6 +1,6 @@
-// Keeps simulated time in step with the wall clock, whatever the frame rate of the display. Where the machine
-// is too slow the simulation falls behind instead of piling up work: for each displayed frame at most so many
-// are simulated as leave the display fluent, and what is missed is forgotten.
+// Keeps simulated time at the pace of the wall clock, whatever the frame rate of the display. On a slow
+// machine the simulation runs slower than real time: the number of frames simulated for each displayed one is
+// limited so that the display stays fluent, and the rest is skipped.
 #pragma once
 
 #include <algorithm>
@@ -11,7 +11,7 @@ class Pace {
  public:
   explicit Pace(double frameSeconds) : frameSeconds_(frameSeconds) {}  // simulated time of one frame [s]
 
-  // How many frames to simulate now, `elapsed` [s] after the last call.
+  // The number of frames to simulate now, `elapsed` [s] after the last call.
   [[nodiscard]] int framesDue(double elapsed) {
     owed_ += elapsed;
     const double due = owed_ / frameSeconds_;
@@ -25,7 +25,7 @@ class Pace {
     return frames;
   }
 
-  // What it took to simulate that many [s].
+  // To be called with the time that simulating the frames took [s].
   void simulated(int frames, double seconds) {
     if (frames > 0) cost_ += 0.25 * (seconds / frames - cost_);
   }
@@ -34,7 +34,7 @@ class Pace {
   [[nodiscard]] double secondsUntilDue() const { return std::max(0.0, frameSeconds_ - owed_); }
 
   static constexpr int mostFramesAtOnce = 12;
-  static constexpr double simulationBudget = 1 / 25.0;  // of a displayed frame's time, for simulating [s]
+  static constexpr double simulationBudget = 1 / 25.0;  // for simulating, per displayed frame [s]
 
  private:
   [[nodiscard]] int mostFrames() const {
@@ -48,8 +48,8 @@ class Pace {
   double cost_ = 0;  // of simulating a frame, smoothed [s]
 };
 
-// Displayed frames a second and simulated seconds a second, averaged over half a second so that they can be
-// read.
+// Displayed frames per second and simulated seconds per second, averaged over half a second so that they are
+// readable.
 class SpeedMeter {
  public:
   void add(double elapsed, double simulated) {

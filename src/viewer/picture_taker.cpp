@@ -29,7 +29,7 @@ void PictureTaker::shown(OpenScene& open, double seconds) {
   try {
     clip_->add(seconds, [&] { return open.picture(clip_->width(), clip_->height()); });
   } catch (...) {
-    clip_.reset();  // what could not be written once will not be again
+    clip_.reset();  // after a failed write the clip is given up
     throw;
   }
 }

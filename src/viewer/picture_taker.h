@@ -1,4 +1,4 @@
-// Screenshots and clips of the scene that is open, without the panels.
+// Takes screenshots and clips of the open scene, without the panels.
 #pragma once
 
 #include <optional>
@@ -11,11 +11,12 @@ namespace clothsim {
 
 class PictureTaker {
  public:
-  // Writes scene-backend-frame.png. Returns a sentence for the user. @throws InputOutputError
+  // Writes scene-backend-frame.png. Returns a message for the user. @throws InputOutputError
   std::string screenshot(OpenScene& open, int width, int height);
-  // Begins a clip, or ends it. As screenshot().
+  // Starts a clip, or ends it. Returns and throws as screenshot().
   std::string toggleClip(OpenScene& open, int width, int height);
-  // The picture was shown for so long [s]; a clip takes what it needs of that. @throws InputOutputError
+  // To be called when the picture has been shown for that time [s]; adds it to a clip. @throws
+  // InputOutputError
   void shown(OpenScene& open, double seconds);
   void abandonClip() { clip_.reset(); }
 

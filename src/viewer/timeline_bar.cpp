@@ -11,7 +11,7 @@ namespace {
 
 enum class Symbol { back, forward, play, pause, camera, record, stop };
 
-// A button with a drawn symbol: no typeface is sure to have them.
+// A button with a drawn symbol, since fonts may lack such symbols.
 bool symbolButton(const char* id, Symbol symbol, bool on, const char* help) {
   const float side = ImGui::GetFrameHeight();
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -61,7 +61,7 @@ bool symbolButton(const char* id, Symbol symbol, bool on, const char* help) {
   return pressed;
 }
 
-// The kept frames as a line, on which the mouse chooses one.
+// Shows the stored frames as a line on which the mouse chooses one.
 std::optional<int> drawTrack(const TimelineState& state, float width) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float height = ImGui::GetFrameHeight(), middle = at.y + 0.5f * height;
@@ -126,7 +126,7 @@ TimelineRequests drawTimeline(const TimelineState& state, PictureArea area) {
   const std::string time = timeText(state);
   char clip[32] = "";
   if (state.recordedSeconds) std::snprintf(clip, sizeof clip, "%.1f s", *state.recordedSeconds);
-  // The words move the track no more often than they must.
+  // The width of the text is rounded up, so that the track rarely moves.
   const float words = std::max(ImGui::CalcTextSize(time.c_str()).x, 5.5f * em());
   const float buttons =
       2 * 1.25f * ImGui::GetFrameHeight() + (clip[0] != '\0' ? 3.2f * em() : 0) + 1.2f * em();

@@ -1,4 +1,4 @@
-// The bar below the picture: looking back over the frames that are kept, going on from any of them, and
+// The bar below the picture, with the stored frames to choose from and the buttons for pause, screenshot and
 // recording.
 #pragma once
 
@@ -9,8 +9,8 @@
 namespace clothsim {
 
 struct TimelineState {
-  int oldest = 0, now = 0, newest = 0;  // frames, over all restarts
-  int shownNumber = 0;                  // of `now`, from its restart on
+  int oldest = 0, now = 0, newest = 0;  // numbers of frames, counted over all restarts
+  int shownNumber = 0;                  // of `now`, counted from its restart
   double frameSeconds = 1.0 / 90;
   bool paused = false;
   std::optional<double> recordedSeconds;  // while a clip is being recorded

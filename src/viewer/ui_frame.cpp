@@ -17,9 +17,9 @@ namespace {
 
 constexpr float textSize = 16, titleSize = 22;  // on an ordinary screen [pixels]
 
-// Adds the program's typeface in a size [pixels], or Dear ImGui's own bitmap font where the system has none.
+// Adds the program's font in a size [pixels], or Dear ImGui's own bitmap font where the system has none.
 void addTypeface(ImFontAtlas& atlas, float size) {
-  // Latin, and marks of punctuation: dashes, ellipsis, minus.
+  // Latin letters, and punctuation: dashes, ellipsis, minus.
   static constexpr ImWchar characters[] = {0x20, 0xff, 0x2010, 0x2026, 0x2212, 0x2212, 0};
   ImFontConfig config;
   config.SizePixels = size;
@@ -30,7 +30,7 @@ void addTypeface(ImFontAtlas& atlas, float size) {
     atlas.AddFontFromFileTTF(file.c_str(), size, nullptr, characters);
 }
 
-// A calm dark theme: surfaces differ by little, the accent is kept for what is on and what is held.
+// A dark theme: surfaces differ little, and the accent colour marks what is on and what is being dragged.
 void colorize(ImVec4* colors) {
   const auto surface = [](float light, float alpha = 1) {
     return ImVec4(light, light * 1.09f, light * 1.28f, alpha);
@@ -99,9 +99,9 @@ void textUnformatted(std::string_view words) {
 UiFrame::UiFrame(GLFWwindow* window, InputQueue& input) : window_(window), input_(input) {
   ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
-  io.IniFilename = nullptr;  // no imgui.ini in the folder where the program happens to be started
+  io.IniFilename = nullptr;  // no file imgui.ini in the current folder
   io.LogFilename = nullptr;
-  // Dear ImGui looks at them once a frame: they reach it through the queue alone.
+  // Dear ImGui must get keys and clicks only through the queue, since it reads them once a frame.
   const GLFWkeyfun onKey = glfwSetKeyCallback(window, nullptr);
   const GLFWcharfun onCharacter = glfwSetCharCallback(window, nullptr);
   const GLFWmousebuttonfun onButton = glfwSetMouseButtonCallback(window, nullptr);
@@ -112,7 +112,7 @@ UiFrame::UiFrame(GLFWwindow* window, InputQueue& input) : window_(window), input
   ImGui_ImplOpenGL3_Init("#version 450 core");
 }
 
-// Returns where a button was pressed or let go.
+// Returns where a button was pressed or released.
 std::optional<ImVec2> UiFrame::passInputOn() {
   std::optional<ImVec2> clickedAt;
   for (const InputEvent& event : input_.takeFrame()) {
@@ -160,12 +160,12 @@ void UiFrame::begin(double textScale) {
   ImGui_ImplOpenGL3_NewFrame();
   const std::optional<ImVec2> clickedAt = passInputOn();
   ImGui_ImplGlfw_NewFrame();
-  if (clickedAt) ImGui::GetIO().MousePos = *clickedAt;  // the cursor may be elsewhere by now
+  if (clickedAt) ImGui::GetIO().MousePos = *clickedAt;  // the cursor may have moved since
   ImGui::NewFrame();
 }
 
 void UiFrame::end() {
-  ImGui::ErrorCheckEndFrameRecover(nullptr);  // an exception may have left windows open
+  ImGui::ErrorCheckEndFrameRecover(nullptr);  // closes windows that an exception has left open
   ImGui::Render();
 }
 void UiFrame::draw() { ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData()); }

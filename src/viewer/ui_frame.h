@@ -1,5 +1,5 @@
-// Dear ImGui in the viewer's window: its context, typeface and theme, and one frame of controls at a time.
-// Layout everywhere is in units of em(), so that one number scales all of it.
+// Dear ImGui in the viewer's window: its context, font and theme, and a frame of controls at a time. All
+// layout is in units of em(), so that one number scales it.
 #pragma once
 
 #include <imgui.h>
@@ -18,14 +18,14 @@ inline const ImVec4 plain{0.93f, 0.94f, 0.95f, 1}, quiet{0.62f, 0.66f, 0.71f, 1}
     alert{1.00f, 0.76f, 0.36f, 1}, good{0.55f, 0.83f, 0.62f, 1}, accent{0.42f, 0.67f, 0.86f, 1},
     fill{0.205f, 0.335f, 0.445f, 1}, fillHovered{0.235f, 0.375f, 0.495f, 1};
 inline const ImVec4 glass{0.07f, 0.08f, 0.10f, 0.72f},  // over the picture
-    sheet{0.085f, 0.095f, 0.115f, 0.96f},               // what is to be read
+    sheet{0.085f, 0.095f, 0.115f, 0.96f},               // for text
     column{0.105f, 0.115f, 0.137f, 1}, keyCap{0.22f, 0.245f, 0.29f, 1};
 }  // namespace theme
 
 class UiFrame {
  public:
-  // After the window's own input callbacks, which it lets through. Keys and clicks come from `input`, which
-  // they fill.
+  // To be made after the callbacks of the window are set, which it keeps. Keys and clicks come from `input`,
+  // which these callbacks fill.
   UiFrame(GLFWwindow* window, InputQueue& input);
   ~UiFrame();
   UiFrame(const UiFrame&) = delete;
@@ -33,11 +33,11 @@ class UiFrame {
 
   void begin(double textScale);
   void end();
-  void draw();  // what lies between begin() and end(), over what is in the window's framebuffer
+  void draw();  // draws the controls made between begin() and end() over the picture
 
   [[nodiscard]] bool wantsMouse() const;  // as of the last frame
-  [[nodiscard]] bool hasPopup() const;    // a list or a colour picker
-  [[nodiscard]] bool wantsKeys() const;   // somebody is typing
+  [[nodiscard]] bool hasPopup() const;    // whether a list or a colour picker is open
+  [[nodiscard]] bool wantsKeys() const;   // whether the user is typing
 
  private:
   void loadFonts(double textScale);
@@ -54,19 +54,20 @@ class UiFrame {
 void coloredText(std::string_view words, const ImVec4& color);
 void quietText(std::string_view words);
 void titleText(std::string_view words);  // in the larger typeface
-// Wrapped at the edge of the window.
+// Text that is wrapped at the edge of the window.
 void wrappedText(std::string_view words, const ImVec4& color);
-// Shown while the mouse rests on the last control.
+// A tip that is shown while the mouse rests on the last control.
 void helpTip(std::string_view words);
-// A number as a bar that is filled up to it, with the text upon it; typed into after Ctrl+click. As wide as
-// the next item. `format` as ImGui::SliderScalar has it. True when the number was changed.
+// A slider drawn as a bar that is filled up to the number, with the number written on it. Ctrl+click types a
+// number. It has the width of the next item; `format` is that of ImGui::SliderScalar. True when the number
+// was changed.
 bool barSlider(ImGuiDataType type, void* value, double low, double high, const char* format,
                bool logarithmic);
-// A button that is lit while it is on. True when it was changed.
+// A button that is highlighted while it is on. True when it was changed.
 bool toggleButton(const char* label, bool& on, float width);
-// As wide as its column allows. True when it is clicked.
+// A button as wide as its column. True when it was clicked.
 [[nodiscard]] bool wideButton(const char* label);
-// A row of buttons of which one is chosen; returns the chosen one.
+// A row of buttons of which one is on. Returns its index.
 [[nodiscard]] int segmentedButtons(const char* id, const char* const* labels, int count, int chosen);
 
 }  // namespace clothsim

@@ -1,5 +1,5 @@
-// The loop of the window: simulation, picture, panels. What the mouse does is in hands.h, what is open in
-// open_scene.h, what the panels hold in panels/.
+// The main loop of the viewer: it simulates, draws the picture and draws the panels. mouse_tools.h has what
+// the mouse does, open_scene.h the open scene, panels/ the panels.
 #include "viewer/viewer.h"
 
 #include <algorithm>
@@ -15,7 +15,8 @@
 namespace clothsim {
 namespace {
 
-constexpr float panelsFrom = 54;  // em of window width, for the panels to be open at the first start
+constexpr float panelsFrom =
+    54;  // width of the window in em from which the panels are open at the first start
 constexpr double mostSimulationSeconds = 0.1;  // between two pictures, where a frame takes less
 
 }  // namespace
@@ -24,13 +25,13 @@ RenderOptions renderOptions(const ViewerOptions& options) {
   RenderOptions render;
   render.sphereSegmentsAround = options.sphereSegmentsAround;
   render.sphereSegmentsDown = options.sphereSegmentsDown;
-  // llvmpipe pays for every sample: edges are smoothed afterwards instead.
+  // On a software renderer every sample costs time: edges are smoothed afterwards instead.
   if (gl::currentContextInfo().software) render.samples = 1;
   return render;
 }
 
 Viewer::Viewer(const Shared<Scene>& scene, const ViewerOptions& options,
-               const std::optional<Salvage>& salvage)
+               const std::optional<LostSession>& lost)
     : options_(options), window_("clothsim", options.sceneName) {
   LoadedConfig loaded = loadViewerConfig(viewerConfigPath());
   config_ = savedConfig_ = loaded.config;
@@ -39,32 +40,32 @@ Viewer::Viewer(const Shared<Scene>& scene, const ViewerOptions& options,
   textures.insert(textures.begin(), "");
   widgets_.offer("render.texture", std::move(textures));
   listen();
-  const std::string source = salvage ? salvage->source : options.sceneName;
+  const std::string source = lost ? lost->source : options.sceneName;
   open_ = load(source, [&] {
-    return std::make_unique<OpenScene>(salvage ? salvage->loaded : scene, source,
-                                       salvage ? "cpu" : options.backend, renderOptions(options));
+    return std::make_unique<OpenScene>(lost ? lost->loaded : scene, source, lost ? "cpu" : options.backend,
+                                       renderOptions(options));
   });
-  if (salvage) {
-    if (salvage->edited != salvage->loaded) open_->edit(*salvage->edited, false);
-    session().goOnFrom(salvage->past);
-    complain(salvage->reason + "\nThe scene restarts on the CPU; your edits and the recording are kept.");
+  if (lost) {
+    if (lost->edited != lost->loaded) open_->edit(*lost->edited, false);
+    session().goOnFrom(lost->past);
+    complain(lost->reason + "\nThe scene restarts on the CPU; your edits and the recording are kept.");
   }
   pace_ = Pace(open_->frameSeconds());
   watchSteps();
   warnOfPaths();
 }
 
-std::optional<Salvage> Viewer::run() {
-  clock_.lap();  // what loading took is not simulated time
-  while (!window_.shouldClose() && !lost_) turn();
+std::optional<LostSession> Viewer::run() {
+  clock_.lap();  // the time for loading is not simulated
+  while (!window_.shouldClose() && !lost_) iterate();
   taker_.abandonClip();
   if (lost_ && !window_.shouldClose())
-    return Salvage{open_->source(), open_->loaded(), open_->sharedScene(), session().past(), *lost_};
+    return LostSession{open_->source(), open_->loaded(), open_->sharedScene(), session().past(), *lost_};
   std::fputs(timings_.report().c_str(), stderr);
   return std::nullopt;
 }
 
-void Viewer::turn() {
+void Viewer::iterate() {
   timings_.time(FrameTimings::input, [&] { isIdle() ? window_.waitEvents(0.25) : window_.pollEvents(); });
   if (sceneToOpen_) attempt([&] { openScene(*std::exchange(sceneToOpen_, std::nullopt)); });
   const double elapsed = clock_.lap();
@@ -77,7 +78,7 @@ void Viewer::turn() {
   keepConfig();
   notice_.secondsLeft -= elapsed;
   compare_.pass(elapsed);
-  // Without a display that sets the pace, nothing is gained by drawing the same picture again at once.
+  // Where the display does not limit the rate, the loop waits instead of drawing the same picture again.
   if (!paused_ && frames == 0 && !compare_.isRunning()) window_.waitEvents(pace_.secondsUntilDue());
   attempt(gl::checkContext);
 }
@@ -101,7 +102,7 @@ CoveredEdges Viewer::coveredEdges() const {
   return covered;
 }
 
-// Known without Dear ImGui, which learns where the mouse is only with the next frame.
+// Computed here, since Dear ImGui learns the position of the mouse only in the next frame.
 bool Viewer::isOverPicture(ViewerWindow::Cursor cursor) const {
   const PictureArea area = pictureArea();
   const bool inside = cursor.x >= 0 && cursor.x < static_cast<double>(area.width) && cursor.y >= 0 &&
@@ -109,7 +110,7 @@ bool Viewer::isOverPicture(ViewerWindow::Cursor cursor) const {
   return inside && !((ui_.hasPopup() || compare_.isOpen()) && ui_.wantsMouse());
 }
 
-Reach Viewer::reach() {
+MouseContext Viewer::mouseContext() {
   const PictureArea area = pictureArea();
   return {session(),
           open_->renderer(),
@@ -130,7 +131,7 @@ int Viewer::simulate(double elapsed) {
   attempt([&] {
     compare_.advance();
     const bool blows = !paused_ && !ui_.wantsKeys() && window_.holds(blowKey);
-    hands_.beforeStep(reach(), window_.cursor(), blows);
+    mouse_.beforeStep(mouseContext(), window_.cursor(), blows);
   });
   if (compare_.isRunning()) return 0;
   const int frames = paused_ ? std::exchange(stepAsked_, false) : pace_.framesDue(elapsed);
@@ -154,7 +155,7 @@ int Viewer::stepFrames(int frames) {
   });
   stepping_ = false;
   if (!went) paused_ = true;
-  for (const auto& deed : std::exchange(waiting_, {})) attempt(deed);
+  for (const auto& task : std::exchange(waiting_, {})) attempt(task);
   if (trouble) {
     paused_ = true;
     notice_ = {blowUpText(*trouble, session().simulation().cloth(), open_->scene()) +
@@ -192,19 +193,19 @@ void Viewer::draw() {
   timings_.time(FrameTimings::drawControls, [&] { ui_.draw(); });
   timings_.time(FrameTimings::swap, [&] { window_.swap(); });
   timings_.time(FrameTimings::after, [&] {
-    heedControls();
+    applyRequests();
     attempt([&] { measure(); });
   });
   if (const std::string now = viewerTitle(*open_, meter_, paused_); now != title_)
     window_.setTitle(title_ = now);
 }
 
-// Between two pictures, since picking draws elsewhere.
+// To be called between two pictures, since picking draws into another framebuffer.
 void Viewer::measure() {
   column_.measures().update(session(), now_, [&]() -> std::optional<std::uint32_t> {
     const ViewerWindow::Cursor cursor = window_.cursor();
     if (!isOverPicture(cursor)) return std::nullopt;
-    const Reach r = reach();
+    const MouseContext r = mouseContext();
     const Pick pick = r.renderer.pick(r.camera, r.width, r.height, cursor.x, cursor.y);
     return pick.kind == Pick::Kind::cloth ? std::optional(pick.particle) : std::nullopt;
   });
@@ -212,13 +213,13 @@ void Viewer::measure() {
 
 void Viewer::drawControls() {
   const PictureArea area = pictureArea();
-  drawMarks(hands_.marks(reach(), window_.cursor()));
+  drawMarks(mouse_.marks(mouseContext(), window_.cursor()));
   const float neededByOthers = showKeys_ ? 66.0f : compare_.isOpen() ? 40.0f : 0.0f;  // em
   if (config_.showOverlay && area.width >= neededByOthers * em())
     drawFacts(viewerFacts(*open_, meter_, paused_, looksBack(), column_.measures().warnings(open_->scene())),
               area);
   if (showsPanels()) drawPanels();
-  asked_.timeline =
+  requests_.timeline =
       drawTimeline({session().oldestFrame(), session().frame(), session().newestFrame(),
                     session().frameSinceStart(), open_->frameSeconds(), paused_, taker_.recordedSeconds()},
                    area);
@@ -233,24 +234,24 @@ void Viewer::drawPanels() {
   const std::string name = open_->name();
   PanelContext context{draft_, widgets_, session(), open_->view, {target.x, target.y, target.z}, name};
   column_.draw(context, config_);
-  asked_.edits = widgets_.takeEdits();
-  asked_.panels = std::move(context.requests);
+  requests_.edits = widgets_.takeEdits();
+  requests_.panels = std::move(context.requests);
 }
 
-// What the controls of the last picture ask for.
-void Viewer::heedControls() {
-  const Asked asked = std::exchange(asked_, {});
-  heed(asked.edits);
-  heed(asked.panels);
-  heed(asked.timeline);
+// Does what the controls of the last picture ask for.
+void Viewer::applyRequests() {
+  const ControlRequests asked = std::exchange(requests_, {});
+  apply(asked.edits);
+  apply(asked.panels);
+  apply(asked.timeline);
 }
 
-void Viewer::heed(const FieldEdits& edits) {
+void Viewer::apply(const FieldEdits& edits) {
   draftHeld_ = edits.holding;
   const bool edited = edits.live || edits.rebuild;
   if (edited) {
     attempt([&] {
-      draftHeld_ = false;  // should the edit be impossible, the panels show what is
+      draftHeld_ = false;  // after an impossible edit the panels show the scene as it is
       edit(draft_, editContinues_);
       draftHeld_ = edits.holding;
     });
@@ -258,7 +259,7 @@ void Viewer::heed(const FieldEdits& edits) {
   editContinues_ = edits.holding && (editContinues_ || edited);
 }
 
-void Viewer::heed(const PanelRequests& requests) {
+void Viewer::apply(const PanelRequests& requests) {
   attempt([&] {
     for (const ViewerAction action : requests.actions) act(action);
     if (requests.backend) switchBackend(*requests.backend);
@@ -271,7 +272,7 @@ void Viewer::heed(const PanelRequests& requests) {
   });
 }
 
-void Viewer::heed(const TimelineRequests& requests) {
+void Viewer::apply(const TimelineRequests& requests) {
   attempt([&] {
     if (requests.seek) seek(*requests.seek);
     if (requests.stepBack) act(ViewerAction::stepBack);
@@ -285,25 +286,25 @@ void Viewer::heed(const TimelineRequests& requests) {
 void Viewer::keepConfig() {
   if (config_ == savedConfig_) return;
   const std::string trouble = saveViewerConfig(config_, viewerConfigPath());
-  savedConfig_ = config_;  // one try for each change
+  savedConfig_ = config_;  // tried once for each change
   if (!trouble.empty()) complain("The state of the panels cannot be saved: " + trouble);
 }
 
 void runViewer(const Shared<Scene>& scene, const ViewerOptions& options) {
-  std::optional<Salvage> salvage;
+  std::optional<LostSession> lost;
   do {
     try {
-      salvage = Viewer(scene, options, salvage).run();
+      lost = Viewer(scene, options, lost).run();
     } catch (const Error& error) {
-      if (!salvage || salvage->past.recording.events.empty()) throw;
-      // No second window can be had: at least nothing is lost.
-      const auto path = freeName(
-          outputFolder(), std::filesystem::path(salvage->source).stem().string() + "-recording", ".json");
-      salvage->past.recording.save(path);
-      throw OpenGlError(salvage->reason + "\n" + error.what() +
+      if (!lost || lost->past.recording.events.empty()) throw;
+      // There is no second window, so the recording is saved.
+      const auto path = freeName(outputFolder(),
+                                 std::filesystem::path(lost->source).stem().string() + "-recording", ".json");
+      lost->past.recording.save(path);
+      throw OpenGlError(lost->reason + "\n" + error.what() +
                         "\nYour actions are saved; to repeat them: clothsim run --replay " + path.string());
     }
-  } while (salvage);
+  } while (lost);
 }
 
 std::string viewerKeysText() {

@@ -1,4 +1,4 @@
-// The window in which a scene is simulated and played with.
+// The window in which a scene is simulated and a user acts on it.
 #pragma once
 
 #include <string>
@@ -9,18 +9,18 @@
 namespace clothsim {
 
 struct ViewerOptions {
-  std::string sceneName;          // for title and overlay
-  std::string backend = "gpu";    // "gpu" or "cpu"; B changes it
+  std::string sceneName;          // for the title and the overlay
+  std::string backend = "gpu";    // "gpu" or "cpu"; the key B changes it
   int sphereSegmentsAround = 64;  // -a
   int sphereSegmentsDown = 48;    // -o
-  bool timings = false;           // says at the end where the time of a frame went
+  bool timings = false;           // prints the times of a frame's phases at the end
 };
 
 // Opens the window and returns when it is closed. @throws OpenGlError when there is no display or no
-// OpenGL 4.5 (says what was found and which commands need neither)
+// OpenGL 4.5; its message tells which commands need neither
 void runViewer(const Shared<Scene>& scene, const ViewerOptions& options);
 
-// The table of viewer_keys.h as lines for `--help`.
+// The table in viewer_keys.h as lines for `--help`.
 [[nodiscard]] std::string viewerKeysText();
 
 }  // namespace clothsim

@@ -1,4 +1,4 @@
-// What keys, mouse and panels ask of the viewer.
+// The actions of keys, mouse and panels.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -16,7 +16,7 @@
 namespace clothsim {
 namespace {
 
-constexpr double pinsShownSeconds = 2;  // after one was set
+constexpr double pinsShownSeconds = 2;  // after a pin was set
 
 }  // namespace
 
@@ -25,13 +25,18 @@ void Viewer::listen() {
       {.key = [this](const KeyStroke& stroke, bool repeated) { onKey(stroke, repeated); },
        .press = [this](ViewerWindow::Button button, ViewerWindow::Cursor cursor, bool control,
                        bool shift) { whenIdle([=, this] { onPress(button, cursor, control, shift); }); },
-       .move = [this](ViewerWindow::Cursor cursor) { whenIdle([=, this] { hands_.move(reach(), cursor); }); },
+       .move =
+           [this](ViewerWindow::Cursor cursor) {
+             whenIdle([=, this] { mouse_.move(mouseContext(), cursor); });
+           },
        .release =
-           [this](ViewerWindow::Button button) { whenIdle([=, this] { hands_.release(reach(), button); }); },
+           [this](ViewerWindow::Button button) {
+             whenIdle([=, this] { mouse_.release(mouseContext(), button); });
+           },
        .scroll =
            [this](double steps, ViewerWindow::Cursor cursor) {
              whenIdle([=, this] {
-               if (isOverPicture(cursor)) hands_.scroll(reach(), steps, cursor);
+               if (isOverPicture(cursor)) mouse_.scroll(mouseContext(), steps, cursor);
              });
            },
        .drop =
@@ -40,19 +45,19 @@ void Viewer::listen() {
            }});
 }
 
-// Input may come between two steps of a frame that takes long: then it has to wait for the frame's end.
-void Viewer::whenIdle(std::function<void()> deed) {
+// Input that comes within a frame is handled at the end of the frame.
+void Viewer::whenIdle(std::function<void()> task) {
   drawsLeft_ = drawsAfterInput;
   if (stepping_)
-    waiting_.push_back(std::move(deed));
+    waiting_.push_back(std::move(task));
   else
-    attempt(deed);
+    attempt(task);
 }
 
 void Viewer::onKey(const KeyStroke& stroke, bool repeated) {
   const ViewerAction action = ui_.wantsKeys() ? ViewerAction::none : actionOf(stroke);
-  if (action == ViewerAction::quit) return escape();  // that waits for nothing
-  // Held down, a key repeats what makes sense many times over.
+  if (action == ViewerAction::quit) return escape();  // never waits for a frame
+  // A key that is held repeats only actions for which that makes sense.
   const bool repeats = action == ViewerAction::stepBack || action == ViewerAction::stepForward ||
                        action == ViewerAction::stepFrame || action == ViewerAction::undo ||
                        action == ViewerAction::redo;
@@ -61,7 +66,7 @@ void Viewer::onKey(const KeyStroke& stroke, bool repeated) {
   });
 }
 
-// Closes what lies over the picture, and then the window.
+// Closes what is open over the picture, else the window.
 void Viewer::escape() {
   drawsLeft_ = drawsAfterInput;
   if (compare_.isOpen()) return compare_.close();
@@ -75,14 +80,15 @@ void Viewer::escape() {
 void Viewer::onPress(ViewerWindow::Button button, ViewerWindow::Cursor cursor, bool control, bool shift) {
   if (!isOverPicture(cursor)) return;
   if (!compare_.isRunning()) compare_.close();
-  const std::string said = hands_.press(reach(), button, cursor, {control, shift, window_.holds(cutKey)});
+  const std::string said =
+      mouse_.press(mouseContext(), button, cursor, {control, shift, window_.holds(cutKey)});
   if (said.empty()) return;
   pinsShownUntil_ = now_ + pinsShownSeconds;
   say(said);
 }
 
 void Viewer::act(ViewerAction action) {
-  if (!compare_.isRunning()) compare_.close();  // its result has been read
+  if (!compare_.isRunning()) compare_.close();  // a result that has been seen
   switch (action) {
     case ViewerAction::none:
       return;
@@ -144,9 +150,9 @@ void Viewer::actOnFile(ViewerAction action) {
   }
 }
 
-// The window stays alive while a frame is being simulated, and can be closed.
+// Keeps the window responsive while a frame is simulated, and lets it be closed.
 void Viewer::watchSteps() {
-  session().setPulse([this] {
+  session().setPoll([this] {
     window_.pollEvents();
     return !window_.shouldClose();
   });
@@ -203,17 +209,17 @@ void Viewer::seek(int frame) {
     return say(frame > session().newestFrame() ? "This is the newest frame; N simulates the next one"
                                                : "No earlier frame is kept in memory");
   if (frame == session().frame()) return;
-  hands_.letGo(session());
+  mouse_.letGo(session());
   session().seek(frame);
   paused_ = true;
   pace_ = Pace(open_->frameSeconds());
 }
 
 void Viewer::restart() {
-  hands_.letGo(session());
+  mouse_.letGo(session());
   session().act(Restart{});
   column_.measures().forget();
-  if (notice_.isError) paused_ = false;  // trouble had paused it
+  if (notice_.isError) paused_ = false;  // an error has paused it
   notice_ = {};
 }
 
@@ -221,8 +227,8 @@ std::unique_ptr<OpenScene> Viewer::load(const std::string& source,
                                         const std::function<std::unique_ptr<OpenScene>()>& make) {
   const std::string name = std::filesystem::path(source).stem().string();
   window_.setTitle(title_ = name + " - loading - clothsim");
-  stepping_ = true;              // input waits
-  for (int i = 0; i < 2; ++i) {  // a window that has just been opened may lose its first picture
+  stepping_ = true;              // delays input
+  for (int i = 0; i < 2; ++i) {  // a window that was just opened may lose its first picture
     ui_.begin(window_.textScale());
     drawLoading(name);
     ui_.end();
@@ -230,7 +236,7 @@ std::unique_ptr<OpenScene> Viewer::load(const std::string& source,
     window_.swap();
     window_.pollEvents();
   }
-  // On a thread of its own, which has the context meanwhile.
+  // Loading runs on another thread, which has the context meanwhile.
   window_.lendContext();
   std::future<std::unique_ptr<OpenScene>> making = std::async(std::launch::async, [&] {
     window_.takeContext();
@@ -245,11 +251,11 @@ std::unique_ptr<OpenScene> Viewer::load(const std::string& source,
     if (!window_.shouldClose()) continue;
     taker_.abandonClip();
     std::fflush(nullptr);
-    std::_Exit(0);  // nothing waits for the thread
+    std::_Exit(0);  // without waiting for the thread
   }
   window_.takeContext();
   stepping_ = false;
-  waiting_.clear();  // what was done to the picture that said so
+  waiting_.clear();  // input while the scene was loading
   clock_.lap();
   return making.get();
 }
@@ -262,7 +268,7 @@ void Viewer::openScene(const std::string& source) {
   next->view = open_->view;
   taker_.abandonClip();
   compare_.close();
-  hands_ = {};
+  mouse_ = {};
   open_ = std::move(next);
   watchSteps();
   column_.measures().forget();
@@ -279,8 +285,8 @@ void Viewer::warnOfPaths() {
   if (!warnings.empty()) say(warnings.front().text, longNoticeSeconds);
 }
 
-// The scene, or by the name's ending the cloth as it is now. Files that were there before are written over
-// only when that is asked for twice.
+// Saves the scene, or the state of the cloth, depending on the extension. An existing file is overwritten
+// only when the user saves twice.
 void Viewer::saveSceneAs(const std::filesystem::path& path) {
   if (isSequence(path))
     return complain(

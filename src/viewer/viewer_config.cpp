@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uintmax_t largestFile = 64 * 1024;
 
-// A value of that type, or the one it has; a file from a newer or older version may lack keys.
+// Reads a value if the key is there: a file of another version may lack keys.
 void read(const nlohmann::json& object, const std::string& key, bool& value) {
   if (const auto found = object.find(key); found != object.end()) value = found->get<bool>();
 }
@@ -34,7 +34,7 @@ ViewerConfig parse(const std::string& text) {
 }  // namespace
 
 fs::path viewerConfigPath() {
-  // The specification of XDG's folders has relative paths ignored.
+  // The XDG specification demands that relative paths are ignored.
   const char* xdg = std::getenv("XDG_CONFIG_HOME");
   if (xdg != nullptr && fs::path(xdg).is_absolute()) return fs::path(xdg) / "clothsim" / "viewer.json";
   const char* home = std::getenv("HOME");

@@ -1,5 +1,5 @@
-// What the viewer remembers between runs: which panels are open. One small JSON file in the user's folder of
-// configuration, written whole or not at all.
+// What the viewer stores between runs: which panels are open. It is a small JSON file in the user's folder
+// for configurations, written whole or not at all.
 #pragma once
 
 #include <array>
@@ -15,10 +15,10 @@ inline constexpr std::array<std::string_view, 5> panelNames{"simulation", "colli
                                                             "scene"};
 
 struct ViewerConfig {
-  // None: as the window's width suggests.
+  // None: chosen by the width of the window.
   std::optional<bool> showPanels;
   bool showOverlay = true;
-  std::array<bool, panelNames.size()> open{true, false, false, false, false};  // by PanelName
+  std::array<bool, panelNames.size()> open{true, false, false, false, false};  // by the number of PanelName
   friend bool operator==(const ViewerConfig&, const ViewerConfig&) = default;
 };
 
@@ -27,12 +27,12 @@ struct ViewerConfig {
 
 struct LoadedConfig {
   ViewerConfig config;
-  std::string notice;  // why the file was not heeded, "" when it was or there is none
+  std::string notice;  // why the file was not used; "" when it was, or there is none
 };
-// Never throws: what cannot be read is passed over, and said.
+// Never throws: a file that cannot be read is ignored, with a notice.
 [[nodiscard]] LoadedConfig loadViewerConfig(const std::filesystem::path& path);
 
-// Makes the folders it needs. Returns why it could not be written, "" when it was.
+// Creates the folders. Returns why the file could not be written, "" when it was.
 [[nodiscard]] std::string saveViewerConfig(const ViewerConfig& config, const std::filesystem::path& path);
 
 }  // namespace clothsim

@@ -29,7 +29,7 @@ std::string backendText(const Solver& solver) {
   return (solver.backend() == "gpu" ? "GPU: " : "CPU: ") + device;
 }
 
-// "50 x 50", or several of them.
+// "50 x 50"; several cloths are separated by commas.
 std::string gridSizes(const Cloth& cloth) {
   std::string text;
   for (const Grid& grid : cloth.grids())
@@ -43,7 +43,7 @@ OverlayFacts::Row speedRow(const OpenScene& open, const SpeedMeter& meter) {
   const double factor = meter.realTimeFactor();
   if (meter.framesPerSecond() == 0) return {"speed", "measuring", false, true};
   const bool slow = factor < 0.95;
-  // OpenGL may be the CPU in disguise, and slower.
+  // A software renderer is the CPU, and slower than the CPU backend.
   const bool cpuMayBeFaster = slow && gl::currentContextInfo().software && open.backend() == "gpu";
   return {"speed",
           formatted(slow ? "%.2f" : "%.1f", factor) + "\u00d7 real time" +

@@ -1,4 +1,4 @@
-// What the window says of the simulation: its title, and the rows of the panel of facts.
+// The title of the window and the rows of the overlay, as they describe the simulation.
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// The one table of what keys and mouse do in the viewer: the F1 list, `--help` and the README's table are
-// made from it, and the viewer looks up here what a key means.
+// The table of all keys and mouse actions of the viewer. The F1 list, `--help` and the table in README.md are
+// made from it, and the viewer looks up here what a key does.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 namespace clothsim {
 
 enum class ViewerAction {
-  none,  // what the mouse does, and keys that act for as long as they are held
+  none,  // for mouse actions, and for keys that act while they are held
   pause,
   stepFrame,
   restart,
@@ -34,12 +34,12 @@ enum class ViewerAction {
 };
 
 struct ViewerKey {
-  std::string_view input;  // as printed on the key, with Ctrl+ and Shift+ before it
+  std::string_view input;  // the label of the key, after Ctrl+ and Shift+
   std::string_view effect;
   ViewerAction action = ViewerAction::none;
 };
 
-// Keys that act for as long as they are held.
+// Keys that act while they are held.
 inline constexpr std::string_view blowKey = "W", cutKey = "X";
 
 inline constexpr std::array viewerKeys{
@@ -72,14 +72,14 @@ inline constexpr std::array viewerKeys{
     ViewerKey{"Esc", "close what is open over the picture, or quit", ViewerAction::quit},
 };
 
-// A key with what is held down beside it.
+// A key and the modifiers that are held with it.
 struct KeyStroke {
   std::string key;  // as in the table: "P", "F1", "Left", "Space"
   bool control = false, shift = false;
   friend bool operator==(const KeyStroke&, const KeyStroke&) = default;
 };
 
-// "Ctrl+Shift+Z" taken apart.
+// Splits "Ctrl+Shift+Z" into key and modifiers.
 [[nodiscard]] inline KeyStroke keyStroke(std::string_view input) {
   KeyStroke stroke;
   stroke.control = input.starts_with("Ctrl+");

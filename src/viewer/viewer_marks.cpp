@@ -4,7 +4,7 @@
 
 namespace clothsim {
 
-void drawMarks(const HandMarks& marks) {
+void drawMarks(const MouseMarks& marks) {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const ImU32 light = ImGui::GetColorU32(ImVec4(1, 1, 1, 0.95f)),
               dark = ImGui::GetColorU32(ImVec4(0, 0, 0, 0.45f));

@@ -1,10 +1,10 @@
-// Marks over the picture for what the hands do: where they hold, cut and blow.
+// Draws marks over the picture where the mouse grabs, cuts and blows.
 #pragma once
 
-#include "viewer/hands.h"
+#include "viewer/mouse_tools.h"
 
 namespace clothsim {
 
-void drawMarks(const HandMarks& marks);
+void drawMarks(const MouseMarks& marks);
 
 }  // namespace clothsim

@@ -17,7 +17,7 @@ constexpr ImGuiWindowFlags overlayFlags =
 constexpr float keyColumnWidth = 27;  // of the list of keys [em]
 constexpr float narrowPicture = 46;   // em
 
-// The name of a key on a small rounded rectangle, as on a keyboard.
+// Draws the name of a key on a small rounded rectangle, as on a keyboard.
 void drawKeyCap(std::string_view name) {
   const ImVec2 size = ImGui::CalcTextSize(name.data(), name.data() + name.size());
   const ImVec2 at = ImGui::GetCursorScreenPos();
@@ -26,7 +26,7 @@ void drawKeyCap(std::string_view name) {
                                             ImGui::GetColorU32(theme::keyCap), 0.25f * em());
   ImGui::SetCursorScreenPos({at.x + margin, at.y + lift});
   coloredText(name, theme::plain);
-  // The table column is to be as wide as the cap.
+  // Makes the table column as wide as the cap.
   ImGui::SameLine(0, 0);
   ImGui::Dummy({margin, 1});
 }
@@ -50,7 +50,7 @@ void drawFacts(const OverlayFacts& all, PictureArea area) {
   OverlayFacts facts = all;
   if (area.width < narrowPicture * em())
     std::erase_if(facts.rows, [](const OverlayFacts::Row& row) { return !row.important; });
-  // Measured before it is drawn: a window that finds its size by itself is a frame late.
+  // The text is measured first, since a window that sizes itself does so a frame late.
   const auto widthOf = [](const std::string& words) { return ImGui::CalcTextSize(words.c_str()).x; };
   float labels = 0, values = 0;
   for (const OverlayFacts::Row& row : facts.rows) {
@@ -79,8 +79,8 @@ void drawFacts(const OverlayFacts& all, PictureArea area) {
 }
 
 void drawKeyList(PictureArea area) {
-  // In one column or two, whichever may be larger: it is not to be scrolled. Over the panels, too, where the
-  // picture alone has no room for it.
+  // One column or two, whichever allows the larger text, so that nothing needs scrolling. Where the picture
+  // is too small the list also covers the panels.
   const ImVec2 whole = ImGui::GetIO().DisplaySize;
   const auto scaleFor = [&](float columns) {
     const float lines = std::ceil(static_cast<float>(viewerKeys.size()) / columns);

@@ -1,5 +1,5 @@
-// What the viewer writes over the picture: a panel of facts, the list of keys, and a line on what has just
-// happened. Between UiFrame::begin() and draw().
+// What the viewer writes over the picture: facts about the simulation, the list of keys, and notices. To be
+// called between UiFrame::begin() and end().
 #pragma once
 
 #include <string>
@@ -11,23 +11,23 @@ struct OverlayFacts {
   std::string title;  // of the scene
   struct Row {
     std::string label, value;
-    bool alert = false;      // drawn in the colour that asks for attention
-    bool important = false;  // shown in a small picture, too
+    bool alert = false;      // drawn in the colour of warnings
+    bool important = false;  // also shown in a small picture
   };
   std::vector<Row> rows;
 };
 
-// The part of the window that shows the picture; the rest belongs to the panels.
+// The part of the window that shows the picture; the panels take the rest.
 struct PictureArea {
   float width = 0, height = 0;  // from the top left [pixels]
 };
 
-// In a narrow picture only the rows that are `important`.
+// A narrow picture shows only the rows that are `important`.
 void drawFacts(const OverlayFacts& facts, PictureArea area);
 void drawKeyList(PictureArea area);
-// All of the window, while nothing else can be shown.
+// Fills the window while a scene is loaded.
 void drawLoading(const std::string& name);
-// At the bottom of the picture, `lift` pixels up.
+// Stands `lift` pixels above the bottom of the picture.
 void drawNotice(const std::string& words, bool isError, PictureArea area, float lift);
 
 }  // namespace clothsim

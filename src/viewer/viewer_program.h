@@ -1,5 +1,5 @@
-// The program behind the window: what it holds, what can be asked of it, and a turn of its loop. viewer.cpp
-// has the loop, viewer_actions.cpp what keys, mouse and panels ask for.
+// The viewer: its state, its actions and its main loop. viewer.cpp has the loop, viewer_actions.cpp the
+// actions of keys, mouse and panels.
 #pragma once
 
 #include <chrono>
@@ -15,7 +15,7 @@
 #include "gl/context.h"
 #include "viewer/compare_card.h"
 #include "viewer/frame_timings.h"
-#include "viewer/hands.h"
+#include "viewer/mouse_tools.h"
 #include "viewer/open_scene.h"
 #include "viewer/pace.h"
 #include "viewer/panels/panels.h"
@@ -30,7 +30,7 @@
 
 namespace clothsim {
 
-// Antialiasing as fine as the device draws at a fluent rate.
+// With as many samples a pixel as the device draws fluently.
 [[nodiscard]] RenderOptions renderOptions(const ViewerOptions& options);
 
 class LapClock {
@@ -45,21 +45,21 @@ class LapClock {
   std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
 };
 
-// What is left of a viewer whose device was lost.
-struct Salvage {
-  std::string source;            // of the scene, as -f was given
-  Shared<Scene> loaded, edited;  // as the file had it, and as it was in the end
+// What is left of a session whose OpenGL context was lost.
+struct LostSession {
+  std::string source;            // the argument of -f
+  Shared<Scene> loaded, edited;  // the scene of the file, and the scene at the end
   Session::Past past;
   std::string reason;
 };
 
 class Viewer {
  public:
-  // Shows the scene; or goes on with what was salvaged, on the CPU, from the start of its scene.
-  Viewer(const Shared<Scene>& scene, const ViewerOptions& options, const std::optional<Salvage>& salvage);
+  // Shows the scene; or restarts the scene of a lost session on the CPU, with its edits and its recording.
+  Viewer(const Shared<Scene>& scene, const ViewerOptions& options, const std::optional<LostSession>& lost);
 
-  // Until the window is closed, or the device is lost.
-  [[nodiscard]] std::optional<Salvage> run();
+  // Runs until the window is closed, or until the context is lost.
+  [[nodiscard]] std::optional<LostSession> run();
 
  private:
   struct Notice {
@@ -68,16 +68,16 @@ class Viewer {
     bool isError = false;
   };
 
-  // By the controls of one picture; heeded after it, since much of that draws elsewhere.
-  struct Asked {
+  // What the controls of a picture ask for. It is done after the picture, since much of it draws elsewhere.
+  struct ControlRequests {
     FieldEdits edits;
     PanelRequests panels;
     TimelineRequests timeline;
   };
 
-  // --- input (all of it comes from the window)
+  // --- input from the window
   void listen();
-  void whenIdle(std::function<void()> deed);
+  void whenIdle(std::function<void()> task);
   void onKey(const KeyStroke& stroke, bool repeated);
   void escape();
   void onPress(ViewerWindow::Button button, ViewerWindow::Cursor cursor, bool control, bool shift);
@@ -87,7 +87,7 @@ class Viewer {
   void watchSteps();
   void warnOfPaths();
 
-  // --- what can be asked for, by key or panel
+  // --- actions of keys and panels
   void switchBackend(const std::string& backend);
   void switchIntegrator();
   void nextShader();
@@ -96,25 +96,25 @@ class Viewer {
   void seek(int frame);
   void restart();
   void openScene(const std::string& source);
-  // While the window says what is being loaded; closed meanwhile, the program ends at once.
+  // Loads a scene while the window says so. When the window is closed meanwhile, the program ends.
   [[nodiscard]] std::unique_ptr<OpenScene> load(const std::string& source,
                                                 const std::function<std::unique_ptr<OpenScene>()>& make);
   void saveSceneAs(const std::filesystem::path& path);
   void reloadShaders();
   void togglePanels();
 
-  // --- a turn of the loop
-  void turn();
+  // --- an iteration of the main loop
+  void iterate();
   int simulate(double elapsed);
   [[nodiscard]] int stepFrames(int frames);
   void draw();
   void measure();
   void drawControls();
   void drawPanels();
-  void heedControls();
-  void heed(const FieldEdits& edits);
-  void heed(const PanelRequests& requests);
-  void heed(const TimelineRequests& requests);
+  void applyRequests();
+  void apply(const FieldEdits& edits);
+  void apply(const PanelRequests& requests);
+  void apply(const TimelineRequests& requests);
   void keepConfig();
 
   [[nodiscard]] Session& session() { return open_->session(); }
@@ -123,22 +123,22 @@ class Viewer {
   [[nodiscard]] PictureArea pictureArea() const;
   [[nodiscard]] CoveredEdges coveredEdges() const;
   [[nodiscard]] bool isOverPicture(ViewerWindow::Cursor cursor) const;
-  [[nodiscard]] Reach reach();
+  [[nodiscard]] MouseContext mouseContext();
   [[nodiscard]] bool isIdle();
 
   static constexpr int drawsAfterInput = 3;
   static constexpr double noticeSeconds = 2.5, longNoticeSeconds = 8;
   void say(const std::string& text, double seconds = noticeSeconds) { notice_ = {text, seconds, false}; }
   void complain(const std::string& text) { notice_ = {text, longNoticeSeconds, true}; }
-  // Something that may be impossible: then it says so, and the window goes on with whatever is unsaved in it.
-  // Returns whether it was done.
-  template <class Deed>
-  bool attempt(Deed&& deed) {
+  // Runs a task that may fail. Then its error is shown and the viewer continues, so that nothing unsaved is
+  // lost. Returns whether it succeeded.
+  template <class Task>
+  bool attempt(Task&& task) {
     try {
-      deed();
+      task();
       return true;
     } catch (const gl::ContextLost& error) {
-      lost_ = error.what();  // run() sees to it
+      lost_ = error.what();  // run() handles it
     } catch (const std::bad_alloc&) {
       complain("There is not enough memory for this.");
     } catch (const std::exception& error) {
@@ -151,7 +151,7 @@ class Viewer {
   ViewerWindow window_;
   UiFrame ui_{window_.handle(), window_.inputQueue()};
   std::unique_ptr<OpenScene> open_;
-  Hands hands_;
+  MouseTools mouse_;
   PanelColumn column_;
   FieldWidgets widgets_;
   CompareCard compare_;
@@ -162,19 +162,19 @@ class Viewer {
   FrameTimings timings_{options_.timings};
   Notice notice_;
   ViewerConfig config_, savedConfig_;
-  Asked asked_;
-  Scene draft_;                       // what the panels edit, a copy
-  bool draftHeld_ = false;            // some control of theirs is held: the draft is ahead of the scene
-  bool editContinues_ = false;        // the next edit belongs to the one before
-  std::optional<int> explicitSteps_;  // a frame, before the implicit integrator chose its own
-  std::string confirmed_;             // a file that the next Save may write over
+  ControlRequests requests_;
+  Scene draft_;                       // a copy of the scene, which the panels edit
+  bool draftHeld_ = false;            // a control is being dragged: the draft differs from the scene
+  bool editContinues_ = false;        // the next edit is undone together with the last one
+  std::optional<int> explicitSteps_;  // a frame, as they were before the implicit integrator
+  std::string confirmed_;             // a file that the next Save may overwrite
   std::optional<std::string> sceneToOpen_;
-  std::optional<std::string> lost_;  // why the device is
+  std::optional<std::string> lost_;  // why the context was lost
   std::string title_;
   double now_ = 0, pinsShownUntil_ = 0;         // [s] since the start
-  int drawsLeft_ = drawsAfterInput;             // of a paused window, until controls have settled
-  bool stepping_ = false;                       // the session is within a frame:
-  std::vector<std::function<void()>> waiting_;  // input waits
+  int drawsLeft_ = drawsAfterInput;             // pictures that a paused window still draws after input
+  bool stepping_ = false;                       // the session is within a frame, and
+  std::vector<std::function<void()>> waiting_;  // input waits here
   bool paused_ = false, stepAsked_ = false, showKeys_ = false;
 };
 

@@ -17,7 +17,7 @@
 namespace clothsim {
 namespace {
 
-constexpr int ordinaryWidth = 1280, ordinaryHeight = 720;  // at first, on an ordinary screen [pixels]
+constexpr int ordinaryWidth = 1280, ordinaryHeight = 720;  // of a new window on an ordinary screen [pixels]
 constexpr int smallestWidth = 480, smallestHeight = 400;
 
 std::string lastGlfwError() {
@@ -25,7 +25,7 @@ std::string lastGlfwError() {
   return glfwGetError(&text) == GLFW_NO_ERROR || text == nullptr ? "GLFW gives no reason" : text;
 }
 
-// For those who have no screen: the same scene by the commands that need none.
+// Advice for machines without a display: commands that simulate the same scene.
 std::string noWindow(const std::string& reason, const std::string& sceneName) {
   return "No window can be opened: " + reason + "\nThese commands need no screen:\n  clothsim render -f " +
          sceneName +
@@ -33,7 +33,7 @@ std::string noWindow(const std::string& reason, const std::string& sceneName) {
          sceneName + " --frames 240 --save last.ply      the simulation alone, as a mesh";
 }
 
-// As large as the screen's scale asks for, as long as it fits on it.
+// The size of a new window: scaled with the desktop, but no larger than the screen.
 std::pair<int, int> firstSize() {
   GLFWmonitor* monitor = glfwGetPrimaryMonitor();
   if (monitor == nullptr) return {ordinaryWidth, ordinaryHeight};
@@ -52,7 +52,7 @@ ViewerWindow& selfOf(GLFWwindow* window) {
   return *static_cast<ViewerWindow*>(glfwGetWindowUserPointer(window));
 }
 
-// Keys without a letter or a digit, as viewer_keys.h names them.
+// The names in viewer_keys.h of keys without a letter or a digit.
 struct NamedKey {
   const char* name;
   int code;
@@ -62,7 +62,7 @@ constexpr std::array namedKeys{
     NamedKey{"Left", GLFW_KEY_LEFT},   NamedKey{"Right", GLFW_KEY_RIGHT}, NamedKey{"F1", GLFW_KEY_F1},
     NamedKey{"F2", GLFW_KEY_F2},       NamedKey{"F3", GLFW_KEY_F3},       NamedKey{"F5", GLFW_KEY_F5}};
 
-// What is printed on the key, which on other keyboards than American ones is not what GLFW calls it.
+// The label of a key. GLFW names keys by their labels on American keyboards, which others do not share.
 std::string nameOfKey(int code, int scancode) {
   for (const NamedKey& key : namedKeys)
     if (key.code == code) return key.name;
@@ -86,7 +86,8 @@ ViewerWindow::ViewerWindow(const std::string& title, const std::string& sceneNam
   glfwWindowHintString(GLFW_X11_CLASS_NAME, "clothsim");
   glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "clothsim");
   const auto [width, height] = firstSize();
-  for (const int robustness : {GLFW_LOSE_CONTEXT_ON_RESET, GLFW_NO_ROBUSTNESS}) {  // not every driver can
+  for (const int robustness :
+       {GLFW_LOSE_CONTEXT_ON_RESET, GLFW_NO_ROBUSTNESS}) {  // some drivers cannot do the first
     glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, robustness);
     if (window_ == nullptr) window_ = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
   }
@@ -170,7 +171,7 @@ ViewerWindow::Size ViewerWindow::size() const {
 ViewerWindow::Cursor ViewerWindow::cursor() const {
   Cursor cursor;
   glfwGetCursorPos(window_, &cursor.x, &cursor.y);
-  // Where the desktop scales, the window is measured in other units than its framebuffer.
+  // On a scaled desktop the size of the window differs from that of its framebuffer.
   int width = 0, height = 0;
   glfwGetWindowSize(window_, &width, &height);
   const Size pixels = size();
@@ -195,8 +196,8 @@ bool ViewerWindow::holdsShift() const {
 double ViewerWindow::textScale() const {
   float desktop = 1, unused = 1;
   glfwGetWindowContentScale(window_, &desktop, &unused);
-  // A 4K screen whose desktop says nothing of its density still gets texts that can be read. In quarters, so
-  // that a window being resized does not rebuild its typeface with every pixel.
+  // Large windows get larger text where the desktop does not scale. The factor is rounded to quarters, so
+  // that the font is not rebuilt for every pixel while a window is resized.
   const double large = std::floor(size().height / 1080.0 * 4) / 4;
   return std::clamp(std::max(static_cast<double>(desktop), large), 1.0, 4.0);
 }

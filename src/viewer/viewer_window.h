@@ -1,4 +1,4 @@
-// The window and its OpenGL context, by GLFW. Only the viewer touches this: glfwInit fails where there is no
+// The window and its OpenGL context, by GLFW. Only the viewer uses it, since glfwInit fails without a
 // display.
 #pragma once
 
@@ -21,17 +21,17 @@ class ViewerWindow {
   };
   enum class Button { left, right };
   struct Input {
-    // Pressed, or repeated while it is held.
+    // Called when a key is pressed, and repeatedly while it is held.
     std::function<void(const KeyStroke&, bool repeated)> key;
     std::function<void(Button, Cursor, bool control, bool shift)> press;
-    std::function<void(Cursor)> move;  // also while no button is held
+    std::function<void(Cursor)> move;  // also without a button
     std::function<void(Button)> release;
     std::function<void(double steps, Cursor)> scroll;
-    std::function<void(const std::vector<std::string>& paths)> drop;  // files from another window
+    std::function<void(const std::vector<std::string>& paths)> drop;  // files that were dropped on the window
   };
 
-  // Opens a window with an OpenGL 4.5 core context, current and ready to use. The message for those without a
-  // screen names commands for this scene. @throws OpenGlError
+  // Opens a window with a current OpenGL 4.5 core context. Without a display the error names commands that
+  // can simulate this scene. @throws OpenGlError
   ViewerWindow(const std::string& title, const std::string& sceneName);
   ~ViewerWindow();
   ViewerWindow(const ViewerWindow&) = delete;
@@ -41,17 +41,17 @@ class ViewerWindow {
   void setInput(Input input) { input_ = std::move(input); }
 
   [[nodiscard]] GLFWwindow* handle() const { return window_; }
-  // Everything typed and clicked, for the controls.
+  // Keys and clicks for the controls.
   [[nodiscard]] InputQueue& inputQueue() { return queue_; }
   [[nodiscard]] bool shouldClose() const;
   void requestClose();
   void pollEvents();
-  void waitEvents(double seconds);  // or until something happens
+  void waitEvents(double seconds);  // returns earlier when an event comes
   void swap();
-  // The context belongs to one thread at a time: lent by the window's own, taken by another, and back.
+  // The context belongs to one thread at a time: one thread lends it, then another takes it.
   void lendContext();
   void takeContext();
-  void wakeUp();  // from another thread: waitEvents ends
+  void wakeUp();  // ends waitEvents() of another thread
   void setTitle(const std::string& title);
 
   struct Size {
@@ -62,8 +62,8 @@ class ViewerWindow {
   // Whether the key of that name (viewer_keys.h) is held now.
   [[nodiscard]] bool holds(std::string_view key) const;
   [[nodiscard]] bool holdsShift() const;
-  // By how much texts are to be larger than on an ordinary screen: what the desktop says, or what a large
-  // window asks for.
+  // The factor by which text is larger than on an ordinary screen. It follows the scale of the desktop and
+  // the size of the window.
   [[nodiscard]] double textScale() const;
 
  private:

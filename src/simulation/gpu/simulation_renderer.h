@@ -1,5 +1,5 @@
-// Draws a simulation as it is now: a renderer that follows its scene, cloth and cuts, and the positions that
-// it draws from.
+// Draws a simulation as it is now. update() takes over a changed scene, cloth and cuts; positions are always
+// current.
 #pragma once
 
 #include <optional>
@@ -12,18 +12,18 @@ namespace clothsim {
 
 class SimulationRenderer {
  public:
-  // Keeps a reference to the simulation. Needs a current context, as everything here. @throws OpenGlError
+  // `simulation` must outlive the renderer. All functions need a current context. @throws OpenGlError
   SimulationRenderer(Simulation& simulation, const RenderOptions& options);
 
-  // Shows the scene, the cloth and the cuts that the simulation has now. @throws as the constructor
+  // Takes over the scene, the cloth and the cuts that the simulation has now. @throws as the constructor
   void update();
   [[nodiscard]] Renderer& renderer() { return *renderer_; }
 
-  // The name of a buffer with a vec4 a particle: the GPU solver's own, or the CPU's state, uploaded once
-  // after each change.
+  // The name of a buffer with a vec4 a particle. It is the GPU solver's own; a state of the CPU is uploaded
+  // once after each change.
   [[nodiscard]] GLuint positionsBuffer();
 
-  // As Renderer has them, with the positions and the time of the simulation.
+  // The functions of Renderer, with the positions and the time of the simulation.
   void draw(const Camera& camera, GLuint target, int width, int height);
   [[nodiscard]] Image picture(const Camera& camera, int width, int height);
   [[nodiscard]] Pick pick(const Camera& camera, int width, int height, double x, double y);
@@ -32,7 +32,7 @@ class SimulationRenderer {
   Simulation& simulation_;
   RenderOptions options_;
   std::optional<Renderer> renderer_;
-  // What the renderer shows.
+  // The renderer shows these.
   Shared<Cloth> cloth_;
   Shared<Scene> scene_;
   Cuts cuts_;

@@ -1,4 +1,4 @@
-// The solvers of both backends, for programs with OpenGL.
+// The solver factory of programs with OpenGL.
 #pragma once
 
 #include <memory>
@@ -8,7 +8,7 @@
 
 namespace clothsim {
 
-// "gpu" or "cpu"; the GPU needs a current OpenGL context. @throws UsageError for another name, OpenGlError
+// Knows "gpu", which needs a current context, and "cpu". @throws UsageError for another name, OpenGlError
 [[nodiscard]] std::unique_ptr<Solver> makeSolver(const std::string& backend, const Shared<Cloth>& cloth,
                                                  const Shared<Scene>& scene);
 

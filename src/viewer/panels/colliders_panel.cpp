@@ -1,4 +1,4 @@
-// Colliders: the solid shapes, each with the fields of its type.
+// The panel Colliders: a list of shapes with the fields of their types.
 #include <algorithm>
 
 #include "scene/field.h"
@@ -8,7 +8,7 @@
 namespace clothsim {
 namespace {
 
-// Whether a scene file must name something of it, as the file of a mesh.
+// Whether the type has a required key, as the file of a mesh.
 bool needsFile(const Collider& collider) {
   return std::visit(
       [](const auto& shape) {

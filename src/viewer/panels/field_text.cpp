@@ -1,4 +1,4 @@
-// The words of the controls; apart from the controls so that tests need no window.
+// The texts of the controls. They stand in a file of their own so that tests need no window.
 #include "viewer/panels/field_widgets.h"
 
 namespace clothsim {

@@ -15,8 +15,8 @@ namespace {
 
 constexpr float labelShare = 0.42f;  // of a row's width
 
-// What "one of verlet, euler", "false, true, averaged, robust" and "0 (horizontal), 1 (vertical)" name, false
-// as "off".
+// The words in "one of verlet, euler", "false, true, averaged, robust" or "0 (horizontal), 1 (vertical)".
+// `false` becomes "off".
 std::vector<std::string> wordsIn(std::string text) {
   if (text.starts_with("one of ")) text.erase(0, 7);
   std::vector<std::string> words;
@@ -32,7 +32,7 @@ std::vector<std::string> wordsIn(std::string text) {
   return words;
 }
 
-// Chooses one of the words; true when another one was chosen.
+// A list to choose a word from. True when another one was chosen.
 bool combo(std::string& chosen, const std::vector<std::string>& words) {
   bool changed = false;
   if (ImGui::BeginCombo("##value", chosen.c_str())) {
@@ -56,7 +56,7 @@ bool textLine(std::string& text) {
   return true;
 }
 
-// As combo(), with a line below the words for any other text.
+// Like combo(), with a line below the words in which another text can be typed.
 bool openCombo(std::string& chosen, const std::vector<std::string>& words) {
   const auto shown = [](const std::string& word) { return word.empty() ? "none" : word.c_str(); };
   bool changed = false;
@@ -205,7 +205,7 @@ void FieldWidgets::control(const FieldTraits& field, std::string_view path, Vec3
   endRow(field, path, changed, ImGui::IsItemDeactivatedAfterEdit());
 }
 
-// A direction or place that may be left to the program.
+// A direction or place that the program chooses where it is absent.
 void FieldWidgets::control(const FieldTraits& field, std::string_view path, std::optional<Vec3d>& value) {
   beginRow(field, path, field.unit);
   bool on = value.has_value(), finished = false;
@@ -246,8 +246,8 @@ void FieldWidgets::control(const FieldTraits& field, std::string_view path, Fric
   wordControl(field, path, value);
 }
 
-// A number that may be absent: with a switch before it when `false` is its word for that, else shown only
-// where the scene has it.
+// A number that may be absent. Where `false` means absent a switch stands before it; other numbers are shown
+// only where the scene has them.
 void FieldWidgets::control(const FieldTraits& field, std::string_view path, std::optional<double>& value) {
   if (!value && field.format != Format::orFalse) return;
   beginRow(field, path, "");
@@ -272,7 +272,7 @@ void FieldWidgets::control(const FieldTraits& field, std::string_view path, std:
   endRow(field, path, changed, finished);
 }
 
-// "auto" before the number that it stands for now.
+// A switch for "auto" before the number that it stands for now.
 void FieldWidgets::control(const FieldTraits& field, std::string_view path, AutoCount& value) {
   beginRow(field, path, "");
   bool changed = ImGui::Checkbox("auto", &value.automatic);
@@ -287,7 +287,7 @@ void FieldWidgets::control(const FieldTraits& field, std::string_view path, Auto
   endRow(field, path, changed, changed || ImGui::IsItemDeactivatedAfterEdit());
 }
 
-// Only which it is; its values are rows of their own.
+// Chooses the preset; its values have rows of their own.
 void FieldWidgets::control(const FieldTraits& field, std::string_view path, std::optional<Material>& value) {
   const std::string springs = "none: springs", own = "custom";
   beginRow(field, path, "");

@@ -1,5 +1,5 @@
-// Controls made from the table of scene keys: for each field a label, a widget for its type with unit, range
-// and a slider scale, and the table's own sentence of help.
+// Makes controls from the table of scene keys. Each field gets a label, a widget for its type with unit and
+// range, and the help text of the table.
 #pragma once
 
 #include <algorithm>
@@ -13,16 +13,16 @@
 
 namespace clothsim {
 
-// What the controls of one frame did to the values they show.
+// How the controls of a frame have changed the values.
 struct FieldEdits {
-  bool live = false;     // a field that acts at once was changed
-  bool rebuild = false;  // one that rebuilds the cloth was changed, and its control let go
-  bool holding = false;  // some control is being dragged or typed into
+  bool live = false;     // a live field was changed
+  bool rebuild = false;  // a field that rebuilds the cloth was changed, and its control released
+  bool holding = false;  // a control is being dragged or typed into
 };
 
 class FieldWidgets {
  public:
-  // Controls for all fields of the struct that have one, in the order of the table, apart from `without`.
+  // Draws the controls of all fields of the struct but `without`, in the order of the table.
   template <class Owner>
   void all(Owner& owner, std::string_view path, std::initializer_list<std::string_view> without = {}) {
     if (!beginRows(path)) return;
@@ -30,7 +30,7 @@ class FieldWidgets {
       if (std::find(without.begin(), without.end(), field.key) == without.end()) row(field, owner, path);
     endRows();
   }
-  // Those of some keys, in that order. Keys that the table does not have are passed over.
+  // Draws the controls of these keys, in this order. Unknown keys are ignored.
   template <class Owner>
   void some(Owner& owner, std::string_view path, std::initializer_list<std::string_view> keys) {
     if (!beginRows(path)) return;
@@ -39,14 +39,14 @@ class FieldWidgets {
         if (field.key == key) row(field, owner, path);
     endRows();
   }
-  // Texts to choose from in the string field of that path, which may also have others: "" is shown as "none".
+  // Offers texts for the string field of that path, which may also have others. "" is shown as "none".
   void offer(std::string path, std::vector<std::string> words) {
     choices_.push_back({std::move(path), std::move(words)});
   }
 
-  // What has happened since the last call.
+  // Returns the changes since the last call.
   [[nodiscard]] FieldEdits takeEdits();
-  // A control that is made by hand has changed something.
+  // To be called when a control outside this class has changed a field.
   void changed(Change when) { note(true, when, true); }
 
  private:
@@ -59,7 +59,7 @@ class FieldWidgets {
   void row(const Field<Owner>& field, Owner& owner, std::string_view path) {
     std::visit([&](auto member) { control(field, path, owner.*member); }, field.member);
   }
-  // Types without an overload have no control of their own: lists and objects get panels.
+  // Types without an overload have no control: lists and objects have panels.
   template <class T>
   void control(const FieldTraits&, std::string_view, T&) {}
   void control(const FieldTraits& field, std::string_view path, bool& value);
@@ -87,17 +87,17 @@ class FieldWidgets {
 
   std::vector<Choices> choices_;
   FieldEdits edits_;
-  bool rebuildHeld_ = false;  // a field that rebuilds was changed, and its control is still held
+  bool rebuildHeld_ = false;  // a field that rebuilds was changed, and its control is not released yet
 };
 
 // "num_width_points" -> "num width points"; "m/s^2" -> "m/s²".
 [[nodiscard]] std::string labelOf(std::string_view key);
 [[nodiscard]] std::string unitText(std::string_view unit);
-// printf's format for a number with its unit, in which '%' is doubled: "%.4g N/m".
+// A format of printf for a number with its unit, such as "%.4g N/m". A '%' in the unit is doubled.
 [[nodiscard]] std::string numberFormat(std::string_view unit);
-// Whether a slider over that range spans decades.
+// Whether a slider over that range needs a logarithmic scale.
 [[nodiscard]] bool isLogarithmic(const Usual& range);
-// Everything that the table knows about the field, for a tip.
+// The entry of the field in the table as the text of a tip.
 [[nodiscard]] std::string helpOf(const FieldTraits& field, std::string_view path);
 
 }  // namespace clothsim

@@ -1,4 +1,4 @@
-// Look: shading model, colours and everything else that render.* says, and what is drawn on top.
+// The panel Look: the shading model, colours and other keys of `render`, and what is drawn over the cloth.
 #include "viewer/panels/panels.h"
 #include "viewer/ui_frame.h"
 

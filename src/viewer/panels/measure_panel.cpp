@@ -17,7 +17,7 @@ namespace clothsim {
 namespace {
 
 constexpr double sampleSeconds = 0.25;  // between two samples, at least
-constexpr double shareOfTime = 0.1;     // that sampling may take
+constexpr double shareOfTime = 0.1;     // of the time, for sampling
 constexpr std::size_t mostSamples = 240;
 constexpr int timedSteps = 60;
 
@@ -37,7 +37,7 @@ void row(const char* label, const std::string& value, const char* help) {
 
 bool beginRows(const char* id) { return ImGui::BeginTable(id, 2, ImGuiTableFlags_SizingStretchProp); }
 
-// What the process holds in memory [bytes], as Linux counts it; 0 where it cannot be asked.
+// The resident memory of the process [bytes]; 0 where /proc is missing.
 std::size_t residentBytes() {
   std::ifstream statm("/proc/self/statm");
   std::size_t all = 0, resident = 0;
@@ -53,7 +53,7 @@ ImU32 colorOf(const StrainStop& stop) {
   return ImGui::GetColorU32(ImVec4(stop.srgb[0], stop.srgb[1], stop.srgb[2], 1));
 }
 
-// The colours of the strain map, with what lies under the cursor as a mark on them.
+// Draws the colours of the strain map, with a mark for the strain under the cursor.
 void drawStrainLegend(const RenderSettings& look, std::optional<double> underCursor) {
   const std::vector<StrainStop> stops = strainScale(look);
   const double low = stops.front().strain, span = stops.back().strain - low;
@@ -162,7 +162,7 @@ void MeasurePanel::drawPlots() {
 
 void MeasurePanel::drawPasses(Session& session) {
   if (wideButton("Time the passes of a step")) {
-    // On a solver of its own: timing slows a step, and the cloth is to stay where it is.
+    // Timing uses a solver of its own, since the cloth must stay where it is.
     try {
       Simulation& simulation = session.simulation();
       const std::unique_ptr<Solver> solver = simulation.solverFactory()(

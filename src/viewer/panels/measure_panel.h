@@ -1,6 +1,6 @@
-// Measure: numbers and curves about the cloth. They need the state on the host, so it is read back only a few
-// times a second and for no more than a tenth of the time; of large cloths only while the panel is open. The
-// warnings of the overlay come from the same samples.
+// The panel Measure: numbers and curves about the cloth. They need a copy of the state on the host. It is
+// made a few times a second and takes at most a tenth of the time; for a large cloth it is made only while
+// the panel is open. The warnings of the overlay come from the same samples.
 #pragma once
 
 #include <cstdint>
@@ -18,22 +18,22 @@ namespace clothsim {
 
 class MeasurePanel {
  public:
-  // `look`: of the picture; where it shows strain as colours, there is a legend.
+  // `look` is that of the picture. Where it shows strain by colours, a legend is drawn.
   void draw(Session& session, const RenderSettings& look);
 
-  // Takes a sample when it is time for one. `particleUnderCursor` is asked then.
+  // Takes a sample when it is time for one. `particleUnderCursor` is called then.
   template <class UnderCursor>
   void update(Session& session, double now, UnderCursor&& particleUnderCursor) {
     const bool wanted = open_ || session.simulation().cloth().particleCount() <= ALWAYS_SAMPLED;
     if (!wanted || now < nextSample_) return;
     sample(session, now, open_ ? particleUnderCursor() : std::nullopt);
   }
-  // What the samples since the last start have shown.
+  // The warnings from the samples since the last start.
   [[nodiscard]] std::vector<Warning> warnings(const Scene& scene) const { return watch_.warnings(scene); }
   void setOpen(bool open) { open_ = open; }
-  // So many particles times steps took so long.
+  // To be called with the number of particles times steps, and the time that they took.
   void stepped(double particleSteps, double seconds);
-  // The simulation began anew: so do the curves.
+  // To be called when the simulation was restarted. Drops the samples.
   void forget();
 
  private:
@@ -54,7 +54,7 @@ class MeasurePanel {
   double nextSample_ = 0;
   std::deque<Sample> samples_;
   std::vector<Spring> springs_;
-  std::optional<std::uint64_t> springsOf_;  // the generation of the cloth they belong to
+  std::optional<std::uint64_t> springsOf_;  // the generation of their cloth
   std::optional<double> strainUnderCursor_;
   RunWatch watch_;
   std::uint64_t guardedSteps_ = 0;

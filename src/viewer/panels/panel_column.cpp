@@ -1,4 +1,4 @@
-// The column at the right of the window in which the panels stand, one below the other, each foldable.
+// The column of panels at the right of the window.
 #include <algorithm>
 #include <cctype>
 
@@ -9,7 +9,7 @@ namespace clothsim {
 namespace {
 
 constexpr float widestEm = 24, narrowestEm = 17;
-constexpr float largestShare = 0.47f;  // of the window: the cloth is never hidden
+constexpr float largestShare = 0.47f;  // of the window, so that the cloth is never hidden
 
 std::string titleOf(std::string_view name) {
   std::string title(name);

@@ -1,4 +1,4 @@
-// The panels beside the picture: what each is given, what it may ask for, and the column they stand in.
+// The panels beside the picture: their input, what they ask the viewer to do, and the column that holds them.
 #pragma once
 
 #include <optional>
@@ -15,13 +15,13 @@
 
 namespace clothsim {
 
-// What the panels of one frame ask the viewer to do.
+// What the panels ask the viewer to do in a frame.
 struct PanelRequests {
-  std::vector<ViewerAction> actions;       // as by their keys
-  std::optional<std::string> openScene;    // by -f's rule
+  std::vector<ViewerAction> actions;       // the same as those of keys
+  std::optional<std::string> openScene;    // a name or path as for -f
   std::optional<std::string> saveSceneAs;  // a path
   std::optional<std::string> backend;      // "cpu" or "gpu"
-  bool resetScene = false;                 // to what was loaded
+  bool resetScene = false;                 // back to the loaded scene
 };
 
 // What the panels show. `draft` is the scene with the edits of this frame.
@@ -30,7 +30,7 @@ struct PanelContext {
   FieldWidgets& widgets;
   Session& session;
   ViewOptions& view;
-  Vec3d lookedAt;  // where the camera looks: new colliders begin there [m]
+  Vec3d lookedAt;  // target of the camera, where new colliders are placed [m]
   const std::string& sceneName;
   PanelRequests requests{};
 };
@@ -43,11 +43,11 @@ void drawLookPanel(PanelContext& context);
 class ScenePanel {
  public:
   void draw(PanelContext& context);
-  // The path that was opened or saved last, for the lines to begin with.
+  // Shows the path that was last opened or saved in the lines for paths.
   void remember(const std::string& path);
 
  private:
-  std::vector<BundledScene> bundled_;  // read when the panel is first open
+  std::vector<BundledScene> bundled_;  // loaded when the panel is first opened
   bool read_ = false;
   char open_[512] = "", save_[512] = "";
 };

@@ -13,7 +13,7 @@ struct Axis {
   float low = 0, high = 1;
 };
 
-// Over all curves, with zero in it and a little room above.
+// The range of all curves; it contains zero and a margin above.
 Axis valueAxis(std::span<const Curve> curves) {
   Axis axis{0, 0};
   for (const Curve& curve : curves)
@@ -21,7 +21,7 @@ Axis valueAxis(std::span<const Curve> curves) {
       axis.low = std::min(axis.low, value);
       axis.high = std::max(axis.high, value);
     }
-  // Above there is room for the words, too.
+  // The margin has room for the names of the curves.
   const float span = std::max(axis.high - axis.low, 1e-6f);
   return {axis.low < 0 ? axis.low - 0.06f * span : 0, axis.high + 0.3f * span};
 }
@@ -32,7 +32,7 @@ std::string numberText(float value, const char* unit) {
   return text;
 }
 
-// Names of the curves, each in its colour with its last value.
+// Draws the names of the curves in their colours, each with its last value.
 void drawLegend(std::span<const Curve> curves, const char* unit) {
   for (const Curve& curve : curves) {
     const std::string words =

@@ -1,4 +1,4 @@
-// A small plot of numbers over time, as many curves as are given, with the ends of both axes named.
+// A small plot of curves over time, with numbers at the ends of both axes.
 #pragma once
 
 #include <imgui.h>
@@ -15,7 +15,7 @@ struct Curve {
   std::vector<float> values;  // as many as there are times
 };
 
-// `times` ascend. `unit` stands behind the numbers at the axis, as " J" or " %".
+// `times` ascend. `unit`, such as " J" or " %", follows the numbers at the axis.
 void drawPlot(const char* id, std::span<const float> times, std::span<const Curve> curves, const char* unit);
 
 }  // namespace clothsim

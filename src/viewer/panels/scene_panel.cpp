@@ -1,4 +1,4 @@
-// Scene: the bundled ones, opening, saving, starting over.
+// The panel Scene: bundled scenes, opening, saving and resetting.
 #include <cstdio>
 
 #include "core/error.h"
@@ -8,7 +8,7 @@
 namespace clothsim {
 namespace {
 
-// A line to type a path into, with a button beside it. True when either says go.
+// A line for a path with a button beside it. True when Enter or the button was pressed.
 bool pathLine(const char* id, const char* hint, char* text, std::size_t size, const char* button) {
   ImGui::PushID(id);
   const float buttonWidth = ImGui::CalcTextSize(button).x + 2 * ImGui::GetStyle().FramePadding.x;
@@ -29,7 +29,7 @@ void ScenePanel::draw(PanelContext& context) {
     read_ = true;
     try {
       bundled_ = bundledScenes();
-    } catch (const Error&) {  // a broken file among them: the command line says more
+    } catch (const Error&) {  // one of the files is broken; the command line tells more
     }
   }
   if (!context.draft.description.empty()) wrappedText(context.draft.description, theme::quiet);

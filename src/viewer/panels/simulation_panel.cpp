@@ -1,4 +1,4 @@
-// Simulation: CS184's controls, and ours.
+// The panel Simulation: the controls of CS184's program, and more.
 #include "cloth/material.h"
 #include "viewer/panels/panels.h"
 #include "viewer/ui_frame.h"
@@ -19,7 +19,7 @@ void drawBackend(PanelContext& context) {
   helpTip("Runs both from this state and counts the numbers that differ (C).");
 }
 
-// The three kinds of springs in a row, as their toggles stand in CS184's program.
+// Toggles for the three kinds of springs in a row, as in CS184's program.
 void drawSpringKinds(PanelContext& context, ClothSettings& cloth, const std::string& path) {
   struct Kind {
     std::string_view key;
@@ -41,8 +41,8 @@ void drawSpringKinds(PanelContext& context, ClothSettings& cloth, const std::str
   }
 }
 
-// A material takes the place of springs by hand, and of the steps that were right for them; without it they
-// are back.
+// A cloth that is given a material loses its spring constants, and the solver gets the defaults for
+// materials. A cloth without a material gets CS184's spring constant back.
 void chooseModel(Scene& scene, ClothSettings& cloth) {
   if (cloth.material && (cloth.ks || cloth.stiffnessReference)) {
     giveMaterial(cloth, Material{*cloth.material});

@@ -264,9 +264,9 @@ Scene smallScene() {
 
 TEST(SessionPulse, ChangesNoBitHoweverAFrameIsDividedByIt) {
   Session plain(smallScene(), "cpu", makeCpuSolver), watched(smallScene(), "cpu", makeCpuSolver);
-  int pulses = 0;
-  watched.setPulse([&] {
-    ++pulses;
+  int polls = 0;
+  watched.setPoll([&] {
+    ++polls;
     return true;
   });
   for (Session* session : {&plain, &watched}) {
@@ -278,12 +278,12 @@ TEST(SessionPulse, ChangesNoBitHoweverAFrameIsDividedByIt) {
 }
 
 TEST(SessionPulse, ThatSaysNoEndsSteppingAndLeavesTheFrameBefore) {
-  // A frame of so many steps takes longer than a pulse waits.
+  // A frame of so many steps takes longer than the time between two polls.
   Scene scene = loadSceneByName("pinned2");
   scene.solver.simulationSteps = 100000;
   Session session(scene, "cpu", makeCpuSolver);
   const std::uint64_t before = stateHash(session.simulation().solver().state());
-  session.setPulse([] { return false; });
+  session.setPoll([] { return false; });
   EXPECT_FALSE(session.stepFrames(2));
   EXPECT_EQ(session.frame(), 0);
   EXPECT_EQ(session.step(), 0u);

@@ -1,0 +1,290 @@
+#include "viewer/mouse_tools.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "render/stage.h"
+#include "scene/moved_collider.h"
+
+namespace clothsim {
+namespace {
+
+using Button = ViewerWindow::Button;
+using Cursor = ViewerWindow::Cursor;
+
+constexpr double zoomPerStep = 0.88;   // factor for a step of the wheel
+constexpr double grabbedSpacings = 3;  // radius of a grab in spacings,
+constexpr double grabbedShare = 0.04;  // or as a part of the smaller side of the cloth
+constexpr double pinReach = 10;        // distance within which a click removes a pin [pixels]
+constexpr double blowSpeed = 12;       // [m/s]
+constexpr double blowShare = 0.10;     // radius of the jet as a part of the distance to the camera's target
+constexpr double longestCut = 20;      // between two picks of a stroke [pixels]
+constexpr int mostPicks = 12;          // for one movement of the mouse
+constexpr int edgeHalvings = 4;        // bisections to find where a cut crosses the outline
+constexpr double cellsBeyondTheEdge = 1.5;  // by which a cut that leaves the cloth is extended
+
+Vec3d toVec3d(glm::vec3 v) { return {v.x, v.y, v.z}; }
+
+Pick pickAt(const MouseContext& context, Cursor cursor) {
+  return context.renderer.pick(context.camera, context.width, context.height, cursor.x, cursor.y);
+}
+
+bool isOnMesh(const MouseContext& context, const Pick& pick) {
+  return pick.kind == Pick::Kind::cloth && context.session.simulation().cloth().grids()[pick.grid].isMesh;
+}
+
+double grabRadius(const Grid& grid) {
+  const double across = grid.nominalLength[toLeft], along = grid.nominalLength[toUpper];
+  const double side = std::min(across * (grid.columns - 1), along * (grid.rows - 1));
+  return std::max(grabbedSpacings * std::max(across, along), grabbedShare * side);
+}
+
+// The pinned particle that is drawn nearest to the cursor. It copies the whole state for one click.
+std::optional<std::uint32_t> pinUnder(const MouseContext& context, Cursor cursor) {
+  const State state = context.session.simulation().solver().state();
+  std::optional<std::uint32_t> nearest;
+  double best = pinReach;
+  for (std::size_t i = 0; i < state.positions.size(); ++i) {
+    const Particle4& p = state.positions[i];
+    if (p.w != 0) continue;
+    const auto place = placeInPicture(context.camera, context.width, context.height, {p.x, p.y, p.z});
+    if (!place) continue;
+    const double distance =
+        std::hypot(static_cast<double>(place->x) - cursor.x, static_cast<double>(place->y) - cursor.y);
+    if (distance < best) {
+      best = distance;
+      nearest = static_cast<std::uint32_t>(i);
+    }
+  }
+  return nearest;
+}
+
+// `to`, extended by a cell or two when that leaves the grid, so that a cut over the edge severs it.
+LatticePoint overTheEdge(const Grid& grid, LatticePoint from, LatticePoint to) {
+  const double columns = to.column - from.column, rows = to.row - from.row;
+  const double length = std::hypot(columns, rows);
+  if (length == 0) return to;
+  const LatticePoint beyond{to.column + cellsBeyondTheEdge * columns / length,
+                            to.row + cellsBeyondTheEdge * rows / length};
+  const bool leaves =
+      beyond.column < 0 || beyond.row < 0 || beyond.column > grid.columns - 1 || beyond.row > grid.rows - 1;
+  return leaves ? beyond : to;
+}
+
+}  // namespace
+
+ViewRay rayThrough(const Camera& camera, int width, int height, Cursor cursor) {
+  const glm::mat4 clip = camera.projection(static_cast<double>(width) / height) * camera.view();
+  const glm::vec4 far =
+      glm::inverse(clip) * glm::vec4(2 * cursor.x / width - 1, 1 - 2 * cursor.y / height, 0.5, 1);
+  const glm::vec3 eye = camera.eye();
+  return {eye, glm::normalize(glm::vec3(far) / far.w - eye)};
+}
+
+std::optional<glm::vec2> placeInPicture(const Camera& camera, int width, int height, glm::vec3 point) {
+  const glm::vec4 clip =
+      camera.projection(static_cast<double>(width) / height) * camera.view() * glm::vec4(point, 1);
+  if (clip.w <= 0) return std::nullopt;
+  return glm::vec2{(clip.x / clip.w + 1) / 2 * static_cast<float>(width),
+                   (1 - clip.y / clip.w) / 2 * static_cast<float>(height)};
+}
+
+Vec3d MouseTools::targetAt(const MouseContext& context, Cursor cursor) const {
+  const ViewRay ray = rayThrough(context.camera, context.width, context.height, cursor);
+  const float slope = glm::dot(ray.direction, planeNormal_);
+  if (std::abs(slope) < 1e-4f) return toVec3d(heldPoint_);
+  return toVec3d(ray.origin + glm::dot(heldPoint_ - ray.origin, planeNormal_) / slope * ray.direction);
+}
+
+std::string MouseTools::press(const MouseContext& context, Button button, Cursor cursor, Modifiers held) {
+  if (doing_ != Doing::nothing) return "";
+  button_ = button;
+  last_ = cursor;
+  if (button == Button::right || held.control) {
+    doing_ = Doing::pan;
+    return "";
+  }
+  const Pick pick = pickAt(context, cursor);
+  if (held.cuts) {
+    if (isOnMesh(context, pick)) return "A cloth made from a mesh cannot be cut";
+    doing_ = Doing::cut;
+    lastCut_ = pick;
+    stroke_.assign(1, {cursor.x, cursor.y});
+    return "";
+  }
+  if (held.shift) return pin(context, pick, cursor);
+  heldPoint_ = pick.point;
+  planeNormal_ = glm::normalize(context.camera.target() - context.camera.eye());
+  targetMoved_ = dragGoesOn_ = false;
+  const auto& colliders = context.session.simulation().scene().colliders;
+  if (pick.kind == Pick::Kind::cloth) {
+    doing_ = Doing::grab;
+    grab(context, pick);
+  } else if (pick.kind == Pick::Kind::collider && !std::holds_alternative<Plane>(colliders[pick.collider])) {
+    // Planes are not dragged: they fill the background, where dragging moves the camera.
+    doing_ = Doing::moveCollider;
+    collider_ = pick.collider;
+    offset_ =
+        poseAt(colliders[collider_], context.session.simulation().time()).position - toVec3d(pick.point);
+  } else {
+    doing_ = Doing::orbit;
+  }
+  return "";
+}
+
+void MouseTools::grab(const MouseContext& context, const Pick& pick) {
+  held_ = pick.particle;
+  Grab grab;
+  grab.particle = pick.particle;
+  grab.target = toVec3d(pick.point);
+  grab.radius = grabRadius(context.session.simulation().cloth().grids()[pick.grid]);
+  context.session.act(grab);
+}
+
+std::string MouseTools::pin(const MouseContext& context, const Pick& pick, Cursor cursor) {
+  if (const auto pinned = pinUnder(context, cursor)) {
+    context.session.act(SetPin{*pinned, false});
+    return "Unpinned";
+  }
+  if (pick.kind != Pick::Kind::cloth) return "Shift+click on the cloth to pin it there";
+  context.session.act(SetPin{pick.particle, true});
+  return "Pinned";
+}
+
+void MouseTools::move(const MouseContext& context, Cursor cursor) {
+  const double dx = (cursor.x - last_.x) / context.height, dy = (last_.y - cursor.y) / context.height;
+  if (dx == 0 && dy == 0) return;
+  switch (doing_) {
+    case Doing::nothing:
+      break;
+    case Doing::orbit:
+      context.camera.orbit(-dx * std::numbers::pi, -dy * std::numbers::pi);
+      break;
+    case Doing::pan:
+      context.camera.pan(-dx, -dy);  // the cloth follows the mouse
+      break;
+    case Doing::grab:
+    case Doing::moveCollider:
+      targetMoved_ = true;
+      break;
+    case Doing::cut:
+      cutTo(context, cursor);
+      break;
+  }
+  last_ = cursor;
+}
+
+void MouseTools::release(const MouseContext& context, Button button) {
+  if (doing_ == Doing::nothing || button != button_) return;
+  if (doing_ == Doing::grab && context.session.isHolding()) context.session.act(Release{});
+  doing_ = Doing::nothing;
+  stroke_.clear();
+}
+
+void MouseTools::scroll(const MouseContext& context, double steps, Cursor cursor) {
+  const double factor = std::pow(zoomPerStep, steps);
+  const double x = (cursor.x - context.width / 2.0) / context.height,
+               y = (context.height / 2.0 - cursor.y) / context.height;
+  context.camera.pan(x * (1 - factor), y * (1 - factor));  // keeps what is under the cursor in its place
+  context.camera.zoom(factor);
+}
+
+// Picks points along the path of the mouse and cuts between each two on the same grid. Where the path crosses
+// the outline of the cloth, the place is found by bisection, so that no uncut strip is left there.
+void MouseTools::cutTo(const MouseContext& context, Cursor cursor) {
+  const double length = std::hypot(cursor.x - last_.x, cursor.y - last_.y);
+  const int count = std::clamp(static_cast<int>(std::ceil(length / longestCut)), 1, mostPicks);
+  const auto place = [&](double t) {
+    return Cursor{last_.x + t * (cursor.x - last_.x), last_.y + t * (cursor.y - last_.y)};
+  };
+  for (int i = 1; i <= count; ++i) {
+    const double before = (i - 1.0) / count, now = static_cast<double>(i) / count;
+    const Pick pick = pickAt(context, place(now));
+    const bool was = lastCut_.kind == Pick::Kind::cloth, is = pick.kind == Pick::Kind::cloth;
+    if (was && is) {
+      if (pick.grid == lastCut_.grid) cutFromTo(context, lastCut_, pick);
+    } else if (was || is) {
+      const Pick& inside = was ? lastCut_ : pick;
+      Pick edge = inside;
+      double on = was ? before : now, off = was ? now : before;
+      for (int halving = 0; halving < edgeHalvings; ++halving) {
+        const double middle = (on + off) / 2;
+        const Pick tried = pickAt(context, place(middle));
+        const bool hit = tried.kind == Pick::Kind::cloth && tried.grid == inside.grid;
+        (hit ? on : off) = middle;
+        if (hit) edge = tried;
+      }
+      cutFromTo(context, was ? lastCut_ : edge, was ? edge : pick);
+    }
+    lastCut_ = pick;
+  }
+  stroke_.push_back({cursor.x, cursor.y});
+}
+
+void MouseTools::cutFromTo(const MouseContext& context, const Pick& from, const Pick& to) {
+  if (isOnMesh(context, from)) return;
+  const Grid& grid = context.session.simulation().cloth().grids()[from.grid];
+  const LatticePoint begin = overTheEdge(grid, to.lattice, from.lattice);
+  context.session.act(CutStroke{from.grid, begin, overTheEdge(grid, from.lattice, to.lattice)});
+}
+
+void MouseTools::beforeStep(const MouseContext& context, Cursor cursor, bool blows) {
+  if (doing_ == Doing::grab && !context.session.isHolding()) doing_ = Doing::nothing;  // trouble has ended it
+  if (doing_ == Doing::grab && targetMoved_ && !context.paused) {
+    context.session.act(MoveHand{targetAt(context, cursor)});
+    targetMoved_ = false;
+  }
+  if (doing_ == Doing::moveCollider && targetMoved_) {
+    const Vec3d place = targetAt(context, cursor) + offset_;
+    if (context.paused) {
+      // While the simulation is paused, moving a collider is an edit of the scene, which can be undone.
+      const Simulation& simulation = context.session.simulation();
+      context.session.act(EditScene{withColliderAt(simulation.scene(), collider_, place, simulation.time())},
+                          dragGoesOn_);
+      dragGoesOn_ = true;
+    } else {
+      context.session.act(MoveCollider{collider_, place});
+    }
+    targetMoved_ = false;
+  }
+  if (blows) {
+    const ViewRay ray = rayThrough(context.camera, context.width, context.height, cursor);
+    const double distance = static_cast<double>(glm::length(context.camera.target() - context.camera.eye()));
+    const Blow blow{toVec3d(ray.origin), toVec3d(ray.direction), blowSpeed, blowShare * distance};
+    const bool same = blow_ && blow_->origin == blow.origin && blow_->direction == blow.direction;
+    if (!blowing_ || !same) context.session.act(blow);
+    blow_ = blow;
+  } else if (blowing_) {
+    if (blow_) blow_->speed = 0;
+    if (blow_) context.session.act(*blow_);
+    blow_.reset();
+  }
+  blowing_ = blows;
+}
+
+void MouseTools::letGo(Session& session) {
+  if (doing_ == Doing::grab && session.isHolding()) session.act(Release{});
+  if (doing_ != Doing::orbit && doing_ != Doing::pan) doing_ = Doing::nothing;
+  stroke_.clear();
+}
+
+MouseMarks MouseTools::marks(const MouseContext& context, Cursor cursor) const {
+  MouseMarks marks;
+  if (doing_ == Doing::grab) {
+    marks.hand = {cursor.x, cursor.y};
+    const std::vector<Particle4> held = context.session.simulation().solver().positions(held_, 1);
+    marks.held =
+        placeInPicture(context.camera, context.width, context.height, {held[0].x, held[0].y, held[0].z});
+  }
+  if (blowing_) {
+    marks.nozzle = {cursor.x, cursor.y};
+    // The radius of the jet at the target, in pixels of the picture.
+    const float scale = context.camera.projection(1.0)[1][1];
+    marks.nozzleRadius = static_cast<float>(blowShare) * scale * static_cast<float>(context.height) / 2;
+  }
+  marks.stroke = stroke_;
+  return marks;
+}
+
+}  // namespace clothsim
