@@ -36,8 +36,8 @@ struct Misfit {
   std::optional<double> limit{};  // and the number at the end of that
 };
 
-// What the user writes. A shape may have `std::optional<Misfit> settle(const IsGiven&)`, too, which is called
-// after reading, and makes defaults fit to what is given.
+// What the user writes. A shape may have `std::optional<Misfit> finishReading(const IsGiven&)`, too, which is
+// called after reading, and makes defaults fit to what is given.
 using IsGiven = std::function<bool(std::string_view key)>;
 template <class S>
 concept WrittenShape = requires(S shape, const S& fixed) {
