@@ -87,8 +87,8 @@ SHARED_STRUCT LevelParams {
 
   uint coarseColumns;
   uint coarseRows;
-  real stretchFactor;  // of the sum of stiffness over a coarse vertex' neighbourhood,
-  real inertiaFactor;  // of the sum of inertia,
+  real stiffnessFactor;  // of the sum of stiffness over a coarse vertex' neighbourhood,
+  real inertiaFactor;    // of the sum of inertia,
 
   real bending;  // and what bending adds to a coarse diagonal block [N/m]
   real unusedA;

@@ -34,9 +34,9 @@ using uint = std::uint32_t;
 // Far particles that a particle remembers between two builds of the hash; who has more walks through the
 // cells.
 #define MOST_CANDIDATES 24u
-// A candidate is a particle (26 bits) and, above it, how to find the pair's distance: 0 for strangers,
-// |columns| + 8 |rows| for particles of one grid that lie nearer than the contact distance at rest, 64ths of
-// that for those of one mesh.
+// A candidate is a particle (26 bits) and, above it, how to find the pair's distance: 0 for non-adjacent
+// particles, |columns| + 8 |rows| for particles of one grid that lie nearer than the contact distance at
+// rest, 64ths of that for those of one mesh.
 #define CANDIDATE_BITS 26
 #define NEAREST_CODES 64u
 
@@ -55,15 +55,15 @@ SHARED_STRUCT SelfParams {
   real reuseSquared;     // how far a particle may have moved since [m^2]
   real inverseTimeStep;  // [1/s]
 
-  real distance;        // that is kept between strangers
-  real quantaPerMeter;  // contact sums are whole numbers of quanta,
-  real moveFactor;      // a mean of quanta times this is the move in metres
-  real largestMove;     // in a step, robust only
+  real distance;       // that is kept between non-adjacent particles
+  real unitsPerMeter;  // contact sums are fixed-point units,
+  real moveFactor;     // a mean of fixed-point units times this is the move in metres
+  real largestMove;    // in a step, robust only
 
   real friction;     // Coulomb's, between layers, robust only
-  real guardFactor;  // a step never ends with a pair of strangers nearer than this times its distance, robust
-                     // only
-  real fastSquared;  // farther than this within a step a particle could slip past another unseen [m^2]
+  real clampFactor;  // a step never ends with a pair of non-adjacent particles nearer than this times its
+                     // distance, robust only
+  real fastSquared;    // farther than this within a step a particle could slip past another unseen [m^2]
   real codesPerMeter;  // of a mesh: a code is so much of the distance at rest
 };
 

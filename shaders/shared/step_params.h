@@ -34,8 +34,9 @@ using uint = std::uint32_t;
 #define COLLIDERS_UNIT 5  // COLLIDER_ROWS texels each
 #define DISTANCES_UNIT 8  // samples of the signed distance grids of all mesh colliders
 
-// The watchdog (src/solver/trouble.h). A row has an entry a pass: 4 * particle + reason, the lowest that came
-// up. The numbers are the order of the passes in a step: the first one that has an entry is where it began.
+// The watchdog (src/solver/divergence.h). A row has an entry a pass: 4 * particle + reason, the lowest that
+// came up. The numbers are the order of the passes in a step: the first one that has an entry is where it
+// began.
 #define PASS_START 0u  // the state that a step began with, when it was handed in from outside
 #define PASS_KICK 1u   // the conversion of velocities to another integrator
 #define PASS_FORCES 2u
@@ -47,7 +48,7 @@ using uint = std::uint32_t;
 #define REASON_NON_FINITE 0u
 #define REASON_RUNAWAY_SPEED 1u
 #define REASON_RUNAWAY_STRAIN 2u
-#define NO_TROUBLE 0xffffffffu
+#define NO_DIVERGENCE 0xffffffffu
 #define WATCHED_ROWS 8u  // of the grid, by one invocation of sim/watch_limit.comp
 
 #define PIN_STARTS_UNIT 6   // a texel a particle: start position, and the number of its path + 1 (0: none)

@@ -1,4 +1,4 @@
-#include "sim/hand.glsl"
+#include "sim/grab.glsl"
 
 // Wind on triangles.
 
@@ -60,15 +60,15 @@ vec3 addWind(GridPoint p, vec3 force) {
   const bool upper = p.row >= 1u, lower = p.row + 1u < step.rows;
   const uint lost = cutMaskOf(i) >> FIRST_CUT_TRIANGLE;
   precise vec3 f = force;
-  if (upper && left && isLeft(lost, 0u)) f = f + windForce(i - w, i - 1u, i);
+  if (upper && left && isIntact(lost, 0u)) f = f + windForce(i - w, i - 1u, i);
   if (upper && right) {
-    if (isLeft(lost, 1u)) f = f + windForce(i - w, i, i - w + 1u);
-    if (isLeft(lost, 2u)) f = f + windForce(i - w + 1u, i, i + 1u);
+    if (isIntact(lost, 1u)) f = f + windForce(i - w, i, i - w + 1u);
+    if (isIntact(lost, 2u)) f = f + windForce(i - w + 1u, i, i + 1u);
   }
   if (lower && left) {
-    if (isLeft(lost, 3u)) f = f + windForce(i - 1u, i + w - 1u, i);
-    if (isLeft(lost, 4u)) f = f + windForce(i, i + w - 1u, i + w);
+    if (isIntact(lost, 3u)) f = f + windForce(i - 1u, i + w - 1u, i);
+    if (isIntact(lost, 4u)) f = f + windForce(i, i + w - 1u, i + w);
   }
-  if (lower && right && isLeft(lost, 5u)) f = f + windForce(i, i + w, i + 1u);
+  if (lower && right && isIntact(lost, 5u)) f = f + windForce(i, i + w, i + 1u);
   return f;
 }

@@ -1,5 +1,5 @@
 // What every pass of the simulation sees: the parameters of the step, the state at its start and at its end.
-#include "shared/hand.h"
+#include "shared/grab.h"
 #include "shared/step_params.h"
 
 layout(local_size_x = WORK_GROUP_COLUMNS, local_size_y = WORK_GROUP_ROWS) in;
@@ -36,14 +36,14 @@ const bool hasCoulombFriction = HAS_COULOMB_FRICTION != 0;
 const bool hasMovingColliders = HAS_MOVING_COLLIDERS != 0;
 const bool hasMovingPins = HAS_MOVING_PINS != 0;
 const bool hasCuts = HAS_CUTS != 0;
-const bool hasHold = HAS_HOLD != 0;
+const bool hasGrab = HAS_GRAB != 0;
 const bool hasJet = HAS_JET != 0;
 const bool hasRestLengthTable = HAS_REST_LENGTH_TABLE != 0;
 const uint enabledSlots = ENABLED_SLOTS;  // bit `slot` is set when its springs are enabled
 
 // Which of a particle's springs and triangles are gone (src/cloth/cuts.h).
 uint cutMaskOf(uint i) { return hasCuts ? texelFetch(cutMasks, int(i)).x : 0u; }
-bool isLeft(uint cutMask, uint bit) { return !hasCuts || (cutMask >> bit & 1u) == 0u; }
+bool isIntact(uint cutMask, uint bit) { return !hasCuts || (cutMask >> bit & 1u) == 0u; }
 
 // One invocation a grid point.
 struct GridPoint {

@@ -15,5 +15,5 @@ void main() {
   particle = collideParticle(p.index, particle);
   newPositions[p.index] = particle.position;
   newVelocities[p.index] = vec4(particle.velocity, velocity.w);
-  reportTrouble();
+  reportDivergence();
 }

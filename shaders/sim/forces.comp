@@ -8,5 +8,5 @@ void main() {
   GridPoint p = thisGridPoint();
   if (!p.exists) return;
   forces[p.index] = vec4(gatherForces(p), 0.0);
-  reportTrouble();
+  reportDivergence();
 }

@@ -4,12 +4,12 @@
 #include "sim/air.glsl"
 #include "sim/particle_forces.glsl"
 #if HAS_MESH
-#include "sim/listed.glsl"
+#include "sim/mesh.glsl"
 #endif
 
 vec3 gatherForces(GridPoint p) {
 #if HAS_MESH
-  precise vec3 f = gatherListedForces(p.index);
+  precise vec3 f = gatherMeshForces(p.index);
 #else
   precise vec3 f = gatherSprings(p, positionAt(p.index).xyz);
   if (hasLimitSprings) f = addLimitSprings(p, f);

@@ -19,7 +19,7 @@ struct IncidentSpring {
 IncidentSpring incidentSpring(GridPoint p, uint k, uint cut) {
   uint slot = slotOf[k];
   uint column = uint(int(p.column) + toEnd[k].x), row = uint(int(p.row) + toEnd[k].y);  // before the grid: beyond it
-  if (!enabled(slot) || column >= step.columns || row >= step.rows || !isLeft(cut, k))
+  if (!enabled(slot) || column >= step.columns || row >= step.rows || !isIntact(cut, k))
     return IncidentSpring(false, 0u, 0.0, 0.0, 0.0);
   uint other = step.firstParticle + row * step.columns + column;
   uint owner = k < OWNED_SPRINGS ? p.index : other;

@@ -11,5 +11,5 @@ void main() {
   Particle particle = integrateParticle(p, forces[p.index].xyz);
   newPositions[p.index] = particle.position;
   newVelocities[p.index] = vec4(particle.velocity, 0.0);
-  reportTrouble();
+  reportDivergence();
 }

@@ -1,4 +1,4 @@
-#include "sim/hand.glsl"
+#include "sim/grab.glsl"
 
 // x' = x + h v', v' = (1 - damping) v + h (g + w f); pinned particles rest or follow their path.
 struct Particle {
@@ -37,7 +37,7 @@ Particle integrateParticle(GridPoint p, vec3 force) {
   if (x.w == 0.0) return Particle(x, vec3(0.0));
   vec3 acceleration = accelerationOf(force, x.w);
   precise vec3 newV = step.velocityKept * v + step.timeStep * acceleration;
-  if (hasHold) newV = pulledVelocity(p, x.xyz, newV);
+  if (hasGrab) newV = pulledVelocity(p, x.xyz, newV);
   precise vec3 newX = x.xyz + step.timeStep * newV;
   precise vec3 storedV = canonical(newV);
   watchVelocity(PASS_INTEGRATE, i, storedV);

@@ -15,5 +15,5 @@ void main() {
   precise vec3 newV = inverseMass == 0.0 ? velocity : canonical(v);
   newVelocities[p.index] = vec4(newV, 0.0);
   watchVelocity(PASS_KICK, p.index, newV);
-  reportTrouble();
+  reportDivergence();
 }

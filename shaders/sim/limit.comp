@@ -45,7 +45,7 @@ LimitedSpring thisSpring() {
   precise float limit = step.springs[color.slot].limitLength;
   if (hasRestLengthTable)
     limit = step.limitFactor * texelFetch(restLengths, int(color.slot * step.totalParticles + a)).x;
-  return LimitedSpring(a, b, limit, isLeft(cutMaskOf(a), color.slot));
+  return LimitedSpring(a, b, limit, isIntact(cutMaskOf(a), color.slot));
 #endif
 }
 

@@ -55,19 +55,19 @@ vec3 gatherSprings(GridPoint p, vec3 x) {
   const uint cut = cutMaskOf(i);
   precise vec3 f = vec3(0.0);
 
-  if (enabled(TO_LEFT) && left && isLeft(cut, 0u)) f = f + ownSpringTo(p, x, i - 1u, TO_LEFT);
-  if (enabled(TO_UPPER) && upper && isLeft(cut, 1u)) f = f + ownSpringTo(p, x, i - w, TO_UPPER);
-  if (enabled(TO_UPPER_LEFT) && upper && left && isLeft(cut, 2u)) f = f + ownSpringTo(p, x, i - w - 1u, TO_UPPER_LEFT);
-  if (enabled(TO_UPPER_RIGHT) && upper && right && isLeft(cut, 3u)) f = f + ownSpringTo(p, x, i - w + 1u, TO_UPPER_RIGHT);
-  if (enabled(TO_SECOND_LEFT) && p.column >= 2u && isLeft(cut, 4u)) f = f + ownSpringTo(p, x, i - 2u, TO_SECOND_LEFT);
-  if (enabled(TO_SECOND_UPPER) && p.row >= 2u && isLeft(cut, 5u)) f = f + ownSpringTo(p, x, i - 2u * w, TO_SECOND_UPPER);
+  if (enabled(TO_LEFT) && left && isIntact(cut, 0u)) f = f + ownSpringTo(p, x, i - 1u, TO_LEFT);
+  if (enabled(TO_UPPER) && upper && isIntact(cut, 1u)) f = f + ownSpringTo(p, x, i - w, TO_UPPER);
+  if (enabled(TO_UPPER_LEFT) && upper && left && isIntact(cut, 2u)) f = f + ownSpringTo(p, x, i - w - 1u, TO_UPPER_LEFT);
+  if (enabled(TO_UPPER_RIGHT) && upper && right && isIntact(cut, 3u)) f = f + ownSpringTo(p, x, i - w + 1u, TO_UPPER_RIGHT);
+  if (enabled(TO_SECOND_LEFT) && p.column >= 2u && isIntact(cut, 4u)) f = f + ownSpringTo(p, x, i - 2u, TO_SECOND_LEFT);
+  if (enabled(TO_SECOND_UPPER) && p.row >= 2u && isIntact(cut, 5u)) f = f + ownSpringTo(p, x, i - 2u * w, TO_SECOND_UPPER);
 
-  if (enabled(TO_LEFT) && right && isLeft(cut, 6u)) f = f + springTo(p, x, i + 1u, TO_LEFT, i + 1u);
-  if (enabled(TO_SECOND_LEFT) && p.column + 2u < w && isLeft(cut, 7u)) f = f + springTo(p, x, i + 2u, TO_SECOND_LEFT, i + 2u);
-  if (enabled(TO_UPPER_RIGHT) && lower && left && isLeft(cut, 8u)) f = f + springTo(p, x, i + w - 1u, TO_UPPER_RIGHT, i + w - 1u);
-  if (enabled(TO_UPPER) && lower && isLeft(cut, 9u)) f = f + springTo(p, x, i + w, TO_UPPER, i + w);
-  if (enabled(TO_UPPER_LEFT) && lower && right && isLeft(cut, 10u)) f = f + springTo(p, x, i + w + 1u, TO_UPPER_LEFT, i + w + 1u);
-  if (enabled(TO_SECOND_UPPER) && p.row + 2u < step.rows && isLeft(cut, 11u)) f = f + springTo(p, x, i + 2u * w, TO_SECOND_UPPER, i + 2u * w);
-  if (overlong) noteTrouble(PASS_FORCES, i, REASON_RUNAWAY_STRAIN);
+  if (enabled(TO_LEFT) && right && isIntact(cut, 6u)) f = f + springTo(p, x, i + 1u, TO_LEFT, i + 1u);
+  if (enabled(TO_SECOND_LEFT) && p.column + 2u < w && isIntact(cut, 7u)) f = f + springTo(p, x, i + 2u, TO_SECOND_LEFT, i + 2u);
+  if (enabled(TO_UPPER_RIGHT) && lower && left && isIntact(cut, 8u)) f = f + springTo(p, x, i + w - 1u, TO_UPPER_RIGHT, i + w - 1u);
+  if (enabled(TO_UPPER) && lower && isIntact(cut, 9u)) f = f + springTo(p, x, i + w, TO_UPPER, i + w);
+  if (enabled(TO_UPPER_LEFT) && lower && right && isIntact(cut, 10u)) f = f + springTo(p, x, i + w + 1u, TO_UPPER_LEFT, i + w + 1u);
+  if (enabled(TO_SECOND_UPPER) && p.row + 2u < step.rows && isIntact(cut, 11u)) f = f + springTo(p, x, i + 2u * w, TO_SECOND_UPPER, i + 2u * w);
+  if (overlong) noteDivergence(PASS_FORCES, i, REASON_RUNAWAY_STRAIN);
   return f;
 }

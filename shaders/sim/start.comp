@@ -10,6 +10,6 @@ void main() {
   vec3 v = velocityAt(p.index);
   bool finite = isFinite(x.x) && isFinite(x.y) && isFinite(x.z) && isFinite(x.w) && isFinite(v.x) && isFinite(v.y) &&
                 isFinite(v.z);
-  if (!finite) noteTrouble(PASS_START, p.index, REASON_NON_FINITE);
-  reportTrouble();
+  if (!finite) noteDivergence(PASS_START, p.index, REASON_NON_FINITE);
+  reportDivergence();
 }

@@ -14,5 +14,5 @@ void main() {
   if (COLLIDES_IN_STEP != 0) particle = collideParticle(p.index, particle);
   newPositions[p.index] = particle.position;
   newVelocities[p.index] = vec4(particle.velocity, 0.0);
-  reportTrouble();
+  reportDivergence();
 }

@@ -11,5 +11,5 @@ void main() {
     uint i = step.firstParticle + row * step.columns + column;
     watchVelocity(step.limitPass, i, texelFetch(velocitiesSoFar, int(i)).xyz);
   }
-  reportTrouble();
+  reportDivergence();
 }

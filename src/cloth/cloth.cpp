@@ -164,7 +164,7 @@ std::array<double, 2> textureSizeOf(const MeshShape& shape, const std::vector<Ve
 
 // The springs of a mesh whose particles begin at `first`, along and across its edges.
 void appendSprings(const MeshShape& shape, const MeshMechanics& mechanics, std::uint32_t first,
-                   std::vector<ListedSpring>& springs) {
+                   std::vector<MeshSpring>& springs) {
   for (std::size_t e = 0; e < shape.edges.size(); ++e) {
     const auto& [a, b, opposite, triangles] = shape.edges[e];
     if (mechanics.stretch[e] > 0)

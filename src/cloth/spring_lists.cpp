@@ -26,7 +26,7 @@ SpringLists::Incidence incidenceOf(const Elements& elements, std::uint32_t parti
 
 bool SpringLists::joins(std::uint32_t i, std::uint32_t j) const {
   for (std::uint32_t at = springsOf.starts[i]; at < springsOf.starts[i + 1]; ++at) {
-    const ListedSpring& spring = springs[springsOf.entries[at]];
+    const MeshSpring& spring = springs[springsOf.entries[at]];
     if (spring.kind == SpringKind::structural && (spring.a == j || spring.b == j)) return true;
   }
   return false;
@@ -45,18 +45,18 @@ void gatherIncidences(SpringLists& lists, std::uint32_t particles) {
   });
 }
 
-std::vector<SpringColor> colorSprings(std::vector<ListedSpring>& springs, std::size_t first,
+std::vector<SpringColor> colorSprings(std::vector<MeshSpring>& springs, std::size_t first,
                                       std::uint32_t particles) {
   struct Colored {
     SpringKind kind;
     std::uint32_t color;
-    ListedSpring spring;
+    MeshSpring spring;
   };
   std::vector<Colored> colored;
   for (const SpringKind kind : {SpringKind::structural, SpringKind::bending}) {
     std::vector<std::vector<bool>> taken;  // by colour and particle
     for (std::size_t n = first; n < springs.size(); ++n) {
-      const ListedSpring& spring = springs[n];
+      const MeshSpring& spring = springs[n];
       if (spring.kind != kind) continue;
       std::uint32_t color = 0;
       while (color < taken.size() && (taken[color][spring.a] || taken[color][spring.b])) ++color;

@@ -10,7 +10,7 @@ namespace clothsim {
 
 enum class SpringKind { structural, shear, bending };
 
-struct ListedSpring {
+struct MeshSpring {
   std::uint32_t a, b;  // b < a: the owner is the end with the larger index
   SpringKind kind;
   double stiffness;  // [N/m]
@@ -30,7 +30,7 @@ struct SpringColor {
 
 struct SpringLists {
   // Grid by grid, structural before bending, colour by colour; their place is their number.
-  std::vector<ListedSpring> springs;
+  std::vector<MeshSpring> springs;
   std::vector<Hinge> hinges;
   std::vector<std::array<std::uint32_t, 3>> triangles;  // as the file has them
 
@@ -51,7 +51,7 @@ void gatherIncidences(SpringLists& lists, std::uint32_t particles);
 
 // Sorts springs[first, ...) by kind and into colours, each spring into the first colour that neither of its
 // ends has; within a colour they keep their order.
-[[nodiscard]] std::vector<SpringColor> colorSprings(std::vector<ListedSpring>& springs, std::size_t first,
+[[nodiscard]] std::vector<SpringColor> colorSprings(std::vector<MeshSpring>& springs, std::size_t first,
                                                     std::uint32_t particles);
 
 }  // namespace clothsim

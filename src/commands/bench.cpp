@@ -32,8 +32,8 @@ double timeSteps(Solver& solver, int steps) {
 
 // Timings of a simulation that has blown up mean nothing.
 void checkSound(Solver& solver, const Cloth& cloth, const Scene& scene) {
-  if (const std::optional<Trouble> trouble = solver.trouble())
-    throw SimulationError(blowUpText(*trouble, cloth, scene));
+  if (const std::optional<Divergence> divergence = solver.divergence())
+    throw SimulationError(blowUpText(*divergence, cloth, scene));
 }
 
 double median(std::vector<double> values) {

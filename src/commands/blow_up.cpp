@@ -52,8 +52,8 @@ fs::path freeStateName(const fs::path& folder, const std::string& stem, const st
 
 }  // namespace
 
-void stopBlownUp(const Trouble& trouble, Simulation& simulation, const BlowUpContext& context) {
-  std::string message = blowUpText(trouble, simulation.cloth(), simulation.scene());
+void stopBlownUp(const Divergence& divergence, Simulation& simulation, const BlowUpContext& context) {
+  std::string message = blowUpText(divergence, simulation.cloth(), simulation.scene());
   const std::string frame = std::to_string(context.frame - 1);
   try {
     const std::string bytes = formatStateFile(simulation.solver().state());
@@ -61,7 +61,7 @@ void stopBlownUp(const Trouble& trouble, Simulation& simulation, const BlowUpCon
     const fs::path path = freeStateName(context.outputFolder, stem, bytes);
     writeFileAtomically(path, bytes);
     message += "\nThe last good state, that of frame " + frame + ", is saved: " + path.string();
-    const std::vector<std::string> changes = remedyFor(trouble, simulation.scene()).settings;
+    const std::vector<std::string> changes = remedyFor(divergence, simulation.scene()).settings;
     if (!context.replays && !changes.empty())
       message += "\nTo go on from it: " + commandToGoOn(context, path.string(), changes);
   } catch (const Error& error) {

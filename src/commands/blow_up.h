@@ -1,5 +1,5 @@
-// How a command ends when the watchdog has found trouble: it saves the last sound state and throws a message
-// that says where the trouble began and how to continue.
+// How a command ends when the watchdog has found divergence: it saves the last sound state and throws a
+// message that says where the divergence began and how to continue.
 #pragma once
 
 #include <filesystem>
@@ -13,12 +13,13 @@ namespace clothsim {
 struct BlowUpContext {
   const SceneOptions& scene;
   std::string backend;
-  int frame = 0, frames = 0;           // of the trouble, and in the whole run
+  int frame = 0, frames = 0;           // of the divergence, and in the whole run
   std::filesystem::path outputFolder;  // "" for the current folder
   bool replays = false;                // scene.scene is a recording, from which no command can continue
 };
 // To be called after simulation.checkFrame(). Saves the state as <scene>-frame<N>-last-good.state in the
 // folder, with a number added where another file has that name. @throws SimulationError always
-[[noreturn]] void stopBlownUp(const Trouble& trouble, Simulation& simulation, const BlowUpContext& context);
+[[noreturn]] void stopBlownUp(const Divergence& divergence, Simulation& simulation,
+                              const BlowUpContext& context);
 
 }  // namespace clothsim

@@ -53,7 +53,7 @@ int compareCommand(const CompareOptions& options) {
       result.firstDifferingStep ? nlohmann::ordered_json(*result.firstDifferingStep) : nullptr;
   json["bitwise_equal"] = result.differingFloats == 0;
   json["finite"] = result.finite;
-  json["same_trouble"] = result.cpuTrouble == result.gpuTrouble;  // on both backends, or on none
+  json["same_trouble"] = result.cpuDivergence == result.gpuDivergence;  // on both backends, or on none
   json["state_hash"] = {{"cpu", result.cpuHash}, {"gpu", result.gpuHash}};
   json["max_penetration"] = maxPenetration;
   contacts.write(json, cloth, scene, result.contacts);
@@ -76,16 +76,16 @@ int compareCommand(const CompareOptions& options) {
     std::printf("crossing pairs of triangles: at most %llu apart and %llu neighbours, in %d frames\n",
                 static_cast<unsigned long long>(crossings.worst),
                 static_cast<unsigned long long>(crossings.neighbours), crossings.framesChecked);
-  const auto blowUp = [&](const std::optional<Trouble>& trouble, const char* backend) {
-    if (trouble)
-      throw SimulationError(std::string(backend) + blowUpText(*trouble, cloth, scene) +
+  const auto blowUp = [&](const std::optional<Divergence>& divergence, const char* backend) {
+    if (divergence)
+      throw SimulationError(std::string(backend) + blowUpText(*divergence, cloth, scene) +
                             "\n`clothsim run` saves the last good state.");
   };
-  if (result.cpuTrouble != result.gpuTrouble) {
-    blowUp(result.cpuTrouble, "differently on the two backends; on the CPU ");
-    blowUp(result.gpuTrouble, "on the GPU alone ");
+  if (result.cpuDivergence != result.gpuDivergence) {
+    blowUp(result.cpuDivergence, "differently on the two backends; on the CPU ");
+    blowUp(result.gpuDivergence, "on the GPU alone ");
   }
-  blowUp(result.cpuTrouble, "");
+  blowUp(result.cpuDivergence, "");
   return result.differingFloats == 0 && result.finite ? 0 : 1;
 }
 

@@ -55,8 +55,8 @@ int renderCommand(const RenderCommandOptions& options) {
   for (int frame = 0; frame <= options.frames; ++frame) {
     stopIfInterrupted();
     if (frame > 0) simulation.stepFrame();
-    if (const std::optional<Trouble> trouble = simulation.checkFrame())
-      stopBlownUp(*trouble, simulation,
+    if (const std::optional<Divergence> divergence = simulation.checkFrame())
+      stopBlownUp(*divergence, simulation,
                   {options.scene, options.backend, frame, options.frames,
                    std::filesystem::path(options.outs.front()).parent_path()});
     summary.add(simulation);

@@ -99,14 +99,14 @@ class Run {
     steps_ += static_cast<std::uint64_t>(settings.simulationSteps);
     simulatedSeconds_ += 1 / settings.framesPerSec;
     if (isReplay_)
-      replayTrouble_ = replay_->stepFrame();
+      replayDivergence_ = replay_->stepFrame();
     else
       plain_->stepFrame();
     simulation().finish();
   }
-  // Returns the trouble in the last frame, if any.
-  [[nodiscard]] std::optional<Trouble> checkFrame() {
-    return isReplay_ ? replayTrouble_ : plain_->checkFrame();
+  // Returns the divergence in the last frame, if any.
+  [[nodiscard]] std::optional<Divergence> checkFrame() {
+    return isReplay_ ? replayDivergence_ : plain_->checkFrame();
   }
 
  private:
@@ -126,7 +126,7 @@ class Run {
   std::optional<gl::HeadlessContext> context_;
   std::optional<Simulation> plain_;
   std::optional<Replay> replay_;
-  std::optional<Trouble> replayTrouble_;
+  std::optional<Divergence> replayDivergence_;
 };
 
 // What `run --json` prints.
@@ -194,10 +194,10 @@ int runCommand(const RunOptions& options) {
     const Clock::time_point start = Clock::now();
     run.stepFrame();
     seen.seconds += std::chrono::duration<double>(Clock::now() - start).count();
-    if (const std::optional<Trouble> trouble = run.checkFrame()) {
+    if (const std::optional<Divergence> divergence = run.checkFrame()) {
       SceneOptions scene = options.scene;
       if (run.isReplay()) scene.scene = options.replay;
-      stopBlownUp(*trouble, run.simulation(),
+      stopBlownUp(*divergence, run.simulation(),
                   {scene, run.simulation().solver().backend(), frame, frames,
                    options.saves.empty() ? "" : std::filesystem::path(options.saves.front()).parent_path(),
                    run.isReplay()});

@@ -158,13 +158,13 @@ class SweepRun {
       simulation_.stepFrame();
       simulation_.finish();
       summary_.seconds += std::chrono::duration<double>(Clock::now() - start).count();
-      if ((trouble_ = simulation_.checkFrame())) break;
+      if ((divergence_ = simulation_.checkFrame())) break;
       summary_.add(simulation_);
       ++frame_;
       show(cells);
       atFrame(frame_);
     }
-    if (trouble_) showTrouble(cells);
+    if (divergence_) showDivergence(cells);
     print(warnings(), which());
   }
   [[nodiscard]] std::vector<Warning> warnings() const { return summary_.watch.warnings(planned_.scene()); }
@@ -176,13 +176,13 @@ class SweepRun {
     for (const Shot& shot : found->second) cells[shot.cell] = cell(shot, frame_);
   }
 
-  // Fills the cells of the frames after the trouble.
-  void showTrouble(std::vector<Cell>& cells) {
+  // Fills the cells of the frames after the divergence.
+  void showDivergence(std::vector<Cell>& cells) {
     for (const auto& [frame, shots] : planned_.shots)
       for (const Shot& shot : shots)
         if (frame > frame_) cells[shot.cell] = cell(shot, frame);
     std::cerr << "clothsim: " << which() << "blew up "
-              << troubleText(*trouble_, simulation_.cloth(), planned_.scene()) << '\n';
+              << divergenceText(*divergence_, simulation_.cloth(), planned_.scene()) << '\n';
   }
 
   // The varied settings, each followed by a space.
@@ -214,8 +214,8 @@ class SweepRun {
     ordered_json json = ordered_json::object();
     json["frames"] = frame_;
     json["finite"] = isSound;
-    json["trouble"] =
-        isSound ? ordered_json(nullptr) : ordered_json(troubleText(*trouble_, simulation_.cloth(), scene));
+    json["trouble"] = isSound ? ordered_json(nullptr)
+                              : ordered_json(divergenceText(*divergence_, simulation_.cloth(), scene));
     json["backend"] = simulation_.solver().backend();
     json["device"] = simulation_.solver().device();
     json["particles"] = simulation_.cloth().particleCount();
@@ -237,7 +237,7 @@ class SweepRun {
   SimulationRenderer renderer_;
   RunSummary summary_;
   int frame_ = 0;  // the last sound one
-  std::optional<Trouble> trouble_;
+  std::optional<Divergence> divergence_;
 };
 
 // A key as `clothsim describe` lists it: without the number of the collider or the cloth.

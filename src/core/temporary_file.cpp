@@ -43,9 +43,9 @@ void synchroniseFolder(const fs::path& path, const fs::path& folder) {
     if (errno == EACCES) return;
     throw cannotBeWritten(path, errno);
   }
-  const int trouble = isSynchronised(descriptor) ? 0 : errno;
+  const int divergence = isSynchronised(descriptor) ? 0 : errno;
   ::close(descriptor);
-  if (trouble != 0) throw cannotBeWritten(path, trouble);
+  if (divergence != 0) throw cannotBeWritten(path, divergence);
 }
 
 }  // namespace

@@ -71,7 +71,7 @@ void ContactReport::write(nlohmann::ordered_json& json, const Cloth& cloth, cons
   contact["largest_stretch"] = largestStrain_;
   contact["largest_relative_motion"] = worst_.relativeMotion;
   contact["most_overlaps"] = worst_.overlaps;
-  contact["guarded_steps"] = counts.guardedSteps;
+  contact["guarded_steps"] = counts.clampedSteps;
   contact["fast_steps"] = counts.fastSteps;
   contact["hash_builds"] = counts.hashBuilds;
 }

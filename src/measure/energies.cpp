@@ -36,7 +36,7 @@ double strainOnMesh(const Cloth& cloth, const State& state, std::uint32_t partic
   const SpringLists& lists = cloth.lists();
   double strain = 0;
   for (std::uint32_t n = lists.springsOf.starts[particle]; n < lists.springsOf.starts[particle + 1]; ++n) {
-    const ListedSpring& spring = lists.springs[lists.springsOf.entries[n]];
+    const MeshSpring& spring = lists.springs[lists.springsOf.entries[n]];
     const double rest = length(cloth.positions()[spring.a] - cloth.positions()[spring.b]);
     const double l = length(vectorOf(state.positions[spring.a]) - vectorOf(state.positions[spring.b]));
     if (std::abs(l / rest - 1) > std::abs(strain)) strain = l / rest - 1;

@@ -39,11 +39,11 @@ std::optional<double> maxStrain(const Cloth& cloth, const Grid& grid, const Stat
 }
 
 // The largest strain of all meshes, -1 without springs.
-std::optional<double> maxStrain(const Cloth& cloth, const std::vector<ListedSpring>& springs,
+std::optional<double> maxStrain(const Cloth& cloth, const std::vector<MeshSpring>& springs,
                                 const State& state) {
   if (springs.empty()) return std::nullopt;
   double largest = -1;
-  for (const ListedSpring& spring : springs) {
+  for (const MeshSpring& spring : springs) {
     const double rest = length(cloth.positions()[spring.b] - cloth.positions()[spring.a]);
     largest = std::max(largest, length(positionOf(state, spring.b) - positionOf(state, spring.a)) / rest - 1);
   }

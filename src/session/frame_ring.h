@@ -11,7 +11,7 @@
 #include "core/shared.h"
 #include "scene/scene.h"
 #include "session/actions.h"
-#include "solver/hand.h"
+#include "solver/grab.h"
 #include "solver/solver.h"
 
 namespace clothsim {

@@ -15,11 +15,11 @@ Replay::Replay(Recording recording, const std::optional<std::string>& backend, S
   applyDueEvents();
 }
 
-std::optional<Trouble> Replay::stepFrame() {
-  const std::optional<Trouble> trouble = session_.stepFrames(1);
+std::optional<Divergence> Replay::stepFrame() {
+  const std::optional<Divergence> divergence = session_.stepFrames(1);
   stopIfInterrupted();
-  if (!trouble) applyDueEvents();
-  return trouble;
+  if (!divergence) applyDueEvents();
+  return divergence;
 }
 
 void Replay::applyDueEvents() {

@@ -18,7 +18,7 @@ class Replay {
   [[nodiscard]] Session& session() { return session_; }
   // Simulates a frame, then applies the actions recorded at its end. Beyond the end of the recording frames
   // are simulated without any action. @throws as the constructor
-  [[nodiscard]] std::optional<Trouble> stepFrame();
+  [[nodiscard]] std::optional<Divergence> stepFrame();
 
  private:
   void applyDueEvents();

@@ -46,24 +46,24 @@ bool Session::apply(const EditScene& edit) {
 
 bool Session::apply(const Grab& grab) {
   Solver& solver = simulation_.solver();
-  now_.hand.hold =
-      takeHold(simulation_.cloth(), grab.particle, grab.strength, grab.radius,
-               [&](std::uint32_t first, std::uint32_t count) { return solver.positions(first, count); });
+  now_.hand.grab = makeGrabSpring(
+      simulation_.cloth(), grab.particle, grab.strength, grab.radius,
+      [&](std::uint32_t first, std::uint32_t count) { return solver.positions(first, count); });
   apply(MoveHand{grab.target});
   return true;
 }
 
 bool Session::apply(const MoveHand& move) {
-  if (!now_.hand.hold) return false;
-  moveTo(*now_.hand.hold, move.target, simulation_.solver().stepIndex(),
+  if (!now_.hand.grab) return false;
+  moveTo(*now_.hand.grab, move.target, simulation_.solver().stepIndex(),
          simulation_.scene().solver.simulationSteps);
   simulation_.solver().setHand(now_.hand);
   return true;
 }
 
 bool Session::apply(const Release&) {
-  if (!now_.hand.hold) return false;
-  now_.hand.hold.reset();
+  if (!now_.hand.grab) return false;
+  now_.hand.grab.reset();
   simulation_.solver().setHand(now_.hand);
   return true;
 }
@@ -154,11 +154,11 @@ void Session::goBetween(SceneStack& from, SceneStack& to) {
   simulation_.touch();
 }
 
-std::optional<Trouble> Session::stepFrames(int frames) {
+std::optional<Divergence> Session::stepFrames(int frames) {
   if (frames > 0) dropLaterFrames();
   isContinued_ = true;
   for (int i = 0; i < frames && isContinued_; ++i)
-    if (const std::optional<Trouble> trouble = stepFrame()) return trouble;
+    if (const std::optional<Divergence> divergence = stepFrame()) return divergence;
   return std::nullopt;
 }
 
@@ -192,7 +192,7 @@ bool Session::advance(int steps) {
   return isContinued_;
 }
 
-std::optional<Trouble> Session::stepFrame() {
+std::optional<Divergence> Session::stepFrame() {
   ring_.put(now_, simulation_.solver());
   startColliderMoves();
   const int steps = simulation_.scene().solver.simulationSteps;
@@ -200,11 +200,11 @@ std::optional<Trouble> Session::stepFrame() {
     goTo(now_.number);
     return std::nullopt;
   }
-  if (const std::optional<Trouble> trouble = simulation_.solver().trouble()) {
+  if (const std::optional<Divergence> divergence = simulation_.solver().divergence()) {
     goTo(now_.number);
     if (isHolding()) act(Release{});
     if (isBlowing()) act(Blow{});
-    return trouble;
+    return divergence;
   }
   finishColliderMoves();
   simulation_.touch();

@@ -12,7 +12,7 @@
 #include "session/frame_ring.h"
 #include "session/recording.h"
 #include "simulation/simulation.h"
-#include "solver/trouble.h"
+#include "solver/divergence.h"
 
 namespace clothsim {
 
@@ -29,7 +29,7 @@ class Session {
   [[nodiscard]] const Simulation& simulation() const { return simulation_; }
   [[nodiscard]] const Cuts& cuts() const { return simulation_.solver().cuts(); }
   [[nodiscard]] bool isHolding() const {
-    return now_.hand.hold.has_value();
+    return now_.hand.grab.has_value();
   }  // between a Grab and its Release
   [[nodiscard]] bool isBlowing() const { return now_.hand.jet.has_value(); }
   [[nodiscard]] const Hand& hand() const { return now_.hand; }  // the Grab and the jet
@@ -43,10 +43,10 @@ class Session {
   // nothing has changed
   void act(const Action& action, bool continues = false);
 
-  // Simulates frames and stores the start of each. After trouble the state is that of the last sound frame;
-  // later frames are dropped, also from the recording, and the Grab and the jet end. A frame that an
+  // Simulates frames and stores the start of each. After divergence the state is that of the last sound
+  // frame; later frames are dropped, also from the recording, and the Grab and the jet end. A frame that an
   // interrupt cuts short is dropped.
-  [[nodiscard]] std::optional<Trouble> stepFrames(int frames);
+  [[nodiscard]] std::optional<Divergence> stepFrames(int frames);
 
   // `poll` is called about twenty times a second during stepFrames(), for example to process the events of a
   // window. It must not use the session. When it returns false, stepFrames() drops the current frame and
@@ -104,7 +104,7 @@ class Session {
   void changeScene(const Shared<Scene>& scene);
   void rebuild(const Shared<Scene>& scene);
   void goBetween(SceneStack& from, SceneStack& to);
-  [[nodiscard]] std::optional<Trouble> stepFrame();
+  [[nodiscard]] std::optional<Divergence> stepFrame();
   [[nodiscard]] bool advance(int steps);
   void startColliderMoves();
   void finishColliderMoves();

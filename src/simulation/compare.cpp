@@ -57,11 +57,11 @@ Comparison compareBackends(const Shared<Scene>& scene, int frames, SolverFactory
     const State equal = std::move(cpuState);
     gpu.stepFrame();
     cpu.stepFrame();
-    result.cpuTrouble = cpu.checkFrame();
-    result.gpuTrouble = gpu.checkFrame();
+    result.cpuDivergence = cpu.checkFrame();
+    result.gpuDivergence = gpu.checkFrame();
     cpuState = cpu.solver().state();
     gpuState = gpu.solver().state();
-    if (result.cpuTrouble || result.gpuTrouble) {
+    if (result.cpuDivergence || result.gpuDivergence) {
       now.finite = false;
       ++result.frames;
       break;

@@ -8,9 +8,9 @@
 #include <string>
 
 #include "simulation/simulation.h"
+#include "solver/divergence.h"
 #include "solver/solver.h"
 #include "solver/state.h"
-#include "solver/trouble.h"
 
 namespace clothsim {
 
@@ -22,9 +22,9 @@ struct Comparison {
   double maxAbsDifference = 0;
   std::optional<std::uint64_t> firstDifferingStep;  // the frame is repeated step by step to find it
   bool finite = true;
-  // The trouble of each backend; they differ only when a driver breaks the numeric contract. The frame in
+  // The divergence of each backend; they differ only when a driver breaks the numeric contract. The frame in
   // which it occurred counts as simulated and is not compared.
-  std::optional<Trouble> cpuTrouble, gpuTrouble;
+  std::optional<Divergence> cpuDivergence, gpuDivergence;
   ContactCounts contacts;  // of the CPU backend
   std::string device, cpuHash, gpuHash;
 };
@@ -37,7 +37,7 @@ struct StateDifference {
 [[nodiscard]] StateDifference difference(const State& a, const State& b);
 
 // `makeSolver` knows "cpu" and "gpu". `atFrame` is called for frame 0 and after every frame with the state of
-// the CPU backend. Stops after the first frame that differs or has trouble.
+// the CPU backend. Stops after the first frame that differs or has divergence.
 [[nodiscard]] Comparison compareBackends(const Shared<Scene>& scene, int frames, SolverFactory makeSolver,
                                          const std::function<void(int, const State&)>& atFrame = {});
 

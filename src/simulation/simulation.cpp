@@ -23,14 +23,14 @@ void Simulation::stepFrames(int frames) {
   solver_->step(frames * scene_->solver.simulationSteps);
 }
 
-std::optional<Trouble> Simulation::checkFrame() {
+std::optional<Divergence> Simulation::checkFrame() {
   stopIfInterrupted();
-  const std::optional<Trouble> trouble = solver_->trouble();
-  if (trouble) {
+  const std::optional<Divergence> divergence = solver_->divergence();
+  if (divergence) {
     solver_->revert();
     touch();
   }
-  return trouble;
+  return divergence;
 }
 
 void Simulation::setState(const State& state) {
@@ -63,9 +63,9 @@ void Simulation::switchBackend(const std::string& backend) {
   touch();
 }
 
-std::string blowUpText(const Trouble& trouble, const Cloth& cloth, const Scene& scene) {
-  return "the simulation blew up: " + troubleText(trouble, cloth, scene) + ". " +
-         remedyFor(trouble, scene).text;
+std::string blowUpText(const Divergence& divergence, const Cloth& cloth, const Scene& scene) {
+  return "the simulation blew up: " + divergenceText(divergence, cloth, scene) + ". " +
+         remedyFor(divergence, scene).text;
 }
 
 }  // namespace clothsim

@@ -44,10 +44,10 @@ class Simulation {
 
   void stepFrame() { stepFrames(1); }
   void stepFrames(int frames);
-  // Returns the trouble in the last stepFrame() or stepFrames(), if any. The state is then the sound one from
-  // before that call, so that nothing broken can be drawn or saved. @throws SimulationError when an interrupt
-  // cut the frames short
-  [[nodiscard]] std::optional<Trouble> checkFrame();
+  // Returns the divergence in the last stepFrame() or stepFrames(), if any. The state is then the sound one
+  // from before that call, so that nothing broken can be drawn or saved. @throws SimulationError when an
+  // interrupt cut the frames short
+  [[nodiscard]] std::optional<Divergence> checkFrame();
   // Waits for the GPU until every step is done.
   void finish() { solver_->finish(); }
 
@@ -83,6 +83,6 @@ class Simulation {
 };
 
 // The message "the simulation blew up: in step ..." with advice.
-[[nodiscard]] std::string blowUpText(const Trouble& trouble, const Cloth& cloth, const Scene& scene);
+[[nodiscard]] std::string blowUpText(const Divergence& divergence, const Cloth& cloth, const Scene& scene);
 
 }  // namespace clothsim

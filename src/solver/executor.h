@@ -8,21 +8,21 @@
 #include <string>
 #include <vector>
 
+#include "solver/divergence.h"
 #include "solver/state.h"
 #include "solver/step_inputs.h"
 #include "solver/step_list.h"
-#include "solver/trouble.h"
 
 namespace clothsim {
 
 // What self-collision had to do since the solver was made.
 struct ContactCounts {
   std::uint64_t hashBuilds = 0;
-  std::uint64_t guardedSteps = 0;  // in which motion had to be cut short
+  std::uint64_t clampedSteps = 0;  // in which motion had to be cut short
   std::uint64_t fastSteps = 0;     // in which some particle moved farther than the search reaches
 
   friend ContactCounts operator+(const ContactCounts& a, const ContactCounts& b) {
-    return {a.hashBuilds + b.hashBuilds, a.guardedSteps + b.guardedSteps, a.fastSteps + b.fastSteps};
+    return {a.hashBuilds + b.hashBuilds, a.clampedSteps + b.clampedSteps, a.fastSteps + b.fastSteps};
   }
 };
 
@@ -78,9 +78,9 @@ class Executor {
 
   // What the watchdog has found up to the step after `step` steps. With `wait` false only what is known
   // without waiting for the device.
-  [[nodiscard]] virtual std::optional<Trouble> findTrouble(std::uint64_t step, bool wait) = 0;
+  [[nodiscard]] virtual std::optional<Divergence> findDivergence(std::uint64_t step, bool wait) = 0;
   // From the step after `step` steps on, everything counts as sound.
-  virtual void forgetTrouble(std::uint64_t step) = 0;
+  virtual void forgetDivergence(std::uint64_t step) = 0;
   // A small blocking read-back on the GPU.
   [[nodiscard]] virtual ContactCounts contactCounts() = 0;
 

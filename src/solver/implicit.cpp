@@ -20,7 +20,7 @@ void putFactors(const Grid& grid, double across, double along, LevelParams<Real>
   const double area = across * along;
   const double x = slopes(across) * squares(along) / area, y = slopes(along) * squares(across) / area;
   const double mean = grid.rows == 1 ? x : grid.columns == 1 ? y : 0.5 * (x + y);
-  level.stretchFactor = static_cast<Real>(mean);
+  level.stiffnessFactor = static_cast<Real>(mean);
   level.inertiaFactor = static_cast<Real>(squares(across) * squares(along) / area);
   // A hat bends at three points: 1 + 4 + 1 over the square of its width.
   level.bending = static_cast<Real>(6 * grid.bendAlongRow * squares(along) / (across * across) +

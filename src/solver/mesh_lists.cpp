@@ -7,7 +7,7 @@ namespace clothsim {
 namespace {
 
 template <class Real>
-Real restLengthOf(const Cloth& cloth, const ListedSpring& spring) {
+Real restLengthOf(const Cloth& cloth, const MeshSpring& spring) {
   const Vec3<Real> d = startPosition<Real>(cloth, spring.b) - startPosition<Real>(cloth, spring.a);
   const Real lengthSquared = dot(d, d);
   return lengthSquared * inverseSquareRoot(lengthSquared);
@@ -24,14 +24,14 @@ MeshLists<Real> makeMeshLists(const Cloth& cloth) {
   for (std::size_t i = 0; i <= cloth.particleCount(); ++i)
     result.starts.push_back(
         {lists.springsOf.starts[i], lists.hingesOf.starts[i], hingeNumbers + lists.trianglesOf.starts[i], 0});
-  for (const ListedSpring& spring : lists.springs)
+  for (const MeshSpring& spring : lists.springs)
     result.limited.push_back({spring.a, spring.b, restLengthOf<Real>(cloth, spring), 0});
   for (std::uint32_t i = 0; i < cloth.particleCount(); ++i) {
     const Vec3<Real> place = startPosition<Real>(cloth, i);
     result.places.push_back({place.x, place.y, place.z, 0});
     for (std::uint32_t at = lists.springsOf.starts[i]; at < lists.springsOf.starts[i + 1]; ++at) {
       const std::uint32_t number = lists.springsOf.entries[at];
-      const ListedSpring& spring = lists.springs[number];
+      const MeshSpring& spring = lists.springs[number];
       const std::uint32_t kind = spring.kind == SpringKind::structural ? STRUCTURAL_SPRING : 0u;
       result.springs.push_back({spring.a == i ? spring.b : spring.a, number | kind,
                                 static_cast<Real>(spring.stiffness), result.limited[number].restLength});

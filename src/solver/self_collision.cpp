@@ -53,7 +53,7 @@ bool collidesWithItself(const Scene& scene, const Cloth& cloth) {
   return scene.solver.selfCollision != SelfCollision::off && contactDistance(scene, cloth) > 0;
 }
 
-double expectedStretch(const Scene& scene) { return scene.solver.strainLimit.value_or(0.25); }
+double expectedStrain(const Scene& scene) { return scene.solver.strainLimit.value_or(0.25); }
 
 double crossingDistance(const Cloth& cloth, double stretch) { return (1 + stretch) * largestSpacing(cloth); }
 
@@ -67,7 +67,7 @@ double contactDistance(const Scene& scene, const Cloth& cloth) {
     if (!grid.isMesh) finest = std::min({finest, grid.nominalLength[toLeft], grid.nominalLength[toUpper]});
   double distance = 2 * thickness;
   if (scene.solver.selfCollision == SelfCollision::robust)
-    distance = std::max(thickness, crossingDistance(cloth, expectedStretch(scene)) +
+    distance = std::max(thickness, crossingDistance(cloth, expectedStrain(scene)) +
                                        RELATIVE_MOTION / 2 * largestSpacing(cloth));
   return onlyMeshes ? distance : std::min(distance, 7 * finest);
 }
@@ -81,7 +81,7 @@ SelfParams<Real> makeSelfParams(const Scene& scene, const Cloth& cloth) {
   const double move = robust ? LARGEST_MOVE * d : 0;
   const double reuse = (margin / 2 - move) * (1 - ROUNDING);
   const double search = (d + margin) * (1 + ROUNDING);
-  const double quanta = std::ldexp(1.0, QUANTUM_BITS<Real>) / d;
+  const double units = std::ldexp(1.0, FIXED_POINT_BITS<Real>) / d;
 
   SelfParams<Real> params{};
   params.particles = cloth.particleCount();
@@ -93,12 +93,12 @@ SelfParams<Real> makeSelfParams(const Scene& scene, const Cloth& cloth) {
   params.reuseSquared = real(reuse * reuse);
   params.inverseTimeStep = real(1 / stepLength(scene.solver));
   params.distance = real(d);
-  params.quantaPerMeter = real(quanta);
-  params.moveFactor = real((robust ? 1 : 1.0 / scene.solver.simulationSteps) / quanta);
+  params.unitsPerMeter = real(units);
+  params.moveFactor = real((robust ? 1 : 1.0 / scene.solver.simulationSteps) / units);
   params.largestMove = real(LARGEST_MOVE * d);
   params.friction = real(robust ? layerFriction(scene) : 0);
-  const double crossing = std::min(crossingDistance(cloth, expectedStretch(scene)), d);
-  params.guardFactor = real(crossing / d);
+  const double crossing = std::min(crossingDistance(cloth, expectedStrain(scene)), d);
+  params.clampFactor = real(crossing / d);
   const double fast = (d + margin - crossing) / 2;
   params.fastSquared = real(fast * fast);
   params.codesPerMeter = real(NEAREST_CODES / d);

@@ -2,22 +2,22 @@
 //
 // Two triangles of a lattice of spacing h, stretched by at most e, cannot cross unless two of their
 // particles, one of each, are nearer than D = (1 + e) h (docs/physics.md; h is sqrt((hx^2 + hy^2) / 2)
-// where the spacings differ). "robust" therefore pushes strangers, particles not in one cell of a grid, apart
-// to d = max(thickness, D + delta / 2), delta the relative motion allowed for in a step, and never ends a
-// step with a pair nearer than D that was not so before. "averaged" is CS184's rule: d = 2 thickness for all
-// pairs, which lies below h and holds nothing for certain.
+// where the spacings differ). "robust" therefore pushes non-adjacent particles, those not in one cell of a
+// grid, apart to d = max(thickness, D + delta / 2), delta the relative motion allowed for in a step, and
+// never ends a step with a pair nearer than D that was not so before. "averaged" is CS184's rule: d = 2
+// thickness for all pairs, which lies below h and holds nothing for certain.
 //
-// Sums over the contacts of a particle are made of whole numbers of quanta, d / 2^18: exact whatever the
+// Sums over the contacts of a particle are made of fixed-point units, d / 2^18: exact whatever the
 // order, so neither threads, nor the order in a hash cell, nor candidates that are no contacts now can change
 // a bit.
 //
-// On a mesh D = (1 + e) 0.764 L with L the longest edge (crossingDistance() says why), strangers are
+// On a mesh D = (1 + e) 0.764 L with L the longest edge (crossingDistance() says why), non-adjacent are
 // particles that no edge joins, and pairs nearer than d at rest keep that distance, rounded down to 64ths of
 // d.
 //
-// The hash serves several steps. Strangers within d now were within d + margin when it was built as long as
-// neither has moved farther than margin / 2 since; every step begins by checking that, and builds anew when
-// it fails.
+// The hash serves several steps. Non-adjacent particles within d now were within d + margin when it was built
+// as long as neither has moved farther than margin / 2 since; every step begins by checking that, and builds
+// anew when it fails.
 #pragma once
 
 #include <cstdint>
@@ -32,18 +32,18 @@ namespace clothsim {
 template <class Real>
 using SelfParams = shared::SelfParams<Real>;
 
-// A quantum is d / 2^bits. Binary32: 2^13 contacts of full depth fit into 32 bits, and each is exact to d /
-// 2^19.
+// A fixed-point unit is d / 2^bits. Binary32: 2^13 contacts of full depth fit into 32 bits, and each is exact
+// to d / 2^19.
 template <class Real>
-inline constexpr int QUANTUM_BITS = 18;
+inline constexpr int FIXED_POINT_BITS = 18;
 template <>
-inline constexpr int QUANTUM_BITS<double> = 40;
+inline constexpr int FIXED_POINT_BITS<double> = 40;
 
 // Whether there is anything to do: it is on, and d > 0.
 [[nodiscard]] bool collidesWithItself(const Scene& scene, const Cloth& cloth);
 
-// d, the distance that the scene's self-collision keeps between strangers [m]; at most 7 spacings of the
-// finest grid, so that every particle nearer at rest is known by its place on the lattice.
+// d, the distance that the scene's self-collision keeps between non-adjacent particles [m]; at most 7
+// spacings of the finest grid, so that every particle nearer at rest is known by its place on the lattice.
 [[nodiscard]] double contactDistance(const Scene& scene, const Cloth& cloth);
 // D for a stretch of e [m].
 // h of a mesh: no two triangles whose edges are at most L cross unless two of their corners, one of each, are
@@ -51,7 +51,7 @@ inline constexpr int QUANTUM_BITS<double> = 40;
 // across it: sqrt((L/2)^2 + (L/sqrt 3)^2) = 0.7638 L; a search over random pairs found none beyond it.
 [[nodiscard]] double crossingDistance(const Cloth& cloth, double stretch);
 // The stretch that contacts are laid out for: the strain limit, or 0.25 without one.
-[[nodiscard]] double expectedStretch(const Scene& scene);
+[[nodiscard]] double expectedStrain(const Scene& scene);
 
 template <class Real>
 [[nodiscard]] SelfParams<Real> makeSelfParams(const Scene& scene, const Cloth& cloth);

@@ -21,7 +21,7 @@ Solver::Solver(const Cloth& cloth, const Shared<Scene>& scene, std::unique_ptr<E
     : executor_(std::move(executor)) {
   inputs_.cloth = &cloth;
   inputs_.velocityMeaning = startingVelocityMeaning(*scene);
-  executor_->forgetTrouble(0);
+  executor_->forgetDivergence(0);
   configure(scene);
 }
 
@@ -60,10 +60,10 @@ void Solver::convertVelocities() {
 void Solver::step(int count) {
   checkStart();
   convertVelocities();
-  for (int i = 0; i < count && !trouble_ && !isInterrupted(); ++i) {
+  for (int i = 0; i < count && !divergence_ && !isInterrupted(); ++i) {
     executor_->run(inputs_, step_, count - i);
     ++inputs_.clock.step;
-    trouble_ = executor_->findTrouble(inputs_.clock.step, false);
+    divergence_ = executor_->findDivergence(inputs_.clock.step, false);
   }
   executor_->flush();
 }
@@ -74,10 +74,10 @@ std::vector<PassTime> Solver::timePasses(int steps) {
   return executor_->stopTiming();
 }
 
-std::optional<Trouble> Solver::trouble() {
+std::optional<Divergence> Solver::divergence() {
   // A conversion belongs to the step that follows it.
-  if (!trouble_) trouble_ = executor_->findTrouble(inputs_.clock.step + 1, true);
-  return trouble_;
+  if (!divergence_) divergence_ = executor_->findDivergence(inputs_.clock.step + 1, true);
+  return divergence_;
 }
 
 std::unique_ptr<Snapshot> Solver::snapshot(std::unique_ptr<Snapshot> reuse) {
@@ -122,8 +122,8 @@ void Solver::setBooks(const StepClock& clock, Integrator integrator,
   setOffPath(offPath);
   if (inputs_.cuts != cuts) setCuts(cuts);
   startIsChecked_ = false;
-  trouble_.reset();
-  executor_->forgetTrouble(inputs_.clock.step);
+  divergence_.reset();
+  executor_->forgetDivergence(inputs_.clock.step);
 }
 
 void Solver::setHand(const Hand& hand) {

@@ -12,10 +12,10 @@
 #include "cloth/cloth.h"
 #include "cloth/cuts.h"
 #include "core/shared.h"
+#include "solver/divergence.h"
 #include "solver/executor.h"
-#include "solver/hand.h"
+#include "solver/grab.h"
 #include "solver/state.h"
-#include "solver/trouble.h"
 
 namespace clothsim {
 
@@ -45,7 +45,7 @@ class Solver {
   void configure(const Shared<Scene>& scene);
 
   // Advances by `count` steps; by fewer once an interrupt has come (core/interrupt.h) or, on the CPU, after
-  // trouble. Neither throws nor allocates; on the GPU nothing is waited for.
+  // divergence. Neither throws nor allocates; on the GPU nothing is waited for.
   void step(int count);
   // Waits until every step is done. @throws OpenGlError when the driver has reported an error meanwhile
   void finish() { executor_->finish(); }
@@ -54,12 +54,12 @@ class Solver {
   // Steps, and times every pass, which slows the whole.
   [[nodiscard]] std::vector<PassTime> timePasses(int steps);
 
-  // The first trouble since the solver was made or setState() was called; the same on both backends. Waits
-  // for the steps, and looks at a few bytes for each of them. Steps after trouble lead nowhere and look for
-  // no contacts, which could take minutes in a heap of broken numbers.
-  [[nodiscard]] std::optional<Trouble> trouble();
+  // The first divergence since the solver was made or setState() was called; the same on both backends. Waits
+  // for the steps, and looks at a few bytes for each of them. Steps after divergence lead nowhere and look
+  // for no contacts, which could take minutes in a heap of broken numbers.
+  [[nodiscard]] std::optional<Divergence> divergence();
 
-  // A copy of the state where it lies, and back to it, which forgets trouble. On its own device nothing is
+  // A copy of the state where it lies, and back to it, which forgets divergence. On its own device nothing is
   // waited for; a snapshot of the other backend's solver for the same number of particles serves as well.
   // `reuse`: a snapshot that is needed no more, whose memory may be taken.
   [[nodiscard]] std::unique_ptr<Snapshot> snapshot(std::unique_ptr<Snapshot> reuse = nullptr);
@@ -86,9 +86,10 @@ class Solver {
   // What a hand does from the next step on.
   void setHand(const Hand& hand);
   // Springs that are cut exert no force, are not limited and not watched; triangles that lost a side meet no
-  // air. Under robust self-collision particles of one cell become strangers once the spring between them is
-  // cut: they are kept at their distance at rest, like other pairs that lie near each other then. That is
-  // less than D (self_collision.h), so it keeps the two sides of a cut apart in practice, but proves nothing.
+  // air. Under robust self-collision particles of one cell become non-adjacent particles once the spring
+  // between them is cut: they are kept at their distance at rest, like other pairs that lie near each other
+  // then. That is less than D (self_collision.h), so it keeps the two sides of a cut apart in practice, but
+  // proves nothing.
   void setCuts(const Cuts& cuts);
   [[nodiscard]] const Cuts& cuts() const { return inputs_.cuts; }
   // Pins a particle where it is now, off any path that the scene has for it; or gives it its mass back. It is
@@ -119,7 +120,7 @@ class Solver {
   const PassList conversion_ = makeConversion(), startCheck_ = makeStartCheck();
   std::unique_ptr<Executor> executor_;
   bool startIsChecked_ = true;  // false once a state was handed in
-  std::optional<Trouble> trouble_;
+  std::optional<Divergence> divergence_;
   std::unique_ptr<Snapshot> kept_;
 };
 

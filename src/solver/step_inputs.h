@@ -8,7 +8,7 @@
 #include "cloth/cuts.h"
 #include "core/shared.h"
 #include "scene/scene.h"
-#include "solver/hand.h"
+#include "solver/grab.h"
 #include "solver/pin_paths.h"
 #include "solver/step_clock.h"
 #include "solver/step_params.h"

@@ -93,8 +93,8 @@ std::optional<glm::vec2> placeInPicture(const Camera& camera, int width, int hei
 Vec3d MouseTools::targetAt(const MouseContext& context, Cursor cursor) const {
   const ViewRay ray = rayThrough(context.camera, context.width, context.height, cursor);
   const float slope = glm::dot(ray.direction, planeNormal_);
-  if (std::abs(slope) < 1e-4f) return toVec3d(heldPoint_);
-  return toVec3d(ray.origin + glm::dot(heldPoint_ - ray.origin, planeNormal_) / slope * ray.direction);
+  if (std::abs(slope) < 1e-4f) return toVec3d(grabbedPoint_);
+  return toVec3d(ray.origin + glm::dot(grabbedPoint_ - ray.origin, planeNormal_) / slope * ray.direction);
 }
 
 std::string MouseTools::press(const MouseContext& context, Button button, Cursor cursor, Modifiers held) {
@@ -114,7 +114,7 @@ std::string MouseTools::press(const MouseContext& context, Button button, Cursor
     return "";
   }
   if (held.shift) return pin(context, pick, cursor);
-  heldPoint_ = pick.point;
+  grabbedPoint_ = pick.point;
   planeNormal_ = glm::normalize(context.camera.target() - context.camera.eye());
   targetMoved_ = dragGoesOn_ = false;
   const auto& colliders = context.session.simulation().scene().colliders;
@@ -230,7 +230,8 @@ void MouseTools::cutFromTo(const MouseContext& context, const Pick& from, const 
 }
 
 void MouseTools::beforeStep(const MouseContext& context, Cursor cursor, bool blows) {
-  if (doing_ == Doing::grab && !context.session.isHolding()) doing_ = Doing::nothing;  // trouble has ended it
+  if (doing_ == Doing::grab && !context.session.isHolding())
+    doing_ = Doing::nothing;  // divergence has ended it
   if (doing_ == Doing::grab && targetMoved_ && !context.paused) {
     context.session.act(MoveHand{targetAt(context, cursor)});
     targetMoved_ = false;

@@ -65,7 +65,7 @@ class MouseTools {
   ViewerWindow::Button button_ = ViewerWindow::Button::left;
   ViewerWindow::Cursor last_;
   // What is dragged moves in the plane through heldPoint_; offset_ leads from there to the collider's origin.
-  glm::vec3 heldPoint_{0}, planeNormal_{0, 0, 1};
+  glm::vec3 grabbedPoint_{0}, planeNormal_{0, 0, 1};
   Vec3d offset_;
   std::size_t collider_ = 0;
   std::uint32_t held_ = 0;

@@ -143,12 +143,12 @@ int Viewer::stepFrames(int frames) {
   LapClock clock;
   const int before = session().frame();
   stepping_ = true;
-  std::optional<Trouble> trouble;
+  std::optional<Divergence> divergence;
   double seconds = 0;
   const bool went = attempt([&] {
-    for (int i = 0; i < frames && !trouble && seconds < mostSimulationSeconds && !window_.shouldClose();
+    for (int i = 0; i < frames && !divergence && seconds < mostSimulationSeconds && !window_.shouldClose();
          ++i) {
-      trouble = session().stepFrames(1);
+      divergence = session().stepFrames(1);
       session().simulation().finish();
       seconds += clock.lap();
     }
@@ -156,9 +156,9 @@ int Viewer::stepFrames(int frames) {
   stepping_ = false;
   if (!went) paused_ = true;
   for (const auto& task : std::exchange(waiting_, {})) attempt(task);
-  if (trouble) {
+  if (divergence) {
     paused_ = true;
-    notice_ = {blowUpText(*trouble, session().simulation().cloth(), open_->scene()) +
+    notice_ = {blowUpText(*divergence, session().simulation().cloth(), open_->scene()) +
                    "\nPaused at the last good state. Press R to restart.",
                1e9, true};
   }
@@ -285,9 +285,9 @@ void Viewer::apply(const TimelineRequests& requests) {
 
 void Viewer::keepConfig() {
   if (config_ == savedConfig_) return;
-  const std::string trouble = saveViewerConfig(config_, viewerConfigPath());
+  const std::string divergence = saveViewerConfig(config_, viewerConfigPath());
   savedConfig_ = config_;  // tried once for each change
-  if (!trouble.empty()) complain("The state of the panels cannot be saved: " + trouble);
+  if (!divergence.empty()) complain("The state of the panels cannot be saved: " + divergence);
 }
 
 void runViewer(const Shared<Scene>& scene, const ViewerOptions& options) {

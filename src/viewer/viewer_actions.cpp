@@ -310,8 +310,8 @@ void Viewer::saveSceneAs(const std::filesystem::path& path) {
 }
 
 void Viewer::reloadShaders() {
-  if (const std::optional<std::string> trouble = open_->renderer().renderer().reloadShaders())
-    notice_ = {*trouble + "\nThe previous shaders are still in use.", 1e9, true};
+  if (const std::optional<std::string> divergence = open_->renderer().renderer().reloadShaders())
+    notice_ = {*divergence + "\nThe previous shaders are still in use.", 1e9, true};
   else
     say("Shaders reloaded");
 }

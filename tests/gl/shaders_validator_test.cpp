@@ -71,7 +71,7 @@ std::vector<gl::Defines> variantsOf(const std::string& file) {
                           .coulombFriction = true,
                           .movingPins = true,
                           .restLengthTable = true,
-                          .hold = true,
+                          .grab = true,
                           .jet = true,
                           .cuts = true};
   everything.colliderTypes = 0xffffffff;

@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "cloth/cuts.h"
-#include "solver/hand.h"
+#include "solver/grab.h"
 #include "solver/solver.h"
 
 namespace clothsim::test {
@@ -18,10 +18,10 @@ inline Vec3f placeOf(const State& state, std::uint32_t particle) {
 inline Hand handTo(Solver& solver, const Cloth& cloth, const Scene& scene, std::uint32_t particle,
                    Vec3d target, double strength, double radius = 0) {
   Hand hand;
-  hand.hold = takeHold(cloth, particle, strength, radius, [&](std::uint32_t first, std::uint32_t count) {
-    return solver.positions(first, count);
-  });
-  moveTo(*hand.hold, target, solver.stepIndex(), scene.solver.simulationSteps);
+  hand.grab = makeGrabSpring(
+      cloth, particle, strength, radius,
+      [&](std::uint32_t first, std::uint32_t count) { return solver.positions(first, count); });
+  moveTo(*hand.grab, target, solver.stepIndex(), scene.solver.simulationSteps);
   return hand;
 }
 

@@ -11,7 +11,7 @@ inline Scene particleScene(const Collider& collider, double timeStep, FrictionLa
   Scene scene = springScene(1, 1e-9, 1, timeStep, Integrator::euler);
   scene.cloths[0].pinned.clear();
   scene.colliders = {collider};
-  scene.solver.maxStrain = 1e6;  // the slack spring is no trouble
+  scene.solver.maxStrain = 1e6;  // the slack spring is no divergence
   scene.solver.frictionLaw = law;
   return scene;
 }

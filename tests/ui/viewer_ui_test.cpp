@@ -163,7 +163,7 @@ TEST(ViewerWithoutAScreen, NamesTheCommandsThatNeedNoneAndEndsWithExitCodeFour) 
   EXPECT_NE(result.output.find("clothsim run -f pinned2"), std::string::npos) << result.output;
 }
 
-TEST_F(ViewerUi, PausesWithAMessageWhenTheWatchdogFindsTroubleAndRTriesAgain) {
+TEST_F(ViewerUi, PausesWithAMessageWhenTheWatchdogFindsDivergenceAndRTriesAgain) {
   // The free edge falls at 2 m/s^2: it is too fast after three quarters of a second.
   const ViewerProgram viewer(std::string(shownScene) +
                              " --set gravity=[0,-2,0] --set cloth.damping=0 --set solver.max_speed=1.5");

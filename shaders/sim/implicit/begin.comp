@@ -10,10 +10,10 @@ layout(std430, binding = DISPLACEMENTS_BINDING) writeonly buffer Displacements {
 layout(std430, binding = ITERATES_BINDING) writeonly buffer Iterates { vec4 newIterates[]; };
 layout(std430, binding = AIR_BLOCKS_BINDING) writeonly buffer AirBlocks { vec4 newAirBlocks[]; };
 
-vec4 holdParticle(GridPoint p, vec3 x, float mass, vec4 rightHandSide) {
+vec4 grabParticle(GridPoint p, vec3 x, float mass, vec4 rightHandSide) {
   uint column = p.column - hand.firstColumn, row = p.row - hand.firstRow;  // before the block: beyond it
   if (column >= hand.columns || row >= hand.rows) return rightHandSide;
-  vec4 point = texelFetch(held, int(row * hand.columns + column));
+  vec4 point = texelFetch(grabbed, int(row * hand.columns + column));
   precise vec3 goal = vec3(hand.goalX, hand.goalY, hand.goalZ) + point.xyz;
   precise vec3 towards = goal - x;
   precise vec3 displacement = hand.reach * (hand.pull * towards + vec3(hand.pushX, hand.pushY, hand.pushZ));
@@ -51,7 +51,7 @@ void main() {
   stiffness = withForces.w;
   if (hasWind) {  // f - R (v' - v)
 #if HAS_MESH
-    vec3 force = addListedTriangles(texelFetch(listStarts, int(i)).z, texelFetch(listStarts, int(i) + 1).z, vec3(0.0));
+    vec3 force = addMeshTriangles(texelFetch(listStarts, int(i)).z, texelFetch(listStarts, int(i) + 1).z, vec3(0.0));
 #else
     vec3 force = addWind(p, vec3(0.0));
 #endif
@@ -64,7 +64,7 @@ void main() {
     newAirBlocks[2u * i + 1u] = vec4(others, 0.0);
   }
   vec4 rightHandSide = vec4(b, stiffness);
-  if (hasHold) rightHandSide = holdParticle(p, x.xyz, mass, rightHandSide);
+  if (hasGrab) rightHandSide = grabParticle(p, x.xyz, mass, rightHandSide);
   newRightHandSides[i] = rightHandSide;
   newDisplacements[i] = vec4(0.0);
   newIterates[i] = x;

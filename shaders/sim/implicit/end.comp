@@ -59,5 +59,5 @@ void main() {
   }
   newPositions[i] = particle.position;
   newVelocities[i] = vec4(particle.velocity, support);
-  reportTrouble();
+  reportDivergence();
 }

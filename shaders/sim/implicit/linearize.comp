@@ -5,7 +5,7 @@
 #include "sim/incident_springs.glsl"
 #include "sim/implicit/contact.glsl"
 #if HAS_MESH
-#include "sim/implicit/listed.glsl"
+#include "sim/implicit/mesh.glsl"
 #endif
 
 layout(std430, binding = RESIDUALS_BINDING) writeonly buffer Residuals { vec4 newResiduals[]; };
@@ -66,9 +66,9 @@ void main() {
     block = sumOf(block, air);
   }
   if (hasContacts) block = sumOf(block, outerProduct3(contactStiffness(rightHandSide.w), contactPlaneAt(i).xyz));
-  Symmetric inertia = block, stretch = Symmetric(vec3(0.0), vec3(0.0));
+  Symmetric inertia = block, stiffness = Symmetric(vec3(0.0), vec3(0.0));
 #if HAS_MESH
-  block = addListedBlocks(i, block);
+  block = addMeshBlocks(i, block);
 #else
   uint cut = cutMaskOf(i);
   for (uint k = 0u; k < INCIDENT_SPRINGS; ++k) {
@@ -82,7 +82,7 @@ void main() {
     Symmetric stiff = Symmetric(diagonal, outer.others);
     float weight = 0.5 * float(toEnd[k].x * toEnd[k].x + toEnd[k].y * toEnd[k].y);
     block = sumOf(block, stiff);
-    stretch = sumOf(stretch, scaled(weight, stiff));
+    stiffness = sumOf(stiffness, scaled(weight, stiff));
     if (end.w == 0.0) inertia = sumOf(inertia, stiff);
   }
   if (hasMaterial) block = addBendingBlock(p, block);
@@ -97,8 +97,8 @@ void main() {
   Factors f = factorize(block);
   newFactors[2u * i] = vec4(f.lower, 0.0);
   newFactors[2u * i + 1u] = vec4(f.inverse, 0.0);
-  newBlocks[4u * i] = vec4(stretch.diagonal, 0.0);
-  newBlocks[4u * i + 1u] = vec4(stretch.others, 0.0);
+  newBlocks[4u * i] = vec4(stiffness.diagonal, 0.0);
+  newBlocks[4u * i + 1u] = vec4(stiffness.others, 0.0);
   newBlocks[4u * i + 2u] = vec4(inertia.diagonal, 0.0);
   newBlocks[4u * i + 3u] = vec4(inertia.others, 0.0);
 }

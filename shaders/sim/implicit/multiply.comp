@@ -5,7 +5,7 @@
 #include "sim/bending.glsl"
 #include "sim/implicit/contact.glsl"
 #if HAS_MESH
-#include "sim/implicit/listed.glsl"
+#include "sim/implicit/mesh.glsl"
 #endif
 
 layout(std430, binding = PRODUCTS_BINDING) writeonly buffer Products { vec4 newProducts[]; };
@@ -17,7 +17,7 @@ void main() {
   vec4 x = iterateAt(i);
   vec3 p = positionAt(i).xyz;
 #if HAS_MESH
-  vec3 force = listedProducts(i);
+  vec3 force = meshProducts(i);
 #else
   uint cut = cutMaskOf(i);
   precise vec3 force = vec3(0.0);

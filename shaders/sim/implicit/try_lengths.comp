@@ -7,7 +7,7 @@
 #include "sim/implicit/energy.glsl"
 #include "sim/implicit/contact.glsl"
 #if HAS_MESH
-#include "sim/implicit/listed.glsl"
+#include "sim/implicit/mesh.glsl"
 #endif
 
 layout(std430, binding = PRODUCTS_BINDING) writeonly buffer Trials { vec4 trials[]; };
@@ -57,7 +57,7 @@ void main() {
   precise float second = 0.5 * sumOfProducts(product, e);
   precise vec4 trial = lengthsTried * (first + lengthsTried * second);
 #if HAS_MESH
-  trial = addListedTrials(i, trial);
+  trial = addMeshTrials(i, trial);
 #else
   uint cut = cutMaskOf(i);
   for (uint k = 0u; k < OWNED_SPRINGS; ++k) {

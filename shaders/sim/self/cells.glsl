@@ -7,31 +7,31 @@ float codeDistance(uint code) {
   return texelFetch(contactDistances, int(step.grid * NEAREST_CODES + code)).x;
 }
 
-// Neighbours in one cell are strangers once the spring between them is cut: the bit of that spring in a cut mask by its
+// Neighbours in one cell are non-adjacent particles once the spring between them is cut: the bit of that spring in a cut mask by its
 // direction, 31 for none (springWithinCell() of src/cloth/cuts.h).
 const uint springWithinCell[9] = uint[9](2u, 1u, 3u, 0u, 31u, 6u, 8u, 9u, 10u);
 
 bool isCutFrom(GridPoint p, uint column, uint row) {
-  return hasCuts && !isLeft(cutMaskOf(p.index), springWithinCell[3u * (row + 1u - p.row) + column + 1u - p.column]);
+  return hasCuts && !isIntact(cutMaskOf(p.index), springWithinCell[3u * (row + 1u - p.row) + column + 1u - p.column]);
 }
 
 #if SELF_HAS_MESH
 #include "shared/mesh_lists.h"
 layout(binding = LIST_STARTS_UNIT) uniform usamplerBuffer listStarts;
-layout(binding = LISTED_SPRINGS_UNIT) uniform usamplerBuffer listedSprings;
+layout(binding = MESH_SPRINGS_UNIT) uniform usamplerBuffer meshSprings;
 layout(binding = REST_PLACES_UNIT) uniform samplerBuffer restPlaces;
 
 bool joins(uint i, uint j) {
   uint end = texelFetch(listStarts, int(i) + 1).x;
   for (uint n = texelFetch(listStarts, int(i)).x; n < end; ++n) {
-    uvec2 spring = texelFetch(listedSprings, int(n)).xy;
+    uvec2 spring = texelFetch(meshSprings, int(n)).xy;
     if (spring.x == j && (spring.y & STRUCTURAL_SPRING) != 0u) return true;
   }
   return false;
 }
 
 // Of two particles of one mesh. Pairs that are all but one at rest are left alone.
-uint encodeListed(uint i, uint j) {
+uint encodeOnMesh(uint i, uint j) {
   precise vec3 d = texelFetch(restPlaces, int(i)).xyz - texelFetch(restPlaces, int(j)).xyz;
   precise float lengthSquared = sumOfProducts(d, d);
   precise float inverseLength = inverseSquareRoot(lengthSquared);
@@ -47,7 +47,7 @@ uint encode(GridPoint p, uint j) {
   uint inGrid = j - step.firstParticle;
   if (inGrid >= step.columns * step.rows) return j;
 #if SELF_HAS_MESH
-  if (step.isMesh != 0u) return encodeListed(p.index, j);
+  if (step.isMesh != 0u) return encodeOnMesh(p.index, j);
 #endif
   uint column = inGrid % step.columns, row = inGrid / step.columns;
   uint across = column < p.column ? p.column - column : column - p.column;

@@ -1,4 +1,4 @@
-// Whether a free particle has come nearer to a stranger than D in this step.
+// Whether a free particle has come nearer to a non-adjacent particle than D in this step.
 #include "sim/blocks.glsl"
 #include "sim/exact_math.glsl"
 #include "sim/self/common.glsl"
@@ -11,7 +11,7 @@ bool found = false;
 
 void look(uint i, uint candidate) {
   uint j = candidate & INDEX_MASK;
-  precise float least = self.guardFactor * pairDistance(candidate);
+  precise float least = self.clampFactor * pairDistance(candidate);
   precise float leastSquared = least * least;
   precise vec3 d = texelFetch(positionsSoFar, int(i)).xyz - texelFetch(positionsSoFar, int(j)).xyz;
   precise float lengthSquared = sumOfProducts(d, d);

@@ -1,4 +1,4 @@
-// The last word of robust self-collision: when some pair of strangers has come nearer than D, all motion of the step is cut
+// The last word of robust self-collision: when some pair of non-adjacent particles has come nearer than D, all motion of the step is cut
 // short by pairs: each of two may go half of what lies between them and D, so that they cannot meet.
 #include "sim/blocks.glsl"
 #include "sim/exact_math.glsl"
@@ -15,7 +15,7 @@ void look(uint i, uint candidate) {
   uint j = candidate & INDEX_MASK;
   vec4 other = texelFetch(positionsSoFar, int(j));
   vec3 otherStart = positionAt(j).xyz;
-  precise float least = self.guardFactor * pairDistance(candidate);
+  precise float least = self.clampFactor * pairDistance(candidate);
   precise vec3 d = start - otherStart;
   precise float lengthSquared = sumOfProducts(d, d);
   precise float inverseLength = inverseSquareRoot(lengthSquared);
@@ -38,7 +38,7 @@ void look(uint i, uint candidate) {
 }
 
 void main() {
-  if (contacts.guarding == 0u) return;
+  if (contacts.clamping == 0u) return;
   GridPoint p = thisGridPoint();
   if (!p.exists) return;
   vec4 position = texelFetch(positionsSoFar, int(p.index));

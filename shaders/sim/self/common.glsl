@@ -13,12 +13,12 @@ layout(binding = CONTACT_DISTANCES_UNIT) uniform samplerBuffer contactDistances;
 layout(std430, binding = CONTACT_FLAGS_BINDING) buffer ContactFlags {
   uint stale;         // some particle has moved too far for the hash
   uint fast;          // or within this step for the search
-  uint tooNear;       // some pair of strangers is nearer than D
-  uint guarding;      // the same, once the plan for it is made
+  uint tooNear;       // some pair of non-adjacent particles is nearer than D
+  uint clamping;      // the same, once the plan for it is made
   uint hashBuilds;    // so far,
   uint fastSteps;     // and steps with these
-  uint guardedSteps;
-  uint broken;        // there was trouble (sim/watch.glsl): contacts in broken numbers could take minutes, and are left out
+  uint clampedSteps;
+  uint broken;        // there was divergence (sim/watch.glsl): contacts in broken numbers could take minutes, and are left out
 }
 contacts;
 

@@ -1,4 +1,4 @@
-// The candidates of every particle: strangers within the search radius when hashed. Who has more than can be remembered says so
+// The candidates of every particle: non-adjacent particles within the search radius when hashed. Who has more than can be remembered says so
 // and walks through the cells.
 #include "sim/blocks.glsl"
 #include "sim/exact_math.glsl"

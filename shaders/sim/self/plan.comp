@@ -1,4 +1,4 @@
-// One invocation: how many work groups the building of the hash gets, none when the old one serves. Before the guard it is built
+// One invocation: how many work groups the building of the hash gets, none when the old one serves. Before the clamp it is built
 // for the start of the step: the hash of another step need not know all that were near then.
 #include "shared/step_params.h"
 #include "sim/self/common.glsl"
@@ -12,7 +12,7 @@ layout(std430, binding = WATCH_BINDING) readonly buffer Watch { uint watchRow[PA
 
 void main() {
   for (uint pass = 0u; pass < uint(PASSES); ++pass)
-    if (watchRow[pass] != NO_TROUBLE) contacts.broken = 1u;
+    if (watchRow[pass] != NO_DIVERGENCE) contacts.broken = 1u;
   if (contacts.broken != 0u) {
     contacts.fast = 0u;
     contacts.tooNear = 0u;
@@ -22,8 +22,8 @@ void main() {
   for (uint i = 0u; i < passes; ++i) groups[i] = build ? groups[passes + i] : 0u;
   contacts.hashBuilds += build ? 1u : 0u;
   contacts.fastSteps += contacts.fast;
-  contacts.guardedSteps += contacts.tooNear;
-  contacts.guarding = contacts.tooNear;
+  contacts.clampedSteps += contacts.tooNear;
+  contacts.clamping = contacts.tooNear;
   contacts.stale = contacts.broken;
   contacts.fast = 0u;
   contacts.tooNear = 0u;

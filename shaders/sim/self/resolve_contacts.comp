@@ -1,6 +1,6 @@
 // Pass 3: particles nearer than their distance go apart, by half of what is missing each (all of it for CS184's rule, and next
 // to a pinned particle); friction takes back what they slid past each other in this step, up to its coefficient times that. A
-// particle moves by the mean over its contacts, summed in whole numbers of quanta, so that their order does not matter.
+// particle moves by the mean over its contacts, summed in fixed-point units, so that their order does not matter.
 #include "sim/blocks.glsl"
 #include "sim/exact_math.glsl"
 #include "sim/self/common.glsl"
@@ -14,12 +14,12 @@ uint contactCount = 0u;
 vec3 here, start;  // the particle, now and at the start of the step
 
 // The nearest whole number, for |x| < 2^22: adding 1.5 * 2^23 leaves it in the low bits.
-uint toQuanta(float x) {
+uint toFixedPoint(float x) {
   precise float shifted = x + 12582912.0;
   return floatBitsToUint(shifted) - 0x4b400000u;
 }
 // In two halves, each of which converts exactly.
-float fromQuanta(uint sum) {
+float fromFixedPoint(uint sum) {
   precise float high = float(int(sum) >> 12), low = float(int(sum) & 4095);
   precise float result = high * 4096.0 + low;
   return result;
@@ -52,8 +52,8 @@ void look(uint i, uint candidate) {
     precise float taken = heldSquared < slipSquared ? part : 1.0;
     move = share * (move - taken * slip);
   }
-  precise vec3 quanta = self.quantaPerMeter * move;
-  sum += uvec3(toQuanta(quanta.x), toQuanta(quanta.y), toQuanta(quanta.z));
+  precise vec3 units = self.unitsPerMeter * move;
+  sum += uvec3(toFixedPoint(units.x), toFixedPoint(units.y), toFixedPoint(units.z));
   ++contactCount;
 }
 
@@ -69,7 +69,7 @@ void main() {
     return;
   }
   precise float factor = self.moveFactor * reciprocal(float(contactCount));
-  precise vec3 move = factor * vec3(fromQuanta(sum.x), fromQuanta(sum.y), fromQuanta(sum.z));
+  precise vec3 move = factor * vec3(fromFixedPoint(sum.x), fromFixedPoint(sum.y), fromFixedPoint(sum.z));
   if (SELF_ROBUST != 0) {
     precise float lengthSquared = sumOfProducts(move, move);
     precise float largestSquared = self.largestMove * self.largestMove;

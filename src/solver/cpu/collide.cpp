@@ -208,7 +208,7 @@ INLINE Vec3<Real> furtherOut(const ColliderParams<Real>& collider, Vec3<Real> x,
 
 template <std::uint32_t type, class Real>
 INLINE void collideWith(const PassArguments<Real>& arguments, const ColliderParams<Real>& collider,
-                        bool moving, bool coulomb, Stretch particles) {
+                        bool moving, bool coulomb, Range particles) {
   const Components<Real>& old = arguments.before.positions;
   Components<Real>&p = arguments.after.positions, &v = arguments.after.velocities;
   const Real *x0 = old.x.data(), *y0 = old.y.data(), *z0 = old.z.data();
@@ -252,7 +252,7 @@ INLINE void collideWith(const PassArguments<Real>& arguments, const ColliderPara
 // Spheres and planes: compiled for each law, at rest and moving, so that the loop runs in vector registers.
 template <std::uint32_t type, class Real>
 INLINE void collideInVectors(const PassArguments<Real>& arguments, const ColliderParams<Real>& of,
-                             Stretch particles) {
+                             Range particles) {
   const ColliderParams<Real> collider = of;  // which no store to a particle changes
   const bool moving = collider.moving != 0, coulomb = collider.coulomb != 0;
   if (moving && coulomb)
@@ -268,7 +268,7 @@ INLINE void collideInVectors(const PassArguments<Real>& arguments, const Collide
 // Shapes with a frame of their own, particle by particle.
 template <std::uint32_t type, class Real>
 [[gnu::noinline]] void collideWithShape(const PassArguments<Real>& arguments,
-                                        const ColliderParams<Real>& collider, Stretch particles) {
+                                        const ColliderParams<Real>& collider, Range particles) {
   collideWith<type>(arguments, collider, collider.moving != 0, collider.coulomb != 0, particles);
 }
 
@@ -292,7 +292,7 @@ INLINE void forEachCollider(const PassArguments<Real>& arguments, Body body) {
 
 template <class Real>
 INLINE void collideRow(const PassArguments<Real>& arguments, int row) {
-  const Stretch particles = stretch(arguments.step, row);
+  const Range particles = rangeOf(arguments.step, row);
   forEachCollider(
       arguments, [&]<std::uint32_t type>(const ColliderParams<Real>& collider)
                      __attribute__((always_inline)) {
@@ -309,7 +309,7 @@ INLINE void collideRow(const PassArguments<Real>& arguments, int row) {
 template <class Real>
 void findPlanes(const PassArguments<Real>& arguments, const Components<Real>& places,
                 ContactPlanes<Real>& planes, int row) {
-  const Stretch particles = stretch(arguments.step, row);
+  const Range particles = rangeOf(arguments.step, row);
   const auto at = [](const Components<Real>& c, std::ptrdiff_t i) {
     return load(c.x.data(), c.y.data(), c.z.data(), i);
   };

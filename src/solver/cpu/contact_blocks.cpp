@@ -46,8 +46,8 @@ INLINE void moveLanes(const View<Real>& view, const Block& block, const Sums<Rea
     const Vec3<Real> x = load(view.x, view.y, view.z, i), v = load(vx, vy, vz, i);
     const Real factor =
         params.moveFactor * reciprocal(static_cast<Real>(static_cast<std::int32_t>(sums.count[lane])));
-    Vec3<Real> move =
-        factor * Vec3<Real>{fromQuanta(sums.x[lane]), fromQuanta(sums.y[lane]), fromQuanta(sums.z[lane])};
+    Vec3<Real> move = factor * Vec3<Real>{fromFixedPoint(sums.x[lane]), fromFixedPoint(sums.y[lane]),
+                                          fromFixedPoint(sums.z[lane])};
     if constexpr (robust) {
       const Real lengthSquared = dot(move, move);
       const Vec3<Real> shorter = (largest * inverseSquareRoot(lengthSquared)) * move;

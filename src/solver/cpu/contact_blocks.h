@@ -25,7 +25,7 @@ void addContacts(bool robust, bool nearCodes, const View<Real>& view, const std:
 template <class Real>
 void moveByContacts(bool robust, const View<Real>& view, const Block& block, const Sums<Real>& sums,
                     Components<Real>& newPositions, Components<Real>& velocities);
-// Whether some free particle has come nearer to a stranger than D.
+// Whether some free particle has come nearer to a non-adjacent particle than D.
 template <class Real>
 [[nodiscard]] bool anyTooNear(bool nearCodes, const View<Real>& view, const std::uint32_t* candidates,
                               const Block& block);

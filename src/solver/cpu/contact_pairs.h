@@ -24,20 +24,22 @@ template <class Real>
 using Quanta = std::conditional_t<std::is_same_v<Real, float>, std::uint32_t, std::uint64_t>;
 
 // The nearest whole number, for |x| < 2^22 (2^51): adding 1.5 * 2^23 leaves it in the low bits.
-INLINE std::uint32_t toQuanta(float x) {
+INLINE std::uint32_t toFixedPoint(float x) {
   constexpr float magic = 12582912.0f;
   return std::bit_cast<std::uint32_t>(x + magic) - std::bit_cast<std::uint32_t>(magic);
 }
-INLINE std::uint64_t toQuanta(double x) {
+INLINE std::uint64_t toFixedPoint(double x) {
   constexpr double magic = 6755399441055744.0;
   return std::bit_cast<std::uint64_t>(x + magic) - std::bit_cast<std::uint64_t>(magic);
 }
 // In two halves, each of which converts exactly.
-INLINE float fromQuanta(std::uint32_t sum) {
+INLINE float fromFixedPoint(std::uint32_t sum) {
   const auto number = static_cast<std::int32_t>(sum);
   return static_cast<float>(number >> 12) * 4096.0f + static_cast<float>(number & 4095);
 }
-INLINE double fromQuanta(std::uint64_t sum) { return static_cast<double>(static_cast<std::int64_t>(sum)); }
+INLINE double fromFixedPoint(std::uint64_t sum) {
+  return static_cast<double>(static_cast<std::int64_t>(sum));
+}
 
 template <class Real>
 struct Sums {
@@ -91,18 +93,18 @@ INLINE void addPair(const View<Real>& view, std::size_t i, std::uint32_t candida
     const Real share = view.inverseMasses[j] == Real(0) ? Real(1) : Real(0.5);
     move = share * (move - (heldSquared < slipSquared ? part : Real(1)) * slip);
   }
-  const Real quanta = view.params.quantaPerMeter;
-  sums.x[lane] += touches ? toQuanta(quanta * move.x) : 0;
-  sums.y[lane] += touches ? toQuanta(quanta * move.y) : 0;
-  sums.z[lane] += touches ? toQuanta(quanta * move.z) : 0;
+  const Real units = view.params.unitsPerMeter;
+  sums.x[lane] += touches ? toFixedPoint(units * move.x) : 0;
+  sums.y[lane] += touches ? toFixedPoint(units * move.y) : 0;
+  sums.z[lane] += touches ? toFixedPoint(units * move.z) : 0;
   sums.count[lane] += touches ? 1u : 0u;
 }
 
-// Whether a free particle has come nearer to a stranger than D in this step.
+// Whether a free particle has come nearer to a non-adjacent particle than D in this step.
 template <bool nearCodes, class Real>
 INLINE bool tooNear(const View<Real>& view, std::size_t i, std::uint32_t candidate) {
   const std::size_t j = candidate & INDEX_MASK;
-  const Real least = view.params.guardFactor * pairDistance<nearCodes>(view, candidate);
+  const Real least = view.params.clampFactor * pairDistance<nearCodes>(view, candidate);
   const Real leastSquared = least * least;
   const Vec3<Real> d = load(view.x, view.y, view.z, i) - load(view.x, view.y, view.z, j);
   const Vec3<Real> d0 = load(view.x0, view.y0, view.z0, i) - load(view.x0, view.y0, view.z0, j);
@@ -116,7 +118,7 @@ INLINE bool tooNear(const View<Real>& view, std::size_t i, std::uint32_t candida
 template <bool nearCodes, class Real>
 INLINE Real keptMotion(const View<Real>& view, std::size_t i, std::uint32_t candidate, Real kept) {
   const std::size_t j = candidate & INDEX_MASK;
-  const Real least = view.params.guardFactor * pairDistance<nearCodes>(view, candidate);
+  const Real least = view.params.clampFactor * pairDistance<nearCodes>(view, candidate);
   const Vec3<Real> start = load(view.x0, view.y0, view.z0, i),
                    otherStart = load(view.x0, view.y0, view.z0, j);
   const Vec3<Real> d = start - otherStart;

@@ -150,7 +150,7 @@ void CpuExecutor<Real>::prepare(const StepInputs& inputs, const PassList& list) 
 template <class Real>
 cpu::PassArguments<Real> CpuExecutor<Real>::argumentsOf(const StepInputs& inputs, std::size_t grid) {
   const Hand& hand = inputs.hand;
-  const bool holds = hand.hold && hand.hold->grid == grid;
+  const bool holds = hand.grab && hand.grab->grid == grid;
   return {parameters_.grids[grid],
           parameters_.colliders.data(),
           distances_->data(),
@@ -161,7 +161,7 @@ cpu::PassArguments<Real> CpuExecutor<Real>::argumentsOf(const StepInputs& inputs
           restLengths_.data(),
           lists_,
           parameters_.hand,
-          holds ? hand.hold->points->data() : nullptr,
+          holds ? hand.grab->points->data() : nullptr,
           hand.jet.has_value(),
           inputs.cutMasks.empty() ? nullptr : inputs.cutMasks.data(),
           particles_.state,
@@ -282,7 +282,7 @@ void CpuExecutor<Real>::runOnLevel(PassCall call) {
 template <class Real>
 void CpuExecutor<Real>::runContacts(PassCall call) {
   // Broken numbers may lie in one heap, and contacts in it take very long.
-  if (firstTrouble(watch_, 0).has_value()) return;
+  if (firstDivergence(watch_, 0).has_value()) return;
   selfCollision_.run(call, particles_.state, after_, particles_.inverseMasses);
 }
 
@@ -393,12 +393,12 @@ bool CpuExecutor<Real>::restore(const ParticleCopy& copy) {
 }
 
 template <class Real>
-std::optional<Trouble> CpuExecutor<Real>::findTrouble(std::uint64_t step, bool) {
-  return firstTrouble(watch_, step);
+std::optional<Divergence> CpuExecutor<Real>::findDivergence(std::uint64_t step, bool) {
+  return firstDivergence(watch_, step);
 }
 
 template <class Real>
-void CpuExecutor<Real>::forgetTrouble(std::uint64_t) {
+void CpuExecutor<Real>::forgetDivergence(std::uint64_t) {
   watch_ = soundWatchRow();
 }
 

@@ -35,8 +35,8 @@ class CpuExecutor final : public Executor {
   void setInverseMass(std::uint32_t particle, double inverseMass) override;
   [[nodiscard]] std::unique_ptr<ParticleCopy> copy(std::unique_ptr<ParticleCopy> reuse) override;
   [[nodiscard]] bool restore(const ParticleCopy& copy) override;
-  [[nodiscard]] std::optional<Trouble> findTrouble(std::uint64_t step, bool wait) override;
-  void forgetTrouble(std::uint64_t step) override;
+  [[nodiscard]] std::optional<Divergence> findDivergence(std::uint64_t step, bool wait) override;
+  void forgetDivergence(std::uint64_t step) override;
   [[nodiscard]] ContactCounts contactCounts() override { return selfCollision_.counts(); }
   void startTiming() override;
   [[nodiscard]] std::vector<PassTime> stopTiming() override;

@@ -4,7 +4,7 @@
 
 #include "core/exact_math.h"
 #include "solver/cpu/vector_clones.h"
-#include "solver/hand.h"
+#include "solver/grab.h"
 #include "solver/step_params.h"
 
 namespace clothsim::cpu {
@@ -20,7 +20,7 @@ INLINE Vec3<Real> springForce(Vec3<Real> a, Vec3<Real> b, Real stiffness, Real r
   return scale * d;
 }
 
-// What of the jet arrives at x, 0 to 1 (solver/hand.h).
+// What of the jet arrives at x, 0 to 1 (solver/grab.h).
 template <class Real>
 INLINE Real jetShare(const HandParams<Real>& hand, Vec3<Real> x) {
   const Vec3<Real> direction{hand.directionX, hand.directionY, hand.directionZ};

@@ -8,18 +8,18 @@
 namespace clothsim::cpu {
 namespace {
 
-// What a grab adds to a particle's diagonal and right-hand side (solver/hand.h).
+// What a grab adds to a particle's diagonal and right-hand side (solver/grab.h).
 template <class Real>
-void holdParticle(const ImplicitArguments<Real>& arguments, int row, std::ptrdiff_t i, Real mass) {
+void grabParticle(const ImplicitArguments<Real>& arguments, int row, std::ptrdiff_t i, Real mass) {
   const PassArguments<Real>& pass = arguments.step;
   const HandParams<Real>& hand = pass.hand;
   const bool isMesh = pass.step.isMesh != 0;  // whose block is a part of its one row
   const std::uint32_t column = static_cast<std::uint32_t>(
-      i - (isMesh ? static_cast<std::ptrdiff_t>(pass.step.firstParticle) : stretch(pass.step, row).begin));
+      i - (isMesh ? static_cast<std::ptrdiff_t>(pass.step.firstParticle) : rangeOf(pass.step, row).begin));
   const std::uint32_t blockRow = isMesh ? 0 : static_cast<std::uint32_t>(row) - hand.firstRow,
                       blockColumn = column - hand.firstColumn;
   if (blockRow >= hand.rows || blockColumn >= hand.columns) return;
-  const Hold::Point& point = pass.held[blockRow * hand.columns + blockColumn];
+  const GrabSpring::Point& point = pass.grabbed[blockRow * hand.columns + blockColumn];
   const Vec3<Real> goal = Vec3<Real>{hand.goalX, hand.goalY, hand.goalZ} + point.offset.cast<Real>();
   const Vec3<Real> towards = goal - at(pass.before.positions, i);
   Vec3<Real> displacement =
@@ -41,7 +41,7 @@ void begin(const ImplicitArguments<Real>& arguments, int row) {
   const PassArguments<Real>& pass = arguments.step;
   const StepParams<Real>& step = pass.step;
   ImplicitState<Real>& own = arguments.own;
-  const Stretch all = stretch(step, row);
+  const Range all = rangeOf(step, row);
   const Vec3<Real> gravity{step.gravityX, step.gravityY, step.gravityZ}, zero{};
   if (step.hasWind != 0) gatherWind(pass, row, own.air);
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
@@ -79,7 +79,7 @@ void begin(const ImplicitArguments<Real>& arguments, int row) {
     own.diagonal[static_cast<std::size_t>(i)] = stiffness;
     put(own.displacements, i, zero);
     put(own.iterate.positions, i, x);
-    if (pass.held != nullptr) holdParticle(arguments, row, i, mass);
+    if (pass.grabbed != nullptr) grabParticle(arguments, row, i, mass);
   }
 }
 
@@ -88,7 +88,7 @@ template <class Real>
 void initialGuess(const ImplicitArguments<Real>& arguments, int row) {
   const PassArguments<Real>& pass = arguments.step;
   const StepParams<Real>& step = pass.step;
-  const Stretch all = stretch(step, row);
+  const Range all = rangeOf(step, row);
   const Vec3<Real> gravity{step.gravityX, step.gravityY, step.gravityZ};
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
     const Real falls = 1 - pass.support[i];
@@ -116,7 +116,7 @@ void ImplicitState<Real>::resize(std::size_t particles, std::size_t vertices) {
   air.resize(particles);
   for (std::vector<Real>& trial : trials) trial.resize(particles);
   for (Components<Real>* c : {&residuals, &corrections}) c->resize(vertices);
-  for (SymmetricField<Real>* field : {&stretch, &inertia, &factors}) field->resize(vertices);
+  for (SymmetricField<Real>* field : {&stiffness, &inertia, &factors}) field->resize(vertices);
 }
 
 namespace {
@@ -157,7 +157,7 @@ INLINE Real supportOf(const StepParams<Real>& step, Vec3<Real> before, Vec3<Real
 template <class Real>
 void end(const ImplicitArguments<Real>& arguments, int row) {
   const PassArguments<Real>& pass = arguments.step;
-  const Stretch all = stretch(pass.step, row);
+  const Range all = rangeOf(pass.step, row);
   const bool contacts = hasContacts(arguments);
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
     const bool pinned = pass.inverseMasses[i] == Real(0);

@@ -4,7 +4,7 @@
 
 #include "solver/cpu/implicit_contact.h"
 #include "solver/cpu/implicit_laws.h"
-#include "solver/cpu/listed_implicit.h"
+#include "solver/cpu/mesh_implicit.h"
 #include "solver/cpu/rows.h"
 #include "solver/cpu/spring_rows.h"
 #include "solver/cpu/watch.h"
@@ -12,7 +12,7 @@
 namespace clothsim::cpu {
 namespace {
 
-template <bool torn, class Real>
+template <bool hasCuts, class Real>
 INLINE void addSpringTrials(const ImplicitArguments<Real>& arguments, int row) {
   const PassArguments<Real>& pass = arguments.step;
   ImplicitState<Real>& own = arguments.own;
@@ -21,9 +21,9 @@ INLINE void addSpringTrials(const ImplicitArguments<Real>& arguments, int row) {
                                                 own.trials[2].data(), own.trials[3].data()};
   const std::uint32_t* cutMasks = pass.cutMasks;
   const Real limitStiffness = pass.step.limitStiffness, limitFactor = pass.step.limitFactor;
-  forEachSpringStretch(
+  forEachSpringRange(
       pass, row,
-      [=](Stretch particles, SpringPlace place, const SpringParams<Real> spring, auto rest)
+      [=](Range particles, SpringPlace place, const SpringParams<Real> spring, auto rest)
           __attribute__((always_inline)) {
             if (!incidentSprings[place.bit].owned) return;
 #pragma GCC ivdep
@@ -31,12 +31,12 @@ INLINE void addSpringTrials(const ImplicitArguments<Real>& arguments, int row) {
               const Vec3<Real> d = at(x, i + place.other) - at(x, i),
                                e = at(increments, i + place.other) - at(increments, i);
               const Real limit = limitLength(rest, i, limitFactor, spring.limitLength);
-              const bool gone = isGone<torn>(cutMasks, i, place.bit);
+              const bool isCut = isCutAt<hasCuts>(cutMasks, i, place.bit);
 #pragma GCC unroll 4
               for (std::size_t k = 0; k < LENGTHS_TRIED; ++k) {
                 const Real change = springChange(d, e, lengthTried<Real>(k), spring.stiffness, rest[i],
                                                  limitStiffness, limit);
-                trials[k][i] = gone ? trials[k][i] : trials[k][i] + change;
+                trials[k][i] = isCut ? trials[k][i] : trials[k][i] + change;
               }
             }
           });
@@ -67,7 +67,7 @@ template <class Real>
 void addBendingTrials(const ImplicitArguments<Real>& arguments, int row) {
   const PassArguments<Real>& pass = arguments.step;
   const StepParams<Real>& step = pass.step;
-  const Stretch all = stretch(step, row);
+  const Range all = rangeOf(step, row);
   const bool borderRow = isBorder(row, step.rows);
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
     const std::uint32_t cut = pass.cutMasks != nullptr ? pass.cutMasks[i] : 0;
@@ -84,7 +84,7 @@ template <class Real>
 INLINE void tryLengthsRow(const ImplicitArguments<Real>& arguments, int row) {
   const PassArguments<Real>& pass = arguments.step;
   ImplicitState<Real>& own = arguments.own;
-  const Stretch all = stretch(pass.step, row);
+  const Range all = rangeOf(pass.step, row);
   const bool contacts = hasContacts(arguments);
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
     const Vec3<Real> e = at(own.increments, i), d = at(own.displacements, i);
@@ -104,25 +104,25 @@ INLINE void tryLengthsRow(const ImplicitArguments<Real>& arguments, int row) {
       own.trials[k].data()[i] = l * (first + l * second);
     }
   }
-  if (pass.step.isMesh != 0) return addListedTrials(arguments, row);
+  if (pass.step.isMesh != 0) return addMeshTrials(arguments, row);
   pass.cutMasks != nullptr ? addSpringTrials<true>(arguments, row) : addSpringTrials<false>(arguments, row);
   if (pass.step.hasMaterial != 0) addBendingTrials(arguments, row);
 }
 
 // The diagonal block and S and T of solver/implicit.h, from the springs.
-template <bool torn, class Real>
+template <bool hasCuts, class Real>
 INLINE void addSpringBlocks(const ImplicitArguments<Real>& arguments, int row) {
   const PassArguments<Real>& pass = arguments.step;
   ImplicitState<Real>& own = arguments.own;
   const Arrays<Real> x = arraysOf(own.iterate.positions);
-  const SymmetricArrays<Real> blocks = arraysOf(own.factors), stretches = arraysOf(own.stretch),
+  const SymmetricArrays<Real> blocks = arraysOf(own.factors), stiffnesses = arraysOf(own.stiffness),
                               inertias = arraysOf(own.inertia);
   const std::uint32_t* cutMasks = pass.cutMasks;
   const Real limitStiffness = pass.step.limitStiffness, limitFactor = pass.step.limitFactor;
   const Real* w = pass.inverseMasses;
-  forEachSpringStretch(
+  forEachSpringRange(
       pass, row,
-      [&](Stretch particles, SpringPlace place, const SpringParams<Real>& spring,
+      [&](Range particles, SpringPlace place, const SpringParams<Real>& spring,
           auto rest) __attribute__((always_inline)) {
         const IncidentSpring& incident = incidentSprings[place.bit];
         const Real weight =
@@ -134,11 +134,11 @@ INLINE void addSpringBlocks(const ImplicitArguments<Real>& arguments, int row) {
                                                    limitLength(rest, i, limitFactor, spring.limitLength));
           Symmetric<Real> k = outerProduct(along, d);
           k.diagonal = k.diagonal + Vec3<Real>{across, across, across};
-          const bool gone = isGone<torn>(cutMasks, i, place.bit);
-          const Real there = gone ? Real(0) : Real(1),
-                     toPin = gone || w[i + place.other] > Real(0) ? Real(0) : Real(1);
+          const bool isCut = isCutAt<hasCuts>(cutMasks, i, place.bit);
+          const Real there = isCut ? Real(0) : Real(1),
+                     toPin = isCut || w[i + place.other] > Real(0) ? Real(0) : Real(1);
           addTo(blocks, i, there * k);
-          addTo(stretches, i, (there * weight) * k);
+          addTo(stiffnesses, i, (there * weight) * k);
           addTo(inertias, i, toPin * k);
         }
       });
@@ -165,7 +165,7 @@ template <class Real>
 void addBendingBlocks(const ImplicitArguments<Real>& arguments, int row) {
   const PassArguments<Real>& pass = arguments.step;
   const StepParams<Real>& step = pass.step;
-  const Stretch all = stretch(step, row);
+  const Range all = rangeOf(step, row);
   const bool borderRow = isBorder(row, step.rows);
   const auto columns = static_cast<std::ptrdiff_t>(step.columns),
              rows = static_cast<std::ptrdiff_t>(step.rows);
@@ -186,7 +186,7 @@ template <class Real>
 INLINE void linearizeRow(const ImplicitArguments<Real>& arguments, int row) {
   const PassArguments<Real>& pass = arguments.step;
   ImplicitState<Real>& own = arguments.own;
-  const Stretch all = stretch(pass.step, row);
+  const Range all = rangeOf(pass.step, row);
   const bool wind = pass.step.hasWind != 0, contacts = hasContacts(arguments);
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
     const Real a = own.diagonal.data()[i];
@@ -195,10 +195,10 @@ INLINE void linearizeRow(const ImplicitArguments<Real>& arguments, int row) {
     if (contacts) block = block + outerProduct(contactStiffness(arguments, i), at(own.planes.normals, i));
     put(own.factors, i, block);
     put(own.inertia, i, block);
-    put(own.stretch, i, Symmetric<Real>{});
+    put(own.stiffness, i, Symmetric<Real>{});
   }
   if (pass.step.isMesh != 0) {
-    addListedBlocks(arguments, row);
+    addMeshBlocks(arguments, row);
   } else {
     pass.cutMasks != nullptr ? addSpringBlocks<true>(arguments, row) : addSpringBlocks<false>(arguments, row);
     if (pass.step.hasMaterial != 0) addBendingBlocks(arguments, row);
@@ -215,13 +215,13 @@ INLINE void linearizeRow(const ImplicitArguments<Real>& arguments, int row) {
     const Factors<Real> factors = factorize(at(own.factors, i));
     put(own.factors, i, {selected(pinned, zero, factors.inverse), selected(pinned, zero, factors.lower)});
     if (!pinned) continue;
-    put(own.stretch, i, Symmetric<Real>{});
+    put(own.stiffness, i, Symmetric<Real>{});
     put(own.inertia, i, Symmetric<Real>{});
   }
 }
 
 // What the springs do to the directions, as forces: minus the product.
-template <bool torn, class Real>
+template <bool hasCuts, class Real>
 INLINE void addSpringProducts(const ImplicitArguments<Real>& arguments, int row) {
   const PassArguments<Real>& pass = arguments.step;
   ImplicitState<Real>& own = arguments.own;
@@ -229,9 +229,9 @@ INLINE void addSpringProducts(const ImplicitArguments<Real>& arguments, int row)
                      products = arraysOf(own.products);
   const std::uint32_t* cutMasks = pass.cutMasks;
   const Real limitStiffness = pass.step.limitStiffness, limitFactor = pass.step.limitFactor;
-  forEachSpringStretch(
+  forEachSpringRange(
       pass, row,
-      [=](Stretch particles, SpringPlace place, const SpringParams<Real> spring, auto rest)
+      [=](Range particles, SpringPlace place, const SpringParams<Real> spring, auto rest)
           __attribute__((always_inline)) {
 #pragma GCC ivdep
             for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
@@ -240,7 +240,7 @@ INLINE void addSpringProducts(const ImplicitArguments<Real>& arguments, int row)
                                                        limitLength(rest, i, limitFactor, spring.limitLength));
               const Vec3<Real> f = across * e + (along * dot(d, e)) * d;
               const Vec3<Real> before = at(products, i);
-              put(products, i, selected(isGone<torn>(cutMasks, i, place.bit), before, before + f));
+              put(products, i, selected(isCutAt<hasCuts>(cutMasks, i, place.bit), before, before + f));
             }
           });
 }
@@ -249,14 +249,14 @@ template <class Real>
 INLINE void multiplyRow(const ImplicitArguments<Real>& arguments, int row) {
   const PassArguments<Real>& pass = arguments.step;
   ImplicitState<Real>& own = arguments.own;
-  const Stretch all = stretch(pass.step, row);
+  const Range all = rangeOf(pass.step, row);
   const Vec3<Real> zero{};
   const Arrays<Real> products = arraysOf(own.products), directions = arraysOf(own.directions.positions);
   const SymmetricArrays<Real> air = arraysOf(own.air);
   const Real *stiffness = own.diagonal.data(), *w = pass.inverseMasses;
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i) put(products, i, zero);
   if (pass.step.isMesh != 0) {
-    addListedProducts(arguments, row);
+    addMeshProducts(arguments, row);
   } else {
     pass.cutMasks != nullptr ? addSpringProducts<true>(arguments, row)
                              : addSpringProducts<false>(arguments, row);
@@ -291,7 +291,7 @@ INLINE void multiplyRow(const ImplicitArguments<Real>& arguments, int row) {
 template <class Real>
 INLINE void updateDirectionRow(const ImplicitArguments<Real>& arguments, int row) {
   ImplicitState<Real>& own = arguments.own;
-  const Stretch all = stretch(arguments.step.step, row);
+  const Range all = rangeOf(arguments.step.step, row);
   const Arrays<Real> directions = arraysOf(own.directions.positions), corrections = arraysOf(own.corrections);
   const Real kept = own.scalars.kept;
 #pragma GCC ivdep
@@ -302,7 +302,7 @@ INLINE void updateDirectionRow(const ImplicitArguments<Real>& arguments, int row
 template <class Real>
 INLINE void updateSolutionRow(const ImplicitArguments<Real>& arguments, int row) {
   ImplicitState<Real>& own = arguments.own;
-  const Stretch all = stretch(arguments.step.step, row);
+  const Range all = rangeOf(arguments.step.step, row);
   const Arrays<Real> directions = arraysOf(own.directions.positions), products = arraysOf(own.products),
                      increments = arraysOf(own.increments), residuals = arraysOf(own.residuals);
   const Real stepSize = own.scalars.stepSize;
@@ -316,7 +316,7 @@ INLINE void updateSolutionRow(const ImplicitArguments<Real>& arguments, int row)
 template <class Real>
 INLINE void acceptRow(const ImplicitArguments<Real>& arguments, int row) {
   ImplicitState<Real>& own = arguments.own;
-  const Stretch all = stretch(arguments.step.step, row);
+  const Range all = rangeOf(arguments.step.step, row);
   const Real length = own.scalars.newtonLength;
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
     const Vec3<Real> displacement = canonical(at(own.displacements, i) + length * at(own.increments, i));

@@ -25,7 +25,7 @@ struct ImplicitState {
   CpuState<Real> iterate;          // x + d; no velocities
   Components<Real> residuals;      // * r
   Components<Real> corrections;    // * z
-  SymmetricField<Real> stretch;    // * S of solver/implicit.h,
+  SymmetricField<Real> stiffness;  // * S of solver/implicit.h,
   SymmetricField<Real> inertia;    // * T,
   SymmetricField<Real> factors;    // * L D L^T of diagonal blocks: 1/d1 1/d2 1/d3 and l21 l31 l32
   CpuState<Real> directions;       // p; no velocities

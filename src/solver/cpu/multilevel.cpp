@@ -83,12 +83,12 @@ void coarsenBlocks(const LevelParams<Real>& level, ImplicitState<Real>& own, int
       return gatherFine<Real, Symmetric<Real>>(level, own, row, column,
                                                [&](std::ptrdiff_t i) { return at(field, i); });
     };
-    const Symmetric<Real> stretch = sumOf(own.stretch), inertia = sumOf(own.inertia);
+    const Symmetric<Real> stiffness = sumOf(own.stiffness), inertia = sumOf(own.inertia);
     const auto vertex = static_cast<std::ptrdiff_t>(
         level.coarseFirst + static_cast<std::uint32_t>(coarseRow) * level.coarseColumns + column);
-    put(own.stretch, vertex, stretch);
+    put(own.stiffness, vertex, stiffness);
     put(own.inertia, vertex, inertia);
-    Symmetric<Real> block = level.stretchFactor * stretch + level.inertiaFactor * inertia;
+    Symmetric<Real> block = level.stiffnessFactor * stiffness + level.inertiaFactor * inertia;
     block.diagonal = block.diagonal + Vec3<Real>{level.bending, level.bending, level.bending};
     const Factors<Real> factors = factorize(block);
     put(own.factors, vertex, {factors.inverse, factors.lower});

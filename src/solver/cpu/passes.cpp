@@ -13,7 +13,7 @@ namespace {
 // One component of x' = x + h v', v' = (1 - damping) v + h (g + w f); pinned particles rest, unless
 // movePinsOf() follows.
 template <class Real>
-INLINE void integrateComponent(const StepParams<Real>& step, Stretch particles, Real gravity,
+INLINE void integrateComponent(const StepParams<Real>& step, Range particles, Real gravity,
                                const Real* inverseMass, const Real* force, const Real* position,
                                const Real* velocity, Real* newPosition, Real* newVelocity) {
   const Real timeStep = step.timeStep, velocityKept = step.velocityKept;
@@ -28,14 +28,14 @@ INLINE void integrateComponent(const StepParams<Real>& step, Stretch particles, 
   }
 }
 
-// What a hand does to the particles of the row that it holds, after integrateComponent() (solver/hand.h).
+// What a hand does to the particles of the row that it holds, after integrateComponent() (solver/grab.h).
 template <class Real>
-void pullHeld(const PassArguments<Real>& arguments, int row) {
+void pullGrabbed(const PassArguments<Real>& arguments, int row) {
   const HandParams<Real>& hand = arguments.hand;
   const bool isMesh = arguments.step.isMesh != 0;  // whose block is a part of its one row
   const std::uint32_t blockRow = isMesh ? 0 : static_cast<std::uint32_t>(row) - hand.firstRow;
   if (blockRow >= hand.rows) return;
-  const Stretch particles = stretch(arguments.step, row);
+  const Range particles = rangeOf(arguments.step, row);
   const std::ptrdiff_t first =
       (isMesh ? static_cast<std::ptrdiff_t>(arguments.step.firstParticle) : particles.begin) +
       hand.firstColumn;
@@ -45,7 +45,7 @@ void pullHeld(const PassArguments<Real>& arguments, int row) {
     const std::ptrdiff_t i = first + k;
     if (i < particles.begin || i >= particles.end) continue;
     if (arguments.inverseMasses[i] == Real(0)) continue;
-    const Hold::Point& point = arguments.held[blockRow * hand.columns + k];
+    const GrabSpring::Point& point = arguments.grabbed[blockRow * hand.columns + k];
     const Vec3<Real> own{v.x[i], v.y[i], v.z[i]}, x{old.x[i], old.y[i], old.z[i]};
     const Vec3<Real> goal = Vec3<Real>{hand.goalX, hand.goalY, hand.goalZ} + point.offset.cast<Real>();
     const Vec3<Real> towards = goal - x;
@@ -68,7 +68,7 @@ void pullHeld(const PassArguments<Real>& arguments, int row) {
 // Where their paths take the pins from their start positions (solver/pin_paths.h), at the velocity that leads
 // there.
 template <class Real>
-void movePinsOf(const PassArguments<Real>& arguments, Stretch particles) {
+void movePinsOf(const PassArguments<Real>& arguments, Range particles) {
   const Components<Real>&s = arguments.pinStarts, &old = arguments.before.positions;
   Components<Real>&p = arguments.after.positions, &v = arguments.after.velocities;
   for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
@@ -96,7 +96,7 @@ void movePinsOf(const PassArguments<Real>& arguments, Stretch particles) {
 template <class Real>
 INLINE void integrateRow(const PassArguments<Real>& arguments, int row) {
   const StepParams<Real>& step = arguments.step;
-  const Stretch particles = stretch(step, row);
+  const Range particles = rangeOf(step, row);
   const auto& [before, after, f] = std::tie(arguments.before, arguments.after, arguments.forces);
   integrateComponent(step, particles, step.gravityX, arguments.inverseMasses, f.x.data(),
                      before.positions.x.data(), before.velocities.x.data(), after.positions.x.data(),
@@ -107,13 +107,13 @@ INLINE void integrateRow(const PassArguments<Real>& arguments, int row) {
   integrateComponent(step, particles, step.gravityZ, arguments.inverseMasses, f.z.data(),
                      before.positions.z.data(), before.velocities.z.data(), after.positions.z.data(),
                      after.velocities.z.data());
-  if (arguments.held != nullptr) pullHeld(arguments, row);
+  if (arguments.grabbed != nullptr) pullGrabbed(arguments, row);
   if (arguments.pinPathNumbers != nullptr) movePinsOf(arguments, particles);
   watchVelocities(arguments, PASS_INTEGRATE, row);
 }
 
 template <class Real>
-INLINE void kickComponent(const StepParams<Real>& step, Stretch particles, Real gravity,
+INLINE void kickComponent(const StepParams<Real>& step, Range particles, Real gravity,
                           const Real* inverseMass, const Real* force, const Real* velocity,
                           Real* newVelocity) {
   for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
@@ -161,7 +161,7 @@ INLINE void limitSpring(const PassArguments<Real>& arguments, std::ptrdiff_t a, 
 
 // Of a mesh: the springs of the colour from number `first` on, MESH_ROW of them.
 template <class Real>
-void limitListed(const PassArguments<Real>& arguments, const LimitColor& color, std::uint32_t first) {
+void limitMesh(const PassArguments<Real>& arguments, const LimitColor& color, std::uint32_t first) {
   const std::uint32_t end = std::min(color.endColumn, first + MESH_ROW);
   for (std::uint32_t n = first; n < end; ++n) {
     const auto& spring = arguments.lists.limited[n];
@@ -173,11 +173,11 @@ void limitListed(const PassArguments<Real>& arguments, const LimitColor& color, 
 template <class Real>
 void checkStartRow(const PassArguments<Real>& arguments, int row) {
   const Components<Real>&p = arguments.before.positions, &v = arguments.before.velocities;
-  const Stretch particles = stretch(arguments.step, row);
+  const Range particles = rangeOf(arguments.step, row);
   for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
     const bool sound = finite(p.x[i]) && finite(p.y[i]) && finite(p.z[i]) && finite(v.x[i]) &&
                        finite(v.y[i]) && finite(v.z[i]) && finite(arguments.inverseMasses[i]);
-    if (!sound) noteTrouble(arguments.watch, PASS_START, i, REASON_NON_FINITE);
+    if (!sound) noteDivergence(arguments.watch, PASS_START, i, REASON_NON_FINITE);
   }
 }
 
@@ -192,7 +192,7 @@ void integrate(const PassArguments<double>& arguments, int row) { integrateRow(a
 template <class Real>
 void kick(const PassArguments<Real>& arguments, int row) {
   const StepParams<Real>& step = arguments.step;
-  const Stretch particles = stretch(step, row);
+  const Range particles = rangeOf(step, row);
   const auto& [before, after, f] = std::tie(arguments.before, arguments.after, arguments.forces);
   kickComponent(step, particles, step.gravityX, arguments.inverseMasses, f.x.data(),
                 before.velocities.x.data(), after.velocities.x.data());
@@ -206,7 +206,7 @@ void kick(const PassArguments<Real>& arguments, int row) {
 template <class Real>
 void limitStrain(const PassArguments<Real>& arguments, const LimitColor& color, std::uint32_t j) {
   const StepParams<Real>& step = arguments.step;
-  if (step.isMesh != 0) return limitListed(arguments, color, color.firstColumn + j * MESH_ROW);
+  if (step.isMesh != 0) return limitMesh(arguments, color, color.firstColumn + j * MESH_ROW);
   const SpringOffset& offset = springOffsets[color.slot];
   const std::ptrdiff_t other = indexOffset(step, offset.columns, offset.rows);
   const std::uint32_t row = color.firstRow + color.rowStep * (j / color.rowRun) + j % color.rowRun;
@@ -218,7 +218,7 @@ void limitStrain(const PassArguments<Real>& arguments, const LimitColor& color, 
         color.firstColumn + color.columnStep * (i / color.columnRun) + i % color.columnRun;
     const std::ptrdiff_t owner =
         static_cast<std::ptrdiff_t>(step.firstParticle) + row * step.columns + column;
-    if (arguments.cutMasks != nullptr && isGone<true>(arguments.cutMasks, owner, color.slot)) continue;
+    if (arguments.cutMasks != nullptr && isCutAt<true>(arguments.cutMasks, owner, color.slot)) continue;
     const Real limit =
         step.useRestLengthTable != 0 ? step.limitFactor * rest[owner] : step.springs[color.slot].limitLength;
     limitSpring(arguments, owner, owner + other, limit);
@@ -239,7 +239,7 @@ void watchLimit(const PassArguments<double>& arguments, int row) {
 
 template <class Real>
 void movePins(const PassArguments<Real>& arguments, int row) {
-  if (arguments.pinPathNumbers != nullptr) movePinsOf(arguments, stretch(arguments.step, row));
+  if (arguments.pinPathNumbers != nullptr) movePinsOf(arguments, rangeOf(arguments.step, row));
 }
 
 template void movePins(const PassArguments<float>&, int);

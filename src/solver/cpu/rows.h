@@ -19,14 +19,14 @@ inline constexpr int MESH_ROW = 256;
 }
 
 // A stretch of particles [begin, end) of one row, as indices into the arrays.
-struct Stretch {
+struct Range {
   std::ptrdiff_t begin, end;
 };
 
 // Those particles of the row whose neighbours from `firstOffset` to `lastOffset` columns away are on the
 // grid.
 template <class Real>
-Stretch stretch(const StepParams<Real>& step, int row, int firstOffset = 0, int lastOffset = 0) {
+Range rangeOf(const StepParams<Real>& step, int row, int firstOffset = 0, int lastOffset = 0) {
   const auto columns = static_cast<std::ptrdiff_t>(step.columns);
   if (step.isMesh != 0) {  // one long row, in stretches of MESH_ROW particles
     const auto first = static_cast<std::ptrdiff_t>(step.firstParticle);
@@ -53,10 +53,10 @@ INLINE Vec3<Real> load(const Real* x, const Real* y, const Real* z, std::ptrdiff
 }
 
 // Whether a cut mask (cloth/cuts.h) says that this spring or triangle is gone; without cuts none is.
-template <bool torn>
-INLINE bool isGone([[maybe_unused]] const std::uint32_t* cutMasks, [[maybe_unused]] std::ptrdiff_t i,
-                   [[maybe_unused]] std::uint32_t bit) {
-  if constexpr (torn) return (cutMasks[i] >> bit & 1u) != 0;
+template <bool hasCuts>
+INLINE bool isCutAt([[maybe_unused]] const std::uint32_t* cutMasks, [[maybe_unused]] std::ptrdiff_t i,
+                    [[maybe_unused]] std::uint32_t bit) {
+  if constexpr (hasCuts) return (cutMasks[i] >> bit & 1u) != 0;
   return false;
 }
 

@@ -140,7 +140,7 @@ void SelfCollision<Real>::setCutMasks(std::vector<std::uint32_t> masks) {
 
 // Pairs that are all but one at rest are left alone.
 template <class Real>
-std::uint32_t SelfCollision<Real>::encodeListed(std::uint32_t i, std::uint32_t j) const {
+std::uint32_t SelfCollision<Real>::encodeOnMesh(std::uint32_t i, std::uint32_t j) const {
   const Vec3<Real> d = places_[i] - places_[j];
   const Real lengthSquared = dot(d, d);
   const Real inverseLength = inverseSquareRoot(lengthSquared);
@@ -155,7 +155,7 @@ template <class Real>
 std::uint32_t SelfCollision<Real>::encode(const Block& block, std::uint32_t i, std::uint32_t j) const {
   const Grid& grid = cloth_->grids()[block.grid];
   if (j - grid.firstParticle >= grid.particleCount()) return j;
-  if (grid.isMesh) return encodeListed(i, j);
+  if (grid.isMesh) return encodeOnMesh(i, j);
   const int a = static_cast<int>(i - grid.firstParticle), b = static_cast<int>(j - grid.firstParticle);
   const int columns = b % grid.columns - a % grid.columns, rows = b / grid.columns - a / grid.columns;
   const auto across = static_cast<std::uint32_t>(std::abs(columns)),
@@ -294,7 +294,7 @@ void SelfCollision<Real>::checkMotion(const CpuState<Real>& before, const CpuSta
     if (found) any = true;
   });
   needsClamp_ = any;
-  if (any) ++counts_.guardedSteps;
+  if (any) ++counts_.clampedSteps;
 }
 
 template <class Real>

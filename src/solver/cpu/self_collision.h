@@ -45,14 +45,14 @@ class SelfCollision {
   [[nodiscard]] bool usesNearCodes() const { return hasNearCodes_ || !cutMasks_.empty(); }
   // The candidate (shared/self_collision.h), or EXCLUDED for a pair that is left to its springs.
   [[nodiscard]] std::uint32_t encode(const Block& block, std::uint32_t i, std::uint32_t j) const;
-  [[nodiscard]] std::uint32_t encodeListed(std::uint32_t i, std::uint32_t j) const;  // of one mesh
+  [[nodiscard]] std::uint32_t encodeOnMesh(std::uint32_t i, std::uint32_t j) const;  // of one mesh
   void checkHash(const CpuState<Real>& before, const CpuState<Real>& after);
   void buildHash(const Components<Real>& positions);
   void findCandidates();
   // Pushes particles apart that are too near.
   void resolveContacts(const CpuState<Real>& before, CpuState<Real>& after,
                        const std::vector<Real>& inverseMasses);
-  // Whether some pair of strangers has come nearer than D: needsClamp_.
+  // Whether some pair of non-adjacent particles has come nearer than D: needsClamp_.
   void checkMotion(const CpuState<Real>& before, const CpuState<Real>& after,
                    const std::vector<Real>& inverseMasses);
   // Shortens all motion of the step by pairs until none has. Each of two may go half of the way that is left

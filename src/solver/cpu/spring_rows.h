@@ -34,8 +34,8 @@ INLINE Real limitLength(const Real* rest, std::ptrdiff_t i, Real limitFactor, Re
 INLINE bool isBorder(std::int64_t place, std::uint32_t count) { return place == 0 || place + 1 == count; }
 
 template <class Real, class Visit>
-INLINE void visitStretch(const PassArguments<Real>& arguments, Stretch particles, std::uint32_t k,
-                         Real stiffness, Visit visit) {
+INLINE void visitRange(const PassArguments<Real>& arguments, Range particles, std::uint32_t k, Real stiffness,
+                       Visit visit) {
   const StepParams<Real>& step = arguments.step;
   const IncidentSpring& incident = incidentSprings[k];
   const SpringPlace place{k, indexOffset(step, incident.columns, incident.rows)};
@@ -54,25 +54,25 @@ INLINE void visitStretch(const PassArguments<Real>& arguments, Stretch particles
 // has the stiffness of all in the stretch, `rest[i]` is the rest length of particle i's. A material's springs
 // along a border count half: the whole row, or its first and last particle.
 template <class Real, class Visit>
-INLINE void forEachSpringStretch(const PassArguments<Real>& arguments, int row, Visit visit) {
+INLINE void forEachSpringRange(const PassArguments<Real>& arguments, int row, Visit visit) {
   const StepParams<Real>& step = arguments.step;
   for (std::uint32_t k = 0; k < incidentSprings.size(); ++k) {
     const IncidentSpring& incident = incidentSprings[k];
     const int otherRow = row + incident.rows;
     const bool enabled = (step.enabledSlots >> incident.slot & 1u) != 0;
     if (!enabled || otherRow < 0 || otherRow >= static_cast<int>(step.rows)) continue;
-    const Stretch particles = stretch(step, row, incident.columns, incident.columns);
+    const Range particles = rangeOf(step, row, incident.columns, incident.columns);
     const Real inside = step.springs[incident.slot].stiffness, halved = Real(0.5) * inside;
     if (step.hasMaterial == 0) {
-      visitStretch(arguments, particles, k, inside, visit);
+      visitRange(arguments, particles, k, inside, visit);
     } else if (incident.slot != toUpper) {
       const bool onBorder = incident.slot == toLeft && isBorder(row, step.rows);
-      visitStretch(arguments, particles, k, onBorder ? halved : inside, visit);
+      visitRange(arguments, particles, k, onBorder ? halved : inside, visit);
     } else {
       const std::ptrdiff_t last = std::max(particles.begin + 1, particles.end - 1);
-      visitStretch(arguments, {particles.begin, particles.begin + 1}, k, halved, visit);
-      visitStretch(arguments, {particles.begin + 1, last}, k, inside, visit);
-      visitStretch(arguments, {last, particles.end}, k, halved, visit);
+      visitRange(arguments, {particles.begin, particles.begin + 1}, k, halved, visit);
+      visitRange(arguments, {particles.begin + 1, last}, k, inside, visit);
+      visitRange(arguments, {last, particles.end}, k, halved, visit);
     }
   }
 }

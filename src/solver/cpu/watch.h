@@ -1,5 +1,5 @@
-// The watchdog (solver/trouble.h) in the passes of the CPU backend. Loops along a row only gather the largest
-// bits of a sum of squares; which particle it was is looked up once something is wrong.
+// The watchdog (solver/divergence.h) in the passes of the CPU backend. Loops along a row only gather the
+// largest bits of a sum of squares; which particle it was is looked up once something is wrong.
 #pragma once
 
 #include <atomic>
@@ -11,7 +11,8 @@
 
 namespace clothsim::cpu {
 
-inline void noteTrouble(WatchRow& watch, std::uint32_t pass, std::ptrdiff_t particle, std::uint32_t reason) {
+inline void noteDivergence(WatchRow& watch, std::uint32_t pass, std::ptrdiff_t particle,
+                           std::uint32_t reason) {
   const std::uint32_t code = static_cast<std::uint32_t>(particle) * 4 + reason;
   const std::atomic_ref<std::uint32_t> entry(watch[pass]);
   std::uint32_t before = entry.load(std::memory_order_relaxed);
@@ -35,7 +36,7 @@ template <class Real>
   const Real speedSquared =
       dot(load(v.x.data(), v.y.data(), v.z.data(), i), load(v.x.data(), v.y.data(), v.z.data(), i));
   if (isBeyond(speedSquared, arguments.step.maxSpeedSquared))
-    noteTrouble(arguments.watch, pass, i, finite(speedSquared) ? REASON_RUNAWAY_SPEED : REASON_NON_FINITE);
+    noteDivergence(arguments.watch, pass, i, finite(speedSquared) ? REASON_RUNAWAY_SPEED : REASON_NON_FINITE);
 }
 
 // For what a pass stored as velocities of a row. They answer for the positions, too: those move along, by h v
@@ -44,7 +45,7 @@ template <class Real>
 INLINE void watchVelocities(const PassArguments<Real>& arguments, std::uint32_t pass, int row) {
   const Components<Real>& v = arguments.after.velocities;
   const Real *vx = v.x.data(), *vy = v.y.data(), *vz = v.z.data();
-  const Stretch particles = stretch(arguments.step, row);
+  const Range particles = rangeOf(arguments.step, row);
   auto largest = bitsOf(Real(0));
 #pragma GCC ivdep
   for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {

@@ -8,8 +8,8 @@
 namespace clothsim {
 namespace {
 
-// How many steps the watchdog remembers one by one. Who takes more without asking for trouble has it looked
-// for once in so many.
+// How many steps the watchdog remembers one by one. Who takes more without asking for divergence has it
+// looked for once in so many.
 constexpr std::uint64_t WATCHED_STEPS = 1024;
 
 std::uint32_t ownersAcross(const LimitColor& color) {
@@ -287,31 +287,31 @@ bool GpuExecutor::restore(const ParticleCopy& copy) {
   return true;
 }
 
-// The row of the step after `step` others. What comes after trouble is of no interest and shares the last
+// The row of the step after `step` others. What comes after divergence is of no interest and shares the last
 // row.
 void GpuExecutor::bindWatch(std::uint64_t step) {
-  if (step - watchBase_ >= WATCHED_STEPS) (void)findTrouble(step + 1, true);
+  if (step - watchBase_ >= WATCHED_STEPS) (void)findDivergence(step + 1, true);
   watch_.bindStorageRange(WATCH_BINDING, std::min(step - watchBase_, WATCHED_STEPS - 1), 1);
 }
 
-void GpuExecutor::forgetTrouble(std::uint64_t step) {
-  static constexpr GLuint sound = NO_TROUBLE;
+void GpuExecutor::forgetDivergence(std::uint64_t step) {
+  static constexpr GLuint sound = NO_DIVERGENCE;
   glClearNamedBufferData(watch_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &sound);
   watchBase_ = step;
-  trouble_.reset();
-  selfCollision_.forgetTrouble();
+  divergence_.reset();
+  selfCollision_.forgetDivergence();
 }
 
-std::optional<Trouble> GpuExecutor::findTrouble(std::uint64_t step, bool wait) {
-  if (trouble_ || !wait) return trouble_;
+std::optional<Divergence> GpuExecutor::findDivergence(std::uint64_t step, bool wait) {
+  if (divergence_ || !wait) return divergence_;
   gl::checkContext();
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   const std::uint64_t rows = std::min(step - watchBase_, WATCHED_STEPS);
   const std::vector<WatchSlot> slots = watch_.download(0, rows);
-  for (std::uint64_t i = 0; i < rows && !trouble_; ++i)
-    trouble_ = firstTrouble(slots[i].row, watchBase_ + i + 1);
-  if (!trouble_) watchBase_ = step - 1;  // nothing was written: the rows serve again
-  return trouble_;
+  for (std::uint64_t i = 0; i < rows && !divergence_; ++i)
+    divergence_ = firstDivergence(slots[i].row, watchBase_ + i + 1);
+  if (!divergence_) watchBase_ = step - 1;  // nothing was written: the rows serve again
+  return divergence_;
 }
 
 void GpuExecutor::startTiming() { runner_.startTiming(); }

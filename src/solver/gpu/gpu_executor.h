@@ -44,8 +44,8 @@ class GpuExecutor final : public Executor {
   void setInverseMass(std::uint32_t particle, double inverseMass) override;
   [[nodiscard]] std::unique_ptr<ParticleCopy> copy(std::unique_ptr<ParticleCopy> reuse) override;
   [[nodiscard]] bool restore(const ParticleCopy& copy) override;
-  [[nodiscard]] std::optional<Trouble> findTrouble(std::uint64_t step, bool wait) override;
-  void forgetTrouble(std::uint64_t step) override;
+  [[nodiscard]] std::optional<Divergence> findDivergence(std::uint64_t step, bool wait) override;
+  void forgetDivergence(std::uint64_t step) override;
   [[nodiscard]] ContactCounts contactCounts() override { return selfCollision_.counts(); }
   void startTiming() override;
   [[nodiscard]] std::vector<PassTime> stopTiming() override;
@@ -100,9 +100,9 @@ class GpuExecutor final : public Executor {
   GpuSelfCollision selfCollision_;
   PassRunner runner_;
 
-  gl::Buffer<WatchSlot> watch_;     // a row a step since watchBase_
-  std::uint64_t watchBase_ = 0;     // the step whose row is the first one; steps before it were sound
-  std::optional<Trouble> trouble_;  // as far as it was looked for
+  gl::Buffer<WatchSlot> watch_;           // a row a step since watchBase_
+  std::uint64_t watchBase_ = 0;           // the step whose row is the first one; steps before it were sound
+  std::optional<Divergence> divergence_;  // as far as it was looked for
 };
 
 }  // namespace clothsim

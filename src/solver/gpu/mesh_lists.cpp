@@ -41,10 +41,10 @@ GpuMeshLists::GpuMeshLists(const Cloth& cloth) : any_(cloth.hasMesh()) {
 void GpuMeshLists::bind() const {
   if (!any_) return;
   starts_.texture.bind(LIST_STARTS_UNIT);
-  springs_.texture.bind(LISTED_SPRINGS_UNIT);
-  numbersTexture_.bind(LISTED_NUMBERS_UNIT);
+  springs_.texture.bind(MESH_SPRINGS_UNIT);
+  numbersTexture_.bind(MESH_NUMBERS_UNIT);
   hinges_.texture.bind(HINGES_UNIT);
-  triangles_.texture.bind(LISTED_TRIANGLES_UNIT);
+  triangles_.texture.bind(MESH_TRIANGLES_UNIT);
   limited_.texture.bind(LIMITED_SPRINGS_UNIT);
   placesTexture_.bind(REST_PLACES_UNIT);
 }

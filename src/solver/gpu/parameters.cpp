@@ -22,7 +22,7 @@ bool reserve(gl::Buffer<Element>& buffer, std::vector<Element>& staged, const ch
 
 void GpuParameters::prepare(const StepInputs& inputs) {
   const Hand& hand = inputs.hand;
-  holds_ = hand.hold.has_value();
+  holds_ = hand.grab.has_value();
   grabs_ = holds_ || hand.jet.has_value();
   changes_ = grabs_ || dependsOnTime(*inputs.scene);
   grids_ = inputs.cloth->grids().size();
@@ -53,10 +53,11 @@ void GpuParameters::preparePins(const PinPaths& paths, const Cloth& cloth, std::
 
 void GpuParameters::prepareHand(const Hand& hand, std::size_t batch) {
   reserve(hands_, stagedHands_, "hand parameters", batch);
-  if (!hand.hold || hand.hold->points == heldPoints_) return;
-  heldPoints_ = hand.hold->points;
-  held_ = gl::Buffer<Hold::Point>("held points", std::span<const Hold::Point>(*heldPoints_));
-  heldTexture_ = gl::BufferTexture("held points", held_.name(), GL_RGBA32F);
+  if (!hand.grab || hand.grab->points == grabbedPoints_) return;
+  grabbedPoints_ = hand.grab->points;
+  grabbed_ =
+      gl::Buffer<GrabSpring::Point>("held points", std::span<const GrabSpring::Point>(*grabbedPoints_));
+  grabbedTexture_ = gl::BufferTexture("held points", grabbed_.name(), GL_RGBA32F);
 }
 
 bool GpuParameters::hasStep(const StepClock& clock) const {
@@ -97,7 +98,7 @@ void GpuParameters::bind(const StepInputs& inputs, int steps) {
   pinStartTexture_.bind(PIN_STARTS_UNIT);
   pinMotionTexture_.bind(PIN_MOTIONS_UNIT);
   if (grabs_) hands_.bindUniformRange(HAND_PARAMS_BINDING, step_, 1);
-  if (holds_) heldTexture_.bind(HELD_UNIT);
+  if (holds_) grabbedTexture_.bind(GRABBED_UNIT);
 }
 
 void GpuParameters::bindGrid(std::size_t grid) const {

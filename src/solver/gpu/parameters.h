@@ -55,9 +55,9 @@ class GpuParameters {
   gl::Buffer<Particle4> pinStarts_;  // xyz and the number of the path + 1; one unused element without paths
   gl::BufferTexture pinStartTexture_;
   std::vector<std::uint32_t> pinNumbers_;
-  std::shared_ptr<const std::vector<Hold::Point>> heldPoints_;
-  gl::Buffer<Hold::Point> held_;
-  gl::BufferTexture heldTexture_;
+  std::shared_ptr<const std::vector<GrabSpring::Point>> grabbedPoints_;
+  gl::Buffer<GrabSpring::Point> grabbed_;
+  gl::BufferTexture grabbedTexture_;
 };
 
 }  // namespace clothsim

@@ -14,7 +14,7 @@ PassFeatures featuresOf(const Scene& scene, const Cloth& cloth, std::size_t grid
   PassFeatures features;
   features.wind = scene.wind.has_value() || hand.jet.has_value();
   features.jet = hand.jet.has_value();
-  features.hold = hand.hold && hand.hold->grid == gridIndex;
+  features.grab = hand.grab && hand.grab->grid == gridIndex;
   features.cuts = !cuts.empty();
   features.particleForces = particleForcesOf(scene);
   for (const Collider& collider : scene.colliders) {
@@ -46,7 +46,7 @@ PassFeatures restricted(const PassFeatures& all, Features to) {
   take(Feature::wind, &PassFeatures::wind);
   take(Feature::particleForces, &PassFeatures::particleForces);
   take(Feature::jets, &PassFeatures::jet);
-  take(Feature::grabs, &PassFeatures::hold);
+  take(Feature::grabs, &PassFeatures::grab);
   take(Feature::cuts, &PassFeatures::cuts);
   take(Feature::movingPins, &PassFeatures::movingPins);
   take(Feature::colliders, &PassFeatures::colliderTypes, &PassFeatures::movingColliders,
@@ -69,7 +69,7 @@ gl::Defines definesFor(const PassFeatures& features) {
           {"HAS_MESH", std::to_string(features.mesh)},
           {"HAS_LIMIT_SPRINGS", std::to_string(features.limitSprings)},
           {"HAS_CONTACT_PLANES", std::to_string(features.contactPlanes)},
-          {"HAS_HOLD", std::to_string(features.hold)},
+          {"HAS_HOLD", std::to_string(features.grab)},
           {"HAS_JET", std::to_string(features.jet)},
           {"HAS_CUTS", std::to_string(features.cuts)},
           {"ENABLED_SLOTS", std::to_string(features.enabledSlots) + "u"}};

@@ -50,8 +50,8 @@ void GpuSelfCollision::configure(const Scene& scene) {
   restart();
 }
 
-// Cuts make neighbours strangers, whose distance is that at rest. Passes that look at no pair are the same
-// for all of it.
+// Cuts make neighbours non-adjacent particles, whose distance is that at rest. Passes that look at no pair
+// are the same for all of it.
 void GpuSelfCollision::choosePrograms() {
   const Variant any, mode{isRobust(), false, false, false},
       pairs{isRobust(), hasNearCodes_ || cut_, cut_, cloth_->hasMesh()};
@@ -111,7 +111,7 @@ void GpuSelfCollision::restart() {
                             GL_UNSIGNED_INT, &stale);
 }
 
-void GpuSelfCollision::forgetTrouble() {
+void GpuSelfCollision::forgetDivergence() {
   if (flags_.name() == 0) return;
   glClearNamedBufferSubData(flags_.name(), GL_R32UI, offsetof(Flags, broken), sizeof(Flags::broken),
                             GL_RED_INTEGER, GL_UNSIGNED_INT, nullptr);
@@ -195,7 +195,7 @@ ContactCounts GpuSelfCollision::counts() const {
   if (flags_.name() == 0) return {};
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   const Flags flags = flags_.download()[0];
-  return {flags.hashBuilds, flags.guardedSteps, flags.fastSteps};
+  return {flags.hashBuilds, flags.clampedSteps, flags.fastSteps};
 }
 
 }  // namespace clothsim

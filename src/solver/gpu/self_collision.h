@@ -43,15 +43,15 @@ class GpuSelfCollision {
   void setCut(bool cut);
   // For a new state: forgets the hash. The counts go on.
   void restart();
-  // After trouble in some step no contacts are looked for, until this.
-  void forgetTrouble();
+  // After divergence in some step no contacts are looked for, until this.
+  void forgetDivergence();
 
   [[nodiscard]] ContactCounts counts() const;
 
  private:
   struct Flags {  // as ContactFlags in shaders/sim/self/common.glsl
-    std::uint32_t stale = 1, fast = 0, tooNear = 0, guarding = 0, hashBuilds = 0, fastSteps = 0,
-                  guardedSteps = 0, broken = 0;
+    std::uint32_t stale = 1, fast = 0, tooNear = 0, clamping = 0, hashBuilds = 0, fastSteps = 0,
+                  clampedSteps = 0, broken = 0;
   };
   struct Variant {  // of a program
     bool robust = false, nearCodes = false, cuts = false, mesh = false;

@@ -113,7 +113,7 @@ void MeasurePanel::sample(Session& session, double now, std::optional<std::uint3
   if (samples_.size() > mostSamples) samples_.pop_front();
   const ContactCounts counts = session.simulation().contactCounts();
   watch_.add(session.frameSinceStart(), cloth, simulation.scene(), state, sample.energies.maxStrain, counts);
-  guardedSteps_ = counts.guardedSteps;
+  clampedSteps_ = counts.clampedSteps;
   strainUnderCursor_ =
       underCursor ? std::optional(strainAt(cloth, session.cuts(), state, *underCursor)) : std::nullopt;
   rate_ = seconds_ > 0 ? particleSteps_ / seconds_ : 0;
@@ -132,8 +132,8 @@ void MeasurePanel::drawNumbers(Session& session) {
   const auto contacts = static_cast<unsigned long long>(watch_.contacts().contacts());
   row("self-contacts",
       !hasContacts ? "off"
-      : guardedSteps_ > 0
-          ? formatted("%llu, %llu steps guarded", contacts, static_cast<unsigned long long>(guardedSteps_))
+      : clampedSteps_ > 0
+          ? formatted("%llu, %llu steps guarded", contacts, static_cast<unsigned long long>(clampedSteps_))
           : formatted("%llu", contacts),
       "Pairs of particles that touch and are not neighbours on the cloth. In a guarded step motion had to "
       "be shortened.");
@@ -170,13 +170,13 @@ void MeasurePanel::drawPasses(Session& session) {
       solver->setState(simulation.state());
       passes_ = solver->timePasses(timedSteps);
       passSteps_ = timedSteps;
-      passTrouble_.clear();
+      passDivergence_.clear();
     } catch (const Error& error) {
-      passTrouble_ = error.what();
+      passDivergence_ = error.what();
     }
   }
   helpTip("Simulates 60 steps on a copy of the cloth and times each pass.");
-  if (!passTrouble_.empty()) wrappedText(passTrouble_, theme::alert);
+  if (!passDivergence_.empty()) wrappedText(passDivergence_, theme::alert);
   if (passes_.empty() || !beginRows("passes")) return;
   for (const PassTime& pass : passes_)
     row(pass.name.c_str(), formatted("%.1f \u00b5s", 1e6 * pass.seconds / passSteps_),

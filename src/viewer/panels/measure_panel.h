@@ -57,12 +57,12 @@ class MeasurePanel {
   std::optional<std::uint64_t> springsOf_;  // the generation of their cloth
   std::optional<double> strainUnderCursor_;
   RunWatch watch_;
-  std::uint64_t guardedSteps_ = 0;
+  std::uint64_t clampedSteps_ = 0;
   double particleSteps_ = 0, seconds_ = 0;  // since the last sample
   double rate_ = 0;                         // particle steps a second
   std::vector<PassTime> passes_;
   int passSteps_ = 0;
-  std::string passTrouble_;
+  std::string passDivergence_;
 };
 
 }  // namespace clothsim

@@ -168,7 +168,7 @@ TEST_F(SessionTest, KeepsWithinItsBudgetAndForgetsTheOldestFirst) {
   EXPECT_EQ(session.oldestFrame(), 9) << "the last one stays, to go back to after trouble";
 }
 
-TEST_F(SessionTest, GoesBackToTheLastSoundFrameAndLetsGoAfterTrouble) {
+TEST_F(SessionTest, GoesBackToTheLastSoundFrameAndLetsGoAfterDivergence) {
   for (const std::string backend : {"cpu", "gpu"}) {
     Session session(sheet(), backend, makeSolver);
     stepSoundly(session, 2);

@@ -92,13 +92,13 @@ TEST_F(GpuSolverTest, BuildsTheHashInTheSameStepsAsTheCpu) {
     gpu.step(300);
     cpu.step(300);
     EXPECT_EQ(gpu.contactCounts().hashBuilds, cpu.contactCounts().hashBuilds);
-    EXPECT_EQ(gpu.contactCounts().guardedSteps, cpu.contactCounts().guardedSteps);
+    EXPECT_EQ(gpu.contactCounts().clampedSteps, cpu.contactCounts().clampedSteps);
     EXPECT_GT(gpu.contactCounts().hashBuilds, 1u);
     EXPECT_LT(gpu.contactCounts().hashBuilds, 150u);
   }
 }
 
-// A cloth at the end of a hard throw, in which the guard has to step in.
+// A cloth at the end of a hard throw, in which the clamp has to step in.
 TEST_F(GpuSolverTest, GuardsAsTheCpuDoes) {
   const Scene scene = test::layeredSheets(24, SelfCollision::robust);
   const Cloth cloth(scene);
@@ -111,8 +111,8 @@ TEST_F(GpuSolverTest, GuardsAsTheCpuDoes) {
   gpu.step(200);
   cpu.step(200);
   EXPECT_EQ(difference(gpu.state(), cpu.state()).differing, 0u);
-  EXPECT_GT(cpu.contactCounts().guardedSteps, 0u);
-  EXPECT_EQ(gpu.contactCounts().guardedSteps, cpu.contactCounts().guardedSteps);
+  EXPECT_GT(cpu.contactCounts().clampedSteps, 0u);
+  EXPECT_EQ(gpu.contactCounts().clampedSteps, cpu.contactCounts().clampedSteps);
 }
 
 TEST_F(GpuSolverTest, DoesNotDependOnHowStepsAreBatched) {

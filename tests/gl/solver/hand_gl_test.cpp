@@ -30,7 +30,7 @@ void playWith(Solver& solver, const Cloth& cloth, const Scene& scene) {
   solver.setPin(grid.particle(1, 1), true);
   solver.step(40);
   solver.setPin(grid.particle(1, 1), false);
-  moveTo(*hand.hold, {0.2, 0.9, -0.3}, solver.stepIndex(), 30);
+  moveTo(*hand.grab, {0.2, 0.9, -0.3}, solver.stepIndex(), 30);
   solver.setHand(hand);
   solver.setCuts(test::cutAcross(cloth, grid.rows / 2 - 0.5));
   solver.step(40);
@@ -43,7 +43,7 @@ State playedOn(const Scene& scene, const Options&... options) {
   const Cloth cloth(scene);
   SolverType solver(cloth, scene, options...);
   playWith(solver, cloth, scene);
-  EXPECT_EQ(solver.trouble(), std::nullopt);
+  EXPECT_EQ(solver.divergence(), std::nullopt);
   return solver.state();
 }
 
@@ -92,7 +92,7 @@ TEST_F(HandOnGpuTest, IsStableAtAnyStrengthOnBothBackends) {
       for (Solver* solver : {static_cast<Solver*>(&gpu), static_cast<Solver*>(&cpu)}) {
         solver->setHand(test::handTo(*solver, cloth, scene, 4, {0.7, 0.2, 0.5}, strength, 0.2));
         solver->step(10 * steps);
-        EXPECT_EQ(solver->trouble(), std::nullopt) << strength;
+        EXPECT_EQ(solver->divergence(), std::nullopt) << strength;
       }
       const StateDifference result = difference(gpu.state(), cpu.state());
       EXPECT_EQ(result.differing, 0u) << strength << ", " << steps;

@@ -9,12 +9,12 @@
 
 #include "gl/gl_test.h"
 #include "gl/program.h"
+#include "solver/divergence.h"
 #include "solver/gpu/pass_programs.h"
 #include "solver/implicit.h"
 #include "solver/mesh_lists.h"
 #include "solver/pin_paths.h"
 #include "solver/step_params.h"
-#include "solver/trouble.h"
 
 namespace clothsim {
 namespace {
@@ -135,7 +135,7 @@ TEST_F(LayoutTest, OfWhatMeshesAddToStepParamsIsTheDrivers) {
 TEST_F(LayoutTest, OfHandParamsIsTheDrivers) {
   using HandBlock = HandParams<float>;
   PassFeatures features = allFeatures();
-  features.hold = features.jet = features.cuts = true;
+  features.grab = features.jet = features.cuts = true;
   PassLibrary library;
   const Programs programs(library, features);
   const std::vector<std::pair<std::string, std::size_t>> members = {
@@ -149,14 +149,14 @@ TEST_F(LayoutTest, OfHandParamsIsTheDrivers) {
   for (const auto& [name, offset] : members)
     EXPECT_EQ(uniformOffset(*programs.step, name), static_cast<GLint>(offset)) << name;
   EXPECT_EQ(blockSize(*programs.step, "HandBlock"), static_cast<GLint>(sizeof(HandBlock)));
-  EXPECT_EQ(sizeof(Hold::Point), 16u) << "a texel";
+  EXPECT_EQ(sizeof(GrabSpring::Point), 16u) << "a texel";
 }
 
 TEST_F(LayoutTest, OfWhatTheImplicitIntegratorSharesIsTheDrivers) {
   using Level = LevelParams<float>;
   PassLibrary library;
   PassFeatures features = allFeatures();
-  features.limitSprings = features.hold = true;
+  features.limitSprings = features.grab = true;
   const gl::Program& begin = programOf(library, {Pass::begin}, features);
   EXPECT_EQ(uniformOffset(begin, "step.inertia"), static_cast<GLint>(offsetof(Step, inertia)));
   EXPECT_EQ(uniformOffset(begin, "step.guessTime"), static_cast<GLint>(offsetof(Step, guessTime)));
@@ -172,7 +172,7 @@ TEST_F(LayoutTest, OfWhatTheImplicitIntegratorSharesIsTheDrivers) {
   const gl::Program& coarsen = programOf(library, {Pass::coarsen}, features);
   for (const auto& [name, offset] : std::vector<std::pair<std::string, std::size_t>>{
            MEMBER(Level, "level.", fineFirst), MEMBER(Level, "level.", coarseFirst),
-           MEMBER(Level, "level.", coarseRows), MEMBER(Level, "level.", stretchFactor),
+           MEMBER(Level, "level.", coarseRows), MEMBER(Level, "level.", stiffnessFactor),
            MEMBER(Level, "level.", inertiaFactor), MEMBER(Level, "level.", bending)})
     EXPECT_EQ(uniformOffset(coarsen, name), static_cast<GLint>(offset)) << name;
   EXPECT_EQ(blockSize(coarsen, "LevelBlock"), static_cast<GLint>(sizeof(Level)));
@@ -189,7 +189,7 @@ TEST_F(LayoutTest, OfProgramsIsSharedByScenesThatNeedTheSame) {
   PassLibrary library;
   const Programs before(library, allFeatures());
   PassFeatures features = allFeatures();
-  features.hold = true;
+  features.grab = true;
   const Programs held(library, features);
   EXPECT_NE(held.step, before.step);
   EXPECT_EQ(held.limit, before.limit);

@@ -28,7 +28,7 @@ PassFeatures everything(bool mesh) {
           .mesh = mesh,
           .limitSprings = true,
           .contactPlanes = true,
-          .hold = true,
+          .grab = true,
           .jet = true,
           .cuts = true,
           .colliderTypes = 0xffffffff,

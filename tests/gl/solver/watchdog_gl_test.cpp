@@ -1,4 +1,4 @@
-// The watchdog on the GPU: the same troubles under the same names as on the CPU, without a read-back in a
+// The watchdog on the GPU: the same divergences under the same names as on the CPU, without a read-back in a
 // step.
 #include <gtest/gtest.h>
 
@@ -25,20 +25,20 @@ TEST_F(WatchdogTest, FindsTwoHundredInjectedInfinitiesAndNansInTheNextStep) {
   for (const test::Injection& injection : test::makeInjections(cloth, 200)) {
     gpu.setState(initialState(cloth, scene));
     gpu.step(injection.step);
-    ASSERT_EQ(gpu.trouble(), std::nullopt);
+    ASSERT_EQ(gpu.divergence(), std::nullopt);
     const State wrong = injection.into(gpu.state());
     gpu.setState(wrong);
     cpu.setState(wrong);
     gpu.step(1);
     cpu.step(1);
-    const Trouble expected{TroubleReason::nonFinite, Pass::checkStart,
-                           static_cast<std::uint64_t>(injection.step) + 1, injection.particle};
-    EXPECT_EQ(gpu.trouble(), expected) << injection.text();
-    EXPECT_EQ(cpu.trouble(), expected) << injection.text();
+    const Divergence expected{DivergenceReason::nonFinite, Pass::checkStart,
+                              static_cast<std::uint64_t>(injection.step) + 1, injection.particle};
+    EXPECT_EQ(gpu.divergence(), expected) << injection.text();
+    EXPECT_EQ(cpu.divergence(), expected) << injection.text();
   }
 }
 
-TEST_F(WatchdogTest, NamesTheTroubleOfExplodingScenesAsTheCpuDoesFusedAndPassByPass) {
+TEST_F(WatchdogTest, NamesTheDivergenceOfExplodingScenesAsTheCpuDoesFusedAndPassByPass) {
   for (const auto& [name, scene] : test::comparedScenes(16)) {
     const Scene wild = test::exploding(scene);
     const Cloth cloth(wild);
@@ -47,16 +47,16 @@ TEST_F(WatchdogTest, NamesTheTroubleOfExplodingScenesAsTheCpuDoesFusedAndPassByP
     for (Solver* solver :
          {static_cast<Solver*>(&fused), static_cast<Solver*>(&separate), static_cast<Solver*>(&cpu)})
       solver->step(60);
-    EXPECT_TRUE(cpu.trouble().has_value()) << name;
-    EXPECT_EQ(fused.trouble(), cpu.trouble()) << name;
-    EXPECT_EQ(separate.trouble(), cpu.trouble()) << name;
+    EXPECT_TRUE(cpu.divergence().has_value()) << name;
+    EXPECT_EQ(fused.divergence(), cpu.divergence()) << name;
+    EXPECT_EQ(separate.divergence(), cpu.divergence()) << name;
   }
 }
 
-// One scene for each pass, made so that trouble begins there.
-TEST_F(WatchdogTest, NamesThePassInWhichTroubleBegan) {
+// One scene for each pass, made so that divergence begins there.
+TEST_F(WatchdogTest, NamesThePassInWhichDivergenceBegan) {
   const Scene calm = test::withLimiter(test::vertical(test::sheetScene(12)));
-  const auto troubleOf = [](const Scene& scene, const State& start) {
+  const auto divergenceOf = [](const Scene& scene, const State& start) {
     const Cloth cloth(scene);
     GpuSolver gpu(cloth, scene);
     CpuSolver<float> cpu(cloth, scene);
@@ -64,37 +64,38 @@ TEST_F(WatchdogTest, NamesThePassInWhichTroubleBegan) {
       solver->setState(start);
       solver->step(2);
     }
-    EXPECT_EQ(gpu.trouble(), cpu.trouble());
-    return gpu.trouble();
+    EXPECT_EQ(gpu.divergence(), cpu.divergence());
+    return gpu.divergence();
   };
   const State rest = initialState(Cloth(calm), calm);
 
   State stretched = rest;
   stretched.positions[40].z += 15;  // 165 times the spacing
-  EXPECT_EQ(troubleOf(calm, stretched), (Trouble{TroubleReason::runawayStrain, Pass::forces, 1, 40}));
+  EXPECT_EQ(divergenceOf(calm, stretched),
+            (Divergence{DivergenceReason::runawayStrain, Pass::forces, 1, 40}));
 
   State fast = rest;
   fast.velocities[17].y = 20'000;
-  EXPECT_EQ(troubleOf(calm, fast), (Trouble{TroubleReason::runawaySpeed, Pass::integrate, 1, 17}));
+  EXPECT_EQ(divergenceOf(calm, fast), (Divergence{DivergenceReason::runawaySpeed, Pass::integrate, 1, 17}));
 
   // Within the limits until the strain limit pulls the particle back in one step of 1/2700 s.
   State pulled = rest;
   pulled.positions[70].z += 5;
-  const std::optional<Trouble> byLimit = troubleOf(calm, pulled);
+  const std::optional<Divergence> byLimit = divergenceOf(calm, pulled);
   ASSERT_TRUE(byLimit.has_value());
   EXPECT_EQ(byLimit->pass, Pass::limit);
-  EXPECT_EQ(byLimit->reason, TroubleReason::runawaySpeed);
+  EXPECT_EQ(byLimit->reason, DivergenceReason::runawaySpeed);
 
   // A ball that swallows the sheet and pushes it out to its surface, 20 m away, in one step.
   Scene ball = calm;
   ball.colliders = {Sphere{.origin = {0.4, 0.5, 0}, .radius = 20, .friction = 0, .motion = std::nullopt}};
-  const std::optional<Trouble> byBall = troubleOf(ball, rest);
+  const std::optional<Divergence> byBall = divergenceOf(ball, rest);
   ASSERT_TRUE(byBall.has_value());
   EXPECT_EQ(byBall->pass, Pass::collide);
 
   Scene other = calm;  // the velocities of the half step before are converted first
   other.solver.integrator = Integrator::euler;
-  EXPECT_EQ(troubleOf(other, fast), (Trouble{TroubleReason::runawaySpeed, Pass::kick, 1, 17}));
+  EXPECT_EQ(divergenceOf(other, fast), (Divergence{DivergenceReason::runawaySpeed, Pass::kick, 1, 17}));
 }
 
 TEST_F(WatchdogTest, FindsTheVeryStepInAnyNumberOfStepsBetweenTwoLooks) {
@@ -110,14 +111,14 @@ TEST_F(WatchdogTest, FindsTheVeryStepInAnyNumberOfStepsBetweenTwoLooks) {
   CpuSolver<float> cpu(cloth, scene);
   gpu.step(3000);
   cpu.step(3000);
-  ASSERT_TRUE(cpu.trouble().has_value());
-  EXPECT_NEAR(static_cast<double>(cpu.trouble()->step), 2500, 3);
-  EXPECT_EQ(gpu.trouble(), cpu.trouble());
+  ASSERT_TRUE(cpu.divergence().has_value());
+  EXPECT_NEAR(static_cast<double>(cpu.divergence()->step), 2500, 3);
+  EXPECT_EQ(gpu.divergence(), cpu.divergence());
   gpu.step(2000);
-  EXPECT_EQ(gpu.trouble(), cpu.trouble()) << "the first one stays";
+  EXPECT_EQ(gpu.divergence(), cpu.divergence()) << "the first one stays";
 }
 
-TEST_F(WatchdogTest, LooksForNoContactsAfterTroubleUntilItIsReverted) {
+TEST_F(WatchdogTest, LooksForNoContactsAfterDivergenceUntilItIsReverted) {
   Scene scene = test::sheetScene(12);
   scene.cloths[0].thickness = 0.03;
   for (const SelfCollision mode : {SelfCollision::averaged, SelfCollision::robust}) {
@@ -135,8 +136,8 @@ TEST_F(WatchdogTest, LooksForNoContactsAfterTroubleUntilItIsReverted) {
     cpu.setState(heap);
     gpu.step(20);
     cpu.step(20);
-    ASSERT_TRUE(gpu.trouble().has_value());
-    EXPECT_EQ(gpu.trouble(), cpu.trouble());
+    ASSERT_TRUE(gpu.divergence().has_value());
+    EXPECT_EQ(gpu.divergence(), cpu.divergence());
     EXPECT_EQ(gpu.contactCounts().hashBuilds, builds);
     gpu.revert();
     gpu.step(20);
@@ -147,7 +148,7 @@ TEST_F(WatchdogTest, LooksForNoContactsAfterTroubleUntilItIsReverted) {
   }
 }
 
-TEST_F(WatchdogTest, RevertGoesBackToWhatWasKeptAndForgetsTheTrouble) {
+TEST_F(WatchdogTest, RevertGoesBackToWhatWasKeptAndForgetsTheDivergence) {
   const Scene scene = test::withWind(test::vertical(test::sheetScene(12)));
   const Cloth cloth(scene);
   GpuSolver gpu(cloth, scene);
@@ -159,15 +160,15 @@ TEST_F(WatchdogTest, RevertGoesBackToWhatWasKeptAndForgetsTheTrouble) {
   wrong.clock.step = 1000;
   gpu.setState(wrong);
   gpu.step(5);
-  ASSERT_TRUE(gpu.trouble().has_value());
+  ASSERT_TRUE(gpu.divergence().has_value());
   gpu.revert();
-  EXPECT_EQ(gpu.trouble(), std::nullopt);
+  EXPECT_EQ(gpu.divergence(), std::nullopt);
   EXPECT_EQ(gpu.stepIndex(), 7u);
   EXPECT_EQ(difference(gpu.state(), kept).differing, 0u);
   gpu.step(10);
   CpuSolver<float> cpu(cloth, scene);
   cpu.step(17);
-  EXPECT_EQ(gpu.trouble(), std::nullopt);
+  EXPECT_EQ(gpu.divergence(), std::nullopt);
   EXPECT_EQ(difference(gpu.state(), cpu.state()).differing, 0u);
 }
 

@@ -65,7 +65,7 @@ TEST(MeshCloth, GathersInAscendingOrderAndEachElementAtAllItsParticles) {
       EXPECT_TRUE(std::is_sorted(list->entries.begin() + list->starts[i],
                                  list->entries.begin() + list->starts[i + 1]));
     for (std::uint32_t at = lists.springsOf.starts[i]; at < lists.springsOf.starts[i + 1]; ++at) {
-      const ListedSpring& spring = lists.springs[lists.springsOf.entries[at]];
+      const MeshSpring& spring = lists.springs[lists.springsOf.entries[at]];
       EXPECT_TRUE(spring.a == i || spring.b == i);
     }
   }

@@ -85,7 +85,7 @@ TEST(Simulation, SavesEveryKindOfFileWithoutPictures) {
   EXPECT_THROW(SavedFiles({name("picture.png")}, 1, 1, simulation), UsageError);
 }
 
-TEST(Simulation, IsBackAtTheLastSoundStateAfterTrouble) {
+TEST(Simulation, IsBackAtTheLastSoundStateAfterDivergence) {
   Scene scene = smallScene();
   Simulation simulation(scene);
   simulation.stepFrame();
@@ -94,10 +94,10 @@ TEST(Simulation, IsBackAtTheLastSoundStateAfterTrouble) {
   scene.gravity.y = -1e9;
   simulation.configure(scene);
   simulation.stepFrames(5);
-  const std::optional<Trouble> trouble = simulation.checkFrame();
-  ASSERT_TRUE(trouble);
+  const std::optional<Divergence> divergence = simulation.checkFrame();
+  ASSERT_TRUE(divergence);
   EXPECT_EQ(hashOf(simulation), sound);
-  EXPECT_TRUE(blowUpText(*trouble, simulation.cloth(), simulation.scene())
+  EXPECT_TRUE(blowUpText(*divergence, simulation.cloth(), simulation.scene())
                   .starts_with("the simulation blew up: in step "));
 }
 

@@ -254,14 +254,14 @@ TEST(MeshInAHand, FollowsItWithWhatLiesNearAtRest) {
   CpuSolver<float> solver(cloth, scene);
   const auto read = [&](std::uint32_t first, std::uint32_t count) { return solver.positions(first, count); };
   Hand hand;
-  hand.hold = takeHold(cloth, 80, 1e4, 0.12, read);
-  const Vec3d from = hand.hold->from;
-  moveTo(*hand.hold, from + Vec3d{0, 0, 0.3}, 0, 100);
+  hand.grab = makeGrabSpring(cloth, 80, 1e4, 0.12, read);
+  const Vec3d from = hand.grab->from;
+  moveTo(*hand.grab, from + Vec3d{0, 0, 0.3}, 0, 100);
   solver.setHand(hand);
   solver.step(400);
   EXPECT_NEAR(static_cast<double>(solver.position(80).z), 0.3, 0.05);
   EXPECT_GT(static_cast<double>(solver.position(81).z), 0.2) << "a neighbour comes along";
-  EXPECT_EQ((*hand.hold->points)[80 - hand.hold->firstColumn].weight, 1.0f);
+  EXPECT_EQ((*hand.grab->points)[80 - hand.grab->firstColumn].weight, 1.0f);
 }
 
 TEST(ParticlesLetGo, WeighWhatTheyDidBeforeTheyWerePinned) {
@@ -281,16 +281,16 @@ TEST(ParticlesLetGo, WeighWhatTheyDidBeforeTheyWerePinned) {
   }
 }
 
-TEST(MeshTrouble, NamesTheVertexOfASpringThatRunsAway) {
+TEST(MeshDivergence, NamesTheVertexOfASpringThatRunsAway) {
   Scene scene = test::meshScene();
   const Cloth cloth(scene);
   CpuSolver<float> solver(cloth, scene);
   solver.setPosition(30, {0, 0, 50});
   solver.step(1);
-  const auto trouble = solver.trouble();
-  ASSERT_TRUE(trouble.has_value());
-  EXPECT_EQ(trouble->reason, TroubleReason::runawayStrain);
-  EXPECT_NE(troubleText(*trouble, cloth, scene).find("vertex"), std::string::npos);
+  const auto divergence = solver.divergence();
+  ASSERT_TRUE(divergence.has_value());
+  EXPECT_EQ(divergence->reason, DivergenceReason::runawayStrain);
+  EXPECT_NE(divergenceText(*divergence, cloth, scene).find("vertex"), std::string::npos);
 }
 
 }  // namespace

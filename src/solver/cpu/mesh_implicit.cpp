@@ -1,4 +1,4 @@
-#include "solver/cpu/listed_implicit.h"
+#include "solver/cpu/mesh_implicit.h"
 
 #include "solver/cpu/implicit_laws.h"
 #include "solver/cpu/rows.h"
@@ -44,8 +44,8 @@ void forEachHinge(const ImplicitArguments<Real>& arguments, std::size_t i, Visit
 }  // namespace
 
 template <class Real>
-void addListedBlocks(const ImplicitArguments<Real>& arguments, int row) {
-  const Stretch all = stretch(arguments.step.step, row);
+void addMeshBlocks(const ImplicitArguments<Real>& arguments, int row) {
+  const Range all = rangeOf(arguments.step.step, row);
   for (std::ptrdiff_t n = all.begin; n < all.end; ++n) {
     const auto i = static_cast<std::size_t>(n);
     Symmetric<Real> block = at(arguments.own.factors, n);
@@ -65,8 +65,8 @@ void addListedBlocks(const ImplicitArguments<Real>& arguments, int row) {
 }
 
 template <class Real>
-void addListedProducts(const ImplicitArguments<Real>& arguments, int row) {
-  const Stretch all = stretch(arguments.step.step, row);
+void addMeshProducts(const ImplicitArguments<Real>& arguments, int row) {
+  const Range all = rangeOf(arguments.step.step, row);
   const Components<Real>& p = arguments.own.directions.positions;
   Components<Real>& products = arguments.own.products;
   for (std::ptrdiff_t n = all.begin; n < all.end; ++n) {
@@ -89,8 +89,8 @@ void addListedProducts(const ImplicitArguments<Real>& arguments, int row) {
 
 // A spring belongs to its end of the larger index, a hinge to its first corner.
 template <class Real>
-void addListedTrials(const ImplicitArguments<Real>& arguments, int row) {
-  const Stretch all = stretch(arguments.step.step, row);
+void addMeshTrials(const ImplicitArguments<Real>& arguments, int row) {
+  const Range all = rangeOf(arguments.step.step, row);
   ImplicitState<Real>& own = arguments.own;
   for (std::ptrdiff_t n = all.begin; n < all.end; ++n) {
     const auto i = static_cast<std::size_t>(n);
@@ -115,11 +115,11 @@ void addListedTrials(const ImplicitArguments<Real>& arguments, int row) {
   }
 }
 
-template void addListedBlocks(const ImplicitArguments<float>&, int);
-template void addListedBlocks(const ImplicitArguments<double>&, int);
-template void addListedProducts(const ImplicitArguments<float>&, int);
-template void addListedProducts(const ImplicitArguments<double>&, int);
-template void addListedTrials(const ImplicitArguments<float>&, int);
-template void addListedTrials(const ImplicitArguments<double>&, int);
+template void addMeshBlocks(const ImplicitArguments<float>&, int);
+template void addMeshBlocks(const ImplicitArguments<double>&, int);
+template void addMeshProducts(const ImplicitArguments<float>&, int);
+template void addMeshProducts(const ImplicitArguments<double>&, int);
+template void addMeshTrials(const ImplicitArguments<float>&, int);
+template void addMeshTrials(const ImplicitArguments<double>&, int);
 
 }  // namespace clothsim::cpu

@@ -1,13 +1,13 @@
-// Hands on the cloth: particles held by a soft spring, and a jet of air. The formulas are at src/solver/hand.h, the twin is in
+// Hands on the cloth: particles held by a soft spring, and a jet of air. The formulas are at src/solver/grab.h, the twin is in
 // src/solver/cpu/passes.cpp.
 layout(std140, binding = HAND_PARAMS_BINDING) uniform HandBlock { HandParams hand; };
-layout(binding = HELD_UNIT) uniform samplerBuffer held;
+layout(binding = GRABBED_UNIT) uniform samplerBuffer grabbed;
 
 // The velocity that a hand leaves to a particle at x, of velocity v after all forces.
 vec3 pulledVelocity(GridPoint p, vec3 x, vec3 v) {
   uint column = p.column - hand.firstColumn, row = p.row - hand.firstRow;  // before the block: beyond it
   if (column >= hand.columns || row >= hand.rows) return v;
-  vec4 point = texelFetch(held, int(row * hand.columns + column));
+  vec4 point = texelFetch(grabbed, int(row * hand.columns + column));
   precise vec3 own = canonical(v);
   precise vec3 goal = vec3(hand.goalX, hand.goalY, hand.goalZ) + point.xyz;
   precise vec3 towards = goal - x;

@@ -1,5 +1,5 @@
 // Springs and hinges of meshes in an implicit step, gathered over lists; the twin of
-// shaders/sim/implicit/listed.glsl. Meshes have no coarse levels: the preconditioner is that of their
+// shaders/sim/implicit/mesh.glsl. Meshes have no coarse levels: the preconditioner is that of their
 // diagonal blocks.
 #pragma once
 
@@ -9,10 +9,10 @@ namespace clothsim::cpu {
 
 // Adds them to the diagonal blocks in `factors`; to `products`, as forces; to `trials`.
 template <class Real>
-void addListedBlocks(const ImplicitArguments<Real>& arguments, int row);
+void addMeshBlocks(const ImplicitArguments<Real>& arguments, int row);
 template <class Real>
-void addListedProducts(const ImplicitArguments<Real>& arguments, int row);
+void addMeshProducts(const ImplicitArguments<Real>& arguments, int row);
 template <class Real>
-void addListedTrials(const ImplicitArguments<Real>& arguments, int row);
+void addMeshTrials(const ImplicitArguments<Real>& arguments, int row);
 
 }  // namespace clothsim::cpu

@@ -1,4 +1,4 @@
-#include "solver/hand.h"
+#include "solver/grab.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,16 +43,16 @@ double falloff(double distanceSquared, double radius) {
 
 Vec3d vectorOf(const Particle4& p) { return Vec3f{p.x, p.y, p.z}.cast<double>(); }
 
-Hold::Point heldPoint(Vec3d from, Vec3d at, double weight) {
+GrabSpring::Point grabbedPoint(Vec3d from, Vec3d at, double weight) {
   const Vec3f offset = (at - from).cast<float>();
   return {{canonical(offset.x), canonical(offset.y), canonical(offset.z)}, static_cast<float>(weight)};
 }
 
 // Of a mesh, a grid of one row: the block from the first to the last vertex within the radius, as they lie at
 // rest.
-void holdOfMesh(const Cloth& cloth, std::uint32_t particle, double radius, const ReadPositions& positions,
-                Hold& hold) {
-  const Grid& mesh = cloth.grids()[hold.grid];
+void grabOfMesh(const Cloth& cloth, std::uint32_t particle, double radius, const ReadPositions& positions,
+                GrabSpring& grab) {
+  const Grid& mesh = cloth.grids()[grab.grid];
   const auto weightOf = [&](std::uint32_t i) {
     const Vec3d d = cloth.positions()[i] - cloth.positions()[particle];
     return falloff(dot(d, d), radius);
@@ -63,25 +63,25 @@ void holdOfMesh(const Cloth& cloth, std::uint32_t particle, double radius, const
     first = std::min(first, i);
     last = std::max(last, i);
   }
-  hold.firstColumn = first - mesh.firstParticle;
-  hold.columns = last - first + 1;
-  hold.rows = 1;
-  const std::vector<Particle4> now = positions(first, hold.columns);
+  grab.firstColumn = first - mesh.firstParticle;
+  grab.columns = last - first + 1;
+  grab.rows = 1;
+  const std::vector<Particle4> now = positions(first, grab.columns);
   const Vec3d origin = vectorOf(now[particle - first]);
-  std::vector<Hold::Point> points;
-  for (std::uint32_t k = 0; k < hold.columns; ++k)
-    points.push_back(heldPoint(origin, vectorOf(now[k]), weightOf(first + k)));
-  hold.points = std::make_shared<const std::vector<Hold::Point>>(std::move(points));
-  hold.from = hold.to = origin;
+  std::vector<GrabSpring::Point> points;
+  for (std::uint32_t k = 0; k < grab.columns; ++k)
+    points.push_back(grabbedPoint(origin, vectorOf(now[k]), weightOf(first + k)));
+  grab.points = std::make_shared<const std::vector<GrabSpring::Point>>(std::move(points));
+  grab.from = grab.to = origin;
 }
 
 template <class Real>
-void putHold(const Hold& hold, double h, std::uint64_t step, HandParams<Real>& params) {
-  const double w = std::sqrt(hold.strength);
-  const double resistance = 2 * h * w + h * h * hold.strength;
+void putGrabSpring(const GrabSpring& grab, double h, std::uint64_t step, HandParams<Real>& params) {
+  const double w = std::sqrt(grab.strength);
+  const double resistance = 2 * h * w + h * h * grab.strength;
   const double kept = 1 / (1 + resistance);
-  const Vec3d goal = placeOf(hold, step + 1);
-  const Vec3d velocity = (1 / h) * (goal - placeOf(hold, step));
+  const Vec3d goal = placeOf(grab, step + 1);
+  const Vec3d velocity = (1 / h) * (goal - placeOf(grab, step));
   const Vec3d push = (kept * 2 * h * w) * velocity;
   params.goalX = real<Real>(goal.x);
   params.goalY = real<Real>(goal.y);
@@ -90,11 +90,11 @@ void putHold(const Hold& hold, double h, std::uint64_t step, HandParams<Real>& p
   params.pushX = real<Real>(push.x);
   params.pushY = real<Real>(push.y);
   params.pushZ = real<Real>(push.z);
-  params.pull = real<Real>(kept * h * hold.strength);
-  params.firstColumn = hold.firstColumn;
-  params.firstRow = hold.firstRow;
-  params.columns = hold.columns;
-  params.rows = hold.rows;
+  params.pull = real<Real>(kept * h * grab.strength);
+  params.firstColumn = grab.firstColumn;
+  params.firstRow = grab.firstRow;
+  params.columns = grab.columns;
+  params.rows = grab.rows;
   params.resistance = real<Real>(resistance);
   params.reach = real<Real>(resistance > 0 ? h * (1 + resistance) / resistance : 0);
   params.largestDisplacement = real<Real>(h * LARGEST_HAND_SPEED);
@@ -120,57 +120,57 @@ void putJet(const Jet& jet, bool alone, HandParams<Real>& params) {
 
 }  // namespace
 
-Hold takeHold(const Cloth& cloth, std::uint32_t particle, double strength, double radius,
-              const ReadPositions& positions) {
-  Hold hold;
-  hold.grid = cloth.gridOf(particle);
-  hold.strength = strength;
-  const Grid& grid = cloth.grids()[hold.grid];
+GrabSpring makeGrabSpring(const Cloth& cloth, std::uint32_t particle, double strength, double radius,
+                          const ReadPositions& positions) {
+  GrabSpring grab;
+  grab.grid = cloth.gridOf(particle);
+  grab.strength = strength;
+  const Grid& grid = cloth.grids()[grab.grid];
   if (grid.isMesh) {
-    holdOfMesh(cloth, particle, radius, positions, hold);
-    return hold;
+    grabOfMesh(cloth, particle, radius, positions, grab);
+    return grab;
   }
   const int place = static_cast<int>(particle - grid.firstParticle);
   const int column = place % grid.columns, row = place / grid.columns;
   const double dx = grid.nominalLength[toLeft], dy = grid.nominalLength[toUpper];
   const Reach across = reachOf(column, grid.columns, dx, radius), along = reachOf(row, grid.rows, dy, radius);
-  hold.firstColumn = static_cast<std::uint32_t>(across.first);
-  hold.firstRow = static_cast<std::uint32_t>(along.first);
-  hold.columns = static_cast<std::uint32_t>(across.count);
-  hold.rows = static_cast<std::uint32_t>(along.count);
+  grab.firstColumn = static_cast<std::uint32_t>(across.first);
+  grab.firstRow = static_cast<std::uint32_t>(along.first);
+  grab.columns = static_cast<std::uint32_t>(across.count);
+  grab.rows = static_cast<std::uint32_t>(along.count);
 
-  std::vector<Hold::Point> points;
+  std::vector<GrabSpring::Point> points;
   const Vec3d origin = vectorOf(positions(particle, 1)[0]);
   for (int r = along.first; r < along.first + along.count; ++r) {
-    const std::vector<Particle4> ofRow = positions(grid.particle(across.first, r), hold.columns);
+    const std::vector<Particle4> ofRow = positions(grid.particle(across.first, r), grab.columns);
     for (int c = 0; c < across.count; ++c) {
       const double x = dx * (across.first + c - column), y = dy * (r - row);
       points.push_back(
-          heldPoint(origin, vectorOf(ofRow[static_cast<std::size_t>(c)]), falloff(x * x + y * y, radius)));
+          grabbedPoint(origin, vectorOf(ofRow[static_cast<std::size_t>(c)]), falloff(x * x + y * y, radius)));
     }
   }
-  hold.points = std::make_shared<const std::vector<Hold::Point>>(std::move(points));
-  hold.from = hold.to = origin;
-  return hold;
+  grab.points = std::make_shared<const std::vector<GrabSpring::Point>>(std::move(points));
+  grab.from = grab.to = origin;
+  return grab;
 }
 
-Vec3d placeOf(const Hold& hold, std::uint64_t steps) {
-  if (steps <= hold.firstStep) return hold.from;
-  const double part = static_cast<double>(steps - hold.firstStep) / hold.steps;
-  return part < 1 ? hold.from + part * (hold.to - hold.from) : hold.to;
+Vec3d placeOf(const GrabSpring& grab, std::uint64_t steps) {
+  if (steps <= grab.firstStep) return grab.from;
+  const double part = static_cast<double>(steps - grab.firstStep) / grab.steps;
+  return part < 1 ? grab.from + part * (grab.to - grab.from) : grab.to;
 }
 
-void moveTo(Hold& hold, Vec3d target, std::uint64_t step, int steps) {
-  hold.from = placeOf(hold, step);
-  hold.to = target;
-  hold.firstStep = step;
-  hold.steps = steps;
+void moveTo(GrabSpring& grab, Vec3d target, std::uint64_t step, int steps) {
+  grab.from = placeOf(grab, step);
+  grab.to = target;
+  grab.firstStep = step;
+  grab.steps = steps;
 }
 
 template <class Real>
 HandParams<Real> makeHandParams(const Hand& hand, const Scene& scene, std::uint64_t step) {
   HandParams<Real> params{};
-  if (hand.hold) putHold(*hand.hold, stepLength(scene.solver), step, params);
+  if (hand.grab) putGrabSpring(*hand.grab, stepLength(scene.solver), step, params);
   if (hand.jet) putJet(*hand.jet, !scene.wind, params);
   return params;
 }

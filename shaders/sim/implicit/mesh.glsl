@@ -1,16 +1,16 @@
-// Springs and hinges of meshes in an implicit step; the twin of src/solver/cpu/listed_implicit.cpp. Meshes have no coarse
+// Springs and hinges of meshes in an implicit step; the twin of src/solver/cpu/mesh_implicit.cpp. Meshes have no coarse
 // levels: the preconditioner is that of their diagonal blocks.
 #include "shared/mesh_lists.h"
 #include "sim/implicit/energy.glsl"
 
 layout(binding = LIST_STARTS_UNIT) uniform usamplerBuffer listStarts;
-layout(binding = LISTED_SPRINGS_UNIT) uniform usamplerBuffer listedSprings;
-layout(binding = LISTED_NUMBERS_UNIT) uniform usamplerBuffer listedNumbers;
+layout(binding = MESH_SPRINGS_UNIT) uniform usamplerBuffer meshSprings;
+layout(binding = MESH_NUMBERS_UNIT) uniform usamplerBuffer meshNumbers;
 layout(binding = HINGES_UNIT) uniform usamplerBuffer hinges;
 
 // The n-th listed spring, of some particle.
-IncidentSpring listedSpring(uint n) {
-  uvec4 spring = texelFetch(listedSprings, int(n));
+IncidentSpring meshSpring(uint n) {
+  uvec4 spring = texelFetch(meshSprings, int(n));
   float rest = uintBitsToFloat(spring.w);
   precise float limit = step.limitFactor * rest;
   return IncidentSpring(true, spring.x, uintBitsToFloat(spring.z), rest, limit);
@@ -33,11 +33,11 @@ vec3 bentOf(vec4 c, vec3 v0, vec3 v1, vec3 v2, vec3 v3) {
   return bent;
 }
 
-Symmetric addListedBlocks(uint i, Symmetric block) {
+Symmetric addMeshBlocks(uint i, Symmetric block) {
   uvec4 first = texelFetch(listStarts, int(i)), end = texelFetch(listStarts, int(i) + 1);
   vec3 x = iterateAt(i).xyz;
   for (uint n = first.x; n < end.x; ++n) {
-    IncidentSpring spring = listedSpring(n);
+    IncidentSpring spring = meshSpring(n);
     precise vec3 d = iterateAt(spring.other).xyz - x;
     SpringBlock s = springBlock(d, spring);
     Symmetric outer = outerProduct3(s.along, d);
@@ -45,7 +45,7 @@ Symmetric addListedBlocks(uint i, Symmetric block) {
     block = sumOf(block, Symmetric(diagonal, outer.others));
   }
   for (uint n = first.y; n < end.y; ++n) {
-    uint number = texelFetch(listedNumbers, int(n)).x;
+    uint number = texelFetch(meshNumbers, int(n)).x;
     float c = hingeAt(number).coefficients[number % 4u];
     precise float b = c * c;
     precise vec3 diagonal = block.diagonal + vec3(b);
@@ -55,12 +55,12 @@ Symmetric addListedBlocks(uint i, Symmetric block) {
 }
 
 // Minus H times the directions, as far as springs and hinges go. POSITIONS_UNIT: the directions.
-vec3 listedProducts(uint i) {
+vec3 meshProducts(uint i) {
   uvec4 first = texelFetch(listStarts, int(i)), end = texelFetch(listStarts, int(i) + 1);
   vec3 x = iterateAt(i).xyz, p = positionAt(i).xyz;
   precise vec3 force = vec3(0.0);
   for (uint n = first.x; n < end.x; ++n) {
-    IncidentSpring spring = listedSpring(n);
+    IncidentSpring spring = meshSpring(n);
     precise vec3 d = iterateAt(spring.other).xyz - x;
     SpringBlock s = springBlock(d, spring);
     precise vec3 e = positionAt(spring.other).xyz - p;
@@ -68,7 +68,7 @@ vec3 listedProducts(uint i) {
     force = force + f;
   }
   for (uint n = first.y; n < end.y; ++n) {
-    uint number = texelFetch(listedNumbers, int(n)).x;
+    uint number = texelFetch(meshNumbers, int(n)).x;
     Hinge hinge = hingeAt(number);
     vec3 bent = bentOf(hinge.coefficients, positionAt(hinge.corners.x).xyz, positionAt(hinge.corners.y).xyz,
                        positionAt(hinge.corners.z).xyz, positionAt(hinge.corners.w).xyz);
@@ -78,19 +78,19 @@ vec3 listedProducts(uint i) {
 }
 
 // A spring belongs to its end of the larger index, a hinge to its first corner.
-vec4 addListedTrials(uint i, vec4 trial) {
+vec4 addMeshTrials(uint i, vec4 trial) {
   uvec4 first = texelFetch(listStarts, int(i)), end = texelFetch(listStarts, int(i) + 1);
   vec3 x = iterateAt(i).xyz, own = incrementAt(i);
   precise vec4 sum = trial;
   for (uint n = first.x; n < end.x; ++n) {
-    IncidentSpring spring = listedSpring(n);
+    IncidentSpring spring = meshSpring(n);
     if (spring.other > i) continue;
     precise vec3 d = iterateAt(spring.other).xyz - x;
     precise vec3 e = incrementAt(spring.other) - own;
     for (int k = 0; k < LENGTHS_TRIED; ++k) sum[k] = sum[k] + springChange(d, e, lengthsTried[k], spring);
   }
   for (uint n = first.y; n < end.y; ++n) {
-    uint number = texelFetch(listedNumbers, int(n)).x;
+    uint number = texelFetch(meshNumbers, int(n)).x;
     if (number % 4u != 0u) continue;
     Hinge hinge = hingeAt(number);
     uvec4 at = hinge.corners;

@@ -1,4 +1,4 @@
-#include "solver/cpu/listed_forces.h"
+#include "solver/cpu/mesh_forces.h"
 
 #include "core/exact_math.h"
 #include "solver/cpu/force_laws.h"
@@ -38,7 +38,7 @@ Vec3<Real> springsAt(const PassArguments<Real>& arguments, std::uint32_t i) {
       if (over > Real(0)) f = f + scale * d;
     }
   }
-  if (overlong) noteTrouble(arguments.watch, PASS_FORCES, i, REASON_RUNAWAY_STRAIN);
+  if (overlong) noteDivergence(arguments.watch, PASS_FORCES, i, REASON_RUNAWAY_STRAIN);
   return f;
 }
 
@@ -76,7 +76,7 @@ Vec3<Real> addTriangles(const PassArguments<Real>& arguments, std::uint32_t i, V
 
 template <class Real>
 void gather(const PassArguments<Real>& arguments, int row) {
-  const Stretch particles = stretch(arguments.step, row);
+  const Range particles = rangeOf(arguments.step, row);
   for (std::ptrdiff_t n = particles.begin; n < particles.end; ++n) {
     const auto i = static_cast<std::uint32_t>(n);
     Vec3<Real> f = addHinges(arguments, i, springsAt(arguments, i));
@@ -90,12 +90,12 @@ void gather(const PassArguments<Real>& arguments, int row) {
 
 }  // namespace
 
-void gatherListedForces(const PassArguments<float>& arguments, int row) { gather(arguments, row); }
-void gatherListedForces(const PassArguments<double>& arguments, int row) { gather(arguments, row); }
+void gatherMeshForces(const PassArguments<float>& arguments, int row) { gather(arguments, row); }
+void gatherMeshForces(const PassArguments<double>& arguments, int row) { gather(arguments, row); }
 
 template <class Real>
-void gatherListedWind(const PassArguments<Real>& arguments, int row, SymmetricField<Real>& resistance) {
-  const Stretch particles = stretch(arguments.step, row);
+void gatherMeshWind(const PassArguments<Real>& arguments, int row, SymmetricField<Real>& resistance) {
+  const Range particles = rangeOf(arguments.step, row);
   for (std::ptrdiff_t n = particles.begin; n < particles.end; ++n) {
     const auto i = static_cast<std::uint32_t>(n);
     Symmetric<Real> sum{};
@@ -107,7 +107,7 @@ void gatherListedWind(const PassArguments<Real>& arguments, int row, SymmetricFi
     put(resistance, n, sum);
   }
 }
-template void gatherListedWind(const PassArguments<float>&, int, SymmetricField<float>&);
-template void gatherListedWind(const PassArguments<double>&, int, SymmetricField<double>&);
+template void gatherMeshWind(const PassArguments<float>&, int, SymmetricField<float>&);
+template void gatherMeshWind(const PassArguments<double>&, int, SymmetricField<double>&);
 
 }  // namespace clothsim::cpu

@@ -1,20 +1,20 @@
 // Forces on the particles of meshes, gathered over lists in ascending order (src/solver/mesh_lists.h); the twin is
-// src/solver/cpu/listed_forces.cpp.
+// src/solver/cpu/mesh_forces.cpp.
 #include "shared/mesh_lists.h"
 
 layout(binding = LIST_STARTS_UNIT) uniform usamplerBuffer listStarts;
-layout(binding = LISTED_SPRINGS_UNIT) uniform usamplerBuffer listedSprings;
-layout(binding = LISTED_NUMBERS_UNIT) uniform usamplerBuffer listedNumbers;
+layout(binding = MESH_SPRINGS_UNIT) uniform usamplerBuffer meshSprings;
+layout(binding = MESH_NUMBERS_UNIT) uniform usamplerBuffer meshNumbers;
 layout(binding = HINGES_UNIT) uniform usamplerBuffer hinges;
-layout(binding = LISTED_TRIANGLES_UNIT) uniform usamplerBuffer listedTriangles;
+layout(binding = MESH_TRIANGLES_UNIT) uniform usamplerBuffer meshTriangles;
 
 // Every spring is watched once, at its owner.
-vec3 gatherListedSprings(uint i, uint first, uint end) {
+vec3 gatherMeshSprings(uint i, uint first, uint end) {
   vec3 x = positionAt(i).xyz;
   bool tooLong = false;
   precise vec3 f = vec3(0.0);
   for (uint n = first; n < end; ++n) {
-    uvec4 spring = texelFetch(listedSprings, int(n));
+    uvec4 spring = texelFetch(meshSprings, int(n));
     float rest = uintBitsToFloat(spring.w);
     vec3 other = positionAt(spring.x).xyz;
     precise vec3 d = other - x;
@@ -31,7 +31,7 @@ vec3 gatherListedSprings(uint i, uint first, uint end) {
       if (over > 0.0) f = f + pull;
     }
   }
-  if (tooLong) noteTrouble(PASS_FORCES, i, REASON_RUNAWAY_STRAIN);
+  if (tooLong) noteDivergence(PASS_FORCES, i, REASON_RUNAWAY_STRAIN);
   return f;
 }
 
@@ -39,7 +39,7 @@ vec3 gatherListedSprings(uint i, uint first, uint end) {
 vec3 addHinges(uint first, uint end, vec3 force) {
   precise vec3 f = force;
   for (uint n = first; n < end; ++n) {
-    uint number = texelFetch(listedNumbers, int(n)).x;
+    uint number = texelFetch(meshNumbers, int(n)).x;
     int row = int(number / 4u) * HINGE_ROWS;
     uvec4 corners = texelFetch(hinges, row);
     vec4 c = uintBitsToFloat(texelFetch(hinges, row + 1));
@@ -53,19 +53,19 @@ vec3 addHinges(uint first, uint end, vec3 force) {
   return f;
 }
 
-vec3 addListedTriangles(uint first, uint end, vec3 force) {
+vec3 addMeshTriangles(uint first, uint end, vec3 force) {
   precise vec3 f = force;
   for (uint n = first; n < end; ++n) {
-    uvec4 corners = texelFetch(listedTriangles, int(texelFetch(listedNumbers, int(n)).x));
+    uvec4 corners = texelFetch(meshTriangles, int(texelFetch(meshNumbers, int(n)).x));
     f = f + windForce(corners.x, corners.y, corners.z);
   }
   return f;
 }
 
-vec3 gatherListedForces(uint i) {
+vec3 gatherMeshForces(uint i) {
   uvec4 first = texelFetch(listStarts, int(i)), end = texelFetch(listStarts, int(i) + 1);
-  vec3 f = gatherListedSprings(i, first.x, end.x);
+  vec3 f = gatherMeshSprings(i, first.x, end.x);
   f = addHinges(first.y, end.y, f);
-  if (hasWind) f = addListedTriangles(first.z, end.z, f);
+  if (hasWind) f = addMeshTriangles(first.z, end.z, f);
   return f;
 }

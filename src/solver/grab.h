@@ -20,7 +20,7 @@
 
 #include "cloth/cloth.h"
 #include "scene/scene.h"
-#include "shared/hand.h"
+#include "shared/grab.h"
 #include "shared/step_params.h"
 #include "solver/state.h"
 
@@ -30,7 +30,7 @@ template <class Real>
 using HandParams = shared::HandParams<Real>;
 
 // A block of grid points in a hand.
-struct Hold {
+struct GrabSpring {
   // Of one grid point: where its goal lies from the hand's place, and its weight; 0 outside the radius. As
   // the GPU reads it.
   struct alignas(16) Point {
@@ -57,7 +57,7 @@ struct Jet {
 };
 
 struct Hand {
-  std::optional<Hold> hold;
+  std::optional<GrabSpring> grab;
   std::optional<Jet> jet;
 };
 
@@ -66,12 +66,12 @@ using ReadPositions = std::function<std::vector<Particle4>(std::uint32_t first, 
 
 // Takes hold of a particle and of those within `radius` [m] of it on the lattice at rest; the weight falls as
 // (1 - (r / radius)^2)^2. Everything keeps its place relative to the particle, where the hand begins.
-[[nodiscard]] Hold takeHold(const Cloth& cloth, std::uint32_t particle, double strength, double radius,
-                            const ReadPositions& positions);
+[[nodiscard]] GrabSpring makeGrabSpring(const Cloth& cloth, std::uint32_t particle, double strength,
+                                        double radius, const ReadPositions& positions);
 // Where the hand is once `steps` steps are done [m].
-[[nodiscard]] Vec3d placeOf(const Hold& hold, std::uint64_t steps);
+[[nodiscard]] Vec3d placeOf(const GrabSpring& grab, std::uint64_t steps);
 // From where it is after `step` steps to `target`, in so many steps.
-void moveTo(Hold& hold, Vec3d target, std::uint64_t step, int steps);
+void moveTo(GrabSpring& grab, Vec3d target, std::uint64_t step, int steps);
 
 // For the step from step * h to (step + 1) * h.
 template <class Real>

@@ -1,4 +1,4 @@
-// What a hand does to the cloth in a step (src/solver/hand.h), evaluated on the host and handed to both
+// What a hand does to the cloth in a step (src/solver/grab.h), evaluated on the host and handed to both
 // backends as the same bits. Included by GLSL (std140) and by C++, where `real` is float for the bitwise twin
 // and double for tests of the physics. Rows of 16 bytes.
 #ifdef __cplusplus
@@ -15,7 +15,7 @@ using uint = std::uint32_t;
 #endif
 
 #define HAND_PARAMS_BINDING 3  // uniform block
-#define HELD_UNIT 16       // buffer read as texels, a texel a held grid point: offset from the goal, weight
+#define GRABBED_UNIT 16    // buffer read as texels, a texel a held grid point: offset from the goal, weight
 #define CUT_MASKS_UNIT 17  // an unsigned number a particle: makeCutMasks() of src/cloth/cuts.h
 #define FIRST_CUT_TRIANGLE 12  // the bit of the first incident triangle in a cut mask
 

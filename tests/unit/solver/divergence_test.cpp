@@ -1,5 +1,5 @@
 // The watchdog on the CPU backend: what it finds, what it calls it, and what it leaves alone.
-#include "solver/trouble.h"
+#include "solver/divergence.h"
 
 #include <gtest/gtest.h>
 
@@ -27,12 +27,12 @@ TEST(Watchdog, FindsNonFiniteNumbersInjectedAnywhereInTheNextStepAndNamesThePart
   for (const test::Injection& injection : test::makeInjections(cloth, 200)) {
     solver.setState(initialState(cloth, scene));
     solver.step(injection.step);
-    ASSERT_EQ(solver.trouble(), std::nullopt);
+    ASSERT_EQ(solver.divergence(), std::nullopt);
     solver.setState(injection.into(solver.state()));
     solver.step(1);
-    const Trouble expected{TroubleReason::nonFinite, Pass::checkStart,
-                           static_cast<std::uint64_t>(injection.step) + 1, injection.particle};
-    EXPECT_EQ(solver.trouble(), expected) << injection.text();
+    const Divergence expected{DivergenceReason::nonFinite, Pass::checkStart,
+                              static_cast<std::uint64_t>(injection.step) + 1, injection.particle};
+    EXPECT_EQ(solver.divergence(), expected) << injection.text();
   }
 }
 
@@ -41,7 +41,7 @@ TEST(Watchdog, IsSilentOnEverySceneThatTheBackendsAreComparedOn) {
     const Cloth cloth(scene);
     CpuSolver<float> solver(cloth, scene);
     solver.step(60);
-    EXPECT_EQ(solver.trouble(), std::nullopt) << name;
+    EXPECT_EQ(solver.divergence(), std::nullopt) << name;
   }
 }
 
@@ -51,7 +51,7 @@ TEST(Watchdog, IsSilentInImplicitStepsWhichTakeAnyStiffness) {
     const Cloth cloth(stiff);
     CpuSolver<float> solver(cloth, stiff);
     solver.step(60);
-    EXPECT_EQ(solver.trouble(), std::nullopt) << name;
+    EXPECT_EQ(solver.divergence(), std::nullopt) << name;
   }
 }
 
@@ -60,24 +60,24 @@ TEST(Watchdog, StopsASheetThatExplodesWithinAFewStepsWhileAllNumbersAreStillFini
   const Cloth cloth(scene);
   CpuSolver<float> solver(cloth, scene);
   int steps = 0;
-  while (!solver.trouble() && steps < 20) solver.step(1), ++steps;
-  ASSERT_TRUE(solver.trouble().has_value());
-  EXPECT_NE(solver.trouble()->reason, TroubleReason::nonFinite);
-  EXPECT_EQ(solver.trouble()->step, static_cast<std::uint64_t>(steps));
+  while (!solver.divergence() && steps < 20) solver.step(1), ++steps;
+  ASSERT_TRUE(solver.divergence().has_value());
+  EXPECT_NE(solver.divergence()->reason, DivergenceReason::nonFinite);
+  EXPECT_EQ(solver.divergence()->step, static_cast<std::uint64_t>(steps));
   for (const Particle4& x : solver.state().positions)
     EXPECT_TRUE(std::isfinite(x.x) && std::isfinite(x.y) && std::isfinite(x.z));
 }
 
-TEST(Watchdog, KeepsToTheFirstTroubleUntilAnotherStateIsHandedIn) {
+TEST(Watchdog, KeepsToTheFirstDivergenceUntilAnotherStateIsHandedIn) {
   const Scene scene = test::exploding(test::vertical(test::sheetScene(20)));
   const Cloth cloth(scene);
   CpuSolver<float> whole(cloth, scene), stepwise(cloth, scene);
   whole.step(100);
-  const std::optional<Trouble> first = whole.trouble();
-  while (!stepwise.trouble()) stepwise.step(1);
-  EXPECT_EQ(first, stepwise.trouble());
+  const std::optional<Divergence> first = whole.divergence();
+  while (!stepwise.divergence()) stepwise.step(1);
+  EXPECT_EQ(first, stepwise.divergence());
   whole.setState(initialState(cloth, scene));
-  EXPECT_EQ(whole.trouble(), std::nullopt);
+  EXPECT_EQ(whole.divergence(), std::nullopt);
 }
 
 // One particle of a single spring, thrown at a speed on either side of the limit.
@@ -90,9 +90,9 @@ TEST(Watchdog, HoldsSpeedsToMaxSpeed) {
     solver.setVelocity(1, {speed, 0, 0});
     solver.step(1);
     if (speed < 50)
-      EXPECT_EQ(solver.trouble(), std::nullopt);
+      EXPECT_EQ(solver.divergence(), std::nullopt);
     else
-      EXPECT_EQ(solver.trouble(), (Trouble{TroubleReason::runawaySpeed, Pass::integrate, 1, 1}));
+      EXPECT_EQ(solver.divergence(), (Divergence{DivergenceReason::runawaySpeed, Pass::integrate, 1, 1}));
   }
 }
 
@@ -105,9 +105,9 @@ TEST(Watchdog, HoldsSpringsToMaxStrain) {
     solver.setPosition(1, {0, -length, 0});
     solver.step(1);
     if (length < 3)
-      EXPECT_EQ(solver.trouble(), std::nullopt);
+      EXPECT_EQ(solver.divergence(), std::nullopt);
     else
-      EXPECT_EQ(solver.trouble(), (Trouble{TroubleReason::runawayStrain, Pass::forces, 1, 1}));
+      EXPECT_EQ(solver.divergence(), (Divergence{DivergenceReason::runawayStrain, Pass::forces, 1, 1}));
   }
 }
 
@@ -118,12 +118,12 @@ TEST(Watchdog, NamesTheSamePlaceFusedAndPassByPass) {
     CpuSolver<float> fused(cloth, wild, true), separate(cloth, wild, false);
     fused.step(60);
     separate.step(60);
-    EXPECT_EQ(fused.trouble(), separate.trouble()) << name;
-    EXPECT_TRUE(fused.trouble().has_value()) << name;
+    EXPECT_EQ(fused.divergence(), separate.divergence()) << name;
+    EXPECT_TRUE(fused.divergence().has_value()) << name;
   }
 }
 
-TEST(Watchdog, RevertGoesBackToWhatWasKeptAndForgetsTheTrouble) {
+TEST(Watchdog, RevertGoesBackToWhatWasKeptAndForgetsTheDivergence) {
   const Scene scene = test::withWind(test::vertical(test::sheetScene(12)));
   const Cloth cloth(scene);
   CpuSolver<float> solver(cloth, scene), straight(cloth, scene);
@@ -132,9 +132,9 @@ TEST(Watchdog, RevertGoesBackToWhatWasKeptAndForgetsTheTrouble) {
   solver.step(3);
   solver.setVelocity(5, {std::numeric_limits<float>::quiet_NaN(), 0, 0});
   solver.step(1);
-  ASSERT_TRUE(solver.trouble().has_value());
+  ASSERT_TRUE(solver.divergence().has_value());
   solver.revert();
-  EXPECT_EQ(solver.trouble(), std::nullopt);
+  EXPECT_EQ(solver.divergence(), std::nullopt);
   EXPECT_EQ(solver.stepIndex(), 7u);
   solver.step(10);
   straight.step(17);
@@ -149,10 +149,10 @@ TEST(Watchdog, TakesANegativeZeroForTheNumberThatItIs) {
   CpuSolver<float> solver(cloth, scene);
   solver.setState(state);
   solver.step(1);
-  EXPECT_EQ(solver.trouble(), std::nullopt);
+  EXPECT_EQ(solver.divergence(), std::nullopt);
 }
 
-TEST(Watchdog, EndsAtTheStepWithTroubleAndLooksForNoContactsInBrokenNumbers) {
+TEST(Watchdog, EndsAtTheStepWithDivergenceAndLooksForNoContactsInBrokenNumbers) {
   Scene scene = test::sheetScene(12);
   for (const SelfCollision mode : {SelfCollision::averaged, SelfCollision::robust}) {
     scene.solver.selfCollision = mode;
@@ -165,27 +165,27 @@ TEST(Watchdog, EndsAtTheStepWithTroubleAndLooksForNoContactsInBrokenNumbers) {
       solver.setPosition(i, {1e6f, 0, 0});
     solver.setVelocity(5, {std::numeric_limits<float>::quiet_NaN(), 0, 0});
     solver.step(50);
-    ASSERT_TRUE(solver.trouble().has_value());
-    EXPECT_EQ(solver.trouble()->step, 4u);
+    ASSERT_TRUE(solver.divergence().has_value());
+    EXPECT_EQ(solver.divergence()->step, 4u);
     EXPECT_EQ(solver.stepIndex(), 4u);
     EXPECT_EQ(solver.contactCounts().hashBuilds, builds);
   }
 }
 
-TEST(FirstTrouble, IsTheEarliestPassWhateverWasNotedAfterIt) {
+TEST(FirstDivergence, IsTheEarliestPassWhateverWasNotedAfterIt) {
   WatchRow row = soundWatchRow();
-  EXPECT_EQ(firstTrouble(row, 3), std::nullopt);
+  EXPECT_EQ(firstDivergence(row, 3), std::nullopt);
   row[PASS_LIMIT] = 4 * 1 + REASON_NON_FINITE;
   row[PASS_INTEGRATE] = 4 * 9 + REASON_RUNAWAY_SPEED;
-  EXPECT_EQ(firstTrouble(row, 3), (Trouble{TroubleReason::runawaySpeed, Pass::integrate, 3, 9}));
+  EXPECT_EQ(firstDivergence(row, 3), (Divergence{DivergenceReason::runawaySpeed, Pass::integrate, 3, 9}));
 }
 
-TEST(TroubleText, NamesStepFramePassParticleAndItsPlaceOnTheCloth) {
+TEST(DivergenceText, NamesStepFramePassParticleAndItsPlaceOnTheCloth) {
   const Scene scene = twoBusyCloths(12);
   const Cloth cloth(scene);
   const std::uint32_t particle = cloth.grids()[1].particle(4, 2);
   const std::string text =
-      troubleText({TroubleReason::runawaySpeed, Pass::collide, 61, particle}, cloth, scene);
+      divergenceText({DivergenceReason::runawaySpeed, Pass::collide, 61, particle}, cloth, scene);
   EXPECT_NE(text.find("step 61 (frame 3)"), std::string::npos) << text;
   EXPECT_NE(text.find("pass collide"), std::string::npos) << text;
   EXPECT_NE(text.find("particle " + std::to_string(particle) + " (cloth 1, column 4, row 2)"),
@@ -200,34 +200,34 @@ TEST(Remedy, IsNotNeededByTheShortestSceneOfAFabricAndHelpsWhereStepsAreTooLong)
     Scene scene = test::sceneOf(R"({"cloth": {"width": 1, "height": 1, "material": ")" + name +
                                 R"(", "num_width_points": 25, "num_height_points": 25, "pinned": ["top"]}})");
     const Cloth cloth(scene);
-    const auto troubleIn = [&](int steps) {
+    const auto divergenceIn = [&](int steps) {
       CpuSolver<float> solver(cloth, scene);
       solver.step(steps);
-      return solver.trouble();
+      return solver.divergence();
     };
-    EXPECT_EQ(troubleIn(1), std::nullopt) << name;
+    EXPECT_EQ(divergenceIn(1), std::nullopt) << name;
     setSceneValue(scene, "solver.integrator=verlet");
     setSceneValue(scene, "solver.simulation_steps=1");
-    const std::optional<Trouble> trouble = troubleIn(30);
-    ASSERT_TRUE(trouble.has_value()) << name;
-    for (const std::string& setting : remedyFor(*trouble, scene).settings) setSceneValue(scene, setting);
+    const std::optional<Divergence> divergence = divergenceIn(30);
+    ASSERT_TRUE(divergence.has_value()) << name;
+    for (const std::string& setting : remedyFor(*divergence, scene).settings) setSceneValue(scene, setting);
     EXPECT_LE(stepLength(scene.solver), stableStep(scene)) << name;
   }
 }
 
 TEST(Remedy, KeepsCs184sIntegratorWhereAStableNumberOfStepsIsNear) {
-  const Trouble trouble{TroubleReason::runawaySpeed, Pass::integrate, 1, 0};
+  const Divergence divergence{DivergenceReason::runawaySpeed, Pass::integrate, 1, 0};
   Scene scene = test::sceneOf(R"({"cloth": {"ks": 500000}})");
-  const Remedy steps = remedyFor(trouble, scene);
+  const Remedy steps = remedyFor(divergence, scene);
   const std::string setting = "solver.simulation_steps=" + std::to_string(stableSteps(scene));
   EXPECT_EQ(steps.settings, std::vector{setting});
   EXPECT_NE(steps.text.find(setting + " (now 30)"), std::string::npos) << steps.text;
   scene.cloths[0].ks = 5e9;
-  EXPECT_EQ(remedyFor(trouble, scene).settings, std::vector<std::string>{"solver.integrator=implicit"});
+  EXPECT_EQ(remedyFor(divergence, scene).settings, std::vector<std::string>{"solver.integrator=implicit"});
   scene.cloths[0].ks = 5000;  // its steps are short enough
-  EXPECT_NE(remedyFor(trouble, scene).text.find("The springs are not the cause"), std::string::npos);
+  EXPECT_NE(remedyFor(divergence, scene).text.find("The springs are not the cause"), std::string::npos);
   scene.solver.integrator = Integrator::implicit;
-  EXPECT_EQ(remedyFor(trouble, scene).settings, std::vector<std::string>{"solver.simulation_steps=120"});
+  EXPECT_EQ(remedyFor(divergence, scene).settings, std::vector<std::string>{"solver.simulation_steps=120"});
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "solver/trouble.h"
+#include "solver/divergence.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -26,13 +26,13 @@ std::string placeOnTheCloth(std::uint32_t particle, const Cloth& cloth) {
          std::to_string(onGrid / columns);
 }
 
-std::string what(const Trouble& trouble, const Scene& scene) {
-  switch (trouble.reason) {
-    case TroubleReason::nonFinite:
+std::string what(const Divergence& divergence, const Scene& scene) {
+  switch (divergence.reason) {
+    case DivergenceReason::nonFinite:
       return "is no longer a finite number";
-    case TroubleReason::runawaySpeed:
+    case DivergenceReason::runawaySpeed:
       return "exceeded solver.max_speed, " + number(scene.solver.maxSpeed) + " m/s";
-    case TroubleReason::runawayStrain:
+    case DivergenceReason::runawayStrain:
       return "exceeded solver.max_strain: a spring at it is stretched by more than " +
              number(scene.solver.maxStrain) + " times its rest length";
   }
@@ -48,23 +48,24 @@ constexpr std::array<Pass, PASSES> watchedPasses{
 
 WatchRow soundWatchRow() {
   WatchRow row;
-  row.fill(NO_TROUBLE);
+  row.fill(NO_DIVERGENCE);
   return row;
 }
 
-std::optional<Trouble> firstTrouble(const WatchRow& row, std::uint64_t step) {
+std::optional<Divergence> firstDivergence(const WatchRow& row, std::uint64_t step) {
   for (std::uint32_t pass = 0; pass < PASSES; ++pass)
-    if (row[pass] != NO_TROUBLE)
-      return Trouble{static_cast<TroubleReason>(row[pass] % 4), watchedPasses[pass], step, row[pass] / 4};
+    if (row[pass] != NO_DIVERGENCE)
+      return Divergence{static_cast<DivergenceReason>(row[pass] % 4), watchedPasses[pass], step,
+                        row[pass] / 4};
   return std::nullopt;
 }
 
-std::string troubleText(const Trouble& trouble, const Cloth& cloth, const Scene& scene) {
+std::string divergenceText(const Divergence& divergence, const Cloth& cloth, const Scene& scene) {
   const auto stepsPerFrame = static_cast<std::uint64_t>(scene.solver.simulationSteps);
-  return "in step " + std::to_string(trouble.step) + " (frame " +
-         std::to_string((trouble.step + stepsPerFrame - 1) / stepsPerFrame) + "), pass " +
-         nameOf(trouble.pass) + ", particle " + std::to_string(trouble.particle) + " (" +
-         placeOnTheCloth(trouble.particle, cloth) + ") " + what(trouble, scene);
+  return "in step " + std::to_string(divergence.step) + " (frame " +
+         std::to_string((divergence.step + stepsPerFrame - 1) / stepsPerFrame) + "), pass " +
+         nameOf(divergence.pass) + ", particle " + std::to_string(divergence.particle) + " (" +
+         placeOnTheCloth(divergence.particle, cloth) + ") " + what(divergence, scene);
 }
 
 namespace {
@@ -106,14 +107,14 @@ Remedy forExplicitSteps(const Scene& scene) {
 
 }  // namespace
 
-Remedy remedyFor(const Trouble& trouble, const Scene& scene) {
-  if (trouble.pass == Pass::checkStart)
+Remedy remedyFor(const Divergence& divergence, const Scene& scene) {
+  if (divergence.pass == Pass::checkStart)
     return {"The state that the step began with was wrong already: begin with another one.", {}};
   const bool isImplicit = scene.solver.integrator == Integrator::implicit;
   Remedy remedy = isImplicit ? forImplicitSteps(scene) : forExplicitSteps(scene);
-  if (trouble.reason == TroubleReason::runawaySpeed)
+  if (divergence.reason == DivergenceReason::runawaySpeed)
     remedy.text += " If it is meant, raise solver.max_speed.";
-  if (trouble.reason == TroubleReason::runawayStrain)
+  if (divergence.reason == DivergenceReason::runawayStrain)
     remedy.text += " If it is meant, raise solver.max_strain.";
   return remedy;
 }
