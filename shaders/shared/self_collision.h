@@ -60,9 +60,9 @@ SHARED_STRUCT SelfParams {
   real moveFactor;     // a mean of fixed-point units times this is the move in metres
   real largestMove;    // in a step, robust only
 
-  real friction;     // Coulomb's, between layers, robust only
-  real clampFactor;  // a step never ends with a pair of non-adjacent particles nearer than this times its
-                     // distance, robust only
+  real friction;       // Coulomb's, between layers, robust only
+  real clampFactor;    // a step never ends with a pair of non-adjacent particles nearer than this times its
+                       // distance, robust only
   real fastSquared;    // farther than this within a step a particle could slip past another unseen [m^2]
   real codesPerMeter;  // of a mesh: a code is so much of the distance at rest
 };

@@ -10,16 +10,24 @@
 #define COLLIDER_BOX 3u
 #define COLLIDER_TORUS 4u
 #define COLLIDER_MESH 5u
+#define COLLIDER_CYLINDER 6u
+#define COLLIDER_CONE 7u
 
+#ifdef LAW
 #include "shared/shapes/box.h"
 #include "shared/shapes/capsule.h"
+#include "shared/shapes/cone.h"
+#include "shared/shapes/cylinder.h"
 #include "shared/shapes/mesh.h"
 #include "shared/shapes/torus.h"
+#endif
 
 // EACH(number, struct of the scene, law): all shapes but the sphere and the plane, whose contacts have laws
 // of their own.
-#define DISTANCE_SHAPES(EACH)                       \
-  EACH(COLLIDER_CAPSULE, Capsule, nearestOnCapsule) \
-  EACH(COLLIDER_BOX, Box, nearestOnBox)             \
-  EACH(COLLIDER_TORUS, Torus, nearestOnTorus)       \
-  EACH(COLLIDER_MESH, MeshCollider, nearestOnMesh)
+#define DISTANCE_SHAPES(EACH)                          \
+  EACH(COLLIDER_CAPSULE, Capsule, nearestOnCapsule)    \
+  EACH(COLLIDER_BOX, Box, nearestOnBox)                \
+  EACH(COLLIDER_TORUS, Torus, nearestOnTorus)          \
+  EACH(COLLIDER_MESH, MeshCollider, nearestOnMesh)     \
+  EACH(COLLIDER_CYLINDER, Cylinder, nearestOnCylinder) \
+  EACH(COLLIDER_CONE, Cone, nearestOnCone)

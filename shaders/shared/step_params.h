@@ -10,10 +10,10 @@ using uint = std::uint32_t;
 #define SHARED_STRUCT   \
   template <class real> \
   struct
-#define SPRING_ROWS(Row) Row<real>
+#define ROWS_OF(Row) Row<real>
 #else
 #define SHARED_STRUCT struct
-#define SPRING_ROWS(Row) Row
+#define ROWS_OF(Row) Row
 #define real float
 #endif
 
@@ -70,6 +70,19 @@ SHARED_STRUCT SpringParams {
   real maxLengthSquared;  // ((1 + max_strain) restLength)^2, for the watchdog [m^2]
 };
 
+#define MOST_ATTRACTORS 16
+SHARED_STRUCT AttractorParams {
+  real x;  // [m]
+  real y;
+  real z;
+  real pull;  // acceleration towards it in a unit of distance, at its place [1/s^2]
+
+  real inverseRadiusSquared;  // [1/m^2]
+  real unusedA;
+  real unusedB;
+  real unusedC;
+};
+
 SHARED_STRUCT StepParams {
   uint firstParticle;
   uint columns;
@@ -119,12 +132,13 @@ SHARED_STRUCT StepParams {
   real contactStiffness;  // what a collider's surface has beside CONTACT_OVER_INERTIA (shared/implicit.h)
                           // [N/m]
 
-  uint isMesh;      // springs, bending and triangles come from lists (shared/mesh_lists.h)
-  real maxStretch;  // 1 + max_strain, for the watchdog
-  uint unusedMeshA;
-  uint unusedMeshB;
+  uint isMesh;          // springs, bending and triangles come from lists (shared/mesh_lists.h)
+  real maxStretch;      // 1 + max_strain, for the watchdog
+  uint particleForces;  // those that act, a bit a FORCE_... of shared/forces.h
+  uint attractorCount;
 
-  SPRING_ROWS(SpringParams) springs[6];
+  ROWS_OF(SpringParams) springs[6];
+  ROWS_OF(AttractorParams) attractors[MOST_ATTRACTORS];
 };
 
 SHARED_STRUCT ColliderParams {
@@ -175,8 +189,8 @@ SHARED_STRUCT ColliderParams {
   uint gridLayers;
   uint firstSample;  // among those of all meshes
 
-  // The rigid motion over the step: x + (rotation (x - pivot) + translation), where rotation is the rotation
-  // minus the identity.
+  // The rigid motion over the step: x + (rotation (x - pivot) + translation), where `rotation` lacks the
+  // identity.
   real rotationXX;
   real rotationXY;
   real rotationXZ;
@@ -199,8 +213,8 @@ SHARED_STRUCT ColliderParams {
 };
 
 // The rigid motion of pins from the start of the simulation to the end of the step: x + (rotation (x - pivot)
-// + translation), where rotation is the rotation minus the identity. Pins that have not left their place are
-// there to the bit.
+// + translation), where `rotation` lacks the identity. Pins that have not left their place are there to the
+// bit.
 SHARED_STRUCT PinMotionParams {
   real rotationXX;
   real rotationXY;
@@ -245,6 +259,6 @@ struct LimitColor {
 
 #ifdef __cplusplus
 #undef SHARED_STRUCT
-#undef SPRING_ROWS
+#undef ROWS_OF
 }  // namespace clothsim::shared
 #endif

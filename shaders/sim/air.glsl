@@ -1,6 +1,6 @@
 #include "sim/grab.glsl"
 
-// Wind on triangles and the resistance of the air to particles.
+// Wind on triangles.
 
 // A third of the force of the air on triangle (a, b, c): pressure along its normal, rho C_d / 2 A (u.n)|u.n| n, and lift
 // across the relative wind u, rho C_l / 2 A |u|^2 (e.n) (n - (e.n) e) with e = u/|u|. `normal` is 2 A n, and the factors of
@@ -70,14 +70,5 @@ vec3 addWind(GridPoint p, vec3 force) {
     if (isIntact(lost, 4u)) f = f + windForce(i, i + w - 1u, i + w);
   }
   if (lower && right && isIntact(lost, 5u)) f = f + windForce(i, i + w, i + 1u);
-  return f;
-}
-
-// -a |v| v
-vec3 addAirResistance(vec3 velocity, vec3 force) {
-  precise float speedSquared = sumOfProducts(velocity, velocity);
-  precise float speed = speedSquared * inverseSquareRoot(speedSquared);
-  precise float scale = step.airResistance * speed;
-  precise vec3 f = force - scale * velocity;
   return f;
 }

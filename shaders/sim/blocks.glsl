@@ -28,7 +28,7 @@ vec3 velocityAt(uint i) { return texelFetch(velocities, int(i)).xyz; }
 
 // Known when the pass is compiled, so that what a scene lacks costs nothing (src/solver/gpu/pass_programs.cpp).
 const bool hasWind = HAS_WIND != 0;
-const bool hasAirResistance = HAS_AIR_RESISTANCE != 0;
+const uint particleForces = ACTIVE_FORCES;  // bit FORCE_... is set when the force acts
 const bool hasMaterial = HAS_MATERIAL != 0;
 const uint colliderTypes = COLLIDER_TYPES;  // bit COLLIDER_... is set when the scene has such colliders
 const bool hasColliders = colliderTypes != 0u;

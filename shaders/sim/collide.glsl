@@ -47,10 +47,11 @@ ColliderParams loadCollider(uint k) {
 vec3 carried(ColliderParams collider, vec3 x) {
   if (!hasMovingColliders || collider.moving == 0u) return x;
   precise vec3 d = x - vec3(collider.pivotX, collider.pivotY, collider.pivotZ);
-  precise float rotationX = sumOfProducts(vec3(collider.rotationXX, collider.rotationXY, collider.rotationXZ), d);
-  precise float rotationY = sumOfProducts(vec3(collider.rotationYX, collider.rotationYY, collider.rotationYZ), d);
-  precise float rotationZ = sumOfProducts(vec3(collider.rotationZX, collider.rotationZY, collider.rotationZZ), d);
-  precise vec3 move = vec3(rotationX, rotationY, rotationZ) + vec3(collider.translationX, collider.translationY, collider.translationZ);
+  precise float rotatedX = sumOfProducts(vec3(collider.rotationXX, collider.rotationXY, collider.rotationXZ), d);
+  precise float rotatedY = sumOfProducts(vec3(collider.rotationYX, collider.rotationYY, collider.rotationYZ), d);
+  precise float rotatedZ = sumOfProducts(vec3(collider.rotationZX, collider.rotationZY, collider.rotationZZ), d);
+  precise vec3 move = vec3(rotatedX, rotatedY, rotatedZ) +
+                      vec3(collider.translationX, collider.translationY, collider.translationZ);
   precise vec3 result = x + move;
   return result;
 }

@@ -1,7 +1,8 @@
-// All forces on a particle but gravity: springs, bending, wind, air resistance [N].
+// All forces on a particle but gravity: springs, bending, wind, and those on single particles [N].
 #include "sim/incident_springs.glsl"
 #include "sim/bending.glsl"
 #include "sim/air.glsl"
+#include "sim/particle_forces.glsl"
 #if HAS_MESH
 #include "sim/mesh.glsl"
 #endif
@@ -15,7 +16,7 @@ vec3 gatherForces(GridPoint p) {
   if (hasMaterial) f = addBending(p, f);
   if (hasWind) f = addWind(p, f);
 #endif
-  if (hasAirResistance) f = addAirResistance(velocityAt(p.index), f);
+  f = addParticleForces(positionAt(p.index), velocityAt(p.index), f);
   return f;
 }
 

@@ -16,10 +16,11 @@ Particle movePin(uint i, vec4 x) {
   vec4 rowZ = texelFetch(pinMotionRows, row + 2);
   vec4 pivot = texelFetch(pinMotionRows, row + 3);
   precise vec3 d = start.xyz - pivot.xyz;
-  precise float rotationX = sumOfProducts(rowX.xyz, d);
-  precise float rotationY = sumOfProducts(rowY.xyz, d);
-  precise float rotationZ = sumOfProducts(rowZ.xyz, d);
-  precise vec3 move = vec3(rotationX, rotationY, rotationZ) + vec3(rowX.w, rowY.w, rowZ.w);
+  precise float rotatedX = sumOfProducts(rowX.xyz, d);
+  precise float rotatedY = sumOfProducts(rowY.xyz, d);
+  precise float rotatedZ = sumOfProducts(rowZ.xyz, d);
+  precise vec3 move = vec3(rotatedX, rotatedY, rotatedZ) +
+                      vec3(rowX.w, rowY.w, rowZ.w);
   precise vec3 sum = start.xyz + move;
   precise vec3 newX = canonical(sum);
   precise vec3 newV = step.inverseTimeStep * (newX - x.xyz);

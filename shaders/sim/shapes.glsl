@@ -1,5 +1,7 @@
 // What the laws in shared/shapes/ are written in, as GLSL, and which of them this scene needs.
+#ifndef LAW
 #define LAW
+#endif
 
 bool hasType(uint type) { return (colliderTypes >> type & 1u) != 0u; }
 

@@ -1,5 +1,5 @@
-// Capsules, boxes and tori as drawn: a mesh each in its own frame, all in one buffer, placed by three rows of
-// a matrix.
+// Colliders that are drawn as meshes, all but spheres and planes: each in its own frame, all in one buffer,
+// placed by three rows of a matrix.
 #pragma once
 
 #include <glm/glm.hpp>

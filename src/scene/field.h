@@ -17,7 +17,7 @@ namespace clothsim {
 struct GridPoint;
 enum class Orientation;
 
-// What a number may be. In a vector it holds for each component.
+// What a number may be. In a vector it holds for each component, in a list of objects for their count.
 struct Limits {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();

@@ -12,8 +12,8 @@ struct Pose {
   Matrix3 rotation = identityMatrix;
 };
 
-// The rotation by which a shape's own frame (capsules and tori around y, planes with the normal along y,
-// boxes along the axes) stands in the world, before any motion.
+// The rotation by which a shape's own frame stands in the world, before any motion. Round shapes have their
+// axis along y there, planes their normal, boxes their edges along the axes.
 [[nodiscard]] Matrix3 ownRotation(const Collider& collider);
 
 // The key of a motion, which has at least one, at time t [s]: linear between those given.

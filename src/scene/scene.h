@@ -12,6 +12,7 @@
 
 #include "core/vec.h"
 #include "scene/colliders/collider.h"
+#include "scene/forces/attractors.h"
 
 namespace clothsim {
 
@@ -230,6 +231,7 @@ struct Scene {
   std::vector<Collider> colliders;                     // also those of CS184's `sphere` and `plane` objects
   Vec3d gravity{0, -9.8, 0};                           // [m/s^2]
   std::optional<Wind> wind;                            // none: no forces of the air on triangles
+  std::vector<Attractor> attractors;                   // at most MOST_ATTRACTORS
   double airResistance = 0;                            // a of the force -a |v| v on each particle [kg/m]
   SolverSettings solver;
   CameraSettings camera;

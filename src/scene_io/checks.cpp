@@ -132,7 +132,7 @@ std::string placeOfKey(const std::string& key) {
 }  // namespace
 
 template <>
-void settle(const JsonNode& node, ClothSettings& cloth) {
+void finishReading(const JsonNode& node, ClothSettings& cloth) {
   if (cloth.ks && cloth.stiffnessReference)
     complain(
         *node.find("stiffness_reference"),
@@ -148,30 +148,30 @@ void settle(const JsonNode& node, ClothSettings& cloth) {
 }
 
 template <>
-void settle(const JsonNode& node, GridRange& range) {
+void finishReading(const JsonNode& node, GridRange& range) {
   if (range.from.column > range.to.column || range.from.row > range.to.row)
     complain(node, "expected \"from\" at most \"to\" in column and in row, found " + formatJsonLine(node));
 }
 
 template <>
-void settle(const JsonNode& node, Region& region) {
+void finishReading(const JsonNode& node, Region& region) {
   if (region.from.x > region.to.x || region.from.y > region.to.y || region.from.z > region.to.z)
     complain(node, "expected \"from\" at most \"to\" in x, y and z, found " + formatJsonLine(node));
 }
 
 template <>
-void settle(const JsonNode& node, Motion& motion) {
+void finishReading(const JsonNode& node, Motion& motion) {
   checkKeys(node, motion.keys, motion.loop);
 }
 
 template <>
-void settle(const JsonNode& node, PinMotion& motion) {
+void finishReading(const JsonNode& node, PinMotion& motion) {
   checkKeys(node, motion.keys, motion.loop);
   if (const JsonNode* pins = node.find("pinned"); pins != nullptr && motion.pinned.empty())
     complain(*pins, "expected at least one pin, found an empty list; leave the key out to move all pins");
 }
 
-void settleMotion(const JsonNode& collider, std::optional<Motion>& motion, Vec3d place) {
+void completeMotion(const JsonNode& collider, std::optional<Motion>& motion, Vec3d place) {
   if (!motion) return;
   const JsonNode& keys = *collider.find("motion")->find("keys");
   for (std::size_t i = 0; i < motion->keys.size(); ++i)
@@ -185,7 +185,7 @@ void complainOfMisfit(const JsonNode& collider, const Misfit& misfit, const Json
                                                      ", found " + formatJsonLine(found));
 }
 
-void leaveOutOwnPlace(JsonNode& collider, const std::optional<Motion>& motion, Vec3d place) {
+void omitOwnPlace(JsonNode& collider, const std::optional<Motion>& motion, Vec3d place) {
   if (!motion) return;
   JsonNode& keys = *collider.find("motion")->find("keys");
   for (std::size_t i = 0; i < motion->keys.size(); ++i)

@@ -75,30 +75,30 @@ void readValue(const JsonNode& node, const FieldTraits& traits, std::optional<Ma
 // "sphere, plane, ...": what a collider's type may be.
 [[nodiscard]] std::string colliderTypes();
 
-// --- Checks across several keys, after all of them have been read; and the inverse: what the writer may
-// leave out.
+// --- After all keys of an object were read, finishReading() checks them against each other and fills in what
+// follows from others. After they were written, finishWriting() removes what a reader would fill in again.
 template <class T>
-void settle(const JsonNode&, T&) {}
+void finishReading(const JsonNode&, T&) {}
 template <>
-void settle(const JsonNode& node, ClothSettings& cloth);
+void finishReading(const JsonNode& node, ClothSettings& cloth);
 template <>
-void settle(const JsonNode& node, GridRange& range);
+void finishReading(const JsonNode& node, GridRange& range);
 template <>
-void settle(const JsonNode& node, Region& region);
+void finishReading(const JsonNode& node, Region& region);
 template <>
-void settle(const JsonNode& node, Motion& motion);
+void finishReading(const JsonNode& node, Motion& motion);
 template <>
-void settle(const JsonNode& node, PinMotion& motion);
+void finishReading(const JsonNode& node, PinMotion& motion);
 
 // Keys of a motion without a position stay at the collider's own place.
-void settleMotion(const JsonNode& collider, std::optional<Motion>& motion, Vec3d place);
+void completeMotion(const JsonNode& collider, std::optional<Motion>& motion, Vec3d place);
 // @param found  the value of the misfit's key, which may be a default
 [[noreturn]] void complainOfMisfit(const JsonNode& collider, const Misfit& misfit, const JsonNode& found);
 template <WrittenShape Shape>
-void settle(const JsonNode& node, Shape& shape) {
-  settleMotion(node, shape.motion, shape.place());
-  if constexpr (requires { shape.settle(IsGiven{}); }) {
-    const auto misfit = shape.settle([&](std::string_view key) { return node.find(key) != nullptr; });
+void finishReading(const JsonNode& node, Shape& shape) {
+  completeMotion(node, shape.motion, shape.place());
+  if constexpr (requires { shape.finishReading(IsGiven{}); }) {
+    const auto misfit = shape.finishReading([&](std::string_view key) { return node.find(key) != nullptr; });
     if (!misfit) return;
     for (const Field<Shape>& field : shape.fields())
       if (field.key == misfit->key)
@@ -108,11 +108,11 @@ void settle(const JsonNode& node, Shape& shape) {
 }
 
 template <class T>
-void leaveOut(JsonNode&, const T&) {}
-void leaveOutOwnPlace(JsonNode& collider, const std::optional<Motion>& motion, Vec3d place);
+void finishWriting(JsonNode&, const T&) {}
+void omitOwnPlace(JsonNode& collider, const std::optional<Motion>& motion, Vec3d place);
 template <WrittenShape Shape>
-void leaveOut(JsonNode& node, const Shape& shape) {
-  leaveOutOwnPlace(node, shape.motion, shape.place());
+void finishWriting(JsonNode& node, const Shape& shape) {
+  omitOwnPlace(node, shape.motion, shape.place());
 }
 
 // --- Objects
@@ -144,7 +144,7 @@ void readObject(const JsonNode& node, Owner& target, const std::vector<std::stri
     else if (field.presence == Presence::required)
       complainMissingKey(node, field);
   }
-  settle(node, target);
+  finishReading(node, target);
 }
 
 // Whether two values are written alike: -0 is not 0, and one "auto" is as good as another.
@@ -186,7 +186,7 @@ template <class Owner>
         },
         field.member);
   }
-  leaveOut(*node, value);
+  finishWriting(*node, value);
   return node;
 }
 
@@ -223,6 +223,9 @@ template <class T>
 template <class T>
 void readValue(const JsonNode& node, const FieldTraits& traits, std::vector<T>& target) {
   if (node.kind != JsonKind::list) complainExpected(node, "a " + typeName(traits, target));
+  if (static_cast<double>(node.children.size()) > traits.limits.high)
+    complain(node, "expected a list of at most " + formatNumber(traits.limits.high) +
+                       " entries, found a list of " + std::to_string(node.children.size()));
   target.clear();
   for (const auto& child : node.children) {
     T value{};

@@ -35,6 +35,8 @@ std::span<const Field<Scene>> fieldsOf<Scene>() {
           .in("kg/m")
           .within(notNegative)
           .usually(0, 0.01),
+      field("attractors", &Scene::attractors, "Points that pull the cloth or push it, in a ball around each.")
+          .within({.high = MOST_ATTRACTORS}),
       field("solver", &Scene::solver,
             "Time integration: integrator, steps, strain limit, contacts, watchdog."),
       field("camera", &Scene::camera,

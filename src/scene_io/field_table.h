@@ -22,8 +22,9 @@ namespace clothsim {
 
 template <>
 struct MemberOf<Scene> {
-  using Type = MemberAmong<Scene, std::vector<ClothSettings>, std::vector<Collider>, std::optional<Wind>,
-                           SolverSettings, CameraSettings, RenderSettings, std::optional<Expect>>;
+  using Type =
+      MemberAmong<Scene, std::vector<ClothSettings>, std::vector<Collider>, std::vector<Attractor>,
+                  std::optional<Wind>, SolverSettings, CameraSettings, RenderSettings, std::optional<Expect>>;
 };
 template <>
 struct MemberOf<ClothSettings> {
@@ -70,10 +71,10 @@ struct MemberOf<Expect> {
 template <class Owner>
 [[nodiscard]] std::span<const Field<Owner>> fieldsOf() = delete;
 
-template <WrittenShape Shape>
-[[nodiscard]] std::span<const Field<Shape>> fieldsOf() {
-  return Shape::fields();
-}
+// Of what knows its own.
+template <class Owner>
+requires requires { Owner::fields(); }
+[[nodiscard]] std::span<const Field<Owner>> fieldsOf() { return Owner::fields(); }
 
 template <>
 std::span<const Field<Scene>> fieldsOf<Scene>();

@@ -9,7 +9,7 @@ using enum Array;
 using F = Feature;
 
 constexpr Features elastic{F::springs, F::restLengths, F::meshes, F::cuts};
-constexpr Features air{F::wind, F::airResistance, F::jets, F::meshes, F::cuts};
+constexpr Features air{F::wind, F::particleForces, F::jets, F::meshes, F::cuts};
 constexpr Features solved = elastic | Features{F::wind, F::planes};  // what the linear system is made of
 
 constexpr std::array<PassTraits, PASS_COUNT> table{{
@@ -241,7 +241,7 @@ constexpr std::array<std::string_view, ARRAY_COUNT> arrayNames{
     "scalars",          "hash",       "candidates",    "contact flags",  "watch"};
 
 constexpr std::array<std::string_view, FEATURE_COUNT> featureNames{
-    "springs", "rest lengths", "meshes",      "wind",      "air resistance", "jets",
+    "springs", "rest lengths", "meshes",      "wind",      "particle forces", "jets",
     "grabs",   "cuts",         "moving pins", "colliders", "planes"};
 
 bool runsByRows(Domain domain) { return domain == Domain::gridPoints || domain == Domain::particles; }

@@ -106,11 +106,11 @@ using Arrays = SetOf<Array>;
 
 // What of a scene a pass computes with, beside gravity, time step and masses.
 enum class Feature : std::uint8_t {
-  springs,        // of a grid's slots, bending, and those that limit strain in implicit steps
-  restLengths,    // a rest length of its own for each spring
-  meshes,         // triangle meshes
-  wind,           // and gusts
-  airResistance,  // drag against still air
+  springs,         // of a grid's slots, bending, and those that limit strain in implicit steps
+  restLengths,     // a rest length of its own for each spring
+  meshes,          // triangle meshes
+  wind,            // and gusts
+  particleForces,  // those on single particles: shared/forces.h
   jets,
   grabs,
   cuts,

@@ -38,21 +38,21 @@ template <class Real>
 PinMotionParams<Real> makePinMotionParams(const PinPath& path, double time) {
   const Pose pose = poseAt(path.motion, time);
   const auto& [rowX, rowY, rowZ] = pose.rotation;
-  const Vec3d shift = pose.position - path.center;
+  const Vec3d translation = pose.position - path.center;
   const auto real = [](double x) { return static_cast<Real>(x); };
   PinMotionParams<Real> params{};
   params.rotationXX = real(rowX.x - 1);
   params.rotationXY = real(rowX.y);
   params.rotationXZ = real(rowX.z);
-  params.translationX = real(shift.x);
+  params.translationX = real(translation.x);
   params.rotationYX = real(rowY.x);
   params.rotationYY = real(rowY.y - 1);
   params.rotationYZ = real(rowY.z);
-  params.translationY = real(shift.y);
+  params.translationY = real(translation.y);
   params.rotationZX = real(rowZ.x);
   params.rotationZY = real(rowZ.y);
   params.rotationZZ = real(rowZ.z - 1);
-  params.translationZ = real(shift.z);
+  params.translationZ = real(translation.z);
   params.pivotX = real(path.center.x);
   params.pivotY = real(path.center.y);
   params.pivotZ = real(path.center.z);

@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "core/hash.h"
+#include "scene/forces/air_resistance.h"
+#include "shared/forces.h"
 #include "solver/pin_paths.h"
 
 namespace clothsim {
@@ -130,6 +132,27 @@ bool dependsOnTime(const Scene& scene) {
   return hasPinMotion(scene);
 }
 
+std::uint32_t particleForcesOf(const Scene& scene) {
+  std::uint32_t forces = 0;
+#define ADD_BIT(number, Struct, law) \
+  if (Struct::acts(scene)) forces |= 1u << number;
+  PARTICLE_FORCES(ADD_BIT)
+#undef ADD_BIT
+  return forces;
+}
+
+namespace {
+
+template <class Real>
+void putParticleForces(const Scene& scene, StepParams<Real>& params) {
+  params.particleForces = particleForcesOf(scene);
+#define PACK(number, Struct, law) Struct::pack(scene, params);
+  PARTICLE_FORCES(PACK)
+#undef PACK
+}
+
+}  // namespace
+
 template <class Real>
 StepParams<Real> makeStepParams(const Scene& scene, const Cloth& cloth, std::size_t gridIndex, double time) {
   const Grid& grid = cloth.grids()[gridIndex];
@@ -149,7 +172,7 @@ StepParams<Real> makeStepParams(const Scene& scene, const Cloth& cloth, std::siz
   params.hasMaterial = grid.hasMaterial ? 1 : 0;
   params.bendAlongRow = real<Real>(grid.bendAlongRow);
   params.bendAlongColumn = real<Real>(grid.bendAlongColumn);
-  params.airResistance = real<Real>(scene.airResistance);
+  putParticleForces(scene, params);
   params.gravityX = real<Real>(scene.gravity.x);
   params.gravityY = real<Real>(scene.gravity.y);
   params.gravityZ = real<Real>(scene.gravity.z);

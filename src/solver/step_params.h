@@ -25,6 +25,9 @@ template <class Real>
 [[nodiscard]] StepParams<Real> makeStepParams(const Scene& scene, const Cloth& cloth, std::size_t grid,
                                               double time);
 
+// Which of the forces on single particles act: one bit a FORCE_... of shared/forces.h.
+[[nodiscard]] std::uint32_t particleForcesOf(const Scene& scene);
+
 // Whether anything above changes from step to step.
 [[nodiscard]] bool dependsOnTime(const Scene& scene);
 

@@ -16,8 +16,8 @@ const Scene& wholeScene() {
       {"material": "silk", "num_width_points": 4, "num_height_points": 4}],
     "sphere": {"motion": {"keys": [{"t": 0}, {"t": 1, "position": [0, 1, 0]}], "loop": true}},
     "plane": {},
-    "colliders": [{"type": "capsule"}, {"type": "box"}, {"type": "torus"}],
-    "wind": {"gust": {"strength": 1}}, "camera": {}, "solver": {"integrator": "implicit"},
+    "colliders": [{"type": "capsule"}, {"type": "box"}, {"type": "torus"}, {"type": "cylinder"}, {"type": "cone"}],
+    "attractors": [{}, {"strength": -1}], "wind": {"gust": {"strength": 1}}, "camera": {}, "solver": {"integrator": "implicit"},
     "expect": {"frames": 1}})",
                                         "the harness");
   return scene;

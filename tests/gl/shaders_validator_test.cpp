@@ -67,7 +67,6 @@ std::vector<gl::Defines> variantsOf(const std::string& file) {
   if (file == "render/strain.frag") return {{{"STRAIN", ""}}};
   if (!file.starts_with("sim/")) return {gl::Defines{}};
   PassFeatures everything{.wind = true,
-                          .airResistance = true,
                           .movingColliders = true,
                           .coulombFriction = true,
                           .movingPins = true,
@@ -76,6 +75,7 @@ std::vector<gl::Defines> variantsOf(const std::string& file) {
                           .jet = true,
                           .cuts = true};
   everything.colliderTypes = 0xffffffff;
+  everything.particleForces = ~0u;
   everything.enabledSlots = (1u << SPRING_SLOTS) - 1;
   PassFeatures cs184 = everything;
   cs184.coulombFriction = false;

@@ -15,6 +15,14 @@ inline Scene withWind(Scene scene) {
   return scene;
 }
 
+// One that pulls, one that pushes and overlaps with it, one of which nothing is felt.
+inline Scene withAttractors(Scene scene) {
+  scene.attractors = {{.position = {0.3, 0.6, 0.2}, .strength = 30, .radius = 0.6},
+                      {.position = {0.7, 0.5, -0.1}, .strength = -20, .radius = 0.5},
+                      {.position = {9, 9, 9}, .strength = 5, .radius = 1}};
+  return scene;
+}
+
 inline Scene withLimiter(Scene scene) {
   scene.solver.strainLimit = 0.1;
   return scene;
@@ -61,6 +69,21 @@ inline Scene withShapes(Scene scene, FrictionLaw law) {
             .tubeRadius = 0.03,
             .friction = 0.8,
             .motion = flyingPast({0.5, 0.5, 0.5}, {0.5, 0.5, -0.5})},
+      Cylinder{.origin = {0.1, 0.2, 0.1}, .axis = {1, 0.3, 0}, .height = 0.3, .radius = 0.1},
+      Cylinder{.origin = {0.8, 0.5, 0.4},
+               .axis = {0.1, 1, 0},
+               .height = 0.4,
+               .radius = 0.07,
+               .friction = 0.6,
+               .motion = flyingPast({0.8, 0.5, 0.4}, {0.8, 0.6, -0.4})},
+      Cone{.origin = {0.6, 0.2, 0.15}, .axis = {0, 0.2, -1}, .height = 0.3, .radius = 0.12},
+      Cone{.origin = {0.2, 0.6, 0.4},
+           .axis = {0.1, -1, 0},
+           .height = 0.3,
+           .radius = 0.04,
+           .topRadius = 0.1,
+           .friction = 0.6,
+           .motion = flyingPast({0.2, 0.6, 0.4}, {0.3, 0.6, -0.4})},
       Plane{.point = {0, 0.02, 0}, .normal = {0.1, 1, 0}, .friction = 0.4, .motion = std::nullopt}};
   return scene;
 }
@@ -239,7 +262,7 @@ inline std::vector<NamedScene> comparedScenes(int n) {
   return {{"pinned", vertical(sheetScene(n))},
           {"falling flat", sheetScene(n)},
           {"limiter", withLimiter(vertical(sheetScene(n)))},
-          {"wind", withWind(vertical(sheetScene(n)))},
+          {"wind and attractors", withAttractors(withWind(vertical(sheetScene(n))))},
           {"colliders", withColliders(vertical(sheetScene(n)))},
           {"shapes", withShapes(vertical(sheetScene(n)), FrictionLaw::cs184)},
           {"shapes, coulomb", withShapes(withLimiter(vertical(sheetScene(n))), FrictionLaw::coulomb)},
@@ -260,7 +283,7 @@ inline std::vector<NamedScene> comparedScenes(int n) {
           {"two cloths", twoCloths(withLimiter(withWind(vertical(sheetScene(n)))))},
           {"mesh with everything", meshWithEverything(n / 2, SelfCollision::robust)},
           {"mesh with everything, averaged", meshWithEverything(n / 2, SelfCollision::averaged)},
-          {"mesh of a material", meshOfMaterial(n / 2)},
+          {"mesh of a material with attractors", withAttractors(meshOfMaterial(n / 2))},
           {"pin motion", withPinMotion(vertical(sheetScene(n)))},
           {"everything with pin motion",
            withPinMotion(withWind(withColliders(withLimiter(vertical(sheetScene(n))))))},
@@ -273,13 +296,13 @@ inline std::vector<NamedScene> implicitScenes(int n) {
   return {
       {"implicit", implicitly(vertical(sheetScene(n)))},
       {"implicit, a material with everything",
-       implicitly(withWind(withColliders(withLimiter(vertical(materialScene(n))))))},
+       implicitly(withAttractors(withWind(withColliders(withLimiter(vertical(materialScene(n)))))))},
       {"implicit, robust self-collision and pin motion",
        implicitly(withPinMotion(layeredSheets(n, SelfCollision::robust)))},
       {"implicit, two cloths with a rest length table",
        implicitly(twoCloths(withLimiter(withWind(vertical(sheetScene(n))))))},
       {"implicit, a mesh with everything", implicitly(meshWithEverything(n / 2, SelfCollision::averaged))},
-      {"implicit, a mesh of a material", implicitly(meshOfMaterial(n / 2))}};
+      {"implicit, a mesh of a material with attractors", implicitly(withAttractors(meshOfMaterial(n / 2)))}};
 }
 
 inline Scene everythingScene(int n) { return withWind(withColliders(withLimiter(vertical(sheetScene(n))))); }

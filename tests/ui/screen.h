@@ -120,17 +120,16 @@ class ViewerProgram {
              "cd '" + folder_.path().string() + "' && mkdir here && cd here && exec env XDG_CONFIG_HOME='" +
                  (folder_ / "config").string() + "' " + environment + " " CLOTHSIM_PROGRAM " " + arguments},
             (folder_ / "output").string()) {
-    const bool shown = eventually(seconds(60), [&] {
-      window_ = runCommand("xdotool search --onlyvisible --class clothsim 2>/dev/null").output;
-      while (!window_.empty() && window_.back() == '\n') window_.pop_back();
-      return !process_.running() || (!window_.empty() && title().find(titleOfStart) != std::string::npos);
-    });
+    const bool shown = eventually(
+        seconds(60), [&] { return !process_.running() || title().find(titleOfStart) != std::string::npos; });
     if (!shown || !process_.running())
       throw std::runtime_error("the viewer does not get going; its title: '" + title() + "'; it says:\n" +
                                output());
   }
 
   [[nodiscard]] std::string title() const {
+    findWindow();
+    if (window_.empty()) return "";
     return runCommand("xdotool getwindowname " + window_ + " 2>/dev/null").output;
   }
   [[nodiscard]] std::string output() const { return readFile(folder_ / "output"); }
@@ -211,8 +210,14 @@ class ViewerProgram {
 
  private:
   TemporaryFolder folder_;
+  // Again and again: a viewer whose context is lost opens another window.
+  void findWindow() const {
+    window_ = runCommand("xdotool search --onlyvisible --class clothsim 2>/dev/null").output;
+    while (!window_.empty() && window_.back() == '\n') window_.pop_back();
+  }
+
   Process process_;
-  std::string window_;
+  mutable std::string window_;
 };
 
 }  // namespace clothsim::test

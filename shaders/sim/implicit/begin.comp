@@ -46,11 +46,9 @@ void main() {
   precise vec3 moved = step.guessTime * (v + step.timeStep * gravity);
   vec3 guess = canonical(moved);
   precise vec3 b = stiffness * guess;
-  if (hasAirResistance) {  // -a |v| v', linear in the new velocity v'
-    precise float speedSquared = sumOfProducts(v, v);
-    precise float speed = speedSquared * inverseSquareRoot(speedSquared);
-    stiffness = stiffness + (step.airResistance * speed) * step.inverseTimeStep;
-  }
+  vec4 withForces = addParticleForcesToSystem(x.xyz, v, mass, vec4(b, stiffness));
+  b = withForces.xyz;
+  stiffness = withForces.w;
   if (hasWind) {  // f - R (v' - v)
 #if HAS_MESH
     vec3 force = addMeshTriangles(texelFetch(listStarts, int(i)).z, texelFetch(listStarts, int(i) + 1).z, vec3(0.0));

@@ -25,7 +25,7 @@ std::span<const Field<Box>> Box::fields() {
   return fields;
 }
 
-std::optional<Misfit> Box::settle(const IsGiven& isGiven) {
+std::optional<Misfit> Box::finishReading(const IsGiven& isGiven) {
   const double most = 0.5 * std::min({size.x, size.y, size.z});
   if (rounding <= most) return std::nullopt;
   if (isGiven("rounding")) return Misfit{"rounding", "at most half the smallest size of the box, ", most};

@@ -15,7 +15,7 @@ struct Box {
   friend bool operator==(const Box&, const Box&) = default;
 
   [[nodiscard]] static std::span<const Field<Box>> fields();
-  [[nodiscard]] std::optional<Misfit> settle(const IsGiven& isGiven);
+  [[nodiscard]] std::optional<Misfit> finishReading(const IsGiven& isGiven);
   [[nodiscard]] Vec3d& place() { return origin; }
   [[nodiscard]] const Vec3d& place() const { return origin; }
   [[nodiscard]] Matrix3 ownRotation() const { return rotationMatrix(rotation); }

@@ -7,6 +7,8 @@
 
 #include "scene/colliders/box.h"
 #include "scene/colliders/capsule.h"
+#include "scene/colliders/cone.h"
+#include "scene/colliders/cylinder.h"
 #include "scene/colliders/mesh_collider.h"
 #include "scene/colliders/plane.h"
 #include "scene/colliders/sphere.h"
@@ -15,7 +17,7 @@
 namespace clothsim {
 
 // The place of an alternative is its number, COLLIDER_... of shaders/shared/shapes.h.
-using Collider = std::variant<Sphere, Plane, Capsule, Box, Torus, MeshCollider>;
+using Collider = std::variant<Sphere, Plane, Capsule, Box, Torus, MeshCollider, Cylinder, Cone>;
 
 // One of each shape with its defaults, in the variant's order.
 template <class... Shapes>

@@ -23,7 +23,7 @@ std::span<const Field<MeshCollider>> MeshCollider::fields() {
   return fields;
 }
 
-std::optional<Misfit> MeshCollider::settle(const IsGiven&) const {
+std::optional<Misfit> MeshCollider::finishReading(const IsGiven&) const {
   if (file.empty()) return Misfit{"file", "the name of an OBJ file"};
   return std::nullopt;
 }

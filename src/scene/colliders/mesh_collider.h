@@ -19,7 +19,7 @@ struct MeshCollider {
   friend bool operator==(const MeshCollider&, const MeshCollider&) = default;
 
   [[nodiscard]] static std::span<const Field<MeshCollider>> fields();
-  [[nodiscard]] std::optional<Misfit> settle(const IsGiven& isGiven) const;
+  [[nodiscard]] std::optional<Misfit> finishReading(const IsGiven& isGiven) const;
   [[nodiscard]] Vec3d& place() { return origin; }
   [[nodiscard]] const Vec3d& place() const { return origin; }
   [[nodiscard]] Matrix3 ownRotation() const { return rotationMatrix(rotation); }

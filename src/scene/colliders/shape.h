@@ -12,6 +12,7 @@
 
 #include "core/vec.h"
 #include "scene/motion.h"
+#include "scene/put.h"
 #include "scene/rotation.h"
 
 namespace clothsim {
@@ -35,8 +36,8 @@ struct Misfit {
   std::optional<double> limit{};  // and the number at the end of that
 };
 
-// What the user writes. A shape may have `std::optional<Misfit> settle(const IsGiven&)`, too, which is called
-// after reading, and makes defaults fit to what is given.
+// What the user writes. A shape may have `std::optional<Misfit> finishReading(const IsGiven&)`, too, which is
+// called after reading, and makes defaults fit to what is given.
 using IsGiven = std::function<bool(std::string_view key)>;
 template <class S>
 concept WrittenShape = requires(S shape, const S& fixed) {
@@ -56,11 +57,5 @@ concept SolidShape = requires(const S& shape, Params& params, Vec3d p, const Mat
   { shape.surface(0.1) } -> std::same_as<Surface>;        // see drawnSurface() in collider_set.h
   { shape.halfExtent(rotation) } -> std::same_as<Vec3d>;  // of the box around it when it is rotated [m]
 };
-
-// Stores what was evaluated in double, rounded once.
-template <class Real>
-void put(Real& to, double value) {
-  to = static_cast<Real>(value);
-}
 
 }  // namespace clothsim

@@ -26,7 +26,7 @@ std::span<const Field<Torus>> Torus::fields() {
   return fields;
 }
 
-std::optional<Misfit> Torus::settle(const IsGiven&) const {
+std::optional<Misfit> Torus::finishReading(const IsGiven&) const {
   if (tubeRadius < radius) return std::nullopt;
   return Misfit{"tube_radius", "a tube_radius below the radius ", radius};
 }

@@ -16,7 +16,7 @@ struct Torus {
   friend bool operator==(const Torus&, const Torus&) = default;
 
   [[nodiscard]] static std::span<const Field<Torus>> fields();
-  [[nodiscard]] std::optional<Misfit> settle(const IsGiven& isGiven) const;
+  [[nodiscard]] std::optional<Misfit> finishReading(const IsGiven& isGiven) const;
   [[nodiscard]] Vec3d& place() { return origin; }
   [[nodiscard]] const Vec3d& place() const { return origin; }
   [[nodiscard]] Matrix3 ownRotation() const { return rotationFromY(axis); }

@@ -15,11 +15,11 @@ INLINE Vec3<Real> select(bool which, Vec3<Real> a, Vec3<Real> b) {
 template <class Real>
 INLINE Vec3<Real> carried(const ColliderParams<Real>& collider, Vec3<Real> x) {
   const Vec3<Real> d = x - Vec3<Real>{collider.pivotX, collider.pivotY, collider.pivotZ};
-  const Vec3<Real> turn{dot({collider.rotationXX, collider.rotationXY, collider.rotationXZ}, d),
-                        dot({collider.rotationYX, collider.rotationYY, collider.rotationYZ}, d),
-                        dot({collider.rotationZX, collider.rotationZY, collider.rotationZZ}, d)};
+  const Vec3<Real> rotated{dot({collider.rotationXX, collider.rotationXY, collider.rotationXZ}, d),
+                           dot({collider.rotationYX, collider.rotationYY, collider.rotationYZ}, d),
+                           dot({collider.rotationZX, collider.rotationZY, collider.rotationZZ}, d)};
   const Vec3<Real> move =
-      turn + Vec3<Real>{collider.translationX, collider.translationY, collider.translationZ};
+      rotated + Vec3<Real>{collider.translationX, collider.translationY, collider.translationZ};
   return x + move;
 }
 

@@ -1,5 +1,5 @@
 // The first pass of a step: springs, bending and air, gathered by each particle in a fixed order. The twin of
-// shaders/sim/{forces,springs,bending,air}.glsl.
+// shaders/sim/{forces,springs,bending,air,particle_forces}.glsl.
 #include "solver/cpu/passes.h"
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include "core/exact_math.h"
 #include "solver/cpu/force_laws.h"
 #include "solver/cpu/mesh_forces.h"
+#include "solver/cpu/particle_forces.h"
 #include "solver/cpu/rows.h"
 #include "solver/cpu/spring_rows.h"
 #include "solver/cpu/symmetric.h"
@@ -226,24 +227,23 @@ INLINE void addWind(const PassArguments<Real>& arguments, int row, SymmetricFiel
                   : addWind<false, false, resists>(arguments, row, resistance);
 }
 
-// -a |v| v
 template <class Real>
-INLINE void addAirResistance(const PassArguments<Real>& arguments, int row) {
-  const Components<Real>& v = arguments.before.velocities;
-  const Real *vx = v.x.data(), *vy = v.y.data(), *vz = v.z.data();
+INLINE void addParticleForces(const PassArguments<Real>& arguments, int row) {
+  const Components<Real>&p = arguments.before.positions, &v = arguments.before.velocities;
+  const Real *x = p.x.data(), *y = p.y.data(), *z = p.z.data(), *vx = v.x.data(), *vy = v.y.data(),
+             *vz = v.z.data(), *w = arguments.inverseMasses;
   Real *fx = arguments.forces.x.data(), *fy = arguments.forces.y.data(), *fz = arguments.forces.z.data();
-  const Real airResistance = arguments.step.airResistance;
   const Range particles = rangeOf(arguments.step, row);
+  forEachParticleForce(
+      arguments.step, [&](auto law) __attribute__((always_inline)) {
 #pragma omp simd
-  for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
-    const Vec3<Real> velocity = load(vx, vy, vz, i);
-    const Real speedSquared = dot(velocity, velocity);
-    const Real speed = speedSquared * inverseSquareRoot(speedSquared);
-    const Real scale = airResistance * speed;
-    fx[i] = fx[i] - scale * velocity.x;
-    fy[i] = fy[i] - scale * velocity.y;
-    fz[i] = fz[i] - scale * velocity.z;
-  }
+        for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
+          const Vec3<Real> f = law(load(x, y, z, i), load(vx, vy, vz, i), massOf(w[i])).force;
+          fx[i] = fx[i] + f.x;
+          fy[i] = fy[i] + f.y;
+          fz[i] = fz[i] + f.z;
+        }
+      });
 }
 
 template <class Real>
@@ -263,7 +263,7 @@ INLINE void gatherForcesRow(const PassArguments<Real>& arguments, int row) {
                                   : addElasticForces<false>(arguments, row);
     if (arguments.step.hasWind != 0) addWind<false, Real>(arguments, row, nullptr);
   }
-  if (arguments.step.airResistance > Real(0)) addAirResistance(arguments, row);
+  addParticleForces(arguments, row);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // The first and the last pass of an implicit step; the twin of
 // shaders/sim/implicit/{begin,initial_guess,end}.comp.
 #include "solver/cpu/implicit_contact.h"
+#include "solver/cpu/particle_forces.h"
 #include "solver/cpu/rows.h"
 #include "solver/cpu/watch.h"
 
@@ -63,11 +64,12 @@ void begin(const ImplicitArguments<Real>& arguments, int row) {
     Real stiffness = mass * step.inertia;
     const Vec3<Real> guess = canonical(step.guessTime * (v + step.timeStep * gravity));
     Vec3<Real> b = stiffness * guess;
-    if (step.airResistance > Real(0)) {  // -a |v| v', linear in the new velocity v'
-      const Real speedSquared = dot(v, v);
-      const Real speed = speedSquared * inverseSquareRoot(speedSquared);
-      stiffness = stiffness + (step.airResistance * speed) * step.inverseTimeStep;
-    }
+    forEachParticleForce(
+        step, [&](auto law) __attribute__((always_inline)) {
+          const ParticleForce<Real> acting = law(x, v, mass);
+          b = b + (acting.force + acting.damping * v);
+          stiffness = stiffness + (acting.damping * step.inverseTimeStep + acting.stiffness);
+        });
     if (step.hasWind != 0) {  // f - R (v' - v)
       const Symmetric<Real> resistance = at(own.air, i);
       b = b + (at(pass.forces, i) + resistance * v);
@@ -101,7 +103,7 @@ template <class Real>
 void gatherElasticForces(const ImplicitArguments<Real>& arguments, int row) {
   StepParams<Real> elastic = arguments.step.step;  // air is in the right-hand side
   elastic.hasWind = 0;
-  elastic.airResistance = 0;
+  elastic.particleForces = 0;
   gatherForces(withState(arguments.step, elastic, arguments.own.iterate, arguments.step.forces), row);
 }
 

@@ -77,10 +77,11 @@ void movePinsOf(const PassArguments<Real>& arguments, Range particles) {
     const PinMotionParams<Real>& motion = arguments.pinMotions[number - 1];
     const Vec3<Real> start{s.x[i], s.y[i], s.z[i]};
     const Vec3<Real> d = start - Vec3<Real>{motion.pivotX, motion.pivotY, motion.pivotZ};
-    const Vec3<Real> turn{dot({motion.rotationXX, motion.rotationXY, motion.rotationXZ}, d),
-                          dot({motion.rotationYX, motion.rotationYY, motion.rotationYZ}, d),
-                          dot({motion.rotationZX, motion.rotationZY, motion.rotationZZ}, d)};
-    const Vec3<Real> move = turn + Vec3<Real>{motion.translationX, motion.translationY, motion.translationZ};
+    const Vec3<Real> rotated{dot({motion.rotationXX, motion.rotationXY, motion.rotationXZ}, d),
+                             dot({motion.rotationYX, motion.rotationYY, motion.rotationYZ}, d),
+                             dot({motion.rotationZX, motion.rotationZY, motion.rotationZZ}, d)};
+    const Vec3<Real> move =
+        rotated + Vec3<Real>{motion.translationX, motion.translationY, motion.translationZ};
     const Vec3<Real> sum = start + move;
     p.x[i] = canonical(sum.x);
     p.y[i] = canonical(sum.y);

@@ -18,13 +18,9 @@ struct Nearest {
   Vec3<Real> normal;  // outward there
 };
 
-// The words of GLSL. Types of these names stay as they are: a macro with arguments needs parentheses.
-#define LAW INLINE
-#define precise
-#define vec3(x, y, z) \
-  vec3 { x, y, z }
 #define Nearest(distance, normal) \
   Nearest { distance, normal }
+#include "solver/cpu/begin_laws.h"
 
 template <class Real>
 struct ShapeLaws {
@@ -45,9 +41,7 @@ struct ShapeLaws {
 #include "shared/shapes.h"
 };
 
-#undef LAW
-#undef precise
-#undef vec3
+#include "solver/cpu/end_laws.h"
 #undef Nearest
 
 template <std::uint32_t type, class Real>

@@ -16,7 +16,7 @@ PassFeatures featuresOf(const Scene& scene, const Cloth& cloth, std::size_t grid
   features.jet = hand.jet.has_value();
   features.grab = hand.grab && hand.grab->grid == gridIndex;
   features.cuts = !cuts.empty();
-  features.airResistance = scene.airResistance > 0;
+  features.particleForces = particleForcesOf(scene);
   for (const Collider& collider : scene.colliders) {
     features.colliderTypes |= 1u << collider.index();
     features.movingColliders |= moves(collider);
@@ -44,7 +44,7 @@ PassFeatures restricted(const PassFeatures& all, Features to) {
   take(Feature::restLengths, &PassFeatures::restLengthTable);
   take(Feature::meshes, &PassFeatures::mesh);
   take(Feature::wind, &PassFeatures::wind);
-  take(Feature::airResistance, &PassFeatures::airResistance);
+  take(Feature::particleForces, &PassFeatures::particleForces);
   take(Feature::jets, &PassFeatures::jet);
   take(Feature::grabs, &PassFeatures::grab);
   take(Feature::cuts, &PassFeatures::cuts);
@@ -59,7 +59,7 @@ gl::Defines definesFor(const PassFeatures& features) {
   return {{"WORK_GROUP_COLUMNS", std::to_string(features.groupColumns)},
           {"WORK_GROUP_ROWS", std::to_string(features.groupRows)},
           {"HAS_WIND", std::to_string(features.wind)},
-          {"HAS_AIR_RESISTANCE", std::to_string(features.airResistance)},
+          {"ACTIVE_FORCES", std::to_string(features.particleForces) + "u"},
           {"COLLIDER_TYPES", std::to_string(features.colliderTypes) + "u"},
           {"HAS_COULOMB_FRICTION", std::to_string(features.coulombFriction)},
           {"HAS_MOVING_COLLIDERS", std::to_string(features.movingColliders)},

@@ -18,12 +18,13 @@
 namespace clothsim {
 
 struct PassFeatures {
-  bool wind = false, airResistance = false, movingColliders = false, coulombFriction = false,
-       movingPins = false, restLengthTable = false, material = false, mesh = false;
+  bool wind = false, movingColliders = false, coulombFriction = false, movingPins = false,
+       restLengthTable = false, material = false, mesh = false;
   bool limitSprings = false;                     // the strain limit of the implicit integrator
   bool contactPlanes = false;                    // colliders in the implicit integrator
   bool grab = false, jet = false, cuts = false;  // a hand's doing
   std::uint32_t colliderTypes = 0;               // one bit a COLLIDER_... of shared/shapes.h
+  std::uint32_t particleForces = 0;              // one bit a FORCE_... of shared/forces.h
   std::uint32_t enabledSlots = 0;                // one bit a SpringSlot
   int groupColumns = 64, groupRows = 1;
   friend auto operator<=>(const PassFeatures&, const PassFeatures&) = default;

@@ -11,9 +11,13 @@
 namespace clothsim {
 namespace {
 
-const std::vector<Collider> shapes{
-    Capsule{.length = 0.4, .radius = 0.1}, Box{.size = {0.5, 0.3, 0.7}, .rounding = 0.03},
-    Box{.size = {0.4, 0.4, 0.002}, .rounding = 0}, Torus{.radius = 0.3, .tubeRadius = 0.1}};
+const std::vector<Collider> shapes{Capsule{.length = 0.4, .radius = 0.1},
+                                   Box{.size = {0.5, 0.3, 0.7}, .rounding = 0.03},
+                                   Box{.size = {0.4, 0.4, 0.002}, .rounding = 0},
+                                   Torus{.radius = 0.3, .tubeRadius = 0.1},
+                                   Cylinder{.height = 0.4, .radius = 0.2},
+                                   Cone{.height = 0.4, .radius = 0.2},
+                                   Cone{.height = 0.3, .radius = 0.1, .topRadius = 0.2}};
 
 ColliderSet only(const Collider& collider) {
   Scene scene;

@@ -26,12 +26,12 @@ using ColliderRow = ColliderParams<float>;
 
 PassFeatures allFeatures() {
   return {.wind = true,
-          .airResistance = true,
           .movingColliders = true,
           .coulombFriction = true,
           .movingPins = true,
           .restLengthTable = true,
           .colliderTypes = 0xffffffff,
+          .particleForces = ~0u,
           .enabledSlots = 63,
           .groupColumns = 64,
           .groupRows = 1};
@@ -99,6 +99,7 @@ TEST_F(LayoutTest, OfStepParamsIsTheDrivers) {
       MEMBER(Step, "StepBlock.step.", liftFactor),
       MEMBER(Step, "StepBlock.step.", planeOffset),
       MEMBER(Step, "StepBlock.step.", maxSpeedSquared),
+      MEMBER(Step, "StepBlock.step.", attractorCount),
       MEMBER(Step, "StepBlock.step.", firstPinMotion)};
   int found = 0;
   for (const auto& [name, offset] : members) {
@@ -113,6 +114,9 @@ TEST_F(LayoutTest, OfStepParamsIsTheDrivers) {
   EXPECT_EQ(uniformOffset(*programs.limit, "step.limitFactor"),
             static_cast<GLint>(offsetof(Step, limitFactor)));
   EXPECT_EQ(uniformOffset(*programs.kick, "step.kickTime"), static_cast<GLint>(offsetof(Step, kickTime)));
+  EXPECT_EQ(uniformOffset(*programs.step, "step.attractors[1].pull"),
+            static_cast<GLint>(offsetof(Step, attractors) + sizeof(shared::AttractorParams<float>) +
+                               offsetof(shared::AttractorParams<float>, pull)));
   EXPECT_EQ(blockSize(*programs.step, "StepBlock"), static_cast<GLint>(sizeof(Step)));
 }
 

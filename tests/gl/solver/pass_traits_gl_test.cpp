@@ -20,7 +20,6 @@ class PassTraitsTest : public GlTest {};
 
 PassFeatures everything(bool mesh) {
   return {.wind = true,
-          .airResistance = true,
           .movingColliders = true,
           .coulombFriction = true,
           .movingPins = true,
@@ -33,6 +32,7 @@ PassFeatures everything(bool mesh) {
           .jet = true,
           .cuts = true,
           .colliderTypes = 0xffffffff,
+          .particleForces = ~0u,
           .enabledSlots = 63};
 }
 

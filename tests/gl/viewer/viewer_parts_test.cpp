@@ -237,6 +237,8 @@ TEST(FieldText, EverySliderHasARangeThatHoldsItsDefaultAndLiesWithinTheLimits) {
   check(Capsule{}, fieldsOf<Capsule>());
   check(Box{}, fieldsOf<Box>());
   check(Torus{}, fieldsOf<Torus>());
+  check(Cylinder{}, fieldsOf<Cylinder>());
+  check(Cone{}, fieldsOf<Cone>());
 }
 
 TEST(ClipRecorder, WithoutFfmpegWritesNumberedPicturesThatPlayInRealTime) {

@@ -42,7 +42,8 @@ TEST(DescribeFields, TellsTypeUnitRangeDefaultAndWhenAChangeTakesEffect) {
   EXPECT_EQ(fieldAt("colliders[].motion.keys[].t").defaultValue, "required");
   EXPECT_EQ(fieldAt("cloth.pin_motion").type, "object or list of objects");
   EXPECT_TRUE(fieldAt("cloth.pin_motion[].keys[].position").live);
-  EXPECT_EQ(fieldAt("colliders[].type").type, "one of sphere, plane, capsule, box, torus, mesh");
+  EXPECT_EQ(fieldAt("colliders[].type").type,
+            "one of sphere, plane, capsule, box, torus, mesh, cylinder, cone");
 }
 
 TEST(DescribeFields, NamesEveryKeyOnce) {

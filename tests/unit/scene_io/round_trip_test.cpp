@@ -26,6 +26,7 @@ class RandomScene {
       scene.wind =
           Wind{vector(), {positive(), positive(), whole(0, 1 << 30)}, positive(), positive(), positive()};
     if (maybe()) scene.airResistance = positive();
+    for (int i = whole(0, 2); i > 0; --i) scene.attractors.push_back({vector(), fraction(), positive()});
     scene.solver = {.integrator = static_cast<Integrator>(whole(0, 2)),
                     .framesPerSec = positive(),
                     .simulationSteps = whole(1, 1'000'000),
@@ -148,7 +149,11 @@ class RandomScene {
     if (maybe()) motion = path();
     const Vec3d direction{1, number(), number()};
     const double size = positive();
-    switch (whole(0, 5)) {
+    switch (whole(0, 7)) {
+      case 7:
+        return Cone{vector(), direction, positive(), size, fraction() * size, fraction(), motion};
+      case 6:
+        return Cylinder{vector(), direction, positive(), size, fraction(), motion};
       case 5:
         return MeshCollider{text() + "x", vector(), vector(), size, whole(8, 256), fraction(), motion};
       case 0:

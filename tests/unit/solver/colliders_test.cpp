@@ -66,6 +66,15 @@ double bruteForceDistance(const Skeleton& skeleton, Vec3d p) {
   return (filled ? -1 : 1) * std::sqrt(least) - skeleton.radius;
 }
 
+// A surface around y by the line that it is made of, in the half-plane of positive x.
+Skeleton lineSkeleton(const std::vector<Vec3d>& corners) {
+  Skeleton skeleton;
+  for (std::size_t k = 0; k + 1 < corners.size(); ++k)
+    for (int i = 0; i <= 500; ++i)
+      skeleton.points.push_back(corners[k] + (i / 500.0) * (corners[k + 1] - corners[k]));
+  return skeleton;
+}
+
 template <std::uint32_t type>
 void expectDistances(const Collider& collider, const Skeleton& skeleton) {
   const Scene scene = particleScene(collider, 0.01);
@@ -87,6 +96,27 @@ void expectDistances(const Collider& collider, const Skeleton& skeleton) {
   }
 }
 
+// Whether a point is inside decides measuring's own formula: the sign of a sampled surface is unknown.
+template <std::uint32_t type>
+void expectRevolvedDistances(const Collider& collider, const std::vector<Vec3d>& corners) {
+  const Skeleton surface = lineSkeleton(corners);
+  const ColliderSet colliders(particleScene(collider, 0.01));
+  const auto params = colliders.params<double>(0, 0, 0);
+  const auto single = colliders.params<float>(0, 0, 0);
+  std::mt19937 engine(1);
+  std::uniform_real_distribution<double> uniform(-0.6, 0.6);
+  for (int i = 0; i < 300; ++i) {
+    const Vec3d p{uniform(engine), uniform(engine), uniform(engine)};
+    const auto nearest = cpu::nearestOnShape<type>(params, p);
+    EXPECT_NEAR(std::abs(nearest.distance), bruteForceDistance(surface, {std::hypot(p.x, p.z), p.y, 0}),
+                2e-3);
+    EXPECT_NEAR(length(nearest.normal), 1, 1e-12);
+    EXPECT_NEAR(colliders.distance(0, p - nearest.distance * nearest.normal), 0, 1e-12);
+    const auto rounded = cpu::nearestOnShape<type>(single, p.cast<float>());
+    EXPECT_NEAR(static_cast<double>(rounded.distance), nearest.distance, 3e-7);
+  }
+}
+
 TEST(Shapes, HaveTheDistancesOfDenselySampledSkeletons) {
   const Capsule capsule{.length = 0.5, .radius = 0.2};
   const Torus torus{.radius = 0.3, .tubeRadius = 0.1};
@@ -95,6 +125,11 @@ TEST(Shapes, HaveTheDistancesOfDenselySampledSkeletons) {
   expectDistances<COLLIDER_TORUS>(torus, torusSkeleton(torus));
   expectDistances<COLLIDER_BOX>(box, boxSkeleton(box));
   expectDistances<COLLIDER_BOX>(sharp, boxSkeleton(sharp));
+  const Cylinder cylinder{.height = 0.5, .radius = 0.3};
+  expectRevolvedDistances<COLLIDER_CYLINDER>(cylinder, {{0, 0.25}, {0.3, 0.25}, {0.3, -0.25}, {0, -0.25}});
+  const Cone pointed{.height = 0.5, .radius = 0.3}, bucket{.height = 0.4, .radius = 0.1, .topRadius = 0.4};
+  expectRevolvedDistances<COLLIDER_CONE>(pointed, {{0, 0.25}, {0.3, -0.25}, {0, -0.25}});
+  expectRevolvedDistances<COLLIDER_CONE>(bucket, {{0, 0.2}, {0.4, 0.2}, {0.1, -0.2}, {0, -0.2}});
 }
 
 // The law of the passes, and the one that measuring has for itself.
@@ -138,6 +173,13 @@ TEST(Shapes, AreInsideWhereTheyShouldBe) {
   EXPECT_TRUE(inside(Torus{}, {0.39, 0, 0}));
   EXPECT_TRUE(inside(Capsule{.length = 1, .radius = 0.1}, {0, 0.59, 0}));
   EXPECT_FALSE(inside(Capsule{.length = 1, .radius = 0.1}, {0.11, 0, 0}));
+  EXPECT_TRUE(inside(Cylinder{.height = 1, .radius = 0.1}, {0.07, 0.49, 0.07})) << "sharp rims";
+  EXPECT_FALSE(inside(Cylinder{.height = 1, .radius = 0.1}, {0.08, 0, 0.08}));
+  EXPECT_FALSE(inside(Cylinder{.height = 1, .radius = 0.1}, {0, 0.51, 0}));
+  EXPECT_TRUE(inside(Cone{.height = 1, .radius = 0.4}, {0, 0.49, 0}));
+  EXPECT_FALSE(inside(Cone{.height = 1, .radius = 0.4}, {0.1, 0.4, 0}));
+  EXPECT_TRUE(inside(Cone{.height = 1, .radius = 0.4, .topRadius = 0.2}, {0, 0, 0.29}));
+  EXPECT_FALSE(inside(Cone{.height = 1, .radius = 0.4, .topRadius = 0.2}, {0, 0, 0.31}));
 }
 
 // --- Places: axis, rotation, motion
@@ -162,6 +204,12 @@ TEST(Shapes, StandWhereTheirKeysPutThem) {
                   {1, 2.4, 3}, {0, 1, 0});
   expectPushedOut(Torus{.origin = {1, 2, 3}, .axis = {0, 0, -2}, .radius = 0.3, .tubeRadius = 0.1},
                   {1, 2.3, 3.1}, {0, 0, 1});
+  const Cylinder lying{.origin = {1, 2, 3}, .axis = {0, 0, -2}, .height = 1, .radius = 0.2};
+  expectPushedOut(lying, {1.05, 2, 3.5}, {0, 0, 1});
+  expectPushedOut(lying, {1, 2.2, 3.3}, {0, 1, 0});
+  const Cone funnel{.origin = {1, 2, 3}, .axis = {0, 0, -2}, .height = 0.4, .radius = 0.5, .topRadius = 0.1};
+  expectPushedOut(funnel, {1.05, 2, 3.2}, {0, 0, 1});
+  expectPushedOut(funnel, {1, 2.3, 3}, {0, r, -r});
   expectPushedOut(Box{.origin = {1, 2, 3}, .size = {0.4, 2, 1}, .rotation = {0, 0, 45}},
                   Vec3d{1, 2, 3} + 0.2 * Vec3d{r, r, 0}, {r, r, 0});
 }
@@ -173,7 +221,9 @@ TEST(Shapes, CarryAParticleThatSticksToThemAlongAndAround) {
       {Capsule{.axis = {1, 0, 0}, .length = 1, .radius = 0.5, .friction = 1, .motion = motion}, {1, 0, 0}},
       {Box{.size = {2, 1, 1}, .friction = 1, .motion = motion}, {1, 0, 0}},
       {Torus{.axis = {0, 0, 1}, .radius = 0.8, .tubeRadius = 0.2, .friction = 1, .motion = motion},
-       {1, 0, 0}}};
+       {1, 0, 0}},
+      {Cylinder{.axis = {1, 0, 0}, .height = 2, .radius = 0.5, .friction = 1, .motion = motion}, {1, 0, 0}},
+      {Cone{.axis = {-1, 0, 0}, .height = 2, .radius = 0.5, .friction = 1, .motion = motion}, {1, 0, 0}}};
   for (const auto& [collider, x] : shapes) {
     Scene scene = particleScene(collider, 0.01);
     scene.gravity = {0, 0, 0};
@@ -188,10 +238,15 @@ TEST(Shapes, CarryAParticleThatSticksToThemAlongAndAround) {
 
 // Thin and small shapes in the way of a particle that passes them in one step.
 std::vector<Collider> obstacles() {
-  return {Sphere{.radius = 0.02}, Capsule{.axis = {0, 0, 1}, .length = 1, .radius = 0.01},
+  return {Sphere{.radius = 0.02},
+          Capsule{.axis = {0, 0, 1}, .length = 1, .radius = 0.01},
           Box{.size = {1, 0.002, 1}, .rotation = {5, 0, 3}, .rounding = 0.001},
           Box{.size = {1, 0.002, 1}, .rotation = {0, 0, 60}, .rounding = 0},
-          Torus{.origin = {-0.3, 0, 0}, .radius = 0.3, .tubeRadius = 0.01}};
+          Torus{.origin = {-0.3, 0, 0}, .radius = 0.3, .tubeRadius = 0.01},
+          Cylinder{.axis = {0.1, 1, 0}, .height = 0.002, .radius = 0.5},
+          Cylinder{.axis = {0, 0, 1}, .height = 1, .radius = 0.01},
+          Cone{.axis = {0.1, 1, 0}, .height = 0.004, .radius = 0.5, .topRadius = 0.4},
+          Cone{.axis = {0, 0, 1}, .height = 1, .radius = 0.02}};
 }
 
 struct Law {
@@ -366,7 +421,11 @@ TEST(Penetration, IsMeasuredForEveryShape) {
       {Plane{.point = {0, 0.2, 0}, .normal = {0, 3, 0}}, 0.2},
       {Capsule{.origin = {0.3, -0.1, 0}, .axis = {2, 0, 0}, .length = 1, .radius = 0.15}, 0.05},
       {Box{.origin = {0, -0.4, 0}, .size = {1, 1, 3}, .rotation = {0, 30, 0}, .rounding = 0.2}, 0.1},
-      {Torus{.origin = {0.5, 0, 0.05}, .axis = {0, 0, 1}, .radius = 0.5, .tubeRadius = 0.2}, 0.15}};
+      {Torus{.origin = {0.5, 0, 0.05}, .axis = {0, 0, 1}, .radius = 0.5, .tubeRadius = 0.2}, 0.15},
+      {Cylinder{.origin = {0, 0.4, 0}, .axis = {0, 2, 0}, .height = 1, .radius = 0.3}, 0.1},
+      {Cylinder{.origin = {0, 0.25, 0}, .axis = {3, 0, 0}, .height = 1, .radius = 0.3}, 0.05},
+      {Cone{.origin = {0, 0.45, 0}, .height = 1, .radius = 0.3, .topRadius = 0.2}, 0.05},
+      {Cone{.origin = {0, 0.3, 0}, .axis = {0, 1, 0}, .height = 1, .radius = 1, .topRadius = 0}, 0.2}};
   for (const auto& [collider, depth] : depths) {
     Scene scene = particleScene(collider, 0.01, FrictionLaw::coulomb);
     const Cloth cloth(scene);

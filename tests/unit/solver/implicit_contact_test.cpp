@@ -42,6 +42,30 @@ TEST(ImplicitContact, BendsASheetAroundABallWithoutCrumplingIt) {
   EXPECT_LT(solver.position(0).y, 0.85) << "and hangs down around it";
 }
 
+TEST(ImplicitContact, LaysASheetOnAFlatCap) {
+  for (const Collider& collider : std::initializer_list<Collider>{
+           Cylinder{.origin = {0.5, 0.7, 0.5}, .height = 0.5, .radius = 0.25, .friction = 0.4},
+           Cone{.origin = {0.5, 0.7, 0.5}, .height = 0.5, .radius = 0.35, .topRadius = 0.25}}) {
+    const Scene scene = sheetOver(collider, 11);
+    const Cloth cloth(scene);
+    CpuSolver<float> solver(cloth, scene);
+    double deepest = 0;
+    for (int step = 0; step < 30; ++step) {
+      solver.step(1);
+      deepest = std::max(deepest, measure(cloth, scene, solver.state()).maxPenetration);
+    }
+    EXPECT_EQ(solver.divergence(), std::nullopt);
+    EXPECT_LE(deepest, 3e-5) << typeOf(collider);
+    double lowest = 1;
+    for (std::uint32_t i = 0; i < cloth.particleCount(); ++i) {
+      const Vec3d x = solver.position(i).cast<double>();
+      if (std::hypot(x.x - 0.5, x.z - 0.5) < 0.25) lowest = std::min(lowest, x.y);
+    }
+    EXPECT_NEAR(lowest, 0.95, 1e-4) << "it lies on the cap of a " << typeOf(collider);
+    EXPECT_LT(solver.position(0).y, 0.88) << "and hangs down around it";
+  }
+}
+
 // Down a slope with mu = 0.3: a = g (sin - mu cos), and n steps of backward Euler go a h^2 n (n + 1) / 2.
 double slide(double degrees, int steps) {
   Scene scene = sheetOver(Plane{.point = {0, 1, 0}, .normal = {0, 1, 0}, .friction = 0.3}, 5);

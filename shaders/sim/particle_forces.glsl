@@ -1,0 +1,39 @@
+// What the laws in shared/forces/ are written in, as GLSL, and the sum of those that act in this scene.
+#ifndef LAW
+#define LAW
+#endif
+
+struct ParticleForce {
+  vec3 force;       // [N]
+  float damping;    // [N s/m]
+  float stiffness;  // [N/m]
+};
+
+#include "shared/forces.h"
+
+bool acts(uint force) { return (particleForces >> force & 1u) != 0u; }
+
+float massOf(float inverseMass) { return inverseMass == 0.0 ? 0.0 : reciprocal(inverseMass); }
+
+vec3 addParticleForces(vec4 x, vec3 v, vec3 sum) {
+  precise vec3 f = sum;
+#define ADD_FORCE(number, Struct, law) if (acts(number)) f = f + law(x.xyz, v, massOf(x.w)).force;
+  PARTICLE_FORCES(ADD_FORCE)
+#undef ADD_FORCE
+  return f;
+}
+
+// To the right-hand side of an implicit step and its diagonal (w).
+vec4 addParticleForcesToSystem(vec3 x, vec3 v, float mass, vec4 rightHandSide) {
+  precise vec3 b = rightHandSide.xyz;
+  precise float a = rightHandSide.w;
+#define ADD_TO_SYSTEM(number, Struct, law)                                     \
+  if (acts(number)) {                                                          \
+    ParticleForce own = law(x, v, mass);                                       \
+    b = b + (own.force + own.damping * v);                                     \
+    a = a + (own.damping * step.inverseTimeStep + own.stiffness);              \
+  }
+  PARTICLE_FORCES(ADD_TO_SYSTEM)
+#undef ADD_TO_SYSTEM
+  return vec4(b, a);
+}

@@ -1,0 +1,3 @@
+#undef LAW
+#undef precise
+#undef vec3
