@@ -1,5 +1,5 @@
 // What springs and air do, on a grid and on lists alike; the twin of what is in
-// shaders/sim/{springs,hand,air}.glsl.
+// shaders/sim/{springs,grab,air}.glsl.
 #pragma once
 
 #include "core/exact_math.h"
