@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "solver/cpu/cpu_solver.h"
+#include "support/compared_scenes.h"
 #include "support/test_scenes.h"
 
 namespace clothsim {
