@@ -1,15 +1,13 @@
-// A person's hands on the cloth: particles held by a soft spring, and a jet of air. Plain values that the
-// solvers are given; everything that depends on time is evaluated on the host for both backends.
+// What a person does to the cloth: a grab pulls particles by a spring, and a jet blows air. Both are plain
+// values. What depends on time is evaluated on the host, the same for both backends.
 //
-// What is held follows a critically damped spring without mass of its own, integrated implicitly and so
-// stable at any strength: with w = sqrt(strength), the hand's velocity u and v' the velocity after all
-// forces,
-//   v_new = (v' + 2 h w u + h w^2 (goal - x)) / (1 + 2 h w + h^2 w^2),  x_new = x + h v_new,
-// and v_new no faster than a hand (30 m/s), so that a goal far away tears nothing out of the cloth in one
-// step. A particle of weight c < 1 takes that part of the change: v' + c (v_new - v'). It comes right after
-// the integration, so that strain limit, self-collision and colliders have the last word. Pinned particles
-// stay. The implicit integrator has the same spring in its energy: a particle of weight c feels that part of
-// it, and is pulled to a place no farther than h 30 m/s.
+// The spring of a grab is critically damped and integrated implicitly, so it is stable at any strength. With
+// w = sqrt(strength), u the velocity of the hand and v' the velocity after all forces,
+//   v_new = (v' + 2 h w u + h w^2 (goal - x)) / (1 + 2 h w + h^2 w^2),  x_new = x + h v_new.
+// v_new is at most 30 m/s, so that a goal far away does not tear the cloth in one step. A particle of weight
+// c < 1 takes that part of the change: v' + c (v_new - v'). Pinned particles stay. The pass comes right after
+// the integration: strain limit, self-collision and colliders have the last word. In the implicit integrator
+// the same spring is part of the energy, with weight c, towards a goal no farther than h 30 m/s.
 #pragma once
 
 #include <cstdint>
@@ -29,10 +27,10 @@ namespace clothsim {
 template <class Real>
 using HandParams = shared::HandParams<Real>;
 
-// A block of grid points in a hand.
+// The spring of a grab, and the block of grid points that it pulls.
 struct GrabSpring {
-  // Of one grid point: where its goal lies from the hand's place, and its weight; 0 outside the radius. As
-  // the GPU reads it.
+  // Of one grid point: where its goal lies from the hand's place, and its weight, 0 outside the radius. In
+  // the layout of the GPU.
   struct alignas(16) Point {
     Vec3f offset;  // [m]
     float weight = 0;

@@ -1,39 +1,38 @@
-// The implicit integrator (solver.integrator: "implicit"), what both backends share. Backward Euler: the way
-// d of all particles over a step of h is the minimum of
+// The implicit integrator (solver.integrator: "implicit"), what both backends share. Backward Euler: over a
+// step of h, the displacement d of all particles is the minimum of
 //
-//   sum of m/2 (1 + c h)/h^2 |d - guess|^2  +  elastic energy at x + d  +  air and hands,   guess = h (v + h
-//   g)/(1 + c h),
+//   sum of m/2 (1 + c h)/h^2 |d - inertial guess|^2  +  elastic energy at x + d  +  energy of air and grabs,
+//   inertial guess = h (v + h g)/(1 + c h),
 //
-// and v' = d / h. (The velocity comes from d itself, never from a difference of positions.) The search starts
-// from h (v + (1 - support) h g)/(1 + c h), where a particle's support is the part of its weight that held it
-// up in the step before, 0 to 1: what falls freely and what hangs at rest are where they belong before the
-// first iteration. (From the guess itself, what hangs has to be lifted by h^2 g in every step; what the
-// iterations leave of that kept stiff sheets in motion for ever.) Support is part of the state. Of that way
-// as much is taken as does not raise the energy, and at least an eighth: few iterations do not find back from
-// where straight ways take a stiff sheet that turns, and one that they cannot follow comes to rest.
+// and v' = d / h. The velocity comes from d itself, never from a difference of positions, which would round.
 //
-// Colliders take part: before each Newton step, particles inside one get the plane in which they touch it as
-// a stiff spring, so that the sheet bends around what it lies on; the way it pushed them is what friction
-// counts by. Where the springs leave them, a hair inside, the contact passes end the step as in every other.
+// The search starts from h (v + (1 - support) h g)/(1 + c h). A particle's support, 0 to 1, is the part of
+// its weight that held it up in the step before, so that what falls freely and what hangs at rest begin where
+// they belong. Support is part of the state. The start is shortened (1, 1/2, 1/4, 1/8) until the energy
+// falls: for a stiff rotating sheet it lies too far away for a few Newton steps.
 //
-// A few Newton steps; in each the Hessian, made positive by clamping the springs' transverse part to
-// k max(0, 1 - L/l) (Choi and Ko 2002), is solved by conjugate gradients with an additive multilevel
-// preconditioner (Bramble, Pasciak and Xu 1990, "BPX"):
+// Colliders take part. Before each Newton step, a particle inside a collider gets the plane in which it
+// touches it as a stiff spring, so that the sheet bends around what it lies on. Friction acts by the depth to
+// which that spring has pushed the particle out. Particles end a hair inside; the collision pass after the
+// step moves them to the surface.
+//
+// A Newton step: the Hessian is made positive by clamping the springs' transverse part to k max(0, 1 - L/l)
+// (Choi and Ko 2002). It is solved by conjugate gradients with an additive multilevel preconditioner
+// (Bramble, Pasciak and Xu 1990, "BPX"):
 //
 //   z = sum over levels of P_l D_l^-1 P_l^T r,
 //
-// P_l bilinear interpolation from a lattice of every 2^l-th grid point down to 2 x 2 (not across cuts), D_l
-// blocks of 3 x 3.
-// Pinned particles are no unknowns. All sums run over a fixed tree, all scalars stay where they are computed:
-// no read-back in a step.
+// P_l is bilinear interpolation from a lattice of every 2^l-th grid point, down to 2 x 2; it does not cross
+// cuts. D_l are blocks of 3 x 3. Pinned particles are no unknowns. All sums run over a fixed tree, and
+// scalars stay on the device: there is no read-back in a step.
 //
-// Coarse blocks are not the exact diagonal of P_l^T H P_l. Two symmetric matrices a vertex are summed up from
+// Coarse blocks approximate the diagonal of P_l^T H P_l. Two symmetric matrices a vertex are summed up from
 // level to level by P^T: S, half the sum of e^2 K over a particle's springs (K the spring's Hessian, e its
-// reach in cells), and T, inertia and air plus K of springs to pinned particles. With hats of H cells width
-// on a lattice, the integral of their squared slopes and that of their squares make
+// length in cells), and T, inertia and air plus K of springs to pinned particles. With hat functions of H
+// cells width on a lattice, the integral of their squared slopes and that of their squares make
 //
-//   D = g S + f T,  g = (2 Hy^2 + 1) / (3 Hx^2 Hy^2) + (the same, x and y exchanged),  f = product of (2 H^2
-//   + 1)/(3 H^2).
+//   D = g S + f T,  g = (2 Hy^2 + 1) / (3 Hx^2 Hy^2) + (the same, x and y exchanged),
+//   f = product of (2 H^2 + 1)/(3 H^2) over x and y.
 #pragma once
 
 #include <cstdint>

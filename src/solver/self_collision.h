@@ -1,23 +1,24 @@
 // Self-collision as both backends see it: distances, the hash and its margins, evaluated on the host.
 //
 // Two triangles of a lattice of spacing h, stretched by at most e, cannot cross unless two of their
-// particles, one of each, are nearer than D = (1 + e) h (docs/physics.md; h is sqrt((hx^2 + hy^2) / 2)
-// where the spacings differ). "robust" therefore pushes non-adjacent particles, those not in one cell of a
-// grid, apart to d = max(thickness, D + delta / 2), delta the relative motion allowed for in a step, and
-// never ends a step with a pair nearer than D that was not so before. "averaged" is CS184's rule: d = 2
-// thickness for all pairs, which lies below h and holds nothing for certain.
+// particles, one of each, are nearer than D = (1 + e) h (docs/physics.md). Where the spacings differ, h is
+// sqrt((hx^2 + hy^2) / 2). Two particles are non-adjacent when they are not in one cell of a grid.
 //
-// Sums over the contacts of a particle are made of fixed-point units, d / 2^18: exact whatever the
-// order, so neither threads, nor the order in a hash cell, nor candidates that are no contacts now can change
-// a bit.
+// "robust" pushes non-adjacent particles apart to d = max(thickness, D + delta / 2), where delta is the
+// relative motion allowed for in a step. It never ends a step with a pair nearer than D that was not so
+// before. "averaged" is CS184's rule: d = 2 thickness for all pairs. That lies below h and guarantees
+// nothing.
 //
-// On a mesh D = (1 + e) 0.764 L with L the longest edge (crossingDistance() says why), non-adjacent are
-// particles that no edge joins, and pairs nearer than d at rest keep that distance, rounded down to 64ths of
-// d.
+// Sums over the contacts of a particle are made in fixed-point units of d / 2^18, which are exact in any
+// order: neither threads, nor the order in a hash cell, nor candidates that are no contacts now can change a
+// bit.
 //
-// The hash serves several steps. Non-adjacent particles within d now were within d + margin when it was built
-// as long as neither has moved farther than margin / 2 since; every step begins by checking that, and builds
-// anew when it fails.
+// On a mesh D = (1 + e) 0.764 L with L the longest edge (see crossingDistance()). Particles that no edge
+// joins are non-adjacent there. Pairs nearer than d at rest keep that distance, rounded down to 64ths of d.
+//
+// The hash serves several steps. Non-adjacent particles within d now were within d + margin when it was
+// built, as long as neither has moved farther than margin / 2 since. Every step begins by checking that, and
+// builds the hash anew when it fails.
 #pragma once
 
 #include <cstdint>

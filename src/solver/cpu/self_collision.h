@@ -55,8 +55,8 @@ class SelfCollision {
   // Whether some pair of non-adjacent particles has come nearer than D: needsClamp_.
   void checkMotion(const CpuState<Real>& before, const CpuState<Real>& after,
                    const std::vector<Real>& inverseMasses);
-  // Shortens all motion of the step by pairs until none has. Each of two may go half of the way that is left
-  // between them, so they cannot meet.
+  // Shortens the motion of the step, pair by pair, until none has. Each of two may cover half of the distance
+  // that is left between them, so they cannot meet.
   void clampMotion(const CpuState<Real>& before, CpuState<Real>& after,
                    const std::vector<Real>& inverseMasses);
   // `visit` sees what would be the candidates of a particle that has too many to remember.
