@@ -12,8 +12,11 @@ constexpr Features elastic{F::springs, F::restLengths, F::meshes, F::cuts};
 constexpr Features air{F::wind, F::particleForces, F::jets, F::meshes, F::cuts};
 constexpr Features solved = elastic | Features{F::wind, F::planes};  // what the linear system is made of
 
+// clang-format off: a table
 constexpr std::array<PassTraits, PASS_COUNT> table{{
-    // pass, name, runs over, reach, gathers, reads, writes, features
+    // pass, name, runs over, reach,
+    //   gathers, reads,
+    //   writes, features
     {Pass::checkStart, "start", Domain::gridPoints, 0, {}, {positions, velocities}, {watch}, {}},
     {Pass::kick,
      "kick",
@@ -23,7 +26,6 @@ constexpr std::array<PassTraits, PASS_COUNT> table{{
      {positions, velocities, forces},
      {newVelocities, watch},
      {}},
-
     {Pass::forces,
      "forces",
      Domain::gridPoints,
@@ -40,7 +42,6 @@ constexpr std::array<PassTraits, PASS_COUNT> table{{
      {positions, velocities, forces},
      {newPositions, newVelocities, watch},
      {F::movingPins, F::grabs}},
-
     {Pass::begin,
      "begin",
      Domain::gridPoints,
@@ -159,7 +160,6 @@ constexpr std::array<PassTraits, PASS_COUNT> table{{
      {positions, velocities, rightHandSides, displacements, iterates, planes},
      {newPositions, newVelocities, watch},
      {F::movingPins, F::planes}},
-
     {Pass::checkHash,
      "check hash",
      Domain::contacts,
@@ -226,6 +226,7 @@ constexpr std::array<PassTraits, PASS_COUNT> table{{
      {F::restLengths, F::meshes, F::cuts}},
     {Pass::watchLimit, "watch limit", Domain::gridPoints, 0, {}, {newVelocities}, {watch}, {}},
 }};
+// clang-format on
 
 constexpr bool isInOrder() {
   for (std::size_t i = 0; i < table.size(); ++i)
