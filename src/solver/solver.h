@@ -27,10 +27,8 @@ struct Snapshot {
   Cuts cuts;
   std::vector<std::uint32_t> offPath;
 
-  [[nodiscard]] std::size_t bytes() const {  // on the device, and what the host keeps with it
-    return particles->bytes() + cuts.size() + offPath.size() * sizeof(std::uint32_t);
-  }
-  [[nodiscard]] State state() const;  // blocking
+  [[nodiscard]] std::size_t bytes() const { return particles->bytes(); }  // of the particles, on the device
+  [[nodiscard]] State state() const;                                      // blocking
 };
 
 class Solver {

@@ -69,7 +69,7 @@ gl::Defines definesFor(const PassFeatures& features) {
           {"HAS_MESH", std::to_string(features.mesh)},
           {"HAS_LIMIT_SPRINGS", std::to_string(features.limitSprings)},
           {"HAS_CONTACT_PLANES", std::to_string(features.contactPlanes)},
-          {"HAS_HOLD", std::to_string(features.grab)},
+          {"HAS_GRAB", std::to_string(features.grab)},
           {"HAS_JET", std::to_string(features.jet)},
           {"HAS_CUTS", std::to_string(features.cuts)},
           {"ENABLED_SLOTS", std::to_string(features.enabledSlots) + "u"}};
