@@ -70,15 +70,15 @@ TEST_F(GpuSolverTest, AgreesWithTheCpuOnGridsOfEveryShape) {
 
 TEST_F(GpuSolverTest, GivesTheSameBitsFusedAndPassByPass) {
   for (const auto& [name, scene] : test::comparedScenes(20))
-    EXPECT_EQ(difference(steppedOnGpu(scene, 200), steppedOnGpu(scene, 200, {.fused = false})).differing, 0u)
+    EXPECT_EQ(difference(steppedOnGpu(scene, 80), steppedOnGpu(scene, 80, {.fused = false})).differing, 0u)
         << name;
 }
 
 TEST_F(GpuSolverTest, GivesTheSameBitsAtEveryWorkGroupSize) {
   for (const Scene& scene : {test::everythingScene(37), test::layeredSheets(37, SelfCollision::robust)}) {
-    const std::uint64_t usual = stateHash(steppedOnGpu(scene, 200));
+    const std::uint64_t usual = stateHash(steppedOnGpu(scene, 80));
     for (const auto& [columns, rows] : {std::pair{1, 1}, {8, 8}, {16, 4}, {128, 1}, {256, 1}})
-      EXPECT_EQ(stateHash(steppedOnGpu(scene, 200, {.groupColumns = columns, .groupRows = rows})), usual)
+      EXPECT_EQ(stateHash(steppedOnGpu(scene, 80, {.groupColumns = columns, .groupRows = rows})), usual)
           << columns << "x" << rows;
   }
 }
