@@ -92,7 +92,7 @@ std::unique_ptr<Snapshot> Solver::snapshot(std::unique_ptr<Snapshot> reuse) {
 
 void Solver::restore(const Snapshot& snapshot) {
   if (!executor_->restore(*snapshot.particles)) return setState(snapshot.state());
-  setBooks(snapshot.clock, snapshot.integrator, snapshot.offPath, snapshot.cuts);
+  setAllButParticles(snapshot.clock, snapshot.integrator, snapshot.offPath, snapshot.cuts);
 }
 
 State Solver::state() {
@@ -110,12 +110,12 @@ void Solver::setState(const State& state) {
   assert(state.positions.size() == inputs_.cloth->particleCount() &&
          "the state must be of the solver's cloth");
   executor_->upload(state);
-  setBooks(state.clock, state.integrator, state.offPath, state.cuts);
+  setAllButParticles(state.clock, state.integrator, state.offPath, state.cuts);
 }
 
 // What a state holds besides the particles.
-void Solver::setBooks(const StepClock& clock, Integrator integrator,
-                      const std::vector<std::uint32_t>& offPath, const Cuts& cuts) {
+void Solver::setAllButParticles(const StepClock& clock, Integrator integrator,
+                                const std::vector<std::uint32_t>& offPath, const Cuts& cuts) {
   inputs_.clock = clock;
   inputs_.clock.setStepLength(stepLength(inputs_.scene->solver));
   inputs_.velocityMeaning = integrator;

@@ -44,8 +44,9 @@ class Solver {
   // grids must be those of the solver's cloth.
   void configure(const Shared<Scene>& scene);
 
-  // Advances by `count` steps; by fewer once an interrupt has come (core/interrupt.h) or, on the CPU, after
-  // divergence. Neither throws nor allocates; on the GPU nothing is waited for.
+  // Advances by `count` steps; by fewer once an interrupt has come (core/interrupt.h) or a divergence
+  // is known. The CPU knows it at once, the GPU when divergence() was asked. Neither throws nor allocates; on
+  // the GPU nothing is waited for.
   void step(int count);
   // Waits until every step is done. @throws OpenGlError when the driver has reported an error meanwhile
   void finish() { executor_->finish(); }
@@ -110,8 +111,8 @@ class Solver {
   void distrustState() { startIsChecked_ = false; }
 
  private:
-  void setBooks(const StepClock& clock, Integrator integrator, const std::vector<std::uint32_t>& offPath,
-                const Cuts& cuts);
+  void setAllButParticles(const StepClock& clock, Integrator integrator,
+                          const std::vector<std::uint32_t>& offPath, const Cuts& cuts);
   void setOffPath(std::vector<std::uint32_t> offPath);
   void checkStart();
 

@@ -112,14 +112,13 @@ void GpuArrays::bindTextures() const {
 void GpuArrays::bindFor(Pass pass) const {
   (*this)[positionsOf(pass)].texture.bind(POSITIONS_UNIT);
   const PassTraits& traits = traitsOf(pass);
-  const Arrays used = traits.reads | traits.writes;
-  if (used.contains(Array::scalars)) scalars_.bindStorage(SCALARS_BINDING);
+  if ((traits.reads | traits.writes).contains(Array::scalars)) scalars_.bindStorage(SCALARS_BINDING);
   for (int i = 0; i < ARRAY_COUNT; ++i) {
     const auto array = static_cast<Array>(i);
     const int binding = placeOf(array).binding;
-    if (binding >= 0 && used.contains(array) && (*this)[array].buffer.name() != 0)
-      if (traits.writes.contains(array) || array == Array::forces)
-        (*this)[array].buffer.bindStorage(static_cast<GLuint>(binding));
+    const bool hasBuffer = (*this)[array].buffer.name() != 0;  // scalars and watch have others
+    if (binding >= 0 && traits.writes.contains(array) && hasBuffer)
+      (*this)[array].buffer.bindStorage(static_cast<GLuint>(binding));
   }
 }
 

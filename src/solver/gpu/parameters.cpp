@@ -56,8 +56,8 @@ void GpuParameters::prepareHand(const Hand& hand, std::size_t batch) {
   if (!hand.grab || hand.grab->points == grabbedPoints_) return;
   grabbedPoints_ = hand.grab->points;
   grabbed_ =
-      gl::Buffer<GrabSpring::Point>("held points", std::span<const GrabSpring::Point>(*grabbedPoints_));
-  grabbedTexture_ = gl::BufferTexture("held points", grabbed_.name(), GL_RGBA32F);
+      gl::Buffer<GrabSpring::Point>("grabbed points", std::span<const GrabSpring::Point>(*grabbedPoints_));
+  grabbedTexture_ = gl::BufferTexture("grabbed points", grabbed_.name(), GL_RGBA32F);
 }
 
 bool GpuParameters::hasStep(const StepClock& clock) const {
