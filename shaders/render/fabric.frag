@@ -3,7 +3,7 @@
 // light and from the generated sky; folds shade themselves; a part of the light shines through. The threads' relief is a
 // picture with mipmaps whose slopes are level on average: with distance it fades into the cloth's own normal.
 #include "render/charlie.glsl"
-#include "render/cloth_grid.glsl"
+#include "render/cloth_piece.glsl"
 #include "render/environment_light.glsl"
 #include "render/frame.glsl"
 #include "render/hem.glsl"

@@ -1,11 +1,11 @@
 // The seam of a hem around the sheet, half a pixel wide at least so that it does not crawl. Factor for the albedo.
-#include "render/cloth_grid.glsl"
+#include "render/cloth_piece.glsl"
 
 const float HEM_WIDTH = 0.022;  // of the sheet's sides
 const float SEAM_SHADE = 0.28;
 
 float hem(vec2 uv) {
-  if (grid.ring == 0u) return 1.0;  // a mesh, whose edges are not those of its texture
+  if (piece.ring == 0u) return 1.0;  // a mesh, whose edges are not those of its texture
   vec2 inside = min(uv, 1.0 - uv);
   float fromSeam = abs(min(inside.x, inside.y) - HEM_WIDTH);
   float width = 0.0022 + 0.7 * fwidth(min(inside.x, inside.y));

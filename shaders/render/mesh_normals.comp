@@ -1,6 +1,6 @@
 // Normals, tangents, hollows and strains of a mesh, as normals.comp has them for grids: each particle gathers over its
 // triangles, which come as lists.
-#include "render/cloth_grid.glsl"
+#include "render/cloth_piece.glsl"
 
 layout(local_size_x = MESH_NORMALS_GROUP) in;
 layout(std430, binding = NORMALS_POSITIONS_BINDING) readonly buffer Positions { vec4 positions[]; };
@@ -31,8 +31,8 @@ float hollowAt(uint ring, vec3 here, vec3 normal) {
 
 void main() {
   uint local = gl_GlobalInvocationID.x;
-  if (local >= grid.columns) return;
-  uint i = grid.firstParticle + local;
+  if (local >= piece.columns) return;
+  uint i = piece.firstParticle + local;
   vec3 here = positions[i].xyz;
   vec2 uv = coordinates[i];
   vec3 sum = vec3(0), along = vec3(0);
@@ -48,7 +48,7 @@ void main() {
   }
   float area = length(sum);
   vec3 normal = area > 0.0 ? sum / area : vec3(0, 1, 0);
-  uint firstRing = corners[grid.columns];  // rings lie behind the triangles
+  uint firstRing = corners[piece.columns];  // rings lie behind the triangles
   normals[i] = vec4(normal, hollowAt(firstRing + local * MESH_RING, here, normal));
   along -= dot(along, normal) * normal;
   float l = length(along);

@@ -1,17 +1,17 @@
 // Smooth normals: each particle gathers the area-weighted normals of its up to six triangles; tangents along u beside
 // them. The normal's w says how far the cloth around rises above the tangent plane (the mean sine, -1 to 1): the hollows
 // of folds are shaded darker by it. The tangent's w is the strain, where a model asks for it.
-#include "render/cloth_grid.glsl"
+#include "render/cloth_piece.glsl"
 
 layout(local_size_x = NORMALS_GROUP_SIZE, local_size_y = NORMALS_GROUP_SIZE) in;
 layout(std430, binding = NORMALS_POSITIONS_BINDING) readonly buffer Positions { vec4 positions[]; };
 layout(std430, binding = NORMALS_OUT_BINDING) writeonly buffer Normals { vec4 normals[]; };
 layout(std430, binding = TANGENTS_OUT_BINDING) writeonly buffer Tangents { vec4 tangents[]; };
 
-uint particleAt(ivec2 point) { return grid.firstParticle + uint(point.y) * grid.columns + uint(point.x); }
+uint particleAt(ivec2 point) { return piece.firstParticle + uint(point.y) * piece.columns + uint(point.x); }
 
 bool isOnGrid(ivec2 point) {
-  return all(greaterThanEqual(point, ivec2(0))) && all(lessThan(point, ivec2(grid.columns, grid.rows)));
+  return all(greaterThanEqual(point, ivec2(0))) && all(lessThan(point, ivec2(piece.columns, piece.rows)));
 }
 
 #include "render/cuts.glsl"
@@ -29,10 +29,10 @@ float hollowAt(ivec2 point, vec3 here, vec3 normal) {
   float sum = 0.0;
   for (int row = -1; row <= 1; ++row) {
     for (int column = -1; column <= 1; ++column) {
-      vec3 d = toNeighbour(point, here, column * int(grid.ring), row * int(grid.ring));
+      vec3 d = toNeighbour(point, here, column * int(piece.ring), row * int(piece.ring));
       float l = length(d);
 #ifdef CUTS
-      d *= clamp(3.0 - l / grid.reach, 0.0, 1.0);
+      d *= clamp(3.0 - l / piece.reach, 0.0, 1.0);
 #endif
       sum += dot(d, normal) / max(l, 1e-9);
     }
@@ -42,7 +42,7 @@ float hollowAt(ivec2 point, vec3 here, vec3 normal) {
 
 void main() {
   ivec2 point = ivec2(gl_GlobalInvocationID.xy);
-  if (point.x >= int(grid.columns) || point.y >= int(grid.rows)) return;
+  if (point.x >= int(piece.columns) || point.y >= int(piece.rows)) return;
   vec3 here = positions[particleAt(point)].xyz;
   vec3 right = toNeighbour(point, here, 1, 0), left = toNeighbour(point, here, -1, 0);
   vec3 lower = toNeighbour(point, here, 0, 1), upper = toNeighbour(point, here, 0, -1);
@@ -57,7 +57,7 @@ void main() {
   if (hasUpperTriangle(point + ivec2(0, -1))) sum += cross(upperRight, upper);
   if (hasLowerTriangle(point + ivec2(0, -1))) sum += cross(right, upperRight);
   float area = length(sum);
-  vec3 normal = area > 0.0 ? grid.front * sum / area : vec3(0, 1, 0);
+  vec3 normal = area > 0.0 ? piece.front * sum / area : vec3(0, 1, 0);
   normals[particleAt(point)] = vec4(normal, hollowAt(point, here, normal));
 
   if (isCut(point + ivec2(1, 0), TO_LEFT)) right = vec3(0);

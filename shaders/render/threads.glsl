@@ -1,5 +1,5 @@
 // The threads of woven cloth. Before the include: tangent_frame.glsl.
-#include "render/cloth_grid.glsl"
+#include "render/cloth_piece.glsl"
 #include "render/frame.glsl"
 
 #ifdef WOVEN
@@ -18,7 +18,7 @@ struct Threads {
 Threads threadsAt(vec2 uv, float side) {
 #ifdef WOVEN
   // One mipmap smaller than usual: the weave repeats every two threads, which a pixel of one thread would turn into moire.
-  vec4 stored = texture(weave, uv * vec2(grid.width, grid.height) * frame.fabric.x, 1.0);
+  vec4 stored = texture(weave, uv * vec2(piece.width, piece.height) * frame.fabric.x, 1.0);
   vec2 slope = (stored.rg * 2.0 - 256.0 / 255.0) * (SLOPE_RANGE * FLATTENED * frame.relief.x);
   return Threads(slope, stored.b, side > 0.0 ? stored.a : 1.0 - stored.a);  // what is below on one side is above on the other
 #else

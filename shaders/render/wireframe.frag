@@ -1,6 +1,6 @@
 // The triangles' sides: lines between neighbours, finer ones along the diagonals, as wide on the screen at any distance.
 // Where cells are smaller than pixels, lines give way to the tone that they have on average.
-#include "render/cloth_grid.glsl"
+#include "render/cloth_piece.glsl"
 #include "render/frame.glsl"
 #include "render/surface.glsl"
 #include "render/tone.glsl"
@@ -20,10 +20,10 @@ float cover(float lattice, float width) {
 }
 
 void main() {
-  vec2 lattice = surface.uv * vec2(grid.columns - 1u, grid.rows - 1u);
+  vec2 lattice = surface.uv * vec2(piece.columns - 1u, piece.rows - 1u);
   float sides = max(cover(lattice.x, WIDTH), cover(lattice.y, WIDTH));
-  float opacity = max(sides, 0.75 * cover(lattice.x + grid.front * lattice.y, DIAGONAL_WIDTH));
-  if (grid.ring == 0u) opacity = 1.0;  // a mesh is drawn as lines
+  float opacity = max(sides, 0.75 * cover(lattice.x + piece.front * lattice.y, DIAGONAL_WIDTH));
+  if (piece.ring == 0u) opacity = 1.0;  // a mesh is drawn as lines
   float facing = abs(dot(normalize(surface.normal), normalize(frame.eye.xyz - surface.position)));
   vec3 light = albedoOfSide() * (0.55 + 0.6 * facing);
   color = vec4(canvasFromLight(light) * opacity, opacity);

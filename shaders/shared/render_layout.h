@@ -79,7 +79,7 @@ struct RenderFrame {
   vec4 strainRange;                // x: l/L - 1 at the last of them
 };
 
-struct ClothGrid {
+struct ClothPiece {
   uint firstParticle, columns, rows;
   uint ring;     // how many points away the cloth is looked at for the shade in folds; 0: a mesh
   float width;   // at rest [m], along u; of a mesh the length of a unit of u

@@ -35,7 +35,7 @@ using uint = std::uint32_t;
 // cells.
 #define MOST_CANDIDATES 24u
 // A candidate is a particle (26 bits) and, above it, how to find the pair's distance: 0 for non-adjacent
-// particles, |columns| + 8 |rows| for particles of one grid that lie nearer than the contact distance at
+// particles, |columns| + 8 |rows| for particles of one piece that lie nearer than the contact distance at
 // rest, 64ths of that for those of one mesh.
 #define CANDIDATE_BITS 26
 #define NEAREST_CODES 64u
@@ -44,11 +44,11 @@ using uint = std::uint32_t;
 #define BUCKETS_A_BLOCK 4096u  // prefix sums run in blocks
 
 SHARED_STRUCT SelfParams {
-  uint particles;   // of all grids
+  uint particles;   // of all pieces
   uint bucketMask;  // buckets - 1; a power of two, at least as many as particles
   uint bucketBlocks;
-  uint firstCode;  // pairs of one grid within so many columns and rows are left to their springs: 1 none, 2 a
-                   // cell
+  uint firstCode;  // pairs of one piece within so many columns and rows are left to their springs: 1 none, 2
+                   // a cell
 
   real inverseCell;      // 1 / size of a cell
   real searchSquared;    // particles nearer than this when hashed are candidates

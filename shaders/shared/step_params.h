@@ -87,7 +87,7 @@ SHARED_STRUCT StepParams {
   uint firstParticle;
   uint columns;
   uint rows;
-  uint totalParticles;  // of all grids
+  uint totalParticles;  // of all pieces
 
   uint useRestLengthTable;
   uint hasWind;
@@ -115,7 +115,7 @@ SHARED_STRUCT StepParams {
   real maxSpeedSquared;  // for the watchdog [m^2/s^2]
 
   uint enabledSlots;    // bit `slot` is set when its springs are enabled
-  uint grid;            // which of the cloth's
+  uint piece;           // which of the cloth's
   uint limitPass;       // PASS_LIMIT or PASS_EARLY_LIMIT
   uint firstPinMotion;  // of this step, in the array of pin motions
 

@@ -46,37 +46,37 @@ double springStiffness(const ClothSettings& settings, SpringKind kind, double re
 }
 
 // The springs and masses of a material (cloth/material.h).
-void putMaterial(const ClothSettings& settings, Grid& grid) {
-  const double dx = spacing(settings.width, grid.columns), dy = spacing(settings.height, grid.rows);
+void putMaterial(const ClothSettings& settings, Piece& piece) {
+  const double dx = spacing(settings.width, piece.columns), dy = spacing(settings.height, piece.rows);
   const LatticeStiffness k = latticeStiffness(*settings.material, dx, dy);
-  grid.hasMaterial = true;
-  grid.particleMass = settings.material->density * dx * dy;
-  grid.stiffness = {k.alongRow, k.alongColumn, k.diagonal, k.diagonal, 0, 0};
-  grid.slotEnabled[toSecondLeft] = grid.slotEnabled[toSecondUpper] = false;
+  piece.hasMaterial = true;
+  piece.particleMass = settings.material->density * dx * dy;
+  piece.stiffness = {k.alongRow, k.alongColumn, k.diagonal, k.diagonal, 0, 0};
+  piece.slotEnabled[toSecondLeft] = piece.slotEnabled[toSecondUpper] = false;
   if (!settings.enableBending) return;
-  grid.bendAlongRow = k.bendAlongRow;
-  grid.bendAlongColumn = k.bendAlongColumn;
+  piece.bendAlongRow = k.bendAlongRow;
+  piece.bendAlongColumn = k.bendAlongColumn;
 }
 
-Grid makeGrid(const ClothSettings& settings, std::uint32_t firstParticle) {
-  Grid grid;
-  grid.firstParticle = firstParticle;
-  grid.columns = settings.numWidthPoints;
-  grid.rows = settings.numHeightPoints;
-  grid.rowsGoUp = settings.orientation == Orientation::vertical;
+Piece makeGrid(const ClothSettings& settings, std::uint32_t firstParticle) {
+  Piece piece;
+  piece.firstParticle = firstParticle;
+  piece.columns = settings.numWidthPoints;
+  piece.rows = settings.numHeightPoints;
+  piece.rowsGoUp = settings.orientation == Orientation::vertical;
   const double mass = settings.mass.value_or(settings.width * settings.height * settings.density);
-  grid.particleMass = mass / grid.particleCount();
-  const double dx = spacing(settings.width, grid.columns), dy = spacing(settings.height, grid.rows);
+  piece.particleMass = mass / piece.particleCount();
+  const double dx = spacing(settings.width, piece.columns), dy = spacing(settings.height, piece.rows);
   for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot) {
     const SpringOffset& offset = springOffsets[slot];
-    const bool fits = std::abs(offset.columns) < grid.columns && std::abs(offset.rows) < grid.rows;
+    const bool fits = std::abs(offset.columns) < piece.columns && std::abs(offset.rows) < piece.rows;
     if (!fits) continue;
-    grid.slotEnabled[slot] = kindEnabled(settings, offset.kind);
-    grid.nominalLength[slot] = std::hypot(offset.columns * dx, offset.rows * dy);
-    grid.stiffness[slot] = springStiffness(settings, offset.kind, grid.nominalLength[slot]);
+    piece.slotEnabled[slot] = kindEnabled(settings, offset.kind);
+    piece.nominalLength[slot] = std::hypot(offset.columns * dx, offset.rows * dy);
+    piece.stiffness[slot] = springStiffness(settings, offset.kind, piece.nominalLength[slot]);
   }
-  if (settings.material) putMaterial(settings, grid);
-  return grid;
+  if (settings.material) putMaterial(settings, piece);
+  return piece;
 }
 
 // CS184 measures rest lengths on the sheet as it starts, jitter included. Fabrics, and CS171's sheet, are cut
@@ -115,16 +115,17 @@ void appendPositions(const ClothSettings& settings, std::uint32_t firstParticle,
 
 // Whether some spring, measured between positions as binary32 stores them, differs from its kind's nominal
 // length.
-bool differsFromNominal(const Grid& grid, std::span<const Vec3d> positions) {
-  for (int row = 0; row < grid.rows; ++row) {
-    for (int column = 0; column < grid.columns; ++column) {
+bool differsFromNominal(const Piece& piece, std::span<const Vec3d> positions) {
+  for (int row = 0; row < piece.rows; ++row) {
+    for (int column = 0; column < piece.columns; ++column) {
       for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot) {
         const SpringOffset& offset = springOffsets[slot];
-        if (!grid.slotEnabled[slot] || !grid.contains(column + offset.columns, row + offset.rows)) continue;
-        const Vec3d a = positions[grid.particle(column, row)].cast<float>().cast<double>();
-        const Vec3d b =
-            positions[grid.particle(column + offset.columns, row + offset.rows)].cast<float>().cast<double>();
-        if (std::abs(length(b - a) - grid.nominalLength[slot]) > NOMINAL_LENGTH_TOLERANCE) return true;
+        if (!piece.slotEnabled[slot] || !piece.contains(column + offset.columns, row + offset.rows)) continue;
+        const Vec3d a = positions[piece.particle(column, row)].cast<float>().cast<double>();
+        const Vec3d b = positions[piece.particle(column + offset.columns, row + offset.rows)]
+                            .cast<float>()
+                            .cast<double>();
+        if (std::abs(length(b - a) - piece.nominalLength[slot]) > NOMINAL_LENGTH_TOLERANCE) return true;
       }
     }
   }
@@ -214,15 +215,15 @@ void Cloth::holdPins(const ClothSettings& settings, std::uint32_t first) {
 }
 
 void Cloth::addGrid(const ClothSettings& settings) {
-  Grid grid = makeGrid(settings, particleCount());
-  checkSize(grid.particleCount());
-  appendPositions(settings, grid.firstParticle, positions_);
-  for (int row = 0; row < grid.rows; ++row)
-    for (int column = 0; column < grid.columns; ++column)
-      inverseMasses_.push_back(1 / (grid.particleMass * grid.massWeight(column, row)));
-  holdPins(settings, grid.firstParticle);
-  grid.hasRestLengthTable = restsAsItStarts(settings) && differsFromNominal(grid, positions_);
-  grids_.push_back(grid);
+  Piece piece = makeGrid(settings, particleCount());
+  checkSize(piece.particleCount());
+  appendPositions(settings, piece.firstParticle, positions_);
+  for (int row = 0; row < piece.rows; ++row)
+    for (int column = 0; column < piece.columns; ++column)
+      inverseMasses_.push_back(1 / (piece.particleMass * piece.massWeight(column, row)));
+  holdPins(settings, piece.firstParticle);
+  piece.hasRestLengthTable = restsAsItStarts(settings) && differsFromNominal(piece, positions_);
+  pieces_.push_back(piece);
 }
 
 void Cloth::addMesh(const ClothSettings& settings) {
@@ -231,7 +232,7 @@ void Cloth::addMesh(const ClothSettings& settings) {
   checkPinMotions(settings);
   const std::vector<Vec3d> points = placedPoints(*shape, settings);
   const MeshMechanics mechanics = mechanicsOf(*shape, points, settings);
-  Grid mesh;
+  Piece mesh;
   mesh.isMesh = true;
   mesh.firstParticle = particleCount();
   mesh.columns = static_cast<int>(points.size());
@@ -269,58 +270,58 @@ void Cloth::addMesh(const ClothSettings& settings) {
   for (const auto& [a, b, c] : shape->triangles)
     lists_.triangles.push_back({first + a, first + b, first + c});
   mesh.endTriangle = static_cast<std::uint32_t>(lists_.triangles.size());
-  grids_.push_back(std::move(mesh));
+  pieces_.push_back(std::move(mesh));
 }
 
 double Cloth::massOf(std::uint32_t particle) const {
-  const Grid& grid = grids_[gridOf(particle)];
-  if (grid.isMesh) return meshMasses_[particle];
-  const int place = static_cast<int>(particle - grid.firstParticle);
-  return grid.particleMass * grid.massWeight(place % grid.columns, place / grid.columns);
+  const Piece& piece = pieces_[pieceOf(particle)];
+  if (piece.isMesh) return meshMasses_[particle];
+  const int place = static_cast<int>(particle - piece.firstParticle);
+  return piece.particleMass * piece.massWeight(place % piece.columns, place / piece.columns);
 }
 
-std::size_t Cloth::gridOf(std::uint32_t particle) const {
+std::size_t Cloth::pieceOf(std::uint32_t particle) const {
   const auto next =
-      std::upper_bound(grids_.begin(), grids_.end(), particle,
-                       [](std::uint32_t wanted, const Grid& grid) { return wanted < grid.firstParticle; });
-  return static_cast<std::size_t>(next - grids_.begin()) - 1;
+      std::upper_bound(pieces_.begin(), pieces_.end(), particle,
+                       [](std::uint32_t wanted, const Piece& piece) { return wanted < piece.firstParticle; });
+  return static_cast<std::size_t>(next - pieces_.begin()) - 1;
 }
 
 bool Cloth::hasRestLengthTable() const {
-  for (const Grid& grid : grids_)
-    if (grid.hasRestLengthTable) return true;
+  for (const Piece& piece : pieces_)
+    if (piece.hasRestLengthTable) return true;
   return false;
 }
 
 std::uint64_t Cloth::triangleCount() const {
   std::uint64_t count = 0;
-  for (const Grid& grid : grids_)
-    count += grid.isMesh ? grid.endTriangle - grid.firstTriangle
-                         : 2 * static_cast<std::uint64_t>(grid.columns - 1) *
-                               static_cast<std::uint64_t>(grid.rows - 1);
+  for (const Piece& piece : pieces_)
+    count += piece.isMesh ? piece.endTriangle - piece.firstTriangle
+                          : 2 * static_cast<std::uint64_t>(piece.columns - 1) *
+                                static_cast<std::uint64_t>(piece.rows - 1);
   return count;
 }
 
 std::uint64_t Cloth::springCount() const {
   std::uint64_t count = lists_.springs.size();
-  for (const Grid& grid : grids_)
+  for (const Piece& piece : pieces_)
     for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot)
-      if (grid.slotEnabled[slot])
-        count += static_cast<std::uint64_t>(grid.columns - std::abs(springOffsets[slot].columns)) *
-                 static_cast<std::uint64_t>(grid.rows - std::abs(springOffsets[slot].rows));
+      if (piece.slotEnabled[slot])
+        count += static_cast<std::uint64_t>(piece.columns - std::abs(springOffsets[slot].columns)) *
+                 static_cast<std::uint64_t>(piece.rows - std::abs(springOffsets[slot].rows));
   return count;
 }
 
 std::vector<std::array<std::uint32_t, 3>> Cloth::triangles() const {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   triangles.reserve(triangleCount());
-  for (const Grid& grid : grids_) {
-    if (grid.isMesh)
-      triangles.insert(triangles.end(), lists_.triangles.begin() + grid.firstTriangle,
-                       lists_.triangles.begin() + grid.endTriangle);
-    for (int row = 0; row + 1 < grid.rows; ++row) {
-      for (int column = 0; column + 1 < grid.columns; ++column) {
-        const auto cell = grid.cellTriangles(column, row);
+  for (const Piece& piece : pieces_) {
+    if (piece.isMesh)
+      triangles.insert(triangles.end(), lists_.triangles.begin() + piece.firstTriangle,
+                       lists_.triangles.begin() + piece.endTriangle);
+    for (int row = 0; row + 1 < piece.rows; ++row) {
+      for (int column = 0; column + 1 < piece.columns; ++column) {
+        const auto cell = piece.cellTriangles(column, row);
         triangles.insert(triangles.end(), cell.begin(), cell.end());
       }
     }
@@ -331,34 +332,35 @@ std::vector<std::array<std::uint32_t, 3>> Cloth::triangles() const {
 std::vector<std::array<float, 2>> Cloth::textureCoordinates() const {
   std::vector<std::array<float, 2>> coordinates;
   coordinates.reserve(particleCount());
-  for (const Grid& grid : grids_)
-    for (int row = 0; row < grid.rows; ++row)
-      for (int column = 0; column < grid.columns; ++column) {
-        const int fromTop = grid.rowsGoUp ? grid.rows - 1 - row : row;
+  for (const Piece& piece : pieces_)
+    for (int row = 0; row < piece.rows; ++row)
+      for (int column = 0; column < piece.columns; ++column) {
+        const int fromTop = piece.rowsGoUp ? piece.rows - 1 - row : row;
         coordinates.push_back(
-            grid.isMesh
-                ? meshCoordinates_[grid.particle(column, row)]
-                : std::array{static_cast<float>(column) / static_cast<float>(std::max(1, grid.columns - 1)),
-                             static_cast<float>(fromTop) / static_cast<float>(std::max(1, grid.rows - 1))});
+            piece.isMesh
+                ? meshCoordinates_[piece.particle(column, row)]
+                : std::array{static_cast<float>(column) / static_cast<float>(std::max(1, piece.columns - 1)),
+                             static_cast<float>(fromTop) / static_cast<float>(std::max(1, piece.rows - 1))});
       }
   return coordinates;
 }
 
 std::vector<Spring> Cloth::springs() const {
   std::vector<Spring> springs;
-  for (const Grid& grid : grids_) {
-    for (int row = 0; row < grid.rows; ++row) {
-      for (int column = 0; column < grid.columns; ++column) {
-        const std::uint32_t owner = grid.particle(column, row);
+  for (const Piece& piece : pieces_) {
+    for (int row = 0; row < piece.rows; ++row) {
+      for (int column = 0; column < piece.columns; ++column) {
+        const std::uint32_t owner = piece.particle(column, row);
         for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot) {
           const SpringOffset& offset = springOffsets[slot];
-          if (!grid.slotEnabled[slot] || !grid.contains(column + offset.columns, row + offset.rows)) continue;
-          const std::uint32_t other = grid.particle(column + offset.columns, row + offset.rows);
+          if (!piece.slotEnabled[slot] || !piece.contains(column + offset.columns, row + offset.rows))
+            continue;
+          const std::uint32_t other = piece.particle(column + offset.columns, row + offset.rows);
           const double measured = length(positions_[other] - positions_[owner]);
           springs.push_back(
               {static_cast<std::uint32_t>(SPRING_SLOTS * owner + slot), offset.kind, owner, other,
-               grid.stiffness[slot] * grid.springWeight(column, row, static_cast<SpringSlot>(slot)),
-               grid.hasRestLengthTable ? measured : grid.nominalLength[slot]});
+               piece.stiffness[slot] * piece.springWeight(column, row, static_cast<SpringSlot>(slot)),
+               piece.hasRestLengthTable ? measured : piece.nominalLength[slot]});
         }
       }
     }
@@ -373,9 +375,9 @@ std::vector<Spring> Cloth::springs() const {
 
 double smallestSpacing(const Cloth& cloth) {
   double smallest = INFINITY;
-  for (const Grid& grid : cloth.grids())
+  for (const Piece& piece : cloth.pieces())
     for (const std::size_t slot : {toLeft, toUpper})  // 0 across a rope, which has one row
-      if (grid.nominalLength[slot] > 0) smallest = std::min(smallest, grid.nominalLength[slot]);
+      if (piece.nominalLength[slot] > 0) smallest = std::min(smallest, piece.nominalLength[slot]);
   return std::isfinite(smallest) ? smallest : 0;
 }
 

@@ -71,7 +71,7 @@ inline constexpr std::array<std::array<Corner, 3>, 6> incidentTriangles{{{{{0, -
 
 // One grid of particles, row-major, column fastest. A mesh is a grid of one row, whose springs and triangles
 // come from Cloth::lists(): whatever treats each particle alone need not know.
-struct Grid {
+struct Piece {
   std::uint32_t firstParticle = 0;
   int columns = 0, rows = 0;
   bool rowsGoUp = false;    // a standing sheet: row 0 is its bottom, and its front faces +z
@@ -124,7 +124,7 @@ struct Grid {
 };
 
 // Whether a pass over the grid's particles gains more from threads than waking them costs.
-[[nodiscard]] inline bool isWorthThreads(const Grid& grid) { return grid.particleCount() >= 2048; }
+[[nodiscard]] inline bool isWorthThreads(const Piece& piece) { return piece.particleCount() >= 2048; }
 
 struct Spring {
   // Of a grid 6 * owner + slot; of a mesh its place in Cloth::lists(), behind all those.
@@ -145,8 +145,8 @@ class Cloth {
   explicit Cloth(const Scene& scene);
 
   [[nodiscard]] std::uint32_t particleCount() const { return static_cast<std::uint32_t>(positions_.size()); }
-  [[nodiscard]] std::span<const Grid> grids() const { return grids_; }
-  [[nodiscard]] std::size_t gridOf(std::uint32_t particle) const;                // its place in grids()
+  [[nodiscard]] std::span<const Piece> pieces() const { return pieces_; }
+  [[nodiscard]] std::size_t pieceOf(std::uint32_t particle) const;               // its place in pieces()
   [[nodiscard]] std::span<const Vec3d> positions() const { return positions_; }  // at the start [m]
   [[nodiscard]] std::span<const double> inverseMasses() const { return inverseMasses_; }  // [1/kg], 0: pinned
   [[nodiscard]] bool hasRestLengthTable() const;                                          // of any grid
@@ -154,7 +154,7 @@ class Cloth {
   [[nodiscard]] const SpringLists& lists() const { return lists_; }  // of all meshes
   [[nodiscard]] bool hasMesh() const { return !lists_.empty(); }
   [[nodiscard]] bool isOfMesh(std::uint32_t particle) const {
-    return hasMesh() && grids_[gridOf(particle)].isMesh;
+    return hasMesh() && pieces_[pieceOf(particle)].isMesh;
   }
 
   // Counter-clockwise seen from the front: +y of a horizontal sheet, +z of a standing one. Cell (c, r) has
@@ -170,7 +170,7 @@ class Cloth {
   [[nodiscard]] std::uint64_t springCount() const;  // enabled ones
 
  private:
-  std::vector<Grid> grids_;
+  std::vector<Piece> pieces_;
   std::vector<Vec3d> positions_;
   void addGrid(const ClothSettings& settings);
   void addMesh(const ClothSettings& settings);

@@ -28,8 +28,8 @@ Extent extentOf(double a, double b, int points) {
 
 }  // namespace
 
-bool cutAlong(Cuts& cuts, const Cloth& cloth, std::size_t grid, LatticePoint from, LatticePoint to) {
-  const Grid& g = cloth.grids()[grid];
+bool cutAlong(Cuts& cuts, const Cloth& cloth, std::size_t piece, LatticePoint from, LatticePoint to) {
+  const Piece& g = cloth.pieces()[piece];
   const Extent columns = extentOf(from.column, to.column, g.columns);
   const Extent rows = extentOf(from.row, to.row, g.rows);
   bool any = false;
@@ -59,9 +59,9 @@ namespace {
 struct CellTriangles {
   bool first, second;
 };
-CellTriangles trianglesLeft(const Grid& grid, const Cuts& cuts, int column, int row) {
-  const std::uint32_t b = grid.particle(column + 1, row), c = grid.particle(column, row + 1),
-                      d = grid.particle(column + 1, row + 1);
+CellTriangles trianglesLeft(const Piece& piece, const Cuts& cuts, int column, int row) {
+  const std::uint32_t b = piece.particle(column + 1, row), c = piece.particle(column, row + 1),
+                      d = piece.particle(column + 1, row + 1);
   const bool diagonal = !isCut(cuts, c, toUpperRight);  // a side of both
   return {diagonal && !isCut(cuts, c, toUpper) && !isCut(cuts, b, toLeft),
           diagonal && !isCut(cuts, d, toLeft) && !isCut(cuts, d, toUpper)};
@@ -77,24 +77,24 @@ std::size_t seenFromOtherEnd(int slot) {
 
 class CutMasks {
  public:
-  CutMasks(const Grid& grid, const Cuts& cuts, std::vector<std::uint32_t>& masks)
-      : grid_(grid), cuts_(cuts), masks_(masks) {}
+  CutMasks(const Piece& piece, const Cuts& cuts, std::vector<std::uint32_t>& masks)
+      : piece_(piece), cuts_(cuts), masks_(masks) {}
 
   // The springs that a grid point owns, for both ends.
   void addSprings(int column, int row) {
-    const std::uint32_t owner = grid_.particle(column, row);
+    const std::uint32_t owner = piece_.particle(column, row);
     for (int slot = 0; slot < SPRING_SLOTS; ++slot) {
       if (!isCut(cuts_, owner, static_cast<SpringSlot>(slot))) continue;
       const SpringOffset& offset = springOffsets[static_cast<std::size_t>(slot)];
-      if (!grid_.contains(column + offset.columns, row + offset.rows)) continue;
+      if (!piece_.contains(column + offset.columns, row + offset.rows)) continue;
       masks_[owner] |= 1u << slot;
-      masks_[grid_.particle(column + offset.columns, row + offset.rows)] |= 1u << seenFromOtherEnd(slot);
+      masks_[piece_.particle(column + offset.columns, row + offset.rows)] |= 1u << seenFromOtherEnd(slot);
     }
   }
   // The triangles of a cell, for their corners, which know them by their place in incidentTriangles.
   void addTriangles(int column, int row) {
-    if (column < 0 || row < 0 || column + 1 >= grid_.columns || row + 1 >= grid_.rows) return;
-    const CellTriangles left = trianglesLeft(grid_, cuts_, column, row);
+    if (column < 0 || row < 0 || column + 1 >= piece_.columns || row + 1 >= piece_.rows) return;
+    const CellTriangles left = trianglesLeft(piece_, cuts_, column, row);
     if (!left.first) {
       lose(column, row, 5);
       lose(column + 1, row, 3);
@@ -109,10 +109,10 @@ class CutMasks {
 
  private:
   void lose(int column, int row, std::uint32_t k) {
-    masks_[grid_.particle(column, row)] |= 1u << (incidentSprings.size() + k);
+    masks_[piece_.particle(column, row)] |= 1u << (incidentSprings.size() + k);
   }
 
-  const Grid& grid_;
+  const Piece& piece_;
   const Cuts& cuts_;
   std::vector<std::uint32_t>& masks_;
 };
@@ -123,14 +123,14 @@ std::vector<std::array<std::uint32_t, 3>> remainingTriangles(const Cloth& cloth,
   if (cuts.empty()) return cloth.triangles();
   std::vector<std::array<std::uint32_t, 3>> triangles;
   const auto& listed = cloth.lists().triangles;
-  for (const Grid& grid : cloth.grids()) {
-    if (grid.isMesh)
-      triangles.insert(triangles.end(), listed.begin() + grid.firstTriangle,
-                       listed.begin() + grid.endTriangle);
-    for (int row = 0; row + 1 < grid.rows; ++row) {
-      for (int column = 0; column + 1 < grid.columns; ++column) {
-        const auto [first, second] = grid.cellTriangles(column, row);
-        const CellTriangles left = trianglesLeft(grid, cuts, column, row);
+  for (const Piece& piece : cloth.pieces()) {
+    if (piece.isMesh)
+      triangles.insert(triangles.end(), listed.begin() + piece.firstTriangle,
+                       listed.begin() + piece.endTriangle);
+    for (int row = 0; row + 1 < piece.rows; ++row) {
+      for (int column = 0; column + 1 < piece.columns; ++column) {
+        const auto [first, second] = piece.cellTriangles(column, row);
+        const CellTriangles left = trianglesLeft(piece, cuts, column, row);
         if (left.first) triangles.push_back(first);
         if (left.second) triangles.push_back(second);
       }
@@ -146,10 +146,10 @@ std::uint64_t remainingTriangleCount(const Cloth& cloth, const Cuts& cuts) {
 std::uint64_t remainingSpringCount(const Cloth& cloth, const Cuts& cuts) {
   std::uint64_t count = cloth.springCount();
   if (cuts.empty()) return count;
-  for (const Grid& grid : cloth.grids())
-    for (std::uint32_t i = 0; i < grid.particleCount(); ++i)
+  for (const Piece& piece : cloth.pieces())
+    for (std::uint32_t i = 0; i < piece.particleCount(); ++i)
       for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot)
-        if (grid.slotEnabled[slot] && isCut(cuts, grid.firstParticle + i, static_cast<SpringSlot>(slot)))
+        if (piece.slotEnabled[slot] && isCut(cuts, piece.firstParticle + i, static_cast<SpringSlot>(slot)))
           --count;
   return count;
 }
@@ -157,15 +157,15 @@ std::uint64_t remainingSpringCount(const Cloth& cloth, const Cuts& cuts) {
 std::vector<std::uint32_t> makeCutMasks(const Cloth& cloth, const Cuts& cuts) {
   if (cuts.empty()) return {};
   std::vector<std::uint32_t> masks(cloth.particleCount());
-  for (const Grid& grid : cloth.grids()) {
-    CutMasks ofGrid(grid, cuts, masks);
-    for (int row = 0; row < grid.rows; ++row) {
-      for (int column = 0; column < grid.columns; ++column) {
-        if (cuts[grid.particle(column, row)] == 0) continue;
-        ofGrid.addSprings(column, row);
+  for (const Piece& piece : cloth.pieces()) {
+    CutMasks ofPiece(piece, cuts, masks);
+    for (int row = 0; row < piece.rows; ++row) {
+      for (int column = 0; column < piece.columns; ++column) {
+        if (cuts[piece.particle(column, row)] == 0) continue;
+        ofPiece.addSprings(column, row);
         // Sides that the point owns belong to triangles of the four cells around it.
         for (const int cellRow : {row - 1, row})
-          for (const int cellColumn : {column - 1, column}) ofGrid.addTriangles(cellColumn, cellRow);
+          for (const int cellColumn : {column - 1, column}) ofPiece.addTriangles(cellColumn, cellRow);
       }
     }
   }

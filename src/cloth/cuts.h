@@ -21,10 +21,10 @@ struct LatticePoint {
   friend bool operator==(const LatticePoint&, const LatticePoint&) = default;
 };
 
-// Cuts every spring of the cloth's grid number `grid` that crosses the straight stroke from `from` to `to`,
+// Cuts every spring of the cloth's piece number `grid` that crosses the straight stroke from `from` to `to`,
 // whether it is enabled or not. Returns whether there was anything left to cut. May lie off the grid in part.
 // Meshes are not cut.
-bool cutAlong(Cuts& cuts, const Cloth& cloth, std::size_t grid, LatticePoint from, LatticePoint to);
+bool cutAlong(Cuts& cuts, const Cloth& cloth, std::size_t piece, LatticePoint from, LatticePoint to);
 
 // Whether the spring of particle `owner` in `slot` is cut.
 [[nodiscard]] inline bool isCut(const Cuts& cuts, std::uint32_t owner, SpringSlot slot) {

@@ -60,9 +60,9 @@ StepRate measureStepRate(const Scene& scene, const std::string& backend, double 
   StepRate rate;
   rate.backend = backend;
   rate.device = solver->device();
-  rate.columns = cloth.grids()[0].columns;
-  rate.rows = cloth.grids()[0].rows;
-  rate.cloths = cloth.grids().size();
+  rate.columns = cloth.pieces()[0].columns;
+  rate.rows = cloth.pieces()[0].rows;
+  rate.cloths = cloth.pieces().size();
   rate.limiter = scene.solver.strainLimit.has_value();
   rate.selfCollision = scene.solver.selfCollision;
   rate.repetitions = REPETITIONS;

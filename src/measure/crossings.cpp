@@ -26,9 +26,9 @@ bool CrossingCounter::areNeighbours(const Triangle& a, const Triangle& b) const 
     const Place& p = places_[i];
     for (const std::uint32_t j : b) {
       const Place& q = places_[j];
-      if (cloth_->hasMesh() && p.grid == q.grid && cloth_->grids()[p.grid].isMesh) {
+      if (cloth_->hasMesh() && p.piece == q.piece && cloth_->pieces()[p.piece].isMesh) {
         if (i == j || cloth_->lists().joins(i, j)) return true;
-      } else if (p.grid == q.grid && std::abs(p.column - q.column) <= 1 && std::abs(p.row - q.row) <= 1) {
+      } else if (p.piece == q.piece && std::abs(p.column - q.column) <= 1 && std::abs(p.row - q.row) <= 1) {
         return true;
       }
     }
@@ -76,10 +76,10 @@ bool cross(const std::vector<Point>& points, Triangle a, Triangle b) {
 bool CrossingCounter::available() { return true; }
 
 CrossingCounter::CrossingCounter(const Shared<Cloth>& cloth) : cloth_(cloth) {
-  for (std::uint32_t grid = 0; grid < cloth->grids().size(); ++grid)
-    for (int row = 0; row < cloth->grids()[grid].rows; ++row)
-      for (int column = 0; column < cloth->grids()[grid].columns; ++column)
-        places_.push_back({grid, column, row});
+  for (std::uint32_t piece = 0; piece < cloth->pieces().size(); ++piece)
+    for (int row = 0; row < cloth->pieces()[piece].rows; ++row)
+      for (int column = 0; column < cloth->pieces()[piece].columns; ++column)
+        places_.push_back({piece, column, row});
 }
 
 CrossingCount CrossingCounter::count(const State& state) const {

@@ -37,7 +37,7 @@ class CrossingCounter {
 
  private:
   struct Place {
-    std::uint32_t grid;
+    std::uint32_t piece;
     int column, row;
   };
   using Triangle = std::array<std::uint32_t, 3>;

@@ -47,20 +47,20 @@ double strainOnMesh(const Cloth& cloth, const State& state, std::uint32_t partic
 }  // namespace
 
 double strainAt(const Cloth& cloth, const Cuts& cuts, const State& state, std::uint32_t particle) {
-  const Grid& grid = cloth.grids()[cloth.gridOf(particle)];
-  if (grid.isMesh) return strainOnMesh(cloth, state, particle);
-  const std::uint32_t place = particle - grid.firstParticle;
-  const auto columns = static_cast<std::uint32_t>(grid.columns);
+  const Piece& piece = cloth.pieces()[cloth.pieceOf(particle)];
+  if (piece.isMesh) return strainOnMesh(cloth, state, particle);
+  const std::uint32_t place = particle - piece.firstParticle;
+  const auto columns = static_cast<std::uint32_t>(piece.columns);
   const int column = static_cast<int>(place % columns), row = static_cast<int>(place / columns);
   double strain = 0;
   for (const IncidentSpring& spring : incidentSprings) {
-    if (!grid.slotEnabled[spring.slot] || !grid.contains(column + spring.columns, row + spring.rows))
+    if (!piece.slotEnabled[spring.slot] || !piece.contains(column + spring.columns, row + spring.rows))
       continue;
-    const std::uint32_t other = grid.particle(column + spring.columns, row + spring.rows);
+    const std::uint32_t other = piece.particle(column + spring.columns, row + spring.rows);
     if (isCut(cuts, spring.owned ? particle : other, spring.slot)) continue;
-    const double rest = grid.hasRestLengthTable
+    const double rest = piece.hasRestLengthTable
                             ? length(cloth.positions()[particle] - cloth.positions()[other])
-                            : grid.nominalLength[spring.slot];
+                            : piece.nominalLength[spring.slot];
     const double l = length(vectorOf(state.positions[particle]) - vectorOf(state.positions[other]));
     if (std::abs(l / rest - 1) > std::abs(strain)) strain = l / rest - 1;
   }

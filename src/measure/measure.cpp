@@ -15,25 +15,25 @@ Vec3d positionOf(const State& state, std::size_t i) {
 
 bool finite(const Particle4& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-// The largest strain of one grid, -1 without springs.
-std::optional<double> maxStrain(const Cloth& cloth, const Grid& grid, const State& state) {
+// The largest strain of one piece, -1 without springs.
+std::optional<double> maxStrain(const Cloth& cloth, const Piece& piece, const State& state) {
   double largest = -1;  // that of a spring of length 0, the least possible
-#pragma omp parallel for reduction(max : largest) if (isWorthThreads(grid))
-  for (int row = 0; row < grid.rows; ++row) {
-    for (int column = 0; column < grid.columns; ++column) {
+#pragma omp parallel for reduction(max : largest) if (isWorthThreads(piece))
+  for (int row = 0; row < piece.rows; ++row) {
+    for (int column = 0; column < piece.columns; ++column) {
       for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot) {
         const SpringOffset& offset = springOffsets[slot];
-        if (!grid.slotEnabled[slot] || !grid.contains(column + offset.columns, row + offset.rows)) continue;
-        const std::uint32_t a = grid.particle(column, row);
+        if (!piece.slotEnabled[slot] || !piece.contains(column + offset.columns, row + offset.rows)) continue;
+        const std::uint32_t a = piece.particle(column, row);
         if (isCut(state.cuts, a, static_cast<SpringSlot>(slot))) continue;
-        const std::uint32_t b = grid.particle(column + offset.columns, row + offset.rows);
-        const double rest = grid.hasRestLengthTable ? length(cloth.positions()[b] - cloth.positions()[a])
-                                                    : grid.nominalLength[slot];
+        const std::uint32_t b = piece.particle(column + offset.columns, row + offset.rows);
+        const double rest = piece.hasRestLengthTable ? length(cloth.positions()[b] - cloth.positions()[a])
+                                                     : piece.nominalLength[slot];
         largest = std::max(largest, length(positionOf(state, b) - positionOf(state, a)) / rest - 1);
       }
     }
   }
-  if (std::find(grid.slotEnabled.begin(), grid.slotEnabled.end(), true) == grid.slotEnabled.end())
+  if (std::find(piece.slotEnabled.begin(), piece.slotEnabled.end(), true) == piece.slotEnabled.end())
     return std::nullopt;
   return largest;
 }
@@ -102,9 +102,9 @@ Measures measure(const Cloth& cloth, const Scene& scene, const State& state) {
   measures.centroid = (1.0 / static_cast<double>(count)) * measures.centroid;
 
   std::optional<double> strain = maxStrain(cloth, cloth.lists().springs, state);
-  for (const Grid& grid : cloth.grids())
-    if (const auto ofGrid = maxStrain(cloth, grid, state))
-      strain = std::max(strain.value_or(*ofGrid), *ofGrid);
+  for (const Piece& piece : cloth.pieces())
+    if (const auto ofPiece = maxStrain(cloth, piece, state))
+      strain = std::max(strain.value_or(*ofPiece), *ofPiece);
   measures.maxStrain = strain.value_or(0);
   const double time = state.clock.time();
   const ColliderSet colliders(scene);

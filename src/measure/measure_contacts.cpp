@@ -14,27 +14,27 @@ constexpr double CONTACT_REACH =
 
 Vec3d vectorOf(const Particle4& p) { return Vec3f{p.x, p.y, p.z}.cast<double>(); }
 
-// The distance at rest of two particles of one grid, unless they share a cell and a spring. Infinite for
-// particles of two grids.
-std::optional<double> restDistance(const Cloth& cloth, const Grid& grid,
+// The distance at rest of two particles of one piece, unless they share a cell and a spring. Infinite for
+// particles of two pieces.
+std::optional<double> restDistance(const Cloth& cloth, const Piece& piece,
                                    const std::vector<std::uint32_t>& cutMasks, std::uint32_t i,
                                    std::uint32_t j) {
-  if (j - grid.firstParticle >= grid.particleCount()) return INFINITY;
-  if (grid.isMesh) {
+  if (j - piece.firstParticle >= piece.particleCount()) return INFINITY;
+  if (piece.isMesh) {
     if (cloth.lists().joins(i, j)) return std::nullopt;
     const Vec3d d = cloth.positions()[i] - cloth.positions()[j];
     return std::sqrt(dot(d, d));
   }
-  const auto columns = static_cast<std::int64_t>(grid.columns);
-  const std::int64_t a = i - grid.firstParticle, b = j - grid.firstParticle;
+  const auto columns = static_cast<std::int64_t>(piece.columns);
+  const std::int64_t a = i - piece.firstParticle, b = j - piece.firstParticle;
   const std::int64_t right = b % columns - a % columns, down = b / columns - a / columns;
   const std::int64_t across = std::abs(right), along = std::abs(down);
   if (across <= 1 && along <= 1) {
     const std::uint32_t spring = springWithinCell(static_cast<int>(right), static_cast<int>(down));
     if (cutMasks.empty() || (cutMasks[i] >> spring & 1u) == 0) return std::nullopt;
   }
-  return std::hypot(static_cast<double>(across) * grid.nominalLength[toLeft],
-                    static_cast<double>(along) * grid.nominalLength[toUpper]);
+  return std::hypot(static_cast<double>(across) * piece.nominalLength[toLeft],
+                    static_cast<double>(along) * piece.nominalLength[toUpper]);
 }
 
 }  // namespace
@@ -58,7 +58,7 @@ ContactMeasures measureContacts(const Cloth& cloth, const Scene& scene, const St
   search.setCutMasks(cutMasks);
   for (const auto& [i, j] : search.candidatePairs(positions)) {
     if (j < i) continue;
-    const std::optional<double> rest = restDistance(cloth, cloth.grids()[cloth.gridOf(i)], cutMasks, i, j);
+    const std::optional<double> rest = restDistance(cloth, cloth.pieces()[cloth.pieceOf(i)], cutMasks, i, j);
     if (!rest) continue;
     const Vec3d apart = vectorOf(state.positions[i]) - vectorOf(state.positions[j]);
     const Vec3d relative = vectorOf(state.velocities[i]) - vectorOf(state.velocities[j]);

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double fold = 0.03;  // [m], about the width of a fold, whose hollow differs from its ridge
 
-shared::ClothGrid blockOfMesh(const Grid& mesh) {
-  shared::ClothGrid block{};
+shared::ClothPiece blockOfMesh(const Piece& mesh) {
+  shared::ClothPiece block{};
   block.firstParticle = mesh.firstParticle;
   block.columns = mesh.particleCount();
   block.rows = 1;
@@ -24,21 +24,21 @@ shared::ClothGrid blockOfMesh(const Grid& mesh) {
   return block;
 }
 
-shared::ClothGrid blockOf(const Grid& grid) {
-  if (grid.isMesh) return blockOfMesh(grid);
-  const double right = grid.nominalLength[toLeft], down = grid.nominalLength[toUpper];
+shared::ClothPiece blockOf(const Piece& piece) {
+  if (piece.isMesh) return blockOfMesh(piece);
+  const double right = piece.nominalLength[toLeft], down = piece.nominalLength[toUpper];
   const double spacing = std::max(right, down);
   const long ring = spacing > 0 ? std::clamp(std::lround(fold / spacing), 1L, 64L) : 1;
-  shared::ClothGrid block{};
-  block.firstParticle = grid.firstParticle;
-  block.columns = static_cast<GLuint>(grid.columns);
-  block.rows = static_cast<GLuint>(grid.rows);
+  shared::ClothPiece block{};
+  block.firstParticle = piece.firstParticle;
+  block.columns = static_cast<GLuint>(piece.columns);
+  block.rows = static_cast<GLuint>(piece.rows);
   block.ring = static_cast<GLuint>(ring);
-  block.width = static_cast<float>(right * (grid.columns - 1));
-  block.height = static_cast<float>(down * (grid.rows - 1));
+  block.width = static_cast<float>(right * (piece.columns - 1));
+  block.height = static_cast<float>(down * (piece.rows - 1));
   block.longer = std::max({block.width, block.height, 1e-9f});
   block.reach = static_cast<float>(spacing * static_cast<double>(ring));
-  block.front = grid.rowsGoUp ? -1.0f : 1.0f;
+  block.front = piece.rowsGoUp ? -1.0f : 1.0f;
   return block;
 }
 
@@ -49,17 +49,17 @@ ClothMesh::ClothMesh(const Cloth& cloth)
       tangents_("cloth tangents", cloth.particleCount()),
       textureCoordinates_("cloth texture coordinates", cloth.textureCoordinates()),
       vertices_("cloth") {
-  for (const Grid& grid : cloth.grids()) {
-    const std::array block{blockOf(grid)};
-    grids_.push_back({.block = gl::Buffer<shared::ClothGrid>("cloth grid", block),
-                      .columns = block[0].columns,
-                      .rows = block[0].rows,
-                      .firstParticle = grid.firstParticle,
-                      .particles = grid.particleCount(),
-                      .neighbours = {}});
-    if (grid.isMesh)
-      grids_.back().neighbours =
-          gl::Buffer<std::uint32_t>("mesh neighbours", meshNeighbours(cloth, grid, fold));
+  for (const Piece& piece : cloth.pieces()) {
+    const std::array block{blockOf(piece)};
+    pieces_.push_back({.block = gl::Buffer<shared::ClothPiece>("cloth grid", block),
+                       .columns = block[0].columns,
+                       .rows = block[0].rows,
+                       .firstParticle = piece.firstParticle,
+                       .particles = piece.particleCount(),
+                       .neighbours = {}});
+    if (piece.isMesh)
+      pieces_.back().neighbours =
+          gl::Buffer<std::uint32_t>("mesh neighbours", meshNeighbours(cloth, piece, fold));
   }
   vertices_.attach(normals_.name(), {.location = NORMAL_LOCATION});
   vertices_.attach(tangents_.name(), {.location = TANGENT_LOCATION});
@@ -76,12 +76,12 @@ void ClothMesh::setTriangles(const std::vector<std::array<std::uint32_t, 3>>& tr
   indices_ = gl::Buffer<std::uint32_t>("cloth indices", indices);
   vertices_.attachIndices(indices_.name());
   auto triangle = triangles.begin();
-  for (GridPart& grid : grids_) {
+  for (PieceBuffers& piece : pieces_) {
     const auto end = std::find_if(triangle, triangles.end(), [&](const auto& corners) {
-      return corners[0] - grid.firstParticle >= grid.particles;
+      return corners[0] - piece.firstParticle >= piece.particles;
     });
-    grid.firstIndex = 3 * static_cast<std::size_t>(triangle - triangles.begin());
-    grid.indexCount = 3 * static_cast<std::size_t>(end - triangle);
+    piece.firstIndex = 3 * static_cast<std::size_t>(triangle - triangles.begin());
+    piece.indexCount = 3 * static_cast<std::size_t>(end - triangle);
     triangle = end;
   }
 }
@@ -109,17 +109,17 @@ void ClothMesh::computeNormals(const NormalsPrograms& programs, GLuint positions
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, NORMALS_POSITIONS_BINDING, positions);
   normals_.bindStorage(NORMALS_OUT_BINDING);
   tangents_.bindStorage(TANGENTS_OUT_BINDING);
-  for (const GridPart& grid : grids_) {
-    grid.block.bindUniform(CLOTH_GRID_BINDING);
-    if (grid.isMesh()) {
-      grid.neighbours.bindStorage(MESH_CORNERS_BINDING);
+  for (const PieceBuffers& piece : pieces_) {
+    piece.block.bindUniform(CLOTH_GRID_BINDING);
+    if (piece.isMesh()) {
+      piece.neighbours.bindStorage(MESH_CORNERS_BINDING);
       textureCoordinates_.bindStorage(MESH_COORDINATES_BINDING);
       programs.mesh->bind();
-      gl::dispatch(grid.columns, 1, MESH_NORMALS_GROUP, 1);
+      gl::dispatch(piece.columns, 1, MESH_NORMALS_GROUP, 1);
       continue;
     }
-    programs.grid.bind();
-    gl::dispatch(grid.columns, grid.rows, NORMALS_GROUP_SIZE, NORMALS_GROUP_SIZE);
+    programs.piece.bind();
+    gl::dispatch(piece.columns, piece.rows, NORMALS_GROUP_SIZE, NORMALS_GROUP_SIZE);
   }
   glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);  // normals, and the solver's positions, as vertices
 }
@@ -127,12 +127,12 @@ void ClothMesh::computeNormals(const NormalsPrograms& programs, GLuint positions
 void ClothMesh::draw(GLuint positions, bool meshesAsLines) {
   vertices_.attach(positions, {.location = POSITION_LOCATION});
   vertices_.bind();
-  for (const GridPart& grid : grids_) {
-    grid.block.bindUniform(CLOTH_GRID_BINDING);
-    const bool asLines = meshesAsLines && grid.isMesh();
+  for (const PieceBuffers& piece : pieces_) {
+    piece.block.bindUniform(CLOTH_GRID_BINDING);
+    const bool asLines = meshesAsLines && piece.isMesh();
     if (asLines) glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
-    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(grid.indexCount), GL_UNSIGNED_INT,
-                   reinterpret_cast<const void*>(grid.firstIndex * sizeof(std::uint32_t)));
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(piece.indexCount), GL_UNSIGNED_INT,
+                   reinterpret_cast<const void*>(piece.firstIndex * sizeof(std::uint32_t)));
     if (asLines) glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   }
 }

@@ -15,7 +15,7 @@ namespace clothsim {
 
 // normals.comp, with CUTS when there are any; and mesh_normals.comp, null for a cloth without meshes.
 struct NormalsPrograms {
-  const gl::Program& grid;
+  const gl::Program& piece;
   const gl::Program* mesh = nullptr;
 };
 
@@ -31,7 +31,7 @@ class ClothMesh {
 
   // Smooth normals, tangents and strains for the positions in `positions`, one vec4 a particle.
   void computeNormals(const NormalsPrograms& programs, GLuint positions);
-  // The triangles of all grids, with the program and its state bound by the caller.
+  // The triangles of all pieces, with the program and its state bound by the caller.
   void draw(GLuint positions, bool meshesAsLines = false);
 
   // A vec4 a particle: unit normal; how far the cloth around rises above the tangent plane.
@@ -41,8 +41,8 @@ class ClothMesh {
   [[nodiscard]] const gl::Buffer<glm::vec4>& tangents() const { return tangents_; }
 
  private:
-  struct GridPart {
-    gl::Buffer<shared::ClothGrid> block;
+  struct PieceBuffers {
+    gl::Buffer<shared::ClothPiece> block;
     GLuint columns, rows, firstParticle, particles;
     gl::Buffer<std::uint32_t> neighbours;  // of a mesh: meshNeighbours()
     std::size_t firstIndex = 0, indexCount = 0;
@@ -50,7 +50,7 @@ class ClothMesh {
   };
   void setTriangles(const std::vector<std::array<std::uint32_t, 3>>& triangles);
 
-  std::vector<GridPart> grids_;
+  std::vector<PieceBuffers> pieces_;
   gl::Buffer<glm::vec4> normals_, tangents_, restPositions_;
   gl::Buffer<std::uint32_t> indices_;
   gl::Buffer<std::uint32_t> cuts_;

@@ -88,7 +88,7 @@ void appendSpread(const Cloth& cloth, std::uint32_t particle, const std::vector<
 
 }  // namespace
 
-std::vector<std::uint32_t> meshNeighbours(const Cloth& cloth, const Grid& mesh, double reach) {
+std::vector<std::uint32_t> meshNeighbours(const Cloth& cloth, const Piece& mesh, double reach) {
   const SpringLists& lists = cloth.lists();
   const std::uint32_t count = mesh.particleCount();
   std::vector<std::uint32_t> words(std::size_t{count} + 1);

@@ -12,6 +12,6 @@ namespace clothsim {
 // where its corners begin: of every triangle around it the two other corners in their order, as particles.
 // Behind those for each particle MESH_RING particles about `reach` [m] away over the mesh, spread around it;
 // near a border the particle itself stands for those that are not there.
-[[nodiscard]] std::vector<std::uint32_t> meshNeighbours(const Cloth& cloth, const Grid& mesh, double reach);
+[[nodiscard]] std::vector<std::uint32_t> meshNeighbours(const Cloth& cloth, const Piece& mesh, double reach);
 
 }  // namespace clothsim

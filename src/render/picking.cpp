@@ -26,9 +26,9 @@ glm::dvec3 rayThrough(const glm::mat4& clipFromWorld, glm::vec2 ndc, glm::dvec3 
 
 // The corner of the triangle around `place` that is nearest to it: of the cell's four corners, the one across
 // the diagonal belongs to the other triangle.
-GridPoint nearestCorner(const Grid& grid, LatticePoint place) {
-  const int column = std::clamp(static_cast<int>(std::floor(place.column)), 0, grid.columns - 2);
-  const int row = std::clamp(static_cast<int>(std::floor(place.row)), 0, grid.rows - 2);
+GridPoint nearestCorner(const Piece& piece, LatticePoint place) {
+  const int column = std::clamp(static_cast<int>(std::floor(place.column)), 0, piece.columns - 2);
+  const int row = std::clamp(static_cast<int>(std::floor(place.row)), 0, piece.rows - 2);
   const double x = place.column - column, y = place.row - row;
   const bool upperTriangle = x + y <= 1;  // (A, C, B), else (B, C, D)
   GridPoint nearest{column + 1, row};     // B, a corner of both
@@ -44,22 +44,22 @@ GridPoint nearestCorner(const Grid& grid, LatticePoint place) {
   return nearest;
 }
 
-void describeCloth(std::span<const Grid> grids, std::uint32_t particle, const PickedPixel& pixel,
+void describeCloth(std::span<const Piece> pieces, std::uint32_t particle, const PickedPixel& pixel,
                    Pick& pick) {
-  const auto grid = std::find_if(grids.begin(), grids.end(), [&](const Grid& each) {
+  const auto piece = std::find_if(pieces.begin(), pieces.end(), [&](const Piece& each) {
     return particle >= each.firstParticle && particle - each.firstParticle < each.particleCount();
   });
-  if (grid == grids.end()) return;
+  if (piece == pieces.end()) return;
   pick.kind = Pick::Kind::cloth;
-  pick.grid = static_cast<std::size_t>(grid - grids.begin());
-  if (grid->isMesh) {
+  pick.piece = static_cast<std::size_t>(piece - pieces.begin());
+  if (piece->isMesh) {
     pick.particle = particle;
     return;
   }
-  const double v = grid->rowsGoUp ? 1 - static_cast<double>(pixel.v) : static_cast<double>(pixel.v);
-  pick.lattice = {static_cast<double>(pixel.u) * (grid->columns - 1), v * (grid->rows - 1)};
-  const GridPoint corner = nearestCorner(*grid, pick.lattice);
-  pick.particle = grid->particle(corner.column, corner.row);
+  const double v = piece->rowsGoUp ? 1 - static_cast<double>(pixel.v) : static_cast<double>(pixel.v);
+  pick.lattice = {static_cast<double>(pixel.u) * (piece->columns - 1), v * (piece->rows - 1)};
+  const GridPoint corner = nearestCorner(*piece, pick.lattice);
+  pick.particle = piece->particle(corner.column, corner.row);
 }
 
 }  // namespace
@@ -83,7 +83,7 @@ void PickTarget::begin() const {
 
 void PickTarget::end() const { glDisable(GL_DEPTH_TEST); }
 
-Pick PickTarget::read(std::span<const Grid> grids, const glm::mat4& clipFromWorld, glm::vec2 ndc,
+Pick PickTarget::read(std::span<const Piece> pieces, const glm::mat4& clipFromWorld, glm::vec2 ndc,
                       glm::vec3 eye) const {
   std::array<GLuint, 4> words{};
   glBindFramebuffer(GL_READ_FRAMEBUFFER, pixel_.name());
@@ -91,7 +91,7 @@ Pick PickTarget::read(std::span<const Grid> grids, const glm::mat4& clipFromWorl
   const auto pixel = std::bit_cast<PickedPixel>(words);
   const GLuint kind = pixel.identity & PICK_KIND_MASK, number = pixel.identity >> PICK_KIND_BITS;
   Pick pick;
-  if (kind == PICK_CLOTH) describeCloth(grids, number, pixel, pick);
+  if (kind == PICK_CLOTH) describeCloth(pieces, number, pixel, pick);
   if (kind == PICK_COLLIDER) {
     pick.kind = Pick::Kind::collider;
     pick.collider = number;

@@ -13,7 +13,7 @@ namespace clothsim {
 
 struct Pick {
   enum class Kind { nothing, cloth, collider } kind = Kind::nothing;
-  std::size_t grid = 0;        // cloth: number of the grid,
+  std::size_t piece = 0;       // cloth: number of the grid,
   LatticePoint lattice;        // where on it, in units of its cells (nothing of a mesh),
   std::uint32_t particle = 0;  // and the nearest corner of the triangle there (of a mesh any corner)
   std::size_t collider = 0;    // collider: its index in scene.colliders. Planes count, too, from their front
@@ -30,7 +30,7 @@ class PickTarget {
   void end() const;
 
   // Reads the pixel. `clipFromWorld` is the picture's, `ndc` the pixel's place in it (-1 to 1).
-  [[nodiscard]] Pick read(std::span<const Grid> grids, const glm::mat4& clipFromWorld, glm::vec2 ndc,
+  [[nodiscard]] Pick read(std::span<const Piece> pieces, const glm::mat4& clipFromWorld, glm::vec2 ndc,
                           glm::vec3 eye) const;
 
  private:

@@ -107,12 +107,12 @@ struct Pendulum {
 
 class HangingCloth {
  public:
-  HangingCloth(const ClothOutline::GridPoints& grid, const ClothSettings& settings, const Scene& scene,
+  HangingCloth(const ClothOutline::GridPoints& piece, const ClothSettings& settings, const Scene& scene,
                const Bounds& rest)
-      : grid_(grid), settings_(settings), scene_(scene), restSize_(rest.size()) {
+      : piece_(piece), settings_(settings), scene_(scene), restSize_(rest.size()) {
     gravity_ = glm::length(toGlm(scene.gravity));
     down_ = gravity_ > 0 ? toGlm(scene.gravity) / gravity_ : glm::vec3(0);
-    for (const ClothOutline::Pin& pin : grid.pins) pinsAtRest_.add(pin.place);
+    for (const ClothOutline::Pin& pin : piece.pins) pinsAtRest_.add(pin.place);
     stretch_ = static_cast<float>(1 + expectedStrain());
   }
 
@@ -132,7 +132,7 @@ class HangingCloth {
   [[nodiscard]] Pendulum pendulum(glm::vec3 point, std::size_t nearest,
                                   const std::vector<MovedPin>& pins) const {
     const MovedPin& pin = pins[nearest];
-    const glm::vec3 apart = point - grid_.pins[nearest].place;
+    const glm::vec3 apart = point - piece_.pins[nearest].place;
     const glm::vec3 offset = toGlm(rotate(pin.turn, {apart.x, apart.y, apart.z}));
     const glm::vec3 across = offset - glm::dot(offset, down_) * down_;
     const glm::vec3 held = held_ * closer_ * across;
@@ -143,7 +143,7 @@ class HangingCloth {
     for (std::size_t k = 0; k < pins.size(); ++k) {
       const glm::vec3 toTop = p.top - pins[k].place;
       const float below = glm::dot(toTop, down_), beside2 = glm::dot(toTop, toTop) - below * below;
-      const float length = stretch_ * glm::distance(point, grid_.pins[k].place);
+      const float length = stretch_ * glm::distance(point, piece_.pins[k].place);
       if (length * length > beside2)
         p.length = std::clamp(std::sqrt(length * length - beside2) - below, 0.0f, p.length);
     }
@@ -207,7 +207,7 @@ class HangingCloth {
     return std::min(strain, scene_.solver.strainLimit ? slack / 4 + *scene_.solver.strainLimit : mostStrain);
   }
 
-  const ClothOutline::GridPoints& grid_;
+  const ClothOutline::GridPoints& piece_;
   const ClothSettings& settings_;
   const Scene& scene_;
   glm::vec3 restSize_, down_{0}, held_{0}, closer_{1};
@@ -245,10 +245,10 @@ std::vector<double> timesAlong(const Motion& motion) {
   return times;
 }
 
-void addPinnedCloth(const ClothOutline::GridPoints& grid, const ClothSettings& settings, const Scene& scene,
+void addPinnedCloth(const ClothOutline::GridPoints& piece, const ClothSettings& settings, const Scene& scene,
                     const Bounds& rest, Stage& stage) {
-  const Paths paths(grid.pins, settings);
-  HangingCloth cloth(grid, settings, scene, rest);
+  const Paths paths(piece.pins, settings);
+  HangingCloth cloth(piece, settings, scene, rest);
   const glm::vec3 down = cloth.down();
   const std::vector<double> times = paths.times();
   const auto addAt = [&](const std::vector<MovedPin>& pins, const std::vector<glm::vec3>& points,
@@ -264,13 +264,13 @@ void addPinnedCloth(const ClothOutline::GridPoints& grid, const ClothSettings& s
     }
   };
   const std::vector<MovedPin> first = paths.pinsAt(0);
-  addAt(first, grid.points, nearestPins(grid.points, grid.pins), false);
-  const std::vector<std::size_t> nearest = nearestPins(grid.coarse, grid.pins);
-  addAt(first, grid.coarse, nearest, true);
+  addAt(first, piece.points, nearestPins(piece.points, piece.pins), false);
+  const std::vector<std::size_t> nearest = nearestPins(piece.coarse, piece.pins);
+  addAt(first, piece.coarse, nearest, true);
   for (const double time : times) {
     const std::vector<MovedPin> pins = paths.pinsAt(time);
     for (const MovedPin& pin : pins) stage.staying.push_back(pin.place);
-    addAt(pins, grid.coarse, nearest, true);
+    addAt(pins, piece.coarse, nearest, true);
   }
 }
 

@@ -7,7 +7,7 @@
 namespace clothsim {
 
 // Adds that to the stage of a grid that has pins. `rest`: around its points at the start.
-void addPinnedCloth(const ClothOutline::GridPoints& grid, const ClothSettings& settings, const Scene& scene,
+void addPinnedCloth(const ClothOutline::GridPoints& piece, const ClothSettings& settings, const Scene& scene,
                     const Bounds& rest, Stage& stage);
 
 // Times at which a path is looked at [s]: its keys, and in between for as long as it turns.

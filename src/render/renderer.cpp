@@ -27,12 +27,12 @@ constexpr GLenum canvasFormat = GL_RGBA8;       // square roots of linear light 
 // The longest side of a triangle of cloth: the diagonal of a cell [m].
 double longestEdge(const Cloth& cloth) {
   double longest = 0;
-  for (const Grid& grid : cloth.grids()) {
-    if (grid.isMesh) {
-      longest = std::max(longest, grid.longestEdge);
+  for (const Piece& piece : cloth.pieces()) {
+    if (piece.isMesh) {
+      longest = std::max(longest, piece.longestEdge);
       continue;
     }
-    longest = std::max(longest, std::hypot(grid.nominalLength[toLeft], grid.nominalLength[toUpper]));
+    longest = std::max(longest, std::hypot(piece.nominalLength[toLeft], piece.nominalLength[toUpper]));
   }
   return longest;
 }
@@ -295,7 +295,7 @@ Pick Renderer::pick(GLuint positions, const Camera& camera, double time, int wid
   parts.drawIdentities(positions);
   parts.pickTarget->end();
   const glm::vec2 ndc{2 * x / width - 1, 1 - 2 * y / height};
-  return parts.pickTarget->read(parts.cloth->grids(), clipFromWorld, ndc, camera.eye());
+  return parts.pickTarget->read(parts.cloth->pieces(), clipFromWorld, ndc, camera.eye());
 }
 
 template <class Around>

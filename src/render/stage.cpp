@@ -15,30 +15,30 @@ namespace {
 constexpr std::size_t samplesAlong = 64;  // points of a grid looked at along each of its sides
 constexpr int coarseAlong = 8;            // and where it is looked at many times over
 
-using GridSamples = ClothOutline::GridPoints;
+using PieceSamples = ClothOutline::GridPoints;
 
 // Border, pins and a raster of a grid.
-GridSamples sampleGrid(const Cloth& cloth, const Grid& grid) {
-  GridSamples samples;
+PieceSamples samplePiece(const Cloth& cloth, const Piece& piece) {
+  PieceSamples samples;
   // A mesh has one row of all its particles.
-  const int most = static_cast<int>(grid.isMesh ? samplesAlong * samplesAlong : samplesAlong);
-  const int few = grid.isMesh ? coarseAlong * coarseAlong : coarseAlong;
+  const int most = static_cast<int>(piece.isMesh ? samplesAlong * samplesAlong : samplesAlong);
+  const int few = piece.isMesh ? coarseAlong * coarseAlong : coarseAlong;
   const auto step = [](int count, int steps) { return std::max(1, count / steps); };
   const auto isOn = [&](int index, int count, int steps) {
     return index % step(count, steps) == 0 || index == count - 1;
   };
-  for (int row = 0; row < grid.rows; ++row) {
-    for (int column = 0; column < grid.columns; ++column) {
+  for (int row = 0; row < piece.rows; ++row) {
+    for (int column = 0; column < piece.columns; ++column) {
       const std::uint32_t particle =
-          grid.firstParticle + static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(grid.columns) +
+          piece.firstParticle + static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(piece.columns) +
           static_cast<std::uint32_t>(column);
       const glm::vec3 place = toGlm(cloth.positions()[particle]);
-      const bool border = (row == grid.rows - 1 && !grid.isMesh) || column == grid.columns - 1;
-      if (border || (row % step(grid.rows, most) == 0 && column % step(grid.columns, most) == 0))
+      const bool border = (row == piece.rows - 1 && !piece.isMesh) || column == piece.columns - 1;
+      if (border || (row % step(piece.rows, most) == 0 && column % step(piece.columns, most) == 0))
         samples.points.push_back(place);
-      if (isOn(row, grid.rows, few) && isOn(column, grid.columns, few)) samples.coarse.push_back(place);
+      if (isOn(row, piece.rows, few) && isOn(column, piece.columns, few)) samples.coarse.push_back(place);
       if (cloth.inverseMasses()[particle] == 0)
-        samples.pins.push_back({place, particle - grid.firstParticle});
+        samples.pins.push_back({place, particle - piece.firstParticle});
     }
   }
   // A pinned side of a large grid would make the search below quadratic.
@@ -110,15 +110,15 @@ void addShadow(glm::vec3 toLight, Stage& stage) {
 // Horizontal direction that a viewer of the cloth's front stands in. Cloth that lies flat shows its front
 // once it hangs from its first row, which is then to +z.
 glm::vec3 frontOf(const Cloth& cloth) {
-  const Grid& grid = cloth.grids().front();
-  if (grid.isMesh) return {0, 0, 1};  // garments face that way
-  const std::uint32_t lastColumn = grid.firstParticle + static_cast<std::uint32_t>(grid.columns - 1);
-  const std::uint32_t lastRow = grid.firstParticle + static_cast<std::uint32_t>(grid.columns) *
-                                                         static_cast<std::uint32_t>(grid.rows - 1);
-  const glm::vec3 corner = toGlm(cloth.positions()[grid.firstParticle]);
+  const Piece& piece = cloth.pieces().front();
+  if (piece.isMesh) return {0, 0, 1};  // garments face that way
+  const std::uint32_t lastColumn = piece.firstParticle + static_cast<std::uint32_t>(piece.columns - 1);
+  const std::uint32_t lastRow = piece.firstParticle + static_cast<std::uint32_t>(piece.columns) *
+                                                          static_cast<std::uint32_t>(piece.rows - 1);
+  const glm::vec3 corner = toGlm(cloth.positions()[piece.firstParticle]);
   const glm::vec3 along = toGlm(cloth.positions()[lastColumn]) - corner;
   const glm::vec3 down = toGlm(cloth.positions()[lastRow]) - corner;
-  const glm::vec3 normal = (grid.rowsGoUp ? -1.0f : 1.0f) * glm::cross(down, along);
+  const glm::vec3 normal = (piece.rowsGoUp ? -1.0f : 1.0f) * glm::cross(down, along);
   const glm::vec3 horizontal{normal.x, 0, normal.z};
   if (glm::length(horizontal) <= 0.5f * glm::length(normal)) return {0, 0, 1};
   return glm::normalize(horizontal);
@@ -138,7 +138,7 @@ void Bounds::add(const Bounds& other) {
 
 ClothOutline outlineOf(const Cloth& cloth) {
   ClothOutline outline;
-  for (const Grid& grid : cloth.grids()) outline.grids.push_back(sampleGrid(cloth, grid));
+  for (const Piece& piece : cloth.pieces()) outline.pieces.push_back(samplePiece(cloth, piece));
   outline.front = frontOf(cloth);
   return outline;
 }
@@ -146,15 +146,15 @@ ClothOutline outlineOf(const Cloth& cloth) {
 Stage makeStage(const ClothOutline& cloth, const Scene& scene) {
   const ColliderSet colliders(scene);
   Stage stage;
-  for (std::size_t i = 0; i < cloth.grids.size(); ++i) {
-    const GridSamples& grid = cloth.grids[i];
+  for (std::size_t i = 0; i < cloth.pieces.size(); ++i) {
+    const PieceSamples& piece = cloth.pieces[i];
     Bounds rest;
-    for (const glm::vec3 point : grid.points) rest.add(point);
-    stage.passing.insert(stage.passing.end(), grid.points.begin(), grid.points.end());
-    if (grid.pins.empty()) {
+    for (const glm::vec3 point : piece.points) rest.add(point);
+    stage.passing.insert(stage.passing.end(), piece.points.begin(), piece.points.end());
+    if (piece.pins.empty()) {
       addFalling(rest, colliders, stage);
     } else {
-      addPinnedCloth(grid, scene.cloths[i], scene, rest, stage);
+      addPinnedCloth(piece, scene.cloths[i], scene, rest, stage);
     }
   }
   for (std::size_t i = 0; i < colliders.size(); ++i) {

@@ -28,7 +28,7 @@ struct ClothOutline {
     std::vector<glm::vec3> points, coarse;  // at the start [m]: its border and a raster; a few of them
     std::vector<Pin> pins;
   };
-  std::vector<GridPoints> grids;
+  std::vector<GridPoints> pieces;
   glm::vec3 front{0, 0, 1};  // horizontal direction from which the cloth shows its front
 };
 [[nodiscard]] ClothOutline outlineOf(const Cloth& cloth);

@@ -55,11 +55,11 @@ class Checks {
             "grab: radius: expected 0 to 1e6, found " + text(grab.radius));
   }
   void operator()(const CutStroke& stroke) const {
-    const std::size_t grids = cloth_.grids().size();
-    require(stroke.grid < grids, "cut: there is no cloth " + std::to_string(stroke.grid) +
-                                     ", expected 0 to " + std::to_string(grids - 1));
-    require(!cloth_.grids()[stroke.grid].isMesh, "cut: cloth " + std::to_string(stroke.grid) +
-                                                     " is a mesh, expected a grid: meshes cannot be cut");
+    const std::size_t pieces = cloth_.pieces().size();
+    require(stroke.piece < pieces, "cut: there is no cloth " + std::to_string(stroke.piece) +
+                                       ", expected 0 to " + std::to_string(pieces - 1));
+    require(!cloth_.pieces()[stroke.piece].isMesh, "cut: cloth " + std::to_string(stroke.piece) +
+                                                       " is a mesh, expected a grid: meshes cannot be cut");
     for (const LatticePoint& point : {stroke.from, stroke.to})
       for (const double x : {point.column, point.row})
         require(isWithin(x, -FARTHEST, FARTHEST),

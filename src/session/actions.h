@@ -44,7 +44,7 @@ struct SetPin {
 };
 // Cuts a cloth along a line of its lattice, as cutAlong() in cloth/cuts.h does.
 struct CutStroke {
-  std::size_t grid = 0;
+  std::size_t piece = 0;
   LatticePoint from, to;
 };
 // A jet of air that lasts until the next Blow. In a scene without wind, drag acts only within the jet.

@@ -18,15 +18,15 @@ bool needsRebuild(const Scene& before, const Scene& after) {
 
 bool haveSameLattice(const Cloth& a, const Cloth& b) {
   return std::ranges::equal(
-             a.grids(), b.grids(),
-             [](const Grid& x, const Grid& y) { return x.columns == y.columns && x.rows == y.rows; }) &&
+             a.pieces(), b.pieces(),
+             [](const Piece& x, const Piece& y) { return x.columns == y.columns && x.rows == y.rows; }) &&
          std::ranges::equal(a.positions(), b.positions()) && a.lists().triangles == b.lists().triangles;
 }
 
 State carriedOver(const State& state, const Cloth& before, const Cloth& after) {
   State result = state;
-  for (const Grid& grid : after.grids()) {
-    for (std::uint32_t i = grid.firstParticle; i < grid.firstParticle + grid.particleCount(); ++i) {
+  for (const Piece& piece : after.pieces()) {
+    for (std::uint32_t i = piece.firstParticle; i < piece.firstParticle + piece.particleCount(); ++i) {
       const bool wasPinned = before.inverseMasses()[i] == 0, isPinned = after.inverseMasses()[i] == 0;
       const bool pinned = wasPinned == isPinned ? state.positions[i].w == 0 : isPinned;
       result.positions[i].w = pinned ? 0 : static_cast<float>(1 / after.massOf(i));
@@ -39,9 +39,9 @@ State carriedOver(const State& state, const Cloth& before, const Cloth& after) {
 std::vector<SetPin> pinsByHand(const State& state, const Cloth& before, const Cloth& after) {
   std::vector<SetPin> pins;
   for (const std::uint32_t particle : state.offPath) {
-    const std::size_t index = before.gridOf(particle);
-    if (index >= after.grids().size()) continue;
-    const Grid &from = before.grids()[index], &to = after.grids()[index];
+    const std::size_t index = before.pieceOf(particle);
+    if (index >= after.pieces().size()) continue;
+    const Piece &from = before.pieces()[index], &to = after.pieces()[index];
     if (from.isMesh || to.isMesh) continue;  // a vertex of a mesh has no place on another cloth
     const int place = static_cast<int>(particle - from.firstParticle);
     const auto nearest = [](int point, int points, int newPoints) {

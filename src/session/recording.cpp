@@ -45,7 +45,7 @@ void fields(Io& io, SetPin& action) {
 }
 template <class Io>
 void fields(Io& io, CutStroke& action) {
-  io("cloth", action.grid);
+  io("cloth", action.piece);
   io("from", action.from);
   io("to", action.to);
 }

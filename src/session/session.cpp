@@ -75,7 +75,7 @@ bool Session::apply(const SetPin& pin) {
 
 bool Session::apply(const CutStroke& stroke) {
   Cuts cuts = simulation_.solver().cuts();
-  if (!cutAlong(cuts, simulation_.cloth(), stroke.grid, stroke.from, stroke.to)) return false;
+  if (!cutAlong(cuts, simulation_.cloth(), stroke.piece, stroke.from, stroke.to)) return false;
   simulation_.solver().setCuts(cuts);
   return true;
 }

@@ -16,12 +16,12 @@ std::string number(double value) {
 }
 
 std::string placeOnTheCloth(std::uint32_t particle, const Cloth& cloth) {
-  const std::size_t index = cloth.gridOf(particle);
-  const Grid& grid = cloth.grids()[index];
-  if (grid.isMesh)
-    return "cloth " + std::to_string(index) + ", vertex " + std::to_string(particle - grid.firstParticle);
-  const std::uint32_t onGrid = particle - grid.firstParticle,
-                      columns = static_cast<std::uint32_t>(grid.columns);
+  const std::size_t index = cloth.pieceOf(particle);
+  const Piece& piece = cloth.pieces()[index];
+  if (piece.isMesh)
+    return "cloth " + std::to_string(index) + ", vertex " + std::to_string(particle - piece.firstParticle);
+  const std::uint32_t onGrid = particle - piece.firstParticle,
+                      columns = static_cast<std::uint32_t>(piece.columns);
   return "cloth " + std::to_string(index) + ", column " + std::to_string(onGrid % columns) + ", row " +
          std::to_string(onGrid / columns);
 }

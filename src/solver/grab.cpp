@@ -52,7 +52,7 @@ GrabSpring::Point grabbedPoint(Vec3d from, Vec3d at, double weight) {
 // rest.
 void grabOfMesh(const Cloth& cloth, std::uint32_t particle, double radius, const ReadPositions& positions,
                 GrabSpring& grab) {
-  const Grid& mesh = cloth.grids()[grab.grid];
+  const Piece& mesh = cloth.pieces()[grab.piece];
   const auto weightOf = [&](std::uint32_t i) {
     const Vec3d d = cloth.positions()[i] - cloth.positions()[particle];
     return falloff(dot(d, d), radius);
@@ -123,17 +123,18 @@ void putJet(const Jet& jet, bool alone, HandParams<Real>& params) {
 GrabSpring makeGrabSpring(const Cloth& cloth, std::uint32_t particle, double strength, double radius,
                           const ReadPositions& positions) {
   GrabSpring grab;
-  grab.grid = cloth.gridOf(particle);
+  grab.piece = cloth.pieceOf(particle);
   grab.strength = strength;
-  const Grid& grid = cloth.grids()[grab.grid];
-  if (grid.isMesh) {
+  const Piece& piece = cloth.pieces()[grab.piece];
+  if (piece.isMesh) {
     grabOfMesh(cloth, particle, radius, positions, grab);
     return grab;
   }
-  const int place = static_cast<int>(particle - grid.firstParticle);
-  const int column = place % grid.columns, row = place / grid.columns;
-  const double dx = grid.nominalLength[toLeft], dy = grid.nominalLength[toUpper];
-  const Reach across = reachOf(column, grid.columns, dx, radius), along = reachOf(row, grid.rows, dy, radius);
+  const int place = static_cast<int>(particle - piece.firstParticle);
+  const int column = place % piece.columns, row = place / piece.columns;
+  const double dx = piece.nominalLength[toLeft], dy = piece.nominalLength[toUpper];
+  const Reach across = reachOf(column, piece.columns, dx, radius),
+              along = reachOf(row, piece.rows, dy, radius);
   grab.firstColumn = static_cast<std::uint32_t>(across.first);
   grab.firstRow = static_cast<std::uint32_t>(along.first);
   grab.columns = static_cast<std::uint32_t>(across.count);
@@ -142,7 +143,7 @@ GrabSpring makeGrabSpring(const Cloth& cloth, std::uint32_t particle, double str
   std::vector<GrabSpring::Point> points;
   const Vec3d origin = vectorOf(positions(particle, 1)[0]);
   for (int r = along.first; r < along.first + along.count; ++r) {
-    const std::vector<Particle4> ofRow = positions(grid.particle(across.first, r), grab.columns);
+    const std::vector<Particle4> ofRow = positions(piece.particle(across.first, r), grab.columns);
     for (int c = 0; c < across.count; ++c) {
       const double x = dx * (across.first + c - column), y = dy * (r - row);
       points.push_back(

@@ -36,7 +36,7 @@ struct GrabSpring {
     float weight = 0;
   };
 
-  std::size_t grid = 0;
+  std::size_t piece = 0;
   std::uint32_t firstColumn = 0, firstRow = 0, columns = 0, rows = 0;
   std::shared_ptr<const std::vector<Point>> points;  // row-major
   double strength = 0;                               // w^2 [1/s^2]

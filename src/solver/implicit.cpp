@@ -16,15 +16,15 @@ double squares(double cells) { return (2 * cells * cells + 1) / (3 * cells); }
 double slopes(double cells) { return 2 / cells; }
 
 template <class Real>
-void putFactors(const Grid& grid, double across, double along, LevelParams<Real>& level) {
+void putFactors(const Piece& piece, double across, double along, LevelParams<Real>& level) {
   const double area = across * along;
   const double x = slopes(across) * squares(along) / area, y = slopes(along) * squares(across) / area;
-  const double mean = grid.rows == 1 ? x : grid.columns == 1 ? y : 0.5 * (x + y);
+  const double mean = piece.rows == 1 ? x : piece.columns == 1 ? y : 0.5 * (x + y);
   level.stiffnessFactor = static_cast<Real>(mean);
   level.inertiaFactor = static_cast<Real>(squares(across) * squares(along) / area);
   // A hat bends at three points: 1 + 4 + 1 over the square of its width.
-  level.bending = static_cast<Real>(6 * grid.bendAlongRow * squares(along) / (across * across) +
-                                    6 * grid.bendAlongColumn * squares(across) / (along * along));
+  level.bending = static_cast<Real>(6 * piece.bendAlongRow * squares(along) / (across * across) +
+                                    6 * piece.bendAlongColumn * squares(across) / (along * along));
 }
 
 std::int64_t sign(std::int64_t x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
@@ -87,12 +87,12 @@ template <class Real>
 Hierarchy<Real> makeHierarchy(const Cloth& cloth) {
   Hierarchy<Real> hierarchy;
   hierarchy.vertices = cloth.particleCount();
-  for (const Grid& grid : cloth.grids()) {
-    std::vector<LevelParams<Real>>& levels = hierarchy.grids.emplace_back();
-    std::uint32_t first = grid.firstParticle, columns = static_cast<std::uint32_t>(grid.columns),
-                  rows = static_cast<std::uint32_t>(grid.rows);
+  for (const Piece& piece : cloth.pieces()) {
+    std::vector<LevelParams<Real>>& levels = hierarchy.pieces.emplace_back();
+    std::uint32_t first = piece.firstParticle, columns = static_cast<std::uint32_t>(piece.columns),
+                  rows = static_cast<std::uint32_t>(piece.rows);
     double across = 1, along = 1;  // width of a hat, in cells of the grid
-    while (!grid.isMesh && (columns > 2 || rows > 2)) {
+    while (!piece.isMesh && (columns > 2 || rows > 2)) {
       LevelParams<Real> level{};
       level.fineFirst = first;
       level.fineColumns = columns;
@@ -103,7 +103,7 @@ Hierarchy<Real> makeHierarchy(const Cloth& cloth) {
       level.coarseColumns = columns = coarsened(columns);
       level.coarseRows = rows = coarsened(rows);
       hierarchy.vertices += columns * rows;
-      putFactors(grid, across, along, level);
+      putFactors(piece, across, along, level);
       levels.push_back(level);
     }
   }
@@ -119,7 +119,7 @@ std::vector<std::uint32_t> makeCutLinks(const Cloth& cloth, const std::vector<st
     for (int rows = -1; rows <= 1; ++rows)
       for (int columns = -1; columns <= 1; ++columns)
         if ((cutMasks[i] >> springWithinCell(columns, rows) & 1) != 0) links[i] |= LINK_BIT(columns, rows);
-  for (const std::vector<LevelParams<Real>>& levels : hierarchy.grids)
+  for (const std::vector<LevelParams<Real>>& levels : hierarchy.pieces)
     for (const LevelParams<Real>& level : levels) CoarseLinks<Real>(level, links).put();
   return links;
 }

@@ -50,8 +50,8 @@ using ImplicitScalars = shared::ImplicitScalars<Real>;
 
 template <class Real>
 struct Hierarchy {
-  std::vector<std::vector<LevelParams<Real>>> grids;  // by grid, finest first
-  std::uint32_t vertices = 0;                         // of all levels; the particles come first
+  std::vector<std::vector<LevelParams<Real>>> pieces;  // by grid, finest first
+  std::uint32_t vertices = 0;                          // of all levels; the particles come first
 };
 
 template <class Real>
@@ -75,11 +75,11 @@ template <class Real>
 
 // For a grid without a coarser level, and a mesh: itself as the coarsest one.
 template <class Real>
-[[nodiscard]] LevelParams<Real> onlyLevel(const Grid& grid) {
+[[nodiscard]] LevelParams<Real> onlyLevel(const Piece& piece) {
   LevelParams<Real> level{};
-  level.coarseFirst = grid.firstParticle;
-  level.coarseColumns = static_cast<std::uint32_t>(grid.columns);
-  level.coarseRows = static_cast<std::uint32_t>(grid.rows);
+  level.coarseFirst = piece.firstParticle;
+  level.coarseColumns = static_cast<std::uint32_t>(piece.columns);
+  level.coarseRows = static_cast<std::uint32_t>(piece.rows);
   return level;
 }
 

@@ -12,7 +12,7 @@ PinPaths makePinPaths(const Scene& scene, const Cloth& cloth, std::span<const st
   for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
     const ClothSettings& settings = scene.cloths[i];
     if (settings.pinMotion.empty()) continue;
-    const std::size_t firstPath = result.paths.size(), firstParticle = cloth.grids()[i].firstParticle;
+    const std::size_t firstPath = result.paths.size(), firstParticle = cloth.pieces()[i].firstParticle;
     std::vector<Vec3d> sums(settings.pinMotion.size());
     std::vector<double> counts(settings.pinMotion.size());
     const std::vector<int> motions = pinMotionOfPoints(settings);

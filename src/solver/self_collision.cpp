@@ -21,15 +21,15 @@ constexpr double ROUNDING = 1e-3;  // kept clear of every bound
 
 constexpr double CROSSING_OF_LONGEST_EDGE = 0.764;  // self_collision.h
 
-double spacing(const Grid& grid) {
-  if (grid.isMesh) return CROSSING_OF_LONGEST_EDGE * grid.longestEdge;
-  const double x = grid.nominalLength[toLeft], y = grid.nominalLength[toUpper];
+double spacing(const Piece& piece) {
+  if (piece.isMesh) return CROSSING_OF_LONGEST_EDGE * piece.longestEdge;
+  const double x = piece.nominalLength[toLeft], y = piece.nominalLength[toUpper];
   return std::sqrt((x * x + y * y) / 2);
 }
 
 double largestSpacing(const Cloth& cloth) {
   double largest = 0;
-  for (const Grid& grid : cloth.grids()) largest = std::max(largest, spacing(grid));
+  for (const Piece& piece : cloth.pieces()) largest = std::max(largest, spacing(piece));
   return largest;
 }
 
@@ -61,10 +61,10 @@ double contactDistance(const Scene& scene, const Cloth& cloth) {
   double thickness = 0, finest = largestSpacing(cloth);
   for (const ClothSettings& settings : scene.cloths)
     thickness = std::max(thickness, settings.material ? settings.material->thickness : settings.thickness);
-  const bool onlyMeshes =
-      std::all_of(cloth.grids().begin(), cloth.grids().end(), [](const Grid& grid) { return grid.isMesh; });
-  for (const Grid& grid : cloth.grids())
-    if (!grid.isMesh) finest = std::min({finest, grid.nominalLength[toLeft], grid.nominalLength[toUpper]});
+  const bool onlyMeshes = std::all_of(cloth.pieces().begin(), cloth.pieces().end(),
+                                      [](const Piece& piece) { return piece.isMesh; });
+  for (const Piece& piece : cloth.pieces())
+    if (!piece.isMesh) finest = std::min({finest, piece.nominalLength[toLeft], piece.nominalLength[toUpper]});
   double distance = 2 * thickness;
   if (scene.solver.selfCollision == SelfCollision::robust)
     distance = std::max(thickness, crossingDistance(cloth, expectedStrain(scene)) +
@@ -109,13 +109,13 @@ template <class Real>
 std::vector<Real> makeContactDistances(const Scene& scene, const Cloth& cloth) {
   const double d = contactDistance(scene, cloth);
   std::vector<Real> distances;
-  for (const Grid& grid : cloth.grids()) {
+  for (const Piece& piece : cloth.pieces()) {
     for (std::size_t code = 0; code < NEAREST_CODES; ++code) {
       const std::size_t across = code % 8, along = code / 8;
-      const double x = static_cast<double>(across) * grid.nominalLength[toLeft],
-                   y = static_cast<double>(along) * grid.nominalLength[toUpper];
+      const double x = static_cast<double>(across) * piece.nominalLength[toLeft],
+                   y = static_cast<double>(along) * piece.nominalLength[toUpper];
       const double rest =
-          grid.isMesh ? d * static_cast<double>(code) / NEAREST_CODES : std::sqrt(x * x + y * y);
+          piece.isMesh ? d * static_cast<double>(code) / NEAREST_CODES : std::sqrt(x * x + y * y);
       distances.push_back(static_cast<Real>(code == 0 ? d : std::min(d, rest)));
     }
   }
@@ -126,8 +126,8 @@ bool hasNearCodes(const Scene& scene, const Cloth& cloth) {
   const double d = contactDistance(scene, cloth);
   const auto first = static_cast<double>(firstCode(scene));
   if (cloth.hasMesh()) return true;
-  return std::any_of(cloth.grids().begin(), cloth.grids().end(), [&](const Grid& grid) {
-    return first * std::min(grid.nominalLength[toLeft], grid.nominalLength[toUpper]) < d;
+  return std::any_of(cloth.pieces().begin(), cloth.pieces().end(), [&](const Piece& piece) {
+    return first * std::min(piece.nominalLength[toLeft], piece.nominalLength[toUpper]) < d;
   });
 }
 

@@ -26,7 +26,7 @@ Solver::Solver(const Cloth& cloth, const Shared<Scene>& scene, std::unique_ptr<E
 }
 
 void Solver::configure(const Shared<Scene>& scene) {
-  assert(scene->cloths.size() == inputs_.cloth->grids().size() &&
+  assert(scene->cloths.size() == inputs_.cloth->pieces().size() &&
          "configure() takes live edits of the solver's own scene");
   inputs_.colliders = ColliderSet(*scene);
   inputs_.scene = scene;

@@ -6,10 +6,10 @@ template <class Real>
 void evaluate(const StepInputs& inputs, std::uint64_t ahead, StepParameters<Real>& parameters) {
   const Scene& scene = *inputs.scene;
   const double begin = inputs.clock.timeAfter(ahead), end = inputs.clock.timeAfter(ahead + 1);
-  parameters.grids.resize(inputs.cloth->grids().size());
-  for (std::size_t grid = 0; grid < parameters.grids.size(); ++grid) {
-    StepParams<Real>& params = parameters.grids[grid];
-    params = makeStepParams<Real>(scene, *inputs.cloth, grid, begin);
+  parameters.pieces.resize(inputs.cloth->pieces().size());
+  for (std::size_t piece = 0; piece < parameters.pieces.size(); ++piece) {
+    StepParams<Real>& params = parameters.pieces[piece];
+    params = makeStepParams<Real>(scene, *inputs.cloth, piece, begin);
     params.kickTime = velocityConversionTime<Real>(scene);
     addJet(inputs.hand, params);
   }

@@ -31,7 +31,7 @@ struct StepInputs {
 // The inputs of one step, evaluated on the host.
 template <class Real>
 struct StepParameters {
-  std::vector<StepParams<Real>> grids;
+  std::vector<StepParams<Real>> pieces;
   std::vector<ColliderParams<Real>> colliders;
   std::vector<PinMotionParams<Real>> pinMotions;
   HandParams<Real> hand;

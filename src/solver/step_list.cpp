@@ -43,12 +43,12 @@ class ListBuilder {
 // How many coarser levels the finest of the cloths has, and the most colours of a strain limit.
 std::size_t mostLevels(const Cloth& cloth) {
   std::size_t most = 0;
-  for (const auto& levels : makeHierarchy<float>(cloth).grids) most = std::max(most, levels.size());
+  for (const auto& levels : makeHierarchy<float>(cloth).pieces) most = std::max(most, levels.size());
   return most;
 }
 std::size_t mostColors(const Cloth& cloth) {
   std::size_t most = 0;
-  for (const Grid& grid : cloth.grids()) most = std::max(most, makeLimitColors(grid).size());
+  for (const Piece& piece : cloth.pieces()) most = std::max(most, makeLimitColors(piece).size());
   return most;
 }
 

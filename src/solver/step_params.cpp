@@ -83,10 +83,10 @@ double dampingRate(const ClothSettings& cloth) {
   return cloth.material ? cloth.material->damping : cloth.damping / 100 * 2700;
 }
 
-double stiffestSpring(const Grid& grid) {
+double stiffestSpring(const Piece& piece) {
   double stiffest = 0;
   for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot)
-    if (grid.slotEnabled[slot] || grid.isMesh) stiffest = std::max(stiffest, grid.stiffness[slot]);
+    if (piece.slotEnabled[slot] || piece.isMesh) stiffest = std::max(stiffest, piece.stiffness[slot]);
   return stiffest;
 }
 
@@ -95,32 +95,32 @@ double stiffestSpring(const Grid& grid) {
 // times that stiffness the defaults' few Newton steps do not find which springs pull: 12 % at 64 x 64 for a
 // limit of 10 %, 33 % at 128 x 128.)
 constexpr double LIMIT_BEGINS = 0.5;
-double limitStiffness(const Grid& grid, double limit) {
+double limitStiffness(const Piece& piece, double limit) {
   double longest = 0;
   for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot)
-    if (grid.slotEnabled[slot] || grid.isMesh) longest = std::max(longest, grid.nominalLength[slot]);
-  const double weight = 9.81 * grid.particleMass * grid.particleCount();
-  return longest > 0 ? std::max(10 * stiffestSpring(grid), weight / ((1 - LIMIT_BEGINS) * limit * longest))
+    if (piece.slotEnabled[slot] || piece.isMesh) longest = std::max(longest, piece.nominalLength[slot]);
+  const double weight = 9.81 * piece.particleMass * piece.particleCount();
+  return longest > 0 ? std::max(10 * stiffestSpring(piece), weight / ((1 - LIMIT_BEGINS) * limit * longest))
                      : 0;
 }
 
 template <class Real>
-void putImplicit(const Scene& scene, const Grid& grid, std::size_t gridIndex, StepParams<Real>& params) {
+void putImplicit(const Scene& scene, const Piece& piece, std::size_t pieceIndex, StepParams<Real>& params) {
   if (scene.solver.integrator != Integrator::implicit) return;
-  const ClothSettings& cloth = scene.cloths[gridIndex];
+  const ClothSettings& cloth = scene.cloths[pieceIndex];
   const double h = stepLength(scene.solver), damped = 1 + dampingRate(cloth) * h;
   params.inertia = real<Real>(damped / (h * h));
   params.guessTime = real<Real>(h / damped);
   const double gravitySquared = dot(scene.gravity, scene.gravity);
   params.supportScale = gravitySquared > 0 ? real<Real>(1 / (h * gravitySquared)) : 0;
-  params.contactStiffness = real<Real>(4 * stiffestSpring(grid));
+  params.contactStiffness = real<Real>(4 * stiffestSpring(piece));
   if (!scene.solver.strainLimit) return;
   // A limit of 0 asks for springs that cannot stretch: a tenth of a percent stands for it.
   const double limit = std::max(*scene.solver.strainLimit, 1e-3);
-  params.limitStiffness = real<Real>(limitStiffness(grid, limit));
+  params.limitStiffness = real<Real>(limitStiffness(piece, limit));
   params.limitFactor = real<Real>(1 + LIMIT_BEGINS * limit);
   for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot)
-    params.springs[slot].limitLength = real<Real>((1 + LIMIT_BEGINS * limit) * grid.nominalLength[slot]);
+    params.springs[slot].limitLength = real<Real>((1 + LIMIT_BEGINS * limit) * piece.nominalLength[slot]);
 }
 
 }  // namespace
@@ -154,24 +154,24 @@ void putParticleForces(const Scene& scene, StepParams<Real>& params) {
 }  // namespace
 
 template <class Real>
-StepParams<Real> makeStepParams(const Scene& scene, const Cloth& cloth, std::size_t gridIndex, double time) {
-  const Grid& grid = cloth.grids()[gridIndex];
+StepParams<Real> makeStepParams(const Scene& scene, const Cloth& cloth, std::size_t pieceIndex, double time) {
+  const Piece& piece = cloth.pieces()[pieceIndex];
   const double h = stepLength(scene.solver);
   StepParams<Real> params{};
   params.limitPass = scene.solver.selfCollision == SelfCollision::robust ? PASS_EARLY_LIMIT : PASS_LIMIT;
-  params.grid = static_cast<std::uint32_t>(gridIndex);
-  params.firstParticle = grid.firstParticle;
-  params.columns = static_cast<std::uint32_t>(grid.columns);
-  params.rows = static_cast<std::uint32_t>(grid.rows);
+  params.piece = static_cast<std::uint32_t>(pieceIndex);
+  params.firstParticle = piece.firstParticle;
+  params.columns = static_cast<std::uint32_t>(piece.columns);
+  params.rows = static_cast<std::uint32_t>(piece.rows);
   params.totalParticles = cloth.particleCount();
-  params.useRestLengthTable = grid.hasRestLengthTable ? 1 : 0;
+  params.useRestLengthTable = piece.hasRestLengthTable ? 1 : 0;
   params.colliderCount = static_cast<std::uint32_t>(scene.colliders.size());
   params.timeStep = real<Real>(h);
   params.inverseTimeStep = real<Real>(1 / h);
-  params.velocityKept = real<Real>(velocityKept(scene.cloths[gridIndex], h));
-  params.hasMaterial = grid.hasMaterial ? 1 : 0;
-  params.bendAlongRow = real<Real>(grid.bendAlongRow);
-  params.bendAlongColumn = real<Real>(grid.bendAlongColumn);
+  params.velocityKept = real<Real>(velocityKept(scene.cloths[pieceIndex], h));
+  params.hasMaterial = piece.hasMaterial ? 1 : 0;
+  params.bendAlongRow = real<Real>(piece.bendAlongRow);
+  params.bendAlongColumn = real<Real>(piece.bendAlongColumn);
   putParticleForces(scene, params);
   params.gravityX = real<Real>(scene.gravity.x);
   params.gravityY = real<Real>(scene.gravity.y);
@@ -189,16 +189,16 @@ StepParams<Real> makeStepParams(const Scene& scene, const Cloth& cloth, std::siz
   const double limitFactor = 1 + scene.solver.strainLimit.value_or(0);
   params.limitFactor = real<Real>(limitFactor);
   params.maxSpeedSquared = real<Real>(squareInRange(scene.solver.maxSpeed));
-  params.isMesh = grid.isMesh ? 1 : 0;
+  params.isMesh = piece.isMesh ? 1 : 0;
   params.maxStretch = real<Real>(1 + scene.solver.maxStrain);
   for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot) {
-    const double length = grid.nominalLength[slot];
-    params.springs[slot] = {real<Real>(grid.stiffness[slot]), real<Real>(length),
+    const double length = piece.nominalLength[slot];
+    params.springs[slot] = {real<Real>(piece.stiffness[slot]), real<Real>(length),
                             real<Real>(limitFactor * length),
                             real<Real>(squareInRange((1 + scene.solver.maxStrain) * length))};
-    if (grid.slotEnabled[slot]) params.enabledSlots |= 1u << slot;
+    if (piece.slotEnabled[slot]) params.enabledSlots |= 1u << slot;
   }
-  putImplicit(scene, grid, gridIndex, params);
+  putImplicit(scene, piece, pieceIndex, params);
   return params;
 }
 
@@ -223,10 +223,11 @@ std::uint32_t ownerCount(std::uint32_t first, std::uint32_t step, std::uint32_t 
   return span / step * run + std::min(span % step, run);
 }
 
-std::vector<LimitColor> makeLimitColors(const Grid& grid) {
-  const auto columns = static_cast<std::uint32_t>(grid.columns), rows = static_cast<std::uint32_t>(grid.rows);
+std::vector<LimitColor> makeLimitColors(const Piece& piece) {
+  const auto columns = static_cast<std::uint32_t>(piece.columns),
+             rows = static_cast<std::uint32_t>(piece.rows);
   std::vector<LimitColor> colors;
-  for (const SpringColor& color : grid.colors) {
+  for (const SpringColor& color : piece.colors) {
     LimitColor result{};
     result.firstColumn = color.first;
     result.endColumn = color.end;
@@ -234,7 +235,7 @@ std::vector<LimitColor> makeLimitColors(const Grid& grid) {
     colors.push_back(result);
   }
   for (std::uint32_t slot = 0; slot < SPRING_SLOTS; ++slot) {
-    if (!grid.slotEnabled[slot]) continue;
+    if (!piece.slotEnabled[slot]) continue;
     const SpringOffset& offset = springOffsets[slot];
     // The direction that is split into two colours: columns for springs along a row, else rows. A spring that
     // spans two cells makes runs of two owners: 2 3 . . 6 7 and 4 5 . . 8 9.

@@ -22,7 +22,7 @@ using LimitColor = shared::LimitColor;
 
 // For one grid and the step that begins at `time` [s].
 template <class Real>
-[[nodiscard]] StepParams<Real> makeStepParams(const Scene& scene, const Cloth& cloth, std::size_t grid,
+[[nodiscard]] StepParams<Real> makeStepParams(const Scene& scene, const Cloth& cloth, std::size_t piece,
                                               double time);
 
 // Which of the forces on single particles act: one bit a FORCE_... of shared/forces.h.
@@ -76,7 +76,7 @@ template <class Real>
 
 // The strain limit's order: slots ascending, two colours each, only enabled ones; of a mesh its colours. Both
 // backends go through it alike.
-[[nodiscard]] std::vector<LimitColor> makeLimitColors(const Grid& grid);
+[[nodiscard]] std::vector<LimitColor> makeLimitColors(const Piece& piece);
 // Owners of a colour in each direction.
 [[nodiscard]] std::uint32_t ownerCount(std::uint32_t first, std::uint32_t step, std::uint32_t run,
                                        std::uint32_t end);

@@ -31,12 +31,12 @@ Pick pickAt(const MouseContext& context, Cursor cursor) {
 }
 
 bool isOnMesh(const MouseContext& context, const Pick& pick) {
-  return pick.kind == Pick::Kind::cloth && context.session.simulation().cloth().grids()[pick.grid].isMesh;
+  return pick.kind == Pick::Kind::cloth && context.session.simulation().cloth().pieces()[pick.piece].isMesh;
 }
 
-double grabRadius(const Grid& grid) {
-  const double across = grid.nominalLength[toLeft], along = grid.nominalLength[toUpper];
-  const double side = std::min(across * (grid.columns - 1), along * (grid.rows - 1));
+double grabRadius(const Piece& piece) {
+  const double across = piece.nominalLength[toLeft], along = piece.nominalLength[toUpper];
+  const double side = std::min(across * (piece.columns - 1), along * (piece.rows - 1));
   return std::max(grabbedSpacings * std::max(across, along), grabbedShare * side);
 }
 
@@ -61,14 +61,14 @@ std::optional<std::uint32_t> pinUnder(const MouseContext& context, Cursor cursor
 }
 
 // `to`, extended by a cell or two when that leaves the grid, so that a cut over the edge severs it.
-LatticePoint overTheEdge(const Grid& grid, LatticePoint from, LatticePoint to) {
+LatticePoint overTheEdge(const Piece& piece, LatticePoint from, LatticePoint to) {
   const double columns = to.column - from.column, rows = to.row - from.row;
   const double length = std::hypot(columns, rows);
   if (length == 0) return to;
   const LatticePoint beyond{to.column + cellsBeyondTheEdge * columns / length,
                             to.row + cellsBeyondTheEdge * rows / length};
   const bool leaves =
-      beyond.column < 0 || beyond.row < 0 || beyond.column > grid.columns - 1 || beyond.row > grid.rows - 1;
+      beyond.column < 0 || beyond.row < 0 || beyond.column > piece.columns - 1 || beyond.row > piece.rows - 1;
   return leaves ? beyond : to;
 }
 
@@ -138,7 +138,7 @@ void MouseTools::grab(const MouseContext& context, const Pick& pick) {
   Grab grab;
   grab.particle = pick.particle;
   grab.target = toVec3d(pick.point);
-  grab.radius = grabRadius(context.session.simulation().cloth().grids()[pick.grid]);
+  grab.radius = grabRadius(context.session.simulation().cloth().pieces()[pick.piece]);
   context.session.act(grab);
 }
 
@@ -203,7 +203,7 @@ void MouseTools::cutTo(const MouseContext& context, Cursor cursor) {
     const Pick pick = pickAt(context, place(now));
     const bool was = lastCut_.kind == Pick::Kind::cloth, is = pick.kind == Pick::Kind::cloth;
     if (was && is) {
-      if (pick.grid == lastCut_.grid) cutFromTo(context, lastCut_, pick);
+      if (pick.piece == lastCut_.piece) cutFromTo(context, lastCut_, pick);
     } else if (was || is) {
       const Pick& inside = was ? lastCut_ : pick;
       Pick edge = inside;
@@ -211,7 +211,7 @@ void MouseTools::cutTo(const MouseContext& context, Cursor cursor) {
       for (int halving = 0; halving < edgeHalvings; ++halving) {
         const double middle = (on + off) / 2;
         const Pick tried = pickAt(context, place(middle));
-        const bool hit = tried.kind == Pick::Kind::cloth && tried.grid == inside.grid;
+        const bool hit = tried.kind == Pick::Kind::cloth && tried.piece == inside.piece;
         (hit ? on : off) = middle;
         if (hit) edge = tried;
       }
@@ -224,9 +224,9 @@ void MouseTools::cutTo(const MouseContext& context, Cursor cursor) {
 
 void MouseTools::cutFromTo(const MouseContext& context, const Pick& from, const Pick& to) {
   if (isOnMesh(context, from)) return;
-  const Grid& grid = context.session.simulation().cloth().grids()[from.grid];
-  const LatticePoint begin = overTheEdge(grid, to.lattice, from.lattice);
-  context.session.act(CutStroke{from.grid, begin, overTheEdge(grid, from.lattice, to.lattice)});
+  const Piece& piece = context.session.simulation().cloth().pieces()[from.piece];
+  const LatticePoint begin = overTheEdge(piece, to.lattice, from.lattice);
+  context.session.act(CutStroke{from.piece, begin, overTheEdge(piece, from.lattice, to.lattice)});
 }
 
 void MouseTools::beforeStep(const MouseContext& context, Cursor cursor, bool blows) {

@@ -32,10 +32,10 @@ std::string backendText(const Solver& solver) {
 // "50 x 50"; several cloths are separated by commas.
 std::string gridSizes(const Cloth& cloth) {
   std::string text;
-  for (const Grid& grid : cloth.grids())
+  for (const Piece& piece : cloth.pieces())
     text += (text.empty() ? "" : ", ") +
-            (grid.isMesh ? "mesh of " + withCommas(grid.endTriangle - grid.firstTriangle) + " triangles"
-                         : std::to_string(grid.columns) + " \u00d7 " + std::to_string(grid.rows));
+            (piece.isMesh ? "mesh of " + withCommas(piece.endTriangle - piece.firstTriangle) + " triangles"
+                          : std::to_string(piece.columns) + " \u00d7 " + std::to_string(piece.rows));
   return text;
 }
 

@@ -61,9 +61,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
     fuzz::checkCloth(scene);
   }
   (void)fuzz::isRead([&] {
-    const SignedDistanceGrid grid(loadSolidMesh(path, 1), 8);
-    const auto [x, y, z] = grid.counts();
-    fuzz::demand(grid.samples().size() == std::size_t{x} * y * z, "a grid without its samples");
+    const SignedDistanceGrid piece(loadSolidMesh(path, 1), 8);
+    const auto [x, y, z] = piece.counts();
+    fuzz::demand(piece.samples().size() == std::size_t{x} * y * z, "a grid without its samples");
   });
   return 0;
 }

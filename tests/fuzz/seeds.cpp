@@ -49,7 +49,7 @@ void writeRecording(const fs::path& path) {
                             MoveHand{{0, 1, 0}},
                             Release{},
                             SetPin{.particle = 7, .pinned = false},
-                            CutStroke{.grid = 0, .from = {0.5, 1}, .to = {9, 12.25}},
+                            CutStroke{.piece = 0, .from = {0.5, 1}, .to = {9, 12.25}},
                             Blow{.origin = {0, 1, 0}, .direction = {1, 0, 0}, .speed = 5},
                             MoveCollider{.collider = 0, .position = {0, 0, 1}},
                             SwitchBackend{"cpu"},

@@ -78,25 +78,25 @@ class ElasticEnergy {
 
   // Lines along a border count half; one whose middle is the last pin of a clamp counts twice.
   void addBending(const Cloth& cloth, const Cuts& cuts) {
-    const Grid& grid = cloth.grids()[0];
+    const Piece& piece = cloth.pieces()[0];
     const std::vector<std::uint32_t> masks = makeCutMasks(cloth, cuts);
     const auto pinned = [&](std::uint32_t i) { return cloth.inverseMasses()[i] == 0; };
     const auto add = [&](int column, int row, int columns, int rows, double b, std::uint32_t links) {
-      if (!grid.contains(column - columns, row - rows) || !grid.contains(column + columns, row + rows))
+      if (!piece.contains(column - columns, row - rows) || !piece.contains(column + columns, row + rows))
         return;
-      const std::uint32_t first = grid.particle(column - columns, row - rows),
-                          middle = grid.particle(column, row),
-                          last = grid.particle(column + columns, row + rows);
+      const std::uint32_t first = piece.particle(column - columns, row - rows),
+                          middle = piece.particle(column, row),
+                          last = piece.particle(column + columns, row + rows);
       if (!masks.empty() && (masks[middle] & links) != 0) return;
       const bool endOfClamp = pinned(middle) && pinned(first) != pinned(last);
       bending_.push_back({first, middle, last, endOfClamp ? 2 * b : b});
     };
-    for (int row = 0; row < grid.rows; ++row)
-      for (int column = 0; column < grid.columns; ++column) {
-        const bool borderRow = row == 0 || row + 1 == grid.rows,
-                   borderColumn = column == 0 || column + 1 == grid.columns;
-        add(column, row, 1, 0, (borderRow ? 0.5 : 1) * grid.bendAlongRow, BENDING_ROW);
-        add(column, row, 0, 1, (borderColumn ? 0.5 : 1) * grid.bendAlongColumn, BENDING_COLUMN);
+    for (int row = 0; row < piece.rows; ++row)
+      for (int column = 0; column < piece.columns; ++column) {
+        const bool borderRow = row == 0 || row + 1 == piece.rows,
+                   borderColumn = column == 0 || column + 1 == piece.columns;
+        add(column, row, 1, 0, (borderRow ? 0.5 : 1) * piece.bendAlongRow, BENDING_ROW);
+        add(column, row, 0, 1, (borderColumn ? 0.5 : 1) * piece.bendAlongColumn, BENDING_COLUMN);
       }
   }
 

@@ -28,15 +28,15 @@ inline Hand handTo(Solver& solver, const Cloth& cloth, const Scene& scene, std::
 // The first grid cut in two, from side to side below a row; between two rows.
 inline Cuts cutAcross(const Cloth& cloth, double row) {
   Cuts cuts;
-  cutAlong(cuts, cloth, 0, {-1, row}, {cloth.grids()[0].columns + 1.0, row + 1e-3});
+  cutAlong(cuts, cloth, 0, {-1, row}, {cloth.pieces()[0].columns + 1.0, row + 1e-3});
   return cuts;
 }
 
 // A zigzag that ends within the first grid.
 inline Cuts someCuts(const Cloth& cloth) {
-  const Grid& grid = cloth.grids()[0];
+  const Piece& piece = cloth.pieces()[0];
   Cuts cuts;
-  const double c = grid.columns, r = grid.rows;
+  const double c = piece.columns, r = piece.rows;
   cutAlong(cuts, cloth, 0, {0.1 * c, -1}, {0.4 * c, 0.6 * r});
   cutAlong(cuts, cloth, 0, {0.4 * c, 0.6 * r}, {0.7 * c, 0.2 * r});
   return cuts;

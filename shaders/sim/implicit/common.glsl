@@ -24,6 +24,6 @@ Symmetric airBlockAt(uint i) {
   return Symmetric(texelFetch(airBlocks, int(2u * i)).xyz, texelFetch(airBlocks, int(2u * i + 1u)).xyz);
 }
 
-// One invocation a particle, of all grids.
+// One invocation a particle, of all pieces.
 uint thisParticle() { return gl_GlobalInvocationID.y * PARTICLES_A_ROW + gl_GlobalInvocationID.x; }
 bool isParticle(uint i) { return gl_GlobalInvocationID.x < PARTICLES_A_ROW && i < step.totalParticles; }

@@ -4,7 +4,7 @@
 const uint EXCLUDED = ~0u;
 
 float codeDistance(uint code) {
-  return texelFetch(contactDistances, int(step.grid * NEAREST_CODES + code)).x;
+  return texelFetch(contactDistances, int(step.piece * NEAREST_CODES + code)).x;
 }
 
 // Neighbours in one cell are non-adjacent particles once the spring between them is cut: the bit of that spring in a cut mask by its
@@ -44,12 +44,12 @@ uint encodeOnMesh(uint i, uint j) {
 #endif
 
 uint encode(GridPoint p, uint j) {
-  uint inGrid = j - step.firstParticle;
-  if (inGrid >= step.columns * step.rows) return j;
+  uint inPiece = j - step.firstParticle;
+  if (inPiece >= step.columns * step.rows) return j;
 #if SELF_HAS_MESH
   if (step.isMesh != 0u) return encodeOnMesh(p.index, j);
 #endif
-  uint column = inGrid % step.columns, row = inGrid / step.columns;
+  uint column = inPiece % step.columns, row = inPiece / step.columns;
   uint across = column < p.column ? p.column - column : column - p.column;
   uint along = row < p.row ? p.row - row : row - p.row;
   if (across < self.firstCode && along < self.firstCode && !isCutFrom(p, column, row)) return EXCLUDED;

@@ -10,10 +10,10 @@
 
 namespace clothsim::cpu {
 
-// Up to BLOCK particles of one grid.
+// Up to BLOCK particles of one piece.
 struct Block {
   std::uint32_t begin, end;  // particles
-  std::uint32_t grid;
+  std::uint32_t piece;
   std::uint32_t slots = 0;  // most candidates of one of them; unused slots name the particle itself
 };
 

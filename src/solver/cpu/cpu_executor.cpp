@@ -33,41 +33,41 @@ RowPass<Real> rowPassOf(Pass pass) {
   using Arguments = cpu::ImplicitArguments<Real>;
   switch (pass) {
     case Pass::checkStart:
-      return [](const Arguments& grid, int row) { cpu::checkStart(grid.step, row); };
+      return [](const Arguments& piece, int row) { cpu::checkStart(piece.step, row); };
     case Pass::kick:
-      return [](const Arguments& grid, int row) { cpu::kick(grid.step, row); };
+      return [](const Arguments& piece, int row) { cpu::kick(piece.step, row); };
     case Pass::forces:
-      return [](const Arguments& grid, int row) { cpu::gatherForces(grid.step, row); };
+      return [](const Arguments& piece, int row) { cpu::gatherForces(piece.step, row); };
     case Pass::integrate:
-      return [](const Arguments& grid, int row) { cpu::integrate(grid.step, row); };
+      return [](const Arguments& piece, int row) { cpu::integrate(piece.step, row); };
     case Pass::collide:
-      return [](const Arguments& grid, int row) { cpu::collide(grid.step, row); };
+      return [](const Arguments& piece, int row) { cpu::collide(piece.step, row); };
     case Pass::watchLimit:
-      return [](const Arguments& grid, int row) { cpu::watchLimit(grid.step, row); };
+      return [](const Arguments& piece, int row) { cpu::watchLimit(piece.step, row); };
     case Pass::begin:
-      return [](const Arguments& grid, int row) { cpu::begin(grid, row); };
+      return [](const Arguments& piece, int row) { cpu::begin(piece, row); };
     case Pass::findPlanes:
-      return [](const Arguments& grid, int row) {
-        cpu::findPlanes(grid.step, grid.own.iterate.positions, grid.own.planes, row);
+      return [](const Arguments& piece, int row) {
+        cpu::findPlanes(piece.step, piece.own.iterate.positions, piece.own.planes, row);
       };
     case Pass::initialGuess:
-      return [](const Arguments& grid, int row) { cpu::initialGuess(grid, row); };
+      return [](const Arguments& piece, int row) { cpu::initialGuess(piece, row); };
     case Pass::elasticForces:
-      return [](const Arguments& grid, int row) { cpu::gatherElasticForces(grid, row); };
+      return [](const Arguments& piece, int row) { cpu::gatherElasticForces(piece, row); };
     case Pass::linearize:
-      return [](const Arguments& grid, int row) { cpu::linearize(grid, row); };
+      return [](const Arguments& piece, int row) { cpu::linearize(piece, row); };
     case Pass::updateDirection:
-      return [](const Arguments& grid, int row) { cpu::updateDirection(grid, row); };
+      return [](const Arguments& piece, int row) { cpu::updateDirection(piece, row); };
     case Pass::multiply:
-      return [](const Arguments& grid, int row) { cpu::multiply(grid, row); };
+      return [](const Arguments& piece, int row) { cpu::multiply(piece, row); };
     case Pass::updateSolution:
-      return [](const Arguments& grid, int row) { cpu::updateSolution(grid, row); };
+      return [](const Arguments& piece, int row) { cpu::updateSolution(piece, row); };
     case Pass::tryLengths:
-      return [](const Arguments& grid, int row) { cpu::tryLengths(grid, row); };
+      return [](const Arguments& piece, int row) { cpu::tryLengths(piece, row); };
     case Pass::accept:
-      return [](const Arguments& grid, int row) { cpu::accept(grid, row); };
+      return [](const Arguments& piece, int row) { cpu::accept(piece, row); };
     case Pass::end:
-      return [](const Arguments& grid, int row) { cpu::end(grid, row); };
+      return [](const Arguments& piece, int row) { cpu::end(piece, row); };
     default:
       assert(false && "this pass does not run over rows");
       return nullptr;
@@ -117,7 +117,7 @@ CpuExecutor<Real>::CpuExecutor(const Cloth& cloth, bool sweeps)
     cpu::put(particles_.state.positions, static_cast<std::ptrdiff_t>(i), startPosition<Real>(cloth, i));
     particles_.inverseMasses[i] = static_cast<Real>(cloth.inverseMasses()[i]);
   }
-  for (const Grid& grid : cloth.grids()) limitColors_.push_back(makeLimitColors(grid));
+  for (const Piece& piece : cloth.pieces()) limitColors_.push_back(makeLimitColors(piece));
 }
 
 template <class Real>
@@ -148,10 +148,10 @@ void CpuExecutor<Real>::prepare(const StepInputs& inputs, const PassList& list) 
 }
 
 template <class Real>
-cpu::PassArguments<Real> CpuExecutor<Real>::argumentsOf(const StepInputs& inputs, std::size_t grid) {
+cpu::PassArguments<Real> CpuExecutor<Real>::argumentsOf(const StepInputs& inputs, std::size_t piece) {
   const Hand& hand = inputs.hand;
-  const bool holds = hand.grab && hand.grab->grid == grid;
-  return {parameters_.grids[grid],
+  const bool holds = hand.grab && hand.grab->piece == piece;
+  return {parameters_.pieces[piece],
           parameters_.colliders.data(),
           distances_->data(),
           parameters_.pinMotions.data(),
@@ -174,9 +174,9 @@ cpu::PassArguments<Real> CpuExecutor<Real>::argumentsOf(const StepInputs& inputs
 template <class Real>
 void CpuExecutor<Real>::run(const StepInputs& inputs, const PassList& list, int) {
   evaluate(inputs, 0, parameters_);
-  grids_.clear();
-  for (std::size_t grid = 0; grid < cloth_->grids().size(); ++grid)
-    grids_.push_back({argumentsOf(inputs, grid), implicit_});
+  pieces_.clear();
+  for (std::size_t piece = 0; piece < cloth_->pieces().size(); ++piece)
+    pieces_.push_back({argumentsOf(inputs, piece), implicit_});
   // Only implicit steps know what holds particles up.
   const bool givesSupport = list.contains(Pass::end);
   if (!givesSupport && list.outcome != Outcome::nothing && std::exchange(particles_.hasSupport, false))
@@ -229,24 +229,24 @@ template <class Real>
 void CpuExecutor<Real>::runByRows(std::span<const PassCall> passes) {
   std::array<RowPass<Real>, PASS_COUNT> rowPasses;
   for (std::size_t k = 0; k < passes.size(); ++k) rowPasses[k] = rowPassOf<Real>(passes[k].pass);
-  for (const cpu::ImplicitArguments<Real>& grid : grids_) {
-    const Grid& lattice = cloth_->grids()[grid.step.step.grid];
+  for (const cpu::ImplicitArguments<Real>& piece : pieces_) {
+    const Piece& lattice = cloth_->pieces()[piece.step.step.piece];
     const int rows = cpu::rowsOf(lattice);
 #pragma omp parallel for schedule(static) if (parallel_ && isWorthThreads(lattice))
     for (int row = 0; row < rows; ++row)
-      for (std::size_t k = 0; k < passes.size(); ++k) rowPasses[k](grid, row);
+      for (std::size_t k = 0; k < passes.size(); ++k) rowPasses[k](piece, row);
   }
 }
 
 template <class Real>
 void CpuExecutor<Real>::runOnColor(std::size_t index) {
-  for (std::size_t grid = 0; grid < grids_.size(); ++grid) {
-    if (index >= limitColors_[grid].size()) continue;
-    const Grid& lattice = cloth_->grids()[grid];
-    const LimitColor& color = limitColors_[grid][index];
+  for (std::size_t piece = 0; piece < pieces_.size(); ++piece) {
+    if (index >= limitColors_[piece].size()) continue;
+    const Piece& lattice = cloth_->pieces()[piece];
+    const LimitColor& color = limitColors_[piece][index];
     const std::uint32_t rows = cpu::limitRows(lattice, color);
 #pragma omp parallel for schedule(static) if (parallel_ && isWorthThreads(lattice))
-    for (std::uint32_t j = 0; j < rows; ++j) cpu::limitStrain(grids_[grid].step, color, j);
+    for (std::uint32_t j = 0; j < rows; ++j) cpu::limitStrain(pieces_[piece].step, color, j);
   }
 }
 
@@ -256,10 +256,11 @@ void CpuExecutor<Real>::runOnLevel(PassCall call) {
 #pragma omp parallel for schedule(static) if (columns * rows >= PARALLEL_PARTICLES)
     for (std::uint32_t row = 0; row < rows; ++row) pass(static_cast<int>(row));
   };
-  for (std::size_t grid = 0; grid < grids_.size(); ++grid) {
-    const std::vector<LevelParams<Real>>& levels = hierarchy_.grids[grid];
+  for (std::size_t piece = 0; piece < pieces_.size(); ++piece) {
+    const std::vector<LevelParams<Real>>& levels = hierarchy_.pieces[piece];
     if (call.pass == Pass::solveCoarsest) {
-      const LevelParams<Real> level = levels.empty() ? onlyLevel<Real>(cloth_->grids()[grid]) : levels.back();
+      const LevelParams<Real> level =
+          levels.empty() ? onlyLevel<Real>(cloth_->pieces()[piece]) : levels.back();
       forEachRow(level.coarseColumns, level.coarseRows,
                  [&](int row) { cpu::solveCoarsest(level, implicit_, row); });
       continue;

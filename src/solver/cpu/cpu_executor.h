@@ -56,7 +56,7 @@ class CpuExecutor final : public Executor {
   };
   struct Copy;
 
-  [[nodiscard]] cpu::PassArguments<Real> argumentsOf(const StepInputs& inputs, std::size_t grid);
+  [[nodiscard]] cpu::PassArguments<Real> argumentsOf(const StepInputs& inputs, std::size_t piece);
   void runSweep(std::span<const PassCall> passes);
   void runByRows(std::span<const PassCall> passes);
   void runOnColor(std::size_t color);
@@ -79,7 +79,7 @@ class CpuExecutor final : public Executor {
   std::shared_ptr<const std::vector<float>> distances_;  // samples of the mesh colliders' grids
   Components<Real> pinStarts_;                           // empty without paths
   StepParameters<Real> parameters_;                      // of this step,
-  std::vector<cpu::ImplicitArguments<Real>> grids_;      // and what passes get, by grid
+  std::vector<cpu::ImplicitArguments<Real>> pieces_;     // and what passes get, by grid
   Hierarchy<Real> hierarchy_;                            // empty until an implicit step needs it
   cpu::ImplicitState<Real> implicit_;
   std::vector<Real> partialSums_;

@@ -225,8 +225,8 @@ void limitStrain(const PassArguments<Real>& arguments, const LimitColor& color, 
   }
 }
 
-std::uint32_t limitRows(const Grid& grid, const LimitColor& color) {
-  if (grid.isMesh) return (color.endColumn - color.firstColumn + MESH_ROW - 1) / MESH_ROW;
+std::uint32_t limitRows(const Piece& piece, const LimitColor& color) {
+  if (piece.isMesh) return (color.endColumn - color.firstColumn + MESH_ROW - 1) / MESH_ROW;
   return ownerCount(color.firstRow, color.rowStep, color.rowRun, color.endRow);
 }
 

@@ -1,4 +1,4 @@
-// The passes of a step on the CPU, each over a stretch of one grid row or over one colour of springs. They
+// The passes of a step on the CPU, each over a stretch of one piece row or over one colour of springs. They
 // are the twins of shaders/sim/*.glsl: same names, same order of operations. Real is float for the bitwise
 // twin, double for the physics tests.
 #pragma once
@@ -77,7 +77,7 @@ void kick(const PassArguments<Real>& arguments, int row);
 // Row j of the colour's owners, or of a mesh its springs from j MESH_ROW on; works in place on `after`.
 template <class Real>
 void limitStrain(const PassArguments<Real>& arguments, const LimitColor& color, std::uint32_t j);
-[[nodiscard]] std::uint32_t limitRows(const Grid& grid, const LimitColor& color);  // how many j there are
+[[nodiscard]] std::uint32_t limitRows(const Piece& piece, const LimitColor& color);  // how many j there are
 // After all colours: the watchdog's look at a row.
 void watchLimit(const PassArguments<float>& arguments, int row);
 void watchLimit(const PassArguments<double>& arguments, int row);

@@ -14,8 +14,8 @@ namespace clothsim::cpu {
 
 // How a mesh, a grid of one row, is shared by threads: so many particles are a row for the passes.
 inline constexpr int MESH_ROW = 256;
-[[nodiscard]] inline int rowsOf(const Grid& grid) {
-  return grid.isMesh ? (grid.columns + MESH_ROW - 1) / MESH_ROW : grid.rows;
+[[nodiscard]] inline int rowsOf(const Piece& piece) {
+  return piece.isMesh ? (piece.columns + MESH_ROW - 1) / MESH_ROW : piece.rows;
 }
 
 // A stretch of particles [begin, end) of one row, as indices into the arrays.

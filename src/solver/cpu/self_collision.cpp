@@ -64,7 +64,7 @@ View<Real> viewOf(const SelfParams<Real>& params, const CpuState<Real>& before, 
           p.y.data(),
           p.z.data(),
           inverseMasses.data(),
-          distances.data() + static_cast<std::size_t>(block.grid) * NEAREST_CODES};
+          distances.data() + static_cast<std::size_t>(block.piece) * NEAREST_CODES};
 }
 
 // All entries that may lie in the 27 cells about a cell: `visit(entry, y, z)` is to take those whose cell has
@@ -124,11 +124,11 @@ void SelfCollision<Real>::configure(const Scene& scene) {
   ranks_.resize(count);
   candidates_.resize(count * MOST_CANDIDATES);
   candidateCounts_.resize(count);
-  for (std::uint32_t grid = 0; grid < cloth_->grids().size(); ++grid) {
-    const std::uint32_t first = cloth_->grids()[grid].firstParticle;
-    const std::uint32_t end = first + cloth_->grids()[grid].particleCount();
+  for (std::uint32_t piece = 0; piece < cloth_->pieces().size(); ++piece) {
+    const std::uint32_t first = cloth_->pieces()[piece].firstParticle;
+    const std::uint32_t end = first + cloth_->pieces()[piece].particleCount();
     for (std::uint32_t begin = first; begin < end; begin += BLOCK)
-      blocks_.push_back({begin, std::min(begin + BLOCK, end), grid});
+      blocks_.push_back({begin, std::min(begin + BLOCK, end), piece});
   }
 }
 
@@ -153,11 +153,11 @@ std::uint32_t SelfCollision<Real>::encodeOnMesh(std::uint32_t i, std::uint32_t j
 
 template <class Real>
 std::uint32_t SelfCollision<Real>::encode(const Block& block, std::uint32_t i, std::uint32_t j) const {
-  const Grid& grid = cloth_->grids()[block.grid];
-  if (j - grid.firstParticle >= grid.particleCount()) return j;
-  if (grid.isMesh) return encodeOnMesh(i, j);
-  const int a = static_cast<int>(i - grid.firstParticle), b = static_cast<int>(j - grid.firstParticle);
-  const int columns = b % grid.columns - a % grid.columns, rows = b / grid.columns - a / grid.columns;
+  const Piece& piece = cloth_->pieces()[block.piece];
+  if (j - piece.firstParticle >= piece.particleCount()) return j;
+  if (piece.isMesh) return encodeOnMesh(i, j);
+  const int a = static_cast<int>(i - piece.firstParticle), b = static_cast<int>(j - piece.firstParticle);
+  const int columns = b % piece.columns - a % piece.columns, rows = b / piece.columns - a / piece.columns;
   const auto across = static_cast<std::uint32_t>(std::abs(columns)),
              along = static_cast<std::uint32_t>(std::abs(rows));
   if (across < params_.firstCode && along < params_.firstCode) {
@@ -166,7 +166,7 @@ std::uint32_t SelfCollision<Real>::encode(const Block& block, std::uint32_t i, s
   }
   if (across > 7 || along > 7) return j;
   const std::uint32_t code = across + 8 * along;
-  return distances_[block.grid * NEAREST_CODES + code] < params_.distance ? j | code << CANDIDATE_BITS : j;
+  return distances_[block.piece * NEAREST_CODES + code] < params_.distance ? j | code << CANDIDATE_BITS : j;
 }
 
 template <class Real>

@@ -46,9 +46,9 @@ GpuExecutor::GpuExecutor(const Cloth& cloth, const GpuOptions& options)
   restLengths_ = gl::Buffer<float>("rest lengths", std::span<const float>(restLengths));
   restLengthTexture_ = gl::BufferTexture("rest lengths", restLengths_.name(), GL_R32F);
   std::vector<ColorSlot> slots;
-  for (const Grid& grid : cloth.grids()) {
+  for (const Piece& piece : cloth.pieces()) {
     firstColors_.push_back(slots.size());
-    colors_.push_back(makeLimitColors(grid));
+    colors_.push_back(makeLimitColors(piece));
     for (const LimitColor& color : colors_.back()) slots.push_back({color});
   }
   colorSlots_ = gl::Buffer<ColorSlot>("strain limit colours", std::span<const ColorSlot>(slots));
@@ -86,10 +86,10 @@ void GpuExecutor::prepareLevels(const StepInputs& inputs) {
   if (hierarchy_.vertices != 0) return;
   hierarchy_ = makeHierarchy<float>(*cloth_);
   std::vector<LevelSlot> slots;
-  for (std::size_t grid = 0; grid < hierarchy_.grids.size(); ++grid) {
+  for (std::size_t piece = 0; piece < hierarchy_.pieces.size(); ++piece) {
     firstLevels_.push_back(slots.size());
-    for (const LevelParams<float>& level : hierarchy_.grids[grid]) slots.push_back({level});
-    if (hierarchy_.grids[grid].empty()) slots.push_back({onlyLevel<float>(cloth_->grids()[grid])});
+    for (const LevelParams<float>& level : hierarchy_.pieces[piece]) slots.push_back({level});
+    if (hierarchy_.pieces[piece].empty()) slots.push_back({onlyLevel<float>(cloth_->pieces()[piece])});
   }
   levelSlots_ = gl::Buffer<LevelSlot>("levels", std::span<const LevelSlot>(slots));
   setCuts(inputs);  // the links between the levels' vertices
@@ -103,7 +103,7 @@ void GpuExecutor::prepare(const StepInputs& inputs, const PassList& list) {
                         inputs.scene->wind.has_value() || inputs.hand.jet.has_value(),
                         !inputs.scene->colliders.empty());
   }
-  for (std::vector<Programs>& ofGrids : kernels_) ofGrids.clear();
+  for (std::vector<Programs>& ofPieces : kernels_) ofPieces.clear();
   compile(inputs, list);
   compile(inputs, makeConversion());
   compile(inputs, makeStartCheck());
@@ -117,8 +117,8 @@ void GpuExecutor::compile(const StepInputs& inputs, const PassList& list) {
       const Kernel& kernel = kernels()[number];
       count = kernel.passes.size();
       assert(count <= sweepLength(rest) && "passes of a kernel must be able to share a sweep");
-      for (std::size_t grid = kernels_[number].size(); grid < cloth_->grids().size(); ++grid) {
-        PassFeatures features = featuresOf(*inputs.scene, *cloth_, grid, inputs.hand, inputs.cuts);
+      for (std::size_t piece = kernels_[number].size(); piece < cloth_->pieces().size(); ++piece) {
+        PassFeatures features = featuresOf(*inputs.scene, *cloth_, piece, inputs.hand, inputs.cuts);
         features.groupColumns = options_.groupColumns;
         features.groupRows = options_.groupRows;
         kernels_[number].push_back(library_.find(kernel, features));
@@ -149,7 +149,7 @@ void GpuExecutor::run(const StepInputs& inputs, const PassList& list, int steps)
 std::size_t GpuExecutor::runKernel(std::span<const PassCall> passes) {
   const PassCall& call = passes.front();
   if (call.traits().domain == Domain::contacts) {
-    selfCollision_.run(runner_, call, arrays_, [&](std::size_t grid) { parameters_.bindGrid(grid); });
+    selfCollision_.run(runner_, call, arrays_, [&](std::size_t piece) { parameters_.bindPiece(piece); });
     return 1;
   }
   const std::size_t number = kernelFor(passes, options_.fused);
@@ -159,7 +159,7 @@ std::size_t GpuExecutor::runKernel(std::span<const PassCall> passes) {
   for (const PassCall& own : passes.first(count)) arrays_.bindFor(own.pass);
   switch (call.traits().domain) {
     case Domain::gridPoints:
-      runOnGrids(programs, call, name);
+      runOnPieces(programs, call, name);
       break;
     case Domain::particles:
       runner_.run(*programs[0][0], name, std::min(cloth_->particleCount(), PARTICLES_A_ROW),
@@ -181,14 +181,14 @@ std::size_t GpuExecutor::runKernel(std::span<const PassCall> passes) {
   return count;
 }
 
-void GpuExecutor::runOnGrids(const std::vector<Programs>& programs, const PassCall& call,
-                             const std::string& name) {
+void GpuExecutor::runOnPieces(const std::vector<Programs>& programs, const PassCall& call,
+                              const std::string& name) {
   for (std::size_t i = 0; i < programs.size(); ++i) {
-    const Grid& grid = cloth_->grids()[i];
-    const auto columns = static_cast<std::uint32_t>(grid.columns);
-    auto rows = static_cast<std::uint32_t>(grid.rows);
+    const Piece& piece = cloth_->pieces()[i];
+    const auto columns = static_cast<std::uint32_t>(piece.columns);
+    auto rows = static_cast<std::uint32_t>(piece.rows);
     if (call.pass == Pass::watchLimit) rows = (rows + WATCHED_ROWS - 1) / WATCHED_ROWS;
-    parameters_.bindGrid(i);
+    parameters_.bindPiece(i);
     runner_.run(*programs[i][0], name, columns, rows);
   }
 }
@@ -198,19 +198,19 @@ void GpuExecutor::runOnColor(const std::vector<Programs>& programs, const PassCa
   for (std::size_t i = 0; i < programs.size(); ++i) {
     if (call.index >= colors_[i].size()) continue;
     const LimitColor& color = colors_[i][call.index];
-    parameters_.bindGrid(i);
+    parameters_.bindPiece(i);
     colorSlots_.bindUniformRange(LIMIT_COLOR_BINDING, firstColors_[i] + call.index, 1);
     runner_.run(*programs[i][0], name, ownersAcross(color), ownersAlong(color));
   }
 }
 
 void GpuExecutor::runOnLevel(const gl::Program& program, const PassCall& call, const std::string& name) {
-  for (std::size_t i = 0; i < hierarchy_.grids.size(); ++i) {
-    const std::vector<LevelParams<float>>& levels = hierarchy_.grids[i];
+  for (std::size_t i = 0; i < hierarchy_.pieces.size(); ++i) {
+    const std::vector<LevelParams<float>>& levels = hierarchy_.pieces[i];
     const bool coarsest = call.pass == Pass::solveCoarsest;
     if (!coarsest && call.index >= levels.size()) continue;
     const std::size_t index = coarsest ? std::max<std::size_t>(levels.size(), 1) - 1 : call.index;
-    const LevelParams<float> level = levels.empty() ? onlyLevel<float>(cloth_->grids()[i]) : levels[index];
+    const LevelParams<float> level = levels.empty() ? onlyLevel<float>(cloth_->pieces()[i]) : levels[index];
     levelSlots_.bindUniformRange(LEVEL_PARAMS_BINDING, firstLevels_[i] + index, 1);
     if (call.traits().domain == Domain::fineVertices)
       runner_.run(program, name, level.fineColumns, level.fineRows);

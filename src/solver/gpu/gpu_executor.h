@@ -72,7 +72,7 @@ class GpuExecutor final : public Executor {
   void prepareLevels(const StepInputs& inputs);
   void bindWatch(std::uint64_t step);
   std::size_t runKernel(std::span<const PassCall> passes);
-  void runOnGrids(const std::vector<Programs>& programs, const PassCall& call, const std::string& name);
+  void runOnPieces(const std::vector<Programs>& programs, const PassCall& call, const std::string& name);
   void runOnColor(const std::vector<Programs>& programs, const PassCall& call, const std::string& name);
   void runOnLevel(const gl::Program& program, const PassCall& call, const std::string& name);
   void runSum(const Programs& programs, const std::string& name);

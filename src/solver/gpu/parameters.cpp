@@ -25,11 +25,11 @@ void GpuParameters::prepare(const StepInputs& inputs) {
   holds_ = hand.grab.has_value();
   grabs_ = holds_ || hand.jet.has_value();
   changes_ = grabs_ || dependsOnTime(*inputs.scene);
-  grids_ = inputs.cloth->grids().size();
+  pieces_ = inputs.cloth->pieces().size();
   colliderCount_ = inputs.scene->colliders.size();
   pathCount_ = inputs.pinPaths.paths.size();
   const std::size_t batch = changes_ ? BATCH_STEPS : 1;
-  reserve(steps_, stagedSteps_, "step parameters", batch * grids_);
+  reserve(steps_, stagedSteps_, "step parameters", batch * pieces_);
   if (reserve(colliders_, stagedColliders_, "colliders", batch * colliderCount_))
     colliderTexture_ = gl::BufferTexture("colliders", colliders_.name(), GL_RGBA32F);
   preparePins(inputs.pinPaths, *inputs.cloth, batch);
@@ -70,9 +70,9 @@ bool GpuParameters::hasStep(const StepClock& clock) const {
 void GpuParameters::upload(const StepInputs& inputs, std::size_t steps) {
   for (std::size_t k = 0; k < steps; ++k) {
     evaluate(inputs, k, evaluated_);
-    for (std::size_t grid = 0; grid < grids_; ++grid) {
-      StepParams<float>& params = stagedSteps_[k * grids_ + grid].params;
-      params = evaluated_.grids[grid];
+    for (std::size_t piece = 0; piece < pieces_; ++piece) {
+      StepParams<float>& params = stagedSteps_[k * pieces_ + piece].params;
+      params = evaluated_.pieces[piece];
       params.firstCollider = static_cast<std::uint32_t>(k * colliderCount_);
       params.firstPinMotion = static_cast<std::uint32_t>(k * pathCount_);
     }
@@ -82,7 +82,7 @@ void GpuParameters::upload(const StepInputs& inputs, std::size_t steps) {
               stagedPinMotions_.begin() + static_cast<std::ptrdiff_t>(k * pathCount_));
     if (grabs_) stagedHands_[k].params = evaluated_.hand;
   }
-  steps_.upload({stagedSteps_.data(), steps * grids_});
+  steps_.upload({stagedSteps_.data(), steps * pieces_});
   colliders_.upload({stagedColliders_.data(), steps * colliderCount_});
   if (pathCount_ > 0) pinMotions_.upload({stagedPinMotions_.data(), steps * pathCount_});
   if (grabs_) hands_.upload({stagedHands_.data(), steps});
@@ -101,8 +101,8 @@ void GpuParameters::bind(const StepInputs& inputs, int steps) {
   if (holds_) grabbedTexture_.bind(GRABBED_UNIT);
 }
 
-void GpuParameters::bindGrid(std::size_t grid) const {
-  steps_.bindUniformRange(STEP_PARAMS_BINDING, step_ * grids_ + grid, 1);
+void GpuParameters::bindPiece(std::size_t piece) const {
+  steps_.bindUniformRange(STEP_PARAMS_BINDING, step_ * pieces_ + piece, 1);
 }
 
 }  // namespace clothsim

@@ -19,7 +19,7 @@ class GpuParameters {
   // `steps`: how many steps may follow with these inputs.
   void bind(const StepInputs& inputs, int steps);
   // Those of a grid.
-  void bindGrid(std::size_t grid) const;
+  void bindPiece(std::size_t piece) const;
 
  private:
   struct alignas(256) StepSlot {  // every driver takes uniform offsets in multiples of 256
@@ -34,7 +34,7 @@ class GpuParameters {
   [[nodiscard]] bool hasStep(const StepClock& clock) const;
   void upload(const StepInputs& inputs, std::size_t steps);
 
-  std::size_t grids_ = 0, colliderCount_ = 0, pathCount_ = 0;
+  std::size_t pieces_ = 0, colliderCount_ = 0, pathCount_ = 0;
   bool changes_ = false;  // from step to step
   bool grabs_ = false, holds_ = false;
   StepClock batchStart_;        // of the first step that is uploaded,

@@ -8,13 +8,13 @@
 
 namespace clothsim {
 
-PassFeatures featuresOf(const Scene& scene, const Cloth& cloth, std::size_t gridIndex, const Hand& hand,
+PassFeatures featuresOf(const Scene& scene, const Cloth& cloth, std::size_t pieceIndex, const Hand& hand,
                         const Cuts& cuts) {
-  const Grid& grid = cloth.grids()[gridIndex];
+  const Piece& piece = cloth.pieces()[pieceIndex];
   PassFeatures features;
   features.wind = scene.wind.has_value() || hand.jet.has_value();
   features.jet = hand.jet.has_value();
-  features.grab = hand.grab && hand.grab->grid == gridIndex;
+  features.grab = hand.grab && hand.grab->piece == pieceIndex;
   features.cuts = !cuts.empty();
   features.particleForces = particleForcesOf(scene);
   for (const Collider& collider : scene.colliders) {
@@ -23,13 +23,13 @@ PassFeatures featuresOf(const Scene& scene, const Cloth& cloth, std::size_t grid
   }
   features.coulombFriction = !scene.colliders.empty() && scene.solver.frictionLaw == FrictionLaw::coulomb;
   features.contactPlanes = scene.solver.integrator == Integrator::implicit && !scene.colliders.empty();
-  features.movingPins = !scene.cloths[gridIndex].pinMotion.empty();
-  features.restLengthTable = grid.hasRestLengthTable;
-  features.material = grid.hasMaterial;
-  features.mesh = grid.isMesh;
+  features.movingPins = !scene.cloths[pieceIndex].pinMotion.empty();
+  features.restLengthTable = piece.hasRestLengthTable;
+  features.material = piece.hasMaterial;
+  features.mesh = piece.isMesh;
   features.limitSprings = scene.solver.integrator == Integrator::implicit && scene.solver.strainLimit;
   for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot)
-    if (grid.slotEnabled[slot]) features.enabledSlots |= 1u << slot;
+    if (piece.slotEnabled[slot]) features.enabledSlots |= 1u << slot;
   return features;
 }
 

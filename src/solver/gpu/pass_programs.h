@@ -30,7 +30,7 @@ struct PassFeatures {
   friend auto operator<=>(const PassFeatures&, const PassFeatures&) = default;
 };
 
-[[nodiscard]] PassFeatures featuresOf(const Scene& scene, const Cloth& cloth, std::size_t grid,
+[[nodiscard]] PassFeatures featuresOf(const Scene& scene, const Cloth& cloth, std::size_t piece,
                                       const Hand& hand = {}, const Cuts& cuts = {});
 // Those that a pass looks at, all others at their defaults: what it does not look at does not make another
 // program of it.

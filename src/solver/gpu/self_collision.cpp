@@ -78,7 +78,7 @@ void GpuSelfCollision::allocate(const SelfParams<float>& params) {
   const std::size_t particles = cloth_->particleCount();
   checkFits(particles * (MOST_CANDIDATES + 1), sizeof(std::uint32_t), "contact candidates");
   params_ = gl::Buffer<SelfParams<float>>("self-collision parameters", 1);
-  distances_ = gl::Buffer<float>("contact distances", cloth_->grids().size() * NEAREST_CODES);
+  distances_ = gl::Buffer<float>("contact distances", cloth_->pieces().size() * NEAREST_CODES);
   const Flags none;
   flags_ = gl::Buffer<Flags>("contact flags", std::span<const Flags>(&none, 1));
   buckets_ = gl::Buffer<std::uint32_t>("hash buckets", std::size_t{params.bucketMask} + 1);
@@ -97,8 +97,8 @@ void GpuSelfCollision::allocate(const SelfParams<float>& params) {
   };
   std::vector<Groups> needed{
       groups(buckets_.size()), groups(particles), {params.bucketBlocks, 1, 1}, {1, 1, 1}, groups(particles)};
-  for (const Grid& grid : cloth_->grids())
-    needed.push_back({groupsAcross(grid.columns, groupColumns_), groupsAcross(grid.rows, groupRows_), 1});
+  for (const Piece& piece : cloth_->pieces())
+    needed.push_back({groupsAcross(piece.columns, groupColumns_), groupsAcross(piece.rows, groupRows_), 1});
   std::vector<Groups> dispatches(needed.size());
   dispatches.insert(dispatches.end(), needed.begin(), needed.end());
   dispatches_ = gl::Buffer<Groups>("hash dispatches", std::span<const Groups>(dispatches));
@@ -129,12 +129,12 @@ void GpuSelfCollision::bind() const {
   distancesTexture_.bind(CONTACT_DISTANCES_UNIT);
 }
 
-void GpuSelfCollision::runOnGrids(PassRunner& runner, const gl::Program& pass, const std::string& name,
-                                  const BindGrid& bindGrid) const {
-  for (std::size_t i = 0; i < cloth_->grids().size(); ++i) {
-    const Grid& grid = cloth_->grids()[i];
-    bindGrid(i);
-    runner.run(pass, name, static_cast<std::uint32_t>(grid.columns), static_cast<std::uint32_t>(grid.rows));
+void GpuSelfCollision::runOnPieces(PassRunner& runner, const gl::Program& pass, const std::string& name,
+                                   const BindPiece& bindPiece) const {
+  for (std::size_t i = 0; i < cloth_->pieces().size(); ++i) {
+    const Piece& piece = cloth_->pieces()[i];
+    bindPiece(i);
+    runner.run(pass, name, static_cast<std::uint32_t>(piece.columns), static_cast<std::uint32_t>(piece.rows));
   }
 }
 
@@ -155,37 +155,37 @@ void GpuSelfCollision::buildHash(PassRunner& runner, const std::string& name,
 }
 
 void GpuSelfCollision::findCandidates(PassRunner& runner, const std::string& name,
-                                      const BindGrid& bindGrid) const {
+                                      const BindPiece& bindPiece) const {
   candidates_.bindStorage(CANDIDATES_BINDING);
-  for (std::size_t grid = 0; grid < cloth_->grids().size(); ++grid) {
-    bindGrid(grid);
-    runner.runIndirect(*now_.find, name, findPlace + grid);
+  for (std::size_t piece = 0; piece < cloth_->pieces().size(); ++piece) {
+    bindPiece(piece);
+    runner.runIndirect(*now_.find, name, findPlace + piece);
   }
 }
 
-void GpuSelfCollision::run(PassRunner& runner, PassCall call, GpuArrays& arrays, const BindGrid& bindGrid) {
+void GpuSelfCollision::run(PassRunner& runner, PassCall call, GpuArrays& arrays, const BindPiece& bindPiece) {
   const std::string name = runner.isTiming() ? nameOf(call.pass) : "";
   ParticleArray& newPositions = arrays[Array::newPositions];
   arrays.bindFor(call.pass);
   switch (call.pass) {
     case Pass::checkHash:
       bind();
-      return runOnGrids(runner, *now_.check, name, bindGrid);
+      return runOnPieces(runner, *now_.check, name, bindPiece);
     case Pass::buildHash:
       return buildHash(runner, name, call.index == HASHES_START ? arrays[Array::positions] : newPositions);
     case Pass::findCandidates:
-      return findCandidates(runner, name, bindGrid);
+      return findCandidates(runner, name, bindPiece);
     case Pass::resolveContacts:
       // All particles read where the others were before: the new places go into another buffer.
       spare_.buffer.bindStorage(NEW_POSITIONS_BINDING);
-      runOnGrids(runner, *now_.resolve, name, bindGrid);
+      runOnPieces(runner, *now_.resolve, name, bindPiece);
       std::swap(newPositions, spare_);
       newPositions.texture.bind(NEW_POSITIONS_UNIT);
       return newPositions.buffer.bindStorage(NEW_POSITIONS_BINDING);
     case Pass::checkMotion:
-      return runOnGrids(runner, *now_.checkMotion, name, bindGrid);
+      return runOnPieces(runner, *now_.checkMotion, name, bindPiece);
     case Pass::clampMotion:
-      return runOnGrids(runner, *now_.clamp, name, bindGrid);
+      return runOnPieces(runner, *now_.clamp, name, bindPiece);
     default:
       assert(false && "this pass is not one of self-collision");
   }

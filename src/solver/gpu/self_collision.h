@@ -26,7 +26,7 @@ namespace clothsim {
 
 class GpuSelfCollision {
  public:
-  using BindGrid = std::function<void(std::size_t)>;
+  using BindPiece = std::function<void(std::size_t)>;
 
   // `cloth` must outlive it.
   GpuSelfCollision(const Cloth& cloth, int groupColumns, int groupRows);
@@ -38,7 +38,7 @@ class GpuSelfCollision {
 
   // Does a pass of Domain::contacts. Building the hash and finding candidates are dispatched with no work
   // groups where there is no need.
-  void run(PassRunner& runner, PassCall call, GpuArrays& arrays, const BindGrid& bindGrid);
+  void run(PassRunner& runner, PassCall call, GpuArrays& arrays, const BindPiece& bindPiece);
   // Whether the masks of cuts are bound in the passes. Forgets the hash.
   void setCut(bool cut);
   // For a new state: forgets the hash. The counts go on.
@@ -77,9 +77,9 @@ class GpuSelfCollision {
   void allocate(const SelfParams<float>& params);
   void bind() const;
   void buildHash(PassRunner& runner, const std::string& name, const ParticleArray& positions) const;
-  void findCandidates(PassRunner& runner, const std::string& name, const BindGrid& bindGrid) const;
-  void runOnGrids(PassRunner& runner, const gl::Program& pass, const std::string& name,
-                  const BindGrid& bindGrid) const;
+  void findCandidates(PassRunner& runner, const std::string& name, const BindPiece& bindPiece) const;
+  void runOnPieces(PassRunner& runner, const gl::Program& pass, const std::string& name,
+                   const BindPiece& bindPiece) const;
 
   const Cloth* cloth_;
   int groupColumns_, groupRows_;

@@ -37,9 +37,9 @@ TEST_F(MeshTest, HasTheNormalsThatItsFilesHave) {
   const State state = wavyState(cloth, scene);
   const gl::Buffer<Particle4> positions("positions", state.positions);
   ClothMesh mesh(cloth);
-  const gl::Program grids = gl::Program::makeCompute("render/normals.comp", {}),
+  const gl::Program pieces = gl::Program::makeCompute("render/normals.comp", {}),
                     meshes = gl::Program::makeCompute("render/mesh_normals.comp", {});
-  mesh.computeNormals({grids, &meshes}, positions.name());
+  mesh.computeNormals({pieces, &meshes}, positions.name());
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   const std::vector<Vec3f> expected = vertexNormals(state, cloth);
   const auto normals = mesh.normals().download(), tangents = mesh.tangents().download();
@@ -58,9 +58,9 @@ TEST_F(MeshTest, IsDarkerInItsHollowsAndLighterOnItsRidges) {
   const State state = wavyState(cloth, scene);
   const gl::Buffer<Particle4> positions("positions", state.positions);
   ClothMesh mesh(cloth);
-  const gl::Program grids = gl::Program::makeCompute("render/normals.comp", {}),
+  const gl::Program pieces = gl::Program::makeCompute("render/normals.comp", {}),
                     meshes = gl::Program::makeCompute("render/mesh_normals.comp", {});
-  mesh.computeNormals({grids, &meshes}, positions.name());
+  mesh.computeNormals({pieces, &meshes}, positions.name());
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   const auto normals = mesh.normals().download();
   int hollows = 0, ridges = 0;

@@ -28,13 +28,13 @@ struct Measured {
 // Of sheets laid over a surface, row by row.
 Measured measure(const Cloth& cloth, const Surface& surface, const Cuts& cuts = {}, bool strain = false) {
   std::vector<Particle4> positions(cloth.particleCount());
-  for (const Grid& grid : cloth.grids()) {
-    for (int row = 0; row < grid.rows; ++row) {
-      for (int column = 0; column < grid.columns; ++column) {
-        const Vec3f p = surface(static_cast<double>(column) / (grid.columns - 1),
-                                static_cast<double>(row) / (grid.rows - 1))
+  for (const Piece& piece : cloth.pieces()) {
+    for (int row = 0; row < piece.rows; ++row) {
+      for (int column = 0; column < piece.columns; ++column) {
+        const Vec3f p = surface(static_cast<double>(column) / (piece.columns - 1),
+                                static_cast<double>(row) / (piece.rows - 1))
                             .cast<float>();
-        positions[grid.particle(column, row)] = {p.x, p.y, p.z, 1};
+        positions[piece.particle(column, row)] = {p.x, p.y, p.z, 1};
       }
     }
   }
@@ -128,12 +128,12 @@ TEST_F(NormalsTest, TangentsLieInTheSurfaceAlongU) {
     return Vec3d{u + 0.2 * v, 0.05 * std::sin(6 * u) * std::cos(5 * v), v};
   };
   const Measured measured = measure(cloth, wave);
-  const Grid& grid = cloth.grids()[0];
-  for (int row = 0; row < grid.rows; ++row) {
-    for (int column = 1; column + 1 < grid.columns; ++column) {
-      const double u = static_cast<double>(column) / (grid.columns - 1);
-      const double v = static_cast<double>(row) / (grid.rows - 1);
-      const std::uint32_t particle = grid.particle(column, row);
+  const Piece& piece = cloth.pieces()[0];
+  for (int row = 0; row < piece.rows; ++row) {
+    for (int column = 1; column + 1 < piece.columns; ++column) {
+      const double u = static_cast<double>(column) / (piece.columns - 1);
+      const double v = static_cast<double>(row) / (piece.rows - 1);
+      const std::uint32_t particle = piece.particle(column, row);
       const glm::dvec3 expected =
           glm::normalize(glm::dvec3(1, 0.05 * 6 * std::cos(6 * u) * std::cos(5 * v), 0));
       EXPECT_LT(angle(measured.tangents[particle], expected), 0.02);
@@ -151,13 +151,13 @@ TEST_F(NormalsTest, NextToACutAreThoseOfTheirOwnSide) {
   Cuts cuts;
   ASSERT_TRUE(cutAlong(cuts, cloth, 0, {4.5, -1}, {4.5, 8}));
   const Measured whole = measure(cloth, roof), cut = measure(cloth, roof, cuts);
-  const Grid& grid = cloth.grids()[0];
+  const Piece& piece = cloth.pieces()[0];
   const double s = std::sqrt(0.5);
-  for (int row = 0; row < grid.rows; ++row) {
-    EXPECT_NEAR(angle(cut.normals[grid.particle(4, row)], {-s, s, 0}), 0, 1e-5);
-    EXPECT_NEAR(angle(cut.normals[grid.particle(5, row)], {s, s, 0}), 0, 1e-5);
-    EXPECT_NEAR(angle(cut.tangents[grid.particle(4, row)], {s, s, 0}), 0, 1e-5);
-    EXPECT_GT(angle(whole.normals[grid.particle(4, row)], {-s, s, 0}), 0.2);
+  for (int row = 0; row < piece.rows; ++row) {
+    EXPECT_NEAR(angle(cut.normals[piece.particle(4, row)], {-s, s, 0}), 0, 1e-5);
+    EXPECT_NEAR(angle(cut.normals[piece.particle(5, row)], {s, s, 0}), 0, 1e-5);
+    EXPECT_NEAR(angle(cut.tangents[piece.particle(4, row)], {s, s, 0}), 0, 1e-5);
+    EXPECT_GT(angle(whole.normals[piece.particle(4, row)], {-s, s, 0}), 0.2);
   }
 }
 

@@ -44,13 +44,13 @@ class PickingTest : public GlTest {
 
 TEST_F(PickingTest, FindsTheParticleUnderThePixelAndWhereItIs) {
   Stand stand(test::drapeScene());
-  const Grid& grid = stand.drape.cloth.grids()[0];
+  const Piece& piece = stand.drape.cloth.pieces()[0];
   for (const auto& [column, row] : {std::pair{24, 24}, {28, 26}, {25, 30}}) {  // on top, in sight
-    const std::uint32_t particle = grid.particle(column, row);
+    const std::uint32_t particle = piece.particle(column, row);
     const glm::vec2 pixel = stand.onScreen(stand.place(particle));
     const Pick pick = stand.pickAt(static_cast<double>(pixel.x), static_cast<double>(pixel.y));
     ASSERT_EQ(pick.kind, Pick::Kind::cloth);
-    EXPECT_EQ(pick.grid, 0u);
+    EXPECT_EQ(pick.piece, 0u);
     EXPECT_EQ(pick.particle, particle);
     EXPECT_NEAR(pick.lattice.column, column, 0.01);
     EXPECT_NEAR(pick.lattice.row, row, 0.01);
@@ -60,9 +60,9 @@ TEST_F(PickingTest, FindsTheParticleUnderThePixelAndWhereItIs) {
 
 TEST_F(PickingTest, InsideATriangleThePlaceIsInItAndThePointOnIt) {
   Stand stand(test::drapeScene());
-  const Grid& grid = stand.drape.cloth.grids()[0];
-  const glm::vec3 a = stand.place(grid.particle(24, 26)), b = stand.place(grid.particle(25, 26));
-  const glm::vec3 c = stand.place(grid.particle(24, 27));
+  const Piece& piece = stand.drape.cloth.pieces()[0];
+  const glm::vec3 a = stand.place(piece.particle(24, 26)), b = stand.place(piece.particle(25, 26));
+  const glm::vec3 c = stand.place(piece.particle(24, 27));
   const glm::vec3 inside = 0.5f * a + 0.2f * b + 0.3f * c;
   const glm::vec2 pixel = stand.onScreen(inside);
   const Pick pick = stand.pickAt(static_cast<double>(pixel.x), static_cast<double>(pixel.y));
@@ -70,7 +70,7 @@ TEST_F(PickingTest, InsideATriangleThePlaceIsInItAndThePointOnIt) {
   EXPECT_NEAR(pick.lattice.column, 24.2, 0.02);
   EXPECT_NEAR(pick.lattice.row, 26.3, 0.02);
   EXPECT_LT(glm::distance(pick.point, inside), 1e-4f);
-  EXPECT_EQ(pick.particle, grid.particle(24, 26));
+  EXPECT_EQ(pick.particle, piece.particle(24, 26));
 }
 
 TEST_F(PickingTest, TellsTheColliderBehindACutInTheCloth) {
@@ -79,7 +79,7 @@ TEST_F(PickingTest, TellsTheColliderBehindACutInTheCloth) {
   scene.colliders.emplace_back(
       Box{.origin = {1.3, 0.1, 0.5}, .size = {0.2, 0.2, 0.2}, .rotation = {0, 20, 0}});
   Stand stand(scene);
-  const glm::vec2 top = stand.onScreen(stand.place(stand.drape.cloth.grids()[0].particle(24, 26)));
+  const glm::vec2 top = stand.onScreen(stand.place(stand.drape.cloth.pieces()[0].particle(24, 26)));
   const auto pickTop = [&] { return stand.pickAt(static_cast<double>(top.x), static_cast<double>(top.y)); };
   EXPECT_EQ(pickTop().kind, Pick::Kind::cloth);
 
@@ -111,14 +111,14 @@ TEST_F(PickingTest, TellsWhichOfTwoSheets) {
   Scene scene = test::drapeScene();
   scene.cloths.push_back(scene.cloths[0]);
   Stand stand(scene);
-  const Grid& second = stand.drape.cloth.grids()[1];
+  const Piece& second = stand.drape.cloth.pieces()[1];
   std::vector<Particle4> apart = stand.drape.positions;
   for (std::size_t i = second.firstParticle; i < apart.size(); ++i) apart[i].y += 0.2f;
   stand.positions.upload(apart);
   const std::uint32_t particle = second.particle(24, 26);
   const glm::vec2 pixel = stand.onScreen(stand.place(particle) + glm::vec3(0, 0.2f, 0));
   const Pick pick = stand.pickAt(static_cast<double>(pixel.x), static_cast<double>(pixel.y));
-  EXPECT_EQ(pick.grid, 1u);
+  EXPECT_EQ(pick.piece, 1u);
   EXPECT_EQ(pick.particle, particle);
 }
 

@@ -17,8 +17,8 @@ using HandOnGpuTest = GlTest;
 
 // Grabs with neighbours, moves, cuts, blows, pins and lets go, some steps each.
 void playWith(Solver& solver, const Cloth& cloth, const Scene& scene) {
-  const Grid& grid = cloth.grids()[0];
-  const std::uint32_t middle = grid.particle(grid.columns / 2, grid.rows / 2);
+  const Piece& piece = cloth.pieces()[0];
+  const std::uint32_t middle = piece.particle(piece.columns / 2, piece.rows / 2);
   solver.step(20);
   Hand hand = test::handTo(solver, cloth, scene, middle, {0.6, 0.7, 0.5}, 1e5, 0.25);
   solver.setHand(hand);
@@ -27,12 +27,12 @@ void playWith(Solver& solver, const Cloth& cloth, const Scene& scene) {
   solver.step(20);
   hand.jet = Jet{{0.3, 0.4, -1}, {0.1, 0.2, 1}, 8, 0.4};
   solver.setHand(hand);
-  solver.setPin(grid.particle(1, 1), true);
+  solver.setPin(piece.particle(1, 1), true);
   solver.step(40);
-  solver.setPin(grid.particle(1, 1), false);
+  solver.setPin(piece.particle(1, 1), false);
   moveTo(*hand.grab, {0.2, 0.9, -0.3}, solver.stepIndex(), 30);
   solver.setHand(hand);
-  solver.setCuts(test::cutAcross(cloth, grid.rows / 2 - 0.5));
+  solver.setCuts(test::cutAcross(cloth, piece.rows / 2 - 0.5));
   solver.step(40);
   solver.setHand({});
   solver.step(30);

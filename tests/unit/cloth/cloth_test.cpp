@@ -41,14 +41,14 @@ TEST(Cloth, LaysAVerticalSheetInXyWithASmallRepeatableJitterInZ) {
 
 TEST(Cloth, HasTheMassOfCs184) {
   const Cloth cloth(sheetScene(50));
-  EXPECT_DOUBLE_EQ(cloth.grids()[0].particleMass, 150.0 / 2500);
+  EXPECT_DOUBLE_EQ(cloth.pieces()[0].particleMass, 150.0 / 2500);
   EXPECT_DOUBLE_EQ(cloth.inverseMasses()[7], 2500 / 150.0);
 }
 
 TEST(Cloth, SharesOutATotalMassWhenOneIsGiven) {
   Scene scene = sheetScene(10);
   scene.cloths[0].mass = 1;
-  EXPECT_DOUBLE_EQ(Cloth(scene).grids()[0].particleMass, 0.01);
+  EXPECT_DOUBLE_EQ(Cloth(scene).pieces()[0].particleMass, 0.01);
 }
 
 TEST(Cloth, HasAsManySpringsAsTheLatticeHasPairs) {
@@ -70,7 +70,7 @@ TEST(Cloth, SwitchesEachKindOfSpringAlone) {
 
 TEST(Cloth, NumbersSpringsByOwnerAndSlotAndEveryParticleMeetsItsOwnInAscendingOrder) {
   const Cloth cloth(sheetScene(9));
-  const Grid& grid = cloth.grids()[0];
+  const Piece& piece = cloth.pieces()[0];
   std::vector<std::vector<std::uint32_t>> byParticle(cloth.particleCount());
   for (const Spring& spring : cloth.springs()) {
     byParticle[spring.a].push_back(spring.number);
@@ -80,13 +80,13 @@ TEST(Cloth, NumbersSpringsByOwnerAndSlotAndEveryParticleMeetsItsOwnInAscendingOr
     for (int column = 0; column < 9; ++column) {
       std::vector<std::uint32_t> met;
       for (const IncidentSpring& incident : incidentSprings) {
-        if (!grid.contains(column + incident.columns, row + incident.rows)) continue;
+        if (!piece.contains(column + incident.columns, row + incident.rows)) continue;
         const std::uint32_t owner = incident.owned
-                                        ? grid.particle(column, row)
-                                        : grid.particle(column + incident.columns, row + incident.rows);
+                                        ? piece.particle(column, row)
+                                        : piece.particle(column + incident.columns, row + incident.rows);
         met.push_back(6 * owner + static_cast<std::uint32_t>(incident.slot));
       }
-      std::vector<std::uint32_t> expected = byParticle[grid.particle(column, row)];
+      std::vector<std::uint32_t> expected = byParticle[piece.particle(column, row)];
       std::sort(expected.begin(), expected.end());
       EXPECT_EQ(met, expected) << column << ", " << row;
     }
@@ -95,10 +95,10 @@ TEST(Cloth, NumbersSpringsByOwnerAndSlotAndEveryParticleMeetsItsOwnInAscendingOr
 
 TEST(Cloth, GivesBendingSpringsAFifthOfKs) {
   const Cloth cloth(sheetScene(5));
-  const Grid& grid = cloth.grids()[0];
-  EXPECT_DOUBLE_EQ(grid.stiffness[toLeft], 5000);
-  EXPECT_DOUBLE_EQ(grid.stiffness[toUpperRight], 5000);
-  EXPECT_DOUBLE_EQ(grid.stiffness[toSecondUpper], 1000);
+  const Piece& piece = cloth.pieces()[0];
+  EXPECT_DOUBLE_EQ(piece.stiffness[toLeft], 5000);
+  EXPECT_DOUBLE_EQ(piece.stiffness[toUpperRight], 5000);
+  EXPECT_DOUBLE_EQ(piece.stiffness[toSecondUpper], 1000);
 }
 
 TEST(Cloth, ScalesCs171StiffnessByTheReferenceLength) {
@@ -106,9 +106,9 @@ TEST(Cloth, ScalesCs171StiffnessByTheReferenceLength) {
   scene.cloths[0].ks.reset();
   scene.cloths[0].stiffnessReference = 40;
   const Cloth cloth(scene);
-  const Grid& grid = cloth.grids()[0];
-  EXPECT_DOUBLE_EQ(grid.stiffness[toLeft], 40);
-  EXPECT_NEAR(grid.stiffness[toUpperLeft], 40 / std::sqrt(2.0), 1e-12);
+  const Piece& piece = cloth.pieces()[0];
+  EXPECT_DOUBLE_EQ(piece.stiffness[toLeft], 40);
+  EXPECT_NEAR(piece.stiffness[toUpperLeft], 40 / std::sqrt(2.0), 1e-12);
 }
 
 TEST(Cloth, PinsAreColumnAndRow) {
@@ -151,7 +151,7 @@ TEST(Cloth, RestsFlatThoughItStandsCrookedUnlessItIsCs184s) {
     EXPECT_FALSE(cloth.hasRestLengthTable());
     double largestDepth = 0, largestStrain = 0;
     for (const Spring& spring : cloth.springs()) {
-      EXPECT_EQ(spring.restLength, cloth.grids()[0].nominalLength[spring.number % SPRING_SLOTS]);
+      EXPECT_EQ(spring.restLength, cloth.pieces()[0].nominalLength[spring.number % SPRING_SLOTS]);
       const Vec3d a = cloth.positions()[spring.a], b = cloth.positions()[spring.b];
       largestDepth = std::max(largestDepth, std::abs(a.z));
       largestStrain = std::max(largestStrain, length(b - a) / spring.restLength - 1);
@@ -167,7 +167,7 @@ TEST(Cloth, KeepsSeveralGridsInContiguousRanges) {
   scene.cloths[1].numWidthPoints = 3;
   scene.cloths[1].position = {0, 2, 0};
   const Cloth cloth(scene);
-  EXPECT_EQ(cloth.grids()[1].firstParticle, 25u);
+  EXPECT_EQ(cloth.pieces()[1].firstParticle, 25u);
   EXPECT_EQ(cloth.particleCount(), 40u);
   EXPECT_EQ(cloth.positions()[25], (Vec3d{0, 3, 0}));
   for (const Spring& spring : cloth.springs())
@@ -195,10 +195,10 @@ TEST(Cloth, FindsTheGridOfEveryParticleAmongThousands) {
   scene.cloths.assign(3000, scene.cloths[0]);
   scene.cloths[1].numWidthPoints = 5;
   const Cloth cloth(scene);
-  for (std::size_t grid = 0; grid < cloth.grids().size(); ++grid) {
-    const Grid& found = cloth.grids()[grid];
-    EXPECT_EQ(cloth.gridOf(found.firstParticle), grid);
-    EXPECT_EQ(cloth.gridOf(found.firstParticle + found.particleCount() - 1), grid);
+  for (std::size_t piece = 0; piece < cloth.pieces().size(); ++piece) {
+    const Piece& found = cloth.pieces()[piece];
+    EXPECT_EQ(cloth.pieceOf(found.firstParticle), piece);
+    EXPECT_EQ(cloth.pieceOf(found.firstParticle + found.particleCount() - 1), piece);
   }
 }
 

@@ -49,10 +49,10 @@ TEST(CutAlong, TearsTheSpringsUnderTheStrokeAndNoOthers) {
   const Cloth cloth(sheetScene(10));
   Cuts cuts;
   cutAlong(cuts, cloth, 0, {4.5, 4.6}, {4.5, 5.4});  // across one structural spring of row 5
-  const Grid& grid = cloth.grids()[0];
-  EXPECT_TRUE(isCut(cuts, grid.particle(5, 5), toLeft));
-  EXPECT_TRUE(isCut(cuts, grid.particle(5, 5), toSecondLeft));
-  EXPECT_TRUE(isCut(cuts, grid.particle(6, 5), toSecondLeft));
+  const Piece& piece = cloth.pieces()[0];
+  EXPECT_TRUE(isCut(cuts, piece.particle(5, 5), toLeft));
+  EXPECT_TRUE(isCut(cuts, piece.particle(5, 5), toSecondLeft));
+  EXPECT_TRUE(isCut(cuts, piece.particle(6, 5), toSecondLeft));
   int torn = 0;
   for (const std::uint8_t bits : cuts) torn += __builtin_popcount(bits);
   EXPECT_EQ(torn, 3);
@@ -88,20 +88,20 @@ TEST(CutMasks, NameTheSpringsAndTrianglesThatAParticleHasLost) {
   const auto remaining = remainingTriangles(cloth, cuts);
   const std::set<std::array<std::uint32_t, 3>> left(remaining.begin(), remaining.end());
   std::uint64_t springsLost = 0, trianglesLost = 0;
-  for (const Grid& grid : cloth.grids()) {
-    for (int row = 0; row < grid.rows; ++row) {
-      for (int column = 0; column < grid.columns; ++column) {
-        const std::uint32_t i = grid.particle(column, row);
+  for (const Piece& piece : cloth.pieces()) {
+    for (int row = 0; row < piece.rows; ++row) {
+      for (int column = 0; column < piece.columns; ++column) {
+        const std::uint32_t i = piece.particle(column, row);
         for (std::size_t k = 0; k < incidentSprings.size(); ++k) {
           const IncidentSpring& spring = incidentSprings[k];
           const int otherColumn = column + spring.columns, otherRow = row + spring.rows;
           const bool lost = (masks[i] >> k & 1) != 0;
           springsLost += lost;
-          if (!grid.contains(otherColumn, otherRow)) {
+          if (!piece.contains(otherColumn, otherRow)) {
             EXPECT_FALSE(lost);
             continue;
           }
-          EXPECT_EQ(lost, isCut(cuts, spring.owned ? i : grid.particle(otherColumn, otherRow), spring.slot));
+          EXPECT_EQ(lost, isCut(cuts, spring.owned ? i : piece.particle(otherColumn, otherRow), spring.slot));
           EXPECT_EQ(springWithinCell(spring.columns, spring.rows), k);
         }
         for (std::size_t k = 0; k < incidentTriangles.size(); ++k) {
@@ -109,8 +109,8 @@ TEST(CutMasks, NameTheSpringsAndTrianglesThatAParticleHasLost) {
           bool exists = true;
           for (std::size_t corner = 0; corner < 3; ++corner) {
             const Corner& from = incidentTriangles[k][corner];
-            exists = exists && grid.contains(column + from.columns, row + from.rows);
-            if (exists) triangle[corner] = grid.particle(column + from.columns, row + from.rows);
+            exists = exists && piece.contains(column + from.columns, row + from.rows);
+            if (exists) triangle[corner] = piece.particle(column + from.columns, row + from.rows);
           }
           const bool lost = (masks[i] >> (12 + k) & 1) != 0;
           trianglesLost += lost;

@@ -36,7 +36,7 @@ TEST(MeshCloth, HasASpringAlongEveryEdgeAndAcrossEveryInnerOne) {
 
 TEST(MeshCloth, HasColorsOfSpringsThatShareNoParticleAndTogetherHoldAll) {
   const Cloth cloth(test::meshScene({.disorder = 0.2}));
-  const Grid& mesh = cloth.grids()[0];
+  const Piece& mesh = cloth.pieces()[0];
   std::uint32_t next = 0;
   for (const SpringColor& color : mesh.colors) {
     EXPECT_EQ(color.first, next);
@@ -77,7 +77,7 @@ TEST(MeshCloth, LiesBesideGridsInTheSameArrays) {
   scene.cloths[0].ks = 100;
   scene.cloths[0].numWidthPoints = scene.cloths[0].numHeightPoints = 5;
   const Cloth cloth(scene);
-  EXPECT_EQ(cloth.grids()[1].firstParticle, 25u);
+  EXPECT_EQ(cloth.pieces()[1].firstParticle, 25u);
   EXPECT_FALSE(cloth.isOfMesh(24));
   EXPECT_TRUE(cloth.isOfMesh(25));
   const auto triangles = cloth.triangles();

@@ -50,7 +50,7 @@ bool pierces(Vec3d p, Vec3d q, Vec3d a, Vec3d b, Vec3d c) {
 std::uint64_t countBetweenSheetsTheLongWay(const Scene& scene, const State& state) {
   const Cloth cloth(scene);
   const auto triangles = cloth.triangles();
-  const std::uint32_t second = cloth.grids()[1].firstParticle;
+  const std::uint32_t second = cloth.pieces()[1].firstParticle;
   std::uint64_t count = 0;
   for (const auto& a : triangles) {
     for (const auto& b : triangles) {

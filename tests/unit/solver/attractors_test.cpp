@@ -71,9 +71,9 @@ TEST(Attractors, KeepEnergyAndAngularMomentumOfAParticleThatCircles) {
 }
 
 TEST(Attractors, GiveGridsAndMeshesTheMomentumOfTheirForces) {
-  Scene grid = test::sheetScene(9), mesh = test::meshScene({.columns = 8, .rows = 8, .edge = 0.1});
+  Scene piece = test::sheetScene(9), mesh = test::meshScene({.columns = 8, .rows = 8, .edge = 0.1});
   mesh.cloths[0].pinned.clear();
-  for (Scene* scene : {&grid, &mesh}) {
+  for (Scene* scene : {&piece, &mesh}) {
     scene->gravity = {0, 0, 0};
     scene->cloths[0].damping = 0;
     scene->solver.integrator = Integrator::euler;

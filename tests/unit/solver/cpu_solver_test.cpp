@@ -111,9 +111,9 @@ TEST(StrainLimit, ColoursCoverEverySpringOnceAndShareNoParticle) {
     scene.cloths[0].numWidthPoints = columns;
     scene.cloths[0].numHeightPoints = rows;
     const Cloth cloth(scene);
-    const Grid& grid = cloth.grids()[0];
+    const Piece& piece = cloth.pieces()[0];
     std::vector<int> visits(6 * cloth.particleCount());
-    for (const LimitColor& color : makeLimitColors(grid)) {
+    for (const LimitColor& color : makeLimitColors(piece)) {
       std::vector<int> touched(cloth.particleCount());
       for (std::uint32_t j = 0; j < ownerCount(color.firstRow, color.rowStep, color.rowRun, color.endRow);
            ++j) {
@@ -124,11 +124,11 @@ TEST(StrainLimit, ColoursCoverEverySpringOnceAndShareNoParticle) {
           const int row =
               static_cast<int>(color.firstRow + color.rowStep * (j / color.rowRun) + j % color.rowRun);
           const SpringOffset& offset = springOffsets[color.slot];
-          ASSERT_TRUE(grid.contains(column, row) &&
-                      grid.contains(column + offset.columns, row + offset.rows));
-          ++visits[6 * grid.particle(column, row) + color.slot];
-          EXPECT_EQ(++touched[grid.particle(column, row)], 1);
-          EXPECT_EQ(++touched[grid.particle(column + offset.columns, row + offset.rows)], 1);
+          ASSERT_TRUE(piece.contains(column, row) &&
+                      piece.contains(column + offset.columns, row + offset.rows));
+          ++visits[6 * piece.particle(column, row) + color.slot];
+          EXPECT_EQ(++touched[piece.particle(column, row)], 1);
+          EXPECT_EQ(++touched[piece.particle(column + offset.columns, row + offset.rows)], 1);
         }
       }
     }

@@ -183,7 +183,7 @@ TEST(FirstDivergence, IsTheEarliestPassWhateverWasNotedAfterIt) {
 TEST(DivergenceText, NamesStepFramePassParticleAndItsPlaceOnTheCloth) {
   const Scene scene = twoBusyCloths(12);
   const Cloth cloth(scene);
-  const std::uint32_t particle = cloth.grids()[1].particle(4, 2);
+  const std::uint32_t particle = cloth.pieces()[1].particle(4, 2);
   const std::string text =
       divergenceText({DivergenceReason::runawaySpeed, Pass::collide, 61, particle}, cloth, scene);
   EXPECT_NE(text.find("step 61 (frame 3)"), std::string::npos) << text;

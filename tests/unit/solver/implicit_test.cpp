@@ -363,7 +363,8 @@ TEST(ImplicitStep, TakesPinsWhereTheirPathSays) {
     const double part = std::min(1.0, step / 30.0);
     const Matrix3 turn = rotationMatrix({0, 90 * part, 0});
     for (int row = 0; row < 5; ++row) {
-      const std::uint32_t left = cloth.grids()[0].particle(0, row), right = cloth.grids()[0].particle(4, row);
+      const std::uint32_t left = cloth.pieces()[0].particle(0, row),
+                          right = cloth.pieces()[0].particle(4, row);
       const Vec3d expected =
           start + part * Vec3d{0.1, 0.2, 0.1} + rotate(turn, cloth.positions()[left] - start);
       EXPECT_LT(length(solver.position(left) - expected), 1e-12) << step;

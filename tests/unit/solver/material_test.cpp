@@ -43,7 +43,7 @@ TEST(BendingEnergy, IsThatOfACylinderForASheetRolledUp) {
   // A cylinder's moment a length is B / R; at the free end it is held by a pair of forces B / (R h) on the
   // last two particles of each line, weighted by the line's share of the width.
   const std::vector<Vec3d> forces = solver.forces();
-  const Vec3d end = forces[cloth.grids()[0].particle(n - 1, 1)];
+  const Vec3d end = forces[cloth.pieces()[0].particle(n - 1, 1)];
   const double expected = paper.bend / radius / h * (2 * length / (n - 1) / 2);
   EXPECT_NEAR(std::sqrt(dot(end, end)), expected, 0.01 * expected);
 }
@@ -88,7 +88,7 @@ double sagOfHungCotton(int points, bool stands) {
   const Cloth cloth(scene);
   CpuSolver<double> solver(cloth, scene);
   solver.step(5);
-  const std::uint32_t bottom = cloth.grids()[0].particle(points / 2, stands ? 0 : points - 1);
+  const std::uint32_t bottom = cloth.pieces()[0].particle(points / 2, stands ? 0 : points - 1);
   return cloth.positions()[bottom].y - solver.position(bottom).y;
 }
 

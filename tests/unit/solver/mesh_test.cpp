@@ -265,10 +265,10 @@ TEST(MeshInAHand, FollowsItWithWhatLiesNearAtRest) {
 }
 
 TEST(ParticlesLetGo, WeighWhatTheyDidBeforeTheyWerePinned) {
-  Scene grid;
-  grid.cloths[0].numWidthPoints = grid.cloths[0].numHeightPoints = 5;
-  grid.cloths[0].material = Material{};
-  for (const Scene& scene : {test::meshScene(), grid}) {
+  Scene piece;
+  piece.cloths[0].numWidthPoints = piece.cloths[0].numHeightPoints = 5;
+  piece.cloths[0].material = Material{};
+  for (const Scene& scene : {test::meshScene(), piece}) {
     const Cloth cloth(scene);
     CpuSolver<float> solver(cloth, scene);
     for (const std::uint32_t particle : {0u, 2u, 12u}) {  // of the grid: a corner, on a border, inside

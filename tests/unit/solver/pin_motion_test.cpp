@@ -45,7 +45,7 @@ void expectOnPath(const CpuSolver<Real>& solver, const Cloth& cloth, Vec3d cente
                   double tolerance) {
   const Vec3d start{0, 1, 0.5};  // the mean of the left column
   for (int row = 0; row < 5; ++row) {
-    const std::uint32_t pin = cloth.grids()[0].particle(0, row);
+    const std::uint32_t pin = cloth.pieces()[0].particle(0, row);
     const Vec3d expected = center + rotate(rotationMatrix(degrees), cloth.positions()[pin] - start);
     expectNear(solver.position(pin).template cast<double>(), expected, tolerance);
   }
@@ -213,10 +213,10 @@ TEST(PinPaths, CountOnFromClothToCloth) {
   const PinPaths pins = makePinPaths(scene, cloth);
   ASSERT_EQ(pins.paths.size(), 4U);
   ASSERT_EQ(pins.numbers.size(), cloth.particleCount());
-  EXPECT_EQ(pins.numbers[cloth.grids()[0].particle(8, 0)], 2U);
-  EXPECT_EQ(pins.numbers[cloth.grids()[0].particle(8, 8)], 0U) << "a pin that stays";
-  EXPECT_EQ(pins.numbers[cloth.grids()[1].particle(3, 8)], 4U);
-  EXPECT_EQ(pins.paths[3].center, cloth.positions()[cloth.grids()[1].particle(3, 8)]);
+  EXPECT_EQ(pins.numbers[cloth.pieces()[0].particle(8, 0)], 2U);
+  EXPECT_EQ(pins.numbers[cloth.pieces()[0].particle(8, 8)], 0U) << "a pin that stays";
+  EXPECT_EQ(pins.numbers[cloth.pieces()[1].particle(3, 8)], 4U);
+  EXPECT_EQ(pins.paths[3].center, cloth.positions()[cloth.pieces()[1].particle(3, 8)]);
 }
 
 TEST(PinPaths, AreEmptyWithoutMotions) {

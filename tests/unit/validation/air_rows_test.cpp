@@ -23,14 +23,14 @@ Vec3d windOnPlate(const Wind& wind, double degrees, int points) {
   scene.wind = wind;
   const Cloth cloth(scene);
   CpuSolver<Real> solver(cloth, scene);
-  const Grid& grid = cloth.grids()[0];
+  const Piece& piece = cloth.pieces()[0];
   const double angle = degrees * std::numbers::pi / 180;
   const Vec3d alongRow{1, 0, 0}, alongColumn{0, -std::sin(angle), std::cos(angle)};
   std::mt19937 random(3);
   std::uniform_real_distribution<double> third(-1.0 / 3, 1.0 / 3);
   for (int row = 1; row + 1 < points; ++row)
     for (int column = 1; column + 1 < points; ++column) {
-      const std::uint32_t i = grid.particle(column, row);
+      const std::uint32_t i = piece.particle(column, row);
       const double u = third(random) / (points - 1), v = third(random) / (points - 1);
       solver.setPosition(i, (cloth.positions()[i] + u * alongRow + v * alongColumn).cast<Real>());
     }

@@ -27,15 +27,15 @@ struct Drape {
 // The circle cut out of a square grid: every spring with an end outside of it is cut.
 Cuts circleOf(const Cloth& cloth, const std::vector<double>& radii, double radius) {
   Cuts cuts(cloth.particleCount());
-  const Grid& grid = cloth.grids()[0];
-  for (int row = 0; row < grid.rows; ++row)
-    for (int column = 0; column < grid.columns; ++column)
+  const Piece& piece = cloth.pieces()[0];
+  for (int row = 0; row < piece.rows; ++row)
+    for (int column = 0; column < piece.columns; ++column)
       for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot) {
         const int otherColumn = column + springOffsets[slot].columns,
                   otherRow = row + springOffsets[slot].rows;
-        if (!grid.contains(otherColumn, otherRow)) continue;
-        const std::uint32_t owner = grid.particle(column, row);
-        if (radii[owner] > radius || radii[grid.particle(otherColumn, otherRow)] > radius)
+        if (!piece.contains(otherColumn, otherRow)) continue;
+        const std::uint32_t owner = piece.particle(column, row);
+        if (radii[owner] > radius || radii[piece.particle(otherColumn, otherRow)] > radius)
           cuts[owner] = static_cast<std::uint8_t>(cuts[owner] | 1u << slot);
       }
   return cuts;
@@ -109,7 +109,7 @@ Scene drapeScene(const Drape& drape, int points) {
   const std::vector<double> radii = radiiOf(free);
   for (int row = 0; row < points; ++row)
     for (int column = 0; column < points; ++column) {
-      const double radius = radii[free.grids()[0].particle(column, row)];
+      const double radius = radii[free.pieces()[0].particle(column, row)];
       if (radius <= drape.discRadius + 0.5 * spacing || radius > drape.clothRadius)
         scene.cloths[0].pinned.emplace_back(GridPoint{column, row});
     }

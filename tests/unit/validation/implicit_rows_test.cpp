@@ -94,7 +94,7 @@ class Sheet {
                                           forces_,
                                           nullptr,
                                           watch_};
-    for (int derivativesRow = 0; derivativesRow < cpu::rowsOf(cloth_.grids()[0]); ++derivativesRow)
+    for (int derivativesRow = 0; derivativesRow < cpu::rowsOf(cloth_.pieces()[0]); ++derivativesRow)
       cpu::multiply({pass, own_}, derivativesRow);
     Field result(x.size());
     for (std::size_t i = 0; i < x.size(); ++i)
@@ -222,9 +222,9 @@ TEST(RowImplicitGradientAndHessian, ProductsAreDerivativesOfTheForces) {
 
 // Also where springs push: there the exact Hessian is not positive.
 TEST(ImplicitMatrix, IsSymmetricAndPositiveOnCrumpledSheets) {
-  const Scene grid = limitedSheet(), mesh = limitedMesh();
+  const Scene piece = limitedSheet(), mesh = limitedMesh();
   for (const auto& [scene, cuts] :
-       {std::pair{grid, Cuts{}}, {grid, test::someCuts(Cloth(grid))}, {mesh, Cuts{}}}) {
+       {std::pair{piece, Cuts{}}, {piece, test::someCuts(Cloth(piece))}, {mesh, Cuts{}}}) {
     Sheet sheet(scene, cuts);
     const Field x = sheet.deformed(0.7, 0.05);
     EXPECT_LT(strains(sheet.cloth(), x).first, -0.3);

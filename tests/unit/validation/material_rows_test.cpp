@@ -36,13 +36,13 @@ Hung hungSheet(int n) {
   CpuSolver<Real> solver(cloth, scene);
   stepFor(solver, scene, 0.6);  // dies down by exp(-60 t)
   const std::vector<Vec3<Real>> forces = solver.forces();
-  const Grid& grid = cloth.grids()[0];
+  const Piece& piece = cloth.pieces()[0];
   Hung hung{0, 0};
   for (int column = 0; column < n; ++column) {
-    const double mass = grid.particleMass * grid.massWeight(column, 0);
-    hung.reaction += static_cast<double>(forces[grid.particle(column, 0)].z) + 9.81 * mass;
+    const double mass = piece.particleMass * piece.massWeight(column, 0);
+    hung.reaction += static_cast<double>(forces[piece.particle(column, 0)].z) + 9.81 * mass;
   }
-  const std::uint32_t lowest = grid.particle(n / 2, n - 1);
+  const std::uint32_t lowest = piece.particle(n / 2, n - 1);
   hung.sag = static_cast<double>(solver.position(lowest).z) - cloth.positions()[lowest].z;
   return hung;
 }
@@ -132,9 +132,9 @@ Tip cantileverTip(int cells) {
   const Cloth cloth(scene);
   CpuSolver<Real> solver(cloth, scene);
   stepFor(solver, scene, 5);
-  const Grid& grid = cloth.grids()[0];
-  const Vec3d clamp = cloth.positions()[grid.particle(0, 1)],
-              tip = solver.position(grid.particle(0, cells + 1)).template cast<double>();
+  const Piece& piece = cloth.pieces()[0];
+  const Vec3d clamp = cloth.positions()[piece.particle(0, 1)],
+              tip = solver.position(piece.particle(0, cells + 1)).template cast<double>();
   return {(tip.z - clamp.z) / length, (tip.y - clamp.y) / length};
 }
 

@@ -1,4 +1,0 @@
-// The grid that is being drawn or measured.
-#include "shared/render_layout.h"
-
-layout(std140, binding = CLOTH_GRID_BINDING) uniform ClothGridBlock { ClothGrid grid; };
