@@ -25,8 +25,8 @@ vec3 windForce(uint a, uint b, uint c) {
   if (hasJet) {
     precise vec3 middle = third * ((xa + xb) + xc);
     share = jetShare(middle);
-    precise float jetSpeed = share * hand.jetSpeed;
-    air = air + jetSpeed * vec3(hand.directionX, hand.directionY, hand.directionZ);
+    precise float jetSpeed = share * interaction.jetSpeed;
+    air = air + jetSpeed * vec3(interaction.directionX, interaction.directionY, interaction.directionZ);
   }
   precise vec3 u = air - velocity;
   precise float speedSquared = sumOfProducts(u, u);
@@ -39,7 +39,7 @@ vec3 windForce(uint a, uint b, uint c) {
   precise float alongWind = step.liftFactor * ((across * through) * inverseSpeed);
   precise vec3 force = alongNormal * normal - alongWind * u;
   precise float resistance = (step.dragFactor * acrossMagnitude) * inverseNormal;
-  if (hasJet && hand.jetAlone != 0u) {
+  if (hasJet && interaction.jetAlone != 0u) {
     force = share * force;
     resistance = share * resistance;
   }

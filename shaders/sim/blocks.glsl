@@ -1,5 +1,5 @@
 // What every pass of the simulation sees: the parameters of the step, the state at its start and at its end.
-#include "shared/grab.h"
+#include "shared/interaction.h"
 #include "shared/step_params.h"
 
 layout(local_size_x = WORK_GROUP_COLUMNS, local_size_y = WORK_GROUP_ROWS) in;

@@ -123,7 +123,7 @@ class HangingCloth {
     for (const MovedPin& pin : pins) now.add(pin.place);
     const glm::vec3 before = pinsAtRest_.size(), size = now.size();
     for (int axis = 0; axis < 3; ++axis) {
-      held_[axis] =
+      pinnedAxes_[axis] =
           size[axis] > 0.5f * restSize_[axis] || before[axis] > 0.5f * restSize_[axis] ? 1.0f : 0.0f;
       closer_[axis] = before[axis] > 1e-6f ? std::min(1.0f, size[axis] / before[axis]) : 1.0f;
     }
@@ -135,10 +135,10 @@ class HangingCloth {
     const glm::vec3 apart = point - piece_.pins[nearest].place;
     const glm::vec3 offset = toGlm(rotate(pin.turn, {apart.x, apart.y, apart.z}));
     const glm::vec3 across = offset - glm::dot(offset, down_) * down_;
-    const glm::vec3 held = held_ * closer_ * across;
+    const glm::vec3 fromTop = pinnedAxes_ * closer_ * across;
     const float reach = stretch_ * glm::length(offset);
-    Pendulum p{.top = pin.place + held,
-               .length = std::sqrt(std::max(0.0f, reach * reach - glm::dot(held, held)))};
+    Pendulum p{.top = pin.place + fromTop,
+               .length = std::sqrt(std::max(0.0f, reach * reach - glm::dot(fromTop, fromTop)))};
     // No pin lets it hang farther away than the cloth between them is long.
     for (std::size_t k = 0; k < pins.size(); ++k) {
       const glm::vec3 toTop = p.top - pins[k].place;
@@ -147,7 +147,7 @@ class HangingCloth {
       if (length * length > beside2)
         p.length = std::clamp(std::sqrt(length * length - beside2) - below, 0.0f, p.length);
     }
-    const glm::vec3 aside = across - held_ * across;
+    const glm::vec3 aside = across - pinnedAxes_ * across;
     if (glm::length(aside) > 1e-3f * reach) {
       p.aside = glm::normalize(aside);
       p.angle = std::atan2(glm::length(aside), glm::dot(offset, down_));
@@ -210,7 +210,7 @@ class HangingCloth {
   const ClothOutline::GridPoints& piece_;
   const ClothSettings& settings_;
   const Scene& scene_;
-  glm::vec3 restSize_, down_{0}, held_{0}, closer_{1};
+  glm::vec3 restSize_, down_{0}, pinnedAxes_{0}, closer_{1};
   float gravity_ = 0, stretch_ = 1;
   Bounds pinsAtRest_;
 };

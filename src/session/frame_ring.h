@@ -11,7 +11,7 @@
 #include "core/shared.h"
 #include "scene/scene.h"
 #include "session/actions.h"
-#include "solver/grab.h"
+#include "solver/interaction.h"
 #include "solver/solver.h"
 
 namespace clothsim {
@@ -25,7 +25,7 @@ struct SessionFrame {
   int start = 0;  // number of the frame in which the simulation was last restarted
   std::uint64_t step = 0;
   Shared<Scene> scene;
-  Hand hand;
+  Interaction interaction;
   std::vector<MoveCollider> colliderMoves;  // to be done in the next frame
   SceneStack undo, redo;
 };

@@ -46,7 +46,7 @@ bool Session::apply(const EditScene& edit) {
 
 bool Session::apply(const Grab& grab) {
   Solver& solver = simulation_.solver();
-  now_.hand.grab = makeGrabSpring(
+  now_.interaction.grab = makeGrabSpring(
       simulation_.cloth(), grab.particle, grab.strength, grab.radius,
       [&](std::uint32_t first, std::uint32_t count) { return solver.positions(first, count); });
   apply(MoveHand{grab.target});
@@ -54,17 +54,17 @@ bool Session::apply(const Grab& grab) {
 }
 
 bool Session::apply(const MoveHand& move) {
-  if (!now_.hand.grab) return false;
-  moveTo(*now_.hand.grab, move.target, simulation_.solver().stepIndex(),
+  if (!now_.interaction.grab) return false;
+  moveTo(*now_.interaction.grab, move.target, simulation_.solver().stepIndex(),
          simulation_.scene().solver.simulationSteps);
-  simulation_.solver().setHand(now_.hand);
+  simulation_.solver().setInteraction(now_.interaction);
   return true;
 }
 
 bool Session::apply(const Release&) {
-  if (!now_.hand.grab) return false;
-  now_.hand.grab.reset();
-  simulation_.solver().setHand(now_.hand);
+  if (!now_.interaction.grab) return false;
+  now_.interaction.grab.reset();
+  simulation_.solver().setInteraction(now_.interaction);
   return true;
 }
 
@@ -82,10 +82,10 @@ bool Session::apply(const CutStroke& stroke) {
 
 bool Session::apply(const Blow& blow) {
   const bool blows = blow.speed != 0;
-  if (!blows && !now_.hand.jet) return false;
-  now_.hand.jet.reset();
-  if (blows) now_.hand.jet = Jet{blow.origin, blow.direction, blow.speed, blow.radius};
-  simulation_.solver().setHand(now_.hand);
+  if (!blows && !now_.interaction.jet) return false;
+  now_.interaction.jet.reset();
+  if (blows) now_.interaction.jet = Jet{blow.origin, blow.direction, blow.speed, blow.radius};
+  simulation_.solver().setInteraction(now_.interaction);
   return true;
 }
 
@@ -98,14 +98,14 @@ bool Session::apply(const MoveCollider& move) {
 
 bool Session::apply(const SwitchBackend& to) {
   simulation_.switchBackend(to.backend);
-  simulation_.solver().setHand(now_.hand);
+  simulation_.solver().setInteraction(now_.interaction);
   return true;
 }
 
 bool Session::apply(const Restart&) {
-  now_.hand = {};
+  now_.interaction = {};
   now_.colliderMoves.clear();
-  simulation_.solver().setHand(now_.hand);
+  simulation_.solver().setInteraction(now_.interaction);
   simulation_.restart();
   simulation_.solver().convertVelocities();
   now_.start = now_.number;
@@ -132,9 +132,9 @@ void Session::rebuild(const Shared<Scene>& scene) {
   Solver& solver = simulation_.solver();
   if (haveSameLattice(*before, simulation_.cloth())) {
     solver.setState(carriedOver(state, *before, simulation_.cloth()));
-    solver.setHand(now_.hand);
+    solver.setInteraction(now_.interaction);
   } else {
-    now_.hand = {};
+    now_.interaction = {};
     now_.start = now_.number;
     for (const SetPin& pin : pinsByHand(state, *before, simulation_.cloth()))
       solver.setPin(pin.particle, pin.pinned);
@@ -202,7 +202,7 @@ std::optional<Divergence> Session::stepFrame() {
   }
   if (const std::optional<Divergence> divergence = simulation_.solver().divergence()) {
     goTo(now_.number);
-    if (isHolding()) act(Release{});
+    if (isGrabbing()) act(Release{});
     if (isBlowing()) act(Blow{});
     return divergence;
   }
@@ -283,7 +283,7 @@ void Session::goTo(int frame) {
     simulation_.configure(scene);
   }
   simulation_.solver().restore(*entry.snapshot);
-  simulation_.solver().setHand(entry.frame.hand);
+  simulation_.solver().setInteraction(entry.frame.interaction);
   simulation_.touch();
   now_ = entry.frame;
 }

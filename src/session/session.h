@@ -28,11 +28,11 @@ class Session {
   [[nodiscard]] Simulation& simulation() { return simulation_; }
   [[nodiscard]] const Simulation& simulation() const { return simulation_; }
   [[nodiscard]] const Cuts& cuts() const { return simulation_.solver().cuts(); }
-  [[nodiscard]] bool isHolding() const {
-    return now_.hand.grab.has_value();
+  [[nodiscard]] bool isGrabbing() const {
+    return now_.interaction.grab.has_value();
   }  // between a Grab and its Release
-  [[nodiscard]] bool isBlowing() const { return now_.hand.jet.has_value(); }
-  [[nodiscard]] const Hand& hand() const { return now_.hand; }  // the Grab and the jet
+  [[nodiscard]] bool isBlowing() const { return now_.interaction.jet.has_value(); }
+  [[nodiscard]] const Interaction& interaction() const { return now_.interaction; }  // the Grab and the jet
   // Grows whenever simulation() gets another cloth: by an edit that rebuilds it, or by seek() across such an
   // edit.
   [[nodiscard]] std::uint64_t clothGeneration() const { return clothGeneration_; }

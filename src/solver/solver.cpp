@@ -126,8 +126,8 @@ void Solver::setAllButParticles(const StepClock& clock, Integrator integrator,
   executor_->forgetDivergence(inputs_.clock.step);
 }
 
-void Solver::setHand(const Hand& hand) {
-  inputs_.hand = hand;
+void Solver::setInteraction(const Interaction& interaction) {
+  inputs_.interaction = interaction;
   executor_->prepare(inputs_, step_);
 }
 

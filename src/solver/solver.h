@@ -1,5 +1,5 @@
-// The only place where time advances. It holds what a step depends on - scene, clock, hand, cuts, pins - and
-// the list of passes that a step is made of; an executor does them. Both executors agree in every bit.
+// The only place where time advances. It holds what a step depends on - scene, clock, interaction, cuts, pins
+// - and the list of passes that a step is made of; an executor does them. Both executors agree in every bit.
 #pragma once
 
 #include <cassert>
@@ -14,7 +14,7 @@
 #include "core/shared.h"
 #include "solver/divergence.h"
 #include "solver/executor.h"
-#include "solver/grab.h"
+#include "solver/interaction.h"
 #include "solver/state.h"
 
 namespace clothsim {
@@ -84,8 +84,8 @@ class Solver {
     return executor_->positions(first, count);
   }
 
-  // What a hand does from the next step on.
-  void setHand(const Hand& hand);
+  // What an interaction does from the next step on.
+  void setInteraction(const Interaction& interaction);
   // Springs that are cut exert no force, are not limited and not watched; triangles that lost a side meet no
   // air. Under robust self-collision particles of one cell become non-adjacent particles once the spring
   // between them is cut: they are kept at their distance at rest, like other pairs that lie near each other

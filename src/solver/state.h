@@ -24,7 +24,7 @@ struct State {
   Integrator integrator = Integrator::verlet;
   Cuts cuts;  // empty: none
   std::vector<std::uint32_t>
-      offPath;  // particles that a hand has pinned or freed, ascending: no path moves them
+      offPath;  // particles that a person has pinned or freed, ascending: no path moves them
 };
 
 // Adds a particle to State::offPath.

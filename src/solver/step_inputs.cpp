@@ -11,7 +11,7 @@ void evaluate(const StepInputs& inputs, std::uint64_t ahead, StepParameters<Real
     StepParams<Real>& params = parameters.pieces[piece];
     params = makeStepParams<Real>(scene, *inputs.cloth, piece, begin);
     params.kickTime = velocityConversionTime<Real>(scene);
-    addJet(inputs.hand, params);
+    addJet(inputs.interaction, params);
   }
   parameters.colliders.resize(inputs.colliders.size());
   for (std::size_t i = 0; i < parameters.colliders.size(); ++i)
@@ -19,7 +19,7 @@ void evaluate(const StepInputs& inputs, std::uint64_t ahead, StepParameters<Real
   parameters.pinMotions.resize(inputs.pinPaths.paths.size());
   for (std::size_t i = 0; i < parameters.pinMotions.size(); ++i)
     parameters.pinMotions[i] = makePinMotionParams<Real>(inputs.pinPaths.paths[i], end);
-  parameters.hand = makeHandParams<Real>(inputs.hand, scene, inputs.clock.step + ahead);
+  parameters.interaction = makeInteractionParams<Real>(inputs.interaction, scene, inputs.clock.step + ahead);
 }
 
 template void evaluate(const StepInputs&, std::uint64_t, StepParameters<float>&);

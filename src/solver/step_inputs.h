@@ -8,7 +8,7 @@
 #include "cloth/cuts.h"
 #include "core/shared.h"
 #include "scene/scene.h"
-#include "solver/grab.h"
+#include "solver/interaction.h"
 #include "solver/pin_paths.h"
 #include "solver/step_clock.h"
 #include "solver/step_params.h"
@@ -20,7 +20,7 @@ struct StepInputs {
   Shared<Scene> scene;
   StepClock clock;
   Integrator velocityMeaning = Integrator::verlet;  // what the velocities of the state mean
-  Hand hand;
+  Interaction interaction;
   Cuts cuts;
   std::vector<std::uint32_t> cutMasks;  // makeCutMasks(); empty: none
   std::vector<std::uint32_t> offPath;   // State::offPath
@@ -34,7 +34,7 @@ struct StepParameters {
   std::vector<StepParams<Real>> pieces;
   std::vector<ColliderParams<Real>> colliders;
   std::vector<PinMotionParams<Real>> pinMotions;
-  HandParams<Real> hand;
+  InteractionParams<Real> interaction;
 };
 // Of the step that comes after `ahead` others.
 template <class Real>

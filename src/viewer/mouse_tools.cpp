@@ -134,7 +134,7 @@ std::string MouseTools::press(const MouseContext& context, Button button, Cursor
 }
 
 void MouseTools::grab(const MouseContext& context, const Pick& pick) {
-  held_ = pick.particle;
+  grabbed_ = pick.particle;
   Grab grab;
   grab.particle = pick.particle;
   grab.target = toVec3d(pick.point);
@@ -177,7 +177,7 @@ void MouseTools::move(const MouseContext& context, Cursor cursor) {
 
 void MouseTools::release(const MouseContext& context, Button button) {
   if (doing_ == Doing::nothing || button != button_) return;
-  if (doing_ == Doing::grab && context.session.isHolding()) context.session.act(Release{});
+  if (doing_ == Doing::grab && context.session.isGrabbing()) context.session.act(Release{});
   doing_ = Doing::nothing;
   stroke_.clear();
 }
@@ -230,7 +230,7 @@ void MouseTools::cutFromTo(const MouseContext& context, const Pick& from, const 
 }
 
 void MouseTools::beforeStep(const MouseContext& context, Cursor cursor, bool blows) {
-  if (doing_ == Doing::grab && !context.session.isHolding())
+  if (doing_ == Doing::grab && !context.session.isGrabbing())
     doing_ = Doing::nothing;  // divergence has ended it
   if (doing_ == Doing::grab && targetMoved_ && !context.paused) {
     context.session.act(MoveHand{targetAt(context, cursor)});
@@ -265,7 +265,7 @@ void MouseTools::beforeStep(const MouseContext& context, Cursor cursor, bool blo
 }
 
 void MouseTools::letGo(Session& session) {
-  if (doing_ == Doing::grab && session.isHolding()) session.act(Release{});
+  if (doing_ == Doing::grab && session.isGrabbing()) session.act(Release{});
   if (doing_ != Doing::orbit && doing_ != Doing::pan) doing_ = Doing::nothing;
   stroke_.clear();
 }
@@ -273,10 +273,10 @@ void MouseTools::letGo(Session& session) {
 MouseMarks MouseTools::marks(const MouseContext& context, Cursor cursor) const {
   MouseMarks marks;
   if (doing_ == Doing::grab) {
-    marks.hand = {cursor.x, cursor.y};
-    const std::vector<Particle4> held = context.session.simulation().solver().positions(held_, 1);
-    marks.held =
-        placeInPicture(context.camera, context.width, context.height, {held[0].x, held[0].y, held[0].z});
+    marks.goal = {cursor.x, cursor.y};
+    const std::vector<Particle4> grabbed = context.session.simulation().solver().positions(grabbed_, 1);
+    marks.grabbed = placeInPicture(context.camera, context.width, context.height,
+                                   {grabbed[0].x, grabbed[0].y, grabbed[0].z});
   }
   if (blowing_) {
     marks.nozzle = {cursor.x, cursor.y};

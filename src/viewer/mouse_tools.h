@@ -25,9 +25,9 @@ struct MouseContext {
 
 // What to draw over the picture, in pixels from its top left.
 struct MouseMarks {
-  std::optional<glm::vec2> hand;    // the point that pulls
-  std::optional<glm::vec2> held;    // the particle that it pulls
-  std::optional<glm::vec2> nozzle;  // of the jet of air
+  std::optional<glm::vec2> goal;     // of the grab
+  std::optional<glm::vec2> grabbed;  // the particle that is pulled
+  std::optional<glm::vec2> nozzle;   // of the jet of air
   float nozzleRadius = 0;
   std::vector<glm::vec2> stroke;  // of a cut
 };
@@ -68,7 +68,7 @@ class MouseTools {
   glm::vec3 grabbedPoint_{0}, planeNormal_{0, 0, 1};
   Vec3d offset_;
   std::size_t collider_ = 0;
-  std::uint32_t held_ = 0;
+  std::uint32_t grabbed_ = 0;
   bool targetMoved_ = false, dragGoesOn_ = false;
   Pick lastCut_;
   std::vector<glm::vec2> stroke_;

@@ -13,15 +13,15 @@ void drawMarks(const MouseMarks& marks) {
     list.AddCircle({center.x, center.y}, radius, dark, 0, 2.2f * line);
     list.AddCircle({center.x, center.y}, radius, light, 0, line);
   };
-  if (marks.hand) ring(*marks.hand, 0.55f * em());
-  if (marks.held) {
-    const ImVec2 held{marks.held->x, marks.held->y};
-    if (marks.hand) {
-      list.AddLine({marks.hand->x, marks.hand->y}, held, dark, 2.2f * line);
-      list.AddLine({marks.hand->x, marks.hand->y}, held, light, line);
+  if (marks.goal) ring(*marks.goal, 0.55f * em());
+  if (marks.grabbed) {
+    const ImVec2 grabbed{marks.grabbed->x, marks.grabbed->y};
+    if (marks.goal) {
+      list.AddLine({marks.goal->x, marks.goal->y}, grabbed, dark, 2.2f * line);
+      list.AddLine({marks.goal->x, marks.goal->y}, grabbed, light, line);
     }
-    list.AddCircleFilled(held, 0.26f * em(), dark);
-    list.AddCircleFilled(held, 0.19f * em(), light);
+    list.AddCircleFilled(grabbed, 0.26f * em(), dark);
+    list.AddCircleFilled(grabbed, 0.19f * em(), light);
   }
   if (marks.nozzle) {
     ring(*marks.nozzle, marks.nozzleRadius);

@@ -1,4 +1,4 @@
-// The start of an implicit step: what inertia, air and hands make of a particle's displacement d, the energy 1/2 a |d|^2 - b.d with
+// The start of an implicit step: what inertia, air and grabs make of a particle's displacement d, the energy 1/2 a |d|^2 - b.d with
 // a symmetric matrix beside a where wind blows. Pins go where their paths take them.
 #include "sim/implicit/common.glsl"
 #include "sim/watch.glsl"
@@ -11,16 +11,16 @@ layout(std430, binding = ITERATES_BINDING) writeonly buffer Iterates { vec4 newI
 layout(std430, binding = AIR_BLOCKS_BINDING) writeonly buffer AirBlocks { vec4 newAirBlocks[]; };
 
 vec4 grabParticle(GridPoint p, vec3 x, float mass, vec4 rightHandSide) {
-  uint column = p.column - hand.firstColumn, row = p.row - hand.firstRow;  // before the block: beyond it
-  if (column >= hand.columns || row >= hand.rows) return rightHandSide;
-  vec4 point = texelFetch(grabbed, int(row * hand.columns + column));
-  precise vec3 goal = vec3(hand.goalX, hand.goalY, hand.goalZ) + point.xyz;
+  uint column = p.column - interaction.firstColumn, row = p.row - interaction.firstRow;  // before the block: beyond it
+  if (column >= interaction.columns || row >= interaction.rows) return rightHandSide;
+  vec4 point = texelFetch(grabbed, int(row * interaction.columns + column));
+  precise vec3 goal = vec3(interaction.goalX, interaction.goalY, interaction.goalZ) + point.xyz;
   precise vec3 towards = goal - x;
-  precise vec3 displacement = hand.reach * (hand.pull * towards + vec3(hand.pushX, hand.pushY, hand.pushZ));
+  precise vec3 displacement = interaction.reach * (interaction.pull * towards + vec3(interaction.pushX, interaction.pushY, interaction.pushZ));
   precise float displacementSquared = sumOfProducts(displacement, displacement);
-  precise float shorter = hand.largestDisplacement * inverseSquareRoot(displacementSquared);
-  if (hand.largestDisplacementSquared < displacementSquared) displacement = shorter * displacement;
-  precise float stiffness = (point.w * hand.resistance) * ((mass * step.inverseTimeStep) * step.inverseTimeStep);
+  precise float shorter = interaction.largestDisplacement * inverseSquareRoot(displacementSquared);
+  if (interaction.largestDisplacementSquared < displacementSquared) displacement = shorter * displacement;
+  precise float stiffness = (point.w * interaction.resistance) * ((mass * step.inverseTimeStep) * step.inverseTimeStep);
   precise vec3 b = rightHandSide.xyz + stiffness * displacement;
   precise float a = rightHandSide.w + stiffness;
   return vec4(b, a);

@@ -38,14 +38,14 @@ void main() {
   } else {
     vec3 displacement = texelFetch(displacements, int(i)).xyz;
     vec4 place = iterateAt(i);
-    precise vec3 held = displacement;  // without what a collider did
+    precise vec3 unpushed = displacement;  // without what a collider did
     if (hasContacts) {
       vec4 plane = contactPlaneAt(i);
       float push = contactPush(plane, texelFetch(rightHandSides, int(i)).w, displacement);
       precise float inertia = reciprocal(x.w) * step.inertia;
       precise float pushedBy = push * reciprocal(inertia);
       float depth = push > 0.0 ? pushedBy : 0.0;
-      held = displacement - depth * plane.xyz;
+      unpushed = displacement - depth * plane.xyz;
       if (depth > 0.0) {
         displacement = withFriction(plane.xyz, texelFetch(contactPlanes, int(2u * i + 1u)), depth, displacement);
         precise vec3 slid = x.xyz + displacement;
@@ -53,7 +53,7 @@ void main() {
       }
     }
     precise vec3 v = step.inverseTimeStep * displacement;
-    support = supportOf(velocityAt(i), held);
+    support = supportOf(velocityAt(i), unpushed);
     particle = Particle(place, canonical(v));
     watchVelocity(PASS_INTEGRATE, i, particle.velocity);
   }

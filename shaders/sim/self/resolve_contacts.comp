@@ -45,11 +45,11 @@ void look(uint i, uint candidate) {
     precise float along = sumOfProducts(relative, normal);
     precise vec3 slip = relative - along * normal;
     precise float slipSquared = sumOfProducts(slip, slip);
-    precise float held = self.friction * depth;
-    precise float heldSquared = held * held;
-    precise float part = held * inverseSquareRoot(slipSquared);
+    precise float reach = self.friction * depth;
+    precise float reachSquared = reach * reach;
+    precise float part = reach * inverseSquareRoot(slipSquared);
     precise float share = other.w == 0.0 ? 1.0 : 0.5;
-    precise float taken = heldSquared < slipSquared ? part : 1.0;
+    precise float taken = reachSquared < slipSquared ? part : 1.0;
     move = share * (move - taken * slip);
   }
   precise vec3 units = self.unitsPerMeter * move;

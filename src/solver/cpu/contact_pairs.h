@@ -87,11 +87,11 @@ INLINE void addPair(const View<Real>& view, std::size_t i, std::uint32_t candida
     const Real along = dot(relative, normal);
     const Vec3<Real> slip = relative - along * normal;
     const Real slipSquared = dot(slip, slip);
-    const Real held = view.params.friction * depth;
-    const Real heldSquared = held * held;
-    const Real part = held * inverseSquareRoot(slipSquared);
+    const Real reach = view.params.friction * depth;
+    const Real reachSquared = reach * reach;
+    const Real part = reach * inverseSquareRoot(slipSquared);
     const Real share = view.inverseMasses[j] == Real(0) ? Real(1) : Real(0.5);
-    move = share * (move - (heldSquared < slipSquared ? part : Real(1)) * slip);
+    move = share * (move - (reachSquared < slipSquared ? part : Real(1)) * slip);
   }
   const Real units = view.params.unitsPerMeter;
   sums.x[lane] += touches ? toFixedPoint(units * move.x) : 0;

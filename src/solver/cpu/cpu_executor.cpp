@@ -149,8 +149,8 @@ void CpuExecutor<Real>::prepare(const StepInputs& inputs, const PassList& list) 
 
 template <class Real>
 cpu::PassArguments<Real> CpuExecutor<Real>::argumentsOf(const StepInputs& inputs, std::size_t piece) {
-  const Hand& hand = inputs.hand;
-  const bool holds = hand.grab && hand.grab->piece == piece;
+  const Interaction& interaction = inputs.interaction;
+  const bool holds = interaction.grab && interaction.grab->piece == piece;
   return {parameters_.pieces[piece],
           parameters_.colliders.data(),
           distances_->data(),
@@ -160,9 +160,9 @@ cpu::PassArguments<Real> CpuExecutor<Real>::argumentsOf(const StepInputs& inputs
           particles_.inverseMasses.data(),
           restLengths_.data(),
           lists_,
-          parameters_.hand,
-          holds ? hand.grab->points->data() : nullptr,
-          hand.jet.has_value(),
+          parameters_.interaction,
+          holds ? interaction.grab->points->data() : nullptr,
+          interaction.jet.has_value(),
           inputs.cutMasks.empty() ? nullptr : inputs.cutMasks.data(),
           particles_.state,
           after_,

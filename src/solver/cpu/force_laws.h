@@ -4,7 +4,7 @@
 
 #include "core/exact_math.h"
 #include "solver/cpu/vector_clones.h"
-#include "solver/grab.h"
+#include "solver/interaction.h"
 #include "solver/step_params.h"
 
 namespace clothsim::cpu {
@@ -20,15 +20,15 @@ INLINE Vec3<Real> springForce(Vec3<Real> a, Vec3<Real> b, Real stiffness, Real r
   return scale * d;
 }
 
-// What of the jet arrives at x, 0 to 1 (solver/grab.h).
+// What of the jet arrives at x, 0 to 1 (solver/interaction.h).
 template <class Real>
-INLINE Real jetShare(const HandParams<Real>& hand, Vec3<Real> x) {
-  const Vec3<Real> direction{hand.directionX, hand.directionY, hand.directionZ};
-  const Vec3<Real> d = x - Vec3<Real>{hand.originX, hand.originY, hand.originZ};
+INLINE Real jetShare(const InteractionParams<Real>& interaction, Vec3<Real> x) {
+  const Vec3<Real> direction{interaction.directionX, interaction.directionY, interaction.directionZ};
+  const Vec3<Real> d = x - Vec3<Real>{interaction.originX, interaction.originY, interaction.originZ};
   const Real along = dot(d, direction);
   const Vec3<Real> across = d - along * direction;
-  const Real inside = Real(1) - hand.inverseRadiusSquared * dot(across, across);
-  const Real rise = hand.inverseRadius * along;
+  const Real inside = Real(1) - interaction.inverseRadiusSquared * dot(across, across);
+  const Real rise = interaction.inverseRadius * along;
   const Real risen = rise < Real(1) ? rise : Real(1);
   const Real share = (inside * inside) * risen;
   const bool reached = (inside > Real(0)) & (rise > Real(0));
@@ -49,8 +49,9 @@ struct TriangleWind {
   Real resistance;
 };
 template <bool jet, class Real>
-INLINE TriangleWind<Real> windOn(const StepParams<Real>& step, const HandParams<Real>& hand, Vec3<Real> a,
-                                 Vec3<Real> b, Vec3<Real> c, Vec3<Real> va, Vec3<Real> vb, Vec3<Real> vc) {
+INLINE TriangleWind<Real> windOn(const StepParams<Real>& step, const InteractionParams<Real>& interaction,
+                                 Vec3<Real> a, Vec3<Real> b, Vec3<Real> c, Vec3<Real> va, Vec3<Real> vb,
+                                 Vec3<Real> vc) {
   constexpr Real third = static_cast<Real>(1.0 / 3.0);
   const Vec3<Real> normal = cross(b - a, c - a);
   const Real normalSquared = dot(normal, normal);
@@ -58,9 +59,9 @@ INLINE TriangleWind<Real> windOn(const StepParams<Real>& step, const HandParams<
   Vec3<Real> air{step.airVelocityX, step.airVelocityY, step.airVelocityZ};
   Real share = 0;
   if constexpr (jet) {
-    share = jetShare(hand, third * ((a + b) + c));
-    const Real jetSpeed = share * hand.jetSpeed;
-    air = air + jetSpeed * Vec3<Real>{hand.directionX, hand.directionY, hand.directionZ};
+    share = jetShare(interaction, third * ((a + b) + c));
+    const Real jetSpeed = share * interaction.jetSpeed;
+    air = air + jetSpeed * Vec3<Real>{interaction.directionX, interaction.directionY, interaction.directionZ};
   }
   const Vec3<Real> u = air - third * ((va + vb) + vc);
   const Real speedSquared = dot(u, u);
@@ -74,13 +75,13 @@ INLINE TriangleWind<Real> windOn(const StepParams<Real>& step, const HandParams<
   Vec3<Real> force = alongNormal * normal - alongWind * u;
   if constexpr (jet) {
     const Vec3<Real> part = share * force;
-    const bool alone = hand.jetAlone != 0;
+    const bool alone = interaction.jetAlone != 0;
     force = {alone ? part.x : force.x, alone ? part.y : force.y, alone ? part.z : force.z};
   }
   Real resistance = (step.dragFactor * acrossMagnitude) * inverseNormal;
   if constexpr (jet) {
     const Real part = share * resistance;
-    resistance = hand.jetAlone != 0 ? part : resistance;
+    resistance = interaction.jetAlone != 0 ? part : resistance;
   }
   const bool degenerate = normalSquared < static_cast<Real>(0x1p-100);
   return {{degenerate ? Real(0) : force.x, degenerate ? Real(0) : force.y, degenerate ? Real(0) : force.z},

@@ -192,7 +192,7 @@ INLINE void addWind(const PassArguments<Real>& arguments, int row,
              *vz = v.z.data();
   Real *fx = arguments.forces.x.data(), *fy = arguments.forces.y.data(), *fz = arguments.forces.z.data();
   const std::uint32_t* cutMasks = arguments.cutMasks;
-  const HandParams<Real>& hand = arguments.hand;
+  const InteractionParams<Real>& interaction = arguments.interaction;
   for (std::uint32_t k = 0; k < incidentTriangles.size(); ++k) {
     const auto& [a, b, c] = incidentTriangles[k];
     const auto [firstRow, lastRow] = std::minmax({a.rows, b.rows, c.rows});
@@ -205,7 +205,7 @@ INLINE void addWind(const PassArguments<Real>& arguments, int row,
     for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
       const bool isCut = isCutAt<hasCuts>(cutMasks, i, FIRST_CUT_TRIANGLE + k);
       const auto [f, normal, r] =
-          windOn<jet>(step, hand, load(x, y, z, i + ia), load(x, y, z, i + ib), load(x, y, z, i + ic),
+          windOn<jet>(step, interaction, load(x, y, z, i + ia), load(x, y, z, i + ib), load(x, y, z, i + ic),
                       load(vx, vy, vz, i + ia), load(vx, vy, vz, i + ib), load(vx, vy, vz, i + ic));
       fx[i] = isCut ? fx[i] : fx[i] + f.x;
       fy[i] = isCut ? fy[i] : fy[i] + f.y;

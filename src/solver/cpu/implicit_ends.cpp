@@ -8,28 +8,30 @@
 namespace clothsim::cpu {
 namespace {
 
-// What a grab adds to a particle's diagonal and right-hand side (solver/grab.h).
+// What a grab adds to a particle's diagonal and right-hand side (solver/interaction.h).
 template <class Real>
 void grabParticle(const ImplicitArguments<Real>& arguments, int row, std::ptrdiff_t i, Real mass) {
   const PassArguments<Real>& pass = arguments.step;
-  const HandParams<Real>& hand = pass.hand;
+  const InteractionParams<Real>& interaction = pass.interaction;
   const bool isMesh = pass.step.isMesh != 0;  // whose block is a part of its one row
   const std::uint32_t column = static_cast<std::uint32_t>(
       i - (isMesh ? static_cast<std::ptrdiff_t>(pass.step.firstParticle) : rangeOf(pass.step, row).begin));
-  const std::uint32_t blockRow = isMesh ? 0 : static_cast<std::uint32_t>(row) - hand.firstRow,
-                      blockColumn = column - hand.firstColumn;
-  if (blockRow >= hand.rows || blockColumn >= hand.columns) return;
-  const GrabSpring::Point& point = pass.grabbed[blockRow * hand.columns + blockColumn];
-  const Vec3<Real> goal = Vec3<Real>{hand.goalX, hand.goalY, hand.goalZ} + point.offset.cast<Real>();
+  const std::uint32_t blockRow = isMesh ? 0 : static_cast<std::uint32_t>(row) - interaction.firstRow,
+                      blockColumn = column - interaction.firstColumn;
+  if (blockRow >= interaction.rows || blockColumn >= interaction.columns) return;
+  const GrabSpring::Point& point = pass.grabbed[blockRow * interaction.columns + blockColumn];
+  const Vec3<Real> goal =
+      Vec3<Real>{interaction.goalX, interaction.goalY, interaction.goalZ} + point.offset.cast<Real>();
   const Vec3<Real> towards = goal - at(pass.before.positions, i);
   Vec3<Real> displacement =
-      hand.reach * (hand.pull * towards + Vec3<Real>{hand.pushX, hand.pushY, hand.pushZ});
+      interaction.reach *
+      (interaction.pull * towards + Vec3<Real>{interaction.pushX, interaction.pushY, interaction.pushZ});
   const Real displacementSquared = dot(displacement, displacement);
-  const Real shorter = hand.largestDisplacement * inverseSquareRoot(displacementSquared);
-  if (hand.largestDisplacementSquared < displacementSquared) displacement = shorter * displacement;
+  const Real shorter = interaction.largestDisplacement * inverseSquareRoot(displacementSquared);
+  if (interaction.largestDisplacementSquared < displacementSquared) displacement = shorter * displacement;
   const Real inverseTimeStep = pass.step.inverseTimeStep;
-  const Real stiffness =
-      (static_cast<Real>(point.weight) * hand.resistance) * ((mass * inverseTimeStep) * inverseTimeStep);
+  const Real stiffness = (static_cast<Real>(point.weight) * interaction.resistance) *
+                         ((mass * inverseTimeStep) * inverseTimeStep);
   arguments.own.diagonal[static_cast<std::size_t>(i)] += stiffness;
   put(arguments.own.rightHandSide, i, at(arguments.own.rightHandSide, i) + stiffness * displacement);
 }
@@ -165,17 +167,17 @@ void end(const ImplicitArguments<Real>& arguments, int row) {
     if (pinned) continue;  // begin() has moved pins
     const Vec3<Real> v = at(pass.before.velocities, i);
     Vec3<Real> displacement = at(arguments.own.displacements, i),
-               place = at(arguments.own.iterate.positions, i), held = displacement;
+               place = at(arguments.own.iterate.positions, i), unpushed = displacement;
     if (contacts) {
       const Vec3<Real> normal = at(arguments.own.planes.normals, i);
       const Real depth = pushedOut(arguments, i, displacement);
-      held = displacement - depth * normal;
+      unpushed = displacement - depth * normal;
       if (depth > Real(0)) {
         displacement = canonical(withFriction(arguments.own.planes, i, depth, displacement));
         place = canonical(at(pass.before.positions, i) + displacement);
       }
     }
-    pass.support[i] = supportOf(pass.step, v, held);
+    pass.support[i] = supportOf(pass.step, v, unpushed);
     put(pass.after.positions, i, place);
     put(pass.after.velocities, i, canonical(pass.step.inverseTimeStep * displacement));
   }

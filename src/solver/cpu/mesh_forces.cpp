@@ -66,8 +66,8 @@ Vec3<Real> addTriangles(const PassArguments<Real>& arguments, std::uint32_t i, V
   const auto& [x, v] = arguments.before;
   for (std::uint32_t n = lists.starts[i].triangles; n < lists.starts[i + 1].triangles; ++n) {
     const auto& [a, b, c, unused] = lists.triangles[lists.numbers[n]];
-    const auto wind = windOn<jet>(arguments.step, arguments.hand, at(x, a), at(x, b), at(x, c), at(v, a),
-                                  at(v, b), at(v, c));
+    const auto wind = windOn<jet>(arguments.step, arguments.interaction, at(x, a), at(x, b), at(x, c),
+                                  at(v, a), at(v, b), at(v, c));
     f = f + wind.force;
     if (resistance != nullptr) *resistance = *resistance + outerProduct(wind.resistance, wind.normal);
   }

@@ -28,32 +28,34 @@ INLINE void integrateComponent(const StepParams<Real>& step, Range particles, Re
   }
 }
 
-// What a hand does to the particles of the row that it holds, after integrateComponent() (solver/grab.h).
+// What an interaction does to the particles of the row that it holds, after integrateComponent()
+// (solver/interaction.h).
 template <class Real>
 void pullGrabbed(const PassArguments<Real>& arguments, int row) {
-  const HandParams<Real>& hand = arguments.hand;
+  const InteractionParams<Real>& interaction = arguments.interaction;
   const bool isMesh = arguments.step.isMesh != 0;  // whose block is a part of its one row
-  const std::uint32_t blockRow = isMesh ? 0 : static_cast<std::uint32_t>(row) - hand.firstRow;
-  if (blockRow >= hand.rows) return;
+  const std::uint32_t blockRow = isMesh ? 0 : static_cast<std::uint32_t>(row) - interaction.firstRow;
+  if (blockRow >= interaction.rows) return;
   const Range particles = rangeOf(arguments.step, row);
   const std::ptrdiff_t first =
       (isMesh ? static_cast<std::ptrdiff_t>(arguments.step.firstParticle) : particles.begin) +
-      hand.firstColumn;
+      interaction.firstColumn;
   const Components<Real>& old = arguments.before.positions;
   Components<Real>&p = arguments.after.positions, &v = arguments.after.velocities;
-  for (std::uint32_t k = 0; k < hand.columns; ++k) {
+  for (std::uint32_t k = 0; k < interaction.columns; ++k) {
     const std::ptrdiff_t i = first + k;
     if (i < particles.begin || i >= particles.end) continue;
     if (arguments.inverseMasses[i] == Real(0)) continue;
-    const GrabSpring::Point& point = arguments.grabbed[blockRow * hand.columns + k];
+    const GrabSpring::Point& point = arguments.grabbed[blockRow * interaction.columns + k];
     const Vec3<Real> own{v.x[i], v.y[i], v.z[i]}, x{old.x[i], old.y[i], old.z[i]};
-    const Vec3<Real> goal = Vec3<Real>{hand.goalX, hand.goalY, hand.goalZ} + point.offset.cast<Real>();
+    const Vec3<Real> goal =
+        Vec3<Real>{interaction.goalX, interaction.goalY, interaction.goalZ} + point.offset.cast<Real>();
     const Vec3<Real> towards = goal - x;
-    Vec3<Real> pulled =
-        (hand.velocityKept * own + hand.pull * towards) + Vec3<Real>{hand.pushX, hand.pushY, hand.pushZ};
+    Vec3<Real> pulled = (interaction.velocityKept * own + interaction.pull * towards) +
+                        Vec3<Real>{interaction.pushX, interaction.pushY, interaction.pushZ};
     const Real speedSquared = dot(pulled, pulled);
-    const Real slower = hand.largestSpeed * inverseSquareRoot(speedSquared);
-    if (hand.largestSpeedSquared < speedSquared) pulled = slower * pulled;
+    const Real slower = interaction.largestSpeed * inverseSquareRoot(speedSquared);
+    if (interaction.largestSpeedSquared < speedSquared) pulled = slower * pulled;
     const Vec3<Real> newV = own + static_cast<Real>(point.weight) * (pulled - own);
     const Vec3<Real> newX = x + arguments.step.timeStep * newV;
     p.x[i] = canonical(newX.x);

@@ -8,7 +8,7 @@
 #include "cloth/cloth.h"
 #include "solver/cpu/cpu_state.h"
 #include "solver/divergence.h"
-#include "solver/grab.h"
+#include "solver/interaction.h"
 #include "solver/mesh_lists.h"
 #include "solver/pin_paths.h"
 #include "solver/step_params.h"
@@ -29,11 +29,11 @@ struct PassArguments {
   const std::uint32_t* pinPathNumbers;  // for each particle one of them + 1, or 0; null when there are none
   const Components<Real>& pinStarts;    // where the simulation began [m]; empty when there are none
   const Real* inverseMasses;
-  const Real* restLengths;           // slot-major; null when no grid needs the table
-  const MeshLists<Real>& lists;      // of all meshes; empty without any
-  const HandParams<Real>& hand;      // of this step
-  const GrabSpring::Point* grabbed;  // the block of this grid that a hand holds, row-major; null without
-  bool jet;                          // whether air blows from `hand`
+  const Real* restLengths;                     // slot-major; null when no grid needs the table
+  const MeshLists<Real>& lists;                // of all meshes; empty without any
+  const InteractionParams<Real>& interaction;  // of this step
+  const GrabSpring::Point* grabbed;  // the block of this grid that is grabbed, row-major; null without
+  bool jet;                          // whether air blows from `interaction`
   const std::uint32_t* cutMasks;     // makeCutMasks(); null without cuts
   const CpuState<Real>& before;
   CpuState<Real>& after;
@@ -47,7 +47,7 @@ template <class Real>
 PassArguments<Real> withState(const PassArguments<Real>& of, const StepParams<Real>& step,
                               const CpuState<Real>& before, Components<Real>& forces) {
   return {step,         of.colliders,     of.distances,   of.pinMotions, of.pinPathNumbers,
-          of.pinStarts, of.inverseMasses, of.restLengths, of.lists,      of.hand,
+          of.pinStarts, of.inverseMasses, of.restLengths, of.lists,      of.interaction,
           of.grabbed,   of.jet,           of.cutMasks,    before,        of.after,
           forces,       of.support,       of.watch};
 }

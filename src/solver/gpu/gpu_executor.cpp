@@ -100,7 +100,7 @@ void GpuExecutor::prepare(const StepInputs& inputs, const PassList& list) {
   if (list.contains(Pass::begin)) {
     prepareLevels(inputs);
     arrays_.addImplicit(cloth_->particleCount(), hierarchy_.vertices,
-                        inputs.scene->wind.has_value() || inputs.hand.jet.has_value(),
+                        inputs.scene->wind.has_value() || inputs.interaction.jet.has_value(),
                         !inputs.scene->colliders.empty());
   }
   for (std::vector<Programs>& ofPieces : kernels_) ofPieces.clear();
@@ -118,7 +118,7 @@ void GpuExecutor::compile(const StepInputs& inputs, const PassList& list) {
       count = kernel.passes.size();
       assert(count <= sweepLength(rest) && "passes of a kernel must be able to share a sweep");
       for (std::size_t piece = kernels_[number].size(); piece < cloth_->pieces().size(); ++piece) {
-        PassFeatures features = featuresOf(*inputs.scene, *cloth_, piece, inputs.hand, inputs.cuts);
+        PassFeatures features = featuresOf(*inputs.scene, *cloth_, piece, inputs.interaction, inputs.cuts);
         features.groupColumns = options_.groupColumns;
         features.groupRows = options_.groupRows;
         kernels_[number].push_back(library_.find(kernel, features));

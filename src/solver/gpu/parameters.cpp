@@ -21,9 +21,9 @@ bool reserve(gl::Buffer<Element>& buffer, std::vector<Element>& staged, const ch
 }  // namespace
 
 void GpuParameters::prepare(const StepInputs& inputs) {
-  const Hand& hand = inputs.hand;
-  holds_ = hand.grab.has_value();
-  grabs_ = holds_ || hand.jet.has_value();
+  const Interaction& interaction = inputs.interaction;
+  holds_ = interaction.grab.has_value();
+  grabs_ = holds_ || interaction.jet.has_value();
   changes_ = grabs_ || dependsOnTime(*inputs.scene);
   pieces_ = inputs.cloth->pieces().size();
   colliderCount_ = inputs.scene->colliders.size();
@@ -33,7 +33,7 @@ void GpuParameters::prepare(const StepInputs& inputs) {
   if (reserve(colliders_, stagedColliders_, "colliders", batch * colliderCount_))
     colliderTexture_ = gl::BufferTexture("colliders", colliders_.name(), GL_RGBA32F);
   preparePins(inputs.pinPaths, *inputs.cloth, batch);
-  if (grabs_) prepareHand(hand, batch);
+  if (grabs_) prepareInteraction(interaction, batch);
   batchSteps_ = 0;
 }
 
@@ -51,10 +51,10 @@ void GpuParameters::preparePins(const PinPaths& paths, const Cloth& cloth, std::
   pinStartTexture_ = gl::BufferTexture("start positions of pins", pinStarts_.name(), GL_RGBA32F);
 }
 
-void GpuParameters::prepareHand(const Hand& hand, std::size_t batch) {
-  reserve(hands_, stagedHands_, "hand parameters", batch);
-  if (!hand.grab || hand.grab->points == grabbedPoints_) return;
-  grabbedPoints_ = hand.grab->points;
+void GpuParameters::prepareInteraction(const Interaction& interaction, std::size_t batch) {
+  reserve(interactions_, stagedInteractions_, "hand parameters", batch);
+  if (!interaction.grab || interaction.grab->points == grabbedPoints_) return;
+  grabbedPoints_ = interaction.grab->points;
   grabbed_ =
       gl::Buffer<GrabSpring::Point>("grabbed points", std::span<const GrabSpring::Point>(*grabbedPoints_));
   grabbedTexture_ = gl::BufferTexture("grabbed points", grabbed_.name(), GL_RGBA32F);
@@ -80,12 +80,12 @@ void GpuParameters::upload(const StepInputs& inputs, std::size_t steps) {
               stagedColliders_.begin() + static_cast<std::ptrdiff_t>(k * colliderCount_));
     std::copy(evaluated_.pinMotions.begin(), evaluated_.pinMotions.end(),
               stagedPinMotions_.begin() + static_cast<std::ptrdiff_t>(k * pathCount_));
-    if (grabs_) stagedHands_[k].params = evaluated_.hand;
+    if (grabs_) stagedInteractions_[k].params = evaluated_.interaction;
   }
   steps_.upload({stagedSteps_.data(), steps * pieces_});
   colliders_.upload({stagedColliders_.data(), steps * colliderCount_});
   if (pathCount_ > 0) pinMotions_.upload({stagedPinMotions_.data(), steps * pathCount_});
-  if (grabs_) hands_.upload({stagedHands_.data(), steps});
+  if (grabs_) interactions_.upload({stagedInteractions_.data(), steps});
   batchStart_ = inputs.clock;
   batchSteps_ = steps;
 }
@@ -97,7 +97,7 @@ void GpuParameters::bind(const StepInputs& inputs, int steps) {
   colliderTexture_.bind(COLLIDERS_UNIT);
   pinStartTexture_.bind(PIN_STARTS_UNIT);
   pinMotionTexture_.bind(PIN_MOTIONS_UNIT);
-  if (grabs_) hands_.bindUniformRange(HAND_PARAMS_BINDING, step_, 1);
+  if (grabs_) interactions_.bindUniformRange(INTERACTION_PARAMS_BINDING, step_, 1);
   if (holds_) grabbedTexture_.bind(GRABBED_UNIT);
 }
 

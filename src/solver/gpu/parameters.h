@@ -1,5 +1,5 @@
 // What passes on the GPU read besides the particles: the parameters of steps, uploaded ahead for many steps
-// at once, and what a hand holds.
+// at once, and what is grabbed.
 #pragma once
 
 #include <cstdint>
@@ -25,12 +25,12 @@ class GpuParameters {
   struct alignas(256) StepSlot {  // every driver takes uniform offsets in multiples of 256
     StepParams<float> params;
   };
-  struct alignas(256) HandSlot {
-    HandParams<float> params;
+  struct alignas(256) InteractionSlot {
+    InteractionParams<float> params;
   };
 
   void preparePins(const PinPaths& paths, const Cloth& cloth, std::size_t batch);
-  void prepareHand(const Hand& hand, std::size_t batch);
+  void prepareInteraction(const Interaction& interaction, std::size_t batch);
   [[nodiscard]] bool hasStep(const StepClock& clock) const;
   void upload(const StepInputs& inputs, std::size_t steps);
 
@@ -43,11 +43,11 @@ class GpuParameters {
 
   StepParameters<float> evaluated_;
   std::vector<StepSlot> stagedSteps_;
-  std::vector<HandSlot> stagedHands_;
+  std::vector<InteractionSlot> stagedInteractions_;
   std::vector<ColliderParams<float>> stagedColliders_;
   std::vector<PinMotionParams<float>> stagedPinMotions_;
   gl::Buffer<StepSlot> steps_;  // a batch of steps, each with all grids
-  gl::Buffer<HandSlot> hands_;
+  gl::Buffer<InteractionSlot> interactions_;
   gl::Buffer<ColliderParams<float>> colliders_;    // each step with all colliders
   gl::Buffer<PinMotionParams<float>> pinMotions_;  // each step with all paths
   gl::BufferTexture colliderTexture_, pinMotionTexture_;

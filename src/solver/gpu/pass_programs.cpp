@@ -8,13 +8,13 @@
 
 namespace clothsim {
 
-PassFeatures featuresOf(const Scene& scene, const Cloth& cloth, std::size_t pieceIndex, const Hand& hand,
-                        const Cuts& cuts) {
+PassFeatures featuresOf(const Scene& scene, const Cloth& cloth, std::size_t pieceIndex,
+                        const Interaction& interaction, const Cuts& cuts) {
   const Piece& piece = cloth.pieces()[pieceIndex];
   PassFeatures features;
-  features.wind = scene.wind.has_value() || hand.jet.has_value();
-  features.jet = hand.jet.has_value();
-  features.grab = hand.grab && hand.grab->piece == pieceIndex;
+  features.wind = scene.wind.has_value() || interaction.jet.has_value();
+  features.jet = interaction.jet.has_value();
+  features.grab = interaction.grab && interaction.grab->piece == pieceIndex;
   features.cuts = !cuts.empty();
   features.particleForces = particleForcesOf(scene);
   for (const Collider& collider : scene.colliders) {

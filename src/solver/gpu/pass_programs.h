@@ -12,7 +12,7 @@
 #include "cloth/cloth.h"
 #include "gl/program.h"
 #include "scene/scene.h"
-#include "solver/grab.h"
+#include "solver/interaction.h"
 #include "solver/step_list.h"
 
 namespace clothsim {
@@ -22,7 +22,7 @@ struct PassFeatures {
        restLengthTable = false, material = false, mesh = false;
   bool limitSprings = false;                     // the strain limit of the implicit integrator
   bool contactPlanes = false;                    // colliders in the implicit integrator
-  bool grab = false, jet = false, cuts = false;  // a hand's doing
+  bool grab = false, jet = false, cuts = false;  // the interaction
   std::uint32_t colliderTypes = 0;               // one bit a COLLIDER_... of shared/shapes.h
   std::uint32_t particleForces = 0;              // one bit a FORCE_... of shared/forces.h
   std::uint32_t enabledSlots = 0;                // one bit a SpringSlot
@@ -31,7 +31,7 @@ struct PassFeatures {
 };
 
 [[nodiscard]] PassFeatures featuresOf(const Scene& scene, const Cloth& cloth, std::size_t piece,
-                                      const Hand& hand = {}, const Cuts& cuts = {});
+                                      const Interaction& interaction = {}, const Cuts& cuts = {});
 // Those that a pass looks at, all others at their defaults: what it does not look at does not make another
 // program of it.
 [[nodiscard]] PassFeatures restricted(const PassFeatures& features, Features to);

@@ -110,11 +110,11 @@ TEST_F(SessionTest, LooksBackAndGoesOnToTheBit) {
     EXPECT_EQ(session.oldestFrame(), 0);
     EXPECT_EQ(session.newestFrame(), 13);
     session.seek(4);
-    EXPECT_TRUE(session.isHolding());
+    EXPECT_TRUE(session.isGrabbing());
     EXPECT_EQ(session.simulation().solver().stepIndex(), 40u);
     session.seek(13);
     EXPECT_EQ(hashOf(session), end);
-    EXPECT_FALSE(session.isHolding());
+    EXPECT_FALSE(session.isGrabbing());
     session.seek(10);
     EXPECT_EQ(session.newestFrame(), 13) << "looking forgets nothing";
     EXPECT_FALSE(session.recording().events.empty());
@@ -181,7 +181,7 @@ TEST_F(SessionTest, GoesBackToTheLastSoundFrameAndLetsGoAfterDivergence) {
     EXPECT_TRUE(session.stepFrames(3).has_value());
     EXPECT_EQ(hashOf(session), good);
     EXPECT_EQ(session.frame(), 3);
-    EXPECT_FALSE(session.isHolding());
+    EXPECT_FALSE(session.isGrabbing());
     session.undo();
     stepSoundly(session, 2);
     Replay replay(session.recording(), backend, makeSolver);

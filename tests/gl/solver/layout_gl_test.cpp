@@ -133,22 +133,29 @@ TEST_F(LayoutTest, OfWhatMeshesAddToStepParamsIsTheDrivers) {
 }
 
 TEST_F(LayoutTest, OfHandParamsIsTheDrivers) {
-  using HandBlock = HandParams<float>;
+  using InteractionBlock = InteractionParams<float>;
   PassFeatures features = allFeatures();
   features.grab = features.jet = features.cuts = true;
   PassLibrary library;
   const Programs programs(library, features);
   const std::vector<std::pair<std::string, std::size_t>> members = {
-      MEMBER(HandBlock, "hand.", goalX),         MEMBER(HandBlock, "hand.", velocityKept),
-      MEMBER(HandBlock, "hand.", pushX),         MEMBER(HandBlock, "hand.", pull),
-      MEMBER(HandBlock, "hand.", firstColumn),   MEMBER(HandBlock, "hand.", rows),
-      MEMBER(HandBlock, "hand.", largestSpeed),  MEMBER(HandBlock, "hand.", largestSpeedSquared),
-      MEMBER(HandBlock, "hand.", inverseRadius), MEMBER(HandBlock, "hand.", inverseRadiusSquared),
-      MEMBER(HandBlock, "hand.", originX),       MEMBER(HandBlock, "hand.", jetSpeed),
-      MEMBER(HandBlock, "hand.", directionX),    MEMBER(HandBlock, "hand.", jetAlone)};
+      MEMBER(InteractionBlock, "hand.", goalX),
+      MEMBER(InteractionBlock, "hand.", velocityKept),
+      MEMBER(InteractionBlock, "hand.", pushX),
+      MEMBER(InteractionBlock, "hand.", pull),
+      MEMBER(InteractionBlock, "hand.", firstColumn),
+      MEMBER(InteractionBlock, "hand.", rows),
+      MEMBER(InteractionBlock, "hand.", largestSpeed),
+      MEMBER(InteractionBlock, "hand.", largestSpeedSquared),
+      MEMBER(InteractionBlock, "hand.", inverseRadius),
+      MEMBER(InteractionBlock, "hand.", inverseRadiusSquared),
+      MEMBER(InteractionBlock, "hand.", originX),
+      MEMBER(InteractionBlock, "hand.", jetSpeed),
+      MEMBER(InteractionBlock, "hand.", directionX),
+      MEMBER(InteractionBlock, "hand.", jetAlone)};
   for (const auto& [name, offset] : members)
     EXPECT_EQ(uniformOffset(*programs.step, name), static_cast<GLint>(offset)) << name;
-  EXPECT_EQ(blockSize(*programs.step, "HandBlock"), static_cast<GLint>(sizeof(HandBlock)));
+  EXPECT_EQ(blockSize(*programs.step, "InteractionBlock"), static_cast<GLint>(sizeof(InteractionBlock)));
   EXPECT_EQ(sizeof(GrabSpring::Point), 16u) << "a texel";
 }
 
@@ -163,9 +170,9 @@ TEST_F(LayoutTest, OfWhatTheImplicitIntegratorSharesIsTheDrivers) {
   EXPECT_EQ(uniformOffset(programOf(library, {Pass::end}, features), "step.supportScale"),
             static_cast<GLint>(offsetof(Step, supportScale)));
   EXPECT_EQ(uniformOffset(begin, "hand.resistance"),
-            static_cast<GLint>(offsetof(HandParams<float>, resistance)));
+            static_cast<GLint>(offsetof(InteractionParams<float>, resistance)));
   EXPECT_EQ(uniformOffset(begin, "hand.largestDisplacementSquared"),
-            static_cast<GLint>(offsetof(HandParams<float>, largestDisplacementSquared)));
+            static_cast<GLint>(offsetof(InteractionParams<float>, largestDisplacementSquared)));
   EXPECT_EQ(uniformOffset(programOf(library, {Pass::multiply}, features), "step.limitStiffness"),
             static_cast<GLint>(offsetof(Step, limitStiffness)));
 

@@ -11,7 +11,7 @@
 #include "solver/cpu/cpu_solver.h"
 #include "support/compared_scenes.h"
 #include "support/elastic_energy.h"
-#include "support/hands.h"
+#include "support/grabs.h"
 #include "support/material_sheet.h"
 
 namespace clothsim {
@@ -339,7 +339,7 @@ TEST(ImplicitStep, BringsAHeldParticleNearItsGoal) {
   for (const double strength : {1e4, 1e12}) {
     CpuSolver<float> solver(cloth, scene);
     const Vec3d target{0.5, 0.3, 0.4};
-    solver.setHand(test::handTo(solver, cloth, scene, 4, target, strength));
+    solver.setInteraction(test::grabTo(solver, cloth, scene, 4, target, strength));
     solver.step(90);
     EXPECT_EQ(solver.divergence(), std::nullopt) << strength;
     // A soft hand gives way.

@@ -253,15 +253,15 @@ TEST(MeshInAHand, FollowsItWithWhatLiesNearAtRest) {
   const Cloth cloth(scene);
   CpuSolver<float> solver(cloth, scene);
   const auto read = [&](std::uint32_t first, std::uint32_t count) { return solver.positions(first, count); };
-  Hand hand;
-  hand.grab = makeGrabSpring(cloth, 80, 1e4, 0.12, read);
-  const Vec3d from = hand.grab->from;
-  moveTo(*hand.grab, from + Vec3d{0, 0, 0.3}, 0, 100);
-  solver.setHand(hand);
+  Interaction interaction;
+  interaction.grab = makeGrabSpring(cloth, 80, 1e4, 0.12, read);
+  const Vec3d from = interaction.grab->from;
+  moveTo(*interaction.grab, from + Vec3d{0, 0, 0.3}, 0, 100);
+  solver.setInteraction(interaction);
   solver.step(400);
   EXPECT_NEAR(static_cast<double>(solver.position(80).z), 0.3, 0.05);
   EXPECT_GT(static_cast<double>(solver.position(81).z), 0.2) << "a neighbour comes along";
-  EXPECT_EQ((*hand.grab->points)[80 - hand.grab->firstColumn].weight, 1.0f);
+  EXPECT_EQ((*interaction.grab->points)[80 - interaction.grab->firstColumn].weight, 1.0f);
 }
 
 TEST(ParticlesLetGo, WeighWhatTheyDidBeforeTheyWerePinned) {

@@ -8,7 +8,7 @@
 #include "solver/cpu/implicit_passes.h"
 #include "solver/cpu/rows.h"
 #include "support/elastic_energy.h"
-#include "support/hands.h"
+#include "support/grabs.h"
 #include "support/material_sheet.h"
 #include "support/mesh_sheet.h"
 #include "unit/validation/row.h"
@@ -85,7 +85,7 @@ class Sheet {
                                           inverseMasses_.data(),
                                           restLengths_.data(),
                                           lists_,
-                                          hand_,
+                                          interaction_,
                                           nullptr,
                                           false,
                                           cutMasks_.empty() ? nullptr : cutMasks_.data(),
@@ -134,7 +134,7 @@ class Sheet {
   std::vector<double> inverseMasses_{cloth_.inverseMasses().begin(), cloth_.inverseMasses().end()};
   std::vector<double> restLengths_;
   MeshLists<double> lists_;
-  HandParams<double> hand_{};
+  InteractionParams<double> interaction_{};
   std::vector<std::uint32_t> cutMasks_;
   CpuState<double> state_;
   WatchRow watch_ = soundWatchRow();

@@ -1,4 +1,4 @@
-#include "solver/grab.h"
+#include "solver/interaction.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 namespace clothsim {
 namespace {
 
-// No hand is faster [m/s]. A goal far away is approached at this speed instead of in one step, which would
+// No grab is faster [m/s]. A goal far away is approached at this speed instead of in one step, which would
 // tear the particle from its neighbours.
 constexpr double LARGEST_HAND_SPEED = 30;
 
@@ -76,7 +76,7 @@ void grabOfMesh(const Cloth& cloth, std::uint32_t particle, double radius, const
 }
 
 template <class Real>
-void putGrabSpring(const GrabSpring& grab, double h, std::uint64_t step, HandParams<Real>& params) {
+void putGrabSpring(const GrabSpring& grab, double h, std::uint64_t step, InteractionParams<Real>& params) {
   const double w = std::sqrt(grab.strength);
   const double resistance = 2 * h * w + h * h * grab.strength;
   const double kept = 1 / (1 + resistance);
@@ -104,7 +104,7 @@ void putGrabSpring(const GrabSpring& grab, double h, std::uint64_t step, HandPar
 }
 
 template <class Real>
-void putJet(const Jet& jet, bool alone, HandParams<Real>& params) {
+void putJet(const Jet& jet, bool alone, InteractionParams<Real>& params) {
   const Vec3d direction = unit(jet.direction);
   params.inverseRadius = real<Real>(1 / jet.radius);
   params.inverseRadiusSquared = real<Real>(1 / (jet.radius * jet.radius));
@@ -169,25 +169,26 @@ void moveTo(GrabSpring& grab, Vec3d target, std::uint64_t step, int steps) {
 }
 
 template <class Real>
-HandParams<Real> makeHandParams(const Hand& hand, const Scene& scene, std::uint64_t step) {
-  HandParams<Real> params{};
-  if (hand.grab) putGrabSpring(*hand.grab, stepLength(scene.solver), step, params);
-  if (hand.jet) putJet(*hand.jet, !scene.wind, params);
+InteractionParams<Real> makeInteractionParams(const Interaction& interaction, const Scene& scene,
+                                              std::uint64_t step) {
+  InteractionParams<Real> params{};
+  if (interaction.grab) putGrabSpring(*interaction.grab, stepLength(scene.solver), step, params);
+  if (interaction.jet) putJet(*interaction.jet, !scene.wind, params);
   return params;
 }
 
 template <class Real>
-void addJet(const Hand& hand, shared::StepParams<Real>& params) {
-  if (!hand.jet || params.hasWind != 0) return;
+void addJet(const Interaction& interaction, shared::StepParams<Real>& params) {
+  if (!interaction.jet || params.hasWind != 0) return;
   const Wind usual;
   params.hasWind = 1;
   params.dragFactor = static_cast<Real>(usual.airDensity * usual.drag / 12);
   params.liftFactor = static_cast<Real>(usual.airDensity * usual.lift / 12);
 }
 
-template HandParams<float> makeHandParams(const Hand&, const Scene&, std::uint64_t);
-template HandParams<double> makeHandParams(const Hand&, const Scene&, std::uint64_t);
-template void addJet(const Hand&, shared::StepParams<float>&);
-template void addJet(const Hand&, shared::StepParams<double>&);
+template InteractionParams<float> makeInteractionParams(const Interaction&, const Scene&, std::uint64_t);
+template InteractionParams<double> makeInteractionParams(const Interaction&, const Scene&, std::uint64_t);
+template void addJet(const Interaction&, shared::StepParams<float>&);
+template void addJet(const Interaction&, shared::StepParams<double>&);
 
 }  // namespace clothsim

@@ -1,5 +1,5 @@
 // Hands on the cloth, on the CPU: what is held, pinned, cut and blown at does what a person expects.
-#include "solver/grab.h"
+#include "solver/interaction.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "measure/measure_contacts.h"
 #include "solver/cpu/cpu_solver.h"
 #include "support/compared_scenes.h"
-#include "support/hands.h"
+#include "support/grabs.h"
 
 namespace clothsim {
 namespace {
@@ -21,13 +21,13 @@ Vec3d placeIn(const State& state, std::uint32_t particle) {
 }
 
 // 9 x 9 points hanging from two corners; column, row.
-class HandTest : public testing::Test {
+class InteractionTest : public testing::Test {
  protected:
   Scene scene_ = test::vertical(test::sheetScene(9));
   static constexpr std::uint32_t low = 4;  // the middle of the lower edge
 };
 
-TEST_F(HandTest, BringsTheHeldParticleToItsTargetAtAnyStrength) {
+TEST_F(InteractionTest, BringsTheHeldParticleToItsTargetAtAnyStrength) {
   for (const double strength : {1e4, 1e12, 1e300}) {
     for (const int steps : {1, 30}) {
       Scene scene = scene_;
@@ -36,7 +36,7 @@ TEST_F(HandTest, BringsTheHeldParticleToItsTargetAtAnyStrength) {
       const Cloth cloth(scene);
       CpuSolver<float> solver(cloth, scene);
       const Vec3d target{0.5, 0.3, 0.4};
-      solver.setHand(test::handTo(solver, cloth, scene, low, target, strength));
+      solver.setInteraction(test::grabTo(solver, cloth, scene, low, target, strength));
       solver.step(90 * steps);
       EXPECT_EQ(solver.divergence(), std::nullopt) << strength << ", " << steps;
       // A soft hand gives way: it needs g / w^2 at least.
@@ -46,94 +46,94 @@ TEST_F(HandTest, BringsTheHeldParticleToItsTargetAtAnyStrength) {
   }
 }
 
-TEST_F(HandTest, OfNoStrengthDoesNothingToSpeakOf) {
+TEST_F(InteractionTest, OfNoStrengthDoesNothingToSpeakOf) {
   const Cloth cloth(scene_);
   CpuSolver<float> held(cloth, scene_), free(cloth, scene_);
-  held.setHand(test::handTo(held, cloth, scene_, low, {0.5, 0.3, 1}, 1e-12));
+  held.setInteraction(test::grabTo(held, cloth, scene_, low, {0.5, 0.3, 1}, 1e-12));
   held.step(300);
   free.step(300);
   EXPECT_LT(distance(placeIn(held.state(), low), placeIn(free.state(), low)), 1e-6);
 }
 
 // x = (1 + w t) exp(-w t) from the goal, for a particle that nothing else moves.
-TEST_F(HandTest, IsCriticallyDamped) {
+TEST_F(InteractionTest, IsCriticallyDamped) {
   const Scene scene = test::springScene(1, 1e-9, 1, 1e-5, Integrator::euler);
   const Cloth cloth(scene);
   CpuSolver<double> solver(cloth, scene);
   constexpr double w = 10, t = 0.2;
-  Hand hand = test::handTo(solver, cloth, scene, 1, {0, 0, 0}, w * w);
-  const Vec3d start = hand.grab->from;
-  hand.grab->from = hand.grab->to = start + Vec3d{0.2, 0, 0};
-  solver.setHand(hand);
+  Interaction interaction = test::grabTo(solver, cloth, scene, 1, {0, 0, 0}, w * w);
+  const Vec3d start = interaction.grab->from;
+  interaction.grab->from = interaction.grab->to = start + Vec3d{0.2, 0, 0};
+  solver.setInteraction(interaction);
   solver.step(20'000);
   EXPECT_NEAR(0.2 - solver.position(1).x, 0.2 * (1 + w * t) * std::exp(-w * t), 0.2 * 2e-4);
 }
 
-TEST_F(HandTest, IsNotLeftBehindByAHandInMotion) {
+TEST_F(InteractionTest, IsNotLeftBehindByAHandInMotion) {
   const Scene scene = test::springScene(1, 1e-9, 1, 1e-3, Integrator::euler);
   const Cloth cloth(scene);
   CpuSolver<double> solver(cloth, scene);
-  Hand hand = test::handTo(solver, cloth, scene, 1, {0, 0, 0}, 1e4);
-  hand.grab->to = hand.grab->from + Vec3d{1, 0, 0};
-  hand.grab->steps = 1000;
-  solver.setHand(hand);
+  Interaction interaction = test::grabTo(solver, cloth, scene, 1, {0, 0, 0}, 1e4);
+  interaction.grab->to = interaction.grab->from + Vec3d{1, 0, 0};
+  interaction.grab->steps = 1000;
+  solver.setInteraction(interaction);
   solver.step(500);
   EXPECT_NEAR(solver.position(1).x, 0.5, 1e-3);
 }
 
-TEST_F(HandTest, TakesTheNeighboursAlongEverSofterWithTheDistance) {
+TEST_F(InteractionTest, TakesTheNeighboursAlongEverSofterWithTheDistance) {
   const Cloth cloth(scene_);
   CpuSolver<float> solver(cloth, scene_);
-  const Hand hand = test::handTo(solver, cloth, scene_, 4 * 9 + 4, {0.5, 0.5, 0.3}, 1e4, 0.3);
-  EXPECT_EQ(hand.grab->columns, 5u);
-  EXPECT_EQ(hand.grab->rows, 5u);
-  const auto& points = *hand.grab->points;
+  const Interaction interaction = test::grabTo(solver, cloth, scene_, 4 * 9 + 4, {0.5, 0.5, 0.3}, 1e4, 0.3);
+  EXPECT_EQ(interaction.grab->columns, 5u);
+  EXPECT_EQ(interaction.grab->rows, 5u);
+  const auto& points = *interaction.grab->points;
   EXPECT_EQ(points[12].weight, 1);
   EXPECT_EQ(points[12].offset, Vec3f());
   EXPECT_GT(points[13].weight, points[14].weight);
   EXPECT_EQ(points[0].weight, 0) << "beyond the radius";
   EXPECT_NEAR(points[13].offset.x, 0.125, 1e-6);
   CpuSolver<float> alone(cloth, scene_);
-  alone.setHand(test::handTo(alone, cloth, scene_, 4 * 9 + 4, {0.5, 0.5, 0.3}, 1e4, 0));
-  solver.setHand(hand);
+  alone.setInteraction(test::grabTo(alone, cloth, scene_, 4 * 9 + 4, {0.5, 0.5, 0.3}, 1e4, 0));
+  solver.setInteraction(interaction);
   solver.step(60);
   alone.step(60);
   EXPECT_GT(solver.position(4 * 9 + 5).z, alone.position(4 * 9 + 5).z + 0.02f);
 }
 
-TEST_F(HandTest, IsNeverFasterThanAHand) {
+TEST_F(InteractionTest, IsNeverFasterThanAHand) {
   const Cloth cloth(scene_);
   CpuSolver<float> solver(cloth, scene_);
-  Hand hand = test::handTo(solver, cloth, scene_, low, {0.5, -40, 0}, 1e12);
-  hand.grab->steps = 1;
-  solver.setHand(hand);
+  Interaction interaction = test::grabTo(solver, cloth, scene_, low, {0.5, -40, 0}, 1e12);
+  interaction.grab->steps = 1;
+  solver.setInteraction(interaction);
   solver.step(1);
   const Vec3f v = solver.velocity(low);
   EXPECT_NEAR(std::sqrt(dot(v, v)), 30, 1e-3);
 }
 
-TEST_F(HandTest, CannotMoveAPin) {
+TEST_F(InteractionTest, CannotMoveAPin) {
   const Cloth cloth(scene_);
   CpuSolver<float> solver(cloth, scene_);
   const std::uint32_t pin = 8 * 9;
   const Vec3f before = solver.position(pin);
-  solver.setHand(test::handTo(solver, cloth, scene_, pin, {3, 3, 3}, 1e6, 0.3));
+  solver.setInteraction(test::grabTo(solver, cloth, scene_, pin, {3, 3, 3}, 1e6, 0.3));
   solver.step(30);
   EXPECT_EQ(solver.position(pin), before);
 }
 
-TEST_F(HandTest, LeavesTheLastWordToColliders) {
+TEST_F(InteractionTest, LeavesTheLastWordToColliders) {
   Scene scene = scene_;
   scene.colliders = {
       Sphere{.origin = {0.5, 0.2, 0.5}, .radius = 0.2, .friction = 0.5, .motion = std::nullopt}};
   const Cloth cloth(scene);
   CpuSolver<float> solver(cloth, scene);
-  solver.setHand(test::handTo(solver, cloth, scene, low, {0.5, 0.2, 0.5}, 1e12));
+  solver.setInteraction(test::grabTo(solver, cloth, scene, low, {0.5, 0.2, 0.5}, 1e12));
   solver.step(300);
   EXPECT_GE(distance(placeIn(solver.state(), low), {0.5, 0.2, 0.5}), 0.2 - 1e-6);
 }
 
-TEST_F(HandTest, PinsAParticleWhereItIsAndGivesTheMassBack) {
+TEST_F(InteractionTest, PinsAParticleWhereItIsAndGivesTheMassBack) {
   const Cloth cloth(scene_);
   CpuSolver<float> solver(cloth, scene_);
   solver.step(60);
@@ -156,7 +156,7 @@ TEST_F(HandTest, PinsAParticleWhereItIsAndGivesTheMassBack) {
   EXPECT_LT(solver.position(8 * 9).y, 0.999f) << "falls";
 }
 
-TEST_F(HandTest, TakesPinsOffTheirPathForGood) {
+TEST_F(InteractionTest, TakesPinsOffTheirPathForGood) {
   Scene scene = test::withPinMotion(scene_);
   const Cloth cloth(scene);
   CpuSolver<float> solver(cloth, scene);
@@ -179,7 +179,7 @@ TEST_F(HandTest, TakesPinsOffTheirPathForGood) {
 }
 
 // The lower part of a sheet cut from side to side: free fall.
-TEST_F(HandTest, LetsWhatIsCutOffFallFreely) {
+TEST_F(InteractionTest, LetsWhatIsCutOffFallFreely) {
   for (const bool limited : {false, true}) {
     Scene scene = limited ? test::withLimiter(scene_) : scene_;
     scene.cloths[0].damping = 0;
@@ -200,7 +200,7 @@ TEST_F(HandTest, LetsWhatIsCutOffFallFreely) {
 }
 
 // Forces on a torn, crumpled sheet against a sum over the list of what is left.
-TEST_F(HandTest, FeelsNoForceOfCutSprings) {
+TEST_F(InteractionTest, FeelsNoForceOfCutSprings) {
   const Cloth cloth(scene_);
   CpuSolver<double> solver(cloth, scene_);
   for (std::uint32_t i = 0; i < cloth.particleCount(); ++i) {
@@ -232,7 +232,7 @@ TEST_F(HandTest, FeelsNoForceOfCutSprings) {
 }
 
 // Air moves triangles, not holes: a cloth all of whose triangles are gone feels none.
-TEST_F(HandTest, FeelsNoAirWhereTrianglesAreGone) {
+TEST_F(InteractionTest, FeelsNoAirWhereTrianglesAreGone) {
   Scene scene = test::withWind(scene_);
   scene.airResistance = 0;
   for (bool* kind :
@@ -251,7 +251,7 @@ TEST_F(HandTest, FeelsNoAirWhereTrianglesAreGone) {
 }
 
 // Both edges of a cut that is closed by hand: neighbours across it are non-adjacent particles now.
-TEST_F(HandTest, KeepsTheTwoEdgesOfACutApart) {
+TEST_F(InteractionTest, KeepsTheTwoEdgesOfACutApart) {
   Scene scene = test::withLimiter(scene_);
   scene.solver.selfCollision = SelfCollision::robust;
   scene.gravity = {0, 0, 0};
@@ -272,53 +272,53 @@ TEST_F(HandTest, KeepsTheTwoEdgesOfACutApart) {
 }
 
 // Faster than robust self-collision can see: the numbers of a run say so.
-TEST_F(HandTest, IsCountedWhenItIsTooFastForContacts) {
+TEST_F(InteractionTest, IsCountedWhenItIsTooFastForContacts) {
   Scene scene = test::layeredSheets(9, SelfCollision::robust);
   scene.solver.simulationSteps = 5;
   const Cloth cloth(scene);
   CpuSolver<float> calm(cloth, scene), hasty(cloth, scene);
-  hasty.setHand(test::handTo(hasty, cloth, scene, 81 + 40, {0.5, -3, 0.5}, 1e9));
+  hasty.setInteraction(test::grabTo(hasty, cloth, scene, 81 + 40, {0.5, -3, 0.5}, 1e9));
   calm.step(20);
   hasty.step(20);
   EXPECT_EQ(calm.contactCounts().fastSteps, 0u);
   EXPECT_GT(hasty.contactCounts().fastSteps, 0u);
 }
 
-TEST_F(HandTest, BlowsInFrontOfItsOriginAndNowhereElse) {
+TEST_F(InteractionTest, BlowsInFrontOfItsOriginAndNowhereElse) {
   Scene scene = scene_;
   scene.gravity = {0, 0, 0};
   const Cloth cloth(scene);
   for (const double side : {1.0, -1.0}) {
     CpuSolver<double> solver(cloth, scene);
-    Hand hand;
-    hand.jet = Jet{{0.5, 0.5, -1}, {0, 0, side}, 10, 0.3};
-    solver.setHand(hand);
+    Interaction interaction;
+    interaction.jet = Jet{{0.5, 0.5, -1}, {0, 0, side}, 10, 0.3};
+    solver.setInteraction(interaction);
     const std::vector<Vec3d> forces = solver.forces();
     EXPECT_EQ(forces[0], Vec3d()) << "out of the jet";
     const bool inFront = side > 0;
     EXPECT_EQ(forces[4 * 9 + 4].z > 0.5, inFront);
     EXPECT_EQ(forces[4 * 9 + 4] == Vec3d(), !inFront);
-    hand.jet = Jet{{0.5, 0.5, -10}, {0, 0, 2}, 10, 3};
-    solver.setHand(hand);
+    interaction.jet = Jet{{0.5, 0.5, -10}, {0, 0, 2}, 10, 3};
+    solver.setInteraction(interaction);
     // Nearly even: rho C_d / 2 A v^2 of a cell, 0.6 * 1.2 * 0.125^2 * 100 N.
     EXPECT_NEAR(solver.forces()[4 * 9 + 4].z, 1.125, 0.01);
   }
 }
 
-TEST_F(HandTest, BlowsOnTopOfTheWind) {
+TEST_F(InteractionTest, BlowsOnTopOfTheWind) {
   Scene scene = test::withWind(scene_);
   const Cloth cloth(scene);
   CpuSolver<double> solver(cloth, scene);
   const std::vector<Vec3d> before = solver.forces();
-  Hand hand;
-  hand.jet = Jet{{0.5, 0.5, -1}, {0, 0, 1}, 10, 0.3};
-  solver.setHand(hand);
+  Interaction interaction;
+  interaction.jet = Jet{{0.5, 0.5, -1}, {0, 0, 1}, 10, 0.3};
+  solver.setInteraction(interaction);
   const std::vector<Vec3d> with = solver.forces();
   EXPECT_EQ(with[0], before[0]);
   EXPECT_GT(with[4 * 9 + 4].z, 2 * before[4 * 9 + 4].z);
 }
 
-TEST_F(HandTest, GoesOnFromASnapshotToTheBit) {
+TEST_F(InteractionTest, GoesOnFromASnapshotToTheBit) {
   const Scene scene = test::withPinMotion(test::withWind(scene_));
   const Cloth cloth(scene);
   CpuSolver<float> solver(cloth, scene);

@@ -1,6 +1,6 @@
-// What a hand does to the cloth in a step (src/solver/grab.h), evaluated on the host and handed to both
-// backends as the same bits. Included by GLSL (std140) and by C++, where `real` is float for the bitwise twin
-// and double for tests of the physics. Rows of 16 bytes.
+// What an interaction does to the cloth in a step (src/solver/interaction.h), evaluated on the host and
+// handed to both backends as the same bits. Included by GLSL (std140) and by C++, where `real` is float for
+// the bitwise twin and double for tests of the physics. Rows of 16 bytes.
 #ifdef __cplusplus
 #pragma once
 #include <cstdint>
@@ -14,9 +14,9 @@ using uint = std::uint32_t;
 #define real float
 #endif
 
-#define HAND_PARAMS_BINDING 3  // uniform block
-#define GRABBED_UNIT 16    // buffer read as texels, a texel a held grid point: offset from the goal, weight
-#define CUT_MASKS_UNIT 17  // an unsigned number a particle: makeCutMasks() of src/cloth/cuts.h
+#define INTERACTION_PARAMS_BINDING 3  // uniform block
+#define GRABBED_UNIT 16  // buffer read as texels, a texel a grabbed grid point: offset from the goal, weight
+#define CUT_MASKS_UNIT 17      // an unsigned number a particle: makeCutMasks() of src/cloth/cuts.h
 #define FIRST_CUT_TRIANGLE 12  // the bit of the first incident triangle in a cut mask
 
 // The springs, as bits of a cut mask, of which none may be cut for a line of three particles to bend: the
@@ -29,23 +29,23 @@ using uint = std::uint32_t;
 #define BENDING_COLUMN 0x202u
 #define BENDING_LOWER 0x800u
 
-SHARED_STRUCT HandParams {
-  real goalX;  // where the hand is at the end of the step [m]
+SHARED_STRUCT InteractionParams {
+  real goalX;  // where the grab is at the end of the step [m]
   real goalY;
   real goalZ;
   real velocityKept;  // A of v_new = A v' + B (goal - x) + push
 
-  real pushX;  // what the hand's own velocity adds [m/s]
+  real pushX;  // what the grab's own velocity adds [m/s]
   real pushY;
   real pushZ;
   real pull;  // B [1/s]
 
-  uint firstColumn;  // the block of grid points that is held
+  uint firstColumn;  // the block of grid points that is grabbed
   uint firstRow;
   uint columns;
   uint rows;
 
-  real largestSpeed;         // to which a hand pulls [m/s],
+  real largestSpeed;         // to which a grab pulls [m/s],
   real largestSpeedSquared;  // squared
   real inverseRadius;        // of the jet [1/m]
   real inverseRadiusSquared;
@@ -60,7 +60,7 @@ SHARED_STRUCT HandParams {
   real directionZ;
   uint jetAlone;  // whether the air rests but for the jet, and acts in it alone
 
-  // Of `implicit`: the hold is a spring of the stiffness resistance m / h^2 to the place that is
+  // Of `implicit`: the grab is a spring of the stiffness resistance m / h^2 to the place that is
   // reach (B (goal - x) + push) from x.
   real resistance;           // 2 h w + h^2 w^2
   real reach;                // h (1 + resistance) / resistance [s]

@@ -8,33 +8,33 @@
 #include "solver/cpu/cpu_solver.h"
 #include "solver/gpu/gpu_solver.h"
 #include "support/compared_scenes.h"
-#include "support/hands.h"
+#include "support/grabs.h"
 
 namespace clothsim {
 namespace {
 
-using HandOnGpuTest = GlTest;
+using InteractionOnGpuTest = GlTest;
 
 // Grabs with neighbours, moves, cuts, blows, pins and lets go, some steps each.
 void playWith(Solver& solver, const Cloth& cloth, const Scene& scene) {
   const Piece& piece = cloth.pieces()[0];
   const std::uint32_t middle = piece.particle(piece.columns / 2, piece.rows / 2);
   solver.step(20);
-  Hand hand = test::handTo(solver, cloth, scene, middle, {0.6, 0.7, 0.5}, 1e5, 0.25);
-  solver.setHand(hand);
+  Interaction interaction = test::grabTo(solver, cloth, scene, middle, {0.6, 0.7, 0.5}, 1e5, 0.25);
+  solver.setInteraction(interaction);
   solver.step(70);  // more than a batch
   solver.setCuts(test::someCuts(cloth));
   solver.step(20);
-  hand.jet = Jet{{0.3, 0.4, -1}, {0.1, 0.2, 1}, 8, 0.4};
-  solver.setHand(hand);
+  interaction.jet = Jet{{0.3, 0.4, -1}, {0.1, 0.2, 1}, 8, 0.4};
+  solver.setInteraction(interaction);
   solver.setPin(piece.particle(1, 1), true);
   solver.step(40);
   solver.setPin(piece.particle(1, 1), false);
-  moveTo(*hand.grab, {0.2, 0.9, -0.3}, solver.stepIndex(), 30);
-  solver.setHand(hand);
+  moveTo(*interaction.grab, {0.2, 0.9, -0.3}, solver.stepIndex(), 30);
+  solver.setInteraction(interaction);
   solver.setCuts(test::cutAcross(cloth, piece.rows / 2 - 0.5));
   solver.step(40);
-  solver.setHand({});
+  solver.setInteraction({});
   solver.step(30);
 }
 
@@ -53,7 +53,7 @@ Scene everything() {
 }
 Scene layers() { return test::layeredSheets(14, SelfCollision::robust); }
 
-TEST_F(HandOnGpuTest, DoesWhatItDoesOnTheCpuToTheBit) {
+TEST_F(InteractionOnGpuTest, DoesWhatItDoesOnTheCpuToTheBit) {
   for (const auto& [name, scene] :
        {test::NamedScene{"everything", everything()}, test::NamedScene{"robust self-collision", layers()},
         test::NamedScene{"thick averaged self-collision",
@@ -70,7 +70,7 @@ TEST_F(HandOnGpuTest, DoesWhatItDoesOnTheCpuToTheBit) {
   }
 }
 
-TEST_F(HandOnGpuTest, GivesTheSameBitsFusedAndPassByPass) {
+TEST_F(InteractionOnGpuTest, GivesTheSameBitsFusedAndPassByPass) {
   for (const Scene& scene : {everything(), layers()}) {
     const std::uint64_t fused = stateHash(playedOn<CpuSolver<float>>(scene));
     EXPECT_EQ(stateHash(playedOn<CpuSolver<float>>(scene, false)), fused);
@@ -80,7 +80,7 @@ TEST_F(HandOnGpuTest, GivesTheSameBitsFusedAndPassByPass) {
   }
 }
 
-TEST_F(HandOnGpuTest, IsStableAtAnyStrengthOnBothBackends) {
+TEST_F(InteractionOnGpuTest, IsStableAtAnyStrengthOnBothBackends) {
   for (const double strength : {1e-12, 1e12, 1e300}) {
     for (const int steps : {1, 30}) {
       Scene scene = test::vertical(test::sheetScene(9));
@@ -90,7 +90,7 @@ TEST_F(HandOnGpuTest, IsStableAtAnyStrengthOnBothBackends) {
       GpuSolver gpu(cloth, scene);
       CpuSolver<float> cpu(cloth, scene);
       for (Solver* solver : {static_cast<Solver*>(&gpu), static_cast<Solver*>(&cpu)}) {
-        solver->setHand(test::handTo(*solver, cloth, scene, 4, {0.7, 0.2, 0.5}, strength, 0.2));
+        solver->setInteraction(test::grabTo(*solver, cloth, scene, 4, {0.7, 0.2, 0.5}, strength, 0.2));
         solver->step(10 * steps);
         EXPECT_EQ(solver->divergence(), std::nullopt) << strength;
       }
@@ -102,16 +102,16 @@ TEST_F(HandOnGpuTest, IsStableAtAnyStrengthOnBothBackends) {
 }
 
 // The air of a jet counts when velocities change their meaning.
-TEST_F(HandOnGpuTest, CountsTheJetWhenTheIntegratorChanges) {
+TEST_F(InteractionOnGpuTest, CountsTheJetWhenTheIntegratorChanges) {
   Scene scene = test::vertical(test::sheetScene(12)), other = scene;
   other.solver.integrator = Integrator::euler;
   const Cloth cloth(scene);
   GpuSolver gpu(cloth, scene);
   CpuSolver<float> cpu(cloth, scene);
-  Hand hand;
-  hand.jet = Jet{{0.5, 0.5, -1}, {0, 0, 1}, 10, 0.5};
+  Interaction interaction;
+  interaction.jet = Jet{{0.5, 0.5, -1}, {0, 0, 1}, 10, 0.5};
   for (Solver* solver : {static_cast<Solver*>(&gpu), static_cast<Solver*>(&cpu)}) {
-    solver->setHand(hand);
+    solver->setInteraction(interaction);
     solver->step(30);
     solver->configure(other);
     solver->setCuts(test::someCuts(cloth));
@@ -121,7 +121,7 @@ TEST_F(HandOnGpuTest, CountsTheJetWhenTheIntegratorChanges) {
   EXPECT_EQ(difference(gpu.state(), cpu.state()).differing, 0u);
 }
 
-TEST_F(HandOnGpuTest, GoesBackToSnapshotsOfEitherBackend) {
+TEST_F(InteractionOnGpuTest, GoesBackToSnapshotsOfEitherBackend) {
   const Scene scene = test::withPinMotion(test::withWind(test::vertical(test::sheetScene(17))));
   const Cloth cloth(scene);
   GpuSolver gpu(cloth, scene);
@@ -148,14 +148,14 @@ TEST_F(HandOnGpuTest, GoesBackToSnapshotsOfEitherBackend) {
 }
 
 // A cut and an edit begin with a new hash, and forget nothing that a run has to tell.
-TEST_F(HandOnGpuTest, CountsContactsOverCutsAsTheCpuDoes) {
+TEST_F(InteractionOnGpuTest, CountsContactsOverCutsAsTheCpuDoes) {
   Scene scene = test::layeredSheets(10, SelfCollision::robust);
   scene.solver.simulationSteps = 5;
   const Cloth cloth(scene);
   GpuSolver gpu(cloth, scene);
   CpuSolver<float> cpu(cloth, scene);
   for (Solver* solver : {static_cast<Solver*>(&gpu), static_cast<Solver*>(&cpu)}) {
-    solver->setHand(test::handTo(*solver, cloth, scene, 155, {0.5, -3, 0.5}, 1e9));
+    solver->setInteraction(test::grabTo(*solver, cloth, scene, 155, {0.5, -3, 0.5}, 1e9));
     solver->step(15);
     solver->setCuts(test::someCuts(cloth));
     solver->configure(scene);
@@ -167,7 +167,7 @@ TEST_F(HandOnGpuTest, CountsContactsOverCutsAsTheCpuDoes) {
 }
 
 // A snapshot's buffers are its own, also when the solver is gone.
-TEST_F(HandOnGpuTest, ReusesTheMemoryOfASnapshotThatIsNeededNoMore) {
+TEST_F(InteractionOnGpuTest, ReusesTheMemoryOfASnapshotThatIsNeededNoMore) {
   const Scene scene = test::vertical(test::sheetScene(8));
   const Cloth cloth(scene);
   std::unique_ptr<Snapshot> snapshot;

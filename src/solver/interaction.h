@@ -2,7 +2,7 @@
 // values. What depends on time is evaluated on the host, the same for both backends.
 //
 // The spring of a grab is critically damped and integrated implicitly, so it is stable at any strength. With
-// w = sqrt(strength), u the velocity of the hand and v' the velocity after all forces,
+// w = sqrt(strength), u the velocity of the grab and v' the velocity after all forces,
 //   v_new = (v' + 2 h w u + h w^2 (goal - x)) / (1 + 2 h w + h^2 w^2),  x_new = x + h v_new.
 // v_new is at most 30 m/s, so that a goal far away does not tear the cloth in one step. A particle of weight
 // c < 1 takes that part of the change: v' + c (v_new - v'). Pinned particles stay. The pass comes right after
@@ -18,18 +18,18 @@
 
 #include "cloth/cloth.h"
 #include "scene/scene.h"
-#include "shared/grab.h"
+#include "shared/interaction.h"
 #include "shared/step_params.h"
 #include "solver/state.h"
 
 namespace clothsim {
 
 template <class Real>
-using HandParams = shared::HandParams<Real>;
+using InteractionParams = shared::InteractionParams<Real>;
 
 // The spring of a grab, and the block of grid points that it pulls.
 struct GrabSpring {
-  // Of one grid point: where its goal lies from the hand's place, and its weight, 0 outside the radius. In
+  // Of one grid point: where its goal lies from the grab's place, and its weight, 0 outside the radius. In
   // the layout of the GPU.
   struct alignas(16) Point {
     Vec3f offset;  // [m]
@@ -41,7 +41,7 @@ struct GrabSpring {
   std::shared_ptr<const std::vector<Point>> points;  // row-major
   double strength = 0;                               // w^2 [1/s^2]
 
-  Vec3d from, to;               // the hand goes from here to there [m],
+  Vec3d from, to;               // the grab moves from here to there [m],
   std::uint64_t firstStep = 0;  // beginning with this step,
   int steps = 1;                // in so many
 };
@@ -54,7 +54,7 @@ struct Jet {
   double radius = 0.1;      // [m], > 0
 };
 
-struct Hand {
+struct Interaction {
   std::optional<GrabSpring> grab;
   std::optional<Jet> jet;
 };
@@ -63,19 +63,20 @@ struct Hand {
 using ReadPositions = std::function<std::vector<Particle4>(std::uint32_t first, std::uint32_t count)>;
 
 // Takes hold of a particle and of those within `radius` [m] of it on the lattice at rest; the weight falls as
-// (1 - (r / radius)^2)^2. Everything keeps its place relative to the particle, where the hand begins.
+// (1 - (r / radius)^2)^2. Everything keeps its place relative to the particle, where the grab begins.
 [[nodiscard]] GrabSpring makeGrabSpring(const Cloth& cloth, std::uint32_t particle, double strength,
                                         double radius, const ReadPositions& positions);
-// Where the hand is once `steps` steps are done [m].
+// Where the grab is once `steps` steps are done [m].
 [[nodiscard]] Vec3d placeOf(const GrabSpring& grab, std::uint64_t steps);
 // From where it is after `step` steps to `target`, in so many steps.
 void moveTo(GrabSpring& grab, Vec3d target, std::uint64_t step, int steps);
 
 // For the step from step * h to (step + 1) * h.
 template <class Real>
-[[nodiscard]] HandParams<Real> makeHandParams(const Hand& hand, const Scene& scene, std::uint64_t step);
+[[nodiscard]] InteractionParams<Real> makeInteractionParams(const Interaction& interaction,
+                                                            const Scene& scene, std::uint64_t step);
 // A jet needs the forces of the air: those of the default Wind where the scene has none.
 template <class Real>
-void addJet(const Hand& hand, shared::StepParams<Real>& params);
+void addJet(const Interaction& interaction, shared::StepParams<Real>& params);
 
 }  // namespace clothsim

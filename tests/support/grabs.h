@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "cloth/cuts.h"
-#include "solver/grab.h"
+#include "solver/interaction.h"
 #include "solver/solver.h"
 
 namespace clothsim::test {
@@ -15,14 +15,14 @@ inline Vec3f placeOf(const State& state, std::uint32_t particle) {
 }
 
 // Holds a particle and goes to the target in one frame.
-inline Hand handTo(Solver& solver, const Cloth& cloth, const Scene& scene, std::uint32_t particle,
-                   Vec3d target, double strength, double radius = 0) {
-  Hand hand;
-  hand.grab = makeGrabSpring(
+inline Interaction grabTo(Solver& solver, const Cloth& cloth, const Scene& scene, std::uint32_t particle,
+                          Vec3d target, double strength, double radius = 0) {
+  Interaction interaction;
+  interaction.grab = makeGrabSpring(
       cloth, particle, strength, radius,
       [&](std::uint32_t first, std::uint32_t count) { return solver.positions(first, count); });
-  moveTo(*hand.grab, target, solver.stepIndex(), scene.solver.simulationSteps);
-  return hand;
+  moveTo(*interaction.grab, target, solver.stepIndex(), scene.solver.simulationSteps);
+  return interaction;
 }
 
 // The first grid cut in two, from side to side below a row; between two rows.
