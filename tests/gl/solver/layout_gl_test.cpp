@@ -132,27 +132,27 @@ TEST_F(LayoutTest, OfWhatMeshesAddToStepParamsIsTheDrivers) {
   EXPECT_EQ(sizeof(MeshLists<float>::HingeParams), HINGE_ROWS * 16u);
 }
 
-TEST_F(LayoutTest, OfHandParamsIsTheDrivers) {
+TEST_F(LayoutTest, OfInteractionParamsIsTheDrivers) {
   using InteractionBlock = InteractionParams<float>;
   PassFeatures features = allFeatures();
   features.grab = features.jet = features.cuts = true;
   PassLibrary library;
   const Programs programs(library, features);
   const std::vector<std::pair<std::string, std::size_t>> members = {
-      MEMBER(InteractionBlock, "hand.", goalX),
-      MEMBER(InteractionBlock, "hand.", velocityKept),
-      MEMBER(InteractionBlock, "hand.", pushX),
-      MEMBER(InteractionBlock, "hand.", pull),
-      MEMBER(InteractionBlock, "hand.", firstColumn),
-      MEMBER(InteractionBlock, "hand.", rows),
-      MEMBER(InteractionBlock, "hand.", largestSpeed),
-      MEMBER(InteractionBlock, "hand.", largestSpeedSquared),
-      MEMBER(InteractionBlock, "hand.", inverseRadius),
-      MEMBER(InteractionBlock, "hand.", inverseRadiusSquared),
-      MEMBER(InteractionBlock, "hand.", originX),
-      MEMBER(InteractionBlock, "hand.", jetSpeed),
-      MEMBER(InteractionBlock, "hand.", directionX),
-      MEMBER(InteractionBlock, "hand.", jetAlone)};
+      MEMBER(InteractionBlock, "interaction.", goalX),
+      MEMBER(InteractionBlock, "interaction.", velocityKept),
+      MEMBER(InteractionBlock, "interaction.", pushX),
+      MEMBER(InteractionBlock, "interaction.", pull),
+      MEMBER(InteractionBlock, "interaction.", firstColumn),
+      MEMBER(InteractionBlock, "interaction.", rows),
+      MEMBER(InteractionBlock, "interaction.", largestSpeed),
+      MEMBER(InteractionBlock, "interaction.", largestSpeedSquared),
+      MEMBER(InteractionBlock, "interaction.", inverseRadius),
+      MEMBER(InteractionBlock, "interaction.", inverseRadiusSquared),
+      MEMBER(InteractionBlock, "interaction.", originX),
+      MEMBER(InteractionBlock, "interaction.", jetSpeed),
+      MEMBER(InteractionBlock, "interaction.", directionX),
+      MEMBER(InteractionBlock, "interaction.", jetAlone)};
   for (const auto& [name, offset] : members)
     EXPECT_EQ(uniformOffset(*programs.step, name), static_cast<GLint>(offset)) << name;
   EXPECT_EQ(blockSize(*programs.step, "InteractionBlock"), static_cast<GLint>(sizeof(InteractionBlock)));
@@ -169,9 +169,9 @@ TEST_F(LayoutTest, OfWhatTheImplicitIntegratorSharesIsTheDrivers) {
   EXPECT_EQ(uniformOffset(begin, "step.guessTime"), static_cast<GLint>(offsetof(Step, guessTime)));
   EXPECT_EQ(uniformOffset(programOf(library, {Pass::end}, features), "step.supportScale"),
             static_cast<GLint>(offsetof(Step, supportScale)));
-  EXPECT_EQ(uniformOffset(begin, "hand.resistance"),
+  EXPECT_EQ(uniformOffset(begin, "interaction.resistance"),
             static_cast<GLint>(offsetof(InteractionParams<float>, resistance)));
-  EXPECT_EQ(uniformOffset(begin, "hand.largestDisplacementSquared"),
+  EXPECT_EQ(uniformOffset(begin, "interaction.largestDisplacementSquared"),
             static_cast<GLint>(offsetof(InteractionParams<float>, largestDisplacementSquared)));
   EXPECT_EQ(uniformOffset(programOf(library, {Pass::multiply}, features), "step.limitStiffness"),
             static_cast<GLint>(offsetof(Step, limitStiffness)));
