@@ -24,20 +24,21 @@ using uint = std::uint32_t;
 #define PRODUCTS_BINDING 4
 #define CONTACT_PLANES_BINDING 4
 #define PARTIAL_SUMS_BINDING 4
+#define CENTERS_BINDING 4
+#define COARSE_BLOCKS_BINDING 4
+#define DENSE_BINDING 4
 #define DISPLACEMENTS_BINDING 5
 #define INCREMENTS_BINDING 5
+#define COARSE_INVERSES_BINDING 5
 #define ITERATES_BINDING 6
 #define FACTORS_BINDING 6
 #define AIR_BLOCKS_BINDING 7
-#define BLOCKS_BINDING 7
 #define SCALARS_BINDING 7
 
-// Buffers read as texels, a vec4 a particle; the first four of them go on with the vertices of the coarse
-// levels.
+// Buffers read as texels, a vec4 a particle; the first two of them go on with the coarse vertices.
 #define RESIDUALS_UNIT 25    // r = minus the gradient of the energy, later that of the linear system [N]
 #define CORRECTIONS_UNIT 26  // z = preconditioned r [m]
 #define FACTORS_UNIT 27      // two texels each: L D L^T of the diagonal block, l21 l31 l32 and 1/d1 1/d2 1/d3
-#define BLOCKS_UNIT 28       // four texels each: what coarse diagonal blocks are made of
 #define RIGHT_HAND_SIDES_UNIT \
   29  // b, and the diagonal a, of the energy 1/2 a |d|^2 - b.d of inertia, air and grabs
 #define AIR_BLOCKS_UNIT 30     // two texels each: what the air adds to a, a symmetric matrix
@@ -48,11 +49,34 @@ using uint = std::uint32_t;
 #define INCREMENTS_UNIT 35     // the Newton step so far [m]
 #define STARTS_UNIT 36         // x at the start of the step, and the inverse mass
 #define PARTIAL_SUMS_UNIT 37
-#define CUT_LINKS_UNIT 38       // an unsigned number a vertex: makeCutLinks() of src/solver/implicit.h
-#define CONTACT_PLANES_UNIT 39  // two texels each: n and offset, carry and friction (cpu/collide.h)
+#define CONTACT_PLANES_UNIT \
+  39  // PLANE_TEXELS each: n and offset, carry and friction, the last n and offset,
+      // the grip
 
-// A bit for each neighbour of a vertex on its level, -1 to 1 columns and rows away.
-#define LINK_BIT(columns, rows) (1u << (3 * (rows) + (columns) + 4))
+#define PLANE_TEXELS 4u  // src/solver/cpu/collide.h
+
+// Of the coarse levels (src/solver/hierarchy.h).
+#define CENTERS_UNIT 40          // of aggregates [m]
+#define COARSE_BLOCKS_UNIT 41    // BLOCK_TEXELS a block of a level's matrix
+#define COARSE_INVERSES_UNIT 42  // BLOCK_TEXELS a coarse vertex: its inverted diagonal block
+#define PROLONGATION_STARTS_UNIT 43
+#define PROLONGATION_UNIT 44
+#define RESTRICTION_STARTS_UNIT 45
+#define RESTRICTION_UNIT 46
+#define COARSE_PAIRS_UNIT 47  // row, column, sources of a block
+#define COARSE_SOURCES_UNIT 28
+#define DENSE_UNIT 38  // minus the inverses of the coarsest matrices, a number each
+
+// A coarse vertex moves as a rigid body: it has a translation and a rotation about its center, a texel each.
+// A block joins those of two vertices: the columns of four matrices of 3 x 3, translation by translation,
+// translation by rotation, rotation by translation, rotation by rotation.
+#define VERTEX_TEXELS 2
+#define BLOCK_TEXELS 12
+
+// The coarsest level of connected cloth has at most so many vertices.
+#define COARSEST_VERTICES 25
+// What a pivot is at least, of the entry it began as: below, binary32 holds no more of it.
+#define LEAST_PIVOT 0x1p-20
 
 // Sums over all particles have one order: lane t of 256 adds every 256th number of a block of 1024, the lanes
 // are added as a tree, and so are the blocks.
@@ -70,43 +94,70 @@ using uint = std::uint32_t;
 // what the stiffest spring of its cloth adds (StepParams::contactStiffness).
 #define CONTACT_OVER_INERTIA 1024
 
+// Below this speed friction is less than in full [m/s].
+#define SLOW_SLIP 0.01f
+
 // What becomes of a sum.
 #define SUM_FIRST 0   // r.z at the start of conjugate gradients
 #define SUM_STEP 1    // p.Hp: the length of a step along p
 #define SUM_NEXT 2    // r.z: how much of the last direction is kept
-#define SUM_LENGTH 3  // changes of energy: the length of the Newton step,
-#define SUM_START 4   // and how much of the initial guess is taken
+#define SUM_LENGTH 3  // changes of energy: the length of the Newton step
+#define SUM_UPDATE 4  // the largest update, and the largest displacement: whether the step is solved
 
-// A level of a grid and the next coarser one, of about half as many points in a direction (never fewer than
-// 2).
-SHARED_STRUCT LevelParams {
-  uint fineFirst;  // vertex; the finest level's vertices are the particles
-  uint fineColumns;
-  uint fineRows;
-  uint coarseFirst;
+// When a pass does nothing any more.
+#define GATE_NONE 0
+#define GATE_STEP 1    // once the step is solved
+#define GATE_SYSTEM 2  // once the linear system is
 
-  uint coarseColumns;
-  uint coarseRows;
-  real stiffnessFactor;  // of the sum of stiffness over a coarse vertex' neighbourhood,
-  real inertiaFactor;    // of the sum of inertia,
+// A level of a piece and the next coarser one. Fine vertices are numbered from the first particle on, coarse
+// ones from the first coarse vertex on.
+struct LevelParams {
+  uint fineFirst;  // vertex
+  uint fineCount;
+  uint coarseFirst;  // coarse vertex
+  uint coarseCount;
 
-  real bending;  // and what bending adds to a coarse diagonal block [N/m]
-  real unusedA;
-  real unusedB;
-  real unusedC;
+  uint firstBlock;  // of the coarse level's matrix
+  uint endBlock;
+  uint unusedA;
+  uint unusedB;
 };
 
-// Kept between the passes of a Newton step.
+// A connected part of the coarsest level, whose matrix is inverted.
+struct DensePart {
+  uint first;  // coarse vertex
+  uint count;
+  uint firstEntry;  // of the matrix, column by column
+  uint firstBlock;
+
+  uint endBlock;
+  uint unusedA;
+  uint unusedB;
+  uint unusedC;
+};
+
+// What conjugate gradients and the line search have come to.
 SHARED_STRUCT ImplicitScalars {
   real residual;           // r.z
   real stepSize;           // alpha
   real kept;               // beta
   real predictedDecrease;  // how much the quadratic model falls along the Newton step, twice
 
-  real newtonLength;  // 0 to 1
-  real unusedX;
-  real unusedY;
-  real unusedZ;
+  real newtonLength;   // 0 to 1
+  real leastResidual;  // the r.z at which the linear system is solved
+  real lastUpdate;     // of the step so far: largest update over largest displacement, or over the spacing
+  uint isSystemSolved;
+
+  uint isStepSolved;
+  uint iterations;   // of the step so far,
+  uint newtonSteps;  // the same
+  uint unused;
+
+  // Of all steps since the solver was made.
+  uint steps;
+  uint unconvergedSteps;  // that ended unsolved
+  uint allIterations;
+  uint allNewtonSteps;
 };
 
 #ifdef __cplusplus

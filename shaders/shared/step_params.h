@@ -128,7 +128,7 @@ SHARED_STRUCT StepParams {
   // the step,
   real inertia;           // (1 + c h) / h^2, c the rate of damping [1/s^2]
   real guessTime;         // guess = guessTime (v + h g), h / (1 + c h) [s]
-  real supportScale;      // 1 / (h |g|^2), 0 without gravity [s^3/m^2]
+  real spacing;           // mean distance of neighbours at rest: below it, motion counts as little [m]
   real contactStiffness;  // what a collider's surface has beside CONTACT_OVER_INERTIA (shared/implicit.h)
                           // [N/m]
 
@@ -136,6 +136,12 @@ SHARED_STRUCT StepParams {
   real maxStretch;      // 1 + max_strain, for the watchdog
   uint particleForces;  // those that act, a bit a FORCE_... of shared/forces.h
   uint attractorCount;
+
+  // Of `implicit`: a step is solved when its last update is at most this part of the motion,
+  real tolerance;
+  real systemTolerance;  // and a linear system when r.z is this part of what it began with
+  real unusedTolerance;
+  real unusedSystem;
 
   ROWS_OF(SpringParams) springs[6];
   ROWS_OF(AttractorParams) attractors[MOST_ATTRACTORS];

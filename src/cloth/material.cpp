@@ -14,8 +14,7 @@ namespace {
 
 // The counts that "auto" chooses.
 constexpr double LONGEST_CHOSEN_STEP = 1.0 / 60;  // [s]
-constexpr double ITERATIONS_PER_SECOND = 600, FEWEST_ITERATIONS = 10, MOST_ITERATIONS = 40;
-constexpr int FABRIC_ITERATIONS = 40, FABRIC_ITERATIONS_UNEVEN = 60;
+constexpr double ITERATIONS_PER_SECOND = 1200, FEWEST_ITERATIONS = 10, MOST_ITERATIONS = 60;
 
 struct Preset {
   std::string_view name;
@@ -205,29 +204,11 @@ int stableSteps(const Scene& scene) {
 
 namespace {
 
-// The longer the step, the further sound comes in it and the more there is to solve. (With 10 iterations
-// CS171's sheet at 1e6 N/m creeps in steps of 0.1 s and is 31 mm from rest after 200 s; with 20 it is there.)
+// The longer the step, the further sound comes in it and the more there is to solve. (A sheet on a ball that
+// a step of 1/60 s solves with 20 iterations crumples with 10.)
 int iterationsFor(double step) {
   const double iterations = std::ceil(step * ITERATIONS_PER_SECOND * (1 - 1e-9));
   return static_cast<int>(std::clamp(iterations, FEWEST_ITERATIONS, MOST_ITERATIONS));
-}
-
-// Whether each coarser lattice of the preconditioner is every second point of the finer one, its ends too.
-bool halvesEvenly(const ClothSettings& cloth) {
-  const auto halves = [](int points) {
-    int cells = points - 1;
-    while (cells > 4 && cells % 2 == 0) cells /= 2;
-    return cells <= 4;
-  };
-  return !cloth.isMesh() && halves(cloth.numWidthPoints) && halves(cloth.numHeightPoints);
-}
-
-// Fabrics stretch so little that what the iterations leave shows as stretch and slows motion down. (A sheet
-// of wool, 50 x 50 and pinned at its top, falls with half its energy and 16 % strain after 10 iterations, and
-// as it should, with 0.05 %, after 60; 65 x 65 needs 40.)
-int iterationsForFabric(const Scene& scene) {
-  const bool even = std::all_of(scene.cloths.begin(), scene.cloths.end(), halvesEvenly);
-  return even ? FABRIC_ITERATIONS : FABRIC_ITERATIONS_UNEVEN;
 }
 
 }  // namespace
@@ -235,9 +216,7 @@ int iterationsForFabric(const Scene& scene) {
 void chooseCounts(Scene& scene) {
   SolverSettings& solver = scene.solver;
   if (solver.simulationSteps.automatic) solver.simulationSteps.count = stableSteps(scene);
-  if (solver.cgIterations.automatic)
-    solver.cgIterations.count =
-        usesMaterial(scene) ? iterationsForFabric(scene) : iterationsFor(stepLength(solver));
+  if (solver.cgIterations.automatic) solver.cgIterations.count = iterationsFor(stepLength(solver));
 }
 
 }  // namespace clothsim

@@ -162,8 +162,10 @@ struct SolverSettings {
   double framesPerSec = 90;                    // [1/s]
   // Steps in a frame: h = 1 / (frames_per_sec * simulation_steps). Automatic in scenes with a material.
   AutoCount simulationSteps = 30;
-  int newtonSteps = 4;                  // Newton steps in a step of `implicit`
-  AutoCount cgIterations = {10, true};  // iterations of conjugate gradients in a Newton step
+  // Of `implicit`: the last update of a step, as part of its motion or, if that is larger, of the spacing.
+  double tolerance = 1e-3;
+  int newtonSteps = 4;                  // most Newton steps in a step
+  AutoCount cgIterations = {10, true};  // most iterations of conjugate gradients in a Newton step
   // The largest l/L - 1 of a spring after the limiter; none: no limiter. 0.1 in scenes with `ks`.
   std::optional<double> strainLimit;
   SelfCollision selfCollision = SelfCollision::off;  // averaged in scenes with `ks`, as CS184 does

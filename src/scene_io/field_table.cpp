@@ -258,11 +258,15 @@ std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
       field("integrator", &S::integrator,
             "Leapfrog Verlet; symplectic Euler; or implicit: backward Euler, stable at any step.")
           .byDefault("\"verlet\"; in scenes with a material \"implicit\""),
-      field("newton_steps", &S::newtonSteps, "Newton iterations per implicit step; more are more accurate.")
+      field("tolerance", &S::tolerance,
+            "An implicit step is solved when its last update is this part of the motion in it.")
+          .within({.low = 1e-6, .high = 1})
+          .usually(1e-4, 1e-2),
+      field("newton_steps", &S::newtonSteps, "Most Newton iterations per implicit step.")
           .within({.low = 1, .high = 100})
           .usually(1, 8),
       field("cg_iterations", &S::cgIterations,
-            "CG iterations per Newton iteration; auto: 10 to 40 by the step length, 40 or 60 for a material.")
+            "Most CG iterations per Newton iteration; auto: 10 to 60 by the step length.")
           .within({.low = 1, .high = 10'000})
           .usually(1, 40),
       field("frames_per_sec", &S::framesPerSec,

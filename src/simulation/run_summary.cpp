@@ -29,6 +29,14 @@ void RunSummary::write(nlohmann::ordered_json& json, Simulation& simulation) con
   json["max_penetration"] = maxPenetration;
   json["start_overlaps"] = {{"colliders", watch.startInColliders().particles},  // particles,
                             {"self", watch.contacts().overlapsAtStart()}};      // pairs
+  if (scene.solver.integrator == Integrator::implicit) {
+    const ConvergenceCounts counts = simulation.solver().convergenceCounts();
+    json["convergence"] = {{"steps", counts.steps},
+                           {"unconverged_steps", counts.unconvergedSteps},
+                           {"newton_steps", counts.newtonSteps},
+                           {"cg_iterations", counts.iterations},
+                           {"last_update", counts.lastUpdate}};
+  }
   json["finite"] = true;
   json["warnings"] = toJson(watch.warnings(scene));
   watch.contacts().write(json, cloth, scene, simulation.contactCounts());

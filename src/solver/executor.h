@@ -26,6 +26,15 @@ struct ContactCounts {
   }
 };
 
+// How far implicit steps were solved since the solver was made.
+struct ConvergenceCounts {
+  std::uint64_t steps = 0;
+  std::uint64_t unconvergedSteps = 0;  // whose last update was above the tolerance
+  std::uint64_t newtonSteps = 0;
+  std::uint64_t iterations = 0;  // of conjugate gradients
+  double lastUpdate = 0;         // of the last step: over its motion, or over the spacing
+};
+
 struct PassTime {
   std::string name;    // of the pass, or of those that were done in one sweep or dispatch
   double seconds = 0;  // all of them together
@@ -83,6 +92,7 @@ class Executor {
   virtual void forgetDivergence(std::uint64_t step) = 0;
   // A small blocking read-back on the GPU.
   [[nodiscard]] virtual ContactCounts contactCounts() = 0;
+  [[nodiscard]] virtual ConvergenceCounts convergenceCounts() = 0;  // the same
 
   // Between these, passes are timed (which slows the whole), and times add up by name.
   virtual void startTiming() = 0;

@@ -6,81 +6,48 @@
 //
 // and v' = d / h. The velocity comes from d itself, never from a difference of positions, which would round.
 //
-// The search starts from h (v + (1 - support) h g)/(1 + c h). A particle's support, 0 to 1, is the part of
-// its weight that held it up in the step before, so that what falls freely and what hangs at rest begin where
-// they belong. Support is part of the state. The start is shortened (1, 1/2, 1/4, 1/8) until the energy
-// falls: for a stiff rotating sheet it lies too far away for a few Newton steps.
+// The search starts from h v. It ends when the last update is at most `tolerance` of the largest
+// displacement, or of the spacing where that is larger, and otherwise after `newton_steps`: then the step
+// counts as unconverged. The linear solver ends when r.z has fallen by (10 tolerance)^2, or after
+// `cg_iterations`.
 //
 // Colliders take part. Before each Newton step, a particle inside a collider gets the plane in which it
-// touches it as a stiff spring, so that the sheet bends around what it lies on. Friction acts by the depth to
-// which that spring has pushed the particle out. Particles end a hair inside; the collision pass after the
-// step moves them to the surface.
+// touches it as a stiff spring, so that the sheet bends around what it lies on; before the first one, so does
+// a particle that inertia and gravity alone would take into a collider. Friction acts by the depth to which
+// that spring has pushed the particle out. Particles end a hair inside; the collision pass after the step
+// moves them to the surface.
 //
 // A Newton step: the Hessian is made positive by clamping the springs' transverse part to k max(0, 1 - L/l)
 // (Choi and Ko 2002). It is solved by conjugate gradients with an additive multilevel preconditioner
-// (Bramble, Pasciak and Xu 1990, "BPX"):
+// (Bramble, Pasciak and Xu 1990):
 //
-//   z = sum over levels of P_l D_l^-1 P_l^T r,
+//   z = D^-1 r  +  sum over coarse levels of P_l A_l^-1 P_l^T r.
 //
-// P_l is bilinear interpolation from a lattice of every 2^l-th grid point, down to 2 x 2; it does not cross
-// cuts. D_l are blocks of 3 x 3. Pinned particles are no unknowns. All sums run over a fixed tree, and
-// scalars stay on the device: there is no read-back in a step.
+// Coarse vertices are aggregates of particles (solver/hierarchy.h), and each moves as a rigid body: particle
+// i follows those that it hangs on with the weights w by
 //
-// Coarse blocks approximate the diagonal of P_l^T H P_l. Two symmetric matrices a vertex are summed up from
-// level to level by P^T: S, half the sum of e^2 K over a particle's springs (K the spring's Hessian, e its
-// length in cells), and T, inertia and air plus K of springs to pinned particles. With hat functions of H
-// cells width on a lattice, the integral of their squared slopes and that of their squares make
+//   d_i = sum of w_c (t_c + r_c x (x_i - X_c)),   X_c the weighted mean of the places,
 //
-//   D = g S + f T,  g = (2 Hy^2 + 1) / (3 Hx^2 Hy^2) + (the same, x and y exchanged),
-//   f = product of (2 H^2 + 1)/(3 H^2) over x and y.
+// so that what turns as a whole, as the free end of a cantilever does, costs the solver nothing. The matrices
+// of the levels are P_l^T H P_l (Galerkin): the first one is summed up from springs, bending, inertia and
+// contacts, the others from the level before. Of the middle levels the blocks on the diagonal are inverted,
+// of the coarsest one the whole matrix. They are made once a step, in its first Newton step. D are the blocks
+// of 3 x 3 of the particles. Pinned particles are no unknowns. All sums run in a fixed order, and scalars
+// stay on the device: there is no read-back in a step.
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
-#include "cloth/cloth.h"
 #include "shared/implicit.h"
+#include "solver/executor.h"
 
 namespace clothsim {
 
 template <class Real>
-using LevelParams = shared::LevelParams<Real>;
-template <class Real>
 using ImplicitScalars = shared::ImplicitScalars<Real>;
 
 template <class Real>
-struct Hierarchy {
-  std::vector<std::vector<LevelParams<Real>>> pieces;  // by grid, finest first
-  std::uint32_t vertices = 0;                          // of all levels; the particles come first
-};
-
-template <class Real>
-[[nodiscard]] Hierarchy<Real> makeHierarchy(const Cloth& cloth);
-
-// The fine point that a coarse one is, along one direction: every second one, and the last.
-template <class Index>
-[[nodiscard]] constexpr Index finePoint(Index coarse, Index coarseCount, Index fineCount) {
-  if (coarseCount == fineCount) return coarse;
-  return coarse + 1 == coarseCount ? fineCount - 1 : 2 * coarse;
-}
-
-// Cuts as the levels see them, so that nothing is interpolated across: a number a vertex, whose LINK_BITs say
-// from which neighbours on its level it is cut off. Coarse neighbours are cut off from each other when a link
-// between them on the next finer level is, on the way there (diagonally first) or back. `cutMasks` as
-// makeCutMasks() gives them; empty for none.
-template <class Real>
-[[nodiscard]] std::vector<std::uint32_t> makeCutLinks(const Cloth& cloth,
-                                                      const std::vector<std::uint32_t>& cutMasks,
-                                                      const Hierarchy<Real>& hierarchy);
-
-// For a grid without a coarser level, and a mesh: itself as the coarsest one.
-template <class Real>
-[[nodiscard]] LevelParams<Real> onlyLevel(const Piece& piece) {
-  LevelParams<Real> level{};
-  level.coarseFirst = piece.firstParticle;
-  level.coarseColumns = static_cast<std::uint32_t>(piece.columns);
-  level.coarseRows = static_cast<std::uint32_t>(piece.rows);
-  return level;
+[[nodiscard]] ConvergenceCounts convergenceOf(const ImplicitScalars<Real>& scalars) {
+  return {scalars.steps, scalars.unconvergedSteps, scalars.allNewtonSteps, scalars.allIterations,
+          static_cast<double>(scalars.lastUpdate)};
 }
 
 }  // namespace clothsim

@@ -35,62 +35,71 @@ constexpr std::array<PassTraits, PASS_COUNT> table{{
      {newPositions, newVelocities, forces, rightHandSides, airBlocks, displacements, iterates},
      air | Features{F::movingPins, F::grabs}},
     {Pass::findPlanes, "contact planes", Domain::gridPoints, 0,
-     {}, {positions, iterates},
+     {}, {positions, iterates, displacements, rightHandSides},
+     {planes}, {F::colliders}, Gate::step},
+    {Pass::predictPlanes, "predict planes", Domain::gridPoints, 0,
+     {}, {positions, velocities, iterates},
      {planes}, {F::colliders}},
-    {Pass::initialGuess, "initial guess", Domain::gridPoints, 0,
-     {}, {positions, velocities},
-     {increments}, {}},
     {Pass::elasticForces, "elastic forces", Domain::gridPoints, 2,
      {iterates}, {},
-     {forces, watch}, elastic},
+     {forces, watch}, elastic, Gate::step},
     {Pass::linearize, "linearize", Domain::gridPoints, 2,
      {iterates}, {forces, rightHandSides, airBlocks, planes, displacements},
-     {residuals, factors, blocks, increments}, solved},
-    {Pass::coarsen, "coarsen", Domain::coarseVertices, 1,
-     {blocks}, {},
-     {factors, blocks}, {F::cuts}},
+     {residuals, factors, increments}, solved, Gate::step},
+    {Pass::findCenters, "find centers", Domain::coarseVertices, 1,
+     {iterates, centers}, {},
+     {centers}, {}},
+    {Pass::coarsen, "coarsen", Domain::coarseBlocks, 1,
+     {iterates, centers, coarseBlocks}, {rightHandSides, airBlocks, planes},
+     {coarseBlocks, coarseInverses}, solved},
+    {Pass::invertDense, "invert dense", Domain::coarseBlocks, 1,
+     {coarseBlocks}, {},
+     {dense}, {}},
     {Pass::restrict, "restrict", Domain::coarseVertices, 1,
-     {residuals}, {},
-     {residuals}, {F::cuts}},
-    {Pass::solveCoarsest, "solve coarsest", Domain::coarseVertices, 0,
-     {}, {residuals, factors},
-     {corrections}, {}},
+     {iterates, centers, residuals}, {},
+     {residuals}, {}, Gate::system},
+    {Pass::solveCoarsest, "solve coarsest", Domain::coarseVertices, 1,
+     {residuals}, {dense},
+     {corrections}, {}, Gate::system},
     {Pass::prolong, "prolong", Domain::fineVertices, 1,
-     {corrections}, {iterates, residuals, factors},
-     {corrections}, {F::cuts}},
+     {centers, corrections}, {iterates, residuals, factors, coarseInverses},
+     {corrections}, {}, Gate::system},
     {Pass::sumFirstResidual, "sum r.z", Domain::sums, 0,
      {}, {residuals, corrections},
-     {partialSums, scalars}, {}},
+     {partialSums, scalars}, {}, Gate::step},
     {Pass::updateDirection, "update direction", Domain::particles, 0,
      {}, {iterates, corrections, directions, scalars},
-     {directions}, {}},
+     {directions}, {}, Gate::system},
     {Pass::multiply, "multiply", Domain::gridPoints, 2,
      {iterates, directions}, {rightHandSides, airBlocks, planes},
-     {products}, solved},
+     {products}, solved, Gate::system},
     {Pass::sumCurvature, "sum p.Hp", Domain::sums, 0,
      {}, {directions, products},
-     {partialSums, scalars}, {}},
+     {partialSums, scalars}, {}, Gate::system},
     {Pass::updateSolution, "update solution", Domain::particles, 0,
      {}, {directions, products, increments, residuals, scalars},
-     {increments, residuals}, {}},
+     {increments, residuals}, {}, Gate::system},
     {Pass::sumNextResidual, "sum r.z", Domain::sums, 0,
      {}, {residuals, corrections},
-     {partialSums, scalars}, {}},
+     {partialSums, scalars}, {}, Gate::system},
     {Pass::tryLengths, "try lengths", Domain::gridPoints, 2,
      {iterates, increments}, {rightHandSides, airBlocks, planes, displacements},
-     {products}, solved},
-    {Pass::sumStartEnergies, "sum energies", Domain::sums, 0,
-     {}, {products},
-     {partialSums, scalars}, {}},
+     {products}, solved, Gate::step},
     {Pass::sumEnergies, "sum energies", Domain::sums, 0,
      {}, {products},
-     {partialSums, scalars}, {}},
+     {partialSums, scalars}, {}, Gate::step},
     {Pass::accept, "accept", Domain::particles, 0,
      {}, {positions, increments, displacements, scalars},
-     {displacements, iterates}, {}},
+     {displacements, iterates}, {}, Gate::step},
+    {Pass::measureUpdate, "measure update", Domain::sums, 0,
+     {}, {increments, displacements},
+     {partialSums, scalars}, {}, Gate::step},
     {Pass::end, "end", Domain::gridPoints, 0,
-     {}, {positions, velocities, rightHandSides, displacements, iterates, planes},
+     {}, {positions, rightHandSides, displacements, iterates, planes},
      {newPositions, newVelocities, watch}, {F::movingPins, F::planes}},
+    {Pass::countStep, "count step", Domain::sums, 0,
+     {}, {},
+     {scalars}, {}},
     {Pass::checkHash, "check hash", Domain::contacts, 0,
      {}, {positions, newPositions, hash},
      {contactFlags}, {}},
@@ -129,10 +138,11 @@ constexpr bool isInOrder() {
 static_assert(isInOrder(), "the table has the order of the enumerators");
 
 constexpr std::array<std::string_view, ARRAY_COUNT> arrayNames{
-    "positions",        "velocities", "new positions", "new velocities", "forces",     "planes",
-    "right-hand sides", "air blocks", "displacements", "iterates",       "residuals",  "corrections",
-    "factors",          "blocks",     "directions",    "products",       "increments", "partial sums",
-    "scalars",          "hash",       "candidates",    "contact flags",  "watch"};
+    "positions",        "velocities", "new positions", "new velocities",  "forces",    "planes",
+    "right-hand sides", "air blocks", "displacements", "iterates",        "residuals", "corrections",
+    "factors",          "centers",    "coarse blocks", "coarse inverses", "dense",     "directions",
+    "products",         "increments", "partial sums",  "scalars",         "hash",      "candidates",
+    "contact flags",    "watch"};
 
 constexpr std::array<std::string_view, FEATURE_COUNT> featureNames{
     "springs", "rest lengths", "meshes",      "wind",      "particle forces", "jets",
@@ -155,6 +165,8 @@ std::string_view nameOf(Domain domain) {
       return "springs of a colour";
     case Domain::coarseVertices:
       return "coarse vertices";
+    case Domain::coarseBlocks:
+      return "coarse blocks";
     case Domain::fineVertices:
       return "fine vertices";
     case Domain::sums:
@@ -168,8 +180,8 @@ std::string_view nameOf(Domain domain) {
 const PassTraits& traitsOf(Pass pass) { return table[static_cast<std::size_t>(pass)]; }
 
 bool canShareSweep(const PassTraits& earlier, const PassTraits& later) {
-  return runsByRows(earlier.domain) && runsByRows(later.domain) && !later.gathers.overlaps(earlier.writes) &&
-         !earlier.gathers.overlaps(later.writes);
+  return earlier.gate == later.gate && runsByRows(earlier.domain) && runsByRows(later.domain) &&
+         !later.gathers.overlaps(earlier.writes) && !earlier.gathers.overlaps(later.writes);
 }
 
 }  // namespace clothsim

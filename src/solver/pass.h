@@ -20,10 +20,12 @@ enum class Pass : std::uint8_t {
   // An implicit step (solver/implicit.h).
   begin,
   findPlanes,
-  initialGuess,
+  predictPlanes,
   elasticForces,
   linearize,
+  findCenters,
   coarsen,
+  invertDense,
   restrict,
   solveCoarsest,
   prolong,
@@ -34,10 +36,11 @@ enum class Pass : std::uint8_t {
   updateSolution,
   sumNextResidual,
   tryLengths,
-  sumStartEnergies,
   sumEnergies,
   accept,
+  measureUpdate,
   end,
+  countStep,
   // Contacts and limits, after either (solver/self_collision.h).
   checkHash,
   buildHash,
@@ -52,10 +55,10 @@ enum class Pass : std::uint8_t {
 inline constexpr int PASS_COUNT = static_cast<int>(Pass::watchLimit) + 1;
 
 // What passes hold in memory between them: an entry a particle, except where it says otherwise. Those marked
-// with * go on with the vertices of the coarse levels.
+// with * go on with the coarse vertices.
 enum class Array : std::uint8_t {
   positions,     // at the start of the step [m], and inverse masses
-  velocities,    // at the start [m/s], and support (solver/implicit.h)
+  velocities,    // at the start [m/s]
   newPositions,  // at the end
   newVelocities,
   forces,          // of springs and air [N]
@@ -66,8 +69,11 @@ enum class Array : std::uint8_t {
   iterates,        // x + d
   residuals,       // *
   corrections,     // * preconditioned residuals
-  factors,         // * of the diagonal blocks
-  blocks,          // * what coarse diagonal blocks are summed from
+  factors,         // of the diagonal blocks
+  centers,         // of coarse vertices [m]
+  coarseBlocks,    // of the coarse levels' matrices
+  coarseInverses,  // of their diagonal blocks, an entry a coarse vertex
+  dense,           // inverses of the coarsest levels' matrices
   directions,      // of conjugate gradients
   products,        // H times the direction; also the changes of energy that the line search looks at
   increments,      // the Newton step so far
@@ -128,11 +134,19 @@ enum class Domain : std::uint8_t {
   particles,       // all particles, without knowing their cloth
   springs,         // those of one colour, of which no two share a particle
   coarseVertices,  // of a level of the preconditioner
+  coarseBlocks,    // of its matrix
   fineVertices,    // of the next finer level
   sums,            // all particles, to one number
   contacts         // particles and the cells they lie in
 };
 [[nodiscard]] std::string_view nameOf(Domain domain);
+
+// When a pass of an implicit step does nothing any more.
+enum class Gate : std::uint8_t {
+  none,
+  step,
+  system
+};  // never; once the step, or the linear system, is solved
 
 struct PassTraits {
   Pass pass;
@@ -143,6 +157,7 @@ struct PassTraits {
   Arrays reads;    // at its own entry only
   Arrays writes;   // at its own entry
   Features features;
+  Gate gate = Gate::none;
 };
 [[nodiscard]] const PassTraits& traitsOf(Pass pass);
 [[nodiscard]] inline std::string nameOf(Pass pass) { return std::string(traitsOf(pass).name); }

@@ -100,6 +100,7 @@ class Solver {
   [[nodiscard]] std::uint64_t stepIndex() const { return clock().step; }
   // A small blocking read-back on the GPU.
   [[nodiscard]] ContactCounts contactCounts() { return executor_->contactCounts(); }
+  [[nodiscard]] ConvergenceCounts convergenceCounts() { return executor_->convergenceCounts(); }
 
   [[nodiscard]] std::string backend() const { return executor_->backend(); }  // "cpu" or "gpu"
   [[nodiscard]] std::string device() const { return executor_->device(); }    // what it runs on, for people

@@ -5,7 +5,7 @@
 #include <sstream>
 #include <utility>
 
-#include "solver/implicit.h"
+#include "solver/hierarchy.h"
 #include "solver/self_collision.h"
 #include "solver/step_params.h"
 
@@ -43,7 +43,7 @@ class ListBuilder {
 // How many coarser levels the finest of the cloths has, and the most colours of a strain limit.
 std::size_t mostLevels(const Cloth& cloth) {
   std::size_t most = 0;
-  for (const auto& levels : makeHierarchy<float>(cloth).pieces) most = std::max(most, levels.size());
+  for (const auto& levels : makeHierarchy<float>(cloth, {}).pieces) most = std::max(most, levels.size());
   return most;
 }
 std::size_t mostColors(const Cloth& cloth) {
@@ -77,18 +77,32 @@ class StepBuilder {
 
   void moveImplicitly() {
     list_.add(Pass::begin);
-    findPlanes();
-    list_.add(Pass::initialGuess);
-    searchLine(Pass::sumStartEnergies);
-    list_.repeat("Newton step", solver_.newtonSteps, [&] {
+    if (hasColliders_) list_.add(Pass::predictPlanes);
+    makeLevels();
+    newtonStep();
+    list_.repeat("further Newton step", solver_.newtonSteps - 1, [&] {
       findPlanes();
-      list_.add(Pass::elasticForces);
-      list_.add(Pass::linearize);
-      for (std::size_t level = 0; level < levels_; ++level) list_.add(Pass::coarsen, level);
-      solve();
-      searchLine(Pass::sumEnergies);
+      newtonStep();
     });
     list_.add(Pass::end);
+    list_.add(Pass::countStep);
+  }
+
+  void newtonStep() {
+    list_.add(Pass::elasticForces);
+    list_.add(Pass::linearize);
+    solve();
+    searchLine(Pass::sumEnergies);
+    list_.add(Pass::measureUpdate);
+  }
+
+  // The preconditioner; it is kept for all Newton steps.
+  void makeLevels() {
+    for (std::size_t level = 0; level < levels_; ++level) {
+      list_.add(Pass::findCenters, level);
+      list_.add(Pass::coarsen, level);
+    }
+    list_.add(Pass::invertDense);
   }
 
   // Conjugate gradients. The last iteration needs no new direction.
@@ -186,7 +200,8 @@ std::string namesIn(SetOf<Enum> set, int count) {
 std::string nameOf(const PassCall& call) {
   std::string name(call.traits().name);
   if (call.pass == Pass::limit) return name + ", colour " + std::to_string(call.index);
-  if (call.pass == Pass::coarsen || call.pass == Pass::restrict || call.pass == Pass::prolong)
+  if (call.pass == Pass::findCenters || call.pass == Pass::coarsen || call.pass == Pass::restrict ||
+      call.pass == Pass::prolong)
     return name + ", level " + std::to_string(call.index);
   if (call.pass == Pass::buildHash)
     return name + (call.index == HASHES_START ? " of the start" : " of the end");

@@ -14,6 +14,9 @@
 namespace clothsim {
 namespace {
 
+// A linear system is solved so much less exactly than the step: its solution is improved by the next one.
+constexpr double SYSTEM_TOLERANCE = 10;
+
 constexpr double PLANE_OFFSET = 0.0001;  // [m], CS184's
 
 Vec3d normalized(Vec3d v) { return (1 / std::sqrt(dot(v, v))) * v; }
@@ -104,15 +107,25 @@ double limitStiffness(const Piece& piece, double limit) {
                      : 0;
 }
 
+// By particles, of all pieces.
+double meanSpacing(const Cloth& cloth) {
+  double sum = 0;
+  for (const Piece& piece : cloth.pieces())
+    sum += piece.particleCount() * 0.5 * (piece.nominalLength[toLeft] + piece.nominalLength[toUpper]);
+  return sum / cloth.particleCount();
+}
+
 template <class Real>
-void putImplicit(const Scene& scene, const Piece& piece, std::size_t pieceIndex, StepParams<Real>& params) {
+void putImplicit(const Scene& scene, const Cloth& cloth, std::size_t pieceIndex, StepParams<Real>& params) {
   if (scene.solver.integrator != Integrator::implicit) return;
-  const ClothSettings& cloth = scene.cloths[pieceIndex];
-  const double h = stepLength(scene.solver), damped = 1 + dampingRate(cloth) * h;
+  const Piece& piece = cloth.pieces()[pieceIndex];
+  const double h = stepLength(scene.solver), damped = 1 + dampingRate(scene.cloths[pieceIndex]) * h;
   params.inertia = real<Real>(damped / (h * h));
   params.guessTime = real<Real>(h / damped);
-  const double gravitySquared = dot(scene.gravity, scene.gravity);
-  params.supportScale = gravitySquared > 0 ? real<Real>(1 / (h * gravitySquared)) : 0;
+  params.tolerance = real<Real>(scene.solver.tolerance);
+  const double systemTolerance = std::min(SYSTEM_TOLERANCE * scene.solver.tolerance, 1.0);
+  params.systemTolerance = real<Real>(systemTolerance * systemTolerance);
+  params.spacing = real<Real>(meanSpacing(cloth));
   params.contactStiffness = real<Real>(4 * stiffestSpring(piece));
   if (!scene.solver.strainLimit) return;
   // A limit of 0 asks for springs that cannot stretch: a tenth of a percent stands for it.
@@ -198,7 +211,7 @@ StepParams<Real> makeStepParams(const Scene& scene, const Cloth& cloth, std::siz
                             real<Real>(squareInRange((1 + scene.solver.maxStrain) * length))};
     if (piece.slotEnabled[slot]) params.enabledSlots |= 1u << slot;
   }
-  putImplicit(scene, piece, pieceIndex, params);
+  putImplicit(scene, cloth, pieceIndex, params);
   return params;
 }
 

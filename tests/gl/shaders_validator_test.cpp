@@ -82,10 +82,13 @@ std::vector<gl::Defines> variantsOf(const std::string& file) {
   everything.limitSprings = everything.material = everything.contactPlanes = true;
   PassFeatures mesh = everything;
   mesh.mesh = true;
+  everything.gate = GATE_STEP;
+  mesh.gate = GATE_SYSTEM;
   std::vector<gl::Defines> variants{definesFor(everything), definesFor(cs184), definesFor(PassFeatures{}),
                                     definesFor(mesh)};
   for (std::size_t i = 0; i < variants.size(); ++i) {
     variants[i].emplace_back("SUM_KIND", std::to_string(i));
+    variants[i].emplace_back("PREDICTS", std::to_string(i % 2));
     variants[i].emplace_back("COLLIDES_IN_STEP", std::to_string(i % 2));
     variants[i].emplace_back("SELF_ROBUST", std::to_string(i % 2));
     variants[i].emplace_back("SELF_HAS_MESH", i == 3 ? "1" : "0");

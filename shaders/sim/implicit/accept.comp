@@ -1,11 +1,13 @@
 // displacements += newtonLength * increments
-#include "sim/implicit/common.glsl"
+#include "shared/implicit.h"
 #include "sim/implicit/scalars.glsl"
+#include "sim/implicit/common.glsl"
 
 layout(std430, binding = DISPLACEMENTS_BINDING) writeonly buffer Displacements { vec4 newDisplacements[]; };
 layout(std430, binding = ITERATES_BINDING) writeonly buffer Iterates { vec4 newIterates[]; };
 
 void main() {
+  if (isSkipped()) return;
   uint i = thisParticle();
   if (!isParticle(i)) return;
   vec4 start = texelFetch(starts, int(i));

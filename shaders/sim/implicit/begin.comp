@@ -66,6 +66,9 @@ void main() {
   vec4 rightHandSide = vec4(b, stiffness);
   if (hasGrab) rightHandSide = grabParticle(p, x.xyz, mass, rightHandSide);
   newRightHandSides[i] = rightHandSide;
-  newDisplacements[i] = vec4(0.0);
-  newIterates[i] = x;
+  precise vec3 way = step.timeStep * v;
+  vec3 start = canonical(way);
+  precise vec3 place = x.xyz + start;
+  newDisplacements[i] = vec4(start, 0.0);
+  newIterates[i] = vec4(canonical(place), x.w);
 }

@@ -1,23 +1,26 @@
-// The blocks of a coarse level's vertices, from the next finer one (src/solver/implicit.h).
+// The matrix of a coarse level beyond the first, P^T A P, a block an invocation.
 #include "sim/implicit/level.glsl"
-
-layout(std430, binding = FACTORS_BINDING) writeonly buffer FactorsOut { vec4 newFactors[]; };
-layout(std430, binding = BLOCKS_BINDING) writeonly buffer Blocks { vec4 newBlocks[]; };
+#include "sim/implicit/store_block.glsl"
 
 void main() {
-  uvec2 coarse = gl_GlobalInvocationID.xy;
-  if (coarse.x >= level.coarseColumns || coarse.y >= level.coarseRows) return;
-  Fine fine = fineAround(coarse);
-  Symmetric stiffness = Symmetric(gatherFine(blocks, fine, 4u, 0u), gatherFine(blocks, fine, 4u, 1u));
-  Symmetric inertia = Symmetric(gatherFine(blocks, fine, 4u, 2u), gatherFine(blocks, fine, 4u, 3u));
-  Symmetric block = sumOf(scaled(level.stiffnessFactor, stiffness), scaled(level.inertiaFactor, inertia));
-  precise vec3 diagonal = block.diagonal + vec3(level.bending);
-  Factors f = factorize(Symmetric(diagonal, block.others));
-  uint i = level.coarseFirst + coarse.y * level.coarseColumns + coarse.x;
-  newFactors[2u * i] = vec4(f.lower, 0.0);
-  newFactors[2u * i + 1u] = vec4(f.inverse, 0.0);
-  newBlocks[4u * i] = vec4(stiffness.diagonal, 0.0);
-  newBlocks[4u * i + 1u] = vec4(stiffness.others, 0.0);
-  newBlocks[4u * i + 2u] = vec4(inertia.diagonal, 0.0);
-  newBlocks[4u * i + 3u] = vec4(inertia.others, 0.0);
+  if (isSkipped()) return;
+  uint i = thisEntry();
+  if (!isEntry(i, level.endBlock - level.firstBlock)) return;
+  uint number = level.firstBlock + i;
+  uvec4 block = texelFetch(coarsePairs, int(number));
+  vec3 rowCenter = centerAt(block.x), columnCenter = centerAt(block.y);
+  RigidBlock sum = noBlock();
+  for (uint k = block.z; k < block.w; ++k) {
+    uint source = texelFetch(coarseSources, int(k)).x;
+    bool isTransposed = source % 2u != 0u;
+    uvec2 fine = texelFetch(coarsePairs, int(source / 2u)).xy;
+    if (isTransposed) fine = fine.yx;
+    precise float weight = weightOn(step.totalParticles + fine.x, block.x) * weightOn(step.totalParticles + fine.y, block.y);
+    RigidBlock stored = loadBlock(coarseBlocks, source / 2u);
+    if (isTransposed) stored = transposedBlock(stored);
+    precise vec3 p = centerAt(fine.x) - rowCenter;
+    precise vec3 q = centerAt(fine.y) - columnCenter;
+    addShifted(sum, weight, stored, p, q);
+  }
+  storeBlock(sum, number, block.xy);
 }

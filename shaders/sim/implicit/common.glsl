@@ -3,12 +3,12 @@
 #include "shared/implicit.h"
 #include "sim/blocks.glsl"
 #include "sim/exact_math.glsl"
+#include "sim/implicit/gate.glsl"
 #include "sim/implicit/symmetric.glsl"
 
 layout(binding = RESIDUALS_UNIT) uniform samplerBuffer residuals;
 layout(binding = CORRECTIONS_UNIT) uniform samplerBuffer corrections;
 layout(binding = FACTORS_UNIT) uniform samplerBuffer factors;
-layout(binding = BLOCKS_UNIT) uniform samplerBuffer blocks;
 layout(binding = RIGHT_HAND_SIDES_UNIT) uniform samplerBuffer rightHandSides;
 layout(binding = AIR_BLOCKS_UNIT) uniform samplerBuffer airBlocks;
 layout(binding = DISPLACEMENTS_UNIT) uniform samplerBuffer displacements;

@@ -10,7 +10,6 @@
 
 layout(std430, binding = RESIDUALS_BINDING) writeonly buffer Residuals { vec4 newResiduals[]; };
 layout(std430, binding = FACTORS_BINDING) writeonly buffer FactorsOut { vec4 newFactors[]; };
-layout(std430, binding = BLOCKS_BINDING) writeonly buffer Blocks { vec4 newBlocks[]; };
 layout(std430, binding = INCREMENTS_BINDING) writeonly buffer Increments { vec4 newIncrements[]; };
 
 // What bending adds to the diagonal block of particle i of `count` in a line, of those `stride` apart.
@@ -48,6 +47,7 @@ Symmetric addBendingBlock(GridPoint p, Symmetric block) {
 }
 
 void main() {
+  if (isSkipped()) return;
   GridPoint p = thisGridPoint();
   if (!p.exists) return;
   uint i = p.index;
@@ -56,7 +56,6 @@ void main() {
   newIncrements[i] = vec4(0.0);
   newFactors[2u * i] = vec4(0.0);
   newFactors[2u * i + 1u] = vec4(0.0);
-  for (uint k = 0u; k < 4u; ++k) newBlocks[4u * i + k] = vec4(0.0);
   if (x.w == 0.0) return;
 
   vec4 rightHandSide = texelFetch(rightHandSides, int(i));
@@ -65,8 +64,13 @@ void main() {
     air = airBlockAt(i);
     block = sumOf(block, air);
   }
-  if (hasContacts) block = sumOf(block, outerProduct3(contactStiffness(rightHandSide.w), contactPlaneAt(i).xyz));
-  Symmetric inertia = block, stiffness = Symmetric(vec3(0.0), vec3(0.0));
+  if (hasContacts) {
+    float grip = gripAt(i);
+    precise float across = contactStiffness(rightHandSide.w) - grip;
+    block = sumOf(block, outerProduct3(across, contactPlaneAt(i).xyz));
+    precise vec3 diagonal = block.diagonal + vec3(grip);
+    block.diagonal = diagonal;
+  }
 #if HAS_MESH
   block = addMeshBlocks(i, block);
 #else
@@ -79,11 +83,7 @@ void main() {
     SpringBlock s = springBlock(d, spring);
     Symmetric outer = outerProduct3(s.along, d);
     precise vec3 diagonal = outer.diagonal + vec3(s.across);
-    Symmetric stiff = Symmetric(diagonal, outer.others);
-    float weight = 0.5 * float(toEnd[k].x * toEnd[k].x + toEnd[k].y * toEnd[k].y);
-    block = sumOf(block, stiff);
-    stiffness = sumOf(stiffness, scaled(weight, stiff));
-    if (end.w == 0.0) inertia = sumOf(inertia, stiff);
+    block = sumOf(block, Symmetric(diagonal, outer.others));
   }
   if (hasMaterial) block = addBendingBlock(p, block);
 #endif
@@ -91,14 +91,14 @@ void main() {
   vec3 displacement = texelFetch(displacements, int(i)).xyz;
   precise vec3 pull = rightHandSide.xyz - rightHandSide.w * displacement;
   if (hasWind) pull = pull - timesVector(air, displacement);
-  if (hasContacts) pull = pull + contactPush(contactPlaneAt(i), rightHandSide.w, displacement) * contactPlaneAt(i).xyz;
+  if (hasContacts) {
+    vec4 plane = contactPlaneAt(i);
+    pull = pull + contactPush(plane, rightHandSide.w, displacement) * plane.xyz;
+    pull = pull - gripAt(i) * slipOf(plane.xyz, carryAt(i).xyz, displacement);
+  }
   precise vec3 residual = pull + forces[i].xyz;
   newResiduals[i] = vec4(canonical(residual), 0.0);
   Factors f = factorize(block);
   newFactors[2u * i] = vec4(f.lower, 0.0);
   newFactors[2u * i + 1u] = vec4(f.inverse, 0.0);
-  newBlocks[4u * i] = vec4(stiffness.diagonal, 0.0);
-  newBlocks[4u * i + 1u] = vec4(stiffness.others, 0.0);
-  newBlocks[4u * i + 2u] = vec4(inertia.diagonal, 0.0);
-  newBlocks[4u * i + 3u] = vec4(inertia.others, 0.0);
 }

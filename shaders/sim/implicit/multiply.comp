@@ -11,6 +11,7 @@
 layout(std430, binding = PRODUCTS_BINDING) writeonly buffer Products { vec4 newProducts[]; };
 
 void main() {
+  if (isSkipped()) return;
   GridPoint point = thisGridPoint();
   if (!point.exists) return;
   uint i = point.index;
@@ -35,10 +36,7 @@ void main() {
   float diagonal = texelFetch(rightHandSides, int(i)).w;
   precise vec3 product = diagonal * p;
   if (hasWind) product = product + timesVector(airBlockAt(i), p);
-  if (hasContacts) {
-    vec3 normal = contactPlaneAt(i).xyz;
-    product = product + (contactStiffness(diagonal) * sumOfProducts(normal, p)) * normal;
-  }
+  if (hasContacts) product = product + contactProduct(i, diagonal, p);
   precise vec3 result = product - force;
   newProducts[i] = vec4(x.w == 0.0 ? vec3(0.0) : canonical(result), 0.0);
 }

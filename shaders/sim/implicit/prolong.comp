@@ -1,24 +1,39 @@
-// Corrections of a level: its own, D^-1 r, and that of the next coarser one between its vertices. Pinned particles get 0.
+// Corrections of a level: its own, D^-1 r, and what the aggregates that a vertex hangs on make of it. Pinned particles get 0.
 #include "sim/implicit/level.glsl"
 
 layout(std430, binding = CORRECTIONS_BINDING) writeonly buffer Corrections { vec4 newCorrections[]; };
 
-// Nothing across a cut.
-vec3 from(uint vertex, bool isCut) { return isCut ? vec3(0.0) : texelFetch(corrections, int(vertex)).xyz; }
+Factors factorsAt(uint i) {
+  return Factors(texelFetch(factors, int(2u * i)).xyz, texelFetch(factors, int(2u * i + 1u)).xyz);
+}
 
 void main() {
-  uvec2 fine = gl_GlobalInvocationID.xy;
-  if (fine.x >= level.fineColumns || fine.y >= level.fineRows) return;
-  uvec2 columns = coarsePlaces(fine.x, level.coarseColumns, level.fineColumns);
-  uvec2 rows = level.coarseFirst + coarsePlaces(fine.y, level.coarseRows, level.fineRows) * level.coarseColumns;
-  uint i = level.fineFirst + fine.y * level.fineColumns + fine.x, links = cutLinksOf(i);
-  int across = columns.x == columns.y ? 0 : 1, along = rows.x == rows.y ? 0 : 1;
-  vec3 upperLeft = from(rows.x + columns.x, (links & LINK_BIT(-across, -along)) != 0u);
-  vec3 upperRight = from(rows.x + columns.y, (links & LINK_BIT(across, -along)) != 0u);
-  vec3 lowerLeft = from(rows.y + columns.x, (links & LINK_BIT(-across, along)) != 0u);
-  vec3 lowerRight = from(rows.y + columns.y, (links & LINK_BIT(across, along)) != 0u);
-  precise vec3 around = 0.25 * ((upperLeft + upperRight) + (lowerLeft + lowerRight));
-  precise vec3 correction = solveFor(factorsAt(i), texelFetch(residuals, int(i)).xyz) + around;
-  bool pinned = i < step.totalParticles && iterateAt(i).w == 0.0;
-  newCorrections[i] = vec4(pinned ? vec3(0.0) : canonical(correction), 0.0);
+  if (isSkipped()) return;
+  uint i = thisEntry();
+  if (!isEntry(i, level.fineCount)) return;
+  uint vertex = level.fineFirst + i;
+  vec3 place = placeOf(vertex);
+  precise vec3 translation = vec3(0.0);
+  precise vec3 rotation = vec3(0.0);
+  uvec2 range = rangeAt(prolongationStarts, vertex);
+  for (uint n = range.x; n < range.y; ++n) {
+    Weight weight = weightAt(prolongation, n);
+    RigidVector motion = rigidAt(corrections, weight.vertex);
+    precise vec3 arm = place - centerAt(weight.vertex);
+    precise vec3 moved = motion.translation + crossProduct(motion.rotation, arm);
+    translation = translation + weight.weight * moved;
+    rotation = rotation + weight.weight * motion.rotation;
+  }
+  if (vertex < step.totalParticles) {
+    precise vec3 correction = solveFor(factorsAt(vertex), texelFetch(residuals, int(vertex)).xyz) + translation;
+    newCorrections[vertex] = vec4(iterateAt(vertex).w == 0.0 ? vec3(0.0) : canonical(correction), 0.0);
+    return;
+  }
+  uint coarse = vertex - step.totalParticles;
+  RigidVector minus = timesRigid(loadBlock(coarseInverses, coarse), rigidAt(residuals, coarse));
+  precise vec3 ownTranslation = translation - minus.translation;
+  precise vec3 ownRotation = rotation - minus.rotation;
+  int entry = entryOfVertex(coarse);
+  newCorrections[entry] = vec4(canonical(ownTranslation), 0.0);
+  newCorrections[entry + 1] = vec4(canonical(ownRotation), 0.0);
 }

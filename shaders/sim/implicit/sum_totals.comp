@@ -24,28 +24,42 @@ bool fallsEnough(float change, float len) {
 }
 
 void main() {
+#if GATE != GATE_NONE
+  if (scalars.isStepSolved != 0u || (GATE == GATE_SYSTEM && scalars.isSystemSolved != 0u)) return;
+#endif
   uint blocks = (step.totalParticles + SUM_BLOCK - 1u) / SUM_BLOCK;
   precise vec4 sum = vec4(0.0);
   for (uint block = gl_LocalInvocationID.x; block < blocks; block += uint(SUM_LANES))
-    sum = sum + texelFetch(partialSums, int(block));
+    sum = joined(sum, texelFetch(partialSums, int(block)));
   vec4 total = addLanes(sum);
   if (gl_LocalInvocationID.x != 0u) return;
 #if SUM_KIND == SUM_FIRST
-  scalars.residual = total.x < 0.0 ? 0.0 : total.x;
+  float residual = total.x < 0.0 ? 0.0 : total.x;
+  precise float least = step.systemTolerance * residual;
+  scalars.residual = residual;
+  scalars.leastResidual = least;
   scalars.kept = 0.0;
   scalars.predictedDecrease = 0.0;
 #elif SUM_KIND == SUM_STEP
   scalars.stepSize = quotient(scalars.residual, total.x);
   precise float predicted = scalars.predictedDecrease + scalars.stepSize * scalars.residual;
   scalars.predictedDecrease = predicted;
+  scalars.iterations += 1u;
 #elif SUM_KIND == SUM_NEXT
   float residual = total.x < 0.0 ? 0.0 : total.x;
   scalars.kept = quotient(residual, scalars.residual);
   scalars.residual = residual;
+  scalars.isSystemSolved = residual <= scalars.leastResidual ? 1u : 0u;
+#elif SUM_KIND == SUM_UPDATE
+  precise float spacing = step.spacing * step.spacing;
+  float motion = total.y < spacing ? spacing : total.y;
+  precise float square = total.x * reciprocal(motion);
+  precise float update = scalars.newtonLength * (square * inverseSquareRoot(square));
+  scalars.lastUpdate = update;
+  scalars.isStepSolved = scalars.newtonLength == 1.0 && update <= step.tolerance ? 1u : 0u;
+  scalars.isSystemSolved = 0u;
+  scalars.newtonSteps += 1u;
 #else
-#if SUM_KIND == SUM_START
-  scalars.predictedDecrease = 0.0;
-#endif
   scalars.newtonLength = fallsEnough(total.x, 1.0)    ? 1.0
                          : fallsEnough(total.y, 0.5)  ? 0.5
                          : fallsEnough(total.z, 0.25) ? 0.25

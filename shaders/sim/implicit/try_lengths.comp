@@ -36,6 +36,7 @@ vec4 addBendingTrials(GridPoint p, vec4 trial, uint cut) {
 }
 
 void main() {
+  if (isSkipped()) return;
   GridPoint p = thisGridPoint();
   if (!p.exists) return;
   uint i = p.index;
@@ -48,14 +49,27 @@ void main() {
     product = product + timesVector(airBlockAt(i), e);
   }
   if (hasContacts) {
-    vec4 plane = contactPlaneAt(i);
-    force = force - contactPush(plane, rightHandSide.w, displacement) * plane.xyz;
-    product = product + (contactStiffness(rightHandSide.w) * sumOfProducts(plane.xyz, e)) * plane.xyz;
+    vec3 normal = contactPlaneAt(i).xyz;
+    float grip = gripAt(i);
+    precise vec3 along = e - sumOfProducts(normal, e) * normal;
+    force = force + grip * slipOf(normal, carryAt(i).xyz, displacement);
+    product = product + grip * along;
   }
   precise vec3 slope = force - rightHandSide.xyz;
   precise float first = sumOfProducts(slope, e);
   precise float second = 0.5 * sumOfProducts(product, e);
   precise vec4 trial = lengthsTried * (first + lengthsTried * second);
+  if (hasContacts) {
+    vec4 plane = lastPlaneAt(i);
+    precise float over = plane.w - sumOfProducts(plane.xyz, displacement);
+    float fall = sumOfProducts(plane.xyz, e), stiffness = contactStiffness(rightHandSide.w);
+    bool hasPlane = sumOfProducts(plane.xyz, plane.xyz) > 0.0;
+    for (int k = 0; k < LENGTHS_TRIED; ++k) {
+      precise float overAfter = over - lengthsTried[k] * fall;
+      precise float changed = trial[k] + contactChange(stiffness, over, overAfter);
+      trial[k] = hasPlane ? changed : trial[k];
+    }
+  }
 #if HAS_MESH
   trial = addMeshTrials(i, trial);
 #else

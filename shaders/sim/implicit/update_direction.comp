@@ -1,10 +1,12 @@
 // directions = corrections + kept * directions
-#include "sim/implicit/common.glsl"
+#include "shared/implicit.h"
 #include "sim/implicit/scalars.glsl"
+#include "sim/implicit/common.glsl"
 
 layout(std430, binding = DIRECTIONS_BINDING) writeonly buffer Directions { vec4 newDirections[]; };
 
 void main() {
+  if (isSkipped()) return;
   uint i = thisParticle();
   if (!isParticle(i)) return;
   // The first direction is the correction alone: what lies in the buffer belongs to another Newton step.

@@ -1,11 +1,13 @@
 // increments += stepSize * directions, residuals -= stepSize * products
-#include "sim/implicit/common.glsl"
+#include "shared/implicit.h"
 #include "sim/implicit/scalars.glsl"
+#include "sim/implicit/common.glsl"
 
 layout(std430, binding = RESIDUALS_BINDING) writeonly buffer Residuals { vec4 newResiduals[]; };
 layout(std430, binding = INCREMENTS_BINDING) writeonly buffer Increments { vec4 newIncrements[]; };
 
 void main() {
+  if (isSkipped()) return;
   uint i = thisParticle();
   if (!isParticle(i)) return;
   precise vec3 increment = texelFetch(increments, int(i)).xyz + scalars.stepSize * texelFetch(directions, int(i)).xyz;

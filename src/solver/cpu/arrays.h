@@ -65,6 +65,7 @@ INLINE void addTo(const SymmetricArrays<Real>& field, std::ptrdiff_t i, const Sy
   field.xz[i] = field.xz[i] + a.others.y;
   field.yz[i] = field.yz[i] + a.others.z;
 }
+using clothsim::canonical;
 template <class Real>
 INLINE Vec3<Real> canonical(Vec3<Real> v) {
   return {clothsim::canonical(v.x), clothsim::canonical(v.y), clothsim::canonical(v.z)};

@@ -1,5 +1,6 @@
 #include "solver/cpu/collide.h"
 
+#include "solver/cpu/arrays.h"
 #include "solver/cpu/shapes.h"
 #include "solver/cpu/watch.h"
 
@@ -306,24 +307,16 @@ INLINE void collideRow(const PassArguments<Real>& arguments, int row) {
 
 }  // namespace
 
-template <class Real>
-void findPlanes(const PassArguments<Real>& arguments, const Components<Real>& places,
-                ContactPlanes<Real>& planes, int row) {
-  const Range particles = rangeOf(arguments.step, row);
-  const auto at = [](const Components<Real>& c, std::ptrdiff_t i) {
-    return load(c.x.data(), c.y.data(), c.z.data(), i);
-  };
-  const auto put = [](Components<Real>& c, std::ptrdiff_t i, Vec3<Real> v) {
-    c.x.data()[i] = v.x;
-    c.y.data()[i] = v.y;
-    c.z.data()[i] = v.z;
-  };
-  for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) put(planes.normals, i, {});
+namespace {
+
+template <class Real, class PlaceAt>
+void findPlanesAt(const PassArguments<Real>& arguments, ContactPlanes<Real>& planes, Range particles,
+                  PlaceAt placeAt) {
   const Real offset = arguments.step.planeOffset;
   forEachCollider(arguments, [&]<std::uint32_t type>(const ColliderParams<Real>& collider) {
     for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
       if (arguments.inverseMasses[i] == Real(0)) continue;
-      const Vec3<Real> start = at(arguments.before.positions, i), place = at(places, i);
+      const Vec3<Real> start = at(arguments.before.positions, i), place = placeAt(i);
       const Vec3<Real> previous = collider.moving != 0 ? carried(collider, start) : start;
       const Contact<Real> contact =
           findContact<type>(collider, collider.coulomb != 0, offset, previous, place, arguments.distances);
@@ -332,14 +325,52 @@ void findPlanes(const PassArguments<Real>& arguments, const Components<Real>& pl
       const Vec3<Real> normal = contact.depth < Real(0) ? Real(-1) * contact.normal : contact.normal;
       put(planes.normals, i, normal);
       planes.offsets.data()[i] = dot(normal, (place - start) + contact.outward);
+      put(planes.lastNormals, i, normal);
+      planes.lastOffsets.data()[i] = planes.offsets.data()[i];
       put(planes.carries, i, previous - start);
       planes.frictions.data()[i] = collider.coulomb != 0 ? collider.friction : Real(0);
     }
   });
 }
-template void findPlanes(const PassArguments<float>&, const Components<float>&, ContactPlanes<float>&, int);
-template void findPlanes(const PassArguments<double>&, const Components<double>&, ContactPlanes<double>&,
-                         int);
+
+template <class Real>
+void clearPlanes(ContactPlanes<Real>& planes, Range particles) {
+  for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) put(planes.normals, i, Vec3<Real>{});
+}
+
+}  // namespace
+
+template <class Real>
+void findPlanes(const PassArguments<Real>& arguments, const Components<Real>& places,
+                ContactPlanes<Real>& planes, int row) {
+  const Range particles = rangeOf(arguments.step, row);
+  clearPlanes(planes, particles);
+  findPlanesAt(arguments, planes, particles, [&](std::ptrdiff_t i) { return at(places, i); });
+}
+
+template <class Real>
+void predictPlanes(const PassArguments<Real>& arguments, const Components<Real>& places,
+                   ContactPlanes<Real>& planes, int row) {
+  const StepParams<Real>& step = arguments.step;
+  const Range particles = rangeOf(step, row);
+  const Vec3<Real> gravity{step.gravityX, step.gravityY, step.gravityZ};
+  clearPlanes(planes, particles);
+  for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
+    put(planes.lastNormals, i, Vec3<Real>{});
+    planes.grips.data()[i] = 0;  // nobody knows the push yet
+  }
+  findPlanesAt(arguments, planes, particles, [&](std::ptrdiff_t i) {
+    return at(arguments.before.positions, i) +
+           step.guessTime * (at(arguments.before.velocities, i) + step.timeStep * gravity);
+  });
+  findPlanesAt(arguments, planes, particles, [&](std::ptrdiff_t i) { return at(places, i); });
+}
+
+#define INSTANTIATE(Real)                                                                                   \
+  template void findPlanes(const PassArguments<Real>&, const Components<Real>&, ContactPlanes<Real>&, int); \
+  template void predictPlanes(const PassArguments<Real>&, const Components<Real>&, ContactPlanes<Real>&, int);
+INSTANTIATE(float)
+INSTANTIATE(double)
 
 VECTOR_CLONES void collide(const PassArguments<float>& arguments, int row) { collideRow(arguments, row); }
 void collide(const PassArguments<double>& arguments, int row) { collideRow(arguments, row); }

@@ -20,12 +20,20 @@ struct ContactPlanes {
   std::vector<Real> offsets;    // [m]
   Components<Real> carries;     // how far the moving collider carries the particle along [m]
   std::vector<Real> frictions;  // Coulomb's coefficient; 0 under CS184's law
+  std::vector<Real> grips;      // stiffness of friction against slipping further [N/m]
+  // The last plane that the particle has had in the step, touching or not: the line search sees whether it is
+  // crossed.
+  Components<Real> lastNormals;
+  std::vector<Real> lastOffsets;
 
   void resize(std::size_t particles) {
     normals.resize(particles);
     offsets.resize(particles);
     carries.resize(particles);
     frictions.resize(particles);
+    grips.resize(particles);
+    lastNormals.resize(particles);
+    lastOffsets.resize(particles);
   }
 };
 
@@ -34,5 +42,10 @@ struct ContactPlanes {
 template <class Real>
 void findPlanes(const PassArguments<Real>& arguments, const Components<Real>& places,
                 ContactPlanes<Real>& planes, int row);
+// The same, and of particles that touch nothing there the planes where inertia and gravity alone would take
+// them.
+template <class Real>
+void predictPlanes(const PassArguments<Real>& arguments, const Components<Real>& places,
+                   ContactPlanes<Real>& planes, int row);
 
 }  // namespace clothsim::cpu

@@ -16,9 +16,11 @@
 namespace clothsim {
 namespace {
 
-// Below this many particles a row-parallel pass costs more in waking threads than it saves; and a level below
-// this many vertices.
-constexpr std::uint32_t PARALLEL_PARTICLES = 8192;
+// Below this many particles a row-parallel pass costs more in waking threads than it saves; and a pass over
+// so many vertices or blocks of a level.
+constexpr std::uint32_t PARALLEL_PARTICLES = 8192, PARALLEL_VERTICES = 256;
+// Rows of a coarse matrix that a thread sums up together, so that few elements are worked out by two.
+constexpr std::uint32_t ROWS_AT_ONCE = 128;
 
 // Sums below this count as 0: their reciprocal would not be safe.
 template <class Real>
@@ -49,9 +51,12 @@ RowPass<Real> rowPassOf(Pass pass) {
     case Pass::findPlanes:
       return [](const Arguments& piece, int row) {
         cpu::findPlanes(piece.step, piece.own.iterate.positions, piece.own.planes, row);
+        cpu::findGrips(piece, row);
       };
-    case Pass::initialGuess:
-      return [](const Arguments& piece, int row) { cpu::initialGuess(piece, row); };
+    case Pass::predictPlanes:
+      return [](const Arguments& piece, int row) {
+        cpu::predictPlanes(piece.step, piece.own.iterate.positions, piece.own.planes, row);
+      };
     case Pass::elasticForces:
       return [](const Arguments& piece, int row) { cpu::gatherElasticForces(piece, row); };
     case Pass::linearize:
@@ -81,7 +86,7 @@ struct CpuExecutor<Real>::Copy final : ParticleCopy {
   Particles particles;
 
   [[nodiscard]] std::size_t bytes() const override {
-    return 8 * particles.inverseMasses.size() * sizeof(Real);
+    return 7 * particles.inverseMasses.size() * sizeof(Real);
   }
   void download(State& state) const override {
     const std::size_t count = particles.inverseMasses.size();
@@ -92,7 +97,7 @@ struct CpuExecutor<Real>::Copy final : ParticleCopy {
       const Vec3f x = cpu::at(particles.state.positions, place).template cast<float>(),
                   v = cpu::at(particles.state.velocities, place).template cast<float>();
       state.positions[i] = {x.x, x.y, x.z, static_cast<float>(particles.inverseMasses[i])};
-      state.velocities[i] = {v.x, v.y, v.z, static_cast<float>(particles.support[i])};
+      state.velocities[i] = {v.x, v.y, v.z, 0};
     }
   }
 };
@@ -111,7 +116,6 @@ CpuExecutor<Real>::CpuExecutor(const Cloth& cloth, bool sweeps)
     state->velocities.resize(count);
   }
   forces_.resize(count);
-  particles_.support.resize(count);
   particles_.inverseMasses.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
     cpu::put(particles_.state.positions, static_cast<std::ptrdiff_t>(i), startPosition<Real>(cloth, i));
@@ -129,7 +133,7 @@ void CpuExecutor<Real>::setScene(const StepInputs& inputs) {
 template <class Real>
 void CpuExecutor<Real>::setCuts(const StepInputs& inputs) {
   selfCollision_.setCutMasks(inputs.cutMasks);
-  if (hierarchy_.vertices != 0) implicit_.cutLinks = makeCutLinks(*cloth_, inputs.cutMasks, hierarchy_);
+  if (!implicit_.hierarchy.empty()) implicit_.resize(makeHierarchy<Real>(*cloth_, inputs.cutMasks));
 }
 
 template <class Real>
@@ -139,12 +143,9 @@ void CpuExecutor<Real>::prepare(const StepInputs& inputs, const PassList& list) 
     for (std::size_t i = 0; i < pinStarts_.x.size(); ++i)
       cpu::put(pinStarts_, static_cast<std::ptrdiff_t>(i), startPosition<Real>(*cloth_, i));
   }
-  if (list.contains(Pass::begin) && hierarchy_.vertices == 0) {
-    hierarchy_ = makeHierarchy<Real>(*cloth_);
-    implicit_.resize(cloth_->particleCount(), hierarchy_.vertices);
-    implicit_.cutLinks = makeCutLinks(*cloth_, inputs.cutMasks, hierarchy_);
-  }
-  if (list.contains(Pass::findPlanes)) implicit_.planes.resize(cloth_->particleCount());
+  if (list.contains(Pass::begin) && implicit_.hierarchy.empty())
+    implicit_.resize(makeHierarchy<Real>(*cloth_, inputs.cutMasks));
+  if (list.contains(Pass::predictPlanes)) implicit_.planes.resize(cloth_->particleCount());
 }
 
 template <class Real>
@@ -167,7 +168,6 @@ cpu::PassArguments<Real> CpuExecutor<Real>::argumentsOf(const StepInputs& inputs
           particles_.state,
           after_,
           forces_,
-          particles_.support.data(),
           watch_};
 }
 
@@ -177,18 +177,19 @@ void CpuExecutor<Real>::run(const StepInputs& inputs, const PassList& list, int)
   pieces_.clear();
   for (std::size_t piece = 0; piece < cloth_->pieces().size(); ++piece)
     pieces_.push_back({argumentsOf(inputs, piece), implicit_});
-  // Only implicit steps know what holds particles up.
-  const bool givesSupport = list.contains(Pass::end);
-  if (!givesSupport && list.outcome != Outcome::nothing && std::exchange(particles_.hasSupport, false))
-    std::fill(particles_.support.begin(), particles_.support.end(), Real(0));
-  particles_.hasSupport = particles_.hasSupport || givesSupport;
-
   for (std::span<const PassCall> rest = list.passes; !rest.empty();) {
     const std::size_t count = sweeps_ ? sweepLength(rest) : 1;
-    runSweep(rest.first(count));
+    if (!isSkipped(rest.front().traits().gate)) runSweep(rest.first(count));
     rest = rest.subspan(count);
   }
   adopt(list.outcome);
+}
+
+template <class Real>
+bool CpuExecutor<Real>::isSkipped(Gate gate) const {
+  const ImplicitScalars<Real>& scalars = implicit_.scalars;
+  return (gate != Gate::none && scalars.isStepSolved != 0) ||
+         (gate == Gate::system && scalars.isSystemSolved != 0);
 }
 
 template <class Real>
@@ -210,6 +211,7 @@ void CpuExecutor<Real>::runSweep(std::span<const PassCall> passes) {
       runOnColor(first.index);
       break;
     case Domain::coarseVertices:
+    case Domain::coarseBlocks:
     case Domain::fineVertices:
       runOnLevel(first);
       break;
@@ -252,31 +254,39 @@ void CpuExecutor<Real>::runOnColor(std::size_t index) {
 
 template <class Real>
 void CpuExecutor<Real>::runOnLevel(PassCall call) {
-  const auto forEachRow = [](std::uint32_t columns, std::uint32_t rows, auto pass) {
-#pragma omp parallel for schedule(static) if (columns * rows >= PARALLEL_PARTICLES)
-    for (std::uint32_t row = 0; row < rows; ++row) pass(static_cast<int>(row));
+  const auto forEach = [&](std::uint32_t first, std::uint32_t end, auto pass) {
+    const std::uint32_t least = call.pass == Pass::coarsen ? 2 : PARALLEL_VERTICES;
+#pragma omp parallel for schedule(static) if (end - first >= least)
+    for (std::uint32_t i = first; i < end; ++i) pass(i);
   };
+  const Hierarchy<Real>& hierarchy = implicit_.hierarchy;
   for (std::size_t piece = 0; piece < pieces_.size(); ++piece) {
-    const std::vector<LevelParams<Real>>& levels = hierarchy_.pieces[piece];
+    const std::vector<LevelParams>& levels = hierarchy.pieces[piece];
+    if (call.pass == Pass::invertDense) {
+      for (const DensePart& part : hierarchy.parts[piece]) cpu::invertDense(implicit_, part);
+      continue;
+    }
     if (call.pass == Pass::solveCoarsest) {
-      const LevelParams<Real> level =
-          levels.empty() ? onlyLevel<Real>(cloth_->pieces()[piece]) : levels.back();
-      forEachRow(level.coarseColumns, level.coarseRows,
-                 [&](int row) { cpu::solveCoarsest(level, implicit_, row); });
+      for (const DensePart& part : hierarchy.parts[piece])
+        forEach(part.first, part.first + part.count,
+                [&](std::uint32_t vertex) { cpu::solveCoarsest(implicit_, part, vertex); });
       continue;
     }
     if (call.index >= levels.size()) continue;
-    const LevelParams<Real>& level = levels[call.index];
-    const Real* pinned = call.index == 0 ? particles_.inverseMasses.data() : nullptr;
-    if (call.pass == Pass::coarsen)
-      forEachRow(level.coarseColumns, level.coarseRows,
-                 [&](int row) { cpu::coarsenBlocks(level, implicit_, row); });
+    const LevelParams& level = levels[call.index];
+    const std::uint32_t coarseEnd = level.coarseFirst + level.coarseCount;
+    if (call.pass == Pass::findCenters)
+      forEach(level.coarseFirst, coarseEnd, [&](std::uint32_t i) { cpu::findCenter(implicit_, i); });
+    else if (call.pass == Pass::coarsen)
+      forEach(0, (level.coarseCount + ROWS_AT_ONCE - 1) / ROWS_AT_ONCE, [&](std::uint32_t k) {
+        const std::uint32_t first = level.coarseFirst + k * ROWS_AT_ONCE;
+        cpu::coarsen(pieces_[piece], level, first, std::min(first + ROWS_AT_ONCE, coarseEnd));
+      });
     else if (call.pass == Pass::restrict)
-      forEachRow(level.coarseColumns, level.coarseRows,
-                 [&](int row) { cpu::restrictResiduals(level, implicit_, row); });
+      forEach(level.coarseFirst, coarseEnd, [&](std::uint32_t i) { cpu::restrictResidual(implicit_, i); });
     else
-      forEachRow(level.fineColumns, level.fineRows,
-                 [&](int row) { cpu::prolong(level, implicit_, pinned, row); });
+      forEach(level.fineFirst, level.fineFirst + level.fineCount,
+              [&](std::uint32_t i) { cpu::prolong(implicit_, particles_.inverseMasses.data(), i); });
   }
 }
 
@@ -303,28 +313,63 @@ void CpuExecutor<Real>::sum(Pass pass) {
   };
   switch (pass) {
     case Pass::sumFirstResidual:
-      scalars = {};
       scalars.residual = residual();
+      scalars.leastResidual = parameters_.pieces[0].systemTolerance * scalars.residual;
+      scalars.kept = 0;
+      scalars.predictedDecrease = 0;
       break;
     case Pass::sumCurvature: {
       const Real curvature = product(implicit_.directions.positions, implicit_.products);
       scalars.stepSize = curvature > leastSum<Real> ? scalars.residual * reciprocal(curvature) : Real(0);
       scalars.predictedDecrease = scalars.predictedDecrease + scalars.stepSize * scalars.residual;
+      ++scalars.iterations;
       break;
     }
     case Pass::sumNextResidual: {
       const Real next = residual();
       scalars.kept = scalars.residual > leastSum<Real> ? next * reciprocal(scalars.residual) : Real(0);
       scalars.residual = next;
+      scalars.isSystemSolved = next <= scalars.leastResidual ? 1 : 0;
       break;
     }
-    case Pass::sumStartEnergies:
-      scalars = {};
-      chooseLength();
+    case Pass::measureUpdate:
+      measureUpdate();
+      break;
+    case Pass::countStep:
+      scalars.steps += 1;
+      scalars.unconvergedSteps += 1 - scalars.isStepSolved;
+      scalars.allIterations += scalars.iterations;
+      scalars.allNewtonSteps += scalars.newtonSteps;
+      scalars.isStepSolved = scalars.isSystemSolved = scalars.iterations = scalars.newtonSteps = 0;
       break;
     default:
       chooseLength();
   }
+}
+
+// The largest of |v|^2 over all particles.
+template <class Real>
+Real largestSquare(const Components<Real>& v) {
+  const cpu::Arrays<const Real> values = cpu::arraysOf(v);
+  Real largest = 0;
+  for (std::size_t i = 0; i < v.x.size(); ++i) {
+    const Vec3<Real> own = cpu::at(values, static_cast<std::ptrdiff_t>(i));
+    largest = cpu::larger(largest, dot(own, own));
+  }
+  return largest;
+}
+
+// The update over the motion of the step, or over the spacing where that is larger.
+template <class Real>
+void CpuExecutor<Real>::measureUpdate() {
+  ImplicitScalars<Real>& scalars = implicit_.scalars;
+  const StepParams<Real>& step = parameters_.pieces[0];
+  const Real motion = cpu::larger(largestSquare(implicit_.displacements), step.spacing * step.spacing);
+  const Real square = largestSquare(implicit_.increments) * reciprocal(motion);
+  scalars.lastUpdate = scalars.newtonLength * (square * inverseSquareRoot(square));
+  scalars.isStepSolved = scalars.newtonLength == Real(1) && scalars.lastUpdate <= step.tolerance ? 1 : 0;
+  scalars.isSystemSolved = 0;
+  ++scalars.newtonSteps;
 }
 
 // The longest of the lengths tried that lowers the energy enough, else the shortest.
@@ -350,9 +395,7 @@ void CpuExecutor<Real>::upload(const State& state) {
     cpu::put(particles_.state.positions, place, Vec3f{x.x, x.y, x.z}.cast<Real>());
     cpu::put(particles_.state.velocities, place, Vec3f{v.x, v.y, v.z}.cast<Real>());
     particles_.inverseMasses[i] = static_cast<Real>(x.w);
-    particles_.support[i] = static_cast<Real>(v.w);
   }
-  particles_.hasSupport = true;
   selfCollision_.restart();
 }
 
@@ -375,7 +418,6 @@ template <class Real>
 void CpuExecutor<Real>::setInverseMass(std::uint32_t particle, double inverseMass) {
   particles_.inverseMasses[particle] = static_cast<Real>(inverseMass);
   cpu::put(particles_.state.velocities, particle, Vec3<Real>{});
-  particles_.support[particle] = 0;
 }
 
 template <class Real>
@@ -401,6 +443,11 @@ std::optional<Divergence> CpuExecutor<Real>::findDivergence(std::uint64_t step, 
 template <class Real>
 void CpuExecutor<Real>::forgetDivergence(std::uint64_t) {
   watch_ = soundWatchRow();
+}
+
+template <class Real>
+ConvergenceCounts CpuExecutor<Real>::convergenceCounts() {
+  return convergenceOf(implicit_.scalars);
 }
 
 template <class Real>

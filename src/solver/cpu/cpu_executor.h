@@ -38,6 +38,7 @@ class CpuExecutor final : public Executor {
   [[nodiscard]] std::optional<Divergence> findDivergence(std::uint64_t step, bool wait) override;
   void forgetDivergence(std::uint64_t step) override;
   [[nodiscard]] ContactCounts contactCounts() override { return selfCollision_.counts(); }
+  [[nodiscard]] ConvergenceCounts convergenceCounts() override;
   void startTiming() override;
   [[nodiscard]] std::vector<PassTime> stopTiming() override;
   [[nodiscard]] std::string backend() const override { return "cpu"; }
@@ -51,8 +52,6 @@ class CpuExecutor final : public Executor {
   struct Particles {
     CpuState<Real> state;
     std::vector<Real> inverseMasses;
-    std::vector<Real> support;
-    bool hasSupport = false;  // otherwise all of it is 0
   };
   struct Copy;
 
@@ -64,6 +63,8 @@ class CpuExecutor final : public Executor {
   void runContacts(PassCall call);
   void sum(Pass pass);
   void chooseLength();
+  void measureUpdate();
+  [[nodiscard]] bool isSkipped(Gate gate) const;
   void adopt(Outcome outcome);
 
   const Cloth* cloth_;
@@ -80,8 +81,7 @@ class CpuExecutor final : public Executor {
   Components<Real> pinStarts_;                           // empty without paths
   StepParameters<Real> parameters_;                      // of this step,
   std::vector<cpu::ImplicitArguments<Real>> pieces_;     // and what passes get, by grid
-  Hierarchy<Real> hierarchy_;                            // empty until an implicit step needs it
-  cpu::ImplicitState<Real> implicit_;
+  cpu::ImplicitState<Real> implicit_;                    // empty until an implicit step needs it
   std::vector<Real> partialSums_;
   cpu::SelfCollision<Real> selfCollision_;
   bool isTimed_ = false;

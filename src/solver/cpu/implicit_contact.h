@@ -26,4 +26,26 @@ INLINE Real contactPush(const ImplicitArguments<Real>& arguments, std::ptrdiff_t
   return touches ? push : Real(0);
 }
 
+// How far a displacement d goes along the plane, relative to the collider.
+template <class Real>
+INLINE Vec3<Real> slipOf(const ContactPlanes<Real>& planes, std::ptrdiff_t i, Vec3<Real> d) {
+  const Vec3<Real> normal = at(planes.normals, i), relative = d - at(planes.carries, i);
+  return relative - dot(normal, relative) * normal;
+}
+// Adds what touching adds to a product of the Hessian: across the plane, and along it.
+template <class Real>
+INLINE Vec3<Real> contactProduct(const ImplicitArguments<Real>& arguments, std::ptrdiff_t i, Vec3<Real> p) {
+  const ContactPlanes<Real>& planes = arguments.own.planes;
+  const Vec3<Real> normal = at(planes.normals, i);
+  const Real grip = planes.grips.data()[i];
+  return grip * p + ((contactStiffness(arguments, i) - grip) * dot(normal, p)) * normal;
+}
+
+// How the energy changes when what crosses the last plane, `over` deep, moves on to `overAfter`.
+template <class Real>
+INLINE Real contactChange(Real stiffness, Real over, Real overAfter) {
+  const Real before = larger(over, Real(0)), after = larger(overAfter, Real(0));
+  return Real(0.5) * ((stiffness * (after - before)) * (after + before));
+}
+
 }  // namespace clothsim::cpu

@@ -1,5 +1,5 @@
 // The first and the last pass of an implicit step; the twin of
-// shaders/sim/implicit/{begin,initial_guess,end}.comp.
+// shaders/sim/implicit/{begin,end}.comp.
 #include "solver/cpu/implicit_contact.h"
 #include "solver/cpu/particle_forces.h"
 #include "solver/cpu/rows.h"
@@ -79,25 +79,10 @@ void begin(const ImplicitArguments<Real>& arguments, int row) {
     }
     put(own.rightHandSide, i, b);
     own.diagonal[static_cast<std::size_t>(i)] = stiffness;
-    put(own.displacements, i, zero);
-    put(own.iterate.positions, i, x);
+    const Vec3<Real> start = canonical(step.timeStep * v);
+    put(own.displacements, i, start);
+    put(own.iterate.positions, i, canonical(x + start));
     if (pass.grabbed != nullptr) grabParticle(arguments, row, i, mass);
-  }
-}
-
-// What of its fall was not held up in the step before (solver/implicit.h).
-template <class Real>
-void initialGuess(const ImplicitArguments<Real>& arguments, int row) {
-  const PassArguments<Real>& pass = arguments.step;
-  const StepParams<Real>& step = pass.step;
-  const Range all = rangeOf(step, row);
-  const Vec3<Real> gravity{step.gravityX, step.gravityY, step.gravityZ};
-  for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
-    const Real falls = 1 - pass.support[i];
-    const Vec3<Real> fall =
-        step.guessTime * (at(pass.before.velocities, i) + (falls * step.timeStep) * gravity);
-    const bool pinned = pass.inverseMasses[i] == Real(0);
-    put(arguments.own.increments, i, selected(pinned, Vec3<Real>{}, canonical(fall)));
   }
 }
 
@@ -110,51 +95,66 @@ void gatherElasticForces(const ImplicitArguments<Real>& arguments, int row) {
 }
 
 template <class Real>
-void ImplicitState<Real>::resize(std::size_t particles, std::size_t vertices) {
+void ImplicitState<Real>::resize(Hierarchy<Real> levels) {
+  hierarchy = std::move(levels);
+  const std::size_t particles = hierarchy.particles,
+                    entries = particles + VERTEX_TEXELS * std::size_t{hierarchy.coarseVertices};
   for (Components<Real>* c :
        {&rightHandSide, &displacements, &iterate.positions, &directions.positions, &products, &increments})
     c->resize(particles);
   diagonal.resize(particles);
   air.resize(particles);
   for (std::vector<Real>& trial : trials) trial.resize(particles);
-  for (Components<Real>* c : {&residuals, &corrections}) c->resize(vertices);
-  for (SymmetricField<Real>* field : {&stiffness, &inertia, &factors}) field->resize(vertices);
+  for (Components<Real>* c : {&residuals, &corrections}) c->resize(entries);
+  factors.resize(particles);
+  centers.resize(hierarchy.coarseVertices);
+  coarseBlocks.resize(hierarchy.blocks.size());
+  elementSums.resize(hierarchy.blocks.size());
+  coarseInverses.resize(hierarchy.coarseVertices);
+  dense.resize(hierarchy.denseEntries);
 }
 
 namespace {
 
-// How far the collider that a particle touches pushed it out in the step [m].
+// How steeply friction rises with the slip: in full beyond `slow` (Li et al. 2020, "Incremental potential
+// contact", equation 14).
 template <class Real>
-INLINE Real pushedOut(const ImplicitArguments<Real>& arguments, std::ptrdiff_t i, Vec3<Real> displacement) {
-  const Real push = contactPush(arguments, i, displacement);
-  const PassArguments<Real>& pass = arguments.step;
-  const Real inertia = reciprocal(pass.inverseMasses[i]) * pass.step.inertia;
-  return push > Real(0) ? push * reciprocal(inertia) : Real(0);
-}
-// Coulomb: the way along the surface, shorter by the coefficient times that depth.
-template <class Real>
-INLINE Vec3<Real> withFriction(const ContactPlanes<Real>& planes, std::ptrdiff_t i, Real depth,
-                               Vec3<Real> displacement) {
-  const Vec3<Real> normal = at(planes.normals, i), carry = at(planes.carries, i);
-  const Vec3<Real> relative = displacement - carry;
-  const Vec3<Real> across = dot(relative, normal) * normal;
-  const Vec3<Real> slide = relative - across;
-  const Real lost = (planes.frictions.data()[i] * depth) * inverseSquareRoot(dot(slide, slide));
-  const Real kept = lost < Real(1) ? Real(1) - lost : Real(0);
-  return (carry + across) + kept * slide;
+INLINE Real frictionOver(Real slip, Real inverseSlip, Real slow) {
+  const Real inverseSlow = reciprocal(slow);
+  return slip < slow ? inverseSlow * (Real(2) - slip * inverseSlow) : inverseSlip;
 }
 
-// How much of its weight something held up, 0 to 1 (solver/implicit.h).
+// What the solution leaves of Coulomb's friction stops the slip, or shortens it: nothing creeps that sticks.
 template <class Real>
-INLINE Real supportOf(const StepParams<Real>& step, Vec3<Real> before, Vec3<Real> displacement) {
-  const Vec3<Real> fallen = (step.inertia * step.timeStep) * displacement - before;
-  const Real support =
-      1 - dot(fallen, Vec3<Real>{step.gravityX, step.gravityY, step.gravityZ}) * step.supportScale;
-  const Real atLeast = Real(0) < support ? support : Real(0);
-  return atLeast < Real(1) ? atLeast : Real(1);
+INLINE Vec3<Real> withFriction(const ImplicitArguments<Real>& arguments, std::ptrdiff_t i, Real push,
+                               Vec3<Real> displacement) {
+  const ContactPlanes<Real>& planes = arguments.own.planes;
+  const PassArguments<Real>& pass = arguments.step;
+  const Vec3<Real> slip = slipOf(planes, i, displacement);
+  const Real squared = dot(slip, slip), inverse = inverseSquareRoot(squared), length = squared * inverse;
+  const Real rest = planes.frictions.data()[i] * push - planes.grips.data()[i] * length;
+  const Real inertia = reciprocal(pass.inverseMasses[i]) * pass.step.inertia;
+  const Real lost = larger(rest, Real(0)) * reciprocal(inertia) * inverse;
+  return displacement - (lost < Real(1) ? lost : Real(1)) * slip;
 }
 
 }  // namespace
+
+// Coulomb's law, with the push that the last solution has come to: a spring against the slip so far.
+template <class Real>
+void findGrips(const ImplicitArguments<Real>& arguments, int row) {
+  const StepParams<Real>& step = arguments.step.step;
+  ContactPlanes<Real>& planes = arguments.own.planes;
+  const Real slow = static_cast<Real>(SLOW_SLIP) * step.timeStep;
+  const Range all = rangeOf(step, row);
+  for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
+    const Vec3<Real> d = at(arguments.own.displacements, i), slip = slipOf(planes, i, d);
+    const Real push = contactPush(arguments, i, d);
+    const Real squared = dot(slip, slip), inverse = inverseSquareRoot(squared);
+    const Real grip = (planes.frictions.data()[i] * push) * frictionOver(squared * inverse, inverse, slow);
+    planes.grips.data()[i] = push > Real(0) ? grip : Real(0);
+  }
+}
 
 template <class Real>
 void end(const ImplicitArguments<Real>& arguments, int row) {
@@ -163,21 +163,16 @@ void end(const ImplicitArguments<Real>& arguments, int row) {
   const bool contacts = hasContacts(arguments);
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
     const bool pinned = pass.inverseMasses[i] == Real(0);
-    pass.support[i] = 0;
     if (pinned) continue;  // begin() has moved pins
-    const Vec3<Real> v = at(pass.before.velocities, i);
     Vec3<Real> displacement = at(arguments.own.displacements, i),
-               place = at(arguments.own.iterate.positions, i), unpushed = displacement;
+               place = at(arguments.own.iterate.positions, i);
     if (contacts) {
-      const Vec3<Real> normal = at(arguments.own.planes.normals, i);
-      const Real depth = pushedOut(arguments, i, displacement);
-      unpushed = displacement - depth * normal;
-      if (depth > Real(0)) {
-        displacement = canonical(withFriction(arguments.own.planes, i, depth, displacement));
+      const Real push = contactPush(arguments, i, displacement);
+      if (push > Real(0)) {
+        displacement = canonical(withFriction(arguments, i, push, displacement));
         place = canonical(at(pass.before.positions, i) + displacement);
       }
     }
-    pass.support[i] = supportOf(pass.step, v, unpushed);
     put(pass.after.positions, i, place);
     put(pass.after.velocities, i, canonical(pass.step.inverseTimeStep * displacement));
   }
@@ -186,12 +181,12 @@ void end(const ImplicitArguments<Real>& arguments, int row) {
 
 template void begin(const ImplicitArguments<float>&, int);
 template void begin(const ImplicitArguments<double>&, int);
-template void initialGuess(const ImplicitArguments<float>&, int);
-template void initialGuess(const ImplicitArguments<double>&, int);
 template void gatherElasticForces(const ImplicitArguments<float>&, int);
 template void gatherElasticForces(const ImplicitArguments<double>&, int);
 template struct ImplicitState<float>;
 template struct ImplicitState<double>;
+template void findGrips(const ImplicitArguments<float>&, int);
+template void findGrips(const ImplicitArguments<double>&, int);
 template void end(const ImplicitArguments<float>&, int);
 template void end(const ImplicitArguments<double>&, int);
 

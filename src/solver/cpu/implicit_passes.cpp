@@ -94,14 +94,24 @@ INLINE void tryLengthsRow(const ImplicitArguments<Real>& arguments, int row) {
       product = product + at(own.air, i) * e;
     }
     if (contacts) {
-      const Vec3<Real> normal = at(own.planes.normals, i);
-      force = force - contactPush(arguments, i, d) * normal;
-      product = product + (contactStiffness(arguments, i) * dot(normal, e)) * normal;
+      const Vec3<Real> normal = at(own.planes.normals, i), along = e - dot(normal, e) * normal;
+      const Real grip = own.planes.grips.data()[i];
+      force = force + grip * slipOf(own.planes, i, d);
+      product = product + grip * along;
     }
     const Real first = dot(force - at(own.rightHandSide, i), e), second = Real(0.5) * dot(product, e);
     for (std::size_t k = 0; k < LENGTHS_TRIED; ++k) {
       const Real l = lengthTried<Real>(k);
       own.trials[k].data()[i] = l * (first + l * second);
+    }
+    if (!contacts) continue;
+    const Vec3<Real> normal = at(own.planes.lastNormals, i);
+    const Real over = own.planes.lastOffsets.data()[i] - dot(normal, d), fall = dot(normal, e),
+               stiffness = contactStiffness(arguments, i);
+    const bool hasPlane = dot(normal, normal) > Real(0);
+    for (std::size_t k = 0; k < LENGTHS_TRIED; ++k) {
+      const Real change = contactChange(stiffness, over, over - lengthTried<Real>(k) * fall);
+      own.trials[k].data()[i] = hasPlane ? own.trials[k].data()[i] + change : own.trials[k].data()[i];
     }
   }
   if (pass.step.isMesh != 0) return addMeshTrials(arguments, row);
@@ -109,39 +119,30 @@ INLINE void tryLengthsRow(const ImplicitArguments<Real>& arguments, int row) {
   if (pass.step.hasMaterial != 0) addBendingTrials(arguments, row);
 }
 
-// The diagonal block and S and T of solver/implicit.h, from the springs.
+// The diagonal block, from the springs.
 template <bool hasCuts, class Real>
 INLINE void addSpringBlocks(const ImplicitArguments<Real>& arguments, int row) {
   const PassArguments<Real>& pass = arguments.step;
   ImplicitState<Real>& own = arguments.own;
   const Arrays<Real> x = arraysOf(own.iterate.positions);
-  const SymmetricArrays<Real> blocks = arraysOf(own.factors), stiffnesses = arraysOf(own.stiffness),
-                              inertias = arraysOf(own.inertia);
+  const SymmetricArrays<Real> blocks = arraysOf(own.factors);
   const std::uint32_t* cutMasks = pass.cutMasks;
   const Real limitStiffness = pass.step.limitStiffness, limitFactor = pass.step.limitFactor;
-  const Real* w = pass.inverseMasses;
   forEachSpringRange(
       pass, row,
-      [&](Range particles, SpringPlace place, const SpringParams<Real>& spring,
-          auto rest) __attribute__((always_inline)) {
-        const IncidentSpring& incident = incidentSprings[place.bit];
-        const Real weight =
-            static_cast<Real>(0.5 * (incident.columns * incident.columns + incident.rows * incident.rows));
+      [&](Range particles, SpringPlace place, const SpringParams<Real>& spring, auto rest)
+          __attribute__((always_inline)) {
 #pragma GCC ivdep
-        for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
-          const Vec3<Real> d = at(x, i + place.other) - at(x, i);
-          const auto [across, along] = springBlock(d, spring.stiffness, rest[i], limitStiffness,
-                                                   limitLength(rest, i, limitFactor, spring.limitLength));
-          Symmetric<Real> k = outerProduct(along, d);
-          k.diagonal = k.diagonal + Vec3<Real>{across, across, across};
-          const bool isCut = isCutAt<hasCuts>(cutMasks, i, place.bit);
-          const Real there = isCut ? Real(0) : Real(1),
-                     toPin = isCut || w[i + place.other] > Real(0) ? Real(0) : Real(1);
-          addTo(blocks, i, there * k);
-          addTo(stiffnesses, i, (there * weight) * k);
-          addTo(inertias, i, toPin * k);
-        }
-      });
+            for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
+              const Vec3<Real> d = at(x, i + place.other) - at(x, i);
+              const auto [across, along] = springBlock(d, spring.stiffness, rest[i], limitStiffness,
+                                                       limitLength(rest, i, limitFactor, spring.limitLength));
+              Symmetric<Real> k = outerProduct(along, d);
+              k.diagonal = k.diagonal + Vec3<Real>{across, across, across};
+              const Real there = isCutAt<hasCuts>(cutMasks, i, place.bit) ? Real(0) : Real(1);
+              addTo(blocks, i, there * k);
+            }
+          });
 }
 
 // What bending adds to the diagonal block of a particle.
@@ -192,10 +193,12 @@ INLINE void linearizeRow(const ImplicitArguments<Real>& arguments, int row) {
     const Real a = own.diagonal.data()[i];
     Symmetric<Real> block{{a, a, a}, {}};
     if (wind) block = block + at(own.air, i);
-    if (contacts) block = block + outerProduct(contactStiffness(arguments, i), at(own.planes.normals, i));
+    if (contacts) {
+      const Real grip = own.planes.grips.data()[i];
+      block = block + outerProduct(contactStiffness(arguments, i) - grip, at(own.planes.normals, i));
+      block.diagonal = block.diagonal + Vec3<Real>{grip, grip, grip};
+    }
     put(own.factors, i, block);
-    put(own.inertia, i, block);
-    put(own.stiffness, i, Symmetric<Real>{});
   }
   if (pass.step.isMesh != 0) {
     addMeshBlocks(arguments, row);
@@ -208,15 +211,15 @@ INLINE void linearizeRow(const ImplicitArguments<Real>& arguments, int row) {
     const Vec3<Real> d = at(own.displacements, i), zero{};
     Vec3<Real> residual = at(own.rightHandSide, i) - own.diagonal.data()[i] * d;
     if (wind) residual = residual - at(own.air, i) * d;
-    if (contacts) residual = residual + contactPush(arguments, i, d) * at(own.planes.normals, i);
+    if (contacts) {
+      residual = residual + contactPush(arguments, i, d) * at(own.planes.normals, i);
+      residual = residual - own.planes.grips.data()[i] * slipOf(own.planes, i, d);
+    }
     put(own.residuals, i, selected(pinned, zero, canonical(residual + at(pass.forces, i))));
     put(own.increments, i, zero);
     put(own.directions.positions, i, zero);
     const Factors<Real> factors = factorize(at(own.factors, i));
     put(own.factors, i, {selected(pinned, zero, factors.inverse), selected(pinned, zero, factors.lower)});
-    if (!pinned) continue;
-    put(own.stiffness, i, Symmetric<Real>{});
-    put(own.inertia, i, Symmetric<Real>{});
   }
 }
 
@@ -266,10 +269,10 @@ INLINE void multiplyRow(const ImplicitArguments<Real>& arguments, int row) {
   if (hasContacts(arguments)) {
     const bool wind = pass.step.hasWind != 0;
     for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
-      const Vec3<Real> p = at(directions, i), normal = at(own.planes.normals, i);
+      const Vec3<Real> p = at(directions, i);
       Vec3<Real> product = stiffness[i] * p;
       if (wind) product = product + at(air, i) * p;
-      product = product + (contactStiffness(arguments, i) * dot(normal, p)) * normal;
+      product = product + contactProduct(arguments, i, p);
       put(products, i, selected(w[i] == Real(0), zero, canonical(product - at(products, i))));
     }
   } else if (pass.step.hasWind != 0) {

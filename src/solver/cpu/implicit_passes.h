@@ -8,13 +8,15 @@
 
 #include "solver/cpu/collide.h"
 #include "solver/cpu/passes.h"
+#include "solver/cpu/rigid_block.h"
 #include "solver/cpu/symmetric.h"
+#include "solver/hierarchy.h"
 #include "solver/implicit.h"
 
 namespace clothsim::cpu {
 
-// What an implicit step works on, an entry a particle. Those marked with * go on with the coarse levels'
-// vertices.
+// What an implicit step works on, an entry a particle. Those marked with * go on with the coarse vertices,
+// two entries each: translation and rotation.
 template <class Real>
 struct ImplicitState {
   Components<Real> rightHandSide;  // b and
@@ -25,18 +27,22 @@ struct ImplicitState {
   CpuState<Real> iterate;          // x + d; no velocities
   Components<Real> residuals;      // * r
   Components<Real> corrections;    // * z
-  SymmetricField<Real> stiffness;  // * S of solver/implicit.h,
-  SymmetricField<Real> inertia;    // * T,
-  SymmetricField<Real> factors;    // * L D L^T of diagonal blocks: 1/d1 1/d2 1/d3 and l21 l31 l32
+  SymmetricField<Real> factors;    // L D L^T of diagonal blocks: 1/d1 1/d2 1/d3 and l21 l31 l32
   CpuState<Real> directions;       // p; no velocities
   Components<Real> products;       // H p
   Components<Real> increments;     // the Newton step so far
   std::array<std::vector<Real>, LENGTHS_TRIED> trials;  // a particle's change of energy
-  ImplicitScalars<Real> scalars;
-  std::vector<std::uint32_t> cutLinks;  // * makeCutLinks()
+  ImplicitScalars<Real> scalars{};
 
-  // Without planes and cut links.
-  void resize(std::size_t particles, std::size_t vertices);
+  Hierarchy<Real> hierarchy;
+  Components<Real> centers;                      // of coarse vertices [m]
+  std::vector<RigidBlock<Real>> coarseBlocks;    // of the levels' matrices
+  std::vector<ElementSums<Real>> elementSums;    // of the first levels' blocks
+  std::vector<RigidBlock<Real>> coarseInverses;  // minus those of the diagonal blocks, by coarse vertex
+  std::vector<Real> dense;                       // minus the inverses of the coarsest levels' matrices
+
+  // Without planes.
+  void resize(Hierarchy<Real> levels);
 };
 
 template <class Real>
@@ -45,12 +51,13 @@ struct ImplicitArguments {
   ImplicitState<Real>& own;
 };
 
-// Right-hand side and diagonal; pins go where their paths take them.
+// Right-hand side and diagonal; the search starts on with the velocities, and pins go where their paths take
+// them.
 template <class Real>
 void begin(const ImplicitArguments<Real>& arguments, int row);
-// increments = where the search starts.
+// What friction does against the slip so far, from the push so far.
 template <class Real>
-void initialGuess(const ImplicitArguments<Real>& arguments, int row);
+void findGrips(const ImplicitArguments<Real>& arguments, int row);
 // step.forces = those of springs and bending at the iterate.
 template <class Real>
 void gatherElasticForces(const ImplicitArguments<Real>& arguments, int row);
@@ -77,18 +84,23 @@ void accept(const ImplicitArguments<double>& arguments, int row);
 template <class Real>
 void end(const ImplicitArguments<Real>& arguments, int row);
 
-// One row of the coarse vertices of a level: their blocks, their residuals; or of its fine vertices: their
-// corrections.
+// Where an aggregate is.
 template <class Real>
-void coarsenBlocks(const LevelParams<Real>& level, ImplicitState<Real>& own, int coarseRow);
+void findCenter(ImplicitState<Real>& own, std::uint32_t coarse);
+// The blocks of the rows [first, end) of a coarse matrix, and the inverses of those on the diagonal.
 template <class Real>
-void restrictResiduals(const LevelParams<Real>& level, ImplicitState<Real>& own, int coarseRow);
-// z = D^-1 r + P z of the coarse level. Pinned particles (finest level only) get 0.
+void coarsen(const ImplicitArguments<Real>& arguments, const LevelParams& level, std::uint32_t first,
+             std::uint32_t end);
+// The matrix of a connected part of the coarsest level.
 template <class Real>
-void prolong(const LevelParams<Real>& level, ImplicitState<Real>& own, const Real* inverseMasses,
-             int fineRow);
-// z = D^-1 r of the coarsest level.
+void invertDense(ImplicitState<Real>& own, const DensePart& part);
+// Force and torque on an aggregate.
 template <class Real>
-void solveCoarsest(const LevelParams<Real>& level, ImplicitState<Real>& own, int coarseRow);
+void restrictResidual(ImplicitState<Real>& own, std::uint32_t coarse);
+template <class Real>
+void solveCoarsest(ImplicitState<Real>& own, const DensePart& part, std::uint32_t vertex);
+// z of a vertex: its own and what the next coarser level makes of it. Pinned particles get 0.
+template <class Real>
+void prolong(ImplicitState<Real>& own, const Real* inverseMasses, std::uint32_t vertex);
 
 }  // namespace clothsim::cpu

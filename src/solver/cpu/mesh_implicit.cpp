@@ -1,15 +1,11 @@
 #include "solver/cpu/mesh_implicit.h"
 
+#include "solver/cpu/arrays.h"
 #include "solver/cpu/implicit_laws.h"
 #include "solver/cpu/rows.h"
 
 namespace clothsim::cpu {
 namespace {
-
-template <class Real>
-Vec3<Real> at(const Components<Real>& c, std::size_t i) {
-  return {c.x[i], c.y[i], c.z[i]};
-}
 
 // Calls visit(spring, d, limitLength) for the springs of particle i in ascending number, d from it to the
 // other end.
@@ -19,7 +15,8 @@ void forEachSpring(const ImplicitArguments<Real>& arguments, std::size_t i, Visi
   const Components<Real>& x = arguments.own.iterate.positions;
   for (std::uint32_t n = lists.starts[i].springs; n < lists.starts[i + 1].springs; ++n) {
     const auto& spring = lists.springs[n];
-    visit(spring, at(x, spring.other) - at(x, i), arguments.step.step.limitFactor * spring.restLength);
+    visit(spring, at(x, spring.other) - at(x, static_cast<std::ptrdiff_t>(i)),
+          arguments.step.step.limitFactor * spring.restLength);
   }
 }
 
@@ -75,7 +72,7 @@ void addMeshProducts(const ImplicitArguments<Real>& arguments, int row) {
     forEachSpring(arguments, i, [&](const auto& spring, Vec3<Real> d, Real limitLength) {
       const auto [across, along] = springBlock(d, spring.stiffness, spring.restLength,
                                                arguments.step.step.limitStiffness, limitLength);
-      const Vec3<Real> e = at(p, spring.other) - at(p, i);
+      const Vec3<Real> e = at(p, spring.other) - at(p, static_cast<std::ptrdiff_t>(i));
       f = f + (across * e + (along * dot(d, e)) * d);
     });
     forEachHinge(arguments, i, [&](const auto& hinge, std::uint32_t corner) {
@@ -96,7 +93,8 @@ void addMeshTrials(const ImplicitArguments<Real>& arguments, int row) {
     const auto i = static_cast<std::size_t>(n);
     forEachSpring(arguments, i, [&](const auto& spring, Vec3<Real> d, Real limitLength) {
       if (spring.other > i) return;
-      const Vec3<Real> e = at(own.increments, spring.other) - at(own.increments, i);
+      const Vec3<Real> e =
+          at(own.increments, spring.other) - at(own.increments, static_cast<std::ptrdiff_t>(i));
       for (std::size_t k = 0; k < LENGTHS_TRIED; ++k)
         own.trials[k][i] =
             own.trials[k][i] + springChange(d, e, lengthTried<Real>(k), spring.stiffness, spring.restLength,

@@ -1,153 +1,215 @@
 // From level to level of the implicit integrator's preconditioner; the twin of
-// shaders/sim/implicit/{coarsen,restrict,prolong}.comp.
-#include <utility>
-
+// shaders/sim/implicit/{find_centers,coarsen,restrict,invert_dense,solve_coarsest,prolong}.comp.
+#include "solver/cpu/coarse_elements.h"
 #include "solver/cpu/implicit_passes.h"
+#include "solver/cpu/rigid_block.h"
 #include "solver/cpu/rows.h"
 
 namespace clothsim::cpu {
 namespace {
 
+// Where a vertex is: a particle, or the center of an aggregate.
 template <class Real>
-INLINE Vec3<Real> at(const Components<Real>& c, std::ptrdiff_t i) {
-  return {c.x.data()[i], c.y.data()[i], c.z.data()[i]};
-}
-template <class Real>
-INLINE void put(Components<Real>& c, std::ptrdiff_t i, Vec3<Real> v) {
-  c.x.data()[i] = canonical(v.x);
-  c.y.data()[i] = canonical(v.y);
-  c.z.data()[i] = canonical(v.z);
-}
-
-// Along one direction: the fine point of a coarse one, and whether the fine points before and behind it lie
-// half way to the next coarse ones.
-struct FinePlace {
-  std::int64_t middle;
-  bool before, behind;
-};
-INLINE FinePlace finePlace(std::int64_t coarse, std::int64_t coarseCount, std::int64_t fineCount) {
-  if (coarseCount == fineCount) return {coarse, false, false};
-  const std::int64_t middle = finePoint(coarse, coarseCount, fineCount);
-  return {middle, middle > 0 && middle % 2 == 0, coarse + 1 < coarseCount && middle + 2 < fineCount};
-}
-
-// The two coarse points around a fine one, the same one twice where it is one itself.
-INLINE std::pair<std::int64_t, std::int64_t> coarsePlaces(std::int64_t fine, std::int64_t coarseCount,
-                                                          std::int64_t fineCount) {
-  if (coarseCount == fineCount) return {fine, fine};
-  if (fine + 1 == fineCount) return {coarseCount - 1, coarseCount - 1};
-  return {fine / 2, (fine + 1) / 2};
+INLINE Vec3<Real> placeOf(const ImplicitState<Real>& own, std::uint32_t vertex) {
+  return vertex < own.hierarchy.particles
+             ? at(own.iterate.positions, vertex)
+             : at(own.centers, static_cast<std::ptrdiff_t>(vertex - own.hierarchy.particles));
 }
 
 template <class Real>
-INLINE std::uint32_t cutLinksOf(const ImplicitState<Real>& own, std::ptrdiff_t i) {
-  return own.cutLinks.empty() ? 0 : own.cutLinks.data()[i];
+INLINE std::ptrdiff_t entryOfVertex(const ImplicitState<Real>& own, std::uint32_t coarse) {
+  return static_cast<std::ptrdiff_t>(own.hierarchy.particles + VERTEX_TEXELS * coarse);
 }
-
-// Sum of `valueAt(fine vertex)`, a whole for the coarse vertex' own place, a half or quarter for those around
-// it that it is not cut off from.
-template <class Real, class Value, class ValueAt>
-INLINE Value gatherFine(const LevelParams<Real>& level, const ImplicitState<Real>& own, const FinePlace& row,
-                        std::int64_t coarseColumn, ValueAt valueAt) {
-  const FinePlace column = finePlace(coarseColumn, level.coarseColumns, level.fineColumns);
-  const std::ptrdiff_t middle =
-      static_cast<std::ptrdiff_t>(level.fineFirst) + row.middle * level.fineColumns + column.middle;
-  const std::uint32_t links = cutLinksOf(own, middle);
-  const auto valueOf = [&](int columns, int rows) {
-    return (links & LINK_BIT(columns, rows)) != 0
-               ? Value{}
-               : valueAt(middle + rows * std::ptrdiff_t{level.fineColumns} + columns);
-  };
-  const auto alongRow = [&](int rows) {
-    const Value before = column.before ? valueOf(-1, rows) : Value{},
-                behind = column.behind ? valueOf(1, rows) : Value{};
-    return valueOf(0, rows) + Real(0.5) * (before + behind);
-  };
-  const Value above = row.before ? alongRow(-1) : Value{}, below = row.behind ? alongRow(1) : Value{};
-  return alongRow(0) + Real(0.5) * (above + below);
+// Of a coarse vertex.
+template <class Real>
+INLINE RigidVector<Real> rigidAt(const ImplicitState<Real>& own, const Components<Real>& c,
+                                 std::uint32_t coarse) {
+  const std::ptrdiff_t i = entryOfVertex(own, coarse);
+  return {at(c, i), at(c, i + 1)};
+}
+template <class Real>
+INLINE void putRigid(const ImplicitState<Real>& own, Components<Real>& c, std::uint32_t coarse,
+                     const RigidVector<Real>& v) {
+  const std::ptrdiff_t i = entryOfVertex(own, coarse);
+  put(c, i, canonical(v.translation));
+  put(c, i + 1, canonical(v.rotation));
 }
 
 template <class Real>
-INLINE Factors<Real> factorsAt(const ImplicitState<Real>& own, std::ptrdiff_t i) {
-  const Symmetric<Real> stored = at(own.factors, i);
-  return {stored.others, stored.diagonal};
+INLINE void makeCanonical(RigidBlock<Real>& block) {
+  for (auto* columns : {&block.tt, &block.tr, &block.rt, &block.rr})
+    for (Vec3<Real>& column : *columns) column = canonical(column);
+}
+
+template <class Real>
+INLINE Real weightOf(const ImplicitState<Real>& own, std::uint32_t fine, std::uint32_t coarse) {
+  const Hierarchy<Real>& hierarchy = own.hierarchy;
+  const std::uint32_t vertex = hierarchy.particles + fine;
+  for (std::uint32_t n = hierarchy.prolongationStarts[vertex]; n < hierarchy.prolongationStarts[vertex + 1];
+       ++n)
+    if (hierarchy.prolongation[n].vertex == coarse) return hierarchy.prolongation[n].weight;
+  return 0;
 }
 
 }  // namespace
 
 template <class Real>
-void coarsenBlocks(const LevelParams<Real>& level, ImplicitState<Real>& own, int coarseRow) {
-  const FinePlace row = finePlace(coarseRow, level.coarseRows, level.fineRows);
-  for (std::uint32_t column = 0; column < level.coarseColumns; ++column) {
-    const auto sumOf = [&](const SymmetricField<Real>& field) {
-      return gatherFine<Real, Symmetric<Real>>(level, own, row, column,
-                                               [&](std::ptrdiff_t i) { return at(field, i); });
-    };
-    const Symmetric<Real> stiffness = sumOf(own.stiffness), inertia = sumOf(own.inertia);
-    const auto vertex = static_cast<std::ptrdiff_t>(
-        level.coarseFirst + static_cast<std::uint32_t>(coarseRow) * level.coarseColumns + column);
-    put(own.stiffness, vertex, stiffness);
-    put(own.inertia, vertex, inertia);
-    Symmetric<Real> block = level.stiffnessFactor * stiffness + level.inertiaFactor * inertia;
-    block.diagonal = block.diagonal + Vec3<Real>{level.bending, level.bending, level.bending};
-    const Factors<Real> factors = factorize(block);
-    put(own.factors, vertex, {factors.inverse, factors.lower});
+void findCenter(ImplicitState<Real>& own, std::uint32_t coarse) {
+  const Hierarchy<Real>& hierarchy = own.hierarchy;
+  Vec3<Real> sum{};
+  Real weights = 0;
+  for (std::uint32_t n = hierarchy.restrictionStarts[coarse]; n < hierarchy.restrictionStarts[coarse + 1];
+       ++n) {
+    const auto& [vertex, weight] = hierarchy.restriction[n];
+    sum = sum + weight * placeOf(own, vertex);
+    weights = weights + weight;
+  }
+  put(own.centers, static_cast<std::ptrdiff_t>(coarse), canonical(reciprocal(weights) * sum));
+}
+
+template <class Real>
+RigidBlock<Real> sumBlocks(const ImplicitState<Real>& own, const typename Hierarchy<Real>::Block& block) {
+  const Hierarchy<Real>& hierarchy = own.hierarchy;
+  const Vec3<Real> rowCenter = at(own.centers, block.row), columnCenter = at(own.centers, block.column);
+  RigidBlock<Real> sum;
+  for (std::uint32_t k = block.firstSource; k < block.endSource; ++k) {
+    const std::uint32_t number = hierarchy.sources[k] / 2;
+    const bool isTransposed = hierarchy.sources[k] % 2 != 0;
+    const auto& fine = hierarchy.blocks[number];
+    const std::uint32_t row = isTransposed ? fine.column : fine.row,
+                        column = isTransposed ? fine.row : fine.column;
+    const Real weight = weightOf(own, row, block.row) * weightOf(own, column, block.column);
+    const RigidBlock<Real>& stored = own.coarseBlocks[number];
+    addShifted(sum, weight, isTransposed ? transposed(stored) : stored, at(own.centers, row) - rowCenter,
+               at(own.centers, column) - columnCenter);
+  }
+  return sum;
+}
+
+template <class Real>
+void coarsen(const ImplicitArguments<Real>& arguments, const LevelParams& level, std::uint32_t first,
+             std::uint32_t end) {
+  ImplicitState<Real>& own = arguments.own;
+  const Hierarchy<Real>& hierarchy = own.hierarchy;
+  const bool isFirstLevel = level.fineFirst < hierarchy.particles;
+  if (isFirstLevel) sumElements(arguments, level, first, end);
+  std::array<Real, 6> began, column;
+  for (std::uint32_t n = hierarchy.blockStarts[first]; n < hierarchy.blockStarts[end]; ++n) {
+    const auto& block = hierarchy.blocks[n];
+    if (!isFirstLevel) own.coarseBlocks[n] = sumBlocks(own, block);
+    makeCanonical(own.coarseBlocks[n]);
+    if (block.row != block.column) continue;
+    RigidBlock<Real> inverse = own.coarseBlocks[n];
+    sweepOut(6, began.data(), column.data(),
+             [&](std::size_t i, std::size_t j) -> Real& { return entryOf(inverse, i, j); });
+    own.coarseInverses[block.row] = inverse;
   }
 }
 
 template <class Real>
-void restrictResiduals(const LevelParams<Real>& level, ImplicitState<Real>& own, int coarseRow) {
-  const FinePlace row = finePlace(coarseRow, level.coarseRows, level.fineRows);
-  for (std::uint32_t column = 0; column < level.coarseColumns; ++column)
-    put(own.residuals,
-        static_cast<std::ptrdiff_t>(level.coarseFirst +
-                                    static_cast<std::uint32_t>(coarseRow) * level.coarseColumns + column),
-        gatherFine<Real, Vec3<Real>>(level, own, row, column,
-                                     [&](std::ptrdiff_t i) { return at(own.residuals, i); }));
+void invertDense(ImplicitState<Real>& own, const DensePart& part) {
+  const std::size_t order = 6 * static_cast<std::size_t>(part.count);
+  Real* matrix = own.dense.data() + part.firstEntry;
+  std::fill(matrix, matrix + order * order, Real(0));
+  for (std::uint32_t k = part.firstBlock; k < part.endBlock; ++k) {
+    const auto& block = own.hierarchy.blocks[k];
+    RigidBlock<Real> stored = own.coarseBlocks[k];
+    const std::size_t row = 6 * static_cast<std::size_t>(block.row - part.first),
+                      column = 6 * static_cast<std::size_t>(block.column - part.first);
+    for (std::size_t j = 0; j < 6; ++j)
+      for (std::size_t i = 0; i < 6; ++i) {
+        matrix[(column + j) * order + row + i] = entryOf(stored, i, j);
+        if (row != column) matrix[(row + i) * order + column + j] = entryOf(stored, i, j);
+      }
+  }
+  std::vector<Real> began(order), column(order);
+  sweepOut(order, began.data(), column.data(),
+           [=](std::size_t i, std::size_t j) -> Real& { return matrix[j * order + i]; });
 }
 
 template <class Real>
-void prolong(const LevelParams<Real>& level, ImplicitState<Real>& own, const Real* inverseMasses,
-             int fineRow) {
-  const auto [upper, lower] = coarsePlaces(fineRow, level.coarseRows, level.fineRows);
-  const auto first = static_cast<std::ptrdiff_t>(level.coarseFirst);
-  const std::ptrdiff_t above = first + upper * level.coarseColumns,
-                       below = first + lower * level.coarseColumns;
-  for (std::uint32_t column = 0; column < level.fineColumns; ++column) {
-    const auto [left, right] = coarsePlaces(column, level.coarseColumns, level.fineColumns);
-    const auto i = static_cast<std::ptrdiff_t>(
-        level.fineFirst + static_cast<std::uint32_t>(fineRow) * level.fineColumns + column);
-    const std::uint32_t links = cutLinksOf(own, i);
-    const int columns = left == right ? 0 : 1, rows = upper == lower ? 0 : 1;
-    const auto from = [&](std::ptrdiff_t vertex, std::uint32_t link) {
-      return (links & link) != 0 ? Vec3<Real>{} : at(own.corrections, vertex);
-    };
-    const Vec3<Real> around =
-        Real(0.25) *
-        ((from(above + left, LINK_BIT(-columns, -rows)) + from(above + right, LINK_BIT(columns, -rows))) +
-         (from(below + left, LINK_BIT(-columns, rows)) + from(below + right, LINK_BIT(columns, rows))));
-    const Vec3<Real> correction = solve(factorsAt(own, i), at(own.residuals, i)) + around;
-    const bool pinned = inverseMasses != nullptr && inverseMasses[i] == Real(0);
-    put(own.corrections, i, pinned ? Vec3<Real>{} : correction);
+void restrictResidual(ImplicitState<Real>& own, std::uint32_t coarse) {
+  const Hierarchy<Real>& hierarchy = own.hierarchy;
+  const Vec3<Real> center = at(own.centers, static_cast<std::ptrdiff_t>(coarse));
+  RigidVector<Real> sum{};
+  for (std::uint32_t n = hierarchy.restrictionStarts[coarse]; n < hierarchy.restrictionStarts[coarse + 1];
+       ++n) {
+    const auto& [vertex, weight] = hierarchy.restriction[n];
+    const bool isParticle = vertex < hierarchy.particles;
+    const RigidVector<Real> force =
+        isParticle ? RigidVector<Real>{at(own.residuals, static_cast<std::ptrdiff_t>(vertex)), {}}
+                   : rigidAt(own, own.residuals, vertex - hierarchy.particles);
+    const Vec3<Real> torque = cross(placeOf(own, vertex) - center, force.translation) + force.rotation;
+    sum.translation = sum.translation + weight * force.translation;
+    sum.rotation = sum.rotation + weight * torque;
   }
+  putRigid(own, own.residuals, coarse, sum);
 }
 
 template <class Real>
-void solveCoarsest(const LevelParams<Real>& level, ImplicitState<Real>& own, int coarseRow) {
-  for (std::uint32_t column = 0; column < level.coarseColumns; ++column) {
-    const auto i = static_cast<std::ptrdiff_t>(
-        level.coarseFirst + static_cast<std::uint32_t>(coarseRow) * level.coarseColumns + column);
-    put(own.corrections, i, solve(factorsAt(own, i), at(own.residuals, i)));
+void solveCoarsest(ImplicitState<Real>& own, const DensePart& part, std::uint32_t vertex) {
+  const std::size_t order = 6 * static_cast<std::size_t>(part.count);
+  const Real* matrix = own.dense.data() + part.firstEntry + 6 * static_cast<std::size_t>(vertex - part.first);
+  RigidVector<Real> sum{};
+  for (std::uint32_t k = 0; k < part.count; ++k) {
+    const RigidVector<Real> residual = rigidAt(own, own.residuals, part.first + k);
+    const std::array<Real, 6> r{residual.translation.x, residual.translation.y, residual.translation.z,
+                                residual.rotation.x,    residual.rotation.y,    residual.rotation.z};
+    for (std::size_t j = 0; j < 6; ++j) {
+      const Real* column = matrix + (6 * k + j) * order;
+      sum.translation = sum.translation - r[j] * Vec3<Real>{column[0], column[1], column[2]};
+      sum.rotation = sum.rotation - r[j] * Vec3<Real>{column[3], column[4], column[5]};
+    }
   }
+  putRigid(own, own.corrections, vertex, sum);
 }
 
-template void coarsenBlocks(const LevelParams<float>&, ImplicitState<float>&, int);
-template void coarsenBlocks(const LevelParams<double>&, ImplicitState<double>&, int);
-template void restrictResiduals(const LevelParams<float>&, ImplicitState<float>&, int);
-template void restrictResiduals(const LevelParams<double>&, ImplicitState<double>&, int);
-template void prolong(const LevelParams<float>&, ImplicitState<float>&, const float*, int);
-template void prolong(const LevelParams<double>&, ImplicitState<double>&, const double*, int);
-template void solveCoarsest(const LevelParams<float>&, ImplicitState<float>&, int);
-template void solveCoarsest(const LevelParams<double>&, ImplicitState<double>&, int);
+namespace {
+
+// What the coarse vertices that a vertex hangs on make of it.
+template <class Real>
+INLINE RigidVector<Real> prolonged(const ImplicitState<Real>& own, std::uint32_t vertex) {
+  const Hierarchy<Real>& hierarchy = own.hierarchy;
+  const Vec3<Real> place = placeOf(own, vertex);
+  RigidVector<Real> sum{};
+  for (std::uint32_t n = hierarchy.prolongationStarts[vertex]; n < hierarchy.prolongationStarts[vertex + 1];
+       ++n) {
+    const auto& [coarse, weight] = hierarchy.prolongation[n];
+    const RigidVector<Real> motion = rigidAt(own, own.corrections, coarse);
+    const Vec3<Real> arm = place - at(own.centers, static_cast<std::ptrdiff_t>(coarse));
+    sum.translation = sum.translation + weight * (motion.translation + cross(motion.rotation, arm));
+    sum.rotation = sum.rotation + weight * motion.rotation;
+  }
+  return sum;
+}
+
+}  // namespace
+
+template <class Real>
+void prolong(ImplicitState<Real>& own, const Real* inverseMasses, std::uint32_t vertex) {
+  const RigidVector<Real> motion = prolonged(own, vertex);
+  if (vertex < own.hierarchy.particles) {
+    const auto i = static_cast<std::ptrdiff_t>(vertex);
+    const Symmetric<Real> stored = at(own.factors, i);
+    const Vec3<Real> correction =
+        solve(Factors<Real>{stored.others, stored.diagonal}, at(own.residuals, i)) + motion.translation;
+    put(own.corrections, i, inverseMasses[i] == Real(0) ? Vec3<Real>{} : canonical(correction));
+    return;
+  }
+  const std::uint32_t coarse = vertex - own.hierarchy.particles;
+  const RigidVector<Real> minus = own.coarseInverses[coarse] * rigidAt(own, own.residuals, coarse);
+  putRigid(own, own.corrections, coarse,
+           RigidVector<Real>{motion.translation - minus.translation, motion.rotation - minus.rotation});
+}
+
+#define INSTANTIATE(Real)                                                                                  \
+  template void findCenter(ImplicitState<Real>&, std::uint32_t);                                           \
+  template void coarsen(const ImplicitArguments<Real>&, const LevelParams&, std::uint32_t, std::uint32_t); \
+  template void invertDense(ImplicitState<Real>&, const DensePart&);                                       \
+  template void restrictResidual(ImplicitState<Real>&, std::uint32_t);                                     \
+  template void solveCoarsest(ImplicitState<Real>&, const DensePart&, std::uint32_t);                      \
+  template void prolong(ImplicitState<Real>&, const Real*, std::uint32_t);
+INSTANTIATE(float)
+INSTANTIATE(double)
 
 }  // namespace clothsim::cpu

@@ -38,7 +38,6 @@ struct PassArguments {
   const CpuState<Real>& before;
   CpuState<Real>& after;
   Components<Real>& forces;  // springs, wind and air, without gravity [N]
-  Real* support;             // of each particle, for the next implicit step (solver/implicit.h)
   WatchRow& watch;           // of this step; rows and threads write to it atomically
 };
 
@@ -49,7 +48,7 @@ PassArguments<Real> withState(const PassArguments<Real>& of, const StepParams<Re
   return {step,         of.colliders,     of.distances,   of.pinMotions, of.pinPathNumbers,
           of.pinStarts, of.inverseMasses, of.restLengths, of.lists,      of.interaction,
           of.grabbed,   of.jet,           of.cutMasks,    before,        of.after,
-          forces,       of.support,       of.watch};
+          forces,       of.watch};
 }
 
 // Looks for what is not finite in the state that a step begins with.

@@ -8,7 +8,7 @@
 namespace clothsim {
 namespace {
 
-constexpr std::size_t FACTOR_TEXELS = 2, BLOCK_TEXELS = 4, AIR_TEXELS = 2, PLANE_TEXELS = 2;
+constexpr std::size_t FACTOR_TEXELS = 2, AIR_TEXELS = 2;
 
 }  // namespace
 
@@ -40,8 +40,14 @@ ArrayPlace placeOf(Array array) {
       return {CORRECTIONS_UNIT, CORRECTIONS_BINDING};
     case Array::factors:
       return {FACTORS_UNIT, FACTORS_BINDING};
-    case Array::blocks:
-      return {BLOCKS_UNIT, BLOCKS_BINDING};
+    case Array::centers:
+      return {CENTERS_UNIT, CENTERS_BINDING};
+    case Array::coarseBlocks:
+      return {COARSE_BLOCKS_UNIT, COARSE_BLOCKS_BINDING};
+    case Array::coarseInverses:
+      return {COARSE_INVERSES_UNIT, COARSE_INVERSES_BINDING};
+    case Array::dense:
+      return {DENSE_UNIT, DENSE_BINDING};
     case Array::directions:
       return {DIRECTIONS_UNIT, DIRECTIONS_BINDING};
     case Array::products:
@@ -66,6 +72,7 @@ Array positionsOf(Pass pass) {
   switch (pass) {
     case Pass::elasticForces:
     case Pass::linearize:
+    case Pass::coarsen:
       return Array::iterates;
     case Pass::multiply:
       return Array::directions;
@@ -81,7 +88,7 @@ GpuArrays::GpuArrays(std::size_t particles) {
     (*this)[array] = ParticleArray(std::string(nameOf(array)), particles);
 }
 
-void GpuArrays::addImplicit(std::size_t particles, std::size_t vertices, bool wind, bool colliders) {
+void GpuArrays::addImplicit(std::size_t particles, const GpuLevels& levels, bool wind, bool colliders) {
   const auto add = [&](Array array, std::size_t texels) {
     if ((*this)[array].buffer.name() != 0 && (*this)[array].buffer.size() >= texels) return;
     const std::string label(nameOf(array));
@@ -91,14 +98,28 @@ void GpuArrays::addImplicit(std::size_t particles, std::size_t vertices, bool wi
   for (const Array array : {Array::rightHandSides, Array::displacements, Array::iterates, Array::directions,
                             Array::products, Array::increments})
     add(array, particles);
-  add(Array::residuals, vertices);
-  add(Array::corrections, vertices);
-  add(Array::factors, FACTOR_TEXELS * vertices);
-  add(Array::blocks, BLOCK_TEXELS * vertices);
+  const std::size_t entries = particles + VERTEX_TEXELS * std::size_t{levels.vertices()};
+  add(Array::residuals, entries);
+  add(Array::corrections, entries);
+  add(Array::factors, FACTOR_TEXELS * particles);
+  add(Array::centers, levels.vertices());
+  add(Array::coarseBlocks, BLOCK_TEXELS * levels.blocks());
+  add(Array::coarseInverses, BLOCK_TEXELS * std::size_t{levels.vertices()});
+  add(Array::dense, (std::size_t{levels.denseEntries()} + 3) / 4);
+  ParticleArray& dense = (*this)[Array::dense];
+  dense.texture = gl::BufferTexture("dense", dense.buffer.name(), GL_R32F);  // a number a texel
   add(Array::airBlocks, wind ? AIR_TEXELS * particles : 1);
   add(Array::planes, colliders ? PLANE_TEXELS * particles : 1);
   add(Array::partialSums, (particles + SUM_BLOCK - 1) / SUM_BLOCK);
-  if (scalars_.name() == 0) scalars_ = gl::Buffer<ImplicitScalars<float>>("implicit scalars", 1);
+  const ImplicitScalars<float> none{};
+  if (scalars_.name() == 0)
+    scalars_ = gl::Buffer<ImplicitScalars<float>>("implicit scalars", std::span(&none, 1));
+}
+
+ImplicitScalars<float> GpuArrays::scalars() const {
+  if (scalars_.name() == 0) return {};
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  return scalars_.download().front();
 }
 
 void GpuArrays::bindTextures() const {
@@ -112,7 +133,8 @@ void GpuArrays::bindTextures() const {
 void GpuArrays::bindFor(Pass pass) const {
   (*this)[positionsOf(pass)].texture.bind(POSITIONS_UNIT);
   const PassTraits& traits = traitsOf(pass);
-  if ((traits.reads | traits.writes).contains(Array::scalars)) scalars_.bindStorage(SCALARS_BINDING);
+  if (traits.gate != Gate::none || (traits.reads | traits.writes).contains(Array::scalars))
+    scalars_.bindStorage(SCALARS_BINDING);
   for (int i = 0; i < ARRAY_COUNT; ++i) {
     const auto array = static_cast<Array>(i);
     const int binding = placeOf(array).binding;

@@ -6,6 +6,7 @@
 
 #include "gl/buffer.h"
 #include "gl/buffer_texture.h"
+#include "solver/gpu/levels.h"
 #include "solver/gpu/particle_array.h"
 #include "solver/implicit.h"
 #include "solver/pass.h"
@@ -18,9 +19,10 @@ class GpuArrays {
   // @throws OpenGlError when a buffer is larger than the driver allows, or memory runs out
   explicit GpuArrays(std::size_t particles);
 
-  // What implicit steps need besides; `vertices` those of all levels. Does nothing where that is there.
-  // @throws as the constructor
-  void addImplicit(std::size_t particles, std::size_t vertices, bool wind, bool colliders);
+  // What implicit steps need besides. Does nothing where that is there. @throws as the constructor
+  void addImplicit(std::size_t particles, const GpuLevels& levels, bool wind, bool colliders);
+  // What implicit steps have come to; zeros without any. Blocking.
+  [[nodiscard]] ImplicitScalars<float> scalars() const;
 
   [[nodiscard]] ParticleArray& operator[](Array array) { return arrays_[static_cast<std::size_t>(array)]; }
   [[nodiscard]] const ParticleArray& operator[](Array array) const {

@@ -67,39 +67,22 @@ void GpuExecutor::setScene(const StepInputs& inputs) {
 }
 
 void GpuExecutor::setCuts(const StepInputs& inputs) {
-  const auto put = [](gl::Buffer<std::uint32_t>& buffer, gl::BufferTexture& texture, const char* label,
-                      const std::vector<std::uint32_t>& numbers) {
-    if (numbers.empty()) return;
-    if (buffer.size() != numbers.size()) {
-      buffer = gl::Buffer<std::uint32_t>(label, numbers.size());
-      texture = gl::BufferTexture(label, buffer.name(), GL_R32UI);
+  if (!inputs.cutMasks.empty()) {
+    if (cutMasks_.size() != inputs.cutMasks.size()) {
+      cutMasks_ = gl::Buffer<std::uint32_t>("cut masks", inputs.cutMasks.size());
+      cutMaskTexture_ = gl::BufferTexture("cut masks", cutMasks_.name(), GL_R32UI);
     }
-    buffer.upload(numbers);
-  };
-  put(cutMasks_, cutMaskTexture_, "cut masks", inputs.cutMasks);
-  if (hierarchy_.vertices != 0)
-    put(cutLinks_, cutLinkTexture_, "cut links", makeCutLinks(*cloth_, inputs.cutMasks, hierarchy_));
-  selfCollision_.setCut(!inputs.cuts.empty());
-}
-
-void GpuExecutor::prepareLevels(const StepInputs& inputs) {
-  if (hierarchy_.vertices != 0) return;
-  hierarchy_ = makeHierarchy<float>(*cloth_);
-  std::vector<LevelSlot> slots;
-  for (std::size_t piece = 0; piece < hierarchy_.pieces.size(); ++piece) {
-    firstLevels_.push_back(slots.size());
-    for (const LevelParams<float>& level : hierarchy_.pieces[piece]) slots.push_back({level});
-    if (hierarchy_.pieces[piece].empty()) slots.push_back({onlyLevel<float>(cloth_->pieces()[piece])});
+    cutMasks_.upload(inputs.cutMasks);
   }
-  levelSlots_ = gl::Buffer<LevelSlot>("levels", std::span<const LevelSlot>(slots));
-  setCuts(inputs);  // the links between the levels' vertices
+  levels_ = {};  // made anew when an implicit step needs them: no weight crosses a cut
+  selfCollision_.setCut(!inputs.cuts.empty());
 }
 
 void GpuExecutor::prepare(const StepInputs& inputs, const PassList& list) {
   parameters_.prepare(inputs);
   if (list.contains(Pass::begin)) {
-    prepareLevels(inputs);
-    arrays_.addImplicit(cloth_->particleCount(), hierarchy_.vertices,
+    if (levels_.empty()) levels_ = GpuLevels(makeHierarchy<float>(*cloth_, inputs.cutMasks));
+    arrays_.addImplicit(cloth_->particleCount(), levels_,
                         inputs.scene->wind.has_value() || inputs.interaction.jet.has_value(),
                         !inputs.scene->colliders.empty());
   }
@@ -136,7 +119,7 @@ void GpuExecutor::run(const StepInputs& inputs, const PassList& list, int steps)
   distanceTexture_.bind(DISTANCES_UNIT);
   lists_.bind();
   if (!inputs.cuts.empty()) cutMaskTexture_.bind(CUT_MASKS_UNIT);
-  if (cutLinks_.name() != 0) cutLinkTexture_.bind(CUT_LINKS_UNIT);
+  levels_.bind();
   bindWatch(inputs.clock.step);
 
   for (std::span<const PassCall> rest = list.passes; !rest.empty();) rest = rest.subspan(runKernel(rest));
@@ -162,15 +145,16 @@ std::size_t GpuExecutor::runKernel(std::span<const PassCall> passes) {
       runOnPieces(programs, call, name);
       break;
     case Domain::particles:
-      runner_.run(*programs[0][0], name, std::min(cloth_->particleCount(), PARTICLES_A_ROW),
-                  (cloth_->particleCount() + PARTICLES_A_ROW - 1) / PARTICLES_A_ROW);
+      runOnEntries(*programs[0][0], name, cloth_->particleCount());
       break;
     case Domain::springs:
       runOnColor(programs, call, name);
       break;
     case Domain::coarseVertices:
+    case Domain::coarseBlocks:
     case Domain::fineVertices:
-      runOnLevel(*programs[0][0], call, name);
+      call.pass == Pass::invertDense || call.pass == Pass::solveCoarsest ? runOnParts(programs, name)
+                                                                         : runOnLevel(programs, call, name);
       break;
     case Domain::sums:
       runSum(programs[0], name);
@@ -204,23 +188,42 @@ void GpuExecutor::runOnColor(const std::vector<Programs>& programs, const PassCa
   }
 }
 
-void GpuExecutor::runOnLevel(const gl::Program& program, const PassCall& call, const std::string& name) {
-  for (std::size_t i = 0; i < hierarchy_.pieces.size(); ++i) {
-    const std::vector<LevelParams<float>>& levels = hierarchy_.pieces[i];
-    const bool coarsest = call.pass == Pass::solveCoarsest;
-    if (!coarsest && call.index >= levels.size()) continue;
-    const std::size_t index = coarsest ? std::max<std::size_t>(levels.size(), 1) - 1 : call.index;
-    const LevelParams<float> level = levels.empty() ? onlyLevel<float>(cloth_->pieces()[i]) : levels[index];
-    levelSlots_.bindUniformRange(LEVEL_PARAMS_BINDING, firstLevels_[i] + index, 1);
-    if (call.traits().domain == Domain::fineVertices)
-      runner_.run(program, name, level.fineColumns, level.fineRows);
-    else
-      runner_.run(program, name, level.coarseColumns, level.coarseRows);
+void GpuExecutor::runOnEntries(const gl::Program& program, const std::string& name, std::uint32_t count) {
+  runner_.run(program, name, std::min(count, PARTICLES_A_ROW),
+              (count + PARTICLES_A_ROW - 1) / PARTICLES_A_ROW);
+}
+
+void GpuExecutor::runOnLevel(const std::vector<Programs>& programs, const PassCall& call,
+                             const std::string& name) {
+  for (std::size_t i = 0; i < programs.size(); ++i) {
+    if (call.index >= levels_.ofPiece(i).size()) continue;
+    const LevelParams& level = levels_.ofPiece(i)[call.index];
+    // The first level's matrix comes from elements, the others from the level before.
+    const bool isSecondShader = call.pass == Pass::coarsen && call.index > 0;
+    const std::uint32_t count = call.traits().domain == Domain::coarseBlocks
+                                    ? level.endBlock - level.firstBlock
+                                : call.traits().domain == Domain::fineVertices ? level.fineCount
+                                                                               : level.coarseCount;
+    parameters_.bindPiece(i);
+    levels_.bindLevel(i, call.index);
+    runOnEntries(*programs[i][isSecondShader ? 1 : 0], name, count);
+  }
+}
+
+// A work group each.
+void GpuExecutor::runOnParts(const std::vector<Programs>& programs, const std::string& name) {
+  for (std::size_t i = 0; i < programs.size(); ++i) {
+    parameters_.bindPiece(i);
+    for (std::size_t part = 0; part < levels_.partsOf(i).size(); ++part) {
+      levels_.bindPart(i, part);
+      runner_.runGroups(*programs[i][0], name, 1);
+    }
   }
 }
 
 // First the sums of blocks of particles, then their total and what becomes of it.
 void GpuExecutor::runSum(const Programs& programs, const std::string& name) {
+  if (programs.size() == 1) return runner_.runGroups(*programs[0], name, 1);  // counts alone
   runner_.runGroups(*programs[0], name,
                     static_cast<std::uint32_t>(arrays_[Array::partialSums].buffer.size()));
   runner_.runGroups(*programs[1], name, 1);
@@ -313,6 +316,8 @@ std::optional<Divergence> GpuExecutor::findDivergence(std::uint64_t step, bool w
   if (!divergence_) watchBase_ = step - 1;  // nothing was written: the rows serve again
   return divergence_;
 }
+
+ConvergenceCounts GpuExecutor::convergenceCounts() { return convergenceOf(arrays_.scalars()); }
 
 void GpuExecutor::startTiming() { runner_.startTiming(); }
 

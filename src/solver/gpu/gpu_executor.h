@@ -11,6 +11,7 @@
 #include "gl/program.h"
 #include "solver/executor.h"
 #include "solver/gpu/arrays.h"
+#include "solver/gpu/levels.h"
 #include "solver/gpu/mesh_lists.h"
 #include "solver/gpu/parameters.h"
 #include "solver/gpu/pass_programs.h"
@@ -47,6 +48,7 @@ class GpuExecutor final : public Executor {
   [[nodiscard]] std::optional<Divergence> findDivergence(std::uint64_t step, bool wait) override;
   void forgetDivergence(std::uint64_t step) override;
   [[nodiscard]] ContactCounts contactCounts() override { return selfCollision_.counts(); }
+  [[nodiscard]] ConvergenceCounts convergenceCounts() override;
   void startTiming() override;
   [[nodiscard]] std::vector<PassTime> stopTiming() override;
   [[nodiscard]] std::string backend() const override { return "gpu"; }
@@ -60,21 +62,19 @@ class GpuExecutor final : public Executor {
   struct alignas(256) ColorSlot {                    // every driver takes uniform offsets in multiples of 256
     LimitColor color;
   };
-  struct alignas(256) LevelSlot {
-    LevelParams<float> params;
-  };
   struct alignas(256) WatchSlot {  // as every driver takes storage offsets
     WatchRow row;
   };
   struct Copy;
 
   void compile(const StepInputs& inputs, const PassList& list);
-  void prepareLevels(const StepInputs& inputs);
   void bindWatch(std::uint64_t step);
   std::size_t runKernel(std::span<const PassCall> passes);
   void runOnPieces(const std::vector<Programs>& programs, const PassCall& call, const std::string& name);
   void runOnColor(const std::vector<Programs>& programs, const PassCall& call, const std::string& name);
-  void runOnLevel(const gl::Program& program, const PassCall& call, const std::string& name);
+  void runOnEntries(const gl::Program& program, const std::string& name, std::uint32_t count);
+  void runOnLevel(const std::vector<Programs>& programs, const PassCall& call, const std::string& name);
+  void runOnParts(const std::vector<Programs>& programs, const std::string& name);
   void runSum(const Programs& programs, const std::string& name);
   [[nodiscard]] std::vector<WatchSlot> watchedRows(std::uint64_t steps);
 
@@ -84,16 +84,14 @@ class GpuExecutor final : public Executor {
   GpuParameters parameters_;
   GpuMeshLists lists_;
   gl::Buffer<float> restLengths_, distances_;  // distances_: samples of the mesh colliders' grids
-  gl::Buffer<std::uint32_t> cutMasks_, cutLinks_;
-  gl::BufferTexture restLengthTexture_, distanceTexture_, cutMaskTexture_, cutLinkTexture_;
+  gl::Buffer<std::uint32_t> cutMasks_;
+  gl::BufferTexture restLengthTexture_, distanceTexture_, cutMaskTexture_;
   std::shared_ptr<const std::vector<float>> stagedDistances_;  // those in distances_
 
   std::vector<std::vector<LimitColor>> colors_;  // by grid,
   std::vector<std::size_t> firstColors_;         // and where they begin in
   gl::Buffer<ColorSlot> colorSlots_;
-  Hierarchy<float> hierarchy_;  // empty until an implicit step needs it
-  std::vector<std::size_t> firstLevels_;
-  gl::Buffer<LevelSlot> levelSlots_;
+  GpuLevels levels_;  // empty until an implicit step needs them
 
   PassLibrary library_;
   std::vector<std::vector<Programs>> kernels_;  // by kernel and grid; empty where no list needs it

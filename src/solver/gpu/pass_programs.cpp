@@ -72,6 +72,7 @@ gl::Defines definesFor(const PassFeatures& features) {
           {"HAS_GRAB", std::to_string(features.grab)},
           {"HAS_JET", std::to_string(features.jet)},
           {"HAS_CUTS", std::to_string(features.cuts)},
+          {"GATE", std::to_string(features.gate)},
           {"ENABLED_SLOTS", std::to_string(features.enabledSlots) + "u"}};
 }
 
@@ -88,11 +89,13 @@ const std::vector<Kernel>& kernels() {
       {{Pass::forces}, {"forces"}, {}},
       {{Pass::integrate}, {"integrate"}, {}},
       {{Pass::begin}, {"implicit/begin"}, {}},
-      {{Pass::findPlanes}, {"implicit/find_planes"}, {}},
-      {{Pass::initialGuess}, {"implicit/initial_guess"}, {}},
+      {{Pass::findPlanes}, {"implicit/find_planes"}, {{"PREDICTS", "0"}}},
+      {{Pass::predictPlanes}, {"implicit/find_planes"}, {{"PREDICTS", "1"}}},
       {{Pass::elasticForces}, {"forces"}, {}},
       {{Pass::linearize}, {"implicit/linearize"}, {}},
-      {{Pass::coarsen}, {"implicit/coarsen"}, {}},
+      {{Pass::findCenters}, {"implicit/find_centers"}, {}},
+      {{Pass::coarsen}, {"implicit/coarsen_elements", "implicit/coarsen"}, {}},
+      {{Pass::invertDense}, {"implicit/invert_dense"}, {}},
       {{Pass::restrict}, {"implicit/restrict"}, {}},
       {{Pass::solveCoarsest}, {"implicit/solve_coarsest"}, {}},
       {{Pass::prolong}, {"implicit/prolong"}, {}},
@@ -103,10 +106,11 @@ const std::vector<Kernel>& kernels() {
       {{Pass::updateSolution}, {"implicit/update_solution"}, {}},
       sum(Pass::sumNextResidual, SUM_NEXT),
       {{Pass::tryLengths}, {"implicit/try_lengths"}, {}},
-      sum(Pass::sumStartEnergies, SUM_START),
       sum(Pass::sumEnergies, SUM_LENGTH),
       {{Pass::accept}, {"implicit/accept"}, {}},
+      sum(Pass::measureUpdate, SUM_UPDATE),
       {{Pass::end}, {"implicit/end"}, {}},
+      {{Pass::countStep}, {"implicit/count_step"}, {}},
       {{Pass::collide}, {"collide"}, {}},
       {{Pass::limit}, {"limit"}, {}},
       {{Pass::watchLimit}, {"watch_limit"}, {}},
@@ -129,7 +133,8 @@ std::size_t kernelFor(std::span<const PassCall> passes, bool fused) {
 std::vector<const gl::Program*> PassLibrary::find(const Kernel& kernel, const PassFeatures& features) {
   Features seen;
   for (const Pass pass : kernel.passes) seen = seen | traitsOf(pass).features;
-  const PassFeatures own = restricted(features, seen);
+  PassFeatures own = restricted(features, seen);
+  own.gate = static_cast<int>(traitsOf(kernel.passes.front()).gate);
   gl::Defines defines = definesFor(own);
   defines.insert(defines.end(), kernel.defines.begin(), kernel.defines.end());
   std::vector<const gl::Program*> programs;

@@ -27,6 +27,7 @@ struct PassFeatures {
   std::uint32_t particleForces = 0;              // one bit a FORCE_... of shared/forces.h
   std::uint32_t enabledSlots = 0;                // one bit a SpringSlot
   int groupColumns = 64, groupRows = 1;
+  int gate = 0;  // GATE_... of shared/implicit.h
   friend auto operator<=>(const PassFeatures&, const PassFeatures&) = default;
 };
 

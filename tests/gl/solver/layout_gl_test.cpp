@@ -160,15 +160,13 @@ TEST_F(LayoutTest, OfInteractionParamsIsTheDrivers) {
 }
 
 TEST_F(LayoutTest, OfWhatTheImplicitIntegratorSharesIsTheDrivers) {
-  using Level = LevelParams<float>;
+  using Level = LevelParams;
   PassLibrary library;
   PassFeatures features = allFeatures();
   features.limitSprings = features.grab = true;
   const gl::Program& begin = programOf(library, {Pass::begin}, features);
   EXPECT_EQ(uniformOffset(begin, "step.inertia"), static_cast<GLint>(offsetof(Step, inertia)));
   EXPECT_EQ(uniformOffset(begin, "step.guessTime"), static_cast<GLint>(offsetof(Step, guessTime)));
-  EXPECT_EQ(uniformOffset(programOf(library, {Pass::end}, features), "step.supportScale"),
-            static_cast<GLint>(offsetof(Step, supportScale)));
   EXPECT_EQ(uniformOffset(begin, "interaction.resistance"),
             static_cast<GLint>(offsetof(InteractionParams<float>, resistance)));
   EXPECT_EQ(uniformOffset(begin, "interaction.largestDisplacementSquared"),
@@ -178,16 +176,14 @@ TEST_F(LayoutTest, OfWhatTheImplicitIntegratorSharesIsTheDrivers) {
 
   const gl::Program& coarsen = programOf(library, {Pass::coarsen}, features);
   for (const auto& [name, offset] : std::vector<std::pair<std::string, std::size_t>>{
-           MEMBER(Level, "level.", fineFirst), MEMBER(Level, "level.", coarseFirst),
-           MEMBER(Level, "level.", coarseRows), MEMBER(Level, "level.", stiffnessFactor),
-           MEMBER(Level, "level.", inertiaFactor), MEMBER(Level, "level.", bending)})
+           MEMBER(Level, "level.", firstBlock), MEMBER(Level, "level.", endBlock)})
     EXPECT_EQ(uniformOffset(coarsen, name), static_cast<GLint>(offset)) << name;
   EXPECT_EQ(blockSize(coarsen, "LevelBlock"), static_cast<GLint>(sizeof(Level)));
 
   const gl::Program& totals = programOf(library, {Pass::sumFirstResidual}, features);
   const GLuint index = glGetProgramResourceIndex(totals.name(), GL_BUFFER_VARIABLE, "scalars.residual");
   ASSERT_NE(index, GL_INVALID_INDEX);
-  EXPECT_EQ(sizeof(ImplicitScalars<float>), 32u);
+  EXPECT_EQ(sizeof(ImplicitScalars<float>), 64u);
   EXPECT_EQ(offsetof(ImplicitScalars<float>, newtonLength), 16u);
 }
 

@@ -93,6 +93,7 @@ TEST_F(PassTraitsTest, NameEveryArrayThatAShaderReadsOrWrites) {
       const PassTraits& traits = traitsOf(pass);
       reads = reads | traits.gathers | traits.reads | Arrays{positionsOf(pass)};
       writes = writes | traits.writes;
+      if (traits.gate != Gate::none) reads = reads | Arrays{Array::scalars};
     }
     for (const bool mesh : {false, true})
       for (const gl::Program* program : library.find(kernel, everything(mesh))) {
@@ -112,7 +113,7 @@ TEST_F(PassTraitsTest, NameEveryArrayThatAShaderReadsOrWrites) {
         ++checked;
       }
   }
-  EXPECT_EQ(checked, 2 * (static_cast<int>(kernels().size()) + 5)) << "sums have two shaders";
+  EXPECT_EQ(checked, 2 * (static_cast<int>(kernels().size()) + 6)) << "sums and coarsening have two shaders";
 }
 
 TEST_F(PassTraitsTest, NameNoArrayThatNoShaderTouches) {

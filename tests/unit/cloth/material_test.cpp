@@ -126,31 +126,17 @@ TEST(CgIterations, GrowWithTheStepWhenAuto) {
         .solver.cgIterations;
   };
   EXPECT_EQ(iterations(1000), AutoCount(10, true));
-  EXPECT_EQ(iterations(60), AutoCount(10, true));
-  EXPECT_EQ(iterations(30), AutoCount(20, true));
-  EXPECT_EQ(iterations(20), AutoCount(30, true));
-  EXPECT_EQ(iterations(5), AutoCount(40, true));
+  EXPECT_EQ(iterations(60), AutoCount(20, true));
+  EXPECT_EQ(iterations(30), AutoCount(40, true));
+  EXPECT_EQ(iterations(20), AutoCount(60, true));
+  EXPECT_EQ(iterations(5), AutoCount(60, true));
   Scene scene = sceneOf(R"({"cloth": {}, "solver": {"simulation_steps": 1, "frames_per_sec": 60}})");
   setSceneValue(scene, "solver.frames_per_sec=20");
-  EXPECT_EQ(scene.solver.cgIterations, AutoCount(30, true));
+  EXPECT_EQ(scene.solver.cgIterations, AutoCount(60, true));
   setSceneValue(scene, "solver.cg_iterations=7");
   EXPECT_EQ(scene.solver.cgIterations, AutoCount(7));
   setSceneValue(scene, "solver.cg_iterations=auto");
-  EXPECT_EQ(scene.solver.cgIterations, AutoCount(30, true));
-}
-
-TEST(CgIterations, AreThoseThatFabricsNeedOnTheirLattice) {
-  const auto iterations = [](const std::string& points) {
-    return sceneOf(R"({"cloth": {"material": "silk", "num_width_points": )" + points +
-                   R"(, "num_height_points": 65}})")
-        .solver.cgIterations;
-  };
-  EXPECT_EQ(iterations("65"), AutoCount(40, true));
-  EXPECT_EQ(iterations("49"), AutoCount(40, true));
-  EXPECT_EQ(iterations("50"), AutoCount(60, true));
-  Scene scene = sceneOf(R"({"cloth": {"material": "silk"}})");
-  (void)changeResolution(scene, 65, 65, false);
-  EXPECT_EQ(scene.solver.cgIterations, AutoCount(40, true));
+  EXPECT_EQ(scene.solver.cgIterations, AutoCount(60, true));
 }
 
 TEST(ChangeResolution, LeavesAMaterialAndMultipliesItsSteps) {

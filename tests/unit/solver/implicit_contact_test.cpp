@@ -20,6 +20,7 @@ Scene sheetOver(const Collider& collider, int points) {
   scene.solver.frictionLaw = FrictionLaw::coulomb;
   scene.solver.selfCollision = SelfCollision::off;
   scene.colliders = {collider};
+  chooseCounts(scene);
   return scene;
 }
 

@@ -92,7 +92,6 @@ class Sheet {
                                           state_,
                                           state_,
                                           forces_,
-                                          nullptr,
                                           watch_};
     for (int derivativesRow = 0; derivativesRow < cpu::rowsOf(cloth_.pieces()[0]); ++derivativesRow)
       cpu::multiply({pass, own_}, derivativesRow);

@@ -1,0 +1,177 @@
+// The matrix of the first coarse level, from the elements of the cloth: springs, bending, and what acts on single particles;
+// a block an invocation. The twin of src/solver/cpu/coarse_elements.cpp. POSITIONS_UNIT: the iterate.
+#include "sim/implicit/level.glsl"
+#include "sim/implicit/store_block.glsl"
+#include "sim/watch.glsl"
+#include "sim/incident_springs.glsl"
+#include "sim/implicit/contact.glsl"
+#if HAS_MESH
+#include "sim/implicit/mesh.glsl"
+#endif
+
+uvec2 pair;  // row and column of the block
+vec3 rowCenter, columnCenter;
+
+// How the vertices of an element follow a rigid body: by sum of c w (t + r x (x - center)) = sigma t + r x y; (sigma, y).
+// What it adds to the block: p q^T of the forces of rank 1, and s (sigma, y) (sigma, y)^T of those without a direction.
+RigidBlock outer = noBlock();
+vec4 moments[4] = vec4[4](vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0));  // columns
+
+// A particle, or an element, as the two vertices see it.
+struct Hanging {
+  vec4 row, column;
+};
+
+// With what weight the particle hangs on a vertex, 0 if it is pinned, and that times where it is from the center.
+vec4 leverAt(uint i, vec4 x, uint vertex, vec3 center) {
+  float weight = x.w == 0.0 ? 0.0 : weightOn(i, vertex);
+  precise vec3 y = weight * (x.xyz - center);
+  return vec4(weight, y);
+}
+Hanging hangingOf(uint i) {
+  vec4 x = positionAt(i);
+  return Hanging(leverAt(i, x, pair.x, rowCenter), leverAt(i, x, pair.y, columnCenter));
+}
+
+// The element s |sigma t + r x y|^2 / 2.
+void addIsotropic(float s, Hanging hanging) {
+  precise vec4 scaled = s * hanging.row;
+  for (int c = 0; c < 4; ++c) {
+    precise vec4 sum = moments[c] + scaled * hanging.column[c];
+    moments[c] = sum;
+  }
+}
+
+// The force of the element d on a body: (sigma d, y x d).
+RigidVector pullOf(vec4 lever, vec3 d) {
+  precise vec3 force = lever.x * d;
+  return RigidVector(force, crossProduct(lever.yzw, d));
+}
+void addPulling(float s, vec3 d, Hanging hanging) {
+  RigidVector p = pullOf(hanging.row, d), q = pullOf(hanging.column, d);
+  precise vec3 force = s * p.translation;
+  precise vec3 torque = s * p.rotation;
+  for (int c = 0; c < 3; ++c) {
+    precise vec3 tt = outer.tt[c] + force * q.translation[c];
+    precise vec3 tr = outer.tr[c] + force * q.rotation[c];
+    precise vec3 rt = outer.rt[c] + torque * q.translation[c];
+    precise vec3 rr = outer.rr[c] + torque * q.rotation[c];
+    outer.tt[c] = tt;
+    outer.tr[c] = tr;
+    outer.rt[c] = rt;
+    outer.rr[c] = rr;
+  }
+}
+
+// Cross products with the unit vectors, in components.
+RigidBlock blockOfSums() {
+  float both = moments[0].x;
+  vec3 u = vec3(moments[1].x, moments[2].x, moments[3].x), v = moments[0].yzw;
+  precise float trace = (moments[1].y + moments[2].z) + moments[3].w;
+  vec3 w[3] = vec3[3](vec3(moments[1].y, moments[2].y, moments[3].y), vec3(moments[1].z, moments[2].z, moments[3].z),
+                      vec3(moments[1].w, moments[2].w, moments[3].w));
+  vec3 tt[3] = vec3[3](vec3(both, 0.0, 0.0), vec3(0.0, both, 0.0), vec3(0.0, 0.0, both));
+  vec3 tr[3] = vec3[3](vec3(0.0, -u.z, u.y), vec3(u.z, 0.0, -u.x), vec3(-u.y, u.x, 0.0));
+  vec3 rt[3] = vec3[3](vec3(0.0, v.z, -v.y), vec3(-v.z, 0.0, v.x), vec3(v.y, -v.x, 0.0));
+  vec3 rr[3] = vec3[3](vec3(trace, 0.0, 0.0), vec3(0.0, trace, 0.0), vec3(0.0, 0.0, trace));
+  RigidBlock block;
+  for (int c = 0; c < 3; ++c) {
+    precise vec3 sumTT = outer.tt[c] + tt[c];
+    precise vec3 sumTR = outer.tr[c] + tr[c];
+    precise vec3 sumRT = outer.rt[c] + rt[c];
+    precise vec3 sumRR = outer.rr[c] + (rr[c] - w[c]);
+    block.tt[c] = sumTT;
+    block.tr[c] = sumTR;
+    block.rt[c] = sumRT;
+    block.rr[c] = sumRR;
+  }
+  return block;
+}
+
+// Inertia, air, grabs and the collider that is touched.
+void addParticle(uint i, Hanging hanging) {
+  float diagonal = texelFetch(rightHandSides, int(i)).w;
+  precise float stiffness = diagonal;
+  if (hasWind) {
+    vec3 air = airBlockAt(i).diagonal;
+    stiffness = stiffness + uintBitsToFloat(0x3eaaaaabu) * ((air.x + air.y) + air.z);
+  }
+  addIsotropic(stiffness, hanging);
+  if (hasContacts) addPulling(contactStiffness(diagonal), contactPlaneAt(i).xyz, hanging);
+}
+
+void addSpring(uint i, Hanging hanging, IncidentSpring spring) {
+  Hanging end = hangingOf(spring.other);
+  precise vec3 d = positionAt(spring.other).xyz - positionAt(i).xyz;
+  SpringBlock s = springBlock(d, spring);
+  precise vec4 row = end.row - hanging.row;
+  precise vec4 column = end.column - hanging.column;
+  addPulling(s.along, d, Hanging(row, column));
+  if (s.across > 0.0) addIsotropic(s.across, Hanging(row, column));
+}
+
+#if HAS_MESH
+void addElementsOf(uint i) {
+  Hanging hanging = hangingOf(i);
+  addParticle(i, hanging);
+  uvec4 first = texelFetch(listStarts, int(i)), end = texelFetch(listStarts, int(i) + 1);
+  for (uint n = first.x; n < end.x; ++n) {
+    IncidentSpring spring = meshSpring(n);
+    if (spring.other < i) addSpring(i, hanging, spring);
+  }
+  for (uint n = first.y; n < end.y; ++n) {
+    uint number = texelFetch(meshNumbers, int(n)).x;
+    if (number % 4u != 0u) continue;
+    Hinge hinge = hingeAt(number);
+    precise vec4 row = vec4(0.0);
+    precise vec4 column = vec4(0.0);
+    for (int k = 0; k < 4; ++k) {
+      Hanging corner = hangingOf(hinge.corners[k]);
+      row = row + hinge.coefficients[k] * corner.row;
+      column = column + hinge.coefficients[k] * corner.column;
+    }
+    addIsotropic(1.0, Hanging(row, column));
+  }
+}
+#else
+void addLine(uint i, uint stride, Hanging middle, float b) {
+  bool endOfClamp = positionAt(i).w == 0.0 && (positionAt(i - stride).w == 0.0) != (positionAt(i + stride).w == 0.0);
+  Hanging before = hangingOf(i - stride), behind = hangingOf(i + stride);
+  precise float weighted = endOfClamp ? 2.0 * b : b;
+  precise vec4 row = (before.row - middle.row) + (behind.row - middle.row);
+  precise vec4 column = (before.column - middle.column) + (behind.column - middle.column);
+  addIsotropic(weighted, Hanging(row, column));
+}
+
+void addElementsOf(uint i) {
+  uint place = i - step.firstParticle;
+  GridPoint p = GridPoint(place % step.columns, place / step.columns, i, true);
+  Hanging hanging = hangingOf(i);
+  addParticle(i, hanging);
+  uint cut = cutMaskOf(i);
+  for (uint k = 0u; k < OWNED_SPRINGS; ++k) {
+    IncidentSpring spring = incidentSpring(p, k, cut);
+    if (spring.exists) addSpring(i, hanging, spring);
+  }
+  if (!hasMaterial) return;
+  bool borderRow = p.row == 0u || p.row + 1u == step.rows;
+  bool borderColumn = p.column == 0u || p.column + 1u == step.columns;
+  precise float alongRow = borderRow ? 0.5 * step.bendAlongRow : step.bendAlongRow;
+  precise float alongColumn = borderColumn ? 0.5 * step.bendAlongColumn : step.bendAlongColumn;
+  if (!borderColumn && (cut & BENDING_ROW) == 0u) addLine(i, 1u, hanging, alongRow);
+  if (!borderRow && (cut & BENDING_COLUMN) == 0u) addLine(i, step.columns, hanging, alongColumn);
+}
+#endif
+
+void main() {
+  if (isSkipped()) return;
+  uint i = thisEntry();
+  if (!isEntry(i, level.endBlock - level.firstBlock)) return;
+  uint number = level.firstBlock + i;
+  uvec4 block = texelFetch(coarsePairs, int(number));
+  pair = block.xy;
+  rowCenter = centerAt(pair.x);
+  columnCenter = centerAt(pair.y);
+  for (uint k = block.z; k < block.w; ++k) addElementsOf(texelFetch(coarseSources, int(k)).x);
+  storeBlock(blockOfSums(), number, pair);
+}

@@ -1,0 +1,296 @@
+// The first coarse level's matrix, from the elements of the cloth: springs, bending, and what acts on single
+// particles; the twin of shaders/sim/implicit/coarsen_elements.comp. There, an invocation sums up a block;
+// here an element is worked out once and added to all blocks that it touches, in the same order.
+#include "solver/cpu/coarse_elements.h"
+
+#include <algorithm>
+
+#include "solver/cpu/implicit_contact.h"
+#include "solver/cpu/implicit_laws.h"
+#include "solver/cpu/rows.h"
+#include "solver/cpu/spring_rows.h"
+
+#pragma GCC diagnostic ignored "-Wpsabi"  // vectors are passed between inlined functions only
+
+namespace clothsim::cpu {
+namespace {
+
+template <class Real>
+using Four = typename VectorsOf<Real>::Four;
+template <class Real>
+using Eight = typename VectorsOf<Real>::Eight;
+
+// Adds s p q^T, p = (sigma, y): the element s |sigma t + r x y|^2 / 2 of a body of translation t and rotation
+// r.
+template <class Real>
+INLINE void addIsotropic(ElementSums<Real>& sums, Real s, Four<Real> p, Four<Real> q) {
+  const Four<Real> scaled = s * p;
+  for (int c = 0; c < 4; ++c) sums.moments[c] += scaled * q[c];
+}
+
+// The force of the element d on a body: (sigma d, y x d).
+template <class Real>
+INLINE Eight<Real> pullOf(Four<Real> lever, Vec3<Real> d) {
+  const Vec3<Real> force = lever[0] * d, torque = cross(Vec3<Real>{lever[1], lever[2], lever[3]}, d);
+  return Eight<Real>{force.x, force.y, force.z, 0, torque.x, torque.y, torque.z, 0};
+}
+template <class Real>
+INLINE void addOuterProduct(ElementSums<Real>& sums, Eight<Real> scaled, Eight<Real> q) {
+  for (int c = 0; c < 3; ++c) {
+    sums.columns[c] += scaled * q[c];
+    sums.columns[3 + c] += scaled * q[4 + c];
+  }
+}
+
+// Adds the elements of some particles to the blocks of the rows [first, end).
+template <class Real>
+class ElementLoop {
+ public:
+  INLINE ElementLoop(const ImplicitArguments<Real>& arguments, std::uint32_t first, std::uint32_t end)
+      : arguments_(arguments),
+        pass_(arguments.step),
+        own_(arguments.own),
+        levels_(arguments.own.hierarchy),
+        x_(arraysOf(std::as_const(own_.iterate.positions))),
+        centers_(arraysOf(std::as_const(own_.centers))),
+        first_(first),
+        end_(end) {}
+
+  INLINE void addElementsOf(std::uint32_t i) {
+    touched_ = levels_.touched.data() + levels_.touchedStarts[i];
+    count_ = levels_.touchedStarts[i + 1] - levels_.touchedStarts[i];
+    blocks_ = levels_.elementBlocks.data() + levels_.elementBlockStarts[i];
+    if (count_ == 0 || touched_[0] >= end_ || touched_[count_ - 1] < first_) return;
+    scratch_.resize(std::max<std::size_t>(scratch_.size(), 6 * std::size_t{count_}));
+    pulls_.resize(std::max<std::size_t>(pulls_.size(), count_));
+    Four<Real>* own = leversIn(0);
+    gatherLevers(i, own);
+    addParticle(i, own);
+    if (pass_.step.isMesh != 0) {
+      addMeshSprings(i, own);
+      addHinges(i);
+      return;
+    }
+    const std::uint32_t place = i - pass_.step.firstParticle, column = place % pass_.step.columns,
+                        row = place / pass_.step.columns;
+    const std::uint32_t cut = pass_.cutMasks != nullptr ? pass_.cutMasks[i] : 0;
+    for (std::uint32_t k = 0; k < SPRING_SLOTS; ++k) addGridSpring(i, own, k, column, row, cut);
+    if (pass_.step.hasMaterial != 0) addLines(i, own, column, row, cut);
+  }
+
+ private:
+  // One of six rows of scratch, with a lever for each aggregate that the elements touch.
+  INLINE Four<Real>* leversIn(std::size_t row) { return &scratch_[row * count_].lever; }
+
+  // With what weight a particle hangs on each aggregate, and that times where it is from the center; 0 for
+  // others, and if it is pinned.
+  INLINE void gatherLevers(std::uint32_t i, Four<Real>* levers) const {
+    std::fill(levers, levers + count_, Four<Real>{});
+    if (pass_.inverseMasses[i] == Real(0)) return;
+    const Vec3<Real> x = at(x_, i);
+    std::uint32_t a = 0;
+    for (std::uint32_t n = levels_.prolongationStarts[i]; n < levels_.prolongationStarts[i + 1]; ++n) {
+      const auto& [vertex, weight] = levels_.prolongation[n];
+      while (touched_[a] != vertex) ++a;
+      const Vec3<Real> y = weight * (x - at(centers_, vertex));
+      levers[a] = Four<Real>{weight, y.x, y.y, y.z};
+    }
+  }
+  INLINE static bool isNone(Four<Real> lever) {
+    return lever[0] == 0 && lever[1] == 0 && lever[2] == 0 && lever[3] == 0;
+  }
+
+  // Calls add(sums, row, column) for the blocks of which both aggregates move the element.
+  template <class Add>
+  INLINE void forEachBlock(const Four<Real>* levers, Add add) {
+    const std::uint32_t* block = blocks_;
+    for (std::uint32_t a = 0; a < count_; block += count_ - a, ++a) {
+      if (touched_[a] < first_ || touched_[a] >= end_ || isNone(levers[a])) continue;
+      for (std::uint32_t b = a; b < count_; ++b)
+        if (!isNone(levers[b])) add(own_.elementSums[block[b - a]], a, b);
+    }
+  }
+  INLINE void addIsotropicElement(Real s, const Four<Real>* levers) {
+    forEachBlock(
+        levers, [&](ElementSums<Real> & sums, std::uint32_t a, std::uint32_t b)
+                    __attribute__((always_inline)) { addIsotropic(sums, s, levers[a], levers[b]); });
+  }
+  INLINE void addPullingElement(Real s, Vec3<Real> d, const Four<Real>* levers) {
+    for (std::uint32_t a = 0; a < count_; ++a) pulls_[a].pull = pullOf(levers[a], d);
+    forEachBlock(
+        levers, [&](ElementSums<Real> & sums, std::uint32_t a, std::uint32_t b) __attribute__((
+                    always_inline)) { addOuterProduct(sums, s * pulls_[a].pull, pulls_[b].pull); });
+  }
+
+  // Inertia, air, grabs and the collider that is touched.
+  INLINE void addParticle(std::uint32_t i, const Four<Real>* levers) {
+    const auto n = static_cast<std::ptrdiff_t>(i);
+    Real stiffness = own_.diagonal[i];
+    if (pass_.step.hasWind != 0) {
+      const Vec3<Real> air = at(own_.air, n).diagonal;
+      stiffness = stiffness + static_cast<Real>(0x1.555556p-2f) * ((air.x + air.y) + air.z);
+    }
+    addIsotropicElement(stiffness, levers);
+    if (hasContacts(arguments_))
+      addPullingElement(contactStiffness(arguments_, n), at(own_.planes.normals, n), levers);
+  }
+
+  INLINE void addSpring(std::uint32_t i, std::uint32_t other, const Four<Real>* own, Real stiffness,
+                        Real restLength, Real limitLength) {
+    Four<Real>* levers = leversIn(1);
+    gatherLevers(other, levers);
+    for (std::uint32_t a = 0; a < count_; ++a) levers[a] = levers[a] - own[a];
+    const Vec3<Real> d = at(x_, other) - at(x_, i);
+    const auto [across, along] =
+        springBlock(d, stiffness, restLength, pass_.step.limitStiffness, limitLength);
+    addPullingElement(along, d, levers);
+    if (across > Real(0)) addIsotropicElement(across, levers);
+  }
+
+  INLINE void addGridSpring(std::uint32_t i, const Four<Real>* own, std::uint32_t k, std::uint32_t column,
+                            std::uint32_t row, std::uint32_t cut) {
+    const StepParams<Real>& step = pass_.step;
+    const IncidentSpring& incident = incidentSprings[k];
+    const auto otherColumn = static_cast<std::uint32_t>(static_cast<int>(column) + incident.columns),
+               otherRow = static_cast<std::uint32_t>(static_cast<int>(row) + incident.rows);
+    if ((step.enabledSlots >> incident.slot & 1u) == 0 || otherColumn >= step.columns ||
+        otherRow >= step.rows || (cut >> k & 1u) != 0)
+      return;
+    const SpringParams<Real>& spring = step.springs[incident.slot];
+    const bool onBorder = (incident.slot == toLeft && isBorder(row, step.rows)) ||
+                          (incident.slot == toUpper && isBorder(column, step.columns));
+    const Real stiffness =
+        step.hasMaterial != 0 && onBorder ? Real(0.5) * spring.stiffness : spring.stiffness;
+    Real rest = spring.restLength, limit = spring.limitLength;
+    if (step.useRestLengthTable != 0) {
+      rest = pass_.restLengths[static_cast<std::size_t>(incident.slot) * step.totalParticles + i];
+      limit = step.limitFactor * rest;
+    }
+    addSpring(i, step.firstParticle + otherRow * step.columns + otherColumn, own, stiffness, rest, limit);
+  }
+
+  INLINE void addLines(std::uint32_t i, const Four<Real>* own, std::uint32_t column, std::uint32_t row,
+                       std::uint32_t cut) {
+    const StepParams<Real>& step = pass_.step;
+    const bool borderRow = isBorder(row, step.rows), borderColumn = isBorder(column, step.columns);
+    if (!borderColumn && (cut & BENDING_ROW) == 0)
+      addLine(i, 1, own, borderRow ? Real(0.5) * step.bendAlongRow : step.bendAlongRow);
+    if (!borderRow && (cut & BENDING_COLUMN) == 0)
+      addLine(i, step.columns, own, borderColumn ? Real(0.5) * step.bendAlongColumn : step.bendAlongColumn);
+  }
+  INLINE void addLine(std::uint32_t i, std::uint32_t stride, const Four<Real>* own, Real b) {
+    const Real* w = pass_.inverseMasses;
+    const bool endOfClamp = w[i] == Real(0) && (w[i - stride] == Real(0)) != (w[i + stride] == Real(0));
+    Four<Real>*before = leversIn(1), *behind = leversIn(2);
+    gatherLevers(i - stride, before);
+    gatherLevers(i + stride, behind);
+    for (std::uint32_t a = 0; a < count_; ++a) before[a] = (before[a] - own[a]) + (behind[a] - own[a]);
+    addIsotropicElement(endOfClamp ? Real(2) * b : b, before);
+  }
+
+  INLINE void addMeshSprings(std::uint32_t i, const Four<Real>* own) {
+    const MeshLists<Real>& lists = pass_.lists;
+    for (std::uint32_t n = lists.starts[i].springs; n < lists.starts[i + 1].springs; ++n) {
+      const auto& spring = lists.springs[n];
+      if (spring.other > i) continue;
+      addSpring(i, spring.other, own, spring.stiffness, spring.restLength,
+                pass_.step.limitFactor * spring.restLength);
+    }
+  }
+  INLINE void addHinges(std::uint32_t i) {
+    const MeshLists<Real>& lists = pass_.lists;
+    for (std::uint32_t n = lists.starts[i].hinges; n < lists.starts[i + 1].hinges; ++n) {
+      if (lists.numbers[n] % 4 != 0) continue;
+      const auto& [corners, c] = lists.hinges[lists.numbers[n] / 4];
+      Four<Real>*bent = leversIn(1), *corner = leversIn(2);
+      std::fill(bent, bent + count_, Four<Real>{});
+      for (std::size_t k = 0; k < 4; ++k) {
+        gatherLevers(corners[k], corner);
+        for (std::uint32_t a = 0; a < count_; ++a) bent[a] = bent[a] + c[k] * corner[a];
+      }
+      addIsotropicElement(Real(1), bent);
+    }
+  }
+
+  const ImplicitArguments<Real>& arguments_;
+  const PassArguments<Real>& pass_;
+  ImplicitState<Real>& own_;
+  const Hierarchy<Real>& levels_;
+  const Arrays<const Real> x_, centers_;
+  std::uint32_t first_, end_;  // rows
+  // Of the particle at hand: the aggregates that its elements touch, and the blocks of all pairs of them.
+  const std::uint32_t *touched_ = nullptr, *blocks_ = nullptr;
+  std::uint32_t count_ = 0;
+  // A std::vector of bare vector types would not be aligned as they are.
+  struct alignas(4 * sizeof(Real)) LeverCell {
+    Four<Real> lever;
+  };
+  struct alignas(8 * sizeof(Real)) PullCell {
+    Eight<Real> pull;
+  };
+  std::vector<LeverCell> scratch_;
+  std::vector<PullCell> pulls_;
+};
+
+// What the sums make of a block: see addIsotropic(), and cross products in components.
+template <class Real>
+INLINE RigidBlock<Real> blockOf(const ElementSums<Real>& sums) {
+  const auto& m = sums.moments;
+  RigidBlock<Real> block;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Eight<Real>&t = sums.columns[c], &r = sums.columns[3 + c];
+    block.tt[c] = {t[0], t[1], t[2]};
+    block.rt[c] = {t[4], t[5], t[6]};
+    block.tr[c] = {r[0], r[1], r[2]};
+    block.rr[c] = {r[4], r[5], r[6]};
+  }
+  const Vec3<Real> u{m[1][0], m[2][0], m[3][0]}, v{m[0][1], m[0][2], m[0][3]};
+  const Real trace = (m[1][1] + m[2][2]) + m[3][3];
+  block.tt[0].x += m[0][0];
+  block.tt[1].y += m[0][0];
+  block.tt[2].z += m[0][0];
+  // e x u, v x e
+  block.tr[0] = block.tr[0] + Vec3<Real>{0, -u.z, u.y};
+  block.tr[1] = block.tr[1] + Vec3<Real>{u.z, 0, -u.x};
+  block.tr[2] = block.tr[2] + Vec3<Real>{-u.y, u.x, 0};
+  block.rt[0] = block.rt[0] + Vec3<Real>{0, v.z, -v.y};
+  block.rt[1] = block.rt[1] + Vec3<Real>{-v.z, 0, v.x};
+  block.rt[2] = block.rt[2] + Vec3<Real>{v.y, -v.x, 0};
+  // trace e - column of sum s y_q y_p^T
+  const auto minus = [&](int c) { return Vec3<Real>{m[1][1 + c], m[2][1 + c], m[3][1 + c]}; };
+  block.rr[0] = block.rr[0] + (Vec3<Real>{trace, 0, 0} - minus(0));
+  block.rr[1] = block.rr[1] + (Vec3<Real>{0, trace, 0} - minus(1));
+  block.rr[2] = block.rr[2] + (Vec3<Real>{0, 0, trace} - minus(2));
+  return block;
+}
+
+template <class Real>
+INLINE void sumRows(const ImplicitArguments<Real>& arguments, const LevelParams& level, std::uint32_t first,
+                    std::uint32_t end) {
+  ImplicitState<Real>& own = arguments.own;
+  const Hierarchy<Real>& levels = own.hierarchy;
+  std::uint32_t firstParticle = level.fineFirst + level.fineCount, endParticle = 0;
+  for (std::uint32_t row = first; row < end; ++row) {
+    const auto& diagonal = levels.blocks[levels.blockStarts[row]];
+    firstParticle = std::min(firstParticle, levels.sources[diagonal.firstSource]);
+    endParticle = std::max(endParticle, levels.sources[diagonal.endSource - 1] + 1);
+  }
+  for (std::uint32_t n = levels.blockStarts[first]; n < levels.blockStarts[end]; ++n) own.elementSums[n] = {};
+  ElementLoop<Real> loop(arguments, first, end);
+  for (std::uint32_t i = firstParticle; i < endParticle; ++i) loop.addElementsOf(i);
+  for (std::uint32_t n = levels.blockStarts[first]; n < levels.blockStarts[end]; ++n)
+    own.coarseBlocks[n] = blockOf(own.elementSums[n]);
+}
+
+}  // namespace
+
+VECTOR_CLONES void sumElements(const ImplicitArguments<float>& arguments, const LevelParams& level,
+                               std::uint32_t first, std::uint32_t end) {
+  sumRows(arguments, level, first, end);
+}
+void sumElements(const ImplicitArguments<double>& arguments, const LevelParams& level, std::uint32_t first,
+                 std::uint32_t end) {
+  sumRows(arguments, level, first, end);
+}
+
+}  // namespace clothsim::cpu

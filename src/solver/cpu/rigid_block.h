@@ -1,0 +1,126 @@
+// Blocks of 6 x 6 that join two aggregates, which move as rigid bodies (solver/implicit.h); the twin of
+// shaders/sim/implicit/rigid_block.glsl.
+#pragma once
+
+#include <array>
+
+#include "core/exact_math.h"
+#include "core/vec.h"
+#include "shared/implicit.h"
+#include "solver/cpu/arrays.h"
+
+namespace clothsim::cpu {
+
+// A translation and a rotation, or a force and a torque.
+template <class Real>
+struct RigidVector {
+  Vec3<Real> translation, rotation;
+};
+
+// Columns of four 3 x 3 matrices: rows by columns, t for translation, r for rotation.
+template <class Real>
+struct RigidBlock {
+  using Columns = std::array<Vec3<Real>, 3>;
+  Columns tt{}, tr{}, rt{}, rr{};
+};
+
+// Four and eight numbers that are worked on at once.
+template <class Real>
+struct VectorsOf;
+template <>
+struct VectorsOf<float> {
+  typedef float Four __attribute__((vector_size(16)));
+  typedef float Eight __attribute__((vector_size(32)));
+};
+template <>
+struct VectorsOf<double> {
+  typedef double Four __attribute__((vector_size(32)));
+  typedef double Eight __attribute__((vector_size(64)));
+};
+
+// What elements add to a block, before it is one.
+template <class Real>
+struct alignas(8 * sizeof(Real)) ElementSums {
+  // Of p q^T, a column each: the three of a force, 0, the three of a torque, 0.
+  typename VectorsOf<Real>::Eight columns[6]{};
+  // Of (sigma, y) (sigma, y)^T, a column each. The vertices of an element follow a rigid body by
+  // sum of c w (t + r x (x - center)) = sigma t + r x y.
+  typename VectorsOf<Real>::Four moments[4]{};
+};
+
+template <class Real>
+INLINE typename RigidBlock<Real>::Columns transposed(const typename RigidBlock<Real>::Columns& a) {
+  return {{{a[0].x, a[1].x, a[2].x}, {a[0].y, a[1].y, a[2].y}, {a[0].z, a[1].z, a[2].z}}};
+}
+template <class Real>
+INLINE RigidBlock<Real> transposed(const RigidBlock<Real>& a) {
+  return {transposed<Real>(a.tt), transposed<Real>(a.rt), transposed<Real>(a.tr), transposed<Real>(a.rr)};
+}
+
+// The block as bodies see it whose centers lie `p` and `q` before those of its own: adds s S(p)^T block S(q),
+// S(p) (t, r) = (t + r x p, r).
+template <class Real>
+INLINE void addShifted(RigidBlock<Real>& sum, Real s, const RigidBlock<Real>& block, Vec3<Real> p,
+                       Vec3<Real> q) {
+  const auto turned = [&](const typename RigidBlock<Real>::Columns& a, std::size_t c) {  // a (e_c x q)
+    if (c == 0) return q.y * a[2] - q.z * a[1];
+    if (c == 1) return q.z * a[0] - q.x * a[2];
+    return q.x * a[1] - q.y * a[0];
+  };
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Vec3<Real> tr = block.tr[c] + turned(block.tt, c), rr = block.rr[c] + turned(block.rt, c);
+    sum.tt[c] = sum.tt[c] + s * block.tt[c];
+    sum.tr[c] = sum.tr[c] + s * tr;
+    sum.rt[c] = sum.rt[c] + s * (block.rt[c] + cross(p, block.tt[c]));
+    sum.rr[c] = sum.rr[c] + s * (rr + cross(p, tr));
+  }
+}
+
+template <class Real>
+INLINE RigidVector<Real> operator*(const RigidBlock<Real>& a, const RigidVector<Real>& v) {
+  const auto product = [](const typename RigidBlock<Real>::Columns& m, Vec3<Real> u) {
+    return (u.x * m[0] + u.y * m[1]) + u.z * m[2];
+  };
+  return {product(a.tt, v.translation) + product(a.tr, v.rotation),
+          product(a.rt, v.translation) + product(a.rr, v.rotation)};
+}
+
+// What a pivot counts at least, for the entry it began as; its reciprocal, 0 where nothing is.
+template <class Real>
+INLINE Real inversePivot(Real pivot, Real began) {
+  const Real least = static_cast<Real>(LEAST_PIVOT) * began;
+  const Real safe = pivot < least ? least : pivot;
+  return began > static_cast<Real>(0x1p-60) ? reciprocal(safe) : Real(0);
+}
+
+// Entry (row, column) of a block.
+template <class Real>
+INLINE Real& entryOf(RigidBlock<Real>& block, std::size_t row, std::size_t column) {
+  auto& columns = row < 3 ? (column < 3 ? block.tt : block.tr) : (column < 3 ? block.rt : block.rr);
+  Vec3<Real>& own = columns[column % 3];
+  return row % 3 == 0 ? own.x : row % 3 == 1 ? own.y : own.z;
+}
+
+// Minus the inverse of a symmetric matrix of order n, in place: entry (row, column) is at(row, column). Every
+// pivot in turn is swept out (Goodnight 1979, "A tutorial on the SWEEP operator"). `began` and `column` are
+// scratch.
+template <class Real, class At>
+INLINE void sweepOut(std::size_t n, Real* began, Real* column, At at) {
+  for (std::size_t k = 0; k < n; ++k) began[k] = at(k, k);
+  for (std::size_t k = 0; k < n; ++k) {
+    const Real inverse = inversePivot(at(k, k), began[k]);
+    for (std::size_t i = 0; i < n; ++i) column[i] = at(i, k);
+    for (std::size_t j = 0; j < n; ++j) {
+      const Real other = column[j] * inverse;
+      for (std::size_t i = 0; i < n; ++i) {
+        Real& entry = at(i, j);
+        const Real updated = entry - column[i] * other;
+        const Real swept = i == k ? other : column[i] * inverse;
+        const Real next = i == k || j == k ? (i == j ? -inverse : swept) : updated;
+        entry = clothsim::canonical(next);
+      }
+    }
+  }
+}
+
+}  // namespace clothsim::cpu
