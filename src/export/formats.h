@@ -24,7 +24,7 @@ namespace clothsim {
 //          40  binary64 time [s] when the step length became that one,
 //          48  u64      after so many steps (solver/step_clock.h)
 //          56  n times  binary32 x, y, z [m], inverse mass [1/kg]
-//    56 + 16n  n times  binary32 vx, vy, vz [m/s], support (solver/state.h)
+//    56 + 16n  n times  binary32 vx, vy, vz [m/s], 0 (older versions wrote a number that is not used)
 //    56 + 32n  u64      number c of bytes of cuts, n or 0
 //    64 + 32n  c times  u8  the springs of a particle that are cut (cloth/cuts.h)
 //   64+32n+c   u64      number p of particles pinned or freed during the run

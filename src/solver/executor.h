@@ -46,7 +46,7 @@ void addTime(std::vector<PassTime>& times, const std::string& name, double secon
 // On the lattice, at time 0.
 [[nodiscard]] State stateAtRest(const Cloth& cloth);
 
-// Positions, velocities, support and inverse masses on a device. Outlives the executor, on the GPU not the
+// Positions, velocities and inverse masses on a device. Outlives the executor, on the GPU not the
 // context.
 class ParticleCopy {
  public:

@@ -18,8 +18,7 @@ struct alignas(16) Particle4 {  // one vec4 of a storage buffer
 
 struct State {
   std::vector<Particle4> positions;   // xyz [m], w the inverse mass [1/kg], 0: pinned
-  std::vector<Particle4> velocities;  // xyz [m/s]; of the half step before under `verlet`. w: what part of
-                                      // its weight held a particle up in the last implicit step
+  std::vector<Particle4> velocities;  // xyz [m/s]; of the half step before under `verlet`. w: unused
   StepClock clock;
   Integrator integrator = Integrator::verlet;
   Cuts cuts;  // empty: none

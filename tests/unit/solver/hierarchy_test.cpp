@@ -1,0 +1,97 @@
+// The coarse levels of the implicit integrator's preconditioner.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "cloth/cuts.h"
+#include "solver/hierarchy.h"
+#include "support/grabs.h"
+#include "support/material_sheet.h"
+#include "support/mesh_sheet.h"
+
+namespace clothsim {
+namespace {
+
+const Material fabric{.density = 0.2, .stretch = 3000, .shear = 700, .bend = 1e-3, .damping = 2};
+
+Hierarchy<double> levelsOf(const Scene& scene, const Cuts& cuts = {}) {
+  const Cloth cloth(scene);
+  return makeHierarchy<double>(cloth, makeCutMasks(cloth, cuts));
+}
+
+// The weights of every vertex that is not on the coarsest level.
+void expectWeightsToAddUpToOne(const Hierarchy<double>& levels) {
+  for (const std::vector<LevelParams>& piece : levels.pieces)
+    for (const LevelParams& level : piece)
+      for (std::uint32_t i = level.fineFirst; i < level.fineFirst + level.fineCount; ++i) {
+        double sum = 0;
+        for (auto n = levels.prolongationStarts[i]; n < levels.prolongationStarts[i + 1]; ++n) {
+          const auto& [vertex, weight] = levels.prolongation[n];
+          EXPECT_GE(vertex, level.coarseFirst);
+          EXPECT_LT(vertex, level.coarseFirst + level.coarseCount);
+          EXPECT_GT(weight, 0);
+          sum += weight;
+        }
+        EXPECT_NEAR(sum, 1, 1e-12) << i;
+      }
+}
+
+TEST(Hierarchy, HangsEveryVertexOnTheNextLevelByWeightsOfOneInAll) {
+  for (const int n : {2, 9, 65}) {
+    const Hierarchy<double> levels = levelsOf(test::materialSheet(n, n, 1, 1, fabric));
+    expectWeightsToAddUpToOne(levels);
+    EXPECT_LE(levels.pieces[0].back().coarseCount, COARSEST_VERTICES) << n;
+  }
+}
+
+TEST(Hierarchy, RestrictsAsItProlongs) {
+  const Hierarchy<double> levels = levelsOf(test::materialSheet(20, 31, 1, 1, fabric));
+  std::map<std::pair<std::uint32_t, std::uint32_t>, double> weights;
+  for (std::uint32_t i = 0; i + 1 < levels.prolongationStarts.size(); ++i)
+    for (auto n = levels.prolongationStarts[i]; n < levels.prolongationStarts[i + 1]; ++n)
+      weights[{i, levels.prolongation[n].vertex}] = levels.prolongation[n].weight;
+  std::size_t same = 0;
+  for (std::uint32_t c = 0; c < levels.coarseVertices; ++c)
+    for (auto n = levels.restrictionStarts[c]; n < levels.restrictionStarts[c + 1]; ++n)
+      same += weights.at({levels.restriction[n].vertex, c}) == levels.restriction[n].weight ? 1 : 0;
+  EXPECT_EQ(same, weights.size());
+}
+
+// A block is there for every two aggregates that some element touches, and once.
+TEST(Hierarchy, HasTheDiagonalBlockFirstInEveryRow) {
+  const Hierarchy<double> levels = levelsOf(test::materialSheet(30, 30, 1, 1, fabric));
+  for (std::uint32_t row = 0; row < levels.coarseVertices; ++row) {
+    ASSERT_LT(levels.blockStarts[row], levels.blockStarts[row + 1]);
+    for (auto n = levels.blockStarts[row]; n < levels.blockStarts[row + 1]; ++n) {
+      EXPECT_EQ(levels.blocks[n].row, row);
+      if (n == levels.blockStarts[row])
+        EXPECT_EQ(levels.blocks[n].column, row);
+      else
+        EXPECT_GT(levels.blocks[n].column, levels.blocks[n - 1].column);
+      EXPECT_LT(levels.blocks[n].firstSource, levels.blocks[n].endSource);
+    }
+  }
+}
+
+TEST(Hierarchy, LetsNoWeightCrossACut) {
+  const int n = 24;
+  const Scene scene = test::materialSheet(n, n, 1, 1, fabric);
+  const Cloth cloth(scene);
+  const int rowsCutOff = 11;
+  const Hierarchy<double> levels = levelsOf(scene, test::cutAcross(cloth, rowsCutOff - 0.5));
+  expectWeightsToAddUpToOne(levels);
+  EXPECT_EQ(levels.parts[0].size(), 2u) << "a matrix for each of the two pieces of cloth";
+  std::vector<int> sides(levels.coarseVertices);  // bit 0: above the cut, bit 1: below
+  for (std::uint32_t i = 0; i < cloth.particleCount(); ++i)
+    for (auto k = levels.prolongationStarts[i]; k < levels.prolongationStarts[i + 1]; ++k)
+      sides[levels.prolongation[k].vertex] |= i < static_cast<std::uint32_t>(n * rowsCutOff) ? 1 : 2;
+  const LevelParams& first = levels.pieces[0][0];
+  EXPECT_EQ(
+      std::count(sides.begin() + first.coarseFirst, sides.begin() + first.coarseFirst + first.coarseCount, 3),
+      0);
+}
+
+}  // namespace
+}  // namespace clothsim
