@@ -41,9 +41,10 @@ class ListBuilder {
 };
 
 // How many coarser levels the finest of the cloths has, and the most colours of a strain limit.
-std::size_t mostLevels(const Cloth& cloth) {
+std::size_t mostLevels(const Cloth& cloth, const std::vector<std::uint32_t>& cutMasks) {
   std::size_t most = 0;
-  for (const auto& levels : makeHierarchy<float>(cloth, {}).pieces) most = std::max(most, levels.size());
+  for (const auto& levels : makeHierarchy<float>(cloth, cutMasks).pieces)
+    most = std::max(most, levels.size());
   return most;
 }
 std::size_t mostColors(const Cloth& cloth) {
@@ -54,13 +55,13 @@ std::size_t mostColors(const Cloth& cloth) {
 
 class StepBuilder {
  public:
-  StepBuilder(const Scene& scene, const Cloth& cloth)
+  StepBuilder(const Scene& scene, const Cloth& cloth, const std::vector<std::uint32_t>& cutMasks)
       : solver_(scene.solver),
         hasColliders_(!scene.colliders.empty()),
         isImplicit_(scene.solver.integrator == Integrator::implicit),
         contacts_(collidesWithItself(scene, cloth) ? scene.solver.selfCollision : SelfCollision::off),
         rounds_(contactRounds(scene)),
-        levels_(isImplicit_ ? mostLevels(cloth) : 0),
+        levels_(isImplicit_ ? mostLevels(cloth, cutMasks) : 0),
         colors_(limitsInPasses(scene) ? mostColors(cloth) : 0) {}
 
   PassList step() {
@@ -249,7 +250,9 @@ bool PassList::contains(Pass pass) const {
   return std::any_of(passes.begin(), passes.end(), [&](const PassCall& call) { return call.pass == pass; });
 }
 
-PassList makeStep(const Scene& scene, const Cloth& cloth) { return StepBuilder(scene, cloth).step(); }
+PassList makeStep(const Scene& scene, const Cloth& cloth, const std::vector<std::uint32_t>& cutMasks) {
+  return StepBuilder(scene, cloth, cutMasks).step();
+}
 
 PassList makeConversion() { return {{{Pass::forces}, {Pass::kick}}, {}, Outcome::velocities}; }
 

@@ -43,8 +43,10 @@ struct PassList {
   [[nodiscard]] bool contains(Pass pass) const;
 };
 
-// A step of the scene. The cloth's levels and colours decide how many passes some parts have.
-[[nodiscard]] PassList makeStep(const Scene& scene, const Cloth& cloth);
+// A step of the scene. The cloth's levels, which cuts change, and its colours decide how many passes some
+// parts have. `cutMasks` as makeCutMasks() gives them; empty for none.
+[[nodiscard]] PassList makeStep(const Scene& scene, const Cloth& cloth,
+                                const std::vector<std::uint32_t>& cutMasks = {});
 // Turns the velocities into those of the scene's integrator.
 [[nodiscard]] PassList makeConversion();
 // Looks at a state that was handed in.

@@ -3,6 +3,7 @@
 #include "shared/implicit.h"
 #include "sim/exact_math.glsl"
 #include "sim/implicit/gate.glsl"
+#include "sim/implicit/rigid_block.glsl"
 
 layout(local_size_x = SUM_LANES) in;
 
@@ -13,12 +14,6 @@ layout(std430, binding = DENSE_BINDING) coherent buffer Dense { float dense[]; }
 
 shared float began[6 * COARSEST_VERTICES];
 shared float column[6 * COARSEST_VERTICES];
-
-float inversePivot(float pivot, float start) {
-  precise float least = uintBitsToFloat(0x35800000u) * start;  // LEAST_PIVOT
-  float safe = pivot < least ? least : pivot;
-  return start > uintBitsToFloat(0x21800000u) ? reciprocal(safe) : 0.0;  // 2^-60
-}
 
 void main() {
   if (isSkipped()) return;

@@ -10,12 +10,6 @@ Symmetric sumOf(Symmetric a, Symmetric b) {
   return Symmetric(diagonal, others);
 }
 
-Symmetric scaled(float s, Symmetric a) {
-  precise vec3 diagonal = s * a.diagonal;
-  precise vec3 others = s * a.others;
-  return Symmetric(diagonal, others);
-}
-
 // s v v^T
 Symmetric outerProduct3(float s, vec3 v) {
   precise vec3 w = s * v;

@@ -6,10 +6,10 @@
 #include <utility>
 
 #include "cloth/cuts.h"
+#include "solver/cpu/cpu_solver.h"
 #include "solver/hierarchy.h"
 #include "support/grabs.h"
 #include "support/material_sheet.h"
-#include "support/mesh_sheet.h"
 
 namespace clothsim {
 namespace {
@@ -91,6 +91,31 @@ TEST(Hierarchy, LetsNoWeightCrossACut) {
   EXPECT_EQ(
       std::count(sides.begin() + first.coarseFirst, sides.begin() + first.coarseFirst + first.coarseCount, 3),
       0);
+}
+
+// A cloth cut into a long ribbon needs more levels than the whole: the step has passes for all of them.
+TEST(Hierarchy, HasPassesForEveryLevelOfACutCloth) {
+  Scene scene = test::materialSheet(30, 30, 1, 1, fabric);
+  scene.solver.integrator = Integrator::implicit;
+  const Cloth cloth(scene);
+  Cuts cuts(cloth.particleCount());
+  for (std::uint32_t row = 1; row < 30; ++row)
+    for (std::uint32_t column = 0; column < 30; ++column) {
+      const bool joins = column == (row % 2 == 0 ? 0u : 29u);
+      cuts[30 * row + column] = static_cast<std::uint8_t>(1u << toUpperLeft | 1u << toUpperRight |
+                                                          1u << toSecondUpper | (joins ? 0 : 1u << toUpper));
+    }
+  CpuSolver<float> solver(cloth, scene);
+  const auto levelsIn = [&] {
+    std::size_t count = 0;
+    for (const PassCall& call : solver.passes().passes)
+      if (call.pass == Pass::coarsen) count = std::max<std::size_t>(count, call.index + 1);
+    return count;
+  };
+  EXPECT_EQ(levelsIn(), levelsOf(scene).pieces[0].size());
+  solver.setCuts(cuts);
+  EXPECT_EQ(levelsIn(), levelsOf(scene, cuts).pieces[0].size());
+  EXPECT_GT(levelsOf(scene, cuts).pieces[0].size(), levelsOf(scene).pieces[0].size());
 }
 
 }  // namespace
