@@ -23,6 +23,7 @@ using uint = std::uint32_t;
 #define DIRECTIONS_BINDING 4
 #define PRODUCTS_BINDING 4
 #define CONTACT_PLANES_BINDING 4
+#define CONTACT_BLOCKS_BINDING 1
 #define PARTIAL_SUMS_BINDING 4
 #define CENTERS_BINDING 4
 #define COARSE_BLOCKS_BINDING 4
@@ -50,10 +51,9 @@ using uint = std::uint32_t;
 #define STARTS_UNIT 36         // x at the start of the step, and the inverse mass
 #define PARTIAL_SUMS_UNIT 37
 #define CONTACT_PLANES_UNIT \
-  39  // PLANE_TEXELS each: n and offset, carry and friction, the last n and offset,
-      // the grip
-
-#define PLANE_TEXELS 4u  // src/solver/cpu/collide.h
+  39  // two texels each: n and offset, carry and friction (src/solver/cpu/collide.h)
+#define CONTACT_BLOCKS_UNIT \
+  48  // two texels each: what a plane adds to the Hessian, a symmetric matrix, and the limit of friction
 
 // Of the coarse levels (src/solver/hierarchy.h).
 #define CENTERS_UNIT 40          // of aggregates [m]
@@ -85,10 +85,9 @@ using uint = std::uint32_t;
 // Passes over all particles take them in rows of so many.
 #define PARTICLES_A_ROW 16384u
 
-// Lengths of the Newton step that the line search looks at: 1, 1/2, 1/4, 1/8. It takes the first that lowers
-// the energy by this part of what the slope promises (Armijo 1966).
+// Lengths of the Newton step that the line search looks at: 1, 1/2, 1/4, 1/8. It takes the first that does
+// not raise the energy.
 #define LENGTHS_TRIED 4
-#define SUFFICIENT_DECREASE 0x1p-13
 
 // A plane that a particle is behind pushes it back, with this many times the stiffness of its inertia and
 // what the stiffest spring of its cloth adds (StepParams::contactStiffness).
@@ -96,6 +95,8 @@ using uint = std::uint32_t;
 
 // Below this speed friction is less than in full [m/s].
 #define SLOW_SLIP 0.01f
+// A particle is light for its friction where that is so many times as stiff as its inertia.
+#define LIGHT 8.0f
 
 // What becomes of a sum.
 #define SUM_FIRST 0   // r.z at the start of conjugate gradients
@@ -138,20 +139,20 @@ struct DensePart {
 
 // What conjugate gradients and the line search have come to.
 SHARED_STRUCT ImplicitScalars {
-  real residual;           // r.z
-  real stepSize;           // alpha
-  real kept;               // beta
-  real predictedDecrease;  // how much the quadratic model falls along the Newton step, twice
+  real residual;      // r.z
+  real stepSize;      // alpha
+  real kept;          // beta
+  real newtonLength;  // 1/8 to 1
 
-  real newtonLength;   // 0 to 1
   real leastResidual;  // the r.z at which the linear system is solved
   real lastUpdate;     // of the step so far: largest update over largest displacement, or over the spacing
   uint isSystemSolved;
-
   uint isStepSolved;
+
   uint iterations;   // of the step so far,
   uint newtonSteps;  // the same
-  uint unused;
+  uint unusedA;
+  uint unusedB;
 
   // Of all steps since the solver was made.
   uint steps;

@@ -11,13 +11,14 @@
 // counts as unconverged. The linear solver ends when r.z has fallen by (10 tolerance)^2, or after
 // `cg_iterations`.
 //
-// Colliders take part. Before each Newton step, a particle inside a collider gets the plane in which it
-// touches it as a stiff spring, so that the sheet bends around what it lies on; before the first one, so does
-// a particle that inertia and gravity alone would take into a collider. The line search counts a plane from
-// one side: what has left it costs nothing. Friction is a spring against the slip, as stiff as Coulomb's law
-// makes it with the push of the last Newton step (Li et al. 2020, "Incremental potential contact"); what that
-// leaves of the law stops the rest of the slip at the end. Particles end a hair inside; the collision pass
-// after the step moves them to the surface.
+// Colliders take part. A particle in a collider gets the plane in which it touches it as a stiff spring, so
+// that the sheet bends around what it lies on; at first, so does a particle that inertia and gravity alone
+// would take into a collider, and the search starts with all of these on their planes. Which planes hold in a
+// Newton step, the force on each particle decides (solver/cpu/implicit_contact.h). The line search counts a
+// plane from one side: what has left it costs nothing. Friction follows Coulomb's law with the push of the
+// particle and a potential that is smooth at slow slip (Li et al. 2020, "Incremental potential contact"); what
+// that leaves of the law stops the rest of the slip at the end. Particles end a hair inside; the collision
+// pass after the step moves them to the surface.
 //
 // A Newton step: the Hessian is made positive by clamping the springs' transverse part to k max(0, 1 - L/l)
 // (Choi and Ko 2002). It is solved by conjugate gradients with an additive multilevel preconditioner

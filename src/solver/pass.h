@@ -63,6 +63,7 @@ enum class Array : std::uint8_t {
   newVelocities,
   forces,          // of springs and air [N]
   planes,          // in which particles touch colliders
+  contactBlocks,   // what these do to the linear system
   rightHandSides,  // b of inertia, air and grabs, and their diagonal
   airBlocks,       // what wind adds to the diagonal
   displacements,   // d, since the start of the step [m]

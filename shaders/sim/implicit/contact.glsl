@@ -1,22 +1,20 @@
 // Planes that particles in colliders are pushed back over; the twin is src/solver/cpu/implicit_contact.h.
 const bool hasContacts = HAS_CONTACT_PLANES != 0;
 layout(binding = CONTACT_PLANES_UNIT) uniform samplerBuffer contactPlanes;
+layout(binding = CONTACT_BLOCKS_UNIT) uniform samplerBuffer contactBlocks;
 
-vec4 carryAt(uint i) { return texelFetch(contactPlanes, int(PLANE_TEXELS * i + 1u)); }
-float gripAt(uint i) { return texelFetch(contactPlanes, int(PLANE_TEXELS * i + 3u)).x; }
-vec4 lastPlaneAt(uint i) { return texelFetch(contactPlanes, int(PLANE_TEXELS * i + 2u)); }
-vec4 contactPlaneAt(uint i) { return texelFetch(contactPlanes, int(PLANE_TEXELS * i)); }
+vec4 contactPlaneAt(uint i) { return texelFetch(contactPlanes, int(2u * i)); }
+vec4 carryAt(uint i) { return texelFetch(contactPlanes, int(2u * i + 1u)); }
 
+Symmetric contactBlockAt(uint i) {
+  return Symmetric(texelFetch(contactBlocks, int(2u * i)).xyz, texelFetch(contactBlocks, int(2u * i + 1u)).xyz);
+}
+float frictionLimitAt(uint i) { return texelFetch(contactBlocks, int(2u * i)).w; }
+
+// How stiffly a collider pushes back (CONTACT_OVER_INERTIA).
 float contactStiffness(float diagonal) {
   precise float stiffness = float(CONTACT_OVER_INERTIA) * diagonal + step.contactStiffness;
   return stiffness;
-}
-
-// Along the plane's normal, for a displacement d; 0 where nothing is touched.
-float contactPush(vec4 plane, float diagonal, vec3 d) {
-  precise float normalSquared = sumOfProducts(plane.xyz, plane.xyz);
-  precise float push = contactStiffness(diagonal) * (plane.w - sumOfProducts(plane.xyz, d));
-  return normalSquared > 0.0 ? push : 0.0;
 }
 
 // How far a displacement d goes along the plane, relative to the collider.
@@ -25,22 +23,36 @@ vec3 slipOf(vec3 normal, vec3 carry, vec3 d) {
   precise vec3 slip = relative - sumOfProducts(normal, relative) * normal;
   return slip;
 }
-// What touching adds to a product of the Hessian: across the plane, and along it.
-vec3 contactProduct(uint i, float diagonal, vec3 p) {
-  vec3 normal = contactPlaneAt(i).xyz;
-  float grip = gripAt(i);
-  precise vec3 product = grip * p + ((contactStiffness(diagonal) - grip) * sumOfProducts(normal, p)) * normal;
-  return product;
-}
 
-// How steeply friction rises with the slip: in full beyond `slow` (Li et al. 2020, "Incremental potential contact", equation 14).
-float frictionOver(float slip, float inverseSlip, float slow) {
+// Friction of a limit of 1 against a slip: its force over the slip, and how steeply the force rises along it. It is in full
+// beyond `slow` (Li et al. 2020, "Incremental potential contact", equation 14).
+struct FrictionSlope {
+  float over, along;
+};
+FrictionSlope frictionSlope(float slip, float inverseSlip, float slow) {
   float inverseSlow = reciprocal(slow);
-  precise float rising = inverseSlow * (2.0 - slip * inverseSlow);
-  return slip < slow ? rising : inverseSlip;
+  precise float part = slip * inverseSlow;
+  precise float over = inverseSlow * (2.0 - part);
+  precise float along = inverseSlow * (2.0 - 2.0 * part);
+  bool isSlow = slip < slow;
+  return FrictionSlope(isSlow ? over : inverseSlip, isSlow ? along : 0.0);
+}
+// The potential of that force.
+float frictionPotential(vec3 slip, float slow) {
+  float squared = sumOfProducts(slip, slip);
+  precise float len = squared * inverseSquareRoot(squared);
+  precise float part = len * reciprocal(slow);
+  float third = uintBitsToFloat(0x3eaaaaabu);
+  precise float rising = slow * ((part * part) * (1.0 - third * part));
+  precise float full = len - third * slow;
+  return len < slow ? rising : full;
+}
+float slowSlip() {
+  precise float slow = uintBitsToFloat(0x3c23d70au) * step.timeStep;  // SLOW_SLIP
+  return slow;
 }
 
-// How the energy changes when what crosses the last plane, `over` deep, moves on to `overAfter`.
+// How the energy changes when what crosses a plane, `over` deep, moves on to `overAfter`.
 float contactChange(float stiffness, float over, float overAfter) {
   float before = over < 0.0 ? 0.0 : over, after = overAfter < 0.0 ? 0.0 : overAfter;
   precise float change = 0.5 * ((stiffness * (after - before)) * (after + before));

@@ -6,15 +6,13 @@
 #include "sim/implicit/contact.glsl"
 
 // What the solution leaves of Coulomb's friction stops the slip, or shortens it: nothing creeps that sticks.
-vec3 withFriction(uint i, float inverseMass, float push, vec3 displacement) {
-  vec4 carry = carryAt(i);
-  vec3 slip = slipOf(contactPlaneAt(i).xyz, carry.xyz, displacement);
-  float squared = sumOfProducts(slip, slip);
-  float inverse = inverseSquareRoot(squared);
+vec3 withFriction(uint i, vec3 displacement) {
+  vec3 slip = slipOf(contactPlaneAt(i).xyz, carryAt(i).xyz, displacement);
+  float squared = sumOfProducts(slip, slip), inverse = inverseSquareRoot(squared);
   precise float len = squared * inverse;
-  precise float rest = carry.w * push - gripAt(i) * len;
-  precise float inertia = reciprocal(inverseMass) * step.inertia;
-  precise float lost = larger(rest, 0.0) * reciprocal(inertia) * inverse;
+  precise float used = frictionSlope(len, inverse, slowSlip()).over * len;
+  precise float rest = frictionLimitAt(i) * (1.0 - used);
+  precise float lost = (larger(rest, 0.0) * reciprocal(texelFetch(rightHandSides, int(i)).w)) * inverse;
   float taken = lost < 1.0 ? lost : 1.0;
   precise vec3 result = displacement - taken * slip;
   return canonical(result);
@@ -30,18 +28,10 @@ void main() {
     if (hasMovingPins) particle = movePin(i, x);
   } else {
     vec3 displacement = texelFetch(displacements, int(i)).xyz;
-    vec4 place = iterateAt(i);
-    if (hasContacts) {
-      vec4 plane = contactPlaneAt(i);
-      float push = contactPush(plane, texelFetch(rightHandSides, int(i)).w, displacement);
-      if (push > 0.0) {
-        displacement = withFriction(i, x.w, push, displacement);
-        precise vec3 slid = x.xyz + displacement;
-        place = vec4(canonical(slid), x.w);
-      }
-    }
+    if (hasContacts) displacement = withFriction(i, displacement);
+    precise vec3 place = x.xyz + displacement;
     precise vec3 v = step.inverseTimeStep * displacement;
-    particle = Particle(place, canonical(v));
+    particle = Particle(vec4(canonical(place), x.w), canonical(v));
     watchVelocity(PASS_INTEGRATE, i, particle.velocity);
   }
   newPositions[i] = particle.position;

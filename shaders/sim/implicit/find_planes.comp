@@ -1,14 +1,17 @@
 // What colliders the iterate is in: the planes in which particles touch them. Where several are touched, the last of the
-// scene's counts. With PREDICTS, particles that touch nothing there get the planes where inertia and gravity alone would take
-// them.
+// scene's counts; what touches nothing keeps its plane. With PREDICTS, particles that touch nothing there get the planes where
+// inertia and gravity alone would take them, and all start on their planes.
 #include "sim/implicit/common.glsl"
 #include "sim/watch.glsl"
 #include "sim/forces.glsl"
 #include "sim/integrate.glsl"
 #include "sim/collide.glsl"
-#include "sim/implicit/contact.glsl"
 
 layout(std430, binding = CONTACT_PLANES_BINDING) writeonly buffer Planes { vec4 newPlanes[]; };
+#if PREDICTS
+layout(std430, binding = DISPLACEMENTS_BINDING) writeonly buffer Displacements { vec4 newDisplacements[]; };
+layout(std430, binding = ITERATES_BINDING) writeonly buffer Iterates { vec4 newIterates[]; };
+#endif
 
 vec4 plane = vec4(0.0), carry = vec4(0.0);
 bool touches = false;
@@ -29,18 +32,16 @@ void findPlanesAt(vec4 start, vec3 place) {
   }
 }
 
-// Coulomb's law, with the push that the last solution has come to: a spring against the slip so far.
-float gripOf(uint i) {
+#if PREDICTS
+void startOnPlane(uint i, vec4 start) {
   vec3 d = texelFetch(displacements, int(i)).xyz;
-  vec3 slip = slipOf(plane.xyz, carry.xyz, d);
-  float push = contactPush(plane, texelFetch(rightHandSides, int(i)).w, d);
-  precise float slow = uintBitsToFloat(0x3c23d70au) * step.timeStep;  // SLOW_SLIP
-  float squared = sumOfProducts(slip, slip);
-  float inverse = inverseSquareRoot(squared);
-  precise float len = squared * inverse;
-  precise float grip = (carry.w * push) * frictionOver(len, inverse, slow);
-  return push > 0.0 ? grip : 0.0;
+  precise vec3 raised = d + (plane.w - sumOfProducts(plane.xyz, d)) * plane.xyz;
+  vec3 displacement = canonical(raised);
+  precise vec3 place = start.xyz + displacement;
+  newDisplacements[i] = vec4(displacement, 0.0);
+  newIterates[i] = vec4(canonical(place), start.w);
 }
+#endif
 
 void main() {
   if (isSkipped()) return;
@@ -52,8 +53,11 @@ void main() {
   findPlanesAt(start, guess);
 #endif
   findPlanesAt(start, iterateAt(p.index).xyz);
-  newPlanes[PLANE_TEXELS * p.index] = plane;
-  newPlanes[PLANE_TEXELS * p.index + 1u] = carry;
-  newPlanes[PLANE_TEXELS * p.index + 3u] = vec4(PREDICTS != 0 || start.w == 0.0 ? 0.0 : gripOf(p.index), 0.0, 0.0, 0.0);
-  if (touches || PREDICTS != 0) newPlanes[PLANE_TEXELS * p.index + 2u] = plane;
+#if PREDICTS
+  if (touches) startOnPlane(p.index, start);
+#else
+  if (!touches) return;
+#endif
+  newPlanes[2u * p.index] = plane;
+  newPlanes[2u * p.index + 1u] = carry;
 }

@@ -1,5 +1,7 @@
 // From the elastic forces at the iterate: residuals, and the blocks of the preconditioner (src/solver/implicit.h). Clears the
 // increments. POSITIONS_UNIT: the iterate.
+#include "shared/implicit.h"
+#include "sim/implicit/scalars.glsl"
 #include "sim/implicit/common.glsl"
 #include "sim/watch.glsl"
 #include "sim/incident_springs.glsl"
@@ -10,6 +12,7 @@
 
 layout(std430, binding = RESIDUALS_BINDING) writeonly buffer Residuals { vec4 newResiduals[]; };
 layout(std430, binding = FACTORS_BINDING) writeonly buffer FactorsOut { vec4 newFactors[]; };
+layout(std430, binding = CONTACT_BLOCKS_BINDING) writeonly buffer ContactBlocks { vec4 newContactBlocks[]; };
 layout(std430, binding = INCREMENTS_BINDING) writeonly buffer Increments { vec4 newIncrements[]; };
 
 // What bending adds to the diagonal block of particle i of `count` in a line, of those `stride` apart.
@@ -46,6 +49,38 @@ Symmetric addBendingBlock(GridPoint p, Symmetric block) {
   return Symmetric(diagonal, block.others);
 }
 
+// Which plane holds in this Newton step, and what friction does there: src/solver/cpu/implicit_contact.h.
+void addContact(uint i, float diagonal, vec3 d, inout vec3 residual, inout Symmetric block) {
+  vec4 plane = contactPlaneAt(i), carry = carryAt(i);
+  vec3 normal = plane.xyz;
+  precise float over = plane.w - sumOfProducts(normal, d);
+  precise float push = sumOfProducts(normal, timesVector(block, normal)) * over - sumOfProducts(normal, residual);
+  bool hasPlane = sumOfProducts(normal, normal) > 0.0, presses = hasPlane && push > 0.0;
+  bool holds = presses || (hasPlane && scalars.newtonSteps == 0u);
+  float stiffness = holds ? contactStiffness(diagonal) : 0.0;
+  precise float most = carry.w * push;
+  float limit = presses ? most : 0.0;
+  vec3 slip = slipOf(normal, carry.xyz, d);
+  float squared = sumOfProducts(slip, slip), inverse = inverseSquareRoot(squared);
+  precise float len = squared * inverse;
+  FrictionSlope slope = frictionSlope(len, inverse, slowSlip());
+  precise float across = limit * slope.over;
+  precise float secant = across - LIGHT * diagonal;
+  precise float tangent = limit * slope.along;
+  float along = larger(larger(secant, 0.0), tangent);
+  precise float normalPart = stiffness - across;
+  precise float slipPart = along - across;
+  precise vec3 direction = inverse * slip;
+  Symmetric contact = sumOf(outerProduct3(normalPart, normal), outerProduct3(slipPart, direction));
+  precise vec3 contactDiagonal = contact.diagonal + vec3(across);
+  contact.diagonal = contactDiagonal;
+  precise vec3 with = residual + ((stiffness * over) * normal - across * slip);
+  residual = with;
+  block = sumOf(block, contact);
+  newContactBlocks[2u * i] = vec4(contact.diagonal, limit);
+  newContactBlocks[2u * i + 1u] = vec4(contact.others, 0.0);
+}
+
 void main() {
   if (isSkipped()) return;
   GridPoint p = thisGridPoint();
@@ -56,20 +91,16 @@ void main() {
   newIncrements[i] = vec4(0.0);
   newFactors[2u * i] = vec4(0.0);
   newFactors[2u * i + 1u] = vec4(0.0);
-  if (x.w == 0.0) return;
+  if (x.w == 0.0) {
+    if (hasContacts) newContactBlocks[2u * i] = newContactBlocks[2u * i + 1u] = vec4(0.0);
+    return;
+  }
 
   vec4 rightHandSide = texelFetch(rightHandSides, int(i));
   Symmetric block = Symmetric(vec3(rightHandSide.w), vec3(0.0)), air = Symmetric(vec3(0.0), vec3(0.0));
   if (hasWind) {
     air = airBlockAt(i);
     block = sumOf(block, air);
-  }
-  if (hasContacts) {
-    float grip = gripAt(i);
-    precise float across = contactStiffness(rightHandSide.w) - grip;
-    block = sumOf(block, outerProduct3(across, contactPlaneAt(i).xyz));
-    precise vec3 diagonal = block.diagonal + vec3(grip);
-    block.diagonal = diagonal;
   }
 #if HAS_MESH
   block = addMeshBlocks(i, block);
@@ -91,12 +122,9 @@ void main() {
   vec3 displacement = texelFetch(displacements, int(i)).xyz;
   precise vec3 pull = rightHandSide.xyz - rightHandSide.w * displacement;
   if (hasWind) pull = pull - timesVector(air, displacement);
-  if (hasContacts) {
-    vec4 plane = contactPlaneAt(i);
-    pull = pull + contactPush(plane, rightHandSide.w, displacement) * plane.xyz;
-    pull = pull - gripAt(i) * slipOf(plane.xyz, carryAt(i).xyz, displacement);
-  }
-  precise vec3 residual = pull + forces[i].xyz;
+  precise vec3 sum = pull + forces[i].xyz;
+  vec3 residual = sum;
+  if (hasContacts) addContact(i, rightHandSide.w, displacement, residual, block);
   newResiduals[i] = vec4(canonical(residual), 0.0);
   Factors f = factorize(block);
   newFactors[2u * i] = vec4(f.lower, 0.0);

@@ -36,7 +36,7 @@ void main() {
   float diagonal = texelFetch(rightHandSides, int(i)).w;
   precise vec3 product = diagonal * p;
   if (hasWind) product = product + timesVector(airBlockAt(i), p);
-  if (hasContacts) product = product + contactProduct(i, diagonal, p);
+  if (hasContacts) product = product + timesVector(contactBlockAt(i), p);
   precise vec3 result = product - force;
   newProducts[i] = vec4(x.w == 0.0 ? vec3(0.0) : canonical(result), 0.0);
 }

@@ -17,12 +17,6 @@ float quotient(float a, float b) {
   return b > uintBitsToFloat(0x08800000u) ? result : 0.0;  // 2^-110
 }
 
-// Whether the energy falls enough along the Newton step.
-bool fallsEnough(float change, float len) {
-  precise float needed = -((uintBitsToFloat(0x39000000u) * len) * scalars.predictedDecrease);  // SUFFICIENT_DECREASE
-  return change <= needed;
-}
-
 void main() {
 #if GATE != GATE_NONE
   if (scalars.isStepSolved != 0u || (GATE == GATE_SYSTEM && scalars.isSystemSolved != 0u)) return;
@@ -39,11 +33,8 @@ void main() {
   scalars.residual = residual;
   scalars.leastResidual = least;
   scalars.kept = 0.0;
-  scalars.predictedDecrease = 0.0;
 #elif SUM_KIND == SUM_STEP
   scalars.stepSize = quotient(scalars.residual, total.x);
-  precise float predicted = scalars.predictedDecrease + scalars.stepSize * scalars.residual;
-  scalars.predictedDecrease = predicted;
   scalars.iterations += 1u;
 #elif SUM_KIND == SUM_NEXT
   float residual = total.x < 0.0 ? 0.0 : total.x;
@@ -54,15 +45,13 @@ void main() {
   precise float spacing = step.spacing * step.spacing;
   float motion = total.y < spacing ? spacing : total.y;
   precise float square = total.x * reciprocal(motion);
-  precise float update = scalars.newtonLength * (square * inverseSquareRoot(square));
+  precise float update = square * inverseSquareRoot(square);
   scalars.lastUpdate = update;
-  scalars.isStepSolved = scalars.newtonLength == 1.0 && update <= step.tolerance ? 1u : 0u;
+  bool isConfirmed = step.colliderCount == 0u || scalars.newtonSteps > 0u;  // the first one takes predicted contacts
+  scalars.isStepSolved = isConfirmed && update <= step.tolerance ? 1u : 0u;
   scalars.isSystemSolved = 0u;
   scalars.newtonSteps += 1u;
 #else
-  scalars.newtonLength = fallsEnough(total.x, 1.0)    ? 1.0
-                         : fallsEnough(total.y, 0.5)  ? 0.5
-                         : fallsEnough(total.z, 0.25) ? 0.25
-                                                      : 0.125;
+  scalars.newtonLength = total.x <= 0.0 ? 1.0 : total.y <= 0.0 ? 0.5 : total.z <= 0.0 ? 0.25 : 0.125;
 #endif
 }

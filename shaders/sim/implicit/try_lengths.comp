@@ -48,25 +48,23 @@ void main() {
     force = force + timesVector(airBlockAt(i), displacement);
     product = product + timesVector(airBlockAt(i), e);
   }
-  if (hasContacts) {
-    vec3 normal = contactPlaneAt(i).xyz;
-    float grip = gripAt(i);
-    precise vec3 along = e - sumOfProducts(normal, e) * normal;
-    force = force + grip * slipOf(normal, carryAt(i).xyz, displacement);
-    product = product + grip * along;
-  }
   precise vec3 slope = force - rightHandSide.xyz;
   precise float first = sumOfProducts(slope, e);
   precise float second = 0.5 * sumOfProducts(product, e);
   precise vec4 trial = lengthsTried * (first + lengthsTried * second);
   if (hasContacts) {
-    vec4 plane = lastPlaneAt(i);
+    vec4 plane = contactPlaneAt(i);
     precise float over = plane.w - sumOfProducts(plane.xyz, displacement);
     float fall = sumOfProducts(plane.xyz, e), stiffness = contactStiffness(rightHandSide.w);
     bool hasPlane = sumOfProducts(plane.xyz, plane.xyz) > 0.0;
+    vec3 slip = slipOf(plane.xyz, carryAt(i).xyz, displacement);
+    precise vec3 slide = e - fall * plane.xyz;
+    float limit = frictionLimitAt(i), slow = slowSlip(), resisted = frictionPotential(slip, slow);
     for (int k = 0; k < LENGTHS_TRIED; ++k) {
       precise float overAfter = over - lengthsTried[k] * fall;
-      precise float changed = trial[k] + contactChange(stiffness, over, overAfter);
+      precise vec3 slipAfter = slip + lengthsTried[k] * slide;
+      precise float change = contactChange(stiffness, over, overAfter) + limit * (frictionPotential(slipAfter, slow) - resisted);
+      precise float changed = trial[k] + change;
       trial[k] = hasPlane ? changed : trial[k];
     }
   }

@@ -325,17 +325,10 @@ void findPlanesAt(const PassArguments<Real>& arguments, ContactPlanes<Real>& pla
       const Vec3<Real> normal = contact.depth < Real(0) ? Real(-1) * contact.normal : contact.normal;
       put(planes.normals, i, normal);
       planes.offsets.data()[i] = dot(normal, (place - start) + contact.outward);
-      put(planes.lastNormals, i, normal);
-      planes.lastOffsets.data()[i] = planes.offsets.data()[i];
       put(planes.carries, i, previous - start);
       planes.frictions.data()[i] = collider.coulomb != 0 ? collider.friction : Real(0);
     }
   });
-}
-
-template <class Real>
-void clearPlanes(ContactPlanes<Real>& planes, Range particles) {
-  for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) put(planes.normals, i, Vec3<Real>{});
 }
 
 }  // namespace
@@ -344,7 +337,6 @@ template <class Real>
 void findPlanes(const PassArguments<Real>& arguments, const Components<Real>& places,
                 ContactPlanes<Real>& planes, int row) {
   const Range particles = rangeOf(arguments.step, row);
-  clearPlanes(planes, particles);
   findPlanesAt(arguments, planes, particles, [&](std::ptrdiff_t i) { return at(places, i); });
 }
 
@@ -354,11 +346,7 @@ void predictPlanes(const PassArguments<Real>& arguments, const Components<Real>&
   const StepParams<Real>& step = arguments.step;
   const Range particles = rangeOf(step, row);
   const Vec3<Real> gravity{step.gravityX, step.gravityY, step.gravityZ};
-  clearPlanes(planes, particles);
-  for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
-    put(planes.lastNormals, i, Vec3<Real>{});
-    planes.grips.data()[i] = 0;  // nobody knows the push yet
-  }
+  for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) put(planes.normals, i, Vec3<Real>{});
   findPlanesAt(arguments, planes, particles, [&](std::ptrdiff_t i) {
     return at(arguments.before.positions, i) +
            step.guessTime * (at(arguments.before.velocities, i) + step.timeStep * gravity);

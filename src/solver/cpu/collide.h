@@ -2,6 +2,7 @@
 #pragma once
 
 #include "solver/cpu/passes.h"
+#include "solver/cpu/symmetric.h"
 
 namespace clothsim::cpu {
 
@@ -13,32 +14,31 @@ void collide(const PassArguments<float>& arguments, int row);
 void collide(const PassArguments<double>& arguments, int row);
 
 // What particles must not cross in an implicit step (solver/implicit.h): the plane in which a particle's way
-// d from the start of the step touches the collider that it is in, n.d = offset. Where n is 0, none.
+// d from the start of the step touches the collider that it is in, or was in last, n.d = offset. Where n is
+// 0, none.
 template <class Real>
 struct ContactPlanes {
   Components<Real> normals;     // n
   std::vector<Real> offsets;    // [m]
   Components<Real> carries;     // how far the moving collider carries the particle along [m]
   std::vector<Real> frictions;  // Coulomb's coefficient; 0 under CS184's law
-  std::vector<Real> grips;      // stiffness of friction against slipping further [N/m]
-  // The last plane that the particle has had in the step, touching or not: the line search sees whether it is
-  // crossed.
-  Components<Real> lastNormals;
-  std::vector<Real> lastOffsets;
+  // Of the Newton step: what push and friction add to the Hessian [N/m], and the largest friction [N]. 0
+  // where the plane does not hold.
+  SymmetricField<Real> blocks;
+  std::vector<Real> limits;
 
   void resize(std::size_t particles) {
     normals.resize(particles);
     offsets.resize(particles);
     carries.resize(particles);
     frictions.resize(particles);
-    grips.resize(particles);
-    lastNormals.resize(particles);
-    lastOffsets.resize(particles);
+    blocks.resize(particles);
+    limits.resize(particles);
   }
 };
 
 // One row of the grid: the planes of particles at `places`. Where several colliders are touched, the last of
-// the scene's counts.
+// the scene's counts; what touches nothing keeps its plane.
 template <class Real>
 void findPlanes(const PassArguments<Real>& arguments, const Components<Real>& places,
                 ContactPlanes<Real>& planes, int row);

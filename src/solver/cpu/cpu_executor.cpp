@@ -51,11 +51,11 @@ RowPass<Real> rowPassOf(Pass pass) {
     case Pass::findPlanes:
       return [](const Arguments& piece, int row) {
         cpu::findPlanes(piece.step, piece.own.iterate.positions, piece.own.planes, row);
-        cpu::findGrips(piece, row);
       };
     case Pass::predictPlanes:
       return [](const Arguments& piece, int row) {
         cpu::predictPlanes(piece.step, piece.own.iterate.positions, piece.own.planes, row);
+        cpu::startOnPlanes(piece, row);
       };
     case Pass::elasticForces:
       return [](const Arguments& piece, int row) { cpu::gatherElasticForces(piece, row); };
@@ -316,12 +316,10 @@ void CpuExecutor<Real>::sum(Pass pass) {
       scalars.residual = residual();
       scalars.leastResidual = parameters_.pieces[0].systemTolerance * scalars.residual;
       scalars.kept = 0;
-      scalars.predictedDecrease = 0;
       break;
     case Pass::sumCurvature: {
       const Real curvature = product(implicit_.directions.positions, implicit_.products);
       scalars.stepSize = curvature > leastSum<Real> ? scalars.residual * reciprocal(curvature) : Real(0);
-      scalars.predictedDecrease = scalars.predictedDecrease + scalars.stepSize * scalars.residual;
       ++scalars.iterations;
       break;
     }
@@ -359,29 +357,30 @@ Real largestSquare(const Components<Real>& v) {
   return largest;
 }
 
-// The update over the motion of the step, or over the spacing where that is larger.
+// The update over the motion of the step, or over the spacing where that is larger. The first Newton step
+// takes contacts as they were predicted: another one confirms it.
 template <class Real>
 void CpuExecutor<Real>::measureUpdate() {
   ImplicitScalars<Real>& scalars = implicit_.scalars;
   const StepParams<Real>& step = parameters_.pieces[0];
   const Real motion = cpu::larger(largestSquare(implicit_.displacements), step.spacing * step.spacing);
   const Real square = largestSquare(implicit_.increments) * reciprocal(motion);
-  scalars.lastUpdate = scalars.newtonLength * (square * inverseSquareRoot(square));
-  scalars.isStepSolved = scalars.newtonLength == Real(1) && scalars.lastUpdate <= step.tolerance ? 1 : 0;
+  scalars.lastUpdate = square * inverseSquareRoot(square);
+  const bool isConfirmed = step.colliderCount == 0 || scalars.newtonSteps > 0;
+  scalars.isStepSolved = isConfirmed && scalars.lastUpdate <= step.tolerance ? 1 : 0;
   scalars.isSystemSolved = 0;
   ++scalars.newtonSteps;
 }
 
-// The longest of the lengths tried that lowers the energy enough, else the shortest.
+// The longest of the lengths tried that does not raise the energy, else the shortest.
 template <class Real>
 void CpuExecutor<Real>::chooseLength() {
-  constexpr Real enough = static_cast<Real>(SUFFICIENT_DECREASE);
   Real length = 1;
   for (int k = 0; k < LENGTHS_TRIED; ++k) {
     const std::vector<Real>& trial = implicit_.trials[static_cast<std::size_t>(k)];
     const Real change = cpu::fixedSum<Real>(trial.size(), parallel_, partialSums_,
                                             [&](std::size_t i) { return trial.data()[i]; });
-    if (change <= -((enough * length) * implicit_.scalars.predictedDecrease) || k + 1 == LENGTHS_TRIED) break;
+    if (change <= Real(0) || k + 1 == LENGTHS_TRIED) break;
     length = Real(0.5) * length;
   }
   implicit_.scalars.newtonLength = length;

@@ -16,32 +16,73 @@ template <class Real>
 INLINE Real contactStiffness(const ImplicitArguments<Real>& arguments, std::ptrdiff_t i) {
   return Real(CONTACT_OVER_INERTIA) * arguments.own.diagonal.data()[i] + arguments.step.step.contactStiffness;
 }
-// With what force along the plane's normal, for a displacement d; 0 where nothing is touched [N].
-template <class Real>
-INLINE Real contactPush(const ImplicitArguments<Real>& arguments, std::ptrdiff_t i, Vec3<Real> d) {
-  const ContactPlanes<Real>& planes = arguments.own.planes;
-  const Vec3<Real> normal = at(planes.normals, i);
-  const bool touches = dot(normal, normal) > Real(0);
-  const Real push = contactStiffness(arguments, i) * (planes.offsets.data()[i] - dot(normal, d));
-  return touches ? push : Real(0);
-}
-
 // How far a displacement d goes along the plane, relative to the collider.
 template <class Real>
 INLINE Vec3<Real> slipOf(const ContactPlanes<Real>& planes, std::ptrdiff_t i, Vec3<Real> d) {
   const Vec3<Real> normal = at(planes.normals, i), relative = d - at(planes.carries, i);
   return relative - dot(normal, relative) * normal;
 }
-// Adds what touching adds to a product of the Hessian: across the plane, and along it.
+
+// Friction of a limit of 1 against a slip: its force over the slip, and how steeply the force rises along it.
+// It is in full beyond `slow` (Li et al. 2020, "Incremental potential contact", equation 14).
 template <class Real>
-INLINE Vec3<Real> contactProduct(const ImplicitArguments<Real>& arguments, std::ptrdiff_t i, Vec3<Real> p) {
-  const ContactPlanes<Real>& planes = arguments.own.planes;
-  const Vec3<Real> normal = at(planes.normals, i);
-  const Real grip = planes.grips.data()[i];
-  return grip * p + ((contactStiffness(arguments, i) - grip) * dot(normal, p)) * normal;
+struct FrictionSlope {
+  Real over, along;
+};
+template <class Real>
+INLINE FrictionSlope<Real> frictionSlope(Real slip, Real inverseSlip, Real slow) {
+  const Real inverseSlow = reciprocal(slow), part = slip * inverseSlow;
+  const bool isSlow = slip < slow;
+  return {isSlow ? inverseSlow * (Real(2) - part) : inverseSlip,
+          isSlow ? inverseSlow * (Real(2) - Real(2) * part) : Real(0)};
+}
+// The potential of that force.
+template <class Real>
+INLINE Real frictionPotential(Vec3<Real> slip, Real slow) {
+  const Real squared = dot(slip, slip), length = squared * inverseSquareRoot(squared),
+             part = length * reciprocal(slow), third = static_cast<Real>(1.0f / 3);
+  const Real rising = slow * ((part * part) * (Real(1) - third * part));
+  return length < slow ? rising : length - third * slow;
+}
+template <class Real>
+INLINE Real slowSlip(const StepParams<Real>& step) {
+  return static_cast<Real>(SLOW_SLIP) * step.timeStep;
 }
 
-// How the energy changes when what crosses the last plane, `over` deep, moves on to `overAfter`.
+// Which plane holds in this Newton step, and what friction does there. `residual` and `block` are those of
+// the particle without contact, and become those with it.
+//
+// A plane holds what the particle's own Newton step would take across it (the primal-dual active set of
+// Hintermueller, Ito and Kunisch 2002, with the block as its constant): that the iterate is a hair outside
+// decides nothing. In the first Newton step all predicted planes hold. The push that this takes limits
+// friction. The force of friction is constant beyond `slow`, and its Hessian 0 along the slip; where that
+// would turn a light particle round, a part of the secant's slope stands for it.
+template <class Real>
+INLINE void addContact(const ImplicitArguments<Real>& arguments, std::ptrdiff_t i, Vec3<Real>& residual,
+                       Symmetric<Real>& block) {
+  ContactPlanes<Real>& planes = arguments.own.planes;
+  const Vec3<Real> normal = at(planes.normals, i), d = at(arguments.own.displacements, i);
+  const Real over = planes.offsets.data()[i] - dot(normal, d);
+  const Real push = dot(normal, block * normal) * over - dot(normal, residual);
+  const bool isFirst = arguments.own.scalars.newtonSteps == 0, hasPlane = dot(normal, normal) > Real(0);
+  const bool presses = hasPlane && push > Real(0), holds = hasPlane && (isFirst || push > Real(0));
+  const Real stiffness = holds ? contactStiffness(arguments, i) : Real(0),
+             limit = presses ? planes.frictions.data()[i] * push : Real(0);
+  const Vec3<Real> slip = slipOf(planes, i, d);
+  const Real squared = dot(slip, slip), inverse = inverseSquareRoot(squared);
+  const FrictionSlope<Real> slope = frictionSlope(squared * inverse, inverse, slowSlip(arguments.step.step));
+  const Real across = limit * slope.over, secant = across - Real(LIGHT) * arguments.own.diagonal.data()[i],
+             along = larger(larger(secant, Real(0)), limit * slope.along);
+  Symmetric<Real> contact =
+      outerProduct(stiffness - across, normal) + outerProduct(along - across, inverse * slip);
+  contact.diagonal = contact.diagonal + Vec3<Real>{across, across, across};
+  residual = residual + ((stiffness * over) * normal - across * slip);
+  block = block + contact;
+  put(planes.blocks, i, contact);
+  planes.limits.data()[i] = limit;
+}
+
+// How the energy changes when what crosses a plane, `over` deep, moves on to `overAfter`.
 template <class Real>
 INLINE Real contactChange(Real stiffness, Real over, Real overAfter) {
   const Real before = larger(over, Real(0)), after = larger(overAfter, Real(0));

@@ -87,6 +87,20 @@ void begin(const ImplicitArguments<Real>& arguments, int row) {
 }
 
 template <class Real>
+void startOnPlanes(const ImplicitArguments<Real>& arguments, int row) {
+  const PassArguments<Real>& pass = arguments.step;
+  ImplicitState<Real>& own = arguments.own;
+  const Range all = rangeOf(pass.step, row);
+  for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
+    const Vec3<Real> normal = at(own.planes.normals, i), d = at(own.displacements, i);
+    if (pass.inverseMasses[i] == Real(0) || dot(normal, normal) == Real(0)) continue;
+    const Vec3<Real> start = canonical(d + (own.planes.offsets.data()[i] - dot(normal, d)) * normal);
+    put(own.displacements, i, start);
+    put(own.iterate.positions, i, canonical(at(pass.before.positions, i) + start));
+  }
+}
+
+template <class Real>
 void gatherElasticForces(const ImplicitArguments<Real>& arguments, int row) {
   StepParams<Real> elastic = arguments.step.step;  // air is in the right-hand side
   elastic.hasWind = 0;
@@ -116,45 +130,20 @@ void ImplicitState<Real>::resize(Hierarchy<Real> levels) {
 
 namespace {
 
-// How steeply friction rises with the slip: in full beyond `slow` (Li et al. 2020, "Incremental potential
-// contact", equation 14).
-template <class Real>
-INLINE Real frictionOver(Real slip, Real inverseSlip, Real slow) {
-  const Real inverseSlow = reciprocal(slow);
-  return slip < slow ? inverseSlow * (Real(2) - slip * inverseSlow) : inverseSlip;
-}
-
 // What the solution leaves of Coulomb's friction stops the slip, or shortens it: nothing creeps that sticks.
 template <class Real>
-INLINE Vec3<Real> withFriction(const ImplicitArguments<Real>& arguments, std::ptrdiff_t i, Real push,
+INLINE Vec3<Real> withFriction(const ImplicitArguments<Real>& arguments, std::ptrdiff_t i,
                                Vec3<Real> displacement) {
   const ContactPlanes<Real>& planes = arguments.own.planes;
-  const PassArguments<Real>& pass = arguments.step;
   const Vec3<Real> slip = slipOf(planes, i, displacement);
   const Real squared = dot(slip, slip), inverse = inverseSquareRoot(squared), length = squared * inverse;
-  const Real rest = planes.frictions.data()[i] * push - planes.grips.data()[i] * length;
-  const Real inertia = reciprocal(pass.inverseMasses[i]) * pass.step.inertia;
-  const Real lost = larger(rest, Real(0)) * reciprocal(inertia) * inverse;
+  const Real used = frictionSlope(length, inverse, slowSlip(arguments.step.step)).over * length;
+  const Real rest = planes.limits.data()[i] * (Real(1) - used);
+  const Real lost = (larger(rest, Real(0)) * reciprocal(arguments.own.diagonal.data()[i])) * inverse;
   return displacement - (lost < Real(1) ? lost : Real(1)) * slip;
 }
 
 }  // namespace
-
-// Coulomb's law, with the push that the last solution has come to: a spring against the slip so far.
-template <class Real>
-void findGrips(const ImplicitArguments<Real>& arguments, int row) {
-  const StepParams<Real>& step = arguments.step.step;
-  ContactPlanes<Real>& planes = arguments.own.planes;
-  const Real slow = static_cast<Real>(SLOW_SLIP) * step.timeStep;
-  const Range all = rangeOf(step, row);
-  for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
-    const Vec3<Real> d = at(arguments.own.displacements, i), slip = slipOf(planes, i, d);
-    const Real push = contactPush(arguments, i, d);
-    const Real squared = dot(slip, slip), inverse = inverseSquareRoot(squared);
-    const Real grip = (planes.frictions.data()[i] * push) * frictionOver(squared * inverse, inverse, slow);
-    planes.grips.data()[i] = push > Real(0) ? grip : Real(0);
-  }
-}
 
 template <class Real>
 void end(const ImplicitArguments<Real>& arguments, int row) {
@@ -164,16 +153,9 @@ void end(const ImplicitArguments<Real>& arguments, int row) {
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
     const bool pinned = pass.inverseMasses[i] == Real(0);
     if (pinned) continue;  // begin() has moved pins
-    Vec3<Real> displacement = at(arguments.own.displacements, i),
-               place = at(arguments.own.iterate.positions, i);
-    if (contacts) {
-      const Real push = contactPush(arguments, i, displacement);
-      if (push > Real(0)) {
-        displacement = canonical(withFriction(arguments, i, push, displacement));
-        place = canonical(at(pass.before.positions, i) + displacement);
-      }
-    }
-    put(pass.after.positions, i, place);
+    Vec3<Real> displacement = at(arguments.own.displacements, i);
+    if (contacts) displacement = canonical(withFriction(arguments, i, displacement));
+    put(pass.after.positions, i, canonical(at(pass.before.positions, i) + displacement));
     put(pass.after.velocities, i, canonical(pass.step.inverseTimeStep * displacement));
   }
   watchVelocities(pass, PASS_INTEGRATE, row);
@@ -185,8 +167,8 @@ template void gatherElasticForces(const ImplicitArguments<float>&, int);
 template void gatherElasticForces(const ImplicitArguments<double>&, int);
 template struct ImplicitState<float>;
 template struct ImplicitState<double>;
-template void findGrips(const ImplicitArguments<float>&, int);
-template void findGrips(const ImplicitArguments<double>&, int);
+template void startOnPlanes(const ImplicitArguments<float>&, int);
+template void startOnPlanes(const ImplicitArguments<double>&, int);
 template void end(const ImplicitArguments<float>&, int);
 template void end(const ImplicitArguments<double>&, int);
 

@@ -93,24 +93,23 @@ INLINE void tryLengthsRow(const ImplicitArguments<Real>& arguments, int row) {
       force = force + at(own.air, i) * d;
       product = product + at(own.air, i) * e;
     }
-    if (contacts) {
-      const Vec3<Real> normal = at(own.planes.normals, i), along = e - dot(normal, e) * normal;
-      const Real grip = own.planes.grips.data()[i];
-      force = force + grip * slipOf(own.planes, i, d);
-      product = product + grip * along;
-    }
     const Real first = dot(force - at(own.rightHandSide, i), e), second = Real(0.5) * dot(product, e);
     for (std::size_t k = 0; k < LENGTHS_TRIED; ++k) {
       const Real l = lengthTried<Real>(k);
       own.trials[k].data()[i] = l * (first + l * second);
     }
     if (!contacts) continue;
-    const Vec3<Real> normal = at(own.planes.lastNormals, i);
-    const Real over = own.planes.lastOffsets.data()[i] - dot(normal, d), fall = dot(normal, e),
-               stiffness = contactStiffness(arguments, i);
+    const Vec3<Real> normal = at(own.planes.normals, i);
+    const Real over = own.planes.offsets.data()[i] - dot(normal, d), fall = dot(normal, e),
+               stiffness = contactStiffness(arguments, i), limit = own.planes.limits.data()[i],
+               slow = slowSlip(pass.step);
+    const Vec3<Real> slip = slipOf(own.planes, i, d), slide = e - fall * normal;
+    const Real resisted = frictionPotential(slip, slow);
     const bool hasPlane = dot(normal, normal) > Real(0);
     for (std::size_t k = 0; k < LENGTHS_TRIED; ++k) {
-      const Real change = contactChange(stiffness, over, over - lengthTried<Real>(k) * fall);
+      const Real l = lengthTried<Real>(k),
+                 change = contactChange(stiffness, over, over - l * fall) +
+                          limit * (frictionPotential(slip + l * slide, slow) - resisted);
       own.trials[k].data()[i] = hasPlane ? own.trials[k].data()[i] + change : own.trials[k].data()[i];
     }
   }
@@ -193,11 +192,6 @@ INLINE void linearizeRow(const ImplicitArguments<Real>& arguments, int row) {
     const Real a = own.diagonal.data()[i];
     Symmetric<Real> block{{a, a, a}, {}};
     if (wind) block = block + at(own.air, i);
-    if (contacts) {
-      const Real grip = own.planes.grips.data()[i];
-      block = block + outerProduct(contactStiffness(arguments, i) - grip, at(own.planes.normals, i));
-      block.diagonal = block.diagonal + Vec3<Real>{grip, grip, grip};
-    }
     put(own.factors, i, block);
   }
   if (pass.step.isMesh != 0) {
@@ -211,14 +205,13 @@ INLINE void linearizeRow(const ImplicitArguments<Real>& arguments, int row) {
     const Vec3<Real> d = at(own.displacements, i), zero{};
     Vec3<Real> residual = at(own.rightHandSide, i) - own.diagonal.data()[i] * d;
     if (wind) residual = residual - at(own.air, i) * d;
-    if (contacts) {
-      residual = residual + contactPush(arguments, i, d) * at(own.planes.normals, i);
-      residual = residual - own.planes.grips.data()[i] * slipOf(own.planes, i, d);
-    }
-    put(own.residuals, i, selected(pinned, zero, canonical(residual + at(pass.forces, i))));
+    residual = residual + at(pass.forces, i);
+    Symmetric<Real> block = at(own.factors, i);
+    if (contacts) addContact(arguments, i, residual, block);
+    put(own.residuals, i, selected(pinned, zero, canonical(residual)));
     put(own.increments, i, zero);
     put(own.directions.positions, i, zero);
-    const Factors<Real> factors = factorize(at(own.factors, i));
+    const Factors<Real> factors = factorize(block);
     put(own.factors, i, {selected(pinned, zero, factors.inverse), selected(pinned, zero, factors.lower)});
   }
 }
@@ -272,7 +265,7 @@ INLINE void multiplyRow(const ImplicitArguments<Real>& arguments, int row) {
       const Vec3<Real> p = at(directions, i);
       Vec3<Real> product = stiffness[i] * p;
       if (wind) product = product + at(air, i) * p;
-      product = product + contactProduct(arguments, i, p);
+      product = product + at(arguments.own.planes.blocks, i) * p;
       put(products, i, selected(w[i] == Real(0), zero, canonical(product - at(products, i))));
     }
   } else if (pass.step.hasWind != 0) {

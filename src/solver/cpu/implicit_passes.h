@@ -55,14 +55,14 @@ struct ImplicitArguments {
 // them.
 template <class Real>
 void begin(const ImplicitArguments<Real>& arguments, int row);
-// What friction does against the slip so far, from the push so far.
+// Starts particles that will touch a plane on it.
 template <class Real>
-void findGrips(const ImplicitArguments<Real>& arguments, int row);
+void startOnPlanes(const ImplicitArguments<Real>& arguments, int row);
 // step.forces = those of springs and bending at the iterate.
 template <class Real>
 void gatherElasticForces(const ImplicitArguments<Real>& arguments, int row);
-// From the elastic forces at the iterate, in step.forces: residuals, blocks of the preconditioner; clears the
-// increments.
+// From the elastic forces at the iterate, in step.forces: which planes hold and what friction does,
+// residuals, blocks of the preconditioner; clears the increments.
 void linearize(const ImplicitArguments<float>& arguments, int row);
 void linearize(const ImplicitArguments<double>& arguments, int row);
 // products = H directions

@@ -8,7 +8,7 @@
 namespace clothsim {
 namespace {
 
-constexpr std::size_t FACTOR_TEXELS = 2, AIR_TEXELS = 2;
+constexpr std::size_t FACTOR_TEXELS = 2, AIR_TEXELS = 2, PLANE_TEXELS = 2;
 
 }  // namespace
 
@@ -26,6 +26,8 @@ ArrayPlace placeOf(Array array) {
       return {-1, FORCES_BINDING};
     case Array::planes:
       return {CONTACT_PLANES_UNIT, CONTACT_PLANES_BINDING};
+    case Array::contactBlocks:
+      return {CONTACT_BLOCKS_UNIT, CONTACT_BLOCKS_BINDING};
     case Array::rightHandSides:
       return {RIGHT_HAND_SIDES_UNIT, RIGHT_HAND_SIDES_BINDING};
     case Array::airBlocks:
@@ -110,6 +112,7 @@ void GpuArrays::addImplicit(std::size_t particles, const GpuLevels& levels, bool
   dense.texture = gl::BufferTexture("dense", dense.buffer.name(), GL_R32F);  // a number a texel
   add(Array::airBlocks, wind ? AIR_TEXELS * particles : 1);
   add(Array::planes, colliders ? PLANE_TEXELS * particles : 1);
+  add(Array::contactBlocks, colliders ? PLANE_TEXELS * particles : 1);
   add(Array::partialSums, (particles + SUM_BLOCK - 1) / SUM_BLOCK);
   const ImplicitScalars<float> none{};
   if (scalars_.name() == 0)

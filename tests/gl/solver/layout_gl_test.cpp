@@ -184,7 +184,7 @@ TEST_F(LayoutTest, OfWhatTheImplicitIntegratorSharesIsTheDrivers) {
   const GLuint index = glGetProgramResourceIndex(totals.name(), GL_BUFFER_VARIABLE, "scalars.residual");
   ASSERT_NE(index, GL_INVALID_INDEX);
   EXPECT_EQ(sizeof(ImplicitScalars<float>), 64u);
-  EXPECT_EQ(offsetof(ImplicitScalars<float>, newtonLength), 16u);
+  EXPECT_EQ(offsetof(ImplicitScalars<float>, newtonLength), 12u);
 }
 
 // Who toggles back and forth compiles nothing, nor for a pass that does not look at what was toggled.
