@@ -226,6 +226,8 @@ class SweepRun {
     json["ms_per_frame"] =
         frame_ > 0 ? ordered_json(1000 * summary_.seconds / frame_) : ordered_json(nullptr);
     summary_.write(json, simulation_);
+    json["unconverged_steps"] = summary_.convergence.unconvergedSteps;
+    json["last_update"] = summary_.convergence.lastUpdate;
     json["finite"] = isSound;
     return json;
   }
@@ -340,21 +342,41 @@ std::string csvWord(const ordered_json& value) {
   return quoted + "\"";
 }
 
+// The measures of a line, by name.
+constexpr std::array measureColumns{
+    "frames",
+    "finite",
+    "trouble",
+    "max_strain",
+    "peak_strain",
+    "min_y",
+    "kinetic_energy",
+    "max_penetration",
+    "self_contacts",
+    "contact_sound",
+    "unconverged_steps",
+    "last_update",
+    "backend",
+    "device",
+    "particles",
+    "steps",
+    "dt",
+    "sim_seconds",
+    "seconds",
+    "ms_per_frame",
+    "state_hash",
+};
+
 // A line for each cell: the varied values, then the measures by name. `centroid` makes three columns.
 std::string formatTable(const SweepTable& table, const std::vector<Cell>& cells) {
-  constexpr std::array columns{
-      "frames",      "finite",         "trouble",         "max_strain",    "peak_strain",
-      "min_y",       "kinetic_energy", "max_penetration", "self_contacts", "contact_sound",
-      "backend",     "device",         "particles",       "steps",         "dt",
-      "sim_seconds", "seconds",        "ms_per_frame",    "state_hash"};
   std::string text;
   for (const Variation& variation : table.variations()) text += csvWord(variation.key) + ",";
-  for (const char* column : columns) text += column + std::string(",");
+  for (const char* column : measureColumns) text += column + std::string(",");
   text += "centroid_x,centroid_y,centroid_z\n";
   for (std::size_t cell = 0; cell < table.cells(); ++cell) {
     for (std::size_t i = 0; i < table.variations().size(); ++i) text += csvWord(table.value(cell, i)) + ",";
     const ordered_json& measures = cells[cell].measures;
-    for (const char* column : columns) text += csvWord(measures.at(column)) + ",";
+    for (const char* column : measureColumns) text += csvWord(measures.at(column)) + ",";
     const ordered_json& centroid = measures.at("centroid");
     text += csvWord(centroid[0]) + "," + csvWord(centroid[1]) + "," + csvWord(centroid[2]) + "\n";
   }

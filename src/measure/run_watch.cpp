@@ -85,6 +85,12 @@ Warning contactWarning(const ContactFailure& failure, const Scene& scene) {
   return warning;
 }
 
+// "31 %", "0.4 %"
+std::string percent(std::uint64_t part, std::uint64_t whole) {
+  const double share = 100 * static_cast<double>(part) / static_cast<double>(whole);
+  return formatted(share < 1 ? "%.1g %%" : "%.0f %%", share);
+}
+
 }  // namespace
 
 double doubtfulStrain(const Scene& scene) { return usesMaterial(scene) ? 0.5 : 1; }
@@ -118,6 +124,17 @@ std::vector<Warning> pathWarnings(const Cloth& cloth, const Scene& scene, const 
   return warnings;
 }
 
+Warning convergenceWarning(const ConvergenceCounts& counts, double largestUpdate, const Scene& scene) {
+  const std::string share = percent(counts.unconvergedSteps, counts.steps);
+  return {"convergence", std::nullopt,
+          share + formatted(" of steps not solved (last update up to %.1g)", largestUpdate),
+          std::to_string(counts.unconvergedSteps) + " of " + std::to_string(counts.steps) + " steps (" +
+              share + ") ended before they were solved (" +
+              formatted("last update up to %.2g, tolerance %.2g", largestUpdate, scene.solver.tolerance) +
+              "); " + stepsAdvice(scene) + " or solver.newton_steps (now " +
+              std::to_string(scene.solver.newtonSteps) + ")"};
+}
+
 void RunWatch::start(const Cloth& cloth, const Scene& scene, const State& state) {
   startInColliders_ = overlapsWithColliders(cloth, scene, state);
   paths_ = pathWarnings(cloth, scene, state);
@@ -128,6 +145,12 @@ void RunWatch::add(int frame, const Cloth& cloth, const Scene& scene, const Stat
   contacts_.add(frame, cloth, scene, state, strain, counts);
   peakStrain_ = std::max(peakStrain_, strain);
   if (strain > doubtfulStrain(scene) && !doubtfulFrame_) doubtfulFrame_ = frame;
+}
+
+void RunWatch::addConvergence(int frame, const ConvergenceCounts& counts) {
+  if (counts.unconvergedSteps > 0 && !unsolvedFrame_) unsolvedFrame_ = frame;
+  convergence_ = counts;
+  largestUpdate_ = std::max(largestUpdate_, counts.lastUpdate);
 }
 
 std::vector<Warning> RunWatch::warnings(const Scene& scene) const {
@@ -147,6 +170,10 @@ std::vector<Warning> RunWatch::warnings(const Scene& scene) const {
                         "a spring is stretched by " + formatted("%.0f %%", 100 * doubtfulStrain(scene)) +
                             " or more, in this run by up to " + formatted("%.0f %%", 100 * peakStrain_) +
                             "; " + stepsAdvice(scene) + ", or set solver.strain_limit"});
+  if (100 * convergence_.unconvergedSteps > convergence_.steps) {
+    warnings.push_back(convergenceWarning(convergence_, largestUpdate_, scene));
+    warnings.back().frame = unsolvedFrame_;
+  }
   return warnings;
 }
 

@@ -1,5 +1,6 @@
 // Warnings that the results of a run may be of no use although it completed: contact was lost, springs are
-// stretched too far, paths jump. They are collected at the end of every frame.
+// stretched too far, paths jump, implicit steps were not solved. They are collected at the end of every
+// frame.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +18,7 @@
 namespace clothsim {
 
 struct Warning {
-  std::string kind;          // "start", "path", "contact" or "strain"
+  std::string kind;          // "start", "path", "contact", "strain" or "convergence"
   std::optional<int> frame;  // in which it was found first
   std::string brief;         // a few words, for the viewer's overlay
   std::string text;          // a sentence with advice
@@ -31,6 +32,11 @@ struct Warning {
 // the state at the start.
 [[nodiscard]] std::vector<Warning> pathWarnings(const Cloth& cloth, const Scene& scene, const State& state);
 
+// That implicit steps ended before they were solved. `largestUpdate` is the largest last update that was
+// seen.
+[[nodiscard]] Warning convergenceWarning(const ConvergenceCounts& counts, double largestUpdate,
+                                         const Scene& scene);
+
 class RunWatch {
  public:
   // To be called with the state before the first step.
@@ -39,10 +45,13 @@ class RunWatch {
   // are those since the start.
   void add(int frame, const Cloth& cloth, const Scene& scene, const State& state, double strain,
            const ContactCounts& counts);
+  // The same, with the counts since the start.
+  void addConvergence(int frame, const ConvergenceCounts& counts);
 
   [[nodiscard]] const ContactReport& contacts() const { return contacts_; }
   [[nodiscard]] const ColliderOverlaps& startInColliders() const { return startInColliders_; }
-  // In the order start, path, contact, strain. There is at most one of each kind, except of paths.
+  // In the order start, path, contact, strain, convergence. There is at most one of each kind, except of
+  // paths. Of convergence only where more than a hundredth of all implicit steps ended unsolved.
   [[nodiscard]] std::vector<Warning> warnings(const Scene& scene) const;
 
  private:
@@ -51,6 +60,9 @@ class RunWatch {
   std::vector<Warning> paths_;
   std::optional<int> doubtfulFrame_;  // the first with a doubtful strain
   double peakStrain_ = 0;
+  ConvergenceCounts convergence_;
+  double largestUpdate_ = 0;          // of the last steps of frames
+  std::optional<int> unsolvedFrame_;  // the first with a step that ended unsolved
 };
 
 // Prints a line for each on stderr: "clothsim: warning: frame 12: ...". `which` names the run where there are

@@ -13,6 +13,8 @@ void RunSummary::add(Simulation& simulation) {
   if (++frame == 0) watch.start(simulation.cloth(), simulation.scene(), state);
   watch.add(frame, simulation.cloth(), simulation.scene(), state, measures.maxStrain,
             simulation.contactCounts());
+  convergence = simulation.convergenceCounts();
+  watch.addConvergence(frame, convergence);
   peakStrain = std::max(peakStrain, measures.maxStrain);
   maxPenetration = std::max(maxPenetration, measures.maxPenetration);
 }
@@ -29,14 +31,12 @@ void RunSummary::write(nlohmann::ordered_json& json, Simulation& simulation) con
   json["max_penetration"] = maxPenetration;
   json["start_overlaps"] = {{"colliders", watch.startInColliders().particles},  // particles,
                             {"self", watch.contacts().overlapsAtStart()}};      // pairs
-  if (scene.solver.integrator == Integrator::implicit) {
-    const ConvergenceCounts counts = simulation.solver().convergenceCounts();
-    json["convergence"] = {{"steps", counts.steps},
-                           {"unconverged_steps", counts.unconvergedSteps},
-                           {"newton_steps", counts.newtonSteps},
-                           {"cg_iterations", counts.iterations},
-                           {"last_update", counts.lastUpdate}};
-  }
+  if (scene.solver.integrator == Integrator::implicit || convergence.steps > 0)
+    json["convergence"] = {{"steps", convergence.steps},
+                           {"unconverged_steps", convergence.unconvergedSteps},
+                           {"newton_steps", convergence.newtonSteps},
+                           {"cg_iterations", convergence.iterations},
+                           {"last_update", convergence.lastUpdate}};
   json["finite"] = true;
   json["warnings"] = toJson(watch.warnings(scene));
   watch.contacts().write(json, cloth, scene, simulation.contactCounts());

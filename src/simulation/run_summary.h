@@ -13,9 +13,10 @@ namespace clothsim {
 struct RunSummary {
   double seconds = 0;  // wall time of all steps; the caller adds to it
   double peakStrain = -1, maxPenetration = 0;
-  int frame = -1;     // number of the last add()
-  State state;        // at the end of that frame
-  Measures measures;  // of that state
+  int frame = -1;                 // number of the last add()
+  State state;                    // at the end of that frame
+  Measures measures;              // of that state
+  ConvergenceCounts convergence;  // up to it
   RunWatch watch;
 
   // To be called at the start, which is frame 0, and at the end of every frame.

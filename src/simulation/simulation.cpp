@@ -40,6 +40,18 @@ void Simulation::setState(const State& state) {
 
 void Simulation::restart() { setState(initialState(*cloth_, *scene_)); }
 
+ConvergenceCounts Simulation::convergenceCounts() {
+  ConvergenceCounts counts = convergenceBefore_ + solver_->convergenceCounts();
+  if (scene_->solver.integrator != Integrator::implicit) counts.lastUpdate = 0;
+  return counts;
+}
+
+void Simulation::replaceSolver(std::unique_ptr<Solver> solver) {
+  contactsBefore_ = contactCounts();
+  convergenceBefore_ = convergenceBefore_ + solver_->convergenceCounts();
+  solver_ = std::move(solver);
+}
+
 void Simulation::configure(const Shared<Scene>& scene) {
   solver_->configure(scene);
   scene_ = scene;
@@ -48,8 +60,7 @@ void Simulation::configure(const Shared<Scene>& scene) {
 void Simulation::rebuild(const Shared<Scene>& scene) {
   const Shared<Cloth> cloth(Cloth{*scene});
   std::unique_ptr<Solver> solver = makeSolver_(solver_->backend(), cloth, scene);
-  contactsBefore_ = contactCounts();
-  solver_ = std::move(solver);  // before its cloth goes
+  replaceSolver(std::move(solver));  // before its cloth goes
   cloth_ = cloth;
   scene_ = scene;
   touch();
@@ -58,8 +69,7 @@ void Simulation::rebuild(const Shared<Scene>& scene) {
 void Simulation::switchBackend(const std::string& backend) {
   std::unique_ptr<Solver> solver = makeSolver_(backend, cloth_, scene_);
   solver->setState(solver_->state());
-  contactsBefore_ = contactCounts();
-  solver_ = std::move(solver);
+  replaceSolver(std::move(solver));
   touch();
 }
 

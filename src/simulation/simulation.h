@@ -41,6 +41,8 @@ class Simulation {
   [[nodiscard]] double time() const { return solver_->clock().time(); }  // simulated [s]
   // Summed over all solvers that this simulation has had.
   [[nodiscard]] ContactCounts contactCounts() { return contactsBefore_ + solver_->contactCounts(); }
+  // The same. The last update is 0 while the integrator is an explicit one.
+  [[nodiscard]] ConvergenceCounts convergenceCounts();
 
   void stepFrame() { stepFrames(1); }
   void stepFrames(int frames);
@@ -74,11 +76,14 @@ class Simulation {
   [[nodiscard]] std::uint64_t version() const { return version_; }
 
  private:
+  void replaceSolver(std::unique_ptr<Solver> solver);
+
   Shared<Scene> scene_;
   Shared<Cloth> cloth_;
   SolverFactory makeSolver_;
   std::unique_ptr<Solver> solver_;
   ContactCounts contactsBefore_;
+  ConvergenceCounts convergenceBefore_;
   std::uint64_t version_ = 0;
 };
 

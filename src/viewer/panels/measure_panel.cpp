@@ -93,6 +93,20 @@ void MeasurePanel::forget() {
   nextSample_ = 0;
   passes_.clear();
   watch_ = {};
+  implicitSteps_ = {};
+}
+
+std::vector<Warning> MeasurePanel::warnings(const Scene& scene) const {
+  std::vector<Warning> warnings = watch_.warnings(scene);
+  const ConvergenceCounts recent = implicitSteps_.recent();
+  if (scene.solver.integrator == Integrator::implicit && recent.unconvergedSteps > 0)
+    warnings.push_back(convergenceWarning(recent, implicitSteps_.largestUpdate(), scene));
+  return warnings;
+}
+
+void MeasurePanel::sampleSteps(Session& session, double now) {
+  implicitSteps_.add(session.simulation().time(), session.simulation().convergenceCounts());
+  nextSample_ = now + sampleSeconds;
 }
 
 void MeasurePanel::sample(Session& session, double now, std::optional<std::uint32_t> underCursor) {
@@ -137,9 +151,30 @@ void MeasurePanel::drawNumbers(Session& session) {
           : formatted("%llu", contacts),
       "Pairs of particles that touch and are not neighbours on the cloth. In a guarded step motion had to "
       "be shortened.");
+  if (session.simulation().scene().solver.integrator == Integrator::implicit) drawConvergence();
   row("particle steps", rate_ > 0 ? formatted("%.3g million/s", rate_ / 1e6) : "-",
       "Particles times steps computed per second.");
   ImGui::EndTable();
+}
+
+// Rows of the table of numbers.
+void MeasurePanel::drawConvergence() {
+  const ConvergenceCounts all = implicitSteps_.all(), recent = implicitSteps_.recent();
+  row("unconverged steps",
+      formatted("%llu of %llu", static_cast<unsigned long long>(all.unconvergedSteps),
+                static_cast<unsigned long long>(all.steps)),
+      "Implicit steps that ended before they were solved to solver.tolerance, since the scene was opened. "
+      "Set "
+      "solver.simulation_steps or solver.newton_steps higher.");
+  row("last update", formatted("%.2g", all.lastUpdate),
+      "Of the last step: how much its last Newton step changed the displacements, over the largest "
+      "displacement or the spacing. Cloth is at rest when its kinetic energy is low and this is below "
+      "0.001.");
+  row("iterations a step",
+      recent.steps > 0
+          ? formatted("%.1f", static_cast<double>(recent.iterations) / static_cast<double>(recent.steps))
+          : "-",
+      "Iterations of conjugate gradients, over the last second of simulated time.");
 }
 
 void MeasurePanel::drawPlots() {

@@ -1,6 +1,7 @@
 // The panel Measure: numbers and curves about the cloth. They need a copy of the state on the host. It is
 // made a few times a second and takes at most a tenth of the time; for a large cloth it is made only while
-// the panel is open. The warnings of the overlay come from the same samples.
+// the panel is open. The warnings of the overlay come from the same samples, that of unsolved steps whatever
+// the size of the cloth.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "measure/energies.h"
+#include "measure/recent_steps.h"
 #include "measure/run_watch.h"
 #include "session/session.h"
 #include "solver/solver.h"
@@ -25,11 +27,12 @@ class MeasurePanel {
   template <class UnderCursor>
   void update(Session& session, double now, UnderCursor&& particleUnderCursor) {
     const bool wanted = open_ || session.simulation().cloth().particleCount() <= ALWAYS_SAMPLED;
-    if (!wanted || now < nextSample_) return;
-    sample(session, now, open_ ? particleUnderCursor() : std::nullopt);
+    if (now < nextSample_) return;
+    sampleSteps(session, now);
+    if (wanted) sample(session, now, open_ ? particleUnderCursor() : std::nullopt);
   }
-  // The warnings from the samples since the last start.
-  [[nodiscard]] std::vector<Warning> warnings(const Scene& scene) const { return watch_.warnings(scene); }
+  // The warnings from the samples since the last start; of unsolved steps only while there are any.
+  [[nodiscard]] std::vector<Warning> warnings(const Scene& scene) const;
   void setOpen(bool open) { open_ = open; }
   // To be called with the number of particles times steps, and the time that they took.
   void stepped(double particleSteps, double seconds);
@@ -44,8 +47,10 @@ class MeasurePanel {
     Energies energies;
   };
 
+  void sampleSteps(Session& session, double now);
   void sample(Session& session, double now, std::optional<std::uint32_t> underCursor);
   void drawNumbers(Session& session);
+  void drawConvergence();
   void drawPlots();
   void drawPasses(Session& session);
   void drawMemory(Session& session);
@@ -57,6 +62,7 @@ class MeasurePanel {
   std::optional<std::uint64_t> springsOf_;  // the generation of their cloth
   std::optional<double> strainUnderCursor_;
   RunWatch watch_;
+  RecentSteps implicitSteps_;
   std::uint64_t clampedSteps_ = 0;
   double particleSteps_ = 0, seconds_ = 0;  // since the last sample
   double rate_ = 0;                         // particle steps a second

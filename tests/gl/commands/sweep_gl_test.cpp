@@ -121,6 +121,30 @@ TEST(Sweep, VariesFramesAndLooksWithoutSimulatingAnew) {
   EXPECT_NE(partOf(png, cells[0]["pixels"]), partOf(png, cells[1]["pixels"]));
 }
 
+TEST(Sweep, TellsOfStepsThatEndedUnsolved) {
+  const test::TemporaryFolder folder;
+  const test::CommandResult result = sweep(
+      "-f pinned2 --resolution 8x8 --size 32x24 --backend cpu --json --vary frame=0,6,12 --vary "
+      "solver.integrator=verlet,implicit --set solver.newton_steps=1 --set solver.self_collision=false --set "
+      "solver.simulation_steps=30 --out " +
+          (folder / "s.png").string(),
+      "2>/dev/null");
+  ASSERT_EQ(result.exitCode, 0) << result.output;
+  const json cells = json::parse(result.output)["cells"];
+  ASSERT_EQ(cells.size(), 6u);
+  for (const std::size_t cell : {0u, 1u, 2u}) {
+    EXPECT_EQ(cells[cell]["unconverged_steps"], 0) << "verlet solves nothing";
+    EXPECT_EQ(cells[cell]["last_update"], 0);
+  }
+  EXPECT_EQ(cells[3]["unconverged_steps"], 0) << "nothing has been stepped";
+  EXPECT_GT(cells[4]["last_update"], 0);
+  EXPECT_EQ(cells[5]["unconverged_steps"], cells[5]["convergence"]["unconverged_steps"]);
+  EXPECT_GE(cells[5]["unconverged_steps"], cells[4]["unconverged_steps"]) << "they add up";
+  const std::vector<std::string> lines = linesOf(readFile(folder / "s.csv"));
+  EXPECT_NE(lines[0].find(",unconverged_steps,last_update,"), std::string::npos) << lines[0];
+  EXPECT_NE(lines[1].find(",0,0.0,cpu,"), std::string::npos) << lines[1];
+}
+
 TEST(Sweep, SaysWhatIsWrongBeforeItSimulates) {
   const test::TemporaryFolder folder;
   const std::string out = " --out " + (folder / "s.png").string();

@@ -154,6 +154,27 @@ TEST(SoundRun, HasNoWarningsAndPassesUnderStrict) {
   EXPECT_TRUE(result["warnings"].empty()) << result["warnings"];
 }
 
+TEST(UnsolvedRun, IsSaidByEveryCommandOnceAndEndsWithExitCodeOneUnderStrict) {
+  const test::TemporaryFolder folder;
+  const std::string scene =
+      "-f pinned2 --resolution 12x12 --frames 30 --backend cpu --set solver.self_collision=false --set "
+      "solver.integrator=implicit --set solver.simulation_steps=1 --set solver.newton_steps=1 ";
+  for (const std::string& command :
+       {"run " + scene, "render --size 32x32 --out " + (folder / "a.png").string() + " " + scene,
+        "sweep --size 32x32 --vary cloth.ks=5000 --out " + (folder / "b.png").string() + " " + scene}) {
+    const CommandResult easy = clothsim(command), strict = clothsim(command + " --strict");
+    EXPECT_EQ(easy.exitCode, 0) << easy.output;
+    EXPECT_EQ(strict.exitCode, 1) << strict.output;
+    const std::string words = "of 30 steps (";
+    const std::size_t found = easy.output.find(words);
+    ASSERT_NE(found, std::string::npos) << easy.output;
+    EXPECT_EQ(easy.output.find(words, found + 1), std::string::npos) << easy.output;
+    EXPECT_NE(easy.output.find("raise solver.simulation_steps (now 1) or solver.newton_steps (now 1)"),
+              std::string::npos)
+        << easy.output;
+  }
+}
+
 TEST(RestingState, DoesNotStartInsideTheColliderThatItLiesOn) {
   const test::TemporaryFolder folder;
   const std::string scene = "run -f sphere --resolution 20x20 --backend cpu ",

@@ -43,6 +43,25 @@ TEST_F(GpuSolverTest, AgreesWithTheCpuInEveryBitInImplicitSteps) {
   expectTheSameBits(test::implicitScenes(33), 40);
 }
 
+TEST_F(GpuSolverTest, CountsStepsAndUpdatesAsTheCpuDoes) {
+  for (const int newtonSteps : {1, 4}) {
+    Scene scene = test::implicitly(test::sheetScene(17));
+    scene.solver.newtonSteps = newtonSteps;
+    const Cloth cloth(scene);
+    GpuSolver gpu(cloth, scene, {});
+    CpuSolver<float> cpu(cloth, scene);
+    gpu.step(12);
+    cpu.step(12);
+    const ConvergenceCounts onGpu = gpu.convergenceCounts(), onCpu = cpu.convergenceCounts();
+    EXPECT_EQ(onCpu.steps, 12u);
+    EXPECT_EQ(onGpu.steps, onCpu.steps);
+    EXPECT_EQ(onGpu.unconvergedSteps, onCpu.unconvergedSteps);
+    EXPECT_EQ(onGpu.newtonSteps, onCpu.newtonSteps);
+    EXPECT_EQ(onGpu.iterations, onCpu.iterations);
+    EXPECT_EQ(onGpu.lastUpdate, onCpu.lastUpdate);
+  }
+}
+
 TEST_F(GpuSolverTest, AgreesWithTheCpuInImplicitStepsOnGridsOfEveryShape) {
   for (const auto& [columns, rows] :
        {std::pair{2, 2}, {3, 17}, {65, 2}, {64, 64}, {1, 40}, {40, 1}, {129, 5}}) {

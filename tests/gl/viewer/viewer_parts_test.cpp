@@ -15,6 +15,7 @@
 #include "viewer/compare_card.h"
 #include "viewer/input_queue.h"
 #include "viewer/panels/field_widgets.h"
+#include "viewer/panels/measure_panel.h"
 #include "viewer/viewer.h"
 #include "viewer/viewer_config.h"
 #include "viewer/viewer_keys.h"
@@ -260,6 +261,45 @@ Scene smallScene() {
   Scene scene = loadSceneByName("pinned2");
   (void)changeResolution(scene, 12, 12, true);
   return scene;
+}
+
+// Steps that cannot be solved, on a sheet of n x n points.
+Scene unsolvableSheet(int n) {
+  Scene scene;
+  scene.cloths[0].numWidthPoints = scene.cloths[0].numHeightPoints = n;
+  scene.cloths[0].pinned = {GridPoint{0, 0}};
+  scene.solver.integrator = Integrator::implicit;
+  scene.solver.framesPerSec = 20;
+  scene.solver.simulationSteps = scene.solver.newtonSteps = 1;
+  scene.solver.cgIterations = 1;
+  return scene;
+}
+
+bool tellsOfConvergence(const MeasurePanel& panel, const Scene& scene) {
+  const std::vector<Warning> warnings = panel.warnings(scene);
+  return std::any_of(warnings.begin(), warnings.end(),
+                     [](const Warning& warning) { return warning.kind == "convergence"; });
+}
+
+TEST(MeasurePanel, TellsOfUnsolvedStepsWhileThereAreAnyWhateverTheSizeOfTheCloth) {
+  for (const int n : {12, 260}) {  // of the larger one no other samples are taken
+    const Scene scene = unsolvableSheet(n);
+    Session session(scene, "cpu", makeCpuSolver);
+    MeasurePanel panel;
+    const auto nothing = []() -> std::optional<std::uint32_t> { return std::nullopt; };
+    panel.update(session, 0, nothing);
+    EXPECT_FALSE(tellsOfConvergence(panel, scene)) << "nothing has been stepped";
+    ASSERT_FALSE(session.stepFrames(3));
+    panel.update(session, 0.01, nothing);
+    EXPECT_FALSE(tellsOfConvergence(panel, scene)) << "it is too soon for the next sample";
+    panel.update(session, 100, nothing);
+    EXPECT_TRUE(tellsOfConvergence(panel, scene)) << n;
+    Scene explicitly = scene;
+    explicitly.solver.integrator = Integrator::verlet;
+    EXPECT_FALSE(tellsOfConvergence(panel, explicitly));
+    panel.forget();
+    EXPECT_FALSE(tellsOfConvergence(panel, scene)) << "after a restart";
+  }
 }
 
 TEST(SessionPulse, ChangesNoBitHoweverAFrameIsDividedByIt) {

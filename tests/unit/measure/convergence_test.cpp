@@ -1,0 +1,138 @@
+// Steps that ended before they were solved: who counts them, and who says so.
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "simulation/run_summary.h"
+#include "support/test_scenes.h"
+
+namespace clothsim {
+namespace {
+
+// A sheet that hangs at two corners and takes one long step a frame.
+Scene fallingSheet(Integrator integrator, int newtonSteps = 4) {
+  Scene scene = test::sheetScene(12);
+  scene.cloths[0].pinned = {GridPoint{0, 0}, GridPoint{11, 0}};
+  scene.solver.integrator = integrator;
+  scene.solver.framesPerSec = 30;
+  scene.solver.simulationSteps = integrator == Integrator::implicit ? 1 : 90;
+  scene.solver.newtonSteps = newtonSteps;
+  return scene;
+}
+
+RunSummary runOf(Simulation& simulation, int frames) {
+  RunSummary summary;
+  for (int frame = 0; frame <= frames; ++frame) {
+    if (frame > 0) simulation.stepFrame();
+    summary.add(simulation);
+  }
+  return summary;
+}
+
+TEST(Convergence, OfAStepIsThatItsLastUpdateIsWithinTheTolerance) {
+  Scene scene = fallingSheet(Integrator::implicit, 2);
+  Simulation simulation(scene);
+  std::uint64_t unconverged = 0, solved = 0;
+  for (std::uint64_t step = 1; step <= 60; ++step) {
+    simulation.stepFrame();
+    const ConvergenceCounts counts = simulation.convergenceCounts();
+    ASSERT_EQ(counts.steps, step);
+    const bool isSolved = counts.unconvergedSteps == unconverged;
+    if (isSolved) {
+      EXPECT_LE(counts.lastUpdate, scene.solver.tolerance) << "step " << step;
+    }
+    if (counts.lastUpdate > scene.solver.tolerance) {
+      EXPECT_EQ(counts.unconvergedSteps, unconverged + 1) << "step " << step;
+    }
+    solved += isSolved;
+    unconverged = counts.unconvergedSteps;
+  }
+  EXPECT_GT(unconverged, 0u);
+  EXPECT_GT(solved, 0u) << "both kinds were seen";
+}
+
+TEST(Convergence, IsCountedOverAllSolversOfASimulation) {
+  Simulation simulation(fallingSheet(Integrator::implicit, 1));
+  simulation.stepFrames(5);
+  const ConvergenceCounts before = simulation.convergenceCounts();
+  EXPECT_EQ(before.steps, 5u);
+  EXPECT_EQ(before.newtonSteps, 5u);
+  simulation.switchBackend("cpu");
+  EXPECT_EQ(simulation.convergenceCounts().steps, 5u);
+  EXPECT_EQ(simulation.convergenceCounts().lastUpdate, before.lastUpdate) << "no step has come since";
+  simulation.stepFrames(2);
+  EXPECT_EQ(simulation.convergenceCounts().steps, 7u);
+  EXPECT_GE(simulation.convergenceCounts().unconvergedSteps, before.unconvergedSteps);
+  simulation.configure(fallingSheet(Integrator::verlet));
+  simulation.stepFrame();
+  EXPECT_EQ(simulation.convergenceCounts().steps, 7u) << "explicit steps need no solving";
+  EXPECT_EQ(simulation.convergenceCounts().lastUpdate, 0);
+}
+
+TEST(Convergence, ThatFailsIsOneWarningWithNumbersAndAdvice) {
+  Simulation simulation(fallingSheet(Integrator::implicit, 1));
+  const RunSummary summary = runOf(simulation, 30);
+  const ConvergenceCounts counts = simulation.convergenceCounts();
+  ASSERT_GT(counts.unconvergedSteps, 3u);
+  const std::vector<Warning> warnings = summary.watch.warnings(simulation.scene());
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].kind, "convergence");
+  EXPECT_TRUE(warnings[0].text.starts_with(std::to_string(counts.unconvergedSteps) + " of 30 steps ("))
+      << warnings[0].text;
+  EXPECT_TRUE(warnings[0].text.ends_with(
+      "tolerance 0.001); raise solver.simulation_steps (now 1) or solver.newton_steps (now 1)"))
+      << warnings[0].text;
+  EXPECT_NE(warnings[0].brief.find(" % of steps not solved (last update up to "), std::string::npos)
+      << warnings[0].brief;
+  nlohmann::ordered_json json;
+  summary.write(json, simulation);
+  EXPECT_EQ(json["convergence"]["unconverged_steps"], counts.unconvergedSteps);
+  EXPECT_EQ(json["convergence"]["last_update"], counts.lastUpdate);
+  EXPECT_EQ(json["warnings"][0]["kind"], "convergence");
+}
+
+TEST(Convergence, IsNoMatterOfExplicitIntegrators) {
+  for (const Integrator integrator : {Integrator::verlet, Integrator::euler}) {
+    Simulation simulation(fallingSheet(integrator, 1));
+    const RunSummary summary = runOf(simulation, 30);
+    EXPECT_TRUE(summary.watch.warnings(simulation.scene()).empty());
+    EXPECT_EQ(summary.convergence.unconvergedSteps, 0u);
+    EXPECT_EQ(summary.convergence.lastUpdate, 0);
+    nlohmann::ordered_json json;
+    summary.write(json, simulation);
+    EXPECT_FALSE(json.contains("convergence"));
+  }
+}
+
+TEST(Convergence, IsWarnedOfFromMoreThanAHundredthOfAllSteps) {
+  const Scene scene = fallingSheet(Integrator::implicit);
+  const auto warningsAfter = [&](std::uint64_t unconverged) {
+    RunWatch watch;
+    watch.addConvergence(0, {});
+    watch.addConvergence(3, {.steps = 100, .unconvergedSteps = unconverged, .lastUpdate = 0.02});
+    watch.addConvergence(4, {.steps = 200, .unconvergedSteps = unconverged, .lastUpdate = 0.0005});
+    return watch.warnings(scene);
+  };
+  EXPECT_TRUE(warningsAfter(0).empty());
+  EXPECT_TRUE(warningsAfter(2).empty());
+  const std::vector<Warning> warnings = warningsAfter(3);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].frame, 3) << "where it was seen first";
+  EXPECT_TRUE(
+      warnings[0].text.starts_with("3 of 200 steps (2 %) ended before they were solved (last update "
+                                   "up to 0.02, tolerance 0.001); raise "))
+      << warnings[0].text;
+}
+
+TEST(Convergence, SaysShareInWholePercentAndBelowOneInOneDigit) {
+  const Scene scene = fallingSheet(Integrator::implicit);
+  const auto brief = [&](std::uint64_t unconverged) {
+    return convergenceWarning({.steps = 1000, .unconvergedSteps = unconverged}, 0.0044, scene).brief;
+  };
+  EXPECT_EQ(brief(1000), "100 % of steps not solved (last update up to 0.004)");
+  EXPECT_EQ(brief(123), "12 % of steps not solved (last update up to 0.004)");
+  EXPECT_EQ(brief(4), "0.4 % of steps not solved (last update up to 0.004)");
+}
+
+}  // namespace
+}  // namespace clothsim
