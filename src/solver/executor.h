@@ -29,7 +29,7 @@ struct ContactCounts {
 // How far implicit steps were solved since the solver was made.
 struct ConvergenceCounts {
   std::uint64_t steps = 0;
-  std::uint64_t unconvergedSteps = 0;  // whose last update was above the tolerance, or was shortened
+  std::uint64_t unconvergedSteps = 0;  // whose last update was above the tolerance
   std::uint64_t newtonSteps = 0;
   std::uint64_t iterations = 0;  // of conjugate gradients
   double lastUpdate = 0;         // of the last step: over its motion, or over the spacing

@@ -16,9 +16,9 @@
 // would take into a collider, and the search starts with all of these on their planes. Which planes hold in a
 // Newton step, the force on each particle decides (solver/cpu/implicit_contact.h). The line search counts a
 // plane from one side: what has left it costs nothing. Friction follows Coulomb's law with the push of the
-// particle and a potential that is smooth at slow slip (Li et al. 2020, "Incremental potential contact"); what
-// that leaves of the law stops the rest of the slip at the end. Particles end a hair inside; the collision
-// pass after the step moves them to the surface.
+// particle and a potential that is smooth at slow slip (Li et al. 2020, "Incremental potential contact");
+// what that leaves of the law stops the rest of the slip at the end. Particles end a hair inside; the
+// collision pass after the step moves them to the surface.
 //
 // A Newton step: the Hessian is made positive by clamping the springs' transverse part to k max(0, 1 - L/l)
 // (Choi and Ko 2002). It is solved by conjugate gradients with an additive multilevel preconditioner
