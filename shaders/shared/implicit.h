@@ -24,6 +24,7 @@ using uint = std::uint32_t;
 #define PRODUCTS_BINDING 4
 #define CONTACT_PLANES_BINDING 4
 #define CONTACT_BLOCKS_BINDING 1
+#define HISTORIES_BINDING 4
 #define PARTIAL_SUMS_BINDING 4
 #define CENTERS_BINDING 4
 #define COARSE_BLOCKS_BINDING 4
@@ -33,7 +34,7 @@ using uint = std::uint32_t;
 #define COARSE_INVERSES_BINDING 5
 #define ITERATES_BINDING 6
 #define FACTORS_BINDING 6
-#define AIR_BLOCKS_BINDING 7
+#define AIR_BLOCKS_BINDING 1
 #define SCALARS_BINDING 7
 
 // Buffers read as texels, a vec4 a particle; the first two of them go on with the coarse vertices.
@@ -54,6 +55,9 @@ using uint = std::uint32_t;
   39  // two texels each: n and offset, carry and friction (src/solver/cpu/collide.h)
 #define CONTACT_BLOCKS_UNIT \
   48  // two texels each: what a plane adds to the Hessian, a symmetric matrix, and the limit of friction
+
+#define HISTORIES_UNIT \
+  49  // two texels each, of `bdf2`: a third of what place and velocity changed in the last step
 
 // Of the coarse levels (src/solver/hierarchy.h).
 #define CENTERS_UNIT 40          // of aggregates [m]
@@ -84,6 +88,9 @@ using uint = std::uint32_t;
 #define SUM_BLOCK 1024u
 // Passes over all particles take them in rows of so many.
 #define PARTICLES_A_ROW 16384u
+
+// A step of `bdf2` is of second order after so many usual ones: an impact can take two steps.
+#define USUAL_STEPS 2u
 
 // Lengths of the Newton step that the line search looks at: 1, 1/2, 1/4, 1/8. It takes the first that does
 // not raise the energy.
@@ -152,7 +159,14 @@ SHARED_STRUCT ImplicitScalars {
   uint iterations;   // of the step so far,
   uint newtonSteps;  // the same
   uint unusedA;
-  uint unusedB;
+  uint secondOrderSteps;  // of all steps of `bdf2`, those that were no backward Euler
+
+  // Of `bdf2`: how many steps before were solved, with the contacts of the step before them and nothing else
+  // that moved particles; whether this one's contacts are other ones; whether something else moved particles.
+  uint usualSteps;
+  uint hasNewContacts;
+  uint isDisturbed;
+  uint unusedC;
 
   // Of all steps since the solver was made.
   uint steps;

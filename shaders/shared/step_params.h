@@ -143,6 +143,12 @@ SHARED_STRUCT StepParams {
   real unusedTolerance;
   real unusedSystem;
 
+  // Of `bdf2`, in place of inertia and guessTime, with 2 h / 3 for h; 0 under `implicit`.
+  real secondInertia;
+  real secondGuessTime;
+  real secondTime;  // 2 h / 3 [s]
+  real secondRate;  // 1 / secondTime
+
   ROWS_OF(SpringParams) springs[6];
   ROWS_OF(AttractorParams) attractors[MOST_ATTRACTORS];
 };

@@ -23,15 +23,18 @@ vec3 addParticleForces(vec4 x, vec3 v, vec3 sum) {
   return f;
 }
 
-// To the right-hand side of an implicit step and its diagonal (w).
-vec4 addParticleForcesToSystem(vec3 x, vec3 v, float mass, vec4 rightHandSide) {
+// To the right-hand side of an implicit step and its diagonal (w); the velocity at its end is rate (d - carried),
+// rate d where it is of first order.
+vec4 addParticleForcesToSystem(vec3 x, vec3 v, float mass, float rate, bool isSecondOrder, vec3 carried, vec4 rightHandSide) {
   precise vec3 b = rightHandSide.xyz;
   precise float a = rightHandSide.w;
 #define ADD_TO_SYSTEM(number, Struct, law)                                     \
   if (acts(number)) {                                                          \
     ParticleForce own = law(x, v, mass);                                       \
+    precise float damping = own.damping * rate;                                \
     b = b + (own.force + own.damping * v);                                     \
-    a = a + (own.damping * step.inverseTimeStep + own.stiffness);              \
+    if (isSecondOrder) b = b + damping * carried;                              \
+    a = a + (damping + own.stiffness);                                         \
   }
   PARTICLE_FORCES(ADD_TO_SYSTEM)
 #undef ADD_TO_SYSTEM

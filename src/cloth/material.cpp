@@ -190,7 +190,7 @@ double stableStep(const ClothSettings& cloth) {
 }
 
 double stableStep(const Scene& scene) {
-  if (scene.solver.integrator == Integrator::implicit) return std::numeric_limits<double>::infinity();
+  if (isImplicit(scene.solver.integrator)) return std::numeric_limits<double>::infinity();
   double smallest = std::numeric_limits<double>::infinity();
   for (const ClothSettings& cloth : scene.cloths) smallest = std::min(smallest, stableStep(cloth));
   return smallest;

@@ -151,8 +151,7 @@ nlohmann::ordered_json summary(const RunOptions& options, Run& run, const RunSum
   json["dt"] = stepLength(scene.solver);
   json["integrator"] = integratorName(scene.solver.integrator);
   json["simulation_steps"] = scene.solver.simulationSteps.count;
-  if (scene.solver.integrator == Integrator::implicit)
-    json["cg_iterations"] = scene.solver.cgIterations.count;
+  if (isImplicit(scene.solver.integrator)) json["cg_iterations"] = scene.solver.cgIterations.count;
   json["sim_seconds"] = run.isReplay() ? run.simulatedSeconds() : steps * stepLength(scene.solver);
   json["seconds"] = seen.seconds;
   json["particle_steps_per_second"] = seen.seconds > 0 ? particles * steps / seen.seconds : 0;

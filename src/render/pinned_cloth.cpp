@@ -158,7 +158,7 @@ class HangingCloth {
   // What is left of an angle when it has swung to the other side.
   [[nodiscard]] float swungBy(float angle, float length) const {
     const double rate = settings_.material ? settings_.material->damping
-                        : scene_.solver.integrator == Integrator::implicit
+                        : isImplicit(scene_.solver.integrator)
                             ? 27 * settings_.damping
                             : settings_.damping / 100 / stepLength(scene_.solver);
     const double half = std::numbers::pi * std::sqrt(2.0 * length / (3 * std::max(1e-6f, gravity_)));

@@ -127,10 +127,17 @@ struct Wind {
   friend bool operator==(const Wind&, const Wind&) = default;
 };
 
-// verlet: leapfrog. euler: symplectic Euler. implicit: backward Euler, stable at any step (docs/physics.md).
-enum class Integrator { verlet, euler, implicit };
+// verlet: leapfrog. euler: symplectic Euler. implicit: backward Euler, stable at any step. bdf2: the backward
+// difference of second order, which keeps a swing alive (docs/physics.md).
+enum class Integrator { verlet, euler, implicit, bdf2 };
+inline constexpr int INTEGRATOR_COUNT = 4;
 [[nodiscard]] inline const char* integratorName(Integrator integrator) {
-  return integrator == Integrator::verlet ? "verlet" : integrator == Integrator::euler ? "euler" : "implicit";
+  constexpr const char* names[INTEGRATOR_COUNT]{"verlet", "euler", "implicit", "bdf2"};
+  return names[static_cast<int>(integrator)];
+}
+// Whether a step solves for the positions at its end (solver/implicit.h).
+[[nodiscard]] inline bool isImplicit(Integrator integrator) {
+  return integrator == Integrator::implicit || integrator == Integrator::bdf2;
 }
 
 // averaged: CS184's rule, particles nearer than 2 thickness move apart by the mean over their contacts.

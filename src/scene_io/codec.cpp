@@ -20,8 +20,10 @@ using Words = std::array<std::pair<std::string_view, Enum>, count>;
 
 constexpr Words<Orientation> orientations{
     {{"horizontal", Orientation::horizontal}, {"vertical", Orientation::vertical}}};
-constexpr Words<Integrator, 3> integrators{
-    {{"verlet", Integrator::verlet}, {"euler", Integrator::euler}, {"implicit", Integrator::implicit}}};
+constexpr Words<Integrator, INTEGRATOR_COUNT> integrators{{{"verlet", Integrator::verlet},
+                                                           {"euler", Integrator::euler},
+                                                           {"implicit", Integrator::implicit},
+                                                           {"bdf2", Integrator::bdf2}}};
 constexpr Words<SelfCollision> selfCollisions{
     {{"averaged", SelfCollision::averaged}, {"robust", SelfCollision::robust}}};
 constexpr Words<FrictionLaw> frictionLaws{{{"cs184", FrictionLaw::cs184}, {"coulomb", FrictionLaw::coulomb}}};

@@ -256,7 +256,8 @@ std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
   using S = SolverSettings;
   static const std::array fields{
       field("integrator", &S::integrator,
-            "Leapfrog Verlet; symplectic Euler; or implicit: backward Euler, stable at any step.")
+            "Leapfrog Verlet; symplectic Euler; implicit: backward Euler, stable at any step; bdf2: of "
+            "second order.")
           .byDefault("\"verlet\"; in scenes with a material \"implicit\""),
       field("tolerance", &S::tolerance,
             "An implicit step is solved when its last update is this part of the motion in it.")

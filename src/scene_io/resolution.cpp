@@ -113,7 +113,7 @@ std::string changeResolution(Scene& scene, int columns, int rows, bool keepSteps
           (changes.empty() ? "" : ", ") + name + " " + shortNumber(before) + " -> " + shortNumber(after);
   };
 
-  keepSteps = keepSteps || scene.solver.integrator == Integrator::implicit;
+  keepSteps = keepSteps || isImplicit(scene.solver.integrator);
   int factor = 1;
   for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
     ClothSettings& cloth = scene.cloths[i];

@@ -27,7 +27,8 @@ std::vector<Setting> settingsInOrder(const SceneOptions& options) {
 // Whether the setting leaves --resolution nothing to say of steps.
 bool setsSteps(const Setting& setting) {
   return setting.text.starts_with("solver.simulation_steps=") ||
-         setting.text == "solver.integrator=implicit" || setting.text.find(".material=") != std::string::npos;
+         setting.text == "solver.integrator=implicit" || setting.text == "solver.integrator=bdf2" ||
+         setting.text.find(".material=") != std::string::npos;
 }
 
 // What "auto" stands for in this scene; empty when nothing that counts is automatic.
@@ -36,7 +37,7 @@ std::string chosenCounts(const SolverSettings& solver) {
   if (solver.simulationSteps.automatic)
     text = formatted("solver.simulation_steps=%d, %s steps of %.3g s", solver.simulationSteps.count,
                      integratorName(solver.integrator), stepLength(solver));
-  if (solver.integrator == Integrator::implicit && solver.cgIterations.automatic)
+  if (isImplicit(solver.integrator) && solver.cgIterations.automatic)
     text += (text.empty() ? "" : "; ") + formatted("solver.cg_iterations=%d", solver.cgIterations.count);
   return text.empty() ? "" : "auto chose " + text;
 }

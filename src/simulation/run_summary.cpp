@@ -31,12 +31,15 @@ void RunSummary::write(nlohmann::ordered_json& json, Simulation& simulation) con
   json["max_penetration"] = maxPenetration;
   json["start_overlaps"] = {{"colliders", watch.startInColliders().particles},  // particles,
                             {"self", watch.contacts().overlapsAtStart()}};      // pairs
-  if (scene.solver.integrator == Integrator::implicit || convergence.steps > 0)
+  if (isImplicit(scene.solver.integrator) || convergence.steps > 0) {
     json["convergence"] = {{"steps", convergence.steps},
                            {"unconverged_steps", convergence.unconvergedSteps},
                            {"newton_steps", convergence.newtonSteps},
                            {"cg_iterations", convergence.iterations},
                            {"last_update", convergence.lastUpdate}};
+    if (scene.solver.integrator == Integrator::bdf2)
+      json["convergence"]["second_order_steps"] = convergence.secondOrderSteps;
+  }
   json["finite"] = true;
   json["warnings"] = toJson(watch.warnings(scene));
   watch.contacts().write(json, cloth, scene, simulation.contactCounts());

@@ -42,7 +42,7 @@ void Simulation::restart() { setState(initialState(*cloth_, *scene_)); }
 
 ConvergenceCounts Simulation::convergenceCounts() {
   ConvergenceCounts counts = convergenceBefore_ + solver_->convergenceCounts();
-  if (scene_->solver.integrator != Integrator::implicit) counts.lastUpdate = 0;
+  if (!isImplicit(scene_->solver.integrator)) counts.lastUpdate = 0;
   return counts;
 }
 

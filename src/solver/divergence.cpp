@@ -110,8 +110,7 @@ Remedy forExplicitSteps(const Scene& scene) {
 Remedy remedyFor(const Divergence& divergence, const Scene& scene) {
   if (divergence.pass == Pass::checkStart)
     return {"The state that the step began with was wrong already: begin with another one.", {}};
-  const bool isImplicit = scene.solver.integrator == Integrator::implicit;
-  Remedy remedy = isImplicit ? forImplicitSteps(scene) : forExplicitSteps(scene);
+  Remedy remedy = isImplicit(scene.solver.integrator) ? forImplicitSteps(scene) : forExplicitSteps(scene);
   if (divergence.reason == DivergenceReason::runawaySpeed)
     remedy.text += " If it is meant, raise solver.max_speed.";
   if (divergence.reason == DivergenceReason::runawayStrain)

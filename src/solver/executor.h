@@ -31,18 +31,27 @@ struct ConvergenceCounts {
   std::uint64_t steps = 0;
   std::uint64_t unconvergedSteps = 0;  // whose last update was above the tolerance
   std::uint64_t newtonSteps = 0;
-  std::uint64_t iterations = 0;  // of conjugate gradients
-  double lastUpdate = 0;         // of the last step: over its motion, or over the spacing
+  std::uint64_t iterations = 0;        // of conjugate gradients
+  double lastUpdate = 0;               // of the last step: over its motion, or over the spacing
+  std::uint64_t secondOrderSteps = 0;  // of `bdf2`; the others were backward Euler
 
   // Those of one solver and of the one that went on from it.
   friend ConvergenceCounts operator+(const ConvergenceCounts& a, const ConvergenceCounts& b) {
-    return {a.steps + b.steps, a.unconvergedSteps + b.unconvergedSteps, a.newtonSteps + b.newtonSteps,
-            a.iterations + b.iterations, b.steps > 0 ? b.lastUpdate : a.lastUpdate};
+    return {a.steps + b.steps,
+            a.unconvergedSteps + b.unconvergedSteps,
+            a.newtonSteps + b.newtonSteps,
+            a.iterations + b.iterations,
+            b.steps > 0 ? b.lastUpdate : a.lastUpdate,
+            a.secondOrderSteps + b.secondOrderSteps};
   }
   // What has happened since `b`.
   friend ConvergenceCounts operator-(const ConvergenceCounts& a, const ConvergenceCounts& b) {
-    return {a.steps - b.steps, a.unconvergedSteps - b.unconvergedSteps, a.newtonSteps - b.newtonSteps,
-            a.iterations - b.iterations, a.lastUpdate};
+    return {a.steps - b.steps,
+            a.unconvergedSteps - b.unconvergedSteps,
+            a.newtonSteps - b.newtonSteps,
+            a.iterations - b.iterations,
+            a.lastUpdate,
+            a.secondOrderSteps - b.secondOrderSteps};
   }
 };
 

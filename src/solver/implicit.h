@@ -49,8 +49,12 @@ using ImplicitScalars = shared::ImplicitScalars<Real>;
 
 template <class Real>
 [[nodiscard]] ConvergenceCounts convergenceOf(const ImplicitScalars<Real>& scalars) {
-  return {scalars.steps, scalars.unconvergedSteps, scalars.allNewtonSteps, scalars.allIterations,
-          static_cast<double>(scalars.lastUpdate)};
+  return {scalars.steps,
+          scalars.unconvergedSteps,
+          scalars.allNewtonSteps,
+          scalars.allIterations,
+          static_cast<double>(scalars.lastUpdate),
+          scalars.secondOrderSteps};
 }
 
 }  // namespace clothsim

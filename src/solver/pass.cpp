@@ -30,16 +30,16 @@ constexpr std::array<PassTraits, PASS_COUNT> table{{
     {Pass::integrate, "integrate", Domain::gridPoints, 0,
      {}, {positions, velocities, forces},
      {newPositions, newVelocities, watch}, {F::movingPins, F::grabs}},
+    {Pass::predictPlanes, "predict planes", Domain::gridPoints, 0,
+     {}, {positions, velocities, contactBlocks},
+     {planes, scalars}, {F::colliders, F::planes, F::history}},
     {Pass::begin, "begin", Domain::gridPoints, 1,
-     {positions, velocities}, {},
+     {positions, velocities, scalars}, {planes, histories},
      {newPositions, newVelocities, forces, rightHandSides, airBlocks, displacements, iterates},
-     air | Features{F::movingPins, F::grabs}},
+     air | Features{F::movingPins, F::grabs, F::planes, F::history}},
     {Pass::findPlanes, "contact planes", Domain::gridPoints, 0,
      {}, {positions, iterates},
      {planes}, {F::colliders}, Gate::step},
-    {Pass::predictPlanes, "predict planes", Domain::gridPoints, 0,
-     {}, {positions, velocities, displacements, iterates},
-     {planes, displacements, iterates}, {F::colliders}},
     {Pass::elasticForces, "elastic forces", Domain::gridPoints, 2,
      {iterates}, {},
      {forces, watch}, elastic, Gate::step},
@@ -95,8 +95,11 @@ constexpr std::array<PassTraits, PASS_COUNT> table{{
      {}, {increments, displacements},
      {partialSums, scalars}, {}, Gate::step},
     {Pass::end, "end", Domain::gridPoints, 0,
-     {}, {positions, rightHandSides, displacements, planes, contactBlocks},
-     {newPositions, newVelocities, watch}, {F::movingPins, F::planes}},
+     {}, {positions, rightHandSides, displacements, planes, contactBlocks, histories, scalars},
+     {newPositions, newVelocities, watch}, {F::movingPins, F::planes, F::history}},
+    {Pass::remember, "remember", Domain::gridPoints, 0,
+     {}, {positions, velocities, newPositions, newVelocities, displacements},
+     {histories, scalars}, {}},
     {Pass::countStep, "count step", Domain::sums, 0,
      {}, {},
      {scalars}, {}},
@@ -138,15 +141,15 @@ constexpr bool isInOrder() {
 static_assert(isInOrder(), "the table has the order of the enumerators");
 
 constexpr std::array<std::string_view, ARRAY_COUNT> arrayNames{
-    "positions",      "velocities",       "new positions", "new velocities", "forces",          "planes",
-    "contact blocks", "right-hand sides", "air blocks",    "displacements",  "iterates",        "residuals",
-    "corrections",    "factors",          "centers",       "coarse blocks",  "coarse inverses", "dense",
-    "directions",     "products",         "increments",    "partial sums",   "scalars",         "hash",
-    "candidates",     "contact flags",    "watch"};
+    "positions",      "velocities",  "new positions",    "new velocities", "forces",        "planes",
+    "contact blocks", "histories",   "right-hand sides", "air blocks",     "displacements", "iterates",
+    "residuals",      "corrections", "factors",          "centers",        "coarse blocks", "coarse inverses",
+    "dense",          "directions",  "products",         "increments",     "partial sums",  "scalars",
+    "hash",           "candidates",  "contact flags",    "watch"};
 
 constexpr std::array<std::string_view, FEATURE_COUNT> featureNames{
     "springs", "rest lengths", "meshes",      "wind",      "particle forces", "jets",
-    "grabs",   "cuts",         "moving pins", "colliders", "planes"};
+    "grabs",   "cuts",         "moving pins", "colliders", "planes",          "history"};
 
 bool runsByRows(Domain domain) { return domain == Domain::gridPoints || domain == Domain::particles; }
 

@@ -18,9 +18,9 @@ enum class Pass : std::uint8_t {
   forces,
   integrate,
   // An implicit step (solver/implicit.h).
+  predictPlanes,
   begin,
   findPlanes,
-  predictPlanes,
   elasticForces,
   linearize,
   findCenters,
@@ -40,6 +40,7 @@ enum class Pass : std::uint8_t {
   accept,
   measureUpdate,
   end,
+  remember,
   countStep,
   // Contacts and limits, after either (solver/self_collision.h).
   checkHash,
@@ -64,6 +65,7 @@ enum class Array : std::uint8_t {
   forces,          // of springs and air [N]
   planes,          // in which particles touch colliders
   contactBlocks,   // what these do to the linear system
+  histories,       // what the last step changed
   rightHandSides,  // b of inertia, air and grabs, and their diagonal
   airBlocks,       // what wind adds to the diagonal
   displacements,   // d, since the start of the step [m]
@@ -123,9 +125,10 @@ enum class Feature : std::uint8_t {
   cuts,
   movingPins,
   colliders,
-  planes,  // colliders in implicit steps
+  planes,   // colliders in implicit steps
+  history,  // steps of second order
 };
-inline constexpr int FEATURE_COUNT = static_cast<int>(Feature::planes) + 1;
+inline constexpr int FEATURE_COUNT = static_cast<int>(Feature::history) + 1;
 [[nodiscard]] std::string_view nameOf(Feature feature);
 using Features = SetOf<Feature>;
 

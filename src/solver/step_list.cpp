@@ -58,7 +58,7 @@ class StepBuilder {
   StepBuilder(const Scene& scene, const Cloth& cloth, const std::vector<std::uint32_t>& cutMasks)
       : solver_(scene.solver),
         hasColliders_(!scene.colliders.empty()),
-        isImplicit_(scene.solver.integrator == Integrator::implicit),
+        isImplicit_(isImplicit(scene.solver.integrator)),
         contacts_(collidesWithItself(scene, cloth) ? scene.solver.selfCollision : SelfCollision::off),
         rounds_(contactRounds(scene)),
         levels_(isImplicit_ ? mostLevels(cloth, cutMasks) : 0),
@@ -67,6 +67,8 @@ class StepBuilder {
   PassList step() {
     isImplicit_ ? moveImplicitly() : moveExplicitly();
     contacts_ == SelfCollision::robust ? endRobustly() : endAsCs184Does();
+    if (solver_.integrator == Integrator::bdf2) list_.add(Pass::remember);
+    if (isImplicit_) list_.add(Pass::countStep);
     return list_.finish(Outcome::state);
   }
 
@@ -77,8 +79,8 @@ class StepBuilder {
   }
 
   void moveImplicitly() {
-    list_.add(Pass::begin);
     if (hasColliders_) list_.add(Pass::predictPlanes);
+    list_.add(Pass::begin);
     makeLevels();
     newtonStep();
     list_.repeat("further Newton step", solver_.newtonSteps - 1, [&] {
@@ -86,7 +88,6 @@ class StepBuilder {
       newtonStep();
     });
     list_.add(Pass::end);
-    list_.add(Pass::countStep);
   }
 
   void newtonStep() {

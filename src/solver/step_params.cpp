@@ -117,11 +117,18 @@ double meanSpacing(const Cloth& cloth) {
 
 template <class Real>
 void putImplicit(const Scene& scene, const Cloth& cloth, std::size_t pieceIndex, StepParams<Real>& params) {
-  if (scene.solver.integrator != Integrator::implicit) return;
+  if (!isImplicit(scene.solver.integrator)) return;
   const Piece& piece = cloth.pieces()[pieceIndex];
-  const double h = stepLength(scene.solver), damped = 1 + dampingRate(scene.cloths[pieceIndex]) * h;
-  params.inertia = real<Real>(damped / (h * h));
-  params.guessTime = real<Real>(h / damped);
+  const double h = stepLength(scene.solver), rate = dampingRate(scene.cloths[pieceIndex]);
+  params.inertia = real<Real>((1 + rate * h) / (h * h));
+  params.guessTime = real<Real>(h / (1 + rate * h));
+  if (scene.solver.integrator == Integrator::bdf2) {
+    const double t = 2 * h / 3;
+    params.secondInertia = real<Real>((1 + rate * t) / (t * t));
+    params.secondGuessTime = real<Real>(t / (1 + rate * t));
+    params.secondTime = real<Real>(t);
+    params.secondRate = real<Real>(1 / t);
+  }
   params.tolerance = real<Real>(scene.solver.tolerance);
   const double systemTolerance = std::min(SYSTEM_TOLERANCE * scene.solver.tolerance, 1.0);
   params.systemTolerance = real<Real>(systemTolerance * systemTolerance);

@@ -37,7 +37,7 @@ template <class Real>
 
 // Whether passes of their own keep the strain limit; in `implicit` a second, stiff spring does.
 [[nodiscard]] inline bool limitsInPasses(const Scene& scene) {
-  return scene.solver.strainLimit && scene.solver.integrator != Integrator::implicit;
+  return scene.solver.strainLimit && !isImplicit(scene.solver.integrator);
 }
 
 // How often strain limit and colliders take turns in a step. The limiter can pull particles into a collider

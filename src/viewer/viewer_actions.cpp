@@ -166,15 +166,13 @@ void Viewer::switchBackend(const std::string& backend) {
 void Viewer::switchIntegrator() {
   Scene scene = open_->scene();
   Integrator& integrator = scene.solver.integrator;
-  integrator = integrator == Integrator::verlet  ? Integrator::euler
-               : integrator == Integrator::euler ? Integrator::implicit
-                                                 : Integrator::verlet;
+  integrator = static_cast<Integrator>((static_cast<int>(integrator) + 1) % INTEGRATOR_COUNT);
   if (integrator == Integrator::implicit) {  // one long step costs as much as dozens of short ones
     explicitSteps_.reset();
     if (!scene.solver.simulationSteps.automatic) explicitSteps_ = scene.solver.simulationSteps.count;
     scene.solver.simulationSteps.automatic = true;
     chooseCounts(scene);
-  } else if (scene.solver.simulationSteps.automatic && explicitSteps_) {
+  } else if (!isImplicit(integrator) && scene.solver.simulationSteps.automatic && explicitSteps_) {
     scene.solver.simulationSteps = *explicitSteps_;
   }
   edit(scene, false);

@@ -57,7 +57,7 @@ inline constexpr std::array viewerKeys{
     ViewerKey{"Right", "go forward one frame, after going back", ViewerAction::stepForward},
     ViewerKey{"B", "switch the backend: GPU / CPU", ViewerAction::toggleBackend},
     ViewerKey{"C", "compare the backends from here", ViewerAction::compareBackends},
-    ViewerKey{"I", "next integrator: verlet, euler, implicit", ViewerAction::toggleIntegrator},
+    ViewerKey{"I", "next integrator: verlet, euler, implicit, bdf2", ViewerAction::toggleIntegrator},
     ViewerKey{"Tab", "next shading model", ViewerAction::nextShader},
     ViewerKey{"Ctrl+Z", "undo the last parameter change", ViewerAction::undo},
     ViewerKey{"Ctrl+Shift+Z", "redo it", ViewerAction::redo},

@@ -79,7 +79,7 @@ std::vector<gl::Defines> variantsOf(const std::string& file) {
   everything.enabledSlots = (1u << SPRING_SLOTS) - 1;
   PassFeatures cs184 = everything;
   cs184.coulombFriction = false;
-  everything.limitSprings = everything.material = everything.contactPlanes = true;
+  everything.limitSprings = everything.material = everything.contactPlanes = everything.history = true;
   PassFeatures mesh = everything;
   mesh.mesh = true;
   everything.gate = GATE_STEP;

@@ -253,6 +253,15 @@ inline Scene implicitly(Scene scene) {
   return scene;
 }
 
+// As solved as lets most of these steps be of second order.
+inline Scene inSecondOrder(Scene scene) {
+  scene = implicitly(std::move(scene));
+  scene.solver.integrator = Integrator::bdf2;
+  scene.solver.newtonSteps = 3;
+  scene.solver.tolerance = 0.1;
+  return scene;
+}
+
 struct NamedScene {
   std::string name;
   Scene scene;
@@ -302,7 +311,9 @@ inline std::vector<NamedScene> implicitScenes(int n) {
       {"implicit, two cloths with a rest length table",
        implicitly(twoCloths(withLimiter(withWind(vertical(sheetScene(n))))))},
       {"implicit, a mesh with everything", implicitly(meshWithEverything(n / 2, SelfCollision::averaged))},
-      {"implicit, a mesh of a material with attractors", implicitly(withAttractors(meshOfMaterial(n / 2)))}};
+      {"bdf2, a material with everything",
+       inSecondOrder(withAttractors(withWind(withColliders(withLimiter(vertical(materialScene(n)))))))},
+      {"bdf2, a mesh of a material with attractors", inSecondOrder(withAttractors(meshOfMaterial(n / 2)))}};
 }
 
 inline Scene everythingScene(int n) { return withWind(withColliders(withLimiter(vertical(sheetScene(n))))); }

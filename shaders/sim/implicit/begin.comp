@@ -1,9 +1,13 @@
 // The start of an implicit step: what inertia, air and grabs make of a particle's displacement d, the energy 1/2 a |d|^2 - b.d with
 // a symmetric matrix beside a where wind blows. Pins go where their paths take them.
+#include "shared/implicit.h"
+#include "sim/implicit/scalars.glsl"
 #include "sim/implicit/common.glsl"
 #include "sim/watch.glsl"
 #include "sim/forces.glsl"
 #include "sim/integrate.glsl"
+#include "sim/implicit/contact.glsl"
+#include "sim/implicit/time_scheme.glsl"
 
 layout(std430, binding = RIGHT_HAND_SIDES_BINDING) writeonly buffer RightHandSides { vec4 newRightHandSides[]; };
 layout(std430, binding = DISPLACEMENTS_BINDING) writeonly buffer Displacements { vec4 newDisplacements[]; };
@@ -41,12 +45,19 @@ void main() {
     newIterates[i] = vec4(target, 0.0);
     return;
   }
+  TimeScheme scheme = timeScheme();
+  vec3 moving = v, carried = vec3(0.0);
+  if (scheme.isSecondOrder) {
+    precise vec3 sum = v + acceleratedBefore(i);
+    moving = sum;
+    carried = movedBefore(i);
+  }
   precise float mass = reciprocal(x.w);
-  precise float stiffness = mass * step.inertia;
-  precise vec3 moved = step.guessTime * (v + step.timeStep * gravity);
-  vec3 guess = canonical(moved);
-  precise vec3 b = stiffness * guess;
-  vec4 withForces = addParticleForcesToSystem(x.xyz, v, mass, vec4(b, stiffness));
+  precise float stiffness = mass * scheme.inertia;
+  precise vec3 guess = scheme.guessTime * (moving + scheme.gravityTime * gravity);
+  if (scheme.isSecondOrder) guess = guess + carried;
+  precise vec3 b = stiffness * canonical(guess);
+  vec4 withForces = addParticleForcesToSystem(x.xyz, v, mass, scheme.rate, scheme.isSecondOrder, carried, vec4(b, stiffness));
   b = withForces.xyz;
   stiffness = withForces.w;
   if (hasWind) {  // f - R (v' - v)
@@ -58,8 +69,9 @@ void main() {
     Symmetric resistance = Symmetric(resistanceDiagonal, resistanceOthers);
     precise vec3 push = force + timesVector(resistance, v);
     b = b + push;
-    precise vec3 diagonal = step.inverseTimeStep * resistance.diagonal;
-    precise vec3 others = step.inverseTimeStep * resistance.others;
+    precise vec3 diagonal = scheme.rate * resistance.diagonal;
+    precise vec3 others = scheme.rate * resistance.others;
+    if (scheme.isSecondOrder) b = b + timesVector(Symmetric(diagonal, others), carried);
     newAirBlocks[2u * i] = vec4(diagonal, 0.0);
     newAirBlocks[2u * i + 1u] = vec4(others, 0.0);
   }
@@ -68,6 +80,7 @@ void main() {
   newRightHandSides[i] = rightHandSide;
   precise vec3 way = step.timeStep * v;
   vec3 start = canonical(way);
+  if (hasContacts) start = canonical(onPlane(contactPlaneAt(i), start));
   precise vec3 place = x.xyz + start;
   newDisplacements[i] = vec4(start, 0.0);
   newIterates[i] = vec4(canonical(place), x.w);

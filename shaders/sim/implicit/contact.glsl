@@ -24,6 +24,12 @@ vec3 slipOf(vec3 normal, vec3 carry, vec3 d) {
   return slip;
 }
 
+// The nearest displacement that ends on the plane; d itself where there is none.
+vec3 onPlane(vec4 plane, vec3 d) {
+  precise vec3 moved = d + (plane.w - sumOfProducts(plane.xyz, d)) * plane.xyz;
+  return sumOfProducts(plane.xyz, plane.xyz) > 0.0 ? moved : d;
+}
+
 // Friction of a limit of 1 against a slip: its force over the slip, and how steeply the force rises along it. It is in full
 // beyond `slow` (Li et al. 2020, "Incremental potential contact", equation 14).
 struct FrictionSlope {

@@ -1,9 +1,12 @@
 // Positions and velocities at the end of an implicit step, before contacts.
+#include "shared/implicit.h"
+#include "sim/implicit/scalars.glsl"
 #include "sim/implicit/common.glsl"
 #include "sim/watch.glsl"
 #include "sim/forces.glsl"
 #include "sim/integrate.glsl"
 #include "sim/implicit/contact.glsl"
+#include "sim/implicit/time_scheme.glsl"
 
 // What the solution leaves of Coulomb's friction stops the slip, or shortens it: nothing creeps that sticks.
 vec3 withFriction(uint i, vec3 displacement) {
@@ -30,7 +33,10 @@ void main() {
     vec3 displacement = texelFetch(displacements, int(i)).xyz;
     if (hasContacts) displacement = withFriction(i, displacement);
     precise vec3 place = x.xyz + displacement;
-    precise vec3 v = step.inverseTimeStep * displacement;
+    TimeScheme scheme = timeScheme();
+    precise vec3 relative = displacement;
+    if (scheme.isSecondOrder) relative = displacement - movedBefore(i);
+    precise vec3 v = scheme.rate * relative;
     particle = Particle(vec4(canonical(place), x.w), canonical(v));
     watchVelocity(PASS_INTEGRATE, i, particle.velocity);
   }

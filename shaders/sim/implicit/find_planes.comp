@@ -1,18 +1,17 @@
 // What colliders the iterate is in: the planes in which particles touch them. Where several are touched, the last of the
 // scene's counts; what touches nothing keeps its plane. With PREDICTS, particles that touch nothing there get the planes where
-// inertia and gravity alone would take them, and all start on their planes.
+// inertia and gravity alone would take them, from where the velocities take them; and it is said whether what touches is not
+// what touched before.
+#include "shared/implicit.h"
+#include "sim/implicit/scalars.glsl"
 #include "sim/implicit/common.glsl"
 #include "sim/watch.glsl"
 #include "sim/forces.glsl"
 #include "sim/integrate.glsl"
 #include "sim/collide.glsl"
+#include "sim/implicit/contact.glsl"
 
 layout(std430, binding = CONTACT_PLANES_BINDING) writeonly buffer Planes { vec4 newPlanes[]; };
-#if PREDICTS
-layout(std430, binding = DISPLACEMENTS_BINDING) writeonly buffer Displacements { vec4 newDisplacements[]; };
-layout(std430, binding = ITERATES_BINDING) writeonly buffer Iterates { vec4 newIterates[]; };
-#endif
-
 vec4 plane = vec4(0.0), carry = vec4(0.0);
 bool touches = false;
 
@@ -32,30 +31,25 @@ void findPlanesAt(vec4 start, vec3 place) {
   }
 }
 
-#if PREDICTS
-void startOnPlane(uint i, vec4 start) {
-  vec3 d = texelFetch(displacements, int(i)).xyz;
-  precise vec3 raised = d + (plane.w - sumOfProducts(plane.xyz, d)) * plane.xyz;
-  vec3 displacement = canonical(raised);
-  precise vec3 place = start.xyz + displacement;
-  newDisplacements[i] = vec4(displacement, 0.0);
-  newIterates[i] = vec4(canonical(place), start.w);
-}
-#endif
-
 void main() {
   if (isSkipped()) return;
   GridPoint p = thisGridPoint();
   if (!p.exists) return;
   vec4 start = texelFetch(starts, int(p.index));
 #if PREDICTS
-  precise vec3 guess = start.xyz + step.guessTime * (velocityAt(p.index) + step.timeStep * vec3(step.gravityX, step.gravityY, step.gravityZ));
+  vec3 v = velocityAt(p.index);
+  precise vec3 guess = start.xyz + step.guessTime * (v + step.timeStep * vec3(step.gravityX, step.gravityY, step.gravityZ));
   findPlanesAt(start, guess);
+  precise vec3 way = step.timeStep * v;
+  precise vec3 place = start.xyz + canonical(way);
+  findPlanesAt(start, canonical(place));
+#if HAS_HISTORY
+  vec3 held = contactBlockAt(p.index).diagonal;
+  precise float trace = (held.x + held.y) + held.z;
+  if (touches != (trace > 0.0)) atomicOr(scalars.hasNewContacts, 1u);
 #endif
-  findPlanesAt(start, iterateAt(p.index).xyz);
-#if PREDICTS
-  if (touches) startOnPlane(p.index, start);
 #else
+  findPlanesAt(start, iterateAt(p.index).xyz);
   if (!touches) return;
 #endif
   newPlanes[2u * p.index] = plane;

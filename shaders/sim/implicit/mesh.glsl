@@ -1,5 +1,4 @@
-// Springs and hinges of meshes in an implicit step; the twin of src/solver/cpu/mesh_implicit.cpp. Meshes have no coarse
-// levels: the preconditioner is that of their diagonal blocks.
+// Springs and hinges of meshes in an implicit step; the twin of src/solver/cpu/mesh_implicit.cpp.
 #include "shared/mesh_lists.h"
 #include "sim/implicit/energy.glsl"
 

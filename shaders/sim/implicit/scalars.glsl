@@ -1,2 +1,2 @@
-// What conjugate gradients and the line search have come to so far; read here, written by sum_totals.comp alone.
-layout(std430, binding = SCALARS_BINDING) readonly buffer Scalars { ImplicitScalars scalars; };
+// What conjugate gradients and the line search have come to so far. Passes over particles read it, and set flags at most.
+layout(std430, binding = SCALARS_BINDING) buffer Scalars { ImplicitScalars scalars; };

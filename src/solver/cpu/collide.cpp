@@ -307,16 +307,15 @@ INLINE void collideRow(const PassArguments<Real>& arguments, int row) {
 
 }  // namespace
 
-namespace {
-
-template <class Real, class PlaceAt>
-void findPlanesAt(const PassArguments<Real>& arguments, ContactPlanes<Real>& planes, Range particles,
-                  PlaceAt placeAt) {
+template <class Real>
+void findPlanes(const PassArguments<Real>& arguments, const Components<Real>& places,
+                ContactPlanes<Real>& planes, int row) {
+  const Range particles = rangeOf(arguments.step, row);
   const Real offset = arguments.step.planeOffset;
   forEachCollider(arguments, [&]<std::uint32_t type>(const ColliderParams<Real>& collider) {
     for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
       if (arguments.inverseMasses[i] == Real(0)) continue;
-      const Vec3<Real> start = at(arguments.before.positions, i), place = placeAt(i);
+      const Vec3<Real> start = at(arguments.before.positions, i), place = at(places, i);
       const Vec3<Real> previous = collider.moving != 0 ? carried(collider, start) : start;
       const Contact<Real> contact =
           findContact<type>(collider, collider.coulomb != 0, offset, previous, place, arguments.distances);
@@ -331,34 +330,9 @@ void findPlanesAt(const PassArguments<Real>& arguments, ContactPlanes<Real>& pla
   });
 }
 
-}  // namespace
-
-template <class Real>
-void findPlanes(const PassArguments<Real>& arguments, const Components<Real>& places,
-                ContactPlanes<Real>& planes, int row) {
-  const Range particles = rangeOf(arguments.step, row);
-  findPlanesAt(arguments, planes, particles, [&](std::ptrdiff_t i) { return at(places, i); });
-}
-
-template <class Real>
-void predictPlanes(const PassArguments<Real>& arguments, const Components<Real>& places,
-                   ContactPlanes<Real>& planes, int row) {
-  const StepParams<Real>& step = arguments.step;
-  const Range particles = rangeOf(step, row);
-  const Vec3<Real> gravity{step.gravityX, step.gravityY, step.gravityZ};
-  for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) put(planes.normals, i, Vec3<Real>{});
-  findPlanesAt(arguments, planes, particles, [&](std::ptrdiff_t i) {
-    return at(arguments.before.positions, i) +
-           step.guessTime * (at(arguments.before.velocities, i) + step.timeStep * gravity);
-  });
-  findPlanesAt(arguments, planes, particles, [&](std::ptrdiff_t i) { return at(places, i); });
-}
-
-#define INSTANTIATE(Real)                                                                                   \
-  template void findPlanes(const PassArguments<Real>&, const Components<Real>&, ContactPlanes<Real>&, int); \
-  template void predictPlanes(const PassArguments<Real>&, const Components<Real>&, ContactPlanes<Real>&, int);
-INSTANTIATE(float)
-INSTANTIATE(double)
+template void findPlanes(const PassArguments<float>&, const Components<float>&, ContactPlanes<float>&, int);
+template void findPlanes(const PassArguments<double>&, const Components<double>&, ContactPlanes<double>&,
+                         int);
 
 VECTOR_CLONES void collide(const PassArguments<float>& arguments, int row) { collideRow(arguments, row); }
 void collide(const PassArguments<double>& arguments, int row) { collideRow(arguments, row); }

@@ -42,10 +42,5 @@ struct ContactPlanes {
 template <class Real>
 void findPlanes(const PassArguments<Real>& arguments, const Components<Real>& places,
                 ContactPlanes<Real>& planes, int row);
-// The same, and of particles that touch nothing there the planes where inertia and gravity alone would take
-// them.
-template <class Real>
-void predictPlanes(const PassArguments<Real>& arguments, const Components<Real>& places,
-                   ContactPlanes<Real>& planes, int row);
 
 }  // namespace clothsim::cpu

@@ -53,10 +53,7 @@ RowPass<Real> rowPassOf(Pass pass) {
         cpu::findPlanes(piece.step, piece.own.iterate.positions, piece.own.planes, row);
       };
     case Pass::predictPlanes:
-      return [](const Arguments& piece, int row) {
-        cpu::predictPlanes(piece.step, piece.own.iterate.positions, piece.own.planes, row);
-        cpu::startOnPlanes(piece, row);
-      };
+      return [](const Arguments& piece, int row) { cpu::predictPlanes(piece, row); };
     case Pass::elasticForces:
       return [](const Arguments& piece, int row) { cpu::gatherElasticForces(piece, row); };
     case Pass::linearize:
@@ -73,6 +70,8 @@ RowPass<Real> rowPassOf(Pass pass) {
       return [](const Arguments& piece, int row) { cpu::accept(piece, row); };
     case Pass::end:
       return [](const Arguments& piece, int row) { cpu::end(piece, row); };
+    case Pass::remember:
+      return [](const Arguments& piece, int row) { cpu::remember(piece, row); };
     default:
       assert(false && "this pass does not run over rows");
       return nullptr;
@@ -126,12 +125,14 @@ CpuExecutor<Real>::CpuExecutor(const Cloth& cloth, bool sweeps)
 
 template <class Real>
 void CpuExecutor<Real>::setScene(const StepInputs& inputs) {
+  implicit_.scalars.usualSteps = 0;
   distances_ = inputs.colliders.distances();
   selfCollision_.configure(*inputs.scene);
 }
 
 template <class Real>
 void CpuExecutor<Real>::setCuts(const StepInputs& inputs) {
+  implicit_.scalars.usualSteps = 0;
   selfCollision_.setCutMasks(inputs.cutMasks);
   if (!implicit_.hierarchy.empty()) implicit_.resize(makeHierarchy<Real>(*cloth_, inputs.cutMasks));
 }
@@ -146,6 +147,10 @@ void CpuExecutor<Real>::prepare(const StepInputs& inputs, const PassList& list) 
   if (list.contains(Pass::begin) && implicit_.hierarchy.empty())
     implicit_.resize(makeHierarchy<Real>(*cloth_, inputs.cutMasks));
   if (list.contains(Pass::predictPlanes)) implicit_.planes.resize(cloth_->particleCount());
+  if (list.contains(Pass::remember)) {
+    implicit_.movedBefore.resize(cloth_->particleCount());
+    implicit_.acceleratedBefore.resize(cloth_->particleCount());
+  }
 }
 
 template <class Real>
@@ -333,13 +338,19 @@ void CpuExecutor<Real>::sum(Pass pass) {
     case Pass::measureUpdate:
       measureUpdate();
       break;
-    case Pass::countStep:
+    case Pass::countStep: {
+      const bool isSolved = scalars.isStepSolved != 0, isUsual = scalars.hasNewContacts == 0;
       scalars.steps += 1;
-      scalars.unconvergedSteps += 1 - scalars.isStepSolved;
+      scalars.unconvergedSteps += isSolved ? 0 : 1;
+      scalars.secondOrderSteps +=
+          parameters_.pieces[0].secondRate > Real(0) && scalars.usualSteps >= USUAL_STEPS && isUsual ? 1 : 0;
       scalars.allIterations += scalars.iterations;
       scalars.allNewtonSteps += scalars.newtonSteps;
+      scalars.usualSteps = isSolved && isUsual && scalars.isDisturbed == 0 ? scalars.usualSteps + 1 : 0;
+      scalars.hasNewContacts = scalars.isDisturbed = 0;
       scalars.isStepSolved = scalars.isSystemSolved = scalars.iterations = scalars.newtonSteps = 0;
       break;
+    }
     default:
       chooseLength();
   }
@@ -395,6 +406,7 @@ void CpuExecutor<Real>::upload(const State& state) {
     cpu::put(particles_.state.velocities, place, Vec3f{v.x, v.y, v.z}.cast<Real>());
     particles_.inverseMasses[i] = static_cast<Real>(x.w);
   }
+  implicit_.scalars.usualSteps = 0;
   selfCollision_.restart();
 }
 
@@ -417,6 +429,7 @@ template <class Real>
 void CpuExecutor<Real>::setInverseMass(std::uint32_t particle, double inverseMass) {
   particles_.inverseMasses[particle] = static_cast<Real>(inverseMass);
   cpu::put(particles_.state.velocities, particle, Vec3<Real>{});
+  implicit_.scalars.usualSteps = 0;
 }
 
 template <class Real>
@@ -431,6 +444,7 @@ bool CpuExecutor<Real>::restore(const ParticleCopy& copy) {
   const auto* own = dynamic_cast<const Copy*>(&copy);
   if (own == nullptr) return false;
   particles_ = own->particles;
+  implicit_.scalars.usualSteps = 0;
   return true;
 }
 

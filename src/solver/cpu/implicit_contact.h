@@ -23,6 +23,14 @@ INLINE Vec3<Real> slipOf(const ContactPlanes<Real>& planes, std::ptrdiff_t i, Ve
   return relative - dot(normal, relative) * normal;
 }
 
+// The nearest displacement that ends on the plane; d itself where there is none.
+template <class Real>
+INLINE Vec3<Real> onPlane(const ContactPlanes<Real>& planes, std::ptrdiff_t i, Vec3<Real> d) {
+  const Vec3<Real> normal = at(planes.normals, i),
+                   moved = d + (planes.offsets.data()[i] - dot(normal, d)) * normal;
+  return dot(normal, normal) > Real(0) ? moved : d;
+}
+
 // Friction of a limit of 1 against a slip: its force over the slip, and how steeply the force rises along it.
 // It is in full beyond `slow` (Li et al. 2020, "Incremental potential contact", equation 14).
 template <class Real>

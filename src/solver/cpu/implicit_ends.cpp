@@ -1,5 +1,7 @@
 // The first and the last pass of an implicit step; the twin of
 // shaders/sim/implicit/{begin,end}.comp.
+#include <atomic>
+
 #include "solver/cpu/implicit_contact.h"
 #include "solver/cpu/particle_forces.h"
 #include "solver/cpu/rows.h"
@@ -36,7 +38,55 @@ void grabParticle(const ImplicitArguments<Real>& arguments, int row, std::ptrdif
   put(arguments.own.rightHandSide, i, at(arguments.own.rightHandSide, i) + stiffness * displacement);
 }
 
+// How the velocity at the end comes from the displacement d: rate (d - carried). Backward Euler, or of second
+// order from the step before (solver/implicit.h).
+template <class Real>
+struct TimeScheme {
+  bool isSecondOrder;
+  Real rate, inertia, guessTime, gravityTime;
+};
+template <class Real>
+TimeScheme<Real> timeSchemeOf(const ImplicitArguments<Real>& arguments) {
+  const StepParams<Real>& step = arguments.step.step;
+  const ImplicitScalars<Real>& scalars = arguments.own.scalars;
+  if (step.secondRate > Real(0) && scalars.usualSteps >= USUAL_STEPS && scalars.hasNewContacts == 0)
+    return {true, step.secondRate, step.secondInertia, step.secondGuessTime, step.secondTime};
+  return {false, step.inverseTimeStep, step.inertia, step.guessTime, step.timeStep};
+}
+
+template <class Real>
+Vec3<Real> startOf(const ImplicitArguments<Real>& arguments, std::ptrdiff_t i) {
+  return canonical(arguments.step.step.timeStep * at(arguments.step.before.velocities, i));
+}
+
 }  // namespace
+
+template <class Real>
+void predictPlanes(const ImplicitArguments<Real>& arguments, int row) {
+  const PassArguments<Real>& pass = arguments.step;
+  const StepParams<Real>& step = pass.step;
+  ImplicitState<Real>& own = arguments.own;
+  const Range all = rangeOf(step, row);
+  const Vec3<Real> gravity{step.gravityX, step.gravityY, step.gravityZ};
+  Components<Real>& places = own.iterate.positions;
+  for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
+    put(own.planes.normals, i, Vec3<Real>{});
+    put(places, i,
+        at(pass.before.positions, i) +
+            step.guessTime * (at(pass.before.velocities, i) + step.timeStep * gravity));
+  }
+  findPlanes(pass, places, own.planes, row);
+  for (std::ptrdiff_t i = all.begin; i < all.end; ++i)
+    put(places, i, canonical(at(pass.before.positions, i) + startOf(arguments, i)));
+  findPlanes(pass, places, own.planes, row);
+  if (step.secondRate == Real(0)) return;
+  bool isNew = false;
+  for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
+    const Vec3<Real> normal = at(own.planes.normals, i), held = at(own.planes.blocks, i).diagonal;
+    isNew = isNew || (dot(normal, normal) > Real(0)) != ((held.x + held.y) + held.z > Real(0));
+  }
+  if (isNew) std::atomic_ref(own.scalars.hasNewContacts).store(1, std::memory_order_relaxed);
+}
 
 template <class Real>
 void begin(const ImplicitArguments<Real>& arguments, int row) {
@@ -45,6 +95,8 @@ void begin(const ImplicitArguments<Real>& arguments, int row) {
   ImplicitState<Real>& own = arguments.own;
   const Range all = rangeOf(step, row);
   const Vec3<Real> gravity{step.gravityX, step.gravityY, step.gravityZ}, zero{};
+  const TimeScheme<Real> scheme = timeSchemeOf(arguments);
+  const bool contacts = hasContacts(arguments);
   if (step.hasWind != 0) gatherWind(pass, row, own.air);
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
     if (pass.inverseMasses[i] > Real(0)) continue;
@@ -63,40 +115,36 @@ void begin(const ImplicitArguments<Real>& arguments, int row) {
       continue;
     }
     const Real mass = reciprocal(pass.inverseMasses[i]);
-    Real stiffness = mass * step.inertia;
-    const Vec3<Real> guess = canonical(step.guessTime * (v + step.timeStep * gravity));
-    Vec3<Real> b = stiffness * guess;
+    Vec3<Real> moving = v, carried{};
+    if (scheme.isSecondOrder) {
+      moving = v + at(own.acceleratedBefore, i);
+      carried = at(own.movedBefore, i);
+    }
+    Real stiffness = mass * scheme.inertia;
+    Vec3<Real> guess = scheme.guessTime * (moving + scheme.gravityTime * gravity);
+    if (scheme.isSecondOrder) guess = guess + carried;
+    Vec3<Real> b = stiffness * canonical(guess);
     forEachParticleForce(
         step, [&](auto law) __attribute__((always_inline)) {
           const ParticleForce<Real> acting = law(x, v, mass);
+          const Real damping = acting.damping * scheme.rate;
           b = b + (acting.force + acting.damping * v);
-          stiffness = stiffness + (acting.damping * step.inverseTimeStep + acting.stiffness);
+          if (scheme.isSecondOrder) b = b + damping * carried;
+          stiffness = stiffness + (damping + acting.stiffness);
         });
     if (step.hasWind != 0) {  // f - R (v' - v)
-      const Symmetric<Real> resistance = at(own.air, i);
+      const Symmetric<Real> resistance = at(own.air, i), damping = scheme.rate * resistance;
       b = b + (at(pass.forces, i) + resistance * v);
-      put(own.air, i, step.inverseTimeStep * resistance);
+      if (scheme.isSecondOrder) b = b + damping * carried;
+      put(own.air, i, damping);
     }
     put(own.rightHandSide, i, b);
     own.diagonal[static_cast<std::size_t>(i)] = stiffness;
-    const Vec3<Real> start = canonical(step.timeStep * v);
+    Vec3<Real> start = startOf(arguments, i);
+    if (contacts) start = canonical(onPlane(own.planes, i, start));
     put(own.displacements, i, start);
     put(own.iterate.positions, i, canonical(x + start));
     if (pass.grabbed != nullptr) grabParticle(arguments, row, i, mass);
-  }
-}
-
-template <class Real>
-void startOnPlanes(const ImplicitArguments<Real>& arguments, int row) {
-  const PassArguments<Real>& pass = arguments.step;
-  ImplicitState<Real>& own = arguments.own;
-  const Range all = rangeOf(pass.step, row);
-  for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
-    const Vec3<Real> normal = at(own.planes.normals, i), d = at(own.displacements, i);
-    if (pass.inverseMasses[i] == Real(0) || dot(normal, normal) == Real(0)) continue;
-    const Vec3<Real> start = canonical(d + (own.planes.offsets.data()[i] - dot(normal, d)) * normal);
-    put(own.displacements, i, start);
-    put(own.iterate.positions, i, canonical(at(pass.before.positions, i) + start));
   }
 }
 
@@ -150,15 +198,36 @@ void end(const ImplicitArguments<Real>& arguments, int row) {
   const PassArguments<Real>& pass = arguments.step;
   const Range all = rangeOf(pass.step, row);
   const bool contacts = hasContacts(arguments);
+  const TimeScheme<Real> scheme = timeSchemeOf(arguments);
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
     const bool pinned = pass.inverseMasses[i] == Real(0);
     if (pinned) continue;  // begin() has moved pins
     Vec3<Real> displacement = at(arguments.own.displacements, i);
     if (contacts) displacement = canonical(withFriction(arguments, i, displacement));
     put(pass.after.positions, i, canonical(at(pass.before.positions, i) + displacement));
-    put(pass.after.velocities, i, canonical(pass.step.inverseTimeStep * displacement));
+    if (scheme.isSecondOrder) displacement = displacement - at(arguments.own.movedBefore, i);
+    put(pass.after.velocities, i, canonical(scheme.rate * displacement));
   }
   watchVelocities(pass, PASS_INTEGRATE, row);
+}
+
+// The history of a step that something else has a part in, as contact between particles, does not count.
+template <class Real>
+void remember(const ImplicitArguments<Real>& arguments, int row) {
+  const PassArguments<Real>& pass = arguments.step;
+  ImplicitState<Real>& own = arguments.own;
+  const Range all = rangeOf(pass.step, row);
+  const Real third = static_cast<Real>(1.0 / 3), most = pass.step.tolerance * pass.step.spacing;
+  bool isDisturbed = false;
+  for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
+    const Vec3<Real> moved = at(pass.after.positions, i) - at(pass.before.positions, i),
+                     accelerated = at(pass.after.velocities, i) - at(pass.before.velocities, i),
+                     aside = moved - at(own.displacements, i);
+    put(own.movedBefore, i, canonical(third * moved));
+    put(own.acceleratedBefore, i, canonical(third * accelerated));
+    isDisturbed = isDisturbed || dot(aside, aside) > most * most;
+  }
+  if (isDisturbed) std::atomic_ref(own.scalars.isDisturbed).store(1, std::memory_order_relaxed);
 }
 
 template void begin(const ImplicitArguments<float>&, int);
@@ -167,8 +236,10 @@ template void gatherElasticForces(const ImplicitArguments<float>&, int);
 template void gatherElasticForces(const ImplicitArguments<double>&, int);
 template struct ImplicitState<float>;
 template struct ImplicitState<double>;
-template void startOnPlanes(const ImplicitArguments<float>&, int);
-template void startOnPlanes(const ImplicitArguments<double>&, int);
+template void predictPlanes(const ImplicitArguments<float>&, int);
+template void predictPlanes(const ImplicitArguments<double>&, int);
+template void remember(const ImplicitArguments<float>&, int);
+template void remember(const ImplicitArguments<double>&, int);
 template void end(const ImplicitArguments<float>&, int);
 template void end(const ImplicitArguments<double>&, int);
 

@@ -19,18 +19,20 @@ namespace clothsim::cpu {
 // two entries each: translation and rotation.
 template <class Real>
 struct ImplicitState {
-  Components<Real> rightHandSide;  // b and
-  std::vector<Real> diagonal;      // a of the energy 1/2 a |d|^2 - b.d of inertia, air and grabs
-  SymmetricField<Real> air;        // what the air adds to a; empty without wind
-  ContactPlanes<Real> planes;      // of particles in colliders; empty without colliders
-  Components<Real> displacements;  // d of the step so far [m]
-  CpuState<Real> iterate;          // x + d; no velocities
-  Components<Real> residuals;      // * r
-  Components<Real> corrections;    // * z
-  SymmetricField<Real> factors;    // L D L^T of diagonal blocks: 1/d1 1/d2 1/d3 and l21 l31 l32
-  CpuState<Real> directions;       // p; no velocities
-  Components<Real> products;       // H p
-  Components<Real> increments;     // the Newton step so far
+  Components<Real> rightHandSide;      // b and
+  std::vector<Real> diagonal;          // a of the energy 1/2 a |d|^2 - b.d of inertia, air and grabs
+  SymmetricField<Real> air;            // what the air adds to a; empty without wind
+  ContactPlanes<Real> planes;          // of particles in colliders; empty without colliders
+  Components<Real> movedBefore;        // of `bdf2`: a third of what place [m]
+  Components<Real> acceleratedBefore;  // and velocity [m/s] changed in the step before
+  Components<Real> displacements;      // d of the step so far [m]
+  CpuState<Real> iterate;              // x + d; no velocities
+  Components<Real> residuals;          // * r
+  Components<Real> corrections;        // * z
+  SymmetricField<Real> factors;        // L D L^T of diagonal blocks: 1/d1 1/d2 1/d3 and l21 l31 l32
+  CpuState<Real> directions;           // p; no velocities
+  Components<Real> products;           // H p
+  Components<Real> increments;         // the Newton step so far
   std::array<std::vector<Real>, LENGTHS_TRIED> trials;  // a particle's change of energy
   ImplicitScalars<Real> scalars{};
 
@@ -51,13 +53,14 @@ struct ImplicitArguments {
   ImplicitState<Real>& own;
 };
 
-// Right-hand side and diagonal; the search starts on with the velocities, and pins go where their paths take
-// them.
+// The planes of particles that are in a collider where their velocities take them, and of the others those
+// where inertia and gravity alone would take them; says whether what touches is not what touched before.
+template <class Real>
+void predictPlanes(const ImplicitArguments<Real>& arguments, int row);
+// Right-hand side and diagonal; the search starts on with the velocities, but on the planes, and pins go
+// where their paths take them.
 template <class Real>
 void begin(const ImplicitArguments<Real>& arguments, int row);
-// Starts particles that will touch a plane on it.
-template <class Real>
-void startOnPlanes(const ImplicitArguments<Real>& arguments, int row);
 // step.forces = those of springs and bending at the iterate.
 template <class Real>
 void gatherElasticForces(const ImplicitArguments<Real>& arguments, int row);
@@ -83,6 +86,9 @@ void accept(const ImplicitArguments<double>& arguments, int row);
 // Positions and velocities at the end of the step.
 template <class Real>
 void end(const ImplicitArguments<Real>& arguments, int row);
+// What the step has changed, and whether contacts had a part in it that the solution does not know.
+template <class Real>
+void remember(const ImplicitArguments<Real>& arguments, int row);
 
 // Where an aggregate is.
 template <class Real>

@@ -8,7 +8,7 @@
 namespace clothsim {
 namespace {
 
-constexpr std::size_t FACTOR_TEXELS = 2, AIR_TEXELS = 2, PLANE_TEXELS = 2;
+constexpr std::size_t FACTOR_TEXELS = 2, AIR_TEXELS = 2, PLANE_TEXELS = 2, HISTORY_TEXELS = 2;
 
 }  // namespace
 
@@ -28,6 +28,8 @@ ArrayPlace placeOf(Array array) {
       return {CONTACT_PLANES_UNIT, CONTACT_PLANES_BINDING};
     case Array::contactBlocks:
       return {CONTACT_BLOCKS_UNIT, CONTACT_BLOCKS_BINDING};
+    case Array::histories:
+      return {HISTORIES_UNIT, HISTORIES_BINDING};
     case Array::rightHandSides:
       return {RIGHT_HAND_SIDES_UNIT, RIGHT_HAND_SIDES_BINDING};
     case Array::airBlocks:
@@ -90,7 +92,8 @@ GpuArrays::GpuArrays(std::size_t particles) {
     (*this)[array] = ParticleArray(std::string(nameOf(array)), particles);
 }
 
-void GpuArrays::addImplicit(std::size_t particles, const GpuLevels& levels, bool wind, bool colliders) {
+void GpuArrays::addImplicit(std::size_t particles, const GpuLevels& levels, bool wind, bool colliders,
+                            bool history) {
   const auto add = [&](Array array, std::size_t texels) {
     if ((*this)[array].buffer.name() != 0 && (*this)[array].buffer.size() >= texels) return;
     const std::string label(nameOf(array));
@@ -113,10 +116,17 @@ void GpuArrays::addImplicit(std::size_t particles, const GpuLevels& levels, bool
   add(Array::airBlocks, wind ? AIR_TEXELS * particles : 1);
   add(Array::planes, colliders ? PLANE_TEXELS * particles : 1);
   add(Array::contactBlocks, colliders ? PLANE_TEXELS * particles : 1);
+  add(Array::histories, history ? HISTORY_TEXELS * particles : 1);
   add(Array::partialSums, (particles + SUM_BLOCK - 1) / SUM_BLOCK);
   const ImplicitScalars<float> none{};
   if (scalars_.name() == 0)
     scalars_ = gl::Buffer<ImplicitScalars<float>>("implicit scalars", std::span(&none, 1));
+}
+
+void GpuArrays::forgetHistory() {
+  static constexpr GLuint none = 0;
+  if (scalars_.name() != 0)
+    glNamedBufferSubData(scalars_.name(), offsetof(ImplicitScalars<float>, usualSteps), sizeof none, &none);
 }
 
 ImplicitScalars<float> GpuArrays::scalars() const {

@@ -20,7 +20,9 @@ class GpuArrays {
   explicit GpuArrays(std::size_t particles);
 
   // What implicit steps need besides. Does nothing where that is there. @throws as the constructor
-  void addImplicit(std::size_t particles, const GpuLevels& levels, bool wind, bool colliders);
+  void addImplicit(std::size_t particles, const GpuLevels& levels, bool wind, bool colliders, bool history);
+  // The next step is backward Euler.
+  void forgetHistory();
   // What implicit steps have come to; zeros without any. Blocking.
   [[nodiscard]] ImplicitScalars<float> scalars() const;
 

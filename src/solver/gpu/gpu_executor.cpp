@@ -57,6 +57,7 @@ GpuExecutor::GpuExecutor(const Cloth& cloth, const GpuOptions& options)
 }
 
 void GpuExecutor::setScene(const StepInputs& inputs) {
+  arrays_.forgetHistory();
   if (distances_.name() == 0 || *inputs.colliders.distances() != *stagedDistances_) {
     stagedDistances_ = inputs.colliders.distances();
     checkFits(stagedDistances_->size(), sizeof(float), "samples of mesh colliders' distances");
@@ -74,6 +75,7 @@ void GpuExecutor::setCuts(const StepInputs& inputs) {
     }
     cutMasks_.upload(inputs.cutMasks);
   }
+  arrays_.forgetHistory();
   levels_ = {};  // made anew when an implicit step needs them: no weight crosses a cut
   selfCollision_.setCut(!inputs.cuts.empty());
 }
@@ -84,7 +86,7 @@ void GpuExecutor::prepare(const StepInputs& inputs, const PassList& list) {
     if (levels_.empty()) levels_ = GpuLevels(makeHierarchy<float>(*cloth_, inputs.cutMasks));
     arrays_.addImplicit(cloth_->particleCount(), levels_,
                         inputs.scene->wind.has_value() || inputs.interaction.jet.has_value(),
-                        !inputs.scene->colliders.empty());
+                        !inputs.scene->colliders.empty(), list.contains(Pass::remember));
   }
   for (std::vector<Programs>& ofPieces : kernels_) ofPieces.clear();
   compile(inputs, list);
@@ -241,6 +243,7 @@ void GpuExecutor::finish() {
 void GpuExecutor::upload(const State& state) {
   arrays_[Array::positions].buffer.upload(state.positions);
   arrays_[Array::velocities].buffer.upload(state.velocities);
+  arrays_.forgetHistory();
   selfCollision_.restart();
 }
 
@@ -263,6 +266,7 @@ void GpuExecutor::setInverseMass(std::uint32_t particle, double inverseMass) {
   x.w = static_cast<float>(inverseMass);
   arrays_[Array::positions].buffer.upload({&x, 1}, particle);
   arrays_[Array::velocities].buffer.upload({&atRest, 1}, particle);
+  arrays_.forgetHistory();
 }
 
 std::unique_ptr<ParticleCopy> GpuExecutor::copy(std::unique_ptr<ParticleCopy> reuse) {
@@ -287,6 +291,7 @@ bool GpuExecutor::restore(const ParticleCopy& copy) {
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   arrays_[Array::positions].buffer.copyFrom(own->positions);
   arrays_[Array::velocities].buffer.copyFrom(own->velocities);
+  arrays_.forgetHistory();
   return true;
 }
 

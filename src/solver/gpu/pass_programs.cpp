@@ -22,12 +22,13 @@ PassFeatures featuresOf(const Scene& scene, const Cloth& cloth, std::size_t piec
     features.movingColliders |= moves(collider);
   }
   features.coulombFriction = !scene.colliders.empty() && scene.solver.frictionLaw == FrictionLaw::coulomb;
-  features.contactPlanes = scene.solver.integrator == Integrator::implicit && !scene.colliders.empty();
+  features.contactPlanes = isImplicit(scene.solver.integrator) && !scene.colliders.empty();
+  features.history = scene.solver.integrator == Integrator::bdf2;
   features.movingPins = !scene.cloths[pieceIndex].pinMotion.empty();
   features.restLengthTable = piece.hasRestLengthTable;
   features.material = piece.hasMaterial;
   features.mesh = piece.isMesh;
-  features.limitSprings = scene.solver.integrator == Integrator::implicit && scene.solver.strainLimit;
+  features.limitSprings = isImplicit(scene.solver.integrator) && scene.solver.strainLimit;
   for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot)
     if (piece.slotEnabled[slot]) features.enabledSlots |= 1u << slot;
   return features;
@@ -52,6 +53,7 @@ PassFeatures restricted(const PassFeatures& all, Features to) {
   take(Feature::colliders, &PassFeatures::colliderTypes, &PassFeatures::movingColliders,
        &PassFeatures::coulombFriction);
   take(Feature::planes, &PassFeatures::contactPlanes);
+  take(Feature::history, &PassFeatures::history);
   return features;
 }
 
@@ -69,6 +71,7 @@ gl::Defines definesFor(const PassFeatures& features) {
           {"HAS_MESH", std::to_string(features.mesh)},
           {"HAS_LIMIT_SPRINGS", std::to_string(features.limitSprings)},
           {"HAS_CONTACT_PLANES", std::to_string(features.contactPlanes)},
+          {"HAS_HISTORY", std::to_string(features.history)},
           {"HAS_GRAB", std::to_string(features.grab)},
           {"HAS_JET", std::to_string(features.jet)},
           {"HAS_CUTS", std::to_string(features.cuts)},
@@ -110,6 +113,7 @@ const std::vector<Kernel>& kernels() {
       {{Pass::accept}, {"implicit/accept"}, {}},
       sum(Pass::measureUpdate, SUM_UPDATE),
       {{Pass::end}, {"implicit/end"}, {}},
+      {{Pass::remember}, {"implicit/remember"}, {}},
       {{Pass::countStep}, {"implicit/count_step"}, {}},
       {{Pass::collide}, {"collide"}, {}},
       {{Pass::limit}, {"limit"}, {}},

@@ -22,6 +22,7 @@ struct PassFeatures {
        restLengthTable = false, material = false, mesh = false;
   bool limitSprings = false;                     // the strain limit of the implicit integrator
   bool contactPlanes = false;                    // colliders in the implicit integrator
+  bool history = false;                          // steps of second order
   bool grab = false, jet = false, cuts = false;  // the interaction
   std::uint32_t colliderTypes = 0;               // one bit a COLLIDER_... of shared/shapes.h
   std::uint32_t particleForces = 0;              // one bit a FORCE_... of shared/forces.h

@@ -99,7 +99,7 @@ void MeasurePanel::forget() {
 std::vector<Warning> MeasurePanel::warnings(const Scene& scene) const {
   std::vector<Warning> warnings = watch_.warnings(scene);
   const ConvergenceCounts recent = implicitSteps_.recent();
-  if (scene.solver.integrator == Integrator::implicit && recent.unconvergedSteps > 0)
+  if (isImplicit(scene.solver.integrator) && recent.unconvergedSteps > 0)
     warnings.push_back(convergenceWarning(recent, implicitSteps_.largestUpdate(), scene));
   return warnings;
 }
@@ -151,7 +151,7 @@ void MeasurePanel::drawNumbers(Session& session) {
           : formatted("%llu", contacts),
       "Pairs of particles that touch and are not neighbours on the cloth. In a guarded step motion had to "
       "be shortened.");
-  if (session.simulation().scene().solver.integrator == Integrator::implicit) drawConvergence();
+  if (isImplicit(session.simulation().scene().solver.integrator)) drawConvergence();
   row("particle steps", rate_ > 0 ? formatted("%.3g million/s", rate_ / 1e6) : "-",
       "Particles times steps computed per second.");
   ImGui::EndTable();

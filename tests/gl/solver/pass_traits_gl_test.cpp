@@ -28,6 +28,7 @@ PassFeatures everything(bool mesh) {
           .mesh = mesh,
           .limitSprings = true,
           .contactPlanes = true,
+          .history = true,
           .grab = true,
           .jet = true,
           .cuts = true,
@@ -114,6 +115,16 @@ TEST_F(PassTraitsTest, NameEveryArrayThatAShaderReadsOrWrites) {
       }
   }
   EXPECT_EQ(checked, 2 * (static_cast<int>(kernels().size()) + 6)) << "sums and coarsening have two shaders";
+}
+
+// These are bound once a list.
+TEST_F(PassTraitsTest, LeaveTheBindingsOfTheWatchAndOfForcesAlone) {
+  for (int i = 0; i < ARRAY_COUNT; ++i)
+    for (const int kept : {WATCH_BINDING, FORCES_BINDING}) {
+      const auto array = static_cast<Array>(i);
+      if (array == Array::watch || array == Array::forces) continue;
+      EXPECT_NE(placeOf(array).binding, kept) << nameOf(array);
+    }
 }
 
 TEST_F(PassTraitsTest, NameNoArrayThatNoShaderTouches) {

@@ -31,7 +31,7 @@ TEST(DescribeFields, TellsTypeUnitRangeDefaultAndWhenAChangeTakesEffect) {
   EXPECT_FALSE(fieldAt("cloth.num_width_points").live);
   EXPECT_EQ(fieldAt("cloth.ks").unit, "N/m");
   EXPECT_EQ(fieldAt("cloth.ks").range, "> 0");
-  EXPECT_EQ(fieldAt("solver.integrator").type, "one of verlet, euler, implicit");
+  EXPECT_EQ(fieldAt("solver.integrator").type, "one of verlet, euler, implicit, bdf2");
   EXPECT_EQ(fieldAt("solver.integrator").defaultValue, "\"verlet\"; in scenes with a material \"implicit\"");
   EXPECT_EQ(fieldAt("solver.strain_limit").type, "false or number");
   EXPECT_EQ(fieldAt("gravity").type, "[x, y, z]");

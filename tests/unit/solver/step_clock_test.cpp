@@ -71,7 +71,7 @@ TEST_P(ChangedStep, LeavesPinsAndCollidersWhereTheyAre) {
             measure(cloth, after, fresh.state()).maxPenetration);
   EXPECT_LT(measure(cloth, after, live.state()).maxStrain, 1) << "nothing was torn along";
 }
-INSTANTIATE_TEST_SUITE_P(Integrators, ChangedStep, testing::Values("verlet", "euler", "implicit"));
+INSTANTIATE_TEST_SUITE_P(Integrators, ChangedStep, testing::Values("verlet", "euler", "implicit", "bdf2"));
 
 TEST(ChangedStep, LeavesGustsAsTheyBlow) {
   Scene scene = carriedSheet(20);

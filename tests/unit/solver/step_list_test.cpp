@@ -93,11 +93,12 @@ TEST(StepList, ReadsNothingBeforeItIsWritten) {
     scenes.back().cloths[0].thickness = 0.01;
   }
   for (const Scene& scene : scenes) {
-    // Scalars are kept from step to step. Wind and planes that are not there are not read. The first
-    // direction ignores what was there. The first coarse level is not made of a finer one.
+    // Scalars and histories are kept from step to step. Wind and planes that are not there are not read. The
+    // first direction ignores what was there. The first coarse level is not made of a finer one.
     Arrays known{Array::positions,  Array::velocities,   Array::hash,    Array::contactFlags,
                  Array::watch,      Array::airBlocks,    Array::planes,  Array::contactBlocks,
-                 Array::directions, Array::coarseBlocks, Array::centers, Array::scalars};
+                 Array::directions, Array::coarseBlocks, Array::centers, Array::scalars,
+                 Array::histories};
     for (const PassCall& call : stepOf(scene).passes) {
       const PassTraits& traits = call.traits();
       for (int i = 0; i < ARRAY_COUNT; ++i) {

@@ -1,0 +1,118 @@
+// The integrator bdf2: of second order where a step may look back, backward Euler where it may not.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "solver/cpu/cpu_solver.h"
+#include "support/material_sheet.h"
+
+namespace clothsim {
+namespace {
+
+const Material board{.density = 0.2, .stretch = 5000, .shear = 2000, .bend = 1, .damping = 0};
+
+Scene implicitSheet(int columns, int rows, double width, double height, Integrator integrator) {
+  Scene scene = test::materialSheet(columns, rows, width, height, board);
+  scene.solver.integrator = integrator;
+  scene.solver.simulationSteps = 1;
+  scene.solver.frictionLaw = FrictionLaw::coulomb;
+  chooseCounts(scene);
+  return scene;
+}
+
+// What a board that swings down from 60 degrees has left of its energy in its last swing before 4 s.
+template <class Real>
+double energyLeft(Integrator integrator) {
+  Scene scene = implicitSheet(5, 33, 0.1, 1, integrator);
+  scene.cloths[0].orientation = Orientation::vertical;
+  scene.cloths[0].pinned = {GridSide::top};
+  const double angle = std::numbers::pi / 3;
+  scene.gravity = {0, -9.81 * std::cos(angle), 9.81 * std::sin(angle)};
+  const Cloth cloth(scene);
+  CpuSolver<Real> solver(cloth, scene);
+  double mass = 0;
+  const auto energy = [&] {
+    double sum = mass = 0;
+    for (std::uint32_t i = 0; i < cloth.particleCount(); ++i) {
+      const Vec3d x = solver.position(i).template cast<double>(),
+                  v = solver.velocity(i).template cast<double>();
+      sum += cloth.massOf(i) * (0.5 * dot(v, v) - dot(scene.gravity, x));
+      mass += cloth.massOf(i);
+    }
+    return sum;
+  };
+  const double start = energy(), fall = mass * 9.81 * 0.5 * (1 - std::cos(angle));
+  solver.step(132);
+  double most = -HUGE_VAL;  // over one period of 1.8 s
+  for (int step = 0; step < 108; ++step) {
+    solver.step(1);
+    most = std::max(most, energy() - start);
+  }
+  return 1 + most / fall;
+}
+
+TEST(SecondOrder, KeepsASwingAlive) {
+  EXPECT_GE(energyLeft<float>(Integrator::bdf2), 0.9);
+  EXPECT_GE(energyLeft<double>(Integrator::bdf2), 0.9);
+  EXPECT_LT(energyLeft<float>(Integrator::implicit), 0.6) << "which is why there is bdf2";
+}
+
+TEST(SecondOrder, DoesNotReboundWhereASheetDropsFlat) {
+  for (const double height : {0.02, 0.2, 0.5}) {
+    Scene scene = implicitSheet(17, 17, 0.5, 0.5, Integrator::bdf2);
+    scene.cloths[0].material = materialPreset("cotton");
+    scene.colliders = {Plane{.point = {0, 1 - height, 0}, .normal = {0, 1, 0}, .friction = 0.3}};
+    const Cloth cloth(scene);
+    CpuSolver<float> solver(cloth, scene);
+    solver.step(static_cast<int>(std::ceil(60 * std::sqrt(2 * height / 9.81))) + 1);
+    double highest = 0;
+    for (int step = 0; step < 30; ++step) {
+      solver.step(1);
+      for (std::uint32_t i = 0; i < cloth.particleCount(); ++i)
+        highest = std::max(highest, solver.position(i).y - (1.0 - height));
+    }
+    EXPECT_LE(highest, 2e-3) << "from " << height << " m";
+    EXPECT_GT(solver.convergenceCounts().secondOrderSteps, 15U) << "while it lies still";
+  }
+}
+
+// Free fall, of which backward Euler's two steps at the start go too far.
+TEST(SecondOrder, BeginsAnewAfterEveryEdit) {
+  Scene scene = implicitSheet(5, 5, 1, 1, Integrator::bdf2);
+  const Cloth cloth(scene);
+  CpuSolver<double> solver(cloth, scene);
+  const auto count = [&] { return solver.convergenceCounts().secondOrderSteps; };
+  solver.step(60);
+  EXPECT_EQ(count(), 58U);
+  EXPECT_NEAR(solver.position(7).y - cloth.positions()[7].y, -9.81 / 2, 2 * 9.81 / 3600);
+  solver.setState(solver.state());
+  solver.step(3);
+  EXPECT_EQ(count(), 59U) << "a state that was handed in has no step before";
+  scene.gravity.y = -5;
+  solver.configure(scene);
+  solver.step(3);
+  EXPECT_EQ(count(), 60U);
+  solver.restore(*solver.snapshot());
+  solver.step(3);
+  EXPECT_EQ(count(), 61U);
+  solver.setCuts({});
+  solver.step(3);
+  EXPECT_EQ(count(), 62U);
+}
+
+TEST(SecondOrder, LooksBackAtNoStepThatWasNotSolved) {
+  Scene scene = implicitSheet(33, 33, 1, 1, Integrator::bdf2);
+  scene.cloths[0].material = materialPreset("silk");
+  scene.cloths[0].pinned = {GridPoint{0, 0}, GridPoint{32, 0}};
+  scene.solver.newtonSteps = 1;
+  const Cloth cloth(scene);
+  CpuSolver<float> solver(cloth, scene);
+  solver.step(30);
+  const ConvergenceCounts counts = solver.convergenceCounts();
+  EXPECT_GE(counts.unconvergedSteps, 29U);
+  EXPECT_LE(counts.secondOrderSteps, 1U);
+}
+
+}  // namespace
+}  // namespace clothsim
