@@ -40,7 +40,11 @@ struct LatticeStiffness {
 // The smallest stable step of its cloths; infinite under the implicit integrator.
 [[nodiscard]] double stableStep(const Scene& scene);
 
-// The least number of steps in a frame with which a step is no longer than the stable one, nor than 1/60 s.
+// Above which height an upright strip buckles under its own weight [m]: (7.84 B / rho g)^(1/3) (A. G.
+// Greenhill, 1881).
+[[nodiscard]] double bucklingHeight(const Material& material);
+// The least number of steps in a frame with which a step is no longer than the stable one, nor than 1/60 s;
+// nor than 1/120 s under an implicit integrator where fabric is larger than its buckling height.
 [[nodiscard]] int stableSteps(const Scene& scene);
 // Sets solver.simulation_steps and solver.cg_iterations where they are "auto".
 void chooseCounts(Scene& scene);

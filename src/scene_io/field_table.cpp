@@ -276,7 +276,7 @@ std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
           .within(positive)
           .usually(15, 240),
       field("simulation_steps", &S::simulationSteps,
-            "Steps in a frame, each 1 / (frames_per_sec * simulation_steps) s; auto: as few as are stable.")
+            "Steps in a frame; auto: as few as are stable, and of 1/120 s at most for fabric that buckles.")
           .within({.low = 1, .high = mostSteps})
           .usually(1, 200)
           .byDefault("30; in scenes with a material \"auto\""),

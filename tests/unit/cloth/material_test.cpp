@@ -32,7 +32,7 @@ TEST(Material, BringsCoulombsFrictionAndNoneOfCs184sRules) {
 TEST(Material, BringsTheImplicitIntegratorInAsManyStepsAsItNeeds) {
   const auto isImplicit = [](const Scene& scene) {
     return scene.solver.integrator == Integrator::implicit && scene.solver.simulationSteps.automatic &&
-           scene.solver.simulationSteps == 1;
+           scene.solver.simulationSteps == 2;
   };
   EXPECT_TRUE(isImplicit(sceneOf(R"({"cloth": {"material": "silk"}})")));
   Scene scene = sceneOf(R"({"cloth": {}, "solver": {"integrator": "euler", "simulation_steps": 7}})");
@@ -47,6 +47,19 @@ TEST(Material, BringsTheImplicitIntegratorInAsManyStepsAsItNeeds) {
   EXPECT_TRUE(isImplicit(scene));
   setSceneValue(scene, "cloth.material=null");
   EXPECT_EQ(scene.solver, sceneOf(R"({"cloth": {}})").solver);
+}
+
+TEST(Material, TakesStepsOfASixtiethWhereItIsTooStiffToBuckle) {
+  const auto stepsOf = [](double bend) {
+    Scene scene = sceneOf(R"({"cloth": {"material": "silk"}, "solver": {"frames_per_sec": 60}})");
+    scene.cloths[0].material->bend = bend;
+    chooseCounts(scene);
+    return scene.solver.simulationSteps.count;
+  };
+  const double density = materialPreset("silk")->density;
+  EXPECT_NEAR(bucklingHeight({.density = 0.2, .bend = 0.2 * 9.81 / 7.8373}), 1, 1e-4);
+  EXPECT_EQ(stepsOf(1.01 * density * 9.81 / 7.8373), 1) << "a sheet of 1 m";
+  EXPECT_EQ(stepsOf(0.99 * density * 9.81 / 7.8373), 2);
 }
 
 TEST(Material, ReplacesKsWhenItIsSet) {

@@ -44,7 +44,7 @@ TEST(RowFabricStanding, SagsByItsWeight) {
 TEST(RowFabricStanding, LongSagsByItsWeight) {
   for (const StepKind& kind : bothIntegrators)
     for (const std::string& fabric : materialPresetNames())
-      for (const int points : {33, 65, 129}) expectSag<float>(kind, fabric, points);
+      for (const int points : {33, 65, 129}) expectSag<double>(kind, fabric, points);
 }
 
 // How much of the rim of a square of 30 cm on a disc of 18 cm is above its shadow [%].
