@@ -7,8 +7,8 @@
 // and v' = d / h. The velocity comes from d itself, never from a difference of positions, which would round.
 //
 // Under "bdf2", the backward difference of second order, 2 h / 3 stands for h, and a third of the last step's
-// change is added to the velocity and to the guess; v' = (d - a third of the last displacement) / (2 h / 3). A
-// whole step is backward Euler where the last steps were not usual (USUAL_STEPS).
+// change is added to the velocity and to the guess; v' = (d - a third of the last displacement) / (2 h / 3).
+// A whole step is backward Euler where the last steps were not usual (USUAL_STEPS).
 //
 // The search starts from h v. It ends when the last update is at most `tolerance` of the largest
 // displacement, or of the spacing where that is larger, and otherwise after `newton_steps`: then the step
