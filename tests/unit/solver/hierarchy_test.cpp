@@ -14,7 +14,7 @@
 namespace clothsim {
 namespace {
 
-const Material fabric{.density = 0.2, .stretch = 3000, .shear = 700, .bend = 1e-3, .damping = 2};
+const Material clothOfLevels{.density = 0.2, .stretch = 3000, .shear = 700, .bend = 1e-3, .damping = 2};
 
 Hierarchy<double> levelsOf(const Scene& scene, const Cuts& cuts = {}) {
   const Cloth cloth(scene);
@@ -40,14 +40,14 @@ void expectWeightsToAddUpToOne(const Hierarchy<double>& levels) {
 
 TEST(Hierarchy, HangsEveryVertexOnTheNextLevelByWeightsOfOneInAll) {
   for (const int n : {2, 9, 65}) {
-    const Hierarchy<double> levels = levelsOf(test::materialSheet(n, n, 1, 1, fabric));
+    const Hierarchy<double> levels = levelsOf(test::materialSheet(n, n, 1, 1, clothOfLevels));
     expectWeightsToAddUpToOne(levels);
     EXPECT_LE(levels.pieces[0].back().coarseCount, COARSEST_VERTICES) << n;
   }
 }
 
 TEST(Hierarchy, RestrictsAsItProlongs) {
-  const Hierarchy<double> levels = levelsOf(test::materialSheet(20, 31, 1, 1, fabric));
+  const Hierarchy<double> levels = levelsOf(test::materialSheet(20, 31, 1, 1, clothOfLevels));
   std::map<std::pair<std::uint32_t, std::uint32_t>, double> weights;
   for (std::uint32_t i = 0; i + 1 < levels.prolongationStarts.size(); ++i)
     for (auto n = levels.prolongationStarts[i]; n < levels.prolongationStarts[i + 1]; ++n)
@@ -61,7 +61,7 @@ TEST(Hierarchy, RestrictsAsItProlongs) {
 
 // A block is there for every two aggregates that some element touches, and once.
 TEST(Hierarchy, HasTheDiagonalBlockFirstInEveryRow) {
-  const Hierarchy<double> levels = levelsOf(test::materialSheet(30, 30, 1, 1, fabric));
+  const Hierarchy<double> levels = levelsOf(test::materialSheet(30, 30, 1, 1, clothOfLevels));
   for (std::uint32_t row = 0; row < levels.coarseVertices; ++row) {
     ASSERT_LT(levels.blockStarts[row], levels.blockStarts[row + 1]);
     for (auto n = levels.blockStarts[row]; n < levels.blockStarts[row + 1]; ++n) {
@@ -77,7 +77,7 @@ TEST(Hierarchy, HasTheDiagonalBlockFirstInEveryRow) {
 
 TEST(Hierarchy, LetsNoWeightCrossACut) {
   const int n = 24;
-  const Scene scene = test::materialSheet(n, n, 1, 1, fabric);
+  const Scene scene = test::materialSheet(n, n, 1, 1, clothOfLevels);
   const Cloth cloth(scene);
   const int rowsCutOff = 11;
   const Hierarchy<double> levels = levelsOf(scene, test::cutAcross(cloth, rowsCutOff - 0.5));
@@ -95,7 +95,7 @@ TEST(Hierarchy, LetsNoWeightCrossACut) {
 
 // A cloth cut into a long ribbon needs more levels than the whole: the step has passes for all of them.
 TEST(Hierarchy, HasPassesForEveryLevelOfACutCloth) {
-  Scene scene = test::materialSheet(30, 30, 1, 1, fabric);
+  Scene scene = test::materialSheet(30, 30, 1, 1, clothOfLevels);
   scene.solver.integrator = Integrator::implicit;
   const Cloth cloth(scene);
   Cuts cuts(cloth.particleCount());

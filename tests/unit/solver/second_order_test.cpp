@@ -10,10 +10,10 @@
 namespace clothsim {
 namespace {
 
-const Material board{.density = 0.2, .stretch = 5000, .shear = 2000, .bend = 1, .damping = 0};
+const Material stiffBoard{.density = 0.2, .stretch = 5000, .shear = 2000, .bend = 1, .damping = 0};
 
-Scene implicitSheet(int columns, int rows, double width, double height, Integrator integrator) {
-  Scene scene = test::materialSheet(columns, rows, width, height, board);
+Scene sheetUnder(int columns, int rows, double width, double height, Integrator integrator) {
+  Scene scene = test::materialSheet(columns, rows, width, height, stiffBoard);
   scene.solver.integrator = integrator;
   scene.solver.simulationSteps = 1;
   scene.solver.frictionLaw = FrictionLaw::coulomb;
@@ -24,7 +24,7 @@ Scene implicitSheet(int columns, int rows, double width, double height, Integrat
 // What a board that swings down from 60 degrees has left of its energy in its last swing before 4 s.
 template <class Real>
 double energyLeft(Integrator integrator) {
-  Scene scene = implicitSheet(5, 33, 0.1, 1, integrator);
+  Scene scene = sheetUnder(3, 17, 0.1, 1, integrator);
   scene.cloths[0].orientation = Orientation::vertical;
   scene.cloths[0].pinned = {GridSide::top};
   const double angle = std::numbers::pi / 3;
@@ -60,7 +60,7 @@ TEST(SecondOrder, KeepsASwingAlive) {
 
 TEST(SecondOrder, DoesNotReboundWhereASheetDropsFlat) {
   for (const double height : {0.02, 0.2, 0.5}) {
-    Scene scene = implicitSheet(17, 17, 0.5, 0.5, Integrator::bdf2);
+    Scene scene = sheetUnder(17, 17, 0.5, 0.5, Integrator::bdf2);
     scene.cloths[0].material = materialPreset("cotton");
     scene.colliders = {Plane{.point = {0, 1 - height, 0}, .normal = {0, 1, 0}, .friction = 0.3}};
     const Cloth cloth(scene);
@@ -79,7 +79,7 @@ TEST(SecondOrder, DoesNotReboundWhereASheetDropsFlat) {
 
 // Free fall, of which backward Euler's two steps at the start go too far.
 TEST(SecondOrder, BeginsAnewAfterEveryEdit) {
-  Scene scene = implicitSheet(5, 5, 1, 1, Integrator::bdf2);
+  Scene scene = sheetUnder(5, 5, 1, 1, Integrator::bdf2);
   const Cloth cloth(scene);
   CpuSolver<double> solver(cloth, scene);
   const auto count = [&] { return solver.convergenceCounts().secondOrderSteps; };
@@ -102,7 +102,7 @@ TEST(SecondOrder, BeginsAnewAfterEveryEdit) {
 }
 
 TEST(SecondOrder, LooksBackAtNoStepThatWasNotSolved) {
-  Scene scene = implicitSheet(33, 33, 1, 1, Integrator::bdf2);
+  Scene scene = sheetUnder(33, 33, 1, 1, Integrator::bdf2);
   scene.cloths[0].material = materialPreset("silk");
   scene.cloths[0].pinned = {GridPoint{0, 0}, GridPoint{32, 0}};
   scene.solver.newtonSteps = 1;

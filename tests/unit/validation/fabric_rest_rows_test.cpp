@@ -37,9 +37,7 @@ void expectSag(StepKind kind, const std::string& fabric, int points) {
              sag, expected, 0.05 * expected);
 }
 
-TEST(RowFabricStanding, SagsByItsWeight) {
-  for (const std::string fabric : {"silk", "denim"}) expectSag<float>({}, fabric, 33);
-}
+TEST(RowFabricStanding, SagsByItsWeight) { expectSag<float>({}, "denim", 33); }
 
 TEST(RowFabricStanding, LongSagsByItsWeight) {
   for (const StepKind& kind : bothIntegrators)

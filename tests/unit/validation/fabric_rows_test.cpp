@@ -71,10 +71,8 @@ void expectFreeSlide(const StepKind& kind, const std::string& fabric, int points
 }
 
 TEST(RowFabricOnASlope, SlidesFreely) {
-  for (const std::string& fabric : threeFabrics())
-    for (const double degrees : {10., 30.}) expectFreeSlide<float>({}, fabric, 17, degrees);
-  expectFreeSlide<float>({Integrator::bdf2, Orientation::vertical}, "cotton", 17, 30);
-  expectFreeSlide<float>({}, "cotton", 65, 30);
+  for (const std::string& fabric : threeFabrics()) expectFreeSlide<float>({}, fabric, 17, 30);
+  expectFreeSlide<float>({Integrator::bdf2, Orientation::vertical}, "cotton", 17, 10);
 }
 
 TEST(RowFabricOnASlope, LongSlidesFreely) {
@@ -151,12 +149,11 @@ void expectOverhang(const StepKind& kind, const std::string& fabric, int cells, 
   const double length = 2 * std::cbrt(material.bend / (material.density * GRAVITY));
   expectNear({"fabric over an edge", "angle of the chord, " + fabric + ", " + spacing + ", " + nameOf(kind),
               precisionOf<Real>, "degrees"},
-             hangingStrip<Real>(kind, material, length, cells, 8).chord, 41.5, 0.5);
+             hangingStrip<Real>(kind, material, length, cells, 6).chord, 41.5, 0.5);
 }
 
 TEST(RowFabricOverAnEdge, HangsAtTheAngleOfItsBendingLength) {
-  for (const std::string fabric : {"silk", "denim", "jersey"})
-    expectOverhang<float>({}, fabric, 20, "20 cells");
+  for (const std::string fabric : {"silk", "denim"}) expectOverhang<float>({}, fabric, 20, "20 cells");
 }
 
 TEST(RowFabricOverAnEdge, LongHangsAtTheAngleOfItsBendingLength) {
