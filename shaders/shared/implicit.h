@@ -79,7 +79,7 @@ using uint = std::uint32_t;
 
 // The coarsest level of connected cloth has at most so many vertices.
 #define COARSEST_VERTICES 25
-// What a pivot is at least, of the entry it began as: below, binary32 holds no more of it.
+// What a pivot that counts is at least, of the entry it began as: below, binary32 holds no more of it.
 #define LEAST_PIVOT 0x1p-20
 
 // Sums over all particles have one order: lane t of 256 adds every 256th number of a block of 1024, the lanes

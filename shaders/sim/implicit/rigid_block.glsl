@@ -77,9 +77,10 @@ RigidBlock loadBlock(samplerBuffer stored, uint number) {
   return block;
 }
 
-// What a pivot counts at least, for the entry it began as; its reciprocal, 0 where nothing is.
+// The reciprocal of a pivot; 0 where rounding has left less of it than a part of the entry it began as, or where nothing is:
+// that unknown stays 0.
 float inversePivot(float pivot, float began) {
   precise float least = uintBitsToFloat(0x35800000u) * began;  // LEAST_PIVOT
-  float safe = pivot < least ? least : pivot;
-  return began > uintBitsToFloat(0x21800000u) ? reciprocal(safe) : 0.0;  // 2^-60
+  bool isSafe = began > uintBitsToFloat(0x21800000u) && pivot >= least;  // 2^-60
+  return isSafe ? reciprocal(pivot) : 0.0;
 }

@@ -85,12 +85,13 @@ INLINE RigidVector<Real> operator*(const RigidBlock<Real>& a, const RigidVector<
           product(a.rt, v.translation) + product(a.rr, v.rotation)};
 }
 
-// What a pivot counts at least, for the entry it began as; its reciprocal, 0 where nothing is.
+// The reciprocal of a pivot; 0 where rounding has left less of it than a part of the entry it began as, or
+// where nothing is: that unknown stays 0.
 template <class Real>
 INLINE Real inversePivot(Real pivot, Real began) {
   const Real least = static_cast<Real>(LEAST_PIVOT) * began;
-  const Real safe = pivot < least ? least : pivot;
-  return began > static_cast<Real>(0x1p-60) ? reciprocal(safe) : Real(0);
+  const bool isSafe = began > static_cast<Real>(0x1p-60) && pivot >= least;
+  return isSafe ? reciprocal(pivot) : Real(0);
 }
 
 // Entry (row, column) of a block.
