@@ -208,8 +208,8 @@ bool buckles(const ClothSettings& cloth) {
          (cloth.isMesh() || std::max(cloth.width, cloth.height) > bucklingHeight(*cloth.material));
 }
 
-// Newton's steps are few, and slow where folds come and go: half as long a step brings the cloth as much
-// nearer to where short steps take it as twice the Newton steps do not.
+// Newton's method is slow where folds come and go. There, halving the step makes the motion more accurate
+// than doubling the Newton steps does.
 double longestChosenStep(const Scene& scene) {
   const bool isShort =
       isImplicit(scene.solver.integrator) && std::any_of(scene.cloths.begin(), scene.cloths.end(), buckles);

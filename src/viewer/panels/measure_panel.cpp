@@ -164,8 +164,7 @@ void MeasurePanel::drawConvergence() {
       formatted("%llu of %llu", static_cast<unsigned long long>(all.unconvergedSteps),
                 static_cast<unsigned long long>(all.steps)),
       "Implicit steps that ended before they were solved to solver.tolerance, since the scene was opened. "
-      "Set "
-      "solver.simulation_steps or solver.newton_steps higher.");
+      "Set solver.simulation_steps or solver.newton_steps higher.");
   row("last update", formatted("%.2g", all.lastUpdate),
       "Of the last step: how much its last Newton step changed the displacements, over the largest "
       "displacement or the spacing. Cloth is at rest when its kinetic energy is low and this is below "
