@@ -169,9 +169,10 @@ struct SolverSettings {
   double framesPerSec = 90;                    // [1/s]
   // Steps in a frame: h = 1 / (frames_per_sec * simulation_steps). Automatic in scenes with a material.
   AutoCount simulationSteps = 30;
-  // Of `implicit`: the last update of a step, as part of its motion or, if that is larger, of the spacing.
-  double tolerance = 1e-3;
-  int newtonSteps = 4;                  // most Newton steps in a step
+  // Of `implicit`: the last update of a step, as part of its motion or, if that is larger, of a tenth of the
+  // spacing.
+  double tolerance = 1e-2;
+  int newtonSteps = 8;                  // most Newton steps in a step
   AutoCount cgIterations = {10, true};  // most iterations of conjugate gradients in a Newton step
   // The largest l/L - 1 of a spring after the limiter; none: no limiter. 0.1 in scenes with `ks`.
   std::optional<double> strainLimit;

@@ -265,7 +265,7 @@ std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
           .usually(1e-4, 1e-2),
       field("newton_steps", &S::newtonSteps, "Most Newton iterations per implicit step.")
           .within({.low = 1, .high = 100})
-          .usually(1, 8),
+          .usually(1, 16),
       field("cg_iterations", &S::cgIterations,
             "Most CG iterations per Newton iteration; auto: 10 to 60 by the step length.")
           .within({.low = 1, .high = 10'000})

@@ -32,7 +32,7 @@ struct ConvergenceCounts {
   std::uint64_t unconvergedSteps = 0;  // whose last update was above the tolerance
   std::uint64_t newtonSteps = 0;
   std::uint64_t iterations = 0;        // of conjugate gradients
-  double lastUpdate = 0;               // of the last step: over its motion, or over the spacing
+  double lastUpdate = 0;               // of the last step: over its motion, or a tenth of the spacing
   std::uint64_t secondOrderSteps = 0;  // of `bdf2`; the others were backward Euler
 
   // Those of one solver and of the one that went on from it.

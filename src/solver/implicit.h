@@ -11,8 +11,8 @@
 // A whole step is backward Euler where the last steps were not usual (USUAL_STEPS).
 //
 // The search starts from h v. It ends when the last update is at most `tolerance` of the largest
-// displacement, or of the spacing where that is larger, and otherwise after `newton_steps`: then the step
-// counts as unconverged. The linear solver ends when r.z has fallen by (10 tolerance)^2, or after
+// displacement, or of a tenth of the spacing where that is larger, and otherwise after `newton_steps`: then
+// the step counts as unconverged. The linear solver ends when r.z has fallen by tolerance^2, or after
 // `cg_iterations`.
 //
 // Colliders take part. A particle in a collider gets the plane in which it touches it as a stiff spring, so

@@ -14,8 +14,8 @@
 namespace clothsim {
 namespace {
 
-// A linear system is solved so much less exactly than the step: its solution is improved by the next one.
-constexpr double SYSTEM_TOLERANCE = 10;
+// Motion below this part of the spacing counts as little: a step need not be solved to a part of it.
+constexpr double LEAST_MOTION = 0.1;
 
 constexpr double PLANE_OFFSET = 0.0001;  // [m], CS184's
 
@@ -130,9 +130,8 @@ void putImplicit(const Scene& scene, const Cloth& cloth, std::size_t pieceIndex,
     params.secondRate = real<Real>(1 / t);
   }
   params.tolerance = real<Real>(scene.solver.tolerance);
-  const double systemTolerance = std::min(SYSTEM_TOLERANCE * scene.solver.tolerance, 1.0);
-  params.systemTolerance = real<Real>(systemTolerance * systemTolerance);
-  params.spacing = real<Real>(meanSpacing(cloth));
+  params.systemTolerance = real<Real>(scene.solver.tolerance * scene.solver.tolerance);
+  params.leastMotion = real<Real>(LEAST_MOTION * meanSpacing(cloth));
   params.contactStiffness = real<Real>(4 * stiffestSpring(piece));
   if (!scene.solver.strainLimit) return;
   // A limit of 0 asks for springs that cannot stretch: a tenth of a percent stands for it.

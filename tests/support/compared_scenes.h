@@ -258,7 +258,7 @@ inline Scene inSecondOrder(Scene scene) {
   scene = implicitly(std::move(scene));
   scene.solver.integrator = Integrator::bdf2;
   scene.solver.newtonSteps = 3;
-  scene.solver.tolerance = 0.1;
+  scene.solver.tolerance = 0.5;
   return scene;
 }
 

@@ -13,7 +13,7 @@ void main() {
   if (!p.exists) return;
   uint i = p.index;
   float third = uintBitsToFloat(0x3eaaaaabu);
-  precise float most = step.tolerance * step.spacing;
+  precise float most = step.tolerance * step.leastMotion;
   precise vec3 moved = texelFetch(positionsSoFar, int(i)).xyz - texelFetch(starts, int(i)).xyz;
   precise vec3 accelerated = texelFetch(velocitiesSoFar, int(i)).xyz - velocityAt(i);
   precise vec3 aside = moved - texelFetch(displacements, int(i)).xyz;

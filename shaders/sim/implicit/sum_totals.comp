@@ -42,8 +42,8 @@ void main() {
   scalars.residual = residual;
   scalars.isSystemSolved = residual <= scalars.leastResidual ? 1u : 0u;
 #elif SUM_KIND == SUM_UPDATE
-  precise float spacing = step.spacing * step.spacing;
-  float motion = total.y < spacing ? spacing : total.y;
+  precise float leastMotion = step.leastMotion * step.leastMotion;
+  float motion = total.y < leastMotion ? leastMotion : total.y;
   precise float square = total.x * reciprocal(motion);
   precise float update = square * inverseSquareRoot(square);
   scalars.lastUpdate = update;

@@ -368,13 +368,14 @@ Real largestSquare(const Components<Real>& v) {
   return largest;
 }
 
-// The update over the motion of the step, or over the spacing where that is larger. The first Newton step
+// The update over the motion of the step, or over the least motion that counts. The first Newton step
 // takes contacts as they were predicted: another one confirms it.
 template <class Real>
 void CpuExecutor<Real>::measureUpdate() {
   ImplicitScalars<Real>& scalars = implicit_.scalars;
   const StepParams<Real>& step = parameters_.pieces[0];
-  const Real motion = cpu::larger(largestSquare(implicit_.displacements), step.spacing * step.spacing);
+  const Real motion =
+      cpu::larger(largestSquare(implicit_.displacements), step.leastMotion * step.leastMotion);
   const Real square = largestSquare(implicit_.increments) * reciprocal(motion);
   scalars.lastUpdate = square * inverseSquareRoot(square);
   const bool isConfirmed = step.colliderCount == 0 || scalars.newtonSteps > 0;

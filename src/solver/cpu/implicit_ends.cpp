@@ -217,7 +217,7 @@ void remember(const ImplicitArguments<Real>& arguments, int row) {
   const PassArguments<Real>& pass = arguments.step;
   ImplicitState<Real>& own = arguments.own;
   const Range all = rangeOf(pass.step, row);
-  const Real third = static_cast<Real>(1.0 / 3), most = pass.step.tolerance * pass.step.spacing;
+  const Real third = static_cast<Real>(1.0 / 3), most = pass.step.tolerance * pass.step.leastMotion;
   bool isDisturbed = false;
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
     const Vec3<Real> moved = at(pass.after.positions, i) - at(pass.before.positions, i),

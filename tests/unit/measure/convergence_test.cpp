@@ -80,7 +80,7 @@ TEST(Convergence, ThatFailsIsOneWarningWithNumbersAndAdvice) {
   EXPECT_TRUE(warnings[0].text.starts_with(std::to_string(counts.unconvergedSteps) + " of 30 steps ("))
       << warnings[0].text;
   EXPECT_TRUE(warnings[0].text.ends_with(
-      "tolerance 0.001); raise solver.simulation_steps (now 1) or solver.newton_steps (now 1)"))
+      "tolerance 0.01); raise solver.simulation_steps (now 1) or solver.newton_steps (now 1)"))
       << warnings[0].text;
   EXPECT_NE(warnings[0].brief.find(" % of steps not solved (last update up to "), std::string::npos)
       << warnings[0].brief;
@@ -120,7 +120,7 @@ TEST(Convergence, IsWarnedOfFromMoreThanAHundredthOfAllSteps) {
   EXPECT_EQ(warnings[0].frame, 3) << "where it was seen first";
   EXPECT_TRUE(
       warnings[0].text.starts_with("3 of 200 steps (2 %) ended before they were solved (last update "
-                                   "up to 0.02, tolerance 0.001); raise "))
+                                   "up to 0.02, tolerance 0.01); raise "))
       << warnings[0].text;
 }
 
