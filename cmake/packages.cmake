@@ -2,7 +2,7 @@
 # lacks is fetched by FetchContent where that is possible; nothing is vendored.
 include(FetchContent)
 
-find_package(OpenMP REQUIRED COMPONENTS CXX)
+find_package(Threads REQUIRED)
 
 FetchContent_Declare(nlohmann_json URL https://github.com/nlohmann/json/releases/download/v3.11.2/json.tar.xz
                      FIND_PACKAGE_ARGS 3.10)

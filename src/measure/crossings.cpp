@@ -1,9 +1,11 @@
 #include "measure/crossings.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstdlib>
 
 #include "core/error.h"
+#include "core/thread_team.h"
 
 #ifdef CLOTHSIM_HAS_CGAL
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -99,12 +101,13 @@ CrossingCount CrossingCounter::count(const State& state) const {
     pairs.push_back({a.info(), b.info()});
   });
 
-  std::uint64_t apart = 0, neighbours = 0;
-#pragma omp parallel for schedule(dynamic, 1024) reduction(+ : apart, neighbours)
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const Triangle &a = triangles[pairs[i][0]], &b = triangles[pairs[i][1]];
-    if (cross(points, a, b)) ++(areNeighbours(a, b) ? neighbours : apart);
-  }
+  std::atomic<std::uint64_t> apart = 0, neighbours = 0;
+  constexpr std::uint32_t pairsAtOnce = 1024;
+  ThreadTeam::shared().forEach(0, static_cast<std::uint32_t>(pairs.size()), pairsAtOnce,
+                               [&](std::uint32_t i) {
+                                 const Triangle &a = triangles[pairs[i][0]], &b = triangles[pairs[i][1]];
+                                 if (cross(points, a, b)) ++(areNeighbours(a, b) ? neighbours : apart);
+                               });
   return {apart, neighbours};
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/thread_team.h"
 #include "scene/colliders/collider_set.h"
 
 namespace clothsim {
@@ -17,25 +18,27 @@ bool finite(const Particle4& v) { return std::isfinite(v.x) && std::isfinite(v.y
 
 // The largest strain of one piece, -1 without springs.
 std::optional<double> maxStrain(const Cloth& cloth, const Piece& piece, const State& state) {
-  double largest = -1;  // that of a spring of length 0, the least possible
-#pragma omp parallel for reduction(max : largest) if (isWorthThreads(piece))
-  for (int row = 0; row < piece.rows; ++row) {
-    for (int column = 0; column < piece.columns; ++column) {
-      for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot) {
-        const SpringOffset& offset = springOffsets[slot];
-        if (!piece.slotEnabled[slot] || !piece.contains(column + offset.columns, row + offset.rows)) continue;
-        const std::uint32_t a = piece.particle(column, row);
-        if (isCut(state.cuts, a, static_cast<SpringSlot>(slot))) continue;
-        const std::uint32_t b = piece.particle(column + offset.columns, row + offset.rows);
-        const double rest = piece.hasRestLengthTable ? length(cloth.positions()[b] - cloth.positions()[a])
-                                                     : piece.nominalLength[slot];
-        largest = std::max(largest, length(positionOf(state, b) - positionOf(state, a)) / rest - 1);
-      }
-    }
-  }
+  std::vector<double> largest(static_cast<std::size_t>(piece.rows), -1);  // -1: of a spring of length 0
+  ThreadTeam::shared().forEach(
+      0, static_cast<std::uint32_t>(piece.rows), rowsAtOnce(piece), [&](std::uint32_t r) {
+        const int row = static_cast<int>(r);
+        for (int column = 0; column < piece.columns; ++column) {
+          for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot) {
+            const SpringOffset& offset = springOffsets[slot];
+            if (!piece.slotEnabled[slot] || !piece.contains(column + offset.columns, row + offset.rows))
+              continue;
+            const std::uint32_t a = piece.particle(column, row);
+            if (isCut(state.cuts, a, static_cast<SpringSlot>(slot))) continue;
+            const std::uint32_t b = piece.particle(column + offset.columns, row + offset.rows);
+            const double rest = piece.hasRestLengthTable ? length(cloth.positions()[b] - cloth.positions()[a])
+                                                         : piece.nominalLength[slot];
+            largest[r] = std::max(largest[r], length(positionOf(state, b) - positionOf(state, a)) / rest - 1);
+          }
+        }
+      });
   if (std::find(piece.slotEnabled.begin(), piece.slotEnabled.end(), true) == piece.slotEnabled.end())
     return std::nullopt;
-  return largest;
+  return *std::max_element(largest.begin(), largest.end());
 }
 
 // The largest strain of all meshes, -1 without springs.

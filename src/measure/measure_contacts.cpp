@@ -52,7 +52,7 @@ ContactMeasures measureContacts(const Cloth& cloth, const Scene& scene, const St
     positions.y[i] = state.positions[i].y;
     positions.z[i] = state.positions[i].z;
   }
-  cpu::SelfCollision<float> search(cloth, true);
+  cpu::SelfCollision<float> search(cloth);
   search.configure(scene);
   const std::vector<std::uint32_t> cutMasks = makeCutMasks(cloth, state.cuts);
   search.setCutMasks(cutMasks);

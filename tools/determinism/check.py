@@ -20,13 +20,13 @@ def fail(message):
 
 def execute(words, **environment):
     return subprocess.run([str(word) for word in words], cwd=root, capture_output=True, text=True,
-                          env={**os.environ, "OMP_WAIT_POLICY": "passive", **environment})
+                          env={**os.environ, **environment})
 
 
 def build(compiler, level):
     """The program hash_scene, as CMakeLists.txt has it for everything else but the level of optimisation."""
     if not shutil.which(compiler):
-        fail(f"{compiler} is missing (Debian: apt-get install clang-14 libomp-14-dev)")
+        fail(f"{compiler} is missing (Debian: apt-get install clang-14)")
     folder = root / f"build/determinism_{compiler}{level}"  # as deep as build/release: a compiler cache serves both
     # Warnings are g++'s matter: clang knows others.
     configure = ["cmake", "-S", ".", "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", f"-DCMAKE_CXX_COMPILER={compiler}",
@@ -85,8 +85,8 @@ def compilers(table, scenes):
             for scene in scenes:
                 for integrator, settings in variants_of(scene):
                     words = [executable, frames_on_cpu, scene, *settings]
-                    command = f"OMP_NUM_THREADS={count} {' '.join(map(str, words))}"
-                    done = execute(words, OMP_NUM_THREADS=str(count))
+                    command = f"CLOTHSIM_THREADS={count} {' '.join(map(str, words))}"
+                    done = execute(words, CLOTHSIM_THREADS=str(count))
                     if done.returncode:
                         fail(f"{command}:\n{done.stderr}")
                     particles, steps, state_hash = done.stdout.split()

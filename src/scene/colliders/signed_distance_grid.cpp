@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/exact_math.h"
 #include "core/recent.h"
+#include "core/thread_team.h"
 #include "scene/obj_file.h"
 
 namespace clothsim {
@@ -197,14 +198,15 @@ SignedDistanceGrid::SignedDistanceGrid(SolidMesh mesh, int cells)
   samples_.resize(static_cast<std::size_t>(counts_[0]) * counts_[1] * counts_[2]);
   const auto columns = static_cast<std::ptrdiff_t>(counts_[0]),
              rows = static_cast<std::ptrdiff_t>(counts_[1]), layers = static_cast<std::ptrdiff_t>(counts_[2]);
-#pragma omp parallel for schedule(dynamic)
-  for (std::ptrdiff_t z = 0; z < layers; ++z)
+  ThreadTeam::shared().forEach(0, static_cast<std::uint32_t>(layers), 1, [&](std::uint32_t layer) {
+    const std::ptrdiff_t z = layer;
     for (std::ptrdiff_t y = 0; y < rows; ++y)
       for (std::ptrdiff_t x = 0; x < columns; ++x) {
         const Vec3d place{static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)};
         samples_[static_cast<std::size_t>((z * rows + y) * columns + x)] =
             canonical(static_cast<float>(tree_->signedDistance(origin_ + cell_ * place)));
       }
+  });
 }
 
 SignedDistanceGrid::~SignedDistanceGrid() = default;

@@ -1,7 +1,5 @@
 #include "solver/cpu/cpu_executor.h"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <array>
 #include <cassert>
@@ -9,6 +7,7 @@
 #include <utility>
 
 #include "core/exact_math.h"
+#include "core/thread_team.h"
 #include "solver/cpu/arrays.h"
 #include "solver/cpu/fixed_sum.h"
 #include "solver/cpu/rows.h"
@@ -16,9 +15,8 @@
 namespace clothsim {
 namespace {
 
-// Below this many particles a row-parallel pass costs more in waking threads than it saves; and a pass over
-// so many vertices or blocks of a level.
-constexpr std::uint32_t PARALLEL_PARTICLES = 8192, PARALLEL_VERTICES = 256;
+// How many vertices of a level a thread takes at once.
+constexpr std::uint32_t VERTICES_AT_ONCE = 64;
 // Rows of a coarse matrix that a thread sums up together, so that few elements are worked out by two.
 constexpr std::uint32_t ROWS_AT_ONCE = 128;
 
@@ -105,10 +103,9 @@ template <class Real>
 CpuExecutor<Real>::CpuExecutor(const Cloth& cloth, bool sweeps)
     : cloth_(&cloth),
       sweeps_(sweeps),
-      parallel_(cloth.particleCount() >= PARALLEL_PARTICLES),
       restLengths_(measureRestLengths<Real>(cloth)),
       lists_(makeMeshLists<Real>(cloth)),
-      selfCollision_(cloth, parallel_) {
+      selfCollision_(cloth) {
   const std::size_t count = cloth.particleCount();
   for (CpuState<Real>* state : {&particles_.state, &after_}) {
     state->positions.resize(count);
@@ -239,9 +236,11 @@ void CpuExecutor<Real>::runByRows(std::span<const PassCall> passes) {
   for (const cpu::ImplicitArguments<Real>& piece : pieces_) {
     const Piece& lattice = cloth_->pieces()[piece.step.step.piece];
     const int rows = cpu::rowsOf(lattice);
-#pragma omp parallel for schedule(static) if (parallel_ && isWorthThreads(lattice))
-    for (int row = 0; row < rows; ++row)
-      for (std::size_t k = 0; k < passes.size(); ++k) rowPasses[k](piece, row);
+    ThreadTeam::shared().forEach(0, static_cast<std::uint32_t>(rows), rowsAtOnce(lattice),
+                                 [&](std::uint32_t row) {
+                                   for (std::size_t k = 0; k < passes.size(); ++k)
+                                     rowPasses[k](piece, static_cast<int>(row));
+                                 });
   }
 }
 
@@ -252,17 +251,15 @@ void CpuExecutor<Real>::runOnColor(std::size_t index) {
     const Piece& lattice = cloth_->pieces()[piece];
     const LimitColor& color = limitColors_[piece][index];
     const std::uint32_t rows = cpu::limitRows(lattice, color);
-#pragma omp parallel for schedule(static) if (parallel_ && isWorthThreads(lattice))
-    for (std::uint32_t j = 0; j < rows; ++j) cpu::limitStrain(pieces_[piece].step, color, j);
+    ThreadTeam::shared().forEach(0, rows, rowsAtOnce(lattice),
+                                 [&](std::uint32_t j) { cpu::limitStrain(pieces_[piece].step, color, j); });
   }
 }
 
 template <class Real>
 void CpuExecutor<Real>::runOnLevel(PassCall call) {
   const auto forEach = [&](std::uint32_t first, std::uint32_t end, auto pass) {
-    const std::uint32_t least = call.pass == Pass::coarsen ? 2 : PARALLEL_VERTICES;
-#pragma omp parallel for schedule(static) if (end - first >= least)
-    for (std::uint32_t i = first; i < end; ++i) pass(i);
+    ThreadTeam::shared().forEach(first, end, call.pass == Pass::coarsen ? 1 : VERTICES_AT_ONCE, pass);
   };
   const Hierarchy<Real>& hierarchy = implicit_.hierarchy;
   for (std::size_t piece = 0; piece < pieces_.size(); ++piece) {
@@ -308,7 +305,7 @@ void CpuExecutor<Real>::sum(Pass pass) {
   ImplicitScalars<Real>& scalars = implicit_.scalars;
   const auto product = [&](const Components<Real>& a, const Components<Real>& b) {
     const cpu::Arrays<const Real> left = cpu::arraysOf(a), right = cpu::arraysOf(b);
-    return cpu::fixedSum<Real>(cloth_->particleCount(), parallel_, partialSums_, [&](std::size_t i) {
+    return cpu::fixedSum<Real>(cloth_->particleCount(), partialSums_, [&](std::size_t i) {
       const auto place = static_cast<std::ptrdiff_t>(i);
       return dot(cpu::at(left, place), cpu::at(right, place));
     });
@@ -390,8 +387,8 @@ void CpuExecutor<Real>::chooseLength() {
   Real length = 1;
   for (int k = 0; k < LENGTHS_TRIED; ++k) {
     const std::vector<Real>& trial = implicit_.trials[static_cast<std::size_t>(k)];
-    const Real change = cpu::fixedSum<Real>(trial.size(), parallel_, partialSums_,
-                                            [&](std::size_t i) { return trial.data()[i]; });
+    const Real change =
+        cpu::fixedSum<Real>(trial.size(), partialSums_, [&](std::size_t i) { return trial.data()[i]; });
     if (change <= Real(0) || k + 1 == LENGTHS_TRIED) break;
     length = Real(0.5) * length;
   }
@@ -478,7 +475,7 @@ std::vector<PassTime> CpuExecutor<Real>::stopTiming() {
 
 template <class Real>
 std::string CpuExecutor<Real>::device() const {
-  const int threads = omp_get_max_threads();
+  const int threads = ThreadTeam::shared().threads();
   return "CPU, " + std::to_string(threads) + (threads == 1 ? " thread" : " threads");
 }
 

@@ -1,5 +1,5 @@
-// Executes passes on the CPU, with OpenMP: row by row, neighbouring passes in one sweep where they allow it.
-// CpuExecutor<float> is the bitwise twin of the GPU's, CpuExecutor<double> checks the physics.
+// Executes passes on the CPU, with all threads: row by row, neighbouring passes in one sweep where they allow
+// it. CpuExecutor<float> is the bitwise twin of the GPU's, CpuExecutor<double> checks the physics.
 #pragma once
 
 #include <memory>
@@ -69,7 +69,6 @@ class CpuExecutor final : public Executor {
 
   const Cloth* cloth_;
   bool sweeps_;
-  bool parallel_;  // worth waking the threads for
   Particles particles_;
   CpuState<Real> after_;  // at the end of the step
   Components<Real> forces_;

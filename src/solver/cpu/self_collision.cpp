@@ -12,6 +12,7 @@
 
 #include "cloth/cuts.h"
 #include "core/exact_math.h"
+#include "core/thread_team.h"
 #include "core/vec.h"
 #include "solver/cpu/vector_clones.h"
 #include "solver/step_params.h"
@@ -99,7 +100,7 @@ bool hasCell(const SelfParams<Real>& params, const Components<Real>& sortedPosit
 }  // namespace
 
 template <class Real>
-SelfCollision<Real>::SelfCollision(const Cloth& cloth, bool parallel) : cloth_(&cloth), parallel_(parallel) {
+SelfCollision<Real>::SelfCollision(const Cloth& cloth) : cloth_(&cloth) {
   if (!cloth.hasMesh()) return;
   for (std::uint32_t i = 0; i < cloth.particleCount(); ++i) places_.push_back(startPosition<Real>(cloth, i));
 }
@@ -172,8 +173,9 @@ std::uint32_t SelfCollision<Real>::encode(const Block& block, std::uint32_t i, s
 template <class Real>
 template <class Work>
 void SelfCollision<Real>::forEachBlock(Work work) {
-#pragma omp parallel for schedule(dynamic, 64) if (parallel_)
-  for (Block& block : blocks_) work(block);
+  constexpr std::uint32_t blocksAtOnce = 32;
+  ThreadTeam::shared().forEach(0, static_cast<std::uint32_t>(blocks_.size()), blocksAtOnce,
+                               [&](std::uint32_t k) { work(blocks_[k]); });
 }
 
 template <class Real>

@@ -18,7 +18,7 @@ template <class Real>
 class SelfCollision {
  public:
   // `cloth` must outlive it.
-  SelfCollision(const Cloth& cloth, bool parallel);
+  explicit SelfCollision(const Cloth& cloth);
 
   void configure(const Scene& scene);
   [[nodiscard]] bool isOn() const { return mode_ != clothsim::SelfCollision::off; }
@@ -66,7 +66,6 @@ class SelfCollision {
   void forEachBlock(Work work);
 
   const Cloth* cloth_;
-  bool parallel_;
   clothsim::SelfCollision mode_ = clothsim::SelfCollision::off;
   SelfParams<Real> params_{};
   std::vector<Real> distances_;

@@ -124,7 +124,7 @@ TEST(ProgramsFiles, ThatGrowBeyondALimitEndWithFiveAndNoPart) {
 TEST(ProgramsMemory, EndsWithAMessage) {
   const CommandResult result =
       clothsim("run -f pinned2 --resolution 4000x4000 --frames 1 --backend cpu",
-               "OMP_NUM_THREADS=1 bash -c 'ulimit -v 400000; exec \"$@\"' -");  // KiB
+               "CLOTHSIM_THREADS=1 bash -c 'ulimit -v 400000; exec \"$@\"' -");  // KiB
   EXPECT_EQ(result.exitCode, 1) << result.output;
   EXPECT_NE(result.output.find("not enough memory"), std::string::npos) << result.output;
 }

@@ -71,7 +71,7 @@ TEST(Program, GivesOneHashOnBothBackendsAtAnyNumberOfThreads) {
       "run -f pinned2 --resolution 50x50 --frames 5 --json --set solver.self_collision=false";
   const std::string expected = jsonOf(run + " --backend cpu")["state_hash"];
   for (const char* threads : {"1", "2", "7"}) {
-    EXPECT_EQ(jsonOf(run + " --backend cpu", std::string("OMP_NUM_THREADS=") + threads)["state_hash"],
+    EXPECT_EQ(jsonOf(run + " --backend cpu", std::string("CLOTHSIM_THREADS=") + threads)["state_hash"],
               expected)
         << threads;
     EXPECT_EQ(jsonOf(run + " --backend gpu", std::string("LP_NUM_THREADS=") + threads)["state_hash"],

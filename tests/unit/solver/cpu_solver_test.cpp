@@ -1,7 +1,6 @@
 #include "solver/cpu/cpu_solver.h"
 
 #include <gtest/gtest.h>
-#include <omp.h>
 #if defined(__SSE2__)
 #include <immintrin.h>
 #endif
@@ -10,6 +9,7 @@
 #include <cstring>
 #include <numbers>
 
+#include "core/thread_team.h"
 #include "measure/measure.h"
 #include "support/compared_scenes.h"
 
@@ -32,13 +32,13 @@ State stepped(const Scene& scene, int steps, bool fused = true) {
 
 TEST(CpuSolver, GivesTheSameBitsAtAnyNumberOfThreads) {
   const Scene scene = busyScene(92);  // enough particles for threads to be used
-  const int usual = omp_get_max_threads();
+  const int usual = ThreadTeam::shared().threads();
   std::vector<std::uint64_t> hashes;
   for (const int threads : {1, 2, 7}) {
-    omp_set_num_threads(threads);
+    ThreadTeam::setSharedThreads(threads);
     hashes.push_back(stateHash(stepped(scene, 60)));
   }
-  omp_set_num_threads(usual);
+  ThreadTeam::setSharedThreads(usual);
   EXPECT_EQ(hashes[0], hashes[1]);
   EXPECT_EQ(hashes[0], hashes[2]);
 }

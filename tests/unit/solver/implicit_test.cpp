@@ -1,12 +1,12 @@
 // The implicit integrator: against a sparse direct solver, and what has to hold exactly. Rows with known
 // answers are in unit/validation.
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <Eigen/SparseCholesky>
 #include <cmath>
 #include <random>
 
+#include "core/thread_team.h"
 #include "scene/pose.h"
 #include "solver/cpu/cpu_solver.h"
 #include "support/compared_scenes.h"
@@ -304,15 +304,15 @@ TEST(ImplicitStep, GivesTheSameBitsOnAnyNumberOfThreads) {
   scene.cloths[0].pinned = {GridPoint{0, 0}, GridPoint{99, 0}};
   scene.wind = Wind{.velocity = {1, 0.5, -2}, .gust = {}};
   const Cloth cloth(scene);
-  const int usual = omp_get_max_threads();
+  const int usual = ThreadTeam::shared().threads();
   std::vector<std::uint64_t> hashes;
   for (const int threads : {1, 2, 3}) {
-    omp_set_num_threads(threads);
+    ThreadTeam::setSharedThreads(threads);
     CpuSolver<float> solver(cloth, scene);
     solver.step(3);
     hashes.push_back(stateHash(solver.state()));
   }
-  omp_set_num_threads(usual);
+  ThreadTeam::setSharedThreads(usual);
   EXPECT_EQ(hashes[0], hashes[1]);
   EXPECT_EQ(hashes[0], hashes[2]);
 }

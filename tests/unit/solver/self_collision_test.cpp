@@ -1,13 +1,13 @@
 #include "solver/self_collision.h"
 
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <cmath>
 #include <cstring>
 #include <random>
 #include <set>
 
+#include "core/thread_team.h"
 #include "measure/measure_contacts.h"
 #include "solver/cpu/cpu_solver.h"
 #include "solver/cpu/self_collision.h"
@@ -38,7 +38,7 @@ void resolveContacts(cpu::SelfCollision<float>& collision, const CpuState<float>
 
 Pushed separated(const Scene& scene, const Cloth& cloth, const Components<float>& points,
                  const std::vector<float>& inverseMasses) {
-  cpu::SelfCollision<float> collision(cloth, false);
+  cpu::SelfCollision<float> collision(cloth);
   collision.configure(scene);
   CpuState<float> before, after;
   before.positions = after.positions = points;
@@ -137,7 +137,7 @@ TEST(Separate, TakesBackSlipUpToFriction) {
   const double distance = contactDistance(scene, cloth);
   const auto slide = [&](double friction, double depth, double slip) {
     scene.solver.selfFriction = friction;
-    cpu::SelfCollision<float> collision(cloth, false);
+    cpu::SelfCollision<float> collision(cloth);
     collision.configure(scene);
     CpuState<float> before, after;
     before.positions = spreadOut(cloth);
@@ -196,15 +196,15 @@ TEST(SelfCollisionStep, ComesToTheSameBitsWithAHashOfAnEarlierStep) {
 }
 
 TEST(SelfCollisionStep, ComesToTheSameBitsWithAnyNumberOfThreads) {
-  const int threads = omp_get_max_threads();
+  const int threads = ThreadTeam::shared().threads();
   for (const SelfCollision mode : {SelfCollision::averaged, SelfCollision::robust}) {
     const Scene scene = test::layeredSheets(66, mode);
     std::set<std::uint64_t> hashes;
     for (const int count : {1, 2, 5}) {
-      omp_set_num_threads(count);
+      ThreadTeam::setSharedThreads(count);
       hashes.insert(hashAfter(scene, 150, false));
     }
-    omp_set_num_threads(threads);
+    ThreadTeam::setSharedThreads(threads);
     EXPECT_EQ(hashes.size(), 1u) << selfCollisionName(mode);
   }
 }

@@ -109,7 +109,7 @@ struct HashSearch {
   static constexpr std::size_t count = 144;
   Scene scene = test::contactScene(12, SelfCollision::averaged);
   Cloth cloth{scene};
-  cpu::SelfCollision<Real> collision{cloth, false};
+  cpu::SelfCollision<Real> collision{cloth};
   double distance = contactDistance(scene, cloth);
   std::mt19937 random{1};
   Components<Real> points = test::cloud<Real>(count);
