@@ -72,7 +72,8 @@ CLI::Validator number(double low, double high) { return numberWithin(low, high, 
 struct Arguments {
   bool draw = false;
   bool describeStep = false;
-  std::string scene = "pinned2", backend = "gpu", from, shader, size = "1280x720", key, replay;
+  std::string scene = "pinned2", backend = "gpu", viewerBackend = "auto", from, shader, size = "1280x720",
+              key, replay;
   std::string cellSize = "560x420", out, view = "0,0";
   std::vector<std::string> variations, settings, saves, outs, resolutions, backends;
   int frames = 0, every = 1, around = 64, down = 48;
@@ -111,9 +112,11 @@ CLI::Option* addResolution(CLI::App& app, Arguments& a) {
       ->expected(1);
 }
 
-CLI::Option* addBackend(CLI::App& app, Arguments& a) {
-  return app.add_option("--backend", a.backend, "gpu (compute shaders) or cpu; results are bit-identical")
-      ->check(CLI::IsMember({"gpu", "cpu"}))
+CLI::Option* addBackend(CLI::App& app, std::string& backend) {
+  return app
+      .add_option("--backend", backend,
+                  "gpu (compute shaders), cpu, or auto: gpu but on software OpenGL; the same bits")
+      ->check(CLI::IsMember({"auto", "gpu", "cpu"}))
       ->capture_default_str();
 }
 
@@ -154,7 +157,7 @@ void declareRun(CLI::App& app, Arguments& a, Task& task) {
   const auto [scene, settings] = addSceneFlags(*run, a, false);
   CLI::Option* frames = addFrames(*run, a, false);
   CLI::Option* resolution = addResolution(*run, a);
-  CLI::Option* backend = addBackend(*run, a);
+  CLI::Option* backend = addBackend(*run, a.backend);
   run->add_option(
          "--save", a.saves,
          "save the last state as .csv .ply .obj .png, or .state (exact); with %04d in the name every "
@@ -247,7 +250,7 @@ void declareRender(CLI::App& app, Arguments& a, Task& task) {
   addSceneFlags(*render, a, true);
   addFrames(*render, a);
   addResolution(*render, a);
-  addBackend(*render, a);
+  addBackend(*render, a.backend);
   render
       ->add_option("--out", a.outs,
                    "still.png (the last frame), frame_%04d.png, clip.mp4 (needs ffmpeg); may be repeated")
@@ -287,7 +290,7 @@ void declareSweep(CLI::App& app, Arguments& a, Task& task) {
       ->type_name("KEY=V,V,...")
       ->allow_extra_args(false);
   addResolution(*sweep, a);
-  addBackend(*sweep, a);
+  addBackend(*sweep, a.backend);
   sweep->add_option("--out", a.out, "sheet.png; the measurements are written to sheet.csv")
       ->required()
       ->type_name("FILE");
@@ -350,7 +353,7 @@ void declareInfoCommands(CLI::App& app, Arguments& a, Task& task) {
 void declareViewer(CLI::App& app, Arguments& a, Task& task) {
   addSceneFlags(app, a, false);
   addResolution(app, a);
-  addBackend(app, a);
+  addBackend(app, a.viewerBackend);
   addSphereSegments(app, a);
   app.add_flag("--timings", a.timings, "viewer: print on exit how long each part of a displayed frame took");
   app.footer(
@@ -358,7 +361,7 @@ void declareViewer(CLI::App& app, Arguments& a, Task& task) {
       "\nExit codes: 0 done, 1 the simulation failed or the backends differ, 2 wrong usage, 3 scene error,\n"
       "            4 no usable OpenGL or no display, 5 input/output");
   task = [&] {
-    runViewer(loadScene(a.sceneOptions()), {a.scene, a.backend, a.around, a.down, a.timings});
+    runViewer(loadScene(a.sceneOptions()), {a.scene, a.viewerBackend, a.around, a.down, a.timings});
     return 0;
   };
 }

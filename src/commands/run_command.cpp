@@ -71,12 +71,13 @@ class Run {
       Recording recording = Recording::load(options.replay);
       frames_ = options.frames.value_or(recording.frames);
       if (usesGpu(recording, options) || savesPictures(options)) context_.emplace();
-      replay_.emplace(std::move(recording), options.backend, makeSolver);
+      std::optional<std::string> backend = options.backend;
+      if (backend) backend = chosenBackend(*backend);
+      replay_.emplace(std::move(recording), backend, makeSolver);
     } else {
       const Shared<Scene> scene = loadScene(options.scene);
-      const std::string backend = options.backend.value_or("gpu");
       frames_ = options.frames.value_or(0);
-      if (backend == "gpu" || savesPictures(options)) context_.emplace();
+      const std::string backend = preparedBackend(options);
       plain_.emplace(scene, backend, makeSolver);
       if (!options.from.empty()) plain_->setState(loadState(options.from, plain_->cloth()));
       if (options.jitter > 0) {
@@ -110,8 +111,22 @@ class Run {
   }
 
  private:
+  // Makes the context that the backend or the pictures need. "auto" goes without one where there is none.
+  std::string preparedBackend(const RunOptions& options) {
+    const std::string wish = options.backend.value_or("gpu");
+    const bool needsPictures = savesPictures(options);
+    if (wish == "cpu" && !needsPictures) return wish;
+    try {
+      context_.emplace();
+    } catch (const OpenGlError&) {
+      if (wish != "auto" || needsPictures) throw;
+      return "cpu";
+    }
+    return chosenBackend(wish);
+  }
+
   static bool usesGpu(const Recording& recording, const RunOptions& options) {
-    if (options.backend) return *options.backend == "gpu";
+    if (options.backend) return *options.backend != "cpu";
     return recording.backend == "gpu" ||
            std::any_of(recording.events.begin(), recording.events.end(), [](const Recording::Event& event) {
              const auto* to = std::get_if<SwitchBackend>(&event.action);

@@ -143,7 +143,7 @@ class SweepRun {
       : options_(options),
         planned_(planned),
         cameras_(cameras),
-        simulation_(planned.sharedScene(), options.backend, makeSolver),
+        simulation_(planned.sharedScene(), chosenBackend(options.backend), makeSolver),
         renderer_(simulation_, {}) {
     summary_.add(simulation_);
   }

@@ -1,6 +1,7 @@
 // The main loop of the viewer: it simulates, draws the picture and draws the panels. mouse_tools.h has what
 // the mouse does, open_scene.h the open scene, panels/ the panels.
 #include "viewer/viewer.h"
+#include "simulation/gpu/solvers.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -42,8 +43,8 @@ Viewer::Viewer(const Shared<Scene>& scene, const ViewerOptions& options,
   listen();
   const std::string source = lost ? lost->source : options.sceneName;
   open_ = load(source, [&] {
-    return std::make_unique<OpenScene>(lost ? lost->loaded : scene, source, lost ? "cpu" : options.backend,
-                                       renderOptions(options));
+    return std::make_unique<OpenScene>(lost ? lost->loaded : scene, source,
+                                       lost ? "cpu" : chosenBackend(options.backend), renderOptions(options));
   });
   if (lost) {
     if (lost->edited != lost->loaded) open_->edit(*lost->edited, false);

@@ -8,6 +8,10 @@
 
 namespace clothsim {
 
+// For "auto" the backend that is faster with the current context: "gpu" where OpenGL is hardware, "cpu" where
+// it is a software renderer, which is the CPU by a detour. Any other wish as it is.
+[[nodiscard]] std::string chosenBackend(const std::string& wish);
+
 // Knows "gpu", which needs a current context, and "cpu". @throws UsageError for another name, OpenGlError
 [[nodiscard]] std::unique_ptr<Solver> makeSolver(const std::string& backend, const Shared<Cloth>& cloth,
                                                  const Shared<Scene>& scene);
