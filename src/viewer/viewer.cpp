@@ -1,7 +1,6 @@
 // The main loop of the viewer: it simulates, draws the picture and draws the panels. mouse_tools.h has what
 // the mouse does, open_scene.h the open scene, panels/ the panels.
 #include "viewer/viewer.h"
-#include "simulation/gpu/solvers.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -9,6 +8,7 @@
 #include "gl/context.h"
 #include "output/numbered_files.h"
 #include "render/textures.h"
+#include "simulation/gpu/solvers.h"
 #include "viewer/viewer_facts.h"
 #include "viewer/viewer_marks.h"
 #include "viewer/viewer_program.h"
