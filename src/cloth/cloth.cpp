@@ -23,8 +23,6 @@ constexpr double JITTER = 0.001;                   // [m], z of a vertical sheet
 constexpr double JITTER_OF_SPACING = 0.002;        // no spring of a flat rest shape starts at more than 1e-5
 constexpr std::uint32_t JITTER_SEED = 184;
 
-double spacing(double length, int points) { return points > 1 ? length / (points - 1) : 0; }
-
 bool kindEnabled(const ClothSettings& settings, SpringKind kind) {
   switch (kind) {
     case SpringKind::structural:

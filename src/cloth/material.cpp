@@ -88,8 +88,6 @@ constexpr std::array<Preset, 7> presets{{
       .friction = 0.4}},
 }};
 
-double spacing(double length, int points) { return points > 1 ? length / (points - 1) : 0; }
-
 }  // namespace
 
 bool usesMaterial(const Scene& scene) {

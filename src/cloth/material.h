@@ -22,6 +22,11 @@ namespace clothsim {
 // Gives the cloth a material, and takes back to their defaults the settings that a material replaces.
 void giveMaterial(ClothSettings& cloth, const Material& material);
 
+// The distance of neighbouring points [m] where `points` of them share a length [m].
+[[nodiscard]] inline double spacing(double length, int points) {
+  return points > 1 ? length / (points - 1) : 0;
+}
+
 // Springs of a lattice with cells of `dx` by `dy` [m] that stretches and shears as the material does:
 // C11 = (Y + sqrt(Y^2 + 4 G^2)) / 2 in both directions and C12 = G, the only choice that central forces
 // leave. All of them count half along a border of the sheet.

@@ -4,11 +4,7 @@
 #include <cmath>
 
 namespace clothsim {
-namespace {
-
-Vec3d vectorOf(const Particle4& p) { return Vec3f{p.x, p.y, p.z}.cast<double>(); }
-
-}  // namespace
+namespace {}  // namespace
 
 Energies energies(const Cloth& cloth, std::span<const Spring> springs, const Scene& scene, const Cuts& cuts,
                   const State& state) {

@@ -12,8 +12,6 @@ namespace {
 constexpr double CONTACT_REACH =
     1.05;  // a resolved contact leaves a pair at the contact distance or slightly more
 
-Vec3d vectorOf(const Particle4& p) { return Vec3f{p.x, p.y, p.z}.cast<double>(); }
-
 // The distance at rest of two particles of one piece, unless they share a cell and a spring. Infinite for
 // particles of two pieces.
 std::optional<double> restDistance(const Cloth& cloth, const Piece& piece,

@@ -33,8 +33,8 @@ PieceSamples samplePiece(const Cloth& cloth, const Piece& piece) {
           piece.firstParticle + static_cast<std::uint32_t>(row) * static_cast<std::uint32_t>(piece.columns) +
           static_cast<std::uint32_t>(column);
       const glm::vec3 place = toGlm(cloth.positions()[particle]);
-      const bool border = (row == piece.rows - 1 && !piece.isMesh) || column == piece.columns - 1;
-      if (border || (row % step(piece.rows, most) == 0 && column % step(piece.columns, most) == 0))
+      const bool isLast = (row == piece.rows - 1 && !piece.isMesh) || column == piece.columns - 1;
+      if (isLast || (row % step(piece.rows, most) == 0 && column % step(piece.columns, most) == 0))
         samples.points.push_back(place);
       if (isOn(row, piece.rows, few) && isOn(column, piece.columns, few)) samples.coarse.push_back(place);
       if (cloth.inverseMasses()[particle] == 0)

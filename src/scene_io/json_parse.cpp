@@ -38,7 +38,7 @@ struct Mistake {
                       1 + static_cast<int>(at - lineStart), "", message);
 }
 
-std::string printable(std::string_view text) {
+std::string inAscii(std::string_view text) {
   std::string result;
   for (const char c : text) result += c >= ' ' && c <= '~' ? c : '?';
   return result.size() > 160 ? result.substr(0, 160) + "..." : result;
@@ -49,7 +49,7 @@ std::string printable(std::string_view text) {
   const std::string spelled(text.substr(begin, end - begin));
   const bool isTooLarge = !std::isfinite(std::strtod(spelled.c_str(), nullptr));
   complainAt(text, end - 1,
-             "the number " + printable(spelled) +
+             "the number " + inAscii(spelled) +
                  (isTooLarge ? " is too large" : " has too many digits or too large an exponent"));
 }
 
@@ -113,7 +113,7 @@ std::string guessFromText(std::string_view text, std::size_t at) {
     if (word == wrong) return "NaN and Infinity are not numbers in JSON; write a finite number";
   const bool misspelled = word == "none" || word != wordAround(text, at);
   if (misspelled && (word == "true" || word == "false" || word == "none" || word == "null"))
-    return "expected true, false or null in lower case, found " + printable(wordAround(text, at));
+    return "expected true, false or null in lower case, found " + inAscii(wordAround(text, at));
   const char c = text[at];
   if (c == '/' || c == '#' || (c == '*' && at > 0 && text[at - 1] == '/'))
     return "JSON has no comments; write them as a key, \"comment\": \"...\"";

@@ -41,8 +41,6 @@ double falloff(double distanceSquared, double radius) {
   return inside > 0 ? inside * inside : 0;
 }
 
-Vec3d vectorOf(const Particle4& p) { return Vec3f{p.x, p.y, p.z}.cast<double>(); }
-
 GrabSpring::Point grabbedPoint(Vec3d from, Vec3d at, double weight) {
   const Vec3f offset = (at - from).cast<float>();
   return {{canonical(offset.x), canonical(offset.y), canonical(offset.z)}, static_cast<float>(weight)};

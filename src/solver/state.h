@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cloth/cuts.h"
+#include "core/vec.h"
 #include "scene/scene.h"
 #include "solver/step_clock.h"
 
@@ -15,6 +16,8 @@ namespace clothsim {
 struct alignas(16) Particle4 {  // one vec4 of a storage buffer
   float x = 0, y = 0, z = 0, w = 0;
 };
+
+[[nodiscard]] inline Vec3d vectorOf(const Particle4& p) { return Vec3f{p.x, p.y, p.z}.cast<double>(); }
 
 struct State {
   std::vector<Particle4> positions;   // xyz [m], w the inverse mass [1/kg], 0: pinned
