@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cloth/cuts.h"
+#include "shared/interaction.h"
 #include "solver/step_params.h"
 
 namespace clothsim::test {

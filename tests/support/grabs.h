@@ -42,4 +42,14 @@ inline Cuts someCuts(const Cloth& cloth) {
   return cuts;
 }
 
+// Cuts all springs of the rows below the middle one, and leaves strings of the two rows above.
+inline Cuts crumbled(const Cloth& cloth) {
+  const Piece& piece = cloth.pieces()[0];
+  Cuts cuts(cloth.particleCount());
+  for (int row = 0; row < piece.rows / 2 + 2; ++row)  // a particle owns springs to the two rows below it
+    for (int column = 0; column < piece.columns; ++column)
+      cuts[piece.particle(column, row)] = row < piece.rows / 2 ? 0x3f : 0x3e;
+  return cuts;
+}
+
 }  // namespace clothsim::test

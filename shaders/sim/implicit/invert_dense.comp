@@ -25,6 +25,7 @@ void main() {
   for (uint e = lane; e < 36u * (part.endBlock - part.firstBlock); e += uint(SUM_LANES)) {
     uint number = part.firstBlock + e / 36u, j = e % 36u / 6u, i = e % 6u;
     uvec2 pair = texelFetch(coarsePairs, int(number)).xy;
+    if (pair.y >= part.first + part.count) continue;  // across a cut, where it is 0
     uint texel = BLOCK_TEXELS * number + (i < 3u ? 0u : 6u) + (j < 3u ? 0u : 3u) + j % 3u;
     float entry = texelFetch(coarseBlocks, int(texel))[i % 3u];
     uint row = 6u * (pair.x - part.first) + i, own = 6u * (pair.y - part.first) + j;

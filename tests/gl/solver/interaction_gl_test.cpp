@@ -121,6 +121,18 @@ TEST_F(InteractionOnGpuTest, CountsTheJetWhenTheIntegratorChanges) {
   EXPECT_EQ(difference(gpu.state(), cpu.state()).differing, 0u);
 }
 
+TEST_F(InteractionOnGpuTest, LetsCrumbsFallAsTheCpuDoes) {
+  const Scene scene = test::implicitly(test::vertical(test::sheetScene(17)));
+  const Cloth cloth(scene);
+  GpuSolver gpu(cloth, scene);
+  CpuSolver<float> cpu(cloth, scene);
+  for (Solver* solver : {static_cast<Solver*>(&gpu), static_cast<Solver*>(&cpu)}) {
+    solver->setCuts(test::crumbled(cloth));
+    solver->step(5);
+  }
+  EXPECT_EQ(difference(gpu.state(), cpu.state()).differing, 0u);
+}
+
 TEST_F(InteractionOnGpuTest, GoesBackToSnapshotsOfEitherBackend) {
   const Scene scene = test::withPinMotion(test::withWind(test::vertical(test::sheetScene(17))));
   const Cloth cloth(scene);
