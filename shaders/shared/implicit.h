@@ -19,13 +19,13 @@ using uint = std::uint32_t;
 // Storage blocks, by array (src/solver/pass.h). What no pass writes together may share a binding.
 #define RIGHT_HAND_SIDES_BINDING 4
 #define RESIDUALS_BINDING 4
-#define CORRECTIONS_BINDING 4
+#define CORRECTIONS_BINDING 1
 #define DIRECTIONS_BINDING 4
-#define PRODUCTS_BINDING 4
+#define PRODUCTS_BINDING 5
 #define CONTACT_PLANES_BINDING 4
 #define CONTACT_BLOCKS_BINDING 1
 #define HISTORIES_BINDING 4
-#define PARTIAL_SUMS_BINDING 4
+#define PARTIAL_SUMS_BINDING 6
 #define CENTERS_BINDING 4
 #define COARSE_BLOCKS_BINDING 4
 #define DENSE_BINDING 4
@@ -50,7 +50,6 @@ using uint = std::uint32_t;
 #define PRODUCTS_UNIT 34       // H p; later a particle's change of energy at four lengths of the Newton step
 #define INCREMENTS_UNIT 35     // the Newton step so far [m]
 #define STARTS_UNIT 36         // x at the start of the step, and the inverse mass
-#define PARTIAL_SUMS_UNIT 37
 #define CONTACT_PLANES_UNIT \
   39  // two texels each: n and offset, carry and friction (src/solver/cpu/collide.h)
 #define CONTACT_BLOCKS_UNIT \
@@ -69,7 +68,8 @@ using uint = std::uint32_t;
 #define RESTRICTION_UNIT 46
 #define COARSE_PAIRS_UNIT 47  // row, column, sources of a block
 #define COARSE_SOURCES_UNIT 28
-#define DENSE_UNIT 38  // minus the inverses of the coarsest matrices, a number each
+#define DENSE_UNIT 38        // minus the inverses of the coarsest matrices, a number each
+#define DENSE_PARTS_UNIT 37  // two texels each: DensePart
 
 // A coarse vertex moves as a rigid body: it has a translation and a rotation about its center, a texel each.
 // A block joins those of two vertices: the columns of four matrices of 3 x 3, translation by translation,
@@ -81,6 +81,9 @@ using uint = std::uint32_t;
 #define COARSEST_VERTICES 25
 // What a pivot that counts is at least, of the entry it began as: below, binary32 holds no more of it.
 #define LEAST_PIVOT 0x1p-20
+
+// On the GPU one work group takes at most so many levels alone.
+#define LEVELS_ALONE 15
 
 // Sums over all particles have one order: lane t of 256 adds every 256th number of a block of 1024, the lanes
 // are added as a tree, and so are the blocks.
@@ -144,6 +147,16 @@ struct DensePart {
   uint unusedC;
 };
 
+// A level of a piece, and those that the last work group to restrict to it takes alone, finest first.
+struct LevelsInARow {
+  LevelParams levels[1 + LEVELS_ALONE];
+
+  uint count;
+  uint firstPart;  // of the coarsest level, if it is among these: [firstPart, endPart), else none
+  uint endPart;
+  uint unused;
+};
+
 // What conjugate gradients and the line search have come to.
 SHARED_STRUCT ImplicitScalars {
   real residual;      // r.z
@@ -156,9 +169,9 @@ SHARED_STRUCT ImplicitScalars {
   uint isSystemSolved;
   uint isStepSolved;
 
-  uint iterations;   // of the step so far,
-  uint newtonSteps;  // the same
-  uint unusedA;
+  uint iterations;        // of the step so far,
+  uint newtonSteps;       // the same
+  uint groupsDone;        // work groups of the dispatch that is under way; 0 between dispatches
   uint secondOrderSteps;  // of all steps of `bdf2`, those that were no backward Euler
 
   // Of `bdf2`: how many steps before were solved, with the contacts of the step before them and nothing else

@@ -21,6 +21,7 @@ namespace clothsim {
 
 using LevelParams = shared::LevelParams;
 using DensePart = shared::DensePart;
+using LevelsInARow = shared::LevelsInARow;
 
 // Numbers of vertices go over all levels and pieces: the particles come first. Those of coarse vertices alone
 // begin with 0 behind them.

@@ -272,7 +272,9 @@ std::size_t sweepLength(std::span<const PassCall> passes) {
 
 std::string nameOf(std::span<const PassCall> passes) {
   std::string names;
-  for (const PassCall& call : passes) names += (names.empty() ? "" : ", ") + nameOf(call.pass);
+  for (std::size_t i = 0; i < passes.size(); ++i)
+    if (i == 0 || passes[i].pass != passes[i - 1].pass)
+      names += (names.empty() ? "" : ", ") + nameOf(passes[i].pass);
   return names;
 }
 

@@ -56,7 +56,7 @@ struct PassList {
 // them before the next row.
 [[nodiscard]] std::size_t sweepLength(std::span<const PassCall> passes);
 
-// The names of passes that share a sweep: "forces, integrate".
+// The names of passes that are done in one go: "forces, integrate"; one that runs over levels once.
 [[nodiscard]] std::string nameOf(std::span<const PassCall> passes);
 
 // The list for people, a line a pass, with what it runs over, its reach, what it reads and writes, and the

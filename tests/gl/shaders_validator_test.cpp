@@ -86,8 +86,10 @@ std::vector<gl::Defines> variantsOf(const std::string& file) {
   mesh.gate = GATE_SYSTEM;
   std::vector<gl::Defines> variants{definesFor(everything), definesFor(cs184), definesFor(PassFeatures{}),
                                     definesFor(mesh)};
+  const bool sumsNumbers = file.ends_with("search.comp") || file.ends_with("prolong_particles.comp");
   for (std::size_t i = 0; i < variants.size(); ++i) {
-    variants[i].emplace_back("SUM_KIND", std::to_string(i));
+    variants[i].emplace_back("SUM_KIND", std::to_string(sumsNumbers ? i % SUM_LENGTH : i));
+    variants[i].emplace_back("UPDATES_SOLUTION", std::to_string(i % 2));
     variants[i].emplace_back("PREDICTS", std::to_string(i % 2));
     variants[i].emplace_back("COLLIDES_IN_STEP", std::to_string(i % 2));
     variants[i].emplace_back("SELF_ROBUST", std::to_string(i % 2));

@@ -1,13 +1,13 @@
-// Minus the inverse of the matrix of a connected part of the coarsest level; one work group. Every pivot in turn is swept out
+// Minus the inverse of the matrix of a connected part of the coarsest level, a work group each. Every pivot in turn is swept out
 // (Goodnight 1979, "A tutorial on the SWEEP operator"); the twin is invertDense() of src/solver/cpu/multilevel.cpp.
 #include "shared/implicit.h"
 #include "sim/exact_math.glsl"
 #include "sim/implicit/gate.glsl"
 #include "sim/implicit/rigid_block.glsl"
+#include "sim/implicit/dense_part.glsl"
 
 layout(local_size_x = SUM_LANES) in;
 
-layout(std140, binding = LEVEL_PARAMS_BINDING) uniform PartBlock { DensePart part; };
 layout(binding = COARSE_BLOCKS_UNIT) uniform samplerBuffer coarseBlocks;
 layout(binding = COARSE_PAIRS_UNIT) uniform usamplerBuffer coarsePairs;
 layout(std430, binding = DENSE_BINDING) coherent buffer Dense { float dense[]; };
@@ -15,8 +15,7 @@ layout(std430, binding = DENSE_BINDING) coherent buffer Dense { float dense[]; }
 shared float began[6 * COARSEST_VERTICES];
 shared float column[6 * COARSEST_VERTICES];
 
-void main() {
-  if (isSkipped()) return;
+void invert(DensePart part) {
   uint lane = gl_LocalInvocationID.x, order = 6u * part.count, entries = order * order, first = part.firstEntry;
   for (uint e = lane; e < entries; e += uint(SUM_LANES)) dense[first + e] = 0.0;
   memoryBarrierBuffer();
@@ -49,5 +48,13 @@ void main() {
       dense[first + e] = canonical(next);
     }
     memoryBarrierBuffer();
+  }
+}
+
+void main() {
+  if (isSkipped()) return;
+  for (uint number = gl_WorkGroupID.x; number < densePartCount(); number += gl_NumWorkGroups.x) {
+    invert(densePartAt(number));
+    barrier();
   }
 }

@@ -1,34 +1,31 @@
-// Corrections of the coarsest level, A^-1 r, a vertex an invocation.
+// Corrections of the coarsest level, A^-1 r, a vertex an invocation, a connected part a work group.
 #include "shared/implicit.h"
 #include "shared/step_params.h"
 #include "sim/exact_math.glsl"
 #include "sim/implicit/gate.glsl"
+#include "sim/implicit/rigid_block.glsl"
 
 layout(local_size_x = 64) in;
 
 layout(std140, binding = STEP_PARAMS_BINDING) uniform StepBlock { StepParams step; };
-layout(std140, binding = LEVEL_PARAMS_BINDING) uniform PartBlock { DensePart part; };
 layout(binding = RESIDUALS_UNIT) uniform samplerBuffer residuals;
-layout(binding = DENSE_UNIT) uniform samplerBuffer dense;
 layout(std430, binding = CORRECTIONS_BINDING) writeonly buffer Corrections { vec4 newCorrections[]; };
 
-vec3 threeAt(uint entry) {
-  return vec3(texelFetch(dense, int(entry)).x, texelFetch(dense, int(entry) + 1).x, texelFetch(dense, int(entry) + 2).x);
+RigidVector residualOn(uint coarse) {
+  int i = int(step.totalParticles + VERTEX_TEXELS * coarse);
+  return RigidVector(texelFetch(residuals, i).xyz, texelFetch(residuals, i + 1).xyz);
 }
+#include "sim/implicit/dense.glsl"
 
 void main() {
   if (isSkipped()) return;
-  uint own = gl_GlobalInvocationID.x, order = 6u * part.count;
-  if (own >= part.count) return;
-  precise vec3 translation = vec3(0.0);
-  precise vec3 rotation = vec3(0.0);
-  for (uint j = 0u; j < order; ++j) {
-    float r = texelFetch(residuals, int(step.totalParticles + VERTEX_TEXELS * part.first + j / 3u))[j % 3u];
-    uint entry = part.firstEntry + j * order + 6u * own;
-    translation = translation - r * threeAt(entry);
-    rotation = rotation - r * threeAt(entry + 3u);
+  uint own = gl_LocalInvocationID.x;
+  for (uint number = gl_WorkGroupID.x; number < densePartCount(); number += gl_NumWorkGroups.x) {
+    DensePart part = densePartAt(number);
+    if (own >= part.count) continue;
+    RigidVector correction = solvedFor(part, own);
+    uint entry = step.totalParticles + VERTEX_TEXELS * (part.first + own);
+    newCorrections[entry] = vec4(correction.translation, 0.0);
+    newCorrections[entry + 1u] = vec4(correction.rotation, 0.0);
   }
-  uint entry = step.totalParticles + VERTEX_TEXELS * (part.first + own);
-  newCorrections[entry] = vec4(canonical(translation), 0.0);
-  newCorrections[entry + 1u] = vec4(canonical(rotation), 0.0);
 }

@@ -1,5 +1,5 @@
 // Sums over all particles in an order that depends on nothing but their number (shared/implicit.h); the twin
-// of shaders/sim/implicit/sum_*.comp.
+// of shaders/sim/implicit/total.glsl.
 #pragma once
 
 #include <algorithm>

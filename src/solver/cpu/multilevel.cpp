@@ -1,5 +1,5 @@
 // From level to level of the implicit integrator's preconditioner; the twin of
-// shaders/sim/implicit/{find_centers,coarsen,restrict,invert_dense,solve_coarsest,prolong}.comp.
+// shaders/sim/implicit/{find_centers,coarsen,invert_dense}.comp and {restriction,dense,prolongation}.glsl.
 #include "solver/cpu/coarse_elements.h"
 #include "solver/cpu/implicit_passes.h"
 #include "solver/cpu/rigid_block.h"

@@ -1,6 +1,7 @@
 #include "solver/gpu/arrays.h"
 
 #include <string>
+#include <utility>
 
 #include "shared/implicit.h"
 #include "shared/step_params.h"
@@ -59,7 +60,7 @@ ArrayPlace placeOf(Array array) {
     case Array::increments:
       return {INCREMENTS_UNIT, INCREMENTS_BINDING};
     case Array::partialSums:
-      return {PARTIAL_SUMS_UNIT, PARTIAL_SUMS_BINDING};
+      return {-1, PARTIAL_SUMS_BINDING};
     case Array::scalars:
       return {-1, SCALARS_BINDING};
     case Array::watch:
@@ -103,6 +104,7 @@ void GpuArrays::addImplicit(std::size_t particles, const GpuLevels& levels, bool
   for (const Array array : {Array::rightHandSides, Array::displacements, Array::iterates, Array::directions,
                             Array::products, Array::increments})
     add(array, particles);
+  if (spareDirections_.buffer.size() < particles) spareDirections_ = ParticleArray("directions 2", particles);
   const std::size_t entries = particles + VERTEX_TEXELS * std::size_t{levels.vertices()};
   add(Array::residuals, entries);
   add(Array::corrections, entries);
@@ -155,6 +157,13 @@ void GpuArrays::bindFor(Pass pass) const {
     if (binding >= 0 && traits.writes.contains(array) && hasBuffer)
       (*this)[array].buffer.bindStorage(static_cast<GLuint>(binding));
   }
+}
+
+void GpuArrays::bindSpareDirections() const { spareDirections_.buffer.bindStorage(DIRECTIONS_BINDING); }
+
+void GpuArrays::takeSpareDirections() {
+  std::swap((*this)[Array::directions], spareDirections_);
+  (*this)[Array::directions].texture.bind(DIRECTIONS_UNIT);
 }
 
 }  // namespace clothsim

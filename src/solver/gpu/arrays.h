@@ -35,9 +35,13 @@ class GpuArrays {
   void bindTextures() const;
   // What a pass writes, and the array that it takes for the positions.
   void bindFor(Pass pass) const;
+  // Another buffer to write directions into, and what makes it that of the directions.
+  void bindSpareDirections() const;
+  void takeSpareDirections();
 
  private:
   std::array<ParticleArray, ARRAY_COUNT> arrays_;  // unused ones are empty
+  ParticleArray spareDirections_;
   gl::Buffer<ImplicitScalars<float>> scalars_;
 };
 

@@ -11,12 +11,23 @@ namespace {
 // How many steps the watchdog remembers one by one. Who takes more without asking for divergence has it
 // looked for once in so many.
 constexpr std::uint64_t WATCHED_STEPS = 1024;
+// As many as every driver takes in a work group.
+constexpr int MOST_LANES = 1024;
+// And in a dispatch.
+constexpr std::size_t MOST_GROUPS = 65535;
 
 std::uint32_t ownersAcross(const LimitColor& color) {
   return ownerCount(color.firstColumn, color.columnStep, color.columnRun, color.endColumn);
 }
 std::uint32_t ownersAlong(const LimitColor& color) {
   return ownerCount(color.firstRow, color.rowStep, color.rowRun, color.endRow);
+}
+
+// A software renderer steps through every lane of a group at each barrier, needed or not.
+GpuOptions withCoarseLanes(GpuOptions options) {
+  if (options.coarseLanes == 0)
+    options.coarseLanes = gl::currentContextInfo().software ? SUM_LANES : MOST_LANES;
+  return options;
 }
 
 }  // namespace
@@ -34,7 +45,7 @@ struct GpuExecutor::Copy final : ParticleCopy {
 
 GpuExecutor::GpuExecutor(const Cloth& cloth, const GpuOptions& options)
     : cloth_(&cloth),
-      options_(options),
+      options_(withCoarseLanes(options)),
       arrays_(cloth.particleCount()),
       lists_(cloth),
       kernels_(kernels().size()),
@@ -83,7 +94,8 @@ void GpuExecutor::setCuts(const StepInputs& inputs) {
 void GpuExecutor::prepare(const StepInputs& inputs, const PassList& list) {
   parameters_.prepare(inputs);
   if (list.contains(Pass::begin)) {
-    if (levels_.empty()) levels_ = GpuLevels(makeHierarchy<float>(*cloth_, inputs.cutMasks));
+    if (levels_.empty())
+      levels_ = GpuLevels(makeHierarchy<float>(*cloth_, inputs.cutMasks), options_.verticesAlone);
     arrays_.addImplicit(cloth_->particleCount(), levels_,
                         inputs.scene->wind.has_value() || inputs.interaction.jet.has_value(),
                         !inputs.scene->colliders.empty(), list.contains(Pass::remember));
@@ -98,15 +110,17 @@ void GpuExecutor::compile(const StepInputs& inputs, const PassList& list) {
   for (std::span<const PassCall> rest = list.passes; !rest.empty();) {
     std::size_t count = 1;
     if (rest.front().traits().domain != Domain::contacts) {
-      const std::size_t number = kernelFor(rest, options_.fused);
-      const Kernel& kernel = kernels()[number];
-      count = kernel.passes.size();
-      assert(count <= sweepLength(rest) && "passes of a kernel must be able to share a sweep");
-      for (std::size_t piece = kernels_[number].size(); piece < cloth_->pieces().size(); ++piece) {
+      const KernelChoice choice = kernelFor(rest, options_.fused, cloth_->pieces().size());
+      count = choice.passes;
+      assert((kernels()[choice.kernel].stages.front().over != Over::grids || count <= sweepLength(rest)) &&
+             "passes over grid points that have one shader must be able to share a sweep");
+      std::vector<Programs>& programs = kernels_[choice.kernel];
+      for (std::size_t piece = programs.size(); piece < cloth_->pieces().size(); ++piece) {
         PassFeatures features = featuresOf(*inputs.scene, *cloth_, piece, inputs.interaction, inputs.cuts);
         features.groupColumns = options_.groupColumns;
         features.groupRows = options_.groupRows;
-        kernels_[number].push_back(library_.find(kernel, features));
+        features.coarseLanes = options_.coarseLanes;
+        programs.push_back(library_.find(kernels()[choice.kernel], features));
       }
     }
     rest = rest.subspan(count);
@@ -137,56 +151,68 @@ std::size_t GpuExecutor::runKernel(std::span<const PassCall> passes) {
     selfCollision_.run(runner_, call, arrays_, [&](std::size_t piece) { parameters_.bindPiece(piece); });
     return 1;
   }
-  const std::size_t number = kernelFor(passes, options_.fused);
-  const std::size_t count = kernels()[number].passes.size();
-  const std::vector<Programs>& programs = kernels_[number];
+  const auto [number, count] = kernelFor(passes, options_.fused, cloth_->pieces().size());
+  const Kernel& kernel = kernels()[number];
   const std::string name = runner_.isTiming() ? nameOf(passes.first(count)) : "";
-  for (const PassCall& own : passes.first(count)) arrays_.bindFor(own.pass);
-  switch (call.traits().domain) {
-    case Domain::gridPoints:
-      runOnPieces(programs, call, name);
-      break;
-    case Domain::particles:
-      runOnEntries(*programs[0][0], name, cloth_->particleCount());
-      break;
-    case Domain::springs:
-      runOnColor(programs, call, name);
-      break;
-    case Domain::coarseVertices:
-    case Domain::coarseBlocks:
-    case Domain::fineVertices:
-      call.pass == Pass::invertDense || call.pass == Pass::solveCoarsest ? runOnParts(programs, name)
-                                                                         : runOnLevel(programs, call, name);
-      break;
-    case Domain::sums:
-      runSum(programs[0], name);
-      break;
-    case Domain::contacts:
-      break;
+  for (const Pass own : kernel.passes) arrays_.bindFor(own);
+  if (kernel.hasNewDirections) arrays_.bindSpareDirections();
+  for (std::size_t stage = 0; stage < kernel.stages.size(); ++stage) {
+    StagePrograms programs;
+    for (const Programs& ofPiece : kernels_[number]) programs.push_back(ofPiece[stage]);
+    runStage(kernel.stages[stage].over, programs, call, name);
   }
+  if (kernel.hasNewDirections) arrays_.takeSpareDirections();
   return count;
 }
 
-void GpuExecutor::runOnPieces(const std::vector<Programs>& programs, const PassCall& call,
-                              const std::string& name) {
+void GpuExecutor::runStage(Over over, const StagePrograms& programs, const PassCall& call,
+                           const std::string& name) {
+  switch (over) {
+    case Over::grids:
+      return runOnGrids(programs, call, name);
+    case Over::particles:
+      return runOnEntries(*programs[0], name, cloth_->particleCount());
+    case Over::colors:
+      return runOnColor(programs, call.index, name);
+    case Over::levels:
+      return runOnLevel(programs, call, name);
+    case Over::firstLevels:
+      return call.index == 0 ? runOnLevel(programs, call, name) : void();
+    case Over::furtherLevels:
+      return call.index > 0 ? runOnLevel(programs, call, name) : void();
+    case Over::restrictions:
+      return runRestrictions(programs, name);
+    case Over::prolongations:
+      return runProlongations(programs, name);
+    case Over::parts:
+      return runner_.runGroups(*programs[0], name,
+                               static_cast<std::uint32_t>(std::min(levels_.parts(), MOST_GROUPS)));
+    case Over::sumBlocks:
+      return runner_.runGroups(*programs[0], name,
+                               static_cast<std::uint32_t>(arrays_[Array::partialSums].buffer.size()));
+    case Over::once:
+      return runner_.runGroups(*programs[0], name, 1);
+  }
+}
+
+void GpuExecutor::runOnGrids(const StagePrograms& programs, const PassCall& call, const std::string& name) {
   for (std::size_t i = 0; i < programs.size(); ++i) {
     const Piece& piece = cloth_->pieces()[i];
     const auto columns = static_cast<std::uint32_t>(piece.columns);
     auto rows = static_cast<std::uint32_t>(piece.rows);
     if (call.pass == Pass::watchLimit) rows = (rows + WATCHED_ROWS - 1) / WATCHED_ROWS;
     parameters_.bindPiece(i);
-    runner_.run(*programs[i][0], name, columns, rows);
+    runner_.run(*programs[i], name, columns, rows);
   }
 }
 
-void GpuExecutor::runOnColor(const std::vector<Programs>& programs, const PassCall& call,
-                             const std::string& name) {
+void GpuExecutor::runOnColor(const StagePrograms& programs, std::size_t number, const std::string& name) {
   for (std::size_t i = 0; i < programs.size(); ++i) {
-    if (call.index >= colors_[i].size()) continue;
-    const LimitColor& color = colors_[i][call.index];
+    if (number >= colors_[i].size()) continue;
+    const LimitColor& color = colors_[i][number];
     parameters_.bindPiece(i);
-    colorSlots_.bindUniformRange(LIMIT_COLOR_BINDING, firstColors_[i] + call.index, 1);
-    runner_.run(*programs[i][0], name, ownersAcross(color), ownersAlong(color));
+    colorSlots_.bindUniformRange(LIMIT_COLOR_BINDING, firstColors_[i] + number, 1);
+    runner_.run(*programs[i], name, ownersAcross(color), ownersAlong(color));
   }
 }
 
@@ -195,40 +221,35 @@ void GpuExecutor::runOnEntries(const gl::Program& program, const std::string& na
               (count + PARTICLES_A_ROW - 1) / PARTICLES_A_ROW);
 }
 
-void GpuExecutor::runOnLevel(const std::vector<Programs>& programs, const PassCall& call,
-                             const std::string& name) {
+void GpuExecutor::runOnLevel(const StagePrograms& programs, const PassCall& call, const std::string& name) {
   for (std::size_t i = 0; i < programs.size(); ++i) {
     if (call.index >= levels_.ofPiece(i).size()) continue;
     const LevelParams& level = levels_.ofPiece(i)[call.index];
-    // The first level's matrix comes from elements, the others from the level before.
-    const bool isSecondShader = call.pass == Pass::coarsen && call.index > 0;
     const std::uint32_t count = call.traits().domain == Domain::coarseBlocks
                                     ? level.endBlock - level.firstBlock
                                 : call.traits().domain == Domain::fineVertices ? level.fineCount
                                                                                : level.coarseCount;
     parameters_.bindPiece(i);
     levels_.bindLevel(i, call.index);
-    runOnEntries(*programs[i][isSecondShader ? 1 : 0], name, count);
+    runOnEntries(*programs[i], name, count);
   }
 }
 
-// A work group each.
-void GpuExecutor::runOnParts(const std::vector<Programs>& programs, const std::string& name) {
-  for (std::size_t i = 0; i < programs.size(); ++i) {
-    parameters_.bindPiece(i);
-    for (std::size_t part = 0; part < levels_.partsOf(i).size(); ++part) {
-      levels_.bindPart(i, part);
-      runner_.runGroups(*programs[i][0], name, 1);
+void GpuExecutor::runRestrictions(const StagePrograms& programs, const std::string& name) {
+  const auto lanes = static_cast<std::uint32_t>(options_.coarseLanes);
+  for (std::size_t i = 0; i < programs.size(); ++i)
+    for (std::size_t level = 0; level < levels_.rowsOf(i); ++level) {
+      levels_.bindRow(i, level);
+      runner_.runGroups(*programs[i], name, (levels_.ofPiece(i)[level].coarseCount + lanes - 1) / lanes);
     }
-  }
 }
 
-// First the sums of blocks of particles, then their total and what becomes of it.
-void GpuExecutor::runSum(const Programs& programs, const std::string& name) {
-  if (programs.size() == 1) return runner_.runGroups(*programs[0], name, 1);  // counts alone
-  runner_.runGroups(*programs[0], name,
-                    static_cast<std::uint32_t>(arrays_[Array::partialSums].buffer.size()));
-  runner_.runGroups(*programs[1], name, 1);
+void GpuExecutor::runProlongations(const StagePrograms& programs, const std::string& name) {
+  for (std::size_t i = 0; i < programs.size(); ++i)
+    for (std::size_t level = levels_.rowsOf(i); level-- > 1;) {
+      levels_.bindLevel(i, level);
+      runOnEntries(*programs[i], name, levels_.ofPiece(i)[level].fineCount);
+    }
 }
 
 void GpuExecutor::flush() {

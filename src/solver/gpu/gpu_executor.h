@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +26,10 @@ struct GpuOptions {
                       // are the same either way
   int groupColumns = 64;  // work group, in grid points
   int groupRows = 1;
+  // One work group takes all levels of at most `verticesAlone` vertices, but for the finest, with
+  // `coarseLanes` invocations; 0: as many as suit the device.
+  int coarseLanes = 0;
+  std::uint32_t verticesAlone = 16384;
 };
 
 class GpuExecutor final : public Executor {
@@ -70,12 +75,15 @@ class GpuExecutor final : public Executor {
   void compile(const StepInputs& inputs, const PassList& list);
   void bindWatch(std::uint64_t step);
   std::size_t runKernel(std::span<const PassCall> passes);
-  void runOnPieces(const std::vector<Programs>& programs, const PassCall& call, const std::string& name);
-  void runOnColor(const std::vector<Programs>& programs, const PassCall& call, const std::string& name);
+  // A stage of a kernel, with its programs by piece.
+  using StagePrograms = std::vector<const gl::Program*>;
+  void runStage(Over over, const StagePrograms& programs, const PassCall& call, const std::string& name);
+  void runOnGrids(const StagePrograms& programs, const PassCall& call, const std::string& name);
+  void runOnColor(const StagePrograms& programs, std::size_t color, const std::string& name);
+  void runOnLevel(const StagePrograms& programs, const PassCall& call, const std::string& name);
+  void runRestrictions(const StagePrograms& programs, const std::string& name);
+  void runProlongations(const StagePrograms& programs, const std::string& name);
   void runOnEntries(const gl::Program& program, const std::string& name, std::uint32_t count);
-  void runOnLevel(const std::vector<Programs>& programs, const PassCall& call, const std::string& name);
-  void runOnParts(const std::vector<Programs>& programs, const std::string& name);
-  void runSum(const Programs& programs, const std::string& name);
   [[nodiscard]] std::vector<WatchSlot> watchedRows(std::uint64_t steps);
 
   const Cloth* cloth_;

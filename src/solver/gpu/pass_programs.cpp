@@ -80,58 +80,98 @@ gl::Defines definesFor(const PassFeatures& features) {
 }
 
 const std::vector<Kernel>& kernels() {
-  const auto sum = [](Pass pass, int kind) {
-    return Kernel{
-        {pass}, {"implicit/sum_blocks", "implicit/sum_totals"}, {{"SUM_KIND", std::to_string(kind)}}};
+  const auto sumKind = [](int kind) {
+    return std::pair<std::string, std::string>{"SUM_KIND", std::to_string(kind)};
+  };
+  const auto sum = [&](Pass pass, int kind) {
+    return Kernel{{pass}, {{"implicit/sum", Over::sumBlocks, {sumKind(kind)}}}};
+  };
+  // Conjugate gradients: with the preconditioner, from the particles' residuals down the levels and back,
+  // goes what is done before and after it at the same particles.
+  const auto precondition = [&](bool updates, Pass sumPass, int kind) {
+    const std::pair<std::string, std::string> update{"UPDATES_SOLUTION", updates ? "1" : "0"};
+    Kernel kernel{{Pass::restrict, Pass::solveCoarsest, Pass::prolong, sumPass},
+                  {{"implicit/restrict_levels", Over::restrictions, {update}},
+                   {"implicit/prolong", Over::prolongations},
+                   {"implicit/prolong_particles", Over::sumBlocks, {update, sumKind(kind)}}}};
+    if (updates) kernel.passes.insert(kernel.passes.begin(), Pass::updateSolution);
+    return kernel;
   };
   static const std::vector<Kernel> all{
-      {{Pass::forces, Pass::integrate, Pass::collide}, {"step"}, {{"COLLIDES_IN_STEP", "1"}}},
-      {{Pass::forces, Pass::integrate}, {"step"}, {{"COLLIDES_IN_STEP", "0"}}},
-      {{Pass::forces, Pass::kick}, {"kick"}, {}},
-      {{Pass::checkStart}, {"start"}, {}},
-      {{Pass::forces}, {"forces"}, {}},
-      {{Pass::integrate}, {"integrate"}, {}},
-      {{Pass::begin}, {"implicit/begin"}, {}},
-      {{Pass::findPlanes}, {"implicit/find_planes"}, {{"PREDICTS", "0"}}},
-      {{Pass::predictPlanes}, {"implicit/find_planes"}, {{"PREDICTS", "1"}}},
-      {{Pass::elasticForces}, {"forces"}, {}},
-      {{Pass::linearize}, {"implicit/linearize"}, {}},
-      {{Pass::findCenters}, {"implicit/find_centers"}, {}},
-      {{Pass::coarsen}, {"implicit/coarsen_elements", "implicit/coarsen"}, {}},
-      {{Pass::invertDense}, {"implicit/invert_dense"}, {}},
-      {{Pass::restrict}, {"implicit/restrict"}, {}},
-      {{Pass::solveCoarsest}, {"implicit/solve_coarsest"}, {}},
-      {{Pass::prolong}, {"implicit/prolong"}, {}},
+      {{Pass::updateDirection, Pass::multiply, Pass::sumCurvature},
+       {{"implicit/search", Over::sumBlocks, {sumKind(SUM_STEP)}}},
+       true,
+       true},
+      precondition(false, Pass::sumFirstResidual, SUM_FIRST),
+      precondition(true, Pass::sumNextResidual, SUM_NEXT),
+      {{Pass::forces, Pass::integrate, Pass::collide}, {{"step", Over::grids, {{"COLLIDES_IN_STEP", "1"}}}}},
+      {{Pass::forces, Pass::integrate}, {{"step", Over::grids, {{"COLLIDES_IN_STEP", "0"}}}}},
+      {{Pass::forces, Pass::kick}, {{"kick", Over::grids}}},
+      {{Pass::checkStart}, {{"start", Over::grids}}},
+      {{Pass::forces}, {{"forces", Over::grids}}},
+      {{Pass::integrate}, {{"integrate", Over::grids}}},
+      {{Pass::begin}, {{"implicit/begin", Over::grids}}},
+      {{Pass::findPlanes}, {{"implicit/find_planes", Over::grids, {{"PREDICTS", "0"}}}}},
+      {{Pass::predictPlanes}, {{"implicit/find_planes", Over::grids, {{"PREDICTS", "1"}}}}},
+      {{Pass::elasticForces}, {{"forces", Over::grids}}},
+      {{Pass::linearize}, {{"implicit/linearize", Over::grids}}},
+      {{Pass::findCenters}, {{"implicit/find_centers", Over::levels}}},
+      {{Pass::coarsen},
+       {{"implicit/coarsen_elements", Over::firstLevels}, {"implicit/coarsen", Over::furtherLevels}}},
+      {{Pass::invertDense}, {{"implicit/invert_dense", Over::parts}}},
+      {{Pass::restrict}, {{"implicit/restrict", Over::levels}}},
+      {{Pass::solveCoarsest}, {{"implicit/solve_coarsest", Over::parts}}},
+      {{Pass::prolong}, {{"implicit/prolong", Over::levels}}},
       sum(Pass::sumFirstResidual, SUM_FIRST),
-      {{Pass::updateDirection}, {"implicit/update_direction"}, {}},
-      {{Pass::multiply}, {"implicit/multiply"}, {}},
+      {{Pass::updateDirection}, {{"implicit/update_direction", Over::particles}}},
+      {{Pass::multiply}, {{"implicit/multiply", Over::grids}}},
       sum(Pass::sumCurvature, SUM_STEP),
-      {{Pass::updateSolution}, {"implicit/update_solution"}, {}},
+      {{Pass::updateSolution}, {{"implicit/update_solution", Over::particles}}},
       sum(Pass::sumNextResidual, SUM_NEXT),
-      {{Pass::tryLengths}, {"implicit/try_lengths"}, {}},
+      {{Pass::tryLengths}, {{"implicit/try_lengths", Over::grids}}},
       sum(Pass::sumEnergies, SUM_LENGTH),
-      {{Pass::accept}, {"implicit/accept"}, {}},
+      {{Pass::accept}, {{"implicit/accept", Over::particles}}},
       sum(Pass::measureUpdate, SUM_UPDATE),
-      {{Pass::end}, {"implicit/end"}, {}},
-      {{Pass::remember}, {"implicit/remember"}, {}},
-      {{Pass::countStep}, {"implicit/count_step"}, {}},
-      {{Pass::collide}, {"collide"}, {}},
-      {{Pass::limit}, {"limit"}, {}},
-      {{Pass::watchLimit}, {"watch_limit"}, {}},
+      {{Pass::end}, {{"implicit/end", Over::grids}}},
+      {{Pass::remember}, {{"implicit/remember", Over::grids}}},
+      {{Pass::countStep}, {{"implicit/count_step", Over::once}}},
+      {{Pass::collide}, {{"collide", Over::grids}}},
+      {{Pass::limit}, {{"limit", Over::colors}}},
+      {{Pass::watchLimit}, {{"watch_limit", Over::grids}}},
   };
   return all;
 }
 
-std::size_t kernelFor(std::span<const PassCall> passes, bool fused) {
-  const auto begins = [&](const Kernel& kernel) {
-    const std::vector<Pass>& own = kernel.passes;
-    if (own.size() > passes.size() || (!fused && own.size() > 1 && own.back() != Pass::kick)) return false;
-    return std::equal(own.begin(), own.end(), passes.begin(),
-                      [](Pass pass, const PassCall& call) { return pass == call.pass; });
-  };
-  const auto found = std::find_if(kernels().begin(), kernels().end(), begins);
-  assert(found != kernels().end() && "every pass has a kernel, and the kick one with the forces");
-  return static_cast<std::size_t>(found - kernels().begin());
+namespace {
+
+bool runsOverLevels(Pass pass) {
+  const Domain domain = traitsOf(pass).domain;
+  return (domain == Domain::coarseVertices && pass != Pass::solveCoarsest) || domain == Domain::fineVertices;
+}
+
+// How many of the passes a kernel takes; 0: it does not begin with them.
+std::size_t passesOf(const Kernel& kernel, std::span<const PassCall> passes) {
+  std::size_t count = 0;
+  for (const Pass own : kernel.passes) {
+    if (count == passes.size() || passes[count].pass != own) return 0;
+    ++count;
+    if (kernel.passes.size() == 1 || !runsOverLevels(own)) continue;
+    while (count < passes.size() && passes[count].pass == own) ++count;
+  }
+  return count;
+}
+
+}  // namespace
+
+KernelChoice kernelFor(std::span<const PassCall> passes, bool fused, std::size_t cloths) {
+  for (std::size_t number = 0; number < kernels().size(); ++number) {
+    const Kernel& kernel = kernels()[number];
+    if (!fused && kernel.passes.size() > 1 && kernel.passes.back() != Pass::kick) continue;
+    if (kernel.isOfOneCloth && cloths != 1) continue;
+    if (const std::size_t count = passesOf(kernel, passes); count > 0) return {number, count};
+  }
+  assert(false && "every pass has a kernel, and the kick one with the forces");
+  return {};
 }
 
 std::vector<const gl::Program*> PassLibrary::find(const Kernel& kernel, const PassFeatures& features) {
@@ -139,16 +179,22 @@ std::vector<const gl::Program*> PassLibrary::find(const Kernel& kernel, const Pa
   for (const Pass pass : kernel.passes) seen = seen | traitsOf(pass).features;
   PassFeatures own = restricted(features, seen);
   own.gate = static_cast<int>(traitsOf(kernel.passes.front()).gate);
-  gl::Defines defines = definesFor(own);
-  defines.insert(defines.end(), kernel.defines.begin(), kernel.defines.end());
   std::vector<const gl::Program*> programs;
-  for (const std::string& shader : kernel.shaders) {
-    std::string name = shader;
-    for (const auto& [macro, value] : kernel.defines) name += " " + macro + "=" + value;
-    auto found = programs_.find({name, own});
+  for (const KernelStage& stage : kernel.stages) {
+    PassFeatures ofStage = own;
+    if (stage.over == Over::sumBlocks || stage.over == Over::restrictions) {
+      ofStage.groupColumns = stage.over == Over::sumBlocks ? SUM_LANES : features.coarseLanes;
+      ofStage.groupRows = 1;
+    }
+    gl::Defines defines = definesFor(ofStage);
+    defines.insert(defines.end(), stage.defines.begin(), stage.defines.end());
+    std::string name = stage.shader;
+    for (const auto& [macro, value] : stage.defines) name += " " + macro + "=" + value;
+    auto found = programs_.find({name, ofStage});
     if (found == programs_.end())
       found = programs_
-                  .emplace(std::pair{name, own}, gl::Program::makeCompute("sim/" + shader + ".comp", defines))
+                  .emplace(std::pair{name, ofStage},
+                           gl::Program::makeCompute("sim/" + stage.shader + ".comp", defines))
                   .first;
     programs.push_back(&found->second);
   }

@@ -12,6 +12,7 @@
 #include "cloth/cloth.h"
 #include "gl/program.h"
 #include "scene/scene.h"
+#include "shared/implicit.h"
 #include "solver/interaction.h"
 #include "solver/step_list.h"
 
@@ -28,7 +29,8 @@ struct PassFeatures {
   std::uint32_t particleForces = 0;              // one bit a FORCE_... of shared/forces.h
   std::uint32_t enabledSlots = 0;                // one bit a SpringSlot
   int groupColumns = 64, groupRows = 1;
-  int gate = 0;  // GATE_... of shared/implicit.h
+  int coarseLanes = SUM_LANES;  // invocations of the work group that takes coarse levels alone
+  int gate = 0;                 // GATE_... of shared/implicit.h
   friend auto operator<=>(const PassFeatures&, const PassFeatures&) = default;
 };
 
@@ -39,22 +41,48 @@ struct PassFeatures {
 [[nodiscard]] PassFeatures restricted(const PassFeatures& features, Features to);
 [[nodiscard]] gl::Defines definesFor(const PassFeatures& features);
 
-// What runs in one go: a pass, or several that share a sweep.
+// What the invocations of a dispatch run over.
+enum class Over : std::uint8_t {
+  grids,          // grid points, a dispatch a cloth
+  particles,      // of all cloths
+  colors,         // springs of a colour, a dispatch a cloth
+  levels,         // what the pass does of a level, a dispatch a cloth
+  firstLevels,    // the same, of finest levels only
+  furtherLevels,  // of all others only
+  restrictions,   // coarse vertices, level by level; the last dispatch takes several levels (LevelsInARow)
+  prolongations,  // fine vertices of the levels that are left to do but for the finest, level by level
+  parts,          // connected parts of coarsest levels, a work group each
+  sumBlocks,      // blocks of particles that are summed up, a work group each
+  once            // a single invocation
+};
+
+struct KernelStage {
+  std::string shader;  // "forces" for shaders/sim/forces.comp
+  Over over;
+  gl::Defines defines = {};  // besides those of the features
+};
+
+// What runs in one go: a pass, or several that have shaders together.
 struct Kernel {
-  std::vector<Pass> passes;
-  std::vector<std::string> shaders;  // dispatched one after the other: "forces" for shaders/sim/forces.comp
-  gl::Defines defines;               // besides those of the features
+  std::vector<Pass> passes;         // one that runs over levels stands for all of them, unless it is alone
+  std::vector<KernelStage> stages;  // one after the other
+  bool isOfOneCloth = false;        // it is for scenes with a single cloth
+  bool hasNewDirections = false;    // it writes directions while others still read the old ones
 };
 // All but those of self-collision, which has its own (gpu/self_collision.h).
 [[nodiscard]] const std::vector<Kernel>& kernels();
-// The number of the kernel for the first of these passes, and as many that follow as it takes. With `fused`
-// false only those together that have no kernels of their own.
-[[nodiscard]] std::size_t kernelFor(std::span<const PassCall> passes, bool fused);
+
+// The number of the kernel for the first of these passes, and how many of them it takes. With `fused` false
+// only those together that have no kernels of their own.
+struct KernelChoice {
+  std::size_t kernel, passes;
+};
+[[nodiscard]] KernelChoice kernelFor(std::span<const PassCall> passes, bool fused, std::size_t cloths = 1);
 
 // All programs that were ever needed: toggling back compiles nothing.
 class PassLibrary {
  public:
-  // One for each shader of the kernel. They live as long as the library. @throws OpenGlError when a shader
+  // One for each stage of the kernel. They live as long as the library. @throws OpenGlError when a shader
   // does not compile
   [[nodiscard]] std::vector<const gl::Program*> find(const Kernel& kernel, const PassFeatures& features);
 

@@ -102,5 +102,72 @@ TEST_F(GlCallsTest, AFrameReadsNothingBackAndUploadsNoPositions) {
   }
 }
 
+// Puts a function that counts and does nothing else in the place of the one that dispatches.
+class CountedDispatches {
+ public:
+  CountedDispatches() {
+    calls["dispatches"] = 0;
+    glad_glDispatchCompute = [](GLuint, GLuint, GLuint) { ++calls["dispatches"]; };
+    glad_glDispatchComputeIndirect = [](GLintptr) { ++calls["dispatches"]; };
+  }
+  ~CountedDispatches() {
+    glad_glDispatchCompute = dispatch_;
+    glad_glDispatchComputeIndirect = dispatchIndirect_;
+  }
+  CountedDispatches(const CountedDispatches&) = delete;
+  CountedDispatches& operator=(const CountedDispatches&) = delete;
+  [[nodiscard]] int count() const { return calls["dispatches"]; }
+
+ private:
+  PFNGLDISPATCHCOMPUTEPROC dispatch_ = glad_glDispatchCompute;
+  PFNGLDISPATCHCOMPUTEINDIRECTPROC dispatchIndirect_ = glad_glDispatchComputeIndirect;
+};
+
+int dispatchesOfAStep(const Scene& scene) {
+  const Cloth cloth(scene);
+  GpuSolver solver(cloth, scene);
+  const CountedDispatches dispatches;
+  solver.step(1);
+  return dispatches.count();
+}
+
+Scene asByDefault(Scene scene, Integrator integrator) {
+  scene.solver.integrator = integrator;
+  scene.solver.framesPerSec = 60;
+  scene.solver.simulationSteps = 1;
+  scene.solver.newtonSteps = 4;
+  scene.solver.cgIterations = 10;
+  return scene;
+}
+
+Scene withSelfCollision(Scene scene, SelfCollision mode) {
+  scene.solver.selfCollision = mode;
+  return scene;
+}
+
+// On hardware a dispatch costs as much as the arithmetic of a hundred thousand particles: one more is to be
+// seen.
+TEST_F(GlCallsTest, AStepTakesAsFewDispatchesAsItDid) {
+  const auto sheet = [](int n) { return test::vertical(test::sheetScene(n)); };
+  const auto implicit = [](const Scene& scene) { return asByDefault(scene, Integrator::implicit); };
+  const struct {
+    std::string name;
+    Scene scene;
+    int dispatches;
+  } table[] = {
+      {"plain", sheet(128), 1},
+      {"limiter", test::withLimiter(sheet(128)), 14},
+      {"robust", withSelfCollision(test::withLimiter(sheet(128)), SelfCollision::robust), 32},
+      {"implicit 64", implicit(sheet(64)), 158},
+      {"implicit 256", implicit(sheet(256)), 160},
+      {"implicit 256, colliders", implicit(test::withColliders(sheet(256))), 165},
+      {"bdf2 256, a material in wind",
+       asByDefault(test::withWind(test::materialScene(256)), Integrator::bdf2), 161},
+      {"implicit, two cloths", implicit(test::twoCloths(sheet(64))), 336},
+      {"implicit, a mesh", implicit(test::meshOfMaterial(64)), 158},
+  };
+  for (const auto& [name, scene, dispatches] : table) EXPECT_EQ(dispatchesOfAStep(scene), dispatches) << name;
+}
+
 }  // namespace
 }  // namespace clothsim

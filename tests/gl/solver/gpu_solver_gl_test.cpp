@@ -104,6 +104,18 @@ TEST_F(GpuSolverTest, GivesTheSameBitsAtEveryWorkGroupSize) {
   }
 }
 
+// On hardware the work groups of coarse levels are larger than here.
+TEST_F(GpuSolverTest, GivesTheSameBitsInImplicitStepsHoweverTheyAreDispatched) {
+  Scene scene = test::implicitly(test::withColliders(test::vertical(test::materialScene(26))));
+  const std::uint64_t usual = stateHash(steppedOnGpu(scene, 2));
+  for (const GpuOptions& options :
+       {GpuOptions{.fused = false}, GpuOptions{.groupColumns = 16, .groupRows = 4},
+        GpuOptions{.coarseLanes = 32}, GpuOptions{.coarseLanes = 1024}})
+    EXPECT_EQ(stateHash(steppedOnGpu(scene, 2, options)), usual)
+        << options.fused << ", " << options.groupColumns << "x" << options.groupRows << ", "
+        << options.coarseLanes;
+}
+
 TEST_F(GpuSolverTest, BuildsTheHashInTheSameStepsAsTheCpu) {
   for (const SelfCollision mode : {SelfCollision::averaged, SelfCollision::robust}) {
     const Scene scene = test::layeredSheets(24, mode);

@@ -60,7 +60,7 @@ const gl::Program& programOf(PassLibrary& library, std::initializer_list<Pass> p
                              const PassFeatures& features) {
   std::vector<PassCall> calls;
   for (const Pass pass : passes) calls.push_back({pass});
-  return *library.find(kernels()[kernelFor(calls, true)], features).back();
+  return *library.find(kernels()[kernelFor(calls, true).kernel], features).back();
 }
 
 struct Programs {
@@ -179,6 +179,23 @@ TEST_F(LayoutTest, OfWhatTheImplicitIntegratorSharesIsTheDrivers) {
            MEMBER(Level, "level.", firstBlock), MEMBER(Level, "level.", endBlock)})
     EXPECT_EQ(uniformOffset(coarsen, name), static_cast<GLint>(offset)) << name;
   EXPECT_EQ(blockSize(coarsen, "LevelBlock"), static_cast<GLint>(sizeof(Level)));
+
+  const gl::Program& restriction =
+      *library
+           .find(kernels()[kernelFor(std::vector<PassCall>{{Pass::restrict},
+                                                           {Pass::solveCoarsest},
+                                                           {Pass::prolong},
+                                                           {Pass::sumFirstResidual}},
+                                     true)
+                               .kernel],
+                 features)
+           .front();
+  for (const auto& [name, offset] : std::vector<std::pair<std::string, std::size_t>>{
+           MEMBER(LevelsInARow, "row.", count),
+           MEMBER(LevelsInARow, "row.", endPart),
+           {"row.levels[1].coarseCount", sizeof(Level) + offsetof(Level, coarseCount)}})
+    EXPECT_EQ(uniformOffset(restriction, name), static_cast<GLint>(offset)) << name;
+  EXPECT_EQ(blockSize(restriction, "LevelsBlock"), static_cast<GLint>(sizeof(LevelsInARow)));
 
   const gl::Program& totals = programOf(library, {Pass::sumFirstResidual}, features);
   const GLuint index = glGetProgramResourceIndex(totals.name(), GL_BUFFER_VARIABLE, "scalars.residual");

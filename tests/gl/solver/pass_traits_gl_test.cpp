@@ -98,12 +98,12 @@ TEST_F(PassTraitsTest, NameEveryArrayThatAShaderReadsOrWrites) {
     }
     for (const bool mesh : {false, true})
       for (const gl::Program* program : library.find(kernel, everything(mesh))) {
-        const std::string where = kernel.shaders.front() + (mesh ? " of meshes" : " of grids");
+        const std::string where = kernel.stages.front().shader + (mesh ? " of meshes" : " of grids");
         for (const int unit : unitsOf(*program)) {
           if (unit == POSITIONS_UNIT) {
             EXPECT_TRUE(reads.contains(positionsOf(kernel.passes.front()))) << where;
           } else if (isArray(&ArrayPlace::unit, unit)) {
-            // What one part of a pass has written the other may read: sums.
+            // What one stage of a kernel has written another may read.
             EXPECT_TRUE(isDeclared(reads | writes, &ArrayPlace::unit, unit))
                 << where << " reads unit " << unit;
           }
@@ -114,7 +114,8 @@ TEST_F(PassTraitsTest, NameEveryArrayThatAShaderReadsOrWrites) {
         ++checked;
       }
   }
-  EXPECT_EQ(checked, 2 * (static_cast<int>(kernels().size()) + 6)) << "sums and coarsening have two shaders";
+  EXPECT_EQ(checked, 2 * (static_cast<int>(kernels().size()) + 5))
+      << "coarsening has two shaders, preconditioning three";
 }
 
 // These are bound once a list.

@@ -1,4 +1,4 @@
-// Sums over blocks of 1024 particles, a work group each, in an order that depends on nothing (shared/implicit.h).
+// Sums over all particles of what lies in arrays (sim/implicit/total.glsl).
 #include "shared/implicit.h"
 #include "shared/step_params.h"
 
@@ -11,31 +11,29 @@ layout(binding = DIRECTIONS_UNIT) uniform samplerBuffer directions;
 layout(binding = PRODUCTS_UNIT) uniform samplerBuffer products;
 layout(binding = INCREMENTS_UNIT) uniform samplerBuffer increments;
 layout(binding = DISPLACEMENTS_UNIT) uniform samplerBuffer displacements;
-layout(std430, binding = PARTIAL_SUMS_BINDING) writeonly buffer PartialSums { vec4 partialSums[]; };
 
-#include "sim/exact_math.glsl"
+#include "sim/implicit/scalars.glsl"
 #include "sim/implicit/gate.glsl"
-#include "sim/implicit/lanes.glsl"
+#include "sim/implicit/total.glsl"
 
-vec4 valueAt(int i) {
+Sum valueAt(int i) {
 #if SUM_KIND == SUM_STEP
-  return vec4(sumOfProducts(texelFetch(directions, i).xyz, texelFetch(products, i).xyz), 0.0, 0.0, 0.0);
+  return sumOfProducts(texelFetch(directions, i).xyz, texelFetch(products, i).xyz);
 #elif SUM_KIND == SUM_LENGTH
   return texelFetch(products, i);
 #elif SUM_KIND == SUM_UPDATE
   vec3 update = texelFetch(increments, i).xyz, displacement = texelFetch(displacements, i).xyz;
-  return vec4(sumOfProducts(update, update), sumOfProducts(displacement, displacement), 0.0, 0.0);
+  return vec2(sumOfProducts(update, update), sumOfProducts(displacement, displacement));
 #else
-  return vec4(sumOfProducts(texelFetch(residuals, i).xyz, texelFetch(corrections, i).xyz), 0.0, 0.0, 0.0);
+  return sumOfProducts(texelFetch(residuals, i).xyz, texelFetch(corrections, i).xyz);
 #endif
 }
 
 void main() {
   if (isSkipped()) return;
   uint first = gl_WorkGroupID.x * SUM_BLOCK + gl_LocalInvocationID.x;
-  precise vec4 sum = vec4(0.0);
+  precise Sum sum = Sum(0.0);
   for (uint k = 0u; k < SUM_BLOCK; k += uint(SUM_LANES))
     if (first + k < step.totalParticles) sum = joined(sum, valueAt(int(first + k)));
-  vec4 total = addLanes(sum);
-  if (gl_LocalInvocationID.x == 0u) partialSums[gl_WorkGroupID.x] = total;
+  addToTotal(sum);
 }

@@ -1,0 +1,37 @@
+// A particle of the product of the Hessian H and the directions p. Needs sim/implicit/common.glsl, with positionAt() for p, so
+// that what is linear serves as it is.
+#include "sim/watch.glsl"
+#include "sim/incident_springs.glsl"
+#include "sim/bending.glsl"
+#include "sim/implicit/contact.glsl"
+#if HAS_MESH
+#include "sim/implicit/mesh.glsl"
+#endif
+
+vec3 productAt(GridPoint point) {
+  uint i = point.index;
+  vec4 x = iterateAt(i);
+  vec3 p = positionAt(i).xyz;
+#if HAS_MESH
+  vec3 force = meshProducts(i);
+#else
+  uint cut = cutMaskOf(i);
+  precise vec3 force = vec3(0.0);
+  for (uint k = 0u; k < INCIDENT_SPRINGS; ++k) {
+    IncidentSpring spring = incidentSpring(point, k, cut);
+    if (!spring.exists) continue;
+    precise vec3 d = iterateAt(spring.other).xyz - x.xyz;
+    precise vec3 e = positionAt(spring.other).xyz - p;
+    SpringBlock s = springBlock(d, spring);
+    precise vec3 f = s.across * e + (s.along * sumOfProducts(d, e)) * d;
+    force = force + f;
+  }
+  if (hasMaterial) force = addBending(point, force);
+#endif
+  float diagonal = texelFetch(rightHandSides, int(i)).w;
+  precise vec3 product = diagonal * p;
+  if (hasWind) product = product + timesVector(airBlockAt(i), p);
+  if (hasContacts) product = product + timesVector(contactBlockAt(i), p);
+  precise vec3 result = product - force;
+  return x.w == 0.0 ? vec3(0.0) : canonical(result);
+}

@@ -1,0 +1,37 @@
+// Corrections of vertices: their own, D^-1 r, and what the aggregates that they hang on make of them. Needs
+// correctionOn(coarse vertex).
+#include "sim/implicit/vertices.glsl"
+
+RigidVector prolonged(uint vertex) {
+  vec3 place = placeOf(vertex);
+  precise vec3 translation = vec3(0.0);
+  precise vec3 rotation = vec3(0.0);
+  uvec2 range = rangeAt(prolongationStarts, vertex);
+  for (uint n = range.x; n < range.y; ++n) {
+    Weight weight = weightAt(prolongation, n);
+    RigidVector motion = correctionOn(weight.vertex);
+    precise vec3 arm = place - centerAt(weight.vertex);
+    precise vec3 moved = motion.translation + crossProduct(motion.rotation, arm);
+    translation = translation + weight.weight * moved;
+    rotation = rotation + weight.weight * motion.rotation;
+  }
+  return RigidVector(translation, rotation);
+}
+
+Factors factorsAt(uint i) {
+  return Factors(texelFetch(factors, int(2u * i)).xyz, texelFetch(factors, int(2u * i + 1u)).xyz);
+}
+
+// Pinned particles get 0.
+vec3 correctionOfParticle(uint i, vec3 residual) {
+  RigidVector motion = prolonged(i);
+  precise vec3 correction = solveFor(factorsAt(i), residual) + motion.translation;
+  return iterateAt(i).w == 0.0 ? vec3(0.0) : canonical(correction);
+}
+
+RigidVector correctionOfCoarse(uint coarse, RigidVector residual) {
+  RigidVector motion = prolonged(step.totalParticles + coarse), minus = timesRigid(loadBlock(coarseInverses, coarse), residual);
+  precise vec3 translation = motion.translation - minus.translation;
+  precise vec3 rotation = motion.rotation - minus.rotation;
+  return RigidVector(canonical(translation), canonical(rotation));
+}

@@ -1,0 +1,93 @@
+// Sums over all particles, in an order that depends on nothing (shared/implicit.h), and what conjugate gradients or the line
+// search do with them. SUM_LANES invocations a work group, a group for each block of particles; the last group to finish adds
+// up the blocks. Needs `step`.
+#include "sim/exact_math.glsl"
+#include "sim/implicit/scalars.glsl"
+#include "sim/implicit/last_group.glsl"
+
+#if SUM_KIND == SUM_LENGTH
+#define Sum vec4
+#elif SUM_KIND == SUM_UPDATE
+#define Sum vec2
+#else
+#define Sum float
+#endif
+
+layout(std430, binding = PARTIAL_SUMS_BINDING) coherent buffer PartialSums { Sum partialSums[]; };
+
+// Two values become one: their sum; of updates the larger one.
+Sum joined(Sum a, Sum b) {
+#if SUM_KIND == SUM_UPDATE
+  return vec2(a.x < b.x ? b.x : a.x, a.y < b.y ? b.y : a.y);
+#else
+  precise Sum sum = a + b;
+  return sum;
+#endif
+}
+
+// Joins what the lanes of a work group hold as a tree, in two goes; lane 0 gets the result.
+shared Sum laneSums[SUM_LANES];
+
+Sum joinedTwo(uint first, uint stride) { return joined(laneSums[first], laneSums[first + 8u * stride]); }
+Sum joinedFour(uint first, uint stride) { return joined(joinedTwo(first, stride), joinedTwo(first + 4u * stride, stride)); }
+Sum joinedEight(uint first, uint stride) { return joined(joinedFour(first, stride), joinedFour(first + 2u * stride, stride)); }
+Sum joinedSixteen(uint first, uint stride) { return joined(joinedEight(first, stride), joinedEight(first + stride, stride)); }
+
+Sum addLanes(Sum own) {
+  uint lane = gl_LocalInvocationIndex;
+  laneSums[lane] = own;
+  barrier();
+  if (lane < 16u) laneSums[lane] = joinedSixteen(lane, 16u);
+  barrier();
+  Sum total = Sum(0.0);
+  if (lane == 0u) total = joinedSixteen(0u, 1u);
+  return total;
+}
+
+// a / b; 0 where b is none or too small for a reciprocal.
+float quotient(float a, float b) {
+  precise float result = a * reciprocal(b);
+  return b > uintBitsToFloat(0x08800000u) ? result : 0.0;  // 2^-110
+}
+
+void takeTotal(Sum total) {
+#if SUM_KIND == SUM_FIRST
+  float residual = total < 0.0 ? 0.0 : total;
+  precise float least = step.systemTolerance * residual;
+  scalars.residual = residual;
+  scalars.leastResidual = least;
+  scalars.kept = 0.0;
+#elif SUM_KIND == SUM_STEP
+  scalars.stepSize = quotient(scalars.residual, total);
+  scalars.iterations += 1u;
+#elif SUM_KIND == SUM_NEXT
+  float residual = total < 0.0 ? 0.0 : total;
+  scalars.kept = quotient(residual, scalars.residual);
+  scalars.residual = residual;
+  scalars.isSystemSolved = residual <= scalars.leastResidual ? 1u : 0u;
+#elif SUM_KIND == SUM_UPDATE
+  precise float leastMotion = step.leastMotion * step.leastMotion;
+  float motion = total.y < leastMotion ? leastMotion : total.y;
+  precise float square = total.x * reciprocal(motion);
+  precise float update = square * inverseSquareRoot(square);
+  scalars.lastUpdate = update;
+  bool isConfirmed = step.colliderCount == 0u || scalars.newtonSteps > 0u;  // the first one takes predicted contacts
+  scalars.isStepSolved = isConfirmed && update <= step.tolerance ? 1u : 0u;
+  scalars.isSystemSolved = 0u;
+  scalars.newtonSteps += 1u;
+#else
+  scalars.newtonLength = total.x <= 0.0 ? 1.0 : total.y <= 0.0 ? 0.5 : total.z <= 0.0 ? 0.25 : 0.125;
+#endif
+}
+
+// `sum`: what a lane has of the block of its group.
+void addToTotal(Sum sum) {
+  uint lane = gl_LocalInvocationIndex, group = gl_WorkGroupID.x, groups = gl_NumWorkGroups.x;
+  Sum block = addLanes(sum);
+  if (lane == 0u) partialSums[group] = block;
+  if (!isLastGroup()) return;
+  precise Sum all = Sum(0.0);
+  for (uint k = lane; k < groups; k += uint(SUM_LANES)) all = joined(all, partialSums[k]);
+  Sum total = addLanes(all);
+  if (lane == 0u) takeTotal(total);
+}
