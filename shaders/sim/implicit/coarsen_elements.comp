@@ -22,16 +22,22 @@ struct Hanging {
   vec4 row, column;
 };
 
-// With what weight the particle hangs on a vertex, 0 if it is pinned, and that times where it is from the center.
-vec4 leverAt(uint i, vec4 x, uint vertex, vec3 center) {
-  float weight = x.w == 0.0 ? 0.0 : weightOn(i, vertex);
-  precise vec3 y = weight * (x.xyz - center);
-  return vec4(weight, y);
+// With what weights the particle at x hangs on the two vertices, 0 if it is pinned, and those times where it is from their
+// centers.
+Hanging hangingOf(uint i, vec4 x) {
+  vec2 weights = vec2(0.0);
+  uvec2 range = rangeAt(prolongationStarts, i);
+  for (uint n = range.x; n < range.y; ++n) {
+    Weight weight = weightAt(prolongation, n);
+    if (weight.vertex == pair.x) weights.x = weight.weight;
+    if (weight.vertex == pair.y) weights.y = weight.weight;
+  }
+  if (x.w == 0.0) weights = vec2(0.0);
+  precise vec3 row = weights.x * (x.xyz - rowCenter);
+  precise vec3 column = weights.y * (x.xyz - columnCenter);
+  return Hanging(vec4(weights.x, row), vec4(weights.y, column));
 }
-Hanging hangingOf(uint i) {
-  vec4 x = positionAt(i);
-  return Hanging(leverAt(i, x, pair.x, rowCenter), leverAt(i, x, pair.y, columnCenter));
-}
+Hanging hangingOf(uint i) { return hangingOf(i, positionAt(i)); }
 
 // The element s |sigma t + r x y|^2 / 2.
 void addIsotropic(float s, Hanging hanging) {
@@ -100,9 +106,10 @@ void addParticle(uint i, Hanging hanging) {
   if (hasContacts) addPulling(contactStiffness(diagonal), contactPlaneAt(i).xyz, hanging);
 }
 
-void addSpring(uint i, Hanging hanging, IncidentSpring spring) {
-  Hanging end = hangingOf(spring.other);
-  precise vec3 d = positionAt(spring.other).xyz - positionAt(i).xyz;
+void addSpring(vec3 x, Hanging hanging, IncidentSpring spring) {
+  vec4 other = positionAt(spring.other);
+  Hanging end = hangingOf(spring.other, other);
+  precise vec3 d = other.xyz - x;
   SpringBlock s = springBlock(d, spring);
   precise vec4 row = end.row - hanging.row;
   precise vec4 column = end.column - hanging.column;
@@ -112,12 +119,13 @@ void addSpring(uint i, Hanging hanging, IncidentSpring spring) {
 
 #if HAS_MESH
 void addElementsOf(uint i) {
-  Hanging hanging = hangingOf(i);
+  vec4 x = positionAt(i);
+  Hanging hanging = hangingOf(i, x);
   addParticle(i, hanging);
   uvec4 first = texelFetch(listStarts, int(i)), end = texelFetch(listStarts, int(i) + 1);
   for (uint n = first.x; n < end.x; ++n) {
     IncidentSpring spring = meshSpring(n);
-    if (spring.other < i) addSpring(i, hanging, spring);
+    if (spring.other < i) addSpring(x.xyz, hanging, spring);
   }
   for (uint n = first.y; n < end.y; ++n) {
     uint number = texelFetch(meshNumbers, int(n)).x;
@@ -146,12 +154,13 @@ void addLine(uint i, uint stride, Hanging middle, float b) {
 void addElementsOf(uint i) {
   uint place = i - step.firstParticle;
   GridPoint p = GridPoint(place % step.columns, place / step.columns, i, true);
-  Hanging hanging = hangingOf(i);
+  vec4 x = positionAt(i);
+  Hanging hanging = hangingOf(i, x);
   addParticle(i, hanging);
   uint cut = cutMaskOf(i);
   for (uint k = 0u; k < OWNED_SPRINGS; ++k) {
     IncidentSpring spring = incidentSpring(p, k, cut);
-    if (spring.exists) addSpring(i, hanging, spring);
+    if (spring.exists) addSpring(x.xyz, hanging, spring);
   }
   if (!hasMaterial) return;
   bool borderRow = p.row == 0u || p.row + 1u == step.rows;
