@@ -2,6 +2,7 @@
 // their threads, standing and lying.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
