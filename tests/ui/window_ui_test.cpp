@@ -86,7 +86,7 @@ TEST_F(WindowUi, GoesOnWithTheCpuAndItsEditsWhenTheDeviceIsReset) {
   const test::TemporaryFolder folder;
   const std::string sign = (folder / "lost").string();
   const ViewerProgram viewer(
-      "-f pinned2 --resolution 12x12",
+      "-f pinned2 --resolution 12x12 --backend gpu",
       "ASAN_OPTIONS=verify_asan_link_order=0 LOSE_CONTEXT_WHEN='" + sign + "' LD_PRELOAD='" LOST_CONTEXT "'",
       "pinned2 - gpu");
   viewer.press("i");
