@@ -16,6 +16,11 @@ layout(binding = DISPLACEMENTS_UNIT) uniform samplerBuffer displacements;
 #include "sim/implicit/gate.glsl"
 #include "sim/implicit/total.glsl"
 
+float squareOf(vec3 v) {
+  float square = sumOfProducts(v, v);
+  return square < LARGE_SQUARE ? square : LARGE_SQUARE;
+}
+
 Sum valueAt(int i) {
 #if SUM_KIND == SUM_STEP
   return sumOfProducts(texelFetch(directions, i).xyz, texelFetch(products, i).xyz);
@@ -23,7 +28,7 @@ Sum valueAt(int i) {
   return texelFetch(products, i);
 #elif SUM_KIND == SUM_UPDATE
   vec3 update = texelFetch(increments, i).xyz, displacement = texelFetch(displacements, i).xyz;
-  return vec2(sumOfProducts(update, update), sumOfProducts(displacement, displacement));
+  return vec2(squareOf(update), squareOf(displacement));
 #else
   return sumOfProducts(texelFetch(residuals, i).xyz, texelFetch(corrections, i).xyz);
 #endif

@@ -353,14 +353,15 @@ void CpuExecutor<Real>::sum(Pass pass) {
   }
 }
 
-// The largest of |v|^2 over all particles.
+// The largest of |v|^2 over all particles; `most` for what is larger or no number.
 template <class Real>
-Real largestSquare(const Components<Real>& v) {
+Real largestSquare(const Components<Real>& v, Real most) {
   const cpu::Arrays<const Real> values = cpu::arraysOf(v);
   Real largest = 0;
   for (std::size_t i = 0; i < v.x.size(); ++i) {
     const Vec3<Real> own = cpu::at(values, static_cast<std::ptrdiff_t>(i));
-    largest = cpu::larger(largest, dot(own, own));
+    const Real square = dot(own, own);
+    largest = cpu::larger(largest, square < most ? square : most);
   }
   return largest;
 }
@@ -371,9 +372,9 @@ template <class Real>
 void CpuExecutor<Real>::measureUpdate() {
   ImplicitScalars<Real>& scalars = implicit_.scalars;
   const StepParams<Real>& step = parameters_.pieces[0];
-  const Real motion =
-      cpu::larger(largestSquare(implicit_.displacements), step.leastMotion * step.leastMotion);
-  const Real square = largestSquare(implicit_.increments) * reciprocal(motion);
+  const Real motion = cpu::larger(largestSquare(implicit_.displacements, Real(LARGE_SQUARE)),
+                                  step.leastMotion * step.leastMotion);
+  const Real square = largestSquare(implicit_.increments, Real(LARGE_SQUARE)) * reciprocal(motion);
   scalars.lastUpdate = square * inverseSquareRoot(square);
   const bool isConfirmed = step.colliderCount == 0 || scalars.newtonSteps > 0;
   scalars.isStepSolved = isConfirmed && scalars.lastUpdate <= step.tolerance ? 1 : 0;

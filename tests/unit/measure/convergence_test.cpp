@@ -1,6 +1,7 @@
 // Steps that ended before they were solved: who counts them, and who says so.
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "simulation/run_summary.h"
@@ -49,6 +50,15 @@ TEST(Convergence, OfAStepIsThatItsLastUpdateIsWithinTheTolerance) {
   }
   EXPECT_GT(unconverged, 0u);
   EXPECT_GT(solved, 0u) << "both kinds were seen";
+}
+
+TEST(Convergence, OfAStepWithWhatIsNoNumberIsNone) {
+  Simulation simulation(fallingSheet(Integrator::implicit, 2));
+  State state = simulation.state();
+  for (Particle4& v : state.velocities) v.y = std::numeric_limits<float>::quiet_NaN();
+  simulation.setState(state);
+  simulation.stepFrame();
+  EXPECT_EQ(simulation.convergenceCounts().unconvergedSteps, 1u);
 }
 
 TEST(Convergence, IsCountedOverAllSolversOfASimulation) {
