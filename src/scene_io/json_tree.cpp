@@ -18,7 +18,7 @@ JsonPointer makeNode(JsonKind kind) {
   return node;
 }
 
-std::string quoted(std::string_view text) {
+std::string inQuotes(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {
     if (c == '"' || c == '\\') {
@@ -50,7 +50,7 @@ std::string scalarText(const JsonNode& node) {
     case JsonKind::number:
       return formatNumber(node.number);
     case JsonKind::string:
-      return quoted(node.text);
+      return inQuotes(node.text);
     default:
       return "null";
   }
@@ -74,7 +74,7 @@ void print(const JsonNode& node, std::size_t indent, bool alwaysOpen, std::strin
   for (std::size_t i = 0; i < node.children.size(); ++i) {
     const JsonNode& child = *node.children[i];
     out += std::string(indent + 2, ' ');
-    if (isObject) out += quoted(child.key) + ": ";
+    if (isObject) out += inQuotes(child.key) + ": ";
     print(child, indent + 2, false, out);
     out += i + 1 < node.children.size() ? ",\n" : "\n";
   }
@@ -162,7 +162,7 @@ void complainExpected(const JsonNode& node, const std::string& what) {
 std::string foundText(const JsonNode& node) {
   switch (node.kind) {
     case JsonKind::string:
-      return quoted(shortened(node.text, 60));
+      return inQuotes(shortened(node.text, 60));
     case JsonKind::number:
       return shortened(node.text, 60);
     case JsonKind::list:
@@ -192,7 +192,7 @@ std::string formatJsonLine(const JsonNode& node) {
   std::string line(1, isObject ? '{' : '[');
   for (const auto& child : node.children) {
     if (line.size() > 1) line += ", ";
-    if (isObject) line += quoted(child->key) + ": ";
+    if (isObject) line += inQuotes(child->key) + ": ";
     line += formatJsonLine(*child);
   }
   return line + (isObject ? '}' : ']');

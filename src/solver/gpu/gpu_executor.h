@@ -84,7 +84,6 @@ class GpuExecutor final : public Executor {
   void runRestrictions(const StagePrograms& programs, const std::string& name);
   void runProlongations(const StagePrograms& programs, const std::string& name);
   void runOnEntries(const gl::Program& program, const std::string& name, std::uint32_t count);
-  [[nodiscard]] std::vector<WatchSlot> watchedRows(std::uint64_t steps);
 
   const Cloth* cloth_;
   GpuOptions options_;
