@@ -115,7 +115,7 @@ using uint = std::uint32_t;
 #define SUM_LENGTH 3  // changes of energy: the length of the Newton step
 #define SUM_UPDATE 4  // the largest update, and the largest displacement: whether the step is solved
 
-// What a square counts as that is larger or no number, so that a step of such updates is not solved [m^2].
+// Squares that are larger, or NaN, count as this: a step with such updates is not solved [m^2].
 #define LARGE_SQUARE 1152921504606846976.0f  // 2^60
 
 // When a pass does nothing any more.

@@ -128,7 +128,7 @@ SHARED_STRUCT StepParams {
   // the step,
   real inertia;           // (1 + c h) / h^2, c the rate of damping [1/s^2]
   real guessTime;         // guess = guessTime (v + h g), h / (1 + c h) [s]
-  real leastMotion;       // what the update of a step is compared with where less moves [m]
+  real leastMotion;       // a step's update is compared with its motion, at least with this [m]
   real contactStiffness;  // what a collider's surface has beside CONTACT_OVER_INERTIA (shared/implicit.h)
                           // [N/m]
 

@@ -38,8 +38,9 @@ std::vector<Scene> selfTestScenes() {
   return scenes;
 }
 
-// The largest size at which the demo moves fluently on a GPU, or not much slower than in real time on a CPU,
-// with the backend that the viewer starts with.
+// The largest size at which the start of the demo, where nothing touches yet, is simulated in three quarters
+// of its time on a GPU, or in twice its time on a software renderer; by the backend that the viewer starts
+// with.
 std::string suggestedDemoResolution(bool software) {
   int best = 64;
   const double limit = software ? 2.0 / 30 : 1.0 / 40;  // to simulate a 30th of a second [s]
@@ -117,7 +118,7 @@ int doctorCommand(bool json) {
   for (const auto& [name, result] : report["self_test"].items())
     std::printf("self-test      %-10s %4d steps on CPU and GPU: %d floats differ\n", name.c_str(),
                 result["steps"].get<int>(), result["differing_floats"].get<int>());
-  std::printf("demo           runs well here at %s\n",
+  std::printf("demo           suggested size here: %s\n",
               report["suggested_demo_resolution"].get<std::string>().c_str());
   std::printf("%s\n",
               healthy

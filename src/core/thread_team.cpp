@@ -5,7 +5,10 @@
 #include <charconv>
 #include <cstdlib>
 #include <exception>
+#include <string>
 #include <string_view>
+
+#include "core/error.h"
 
 namespace clothsim {
 namespace {
@@ -33,14 +36,17 @@ bool spinUntil(Done done) {
 }
 
 int threadsWanted() {
-  int count = static_cast<int>(std::thread::hardware_concurrency());
-  if (const char* text = std::getenv("CLOTHSIM_THREADS")) {
-    const std::string_view digits(text);
-    int own = 0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), own);
-    if (error == std::errc{} && end == digits.data() + digits.size()) count = own;
-  }
-  return std::clamp(count, 1, MOST_THREADS);
+  const char* text = std::getenv("CLOTHSIM_THREADS");
+  if (text == nullptr)
+    return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, MOST_THREADS);
+  const std::string_view digits(text);
+  int count = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), count);
+  if (error != std::errc{} || end != digits.data() + digits.size() || count < 1 || count > MOST_THREADS)
+    throw UsageError("CLOTHSIM_THREADS is \"" + std::string(digits) +
+                     "\"; set a number of threads from 1 to " + std::to_string(MOST_THREADS) +
+                     ", or unset it for one a core");
+  return count;
 }
 
 }  // namespace

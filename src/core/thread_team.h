@@ -20,8 +20,7 @@ class ThreadTeam {
   ThreadTeam& operator=(const ThreadTeam&) = delete;
 
   // The team of the program: as many threads as CLOTHSIM_THREADS says (1 to 256), otherwise as the cores that
-  // The team of the program: as many threads as CLOTHSIM_THREADS says (1 to 256), otherwise as the cores that
-  // the process may use. It starts with its first use.
+  // the process may use. It starts with its first use. @throws UsageError for another value of the variable
   static ThreadTeam& shared();
   // Another number of threads for it, 1 to 256, while nobody computes.
   static void setSharedThreads(int threads);

@@ -35,6 +35,7 @@ TEST_F(ViewerUi, NamesSceneAndBackendInTheTitleAndBChangesTheBackend) {
   const ViewerProgram viewer(shownScene);
   EXPECT_NE(viewer.title().find("pinned2 - cpu - "), std::string::npos)
       << viewer.title() << ": OpenGL is a software renderer under Xvfb";
+  EXPECT_NE(viewer.output().find("simulating on the CPU, since"), std::string::npos) << viewer.output();
   viewer.press("b");
   EXPECT_TRUE(viewer.titleBecomesOneWith("- gpu -")) << viewer.title();
   viewer.press("b");
@@ -138,7 +139,7 @@ TEST_F(ViewerUi, IChangesTheIntegratorThatThePanelNames) {
 }
 
 TEST_F(ViewerUi, EscEndsItAtOnceWithExitCodeZeroAndNoFilesLeftBehind) {
-  ViewerProgram viewer(shownScene);
+  ViewerProgram viewer(std::string(shownScene) + " --backend gpu");
   viewer.press("Escape");
   EXPECT_EQ(viewer.exitCodeWithin(seconds(5)), 0) << viewer.output();
   EXPECT_TRUE(viewer.leftNoFiles()) << "imgui.ini, perhaps";

@@ -66,6 +66,16 @@ TEST(Program, AdvisesAgainstAveragedSelfCollisionOnceAndOnlyWhereItLeaked) {
   EXPECT_EQ(advice("run -f selfCollision --resolution 20x20 --frames 40"), 1);
 }
 
+TEST(Program, TakesNoNumberOfThreadsThatIsNone) {
+  for (const char* threads : {"0", "257", "two", ""}) {
+    const CommandResult result = clothsim("run -f pinned2 --resolution 8x8 --frames 1 --backend cpu",
+                                          "CLOTHSIM_THREADS='" + std::string(threads) + "'");
+    EXPECT_EQ(result.exitCode, 2) << threads;
+    EXPECT_NE(result.output.find("CLOTHSIM_THREADS is \"" + std::string(threads) + "\""), std::string::npos)
+        << result.output;
+  }
+}
+
 TEST(Program, GivesOneHashOnBothBackendsAtAnyNumberOfThreads) {
   const std::string run =
       "run -f pinned2 --resolution 50x50 --frames 5 --json --set solver.self_collision=false";
