@@ -118,6 +118,8 @@ using uint = std::uint32_t;
 // Squares that are larger, or NaN, count as this: a step with such updates is not solved [m^2].
 #define LARGE_SQUARE 1152921504606846976.0f  // 2^60
 
+#define STEP_ENDED 2u
+
 // When a pass does nothing any more.
 #define GATE_NONE 0
 #define GATE_STEP 1    // once the step is solved
@@ -170,7 +172,7 @@ SHARED_STRUCT ImplicitScalars {
   real leastResidual;  // the r.z at which the linear system is solved
   real lastUpdate;     // of the step so far: largest update over largest displacement, or over the spacing
   uint isSystemSolved;
-  uint isStepSolved;
+  uint isStepSolved;  // STEP_ENDED: it is not, but nothing is done any more
 
   uint iterations;        // of the step so far,
   uint newtonSteps;       // the same
@@ -182,7 +184,7 @@ SHARED_STRUCT ImplicitScalars {
   uint usualSteps;
   uint hasNewContacts;
   uint isDisturbed;
-  uint unusedC;
+  uint pairs;  // of parts of the surface that may touch
 
   // Of all steps since the solver was made.
   uint steps;

@@ -3,6 +3,7 @@
 // particles.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -117,6 +118,12 @@ struct Piece {
   [[nodiscard]] double massWeight(int column, int row) const {
     if (!hasMaterial) return 1;
     return (column == 0 || column == columns - 1 ? 0.5 : 1) * (row == 0 || row == rows - 1 ? 0.5 : 1);
+  }
+  [[nodiscard]] double stiffestSpring() const {  // [N/m]
+    double stiffest = 0;
+    for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot)
+      if (slotEnabled[slot] || isMesh) stiffest = std::max(stiffest, stiffness[slot]);
+    return stiffest;
   }
   [[nodiscard]] bool contains(int column, int row) const {
     return column >= 0 && column < columns && row >= 0 && row < rows;

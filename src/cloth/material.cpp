@@ -15,6 +15,7 @@ namespace {
 // The counts that "auto" chooses.
 constexpr double LONGEST_CHOSEN_STEP = 1.0 / 60;     // [s],
 constexpr double LONGEST_BUCKLING_STEP = 1.0 / 120;  // of fabric that buckles, under an implicit integrator
+constexpr double LONGEST_CONTACT_STEP = 1.0 / 480;   // under self_collision "contact"
 constexpr double ITERATIONS_PER_SECOND = 1200, FEWEST_ITERATIONS = 10, MOST_ITERATIONS = 60;
 
 struct Preset {
@@ -207,8 +208,10 @@ bool buckles(const ClothSettings& cloth) {
 }
 
 // Newton's method is slow where folds come and go. There, halving the step makes the motion more accurate
-// than doubling the Newton steps does.
+// than doubling the Newton steps does. Where layers lie on each other, steps of 1/480 s are solved in 3
+// Newton steps; in those of 1/120 s, 8 are not enough, and what they leave wrinkles the cloth.
 double longestChosenStep(const Scene& scene) {
+  if (scene.solver.selfCollision == SelfCollision::contact) return LONGEST_CONTACT_STEP;
   const bool isShort =
       isImplicit(scene.solver.integrator) && std::any_of(scene.cloths.begin(), scene.cloths.end(), buckles);
   return isShort ? LONGEST_BUCKLING_STEP : LONGEST_CHOSEN_STEP;

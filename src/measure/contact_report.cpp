@@ -52,6 +52,19 @@ void ContactReport::write(nlohmann::ordered_json& json, const Cloth& cloth, cons
                           const ContactCounts& counts) const {
   json["self_collision"] = selfCollisionName(scene.solver.selfCollision);
   json["self_contacts"] = last_.contacts;
+  if (scene.solver.selfCollision == SelfCollision::contact) {
+    json["contact_sound"] = nullptr;  // it is not measured: --check-crossings does
+    nlohmann::ordered_json& contact = json["contact"] = nlohmann::ordered_json::object();
+    contact["most_pairs"] = counts.pairs;
+    contact["guarded_steps"] = counts.clampedSteps;
+    contact["shortened_motions"] = counts.shortened;
+    contact["crowded_steps"] = counts.crowdedSteps;
+    if (counts.pairs > 0)
+      contact["least_gap"] = counts.leastGap;
+    else
+      contact["least_gap"] = nullptr;
+    return;
+  }
   if (!collidesWithItself(scene, cloth)) {
     json["contact_sound"] = nullptr;
     return;

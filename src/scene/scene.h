@@ -143,9 +143,12 @@ inline constexpr int INTEGRATOR_COUNT = 4;
 // averaged: CS184's rule, particles nearer than 2 thickness move apart by the mean over their contacts.
 // robust: no non-adjacent pair of particles comes so near that triangles could cross
 // (solver/self_collision.h).
-enum class SelfCollision { off, averaged, robust };
+// contact: of implicit steps; layers touch at the thickness of the fabric, inside the step, and no parts of
+// the surface cross (solver/surface.h).
+enum class SelfCollision { off, averaged, robust, contact };
 [[nodiscard]] inline const char* selfCollisionName(SelfCollision mode) {
-  return mode == SelfCollision::off ? "off" : mode == SelfCollision::averaged ? "averaged" : "robust";
+  constexpr const char* names[]{"off", "averaged", "robust", "contact"};
+  return names[static_cast<int>(mode)];
 }
 
 // What a collider's `friction` means (docs/physics.md). cs184: the part of its motion that a touching

@@ -24,8 +24,9 @@ constexpr Words<Integrator, INTEGRATOR_COUNT> integrators{{{"verlet", Integrator
                                                            {"euler", Integrator::euler},
                                                            {"implicit", Integrator::implicit},
                                                            {"bdf2", Integrator::bdf2}}};
-constexpr Words<SelfCollision> selfCollisions{
-    {{"averaged", SelfCollision::averaged}, {"robust", SelfCollision::robust}}};
+constexpr Words<SelfCollision, 3> selfCollisions{{{"averaged", SelfCollision::averaged},
+                                                  {"robust", SelfCollision::robust},
+                                                  {"contact", SelfCollision::contact}}};
 constexpr Words<FrictionLaw> frictionLaws{{{"cs184", FrictionLaw::cs184}, {"coulomb", FrictionLaw::coulomb}}};
 constexpr std::array<std::pair<std::string_view, GridSide>, 4> sides{{{"top", GridSide::top},
                                                                       {"bottom", GridSide::bottom},

@@ -286,12 +286,13 @@ std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
           .usually(0, 0.5)
           .as(Format::orFalse)
           .byDefault("0.1 in scenes with ks, else false"),
-      field("self_collision", &S::selfCollision,
-            "Keeps layers of cloth apart. averaged: CS184's rule, leaks; robust: does not leak; true: see "
-            "default.")
-          .byDefault("false; in scenes with ks averaged. true means averaged there, else robust"),
+      field(
+          "self_collision", &S::selfCollision,
+          "Keeps layers apart. averaged: CS184's rule, leaks; robust: does not; contact: at their thickness.")
+          .byDefault("false; in scenes with ks averaged. true means averaged there, else robust. contact: "
+                     "implicit steps"),
       field("self_friction", &S::selfFriction,
-            "Coulomb's coefficient of friction between layers of cloth; robust self-collision only.")
+            "Coulomb's coefficient of friction between layers of cloth, under robust and contact.")
           .within({.low = 0, .high = 10})
           .usually(0, 1)
           .byDefault("the material's, else 0.3"),

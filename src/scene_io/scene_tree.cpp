@@ -84,6 +84,15 @@ void checkFriction(const JsonNode& root, const Scene& scene) {
   }
 }
 
+// Contact of the surface is a part of the implicit step.
+void checkSelfCollision(const JsonNode& root, const Scene& scene) {
+  if (scene.solver.selfCollision != SelfCollision::contact || isImplicit(scene.solver.integrator)) return;
+  complain(*root.find("solver")->find("self_collision"),
+           std::string("\"contact\" needs implicit steps, found the integrator \"") +
+               integratorName(scene.solver.integrator) +
+               "\"; set solver.integrator to \"implicit\" or \"bdf2\", or self_collision to \"robust\"");
+}
+
 }  // namespace
 
 void gatherLists(JsonNode& root) {
@@ -105,6 +114,7 @@ Scene readScene(const JsonNode& root) {
   readObject(root, scene, {"cloth", "plane", "sphere"});
   checkCloths(root, scene.cloths);
   checkFriction(root, scene);
+  checkSelfCollision(root, scene);
   chooseCounts(scene);
   return scene;
 }

@@ -8,23 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "solver/contact_counts.h"
 #include "solver/divergence.h"
 #include "solver/state.h"
 #include "solver/step_inputs.h"
 #include "solver/step_list.h"
 
 namespace clothsim {
-
-// What self-collision had to do since the solver was made.
-struct ContactCounts {
-  std::uint64_t hashBuilds = 0;
-  std::uint64_t clampedSteps = 0;  // in which motion had to be cut short
-  std::uint64_t fastSteps = 0;     // in which some particle moved farther than the search reaches
-
-  friend ContactCounts operator+(const ContactCounts& a, const ContactCounts& b) {
-    return {a.hashBuilds + b.hashBuilds, a.clampedSteps + b.clampedSteps, a.fastSteps + b.fastSteps};
-  }
-};
 
 // How far implicit steps were solved since the solver was made.
 struct ConvergenceCounts {

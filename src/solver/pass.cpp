@@ -10,7 +10,8 @@ using F = Feature;
 
 constexpr Features elastic{F::springs, F::restLengths, F::meshes, F::cuts};
 constexpr Features air{F::wind, F::particleForces, F::jets, F::meshes, F::cuts};
-constexpr Features solved = elastic | Features{F::wind, F::planes};  // what the linear system is made of
+constexpr Features solved =
+    elastic | Features{F::wind, F::planes, F::surface};  // what the linear system is made of
 
 // A table; clang-format would put each field on a line of its own.
 // clang-format off
@@ -44,13 +45,13 @@ constexpr std::array<PassTraits, PASS_COUNT> table{{
      {iterates}, {},
      {forces, watch}, elastic, Gate::step},
     {Pass::linearize, "linearize", Domain::gridPoints, 2,
-     {iterates}, {forces, rightHandSides, airBlocks, planes, displacements, scalars},
+     {iterates, pairForces}, {forces, rightHandSides, airBlocks, planes, displacements, touching, scalars},
      {residuals, factors, increments, contactBlocks}, solved, Gate::step},
     {Pass::findCenters, "find centers", Domain::coarseVertices, 1,
      {iterates, centers}, {},
      {centers}, {}},
     {Pass::coarsen, "coarsen", Domain::coarseBlocks, 1,
-     {iterates, centers, coarseBlocks}, {rightHandSides, airBlocks, planes},
+     {iterates, centers, coarseBlocks}, {rightHandSides, airBlocks, planes, touching, scalars},
      {coarseBlocks, coarseInverses}, solved},
     {Pass::invertDense, "invert dense", Domain::coarseBlocks, 1,
      {coarseBlocks}, {},
@@ -71,7 +72,7 @@ constexpr std::array<PassTraits, PASS_COUNT> table{{
      {}, {iterates, corrections, directions, scalars},
      {directions}, {}, Gate::system},
     {Pass::multiply, "multiply", Domain::gridPoints, 2,
-     {iterates, directions}, {rightHandSides, airBlocks, contactBlocks},
+     {iterates, directions, pairForces}, {rightHandSides, airBlocks, contactBlocks, touching},
      {products}, solved, Gate::system},
     {Pass::sumCurvature, "sum p.Hp", Domain::sums, 0,
      {}, {directions, products},
@@ -83,7 +84,7 @@ constexpr std::array<PassTraits, PASS_COUNT> table{{
      {}, {residuals, corrections},
      {partialSums, scalars}, {}, Gate::system},
     {Pass::tryLengths, "try lengths", Domain::gridPoints, 2,
-     {iterates, increments}, {rightHandSides, airBlocks, planes, contactBlocks, displacements},
+     {iterates, increments, displacements}, {rightHandSides, airBlocks, planes, contactBlocks, touching},
      {products}, solved, Gate::step},
     {Pass::sumEnergies, "sum energies", Domain::sums, 0,
      {}, {products},
@@ -103,6 +104,24 @@ constexpr std::array<PassTraits, PASS_COUNT> table{{
     {Pass::countStep, "count step", Domain::sums, 0,
      {}, {},
      {scalars}, {}},
+    {Pass::findTouching, "find touching", Domain::surface, 0,
+     {positions, safePositions, displacements}, {rightHandSides},
+     {touching, scalars}, {F::cuts}},
+    {Pass::weighPairs, "weigh pairs", Domain::surface, 0,
+     {displacements}, {touching, scalars},
+     {touching, pairForces}, {}, Gate::step},
+    {Pass::multiplyPairs, "multiply pairs", Domain::surface, 0,
+     {directions}, {touching},
+     {pairForces}, {}, Gate::system},
+    {Pass::guard, "guard", Domain::surface, 0,
+     {positions, safePositions, newPositions, keptMotions}, {},
+     {keptMotions}, {F::cuts}},
+    {Pass::shorten, "shorten", Domain::surface, 0,
+     {}, {positions, safePositions, newPositions, newVelocities, keptMotions},
+     {newPositions, newVelocities}, {}},
+    {Pass::settle, "settle", Domain::surface, 0,
+     {}, {positions, newPositions, keptMotions},
+     {safePositions, displacements, iterates, scalars}, {}},
     {Pass::checkHash, "check hash", Domain::contacts, 0,
      {}, {positions, newPositions, hash},
      {contactFlags}, {}},
@@ -145,11 +164,12 @@ constexpr std::array<std::string_view, ARRAY_COUNT> arrayNames{
     "contact blocks", "histories",   "right-hand sides", "air blocks",     "displacements", "iterates",
     "residuals",      "corrections", "factors",          "centers",        "coarse blocks", "coarse inverses",
     "dense",          "directions",  "products",         "increments",     "partial sums",  "scalars",
-    "hash",           "candidates",  "contact flags",    "watch"};
+    "hash",           "candidates",  "touching",         "pair forces",    "kept motions",  "safe positions",
+    "contact flags",  "watch"};
 
 constexpr std::array<std::string_view, FEATURE_COUNT> featureNames{
-    "springs", "rest lengths", "meshes",      "wind",      "particle forces", "jets",
-    "grabs",   "cuts",         "moving pins", "colliders", "planes",          "history"};
+    "springs", "rest lengths", "meshes",    "wind",   "particle forces", "jets",   "grabs",
+    "cuts",    "moving pins",  "colliders", "planes", "history",         "surface"};
 
 bool runsByRows(Domain domain) { return domain == Domain::gridPoints || domain == Domain::particles; }
 
@@ -176,6 +196,8 @@ std::string_view nameOf(Domain domain) {
       return "a sum of all";
     case Domain::contacts:
       return "particles in cells";
+    case Domain::surface:
+      return "parts of the surface";
   }
   return "";
 }

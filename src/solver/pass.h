@@ -42,6 +42,13 @@ enum class Pass : std::uint8_t {
   end,
   remember,
   countStep,
+  // The surface touching itself (solver/surface.h).
+  findTouching,
+  weighPairs,
+  multiplyPairs,
+  guard,
+  shorten,
+  settle,
   // Contacts and limits, after either (solver/self_collision.h).
   checkHash,
   buildHash,
@@ -84,6 +91,10 @@ enum class Array : std::uint8_t {
   scalars,         // of conjugate gradients and the line search
   hash,            // of the cells that particles lie in
   candidates,      // for contact, a list a particle
+  touching,        // pairs of parts of the surface that may touch
+  pairForces,      // what these do
+  keptMotions,     // how much of its motion each particle keeps
+  safePositions,   // where motion was cut short, and from where the step goes on
   contactFlags,    // whether the hash is stale, whether motion has to be clamped
   watch            // what the watchdog has found
 };
@@ -127,8 +138,9 @@ enum class Feature : std::uint8_t {
   colliders,
   planes,   // colliders in implicit steps
   history,  // steps of second order
+  surface,  // the surface that touches itself
 };
-inline constexpr int FEATURE_COUNT = static_cast<int>(Feature::history) + 1;
+inline constexpr int FEATURE_COUNT = static_cast<int>(Feature::surface) + 1;
 [[nodiscard]] std::string_view nameOf(Feature feature);
 using Features = SetOf<Feature>;
 
@@ -141,7 +153,8 @@ enum class Domain : std::uint8_t {
   coarseBlocks,    // of its matrix
   fineVertices,    // of the next finer level
   sums,            // all particles, to one number
-  contacts         // particles and the cells they lie in
+  contacts,        // particles and the cells they lie in
+  surface          // triangles, and pairs of their parts
 };
 [[nodiscard]] std::string_view nameOf(Domain domain);
 

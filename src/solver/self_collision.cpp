@@ -50,7 +50,9 @@ double layerFriction(const Scene& scene) {
 }  // namespace
 
 bool collidesWithItself(const Scene& scene, const Cloth& cloth) {
-  return scene.solver.selfCollision != SelfCollision::off && contactDistance(scene, cloth) > 0;
+  const SelfCollision mode = scene.solver.selfCollision;
+  return (mode == SelfCollision::averaged || mode == SelfCollision::robust) &&
+         contactDistance(scene, cloth) > 0;
 }
 
 double expectedStrain(const Scene& scene) { return scene.solver.strainLimit.value_or(0.25); }

@@ -8,6 +8,7 @@
 #include "solver/hierarchy.h"
 #include "solver/self_collision.h"
 #include "solver/step_params.h"
+#include "solver/surface.h"
 
 namespace clothsim {
 namespace {
@@ -59,6 +60,7 @@ class StepBuilder {
       : solver_(scene.solver),
         hasColliders_(!scene.colliders.empty()),
         isImplicit_(isImplicit(scene.solver.integrator)),
+        hasSurface_(isImplicit_ && hasSurfaceContact(scene)),
         contacts_(collidesWithItself(scene, cloth) ? scene.solver.selfCollision : SelfCollision::off),
         rounds_(contactRounds(scene)),
         levels_(isImplicit_ ? mostLevels(cloth, cutMasks) : 0),
@@ -66,7 +68,8 @@ class StepBuilder {
 
   PassList step() {
     isImplicit_ ? moveImplicitly() : moveExplicitly();
-    contacts_ == SelfCollision::robust ? endRobustly() : endAsCs184Does();
+    finishMotion();
+    if (hasSurface_) list_.repeat("round of contact", CONTACT_ROUNDS - 1, [&] { goOnAfterContact(); });
     if (solver_.integrator == Integrator::bdf2) list_.add(Pass::remember);
     if (isImplicit_) list_.add(Pass::countStep);
     return list_.finish(Outcome::state);
@@ -81,6 +84,7 @@ class StepBuilder {
   void moveImplicitly() {
     if (hasColliders_) list_.add(Pass::predictPlanes);
     list_.add(Pass::begin);
+    if (hasSurface_) list_.add(Pass::findTouching, 0);
     makeLevels();
     newtonStep();
     list_.repeat("further Newton step", solver_.newtonSteps - 1, [&] {
@@ -90,8 +94,27 @@ class StepBuilder {
     list_.add(Pass::end);
   }
 
+  void finishMotion() {
+    contacts_ == SelfCollision::robust ? endRobustly() : endAsCs184Does();
+    if (hasSurface_) guardMotion();
+  }
+
+  // Where motion was cut short, the step goes on from there, with the contacts that are there. Otherwise this
+  // changes nothing.
+  void goOnAfterContact() {
+    list_.add(Pass::settle);
+    list_.add(Pass::findTouching, 1);
+    list_.repeat("Newton step", std::max(solver_.newtonSteps / 2, 1), [&] {
+      findPlanes();
+      newtonStep();
+    });
+    list_.add(Pass::end);
+    finishMotion();
+  }
+
   void newtonStep() {
     list_.add(Pass::elasticForces);
+    if (hasSurface_) list_.add(Pass::weighPairs);
     list_.add(Pass::linearize);
     solve();
     searchLine(Pass::sumEnergies);
@@ -111,6 +134,7 @@ class StepBuilder {
   void solve() {
     const auto iterate = [&] {
       list_.add(Pass::updateDirection);
+      if (hasSurface_) list_.add(Pass::multiplyPairs);
       list_.add(Pass::multiply);
       list_.add(Pass::sumCurvature);
       list_.add(Pass::updateSolution);
@@ -182,8 +206,14 @@ class StepBuilder {
     if (rounds_ > 1) collide();
   }
 
+  // Last of all: nothing may move particles after it.
+  void guardMotion() {
+    for (std::size_t round = 0; round < GUARD_ROUNDS; ++round) list_.add(Pass::guard, round);
+    list_.add(Pass::shorten);
+  }
+
   const SolverSettings& solver_;
-  bool hasColliders_, isImplicit_;
+  bool hasColliders_, isImplicit_, hasSurface_;
   SelfCollision contacts_;
   int rounds_;
   std::size_t levels_, colors_;

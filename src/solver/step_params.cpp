@@ -86,13 +86,6 @@ double dampingRate(const ClothSettings& cloth) {
   return cloth.material ? cloth.material->damping : cloth.damping / 100 * 2700;
 }
 
-double stiffestSpring(const Piece& piece) {
-  double stiffest = 0;
-  for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot)
-    if (piece.slotEnabled[slot] || piece.isMesh) stiffest = std::max(stiffest, piece.stiffness[slot]);
-  return stiffest;
-}
-
 // The strain limit inside an energy: a spring as stiff as the limit asks for begins half way to it. Within
 // the other half, each of the cloth's longest springs carries its weight alone. (Beginning at 4/5 with four
 // times that stiffness the defaults' few Newton steps do not find which springs pull: 12 % at 64 x 64 for a
@@ -103,7 +96,7 @@ double limitStiffness(const Piece& piece, double limit) {
   for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot)
     if (piece.slotEnabled[slot] || piece.isMesh) longest = std::max(longest, piece.nominalLength[slot]);
   const double weight = 9.81 * piece.particleMass * piece.particleCount();
-  return longest > 0 ? std::max(10 * stiffestSpring(piece), weight / ((1 - LIMIT_BEGINS) * limit * longest))
+  return longest > 0 ? std::max(10 * piece.stiffestSpring(), weight / ((1 - LIMIT_BEGINS) * limit * longest))
                      : 0;
 }
 
@@ -132,7 +125,7 @@ void putImplicit(const Scene& scene, const Cloth& cloth, std::size_t pieceIndex,
   params.tolerance = real<Real>(scene.solver.tolerance);
   params.systemTolerance = real<Real>(scene.solver.tolerance * scene.solver.tolerance);
   params.leastMotion = real<Real>(LEAST_MOTION * meanSpacing(cloth));
-  params.contactStiffness = real<Real>(4 * stiffestSpring(piece));
+  params.contactStiffness = real<Real>(4 * piece.stiffestSpring());
   if (!scene.solver.strainLimit) return;
   // A limit of 0 asks for springs that cannot stretch: a tenth of a percent stands for it.
   const double limit = std::max(*scene.solver.strainLimit, 1e-3);

@@ -80,6 +80,7 @@ std::vector<gl::Defines> variantsOf(const std::string& file) {
   PassFeatures cs184 = everything;
   cs184.coulombFriction = false;
   everything.limitSprings = everything.material = everything.contactPlanes = everything.history = true;
+  everything.surface = true;
   PassFeatures mesh = everything;
   mesh.mesh = true;
   everything.gate = GATE_STEP;
@@ -95,6 +96,11 @@ std::vector<gl::Defines> variantsOf(const std::string& file) {
     variants[i].emplace_back("SELF_ROBUST", std::to_string(i % 2));
     variants[i].emplace_back("SELF_HAS_MESH", i == 3 ? "1" : "0");
     variants[i].emplace_back("SELF_NEAR_CODES", std::to_string(1 - i % 2));
+    variants[i].emplace_back("SEARCHES_TOUCHING", std::to_string(i % 2));
+    variants[i].emplace_back("WRITES_PAIRS", std::to_string(i / 2));
+    variants[i].emplace_back("SCANS_LISTS", std::to_string(i % 2));
+    variants[i].emplace_back("LATER", std::to_string(i / 2));
+    variants[i].emplace_back("CLEARS", std::to_string(i % 2));
   }
   return variants;
 }

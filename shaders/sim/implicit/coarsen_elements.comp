@@ -1,10 +1,15 @@
 // The matrix of the first coarse level, from the elements of the cloth: springs, bending, and what acts on single particles;
 // a block an invocation. The twin of src/solver/cpu/coarse_elements.cpp. POSITIONS_UNIT: the iterate.
+#include "shared/implicit.h"
+#include "sim/implicit/scalars.glsl"
 #include "sim/implicit/level.glsl"
 #include "sim/implicit/store_block.glsl"
 #include "sim/watch.glsl"
 #include "sim/incident_springs.glsl"
 #include "sim/implicit/contact.glsl"
+#if HAS_SURFACE
+#include "sim/surface/pairs.glsl"
+#endif
 #if HAS_MESH
 #include "sim/implicit/mesh.glsl"
 #endif
@@ -104,6 +109,15 @@ void addParticle(uint i, Hanging hanging) {
   }
   addIsotropic(stiffness, hanging);
   if (hasContacts) addPulling(contactStiffness(diagonal), contactPlaneAt(i).xyz, hanging);
+#if HAS_SURFACE
+  uvec2 range = pairsOf(i);
+  for (uint k = range.x; k < range.y; ++k) {
+    uint entry = pairEntry(k), q = entry / 4u;
+    float weight = pairRow(q, 1u)[entry % 4u], held = pairRow(q, 2u).w;
+    precise float stiffness = (weight * weight) * held;
+    if (held > 0.0) addPulling(stiffness, pairRow(q, 0u).xyz, hanging);
+  }
+#endif
 }
 
 void addSpring(vec3 x, Hanging hanging, IncidentSpring spring) {

@@ -8,7 +8,7 @@ layout(std140, binding = STEP_PARAMS_BINDING) uniform StepBlock { StepParams ste
 layout(std430, binding = SCALARS_BINDING) buffer Scalars { ImplicitScalars scalars; };
 
 void main() {
-  bool isSolved = scalars.isStepSolved != 0u, isUsual = scalars.hasNewContacts == 0u;
+  bool isSolved = scalars.isStepSolved == 1u, isUsual = scalars.hasNewContacts == 0u;
   scalars.steps += 1u;
   scalars.unconvergedSteps += isSolved ? 0u : 1u;
   scalars.secondOrderSteps += step.secondRate > 0.0 && scalars.usualSteps >= USUAL_STEPS && isUsual ? 1u : 0u;

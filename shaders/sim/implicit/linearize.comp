@@ -6,6 +6,9 @@
 #include "sim/watch.glsl"
 #include "sim/incident_springs.glsl"
 #include "sim/implicit/contact.glsl"
+#if HAS_SURFACE
+#include "sim/surface/pairs.glsl"
+#endif
 #if HAS_MESH
 #include "sim/implicit/mesh.glsl"
 #endif
@@ -81,6 +84,25 @@ void addContact(uint i, float diagonal, vec3 d, inout vec3 residual, inout Symme
   newContactBlocks[2u * i + 1u] = vec4(contact.others, 0.0);
 }
 
+#if HAS_SURFACE
+void addPairs(uint i, inout vec3 residual, inout Symmetric block) {
+  uvec2 range = pairsOf(i);
+  for (uint k = range.x; k < range.y; ++k) {
+    uint entry = pairEntry(k), q = entry / 4u;
+    vec4 force = pairRow(q, 3u);
+    float weight = pairRow(q, 1u)[entry % 4u];
+    precise float square = weight * weight;
+    precise float across = square * force.w;
+    precise float beyond = square * (pairRow(q, 2u).w - force.w);
+    precise vec3 with = residual + weight * force.xyz;
+    residual = with;
+    Symmetric sum = sumOf(block, outerProduct3(beyond, pairRow(q, 0u).xyz));
+    precise vec3 diagonal = sum.diagonal + vec3(across);
+    block = Symmetric(diagonal, sum.others);
+  }
+}
+#endif
+
 void main() {
   if (isSkipped()) return;
   GridPoint p = thisGridPoint();
@@ -124,6 +146,9 @@ void main() {
   if (hasWind) pull = pull - timesVector(air, displacement);
   precise vec3 sum = pull + forces[i].xyz;
   vec3 residual = sum;
+#if HAS_SURFACE
+  addPairs(i, residual, block);
+#endif
   if (hasContacts) addContact(i, rightHandSide.w, displacement, residual, block);
   newResiduals[i] = vec4(canonical(residual), 0.0);
   Factors f = factorize(block);

@@ -4,6 +4,10 @@
 #include "sim/incident_springs.glsl"
 #include "sim/bending.glsl"
 #include "sim/implicit/contact.glsl"
+#if HAS_SURFACE
+#include "sim/implicit/scalars.glsl"
+#include "sim/surface/pairs.glsl"
+#endif
 #if HAS_MESH
 #include "sim/implicit/mesh.glsl"
 #endif
@@ -27,6 +31,15 @@ vec3 productAt(GridPoint point) {
     force = force + f;
   }
   if (hasMaterial) force = addBending(point, force);
+#endif
+#if HAS_SURFACE
+  uvec2 range = pairsOf(i);
+  precise vec3 ofPairs = vec3(0.0);
+  for (uint k = range.x; k < range.y; ++k) {
+    uint entry = pairEntry(k), q = entry / 4u;
+    ofPairs = ofPairs + pairRow(q, 1u)[entry % 4u] * pairRow(q, 3u).xyz;
+  }
+  if (scalars.pairs != 0u) force = force - ofPairs;
 #endif
   float diagonal = texelFetch(rightHandSides, int(i)).w;
   precise vec3 product = diagonal * p;

@@ -71,7 +71,8 @@ void takeTotal(Sum total) {
   precise float square = total.x * reciprocal(motion);
   precise float update = square * inverseSquareRoot(square);
   scalars.lastUpdate = update;
-  bool isConfirmed = step.colliderCount == 0u || scalars.newtonSteps > 0u;  // the first one takes predicted contacts
+  bool touches = step.colliderCount != 0u || scalars.pairs != 0u;
+  bool isConfirmed = !touches || scalars.newtonSteps > 0u;  // the first one takes predicted contacts
   scalars.isStepSolved = isConfirmed && update <= step.tolerance ? 1u : 0u;
   scalars.isSystemSolved = 0u;
   scalars.newtonSteps += 1u;

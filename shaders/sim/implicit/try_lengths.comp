@@ -6,6 +6,11 @@
 #include "sim/incident_springs.glsl"
 #include "sim/implicit/energy.glsl"
 #include "sim/implicit/contact.glsl"
+#if HAS_SURFACE
+#include "shared/implicit.h"
+#include "sim/implicit/scalars.glsl"
+#include "sim/surface/pairs.glsl"
+#endif
 #if HAS_MESH
 #include "sim/implicit/mesh.glsl"
 #endif
@@ -35,6 +40,36 @@ vec4 addBendingTrials(GridPoint p, vec4 trial, uint cut) {
   return trial;
 }
 
+#if HAS_SURFACE
+vec3 displacementAt(uint i) { return texelFetch(displacements, int(i)).xyz; }
+
+// Those of the pairs whose first particle this is.
+vec4 addPairTrials(uint i, vec4 trial) {
+  uvec2 range = pairsOf(i);
+  float slow = slowSlip();
+  for (uint k = range.x; k < range.y; ++k) {
+    uint entry = pairEntry(k), q = entry / 4u;
+    if (entry % 4u != 0u) continue;
+    uvec4 ids = texelFetch(pairIds, int(q));
+    vec4 normal = pairRow(q, 0u), weights = pairRow(q, 1u), law = pairRow(q, 2u);
+    vec3 d = weightedSum(weights, displacementAt(ids.x), displacementAt(ids.y), displacementAt(ids.z), displacementAt(ids.w));
+    vec3 e = weightedSum(weights, incrementAt(ids.x), incrementAt(ids.y), incrementAt(ids.z), incrementAt(ids.w));
+    float along = sumOfProducts(normal.xyz, d), fall = sumOfProducts(normal.xyz, e);
+    precise float over = normal.w - along;
+    precise vec3 slip = d - along * normal.xyz;
+    precise vec3 slide = e - fall * normal.xyz;
+    float resisted = frictionPotential(slip, slow);
+    for (int t = 0; t < LENGTHS_TRIED; ++t) {
+      precise float overAfter = over - lengthsTried[t] * fall;
+      precise vec3 slipAfter = slip + lengthsTried[t] * slide;
+      precise float sum = trial[t] + (contactChange(law.x, over, overAfter) + law.z * (frictionPotential(slipAfter, slow) - resisted));
+      trial[t] = sum;
+    }
+  }
+  return trial;
+}
+#endif
+
 void main() {
   if (isSkipped()) return;
   GridPoint p = thisGridPoint();
@@ -52,6 +87,9 @@ void main() {
   precise float first = sumOfProducts(slope, e);
   precise float second = 0.5 * sumOfProducts(product, e);
   precise vec4 trial = lengthsTried * (first + lengthsTried * second);
+#if HAS_SURFACE
+  trial = addPairTrials(i, trial);
+#endif
   if (hasContacts) {
     vec4 plane = contactPlaneAt(i);
     precise float over = plane.w - sumOfProducts(plane.xyz, displacement);

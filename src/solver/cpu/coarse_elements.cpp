@@ -133,6 +133,11 @@ class ElementLoop {
     addIsotropicElement(stiffness, levers);
     if (hasContacts(arguments_))
       addPullingElement(contactStiffness(arguments_, n), at(own_.planes.normals, n), levers);
+    forEachPairOf(own_.touching, n, [&](std::uint32_t q, std::uint32_t place) {
+      const SurfacePair<Real>& pair = own_.touching.pairs[q];
+      const Real weight = pair.weights[place];
+      if (pair.held > Real(0)) addPullingElement((weight * weight) * pair.held, pair.normal, levers);
+    });
   }
 
   INLINE void addSpring(std::uint32_t i, std::uint32_t other, const Four<Real>* own, Real stiffness,

@@ -125,13 +125,22 @@ void CpuExecutor<Real>::setScene(const StepInputs& inputs) {
   implicit_.scalars.usualSteps = 0;
   distances_ = inputs.colliders.distances();
   selfCollision_.configure(*inputs.scene);
+  setSurface(inputs);
 }
 
 template <class Real>
 void CpuExecutor<Real>::setCuts(const StepInputs& inputs) {
   implicit_.scalars.usualSteps = 0;
   selfCollision_.setCutMasks(inputs.cutMasks);
+  setSurface(inputs);
   if (!implicit_.hierarchy.empty()) implicit_.resize(makeHierarchy<Real>(*cloth_, inputs.cutMasks));
+}
+
+template <class Real>
+void CpuExecutor<Real>::setSurface(const StepInputs& inputs) {
+  implicit_.touching = {};
+  if (hasSurfaceContact(*inputs.scene))
+    surfaceContact_.setSurface(makeSurface<Real>(*cloth_, *inputs.scene, inputs.cuts));
 }
 
 template <class Real>
@@ -221,6 +230,7 @@ void CpuExecutor<Real>::runSweep(std::span<const PassCall> passes) {
       sum(first.pass);
       break;
     case Domain::contacts:
+    case Domain::surface:
       runContacts(first);
       break;
   }
@@ -296,7 +306,11 @@ template <class Real>
 void CpuExecutor<Real>::runContacts(PassCall call) {
   // Broken numbers may lie in one heap, and contacts in it take very long.
   if (firstDivergence(watch_, 0).has_value()) return;
-  selfCollision_.run(call, particles_.state, after_, particles_.inverseMasses);
+  if (call.traits().domain == Domain::contacts)
+    selfCollision_.run(call, particles_.state, after_, particles_.inverseMasses);
+  else
+    surfaceContact_.run(call, particles_.state, after_, implicit_, parameters_.pieces[0],
+                        particles_.inverseMasses);
 }
 
 // Where nothing is left, sums are 0 and nothing moves.
@@ -336,7 +350,7 @@ void CpuExecutor<Real>::sum(Pass pass) {
       measureUpdate();
       break;
     case Pass::countStep: {
-      const bool isSolved = scalars.isStepSolved != 0, isUsual = scalars.hasNewContacts == 0;
+      const bool isSolved = scalars.isStepSolved == 1, isUsual = scalars.hasNewContacts == 0;
       scalars.steps += 1;
       scalars.unconvergedSteps += isSolved ? 0 : 1;
       scalars.secondOrderSteps +=
@@ -376,7 +390,8 @@ void CpuExecutor<Real>::measureUpdate() {
                                   step.leastMotion * step.leastMotion);
   const Real square = largestSquare(implicit_.increments, Real(LARGE_SQUARE)) * reciprocal(motion);
   scalars.lastUpdate = square * inverseSquareRoot(square);
-  const bool isConfirmed = step.colliderCount == 0 || scalars.newtonSteps > 0;
+  const bool touches = step.colliderCount != 0 || scalars.pairs != 0;
+  const bool isConfirmed = !touches || scalars.newtonSteps > 0;
   scalars.isStepSolved = isConfirmed && scalars.lastUpdate <= step.tolerance ? 1 : 0;
   scalars.isSystemSolved = 0;
   ++scalars.newtonSteps;
@@ -448,7 +463,8 @@ bool CpuExecutor<Real>::restore(const ParticleCopy& copy) {
 }
 
 template <class Real>
-std::optional<Divergence> CpuExecutor<Real>::findDivergence(std::uint64_t step, bool) {
+std::optional<Divergence> CpuExecutor<Real>::findDivergence(std::uint64_t step, bool wait) {
+  if (wait) surfaceContact_.makeRoom();
   return firstDivergence(watch_, step);
 }
 

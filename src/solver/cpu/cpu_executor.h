@@ -12,6 +12,7 @@
 #include "solver/cpu/implicit_passes.h"
 #include "solver/cpu/passes.h"
 #include "solver/cpu/self_collision.h"
+#include "solver/cpu/surface_contact.h"
 #include "solver/executor.h"
 
 namespace clothsim {
@@ -37,7 +38,9 @@ class CpuExecutor final : public Executor {
   [[nodiscard]] bool restore(const ParticleCopy& copy) override;
   [[nodiscard]] std::optional<Divergence> findDivergence(std::uint64_t step, bool wait) override;
   void forgetDivergence(std::uint64_t step) override;
-  [[nodiscard]] ContactCounts contactCounts() override { return selfCollision_.counts(); }
+  [[nodiscard]] ContactCounts contactCounts() override {
+    return selfCollision_.counts() + surfaceContact_.counts();
+  }
   [[nodiscard]] ConvergenceCounts convergenceCounts() override;
   void startTiming() override;
   [[nodiscard]] std::vector<PassTime> stopTiming() override;
@@ -61,6 +64,7 @@ class CpuExecutor final : public Executor {
   void runOnColor(std::size_t color);
   void runOnLevel(PassCall call);
   void runContacts(PassCall call);
+  void setSurface(const StepInputs& inputs);
   void sum(Pass pass);
   void chooseLength();
   void measureUpdate();
@@ -83,6 +87,7 @@ class CpuExecutor final : public Executor {
   cpu::ImplicitState<Real> implicit_;                    // empty until an implicit step needs it
   std::vector<Real> partialSums_;
   cpu::SelfCollision<Real> selfCollision_;
+  cpu::SurfaceContact<Real> surfaceContact_;
   bool isTimed_ = false;
   std::vector<PassTime> times_;
 };

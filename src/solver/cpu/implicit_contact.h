@@ -3,6 +3,7 @@
 #pragma once
 
 #include "solver/cpu/arrays.h"
+#include "solver/cpu/implicit_laws.h"
 #include "solver/cpu/implicit_passes.h"
 
 namespace clothsim::cpu {
@@ -95,6 +96,57 @@ template <class Real>
 INLINE Real contactChange(Real stiffness, Real over, Real overAfter) {
   const Real before = larger(over, Real(0)), after = larger(overAfter, Real(0));
   return Real(0.5) * ((stiffness * (after - before)) * (after + before));
+}
+
+// A sum over the four particles of a pair, each with its weight.
+template <class Real>
+INLINE Vec3<Real> weighted(const SurfacePair<Real>& pair, const Components<Real>& c) {
+  const auto& [a, b, d, e] = pair.particles;
+  return ((pair.weights[0] * at(c, a) + pair.weights[1] * at(c, b)) + pair.weights[2] * at(c, d)) +
+         pair.weights[3] * at(c, e);
+}
+template <class Real, class Visit>
+INLINE void forEachPairOf(const TouchingPairs<Real>& touching, std::ptrdiff_t i, Visit visit) {
+  if (touching.pairs.empty()) return;
+  for (std::uint32_t k = touching.starts.data()[i]; k < touching.starts.data()[i + 1]; ++k)
+    visit(touching.entries[k] / 4, touching.entries[k] % 4);
+}
+template <class Real>
+INLINE Vec3<Real> forceOfPairs(const TouchingPairs<Real>& touching, std::ptrdiff_t i) {
+  Vec3<Real> force{};
+  forEachPairOf(touching, i, [&](std::uint32_t q, std::uint32_t place) {
+    force = force + touching.pairs[q].weights[place] * touching.forces[q];
+  });
+  return force;
+}
+template <class Real>
+INLINE void addPairs(const TouchingPairs<Real>& touching, std::ptrdiff_t i, Vec3<Real>& residual,
+                     Symmetric<Real>& block) {
+  forEachPairOf(touching, i, [&](std::uint32_t q, std::uint32_t place) {
+    const SurfacePair<Real>& pair = touching.pairs[q];
+    const Real weight = pair.weights[place], square = weight * weight, across = square * pair.across;
+    residual = residual + weight * touching.forces[q];
+    block = block + outerProduct(square * (pair.held - pair.across), pair.normal);
+    block.diagonal = block.diagonal + Vec3<Real>{across, across, across};
+  });
+}
+// How the energies of the pairs whose first particle this is change along the increments.
+template <class Real>
+INLINE void addPairTrials(ImplicitState<Real>& own, std::ptrdiff_t i, Real slow) {
+  forEachPairOf(own.touching, i, [&](std::uint32_t q, std::uint32_t place) {
+    if (place != 0) return;
+    const SurfacePair<Real>& pair = own.touching.pairs[q];
+    const Vec3<Real> d = weighted(pair, own.displacements), e = weighted(pair, own.increments);
+    const Real along = dot(pair.normal, d), fall = dot(pair.normal, e), over = pair.over - along;
+    const Vec3<Real> slip = d - along * pair.normal, slide = e - fall * pair.normal;
+    const Real resisted = frictionPotential(slip, slow);
+    for (std::size_t k = 0; k < LENGTHS_TRIED; ++k) {
+      const Real l = lengthTried<Real>(k);
+      Real& trial = own.trials[k].data()[i];
+      trial = trial + (contactChange(pair.stiffness, over, over - l * fall) +
+                       pair.limit * (frictionPotential(slip + l * slide, slow) - resisted));
+    }
+  });
 }
 
 }  // namespace clothsim::cpu

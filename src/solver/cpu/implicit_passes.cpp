@@ -98,6 +98,7 @@ INLINE void tryLengthsRow(const ImplicitArguments<Real>& arguments, int row) {
       const Real l = lengthTried<Real>(k);
       own.trials[k].data()[i] = l * (first + l * second);
     }
+    addPairTrials(own, i, slowSlip(pass.step));
     if (!contacts) continue;
     const Vec3<Real> normal = at(own.planes.normals, i);
     const Real over = own.planes.offsets.data()[i] - dot(normal, d), fall = dot(normal, e),
@@ -207,6 +208,7 @@ INLINE void linearizeRow(const ImplicitArguments<Real>& arguments, int row) {
     if (wind) residual = residual - at(own.air, i) * d;
     residual = residual + at(pass.forces, i);
     Symmetric<Real> block = at(own.factors, i);
+    addPairs(own.touching, i, residual, block);
     if (contacts) addContact(arguments, i, residual, block);
     put(own.residuals, i, selected(pinned, zero, canonical(residual)));
     put(own.increments, i, zero);
@@ -259,6 +261,9 @@ INLINE void multiplyRow(const ImplicitArguments<Real>& arguments, int row) {
     if (pass.step.hasMaterial != 0)
       addBendingForces(withState(pass, pass.step, own.directions, own.products), row);
   }
+  if (!own.touching.pairs.empty())
+    for (std::ptrdiff_t i = all.begin; i < all.end; ++i)
+      put(products, i, at(products, i) - forceOfPairs(own.touching, i));
   if (hasContacts(arguments)) {
     const bool wind = pass.step.hasWind != 0;
     for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {

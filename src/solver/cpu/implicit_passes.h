@@ -12,8 +12,18 @@
 #include "solver/cpu/symmetric.h"
 #include "solver/hierarchy.h"
 #include "solver/implicit.h"
+#include "solver/surface.h"
 
 namespace clothsim::cpu {
+
+// Parts of the surface that may touch in this step (solver/surface.h); empty without contact.
+template <class Real>
+struct TouchingPairs {
+  std::vector<SurfacePair<Real>> pairs;
+  std::vector<Vec3<Real>> forces;      // of a pair: at the iterate, later what it does to the directions
+  std::vector<std::uint32_t> starts;   // of a particle's entries, and one more
+  std::vector<std::uint32_t> entries;  // 4 * pair + place in it, ascending
+};
 
 // What an implicit step works on, an entry a particle. Those marked with * go on with the coarse vertices,
 // two entries each: translation and rotation.
@@ -34,6 +44,7 @@ struct ImplicitState {
   Components<Real> products;           // H p
   Components<Real> increments;         // the Newton step so far
   std::array<std::vector<Real>, LENGTHS_TRIED> trials;  // a particle's change of energy
+  TouchingPairs<Real> touching;
   ImplicitScalars<Real> scalars{};
 
   Hierarchy<Real> hierarchy;

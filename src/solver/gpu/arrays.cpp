@@ -68,7 +68,11 @@ ArrayPlace placeOf(Array array) {
     case Array::hash:
     case Array::candidates:
     case Array::contactFlags:
-      return {};  // in buffers of self-collision's own
+    case Array::touching:
+    case Array::pairForces:
+    case Array::keptMotions:
+    case Array::safePositions:
+      return {};  // in buffers of self-collision's and surface contact's own
   }
   return {};
 }

@@ -35,6 +35,7 @@ class GpuArrays {
   void bindTextures() const;
   // What a pass writes, and the array that it takes for the positions.
   void bindFor(Pass pass) const;
+  void bindScalars() const { scalars_.bindStorage(SCALARS_BINDING); }
   // Another buffer to write directions into, and what makes it that of the directions.
   void bindSpareDirections() const;
   void takeSpareDirections();

@@ -76,6 +76,13 @@ void GpuExecutor::setScene(const StepInputs& inputs) {
     distanceTexture_ = gl::BufferTexture("distances", distances_.name(), GL_R32F);
   }
   selfCollision_.configure(*inputs.scene);
+  setSurface(inputs);
+}
+
+void GpuExecutor::setSurface(const StepInputs& inputs) {
+  if (hasSurfaceContact(*inputs.scene))
+    surfaceContact_.setSurface(makeSurface<float>(*cloth_, *inputs.scene, inputs.cuts),
+                               cloth_->particleCount());
 }
 
 void GpuExecutor::setCuts(const StepInputs& inputs) {
@@ -89,6 +96,7 @@ void GpuExecutor::setCuts(const StepInputs& inputs) {
   arrays_.forgetHistory();
   levels_ = {};  // made anew when an implicit step needs them: no weight crosses a cut
   selfCollision_.setCut(!inputs.cuts.empty());
+  setSurface(inputs);
 }
 
 void GpuExecutor::prepare(const StepInputs& inputs, const PassList& list) {
@@ -109,7 +117,8 @@ void GpuExecutor::prepare(const StepInputs& inputs, const PassList& list) {
 void GpuExecutor::compile(const StepInputs& inputs, const PassList& list) {
   for (std::span<const PassCall> rest = list.passes; !rest.empty();) {
     std::size_t count = 1;
-    if (rest.front().traits().domain != Domain::contacts) {
+    const Domain domain = rest.front().traits().domain;
+    if (domain != Domain::contacts && domain != Domain::surface) {
       const KernelChoice choice = kernelFor(rest, options_.fused, cloth_->pieces().size());
       count = choice.passes;
       assert((kernels()[choice.kernel].stages.front().over != Over::grids || count <= sweepLength(rest)) &&
@@ -136,6 +145,7 @@ void GpuExecutor::run(const StepInputs& inputs, const PassList& list, int steps)
   lists_.bind();
   if (!inputs.cuts.empty()) cutMaskTexture_.bind(CUT_MASKS_UNIT);
   levels_.bind();
+  surfaceContact_.bindTextures();
   bindWatch(inputs.clock.step);
 
   for (std::span<const PassCall> rest = list.passes; !rest.empty();) rest = rest.subspan(runKernel(rest));
@@ -149,6 +159,10 @@ std::size_t GpuExecutor::runKernel(std::span<const PassCall> passes) {
   const PassCall& call = passes.front();
   if (call.traits().domain == Domain::contacts) {
     selfCollision_.run(runner_, call, arrays_, [&](std::size_t piece) { parameters_.bindPiece(piece); });
+    return 1;
+  }
+  if (call.traits().domain == Domain::surface) {
+    surfaceContact_.run(runner_, call, arrays_);
     return 1;
   }
   const auto [number, count] = kernelFor(passes, options_.fused, cloth_->pieces().size());
@@ -334,6 +348,7 @@ void GpuExecutor::forgetDivergence(std::uint64_t step) {
 std::optional<Divergence> GpuExecutor::findDivergence(std::uint64_t step, bool wait) {
   if (divergence_ || !wait) return divergence_;
   gl::checkContext();
+  surfaceContact_.makeRoom();
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   const std::uint64_t rows = std::min(step - watchBase_, WATCHED_STEPS);
   const std::vector<WatchSlot> slots = watch_.download(0, rows);

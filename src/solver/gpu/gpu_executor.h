@@ -18,6 +18,7 @@
 #include "solver/gpu/pass_programs.h"
 #include "solver/gpu/pass_runner.h"
 #include "solver/gpu/self_collision.h"
+#include "solver/gpu/surface_contact.h"
 
 namespace clothsim {
 
@@ -52,7 +53,9 @@ class GpuExecutor final : public Executor {
   [[nodiscard]] bool restore(const ParticleCopy& copy) override;
   [[nodiscard]] std::optional<Divergence> findDivergence(std::uint64_t step, bool wait) override;
   void forgetDivergence(std::uint64_t step) override;
-  [[nodiscard]] ContactCounts contactCounts() override { return selfCollision_.counts(); }
+  [[nodiscard]] ContactCounts contactCounts() override {
+    return selfCollision_.counts() + surfaceContact_.counts();
+  }
   [[nodiscard]] ConvergenceCounts convergenceCounts() override;
   void startTiming() override;
   [[nodiscard]] std::vector<PassTime> stopTiming() override;
@@ -72,6 +75,7 @@ class GpuExecutor final : public Executor {
   };
   struct Copy;
 
+  void setSurface(const StepInputs& inputs);
   void compile(const StepInputs& inputs, const PassList& list);
   void bindWatch(std::uint64_t step);
   std::size_t runKernel(std::span<const PassCall> passes);
@@ -103,6 +107,7 @@ class GpuExecutor final : public Executor {
   PassLibrary library_;
   std::vector<std::vector<Programs>> kernels_;  // by kernel and grid; empty where no list needs it
   GpuSelfCollision selfCollision_;
+  GpuSurfaceContact surfaceContact_;
   PassRunner runner_;
 
   gl::Buffer<WatchSlot> watch_;           // a row a step since watchBase_

@@ -5,6 +5,7 @@
 
 #include "shared/implicit.h"
 #include "solver/step_params.h"
+#include "solver/surface.h"
 
 namespace clothsim {
 
@@ -23,6 +24,7 @@ PassFeatures featuresOf(const Scene& scene, const Cloth& cloth, std::size_t piec
   }
   features.coulombFriction = !scene.colliders.empty() && scene.solver.frictionLaw == FrictionLaw::coulomb;
   features.contactPlanes = isImplicit(scene.solver.integrator) && !scene.colliders.empty();
+  features.surface = isImplicit(scene.solver.integrator) && hasSurfaceContact(scene);
   features.history = scene.solver.integrator == Integrator::bdf2;
   features.movingPins = !scene.cloths[pieceIndex].pinMotion.empty();
   features.restLengthTable = piece.hasRestLengthTable;
@@ -54,6 +56,7 @@ PassFeatures restricted(const PassFeatures& all, Features to) {
        &PassFeatures::coulombFriction);
   take(Feature::planes, &PassFeatures::contactPlanes);
   take(Feature::history, &PassFeatures::history);
+  take(Feature::surface, &PassFeatures::surface);
   return features;
 }
 
@@ -71,6 +74,7 @@ gl::Defines definesFor(const PassFeatures& features) {
           {"HAS_MESH", std::to_string(features.mesh)},
           {"HAS_LIMIT_SPRINGS", std::to_string(features.limitSprings)},
           {"HAS_CONTACT_PLANES", std::to_string(features.contactPlanes)},
+          {"HAS_SURFACE", std::to_string(features.surface)},
           {"HAS_HISTORY", std::to_string(features.history)},
           {"HAS_GRAB", std::to_string(features.grab)},
           {"HAS_JET", std::to_string(features.jet)},

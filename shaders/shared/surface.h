@@ -1,0 +1,160 @@
+// The cloth as a surface that touches itself and other cloth (src/solver/surface.h). Included by GLSL
+// (std430) and by C++, where `real` is float for the bitwise twin and double for tests of the physics. Rows
+// of 16 bytes.
+#ifdef __cplusplus
+#pragma once
+#include <cstdint>
+namespace clothsim::shared {
+using uint = std::uint32_t;
+#define SHARED_STRUCT   \
+  template <class real> \
+  struct
+#else
+#define SHARED_STRUCT struct
+#define real float
+#endif
+
+// A box of the tree has so many children; its lowest boxes are those of single triangles.
+#define BOX_CHILDREN 4u
+#define MOST_BOX_LEVELS 16
+
+#define NO_PARTICLE 0xffffffffu  // where a side has no second triangle
+
+// Of SurfaceTriangle::owned: bit k says that the triangle looks for contacts of its corner k, bit 3 + k of
+// its side from corner k to the next one. Of the triangles that share one, the first does.
+#define OWNED_SIDE 3
+
+// Which part of a triangle is nearest: its face, the corner 1 + k, or the side 4 + k.
+#define NEAREST_FACE 0u
+#define NEAREST_CORNER 1u
+#define NEAREST_SIDE 4u
+
+// A step goes on so many times from where motion was cut short, the first time included.
+#define CONTACT_ROUNDS 2
+
+// Rounds of the guard: in each, pairs that the motion so far brings too near keep to their own sides; in the
+// last one, if there were some in the round before, all pairs do.
+#define GUARD_ROUNDS 6
+
+// A pair that touches is pushed apart with this many times the stiffness of its inertia, and with this part
+// of what the stiffest spring adds.
+#define PAIR_OVER_INERTIA 100.0f
+#define PAIR_OVER_SPRINGS 0.01f
+// Nearer than half of its thickness a pair is pushed more stiffly, down to this part of it.
+#define SQUEEZED 0.02f
+
+// A triangle that finds more pairs than this stops looking, and its step has too many.
+#define MOST_PAIRS_A_TRIANGLE 4096u
+// Approaches below this are none: their reciprocals would not be safe [m].
+#define LEAST_APPROACH 8.67361737988403547205962240695953369140625e-19f  // 2^-60
+
+// Counts are summed up in blocks of so many, a work group each.
+#define SURFACE_LANES 256
+#define SURFACE_BLOCK 2048u
+// The levels of boxes that have at most so many take one work group.
+#define BOXES_ALONE 1024u
+
+// An invocation an entry, in work groups of so many; dispatches of many groups have rows.
+#define SURFACE_GROUP 64
+#define GROUPS_A_ROW 4096u
+
+#define SURFACE_PARAMS_BINDING 3  // uniform blocks
+#define BOX_LEVEL_BINDING 4
+#define SURFACE_STATE_BINDING 6  // storage blocks; each pass binds what it needs
+#define SURFACE_COUNTS_BINDING 4
+#define SURFACE_LISTS_BINDING 5
+#define SURFACE_OUT_BINDING 0
+#define SURFACE_IDS_BINDING 1
+
+#define SURFACE_TRIANGLES_UNIT 50  // two texels each
+#define SURFACE_POINTS_UNIT 51
+#define SURFACE_BOXES_UNIT 52  // two texels each: low, high
+#define PAIR_IDS_UNIT 53       // four particles
+#define PAIR_ROWS_UNIT \
+  54                            // four texels each: normal, over; weights; stiffness, -, limit, held;
+                                // force, across
+#define PAIR_STARTS_UNIT 55     // of a particle's entries, within its block
+#define PAIR_BLOCKS_UNIT 56     // what the blocks of particles begin with
+#define PAIR_ENTRIES_UNIT 57    // 4 * pair + place in it
+#define SURFACE_BLOCKS_UNIT 58  // what the blocks of triangles begin with
+#define SURFACE_STARTS_UNIT 59  // where the motion of a round begins
+
+struct SurfaceTriangle {
+  uint cornerA;
+  uint cornerB;
+  uint cornerC;
+  uint owned;
+
+  uint acrossAB;  // the third corner of the other triangle at this side, or NO_PARTICLE
+  uint acrossBC;
+  uint acrossCA;
+  uint unused;
+};
+
+// What a particle brings into contact.
+SHARED_STRUCT SurfacePoint {
+  real radius;     // half of the thickness [m]
+  real friction;   // Coulomb's coefficient
+  real share;      // of a contact at this corner that each of its triangles finds
+  real stiffness;  // of its springs [N/m]
+};
+
+// What contact has come to.
+struct SurfaceState {
+  // Of this step:
+  uint tooMany;    // 1: there was no room for all pairs; 2: the state is broken, and nothing is looked for
+  uint pairs;      // that may touch
+  uint isGuarded;  // some motion was cut short
+  uint isLater;    // the step goes on from where motion was cut short,
+
+  uint tooNear[8];  // by round of the guard: some pair was
+
+  uint isSettled;  // or would have, but there was none
+  uint unusedA;
+  uint unusedB;
+  uint unusedC;
+
+  // Of all steps:
+  uint mostPairs;     // in a step; also those that there was no room for
+  uint shortened;     // motions of particles that were cut short
+  uint guardedSteps;  // in which there were some
+  uint crowdedSteps;  // in which there were too many pairs, so that none pushed
+
+  uint leastGap;  // of pairs that may touch, the bits of a float [m]
+  uint unusedD;
+  uint unusedE;
+  uint unusedF;
+};
+
+// What the passes on the GPU need beside these.
+struct SurfaceParams {
+  uint triangles;
+  int topLevel;  // of boxes
+  uint roomForPairs;
+  uint unusedA;
+
+  float around;
+  float margin;
+  float leastGap;
+  uint unusedB;
+
+#ifdef __cplusplus
+  uint firstBoxes[MOST_BOX_LEVELS][4];
+#else
+  uvec4 firstBoxes[MOST_BOX_LEVELS];  // in x: std140 spaces the numbers of an array like that
+#endif
+};
+
+// A level of the tree, of `count` boxes from `first` on, whose children begin at `below`. Rounds of the guard
+// come as `first`.
+struct BoxLevel {
+  uint below;
+  uint first;
+  uint count;
+  uint isLast;  // it takes all levels above, too, in one work group
+};
+
+#ifdef __cplusplus
+#undef SHARED_STRUCT
+}  // namespace clothsim::shared
+#endif

@@ -1,0 +1,120 @@
+// Distances of the parts of a surface, and how far they may move. Written once, in the words that GLSL and
+// C++ share (src/solver/cpu/surface_laws.h).
+
+// Where two parts are nearest: the place on a triangle a + u (b - a) + v (c - a), or on two segments.
+struct NearestParts {
+  vec3 way;  // from the second to the first [m]
+  real u;
+  real v;
+  uint part;
+};
+
+LAW real partOf(real a, real whole) {
+  const real zero = real(0.0), one = real(1.0), tiny = real(9.31322574615478515625e-10);  // 2^-30
+  precise real least = (tiny * tiny) * tiny;
+  precise real part = a * reciprocal(whole < least ? least : whole);
+  return part < zero ? zero : one < part ? one : part;
+}
+
+// Ericson 2005, "Real-Time Collision Detection", 5.1.5.
+LAW NearestParts nearestOnTriangle(vec3 p, vec3 a, vec3 b, vec3 c) {
+  const real zero = real(0.0), one = real(1.0);
+  precise vec3 ab = b - a;
+  precise vec3 ac = c - a;
+  precise vec3 ap = p - a;
+  precise vec3 bp = p - b;
+  precise vec3 cp = p - c;
+  real d1 = sumOfProducts(ab, ap), d2 = sumOfProducts(ac, ap);
+  real d3 = sumOfProducts(ab, bp), d4 = sumOfProducts(ac, bp);
+  real d5 = sumOfProducts(ab, cp), d6 = sumOfProducts(ac, cp);
+  precise real fromBC = d3 * d6 - d5 * d4;
+  precise real fromCA = d5 * d2 - d1 * d6;
+  precise real fromAB = d1 * d4 - d3 * d2;
+  precise real towardsC = d4 - d3;
+  precise real towardsB = d5 - d6;
+  precise real alongAB = d1 - d3;
+  precise real alongAC = d2 - d6;
+  precise real alongBC = towardsC + towardsB;
+  precise real area = (fromBC + fromCA) + fromAB;
+  NearestParts nearest;
+  nearest.u = zero;
+  nearest.v = zero;
+  nearest.part = NEAREST_CORNER;
+  if (d1 <= zero && d2 <= zero) {
+  } else if (zero <= d3 && d4 <= d3) {
+    nearest.u = one;
+    nearest.part = NEAREST_CORNER + 1u;
+  } else if (zero <= d6 && d5 <= d6) {
+    nearest.v = one;
+    nearest.part = NEAREST_CORNER + 2u;
+  } else if (fromAB <= zero && zero <= d1 && d3 <= zero) {
+    nearest.u = partOf(d1, alongAB);
+    nearest.part = NEAREST_SIDE;
+  } else if (fromCA <= zero && zero <= d2 && d6 <= zero) {
+    nearest.v = partOf(d2, alongAC);
+    nearest.part = NEAREST_SIDE + 2u;
+  } else if (fromBC <= zero && zero <= towardsC && zero <= towardsB) {
+    nearest.v = partOf(towardsC, alongBC);
+    precise real rest = one - nearest.v;
+    nearest.u = rest;
+    nearest.part = NEAREST_SIDE + 1u;
+  } else {
+    nearest.u = partOf(fromCA, area);
+    nearest.v = partOf(fromAB, area);
+    nearest.part = NEAREST_FACE;
+  }
+  precise vec3 way = ap - (nearest.u * ab + nearest.v * ac);
+  nearest.way = way;
+  return nearest;
+}
+
+// Of the segments from p to q and from a to b: p + u (q - p) and a + v (b - a). Its part is NEAREST_FACE
+// where both lie inside.
+LAW NearestParts nearestOnSegments(vec3 p, vec3 q, vec3 a, vec3 b) {
+  const real zero = real(0.0), one = real(1.0), middle = real(0.5),
+             parallel = real(9.5367431640625e-07);  // 2^-20
+  precise vec3 along = q - p;
+  precise vec3 other = b - a;
+  precise vec3 between = p - a;
+  real alongSquared = sumOfProducts(along, along), otherSquared = sumOfProducts(other, other);
+  real both = sumOfProducts(along, other);
+  real c = sumOfProducts(along, between), f = sumOfProducts(other, between);
+  precise real product = alongSquared * otherSquared;
+  precise real determinant = product - both * both;
+  precise real towards = both * f - c * otherSquared;
+  precise real least = parallel * product;
+  NearestParts nearest;
+  nearest.u = least < determinant ? partOf(towards, determinant) : middle;
+  // Each for the other, once more: of segments that are almost parallel the determinant knows little.
+  precise real reached = both * nearest.u + f;
+  precise real first = partOf(reached, otherSquared);
+  precise real back = both * first - c;
+  nearest.u = partOf(back, alongSquared);
+  precise real reachedAgain = both * nearest.u + f;
+  nearest.v = partOf(reachedAgain, otherSquared);
+  bool isInside = zero < nearest.u && nearest.u < one && zero < nearest.v && nearest.v < one;
+  nearest.part = isInside ? NEAREST_FACE : NEAREST_CORNER;
+  precise vec3 way = between + (nearest.u * along - nearest.v * other);
+  nearest.way = way;
+  return nearest;
+}
+
+// Whether a corner or side, from which `way` leads to something near, is still the nearest part where another
+// triangle goes on from it `outward`. A little aslant counts, too: then each finds its share of the contact.
+LAW bool isStillNearest(vec3 way, vec3 outward) {
+  const real slanted = real(0.0078125);
+  real rise = sumOfProducts(way, outward);
+  precise real risen = rise * rise;
+  precise real most = slanted * (sumOfProducts(way, way) * sumOfProducts(outward, outward));
+  return rise <= real(0.0) || risen <= most;
+}
+
+// How much of its distance a pair may lose in a step: 7/8 of it, but 1/16 at most of what is below the least
+// gap.
+LAW real budgetOf(real distance, real leastGap) {
+  precise real most = real(0.875) * distance;
+  precise real above = distance - leastGap;
+  precise real little = real(0.0625) * distance;
+  real budget = above < most ? above : most;
+  return budget < little ? little : budget;
+}

@@ -1,0 +1,70 @@
+// What all passes of surface contact see (src/solver/surface.h says what is computed and why; the twins are
+// src/solver/cpu/surface_search.h and surface_contact.cpp).
+#include "shared/implicit.h"
+#include "shared/step_params.h"
+#include "shared/surface.h"
+#include "sim/exact_math.glsl"
+
+layout(std140, binding = STEP_PARAMS_BINDING) uniform StepBlock { StepParams step; };
+layout(std140, binding = SURFACE_PARAMS_BINDING) uniform SurfaceBlock { SurfaceParams surface; };
+layout(std430, binding = SURFACE_STATE_BINDING) coherent buffer State { SurfaceState state; };
+layout(binding = SURFACE_TRIANGLES_UNIT) uniform usamplerBuffer triangles;
+layout(binding = SURFACE_POINTS_UNIT) uniform samplerBuffer points;
+layout(binding = SURFACE_BOXES_UNIT) uniform samplerBuffer boxes;
+layout(binding = SURFACE_STARTS_UNIT) uniform samplerBuffer surfaceStarts;
+layout(binding = NEW_POSITIONS_UNIT) uniform samplerBuffer positionsSoFar;
+layout(binding = DISPLACEMENTS_UNIT) uniform samplerBuffer displacements;
+
+#define LAW
+#include "shared/surface_laws.h"
+
+// From where the motion of this round begins.
+vec3 startAt(uint i) { return texelFetch(surfaceStarts, int(i)).xyz; }
+
+// Where nothing was cut short, the step does not go on.
+bool isSettled() { return state.isSettled != 0u; }
+
+// An invocation an entry, in groups of SURFACE_GROUP; dispatches of many groups have rows of GROUPS_A_ROW.
+uint thisEntry() {
+  return (gl_WorkGroupID.y * GROUPS_A_ROW + gl_WorkGroupID.x) * uint(SURFACE_GROUP) + gl_LocalInvocationIndex;
+}
+
+vec3 displacementAt(uint i) { return texelFetch(displacements, int(i)).xyz; }
+
+// The motion of this round: as it is predicted, or what it came to.
+vec3 motionAt(uint i) {
+#if SEARCHES_TOUCHING
+  return state.isLater != 0u ? vec3(0.0) : displacementAt(i);
+#else
+  precise vec3 motion = texelFetch(positionsSoFar, int(i)).xyz - startAt(i);
+  return motion;
+#endif
+}
+
+struct Bounds {
+  vec3 low, high;
+};
+float lesser(float s, float t) { return t < s ? t : s; }
+float greater(float s, float t) { return s < t ? t : s; }
+Bounds joined(Bounds a, Bounds b) {
+  return Bounds(vec3(lesser(a.low.x, b.low.x), lesser(a.low.y, b.low.y), lesser(a.low.z, b.low.z)),
+             vec3(greater(a.high.x, b.high.x), greater(a.high.y, b.high.y), greater(a.high.z, b.high.z)));
+}
+bool overlap(Bounds a, Bounds b) { return all(lessThanEqual(a.low, b.high)) && all(lessThanEqual(b.low, a.high)); }
+Bounds boxAt(uint i) { return Bounds(texelFetch(boxes, int(2u * i)).xyz, texelFetch(boxes, int(2u * i + 1u)).xyz); }
+
+// Around a particle and its motion.
+Bounds boxOf(uint i) {
+  vec3 a = startAt(i);
+  precise vec3 b = a + motionAt(i);
+  vec3 r = vec3(SEARCHES_TOUCHING != 0 ? surface.around : 0.0);
+  Bounds box = joined(Bounds(a, a), Bounds(b, b));
+  precise vec3 low = box.low - r;
+  precise vec3 high = box.high + r;
+  return Bounds(low, high);
+}
+
+// Which parts: the triangles that they are of, and the corner, or the sides, in them.
+struct PartPlaces {
+  uint first, second, k, l;
+};

@@ -1,0 +1,133 @@
+// The pairs of parts that may touch, an invocation a triangle: first how many it finds, then, once it is known where they go,
+// the pairs.
+#include "sim/surface/common.glsl"
+
+layout(local_size_x = SURFACE_GROUP) in;
+
+layout(std430, binding = SURFACE_COUNTS_BINDING) buffer Counts { uint counts[]; };
+layout(binding = RIGHT_HAND_SIDES_UNIT) uniform samplerBuffer rightHandSides;
+#if WRITES_PAIRS
+#include "sim/implicit/scalars.glsl"
+layout(std430, binding = SURFACE_LISTS_BINDING) coherent buffer ListCounts { uint listCounts[]; };
+layout(binding = SURFACE_BLOCKS_UNIT) uniform usamplerBuffer blockStarts;
+layout(std430, binding = SURFACE_IDS_BINDING) writeonly buffer Ids { uvec4 newIds[]; };
+layout(std430, binding = SURFACE_OUT_BINDING) writeonly buffer Rows { vec4 newRows[]; };
+#endif
+
+uint found = 0u, firstFound = 0u;
+
+bool isNearest(uint outer, uint corner, uint particle, vec3 way) {
+  if (outer == NO_PARTICLE) return true;
+  precise vec3 outward = startAt(outer) - startAt(corner);
+  return outer != particle && isStillNearest(way, outward);
+}
+
+// Whether a side is the nearest part of both triangles at it.
+bool isNearestSide(uint triangle, uint k, vec3 way) {
+  uvec4 corners = texelFetch(triangles, int(2u * triangle));
+  uint across = texelFetch(triangles, int(2u * triangle + 1u))[k];
+  return isNearest(corners[(k + 2u) % 3u], corners[k], NO_PARTICLE, way) && isNearest(across, corners[k], NO_PARTICLE, way);
+}
+
+// The part of a contact that a pair of parts finds.
+float shareOf(uint particle, bool areSides, PartPlaces places, NearestParts nearest) {
+  if (areSides) {
+    precise vec3 back = vec3(0.0) - nearest.way;
+    bool isContact = nearest.part == NEAREST_FACE && isNearestSide(places.second, places.l, nearest.way) &&
+                     isNearestSide(places.first, places.k, back);
+    return isContact ? 1.0 : 0.0;
+  }
+  if (nearest.part == NEAREST_FACE) return 1.0;
+  uvec4 corners = texelFetch(triangles, int(2u * places.second)), across = texelFetch(triangles, int(2u * places.second + 1u));
+  if (nearest.part >= NEAREST_SIDE) {
+    uint k = nearest.part - NEAREST_SIDE;
+    if (!isNearest(across[k], corners[k], particle, nearest.way)) return 0.0;
+    return across[k] == NO_PARTICLE ? 1.0 : 0.5;
+  }
+  uint k = nearest.part - NEAREST_CORNER;
+  bool isNearestHere = isNearest(across[k], corners[k], particle, nearest.way) &&
+                       isNearest(across[(k + 2u) % 3u], corners[k], particle, nearest.way);
+  return isNearestHere ? texelFetch(points, int(corners[k])).z : 0.0;
+}
+
+void lookAt(uvec4 ids, bool areSides, PartPlaces places, NearestParts nearest) {
+  float squared = sumOfProducts(nearest.way, nearest.way), inverse = inverseSquareRoot(squared);
+  precise float rest = 1.0 - nearest.u;
+  precise float distance = squared * inverse;
+  precise vec3 scaled = inverse * nearest.way;
+  vec3 normal = canonical(scaled);
+  precise float weightB = nearest.v - rest;
+  precise float weightC = nearest.v - 1.0;
+  vec4 weights = areSides ? vec4(rest, nearest.u, weightC, -nearest.v) : vec4(1.0, weightB, -nearest.u, -nearest.v);
+  weights = vec4(canonical(weights.xyz), canonical(weights.w));
+  precise float reach = 0.0;
+  precise float inertia = 0.0;
+  precise float springs = 0.0;
+  precise float squares = 0.0;
+  precise float friction = 0.0;
+  for (int k = 0; k < 4; ++k) {
+    vec4 point = texelFetch(points, int(ids[k]));
+    float w = weights[k], size = w < 0.0 ? -w : w;
+    precise float square = w * w;
+    reach = reach + size * point.x;
+    friction = friction + size * point.y;
+    inertia = inertia + square * texelFetch(rightHandSides, int(ids[k])).w;
+    springs = springs + square * point.w;
+    squares = squares + square;
+  }
+  precise vec3 moved = ((weights.x * displacementAt(ids.x) + weights.y * displacementAt(ids.y)) + weights.z * displacementAt(ids.z)) +
+                       weights.w * displacementAt(ids.w);
+  float along = sumOfProducts(normal, moved);
+  bool isLater = state.isLater != 0u;
+  precise float moving = distance + along;
+  float predicted = isLater ? distance : moving;
+  precise float near = reach + surface.margin;
+  if (!((predicted < distance ? predicted : distance) < near)) return;
+  precise float squeezed = uintBitsToFloat(0x3ca3d70au) * reach;  // SQUEEZED
+  float gap = distance < squeezed ? squeezed : distance;
+  precise float halfReach = 0.5 * reach;
+  precise float room = (4.0 * gap) * (reach - gap);
+  precise float more = (reach * reach) * reciprocal(room);
+  precise float stiffness = PAIR_OVER_INERTIA * (inertia * reciprocal(squares)) + uintBitsToFloat(0x3c23d70au) * springs;  // PAIR_OVER_SPRINGS
+  precise float stiffer = stiffness * more;
+  precise float ofPair = shareOf(ids.x, areSides, places, nearest) * (gap < halfReach ? stiffer : stiffness);
+  if (!(ofPair > 0.0)) return;
+  ++found;
+#if WRITES_PAIRS
+  uint q = firstFound + found - 1u;
+  precise float nearer = reach - distance;
+  precise float nearerBefore = nearer + along;
+  float over = canonical(isLater ? nearerBefore : nearer);
+  precise float overThen = over - along;
+  precise float limit = (0.5 * friction) * (ofPair * (nearer < 0.0 ? 0.0 : nearer));
+  float held = overThen > 0.0 ? ofPair : 0.0;
+  newIds[q] = ids;
+  newRows[4u * q] = vec4(normal, over);
+  newRows[4u * q + 1u] = weights;
+  newRows[4u * q + 2u] = vec4(ofPair, 0.0, canonical(limit), held);
+  newRows[4u * q + 3u] = vec4(0.0);
+  for (int k = 0; k < 4; ++k) atomicAdd(listCounts[ids[k]], 1u);
+  atomicMin(state.leastGap, floatBitsToUint(distance));
+  if (held > 0.0) atomicOr(scalars.isDisturbed, 1u);
+#endif
+}
+
+bool goesOn() { return found <= MOST_PAIRS_A_TRIANGLE; }
+#include "sim/surface/walk.glsl"
+
+void main() {
+  uint own = thisEntry();
+  if (own >= surface.triangles || isSettled()) return;
+#if WRITES_PAIRS
+  if (state.tooMany != 0u) return;
+  firstFound = counts[own] + texelFetch(blockStarts, int(own / SURFACE_BLOCK)).x;
+#else
+  counts[own] = 0u;
+  if (state.tooMany == 2u) return;
+#endif
+  lookAround(own);
+#if !WRITES_PAIRS
+  counts[own] = found;
+  if (found > MOST_PAIRS_A_TRIANGLE) atomicOr(state.tooMany, 1u);
+#endif
+}

@@ -1,0 +1,28 @@
+// What contact of cloth with itself has come to.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace clothsim {
+
+// Since the solver was made.
+struct ContactCounts {
+  std::uint64_t hashBuilds = 0;
+  std::uint64_t clampedSteps = 0;  // in which motion had to be cut short
+  std::uint64_t fastSteps = 0;     // in which some particle moved farther than the search reaches
+  // Of the surface (solver/surface.h):
+  std::uint64_t pairs = 0;         // most pairs of parts that may touch, in a step
+  std::uint64_t shortened = 0;     // motions of particles that were cut short, of all steps
+  std::uint64_t crowdedSteps = 0;  // in which there were too many pairs, so that none pushed
+  double leastGap = INFINITY;      // between parts that may touch [m]
+
+  friend ContactCounts operator+(const ContactCounts& a, const ContactCounts& b) {
+    return {a.hashBuilds + b.hashBuilds,     a.clampedSteps + b.clampedSteps, a.fastSteps + b.fastSteps,
+            std::max(a.pairs, b.pairs),      a.shortened + b.shortened,       a.crowdedSteps + b.crowdedSteps,
+            std::min(a.leastGap, b.leastGap)};
+  }
+};
+
+}  // namespace clothsim

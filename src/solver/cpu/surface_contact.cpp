@@ -1,0 +1,375 @@
+#include "solver/cpu/surface_contact.h"
+
+#include <atomic>
+
+#include "core/thread_team.h"
+#include "solver/cpu/implicit_contact.h"
+
+namespace clothsim::cpu {
+namespace {
+
+constexpr std::uint32_t TRIANGLES_A_CHUNK = 64, BOXES_AT_ONCE = 256, PAIRS_AT_ONCE = 256;
+
+// A smaller number among those that threads bring to the same place.
+template <class Number>
+void lower(Number& place, Number to) {
+  std::atomic_ref<Number> least(place);
+  Number known = least.load(std::memory_order_relaxed);
+  while (to < known && !least.compare_exchange_weak(known, to, std::memory_order_relaxed)) {
+  }
+}
+
+// Whether a side is the nearest part of both triangles at it.
+template <class Real>
+bool isNearestSide(const SurfaceTriangle& triangle, std::uint32_t k, Vec3<Real> way,
+                   const Components<Real>& x) {
+  const auto corners = cornersOf(triangle);
+  const std::uint32_t across = acrossOf(triangle)[k];
+  const auto isNearest = [&](std::uint32_t outer) {
+    return SurfaceLaws<Real>::isStillNearest(way, at(x, outer) - at(x, corners[k]));
+  };
+  return isNearest(corners[(k + 2) % 3]) && (across == NO_PARTICLE || isNearest(across));
+}
+
+// The part of a contact that a pair of parts finds: all where both are faces or sides, half at a side that
+// another triangle has, too; nothing where other parts are nearer, or a triangle has the corner itself.
+template <class Real>
+Real shareOf(const ClothSurface<Real>& surface, const Parts& parts, Vec3<Real> way, std::uint32_t part,
+             const Components<Real>& x) {
+  const SurfaceTriangle& triangle = surface.triangles[parts.second];
+  if (parts.areSides) {
+    const bool isContact = part == NEAREST_FACE && isNearestSide(triangle, parts.l, way, x) &&
+                           isNearestSide(surface.triangles[parts.first], parts.k, Vec3<Real>{} - way, x);
+    return isContact ? Real(1) : Real(0);
+  }
+  if (part == NEAREST_FACE) return 1;
+  const auto corners = cornersOf(triangle), across = acrossOf(triangle);
+  const auto isNearest = [&](std::uint32_t outer, std::uint32_t corner) {
+    if (outer == NO_PARTICLE) return true;
+    return outer != parts.particles[0] &&
+           SurfaceLaws<Real>::isStillNearest(way, at(x, outer) - at(x, corner));
+  };
+  if (part >= NEAREST_SIDE) {
+    const std::uint32_t k = part - NEAREST_SIDE;
+    return !isNearest(across[k], corners[k]) ? Real(0) : across[k] == NO_PARTICLE ? Real(1) : Real(0.5);
+  }
+  const std::uint32_t k = part - NEAREST_CORNER;
+  const bool isNearestHere = isNearest(across[k], corners[k]) && isNearest(across[(k + 2) % 3], corners[k]);
+  return isNearestHere ? surface.points[corners[k]].share : Real(0);
+}
+
+// The pair of parts that may touch; without stiffness where it does not.
+template <class Real>
+SurfacePair<Real> pairOf(const ClothSurface<Real>& surface, const Parts& parts,
+                         const typename SurfaceLaws<Real>::NearestParts& nearest, const Components<Real>& x,
+                         const ImplicitState<Real>& implicit, bool isLater) {
+  const auto& [way, u, v, part] = nearest;
+  const Real squared = dot(way, way), inverse = inverseSquareRoot(squared), rest = Real(1) - u;
+  SurfacePair<Real> pair{};
+  pair.distance = squared * inverse;
+  pair.normal = canonical(inverse * way);
+  pair.areSides = parts.areSides;
+  pair.particles = parts.particles;
+  pair.weights = {parts.areSides ? canonical(rest) : Real(1), canonical(parts.areSides ? u : v - rest),
+                  canonical(parts.areSides ? v - Real(1) : -u), canonical(-v)};
+  Real reach = 0, inertia = 0, springs = 0, weights = 0, friction = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const SurfacePoint<Real>& point = surface.points[parts.particles[k]];
+    const Real w = pair.weights[k], size = w < Real(0) ? -w : w, square = w * w;
+    reach = reach + size * point.radius;
+    friction = friction + size * point.friction;
+    inertia = inertia + square * implicit.diagonal[parts.particles[k]];
+    springs = springs + square * point.stiffness;
+    weights = weights + square;
+  }
+  const Real along = dot(pair.normal, weighted(pair, implicit.displacements)),
+             predicted = isLater ? pair.distance : pair.distance + along;
+  if (!((predicted < pair.distance ? predicted : pair.distance) < reach + surface.margin)) return pair;
+  const Real gap = larger(pair.distance, static_cast<Real>(SQUEEZED) * reach), half = Real(0.5) * reach;
+  const Real squeezed = (reach * reach) * reciprocal((Real(4) * gap) * (reach - gap));
+  const Real stiffness = static_cast<Real>(PAIR_OVER_INERTIA) * (inertia * reciprocal(weights)) +
+                         static_cast<Real>(PAIR_OVER_SPRINGS) * springs;
+  const Real over = reach - pair.distance;
+  pair.over = canonical(isLater ? over + along : over);
+  pair.stiffness = shareOf(surface, parts, way, part, x) * (gap < half ? stiffness * squeezed : stiffness);
+  pair.limit = canonical((Real(0.5) * friction) * (pair.stiffness * larger(over, Real(0))));
+  pair.held = pair.over - along > Real(0) ? pair.stiffness : Real(0);
+  return pair;
+}
+
+// The list of each particle's pairs.
+template <class Real>
+void listByParticle(TouchingPairs<Real>& touching, std::size_t particles) {
+  touching.starts.assign(particles + 1, 0);
+  for (const SurfacePair<Real>& pair : touching.pairs)
+    for (const std::uint32_t i : pair.particles) ++touching.starts[i + 1];
+  for (std::size_t i = 0; i < particles; ++i) touching.starts[i + 1] += touching.starts[i];
+  touching.entries.resize(4 * touching.pairs.size());
+  std::vector<std::uint32_t> next(touching.starts.begin(), touching.starts.end() - 1);
+  for (std::uint32_t q = 0; q < touching.pairs.size(); ++q)
+    for (std::uint32_t k = 0; k < 4; ++k)
+      touching.entries[next[touching.pairs[q].particles[k]]++] = 4 * q + k;
+}
+
+}  // namespace
+
+// Boxes around the motions.
+template <class Real>
+void SurfaceContact<Real>::growBoxes(const Components<Real>& starts, Real around) {
+  const SurfaceSearch<Real> search{surface_, boxes_, starts, motions_, around};
+  const std::vector<std::uint32_t>& first = surface_.firstBoxes;
+  boxes_.resize(first.back());
+  ThreadTeam::shared().forEach(
+      0, static_cast<std::uint32_t>(surface_.triangles.size()), BOXES_AT_ONCE, [&](std::uint32_t i) {
+        const auto [a, b, c] = cornersOf(surface_.triangles[i]);
+        boxes_[i] = joined(joined(search.boxOf(a), search.boxOf(b)), search.boxOf(c));
+      });
+  for (std::size_t level = 1; level + 1 < first.size(); ++level)
+    ThreadTeam::shared().forEach(first[level], first[level + 1], BOXES_AT_ONCE, [&](std::uint32_t i) {
+      const std::uint32_t child = first[level - 1] + BOX_CHILDREN * (i - first[level]),
+                          end = std::min(child + BOX_CHILDREN, first[level]);
+      Bounds<Real> box = boxes_[child];
+      for (std::uint32_t k = child + 1; k < end; ++k) box = joined(box, boxes_[k]);
+      boxes_[i] = box;
+    });
+}
+
+template <class Real>
+void SurfaceContact<Real>::findTouching(const CpuState<Real>& before, ImplicitState<Real>& implicit) {
+  const Components<Real>& starts = startsOf(before);
+  const auto particles = static_cast<std::uint32_t>(starts.x.size()),
+             triangles = static_cast<std::uint32_t>(surface_.triangles.size()),
+             chunks = (triangles + TRIANGLES_A_CHUNK - 1) / TRIANGLES_A_CHUNK;
+  const bool isLater = state_.isLater != 0;
+  state_.tooMany = 0;
+  motions_ = implicit.displacements;
+  if (isLater)
+    for (std::vector<Real>* c : {&motions_.x, &motions_.y, &motions_.z})
+      std::fill(c->begin(), c->end(), Real(0));
+  growBoxes(starts, surface_.around);
+  const SurfaceSearch<Real> search{surface_, boxes_, starts, motions_, surface_.around};
+  foundPairs_.resize(chunks);
+  ThreadTeam::shared().forEach(0, chunks, 1, [&](std::uint32_t chunk) {
+    std::vector<SurfacePair<Real>>& found = foundPairs_[chunk];
+    found.clear();
+    const std::uint32_t first = chunk * TRIANGLES_A_CHUNK;
+    for (std::uint32_t i = first; i < std::min(first + TRIANGLES_A_CHUNK, triangles); ++i) {
+      const std::size_t most = found.size() + MOST_PAIRS_A_TRIANGLE;
+      search.forEachPair(i, [&](const Parts& parts, const auto& nearest) {
+        const SurfacePair<Real> pair = pairOf(surface_, parts, nearest, starts, implicit, isLater);
+        if (pair.stiffness > Real(0)) found.push_back(pair);
+        return found.size() <= most;
+      });
+      if (found.size() > most) std::atomic_ref(state_.tooMany).store(1, std::memory_order_relaxed);
+    }
+  });
+  TouchingPairs<Real>& touching = implicit.touching;
+  touching.pairs.clear();
+  std::size_t count = 0;
+  for (const auto& found : foundPairs_) count += found.size();
+  state_.mostPairs = std::max(state_.mostPairs, static_cast<std::uint32_t>(count));
+  if (count > surface_.roomForPairs) state_.tooMany = 1;
+  if (state_.tooMany == 0)
+    for (const auto& found : foundPairs_)
+      touching.pairs.insert(touching.pairs.end(), found.begin(), found.end());
+  for (const SurfacePair<Real>& pair : touching.pairs) {
+    state_.leastGap = std::min(state_.leastGap, gapBits(pair.distance));
+    if (pair.held > Real(0)) implicit.scalars.isDisturbed = 1;
+  }
+  implicit.scalars.pairs = static_cast<std::uint32_t>(touching.pairs.size());
+  touching.forces.resize(touching.pairs.size());
+  listByParticle(touching, particles);
+}
+
+template <class Real>
+void weighPairs(ImplicitState<Real>& own, const StepParams<Real>& step) {
+  TouchingPairs<Real>& touching = own.touching;
+  const auto weigh = [&](std::uint32_t q) {
+    SurfacePair<Real>& pair = touching.pairs[q];
+    const Vec3<Real> moved = weighted(pair, own.displacements);
+    const Real along = dot(pair.normal, moved), over = pair.over - along;
+    const Vec3<Real> slip = moved - along * pair.normal;
+    const Real squared = dot(slip, slip), inverse = inverseSquareRoot(squared);
+    const Real across = pair.limit * frictionSlope(squared * inverse, inverse, slowSlip(step)).over;
+    pair.across = canonical(across);
+    pair.held = over > Real(0) ? pair.stiffness : Real(0);
+    touching.forces[q] = canonical((pair.held * over) * pair.normal - across * slip);
+  };
+  ThreadTeam::shared().forEach(0, static_cast<std::uint32_t>(touching.pairs.size()), PAIRS_AT_ONCE, weigh);
+}
+
+template <class Real>
+void multiplyPairs(ImplicitState<Real>& own) {
+  TouchingPairs<Real>& touching = own.touching;
+  const auto multiply = [&](std::uint32_t q) {
+    const SurfacePair<Real>& pair = touching.pairs[q];
+    const Vec3<Real> moved = weighted(pair, own.directions.positions);
+    const Real beyond = (pair.held - pair.across) * dot(pair.normal, moved);
+    touching.forces[q] = canonical(pair.across * moved + beyond * pair.normal);
+  };
+  ThreadTeam::shared().forEach(0, static_cast<std::uint32_t>(touching.pairs.size()), PAIRS_AT_ONCE, multiply);
+}
+
+template <class Real>
+typename SurfaceContact<Real>::Sides SurfaceContact<Real>::sidesOf(const Parts& parts, Vec3<Real> way,
+                                                                   const Components<Real>& starts) const {
+  const Vec3<Real> normal = inverseSquareRoot(dot(way, way)) * way, origin = at(starts, parts.particles[0]);
+  Sides sides{};
+  for (std::size_t k = 0; k < 4; ++k) {
+    sides.places[k] = dot(normal, at(starts, parts.particles[k]) - origin);
+    sides.motions[k] = dot(normal, at(motions_, parts.particles[k]));
+  }
+  const Real* p = sides.places;
+  const Real last = larger(p[2], p[3]);
+  sides.first = parts.areSides && p[1] < p[0] ? p[1] : p[0];
+  sides.second = parts.areSides ? last : larger(p[1], last);
+  return sides;
+}
+
+// Whether the motion so far leaves less than `least` between the parts. All moves linearly, so that no less
+// is left on the way than at its ends.
+template <class Real>
+bool SurfaceContact<Real>::isTooNear(const Parts& parts, const Sides& sides, Real least) const {
+  Real p[4];
+  for (std::size_t k = 0; k < 4; ++k) p[k] = sides.places[k] + kept_[parts.particles[k]] * sides.motions[k];
+  const Real first = parts.areSides && p[1] < p[0] ? p[1] : p[0], last = larger(p[2], p[3]),
+             second = parts.areSides ? last : larger(p[1], last);
+  const Real slack = static_cast<Real>(0.95f) * least;
+  return !(first - second > slack) || !(widthOf(sides) > slack);
+}
+
+// Across the triangle, or both sides: parts that slide over each other keep their distance that way.
+template <class Real>
+Vec3<Real> SurfaceContact<Real>::acrossBoth(const Parts& parts, Vec3<Real> way,
+                                            const Components<Real>& starts) const {
+  const auto& [i, j, k, l] = parts.particles;
+  const Vec3<Real> along = parts.areSides ? at(starts, j) - at(starts, i) : at(starts, k) - at(starts, j),
+                   other = parts.areSides ? at(starts, l) - at(starts, k) : at(starts, l) - at(starts, j),
+                   normal = cross(along, other);
+  return dot(normal, way) < Real(0) ? Vec3<Real>{} - normal : normal;
+}
+
+// Cuts the motions of all four particles short, so that both parts keep to their shares of the budget, by
+// their speeds. Parts that no plane across the way separates, as far as binary32 knows, do not move.
+template <class Real>
+void SurfaceContact<Real>::keepToSides(const Parts& parts, const Sides& sides) {
+  const std::size_t firsts = parts.areSides ? 2 : 1;
+  Real firstMotion = 0, secondMotion = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    if (k < firsts)
+      firstMotion = larger(firstMotion, -sides.motions[k]);
+    else
+      secondMotion = larger(secondMotion, sides.motions[k]);
+  }
+  const Real width = widthOf(sides), both = firstMotion + secondMotion;
+  const Real budget = SurfaceLaws<Real>::budgetOf(larger(width, Real(0)), surface_.leastGap);
+  const Real share = budget * (firstMotion * reciprocal(larger(both, Real(LEAST_APPROACH))));
+  for (std::size_t k = 0; k < 4; ++k) {
+    const bool isFirst = k < firsts;
+    const Real towards = isFirst ? -sides.motions[k] : sides.motions[k];
+    const Real room = isFirst ? share + (sides.places[k] - sides.first)
+                              : (budget - share) + (sides.second - sides.places[k]);
+    Real kept = room * reciprocal(larger(towards, Real(LEAST_APPROACH)));
+    if (!(width > Real(0)))
+      kept = 0;
+    else if (!(room < towards) || !(towards > Real(LEAST_APPROACH)))
+      continue;
+    lower(newlyKept_[parts.particles[k]], canonical(kept));
+  }
+}
+
+// Round by round, pairs that the motion so far brings too near keep to their sides; what this takes from
+// particles may bring others too near.
+template <class Real>
+void SurfaceContact<Real>::guard(const CpuState<Real>& before, const CpuState<Real>& after,
+                                 std::uint32_t round) {
+  const Components<Real>& starts = startsOf(before);
+  const auto particles = static_cast<std::uint32_t>(starts.x.size()),
+             triangles = static_cast<std::uint32_t>(surface_.triangles.size());
+  if (round == 0) {
+    std::fill(std::begin(state_.tooNear), std::end(state_.tooNear), 0u);
+    motions_.resize(particles);
+    for (std::uint32_t i = 0; i < particles; ++i) put(motions_, i, at(after.positions, i) - at(starts, i));
+    growBoxes(starts, Real(0));
+    kept_.assign(particles, Real(1));
+    newlyKept_ = kept_;
+  }
+  if (round > 0 && state_.tooNear[round - 1] == 0) return;
+  const bool all = round + 1 == GUARD_ROUNDS;
+  const SurfaceSearch<Real> search{surface_, boxes_, starts, motions_, Real(0)};
+  ThreadTeam::shared().forEach(0, triangles, TRIANGLES_A_CHUNK, [&](std::uint32_t i) {
+    search.forEachPair(i, [&](const Parts& parts, const auto& nearest) {
+      const Sides sides = sidesOf(parts, nearest.way, starts);
+      const Real width = larger(widthOf(sides), Real(0)),
+                 least = width - SurfaceLaws<Real>::budgetOf(width, surface_.leastGap);
+      if (!all && !isTooNear(parts, sides, least)) return true;
+      const Sides sliding = sidesOf(parts, acrossBoth(parts, nearest.way, starts), starts);
+      if (!all && !isTooNear(parts, sliding, least)) return true;
+      std::atomic_ref(state_.tooNear[round]).store(1, std::memory_order_relaxed);
+      keepToSides(parts, widthOf(sliding) > Real(0.5) * width ? sliding : sides);
+      return true;
+    });
+  });
+  kept_ = newlyKept_;
+}
+
+template <class Real>
+void SurfaceContact<Real>::shorten(const CpuState<Real>& before, CpuState<Real>& after,
+                                   const StepParams<Real>& step, const std::vector<Real>& inverseMasses) {
+  const Components<Real>& starts = startsOf(before);
+  std::uint32_t shortened = 0;
+  for (std::size_t i = 0; i < kept_.size(); ++i) {
+    if (!(kept_[i] < Real(1))) continue;
+    ++shortened;
+    const auto place = static_cast<std::ptrdiff_t>(i);
+    const Vec3<Real> motion = at(motions_, place), lost = (Real(1) - kept_[i]) * motion;
+    put(after.positions, place, canonical(at(starts, place) + kept_[i] * motion));
+    if (inverseMasses[i] > Real(0))
+      put(after.velocities, place, canonical(at(after.velocities, place) - step.inverseTimeStep * lost));
+  }
+  state_.isGuarded = shortened > 0 ? 1 : 0;
+  state_.shortened += shortened;
+  state_.guardedSteps += shortened > 0 ? 1 : 0;
+  state_.crowdedSteps += state_.tooMany != 0 ? 1 : 0;
+}
+
+template <class Real>
+void SurfaceContact<Real>::settle(const CpuState<Real>& before, const CpuState<Real>& after,
+                                  ImplicitState<Real>& implicit) {
+  state_.isLater = 1;
+  state_.isSettled = state_.isGuarded != 0 ? 0 : 1;
+  std::uint32_t& isSolved = implicit.scalars.isStepSolved;
+  isSolved = state_.isGuarded != 0 ? 0 : isSolved == 1 ? 1 : STEP_ENDED;
+  if (state_.isSettled != 0) return;
+  safePositions_ = implicit.iterate.positions = after.positions;
+  for (std::size_t i = 0; i < kept_.size(); ++i) {
+    const auto place = static_cast<std::ptrdiff_t>(i);
+    put(implicit.displacements, place, canonical(at(after.positions, place) - at(before.positions, place)));
+  }
+}
+
+template <class Real>
+void SurfaceContact<Real>::run(PassCall call, const CpuState<Real>& before, CpuState<Real>& after,
+                               ImplicitState<Real>& implicit, const StepParams<Real>& step,
+                               const std::vector<Real>& inverseMasses) {
+  if (call.pass == Pass::findTouching && call.index == 0) state_.isLater = state_.isSettled = 0;
+  if (call.pass == Pass::settle) return settle(before, after, implicit);
+  if (state_.isSettled != 0) return;
+  switch (call.pass) {
+    case Pass::findTouching:
+      return findTouching(before, implicit);
+    case Pass::weighPairs:
+      return weighPairs(implicit, step);
+    case Pass::multiplyPairs:
+      return multiplyPairs(implicit);
+    case Pass::guard:
+      return guard(before, after, call.index);
+    default:
+      return shorten(before, after, step, inverseMasses);
+  }
+}
+
+template class SurfaceContact<float>;
+template class SurfaceContact<double>;
+
+}  // namespace clothsim::cpu

@@ -1,0 +1,31 @@
+// What the laws in shaders/shared/surface_laws.h are written in, as C++.
+#pragma once
+
+#include <cstdint>
+
+#include "core/exact_math.h"
+#include "core/vec.h"
+#include "shared/surface.h"
+#include "solver/cpu/vector_clones.h"
+
+namespace clothsim::cpu {
+
+#include "solver/cpu/begin_laws.h"
+
+template <class Real>
+struct SurfaceLaws {
+  using real = Real;
+  using uint = std::uint32_t;
+  using vec3 = Vec3<Real>;
+
+  INLINE static real sumOfProducts(vec3 a, vec3 b) { return dot(a, b); }
+  INLINE static real reciprocal(real x) { return clothsim::reciprocal(x); }
+
+#undef LAW
+#define LAW INLINE static
+#include "shared/surface_laws.h"
+};
+
+#include "solver/cpu/end_laws.h"
+
+}  // namespace clothsim::cpu

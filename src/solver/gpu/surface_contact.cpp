@@ -1,0 +1,255 @@
+#include "solver/gpu/surface_contact.h"
+
+#include <algorithm>
+#include <cassert>
+#include <span>
+#include <vector>
+
+#include "shared/step_params.h"
+#include "solver/gpu/pass_programs.h"
+
+namespace clothsim {
+namespace {
+
+constexpr std::size_t PAIR_TEXELS = 4, BOX_TEXELS = 2;
+
+std::uint32_t blocksOf(std::size_t size) {
+  return static_cast<std::uint32_t>((size + SURFACE_BLOCK - 1) / SURFACE_BLOCK);
+}
+
+}  // namespace
+
+GpuSurfaceContact::Numbers::Numbers(const std::string& label, std::size_t count, GLenum format)
+    : buffer(label, count), texture(label, buffer.name(), format) {
+  checkFits(count, sizeof(std::uint32_t), label.c_str());
+}
+
+const gl::Program& GpuSurfaceContact::program(const std::string& pass, const Variant& variant) {
+  auto found = programs_.find({pass, variant});
+  if (found == programs_.end()) {
+    gl::Defines defines{{"SEARCHES_TOUCHING", std::to_string(variant.touching)},
+                        {"WRITES_PAIRS", std::to_string(variant.writes)},
+                        {"SCANS_LISTS", std::to_string(variant.lists)},
+                        {"LATER", std::to_string(variant.later)},
+                        {"CLEARS", std::to_string(variant.clears)}};
+    if (variant.gate != 0) {
+      defines = definesFor({.groupColumns = SURFACE_GROUP, .groupRows = 1, .gate = variant.gate});
+    }
+    gl::Program made = gl::Program::makeCompute("sim/surface/" + pass + ".comp", defines);
+    found = programs_.emplace(std::pair{pass, variant}, std::move(made)).first;
+  }
+  return found->second;
+}
+
+void GpuSurfaceContact::compile() {
+  for (const bool touching : {false, true})
+    for (const char* pass : {"begin", "triangle_boxes"}) program(pass, {.touching = touching});
+  program("begin", {.touching = true, .later = true});
+  for (const bool writes : {false, true}) program("search", {.touching = true, .writes = writes});
+  for (const bool lists : {false, true})
+    for (const char* pass : {"scan_blocks", "scan_totals"}) program(pass, {.lists = lists});
+  for (const bool clears : {false, true}) program("keep", {.clears = clears});
+  for (const char* pass : {"boxes", "clear_lists", "list", "sort_lists", "guard", "shorten", "settle"})
+    program(pass);
+  program("weigh", {.gate = GATE_STEP});
+  program("multiply_pairs", {.gate = GATE_SYSTEM});
+}
+
+void GpuSurfaceContact::setSurface(ClothSurface<float> surface, std::uint32_t particles) {
+  surface_ = std::move(surface);
+  particles_ = particles;
+  compile();
+  const std::size_t triangles = surface_.triangles.size();
+  triangles_ = Numbers("surface triangles", 8 * triangles, GL_RGBA32UI);
+  triangles_.buffer.upload(
+      {reinterpret_cast<const std::uint32_t*>(surface_.triangles.data()), 8 * triangles});
+  points_ = ParticleArray("surface points", particles);
+  static_assert(sizeof(SurfacePoint<float>) == sizeof(Particle4));
+  points_.buffer.upload({reinterpret_cast<const Particle4*>(surface_.points.data()), particles});
+  boxes_ = ParticleArray("boxes", BOX_TEXELS * surface_.firstBoxes.back());
+  counts_ = Numbers("pairs by triangle", triangles);
+  blocks_ = Numbers("blocks of triangles", blocksOf(triangles));
+  lists_ = Numbers("pairs by particle", particles);
+  listBlocks_ = Numbers("blocks of particles", blocksOf(particles));
+  cursors_ = gl::Buffer<std::uint32_t>("list cursors", particles);
+  kept_ = gl::Buffer<std::uint32_t>("kept motions", particles);
+  newlyKept_ = gl::Buffer<std::uint32_t>("newly kept motions", particles);
+  safePositions_ = ParticleArray("safe positions", particles);
+  if (state_.name() == 0) {
+    const SurfaceState fresh = freshSurfaceState();
+    state_ = gl::Buffer<SurfaceState>("surface state", std::span(&fresh, 1));
+    const std::vector<Groups> none(1, Groups{0, 1, 1});
+    dispatches_ = gl::Buffer<Groups>("pair dispatches", std::span<const Groups>(none));
+    params_ = gl::Buffer<SurfaceParams>("surface parameters", 1);
+  }
+  std::vector<LevelSlot> slots;
+  const std::vector<std::uint32_t>& first = surface_.firstBoxes;
+  for (std::size_t level = 1; level + 1 < first.size(); ++level) {
+    const std::uint32_t count = first[level + 1] - first[level];
+    slots.push_back({{first[level - 1], first[level], count, count <= BOXES_ALONE ? 1u : 0u}});
+    if (count <= BOXES_ALONE) break;
+  }
+  boxLevels_ = slots.size();
+  for (std::uint32_t round = 0; round < GUARD_ROUNDS; ++round) slots.push_back({{0, round, 0, 0}});
+  levels_ = gl::Buffer<LevelSlot>("box levels", std::span<const LevelSlot>(slots));
+  allocatePairs();
+  uploadParams();
+}
+
+void GpuSurfaceContact::allocatePairs() {
+  const std::size_t room = surface_.roomForPairs;
+  pairIds_ = Numbers("pair particles", 4 * room, GL_RGBA32UI);
+  pairRows_ = ParticleArray("pairs", PAIR_TEXELS * room);
+  entries_ = Numbers("pair lists", 4 * room);
+}
+
+void GpuSurfaceContact::uploadParams() {
+  SurfaceParams params{};
+  params.triangles = static_cast<std::uint32_t>(surface_.triangles.size());
+  params.topLevel = static_cast<int>(surface_.firstBoxes.size()) - 2;
+  params.roomForPairs = surface_.roomForPairs;
+  params.around = surface_.around;
+  params.margin = surface_.margin;
+  params.leastGap = surface_.leastGap;
+  for (std::size_t level = 0; level < surface_.firstBoxes.size(); ++level)
+    params.firstBoxes[level][0] = surface_.firstBoxes[level];
+  params_.upload({&params, 1});
+}
+
+void GpuSurfaceContact::makeRoom() {
+  if (!isOn()) return;
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  if (!growRoom(surface_, state_.download().front())) return;
+  allocatePairs();
+  uploadParams();
+}
+
+void GpuSurfaceContact::bindTextures() const {
+  if (!isOn()) return;
+  triangles_.texture.bind(SURFACE_TRIANGLES_UNIT);
+  points_.texture.bind(SURFACE_POINTS_UNIT);
+  boxes_.texture.bind(SURFACE_BOXES_UNIT);
+  pairIds_.texture.bind(PAIR_IDS_UNIT);
+  pairRows_.texture.bind(PAIR_ROWS_UNIT);
+  lists_.texture.bind(PAIR_STARTS_UNIT);
+  listBlocks_.texture.bind(PAIR_BLOCKS_UNIT);
+  entries_.texture.bind(PAIR_ENTRIES_UNIT);
+  blocks_.texture.bind(SURFACE_BLOCKS_UNIT);
+}
+
+void GpuSurfaceContact::runOn(PassRunner& runner, const gl::Program& program, std::size_t entries) const {
+  runner.runGroups(program, name_, static_cast<std::uint32_t>((entries + SURFACE_GROUP - 1) / SURFACE_GROUP));
+}
+
+void GpuSurfaceContact::growBoxes(PassRunner& runner, bool touching) {
+  boxes_.buffer.bindStorage(SURFACE_OUT_BINDING);
+  runOn(runner, program("triangle_boxes", {.touching = touching}), surface_.triangles.size());
+  for (std::size_t level = 0; level < boxLevels_; ++level) {
+    levels_.bindUniformRange(BOX_LEVEL_BINDING, level, 1);
+    const std::uint32_t count = surface_.firstBoxes[level + 2] - surface_.firstBoxes[level + 1];
+    runner.runGroups(
+        program("boxes"), name_,
+        level + 1 == boxLevels_ && count <= BOXES_ALONE ? 1 : (count + SURFACE_LANES - 1) / SURFACE_LANES);
+  }
+}
+
+void GpuSurfaceContact::scan(PassRunner& runner, Numbers& counts, Numbers& blocks, std::size_t size,
+                             bool lists) {
+  counts.buffer.bindStorage(SURFACE_COUNTS_BINDING);
+  blocks.buffer.bindStorage(SURFACE_OUT_BINDING);
+  dispatches_.bindStorage(SURFACE_IDS_BINDING);
+  const Variant variant{.lists = lists};
+  runner.runGroups(program("scan_blocks", variant), name_, blocksOf(size));
+  runner.runGroups(program("scan_totals", variant), name_, 1);
+}
+
+void GpuSurfaceContact::findTouching(PassRunner& runner, bool later) {
+  const std::size_t triangles = surface_.triangles.size();
+  runner.runGroups(program("begin", {.touching = true, .later = later}), name_, 1);
+  growBoxes(runner, true);
+  counts_.buffer.bindStorage(SURFACE_COUNTS_BINDING);
+  runOn(runner, program("search", {.touching = true}), triangles);
+  scan(runner, counts_, blocks_, triangles, false);
+
+  lists_.buffer.bindStorage(SURFACE_LISTS_BINDING);
+  cursors_.bindStorage(SURFACE_OUT_BINDING);
+  runOn(runner, program("clear_lists"), particles_);
+  pairIds_.buffer.bindStorage(SURFACE_IDS_BINDING);
+  pairRows_.buffer.bindStorage(SURFACE_OUT_BINDING);
+  runOn(runner, program("search", {.touching = true, .writes = true}), triangles);
+  scan(runner, lists_, listBlocks_, particles_, true);
+
+  dispatches_.bindDispatches();
+  cursors_.bindStorage(SURFACE_OUT_BINDING);
+  entries_.buffer.bindStorage(SURFACE_LISTS_BINDING);
+  runner.runIndirect(program("list"), name_, 0);
+  runOn(runner, program("sort_lists"), particles_);
+}
+
+void GpuSurfaceContact::keep(PassRunner& runner, bool clears) {
+  kept_.bindStorage(SURFACE_COUNTS_BINDING);
+  newlyKept_.bindStorage(SURFACE_LISTS_BINDING);
+  runOn(runner, program("keep", {.clears = clears}), particles_);
+}
+
+void GpuSurfaceContact::guard(PassRunner& runner, std::uint32_t round) {
+  if (round == 0) {
+    runner.runGroups(program("begin"), name_, 1);
+    growBoxes(runner, false);
+    keep(runner, true);
+  }
+  levels_.bindUniformRange(BOX_LEVEL_BINDING, boxLevels_ + round, 1);
+  runOn(runner, program("guard"), surface_.triangles.size());
+  keep(runner, false);
+}
+
+void GpuSurfaceContact::shorten(PassRunner& runner, GpuArrays& arrays) {
+  arrays[Array::newPositions].buffer.bindStorage(NEW_POSITIONS_BINDING);
+  arrays[Array::newVelocities].buffer.bindStorage(NEW_VELOCITIES_BINDING);
+  kept_.bindStorage(SURFACE_LISTS_BINDING);
+  runOn(runner, program("shorten"), particles_);
+}
+
+void GpuSurfaceContact::settle(PassRunner& runner, GpuArrays& arrays) {
+  safePositions_.buffer.bindStorage(SURFACE_OUT_BINDING);
+  arrays[Array::displacements].buffer.bindStorage(SURFACE_LISTS_BINDING);
+  arrays[Array::iterates].buffer.bindStorage(SURFACE_IDS_BINDING);
+  runOn(runner, program("settle"), particles_);
+  safePositions_.texture.bind(SURFACE_STARTS_UNIT);
+}
+
+void GpuSurfaceContact::run(PassRunner& runner, PassCall call, GpuArrays& arrays) {
+  name_ = runner.isTiming() ? nameOf(call.pass) : "";
+  arrays.bindFor(call.pass);
+  arrays.bindScalars();
+  params_.bindUniform(SURFACE_PARAMS_BINDING);
+  state_.bindStorage(SURFACE_STATE_BINDING);
+  switch (call.pass) {
+    case Pass::findTouching:
+      if (call.index == 0) arrays[Array::positions].texture.bind(SURFACE_STARTS_UNIT);
+      return findTouching(runner, call.index > 0);
+    case Pass::weighPairs:
+    case Pass::multiplyPairs:
+      dispatches_.bindDispatches();
+      pairRows_.buffer.bindStorage(SURFACE_OUT_BINDING);
+      return runner.runIndirect(call.pass == Pass::weighPairs
+                                    ? program("weigh", {.gate = GATE_STEP})
+                                    : program("multiply_pairs", {.gate = GATE_SYSTEM}),
+                                name_, 0);
+    case Pass::guard:
+      return guard(runner, call.index);
+    case Pass::settle:
+      return settle(runner, arrays);
+    default:
+      assert(call.pass == Pass::shorten && "this pass is one of surface contact");
+      shorten(runner, arrays);
+  }
+}
+
+ContactCounts GpuSurfaceContact::counts() const {
+  if (!isOn()) return {};
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  return countsOf(state_.download().front());
+}
+
+}  // namespace clothsim

@@ -1,0 +1,83 @@
+// Contact of the cloth's surface with itself on the GPU: the twin of solver/cpu/surface_contact.h, passes
+// under shaders/sim/surface/. Nothing is read back within a step: how many pairs there are, the GPU itself
+// tells the dispatches that follow.
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "gl/buffer.h"
+#include "gl/buffer_texture.h"
+#include "gl/program.h"
+#include "solver/executor.h"
+#include "solver/gpu/arrays.h"
+#include "solver/gpu/particle_array.h"
+#include "solver/gpu/pass_runner.h"
+#include "solver/surface.h"
+
+namespace clothsim {
+
+class GpuSurfaceContact {
+ public:
+  // @throws OpenGlError when a buffer is larger than the driver allows, or a shader does not compile
+  void setSurface(ClothSurface<float> surface, std::uint32_t particles);
+  [[nodiscard]] bool isOn() const { return !programs_.empty(); }
+
+  // What the passes of the implicit step read.
+  void bindTextures() const;
+  // Does a pass of Domain::surface.
+  void run(PassRunner& runner, PassCall call, GpuArrays& arrays);
+  [[nodiscard]] ContactCounts counts() const;
+  // Makes room for what the steps so far would have needed. On both backends at the same time.
+  void makeRoom();
+
+ private:
+  struct Variant {  // of a program
+    bool touching = false, writes = false, lists = false, later = false, clears = false;
+    int gate = 0;
+    friend auto operator<=>(const Variant&, const Variant&) = default;
+  };
+  struct alignas(256) LevelSlot {  // every driver takes uniform offsets in multiples of 256
+    BoxLevel level;
+  };
+  // A buffer of whole numbers and its view as texels.
+  struct Numbers {
+    Numbers() = default;
+    Numbers(const std::string& label, std::size_t count, GLenum format = GL_R32UI);
+    gl::Buffer<std::uint32_t> buffer;
+    gl::BufferTexture texture;
+  };
+
+  const gl::Program& program(const std::string& pass, const Variant& variant);
+  const gl::Program& program(const std::string& pass) { return program(pass, Variant()); }
+  void compile();
+  void allocatePairs();
+  void uploadParams();
+  void runOn(PassRunner& runner, const gl::Program& program, std::size_t entries) const;
+  void growBoxes(PassRunner& runner, bool touching);
+  void scan(PassRunner& runner, Numbers& counts, Numbers& blocks, std::size_t size, bool lists);
+  void findTouching(PassRunner& runner, bool later);
+  void keep(PassRunner& runner, bool clears);
+  void guard(PassRunner& runner, std::uint32_t round);
+  void shorten(PassRunner& runner, GpuArrays& arrays);
+  void settle(PassRunner& runner, GpuArrays& arrays);
+
+  ClothSurface<float> surface_;
+  std::uint32_t particles_ = 0;
+  std::string name_;  // of the pass, for timings
+  std::map<std::pair<std::string, Variant>, gl::Program> programs_;
+
+  gl::Buffer<SurfaceParams> params_;
+  gl::Buffer<SurfaceState> state_;
+  gl::Buffer<Groups> dispatches_;  // over the pairs
+  gl::Buffer<LevelSlot> levels_;   // those of boxes, then the rounds of the guard
+  std::size_t boxLevels_ = 0;      // how many of them are dispatched
+  Numbers triangles_, counts_, blocks_, lists_, listBlocks_, entries_, pairIds_;
+  gl::Buffer<std::uint32_t> cursors_, kept_, newlyKept_;
+  ParticleArray points_, boxes_, pairRows_, safePositions_;
+};
+
+}  // namespace clothsim

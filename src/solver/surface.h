@@ -1,0 +1,80 @@
+// The cloth as a surface that touches itself and other cloth, under solver.self_collision: "contact".
+//
+// A step looks twice for parts of the surface that are near each other: corners and triangles, sides and
+// sides. First for those that may touch: they take part in the implicit step as stiff springs with friction
+// (solver/implicit.h), so that layers lie on each other at the thickness of the fabric, however coarse the
+// grid. At the end for those that the motion of the step could bring through each other: between two such
+// parts lies a slab, across the way on which they are nearest, and unless they keep their sides of it, both
+// motions are cut short ("planar truncation", after Chen et al. 2025, "Offset geometric contact", with
+// relative motion instead of a bound on each particle). So no two parts cross, in any step.
+//
+// Both searches go through one tree of boxes over the triangles, whose order is that of the particles at the
+// start along a space-filling curve; it never changes, so that pairs come in one order on every device.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <vector>
+
+#include "cloth/cloth.h"
+#include "cloth/cuts.h"
+#include "core/vec.h"
+#include "shared/surface.h"
+#include "solver/contact_counts.h"
+
+namespace clothsim {
+
+using SurfaceTriangle = shared::SurfaceTriangle;
+template <class Real>
+using SurfacePoint = shared::SurfacePoint<Real>;
+using SurfaceState = shared::SurfaceState;
+using SurfaceParams = shared::SurfaceParams;
+using BoxLevel = shared::BoxLevel;
+
+// Two parts that may touch: sum of weights times positions = distance times normal.
+template <class Real>
+struct SurfacePair {
+  std::array<std::uint32_t, 4> particles;
+  bool areSides;
+  Vec3<Real> normal;
+  Real distance;  // at the start of the step [m]
+  std::array<Real, 4> weights;
+  Real over;        // by how much they are nearer than they may be then [m]
+  Real stiffness;   // [N/m]
+  Real limit;       // of friction, by how they press at the start of the step [N]
+  Real held = 0;    // what the pair adds to the Hessian: its stiffness while it touches,
+  Real across = 0;  // and friction's across the normal [N/m]
+};
+
+template <class Real>
+struct ClothSurface {
+  std::vector<SurfaceTriangle> triangles;  // without those that cuts took
+  std::vector<SurfacePoint<Real>> points;  // by particle
+  std::vector<std::uint32_t> firstBoxes;  // of each level, the finest first, and one more: how many there are
+  Real around = 0;                        // how far the search for those looks around each part [m]
+  Real margin = 0;  // parts that are predicted to come so near count as pairs that may touch [m]
+  std::uint32_t roomForPairs = 0;  // how many a step may have
+  Real leastGap = 0;               // what motion leaves of a distance, if it was more [m]
+};
+
+// Whether the scene's steps use it.
+[[nodiscard]] bool hasSurfaceContact(const Scene& scene);
+
+// Before the first step.
+[[nodiscard]] SurfaceState freshSurfaceState();
+// Makes room for twice as many as any step has had so far, where there was not that much. Says whether it
+// did.
+template <class Real>
+bool growRoom(ClothSurface<Real>& surface, const SurfaceState& state);
+[[nodiscard]] ContactCounts countsOf(const SurfaceState& state);
+// A gap as an integer that is ordered as gaps are.
+template <class Real>
+[[nodiscard]] inline std::uint32_t gapBits(Real gap) {
+  return std::bit_cast<std::uint32_t>(static_cast<float>(gap));
+}
+
+template <class Real>
+[[nodiscard]] ClothSurface<Real> makeSurface(const Cloth& cloth, const Scene& scene, const Cuts& cuts);
+
+}  // namespace clothsim
