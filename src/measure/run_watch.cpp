@@ -144,6 +144,8 @@ void RunWatch::add(int frame, const Cloth& cloth, const Scene& scene, const Stat
                    const ContactCounts& counts) {
   contacts_.add(frame, cloth, scene, state, strain, counts);
   peakStrain_ = std::max(peakStrain_, strain);
+  crowdedSteps_ = counts.crowdedSteps;
+  if (crowdedSteps_ > 0 && !crowdedFrame_) crowdedFrame_ = frame;
   if (strain > doubtfulStrain(scene) && !doubtfulFrame_) doubtfulFrame_ = frame;
 }
 
@@ -164,6 +166,12 @@ std::vector<Warning> RunWatch::warnings(const Scene& scene) const {
                             " deep; the first step pushes them out"});
   warnings.insert(warnings.end(), paths_.begin(), paths_.end());
   if (const auto& failure = contacts_.failure()) warnings.push_back(contactWarning(*failure, scene));
+  if (crowdedFrame_)
+    warnings.push_back({"contact", crowdedFrame_, "too many contacts at once",
+                        "layers touched at more places than there was room for in " +
+                            std::to_string(crowdedSteps_) + (crowdedSteps_ == 1 ? " step" : " steps") +
+                            ", in which nothing pushed them apart (they do not cross); the frames after "
+                            "have more room"});
   if (doubtfulFrame_)
     warnings.push_back({"strain", doubtfulFrame_,
                         formatted("springs stretched by %.0f %%: raise simulation_steps", 100 * peakStrain_),

@@ -60,6 +60,8 @@ class RunWatch {
   std::vector<Warning> paths_;
   std::optional<int> doubtfulFrame_;  // the first with a doubtful strain
   double peakStrain_ = 0;
+  std::uint64_t crowdedSteps_ = 0;
+  std::optional<int> crowdedFrame_;  // the first with a step that had too many pairs to push
   ConvergenceCounts convergence_;
   double largestUpdate_ = 0;          // of the last steps of frames
   std::optional<int> unsolvedFrame_;  // the first with a step that ended unsolved

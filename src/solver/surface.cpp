@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
 #include <utility>
 
 #include "solver/self_collision.h"
@@ -13,6 +12,8 @@ namespace {
 
 // Room at the start, which grows.
 constexpr std::uint32_t PAIRS_A_PARTICLE = 8;
+
+constexpr std::uint32_t NO_TRIANGLE = 0xffffffffu;
 
 using Corners = std::array<std::uint32_t, 3>;
 
@@ -71,9 +72,79 @@ std::vector<Corners> sortedTriangles(const Cloth& cloth, const Cuts& cuts) {
   return corners;
 }
 
-struct SharedSide {
-  std::uint32_t first, second;  // triangles, second may be none
+// The sides of all triangles, by their particles, in ascending order.
+class Sides {
+ public:
+  explicit Sides(const std::vector<Corners>& triangles) {
+    for (std::uint32_t i = 0; i < triangles.size(); ++i)
+      for (std::size_t k = 0; k < 3; ++k) sides_.push_back({particlesOf(triangles[i], k), i});
+    std::sort(sides_.begin(), sides_.end());
+  }
+  // The triangles that have the side from corner k on: two of them at most, ascending.
+  [[nodiscard]] std::vector<std::uint32_t> trianglesAt(const Corners& triangle, std::size_t k) const {
+    const Particles side = particlesOf(triangle, k);
+    std::vector<std::uint32_t> found;
+    for (auto at = std::lower_bound(sides_.begin(), sides_.end(), std::pair{side, 0u});
+         at != sides_.end() && at->first == side; ++at)
+      found.push_back(at->second);
+    return found;
+  }
+
+ private:
+  using Particles = std::pair<std::uint32_t, std::uint32_t>;
+  static Particles particlesOf(const Corners& t, std::size_t k) { return std::minmax(t[k], t[(k + 1) % 3]); }
+  std::vector<std::pair<Particles, std::uint32_t>> sides_;
 };
+
+// What the triangles at a particle are to it.
+struct Fan {
+  std::uint32_t first = NO_TRIANGLE, count = 0;
+  double shortestSide = INFINITY;  // [m]
+};
+
+std::vector<Fan> makeFans(const Cloth& cloth, const std::vector<Corners>& triangles) {
+  std::vector<Fan> fans(cloth.particleCount());
+  for (std::uint32_t i = 0; i < triangles.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = triangles[i][k], b = triangles[i][(k + 1) % 3];
+      const double length = clothsim::length(cloth.positions()[a] - cloth.positions()[b]);
+      fans[a].first = std::min(fans[a].first, i);
+      ++fans[a].count;
+      for (const std::uint32_t end : {a, b})
+        fans[end].shortestSide = std::min(fans[end].shortestSide, length);
+    }
+  return fans;
+}
+
+SurfaceTriangle makeTriangle(std::uint32_t number, const std::vector<Corners>& triangles,
+                             const std::vector<Fan>& fans, const Sides& sides) {
+  const Corners& own = triangles[number];
+  std::uint32_t owned = 0;
+  std::array<std::uint32_t, 3> across{NO_PARTICLE, NO_PARTICLE, NO_PARTICLE};
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (fans[own[k]].first == number) owned |= 1u << k;
+    const std::vector<std::uint32_t> both = sides.trianglesAt(own, k);
+    if (both[0] == number) owned |= 1u << (OWNED_SIDE + k);
+    for (const std::uint32_t other : both)
+      for (const std::uint32_t particle : triangles[other])
+        if (other != number && particle != own[k] && particle != own[(k + 1) % 3]) across[k] = particle;
+  }
+  return {own[0], own[1], own[2], owned, across[0], across[1], across[2], 0};
+}
+
+template <class Real>
+SurfacePoint<Real> makePoint(const Cloth& cloth, const Scene& scene, std::uint32_t particle, const Fan& fan) {
+  const std::size_t piece = cloth.pieceOf(particle);
+  const ClothSettings& settings = scene.cloths[piece];
+  constexpr double usualFriction = 0.3;
+  const double thickness = settings.material ? settings.material->thickness : settings.thickness,
+               radius = fan.count > 0 ? std::min(thickness / 2, fan.shortestSide / 4) : 0,
+               friction = scene.solver.selfFriction.value_or(settings.material ? settings.material->friction
+                                                                               : usualFriction);
+  return {static_cast<Real>(radius), static_cast<Real>(friction),
+          static_cast<Real>(1.0 / std::max(fan.count, 1u)),
+          static_cast<Real>(4 * cloth.pieces()[piece].stiffestSpring())};
+}
 
 }  // namespace
 
@@ -82,69 +153,33 @@ bool hasSurfaceContact(const Scene& scene) { return scene.solver.selfCollision =
 template <class Real>
 ClothSurface<Real> makeSurface(const Cloth& cloth, const Scene& scene, const Cuts& cuts) {
   ClothSurface<Real> surface;
-  const std::vector<Corners> corners = sortedTriangles(cloth, cuts);
-  const auto none = static_cast<std::uint32_t>(corners.size());
-  std::map<std::pair<std::uint32_t, std::uint32_t>, SharedSide> sides;
-  std::vector<std::uint32_t> owners(cloth.particleCount(), none), valences(cloth.particleCount(), 0);
-  std::vector<double> shortest(cloth.particleCount(), INFINITY);
-  const auto sideOf = [&](const Corners& t, std::size_t k) { return std::minmax(t[k], t[(k + 1) % 3]); };
-  double longest = 0;
-  for (std::uint32_t i = 0; i < none; ++i)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t a = corners[i][k], b = corners[i][(k + 1) % 3];
-      owners[a] = std::min(owners[a], i);
-      ++valences[a];
-      const auto [side, isNew] = sides.try_emplace(sideOf(corners[i], k), SharedSide{i, none});
-      if (!isNew) side->second.second = i;
-      const double length = clothsim::length(cloth.positions()[a] - cloth.positions()[b]);
-      longest = std::max(longest, length);
-      shortest[a] = std::min(shortest[a], length);
-      shortest[b] = std::min(shortest[b], length);
-    }
-  for (std::uint32_t i = 0; i < none; ++i) {
-    const Corners& t = corners[i];
-    std::uint32_t owned = 0;
-    std::array<std::uint32_t, 3> across{};
-    for (std::size_t k = 0; k < 3; ++k) {
-      if (owners[t[k]] == i) owned |= 1u << k;
-      const SharedSide& side = sides.at(sideOf(t, k));
-      if (side.first == i) owned |= 1u << (OWNED_SIDE + k);
-      const std::uint32_t other = side.first == i ? side.second : side.first;
-      across[k] = NO_PARTICLE;
-      for (const std::uint32_t particle : other == none ? t : corners[other])
-        if (other != none && particle != t[k] && particle != t[(k + 1) % 3]) across[k] = particle;
-    }
-    surface.triangles.push_back({t[0], t[1], t[2], owned, across[0], across[1], across[2], 0});
-  }
+  const std::vector<Corners> triangles = sortedTriangles(cloth, cuts);
+  const std::vector<Fan> fans = makeFans(cloth, triangles);
+  const Sides sides(triangles);
+  const auto count = static_cast<std::uint32_t>(triangles.size());
+  for (std::uint32_t i = 0; i < count; ++i)
+    surface.triangles.push_back(makeTriangle(i, triangles, fans, sides));
   double smallestRadius = INFINITY, largestRadius = 0, widest = 0;
   for (std::uint32_t i = 0; i < cloth.particleCount(); ++i) {
-    const std::size_t piece = cloth.pieceOf(i);
-    const ClothSettings& settings = scene.cloths[piece];
-    const double thickness = settings.material ? settings.material->thickness : settings.thickness,
-                 radius = valences[i] > 0 ? std::min(thickness / 2, shortest[i] / 4) : 0,
-                 friction = scene.solver.selfFriction.value_or(settings.material ? settings.material->friction
-                                                                                 : 0.3);
-    if (valences[i] > 0) {
-      smallestRadius = std::min(smallestRadius, radius);
-      largestRadius = std::max(largestRadius, radius);
-      widest = std::max(widest, shortest[i]);
-    }
-    surface.points.push_back({static_cast<Real>(radius), static_cast<Real>(friction),
-                              static_cast<Real>(1.0 / std::max(valences[i], 1u)),
-                              static_cast<Real>(4 * cloth.pieces()[piece].stiffestSpring())});
+    surface.points.push_back(makePoint<Real>(cloth, scene, i, fans[i]));
+    if (fans[i].count == 0) continue;
+    const auto radius = static_cast<double>(surface.points.back().radius);
+    smallestRadius = std::min(smallestRadius, radius);
+    largestRadius = std::max(largestRadius, radius);
+    widest = std::max(widest, fans[i].shortestSide);
   }
-  constexpr double rounding = 0x1p-24;
-  surface.margin = static_cast<Real>(widest / 4);
-  surface.around = static_cast<Real>(largestRadius + widest / 8);
-  surface.leastGap =
-      none == 0 ? Real(0)
-                : static_cast<Real>(std::min(std::max(0.1 * smallestRadius, std::sqrt(rounding * longest)),
-                                             0.5 * smallestRadius));
+  if (count > 0) {
+    constexpr double rounding = 0x1p-24;  // of places about 1 m from the origin, across a side
+    surface.margin = static_cast<Real>(widest / 4);
+    surface.around = static_cast<Real>(largestRadius + widest / 8);
+    surface.leastGap = static_cast<Real>(
+        std::min(std::max(0.1 * smallestRadius, std::sqrt(rounding * widest)), 0.5 * smallestRadius));
+  }
   surface.roomForPairs = PAIRS_A_PARTICLE * cloth.particleCount();
   surface.firstBoxes = {0};
-  for (std::uint32_t count = none; count > 0;
-       count = count == 1 ? 0 : (count + BOX_CHILDREN - 1) / BOX_CHILDREN)
-    surface.firstBoxes.push_back(surface.firstBoxes.back() + count);
+  for (std::uint32_t boxes = count; boxes > 0;
+       boxes = boxes == 1 ? 0 : (boxes + BOX_CHILDREN - 1) / BOX_CHILDREN)
+    surface.firstBoxes.push_back(surface.firstBoxes.back() + boxes);
   return surface;
 }
 

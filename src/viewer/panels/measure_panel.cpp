@@ -127,7 +127,7 @@ void MeasurePanel::sample(Session& session, double now, std::optional<std::uint3
   if (samples_.size() > mostSamples) samples_.pop_front();
   const ContactCounts counts = session.simulation().contactCounts();
   watch_.add(session.frameSinceStart(), cloth, simulation.scene(), state, sample.energies.maxStrain, counts);
-  clampedSteps_ = counts.clampedSteps;
+  contacts_ = counts;
   strainUnderCursor_ =
       underCursor ? std::optional(strainAt(cloth, session.cuts(), state, *underCursor)) : std::nullopt;
   rate_ = seconds_ > 0 ? particleSteps_ / seconds_ : 0;
@@ -142,15 +142,7 @@ void MeasurePanel::drawNumbers(Session& session) {
       "The largest stretch l/L - 1 of all springs that are enabled and not cut.");
   row("under the cursor", strainUnderCursor_ ? formatted("%+.2f %%", 100 * *strainUnderCursor_) : "-",
       "The largest strain of the springs at the particle under the mouse.");
-  const bool hasContacts = session.simulation().scene().solver.selfCollision != SelfCollision::off;
-  const auto contacts = static_cast<unsigned long long>(watch_.contacts().contacts());
-  row("self-contacts",
-      !hasContacts ? "off"
-      : clampedSteps_ > 0
-          ? formatted("%llu, %llu steps guarded", contacts, static_cast<unsigned long long>(clampedSteps_))
-          : formatted("%llu", contacts),
-      "Pairs of particles that touch and are not neighbours on the cloth. In a guarded step motion had to "
-      "be shortened.");
+  drawContacts(session.simulation().scene().solver.selfCollision);
   if (isImplicit(session.simulation().scene().solver.integrator)) drawConvergence();
   row("particle steps", rate_ > 0 ? formatted("%.3g million/s", rate_ / 1e6) : "-",
       "Particles times steps computed per second.");
@@ -158,6 +150,25 @@ void MeasurePanel::drawNumbers(Session& session) {
 }
 
 // Rows of the table of numbers.
+void MeasurePanel::drawContacts(SelfCollision mode) {
+  const auto number = [](std::uint64_t count) { return static_cast<unsigned long long>(count); };
+  if (mode == SelfCollision::contact) {
+    row("pairs in contact", formatted("at most %llu", number(contacts_.pairs)),
+        "Parts of the surface that may touch, the most in a step so far.");
+    row("motions cut short",
+        formatted("%llu in %llu steps", number(contacts_.shortened), number(contacts_.clampedSteps)),
+        "Motions of particles that would have brought parts of the surface through each other.");
+    return;
+  }
+  const std::string pairs = formatted("%llu", number(watch_.contacts().contacts()));
+  row("self-contacts",
+      mode == SelfCollision::off   ? "off"
+      : contacts_.clampedSteps > 0 ? pairs + formatted(", %llu steps guarded", number(contacts_.clampedSteps))
+                                   : pairs,
+      "Pairs of particles that touch and are not neighbours on the cloth. In a guarded step motion had to "
+      "be shortened.");
+}
+
 void MeasurePanel::drawConvergence() {
   const ConvergenceCounts all = implicitSteps_.all(), recent = implicitSteps_.recent();
   row("unconverged steps",

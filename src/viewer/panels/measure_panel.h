@@ -50,6 +50,7 @@ class MeasurePanel {
   void sampleSteps(Session& session, double now);
   void sample(Session& session, double now, std::optional<std::uint32_t> underCursor);
   void drawNumbers(Session& session);
+  void drawContacts(SelfCollision mode);
   void drawConvergence();
   void drawPlots();
   void drawPasses(Session& session);
@@ -63,7 +64,7 @@ class MeasurePanel {
   std::optional<double> strainUnderCursor_;
   RunWatch watch_;
   RecentSteps implicitSteps_;
-  std::uint64_t clampedSteps_ = 0;
+  ContactCounts contacts_;
   double particleSteps_ = 0, seconds_ = 0;  // since the last sample
   double rate_ = 0;                         // particle steps a second
   std::vector<PassTime> passes_;

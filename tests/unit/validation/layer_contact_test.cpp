@@ -1,0 +1,124 @@
+// Layers of cloth that touch each other inside the implicit step (solver/surface.h).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "measure/crossings.h"
+#include "measure/measure.h"
+#include "solver/cpu/cpu_solver.h"
+#include "support/material_sheet.h"
+
+namespace clothsim {
+namespace {
+
+Scene contactScene(int points, double size, const char* fabric) {
+  Scene scene = test::materialSheet(points, points, size, size, *materialPreset(fabric));
+  scene.solver.integrator = Integrator::implicit;
+  scene.solver.simulationSteps = 2;
+  scene.solver.frictionLaw = FrictionLaw::coulomb;
+  scene.solver.selfCollision = SelfCollision::contact;
+  scene.colliders = {Plane{.point = {0, 0, 0}, .normal = {0, 1, 0}, .friction = 0.4}};
+  chooseCounts(scene);
+  return scene;
+}
+
+// A sheet that stands a little aslant above the floor, and falls into a heap.
+Scene heap(const char* fabric) {
+  Scene scene = contactScene(25, 0.4, fabric);
+  scene.cloths[0].orientation = Orientation::vertical;
+  scene.cloths[0].rotation = {0, 0, 4};
+  scene.cloths[0].position = {0, 0.02, 0};
+  return scene;
+}
+
+// Two sheets, the one above the other, at another angle.
+Scene layers(const char* fabric) {
+  Scene scene = contactScene(17, 0.3, fabric);
+  scene.cloths.push_back(scene.cloths[0]);
+  scene.cloths[0].position = {0, -0.9995, 0};  // a horizontal sheet is made at height 1 m
+  scene.cloths[1].position = {0.02, -0.9985, 0.01};
+  scene.cloths[1].rotation = {0, 20, 0};
+  return scene;
+}
+
+State after(const Scene& scene, int steps) {
+  const Cloth cloth(scene);
+  CpuSolver<float> solver(cloth, scene);
+  solver.step(steps);
+  return solver.state();
+}
+
+TEST(SurfaceContact, LetsNothingCrossInAHeap) {
+  if (!CrossingCounter::available()) FAIL() << "needs CGAL";
+  for (const char* fabric : {"cotton", "silk"}) {
+    const Scene scene = heap(fabric);
+    const Shared<Cloth> cloth(Cloth{scene});
+    const CrossingCounter counter(cloth);
+    CpuSolver<float> solver(*cloth, scene);
+    double longest = 0;
+    for (int frame = 0; frame < 50; ++frame) {
+      solver.step(2);
+      ASSERT_EQ(counter.count(solver.state()).apart, 0u) << fabric << ", frame " << frame;
+      longest = std::max(longest, measure(*cloth, scene, solver.state()).maxStrain);
+    }
+    EXPECT_GT(solver.contactCounts().pairs, 100u) << "it has fallen onto itself";
+    EXPECT_EQ(solver.contactCounts().crowdedSteps, 0u);
+    EXPECT_LT(longest, 0.5) << fabric;
+  }
+}
+
+TEST(SurfaceContact, KeepsLayersApartByTheThicknessOfTheFabric) {
+  for (const char* fabric : {"cotton", "denim"}) {
+    Scene scene = layers(fabric);
+    scene.solver.simulationSteps = {8, true};
+    chooseCounts(scene);
+    ASSERT_EQ(scene.solver.simulationSteps, 8) << "steps that are solved";
+    const State state = after(scene, 240);
+    const double thickness = scene.cloths[0].material->thickness;
+    const Cloth cloth(scene);
+    // The middle of the upper sheet lies on the lower one, which lies on the floor.
+    const auto upper = state.positions[cloth.pieces()[1].particle(8, 8)],
+               lower = state.positions[cloth.pieces()[0].particle(8, 8)];
+    EXPECT_NEAR((upper.y - lower.y) / thickness, 1, 0.1) << fabric;
+  }
+}
+
+// How much speed a sheet loses in 1/60 s that slides over another one [m/s].
+double lostSpeed(double friction) {
+  Scene scene = layers("cotton");
+  scene.solver.selfFriction = friction;
+  scene.cloths[0].width = scene.cloths[0].height = 0.6;
+  scene.cloths[0].numWidthPoints = scene.cloths[0].numHeightPoints = 33;
+  scene.cloths[0].pinned = {GridSide::left, GridSide::right, GridSide::top, GridSide::bottom};
+  scene.cloths[0].position = {-0.1, 0.0002 - 1, -0.15};  // a horizontal sheet is made at height 1 m
+  scene.cloths[1].position = {0.003, 0.0009 - 1, 0.002};
+  scene.cloths[1].rotation = {0, 0, 0};
+  scene.cloths[0].material->damping = scene.cloths[1].material->damping = 0;
+  const Cloth cloth(scene);
+  CpuSolver<float> solver(cloth, scene);
+  solver.step(40);  // it settles
+  State state = solver.state();
+  const Piece& upper = cloth.pieces()[1];
+  const float speed = 0.5f;
+  for (std::uint32_t i = upper.firstParticle; i < cloth.particleCount(); ++i) state.velocities[i].x = speed;
+  solver.setState(state);
+  solver.step(2);
+  double sum = 0;
+  for (std::uint32_t i = upper.firstParticle; i < cloth.particleCount(); ++i)
+    sum += solver.state().velocities[i].x;
+  return speed - sum / upper.particleCount();
+}
+
+TEST(SurfaceContact, RubsLayersOnEachOther) {
+  EXPECT_NEAR(lostSpeed(0), 0, 0.002);
+  // Pairs that only happen to press rub, too, so that it is more than Coulomb's law takes.
+  for (const double friction : {0.1, 0.3}) {
+    const double byCoulomb = friction * 9.81 / 60, lost = lostSpeed(friction);
+    EXPECT_GT(lost, 0.9 * byCoulomb) << friction;
+    EXPECT_LT(lost, 1.6 * byCoulomb) << friction;
+  }
+}
+
+}  // namespace
+}  // namespace clothsim
