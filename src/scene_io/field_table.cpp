@@ -288,9 +288,8 @@ std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
           .byDefault("0.1 in scenes with ks, else false"),
       field(
           "self_collision", &S::selfCollision,
-          "Keeps layers apart. averaged: CS184's rule, leaks; robust: does not; contact: at their thickness.")
-          .byDefault("false; in scenes with ks averaged. true means averaged there, else robust. contact: "
-                     "implicit steps"),
+          "Keeps layers apart. averaged: CS184's rule, leaks; robust: does not; contact: in implicit steps.")
+          .byDefault("false; in scenes with ks averaged. true means averaged there, else robust"),
       field("self_friction", &S::selfFriction,
             "Coulomb's coefficient of friction between layers of cloth, under robust and contact.")
           .within({.low = 0, .high = 10})

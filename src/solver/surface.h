@@ -3,10 +3,9 @@
 // A step looks twice for parts of the surface that are near each other: corners and triangles, sides and
 // sides. First for those that may touch: they take part in the implicit step as stiff springs with friction
 // (solver/implicit.h), so that layers lie on each other at the thickness of the fabric, however coarse the
-// grid. At the end for those that the motion of the step could bring through each other: between two such
-// parts lies a slab, across the way on which they are nearest, and unless they keep their sides of it, both
-// motions are cut short ("planar truncation", after Chen et al. 2025, "Offset geometric contact", with
-// relative motion instead of a bound on each particle). So no two parts cross, in any step.
+// grid. At the end for those that the motion of the step could bring through each other: unless two such
+// parts stay apart across some plane between them, each keeps to its own side of it, and the motions of its
+// particles are cut short (docs/physics.md). So parts that have not crossed do not, in any step.
 //
 // Both searches go through one tree of boxes over the triangles, whose order is that of the particles at the
 // start along a space-filling curve; it never changes, so that pairs come in one order on every device.
@@ -36,7 +35,6 @@ using BoxLevel = shared::BoxLevel;
 template <class Real>
 struct SurfacePair {
   std::array<std::uint32_t, 4> particles;
-  bool areSides;
   Vec3<Real> normal;
   Real distance;  // at the start of the step [m]
   std::array<Real, 4> weights;

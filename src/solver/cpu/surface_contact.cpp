@@ -68,7 +68,6 @@ SurfacePair<Real> pairOf(const ClothSurface<Real>& surface, const Parts& parts,
   SurfacePair<Real> pair{};
   pair.distance = squared * inverse;
   pair.normal = canonical(inverse * way);
-  pair.areSides = parts.areSides;
   pair.particles = parts.particles;
   pair.weights = {parts.areSides ? canonical(rest) : Real(1), canonical(parts.areSides ? u : v - rest),
                   canonical(parts.areSides ? v - Real(1) : -u), canonical(-v)};
