@@ -1,32 +1,22 @@
 // The first coarse level's matrix, from the elements of the cloth: springs, bending, and what acts on single
 // particles; the twin of shaders/sim/implicit/coarsen_elements.comp. There, an invocation sums up a block;
-// here an element is worked out once and added to all blocks that it touches, in the same order.
+// here an element is worked out once, and a particle's elements are added to all blocks that they touch, in
+// the same order.
 #include "solver/cpu/coarse_elements.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "solver/cpu/implicit_contact.h"
 #include "solver/cpu/implicit_laws.h"
 #include "solver/cpu/rows.h"
 #include "solver/cpu/spring_rows.h"
 
-#pragma GCC diagnostic ignored "-Wpsabi"  // vectors are passed between inlined functions only
-
 namespace clothsim::cpu {
 namespace {
 
 template <class Real>
-using Four = typename VectorsOf<Real>::Four;
-template <class Real>
 using Eight = typename VectorsOf<Real>::Eight;
-
-// Adds s p q^T, p = (sigma, y): the element s |sigma t + r x y|^2 / 2 of a body of translation t and rotation
-// r.
-template <class Real>
-INLINE void addIsotropic(ElementSums<Real>& sums, Real s, Four<Real> p, Four<Real> q) {
-  const Four<Real> scaled = s * p;
-  for (int c = 0; c < 4; ++c) sums.moments[c] += scaled * q[c];
-}
 
 // The force of the element d on a body: (sigma d, y x d).
 template <class Real>
@@ -34,14 +24,6 @@ INLINE Eight<Real> pullOf(Four<Real> lever, Vec3<Real> d) {
   const Vec3<Real> force = lever[0] * d, torque = cross(Vec3<Real>{lever[1], lever[2], lever[3]}, d);
   return Eight<Real>{force.x, force.y, force.z, 0, torque.x, torque.y, torque.z, 0};
 }
-template <class Real>
-INLINE void addOuterProduct(ElementSums<Real>& sums, Eight<Real> scaled, Eight<Real> q) {
-  for (int c = 0; c < 3; ++c) {
-    sums.columns[c] += scaled * q[c];
-    sums.columns[3 + c] += scaled * q[4 + c];
-  }
-}
-
 // Adds the elements of some particles to the blocks of the rows [first, end).
 template <class Real>
 class ElementLoop {
@@ -52,7 +34,7 @@ class ElementLoop {
         own_(arguments.own),
         levels_(arguments.own.hierarchy),
         x_(arraysOf(std::as_const(own_.iterate.positions))),
-        centers_(arraysOf(std::as_const(own_.centers))),
+        centers_(own_.centers),
         first_(first),
         end_(end) {}
 
@@ -61,25 +43,63 @@ class ElementLoop {
     count_ = levels_.touchedStarts[i + 1] - levels_.touchedStarts[i];
     blocks_ = levels_.elementBlocks.data() + levels_.elementBlockStarts[i];
     if (count_ == 0 || touched_[0] >= end_ || touched_[count_ - 1] < first_) return;
-    scratch_.resize(std::max<std::size_t>(scratch_.size(), 6 * std::size_t{count_}));
-    pulls_.resize(std::max<std::size_t>(pulls_.size(), count_));
+    scratch_.resize(std::max<std::size_t>(scratch_.size(), 3 * std::size_t{count_}));
+    pulling_.begin(count_);
+    isotropic_.begin(count_);
     Four<Real>* own = leversIn(0);
     gatherLevers(i, own);
     addParticle(i, own);
-    if (pass_.step.isMesh != 0) {
-      addMeshSprings(i, own);
-      addHinges(i);
-      return;
+    pass_.step.isMesh != 0 ? addMeshElements(i, own) : addGridElements(i, own);
+    addToBlocks();
+  }
+
+ private:
+  // Elements of one kind that wait to be added: the factors of the two sides of each, for each aggregate.
+  template <class Vector>
+  struct Waiting {
+    static constexpr std::uint32_t MOST = 32;
+    struct alignas(sizeof(Vector)) Factors {
+      Vector left, right;
+    };
+    std::vector<Factors> factors;
+    std::vector<std::uint32_t> acting;  // of an aggregate: a bit for each element that it moves
+    std::uint32_t count = 0;
+
+    void begin(std::uint32_t aggregates) {
+      factors.resize(std::max<std::size_t>(factors.size(), MOST * std::size_t{aggregates}));
+      acting.assign(aggregates, 0);
+      count = 0;
     }
+    // Calls make() for the factors.
+    template <class Make>
+    INLINE void add(std::uint32_t aggregate, Make make) {
+      acting[aggregate] |= 1u << count;
+      factors[aggregate * MOST + count] = make();
+    }
+    // Calls add(left, right) for the elements that both aggregates move, in order.
+    template <class Add>
+    INLINE void forEach(std::uint32_t a, std::uint32_t b, Add add) const {
+      const Factors *ofA = factors.data() + a * MOST, *ofB = factors.data() + b * MOST;
+      for (std::uint32_t both = acting[a] & acting[b]; both != 0; both &= both - 1) {
+        const auto element = static_cast<std::uint32_t>(std::countr_zero(both));
+        add(ofA[element].left, ofB[element].right);
+      }
+    }
+  };
+
+  INLINE void addGridElements(std::uint32_t i, const Four<Real>* own) {
     const std::uint32_t place = i - pass_.step.firstParticle, column = place % pass_.step.columns,
                         row = place / pass_.step.columns;
     const std::uint32_t cut = pass_.cutMasks != nullptr ? pass_.cutMasks[i] : 0;
     for (std::uint32_t k = 0; k < SPRING_SLOTS; ++k) addGridSpring(i, own, k, column, row, cut);
     if (pass_.step.hasMaterial != 0) addLines(i, own, column, row, cut);
   }
+  INLINE void addMeshElements(std::uint32_t i, const Four<Real>* own) {
+    addMeshSprings(i, own);
+    addHinges(i);
+  }
 
- private:
-  // One of six rows of scratch, with a lever for each aggregate that the elements touch.
+  // One of three rows of scratch, with a lever for each aggregate that the elements touch.
   INLINE Four<Real>* leversIn(std::size_t row) { return &scratch_[row * count_].lever; }
 
   // With what weight a particle hangs on each aggregate, and that times where it is from the center; 0 for
@@ -92,7 +112,7 @@ class ElementLoop {
     for (std::uint32_t n = levels_.prolongationStarts[i]; n < levels_.prolongationStarts[i + 1]; ++n) {
       const auto& [vertex, weight] = levels_.prolongation[n];
       while (touched_[a] != vertex) ++a;
-      const Vec3<Real> y = weight * (x - at(centers_, vertex));
+      const Vec3<Real> y = weight * (x - threeOf(centers_[vertex]));
       levers[a] = Four<Real>{weight, y.x, y.y, y.z};
     }
   }
@@ -100,26 +120,49 @@ class ElementLoop {
     return lever[0] == 0 && lever[1] == 0 && lever[2] == 0 && lever[3] == 0;
   }
 
-  // Calls add(sums, row, column) for the blocks of which both aggregates move the element.
-  template <class Add>
-  INLINE void forEachBlock(const Four<Real>* levers, Add add) {
-    const std::uint32_t* block = blocks_;
-    for (std::uint32_t a = 0; a < count_; block += count_ - a, ++a) {
-      if (touched_[a] < first_ || touched_[a] >= end_ || isNone(levers[a])) continue;
-      for (std::uint32_t b = a; b < count_; ++b)
-        if (!isNone(levers[b])) add(own_.elementSums[block[b - a]], a, b);
-    }
-  }
+  // s p p^T, p = (sigma, y): the element s |sigma t + r x y|^2 / 2 of a body of translation t and rotation r.
   INLINE void addIsotropicElement(Real s, const Four<Real>* levers) {
-    forEachBlock(
-        levers, [&](ElementSums<Real> & sums, std::uint32_t a, std::uint32_t b)
-                    __attribute__((always_inline)) { addIsotropic(sums, s, levers[a], levers[b]); });
+    if (isotropic_.count == isotropic_.MOST) addToBlocks();
+    for (std::uint32_t a = 0; a < count_; ++a)
+      if (!isNone(levers[a]))
+        isotropic_.add(a, [&] { return typename Waiting<Four<Real>>::Factors{s * levers[a], levers[a]}; });
+    ++isotropic_.count;
   }
   INLINE void addPullingElement(Real s, Vec3<Real> d, const Four<Real>* levers) {
-    for (std::uint32_t a = 0; a < count_; ++a) pulls_[a].pull = pullOf(levers[a], d);
-    forEachBlock(
-        levers, [&](ElementSums<Real> & sums, std::uint32_t a, std::uint32_t b) __attribute__((
-                    always_inline)) { addOuterProduct(sums, s * pulls_[a].pull, pulls_[b].pull); });
+    if (pulling_.count == pulling_.MOST) addToBlocks();
+    for (std::uint32_t a = 0; a < count_; ++a)
+      if (!isNone(levers[a]))
+        pulling_.add(a, [&] {
+          const Eight<Real> pull = pullOf(levers[a], d);
+          return typename Waiting<Eight<Real>>::Factors{s * pull, pull};
+        });
+    ++pulling_.count;
+  }
+  // What waits goes to the blocks of pairs of aggregates.
+  INLINE void addToBlocks() {
+    const std::uint32_t* block = blocks_;
+    for (std::uint32_t a = 0; a < count_; block += count_ - a, ++a) {
+      if (touched_[a] < first_ || touched_[a] >= end_) continue;
+      for (std::uint32_t b = a; b < count_; ++b) {
+        if (((pulling_.acting[a] & pulling_.acting[b]) | (isotropic_.acting[a] & isotropic_.acting[b])) == 0)
+          continue;
+        ElementSums<Real> sums = own_.elementSums[block[b - a]];
+        pulling_.forEach(a, b, [&](const Eight<Real>& scaled, const Eight<Real>& q) {
+#pragma GCC unroll 3
+          for (int c = 0; c < 3; ++c) {
+            sums.columns[c] += scaled * q[c];
+            sums.columns[3 + c] += scaled * q[4 + c];
+          }
+        });
+        isotropic_.forEach(a, b, [&](const Four<Real>& scaled, const Four<Real>& q) {
+#pragma GCC unroll 4
+          for (int c = 0; c < 4; ++c) sums.moments[c] += scaled * q[c];
+        });
+        own_.elementSums[block[b - a]] = sums;
+      }
+    }
+    pulling_.begin(count_);
+    isotropic_.begin(count_);
   }
 
   // Inertia, air, grabs and the collider that is touched.
@@ -221,7 +264,8 @@ class ElementLoop {
   const PassArguments<Real>& pass_;
   ImplicitState<Real>& own_;
   const Hierarchy<Real>& levels_;
-  const Arrays<const Real> x_, centers_;
+  const Arrays<const Real> x_;
+  const std::vector<Four<Real>>& centers_;
   std::uint32_t first_, end_;  // rows
   // Of the particle at hand: the aggregates that its elements touch, and the blocks of all pairs of them.
   const std::uint32_t *touched_ = nullptr, *blocks_ = nullptr;
@@ -230,11 +274,9 @@ class ElementLoop {
   struct alignas(4 * sizeof(Real)) LeverCell {
     Four<Real> lever;
   };
-  struct alignas(8 * sizeof(Real)) PullCell {
-    Eight<Real> pull;
-  };
   std::vector<LeverCell> scratch_;
-  std::vector<PullCell> pulls_;
+  Waiting<Eight<Real>> pulling_;
+  Waiting<Four<Real>> isotropic_;
 };
 
 // What the sums make of a block: see addIsotropic(), and cross products in components.
