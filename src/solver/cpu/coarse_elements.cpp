@@ -281,33 +281,36 @@ class ElementLoop {
 
 // What the sums make of a block: see addIsotropic(), and cross products in components.
 template <class Real>
-INLINE RigidBlock<Real> blockOf(const ElementSums<Real>& sums) {
+INLINE RigidBlock<Real> blockOfSums(const ElementSums<Real>& sums) {
   const auto& m = sums.moments;
   RigidBlock<Real> block;
+  const auto three = [](const Eight<Real>& v, int first) __attribute__((always_inline)) {
+    return Four<Real>{v[first], v[first + 1], v[first + 2], Real(0)};
+  };
   for (std::size_t c = 0; c < 3; ++c) {
     const Eight<Real>&t = sums.columns[c], &r = sums.columns[3 + c];
-    block.tt[c] = {t[0], t[1], t[2]};
-    block.rt[c] = {t[4], t[5], t[6]};
-    block.tr[c] = {r[0], r[1], r[2]};
-    block.rr[c] = {r[4], r[5], r[6]};
+    block.tt[c] = three(t, 0);
+    block.rt[c] = three(t, 4);
+    block.tr[c] = three(r, 0);
+    block.rr[c] = three(r, 4);
+    block.tt[c][c] += m[0][0];
   }
-  const Vec3<Real> u{m[1][0], m[2][0], m[3][0]}, v{m[0][1], m[0][2], m[0][3]};
+  const Four<Real> u{m[1][0], m[2][0], m[3][0], 0}, v{m[0][1], m[0][2], m[0][3], 0};
   const Real trace = (m[1][1] + m[2][2]) + m[3][3];
-  block.tt[0].x += m[0][0];
-  block.tt[1].y += m[0][0];
-  block.tt[2].z += m[0][0];
   // e x u, v x e
-  block.tr[0] = block.tr[0] + Vec3<Real>{0, -u.z, u.y};
-  block.tr[1] = block.tr[1] + Vec3<Real>{u.z, 0, -u.x};
-  block.tr[2] = block.tr[2] + Vec3<Real>{-u.y, u.x, 0};
-  block.rt[0] = block.rt[0] + Vec3<Real>{0, v.z, -v.y};
-  block.rt[1] = block.rt[1] + Vec3<Real>{-v.z, 0, v.x};
-  block.rt[2] = block.rt[2] + Vec3<Real>{v.y, -v.x, 0};
+  block.tr[0] += Four<Real>{0, -u[2], u[1], 0};
+  block.tr[1] += Four<Real>{u[2], 0, -u[0], 0};
+  block.tr[2] += Four<Real>{-u[1], u[0], 0, 0};
+  block.rt[0] += Four<Real>{0, v[2], -v[1], 0};
+  block.rt[1] += Four<Real>{-v[2], 0, v[0], 0};
+  block.rt[2] += Four<Real>{v[1], -v[0], 0, 0};
   // trace e - column of sum s y_q y_p^T
-  const auto minus = [&](int c) { return Vec3<Real>{m[1][1 + c], m[2][1 + c], m[3][1 + c]}; };
-  block.rr[0] = block.rr[0] + (Vec3<Real>{trace, 0, 0} - minus(0));
-  block.rr[1] = block.rr[1] + (Vec3<Real>{0, trace, 0} - minus(1));
-  block.rr[2] = block.rr[2] + (Vec3<Real>{0, 0, trace} - minus(2));
+  const auto minus = [&](int c) __attribute__((always_inline)) {
+    return Four<Real>{m[1][1 + c], m[2][1 + c], m[3][1 + c], 0};
+  };
+  block.rr[0] += Four<Real>{trace, 0, 0, 0} - minus(0);
+  block.rr[1] += Four<Real>{0, trace, 0, 0} - minus(1);
+  block.rr[2] += Four<Real>{0, 0, trace, 0} - minus(2);
   return block;
 }
 
@@ -326,7 +329,7 @@ INLINE void sumRows(const ImplicitArguments<Real>& arguments, const LevelParams&
   ElementLoop<Real> loop(arguments, first, end);
   for (std::uint32_t i = firstParticle; i < endParticle; ++i) loop.addElementsOf(i);
   for (std::uint32_t n = levels.blockStarts[first]; n < levels.blockStarts[end]; ++n)
-    own.coarseBlocks[n] = blockOf(own.elementSums[n]);
+    own.coarseBlocks[n] = blockOfSums(own.elementSums[n]);
 }
 
 }  // namespace

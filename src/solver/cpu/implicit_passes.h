@@ -51,7 +51,7 @@ struct ImplicitState {
   Hierarchy<Real> hierarchy;
   // Of coarse vertices.
   std::vector<Four<Real>> centers;  // [m]
-  std::vector<StoredRigid<Real>> coarseResiduals, coarseCorrections;
+  std::vector<RigidVector<Real>> coarseResiduals, coarseCorrections;
   std::vector<RigidBlock<Real>> coarseBlocks;    // of the levels' matrices
   std::vector<ElementSums<Real>> elementSums;    // of the first levels' blocks
   std::vector<RigidBlock<Real>> coarseInverses;  // minus those of the diagonal blocks, by coarse vertex

@@ -27,14 +27,9 @@ INLINE Four<Real> placeOf(const ImplicitState<Real>& own, const Arrays<const Rea
 }
 
 template <class Real>
-INLINE StoredRigid<Real> canonicalOf(const StoredRigid<Real>& v) {
-  return {fourOf(canonical(threeOf(v.translation))), fourOf(canonical(threeOf(v.rotation)))};
-}
-
-template <class Real>
 INLINE void makeCanonical(RigidBlock<Real>& block) {
   for (auto* columns : {&block.tt, &block.tr, &block.rt, &block.rr})
-    for (Vec3<Real>& column : *columns) column = canonical(column);
+    for (Four<Real>& column : *columns) column = canonicalOf(column);
 }
 
 template <class Real>
@@ -61,14 +56,14 @@ void findCenter(ImplicitState<Real>& own, std::uint32_t coarse) {
     sum = sum + weight * placeOf(own, x, vertex);
     weights = weights + weight;
   }
-  own.centers[coarse] = fourOf(canonical(threeOf(reciprocal(weights) * sum)));
+  own.centers[coarse] = canonicalOf(reciprocal(weights) * sum);
 }
 
 template <class Real>
 RigidBlock<Real> sumBlocks(const ImplicitState<Real>& own, const typename Hierarchy<Real>::Block& block) {
   const Hierarchy<Real>& hierarchy = own.hierarchy;
-  const auto centerOf = [&](std::uint32_t coarse) { return threeOf(own.centers[coarse]); };
-  const Vec3<Real> rowCenter = centerOf(block.row), columnCenter = centerOf(block.column);
+  const Four<Real>* centers = own.centers.data();
+  const Four<Real> rowCenter = centers[block.row], columnCenter = centers[block.column];
   RigidBlock<Real> sum;
   for (std::uint32_t k = block.firstSource; k < block.endSource; ++k) {
     const std::uint32_t number = hierarchy.sources[k] / 2;
@@ -78,8 +73,8 @@ RigidBlock<Real> sumBlocks(const ImplicitState<Real>& own, const typename Hierar
                         column = isTransposed ? fine.row : fine.column;
     const Real weight = weightOf(own, row, block.row) * weightOf(own, column, block.column);
     const RigidBlock<Real>& stored = own.coarseBlocks[number];
-    addShifted(sum, weight, isTransposed ? transposed(stored) : stored, centerOf(row) - rowCenter,
-               centerOf(column) - columnCenter);
+    addShifted(sum, weight, isTransposed ? transposed(stored) : stored, centers[row] - rowCenter,
+               centers[column] - columnCenter);
   }
   return sum;
 }
@@ -97,10 +92,10 @@ void coarsen(const ImplicitArguments<Real>& arguments, const LevelParams& level,
     if (!isFirstLevel) own.coarseBlocks[n] = sumBlocks(own, block);
     makeCanonical(own.coarseBlocks[n]);
     if (block.row != block.column) continue;
-    RigidBlock<Real> inverse = own.coarseBlocks[n];
+    SixColumns<Real> inverse = columnsOf(own.coarseBlocks[n]);
     sweepOut(6, began.data(), column.data(),
-             [&](std::size_t i, std::size_t j) -> Real& { return entryOf(inverse, i, j); });
-    own.coarseInverses[block.row] = inverse;
+             [&](std::size_t i, std::size_t j) -> Real& { return inverse[j][i]; });
+    own.coarseInverses[block.row] = blockOf(inverse);
   }
 }
 
@@ -112,13 +107,13 @@ void invertDense(ImplicitState<Real>& own, const DensePart& part) {
   for (std::uint32_t k = part.firstBlock; k < part.endBlock; ++k) {
     const auto& block = own.hierarchy.blocks[k];
     if (block.column >= part.first + part.count) continue;  // across a cut, where it is 0
-    RigidBlock<Real> stored = own.coarseBlocks[k];
+    const SixColumns<Real> stored = columnsOf(own.coarseBlocks[k]);
     const std::size_t row = 6 * static_cast<std::size_t>(block.row - part.first),
                       column = 6 * static_cast<std::size_t>(block.column - part.first);
     for (std::size_t j = 0; j < 6; ++j)
       for (std::size_t i = 0; i < 6; ++i) {
-        matrix[(column + j) * order + row + i] = entryOf(stored, i, j);
-        if (row != column) matrix[(row + i) * order + column + j] = entryOf(stored, i, j);
+        matrix[(column + j) * order + row + i] = stored[j][i];
+        if (row != column) matrix[(row + i) * order + column + j] = stored[j][i];
       }
   }
   std::vector<Real> began(order), column(order);
@@ -133,28 +128,28 @@ void restrictResidual(ImplicitState<Real>& own, std::uint32_t coarse) {
   const Arrays<const Real> x = arraysOf(std::as_const(own.iterate.positions)),
                            residuals = arraysOf(std::as_const(own.residuals));
   const Four<Real> center = own.centers[coarse];
-  StoredRigid<Real> sum;
+  RigidVector<Real> sum;
   for (std::uint32_t n = hierarchy.restrictionStarts[coarse]; n < hierarchy.restrictionStarts[coarse + 1];
        ++n) {
     const auto [vertex, weight] = hangs[n];
     const bool isParticle = vertex < hierarchy.particles;
-    const StoredRigid<Real> force =
-        isParticle ? StoredRigid<Real>{fourAt(residuals, static_cast<std::ptrdiff_t>(vertex)), {}}
+    const RigidVector<Real> force =
+        isParticle ? RigidVector<Real>{fourAt(residuals, static_cast<std::ptrdiff_t>(vertex)), {}}
                    : own.coarseResiduals.data()[vertex - hierarchy.particles];
     const Four<Real> torque = crossOf(placeOf(own, x, vertex) - center, force.translation) + force.rotation;
     sum.translation = sum.translation + weight * force.translation;
     sum.rotation = sum.rotation + weight * torque;
   }
-  own.coarseResiduals[coarse] = canonicalOf(sum);
+  own.coarseResiduals[coarse] = canonical(sum);
 }
 
 template <class Real>
 void solveCoarsest(ImplicitState<Real>& own, const DensePart& part, std::uint32_t vertex) {
   const std::size_t order = 6 * static_cast<std::size_t>(part.count);
   const Real* matrix = own.dense.data() + part.firstEntry + 6 * static_cast<std::size_t>(vertex - part.first);
-  StoredRigid<Real> sum;
+  RigidVector<Real> sum;
   for (std::uint32_t k = 0; k < part.count; ++k) {
-    const StoredRigid<Real>& residual = own.coarseResiduals[part.first + k];
+    const RigidVector<Real>& residual = own.coarseResiduals[part.first + k];
     for (std::size_t j = 0; j < 6; ++j) {
       const Real r = j < 3 ? residual.translation[j] : residual.rotation[j - 3];
       const Real* column = matrix + (6 * k + j) * order;
@@ -162,23 +157,23 @@ void solveCoarsest(ImplicitState<Real>& own, const DensePart& part, std::uint32_
       sum.rotation = sum.rotation - r * Four<Real>{column[3], column[4], column[5], Real(0)};
     }
   }
-  own.coarseCorrections[vertex] = canonicalOf(sum);
+  own.coarseCorrections[vertex] = canonical(sum);
 }
 
 namespace {
 
 // What the coarse vertices that a vertex hangs on make of it.
 template <class Real>
-INLINE StoredRigid<Real> prolonged(const ImplicitState<Real>& own, std::uint32_t vertex, Four<Real> place) {
+INLINE RigidVector<Real> prolonged(const ImplicitState<Real>& own, std::uint32_t vertex, Four<Real> place) {
   const Hierarchy<Real>& hierarchy = own.hierarchy;
   const std::uint32_t* starts = hierarchy.prolongationStarts.data();
   const typename Hierarchy<Real>::Weight* hangs = hierarchy.prolongation.data();
-  const StoredRigid<Real>* corrections = own.coarseCorrections.data();
+  const RigidVector<Real>* corrections = own.coarseCorrections.data();
   const Four<Real>* centers = own.centers.data();
-  StoredRigid<Real> sum;
+  RigidVector<Real> sum;
   for (std::uint32_t n = starts[vertex]; n < starts[vertex + 1]; ++n) {
     const auto [coarse, weight] = hangs[n];
-    const StoredRigid<Real>& motion = corrections[coarse];
+    const RigidVector<Real>& motion = corrections[coarse];
     const Four<Real> arm = place - centers[coarse];
     sum.translation = sum.translation + weight * (motion.translation + crossOf(motion.rotation, arm));
     sum.rotation = sum.rotation + weight * motion.rotation;
@@ -210,13 +205,10 @@ INLINE void prolongRange(ImplicitState<Real>& own, const Real* inverseMasses, st
 
 template <class Real>
 void prolong(ImplicitState<Real>& own, std::uint32_t coarse) {
-  const StoredRigid<Real>& residual = own.coarseResiduals[coarse];
-  const StoredRigid<Real> motion = prolonged(own, own.hierarchy.particles + coarse, own.centers[coarse]);
-  const RigidVector<Real> minus =
-      own.coarseInverses[coarse] *
-      RigidVector<Real>{threeOf(residual.translation), threeOf(residual.rotation)};
-  own.coarseCorrections[coarse] = canonicalOf(StoredRigid<Real>{
-      motion.translation - fourOf(minus.translation), motion.rotation - fourOf(minus.rotation)});
+  const RigidVector<Real> motion = prolonged(own, own.hierarchy.particles + coarse, own.centers[coarse]),
+                          minus = own.coarseInverses[coarse] * own.coarseResiduals[coarse];
+  own.coarseCorrections[coarse] =
+      canonical(RigidVector<Real>{motion.translation - minus.translation, motion.rotation - minus.rotation});
 }
 
 VECTOR_CLONES void prolongParticles(ImplicitState<float>& own, const float* inverseMasses,
