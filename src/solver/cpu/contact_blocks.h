@@ -3,7 +3,9 @@
 // have the same distance.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "solver/cpu/contact_pairs.h"
 #include "solver/cpu/cpu_state.h"
@@ -16,6 +18,19 @@ struct Block {
   std::uint32_t piece;
   std::uint32_t slots = 0;  // most candidates of one of them; unused slots name the particle itself
 };
+
+// Particles of a grid by their place on it, whole numbers; those of different grids are never neighbours.
+template <class Real>
+struct LatticePlaces {
+  std::vector<Real> columns, rows;
+};
+
+// Of the particles `others`, keeps those that lie within sqrt(searchSquared) of some particle of the block
+// and are not its neighbours: at most sqrt(neighbours) columns and rows away. Returns how many are left.
+template <class Real>
+[[nodiscard]] std::size_t keepNear(const Components<Real>& positions, const LatticePlaces<Real>& places,
+                                   const Block& block, Real searchSquared, Real neighbours,
+                                   std::vector<std::uint32_t>& others);
 
 // Adds what each contact asks for to the particle's sums.
 template <class Real>

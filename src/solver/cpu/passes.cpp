@@ -212,19 +212,18 @@ void limitStrain(const PassArguments<Real>& arguments, const LimitColor& color, 
   const SpringOffset& offset = springOffsets[color.slot];
   const std::ptrdiff_t other = indexOffset(step, offset.columns, offset.rows);
   const std::uint32_t row = color.firstRow + color.rowStep * (j / color.rowRun) + j % color.rowRun;
-  const std::uint32_t count =
-      ownerCount(color.firstColumn, color.columnStep, color.columnRun, color.endColumn);
   const Real* rest = arguments.restLengths + static_cast<std::size_t>(color.slot) * step.totalParticles;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const std::uint32_t column =
-        color.firstColumn + color.columnStep * (i / color.columnRun) + i % color.columnRun;
-    const std::ptrdiff_t owner =
-        static_cast<std::ptrdiff_t>(step.firstParticle) + row * step.columns + column;
-    if (arguments.cutMasks != nullptr && isCutAt<true>(arguments.cutMasks, owner, color.slot)) continue;
-    const Real limit =
-        step.useRestLengthTable != 0 ? step.limitFactor * rest[owner] : step.springs[color.slot].limitLength;
-    limitSpring(arguments, owner, owner + other, limit);
-  }
+  const auto first = static_cast<std::ptrdiff_t>(step.firstParticle) +
+                     static_cast<std::ptrdiff_t>(row) * static_cast<std::ptrdiff_t>(step.columns);
+  for (std::uint32_t start = color.firstColumn; start < color.endColumn; start += color.columnStep)
+    for (std::uint32_t column = start; column < std::min(start + color.columnRun, color.endColumn);
+         ++column) {
+      const std::ptrdiff_t owner = first + column;
+      if (arguments.cutMasks != nullptr && isCutAt<true>(arguments.cutMasks, owner, color.slot)) continue;
+      const Real limit = step.useRestLengthTable != 0 ? step.limitFactor * rest[owner]
+                                                      : step.springs[color.slot].limitLength;
+      limitSpring(arguments, owner, owner + other, limit);
+    }
 }
 
 std::uint32_t limitRows(const Piece& piece, const LimitColor& color) {

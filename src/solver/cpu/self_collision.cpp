@@ -22,6 +22,8 @@ namespace {
 
 constexpr std::uint8_t WALK = MOST_CANDIDATES + 1;
 constexpr std::uint32_t EXCLUDED = ~0u;
+// The cells about a block of particles are looked at together, unless it is spread over more than these.
+constexpr std::int64_t MOST_CELLS_IN_A_ROW = 64, MOST_ROWS_OF_CELLS = 64;
 
 // --- The hash: x-neighbours share three buckets in a row.
 
@@ -126,10 +128,21 @@ void SelfCollision<Real>::configure(const Scene& scene) {
   candidates_.resize(count * MOST_CANDIDATES);
   candidateCounts_.resize(count);
   for (std::uint32_t piece = 0; piece < cloth_->pieces().size(); ++piece) {
+    addLatticePlaces(cloth_->pieces()[piece]);
     const std::uint32_t first = cloth_->pieces()[piece].firstParticle;
     const std::uint32_t end = first + cloth_->pieces()[piece].particleCount();
     for (std::uint32_t begin = first; begin < end; begin += BLOCK)
       blocks_.push_back({begin, std::min(begin + BLOCK, end), piece});
+  }
+}
+
+template <class Real>
+void SelfCollision<Real>::addLatticePlaces(const Piece& piece) {
+  constexpr Real apart = 16;  // rows between pieces: farther than neighbours are
+  const Real firstRow = lattice_.rows.empty() ? 0 : lattice_.rows.back() + apart;
+  for (int i = 0; i < static_cast<int>(piece.particleCount()); ++i) {
+    lattice_.columns.push_back(static_cast<Real>(i % piece.columns));
+    lattice_.rows.push_back(firstRow + static_cast<Real>(i / piece.columns));
   }
 }
 
@@ -157,8 +170,8 @@ std::uint32_t SelfCollision<Real>::encode(const Block& block, std::uint32_t i, s
   const Piece& piece = cloth_->pieces()[block.piece];
   if (j - piece.firstParticle >= piece.particleCount()) return j;
   if (piece.isMesh) return encodeOnMesh(i, j);
-  const int a = static_cast<int>(i - piece.firstParticle), b = static_cast<int>(j - piece.firstParticle);
-  const int columns = b % piece.columns - a % piece.columns, rows = b / piece.columns - a / piece.columns;
+  const int columns = static_cast<int>(lattice_.columns[j] - lattice_.columns[i]),
+            rows = static_cast<int>(lattice_.rows[j] - lattice_.rows[i]);
   const auto across = static_cast<std::uint32_t>(std::abs(columns)),
              along = static_cast<std::uint32_t>(std::abs(rows));
   if (across < params_.firstCode && along < params_.firstCode) {
@@ -204,26 +217,69 @@ void SelfCollision<Real>::buildHash(const Components<Real>& positions) {
 }
 
 template <class Real>
+bool SelfCollision<Real>::gatherAround(const Block& block, std::vector<std::uint32_t>& around) const {
+  if (cloth_->pieces()[block.piece].isMesh) return false;
+  Cell least = cellAt(hashedPositions_, block.begin, params_.inverseCell), most = least;
+  for (std::uint32_t i = block.begin + 1; i < block.end; ++i) {
+    const Cell cell = cellAt(hashedPositions_, i, params_.inverseCell);
+    least = {std::min(least.x, cell.x), std::min(least.y, cell.y), std::min(least.z, cell.z)};
+    most = {std::max(most.x, cell.x), std::max(most.y, cell.y), std::max(most.z, cell.z)};
+  }
+  const std::int64_t width = std::int64_t{most.x} - least.x + 3, height = std::int64_t{most.y} - least.y + 3,
+                     depth = std::int64_t{most.z} - least.z + 3;
+  if (width > MOST_CELLS_IN_A_ROW || height * depth > MOST_ROWS_OF_CELLS || width > params_.bucketMask)
+    return false;
+  around.clear();
+  for (std::int32_t z = least.z - 1; z <= most.z + 1; ++z)
+    for (std::int32_t y = least.y - 1; y <= most.y + 1; ++y) {
+      const std::uint32_t first = bucketOf({least.x - 1, y, z}, params_.bucketMask);
+      for (std::uint32_t k = 0; k < width;) {  // a run of buckets, two where they go on with the first
+        const std::uint32_t bucket = (first + k) & params_.bucketMask,
+                            end = std::min(bucket + static_cast<std::uint32_t>(width) - k,
+                                           params_.bucketMask + 1);
+        around.insert(around.end(), sorted_.begin() + bucketStarts_[bucket],
+                      sorted_.begin() + bucketStarts_[end]);
+        k += end - bucket;
+      }
+    }
+  // Neighbours that a cut parts are candidates.
+  const Real reach = static_cast<Real>(params_.firstCode) - 1,
+             neighbours = cutMasks_.empty() ? 2 * reach * reach : Real(-1);
+  around.resize(keepNear(hashedPositions_, lattice_, block, params_.searchSquared, neighbours, around));
+  // A bucket may hold several cells, and be met for more than one of them.
+  std::sort(around.begin(), around.end());
+  around.erase(std::unique(around.begin(), around.end()), around.end());
+  return true;
+}
+
+template <class Real>
 void SelfCollision<Real>::findCandidates() {
   const Components<Real>& p = hashedPositions_;
   forEachBlock([&](Block& block) {
     std::array<std::array<std::uint32_t, BLOCK>, MOST_CANDIDATES> found;
+    std::array<std::uint32_t, BLOCK> counts{};
+    const auto look = [&](std::uint32_t i, std::uint32_t j) {
+      const Vec3<Real> d =
+          load(p.x.data(), p.y.data(), p.z.data(), i) - load(p.x.data(), p.y.data(), p.z.data(), j);
+      if (!(dot(d, d) < params_.searchSquared) || i == j) return;
+      const std::uint32_t candidate = encode(block, i, j);
+      if (candidate == EXCLUDED) return;
+      std::uint32_t& count = counts[i - block.begin];
+      if (count < MOST_CANDIDATES) found[count][i - block.begin] = candidate;
+      ++count;
+    };
+    thread_local std::vector<std::uint32_t> around;
+    const bool areFound = gatherAround(block, around);
     block.slots = 0;
     for (std::uint32_t i = block.begin; i < block.end; ++i) {
-      const Vec3<Real> x{p.x[i], p.y[i], p.z[i]};
-      std::uint32_t count = 0;
-      visitCells(params_, bucketStarts_, cellAt(p, i, params_.inverseCell),
-                 [&](std::uint32_t entry, std::int32_t y, std::int32_t z) {
-                   const Vec3<Real> d = x - load(sortedPositions_.x.data(), sortedPositions_.y.data(),
-                                                 sortedPositions_.z.data(), entry);
-                   if (!(dot(d, d) < params_.searchSquared) || sorted_[entry] == i ||
-                       !hasCell(params_, sortedPositions_, entry, y, z))
-                     return;
-                   const std::uint32_t candidate = encode(block, i, sorted_[entry]);
-                   if (candidate == EXCLUDED) return;
-                   if (count < MOST_CANDIDATES) found[count][i - block.begin] = candidate;
-                   ++count;
-                 });
+      if (areFound)
+        for (const std::uint32_t j : around) look(i, j);
+      else
+        visitCells(params_, bucketStarts_, cellAt(p, i, params_.inverseCell),
+                   [&](std::uint32_t entry, std::int32_t y, std::int32_t z) {
+                     if (hasCell(params_, sortedPositions_, entry, y, z)) look(i, sorted_[entry]);
+                   });
+      const std::uint32_t count = counts[i - block.begin];
       candidateCounts_[i] = count > MOST_CANDIDATES ? WALK : static_cast<std::uint8_t>(count);
       const std::uint32_t kept = count > MOST_CANDIDATES ? 0 : count;
       for (std::uint32_t slot = kept; slot < MOST_CANDIDATES; ++slot) found[slot][i - block.begin] = i;

@@ -49,6 +49,10 @@ class SelfCollision {
   void checkHash(const CpuState<Real>& before, const CpuState<Real>& after);
   void buildHash(const Components<Real>& positions);
   void findCandidates();
+  // The particles about a block of a grid that may be candidates of some of its own; false: they lie too far
+  // apart, or it is a mesh.
+  bool gatherAround(const Block& block, std::vector<std::uint32_t>& around) const;
+  void addLatticePlaces(const Piece& piece);
   // Pushes particles apart that are too near.
   void resolveContacts(const CpuState<Real>& before, CpuState<Real>& after,
                        const std::vector<Real>& inverseMasses);
@@ -70,6 +74,7 @@ class SelfCollision {
   SelfParams<Real> params_{};
   std::vector<Real> distances_;
   std::vector<Vec3<Real>> places_;  // at rest [m]; empty without meshes
+  LatticePlaces<Real> lattice_;
   std::vector<std::uint32_t> cutMasks_;
   bool hasNearCodes_ = false;
   bool isStale_ = true;     // the hash no longer serves
