@@ -82,6 +82,10 @@ using uint = std::uint32_t;
 // What a pivot that counts is at least, of the entry it began as: below, binary32 holds no more of it.
 #define LEAST_PIVOT 0x1p-20
 
+// The column of a row's last block: it joins the vertex of the row to all vertices of the level, moving as
+// one rigid body (src/solver/hierarchy.h).
+#define ALL_VERTICES 0xffffffffu
+
 // On the GPU one work group takes at most so many levels alone.
 #define LEVELS_ALONE 15
 

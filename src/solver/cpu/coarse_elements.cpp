@@ -62,7 +62,7 @@ class ElementLoop {
     blocks_ = levels_.elementBlocks.data() + levels_.elementBlockStarts[i];
     if (count_ == 0 || touched_[0] >= end_ || touched_[count_ - 1] < first_) return;
     scratch_.resize(std::max<std::size_t>(scratch_.size(), 6 * std::size_t{count_}));
-    pulls_.resize(std::max<std::size_t>(pulls_.size(), count_));
+    pulls_.resize(std::max<std::size_t>(pulls_.size(), 2 * std::size_t{count_}));
     Four<Real>* own = leversIn(0);
     gatherLevers(i, own);
     addParticle(i, own);
@@ -79,15 +79,20 @@ class ElementLoop {
   }
 
  private:
-  // One of six rows of scratch, with a lever for each aggregate that the elements touch.
-  INLINE Four<Real>* leversIn(std::size_t row) { return &scratch_[row * count_].lever; }
+  // One of three rows of scratch, with two levers for each aggregate that the elements touch: its own, and
+  // behind them that of all vertices, moving as one body about its center.
+  INLINE Four<Real>* leversIn(std::size_t row) { return &scratch_[2 * row * count_].lever; }
 
   // With what weight a particle hangs on each aggregate, and that times where it is from the center; 0 for
-  // others, and if it is pinned.
+  // others, and if it is pinned. On all vertices it hangs with the weight 1.
   INLINE void gatherLevers(std::uint32_t i, Four<Real>* levers) const {
-    std::fill(levers, levers + count_, Four<Real>{});
+    std::fill(levers, levers + 2 * std::size_t{count_}, Four<Real>{});
     if (pass_.inverseMasses[i] == Real(0)) return;
     const Vec3<Real> x = at(x_, i);
+    for (std::uint32_t a = 0; a < count_; ++a) {
+      const Vec3<Real> y = x - at(centers_, touched_[a]);
+      levers[count_ + a] = Four<Real>{1, y.x, y.y, y.z};
+    }
     std::uint32_t a = 0;
     for (std::uint32_t n = levels_.prolongationStarts[i]; n < levels_.prolongationStarts[i + 1]; ++n) {
       const auto& [vertex, weight] = levels_.prolongation[n];
@@ -100,26 +105,31 @@ class ElementLoop {
     return lever[0] == 0 && lever[1] == 0 && lever[2] == 0 && lever[3] == 0;
   }
 
-  // Calls add(sums, row, column) for the blocks of which both aggregates move the element.
+  // Calls add(sums, row, column) for the blocks of which both aggregates move the element, the column being
+  // the number of a lever; and for those of all vertices, unless these do not change the element.
   template <class Add>
-  INLINE void forEachBlock(const Four<Real>* levers, Add add) {
+  INLINE void forEachBlock(const Four<Real>* levers, bool isRigid, Add add) {
     const std::uint32_t* block = blocks_;
-    for (std::uint32_t a = 0; a < count_; block += count_ - a, ++a) {
+    for (std::uint32_t a = 0; a < count_; block += count_ - a + 1, ++a) {
       if (touched_[a] < first_ || touched_[a] >= end_ || isNone(levers[a])) continue;
       for (std::uint32_t b = a; b < count_; ++b)
         if (!isNone(levers[b])) add(own_.elementSums[block[b - a]], a, b);
+      if (!isRigid) add(own_.elementSums[block[count_ - a]], a, count_ + a);
     }
   }
   INLINE void addIsotropicElement(Real s, const Four<Real>* levers) {
     forEachBlock(
-        levers, [&](ElementSums<Real> & sums, std::uint32_t a, std::uint32_t b)
-                    __attribute__((always_inline)) { addIsotropic(sums, s, levers[a], levers[b]); });
+        levers, false,
+        [&](ElementSums<Real> & sums, std::uint32_t a, std::uint32_t b)
+            __attribute__((always_inline)) { addIsotropic(sums, s, levers[a], levers[b]); });
   }
-  INLINE void addPullingElement(Real s, Vec3<Real> d, const Four<Real>* levers) {
-    for (std::uint32_t a = 0; a < count_; ++a) pulls_[a].pull = pullOf(levers[a], d);
+  INLINE void addPullingElement(Real s, Vec3<Real> d, const Four<Real>* levers, bool isRigid) {
+    const std::uint32_t all = isRigid ? count_ : 2 * count_;
+    for (std::uint32_t a = 0; a < all; ++a) pulls_[a].pull = pullOf(levers[a], d);
     forEachBlock(
-        levers, [&](ElementSums<Real> & sums, std::uint32_t a, std::uint32_t b) __attribute__((
-                    always_inline)) { addOuterProduct(sums, s * pulls_[a].pull, pulls_[b].pull); });
+        levers, isRigid,
+        [&](ElementSums<Real> & sums, std::uint32_t a, std::uint32_t b)
+            __attribute__((always_inline)) { addOuterProduct(sums, s * pulls_[a].pull, pulls_[b].pull); });
   }
 
   // Inertia, air, grabs and the collider that is touched.
@@ -132,11 +142,11 @@ class ElementLoop {
     }
     addIsotropicElement(stiffness, levers);
     if (hasContacts(arguments_))
-      addPullingElement(contactStiffness(arguments_, n), at(own_.planes.normals, n), levers);
+      addPullingElement(contactStiffness(arguments_, n), at(own_.planes.normals, n), levers, false);
     forEachPairOf(own_.touching, n, [&](std::uint32_t q, std::uint32_t place) {
       const SurfacePair<Real>& pair = own_.touching.pairs[q];
       const Real weight = pair.weights[place];
-      if (pair.held > Real(0)) addPullingElement((weight * weight) * pair.held, pair.normal, levers);
+      if (pair.held > Real(0)) addPullingElement((weight * weight) * pair.held, pair.normal, levers, false);
     });
   }
 
@@ -144,11 +154,12 @@ class ElementLoop {
                         Real restLength, Real limitLength) {
     Four<Real>* levers = leversIn(1);
     gatherLevers(other, levers);
-    for (std::uint32_t a = 0; a < count_; ++a) levers[a] = levers[a] - own[a];
+    for (std::uint32_t a = 0; a < 2 * count_; ++a) levers[a] = levers[a] - own[a];
     const Vec3<Real> d = at(x_, other) - at(x_, i);
     const auto [across, along] =
         springBlock(d, stiffness, restLength, pass_.step.limitStiffness, limitLength);
-    addPullingElement(along, d, levers);
+    const bool isRigid = pass_.inverseMasses[i] > Real(0) && pass_.inverseMasses[other] > Real(0);
+    addPullingElement(along, d, levers, isRigid);
     if (across > Real(0)) addIsotropicElement(across, levers);
   }
 
@@ -189,7 +200,7 @@ class ElementLoop {
     Four<Real>*before = leversIn(1), *behind = leversIn(2);
     gatherLevers(i - stride, before);
     gatherLevers(i + stride, behind);
-    for (std::uint32_t a = 0; a < count_; ++a) before[a] = (before[a] - own[a]) + (behind[a] - own[a]);
+    for (std::uint32_t a = 0; a < 2 * count_; ++a) before[a] = (before[a] - own[a]) + (behind[a] - own[a]);
     addIsotropicElement(endOfClamp ? Real(2) * b : b, before);
   }
 
@@ -208,10 +219,10 @@ class ElementLoop {
       if (lists.numbers[n] % 4 != 0) continue;
       const auto& [corners, c] = lists.hinges[lists.numbers[n] / 4];
       Four<Real>*bent = leversIn(1), *corner = leversIn(2);
-      std::fill(bent, bent + count_, Four<Real>{});
+      std::fill(bent, bent + 2 * std::size_t{count_}, Four<Real>{});
       for (std::size_t k = 0; k < 4; ++k) {
         gatherLevers(corners[k], corner);
-        for (std::uint32_t a = 0; a < count_; ++a) bent[a] = bent[a] + c[k] * corner[a];
+        for (std::uint32_t a = 0; a < 2 * count_; ++a) bent[a] = bent[a] + c[k] * corner[a];
       }
       addIsotropicElement(Real(1), bent);
     }
