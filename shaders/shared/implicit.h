@@ -104,7 +104,7 @@ using uint = std::uint32_t;
 #define LENGTHS_TRIED 4
 
 // A plane that a particle is behind pushes it back, with this many times the stiffness of its inertia and
-// what the stiffest spring of its cloth adds (StepParams::contactStiffness).
+// what the stiffest spring of its cloth adds, within limits (StepParams::contactStiffness).
 #define CONTACT_OVER_INERTIA 1024
 
 // Below this speed friction is less than in full [m/s].
