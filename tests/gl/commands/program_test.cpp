@@ -457,6 +457,7 @@ TEST(Program, MeasuresStepsAndPassesAndTheDemoInRealTime) {
     EXPECT_GT(step["particle_steps_per_second"].get<double>(), 0);
     if (step["backend"] == "gpu") {
       EXPECT_GT(step["pass_ms"].size(), 0u);
+      EXPECT_GE(step["dispatches_per_step"], step["pass_ms"].size());
     }
   }
   EXPECT_EQ(bench["demo_real_time"].size(), 6u) << "two backends, three ways of drawing";
