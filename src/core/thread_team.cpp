@@ -16,6 +16,8 @@ namespace {
 // How often a thread looks for work before it sleeps: some 20 to 50 us, longer than the pauses between the
 // passes of a step.
 constexpr int LOOKS = 1000;
+// First entry of a part that waits for its job; no end lies behind it.
+constexpr std::uint32_t NOTHING_LEFT = 0xffffffff;
 
 void pause() {
 #if defined(__x86_64__) || defined(__i386__)
@@ -90,8 +92,11 @@ void ThreadTeam::run(std::uint32_t first, std::uint32_t end, std::uint32_t grain
   const std::uint64_t count = end - first, parts = parts_.size();
   for (std::uint64_t k = 0; k < parts; ++k) {
     const auto partFirst = first + static_cast<std::uint32_t>(count * k / parts);
+    // The part changes hands before its end does: a thread that is late with the job before must not take
+    // the new end for the old one.
+    parts_[k].next.store(std::uint64_t{job} << 32 | NOTHING_LEFT, std::memory_order_relaxed);
     parts_[k].end.store(first + static_cast<std::uint32_t>(count * (k + 1) / parts),
-                        std::memory_order_relaxed);
+                        std::memory_order_release);
     parts_[k].next.store(std::uint64_t{job} << 32 | partFirst, std::memory_order_release);
   }
   job_.store(static_cast<int>(job));
@@ -111,12 +116,13 @@ void ThreadTeam::takePart(std::uint32_t job, std::size_t part) {
   std::uint64_t next = own.next.load(std::memory_order_acquire);
   while (next >> 32 == job) {
     const auto first = static_cast<std::uint32_t>(next);
-    const std::uint32_t end = own.end.load(std::memory_order_relaxed);
+    const std::uint32_t end = own.end.load(std::memory_order_acquire);
     if (first >= end) return;
     const std::uint32_t stop = std::min(end, first + grain_.load(std::memory_order_relaxed));
     const Range range = range_.load(std::memory_order_relaxed);
     const void* context = context_.load(std::memory_order_relaxed);
-    // What was read belongs to the job if the part still does: a job ends only when all of it was taken.
+    // What was read belongs to the job if the part still does: a job ends only when all of it was taken, and
+    // the next one changes `next` before anything else of the part.
     if (!own.next.compare_exchange_weak(next, std::uint64_t{job} << 32 | stop, std::memory_order_acq_rel))
       continue;
     range(context, first, stop);

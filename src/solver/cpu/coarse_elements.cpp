@@ -1,32 +1,22 @@
 // The first coarse level's matrix, from the elements of the cloth: springs, bending, and what acts on single
 // particles; the twin of shaders/sim/implicit/coarsen_elements.comp. There, an invocation sums up a block;
-// here an element is worked out once and added to all blocks that it touches, in the same order.
+// here an element is worked out once, and a particle's elements are added to all blocks that they touch, in
+// the same order.
 #include "solver/cpu/coarse_elements.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "solver/cpu/implicit_contact.h"
 #include "solver/cpu/implicit_laws.h"
 #include "solver/cpu/rows.h"
 #include "solver/cpu/spring_rows.h"
 
-#pragma GCC diagnostic ignored "-Wpsabi"  // vectors are passed between inlined functions only
-
 namespace clothsim::cpu {
 namespace {
 
 template <class Real>
-using Four = typename VectorsOf<Real>::Four;
-template <class Real>
 using Eight = typename VectorsOf<Real>::Eight;
-
-// Adds s p q^T, p = (sigma, y): the element s |sigma t + r x y|^2 / 2 of a body of translation t and rotation
-// r.
-template <class Real>
-INLINE void addIsotropic(ElementSums<Real>& sums, Real s, Four<Real> p, Four<Real> q) {
-  const Four<Real> scaled = s * p;
-  for (int c = 0; c < 4; ++c) sums.moments[c] += scaled * q[c];
-}
 
 // The force of the element d on a body: (sigma d, y x d).
 template <class Real>
@@ -34,14 +24,6 @@ INLINE Eight<Real> pullOf(Four<Real> lever, Vec3<Real> d) {
   const Vec3<Real> force = lever[0] * d, torque = cross(Vec3<Real>{lever[1], lever[2], lever[3]}, d);
   return Eight<Real>{force.x, force.y, force.z, 0, torque.x, torque.y, torque.z, 0};
 }
-template <class Real>
-INLINE void addOuterProduct(ElementSums<Real>& sums, Eight<Real> scaled, Eight<Real> q) {
-  for (int c = 0; c < 3; ++c) {
-    sums.columns[c] += scaled * q[c];
-    sums.columns[3 + c] += scaled * q[4 + c];
-  }
-}
-
 // Adds the elements of some particles to the blocks of the rows [first, end).
 template <class Real>
 class ElementLoop {
@@ -52,7 +34,7 @@ class ElementLoop {
         own_(arguments.own),
         levels_(arguments.own.hierarchy),
         x_(arraysOf(std::as_const(own_.iterate.positions))),
-        centers_(arraysOf(std::as_const(own_.centers))),
+        centers_(own_.centers),
         first_(first),
         end_(end) {}
 
@@ -62,23 +44,61 @@ class ElementLoop {
     blocks_ = levels_.elementBlocks.data() + levels_.elementBlockStarts[i];
     if (count_ == 0 || touched_[0] >= end_ || touched_[count_ - 1] < first_) return;
     scratch_.resize(std::max<std::size_t>(scratch_.size(), 6 * std::size_t{count_}));
-    pulls_.resize(std::max<std::size_t>(pulls_.size(), 2 * std::size_t{count_}));
+    pulling_.begin(2 * count_);
+    isotropic_.begin(2 * count_);
     Four<Real>* own = leversIn(0);
     gatherLevers(i, own);
     addParticle(i, own);
-    if (pass_.step.isMesh != 0) {
-      addMeshSprings(i, own);
-      addHinges(i);
-      return;
+    pass_.step.isMesh != 0 ? addMeshElements(i, own) : addGridElements(i, own);
+    addToBlocks();
+  }
+
+ private:
+  // Elements of one kind that wait to be added: the factors of the two sides of each, for each aggregate.
+  template <class Vector>
+  struct Waiting {
+    static constexpr std::uint32_t MOST = 32;
+    struct alignas(sizeof(Vector)) Factors {
+      Vector left, right;
+    };
+    std::vector<Factors> factors;
+    std::vector<std::uint32_t> acting;  // of an aggregate: a bit for each element that it moves
+    std::uint32_t count = 0;
+
+    void begin(std::uint32_t aggregates) {
+      factors.resize(std::max<std::size_t>(factors.size(), MOST * std::size_t{aggregates}));
+      acting.assign(aggregates, 0);
+      count = 0;
     }
+    // Calls make() for the factors.
+    template <class Make>
+    INLINE void add(std::uint32_t aggregate, Make make) {
+      acting[aggregate] |= 1u << count;
+      factors[aggregate * MOST + count] = make();
+    }
+    // Calls add(left, right) for the elements that both aggregates move, in order.
+    template <class Add>
+    INLINE void forEach(std::uint32_t a, std::uint32_t b, Add add) const {
+      const Factors *ofA = factors.data() + a * MOST, *ofB = factors.data() + b * MOST;
+      for (std::uint32_t both = acting[a] & acting[b]; both != 0; both &= both - 1) {
+        const auto element = static_cast<std::uint32_t>(std::countr_zero(both));
+        add(ofA[element].left, ofB[element].right);
+      }
+    }
+  };
+
+  INLINE void addGridElements(std::uint32_t i, const Four<Real>* own) {
     const std::uint32_t place = i - pass_.step.firstParticle, column = place % pass_.step.columns,
                         row = place / pass_.step.columns;
     const std::uint32_t cut = pass_.cutMasks != nullptr ? pass_.cutMasks[i] : 0;
     for (std::uint32_t k = 0; k < SPRING_SLOTS; ++k) addGridSpring(i, own, k, column, row, cut);
     if (pass_.step.hasMaterial != 0) addLines(i, own, column, row, cut);
   }
+  INLINE void addMeshElements(std::uint32_t i, const Four<Real>* own) {
+    addMeshSprings(i, own);
+    addHinges(i);
+  }
 
- private:
   // One of three rows of scratch, with two levers for each aggregate that the elements touch: its own, and
   // behind them that of all vertices, moving as one body about its center.
   INLINE Four<Real>* leversIn(std::size_t row) { return &scratch_[2 * row * count_].lever; }
@@ -90,14 +110,14 @@ class ElementLoop {
     if (pass_.inverseMasses[i] == Real(0)) return;
     const Vec3<Real> x = at(x_, i);
     for (std::uint32_t a = 0; a < count_; ++a) {
-      const Vec3<Real> y = x - at(centers_, touched_[a]);
+      const Vec3<Real> y = x - threeOf(centers_[touched_[a]]);
       levers[count_ + a] = Four<Real>{1, y.x, y.y, y.z};
     }
     std::uint32_t a = 0;
     for (std::uint32_t n = levels_.prolongationStarts[i]; n < levels_.prolongationStarts[i + 1]; ++n) {
       const auto& [vertex, weight] = levels_.prolongation[n];
       while (touched_[a] != vertex) ++a;
-      const Vec3<Real> y = weight * (x - at(centers_, vertex));
+      const Vec3<Real> y = weight * (x - threeOf(centers_[vertex]));
       levers[a] = Four<Real>{weight, y.x, y.y, y.z};
     }
   }
@@ -105,31 +125,59 @@ class ElementLoop {
     return lever[0] == 0 && lever[1] == 0 && lever[2] == 0 && lever[3] == 0;
   }
 
-  // Calls add(sums, row, column) for the blocks of which both aggregates move the element, the column being
-  // the number of a lever; and for those of all vertices, unless these do not change the element.
-  template <class Add>
-  INLINE void forEachBlock(const Four<Real>* levers, bool isRigid, Add add) {
+  // s p p^T, p = (sigma, y): the element s |sigma t + r x y|^2 / 2 of a body of translation t and rotation r.
+  INLINE void addIsotropicElement(Real s, const Four<Real>* levers) {
+    if (isotropic_.count == isotropic_.MOST) addToBlocks();
+    const auto add = [&](std::uint32_t a) __attribute__((always_inline)) {
+      isotropic_.add(a, [&] { return typename Waiting<Four<Real>>::Factors{s * levers[a], levers[a]}; });
+    };
+    for (std::uint32_t a = 0; a < count_; ++a)
+      if (!isNone(levers[a])) add(a), add(count_ + a);
+    ++isotropic_.count;
+  }
+  // `isRigid`: all vertices together, moving as one body, do not change it.
+  INLINE void addPullingElement(Real s, Vec3<Real> d, const Four<Real>* levers, bool isRigid) {
+    if (pulling_.count == pulling_.MOST) addToBlocks();
+    const auto add = [&](std::uint32_t a) __attribute__((always_inline)) {
+      pulling_.add(a, [&] {
+        const Eight<Real> pull = pullOf(levers[a], d);
+        return typename Waiting<Eight<Real>>::Factors{s * pull, pull};
+      });
+    };
+    for (std::uint32_t a = 0; a < count_; ++a) {
+      if (isNone(levers[a])) continue;
+      add(a);
+      if (!isRigid) add(count_ + a);
+    }
+    ++pulling_.count;
+  }
+  // What waits goes to the blocks of pairs of aggregates, and of aggregates with all vertices.
+  INLINE void addToBlocks() {
     const std::uint32_t* block = blocks_;
     for (std::uint32_t a = 0; a < count_; block += count_ - a + 1, ++a) {
-      if (touched_[a] < first_ || touched_[a] >= end_ || isNone(levers[a])) continue;
-      for (std::uint32_t b = a; b < count_; ++b)
-        if (!isNone(levers[b])) add(own_.elementSums[block[b - a]], a, b);
-      if (!isRigid) add(own_.elementSums[block[count_ - a]], a, count_ + a);
+      if (touched_[a] < first_ || touched_[a] >= end_) continue;
+      for (std::uint32_t b = a; b < count_; ++b) addToBlock(block[b - a], a, b);
+      addToBlock(block[count_ - a], a, count_ + a);
     }
+    pulling_.begin(2 * count_);
+    isotropic_.begin(2 * count_);
   }
-  INLINE void addIsotropicElement(Real s, const Four<Real>* levers) {
-    forEachBlock(
-        levers, false,
-        [&](ElementSums<Real> & sums, std::uint32_t a, std::uint32_t b)
-            __attribute__((always_inline)) { addIsotropic(sums, s, levers[a], levers[b]); });
-  }
-  INLINE void addPullingElement(Real s, Vec3<Real> d, const Four<Real>* levers, bool isRigid) {
-    const std::uint32_t all = isRigid ? count_ : 2 * count_;
-    for (std::uint32_t a = 0; a < all; ++a) pulls_[a].pull = pullOf(levers[a], d);
-    forEachBlock(
-        levers, isRigid,
-        [&](ElementSums<Real> & sums, std::uint32_t a, std::uint32_t b)
-            __attribute__((always_inline)) { addOuterProduct(sums, s * pulls_[a].pull, pulls_[b].pull); });
+  INLINE void addToBlock(std::uint32_t number, std::uint32_t a, std::uint32_t b) {
+    if (((pulling_.acting[a] & pulling_.acting[b]) | (isotropic_.acting[a] & isotropic_.acting[b])) == 0)
+      return;
+    ElementSums<Real> sums = own_.elementSums[number];
+    pulling_.forEach(a, b, [&](const Eight<Real>& scaled, const Eight<Real>& q) {
+#pragma GCC unroll 3
+      for (int c = 0; c < 3; ++c) {
+        sums.columns[c] += scaled * q[c];
+        sums.columns[3 + c] += scaled * q[4 + c];
+      }
+    });
+    isotropic_.forEach(a, b, [&](const Four<Real>& scaled, const Four<Real>& q) {
+#pragma GCC unroll 4
+      for (int c = 0; c < 4; ++c) sums.moments[c] += scaled * q[c];
+    });
+    own_.elementSums[number] = sums;
   }
 
   // Inertia, air, grabs and the collider that is touched.
@@ -232,7 +280,8 @@ class ElementLoop {
   const PassArguments<Real>& pass_;
   ImplicitState<Real>& own_;
   const Hierarchy<Real>& levels_;
-  const Arrays<const Real> x_, centers_;
+  const Arrays<const Real> x_;
+  const std::vector<Four<Real>>& centers_;
   std::uint32_t first_, end_;  // rows
   // Of the particle at hand: the aggregates that its elements touch, and the blocks of all pairs of them.
   const std::uint32_t *touched_ = nullptr, *blocks_ = nullptr;
@@ -241,42 +290,43 @@ class ElementLoop {
   struct alignas(4 * sizeof(Real)) LeverCell {
     Four<Real> lever;
   };
-  struct alignas(8 * sizeof(Real)) PullCell {
-    Eight<Real> pull;
-  };
   std::vector<LeverCell> scratch_;
-  std::vector<PullCell> pulls_;
+  Waiting<Eight<Real>> pulling_;
+  Waiting<Four<Real>> isotropic_;
 };
 
 // What the sums make of a block: see addIsotropic(), and cross products in components.
 template <class Real>
-INLINE RigidBlock<Real> blockOf(const ElementSums<Real>& sums) {
+INLINE RigidBlock<Real> blockOfSums(const ElementSums<Real>& sums) {
   const auto& m = sums.moments;
   RigidBlock<Real> block;
+  const auto three = [](const Eight<Real>& v, int first) __attribute__((always_inline)) {
+    return Four<Real>{v[first], v[first + 1], v[first + 2], Real(0)};
+  };
   for (std::size_t c = 0; c < 3; ++c) {
     const Eight<Real>&t = sums.columns[c], &r = sums.columns[3 + c];
-    block.tt[c] = {t[0], t[1], t[2]};
-    block.rt[c] = {t[4], t[5], t[6]};
-    block.tr[c] = {r[0], r[1], r[2]};
-    block.rr[c] = {r[4], r[5], r[6]};
+    block.tt[c] = three(t, 0);
+    block.rt[c] = three(t, 4);
+    block.tr[c] = three(r, 0);
+    block.rr[c] = three(r, 4);
+    block.tt[c][c] += m[0][0];
   }
-  const Vec3<Real> u{m[1][0], m[2][0], m[3][0]}, v{m[0][1], m[0][2], m[0][3]};
+  const Four<Real> u{m[1][0], m[2][0], m[3][0], 0}, v{m[0][1], m[0][2], m[0][3], 0};
   const Real trace = (m[1][1] + m[2][2]) + m[3][3];
-  block.tt[0].x += m[0][0];
-  block.tt[1].y += m[0][0];
-  block.tt[2].z += m[0][0];
   // e x u, v x e
-  block.tr[0] = block.tr[0] + Vec3<Real>{0, -u.z, u.y};
-  block.tr[1] = block.tr[1] + Vec3<Real>{u.z, 0, -u.x};
-  block.tr[2] = block.tr[2] + Vec3<Real>{-u.y, u.x, 0};
-  block.rt[0] = block.rt[0] + Vec3<Real>{0, v.z, -v.y};
-  block.rt[1] = block.rt[1] + Vec3<Real>{-v.z, 0, v.x};
-  block.rt[2] = block.rt[2] + Vec3<Real>{v.y, -v.x, 0};
+  block.tr[0] += Four<Real>{0, -u[2], u[1], 0};
+  block.tr[1] += Four<Real>{u[2], 0, -u[0], 0};
+  block.tr[2] += Four<Real>{-u[1], u[0], 0, 0};
+  block.rt[0] += Four<Real>{0, v[2], -v[1], 0};
+  block.rt[1] += Four<Real>{-v[2], 0, v[0], 0};
+  block.rt[2] += Four<Real>{v[1], -v[0], 0, 0};
   // trace e - column of sum s y_q y_p^T
-  const auto minus = [&](int c) { return Vec3<Real>{m[1][1 + c], m[2][1 + c], m[3][1 + c]}; };
-  block.rr[0] = block.rr[0] + (Vec3<Real>{trace, 0, 0} - minus(0));
-  block.rr[1] = block.rr[1] + (Vec3<Real>{0, trace, 0} - minus(1));
-  block.rr[2] = block.rr[2] + (Vec3<Real>{0, 0, trace} - minus(2));
+  const auto minus = [&](int c) __attribute__((always_inline)) {
+    return Four<Real>{m[1][1 + c], m[2][1 + c], m[3][1 + c], 0};
+  };
+  block.rr[0] += Four<Real>{trace, 0, 0, 0} - minus(0);
+  block.rr[1] += Four<Real>{0, trace, 0, 0} - minus(1);
+  block.rr[2] += Four<Real>{0, 0, trace, 0} - minus(2);
   return block;
 }
 
@@ -295,7 +345,7 @@ INLINE void sumRows(const ImplicitArguments<Real>& arguments, const LevelParams&
   ElementLoop<Real> loop(arguments, first, end);
   for (std::uint32_t i = firstParticle; i < endParticle; ++i) loop.addElementsOf(i);
   for (std::uint32_t n = levels.blockStarts[first]; n < levels.blockStarts[end]; ++n)
-    own.coarseBlocks[n] = blockOf(own.elementSums[n]);
+    own.coarseBlocks[n] = blockOfSums(own.elementSums[n]);
 }
 
 }  // namespace

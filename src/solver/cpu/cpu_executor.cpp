@@ -10,15 +10,11 @@
 #include "core/thread_team.h"
 #include "solver/cpu/arrays.h"
 #include "solver/cpu/fixed_sum.h"
+#include "solver/cpu/multilevel.h"
 #include "solver/cpu/rows.h"
 
 namespace clothsim {
 namespace {
-
-// How many vertices of a level a thread takes at once.
-constexpr std::uint32_t VERTICES_AT_ONCE = 64;
-// Rows of a coarse matrix that a thread sums up together, so that few elements are worked out by two.
-constexpr std::uint32_t ROWS_AT_ONCE = 128;
 
 // Sums below this count as 0: their reciprocal would not be safe.
 template <class Real>
@@ -224,7 +220,7 @@ void CpuExecutor<Real>::runSweep(std::span<const PassCall> passes) {
     case Domain::coarseVertices:
     case Domain::coarseBlocks:
     case Domain::fineVertices:
-      runOnLevel(first);
+      cpu::runOnLevel<Real>(first, pieces_, implicit_, particles_.inverseMasses.data());
       break;
     case Domain::sums:
       sum(first.pass);
@@ -263,42 +259,6 @@ void CpuExecutor<Real>::runOnColor(std::size_t index) {
     const std::uint32_t rows = cpu::limitRows(lattice, color);
     ThreadTeam::shared().forEach(0, rows, rowsAtOnce(lattice),
                                  [&](std::uint32_t j) { cpu::limitStrain(pieces_[piece].step, color, j); });
-  }
-}
-
-template <class Real>
-void CpuExecutor<Real>::runOnLevel(PassCall call) {
-  const auto forEach = [&](std::uint32_t first, std::uint32_t end, auto pass) {
-    ThreadTeam::shared().forEach(first, end, call.pass == Pass::coarsen ? 1 : VERTICES_AT_ONCE, pass);
-  };
-  const Hierarchy<Real>& hierarchy = implicit_.hierarchy;
-  for (std::size_t piece = 0; piece < pieces_.size(); ++piece) {
-    const std::vector<LevelParams>& levels = hierarchy.pieces[piece];
-    if (call.pass == Pass::invertDense) {
-      for (const DensePart& part : hierarchy.parts[piece]) cpu::invertDense(implicit_, part);
-      continue;
-    }
-    if (call.pass == Pass::solveCoarsest) {
-      for (const DensePart& part : hierarchy.parts[piece])
-        forEach(part.first, part.first + part.count,
-                [&](std::uint32_t vertex) { cpu::solveCoarsest(implicit_, part, vertex); });
-      continue;
-    }
-    if (call.index >= levels.size()) continue;
-    const LevelParams& level = levels[call.index];
-    const std::uint32_t coarseEnd = level.coarseFirst + level.coarseCount;
-    if (call.pass == Pass::findCenters)
-      forEach(level.coarseFirst, coarseEnd, [&](std::uint32_t i) { cpu::findCenter(implicit_, i); });
-    else if (call.pass == Pass::coarsen)
-      forEach(0, (level.coarseCount + ROWS_AT_ONCE - 1) / ROWS_AT_ONCE, [&](std::uint32_t k) {
-        const std::uint32_t first = level.coarseFirst + k * ROWS_AT_ONCE;
-        cpu::coarsen(pieces_[piece], level, first, std::min(first + ROWS_AT_ONCE, coarseEnd));
-      });
-    else if (call.pass == Pass::restrict)
-      forEach(level.coarseFirst, coarseEnd, [&](std::uint32_t i) { cpu::restrictResidual(implicit_, i); });
-    else
-      forEach(level.fineFirst, level.fineFirst + level.fineCount,
-              [&](std::uint32_t i) { cpu::prolong(implicit_, particles_.inverseMasses.data(), i); });
   }
 }
 

@@ -62,7 +62,6 @@ class CpuExecutor final : public Executor {
   void runSweep(std::span<const PassCall> passes);
   void runByRows(std::span<const PassCall> passes);
   void runOnColor(std::size_t color);
-  void runOnLevel(PassCall call);
   void runContacts(PassCall call);
   void setSurface(const StepInputs& inputs);
   void sum(Pass pass);

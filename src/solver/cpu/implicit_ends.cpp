@@ -159,17 +159,18 @@ void gatherElasticForces(const ImplicitArguments<Real>& arguments, int row) {
 template <class Real>
 void ImplicitState<Real>::resize(Hierarchy<Real> levels) {
   hierarchy = std::move(levels);
-  const std::size_t particles = hierarchy.particles,
-                    entries = particles + VERTEX_TEXELS * std::size_t{hierarchy.coarseVertices};
-  for (Components<Real>* c :
-       {&rightHandSide, &displacements, &iterate.positions, &directions.positions, &products, &increments})
+  const std::size_t particles = hierarchy.particles;
+  for (Components<Real>* c : {&rightHandSide, &displacements, &iterate.positions, &residuals, &corrections,
+                              &directions.positions, &products, &increments})
     c->resize(particles);
   diagonal.resize(particles);
   air.resize(particles);
   for (std::vector<Real>& trial : trials) trial.resize(particles);
-  for (Components<Real>* c : {&residuals, &corrections}) c->resize(entries);
+  elements.resize(particles);
   factors.resize(particles);
   centers.resize(hierarchy.coarseVertices);
+  coarseResiduals.resize(hierarchy.coarseVertices);
+  coarseCorrections.resize(hierarchy.coarseVertices);
   coarseBlocks.resize(hierarchy.blocks.size());
   elementSums.resize(hierarchy.blocks.size());
   coarseInverses.resize(hierarchy.coarseVertices);

@@ -119,7 +119,7 @@ INLINE void tryLengthsRow(const ImplicitArguments<Real>& arguments, int row) {
   if (pass.step.hasMaterial != 0) addBendingTrials(arguments, row);
 }
 
-// The diagonal block, from the springs.
+// The diagonal block, from the springs; those that a particle owns are kept for the products.
 template <bool hasCuts, class Real>
 INLINE void addSpringBlocks(const ImplicitArguments<Real>& arguments, int row) {
   const PassArguments<Real>& pass = arguments.step;
@@ -132,6 +132,9 @@ INLINE void addSpringBlocks(const ImplicitArguments<Real>& arguments, int row) {
       pass, row,
       [&](Range particles, SpringPlace place, const SpringParams<Real>& spring, auto rest)
           __attribute__((always_inline)) {
+            const IncidentSpring& incident = incidentSprings[place.bit];
+            Real *keptAcross = own.elements.across[incident.slot].data(),
+                 *keptAlong = own.elements.along[incident.slot].data();
 #pragma GCC ivdep
             for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
               const Vec3<Real> d = at(x, i + place.other) - at(x, i);
@@ -139,26 +142,35 @@ INLINE void addSpringBlocks(const ImplicitArguments<Real>& arguments, int row) {
                                                        limitLength(rest, i, limitFactor, spring.limitLength));
               Symmetric<Real> k = outerProduct(along, d);
               k.diagonal = k.diagonal + Vec3<Real>{across, across, across};
-              const Real there = isCutAt<hasCuts>(cutMasks, i, place.bit) ? Real(0) : Real(1);
-              addTo(blocks, i, there * k);
+              const bool isCut = isCutAt<hasCuts>(cutMasks, i, place.bit);
+              addTo(blocks, i, (isCut ? Real(0) : Real(1)) * k);
+              if (!incident.owned) continue;
+              keptAcross[i] = isCut ? Real(0) : across;
+              keptAlong[i] = isCut ? Real(0) : along;
             }
           });
 }
 
-// What bending adds to the diagonal block of a particle.
+// Bending stiffness of the line through particle `m`, by `stride` between its particles.
+template <class Real>
+Real lineStiffness(const Real* w, std::ptrdiff_t m, std::ptrdiff_t stride, Real b) {
+  const bool endOfClamp = w[m] == Real(0) && (w[m - stride] == Real(0)) != (w[m + stride] == Real(0));
+  return endOfClamp ? Real(2) * b : b;
+}
+
+// What bending along a row or column adds to the diagonal block of a particle, `place` in it; `middle`
+// becomes the stiffness of the line whose middle it is.
 template <class Real>
 Real bendingBlock(const PassArguments<Real>& pass, std::ptrdiff_t i, std::ptrdiff_t place,
                   std::ptrdiff_t count, std::ptrdiff_t stride, Real b, std::uint32_t cut,
-                  const std::uint32_t (&links)[3]) {
+                  const std::uint32_t (&links)[3], Real& middle) {
   const Real* w = pass.inverseMasses;
-  const auto line = [&](std::ptrdiff_t m, Real share) {
-    const bool endOfClamp = w[m] == Real(0) && (w[m - stride] == Real(0)) != (w[m + stride] == Real(0));
-    return share * (endOfClamp ? Real(2) * b : b);
-  };
+  const bool isMiddle = place >= 1 && place + 1 < count && (cut & links[1]) == 0;
+  middle = isMiddle ? lineStiffness(w, i, stride, b) : Real(0);
   Real sum = 0;
-  if (place >= 2 && (cut & links[0]) == 0) sum = sum + line(i - stride, Real(1));
-  if (place >= 1 && place + 1 < count && (cut & links[1]) == 0) sum = sum + line(i, Real(4));
-  if (place + 2 < count && (cut & links[2]) == 0) sum = sum + line(i + stride, Real(1));
+  if (place >= 2 && (cut & links[0]) == 0) sum = sum + lineStiffness(w, i - stride, stride, b);
+  if (isMiddle) sum = sum + Real(4) * middle;
+  if (place + 2 < count && (cut & links[2]) == 0) sum = sum + lineStiffness(w, i + stride, stride, b);
   return sum;
 }
 
@@ -166,6 +178,7 @@ template <class Real>
 void addBendingBlocks(const ImplicitArguments<Real>& arguments, int row) {
   const PassArguments<Real>& pass = arguments.step;
   const StepParams<Real>& step = pass.step;
+  GridElements<Real>& elements = arguments.own.elements;
   const Range all = rangeOf(step, row);
   const bool borderRow = isBorder(row, step.rows);
   const auto columns = static_cast<std::ptrdiff_t>(step.columns),
@@ -175,10 +188,11 @@ void addBendingBlocks(const ImplicitArguments<Real>& arguments, int row) {
     const bool borderColumn = i == all.begin || i + 1 == all.end;
     const Real alongRow = borderRow ? Real(0.5) * step.bendAlongRow : step.bendAlongRow;
     const Real alongColumn = borderColumn ? Real(0.5) * step.bendAlongColumn : step.bendAlongColumn;
-    const Real b = bendingBlock(pass, i, i - all.begin, columns, 1, alongRow, cut,
-                                {BENDING_LEFT, BENDING_ROW, BENDING_RIGHT}) +
-                   bendingBlock(pass, i, row, rows, columns, alongColumn, cut,
-                                {BENDING_UPPER, BENDING_COLUMN, BENDING_LOWER});
+    const Real b =
+        bendingBlock(pass, i, i - all.begin, columns, 1, alongRow, cut,
+                     {BENDING_LEFT, BENDING_ROW, BENDING_RIGHT}, elements.bendAlongRow.data()[i]) +
+        bendingBlock(pass, i, row, rows, columns, alongColumn, cut,
+                     {BENDING_UPPER, BENDING_COLUMN, BENDING_LOWER}, elements.bendAlongColumn.data()[i]);
     addTo(arguments.own.factors, i, Symmetric<Real>{{b, b, b}, {}});
   }
 }
@@ -198,6 +212,7 @@ INLINE void linearizeRow(const ImplicitArguments<Real>& arguments, int row) {
   if (pass.step.isMesh != 0) {
     addMeshBlocks(arguments, row);
   } else {
+    own.elements.clear(all.begin, all.end);
     pass.cutMasks != nullptr ? addSpringBlocks<true>(arguments, row) : addSpringBlocks<false>(arguments, row);
     if (pass.step.hasMaterial != 0) addBendingBlocks(arguments, row);
   }
@@ -218,31 +233,6 @@ INLINE void linearizeRow(const ImplicitArguments<Real>& arguments, int row) {
   }
 }
 
-// What the springs do to the directions, as forces: minus the product.
-template <bool hasCuts, class Real>
-INLINE void addSpringProducts(const ImplicitArguments<Real>& arguments, int row) {
-  const PassArguments<Real>& pass = arguments.step;
-  ImplicitState<Real>& own = arguments.own;
-  const Arrays<Real> x = arraysOf(own.iterate.positions), p = arraysOf(own.directions.positions),
-                     products = arraysOf(own.products);
-  const std::uint32_t* cutMasks = pass.cutMasks;
-  const Real limitStiffness = pass.step.limitStiffness, limitFactor = pass.step.limitFactor;
-  forEachSpringRange(
-      pass, row,
-      [=](Range particles, SpringPlace place, const SpringParams<Real> spring, auto rest)
-          __attribute__((always_inline)) {
-#pragma GCC ivdep
-            for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
-              const Vec3<Real> d = at(x, i + place.other) - at(x, i), e = at(p, i + place.other) - at(p, i);
-              const auto [across, along] = springBlock(d, spring.stiffness, rest[i], limitStiffness,
-                                                       limitLength(rest, i, limitFactor, spring.limitLength));
-              const Vec3<Real> f = across * e + (along * dot(d, e)) * d;
-              const Vec3<Real> before = at(products, i);
-              put(products, i, selected(isCutAt<hasCuts>(cutMasks, i, place.bit), before, before + f));
-            }
-          });
-}
-
 template <class Real>
 INLINE void multiplyRow(const ImplicitArguments<Real>& arguments, int row) {
   const PassArguments<Real>& pass = arguments.step;
@@ -252,41 +242,35 @@ INLINE void multiplyRow(const ImplicitArguments<Real>& arguments, int row) {
   const Arrays<Real> products = arraysOf(own.products), directions = arraysOf(own.directions.positions);
   const SymmetricArrays<Real> air = arraysOf(own.air);
   const Real *stiffness = own.diagonal.data(), *w = pass.inverseMasses;
-  for (std::ptrdiff_t i = all.begin; i < all.end; ++i) put(products, i, zero);
   if (pass.step.isMesh != 0) {
+    for (std::ptrdiff_t i = all.begin; i < all.end; ++i) put(products, i, zero);
     addMeshProducts(arguments, row);
   } else {
-    pass.cutMasks != nullptr ? addSpringProducts<true>(arguments, row)
-                             : addSpringProducts<false>(arguments, row);
-    if (pass.step.hasMaterial != 0)
-      addBendingForces(withState(pass, pass.step, own.directions, own.products), row);
+    multiplyElements(arguments, row);
   }
   if (!own.touching.pairs.empty())
     for (std::ptrdiff_t i = all.begin; i < all.end; ++i)
       put(products, i, at(products, i) - forceOfPairs(own.touching, i));
-  if (hasContacts(arguments)) {
-    const bool wind = pass.step.hasWind != 0;
-    for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
-      const Vec3<Real> p = at(directions, i);
-      Vec3<Real> product = stiffness[i] * p;
-      if (wind) product = product + at(air, i) * p;
-      product = product + at(arguments.own.planes.blocks, i) * p;
-      put(products, i, selected(w[i] == Real(0), zero, canonical(product - at(products, i))));
-    }
-  } else if (pass.step.hasWind != 0) {
+  const auto finish = [&](auto addBlocks) __attribute__((always_inline)) {
 #pragma GCC ivdep
     for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
-      const Vec3<Real> p = at(directions, i);
-      const Vec3<Real> product = stiffness[i] * p + at(air, i) * p;
+      const Vec3<Real> p = at(directions, i), product = addBlocks(stiffness[i] * p, p, i);
       put(products, i, selected(w[i] == Real(0), zero, canonical(product - at(products, i))));
     }
-  } else {
-#pragma GCC ivdep
-    for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
-      const Vec3<Real> product = stiffness[i] * at(directions, i);
-      put(products, i, selected(w[i] == Real(0), zero, canonical(product - at(products, i))));
-    }
-  }
+  };
+  const auto withBlocks = [](const SymmetricArrays<Real>& blocks) {
+    return [=](Vec3<Real> sum, Vec3<Real> p, std::ptrdiff_t i) { return sum + at(blocks, i) * p; };
+  };
+  const auto addAir = withBlocks(air);
+  const auto addPlanes = withBlocks(arraysOf(own.planes.blocks));
+  const bool wind = pass.step.hasWind != 0;
+  if (hasContacts(arguments))
+    wind ? finish([=](Vec3<Real> sum, Vec3<Real> p, std::ptrdiff_t i) {
+      return addPlanes(addAir(sum, p, i), p, i);
+    })
+         : finish(addPlanes);
+  else
+    wind ? finish(addAir) : finish([](Vec3<Real> sum, Vec3<Real>, std::ptrdiff_t) { return sum; });
 }
 
 template <class Real>

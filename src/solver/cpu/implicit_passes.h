@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "solver/cpu/collide.h"
+#include "solver/cpu/grid_product.h"
 #include "solver/cpu/passes.h"
 #include "solver/cpu/rigid_block.h"
 #include "solver/cpu/symmetric.h"
@@ -25,8 +26,7 @@ struct TouchingPairs {
   std::vector<std::uint32_t> entries;  // 4 * pair + place in it, ascending
 };
 
-// What an implicit step works on, an entry a particle. Those marked with * go on with the coarse vertices,
-// two entries each: translation and rotation.
+// What an implicit step works on, an entry a particle.
 template <class Real>
 struct ImplicitState {
   Components<Real> rightHandSide;      // b and
@@ -37,8 +37,9 @@ struct ImplicitState {
   Components<Real> acceleratedBefore;  // and velocity [m/s] changed in the step before
   Components<Real> displacements;      // d of the step so far [m]
   CpuState<Real> iterate;              // x + d; no velocities
-  Components<Real> residuals;          // * r
-  Components<Real> corrections;        // * z
+  Components<Real> residuals;          // r
+  Components<Real> corrections;        // z
+  GridElements<Real> elements;         // at the iterate
   SymmetricField<Real> factors;        // L D L^T of diagonal blocks: 1/d1 1/d2 1/d3 and l21 l31 l32
   CpuState<Real> directions;           // p; no velocities
   Components<Real> products;           // H p
@@ -48,7 +49,9 @@ struct ImplicitState {
   ImplicitScalars<Real> scalars{};
 
   Hierarchy<Real> hierarchy;
-  Components<Real> centers;                      // of coarse vertices [m]
+  // Of coarse vertices.
+  std::vector<Four<Real>> centers;  // [m]
+  std::vector<RigidVector<Real>> coarseResiduals, coarseCorrections;
   std::vector<RigidBlock<Real>> coarseBlocks;    // of the levels' matrices
   std::vector<ElementSums<Real>> elementSums;    // of the first levels' blocks
   std::vector<RigidBlock<Real>> coarseInverses;  // minus those of the diagonal blocks, by coarse vertex
@@ -116,8 +119,14 @@ template <class Real>
 void restrictResidual(ImplicitState<Real>& own, std::uint32_t coarse);
 template <class Real>
 void solveCoarsest(ImplicitState<Real>& own, const DensePart& part, std::uint32_t vertex);
-// z of a vertex: its own and what the next coarser level makes of it. Pinned particles get 0.
+// z of a coarse vertex: its own and what the next coarser level makes of it.
 template <class Real>
-void prolong(ImplicitState<Real>& own, const Real* inverseMasses, std::uint32_t vertex);
+void prolong(ImplicitState<Real>& own, std::uint32_t coarse);
+// z of the particles [first, end), at most PARTICLES_AT_ONCE. Pinned ones get 0.
+inline constexpr std::uint32_t PARTICLES_AT_ONCE = 256;
+void prolongParticles(ImplicitState<float>& own, const float* inverseMasses, std::uint32_t first,
+                      std::uint32_t end);
+void prolongParticles(ImplicitState<double>& own, const double* inverseMasses, std::uint32_t first,
+                      std::uint32_t end);
 
 }  // namespace clothsim::cpu

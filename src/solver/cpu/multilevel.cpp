@@ -1,5 +1,11 @@
 // From level to level of the implicit integrator's preconditioner; the twin of
 // shaders/sim/implicit/{find_centers,coarsen,invert_dense}.comp and {restriction,dense,prolongation}.glsl.
+#include "solver/cpu/multilevel.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "core/thread_team.h"
 #include "solver/cpu/coarse_elements.h"
 #include "solver/cpu/implicit_passes.h"
 #include "solver/cpu/rigid_block.h"
@@ -8,37 +14,22 @@
 namespace clothsim::cpu {
 namespace {
 
+// How many vertices of a level a thread takes at once.
+constexpr std::uint32_t VERTICES_AT_ONCE = 64;
+// Rows of a coarse matrix that a thread sums up together, so that few elements are worked out by two.
+constexpr std::uint32_t ROWS_AT_ONCE = 128;
+
 // Where a vertex is: a particle, or the center of an aggregate.
 template <class Real>
-INLINE Vec3<Real> placeOf(const ImplicitState<Real>& own, std::uint32_t vertex) {
-  return vertex < own.hierarchy.particles
-             ? at(own.iterate.positions, vertex)
-             : at(own.centers, static_cast<std::ptrdiff_t>(vertex - own.hierarchy.particles));
-}
-
-template <class Real>
-INLINE std::ptrdiff_t entryOfVertex(const ImplicitState<Real>& own, std::uint32_t coarse) {
-  return static_cast<std::ptrdiff_t>(own.hierarchy.particles + VERTEX_TEXELS * coarse);
-}
-// Of a coarse vertex.
-template <class Real>
-INLINE RigidVector<Real> rigidAt(const ImplicitState<Real>& own, const Components<Real>& c,
-                                 std::uint32_t coarse) {
-  const std::ptrdiff_t i = entryOfVertex(own, coarse);
-  return {at(c, i), at(c, i + 1)};
-}
-template <class Real>
-INLINE void putRigid(const ImplicitState<Real>& own, Components<Real>& c, std::uint32_t coarse,
-                     const RigidVector<Real>& v) {
-  const std::ptrdiff_t i = entryOfVertex(own, coarse);
-  put(c, i, canonical(v.translation));
-  put(c, i + 1, canonical(v.rotation));
+INLINE Four<Real> placeOf(const ImplicitState<Real>& own, const Arrays<const Real>& x, std::uint32_t vertex) {
+  return vertex < own.hierarchy.particles ? fourAt(x, static_cast<std::ptrdiff_t>(vertex))
+                                          : own.centers.data()[vertex - own.hierarchy.particles];
 }
 
 template <class Real>
 INLINE void makeCanonical(RigidBlock<Real>& block) {
   for (auto* columns : {&block.tt, &block.tr, &block.rt, &block.rr})
-    for (Vec3<Real>& column : *columns) column = canonical(column);
+    for (Four<Real>& column : *columns) column = canonicalOf(column);
 }
 
 template <class Real>
@@ -56,23 +47,24 @@ INLINE Real weightOf(const ImplicitState<Real>& own, std::uint32_t fine, std::ui
 template <class Real>
 void findCenter(ImplicitState<Real>& own, std::uint32_t coarse) {
   const Hierarchy<Real>& hierarchy = own.hierarchy;
-  Vec3<Real> sum{};
+  const Arrays<const Real> x = arraysOf(std::as_const(own.iterate.positions));
+  Four<Real> sum{};
   Real weights = 0;
   for (std::uint32_t n = hierarchy.restrictionStarts[coarse]; n < hierarchy.restrictionStarts[coarse + 1];
        ++n) {
     const auto& [vertex, weight] = hierarchy.restriction[n];
-    sum = sum + weight * placeOf(own, vertex);
+    sum = sum + weight * placeOf(own, x, vertex);
     weights = weights + weight;
   }
-  put(own.centers, static_cast<std::ptrdiff_t>(coarse), canonical(reciprocal(weights) * sum));
+  own.centers[coarse] = canonicalOf(reciprocal(weights) * sum);
 }
 
 template <class Real>
 RigidBlock<Real> sumBlocks(const ImplicitState<Real>& own, const typename Hierarchy<Real>::Block& block) {
   const Hierarchy<Real>& hierarchy = own.hierarchy;
   const bool isOfAll = block.column == ALL_VERTICES;
-  const Vec3<Real> rowCenter = at(own.centers, block.row),
-                   columnCenter = isOfAll ? rowCenter : at(own.centers, block.column);
+  const Four<Real>* centers = own.centers.data();
+  const Four<Real> rowCenter = centers[block.row], columnCenter = isOfAll ? rowCenter : centers[block.column];
   RigidBlock<Real> sum;
   for (std::uint32_t k = block.firstSource; k < block.endSource; ++k) {
     const std::uint32_t number = hierarchy.sources[k] / 2;
@@ -83,8 +75,8 @@ RigidBlock<Real> sumBlocks(const ImplicitState<Real>& own, const typename Hierar
     const Real weight =
         weightOf(own, row, block.row) * (isOfAll ? Real(1) : weightOf(own, column, block.column));
     const RigidBlock<Real>& stored = own.coarseBlocks[number];
-    addShifted(sum, weight, isTransposed ? transposed(stored) : stored, at(own.centers, row) - rowCenter,
-               at(own.centers, column) - columnCenter);
+    addShifted(sum, weight, isTransposed ? transposed(stored) : stored, centers[row] - rowCenter,
+               centers[column] - columnCenter);
   }
   return sum;
 }
@@ -102,10 +94,10 @@ void coarsen(const ImplicitArguments<Real>& arguments, const LevelParams& level,
     if (!isFirstLevel) own.coarseBlocks[n] = sumBlocks(own, block);
     makeCanonical(own.coarseBlocks[n]);
     if (block.row != block.column) continue;
-    RigidBlock<Real> inverse = own.coarseBlocks[n];
+    SixColumns<Real> inverse = columnsOf(own.coarseBlocks[n]);
     sweepOut(6, began.data(), column.data(),
-             [&](std::size_t i, std::size_t j) -> Real& { return entryOf(inverse, i, j); });
-    own.coarseInverses[block.row] = inverse;
+             [&](std::size_t i, std::size_t j) -> Real& { return inverse[j][i]; });
+    own.coarseInverses[block.row] = blockOf(inverse);
   }
 }
 
@@ -133,24 +125,23 @@ void invertDense(ImplicitState<Real>& own, const DensePart& part) {
   const std::uint32_t lastVertex = part.first + part.count - 1;
   Real* matrix = own.dense.data() + part.firstEntry;
   std::fill(matrix, matrix + order * order, Real(0));
-  const auto offsetOf = [&](std::uint32_t vertex) {
-    return at(own.centers, vertex) - at(own.centers, lastVertex);
-  };
-  const auto put = [&](RigidBlock<Real>& block, std::size_t row, std::size_t column) {
+  const auto offsetOf = [&](std::uint32_t vertex) { return own.centers[vertex] - own.centers[lastVertex]; };
+  const auto put = [&](const RigidBlock<Real>& block, std::size_t row, std::size_t column) {
+    const SixColumns<Real> entries = columnsOf(block);
     for (std::size_t j = 0; j < 6; ++j)
       for (std::size_t i = row == column ? j : 0; i < 6; ++i)
         matrix[(column + j) * order + row + i] = matrix[(row + i) * order + column + j] =
-            canonical(entryOf(block, i, j));
+            canonical(entries[j][i]);
   };
   RigidBlock<Real> whole;
   for (std::uint32_t k = part.firstBlock; k < part.endBlock; ++k) {
     const auto& block = own.hierarchy.blocks[k];
     const std::size_t row = 6 * static_cast<std::size_t>(block.row - part.first);
-    RigidBlock<Real> stored = own.coarseBlocks[k];
+    const RigidBlock<Real>& stored = own.coarseBlocks[k];
     if (block.column == ALL_VERTICES) {
-      const Vec3<Real> offset = offsetOf(block.row);
+      const Four<Real> offset = offsetOf(block.row);
       RigidBlock<Real> ofAll;
-      addShifted(ofAll, Real(1), stored, Vec3<Real>{}, offset);
+      addShifted(ofAll, Real(1), stored, Four<Real>{}, offset);
       addShifted(whole, Real(1), stored, offset, offset);
       if (row != last) put(ofAll, row, last);
     } else if (block.column < lastVertex) {  // beyond: across a cut, where it is 0
@@ -165,7 +156,7 @@ void invertDense(ImplicitState<Real>& own, const DensePart& part) {
   for (const std::size_t stride : {std::size_t{1}, order}) {
     const std::size_t across = order + 1 - stride;
     for (std::uint32_t vertex = part.first; vertex < lastVertex; ++vertex) {
-      const Vec3<Real> offset = offsetOf(vertex);
+      const Vec3<Real> offset = threeOf(offsetOf(vertex));
       for (std::size_t j = 0; j < order; ++j) {
         const Real* all = matrix + last * stride + j * across;
         Real* first = matrix + 6 * static_cast<std::size_t>(vertex - part.first) * stride + j * across;
@@ -180,76 +171,152 @@ void invertDense(ImplicitState<Real>& own, const DensePart& part) {
 template <class Real>
 void restrictResidual(ImplicitState<Real>& own, std::uint32_t coarse) {
   const Hierarchy<Real>& hierarchy = own.hierarchy;
-  const Vec3<Real> center = at(own.centers, static_cast<std::ptrdiff_t>(coarse));
-  RigidVector<Real> sum{};
+  const typename Hierarchy<Real>::Weight* hangs = hierarchy.restriction.data();
+  const Arrays<const Real> x = arraysOf(std::as_const(own.iterate.positions)),
+                           residuals = arraysOf(std::as_const(own.residuals));
+  const Four<Real> center = own.centers[coarse];
+  RigidVector<Real> sum;
   for (std::uint32_t n = hierarchy.restrictionStarts[coarse]; n < hierarchy.restrictionStarts[coarse + 1];
        ++n) {
-    const auto& [vertex, weight] = hierarchy.restriction[n];
+    const auto [vertex, weight] = hangs[n];
     const bool isParticle = vertex < hierarchy.particles;
     const RigidVector<Real> force =
-        isParticle ? RigidVector<Real>{at(own.residuals, static_cast<std::ptrdiff_t>(vertex)), {}}
-                   : rigidAt(own, own.residuals, vertex - hierarchy.particles);
-    const Vec3<Real> torque = cross(placeOf(own, vertex) - center, force.translation) + force.rotation;
+        isParticle ? RigidVector<Real>{fourAt(residuals, static_cast<std::ptrdiff_t>(vertex)), {}}
+                   : own.coarseResiduals.data()[vertex - hierarchy.particles];
+    const Four<Real> torque = crossOf(placeOf(own, x, vertex) - center, force.translation) + force.rotation;
     sum.translation = sum.translation + weight * force.translation;
     sum.rotation = sum.rotation + weight * torque;
   }
-  putRigid(own, own.residuals, coarse, sum);
+  own.coarseResiduals[coarse] = canonical(sum);
 }
 
 template <class Real>
 void solveCoarsest(ImplicitState<Real>& own, const DensePart& part, std::uint32_t vertex) {
   const std::size_t order = 6 * static_cast<std::size_t>(part.count);
   const Real* matrix = own.dense.data() + part.firstEntry + 6 * static_cast<std::size_t>(vertex - part.first);
-  RigidVector<Real> sum{};
+  RigidVector<Real> sum;
   for (std::uint32_t k = 0; k < part.count; ++k) {
-    const RigidVector<Real> residual = rigidAt(own, own.residuals, part.first + k);
-    const std::array<Real, 6> r{residual.translation.x, residual.translation.y, residual.translation.z,
-                                residual.rotation.x,    residual.rotation.y,    residual.rotation.z};
+    const RigidVector<Real>& residual = own.coarseResiduals[part.first + k];
     for (std::size_t j = 0; j < 6; ++j) {
+      const Real r = j < 3 ? residual.translation[j] : residual.rotation[j - 3];
       const Real* column = matrix + (6 * k + j) * order;
-      sum.translation = sum.translation - r[j] * Vec3<Real>{column[0], column[1], column[2]};
-      sum.rotation = sum.rotation - r[j] * Vec3<Real>{column[3], column[4], column[5]};
+      sum.translation = sum.translation - r * Four<Real>{column[0], column[1], column[2], Real(0)};
+      sum.rotation = sum.rotation - r * Four<Real>{column[3], column[4], column[5], Real(0)};
     }
   }
-  putRigid(own, own.corrections, vertex, sum);
+  own.coarseCorrections[vertex] = canonical(sum);
 }
 
 namespace {
 
 // What the coarse vertices that a vertex hangs on make of it.
 template <class Real>
-INLINE RigidVector<Real> prolonged(const ImplicitState<Real>& own, std::uint32_t vertex) {
+INLINE RigidVector<Real> prolonged(const ImplicitState<Real>& own, std::uint32_t vertex, Four<Real> place) {
   const Hierarchy<Real>& hierarchy = own.hierarchy;
-  const Vec3<Real> place = placeOf(own, vertex);
-  RigidVector<Real> sum{};
-  for (std::uint32_t n = hierarchy.prolongationStarts[vertex]; n < hierarchy.prolongationStarts[vertex + 1];
-       ++n) {
-    const auto& [coarse, weight] = hierarchy.prolongation[n];
-    const RigidVector<Real> motion = rigidAt(own, own.corrections, coarse);
-    const Vec3<Real> arm = place - at(own.centers, static_cast<std::ptrdiff_t>(coarse));
-    sum.translation = sum.translation + weight * (motion.translation + cross(motion.rotation, arm));
+  const std::uint32_t* starts = hierarchy.prolongationStarts.data();
+  const typename Hierarchy<Real>::Weight* hangs = hierarchy.prolongation.data();
+  const RigidVector<Real>* corrections = own.coarseCorrections.data();
+  const Four<Real>* centers = own.centers.data();
+  RigidVector<Real> sum;
+  for (std::uint32_t n = starts[vertex]; n < starts[vertex + 1]; ++n) {
+    const auto [coarse, weight] = hangs[n];
+    const RigidVector<Real>& motion = corrections[coarse];
+    const Four<Real> arm = place - centers[coarse];
+    sum.translation = sum.translation + weight * (motion.translation + crossOf(motion.rotation, arm));
     sum.rotation = sum.rotation + weight * motion.rotation;
   }
   return sum;
 }
 
+template <class Real>
+INLINE void prolongRange(ImplicitState<Real>& own, const Real* inverseMasses, std::uint32_t first,
+                         std::uint32_t end) {
+  const Arrays<const Real> x = arraysOf(std::as_const(own.iterate.positions)),
+                           residuals = arraysOf(std::as_const(own.residuals));
+  const Arrays<Real> corrections = arraysOf(own.corrections);
+  const SymmetricArrays<Real> factors = arraysOf(own.factors);
+  for (std::uint32_t vertex = first; vertex < end; ++vertex) {
+    const auto i = static_cast<std::ptrdiff_t>(vertex);
+    put(corrections, i, threeOf(prolonged(own, vertex, fourAt(x, i)).translation));
+  }
+#pragma GCC ivdep
+  for (auto i = static_cast<std::ptrdiff_t>(first); i < static_cast<std::ptrdiff_t>(end); ++i) {
+    const Symmetric<Real> stored = at(factors, i);
+    const Vec3<Real> correction =
+        solve(Factors<Real>{stored.others, stored.diagonal}, at(residuals, i)) + at(corrections, i);
+    put(corrections, i, selected(inverseMasses[i] == Real(0), Vec3<Real>{}, canonical(correction)));
+  }
+}
+
 }  // namespace
 
 template <class Real>
-void prolong(ImplicitState<Real>& own, const Real* inverseMasses, std::uint32_t vertex) {
-  const RigidVector<Real> motion = prolonged(own, vertex);
-  if (vertex < own.hierarchy.particles) {
-    const auto i = static_cast<std::ptrdiff_t>(vertex);
-    const Symmetric<Real> stored = at(own.factors, i);
-    const Vec3<Real> correction =
-        solve(Factors<Real>{stored.others, stored.diagonal}, at(own.residuals, i)) + motion.translation;
-    put(own.corrections, i, inverseMasses[i] == Real(0) ? Vec3<Real>{} : canonical(correction));
-    return;
+void prolong(ImplicitState<Real>& own, std::uint32_t coarse) {
+  const RigidVector<Real> motion = prolonged(own, own.hierarchy.particles + coarse, own.centers[coarse]),
+                          minus = own.coarseInverses[coarse] * own.coarseResiduals[coarse];
+  own.coarseCorrections[coarse] =
+      canonical(RigidVector<Real>{motion.translation - minus.translation, motion.rotation - minus.rotation});
+}
+
+VECTOR_CLONES void prolongParticles(ImplicitState<float>& own, const float* inverseMasses,
+                                    std::uint32_t first, std::uint32_t end) {
+  prolongRange(own, inverseMasses, first, end);
+}
+void prolongParticles(ImplicitState<double>& own, const double* inverseMasses, std::uint32_t first,
+                      std::uint32_t end) {
+  prolongRange(own, inverseMasses, first, end);
+}
+
+namespace {
+
+// body(begin, end) for stretches of [first, first + count) of at most `atOnce`, on all threads.
+template <class Body>
+void forEachStretch(std::uint32_t first, std::uint32_t count, std::uint32_t atOnce, const Body& body) {
+  ThreadTeam::shared().forEach(0, (count + atOnce - 1) / atOnce, 1, [&](std::uint32_t k) {
+    body(first + k * atOnce, first + std::min(count, (k + 1) * atOnce));
+  });
+}
+
+template <class Body>
+void forEachVertex(std::uint32_t first, std::uint32_t count, const Body& body) {
+  ThreadTeam::shared().forEach(first, first + count, VERTICES_AT_ONCE, body);
+}
+
+}  // namespace
+
+template <class Real>
+void runOnLevel(PassCall call, std::span<const ImplicitArguments<Real>> pieces, ImplicitState<Real>& own,
+                const Real* inverseMasses) {
+  const Hierarchy<Real>& hierarchy = own.hierarchy;
+  for (std::size_t piece = 0; piece < pieces.size(); ++piece) {
+    if (call.pass == Pass::invertDense) {
+      for (const DensePart& part : hierarchy.parts[piece]) invertDense(own, part);
+      continue;
+    }
+    if (call.pass == Pass::solveCoarsest) {
+      for (const DensePart& part : hierarchy.parts[piece])
+        forEachVertex(part.first, part.count, [&](std::uint32_t i) { solveCoarsest(own, part, i); });
+      continue;
+    }
+    if (call.index >= hierarchy.pieces[piece].size()) continue;
+    const LevelParams& level = hierarchy.pieces[piece][call.index];
+    const bool isFineOfParticles = level.fineFirst < hierarchy.particles;
+    if (call.pass == Pass::findCenters)
+      forEachVertex(level.coarseFirst, level.coarseCount, [&](std::uint32_t i) { findCenter(own, i); });
+    else if (call.pass == Pass::coarsen)
+      forEachStretch(
+          level.coarseFirst, level.coarseCount, ROWS_AT_ONCE,
+          [&](std::uint32_t first, std::uint32_t end) { coarsen(pieces[piece], level, first, end); });
+    else if (call.pass == Pass::restrict)
+      forEachVertex(level.coarseFirst, level.coarseCount, [&](std::uint32_t i) { restrictResidual(own, i); });
+    else if (isFineOfParticles)
+      forEachStretch(
+          level.fineFirst, level.fineCount, PARTICLES_AT_ONCE,
+          [&](std::uint32_t first, std::uint32_t end) { prolongParticles(own, inverseMasses, first, end); });
+    else
+      forEachVertex(level.fineFirst - hierarchy.particles, level.fineCount,
+                    [&](std::uint32_t i) { prolong(own, i); });
   }
-  const std::uint32_t coarse = vertex - own.hierarchy.particles;
-  const RigidVector<Real> minus = own.coarseInverses[coarse] * rigidAt(own, own.residuals, coarse);
-  putRigid(own, own.corrections, coarse,
-           RigidVector<Real>{motion.translation - minus.translation, motion.rotation - minus.rotation});
 }
 
 #define INSTANTIATE(Real)                                                                                  \
@@ -258,7 +325,9 @@ void prolong(ImplicitState<Real>& own, const Real* inverseMasses, std::uint32_t 
   template void invertDense(ImplicitState<Real>&, const DensePart&);                                       \
   template void restrictResidual(ImplicitState<Real>&, std::uint32_t);                                     \
   template void solveCoarsest(ImplicitState<Real>&, const DensePart&, std::uint32_t);                      \
-  template void prolong(ImplicitState<Real>&, const Real*, std::uint32_t);
+  template void prolong(ImplicitState<Real>&, std::uint32_t);                                              \
+  template void runOnLevel(PassCall, std::span<const ImplicitArguments<Real>>, ImplicitState<Real>&,       \
+                           const Real*);
 INSTANTIATE(float)
 INSTANTIATE(double)
 

@@ -9,20 +9,9 @@
 #include "shared/implicit.h"
 #include "solver/cpu/arrays.h"
 
+#pragma GCC diagnostic ignored "-Wpsabi"  // vectors are passed between inlined functions only
+
 namespace clothsim::cpu {
-
-// A translation and a rotation, or a force and a torque.
-template <class Real>
-struct RigidVector {
-  Vec3<Real> translation, rotation;
-};
-
-// Columns of four 3 x 3 matrices: rows by columns, t for translation, r for rotation.
-template <class Real>
-struct RigidBlock {
-  using Columns = std::array<Vec3<Real>, 3>;
-  Columns tt{}, tr{}, rt{}, rr{};
-};
 
 // Four and eight numbers that are worked on at once.
 template <class Real>
@@ -38,6 +27,51 @@ struct VectorsOf<double> {
   typedef double Eight __attribute__((vector_size(64)));
 };
 
+// Three numbers and a 0.
+template <class Real>
+using Four = typename VectorsOf<Real>::Four;
+template <class Real>
+INLINE Four<Real> fourOf(Vec3<Real> v) {
+  return Four<Real>{v.x, v.y, v.z, Real(0)};
+}
+template <class Real>
+INLINE Four<Real> fourAt(const Arrays<const Real>& c, std::ptrdiff_t i) {
+  return Four<Real>{c.x[i], c.y[i], c.z[i], Real(0)};
+}
+template <class Vector>
+INLINE auto threeOf(Vector v) -> Vec3<std::remove_cvref_t<decltype(v[0])>> {
+  return {v[0], v[1], v[2]};
+}
+// The cross product of the first three; rounds as cross() of core/vec.h does.
+template <class Vector>
+INLINE Vector crossOf(Vector a, Vector b) {
+  return __builtin_shufflevector(a, a, 1, 2, 0, 3) * __builtin_shufflevector(b, b, 2, 0, 1, 3) -
+         __builtin_shufflevector(a, a, 2, 0, 1, 3) * __builtin_shufflevector(b, b, 1, 2, 0, 3);
+}
+
+template <class Vector>
+INLINE Vector canonicalOf(Vector v) {
+  for (int k = 0; k < 3; ++k) v[k] = clothsim::canonical(v[k]);
+  return v;
+}
+
+// A translation and a rotation, or a force and a torque.
+template <class Real>
+struct RigidVector {
+  Four<Real> translation{}, rotation{};
+};
+template <class Real>
+INLINE RigidVector<Real> canonical(const RigidVector<Real>& v) {
+  return {canonicalOf(v.translation), canonicalOf(v.rotation)};
+}
+
+// Columns of four 3 x 3 matrices: rows by columns, t for translation, r for rotation.
+template <class Real>
+struct RigidBlock {
+  using Columns = std::array<Four<Real>, 3>;
+  Columns tt{}, tr{}, rt{}, rr{};
+};
+
 // What elements add to a block, before it is one.
 template <class Real>
 struct alignas(8 * sizeof(Real)) ElementSums {
@@ -50,7 +84,10 @@ struct alignas(8 * sizeof(Real)) ElementSums {
 
 template <class Real>
 INLINE typename RigidBlock<Real>::Columns transposed(const typename RigidBlock<Real>::Columns& a) {
-  return {{{a[0].x, a[1].x, a[2].x}, {a[0].y, a[1].y, a[2].y}, {a[0].z, a[1].z, a[2].z}}};
+  typename RigidBlock<Real>::Columns result;
+  for (int c = 0; c < 3; ++c)
+    result[static_cast<std::size_t>(c)] = Four<Real>{a[0][c], a[1][c], a[2][c], Real(0)};
+  return result;
 }
 template <class Real>
 INLINE RigidBlock<Real> transposed(const RigidBlock<Real>& a) {
@@ -60,26 +97,29 @@ INLINE RigidBlock<Real> transposed(const RigidBlock<Real>& a) {
 // The block as bodies see it whose centers lie `p` and `q` before those of its own: adds s S(p)^T block S(q),
 // S(p) (t, r) = (t + r x p, r).
 template <class Real>
-INLINE void addShifted(RigidBlock<Real>& sum, Real s, const RigidBlock<Real>& block, Vec3<Real> p,
-                       Vec3<Real> q) {
-  const auto turned = [&](const typename RigidBlock<Real>::Columns& a, std::size_t c) {  // a (e_c x q)
-    if (c == 0) return q.y * a[2] - q.z * a[1];
-    if (c == 1) return q.z * a[0] - q.x * a[2];
-    return q.x * a[1] - q.y * a[0];
+INLINE void addShifted(RigidBlock<Real>& sum, Real s, const RigidBlock<Real>& block, Four<Real> p,
+                       Four<Real> q) {
+  const auto turned = [&](const typename RigidBlock<Real>::Columns& a, std::size_t c)
+      __attribute__((always_inline)) {  // a (e_c x q)
+    return c == 0   ? q[1] * a[2] - q[2] * a[1]
+           : c == 1 ? q[2] * a[0] - q[0] * a[2]
+                    : q[0] * a[1] - q[1] * a[0];
   };
+#pragma GCC unroll 3
   for (std::size_t c = 0; c < 3; ++c) {
-    const Vec3<Real> tr = block.tr[c] + turned(block.tt, c), rr = block.rr[c] + turned(block.rt, c);
+    const Four<Real> tr = block.tr[c] + turned(block.tt, c), rr = block.rr[c] + turned(block.rt, c);
     sum.tt[c] = sum.tt[c] + s * block.tt[c];
     sum.tr[c] = sum.tr[c] + s * tr;
-    sum.rt[c] = sum.rt[c] + s * (block.rt[c] + cross(p, block.tt[c]));
-    sum.rr[c] = sum.rr[c] + s * (rr + cross(p, tr));
+    sum.rt[c] = sum.rt[c] + s * (block.rt[c] + crossOf(p, block.tt[c]));
+    sum.rr[c] = sum.rr[c] + s * (rr + crossOf(p, tr));
   }
 }
 
 template <class Real>
 INLINE RigidVector<Real> operator*(const RigidBlock<Real>& a, const RigidVector<Real>& v) {
-  const auto product = [](const typename RigidBlock<Real>::Columns& m, Vec3<Real> u) {
-    return (u.x * m[0] + u.y * m[1]) + u.z * m[2];
+  const auto product =
+      [](const typename RigidBlock<Real>::Columns& m, Four<Real> u) __attribute__((always_inline)) {
+    return (u[0] * m[0] + u[1] * m[1]) + u[2] * m[2];
   };
   return {product(a.tt, v.translation) + product(a.tr, v.rotation),
           product(a.rt, v.translation) + product(a.rr, v.rotation)};
@@ -94,12 +134,32 @@ INLINE Real inversePivot(Real pivot, Real began) {
   return isSafe ? reciprocal(pivot) : Real(0);
 }
 
-// Entry (row, column) of a block.
+// The six columns of a block.
 template <class Real>
-INLINE Real& entryOf(RigidBlock<Real>& block, std::size_t row, std::size_t column) {
-  auto& columns = row < 3 ? (column < 3 ? block.tt : block.tr) : (column < 3 ? block.rt : block.rr);
-  Vec3<Real>& own = columns[column % 3];
-  return row % 3 == 0 ? own.x : row % 3 == 1 ? own.y : own.z;
+using SixColumns = std::array<std::array<Real, 6>, 6>;
+template <class Real>
+INLINE SixColumns<Real> columnsOf(const RigidBlock<Real>& block) {
+  SixColumns<Real> columns;
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t k = 0; k < 3; ++k) {
+      columns[c][k] = block.tt[c][k];
+      columns[c][3 + k] = block.rt[c][k];
+      columns[3 + c][k] = block.tr[c][k];
+      columns[3 + c][3 + k] = block.rr[c][k];
+    }
+  return columns;
+}
+template <class Real>
+INLINE RigidBlock<Real> blockOf(const SixColumns<Real>& columns) {
+  RigidBlock<Real> block;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto &t = columns[c], &r = columns[3 + c];
+    block.tt[c] = Four<Real>{t[0], t[1], t[2], Real(0)};
+    block.rt[c] = Four<Real>{t[3], t[4], t[5], Real(0)};
+    block.tr[c] = Four<Real>{r[0], r[1], r[2], Real(0)};
+    block.rr[c] = Four<Real>{r[3], r[4], r[5], Real(0)};
+  }
+  return block;
 }
 
 // Minus the inverse of a symmetric matrix of order n, in place: entry (row, column) is at(row, column). Every

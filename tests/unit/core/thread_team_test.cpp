@@ -44,6 +44,19 @@ TEST(ThreadTeam, IsDoneWhenItReturnsJobAfterJob) {
   }
 }
 
+// A thread that is late with a short job must not take entries of the long one that follows as its own.
+TEST(ThreadTeam, DoesEachEntryOnceWhenShortAndLongJobsFollowEachOther) {
+  ThreadTeam team(2);
+  std::atomic<std::uint64_t> visited = 0;
+  std::uint64_t expected = 0;
+  for (std::uint32_t job = 0; job < 500000; ++job) {
+    const std::uint32_t count = job % 2 == 0 ? 4 : 80;
+    expected += count;
+    team.forEach(0, count, 1, [&](std::uint32_t) { ++visited; });
+    ASSERT_EQ(visited, expected) << "job " << job;
+  }
+}
+
 TEST(ThreadTeam, ServesCallersThatComeTogetherAndFromWithin) {
   ThreadTeam team(3);
   std::atomic<int> sum = 0;

@@ -46,9 +46,8 @@ class Sheet {
     restLengths_ = measureRestLengths<double>(cloth_);
     lists_ = makeMeshLists<double>(cloth_);
     const std::size_t count = cloth_.particleCount();
-    for (Components<double>* c : {&own_.iterate.positions, &own_.directions.positions, &own_.products})
-      c->resize(count);
-    own_.diagonal.resize(count);
+    own_.resize(makeHierarchy<double>(cloth_, cutMasks_));
+    forces_.resize(count);
     for (std::size_t i = 0; i < count; ++i) own_.diagonal[i] = 1 + static_cast<double>(i % 5);
   }
 
@@ -75,7 +74,6 @@ class Sheet {
   // H p with the Hessian at x.
   [[nodiscard]] Field product(const Field& x, const Field& p) {
     put(own_.iterate.positions, x);
-    put(own_.directions.positions, p);
     const cpu::PassArguments<double> pass{params_,
                                           nullptr,
                                           nullptr,
@@ -93,8 +91,10 @@ class Sheet {
                                           state_,
                                           forces_,
                                           watch_};
-    for (int derivativesRow = 0; derivativesRow < cpu::rowsOf(cloth_.pieces()[0]); ++derivativesRow)
-      cpu::multiply({pass, own_}, derivativesRow);
+    const int rows = cpu::rowsOf(cloth_.pieces()[0]);
+    for (int row = 0; row < rows; ++row) cpu::linearize({pass, own_}, row);
+    put(own_.directions.positions, p);
+    for (int row = 0; row < rows; ++row) cpu::multiply({pass, own_}, row);
     Field result(x.size());
     for (std::size_t i = 0; i < x.size(); ++i)
       result[i] = {own_.products.x[i], own_.products.y[i], own_.products.z[i]};

@@ -1,0 +1,33 @@
+// The product of an implicit step's matrix with directions, for the springs and bending lines of a row of a
+// grid: what they are at an iterate is kept by linearize(), and many products use it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "cloth/cloth.h"
+
+namespace clothsim::cpu {
+
+template <class Real>
+struct ImplicitArguments;
+
+// Springs and bending lines at an iterate, an entry a particle; 0 where there is none. For grids.
+template <class Real>
+struct GridElements {
+  // SpringBlock of the springs that a particle owns, by slot.
+  std::array<std::vector<Real>, SPRING_SLOTS> across, along;
+  // Bending stiffness of the lines whose middle a particle is [N/m].
+  std::vector<Real> bendAlongRow, bendAlongColumn;
+
+  void resize(std::size_t particles);
+  // Nothing is at the particles [begin, end).
+  void clear(std::ptrdiff_t begin, std::ptrdiff_t end);
+};
+
+// products = minus what springs and bending add to H directions.
+void multiplyElements(const ImplicitArguments<float>& arguments, int row);
+void multiplyElements(const ImplicitArguments<double>& arguments, int row);
+
+}  // namespace clothsim::cpu
