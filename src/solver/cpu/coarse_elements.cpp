@@ -104,15 +104,11 @@ class ElementLoop {
   INLINE Four<Real>* leversIn(std::size_t row) { return &scratch_[2 * row * count_].lever; }
 
   // With what weight a particle hangs on each aggregate, and that times where it is from the center; 0 for
-  // others, and if it is pinned. On all vertices it hangs with the weight 1.
-  INLINE void gatherLevers(std::uint32_t i, Four<Real>* levers) const {
-    std::fill(levers, levers + 2 * std::size_t{count_}, Four<Real>{});
+  // others, and if it is pinned.
+  INLINE void gatherOwnLevers(std::uint32_t i, Four<Real>* levers) const {
+    std::fill(levers, levers + count_, Four<Real>{});
     if (pass_.inverseMasses[i] == Real(0)) return;
     const Vec3<Real> x = at(x_, i);
-    for (std::uint32_t a = 0; a < count_; ++a) {
-      const Vec3<Real> y = x - threeOf(centers_[touched_[a]]);
-      levers[count_ + a] = Four<Real>{1, y.x, y.y, y.z};
-    }
     std::uint32_t a = 0;
     for (std::uint32_t n = levels_.prolongationStarts[i]; n < levels_.prolongationStarts[i + 1]; ++n) {
       const auto& [vertex, weight] = levels_.prolongation[n];
@@ -120,6 +116,19 @@ class ElementLoop {
       const Vec3<Real> y = weight * (x - threeOf(centers_[vertex]));
       levers[a] = Four<Real>{weight, y.x, y.y, y.z};
     }
+  }
+  // The same on all vertices, where the weight is 1.
+  INLINE void gatherLeversOfAll(std::uint32_t i, Four<Real>* levers) const {
+    const bool isPinned = pass_.inverseMasses[i] == Real(0);
+    const Vec3<Real> x = at(x_, i);
+    for (std::uint32_t a = 0; a < count_; ++a) {
+      const Vec3<Real> y = x - threeOf(centers_[touched_[a]]);
+      levers[count_ + a] = isPinned ? Four<Real>{} : Four<Real>{1, y.x, y.y, y.z};
+    }
+  }
+  INLINE void gatherLevers(std::uint32_t i, Four<Real>* levers) const {
+    gatherOwnLevers(i, levers);
+    gatherLeversOfAll(i, levers);
   }
   INLINE static bool isNone(Four<Real> lever) {
     return lever[0] == 0 && lever[1] == 0 && lever[2] == 0 && lever[3] == 0;
@@ -201,12 +210,14 @@ class ElementLoop {
   INLINE void addSpring(std::uint32_t i, std::uint32_t other, const Four<Real>* own, Real stiffness,
                         Real restLength, Real limitLength) {
     Four<Real>* levers = leversIn(1);
-    gatherLevers(other, levers);
-    for (std::uint32_t a = 0; a < 2 * count_; ++a) levers[a] = levers[a] - own[a];
+    gatherOwnLevers(other, levers);
     const Vec3<Real> d = at(x_, other) - at(x_, i);
     const auto [across, along] =
         springBlock(d, stiffness, restLength, pass_.step.limitStiffness, limitLength);
-    const bool isRigid = pass_.inverseMasses[i] > Real(0) && pass_.inverseMasses[other] > Real(0);
+    const bool isRigid = pass_.inverseMasses[i] > Real(0) && pass_.inverseMasses[other] > Real(0),
+               needsAll = !isRigid || across > Real(0);
+    if (needsAll) gatherLeversOfAll(other, levers);
+    for (std::uint32_t a = 0; a < (needsAll ? 2 * count_ : count_); ++a) levers[a] = levers[a] - own[a];
     addPullingElement(along, d, levers, isRigid);
     if (across > Real(0)) addIsotropicElement(across, levers);
   }
