@@ -82,6 +82,10 @@ using uint = std::uint32_t;
 // What a pivot that counts is at least, of the entry it began as: below, binary32 holds no more of it.
 #define LEAST_PIVOT 0x1p-20
 
+// The column of a row's last block: it joins the vertex of the row to all vertices of the level, moving as
+// one rigid body (src/solver/hierarchy.h).
+#define ALL_VERTICES 0xffffffffu
+
 // On the GPU one work group takes at most so many levels alone.
 #define LEVELS_ALONE 15
 
@@ -100,7 +104,7 @@ using uint = std::uint32_t;
 #define LENGTHS_TRIED 4
 
 // A plane that a particle is behind pushes it back, with this many times the stiffness of its inertia and
-// what the stiffest spring of its cloth adds (StepParams::contactStiffness).
+// what the stiffest spring of its cloth adds, within limits (StepParams::contactStiffness).
 #define CONTACT_OVER_INERTIA 1024
 
 // Below this speed friction is less than in full [m/s].

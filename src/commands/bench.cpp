@@ -6,6 +6,7 @@
 
 #include "core/error.h"
 #include "gl/framebuffer.h"
+#include "gl/program.h"
 #include "gl/timer.h"
 #include "render/renderer.h"
 #include "scene_io/scene_io.h"
@@ -50,6 +51,9 @@ StepRate measureStepRate(const Scene& scene, const std::string& backend, double 
   const std::unique_ptr<Solver> solver = makeSolver(backend, sharedCloth, scene);
   if (!state.positions.empty()) solver->setState(state);
   timeSteps(*solver, 2);  // some drivers compile shaders now
+  const std::uint64_t dispatchesBefore = gl::dispatchCount();
+  timeSteps(*solver, 1);
+  const std::uint64_t dispatches = gl::dispatchCount() - dispatchesBefore;
   const double once = std::max(1e-6, timeSteps(*solver, 4) / 4);
   const int steps = std::clamp(static_cast<int>(seconds / REPETITIONS / once), 1, 20000);
   std::vector<double> times;
@@ -67,6 +71,7 @@ StepRate measureStepRate(const Scene& scene, const std::string& backend, double 
   rate.selfCollision = scene.solver.selfCollision;
   rate.repetitions = REPETITIONS;
   rate.secondsPerStep = median(times);
+  rate.dispatchesPerStep = dispatches;
   rate.particleStepsPerSecond = cloth.particleCount() / rate.secondsPerStep;
   const int timed = std::clamp(steps, 1, 20);
   rate.passes = solver->timePasses(timed);

@@ -2,6 +2,7 @@
 // that runs in real time.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct StepRate {
   SelfCollision selfCollision = SelfCollision::off;
   int repetitions = 0;  // number of timings, of which the median is taken
   double secondsPerStep = 0;
+  std::uint64_t dispatchesPerStep = 0;  // of compute shaders; 0 on the CPU
   double particleStepsPerSecond = 0;
   std::vector<PassTime> passes;  // seconds a step
 };

@@ -25,6 +25,7 @@ nlohmann::ordered_json toJson(const StepRate& rate) {
                               {"repetitions", rate.repetitions},
                               {"ms_per_step", rate.secondsPerStep * 1e3},
                               {"particle_steps_per_second", rate.particleStepsPerSecond}};
+  if (rate.dispatchesPerStep > 0) json["dispatches_per_step"] = rate.dispatchesPerStep;
   for (const PassTime& pass : rate.passes) json["pass_ms"][pass.name] = pass.seconds * 1e3;
   return json;
 }
@@ -35,6 +36,8 @@ void print(const StepRate& rate) {
               rate.columns, rate.rows, rate.limiter ? "limiter" : "",
               contacts ? selfCollisionName(rate.selfCollision) : "", rate.secondsPerStep * 1e3,
               rate.particleStepsPerSecond * 1e-6);
+  if (rate.dispatchesPerStep > 0)
+    std::printf("   %llu dispatches/step", static_cast<unsigned long long>(rate.dispatchesPerStep));
   if (rate.cloths > 1) std::printf("   %zu cloths", rate.cloths);
   for (const PassTime& pass : rate.passes)
     std::printf("   %s %.4f ms", pass.name.c_str(), pass.seconds * 1e3);

@@ -17,6 +17,7 @@
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "core/standard_streams.h"
+#include "core/thread_team.h"
 #include "viewer/viewer.h"
 
 namespace clothsim {
@@ -76,7 +77,7 @@ struct Arguments {
               key, replay;
   std::string cellSize = "560x420", out, view = "0,0";
   std::vector<std::string> variations, settings, saves, outs, resolutions, backends;
-  int frames = 0, every = 1, around = 64, down = 48;
+  int frames = 0, every = 1, around = 64, down = 48, threads = 0;
   double fps = 30, seconds = 1, jitter = 0;
   std::uint32_t seed = 1;
   bool json = false, checkCrossings = false, timings = false, strict = false;
@@ -120,6 +121,12 @@ CLI::Option* addBackend(CLI::App& app, std::string& backend) {
       ->capture_default_str();
 }
 
+void addThreads(CLI::App& app, Arguments& a) {
+  app.add_option("--threads", a.threads,
+                 "threads of the CPU backend (CLOTHSIM_THREADS, otherwise one a core); the same bits")
+      ->transform(wholeNumber(1, ThreadTeam::MOST_THREADS));
+}
+
 CLI::Option* addFrames(CLI::App& app, Arguments& a, bool required = true) {
   return app
       .add_option("--frames", a.frames, "number of frames to simulate (solver.frames_per_sec per second)")
@@ -158,6 +165,7 @@ void declareRun(CLI::App& app, Arguments& a, Task& task) {
   CLI::Option* frames = addFrames(*run, a, false);
   CLI::Option* resolution = addResolution(*run, a);
   CLI::Option* backend = addBackend(*run, a.backend);
+  addThreads(*run, a);
   run->add_option(
          "--save", a.saves,
          "save the last state as .csv .ply .obj .png, or .state (exact); with %04d in the name every "
@@ -203,6 +211,7 @@ void declareSimulationCommands(CLI::App& app, Arguments& a, Task& task) {
   addSceneFlags(*compare, a, true);
   addFrames(*compare, a);
   addResolution(*compare, a);
+  addThreads(*compare, a);
   addCheckCrossings(*compare, a);
   addJson(*compare, a);
   compare->footer("Example: clothsim compare -f pinned2 --frames 300");
@@ -219,6 +228,7 @@ void declareSimulationCommands(CLI::App& app, Arguments& a, Task& task) {
       ->type_name("WxH");
   bench->add_option("--backend", a.backends, "gpu, cpu; may be repeated (both)")
       ->check(CLI::IsMember({"gpu", "cpu"}));
+  addThreads(*bench, a);
   bench->add_option("--seconds", a.seconds, "duration of each measurement")->transform(number(0.01, 600.0));
   bench->add_option("--after", a.frames, "measure the cloth after this many frames (default 0)")
       ->transform(wholeNumber(0, 10'000'000));
@@ -251,6 +261,7 @@ void declareRender(CLI::App& app, Arguments& a, Task& task) {
   addFrames(*render, a);
   addResolution(*render, a);
   addBackend(*render, a.backend);
+  addThreads(*render, a);
   render
       ->add_option("--out", a.outs,
                    "still.png (the last frame), frame_%04d.png, clip.mp4 (needs ffmpeg); may be repeated")
@@ -291,6 +302,7 @@ void declareSweep(CLI::App& app, Arguments& a, Task& task) {
       ->allow_extra_args(false);
   addResolution(*sweep, a);
   addBackend(*sweep, a.backend);
+  addThreads(*sweep, a);
   sweep->add_option("--out", a.out, "sheet.png; the measurements are written to sheet.csv")
       ->required()
       ->type_name("FILE");
@@ -385,6 +397,7 @@ int parseAndRun(int argc, char** argv) {
   try {
     app.parse(argc, argv);
     catchInterrupts();
+    if (arguments.threads > 0) ThreadTeam::setSharedThreads(arguments.threads);
     return task();
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::usage);

@@ -13,7 +13,6 @@
 namespace clothsim {
 namespace {
 
-constexpr int MOST_THREADS = 256;
 // How often a thread looks for work before it sleeps: some 20 to 50 us, longer than the pauses between the
 // passes of a step.
 constexpr int LOOKS = 1000;
@@ -40,13 +39,14 @@ bool spinUntil(Done done) {
 int threadsWanted() {
   const char* text = std::getenv("CLOTHSIM_THREADS");
   if (text == nullptr)
-    return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, MOST_THREADS);
+    return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, ThreadTeam::MOST_THREADS);
   const std::string_view digits(text);
   int count = 0;
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), count);
-  if (error != std::errc{} || end != digits.data() + digits.size() || count < 1 || count > MOST_THREADS)
+  if (error != std::errc{} || end != digits.data() + digits.size() || count < 1 ||
+      count > ThreadTeam::MOST_THREADS)
     throw UsageError("CLOTHSIM_THREADS is \"" + std::string(digits) +
-                     "\"; set a number of threads from 1 to " + std::to_string(MOST_THREADS) +
+                     "\"; set a number of threads from 1 to " + std::to_string(ThreadTeam::MOST_THREADS) +
                      ", or unset it for one a core");
   return count;
 }

@@ -13,16 +13,18 @@ namespace clothsim {
 
 class ThreadTeam {
  public:
-  // 1 to 256 threads, the caller's among them.
+  static constexpr int MOST_THREADS = 256;
+  // 1 to MOST_THREADS, the caller's among them.
   explicit ThreadTeam(int threads);
   ~ThreadTeam();
   ThreadTeam(const ThreadTeam&) = delete;
   ThreadTeam& operator=(const ThreadTeam&) = delete;
 
-  // The team of the program: as many threads as CLOTHSIM_THREADS says (1 to 256), otherwise as the cores that
-  // the process may use. It starts with its first use. @throws UsageError for another value of the variable
+  // The team of the program: as many threads as CLOTHSIM_THREADS says (1 to MOST_THREADS), otherwise as the
+  // cores that the process may use. It starts with its first use. @throws UsageError for another value of the
+  // variable
   static ThreadTeam& shared();
-  // Another number of threads for it, 1 to 256, while nobody computes.
+  // Another number of threads for it, while nobody computes. @throws UsageError as shared()
   static void setSharedThreads(int threads);
 
   [[nodiscard]] int threads() const { return static_cast<int>(workers_.size()) + 1; }

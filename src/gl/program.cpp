@@ -90,17 +90,32 @@ Program::~Program() {
   if (name_ != 0) glDeleteProgram(name_);
 }
 
+namespace {
+
+thread_local std::uint64_t dispatches = 0;
+
+}  // namespace
+
+std::uint64_t dispatchCount() { return dispatches; }
+
 void dispatch(std::uint32_t columns, std::uint32_t rows, int groupColumns, int groupRows) {
   assert(groupColumns > 0 && groupRows > 0 && "a work group has at least one invocation");
   const auto width = static_cast<std::uint32_t>(groupColumns), height = static_cast<std::uint32_t>(groupRows);
   const std::uint32_t groupsX = (columns + width - 1) / width, groupsY = (rows + height - 1) / height;
   assert(groupsX <= 65535 && groupsY <= 65535 &&
          "every driver takes 65,535 work groups, and no more is promised");
-  if (groupsX > 0 && groupsY > 0) glDispatchCompute(groupsX, groupsY, 1);
+  if (groupsX == 0 || groupsY == 0) return;
+  ++dispatches;
+  glDispatchCompute(groupsX, groupsY, 1);
 }
 
 void dispatch(std::size_t count, int workGroupSize) {
   dispatch(static_cast<std::uint32_t>(count), 1, workGroupSize, 1);
+}
+
+void dispatchIndirect(std::size_t offset) {
+  ++dispatches;
+  glDispatchComputeIndirect(static_cast<GLintptr>(offset));
 }
 
 }  // namespace clothsim::gl

@@ -44,5 +44,9 @@ class Program {
 // takes: beyond it the dispatch does nothing, and nobody says so.
 void dispatch(std::uint32_t columns, std::uint32_t rows, int groupColumns, int groupRows);
 void dispatch(std::size_t count, int workGroupSize);
+// As many work groups as the bound buffer says, at this byte (GL_DISPATCH_INDIRECT_BUFFER).
+void dispatchIndirect(std::size_t offset);
+// How many dispatches this thread has made so far.
+[[nodiscard]] std::uint64_t dispatchCount();
 
 }  // namespace clothsim::gl

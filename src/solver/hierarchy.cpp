@@ -273,9 +273,11 @@ class HierarchyBuilder {
       starts.push_back(static_cast<std::uint32_t>(touched.size()));
     }
     addRows(level, [&](std::uint32_t row, auto add) {
-      for (const std::uint32_t i : touching[row - level.coarseFirst])
+      for (const std::uint32_t i : touching[row - level.coarseFirst]) {
         for (std::uint32_t n = starts[i]; n < starts[i + 1]; ++n)
           if (touched[n] >= row) add(touched[n], i);
+        add(ALL_VERTICES, i);
+      }
     });
     putElementBlocks(level);
   }
@@ -285,7 +287,7 @@ class HierarchyBuilder {
     std::vector<std::uint32_t>&firsts = hierarchy_.elementBlockStarts, &numbers = hierarchy_.elementBlocks;
     for (std::uint32_t i = level.fineFirst; i < level.fineFirst + level.fineCount; ++i) {
       const std::uint32_t count = starts[i + 1] - starts[i];
-      firsts.push_back(firsts.back() + count * (count + 1) / 2);
+      firsts.push_back(firsts.back() + count * (count + 3) / 2);
     }
     numbers.resize(firsts.back());
     std::vector<std::uint32_t> next(firsts.begin() + level.fineFirst, firsts.end());
@@ -302,6 +304,11 @@ class HierarchyBuilder {
     std::vector<std::vector<Source>> rows(level.coarseCount);
     for (std::uint32_t k = fine.firstBlock; k < fine.endBlock; ++k) {
       const Block& block = hierarchy_.blocks[k];
+      if (block.column == ALL_VERTICES) {
+        for (const Weight& a : weights_[hierarchy_.particles + block.row])
+          rows[a.vertex - level.coarseFirst].push_back({ALL_VERTICES, 2 * k});
+        continue;
+      }
       const auto put = [&](std::uint32_t row, std::uint32_t column, std::uint32_t source) {
         for (const Weight& a : weights_[hierarchy_.particles + row])
           for (const Weight& b : weights_[hierarchy_.particles + column])

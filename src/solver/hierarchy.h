@@ -36,8 +36,12 @@ struct Hierarchy {
   // [firstSource, endSource) of `sources`. On the first level those are particles, of which some element
   // (springs, bending, inertia) touches both aggregates; beyond, blocks of the finer level, twice the number,
   // + 1 for the transposed block.
+  //
+  // The last block of a row has the column ALL_VERTICES: what the row of the matrix makes of a rigid motion
+  // of all vertices about that of the row. It is the sum of the row's blocks, but what springs add to those
+  // is left out where it cancels. In binary32 the sum itself would lose the inertia, which is so much less.
   struct Block {
-    std::uint32_t row, column;  // coarse vertices, row <= column
+    std::uint32_t row, column;  // coarse vertices, row <= column; or ALL_VERTICES
     std::uint32_t firstSource, endSource;
   };
 
@@ -54,7 +58,8 @@ struct Hierarchy {
   std::vector<std::uint32_t> blockStarts;         // of a coarse vertex, one more: blocks of its row
   std::vector<Block> blocks;                      // by row, ascending columns; the diagonal block comes first
   std::vector<std::uint32_t> sources;
-  // Of each particle the aggregates that its elements touch, ascending, and the blocks of all pairs of them.
+  // Of each particle the aggregates that its elements touch, ascending, and the blocks of all pairs of them,
+  // each row's with that of all vertices.
   std::vector<std::uint32_t> touchedStarts{0}, touched, elementBlockStarts{0}, elementBlocks;
 
   [[nodiscard]] bool empty() const { return pieces.empty(); }

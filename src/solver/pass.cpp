@@ -54,7 +54,7 @@ constexpr std::array<PassTraits, PASS_COUNT> table{{
      {iterates, centers, coarseBlocks}, {rightHandSides, airBlocks, planes, touching, scalars},
      {coarseBlocks, coarseInverses}, solved},
     {Pass::invertDense, "invert dense", Domain::coarseBlocks, 1,
-     {coarseBlocks}, {},
+     {centers, coarseBlocks}, {},
      {dense}, {}},
     {Pass::restrict, "restrict", Domain::coarseVertices, 1,
      {iterates, centers, residuals}, {},

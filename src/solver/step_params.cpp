@@ -9,6 +9,7 @@
 #include "core/hash.h"
 #include "scene/forces/air_resistance.h"
 #include "shared/forces.h"
+#include "shared/implicit.h"
 #include "solver/pin_paths.h"
 
 namespace clothsim {
@@ -108,12 +109,20 @@ double meanSpacing(const Cloth& cloth) {
   return sum / cloth.particleCount();
 }
 
+// What colliders add to CONTACT_OVER_INERTIA: the sheet is to bend around them, not to stretch into them. A
+// limit keeps what slides solvable. Where a normal is no axis, a coarse matrix has the stiffness of contact
+// and the inertia along the surface in the same entries, and binary32 holds both up to this ratio.
+double contactStiffness(const Piece& piece, double inertia) {
+  return std::min(4 * piece.stiffestSpring(), piece.particleMass * inertia / LEAST_PIVOT);
+}
+
 template <class Real>
 void putImplicit(const Scene& scene, const Cloth& cloth, std::size_t pieceIndex, StepParams<Real>& params) {
   if (!isImplicit(scene.solver.integrator)) return;
   const Piece& piece = cloth.pieces()[pieceIndex];
   const double h = stepLength(scene.solver), rate = dampingRate(scene.cloths[pieceIndex]);
-  params.inertia = real<Real>((1 + rate * h) / (h * h));
+  const double inertia = (1 + rate * h) / (h * h);
+  params.inertia = real<Real>(inertia);
   params.guessTime = real<Real>(h / (1 + rate * h));
   if (scene.solver.integrator == Integrator::bdf2) {
     const double t = 2 * h / 3;
@@ -125,7 +134,7 @@ void putImplicit(const Scene& scene, const Cloth& cloth, std::size_t pieceIndex,
   params.tolerance = real<Real>(scene.solver.tolerance);
   params.systemTolerance = real<Real>(scene.solver.tolerance * scene.solver.tolerance);
   params.leastMotion = real<Real>(LEAST_MOTION * meanSpacing(cloth));
-  params.contactStiffness = real<Real>(4 * piece.stiffestSpring());
+  params.contactStiffness = real<Real>(contactStiffness(piece, inertia));
   if (!scene.solver.strainLimit) return;
   // A limit of 0 asks for springs that cannot stretch: a tenth of a percent stands for it.
   const double limit = std::max(*scene.solver.strainLimit, 1e-3);

@@ -14,7 +14,8 @@
 #include "sim/implicit/mesh.glsl"
 #endif
 
-uvec2 pair;  // row and column of the block
+uvec2 pair;      // row and column of the block
+bool isOfAll;    // the column has all vertices, moving as one body about the center of the row
 vec3 rowCenter, columnCenter;
 
 // How the vertices of an element follow a rigid body: by sum of c w (t + r x (x - center)) = sigma t + r x y; (sigma, y).
@@ -37,6 +38,7 @@ Hanging hangingOf(uint i, vec4 x) {
     if (weight.vertex == pair.x) weights.x = weight.weight;
     if (weight.vertex == pair.y) weights.y = weight.weight;
   }
+  if (isOfAll) weights.y = 1.0;
   if (x.w == 0.0) weights = vec2(0.0);
   precise vec3 row = weights.x * (x.xyz - rowCenter);
   precise vec3 column = weights.y * (x.xyz - columnCenter);
@@ -120,14 +122,15 @@ void addParticle(uint i, Hanging hanging) {
 #endif
 }
 
-void addSpring(vec3 x, Hanging hanging, IncidentSpring spring) {
+void addSpring(vec4 x, Hanging hanging, IncidentSpring spring) {
   vec4 other = positionAt(spring.other);
   Hanging end = hangingOf(spring.other, other);
-  precise vec3 d = other.xyz - x;
+  precise vec3 d = other.xyz - x.xyz;
   SpringBlock s = springBlock(d, spring);
   precise vec4 row = end.row - hanging.row;
   precise vec4 column = end.column - hanging.column;
-  addPulling(s.along, d, Hanging(row, column));
+  bool isRigid = isOfAll && x.w > 0.0 && other.w > 0.0;
+  if (!isRigid) addPulling(s.along, d, Hanging(row, column));
   if (s.across > 0.0) addIsotropic(s.across, Hanging(row, column));
 }
 
@@ -139,7 +142,7 @@ void addElementsOf(uint i) {
   uvec4 first = texelFetch(listStarts, int(i)), end = texelFetch(listStarts, int(i) + 1);
   for (uint n = first.x; n < end.x; ++n) {
     IncidentSpring spring = meshSpring(n);
-    if (spring.other < i) addSpring(x.xyz, hanging, spring);
+    if (spring.other < i) addSpring(x, hanging, spring);
   }
   for (uint n = first.y; n < end.y; ++n) {
     uint number = texelFetch(meshNumbers, int(n)).x;
@@ -174,7 +177,7 @@ void addElementsOf(uint i) {
   uint cut = cutMaskOf(i);
   for (uint k = 0u; k < OWNED_SPRINGS; ++k) {
     IncidentSpring spring = incidentSpring(p, k, cut);
-    if (spring.exists) addSpring(x.xyz, hanging, spring);
+    if (spring.exists) addSpring(x, hanging, spring);
   }
   if (!hasMaterial) return;
   bool borderRow = p.row == 0u || p.row + 1u == step.rows;
@@ -194,7 +197,8 @@ void main() {
   uvec4 block = texelFetch(coarsePairs, int(number));
   pair = block.xy;
   rowCenter = centerAt(pair.x);
-  columnCenter = centerAt(pair.y);
+  isOfAll = pair.y == ALL_VERTICES;
+  columnCenter = centerAt(isOfAll ? pair.x : pair.y);
   for (uint k = block.z; k < block.w; ++k) addElementsOf(texelFetch(coarseSources, int(k)).x);
   storeBlock(blockOfSums(), number, pair);
 }

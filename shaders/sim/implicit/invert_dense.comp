@@ -1,5 +1,7 @@
 // Minus the inverse of the matrix of a connected part of the coarsest level, a work group each. Every pivot in turn is swept out
-// (Goodnight 1979, "A tutorial on the SWEEP operator"); the twin is invertDense() of src/solver/cpu/multilevel.cpp.
+// (Goodnight 1979, "A tutorial on the SWEEP operator"); the twin is invertDense() of src/solver/cpu/multilevel.cpp. The place of
+// the last vertex have all of them, moving as one rigid body about its center: A' = Q^T A Q. So what is soft, the cloth as a
+// whole, has entries of its own, and is no difference of stiff ones. At the end A^-1 = Q A'^-1 Q^T.
 #include "shared/implicit.h"
 #include "sim/exact_math.glsl"
 #include "sim/implicit/gate.glsl"
@@ -8,12 +10,74 @@
 
 layout(local_size_x = SUM_LANES) in;
 
+layout(binding = CENTERS_UNIT) uniform samplerBuffer centers;
 layout(binding = COARSE_BLOCKS_UNIT) uniform samplerBuffer coarseBlocks;
 layout(binding = COARSE_PAIRS_UNIT) uniform usamplerBuffer coarsePairs;
 layout(std430, binding = DENSE_BINDING) coherent buffer Dense { float dense[]; };
 
 shared float began[6 * COARSEST_VERTICES];
 shared float column[6 * COARSEST_VERTICES];
+shared uint blocksOfAll[COARSEST_VERTICES];  // of each row that of all vertices
+
+// From the center of the last vertex of the part.
+vec3 offsetOf(DensePart part, uint vertex) {
+  precise vec3 offset = texelFetch(centers, int(part.first + vertex)).xyz - texelFetch(centers, int(part.first + part.count - 1u)).xyz;
+  return offset;
+}
+
+float entryOf(RigidBlock block, uint i, uint j) {
+  if (j < 3u) return i < 3u ? block.tt[j][i] : block.rt[j][i - 3u];
+  return i < 3u ? block.tr[j - 3u][i] : block.rr[j - 3u][i - 3u];
+}
+void put(DensePart part, RigidBlock block, uint row, uint column) {
+  uint order = 6u * part.count, first = part.firstEntry;
+  for (uint j = 0u; j < 6u; ++j)
+    for (uint i = row == column ? j : 0u; i < 6u; ++i) {
+      float entry = canonical(entryOf(block, i, j));
+      dense[first + (column + j) * order + row + i] = entry;
+      dense[first + (row + i) * order + column + j] = entry;
+    }
+}
+
+// The rows and columns of all vertices together. A lane for each vertex but the last one, and one for their sum.
+void putAll(DensePart part, uint lane) {
+  uint last = 6u * (part.count - 1u);
+  vec3 still = vec3(0.0);
+  RigidBlock sum = noBlock();
+  if (lane + 1u < part.count) {
+    addShifted(sum, 1.0, loadBlock(coarseBlocks, blocksOfAll[lane]), still, offsetOf(part, lane));
+    put(part, sum, 6u * lane, last);
+  } else if (lane + 1u == part.count) {
+    for (uint k = 0u; k < part.count; ++k) {
+      vec3 offset = offsetOf(part, k);
+      addShifted(sum, 1.0, loadBlock(coarseBlocks, blocksOfAll[k]), offset, offset);
+    }
+    put(part, sum, last, last);
+  }
+}
+
+vec3 threeAt(uint first, uint stride) { return vec3(dense[first], dense[first + stride], dense[first + 2u * stride]); }
+void addThree(uint first, uint stride, vec3 v) {
+  for (uint c = 0u; c < 3u; ++c) {
+    precise float sum = dense[first + c * stride] + v[c];
+    dense[first + c * stride] = canonical(sum);
+  }
+}
+
+// A vertex moves with all, t + r x offset, besides on its own: rows, where the stride is 1, or columns.
+void moveWithAll(DensePart part, uint lane, uint stride) {
+  uint order = 6u * part.count, across = order + 1u - stride;
+  for (uint e = lane; e < (part.count - 1u) * order; e += uint(SUM_LANES)) {
+    uint vertex = e / order, line = part.firstEntry + e % order * across, own = line + 6u * vertex * stride,
+         all = line + (order - 6u) * stride;
+    vec3 t = threeAt(all, stride), r = threeAt(all + 3u * stride, stride);
+    precise vec3 moved = t + crossProduct(r, offsetOf(part, vertex));
+    addThree(own, stride, moved);
+    addThree(own + 3u * stride, stride, r);
+  }
+  memoryBarrierBuffer();
+  barrier();
+}
 
 void invert(DensePart part) {
   uint lane = gl_LocalInvocationID.x, order = 6u * part.count, entries = order * order, first = part.firstEntry;
@@ -24,13 +88,17 @@ void invert(DensePart part) {
   for (uint e = lane; e < 36u * (part.endBlock - part.firstBlock); e += uint(SUM_LANES)) {
     uint number = part.firstBlock + e / 36u, j = e % 36u / 6u, i = e % 6u;
     uvec2 pair = texelFetch(coarsePairs, int(number)).xy;
-    if (pair.y >= part.first + part.count) continue;  // across a cut, where it is 0
+    if (pair.y == ALL_VERTICES) blocksOfAll[pair.x - part.first] = number;
+    if (pair.y >= part.first + part.count - 1u) continue;  // of all; or across a cut, where it is 0
+    if (pair.x == pair.y && i < j) continue;
     uint texel = BLOCK_TEXELS * number + (i < 3u ? 0u : 6u) + (j < 3u ? 0u : 3u) + j % 3u;
     float entry = texelFetch(coarseBlocks, int(texel))[i % 3u];
     uint row = 6u * (pair.x - part.first) + i, own = 6u * (pair.y - part.first) + j;
     dense[first + own * order + row] = entry;
-    if (pair.x != pair.y) dense[first + row * order + own] = entry;
+    dense[first + row * order + own] = entry;
   }
+  barrier();
+  putAll(part, lane);
   memoryBarrierBuffer();
   barrier();
   for (uint k = lane; k < order; k += uint(SUM_LANES)) began[k] = dense[first + k * order + k];
@@ -49,6 +117,9 @@ void invert(DensePart part) {
     }
     memoryBarrierBuffer();
   }
+  barrier();
+  moveWithAll(part, lane, 1u);
+  moveWithAll(part, lane, order);
 }
 
 void main() {

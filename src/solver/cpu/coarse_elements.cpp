@@ -43,9 +43,9 @@ class ElementLoop {
     count_ = levels_.touchedStarts[i + 1] - levels_.touchedStarts[i];
     blocks_ = levels_.elementBlocks.data() + levels_.elementBlockStarts[i];
     if (count_ == 0 || touched_[0] >= end_ || touched_[count_ - 1] < first_) return;
-    scratch_.resize(std::max<std::size_t>(scratch_.size(), 3 * std::size_t{count_}));
-    pulling_.begin(count_);
-    isotropic_.begin(count_);
+    scratch_.resize(std::max<std::size_t>(scratch_.size(), 6 * std::size_t{count_}));
+    pulling_.begin(2 * count_);
+    isotropic_.begin(2 * count_);
     Four<Real>* own = leversIn(0);
     gatherLevers(i, own);
     addParticle(i, own);
@@ -99,12 +99,13 @@ class ElementLoop {
     addHinges(i);
   }
 
-  // One of three rows of scratch, with a lever for each aggregate that the elements touch.
-  INLINE Four<Real>* leversIn(std::size_t row) { return &scratch_[row * count_].lever; }
+  // One of three rows of scratch, with two levers for each aggregate that the elements touch: its own, and
+  // behind them that of all vertices, moving as one body about its center.
+  INLINE Four<Real>* leversIn(std::size_t row) { return &scratch_[2 * row * count_].lever; }
 
   // With what weight a particle hangs on each aggregate, and that times where it is from the center; 0 for
   // others, and if it is pinned.
-  INLINE void gatherLevers(std::uint32_t i, Four<Real>* levers) const {
+  INLINE void gatherOwnLevers(std::uint32_t i, Four<Real>* levers) const {
     std::fill(levers, levers + count_, Four<Real>{});
     if (pass_.inverseMasses[i] == Real(0)) return;
     const Vec3<Real> x = at(x_, i);
@@ -116,6 +117,19 @@ class ElementLoop {
       levers[a] = Four<Real>{weight, y.x, y.y, y.z};
     }
   }
+  // The same on all vertices, where the weight is 1.
+  INLINE void gatherLeversOfAll(std::uint32_t i, Four<Real>* levers) const {
+    const bool isPinned = pass_.inverseMasses[i] == Real(0);
+    const Vec3<Real> x = at(x_, i);
+    for (std::uint32_t a = 0; a < count_; ++a) {
+      const Vec3<Real> y = x - threeOf(centers_[touched_[a]]);
+      levers[count_ + a] = isPinned ? Four<Real>{} : Four<Real>{1, y.x, y.y, y.z};
+    }
+  }
+  INLINE void gatherLevers(std::uint32_t i, Four<Real>* levers) const {
+    gatherOwnLevers(i, levers);
+    gatherLeversOfAll(i, levers);
+  }
   INLINE static bool isNone(Four<Real> lever) {
     return lever[0] == 0 && lever[1] == 0 && lever[2] == 0 && lever[3] == 0;
   }
@@ -123,46 +137,56 @@ class ElementLoop {
   // s p p^T, p = (sigma, y): the element s |sigma t + r x y|^2 / 2 of a body of translation t and rotation r.
   INLINE void addIsotropicElement(Real s, const Four<Real>* levers) {
     if (isotropic_.count == isotropic_.MOST) addToBlocks();
+    const auto add = [&](std::uint32_t a) __attribute__((always_inline)) {
+      isotropic_.add(a, [&] { return typename Waiting<Four<Real>>::Factors{s * levers[a], levers[a]}; });
+    };
     for (std::uint32_t a = 0; a < count_; ++a)
-      if (!isNone(levers[a]))
-        isotropic_.add(a, [&] { return typename Waiting<Four<Real>>::Factors{s * levers[a], levers[a]}; });
+      if (!isNone(levers[a])) add(a), add(count_ + a);
     ++isotropic_.count;
   }
-  INLINE void addPullingElement(Real s, Vec3<Real> d, const Four<Real>* levers) {
+  // `isRigid`: all vertices together, moving as one body, do not change it.
+  INLINE void addPullingElement(Real s, Vec3<Real> d, const Four<Real>* levers, bool isRigid) {
     if (pulling_.count == pulling_.MOST) addToBlocks();
-    for (std::uint32_t a = 0; a < count_; ++a)
-      if (!isNone(levers[a]))
-        pulling_.add(a, [&] {
-          const Eight<Real> pull = pullOf(levers[a], d);
-          return typename Waiting<Eight<Real>>::Factors{s * pull, pull};
-        });
+    const auto add = [&](std::uint32_t a) __attribute__((always_inline)) {
+      pulling_.add(a, [&] {
+        const Eight<Real> pull = pullOf(levers[a], d);
+        return typename Waiting<Eight<Real>>::Factors{s * pull, pull};
+      });
+    };
+    for (std::uint32_t a = 0; a < count_; ++a) {
+      if (isNone(levers[a])) continue;
+      add(a);
+      if (!isRigid) add(count_ + a);
+    }
     ++pulling_.count;
   }
-  // What waits goes to the blocks of pairs of aggregates.
+  // What waits goes to the blocks of pairs of aggregates, and of aggregates with all vertices.
   INLINE void addToBlocks() {
     const std::uint32_t* block = blocks_;
-    for (std::uint32_t a = 0; a < count_; block += count_ - a, ++a) {
+    for (std::uint32_t a = 0; a < count_; block += count_ - a + 1, ++a) {
       if (touched_[a] < first_ || touched_[a] >= end_) continue;
-      for (std::uint32_t b = a; b < count_; ++b) {
-        if (((pulling_.acting[a] & pulling_.acting[b]) | (isotropic_.acting[a] & isotropic_.acting[b])) == 0)
-          continue;
-        ElementSums<Real> sums = own_.elementSums[block[b - a]];
-        pulling_.forEach(a, b, [&](const Eight<Real>& scaled, const Eight<Real>& q) {
-#pragma GCC unroll 3
-          for (int c = 0; c < 3; ++c) {
-            sums.columns[c] += scaled * q[c];
-            sums.columns[3 + c] += scaled * q[4 + c];
-          }
-        });
-        isotropic_.forEach(a, b, [&](const Four<Real>& scaled, const Four<Real>& q) {
-#pragma GCC unroll 4
-          for (int c = 0; c < 4; ++c) sums.moments[c] += scaled * q[c];
-        });
-        own_.elementSums[block[b - a]] = sums;
-      }
+      for (std::uint32_t b = a; b < count_; ++b) addToBlock(block[b - a], a, b);
+      addToBlock(block[count_ - a], a, count_ + a);
     }
-    pulling_.begin(count_);
-    isotropic_.begin(count_);
+    pulling_.begin(2 * count_);
+    isotropic_.begin(2 * count_);
+  }
+  INLINE void addToBlock(std::uint32_t number, std::uint32_t a, std::uint32_t b) {
+    if (((pulling_.acting[a] & pulling_.acting[b]) | (isotropic_.acting[a] & isotropic_.acting[b])) == 0)
+      return;
+    ElementSums<Real> sums = own_.elementSums[number];
+    pulling_.forEach(a, b, [&](const Eight<Real>& scaled, const Eight<Real>& q) {
+#pragma GCC unroll 3
+      for (int c = 0; c < 3; ++c) {
+        sums.columns[c] += scaled * q[c];
+        sums.columns[3 + c] += scaled * q[4 + c];
+      }
+    });
+    isotropic_.forEach(a, b, [&](const Four<Real>& scaled, const Four<Real>& q) {
+#pragma GCC unroll 4
+      for (int c = 0; c < 4; ++c) sums.moments[c] += scaled * q[c];
+    });
+    own_.elementSums[number] = sums;
   }
 
   // Inertia, air, grabs and the collider that is touched.
@@ -175,23 +199,26 @@ class ElementLoop {
     }
     addIsotropicElement(stiffness, levers);
     if (hasContacts(arguments_))
-      addPullingElement(contactStiffness(arguments_, n), at(own_.planes.normals, n), levers);
+      addPullingElement(contactStiffness(arguments_, n), at(own_.planes.normals, n), levers, false);
     forEachPairOf(own_.touching, n, [&](std::uint32_t q, std::uint32_t place) {
       const SurfacePair<Real>& pair = own_.touching.pairs[q];
       const Real weight = pair.weights[place];
-      if (pair.held > Real(0)) addPullingElement((weight * weight) * pair.held, pair.normal, levers);
+      if (pair.held > Real(0)) addPullingElement((weight * weight) * pair.held, pair.normal, levers, false);
     });
   }
 
   INLINE void addSpring(std::uint32_t i, std::uint32_t other, const Four<Real>* own, Real stiffness,
                         Real restLength, Real limitLength) {
     Four<Real>* levers = leversIn(1);
-    gatherLevers(other, levers);
-    for (std::uint32_t a = 0; a < count_; ++a) levers[a] = levers[a] - own[a];
+    gatherOwnLevers(other, levers);
     const Vec3<Real> d = at(x_, other) - at(x_, i);
     const auto [across, along] =
         springBlock(d, stiffness, restLength, pass_.step.limitStiffness, limitLength);
-    addPullingElement(along, d, levers);
+    const bool isRigid = pass_.inverseMasses[i] > Real(0) && pass_.inverseMasses[other] > Real(0),
+               needsAll = !isRigid || across > Real(0);
+    if (needsAll) gatherLeversOfAll(other, levers);
+    for (std::uint32_t a = 0; a < (needsAll ? 2 * count_ : count_); ++a) levers[a] = levers[a] - own[a];
+    addPullingElement(along, d, levers, isRigid);
     if (across > Real(0)) addIsotropicElement(across, levers);
   }
 
@@ -232,7 +259,7 @@ class ElementLoop {
     Four<Real>*before = leversIn(1), *behind = leversIn(2);
     gatherLevers(i - stride, before);
     gatherLevers(i + stride, behind);
-    for (std::uint32_t a = 0; a < count_; ++a) before[a] = (before[a] - own[a]) + (behind[a] - own[a]);
+    for (std::uint32_t a = 0; a < 2 * count_; ++a) before[a] = (before[a] - own[a]) + (behind[a] - own[a]);
     addIsotropicElement(endOfClamp ? Real(2) * b : b, before);
   }
 
@@ -251,10 +278,10 @@ class ElementLoop {
       if (lists.numbers[n] % 4 != 0) continue;
       const auto& [corners, c] = lists.hinges[lists.numbers[n] / 4];
       Four<Real>*bent = leversIn(1), *corner = leversIn(2);
-      std::fill(bent, bent + count_, Four<Real>{});
+      std::fill(bent, bent + 2 * std::size_t{count_}, Four<Real>{});
       for (std::size_t k = 0; k < 4; ++k) {
         gatherLevers(corners[k], corner);
-        for (std::uint32_t a = 0; a < count_; ++a) bent[a] = bent[a] + c[k] * corner[a];
+        for (std::uint32_t a = 0; a < 2 * count_; ++a) bent[a] = bent[a] + c[k] * corner[a];
       }
       addIsotropicElement(Real(1), bent);
     }

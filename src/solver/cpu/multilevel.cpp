@@ -62,16 +62,18 @@ void findCenter(ImplicitState<Real>& own, std::uint32_t coarse) {
 template <class Real>
 RigidBlock<Real> sumBlocks(const ImplicitState<Real>& own, const typename Hierarchy<Real>::Block& block) {
   const Hierarchy<Real>& hierarchy = own.hierarchy;
+  const bool isOfAll = block.column == ALL_VERTICES;
   const Four<Real>* centers = own.centers.data();
-  const Four<Real> rowCenter = centers[block.row], columnCenter = centers[block.column];
+  const Four<Real> rowCenter = centers[block.row], columnCenter = isOfAll ? rowCenter : centers[block.column];
   RigidBlock<Real> sum;
   for (std::uint32_t k = block.firstSource; k < block.endSource; ++k) {
     const std::uint32_t number = hierarchy.sources[k] / 2;
     const bool isTransposed = hierarchy.sources[k] % 2 != 0;
     const auto& fine = hierarchy.blocks[number];
     const std::uint32_t row = isTransposed ? fine.column : fine.row,
-                        column = isTransposed ? fine.row : fine.column;
-    const Real weight = weightOf(own, row, block.row) * weightOf(own, column, block.column);
+                        column = isTransposed || isOfAll ? fine.row : fine.column;
+    const Real weight =
+        weightOf(own, row, block.row) * (isOfAll ? Real(1) : weightOf(own, column, block.column));
     const RigidBlock<Real>& stored = own.coarseBlocks[number];
     addShifted(sum, weight, isTransposed ? transposed(stored) : stored, centers[row] - rowCenter,
                centers[column] - columnCenter);
@@ -99,26 +101,71 @@ void coarsen(const ImplicitArguments<Real>& arguments, const LevelParams& level,
   }
 }
 
+namespace {
+
+template <class Real>
+INLINE Vec3<Real> threeAt(const Real* first, std::size_t stride) {
+  return {first[0], first[stride], first[2 * stride]};
+}
+template <class Real>
+INLINE void addTo(Real* first, std::size_t stride, Vec3<Real> v) {
+  first[0] = canonical(first[0] + v.x);
+  first[stride] = canonical(first[stride] + v.y);
+  first[2 * stride] = canonical(first[2 * stride] + v.z);
+}
+
+}  // namespace
+
+// The place of the last vertex have all of them, moving as one rigid body about its center: A' = Q^T A Q. So
+// what is soft, the cloth as a whole, has entries of its own, and is no difference of stiff ones. At the end
+// A^-1 = Q A'^-1 Q^T.
 template <class Real>
 void invertDense(ImplicitState<Real>& own, const DensePart& part) {
-  const std::size_t order = 6 * static_cast<std::size_t>(part.count);
+  const std::size_t order = 6 * static_cast<std::size_t>(part.count), last = order - 6;
+  const std::uint32_t lastVertex = part.first + part.count - 1;
   Real* matrix = own.dense.data() + part.firstEntry;
   std::fill(matrix, matrix + order * order, Real(0));
+  const auto offsetOf = [&](std::uint32_t vertex) { return own.centers[vertex] - own.centers[lastVertex]; };
+  const auto put = [&](const RigidBlock<Real>& block, std::size_t row, std::size_t column) {
+    const SixColumns<Real> entries = columnsOf(block);
+    for (std::size_t j = 0; j < 6; ++j)
+      for (std::size_t i = row == column ? j : 0; i < 6; ++i)
+        matrix[(column + j) * order + row + i] = matrix[(row + i) * order + column + j] =
+            canonical(entries[j][i]);
+  };
+  RigidBlock<Real> whole;
   for (std::uint32_t k = part.firstBlock; k < part.endBlock; ++k) {
     const auto& block = own.hierarchy.blocks[k];
-    if (block.column >= part.first + part.count) continue;  // across a cut, where it is 0
-    const SixColumns<Real> stored = columnsOf(own.coarseBlocks[k]);
-    const std::size_t row = 6 * static_cast<std::size_t>(block.row - part.first),
-                      column = 6 * static_cast<std::size_t>(block.column - part.first);
-    for (std::size_t j = 0; j < 6; ++j)
-      for (std::size_t i = 0; i < 6; ++i) {
-        matrix[(column + j) * order + row + i] = stored[j][i];
-        if (row != column) matrix[(row + i) * order + column + j] = stored[j][i];
-      }
+    const std::size_t row = 6 * static_cast<std::size_t>(block.row - part.first);
+    const RigidBlock<Real>& stored = own.coarseBlocks[k];
+    if (block.column == ALL_VERTICES) {
+      const Four<Real> offset = offsetOf(block.row);
+      RigidBlock<Real> ofAll;
+      addShifted(ofAll, Real(1), stored, Four<Real>{}, offset);
+      addShifted(whole, Real(1), stored, offset, offset);
+      if (row != last) put(ofAll, row, last);
+    } else if (block.column < lastVertex) {  // beyond: across a cut, where it is 0
+      put(stored, row, 6 * static_cast<std::size_t>(block.column - part.first));
+    }
   }
+  put(whole, last, last);
   std::vector<Real> began(order), column(order);
   sweepOut(order, began.data(), column.data(),
            [=](std::size_t i, std::size_t j) -> Real& { return matrix[j * order + i]; });
+  // Rows, then columns: a vertex moves with all, t + r x offset, besides on its own.
+  for (const std::size_t stride : {std::size_t{1}, order}) {
+    const std::size_t across = order + 1 - stride;
+    for (std::uint32_t vertex = part.first; vertex < lastVertex; ++vertex) {
+      const Vec3<Real> offset = threeOf(offsetOf(vertex));
+      for (std::size_t j = 0; j < order; ++j) {
+        const Real* all = matrix + last * stride + j * across;
+        Real* first = matrix + 6 * static_cast<std::size_t>(vertex - part.first) * stride + j * across;
+        const Vec3<Real> t = threeAt(all, stride), r = threeAt(all + 3 * stride, stride);
+        addTo(first, stride, t + cross(r, offset));
+        addTo(first + 3 * stride, stride, r);
+      }
+    }
+  }
 }
 
 template <class Real>

@@ -27,7 +27,7 @@ void PassRunner::runGroups(const gl::Program& pass, const std::string& name, std
 }
 
 void PassRunner::runIndirect(const gl::Program& pass, const std::string& name, std::size_t place) {
-  runTimed(pass, name, [&] { glDispatchComputeIndirect(static_cast<GLintptr>(place * sizeof(Groups))); });
+  runTimed(pass, name, [&] { gl::dispatchIndirect(place * sizeof(Groups)); });
 }
 
 void PassRunner::startTiming() {

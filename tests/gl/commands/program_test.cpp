@@ -76,6 +76,21 @@ TEST(Program, TakesNoNumberOfThreadsThatIsNone) {
   }
 }
 
+TEST(Program, TakesAsManyThreadsAsItIsTold) {
+  const std::string run = "run -f pinned2 --resolution 8x8 --frames 1 --backend cpu --json --threads ";
+  for (const char* threads : {"2", "3"})
+    EXPECT_EQ(jsonOf(run + threads, "CLOTHSIM_THREADS=5")["device"],
+              "CPU, " + std::string(threads) + " threads");
+  for (const char* threads : {"0", "257", "two"}) {
+    const CommandResult result = clothsim(run + threads);
+    EXPECT_EQ(result.exitCode, 2) << threads;
+    EXPECT_NE(result.output.find("--threads: expected a whole number from 1 to 256, found \"" +
+                                 std::string(threads) + "\""),
+              std::string::npos)
+        << result.output;
+  }
+}
+
 TEST(Program, GivesOneHashOnBothBackendsAtAnyNumberOfThreads) {
   const std::string run =
       "run -f pinned2 --resolution 50x50 --frames 5 --json --set solver.self_collision=false";
@@ -442,6 +457,7 @@ TEST(Program, MeasuresStepsAndPassesAndTheDemoInRealTime) {
     EXPECT_GT(step["particle_steps_per_second"].get<double>(), 0);
     if (step["backend"] == "gpu") {
       EXPECT_GT(step["pass_ms"].size(), 0u);
+      EXPECT_GE(step["dispatches_per_step"], step["pass_ms"].size());
     }
   }
   EXPECT_EQ(bench["demo_real_time"].size(), 6u) << "two backends, three ways of drawing";

@@ -2,6 +2,7 @@
 // at the calls.
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <tuple>
@@ -9,6 +10,7 @@
 
 #include "gl/framebuffer.h"
 #include "gl/gl_test.h"
+#include "gl/program.h"
 #include "render/renderer.h"
 #include "solver/gpu/gpu_solver.h"
 #include "support/compared_scenes.h"
@@ -126,8 +128,11 @@ class CountedDispatches {
 int dispatchesOfAStep(const Scene& scene) {
   const Cloth cloth(scene);
   GpuSolver solver(cloth, scene);
+  const std::uint64_t before = gl::dispatchCount();
   const CountedDispatches dispatches;
   solver.step(1);
+  EXPECT_EQ(gl::dispatchCount() - before, static_cast<std::uint64_t>(dispatches.count()))
+      << "what bench prints";
   return dispatches.count();
 }
 

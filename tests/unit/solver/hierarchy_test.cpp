@@ -75,6 +75,25 @@ TEST(Hierarchy, HasTheDiagonalBlockFirstInEveryRow) {
   }
 }
 
+// It is summed up from what the diagonal block is.
+TEST(Hierarchy, EndsEveryRowWithTheBlockOfAllVertices) {
+  const Hierarchy<double> levels = levelsOf(test::materialSheet(30, 30, 1, 1, clothOfLevels));
+  const auto isOfAll = [](const auto& block) { return block.column == ALL_VERTICES; };
+  EXPECT_EQ(std::count_if(levels.blocks.begin(), levels.blocks.end(), isOfAll), levels.coarseVertices);
+  for (std::uint32_t row = 0; row < levels.coarseVertices; ++row) {
+    const auto &diagonal = levels.blocks[levels.blockStarts[row]],
+               &last = levels.blocks[levels.blockStarts[row + 1] - 1];
+    EXPECT_TRUE(isOfAll(last)) << row;
+    const bool isOfParticles = row < levels.pieces[0][0].coarseCount;
+    if (isOfParticles)
+      EXPECT_EQ(last.endSource - last.firstSource, diagonal.endSource - diagonal.firstSource) << row;
+    else
+      EXPECT_EQ(last.endSource - last.firstSource,
+                levels.restrictionStarts[row + 1] - levels.restrictionStarts[row])
+          << row;
+  }
+}
+
 TEST(Hierarchy, LetsNoWeightCrossACut) {
   const int n = 24;
   const Scene scene = test::materialSheet(n, n, 1, 1, clothOfLevels);

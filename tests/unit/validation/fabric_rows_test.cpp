@@ -73,6 +73,7 @@ void expectFreeSlide(const StepKind& kind, const std::string& fabric, int points
 TEST(RowFabricOnASlope, SlidesFreely) {
   for (const std::string& fabric : threeFabrics()) expectFreeSlide<float>({}, fabric, 17, 30);
   expectFreeSlide<float>({Integrator::bdf2, Orientation::vertical}, "cotton", 17, 10);
+  expectFreeSlide<float>({}, "paper", 65, 30);  // a hundred million times as stiff as its inertia
 }
 
 TEST(RowFabricOnASlope, LongSlidesFreely) {
@@ -81,6 +82,43 @@ TEST(RowFabricOnASlope, LongSlidesFreely) {
       for (const int points : {17, 33, 65, 129}) expectFreeSlide<float>(kind, fabric, points, 30);
   for (const std::string& fabric : threeFabrics())
     for (const double degrees : {10., 60.}) expectFreeSlide<double>({}, fabric, 33, degrees);
+}
+
+// The slope itself leans, so that its normal is none of the axes.
+void expectFreeSlideOnALeaningPlane(const std::string& fabric, int points, double degrees) {
+  const StepKind kind{};
+  const double angle = radians(degrees);
+  const Vec3d normal{std::sin(angle), std::cos(angle), 0}, down{std::cos(angle), -std::sin(angle), 0};
+  const Material material = *materialPreset(fabric);
+  Scene scene = fabricSheet(kind, points, points, 0.4, 0.4, material);
+  scene.gravity = {0, -GRAVITY, 0};
+  scene.cloths[0].rotation = {0, 0, -degrees};
+  const Cloth cloth(scene);
+  const Vec3d start = cloth.positions()[0].cast<double>();
+  scene.colliders = {Plane{.point = start - 1e-3 * normal, .normal = normal, .friction = 0}};
+  CpuSolver<float> solver(cloth, scene);
+  solver.step(60);
+  double way = 0;
+  for (std::uint32_t i = 0; i < cloth.particleCount(); ++i)
+    way += dot(solver.position(i).cast<double>() - cloth.positions()[i].cast<double>(), down);
+  const double expected = freeSlide(kind, GRAVITY * std::sin(angle), material.damping);
+  expectNear({"fabric on a slope",
+              fabric + ", way down a leaning plane of " + std::to_string(static_cast<int>(degrees)) +
+                  " degrees without friction, " + std::to_string(points) + "^2, " + nameOf(kind),
+              precisionOf<float>, "m"},
+             way / cloth.particleCount(), expected, 0.01 * expected);
+}
+
+TEST(RowFabricOnASlope, SlidesFreelyDownALeaningPlane) {
+  expectFreeSlideOnALeaningPlane("paper", 33, 30);
+  expectFreeSlideOnALeaningPlane("silk", 65, 45);
+}
+
+TEST(RowFabricOnASlope, LongSlidesFreelyDownALeaningPlane) {
+  for (const std::string& fabric : materialPresetNames())
+    for (const int points : {17, 33, 65, 129})
+      for (const double degrees : {10., 30., 45., 80.})
+        expectFreeSlideOnALeaningPlane(fabric, points, degrees);
 }
 
 // With mu = .5, `degrees` above the angle at which it begins to slide, or below.
