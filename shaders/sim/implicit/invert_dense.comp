@@ -1,6 +1,6 @@
 // Minus the inverse of the matrix of a connected part of the coarsest level, a work group each. Every pivot in turn is swept out
 // (Goodnight 1979, "A tutorial on the SWEEP operator"); the twin is invertDense() of src/solver/cpu/multilevel.cpp. The place of
-// the last vertex have all of them, moving as one rigid body about its center: A' = Q^T A Q. So what is soft, the cloth as a
+// the vertex that is held most stiffly have all of them, moving as one rigid body about its center: A' = Q^T A Q. So what is soft, the cloth as a
 // whole, has entries of its own, and is no difference of stiff ones. At the end A^-1 = Q A'^-1 Q^T.
 #include "shared/implicit.h"
 #include "sim/exact_math.glsl"
@@ -18,10 +18,31 @@ layout(std430, binding = DENSE_BINDING) coherent buffer Dense { float dense[]; }
 shared float began[6 * COARSEST_VERTICES];
 shared float column[6 * COARSEST_VERTICES];
 shared uint blocksOfAll[COARSEST_VERTICES];  // of each row that of all vertices
+shared uint held;                            // the vertex that is held most stiffly from outside, the first of several
 
-// From the center of the last vertex of the part.
+void findHeld(DensePart part, uint lane) {
+  for (uint k = part.firstBlock + lane; k < part.endBlock; k += uint(SUM_LANES)) {
+    uvec2 pair = texelFetch(coarsePairs, int(k)).xy;
+    if (pair.y == ALL_VERTICES) blocksOfAll[pair.x - part.first] = k;
+  }
+  barrier();
+  if (lane == 0u) {
+    held = 0u;
+    float most = 0.0;
+    for (uint k = 0u; k < part.count; ++k) {
+      int first = int(BLOCK_TEXELS * blocksOfAll[k]);
+      precise float stiffness =
+          (texelFetch(coarseBlocks, first).x + texelFetch(coarseBlocks, first + 1).y) + texelFetch(coarseBlocks, first + 2).z;
+      held = stiffness > most ? k : held;
+      most = stiffness > most ? stiffness : most;
+    }
+  }
+  barrier();
+}
+
+// From the center of that vertex.
 vec3 offsetOf(DensePart part, uint vertex) {
-  precise vec3 offset = texelFetch(centers, int(part.first + vertex)).xyz - texelFetch(centers, int(part.first + part.count - 1u)).xyz;
+  precise vec3 offset = texelFetch(centers, int(part.first + vertex)).xyz - texelFetch(centers, int(part.first + held)).xyz;
   return offset;
 }
 
@@ -39,20 +60,20 @@ void put(DensePart part, RigidBlock block, uint row, uint column) {
     }
 }
 
-// The rows and columns of all vertices together. A lane for each vertex but the last one, and one for their sum.
+// The rows and columns of all vertices together. A lane for each vertex, that of the held one for their sum.
 void putAll(DensePart part, uint lane) {
-  uint last = 6u * (part.count - 1u);
   vec3 still = vec3(0.0);
   RigidBlock sum = noBlock();
-  if (lane + 1u < part.count) {
+  if (lane >= part.count) return;
+  if (lane != held) {
     addShifted(sum, 1.0, loadBlock(coarseBlocks, blocksOfAll[lane]), still, offsetOf(part, lane));
-    put(part, sum, 6u * lane, last);
-  } else if (lane + 1u == part.count) {
+    put(part, sum, 6u * lane, 6u * held);
+  } else {
     for (uint k = 0u; k < part.count; ++k) {
       vec3 offset = offsetOf(part, k);
       addShifted(sum, 1.0, loadBlock(coarseBlocks, blocksOfAll[k]), offset, offset);
     }
-    put(part, sum, last, last);
+    put(part, sum, 6u * held, 6u * held);
   }
 }
 
@@ -67,9 +88,10 @@ void addThree(uint first, uint stride, vec3 v) {
 // A vertex moves with all, t + r x offset, besides on its own: rows, where the stride is 1, or columns.
 void moveWithAll(DensePart part, uint lane, uint stride) {
   uint order = 6u * part.count, across = order + 1u - stride;
-  for (uint e = lane; e < (part.count - 1u) * order; e += uint(SUM_LANES)) {
+  for (uint e = lane; e < part.count * order; e += uint(SUM_LANES)) {
+    if (e / order == held) continue;
     uint vertex = e / order, line = part.firstEntry + e % order * across, own = line + 6u * vertex * stride,
-         all = line + (order - 6u) * stride;
+         all = line + 6u * held * stride;
     vec3 t = threeAt(all, stride), r = threeAt(all + 3u * stride, stride);
     precise vec3 moved = t + crossProduct(r, offsetOf(part, vertex));
     addThree(own, stride, moved);
@@ -82,14 +104,15 @@ void moveWithAll(DensePart part, uint lane, uint stride) {
 void invert(DensePart part) {
   uint lane = gl_LocalInvocationID.x, order = 6u * part.count, entries = order * order, first = part.firstEntry;
   for (uint e = lane; e < entries; e += uint(SUM_LANES)) dense[first + e] = 0.0;
+  findHeld(part, lane);
   memoryBarrierBuffer();
   barrier();
   // An entry of a block each.
   for (uint e = lane; e < 36u * (part.endBlock - part.firstBlock); e += uint(SUM_LANES)) {
     uint number = part.firstBlock + e / 36u, j = e % 36u / 6u, i = e % 6u;
     uvec2 pair = texelFetch(coarsePairs, int(number)).xy;
-    if (pair.y == ALL_VERTICES) blocksOfAll[pair.x - part.first] = number;
-    if (pair.y >= part.first + part.count - 1u) continue;  // of all; or across a cut, where it is 0
+    if (pair.y >= part.first + part.count) continue;  // of all; or across a cut, where it is 0
+    if (pair.x == part.first + held || pair.y == part.first + held) continue;
     if (pair.x == pair.y && i < j) continue;
     uint texel = BLOCK_TEXELS * number + (i < 3u ? 0u : 6u) + (j < 3u ? 0u : 3u) + j % 3u;
     float entry = texelFetch(coarseBlocks, int(texel))[i % 3u];

@@ -114,18 +114,34 @@ INLINE void addTo(Real* first, std::size_t stride, Vec3<Real> v) {
   first[2 * stride] = canonical(first[2 * stride] + v.z);
 }
 
+// The vertex that is held most stiffly from outside, the first of several: about it, all of them turn easily.
+template <class Real>
+std::uint32_t mostHeldOf(const ImplicitState<Real>& own, const DensePart& part) {
+  std::uint32_t held = part.first;
+  Real most = 0;
+  for (std::uint32_t k = part.firstBlock; k < part.endBlock; ++k) {
+    if (own.hierarchy.blocks[k].column != ALL_VERTICES) continue;
+    const RigidBlock<Real>& block = own.coarseBlocks[k];
+    const Real stiffness = (block.tt[0][0] + block.tt[1][1]) + block.tt[2][2];
+    if (stiffness > most) held = own.hierarchy.blocks[k].row;
+    most = stiffness > most ? stiffness : most;
+  }
+  return held;
+}
+
 }  // namespace
 
-// The place of the last vertex have all of them, moving as one rigid body about its center: A' = Q^T A Q. So
-// what is soft, the cloth as a whole, has entries of its own, and is no difference of stiff ones. At the end
-// A^-1 = Q A'^-1 Q^T.
+// The place of the vertex that is held most stiffly have all of them, moving as one rigid body about its
+// center: A' = Q^T A Q. So what is soft, the cloth as a whole, has entries of its own, and is no difference
+// of stiff ones. At the end A^-1 = Q A'^-1 Q^T.
 template <class Real>
 void invertDense(ImplicitState<Real>& own, const DensePart& part) {
-  const std::size_t order = 6 * static_cast<std::size_t>(part.count), last = order - 6;
-  const std::uint32_t lastVertex = part.first + part.count - 1;
+  const std::size_t order = 6 * static_cast<std::size_t>(part.count);
+  const std::uint32_t held = mostHeldOf(own, part), end = part.first + part.count;
+  const std::size_t all = 6 * static_cast<std::size_t>(held - part.first);
   Real* matrix = own.dense.data() + part.firstEntry;
   std::fill(matrix, matrix + order * order, Real(0));
-  const auto offsetOf = [&](std::uint32_t vertex) { return own.centers[vertex] - own.centers[lastVertex]; };
+  const auto offsetOf = [&](std::uint32_t vertex) { return own.centers[vertex] - own.centers[held]; };
   const auto put = [&](const RigidBlock<Real>& block, std::size_t row, std::size_t column) {
     const SixColumns<Real> entries = columnsOf(block);
     for (std::size_t j = 0; j < 6; ++j)
@@ -143,24 +159,25 @@ void invertDense(ImplicitState<Real>& own, const DensePart& part) {
       RigidBlock<Real> ofAll;
       addShifted(ofAll, Real(1), stored, Four<Real>{}, offset);
       addShifted(whole, Real(1), stored, offset, offset);
-      if (row != last) put(ofAll, row, last);
-    } else if (block.column < lastVertex) {  // beyond: across a cut, where it is 0
+      if (row != all) put(ofAll, row, all);
+    } else if (block.column < end && block.row != held && block.column != held) {  // across a cut it is 0
       put(stored, row, 6 * static_cast<std::size_t>(block.column - part.first));
     }
   }
-  put(whole, last, last);
+  put(whole, all, all);
   std::vector<Real> began(order), column(order);
   sweepOut(order, began.data(), column.data(),
            [=](std::size_t i, std::size_t j) -> Real& { return matrix[j * order + i]; });
   // Rows, then columns: a vertex moves with all, t + r x offset, besides on its own.
   for (const std::size_t stride : {std::size_t{1}, order}) {
     const std::size_t across = order + 1 - stride;
-    for (std::uint32_t vertex = part.first; vertex < lastVertex; ++vertex) {
+    for (std::uint32_t vertex = part.first; vertex < end; ++vertex) {
+      if (vertex == held) continue;
       const Vec3<Real> offset = threeOf(offsetOf(vertex));
       for (std::size_t j = 0; j < order; ++j) {
-        const Real* all = matrix + last * stride + j * across;
+        const Real* ofAll = matrix + all * stride + j * across;
         Real* first = matrix + 6 * static_cast<std::size_t>(vertex - part.first) * stride + j * across;
-        const Vec3<Real> t = threeAt(all, stride), r = threeAt(all + 3 * stride, stride);
+        const Vec3<Real> t = threeAt(ofAll, stride), r = threeAt(ofAll + 3 * stride, stride);
         addTo(first, stride, t + cross(r, offset));
         addTo(first + 3 * stride, stride, r);
       }
