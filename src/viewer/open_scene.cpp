@@ -42,6 +42,9 @@ void OpenScene::frameFor(int width, int height, const CoveredEdges& covered) {
 
 void OpenScene::draw(int width, int height) { renderer_.draw(camera_, 0, width, height); }
 
-Image OpenScene::picture(int width, int height) { return renderer_.picture(camera_, width, height); }
+Image OpenScene::picture(int width, int height) {
+  renderer_.renderer().setScale(1);
+  return renderer_.picture(camera_, width, height);
+}
 
 }  // namespace clothsim

@@ -22,18 +22,22 @@ constexpr double mostSimulationSeconds = 0.1;  // between two pictures, where a 
 
 }  // namespace
 
-RenderOptions renderOptions(const ViewerOptions& options) {
+Quality chosenQuality(const std::string& wish) {
+  const Quality automatic = gl::currentContextInfo().software ? Quality::draft : Quality::final;
+  return qualityNamed(wish).value_or(automatic);
+}
+
+RenderOptions Viewer::renderOptions() const {
   RenderOptions render;
-  render.sphereSegmentsAround = options.sphereSegmentsAround;
-  render.sphereSegmentsDown = options.sphereSegmentsDown;
-  // On a software renderer every sample costs time: edges are smoothed afterwards instead.
-  if (gl::currentContextInfo().software) render.samples = 1;
-  return render;
+  render.sphereSegmentsAround = options_.sphereSegmentsAround;
+  render.sphereSegmentsDown = options_.sphereSegmentsDown;
+  return withQuality(render, quality_, gl::currentContextInfo().software);
 }
 
 Viewer::Viewer(const Shared<Scene>& scene, const ViewerOptions& options,
                const std::optional<LostSession>& lost)
     : options_(options), window_("clothsim", options.sceneName) {
+  setQuality(chosenQuality(options.quality));
   LoadedConfig loaded = loadViewerConfig(viewerConfigPath());
   config_ = savedConfig_ = loaded.config;
   if (!loaded.notice.empty()) say(loaded.notice, longNoticeSeconds);
@@ -49,7 +53,7 @@ Viewer::Viewer(const Shared<Scene>& scene, const ViewerOptions& options,
                  "the GPU\n");
   open_ = load(source, [&] {
     return std::make_unique<OpenScene>(lost ? lost->loaded : scene, source, lost ? "cpu" : backend,
-                                       renderOptions(options));
+                                       renderOptions());
   });
   if (lost) {
     if (lost->edited != lost->loaded) open_->edit(*lost->edited, false);
@@ -185,12 +189,7 @@ void Viewer::draw() {
   attempt([&] { open_->update(); });
   open_->view = wanted;
   const auto width = static_cast<int>(area.width), height = static_cast<int>(area.height);
-  timings_.time(FrameTimings::picture, [&] {
-    attempt([&] {
-      open_->frameFor(width, height, coveredEdges());
-      open_->draw(width, height);
-    });
-  });
+  timings_.time(FrameTimings::picture, [&] { attempt([&] { drawPicture(width, height); }); });
   timings_.time(FrameTimings::controls, [&] {
     ui_.begin(window_.textScale());
     attempt([&] { drawControls(); });
@@ -204,6 +203,19 @@ void Viewer::draw() {
   });
   if (const std::string now = viewerTitle(*open_, meter_, paused_); now != title_)
     window_.setTitle(title_ = now);
+}
+
+// What rests is drawn in all pixels, and so is what is being recorded.
+void Viewer::drawPicture(int width, int height) {
+  open_->frameFor(width, height, coveredEdges());
+  const bool rests = paused_ && drawsLeft_ <= 0;
+  const bool whole = rests || taker_.recordedSeconds() || !gl::currentContextInfo().software;
+  open_->renderer().renderer().setScale(whole ? 1 : drawScale_.scale());
+  LapClock clock;
+  open_->draw(width, height);
+  if (whole) return;
+  gl::finish();
+  drawScale_.drawn(clock.lap());
 }
 
 // To be called between two pictures, since picking draws into another framebuffer.
@@ -238,7 +250,8 @@ void Viewer::drawPanels() {
   if (!draftHeld_) draft_ = open_->scene();
   const glm::vec3 target = open_->camera().target();
   const std::string name = open_->name();
-  PanelContext context{draft_, widgets_, session(), open_->view, {target.x, target.y, target.z}, name};
+  PanelContext context{draft_, widgets_, session(), open_->view, {target.x, target.y, target.z},
+                       name,   quality_};
   column_.draw(context, config_);
   requests_.edits = widgets_.takeEdits();
   requests_.panels = std::move(context.requests);
@@ -269,6 +282,7 @@ void Viewer::apply(const PanelRequests& requests) {
   attempt([&] {
     for (const ViewerAction action : requests.actions) act(action);
     if (requests.backend) switchBackend(*requests.backend);
+    if (requests.quality) setQuality(*requests.quality);
     if (requests.saveSceneAs) saveSceneAs(*requests.saveSceneAs);
     if (requests.resetScene) {
       edit(*open_->loaded(), false);

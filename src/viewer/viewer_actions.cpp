@@ -113,6 +113,10 @@ void Viewer::act(ViewerAction action) {
       return switchIntegrator();
     case ViewerAction::nextShader:
       return nextShader();
+    case ViewerAction::nextQuality:
+      setQuality(
+          static_cast<Quality>((static_cast<int>(quality_) + 1) % static_cast<int>(qualityNames.size())));
+      return say("Quality of the picture: " + std::string(nameOf(quality_)));
     case ViewerAction::resetCamera:
       return open_->camera().reset();
     case ViewerAction::undo:
@@ -188,6 +192,12 @@ void Viewer::nextShader() {
   say("Shading model: " + scene.render.shader);
 }
 
+void Viewer::setQuality(Quality quality) {
+  quality_ = quality;
+  drawScale_ = DrawScale(pictureBudget(quality));
+  if (open_) open_->renderer().setOptions(renderOptions());
+}
+
 void Viewer::edit(const Scene& scene, bool continues) {
   const double before = open_->frameSeconds();
   open_->edit(scene, continues);
@@ -261,7 +271,7 @@ std::unique_ptr<OpenScene> Viewer::load(const std::string& source,
 void Viewer::openScene(const std::string& source) {
   const std::string backend = open_->backend();
   std::unique_ptr<OpenScene> next = load(source, [&] {
-    return std::make_unique<OpenScene>(loadSceneByName(source), source, backend, renderOptions(options_));
+    return std::make_unique<OpenScene>(loadSceneByName(source), source, backend, renderOptions());
   });
   next->view = open_->view;
   taker_.abandonClip();

@@ -13,6 +13,7 @@
 
 #include "core/error.h"
 #include "gl/context.h"
+#include "render/draw_scale.h"
 #include "viewer/compare_card.h"
 #include "viewer/frame_timings.h"
 #include "viewer/mouse_tools.h"
@@ -30,8 +31,8 @@
 
 namespace clothsim {
 
-// With as many samples a pixel as the device draws fluently.
-[[nodiscard]] RenderOptions renderOptions(const ViewerOptions& options);
+// "auto" is draft on a software renderer and final on others. Needs a current context.
+[[nodiscard]] Quality chosenQuality(const std::string& wish);
 
 class LapClock {
  public:
@@ -91,6 +92,8 @@ class Viewer {
   void switchBackend(const std::string& backend);
   void switchIntegrator();
   void nextShader();
+  void setQuality(Quality quality);
+  [[nodiscard]] RenderOptions renderOptions() const;
   void edit(const Scene& scene, bool continues);
   void undo(bool again);
   void seek(int frame);
@@ -108,6 +111,7 @@ class Viewer {
   int simulate(double elapsed);
   [[nodiscard]] int stepFrames(int frames);
   void draw();
+  void drawPicture(int width, int height);
   void measure();
   void drawControls();
   void drawPanels();
@@ -158,6 +162,8 @@ class Viewer {
   PictureTaker taker_;
   Pace pace_{1.0 / 90};
   SpeedMeter meter_;
+  Quality quality_ = Quality::final;
+  DrawScale drawScale_{0};
   LapClock clock_;
   FrameTimings timings_{options_.timings};
   Notice notice_;

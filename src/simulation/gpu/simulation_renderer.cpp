@@ -27,6 +27,11 @@ void SimulationRenderer::update() {
   }
 }
 
+void SimulationRenderer::setOptions(const RenderOptions& options) {
+  renderer_->setOptions(options);
+  options_ = options;
+}
+
 GLuint SimulationRenderer::positionsBuffer() {
   if (const auto* gpu = dynamic_cast<const GpuSolver*>(&simulation_.solver())) return gpu->positionsBuffer();
   const std::uint64_t version = simulation_.version(), step = simulation_.solver().stepIndex();

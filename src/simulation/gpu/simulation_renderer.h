@@ -18,6 +18,8 @@ class SimulationRenderer {
   // Takes over the scene, the cloth and the cuts that the simulation has now. @throws as the constructor
   void update();
   [[nodiscard]] Renderer& renderer() { return *renderer_; }
+  // As Renderer::setOptions(), also for what update() makes anew.
+  void setOptions(const RenderOptions& options);
 
   // The name of a buffer with a vec4 a particle. It is the GPU solver's own; a state of the CPU is uploaded
   // once after each change.

@@ -21,6 +21,7 @@ struct PanelRequests {
   std::optional<std::string> openScene;    // a name or path as for -f
   std::optional<std::string> saveSceneAs;  // a path
   std::optional<std::string> backend;      // "cpu" or "gpu"
+  std::optional<Quality> quality;          // of the picture
   bool resetScene = false;                 // back to the loaded scene
 };
 
@@ -32,6 +33,7 @@ struct PanelContext {
   ViewOptions& view;
   Vec3d lookedAt;  // target of the camera, where new colliders are placed [m]
   const std::string& sceneName;
+  Quality quality;  // of the picture
   PanelRequests requests{};
 };
 
