@@ -236,7 +236,8 @@ void Renderer::Parts::drawCloth(GLuint positions) {
 
 void Renderer::Parts::drawOverlay(GLuint positions) {
   if (view == ViewOptions{}) return;
-  springs.draw(view, programs.overlays(), *cloth, cuts, positions);
+  const float pinScale = scale < 1 ? 1.6f : 1.0f;  // which few pixels would wash out
+  springs.draw(view, programs.overlays(), *cloth, cuts, positions, pinScale);
 }
 
 void Renderer::Parts::drawIdentities(GLuint positions) {
@@ -331,6 +332,8 @@ void Renderer::Parts::stretch() const {
 void Renderer::Parts::show(GLuint destination, int width, int height) const {
   glBlitNamedFramebuffer((scale < 1 ? stretched : finished).name(), destination, 0, 0, width, height, 0, 0,
                          width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glBindFramebuffer(GL_FRAMEBUFFER, destination);  // for what is drawn over the picture
+  glViewport(0, 0, width, height);
 }
 
 Renderer::Renderer(const Shared<Cloth>& cloth, const Shared<Scene>& scene, const RenderOptions& options)

@@ -52,10 +52,10 @@ class Pace {
 // readable.
 class SpeedMeter {
  public:
-  void add(double elapsed, double simulated) {
+  void add(double elapsed, double simulated, int pictures = 1) {
     wall_ += elapsed;
     simulated_ += simulated;
-    ++frames_;
+    frames_ += pictures;
     if (wall_ < windowSeconds) return;
     framesPerSecond_ = frames_ / wall_;
     realTimeFactor_ = simulated_ / wall_;

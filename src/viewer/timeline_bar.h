@@ -20,6 +20,7 @@ struct TimelineRequests {
   std::optional<int> seek;
   bool togglePause = false, stepBack = false, stepForward = false, screenshot = false,
        toggleRecording = false;
+  friend bool operator==(const TimelineRequests&, const TimelineRequests&) = default;
 };
 
 // Height of the bar [pixels].

@@ -24,18 +24,18 @@ void Viewer::listen() {
   window_.setInput(
       {.key = [this](const KeyStroke& stroke, bool repeated) { onKey(stroke, repeated); },
        .press = [this](ViewerWindow::Button button, ViewerWindow::Cursor cursor, bool control,
-                       bool shift) { whenIdle([=, this] { onPress(button, cursor, control, shift); }); },
+                       bool shift) { atOnce([=, this] { onPress(button, cursor, control, shift); }); },
        .move =
            [this](ViewerWindow::Cursor cursor) {
-             whenIdle([=, this] { mouse_.move(mouseContext(), cursor); });
+             atOnce([=, this] { mouse_.move(mouseContext(), cursor); });
            },
        .release =
            [this](ViewerWindow::Button button) {
-             whenIdle([=, this] { mouse_.release(mouseContext(), button); });
+             atOnce([=, this] { mouse_.release(mouseContext(), button); });
            },
        .scroll =
            [this](double steps, ViewerWindow::Cursor cursor) {
-             whenIdle([=, this] {
+             atOnce([=, this] {
                if (isOverPicture(cursor)) mouse_.scroll(mouseContext(), steps, cursor);
              });
            },
@@ -48,10 +48,18 @@ void Viewer::listen() {
 // Input that comes within a frame is handled at the end of the frame.
 void Viewer::whenIdle(std::function<void()> task) {
   drawsLeft_ = drawsAfterInput;
-  if (stepping_)
+  if (isStepping())
     waiting_.push_back(std::move(task));
   else
     attempt(task);
+}
+
+// What asks the session for nothing, or through MouseContext::act alone. It waits for a frame that this
+// thread is in, which may be within a call of the session.
+void Viewer::atOnce(std::function<void()> task) {
+  if (stepping_) return whenIdle(std::move(task));
+  drawsLeft_ = drawsAfterInput;
+  attempt(task);
 }
 
 void Viewer::onKey(const KeyStroke& stroke, bool repeated) {
@@ -61,9 +69,10 @@ void Viewer::onKey(const KeyStroke& stroke, bool repeated) {
   const bool repeats = action == ViewerAction::stepBack || action == ViewerAction::stepForward ||
                        action == ViewerAction::stepFrame || action == ViewerAction::undo ||
                        action == ViewerAction::redo;
-  whenIdle([=, this] {
+  const auto task = [=, this] {
     if (!repeated || repeats) act(action);
-  });
+  };
+  isImmediate(action) ? atOnce(task) : whenIdle(task);
 }
 
 // Closes what is open over the picture, else the window.
@@ -157,6 +166,7 @@ void Viewer::actOnFile(ViewerAction action) {
 // Keeps the window responsive while a frame is simulated, and lets it be closed.
 void Viewer::watchSteps() {
   session().setPoll([this] {
+    if (std::this_thread::get_id() != ownThread_) return !steps_.isStopped();
     window_.pollEvents();
     return !window_.shouldClose();
   });

@@ -58,7 +58,7 @@ const char* nameOf(Integrator integrator) { return integratorName(integrator); }
 std::string viewerTitle(const OpenScene& open, const SpeedMeter& meter, bool paused) {
   const double rate = meter.framesPerSecond();
   return open.name() + " - " + open.backend() +
-         (paused     ? " - paused at frame " + std::to_string(open.session().frameSinceStart())
+         (paused     ? " - paused at frame " + std::to_string(open.facts().frameSinceStart)
           : rate > 0 ? formatted(" - %.0f fps", rate)
                      : "") +
          " - clothsim";
@@ -73,7 +73,7 @@ OverlayFacts viewerFacts(const OpenScene& open, const SpeedMeter& meter, bool pa
                 {"cloth", gridSizes(simulation.cloth()) + " = " +
                               withCommas(simulation.cloth().particleCount()) + " particles"},
                 {"integrator", nameOf(open.scene().solver.integrator), false, true},
-                {"time", formatted("%.2f s", simulation.time())}};
+                {"time", formatted("%.2f s", open.time())}};
   if (paused)
     facts.rows.push_back({"speed", looksBack ? "in the past (P: resume)" : "paused (P: resume)", true, true});
   else

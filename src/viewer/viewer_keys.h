@@ -92,6 +92,22 @@ struct KeyStroke {
   return stroke;
 }
 
+// Whether the action asks nothing of the simulation, and is done also while a frame is being simulated.
+[[nodiscard]] inline bool isImmediate(ViewerAction action) {
+  switch (action) {
+    case ViewerAction::pause:
+    case ViewerAction::resetCamera:
+    case ViewerAction::nextQuality:
+    case ViewerAction::toggleKeyList:
+    case ViewerAction::toggleOverlay:
+    case ViewerAction::togglePanels:
+    case ViewerAction::quit:
+      return true;
+    default:
+      return false;
+  }
+}
+
 [[nodiscard]] inline ViewerAction actionOf(const KeyStroke& stroke) {
   for (const ViewerKey& key : viewerKeys)
     if (key.action != ViewerAction::none && keyStroke(key.input) == stroke) return key.action;

@@ -8,12 +8,14 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include "core/error.h"
 #include "gl/context.h"
 #include "render/draw_scale.h"
+#include "session/step_thread.h"
 #include "viewer/compare_card.h"
 #include "viewer/frame_timings.h"
 #include "viewer/mouse_tools.h"
@@ -79,6 +81,7 @@ class Viewer {
   // --- input from the window
   void listen();
   void whenIdle(std::function<void()> task);
+  void atOnce(std::function<void()> task);
   void onKey(const KeyStroke& stroke, bool repeated);
   void escape();
   void onPress(ViewerWindow::Button button, ViewerWindow::Cursor cursor, bool control, bool shift);
@@ -110,6 +113,14 @@ class Viewer {
   void iterate();
   int simulate(double elapsed);
   [[nodiscard]] int stepFrames(int frames);
+  void startFrames(int frames);
+  [[nodiscard]] int takeFrames();
+  [[nodiscard]] int finishedFrames(int frames, double seconds, bool went,
+                                   const std::optional<Divergence>& divergence);
+  void endFrames();
+  void doWaiting();
+  [[nodiscard]] bool isStepping() const { return stepping_ || steps_.isBusy(); }
+  void waitForInput();
   void draw();
   void drawPicture(int width, int height);
   void measure();
@@ -166,6 +177,8 @@ class Viewer {
   DrawScale drawScale_{0};
   LapClock clock_;
   FrameTimings timings_{options_.timings};
+  StepThread steps_{[this] { window_.wakeUp(); }};  // simulates on the CPU backend
+  const std::thread::id ownThread_ = std::this_thread::get_id();
   Notice notice_;
   ViewerConfig config_, savedConfig_;
   ControlRequests requests_;
@@ -177,10 +190,14 @@ class Viewer {
   std::optional<std::string> sceneToOpen_;
   std::optional<std::string> lost_;  // why the context was lost
   std::string title_;
-  double now_ = 0, pinsShownUntil_ = 0;         // [s] since the start
-  int drawsLeft_ = drawsAfterInput;             // pictures that a paused window still draws after input
-  bool stepping_ = false;                       // the session is within a frame, and
-  std::vector<std::function<void()>> waiting_;  // input waits here
+  double now_ = 0, pinsShownUntil_ = 0;  // [s] since the start
+  int drawsLeft_ = drawsAfterInput;      // pictures that a paused window still draws after input
+  double unpaced_ = 0;                   // time that pace_ does not know of yet [s]
+  double lastDrawn_ = 0;                 // [s] since the start
+  bool stepping_ = false;                // the session is within a frame on this thread. Then, and while
+  std::vector<std::function<void()>>
+      waiting_;                       // steps_ is busy, what asks the session for something waits here
+  std::optional<Scene> waitingEdit_;  // the newest of the panels, which waits likewise
   bool paused_ = false, stepAsked_ = false, showKeys_ = false;
 };
 
