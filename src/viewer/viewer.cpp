@@ -94,11 +94,13 @@ void Viewer::iterate() {
   if (!draws) return;
   lastDrawn_ = now_;
   attempt([&] { taker_.shown(*open_, paused_ ? elapsed : frames * open_->frameSeconds()); });
+  LapClock drawing;
   attempt([&] { draw(); });
+  meter_.spent(0, drawing.lap());
   keepConfig();
   // Where the display does not limit the rate, the loop waits instead of drawing the same picture again.
   if (!paused_ && frames == 0 && !steps_.isBusy() && !compare_.isRunning())
-    window_.waitEvents(pace_.secondsUntilDue());
+    window_.waitEvents(pace_.secondsUntilDue() / tempo_);
   attempt(gl::checkContext);
 }
 
@@ -132,7 +134,7 @@ bool Viewer::isOverPicture(ViewerWindow::Cursor cursor) const {
   const PictureArea area = pictureArea();
   const bool inside = cursor.x >= 0 && cursor.x < static_cast<double>(area.width) && cursor.y >= 0 &&
                       cursor.y < static_cast<double>(area.height - timelineHeight());
-  return inside && !((ui_.hasPopup() || compare_.isOpen()) && ui_.wantsMouse());
+  return inside && !((ui_.hasPopup() || compare_.isOpen() || advice()) && ui_.wantsMouse());
 }
 
 MouseContext Viewer::mouseContext() {
@@ -170,7 +172,7 @@ int Viewer::simulate(double elapsed) {
   });
   const double unpaced = std::exchange(unpaced_, 0);
   if (compare_.isRunning() || sceneToOpen_ || lost_) return done;
-  const int frames = paused_ ? std::exchange(stepAsked_, false) : pace_.framesDue(unpaced);
+  const int frames = paused_ ? std::exchange(stepAsked_, false) : pace_.framesDue(tempo_ * unpaced);
   if (frames == 0) return done;
   if (open_->backend() != "cpu") return done + stepFrames(frames);
   attempt([&] { startFrames(frames); });
@@ -223,6 +225,7 @@ int Viewer::finishedFrames(int frames, double seconds, bool went,
                1e9, true};
   }
   pace_.simulated(frames, seconds);
+  meter_.spent(seconds, 0);
   column_.measures().stepped(static_cast<double>(session().simulation().cloth().particleCount()) * frames *
                                  open_->scene().solver.simulationSteps,
                              seconds);
@@ -298,12 +301,15 @@ void Viewer::drawControls() {
   drawMarks(mouse_.marks(mouseContext(), window_.cursor()));
   const float neededByOthers = showKeys_ ? 66.0f : compare_.isOpen() ? 40.0f : 0.0f;  // em
   if (config_.showOverlay && area.width >= neededByOthers * em())
-    drawFacts(viewerFacts(*open_, meter_, paused_, looksBack(), column_.measures().warnings(open_->scene())),
+    drawFacts(viewerFacts(*open_, meter_, paused_, looksBack(), tempo_,
+                          column_.measures().warnings(open_->scene())),
               area);
   if (showsPanels()) drawPanels();
+  if (const std::optional<PaceAdvice> offered = advice(); offered && config_.showOverlay && !showKeys_)
+    if (drawAdvice(offered->cause, offered->button, area, timelineHeight())) requests_.advice = offered;
   const SessionFacts now = open_->facts();
   requests_.timeline = drawTimeline({now.oldestFrame, now.frame, now.newestFrame, now.frameSinceStart,
-                                     open_->frameSeconds(), paused_, taker_.recordedSeconds()},
+                                     open_->frameSeconds(), paused_, tempo_, taker_.recordedSeconds()},
                                     area);
   compare_.draw(area);
   if (notice_.secondsLeft > 0) drawNotice(notice_.text, notice_.isError, area, timelineHeight());
@@ -331,6 +337,8 @@ void Viewer::applyRequests() {
   const TimelineRequests& timeline = asked.timeline;
   if (panels != PanelRequests{}) whenIdle([=, this] { apply(panels); });
   if (timeline != TimelineRequests{}) whenIdle([=, this] { apply(timeline); });
+  if (timeline.slowMotion) atOnce([this] { act(ViewerAction::slowMotion); });
+  if (asked.advice) whenIdle([this, advice = *asked.advice] { apply(advice); });
 }
 
 void Viewer::apply(const FieldEdits& edits) {
@@ -370,6 +378,20 @@ void Viewer::apply(const TimelineRequests& requests) {
     if (requests.togglePause) act(ViewerAction::pause);
     if (requests.screenshot) act(ViewerAction::screenshot);
     if (requests.toggleRecording) act(ViewerAction::recordClip);
+  });
+}
+
+std::optional<PaceAdvice> Viewer::advice() const {
+  if (paused_ || compare_.isRunning() || meter_.framesPerSecond() == 0) return std::nullopt;
+  return adviceFor({meter_.realTimeFactor() / tempo_, meter_.steppingShare(), meter_.drawingShare()},
+                   open_->scene(), quality_, gl::currentContextInfo().software, open_->backend());
+}
+
+void Viewer::apply(const PaceAdvice& advice) {
+  attempt([&] {
+    if (advice.quality) setQuality(*advice.quality);
+    if (advice.backend) switchBackend(*advice.backend);
+    if (advice.scene) edit(*advice.scene, false);
   });
 }
 

@@ -5,6 +5,7 @@
 #include <future>
 
 #include "cloth/material.h"
+#include "core/formatted.h"
 #include "export/export.h"
 #include "export/sequence.h"
 #include "output/numbered_files.h"
@@ -108,6 +109,9 @@ void Viewer::act(ViewerAction action) {
     case ViewerAction::stepFrame:
       stepAsked_ = paused_;
       return;
+    case ViewerAction::slowMotion:
+      tempo_ = nextTempo(tempo_);
+      return say(tempo_ < 1 ? formatted("Slow motion: %g\u00d7", tempo_) : "Real time");
     case ViewerAction::restart:
       return restart();
     case ViewerAction::stepBack:

@@ -39,14 +39,15 @@ std::string gridSizes(const Cloth& cloth) {
   return text;
 }
 
-OverlayFacts::Row speedRow(const OpenScene& open, const SpeedMeter& meter) {
+OverlayFacts::Row speedRow(const OpenScene& open, const SpeedMeter& meter, double tempo) {
   const double factor = meter.realTimeFactor();
   if (meter.framesPerSecond() == 0) return {"speed", "measuring", false, true};
-  const bool slow = factor < 0.95;
+  const bool slow = factor < 0.95 * tempo;
   // A software renderer is the CPU, and slower than the CPU backend.
   const bool cpuMayBeFaster = slow && gl::currentContextInfo().software && open.backend() == "gpu";
   return {"speed",
-          formatted(slow ? "%.2f" : "%.1f", factor) + "\u00d7 real time" +
+          formatted(slow || tempo < 1 ? "%.2f" : "%.1f", factor) + "\u00d7 real time" +
+              (tempo < 1 ? formatted(" of %g\u00d7", tempo) : "") +
               (cpuMayBeFaster ? ", B: try the CPU" : ""),
           slow, true};
 }
@@ -65,7 +66,7 @@ std::string viewerTitle(const OpenScene& open, const SpeedMeter& meter, bool pau
 }
 
 OverlayFacts viewerFacts(const OpenScene& open, const SpeedMeter& meter, bool paused, bool looksBack,
-                         const std::vector<Warning>& warnings) {
+                         double tempo, const std::vector<Warning>& warnings) {
   const Simulation& simulation = open.session().simulation();
   OverlayFacts facts;
   facts.title = open.name();
@@ -77,7 +78,7 @@ OverlayFacts viewerFacts(const OpenScene& open, const SpeedMeter& meter, bool pa
   if (paused)
     facts.rows.push_back({"speed", looksBack ? "in the past (P: resume)" : "paused (P: resume)", true, true});
   else
-    facts.rows.push_back(speedRow(open, meter));
+    facts.rows.push_back(speedRow(open, meter, tempo));
   if (meter.framesPerSecond() > 0 && !paused)
     facts.rows.push_back({"display", formatted("%.0f frames/s", meter.framesPerSecond())});
   for (const Warning& warning : warnings) facts.rows.push_back({warning.kind, warning.brief, true, true});

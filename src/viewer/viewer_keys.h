@@ -18,6 +18,7 @@ enum class ViewerAction {
   toggleBackend,
   compareBackends,
   toggleIntegrator,
+  slowMotion,
   nextShader,
   nextQuality,
   resetCamera,
@@ -53,6 +54,7 @@ inline constexpr std::array viewerKeys{
     ViewerKey{"Space", "reset the camera", ViewerAction::resetCamera},
     ViewerKey{"P", "pause / resume", ViewerAction::pause},
     ViewerKey{"N", "advance one frame while paused", ViewerAction::stepFrame},
+    ViewerKey{"S", "slow motion: 1, 0.5, 0.25, 0.1 times real time", ViewerAction::slowMotion},
     ViewerKey{"R", "restart from frame 0", ViewerAction::restart},
     ViewerKey{"Left", "go back one frame", ViewerAction::stepBack},
     ViewerKey{"Right", "go forward one frame, after going back", ViewerAction::stepForward},
@@ -98,6 +100,7 @@ struct KeyStroke {
     case ViewerAction::pause:
     case ViewerAction::resetCamera:
     case ViewerAction::nextQuality:
+    case ViewerAction::slowMotion:
     case ViewerAction::toggleKeyList:
     case ViewerAction::toggleOverlay:
     case ViewerAction::togglePanels:

@@ -21,6 +21,7 @@
 #include "viewer/mouse_tools.h"
 #include "viewer/open_scene.h"
 #include "viewer/pace.h"
+#include "viewer/pace_advice.h"
 #include "viewer/panels/panels.h"
 #include "viewer/picture_taker.h"
 #include "viewer/timeline_bar.h"
@@ -76,6 +77,7 @@ class Viewer {
     FieldEdits edits;
     PanelRequests panels;
     TimelineRequests timeline;
+    std::optional<PaceAdvice> advice;  // that is to be followed
   };
 
   // --- input from the window
@@ -130,6 +132,8 @@ class Viewer {
   void apply(const FieldEdits& edits);
   void apply(const PanelRequests& requests);
   void apply(const TimelineRequests& requests);
+  void apply(const PaceAdvice& advice);
+  [[nodiscard]] std::optional<PaceAdvice> advice() const;
   void keepConfig();
 
   [[nodiscard]] Session& session() { return open_->session(); }
@@ -192,6 +196,7 @@ class Viewer {
   std::string title_;
   double now_ = 0, pinsShownUntil_ = 0;  // [s] since the start
   int drawsLeft_ = drawsAfterInput;      // pictures that a paused window still draws after input
+  double tempo_ = 1;                     // simulated seconds per second that are wanted
   double unpaced_ = 0;                   // time that pace_ does not know of yet [s]
   double lastDrawn_ = 0;                 // [s] since the start
   bool stepping_ = false;                // the session is within a frame on this thread. Then, and while
