@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 
 #include "core/error.h"
 #include "gl/framebuffer.h"
 #include "gl/program.h"
 #include "gl/timer.h"
+#include "render/draw_scale.h"
 #include "render/renderer.h"
 #include "scene_io/scene_io.h"
 #include "simulation/gpu/simulation_renderer.h"
@@ -18,6 +20,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr int REPETITIONS = 7;
+constexpr int ADAPTING_PICTURES = 24;
 constexpr double DEMO_FRAME = 1.0 / 30;  // [s]
 
 double secondsSince(Clock::time_point start) {
@@ -79,33 +82,41 @@ StepRate measureStepRate(const Scene& scene, const std::string& backend, double 
   return rate;
 }
 
-DrawRate measureDrawing(const Scene& scene, const State& state, int samples, int width, int height) {
+DrawRate measureDrawing(const Scene& scene, const State& state, Quality quality, int width, int height) {
   const Cloth cloth(scene);
   const gl::Buffer<Particle4> positions("positions to draw", state.positions);
-  RenderOptions options;
-  options.samples = gl::supportedSamples(samples);
-  Renderer renderer(cloth, scene, options);
+  const bool software = gl::currentContextInfo().software;
+  Renderer renderer(cloth, scene, withQuality({}, quality, software));
+  DrawScale scale(software ? pictureBudget(quality) : 0);
   const Camera camera(scene, cloth);
   const gl::Framebuffer target("bench", {.width = width, .height = height, .color = GL_RGBA8});
   DrawRate rate;
   rate.shader = scene.render.shader;
-  rate.samples = options.samples;
+  rate.quality = quality;
   gl::Timer timer;
-  std::vector<double> whole;
-  std::vector<std::vector<double>> passes;
-  for (int i = 0; i <= 7; ++i) {
+  const auto draw = [&] {
+    renderer.setScale(scale.scale());
     timer.begin();
     renderer.draw(positions.name(), camera, 0, target.name(), width, height);
     timer.end();
-    const double seconds = timer.seconds();
+    return timer.seconds();
+  };
+  draw();  // compiles shaders
+  for (int i = 0; i < ADAPTING_PICTURES && software; ++i) scale.drawn(draw());
+  rate.scale = scale.scale();
+  std::vector<double> whole, processor;
+  std::vector<std::vector<double>> passes;
+  for (int i = 0; i < REPETITIONS; ++i) {
+    const std::clock_t before = std::clock();
+    whole.push_back(draw());
+    processor.push_back(static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC);
     rate.passes = renderer.timeDraw(positions.name(), camera, 0, target.name(), width, height);
-    if (i == 0) continue;  // the first picture compiles shaders
-    whole.push_back(seconds);
     passes.resize(rate.passes.size());
     for (std::size_t pass = 0; pass < passes.size(); ++pass)
       passes[pass].push_back(rate.passes[pass].seconds);
   }
   rate.seconds = median(whole);
+  rate.processorSeconds = median(processor);
   for (std::size_t pass = 0; pass < passes.size(); ++pass) rate.passes[pass].seconds = median(passes[pass]);
   return rate;
 }

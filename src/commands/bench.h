@@ -32,12 +32,15 @@ struct StepRate {
 
 struct DrawRate {
   std::string shader;
-  int samples = 0;               // of each pixel
+  Quality quality = Quality::final;
+  double scale = 1;              // of the pixels that the scene is drawn in, where that adapts
   double seconds = 0;            // for a picture, as the viewer draws it
+  double processorSeconds = 0;   // of all threads of this program, for a picture
   std::vector<DrawTime> passes;  // each timed on its own
 };
-// The median times to draw a picture of the scene with `state`. Needs a current context.
-[[nodiscard]] DrawRate measureDrawing(const Scene& scene, const State& state, int samples, int width,
+// The median times to draw a picture of the scene with `state` while the camera rests. Needs a current
+// context.
+[[nodiscard]] DrawRate measureDrawing(const Scene& scene, const State& state, Quality quality, int width,
                                       int height);
 
 struct DemoRate {

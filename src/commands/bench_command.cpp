@@ -114,8 +114,7 @@ std::vector<Scene> variantsOf(const Scene& scene) {
   return variants;
 }
 
-// Times every shading model on the cloth after some frames: with 1 sample a pixel, as the viewer draws on
-// software renderers, and with 4.
+// Times every shading model on the cloth after some frames, in every quality.
 int benchDrawing(const BenchOptions& options) {
   constexpr int width = 1280, height = 720;
   const gl::HeadlessContext context;
@@ -124,13 +123,16 @@ int benchDrawing(const BenchOptions& options) {
   Scene scene = loadScene(sceneOptions);
   const State state = stateAfter(scene, options.afterFrames);
   nlohmann::ordered_json json{{"scene", options.scene.scene}, {"device", context.info().renderer}};
-  for (const int samples : {1, 4}) {
+  for (const Quality quality : {Quality::draft, Quality::normal, Quality::final}) {
     for (const std::string_view shader : shadingModels) {
       stopIfInterrupted();
       scene.render.shader = shader;
-      const DrawRate rate = measureDrawing(scene, state, samples, width, height);
-      nlohmann::ordered_json entry{
-          {"shader", rate.shader}, {"samples", rate.samples}, {"ms", rate.seconds * 1e3}};
+      const DrawRate rate = measureDrawing(scene, state, quality, width, height);
+      nlohmann::ordered_json entry{{"shader", rate.shader},
+                                   {"quality", nameOf(quality)},
+                                   {"scale", rate.scale},
+                                   {"ms", rate.seconds * 1e3},
+                                   {"processor_ms", rate.processorSeconds * 1e3}};
       std::string passes;
       for (const DrawTime& pass : rate.passes) {
         entry["pass_ms"][pass.pass] = pass.seconds * 1e3;
@@ -140,8 +142,9 @@ int benchDrawing(const BenchOptions& options) {
       }
       json["drawing"].push_back(entry);
       if (!options.json)
-        std::printf("%-13s %d sample%s  %7.2f ms%s\n", rate.shader.c_str(), rate.samples,
-                    rate.samples == 1 ? ": " : "s:", rate.seconds * 1e3, passes.c_str());
+        std::printf("%-13s %-7s at %3.0f %% %7.2f ms (of processors %.2f)%s\n", rate.shader.c_str(),
+                    nameOf(quality).data(), 100 * rate.scale, rate.seconds * 1e3, rate.processorSeconds * 1e3,
+                    passes.c_str());
       std::fflush(stdout);
     }
   }

@@ -73,8 +73,8 @@ CLI::Validator number(double low, double high) { return numberWithin(low, high, 
 struct Arguments {
   bool draw = false;
   bool describeStep = false;
-  std::string scene = "pinned2", backend = "gpu", viewerBackend = "auto", from, shader, size = "1280x720",
-              key, replay;
+  std::string scene = "pinned2", backend = "gpu", viewerBackend = "auto", from, quality = "final",
+              viewerQuality = "auto", shader, size = "1280x720", key, replay;
   std::string cellSize = "560x420", out, view = "0,0";
   std::vector<std::string> variations, settings, saves, outs, resolutions, backends;
   int frames = 0, every = 1, around = 64, down = 48, threads = 0;
@@ -126,6 +126,9 @@ void addThreads(CLI::App& app, Arguments& a) {
                  "threads of the CPU backend (CLOTHSIM_THREADS, otherwise one a core); the same bits")
       ->transform(wholeNumber(1, ThreadTeam::MOST_THREADS));
 }
+
+constexpr const char* qualityHelp =
+    "of the picture: draft (fast), normal, final (smooth edges, fine shadows)";
 
 CLI::Option* addFrames(CLI::App& app, Arguments& a, bool required = true) {
   return app
@@ -274,6 +277,9 @@ void declareRender(CLI::App& app, Arguments& a, Task& task) {
   render->add_option("--fps", a.fps, "maximum frame rate of a video; it plays in real time")
       ->transform(number(1.0, 1000.0));
   addLooks(*render, a);
+  render->add_option("--quality", a.quality, qualityHelp)
+      ->check(CLI::IsMember({"draft", "normal", "final"}))
+      ->capture_default_str();
   render->add_option("--from", a.from, "start from a saved .state")->type_name("STATE");
   addSphereSegments(*render, a);
   addStrict(*render, a);
@@ -282,7 +288,8 @@ void declareRender(CLI::App& app, Arguments& a, Task& task) {
     task = [&] {
       const GridSize size = parsePixels(a.size);
       return renderCommand({a.sceneOptions(), a.frames, a.backend, a.outs, size.columns, size.rows, a.every,
-                            a.fps, a.shader, a.around, a.down, a.from, parseView(a.view), a.strict});
+                            a.fps, a.shader, a.around, a.down, a.from, parseView(a.view), a.strict,
+                            a.quality});
     };
   });
 }
@@ -367,13 +374,17 @@ void declareViewer(CLI::App& app, Arguments& a, Task& task) {
   addResolution(app, a);
   addBackend(app, a.viewerBackend);
   addSphereSegments(app, a);
+  app.add_option("--quality", a.viewerQuality, qualityHelp + std::string("; auto: draft on software OpenGL"))
+      ->check(CLI::IsMember({"auto", "draft", "normal", "final"}))
+      ->capture_default_str();
   app.add_flag("--timings", a.timings, "viewer: print on exit how long each part of a displayed frame took");
   app.footer(
       "Without a command: the viewer.\n\nKeys and mouse in the viewer:\n" + viewerKeysText() +
       "\nExit codes: 0 done, 1 the simulation failed or the backends differ, 2 wrong usage, 3 scene error,\n"
       "            4 no usable OpenGL or no display, 5 input/output");
   task = [&] {
-    runViewer(loadScene(a.sceneOptions()), {a.scene, a.viewerBackend, a.around, a.down, a.timings});
+    runViewer(loadScene(a.sceneOptions()),
+              {a.scene, a.viewerBackend, a.around, a.down, a.timings, a.viewerQuality});
     return 0;
   };
 }

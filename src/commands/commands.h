@@ -55,6 +55,7 @@ struct RenderCommandOptions {
   std::string from;  // a .state file to begin with
   ViewTurn view{};
   bool strict = false;  // warnings end it with exit code 1
+  std::string quality = "final";
 };
 int renderCommand(const RenderCommandOptions& options);
 

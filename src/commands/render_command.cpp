@@ -42,7 +42,10 @@ int renderCommand(const RenderCommandOptions& options) {
   const gl::HeadlessContext context;
   Simulation simulation(scene, chosenBackend(options.backend), makeSolver);
   if (!options.from.empty()) simulation.setState(loadState(options.from, simulation.cloth()));
-  SimulationRenderer renderer(simulation, {options.sphereSegmentsAround, options.sphereSegmentsDown});
+  const RenderOptions drawing =
+      withQuality({options.sphereSegmentsAround, options.sphereSegmentsDown},
+                  qualityNamed(options.quality).value_or(Quality::final), gl::currentContextInfo().software);
+  SimulationRenderer renderer(simulation, drawing);
   renderer.update();  // a loaded state may have cuts
   Camera camera(scene, simulation.cloth());
   camera.orbit(options.view.right * radians, options.view.up * radians);

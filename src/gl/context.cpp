@@ -96,6 +96,8 @@ ContextInfo currentContextInfo() {
   return info;
 }
 
+void finish() { glFinish(); }
+
 void checkContext() {
   const GLenum status = glGetGraphicsResetStatus();
   if (status == GL_NO_ERROR) return;

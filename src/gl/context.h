@@ -38,6 +38,9 @@ ContextInfo initializeCurrentContext(void* (*getProcAddress)(const char*));
 // @throws OpenGlError when the driver has reported an error since the last call.
 void checkErrors(const char* where);
 
+// Waits until everything asked for so far is done.
+void finish();
+
 // The driver has reset the device: what lay on it is lost, and this context draws and computes no more.
 struct ContextLost : OpenGlError {
   using OpenGlError::OpenGlError;

@@ -19,6 +19,13 @@ class Colliders {
   // Where those of the scene that was built are at `time` [s].
   void place(const Scene& scene, const Stage& stage, double time);
 
+  // As place() has put them: numbers that differ when a solid or a plane is seen elsewhere,
+  [[nodiscard]] const std::vector<glm::vec4>& places() const { return places_; }
+  // boxes around the solids,
+  [[nodiscard]] const std::vector<Bounds>& solidBounds() const { return solidBounds_; }
+  // and the drawn parts of planes.
+  [[nodiscard]] const std::vector<PlaneDisc>& discs() const { return discs_; }
+
   void drawSolids(const gl::Program& sphere, const gl::Program& shape) const;
   void drawPlanes(const gl::Program& plane) const;
 
@@ -28,6 +35,9 @@ class Colliders {
   SphereMesh spheres_;
   ShapeMeshes shapes_;
   PlaneMesh planes_;
+  std::vector<glm::vec4> places_;
+  std::vector<Bounds> solidBounds_;
+  std::vector<PlaneDisc> discs_;
 };
 
 }  // namespace clothsim

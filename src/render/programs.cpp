@@ -22,11 +22,15 @@ gl::Program makeDepthOnly(const std::string& vertexFile, const ShadingModel& mod
 }  // namespace
 
 RenderPrograms::RenderPrograms(const ShadingModel& model, const std::string& background, int samples)
-    : layBackdrop(gl::Program::makeRender("render/fullscreen.vert", "render/backdrop.frag", {{"LAY", ""}})),
-      resolve(gl::Program::makeRender("render/fullscreen.vert", "render/resolve.frag",
-                                      {{"SAMPLES", std::to_string(samples)}})) {
+    : layBackdrop(gl::Program::makeRender("render/fullscreen.vert", "render/backdrop.frag", {{"LAY", ""}})) {
+  chooseSamples(samples);
   chooseModel(model);
   chooseBackground(background);
+}
+
+void RenderPrograms::chooseSamples(int samples) {
+  resolve = gl::Program::makeRender("render/fullscreen.vert", "render/resolve.frag",
+                                    {{"SAMPLES", std::to_string(samples)}});
 }
 
 void RenderPrograms::chooseModel(const ShadingModel& model) {

@@ -25,6 +25,7 @@ struct RenderPrograms {
   // What a scene chooses. @throws as the constructor, leaving what was there
   void chooseModel(const ShadingModel& model);
   void chooseBackground(const std::string& background);
+  void chooseSamples(int samples);  // of a pixel
 
   // The normals pass of the chosen model.
   [[nodiscard]] const gl::Program& normals(bool withCuts);

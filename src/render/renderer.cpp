@@ -10,6 +10,7 @@
 #include "gl/context.h"
 #include "gl/framebuffer.h"
 #include "gl/timer.h"
+#include "render/changed_area.h"
 #include "render/cloth_mesh.h"
 #include "render/colliders.h"
 #include "render/look.h"
@@ -23,6 +24,7 @@ namespace {
 
 constexpr GLenum backdropFormat = GL_RGB10_A2;  // its slow gradients would show steps in 8 bits
 constexpr GLenum canvasFormat = GL_RGBA8;       // square roots of linear light (shaders/render/tone.glsl)
+constexpr std::size_t mostReadBack = 300'000;   // particles for which it pays to ask what has changed
 
 // The longest side of a triangle of cloth: the diagonal of a cell [m].
 double longestEdge(const Cloth& cloth) {
@@ -59,16 +61,23 @@ struct Renderer::Parts {
   // The passes of a picture in their order, each through around(name, pass).
   template <class Around>
   void draw(const Picture& picture, Around around);
-  void lookFrom(const Camera& camera, int width, int height);
+  void setOptions(const RenderOptions& wanted);
+  void lookFrom(const Camera& camera, int width, int height, double aspect);
   void uploadFrame();
+  [[nodiscard]] bool isDirect() const { return scale == 1 && !options.keepsStill; }
+  void makeTargets(int width, int height, int shownWidth, int shownHeight);
+  void findChanges(GLuint positions, int width, int height);
+  void scissor() const;
   void computeNormals(GLuint positions);
   void drawShadows(GLuint positions);
-  void drawScene(GLuint positions, int width, int height);
+  void drawScene(GLuint positions);
   void drawCloth(GLuint positions);
   void drawOverlay(GLuint positions);
   void drawIdentities(GLuint positions);
   void drawBackdrop(int width, int height);
   void resolveInto(GLuint destination, int width, int height);
+  void show(GLuint destination, int width, int height) const;
+  void stretch() const;
 
   Shared<Cloth> cloth;
   Cuts cuts;
@@ -87,8 +96,12 @@ struct Renderer::Parts {
   ShadowMap shadowMap;
   SpringsOverlay springs;
   std::optional<PickTarget> pickTarget;
+  double scale = 1;
   gl::Framebuffer canvas, backdrop;
-  bool backdropIsCurrent = false;
+  gl::Framebuffer finished, stretched;    // as the screen shows it; of a scale below 1 before and after it
+  std::optional<glm::mat4> backdropSeen;  // from where the backdrop was drawn
+  ChangedArea changes;
+  std::optional<ChangedArea::Area> part;  // of the picture that is drawn; none: all of it
   gl::Buffer<shared::RenderFrame> frameBlock{"render frame", 1};
   gl::VertexArray noVertices{"no vertices"};
 };
@@ -122,12 +135,25 @@ void Renderer::Parts::configure(const Shared<Scene>& edited) {
   shadowMap.cover(stage.reach, glm::vec3(frame.toKeyLight));
   frame.shadowFromWorld = shadowMap.shadowFromWorld();
   frame.toKeyLight.w = shadowMap.texelLength();
-  backdropIsCurrent = false;
+  backdropSeen.reset();
+  changes.forget();
 }
 
-void Renderer::Parts::lookFrom(const Camera& camera, int width, int height) {
+// What can fail comes first.
+void Renderer::Parts::setOptions(const RenderOptions& wanted) {
+  RenderOptions next = withSupportedSamples(wanted);
+  next.sphereSegmentsAround = options.sphereSegmentsAround;
+  next.sphereSegmentsDown = options.sphereSegmentsDown;
+  if (next.samples != options.samples) programs.chooseSamples(next.samples);
+  if (next.shadowMapSize != options.shadowMapSize) shadowMap = ShadowMap(next.shadowMapSize);
+  options = next;
+  configure(scene);
+}
+
+// `aspect` is that of the picture in the end: of fewer pixels it would be rounded.
+void Renderer::Parts::lookFrom(const Camera& camera, int width, int height, double aspect) {
   const auto w = static_cast<float>(width), h = static_cast<float>(height);
-  const glm::mat4 clipFromView = camera.projection(static_cast<double>(width) / height);
+  const glm::mat4 clipFromView = camera.projection(aspect);
   const glm::mat4 worldFromView = glm::inverse(camera.view());
   frame.clipFromWorld = clipFromView * camera.view();
   frame.eye = glm::vec4(camera.eye(), 0);
@@ -149,7 +175,8 @@ void Renderer::Parts::computeNormals(GLuint positions) {
 }
 
 void Renderer::Parts::drawShadows(GLuint positions) {
-  shadowMap.begin();
+  const FlatBounds* const region = part ? &part->shadow : nullptr;
+  shadowMap.begin(region);
   if (options.shadows) {
     programs.clothShadow.bind();
     clothMesh.draw(positions);
@@ -160,15 +187,14 @@ void Renderer::Parts::drawShadows(GLuint positions) {
     glDisable(GL_CULL_FACE);
   }
   shadowMap.end();
-  shadowMap.blurForFloors(programs);
+  shadowMap.blurForFloors(programs, region);
 }
 
 // Front to back as far as the order is known, so that hidden fragments are not shaded; what blends comes
 // last.
-void Renderer::Parts::drawScene(GLuint positions, int width, int height) {
-  const gl::FramebufferFormat format{width, height, options.samples, canvasFormat, GL_DEPTH_COMPONENT24};
-  if (!(canvas.format() == format)) canvas = gl::Framebuffer("canvas", format);
+void Renderer::Parts::drawScene(GLuint positions) {
   canvas.bind();
+  scissor();
   shadowMap.bindTextures();
   const float farthest = 1;
   glClearNamedFramebufferfv(canvas.name(), GL_DEPTH, 0, &farthest);
@@ -194,6 +220,7 @@ void Renderer::Parts::drawScene(GLuint positions, int width, int height) {
   drawOverlay(positions);
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
+  glDisable(GL_SCISSOR_TEST);
 }
 
 void Renderer::Parts::drawCloth(GLuint positions) {
@@ -209,7 +236,8 @@ void Renderer::Parts::drawCloth(GLuint positions) {
 
 void Renderer::Parts::drawOverlay(GLuint positions) {
   if (view == ViewOptions{}) return;
-  springs.draw(view, programs.overlays(), *cloth, cuts, positions);
+  const float pinScale = scale < 1 ? 1.6f : 1.0f;  // which few pixels would wash out
+  springs.draw(view, programs.overlays(), *cloth, cuts, positions, pinScale);
 }
 
 void Renderer::Parts::drawIdentities(GLuint positions) {
@@ -224,28 +252,88 @@ void Renderer::Parts::drawIdentities(GLuint positions) {
   glDisable(GL_CULL_FACE);
 }
 
+void Renderer::Parts::makeTargets(int width, int height, int shownWidth, int shownHeight) {
+  const auto make = [this](gl::Framebuffer& target, const char* label, const gl::FramebufferFormat& format) {
+    if (target.format() == format) return;
+    target = gl::Framebuffer(label, format);
+    changes.forget();
+  };
+  make(canvas, "canvas", {width, height, options.samples, canvasFormat, GL_DEPTH_COMPONENT24});
+  if (isDirect()) return;
+  make(finished, "finished", {.width = width, .height = height, .color = GL_RGBA8});
+  if (scale < 1)
+    make(stretched, "stretched", {.width = shownWidth, .height = shownHeight, .color = GL_RGBA8});
+}
+
+void Renderer::Parts::findChanges(GLuint positions, int width, int height) {
+  part.reset();
+  // Heights move the surface away from the particles.
+  if (!options.keepsStill || model.displaces || cloth->particleCount() > mostReadBack)
+    return changes.forget();
+  std::vector<glm::vec4> particles(cloth->particleCount());
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);  // the solver's last writes
+  glGetNamedBufferSubData(positions, 0, static_cast<GLsizeiptr>(particles.size() * sizeof(glm::vec4)),
+                          particles.data());
+  part = changes.next({frame.clipFromWorld, frame.shadowFromWorld, width, height}, particles, colliders);
+}
+
+void Renderer::Parts::scissor() const {
+  if (!part) return;
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(part->picture.left, part->picture.bottom, part->picture.width(), part->picture.height());
+}
+
 // Only the sky turns with the camera; others are drawn once.
 void Renderer::Parts::drawBackdrop(int width, int height) {
   const gl::FramebufferFormat format{.width = width, .height = height, .color = backdropFormat};
-  if (backdropIsCurrent && backdrop.format() == format && scene->render.background != "sky") return;
+  const bool turns = scene->render.background == "sky";
+  if (backdropSeen && backdrop.format() == format && !(turns && *backdropSeen != frame.clipFromWorld)) return;
   if (!(backdrop.format() == format)) backdrop = gl::Framebuffer("backdrop", format);
   backdrop.bind();
   glDisable(GL_DEPTH_TEST);
   programs.backdrop.bind();
   noVertices.bind();
   glDrawArrays(GL_TRIANGLES, 0, 3);
-  backdropIsCurrent = true;
+  backdropSeen = frame.clipFromWorld;
 }
 
 void Renderer::Parts::resolveInto(GLuint destination, int width, int height) {
   glDisable(GL_FRAMEBUFFER_SRGB);  // the shader encodes
   glBindFramebuffer(GL_FRAMEBUFFER, destination);
   glViewport(0, 0, width, height);
+  scissor();
   glDisable(GL_DEPTH_TEST);
   glBindTextureUnit(CANVAS_UNIT, canvas.colorTexture());
   programs.resolve.bind();
   noVertices.bind();
   glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDisable(GL_SCISSOR_TEST);
+}
+
+// Only what has changed: copying what is kept costs a tenth of filtering it.
+void Renderer::Parts::stretch() const {
+  const gl::FramebufferFormat &from = finished.format(), &to = stretched.format();
+  if (part) {
+    const auto scaled = [](int at, int size, int toSize) {
+      return static_cast<int>(static_cast<std::int64_t>(at) * toSize / size);
+    };
+    // A pixel more on all sides, for the filter.
+    const int left = scaled(part->picture.left - 1, from.width, to.width),
+              bottom = scaled(part->picture.bottom - 1, from.height, to.height);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(left, bottom, scaled(part->picture.right + 1, from.width, to.width) + 1 - left,
+              scaled(part->picture.top + 1, from.height, to.height) + 1 - bottom);
+  }
+  glBlitNamedFramebuffer(finished.name(), stretched.name(), 0, 0, from.width, from.height, 0, 0, to.width,
+                         to.height, GL_COLOR_BUFFER_BIT, GL_LINEAR);
+  glDisable(GL_SCISSOR_TEST);
+}
+
+void Renderer::Parts::show(GLuint destination, int width, int height) const {
+  glBlitNamedFramebuffer((scale < 1 ? stretched : finished).name(), destination, 0, 0, width, height, 0, 0,
+                         width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glBindFramebuffer(GL_FRAMEBUFFER, destination);  // for what is drawn over the picture
+  glViewport(0, 0, width, height);
 }
 
 Renderer::Renderer(const Shared<Cloth>& cloth, const Shared<Scene>& scene, const RenderOptions& options)
@@ -255,12 +343,20 @@ Renderer::~Renderer() = default;
 
 void Renderer::configure(const Shared<Scene>& scene) { parts_->configure(scene); }
 
-void Renderer::setView(const ViewOptions& view) { parts_->view = view; }
+void Renderer::setView(const ViewOptions& view) {
+  parts_->view = view;
+  parts_->changes.forget();
+}
+
+void Renderer::setOptions(const RenderOptions& options) { parts_->setOptions(options); }
+
+void Renderer::setScale(double scale) { parts_->scale = std::clamp(scale, 0.1, 1.0); }
 
 void Renderer::setCuts(const Cuts& cuts) {
   parts_->cuts = cuts;
   parts_->clothMesh.setCuts(*parts_->cloth, cuts);
   parts_->springs.forgetCuts();
+  parts_->changes.forget();
 }
 
 std::optional<std::string> Renderer::reloadShaders() {
@@ -268,7 +364,8 @@ std::optional<std::string> Renderer::reloadShaders() {
     tryAllShaders(parts_->scene->render, parts_->options.samples);
     parts_->programs =
         RenderPrograms(parts_->model, parts_->scene->render.background, parts_->options.samples);
-    parts_->backdropIsCurrent = false;
+    parts_->backdropSeen.reset();
+    parts_->changes.forget();
     return std::nullopt;
   } catch (const Error& error) {
     return error.what();
@@ -287,7 +384,7 @@ Pick Renderer::pick(GLuint positions, const Camera& camera, double time, int wid
   Parts& parts = *parts_;
   if (!parts.pickTarget) parts.pickTarget.emplace();
   parts.colliders.place(*parts.scene, parts.stage, time);
-  parts.lookFrom(camera, width, height);
+  parts.lookFrom(camera, width, height, static_cast<double>(width) / height);
   const glm::mat4 clipFromWorld = parts.frame.clipFromWorld;
   parts.frame.clipFromWorld = PickTarget::clipFromPicture(width, height, x, y) * clipFromWorld;
   parts.uploadFrame();
@@ -302,15 +399,23 @@ template <class Around>
 void Renderer::Parts::draw(const Picture& picture, Around around) {
   const auto [positions, camera, time, target, width, height] = picture;
   if (width <= 0 || height <= 0) return;  // a minimised window
+  const auto scaled = [&](int size) { return std::max(1, static_cast<int>(std::lround(scale * size))); };
+  const int w = scaled(width), h = scaled(height);
   colliders.place(*scene, stage, time);
-  lookFrom(*camera, width, height);
+  lookFrom(*camera, w, h, static_cast<double>(width) / height);
   uploadFrame();
   textures.bind();
+  makeTargets(w, h, width, height);
+  findChanges(positions, w, h);
   around("normals", [&, p = positions] { computeNormals(p); });
   around("shadows", [&, p = positions] { drawShadows(p); });
-  around("backdrop", [&, w = width, h = height] { drawBackdrop(w, h); });
-  around("scene", [&, p = positions, w = width, h = height] { drawScene(p, w, h); });
-  around("resolve", [&, t = target, w = width, h = height] { resolveInto(t, w, h); });
+  around("backdrop", [&] { drawBackdrop(w, h); });
+  around("scene", [&, p = positions] { drawScene(p); });
+  around("resolve", [&, t = isDirect() ? target : finished.name()] { resolveInto(t, w, h); });
+  if (scale < 1) around("stretch", [&] { stretch(); });
+  if (!isDirect())
+    around("show",
+           [&, t = target, fullWidth = width, fullHeight = height] { show(t, fullWidth, fullHeight); });
 }
 
 void Renderer::draw(GLuint positions, const Camera& camera, double time, GLuint target, int width,

@@ -13,19 +13,12 @@
 #include "render/camera.h"
 #include "render/image.h"
 #include "render/picking.h"
+#include "render/quality.h"
 #include "render/springs_overlay.h"
 #include "render/strain_scale.h"
 #include "scene/pose.h"
 
 namespace clothsim {
-
-struct RenderOptions {
-  int sphereSegmentsAround = 64;  // -a: horizontal segments of drawn spheres, >= 3
-  int sphereSegmentsDown = 48;    // -o: vertical segments, >= 2
-  int samples = 4;                // multisampling, 1 to what the driver offers
-  int shadowMapSize = 1024;  // texels along each side; a smaller map is faster and its shadows are softer
-  bool shadows = true;
-};
 
 struct DrawTime {
   std::string pass;
@@ -50,6 +43,11 @@ class Renderer {
   // Colours, colliders, camera-independent looks from an edited scene with the same grids.
   void configure(const Shared<Scene>& scene);
   void setView(const ViewOptions& view);
+  // Samples, shadows and what is kept between pictures, from now on. The segments of spheres stay. @throws as
+  // the constructor
+  void setOptions(const RenderOptions& options);
+  // The scene is drawn in so many times width and height pixels, > 0 to 1, and stretched.
+  void setScale(double scale);
   // Cut cloth: its drawn triangles, their normals and their shadow. Empty: whole again.
   void setCuts(const Cuts& cuts);
 

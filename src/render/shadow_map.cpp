@@ -26,6 +26,18 @@ Bounds inLightSpace(const Bounds& box, const glm::mat4& lightFromWorld) {
   return seen;
 }
 
+// Draws only to a part of a target of `size` x `size` texels, or to all of it.
+void scissor(const FlatBounds* part, int size) {
+  if (part == nullptr) return;
+  const auto texel = [size](float at) {
+    return static_cast<int>(std::clamp(at, 0.0f, 1.0f) * static_cast<float>(size));
+  };
+  const int left = texel(part->low.x), bottom = texel(part->low.y);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(left, bottom, std::max(0, std::min(size, texel(part->high.x) + 1) - left),
+            std::max(0, std::min(size, texel(part->high.y) + 1) - bottom));
+}
+
 }  // namespace
 
 ShadowMap::ShadowMap(int size)
@@ -59,8 +71,9 @@ void ShadowMap::cover(const Bounds& reach, glm::vec3 toLight) {
   shadowFromWorld_ = unitFromClip * clipFromLight * lightFromWorld;
 }
 
-void ShadowMap::begin() const {
+void ShadowMap::begin(const FlatBounds* part) const {
   framebuffer_.bind();
+  scissor(part, framebuffer_.format().width);
   glDepthMask(GL_TRUE);
   const float farthest = 1;
   glClearNamedFramebufferfv(framebuffer_.name(), GL_DEPTH, 0, &farthest);
@@ -74,10 +87,12 @@ void ShadowMap::begin() const {
 void ShadowMap::end() const {
   glDisable(GL_POLYGON_OFFSET_FILL);
   glDisable(GL_DEPTH_CLAMP);
+  glDisable(GL_SCISSOR_TEST);
 }
 
-void ShadowMap::blurForFloors(const RenderPrograms& programs) const {
+void ShadowMap::blurForFloors(const RenderPrograms& programs, const FlatBounds* part) const {
   glDisable(GL_DEPTH_TEST);
+  scissor(part, FLOOR_SHADOW_SIZE);
   noVertices_.bind();
   bindTextures();
   halfBlurred_.bind();
@@ -87,6 +102,7 @@ void ShadowMap::blurForFloors(const RenderPrograms& programs) const {
   floorShadow_.bind();
   programs.blurSecondAxis.bind();
   glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDisable(GL_SCISSOR_TEST);
   glEnable(GL_DEPTH_TEST);
 }
 

@@ -6,6 +6,7 @@
 
 #include "gl/framebuffer.h"
 #include "gl/vertex_array.h"
+#include "render/changed_area.h"
 #include "render/programs.h"
 #include "render/stage.h"
 
@@ -18,9 +19,11 @@ class ShadowMap {
   // Fits the map around `reach` as seen from the light.
   void cover(const Bounds& reach, glm::vec3 toLight);
 
-  void begin() const;  // clears it and makes it the target; leaves with the state that casters are drawn with
+  // Clears it and makes it the target; leaves with the state that casters are drawn with. With `part`, 0 to 1
+  // in each coordinate, only that of it.
+  void begin(const FlatBounds* part = nullptr) const;
   void end() const;
-  void blurForFloors(const RenderPrograms& programs) const;  // after end()
+  void blurForFloors(const RenderPrograms& programs, const FlatBounds* part = nullptr) const;  // after end()
   void bindTextures() const;
 
   [[nodiscard]] const glm::mat4& shadowFromWorld() const { return shadowFromWorld_; }

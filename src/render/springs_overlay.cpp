@@ -47,7 +47,7 @@ std::array<float, 3> springColor(SpringKind kind) {
 }
 
 void SpringsOverlay::draw(const ViewOptions& view, const OverlayPrograms& programs, const Cloth& cloth,
-                          const Cuts& cuts, GLuint positions) {
+                          const Cuts& cuts, GLuint positions, float pinScale) {
   vertices_.attach(positions, {.location = POSITION_LOCATION});
   vertices_.bind();
   programs.springs.bind();
@@ -66,7 +66,7 @@ void SpringsOverlay::draw(const ViewOptions& view, const OverlayPrograms& progra
     glEnable(GL_PROGRAM_POINT_SIZE);
     programs.pins.bind();
     if (!pinSize_) pinSize_ = pinSize(cloth);
-    glVertexAttrib4f(LINE_LOOK_LOCATION, 0, 0, 0, *pinSize_);
+    glVertexAttrib4f(LINE_LOOK_LOCATION, 0, 0, 0, pinScale * *pinSize_);
     glDrawArrays(GL_POINTS, 0, static_cast<GLsizei>(cloth.particleCount()));
     glDisable(GL_PROGRAM_POINT_SIZE);
   }

@@ -33,9 +33,10 @@ class SpringsOverlay {
   SpringsOverlay() : vertices_("springs") {}
 
   void forgetCuts() { kinds_ = {}; }  // after cuts have changed: lists are made anew when next needed
-  // Where nothing lies before it; the caller has blending on, and writing of depth off.
+  // Where nothing lies before it; the caller has blending on, and writing of depth off. Pins are drawn larger
+  // by `pinScale`.
   void draw(const ViewOptions& view, const OverlayPrograms& programs, const Cloth& cloth, const Cuts& cuts,
-            GLuint positions);
+            GLuint positions, float pinScale);
 
  private:
   gl::VertexArray vertices_;

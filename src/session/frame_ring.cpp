@@ -10,11 +10,11 @@ void FrameRing::put(const SessionFrame& frame, Solver& solver) {
   if (!isEmpty() && frame.number <= newest()) {
     auto& entry = entries_[static_cast<std::size_t>(frame.number - oldest())];
     bytes_ -= entry.snapshot->bytes();
-    entry = {frame, solver.snapshot(std::move(entry.snapshot))};
+    entry = {frame, solver.snapshot(spareFor(solver, std::move(entry.snapshot)))};
     bytes_ += entry.snapshot->bytes();
     return;
   }
-  place(frame, solver, makeRoom());
+  place(frame, solver, makeRoom(solver));
 }
 
 void FrameRing::putBeyondBudget(const SessionFrame& frame, Solver& solver) {
@@ -24,11 +24,17 @@ void FrameRing::putBeyondBudget(const SessionFrame& frame, Solver& solver) {
     put(frame, solver);
 }
 
-std::unique_ptr<Snapshot> FrameRing::makeRoom() {
+std::unique_ptr<Snapshot> FrameRing::spareFor(Solver& solver, std::unique_ptr<Snapshot> snapshot) {
+  if (snapshot && snapshot->particles->needsContext() && solver.backend() == "cpu")
+    dropped_.push_back(std::move(snapshot));
+  return snapshot;
+}
+
+std::unique_ptr<Snapshot> FrameRing::makeRoom(Solver& solver) {
   std::unique_ptr<Snapshot> spare;
   while (!isEmpty() && bytes_ + entries_.back().snapshot->bytes() > budget_) {
     bytes_ -= entries_.front().snapshot->bytes();
-    spare = std::move(entries_.front().snapshot);
+    spare = spareFor(solver, std::move(entries_.front().snapshot));
     entries_.pop_front();
   }
   return spare;
@@ -45,9 +51,10 @@ const FrameRing::Entry& FrameRing::at(int number) const {
   return entries_[static_cast<std::size_t>(number - oldest())];
 }
 
-void FrameRing::forgetAfter(int number) {
+void FrameRing::forgetAfter(int number, Solver& solver) {
   while (!isEmpty() && newest() > number) {
     bytes_ -= entries_.back().snapshot->bytes();
+    static_cast<void>(spareFor(solver, std::move(entries_.back().snapshot)));
     entries_.pop_back();
   }
 }

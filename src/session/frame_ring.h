@@ -51,15 +51,21 @@ class FrameRing {
   void putBeyondBudget(const SessionFrame& frame, Solver& solver);
   // `number` is from oldest() to newest().
   [[nodiscard]] const Entry& at(int number) const;
-  void forgetAfter(int number);
+  void forgetAfter(int number, Solver& solver);
+  // Snapshots on the GPU that a session of the CPU backend has dropped wait here for the thread that has the
+  // context.
+  void freeDropped() { dropped_.clear(); }
 
  private:
   // Drops frames until another one fits. Returns a snapshot whose memory can be reused, if there is one.
-  std::unique_ptr<Snapshot> makeRoom();
+  std::unique_ptr<Snapshot> makeRoom(Solver& solver);
   void place(const SessionFrame& frame, Solver& solver, std::unique_ptr<Snapshot> spare);
   void dropOldest();
+  // What may be freed or used again where the solver computes; keeps anything else.
+  std::unique_ptr<Snapshot> spareFor(Solver& solver, std::unique_ptr<Snapshot> snapshot);
 
   std::deque<Entry> entries_;
+  std::vector<std::unique_ptr<Snapshot>> dropped_;
   std::size_t budget_, bytes_ = 0;
 };
 

@@ -98,6 +98,7 @@ bool Session::apply(const MoveCollider& move) {
 
 bool Session::apply(const SwitchBackend& to) {
   simulation_.switchBackend(to.backend);
+  ring_.freeDropped();
   simulation_.solver().setInteraction(now_.interaction);
   return true;
 }
@@ -261,7 +262,7 @@ int Session::newestFrame() const {
 
 void Session::dropLaterFrames() {
   if (now_.number == newestFrame()) return;
-  ring_.forgetAfter(now_.number);
+  ring_.forgetAfter(now_.number, simulation_.solver());
   std::erase_if(recording_.events, [&](const Recording::Event& event) { return event.step > now_.step; });
   recording_.frames = now_.number;
 }

@@ -86,6 +86,9 @@ class Session {
 
   [[nodiscard]] std::size_t snapshotBytes() const { return ring_.bytes(); }
   // The newest stored frame is kept whatever the budget.
+  // Frees memory of the GPU that stepping on the CPU backend has left over. To be called where the context
+  // is.
+  void freeDropped() { ring_.freeDropped(); }
   void setSnapshotBudget(std::size_t bytes) { ring_.setBudget(bytes); }
 
  private:

@@ -63,6 +63,8 @@ class ParticleCopy {
   virtual ~ParticleCopy() = default;
   [[nodiscard]] virtual std::size_t bytes() const = 0;  // on the device
   virtual void download(State& state) const = 0;        // its positions and velocities; blocking
+  // Whether only the thread that has the context may free it.
+  [[nodiscard]] virtual bool needsContext() const { return false; }
 };
 
 class Executor {

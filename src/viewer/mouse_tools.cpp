@@ -31,7 +31,7 @@ Pick pickAt(const MouseContext& context, Cursor cursor) {
 }
 
 bool isOnMesh(const MouseContext& context, const Pick& pick) {
-  return pick.kind == Pick::Kind::cloth && context.session.simulation().cloth().pieces()[pick.piece].isMesh;
+  return pick.kind == Pick::Kind::cloth && context.open.cloth().pieces()[pick.piece].isMesh;
 }
 
 double grabRadius(const Piece& piece) {
@@ -42,11 +42,11 @@ double grabRadius(const Piece& piece) {
 
 // The pinned particle that is drawn nearest to the cursor. It copies the whole state for one click.
 std::optional<std::uint32_t> pinUnder(const MouseContext& context, Cursor cursor) {
-  const State state = context.session.simulation().solver().state();
+  const std::vector<Particle4> positions = context.renderer.positions();
   std::optional<std::uint32_t> nearest;
   double best = pinReach;
-  for (std::size_t i = 0; i < state.positions.size(); ++i) {
-    const Particle4& p = state.positions[i];
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const Particle4& p = positions[i];
     if (p.w != 0) continue;
     const auto place = placeInPicture(context.camera, context.width, context.height, {p.x, p.y, p.z});
     if (!place) continue;
@@ -117,7 +117,7 @@ std::string MouseTools::press(const MouseContext& context, Button button, Cursor
   grabbedPoint_ = pick.point;
   planeNormal_ = glm::normalize(context.camera.target() - context.camera.eye());
   targetMoved_ = dragGoesOn_ = false;
-  const auto& colliders = context.session.simulation().scene().colliders;
+  const auto& colliders = context.open.scene().colliders;
   if (pick.kind == Pick::Kind::cloth) {
     doing_ = Doing::grab;
     grab(context, pick);
@@ -125,8 +125,7 @@ std::string MouseTools::press(const MouseContext& context, Button button, Cursor
     // Planes are not dragged: they fill the background, where dragging moves the camera.
     doing_ = Doing::moveCollider;
     collider_ = pick.collider;
-    offset_ =
-        poseAt(colliders[collider_], context.session.simulation().time()).position - toVec3d(pick.point);
+    offset_ = poseAt(colliders[collider_], context.open.time()).position - toVec3d(pick.point);
   } else {
     doing_ = Doing::orbit;
   }
@@ -138,17 +137,17 @@ void MouseTools::grab(const MouseContext& context, const Pick& pick) {
   Grab grab;
   grab.particle = pick.particle;
   grab.target = toVec3d(pick.point);
-  grab.radius = grabRadius(context.session.simulation().cloth().pieces()[pick.piece]);
-  context.session.act(grab);
+  grab.radius = grabRadius(context.open.cloth().pieces()[pick.piece]);
+  context.act(grab, false);
 }
 
 std::string MouseTools::pin(const MouseContext& context, const Pick& pick, Cursor cursor) {
   if (const auto pinned = pinUnder(context, cursor)) {
-    context.session.act(SetPin{*pinned, false});
+    context.act(SetPin{*pinned, false}, false);
     return "Unpinned";
   }
   if (pick.kind != Pick::Kind::cloth) return "Shift+click on the cloth to pin it there";
-  context.session.act(SetPin{pick.particle, true});
+  context.act(SetPin{pick.particle, true}, false);
   return "Pinned";
 }
 
@@ -177,7 +176,7 @@ void MouseTools::move(const MouseContext& context, Cursor cursor) {
 
 void MouseTools::release(const MouseContext& context, Button button) {
   if (doing_ == Doing::nothing || button != button_) return;
-  if (doing_ == Doing::grab && context.session.isGrabbing()) context.session.act(Release{});
+  if (doing_ == Doing::grab) context.act(Release{}, false);
   doing_ = Doing::nothing;
   stroke_.clear();
 }
@@ -224,28 +223,27 @@ void MouseTools::cutTo(const MouseContext& context, Cursor cursor) {
 
 void MouseTools::cutFromTo(const MouseContext& context, const Pick& from, const Pick& to) {
   if (isOnMesh(context, from)) return;
-  const Piece& piece = context.session.simulation().cloth().pieces()[from.piece];
+  const Piece& piece = context.open.cloth().pieces()[from.piece];
   const LatticePoint begin = overTheEdge(piece, to.lattice, from.lattice);
-  context.session.act(CutStroke{from.piece, begin, overTheEdge(piece, from.lattice, to.lattice)});
+  context.act(CutStroke{from.piece, begin, overTheEdge(piece, from.lattice, to.lattice)}, false);
 }
 
 void MouseTools::beforeStep(const MouseContext& context, Cursor cursor, bool blows) {
-  if (doing_ == Doing::grab && !context.session.isGrabbing())
+  if (doing_ == Doing::grab && !context.open.session().isGrabbing())
     doing_ = Doing::nothing;  // divergence has ended it
   if (doing_ == Doing::grab && targetMoved_ && !context.paused) {
-    context.session.act(MoveHand{targetAt(context, cursor)});
+    context.act(MoveHand{targetAt(context, cursor)}, false);
     targetMoved_ = false;
   }
   if (doing_ == Doing::moveCollider && targetMoved_) {
     const Vec3d place = targetAt(context, cursor) + offset_;
     if (context.paused) {
       // While the simulation is paused, moving a collider is an edit of the scene, which can be undone.
-      const Simulation& simulation = context.session.simulation();
-      context.session.act(EditScene{withColliderAt(simulation.scene(), collider_, place, simulation.time())},
-                          dragGoesOn_);
+      context.act(EditScene{withColliderAt(context.open.scene(), collider_, place, context.open.time())},
+                  dragGoesOn_);
       dragGoesOn_ = true;
     } else {
-      context.session.act(MoveCollider{collider_, place});
+      context.act(MoveCollider{collider_, place}, false);
     }
     targetMoved_ = false;
   }
@@ -254,11 +252,11 @@ void MouseTools::beforeStep(const MouseContext& context, Cursor cursor, bool blo
     const double distance = static_cast<double>(glm::length(context.camera.target() - context.camera.eye()));
     const Blow blow{toVec3d(ray.origin), toVec3d(ray.direction), blowSpeed, blowShare * distance};
     const bool same = blow_ && blow_->origin == blow.origin && blow_->direction == blow.direction;
-    if (!blowing_ || !same) context.session.act(blow);
+    if (!blowing_ || !same) context.act(blow, false);
     blow_ = blow;
   } else if (blowing_) {
     if (blow_) blow_->speed = 0;
-    if (blow_) context.session.act(*blow_);
+    if (blow_) context.act(*blow_, false);
     blow_.reset();
   }
   blowing_ = blows;
@@ -274,9 +272,9 @@ MouseMarks MouseTools::marks(const MouseContext& context, Cursor cursor) const {
   MouseMarks marks;
   if (doing_ == Doing::grab) {
     marks.goal = {cursor.x, cursor.y};
-    const std::vector<Particle4> grabbed = context.session.simulation().solver().positions(grabbed_, 1);
-    marks.grabbed = placeInPicture(context.camera, context.width, context.height,
-                                   {grabbed[0].x, grabbed[0].y, grabbed[0].z});
+    const Particle4 grabbed = context.renderer.position(grabbed_);
+    marks.grabbed =
+        placeInPicture(context.camera, context.width, context.height, {grabbed.x, grabbed.y, grabbed.z});
   }
   if (blowing_) {
     marks.nozzle = {cursor.x, cursor.y};

@@ -2,25 +2,26 @@
 // nothing lies under it. Everything that changes the simulation goes through the session, which records it.
 #pragma once
 
+#include <functional>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "render/camera.h"
-#include "session/session.h"
-#include "simulation/gpu/simulation_renderer.h"
+#include "viewer/open_scene.h"
 #include "viewer/viewer_window.h"
 
 namespace clothsim {
 
 // The scene under the mouse, shown in a picture of that size [pixels].
 struct MouseContext {
-  Session& session;
+  OpenScene& open;
   SimulationRenderer& renderer;
   Camera& camera;
   int width, height;
   bool paused;
+  // Session::act(), now or at the end of the frame that is being simulated.
+  std::function<void(const Action& action, bool continues)> act;
 };
 
 // What to draw over the picture, in pixels from its top left.
@@ -44,7 +45,8 @@ class MouseTools {
   void release(const MouseContext& context, ViewerWindow::Button button);
   void scroll(const MouseContext& context, double steps, ViewerWindow::Cursor cursor);
 
-  // To be called before frames are simulated. Moves what is grabbed and the jet to where the mouse is now.
+  // To be called before frames are simulated, with the session at hand. Moves what is grabbed and the jet to
+  // where the mouse is now.
   void beforeStep(const MouseContext& context, ViewerWindow::Cursor cursor, bool blows);
   // Ends the grab and the jet, before another scene is opened or an earlier frame is shown.
   void letGo(Session& session);

@@ -24,11 +24,33 @@ void OpenScene::edit(const Scene& scene, bool continues) {
   update();
 }
 
+SessionFacts OpenScene::facts() const {
+  if (held_) return *held_;
+  return {sharedScene(),
+          session_.oldestFrame(),
+          session_.frame(),
+          session_.newestFrame(),
+          session_.frameSinceStart(),
+          session_.snapshotBytes(),
+          session_.clothGeneration()};
+}
+
+void OpenScene::hold() {
+  renderer_.hold();
+  held_ = facts();
+}
+
+void OpenScene::release() {
+  held_.reset();
+  renderer_.release();
+}
+
 void OpenScene::update() {
   renderer_.update();
-  if (session_.clothGeneration() == shownCloth_ && view == shownView_) return;
+  const std::uint64_t generation = facts().clothGeneration;
+  if (generation == shownCloth_ && view == shownView_) return;
   renderer_.renderer().setView(view);
-  shownCloth_ = session_.clothGeneration();
+  shownCloth_ = generation;
   shownView_ = view;
 }
 
@@ -42,6 +64,9 @@ void OpenScene::frameFor(int width, int height, const CoveredEdges& covered) {
 
 void OpenScene::draw(int width, int height) { renderer_.draw(camera_, 0, width, height); }
 
-Image OpenScene::picture(int width, int height) { return renderer_.picture(camera_, width, height); }
+Image OpenScene::picture(int width, int height) {
+  renderer_.renderer().setScale(1);
+  return renderer_.picture(camera_, width, height);
+}
 
 }  // namespace clothsim

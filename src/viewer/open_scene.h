@@ -2,6 +2,7 @@
 // show it.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "render/camera.h"
@@ -9,6 +10,14 @@
 #include "simulation/gpu/simulation_renderer.h"
 
 namespace clothsim {
+
+// What the window shows of a session besides its cloth. Frames are counted as Session does.
+struct SessionFacts {
+  Shared<Scene> scene;
+  int oldestFrame = 0, frame = 0, newestFrame = 0, frameSinceStart = 0;
+  std::size_t snapshotBytes = 0;
+  std::uint64_t clothGeneration = 0;
+};
 
 class OpenScene {
  public:
@@ -21,13 +30,23 @@ class OpenScene {
   [[nodiscard]] Camera& camera() { return camera_; }
   [[nodiscard]] const Camera& camera() const { return camera_; }
   [[nodiscard]] SimulationRenderer& renderer() { return renderer_; }
-  [[nodiscard]] const Scene& scene() const { return session_.simulation().scene(); }
-  [[nodiscard]] const Shared<Scene>& sharedScene() const { return session_.simulation().sharedScene(); }
+  [[nodiscard]] const Scene& scene() const { return *sharedScene(); }
+  [[nodiscard]] const Shared<Scene>& sharedScene() const {
+    return held_ ? held_->scene : session_.simulation().sharedScene();
+  }
+  [[nodiscard]] const Cloth& cloth() const { return session_.simulation().cloth(); }
+  [[nodiscard]] double time() const { return renderer_.time(); }
+  [[nodiscard]] SessionFacts facts() const;
   [[nodiscard]] const Shared<Scene>& loaded() const { return loaded_; }
   [[nodiscard]] const std::string& source() const { return source_; }
   [[nodiscard]] std::string name() const;  // "pinned2", also for "my/scenes/pinned2.json"
   [[nodiscard]] std::string backend() const { return session_.simulation().solver().backend(); }
   [[nodiscard]] double frameSeconds() const { return 1 / scene().solver.framesPerSec; }
+
+  // From now until release() another thread may step the session, which the CPU backend simulates. What is
+  // above, apart from session() itself, and drawing tell of the state as it is now.
+  void hold();
+  void release();
 
   ViewOptions view{.showPins = true};
 
@@ -49,6 +68,7 @@ class OpenScene {
   Session session_;
   Camera camera_;
   SimulationRenderer renderer_;
+  std::optional<SessionFacts> held_;
   ViewOptions shownView_;  // that the renderer has, for the cloth of this generation
   std::uint64_t shownCloth_ = 0;
   double framedAspect_ = 0;

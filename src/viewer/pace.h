@@ -52,16 +52,25 @@ class Pace {
 // readable.
 class SpeedMeter {
  public:
-  void add(double elapsed, double simulated) {
+  void add(double elapsed, double simulated, int pictures = 1) {
     wall_ += elapsed;
     simulated_ += simulated;
-    ++frames_;
+    frames_ += pictures;
     if (wall_ < windowSeconds) return;
     framesPerSecond_ = frames_ / wall_;
     realTimeFactor_ = simulated_ / wall_;
-    wall_ = simulated_ = 0;
+    steppingShare_ = stepping_ / wall_;
+    drawingShare_ = drawing_ / wall_;
+    wall_ = simulated_ = stepping_ = drawing_ = 0;
     frames_ = 0;
   }
+  // Time that went into steps and into pictures [s].
+  void spent(double stepping, double drawing) {
+    stepping_ += stepping;
+    drawing_ += drawing;
+  }
+  [[nodiscard]] double steppingShare() const { return steppingShare_; }  // parts of the wall time
+  [[nodiscard]] double drawingShare() const { return drawingShare_; }
   [[nodiscard]] double framesPerSecond() const {
     return framesPerSecond_;
   }  // 0 before the first half second is over
@@ -69,9 +78,9 @@ class SpeedMeter {
 
  private:
   static constexpr double windowSeconds = 0.5;  // [s]
-  double wall_ = 0, simulated_ = 0;
+  double wall_ = 0, simulated_ = 0, stepping_ = 0, drawing_ = 0;
   int frames_ = 0;
-  double framesPerSecond_ = 0, realTimeFactor_ = 0;
+  double framesPerSecond_ = 0, realTimeFactor_ = 0, steppingShare_ = 0, drawingShare_ = 0;
 };
 
 }  // namespace clothsim

@@ -123,6 +123,13 @@ TimelineRequests drawTimeline(const TimelineState& state, PictureArea area) {
   requests.stepForward =
       symbolButton("##forward", Symbol::forward, false, "Forward one frame (Right; N simulates a new one)");
   ImGui::SameLine();
+  char tempo[32];
+  std::snprintf(tempo, sizeof tempo, "%g\u00d7###tempo", state.tempo);
+  ImGui::PushStyleColor(ImGuiCol_Text, state.tempo < 1 ? theme::alert : theme::quiet);
+  requests.slowMotion = ImGui::Button(tempo, {3.4f * em(), 0});
+  ImGui::PopStyleColor();
+  helpTip("Slow motion (S)");
+  ImGui::SameLine();
   const std::string time = timeText(state);
   char clip[32] = "";
   if (state.recordedSeconds) std::snprintf(clip, sizeof clip, "%.1f s", *state.recordedSeconds);

@@ -13,13 +13,15 @@ struct TimelineState {
   int shownNumber = 0;                  // of `now`, counted from its restart
   double frameSeconds = 1.0 / 90;
   bool paused = false;
+  double tempo = 1;                       // simulated seconds per second that are wanted
   std::optional<double> recordedSeconds;  // while a clip is being recorded
 };
 
 struct TimelineRequests {
   std::optional<int> seek;
   bool togglePause = false, stepBack = false, stepForward = false, screenshot = false,
-       toggleRecording = false;
+       toggleRecording = false, slowMotion = false;
+  friend bool operator==(const TimelineRequests&, const TimelineRequests&) = default;
 };
 
 // Height of the bar [pixels].

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 
 #include "gl/context.h"
 #include "output/numbered_files.h"
@@ -18,22 +19,27 @@ namespace {
 
 constexpr float panelsFrom =
     54;  // width of the window in em from which the panels are open at the first start
+constexpr double longestWait = 0.25;           // for input [s]: notices disappear
 constexpr double mostSimulationSeconds = 0.1;  // between two pictures, where a frame takes less
 
 }  // namespace
 
-RenderOptions renderOptions(const ViewerOptions& options) {
+Quality chosenQuality(const std::string& wish) {
+  const Quality automatic = gl::currentContextInfo().software ? Quality::draft : Quality::final;
+  return qualityNamed(wish).value_or(automatic);
+}
+
+RenderOptions Viewer::renderOptions() const {
   RenderOptions render;
-  render.sphereSegmentsAround = options.sphereSegmentsAround;
-  render.sphereSegmentsDown = options.sphereSegmentsDown;
-  // On a software renderer every sample costs time: edges are smoothed afterwards instead.
-  if (gl::currentContextInfo().software) render.samples = 1;
-  return render;
+  render.sphereSegmentsAround = options_.sphereSegmentsAround;
+  render.sphereSegmentsDown = options_.sphereSegmentsDown;
+  return withQuality(render, quality_, gl::currentContextInfo().software);
 }
 
 Viewer::Viewer(const Shared<Scene>& scene, const ViewerOptions& options,
                const std::optional<LostSession>& lost)
     : options_(options), window_("clothsim", options.sceneName) {
+  setQuality(chosenQuality(options.quality));
   LoadedConfig loaded = loadViewerConfig(viewerConfigPath());
   config_ = savedConfig_ = loaded.config;
   if (!loaded.notice.empty()) say(loaded.notice, longNoticeSeconds);
@@ -49,7 +55,7 @@ Viewer::Viewer(const Shared<Scene>& scene, const ViewerOptions& options,
                  "the GPU\n");
   open_ = load(source, [&] {
     return std::make_unique<OpenScene>(lost ? lost->loaded : scene, source, lost ? "cpu" : backend,
-                                       renderOptions(options));
+                                       renderOptions());
   });
   if (lost) {
     if (lost->edited != lost->loaded) open_->edit(*lost->edited, false);
@@ -65,6 +71,7 @@ std::optional<LostSession> Viewer::run() {
   clock_.lap();  // the time for loading is not simulated
   while (!window_.shouldClose() && !lost_) iterate();
   taker_.abandonClip();
+  endFrames();
   if (lost_ && !window_.shouldClose())
     return LostSession{open_->source(), open_->loaded(), open_->sharedScene(), session().past(), *lost_};
   std::fputs(timings_.report().c_str(), stderr);
@@ -72,21 +79,35 @@ std::optional<LostSession> Viewer::run() {
 }
 
 void Viewer::iterate() {
-  timings_.time(FrameTimings::input, [&] { isIdle() ? window_.waitEvents(0.25) : window_.pollEvents(); });
-  if (sceneToOpen_) attempt([&] { openScene(*std::exchange(sceneToOpen_, std::nullopt)); });
+  timings_.time(FrameTimings::input, [&] { waitForInput(); });
+  if (sceneToOpen_ && !isStepping()) attempt([&] { openScene(*std::exchange(sceneToOpen_, std::nullopt)); });
   const double elapsed = clock_.lap();
   now_ += elapsed;
-  int frames = 0;
-  timings_.time(FrameTimings::simulate, [&] { frames = simulate(elapsed); });
-  meter_.add(elapsed, frames * open_->frameSeconds());
-  attempt([&] { taker_.shown(*open_, paused_ ? elapsed : frames * open_->frameSeconds()); });
-  attempt([&] { draw(); });
-  keepConfig();
   notice_.secondsLeft -= elapsed;
   compare_.pass(elapsed);
+  int frames = 0;
+  timings_.time(FrameTimings::simulate, [&] { frames = simulate(elapsed); });
+  // While a frame takes its time, the picture changes only by what the user does.
+  const bool draws = frames > 0 || drawsLeft_ > 0 || !steps_.isBusy() || now_ - lastDrawn_ > longestWait ||
+                     !window_.inputQueue().isEmpty();
+  meter_.add(elapsed, frames * open_->frameSeconds(), draws ? 1 : 0);
+  if (!draws) return;
+  lastDrawn_ = now_;
+  attempt([&] { taker_.shown(*open_, paused_ ? elapsed : frames * open_->frameSeconds()); });
+  LapClock drawing;
+  attempt([&] { draw(); });
+  meter_.spent(0, drawing.lap());
+  keepConfig();
   // Where the display does not limit the rate, the loop waits instead of drawing the same picture again.
-  if (!paused_ && frames == 0 && !compare_.isRunning()) window_.waitEvents(pace_.secondsUntilDue());
+  if (!paused_ && frames == 0 && !steps_.isBusy() && !compare_.isRunning())
+    window_.waitEvents(pace_.secondsUntilDue() / tempo_);
   attempt(gl::checkContext);
+}
+
+void Viewer::waitForInput() {
+  if (isIdle()) return window_.waitEvents(longestWait);
+  const bool waits = steps_.isBusy() && !steps_.isDone() && drawsLeft_ <= 0 && window_.inputQueue().isEmpty();
+  waits ? window_.waitEvents(longestWait) : window_.pollEvents();
 }
 
 bool Viewer::showsPanels() const {
@@ -113,38 +134,52 @@ bool Viewer::isOverPicture(ViewerWindow::Cursor cursor) const {
   const PictureArea area = pictureArea();
   const bool inside = cursor.x >= 0 && cursor.x < static_cast<double>(area.width) && cursor.y >= 0 &&
                       cursor.y < static_cast<double>(area.height - timelineHeight());
-  return inside && !((ui_.hasPopup() || compare_.isOpen()) && ui_.wantsMouse());
+  return inside && !((ui_.hasPopup() || compare_.isOpen() || advice()) && ui_.wantsMouse());
 }
 
 MouseContext Viewer::mouseContext() {
   const PictureArea area = pictureArea();
-  return {session(),
+  return {*open_,
           open_->renderer(),
           open_->camera(),
           std::max(1, static_cast<int>(area.width)),
           std::max(1, static_cast<int>(area.height)),
-          paused_};
+          paused_,
+          [this](const Action& action, bool continues) {
+            whenIdle([=, this] { session().act(action, continues); });
+          }};
 }
 
 bool Viewer::isIdle() {
-  return paused_ && !stepAsked_ && drawsLeft_ <= 0 && window_.inputQueue().isEmpty() &&
+  return paused_ && !stepAsked_ && !isStepping() && drawsLeft_ <= 0 && window_.inputQueue().isEmpty() &&
          !compare_.isRunning() && !taker_.recordedSeconds();
 }
 
-// Returns the number of frames that were simulated.
+// Returns the number of frames that were simulated since the last call.
 int Viewer::simulate(double elapsed) {
   if (drawsLeft_ > 0) --drawsLeft_;
+  unpaced_ += elapsed;
+  int done = 0;
+  if (steps_.isBusy()) {
+    if (!steps_.isDone()) return 0;
+    done = takeFrames();
+    attempt([&] { measure(); });
+  }
   attempt([&] {
     compare_.advance();
     const bool blows = !paused_ && !ui_.wantsKeys() && window_.holds(blowKey);
     mouse_.beforeStep(mouseContext(), window_.cursor(), blows);
   });
-  if (compare_.isRunning()) return 0;
-  const int frames = paused_ ? std::exchange(stepAsked_, false) : pace_.framesDue(elapsed);
-  if (frames == 0) return 0;
-  return stepFrames(frames);
+  const double unpaced = std::exchange(unpaced_, 0);
+  if (compare_.isRunning() || sceneToOpen_ || lost_) return done;
+  const int frames = paused_ ? std::exchange(stepAsked_, false) : pace_.framesDue(tempo_ * unpaced);
+  if (frames == 0) return done;
+  if (open_->backend() != "cpu") return done + stepFrames(frames);
+  attempt([&] { startFrames(frames); });
+  return done;
 }
 
+// On the GPU: on this thread, which has the context.
 int Viewer::stepFrames(int frames) {
   LapClock clock;
   const int before = session().frame();
@@ -160,20 +195,56 @@ int Viewer::stepFrames(int frames) {
     }
   });
   stepping_ = false;
+  return finishedFrames(std::max(0, session().frame() - before), seconds, went, divergence);
+}
+
+// On the CPU: the thread has the session until takeFrames(), and this one shows the state from before.
+void Viewer::startFrames(int frames) {
+  open_->hold();
+  steps_.start(session(), frames, mostSimulationSeconds);
+}
+
+int Viewer::takeFrames() {
+  StepThread::Result result = steps_.take();
+  open_->release();
+  session().freeDropped();
+  const bool went = attempt([&] {
+    if (result.error) std::rethrow_exception(result.error);
+  });
+  return finishedFrames(result.frames, result.seconds, went, result.divergence);
+}
+
+int Viewer::finishedFrames(int frames, double seconds, bool went,
+                           const std::optional<Divergence>& divergence) {
   if (!went) paused_ = true;
-  for (const auto& task : std::exchange(waiting_, {})) attempt(task);
+  doWaiting();
   if (divergence) {
     paused_ = true;
     notice_ = {blowUpText(*divergence, session().simulation().cloth(), open_->scene()) +
                    "\nPaused at the last good state. Press R to restart.",
                1e9, true};
   }
-  const int done = std::max(0, session().frame() - before);
-  pace_.simulated(done, seconds);
-  column_.measures().stepped(static_cast<double>(session().simulation().cloth().particleCount()) * done *
+  pace_.simulated(frames, seconds);
+  meter_.spent(seconds, 0);
+  column_.measures().stepped(static_cast<double>(session().simulation().cloth().particleCount()) * frames *
                                  open_->scene().solver.simulationSteps,
                              seconds);
-  return done;
+  return frames;
+}
+
+// What was asked for within a frame.
+void Viewer::doWaiting() {
+  if (waitingEdit_) attempt([&] { edit(*std::exchange(waitingEdit_, std::nullopt), editContinues_); });
+  for (const auto& task : std::exchange(waiting_, {})) attempt(task);
+}
+
+// Before the end: a step that does not end soon ends with the program.
+void Viewer::endFrames() {
+  if (!steps_.isBusy()) return;
+  steps_.stop();
+  if (lost_ || steps_.waitFor(std::chrono::milliseconds(150))) return static_cast<void>(takeFrames());
+  std::fflush(nullptr);
+  std::_Exit(0);
 }
 
 void Viewer::draw() {
@@ -185,12 +256,7 @@ void Viewer::draw() {
   attempt([&] { open_->update(); });
   open_->view = wanted;
   const auto width = static_cast<int>(area.width), height = static_cast<int>(area.height);
-  timings_.time(FrameTimings::picture, [&] {
-    attempt([&] {
-      open_->frameFor(width, height, coveredEdges());
-      open_->draw(width, height);
-    });
-  });
+  timings_.time(FrameTimings::picture, [&] { attempt([&] { drawPicture(width, height); }); });
   timings_.time(FrameTimings::controls, [&] {
     ui_.begin(window_.textScale());
     attempt([&] { drawControls(); });
@@ -200,10 +266,23 @@ void Viewer::draw() {
   timings_.time(FrameTimings::swap, [&] { window_.swap(); });
   timings_.time(FrameTimings::after, [&] {
     applyRequests();
-    attempt([&] { measure(); });
+    if (!isStepping()) attempt([&] { measure(); });
   });
   if (const std::string now = viewerTitle(*open_, meter_, paused_); now != title_)
     window_.setTitle(title_ = now);
+}
+
+// What rests is drawn in all pixels, and so is what is being recorded.
+void Viewer::drawPicture(int width, int height) {
+  open_->frameFor(width, height, coveredEdges());
+  const bool rests = paused_ && drawsLeft_ <= 0;
+  const bool whole = rests || taker_.recordedSeconds() || !gl::currentContextInfo().software;
+  open_->renderer().renderer().setScale(whole ? 1 : drawScale_.scale());
+  LapClock clock;
+  open_->draw(width, height);
+  if (whole) return;
+  gl::finish();
+  drawScale_.drawn(clock.lap());
 }
 
 // To be called between two pictures, since picking draws into another framebuffer.
@@ -222,23 +301,28 @@ void Viewer::drawControls() {
   drawMarks(mouse_.marks(mouseContext(), window_.cursor()));
   const float neededByOthers = showKeys_ ? 66.0f : compare_.isOpen() ? 40.0f : 0.0f;  // em
   if (config_.showOverlay && area.width >= neededByOthers * em())
-    drawFacts(viewerFacts(*open_, meter_, paused_, looksBack(), column_.measures().warnings(open_->scene())),
+    drawFacts(viewerFacts(*open_, meter_, paused_, looksBack(), tempo_,
+                          column_.measures().warnings(open_->scene())),
               area);
   if (showsPanels()) drawPanels();
-  requests_.timeline =
-      drawTimeline({session().oldestFrame(), session().frame(), session().newestFrame(),
-                    session().frameSinceStart(), open_->frameSeconds(), paused_, taker_.recordedSeconds()},
-                   area);
+  if (const std::optional<PaceAdvice> offered = advice(); offered && config_.showOverlay && !showKeys_)
+    if (drawAdvice(offered->cause, offered->button, area, timelineHeight())) requests_.advice = offered;
+  const SessionFacts now = open_->facts();
+  requests_.timeline = drawTimeline({now.oldestFrame, now.frame, now.newestFrame, now.frameSinceStart,
+                                     open_->frameSeconds(), paused_, tempo_, taker_.recordedSeconds()},
+                                    area);
   compare_.draw(area);
   if (notice_.secondsLeft > 0) drawNotice(notice_.text, notice_.isError, area, timelineHeight());
   if (showKeys_) drawKeyList(area);
 }
 
 void Viewer::drawPanels() {
-  if (!draftHeld_) draft_ = open_->scene();
+  if (!draftHeld_ && !waitingEdit_) draft_ = open_->scene();
   const glm::vec3 target = open_->camera().target();
   const std::string name = open_->name();
-  PanelContext context{draft_, widgets_, session(), open_->view, {target.x, target.y, target.z}, name};
+  const SessionFacts facts = open_->facts();
+  PanelContext context{draft_, widgets_, facts, open_->backend(), open_->view, {target.x, target.y, target.z},
+                       name,   quality_};
   column_.draw(context, config_);
   requests_.edits = widgets_.takeEdits();
   requests_.panels = std::move(context.requests);
@@ -248,14 +332,21 @@ void Viewer::drawPanels() {
 void Viewer::applyRequests() {
   const ControlRequests asked = std::exchange(requests_, {});
   apply(asked.edits);
-  apply(asked.panels);
-  apply(asked.timeline);
+  // While a frame is simulated they wait for its end.
+  const PanelRequests& panels = asked.panels;
+  const TimelineRequests& timeline = asked.timeline;
+  if (panels != PanelRequests{}) whenIdle([=, this] { apply(panels); });
+  if (timeline != TimelineRequests{}) whenIdle([=, this] { apply(timeline); });
+  if (timeline.slowMotion) atOnce([this] { act(ViewerAction::slowMotion); });
+  if (asked.advice) whenIdle([this, advice = *asked.advice] { apply(advice); });
 }
 
 void Viewer::apply(const FieldEdits& edits) {
   draftHeld_ = edits.holding;
   const bool edited = edits.live || edits.rebuild;
-  if (edited) {
+  if (edited && isStepping()) {
+    waitingEdit_ = draft_;
+  } else if (edited) {
     attempt([&] {
       draftHeld_ = false;  // after an impossible edit the panels show the scene as it is
       edit(draft_, editContinues_);
@@ -269,6 +360,7 @@ void Viewer::apply(const PanelRequests& requests) {
   attempt([&] {
     for (const ViewerAction action : requests.actions) act(action);
     if (requests.backend) switchBackend(*requests.backend);
+    if (requests.quality) setQuality(*requests.quality);
     if (requests.saveSceneAs) saveSceneAs(*requests.saveSceneAs);
     if (requests.resetScene) {
       edit(*open_->loaded(), false);
@@ -286,6 +378,20 @@ void Viewer::apply(const TimelineRequests& requests) {
     if (requests.togglePause) act(ViewerAction::pause);
     if (requests.screenshot) act(ViewerAction::screenshot);
     if (requests.toggleRecording) act(ViewerAction::recordClip);
+  });
+}
+
+std::optional<PaceAdvice> Viewer::advice() const {
+  if (paused_ || compare_.isRunning() || meter_.framesPerSecond() == 0) return std::nullopt;
+  return adviceFor({meter_.realTimeFactor() / tempo_, meter_.steppingShare(), meter_.drawingShare()},
+                   open_->scene(), quality_, gl::currentContextInfo().software, open_->backend());
+}
+
+void Viewer::apply(const PaceAdvice& advice) {
+  attempt([&] {
+    if (advice.quality) setQuality(*advice.quality);
+    if (advice.backend) switchBackend(*advice.backend);
+    if (advice.scene) edit(*advice.scene, false);
   });
 }
 

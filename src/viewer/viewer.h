@@ -14,6 +14,7 @@ struct ViewerOptions {
   int sphereSegmentsAround = 64;  // -a
   int sphereSegmentsDown = 48;    // -o
   bool timings = false;           // prints the times of a frame's phases at the end
+  std::string quality = "auto";   // "auto", "draft", "normal" or "final"; the key Q changes it
 };
 
 // Opens the window and returns when it is closed. @throws OpenGlError when there is no display or no

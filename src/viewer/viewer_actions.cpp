@@ -5,6 +5,7 @@
 #include <future>
 
 #include "cloth/material.h"
+#include "core/formatted.h"
 #include "export/export.h"
 #include "export/sequence.h"
 #include "output/numbered_files.h"
@@ -24,18 +25,18 @@ void Viewer::listen() {
   window_.setInput(
       {.key = [this](const KeyStroke& stroke, bool repeated) { onKey(stroke, repeated); },
        .press = [this](ViewerWindow::Button button, ViewerWindow::Cursor cursor, bool control,
-                       bool shift) { whenIdle([=, this] { onPress(button, cursor, control, shift); }); },
+                       bool shift) { atOnce([=, this] { onPress(button, cursor, control, shift); }); },
        .move =
            [this](ViewerWindow::Cursor cursor) {
-             whenIdle([=, this] { mouse_.move(mouseContext(), cursor); });
+             atOnce([=, this] { mouse_.move(mouseContext(), cursor); });
            },
        .release =
            [this](ViewerWindow::Button button) {
-             whenIdle([=, this] { mouse_.release(mouseContext(), button); });
+             atOnce([=, this] { mouse_.release(mouseContext(), button); });
            },
        .scroll =
            [this](double steps, ViewerWindow::Cursor cursor) {
-             whenIdle([=, this] {
+             atOnce([=, this] {
                if (isOverPicture(cursor)) mouse_.scroll(mouseContext(), steps, cursor);
              });
            },
@@ -48,10 +49,18 @@ void Viewer::listen() {
 // Input that comes within a frame is handled at the end of the frame.
 void Viewer::whenIdle(std::function<void()> task) {
   drawsLeft_ = drawsAfterInput;
-  if (stepping_)
+  if (isStepping())
     waiting_.push_back(std::move(task));
   else
     attempt(task);
+}
+
+// What asks the session for nothing, or through MouseContext::act alone. It waits for a frame that this
+// thread is in, which may be within a call of the session.
+void Viewer::atOnce(std::function<void()> task) {
+  if (stepping_) return whenIdle(std::move(task));
+  drawsLeft_ = drawsAfterInput;
+  attempt(task);
 }
 
 void Viewer::onKey(const KeyStroke& stroke, bool repeated) {
@@ -61,9 +70,10 @@ void Viewer::onKey(const KeyStroke& stroke, bool repeated) {
   const bool repeats = action == ViewerAction::stepBack || action == ViewerAction::stepForward ||
                        action == ViewerAction::stepFrame || action == ViewerAction::undo ||
                        action == ViewerAction::redo;
-  whenIdle([=, this] {
+  const auto task = [=, this] {
     if (!repeated || repeats) act(action);
-  });
+  };
+  isImmediate(action) ? atOnce(task) : whenIdle(task);
 }
 
 // Closes what is open over the picture, else the window.
@@ -99,6 +109,9 @@ void Viewer::act(ViewerAction action) {
     case ViewerAction::stepFrame:
       stepAsked_ = paused_;
       return;
+    case ViewerAction::slowMotion:
+      tempo_ = nextTempo(tempo_);
+      return say(tempo_ < 1 ? formatted("Slow motion: %g\u00d7", tempo_) : "Real time");
     case ViewerAction::restart:
       return restart();
     case ViewerAction::stepBack:
@@ -113,6 +126,10 @@ void Viewer::act(ViewerAction action) {
       return switchIntegrator();
     case ViewerAction::nextShader:
       return nextShader();
+    case ViewerAction::nextQuality:
+      setQuality(
+          static_cast<Quality>((static_cast<int>(quality_) + 1) % static_cast<int>(qualityNames.size())));
+      return say("Quality of the picture: " + std::string(nameOf(quality_)));
     case ViewerAction::resetCamera:
       return open_->camera().reset();
     case ViewerAction::undo:
@@ -153,6 +170,7 @@ void Viewer::actOnFile(ViewerAction action) {
 // Keeps the window responsive while a frame is simulated, and lets it be closed.
 void Viewer::watchSteps() {
   session().setPoll([this] {
+    if (std::this_thread::get_id() != ownThread_) return !steps_.isStopped();
     window_.pollEvents();
     return !window_.shouldClose();
   });
@@ -186,6 +204,12 @@ void Viewer::nextShader() {
   scene.render.shader = at == names.end() || at + 1 == names.end() ? names.front() : *(at + 1);
   edit(scene, false);
   say("Shading model: " + scene.render.shader);
+}
+
+void Viewer::setQuality(Quality quality) {
+  quality_ = quality;
+  drawScale_ = DrawScale(pictureBudget(quality));
+  if (open_) open_->renderer().setOptions(renderOptions());
 }
 
 void Viewer::edit(const Scene& scene, bool continues) {
@@ -261,7 +285,7 @@ std::unique_ptr<OpenScene> Viewer::load(const std::string& source,
 void Viewer::openScene(const std::string& source) {
   const std::string backend = open_->backend();
   std::unique_ptr<OpenScene> next = load(source, [&] {
-    return std::make_unique<OpenScene>(loadSceneByName(source), source, backend, renderOptions(options_));
+    return std::make_unique<OpenScene>(loadSceneByName(source), source, backend, renderOptions());
   });
   next->view = open_->view;
   taker_.abandonClip();

@@ -39,14 +39,15 @@ std::string gridSizes(const Cloth& cloth) {
   return text;
 }
 
-OverlayFacts::Row speedRow(const OpenScene& open, const SpeedMeter& meter) {
+OverlayFacts::Row speedRow(const OpenScene& open, const SpeedMeter& meter, double tempo) {
   const double factor = meter.realTimeFactor();
   if (meter.framesPerSecond() == 0) return {"speed", "measuring", false, true};
-  const bool slow = factor < 0.95;
+  const bool slow = factor < 0.95 * tempo;
   // A software renderer is the CPU, and slower than the CPU backend.
   const bool cpuMayBeFaster = slow && gl::currentContextInfo().software && open.backend() == "gpu";
   return {"speed",
-          formatted(slow ? "%.2f" : "%.1f", factor) + "\u00d7 real time" +
+          formatted(slow || tempo < 1 ? "%.2f" : "%.1f", factor) + "\u00d7 real time" +
+              (tempo < 1 ? formatted(" of %g\u00d7", tempo) : "") +
               (cpuMayBeFaster ? ", B: try the CPU" : ""),
           slow, true};
 }
@@ -58,14 +59,14 @@ const char* nameOf(Integrator integrator) { return integratorName(integrator); }
 std::string viewerTitle(const OpenScene& open, const SpeedMeter& meter, bool paused) {
   const double rate = meter.framesPerSecond();
   return open.name() + " - " + open.backend() +
-         (paused     ? " - paused at frame " + std::to_string(open.session().frameSinceStart())
+         (paused     ? " - paused at frame " + std::to_string(open.facts().frameSinceStart)
           : rate > 0 ? formatted(" - %.0f fps", rate)
                      : "") +
          " - clothsim";
 }
 
 OverlayFacts viewerFacts(const OpenScene& open, const SpeedMeter& meter, bool paused, bool looksBack,
-                         const std::vector<Warning>& warnings) {
+                         double tempo, const std::vector<Warning>& warnings) {
   const Simulation& simulation = open.session().simulation();
   OverlayFacts facts;
   facts.title = open.name();
@@ -73,11 +74,11 @@ OverlayFacts viewerFacts(const OpenScene& open, const SpeedMeter& meter, bool pa
                 {"cloth", gridSizes(simulation.cloth()) + " = " +
                               withCommas(simulation.cloth().particleCount()) + " particles"},
                 {"integrator", nameOf(open.scene().solver.integrator), false, true},
-                {"time", formatted("%.2f s", simulation.time())}};
+                {"time", formatted("%.2f s", open.time())}};
   if (paused)
     facts.rows.push_back({"speed", looksBack ? "in the past (P: resume)" : "paused (P: resume)", true, true});
   else
-    facts.rows.push_back(speedRow(open, meter));
+    facts.rows.push_back(speedRow(open, meter, tempo));
   if (meter.framesPerSecond() > 0 && !paused)
     facts.rows.push_back({"display", formatted("%.0f frames/s", meter.framesPerSecond())});
   for (const Warning& warning : warnings) facts.rows.push_back({warning.kind, warning.brief, true, true});

@@ -14,6 +14,6 @@ namespace clothsim {
 [[nodiscard]] const char* nameOf(Integrator integrator);
 [[nodiscard]] std::string viewerTitle(const OpenScene& open, const SpeedMeter& meter, bool paused);
 [[nodiscard]] OverlayFacts viewerFacts(const OpenScene& open, const SpeedMeter& meter, bool paused,
-                                       bool looksBack, const std::vector<Warning>& warnings);
+                                       bool looksBack, double tempo, const std::vector<Warning>& warnings);
 
 }  // namespace clothsim

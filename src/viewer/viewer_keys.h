@@ -18,7 +18,9 @@ enum class ViewerAction {
   toggleBackend,
   compareBackends,
   toggleIntegrator,
+  slowMotion,
   nextShader,
+  nextQuality,
   resetCamera,
   undo,
   redo,
@@ -52,6 +54,7 @@ inline constexpr std::array viewerKeys{
     ViewerKey{"Space", "reset the camera", ViewerAction::resetCamera},
     ViewerKey{"P", "pause / resume", ViewerAction::pause},
     ViewerKey{"N", "advance one frame while paused", ViewerAction::stepFrame},
+    ViewerKey{"S", "slow motion: 1, 0.5, 0.25, 0.1 times real time", ViewerAction::slowMotion},
     ViewerKey{"R", "restart from frame 0", ViewerAction::restart},
     ViewerKey{"Left", "go back one frame", ViewerAction::stepBack},
     ViewerKey{"Right", "go forward one frame, after going back", ViewerAction::stepForward},
@@ -59,6 +62,7 @@ inline constexpr std::array viewerKeys{
     ViewerKey{"C", "compare the backends from here", ViewerAction::compareBackends},
     ViewerKey{"I", "next integrator: verlet, euler, implicit, bdf2", ViewerAction::toggleIntegrator},
     ViewerKey{"Tab", "next shading model", ViewerAction::nextShader},
+    ViewerKey{"Q", "next quality of the picture: draft, normal, final", ViewerAction::nextQuality},
     ViewerKey{"Ctrl+Z", "undo the last parameter change", ViewerAction::undo},
     ViewerKey{"Ctrl+Shift+Z", "redo it", ViewerAction::redo},
     ViewerKey{"Ctrl+P", "screenshot", ViewerAction::screenshot},
@@ -88,6 +92,23 @@ struct KeyStroke {
   if (stroke.shift) input.remove_prefix(6);
   stroke.key = input;
   return stroke;
+}
+
+// Whether the action asks nothing of the simulation, and is done also while a frame is being simulated.
+[[nodiscard]] inline bool isImmediate(ViewerAction action) {
+  switch (action) {
+    case ViewerAction::pause:
+    case ViewerAction::resetCamera:
+    case ViewerAction::nextQuality:
+    case ViewerAction::slowMotion:
+    case ViewerAction::toggleKeyList:
+    case ViewerAction::toggleOverlay:
+    case ViewerAction::togglePanels:
+    case ViewerAction::quit:
+      return true;
+    default:
+      return false;
+  }
 }
 
 [[nodiscard]] inline ViewerAction actionOf(const KeyStroke& stroke) {

@@ -125,6 +125,18 @@ void drawLoading(const std::string& name) {
   ImGui::PopStyleColor();
 }
 
+bool drawAdvice(const std::string& cause, const std::string& button, PictureArea area, float lift) {
+  ImGui::SetNextWindowPos({0.8f * em(), area.height - lift - 0.8f * em()}, ImGuiCond_Always, {0, 1});
+  ImGui::PushStyleColor(ImGuiCol_WindowBg, theme::glass);
+  ImGui::Begin("advice", nullptr, overlayFlags & ~ImGuiWindowFlags_NoInputs);
+  coloredText(cause, theme::alert);
+  const bool pressed = ImGui::Button((button + "###advice").c_str());
+  helpTip("Would bring the scene nearer to its pace. A change of the cloth can be undone (Ctrl+Z).");
+  ImGui::End();
+  ImGui::PopStyleColor();
+  return pressed;
+}
+
 void drawNotice(const std::string& words, bool isError, PictureArea area, float lift) {
   ImGui::SetNextWindowPos({area.width / 2, area.height - lift - 0.8f * em()}, ImGuiCond_Always, {0.5f, 1.0f});
   ImGui::PushStyleColor(ImGuiCol_WindowBg, isError ? theme::sheet : theme::glass);

@@ -27,6 +27,10 @@ void drawFacts(const OverlayFacts& facts, PictureArea area);
 void drawKeyList(PictureArea area);
 // Fills the window while a scene is loaded.
 void drawLoading(const std::string& name);
+// What costs most, with a button for what would help, `lift` pixels above the bottom of the picture. Returns
+// whether it was pressed.
+[[nodiscard]] bool drawAdvice(const std::string& cause, const std::string& button, PictureArea area,
+                              float lift);
 // Stands `lift` pixels above the bottom of the picture.
 void drawNotice(const std::string& words, bool isError, PictureArea area, float lift);
 

@@ -8,16 +8,20 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include "core/error.h"
 #include "gl/context.h"
+#include "render/draw_scale.h"
+#include "session/step_thread.h"
 #include "viewer/compare_card.h"
 #include "viewer/frame_timings.h"
 #include "viewer/mouse_tools.h"
 #include "viewer/open_scene.h"
 #include "viewer/pace.h"
+#include "viewer/pace_advice.h"
 #include "viewer/panels/panels.h"
 #include "viewer/picture_taker.h"
 #include "viewer/timeline_bar.h"
@@ -30,8 +34,8 @@
 
 namespace clothsim {
 
-// With as many samples a pixel as the device draws fluently.
-[[nodiscard]] RenderOptions renderOptions(const ViewerOptions& options);
+// "auto" is draft on a software renderer and final on others. Needs a current context.
+[[nodiscard]] Quality chosenQuality(const std::string& wish);
 
 class LapClock {
  public:
@@ -73,11 +77,13 @@ class Viewer {
     FieldEdits edits;
     PanelRequests panels;
     TimelineRequests timeline;
+    std::optional<PaceAdvice> advice;  // that is to be followed
   };
 
   // --- input from the window
   void listen();
   void whenIdle(std::function<void()> task);
+  void atOnce(std::function<void()> task);
   void onKey(const KeyStroke& stroke, bool repeated);
   void escape();
   void onPress(ViewerWindow::Button button, ViewerWindow::Cursor cursor, bool control, bool shift);
@@ -91,6 +97,8 @@ class Viewer {
   void switchBackend(const std::string& backend);
   void switchIntegrator();
   void nextShader();
+  void setQuality(Quality quality);
+  [[nodiscard]] RenderOptions renderOptions() const;
   void edit(const Scene& scene, bool continues);
   void undo(bool again);
   void seek(int frame);
@@ -107,7 +115,16 @@ class Viewer {
   void iterate();
   int simulate(double elapsed);
   [[nodiscard]] int stepFrames(int frames);
+  void startFrames(int frames);
+  [[nodiscard]] int takeFrames();
+  [[nodiscard]] int finishedFrames(int frames, double seconds, bool went,
+                                   const std::optional<Divergence>& divergence);
+  void endFrames();
+  void doWaiting();
+  [[nodiscard]] bool isStepping() const { return stepping_ || steps_.isBusy(); }
+  void waitForInput();
   void draw();
+  void drawPicture(int width, int height);
   void measure();
   void drawControls();
   void drawPanels();
@@ -115,6 +132,8 @@ class Viewer {
   void apply(const FieldEdits& edits);
   void apply(const PanelRequests& requests);
   void apply(const TimelineRequests& requests);
+  void apply(const PaceAdvice& advice);
+  [[nodiscard]] std::optional<PaceAdvice> advice() const;
   void keepConfig();
 
   [[nodiscard]] Session& session() { return open_->session(); }
@@ -158,8 +177,12 @@ class Viewer {
   PictureTaker taker_;
   Pace pace_{1.0 / 90};
   SpeedMeter meter_;
+  Quality quality_ = Quality::final;
+  DrawScale drawScale_{0};
   LapClock clock_;
   FrameTimings timings_{options_.timings};
+  StepThread steps_{[this] { window_.wakeUp(); }};  // simulates on the CPU backend
+  const std::thread::id ownThread_ = std::this_thread::get_id();
   Notice notice_;
   ViewerConfig config_, savedConfig_;
   ControlRequests requests_;
@@ -171,10 +194,15 @@ class Viewer {
   std::optional<std::string> sceneToOpen_;
   std::optional<std::string> lost_;  // why the context was lost
   std::string title_;
-  double now_ = 0, pinsShownUntil_ = 0;         // [s] since the start
-  int drawsLeft_ = drawsAfterInput;             // pictures that a paused window still draws after input
-  bool stepping_ = false;                       // the session is within a frame, and
-  std::vector<std::function<void()>> waiting_;  // input waits here
+  double now_ = 0, pinsShownUntil_ = 0;  // [s] since the start
+  int drawsLeft_ = drawsAfterInput;      // pictures that a paused window still draws after input
+  double tempo_ = 1;                     // simulated seconds per second that are wanted
+  double unpaced_ = 0;                   // time that pace_ does not know of yet [s]
+  double lastDrawn_ = 0;                 // [s] since the start
+  bool stepping_ = false;                // the session is within a frame on this thread. Then, and while
+  std::vector<std::function<void()>>
+      waiting_;                       // steps_ is busy, what asks the session for something waits here
+  std::optional<Scene> waitingEdit_;  // the newest of the panels, which waits likewise
   bool paused_ = false, stepAsked_ = false, showKeys_ = false;
 };
 

@@ -61,6 +61,22 @@ TEST_F(WindowUi, ClosesAtOnceWithinAFrameThatWouldTakeMinutes) {
   EXPECT_EQ(viewer.exitCodeWithin(seconds(10)), 0) << viewer.output();
 }
 
+TEST_F(WindowUi, AnswersWithinAFrameThatWouldTakeMinutes) {
+  ViewerProgram viewer("-f pinned2 --backend cpu --set solver.simulation_steps=1000000", "", "pinned2 - cpu");
+  const Picture before = viewer.stillPicture();
+  viewer.press("F2");
+  EXPECT_TRUE(test::eventually(seconds(3), [&] { return viewer.picture() != before; }))
+      << "the overlay stays";
+  const Picture bare = viewer.stillPicture();
+  viewer.drag(1, 0.5, 0.75, 0.7, 0.8);
+  EXPECT_TRUE(test::eventually(seconds(3), [&] { return viewer.picture() != bare; })) << "the camera rests";
+  viewer.press("p");
+  EXPECT_TRUE(viewer.titleBecomesOneWith("paused at frame 0")) << viewer.title();
+  viewer.press("b");  // waits for the frame
+  viewer.press("Escape");
+  EXPECT_EQ(viewer.exitCodeWithin(seconds(2)), 0) << viewer.output();
+}
+
 TEST_F(WindowUi, SaysWhatItLoadsAndClosesAtOnceMeanwhile) {
   ViewerProgram viewer("-f pinned2 --backend cpu --resolution 2048x2048", "", "pinned2 - loading");
   viewer.press("Escape");

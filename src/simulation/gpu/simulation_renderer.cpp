@@ -12,7 +12,22 @@ SimulationRenderer::SimulationRenderer(Simulation& simulation, const RenderOptio
   renderer_.emplace(cloth_, scene_, options_);
 }
 
+void SimulationRenderer::hold() {
+  update();
+  static_cast<void>(positionsBuffer());
+  heldTime_ = simulation_.time();
+}
+
+std::vector<Particle4> SimulationRenderer::positions() {
+  return heldTime_ ? lastUpload_ : simulation_.state().positions;
+}
+
+Particle4 SimulationRenderer::position(std::uint32_t particle) {
+  return heldTime_ ? lastUpload_[particle] : simulation_.solver().positions(particle, 1).front();
+}
+
 void SimulationRenderer::update() {
+  if (heldTime_) return;
   if (!cloth_.isSameAs(simulation_.sharedCloth())) {
     renderer_.emplace(simulation_.sharedCloth(), simulation_.sharedScene(), options_);
     cloth_ = simulation_.sharedCloth();
@@ -27,14 +42,21 @@ void SimulationRenderer::update() {
   }
 }
 
+void SimulationRenderer::setOptions(const RenderOptions& options) {
+  renderer_->setOptions(options);
+  options_ = options;
+}
+
 GLuint SimulationRenderer::positionsBuffer() {
+  if (heldTime_) return uploaded_.name();
   if (const auto* gpu = dynamic_cast<const GpuSolver*>(&simulation_.solver())) return gpu->positionsBuffer();
   const std::uint64_t version = simulation_.version(), step = simulation_.solver().stepIndex();
   const std::size_t particles = simulation_.cloth().particleCount();
   const bool isNew = uploaded_.name() == 0 || uploaded_.size() != particles;
   if (isNew) uploaded_ = gl::Buffer<Particle4>("positions to draw", particles);
   if (isNew || uploadedVersion_ != version || uploadedStep_ != step) {
-    uploaded_.upload(simulation_.state().positions);
+    lastUpload_ = simulation_.state().positions;
+    uploaded_.upload(lastUpload_);
     uploadedVersion_ = version;
     uploadedStep_ = step;
   }
@@ -42,15 +64,15 @@ GLuint SimulationRenderer::positionsBuffer() {
 }
 
 void SimulationRenderer::draw(const Camera& camera, GLuint target, int width, int height) {
-  renderer_->draw(positionsBuffer(), camera, simulation_.time(), target, width, height);
+  renderer_->draw(positionsBuffer(), camera, time(), target, width, height);
 }
 
 Image SimulationRenderer::picture(const Camera& camera, int width, int height) {
-  return renderImage(*renderer_, positionsBuffer(), camera, simulation_.time(), width, height);
+  return renderImage(*renderer_, positionsBuffer(), camera, time(), width, height);
 }
 
 Pick SimulationRenderer::pick(const Camera& camera, int width, int height, double x, double y) {
-  return renderer_->pick(positionsBuffer(), camera, simulation_.time(), width, height, x, y);
+  return renderer_->pick(positionsBuffer(), camera, time(), width, height, x, y);
 }
 
 }  // namespace clothsim

@@ -18,6 +18,16 @@ class SimulationRenderer {
   // Takes over the scene, the cloth and the cuts that the simulation has now. @throws as the constructor
   void update();
   [[nodiscard]] Renderer& renderer() { return *renderer_; }
+  // From now until release() it shows the state as it is now and asks the simulation for nothing, so that
+  // another thread may step it, on the CPU.
+  void hold();
+  void release() { heldTime_.reset(); }
+  // Of the state that is shown.
+  [[nodiscard]] std::vector<Particle4> positions();
+  [[nodiscard]] Particle4 position(std::uint32_t particle);
+  [[nodiscard]] double time() const { return heldTime_ ? *heldTime_ : simulation_.time(); }
+  // As Renderer::setOptions(), also for what update() makes anew.
+  void setOptions(const RenderOptions& options);
 
   // The name of a buffer with a vec4 a particle. It is the GPU solver's own; a state of the CPU is uploaded
   // once after each change.
@@ -37,6 +47,8 @@ class SimulationRenderer {
   Shared<Scene> scene_;
   Cuts cuts_;
   gl::Buffer<Particle4> uploaded_;
+  std::vector<Particle4> lastUpload_;
+  std::optional<double> heldTime_;
   std::uint64_t uploadedVersion_ = 0, uploadedStep_ = 0;
 };
 

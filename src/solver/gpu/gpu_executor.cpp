@@ -36,6 +36,7 @@ struct GpuExecutor::Copy final : ParticleCopy {
   gl::Buffer<Particle4> positions, velocities;
 
   [[nodiscard]] std::size_t bytes() const override { return positions.bytes() + velocities.bytes(); }
+  [[nodiscard]] bool needsContext() const override { return true; }
   void download(State& state) const override {
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     state.positions = positions.download();

@@ -135,15 +135,15 @@ void MeasurePanel::sample(Session& session, double now, std::optional<std::uint3
   nextSample_ = now + std::max(sampleSeconds, (secondsNow() - began) / shareOfTime);
 }
 
-void MeasurePanel::drawNumbers(Session& session) {
+void MeasurePanel::drawNumbers(const Scene& scene) {
   if (!beginRows("numbers")) return;
   const Energies last = samples_.empty() ? Energies{} : samples_.back().energies;
   row("max strain", formatted("%.2f %%", 100 * last.maxStrain),
       "The largest stretch l/L - 1 of all springs that are enabled and not cut.");
   row("under the cursor", strainUnderCursor_ ? formatted("%+.2f %%", 100 * *strainUnderCursor_) : "-",
       "The largest strain of the springs at the particle under the mouse.");
-  drawContacts(session.simulation().scene().solver.selfCollision);
-  if (isImplicit(session.simulation().scene().solver.integrator)) drawConvergence();
+  drawContacts(scene.solver.selfCollision);
+  if (isImplicit(scene.solver.integrator)) drawConvergence();
   row("particle steps", rate_ > 0 ? formatted("%.3g million/s", rate_ / 1e6) : "-",
       "Particles times steps computed per second.");
   ImGui::EndTable();
@@ -205,21 +205,23 @@ void MeasurePanel::drawPlots() {
   helpTip("The largest stretch of a spring over simulated time.");
 }
 
-void MeasurePanel::drawPasses(Session& session) {
-  if (wideButton("Time the passes of a step")) {
-    // Timing uses a solver of its own, since the cloth must stay where it is.
-    try {
-      Simulation& simulation = session.simulation();
-      const std::unique_ptr<Solver> solver = simulation.solverFactory()(
-          simulation.solver().backend(), simulation.sharedCloth(), simulation.sharedScene());
-      solver->setState(simulation.state());
-      passes_ = solver->timePasses(timedSteps);
-      passSteps_ = timedSteps;
-      passDivergence_.clear();
-    } catch (const Error& error) {
-      passDivergence_ = error.what();
-    }
+// Timing uses a solver of its own, since the cloth must stay where it is.
+void MeasurePanel::timePasses(Session& session) {
+  try {
+    Simulation& simulation = session.simulation();
+    const std::unique_ptr<Solver> solver = simulation.solverFactory()(
+        simulation.solver().backend(), simulation.sharedCloth(), simulation.sharedScene());
+    solver->setState(simulation.state());
+    passes_ = solver->timePasses(timedSteps);
+    passSteps_ = timedSteps;
+    passDivergence_.clear();
+  } catch (const Error& error) {
+    passDivergence_ = error.what();
   }
+}
+
+void MeasurePanel::drawPasses() {
+  if (wideButton("Time the passes of a step")) passesAsked_ = true;
   helpTip("Simulates 60 steps on a copy of the cloth and times each pass.");
   if (!passDivergence_.empty()) wrappedText(passDivergence_, theme::alert);
   if (passes_.empty() || !beginRows("passes")) return;
@@ -229,22 +231,21 @@ void MeasurePanel::drawPasses(Session& session) {
   ImGui::EndTable();
 }
 
-void MeasurePanel::drawMemory(Session& session) {
+void MeasurePanel::drawMemory(const SessionFacts& facts) {
   if (!beginRows("memory")) return;
   row("memory", megabytes(residentBytes()), "Main memory used by the program.");
   row("frames kept",
-      formatted("%d in ", session.newestFrame() - session.oldestFrame() + 1) +
-          megabytes(session.snapshotBytes()),
+      formatted("%d in ", facts.newestFrame - facts.oldestFrame + 1) + megabytes(facts.snapshotBytes),
       "Frames you can go back to, and the device memory they use.");
   ImGui::EndTable();
 }
 
-void MeasurePanel::draw(Session& session, const RenderSettings& look) {
+void MeasurePanel::draw(const SessionFacts& facts, const RenderSettings& look) {
   if (look.shader == "strain") drawStrainLegend(look, strainUnderCursor_);
-  drawNumbers(session);
+  drawNumbers(*facts.scene);
   drawPlots();
-  drawPasses(session);
-  drawMemory(session);
+  drawPasses();
+  drawMemory(facts);
 }
 
 }  // namespace clothsim

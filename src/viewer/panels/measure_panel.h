@@ -8,6 +8,7 @@
 #include <deque>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "measure/energies.h"
@@ -15,17 +16,20 @@
 #include "measure/run_watch.h"
 #include "session/session.h"
 #include "solver/solver.h"
+#include "viewer/open_scene.h"
 
 namespace clothsim {
 
 class MeasurePanel {
  public:
   // `look` is that of the picture. Where it shows strain by colours, a legend is drawn.
-  void draw(Session& session, const RenderSettings& look);
+  void draw(const SessionFacts& facts, const RenderSettings& look);
 
-  // Takes a sample when it is time for one. `particleUnderCursor` is called then.
+  // Takes a sample when it is time for one. `particleUnderCursor` is called then. Times the passes of a step
+  // if the button was pressed.
   template <class UnderCursor>
   void update(Session& session, double now, UnderCursor&& particleUnderCursor) {
+    if (std::exchange(passesAsked_, false)) timePasses(session);
     const bool wanted = open_ || session.simulation().cloth().particleCount() <= ALWAYS_SAMPLED;
     if (now < nextSample_) return;
     sampleSteps(session, now);
@@ -49,12 +53,13 @@ class MeasurePanel {
 
   void sampleSteps(Session& session, double now);
   void sample(Session& session, double now, std::optional<std::uint32_t> underCursor);
-  void drawNumbers(Session& session);
+  void drawNumbers(const Scene& scene);
   void drawContacts(SelfCollision mode);
   void drawConvergence();
   void drawPlots();
-  void drawPasses(Session& session);
-  void drawMemory(Session& session);
+  void drawPasses();
+  void timePasses(Session& session);
+  static void drawMemory(const SessionFacts& facts);
 
   bool open_ = false;
   double nextSample_ = 0;
@@ -69,6 +74,7 @@ class MeasurePanel {
   double rate_ = 0;                         // particle steps a second
   std::vector<PassTime> passes_;
   int passSteps_ = 0;
+  bool passesAsked_ = false;
   std::string passDivergence_;
 };
 

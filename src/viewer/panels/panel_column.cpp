@@ -33,7 +33,7 @@ void PanelColumn::drawPanel(PanelName panel, PanelContext& context) {
     case PanelName::look:
       return drawLookPanel(context);
     case PanelName::measure:
-      return measures_.draw(context.session, context.draft.render);
+      return measures_.draw(context.facts, context.draft.render);
     case PanelName::scene:
       return scenes_.draw(context);
   }

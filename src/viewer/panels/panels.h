@@ -7,7 +7,7 @@
 
 #include "render/renderer.h"
 #include "scene_io/scene_io.h"
-#include "session/session.h"
+#include "viewer/open_scene.h"
 #include "viewer/panels/field_widgets.h"
 #include "viewer/panels/measure_panel.h"
 #include "viewer/viewer_config.h"
@@ -21,17 +21,21 @@ struct PanelRequests {
   std::optional<std::string> openScene;    // a name or path as for -f
   std::optional<std::string> saveSceneAs;  // a path
   std::optional<std::string> backend;      // "cpu" or "gpu"
+  std::optional<Quality> quality;          // of the picture
   bool resetScene = false;                 // back to the loaded scene
+  friend bool operator==(const PanelRequests&, const PanelRequests&) = default;
 };
 
 // What the panels show. `draft` is the scene with the edits of this frame.
 struct PanelContext {
   Scene& draft;
   FieldWidgets& widgets;
-  Session& session;
+  const SessionFacts& facts;
+  std::string backend;
   ViewOptions& view;
   Vec3d lookedAt;  // target of the camera, where new colliders are placed [m]
   const std::string& sceneName;
+  Quality quality;  // of the picture
   PanelRequests requests{};
 };
 

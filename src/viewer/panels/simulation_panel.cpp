@@ -10,7 +10,7 @@ constexpr Vec3d firstWind{0, 0, -3};  // when wind is switched on [m/s]
 
 void drawBackend(PanelContext& context) {
   const char* const names[] = {"GPU", "CPU"};
-  const int now = context.session.simulation().solver().backend() == "gpu" ? 0 : 1;
+  const int now = context.backend == "gpu" ? 0 : 1;
   const int chosen = segmentedButtons("backend", names, 2, now);
   helpTip("Where the cloth is computed. Switching continues from the bit-identical state (B).");
   if (chosen != now) context.requests.backend = chosen == 0 ? "gpu" : "cpu";

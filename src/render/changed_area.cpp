@@ -1,0 +1,99 @@
+#include "render/changed_area.h"
+
+#include <array>
+#include <cmath>
+
+#include "shared/render_layout.h"
+
+namespace clothsim {
+namespace {
+
+// Smoothing of edges looks this far [pixels], and marks of pins are this large, as a part of the height.
+constexpr float smoothingMargin = 8, marksMargin = 0.007f;
+// The blur of shadows on floors, and a texel for filters.
+constexpr float shadowMargin = 9.0f / FLOOR_SHADOW_SIZE;
+constexpr float nearest = 1e-3f;  // [m] before the eye
+
+glm::vec2 pixelOf(glm::vec4 clip, const ChangedArea::View& view) {
+  return 0.5f * (glm::vec2(clip.x, clip.y) / clip.w + 1.0f) * glm::vec2(view.width, view.height);
+}
+
+// Adds a point of the world to what is seen. False for one that has no place in the picture.
+bool addSeen(glm::vec3 point, const ChangedArea::View& view, FlatBounds& seen) {
+  const glm::vec4 clip = view.clipFromWorld * glm::vec4(point, 1);
+  if (!(clip.w > nearest)) return false;  // not a number, too
+  seen.add(pixelOf(clip, view));
+  return true;
+}
+
+// Where the shadow falls on a plane: the corners of its part of the map, followed along the light.
+bool addShadowOn(const PlaneDisc& plane, const FlatBounds& shadow, const ChangedArea::View& view,
+                 FlatBounds& seen) {
+  const glm::mat4 worldFromShadow = glm::inverse(view.shadowFromWorld);
+  const glm::vec3 normal(plane.normal), center(plane.place);
+  const FlatBounds inMap{glm::max(shadow.low, 0.0f), glm::min(shadow.high, 1.0f)};
+  for (int corner = 0; corner < 4; ++corner) {
+    const float u = (corner & 1) != 0 ? inMap.high.x : inMap.low.x;
+    const float v = (corner & 2) != 0 ? inMap.high.y : inMap.low.y;
+    const glm::vec3 from(worldFromShadow * glm::vec4(u, v, 0, 1)),
+        to(worldFromShadow * glm::vec4(u, v, 1, 1));
+    const float slope = glm::dot(to - from, normal);
+    if (std::abs(slope) < 1e-3f * glm::length(to - from)) return false;  // the light grazes it
+    if (!addSeen(from + glm::dot(center - from, normal) / slope * (to - from), view, seen)) return false;
+  }
+  return true;
+}
+
+// The box of a solid in the map and in the picture.
+bool addBox(const Bounds& box, const ChangedArea::View& view, FlatBounds& shadow, FlatBounds& seen) {
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::vec3 point{(corner & 1) != 0 ? box.high.x : box.low.x,
+                          (corner & 2) != 0 ? box.high.y : box.low.y,
+                          (corner & 4) != 0 ? box.high.z : box.low.z};
+    shadow.add(glm::vec2(view.shadowFromWorld * glm::vec4(point, 1)));
+    if (!addSeen(point, view, seen)) return false;
+  }
+  return true;
+}
+
+PixelRect pixelsOf(const FlatBounds& seen, const ChangedArea::View& view) {
+  const FlatBounds grown = seen.grown(smoothingMargin + marksMargin * static_cast<float>(view.height));
+  const auto clipped = [](float at, int size) {
+    return static_cast<int>(std::clamp(at, 0.0f, static_cast<float>(size)));
+  };
+  return {clipped(std::floor(grown.low.x), view.width), clipped(std::floor(grown.low.y), view.height),
+          clipped(std::ceil(grown.high.x), view.width), clipped(std::ceil(grown.high.y), view.height)};
+}
+
+}  // namespace
+
+std::optional<ChangedArea::Area> ChangedArea::next(const View& view, std::span<const glm::vec4> particles,
+                                                   const Colliders& colliders) {
+  Seen now{view, colliders.places(), {}, {}};
+  for (const glm::vec4& particle : particles) {
+    const glm::vec3 place(particle);
+    now.shadow.add(glm::vec2(view.shadowFromWorld * glm::vec4(place, 1)));
+    if (!addSeen(place, view, now.picture)) return forget(), std::nullopt;
+  }
+  if (!last_ || !(last_->view == view) || last_->solidPlaces != now.solidPlaces) {
+    last_ = std::move(now);
+    return std::nullopt;
+  }
+  FlatBounds shadow = now.shadow, picture = now.picture;
+  shadow.add(last_->shadow);
+  picture.add(last_->picture);
+  last_ = std::move(now);
+  shadow = shadow.grown(shadowMargin);
+  bool isSeen = true;
+  for (const PlaneDisc& plane : colliders.discs())
+    isSeen = isSeen && addShadowOn(plane, shadow, view, picture);
+  for (const Bounds& box : colliders.solidBounds()) {
+    FlatBounds boxShadow, boxPicture;
+    isSeen = isSeen && addBox(box, view, boxShadow, boxPicture);
+    if (boxShadow.overlaps(shadow)) picture.add(boxPicture);
+  }
+  if (!isSeen) return std::nullopt;
+  return Area{pixelsOf(picture, view), shadow};
+}
+
+}  // namespace clothsim

@@ -1,0 +1,67 @@
+// Which part of a picture differs from the one before it, while the camera rests: where cloth is and was, and
+// where its shadow falls. The rest can be kept, pixel for pixel.
+#pragma once
+
+#include <algorithm>
+#include <glm/glm.hpp>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "render/colliders.h"
+
+namespace clothsim {
+
+// Pixels from left and bottom to right and top, which do not belong to it.
+struct PixelRect {
+  int left = 0, bottom = 0, right = 0, top = 0;
+  [[nodiscard]] int width() const { return std::max(0, right - left); }
+  [[nodiscard]] int height() const { return std::max(0, top - bottom); }
+  friend bool operator==(const PixelRect&, const PixelRect&) = default;
+};
+
+// A rectangle of reals; empty until something is added.
+struct FlatBounds {
+  glm::vec2 low{1e30f}, high{-1e30f};
+  void add(glm::vec2 point) {
+    low = glm::min(low, point);
+    high = glm::max(high, point);
+  }
+  void add(const FlatBounds& other) {
+    low = glm::min(low, other.low);
+    high = glm::max(high, other.high);
+  }
+  [[nodiscard]] FlatBounds grown(float by) const { return {low - by, high + by}; }
+  [[nodiscard]] bool overlaps(const FlatBounds& other) const {
+    return low.x <= other.high.x && other.low.x <= high.x && low.y <= other.high.y && other.low.y <= high.y;
+  }
+};
+
+class ChangedArea {
+ public:
+  struct View {
+    glm::mat4 clipFromWorld, shadowFromWorld;
+    int width, height;  // of the picture [pixels]
+    friend bool operator==(const View&, const View&) = default;
+  };
+  struct Area {
+    PixelRect picture;
+    FlatBounds shadow;  // in the shadow map, 0 to 1 in each coordinate
+  };
+
+  // What has changed since the last call. None: everything, as when the camera or a solid has moved.
+  [[nodiscard]] std::optional<Area> next(const View& view, std::span<const glm::vec4> particles,
+                                         const Colliders& colliders);
+  // The next picture is new everywhere.
+  void forget() { last_.reset(); }
+
+ private:
+  struct Seen {
+    View view;
+    std::vector<glm::vec4> solidPlaces;
+    FlatBounds picture, shadow;  // of the cloth: pixels; 0 to 1
+  };
+  std::optional<Seen> last_;
+};
+
+}  // namespace clothsim

@@ -1,0 +1,56 @@
+// How much a picture may cost: draft, normal or final.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+namespace clothsim {
+
+struct RenderOptions {
+  int sphereSegmentsAround = 64;  // -a: horizontal segments of drawn spheres, >= 3
+  int sphereSegmentsDown = 48;    // -o: vertical segments, >= 2
+  int samples = 4;                // multisampling, 1 to what the driver offers
+  int shadowMapSize = 1024;  // texels along each side; a smaller map is faster and its shadows are softer
+  bool shadows = true;
+  // Draws only where a picture differs from the one before, with the same pixels. It reads particles back,
+  // which is next to nothing where the device is the processor, and a stall elsewhere.
+  bool keepsStill = false;
+};
+
+enum class Quality { draft, normal, final };
+inline constexpr std::array<std::string_view, 3> qualityNames{"draft", "normal", "final"};
+
+[[nodiscard]] inline std::string_view nameOf(Quality quality) {
+  return qualityNames[static_cast<std::size_t>(quality)];
+}
+[[nodiscard]] inline std::optional<Quality> qualityNamed(std::string_view name) {
+  for (std::size_t i = 0; i < qualityNames.size(); ++i)
+    if (qualityNames[i] == name) return static_cast<Quality>(i);
+  return std::nullopt;
+}
+
+// @param software  the renderer is the processor, to which every sample costs time
+[[nodiscard]] inline RenderOptions withQuality(RenderOptions options, Quality quality, bool software) {
+  const bool oneSample = quality == Quality::draft || (quality == Quality::normal && software);
+  options.samples = oneSample ? 1 : 4;  // of one sample a pixel, edges are smoothed afterwards
+  options.shadowMapSize = quality == Quality::draft ? 512 : 1024;
+  options.keepsStill = software && quality != Quality::final;
+  return options;
+}
+
+// What a picture may take on a software renderer before its scene is drawn in fewer pixels [s]; 0: as long as
+// it takes.
+[[nodiscard]] inline double pictureBudget(Quality quality) {
+  switch (quality) {
+    case Quality::draft:
+      return 0.015;
+    case Quality::normal:
+      return 0.030;
+    case Quality::final:
+      return 0;
+  }
+  return 0;
+}
+
+}  // namespace clothsim

@@ -1,0 +1,139 @@
+// Pictures of which only the changed part is drawn are those that are drawn whole, in every pixel.
+#include <limits>
+
+#include "gl/gl_test.h"
+#include "gl/render/picture.h"
+#include "render/changed_area.h"
+#include "render/shadow_map.h"
+
+namespace clothsim {
+namespace {
+
+class KeptPictureTest : public GlTest {
+ protected:
+  static constexpr int width = 192, height = 128;
+
+  // The cloth where it hangs at a moment of its way.
+  static std::vector<Particle4> moved(const test::Drape& drape, int moment) {
+    std::vector<Particle4> positions = drape.positions;
+    for (Particle4& p : positions) {
+      p.x += 0.03f * static_cast<float>(moment);
+      p.y += 0.02f * static_cast<float>(moment % 3);
+    }
+    return positions;
+  }
+
+  struct Shown {
+    Shown(const test::Drape& drape, bool keeps, double scale = 1)
+        : positions("positions", drape.positions),
+          renderer(drape.cloth, drape.scene, {.samples = 1, .keepsStill = keeps}) {
+      renderer.setScale(scale);
+    }
+    Image after(const test::Drape& drape, int moment, const Camera& camera, double time = 0) {
+      positions.upload(moved(drape, moment));
+      return renderImage(renderer, positions.name(), camera, time, width, height);
+    }
+    gl::Buffer<Particle4> positions;
+    Renderer renderer;
+  };
+
+  static void expectTheSame(const Scene& scene, double scale, double secondsAMoment = 0) {
+    const test::Drape drape(scene);
+    Shown kept(drape, true, scale), whole(drape, false, scale);
+    const Camera camera(drape.scene, drape.cloth);
+    for (int moment = 0; moment < 5; ++moment) {
+      const double time = secondsAMoment * moment;
+      EXPECT_EQ(kept.after(drape, moment, camera, time).rgb, whole.after(drape, moment, camera, time).rgb)
+          << "moment " << moment << " at scale " << scale;
+    }
+  }
+};
+
+TEST_F(KeptPictureTest, IsTheWholePictureInEveryPixelWhileTheClothMoves) {
+  expectTheSame(test::drapeScene(), 1);
+  expectTheSame(test::drapeScene(), 0.5);
+}
+
+TEST_F(KeptPictureTest, IsTheWholePictureUnderEveryBackgroundAndShadingModel) {
+  for (const char* background : {"studio", "sky", "plain"}) {
+    Scene scene = test::drapeScene();
+    scene.render.background = background;
+    expectTheSame(scene, 0.75);
+  }
+  for (const char* shader : {"fabric", "wireframe", "displacement"}) {
+    Scene scene = test::drapeScene();
+    scene.render.shader = shader;
+    expectTheSame(scene, 1);
+  }
+}
+
+TEST_F(KeptPictureTest, SeesSolidsThatMoveAndSolidsInTheShadowOfTheCloth) {
+  Scene scene = test::drapeScene();
+  Capsule low;
+  low.origin = {0.55, 0.05, 0.8};
+  low.axis = {1, 0, 0};
+  low.radius = 0.05;
+  scene.colliders.emplace_back(low);
+  expectTheSame(scene, 1);
+  Sphere travelling;
+  travelling.origin = {-0.2, 0.1, 0.5};
+  travelling.radius = 0.1;
+  travelling.motion = Motion{{{0, {-0.2, 0.1, 0.5}, {}}, {1, {0.8, 0.3, 0.5}, {}}}};
+  scene.colliders.emplace_back(travelling);
+  expectTheSame(scene, 1, 0.2);
+}
+
+TEST_F(KeptPictureTest, FollowsTheCameraTheSceneAndTheSize) {
+  const test::Drape drape(test::drapeScene());
+  Shown kept(drape, true), whole(drape, false);
+  Camera camera(drape.scene, drape.cloth);
+  static_cast<void>(kept.after(drape, 0, camera));
+  camera.orbit(0.4, 0.1);
+  EXPECT_EQ(kept.after(drape, 0, camera).rgb, whole.after(drape, 0, camera).rgb);
+  Scene other = drape.scene;
+  other.render.color = {0.1, 0.5, 0.2};
+  kept.renderer.configure(other);
+  whole.renderer.configure(other);
+  EXPECT_EQ(kept.after(drape, 0, camera).rgb, whole.after(drape, 0, camera).rgb);
+  kept.renderer.setScale(0.5);
+  whole.renderer.setScale(0.5);
+  EXPECT_EQ(kept.after(drape, 0, camera).rgb, whole.after(drape, 0, camera).rgb);
+  for (Shown* shown : {&kept, &whole}) shown->renderer.setView({.showPins = true});
+  EXPECT_EQ(kept.after(drape, 1, camera).rgb, whole.after(drape, 1, camera).rgb);
+}
+
+TEST_F(KeptPictureTest, DrawsOnlyAPartOfItAndAllOfItWhereThatIsUnknown) {
+  const test::Drape drape(test::drapeScene());
+  const Camera camera(drape.scene, drape.cloth);
+  const Stage stage = makeStage(outlineOf(drape.cloth), drape.scene);
+  Colliders colliders(8, 8, 0.02);
+  colliders.build(drape.scene);
+  colliders.place(drape.scene, stage, 0);
+  ChangedArea changes;
+  const glm::mat4 clip = camera.projection(1.5) * camera.view();
+  ShadowMap shadows(64);
+  shadows.cover(stage.reach, glm::normalize(glm::vec3(-0.5f, 1, 0.4f)));
+  std::vector<glm::vec4> particles;
+  for (const Particle4& p : drape.positions) particles.emplace_back(p.x, p.y, p.z, p.w);
+  const ChangedArea::View view{clip, shadows.shadowFromWorld(), width, height};
+  EXPECT_FALSE(changes.next(view, particles, colliders)) << "the first picture is new everywhere";
+  const auto area = changes.next(view, particles, colliders);
+  ASSERT_TRUE(area);
+  EXPECT_LT(area->picture.width() * area->picture.height(), 0.9 * width * height);
+  EXPECT_GT(area->picture.width() * area->picture.height(), 0.05 * width * height);
+  particles[0].x = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_FALSE(changes.next(view, particles, colliders)) << "who is nowhere may be anywhere";
+}
+
+TEST_F(KeptPictureTest, OfHalfTheScaleShowsTheSameSceneSofter) {
+  const test::Drape drape(test::drapeScene());
+  const Camera camera(drape.scene, drape.cloth);
+  Shown full(drape, false), half(drape, false, 0.5);
+  const Image a = full.after(drape, 0, camera), b = half.after(drape, 0, camera);
+  EXPECT_EQ(a.width, b.width);
+  EXPECT_NE(a.rgb, b.rgb);
+  EXPECT_LT(test::meanDifference(a, b), 4);
+}
+
+}  // namespace
+}  // namespace clothsim
