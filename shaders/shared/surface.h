@@ -32,9 +32,12 @@ using uint = std::uint32_t;
 // A step goes on so many times from where motion was cut short, the first time included.
 #define CONTACT_ROUNDS 2
 
-// Rounds of the guard: in each, pairs that the motion so far brings too near keep to their own sides; in the
-// last one, if there were some in the round before, all pairs do.
-#define GUARD_ROUNDS 6
+// Rounds of the guard: in the first ones, pairs that the motion so far brings too near are pushed apart. In
+// the others they keep to their own sides; in the last one, if there were some in the round before, all do.
+#define GUARD_ROUNDS 8
+#define CORRECTION_ROUNDS 4
+// A particle's correction counts in so many parts.
+#define CORRECTION_WEIGHT 1024
 
 // A pair that touches is pushed apart with this many times the stiffness of its inertia, and with this part
 // of what the stiffest spring adds.
@@ -65,6 +68,7 @@ using uint = std::uint32_t;
 #define SURFACE_LISTS_BINDING 5
 #define SURFACE_OUT_BINDING 0
 #define SURFACE_IDS_BINDING 1
+#define SURFACE_VELOCITIES_BINDING 2
 
 #define SURFACE_TRIANGLES_UNIT 50  // two texels each
 #define SURFACE_POINTS_UNIT 51
@@ -131,12 +135,12 @@ struct SurfaceParams {
   uint triangles;
   int topLevel;  // of boxes
   uint roomForPairs;
-  uint unusedA;
+  float quantum;
 
   float around;
   float margin;
   float leastGap;
-  uint unusedB;
+  float perQuantum;
 
 #ifdef __cplusplus
   uint firstBoxes[MOST_BOX_LEVELS][4];

@@ -109,8 +109,14 @@ LAW bool isStillNearest(vec3 way, vec3 outward) {
   return rise <= real(0.0) || risen <= most;
 }
 
-// How much of its distance a pair may lose in a step: 7/8 of it, but 1/16 at most of what is below the least
-// gap.
+// What a pair keeps of its distance in a step.
+LAW real leastOf(real distance, real leastGap) {
+  precise real most = real(0.9375) * distance;
+  return leastGap < most ? leastGap : most;
+}
+
+// How much of its distance a pair that is cut short may lose in a step: 7/8 of it, but 1/16 at most of what
+// is below the least gap.
 LAW real budgetOf(real distance, real leastGap) {
   precise real most = real(0.875) * distance;
   precise real above = distance - leastGap;

@@ -52,8 +52,9 @@ struct ClothSurface {
   std::vector<std::uint32_t> firstBoxes;  // of each level, the finest first, and one more: how many there are
   Real around = 0;                        // how far the search for those looks around each part [m]
   Real margin = 0;  // parts that are predicted to come so near count as pairs that may touch [m]
-  std::uint32_t roomForPairs = 0;  // how many a step may have
-  Real leastGap = 0;               // what motion leaves of a distance, if it was more [m]
+  std::uint32_t roomForPairs = 0;    // how many a step may have
+  Real quantum = 0, perQuantum = 0;  // of corrections [m], and its reciprocal
+  Real leastGap = 0;                 // what motion leaves of a distance, if it was more [m]
 };
 
 // Whether the scene's steps use it.

@@ -18,6 +18,15 @@ layout(binding = DISPLACEMENTS_UNIT) uniform samplerBuffer displacements;
 #define LAW
 #include "shared/surface_laws.h"
 
+// Of the particles in the way between two parts.
+vec4 weightsOf(bool areSides, NearestParts nearest) {
+  precise float rest = 1.0 - nearest.u;
+  precise float weightB = nearest.v - rest;
+  precise float weightC = nearest.v - 1.0;
+  vec4 weights = areSides ? vec4(rest, nearest.u, weightC, -nearest.v) : vec4(1.0, weightB, -nearest.u, -nearest.v);
+  return vec4(canonical(weights.xyz), canonical(weights.w));
+}
+
 // From where the motion of this round begins.
 vec3 startAt(uint i) { return texelFetch(surfaceStarts, int(i)).xyz; }
 
