@@ -4,8 +4,8 @@
 // sides. First for those that may touch: they take part in the implicit step as stiff springs with friction
 // (solver/implicit.h), so that layers lie on each other at the thickness of the fabric, however coarse the
 // grid. At the end for those that the motion of the step could bring through each other: unless two such
-// parts stay apart across some plane between them, each keeps to its own side of it, and the motions of its
-// particles are cut short (docs/physics.md). So parts that have not crossed do not, in any step.
+// parts surely stay apart, they are pushed apart, and where that is not enough, their motions are cut short
+// (docs/physics.md). So parts that have not crossed do not, in any step.
 //
 // Both searches go through one tree of boxes over the triangles, whose order is that of the particles at the
 // start along a space-filling curve; it never changes, so that pairs come in one order on every device.

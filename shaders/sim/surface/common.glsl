@@ -65,8 +65,9 @@ Bounds boxAt(uint i) { return Bounds(texelFetch(boxes, int(2u * i)).xyz, texelFe
 // Around a particle and its motion.
 Bounds boxOf(uint i) {
   vec3 a = startAt(i);
-  precise vec3 b = a + motionAt(i);
-  vec3 r = vec3(SEARCHES_TOUCHING != 0 ? surface.around : 0.0);
+  precise vec3 moved = motionAt(i) - vec3(state.shiftX, state.shiftY, state.shiftZ);
+  precise vec3 b = a + moved;
+  vec3 r = vec3(SEARCHES_TOUCHING != 0 ? surface.around : surface.leastGap);
   Bounds box = joined(Bounds(a, a), Bounds(b, b));
   precise vec3 low = box.low - r;
   precise vec3 high = box.high + r;

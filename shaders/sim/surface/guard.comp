@@ -99,34 +99,7 @@ void keepToSides(Sides sides) {
   }
 }
 
-// Whether the volume between both parts keeps its sign, so that they are never in one plane: it is cubic in time, with the
-// coefficients of Bernstein.
-bool staysBeside(bool areSides, vec3 x[4], vec3 y[4]) {
-  int second = areSides ? 2 : 0, one = areSides ? 0 : 1;
-  precise vec3 u = x[areSides ? 1 : 2] - x[one];
-  precise vec3 v = x[3] - x[areSides ? 2 : 1];
-  precise vec3 w = x[0] - x[areSides ? 2 : 1];
-  precise vec3 s = y[areSides ? 1 : 2] - y[one];
-  precise vec3 t = y[3] - y[areSides ? 2 : 1];
-  precise vec3 r = y[0] - y[areSides ? 2 : 1];
-  vec3 first = crossProduct(u, v), last = crossProduct(s, t);
-  precise vec3 middle = crossProduct(s, v) + crossProduct(u, t);
-  precise float start = sumOfProducts(first, w);
-  precise float early = sumOfProducts(middle, w) + sumOfProducts(first, r);
-  precise float late = sumOfProducts(middle, r) + sumOfProducts(last, w);
-  precise float end = sumOfProducts(last, r);
-  if (start < 0.0) {
-    start = -start;
-    early = -early;
-    late = -late;
-    end = -end;
-  }
-  precise float least = 0.375 * (start < end ? start : end);
-  return least > 0.0 && early > least && late > least;
-}
-
-// The same as isTooNear across a plane that turns, from across the way at the start to across that at the end: what separates two
-// corners is quadratic in time, with the coefficients of Bernstein.
+// The same across planes that turn along with the parts.
 bool turnsTooNear(uvec4 ids, bool areSides, vec3 way, float least) {
   vec3 x[4], y[4];
   for (int k = 0; k < 4; ++k) {
@@ -134,21 +107,8 @@ bool turnsTooNear(uvec4 ids, bool areSides, vec3 way, float least) {
     precise vec3 place = x[k] + uintBitsToFloat(kept[ids[k]]) * motionAt(ids[k]);
     y[k] = place;
   }
-  NearestParts after = areSides ? nearestOnSegments(y[0], y[1], y[2], y[3]) : nearestOnTriangle(y[0], y[1], y[2], y[3]);
-  precise vec3 n = inverseSquareRoot(sumOfProducts(way, way)) * way;
-  precise vec3 m = inverseSquareRoot(sumOfProducts(after.way, after.way)) * after.way;
   precise float slack = uintBitsToFloat(0x3f733333u) * least;  // .95
-  if (!(sumOfProducts(after.way, m) > slack)) return true;
-  if (staysBeside(areSides, x, y)) return false;
-  int firsts = areSides ? 2 : 1;
-  for (int i = 0; i < firsts; ++i)
-    for (int j = firsts; j < 4; ++j) {
-      precise vec3 before = x[i] - x[j];
-      precise vec3 end = y[i] - y[j];
-      precise float between = 0.5 * (sumOfProducts(before, m) + sumOfProducts(end, n));
-      if (!(sumOfProducts(before, n) > slack) || !(between > slack) || !(sumOfProducts(end, m) > slack)) return true;
-    }
-  return false;
+  return !staysApart(areSides, x, y, way, slack, 1) && !staysApart(areSides, x, y, way, slack, FINE_PARTS);
 }
 
 vec3 endAt(uint i) { return texelFetch(positionsSoFar, int(i)).xyz; }
@@ -157,7 +117,7 @@ vec3 endAt(uint i) { return texelFetch(positionsSoFar, int(i)).xyz; }
 // until a little more than the least distance is left.
 void pushApart(uvec4 ids, bool areSides, vec3 way, float least) {
   vec3 p = endAt(ids.x), a = endAt(ids.y), b = endAt(ids.z), c = endAt(ids.w);
-  NearestParts nearest = areSides ? nearestOnSegments(p, a, b, c) : nearestOnTriangle(p, a, b, c);
+  NearestParts nearest = nearestParts(areSides, p, a, b, c);
   vec3 across = acrossOf(p, a, b, c, areSides, way);
   float along = sumOfProducts(across, way);
   precise float squared = sumOfProducts(across, across) * sumOfProducts(way, way);
@@ -191,13 +151,14 @@ void lookAt(uvec4 ids, bool areSides, PartPlaces places, NearestParts nearest) {
   Sides sides = sidesOf(ids, areSides, nearest.way);
   bool takesAll = round.first + 1u == uint(GUARD_ROUNDS);
   float width = larger(widthOf(sides), 0.0);
-  float least = leastOf(width, surface.leastGap);
+  bool corrects = round.first < uint(CORRECTION_ROUNDS);
+  float least = corrects ? surface.leastGap : leastOf(width, surface.leastGap);
   if (!takesAll && !isTooNear(sides, least)) return;
   Sides sliding = sidesOf(ids, areSides, acrossBoth(ids, areSides, nearest.way));
   if (!takesAll && !isTooNear(sliding, least)) return;
   if (!takesAll && !turnsTooNear(ids, areSides, nearest.way, least)) return;
   state.tooNear[round.first] = 1u;
-  if (round.first < uint(CORRECTION_ROUNDS)) {
+  if (corrects) {
     pushApart(ids, areSides, nearest.way, least);
     return;
   }

@@ -61,8 +61,7 @@ Real shareOf(const ClothSurface<Real>& surface, const Parts& parts, Vec3<Real> w
 template <class Real>
 typename SurfaceLaws<Real>::NearestParts nearestOf(const Parts& parts, const Components<Real>& x) {
   const auto& [i, j, k, l] = parts.particles;
-  return parts.areSides ? SurfaceLaws<Real>::nearestOnSegments(at(x, i), at(x, j), at(x, k), at(x, l))
-                        : SurfaceLaws<Real>::nearestOnTriangle(at(x, i), at(x, j), at(x, k), at(x, l));
+  return SurfaceLaws<Real>::nearestParts(parts.areSides, at(x, i), at(x, j), at(x, k), at(x, l));
 }
 
 // Of the particles in the way between the parts.
@@ -71,6 +70,15 @@ std::array<Real, 4> weightsOf(const Parts& parts, const typename SurfaceLaws<Rea
   const Real u = nearest.u, v = nearest.v, rest = Real(1) - u;
   return {parts.areSides ? canonical(rest) : Real(1), canonical(parts.areSides ? u : v - rest),
           canonical(parts.areSides ? v - Real(1) : -u), canonical(-v)};
+}
+
+// The mean motion of some particles.
+template <class Real>
+Vec3<Real> shiftOf(const Components<Real>& motions) {
+  const auto particles = static_cast<std::uint32_t>(motions.x.size());
+  Vec3<Real> sum{};
+  for (std::uint32_t k = 0; k < SHIFT_SAMPLES; ++k) sum = sum + at(motions, k * particles / SHIFT_SAMPLES);
+  return canonical((Real(1) / SHIFT_SAMPLES) * sum);
 }
 
 template <class Number>
@@ -139,7 +147,7 @@ void listByParticle(TouchingPairs<Real>& touching, std::size_t particles) {
 // Boxes around the motions.
 template <class Real>
 void SurfaceContact<Real>::growBoxes(const Components<Real>& starts, Real around) {
-  const SurfaceSearch<Real> search{surface_, boxes_, starts, motions_, around};
+  const SurfaceSearch<Real> search{surface_, boxes_, starts, motions_, shift_, around};
   const std::vector<std::uint32_t>& first = surface_.firstBoxes;
   boxes_.resize(first.back());
   ThreadTeam::shared().forEach(
@@ -169,8 +177,9 @@ void SurfaceContact<Real>::findTouching(const CpuState<Real>& before, ImplicitSt
   if (isLater)
     for (std::vector<Real>* c : {&motions_.x, &motions_.y, &motions_.z})
       std::fill(c->begin(), c->end(), Real(0));
+  shift_ = shiftOf(motions_);
   growBoxes(starts, surface_.around);
-  const SurfaceSearch<Real> search{surface_, boxes_, starts, motions_, surface_.around};
+  const SurfaceSearch<Real> search{surface_, boxes_, starts, motions_, shift_, surface_.around};
   foundPairs_.resize(chunks);
   ThreadTeam::shared().forEach(0, chunks, 1, [&](std::uint32_t chunk) {
     std::vector<SurfacePair<Real>>& found = foundPairs_[chunk];
@@ -272,32 +281,7 @@ Vec3<Real> SurfaceContact<Real>::acrossBoth(const Parts& parts, Vec3<Real> way,
   return dot(normal, way) < Real(0) ? Vec3<Real>{} - normal : normal;
 }
 
-// Whether the volume between both parts keeps its sign, so that they are never in one plane: it is cubic in
-// time, with the coefficients of Bernstein.
-template <class Real>
-bool SurfaceContact<Real>::staysBeside(const Parts& parts, const Vec3<Real> (&x)[4],
-                                       const Vec3<Real> (&y)[4]) {
-  const auto edges = [&](const Vec3<Real>(&p)[4]) {
-    return parts.areSides ? std::array{p[1] - p[0], p[3] - p[2], p[0] - p[2]}
-                          : std::array{p[2] - p[1], p[3] - p[1], p[0] - p[1]};
-  };
-  const auto [u, v, w] = edges(x);
-  const auto [s, t, r] = edges(y);
-  const Vec3<Real> first = cross(u, v), last = cross(s, t), middle = cross(s, v) + cross(u, t);
-  Real start = dot(first, w), early = dot(middle, w) + dot(first, r), late = dot(middle, r) + dot(last, w),
-       end = dot(last, r);
-  if (start < Real(0)) {
-    start = -start;
-    early = -early;
-    late = -late;
-    end = -end;
-  }
-  const Real least = static_cast<Real>(0.375f) * (start < end ? start : end);
-  return least > Real(0) && early > least && late > least;
-}
-
-// The same across a plane that turns, from across the way at the start to across that at the end: what
-// separates two corners is quadratic in time, with the coefficients of Bernstein.
+// The same across planes that turn along with the parts.
 template <class Real>
 bool SurfaceContact<Real>::turnsTooNear(const Parts& parts, Vec3<Real> way, const Components<Real>& starts,
                                         Real least) const {
@@ -307,21 +291,9 @@ bool SurfaceContact<Real>::turnsTooNear(const Parts& parts, Vec3<Real> way, cons
     x[k] = at(starts, i);
     y[k] = x[k] + kept_[i] * at(motions_, i);
   }
-  const auto after = parts.areSides ? SurfaceLaws<Real>::nearestOnSegments(y[0], y[1], y[2], y[3])
-                                    : SurfaceLaws<Real>::nearestOnTriangle(y[0], y[1], y[2], y[3]);
-  const Vec3<Real> n = inverseSquareRoot(dot(way, way)) * way,
-                   m = inverseSquareRoot(dot(after.way, after.way)) * after.way;
   const Real slack = static_cast<Real>(0.95f) * least;
-  if (!(dot(after.way, m) > slack)) return true;
-  if (staysBeside(parts, x, y)) return false;
-  const std::size_t firsts = parts.areSides ? 2 : 1;
-  for (std::size_t i = 0; i < firsts; ++i)
-    for (std::size_t j = firsts; j < 4; ++j) {
-      const Vec3<Real> before = x[i] - x[j], end = y[i] - y[j];
-      const Real between = Real(0.5) * (dot(before, m) + dot(end, n));
-      if (!(dot(before, n) > slack) || !(between > slack) || !(dot(end, m) > slack)) return true;
-    }
-  return false;
+  return !SurfaceLaws<Real>::staysApart(parts.areSides, x, y, way, slack, 1) &&
+         !SurfaceLaws<Real>::staysApart(parts.areSides, x, y, way, slack, int{FINE_PARTS});
 }
 
 // Cuts the motions of all four particles short, so that both parts keep to their shares of the budget, by
@@ -374,14 +346,15 @@ void SurfaceContact<Real>::guard(const CpuState<Real>& before, CpuState<Real>& a
     motions_.resize(particles);
     for (std::uint32_t i = 0; i < particles; ++i) put(motions_, i, at(after.positions, i) - at(starts, i));
   }
-  if (round == 0 || round == CORRECTION_ROUNDS) growBoxes(starts, Real(0));
+  if (round == 0) shift_ = shiftOf(motions_);
+  if (round == 0 || round == CORRECTION_ROUNDS) growBoxes(starts, surface_.leastGap);
   const bool corrects = round < CORRECTION_ROUNDS, all = round + 1 == GUARD_ROUNDS;
-  const SurfaceSearch<Real> search{surface_, boxes_, starts, motions_, Real(0)};
+  const SurfaceSearch<Real> search{surface_, boxes_, starts, motions_, shift_, surface_.leastGap};
   ThreadTeam::shared().forEach(0, triangles, TRIANGLES_A_CHUNK, [&](std::uint32_t i) {
     search.forEachPair(i, [&](const Parts& parts, const auto& nearest) {
       const Sides sides = sidesOf(parts, nearest.way, starts);
       const Real width = larger(widthOf(sides), Real(0)),
-                 least = SurfaceLaws<Real>::leastOf(width, surface_.leastGap);
+                 least = corrects ? surface_.leastGap : SurfaceLaws<Real>::leastOf(width, surface_.leastGap);
       if (!all && !isTooNear(parts, sides, least)) return true;
       const Sides sliding = sidesOf(parts, acrossBoth(parts, nearest.way, starts), starts);
       if (!all && !isTooNear(parts, sliding, least)) return true;

@@ -49,8 +49,6 @@ class SurfaceContact {
   [[nodiscard]] Sides sidesOf(const Parts& parts, Vec3<Real> way, const Components<Real>& starts) const;
   [[nodiscard]] static Real widthOf(const Sides& sides) { return sides.first - sides.second; }
   [[nodiscard]] bool isTooNear(const Parts& parts, const Sides& sides, Real least) const;
-  [[nodiscard]] static bool staysBeside(const Parts& parts, const Vec3<Real> (&x)[4],
-                                        const Vec3<Real> (&y)[4]);
   [[nodiscard]] bool turnsTooNear(const Parts& parts, Vec3<Real> way, const Components<Real>& starts,
                                   Real least) const;
   [[nodiscard]] Vec3<Real> acrossBoth(const Parts& parts, Vec3<Real> way,
@@ -68,6 +66,7 @@ class SurfaceContact {
   SurfaceState state_ = freshSurfaceState();
   std::vector<Bounds<Real>> boxes_;
   Components<Real> motions_;  // of this round
+  Vec3<Real> shift_{};
   Components<Real> safePositions_, safeVelocities_;
   std::vector<std::vector<SurfacePair<Real>>> foundPairs_;  // by chunk of triangles
   std::vector<Correction> corrections_;
