@@ -32,9 +32,14 @@ using uint = std::uint32_t;
 // A step goes on so many times from where motion was cut short, the first time included.
 #define CONTACT_ROUNDS 2
 
-// Rounds of the guard: in each, pairs that the motion so far brings too near keep to their own sides; in the
-// last one, if there were some in the round before, all pairs do.
-#define GUARD_ROUNDS 6
+// Rounds of the guard: in the first ones, pairs that the motion so far brings too near are pushed apart. In
+// the others they keep to their own sides; in the last one, if there were some in the round before, all do.
+#define GUARD_ROUNDS 16
+#define CORRECTION_ROUNDS 8
+// Where parts turn about each other, the motion is looked at in so many parts.
+#define FINE_PARTS 8
+// A particle's correction counts in so many parts.
+#define CORRECTION_WEIGHT 1024
 
 // A pair that touches is pushed apart with this many times the stiffness of its inertia, and with this part
 // of what the stiffest spring adds.
@@ -47,6 +52,9 @@ using uint = std::uint32_t;
 #define MOST_PAIRS_A_TRIANGLE 4096u
 // Approaches below this are none: their reciprocals would not be safe [m].
 #define LEAST_APPROACH 8.67361737988403547205962240695953369140625e-19f  // 2^-60
+
+// Boxes move along with the mean of so many particles: what flies together meets nothing on its way.
+#define SHIFT_SAMPLES 64u
 
 // Counts are summed up in blocks of so many, a work group each.
 #define SURFACE_LANES 256
@@ -65,6 +73,7 @@ using uint = std::uint32_t;
 #define SURFACE_LISTS_BINDING 5
 #define SURFACE_OUT_BINDING 0
 #define SURFACE_IDS_BINDING 1
+#define SURFACE_VELOCITIES_BINDING 2
 
 #define SURFACE_TRIANGLES_UNIT 50  // two texels each
 #define SURFACE_POINTS_UNIT 51
@@ -107,12 +116,12 @@ struct SurfaceState {
   uint isGuarded;  // some motion was cut short
   uint isLater;    // the step goes on from where motion was cut short,
 
-  uint tooNear[8];  // by round of the guard: some pair was
+  uint tooNear[GUARD_ROUNDS];  // by round of the guard: some pair was
 
   uint isSettled;  // or would have, but there was none
-  uint unusedA;
-  uint unusedB;
-  uint unusedC;
+  float shiftX;    // of all boxes, on the GPU [m]
+  float shiftY;
+  float shiftZ;
 
   // Of all steps:
   uint mostPairs;     // in a step; also those that there was no room for
@@ -131,12 +140,12 @@ struct SurfaceParams {
   uint triangles;
   int topLevel;  // of boxes
   uint roomForPairs;
-  uint unusedA;
+  float quantum;
 
   float around;
   float margin;
   float leastGap;
-  uint unusedB;
+  float perQuantum;
 
 #ifdef __cplusplus
   uint firstBoxes[MOST_BOX_LEVELS][4];

@@ -109,12 +109,85 @@ LAW bool isStillNearest(vec3 way, vec3 outward) {
   return rise <= real(0.0) || risen <= most;
 }
 
-// How much of its distance a pair may lose in a step: 7/8 of it, but 1/16 at most of what is below the least
-// gap.
+// What a pair keeps of its distance in a step.
+LAW real leastOf(real distance, real leastGap) {
+  precise real most = real(0.9375) * distance;
+  return leastGap < most ? leastGap : most;
+}
+
+// How much of its distance a pair that is cut short may lose in a step: 7/8 of it, but 1/16 at most of what
+// is below the least gap.
 LAW real budgetOf(real distance, real leastGap) {
   precise real most = real(0.875) * distance;
   precise real above = distance - leastGap;
   precise real little = real(0.0625) * distance;
   real budget = above < most ? above : most;
   return budget < little ? little : budget;
+}
+
+// Corner 0 and the triangle of the others, or two sides.
+LAW NearestParts nearestParts(bool areSides, vec3 p, vec3 q, vec3 a, vec3 b) {
+  if (areSides) return nearestOnSegments(p, q, a, b);
+  return nearestOnTriangle(p, q, a, b);
+}
+
+// Whether the volume between both parts keeps its sign while they move from x to y, so that they are never in
+// one plane: it is cubic in time, with the coefficients of Bernstein.
+LAW bool staysBeside(bool areSides, vec3 x[4], vec3 y[4]) {
+  const real zero = real(0.0), part = real(0.375);
+  int from = areSides ? 0 : 1, to = areSides ? 1 : 2, base = areSides ? 2 : 1;
+  precise vec3 u = x[to] - x[from];
+  precise vec3 v = x[3] - x[base];
+  precise vec3 w = x[0] - x[base];
+  precise vec3 laterU = y[to] - y[from];
+  precise vec3 laterV = y[3] - y[base];
+  precise vec3 laterW = y[0] - y[base];
+  vec3 first = crossProduct(u, v), last = crossProduct(laterU, laterV);
+  precise vec3 middle = crossProduct(laterU, v) + crossProduct(u, laterV);
+  precise real start = sumOfProducts(first, w);
+  precise real early = sumOfProducts(middle, w) + sumOfProducts(first, laterW);
+  precise real late = sumOfProducts(middle, laterW) + sumOfProducts(last, w);
+  precise real end = sumOfProducts(last, laterW);
+  precise real least = part * (start < end ? start : end);
+  precise real most = part * (start < end ? end : start);
+  return (zero < least && least < early && least < late) || (most < zero && early < most && late < most);
+}
+
+// Whether a plane separates them by more than `slack` that turns from across n to across m: what is between
+// two corners is quadratic in time.
+LAW bool staysAcross(bool areSides, vec3 x[4], vec3 y[4], vec3 n, vec3 m, real slack) {
+  const real middling = real(0.5), little = real(0.25);
+  int firsts = areSides ? 2 : 1;
+  precise real between = little * slack;
+  for (int i = 0; i < firsts; ++i)
+    for (int j = firsts; j < 4; ++j) {
+      precise vec3 before = x[i] - x[j];
+      precise vec3 after = y[i] - y[j];
+      precise real middle = middling * (sumOfProducts(before, m) + sumOfProducts(after, n));
+      if (!(slack < sumOfProducts(before, n)) || !(between < middle) || !(slack < sumOfProducts(after, m)))
+        return false;
+    }
+  return true;
+}
+
+// Whether one of both shows, for each of `count` parts of the time, that they stay apart.
+LAW bool staysApart(bool areSides, vec3 x[4], vec3 y[4], vec3 way, real slack, int count) {
+  precise vec3 n = inverseSquareRoot(sumOfProducts(way, way)) * way;
+  vec3 before[4], after[4];
+  for (int i = 0; i < 4; ++i) before[i] = x[i];
+  for (int k = 1; k <= count; ++k) {
+    precise real time = real(k) * reciprocal(real(count));
+    for (int i = 0; i < 4; ++i) {
+      precise vec3 moved = x[i] + time * (y[i] - x[i]);
+      after[i] = k == count ? y[i] : moved;
+    }
+    NearestParts nearest = nearestParts(areSides, after[0], after[1], after[2], after[3]);
+    precise vec3 m = inverseSquareRoot(sumOfProducts(nearest.way, nearest.way)) * nearest.way;
+    if (!(slack < sumOfProducts(nearest.way, m))) return false;
+    if (!staysBeside(areSides, before, after) && !staysAcross(areSides, before, after, n, m, slack))
+      return false;
+    for (int i = 0; i < 4; ++i) before[i] = after[i];
+    n = m;
+  }
+  return true;
 }

@@ -13,6 +13,9 @@ namespace {
 // Room at the start, which grows.
 constexpr std::uint32_t PAIRS_A_PARTICLE = 8;
 
+// In the largest correction.
+constexpr double QUANTA = 0x1p20;
+
 constexpr std::uint32_t NO_TRIANGLE = 0xffffffffu;
 
 using Corners = std::array<std::uint32_t, 3>;
@@ -171,6 +174,8 @@ ClothSurface<Real> makeSurface(const Cloth& cloth, const Scene& scene, const Cut
   if (count > 0) {
     constexpr double rounding = 0x1p-24;  // of places about 1 m from the origin, across a side
     surface.margin = static_cast<Real>(widest / 4);
+    surface.perQuantum = static_cast<Real>(static_cast<float>(QUANTA / surface.margin));
+    surface.quantum = static_cast<Real>(static_cast<float>(surface.margin / QUANTA));
     surface.around = static_cast<Real>(largestRadius + widest / 8);
     surface.leastGap = static_cast<Real>(
         std::min(std::max(0.1 * smallestRadius, std::sqrt(rounding * widest)), 0.5 * smallestRadius));

@@ -4,8 +4,8 @@
 // sides. First for those that may touch: they take part in the implicit step as stiff springs with friction
 // (solver/implicit.h), so that layers lie on each other at the thickness of the fabric, however coarse the
 // grid. At the end for those that the motion of the step could bring through each other: unless two such
-// parts stay apart across some plane between them, each keeps to its own side of it, and the motions of its
-// particles are cut short (docs/physics.md). So parts that have not crossed do not, in any step.
+// parts surely stay apart, they are pushed apart, and where that is not enough, their motions are cut short
+// (docs/physics.md). So parts that have not crossed do not, in any step.
 //
 // Both searches go through one tree of boxes over the triangles, whose order is that of the particles at the
 // start along a space-filling curve; it never changes, so that pairs come in one order on every device.
@@ -52,8 +52,9 @@ struct ClothSurface {
   std::vector<std::uint32_t> firstBoxes;  // of each level, the finest first, and one more: how many there are
   Real around = 0;                        // how far the search for those looks around each part [m]
   Real margin = 0;  // parts that are predicted to come so near count as pairs that may touch [m]
-  std::uint32_t roomForPairs = 0;  // how many a step may have
-  Real leastGap = 0;               // what motion leaves of a distance, if it was more [m]
+  std::uint32_t roomForPairs = 0;    // how many a step may have
+  Real quantum = 0, perQuantum = 0;  // of corrections [m], and its reciprocal
+  Real leastGap = 0;                 // what motion leaves of a distance, if it was more [m]
 };
 
 // Whether the scene's steps use it.

@@ -18,6 +18,13 @@ void main() {
   for (uint round = 0u; round < uint(GUARD_ROUNDS); ++round) state.tooNear[round] = 0u;
   state.isGuarded = 0u;
 #endif
+  precise vec3 sum = vec3(0.0);
+  for (uint k = 0u; k < SHIFT_SAMPLES; ++k) sum = sum + motionAt(k * step.totalParticles / SHIFT_SAMPLES);
+  precise vec3 mean = (1.0 / float(SHIFT_SAMPLES)) * sum;
+  mean = canonical(mean);
+  state.shiftX = mean.x;
+  state.shiftY = mean.y;
+  state.shiftZ = mean.z;
   for (uint pass = 0u; pass < uint(PASSES); ++pass)
     if (watchRow[pass] != NO_DIVERGENCE) state.tooMany = 2u;
 }

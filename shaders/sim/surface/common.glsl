@@ -18,6 +18,15 @@ layout(binding = DISPLACEMENTS_UNIT) uniform samplerBuffer displacements;
 #define LAW
 #include "shared/surface_laws.h"
 
+// Of the particles in the way between two parts.
+vec4 weightsOf(bool areSides, NearestParts nearest) {
+  precise float rest = 1.0 - nearest.u;
+  precise float weightB = nearest.v - rest;
+  precise float weightC = nearest.v - 1.0;
+  vec4 weights = areSides ? vec4(rest, nearest.u, weightC, -nearest.v) : vec4(1.0, weightB, -nearest.u, -nearest.v);
+  return vec4(canonical(weights.xyz), canonical(weights.w));
+}
+
 // From where the motion of this round begins.
 vec3 startAt(uint i) { return texelFetch(surfaceStarts, int(i)).xyz; }
 
@@ -56,8 +65,9 @@ Bounds boxAt(uint i) { return Bounds(texelFetch(boxes, int(2u * i)).xyz, texelFe
 // Around a particle and its motion.
 Bounds boxOf(uint i) {
   vec3 a = startAt(i);
-  precise vec3 b = a + motionAt(i);
-  vec3 r = vec3(SEARCHES_TOUCHING != 0 ? surface.around : 0.0);
+  precise vec3 moved = motionAt(i) - vec3(state.shiftX, state.shiftY, state.shiftZ);
+  precise vec3 b = a + moved;
+  vec3 r = vec3(SEARCHES_TOUCHING != 0 ? surface.around : surface.leastGap);
   Bounds box = joined(Bounds(a, a), Bounds(b, b));
   precise vec3 low = box.low - r;
   precise vec3 high = box.high + r;

@@ -1,11 +1,12 @@
-// A round of the guard, an invocation a triangle: pairs that the motion so far brings too near keep to their own sides, in the
-// last round all pairs. Then motion that is cut short may bring others too near: they are seen in the next round.
+// A round of the guard, an invocation a triangle: pairs that the motion so far brings too near are pushed apart, or keep to
+// their own sides, in the last round all pairs. That may bring others too near: they are seen in the next round.
 #include "sim/surface/common.glsl"
 
 layout(local_size_x = SURFACE_GROUP) in;
 layout(std140, binding = BOX_LEVEL_BINDING) uniform RoundBlock { BoxLevel round; };
 layout(std430, binding = SURFACE_COUNTS_BINDING) readonly buffer Kept { uint kept[]; };               // bits of floats
 layout(std430, binding = SURFACE_LISTS_BINDING) coherent buffer NewlyKept { uint newlyKept[]; };
+layout(std430, binding = SURFACE_OUT_BINDING) coherent buffer Corrections { int corrections[]; };
 
 float larger(float a, float b) { return a < b ? b : a; }
 
@@ -58,13 +59,15 @@ bool isTooNear(Sides sides, float least) {
 }
 
 // Across the triangle, or both sides: parts that slide over each other keep their distance that way.
-vec3 acrossBoth(uvec4 ids, bool areSides, vec3 way) {
-  vec3 i = startAt(ids.x), j = startAt(ids.y), k = startAt(ids.z), l = startAt(ids.w);
+vec3 acrossOf(vec3 i, vec3 j, vec3 k, vec3 l, bool areSides, vec3 way) {
   precise vec3 along = areSides ? j - i : k - j;
   precise vec3 other = areSides ? l - k : l - j;
   vec3 normal = crossProduct(along, other);
   precise vec3 turned = vec3(0.0) - normal;
   return sumOfProducts(normal, way) < 0.0 ? turned : normal;
+}
+vec3 acrossBoth(uvec4 ids, bool areSides, vec3 way) {
+  return acrossOf(startAt(ids.x), startAt(ids.y), startAt(ids.z), startAt(ids.w), areSides, way);
 }
 
 // Cuts the motions of all four particles short, so that both parts keep to their shares of the budget, by their speeds. Parts
@@ -96,15 +99,69 @@ void keepToSides(Sides sides) {
   }
 }
 
+// The same across planes that turn along with the parts.
+bool turnsTooNear(uvec4 ids, bool areSides, vec3 way, float least) {
+  vec3 x[4], y[4];
+  for (int k = 0; k < 4; ++k) {
+    x[k] = startAt(ids[k]);
+    precise vec3 place = x[k] + uintBitsToFloat(kept[ids[k]]) * motionAt(ids[k]);
+    y[k] = place;
+  }
+  precise float slack = uintBitsToFloat(0x3f733333u) * least;  // .95
+  return !staysApart(areSides, x, y, way, slack, 1) && !staysApart(areSides, x, y, way, slack, FINE_PARTS);
+}
+
+vec3 endAt(uint i) { return texelFetch(positionsSoFar, int(i)).xyz; }
+
+// Where the pair is nearest at the end, across the parts as they are then: all four go apart, by their weights and masses,
+// until a little more than the least distance is left.
+void pushApart(uvec4 ids, bool areSides, vec3 way, float least) {
+  vec3 p = endAt(ids.x), a = endAt(ids.y), b = endAt(ids.z), c = endAt(ids.w);
+  NearestParts nearest = nearestParts(areSides, p, a, b, c);
+  vec3 across = acrossOf(p, a, b, c, areSides, way);
+  float along = sumOfProducts(across, way);
+  precise float squared = sumOfProducts(across, across) * sumOfProducts(way, way);
+  precise float quarter = 0.25 * squared;
+  precise float alongSquared = along * along;
+  vec3 towards = quarter < alongSquared ? across : way;
+  precise vec3 normal = inverseSquareRoot(sumOfProducts(towards, towards)) * towards;
+  vec4 weights = weightsOf(areSides, nearest), inverses;
+  precise float mobility = 0.0;
+  for (int k = 0; k < 4; ++k) {
+    inverses[k] = texelFetch(surfaceStarts, int(ids[k])).w;
+    mobility = mobility + (weights[k] * weights[k]) * inverses[k];
+  }
+  precise float missing = 2.0 * least - sumOfProducts(normal, nearest.way);
+  if (!(missing > 0.0) || !(mobility > 0.0)) return;
+  precise float push = surface.perQuantum * (missing < surface.margin ? missing : surface.margin);
+  for (int k = 0; k < 4; ++k) {
+    precise float whole = (weights[k] * inverses[k]) * reciprocal(mobility);
+    precise float part = push * (whole < -1.0 ? -1.0 : 1.0 < whole ? 1.0 : whole);
+    precise vec3 move = part * normal;
+    precise float counts = float(CORRECTION_WEIGHT) * (weights[k] < 0.0 ? -weights[k] : weights[k]);
+    uint place = 4u * ids[k];
+    atomicAdd(corrections[place], int(move.x));
+    atomicAdd(corrections[place + 1u], int(move.y));
+    atomicAdd(corrections[place + 2u], int(move.z));
+    atomicAdd(corrections[place + 3u], int(counts));
+  }
+}
+
 void lookAt(uvec4 ids, bool areSides, PartPlaces places, NearestParts nearest) {
   Sides sides = sidesOf(ids, areSides, nearest.way);
   bool takesAll = round.first + 1u == uint(GUARD_ROUNDS);
   float width = larger(widthOf(sides), 0.0);
-  precise float least = width - budgetOf(width, surface.leastGap);
+  bool corrects = round.first < uint(CORRECTION_ROUNDS);
+  float least = corrects ? surface.leastGap : leastOf(width, surface.leastGap);
   if (!takesAll && !isTooNear(sides, least)) return;
   Sides sliding = sidesOf(ids, areSides, acrossBoth(ids, areSides, nearest.way));
   if (!takesAll && !isTooNear(sliding, least)) return;
+  if (!takesAll && !turnsTooNear(ids, areSides, nearest.way, least)) return;
   state.tooNear[round.first] = 1u;
+  if (corrects) {
+    pushApart(ids, areSides, nearest.way, least);
+    return;
+  }
   precise float enough = 0.5 * width;
   if (widthOf(sliding) > enough)
     keepToSides(sliding);
@@ -117,6 +174,7 @@ bool goesOn() { return true; }
 void main() {
   uint own = thisEntry();
   if (own >= surface.triangles || isSettled() || state.tooMany == 2u) return;
-  if (round.first > 0u && state.tooNear[round.first - 1u] == 0u) return;
+  // What was pushed apart may be too near to what no round has seen so far.
+  if (round.first > 0u && state.tooNear[round.first == uint(CORRECTION_ROUNDS) ? 0u : round.first - 1u] == 0u) return;
   lookAround(own);
 }

@@ -52,14 +52,10 @@ float shareOf(uint particle, bool areSides, PartPlaces places, NearestParts near
 
 void lookAt(uvec4 ids, bool areSides, PartPlaces places, NearestParts nearest) {
   float squared = sumOfProducts(nearest.way, nearest.way), inverse = inverseSquareRoot(squared);
-  precise float rest = 1.0 - nearest.u;
   precise float distance = squared * inverse;
   precise vec3 scaled = inverse * nearest.way;
   vec3 normal = canonical(scaled);
-  precise float weightB = nearest.v - rest;
-  precise float weightC = nearest.v - 1.0;
-  vec4 weights = areSides ? vec4(rest, nearest.u, weightC, -nearest.v) : vec4(1.0, weightB, -nearest.u, -nearest.v);
-  weights = vec4(canonical(weights.xyz), canonical(weights.w));
+  vec4 weights = weightsOf(areSides, nearest);
   precise float reach = 0.0;
   precise float inertia = 0.0;
   precise float springs = 0.0;

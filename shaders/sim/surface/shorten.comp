@@ -5,10 +5,17 @@ layout(local_size_x = SURFACE_GROUP) in;
 layout(std430, binding = NEW_POSITIONS_BINDING) buffer NewPositions { vec4 newPositions[]; };
 layout(std430, binding = NEW_VELOCITIES_BINDING) buffer NewVelocities { vec4 newVelocities[]; };
 layout(std430, binding = SURFACE_LISTS_BINDING) readonly buffer Kept { uint kept[]; };
+layout(std430, binding = SURFACE_COUNTS_BINDING) readonly buffer SafeVelocities { vec4 safeVelocities[]; };
 
 void main() {
   uint i = thisEntry();
-  if (isSettled()) return;
+  if (isSettled()) {
+    // The end of the step has been done once more, without what the guard has corrected.
+    if (i >= step.totalParticles || state.tooMany == 2u || state.tooNear[0] == 0u) return;
+    newPositions[i] = texelFetch(surfaceStarts, int(i));
+    newVelocities[i] = safeVelocities[i];
+    return;
+  }
   if (i == 0u) state.crowdedSteps += state.tooMany == 1u ? 1u : 0u;
   if (i >= step.totalParticles || state.tooMany == 2u) return;
   float part = uintBitsToFloat(kept[i]);

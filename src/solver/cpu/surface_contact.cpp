@@ -58,19 +58,51 @@ Real shareOf(const ClothSurface<Real>& surface, const Parts& parts, Vec3<Real> w
   return isNearestHere ? surface.points[corners[k]].share : Real(0);
 }
 
+template <class Real>
+typename SurfaceLaws<Real>::NearestParts nearestOf(const Parts& parts, const Components<Real>& x) {
+  const auto& [i, j, k, l] = parts.particles;
+  return SurfaceLaws<Real>::nearestParts(parts.areSides, at(x, i), at(x, j), at(x, k), at(x, l));
+}
+
+// Of the particles in the way between the parts.
+template <class Real>
+std::array<Real, 4> weightsOf(const Parts& parts, const typename SurfaceLaws<Real>::NearestParts& nearest) {
+  const Real u = nearest.u, v = nearest.v, rest = Real(1) - u;
+  return {parts.areSides ? canonical(rest) : Real(1), canonical(parts.areSides ? u : v - rest),
+          canonical(parts.areSides ? v - Real(1) : -u), canonical(-v)};
+}
+
+// The mean motion of some particles.
+template <class Real>
+Vec3<Real> shiftOf(const Components<Real>& motions) {
+  const auto particles = static_cast<std::uint32_t>(motions.x.size());
+  Vec3<Real> sum{};
+  for (std::uint32_t k = 0; k < SHIFT_SAMPLES; ++k) sum = sum + at(motions, k * particles / SHIFT_SAMPLES);
+  return canonical((Real(1) / SHIFT_SAMPLES) * sum);
+}
+
+template <class Number>
+void add(Number& place, Number more) {
+  std::atomic_ref<Number>(place).fetch_add(more, std::memory_order_relaxed);
+}
+// In two halves, each of which converts exactly.
+template <class Real>
+Real fromQuanta(std::int32_t sum) {
+  return static_cast<Real>(sum >> 12) * Real(4096) + static_cast<Real>(sum & 4095);
+}
+
 // The pair of parts that may touch; without stiffness where it does not.
 template <class Real>
 SurfacePair<Real> pairOf(const ClothSurface<Real>& surface, const Parts& parts,
                          const typename SurfaceLaws<Real>::NearestParts& nearest, const Components<Real>& x,
                          const ImplicitState<Real>& implicit, bool isLater) {
   const auto& [way, u, v, part] = nearest;
-  const Real squared = dot(way, way), inverse = inverseSquareRoot(squared), rest = Real(1) - u;
+  const Real squared = dot(way, way), inverse = inverseSquareRoot(squared);
   SurfacePair<Real> pair{};
   pair.distance = squared * inverse;
   pair.normal = canonical(inverse * way);
   pair.particles = parts.particles;
-  pair.weights = {parts.areSides ? canonical(rest) : Real(1), canonical(parts.areSides ? u : v - rest),
-                  canonical(parts.areSides ? v - Real(1) : -u), canonical(-v)};
+  pair.weights = weightsOf<Real>(parts, nearest);
   Real reach = 0, inertia = 0, springs = 0, weights = 0, friction = 0;
   for (std::size_t k = 0; k < 4; ++k) {
     const SurfacePoint<Real>& point = surface.points[parts.particles[k]];
@@ -115,7 +147,7 @@ void listByParticle(TouchingPairs<Real>& touching, std::size_t particles) {
 // Boxes around the motions.
 template <class Real>
 void SurfaceContact<Real>::growBoxes(const Components<Real>& starts, Real around) {
-  const SurfaceSearch<Real> search{surface_, boxes_, starts, motions_, around};
+  const SurfaceSearch<Real> search{surface_, boxes_, starts, motions_, shift_, around};
   const std::vector<std::uint32_t>& first = surface_.firstBoxes;
   boxes_.resize(first.back());
   ThreadTeam::shared().forEach(
@@ -145,8 +177,9 @@ void SurfaceContact<Real>::findTouching(const CpuState<Real>& before, ImplicitSt
   if (isLater)
     for (std::vector<Real>* c : {&motions_.x, &motions_.y, &motions_.z})
       std::fill(c->begin(), c->end(), Real(0));
+  shift_ = shiftOf(motions_);
   growBoxes(starts, surface_.around);
-  const SurfaceSearch<Real> search{surface_, boxes_, starts, motions_, surface_.around};
+  const SurfaceSearch<Real> search{surface_, boxes_, starts, motions_, shift_, surface_.around};
   foundPairs_.resize(chunks);
   ThreadTeam::shared().forEach(0, chunks, 1, [&](std::uint32_t chunk) {
     std::vector<SurfacePair<Real>>& found = foundPairs_[chunk];
@@ -248,6 +281,21 @@ Vec3<Real> SurfaceContact<Real>::acrossBoth(const Parts& parts, Vec3<Real> way,
   return dot(normal, way) < Real(0) ? Vec3<Real>{} - normal : normal;
 }
 
+// The same across planes that turn along with the parts.
+template <class Real>
+bool SurfaceContact<Real>::turnsTooNear(const Parts& parts, Vec3<Real> way, const Components<Real>& starts,
+                                        Real least) const {
+  Vec3<Real> x[4], y[4];
+  for (std::size_t k = 0; k < 4; ++k) {
+    const std::uint32_t i = parts.particles[k];
+    x[k] = at(starts, i);
+    y[k] = x[k] + kept_[i] * at(motions_, i);
+  }
+  const Real slack = static_cast<Real>(0.95f) * least;
+  return !SurfaceLaws<Real>::staysApart(parts.areSides, x, y, way, slack, 1) &&
+         !SurfaceLaws<Real>::staysApart(parts.areSides, x, y, way, slack, int{FINE_PARTS});
+}
+
 // Cuts the motions of all four particles short, so that both parts keep to their shares of the budget, by
 // their speeds. Parts that no plane across the way separates, as far as binary32 knows, do not move.
 template <class Real>
@@ -280,36 +328,100 @@ void SurfaceContact<Real>::keepToSides(const Parts& parts, const Sides& sides) {
 // Round by round, pairs that the motion so far brings too near keep to their sides; what this takes from
 // particles may bring others too near.
 template <class Real>
-void SurfaceContact<Real>::guard(const CpuState<Real>& before, const CpuState<Real>& after,
+void SurfaceContact<Real>::guard(const CpuState<Real>& before, CpuState<Real>& after,
+                                 const StepParams<Real>& step, const std::vector<Real>& inverseMasses,
                                  std::uint32_t round) {
   const Components<Real>& starts = startsOf(before);
   const auto particles = static_cast<std::uint32_t>(starts.x.size()),
              triangles = static_cast<std::uint32_t>(surface_.triangles.size());
   if (round == 0) {
     std::fill(std::begin(state_.tooNear), std::end(state_.tooNear), 0u);
-    motions_.resize(particles);
-    for (std::uint32_t i = 0; i < particles; ++i) put(motions_, i, at(after.positions, i) - at(starts, i));
-    growBoxes(starts, Real(0));
     kept_.assign(particles, Real(1));
     newlyKept_ = kept_;
+    corrections_.assign(particles, {});
   }
-  if (round > 0 && state_.tooNear[round - 1] == 0) return;
-  const bool all = round + 1 == GUARD_ROUNDS;
-  const SurfaceSearch<Real> search{surface_, boxes_, starts, motions_, Real(0)};
+  // What was pushed apart may be too near to what no round has seen so far.
+  if (round > 0 && state_.tooNear[round == CORRECTION_ROUNDS ? 0 : round - 1] == 0) return;
+  if (round <= CORRECTION_ROUNDS) {
+    motions_.resize(particles);
+    for (std::uint32_t i = 0; i < particles; ++i) put(motions_, i, at(after.positions, i) - at(starts, i));
+  }
+  if (round == 0) shift_ = shiftOf(motions_);
+  if (round == 0 || round == CORRECTION_ROUNDS) growBoxes(starts, surface_.leastGap);
+  const bool corrects = round < CORRECTION_ROUNDS, all = round + 1 == GUARD_ROUNDS;
+  const SurfaceSearch<Real> search{surface_, boxes_, starts, motions_, shift_, surface_.leastGap};
   ThreadTeam::shared().forEach(0, triangles, TRIANGLES_A_CHUNK, [&](std::uint32_t i) {
     search.forEachPair(i, [&](const Parts& parts, const auto& nearest) {
       const Sides sides = sidesOf(parts, nearest.way, starts);
       const Real width = larger(widthOf(sides), Real(0)),
-                 least = width - SurfaceLaws<Real>::budgetOf(width, surface_.leastGap);
+                 least = corrects ? surface_.leastGap : SurfaceLaws<Real>::leastOf(width, surface_.leastGap);
       if (!all && !isTooNear(parts, sides, least)) return true;
       const Sides sliding = sidesOf(parts, acrossBoth(parts, nearest.way, starts), starts);
       if (!all && !isTooNear(parts, sliding, least)) return true;
+      if (!all && !turnsTooNear(parts, nearest.way, starts, least)) return true;
       std::atomic_ref(state_.tooNear[round]).store(1, std::memory_order_relaxed);
+      if (corrects) {
+        pushApart(parts, nearest.way, after.positions, least, inverseMasses);
+        return true;
+      }
       keepToSides(parts, widthOf(sliding) > Real(0.5) * width ? sliding : sides);
       return true;
     });
   });
-  kept_ = newlyKept_;
+  if (corrects)
+    correct(after, step, inverseMasses);
+  else
+    kept_ = newlyKept_;
+}
+
+// Where the pair is nearest at the end, across the parts as they are then: all four go apart, by their
+// weights and masses, until a little more than the least distance is left.
+template <class Real>
+void SurfaceContact<Real>::pushApart(const Parts& parts, Vec3<Real> way, const Components<Real>& ends,
+                                     Real least, const std::vector<Real>& inverseMasses) {
+  const auto nearest = nearestOf<Real>(parts, ends);
+  const Vec3<Real> across = acrossBoth(parts, way, ends);
+  const Real along = dot(across, way), squared = dot(across, across) * dot(way, way);
+  const Vec3<Real> towards = Real(0.25) * squared < along * along ? across : way,
+                   normal = inverseSquareRoot(dot(towards, towards)) * towards;
+  const std::array<Real, 4> weights = weightsOf<Real>(parts, nearest);
+  Real mobility = 0, inverses[4];
+  for (std::size_t k = 0; k < 4; ++k) {
+    inverses[k] = inverseMasses[parts.particles[k]];
+    mobility = mobility + (weights[k] * weights[k]) * inverses[k];
+  }
+  const Real missing = Real(2) * least - dot(normal, nearest.way);
+  if (!(missing > Real(0)) || !(mobility > Real(0))) return;
+  const Real push = surface_.perQuantum * (missing < surface_.margin ? missing : surface_.margin);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Real whole = (weights[k] * inverses[k]) * reciprocal(mobility), one = 1,
+               part = push * (whole < -one  ? -one
+                              : one < whole ? one
+                                            : whole);
+    Correction& sum = corrections_[parts.particles[k]];
+    const Real size = weights[k] < Real(0) ? -weights[k] : weights[k];
+    add(sum.x, static_cast<std::int32_t>(part * normal.x));
+    add(sum.y, static_cast<std::int32_t>(part * normal.y));
+    add(sum.z, static_cast<std::int32_t>(part * normal.z));
+    add(sum.weight, static_cast<std::int32_t>(Real(CORRECTION_WEIGHT) * size));
+  }
+}
+
+// The mean of what pairs want of a particle, where they want more than all of it.
+template <class Real>
+void SurfaceContact<Real>::correct(CpuState<Real>& after, const StepParams<Real>& step,
+                                   const std::vector<Real>& inverseMasses) {
+  for (std::uint32_t i = 0; i < corrections_.size(); ++i) {
+    const Correction sum = corrections_[i];
+    if (sum.weight == 0 || !(inverseMasses[i] > Real(0))) continue;
+    const Real weight = reciprocal(static_cast<Real>(std::max(sum.weight, CORRECTION_WEIGHT)));
+    const Real part = (surface_.quantum * Real(CORRECTION_WEIGHT)) * weight;
+    const Vec3<Real> moved =
+        part * Vec3<Real>{fromQuanta<Real>(sum.x), fromQuanta<Real>(sum.y), fromQuanta<Real>(sum.z)};
+    put(after.positions, i, canonical(at(after.positions, i) + moved));
+    put(after.velocities, i, canonical(at(after.velocities, i) + step.inverseTimeStep * moved));
+    corrections_[i] = {};
+  }
 }
 
 template <class Real>
@@ -339,8 +451,10 @@ void SurfaceContact<Real>::settle(const CpuState<Real>& before, const CpuState<R
   state_.isSettled = state_.isGuarded != 0 ? 0 : 1;
   std::uint32_t& isSolved = implicit.scalars.isStepSolved;
   isSolved = state_.isGuarded != 0 ? 0 : isSolved == 1 ? 1 : STEP_ENDED;
+  safePositions_ = after.positions;
+  safeVelocities_ = after.velocities;
   if (state_.isSettled != 0) return;
-  safePositions_ = implicit.iterate.positions = after.positions;
+  implicit.iterate.positions = after.positions;
   for (std::size_t i = 0; i < kept_.size(); ++i) {
     const auto place = static_cast<std::ptrdiff_t>(i);
     put(implicit.displacements, place, canonical(at(after.positions, place) - at(before.positions, place)));
@@ -353,7 +467,13 @@ void SurfaceContact<Real>::run(PassCall call, const CpuState<Real>& before, CpuS
                                const std::vector<Real>& inverseMasses) {
   if (call.pass == Pass::findTouching && call.index == 0) state_.isLater = state_.isSettled = 0;
   if (call.pass == Pass::settle) return settle(before, after, implicit);
-  if (state_.isSettled != 0) return;
+  if (state_.isSettled != 0) {
+    // The end of the step has been done once more, without what the guard has corrected.
+    if (call.pass != Pass::shorten || state_.tooNear[0] == 0) return;
+    after.positions = safePositions_;
+    after.velocities = safeVelocities_;
+    return;
+  }
   switch (call.pass) {
     case Pass::findTouching:
       return findTouching(before, implicit);
@@ -362,7 +482,7 @@ void SurfaceContact<Real>::run(PassCall call, const CpuState<Real>& before, CpuS
     case Pass::multiplyPairs:
       return multiplyPairs(implicit);
     case Pass::guard:
-      return guard(before, after, call.index);
+      return guard(before, after, step, inverseMasses, call.index);
     default:
       return shorten(before, after, step, inverseMasses);
   }

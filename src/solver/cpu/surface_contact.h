@@ -34,6 +34,11 @@ class SurfaceContact {
     Real first, second;  // the places of each part that are nearest to the other
   };
 
+  // What pairs that are too near want of a particle, in quanta, and with what weight.
+  struct Correction {
+    std::int32_t x, y, z, weight;
+  };
+
   void growBoxes(const Components<Real>& starts, Real around);
   void findTouching(const CpuState<Real>& before, ImplicitState<Real>& implicit);
   void settle(const CpuState<Real>& before, const CpuState<Real>& after, ImplicitState<Real>& implicit);
@@ -44,10 +49,16 @@ class SurfaceContact {
   [[nodiscard]] Sides sidesOf(const Parts& parts, Vec3<Real> way, const Components<Real>& starts) const;
   [[nodiscard]] static Real widthOf(const Sides& sides) { return sides.first - sides.second; }
   [[nodiscard]] bool isTooNear(const Parts& parts, const Sides& sides, Real least) const;
+  [[nodiscard]] bool turnsTooNear(const Parts& parts, Vec3<Real> way, const Components<Real>& starts,
+                                  Real least) const;
   [[nodiscard]] Vec3<Real> acrossBoth(const Parts& parts, Vec3<Real> way,
                                       const Components<Real>& starts) const;
   void keepToSides(const Parts& parts, const Sides& sides);
-  void guard(const CpuState<Real>& before, const CpuState<Real>& after, std::uint32_t round);
+  void pushApart(const Parts& parts, Vec3<Real> way, const Components<Real>& ends, Real least,
+                 const std::vector<Real>& inverseMasses);
+  void correct(CpuState<Real>& after, const StepParams<Real>& step, const std::vector<Real>& inverseMasses);
+  void guard(const CpuState<Real>& before, CpuState<Real>& after, const StepParams<Real>& step,
+             const std::vector<Real>& inverseMasses, std::uint32_t round);
   void shorten(const CpuState<Real>& before, CpuState<Real>& after, const StepParams<Real>& step,
                const std::vector<Real>& inverseMasses);
 
@@ -55,9 +66,11 @@ class SurfaceContact {
   SurfaceState state_ = freshSurfaceState();
   std::vector<Bounds<Real>> boxes_;
   Components<Real> motions_;  // of this round
-  Components<Real> safePositions_;
+  Vec3<Real> shift_{};
+  Components<Real> safePositions_, safeVelocities_;
   std::vector<std::vector<SurfacePair<Real>>> foundPairs_;  // by chunk of triangles
-  std::vector<Real> kept_, newlyKept_;                      // how much of its motion each particle keeps
+  std::vector<Correction> corrections_;
+  std::vector<Real> kept_, newlyKept_;  // how much of its motion each particle keeps
 };
 
 // How the pairs press at the displacements so far: forces, and what they add to the Hessian.

@@ -19,6 +19,8 @@ struct SurfaceLaws {
   using vec3 = Vec3<Real>;
 
   INLINE static real sumOfProducts(vec3 a, vec3 b) { return dot(a, b); }
+  INLINE static vec3 crossProduct(vec3 a, vec3 b) { return cross(a, b); }
+  INLINE static real inverseSquareRoot(real x) { return clothsim::inverseSquareRoot(x); }
   INLINE static real reciprocal(real x) { return clothsim::reciprocal(x); }
 
 #undef LAW

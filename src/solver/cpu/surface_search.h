@@ -52,11 +52,12 @@ struct SurfaceSearch {
   const ClothSurface<Real>& surface;
   const std::vector<Bounds<Real>>& boxes;  // of the tree
   const Components<Real>&starts, &motions;
+  Vec3<Real> shift;  // of all boxes over the motion [m]
   Real around;
 
   // Around a particle and its motion.
   [[nodiscard]] INLINE Bounds<Real> boxOf(std::uint32_t i) const {
-    const Vec3<Real> a = at(starts, i), b = a + at(motions, i), r{around, around, around};
+    const Vec3<Real> a = at(starts, i), b = a + (at(motions, i) - shift), r{around, around, around};
     const Bounds<Real> box = joined(Bounds<Real>{a, a}, Bounds<Real>{b, b});
     return {box.low - r, box.high + r};
   }

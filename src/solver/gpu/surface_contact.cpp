@@ -49,7 +49,8 @@ void GpuSurfaceContact::compile() {
   for (const bool lists : {false, true})
     for (const char* pass : {"scan_blocks", "scan_totals"}) program(pass, {.lists = lists});
   for (const bool clears : {false, true}) program("keep", {.clears = clears});
-  for (const char* pass : {"boxes", "clear_lists", "list", "sort_lists", "guard", "shorten", "settle"})
+  for (const char* pass :
+       {"boxes", "clear_lists", "list", "sort_lists", "guard", "correct", "shorten", "settle"})
     program(pass);
   program("weigh", {.gate = GATE_STEP});
   program("multiply_pairs", {.gate = GATE_SYSTEM});
@@ -74,7 +75,9 @@ void GpuSurfaceContact::setSurface(ClothSurface<float> surface, std::uint32_t pa
   cursors_ = gl::Buffer<std::uint32_t>("list cursors", particles);
   kept_ = gl::Buffer<std::uint32_t>("kept motions", particles);
   newlyKept_ = gl::Buffer<std::uint32_t>("newly kept motions", particles);
+  corrections_ = gl::Buffer<std::int32_t>("corrections", std::size_t{4} * particles);
   safePositions_ = ParticleArray("safe positions", particles);
+  safeVelocities_ = ParticleArray("safe velocities", particles);
   if (state_.name() == 0) {
     const SurfaceState fresh = freshSurfaceState();
     state_ = gl::Buffer<SurfaceState>("surface state", std::span(&fresh, 1));
@@ -111,6 +114,8 @@ void GpuSurfaceContact::uploadParams() {
   params.around = surface_.around;
   params.margin = surface_.margin;
   params.leastGap = surface_.leastGap;
+  params.quantum = surface_.quantum;
+  params.perQuantum = surface_.perQuantum;
   for (std::size_t level = 0; level < surface_.firstBoxes.size(); ++level)
     params.firstBoxes[level][0] = surface_.firstBoxes[level];
   params_.upload({&params, 1});
@@ -189,24 +194,36 @@ void GpuSurfaceContact::findTouching(PassRunner& runner, bool later) {
 void GpuSurfaceContact::keep(PassRunner& runner, bool clears) {
   kept_.bindStorage(SURFACE_COUNTS_BINDING);
   newlyKept_.bindStorage(SURFACE_LISTS_BINDING);
+  corrections_.bindStorage(SURFACE_OUT_BINDING);
   runOn(runner, program("keep", {.clears = clears}), particles_);
 }
 
-void GpuSurfaceContact::guard(PassRunner& runner, std::uint32_t round) {
+void GpuSurfaceContact::guard(PassRunner& runner, GpuArrays& arrays, std::uint32_t round) {
   if (round == 0) {
     runner.runGroups(program("begin"), name_, 1);
-    growBoxes(runner, false);
     keep(runner, true);
   }
+  if (round == 0 || round == CORRECTION_ROUNDS) growBoxes(runner, false);
+  kept_.bindStorage(SURFACE_COUNTS_BINDING);
+  newlyKept_.bindStorage(SURFACE_LISTS_BINDING);
+  corrections_.bindStorage(SURFACE_OUT_BINDING);
   levels_.bindUniformRange(BOX_LEVEL_BINDING, boxLevels_ + round, 1);
   runOn(runner, program("guard"), surface_.triangles.size());
-  keep(runner, false);
+  if (round >= CORRECTION_ROUNDS) return keep(runner, false);
+  bindEnds(arrays);
+  corrections_.bindStorage(SURFACE_LISTS_BINDING);
+  runOn(runner, program("correct"), particles_);
+}
+
+void GpuSurfaceContact::bindEnds(GpuArrays& arrays) const {
+  arrays[Array::newPositions].buffer.bindStorage(NEW_POSITIONS_BINDING);
+  arrays[Array::newVelocities].buffer.bindStorage(NEW_VELOCITIES_BINDING);
 }
 
 void GpuSurfaceContact::shorten(PassRunner& runner, GpuArrays& arrays) {
-  arrays[Array::newPositions].buffer.bindStorage(NEW_POSITIONS_BINDING);
-  arrays[Array::newVelocities].buffer.bindStorage(NEW_VELOCITIES_BINDING);
+  bindEnds(arrays);
   kept_.bindStorage(SURFACE_LISTS_BINDING);
+  safeVelocities_.buffer.bindStorage(SURFACE_COUNTS_BINDING);
   runOn(runner, program("shorten"), particles_);
 }
 
@@ -214,6 +231,8 @@ void GpuSurfaceContact::settle(PassRunner& runner, GpuArrays& arrays) {
   safePositions_.buffer.bindStorage(SURFACE_OUT_BINDING);
   arrays[Array::displacements].buffer.bindStorage(SURFACE_LISTS_BINDING);
   arrays[Array::iterates].buffer.bindStorage(SURFACE_IDS_BINDING);
+  arrays[Array::newVelocities].buffer.bindStorage(SURFACE_VELOCITIES_BINDING);
+  safeVelocities_.buffer.bindStorage(SURFACE_COUNTS_BINDING);
   runOn(runner, program("settle"), particles_);
   safePositions_.texture.bind(SURFACE_STARTS_UNIT);
 }
@@ -237,7 +256,7 @@ void GpuSurfaceContact::run(PassRunner& runner, PassCall call, GpuArrays& arrays
                                     : program("multiply_pairs", {.gate = GATE_SYSTEM}),
                                 name_, 0);
     case Pass::guard:
-      return guard(runner, call.index);
+      return guard(runner, arrays, call.index);
     case Pass::settle:
       return settle(runner, arrays);
     default:

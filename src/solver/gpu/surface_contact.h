@@ -61,7 +61,9 @@ class GpuSurfaceContact {
   void scan(PassRunner& runner, Numbers& counts, Numbers& blocks, std::size_t size, bool lists);
   void findTouching(PassRunner& runner, bool later);
   void keep(PassRunner& runner, bool clears);
-  void guard(PassRunner& runner, std::uint32_t round);
+  void guard(PassRunner& runner, GpuArrays& arrays, std::uint32_t round);
+  // What the end of the step has come to, to be changed.
+  void bindEnds(GpuArrays& arrays) const;
   void shorten(PassRunner& runner, GpuArrays& arrays);
   void settle(PassRunner& runner, GpuArrays& arrays);
 
@@ -77,7 +79,8 @@ class GpuSurfaceContact {
   std::size_t boxLevels_ = 0;      // how many of them are dispatched
   Numbers triangles_, counts_, blocks_, lists_, listBlocks_, entries_, pairIds_;
   gl::Buffer<std::uint32_t> cursors_, kept_, newlyKept_;
-  ParticleArray points_, boxes_, pairRows_, safePositions_;
+  gl::Buffer<std::int32_t> corrections_;
+  ParticleArray points_, boxes_, pairRows_, safePositions_, safeVelocities_;
 };
 
 }  // namespace clothsim

@@ -4,8 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
+
 #include "core/thread_team.h"
 #include "solver/cpu/cpu_solver.h"
+#include "solver/cpu/surface_laws.h"
 #include "support/material_sheet.h"
 
 namespace clothsim {
@@ -45,6 +49,45 @@ TEST(SurfaceContact, IsTheSameWithAnyNumberOfThreads) {
     ASSERT_EQ(alone.positions[i].x, together.positions[i].x) << i;
     ASSERT_EQ(alone.positions[i].y, together.positions[i].y) << i;
     ASSERT_EQ(alone.velocities[i].z, together.velocities[i].z) << i;
+  }
+}
+
+using Laws = cpu::SurfaceLaws<double>;
+using Places = std::array<Vec3d, 4>;
+
+bool staysApart(bool areSides, Places from, Places to, int parts) {
+  const Vec3d way = Laws::nearestParts(areSides, from[0], from[1], from[2], from[3]).way;
+  return Laws::staysApart(areSides, from.data(), to.data(), way, 1e-5, parts);
+}
+
+// A point above a triangle, and two sides that cross, at a distance that is small against their size.
+const Places pointAndTriangle{{{0.01, 0.0002, 0.01}, {0, 0, 0}, {0.03, 0, 0}, {0, 0, 0.03}}};
+const Places twoSides{{{0.01, 0.0002, -0.01}, {0.01, 0.0002, 0.02}, {0, 0, 0}, {0.03, 0, 0}}};
+
+TEST(StaysApart, LetsPartsTurnTogether) {
+  for (const double degrees : {1.0, 10.0, 40.0}) {
+    const double angle = degrees * 3.14159265358979 / 180;
+    const auto turned = [&](Places places) {
+      for (Vec3d& p : places)
+        p = {0.02 + std::cos(angle) * p.x - std::sin(angle) * p.y,
+             std::sin(angle) * p.x + std::cos(angle) * p.y, p.z};
+      return places;
+    };
+    EXPECT_TRUE(staysApart(false, pointAndTriangle, turned(pointAndTriangle), FINE_PARTS)) << degrees;
+    EXPECT_TRUE(staysApart(true, twoSides, turned(twoSides), FINE_PARTS)) << degrees;
+  }
+}
+
+TEST(StaysApart, LetsNothingThrough) {
+  for (const int parts : {1, FINE_PARTS}) {
+    Places point = pointAndTriangle, sides = twoSides;
+    point[0].y = -0.0002;
+    EXPECT_FALSE(staysApart(false, pointAndTriangle, point, parts));
+    sides[0].y = sides[1].y = -0.0002;
+    EXPECT_FALSE(staysApart(true, twoSides, sides, parts));
+    // Far away at the end, but through the triangle on the way.
+    EXPECT_FALSE(staysApart(false, {{{0.02, 0.001, 0.005}, {0, 0, 0}, {0.03, 0, 0}, {0, 0, 0.03}}},
+                            {{{-0.02, -0.01, 0.005}, {0, 0, 0}, {0.03, 0, 0}, {0, 0, 0.03}}}, parts));
   }
 }
 

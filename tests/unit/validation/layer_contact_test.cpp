@@ -64,7 +64,31 @@ TEST(SurfaceContact, LetsNothingCrossInAHeap) {
     }
     EXPECT_GT(solver.contactCounts().pairs, 100u) << "it has fallen onto itself";
     EXPECT_EQ(solver.contactCounts().crowdedSteps, 0u);
-    EXPECT_LT(longest, 0.5) << fabric;
+    EXPECT_LT(longest, 0.3) << fabric;
+  }
+}
+
+// A sheet that a breeze drapes over a ball: layers that fold, turn and slide together are not held back.
+TEST(SurfaceContact, LetsADrapeFallAsItDoesWithoutContact) {
+  if (!CrossingCounter::available()) FAIL() << "needs CGAL";
+  for (const char* fabric : {"cotton", "silk"}) {
+    Scene scene = contactScene(25, 1.7, fabric);
+    scene.cloths[0].position = {-0.85, 0.62, -0.85};  // a horizontal sheet is made at height 1 m
+    scene.colliders.insert(scene.colliders.begin(),
+                           Sphere{.origin = {0, 1.05, 0}, .radius = 0.42, .friction = 0.35});
+    scene.wind.emplace().velocity = {0.6, 0, -0.3};
+    const Shared<Cloth> cloth(Cloth{scene});
+    const CrossingCounter counter(cloth);
+    CpuSolver<float> solver(*cloth, scene);
+    double longest = 0;
+    for (int frame = 0; frame < 40; ++frame) {
+      solver.step(2);
+      longest = std::max(longest, measure(*cloth, scene, solver.state()).maxStrain);
+    }
+    EXPECT_EQ(counter.count(solver.state()).apart, 0u) << fabric;
+    EXPECT_GT(solver.contactCounts().pairs, 10u) << "its folds touch";
+    EXPECT_LT(solver.contactCounts().shortened, 30u) << fabric;
+    EXPECT_LT(longest, 0.1) << fabric;
   }
 }
 
@@ -112,11 +136,12 @@ double lostSpeed(double friction) {
 
 TEST(SurfaceContact, RubsLayersOnEachOther) {
   EXPECT_NEAR(lostSpeed(0), 0, 0.002);
-  // Pairs that only happen to press rub, too, so that it is more than Coulomb's law takes.
+  // Pairs that only happen to press rub, too, so that it is more than Coulomb's law takes: 1.9 times as much
+  // with the 20 iterations of `auto`, 1.6 times with 10, which leave more unsolved.
   for (const double friction : {0.1, 0.3}) {
     const double byCoulomb = friction * 9.81 / 60, lost = lostSpeed(friction);
     EXPECT_GT(lost, 0.9 * byCoulomb) << friction;
-    EXPECT_LT(lost, 1.6 * byCoulomb) << friction;
+    EXPECT_LT(lost, 2.0 * byCoulomb) << friction;
   }
 }
 
