@@ -144,16 +144,29 @@ void listByParticle(TouchingPairs<Real>& touching, std::size_t particles) {
 
 }  // namespace
 
-// Boxes around the motions.
+// Boxes around the motions of particles.
 template <class Real>
-void SurfaceContact<Real>::growBoxes(const Components<Real>& starts, Real around) {
-  const SurfaceSearch<Real> search{surface_, boxes_, starts, motions_, shift_, around};
+void SurfaceContact<Real>::boxParticles(const Components<Real>& starts, Real around) {
+  const Four<Real> shift = fourOf(shift_), r{around, around, around, Real(0)};
+  const Arrays<const Real> from = arraysOf(starts), motions = arraysOf(std::as_const(motions_));
+  particleBoxes_.resize(starts.x.size());
+  for (std::size_t i = 0; i < particleBoxes_.size(); ++i) {
+    const auto place = static_cast<std::ptrdiff_t>(i);
+    const Four<Real> a = fourAt(from, place), b = a + (fourAt(motions, place) - shift);
+    const Bounds<Real> box = joined(Bounds<Real>{a, a}, Bounds<Real>{b, b});
+    particleBoxes_[i] = {box.low - r, box.high + r};
+  }
+}
+
+// The same of triangles, and up the tree.
+template <class Real>
+void SurfaceContact<Real>::growBoxes() {
   const std::vector<std::uint32_t>& first = surface_.firstBoxes;
   boxes_.resize(first.back());
   ThreadTeam::shared().forEach(
       0, static_cast<std::uint32_t>(surface_.triangles.size()), BOXES_AT_ONCE, [&](std::uint32_t i) {
         const auto [a, b, c] = cornersOf(surface_.triangles[i]);
-        boxes_[i] = joined(joined(search.boxOf(a), search.boxOf(b)), search.boxOf(c));
+        boxes_[i] = joined(joined(particleBoxes_[a], particleBoxes_[b]), particleBoxes_[c]);
       });
   for (std::size_t level = 1; level + 1 < first.size(); ++level)
     ThreadTeam::shared().forEach(first[level], first[level + 1], BOXES_AT_ONCE, [&](std::uint32_t i) {
@@ -178,8 +191,9 @@ void SurfaceContact<Real>::findTouching(const CpuState<Real>& before, ImplicitSt
     for (std::vector<Real>* c : {&motions_.x, &motions_.y, &motions_.z})
       std::fill(c->begin(), c->end(), Real(0));
   shift_ = shiftOf(motions_);
-  growBoxes(starts, surface_.around);
-  const SurfaceSearch<Real> search{surface_, boxes_, starts, motions_, shift_, surface_.around};
+  boxParticles(starts, surface_.around);
+  growBoxes();
+  const SurfaceSearch<Real> search{surface_, boxes_, particleBoxes_, starts};
   foundPairs_.resize(chunks);
   ThreadTeam::shared().forEach(0, chunks, 1, [&](std::uint32_t chunk) {
     std::vector<SurfacePair<Real>>& found = foundPairs_[chunk];
@@ -347,9 +361,10 @@ void SurfaceContact<Real>::guard(const CpuState<Real>& before, CpuState<Real>& a
     for (std::uint32_t i = 0; i < particles; ++i) put(motions_, i, at(after.positions, i) - at(starts, i));
   }
   if (round == 0) shift_ = shiftOf(motions_);
-  if (round == 0 || round == CORRECTION_ROUNDS) growBoxes(starts, surface_.leastGap);
+  if (round <= CORRECTION_ROUNDS) boxParticles(starts, surface_.leastGap);
+  if (round == 0 || round == CORRECTION_ROUNDS) growBoxes();
   const bool corrects = round < CORRECTION_ROUNDS, all = round + 1 == GUARD_ROUNDS;
-  const SurfaceSearch<Real> search{surface_, boxes_, starts, motions_, shift_, surface_.leastGap};
+  const SurfaceSearch<Real> search{surface_, boxes_, particleBoxes_, starts};
   ThreadTeam::shared().forEach(0, triangles, TRIANGLES_A_CHUNK, [&](std::uint32_t i) {
     search.forEachPair(i, [&](const Parts& parts, const auto& nearest) {
       const Sides sides = sidesOf(parts, nearest.way, starts);

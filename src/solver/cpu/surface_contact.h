@@ -39,7 +39,8 @@ class SurfaceContact {
     std::int32_t x, y, z, weight;
   };
 
-  void growBoxes(const Components<Real>& starts, Real around);
+  void boxParticles(const Components<Real>& starts, Real around);
+  void growBoxes();
   void findTouching(const CpuState<Real>& before, ImplicitState<Real>& implicit);
   void settle(const CpuState<Real>& before, const CpuState<Real>& after, ImplicitState<Real>& implicit);
   // From where the motion of this round begins.
@@ -64,7 +65,7 @@ class SurfaceContact {
 
   ClothSurface<Real> surface_;
   SurfaceState state_ = freshSurfaceState();
-  std::vector<Bounds<Real>> boxes_;
+  std::vector<Bounds<Real>> boxes_, particleBoxes_;
   Components<Real> motions_;  // of this round
   Vec3<Real> shift_{};
   Components<Real> safePositions_, safeVelocities_;

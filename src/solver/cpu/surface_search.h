@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "solver/cpu/arrays.h"
+#include "solver/cpu/rigid_block.h"
 #include "solver/cpu/surface_laws.h"
 #include "solver/surface.h"
 
@@ -16,20 +17,17 @@ namespace clothsim::cpu {
 // A box around parts of the surface and their motion.
 template <class Real>
 struct Bounds {
-  Vec3<Real> low, high;
+  Four<Real> low, high;
 };
 
 template <class Real>
 INLINE Bounds<Real> joined(const Bounds<Real>& a, const Bounds<Real>& b) {
-  const auto lesser = [](Real s, Real t) { return t < s ? t : s; };
-  const auto greater = [](Real s, Real t) { return s < t ? t : s; };
-  return {{lesser(a.low.x, b.low.x), lesser(a.low.y, b.low.y), lesser(a.low.z, b.low.z)},
-          {greater(a.high.x, b.high.x), greater(a.high.y, b.high.y), greater(a.high.z, b.high.z)}};
+  return {b.low < a.low ? b.low : a.low, a.high < b.high ? b.high : a.high};
 }
 template <class Real>
 INLINE bool overlap(const Bounds<Real>& a, const Bounds<Real>& b) {
-  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y &&
-         a.low.z <= b.high.z && b.low.z <= a.high.z;
+  const auto meet = (a.low <= b.high) & (b.low <= a.high);
+  return (meet[0] & meet[1] & meet[2]) != 0;
 }
 
 // A corner and a triangle, or two sides.
@@ -50,17 +48,9 @@ struct Parts {
 template <class Real>
 struct SurfaceSearch {
   const ClothSurface<Real>& surface;
-  const std::vector<Bounds<Real>>& boxes;  // of the tree
-  const Components<Real>&starts, &motions;
-  Vec3<Real> shift;  // of all boxes over the motion [m]
-  Real around;
-
-  // Around a particle and its motion.
-  [[nodiscard]] INLINE Bounds<Real> boxOf(std::uint32_t i) const {
-    const Vec3<Real> a = at(starts, i), b = a + (at(motions, i) - shift), r{around, around, around};
-    const Bounds<Real> box = joined(Bounds<Real>{a, a}, Bounds<Real>{b, b});
-    return {box.low - r, box.high + r};
-  }
+  const std::vector<Bounds<Real>>& boxes;          // of the tree
+  const std::vector<Bounds<Real>>& particleBoxes;  // around each particle and its motion
+  const Components<Real>& starts;
 
   // visit(triangle) for the triangles behind this one, in the order of the tree, whose boxes meet its own.
   template <class Visit>
@@ -107,7 +97,8 @@ struct SurfaceSearch {
     for (std::uint32_t k = 0; k < 3; ++k) {
       const std::uint32_t i = mine[k];
       if ((surface.triangles[from].owned >> k & 1u) == 0) continue;
-      if (i == theirs[0] || i == theirs[1] || i == theirs[2] || !overlap(boxOf(i), boxes[to])) continue;
+      if (i == theirs[0] || i == theirs[1] || i == theirs[2] || !overlap(particleBoxes[i], boxes[to]))
+        continue;
       const auto nearest = SurfaceLaws<Real>::nearestOnTriangle(at(starts, i), at(starts, theirs[0]),
                                                                 at(starts, theirs[1]), at(starts, theirs[2]));
       goesOn = goesOn && test(Parts{{i, theirs[0], theirs[1], theirs[2]}, false, from, to, k, 0}, nearest);
@@ -119,12 +110,13 @@ struct SurfaceSearch {
     for (std::uint32_t k = 0; k < 3; ++k) {
       if ((surface.triangles[from].owned >> (OWNED_SIDE + k) & 1u) == 0) continue;
       const std::uint32_t p = mine[k], q = mine[(k + 1) % 3];
-      const Bounds<Real> box = joined(boxOf(p), boxOf(q));
+      const Bounds<Real> box = joined(particleBoxes[p], particleBoxes[q]);
       if (!overlap(box, boxes[to])) continue;
       for (std::uint32_t l = 0; l < 3; ++l) {
         if ((surface.triangles[to].owned >> (OWNED_SIDE + l) & 1u) == 0) continue;
         const std::uint32_t a = theirs[l], b = theirs[(l + 1) % 3];
-        if (a == p || a == q || b == p || b == q || !overlap(box, joined(boxOf(a), boxOf(b)))) continue;
+        if (a == p || a == q || b == p || b == q || !overlap(box, joined(particleBoxes[a], particleBoxes[b])))
+          continue;
         const auto nearest =
             SurfaceLaws<Real>::nearestOnSegments(at(starts, p), at(starts, q), at(starts, a), at(starts, b));
         goesOn = goesOn && test(Parts{{p, q, a, b}, true, from, to, k, l}, nearest);
