@@ -267,7 +267,8 @@ std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
           .within({.low = 1, .high = 100})
           .usually(1, 16),
       field("cg_iterations", &S::cgIterations,
-            "Most CG iterations per Newton iteration; auto: 10 to 60 by the step length.")
+            "Most CG iterations per Newton iteration; auto: 10 to 60 by the step length, at least 20 under "
+            "contact.")
           .within({.low = 1, .high = 10'000})
           .usually(1, 40),
       field("frames_per_sec", &S::framesPerSec,

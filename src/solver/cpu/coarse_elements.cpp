@@ -15,9 +15,6 @@
 namespace clothsim::cpu {
 namespace {
 
-template <class Real>
-using Eight = typename VectorsOf<Real>::Eight;
-
 // The force of the element d on a body: (sigma d, y x d).
 template <class Real>
 INLINE Eight<Real> pullOf(Four<Real> lever, Vec3<Real> d) {

@@ -4,13 +4,11 @@
 #include <array>
 #include <cstring>
 
-#include "solver/cpu/rigid_block.h"
+#include "solver/cpu/vectors.h"
 
 namespace clothsim::cpu {
 namespace {
 
-template <class Real>
-using Eight = typename VectorsOf<Real>::Eight;
 // The positions and places of a block, eight at a time. Where there are fewer than BLOCK, the last is there
 // again.
 template <class Real>

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "solver/cpu/arrays.h"
-#include "solver/cpu/rigid_block.h"
 #include "solver/cpu/surface_laws.h"
+#include "solver/cpu/vectors.h"
 #include "solver/surface.h"
 
 namespace clothsim::cpu {

@@ -1,0 +1,140 @@
+#include "solver/cpu/surface_pairs.h"
+
+#include "core/thread_team.h"
+#include "solver/cpu/implicit_contact.h"
+
+namespace clothsim::cpu {
+namespace {
+
+constexpr std::uint32_t PAIRS_AT_ONCE = 256;
+
+// Whether a side is the nearest part of both triangles at it.
+template <class Real>
+bool isNearestSide(const SurfaceTriangle& triangle, std::uint32_t k, Vec3<Real> way,
+                   const Components<Real>& x) {
+  const auto corners = cornersOf(triangle);
+  const std::uint32_t across = acrossOf(triangle)[k];
+  const auto isNearest = [&](std::uint32_t outer) {
+    return SurfaceLaws<Real>::isStillNearest(way, at(x, outer) - at(x, corners[k]));
+  };
+  return isNearest(corners[(k + 2) % 3]) && (across == NO_PARTICLE || isNearest(across));
+}
+
+// The part of a contact that a pair of parts finds: all where both are faces or sides, half at a side that
+// another triangle has, too; nothing where other parts are nearer, or a triangle has the corner itself.
+template <class Real>
+Real shareOf(const ClothSurface<Real>& surface, const Parts& parts, Vec3<Real> way, std::uint32_t part,
+             const Components<Real>& x) {
+  const SurfaceTriangle& triangle = surface.triangles[parts.second];
+  if (parts.areSides) {
+    const bool isContact = part == NEAREST_FACE && isNearestSide(triangle, parts.l, way, x) &&
+                           isNearestSide(surface.triangles[parts.first], parts.k, Vec3<Real>{} - way, x);
+    return isContact ? Real(1) : Real(0);
+  }
+  if (part == NEAREST_FACE) return 1;
+  const auto corners = cornersOf(triangle), across = acrossOf(triangle);
+  const auto isNearest = [&](std::uint32_t outer, std::uint32_t corner) {
+    if (outer == NO_PARTICLE) return true;
+    return outer != parts.particles[0] &&
+           SurfaceLaws<Real>::isStillNearest(way, at(x, outer) - at(x, corner));
+  };
+  if (part >= NEAREST_SIDE) {
+    const std::uint32_t k = part - NEAREST_SIDE;
+    return !isNearest(across[k], corners[k]) ? Real(0) : across[k] == NO_PARTICLE ? Real(1) : Real(0.5);
+  }
+  const std::uint32_t k = part - NEAREST_CORNER;
+  const bool isNearestHere = isNearest(across[k], corners[k]) && isNearest(across[(k + 2) % 3], corners[k]);
+  return isNearestHere ? surface.points[corners[k]].share : Real(0);
+}
+
+}  // namespace
+
+template <class Real>
+SurfacePair<Real> pairOf(const ClothSurface<Real>& surface, const Parts& parts,
+                         const typename SurfaceLaws<Real>::NearestParts& nearest, const Components<Real>& x,
+                         const ImplicitState<Real>& implicit, bool isLater) {
+  const auto& [way, u, v, part] = nearest;
+  const Real squared = dot(way, way), inverse = inverseSquareRoot(squared);
+  SurfacePair<Real> pair{};
+  pair.distance = squared * inverse;
+  pair.normal = canonical(inverse * way);
+  pair.particles = parts.particles;
+  pair.weights = weightsOf<Real>(parts, nearest);
+  Real reach = 0, inertia = 0, springs = 0, weights = 0, friction = 0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const SurfacePoint<Real>& point = surface.points[parts.particles[k]];
+    const Real w = pair.weights[k], size = w < Real(0) ? -w : w, square = w * w;
+    reach = reach + size * point.radius;
+    friction = friction + size * point.friction;
+    inertia = inertia + square * implicit.diagonal[parts.particles[k]];
+    springs = springs + square * point.stiffness;
+    weights = weights + square;
+  }
+  const Real along = dot(pair.normal, weighted(pair, implicit.displacements)),
+             predicted = isLater ? pair.distance : pair.distance + along;
+  if (!((predicted < pair.distance ? predicted : pair.distance) < reach + surface.margin)) return pair;
+  const Real gap = larger(pair.distance, static_cast<Real>(SQUEEZED) * reach), half = Real(0.5) * reach;
+  const Real squeezed = (reach * reach) * reciprocal((Real(4) * gap) * (reach - gap));
+  const Real stiffness = static_cast<Real>(PAIR_OVER_INERTIA) * (inertia * reciprocal(weights)) +
+                         static_cast<Real>(PAIR_OVER_SPRINGS) * springs;
+  const Real over = reach - pair.distance;
+  pair.over = canonical(isLater ? over + along : over);
+  pair.stiffness = shareOf(surface, parts, way, part, x) * (gap < half ? stiffness * squeezed : stiffness);
+  pair.limit = canonical((Real(0.5) * friction) * (pair.stiffness * larger(over, Real(0))));
+  pair.held = pair.over - along > Real(0) ? pair.stiffness : Real(0);
+  return pair;
+}
+
+template <class Real>
+void listByParticle(TouchingPairs<Real>& touching, std::size_t particles) {
+  touching.starts.assign(particles + 1, 0);
+  for (const SurfacePair<Real>& pair : touching.pairs)
+    for (const std::uint32_t i : pair.particles) ++touching.starts[i + 1];
+  for (std::size_t i = 0; i < particles; ++i) touching.starts[i + 1] += touching.starts[i];
+  touching.entries.resize(4 * touching.pairs.size());
+  std::vector<std::uint32_t> next(touching.starts.begin(), touching.starts.end() - 1);
+  for (std::uint32_t q = 0; q < touching.pairs.size(); ++q)
+    for (std::uint32_t k = 0; k < 4; ++k)
+      touching.entries[next[touching.pairs[q].particles[k]]++] = 4 * q + k;
+}
+
+template <class Real>
+void weighPairs(ImplicitState<Real>& own, const StepParams<Real>& step) {
+  TouchingPairs<Real>& touching = own.touching;
+  const auto weigh = [&](std::uint32_t q) {
+    SurfacePair<Real>& pair = touching.pairs[q];
+    const Vec3<Real> moved = weighted(pair, own.displacements);
+    const Real along = dot(pair.normal, moved), over = pair.over - along;
+    const Vec3<Real> slip = moved - along * pair.normal;
+    const Real squared = dot(slip, slip), inverse = inverseSquareRoot(squared);
+    const Real across = pair.limit * frictionSlope(squared * inverse, inverse, slowSlip(step)).over;
+    pair.across = canonical(across);
+    pair.held = over > Real(0) ? pair.stiffness : Real(0);
+    touching.forces[q] = canonical((pair.held * over) * pair.normal - across * slip);
+  };
+  ThreadTeam::shared().forEach(0, static_cast<std::uint32_t>(touching.pairs.size()), PAIRS_AT_ONCE, weigh);
+}
+
+template <class Real>
+void multiplyPairs(ImplicitState<Real>& own) {
+  TouchingPairs<Real>& touching = own.touching;
+  const auto multiply = [&](std::uint32_t q) {
+    const SurfacePair<Real>& pair = touching.pairs[q];
+    const Vec3<Real> moved = weighted(pair, own.directions.positions);
+    const Real beyond = (pair.held - pair.across) * dot(pair.normal, moved);
+    touching.forces[q] = canonical(pair.across * moved + beyond * pair.normal);
+  };
+  ThreadTeam::shared().forEach(0, static_cast<std::uint32_t>(touching.pairs.size()), PAIRS_AT_ONCE, multiply);
+}
+
+#define INSTANTIATE(Real)                                                                       \
+  template SurfacePair<Real> pairOf(const ClothSurface<Real>&, const Parts&,                    \
+                                    const typename SurfaceLaws<Real>::NearestParts&,            \
+                                    const Components<Real>&, const ImplicitState<Real>&, bool); \
+  template void listByParticle(TouchingPairs<Real>&, std::size_t);                              \
+  template void weighPairs(ImplicitState<Real>&, const StepParams<Real>&);                      \
+  template void multiplyPairs(ImplicitState<Real>&);
+INSTANTIATE(float)
+INSTANTIATE(double)
+
+}  // namespace clothsim::cpu

@@ -1,0 +1,37 @@
+// Pairs of parts of the surface that may touch: what they are to an implicit step.
+#pragma once
+
+#include <array>
+
+#include "solver/cpu/implicit_passes.h"
+#include "solver/cpu/surface_search.h"
+#include "solver/surface.h"
+
+namespace clothsim::cpu {
+
+// Of the particles in the way between the parts.
+template <class Real>
+INLINE std::array<Real, 4> weightsOf(const Parts& parts,
+                                     const typename SurfaceLaws<Real>::NearestParts& nearest) {
+  const Real u = nearest.u, v = nearest.v, rest = Real(1) - u;
+  return {parts.areSides ? canonical(rest) : Real(1), canonical(parts.areSides ? u : v - rest),
+          canonical(parts.areSides ? v - Real(1) : -u), canonical(-v)};
+}
+
+// The pair of parts that may touch; without stiffness where it does not.
+template <class Real>
+[[nodiscard]] SurfacePair<Real> pairOf(const ClothSurface<Real>& surface, const Parts& parts,
+                                       const typename SurfaceLaws<Real>::NearestParts& nearest,
+                                       const Components<Real>& x, const ImplicitState<Real>& implicit,
+                                       bool isLater);
+// The list of each particle's pairs.
+template <class Real>
+void listByParticle(TouchingPairs<Real>& touching, std::size_t particles);
+// Forces of the pairs at the iterate, and what they add to the Hessian.
+template <class Real>
+void weighPairs(ImplicitState<Real>& own, const StepParams<Real>& step);
+// What the pairs do to the directions.
+template <class Real>
+void multiplyPairs(ImplicitState<Real>& own);
+
+}  // namespace clothsim::cpu
