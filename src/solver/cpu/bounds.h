@@ -1,6 +1,10 @@
 // Boxes along the axes.
 #pragma once
 
+#include <array>
+#include <cstddef>
+#include <limits>
+
 #include "solver/cpu/vectors.h"
 
 namespace clothsim::cpu {
@@ -18,6 +22,32 @@ template <class Real>
 INLINE bool overlap(const Bounds<Real>& a, const Bounds<Real>& b) {
   const auto meet = (a.low <= b.high) & (b.low <= a.high);
   return (meet[0] & meet[1] & meet[2]) != 0;
+}
+
+// Four boxes by axis; at the beginning nothing overlaps them.
+template <class Real>
+struct FourBounds {
+  static constexpr Real FAR = std::numeric_limits<Real>::max();
+  std::array<Four<Real>, 3> low{Four<Real>{} + FAR, Four<Real>{} + FAR, Four<Real>{} + FAR},
+      high{Four<Real>{} - FAR, Four<Real>{} - FAR, Four<Real>{} - FAR};
+
+  void set(std::size_t k, const Bounds<Real>& box) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low[axis][k] = box.low[axis];
+      high[axis][k] = box.high[axis];
+    }
+  }
+  [[nodiscard]] INLINE Bounds<Real> at(std::size_t k) const {
+    return {Four<Real>{low[0][k], low[1][k], low[2][k], 0},
+            Four<Real>{high[0][k], high[1][k], high[2][k], 0}};
+  }
+  [[nodiscard]] INLINE Bounds<Real> all() const { return joined(joined(at(0), at(1)), joined(at(2), at(3))); }
+};
+// Which of the four overlap a box: lanes that are not 0.
+template <class Real>
+INLINE auto overlap(const FourBounds<Real>& four, const Bounds<Real>& box) {
+  return ((four.low[0] <= box.high[0]) & (four.low[1] <= box.high[1]) & (four.low[2] <= box.high[2])) &
+         ((four.high[0] >= box.low[0]) & (four.high[1] >= box.low[1]) & (four.high[2] >= box.low[2]));
 }
 
 }  // namespace clothsim::cpu

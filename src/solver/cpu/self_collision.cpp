@@ -196,6 +196,11 @@ void SelfCollision<Real>::buildHash(const Components<Real>& positions) {
   ++counts_.hashBuilds;
   isStale_ = false;
   hashedPositions_ = positions;
+}
+
+template <class Real>
+void SelfCollision<Real>::fillBuckets() {
+  const Components<Real>& positions = hashedPositions_;
   std::fill(bucketStarts_.begin(), bucketStarts_.end(), 0);
   forEachBlock([&](const Block& block) {  // histogram: the ranks are in no particular order
     for (std::uint32_t i = block.begin; i < block.end; ++i) {
@@ -228,13 +233,18 @@ void SelfCollision<Real>::findCandidates() {
     tiles_.find(tile, params_.searchSquared, neighbors, found);
     setCandidates(tile, found);
   });
+  std::atomic<bool> anyWalks = false;
   forEachBlock([&](Block& block) {
-    const auto kept = [&](std::uint32_t i) { return candidateCounts_[i] == WALK ? 0u : candidateCounts_[i]; };
+    const auto kept = [&](std::uint32_t i) {
+      if (candidateCounts_[i] == WALK) anyWalks = true;
+      return candidateCounts_[i] == WALK ? 0u : candidateCounts_[i];
+    };
     block.slots = 0;
     for (std::uint32_t i = block.begin; i < block.end; ++i) block.slots = std::max(block.slots, kept(i));
     for (std::uint32_t i = block.begin; i < block.end; ++i)
       for (std::uint32_t slot = kept(i); slot < block.slots; ++slot) candidateAt(slot, i) = i;
   });
+  if (anyWalks) fillBuckets();
 }
 
 template <class Real>

@@ -49,6 +49,7 @@ class SelfCollision {
   [[nodiscard]] std::uint32_t encodeOnMesh(std::uint32_t i, std::uint32_t j) const;  // of one mesh
   void checkHash(const CpuState<Real>& before, const CpuState<Real>& after);
   void buildHash(const Components<Real>& positions);
+  void fillBuckets();  // for walk()
   void findCandidates();
   // Those of a tile, from what lies near it.
   void setCandidates(std::uint32_t tile, std::span<const NearTile> found);

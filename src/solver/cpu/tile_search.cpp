@@ -15,7 +15,7 @@ namespace clothsim::cpu {
 namespace {
 
 constexpr int TILE_SIDE = 4;  // of a grid's tile
-constexpr std::uint32_t CHILDREN = 4, TILES_AT_ONCE = 64;
+constexpr std::uint32_t CHILDREN = 4, GROUPS_AT_ONCE = 16;
 
 // Along the curve of Morton (1966), what follows each other lies together.
 std::uint64_t spread(std::uint64_t x, int apart) {
@@ -99,10 +99,12 @@ TileSearch<Real>::TileSearch(const Cloth& cloth) {
     piece.isMesh ? addMesh(cloth, piece, number) : addGrid(piece, number);
   }
   positions_.resize(particles_.size());
-  firstBoxes_ = {0};
-  for (std::uint32_t boxes = tiles(); boxes > 0; boxes = boxes == 1 ? 0 : (boxes + CHILDREN - 1) / CHILDREN)
-    firstBoxes_.push_back(firstBoxes_.back() + boxes);
-  boxes_.resize(firstBoxes_.back());
+  firstGroups_ = {0};
+  for (std::uint32_t boxes = tiles(); firstGroups_.size() == 1 || boxes > 1;) {
+    boxes = (boxes + CHILDREN - 1) / CHILDREN;
+    firstGroups_.push_back(firstGroups_.back() + boxes);
+  }
+  groups_.resize(firstGroups_.back());
 }
 
 template <class Real>
@@ -158,23 +160,26 @@ template <class Real>
 void TileSearch<Real>::setPositions(const Components<Real>& positions) {
   const Arrays<const Real> from = arraysOf(positions);
   const Arrays<Real> to = arraysOf(positions_);
-  ThreadTeam::shared().forEach(0, tiles(), TILES_AT_ONCE, [&](std::uint32_t tile) {
-    const std::size_t first = std::size_t{tile} * TILE;
-    const Four<Real> one = fourAt(from, particles_[first]);
-    Bounds<Real> box{one, one};
-    for (std::size_t k = first; k < first + TILE; ++k) {
-      const Four<Real> x = fourAt(from, particles_[k]);
-      put(to, static_cast<std::ptrdiff_t>(k), threeOf(x));
-      box = joined(box, Bounds<Real>{x, x});
+  ThreadTeam::shared().forEach(0, firstGroups_[1], GROUPS_AT_ONCE, [&](std::uint32_t group) {
+    groups_[group] = {};
+    for (std::uint32_t k = 0; k < std::min(CHILDREN, tiles() - CHILDREN * group); ++k) {
+      const std::size_t first = std::size_t{CHILDREN * group + k} * TILE;
+      Bounds<Real> box{fourAt(from, particles_[first]), fourAt(from, particles_[first])};
+      for (std::size_t place = first; place < first + TILE; ++place) {
+        const std::uint32_t particle = particles_[place];
+        const Four<Real> x = fourAt(from, particle);
+        put(to, static_cast<std::ptrdiff_t>(place), threeOf(x));
+        box = joined(box, Bounds<Real>{x, x});
+      }
+      groups_[group].set(k, box);
     }
-    boxes_[tile] = box;
   });
-  for (std::size_t level = 1; level + 1 < firstBoxes_.size(); ++level)
-    for (std::uint32_t i = firstBoxes_[level]; i < firstBoxes_[level + 1]; ++i) {
-      const std::uint32_t child = firstBoxes_[level - 1] + CHILDREN * (i - firstBoxes_[level]);
-      boxes_[i] = boxes_[child];
-      for (std::uint32_t k = child + 1; k < std::min(child + CHILDREN, firstBoxes_[level]); ++k)
-        boxes_[i] = joined(boxes_[i], boxes_[k]);
+  for (std::size_t level = 1; level + 1 < firstGroups_.size(); ++level)
+    for (std::uint32_t group = firstGroups_[level]; group < firstGroups_[level + 1]; ++group) {
+      const std::uint32_t below = firstGroups_[level - 1] + CHILDREN * (group - firstGroups_[level]);
+      groups_[group] = {};
+      for (std::uint32_t k = 0; k < std::min(CHILDREN, firstGroups_[level] - below); ++k)
+        groups_[group].set(k, groups_[below + k].all());
     }
 }
 
@@ -187,36 +192,38 @@ void TileSearch<Real>::find(std::uint32_t tile, Real reachSquared, Real neighbor
         &positions_.x[first], &positions_.y[first], &positions_.z[first],        &columns_[first],
         &rows_[first],        &particles_[first],   (1u << tiles_[of].count) - 1};
   };
-  const TileView<Real> own = viewOf(tile);
-  const Bounds<Real>& box = boxes_[tile];
-  const Real reach = std::sqrt(reachSquared) * Real(1.0001);  // whatever the root rounds to
+  const Tile& own = tiles_[tile];
+  const TileView<Real> ownView = viewOf(tile);
+  const Bounds<Real> box = groups_[tile / CHILDREN].at(tile % CHILDREN);
+  const Real reach = std::sqrt(reachSquared) * Real(1.0001);  // whatever is rounded on the way
   const Four<Real> around{reach, reach, reach, Real(0)};
   const Bounds<Real> wide{box.low - around, box.high + around};
   const auto look = [&](std::uint32_t other) {
     // Particles of different grids, or of a mesh, are no neighbours.
-    const bool hasNeighbors = tiles_[tile].isGrid && tiles_[other].piece == tiles_[tile].piece;
+    const bool hasNeighbors = own.isGrid && tiles_[other].piece == own.piece;
     const Real neighbors = hasNeighbors ? neighborsSquared : Real(-1);
     if constexpr (std::is_same_v<Real, float>)
-      findInFloatTile(own, box, viewOf(other), reachSquared, neighbors, found);
+      findInFloatTile(ownView, box, viewOf(other), reachSquared, neighbors, found);
     else
-      findInTile(own, box, viewOf(other), reachSquared, neighbors, found);
+      findInTile(ownView, box, viewOf(other), reachSquared, neighbors, found);
   };
   struct Place {
-    std::uint32_t level, number;
+    std::size_t level;
+    std::uint32_t group;
   };
   std::array<Place, 64> open;
   std::size_t count = 0;
-  open[count++] = {static_cast<std::uint32_t>(firstBoxes_.size() - 2), 0};
+  open[count++] = {firstGroups_.size() - 2, 0};
   while (count > 0) {
-    const auto [level, number] = open[--count];
-    if (!overlap(wide, boxes_[firstBoxes_[level] + number])) continue;
-    if (level == 0) {
-      look(number);
-      continue;
+    const auto [level, group] = open[--count];
+    const auto meets = overlap(groups_[firstGroups_[level] + group], wide);
+    for (std::uint32_t k = 0; k < CHILDREN; ++k) {
+      if (meets[k] == 0) continue;
+      if (level == 0)
+        look(CHILDREN * group + k);
+      else
+        open[count++] = {level - 1, CHILDREN * group + k};
     }
-    const std::uint32_t below = firstBoxes_[level] - firstBoxes_[level - 1];
-    for (std::uint32_t k = CHILDREN * number; k < std::min(CHILDREN * (number + 1), below); ++k)
-      open[count++] = {level - 1, k};
   }
 }
 

@@ -20,11 +20,6 @@ struct NearTile {
   std::uint32_t particle, near;
 };
 
-struct Tile {
-  std::uint32_t piece, count;
-  bool isGrid;
-};
-
 template <class Real>
 class TileSearch {
  public:
@@ -45,6 +40,11 @@ class TileSearch {
   void find(std::uint32_t tile, Real reachSquared, Real neighborsSquared, std::vector<NearTile>& found) const;
 
  private:
+  struct Tile {
+    std::uint32_t piece, count;
+    bool isGrid;
+  };
+
   void addGrid(const Piece& piece, std::uint32_t number);
   void addMesh(const Cloth& cloth, const Piece& piece, std::uint32_t number);
   void addTile(std::span<const std::uint32_t> particles, const Piece& piece, std::uint32_t number);
@@ -54,8 +54,9 @@ class TileSearch {
   std::vector<std::uint32_t> particles_;
   std::vector<Real> columns_, rows_;  // on the grid of its piece
   Components<Real> positions_;
-  std::vector<std::uint32_t> firstBoxes_;  // of each level, the tiles first, and one more: how many there are
-  std::vector<Bounds<Real>> boxes_;
+  std::vector<std::uint32_t>
+      firstGroups_;                       // of each level, the tiles' first, and one more: how many there are
+  std::vector<FourBounds<Real>> groups_;  // each of four below it
 };
 
 extern template class TileSearch<float>;
