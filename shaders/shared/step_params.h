@@ -54,7 +54,7 @@ using uint = std::uint32_t;
 #define PIN_STARTS_UNIT 6   // a texel a particle: start position, and the number of its path + 1 (0: none)
 #define PIN_MOTIONS_UNIT 7  // PIN_MOTION_ROWS texels each
 
-#define PIN_MOTION_ROWS 4
+#define PIN_MOTION_ROWS 5
 #define COLLIDER_ROWS 13
 #define COLLIDER_SWEEP_ROW 3   // read for spheres only
 #define COLLIDER_AXES_ROW 4    // read for shapes that have a frame of their own
@@ -246,7 +246,14 @@ SHARED_STRUCT PinMotionParams {
   real pivotX;  // mean of the start positions [m]
   real pivotY;
   real pivotZ;
-  real unusedPivot;
+  // Of pins that are held for a while (pin_paths.h): the part of the way to their path that they go in the
+  // step, but no farther than `reach` [m]. 0: all of it, to the bit.
+  real follow;
+
+  real reach;
+  real reachSquared;
+  real unusedA;
+  real unusedB;
 };
 
 // One colour of the strain limit: springs of one slot of which no two share a particle. The owners are at

@@ -6,7 +6,8 @@ struct Particle {
   vec3 velocity;
 };
 
-// Where a path takes the pin from its start position (src/solver/pin_paths.h), at the velocity that leads there.
+// Where a path takes the pin from its start position, or nearer to there (src/solver/pin_paths.h), at the velocity that
+// leads there.
 Particle movePin(uint i, vec4 x) {
   vec4 start = texelFetch(pinStarts, int(i));
   if (start.w == 0.0) return Particle(x, vec3(0.0));
@@ -23,6 +24,15 @@ Particle movePin(uint i, vec4 x) {
                       vec3(rowX.w, rowY.w, rowZ.w);
   precise vec3 sum = start.xyz + move;
   precise vec3 newX = canonical(sum);
+  if (pivot.w != 0.0) {
+    vec4 hold = texelFetch(pinMotionRows, row + 4);
+    precise vec3 way = pivot.w * (newX - x.xyz);
+    precise float waySquared = sumOfProducts(way, way);
+    precise float part = hold.x * inverseSquareRoot(waySquared);
+    if (waySquared > hold.y) way = part * way;
+    precise vec3 heldX = x.xyz + way;
+    newX = canonical(heldX);
+  }
   precise vec3 newV = step.inverseTimeStep * (newX - x.xyz);
   precise vec3 storedV = canonical(newV);
   watchVelocity(PASS_INTEGRATE, i, storedV);

@@ -208,8 +208,9 @@ void Cloth::checkSize(std::uint64_t more) const {
 
 void Cloth::holdPins(const ClothSettings& settings, std::uint32_t first) {
   const std::vector<bool> pinned = pinnedParticles(settings);
+  const std::vector<bool> free = freeAtTheStart(settings);
   for (std::size_t i = 0; i < pinned.size(); ++i)
-    if (pinned[i]) inverseMasses_[first + i] = 0;
+    if (pinned[i] && !(i < free.size() && free[i])) inverseMasses_[first + i] = 0;
 }
 
 void Cloth::addGrid(const ClothSettings& settings) {

@@ -206,6 +206,24 @@ std::vector<int> pinMotionOfPoints(const ClothSettings& cloth) {
   return motions;
 }
 
+std::vector<bool> freeKeys(const PinMotion& motion) {
+  std::vector<bool> free;
+  for (const PinMotion::Key& key : motion.keys) free.push_back(key.free);
+  if (std::find(free.begin(), free.end(), true) == free.end()) free.clear();
+  return free;
+}
+
+std::vector<bool> freeAtTheStart(const ClothSettings& cloth) {
+  const auto isFree = [](const PinMotion& motion) {
+    return motion.keys.front().free && motion.keys.front().t <= 0;
+  };
+  if (std::none_of(cloth.pinMotion.begin(), cloth.pinMotion.end(), isFree)) return {};
+  std::vector<bool> free;
+  for (const int motion : pinMotionOfPoints(cloth))
+    free.push_back(motion != NO_MOTION && isFree(cloth.pinMotion[static_cast<std::size_t>(motion)]));
+  return free;
+}
+
 Motion pathAbout(const PinMotion& motion, Vec3d center) {
   Motion path;
   path.loop = motion.loop;

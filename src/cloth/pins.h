@@ -33,6 +33,12 @@ inline constexpr int NO_MOTION = -1;  // a pin that stays, or a free point
 // pinnedParticles
 [[nodiscard]] std::vector<int> pinMotionOfPoints(const ClothSettings& cloth);
 
+// Which keys of a motion are free; empty where none are.
+[[nodiscard]] std::vector<bool> freeKeys(const PinMotion& motion);
+
+// Which pins are held later only; empty where none are. @throws SceneError as pinnedParticles
+[[nodiscard]] std::vector<bool> freeAtTheStart(const ClothSettings& cloth);
+
 // The path of the centre of a motion's pins, whose mean start position is `center` [m].
 [[nodiscard]] Motion pathAbout(const PinMotion& motion, Vec3d center);
 

@@ -106,6 +106,7 @@ std::vector<Warning> pathWarnings(const Cloth& cloth, const Scene& scene, const 
   for (std::size_t i = 0; i < scene.cloths.size(); ++i)
     for (std::size_t k = 0; k < scene.cloths[i].pinMotion.size(); ++k, ++path) {
       const std::string name = nameOfCloth(scene, i) + ".pin_motion." + std::to_string(k);
+      if (!paths.paths[path].isFree.empty()) continue;  // which are drawn to their path and do not jump
       const double distance = distanceFromPath(cloth, state, paths, path);
       if (distance > doubtful) {
         const std::string far = name + " is " + formatted("%.3g m", distance) + " away from its pins";

@@ -96,6 +96,13 @@ void addFalling(const Bounds& cloth, const ColliderSet& colliders, Stage& stage)
   stage.reach.add(high + glm::vec3(halfDiagonal, 0, halfDiagonal));
 }
 
+// Where cloth that is free at the start is taken later.
+void addHands(const ClothSettings& settings, Stage& stage) {
+  for (const PinMotion& motion : settings.pinMotion)
+    for (const PinMotion::Key& key : motion.keys)
+      if (key.position) stage.passing.push_back(toGlm(*key.position));
+}
+
 // Most of the shadow that what stays throws on the floor: its far end may be cut off.
 void addShadow(glm::vec3 toLight, Stage& stage) {
   constexpr float lowest = 0.25f;  // a light nearer to the horizon throws shadows out of any picture
@@ -153,6 +160,7 @@ Stage makeStage(const ClothOutline& cloth, const Scene& scene) {
     stage.passing.insert(stage.passing.end(), piece.points.begin(), piece.points.end());
     if (piece.pins.empty()) {
       addFalling(rest, colliders, stage);
+      addHands(scene.cloths[i], stage);
     } else {
       addPinnedCloth(piece, scene.cloths[i], scene, rest, stage);
     }

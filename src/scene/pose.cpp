@@ -15,11 +15,15 @@ double wrapped(double t, double period) {
 
 }  // namespace
 
-Motion::Key keyAt(const Motion& motion, double t) {
+double timeOnPath(const Motion& motion, double t) {
+  return motion.loop && motion.keys.back().t > 0 ? wrapped(t, motion.keys.back().t) : t;
+}
+
+Motion::Key keyAt(const Motion& motion, double time) {
   const auto& keys = motion.keys;
-  if (motion.loop && keys.back().t > 0) t = wrapped(t, keys.back().t);
+  const double t = timeOnPath(motion, time);
   const auto later = std::upper_bound(keys.begin(), keys.end(), t,
-                                      [](double time, const Motion::Key& key) { return time < key.t; });
+                                      [](double now, const Motion::Key& key) { return now < key.t; });
   if (later == keys.begin()) return keys.front();
   if (later == keys.end()) return keys.back();
   const Motion::Key& a = *(later - 1);

@@ -16,6 +16,9 @@ struct Pose {
 // axis along y there, planes their normal, boxes their edges along the axes.
 [[nodiscard]] Matrix3 ownRotation(const Collider& collider);
 
+// The time on the path of a motion at time t: within its keys, where it loops [s].
+[[nodiscard]] double timeOnPath(const Motion& motion, double t);
+
 // The key of a motion, which has at least one, at time t [s]: linear between those given.
 [[nodiscard]] Motion::Key keyAt(const Motion& motion, double t);
 

@@ -54,12 +54,14 @@ struct GroupPin {
 using Pin = std::variant<GridPoint, GridRange, GridSide, VertexPin, RegionPin, GroupPin>;
 
 // A path of pins. They move as one rigid body about their centre, the mean of their start positions. Times
-// and rotations are like those of Motion.
+// and rotations are like those of Motion. A path with keys that are `free` is like that of a hand, which
+// takes hold of the cloth and lets go (solver/pin_paths.h).
 struct PinMotion {
   struct Key {
     double t = 0;                   // [s], ascending
     std::optional<Vec3d> position;  // of the centre [m]; none: where it was at the start
     Vec3d rotation;                 // rotation vector about the centre [degrees]
+    bool free = false;              // from here to the next key no pin holds them
     friend bool operator==(const Key&, const Key&) = default;
   };
   std::vector<Key> keys;

@@ -78,6 +78,9 @@ std::span<const Field<PinMotion::Key>> fieldsOf<PinMotion::Key>() {
           .byDefault("the mean of their start positions"),
       field("rotation", &K::rotation, "Rotation about that centre: axis times angle; may exceed 360.")
           .in("degrees"),
+      field("free", &K::free,
+            "Let go from here to the next key; a later key takes hold again, as a hand does.")
+          .rebuilds(),
   };
   return fields;
 }

@@ -3,14 +3,28 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloth/pins.h"
+
 namespace clothsim {
+
+namespace {
+
+bool haveSameHolds(const ClothSettings& a, const ClothSettings& b) {
+  const auto lets = [](const PinMotion& motion) { return !freeKeys(motion).empty(); };
+  if (std::ranges::none_of(a.pinMotion, lets) && std::ranges::none_of(b.pinMotion, lets)) return true;
+  return std::ranges::equal(a.pinMotion, b.pinMotion, [](const PinMotion& x, const PinMotion& y) {
+    return freeKeys(x) == freeKeys(y) && x.pinned == y.pinned;
+  });
+}
+
+}  // namespace
 
 bool needsRebuild(const Scene& before, const Scene& after) {
   if (before.cloths.size() != after.cloths.size()) return true;
   for (std::size_t i = 0; i < before.cloths.size(); ++i) {
     ClothSettings cloth = before.cloths[i];
     cloth.damping = after.cloths[i].damping;
-    cloth.pinMotion = after.cloths[i].pinMotion;
+    if (haveSameHolds(cloth, after.cloths[i])) cloth.pinMotion = after.cloths[i].pinMotion;
     if (cloth != after.cloths[i]) return true;
   }
   return false;

@@ -91,8 +91,8 @@ class Executor {
   virtual void upload(const State& state) = 0;
   virtual void download(State& state) = 0;
   [[nodiscard]] virtual std::vector<Particle4> positions(std::uint32_t first, std::uint32_t count) = 0;
-  // The particle is at rest then. 0 [1/kg]: pinned.
-  virtual void setInverseMass(std::uint32_t particle, double inverseMass) = 0;
+  // 0 [1/kg]: pinned. The particle is at rest then, or keeps its velocity.
+  virtual void setInverseMass(std::uint32_t particle, double inverseMass, bool rests) = 0;
   // A copy on the device, in the memory of `reuse` where it fits, and back. False for another device's copy.
   [[nodiscard]] virtual std::unique_ptr<ParticleCopy> copy(std::unique_ptr<ParticleCopy> reuse) = 0;
   [[nodiscard]] virtual bool restore(const ParticleCopy& copy) = 0;

@@ -1,5 +1,8 @@
 #include "solver/pin_paths.h"
 
+#include <cmath>
+#include <utility>
+
 #include "cloth/pins.h"
 #include "scene/pose.h"
 
@@ -27,6 +30,7 @@ PinPaths makePinPaths(const Scene& scene, const Cloth& cloth, std::span<const st
       PinPath path;
       if (counts[k] > 0) path.center = (1 / counts[k]) * sums[k];
       path.motion = pathAbout(settings.pinMotion[k], path.center);
+      path.isFree = freeKeys(settings.pinMotion[k]);
       result.paths.push_back(std::move(path));
     }
   }
@@ -34,8 +38,16 @@ PinPaths makePinPaths(const Scene& scene, const Cloth& cloth, std::span<const st
   return result;
 }
 
+bool isHeld(const PinPath& path, double time) {
+  if (path.isFree.empty()) return true;
+  const double t = timeOnPath(path.motion, time);
+  bool free = false;
+  for (std::size_t i = 0; i < path.isFree.size() && path.motion.keys[i].t <= t; ++i) free = path.isFree[i];
+  return !free;
+}
+
 template <class Real>
-PinMotionParams<Real> makePinMotionParams(const PinPath& path, double time) {
+PinMotionParams<Real> makePinMotionParams(const PinPath& path, double time, double h) {
   const Pose pose = poseAt(path.motion, time);
   const auto& [rowX, rowY, rowZ] = pose.rotation;
   const Vec3d translation = pose.position - path.center;
@@ -56,10 +68,15 @@ PinMotionParams<Real> makePinMotionParams(const PinPath& path, double time) {
   params.pivotX = real(path.center.x);
   params.pivotY = real(path.center.y);
   params.pivotZ = real(path.center.z);
+  if (!path.isFree.empty()) {
+    params.follow = real(1 - std::exp(-h / HAND_TIME));
+    params.reach = real(h * HAND_SPEED);
+    params.reachSquared = real(h * HAND_SPEED * h * HAND_SPEED);
+  }
   return params;
 }
 
-template PinMotionParams<float> makePinMotionParams(const PinPath&, double);
-template PinMotionParams<double> makePinMotionParams(const PinPath&, double);
+template PinMotionParams<float> makePinMotionParams(const PinPath&, double, double);
+template PinMotionParams<double> makePinMotionParams(const PinPath&, double, double);
 
 }  // namespace clothsim

@@ -1,5 +1,9 @@
 // Pins in motion: which particles move, and the rigid motion of each group of them, evaluated on the host for
 // both backends. Cheap to keep: it changes with the scene, not with the step.
+//
+// Pins of a path with free keys are held for a while. They are where the cloth is when that begins, and go to
+// their path as a hand would: x' = x + d, d = (1 - exp(-h / HAND_TIME)) (path - x), but |d| at most h
+// HAND_SPEED.
 #pragma once
 
 #include <cstdint>
@@ -15,11 +19,17 @@ namespace clothsim {
 template <class Real>
 using PinMotionParams = shared::PinMotionParams<Real>;
 
+inline constexpr double HAND_TIME = 0.15;  // [s]
+inline constexpr double HAND_SPEED = 2.5;  // [m/s]
+
 // One `pin_motion` of a cloth, with the centre of its pins.
 struct PinPath {
-  Vec3d center;   // mean of the start positions of its pins [m]
-  Motion motion;  // where the centre is; every key has a position
+  Vec3d center;              // mean of the start positions of its pins [m]
+  Motion motion;             // where the centre is; every key has a position
+  std::vector<bool> isFree;  // from each key on; empty: always pinned
 };
+// Whether its particles are pinned in the step that begins at `time` [s].
+[[nodiscard]] bool isHeld(const PinPath& path, double time);
 
 struct PinPaths {
   std::vector<PinPath> paths;  // of all cloths, in the scene's order
@@ -30,9 +40,10 @@ struct PinPaths {
 [[nodiscard]] PinPaths makePinPaths(const Scene& scene, const Cloth& cloth,
                                     std::span<const std::uint32_t> offPath = {});
 
-// From the start positions to those at `time` [s] (not from step to step, which would drift).
+// From the start positions to those at `time` [s] (not from step to step, which would drift). `h`: the length
+// of the step [s].
 template <class Real>
-[[nodiscard]] PinMotionParams<Real> makePinMotionParams(const PinPath& path, double time);
+[[nodiscard]] PinMotionParams<Real> makePinMotionParams(const PinPath& path, double time, double h);
 
 [[nodiscard]] inline bool hasPinMotion(const Scene& scene) {
   for (const ClothSettings& cloth : scene.cloths)

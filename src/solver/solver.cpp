@@ -42,6 +42,20 @@ void Solver::setOffPath(std::vector<std::uint32_t> offPath) {
   executor_->prepare(inputs_, step_);
 }
 
+// Takes hold of pins and lets them go, where that begins or ends with the next step.
+void Solver::holdPins() {
+  const PinPaths& pins = inputs_.pinPaths;
+  held_.resize(pins.paths.size());
+  for (std::size_t path = 0; path < pins.paths.size(); ++path) {
+    if (pins.paths[path].isFree.empty()) continue;
+    const bool wanted = isHeld(pins.paths[path], inputs_.clock.time());
+    if (std::exchange(held_[path], wanted) == wanted) continue;
+    for (std::uint32_t i = 0; i < pins.numbers.size(); ++i)
+      if (pins.numbers[i] == path + 1)
+        executor_->setInverseMass(i, wanted ? 0 : 1 / inputs_.cloth->massOf(i), false);
+  }
+}
+
 void Solver::checkStart() {
   if (startIsChecked_) return;
   startIsChecked_ = true;
@@ -61,6 +75,7 @@ void Solver::step(int count) {
   checkStart();
   convertVelocities();
   for (int i = 0; i < count && !divergence_ && !isInterrupted(); ++i) {
+    holdPins();
     executor_->run(inputs_, step_, count - i);
     ++inputs_.clock.step;
     divergence_ = executor_->findDivergence(inputs_.clock.step, false);
@@ -119,6 +134,7 @@ void Solver::setAllButParticles(const StepClock& clock, Integrator integrator,
   inputs_.clock = clock;
   inputs_.clock.setStepLength(stepLength(inputs_.scene->solver));
   inputs_.velocityMeaning = integrator;
+  held_.clear();
   setOffPath(offPath);
   if (inputs_.cuts != cuts) setCuts(cuts);
   startIsChecked_ = false;
@@ -140,7 +156,7 @@ void Solver::setCuts(const Cuts& cuts) {
 }
 
 void Solver::setPin(std::uint32_t particle, bool pinned) {
-  executor_->setInverseMass(particle, pinned ? 0 : 1 / inputs_.cloth->massOf(particle));
+  executor_->setInverseMass(particle, pinned ? 0 : 1 / inputs_.cloth->massOf(particle), true);
   std::vector<std::uint32_t> offPath = inputs_.offPath;
   leavePath(offPath, particle);
   setOffPath(std::move(offPath));

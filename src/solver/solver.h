@@ -116,12 +116,14 @@ class Solver {
                           const std::vector<std::uint32_t>& offPath, const Cuts& cuts);
   void setOffPath(std::vector<std::uint32_t> offPath);
   void checkStart();
+  void holdPins();
 
   StepInputs inputs_;
   PassList step_;
   const PassList conversion_ = makeConversion(), startCheck_ = makeStartCheck();
   std::unique_ptr<Executor> executor_;
-  bool startIsChecked_ = true;  // false once a state was handed in
+  bool startIsChecked_ = true;             // false once a state was handed in
+  std::vector<std::optional<bool>> held_;  // of each path, whether the state has its particles pinned
   std::optional<Divergence> divergence_;
   std::unique_ptr<Snapshot> kept_;
 };

@@ -18,7 +18,8 @@ void evaluate(const StepInputs& inputs, std::uint64_t ahead, StepParameters<Real
     parameters.colliders[i] = inputs.colliders.params<Real>(i, begin, end);
   parameters.pinMotions.resize(inputs.pinPaths.paths.size());
   for (std::size_t i = 0; i < parameters.pinMotions.size(); ++i)
-    parameters.pinMotions[i] = makePinMotionParams<Real>(inputs.pinPaths.paths[i], end);
+    parameters.pinMotions[i] =
+        makePinMotionParams<Real>(inputs.pinPaths.paths[i], end, stepLength(scene.solver));
   parameters.interaction = makeInteractionParams<Real>(inputs.interaction, scene, inputs.clock.step + ahead);
 }
 

@@ -158,8 +158,8 @@ inline Scene twoCloths(Scene scene) {
   return scene;
 }
 
-// The left column turns in a loop, the right one flies and turns, a point of the lower row goes straight; the
-// upper corners stay.
+// The left column turns in a loop, the right one flies and turns, a point of the lower row goes straight and
+// is free for a while; the upper corners stay.
 inline Scene withPinMotion(Scene scene) {
   ClothSettings& cloth = scene.cloths[0];
   const int right = cloth.numWidthPoints - 1, last = cloth.numHeightPoints - 1, middle = right / 2;
@@ -175,6 +175,8 @@ inline Scene withPinMotion(Scene scene) {
                  {.t = 0.15, .position = Vec3d{0.9, 0.5, 0.1}, .rotation = {0, 90, 90}}};
   flying.pinned = {rightPins};
   straight.keys = {{.t = 0, .position = std::nullopt, .rotation = {}},
+                   {.t = 0.01, .position = std::nullopt, .rotation = {}, .free = true},
+                   {.t = 0.03, .position = Vec3d{0.5, 0.1, 0.2}, .rotation = {}},
                    {.t = 0.3, .position = Vec3d{0.5, 0.3, 0.8}, .rotation = {}}};
   straight.pinned = {GridPoint{middle, 0}};
   cloth.pinMotion = {turning, flying, straight};

@@ -409,9 +409,9 @@ std::vector<Particle4> CpuExecutor<Real>::positions(std::uint32_t first, std::ui
 }
 
 template <class Real>
-void CpuExecutor<Real>::setInverseMass(std::uint32_t particle, double inverseMass) {
+void CpuExecutor<Real>::setInverseMass(std::uint32_t particle, double inverseMass, bool rests) {
   particles_.inverseMasses[particle] = static_cast<Real>(inverseMass);
-  cpu::put(particles_.state.velocities, particle, Vec3<Real>{});
+  if (rests) cpu::put(particles_.state.velocities, particle, Vec3<Real>{});
   implicit_.scalars.usualSteps = 0;
 }
 

@@ -33,7 +33,7 @@ class CpuExecutor final : public Executor {
   void upload(const State& state) override;
   void download(State& state) override;
   [[nodiscard]] std::vector<Particle4> positions(std::uint32_t first, std::uint32_t count) override;
-  void setInverseMass(std::uint32_t particle, double inverseMass) override;
+  void setInverseMass(std::uint32_t particle, double inverseMass, bool rests) override;
   [[nodiscard]] std::unique_ptr<ParticleCopy> copy(std::unique_ptr<ParticleCopy> reuse) override;
   [[nodiscard]] bool restore(const ParticleCopy& copy) override;
   [[nodiscard]] std::optional<Divergence> findDivergence(std::uint64_t step, bool wait) override;

@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "core/exact_math.h"
+#include "solver/cpu/arrays.h"
 #include "solver/cpu/rows.h"
 #include "solver/cpu/spring_rows.h"
 #include "solver/cpu/watch.h"
@@ -68,7 +69,18 @@ void pullGrabbed(const PassArguments<Real>& arguments, int row) {
   }
 }
 
-// Where their paths take the pins from their start positions (solver/pin_paths.h), at the velocity that leads
+// Of a pin that is held for a while (solver/pin_paths.h).
+template <class Real>
+Vec3<Real> nearer(Vec3<Real> x, Vec3<Real> goal, const PinMotionParams<Real>& motion) {
+  Vec3<Real> way = motion.follow * (goal - x);
+  const Real waySquared = dot(way, way);
+  const Real part = motion.reach * inverseSquareRoot(waySquared);
+  if (waySquared > motion.reachSquared) way = part * way;
+  const Vec3<Real> sum = x + way;
+  return {canonical(sum.x), canonical(sum.y), canonical(sum.z)};
+}
+
+// Where their paths take the pins from their start positions, or nearer to there, at the velocity that leads
 // there.
 template <class Real>
 void movePinsOf(const PassArguments<Real>& arguments, Range particles) {
@@ -86,9 +98,8 @@ void movePinsOf(const PassArguments<Real>& arguments, Range particles) {
     const Vec3<Real> move =
         rotated + Vec3<Real>{motion.translationX, motion.translationY, motion.translationZ};
     const Vec3<Real> sum = start + move;
-    p.x[i] = canonical(sum.x);
-    p.y[i] = canonical(sum.y);
-    p.z[i] = canonical(sum.z);
+    const Vec3<Real> place{canonical(sum.x), canonical(sum.y), canonical(sum.z)};
+    cpu::put(p, i, motion.follow == Real(0) ? place : nearer({old.x[i], old.y[i], old.z[i]}, place, motion));
     const Real inverseTimeStep = arguments.step.inverseTimeStep;
     v.x[i] = canonical(inverseTimeStep * (p.x[i] - old.x[i]));
     v.y[i] = canonical(inverseTimeStep * (p.y[i] - old.y[i]));

@@ -296,12 +296,12 @@ std::vector<Particle4> GpuExecutor::positions(std::uint32_t first, std::uint32_t
 }
 
 // A few bytes are read back.
-void GpuExecutor::setInverseMass(std::uint32_t particle, double inverseMass) {
+void GpuExecutor::setInverseMass(std::uint32_t particle, double inverseMass, bool rests) {
   Particle4 x = positions(particle, 1)[0];
   const Particle4 atRest;
   x.w = static_cast<float>(inverseMass);
   arrays_[Array::positions].buffer.upload({&x, 1}, particle);
-  arrays_[Array::velocities].buffer.upload({&atRest, 1}, particle);
+  if (rests) arrays_[Array::velocities].buffer.upload({&atRest, 1}, particle);
   arrays_.forgetHistory();
 }
 

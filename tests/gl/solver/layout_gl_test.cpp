@@ -287,6 +287,8 @@ TEST_F(LayoutTest, OfPinMotionsIsTheRowsThatTheShaderFetches) {
   EXPECT_EQ(offsetof(PinMotionRow, rotationZX), 32u);
   EXPECT_EQ(offsetof(PinMotionRow, translationZ), 44u);
   EXPECT_EQ(offsetof(PinMotionRow, pivotX), 48u);
+  EXPECT_EQ(offsetof(PinMotionRow, follow), 60u);
+  EXPECT_EQ(offsetof(PinMotionRow, reachSquared), 68u);
 }
 
 }  // namespace

@@ -126,7 +126,7 @@ class RandomScene {
     PinMotion motion;
     double t = positive();
     for (int i = whole(1, 4); i > 0; --i, t *= 1.5)
-      motion.keys.push_back({t, maybe() ? std::optional(vector()) : std::nullopt, vector()});
+      motion.keys.push_back({t, maybe() ? std::optional(vector()) : std::nullopt, vector(), maybe()});
     motion.loop = maybe();
     return motion;
   }

@@ -196,6 +196,83 @@ TEST(PinMotion, IsFeltByTheWind) {
   EXPECT_NEAR(total.y, -0.5 * 1.2 * 1.2 * 1 * 2 * 2, 1e-9);  // half rho C_d A v^2 against the motion
 }
 
+// The left column is free at first, is taken at 0.1 s, carried 0.3 m upwards, and let go at 0.5 s.
+Scene handScene() {
+  PinMotion hand{.keys = {key(0, std::nullopt), key(0.1, std::nullopt), key(0.2, Vec3d{0, 1.3, 0.5}),
+                          key(0.5, Vec3d{0, 1.3, 0.5})},
+                 .loop = false,
+                 .pinned = {}};
+  hand.keys.front().free = hand.keys.back().free = true;
+  return leftColumnScene(std::move(hand));
+}
+
+template <class Real>
+double meanHeight(const CpuSolver<Real>& solver) {
+  double sum = 0;
+  for (std::uint32_t row = 0; row < 5; ++row) sum += 0.2 * static_cast<double>(solver.position(5 * row).y);
+  return sum;
+}
+
+TEST(PinMotion, TakesHoldOfFreePinsAndLetsThemGo) {
+  const Scene scene = handScene();
+  Scene loose = scene;
+  loose.cloths[0].pinned = {GridSide::right};
+  loose.cloths[0].pinMotion.clear();
+  const Cloth cloth(scene), looseCloth(loose);
+  CpuSolver<double> solver(cloth, scene), free(looseCloth, loose);
+  solver.step(100);
+  free.step(100);
+  for (std::uint32_t i = 0; i < cloth.particleCount(); ++i)
+    ASSERT_EQ(solver.position(i), free.position(i)) << "until then no pin holds it";
+  const Vec3d before = solver.position(0);
+  ASSERT_LT(before.y, 0.99);
+  solver.step(1);
+  const double taken = 1 - std::exp(-0.001 / HAND_TIME);
+  expectNear(solver.position(0), before + taken * (Vec3d{0, 1, 0} + Vec3d{0, 0.003, 0} - before), 1e-9);
+  solver.step(398);
+  EXPECT_NEAR(meanHeight(solver), 1.3, 0.3 * std::exp(-0.3 / HAND_TIME));
+  EXPECT_EQ(solver.state().positions[0].w, 0);
+  solver.step(1);
+  const Vec3d thrown = solver.velocity(0);
+  solver.step(1);
+  EXPECT_GT(solver.state().positions[0].w, 0);
+  EXPECT_NEAR(solver.velocity(0).y, thrown.y, 0.5) << "it goes on from the velocity of the hand";
+  solver.step(200);
+  EXPECT_LT(meanHeight(solver), 1.25) << "and falls";
+}
+
+TEST(PinMotion, NeverPullsAFreePinFasterThanAHand) {
+  Scene scene = handScene();
+  scene.cloths[0].pinMotion[0].keys[1].position = Vec3d{0, 9, 0.5};
+  const Cloth cloth(scene);
+  CpuSolver<double> solver(cloth, scene);
+  solver.step(100);
+  for (int step = 0; step < 50; ++step) {
+    solver.step(1);
+    const Vec3d v = solver.velocity(0);
+    ASSERT_NEAR(std::sqrt(dot(v, v)), HAND_SPEED, 1e-6);
+  }
+}
+
+// A snapshot between two keys goes on as the run that it was taken from.
+TEST(PinMotion, GoesOnFromASnapshotWithAFreePin) {
+  const Scene scene = handScene();
+  const Cloth cloth(scene);
+  CpuSolver<float> solver(cloth, scene);
+  solver.step(90);
+  const std::unique_ptr<Snapshot> early = solver.snapshot();
+  solver.step(300);
+  const State held = solver.state();
+  solver.step(300);
+  solver.restore(*early);
+  solver.step(300);
+  const State again = solver.state();
+  for (std::size_t i = 0; i < held.positions.size(); ++i) {
+    EXPECT_EQ(vectorOf(again.positions[i]), vectorOf(held.positions[i]));
+    EXPECT_EQ(again.positions[i].w, held.positions[i].w);
+  }
+}
+
 TEST(PinMotionOfPoints, NumbersPointsByTheMotionThatMovesThem) {
   const Scene scene = parseScene(
       R"({"cloth": {"num_width_points": 3, "num_height_points": 3, "pinned": ["left", "bottom", [2, 0]],
