@@ -143,11 +143,12 @@ void expectRub(const StepKind& kind, const std::string& fabric, int points, doub
                           " degrees from the critical angle, " + std::to_string(points) + "^2, " +
                           nameOf(kind),
                       precisionOf<Real>, "m"};
-  degrees < 0 ? expectNear(figure, way, 0, 1e-5) : expectNear(figure, way, expected, 0.01 * expected);
+  degrees < 0 ? expectNear(figure, way, 0, 1e-5) : expectNear(figure, way, expected, 0.002 * expected);
 }
 
 TEST(RowFabricOnASlope, SticksBelowTheCriticalAngleAndSlidesAbove) {
-  for (const double degrees : {-0.5, 0.5, 5.0}) expectRub<float>({}, "cotton", 17, degrees);
+  for (const double degrees : {-0.5, 5.0}) expectRub<float>({}, "cotton", 17, degrees);
+  expectRub<float>({}, "denim", 33, 0.5);  // resists bending 400 times as stiffly as its inertia
 }
 
 TEST(RowFabricOnASlope, LongSticksBelowTheCriticalAngleAndSlidesAbove) {
