@@ -285,7 +285,9 @@ void CpuExecutor<Real>::sum(Pass pass) {
     });
   };
   const auto residual = [&] {
-    return cpu::larger(product(implicit_.residuals, implicit_.corrections), Real(0));
+    const Real sum = product(implicit_.residuals, implicit_.corrections);
+    scalars.isSystemSolved = sum < Real(0) ? SYSTEM_LOST : 0;
+    return cpu::larger(sum, Real(0));
   };
   switch (pass) {
     case Pass::sumFirstResidual:
@@ -303,7 +305,7 @@ void CpuExecutor<Real>::sum(Pass pass) {
       const Real next = residual();
       scalars.kept = scalars.residual > leastSum<Real> ? next * reciprocal(scalars.residual) : Real(0);
       scalars.residual = next;
-      scalars.isSystemSolved = next <= scalars.leastResidual ? 1 : 0;
+      if (scalars.isSystemSolved == 0) scalars.isSystemSolved = next <= scalars.leastResidual ? 1 : 0;
       break;
     }
     case Pass::measureUpdate:
@@ -340,8 +342,12 @@ Real largestSquare(const Components<Real>& v, Real most) {
   return largest;
 }
 
-// The update over the motion of the step, or over the least motion that counts. The first Newton step
-// takes contacts as they were predicted: another one confirms it.
+// The update over the motion of the step, or over the least motion that counts. An update is small, too,
+// where the linear solver has hardly begun: r.z, the energy of what is missing as the preconditioner sees it,
+// has to be small as well, against what such a motion would cost in inertia alone. And updates have to fall:
+// at the rate t of the last two, t/(1 - t) of the last one is still to come (Hairer and Wanner, "Solving
+// ordinary differential equations II", IV.8), twice the tolerance at most. The first Newton step takes
+// contacts as they were predicted: another one confirms it.
 template <class Real>
 void CpuExecutor<Real>::measureUpdate() {
   ImplicitScalars<Real>& scalars = implicit_.scalars;
@@ -349,10 +355,16 @@ void CpuExecutor<Real>::measureUpdate() {
   const Real motion = cpu::larger(largestSquare(implicit_.displacements, Real(LARGE_SQUARE)),
                                   step.leastMotion * step.leastMotion);
   const Real square = largestSquare(implicit_.increments, Real(LARGE_SQUARE)) * reciprocal(motion);
-  scalars.lastUpdate = square * inverseSquareRoot(square);
+  const Real update = square * inverseSquareRoot(square);
+  const bool isFalling = scalars.newtonSteps == 0 || Real(8) * update <= step.tolerance ||
+                         update * update <= (Real(2) * step.tolerance) * (scalars.lastUpdate - update);
+  scalars.lastUpdate = update;
+  const bool isFollowed =
+      scalars.isSystemSolved != SYSTEM_LOST &&
+      (scalars.isSystemSolved != 0 || scalars.residual <= step.toleratedStiffness * motion);
   const bool touches = step.colliderCount != 0 || scalars.pairs != 0;
   const bool isConfirmed = !touches || scalars.newtonSteps > 0;
-  scalars.isStepSolved = isConfirmed && scalars.lastUpdate <= step.tolerance ? 1 : 0;
+  scalars.isStepSolved = isConfirmed && isFollowed && isFalling && update <= step.tolerance ? 1 : 0;
   scalars.isSystemSolved = 0;
   ++scalars.newtonSteps;
 }
