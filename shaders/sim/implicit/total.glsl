@@ -81,7 +81,8 @@ void takeTotal(Sum total) {
                     (scalars.isSystemSolved != 0u || scalars.residual <= tolerated);
   bool touches = step.colliderCount != 0u || scalars.pairs != 0u;
   bool isConfirmed = !touches || scalars.newtonSteps > 0u;  // the first one takes predicted contacts
-  scalars.isStepSolved = isConfirmed && isFollowed && isFalling && update <= step.tolerance ? 1u : 0u;
+  bool ends = isConfirmed && update <= step.tolerance;
+  scalars.isStepSolved = !ends ? 0u : isFollowed && isFalling ? 1u : STEP_ENDED;
   scalars.isSystemSolved = 0u;
   scalars.newtonSteps += 1u;
 #else

