@@ -123,6 +123,9 @@ using uint = std::uint32_t;
 #define LARGE_SQUARE 1152921504606846976.0f  // 2^60
 
 #define STEP_ENDED 2u
+// Of a linear system: rounding has left a preconditioner that is not positive. Nothing more is done, and the
+// step is not solved.
+#define SYSTEM_LOST 2u
 
 // When a pass does nothing any more.
 #define GATE_NONE 0
@@ -173,10 +176,10 @@ SHARED_STRUCT ImplicitScalars {
   real kept;          // beta
   real newtonLength;  // 1/8 to 1
 
-  real leastResidual;  // the r.z at which the linear system is solved
-  real lastUpdate;     // of the step so far: largest update over largest displacement, or over the spacing
-  uint isSystemSolved;
-  uint isStepSolved;  // STEP_ENDED: it is not, but nothing is done any more
+  real leastResidual;   // the r.z at which the linear system is solved
+  real lastUpdate;      // of the step so far: largest update over largest displacement, or over the spacing
+  uint isSystemSolved;  // or SYSTEM_LOST
+  uint isStepSolved;    // STEP_ENDED: it is not, but nothing is done any more
 
   uint iterations;        // of the step so far,
   uint newtonSteps;       // the same

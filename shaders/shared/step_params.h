@@ -139,9 +139,9 @@ SHARED_STRUCT StepParams {
 
   // Of `implicit`: a step is solved when its last update is at most this part of the motion,
   real tolerance;
-  real systemTolerance;  // and a linear system when r.z is this part of what it began with
+  real systemTolerance;     // and a linear system when r.z is this part of what it began with;
+  real toleratedStiffness;  // in the last update r.z over the squared motion may be this, too [N/m]
   real unusedTolerance;
-  real unusedSystem;
 
   // Of `bdf2`, in place of inertia and guessTime, with 2 h / 3 for h; 0 under `implicit`.
   real secondInertia;

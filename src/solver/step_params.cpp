@@ -116,6 +116,17 @@ double contactStiffness(const Piece& piece, double inertia) {
   return std::min(4 * piece.stiffestSpring(), piece.particleMass * inertia / LEAST_PIVOT);
 }
 
+// What the inertia of all cloths adds to the diagonal of their matrix, together [N/m].
+double wholeInertia(const Scene& scene, const Cloth& cloth) {
+  const double h = stepLength(scene.solver);
+  double sum = 0;
+  for (std::size_t i = 0; i < cloth.pieces().size(); ++i) {
+    const Piece& piece = cloth.pieces()[i];
+    sum += piece.particleCount() * piece.particleMass * (1 + dampingRate(scene.cloths[i]) * h) / (h * h);
+  }
+  return sum;
+}
+
 template <class Real>
 void putImplicit(const Scene& scene, const Cloth& cloth, std::size_t pieceIndex, StepParams<Real>& params) {
   if (!isImplicit(scene.solver.integrator)) return;
@@ -133,6 +144,8 @@ void putImplicit(const Scene& scene, const Cloth& cloth, std::size_t pieceIndex,
   }
   params.tolerance = real<Real>(scene.solver.tolerance);
   params.systemTolerance = real<Real>(scene.solver.tolerance * scene.solver.tolerance);
+  params.toleratedStiffness =
+      real<Real>(scene.solver.tolerance * scene.solver.tolerance * wholeInertia(scene, cloth));
   params.leastMotion = real<Real>(LEAST_MOTION * meanSpacing(cloth));
   params.contactStiffness = real<Real>(contactStiffness(piece, inertia));
   if (!scene.solver.strainLimit) return;

@@ -14,7 +14,8 @@ void main() {
   scalars.secondOrderSteps += step.secondRate > 0.0 && scalars.usualSteps >= USUAL_STEPS && isUsual ? 1u : 0u;
   scalars.allIterations += scalars.iterations;
   scalars.allNewtonSteps += scalars.newtonSteps;
-  scalars.usualSteps = isSolved && isUsual && scalars.isDisturbed == 0u ? scalars.usualSteps + 1u : 0u;
+  bool isSmall = scalars.isStepSolved != 0u && scalars.lastUpdate <= step.tolerance;
+  scalars.usualSteps = isSmall && isUsual && scalars.isDisturbed == 0u ? scalars.usualSteps + 1u : 0u;
   scalars.hasNewContacts = 0u;
   scalars.isDisturbed = 0u;
   scalars.isStepSolved = 0u;

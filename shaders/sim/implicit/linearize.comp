@@ -57,11 +57,14 @@ void addContact(uint i, float diagonal, vec3 d, inout vec3 residual, inout Symme
   vec4 plane = contactPlaneAt(i), carry = carryAt(i);
   vec3 normal = plane.xyz;
   precise float over = plane.w - sumOfProducts(normal, d);
-  precise float push = sumOfProducts(normal, timesVector(block, normal)) * over - sumOfProducts(normal, residual);
+  float own = sumOfProducts(normal, timesVector(block, normal));
+  precise float push = own * over - sumOfProducts(normal, residual);
   bool hasPlane = sumOfProducts(normal, normal) > 0.0, presses = hasPlane && push > 0.0;
   bool holds = presses || (hasPlane && scalars.newtonSteps == 0u);
   float stiffness = holds ? contactStiffness(diagonal) : 0.0;
-  precise float most = carry.w * push;
+  precise float both = stiffness + own;
+  precise float carried = push * (stiffness * reciprocal(both));
+  precise float most = carry.w * carried;
   float limit = presses ? most : 0.0;
   vec3 slip = slipOf(normal, carry.xyz, d);
   float squared = sumOfProducts(slip, slip), inverse = inverseSquareRoot(squared);

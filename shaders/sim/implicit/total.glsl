@@ -57,6 +57,7 @@ void takeTotal(Sum total) {
   scalars.residual = residual;
   scalars.leastResidual = least;
   scalars.kept = 0.0;
+  scalars.isSystemSolved = total < 0.0 ? SYSTEM_LOST : 0u;
 #elif SUM_KIND == SUM_STEP
   scalars.stepSize = quotient(scalars.residual, total);
   scalars.iterations += 1u;
@@ -64,16 +65,24 @@ void takeTotal(Sum total) {
   float residual = total < 0.0 ? 0.0 : total;
   scalars.kept = quotient(residual, scalars.residual);
   scalars.residual = residual;
-  scalars.isSystemSolved = residual <= scalars.leastResidual ? 1u : 0u;
+  scalars.isSystemSolved = total < 0.0 ? SYSTEM_LOST : residual <= scalars.leastResidual ? 1u : 0u;
 #elif SUM_KIND == SUM_UPDATE
   precise float leastMotion = step.leastMotion * step.leastMotion;
   float motion = total.y < leastMotion ? leastMotion : total.y;
   precise float square = total.x * reciprocal(motion);
   precise float update = square * inverseSquareRoot(square);
+  precise float small = 8.0 * update;
+  precise float squaredUpdate = update * update;
+  precise float allowed = (2.0 * step.tolerance) * (scalars.lastUpdate - update);
+  bool isFalling = scalars.newtonSteps == 0u || small <= step.tolerance || squaredUpdate <= allowed;
   scalars.lastUpdate = update;
+  precise float tolerated = step.toleratedStiffness * motion;
+  bool isFollowed = scalars.isSystemSolved != SYSTEM_LOST &&
+                    (scalars.isSystemSolved != 0u || scalars.residual <= tolerated);
   bool touches = step.colliderCount != 0u || scalars.pairs != 0u;
   bool isConfirmed = !touches || scalars.newtonSteps > 0u;  // the first one takes predicted contacts
-  scalars.isStepSolved = isConfirmed && update <= step.tolerance ? 1u : 0u;
+  bool ends = isConfirmed && update <= step.tolerance;
+  scalars.isStepSolved = !ends ? 0u : isFollowed && isFalling ? 1u : STEP_ENDED;
   scalars.isSystemSolved = 0u;
   scalars.newtonSteps += 1u;
 #else

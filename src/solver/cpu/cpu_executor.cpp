@@ -294,7 +294,9 @@ void CpuExecutor<Real>::sum(Pass pass) {
     });
   };
   const auto residual = [&] {
-    return cpu::larger(product(implicit_.residuals, implicit_.corrections), Real(0));
+    const Real sum = product(implicit_.residuals, implicit_.corrections);
+    scalars.isSystemSolved = sum < Real(0) ? SYSTEM_LOST : 0;
+    return cpu::larger(sum, Real(0));
   };
   switch (pass) {
     case Pass::sumFirstResidual:
@@ -312,7 +314,7 @@ void CpuExecutor<Real>::sum(Pass pass) {
       const Real next = residual();
       scalars.kept = scalars.residual > leastSum<Real> ? next * reciprocal(scalars.residual) : Real(0);
       scalars.residual = next;
-      scalars.isSystemSolved = next <= scalars.leastResidual ? 1 : 0;
+      if (scalars.isSystemSolved == 0) scalars.isSystemSolved = next <= scalars.leastResidual ? 1 : 0;
       break;
     }
     case Pass::measureUpdate:
@@ -326,7 +328,8 @@ void CpuExecutor<Real>::sum(Pass pass) {
           parameters_.pieces[0].secondRate > Real(0) && scalars.usualSteps >= USUAL_STEPS && isUsual ? 1 : 0;
       scalars.allIterations += scalars.iterations;
       scalars.allNewtonSteps += scalars.newtonSteps;
-      scalars.usualSteps = isSolved && isUsual && scalars.isDisturbed == 0 ? scalars.usualSteps + 1 : 0;
+      const bool isSmall = scalars.isStepSolved != 0 && scalars.lastUpdate <= parameters_.pieces[0].tolerance;
+      scalars.usualSteps = isSmall && isUsual && scalars.isDisturbed == 0 ? scalars.usualSteps + 1 : 0;
       scalars.hasNewContacts = scalars.isDisturbed = 0;
       scalars.isStepSolved = scalars.isSystemSolved = scalars.iterations = scalars.newtonSteps = 0;
       break;
@@ -349,8 +352,13 @@ Real largestSquare(const Components<Real>& v, Real most) {
   return largest;
 }
 
-// The update over the motion of the step, or over the least motion that counts. The first Newton step
-// takes contacts as they were predicted: another one confirms it.
+// The update over the motion of the step, or over the least motion that counts. An update is small, too,
+// where the linear solver has hardly begun: r.z, the energy of what is missing as the preconditioner sees it,
+// has to be small as well, against what such a motion would cost in inertia alone. And updates have to fall:
+// at the rate t of the last two, t/(1 - t) of the last one is still to come (Hairer and Wanner, "Solving
+// ordinary differential equations II", IV.8), twice the tolerance at most. Otherwise the
+// step ends, too, but is not solved. The first Newton step takes contacts as they were predicted: another one
+// confirms it.
 template <class Real>
 void CpuExecutor<Real>::measureUpdate() {
   ImplicitScalars<Real>& scalars = implicit_.scalars;
@@ -358,10 +366,17 @@ void CpuExecutor<Real>::measureUpdate() {
   const Real motion = cpu::larger(largestSquare(implicit_.displacements, Real(LARGE_SQUARE)),
                                   step.leastMotion * step.leastMotion);
   const Real square = largestSquare(implicit_.increments, Real(LARGE_SQUARE)) * reciprocal(motion);
-  scalars.lastUpdate = square * inverseSquareRoot(square);
+  const Real update = square * inverseSquareRoot(square);
+  const bool isFalling = scalars.newtonSteps == 0 || Real(8) * update <= step.tolerance ||
+                         update * update <= (Real(2) * step.tolerance) * (scalars.lastUpdate - update);
+  scalars.lastUpdate = update;
+  const bool isFollowed =
+      scalars.isSystemSolved != SYSTEM_LOST &&
+      (scalars.isSystemSolved != 0 || scalars.residual <= step.toleratedStiffness * motion);
   const bool touches = step.colliderCount != 0 || scalars.pairs != 0;
   const bool isConfirmed = !touches || scalars.newtonSteps > 0;
-  scalars.isStepSolved = isConfirmed && scalars.lastUpdate <= step.tolerance ? 1 : 0;
+  const bool ends = isConfirmed && update <= step.tolerance;
+  scalars.isStepSolved = !ends ? 0 : isFollowed && isFalling ? 1 : STEP_ENDED;
   scalars.isSystemSolved = 0;
   ++scalars.newtonSteps;
 }

@@ -63,20 +63,23 @@ INLINE Real slowSlip(const StepParams<Real>& step) {
 //
 // A plane holds what the particle's own Newton step would take across it (the primal-dual active set of
 // Hintermueller, Ito and Kunisch 2002, with the block as its constant): that the iterate is a hair outside
-// decides nothing. In the first Newton step all predicted planes hold. The push that this takes limits
-// friction. The force of friction is constant beyond `slow`, and its Hessian 0 along the slip; where that
-// would turn a light particle round, a part of the secant's slope stands for it.
+// decides nothing. In the first Newton step all predicted planes hold. Friction is limited by what the plane
+// carries once both it and the block have given way: the whole push would count the part that the block's
+// stiffness against bending takes, as if fabric weighed more on a plane that is softer. The force of friction
+// is constant beyond `slow`, and its Hessian 0 along the slip; where that would turn a light particle round,
+// a part of the secant's slope stands for it.
 template <class Real>
 INLINE void addContact(const ImplicitArguments<Real>& arguments, std::ptrdiff_t i, Vec3<Real>& residual,
                        Symmetric<Real>& block) {
   ContactPlanes<Real>& planes = arguments.own.planes;
   const Vec3<Real> normal = at(planes.normals, i), d = at(arguments.own.displacements, i);
   const Real over = planes.offsets.data()[i] - dot(normal, d);
-  const Real push = dot(normal, block * normal) * over - dot(normal, residual);
+  const Real own = dot(normal, block * normal), push = own * over - dot(normal, residual);
   const bool isFirst = arguments.own.scalars.newtonSteps == 0, hasPlane = dot(normal, normal) > Real(0);
   const bool presses = hasPlane && push > Real(0), holds = hasPlane && (isFirst || push > Real(0));
   const Real stiffness = holds ? contactStiffness(arguments, i) : Real(0),
-             limit = presses ? planes.frictions.data()[i] * push : Real(0);
+             carried = push * (stiffness * reciprocal(stiffness + own)),
+             limit = presses ? planes.frictions.data()[i] * carried : Real(0);
   const Vec3<Real> slip = slipOf(planes, i, d);
   const Real squared = dot(slip, slip), inverse = inverseSquareRoot(squared);
   const FrictionSlope<Real> slope = frictionSlope(squared * inverse, inverse, slowSlip(arguments.step.step));

@@ -1,10 +1,14 @@
 // Steps that ended before they were solved: who counts them, and who says so.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "simulation/run_summary.h"
+#include "solver/cpu/cpu_solver.h"
+#include "support/material_sheet.h"
 #include "support/test_scenes.h"
 
 namespace clothsim {
@@ -50,6 +54,58 @@ TEST(Convergence, OfAStepIsThatItsLastUpdateIsWithinTheTolerance) {
   }
   EXPECT_GT(unconverged, 0u);
   EXPECT_GT(solved, 0u) << "both kinds were seen";
+}
+
+// A strip of denim that is clamped in a level direction and falls.
+Scene fallingStrip(int newtonSteps, int cgIterations) {
+  Scene scene = test::materialSheet(33, 3, 0.3, 0.02, *materialPreset("denim"));
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 2; ++column) scene.cloths[0].pinned.push_back(GridPoint{column, row});
+  scene.solver.integrator = Integrator::implicit;
+  scene.solver.simulationSteps = 1;
+  scene.solver.newtonSteps = newtonSteps;
+  scene.solver.cgIterations = cgIterations;
+  return scene;
+}
+
+// How far the particles are from where a solved step takes them from the same state, over its largest motion.
+double errorOfStep(const Cloth& cloth, const CpuSolver<float>& before, CpuSolver<float>& solver) {
+  Scene scene = fallingStrip(100, 200);
+  scene.solver.tolerance = 1e-4;
+  CpuSolver<double> precise(cloth, scene);
+  for (std::uint32_t i = 0; i < cloth.particleCount(); ++i) {
+    precise.setPosition(i, before.position(i).cast<double>());
+    precise.setVelocity(i, before.velocity(i).cast<double>());
+  }
+  precise.step(1);
+  EXPECT_LT(precise.convergenceCounts().lastUpdate, 1e-3);
+  double error = 0, motion = 0;
+  for (std::uint32_t i = 0; i < cloth.particleCount(); ++i) {
+    const Vec3d there = precise.position(i), off = solver.position(i).cast<double>() - there,
+                moved = there - before.position(i).cast<double>();
+    error = std::max(error, std::sqrt(dot(off, off)));
+    motion = std::max(motion, std::sqrt(dot(moved, moved)));
+  }
+  return error / motion;
+}
+
+TEST(Convergence, IsNotThatOfALinearSolverThatHasHardlyBegun) {
+  const Scene scene = fallingStrip(8, 2);
+  const Cloth cloth(scene);
+  CpuSolver<float> solver(cloth, scene);
+  int unfinished = 0;
+  for (int step = 0; step < 60; ++step) {
+    CpuSolver<float> before(cloth, scene);
+    before.setState(solver.state());
+    const std::uint64_t unconverged = solver.convergenceCounts().unconvergedSteps;
+    solver.step(1);
+    const ConvergenceCounts counts = solver.convergenceCounts();
+    if (counts.lastUpdate > scene.solver.tolerance || step % 2 != 0) continue;
+    if (errorOfStep(cloth, before, solver) < 10 * scene.solver.tolerance) continue;
+    EXPECT_EQ(counts.unconvergedSteps, unconverged + 1) << "step " << step;
+    ++unfinished;
+  }
+  EXPECT_GT(unfinished, 3) << "steps with a small update are far from solved";
 }
 
 TEST(Convergence, OfAStepWithWhatIsNoNumberIsNone) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "unit/validation/fabric_sheet.h"
 #include "unit/validation/row.h"
@@ -143,11 +144,12 @@ void expectRub(const StepKind& kind, const std::string& fabric, int points, doub
                           " degrees from the critical angle, " + std::to_string(points) + "^2, " +
                           nameOf(kind),
                       precisionOf<Real>, "m"};
-  degrees < 0 ? expectNear(figure, way, 0, 1e-5) : expectNear(figure, way, expected, 0.01 * expected);
+  degrees < 0 ? expectNear(figure, way, 0, 1e-5) : expectNear(figure, way, expected, 0.002 * expected);
 }
 
 TEST(RowFabricOnASlope, SticksBelowTheCriticalAngleAndSlidesAbove) {
-  for (const double degrees : {-0.5, 0.5, 5.0}) expectRub<float>({}, "cotton", 17, degrees);
+  for (const double degrees : {-0.5, 5.0}) expectRub<float>({}, "cotton", 17, degrees);
+  expectRub<float>({}, "denim", 33, 0.5);  // resists bending 400 times as stiffly as its inertia
 }
 
 TEST(RowFabricOnASlope, LongSticksBelowTheCriticalAngleAndSlidesAbove) {
@@ -179,15 +181,71 @@ Strip hangingStrip(const StepKind& kind, const Material& material, double length
   return {std::atan2(down, chord.x) * 180 / std::numbers::pi, chord.x / length, down / length};
 }
 
+// Where a chain of so many links that do not stretch hangs, of the same bending energy between links, and
+// clamped half a link before its first joint: the energy's minimum over the links' angles by Newton's method,
+// in units of B and rho g. Its end carries half a link, as that of a continuous strip does.
+double chordOfLinks(int links) {
+  const auto count = static_cast<std::size_t>(links);
+  const double h = 2. / links;
+  std::vector<double> angles(count), gradient(count), diagonal(count), beside(count);
+  for (std::size_t i = 0; i < count; ++i) angles[i] = 0.6 * static_cast<double>(i + 1) / links;
+  for (int round = 0; round < 50; ++round) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const double hanging = (static_cast<double>(count - i) - 0.5) * h;  // of the strip, behind the link
+      gradient[i] = -h * hanging * std::cos(angles[i]);
+      diagonal[i] = h * hanging * std::sin(angles[i]);
+      beside[i] = 0;
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const double turn = angles[i] - (i > 0 ? angles[i - 1] : 0), stiffness = (i > 0 ? 1 : 2) / h;
+      gradient[i] += stiffness * std::sin(turn);
+      diagonal[i] += stiffness * std::cos(turn);
+      if (i == 0) continue;
+      gradient[i - 1] -= stiffness * std::sin(turn);
+      diagonal[i - 1] += stiffness * std::cos(turn);
+      beside[i] = -stiffness * std::cos(turn);
+    }
+    for (std::size_t i = 1; i < count; ++i) {
+      const double factor = beside[i] / diagonal[i - 1];
+      diagonal[i] -= factor * beside[i];
+      gradient[i] -= factor * gradient[i - 1];
+    }
+    for (std::size_t i = count; i-- > 0;) {
+      if (i + 1 < count) gradient[i] -= beside[i + 1] * gradient[i + 1];
+      gradient[i] /= diagonal[i];
+      angles[i] -= gradient[i];
+    }
+  }
+  double across = 0, down = 0;
+  for (const double angle : angles) {
+    across += std::cos(angle);
+    down += std::sin(angle);
+  }
+  return std::atan2(down, across) * 180 / std::numbers::pi;
+}
+
 // A strip over an edge, twice as long as the length (B / rho g)^(1/3): its chord hangs down by 41.5 degrees
-// (F. T. Peirce, 1930).
+// (F. T. Peirce, 1930). Where it has but a few cells, their own error is more than what is asked: the solver
+// is to find where such a chain hangs. The place does not depend on damping; bdf2 would swing for longer.
 template <class Real>
 void expectOverhang(const StepKind& kind, const std::string& fabric, int cells, const std::string& spacing) {
-  const Material material = *materialPreset(fabric);
+  Material material = *materialPreset(fabric);
+  material.damping = std::max(material.damping, 3.);
   const double length = 2 * std::cbrt(material.bend / (material.density * GRAVITY));
-  expectNear({"fabric over an edge", "angle of the chord, " + fabric + ", " + spacing + ", " + nameOf(kind),
-              precisionOf<Real>, "degrees"},
-             hangingStrip<Real>(kind, material, length, cells, 6).chord, 41.5, 0.5);
+  const double chord = hangingStrip<Real>(kind, material, length, cells, 6).chord,
+               links = chordOfLinks(cells);
+  const Figure figure{"fabric over an edge",
+                      "angle of the chord, " + fabric + ", " + spacing + ", " + nameOf(kind),
+                      precisionOf<Real>, "degrees"};
+  if (std::abs(links - 41.5) <= 0.5) return expectNear(figure, chord, 41.5, 0.5);
+  reportUnmet(because(figure, "a chain of " + std::to_string(cells) + " links hangs there"), chord, 41.5, 0.5,
+              std::abs(links - 41.5) + 0.1);
+  EXPECT_NEAR(chord, links, 0.1) << fabric << ", " << spacing;
+}
+
+TEST(ChordOfLinks, ApproachesThatOfAStrip) {
+  EXPECT_NEAR(chordOfLinks(2000), 41.4873, 1e-3);  // the elastica, by shooting in small steps
+  EXPECT_NEAR((chordOfLinks(20) - 41.4873) / (chordOfLinks(40) - 41.4873), 4, 0.2) << "of second order";
 }
 
 TEST(RowFabricOverAnEdge, HangsAtTheAngleOfItsBendingLength) {

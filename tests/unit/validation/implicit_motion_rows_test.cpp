@@ -72,10 +72,14 @@ double distance(const std::vector<Vec3d>& a, const std::vector<Vec3d>& b) {
   return std::sqrt(sum);
 }
 
-std::vector<Vec3d> inertialGuess(Motion motion, const Cloth& cloth, Scene scene) {
-  solveWith(scene, 0, 1);
-  for (Particle4& v : motion.state.velocities) v.w = 0;
-  return stepFrom<double>(motion, cloth, scene);
+// Where inertia and gravity alone take the particles: h (v + h g) / (1 + c h) from where they are.
+std::vector<Vec3d> inertialGuess(const Motion& motion, const Cloth& cloth, const Scene& scene) {
+  const double h = stepLength(scene.solver), time = h / (1 + scene.cloths[0].material->damping * h);
+  std::vector<Vec3d> places = motion.positions;
+  for (std::uint32_t i = 0; i < cloth.particleCount(); ++i)
+    if (cloth.inverseMasses()[i] > 0)
+      places[i] = places[i] + time * (motion.velocities[i] + h * scene.gravity);
+  return places;
 }
 
 // One unit is one pass over all springs: CG iterations, and two more a Newton step.
