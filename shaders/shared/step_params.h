@@ -140,7 +140,7 @@ SHARED_STRUCT StepParams {
   // Of `implicit`: a step is solved when its last update is at most this part of the motion,
   real tolerance;
   real systemTolerance;  // and a linear system when r.z is this part of what it began with
-  real unusedTolerance;
+  uint hasSurface;       // cloth touches itself inside the step (src/solver/surface.h)
   real unusedSystem;
 
   // Of `bdf2`, in place of inertia and guessTime, with 2 h / 3 for h; 0 under `implicit`.

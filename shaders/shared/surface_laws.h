@@ -191,3 +191,16 @@ LAW bool staysApart(bool areSides, vec3 x[4], vec3 y[4], vec3 way, real slack, i
   }
   return true;
 }
+
+// Whether parts that move from x to y surely come there without passing through each other: their way to each
+// other turns by less than 60 degrees and keeps half of its length, or they stay apart by more than `slack`.
+LAW bool passesBy(bool areSides, vec3 x[4], vec3 y[4], vec3 way, vec3 wayAfter, real slack) {
+  const real quarter = real(0.25);
+  real before = sumOfProducts(way, way), after = sumOfProducts(wayAfter, wayAfter),
+       both = sumOfProducts(way, wayAfter);
+  precise real squared = both * both;
+  precise real turned = quarter * (before * after);
+  precise real shortest = quarter * before;
+  if (real(0.0) < both && turned < squared && shortest < after) return true;
+  return staysApart(areSides, x, y, way, slack, FINE_PARTS);
+}

@@ -38,11 +38,13 @@ struct SurfacePair {
   Vec3<Real> normal;
   Real distance;  // at the start of the step [m]
   std::array<Real, 4> weights;
-  Real over;        // by how much they are nearer than they may be then [m]
-  Real stiffness;   // [N/m]
-  Real limit;       // of friction, by how they press at the start of the step [N]
-  Real held = 0;    // what the pair adds to the Hessian: its stiffness while it touches,
-  Real across = 0;  // and friction's across the normal [N/m]
+  Real over;         // by how much they are nearer than they may be then [m]
+  Real stiffness;    // [N/m]
+  Real friction;     // Coulomb's coefficient
+  Real pressed = 0;  // how they pressed in the Newton step before [N]
+  Real limit = 0;    // of friction [N]
+  Real held = 0;     // what the pair adds to the Hessian: its stiffness while it touches,
+  Real across = 0;   // and friction's across the normal [N/m]
 };
 
 template <class Real>

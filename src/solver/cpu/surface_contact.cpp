@@ -20,12 +20,6 @@ void lower(Number& place, Number to) {
   }
 }
 
-template <class Real>
-typename SurfaceLaws<Real>::NearestParts nearestOf(const Parts& parts, const Components<Real>& x) {
-  const auto& [i, j, k, l] = parts.particles;
-  return SurfaceLaws<Real>::nearestParts(parts.areSides, at(x, i), at(x, j), at(x, k), at(x, l));
-}
-
 // The mean motion of some particles.
 template <class Real>
 Vec3<Real> shiftOf(const Components<Real>& motions) {
