@@ -30,6 +30,7 @@ using SurfacePoint = shared::SurfacePoint<Real>;
 using SurfaceState = shared::SurfaceState;
 using SurfaceParams = shared::SurfaceParams;
 using BoxLevel = shared::BoxLevel;
+using SurfaceBlock = shared::SurfaceBlock;
 
 // Two parts that may touch: sum of weights times positions = distance times normal.
 template <class Real>
@@ -52,8 +53,11 @@ struct ClothSurface {
   std::vector<SurfaceTriangle> triangles;  // without those that cuts took
   std::vector<SurfacePoint<Real>> points;  // by particle
   std::vector<std::uint32_t> firstBoxes;  // of each level, the finest first, and one more: how many there are
-  Real around = 0;                        // how far the search for those looks around each part [m]
-  Real margin = 0;  // parts that are predicted to come so near count as pairs that may touch [m]
+  std::vector<SurfaceBlock> blocks;       // of grids that are whole
+  bool isOneGrid = false;                 // and nothing else is there
+  Real touchingReach = 0;  // parts that may touch are nearer at the start or at the predicted end [m]
+  Real around = 0;         // how far the search for those looks around each part [m]
+  Real margin = 0;         // parts that are predicted to come so near count as pairs that may touch [m]
   std::uint32_t roomForPairs = 0;    // how many a step may have
   Real quantum = 0, perQuantum = 0;  // of corrections [m], and its reciprocal
   Real leastGap = 0;                 // what motion leaves of a distance, if it was more [m]

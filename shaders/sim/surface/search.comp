@@ -134,6 +134,7 @@ void lookAt(uvec4 ids, bool areSides, PartPlaces places, NearestParts nearest) {
 }
 
 bool goesOn() { return found <= MOST_PAIRS_A_TRIANGLE; }
+bool looksAtFlat() { return false; }
 #include "sim/surface/walk.glsl"
 
 void main() {
@@ -146,7 +147,7 @@ void main() {
   counts[own] = 0u;
   if (state.tooMany == 2u) return;
 #endif
-  lookAround(own);
+  if (state.isFlat == 0u) lookAround(own);
 #if !WRITES_PAIRS
   counts[own] = found;
   if (found > MOST_PAIRS_A_TRIANGLE) atomicOr(state.tooMany, 1u);
