@@ -159,8 +159,8 @@ struct SurfaceState {
 
   uint leastGap;           // of pairs that may touch, the bits of a float [m]
   uint isFlat;             // of this round: the only cloth is too flat for parts of it to meet
-  uint unusedE;
-  uint unusedF;
+  uint pinLag;             // the largest ways, bits of floats: that pins were kept from theirs,
+  uint largestCorrection;  // and that pairs that were too near were pushed apart [m]
 };
 
 // What the passes on the GPU need beside these.

@@ -254,6 +254,8 @@ ContactCounts countsOf(const SurfaceState& state) {
   counts.shortened = state.shortened;
   counts.crowdedSteps = state.crowdedSteps;
   counts.leastGap = static_cast<double>(std::bit_cast<float>(state.leastGap));
+  counts.pinLag = static_cast<double>(std::bit_cast<float>(state.pinLag));
+  counts.largestCorrection = static_cast<double>(std::bit_cast<float>(state.largestCorrection));
   return counts;
 }
 

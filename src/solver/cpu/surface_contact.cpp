@@ -29,6 +29,11 @@ Vec3<Real> shiftOf(const Components<Real>& motions) {
   return canonical((Real(1) / SHIFT_SAMPLES) * sum);
 }
 
+template <class Real>
+Real lengthOf(Vec3<Real> v) {
+  const Real squared = dot(v, v);
+  return canonical(squared * inverseSquareRoot(squared));
+}
 template <class Number>
 void add(Number& place, Number more) {
   std::atomic_ref<Number>(place).fetch_add(more, std::memory_order_relaxed);
@@ -316,6 +321,7 @@ void SurfaceContact<Real>::correct(CpuState<Real>& after, const StepParams<Real>
     const Real part = (surface_.quantum * Real(CORRECTION_WEIGHT)) * weight;
     const Vec3<Real> moved =
         part * Vec3<Real>{fromQuanta<Real>(sum.x), fromQuanta<Real>(sum.y), fromQuanta<Real>(sum.z)};
+    state_.largestCorrection = std::max(state_.largestCorrection, gapBits(lengthOf(moved)));
     put(after.positions, i, canonical(at(after.positions, i) + moved));
     put(after.velocities, i, canonical(at(after.velocities, i) + step.inverseTimeStep * moved));
     corrections_[i] = {};
@@ -335,6 +341,8 @@ void SurfaceContact<Real>::shorten(const CpuState<Real>& before, CpuState<Real>&
     put(after.positions, place, canonical(at(starts, place) + kept_[i] * motion));
     if (inverseMasses[i] > Real(0))
       put(after.velocities, place, canonical(at(after.velocities, place) - step.inverseTimeStep * lost));
+    else
+      state_.pinLag = std::max(state_.pinLag, gapBits(lengthOf(lost)));
   }
   state_.isGuarded = shortened > 0 ? 1 : 0;
   state_.shortened += shortened;

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
+#include "measure/contact_report.h"
 #include "measure/crossings.h"
 #include "measure/measure.h"
+#include "measure/surface_crossings.h"
 #include "solver/cpu/cpu_solver.h"
 #include "support/material_sheet.h"
 
@@ -90,6 +93,50 @@ TEST(SurfaceContact, LetsADrapeFallAsItDoesWithoutContact) {
     EXPECT_LT(solver.contactCounts().shortened, 30u) << fabric;
     EXPECT_LT(longest, 0.1) << fabric;
   }
+}
+
+// Contact keeps parts on their sides, also on the wrong ones.
+TEST(SurfaceContact, SaysWhatCrossesAtTheStart) {
+  Scene scene = layers("cotton");
+  const auto crossings = [&] {
+    const Cloth cloth(scene);
+    return crossingSides(cloth, scene, CpuSolver<float>(cloth, scene).state());
+  };
+  EXPECT_EQ(crossings(), 0u);
+  scene.cloths[1].rotation = {30, 0, 0};  // through the lower one
+  EXPECT_GT(crossings(), 17u);
+  const Cloth cloth(scene);
+  const State state = CpuSolver<float>(cloth, scene).state();
+  if (!CrossingCounter::available()) FAIL() << "needs CGAL";
+  EXPECT_GT(CrossingCounter(Shared<Cloth>(Cloth{scene})).count(state).apart, 17u) << "CGAL says so, too";
+  ContactReport report;
+  report.add(0, cloth, scene, state, 0, {});
+  ASSERT_TRUE(report.failure());
+  EXPECT_EQ(report.failure()->pairs, crossings());
+  nlohmann::ordered_json json;
+  report.write(json, cloth, scene, {});
+  EXPECT_EQ(json["contact_sound"], false);
+  EXPECT_EQ(json["contact"]["failed"]["condition"], "start_crossings");
+}
+
+// A row of pins that is carried down through a pinned sheet.
+TEST(SurfaceContact, SaysHowFarPinsLag) {
+  Scene scene = contactScene(9, 0.2, "cotton");
+  scene.colliders.clear();
+  scene.gravity = {};
+  scene.cloths.push_back(scene.cloths[0]);
+  scene.cloths[0].pinned = {GridSide::left, GridSide::right, GridSide::top, GridSide::bottom};
+  scene.cloths[1].position = {0.003, 0.002, 0.004};
+  scene.cloths[1].pinned = {GridSide::left, GridSide::right, GridSide::top, GridSide::bottom};
+  // A horizontal sheet is made at height 1 m, and its centre is that of its pins.
+  PinMotion down;
+  down.keys = {{0, {}, {}}, {0.2, Vec3d{0.103, 0.982, 0.104}, {}}};
+  scene.cloths[1].pinMotion = {down};
+  const Cloth cloth(scene);
+  CpuSolver<float> solver(cloth, scene);
+  solver.step(24);
+  EXPECT_GT(solver.contactCounts().pinLag, 0.005) << "the pins of the lower one stop them";
+  EXPECT_LT(solver.contactCounts().pinLag, 0.02);
 }
 
 TEST(SurfaceContact, KeepsLayersApartByTheThicknessOfTheFabric) {
