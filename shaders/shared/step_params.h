@@ -141,7 +141,7 @@ SHARED_STRUCT StepParams {
   real tolerance;
   real systemTolerance;     // and a linear system when r.z is this part of what it began with;
   real toleratedStiffness;  // in the last update r.z over the squared motion may be this, too [N/m]
-  real unusedTolerance;
+  uint hasSurface;          // cloth touches itself inside the step (src/solver/surface.h)
 
   // Of `bdf2`, in place of inertia and guessTime, with 2 h / 3 for h; 0 under `implicit`.
   real secondInertia;

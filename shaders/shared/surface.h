@@ -18,6 +18,11 @@ using uint = std::uint32_t;
 #define BOX_CHILDREN 4u
 #define MOST_BOX_LEVELS 16
 
+// A grid is looked at in blocks of so many cells in each direction: near each other they may be too flat for
+// parts of them to meet (surface_laws.h).
+#define BLOCK_CELLS 4
+#define NO_BLOCK 0xffffffffu
+
 #define NO_PARTICLE 0xffffffffu  // where a side has no second triangle
 
 // Of SurfaceTriangle::owned: bit k says that the triangle looks for contacts of its corner k, bit 3 + k of
@@ -36,6 +41,8 @@ using uint = std::uint32_t;
 // the others they keep to their own sides; in the last one, if there were some in the round before, all do.
 #define GUARD_ROUNDS 16
 #define CORRECTION_ROUNDS 8
+// What is flat keeps parts apart by so many least gaps, at least.
+#define LEAST_GAPS_OF_FLAT 4.0f
 // Where parts turn about each other, the motion is looked at in so many parts.
 #define FINE_PARTS 8
 // A particle's correction counts in so many parts.
@@ -88,6 +95,27 @@ using uint = std::uint32_t;
 #define SURFACE_BLOCKS_UNIT 58  // what the blocks of triangles begin with
 #define SURFACE_STARTS_UNIT 59  // where the motion of a round begins
 
+#define FLAT_BLOCKS_UNIT 60  // three texels each
+#define FLAT_SIDES_UNIT 61  // four texels each: of the sides along rows the lowest and highest, of the others
+#define FLAT_FLAGS_UNIT 62  // whether a block and those around it are flat
+
+struct SurfaceBlock {
+  uint first;   // particle
+  uint stride;  // from row to row
+  uint width;   // in particles; neighbours share those between them
+  uint height;
+
+  uint column;  // its place among the blocks of its grid, which has so many
+  uint row;
+  uint columns;
+  uint rows;
+
+  uint firstOfGrid;  // block
+  float perAlong;    // reciprocal distances of columns and rows [1/m]
+  float perDown;
+  float apart;  // of parts of the grid that have no particle in common, at least [m]
+};
+
 struct SurfaceTriangle {
   uint cornerA;
   uint cornerB;
@@ -97,7 +125,7 @@ struct SurfaceTriangle {
   uint acrossAB;  // the third corner of the other triangle at this side, or NO_PARTICLE
   uint acrossBC;
   uint acrossCA;
-  uint unused;
+  uint block;  // of a grid that is whole, or NO_BLOCK
 };
 
 // What a particle brings into contact.
@@ -129,10 +157,10 @@ struct SurfaceState {
   uint guardedSteps;  // in which there were some
   uint crowdedSteps;  // in which there were too many pairs, so that none pushed
 
-  uint leastGap;  // of pairs that may touch, the bits of a float [m]
-  uint unusedD;
-  uint unusedE;
-  uint unusedF;
+  uint leastGap;           // of pairs that may touch, the bits of a float [m]
+  uint isFlat;             // of this round: the only cloth is too flat for parts of it to meet
+  uint pinLag;             // the largest ways, bits of floats: that pins were kept from theirs,
+  uint largestCorrection;  // and that pairs that were too near were pushed apart [m]
 };
 
 // What the passes on the GPU need beside these.
@@ -146,6 +174,11 @@ struct SurfaceParams {
   float margin;
   float leastGap;
   float perQuantum;
+
+  float touchingReach;  // parts that may touch are nearer at the start or end [m]
+  uint blocks;
+  uint isOneGrid;
+  uint unused;
 
 #ifdef __cplusplus
   uint firstBoxes[MOST_BOX_LEVELS][4];

@@ -191,3 +191,52 @@ LAW bool staysApart(bool areSides, vec3 x[4], vec3 y[4], vec3 way, real slack, i
   }
   return true;
 }
+
+// Whether parts that move from x to y surely come there without passing through each other: their way to each
+// other turns by less than 60 degrees and keeps half of its length, or they stay apart by more than `slack`.
+LAW bool passesBy(bool areSides, vec3 x[4], vec3 y[4], vec3 way, vec3 wayAfter, real slack) {
+  const real quarter = real(0.25);
+  real before = sumOfProducts(way, way), after = sumOfProducts(wayAfter, wayAfter),
+       both = sumOfProducts(way, wayAfter);
+  precise real squared = both * both;
+  precise real turned = quarter * (before * after);
+  precise real shortest = quarter * before;
+  if (real(0.0) < both && turned < squared && shortest < after) return true;
+  return staysApart(areSides, x, y, way, slack, FINE_PARTS);
+}
+
+// The least and the most of n.v for all v in a box.
+LAW real lowestIn(vec3 n, vec3 low, vec3 high) {
+  const real zero = real(0.0);
+  precise real x = n.x * (n.x < zero ? high.x : low.x);
+  precise real y = n.y * (n.y < zero ? high.y : low.y);
+  precise real z = n.z * (n.z < zero ? high.z : low.z);
+  precise real sum = (x + y) + z;
+  return sum;
+}
+LAW real highestIn(vec3 n, vec3 low, vec3 high) {
+  precise vec3 turned = vec3(real(0.0), real(0.0), real(0.0)) - n;
+  precise real most = real(0.0) - lowestIn(turned, low, high);
+  return most;
+}
+
+// A rectangle of a grid, all of whose sides along rows, over their distance in the grid, are in one box, and
+// those along columns in another one: no two of its places are nearer than this many times their distance in
+// the grid (negative: this is not known). For with directions p and q that are perpendicular, the gradient F
+// of each triangle, which its two sides are, has (p q)^T F of a symmetric part whose eigenvalues are at least
+// this (Gershgorin 1931), and so has its mean along the straight line between both places, which is all in
+// the rectangle. While all moves linearly, F stays between its start and its end.
+LAW real leastStretch(vec3 alongLow, vec3 alongHigh, vec3 downLow, vec3 downHigh) {
+  precise vec3 along = alongLow + alongHigh;
+  precise vec3 p = inverseSquareRoot(sumOfProducts(along, along)) * along;
+  precise vec3 down = downLow + downHigh;
+  precise vec3 across = down - sumOfProducts(p, down) * p;
+  precise vec3 q = inverseSquareRoot(sumOfProducts(across, across)) * across;
+  real first = lowestIn(p, alongLow, alongHigh), second = lowestIn(q, downLow, downHigh);
+  precise real lowShear = lowestIn(p, downLow, downHigh) + lowestIn(q, alongLow, alongHigh);
+  precise real highShear = highestIn(p, downLow, downHigh) + highestIn(q, alongLow, alongHigh);
+  precise real turned = real(0.0) - lowShear;
+  real shear = turned < highShear ? highShear : turned;
+  precise real stretch = (first < second ? first : second) - real(0.5) * shear;
+  return stretch;
+}

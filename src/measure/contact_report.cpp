@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "measure/surface_crossings.h"
 #include "solver/self_collision.h"
 
 namespace clothsim {
@@ -14,11 +15,13 @@ using Condition = ContactFailure::Condition;
 nlohmann::ordered_json toJson(const std::optional<ContactFailure>& failure) {
   if (!failure) return nullptr;
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
-  const bool fast = failure->condition == Condition::fastStep;
-  json["condition"] = fast ? "fast_step" : "pairs_too_near";
+  const bool fast = failure->condition == Condition::fastStep,
+             crosses = failure->condition == Condition::startCrossings;
+  json["condition"] = fast ? "fast_step" : crosses ? "start_crossings" : "pairs_too_near";
   json["frame"] = failure->frame;
   if (fast) return json;
   json["pairs"] = failure->pairs;
+  if (crosses) return json;
   json["distance"] = failure->distance;
   json["needed_distance"] = failure->neededDistance;
   return json;
@@ -31,6 +34,10 @@ void ContactReport::add(int frame, const Cloth& cloth, const Scene& scene, const
   last_ = measureContacts(cloth, scene, state, strain);
   lastFrame_ = frame;
   if (frame == 0) overlapsAtStart_ = last_.overlaps;
+  if (frame == 0 && scene.solver.selfCollision == SelfCollision::contact) {
+    overlapsAtStart_ = crossingSides(cloth, scene, state);
+    if (overlapsAtStart_ > 0) failure_ = {Condition::startCrossings, 0, overlapsAtStart_, 0, 0};
+  }
   isCut_ = isCut_ || !state.cuts.empty();
   if (isCut_)
     failure_.reset();
@@ -53,12 +60,16 @@ void ContactReport::write(nlohmann::ordered_json& json, const Cloth& cloth, cons
   json["self_collision"] = selfCollisionName(scene.solver.selfCollision);
   json["self_contacts"] = last_.contacts;
   if (scene.solver.selfCollision == SelfCollision::contact) {
-    json["contact_sound"] = nullptr;  // it is not measured: --check-crossings does
+    json["contact_sound"] = !failure_;
+    if (isCut_) json["contact_sound"] = nullptr;
     nlohmann::ordered_json& contact = json["contact"] = nlohmann::ordered_json::object();
+    contact["failed"] = toJson(failure_);
     contact["most_pairs"] = counts.pairs;
     contact["guarded_steps"] = counts.clampedSteps;
     contact["shortened_motions"] = counts.shortened;
     contact["crowded_steps"] = counts.crowdedSteps;
+    contact["pin_lag"] = counts.pinLag;
+    contact["largest_correction"] = counts.largestCorrection;
     if (counts.pairs > 0)
       contact["least_gap"] = counts.leastGap;
     else

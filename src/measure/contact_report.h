@@ -16,10 +16,10 @@ namespace clothsim {
 
 // The first violation in a run of the conditions under which no triangles can cross.
 struct ContactFailure {
-  enum class Condition { pairsTooNear, fastStep };
+  enum class Condition { pairsTooNear, fastStep, startCrossings };
   Condition condition = Condition::pairsTooNear;
   int frame = 0;                            // at whose end it was found; 0: the start
-  std::uint64_t pairs = 0;                  // of particles that are too near
+  std::uint64_t pairs = 0;                  // of particles that are too near, or that cross
   double distance = 0, neededDistance = 0;  // of the nearest pair, and what it should be [m]
 };
 
@@ -33,6 +33,7 @@ class ContactReport {
   // Adds to the object: self_contacts of the last frame; contact_sound, whether no two non-adjacent triangles
   // can have crossed at the end of any frame; and the measures behind that, with the first violation, under
   // `contact`. Without self-collision and in cloth that is cut this is not known, and contact_sound is null.
+  // Contact inside the step lets nothing cross in any step: there it is whether nothing crossed at the start.
   // `counts` are those of the whole run.
   void write(nlohmann::ordered_json& json, const Cloth& cloth, const Scene& scene,
              const ContactCounts& counts) const;

@@ -65,6 +65,12 @@ std::string stepsAdvice(const Scene& scene) {
 }
 
 Warning contactWarning(const ContactFailure& failure, const Scene& scene) {
+  if (failure.condition == ContactFailure::Condition::startCrossings) {
+    const std::string pairs = std::to_string(failure.pairs);
+    return {"contact", 0, "crosses itself at the start",
+            "the cloth crosses itself at the start (" + pairs + (failure.pairs == 1 ? " pair" : " pairs") +
+                " of a side and a triangle): contact keeps it so; begin with the layers apart"};
+  }
   Warning warning{"contact", failure.frame, "", ""};
   const bool averaged = scene.solver.selfCollision == SelfCollision::averaged;
   warning.brief = "lost in frame " + std::to_string(failure.frame) + ": " +
@@ -167,6 +173,11 @@ std::vector<Warning> RunWatch::warnings(const Scene& scene) const {
                             " deep; the first step pushes them out"});
   warnings.insert(warnings.end(), paths_.begin(), paths_.end());
   if (const auto& failure = contacts_.failure()) warnings.push_back(contactWarning(*failure, scene));
+  if (scene.solver.selfCollision == SelfCollision::contact && !isImplicit(scene.solver.integrator))
+    warnings.push_back(
+        {"contact", std::nullopt, "layers do not meet: contact needs integrator=implicit",
+         "solver.self_collision \"contact\" needs implicit steps, and nothing keeps layers apart now; "
+         "set solver.integrator to \"implicit\" or \"bdf2\", or self_collision to \"robust\""});
   if (crowdedFrame_)
     warnings.push_back({"contact", crowdedFrame_, "too many contacts at once",
                         "layers touched at more places than there was room for in " +

@@ -17,11 +17,19 @@ struct ContactCounts {
   std::uint64_t shortened = 0;     // motions of particles that were cut short, of all steps
   std::uint64_t crowdedSteps = 0;  // in which there were too many pairs, so that none pushed
   double leastGap = INFINITY;      // between parts that may touch [m]
+  double pinLag = 0;               // how far a pin was kept from its path at the end of a step, at most [m]
+  double largestCorrection = 0;  // of parts that were too near [m]: colliders do not know of it in that step
 
   friend ContactCounts operator+(const ContactCounts& a, const ContactCounts& b) {
-    return {a.hashBuilds + b.hashBuilds,     a.clampedSteps + b.clampedSteps, a.fastSteps + b.fastSteps,
-            std::max(a.pairs, b.pairs),      a.shortened + b.shortened,       a.crowdedSteps + b.crowdedSteps,
-            std::min(a.leastGap, b.leastGap)};
+    return {a.hashBuilds + b.hashBuilds,
+            a.clampedSteps + b.clampedSteps,
+            a.fastSteps + b.fastSteps,
+            std::max(a.pairs, b.pairs),
+            a.shortened + b.shortened,
+            a.crowdedSteps + b.crowdedSteps,
+            std::min(a.leastGap, b.leastGap),
+            std::max(a.pinLag, b.pinLag),
+            std::max(a.largestCorrection, b.largestCorrection)};
   }
 };
 

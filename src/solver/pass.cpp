@@ -105,7 +105,7 @@ constexpr std::array<PassTraits, PASS_COUNT> table{{
      {}, {},
      {scalars}, {}},
     {Pass::findTouching, "find touching", Domain::surface, 0,
-     {positions, safePositions, displacements}, {rightHandSides},
+     {positions, safePositions, displacements, iterates}, {rightHandSides},
      {touching, scalars}, {F::cuts}},
     {Pass::weighPairs, "weigh pairs", Domain::surface, 0,
      {displacements}, {touching, scalars},

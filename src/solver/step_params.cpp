@@ -11,6 +11,7 @@
 #include "shared/forces.h"
 #include "shared/implicit.h"
 #include "solver/pin_paths.h"
+#include "solver/surface.h"
 
 namespace clothsim {
 namespace {
@@ -224,6 +225,7 @@ StepParams<Real> makeStepParams(const Scene& scene, const Cloth& cloth, std::siz
   params.limitFactor = real<Real>(limitFactor);
   params.maxSpeedSquared = real<Real>(squareInRange(scene.solver.maxSpeed));
   params.isMesh = piece.isMesh ? 1 : 0;
+  params.hasSurface = isImplicit(scene.solver.integrator) && hasSurfaceContact(scene) ? 1 : 0;
   params.maxStretch = real<Real>(1 + scene.solver.maxStrain);
   for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot) {
     const double length = piece.nominalLength[slot];

@@ -132,7 +132,7 @@ SurfaceTriangle makeTriangle(std::uint32_t number, const std::vector<Corners>& t
       for (const std::uint32_t particle : triangles[other])
         if (other != number && particle != own[k] && particle != own[(k + 1) % 3]) across[k] = particle;
   }
-  return {own[0], own[1], own[2], owned, across[0], across[1], across[2], 0};
+  return {own[0], own[1], own[2], owned, across[0], across[1], across[2], NO_BLOCK};
 }
 
 template <class Real>
@@ -147,6 +147,50 @@ SurfacePoint<Real> makePoint(const Cloth& cloth, const Scene& scene, std::uint32
   return {static_cast<Real>(radius), static_cast<Real>(friction),
           static_cast<Real>(1.0 / std::max(fan.count, 1u)),
           static_cast<Real>(4 * cloth.pieces()[piece].stiffestSpring())};
+}
+
+// The blocks of a grid, row by row.
+void addBlocks(const Piece& piece, std::vector<SurfaceBlock>& blocks) {
+  const auto first = static_cast<std::uint32_t>(blocks.size());
+  const auto inBlocks = [](int particles) {
+    return static_cast<std::uint32_t>((particles + BLOCK_CELLS - 2) / BLOCK_CELLS);
+  };
+  const std::uint32_t columns = inBlocks(piece.columns), rows = inBlocks(piece.rows);
+  const double along = piece.nominalLength[toLeft], down = piece.nominalLength[toUpper];
+  for (std::uint32_t row = 0; row < rows; ++row)
+    for (std::uint32_t column = 0; column < columns; ++column) {
+      const int left = static_cast<int>(column) * BLOCK_CELLS, top = static_cast<int>(row) * BLOCK_CELLS;
+      blocks.push_back({piece.particle(left, top), static_cast<std::uint32_t>(piece.columns),
+                        static_cast<std::uint32_t>(std::min(BLOCK_CELLS + 1, piece.columns - left)),
+                        static_cast<std::uint32_t>(std::min(BLOCK_CELLS + 1, piece.rows - top)), column, row,
+                        columns, rows, first, static_cast<float>(1 / along), static_cast<float>(1 / down),
+                        static_cast<float>(along * down / std::hypot(along, down))});
+    }
+}
+
+// The blocks of all grids. A cut would leave lines between places that are not in the grid.
+template <class Real>
+void findBlocks(const Cloth& cloth, const Cuts& cuts, ClothSurface<Real>& surface) {
+  if (!cuts.empty()) return;
+  std::vector<std::uint32_t> firstBlocks;
+  for (const Piece& piece : cloth.pieces()) {
+    firstBlocks.push_back(static_cast<std::uint32_t>(surface.blocks.size()));
+    if (!piece.isMesh) addBlocks(piece, surface.blocks);
+  }
+  for (SurfaceTriangle& triangle : surface.triangles) {
+    const std::size_t number = cloth.pieceOf(triangle.cornerA);
+    const Piece& piece = cloth.pieces()[number];
+    if (piece.isMesh) continue;
+    const auto stride = static_cast<std::uint32_t>(piece.columns);
+    std::uint32_t column = stride, row = static_cast<std::uint32_t>(piece.rows);
+    for (const std::uint32_t corner : {triangle.cornerA, triangle.cornerB, triangle.cornerC}) {
+      column = std::min(column, (corner - piece.firstParticle) % stride);
+      row = std::min(row, (corner - piece.firstParticle) / stride);
+    }
+    const std::uint32_t first = firstBlocks[number];
+    triangle.block = first + row / BLOCK_CELLS * surface.blocks[first].columns + column / BLOCK_CELLS;
+  }
+  surface.isOneGrid = cloth.pieces().size() == 1 && !surface.blocks.empty();
 }
 
 }  // namespace
@@ -177,9 +221,11 @@ ClothSurface<Real> makeSurface(const Cloth& cloth, const Scene& scene, const Cut
     surface.perQuantum = static_cast<Real>(static_cast<float>(QUANTA / surface.margin));
     surface.quantum = static_cast<Real>(static_cast<float>(surface.margin / QUANTA));
     surface.around = static_cast<Real>(largestRadius + widest / 8);
+    surface.touchingReach = static_cast<Real>(static_cast<float>(1.01 * (2 * largestRadius + widest / 4)));
     surface.leastGap = static_cast<Real>(
         std::min(std::max(0.1 * smallestRadius, std::sqrt(rounding * widest)), 0.5 * smallestRadius));
   }
+  findBlocks(cloth, cuts, surface);
   surface.roomForPairs = PAIRS_A_PARTICLE * cloth.particleCount();
   surface.firstBoxes = {0};
   for (std::uint32_t boxes = count; boxes > 0;
@@ -208,6 +254,8 @@ ContactCounts countsOf(const SurfaceState& state) {
   counts.shortened = state.shortened;
   counts.crowdedSteps = state.crowdedSteps;
   counts.leastGap = static_cast<double>(std::bit_cast<float>(state.leastGap));
+  counts.pinLag = static_cast<double>(std::bit_cast<float>(state.pinLag));
+  counts.largestCorrection = static_cast<double>(std::bit_cast<float>(state.largestCorrection));
   return counts;
 }
 

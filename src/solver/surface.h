@@ -30,6 +30,7 @@ using SurfacePoint = shared::SurfacePoint<Real>;
 using SurfaceState = shared::SurfaceState;
 using SurfaceParams = shared::SurfaceParams;
 using BoxLevel = shared::BoxLevel;
+using SurfaceBlock = shared::SurfaceBlock;
 
 // Two parts that may touch: sum of weights times positions = distance times normal.
 template <class Real>
@@ -38,11 +39,13 @@ struct SurfacePair {
   Vec3<Real> normal;
   Real distance;  // at the start of the step [m]
   std::array<Real, 4> weights;
-  Real over;        // by how much they are nearer than they may be then [m]
-  Real stiffness;   // [N/m]
-  Real limit;       // of friction, by how they press at the start of the step [N]
-  Real held = 0;    // what the pair adds to the Hessian: its stiffness while it touches,
-  Real across = 0;  // and friction's across the normal [N/m]
+  Real over;         // by how much they are nearer than they may be then [m]
+  Real stiffness;    // [N/m]
+  Real friction;     // Coulomb's coefficient
+  Real pressed = 0;  // how they pressed in the Newton step before [N]
+  Real limit = 0;    // of friction [N]
+  Real held = 0;     // what the pair adds to the Hessian: its stiffness while it touches,
+  Real across = 0;   // and friction's across the normal [N/m]
 };
 
 template <class Real>
@@ -50,8 +53,11 @@ struct ClothSurface {
   std::vector<SurfaceTriangle> triangles;  // without those that cuts took
   std::vector<SurfacePoint<Real>> points;  // by particle
   std::vector<std::uint32_t> firstBoxes;  // of each level, the finest first, and one more: how many there are
-  Real around = 0;                        // how far the search for those looks around each part [m]
-  Real margin = 0;  // parts that are predicted to come so near count as pairs that may touch [m]
+  std::vector<SurfaceBlock> blocks;       // of grids that are whole
+  bool isOneGrid = false;                 // and nothing else is there
+  Real touchingReach = 0;  // parts that may touch are nearer at the start or at the predicted end [m]
+  Real around = 0;         // how far the search for those looks around each part [m]
+  Real margin = 0;         // parts that are predicted to come so near count as pairs that may touch [m]
   std::uint32_t roomForPairs = 0;    // how many a step may have
   Real quantum = 0, perQuantum = 0;  // of corrections [m], and its reciprocal
   Real leastGap = 0;                 // what motion leaves of a distance, if it was more [m]

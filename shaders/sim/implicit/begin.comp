@@ -80,7 +80,12 @@ void main() {
   newRightHandSides[i] = rightHandSide;
   precise vec3 way = step.timeStep * v;
   vec3 start = canonical(way);
-  if (hasContacts) start = canonical(onPlane(contactPlaneAt(i), start));
+  if (hasContacts) {
+    // Cloth that lies on cloth does not start on the floor below: a plane lifts, and does not pull.
+    vec4 plane = contactPlaneAt(i);
+    precise float below = plane.w - sumOfProducts(plane.xyz, start);
+    if (step.hasSurface == 0u || below > 0.0) start = canonical(onPlane(plane, start));
+  }
   precise vec3 place = x.xyz + start;
   newDisplacements[i] = vec4(start, 0.0);
   newIterates[i] = vec4(canonical(place), x.w);

@@ -60,7 +60,12 @@ void addContact(uint i, float diagonal, vec3 d, inout vec3 residual, inout Symme
   float own = sumOfProducts(normal, timesVector(block, normal));
   precise float push = own * over - sumOfProducts(normal, residual);
   bool hasPlane = sumOfProducts(normal, normal) > 0.0, presses = hasPlane && push > 0.0;
-  bool holds = presses || (hasPlane && scalars.newtonSteps == 0u);
+  bool isPredicted = hasPlane && scalars.newtonSteps == 0u;
+#if HAS_SURFACE
+  uvec2 pairs = pairsOf(i);
+  isPredicted = isPredicted && pairs.x == pairs.y;
+#endif
+  bool holds = presses || isPredicted;
   float stiffness = holds ? contactStiffness(diagonal) : 0.0;
   precise float both = stiffness + own;
   precise float carried = push * (stiffness * reciprocal(both));

@@ -18,6 +18,7 @@ void main() {
   for (uint round = 0u; round < uint(GUARD_ROUNDS); ++round) state.tooNear[round] = 0u;
   state.isGuarded = 0u;
 #endif
+  state.isFlat = 0u;
   precise vec3 sum = vec3(0.0);
   for (uint k = 0u; k < SHIFT_SAMPLES; ++k) sum = sum + motionAt(k * step.totalParticles / SHIFT_SAMPLES);
   precise vec3 mean = (1.0 / float(SHIFT_SAMPLES)) * sum;

@@ -6,7 +6,7 @@
 #include "sim/exact_math.glsl"
 
 layout(std140, binding = STEP_PARAMS_BINDING) uniform StepBlock { StepParams step; };
-layout(std140, binding = SURFACE_PARAMS_BINDING) uniform SurfaceBlock { SurfaceParams surface; };
+layout(std140, binding = SURFACE_PARAMS_BINDING) uniform SurfaceParamsBlock { SurfaceParams surface; };
 layout(std430, binding = SURFACE_STATE_BINDING) coherent buffer State { SurfaceState state; };
 layout(binding = SURFACE_TRIANGLES_UNIT) uniform usamplerBuffer triangles;
 layout(binding = SURFACE_POINTS_UNIT) uniform samplerBuffer points;

@@ -23,6 +23,9 @@ void main() {
   precise vec3 moved = part * vec3(fromQuanta(sum.x), fromQuanta(sum.y), fromQuanta(sum.z));
   precise vec3 end = place.xyz + moved;
   precise vec3 velocity = newVelocities[i].xyz + step.inverseTimeStep * moved;
+  float squared = sumOfProducts(moved, moved);
+  precise float far = squared * inverseSquareRoot(squared);
+  atomicMax(state.largestCorrection, floatBitsToUint(canonical(far)));
   newPositions[i] = vec4(canonical(end), place.w);
   newVelocities[i] = vec4(canonical(velocity), 0.0);
   corrections[i] = ivec4(0);

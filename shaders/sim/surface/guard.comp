@@ -169,6 +169,8 @@ void lookAt(uvec4 ids, bool areSides, PartPlaces places, NearestParts nearest) {
     keepToSides(sides);
 }
 bool goesOn() { return true; }
+// Whatever the first rounds move, the first of the others looks at everything again.
+bool looksAtFlat() { return round.first >= uint(CORRECTION_ROUNDS); }
 #include "sim/surface/walk.glsl"
 
 void main() {
@@ -176,5 +178,5 @@ void main() {
   if (own >= surface.triangles || isSettled() || state.tooMany == 2u) return;
   // What was pushed apart may be too near to what no round has seen so far.
   if (round.first > 0u && state.tooNear[round.first == uint(CORRECTION_ROUNDS) ? 0u : round.first - 1u] == 0u) return;
-  lookAround(own);
+  if (looksAtFlat() || state.isFlat == 0u) lookAround(own);
 }

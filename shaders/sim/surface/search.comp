@@ -14,11 +14,17 @@ layout(std430, binding = SURFACE_IDS_BINDING) writeonly buffer Ids { uvec4 newId
 layout(std430, binding = SURFACE_OUT_BINDING) writeonly buffer Rows { vec4 newRows[]; };
 #endif
 
+layout(binding = ITERATES_UNIT) uniform samplerBuffer iterates;
+
 uint found = 0u, firstFound = 0u;
+
+bool isAtEnd = false;  // of the way that is predicted
+vec3 endAt(uint i) { return texelFetch(iterates, int(i)).xyz; }
+vec3 placeAt(uint i) { return isAtEnd ? endAt(i) : startAt(i); }
 
 bool isNearest(uint outer, uint corner, uint particle, vec3 way) {
   if (outer == NO_PARTICLE) return true;
-  precise vec3 outward = startAt(outer) - startAt(corner);
+  precise vec3 outward = placeAt(outer) - placeAt(corner);
   return outer != particle && isStillNearest(way, outward);
 }
 
@@ -50,7 +56,8 @@ float shareOf(uint particle, bool areSides, PartPlaces places, NearestParts near
   return isNearestHere ? texelFetch(points, int(corners[k])).z : 0.0;
 }
 
-void lookAt(uvec4 ids, bool areSides, PartPlaces places, NearestParts nearest) {
+// The pair as it is at the start or, `isMoved`, moved by the displacements.
+void addPair(uvec4 ids, bool areSides, PartPlaces places, NearestParts nearest, bool isMoved, float distanceBefore) {
   float squared = sumOfProducts(nearest.way, nearest.way), inverse = inverseSquareRoot(squared);
   precise float distance = squared * inverse;
   precise vec3 scaled = inverse * nearest.way;
@@ -60,13 +67,11 @@ void lookAt(uvec4 ids, bool areSides, PartPlaces places, NearestParts nearest) {
   precise float inertia = 0.0;
   precise float springs = 0.0;
   precise float squares = 0.0;
-  precise float friction = 0.0;
   for (int k = 0; k < 4; ++k) {
     vec4 point = texelFetch(points, int(ids[k]));
     float w = weights[k], size = w < 0.0 ? -w : w;
     precise float square = w * w;
     reach = reach + size * point.x;
-    friction = friction + size * point.y;
     inertia = inertia + square * texelFetch(rightHandSides, int(ids[k])).w;
     springs = springs + square * point.w;
     squares = squares + square;
@@ -74,9 +79,8 @@ void lookAt(uvec4 ids, bool areSides, PartPlaces places, NearestParts nearest) {
   precise vec3 moved = ((weights.x * displacementAt(ids.x) + weights.y * displacementAt(ids.y)) + weights.z * displacementAt(ids.z)) +
                        weights.w * displacementAt(ids.w);
   float along = sumOfProducts(normal, moved);
-  bool isLater = state.isLater != 0u;
   precise float moving = distance + along;
-  float predicted = isLater ? distance : moving;
+  float predicted = isMoved ? distance : moving;
   precise float near = reach + surface.margin;
   if (!((predicted < distance ? predicted : distance) < near)) return;
   precise float squeezed = uintBitsToFloat(0x3ca3d70au) * reach;  // SQUEEZED
@@ -93,22 +97,44 @@ void lookAt(uvec4 ids, bool areSides, PartPlaces places, NearestParts nearest) {
   uint q = firstFound + found - 1u;
   precise float nearer = reach - distance;
   precise float nearerBefore = nearer + along;
-  float over = canonical(isLater ? nearerBefore : nearer);
+  float over = canonical(isMoved ? nearerBefore : nearer);
   precise float overThen = over - along;
-  precise float limit = (0.5 * friction) * (ofPair * (nearer < 0.0 ? 0.0 : nearer));
   float held = overThen > 0.0 ? ofPair : 0.0;
   newIds[q] = ids;
   newRows[4u * q] = vec4(normal, over);
   newRows[4u * q + 1u] = weights;
-  newRows[4u * q + 2u] = vec4(ofPair, 0.0, canonical(limit), held);
+  newRows[4u * q + 2u] = vec4(ofPair, LARGE_SQUARE, 0.0, held);
   newRows[4u * q + 3u] = vec4(0.0);
   for (int k = 0; k < 4; ++k) atomicAdd(listCounts[ids[k]], 1u);
-  atomicMin(state.leastGap, floatBitsToUint(distance));
+  atomicMin(state.leastGap, floatBitsToUint(distanceBefore));
   if (held > 0.0) atomicOr(scalars.isDisturbed, 1u);
 #endif
 }
 
+// Where the parts surely pass each other on the way that is predicted, the pair is as it will be at its end.
+void lookAt(uvec4 ids, bool areSides, PartPlaces places, NearestParts nearest) {
+  float squared = sumOfProducts(nearest.way, nearest.way);
+  precise float distance = squared * inverseSquareRoot(squared);
+  isAtEnd = false;
+  if (state.isLater != 0u) {
+    addPair(ids, areSides, places, nearest, true, distance);
+    return;
+  }
+  vec3 before[4], after[4];
+  for (int k = 0; k < 4; ++k) {
+    before[k] = startAt(ids[k]);
+    after[k] = endAt(ids[k]);
+  }
+  NearestParts then = nearestParts(areSides, after[0], after[1], after[2], after[3]);
+  isAtEnd = passesBy(areSides, before, after, nearest.way, then.way, surface.leastGap);
+  if (isAtEnd)
+    addPair(ids, areSides, places, then, true, distance);
+  else
+    addPair(ids, areSides, places, nearest, false, distance);
+}
+
 bool goesOn() { return found <= MOST_PAIRS_A_TRIANGLE; }
+bool looksAtFlat() { return false; }
 #include "sim/surface/walk.glsl"
 
 void main() {
@@ -121,7 +147,7 @@ void main() {
   counts[own] = 0u;
   if (state.tooMany == 2u) return;
 #endif
-  lookAround(own);
+  if (state.isFlat == 0u) lookAround(own);
 #if !WRITES_PAIRS
   counts[own] = found;
   if (found > MOST_PAIRS_A_TRIANGLE) atomicOr(state.tooMany, 1u);

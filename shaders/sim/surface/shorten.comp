@@ -28,5 +28,11 @@ void main() {
   precise vec3 lost = (1.0 - part) * motion;
   precise vec3 velocity = newVelocities[i].xyz - step.inverseTimeStep * lost;
   newPositions[i] = vec4(canonical(place), start.w);
-  if (start.w > 0.0) newVelocities[i] = vec4(canonical(velocity), 0.0);
+  if (start.w > 0.0) {
+    newVelocities[i] = vec4(canonical(velocity), 0.0);
+    return;
+  }
+  float squared = sumOfProducts(lost, lost);
+  precise float lag = squared * inverseSquareRoot(squared);
+  atomicMax(state.pinLag, floatBitsToUint(canonical(lag)));
 }

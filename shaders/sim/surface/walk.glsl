@@ -1,5 +1,19 @@
 // The walk of a triangle through the tree of boxes. Before the include: lookAt(), which sees the pairs of parts that it finds,
-// where boxes meet and no particle is in both; and goesOn(), whether to go on looking.
+// where boxes meet, no particle is in both, and the cloth is not flat; goesOn(), whether to go on looking; and looksAtFlat(),
+// whether to look there, too.
+layout(binding = FLAT_BLOCKS_UNIT) uniform usamplerBuffer blocksOfGrids;
+layout(binding = FLAT_FLAGS_UNIT) uniform usamplerBuffer flatFlags;
+
+// Whether both are in one block or in neighbours that are flat together.
+bool areFlat(uint triangle, uint other) {
+  if (looksAtFlat()) return false;
+  uint block = texelFetch(triangles, int(2u * triangle + 1u)).w, second = texelFetch(triangles, int(2u * other + 1u)).w;
+  if (block == NO_BLOCK || second == NO_BLOCK || texelFetch(flatFlags, int(block)).x == 0u) return false;
+  uvec2 a = texelFetch(blocksOfGrids, int(3u * block + 1u)).xy, b = texelFetch(blocksOfGrids, int(3u * second + 1u)).xy;
+  bool isOneGrid = texelFetch(blocksOfGrids, int(3u * block + 2u)).x == texelFetch(blocksOfGrids, int(3u * second + 2u)).x;
+  return isOneGrid && all(lessThanEqual(a, b + uvec2(1u))) && all(lessThanEqual(b, a + uvec2(1u)));
+}
+
 void lookAtCorners(uint from, uint to, Bounds boxOfTo) {
   uvec4 mine = texelFetch(triangles, int(2u * from)), theirs = texelFetch(triangles, int(2u * to));
   for (uint k = 0u; k < 3u; ++k) {
@@ -47,7 +61,7 @@ void lookAround(uint own) {
       Bounds box = boxAt(first + place);
       bool meets = overlap(ownBox, box);
       if (meets && level > 0) continue;
-      if (meets) {
+      if (meets && !areFlat(own, place)) {
         lookAtCorners(own, place, box);
         lookAtCorners(place, own, ownBox);
         lookAtSides(own, place, box);

@@ -5,25 +5,40 @@
 #include "sim/implicit/contact.glsl"
 #include "sim/surface/pairs.glsl"
 
+layout(binding = SURFACE_POINTS_UNIT) uniform samplerBuffer points;
 layout(std430, binding = SURFACE_OUT_BINDING) writeonly buffer Rows { vec4 newRows[]; };
 
 uint thisPair() { return (gl_WorkGroupID.y * GROUPS_A_ROW + gl_WorkGroupID.x) * uint(SURFACE_GROUP) + gl_LocalInvocationIndex; }
 vec3 displacementAt(uint i) { return texelFetch(displacements, int(i)).xyz; }
 
+float frictionOf(uvec4 ids, vec4 weights) {
+  precise float friction = 0.0;
+  for (int k = 0; k < 4; ++k) {
+    float w = weights[k], size = w < 0.0 ? -w : w;
+    friction = friction + size * texelFetch(points, int(ids[k])).y;
+  }
+  precise float mean = 0.5 * friction;
+  return mean;
+}
+
 void main() {
   uint q = thisPair();
   if (isSkipped() || q >= scalars.pairs) return;
   uvec4 ids = texelFetch(pairIds, int(q));
-  vec4 normal = pairRow(q, 0u), law = pairRow(q, 2u);
-  vec3 moved = weightedSum(pairRow(q, 1u), displacementAt(ids.x), displacementAt(ids.y), displacementAt(ids.z), displacementAt(ids.w));
+  vec4 normal = pairRow(q, 0u), weights = pairRow(q, 1u), law = pairRow(q, 2u);
+  vec3 moved = weightedSum(weights, displacementAt(ids.x), displacementAt(ids.y), displacementAt(ids.z), displacementAt(ids.w));
   float along = sumOfProducts(normal.xyz, moved);
   precise float over = normal.w - along;
   precise vec3 slip = moved - along * normal.xyz;
   float squared = sumOfProducts(slip, slip), inverse = inverseSquareRoot(squared);
   precise float len = squared * inverse;
-  precise float across = law.z * frictionSlope(len, inverse, slowSlip()).over;
+  // The less of this and the last Newton step: what is not solved yet presses at random, and would stick.
+  precise float press = law.x * (over < 0.0 ? 0.0 : over);
+  precise float most = frictionOf(ids, weights) * (press < law.y ? press : law.y);
+  float limit = canonical(most);
+  precise float across = limit * frictionSlope(len, inverse, slowSlip()).over;
   float held = over > 0.0 ? law.x : 0.0;
   precise vec3 force = (held * over) * normal.xyz - across * slip;
-  newRows[4u * q + 2u] = vec4(law.xyz, held);
+  newRows[4u * q + 2u] = vec4(law.x, canonical(press), limit, held);
   newRows[4u * q + 3u] = vec4(canonical(force), canonical(across));
 }

@@ -58,16 +58,22 @@ INLINE Real slowSlip(const StepParams<Real>& step) {
   return static_cast<Real>(SLOW_SLIP) * step.timeStep;
 }
 
+template <class Real>
+INLINE bool hasPairs(const TouchingPairs<Real>& touching, std::ptrdiff_t i) {
+  return !touching.pairs.empty() && touching.starts.data()[i] != touching.starts.data()[i + 1];
+}
+
 // Which plane holds in this Newton step, and what friction does there. `residual` and `block` are those of
 // the particle without contact, and become those with it.
 //
 // A plane holds what the particle's own Newton step would take across it (the primal-dual active set of
 // Hintermueller, Ito and Kunisch 2002, with the block as its constant): that the iterate is a hair outside
-// decides nothing. In the first Newton step all predicted planes hold. Friction is limited by what the plane
-// carries once both it and the block have given way: the whole push would count the part that the block's
-// stiffness against bending takes, as if fabric weighed more on a plane that is softer. The force of friction
-// is constant beyond `slow`, and its Hessian 0 along the slip; where that would turn a light particle round,
-// a part of the secant's slope stands for it.
+// decides nothing. In the first Newton step all predicted planes hold, but not for particles that may touch
+// other cloth: the upper of two layers falls onto the lower one, not through it to the floor. Friction is
+// limited by what the plane carries once both it and the block have given way: the whole push would count the
+// part that the block's stiffness against bending takes, as if fabric weighed more on a plane that is softer.
+// The force of friction is constant beyond `slow`, and its Hessian 0 along the slip; where that would turn a
+// light particle round, a part of the secant's slope stands for it.
 template <class Real>
 INLINE void addContact(const ImplicitArguments<Real>& arguments, std::ptrdiff_t i, Vec3<Real>& residual,
                        Symmetric<Real>& block) {
@@ -76,7 +82,9 @@ INLINE void addContact(const ImplicitArguments<Real>& arguments, std::ptrdiff_t 
   const Real over = planes.offsets.data()[i] - dot(normal, d);
   const Real own = dot(normal, block * normal), push = own * over - dot(normal, residual);
   const bool isFirst = arguments.own.scalars.newtonSteps == 0, hasPlane = dot(normal, normal) > Real(0);
-  const bool presses = hasPlane && push > Real(0), holds = hasPlane && (isFirst || push > Real(0));
+  const bool presses = hasPlane && push > Real(0),
+             isPredicted = hasPlane && isFirst && !hasPairs(arguments.own.touching, i),
+             holds = presses || isPredicted;
   const Real stiffness = holds ? contactStiffness(arguments, i) : Real(0),
              carried = push * (stiffness * reciprocal(stiffness + own)),
              limit = presses ? planes.frictions.data()[i] * carried : Real(0);

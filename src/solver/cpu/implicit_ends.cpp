@@ -141,7 +141,11 @@ void begin(const ImplicitArguments<Real>& arguments, int row) {
     put(own.rightHandSide, i, b);
     own.diagonal[static_cast<std::size_t>(i)] = stiffness;
     Vec3<Real> start = startOf(arguments, i);
-    if (contacts) start = canonical(onPlane(own.planes, i, start));
+    // Cloth that lies on cloth does not start on the floor below: a plane lifts, and does not pull.
+    const auto isBelow = [&] {
+      return own.planes.offsets.data()[i] - dot(at(own.planes.normals, i), start) > Real(0);
+    };
+    if (contacts && (step.hasSurface == 0 || isBelow())) start = canonical(onPlane(own.planes, i, start));
     put(own.displacements, i, start);
     put(own.iterate.positions, i, canonical(x + start));
     if (pass.grabbed != nullptr) grabParticle(arguments, row, i, mass);

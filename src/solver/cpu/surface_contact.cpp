@@ -20,12 +20,6 @@ void lower(Number& place, Number to) {
   }
 }
 
-template <class Real>
-typename SurfaceLaws<Real>::NearestParts nearestOf(const Parts& parts, const Components<Real>& x) {
-  const auto& [i, j, k, l] = parts.particles;
-  return SurfaceLaws<Real>::nearestParts(parts.areSides, at(x, i), at(x, j), at(x, k), at(x, l));
-}
-
 // The mean motion of some particles.
 template <class Real>
 Vec3<Real> shiftOf(const Components<Real>& motions) {
@@ -35,6 +29,11 @@ Vec3<Real> shiftOf(const Components<Real>& motions) {
   return canonical((Real(1) / SHIFT_SAMPLES) * sum);
 }
 
+template <class Real>
+Real lengthOf(Vec3<Real> v) {
+  const Real squared = dot(v, v);
+  return canonical(squared * inverseSquareRoot(squared));
+}
 template <class Number>
 void add(Number& place, Number more) {
   std::atomic_ref<Number>(place).fetch_add(more, std::memory_order_relaxed);
@@ -93,18 +92,24 @@ void SurfaceContact<Real>::findTouching(const CpuState<Real>& before, ImplicitSt
   if (isLater)
     for (std::vector<Real>* c : {&motions_.x, &motions_.y, &motions_.z})
       std::fill(c->begin(), c->end(), Real(0));
-  shift_ = shiftOf(motions_);
-  boxParticles(starts, surface_.around);
-  growBoxes();
+  flatBlocks_.update(surface_, starts, isLater ? starts : implicit.iterate.positions, surface_.touchingReach);
+  const bool isFlat = flatBlocks_.isAllFlat();
+  if (!isFlat) {
+    shift_ = shiftOf(motions_);
+    boxParticles(starts, surface_.around);
+    growBoxes();
+  }
   const SurfaceSearch<Real> search{surface_, boxes_, particleBoxes_, starts};
+  const auto areFlat = [&](std::uint32_t a, std::uint32_t b) { return flatBlocks_.areFlat(surface_, a, b); };
   foundPairs_.resize(chunks);
   ThreadTeam::shared().forEach(0, chunks, 1, [&](std::uint32_t chunk) {
     std::vector<SurfacePair<Real>>& found = foundPairs_[chunk];
     found.clear();
+    if (isFlat) return;
     const std::uint32_t first = chunk * TRIANGLES_A_CHUNK;
     for (std::uint32_t i = first; i < std::min(first + TRIANGLES_A_CHUNK, triangles); ++i) {
       const std::size_t most = found.size() + MOST_PAIRS_A_TRIANGLE;
-      search.forEachPair(i, [&](const Parts& parts, const auto& nearest) {
+      search.forEachPair(i, areFlat, [&](const Parts& parts, const auto& nearest) {
         const SurfacePair<Real> pair = pairOf(surface_, parts, nearest, starts, implicit, isLater);
         if (pair.stiffness > Real(0)) found.push_back(pair);
         return found.size() <= most;
@@ -234,13 +239,22 @@ void SurfaceContact<Real>::guard(const CpuState<Real>& before, CpuState<Real>& a
     motions_.resize(particles);
     for (std::uint32_t i = 0; i < particles; ++i) put(motions_, i, at(after.positions, i) - at(starts, i));
   }
+  // Whatever the first rounds move, the first of the others looks at everything again.
+  if (round == 0)
+    flatBlocks_.update(surface_, starts, after.positions,
+                       static_cast<Real>(LEAST_GAPS_OF_FLAT) * surface_.leastGap);
+  const bool looksAtFlat = round >= CORRECTION_ROUNDS;
+  if (!looksAtFlat && flatBlocks_.isAllFlat()) return;
   if (round == 0) shift_ = shiftOf(motions_);
   if (round <= CORRECTION_ROUNDS) boxParticles(starts, surface_.leastGap);
   if (round == 0 || round == CORRECTION_ROUNDS) growBoxes();
   const bool corrects = round < CORRECTION_ROUNDS, all = round + 1 == GUARD_ROUNDS;
   const SurfaceSearch<Real> search{surface_, boxes_, particleBoxes_, starts};
+  const auto areFlat = [&](std::uint32_t a, std::uint32_t b) {
+    return !looksAtFlat && flatBlocks_.areFlat(surface_, a, b);
+  };
   ThreadTeam::shared().forEach(0, triangles, TRIANGLES_A_CHUNK, [&](std::uint32_t i) {
-    search.forEachPair(i, [&](const Parts& parts, const auto& nearest) {
+    search.forEachPair(i, areFlat, [&](const Parts& parts, const auto& nearest) {
       const Sides sides = sidesOf(parts, nearest.way, starts);
       const Real width = larger(widthOf(sides), Real(0)),
                  least = corrects ? surface_.leastGap : SurfaceLaws<Real>::leastOf(width, surface_.leastGap);
@@ -307,6 +321,7 @@ void SurfaceContact<Real>::correct(CpuState<Real>& after, const StepParams<Real>
     const Real part = (surface_.quantum * Real(CORRECTION_WEIGHT)) * weight;
     const Vec3<Real> moved =
         part * Vec3<Real>{fromQuanta<Real>(sum.x), fromQuanta<Real>(sum.y), fromQuanta<Real>(sum.z)};
+    state_.largestCorrection = std::max(state_.largestCorrection, gapBits(lengthOf(moved)));
     put(after.positions, i, canonical(at(after.positions, i) + moved));
     put(after.velocities, i, canonical(at(after.velocities, i) + step.inverseTimeStep * moved));
     corrections_[i] = {};
@@ -326,6 +341,8 @@ void SurfaceContact<Real>::shorten(const CpuState<Real>& before, CpuState<Real>&
     put(after.positions, place, canonical(at(starts, place) + kept_[i] * motion));
     if (inverseMasses[i] > Real(0))
       put(after.velocities, place, canonical(at(after.velocities, place) - step.inverseTimeStep * lost));
+    else
+      state_.pinLag = std::max(state_.pinLag, gapBits(lengthOf(lost)));
   }
   state_.isGuarded = shortened > 0 ? 1 : 0;
   state_.shortened += shortened;

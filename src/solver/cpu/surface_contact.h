@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "solver/cpu/cpu_state.h"
+#include "solver/cpu/flat_blocks.h"
 #include "solver/cpu/implicit_passes.h"
 #include "solver/cpu/surface_search.h"
 #include "solver/executor.h"
@@ -66,6 +67,7 @@ class SurfaceContact {
   ClothSurface<Real> surface_;
   SurfaceState state_ = freshSurfaceState();
   std::vector<Bounds<Real>> boxes_, particleBoxes_;
+  FlatBlocks<Real> flatBlocks_;
   Components<Real> motions_;  // of this round
   Vec3<Real> shift_{};
   Components<Real> safePositions_, safeVelocities_;

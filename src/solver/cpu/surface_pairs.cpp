@@ -47,12 +47,11 @@ Real shareOf(const ClothSurface<Real>& surface, const Parts& parts, Vec3<Real> w
   return isNearestHere ? surface.points[corners[k]].share : Real(0);
 }
 
-}  // namespace
-
+// The pair as it is at the places x: those of the start, or moved by the displacements.
 template <class Real>
-SurfacePair<Real> pairOf(const ClothSurface<Real>& surface, const Parts& parts,
+SurfacePair<Real> pairAt(const ClothSurface<Real>& surface, const Parts& parts,
                          const typename SurfaceLaws<Real>::NearestParts& nearest, const Components<Real>& x,
-                         const ImplicitState<Real>& implicit, bool isLater) {
+                         const ImplicitState<Real>& implicit, bool isMoved) {
   const auto& [way, u, v, part] = nearest;
   const Real squared = dot(way, way), inverse = inverseSquareRoot(squared);
   SurfacePair<Real> pair{};
@@ -71,17 +70,39 @@ SurfacePair<Real> pairOf(const ClothSurface<Real>& surface, const Parts& parts,
     weights = weights + square;
   }
   const Real along = dot(pair.normal, weighted(pair, implicit.displacements)),
-             predicted = isLater ? pair.distance : pair.distance + along;
+             predicted = isMoved ? pair.distance : pair.distance + along;
   if (!((predicted < pair.distance ? predicted : pair.distance) < reach + surface.margin)) return pair;
   const Real gap = larger(pair.distance, static_cast<Real>(SQUEEZED) * reach), half = Real(0.5) * reach;
   const Real squeezed = (reach * reach) * reciprocal((Real(4) * gap) * (reach - gap));
   const Real stiffness = static_cast<Real>(PAIR_OVER_INERTIA) * (inertia * reciprocal(weights)) +
                          static_cast<Real>(PAIR_OVER_SPRINGS) * springs;
   const Real over = reach - pair.distance;
-  pair.over = canonical(isLater ? over + along : over);
+  pair.over = canonical(isMoved ? over + along : over);
   pair.stiffness = shareOf(surface, parts, way, part, x) * (gap < half ? stiffness * squeezed : stiffness);
-  pair.limit = canonical((Real(0.5) * friction) * (pair.stiffness * larger(over, Real(0))));
+  pair.friction = Real(0.5) * friction;
+  pair.pressed = static_cast<Real>(LARGE_SQUARE);
   pair.held = pair.over - along > Real(0) ? pair.stiffness : Real(0);
+  return pair;
+}
+
+}  // namespace
+
+template <class Real>
+SurfacePair<Real> pairOf(const ClothSurface<Real>& surface, const Parts& parts,
+                         const typename SurfaceLaws<Real>::NearestParts& nearest, const Components<Real>& x,
+                         const ImplicitState<Real>& implicit, bool isLater) {
+  if (isLater) return pairAt(surface, parts, nearest, x, implicit, true);
+  Vec3<Real> before[4], after[4];
+  for (std::size_t k = 0; k < 4; ++k) {
+    before[k] = at(x, parts.particles[k]);
+    after[k] = at(implicit.iterate.positions, parts.particles[k]);
+  }
+  const auto then = SurfaceLaws<Real>::nearestParts(parts.areSides, after[0], after[1], after[2], after[3]);
+  if (!SurfaceLaws<Real>::passesBy(parts.areSides, before, after, nearest.way, then.way, surface.leastGap))
+    return pairAt(surface, parts, nearest, x, implicit, false);
+  SurfacePair<Real> pair = pairAt(surface, parts, then, implicit.iterate.positions, implicit, true);
+  const Real squared = dot(nearest.way, nearest.way);
+  pair.distance = squared * inverseSquareRoot(squared);
   return pair;
 }
 
@@ -107,6 +128,10 @@ void weighPairs(ImplicitState<Real>& own, const StepParams<Real>& step) {
     const Real along = dot(pair.normal, moved), over = pair.over - along;
     const Vec3<Real> slip = moved - along * pair.normal;
     const Real squared = dot(slip, slip), inverse = inverseSquareRoot(squared);
+    // The less of this and the last Newton step: what is not solved yet presses at random, and would stick.
+    const Real press = pair.stiffness * larger(over, Real(0));
+    pair.limit = canonical(pair.friction * (press < pair.pressed ? press : pair.pressed));
+    pair.pressed = canonical(press);
     const Real across = pair.limit * frictionSlope(squared * inverse, inverse, slowSlip(step)).over;
     pair.across = canonical(across);
     pair.held = over > Real(0) ? pair.stiffness : Real(0);

@@ -18,7 +18,15 @@ INLINE std::array<Real, 4> weightsOf(const Parts& parts,
           canonical(parts.areSides ? v - Real(1) : -u), canonical(-v)};
 }
 
-// The pair of parts that may touch; without stiffness where it does not.
+template <class Real>
+INLINE typename SurfaceLaws<Real>::NearestParts nearestOf(const Parts& parts, const Components<Real>& x) {
+  const auto& [i, j, k, l] = parts.particles;
+  return SurfaceLaws<Real>::nearestParts(parts.areSides, at(x, i), at(x, j), at(x, k), at(x, l));
+}
+
+// The pair of parts that may touch, which are `nearest` at the start; without stiffness where they do not.
+// Where they surely pass each other on the way that is predicted, it is as it will be at its end: what slides
+// over a border, or past a corner, does not run into it.
 template <class Real>
 [[nodiscard]] SurfacePair<Real> pairOf(const ClothSurface<Real>& surface, const Parts& parts,
                                        const typename SurfaceLaws<Real>::NearestParts& nearest,

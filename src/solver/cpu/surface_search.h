@@ -62,12 +62,13 @@ struct SurfaceSearch {
     }
   }
 
-  // test(parts, nearest) for the pairs of parts that this triangle finds: boxes meet, and no particle is in
-  // both. test() says whether to go on.
-  template <class Test>
-  void forEachPair(std::uint32_t triangle, Test test) const {
+  // test(parts, nearest) for the pairs of parts that this triangle finds: boxes meet, no particle is in both,
+  // and the cloth is not flat there, areFlat(triangle, other). test() says whether to go on.
+  template <class AreFlat, class Test>
+  void forEachPair(std::uint32_t triangle, AreFlat areFlat, Test test) const {
     bool goesOn = true;
     forEachNeighbor(triangle, [&](std::uint32_t neighbor) {
+      if (areFlat(triangle, neighbor)) return;
       lookAtCorners(triangle, neighbor, goesOn, test);
       lookAtCorners(neighbor, triangle, goesOn, test);
       lookAtSides(triangle, neighbor, goesOn, test);

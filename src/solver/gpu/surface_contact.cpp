@@ -43,7 +43,8 @@ const gl::Program& GpuSurfaceContact::program(const std::string& pass, const Var
 
 void GpuSurfaceContact::compile() {
   for (const bool touching : {false, true})
-    for (const char* pass : {"begin", "triangle_boxes"}) program(pass, {.touching = touching});
+    for (const char* pass : {"begin", "triangle_boxes", "flat_sides", "flat_flags"})
+      program(pass, {.touching = touching});
   program("begin", {.touching = true, .later = true});
   for (const bool writes : {false, true}) program("search", {.touching = true, .writes = writes});
   for (const bool lists : {false, true})
@@ -67,6 +68,13 @@ void GpuSurfaceContact::setSurface(ClothSurface<float> surface, std::uint32_t pa
   points_ = ParticleArray("surface points", particles);
   static_assert(sizeof(SurfacePoint<float>) == sizeof(Particle4));
   points_.buffer.upload({reinterpret_cast<const Particle4*>(surface_.points.data()), particles});
+  static_assert(sizeof(SurfaceBlock) == 12 * sizeof(std::uint32_t));
+  const std::size_t blocks = surface_.blocks.size();
+  flatBlocks_ = Numbers("blocks of grids", 12 * std::max<std::size_t>(blocks, 1), GL_RGBA32UI);
+  if (blocks > 0)
+    flatBlocks_.buffer.upload({reinterpret_cast<const std::uint32_t*>(surface_.blocks.data()), 12 * blocks});
+  flatSides_ = ParticleArray("sides of blocks", 4 * std::max<std::size_t>(blocks, 1));
+  flatFlags_ = Numbers("flat blocks", std::max<std::size_t>(blocks, 1));
   boxes_ = ParticleArray("boxes", BOX_TEXELS * surface_.firstBoxes.back());
   counts_ = Numbers("pairs by triangle", triangles);
   blocks_ = Numbers("blocks of triangles", blocksOf(triangles));
@@ -116,6 +124,9 @@ void GpuSurfaceContact::uploadParams() {
   params.leastGap = surface_.leastGap;
   params.quantum = surface_.quantum;
   params.perQuantum = surface_.perQuantum;
+  params.touchingReach = surface_.touchingReach;
+  params.blocks = static_cast<std::uint32_t>(surface_.blocks.size());
+  params.isOneGrid = surface_.isOneGrid ? 1 : 0;
   for (std::size_t level = 0; level < surface_.firstBoxes.size(); ++level)
     params.firstBoxes[level][0] = surface_.firstBoxes[level];
   params_.upload({&params, 1});
@@ -140,10 +151,21 @@ void GpuSurfaceContact::bindTextures() const {
   listBlocks_.texture.bind(PAIR_BLOCKS_UNIT);
   entries_.texture.bind(PAIR_ENTRIES_UNIT);
   blocks_.texture.bind(SURFACE_BLOCKS_UNIT);
+  flatBlocks_.texture.bind(FLAT_BLOCKS_UNIT);
+  flatSides_.texture.bind(FLAT_SIDES_UNIT);
+  flatFlags_.texture.bind(FLAT_FLAGS_UNIT);
 }
 
 void GpuSurfaceContact::runOn(PassRunner& runner, const gl::Program& program, std::size_t entries) const {
   runner.runGroups(program, name_, static_cast<std::uint32_t>((entries + SURFACE_GROUP - 1) / SURFACE_GROUP));
+}
+
+void GpuSurfaceContact::findFlat(PassRunner& runner, bool touching) {
+  if (surface_.blocks.empty()) return;
+  flatSides_.buffer.bindStorage(SURFACE_OUT_BINDING);
+  runOn(runner, program("flat_sides", {.touching = touching}), surface_.blocks.size());
+  flatFlags_.buffer.bindStorage(SURFACE_OUT_BINDING);
+  runOn(runner, program("flat_flags", {.touching = touching}), surface_.blocks.size());
 }
 
 void GpuSurfaceContact::growBoxes(PassRunner& runner, bool touching) {
@@ -171,6 +193,7 @@ void GpuSurfaceContact::scan(PassRunner& runner, Numbers& counts, Numbers& block
 void GpuSurfaceContact::findTouching(PassRunner& runner, bool later) {
   const std::size_t triangles = surface_.triangles.size();
   runner.runGroups(program("begin", {.touching = true, .later = later}), name_, 1);
+  findFlat(runner, true);
   growBoxes(runner, true);
   counts_.buffer.bindStorage(SURFACE_COUNTS_BINDING);
   runOn(runner, program("search", {.touching = true}), triangles);
@@ -201,6 +224,7 @@ void GpuSurfaceContact::keep(PassRunner& runner, bool clears) {
 void GpuSurfaceContact::guard(PassRunner& runner, GpuArrays& arrays, std::uint32_t round) {
   if (round == 0) {
     runner.runGroups(program("begin"), name_, 1);
+    findFlat(runner, false);
     keep(runner, true);
   }
   if (round == 0 || round == CORRECTION_ROUNDS) growBoxes(runner, false);

@@ -57,6 +57,7 @@ class GpuSurfaceContact {
   void allocatePairs();
   void uploadParams();
   void runOn(PassRunner& runner, const gl::Program& program, std::size_t entries) const;
+  void findFlat(PassRunner& runner, bool touching);
   void growBoxes(PassRunner& runner, bool touching);
   void scan(PassRunner& runner, Numbers& counts, Numbers& blocks, std::size_t size, bool lists);
   void findTouching(PassRunner& runner, bool later);
@@ -77,10 +78,10 @@ class GpuSurfaceContact {
   gl::Buffer<Groups> dispatches_;  // over the pairs
   gl::Buffer<LevelSlot> levels_;   // those of boxes, then the rounds of the guard
   std::size_t boxLevels_ = 0;      // how many of them are dispatched
-  Numbers triangles_, counts_, blocks_, lists_, listBlocks_, entries_, pairIds_;
+  Numbers triangles_, counts_, blocks_, lists_, listBlocks_, entries_, pairIds_, flatBlocks_, flatFlags_;
   gl::Buffer<std::uint32_t> cursors_, kept_, newlyKept_;
   gl::Buffer<std::int32_t> corrections_;
-  ParticleArray points_, boxes_, pairRows_, safePositions_, safeVelocities_;
+  ParticleArray points_, boxes_, pairRows_, safePositions_, safeVelocities_, flatSides_;
 };
 
 }  // namespace clothsim

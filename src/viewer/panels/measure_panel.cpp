@@ -158,6 +158,13 @@ void MeasurePanel::drawContacts(SelfCollision mode) {
     row("motions cut short",
         formatted("%llu in %llu steps", number(contacts_.shortened), number(contacts_.clampedSteps)),
         "Motions of particles that would have brought parts of the surface through each other.");
+    row("pins kept back", formatted("%.3g mm", 1000 * contacts_.pinLag),
+        "How far a pin was kept from its path at the end of a step, at most: layers between pins stop them, "
+        "too.");
+    row("largest correction", formatted("%.3g mm", 1000 * contacts_.largestCorrection),
+        "How far parts of the surface that were too near were pushed apart at the end of a step, at most; "
+        "they "
+        "may end it that far inside a collider.");
     return;
   }
   const std::string pairs = formatted("%llu", number(watch_.contacts().contacts()));

@@ -69,8 +69,9 @@ TEST_F(GpuSolverTest, AgreesWithTheCpuInContact) {
   GpuSolver gpu(cloth, scene, {});
   CpuSolver<float> cpu(cloth, scene);
   for (Solver* solver : std::initializer_list<Solver*>{&gpu, &cpu}) {
+    solver->step(14);  // whole grids are not searched where they are flat
     solver->setCuts(cuts);
-    solver->step(28);
+    solver->step(14);
   }
   EXPECT_EQ(difference(gpu.state(), cpu.state()).differing, 0u);
   const ContactCounts onGpu = gpu.contactCounts(), onCpu = cpu.contactCounts();
@@ -80,6 +81,8 @@ TEST_F(GpuSolverTest, AgreesWithTheCpuInContact) {
   EXPECT_EQ(onGpu.shortened, onCpu.shortened);
   EXPECT_EQ(onGpu.clampedSteps, onCpu.clampedSteps);
   EXPECT_EQ(onGpu.leastGap, onCpu.leastGap);
+  EXPECT_EQ(onGpu.largestCorrection, onCpu.largestCorrection);
+  EXPECT_EQ(onGpu.pinLag, onCpu.pinLag);
 }
 
 TEST_F(GpuSolverTest, CountsStepsAndUpdatesAsTheCpuDoes) {

@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <random>
 
 #include "core/thread_team.h"
 #include "solver/cpu/cpu_solver.h"
@@ -89,6 +91,79 @@ TEST(StaysApart, LetsNothingThrough) {
     EXPECT_FALSE(staysApart(false, {{{0.02, 0.001, 0.005}, {0, 0, 0}, {0.03, 0, 0}, {0, 0, 0.03}}},
                             {{{-0.02, -0.01, 0.005}, {0, 0, 0}, {0.03, 0, 0}, {0, 0, 0.03}}}, parts));
   }
+}
+
+// A sheet of 9 x 9 places that is bent, sheared and crumpled: its boxes of sides, and where places of it lie.
+struct BentSheet {
+  static constexpr int N = 9;
+  Vec3d places[N][N];
+  BentSheet(double bend, double shear, double noise, std::mt19937& random) {
+    std::uniform_real_distribution<double> any(-noise, noise);
+    for (int j = 0; j < N; ++j)
+      for (int i = 0; i < N; ++i) {
+        const double s = i + shear * j + any(random), angle = bend * s;
+        places[j][i] = bend > 0 ? Vec3d{std::sin(angle) / bend, (1 - std::cos(angle)) / bend, j + any(random)}
+                                : Vec3d{s, any(random), j + any(random)};
+      }
+  }
+  [[nodiscard]] double stretch() const {
+    Vec3d low[2] = {{9, 9, 9}, {9, 9, 9}}, high[2] = {{-9, -9, -9}, {-9, -9, -9}};
+    for (int j = 0; j < N; ++j)
+      for (int i = 0; i < N; ++i)
+        for (int k = 0; k < 2; ++k) {
+          if ((k == 0 ? i : j) + 1 == N) continue;
+          const Vec3d side = (k == 0 ? places[j][i + 1] : places[j + 1][i]) - places[j][i];
+          low[k] = {std::min(low[k].x, side.x), std::min(low[k].y, side.y), std::min(low[k].z, side.z)};
+          high[k] = {std::max(high[k].x, side.x), std::max(high[k].y, side.y), std::max(high[k].z, side.z)};
+        }
+    return Laws::leastStretch(low[0], high[0], low[1], high[1]);
+  }
+  // Between the columns and rows, on the triangles.
+  [[nodiscard]] Vec3d at(double u, double v) const {
+    const int i = std::min(static_cast<int>(u), N - 2), j = std::min(static_cast<int>(v), N - 2);
+    const double s = u - i, t = v - j;
+    const Vec3d &a = places[j][i], &b = places[j][i + 1], &c = places[j + 1][i], &d = places[j + 1][i + 1];
+    return s + t < 1 ? a + s * (b - a) + t * (c - a) : d + (1 - s) * (c - d) + (1 - t) * (b - d);
+  }
+};
+
+TEST(LeastStretch, BoundsAllDistancesOfASheetFromBelow) {
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> place(0, BentSheet::N - 1);
+  int known = 0;
+  for (const double bend : {0.0, 0.1, 0.2, 0.5})
+    for (const double shear : {0.0, 0.2})
+      for (const double noise : {0.0, 0.1, 0.3}) {
+        const BentSheet sheet(bend, shear, noise, random);
+        const double stretch = sheet.stretch();
+        known += stretch > 0.4 ? 1 : 0;
+        for (int k = 0; k < 2000; ++k) {
+          const double u = place(random), v = place(random), otherU = place(random), otherV = place(random);
+          const double rest = std::hypot(otherU - u, otherV - v);
+          ASSERT_GE(length(sheet.at(otherU, otherV) - sheet.at(u, v)), (stretch - 1e-6) * rest)
+              << bend << ' ' << shear << ' ' << noise;
+        }
+      }
+  EXPECT_GE(known, 4) << "it says something of sheets that are bent a little";
+  EXPECT_NEAR(BentSheet(0, 0, 0, random).stretch(), 1, 1e-6);
+  EXPECT_LT(BentSheet(1, 0, 0, random).stretch(), 0) << "it has rolled up";
+}
+
+TEST(ClothSurface, HasBlocksWhereAGridIsWhole) {
+  Scene scene = fallingSheet(10);
+  const Cloth cloth(scene);
+  const ClothSurface<float> surface = makeSurface<float>(cloth, scene, {});
+  ASSERT_EQ(surface.blocks.size(), 9u) << "of 4, 4 and 1 cells";
+  EXPECT_TRUE(surface.isOneGrid);
+  EXPECT_EQ(surface.blocks[8].first, 88u);
+  EXPECT_EQ(surface.blocks[8].width, 2u);
+  std::array<int, 9> triangles{};
+  for (const SurfaceTriangle& triangle : surface.triangles) ++triangles.at(triangle.block);
+  EXPECT_EQ(triangles[0], 32);
+  EXPECT_EQ(triangles[8], 2);
+  Cuts cuts(cloth.particleCount());
+  ASSERT_TRUE(cutAlong(cuts, cloth, 0, {2.5, 2.5}, {6.5, 2.5}));
+  EXPECT_TRUE(makeSurface<float>(cloth, scene, cuts).blocks.empty());
 }
 
 TEST(ClothSurface, SharesCornersAndSidesAmongItsTriangles) {

@@ -1,0 +1,83 @@
+#include "measure/surface_crossings.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "solver/cpu/surface_search.h"
+
+namespace clothsim {
+namespace {
+
+using Boxes = std::vector<cpu::Bounds<double>>;
+
+// The tree of boxes, without any room around its triangles.
+Boxes makeBoxes(const ClothSurface<double>& surface, const Components<double>& places) {
+  const std::vector<std::uint32_t>& first = surface.firstBoxes;
+  const cpu::Arrays<const double> x = cpu::arraysOf(places);
+  Boxes boxes(first.back());
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
+    const auto corners = cpu::cornersOf(surface.triangles[i]);
+    boxes[i] = {cpu::fourAt<double>(x, corners[0]), cpu::fourAt<double>(x, corners[0])};
+    for (const std::uint32_t corner : corners) {
+      const cpu::Four<double> place = cpu::fourAt<double>(x, corner);
+      boxes[i] = cpu::joined(boxes[i], cpu::Bounds<double>{place, place});
+    }
+  }
+  for (std::size_t level = 1; level + 1 < first.size(); ++level)
+    for (std::uint32_t i = first[level]; i < first[level + 1]; ++i) {
+      const std::uint32_t child = first[level - 1] + BOX_CHILDREN * (i - first[level]);
+      boxes[i] = boxes[child];
+      for (std::uint32_t k = child; k < std::min(child + BOX_CHILDREN, first[level]); ++k)
+        boxes[i] = cpu::joined(boxes[i], boxes[k]);
+    }
+  return boxes;
+}
+
+double volume(Vec3d a, Vec3d b, Vec3d c, Vec3d d) { return dot(cross(b - a, c - a), d - a); }
+
+bool crosses(Vec3d p, Vec3d q, Vec3d a, Vec3d b, Vec3d c) {
+  if (!(volume(a, b, c, p) * volume(a, b, c, q) < 0)) return false;
+  const double first = volume(p, q, a, b), second = volume(p, q, b, c), third = volume(p, q, c, a);
+  return (first > 0 && second > 0 && third > 0) || (first < 0 && second < 0 && third < 0);
+}
+
+// The sides that the first triangle looks after, with the second triangle.
+std::uint64_t crossingsOf(const SurfaceTriangle& first, const SurfaceTriangle& second,
+                          const Components<double>& x) {
+  const auto mine = cpu::cornersOf(first), theirs = cpu::cornersOf(second);
+  const auto isTheirs = [&](std::uint32_t i) {
+    return std::find(theirs.begin(), theirs.end(), i) != theirs.end();
+  };
+  std::uint64_t count = 0;
+  for (std::uint32_t k = 0; k < 3; ++k) {
+    const std::uint32_t p = mine[k], q = mine[(k + 1) % 3];
+    if ((first.owned >> (OWNED_SIDE + k) & 1u) == 0 || isTheirs(p) || isTheirs(q)) continue;
+    count += crosses(cpu::at(x, p), cpu::at(x, q), cpu::at(x, theirs[0]), cpu::at(x, theirs[1]),
+                     cpu::at(x, theirs[2]))
+                 ? 1
+                 : 0;
+  }
+  return count;
+}
+
+}  // namespace
+
+std::uint64_t crossingSides(const Cloth& cloth, const Scene& scene, const State& state) {
+  const auto surface = makeSurface<double>(cloth, scene, state.cuts);
+  Components<double> x;
+  x.resize(state.positions.size());
+  for (std::size_t i = 0; i < state.positions.size(); ++i)
+    cpu::put(x, static_cast<std::ptrdiff_t>(i), vectorOf(state.positions[i]));
+  if (surface.triangles.empty()) return 0;
+  const Boxes boxes = makeBoxes(surface, x);
+  const cpu::SurfaceSearch<double> search{surface, boxes, boxes, x};
+  std::uint64_t count = 0;
+  for (std::uint32_t i = 0; i < surface.triangles.size(); ++i)
+    search.forEachNeighbor(i, [&](std::uint32_t other) {
+      count += crossingsOf(surface.triangles[i], surface.triangles[other], x) +
+               crossingsOf(surface.triangles[other], surface.triangles[i], x);
+    });
+  return count;
+}
+
+}  // namespace clothsim
