@@ -78,7 +78,7 @@ struct Arguments {
   std::string cellSize = "560x420", out, view = "0,0";
   std::vector<std::string> variations, settings, saves, outs, resolutions, backends;
   int frames = 0, every = 1, around = 64, down = 48, threads = 0;
-  double fps = 30, seconds = 1, jitter = 0;
+  double fps = 30, seconds = 1, jitter = 0, restartAfter = 0;
   std::uint32_t seed = 1;
   bool json = false, checkCrossings = false, timings = false, strict = false;
 
@@ -377,6 +377,11 @@ void declareViewer(CLI::App& app, Arguments& a, Task& task) {
   app.add_option("--quality", a.viewerQuality, qualityHelp + std::string("; auto: draft on software OpenGL"))
       ->check(CLI::IsMember({"auto", "draft", "normal", "final"}))
       ->capture_default_str();
+  app.add_option(
+         "--restart", a.restartAfter,
+         "viewer: start again after so many simulated seconds, until you touch the cloth or change something")
+      ->check(CLI::PositiveNumber)
+      ->type_name("SECONDS");
   app.add_flag("--timings", a.timings, "viewer: print on exit how long each part of a displayed frame took");
   app.footer(
       "Without a command: the viewer.\n\nKeys and mouse in the viewer:\n" + viewerKeysText() +
@@ -384,7 +389,7 @@ void declareViewer(CLI::App& app, Arguments& a, Task& task) {
       "            4 no usable OpenGL or no display, 5 input/output");
   task = [&] {
     runViewer(loadScene(a.sceneOptions()),
-              {a.scene, a.viewerBackend, a.around, a.down, a.timings, a.viewerQuality});
+              {a.scene, a.viewerBackend, a.around, a.down, a.timings, a.viewerQuality, a.restartAfter});
     return 0;
   };
 }

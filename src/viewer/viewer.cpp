@@ -172,6 +172,10 @@ int Viewer::simulate(double elapsed) {
   });
   const double unpaced = std::exchange(unpaced_, 0);
   if (compare_.isRunning() || sceneToOpen_ || lost_) return done;
+  if (startsAgain()) {
+    restart();
+    say("Starts again, until you touch the cloth or change something");
+  }
   const int frames = paused_ ? std::exchange(stepAsked_, false) : pace_.framesDue(tempo_ * unpaced);
   if (frames == 0) return done;
   if (open_->backend() != "cpu") return done + stepFrames(frames);

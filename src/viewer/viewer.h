@@ -15,6 +15,7 @@ struct ViewerOptions {
   int sphereSegmentsDown = 48;    // -o
   bool timings = false;           // prints the times of a frame's phases at the end
   std::string quality = "auto";   // "auto", "draft", "normal" or "final"; the key Q changes it
+  double restartAfter = 0;        // [s] of simulated time, until the cloth is touched or changed; 0: never
 };
 
 // Opens the window and returns when it is closed. @throws OpenGlError when there is no display or no

@@ -245,6 +245,16 @@ void Viewer::restart() {
   notice_ = {};
 }
 
+bool Viewer::startsAgain() {
+  const auto isOwn = [](const Recording::Event& event) {  // not something that the user has done to the cloth
+    return std::holds_alternative<Restart>(event.action) ||
+           std::holds_alternative<SwitchBackend>(event.action);
+  };
+  return options_.restartAfter > 0 && !paused_ &&
+         session().frameSinceStart() * open_->frameSeconds() >= options_.restartAfter &&
+         std::ranges::all_of(session().recording().events, isOwn);
+}
+
 std::unique_ptr<OpenScene> Viewer::load(const std::string& source,
                                         const std::function<std::unique_ptr<OpenScene>()>& make) {
   const std::string name = std::filesystem::path(source).stem().string();

@@ -103,6 +103,8 @@ class Viewer {
   void undo(bool again);
   void seek(int frame);
   void restart();
+  // Whether ViewerOptions::restartAfter is over.
+  [[nodiscard]] bool startsAgain();
   void openScene(const std::string& source);
   // Loads a scene while the window says so. When the window is closed meanwhile, the program ends.
   [[nodiscard]] std::unique_ptr<OpenScene> load(const std::string& source,

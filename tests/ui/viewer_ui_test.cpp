@@ -83,6 +83,16 @@ TEST_F(ViewerUi, RRestartsFromTheSameBeginning) {
   EXPECT_TRUE(test::eventually(seconds(20), [&] { return isBeginning(viewer.picture()); }));
 }
 
+TEST_F(ViewerUi, StartsAgainAfterTheTimeThatIsAskedFor) {
+  // It would be too fast after three quarters of a second.
+  const ViewerProgram viewer(
+      std::string(shownScene) +
+      " --set gravity=[0,-2,0] --set cloth.damping=0 --set solver.max_speed=1.5 --restart 0.4");
+  ASSERT_TRUE(viewer.titleBecomesOneWith("fps")) << viewer.title();
+  EXPECT_FALSE(
+      test::eventually(seconds(3), [&] { return viewer.title().find("paused") != std::string::npos; }));
+}
+
 TEST_F(ViewerUi, MouseMovesTheCameraAndSpaceBringsItBack) {
   const ViewerProgram viewer(shownScene);
   viewer.press("p");
