@@ -66,6 +66,13 @@ using uint = std::uint32_t;
 #define SURFACE_GROUP 64
 #define GROUPS_A_ROW 4096u
 
+// Small colliders: in the first round friction stops slips, in the others triangles that are still in them
+// are pushed out; and rounds of the search for where a triangle meets their cores.
+#define PRESS_ROUNDS 9
+#define MOST_OVER_INERTIA 1048576.0f  // of a pair's stiffness, what springs add: 1 / LEAST_PIVOT
+#define CORE_ROUNDS 6
+#define CROSSING_ROUNDS 16
+
 #define SURFACE_PARAMS_BINDING 3  // uniform blocks
 #define BOX_LEVEL_BINDING 4
 #define SURFACE_STATE_BINDING 6  // storage blocks; each pass binds what it needs
@@ -80,13 +87,16 @@ using uint = std::uint32_t;
 #define SURFACE_BOXES_UNIT 52  // two texels each: low, high
 #define PAIR_IDS_UNIT 53       // four particles
 #define PAIR_ROWS_UNIT \
-  54                            // four texels each: normal, over; weights; stiffness, -, limit, held;
-                                // force, across
-#define PAIR_STARTS_UNIT 55     // of a particle's entries, within its block
-#define PAIR_BLOCKS_UNIT 56     // what the blocks of particles begin with
-#define PAIR_ENTRIES_UNIT 57    // 4 * pair + place in it
-#define SURFACE_BLOCKS_UNIT 58  // what the blocks of triangles begin with
-#define SURFACE_STARTS_UNIT 59  // where the motion of a round begins
+  54                             // four texels each: normal, over; weights; stiffness, -, limit, held;
+                                 // force, across
+#define PAIR_STARTS_UNIT 55      // of a particle's entries, within its block
+#define PAIR_BLOCKS_UNIT 56      // what the blocks of particles begin with
+#define PAIR_ENTRIES_UNIT 57     // 4 * pair + place in it
+#define SURFACE_BLOCKS_UNIT 58   // what the blocks of triangles begin with
+#define SURFACE_STARTS_UNIT 59   // where the motion of a round begins
+#define SMALL_COLLIDERS_UNIT 60  // two texels each
+#define PAIR_CARRIES_UNIT 61     // how far a collider carries the pair along, and the coefficient of friction
+#define SURFACE_CARRIES_BINDING 1
 
 struct SurfaceTriangle {
   uint cornerA;
@@ -106,6 +116,20 @@ SHARED_STRUCT SurfacePoint {
   real friction;   // Coulomb's coefficient
   real share;      // of a contact at this corner that each of its triangles finds
   real stiffness;  // of its springs [N/m]
+};
+
+// A sphere or a capsule that is small against the cells of the cloth and acts on triangles, too. Its core is
+// the center, or the segment along y in its own frame: no triangle may pass that.
+SHARED_STRUCT SmallCollider {
+  real number;  // among the scene's
+  real bound;   // all that counts as near is so near to its center [m]
+  real radius;
+  real halfLength;  // of the core [m]
+
+  real near;  // what is so near to the core counts as near [m]
+  real unusedA;
+  real unusedB;
+  real unusedC;
 };
 
 // What contact has come to.
@@ -129,10 +153,10 @@ struct SurfaceState {
   uint guardedSteps;  // in which there were some
   uint crowdedSteps;  // in which there were too many pairs, so that none pushed
 
-  uint leastGap;  // of pairs that may touch, the bits of a float [m]
-  uint unusedD;
-  uint unusedE;
-  uint unusedF;
+  uint leastGap;      // of pairs that may touch, the bits of a float [m]
+  uint isPressed;     // of this step: some triangle was pushed out of a small collider
+  uint passages;      // of triangles by cores of small colliders,
+  uint passageSteps;  // and steps with some
 };
 
 // What the passes on the GPU need beside these.
@@ -146,6 +170,11 @@ struct SurfaceParams {
   float margin;
   float leastGap;
   float perQuantum;
+
+  uint smallColliders;  // how many there are
+  uint touchesItself;   // cloth is a collider, too
+  uint unusedA;
+  uint unusedB;
 
 #ifdef __cplusplus
   uint firstBoxes[MOST_BOX_LEVELS][4];

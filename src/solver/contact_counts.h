@@ -17,11 +17,14 @@ struct ContactCounts {
   std::uint64_t shortened = 0;     // motions of particles that were cut short, of all steps
   std::uint64_t crowdedSteps = 0;  // in which there were too many pairs, so that none pushed
   double leastGap = INFINITY;      // between parts that may touch [m]
+  std::uint64_t passages = 0;      // of triangles by small colliders, which went through them
+  std::uint64_t passageSteps = 0;  // in which there were some
 
   friend ContactCounts operator+(const ContactCounts& a, const ContactCounts& b) {
-    return {a.hashBuilds + b.hashBuilds,     a.clampedSteps + b.clampedSteps, a.fastSteps + b.fastSteps,
-            std::max(a.pairs, b.pairs),      a.shortened + b.shortened,       a.crowdedSteps + b.crowdedSteps,
-            std::min(a.leastGap, b.leastGap)};
+    return {
+        a.hashBuilds + b.hashBuilds,      a.clampedSteps + b.clampedSteps, a.fastSteps + b.fastSteps,
+        std::max(a.pairs, b.pairs),       a.shortened + b.shortened,       a.crowdedSteps + b.crowdedSteps,
+        std::min(a.leastGap, b.leastGap), a.passages + b.passages,         a.passageSteps + b.passageSteps};
   }
 };
 

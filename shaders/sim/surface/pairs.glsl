@@ -8,6 +8,17 @@ layout(binding = PAIR_STARTS_UNIT) uniform usamplerBuffer pairStarts;
 layout(binding = PAIR_BLOCKS_UNIT) uniform usamplerBuffer pairBlocks;
 layout(binding = PAIR_ENTRIES_UNIT) uniform usamplerBuffer pairEntries;
 
+#if HAS_SMALL_COLLIDERS
+layout(binding = PAIR_CARRIES_UNIT) uniform samplerBuffer pairCarries;
+// A displacement of a pair, relative to the small collider that it may be with.
+vec3 relativeToPair(uint q, vec3 d) {
+  precise vec3 relative = d - texelFetch(pairCarries, int(q)).xyz;
+  return relative;
+}
+#else
+vec3 relativeToPair(uint q, vec3 d) { return d; }
+#endif
+
 vec4 pairRow(uint q, uint row) { return texelFetch(pairRows, int(4u * q + row)); }
 
 // Of a particle: entries [x, y).

@@ -15,6 +15,9 @@ layout(std430, binding = SURFACE_OUT_BINDING) writeonly buffer Rows { vec4 newRo
 #endif
 
 uint found = 0u, firstFound = 0u;
+#if HAS_SMALL_COLLIDERS
+#include "sim/surface/near.glsl"
+#endif
 
 bool isNearest(uint outer, uint corner, uint particle, vec3 way) {
   if (outer == NO_PARTICLE) return true;
@@ -121,7 +124,10 @@ void main() {
   counts[own] = 0u;
   if (state.tooMany == 2u) return;
 #endif
-  lookAround(own);
+  if (surface.touchesItself != 0u) lookAround(own);
+#if HAS_SMALL_COLLIDERS
+  lookAtColliders(own);
+#endif
 #if !WRITES_PAIRS
   counts[own] = found;
   if (found > MOST_PAIRS_A_TRIANGLE) atomicOr(state.tooMany, 1u);

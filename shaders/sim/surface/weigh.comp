@@ -18,11 +18,12 @@ void main() {
   vec3 moved = weightedSum(pairRow(q, 1u), displacementAt(ids.x), displacementAt(ids.y), displacementAt(ids.z), displacementAt(ids.w));
   float along = sumOfProducts(normal.xyz, moved);
   precise float over = normal.w - along;
-  precise vec3 slip = moved - along * normal.xyz;
+  vec3 relative = relativeToPair(q, moved);
+  precise vec3 slip = relative - sumOfProducts(normal.xyz, relative) * normal.xyz;
   float squared = sumOfProducts(slip, slip), inverse = inverseSquareRoot(squared);
   precise float len = squared * inverse;
   precise float across = law.z * frictionSlope(len, inverse, slowSlip()).over;
-  float held = over > 0.0 ? law.x : 0.0;
+  float held = law.y > 0.0 ? law.w : over > 0.0 ? law.x : 0.0;
   precise vec3 force = (held * over) * normal.xyz - across * slip;
   newRows[4u * q + 2u] = vec4(law.xyz, held);
   newRows[4u * q + 3u] = vec4(canonical(force), canonical(across));

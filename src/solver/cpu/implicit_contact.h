@@ -98,6 +98,11 @@ INLINE Real contactChange(Real stiffness, Real over, Real overAfter) {
   return Real(0.5) * ((stiffness * (after - before)) * (after + before));
 }
 
+template <class Real>
+INLINE Vec3<Real> tangential(Vec3<Real> normal, Vec3<Real> d) {
+  return d - dot(normal, d) * normal;
+}
+
 // A sum over the four particles of a pair, each with its weight.
 template <class Real>
 INLINE Vec3<Real> weighted(const SurfacePair<Real>& pair, const Components<Real>& c) {
@@ -130,6 +135,11 @@ INLINE void addPairs(const TouchingPairs<Real>& touching, std::ptrdiff_t i, Vec3
     block.diagonal = block.diagonal + Vec3<Real>{across, across, across};
   });
 }
+// How far a small collider carries a pair along.
+template <class Real>
+INLINE Vec3<Real> carryOf(const TouchingPairs<Real>& touching, std::uint32_t q) {
+  return touching.carries.empty() ? Vec3<Real>{} : touching.carries[q];
+}
 // How the energies of the pairs whose first particle this is change along the increments.
 template <class Real>
 INLINE void addPairTrials(ImplicitState<Real>& own, std::ptrdiff_t i, Real slow) {
@@ -138,7 +148,8 @@ INLINE void addPairTrials(ImplicitState<Real>& own, std::ptrdiff_t i, Real slow)
     const SurfacePair<Real>& pair = own.touching.pairs[q];
     const Vec3<Real> d = weighted(pair, own.displacements), e = weighted(pair, own.increments);
     const Real along = dot(pair.normal, d), fall = dot(pair.normal, e), over = pair.over - along;
-    const Vec3<Real> slip = d - along * pair.normal, slide = e - fall * pair.normal;
+    const Vec3<Real> slip = tangential(pair.normal, d - carryOf(own.touching, q)),
+                     slide = e - fall * pair.normal;
     const Real resisted = frictionPotential(slip, slow);
     for (std::size_t k = 0; k < LENGTHS_TRIED; ++k) {
       const Real l = lengthTried<Real>(k);
