@@ -29,14 +29,13 @@ class ThreadTeam {
 
   [[nodiscard]] int threads() const { return static_cast<int>(workers_.size()) + 1; }
 
-  // body(i) for each i in [first, end), in any order, on all threads; returns when all are done. A thread
-  // takes `grain` of them at once, and less than 2 grains are not worth a second thread. The body must not
-  // throw. Who calls while another thread does, or from a body, has its own done alone.
+  // body(begin, end) for stretches of [first, end), in any order, on all threads; returns when all are done.
+  // A thread takes `grain` entries at once, and less than 2 grains are not worth a second thread. The body
+  // must not throw. Who calls while another thread does, or from a body, has its own done alone.
   template <class Body>
-  void forEach(std::uint32_t first, std::uint32_t end, std::uint32_t grain, const Body& body) {
+  void forEachRange(std::uint32_t first, std::uint32_t end, std::uint32_t grain, const Body& body) {
     const auto range = [](const void* context, std::uint32_t begin, std::uint32_t finish) noexcept {
-      const Body& own = *static_cast<const Body*>(context);
-      for (std::uint32_t i = begin; i < finish; ++i) own(i);
+      (*static_cast<const Body*>(context))(begin, finish);
     };
     if (workers_.empty() || end - first < 2 * grain || isBusy_.test_and_set(std::memory_order_acquire)) {
       range(&body, first, end);
@@ -44,6 +43,13 @@ class ThreadTeam {
     }
     run(first, end, grain, range, &body);
     isBusy_.clear(std::memory_order_release);
+  }
+  // body(i) for each i in them.
+  template <class Body>
+  void forEach(std::uint32_t first, std::uint32_t end, std::uint32_t grain, const Body& body) {
+    forEachRange(first, end, grain, [&](std::uint32_t begin, std::uint32_t finish) {
+      for (std::uint32_t i = begin; i < finish; ++i) body(i);
+    });
   }
 
  private:

@@ -1,56 +1,9 @@
 #include "solver/cpu/contact_blocks.h"
 
 #include <algorithm>
-#include <array>
-#include <cstring>
-
-#include "solver/cpu/vectors.h"
 
 namespace clothsim::cpu {
 namespace {
-
-// The positions and places of a block, eight at a time. Where there are fewer than BLOCK, the last is there
-// again.
-template <class Real>
-struct BlockPlaces {
-  std::array<Eight<Real>, BLOCK / 8> x, y, z, column, row;
-
-  INLINE BlockPlaces(const Components<Real>& p, const LatticePlaces<Real>& places, const Block& block) {
-    const auto gather = [&](const std::vector<Real>& values, std::array<Eight<Real>, BLOCK / 8>& lanes) {
-      for (std::uint32_t k = 0; k < BLOCK; ++k)
-        lanes[k / 8][k % 8] = values[std::min(block.begin + k, block.end - 1)];
-    };
-    gather(p.x, x);
-    gather(p.y, y);
-    gather(p.z, z);
-    gather(places.columns, column);
-    gather(places.rows, row);
-  }
-};
-
-template <class Real>
-INLINE std::size_t keepNearLanes(const Components<Real>& p, const LatticePlaces<Real>& places,
-                                 const Block& block, Real searchSquared, Real neighbours,
-                                 std::vector<std::uint32_t>& others) {
-  const BlockPlaces<Real> own(p, places, block);
-  std::size_t kept = 0;
-  for (const std::uint32_t j : others) {
-    auto isNear = own.x[0] < own.x[0];
-    for (std::size_t k = 0; k < BLOCK / 8; ++k) {
-      const Eight<Real> x = own.x[k] - p.x.data()[j], y = own.y[k] - p.y.data()[j],
-                        z = own.z[k] - p.z.data()[j], across = own.column[k] - places.columns.data()[j],
-                        along = own.row[k] - places.rows.data()[j];
-      isNear |= ((x * x + y * y) + z * z < searchSquared) & (across * across + along * along > neighbours);
-    }
-    std::array<std::uint64_t, sizeof isNear / 8> bits;
-    std::memcpy(bits.data(), &isNear, sizeof isNear);
-    std::uint64_t any = 0;
-    for (const std::uint64_t word : bits) any |= word;
-    others[kept] = j;
-    kept += any != 0 ? 1 : 0;
-  }
-  return kept;
-}
 
 template <bool nearCodes, class Real>
 INLINE bool slotTouches(const View<Real>& view, const std::uint32_t* row, const Block& block) {
@@ -137,11 +90,6 @@ INLINE bool anyLaneMoved(const Real* const* now, const Real* const* then, const 
   return any != 0;
 }
 
-VECTOR_CLONES std::size_t keepNearFloatLanes(const Components<float>& p, const LatticePlaces<float>& places,
-                                             const Block& block, float searchSquared, float neighbours,
-                                             std::vector<std::uint32_t>& others) {
-  return keepNearLanes(p, places, block, searchSquared, neighbours, others);
-}
 VECTOR_CLONES void addAveraged(const View<float>& view, const std::uint32_t* candidates, const Block& block,
                                Sums<float>& sums) {
   addLanes<false, false>(view, candidates, block, sums);
@@ -169,15 +117,6 @@ VECTOR_CLONES void moveRobust(const View<float>& view, const Block& block, const
 }
 
 }  // namespace
-
-template <class Real>
-std::size_t keepNear(const Components<Real>& positions, const LatticePlaces<Real>& places, const Block& block,
-                     Real searchSquared, Real neighbours, std::vector<std::uint32_t>& others) {
-  if constexpr (std::is_same_v<Real, float>)
-    return keepNearFloatLanes(positions, places, block, searchSquared, neighbours, others);
-  else
-    return keepNearLanes(positions, places, block, searchSquared, neighbours, others);
-}
 
 template <class Real>
 void moveByContacts(bool robust, const View<Real>& view, const Block& block, const Sums<Real>& sums,
@@ -227,8 +166,6 @@ void copyBlock(const Components<Real>& from, Components<Real>& to, const Block& 
 }
 
 #define INSTANTIATE(Real)                                                                                    \
-  template std::size_t keepNear(const Components<Real>&, const LatticePlaces<Real>&, const Block&, Real,     \
-                                Real, std::vector<std::uint32_t>&);                                          \
   template void addContacts(bool, bool, const View<Real>&, const std::uint32_t*, const Block&, Sums<Real>&); \
   template void moveByContacts(bool, const View<Real>&, const Block&, const Sums<Real>&, Components<Real>&,  \
                                Components<Real>&);                                                           \

@@ -25,13 +25,6 @@ struct LatticePlaces {
   std::vector<Real> columns, rows;
 };
 
-// Of the particles `others`, keeps those that lie within sqrt(searchSquared) of some particle of the block
-// and are not its neighbours: at most sqrt(neighbours) columns and rows away. Returns how many are left.
-template <class Real>
-[[nodiscard]] std::size_t keepNear(const Components<Real>& positions, const LatticePlaces<Real>& places,
-                                   const Block& block, Real searchSquared, Real neighbours,
-                                   std::vector<std::uint32_t>& others);
-
 // Adds what each contact asks for to the particle's sums.
 template <class Real>
 void addContacts(bool robust, bool nearCodes, const View<Real>& view, const std::uint32_t* candidates,

@@ -10,6 +10,7 @@
 #include "core/thread_team.h"
 #include "solver/cpu/arrays.h"
 #include "solver/cpu/fixed_sum.h"
+#include "solver/cpu/force_rows.h"
 #include "solver/cpu/multilevel.h"
 #include "solver/cpu/rows.h"
 
@@ -20,52 +21,56 @@ namespace {
 template <class Real>
 constexpr Real leastSum = static_cast<Real>(0x1p-110f);
 
+// A thread begins with rows about its first one.
+constexpr std::uint32_t LEAST_ROWS_AT_ONCE = 8;
+
 // What a pass does with one row of a grid, or of a mesh (rows.h).
 template <class Real>
-using RowPass = void (*)(const cpu::ImplicitArguments<Real>&, int row);
+using RowPass = void (*)(const cpu::ImplicitArguments<Real>&, int row, cpu::ForceRows<Real>&);
 
 template <class Real>
 RowPass<Real> rowPassOf(Pass pass) {
   using Arguments = cpu::ImplicitArguments<Real>;
+  using Rows = cpu::ForceRows<Real>;
   switch (pass) {
     case Pass::checkStart:
-      return [](const Arguments& piece, int row) { cpu::checkStart(piece.step, row); };
+      return [](const Arguments& piece, int row, Rows&) { cpu::checkStart(piece.step, row); };
     case Pass::kick:
-      return [](const Arguments& piece, int row) { cpu::kick(piece.step, row); };
+      return [](const Arguments& piece, int row, Rows&) { cpu::kick(piece.step, row); };
     case Pass::forces:
-      return [](const Arguments& piece, int row) { cpu::gatherForces(piece.step, row); };
+      return [](const Arguments& piece, int row, Rows& rows) { cpu::gatherForces(piece.step, row, rows); };
     case Pass::integrate:
-      return [](const Arguments& piece, int row) { cpu::integrate(piece.step, row); };
+      return [](const Arguments& piece, int row, Rows&) { cpu::integrate(piece.step, row); };
     case Pass::collide:
-      return [](const Arguments& piece, int row) { cpu::collide(piece.step, row); };
+      return [](const Arguments& piece, int row, Rows&) { cpu::collide(piece.step, row); };
     case Pass::watchLimit:
-      return [](const Arguments& piece, int row) { cpu::watchLimit(piece.step, row); };
+      return [](const Arguments& piece, int row, Rows&) { cpu::watchLimit(piece.step, row); };
     case Pass::begin:
-      return [](const Arguments& piece, int row) { cpu::begin(piece, row); };
+      return [](const Arguments& piece, int row, Rows&) { cpu::begin(piece, row); };
     case Pass::findPlanes:
-      return [](const Arguments& piece, int row) {
+      return [](const Arguments& piece, int row, Rows&) {
         cpu::findPlanes(piece.step, piece.own.iterate.positions, piece.own.planes, row);
       };
     case Pass::predictPlanes:
-      return [](const Arguments& piece, int row) { cpu::predictPlanes(piece, row); };
+      return [](const Arguments& piece, int row, Rows&) { cpu::predictPlanes(piece, row); };
     case Pass::elasticForces:
-      return [](const Arguments& piece, int row) { cpu::gatherElasticForces(piece, row); };
+      return [](const Arguments& piece, int row, Rows& rows) { cpu::gatherElasticForces(piece, row, rows); };
     case Pass::linearize:
-      return [](const Arguments& piece, int row) { cpu::linearize(piece, row); };
+      return [](const Arguments& piece, int row, Rows&) { cpu::linearize(piece, row); };
     case Pass::updateDirection:
-      return [](const Arguments& piece, int row) { cpu::updateDirection(piece, row); };
+      return [](const Arguments& piece, int row, Rows&) { cpu::updateDirection(piece, row); };
     case Pass::multiply:
-      return [](const Arguments& piece, int row) { cpu::multiply(piece, row); };
+      return [](const Arguments& piece, int row, Rows&) { cpu::multiply(piece, row); };
     case Pass::updateSolution:
-      return [](const Arguments& piece, int row) { cpu::updateSolution(piece, row); };
+      return [](const Arguments& piece, int row, Rows&) { cpu::updateSolution(piece, row); };
     case Pass::tryLengths:
-      return [](const Arguments& piece, int row) { cpu::tryLengths(piece, row); };
+      return [](const Arguments& piece, int row, Rows&) { cpu::tryLengths(piece, row); };
     case Pass::accept:
-      return [](const Arguments& piece, int row) { cpu::accept(piece, row); };
+      return [](const Arguments& piece, int row, Rows&) { cpu::accept(piece, row); };
     case Pass::end:
-      return [](const Arguments& piece, int row) { cpu::end(piece, row); };
+      return [](const Arguments& piece, int row, Rows&) { cpu::end(piece, row); };
     case Pass::remember:
-      return [](const Arguments& piece, int row) { cpu::remember(piece, row); };
+      return [](const Arguments& piece, int row, Rows&) { cpu::remember(piece, row); };
     default:
       assert(false && "this pass does not run over rows");
       return nullptr;
@@ -242,11 +247,15 @@ void CpuExecutor<Real>::runByRows(std::span<const PassCall> passes) {
   for (const cpu::ImplicitArguments<Real>& piece : pieces_) {
     const Piece& lattice = cloth_->pieces()[piece.step.step.piece];
     const int rows = cpu::rowsOf(lattice);
-    ThreadTeam::shared().forEach(0, static_cast<std::uint32_t>(rows), rowsAtOnce(lattice),
-                                 [&](std::uint32_t row) {
-                                   for (std::size_t k = 0; k < passes.size(); ++k)
-                                     rowPasses[k](piece, static_cast<int>(row));
-                                 });
+    ThreadTeam::shared().forEachRange(0, static_cast<std::uint32_t>(rows),
+                                      std::max(rowsAtOnce(lattice), LEAST_ROWS_AT_ONCE),
+                                      [&](std::uint32_t begin, std::uint32_t end) {
+                                        thread_local cpu::ForceRows<Real> forceRows;
+                                        forceRows.begin(lattice.isMesh ? 0 : lattice.columns);
+                                        for (std::uint32_t row = begin; row < end; ++row)
+                                          for (std::size_t k = 0; k < passes.size(); ++k)
+                                            rowPasses[k](piece, static_cast<int>(row), forceRows);
+                                      });
   }
 }
 

@@ -6,7 +6,9 @@
 #include <array>
 
 #include "core/exact_math.h"
+#include "solver/cpu/arrays.h"
 #include "solver/cpu/force_laws.h"
+#include "solver/cpu/force_rows.h"
 #include "solver/cpu/mesh_forces.h"
 #include "solver/cpu/particle_forces.h"
 #include "solver/cpu/rows.h"
@@ -17,34 +19,40 @@
 namespace clothsim::cpu {
 namespace {
 
-// Adds the forces of one incident spring to every particle of the stretch. Of owned springs it returns the
-// largest bits of l^2 for the watchdog: one end of each spring is enough.
-template <bool owned, bool hasCuts, class Real, class RestLengths>
-INLINE auto addSpring(const PassArguments<Real>& arguments, Range particles, SpringPlace place,
-                      Real stiffness, RestLengths rest) {
+// work(begin, end) for sixteen particles each, so that a loop over them needs no remainder: the last ones may
+// be worked on twice, which must do no harm.
+template <class Work>
+INLINE void forEachSixteen(Range particles, Work work) {
+  constexpr std::ptrdiff_t sixteen = 16;
+  const std::ptrdiff_t last = particles.end - sixteen;
+  if (last < particles.begin) return work(particles.begin, particles.end);
+  for (std::ptrdiff_t begin = particles.begin; begin < last; begin += sixteen) work(begin, begin + sixteen);
+  work(last, last + sixteen);
+}
+
+// The forces of the springs that the particles of a stretch own, into `row`. Returns the largest bits of l^2.
+template <bool hasCuts, class Real, class RestLengths>
+INLINE auto computeSprings(const PassArguments<Real>& arguments, Range particles, SpringPlace place,
+                           Real stiffness, RestLengths rest, const Arrays<Real>& row, std::ptrdiff_t start) {
   const auto [bit, other] = place;
   const std::uint32_t* cutMasks = arguments.cutMasks;
   const Real *x = arguments.before.positions.x.data(), *y = arguments.before.positions.y.data(),
              *z = arguments.before.positions.z.data();
-  Real *fx = arguments.forces.x.data(), *fy = arguments.forces.y.data(), *fz = arguments.forces.z.data();
+  Real *fx = row.x - start, *fy = row.y - start, *fz = row.z - start;
   auto longest = bitsOf(Real(0));
-  const auto add = [ =, bit = bit, other = other ](std::ptrdiff_t i) __attribute__((always_inline)) {
-    const Vec3<Real> a = load(x, y, z, i), b = load(x, y, z, i + other);
-    const Vec3<Real> f = springForce(a, b, stiffness, rest[i]);
-    const bool isCut = isCutAt<hasCuts>(cutMasks, i, bit);
-    fx[i] = isCut ? fx[i] : fx[i] + f.x;
-    fy[i] = isCut ? fy[i] : fy[i] + f.y;
-    fz[i] = isCut ? fz[i] : fz[i] + f.z;
-    return isCut ? Real(0) : dot(b - a, b - a);
-  };
-  if constexpr (owned) {
+  forEachSixteen(
+      particles, [&](std::ptrdiff_t begin, std::ptrdiff_t end) __attribute__((always_inline)) {
 #pragma GCC ivdep
-    for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i)
-      longest = larger(longest, bitsOf(add(i)));
-  } else {
-#pragma omp simd
-    for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) add(i);
-  }
+        for (std::ptrdiff_t i = begin; i < end; ++i) {
+          const Vec3<Real> a = load(x, y, z, i), b = load(x, y, z, i + other);
+          const Vec3<Real> f = springForce(a, b, stiffness, rest[i]);
+          const bool isCut = isCutAt<hasCuts>(cutMasks, i, bit);
+          fx[i] = isCut ? Real(0) : f.x;
+          fy[i] = isCut ? Real(0) : f.y;
+          fz[i] = isCut ? Real(0) : f.z;
+          longest = larger(longest, bitsOf(isCut ? Real(0) : dot(b - a, b - a)));
+        }
+      });
   return longest;
 }
 
@@ -62,26 +70,57 @@ template <class Real>
   }
 }
 
-template <bool hasCuts, class Real, class RestLengths>
-INLINE void addIncidentSpring(const PassArguments<Real>& arguments, Range particles, bool owned,
-                              SpringPlace place, const SpringParams<Real>& spring, RestLengths rest) {
-  if (!owned) {
-    addSpring<false, hasCuts>(arguments, particles, place, spring.stiffness, rest);
-  } else if (addSpring<true, hasCuts>(arguments, particles, place, spring.stiffness, rest) >
-             bitsOf(spring.maxLengthSquared)) {
-    noteOverlong(arguments, particles, place, spring.maxLengthSquared);
-  }
-}
-
 template <bool hasCuts, class Real>
-INLINE void addSprings(const PassArguments<Real>& arguments, int row) {
-  forEachSpringRange(
-      arguments, row,
+INLINE void computeSprings(const PassArguments<Real>& arguments, std::uint32_t slot, int row,
+                           ForceRows<Real>& rows) {
+  const Arrays<Real> forces = rows.row(slot, row);
+  const std::ptrdiff_t start = rangeOf(arguments.step, row).begin;
+  const bool areThere = forEachStretch(
+      arguments, row, slot,
       [&](Range particles, SpringPlace place, const SpringParams<Real>& spring, auto rest)
           __attribute__((always_inline)) {
-            addIncidentSpring<hasCuts>(arguments, particles, incidentSprings[place.bit].owned, place, spring,
-                                       rest);
+            const auto longest =
+                computeSprings<hasCuts>(arguments, particles, place, spring.stiffness, rest, forces, start);
+            if (longest > bitsOf(spring.maxLengthSquared))
+              noteOverlong(arguments, particles, place, spring.maxLengthSquared);
           });
+  if (!areThere) rows.clear(slot, row);
+}
+
+// f[i] + g[i], or f[i] - g[i].
+template <bool plus, class Real>
+INLINE void addRow(const Arrays<Real>& f, const Arrays<Real>& g, std::ptrdiff_t shift, std::ptrdiff_t count) {
+  const auto add = [=](Real * to, const Real* from) __attribute__((always_inline)) {
+#pragma GCC ivdep
+    for (std::ptrdiff_t c = 0; c < count; ++c) to[c] = plus ? to[c] + from[c] : to[c] - from[c];
+  };
+  add(f.x, g.x + shift);
+  add(f.y, g.y + shift);
+  add(f.z, g.z + shift);
+}
+
+template <class Real>
+INLINE Arrays<Real> forcesOf(const PassArguments<Real>& arguments, Range particles) {
+  Components<Real>& f = arguments.forces;
+  return {f.x.data() + particles.begin, f.y.data() + particles.begin, f.z.data() + particles.begin};
+}
+
+// What one end feels is exactly the negative of what the other does. Where there is no spring, a 0 is added:
+// sums that begin with 0 are never -0, so that nothing changes.
+template <bool hasCuts, class Real>
+INLINE void addSprings(const PassArguments<Real>& arguments, int row, ForceRows<Real>& rows) {
+  for (std::uint32_t slot = 0; slot < SPRING_SLOTS; ++slot)
+    rows.ensure(
+        slot, row, row - springOffsets[slot].rows, [&](int owners) __attribute__((always_inline)) {
+          computeSprings<hasCuts>(arguments, slot, owners, rows);
+        });
+  const Range particles = rangeOf(arguments.step, row);
+  const Arrays<Real> forces = forcesOf(arguments, particles);
+  const std::ptrdiff_t count = particles.end - particles.begin;
+  for (const IncidentSpring& incident : incidentSprings)
+    incident.owned
+        ? addRow<true>(forces, rows.row(incident.slot, row), 0, count)
+        : addRow<false>(forces, rows.row(incident.slot, row + incident.rows), incident.columns, count);
 }
 
 // What springs that are longer than limitLength add to their forces in `implicit`.
@@ -176,16 +215,85 @@ INLINE void addBending(const PassArguments<Real>& arguments, int row) {
 }
 
 template <bool hasCuts, class Real>
-INLINE void addElasticForces(const PassArguments<Real>& arguments, int row) {
-  addSprings<hasCuts>(arguments, row);
+INLINE void addElasticForces(const PassArguments<Real>& arguments, int row, ForceRows<Real>& rows) {
+  addSprings<hasCuts>(arguments, row, rows);
   if (arguments.step.limitStiffness > Real(0)) addLimitSprings<hasCuts>(arguments, row);
   if (arguments.step.hasMaterial != 0) addBending<hasCuts>(arguments, row);
 }
 
-// With `resists` it adds up the matrices r n n^T as well.
-template <bool hasCuts, bool jet, bool resists, class Real>
-INLINE void addWind(const PassArguments<Real>& arguments, int row,
-                    [[maybe_unused]] SymmetricField<Real>* resistance) {
+// The wind on the triangles of the cells of a row: a corner at (c, r), or at (c + 1, r + 1).
+template <bool hasCuts, bool jet, class Real>
+INLINE void computeWind(const PassArguments<Real>& arguments, std::size_t kind, int row,
+                        ForceRows<Real>& rows) {
+  const StepParams<Real>& step = arguments.step;
+  if (row < 0 || row + 1 >= static_cast<int>(step.rows)) return rows.clear(kind, row);
+  const bool isUpper = kind == ForceRows<Real>::UPPER_TRIANGLE;
+  const Arrays<const Real> p = arraysOf(arguments.before.positions),
+                           v = arraysOf(arguments.before.velocities);
+  const Real *x = p.x, *y = p.y, *z = p.z, *vx = v.x, *vy = v.y, *vz = v.z;
+  const auto& [a, b, c] = incidentTriangles[isUpper ? 5 : 0];
+  const int down = isUpper ? 0 : 1;  // from the cell to the particle that incidentTriangles starts at
+  const auto offset = [&](Corner corner) {
+    return indexOffset(step, corner.columns + down, corner.rows + down);
+  };
+  const std::ptrdiff_t ia = offset(a), ib = offset(b), ic = offset(c);
+  const Range cells = rangeOf(step, row, 0, 1);
+  const InteractionParams<Real>& interaction = arguments.interaction;
+  // The mask of (c, r), or of (c, r + 1), whose third triangle the second of a cell is.
+  const std::uint32_t* cutMasks =
+      hasCuts ? arguments.cutMasks + (isUpper ? 0 : indexOffset(step, 0, 1)) : nullptr;
+  const std::uint32_t bit = FIRST_CUT_TRIANGLE + (isUpper ? 5 : 2);
+  const Arrays<Real> forces = rows.row(kind, row);
+  Real *fx = forces.x - cells.begin, *fy = forces.y - cells.begin, *fz = forces.z - cells.begin;
+  forEachSixteen(
+      cells, [&](std::ptrdiff_t begin, std::ptrdiff_t end) __attribute__((always_inline)) {
+#pragma omp simd
+        for (std::ptrdiff_t i = begin; i < end; ++i) {
+          const bool isCut = isCutAt<hasCuts>(cutMasks, i, bit);
+          const auto [f, normal, r] = windOn<jet>(
+              step, interaction, load(x, y, z, i + ia), load(x, y, z, i + ib), load(x, y, z, i + ic),
+              load(vx, vy, vz, i + ia), load(vx, vy, vz, i + ib), load(vx, vy, vz, i + ic));
+          fx[i] = isCut ? Real(0) : f.x;
+          fy[i] = isCut ? Real(0) : f.y;
+          fz[i] = isCut ? Real(0) : f.z;
+        }
+      });
+}
+
+// In the order of incidentTriangles.
+template <bool hasCuts, bool jet, class Real>
+INLINE void addWind(const PassArguments<Real>& arguments, int row, ForceRows<Real>& rows) {
+  constexpr std::size_t upper = ForceRows<Real>::UPPER_TRIANGLE, lower = ForceRows<Real>::LOWER_TRIANGLE;
+  for (const std::size_t kind : {upper, lower})
+    rows.ensure(
+        kind, row - 1, row, [&](int cells) __attribute__((always_inline)) {
+          computeWind<hasCuts, jet>(arguments, kind, cells, rows);
+        });
+  const Range particles = rangeOf(arguments.step, row);
+  const Arrays<Real> forces = forcesOf(arguments, particles);
+  const auto add = [&](std::size_t kind, int cells, int shift) __attribute__((always_inline)) {
+    addRow<true>(forces, rows.row(kind, cells), shift, particles.end - particles.begin);
+  };
+  add(lower, row - 1, -1);
+  add(upper, row - 1, 0);
+  add(lower, row - 1, 0);
+  add(upper, row, -1);
+  add(lower, row, -1);
+  add(upper, row, 0);
+}
+
+template <class Real>
+INLINE void addWind(const PassArguments<Real>& arguments, int row, ForceRows<Real>& rows) {
+  if (arguments.cutMasks != nullptr)
+    arguments.jet ? addWind<true, true>(arguments, row, rows) : addWind<true, false>(arguments, row, rows);
+  else
+    arguments.jet ? addWind<false, true>(arguments, row, rows) : addWind<false, false>(arguments, row, rows);
+}
+
+// The wind on the triangles at each particle, and the matrices r n n^T by which they resist.
+template <bool hasCuts, bool jet, class Real>
+INLINE void addResistingWind(const PassArguments<Real>& arguments, int row,
+                             SymmetricField<Real>& resistance) {
   const StepParams<Real>& step = arguments.step;
   const Components<Real>&p = arguments.before.positions, &v = arguments.before.velocities;
   const Real *x = p.x.data(), *y = p.y.data(), *z = p.z.data(), *vx = v.x.data(), *vy = v.y.data(),
@@ -210,21 +318,9 @@ INLINE void addWind(const PassArguments<Real>& arguments, int row,
       fx[i] = isCut ? fx[i] : fx[i] + f.x;
       fy[i] = isCut ? fy[i] : fy[i] + f.y;
       fz[i] = isCut ? fz[i] : fz[i] + f.z;
-      if constexpr (resists)
-        if (!isCut) addTo(*resistance, i, outerProduct(r, normal));
+      if (!isCut) addTo(resistance, i, outerProduct(r, normal));
     }
   }
-}
-
-template <bool resists, class Real>
-INLINE void addWind(const PassArguments<Real>& arguments, int row, SymmetricField<Real>* resistance) {
-  const bool hasCuts = arguments.cutMasks != nullptr;
-  if (hasCuts)
-    arguments.jet ? addWind<true, true, resists>(arguments, row, resistance)
-                  : addWind<true, false, resists>(arguments, row, resistance);
-  else
-    arguments.jet ? addWind<false, true, resists>(arguments, row, resistance)
-                  : addWind<false, false, resists>(arguments, row, resistance);
 }
 
 template <class Real>
@@ -254,24 +350,26 @@ INLINE void clearForces(const PassArguments<Real>& arguments, int row) {
 }
 
 template <class Real>
-INLINE void gatherForcesRow(const PassArguments<Real>& arguments, int row) {
+INLINE void gatherForcesRow(const PassArguments<Real>& arguments, int row, ForceRows<Real>& rows) {
   clearForces(arguments, row);
   if (arguments.step.isMesh != 0) {
     gatherMeshForces(arguments, row);
   } else {
-    arguments.cutMasks != nullptr ? addElasticForces<true>(arguments, row)
-                                  : addElasticForces<false>(arguments, row);
-    if (arguments.step.hasWind != 0) addWind<false, Real>(arguments, row, nullptr);
+    arguments.cutMasks != nullptr ? addElasticForces<true>(arguments, row, rows)
+                                  : addElasticForces<false>(arguments, row, rows);
+    if (arguments.step.hasWind != 0) addWind(arguments, row, rows);
   }
   addParticleForces(arguments, row);
 }
 
 }  // namespace
 
-VECTOR_CLONES void gatherForces(const PassArguments<float>& arguments, int row) {
-  gatherForcesRow(arguments, row);
+VECTOR_CLONES void gatherForces(const PassArguments<float>& arguments, int row, ForceRows<float>& rows) {
+  gatherForcesRow(arguments, row, rows);
 }
-void gatherForces(const PassArguments<double>& arguments, int row) { gatherForcesRow(arguments, row); }
+void gatherForces(const PassArguments<double>& arguments, int row, ForceRows<double>& rows) {
+  gatherForcesRow(arguments, row, rows);
+}
 
 VECTOR_CLONES void addBendingForces(const PassArguments<float>& arguments, int row) {
   arguments.cutMasks != nullptr ? addBending<true>(arguments, row) : addBending<false>(arguments, row);
@@ -287,7 +385,13 @@ void gatherWind(const PassArguments<Real>& arguments, int row, SymmetricField<Re
   const Range particles = rangeOf(arguments.step, row);
   for (std::vector<Real>* r : resistance.all())
     std::fill(r->data() + particles.begin, r->data() + particles.end, Real(0));
-  addWind<true>(arguments, row, &resistance);
+  const bool hasCuts = arguments.cutMasks != nullptr;
+  if (hasCuts)
+    arguments.jet ? addResistingWind<true, true>(arguments, row, resistance)
+                  : addResistingWind<true, false>(arguments, row, resistance);
+  else
+    arguments.jet ? addResistingWind<false, true>(arguments, row, resistance)
+                  : addResistingWind<false, false>(arguments, row, resistance);
 }
 template void gatherWind(const PassArguments<float>&, int, SymmetricField<float>&);
 template void gatherWind(const PassArguments<double>&, int, SymmetricField<double>&);

@@ -149,11 +149,11 @@ void begin(const ImplicitArguments<Real>& arguments, int row) {
 }
 
 template <class Real>
-void gatherElasticForces(const ImplicitArguments<Real>& arguments, int row) {
+void gatherElasticForces(const ImplicitArguments<Real>& arguments, int row, ForceRows<Real>& rows) {
   StepParams<Real> elastic = arguments.step.step;  // air is in the right-hand side
   elastic.hasWind = 0;
   elastic.particleForces = 0;
-  gatherForces(withState(arguments.step, elastic, arguments.own.iterate, arguments.step.forces), row);
+  gatherForces(withState(arguments.step, elastic, arguments.own.iterate, arguments.step.forces), row, rows);
 }
 
 template <class Real>
@@ -233,8 +233,8 @@ void remember(const ImplicitArguments<Real>& arguments, int row) {
 
 template void begin(const ImplicitArguments<float>&, int);
 template void begin(const ImplicitArguments<double>&, int);
-template void gatherElasticForces(const ImplicitArguments<float>&, int);
-template void gatherElasticForces(const ImplicitArguments<double>&, int);
+template void gatherElasticForces(const ImplicitArguments<float>&, int, ForceRows<float>&);
+template void gatherElasticForces(const ImplicitArguments<double>&, int, ForceRows<double>&);
 template struct ImplicitState<float>;
 template struct ImplicitState<double>;
 template void predictPlanes(const ImplicitArguments<float>&, int);

@@ -79,7 +79,7 @@ template <class Real>
 void begin(const ImplicitArguments<Real>& arguments, int row);
 // step.forces = those of springs and bending at the iterate.
 template <class Real>
-void gatherElasticForces(const ImplicitArguments<Real>& arguments, int row);
+void gatherElasticForces(const ImplicitArguments<Real>& arguments, int row, ForceRows<Real>& rows);
 // From the elastic forces at the iterate, in step.forces: which planes hold and what friction does,
 // residuals, blocks of the preconditioner; clears the increments.
 void linearize(const ImplicitArguments<float>& arguments, int row);

@@ -5,6 +5,7 @@
 
 #include "core/exact_math.h"
 #include "solver/cpu/rows.h"
+#include "solver/cpu/spring_rows.h"
 #include "solver/cpu/watch.h"
 
 namespace clothsim::cpu {
@@ -172,6 +173,60 @@ void limitMesh(const PassArguments<Real>& arguments, const LimitColor& color, st
   }
 }
 
+// Whether a spring of some owner, of this colour or not, is longer than its limit.
+template <class Real, class RestLengths>
+INLINE bool anyTooLong(const PassArguments<Real>& arguments, Range owners, std::ptrdiff_t other,
+                       RestLengths rest, Real nominal) {
+  const Components<Real>& p = arguments.after.positions;
+  const Real *x = p.x.data(), *y = p.y.data(), *z = p.z.data(), factor = arguments.step.limitFactor;
+  std::uint32_t any = 0;
+#pragma omp simd reduction(| : any)
+  for (std::ptrdiff_t i = owners.begin; i < owners.end; ++i) {
+    const Real dx = x[i + other] - x[i], dy = y[i + other] - y[i], dz = z[i + other] - z[i];
+    const Real limit = limitLength(rest, i, factor, nominal);
+    any |= limit * limit < (dx * dx + dy * dy) + dz * dz ? 1u : 0u;
+  }
+  return any != 0;
+}
+
+// Most springs are not too long: sixteen owners are looked at together first.
+template <class Real, class RestLengths>
+INLINE void limitRow(const PassArguments<Real>& arguments, const LimitColor& color, std::ptrdiff_t first,
+                     RestLengths rest) {
+  constexpr std::uint32_t lookedAt = 16;
+  const StepParams<Real>& step = arguments.step;
+  const SpringOffset& offset = springOffsets[color.slot];
+  const std::ptrdiff_t other = indexOffset(step, offset.columns, offset.rows);
+  const Real nominal = step.springs[color.slot].limitLength;
+  for (std::uint32_t begin = color.firstColumn; begin < color.endColumn; begin += lookedAt) {
+    const std::uint32_t end = std::min(begin + lookedAt, color.endColumn);
+    if (!anyTooLong(arguments, {first + begin, first + end}, other, rest, nominal)) continue;
+    for (std::uint32_t column = begin; column < end; ++column) {
+      const std::ptrdiff_t owner = first + column;
+      if ((column - color.firstColumn) % color.columnStep >= color.columnRun) continue;
+      if (arguments.cutMasks != nullptr && isCutAt<true>(arguments.cutMasks, owner, color.slot)) continue;
+      limitSpring(arguments, owner, owner + other, limitLength(rest, owner, step.limitFactor, nominal));
+    }
+  }
+}
+
+template <class Real>
+INLINE void limitGrid(const PassArguments<Real>& arguments, const LimitColor& color, std::uint32_t j) {
+  const StepParams<Real>& step = arguments.step;
+  const std::uint32_t row = color.firstRow + color.rowStep * (j / color.rowRun) + j % color.rowRun;
+  const auto first = static_cast<std::ptrdiff_t>(step.firstParticle) +
+                     static_cast<std::ptrdiff_t>(row) * static_cast<std::ptrdiff_t>(step.columns);
+  if (step.useRestLengthTable != 0)
+    limitRow(arguments, color, first,
+             arguments.restLengths + static_cast<std::size_t>(color.slot) * step.totalParticles);
+  else
+    limitRow(arguments, color, first, NominalLength<Real>{step.springs[color.slot].restLength});
+}
+VECTOR_CLONES void limitFloatGrid(const PassArguments<float>& arguments, const LimitColor& color,
+                                  std::uint32_t j) {
+  limitGrid(arguments, color, j);
+}
+
 template <class Real>
 void checkStartRow(const PassArguments<Real>& arguments, int row) {
   const Components<Real>&p = arguments.before.positions, &v = arguments.before.velocities;
@@ -205,25 +260,13 @@ void kick(const PassArguments<Real>& arguments, int row) {
   watchVelocities(arguments, PASS_KICK, row);
 }
 
-template <class Real>
-void limitStrain(const PassArguments<Real>& arguments, const LimitColor& color, std::uint32_t j) {
-  const StepParams<Real>& step = arguments.step;
-  if (step.isMesh != 0) return limitMesh(arguments, color, color.firstColumn + j * MESH_ROW);
-  const SpringOffset& offset = springOffsets[color.slot];
-  const std::ptrdiff_t other = indexOffset(step, offset.columns, offset.rows);
-  const std::uint32_t row = color.firstRow + color.rowStep * (j / color.rowRun) + j % color.rowRun;
-  const Real* rest = arguments.restLengths + static_cast<std::size_t>(color.slot) * step.totalParticles;
-  const auto first = static_cast<std::ptrdiff_t>(step.firstParticle) +
-                     static_cast<std::ptrdiff_t>(row) * static_cast<std::ptrdiff_t>(step.columns);
-  for (std::uint32_t start = color.firstColumn; start < color.endColumn; start += color.columnStep)
-    for (std::uint32_t column = start; column < std::min(start + color.columnRun, color.endColumn);
-         ++column) {
-      const std::ptrdiff_t owner = first + column;
-      if (arguments.cutMasks != nullptr && isCutAt<true>(arguments.cutMasks, owner, color.slot)) continue;
-      const Real limit = step.useRestLengthTable != 0 ? step.limitFactor * rest[owner]
-                                                      : step.springs[color.slot].limitLength;
-      limitSpring(arguments, owner, owner + other, limit);
-    }
+void limitStrain(const PassArguments<float>& arguments, const LimitColor& color, std::uint32_t j) {
+  arguments.step.isMesh != 0 ? limitMesh(arguments, color, color.firstColumn + j * MESH_ROW)
+                             : limitFloatGrid(arguments, color, j);
+}
+void limitStrain(const PassArguments<double>& arguments, const LimitColor& color, std::uint32_t j) {
+  arguments.step.isMesh != 0 ? limitMesh(arguments, color, color.firstColumn + j * MESH_ROW)
+                             : limitGrid(arguments, color, j);
 }
 
 std::uint32_t limitRows(const Piece& piece, const LimitColor& color) {
@@ -247,7 +290,5 @@ template void movePins(const PassArguments<float>&, int);
 template void movePins(const PassArguments<double>&, int);
 template void kick(const PassArguments<float>&, int);
 template void kick(const PassArguments<double>&, int);
-template void limitStrain(const PassArguments<float>&, const LimitColor&, std::uint32_t);
-template void limitStrain(const PassArguments<double>&, const LimitColor&, std::uint32_t);
 
 }  // namespace clothsim::cpu

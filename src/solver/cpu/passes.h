@@ -17,6 +17,8 @@ namespace clothsim::cpu {
 
 template <class Real>
 struct SymmetricField;  // symmetric.h
+template <class Real>
+class ForceRows;  // force_rows.h
 
 // Everything a pass reads and writes; `before` is the state at the start of the step, `after` the one at its
 // end.
@@ -55,9 +57,9 @@ PassArguments<Real> withState(const PassArguments<Real>& of, const StepParams<Re
 void checkStart(const PassArguments<float>& arguments, int row);
 void checkStart(const PassArguments<double>& arguments, int row);
 
-// One row of the grid, or of a mesh (rows.h).
-void gatherForces(const PassArguments<float>& arguments, int row);
-void gatherForces(const PassArguments<double>& arguments, int row);
+// One row of the grid, or of a mesh (rows.h). `rows` keeps what the next row needs, too.
+void gatherForces(const PassArguments<float>& arguments, int row, ForceRows<float>& rows);
+void gatherForces(const PassArguments<double>& arguments, int row, ForceRows<double>& rows);
 void integrate(const PassArguments<float>& arguments, int row);
 void integrate(const PassArguments<double>& arguments, int row);
 // Adds what a material's bending does to before.positions to the forces.
@@ -74,8 +76,8 @@ template <class Real>
 void kick(const PassArguments<Real>& arguments, int row);
 
 // Row j of the colour's owners, or of a mesh its springs from j MESH_ROW on; works in place on `after`.
-template <class Real>
-void limitStrain(const PassArguments<Real>& arguments, const LimitColor& color, std::uint32_t j);
+void limitStrain(const PassArguments<float>& arguments, const LimitColor& color, std::uint32_t j);
+void limitStrain(const PassArguments<double>& arguments, const LimitColor& color, std::uint32_t j);
 [[nodiscard]] std::uint32_t limitRows(const Piece& piece, const LimitColor& color);  // how many j there are
 // After all colours: the watchdog's look at a row.
 void watchLimit(const PassArguments<float>& arguments, int row);

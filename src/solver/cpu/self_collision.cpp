@@ -22,8 +22,7 @@ namespace {
 
 constexpr std::uint8_t WALK = MOST_CANDIDATES + 1;
 constexpr std::uint32_t EXCLUDED = ~0u;
-// The cells about a block of particles are looked at together, unless it is spread over more than these.
-constexpr std::int64_t MOST_CELLS_IN_A_ROW = 64, MOST_ROWS_OF_CELLS = 64;
+constexpr std::uint32_t TILES_AT_ONCE = 8;
 
 // --- The hash: x-neighbours share three buckets in a row.
 
@@ -118,6 +117,7 @@ void SelfCollision<Real>::configure(const Scene& scene) {
   if (!blocks_.empty()) return;
 
   const std::size_t count = params_.particles;
+  tiles_ = TileSearch<Real>(*cloth_);
   hashedPositions_.resize(count);
   sortedPositions_.resize(count);
   moved_.resize(count);
@@ -166,8 +166,8 @@ std::uint32_t SelfCollision<Real>::encodeOnMesh(std::uint32_t i, std::uint32_t j
 }
 
 template <class Real>
-std::uint32_t SelfCollision<Real>::encode(const Block& block, std::uint32_t i, std::uint32_t j) const {
-  const Piece& piece = cloth_->pieces()[block.piece];
+std::uint32_t SelfCollision<Real>::encode(std::uint32_t number, std::uint32_t i, std::uint32_t j) const {
+  const Piece& piece = cloth_->pieces()[number];
   if (j - piece.firstParticle >= piece.particleCount()) return j;
   if (piece.isMesh) return encodeOnMesh(i, j);
   const int columns = static_cast<int>(lattice_.columns[j] - lattice_.columns[i]),
@@ -180,7 +180,7 @@ std::uint32_t SelfCollision<Real>::encode(const Block& block, std::uint32_t i, s
   }
   if (across > 7 || along > 7) return j;
   const std::uint32_t code = across + 8 * along;
-  return distances_[block.piece * NEAREST_CODES + code] < params_.distance ? j | code << CANDIDATE_BITS : j;
+  return distances_[number * NEAREST_CODES + code] < params_.distance ? j | code << CANDIDATE_BITS : j;
 }
 
 template <class Real>
@@ -217,80 +217,39 @@ void SelfCollision<Real>::buildHash(const Components<Real>& positions) {
 }
 
 template <class Real>
-bool SelfCollision<Real>::gatherAround(const Block& block, std::vector<std::uint32_t>& around) const {
-  if (cloth_->pieces()[block.piece].isMesh) return false;
-  Cell least = cellAt(hashedPositions_, block.begin, params_.inverseCell), most = least;
-  for (std::uint32_t i = block.begin + 1; i < block.end; ++i) {
-    const Cell cell = cellAt(hashedPositions_, i, params_.inverseCell);
-    least = {std::min(least.x, cell.x), std::min(least.y, cell.y), std::min(least.z, cell.z)};
-    most = {std::max(most.x, cell.x), std::max(most.y, cell.y), std::max(most.z, cell.z)};
-  }
-  const std::int64_t width = std::int64_t{most.x} - least.x + 3, height = std::int64_t{most.y} - least.y + 3,
-                     depth = std::int64_t{most.z} - least.z + 3;
-  if (width > MOST_CELLS_IN_A_ROW || height * depth > MOST_ROWS_OF_CELLS || width > params_.bucketMask)
-    return false;
-  around.clear();
-  for (std::int32_t z = least.z - 1; z <= most.z + 1; ++z)
-    for (std::int32_t y = least.y - 1; y <= most.y + 1; ++y) {
-      const std::uint32_t first = bucketOf({least.x - 1, y, z}, params_.bucketMask);
-      for (std::uint32_t k = 0; k < width;) {  // a run of buckets, two where they go on with the first
-        const std::uint32_t bucket = (first + k) & params_.bucketMask,
-                            end = std::min(bucket + static_cast<std::uint32_t>(width) - k,
-                                           params_.bucketMask + 1);
-        around.insert(around.end(), sorted_.begin() + bucketStarts_[bucket],
-                      sorted_.begin() + bucketStarts_[end]);
-        k += end - bucket;
-      }
-    }
+void SelfCollision<Real>::findCandidates() {
+  tiles_.setPositions(hashedPositions_);
   // Neighbours that a cut parts are candidates.
   const Real reach = static_cast<Real>(params_.firstCode) - 1,
-             neighbours = cutMasks_.empty() ? 2 * reach * reach : Real(-1);
-  around.resize(keepNear(hashedPositions_, lattice_, block, params_.searchSquared, neighbours, around));
-  // A bucket may hold several cells, and be met for more than one of them.
-  std::sort(around.begin(), around.end());
-  around.erase(std::unique(around.begin(), around.end()), around.end());
-  return true;
+             neighbors = cutMasks_.empty() ? 2 * reach * reach : Real(-1);
+  ThreadTeam::shared().forEach(0, tiles_.tiles(), TILES_AT_ONCE, [&](std::uint32_t tile) {
+    thread_local std::vector<NearTile> found;
+    found.clear();
+    tiles_.find(tile, params_.searchSquared, neighbors, found);
+    setCandidates(tile, found);
+  });
+  forEachBlock([&](Block& block) {
+    const auto kept = [&](std::uint32_t i) { return candidateCounts_[i] == WALK ? 0u : candidateCounts_[i]; };
+    block.slots = 0;
+    for (std::uint32_t i = block.begin; i < block.end; ++i) block.slots = std::max(block.slots, kept(i));
+    for (std::uint32_t i = block.begin; i < block.end; ++i)
+      for (std::uint32_t slot = kept(i); slot < block.slots; ++slot) candidateAt(slot, i) = i;
+  });
 }
 
 template <class Real>
-void SelfCollision<Real>::findCandidates() {
-  const Components<Real>& p = hashedPositions_;
-  forEachBlock([&](Block& block) {
-    std::array<std::array<std::uint32_t, BLOCK>, MOST_CANDIDATES> found;
-    std::array<std::uint32_t, BLOCK> counts{};
-    const auto look = [&](std::uint32_t i, std::uint32_t j) {
-      const Vec3<Real> d =
-          load(p.x.data(), p.y.data(), p.z.data(), i) - load(p.x.data(), p.y.data(), p.z.data(), j);
-      if (!(dot(d, d) < params_.searchSquared) || i == j) return;
-      const std::uint32_t candidate = encode(block, i, j);
-      if (candidate == EXCLUDED) return;
-      std::uint32_t& count = counts[i - block.begin];
-      if (count < MOST_CANDIDATES) found[count][i - block.begin] = candidate;
-      ++count;
-    };
-    thread_local std::vector<std::uint32_t> around;
-    const bool areFound = gatherAround(block, around);
-    block.slots = 0;
-    for (std::uint32_t i = block.begin; i < block.end; ++i) {
-      if (areFound)
-        for (const std::uint32_t j : around) look(i, j);
-      else
-        visitCells(params_, bucketStarts_, cellAt(p, i, params_.inverseCell),
-                   [&](std::uint32_t entry, std::int32_t y, std::int32_t z) {
-                     if (hasCell(params_, sortedPositions_, entry, y, z)) look(i, sorted_[entry]);
-                   });
-      const std::uint32_t count = counts[i - block.begin];
-      candidateCounts_[i] = count > MOST_CANDIDATES ? WALK : static_cast<std::uint8_t>(count);
-      const std::uint32_t kept = count > MOST_CANDIDATES ? 0 : count;
-      for (std::uint32_t slot = kept; slot < MOST_CANDIDATES; ++slot) found[slot][i - block.begin] = i;
-      block.slots = std::max(block.slots, kept);
+void SelfCollision<Real>::setCandidates(std::uint32_t tile, std::span<const NearTile> found) {
+  const std::span<const std::uint32_t> particles = tiles_.particlesOf(tile);
+  for (const std::uint32_t i : particles) candidateCounts_[i] = 0;
+  for (const NearTile& other : found)
+    for (std::uint32_t near = other.near; near != 0; near &= near - 1) {
+      const std::uint32_t i = particles[static_cast<std::size_t>(std::countr_zero(near))];
+      if (i == other.particle || candidateCounts_[i] == WALK) continue;
+      const std::uint32_t candidate = encode(tiles_.pieceOf(tile), i, other.particle);
+      if (candidate == EXCLUDED) continue;
+      if (candidateCounts_[i] < MOST_CANDIDATES) candidateAt(candidateCounts_[i], i) = candidate;
+      ++candidateCounts_[i];  // one too many: WALK
     }
-    for (std::uint32_t slot = 0; slot < block.slots; ++slot)
-      std::copy_n(found[slot].begin(), block.end - block.begin,
-                  candidates_.begin() +
-                      static_cast<std::ptrdiff_t>(slot * static_cast<std::size_t>(params_.particles)) +
-                      block.begin);
-  });
 }
 
 template <class Real>
@@ -299,7 +258,7 @@ void SelfCollision<Real>::walk(const Block& block, std::uint32_t i, Visit visit)
   visitCells(params_, bucketStarts_, cellAt(hashedPositions_, i, params_.inverseCell),
              [&](std::uint32_t entry, std::int32_t y, std::int32_t z) {
                if (sorted_[entry] == i || !hasCell(params_, sortedPositions_, entry, y, z)) return;
-               const std::uint32_t candidate = encode(block, i, sorted_[entry]);
+               const std::uint32_t candidate = encode(block.piece, i, sorted_[entry]);
                if (candidate != EXCLUDED) visit(candidate);
              });
 }
@@ -394,8 +353,7 @@ void SelfCollision<Real>::clampMotion(const CpuState<Real>& before, CpuState<Rea
       moved_.z[i] = x.z;
       Real kept = 1;
       const auto look = [&](std::uint32_t candidate) { kept = keptMotion<true>(view, i, candidate, kept); };
-      for (std::uint32_t slot = 0; slot < block.slots; ++slot)
-        look(candidates_[slot * static_cast<std::size_t>(params_.particles) + i]);
+      for (std::uint32_t slot = 0; slot < block.slots; ++slot) look(candidateAt(slot, i));
       if (candidateCounts_[i] == WALK) walk(block, i, look);
       if (!(kept < Real(1)) || inverseMasses[i] == Real(0)) continue;
       const Vec3<Real> stopped = start + kept * (x - start);
@@ -424,8 +382,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> SelfCollision<Real>::candid
       if (candidateCounts_[i] == WALK)
         walk(block, i, add);
       else
-        for (std::uint32_t slot = 0; slot < candidateCounts_[i]; ++slot)
-          add(candidates_[slot * static_cast<std::size_t>(params_.particles) + i]);
+        for (std::uint32_t slot = 0; slot < candidateCounts_[i]; ++slot) add(candidateAt(slot, i));
     }
   }
   return pairs;

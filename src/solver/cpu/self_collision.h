@@ -9,6 +9,7 @@
 #include "cloth/cloth.h"
 #include "solver/cpu/contact_blocks.h"
 #include "solver/cpu/cpu_state.h"
+#include "solver/cpu/tile_search.h"
 #include "solver/executor.h"
 #include "solver/self_collision.h"
 
@@ -44,14 +45,16 @@ class SelfCollision {
   // Whether some pairs have distances of their own.
   [[nodiscard]] bool usesNearCodes() const { return hasNearCodes_ || !cutMasks_.empty(); }
   // The candidate (shared/self_collision.h), or EXCLUDED for a pair that is left to its springs.
-  [[nodiscard]] std::uint32_t encode(const Block& block, std::uint32_t i, std::uint32_t j) const;
+  [[nodiscard]] std::uint32_t encode(std::uint32_t piece, std::uint32_t i, std::uint32_t j) const;
   [[nodiscard]] std::uint32_t encodeOnMesh(std::uint32_t i, std::uint32_t j) const;  // of one mesh
   void checkHash(const CpuState<Real>& before, const CpuState<Real>& after);
   void buildHash(const Components<Real>& positions);
   void findCandidates();
-  // The particles about a block of a grid that may be candidates of some of its own; false: they lie too far
-  // apart, or it is a mesh.
-  bool gatherAround(const Block& block, std::vector<std::uint32_t>& around) const;
+  // Those of a tile, from what lies near it.
+  void setCandidates(std::uint32_t tile, std::span<const NearTile> found);
+  std::uint32_t& candidateAt(std::uint32_t slot, std::uint32_t particle) {
+    return candidates_[slot * static_cast<std::size_t>(params_.particles) + particle];
+  }
   void addLatticePlaces(const Piece& piece);
   // Pushes particles apart that are too near.
   void resolveContacts(const CpuState<Real>& before, CpuState<Real>& after,
@@ -75,6 +78,7 @@ class SelfCollision {
   std::vector<Real> distances_;
   std::vector<Vec3<Real>> places_;  // at rest [m]; empty without meshes
   LatticePlaces<Real> lattice_;
+  TileSearch<Real> tiles_;
   std::vector<std::uint32_t> cutMasks_;
   bool hasNearCodes_ = false;
   bool isStale_ = true;     // the hash no longer serves

@@ -50,31 +50,36 @@ INLINE void visitRange(const PassArguments<Real>& arguments, Range particles, st
   }
 }
 
-// Calls visit(particles, place, spring, rest) for the incident springs of a row in ascending number: `spring`
-// has the stiffness of all in the stretch, `rest[i]` is the rest length of particle i's. A material's springs
-// along a border count half: the whole row, or its first and last particle.
+// Calls visit(particles, place, spring, rest) for a row's incident springs of number k: `spring` has the
+// stiffness of all in the stretch, `rest[i]` is the rest length of particle i's. A material's springs along a
+// border count half: the whole row, or its first and last particle. Returns whether there are any.
+template <class Real, class Visit>
+INLINE bool forEachStretch(const PassArguments<Real>& arguments, int row, std::uint32_t k, Visit visit) {
+  const StepParams<Real>& step = arguments.step;
+  const IncidentSpring& incident = incidentSprings[k];
+  const int otherRow = row + incident.rows, rows = static_cast<int>(step.rows);
+  const bool enabled = (step.enabledSlots >> incident.slot & 1u) != 0;
+  if (!enabled || row >= rows || otherRow < 0 || otherRow >= rows) return false;
+  const Range particles = rangeOf(step, row, incident.columns, incident.columns);
+  const Real inside = step.springs[incident.slot].stiffness, halved = Real(0.5) * inside;
+  if (step.hasMaterial == 0) {
+    visitRange(arguments, particles, k, inside, visit);
+  } else if (incident.slot != toUpper) {
+    const bool onBorder = incident.slot == toLeft && isBorder(row, step.rows);
+    visitRange(arguments, particles, k, onBorder ? halved : inside, visit);
+  } else {
+    const std::ptrdiff_t last = std::max(particles.begin + 1, particles.end - 1);
+    visitRange(arguments, {particles.begin, particles.begin + 1}, k, halved, visit);
+    visitRange(arguments, {particles.begin + 1, last}, k, inside, visit);
+    visitRange(arguments, {last, particles.end}, k, halved, visit);
+  }
+  return true;
+}
+
+// The same for all incident springs of a row, in ascending number.
 template <class Real, class Visit>
 INLINE void forEachSpringRange(const PassArguments<Real>& arguments, int row, Visit visit) {
-  const StepParams<Real>& step = arguments.step;
-  for (std::uint32_t k = 0; k < incidentSprings.size(); ++k) {
-    const IncidentSpring& incident = incidentSprings[k];
-    const int otherRow = row + incident.rows;
-    const bool enabled = (step.enabledSlots >> incident.slot & 1u) != 0;
-    if (!enabled || otherRow < 0 || otherRow >= static_cast<int>(step.rows)) continue;
-    const Range particles = rangeOf(step, row, incident.columns, incident.columns);
-    const Real inside = step.springs[incident.slot].stiffness, halved = Real(0.5) * inside;
-    if (step.hasMaterial == 0) {
-      visitRange(arguments, particles, k, inside, visit);
-    } else if (incident.slot != toUpper) {
-      const bool onBorder = incident.slot == toLeft && isBorder(row, step.rows);
-      visitRange(arguments, particles, k, onBorder ? halved : inside, visit);
-    } else {
-      const std::ptrdiff_t last = std::max(particles.begin + 1, particles.end - 1);
-      visitRange(arguments, {particles.begin, particles.begin + 1}, k, halved, visit);
-      visitRange(arguments, {particles.begin + 1, last}, k, inside, visit);
-      visitRange(arguments, {last, particles.end}, k, halved, visit);
-    }
-  }
+  for (std::uint32_t k = 0; k < incidentSprings.size(); ++k) forEachStretch(arguments, row, k, visit);
 }
 
 }  // namespace clothsim::cpu

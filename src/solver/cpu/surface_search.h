@@ -8,27 +8,11 @@
 #include <vector>
 
 #include "solver/cpu/arrays.h"
+#include "solver/cpu/bounds.h"
 #include "solver/cpu/surface_laws.h"
-#include "solver/cpu/vectors.h"
 #include "solver/surface.h"
 
 namespace clothsim::cpu {
-
-// A box around parts of the surface and their motion.
-template <class Real>
-struct Bounds {
-  Four<Real> low, high;
-};
-
-template <class Real>
-INLINE Bounds<Real> joined(const Bounds<Real>& a, const Bounds<Real>& b) {
-  return {b.low < a.low ? b.low : a.low, a.high < b.high ? b.high : a.high};
-}
-template <class Real>
-INLINE bool overlap(const Bounds<Real>& a, const Bounds<Real>& b) {
-  const auto meet = (a.low <= b.high) & (b.low <= a.high);
-  return (meet[0] & meet[1] & meet[2]) != 0;
-}
 
 // A corner and a triangle, or two sides.
 struct Parts {
