@@ -73,6 +73,13 @@ using uint = std::uint32_t;
 #define SURFACE_GROUP 64
 #define GROUPS_A_ROW 4096u
 
+// Small colliders: in the first round friction stops slips, in the others triangles that are still in them
+// are pushed out; and rounds of the search for where a triangle meets their cores.
+#define PRESS_ROUNDS 9
+#define MOST_OVER_INERTIA 1048576.0f  // of a pair's stiffness, what springs add: 1 / LEAST_PIVOT
+#define CORE_ROUNDS 6
+#define CROSSING_ROUNDS 16
+
 #define SURFACE_PARAMS_BINDING 3  // uniform blocks
 #define BOX_LEVEL_BINDING 4
 #define SURFACE_STATE_BINDING 6  // storage blocks; each pass binds what it needs
@@ -87,17 +94,19 @@ using uint = std::uint32_t;
 #define SURFACE_BOXES_UNIT 52  // two texels each: low, high
 #define PAIR_IDS_UNIT 53       // four particles
 #define PAIR_ROWS_UNIT \
-  54                            // four texels each: normal, over; weights; stiffness, -, limit, held;
-                                // force, across
+  54  // four texels each: normal, over; weights; stiffness, pressed, limit, held; force, across. Pressed is
+      // how the parts pressed in the last Newton step, or for a small collider its number: -1, -2 ...
 #define PAIR_STARTS_UNIT 55     // of a particle's entries, within its block
 #define PAIR_BLOCKS_UNIT 56     // what the blocks of particles begin with
 #define PAIR_ENTRIES_UNIT 57    // 4 * pair + place in it
 #define SURFACE_BLOCKS_UNIT 58  // what the blocks of triangles begin with
 #define SURFACE_STARTS_UNIT 59  // where the motion of a round begins
-
-#define FLAT_BLOCKS_UNIT 60  // three texels each
+#define FLAT_BLOCKS_UNIT 60     // three texels each
 #define FLAT_SIDES_UNIT 61  // four texels each: of the sides along rows the lowest and highest, of the others
 #define FLAT_FLAGS_UNIT 62  // whether a block and those around it are flat
+#define SMALL_COLLIDERS_UNIT 63  // two texels each
+#define PAIR_CARRIES_UNIT 64     // how far a small collider carries the pair along
+#define SURFACE_CARRIES_BINDING 1
 
 struct SurfaceBlock {
   uint first;   // particle
@@ -136,6 +145,20 @@ SHARED_STRUCT SurfacePoint {
   real stiffness;  // of its springs [N/m]
 };
 
+// A sphere or a capsule that is small against the cells of the cloth and acts on triangles, too. Its core is
+// the center, or the segment along y in its own frame: no triangle may pass that.
+SHARED_STRUCT SmallCollider {
+  real number;  // among the scene's
+  real bound;   // all that counts as near is so near to its center [m]
+  real radius;
+  real halfLength;  // of the core [m]
+
+  real near;  // what is so near to the core counts as near [m]
+  real unusedA;
+  real unusedB;
+  real unusedC;
+};
+
 // What contact has come to.
 struct SurfaceState {
   // Of this step:
@@ -161,6 +184,11 @@ struct SurfaceState {
   uint isFlat;             // of this round: the only cloth is too flat for parts of it to meet
   uint pinLag;             // the largest ways, bits of floats: that pins were kept from theirs,
   uint largestCorrection;  // and that pairs that were too near were pushed apart [m]
+
+  uint isPressed;     // of this step: some triangle was pushed out of a small collider
+  uint passages;      // of triangles by cores of small colliders,
+  uint passageSteps;  // and steps with some
+  uint unused;
 };
 
 // What the passes on the GPU need beside these.
@@ -178,7 +206,12 @@ struct SurfaceParams {
   float touchingReach;  // parts that may touch are nearer at the start or end [m]
   uint blocks;
   uint isOneGrid;
-  uint unused;
+  uint touchesItself;  // cloth is a collider, too
+
+  uint smallColliders;  // how many there are
+  uint unusedA;
+  uint unusedB;
+  uint unusedC;
 
 #ifdef __cplusplus
   uint firstBoxes[MOST_BOX_LEVELS][4];

@@ -5,6 +5,7 @@
 
 #include "measure/surface_crossings.h"
 #include "solver/self_collision.h"
+#include "solver/surface.h"
 
 namespace clothsim {
 
@@ -59,6 +60,9 @@ void ContactReport::write(nlohmann::ordered_json& json, const Cloth& cloth, cons
                           const ContactCounts& counts) const {
   json["self_collision"] = selfCollisionName(scene.solver.selfCollision);
   json["self_contacts"] = last_.contacts;
+  if (const std::size_t small = smallColliders(scene, cloth); small > 0)
+    json["small_colliders"] = {
+        {"number", small}, {"passages", counts.passages}, {"steps_with_passages", counts.passageSteps}};
   if (scene.solver.selfCollision == SelfCollision::contact) {
     json["contact_sound"] = !failure_;
     if (isCut_) json["contact_sound"] = nullptr;

@@ -145,6 +145,7 @@ Warning convergenceWarning(const ConvergenceCounts& counts, double largestUpdate
 void RunWatch::start(const Cloth& cloth, const Scene& scene, const State& state) {
   startInColliders_ = overlapsWithColliders(cloth, scene, state);
   paths_ = pathWarnings(cloth, scene, state);
+  unseenColliders_ = unseenColliders(scene, cloth);
 }
 
 void RunWatch::add(int frame, const Cloth& cloth, const Scene& scene, const State& state, double strain,
@@ -152,6 +153,8 @@ void RunWatch::add(int frame, const Cloth& cloth, const Scene& scene, const Stat
   contacts_.add(frame, cloth, scene, state, strain, counts);
   peakStrain_ = std::max(peakStrain_, strain);
   crowdedSteps_ = counts.crowdedSteps;
+  passages_ = counts.passages;
+  if (passages_ > 0 && !passedFrame_) passedFrame_ = frame;
   if (crowdedSteps_ > 0 && !crowdedFrame_) crowdedFrame_ = frame;
   if (strain > doubtfulStrain(scene) && !doubtfulFrame_) doubtfulFrame_ = frame;
 }
@@ -172,6 +175,17 @@ std::vector<Warning> RunWatch::warnings(const Scene& scene) const {
                             formatted("%.3g mm", 1000 * startInColliders_.depth) +
                             " deep; the first step pushes them out"});
   warnings.insert(warnings.end(), paths_.begin(), paths_.end());
+  if (unseenColliders_ > 0)
+    warnings.push_back(
+        {"start", 0, "a collider is smaller than a cell",
+         std::to_string(unseenColliders_) + (unseenColliders_ == 1 ? " collider is" : " colliders are") +
+             " so thin that particles can be on all sides, and may pass through the cloth; raise "
+             "the resolution, or set solver.integrator to \"implicit\", where small spheres and "
+             "capsules act on triangles, too"});
+  if (passedFrame_)
+    warnings.push_back({"contact", passedFrame_, "a collider went through the cloth",
+                        "small colliders went through triangles " + std::to_string(passages_) +
+                            (passages_ == 1 ? " time" : " times") + "; " + stepsAdvice(scene)});
   if (const auto& failure = contacts_.failure()) warnings.push_back(contactWarning(*failure, scene));
   if (scene.solver.selfCollision == SelfCollision::contact && !isImplicit(scene.solver.integrator))
     warnings.push_back(
@@ -179,11 +193,12 @@ std::vector<Warning> RunWatch::warnings(const Scene& scene) const {
          "solver.self_collision \"contact\" needs implicit steps, and nothing keeps layers apart now; "
          "set solver.integrator to \"implicit\" or \"bdf2\", or self_collision to \"robust\""});
   if (crowdedFrame_)
-    warnings.push_back({"contact", crowdedFrame_, "too many contacts at once",
-                        "layers touched at more places than there was room for in " +
-                            std::to_string(crowdedSteps_) + (crowdedSteps_ == 1 ? " step" : " steps") +
-                            ", in which nothing pushed them apart (they do not cross); the frames after "
-                            "have more room"});
+    warnings.push_back(
+        {"contact", crowdedFrame_, "too many contacts at once",
+         "layers, or cloth and small colliders, touched at more places than there was room for in " +
+             std::to_string(crowdedSteps_) + (crowdedSteps_ == 1 ? " step" : " steps") +
+             ", in which nothing pushed them apart (layers do not cross); the frames after "
+             "have more room"});
   if (doubtfulFrame_)
     warnings.push_back({"strain", doubtfulFrame_,
                         formatted("springs stretched by %.0f %%: raise simulation_steps", 100 * peakStrain_),

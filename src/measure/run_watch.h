@@ -61,6 +61,8 @@ class RunWatch {
   std::optional<int> doubtfulFrame_;  // the first with a doubtful strain
   double peakStrain_ = 0;
   std::uint64_t crowdedSteps_ = 0;
+  std::uint64_t passages_ = 0, unseenColliders_ = 0;
+  std::optional<int> passedFrame_;
   std::optional<int> crowdedFrame_;  // the first with a step that had too many pairs to push
   ConvergenceCounts convergence_;
   double largestUpdate_ = 0;          // of the last steps of frames

@@ -27,7 +27,8 @@ std::span<const Field<Scene>> fieldsOf<Scene>() {
           .required()
           .rebuilds(),
       field("colliders", &Scene::colliders,
-            "Solid shapes; CS184's objects `plane` and `sphere` come before this list, in that order."),
+            "Solid shapes; CS184's `plane` and `sphere` come first. Less than 2 cells thin: physics.md, "
+            "contact."),
       field("gravity", &Scene::gravity, "Acceleration of every free particle.").in("m/s^2").usually(-20, 20),
       field("wind", &Scene::wind, "Air that moves past the cloth; without it no wind forces are computed."),
       field("air_resistance", &Scene::airResistance,

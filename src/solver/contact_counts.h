@@ -19,6 +19,8 @@ struct ContactCounts {
   double leastGap = INFINITY;      // between parts that may touch [m]
   double pinLag = 0;               // how far a pin was kept from its path at the end of a step, at most [m]
   double largestCorrection = 0;  // of parts that were too near [m]: colliders do not know of it in that step
+  std::uint64_t passages = 0;    // of triangles by small colliders, which went through them
+  std::uint64_t passageSteps = 0;  // in which there were some
 
   friend ContactCounts operator+(const ContactCounts& a, const ContactCounts& b) {
     return {a.hashBuilds + b.hashBuilds,
@@ -29,7 +31,9 @@ struct ContactCounts {
             a.crowdedSteps + b.crowdedSteps,
             std::min(a.leastGap, b.leastGap),
             std::max(a.pinLag, b.pinLag),
-            std::max(a.largestCorrection, b.largestCorrection)};
+            std::max(a.largestCorrection, b.largestCorrection),
+            a.passages + b.passages,
+            a.passageSteps + b.passageSteps};
   }
 };
 

@@ -10,8 +10,8 @@ using F = Feature;
 
 constexpr Features elastic{F::springs, F::restLengths, F::meshes, F::cuts};
 constexpr Features air{F::wind, F::particleForces, F::jets, F::meshes, F::cuts};
-constexpr Features solved =
-    elastic | Features{F::wind, F::planes, F::surface};  // what the linear system is made of
+constexpr Features solved = elastic | Features{F::wind, F::planes, F::surface,
+                                               F::smallColliders};  // what the linear system is made of
 
 // A table; clang-format would put each field on a line of its own.
 // clang-format off
@@ -106,10 +106,10 @@ constexpr std::array<PassTraits, PASS_COUNT> table{{
      {scalars}, {}},
     {Pass::findTouching, "find touching", Domain::surface, 0,
      {positions, safePositions, displacements, iterates}, {rightHandSides},
-     {touching, scalars}, {F::cuts}},
+     {touching, scalars}, {F::cuts, F::smallColliders}},
     {Pass::weighPairs, "weigh pairs", Domain::surface, 0,
-     {displacements}, {touching, scalars},
-     {touching, pairForces}, {}, Gate::step},
+     {positions, displacements}, {rightHandSides, touching, scalars},
+     {touching, pairForces, scalars}, {F::colliders, F::smallColliders}, Gate::step},
     {Pass::multiplyPairs, "multiply pairs", Domain::surface, 0,
      {directions}, {touching},
      {pairForces}, {}, Gate::system},
@@ -122,6 +122,9 @@ constexpr std::array<PassTraits, PASS_COUNT> table{{
     {Pass::settle, "settle", Domain::surface, 0,
      {}, {positions, newPositions, newVelocities, keptMotions},
      {safePositions, displacements, iterates, scalars}, {}},
+    {Pass::pressOut, "press out", Domain::surface, 0,
+     {positions, newPositions}, {newVelocities, touching},
+     {newPositions, newVelocities, touching, pairForces}, {F::colliders, F::smallColliders}},
     {Pass::checkHash, "check hash", Domain::contacts, 0,
      {}, {positions, newPositions, hash},
      {contactFlags}, {}},
@@ -168,8 +171,8 @@ constexpr std::array<std::string_view, ARRAY_COUNT> arrayNames{
     "contact flags",  "watch"};
 
 constexpr std::array<std::string_view, FEATURE_COUNT> featureNames{
-    "springs", "rest lengths", "meshes",    "wind",   "particle forces", "jets",   "grabs",
-    "cuts",    "moving pins",  "colliders", "planes", "history",         "surface"};
+    "springs", "rest lengths", "meshes",    "wind",   "particle forces", "jets",    "grabs",
+    "cuts",    "moving pins",  "colliders", "planes", "history",         "surface", "small colliders"};
 
 bool runsByRows(Domain domain) { return domain == Domain::gridPoints || domain == Domain::particles; }
 

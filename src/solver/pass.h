@@ -49,6 +49,7 @@ enum class Pass : std::uint8_t {
   guard,
   shorten,
   settle,
+  pressOut,
   // Contacts and limits, after either (solver/self_collision.h).
   checkHash,
   buildHash,
@@ -139,8 +140,9 @@ enum class Feature : std::uint8_t {
   planes,   // colliders in implicit steps
   history,  // steps of second order
   surface,  // the surface that touches itself
+  smallColliders,
 };
-inline constexpr int FEATURE_COUNT = static_cast<int>(Feature::surface) + 1;
+inline constexpr int FEATURE_COUNT = static_cast<int>(Feature::smallColliders) + 1;
 [[nodiscard]] std::string_view nameOf(Feature feature);
 using Features = SetOf<Feature>;
 

@@ -60,7 +60,8 @@ class StepBuilder {
       : solver_(scene.solver),
         hasColliders_(!scene.colliders.empty()),
         isImplicit_(isImplicit(scene.solver.integrator)),
-        hasSurface_(isImplicit_ && hasSurfaceContact(scene)),
+        touchesItself_(isImplicit_ && hasSurfaceContact(scene)),
+        hasSmallColliders_(hasSmallColliders(scene, cloth)),
         contacts_(collidesWithItself(scene, cloth) ? scene.solver.selfCollision : SelfCollision::off),
         rounds_(contactRounds(scene)),
         levels_(isImplicit_ ? mostLevels(cloth, cutMasks) : 0),
@@ -69,7 +70,8 @@ class StepBuilder {
   PassList step() {
     isImplicit_ ? moveImplicitly() : moveExplicitly();
     finishMotion();
-    if (hasSurface_) list_.repeat("round of contact", CONTACT_ROUNDS - 1, [&] { goOnAfterContact(); });
+    if (touchesItself_) list_.repeat("round of contact", CONTACT_ROUNDS - 1, [&] { goOnAfterContact(); });
+    if (hasSmallColliders_) list_.add(Pass::pressOut, PRESS_ROUNDS);
     if (solver_.integrator == Integrator::bdf2) list_.add(Pass::remember);
     if (isImplicit_) list_.add(Pass::countStep);
     return list_.finish(Outcome::state);
@@ -84,7 +86,7 @@ class StepBuilder {
   void moveImplicitly() {
     if (hasColliders_) list_.add(Pass::predictPlanes);
     list_.add(Pass::begin);
-    if (hasSurface_) list_.add(Pass::findTouching, 0);
+    if (hasPairs()) list_.add(Pass::findTouching, 0);
     makeLevels();
     newtonStep();
     list_.repeat("further Newton step", solver_.newtonSteps - 1, [&] {
@@ -96,7 +98,9 @@ class StepBuilder {
 
   void finishMotion() {
     contacts_ == SelfCollision::robust ? endRobustly() : endAsCs184Does();
-    if (hasSurface_) guardMotion();
+    if (hasSmallColliders_)
+      for (std::size_t round = 0; round < PRESS_ROUNDS; ++round) list_.add(Pass::pressOut, round);
+    if (touchesItself_) guardMotion();
   }
 
   // Where motion was cut short, the step goes on from there, with the contacts that are there. Otherwise this
@@ -114,7 +118,7 @@ class StepBuilder {
 
   void newtonStep() {
     list_.add(Pass::elasticForces);
-    if (hasSurface_) list_.add(Pass::weighPairs);
+    if (hasPairs()) list_.add(Pass::weighPairs);
     list_.add(Pass::linearize);
     solve();
     searchLine(Pass::sumEnergies);
@@ -134,7 +138,7 @@ class StepBuilder {
   void solve() {
     const auto iterate = [&] {
       list_.add(Pass::updateDirection);
-      if (hasSurface_) list_.add(Pass::multiplyPairs);
+      if (hasPairs()) list_.add(Pass::multiplyPairs);
       list_.add(Pass::multiply);
       list_.add(Pass::sumCurvature);
       list_.add(Pass::updateSolution);
@@ -212,8 +216,10 @@ class StepBuilder {
     list_.add(Pass::shorten);
   }
 
+  [[nodiscard]] bool hasPairs() const { return touchesItself_ || hasSmallColliders_; }
+
   const SolverSettings& solver_;
-  bool hasColliders_, isImplicit_, hasSurface_;
+  bool hasColliders_, isImplicit_, touchesItself_, hasSmallColliders_;
   SelfCollision contacts_;
   int rounds_;
   std::size_t levels_, colors_;

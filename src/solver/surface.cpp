@@ -11,7 +11,7 @@ namespace clothsim {
 namespace {
 
 // Room at the start, which grows.
-constexpr std::uint32_t PAIRS_A_PARTICLE = 8;
+constexpr std::uint32_t PAIRS_A_PARTICLE = 8, COLLIDERS_A_TRIANGLE = 4, LEAST_ROOM = 1024;
 
 // In the largest correction.
 constexpr double QUANTA = 0x1p20;
@@ -193,9 +193,78 @@ void findBlocks(const Cloth& cloth, const Cuts& cuts, ClothSurface<Real>& surfac
   surface.isOneGrid = cloth.pieces().size() == 1 && !surface.blocks.empty();
 }
 
+// A collider is small that is nowhere thicker than so many cells, to both sides of its middle.
+constexpr double SMALL = 2;
+// What is so many cells from a small collider or from its way counts as near.
+constexpr double NEAR = 2;
+
+// How far the surface of a collider is from its middle, where it is thin.
+double thinnessOf(const Sphere& sphere) { return sphere.radius; }
+double thinnessOf(const Capsule& capsule) { return capsule.radius; }
+double thinnessOf(const Torus& torus) { return torus.tubeRadius; }
+double thinnessOf(const Box& box) { return 0.5 * std::min({box.size.x, box.size.y, box.size.z}); }
+double thinnessOf(const Cylinder& cylinder) { return std::min(cylinder.height / 2, cylinder.radius); }
+double thinnessOf(const Cone& cone) {
+  return std::min(cone.height / 2, std::max(cone.radius, cone.topRadius));
+}
+double thinnessOf(const Plane&) { return INFINITY; }
+double thinnessOf(const MeshCollider&) { return INFINITY; }  // not known
+
+// Half the length of the segment from which a round collider is `radius` thick. Other shapes do not act on
+// triangles.
+struct Core {
+  double radius = INFINITY, halfLength = 0;
+};
+Core coreOf(const Sphere& sphere) { return {sphere.radius, 0}; }
+Core coreOf(const Capsule& capsule) { return {capsule.radius, capsule.length / 2}; }
+template <class Shape>
+Core coreOf(const Shape&) {
+  return {};
+}
+
+// The longest sides of the cells of any cloth.
+double largestCell(const Cloth& cloth) {
+  double largest = 0;
+  for (const Piece& piece : cloth.pieces())
+    largest = std::max({largest, piece.nominalLength[toLeft], piece.nominalLength[toUpper]});
+  return largest;
+}
+
+template <class Real>
+std::vector<SmallCollider<Real>> makeSmallColliders(const Scene& scene, double cell) {
+  std::vector<SmallCollider<Real>> small;
+  for (std::size_t i = 0; i < scene.colliders.size(); ++i) {
+    const Core core = std::visit([](const auto& shape) { return coreOf(shape); }, scene.colliders[i]);
+    if (!(core.radius < SMALL * cell)) continue;
+    const auto real = [](double x) { return static_cast<Real>(x); };
+    const double near = core.radius + NEAR * cell;
+    small.push_back({real(static_cast<double>(i)), real(core.halfLength + near), real(core.radius),
+                     real(core.halfLength), real(near), 0, 0, 0});
+  }
+  return small;
+}
+
 }  // namespace
 
 bool hasSurfaceContact(const Scene& scene) { return scene.solver.selfCollision == SelfCollision::contact; }
+std::size_t smallColliders(const Scene& scene, const Cloth& cloth) {
+  if (!isImplicit(scene.solver.integrator)) return 0;
+  return makeSmallColliders<float>(scene, largestCell(cloth)).size();
+}
+std::size_t unseenColliders(const Scene& scene, const Cloth& cloth) {
+  const double halfDiagonal = std::sqrt(0.5) * largestCell(cloth);
+  std::size_t count = 0;
+  for (const Collider& collider : scene.colliders) {
+    const bool isSeen = isImplicit(scene.solver.integrator) && (std::holds_alternative<Sphere>(collider) ||
+                                                                std::holds_alternative<Capsule>(collider));
+    const double thinness = std::visit([](const auto& shape) { return thinnessOf(shape); }, collider);
+    count += !isSeen && thinness < halfDiagonal ? 1 : 0;
+  }
+  return count;
+}
+bool hasSurface(const Scene& scene, const Cloth& cloth) {
+  return hasSurfaceContact(scene) || hasSmallColliders(scene, cloth);
+}
 
 template <class Real>
 ClothSurface<Real> makeSurface(const Cloth& cloth, const Scene& scene, const Cuts& cuts) {
@@ -225,8 +294,15 @@ ClothSurface<Real> makeSurface(const Cloth& cloth, const Scene& scene, const Cut
     surface.leastGap = static_cast<Real>(
         std::min(std::max(0.1 * smallestRadius, std::sqrt(rounding * widest)), 0.5 * smallestRadius));
   }
-  findBlocks(cloth, cuts, surface);
-  surface.roomForPairs = PAIRS_A_PARTICLE * cloth.particleCount();
+  surface.touchesItself = hasSurfaceContact(scene);
+  if (surface.touchesItself) findBlocks(cloth, cuts, surface);
+  if (isImplicit(scene.solver.integrator))
+    surface.colliders = makeSmallColliders<Real>(scene, largestCell(cloth));
+  const auto particles = cloth.particleCount(),
+             colliders = static_cast<std::uint32_t>(surface.colliders.size());
+  if (surface.touchesItself) surface.roomForPairs = PAIRS_A_PARTICLE * particles;
+  if (colliders > 0)
+    surface.roomForPairs += std::max(std::min(colliders, COLLIDERS_A_TRIANGLE) * count, LEAST_ROOM);
   surface.firstBoxes = {0};
   for (std::uint32_t boxes = count; boxes > 0;
        boxes = boxes == 1 ? 0 : (boxes + BOX_CHILDREN - 1) / BOX_CHILDREN)
@@ -253,6 +329,8 @@ ContactCounts countsOf(const SurfaceState& state) {
   counts.pairs = state.mostPairs;
   counts.shortened = state.shortened;
   counts.crowdedSteps = state.crowdedSteps;
+  counts.passages = state.passages;
+  counts.passageSteps = state.passageSteps;
   counts.leastGap = static_cast<double>(std::bit_cast<float>(state.leastGap));
   counts.pinLag = static_cast<double>(std::bit_cast<float>(state.pinLag));
   counts.largestCorrection = static_cast<double>(std::bit_cast<float>(state.largestCorrection));

@@ -7,6 +7,8 @@
 // parts surely stay apart, they are pushed apart, and where that is not enough, their motions are cut short
 // (docs/physics.md). So parts that have not crossed do not, in any step.
 //
+// In implicit steps it is also what small colliders act on, whether cloth touches itself or not.
+//
 // Both searches go through one tree of boxes over the triangles, whose order is that of the particles at the
 // start along a space-filling curve; it never changes, so that pairs come in one order on every device.
 #pragma once
@@ -27,10 +29,14 @@ namespace clothsim {
 using SurfaceTriangle = shared::SurfaceTriangle;
 template <class Real>
 using SurfacePoint = shared::SurfacePoint<Real>;
+template <class Real>
+using SmallCollider = shared::SmallCollider<Real>;
 using SurfaceState = shared::SurfaceState;
 using SurfaceParams = shared::SurfaceParams;
 using BoxLevel = shared::BoxLevel;
 using SurfaceBlock = shared::SurfaceBlock;
+
+inline constexpr std::uint32_t NO_COLLIDER = 0xffffffffu;
 
 // Two parts that may touch: sum of weights times positions = distance times normal.
 template <class Real>
@@ -46,6 +52,9 @@ struct SurfacePair {
   Real limit = 0;    // of friction [N]
   Real held = 0;     // what the pair adds to the Hessian: its stiffness while it touches,
   Real across = 0;   // and friction's across the normal [N/m]
+  // Of a triangle and a small collider, which of them; the fourth particle is the first once more, with
+  // weight 0. What meets the collider says how friction is limited; `friction` and `pressed` stay 0.
+  std::uint32_t collider = NO_COLLIDER;
 };
 
 template <class Real>
@@ -61,10 +70,22 @@ struct ClothSurface {
   std::uint32_t roomForPairs = 0;    // how many a step may have
   Real quantum = 0, perQuantum = 0;  // of corrections [m], and its reciprocal
   Real leastGap = 0;                 // what motion leaves of a distance, if it was more [m]
+  bool touchesItself = false;
+  std::vector<SmallCollider<Real>> colliders;  // that act on triangles, too
 };
 
-// Whether the scene's steps use it.
+// Whether cloth touches itself and other cloth in the scene's steps.
 [[nodiscard]] bool hasSurfaceContact(const Scene& scene);
+// Whether implicit steps have colliders that are small against the cells of a cloth: so small that they would
+// pass between particles, or be deep in triangles before they meet one. Such colliders act on triangles, too.
+[[nodiscard]] std::size_t smallColliders(const Scene& scene, const Cloth& cloth);
+[[nodiscard]] inline bool hasSmallColliders(const Scene& scene, const Cloth& cloth) {
+  return smallColliders(scene, cloth) > 0;
+}
+// How many of those that act on particles alone are so small that they can pass between them, unseen.
+[[nodiscard]] std::size_t unseenColliders(const Scene& scene, const Cloth& cloth);
+// Whether steps have either.
+[[nodiscard]] bool hasSurface(const Scene& scene, const Cloth& cloth);
 
 // Before the first step.
 [[nodiscard]] SurfaceState freshSurfaceState();

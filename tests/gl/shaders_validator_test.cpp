@@ -80,7 +80,7 @@ std::vector<gl::Defines> variantsOf(const std::string& file) {
   PassFeatures cs184 = everything;
   cs184.coulombFriction = false;
   everything.limitSprings = everything.material = everything.contactPlanes = everything.history = true;
-  everything.surface = true;
+  everything.surface = everything.smallColliders = true;
   PassFeatures mesh = everything;
   mesh.mesh = true;
   everything.gate = GATE_STEP;
@@ -101,6 +101,8 @@ std::vector<gl::Defines> variantsOf(const std::string& file) {
     variants[i].emplace_back("SCANS_LISTS", std::to_string(i % 2));
     variants[i].emplace_back("LATER", std::to_string(i / 2));
     variants[i].emplace_back("CLEARS", std::to_string(i % 2));
+    variants[i].emplace_back("ONLY_COUNTS", std::to_string(i == 1));
+    variants[i].emplace_back("STOPS_SLIPS", std::to_string(i == 0));
   }
   return variants;
 }

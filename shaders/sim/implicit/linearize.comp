@@ -62,8 +62,7 @@ void addContact(uint i, float diagonal, vec3 d, inout vec3 residual, inout Symme
   bool hasPlane = sumOfProducts(normal, normal) > 0.0, presses = hasPlane && push > 0.0;
   bool isPredicted = hasPlane && scalars.newtonSteps == 0u;
 #if HAS_SURFACE
-  uvec2 pairs = pairsOf(i);
-  isPredicted = isPredicted && pairs.x == pairs.y;
+  isPredicted = isPredicted && !mayTouchCloth(i);
 #endif
   bool holds = presses || isPredicted;
   float stiffness = holds ? contactStiffness(diagonal) : 0.0;

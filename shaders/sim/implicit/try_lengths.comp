@@ -56,7 +56,8 @@ vec4 addPairTrials(uint i, vec4 trial) {
     vec3 e = weightedSum(weights, incrementAt(ids.x), incrementAt(ids.y), incrementAt(ids.z), incrementAt(ids.w));
     float along = sumOfProducts(normal.xyz, d), fall = sumOfProducts(normal.xyz, e);
     precise float over = normal.w - along;
-    precise vec3 slip = d - along * normal.xyz;
+    vec3 relative = relativeToPair(q, d);
+    precise vec3 slip = relative - sumOfProducts(normal.xyz, relative) * normal.xyz;
     precise vec3 slide = e - fall * normal.xyz;
     float resisted = frictionPotential(slip, slow);
     for (int t = 0; t < LENGTHS_TRIED; ++t) {

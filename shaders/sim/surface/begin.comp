@@ -10,6 +10,7 @@ void main() {
 #if !LATER
   state.isLater = 0u;
   state.isSettled = 0u;
+  state.isPressed = 0u;
 #endif
   if (isSettled()) return;
   state.tooMany = 0u;

@@ -30,6 +30,7 @@ void main() {
   if (through > surface.roomForPairs && state.tooMany == 0u) state.tooMany = 1u;
   uint count = state.tooMany != 0u ? 0u : through, groups = (count + uint(SURFACE_GROUP) - 1u) / uint(SURFACE_GROUP);
   uvec4 dispatch = uvec4(groups < GROUPS_A_ROW ? groups : GROUPS_A_ROW, (groups + GROUPS_A_ROW - 1u) / GROUPS_A_ROW, 1u, 0u);
+  if (surface.touchesItself == 0u && state.tooMany == 1u) state.crowdedSteps += 1u;
   state.pairs = count;
   scalars.pairs = count;
   dispatches[0] = dispatch;

@@ -17,6 +17,9 @@ layout(std430, binding = SURFACE_OUT_BINDING) writeonly buffer Rows { vec4 newRo
 layout(binding = ITERATES_UNIT) uniform samplerBuffer iterates;
 
 uint found = 0u, firstFound = 0u;
+#if HAS_SMALL_COLLIDERS
+#include "sim/surface/near.glsl"
+#endif
 
 bool isAtEnd = false;  // of the way that is predicted
 vec3 endAt(uint i) { return texelFetch(iterates, int(i)).xyz; }
@@ -147,7 +150,10 @@ void main() {
   counts[own] = 0u;
   if (state.tooMany == 2u) return;
 #endif
-  if (state.isFlat == 0u) lookAround(own);
+  if (surface.touchesItself != 0u && state.isFlat == 0u) lookAround(own);
+#if HAS_SMALL_COLLIDERS
+  lookAtColliders(own);
+#endif
 #if !WRITES_PAIRS
   counts[own] = found;
   if (found > MOST_PAIRS_A_TRIANGLE) atomicOr(state.tooMany, 1u);

@@ -11,7 +11,7 @@ void main() {
   uint i = thisEntry();
   if (isSettled()) {
     // The end of the step has been done once more, without what the guard has corrected.
-    if (i >= step.totalParticles || state.tooMany == 2u || state.tooNear[0] == 0u) return;
+    if (i >= step.totalParticles || state.tooMany == 2u || (state.tooNear[0] == 0u && state.isPressed == 0u)) return;
     newPositions[i] = texelFetch(surfaceStarts, int(i));
     newVelocities[i] = safeVelocities[i];
     return;

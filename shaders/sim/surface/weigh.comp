@@ -29,16 +29,18 @@ void main() {
   vec3 moved = weightedSum(weights, displacementAt(ids.x), displacementAt(ids.y), displacementAt(ids.z), displacementAt(ids.w));
   float along = sumOfProducts(normal.xyz, moved);
   precise float over = normal.w - along;
-  precise vec3 slip = moved - along * normal.xyz;
+  vec3 relative = relativeToPair(q, moved);
+  precise vec3 slip = relative - sumOfProducts(normal.xyz, relative) * normal.xyz;
   float squared = sumOfProducts(slip, slip), inverse = inverseSquareRoot(squared);
   precise float len = squared * inverse;
+  bool isOfCollider = law.y < 0.0;  // which has limited its friction already (meet.comp)
   // The less of this and the last Newton step: what is not solved yet presses at random, and would stick.
   precise float press = law.x * (over < 0.0 ? 0.0 : over);
   precise float most = frictionOf(ids, weights) * (press < law.y ? press : law.y);
-  float limit = canonical(most);
+  float limit = isOfCollider ? law.z : canonical(most);
   precise float across = limit * frictionSlope(len, inverse, slowSlip()).over;
-  float held = over > 0.0 ? law.x : 0.0;
+  float held = isOfCollider ? law.w : over > 0.0 ? law.x : 0.0;
   precise vec3 force = (held * over) * normal.xyz - across * slip;
-  newRows[4u * q + 2u] = vec4(law.x, canonical(press), limit, held);
+  newRows[4u * q + 2u] = vec4(law.x, isOfCollider ? law.y : canonical(press), limit, held);
   newRows[4u * q + 3u] = vec4(canonical(force), canonical(across));
 }

@@ -330,6 +330,54 @@ void findPlanes(const PassArguments<Real>& arguments, const Components<Real>& pl
   });
 }
 
+template <class Real>
+Touch<Real> touchAt(const PassArguments<Real>& arguments, std::uint32_t number, Vec3<Real> start,
+                    Vec3<Real> place) {
+  const ColliderParams<Real>& own = arguments.colliders[number];
+  const Vec3<Real> previous = own.moving != 0 ? carried(own, start) : start;
+  const auto touch = [&]<std::uint32_t type>() -> Touch<Real> {
+    const Contact<Real> contact = findContact<type>(own, own.coulomb != 0, arguments.step.planeOffset,
+                                                    previous, place, arguments.distances);
+    if (contact.touches) return {contact.normal, contact.depth, previous - start};
+    if constexpr (type == COLLIDER_SPHERE) {  // whose contact tells how far it is, too
+      return {contact.normal, contact.depth, previous - start};
+    } else if constexpr (type == COLLIDER_PLANE) {
+      return {contact.normal, contact.depth, previous - start};
+    } else {
+      const Nearest<Real> nearest = nearestOnShape<type>(own, toOwnFrame(own, place), arguments.distances);
+      return {toWorld(own, nearest.normal), -nearest.distance, previous - start};
+    }
+  };
+  switch (own.type) {
+#define CASE(number, Struct, law) \
+  case number:                    \
+    return touch.template operator()<number>();
+    CASE(COLLIDER_SPHERE, Sphere, )
+    CASE(COLLIDER_PLANE, Plane, )
+    DISTANCE_SHAPES(CASE)
+#undef CASE
+  }
+  return {};
+}
+
+template <class Real>
+Vec3<Real> placeInFrame(const ColliderParams<Real>& collider, Vec3<Real> x) {
+  if (collider.type == COLLIDER_SPHERE) return x - pointOf(collider);
+  return toOwnFrame(collider, x);
+}
+template <class Real>
+Vec3<Real> startInFrame(const ColliderParams<Real>& collider, Vec3<Real> x) {
+  return placeInFrame(collider, collider.moving != 0 ? carried(collider, x) : x);
+}
+
+#define INSTANTIATE(Real)                                                                          \
+  template Touch<Real> touchAt(const PassArguments<Real>&, std::uint32_t, Vec3<Real>, Vec3<Real>); \
+  template Vec3<Real> placeInFrame(const ColliderParams<Real>&, Vec3<Real>);                       \
+  template Vec3<Real> startInFrame(const ColliderParams<Real>&, Vec3<Real>);
+INSTANTIATE(float)
+INSTANTIATE(double)
+#undef INSTANTIATE
+
 template void findPlanes(const PassArguments<float>&, const Components<float>&, ContactPlanes<float>&, int);
 template void findPlanes(const PassArguments<double>&, const Components<double>&, ContactPlanes<double>&,
                          int);

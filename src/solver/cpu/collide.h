@@ -43,4 +43,22 @@ template <class Real>
 void findPlanes(const PassArguments<Real>& arguments, const Components<Real>& places,
                 ContactPlanes<Real>& planes, int row);
 
+// How a point of the cloth that goes from `start` to `place` in the step meets a collider.
+template <class Real>
+struct Touch {
+  Vec3<Real> normal;  // of the collider's surface, outward, towards where the point came from
+  Real depth;         // how far the point is behind that surface; negative before it [m]
+  Vec3<Real> carry;   // how far a moving collider carries the point along [m]
+};
+template <class Real>
+[[nodiscard]] Touch<Real> touchAt(const PassArguments<Real>& arguments, std::uint32_t collider,
+                                  Vec3<Real> start, Vec3<Real> place);
+
+// A place in the collider's own frame at the end of the step: one of then, or one of the start of the step,
+// carried along.
+template <class Real>
+[[nodiscard]] Vec3<Real> placeInFrame(const ColliderParams<Real>& collider, Vec3<Real> x);
+template <class Real>
+[[nodiscard]] Vec3<Real> startInFrame(const ColliderParams<Real>& collider, Vec3<Real> x);
+
 }  // namespace clothsim::cpu

@@ -140,7 +140,7 @@ void CpuExecutor<Real>::setCuts(const StepInputs& inputs) {
 template <class Real>
 void CpuExecutor<Real>::setSurface(const StepInputs& inputs) {
   implicit_.touching = {};
-  if (hasSurfaceContact(*inputs.scene))
+  if (hasSurface(*inputs.scene, *cloth_))
     surfaceContact_.setSurface(makeSurface<Real>(*cloth_, *inputs.scene, inputs.cuts));
 }
 
@@ -278,8 +278,7 @@ void CpuExecutor<Real>::runContacts(PassCall call) {
   if (call.traits().domain == Domain::contacts)
     selfCollision_.run(call, particles_.state, after_, particles_.inverseMasses);
   else
-    surfaceContact_.run(call, particles_.state, after_, implicit_, parameters_.pieces[0],
-                        particles_.inverseMasses);
+    surfaceContact_.run(call, particles_.state, after_, implicit_, pieces_[0].step, particles_.inverseMasses);
 }
 
 // Where nothing is left, sums are 0 and nothing moves.

@@ -59,8 +59,11 @@ INLINE Real slowSlip(const StepParams<Real>& step) {
 }
 
 template <class Real>
-INLINE bool hasPairs(const TouchingPairs<Real>& touching, std::ptrdiff_t i) {
-  return !touching.pairs.empty() && touching.starts.data()[i] != touching.starts.data()[i + 1];
+INLINE bool mayTouchCloth(const TouchingPairs<Real>& touching, std::ptrdiff_t i) {
+  if (touching.pairs.empty()) return false;
+  for (std::uint32_t k = touching.starts.data()[i]; k < touching.starts.data()[i + 1]; ++k)
+    if (touching.pairs[touching.entries[k] / 4].collider == NO_COLLIDER) return true;
+  return false;
 }
 
 // Which plane holds in this Newton step, and what friction does there. `residual` and `block` are those of
@@ -83,7 +86,7 @@ INLINE void addContact(const ImplicitArguments<Real>& arguments, std::ptrdiff_t 
   const Real own = dot(normal, block * normal), push = own * over - dot(normal, residual);
   const bool isFirst = arguments.own.scalars.newtonSteps == 0, hasPlane = dot(normal, normal) > Real(0);
   const bool presses = hasPlane && push > Real(0),
-             isPredicted = hasPlane && isFirst && !hasPairs(arguments.own.touching, i),
+             isPredicted = hasPlane && isFirst && !mayTouchCloth(arguments.own.touching, i),
              holds = presses || isPredicted;
   const Real stiffness = holds ? contactStiffness(arguments, i) : Real(0),
              carried = push * (stiffness * reciprocal(stiffness + own)),
@@ -107,6 +110,11 @@ template <class Real>
 INLINE Real contactChange(Real stiffness, Real over, Real overAfter) {
   const Real before = larger(over, Real(0)), after = larger(overAfter, Real(0));
   return Real(0.5) * ((stiffness * (after - before)) * (after + before));
+}
+
+template <class Real>
+INLINE Vec3<Real> tangential(Vec3<Real> normal, Vec3<Real> d) {
+  return d - dot(normal, d) * normal;
 }
 
 // A sum over the four particles of a pair, each with its weight.
@@ -141,6 +149,11 @@ INLINE void addPairs(const TouchingPairs<Real>& touching, std::ptrdiff_t i, Vec3
     block.diagonal = block.diagonal + Vec3<Real>{across, across, across};
   });
 }
+// How far a small collider carries a pair along.
+template <class Real>
+INLINE Vec3<Real> carryOf(const TouchingPairs<Real>& touching, std::uint32_t q) {
+  return touching.carries.empty() ? Vec3<Real>{} : touching.carries[q];
+}
 // How the energies of the pairs whose first particle this is change along the increments.
 template <class Real>
 INLINE void addPairTrials(ImplicitState<Real>& own, std::ptrdiff_t i, Real slow) {
@@ -149,7 +162,8 @@ INLINE void addPairTrials(ImplicitState<Real>& own, std::ptrdiff_t i, Real slow)
     const SurfacePair<Real>& pair = own.touching.pairs[q];
     const Vec3<Real> d = weighted(pair, own.displacements), e = weighted(pair, own.increments);
     const Real along = dot(pair.normal, d), fall = dot(pair.normal, e), over = pair.over - along;
-    const Vec3<Real> slip = d - along * pair.normal, slide = e - fall * pair.normal;
+    const Vec3<Real> slip = tangential(pair.normal, d - carryOf(own.touching, q)),
+                     slide = e - fall * pair.normal;
     const Real resisted = frictionPotential(slip, slow);
     for (std::size_t k = 0; k < LENGTHS_TRIED; ++k) {
       const Real l = lengthTried<Real>(k);

@@ -24,6 +24,8 @@ struct TouchingPairs {
   std::vector<Vec3<Real>> forces;      // of a pair: at the iterate, later what it does to the directions
   std::vector<std::uint32_t> starts;   // of a particle's entries, and one more
   std::vector<std::uint32_t> entries;  // 4 * pair + place in it, ascending
+  // Of each pair, how far a small collider carries it along [m]; empty without such colliders.
+  std::vector<Vec3<Real>> carries;
 };
 
 // What an implicit step works on, an entry a particle.

@@ -4,6 +4,7 @@
 
 #include "core/thread_team.h"
 #include "solver/cpu/implicit_contact.h"
+#include "solver/cpu/small_colliders.h"
 #include "solver/cpu/surface_pairs.h"
 
 namespace clothsim::cpu {
@@ -81,7 +82,8 @@ void SurfaceContact<Real>::growBoxes() {
 }
 
 template <class Real>
-void SurfaceContact<Real>::findTouching(const CpuState<Real>& before, ImplicitState<Real>& implicit) {
+void SurfaceContact<Real>::findTouching(const CpuState<Real>& before, ImplicitState<Real>& implicit,
+                                        const PassArguments<Real>& arguments) {
   const Components<Real>& starts = startsOf(before);
   const auto particles = static_cast<std::uint32_t>(starts.x.size()),
              triangles = static_cast<std::uint32_t>(surface_.triangles.size()),
@@ -92,9 +94,12 @@ void SurfaceContact<Real>::findTouching(const CpuState<Real>& before, ImplicitSt
   if (isLater)
     for (std::vector<Real>* c : {&motions_.x, &motions_.y, &motions_.z})
       std::fill(c->begin(), c->end(), Real(0));
-  flatBlocks_.update(surface_, starts, isLater ? starts : implicit.iterate.positions, surface_.touchingReach);
-  const bool isFlat = flatBlocks_.isAllFlat();
-  if (!isFlat) {
+  // Small colliders find flat cloth, too.
+  if (surface_.touchesItself)
+    flatBlocks_.update(surface_, starts, isLater ? starts : implicit.iterate.positions,
+                       surface_.touchingReach);
+  const bool mayTouchItself = surface_.touchesItself && !flatBlocks_.isAllFlat();
+  if (mayTouchItself) {
     shift_ = shiftOf(motions_);
     boxParticles(starts, surface_.around);
     growBoxes();
@@ -105,15 +110,17 @@ void SurfaceContact<Real>::findTouching(const CpuState<Real>& before, ImplicitSt
   ThreadTeam::shared().forEach(0, chunks, 1, [&](std::uint32_t chunk) {
     std::vector<SurfacePair<Real>>& found = foundPairs_[chunk];
     found.clear();
-    if (isFlat) return;
+    if (!mayTouchItself && surface_.colliders.empty()) return;
     const std::uint32_t first = chunk * TRIANGLES_A_CHUNK;
     for (std::uint32_t i = first; i < std::min(first + TRIANGLES_A_CHUNK, triangles); ++i) {
       const std::size_t most = found.size() + MOST_PAIRS_A_TRIANGLE;
-      search.forEachPair(i, areFlat, [&](const Parts& parts, const auto& nearest) {
-        const SurfacePair<Real> pair = pairOf(surface_, parts, nearest, starts, implicit, isLater);
-        if (pair.stiffness > Real(0)) found.push_back(pair);
-        return found.size() <= most;
-      });
+      if (mayTouchItself)
+        search.forEachPair(i, areFlat, [&](const Parts& parts, const auto& nearest) {
+          const SurfacePair<Real> pair = pairOf(surface_, parts, nearest, starts, implicit, isLater);
+          if (pair.stiffness > Real(0)) found.push_back(pair);
+          return found.size() <= most;
+        });
+      addNearColliders(surface_, arguments, implicit, surface_.triangles[i], found);
       if (found.size() > most) std::atomic_ref(state_.tooMany).store(1, std::memory_order_relaxed);
     }
   });
@@ -123,16 +130,21 @@ void SurfaceContact<Real>::findTouching(const CpuState<Real>& before, ImplicitSt
   for (const auto& found : foundPairs_) count += found.size();
   state_.mostPairs = std::max(state_.mostPairs, static_cast<std::uint32_t>(count));
   if (count > surface_.roomForPairs) state_.tooMany = 1;
+  if (!surface_.touchesItself && state_.tooMany != 0) ++state_.crowdedSteps;
   if (state_.tooMany == 0)
     for (const auto& found : foundPairs_)
       touching.pairs.insert(touching.pairs.end(), found.begin(), found.end());
   for (const SurfacePair<Real>& pair : touching.pairs) {
+    if (pair.collider != NO_COLLIDER) continue;
     state_.leastGap = std::min(state_.leastGap, gapBits(pair.distance));
     if (pair.held > Real(0)) implicit.scalars.isDisturbed = 1;
   }
   implicit.scalars.pairs = static_cast<std::uint32_t>(touching.pairs.size());
   touching.forces.resize(touching.pairs.size());
   listByParticle(touching, particles);
+  if (surface_.colliders.empty()) return;
+  touching.carries.assign(touching.pairs.size(), {});
+  meetColliders(surface_, arguments, implicit);
 }
 
 template <class Real>
@@ -369,24 +381,31 @@ void SurfaceContact<Real>::settle(const CpuState<Real>& before, const CpuState<R
 
 template <class Real>
 void SurfaceContact<Real>::run(PassCall call, const CpuState<Real>& before, CpuState<Real>& after,
-                               ImplicitState<Real>& implicit, const StepParams<Real>& step,
+                               ImplicitState<Real>& implicit, const PassArguments<Real>& arguments,
                                const std::vector<Real>& inverseMasses) {
-  if (call.pass == Pass::findTouching && call.index == 0) state_.isLater = state_.isSettled = 0;
+  const StepParams<Real>& step = arguments.step;
+  if (call.pass == Pass::findTouching && call.index == 0)
+    state_.isLater = state_.isSettled = state_.isPressed = 0;
+  if (call.pass == Pass::pressOut && call.index == PRESS_ROUNDS)
+    return pressOut(surface_, arguments, implicit, state_, PRESS_ROUNDS);
   if (call.pass == Pass::settle) return settle(before, after, implicit);
   if (state_.isSettled != 0) {
     // The end of the step has been done once more, without what the guard has corrected.
-    if (call.pass != Pass::shorten || state_.tooNear[0] == 0) return;
+    if (call.pass != Pass::shorten || (state_.tooNear[0] == 0 && state_.isPressed == 0)) return;
     after.positions = safePositions_;
     after.velocities = safeVelocities_;
     return;
   }
   switch (call.pass) {
     case Pass::findTouching:
-      return findTouching(before, implicit);
+      return findTouching(before, implicit, arguments);
     case Pass::weighPairs:
+      if (!surface_.colliders.empty()) meetColliders(surface_, arguments, implicit);
       return weighPairs(implicit, step);
     case Pass::multiplyPairs:
       return multiplyPairs(implicit);
+    case Pass::pressOut:
+      return pressOut(surface_, arguments, implicit, state_, call.index);
     case Pass::guard:
       return guard(before, after, step, inverseMasses, call.index);
     default:

@@ -22,7 +22,7 @@ class SurfaceContact {
 
   // Does a pass of Domain::surface.
   void run(PassCall call, const CpuState<Real>& before, CpuState<Real>& after, ImplicitState<Real>& implicit,
-           const StepParams<Real>& step, const std::vector<Real>& inverseMasses);
+           const PassArguments<Real>& arguments, const std::vector<Real>& inverseMasses);
   [[nodiscard]] ContactCounts counts() const { return countsOf(state_); }
   // Makes room for what the steps so far would have needed. On both backends at the same time.
   void makeRoom() { growRoom(surface_, state_); }
@@ -42,7 +42,8 @@ class SurfaceContact {
 
   void boxParticles(const Components<Real>& starts, Real around);
   void growBoxes();
-  void findTouching(const CpuState<Real>& before, ImplicitState<Real>& implicit);
+  void findTouching(const CpuState<Real>& before, ImplicitState<Real>& implicit,
+                    const PassArguments<Real>& arguments);
   void settle(const CpuState<Real>& before, const CpuState<Real>& after, ImplicitState<Real>& implicit);
   // From where the motion of this round begins.
   [[nodiscard]] const Components<Real>& startsOf(const CpuState<Real>& before) const {

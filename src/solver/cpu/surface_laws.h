@@ -17,6 +17,7 @@ struct SurfaceLaws {
   using real = Real;
   using uint = std::uint32_t;
   using vec3 = Vec3<Real>;
+  using SmallCollider = const shared::SmallCollider<Real>&;
 
   INLINE static real sumOfProducts(vec3 a, vec3 b) { return dot(a, b); }
   INLINE static vec3 crossProduct(vec3 a, vec3 b) { return cross(a, b); }
@@ -26,6 +27,8 @@ struct SurfaceLaws {
 #undef LAW
 #define LAW INLINE static
 #include "shared/surface_laws.h"
+// which these need:
+#include "shared/core_laws.h"
 };
 
 #include "solver/cpu/end_laws.h"

@@ -126,15 +126,17 @@ void weighPairs(ImplicitState<Real>& own, const StepParams<Real>& step) {
     SurfacePair<Real>& pair = touching.pairs[q];
     const Vec3<Real> moved = weighted(pair, own.displacements);
     const Real along = dot(pair.normal, moved), over = pair.over - along;
-    const Vec3<Real> slip = moved - along * pair.normal;
+    const Vec3<Real> slip = tangential(pair.normal, moved - carryOf(touching, q));
     const Real squared = dot(slip, slip), inverse = inverseSquareRoot(squared);
-    // The less of this and the last Newton step: what is not solved yet presses at random, and would stick.
-    const Real press = pair.stiffness * larger(over, Real(0));
-    pair.limit = canonical(pair.friction * (press < pair.pressed ? press : pair.pressed));
-    pair.pressed = canonical(press);
+    if (pair.collider == NO_COLLIDER) {
+      // The less of this and the last Newton step: what is not solved yet presses at random, and would stick.
+      const Real press = pair.stiffness * larger(over, Real(0));
+      pair.limit = canonical(pair.friction * (press < pair.pressed ? press : pair.pressed));
+      pair.pressed = canonical(press);
+      pair.held = over > Real(0) ? pair.stiffness : Real(0);
+    }
     const Real across = pair.limit * frictionSlope(squared * inverse, inverse, slowSlip(step)).over;
     pair.across = canonical(across);
-    pair.held = over > Real(0) ? pair.stiffness : Real(0);
     touching.forces[q] = canonical((pair.held * over) * pair.normal - across * slip);
   };
   ThreadTeam::shared().forEach(0, static_cast<std::uint32_t>(touching.pairs.size()), PAIRS_AT_ONCE, weigh);

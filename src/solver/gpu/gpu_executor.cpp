@@ -81,9 +81,9 @@ void GpuExecutor::setScene(const StepInputs& inputs) {
 }
 
 void GpuExecutor::setSurface(const StepInputs& inputs) {
-  if (hasSurfaceContact(*inputs.scene))
+  if (hasSurface(*inputs.scene, *cloth_))
     surfaceContact_.setSurface(makeSurface<float>(*cloth_, *inputs.scene, inputs.cuts),
-                               cloth_->particleCount());
+                               cloth_->particleCount(), featuresOf(*inputs.scene, *cloth_, 0));
 }
 
 void GpuExecutor::setCuts(const StepInputs& inputs) {

@@ -24,7 +24,8 @@ PassFeatures featuresOf(const Scene& scene, const Cloth& cloth, std::size_t piec
   }
   features.coulombFriction = !scene.colliders.empty() && scene.solver.frictionLaw == FrictionLaw::coulomb;
   features.contactPlanes = isImplicit(scene.solver.integrator) && !scene.colliders.empty();
-  features.surface = isImplicit(scene.solver.integrator) && hasSurfaceContact(scene);
+  features.surface = isImplicit(scene.solver.integrator) && hasSurface(scene, cloth);
+  features.smallColliders = hasSmallColliders(scene, cloth);
   features.history = scene.solver.integrator == Integrator::bdf2;
   features.movingPins = !scene.cloths[pieceIndex].pinMotion.empty();
   features.restLengthTable = piece.hasRestLengthTable;
@@ -57,6 +58,7 @@ PassFeatures restricted(const PassFeatures& all, Features to) {
   take(Feature::planes, &PassFeatures::contactPlanes);
   take(Feature::history, &PassFeatures::history);
   take(Feature::surface, &PassFeatures::surface);
+  take(Feature::smallColliders, &PassFeatures::smallColliders);
   return features;
 }
 
@@ -75,6 +77,7 @@ gl::Defines definesFor(const PassFeatures& features) {
           {"HAS_LIMIT_SPRINGS", std::to_string(features.limitSprings)},
           {"HAS_CONTACT_PLANES", std::to_string(features.contactPlanes)},
           {"HAS_SURFACE", std::to_string(features.surface)},
+          {"HAS_SMALL_COLLIDERS", std::to_string(features.smallColliders)},
           {"HAS_HISTORY", std::to_string(features.history)},
           {"HAS_GRAB", std::to_string(features.grab)},
           {"HAS_JET", std::to_string(features.jet)},

@@ -27,14 +27,19 @@ GpuSurfaceContact::Numbers::Numbers(const std::string& label, std::size_t count,
 const gl::Program& GpuSurfaceContact::program(const std::string& pass, const Variant& variant) {
   auto found = programs_.find({pass, variant});
   if (found == programs_.end()) {
-    gl::Defines defines{{"SEARCHES_TOUCHING", std::to_string(variant.touching)},
-                        {"WRITES_PAIRS", std::to_string(variant.writes)},
-                        {"SCANS_LISTS", std::to_string(variant.lists)},
-                        {"LATER", std::to_string(variant.later)},
-                        {"CLEARS", std::to_string(variant.clears)}};
-    if (variant.gate != 0) {
-      defines = definesFor({.groupColumns = SURFACE_GROUP, .groupRows = 1, .gate = variant.gate});
-    }
+    PassFeatures features = colliderFeatures_;
+    features.groupColumns = SURFACE_GROUP;
+    features.groupRows = 1;
+    features.gate = variant.gate;
+    gl::Defines defines = definesFor(features);
+    for (const auto& define : gl::Defines{{"SEARCHES_TOUCHING", std::to_string(variant.touching)},
+                                          {"WRITES_PAIRS", std::to_string(variant.writes)},
+                                          {"SCANS_LISTS", std::to_string(variant.lists)},
+                                          {"LATER", std::to_string(variant.later)},
+                                          {"CLEARS", std::to_string(variant.clears)},
+                                          {"ONLY_COUNTS", std::to_string(variant.counts)},
+                                          {"STOPS_SLIPS", std::to_string(variant.stops)}})
+      defines.push_back(define);
     gl::Program made = gl::Program::makeCompute("sim/surface/" + pass + ".comp", defines);
     found = programs_.emplace(std::pair{pass, variant}, std::move(made)).first;
   }
@@ -55,11 +60,21 @@ void GpuSurfaceContact::compile() {
     program(pass);
   program("weigh", {.gate = GATE_STEP});
   program("multiply_pairs", {.gate = GATE_SYSTEM});
+  if (surface_.colliders.empty()) return;
+  program("meet", {.gate = GATE_STEP});
+  for (const bool counts : {false, true}) program("press", {.counts = counts});
+  program("press", {.stops = true});
+  for (const bool stops : {false, true}) program("press_particles", {.stops = stops});
 }
 
-void GpuSurfaceContact::setSurface(ClothSurface<float> surface, std::uint32_t particles) {
+void GpuSurfaceContact::setSurface(ClothSurface<float> surface, std::uint32_t particles,
+                                   const PassFeatures& features) {
   surface_ = std::move(surface);
   particles_ = particles;
+  PassFeatures known = restricted(features, {Feature::smallColliders});
+  if (known.smallColliders) known = restricted(features, {Feature::smallColliders, Feature::colliders});
+  if (known != colliderFeatures_) programs_.clear();
+  colliderFeatures_ = known;
   compile();
   const std::size_t triangles = surface_.triangles.size();
   triangles_ = Numbers("surface triangles", 8 * triangles, GL_RGBA32UI);
@@ -75,6 +90,10 @@ void GpuSurfaceContact::setSurface(ClothSurface<float> surface, std::uint32_t pa
     flatBlocks_.buffer.upload({reinterpret_cast<const std::uint32_t*>(surface_.blocks.data()), 12 * blocks});
   flatSides_ = ParticleArray("sides of blocks", 4 * std::max<std::size_t>(blocks, 1));
   flatFlags_ = Numbers("flat blocks", std::max<std::size_t>(blocks, 1));
+  smallColliders_ = ParticleArray("small colliders", 2 * std::max<std::size_t>(surface_.colliders.size(), 1));
+  static_assert(sizeof(SmallCollider<float>) == 2 * sizeof(Particle4));
+  smallColliders_.buffer.upload(
+      {reinterpret_cast<const Particle4*>(surface_.colliders.data()), 2 * surface_.colliders.size()});
   boxes_ = ParticleArray("boxes", BOX_TEXELS * surface_.firstBoxes.back());
   counts_ = Numbers("pairs by triangle", triangles);
   blocks_ = Numbers("blocks of triangles", blocksOf(triangles));
@@ -111,6 +130,7 @@ void GpuSurfaceContact::allocatePairs() {
   const std::size_t room = surface_.roomForPairs;
   pairIds_ = Numbers("pair particles", 4 * room, GL_RGBA32UI);
   pairRows_ = ParticleArray("pairs", PAIR_TEXELS * room);
+  pairCarries_ = ParticleArray("pair carries", surface_.colliders.empty() ? 1 : room);
   entries_ = Numbers("pair lists", 4 * room);
 }
 
@@ -127,6 +147,8 @@ void GpuSurfaceContact::uploadParams() {
   params.touchingReach = surface_.touchingReach;
   params.blocks = static_cast<std::uint32_t>(surface_.blocks.size());
   params.isOneGrid = surface_.isOneGrid ? 1 : 0;
+  params.touchesItself = surface_.touchesItself ? 1 : 0;
+  params.smallColliders = static_cast<std::uint32_t>(surface_.colliders.size());
   for (std::size_t level = 0; level < surface_.firstBoxes.size(); ++level)
     params.firstBoxes[level][0] = surface_.firstBoxes[level];
   params_.upload({&params, 1});
@@ -154,6 +176,8 @@ void GpuSurfaceContact::bindTextures() const {
   flatBlocks_.texture.bind(FLAT_BLOCKS_UNIT);
   flatSides_.texture.bind(FLAT_SIDES_UNIT);
   flatFlags_.texture.bind(FLAT_FLAGS_UNIT);
+  smallColliders_.texture.bind(SMALL_COLLIDERS_UNIT);
+  pairCarries_.texture.bind(PAIR_CARRIES_UNIT);
 }
 
 void GpuSurfaceContact::runOn(PassRunner& runner, const gl::Program& program, std::size_t entries) const {
@@ -193,8 +217,10 @@ void GpuSurfaceContact::scan(PassRunner& runner, Numbers& counts, Numbers& block
 void GpuSurfaceContact::findTouching(PassRunner& runner, bool later) {
   const std::size_t triangles = surface_.triangles.size();
   runner.runGroups(program("begin", {.touching = true, .later = later}), name_, 1);
-  findFlat(runner, true);
-  growBoxes(runner, true);
+  if (surface_.touchesItself) {
+    findFlat(runner, true);
+    growBoxes(runner, true);
+  }
   counts_.buffer.bindStorage(SURFACE_COUNTS_BINDING);
   runOn(runner, program("search", {.touching = true}), triangles);
   scan(runner, counts_, blocks_, triangles, false);
@@ -212,6 +238,24 @@ void GpuSurfaceContact::findTouching(PassRunner& runner, bool later) {
   entries_.buffer.bindStorage(SURFACE_LISTS_BINDING);
   runner.runIndirect(program("list"), name_, 0);
   runOn(runner, program("sort_lists"), particles_);
+  meetColliders(runner);
+}
+
+void GpuSurfaceContact::meetColliders(PassRunner& runner) {
+  if (surface_.colliders.empty()) return;
+  dispatches_.bindDispatches();
+  pairRows_.buffer.bindStorage(SURFACE_OUT_BINDING);
+  pairCarries_.buffer.bindStorage(SURFACE_CARRIES_BINDING);
+  runner.runIndirect(program("meet", {.gate = GATE_STEP}), name_, 0);
+}
+
+void GpuSurfaceContact::pressOut(PassRunner& runner, GpuArrays& arrays, std::uint32_t round) {
+  dispatches_.bindDispatches();
+  pairRows_.buffer.bindStorage(SURFACE_OUT_BINDING);
+  runner.runIndirect(program("press", {.counts = round == PRESS_ROUNDS, .stops = round == 0}), name_, 0);
+  if (round == PRESS_ROUNDS) return;
+  bindEnds(arrays);
+  runOn(runner, program("press_particles", {.stops = round == 0}), particles_);
 }
 
 void GpuSurfaceContact::keep(PassRunner& runner, bool clears) {
@@ -273,12 +317,15 @@ void GpuSurfaceContact::run(PassRunner& runner, PassCall call, GpuArrays& arrays
       return findTouching(runner, call.index > 0);
     case Pass::weighPairs:
     case Pass::multiplyPairs:
+      if (call.pass == Pass::weighPairs) meetColliders(runner);
       dispatches_.bindDispatches();
       pairRows_.buffer.bindStorage(SURFACE_OUT_BINDING);
       return runner.runIndirect(call.pass == Pass::weighPairs
                                     ? program("weigh", {.gate = GATE_STEP})
                                     : program("multiply_pairs", {.gate = GATE_SYSTEM}),
                                 name_, 0);
+    case Pass::pressOut:
+      return pressOut(runner, arrays, call.index);
     case Pass::guard:
       return guard(runner, arrays, call.index);
     case Pass::settle:

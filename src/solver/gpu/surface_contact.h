@@ -15,6 +15,7 @@
 #include "solver/executor.h"
 #include "solver/gpu/arrays.h"
 #include "solver/gpu/particle_array.h"
+#include "solver/gpu/pass_programs.h"
 #include "solver/gpu/pass_runner.h"
 #include "solver/surface.h"
 
@@ -23,7 +24,7 @@ namespace clothsim {
 class GpuSurfaceContact {
  public:
   // @throws OpenGlError when a buffer is larger than the driver allows, or a shader does not compile
-  void setSurface(ClothSurface<float> surface, std::uint32_t particles);
+  void setSurface(ClothSurface<float> surface, std::uint32_t particles, const PassFeatures& features);
   [[nodiscard]] bool isOn() const { return !programs_.empty(); }
 
   // What the passes of the implicit step read.
@@ -36,7 +37,8 @@ class GpuSurfaceContact {
 
  private:
   struct Variant {  // of a program
-    bool touching = false, writes = false, lists = false, later = false, clears = false;
+    bool touching = false, writes = false, lists = false, later = false, clears = false, counts = false,
+         stops = false;
     int gate = 0;
     friend auto operator<=>(const Variant&, const Variant&) = default;
   };
@@ -63,6 +65,8 @@ class GpuSurfaceContact {
   void findTouching(PassRunner& runner, bool later);
   void keep(PassRunner& runner, bool clears);
   void guard(PassRunner& runner, GpuArrays& arrays, std::uint32_t round);
+  void meetColliders(PassRunner& runner);
+  void pressOut(PassRunner& runner, GpuArrays& arrays, std::uint32_t round);
   // What the end of the step has come to, to be changed.
   void bindEnds(GpuArrays& arrays) const;
   void shorten(PassRunner& runner, GpuArrays& arrays);
@@ -72,6 +76,7 @@ class GpuSurfaceContact {
   std::uint32_t particles_ = 0;
   std::string name_;  // of the pass, for timings
   std::map<std::pair<std::string, Variant>, gl::Program> programs_;
+  PassFeatures colliderFeatures_;  // what programs know of the scene
 
   gl::Buffer<SurfaceParams> params_;
   gl::Buffer<SurfaceState> state_;
@@ -82,6 +87,7 @@ class GpuSurfaceContact {
   gl::Buffer<std::uint32_t> cursors_, kept_, newlyKept_;
   gl::Buffer<std::int32_t> corrections_;
   ParticleArray points_, boxes_, pairRows_, safePositions_, safeVelocities_, flatSides_;
+  ParticleArray smallColliders_, pairCarries_;
 };
 
 }  // namespace clothsim

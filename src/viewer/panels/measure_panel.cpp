@@ -152,6 +152,10 @@ void MeasurePanel::drawNumbers(const Scene& scene) {
 // Rows of the table of numbers.
 void MeasurePanel::drawContacts(SelfCollision mode) {
   const auto number = [](std::uint64_t count) { return static_cast<unsigned long long>(count); };
+  if (contacts_.passages > 0)
+    row("passed by colliders",
+        formatted("%llu in %llu steps", number(contacts_.passages), number(contacts_.passageSteps)),
+        "Triangles that small colliders went through.");
   if (mode == SelfCollision::contact) {
     row("pairs in contact", formatted("at most %llu", number(contacts_.pairs)),
         "Parts of the surface that may touch, the most in a step so far.");

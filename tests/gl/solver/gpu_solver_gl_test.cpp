@@ -44,7 +44,8 @@ TEST_F(GpuSolverTest, AgreesWithTheCpuInEveryBitInImplicitSteps) {
   expectTheSameBits(test::implicitScenes(33), 40);
 }
 
-// A sheet with a cut falls into a heap on the floor, beside another one and over a ball.
+// A sheet with a cut falls into a heap on the floor, beside another one, over a ball that is smaller than a
+// cell and a rod that turns.
 TEST_F(GpuSolverTest, AgreesWithTheCpuInContact) {
   Scene scene = test::implicitly(test::sheetScene(17));
   scene.cloths = {ClothSettings{}};
@@ -57,8 +58,14 @@ TEST_F(GpuSolverTest, AgreesWithTheCpuInContact) {
   scene.cloths.push_back(scene.cloths[0]);
   scene.cloths[1].position.z = 0.01;
   scene.cloths[1].numWidthPoints = 13;
-  scene.colliders = {Plane{.point = {0, 0, 0}, .normal = {0, 1, 0}, .friction = 0.4},
-                     Sphere{.origin = {0.1, 0.02, 0}, .radius = 0.06, .friction = 0.4}};
+  scene.colliders = {
+      Plane{.point = {0, 0, 0}, .normal = {0, 1, 0}, .friction = 0.4},
+      Sphere{.origin = {0.1, 0.02, 0}, .radius = 0.02, .friction = 0.4},
+      Capsule{.axis = {1, 0, 0.2},
+              .length = 0.2,
+              .radius = 0.015,
+              .friction = 0.4,
+              .motion = Motion{.keys = {{0, {0.25, 0.02, 0}, {}}, {1, {0.25, 0.1, 0}, {0, 90, 0}}}}}};
   scene.solver.selfCollision = SelfCollision::contact;
   scene.solver.framesPerSec = 60;
   scene.solver.simulationSteps = 2;

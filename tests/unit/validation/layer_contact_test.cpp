@@ -162,6 +162,8 @@ double lostSpeed(double friction, double degrees) {
   scene.solver.simulationSteps = {8, true};
   chooseCounts(scene);
   scene.solver.selfFriction = friction;
+  scene.solver.tolerance = 1e-3;  // and so many iterations that all steps are solved
+  scene.solver.cgIterations = 60;
   scene.cloths[0].width = scene.cloths[0].height = 0.6;
   scene.cloths[0].numWidthPoints = scene.cloths[0].numHeightPoints = 33;
   scene.cloths[0].pinned = {GridSide::left, GridSide::right, GridSide::top, GridSide::bottom};
