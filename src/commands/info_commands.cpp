@@ -39,12 +39,12 @@ std::vector<Scene> selfTestScenes() {
 }
 
 // The largest size at which the start of the demo, where nothing touches yet, is simulated in three quarters
-// of its time on a GPU, or in half of it on a software renderer: there folds take twice as long, and
-// the picture is drawn by the same cores. By the backend that the viewer starts with.
+// of its time on a GPU, or in two fifths of it on a software renderer: there folds take half as long again,
+// and the picture is drawn by the same cores. By the backend that the viewer starts with.
 std::string suggestedDemoResolution(bool software) {
   int best = 48;
-  const double limit = (software ? 0.5 : 0.75) / 30;  // to simulate a 30th of a second [s]
-  for (const int size : {64, 96, 128, 192, 256, 384, 512, 768, 1024}) {
+  const double limit = (software ? 0.4 : 0.75) / 30;  // to simulate a 30th of a second [s]
+  for (const int size : {64, 80, 96, 128, 192, 256, 384, 512, 768, 1024}) {
     if (measureDemo(size, chosenBackend("auto"), 0, 0).simulationSeconds > limit) break;
     best = size;
   }
