@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cassert>
 #include <chrono>
+#include <new>
 #include <utility>
 
 #include "core/exact_math.h"
@@ -244,6 +246,7 @@ template <class Real>
 void CpuExecutor<Real>::runByRows(std::span<const PassCall> passes) {
   std::array<RowPass<Real>, PASS_COUNT> rowPasses;
   for (std::size_t k = 0; k < passes.size(); ++k) rowPasses[k] = rowPassOf<Real>(passes[k].pass);
+  std::atomic<bool> lacksMemory = false;  // threads must not throw
   for (const cpu::ImplicitArguments<Real>& piece : pieces_) {
     const Piece& lattice = cloth_->pieces()[piece.step.step.piece];
     const int rows = cpu::rowsOf(lattice);
@@ -251,12 +254,16 @@ void CpuExecutor<Real>::runByRows(std::span<const PassCall> passes) {
                                       std::max(rowsAtOnce(lattice), LEAST_ROWS_AT_ONCE),
                                       [&](std::uint32_t begin, std::uint32_t end) {
                                         thread_local cpu::ForceRows<Real> forceRows;
-                                        forceRows.begin(lattice.isMesh ? 0 : lattice.columns);
+                                        if (!forceRows.begin(lattice.isMesh ? 0 : lattice.columns)) {
+                                          lacksMemory = true;
+                                          return;
+                                        }
                                         for (std::uint32_t row = begin; row < end; ++row)
                                           for (std::size_t k = 0; k < passes.size(); ++k)
                                             rowPasses[k](piece, static_cast<int>(row), forceRows);
                                       });
   }
+  if (lacksMemory) throw std::bad_alloc();
 }
 
 template <class Real>

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <new>
 #include <vector>
 
 #include "cloth/cloth.h"
@@ -19,12 +20,16 @@ class ForceRows {
   static constexpr std::size_t UPPER_TRIANGLE = SPRING_SLOTS, LOWER_TRIANGLE = SPRING_SLOTS + 1,
                                KINDS = SPRING_SLOTS + 2;
 
-  // For rows of a grid, ascending and without gaps.
-  void begin(int columns) {
+  // For rows of a grid, ascending and without gaps. Returns whether there is memory for them.
+  [[nodiscard]] bool begin(int columns) noexcept try {
     ends_.fill(-AROUND);
-    if (columns == columns_) return;
+    if (columns == columns_) return true;
+    columns_ = -1;
+    values_.assign(3 * KINDS * KEPT_ROWS * static_cast<std::size_t>(columns + 2 * AROUND), Real(0));
     columns_ = columns;
-    values_.assign(3 * KINDS * KEPT_ROWS * stride(), Real(0));
+    return true;
+  } catch (const std::bad_alloc&) {
+    return false;
   }
   // Calls compute(row) for the rows of a kind from `first` to `last` that are not there yet.
   template <class Compute>

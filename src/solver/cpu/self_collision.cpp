@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstdlib>
+#include <new>
 #include <type_traits>
 #include <utility>
 
@@ -227,12 +228,18 @@ void SelfCollision<Real>::findCandidates() {
   // Neighbours that a cut parts are candidates.
   const Real reach = static_cast<Real>(params_.firstCode) - 1,
              neighbors = cutMasks_.empty() ? 2 * reach * reach : Real(-1);
+  std::atomic<bool> lacksMemory = false;  // threads must not throw
   ThreadTeam::shared().forEach(0, tiles_.tiles(), TILES_AT_ONCE, [&](std::uint32_t tile) {
-    thread_local std::vector<NearTile> found;
-    found.clear();
-    tiles_.find(tile, params_.searchSquared, neighbors, found);
-    setCandidates(tile, found);
+    try {
+      thread_local std::vector<NearTile> found;
+      found.clear();
+      tiles_.find(tile, params_.searchSquared, neighbors, found);
+      setCandidates(tile, found);
+    } catch (const std::bad_alloc&) {
+      lacksMemory = true;
+    }
   });
+  if (lacksMemory) throw std::bad_alloc();
   std::atomic<bool> anyWalks = false;
   forEachBlock([&](Block& block) {
     const auto kept = [&](std::uint32_t i) {

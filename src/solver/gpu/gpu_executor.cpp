@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstddef>
 
 #include "core/error.h"
 
@@ -297,10 +298,13 @@ std::vector<Particle4> GpuExecutor::positions(std::uint32_t first, std::uint32_t
 
 // A few bytes are read back.
 void GpuExecutor::setInverseMass(std::uint32_t particle, double inverseMass, bool rests) {
-  Particle4 x = positions(particle, 1)[0];
+  const auto w = static_cast<float>(inverseMass);
   const Particle4 atRest;
-  x.w = static_cast<float>(inverseMass);
-  arrays_[Array::positions].buffer.upload({&x, 1}, particle);
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  // The last component alone, so that nothing is read back.
+  glNamedBufferSubData(arrays_[Array::positions].buffer.name(),
+                       static_cast<GLintptr>(particle * sizeof(Particle4) + offsetof(Particle4, w)), sizeof w,
+                       &w);
   if (rests) arrays_[Array::velocities].buffer.upload({&atRest, 1}, particle);
   arrays_.forgetHistory();
 }
