@@ -1,5 +1,6 @@
 // `scenes` lists the scenes, `describe` explains their keys, `doctor` checks this machine.
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -39,13 +40,16 @@ std::vector<Scene> selfTestScenes() {
 }
 
 // The largest size at which the start of the demo, where nothing touches yet, is simulated in three quarters
-// of its time on a GPU, or in two fifths of it on a software renderer: there folds take half as long again,
+// of its time on a GPU, or in a good third of it on a software renderer: there folds take half as long again,
 // and the picture is drawn by the same cores. By the backend that the viewer starts with.
 std::string suggestedDemoResolution(bool software) {
   int best = 48;
-  const double limit = (software ? 0.4 : 0.75) / 30;  // to simulate a 30th of a second [s]
+  const double limit = (software ? 0.36 : 0.75) / 30;  // to simulate a 30th of a second [s]
   for (const int size : {64, 80, 96, 128, 192, 256, 384, 512, 768, 1024}) {
-    if (measureDemo(size, chosenBackend("auto"), 0, 0).simulationSeconds > limit) break;
+    double seconds = INFINITY;  // the least of some: others may use the cores, too
+    for (int k = 0; k < 4 && seconds > limit; ++k)
+      seconds = std::min(seconds, measureDemo(size, chosenBackend("auto"), 0, 0).simulationSeconds);
+    if (seconds > limit) break;
     best = size;
   }
   return std::to_string(best) + "x" + std::to_string(best);
