@@ -48,6 +48,7 @@ class SelfCollision {
   [[nodiscard]] std::uint32_t encode(std::uint32_t piece, std::uint32_t i, std::uint32_t j) const;
   [[nodiscard]] std::uint32_t encodeOnMesh(std::uint32_t i, std::uint32_t j) const;  // of one mesh
   void checkHash(const CpuState<Real>& before, const CpuState<Real>& after);
+  // Takes these positions for those that candidates are near at; buckets wait until walk() needs them.
   void buildHash(const Components<Real>& positions);
   void fillBuckets();  // for walk()
   void findCandidates();

@@ -35,8 +35,9 @@ class TileSearch {
 
   // Where the particles are, for find().
   void setPositions(const Components<Real>& positions);
-  // Adds to `found` who lies within sqrt(reachSquared) of a particle of the tile, other than itself and than
-  // its neighbours on the grid: those that are at most sqrt(neighborsSquared) columns and rows away.
+  // Adds to `found` who lies within sqrt(reachSquared) of a particle of the tile and is not its neighbour on
+  // the grid: at most sqrt(neighborsSquared) columns and rows away. On meshes, and where neighborsSquared is
+  // negative, a particle finds itself, too.
   void find(std::uint32_t tile, Real reachSquared, Real neighborsSquared, std::vector<NearTile>& found) const;
 
  private:
@@ -54,8 +55,8 @@ class TileSearch {
   std::vector<std::uint32_t> particles_;
   std::vector<Real> columns_, rows_;  // on the grid of its piece
   Components<Real> positions_;
-  std::vector<std::uint32_t>
-      firstGroups_;                       // of each level, the tiles' first, and one more: how many there are
+  // Of each level, the tiles' first, and one more: how many there are.
+  std::vector<std::uint32_t> firstGroups_;
   std::vector<FourBounds<Real>> groups_;  // each of four below it
 };
 
