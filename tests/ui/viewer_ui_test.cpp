@@ -110,6 +110,8 @@ TEST_F(ViewerUi, MouseMovesTheCameraAndSpaceBringsItBack) {
   leavesHomeAndReturns("right drag");
   viewer.click(4, 3);
   leavesHomeAndReturns("the wheel");
+  viewer.press("3");
+  leavesHomeAndReturns("the key of the view from above");
 }
 
 TEST_F(ViewerUi, F1ShowsTheListOfKeysAndF2HidesThePanel) {
