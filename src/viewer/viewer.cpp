@@ -48,11 +48,7 @@ Viewer::Viewer(const Shared<Scene>& scene, const ViewerOptions& options,
   widgets_.offer("render.texture", std::move(textures));
   listen();
   const std::string source = lost ? lost->source : options.sceneName;
-  const std::string backend = chosenBackend(options.backend);
-  if (backend != options.backend && backend == "cpu")
-    std::fprintf(stderr,
-                 "clothsim: simulating on the CPU, since OpenGL is a software renderer; --backend gpu forces "
-                 "the GPU\n");
+  const std::string backend = announcedBackend(options.backend);
   open_ = load(source, [&] {
     return std::make_unique<OpenScene>(lost ? lost->loaded : scene, source, lost ? "cpu" : backend,
                                        renderOptions());
