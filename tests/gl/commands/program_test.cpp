@@ -10,9 +10,9 @@
 #include <thread>
 
 #include "core/files.h"
+#include "gl/gl_test.h"
 #include "measure/crossings.h"
 #include "support/process.h"
-#include "gl/gl_test.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
 
