@@ -91,6 +91,8 @@ TEST_F(ViewerUi, StartsAgainAfterTheTimeThatIsAskedFor) {
   ASSERT_TRUE(viewer.titleBecomesOneWith("fps")) << viewer.title();
   EXPECT_FALSE(
       test::eventually(seconds(3), [&] { return viewer.title().find("paused") != std::string::npos; }));
+  const Picture now = viewer.picture();
+  EXPECT_TRUE(test::eventually(seconds(5), [&] { return viewer.picture() != now; })) << "it stands still";
 }
 
 TEST_F(ViewerUi, MouseMovesTheCameraAndSpaceBringsItBack) {
