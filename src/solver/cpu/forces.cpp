@@ -345,7 +345,7 @@ INLINE void addParticleForces(const PassArguments<Real>& arguments, int row) {
 template <class Real>
 INLINE void clearForces(const PassArguments<Real>& arguments, int row) {
   const Range particles = rangeOf(arguments.step, row);
-  for (std::vector<Real>* f : {&arguments.forces.x, &arguments.forces.y, &arguments.forces.z})
+  for (Component<Real>* f : {&arguments.forces.x, &arguments.forces.y, &arguments.forces.z})
     std::fill(f->data() + particles.begin, f->data() + particles.end, Real(0));
 }
 
