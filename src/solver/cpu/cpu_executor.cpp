@@ -452,6 +452,22 @@ bool CpuExecutor<Real>::restore(const ParticleCopy& copy) {
   return true;
 }
 
+// What a step no longer needs holds the places that it did not leave its result in.
+template <class Real>
+void CpuExecutor<Real>::returnTo(const Real* positions, const Real* velocities) {
+  const auto move = [](Components<Real>& from, const Real* place, Components<Real>& unused) {
+    if (unused.x.data() != place) return;
+    unused = from;
+    std::swap(unused, from);
+  };
+  CpuState<Real>& state = particles_.state;
+  move(state.positions, positions, after_.positions);
+  move(state.positions, positions, selfCollision_.unusedPositions());
+  move(state.velocities, velocities, after_.velocities);
+  assert(state.positions.x.data() == positions && state.velocities.x.data() == velocities &&
+         "returnTo() knows the places of this solver's particles");
+}
+
 template <class Real>
 std::optional<Divergence> CpuExecutor<Real>::findDivergence(std::uint64_t step, bool wait) {
   if (wait) surfaceContact_.makeRoom();
