@@ -279,8 +279,12 @@ Image PythonSimulation::picture(const PictureView& view) {
   return image;
 }
 
-void PythonSimulation::save(const std::string& path) { saveState(state(), simulation_->cloth(), path); }
-void PythonSimulation::load(const std::string& path) { setState(loadState(path, simulation_->cloth())); }
+void PythonSimulation::save(const std::filesystem::path& path) {
+  saveState(state(), simulation_->cloth(), path);
+}
+void PythonSimulation::load(const std::filesystem::path& path) {
+  setState(loadState(path, simulation_->cloth()));
+}
 
 const std::vector<std::array<std::uint32_t, 3>>& PythonSimulation::faces() {
   if (faces_.empty()) faces_ = simulation_->cloth().triangles();

@@ -2,8 +2,10 @@
 // measures, a renderer. It knows nothing of Python; module.cpp translates.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -68,8 +70,8 @@ class PythonSimulation {
   // measured, which are the start and those at which this or run() was called.
   [[nodiscard]] std::string measures();
   [[nodiscard]] Image picture(const PictureView& view);
-  void save(const std::string& path);
-  void load(const std::string& path);
+  void save(const std::filesystem::path& path);
+  void load(const std::filesystem::path& path);
 
   [[nodiscard]] const std::vector<std::array<std::uint32_t, 3>>& faces();
 

@@ -1,10 +1,11 @@
 """The Python package against the program and against formulas. CLOTHSIM_PROGRAM names the program."""
 
 import ast
+import contextlib
 import csv
 import gc
+import io
 import json
-import math
 import os
 import pathlib
 import signal
@@ -88,6 +89,19 @@ class AgainstTheProgram(unittest.TestCase):
         self.assertEqual(list(trace["implicit_steps"]), [0, 1, 1, 1, 1])
         self.assertTrue((trace["cg_iterations"][1:] > 0).all())
 
+    def test_energies_and_momenta_of_a_fall_are_those_of_the_formulas(self):
+        sim = clothsim.Simulation(FREE_PARTICLE, backend="cpu")
+        mass = float((1 / sim.inverse_masses).sum())
+        trace = sim.run(9)
+        speed = 9.8 * trace["time"]
+        np.testing.assert_allclose(trace["momentum_y"], -mass * speed, rtol=1e-5, atol=1e-9)
+        np.testing.assert_allclose(trace["kinetic_energy"], 0.5 * mass * speed**2, rtol=1e-5, atol=1e-9)
+        fallen = trace["centroid_y"][0] - trace["centroid_y"]
+        np.testing.assert_allclose(trace["gravity_energy"], -mass * 9.8 * fallen, rtol=1e-5, atol=1e-6)
+        np.testing.assert_allclose(
+            trace["total_energy"], trace["kinetic_energy"] + trace["gravity_energy"] + trace["spring_energy"]
+        )
+
     def test_errors_are_those_of_the_program(self):
         said = program("run", "-f", "pinned2", "--backend", "cpu", "--frames", "0", "--set", "cloth.kss=1").stderr
         with self.assertRaises(clothsim.SceneError) as caught:
@@ -102,11 +116,11 @@ class AgainstTheProgram(unittest.TestCase):
 
     def test_states_go_to_the_program_and_back(self):
         with tempfile.TemporaryDirectory() as folder:
-            path = os.path.join(folder, "half.state")
+            path = pathlib.Path(folder, "half.state")
             sim = clothsim.Simulation("pinned2", backend="cpu")
             sim.step_frames(2)
             sim.save(path)
-            told = run_json("-f", "pinned2", "--from", path, "--frames", "2")
+            told = run_json("-f", "pinned2", "--from", str(path), "--frames", "2")
             kept = sim.get_state()
             sim.step_frames(2)
             self.assertEqual(sim.state_hash, told["state_hash"])
@@ -326,6 +340,15 @@ class Package(unittest.TestCase):
         self.assertEqual(members - {"__init__"}, public)
         for name in public:
             self.assertGreater(len(getattr(clothsim.Simulation, name).__doc__ or ""), 10, name)
+
+    def test_the_readmes_lines_run(self):
+        readme = (pathlib.Path(__file__).parents[2] / "README.md").read_text(encoding="utf-8")
+        lines = readme.split("```python\n")[1].split("```")[0].replace("sim.render", "# sim.render")
+        names = {}
+        with contextlib.redirect_stdout(io.StringIO()) as printed:
+            exec(compile(lines.replace("picture = #", "#"), "README.md", "exec"), names)
+        self.assertIn(names["sim"].state_hash, printed.getvalue())
+        self.assertEqual(len(names["energies"]["time"]), 61)
 
     def test_the_cpu_backend_opens_no_opengl(self):
         code = ("import clothsim; clothsim.Simulation('pinned2', backend='cpu').step();"
