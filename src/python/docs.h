@@ -62,6 +62,12 @@ inline constexpr const char* velocities =
 Under the integrator verlet those of half a step before, as the scheme carries them; energies in
 measures() and run() are of the velocities at `time`. Assign to write.)";
 
+inline constexpr const char* forces =
+    R"(Forces from outside on each particle [N]: float32, shape (particles, 3), a copy.
+
+Assign an array: from the next step on it acts beside the scene's own forces, the same in every step,
+until another one or None is assigned, or reset(). Pinned particles stay. States do not hold it.)";
+
 inline constexpr const char* pins =
     R"(Which particles are pinned: bool, shape (particles,), a copy.
 

@@ -140,6 +140,19 @@ void setVelocities(PythonSimulation& simulation, const Floats& rows) {
   simulation.setState(state);
 }
 
+py::array forcesOf(const PythonSimulation& simulation) {
+  if (const auto* forces = simulation.forces()) return copyOf(*forces);
+  return copyOf(std::vector<Particle4>(particlesOf(simulation)));
+}
+void setForces(PythonSimulation& simulation, const std::optional<Floats>& rows) {
+  std::vector<Particle4> forces;
+  if (rows) {
+    forces.resize(particlesOf(simulation));
+    put(forces, *rows, "forces");
+  }
+  simulation.setForces(std::move(forces));
+}
+
 py::array_t<bool> pinsOf(PythonSimulation& simulation) {
   const State state = simulation.state();
   py::array_t<bool> pins(static_cast<py::ssize_t>(state.positions.size()));
@@ -269,6 +282,7 @@ void declareSimulation(py::module_& module) {
       .def_property_readonly("remarks", &PythonSimulation::remarks, docs::remarks)
       .def_property("positions", &positionsOf, &setPositions, docs::positions)
       .def_property("velocities", &velocitiesOf, &setVelocities, docs::velocities)
+      .def_property("forces", &forcesOf, &setForces, docs::forces)
       .def_property("pins", &pinsOf, &setPins, docs::pins)
       .def_property_readonly("inverse_masses", &inverseMassesOf, docs::inverseMasses)
       .def_property_readonly("faces", &facesOf, docs::faces)

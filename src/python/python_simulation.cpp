@@ -118,6 +118,7 @@ void PythonSimulation::start(const std::optional<std::uint32_t>& seed) {
   summary_ = std::move(summary);
   lookers_ = std::make_shared<std::shared_ptr<Simulation>>(simulation_);
   positionsPlace_ = velocitiesPlace_ = nullptr;
+  forces_.reset();
   faces_.clear();
 }
 
@@ -214,6 +215,14 @@ void PythonSimulation::setPins(std::span<const bool> pinned) {
   }
   simulation_->setState(state);
   stayInPlace();
+}
+
+void PythonSimulation::setForces(std::vector<Particle4> forces) {
+  const Turn turn(*this);
+  forces_ = forces.empty() ? nullptr : std::make_shared<const std::vector<Particle4>>(std::move(forces));
+  Interaction interaction;
+  interaction.externalForces = forces_;
+  simulation_->solver().setInteraction(interaction);
 }
 
 void PythonSimulation::moveCollider(std::size_t collider, Vec3d position, std::optional<double> seconds) {

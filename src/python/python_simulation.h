@@ -60,6 +60,9 @@ class PythonSimulation {
   void setState(const State& state);
   // Pins free particles where they are and frees pinned ones, as the mouse does in the viewer.
   void setPins(std::span<const bool> pinned);
+  // Forces on each particle, xyz [N], from the next step on until others are set; empty: none.
+  void setForces(std::vector<Particle4> forces);
+  [[nodiscard]] const std::vector<Particle4>* forces() const { return forces_.get(); }  // null: none
   // Moves a collider straight to a place within `seconds`; it stays there.
   void moveCollider(std::size_t collider, Vec3d position, std::optional<double> seconds);
   [[nodiscard]] std::vector<Vec3d> colliderPositions() const;
@@ -99,6 +102,7 @@ class PythonSimulation {
   std::shared_ptr<Simulation> simulation_;
   std::shared_ptr<const void> lookers_;  // keeps the simulation for those who look at its memory
   const float *positionsPlace_ = nullptr, *velocitiesPlace_ = nullptr;
+  std::shared_ptr<const std::vector<Particle4>> forces_;
   std::unique_ptr<SimulationRenderer> renderer_;
   RunSummary summary_;
   std::vector<std::array<std::uint32_t, 3>> faces_;

@@ -220,6 +220,30 @@ class Acting(unittest.TestCase):
         self.assertEqual((sim.state_hash, sim.time), (start, 0))
         self.assertEqual(sim.scene, clothsim.Simulation("pinned2", backend="cpu").scene)
 
+    def test_forces_accelerate_and_balance_weight(self):
+        for integrator in ("verlet", "euler", "implicit", "bdf2"):
+            with self.subTest(integrator=integrator):
+                sim = clothsim.Simulation(FREE_PARTICLE, backend="cpu", **{"solver.integrator": integrator})
+                start, masses = np.array(sim.positions), 1 / sim.inverse_masses[:, None]
+                self.assertFalse(sim.forces.any())
+                sim.forces = masses * [3, 9.8, 0]  # carries the weight, and pushes sideways
+                sim.step(10)
+                moved = sim.positions - start
+                # after n steps a h^2 n (n + 1) / 2, in steps of second order between that and a t^2 / 2
+                h = sim.time / 10
+                low, high = 3 * h * h * 50, 3 * h * h * 55
+                self.assertGreater(moved[:, 0].min(), 0.999 * low)
+                self.assertLess(moved[:, 0].max(), 1.001 * high)
+                np.testing.assert_allclose(moved[:, 1:], 0, atol=3e-6)
+                sim.forces = None
+                speed = sim.velocities[:, 0].mean()
+                sim.step(10)
+                # bdf2 goes on with half of what the last step before changed: (4 v1 - v0) / 3 and so on
+                rest = 3 * h / 2 if integrator == "bdf2" else 0
+                self.assertAlmostEqual(sim.velocities[:, 0].mean(), speed + rest, places=4)
+        with self.assertRaisesRegex(clothsim.UsageError, "forces: expected an array of shape"):
+            sim.forces = np.zeros((2, 3))
+
     def test_a_collider_goes_straight_to_its_place_and_stays(self):
         sim = clothsim.Simulation("sphere", backend="cpu")
         start = np.array(sim.collider_positions[0])
@@ -301,6 +325,24 @@ class OnTheGpu(unittest.TestCase):
         self.assertEqual(states[0][0], states[1][0])
         np.testing.assert_array_equal(states[0][1], states[1][1])
         np.testing.assert_array_equal(states[0][2], states[1][2])
+
+    def test_both_backends_agree_on_forces(self):
+        pushes = np.random.default_rng(5).normal(0, 0.02, (24 * 24, 3))
+        for integrator in ("verlet", "euler", "implicit", "bdf2"):
+            hashes = {}
+            for backend in ("gpu", "cpu"):
+                for pushed in (True, False):
+                    sim = clothsim.Simulation("pinned4", backend=backend, resolution=(24, 24),
+                                              **{"solver.integrator": integrator, "wind.velocity": [0, 0, 3]})
+                    if pushed:
+                        sim.forces = pushes
+                    sim.step(4)
+                    sim.forces = 2 * pushes if pushed else None
+                    sim.step(4)
+                    hashes[backend, pushed] = sim.state_hash
+            self.assertEqual(hashes["gpu", True], hashes["cpu", True], integrator)
+            self.assertEqual(hashes["gpu", False], hashes["cpu", False], integrator)
+            self.assertNotEqual(hashes["gpu", True], hashes["gpu", False], integrator)
 
     def test_pictures_are_the_programs(self):
         sim = clothsim.Simulation("pinned4", backend="cpu", resolution=(16, 16))

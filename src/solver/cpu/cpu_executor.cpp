@@ -179,6 +179,7 @@ cpu::PassArguments<Real> CpuExecutor<Real>::argumentsOf(const StepInputs& inputs
           holds ? interaction.grab->points->data() : nullptr,
           interaction.jet.has_value(),
           inputs.cutMasks.empty() ? nullptr : inputs.cutMasks.data(),
+          interaction.externalForces ? interaction.externalForces->data() : nullptr,
           particles_.state,
           after_,
           forces_,
