@@ -1,4 +1,4 @@
-"""Runs the cells of every notebook in docs/notebooks, one after the other in one namespace; their asserts are the test."""
+"""Runs the cells of every notebook in examples/notebooks, one after the other in one namespace; their asserts are the test."""
 
 import contextlib
 import io
@@ -6,7 +6,7 @@ import json
 import pathlib
 import unittest
 
-NOTEBOOKS = sorted((pathlib.Path(__file__).parents[2] / "docs" / "notebooks").glob("*.ipynb"))
+NOTEBOOKS = sorted((pathlib.Path(__file__).parents[2] / "examples" / "notebooks").glob("*.ipynb"))
 
 
 class Notebooks(unittest.TestCase):
