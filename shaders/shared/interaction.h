@@ -16,8 +16,9 @@ using uint = std::uint32_t;
 
 #define INTERACTION_PARAMS_BINDING 3  // uniform block
 #define GRABBED_UNIT 16  // buffer read as texels, a texel a grabbed grid point: offset from the goal, weight
-#define CUT_MASKS_UNIT 17      // an unsigned number a particle: makeCutMasks() of src/cloth/cuts.h
-#define FIRST_CUT_TRIANGLE 12  // the bit of the first incident triangle in a cut mask
+#define EXTERNAL_FORCES_UNIT 65  // a texel a particle [N]
+#define CUT_MASKS_UNIT 17        // an unsigned number a particle: makeCutMasks() of src/cloth/cuts.h
+#define FIRST_CUT_TRIANGLE 12    // the bit of the first incident triangle in a cut mask
 
 // The springs, as bits of a cut mask, of which none may be cut for a line of three particles to bend: the
 // line that ends at the particle from the left, has it in its middle, or begins at it to the right; and the

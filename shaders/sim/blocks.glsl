@@ -38,6 +38,7 @@ const bool hasMovingPins = HAS_MOVING_PINS != 0;
 const bool hasCuts = HAS_CUTS != 0;
 const bool hasGrab = HAS_GRAB != 0;
 const bool hasJet = HAS_JET != 0;
+const bool hasExternalForces = HAS_EXTERNAL_FORCES != 0;
 const bool hasRestLengthTable = HAS_REST_LENGTH_TABLE != 0;
 const uint enabledSlots = ENABLED_SLOTS;  // bit `slot` is set when its springs are enabled
 

@@ -7,6 +7,8 @@
 #include "sim/mesh.glsl"
 #endif
 
+layout(binding = EXTERNAL_FORCES_UNIT) uniform samplerBuffer externalForces;
+
 vec3 gatherForces(GridPoint p) {
 #if HAS_MESH
   precise vec3 f = gatherMeshForces(p.index);
@@ -17,6 +19,7 @@ vec3 gatherForces(GridPoint p) {
   if (hasWind) f = addWind(p, f);
 #endif
   f = addParticleForces(positionAt(p.index), velocityAt(p.index), f);
+  if (hasExternalForces) f = f + texelFetch(externalForces, int(p.index)).xyz;
   return f;
 }
 

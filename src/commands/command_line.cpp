@@ -75,7 +75,7 @@ struct Arguments {
   bool describeStep = false;
   std::string scene = "pinned2", backend = "auto", from, quality = "final", viewerQuality = "auto", shader,
               size = "1280x720", key, replay;
-  std::string cellSize = "560x420", out, view = "0,0";
+  std::string cellSize = "560x420", out, view = "0,0", trace;
   std::vector<std::string> variations, settings, saves, outs, resolutions, backends;
   int frames = 0, every = 1, around = 64, down = 48, threads = 0;
   double fps = 30, seconds = 1, jitter = 0, restartAfter = 0;
@@ -191,6 +191,9 @@ void declareRun(CLI::App& app, Arguments& a, Task& task) {
                       "repeat the actions of a viewer recording, on its own backends or on --backend")
           ->type_name("FILE");
   for (CLI::Option* other : {scene, from, jitter, settings, resolution}) replay->excludes(other);
+  run->add_option("--trace", a.trace,
+                  "write a row of measures for each frame: energies, momentum, strain, contacts, iterations")
+      ->type_name("FILE.csv");
   addCheckCrossings(*run, a);
   addStrict(*run, a);
   addJson(*run, a);
@@ -198,8 +201,8 @@ void declareRun(CLI::App& app, Arguments& a, Task& task) {
   run->callback([&a, &task, scene = scene, frames, backend, replay] {
     if (replay->count() == 0 && scene->count() == 0) throw CLI::RequiredError("-f,--scene or --replay");
     if (replay->count() == 0 && frames->count() == 0) throw CLI::RequiredError("--frames");
-    RunOptions options{a.sceneOptions(), {},       {},     a.saves,  a.every, a.from, a.json,
-                       a.checkCrossings, a.jitter, a.seed, a.replay, a.strict};
+    RunOptions options{a.sceneOptions(), {},       {},     a.saves,  a.every,  a.from, a.json,
+                       a.checkCrossings, a.jitter, a.seed, a.replay, a.strict, a.trace};
     if (frames->count() > 0) options.frames = a.frames;
     if (backend->count() > 0) options.backend = a.backend;
     task = [options] { return runCommand(options); };

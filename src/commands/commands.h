@@ -32,6 +32,7 @@ struct RunOptions {
   std::uint32_t seed = 1;  // of the jitter
   std::string replay;      // a recording to repeat instead of a scene
   bool strict = false;     // warnings end it with exit code 1
+  std::string trace;       // a .csv file with a row of measures for each frame; "": none
 };
 int runCommand(const RunOptions& options);
 

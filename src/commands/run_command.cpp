@@ -22,6 +22,7 @@
 #include "simulation/gpu/solvers.h"
 #include "simulation/run_summary.h"
 #include "simulation/saved_files.h"
+#include "simulation/trace.h"
 
 namespace clothsim {
 namespace {
@@ -42,6 +43,10 @@ void checkSaves(const RunOptions& options) {
     checkWritable(numberedName(save, options.frames.value_or(0)));
     if (isPointCache(save)) checkWritable(restMeshBeside(save));
   }
+  if (options.trace.empty()) return;
+  if (std::filesystem::path(options.trace).extension() != ".csv")
+    throw UsageError("--trace " + options.trace + ": expected a name ending in .csv, as energies.csv");
+  checkWritable(options.trace);
 }
 
 // Whether there are pictures to draw, which needs OpenGL.
@@ -206,6 +211,11 @@ int runCommand(const RunOptions& options) {
     pictures.add(run.simulation(), frame);
   };
   save(0);
+  Trace trace;
+  const auto addToTrace = [&] {
+    if (!options.trace.empty()) trace.add(seen, run.simulation());
+  };
+  addToTrace();
   Progress progress("simulating", frames);
   for (int frame = 1; frame <= frames; ++frame) {
     stopIfInterrupted();
@@ -227,11 +237,13 @@ int runCommand(const RunOptions& options) {
     }
     if (counter) crossings.add(frame, counter->count(seen.state));
     save(frame);
+    addToTrace();
     progress.update(frame);
   }
   files.finish();
   pictures.finish();
   progress.finish();
+  if (!options.trace.empty()) writeFileAtomically(options.trace, trace.csv());
 
   nlohmann::ordered_json json = summary(options, run, seen);
   if (counter) json["crossings"] = toJson(crossings);

@@ -178,11 +178,20 @@ fs::path findResourceRoot(const char* fromEnvironment, const fs::path& executabl
                          "; set CLOTHSIM_ROOT to the folder that holds assets/ and shaders/");
 }
 
+static fs::path& searchedFolder() {
+  static fs::path folder;
+  return folder;
+}
+
+void beginResourceSearchAt(const fs::path& folder) { searchedFolder() = folder; }
+
 const fs::path& resourceRoot() {
   static const fs::path root = [] {
     std::error_code ignored;
     const fs::path executable = fs::read_symlink("/proc/self/exe", ignored);
-    return findResourceRoot(std::getenv("CLOTHSIM_ROOT"), executable.parent_path(), CLOTHSIM_SOURCE_ROOT);
+    return findResourceRoot(std::getenv("CLOTHSIM_ROOT"),
+                            searchedFolder().empty() ? executable.parent_path() : searchedFolder(),
+                            CLOTHSIM_SOURCE_ROOT);
   }();
   return root;
 }

@@ -55,6 +55,9 @@ void checkWritable(const std::filesystem::path& path);
 // The folder that holds shaders/ and assets/: $CLOTHSIM_ROOT, else beside the executable or one of the
 // folders above it, else the source tree it was built from. @throws InputOutputError when none has them
 [[nodiscard]] const std::filesystem::path& resourceRoot();
+// For a library in somebody else's program: the search begins at this folder instead of at the executable. To
+// be called before resourceRoot().
+void beginResourceSearchAt(const std::filesystem::path& folder);
 
 // The same search from given places; `fromEnvironment` may be null. Beside a folder, <folder>/share/clothsim
 // counts, too.

@@ -2,6 +2,7 @@
 // shaders need.
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
+#include <dlfcn.h>
 
 #include <array>
 #include <optional>
@@ -18,6 +19,36 @@
 namespace clothsim::gl {
 namespace {
 
+// Opened when the first context is made: whoever computes on the CPU alone needs no OpenGL installed.
+class Egl {
+ public:
+  decltype(&eglGetError) getError = function<decltype(&eglGetError)>("eglGetError");
+  decltype(&eglGetProcAddress) getProcAddress = function<decltype(&eglGetProcAddress)>("eglGetProcAddress");
+  decltype(&eglQueryString) queryString = function<decltype(&eglQueryString)>("eglQueryString");
+  decltype(&eglCreateContext) createContext = function<decltype(&eglCreateContext)>("eglCreateContext");
+  decltype(&eglChooseConfig) chooseConfig = function<decltype(&eglChooseConfig)>("eglChooseConfig");
+  decltype(&eglMakeCurrent) makeCurrent = function<decltype(&eglMakeCurrent)>("eglMakeCurrent");
+  decltype(&eglDestroyContext) destroyContext = function<decltype(&eglDestroyContext)>("eglDestroyContext");
+  decltype(&eglInitialize) initialize = function<decltype(&eglInitialize)>("eglInitialize");
+  decltype(&eglBindAPI) bindApi = function<decltype(&eglBindAPI)>("eglBindAPI");
+
+ private:
+  template <class Function>
+  static Function function(const char* name) {
+    static void* const library = ::dlopen("libEGL.so.1", RTLD_LAZY | RTLD_GLOBAL);
+    if (library == nullptr)
+      throw OpenGlError(noUsableOpenGl("no libEGL.so.1 (Debian: libegl1 and libgl1-mesa-dri)"));
+    void* found = ::dlsym(RTLD_DEFAULT, name);  // what is preloaded comes first
+    if (found == nullptr) throw OpenGlError(noUsableOpenGl(std::string("a libEGL.so.1 without ") + name));
+    return reinterpret_cast<Function>(found);
+  }
+};
+// @throws OpenGlError where the library is not installed
+const Egl& egl() {
+  static const Egl functions;
+  return functions;
+}
+
 struct Candidate {
   EGLDisplay display = EGL_NO_DISPLAY;
   std::string name;  // for messages
@@ -32,7 +63,7 @@ bool hasExtension(const char* list, std::string_view name) {
 }
 
 std::string eglErrorName() {
-  const EGLint error = eglGetError();
+  const EGLint error = egl().getError();
   switch (error) {
     case EGL_NOT_INITIALIZED:
       return "EGL_NOT_INITIALIZED";
@@ -59,14 +90,14 @@ std::string eglErrorName() {
 
 template <class Function>
 Function eglFunction(const char* name) {
-  return reinterpret_cast<Function>(eglGetProcAddress(name));
+  return reinterpret_cast<Function>(egl().getProcAddress(name));
 }
 
-void* glFunction(const char* name) { return reinterpret_cast<void*>(eglGetProcAddress(name)); }
+void* glFunction(const char* name) { return reinterpret_cast<void*>(egl().getProcAddress(name)); }
 
 // Device displays, hardware before software, then Mesa's surfaceless platform.
 std::vector<Candidate> displayCandidates() {
-  const char* client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+  const char* client = egl().queryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
   const auto platformDisplay = eglFunction<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
   if (platformDisplay == nullptr) return {};
 
@@ -110,16 +141,16 @@ EGLContext makeContext(EGLDisplay display, EGLConfig config, std::optional<std::
                         {EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY, EGL_LOSE_CONTEXT_ON_RESET});
   }
   attributes.push_back(EGL_NONE);
-  return eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data());
+  return egl().createContext(display, config, EGL_NO_CONTEXT, attributes.data());
 }
 
 EGLConfig chooseConfig(EGLDisplay display) {
   const std::array<EGLint, 3> wanted{EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
   EGLConfig config = nullptr;
   EGLint count = 0;
-  if (hasExtension(eglQueryString(display, EGL_EXTENSIONS), "EGL_KHR_no_config_context"))
+  if (hasExtension(egl().queryString(display, EGL_EXTENSIONS), "EGL_KHR_no_config_context"))
     return EGL_NO_CONFIG_KHR;
-  eglChooseConfig(display, wanted.data(), &config, 1, &count);
+  egl().chooseConfig(display, wanted.data(), &config, 1, &count);
   return count > 0 ? config : EGL_NO_CONFIG_KHR;
 }
 
@@ -131,8 +162,8 @@ struct HeadlessContext::Handles {
 
   ~Handles() {
     if (display == EGL_NO_DISPLAY) return;
-    eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-    if (context != EGL_NO_CONTEXT) eglDestroyContext(display, context);
+    egl().makeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    if (context != EGL_NO_CONTEXT) egl().destroyContext(display, context);
     // The display itself stays initialized: EGL hands the same one to every caller in the process, and
     // terminating it would pull it from under a second context.
   }
@@ -142,10 +173,10 @@ struct HeadlessContext::Handles {
     const auto fail = [&](const std::string& what) { throw OpenGlError(candidate.name + ": " + what); };
     auto handles = std::make_unique<Handles>();
     if (candidate.display == EGL_NO_DISPLAY) fail("no display");
-    if (eglInitialize(candidate.display, nullptr, nullptr) != EGL_TRUE)
+    if (egl().initialize(candidate.display, nullptr, nullptr) != EGL_TRUE)
       fail("eglInitialize: " + eglErrorName());
     handles->display = candidate.display;
-    if (eglBindAPI(EGL_OPENGL_API) != EGL_TRUE) fail("no desktop OpenGL: " + eglErrorName());
+    if (egl().bindApi(EGL_OPENGL_API) != EGL_TRUE) fail("no desktop OpenGL: " + eglErrorName());
     const EGLConfig config = chooseConfig(candidate.display);
     for (const bool tellsOfResets : {true, false})  // not every driver can
       if (handles->context == EGL_NO_CONTEXT)
@@ -157,10 +188,10 @@ struct HeadlessContext::Handles {
       handles->context = makeContext(candidate.display, config, std::nullopt, false);
     }
     if (handles->context == EGL_NO_CONTEXT) fail(refusal);
-    if (eglMakeCurrent(candidate.display, EGL_NO_SURFACE, EGL_NO_SURFACE, handles->context) != EGL_TRUE) {
+    if (egl().makeCurrent(candidate.display, EGL_NO_SURFACE, EGL_NO_SURFACE, handles->context) != EGL_TRUE) {
       fail("eglMakeCurrent: " + eglErrorName());
     }
-    if (gladLoadGLUserPtr([](void*, const char* name) { return eglGetProcAddress(name); }, nullptr) == 0) {
+    if (gladLoadGLUserPtr([](void*, const char* name) { return egl().getProcAddress(name); }, nullptr) == 0) {
       fail("the context's functions could not be loaded");
     }
     info = currentContextInfo();

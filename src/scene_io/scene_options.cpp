@@ -1,6 +1,7 @@
 #include "scene_io/scene_options.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "cloth/material.h"
 #include "core/formatted.h"
@@ -45,7 +46,11 @@ std::string chosenCounts(const SolverSettings& solver) {
 }  // namespace
 
 RemarkedScene readScene(const SceneOptions& options) {
-  RemarkedScene read{loadSceneByName(options.scene), {}};
+  return changedScene(loadSceneByName(options.scene), options);
+}
+
+RemarkedScene changedScene(Scene from, const SceneOptions& options) {
+  RemarkedScene read{std::move(from), {}};
   Scene& scene = read.scene;
   const std::vector<Setting> settings = settingsInOrder(options);
   if (options.resolution) {

@@ -28,5 +28,7 @@ struct RemarkedScene {
   std::vector<std::string> remarks;  // sentences
 };
 [[nodiscard]] RemarkedScene readScene(const SceneOptions& options);
+// The same for a scene that was read elsewhere: options.scene is not looked at.
+[[nodiscard]] RemarkedScene changedScene(Scene from, const SceneOptions& options);
 
 }  // namespace clothsim

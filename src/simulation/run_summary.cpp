@@ -7,10 +7,12 @@
 
 namespace clothsim {
 
-void RunSummary::add(Simulation& simulation) {
+void RunSummary::add(Simulation& simulation, int number) {
+  const bool isFirst = frame < 0;
+  frame = number;
   state = simulation.solver().state();
   measures = measure(simulation.cloth(), simulation.scene(), state);
-  if (++frame == 0) watch.start(simulation.cloth(), simulation.scene(), state);
+  if (isFirst) watch.start(simulation.cloth(), simulation.scene(), state);
   watch.add(frame, simulation.cloth(), simulation.scene(), state, measures.maxStrain,
             simulation.contactCounts());
   convergence = simulation.convergenceCounts();

@@ -20,7 +20,9 @@ struct RunSummary {
   RunWatch watch;
 
   // To be called at the start, which is frame 0, and at the end of every frame.
-  void add(Simulation& simulation);
+  void add(Simulation& simulation) { add(simulation, frame + 1); }
+  // The same where frames are left out: `number` is that of this one, more than that of the last.
+  void add(Simulation& simulation, int number);
   // Adds state_hash, max_strain, peak_strain and more to the object that `run --json` prints.
   void write(nlohmann::ordered_json& json, Simulation& simulation) const;
 };

@@ -19,8 +19,8 @@ Simulation::Simulation(const Shared<Scene>& scene, const std::string& backend, S
       solver_(makeSolver(backend, cloth_, scene_)) {}
 
 void Simulation::stepFrames(int frames) {
-  solver_->keep();
-  solver_->step(frames * scene_->solver.simulationSteps);
+  keep();
+  step(frames * scene_->solver.simulationSteps);
 }
 
 std::optional<Divergence> Simulation::checkFrame() {

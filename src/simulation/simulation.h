@@ -46,10 +46,13 @@ class Simulation {
 
   void stepFrame() { stepFrames(1); }
   void stepFrames(int frames);
-  // Returns the divergence in the last stepFrame() or stepFrames(), if any. The state is then the sound one
-  // from before that call, so that nothing broken can be drawn or saved. @throws SimulationError when an
-  // interrupt cut the frames short
+  // The divergence in the steps since the last stepFrame(), stepFrames() or keep(), if any. The state is then
+  // the sound one from before that call, so that nothing broken can be drawn or saved. @throws
+  // SimulationError when an interrupt cut the frames short
   [[nodiscard]] std::optional<Divergence> checkFrame();
+  // The same in parts: remembers the state for checkFrame() to go back to, and makes single steps.
+  void keep() { solver_->keep(); }
+  void step(int steps) { solver_->step(steps); }
   // Waits for the GPU until every step is done.
   void finish() { solver_->finish(); }
 

@@ -1,5 +1,6 @@
-// What a person does to the cloth: a grab pulls particles by a spring, and a jet blows air. Both are plain
-// values. What depends on time is evaluated on the host, the same for both backends.
+// What a person or another program does to the cloth: a grab pulls particles by a spring, a jet blows air,
+// and forces act on single particles. All are plain values. What depends on time is evaluated on the host,
+// the same for both backends.
 //
 // The spring of a grab is critically damped and integrated implicitly, so it is stable at any strength. With
 // w = sqrt(strength), u the velocity of the grab and v' the velocity after all forces,
@@ -57,6 +58,8 @@ struct Jet {
 struct Interaction {
   std::optional<GrabSpring> grab;
   std::optional<Jet> jet;
+  // xyz [N] on each particle, constant until the next interaction; null: none. Pinned particles stay.
+  std::shared_ptr<const std::vector<Particle4>> externalForces;
 };
 
 // Reads positions of `count` particles from `first` on.

@@ -9,7 +9,7 @@ using enum Array;
 using F = Feature;
 
 constexpr Features elastic{F::springs, F::restLengths, F::meshes, F::cuts};
-constexpr Features air{F::wind, F::particleForces, F::jets, F::meshes, F::cuts};
+constexpr Features air{F::wind, F::particleForces, F::jets, F::externalForces, F::meshes, F::cuts};
 constexpr Features solved = elastic | Features{F::wind, F::planes, F::surface,
                                                F::smallColliders};  // what the linear system is made of
 
@@ -171,8 +171,9 @@ constexpr std::array<std::string_view, ARRAY_COUNT> arrayNames{
     "contact flags",  "watch"};
 
 constexpr std::array<std::string_view, FEATURE_COUNT> featureNames{
-    "springs", "rest lengths", "meshes",    "wind",   "particle forces", "jets",    "grabs",
-    "cuts",    "moving pins",  "colliders", "planes", "history",         "surface", "small colliders"};
+    "springs",   "rest lengths", "meshes",          "wind",    "particle forces",
+    "jets",      "grabs",        "external forces", "cuts",    "moving pins",
+    "colliders", "planes",       "history",         "surface", "small colliders"};
 
 bool runsByRows(Domain domain) { return domain == Domain::gridPoints || domain == Domain::particles; }
 

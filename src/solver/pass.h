@@ -134,6 +134,7 @@ enum class Feature : std::uint8_t {
   particleForces,  // those on single particles: shared/forces.h
   jets,
   grabs,
+  externalForces,  // on single particles, by another program
   cuts,
   movingPins,
   colliders,

@@ -60,6 +60,7 @@ void main() {
   vec4 withForces = addParticleForcesToSystem(x.xyz, v, mass, scheme.rate, scheme.isSecondOrder, carried, vec4(b, stiffness));
   b = withForces.xyz;
   stiffness = withForces.w;
+  if (hasExternalForces) b = b + texelFetch(externalForces, int(i)).xyz;
   if (hasWind) {  // f - R (v' - v)
 #if HAS_MESH
     vec3 force = addMeshTriangles(texelFetch(listStarts, int(i)).z, texelFetch(listStarts, int(i) + 1).z, vec3(0.0));

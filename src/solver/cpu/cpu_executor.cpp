@@ -179,6 +179,7 @@ cpu::PassArguments<Real> CpuExecutor<Real>::argumentsOf(const StepInputs& inputs
           holds ? interaction.grab->points->data() : nullptr,
           interaction.jet.has_value(),
           inputs.cutMasks.empty() ? nullptr : inputs.cutMasks.data(),
+          interaction.externalForces ? interaction.externalForces->data() : nullptr,
           particles_.state,
           after_,
           forces_,
@@ -450,6 +451,22 @@ bool CpuExecutor<Real>::restore(const ParticleCopy& copy) {
   particles_ = own->particles;
   implicit_.scalars.usualSteps = 0;
   return true;
+}
+
+// What a step no longer needs holds the places that it did not leave its result in.
+template <class Real>
+void CpuExecutor<Real>::returnTo(const Real* positions, const Real* velocities) {
+  const auto move = [](Components<Real>& from, const Real* place, Components<Real>& unused) {
+    if (unused.x.data() != place) return;
+    unused = from;
+    std::swap(unused, from);
+  };
+  CpuState<Real>& state = particles_.state;
+  move(state.positions, positions, after_.positions);
+  move(state.positions, positions, selfCollision_.unusedPositions());
+  move(state.velocities, velocities, after_.velocities);
+  assert(state.positions.x.data() == positions && state.velocities.x.data() == velocities &&
+         "returnTo() knows the places of this solver's particles");
 }
 
 template <class Real>

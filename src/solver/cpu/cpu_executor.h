@@ -51,6 +51,9 @@ class CpuExecutor final : public Executor {
   [[nodiscard]] CpuState<Real>& state() { return particles_.state; }
   [[nodiscard]] const Components<Real>& forces() const { return forces_; }
 
+  [[nodiscard]] const std::vector<Real>& inverseMasses() const { return particles_.inverseMasses; }
+  void returnTo(const Real* positions, const Real* velocities);  // as CpuSolver's
+
  private:
   struct Particles {
     CpuState<Real> state;

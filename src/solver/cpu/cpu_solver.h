@@ -20,6 +20,11 @@ class CpuSolver final : public Solver {
   [[nodiscard]] Vec3<Real> velocity(std::uint32_t particle) const;
   void setPosition(std::uint32_t particle, Vec3<Real> position);
   void setVelocity(std::uint32_t particle, Vec3<Real> velocity);
+  // The particles where they lie in memory. A step may leave them at another place of two or three.
+  [[nodiscard]] const CpuState<Real>& particles() const { return own().state(); }
+  [[nodiscard]] const std::vector<Real>& inverseMasses() const { return own().inverseMasses(); }
+  // Takes them back to places where they have lain before, by a copy unless they lie there.
+  void returnTo(const Real* positions, const Real* velocities) { own().returnTo(positions, velocities); }
   // Force of springs and air on a particle, without gravity, in the current state [N].
   [[nodiscard]] std::vector<Vec3<Real>> forces();
 

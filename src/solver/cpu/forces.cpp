@@ -345,8 +345,17 @@ INLINE void addParticleForces(const PassArguments<Real>& arguments, int row) {
 template <class Real>
 INLINE void clearForces(const PassArguments<Real>& arguments, int row) {
   const Range particles = rangeOf(arguments.step, row);
-  for (std::vector<Real>* f : {&arguments.forces.x, &arguments.forces.y, &arguments.forces.z})
+  for (Component<Real>* f : {&arguments.forces.x, &arguments.forces.y, &arguments.forces.z})
     std::fill(f->data() + particles.begin, f->data() + particles.end, Real(0));
+}
+
+template <class Real>
+void addExternalForces(const PassArguments<Real>& arguments, int row) {
+  const Range particles = rangeOf(arguments.step, row);
+  for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
+    const Particle4& force = arguments.externalForces[i];
+    put(arguments.forces, i, at(arguments.forces, i) + Vec3f{force.x, force.y, force.z}.cast<Real>());
+  }
 }
 
 template <class Real>
@@ -360,6 +369,7 @@ INLINE void gatherForcesRow(const PassArguments<Real>& arguments, int row, Force
     if (arguments.step.hasWind != 0) addWind(arguments, row, rows);
   }
   addParticleForces(arguments, row);
+  if (arguments.externalForces != nullptr) addExternalForces(arguments, row);
 }
 
 }  // namespace

@@ -132,6 +132,10 @@ void begin(const ImplicitArguments<Real>& arguments, int row) {
           if (scheme.isSecondOrder) b = b + damping * carried;
           stiffness = stiffness + (damping + acting.stiffness);
         });
+    if (pass.externalForces != nullptr) {
+      const Particle4& force = pass.externalForces[i];
+      b = b + Vec3f{force.x, force.y, force.z}.cast<Real>();
+    }
     if (step.hasWind != 0) {  // f - R (v' - v)
       const Symmetric<Real> resistance = at(own.air, i), damping = scheme.rate * resistance;
       b = b + (at(pass.forces, i) + resistance * v);
@@ -154,10 +158,12 @@ void begin(const ImplicitArguments<Real>& arguments, int row) {
 
 template <class Real>
 void gatherElasticForces(const ImplicitArguments<Real>& arguments, int row, ForceRows<Real>& rows) {
-  StepParams<Real> elastic = arguments.step.step;  // air is in the right-hand side
+  StepParams<Real> elastic = arguments.step.step;  // all else is in the right-hand side
   elastic.hasWind = 0;
   elastic.particleForces = 0;
-  gatherForces(withState(arguments.step, elastic, arguments.own.iterate, arguments.step.forces), row, rows);
+  PassArguments<Real> pass = withState(arguments.step, elastic, arguments.own.iterate, arguments.step.forces);
+  pass.externalForces = nullptr;
+  gatherForces(pass, row, rows);
 }
 
 template <class Real>

@@ -37,6 +37,7 @@ struct PassArguments {
   const GrabSpring::Point* grabbed;  // the block of this grid that is grabbed, row-major; null without
   bool jet;                          // whether air blows from `interaction`
   const std::uint32_t* cutMasks;     // makeCutMasks(); null without cuts
+  const Particle4* externalForces;   // on each particle [N]; null without
   const CpuState<Real>& before;
   CpuState<Real>& after;
   Components<Real>& forces;  // springs, wind and air, without gravity [N]
@@ -47,10 +48,10 @@ struct PassArguments {
 template <class Real>
 PassArguments<Real> withState(const PassArguments<Real>& of, const StepParams<Real>& step,
                               const CpuState<Real>& before, Components<Real>& forces) {
-  return {step,         of.colliders,     of.distances,   of.pinMotions, of.pinPathNumbers,
-          of.pinStarts, of.inverseMasses, of.restLengths, of.lists,      of.interaction,
-          of.grabbed,   of.jet,           of.cutMasks,    before,        of.after,
-          forces,       of.watch};
+  return {step,         of.colliders,     of.distances,   of.pinMotions,     of.pinPathNumbers,
+          of.pinStarts, of.inverseMasses, of.restLengths, of.lists,          of.interaction,
+          of.grabbed,   of.jet,           of.cutMasks,    of.externalForces, before,
+          of.after,     forces,           of.watch};
 }
 
 // Looks for what is not finite in the state that a step begins with.

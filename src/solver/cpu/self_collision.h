@@ -35,6 +35,8 @@ class SelfCollision {
   void restart() { isStale_ = true; }
 
   [[nodiscard]] ContactCounts counts() const { return counts_; }
+  // Memory whose content nobody needs between steps; in a step it changes places with the positions.
+  [[nodiscard]] Components<Real>& unusedPositions() { return moved_; }
 
   // For tests: builds the hash for these positions and returns all pairs (i, candidate of i) that the passes
   // would look at.

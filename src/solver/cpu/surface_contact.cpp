@@ -92,8 +92,8 @@ void SurfaceContact<Real>::findTouching(const CpuState<Real>& before, ImplicitSt
   state_.tooMany = 0;
   motions_ = implicit.displacements;
   if (isLater)
-    for (std::vector<Real>* c : {&motions_.x, &motions_.y, &motions_.z})
-      std::fill(c->begin(), c->end(), Real(0));
+    for (Component<Real>* c : {&motions_.x, &motions_.y, &motions_.z})
+      std::fill_n(c->data(), c->size(), Real(0));
   // Small colliders find flat cloth, too.
   if (surface_.touchesItself)
     flatBlocks_.update(surface_, starts, isLater ? starts : implicit.iterate.positions,

@@ -34,6 +34,7 @@ void GpuParameters::prepare(const StepInputs& inputs) {
     colliderTexture_ = gl::BufferTexture("colliders", colliders_.name(), GL_RGBA32F);
   preparePins(inputs.pinPaths, *inputs.cloth, batch);
   if (grabs_) prepareInteraction(interaction, batch);
+  prepareExternalForces(interaction);
   batchSteps_ = 0;
 }
 
@@ -58,6 +59,14 @@ void GpuParameters::prepareInteraction(const Interaction& interaction, std::size
   grabbed_ =
       gl::Buffer<GrabSpring::Point>("grabbed points", std::span<const GrabSpring::Point>(*grabbedPoints_));
   grabbedTexture_ = gl::BufferTexture("grabbed points", grabbed_.name(), GL_RGBA32F);
+}
+
+void GpuParameters::prepareExternalForces(const Interaction& interaction) {
+  if (interaction.externalForces == externalForces_) return;
+  externalForces_ = interaction.externalForces;
+  if (!externalForces_) return;
+  external_ = gl::Buffer<Particle4>("external forces", std::span<const Particle4>(*externalForces_));
+  externalTexture_ = gl::BufferTexture("external forces", external_.name(), GL_RGBA32F);
 }
 
 bool GpuParameters::hasStep(const StepClock& clock) const {
@@ -99,6 +108,7 @@ void GpuParameters::bind(const StepInputs& inputs, int steps) {
   pinMotionTexture_.bind(PIN_MOTIONS_UNIT);
   if (grabs_) interactions_.bindUniformRange(INTERACTION_PARAMS_BINDING, step_, 1);
   if (holds_) grabbedTexture_.bind(GRABBED_UNIT);
+  if (externalForces_) externalTexture_.bind(EXTERNAL_FORCES_UNIT);
 }
 
 void GpuParameters::bindPiece(std::size_t piece) const {

@@ -30,6 +30,7 @@ class GpuParameters {
   };
 
   void preparePins(const PinPaths& paths, const Cloth& cloth, std::size_t batch);
+  void prepareExternalForces(const Interaction& interaction);
   void prepareInteraction(const Interaction& interaction, std::size_t batch);
   [[nodiscard]] bool hasStep(const StepClock& clock) const;
   void upload(const StepInputs& inputs, std::size_t steps);
@@ -58,6 +59,9 @@ class GpuParameters {
   std::shared_ptr<const std::vector<GrabSpring::Point>> grabbedPoints_;
   gl::Buffer<GrabSpring::Point> grabbed_;
   gl::BufferTexture grabbedTexture_;
+  std::shared_ptr<const std::vector<Particle4>> externalForces_;
+  gl::Buffer<Particle4> external_;
+  gl::BufferTexture externalTexture_;
 };
 
 }  // namespace clothsim

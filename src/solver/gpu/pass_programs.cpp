@@ -16,6 +16,7 @@ PassFeatures featuresOf(const Scene& scene, const Cloth& cloth, std::size_t piec
   features.wind = scene.wind.has_value() || interaction.jet.has_value();
   features.jet = interaction.jet.has_value();
   features.grab = interaction.grab && interaction.grab->piece == pieceIndex;
+  features.externalForces = interaction.externalForces != nullptr;
   features.cuts = !cuts.empty();
   features.particleForces = particleForcesOf(scene);
   for (const Collider& collider : scene.colliders) {
@@ -51,6 +52,7 @@ PassFeatures restricted(const PassFeatures& all, Features to) {
   take(Feature::particleForces, &PassFeatures::particleForces);
   take(Feature::jets, &PassFeatures::jet);
   take(Feature::grabs, &PassFeatures::grab);
+  take(Feature::externalForces, &PassFeatures::externalForces);
   take(Feature::cuts, &PassFeatures::cuts);
   take(Feature::movingPins, &PassFeatures::movingPins);
   take(Feature::colliders, &PassFeatures::colliderTypes, &PassFeatures::movingColliders,
@@ -81,6 +83,7 @@ gl::Defines definesFor(const PassFeatures& features) {
           {"HAS_HISTORY", std::to_string(features.history)},
           {"HAS_GRAB", std::to_string(features.grab)},
           {"HAS_JET", std::to_string(features.jet)},
+          {"HAS_EXTERNAL_FORCES", std::to_string(features.externalForces)},
           {"HAS_CUTS", std::to_string(features.cuts)},
           {"GATE", std::to_string(features.gate)},
           {"ENABLED_SLOTS", std::to_string(features.enabledSlots) + "u"}};

@@ -27,6 +27,7 @@ struct PassFeatures {
   bool surface = false;                          // pairs of parts of the surface that may touch
   bool smallColliders = false;                   // those that act on triangles
   bool grab = false, jet = false, cuts = false;  // the interaction
+  bool externalForces = false;                   // of it, too
   std::uint32_t colliderTypes = 0;               // one bit a COLLIDER_... of shared/shapes.h
   std::uint32_t particleForces = 0;              // one bit a FORCE_... of shared/forces.h
   std::uint32_t enabledSlots = 0;                // one bit a SpringSlot

@@ -135,7 +135,7 @@ TEST_F(LayoutTest, OfWhatMeshesAddToStepParamsIsTheDrivers) {
 TEST_F(LayoutTest, OfInteractionParamsIsTheDrivers) {
   using InteractionBlock = InteractionParams<float>;
   PassFeatures features = allFeatures();
-  features.grab = features.jet = features.cuts = true;
+  features.grab = features.jet = features.cuts = features.externalForces = true;
   PassLibrary library;
   const Programs programs(library, features);
   const std::vector<std::pair<std::string, std::size_t>> members = {

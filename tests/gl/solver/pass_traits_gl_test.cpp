@@ -32,6 +32,7 @@ PassFeatures everything(bool mesh) {
           .grab = true,
           .jet = true,
           .cuts = true,
+          .externalForces = true,
           .colliderTypes = 0xffffffff,
           .particleForces = ~0u,
           .enabledSlots = 63};

@@ -46,6 +46,10 @@ const std::map<std::string, Room> rooms{
      {{"core", "scene", "cloth", "scene_io", "solver", "solver/gpu", "gl", "render", "export", "measure",
        "simulation", "simulation/gpu", "session", "output"},
       {"glfw", "imgui", "nlohmann", "glm"}}},
+    {"python",
+     {{"core", "scene", "cloth", "scene_io", "solver", "solver/cpu", "gl", "render", "export", "simulation",
+       "simulation/gpu", "session"},
+      {"nlohmann", "pybind11"}}},
     {"commands",
      {{"core", "scene", "cloth", "scene_io", "solver", "solver/cpu", "solver/gpu", "gl", "render", "export",
        "measure", "simulation", "simulation/gpu", "session", "output", "viewer"},
@@ -55,10 +59,23 @@ const std::map<std::string, Room> rooms{
 // The libraries whose place matters, by how their headers begin. Everybody may include the standard library
 // and POSIX.
 const std::vector<std::pair<std::string, std::string>> libraries{
-    {"GLFW/", "glfw"},  {"imgui", "imgui"},        {"backends/imgui", "imgui"}, {"glad/", "opengl"},
-    {"EGL/", "opengl"}, {"GL/", "opengl"},         {"GLES", "opengl"},          {"gl/api.h", "opengl"},
-    {"glm/", "glm"},    {"nlohmann/", "nlohmann"}, {"rapidjson/", "rapidjson"}, {"CLI/", "cli"},
-    {"stb", "stb"},     {"omp.h", "omp"},          {"CGAL/", "cgal"},           {"tiny_obj", "tinyobj"},
+    {"GLFW/", "glfw"},
+    {"imgui", "imgui"},
+    {"backends/imgui", "imgui"},
+    {"glad/", "opengl"},
+    {"EGL/", "opengl"},
+    {"GL/", "opengl"},
+    {"GLES", "opengl"},
+    {"gl/api.h", "opengl"},
+    {"glm/", "glm"},
+    {"nlohmann/", "nlohmann"},
+    {"rapidjson/", "rapidjson"},
+    {"CLI/", "cli"},
+    {"stb", "stb"},
+    {"omp.h", "omp"},
+    {"CGAL/", "cgal"},
+    {"tiny_obj", "tinyobj"},
+    {"pybind11/", "pybind11"},
 };
 
 // The longest room that begins the path: "solver/gpu" for "solver/gpu/gpu_solver.h", "" when there is none.
@@ -163,6 +180,7 @@ TEST(Includes, CheckCatchesEachKindOfViolation) {
       {"commands/run_command.cpp", "#include <CGAL/intersections.h>"},
       {"solver/solver.cpp", "#include \"measure/crossings.h\""},  // no step depends on measures
       {"viewer/viewer.cpp", "#include \"commands/commands.h\""},
+      {"simulation/simulation.cpp", "#include <pybind11/numpy.h>"},
       {"attic/old.cpp", "int x;"},
   };
   for (const Example& example : examples)

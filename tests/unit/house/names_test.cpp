@@ -20,8 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> folders{"src",    "shaders", "tests", "docs", "tools",
-                                       "report", "assets",  "cmake", ".ci"};
+const std::vector<std::string> folders{"src",    "shaders", "tests", "docs",     "tools", "report",
+                                       "assets", "cmake",   ".ci",   "examples", "python"};
 
 // All files and folders of the repository, and the headers of other libraries that its code includes.
 class Tree {

@@ -87,6 +87,7 @@ class Sheet {
                                           nullptr,
                                           false,
                                           cutMasks_.empty() ? nullptr : cutMasks_.data(),
+                                          nullptr,
                                           state_,
                                           state_,
                                           forces_,

@@ -1,0 +1,346 @@
+// The extension module clothsim._clothsim: translates between Python and PythonSimulation.
+#include <dlfcn.h>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <cmath>
+#include <string>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "core/thread_team.h"
+#include "export/formats.h"
+#include "python/docs.h"
+#include "python/python_simulation.h"
+#include "scene_io/scene_io.h"
+
+namespace py = pybind11;
+
+namespace clothsim {
+namespace {
+
+using Holder = std::shared_ptr<PythonSimulation>;
+using Floats = py::array_t<float, py::array::c_style | py::array::forcecast>;
+
+// A value as scene files have it: numbers, text, lists, and whatever has tolist(), as NumPy's arrays.
+std::string jsonOf(const py::handle& value) {
+  const py::cpp_function plain([](const py::object& other) { return other.attr("tolist")(); });
+  return py::str(py::module_::import("json").attr("dumps")(value, py::arg("default") = plain));
+}
+
+std::vector<std::string> settingsOf(const py::kwargs& values) {
+  std::vector<std::string> settings;
+  for (const auto& [key, value] : values) settings.push_back(std::string(py::str(key)) + "=" + jsonOf(value));
+  return settings;
+}
+
+// A name, a path or a dict.
+RemarkedScene readAny(const py::object& scene, const py::object& resolution, const py::kwargs& values) {
+  SceneOptions options;
+  options.settings = settingsOf(values);
+  if (!resolution.is_none()) {
+    const auto [columns, rows] = resolution.cast<std::pair<int, int>>();
+    options.resolution = GridSize{columns, rows};
+  }
+  if (py::isinstance<py::dict>(scene)) return changedScene(parseScene(jsonOf(scene), "the dict"), options);
+  options.scene = py::str(py::module_::import("os").attr("fspath")(scene));
+  return readScene(options);
+}
+
+// Steps let other threads of Python run; Ctrl-C ends them.
+void poll() {
+  const py::gil_scoped_acquire gil;
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
+// Keeps the memory that an array shows.
+py::capsule keeperOf(std::shared_ptr<const void> memory) {
+  return {new std::shared_ptr<const void>(std::move(memory)),
+          [](void* pointer) { delete static_cast<std::shared_ptr<const void>*>(pointer); }};
+}
+
+py::array readOnly(py::array array) {
+  array.attr("setflags")(py::arg("write") = false);
+  return array;
+}
+
+py::array viewOf(PythonSimulation& simulation, const Components<float>& values) {
+  constexpr auto number = static_cast<py::ssize_t>(sizeof(float));
+  return readOnly(py::array_t<float>({static_cast<py::ssize_t>(values.x.size()), py::ssize_t{3}},
+                                     {number, number * static_cast<py::ssize_t>(values.distance())},
+                                     values.x.data(), keeperOf(simulation.shareMemory())));
+}
+
+py::array copyOf(const std::vector<Particle4>& particles) {
+  py::array_t<float> array({static_cast<py::ssize_t>(particles.size()), py::ssize_t{3}});
+  auto values = array.mutable_unchecked<2>();
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const auto row = static_cast<py::ssize_t>(i);
+    values(row, 0) = particles[i].x;
+    values(row, 1) = particles[i].y;
+    values(row, 2) = particles[i].z;
+  }
+  return readOnly(array);
+}
+
+py::array positionsOf(PythonSimulation& simulation) {
+  if (const auto* memory = simulation.memory()) return viewOf(simulation, memory->particles().positions);
+  return copyOf(simulation.state().positions);
+}
+py::array velocitiesOf(PythonSimulation& simulation) {
+  if (const auto* memory = simulation.memory()) return viewOf(simulation, memory->particles().velocities);
+  return copyOf(simulation.state().velocities);
+}
+
+py::array inverseMassesOf(PythonSimulation& simulation) {
+  if (const auto* memory = simulation.memory()) {
+    const std::vector<float>& masses = memory->inverseMasses();
+    return readOnly(py::array_t<float>(static_cast<py::ssize_t>(masses.size()), masses.data(),
+                                       keeperOf(simulation.shareMemory())));
+  }
+  const std::vector<Particle4> particles = simulation.state().positions;
+  py::array_t<float> array(static_cast<py::ssize_t>(particles.size()));
+  for (std::size_t i = 0; i < particles.size(); ++i) array.mutable_data()[i] = particles[i].w;
+  return readOnly(array);
+}
+
+py::array facesOf(const py::object& self) {
+  const auto& faces = self.cast<PythonSimulation&>().faces();
+  return readOnly(py::array_t<std::uint32_t>({static_cast<py::ssize_t>(faces.size()), py::ssize_t{3}},
+                                             reinterpret_cast<const std::uint32_t*>(faces.data()), self));
+}
+
+std::size_t particlesOf(const PythonSimulation& simulation) {
+  return simulation.simulation().cloth().particleCount();
+}
+
+// Rows of three finite numbers, one a particle.
+void put(std::vector<Particle4>& particles, const Floats& rows, const char* what) {
+  if (rows.ndim() != 2 || static_cast<std::size_t>(rows.shape(0)) != particles.size() || rows.shape(1) != 3)
+    throw UsageError(std::string(what) + ": expected an array of shape (" + std::to_string(particles.size()) +
+                     ", 3), found " + std::string(py::str(rows.attr("shape"))));
+  for (std::size_t i = 0; i < particles.size(); ++i) {
+    const float* row = rows.data() + 3 * i;
+    if (!std::isfinite(row[0]) || !std::isfinite(row[1]) || !std::isfinite(row[2]))
+      throw UsageError(std::string(what) + ": particle " + std::to_string(i) +
+                       " is not finite; expected three finite numbers");
+    particles[i] = {row[0], row[1], row[2], particles[i].w};
+  }
+}
+void setPositions(PythonSimulation& simulation, const Floats& rows) {
+  State state = simulation.state();
+  put(state.positions, rows, "positions");
+  simulation.setState(state);
+}
+void setVelocities(PythonSimulation& simulation, const Floats& rows) {
+  State state = simulation.state();
+  put(state.velocities, rows, "velocities");
+  simulation.setState(state);
+}
+
+py::array forcesOf(const PythonSimulation& simulation) {
+  if (const auto* forces = simulation.forces()) return copyOf(*forces);
+  return copyOf(std::vector<Particle4>(particlesOf(simulation)));
+}
+void setForces(PythonSimulation& simulation, const std::optional<Floats>& rows) {
+  std::vector<Particle4> forces;
+  if (rows) {
+    forces.resize(particlesOf(simulation));
+    put(forces, *rows, "forces");
+  }
+  simulation.setForces(std::move(forces));
+}
+
+py::array_t<bool> pinsOf(PythonSimulation& simulation) {
+  const State state = simulation.state();
+  py::array_t<bool> pins(static_cast<py::ssize_t>(state.positions.size()));
+  for (std::size_t i = 0; i < state.positions.size(); ++i) pins.mutable_data()[i] = state.positions[i].w == 0;
+  return pins;
+}
+void setPins(PythonSimulation& simulation, const py::array_t<bool, py::array::c_style>& pins) {
+  const std::size_t particles = particlesOf(simulation);
+  if (pins.ndim() != 1 || static_cast<std::size_t>(pins.shape(0)) != particles)
+    throw UsageError("pins: expected an array of " + std::to_string(particles) + " booleans, found shape " +
+                     std::string(py::str(pins.attr("shape"))));
+  simulation.setPins({pins.data(), particles});
+}
+
+py::dict measuresOf(PythonSimulation& simulation) {
+  return py::module_::import("json").attr("loads")(simulation.measures());
+}
+
+py::dict dictOf(const Trace& trace) {
+  py::dict columns;
+  for (std::size_t column = 0; column < Trace::columns.size(); ++column) {
+    py::array_t<double> values(static_cast<py::ssize_t>(trace.rows().size()));
+    for (std::size_t row = 0; row < trace.rows().size(); ++row)
+      values.mutable_data()[row] = trace.rows()[row][column];
+    columns[Trace::columns[column]] = values;
+  }
+  return columns;
+}
+
+py::array_t<std::uint8_t> render(PythonSimulation& simulation, int width, int height,
+                                 const std::tuple<double, double, double>& view) {
+  const auto [right, up, zoom] = view;
+  const Image image = simulation.picture({width, height, right, up, zoom});
+  return py::array_t<std::uint8_t>({py::ssize_t{image.height}, py::ssize_t{image.width}, py::ssize_t{3}},
+                                   image.rgb.data());
+}
+
+py::list colliderPositionsOf(const PythonSimulation& simulation) {
+  py::list places;
+  for (const Vec3d& place : simulation.colliderPositions())
+    places.append(py::make_tuple(place.x, place.y, place.z));
+  return places;
+}
+
+std::string textOf(const PythonSimulation& simulation) {
+  const Simulation& inside = simulation.simulation();
+  return "<clothsim.Simulation: " + std::to_string(inside.cloth().particleCount()) + " particles, " +
+         inside.solver().backend() + ", " + std::to_string(inside.time()) + " s>";
+}
+
+// Each kind of the program's errors is a class; where Python has one of that meaning, it is one of those,
+// too.
+void declareErrors(py::module_& module) {
+  const auto declare = [&](const char* name, const py::object& bases) {
+    const std::string fullName = std::string("clothsim.") + name;
+    py::object type =
+        py::reinterpret_steal<py::object>(PyErr_NewException(fullName.c_str(), bases.ptr(), nullptr));
+    module.attr(name) = type;
+    return type.release().ptr();  // for as long as the process
+  };
+  const auto builtin = [](PyObject* type) { return py::reinterpret_borrow<py::object>(type); };
+  static PyObject* const any = declare("Error", py::make_tuple(builtin(PyExc_Exception)));
+  const py::object base = builtin(any);
+  static PyObject* const failed =
+      declare("SimulationError", py::make_tuple(base, builtin(PyExc_RuntimeError)));
+  static PyObject* const usage = declare("UsageError", py::make_tuple(base, builtin(PyExc_ValueError)));
+  static PyObject* const scene = declare("SceneError", py::make_tuple(base, builtin(PyExc_ValueError)));
+  static PyObject* const openGl = declare("OpenGlError", py::make_tuple(base, builtin(PyExc_RuntimeError)));
+  static PyObject* const files = declare("InputOutputError", py::make_tuple(base, builtin(PyExc_OSError)));
+  py::register_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(thrown);
+    } catch (const Error& error) {
+      switch (error.exitCode()) {
+        case ExitCode::usage:
+          return PyErr_SetString(usage, error.what());
+        case ExitCode::scene:
+          return PyErr_SetString(scene, error.what());
+        case ExitCode::openGl:
+          return PyErr_SetString(openGl, error.what());
+        case ExitCode::inputOutput:
+          return PyErr_SetString(files, error.what());
+        case ExitCode::done:
+        case ExitCode::failed:
+          return PyErr_SetString(failed, error.what());
+      }
+    }
+  });
+}
+
+void declareSimulation(py::module_& module) {
+  const auto released = py::call_guard<py::gil_scoped_release>();
+  py::class_<PythonSimulation, Holder>(module, "Simulation", docs::simulation)
+      .def(py::init([](const py::object& scene, const std::string& backend, const py::object& resolution,
+                       double jitter, std::uint32_t seed, const py::kwargs& settings) {
+             RemarkedScene read = readAny(scene, resolution, settings);
+             const py::gil_scoped_release release;
+             return std::make_shared<PythonSimulation>(std::move(read), backend, jitter, seed);
+           }),
+           py::arg("scene") = "pinned2", py::kw_only(), py::arg("backend") = "auto",
+           py::arg("resolution") = py::none(), py::arg("jitter") = 0.0, py::arg("seed") = 1)
+      .def(
+          "step", [](PythonSimulation& s, std::int64_t n) { s.step(n, poll); }, py::arg("steps") = 1,
+          released, docs::step)
+      .def(
+          "step_frames", [](PythonSimulation& s, std::int64_t n) { s.stepFrames(n, poll); },
+          py::arg("frames") = 1, released, docs::stepFrames)
+      .def(
+          "run",
+          [](PythonSimulation& simulation, std::int64_t frames) {
+            const Trace trace = [&] {
+              const py::gil_scoped_release release;
+              return simulation.run(frames, poll);
+            }();
+            return dictOf(trace);
+          },
+          py::arg("frames"), docs::run)
+      .def("reset", &PythonSimulation::reset, py::arg("seed") = py::none(), released, docs::reset)
+      .def_property_readonly(
+          "time", [](const PythonSimulation& s) { return s.simulation().time(); }, docs::time)
+      .def_property_readonly("frame", &PythonSimulation::frame, docs::frame)
+      .def_property_readonly(
+          "backend", [](const PythonSimulation& s) { return s.simulation().solver().backend(); },
+          docs::backend)
+      .def_property_readonly(
+          "device", [](const PythonSimulation& s) { return s.simulation().solver().device(); }, docs::device)
+      .def_property_readonly("remarks", &PythonSimulation::remarks, docs::remarks)
+      .def_property("positions", &positionsOf, &setPositions, docs::positions)
+      .def_property("velocities", &velocitiesOf, &setVelocities, docs::velocities)
+      .def_property("forces", &forcesOf, &setForces, docs::forces)
+      .def_property("pins", &pinsOf, &setPins, docs::pins)
+      .def_property_readonly("inverse_masses", &inverseMassesOf, docs::inverseMasses)
+      .def_property_readonly("faces", &facesOf, docs::faces)
+      .def_property_readonly(
+          "state_hash", [](PythonSimulation& s) { return hashText(stateHash(s.state())); }, docs::stateHash)
+      .def_property_readonly("collider_positions", &colliderPositionsOf, docs::colliderPositions)
+      .def(
+          "move_collider",
+          [](PythonSimulation& simulation, std::size_t collider, const std::array<double, 3>& to,
+             std::optional<double> seconds) {
+            simulation.moveCollider(collider, {to[0], to[1], to[2]}, seconds);
+          },
+          py::arg("collider"), py::arg("position"), py::arg("seconds") = py::none(), docs::moveCollider)
+      .def(
+          "set", [](PythonSimulation& s, const py::kwargs& values) { s.configure(settingsOf(values)); },
+          docs::set)
+      .def_property_readonly(
+          "scene",
+          [](const PythonSimulation& simulation) {
+            return py::module_::import("json").attr("loads")(formatScene(simulation.simulation().scene()));
+          },
+          docs::scene)
+      .def("measures", &measuresOf, docs::measures)
+      .def("render", &render, py::arg("width") = 1280, py::arg("height") = 720,
+           py::arg("view") = std::tuple(0.0, 0.0, 1.0), docs::render)
+      .def("save", &PythonSimulation::save, py::arg("path"), docs::save)
+      .def("load", &PythonSimulation::load, py::arg("path"), docs::load)
+      .def(
+          "get_state", [](PythonSimulation& s) { return py::bytes(formatStateFile(s.state())); },
+          docs::getState)
+      .def(
+          "set_state",
+          [](PythonSimulation& simulation, const std::string& bytes) {
+            simulation.setState(parseStateFile(bytes, particlesOf(simulation), "set_state"));
+          },
+          py::arg("state"), docs::setState)
+      .def("__repr__", &textOf);
+}
+
+}  // namespace
+}  // namespace clothsim
+
+PYBIND11_MODULE(_clothsim, module) {
+  using namespace clothsim;
+  // Scenes and shaders lie beside the module, or above it in a build folder.
+  Dl_info self{};
+  if (::dladdr(reinterpret_cast<const void*>(&PyInit__clothsim), &self) != 0)
+    beginResourceSearchAt(std::filesystem::absolute(self.dli_fname).parent_path());
+  module.attr("__version__") = CLOTHSIM_VERSION;
+  declareErrors(module);
+  declareSimulation(module);
+  module.def(
+      "scenes",
+      [] {
+        std::vector<std::string> names;
+        for (const BundledScene& scene : bundledScenes()) names.push_back(scene.name);
+        return names;
+      },
+      docs::scenes);
+  module.def("set_threads", &ThreadTeam::setSharedThreads, py::arg("threads"), docs::setThreads);
+}

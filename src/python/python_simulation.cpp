@@ -1,0 +1,320 @@
+#include "python/python_simulation.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <thread>
+#include <utility>
+
+#include "core/error.h"
+#include "export/export.h"
+#include "render/camera.h"
+#include "scene/moved_collider.h"
+#include "scene/pose.h"
+#include "scene_io/scene_io.h"
+#include "session/action_checks.h"
+#include "session/carry_over.h"
+#include "simulation/gpu/solvers.h"
+
+namespace clothsim {
+namespace {
+
+// All simulations of the process share one context, which belongs to the thread that was first to need it.
+struct SharedContext {
+  std::weak_ptr<gl::HeadlessContext> context;
+  std::thread::id thread;
+};
+SharedContext& sharedContext() {
+  static SharedContext shared;
+  return shared;
+}
+
+std::shared_ptr<gl::HeadlessContext> openContext() {
+  SharedContext& shared = sharedContext();
+  if (std::shared_ptr<gl::HeadlessContext> context = shared.context.lock()) return context;
+  const auto context = std::make_shared<gl::HeadlessContext>();
+  shared = {context, std::this_thread::get_id()};
+  return context;
+}
+
+constexpr double radians = std::numbers::pi / 180;  // in a degree
+
+bool isContextHere() { return sharedContext().thread == std::this_thread::get_id(); }
+
+}  // namespace
+
+// One caller at a time, on the thread of the context where there is one.
+class PythonSimulation::Turn {
+ public:
+  explicit Turn(PythonSimulation& simulation) : simulation_(simulation) {
+    if (simulation.isBusy_.test_and_set())
+      throw UsageError("another thread uses this simulation; make one for each thread");
+    if (simulation.context_ && !isContextHere()) {
+      simulation.isBusy_.clear();
+      throw UsageError(
+          "this simulation uses OpenGL, which belongs to the thread that first used it; call it from there, "
+          "or make a simulation with backend=\"cpu\" for this thread");
+    }
+  }
+  ~Turn() { simulation_.isBusy_.clear(); }
+  Turn(const Turn&) = delete;
+  Turn& operator=(const Turn&) = delete;
+
+ private:
+  PythonSimulation& simulation_;
+};
+
+PythonSimulation::PythonSimulation(RemarkedScene read, const std::string& backend, double jitter,
+                                   std::uint32_t seed)
+    : scene_(std::move(read.scene)),
+      backend_(backend),
+      jitter_(jitter),
+      seed_(seed),
+      remarks_(std::move(read.remarks)) {
+  if (backend != "auto" && backend != "cpu" && backend != "gpu")
+    throw UsageError("backend: expected auto, cpu or gpu, found \"" + backend + "\"");
+  if (!(jitter >= 0 && jitter <= 1)) throw UsageError("jitter: expected 0 to 1 m");
+  if (backend == "gpu") needContext();
+  if (backend == "auto") {
+    try {
+      needContext();
+      backend_ = chosenBackend(backend);
+    } catch (const OpenGlError&) {
+      backend_ = "cpu";
+    }
+    if (backend_ == "cpu") context_.reset();
+  }
+  start(seed);
+}
+
+PythonSimulation::~PythonSimulation() {
+  // Objects of OpenGL cannot be freed on another thread; they go with the process.
+  if (!context_ || isContextHere()) return;
+  static_cast<void>(renderer_.release());
+  new std::shared_ptr<Simulation>(simulation_);
+  new std::shared_ptr<gl::HeadlessContext>(context_);
+}
+
+void PythonSimulation::needContext() {
+  if (context_) return;
+  const std::shared_ptr<gl::HeadlessContext> context = openContext();
+  if (!isContextHere()) throw UsageError("OpenGL is used by another thread of this process; call from there");
+  context_ = context;
+}
+
+void PythonSimulation::start(const std::optional<std::uint32_t>& seed) {
+  const auto simulation = std::make_shared<Simulation>(scene_, backend_, makeSolver);
+  if (jitter_ > 0) {
+    State jittered = simulation->state();
+    jitter(jittered, jitter_, seed.value_or(seed_));
+    simulation->setState(jittered);
+  }
+  RunSummary summary;
+  summary.add(*simulation);
+  renderer_.reset();  // before its simulation goes
+  simulation_ = simulation;
+  summary_ = std::move(summary);
+  lookers_ = std::make_shared<std::shared_ptr<Simulation>>(simulation_);
+  positionsPlace_ = velocitiesPlace_ = nullptr;
+  forces_.reset();
+  faces_.clear();
+}
+
+State PythonSimulation::state() {
+  const Turn turn(*this);
+  State state = simulation_->state();
+  stayInPlace();
+  return state;
+}
+
+int PythonSimulation::frame() const {
+  return static_cast<int>(std::lround(simulation_->time() * simulation_->scene().solver.framesPerSec));
+}
+
+void PythonSimulation::advance(std::int64_t steps, const std::function<void()>& poll) {
+  using Clock = std::chrono::steady_clock;
+  constexpr std::chrono::milliseconds pollTime{50};
+  while (steps > 0) {
+    const std::int64_t frame = std::min<std::int64_t>(steps, simulation_->scene().solver.simulationSteps);
+    simulation_->keep();
+    for (std::int64_t done = 0; done < frame;) {
+      const int count = static_cast<int>(std::min<std::int64_t>(stepsAtOnce_, frame - done));
+      const Clock::time_point start = Clock::now();
+      simulation_->step(count);
+      simulation_->finish();
+      const Clock::duration taken = Clock::now() - start;
+      done += count;
+      if (taken > pollTime)
+        stepsAtOnce_ = std::max(1, count / 2);
+      else if (taken < pollTime / 4 && count == stepsAtOnce_ && stepsAtOnce_ < 1 << 20)
+        stepsAtOnce_ *= 2;
+      poll();
+    }
+    if (const std::optional<Divergence> divergence = simulation_->checkFrame())
+      throw SimulationError(blowUpText(*divergence, simulation_->cloth(), simulation_->scene()) +
+                            "\nThe state is the one before that frame.");
+    steps -= frame;
+  }
+}
+
+void PythonSimulation::step(std::int64_t steps, const std::function<void()>& poll) {
+  const Turn turn(*this);
+  if (steps < 0) throw UsageError("steps: expected 0 or more, found " + std::to_string(steps));
+  try {
+    advance(steps, poll);
+  } catch (...) {
+    stayInPlace();
+    throw;
+  }
+  stayInPlace();
+}
+
+void PythonSimulation::stepFrames(std::int64_t frames, const std::function<void()>& poll) {
+  constexpr std::int64_t most = 10'000'000;  // as run --frames
+  if (frames < 0 || frames > most)
+    throw UsageError("frames: expected 0 to 10000000, found " + std::to_string(frames));
+  step(frames * simulation_->scene().solver.simulationSteps, poll);
+}
+
+Trace PythonSimulation::run(std::int64_t frames, const std::function<void()>& poll) {
+  Trace trace;
+  for (std::int64_t done = 0;; ++done) {
+    {
+      const Turn turn(*this);
+      measureNow();
+      stayInPlace();
+      trace.add(summary_, *simulation_);
+    }
+    if (done >= frames) return trace;
+    stepFrames(1, poll);
+  }
+}
+
+void PythonSimulation::reset(std::optional<std::uint32_t> seed) {
+  const Turn turn(*this);
+  start(seed);
+}
+
+void PythonSimulation::setState(const State& state) {
+  const Turn turn(*this);
+  simulation_->setState(state);
+  stayInPlace();
+}
+
+void PythonSimulation::setPins(std::span<const bool> pinned) {
+  const Turn turn(*this);
+  State state = simulation_->state();
+  for (std::uint32_t i = 0; i < pinned.size(); ++i) {
+    float& inverseMass = state.positions[i].w;
+    if (pinned[i] == (inverseMass == 0)) continue;
+    inverseMass = pinned[i] ? 0 : static_cast<float>(1 / simulation_->cloth().massOf(i));
+    state.velocities[i] = {};
+    leavePath(state.offPath, i);
+  }
+  simulation_->setState(state);
+  stayInPlace();
+}
+
+void PythonSimulation::setForces(std::vector<Particle4> forces) {
+  const Turn turn(*this);
+  forces_ = forces.empty() ? nullptr : std::make_shared<const std::vector<Particle4>>(std::move(forces));
+  Interaction interaction;
+  interaction.externalForces = forces_;
+  simulation_->solver().setInteraction(interaction);
+}
+
+void PythonSimulation::moveCollider(std::size_t collider, Vec3d position, std::optional<double> seconds) {
+  const Turn turn(*this);
+  const Scene& scene = simulation_->scene();
+  checkAction(MoveCollider{collider, position}, simulation_->cloth(), scene);
+  const double duration = seconds.value_or(1 / scene.solver.framesPerSec), now = simulation_->time();
+  if (!(duration > 0 && duration <= 1e6))
+    throw UsageError("move_collider: seconds: expected more than 0 and up to 1e6");
+  simulation_->configure(withColliderOnItsWay(scene, collider, position, now, now + duration));
+}
+
+std::vector<Vec3d> PythonSimulation::colliderPositions() const {
+  std::vector<Vec3d> positions;
+  for (const Collider& collider : simulation_->scene().colliders)
+    positions.push_back(poseAt(collider, simulation_->time()).position);
+  return positions;
+}
+
+void PythonSimulation::configure(const std::vector<std::string>& settings) {
+  const Turn turn(*this);
+  Scene scene = simulation_->scene();
+  for (const std::string& setting : settings) {
+    setSceneValue(scene, setting, "set");
+    if (needsRebuild(simulation_->scene(), scene))
+      throw UsageError(
+          "set " + setting +
+          ": this key makes another cloth, which a running simulation cannot change to; give it to "
+          "Simulation() instead");
+  }
+  simulation_->configure(std::move(scene));
+}
+
+void PythonSimulation::measureNow() { summary_.add(*simulation_, frame()); }
+
+std::string PythonSimulation::measures() {
+  const Turn turn(*this);
+  measureNow();
+  stayInPlace();
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  summary_.write(json, *simulation_);
+  return json.dump();
+}
+
+Image PythonSimulation::picture(const PictureView& view) {
+  if (view.width < 16 || view.height < 16 || view.width > 8192 || view.height > 8192)
+    throw UsageError("render: expected 16 x 16 to 8192 x 8192 pixels, found " + std::to_string(view.width) +
+                     " x " + std::to_string(view.height));
+  if (!(std::abs(view.right) <= 360) || !(std::abs(view.up) <= 180) ||
+      !(view.zoom >= 0.01 && view.zoom <= 100))
+    throw UsageError("render: view: expected (right, up, zoom) in degrees and a factor from 0.01 to 100");
+  const Turn turn(*this);
+  needContext();
+  if (!renderer_)
+    renderer_ = std::make_unique<SimulationRenderer>(
+        *simulation_, withQuality({}, Quality::final, gl::currentContextInfo().software));
+  renderer_->update();
+  Camera camera(simulation_->scene(), simulation_->cloth());
+  camera.orbit(view.right * radians, view.up * radians);
+  camera.zoom(1 / view.zoom);
+  Image image = renderer_->picture(camera, view.width, view.height);
+  stayInPlace();
+  return image;
+}
+
+void PythonSimulation::save(const std::filesystem::path& path) {
+  saveState(state(), simulation_->cloth(), path);
+}
+void PythonSimulation::load(const std::filesystem::path& path) {
+  setState(loadState(path, simulation_->cloth()));
+}
+
+const std::vector<std::array<std::uint32_t, 3>>& PythonSimulation::faces() {
+  if (faces_.empty()) faces_ = simulation_->cloth().triangles();
+  return faces_;
+}
+
+const CpuSolver<float>* PythonSimulation::memory() {
+  const Turn turn(*this);
+  auto* solver = dynamic_cast<CpuSolver<float>*>(&simulation_->solver());
+  if (solver == nullptr) return nullptr;
+  solver->convertVelocities();
+  stayInPlace();
+  positionsPlace_ = solver->particles().positions.x.data();
+  velocitiesPlace_ = solver->particles().velocities.x.data();
+  return solver;
+}
+
+void PythonSimulation::stayInPlace() {
+  if (lookers_.use_count() == 1 || positionsPlace_ == nullptr) return;
+  if (auto* solver = dynamic_cast<CpuSolver<float>*>(&simulation_->solver()))
+    solver->returnTo(positionsPlace_, velocitiesPlace_);
+}
+
+}  // namespace clothsim

@@ -1,0 +1,113 @@
+// A simulation as Python sees it: Simulation and what belongs to it - an OpenGL context where one is needed,
+// measures, a renderer. It knows nothing of Python; module.cpp translates.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gl/context.h"
+#include "render/image.h"
+#include "scene_io/scene_options.h"
+#include "simulation/gpu/simulation_renderer.h"
+#include "simulation/run_summary.h"
+#include "simulation/simulation.h"
+#include "simulation/trace.h"
+#include "solver/cpu/cpu_solver.h"
+
+namespace clothsim {
+
+// A picture's camera, as `render --view` takes it.
+struct PictureView {
+  int width = 1280, height = 720;      // [pixels]
+  double right = 0, up = 0, zoom = 1;  // [degrees], and a factor
+};
+
+// One thread at a time may call it, for others its functions throw UsageError; on the GPU, and once it has
+// drawn, only the thread that made it. All functions throw what the program would report.
+class PythonSimulation {
+ public:
+  // Displaces free particles by up to `jitter` [m] at random, as `run --jitter --seed` does. `backend`: auto,
+  // cpu or gpu.
+  PythonSimulation(RemarkedScene read, const std::string& backend, double jitter, std::uint32_t seed);
+  ~PythonSimulation();
+  PythonSimulation(const PythonSimulation&) = delete;
+  PythonSimulation& operator=(const PythonSimulation&) = delete;
+
+  [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
+  [[nodiscard]] const Simulation& simulation() const { return *simulation_; }
+  [[nodiscard]] State state();
+  [[nodiscard]] int frame() const;  // of the time that has passed, in whole frames
+
+  // Steps or frames. `poll` is called some ten times a second and ends the steps by throwing; the state is
+  // then that after some whole step. A simulation that blows up goes back to the start of the frame.
+  // @throws SimulationError
+  void step(std::int64_t steps, const std::function<void()>& poll);
+  void stepFrames(std::int64_t frames, const std::function<void()>& poll);
+  // The same, measured at its beginning and after every frame.
+  [[nodiscard]] Trace run(std::int64_t frames, const std::function<void()>& poll);
+
+  // To the start of the scene as it was given; edits, pins and all else are gone.
+  void reset(std::optional<std::uint32_t> seed);
+  // Continues with this state.
+  void setState(const State& state);
+  // Pins free particles where they are and frees pinned ones, as the mouse does in the viewer.
+  void setPins(std::span<const bool> pinned);
+  // Forces on each particle, xyz [N], from the next step on until others are set; empty: none.
+  void setForces(std::vector<Particle4> forces);
+  [[nodiscard]] const std::vector<Particle4>* forces() const { return forces_.get(); }  // null: none
+  // Moves a collider straight to a place within `seconds`; it stays there.
+  void moveCollider(std::size_t collider, Vec3d position, std::optional<double> seconds);
+  [[nodiscard]] std::vector<Vec3d> colliderPositions() const;
+  // Live keys of the scene, as "key=value". @throws UsageError for a key that makes another cloth
+  void configure(const std::vector<std::string>& settings);
+
+  // What `run --json` prints of the state, as JSON; peaks and warnings are those of the frames that were
+  // measured, which are the start and those at which this or run() was called.
+  [[nodiscard]] std::string measures();
+  [[nodiscard]] Image picture(const PictureView& view);
+  void save(const std::filesystem::path& path);
+  void load(const std::filesystem::path& path);
+
+  [[nodiscard]] const std::vector<std::array<std::uint32_t, 3>>& faces();
+
+  // The particles in memory, on the CPU backend; nullptr on the GPU. Whoever keeps a copy of the pointer of
+  // shareMemory() can look at them for as long as he has it, also after reset(), and until then steps leave
+  // them at the same place.
+  [[nodiscard]] const CpuSolver<float>* memory();
+  [[nodiscard]] std::shared_ptr<const void> shareMemory() const { return lookers_; }
+
+ private:
+  class Turn;
+
+  void start(const std::optional<std::uint32_t>& seed);
+  void advance(std::int64_t steps, const std::function<void()>& poll);
+  void stayInPlace();
+  void needContext();
+  void measureNow();
+
+  std::shared_ptr<gl::HeadlessContext> context_;  // outlives what lies on it
+  Shared<Scene> scene_;                           // at the start
+  std::string backend_;
+  double jitter_;
+  std::uint32_t seed_;
+  std::vector<std::string> remarks_;
+  std::shared_ptr<Simulation> simulation_;
+  std::shared_ptr<const void> lookers_;  // keeps the simulation for those who look at its memory
+  const float *positionsPlace_ = nullptr, *velocitiesPlace_ = nullptr;
+  std::shared_ptr<const std::vector<Particle4>> forces_;
+  std::unique_ptr<SimulationRenderer> renderer_;
+  RunSummary summary_;
+  std::vector<std::array<std::uint32_t, 3>> faces_;
+  std::atomic_flag isBusy_;
+  int stepsAtOnce_ = 1;
+};
+
+}  // namespace clothsim
