@@ -3,6 +3,8 @@
 // c = p - (p(i-1) - 2 p(i) + p(i+1)) / 6 along rows and columns: the spline through them comes by every particle to the
 // fourth order of the spacing (cubics exactly), and damps what alternates from particle to particle. On a border it goes
 // through the particles' own curve, and bends there as it does one particle further in. w: the hollow, just smoothed.
+// Behind them come those for normals, the particles themselves: what the steps of a solver leave from particle to particle
+// would otherwise flicker in highlights. The normals of spheres and cylinders are the same.
 #include "render/cloth_piece.glsl"
 
 layout(local_size_x = NORMALS_GROUP_SIZE, local_size_y = NORMALS_GROUP_SIZE) in;
@@ -27,11 +29,15 @@ Stencil stencilOf(int i, int count) {
   return Stencil(first, weights / 6.0);
 }
 
-void main() {
-  ivec2 size = ivec2(piece.columns, piece.rows), at = ivec2(gl_GlobalInvocationID.xy);
-  if (any(greaterThanEqual(at, size + 2))) return;
-  ivec2 point = at - 1;
-  Stencil along = stencilOf(point.x, size.x), down = stencilOf(point.y, size.y);
+// The particles, and beyond the border a parabola through three.
+Stencil plainStencilOf(int i, int count) {
+  bool fromEnd = 2 * i >= count, isBeyond = i < 0 || i >= count;
+  if (!isBeyond) return Stencil(i, vec3(1, 0, 0));
+  vec3 weights = count == 2 ? vec3(2, -1, 0) : vec3(3, -3, 1);
+  return fromEnd ? Stencil(count - 3, weights.zyx) : Stencil(0, weights);
+}
+
+vec3 gathered(Stencil along, Stencil down, ivec2 size) {
   vec3 sum = vec3(0);
   for (int j = 0; j < 3; ++j) {
     uint row = piece.firstParticle + uint(clamp(down.first + j, 0, size.y - 1)) * piece.columns;
@@ -40,7 +46,17 @@ void main() {
       inRow += along.weights[i] * positions[row + uint(clamp(along.first + i, 0, size.x - 1))].xyz;
     sum += down.weights[j] * inRow;
   }
+  return sum;
+}
+
+void main() {
+  ivec2 size = ivec2(piece.columns, piece.rows), at = ivec2(gl_GlobalInvocationID.xy);
+  if (any(greaterThanEqual(at, size + 2))) return;
+  ivec2 point = at - 1;
   ivec2 nearest = clamp(point, ivec2(0), size - 1);
   float hollow = normals[piece.firstParticle + uint(nearest.y) * piece.columns + uint(nearest.x)].w;
-  controls[piece.firstControl + uint(at.y) * (piece.columns + 2u) + uint(at.x)] = vec4(sum, hollow);
+  uint control = piece.firstControl + uint(at.y) * (piece.columns + 2u) + uint(at.x);
+  controls[control] = vec4(gathered(stencilOf(point.x, size.x), stencilOf(point.y, size.y), size), hollow);
+  controls[control + (piece.columns + 2u) * (piece.rows + 2u)] =
+      vec4(gathered(plainStencilOf(point.x, size.x), plainStencilOf(point.y, size.y), size), hollow);
 }

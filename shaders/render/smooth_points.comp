@@ -31,6 +31,16 @@ uvec4 cornersOf(ivec2 cell) {
   return first + uvec4(0u, 1u, piece.columns, piece.columns + 1u);
 }
 
+// The control points of a cell, of the first or the second kind (smooth_control.comp).
+mat4[4] rowsAt(ivec2 cell, uint kind) {
+  mat4 rows[4];
+  for (uint j = 0u; j < 4u; ++j) {
+    uint first = piece.firstControl + (kind * (piece.rows + 2u) + uint(cell.y) + j) * (piece.columns + 2u) + uint(cell.x);
+    rows[j] = mat4(controls[first], controls[first + 1u], controls[first + 2u], controls[first + 3u]);
+  }
+  return rows;
+}
+
 vec3 unit(vec3 v, vec3 otherwise) {
   float l = length(v);
   return l > 0.0 ? v / l : otherwise;
@@ -51,16 +61,13 @@ void main() {
   // The last row and column have the lower and right sides of the cells before them.
   ivec2 cell = min(particle, size - 2);
   ivec2 count = ivec2(particle.x < size.x - 1 ? steps : 1, particle.y < size.y - 1 ? steps : 1);
-  mat4 rows[4];
-  for (int j = 0; j < 4; ++j) {
-    uint first = piece.firstControl + uint(cell.y + j) * (piece.columns + 2u) + uint(cell.x);
-    rows[j] = mat4(controls[first], controls[first + 1u], controls[first + 2u], controls[first + 3u]);
-  }
+  mat4 rows[4] = rowsAt(cell, 0u);
   uvec4 c = cornersOf(cell);
 #ifdef LEAN
   mat4 cornerNormals = mat4(particleNormals[c.x], particleNormals[c.y], particleNormals[c.z], particleNormals[c.w]);
   mat4 cornerTangents = mat4(particleTangents[c.x], particleTangents[c.y], particleTangents[c.z], particleTangents[c.w]);
 #else
+  mat4 plain[4] = rowsAt(cell, 1u);
   vec4 strains = vec4(particleTangents[c.x].w, particleTangents[c.y].w, particleTangents[c.z].w, particleTangents[c.w].w);
 #endif
   uint pointsInRow = uint(size.x - 1) * piece.steps + 1u;
@@ -68,7 +75,10 @@ void main() {
     float u = float(particle.x - cell.x) + float(i) / float(steps);
     vec4 basis = basisAt(u), slopes = slopesAt(u);
     mat4 places = mat4(rows[0] * basis, rows[1] * basis, rows[2] * basis, rows[3] * basis);
-    mat4 alongU = mat4(rows[0] * slopes, rows[1] * slopes, rows[2] * slopes, rows[3] * slopes);
+#ifndef LEAN
+    mat4 plainPlaces = mat4(plain[0] * basis, plain[1] * basis, plain[2] * basis, plain[3] * basis);
+    mat4 alongU = mat4(plain[0] * slopes, plain[1] * slopes, plain[2] * slopes, plain[3] * slopes);
+#endif
     for (int j = 0; j < count.y; ++j) {
       float v = float(particle.y - cell.y) + float(j) / float(steps);
       uint point = piece.firstPoint + uint(particle.y * steps + j) * pointsInRow + uint(particle.x * steps + i);
@@ -77,7 +87,7 @@ void main() {
       vec4 normal = between(cornerNormals, vec2(u, v)), tangent = between(cornerTangents, vec2(u, v));
       store(point, vec4(place.xyz, normal.w), normal.xyz, tangent.xyz, tangent.w);
 #else
-      vec3 right = (alongU * basisAt(v)).xyz, down = (places * slopesAt(v)).xyz;
+      vec3 right = (alongU * basisAt(v)).xyz, down = (plainPlaces * slopesAt(v)).xyz;
       float strain = mix(mix(strains.x, strains.y, u), mix(strains.z, strains.w, u), v);
       store(point, place, piece.front * cross(down, right), right, strain);
 #endif

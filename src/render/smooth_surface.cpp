@@ -71,7 +71,7 @@ SmoothSurface::SmoothSurface(const Cloth& cloth, std::span<const std::uint32_t> 
     append(centers, refinement.centers);
     append(coordinates, refinement.textureCoordinates);
     pointCount += refinement.pointCount;
-    controlCount += (block[0].columns + 2) * (block[0].rows + 2);
+    controlCount += 2 * (block[0].columns + 2) * (block[0].rows + 2);
   }
   controls_ = gl::Buffer<glm::vec4>("smooth controls", controlCount);
   makePoints(pointCount, coordinates);

@@ -91,7 +91,7 @@ TEST_F(SmoothSurfaceTest, LiesOnACylinderWhereTrianglesLieFarBelowIt) {
     const glm::dvec3 radial(surface.points[i].x, surface.points[i].y, 0);
     EXPECT_NEAR(glm::length(radial), RADIUS, belowTriangles / 40) << "point " << i;
     const double off = glm::length(glm::cross(glm::dvec3(surface.normals[i]), radial / glm::length(radial)));
-    EXPECT_LT(off, 0.002) << "normal " << i << "; beside those of triangles, off by 0.05";
+    EXPECT_LT(off, 0.004) << "normal " << i << "; beside those of triangles, off by 0.05";
   }
 }
 
