@@ -10,7 +10,7 @@ layout(location = 0) out vec4 color;
 #include "render/two_sided.glsl"
 
 vec3 scaleColor(float strain) {
-  float place = clamp(0.5 + 0.5 * strain / frame.strainRange.x, 0.0, 1.0) * float(STRAIN_STOPS - 1);
+  float place = clamp(0.5 + 0.5 * strain / frame.strainRange, 0.0, 1.0) * float(STRAIN_STOPS - 1);
   int stop = min(int(place), STRAIN_STOPS - 2);
   return mix(frame.strainStops[stop].rgb, frame.strainStops[stop + 1].rgb, place - float(stop));
 }

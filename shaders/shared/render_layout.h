@@ -18,7 +18,18 @@ using uint = unsigned int;
 #define REST_POSITIONS_BINDING 4     // storage block, vec4 a particle
 #define MESH_CORNERS_BINDING 5       // storage block, words: src/render/mesh_neighbours.h
 #define MESH_COORDINATES_BINDING 6   // storage block, vec2 a particle: texture coordinates
-#define SHADOW_MAP_UNIT 0            // texture units
+// The passes of the smooth surface (src/render/smooth_surface.h), a vec4 a point unless said otherwise.
+#define SMOOTH_CONTROLS_BINDING 7
+#define SMOOTH_POINTS_BINDING 2
+#define SMOOTH_NORMALS_BINDING 4
+#define SMOOTH_TANGENTS_BINDING 5
+#define SMOOTH_PLACES_BINDING 6   // a word a point: the point at whose place it is drawn
+#define SMOOTH_MIDDLES_BINDING 0  // three words a point between two others: it, and those, the kept one first
+#define SMOOTH_COUNTS_BINDING 1   // a word for each work group
+#define SMOOTH_KEPT_BINDING 2     // three words a triangle
+#define SMOOTH_COMMAND_BINDING 3  // of glDrawElementsIndirect
+#define SMOOTH_GROUP 64           // invocations of a work group
+#define SHADOW_MAP_UNIT 0         // texture units
 #define FLOOR_SHADOW_UNIT 1
 #define CANVAS_UNIT 2
 #define CUTS_BINDING 2  // storage block, a word a particle: which of its springs are cut (cloth/cuts.h)
@@ -76,7 +87,9 @@ struct RenderFrame {
   vec4 relief;         // x: strength of normals, y: height of height maps [m], z: repeats of a texture
   vec4 irradiance[9];  // of the sky (render/environment.h)
   vec4 strainStops[STRAIN_STOPS];  // colours from the most compressed to the most stretched
-  vec4 strainRange;                // x: l/L - 1 at the last of them
+  float strainRange;               // l/L - 1 at the last of them
+  float flatness;                  // how far triangles may lie beside the smooth surface [pixels]
+  float unused1, unused2;
 };
 
 struct ClothPiece {
@@ -87,7 +100,8 @@ struct ClothPiece {
   float longer;  // the larger of the two
   float reach;   // length of the ring's steps at rest [m]
   float front;   // -1 where rows go up on the front (a standing sheet), else 1
-  float unused1, unused2, unused3;
+  uint steps;    // of the smooth surface on each side of a cell
+  uint firstPoint, firstControl;  // of this piece there
 };
 
 #ifdef __cplusplus

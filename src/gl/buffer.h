@@ -55,6 +55,8 @@ class Buffer {
   void bindStorage(GLuint binding) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, name_); }
   // Binds it as the source of glDispatchComputeIndirect.
   void bindDispatches() const { glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, name_); }
+  // The same of glDrawElementsIndirect.
+  void bindDraws() const { glBindBuffer(GL_DRAW_INDIRECT_BUFFER, name_); }
   void bindStorageRange(GLuint binding, std::size_t firstElement, std::size_t count) const {
     bindRange(GL_SHADER_STORAGE_BUFFER, binding, firstElement, count);
   }

@@ -18,6 +18,12 @@ glm::vec2 pixelOf(glm::vec4 clip, const ChangedArea::View& view) {
   return 0.5f * (glm::vec2(clip.x, clip.y) / clip.w + 1.0f) * glm::vec2(view.width, view.height);
 }
 
+// By how much the first two coordinates change for a metre, at most.
+float lengthOfRows(const glm::mat4& m) {
+  return std::max(glm::length(glm::vec3(m[0].x, m[1].x, m[2].x)),
+                  glm::length(glm::vec3(m[0].y, m[1].y, m[2].y)));
+}
+
 // Adds a point of the world to what is seen. False for one that has no place in the picture.
 bool addSeen(glm::vec3 point, const ChangedArea::View& view, FlatBounds& seen) {
   const glm::vec4 clip = view.clipFromWorld * glm::vec4(point, 1);
@@ -70,10 +76,18 @@ PixelRect pixelsOf(const FlatBounds& seen, const ChangedArea::View& view) {
 std::optional<ChangedArea::Area> ChangedArea::next(const View& view, std::span<const glm::vec4> particles,
                                                    const Colliders& colliders) {
   Seen now{view, colliders.places(), {}, {}};
+  float nearestW = 1e30f;
   for (const glm::vec4& particle : particles) {
     const glm::vec3 place(particle);
     now.shadow.add(glm::vec2(view.shadowFromWorld * glm::vec4(place, 1)));
     if (!addSeen(place, view, now.picture)) return forget(), std::nullopt;
+    nearestW = std::min(nearestW, (view.clipFromWorld * glm::vec4(place, 1)).w);
+  }
+  if (!particles.empty()) {
+    // At most so far in the map, and in pixels where the cloth is nearest.
+    now.shadow = now.shadow.grown(view.reach * lengthOfRows(view.shadowFromWorld));
+    now.picture = now.picture.grown(0.5f * static_cast<float>(std::max(view.width, view.height)) *
+                                    view.reach * lengthOfRows(view.clipFromWorld) / nearestW);
   }
   if (!last_ || !(last_->view == view) || last_->solidPlaces != now.solidPlaces) {
     last_ = std::move(now);

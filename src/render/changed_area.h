@@ -42,6 +42,7 @@ class ChangedArea {
   struct View {
     glm::mat4 clipFromWorld, shadowFromWorld;
     int width, height;  // of the picture [pixels]
+    float reach = 0;    // how far from the particles the surface may be [m]
     friend bool operator==(const View&, const View&) = default;
   };
   struct Area {

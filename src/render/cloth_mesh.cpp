@@ -24,6 +24,8 @@ shared::ClothPiece blockOfMesh(const Piece& mesh) {
   return block;
 }
 
+}  // namespace
+
 shared::ClothPiece blockOf(const Piece& piece) {
   if (piece.isMesh) return blockOfMesh(piece);
   const double right = piece.nominalLength[toLeft], down = piece.nominalLength[toUpper];
@@ -41,8 +43,6 @@ shared::ClothPiece blockOf(const Piece& piece) {
   block.front = piece.rowsGoUp ? -1.0f : 1.0f;
   return block;
 }
-
-}  // namespace
 
 ClothMesh::ClothMesh(const Cloth& cloth)
     : normals_("cloth normals", cloth.particleCount()),

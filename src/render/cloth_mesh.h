@@ -19,6 +19,9 @@ struct NormalsPrograms {
   const gl::Program* mesh = nullptr;
 };
 
+// What a program knows of a piece that it draws; without a smooth surface.
+[[nodiscard]] shared::ClothPiece blockOf(const Piece& piece);
+
 class ClothMesh {
  public:
   explicit ClothMesh(const Cloth& cloth);

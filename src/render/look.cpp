@@ -41,7 +41,7 @@ void addStrainScale(const RenderSettings& settings, shared::RenderFrame& frame) 
     frame.strainStops[i] =
         linearColor(static_cast<double>(red), static_cast<double>(green), static_cast<double>(blue));
   }
-  frame.strainRange.x = static_cast<float>(settings.strainRange);
+  frame.strainRange = static_cast<float>(settings.strainRange);
 }
 
 }  // namespace

@@ -65,6 +65,11 @@ const gl::Program& RenderPrograms::meshNormals() {
   return *meshNormals_;
 }
 
+const SmoothPrograms& RenderPrograms::smooth() {
+  if (!smooth_) smooth_.emplace();
+  return *smooth_;
+}
+
 const PickPrograms& RenderPrograms::picking() {
   if (!picking_) picking_.emplace();
   return *picking_;
@@ -84,6 +89,7 @@ void tryAllShaders(const RenderSettings& settings, int samples) {
     programs.chooseModel(shadingModelOf(other));
     for (const bool withCuts : {false, true}) static_cast<void>(programs.normals(withCuts));
     static_cast<void>(programs.meshNormals());
+    static_cast<void>(programs.smooth());
   }
   static_cast<void>(programs.picking());
   static_cast<void>(programs.overlays());

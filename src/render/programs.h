@@ -6,6 +6,7 @@
 
 #include "gl/program.h"
 #include "render/shading_models.h"
+#include "render/smooth_surface.h"
 #include "render/springs_overlay.h"
 
 namespace clothsim {
@@ -30,6 +31,7 @@ struct RenderPrograms {
   // The normals pass of the chosen model.
   [[nodiscard]] const gl::Program& normals(bool withCuts);
   [[nodiscard]] const gl::Program& meshNormals();
+  [[nodiscard]] const SmoothPrograms& smooth();  // the same for the smooth surface
   [[nodiscard]] const PickPrograms& picking();
   [[nodiscard]] const OverlayPrograms& overlays();
 
@@ -46,6 +48,7 @@ struct RenderPrograms {
  private:
   bool measuresStrain_ = false;
   std::optional<gl::Program> normals_, normalsWithCuts_, meshNormals_;
+  std::optional<SmoothPrograms> smooth_;
   std::optional<PickPrograms> picking_;
   std::optional<OverlayPrograms> overlays_;
 };

@@ -13,6 +13,11 @@ struct RenderOptions {
   int samples = 4;                // multisampling, 1 to what the driver offers
   int shadowMapSize = 1024;  // texels along each side; a smaller map is faster and its shadows are softer
   bool shadows = true;
+  // How often, at most, the sides of the cloth's triangles are halved for a smooth surface, as its size in
+  // the picture asks for, 0 to 3; 0: it is drawn by the particles' own triangles.
+  int subdivisions = 3;
+  double flatness =
+      0;  // halved only where it is seen by so much [pixels]; 0: everywhere, for highlights' sake
   // Draws only where a picture differs from the one before, with the same pixels. It reads particles back,
   // which is next to nothing where the device is the processor, and a stall elsewhere.
   bool keepsStill = false;
@@ -35,6 +40,10 @@ inline constexpr std::array<std::string_view, 3> qualityNames{"draft", "normal",
   const bool oneSample = quality == Quality::draft || (quality == Quality::normal && software);
   options.samples = oneSample ? 1 : 4;  // of one sample a pixel, edges are smoothed afterwards
   options.shadowMapSize = quality == Quality::draft ? 512 : 1024;
+  // To a software renderer many small triangles cost as much as many pixels.
+  const bool lean = quality == Quality::normal && software;
+  options.subdivisions = quality == Quality::draft ? 0 : lean ? 1 : 3;
+  options.flatness = lean ? 0.25 : 0;
   options.keepsStill = software && quality != Quality::final;
   return options;
 }

@@ -17,6 +17,7 @@
 #include "render/model_textures.h"
 #include "render/programs.h"
 #include "render/shadow_map.h"
+#include "render/smooth_surface.h"
 #include "render/stage.h"
 
 namespace clothsim {
@@ -69,7 +70,9 @@ struct Renderer::Parts {
   void makeTargets(int width, int height, int shownWidth, int shownHeight);
   void findChanges(GLuint positions, int width, int height);
   void scissor() const;
+  void chooseSurface(const Camera& camera, int height, double aspect);
   void computeNormals(GLuint positions);
+  void drawSurface(GLuint positions, bool meshesAsLines = false);
   void drawShadows(GLuint positions);
   void drawScene(GLuint positions);
   void drawCloth(GLuint positions);
@@ -93,6 +96,7 @@ struct Renderer::Parts {
   RenderPrograms programs;
   ModelTextures textures;
   ClothMesh clothMesh;
+  std::optional<SmoothSurface> smooth;  // drawn instead of the triangles of the particles
   Colliders colliders;
   ShadowMap shadowMap;
   SpringsOverlay springs;
@@ -134,6 +138,7 @@ void Renderer::Parts::configure(const Shared<Scene>& edited) {
   colliders.build(*scene);
   frame = makeLook(scene->render, outline.front, textures.irradiance());
   shadowMap.cover(stage.reach, glm::vec3(frame.toKeyLight));
+  frame.flatness = static_cast<float>(options.flatness);
   frame.shadowFromWorld = shadowMap.shadowFromWorld();
   frame.toKeyLight.w = shadowMap.texelLength();
   backdropSeen.reset();
@@ -164,6 +169,25 @@ void Renderer::Parts::lookFrom(const Camera& camera, int width, int height, doub
   frame.rayUp = worldFromView[1] / clipFromView[1][1];
 }
 
+// As fine as it shows at the distance of what the camera looks at.
+void Renderer::Parts::chooseSurface(const Camera& camera, int height, double aspect) {
+  // Lines and cuts are those of the particles' triangles.
+  const bool isRough = !scene->render.smooth || options.subdivisions == 0 || model.blends ||
+                       clothMesh.hasCuts() || cloth->hasMesh();
+  const double distance = static_cast<double>(glm::distance(camera.eye(), camera.target()));
+  const double pixelsAMetre = 0.5 * height * static_cast<double>(camera.projection(aspect)[1][1]) / distance;
+  std::vector<std::uint32_t> steps;
+  if (!isRough) steps = smoothSteps(*cloth, pixelsAMetre, options);
+  if (std::all_of(steps.begin(), steps.end(), [](std::uint32_t n) { return n == 1; })) {
+    smooth.reset();
+    return;
+  }
+  const bool isLean = options.flatness > 0 && !model.displaces;  // a relief shows everywhere
+  if (isLean) std::fill(steps.begin(), steps.end(), 2u);
+  if (!smooth || smooth->steps() != steps || smooth->isLean() != isLean)
+    smooth.emplace(*cloth, steps, isLean);
+}
+
 void Renderer::Parts::uploadFrame() {
   frameBlock.upload(std::span(&frame, 1));
   frameBlock.bindUniform(RENDER_FRAME_BINDING);
@@ -173,6 +197,14 @@ void Renderer::Parts::computeNormals(GLuint positions) {
   clothMesh.computeNormals(
       {programs.normals(clothMesh.hasCuts()), cloth->hasMesh() ? &programs.meshNormals() : nullptr},
       positions);
+  if (smooth) smooth->compute(programs.smooth(), positions, clothMesh);
+}
+
+void Renderer::Parts::drawSurface(GLuint positions, bool meshesAsLines) {
+  if (smooth)
+    smooth->draw();
+  else
+    clothMesh.draw(positions, meshesAsLines);
 }
 
 void Renderer::Parts::drawShadows(GLuint positions) {
@@ -180,7 +212,11 @@ void Renderer::Parts::drawShadows(GLuint positions) {
   shadowMap.begin(region);
   if (options.shadows) {
     programs.clothShadow.bind();
-    clothMesh.draw(positions);
+    // Shadows are softer than what a lean surface adds to the particles' triangles.
+    if (smooth && !smooth->isLean())
+      smooth->draw();
+    else
+      clothMesh.draw(positions);
     // A solid's far side alone: its near side would shade itself by rounding.
     glEnable(GL_CULL_FACE);
     glCullFace(GL_FRONT);
@@ -233,11 +269,11 @@ void Renderer::Parts::drawCloth(GLuint positions) {
   if (!model.blends) {
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     programs.clothDepth.bind();
-    clothMesh.draw(positions);
+    drawSurface(positions);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   }
   programs.cloth.bind();
-  clothMesh.draw(positions, model.name == "wireframe");  // whose lines are otherwise those of a grid
+  drawSurface(positions, model.name == "wireframe");  // whose lines are otherwise those of a grid
 }
 
 void Renderer::Parts::drawOverlay(GLuint positions) {
@@ -280,7 +316,9 @@ void Renderer::Parts::findChanges(GLuint positions, int width, int height) {
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);  // the solver's last writes
   glGetNamedBufferSubData(positions, 0, static_cast<GLsizeiptr>(particles.size() * sizeof(glm::vec4)),
                           particles.data());
-  part = changes.next({frame.clipFromWorld, frame.shadowFromWorld, width, height}, particles, colliders);
+  const float reach = smooth ? static_cast<float>(longestEdge(*cloth)) : 0;
+  part =
+      changes.next({frame.clipFromWorld, frame.shadowFromWorld, width, height, reach}, particles, colliders);
 }
 
 void Renderer::Parts::scissor() const {
@@ -408,7 +446,9 @@ void Renderer::Parts::draw(const Picture& picture, Around around) {
   const auto scaled = [&](int size) { return std::max(1, static_cast<int>(std::lround(scale * size))); };
   const int w = scaled(width), h = scaled(height);
   colliders.place(*scene, stage, time);
-  lookFrom(*camera, w, h, static_cast<double>(width) / height);
+  const double aspect = static_cast<double>(width) / height;
+  lookFrom(*camera, w, h, aspect);
+  chooseSurface(*camera, h, aspect);
   uploadFrame();
   textures.bind();
   makeTargets(w, h, width, height);

@@ -221,6 +221,7 @@ struct RenderSettings {
   std::optional<Vec3d> light;         // direction towards the main light; none: the upper left of the front
   std::string background = "studio";
   Vec3d backgroundColor{0.62, 0.67, 0.72};  // of the plain background
+  bool smooth = true;  // draw a smooth surface through the particles, but in draft quality
   bool ground = true;  // draw a floor below everything when the scene has no horizontal plane
   friend bool operator==(const RenderSettings&, const RenderSettings&) = default;
 };

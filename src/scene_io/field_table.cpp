@@ -378,6 +378,9 @@ std::span<const Field<RenderSettings>> fieldsOf<RenderSettings>() {
           .in("sRGB")
           .within(channel)
           .as(Format::color),
+      field(
+          "smooth", &R::smooth,
+          "Draw grids as a smooth surface through the particles; false: by their triangles, as draft does."),
       field("ground", &R::ground, "Draw a floor if the scene has no horizontal plane."),
   };
   return fields;

@@ -55,6 +55,9 @@ std::vector<gl::Defines> variantsOf(const std::string& file) {
   if (file == "render/floor_shadow.frag") return {{{"FIRST_AXIS", ""}}, gl::Defines{}};
   if (file == "render/normals.comp") return {gl::Defines{}, {{"CUTS", ""}, {"STRAIN", ""}}};
   if (file == "render/mesh_normals.comp") return {gl::Defines{}, {{"STRAIN", ""}}};
+  if (file == "render/smooth_points.comp") return {gl::Defines{}, {{"LEAN", ""}}};
+  if (file == "render/smooth_choose.comp") return {gl::Defines{}, {{"CENTERS", ""}}};
+  if (file == "render/smooth_triangles.comp") return {gl::Defines{}, {{"COUNT", ""}}};
   if (file == "render/resolve.frag") return {{{"SAMPLES", "1"}}, {{"SAMPLES", "4"}}};
   if (file == "render/backdrop.frag") return {gl::Defines{}, {{"SKY", ""}}, {{"PLAIN", ""}}, {{"LAY", ""}}};
   if (file == "render/cloth.vert")

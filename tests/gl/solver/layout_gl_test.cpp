@@ -58,9 +58,9 @@ GLint blockSize(const gl::Program& program, const char* block) {
 
 const gl::Program& programOf(PassLibrary& library, std::initializer_list<Pass> passes,
                              const PassFeatures& features) {
-  std::vector<PassCall> calls;
-  for (const Pass pass : passes) calls.push_back({pass});
-  return *library.find(kernels()[kernelFor(calls, true).kernel], features).back();
+  std::vector<PassCall> wanted;
+  for (const Pass pass : passes) wanted.push_back({pass});
+  return *library.find(kernels()[kernelFor(wanted, true).kernel], features).back();
 }
 
 struct Programs {

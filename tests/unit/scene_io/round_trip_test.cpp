@@ -82,6 +82,7 @@ class RandomScene {
     if (maybe()) render.light = Vec3d{positive(), number(), number()};
     render.background = oneOf(backgrounds);
     render.backgroundColor = color();
+    render.smooth = maybe();
     render.ground = maybe();
     return render;
   }

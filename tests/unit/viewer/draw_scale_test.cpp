@@ -53,6 +53,13 @@ TEST(Quality, FinalIsTheSameOnEveryDeviceAndDraftCostsLess) {
   EXPECT_FALSE(withQuality({}, Quality::final, true).keepsStill);
   EXPECT_EQ(withQuality({}, Quality::normal, true).samples, 1);
   EXPECT_LT(withQuality({}, Quality::draft, true).shadowMapSize, RenderOptions{}.shadowMapSize);
+  EXPECT_EQ(withQuality({}, Quality::draft, false).subdivisions, 0);
+  EXPECT_EQ(withQuality({}, Quality::normal, true).subdivisions, 1);
+  EXPECT_GT(withQuality({}, Quality::normal, true).flatness, 0);
+  for (const bool software : {false, true}) {
+    EXPECT_EQ(withQuality({}, Quality::final, software).subdivisions, 3);
+    EXPECT_EQ(withQuality({}, Quality::final, software).flatness, 0) << "highlights are smooth everywhere";
+  }
   for (const Quality quality : {Quality::draft, Quality::normal, Quality::final})
     EXPECT_EQ(qualityNamed(nameOf(quality)), quality);
   EXPECT_FALSE(qualityNamed("auto"));

@@ -1,0 +1,82 @@
+// A smooth surface through the particles, for drawing alone: that of a grid is a bicubic B-spline that comes
+// by its particles to the fourth order of their spacing. Its points, normals and triangles are computed on
+// the GPU.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "cloth/cloth.h"
+#include "gl/buffer.h"
+#include "gl/program.h"
+#include "gl/vertex_array.h"
+#include "render/cloth_mesh.h"
+#include "render/quality.h"
+#include "shared/render_layout.h"
+
+namespace clothsim {
+
+// Making them throws OpenGlError and InputOutputError.
+struct SmoothPrograms {
+  gl::Program control = gl::Program::makeCompute("render/smooth_control.comp");
+  gl::Program points = gl::Program::makeCompute("render/smooth_points.comp");
+  gl::Program leanPoints = gl::Program::makeCompute("render/smooth_points.comp", {{"LEAN", ""}});
+  gl::Program chooseSides = gl::Program::makeCompute("render/smooth_choose.comp");
+  gl::Program chooseCenters = gl::Program::makeCompute("render/smooth_choose.comp", {{"CENTERS", ""}});
+  gl::Program count = gl::Program::makeCompute("render/smooth_triangles.comp", {{"COUNT", ""}});
+  gl::Program triangles = gl::Program::makeCompute("render/smooth_triangles.comp");
+};
+
+// Into how many steps the sides of each piece's cells are to be divided where a metre measures so many
+// pixels, so that the narrowest folds that a grid can have look round: 1, 2, 4 or 8.
+[[nodiscard]] std::vector<std::uint32_t> smoothSteps(const Cloth& cloth, double pixelsAMetre,
+                                                     const RenderOptions& options);
+
+class SmoothSurface {
+ public:
+  // `steps` for each piece, 1 to 8, of a cloth without meshes. A lean surface, of pieces with two steps, has
+  // points beside the particles only where triangles without them would be seen to lie beside the surface,
+  // and all but the places of its points from the particles.
+  SmoothSurface(const Cloth& cloth, std::span<const std::uint32_t> steps, bool isLean);
+  [[nodiscard]] const std::vector<std::uint32_t>& steps() const { return steps_; }
+  [[nodiscard]] bool isLean() const { return isLean_; }
+
+  // The surface of the particles at `positions`, one vec4 each, for which `particles` has computed normals;
+  // its triangles for the RenderFrame that is bound.
+  void compute(const SmoothPrograms& programs, GLuint positions, const ClothMesh& particles);
+  // The triangles of all pieces, with the program and its state bound by the caller.
+  void draw();
+
+  // A vec4 a point, piece by piece, row by row: place [m]; unit normal, hollow as in ClothMesh::normals().
+  [[nodiscard]] const gl::Buffer<glm::vec4>& points() const { return points_; }
+  [[nodiscard]] const gl::Buffer<glm::vec4>& normals() const { return normals_; }
+  // Of points: those that draw() draws. Reads them back.
+  [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> triangles() const;
+
+ private:
+  struct DrawCommand {  // of glDrawElementsIndirect, in its order
+    std::uint32_t count = 0, instances = 1, firstIndex = 0, baseVertex = 0, baseInstance = 0;
+  };
+  struct PieceBuffers {
+    gl::Buffer<shared::ClothPiece> block;
+    GLuint columns = 0, rows = 0;
+    gl::Buffer<std::uint32_t> triangles;     // all of them, unless the surface is lean
+    gl::Buffer<std::uint32_t> counts, kept;  // of a lean surface: those that are drawn
+    gl::Buffer<DrawCommand> command;
+  };
+  void makePoints(std::uint32_t count, std::span<const std::array<float, 2>> textureCoordinates);
+  void chooseTriangles(const SmoothPrograms& programs);
+
+  std::vector<std::uint32_t> steps_;
+  bool isLean_;
+  std::vector<PieceBuffers> pieces_;
+  gl::Buffer<std::uint32_t> sides_, centers_, places_;
+  gl::Buffer<glm::vec4> controls_, points_, normals_, tangents_;
+  gl::Buffer<std::array<float, 2>> textureCoordinates_;
+  gl::VertexArray vertices_;
+};
+
+}  // namespace clothsim
