@@ -55,7 +55,7 @@ GpuExecutor::GpuExecutor(const Cloth& cloth, const GpuOptions& options)
       runner_(options.groupColumns, options.groupRows),
       watch_("watchdog", WATCHED_STEPS) {
   const std::vector<float> restLengths = measureRestLengths<float>(cloth);
-  checkFits(restLengths.size(), sizeof(float), "rest lengths");
+  checkTexelsFit(restLengths.size(), "rest lengths");
   restLengths_ = gl::Buffer<float>("rest lengths", std::span<const float>(restLengths));
   restLengthTexture_ = gl::BufferTexture("rest lengths", restLengths_.name(), GL_R32F);
   std::vector<ColorSlot> slots;
@@ -73,7 +73,7 @@ void GpuExecutor::setScene(const StepInputs& inputs) {
   arrays_.forgetHistory();
   if (distances_.name() == 0 || *inputs.colliders.distances() != *stagedDistances_) {
     stagedDistances_ = inputs.colliders.distances();
-    checkFits(stagedDistances_->size(), sizeof(float), "samples of mesh colliders' distances");
+    checkTexelsFit(stagedDistances_->size(), "samples of mesh colliders' distances");
     distances_ = gl::Buffer<float>("distances", std::span<const float>(*stagedDistances_));
     distanceTexture_ = gl::BufferTexture("distances", distances_.name(), GL_R32F);
   }
