@@ -32,7 +32,7 @@ std::string stageOf(const fs::path& file) {
 // Relative to shaders/, in alphabetical order.
 std::vector<std::string> shaderFiles() {
   std::vector<std::string> files;
-  for (const char* folder : {"sim", "render"}) {
+  for (const char* folder : {"sim", "render", "probe"}) {
     if (!fs::is_directory(shaderFolder / folder)) continue;  // a test of its own misses it
     for (const auto& entry : fs::recursive_directory_iterator(shaderFolder / folder))
       if (!stageOf(entry.path()).empty())
@@ -52,6 +52,16 @@ test::CommandResult validate(const std::string& source, const std::string& stage
 // what a scene may have, the resolve with and without multisampling, the other drawing shaders just as they
 // are.
 std::vector<gl::Defines> variantsOf(const std::string& file) {
+  if (file == "probe/stencil.comp") {
+    std::vector<gl::Defines> variants;
+    for (const char* loads : {"0", "1", "2"})
+      variants.push_back({{"GROUP_COLUMNS", "32"}, {"GROUP_ROWS", "8"}, {"SIZE", "1024u"}, {"LOADS", loads}});
+    return variants;
+  }
+  if (file == "probe/springs.comp")
+    return {{{"ARITHMETIC", "0"}, {"SPRINGS", "64u"}},
+            {{"ARITHMETIC", "1"}, {"SPRINGS", "64u"}},
+            {{"ARITHMETIC", "2"}, {"SPRINGS", "64u"}}};
   if (file == "render/floor_shadow.frag") return {{{"FIRST_AXIS", ""}}, gl::Defines{}};
   if (file == "render/normals.comp") return {gl::Defines{}, {{"CUTS", ""}, {"STRAIN", ""}}};
   if (file == "render/mesh_normals.comp") return {gl::Defines{}, {{"STRAIN", ""}}};
