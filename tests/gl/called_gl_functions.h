@@ -8,18 +8,19 @@
   X(glBindFramebuffer) X(glBindTextureUnit) X(glBindVertexArray) X(glBlendFunc) \
   X(glBlitNamedFramebuffer) X(glCheckNamedFramebufferStatus) X(glClearNamedBufferData) \
   X(glClearNamedBufferSubData) X(glClearNamedFramebufferfv) X(glClearNamedFramebufferuiv) \
-  X(glColorMask) X(glCompileShader) X(glCopyNamedBufferSubData) X(glCreateBuffers) \
-  X(glCreateFramebuffers) X(glCreateProgram) X(glCreateQueries) X(glCreateShader) \
-  X(glCreateShaderProgramv) X(glCreateTextures) X(glCreateVertexArrays) X(glCullFace) \
-  X(glDebugMessageCallback) X(glDeleteBuffers) X(glDeleteFramebuffers) X(glDeleteProgram) \
-  X(glDeleteQueries) X(glDeleteShader) X(glDeleteTextures) X(glDeleteVertexArrays) X(glDepthFunc) \
-  X(glDepthMask) X(glDetachShader) X(glDisable) X(glDispatchCompute) X(glDispatchComputeIndirect) \
-  X(glDrawArrays) X(glDrawArraysInstanced) X(glDrawElements) X(glDrawElementsInstanced) \
-  X(glDrawElementsInstancedBaseInstance) X(glEnable) X(glEnableVertexArrayAttrib) X(glEndQuery) \
-  X(glFinish) X(glFlush) X(glGenerateTextureMipmap) X(glGetAttachedShaders) X(glGetError) \
-  X(glGetGraphicsResetStatus) X(glGetInteger64v) X(glGetIntegeri_v) X(glGetIntegerv) \
-  X(glGetInternalformativ) X(glGetNamedBufferSubData) X(glGetProgramInfoLog) X(glGetProgramiv) \
-  X(glGetQueryObjectui64v) X(glGetShaderInfoLog) X(glGetShaderiv) X(glGetString) X(glLinkProgram) \
+  X(glClientWaitSync) X(glColorMask) X(glCompileShader) X(glCopyNamedBufferSubData) \
+  X(glCreateBuffers) X(glCreateFramebuffers) X(glCreateProgram) X(glCreateQueries) \
+  X(glCreateShader) X(glCreateShaderProgramv) X(glCreateTextures) X(glCreateVertexArrays) \
+  X(glCullFace) X(glDebugMessageCallback) X(glDeleteBuffers) X(glDeleteFramebuffers) \
+  X(glDeleteProgram) X(glDeleteQueries) X(glDeleteShader) X(glDeleteSync) X(glDeleteTextures) \
+  X(glDeleteVertexArrays) X(glDepthFunc) X(glDepthMask) X(glDetachShader) X(glDisable) \
+  X(glDispatchCompute) X(glDispatchComputeIndirect) X(glDrawArrays) X(glDrawArraysInstanced) \
+  X(glDrawElements) X(glDrawElementsInstanced) X(glDrawElementsInstancedBaseInstance) X(glEnable) \
+  X(glEnableVertexArrayAttrib) X(glEndQuery) X(glFenceSync) X(glFinish) X(glFlush) \
+  X(glGenerateTextureMipmap) X(glGetAttachedShaders) X(glGetError) X(glGetGraphicsResetStatus) \
+  X(glGetInteger64v) X(glGetIntegeri_v) X(glGetIntegerv) X(glGetInternalformativ) \
+  X(glGetNamedBufferSubData) X(glGetProgramInfoLog) X(glGetProgramiv) X(glGetQueryObjectui64v) \
+  X(glGetShaderInfoLog) X(glGetShaderiv) X(glGetString) X(glLinkProgram) X(glMapNamedBufferRange) \
   X(glMemoryBarrier) X(glNamedBufferStorage) X(glNamedBufferSubData) \
   X(glNamedFramebufferDrawBuffer) X(glNamedFramebufferReadBuffer) X(glNamedFramebufferTexture) \
   X(glObjectLabel) X(glPixelStorei) X(glPolygonMode) X(glPolygonOffset) X(glReadPixels) \
