@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uintmax_t largestFile = 256 * 1024 * 1024;
-constexpr int largestSide = 16384;              // pixels; what every driver takes
+constexpr int largestPictureSide = 16384;       // pixels; what every driver takes
 constexpr std::int64_t mostPixels = 1LL << 26;  // a file of some bytes can claim any number; 8 bytes each
 
 fs::path folder() { return resourceRoot() / "assets" / "textures"; }
@@ -41,11 +41,12 @@ LoadedPng loadPng(const fs::path& path) {
   LoadedPng png;
   int channels = 0;
   if (stbi_info_from_memory(data, size, &png.width, &png.height, &channels) != 0 &&
-      (std::max(png.width, png.height) > largestSide ||
+      (std::max(png.width, png.height) > largestPictureSide ||
        static_cast<std::int64_t>(png.width) * png.height > mostPixels))
     throw InputOutputError(path.string() + ": has " + std::to_string(png.width) + " x " +
-                           std::to_string(png.height) + " pixels, more than " + std::to_string(largestSide) +
-                           " along a side or " + std::to_string(mostPixels) + " in all");
+                           std::to_string(png.height) + " pixels, more than " +
+                           std::to_string(largestPictureSide) + " along a side or " +
+                           std::to_string(mostPixels) + " in all");
   const std::unique_ptr<stbi_us, decltype(&stbi_image_free)> pixels(
       stbi_load_16_from_memory(data, size, &png.width, &png.height, &channels, 4), stbi_image_free);
   if (!pixels)
