@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "commands/probe.h"
+#include "core/interrupt.h"
 #include "scene_io/scene_io.h"
 #include "scene_io/scene_options.h"
 #include "simulation/compare.h"
@@ -76,6 +77,7 @@ std::string firstDifferingIteration(const ContractCase& of, const Cloth& cloth, 
         solver->setState(equal);
         solver->step(1);
       }
+      stopIfInterrupted();
       if (difference(cpu.state(), gpu.state()).differing > 0)
         return "Newton step " + std::to_string(newton) + ", iteration " + std::to_string(iteration);
     }
@@ -90,6 +92,7 @@ void findFirst(const ContractCase& of, const Cloth& cloth, Solver& cpu, Solver& 
   for (int step = 0; step < steps; ++step) {
     cpu.step(1);
     gpu.step(1);
+    stopIfInterrupted();
     const State onCpu = cpu.state();
     if (difference(onCpu, gpu.state()).differing > 0) {
       json["first_differing_step"] = onCpu.clock.step;
@@ -122,6 +125,7 @@ bool compareCase(const ContractCase& of, const ProbeLine& line) {
     count = std::min(atOnce, steps - done);
     gpu.step(count);
     cpu.step(count);
+    stopIfInterrupted();  // one of them may have taken fewer steps
     State onCpu = cpu.state();
     found = difference(onCpu, gpu.state());
     if (found.differing > 0) findFirst(of, cloth, cpu, gpu, equal, count, json);
