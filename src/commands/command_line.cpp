@@ -73,8 +73,8 @@ CLI::Validator number(double low, double high) { return numberWithin(low, high, 
 struct Arguments {
   bool draw = false;
   bool describeStep = false, small = false;
-  std::string scene = "pinned2", backend = "gpu", viewerBackend = "auto", from, quality = "final",
-              viewerQuality = "auto", shader, size = "1280x720", key, replay, only;
+  std::string scene = "pinned2", backend = "auto", from, quality = "final", viewerQuality = "auto", shader,
+              size = "1280x720", key, replay, only;
   std::string cellSize = "560x420", out, view = "0,0";
   std::vector<std::string> variations, settings, saves, outs, resolutions, backends;
   int frames = 0, every = 1, around = 64, down = 48, threads = 0;
@@ -387,7 +387,7 @@ void declareInfoCommands(CLI::App& app, Arguments& a, Task& task) {
 void declareViewer(CLI::App& app, Arguments& a, Task& task) {
   addSceneFlags(app, a, false);
   addResolution(app, a);
-  addBackend(app, a.viewerBackend);
+  addBackend(app, a.backend);
   addSphereSegments(app, a);
   app.add_option("--quality", a.viewerQuality, qualityHelp + std::string("; auto: draft on software OpenGL"))
       ->check(CLI::IsMember({"auto", "draft", "normal", "final"}))
@@ -404,7 +404,7 @@ void declareViewer(CLI::App& app, Arguments& a, Task& task) {
       "            4 no usable OpenGL or no display, 5 input/output");
   task = [&] {
     runViewer(loadScene(a.sceneOptions()),
-              {a.scene, a.viewerBackend, a.around, a.down, a.timings, a.viewerQuality, a.restartAfter});
+              {a.scene, a.backend, a.around, a.down, a.timings, a.viewerQuality, a.restartAfter});
     return 0;
   };
 }

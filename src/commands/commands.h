@@ -45,7 +45,7 @@ inline constexpr double radians = std::numbers::pi / 180;  // in a degree
 struct RenderCommandOptions {
   SceneOptions scene;
   int frames = 0;
-  std::string backend = "gpu";
+  std::string backend = "auto";
   std::vector<std::string> outs;  // still.png, frame_%04d.png, clip.mp4
   int width = 1280, height = 720;
   int every = 1;                // numbered pictures: every so many frames
@@ -63,7 +63,7 @@ struct SweepOptions {
   SceneOptions scene;
   std::vector<std::string> variations;  // --vary key=value,value...; also of `frame` and `resolution`
   std::optional<int> frames;            // none: the values of `frame`
-  std::string backend = "gpu";
+  std::string backend = "auto";
   std::string out;                // sheet.png, with sheet.csv beside it
   int width = 560, height = 420;  // of one picture
   std::string shader;             // "" for the scene's own

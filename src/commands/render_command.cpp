@@ -40,7 +40,7 @@ int renderCommand(const RenderCommandOptions& options) {
   Scene scene = loadScene(options.scene);
   if (!options.shader.empty()) scene.render.shader = options.shader;
   const gl::HeadlessContext context;
-  Simulation simulation(scene, chosenBackend(options.backend), makeSolver);
+  Simulation simulation(scene, announcedBackend(options.backend), makeSolver);
   if (!options.from.empty()) simulation.setState(loadState(options.from, simulation.cloth()));
   const RenderOptions drawing =
       withQuality({options.sphereSegmentsAround, options.sphereSegmentsDown},

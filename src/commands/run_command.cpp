@@ -72,7 +72,7 @@ class Run {
       frames_ = options.frames.value_or(recording.frames);
       if (usesGpu(recording, options) || savesPictures(options)) context_.emplace();
       std::optional<std::string> backend = options.backend;
-      if (backend) backend = chosenBackend(*backend);
+      if (backend) backend = announcedBackend(*backend);
       replay_.emplace(std::move(recording), backend, makeSolver);
     } else {
       const Shared<Scene> scene = loadScene(options.scene);
@@ -111,18 +111,22 @@ class Run {
   }
 
  private:
-  // Makes the context that the backend or the pictures need. "auto" goes without one where there is none.
+  // Makes the context that the backend or the pictures need. "auto" goes without one where there is none, and
+  // says so.
   std::string preparedBackend(const RunOptions& options) {
-    const std::string wish = options.backend.value_or("gpu");
+    const std::string wish = options.backend.value_or("auto");
     const bool needsPictures = savesPictures(options);
     if (wish == "cpu" && !needsPictures) return wish;
     try {
       context_.emplace();
     } catch (const OpenGlError&) {
       if (wish != "auto" || needsPictures) throw;
+      std::fputs(
+          "clothsim: simulating on the CPU, since there is no usable OpenGL; clothsim doctor says more\n",
+          stderr);
       return "cpu";
     }
-    return chosenBackend(wish);
+    return announcedBackend(wish);
   }
 
   static bool usesGpu(const Recording& recording, const RunOptions& options) {

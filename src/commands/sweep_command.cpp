@@ -139,11 +139,12 @@ struct Cell {
 // Simulates one combination and fills the cells that show it.
 class SweepRun {
  public:
-  SweepRun(const SweepOptions& options, const PlannedRun& planned, const std::vector<Camera>& cameras)
+  SweepRun(const SweepOptions& options, const std::string& backend, const PlannedRun& planned,
+           const std::vector<Camera>& cameras)
       : options_(options),
         planned_(planned),
         cameras_(cameras),
-        simulation_(planned.sharedScene(), chosenBackend(options.backend), makeSolver),
+        simulation_(planned.sharedScene(), backend, makeSolver),
         renderer_(simulation_, {}) {
     summary_.add(simulation_);
   }
@@ -423,6 +424,7 @@ int sweepCommand(const SweepOptions& options) {
   checkWritable(tableFile(options));
 
   const gl::HeadlessContext context;
+  const std::string backend = announcedBackend(options.backend);
   const std::vector<Camera> cameras = placeCameras(options, table, runs);
   std::int64_t framesDone = 0, framesInAll = 0;
   for (const PlannedRun& planned : runs) framesInAll += planned.lastFrame();
@@ -430,7 +432,7 @@ int sweepCommand(const SweepOptions& options) {
   std::vector<Cell> cells(table.cells());
   std::vector<Warning> warnings;
   for (const PlannedRun& planned : runs) {
-    SweepRun run(options, planned, cameras);
+    SweepRun run(options, backend, planned, cameras);
     run.run(cells, [&](int frame) { progress.update(framesDone + frame); });
     std::ranges::move(run.warnings(), std::back_inserter(warnings));
     framesDone += planned.lastFrame();

@@ -1,5 +1,5 @@
-// Energies of a cloth and the strain at a particle, for plots. Computed on the host in double precision from
-// a copy of the state.
+// Energies of a cloth, and what happens at a particle, for plots. Computed on the host in double precision
+// from a copy of the state.
 #pragma once
 
 #include <cstdint>
@@ -22,8 +22,13 @@ struct Energies {      // [J]
 [[nodiscard]] Energies energies(const Cloth& cloth, std::span<const Spring> springs, const Scene& scene,
                                 const Cuts& cuts, const State& state);
 
-// The strain l/L - 1 of largest magnitude among the springs of a particle, with its sign; 0 without springs.
-[[nodiscard]] double strainAt(const Cloth& cloth, const Cuts& cuts, const State& state,
-                              std::uint32_t particle);
+// What happens at a particle.
+struct ParticleFacts {
+  double speed = 0;   // [m/s]
+  double strain = 0;  // l/L - 1 of largest magnitude among its springs, with its sign; 0 without springs
+  double force = 0;   // k (l - L) of that spring, positive where it pulls [N]
+};
+[[nodiscard]] ParticleFacts factsOf(std::uint32_t particle, std::span<const Spring> springs, const Cuts& cuts,
+                                    const State& state);
 
 }  // namespace clothsim

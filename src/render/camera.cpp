@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <numbers>
 #include <vector>
 
 #include "render/stage.h"
@@ -135,6 +136,17 @@ void Camera::pan(double right, double up) {
 }
 
 void Camera::zoom(double factor) { now_.distance = std::clamp(now_.distance * factor, 1e-3, 1e6); }
+
+void Camera::lookFrom(int axis, bool fromPositiveEnd) {
+  const auto from = [&](bool isPositive) {
+    Place place = now_;
+    const double sign = isPositive ? 1 : -1;
+    place.azimuth = axis == 0 ? sign * std::numbers::pi / 2 : axis == 2 && !isPositive ? std::numbers::pi : 0;
+    place.elevation = axis == 1 ? sign * steepest : 0;
+    return place;
+  };
+  now_ = from(fromPositiveEnd) == now_ ? from(!fromPositiveEnd) : from(fromPositiveEnd);
+}
 
 void Camera::reset() { now_ = start_; }
 

@@ -25,7 +25,10 @@ class Camera {
   void orbit(double azimuthRadians, double elevationRadians);  // elevation stops short of the poles
   void pan(double right, double up);                           // in view heights at the target's distance
   void zoom(double factor);                                    // distance is multiplied by it
-  void reset();                                                // as constructed
+  // From the positive end of an axis (0 to 2: x, y, z), or of its other end; where it looks from there
+  // already, from the opposite one.
+  void lookFrom(int axis, bool fromPositiveEnd = true);
+  void reset();  // as constructed
   // Takes over where reset() leads to, and goes there if it stands at its own start.
   void setHome(const Camera& other);
 

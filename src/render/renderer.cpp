@@ -24,7 +24,8 @@ namespace {
 
 constexpr GLenum backdropFormat = GL_RGB10_A2;  // its slow gradients would show steps in 8 bits
 constexpr GLenum canvasFormat = GL_RGBA8;       // square roots of linear light (shaders/render/tone.glsl)
-constexpr std::size_t mostReadBack = 300'000;   // particles for which it pays to ask what has changed
+constexpr float planeDepthUnits = 256;  // 2e-6 of the distance each (Camera::projection, 24 bits of depth)
+constexpr std::size_t mostReadBack = 300'000;  // particles for which it pays to ask what has changed
 
 // The longest side of a triangle of cloth: the diagonal of a cell [m].
 double longestEdge(const Cloth& cloth) {
@@ -215,7 +216,12 @@ void Renderer::Parts::drawScene(GLuint positions) {
   glEnable(GL_BLEND);
   glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_FALSE);
+  // Cloth may lie exactly in a plane, and is seen there: planes count as farther by half a thousandth of
+  // their distance.
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(1, planeDepthUnits);
   colliders.drawPlanes(programs.plane);
+  glDisable(GL_POLYGON_OFFSET_FILL);
   if (model.blends) drawCloth(positions);
   drawOverlay(positions);
   glDepthMask(GL_TRUE);

@@ -105,9 +105,13 @@ gl::Texture loadHeights(const std::string& texture) {
                              {.internal = GL_RGBA16F, .given = GL_RGBA, .type = GL_FLOAT}, pixels.data());
 }
 
+gl::Texture loadPicture(const fs::path& path) {
+  const LoadedPng png = loadPng(path);
+  return gl::Texture::make2D(path.stem().string(), png.width, png.height, {}, eightBits(png).data());
+}
+
 gl::Texture loadWeave(const std::string& weave) {
-  const LoadedPng png = loadPng(folder() / ("weave_" + weave + ".png"));
-  return gl::Texture::make2D("weave " + weave, png.width, png.height, {}, eightBits(png).data());
+  return loadPicture(folder() / ("weave_" + weave + ".png"));
 }
 
 }  // namespace clothsim

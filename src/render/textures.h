@@ -27,6 +27,8 @@ struct LoadedPng {
 [[nodiscard]] gl::Texture loadPrint(const std::string& texture);  // sRGB in the file, linear when sampled
 // Heights 0 to 1 in r, their change along u and v, for one repeat, in g and b.
 [[nodiscard]] gl::Texture loadHeights(const std::string& texture);
+// As it is in the file, for controls.
+[[nodiscard]] gl::Texture loadPicture(const std::filesystem::path& path);
 [[nodiscard]] gl::Texture loadWeave(const std::string& weave);  // as tools/make_textures describes it
 
 }  // namespace clothsim

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uintmax_t largestFile = 16 * 1024 * 1024;
 
-std::vector<std::string> sceneNamesIn(const fs::path& folder) {
+std::vector<std::string> jsonFilesIn(const fs::path& folder) {
   std::vector<std::string> names;
   std::error_code ignored;
   for (fs::directory_iterator entry(folder, ignored), end; entry != end; entry.increment(ignored))
@@ -75,7 +75,7 @@ Scene loadScene(const fs::path& path) {
   if (fs::symlink_status(path, ignored).type() == fs::file_type::not_found) {
     const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
     throw SceneError(path.string() + ": no such file" +
-                     didYouMean(path.filename().string(), sceneNamesIn(folder)));
+                     didYouMean(path.filename().string(), jsonFilesIn(folder)));
   }
   std::string text;
   try {
@@ -96,7 +96,7 @@ Scene loadSceneByName(const std::string& nameOrPath) {
   std::error_code ignored;
   if (fs::exists(path, ignored)) return loadScene(path);
   std::vector<std::string> names;
-  for (const std::string& file : sceneNamesIn(bundledFolder()))
+  for (const std::string& file : jsonFilesIn(bundledFolder()))
     names.push_back(fs::path(file).stem().string());
   std::string list;
   for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
@@ -126,11 +126,25 @@ void saveScene(const Scene& scene, const fs::path& path) { writeFileAtomically(p
 
 std::vector<BundledScene> bundledScenes() {
   std::vector<BundledScene> scenes;
-  for (const std::string& file : sceneNamesIn(bundledFolder())) {
+  for (const std::string& file : jsonFilesIn(bundledFolder())) {
     const fs::path path = bundledFolder() / file;
-    scenes.push_back({path.stem().string(), loadScene(path).description, path});
+    const std::string name = path.stem().string();
+    scenes.push_back({name, loadScene(path).description, path,
+                      resourceRoot() / "assets" / "thumbnails" / (name + ".png")});
   }
   return scenes;
+}
+
+std::vector<std::string> sceneFilesIn(const fs::path& folder) {
+  std::vector<std::string> names = jsonFilesIn(folder);
+  std::erase_if(names, [&](const std::string& name) {
+    try {
+      return readFile(folder / name, largestFile).find("\"cloth") == std::string::npos;
+    } catch (const Error&) {
+      return true;
+    }
+  });
+  return names;
 }
 
 }  // namespace clothsim

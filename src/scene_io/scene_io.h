@@ -44,9 +44,13 @@ void setSceneValue(Scene& scene, const std::string& keyEqualsValue, const std::s
 
 struct BundledScene {
   std::string name, description;
-  std::filesystem::path path;
+  std::filesystem::path path, thumbnail;  // of the scene; of its picture, a PNG, which may be missing
 };
 [[nodiscard]] std::vector<BundledScene> bundledScenes();  // by name
+
+// The names of the files in the folder that look like scenes: JSON that mentions a cloth. Files that cannot
+// be read are passed over.
+[[nodiscard]] std::vector<std::string> sceneFilesIn(const std::filesystem::path& folder);
 
 // `--resolution`: every grid gets columns x rows points; pins keep their place on the cloth, total mass and
 // spring constants stay. In scenes with `ks` thickness follows the smaller spacing. Unless `keepSteps`,

@@ -48,11 +48,7 @@ Viewer::Viewer(const Shared<Scene>& scene, const ViewerOptions& options,
   widgets_.offer("render.texture", std::move(textures));
   listen();
   const std::string source = lost ? lost->source : options.sceneName;
-  const std::string backend = chosenBackend(options.backend);
-  if (backend != options.backend && backend == "cpu")
-    std::fprintf(stderr,
-                 "clothsim: simulating on the CPU, since OpenGL is a software renderer; --backend gpu forces "
-                 "the GPU\n");
+  const std::string backend = announcedBackend(options.backend);
   open_ = load(source, [&] {
     return std::make_unique<OpenScene>(lost ? lost->loaded : scene, source, lost ? "cpu" : backend,
                                        renderOptions());
@@ -111,15 +107,14 @@ void Viewer::waitForInput() {
 }
 
 bool Viewer::showsPanels() const {
-  const double wanted = static_cast<double>(panelsFrom) * 16 * window_.textScale();
-  return config_.showPanels.value_or(window_.size().width >= wanted);
+  return config_.showPanels.value_or(static_cast<float>(window_.size().width) >= panelsFrom * textHeight());
 }
 
 PictureArea Viewer::pictureArea() const {
   const ViewerWindow::Size size = window_.size();
   const auto width = static_cast<float>(size.width), height = static_cast<float>(size.height);
   if (!showsPanels()) return {width, height};
-  return {width - PanelColumn::width(width, static_cast<float>(16 * window_.textScale())), height};
+  return {width - PanelColumn::width(width, textHeight()), height};
 }
 
 CoveredEdges Viewer::coveredEdges() const {
@@ -135,6 +130,11 @@ bool Viewer::isOverPicture(ViewerWindow::Cursor cursor) const {
   const bool inside = cursor.x >= 0 && cursor.x < static_cast<double>(area.width) && cursor.y >= 0 &&
                       cursor.y < static_cast<double>(area.height - timelineHeight());
   return inside && !((ui_.hasPopup() || compare_.isOpen() || advice()) && ui_.wantsMouse());
+}
+
+std::optional<AxisEnd> Viewer::axisEndUnder(ViewerWindow::Cursor cursor) const {
+  if (!config_.showOverlay) return std::nullopt;
+  return axisEndAt(open_->camera(), pictureArea(), textHeight(), glm::vec2(cursor.x, cursor.y));
 }
 
 MouseContext Viewer::mouseContext() {
@@ -262,7 +262,7 @@ void Viewer::draw() {
   const auto width = static_cast<int>(area.width), height = static_cast<int>(area.height);
   timings_.time(FrameTimings::picture, [&] { attempt([&] { drawPicture(width, height); }); });
   timings_.time(FrameTimings::controls, [&] {
-    ui_.begin(window_.textScale());
+    ui_.begin(textScale());
     attempt([&] { drawControls(); });
     ui_.end();
   });
@@ -303,6 +303,7 @@ void Viewer::measure() {
 void Viewer::drawControls() {
   const PictureArea area = pictureArea();
   drawMarks(mouse_.marks(mouseContext(), window_.cursor()));
+  if (config_.showOverlay) drawAxes(open_->camera(), area);
   const float neededByOthers = showKeys_ ? 66.0f : compare_.isOpen() ? 40.0f : 0.0f;  // em
   if (config_.showOverlay && area.width >= neededByOthers * em())
     drawFacts(viewerFacts(*open_, meter_, paused_, looksBack(), tempo_,
@@ -370,6 +371,7 @@ void Viewer::apply(const PanelRequests& requests) {
       edit(*open_->loaded(), false);
       restart();
     }
+    if (requests.saveCurves) saveCurves();
     if (requests.openScene) sceneToOpen_ = requests.openScene;
   });
 }

@@ -10,7 +10,7 @@ namespace clothsim {
 
 struct ViewerOptions {
   std::string sceneName;          // for the title and the overlay
-  std::string backend = "gpu";    // "auto", "gpu" or "cpu"; the key B changes it
+  std::string backend = "auto";   // "auto", "gpu" or "cpu"; the key B changes it
   int sphereSegmentsAround = 64;  // -a
   int sphereSegmentsDown = 48;    // -o
   bool timings = false;           // prints the times of a frame's phases at the end

@@ -17,6 +17,7 @@
 namespace clothsim {
 namespace {
 
+constexpr double textSizeStep = 0.125;
 constexpr double pinsShownSeconds = 2;  // after a pin was set
 
 }  // namespace
@@ -90,6 +91,7 @@ void Viewer::escape() {
 void Viewer::onPress(ViewerWindow::Button button, ViewerWindow::Cursor cursor, bool control, bool shift) {
   if (!isOverPicture(cursor)) return;
   if (!compare_.isRunning()) compare_.close();
+  if (const auto end = axisEndUnder(cursor)) return open_->camera().lookFrom(end->axis, end->positive);
   const std::string said =
       mouse_.press(mouseContext(), button, cursor, {control, shift, window_.holds(cutKey)});
   if (said.empty()) return;
@@ -132,6 +134,12 @@ void Viewer::act(ViewerAction action) {
       return say("Quality of the picture: " + std::string(nameOf(quality_)));
     case ViewerAction::resetCamera:
       return open_->camera().reset();
+    case ViewerAction::viewFromRight:
+      return open_->camera().lookFrom(0);
+    case ViewerAction::viewFromTop:
+      return open_->camera().lookFrom(1);
+    case ViewerAction::viewFromFront:
+      return open_->camera().lookFrom(2);
     case ViewerAction::undo:
       return undo(false);
     case ViewerAction::redo:
@@ -144,6 +152,10 @@ void Viewer::act(ViewerAction action) {
       return;
     case ViewerAction::togglePanels:
       return togglePanels();
+    case ViewerAction::largerText:
+      return changeTextSize(textSizeStep);
+    case ViewerAction::smallerText:
+      return changeTextSize(-textSizeStep);
     case ViewerAction::reloadShaders:
       return reloadShaders();
     case ViewerAction::quit:
@@ -261,7 +273,7 @@ std::unique_ptr<OpenScene> Viewer::load(const std::string& source,
   window_.setTitle(title_ = name + " - loading - clothsim");
   stepping_ = true;              // delays input
   for (int i = 0; i < 2; ++i) {  // a window that was just opened may lose its first picture
-    ui_.begin(window_.textScale());
+    ui_.begin(textScale());
     drawLoading(name);
     ui_.end();
     ui_.draw();
@@ -341,11 +353,22 @@ void Viewer::saveSceneAs(const std::filesystem::path& path) {
   say("Saved " + path.string(), longNoticeSeconds);
 }
 
+void Viewer::saveCurves() {
+  const std::filesystem::path path = freeName(outputFolder(), open_->name() + "-curves", ".csv");
+  column_.measures().saveCurves(path);
+  say("Saved " + path.string(), longNoticeSeconds);
+}
+
 void Viewer::reloadShaders() {
   if (const std::optional<std::string> divergence = open_->renderer().renderer().reloadShaders())
     notice_ = {*divergence + "\nThe previous shaders are still in use.", 1e9, true};
   else
     say("Shaders reloaded");
+}
+
+void Viewer::changeTextSize(double by) {
+  config_.textSize = std::clamp(config_.textSize + by, LEAST_TEXT_SIZE, LARGEST_TEXT_SIZE);
+  say(formatted("Text size: %.3g %%", 100 * config_.textSize));
 }
 
 void Viewer::togglePanels() { config_.showPanels = !showsPanels(); }

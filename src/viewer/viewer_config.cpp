@@ -1,5 +1,6 @@
 #include "viewer/viewer_config.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 
@@ -25,9 +26,13 @@ ViewerConfig parse(const std::string& text) {
   ViewerConfig config;
   if (json.contains("show_panels")) config.showPanels = json.at("show_panels").get<bool>();
   read(json, "show_overlay", config.showOverlay);
-  if (const auto open = json.find("open"); open != json.end())
-    for (std::size_t i = 0; i < panelNames.size(); ++i)
-      read(*open, std::string(panelNames[i]), config.open[i]);
+  if (const auto panel = json.find("panel"); panel != json.end()) {
+    const auto& name = panel->get_ref<const std::string&>();
+    for (std::size_t i = 0; i < panelNames.size(); ++i)  // a name of another version is passed over
+      if (panelNames[i] == name) config.panel = static_cast<PanelName>(i);
+  }
+  if (const auto size = json.find("text_size"); size != json.end())
+    config.textSize = std::clamp(size->get<double>(), LEAST_TEXT_SIZE, LARGEST_TEXT_SIZE);
   return config;
 }
 
@@ -60,8 +65,8 @@ std::string saveViewerConfig(const ViewerConfig& config, const fs::path& path) {
   nlohmann::ordered_json json;
   if (config.showPanels) json["show_panels"] = *config.showPanels;
   json["show_overlay"] = config.showOverlay;
-  for (std::size_t i = 0; i < panelNames.size(); ++i)
-    json["open"][std::string(panelNames[i])] = config.open[i];
+  json["panel"] = std::string(nameOf(config.panel));
+  json["text_size"] = config.textSize;
   std::error_code ignored;  // the writer complains
   fs::create_directories(path.parent_path(), ignored);
   try {

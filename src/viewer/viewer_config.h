@@ -1,5 +1,5 @@
-// What the viewer stores between runs: which panels are open. It is a small JSON file in the user's folder
-// for configurations, written whole or not at all.
+// What the viewer stores between runs: which panel is open, and how large its text is. It is a small JSON
+// file in the user's folder for configurations, written whole or not at all.
 #pragma once
 
 #include <array>
@@ -10,15 +10,23 @@
 
 namespace clothsim {
 
-enum class PanelName { simulation, colliders, look, measure, scene };
-inline constexpr std::array<std::string_view, 5> panelNames{"simulation", "colliders", "look", "measure",
-                                                            "scene"};
+enum class PanelName { scene, cloth, solver, colliders, look, measure };
+inline constexpr std::array<std::string_view, 6> panelNames{"scene",     "cloth", "solver",
+                                                            "colliders", "look",  "measure"};
+
+[[nodiscard]] inline std::string_view nameOf(PanelName panel) {
+  return panelNames[static_cast<std::size_t>(panel)];
+}
+
+inline constexpr double LEAST_TEXT_SIZE = 0.5, LARGEST_TEXT_SIZE = 2;
 
 struct ViewerConfig {
   // None: chosen by the width of the window.
   std::optional<bool> showPanels;
   bool showOverlay = true;
-  std::array<bool, panelNames.size()> open{true, false, false, false, false};  // by the number of PanelName
+  PanelName panel = PanelName::scene;  // that is open
+  double textSize = 1;                 // times the size that fits the window and the desktop, LEAST_TEXT_SIZE
+                                       // to LARGEST_TEXT_SIZE
   friend bool operator==(const ViewerConfig&, const ViewerConfig&) = default;
 };
 

@@ -22,6 +22,9 @@ enum class ViewerAction {
   nextShader,
   nextQuality,
   resetCamera,
+  viewFromFront,
+  viewFromRight,
+  viewFromTop,
   undo,
   redo,
   screenshot,
@@ -31,6 +34,8 @@ enum class ViewerAction {
   toggleKeyList,
   toggleOverlay,
   togglePanels,
+  largerText,
+  smallerText,
   reloadShaders,
   quit
 };
@@ -52,6 +57,9 @@ inline constexpr std::array viewerKeys{
     ViewerKey{blowKey, "hold: blow at what is under the cursor"},
     ViewerKey{cutKey, "hold and drag: cut the cloth"},
     ViewerKey{"Space", "reset the camera", ViewerAction::resetCamera},
+    ViewerKey{"1", "look from the front; again: from behind", ViewerAction::viewFromFront},
+    ViewerKey{"2", "look from the right; again: from the left", ViewerAction::viewFromRight},
+    ViewerKey{"3", "look from above; again: from below", ViewerAction::viewFromTop},
     ViewerKey{"P", "pause / resume", ViewerAction::pause},
     ViewerKey{"N", "advance one frame while paused", ViewerAction::stepFrame},
     ViewerKey{"S", "slow motion: 1, 0.5, 0.25, 0.1 times real time", ViewerAction::slowMotion},
@@ -72,6 +80,8 @@ inline constexpr std::array viewerKeys{
     ViewerKey{"F1", "show / hide this list", ViewerAction::toggleKeyList},
     ViewerKey{"F2", "show / hide the overlay", ViewerAction::toggleOverlay},
     ViewerKey{"F3", "show / hide the panels", ViewerAction::togglePanels},
+    ViewerKey{"Ctrl+=", "larger text", ViewerAction::largerText},
+    ViewerKey{"Ctrl+-", "smaller text", ViewerAction::smallerText},
     ViewerKey{"F5", "reload the shaders", ViewerAction::reloadShaders},
     ViewerKey{"Esc", "close what is open over the picture, or quit", ViewerAction::quit},
 };
@@ -99,11 +109,16 @@ struct KeyStroke {
   switch (action) {
     case ViewerAction::pause:
     case ViewerAction::resetCamera:
+    case ViewerAction::viewFromFront:
+    case ViewerAction::viewFromRight:
+    case ViewerAction::viewFromTop:
     case ViewerAction::nextQuality:
     case ViewerAction::slowMotion:
     case ViewerAction::toggleKeyList:
     case ViewerAction::toggleOverlay:
     case ViewerAction::togglePanels:
+    case ViewerAction::largerText:
+    case ViewerAction::smallerText:
     case ViewerAction::quit:
       return true;
     default:

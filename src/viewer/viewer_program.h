@@ -16,6 +16,7 @@
 #include "gl/context.h"
 #include "render/draw_scale.h"
 #include "session/step_thread.h"
+#include "viewer/axis_gizmo.h"
 #include "viewer/compare_card.h"
 #include "viewer/frame_timings.h"
 #include "viewer/mouse_tools.h"
@@ -110,8 +111,10 @@ class Viewer {
   [[nodiscard]] std::unique_ptr<OpenScene> load(const std::string& source,
                                                 const std::function<std::unique_ptr<OpenScene>()>& make);
   void saveSceneAs(const std::filesystem::path& path);
+  void saveCurves();
   void reloadShaders();
   void togglePanels();
+  void changeTextSize(double by);
 
   // --- an iteration of the main loop
   void iterate();
@@ -140,10 +143,14 @@ class Viewer {
 
   [[nodiscard]] Session& session() { return open_->session(); }
   [[nodiscard]] bool looksBack() const { return open_->session().frame() < open_->session().newestFrame(); }
+  // Of text, and of all controls with it.
+  [[nodiscard]] double textScale() const { return config_.textSize * window_.textScale(); }
+  [[nodiscard]] float textHeight() const { return static_cast<float>(16 * textScale()); }  // [pixels]
   [[nodiscard]] bool showsPanels() const;
   [[nodiscard]] PictureArea pictureArea() const;
   [[nodiscard]] CoveredEdges coveredEdges() const;
   [[nodiscard]] bool isOverPicture(ViewerWindow::Cursor cursor) const;
+  [[nodiscard]] std::optional<AxisEnd> axisEndUnder(ViewerWindow::Cursor cursor) const;
   [[nodiscard]] MouseContext mouseContext();
   [[nodiscard]] bool isIdle();
 

@@ -67,6 +67,7 @@ std::string nameOfKey(int code, int scancode) {
   for (const NamedKey& key : namedKeys)
     if (key.code == code) return key.name;
   const char* printed = glfwGetKeyName(code, scancode);
+  if (printed != nullptr && std::string_view(printed) == "+") return "=";  // on other keyboards
   if (printed != nullptr && printed[0] != '\0' && printed[1] == '\0')
     return std::string(1, static_cast<char>(std::toupper(static_cast<unsigned char>(printed[0]))));
   const bool isLetter = code >= GLFW_KEY_A && code <= GLFW_KEY_Z;

@@ -91,6 +91,8 @@ TEST_F(ViewerUi, StartsAgainAfterTheTimeThatIsAskedFor) {
   ASSERT_TRUE(viewer.titleBecomesOneWith("fps")) << viewer.title();
   EXPECT_FALSE(
       test::eventually(seconds(3), [&] { return viewer.title().find("paused") != std::string::npos; }));
+  const Picture now = viewer.picture();
+  EXPECT_TRUE(test::eventually(seconds(5), [&] { return viewer.picture() != now; })) << "it stands still";
 }
 
 TEST_F(ViewerUi, MouseMovesTheCameraAndSpaceBringsItBack) {
@@ -110,6 +112,8 @@ TEST_F(ViewerUi, MouseMovesTheCameraAndSpaceBringsItBack) {
   leavesHomeAndReturns("right drag");
   viewer.click(4, 3);
   leavesHomeAndReturns("the wheel");
+  viewer.press("3");
+  leavesHomeAndReturns("the key of the view from above");
 }
 
 TEST_F(ViewerUi, F1ShowsTheListOfKeysAndF2HidesThePanel) {

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "core/error.h"
+#include "core/files.h"
 #include "core/formatted.h"
 #include "render/strain_scale.h"
 #include "viewer/panels/plot.h"
@@ -121,15 +122,14 @@ void MeasurePanel::sample(Session& session, double now, std::optional<std::uint3
   }
   const State state = session.simulation().solver().state();
   if (!samples_.empty() && simulation.time() < samples_.back().time) samples_.clear();
-  const Sample sample{simulation.time(),
-                      energies(cloth, springs_, simulation.scene(), session.cuts(), state)};
-  if (samples_.empty() || simulation.time() > samples_.back().time) samples_.push_back(sample);
+  const Energies energy = energies(cloth, springs_, simulation.scene(), session.cuts(), state);
+  contacts_ = session.simulation().contactCounts();
+  watch_.add(session.frameSinceStart(), cloth, simulation.scene(), state, energy.maxStrain, contacts_);
+  if (samples_.empty() || simulation.time() > samples_.back().time)
+    samples_.push_back({simulation.time(), energy, watch_.contacts().contacts()});
   if (samples_.size() > mostSamples) samples_.pop_front();
-  const ContactCounts counts = session.simulation().contactCounts();
-  watch_.add(session.frameSinceStart(), cloth, simulation.scene(), state, sample.energies.maxStrain, counts);
-  contacts_ = counts;
-  strainUnderCursor_ =
-      underCursor ? std::optional(strainAt(cloth, session.cuts(), state, *underCursor)) : std::nullopt;
+  underCursor_.reset();
+  if (underCursor) underCursor_ = {*underCursor, factsOf(*underCursor, springs_, session.cuts(), state)};
   rate_ = seconds_ > 0 ? particleSteps_ / seconds_ : 0;
   particleSteps_ = seconds_ = 0;
   nextSample_ = now + std::max(sampleSeconds, (secondsNow() - began) / shareOfTime);
@@ -140,8 +140,7 @@ void MeasurePanel::drawNumbers(const Scene& scene) {
   const Energies last = samples_.empty() ? Energies{} : samples_.back().energies;
   row("max strain", formatted("%.2f %%", 100 * last.maxStrain),
       "The largest stretch l/L - 1 of all springs that are enabled and not cut.");
-  row("under the cursor", strainUnderCursor_ ? formatted("%+.2f %%", 100 * *strainUnderCursor_) : "-",
-      "The largest strain of the springs at the particle under the mouse.");
+  drawUnderCursor();
   drawContacts(scene.solver.selfCollision);
   if (isImplicit(scene.solver.integrator)) drawConvergence();
   row("particle steps", rate_ > 0 ? formatted("%.3g million/s", rate_ / 1e6) : "-",
@@ -150,6 +149,16 @@ void MeasurePanel::drawNumbers(const Scene& scene) {
 }
 
 // Rows of the table of numbers.
+void MeasurePanel::drawUnderCursor() {
+  if (!underCursor_) return row("under the cursor", "-", "Point at the cloth to see what happens there.");
+  const ParticleFacts& facts = underCursor_->facts;
+  row("under the cursor", "particle " + std::to_string(underCursor_->particle),
+      "The particle under the mouse, by its number in exported files.");
+  row("speed", formatted("%.3g m/s", facts.speed), "Of that particle.");
+  row("strain", formatted("%+.2f %%", 100 * facts.strain), "Of its most strained spring, l/L - 1.");
+  row("force", formatted("%.3g N", facts.force), "Of that spring, k (l - L): it pulls where positive.");
+}
+
 void MeasurePanel::drawContacts(SelfCollision mode) {
   const auto number = [](std::uint64_t count) { return static_cast<unsigned long long>(count); };
   if (contacts_.passages > 0)
@@ -198,22 +207,35 @@ void MeasurePanel::drawConvergence() {
       "Iterations of conjugate gradients, over the last second of simulated time.");
 }
 
-void MeasurePanel::drawPlots() {
+void MeasurePanel::drawPlots(SelfCollision mode) {
   std::vector<float> times;
   std::vector<Curve> energy{
       {"kinetic", {0.95f, 0.62f, 0.35f, 1}, {}}, {"height", theme::accent, {}}, {"springs", theme::good, {}}};
   std::vector<Curve> strain{{"max strain", {0.93f, 0.47f, 0.55f, 1}, {}}};
+  std::vector<Curve> contacts{{"pairs", theme::alert, {}}};
   for (const Sample& sample : samples_) {
     times.push_back(static_cast<float>(sample.time));
     energy[0].values.push_back(static_cast<float>(sample.energies.kinetic));
     energy[1].values.push_back(static_cast<float>(sample.energies.gravity));
     energy[2].values.push_back(static_cast<float>(sample.energies.springs));
     strain[0].values.push_back(static_cast<float>(100 * sample.energies.maxStrain));
+    contacts[0].values.push_back(static_cast<float>(sample.contacts));
   }
   drawPlot("energy", times, energy, " J");
   helpTip("Energy over simulated time: kinetic, potential (relative to the start) and stored in springs.");
   drawPlot("strain", times, strain, " %");
   helpTip("The largest stretch of a spring over simulated time.");
+  if (mode == SelfCollision::off) return;
+  drawPlot("contacts", times, contacts, "");
+  helpTip("Pairs of particles of different layers that touch, over simulated time.");
+}
+
+void MeasurePanel::saveCurves(const std::filesystem::path& path) const {
+  std::string text = "time [s],kinetic [J],height [J],springs [J],max_strain,self_contacts\n";
+  for (const auto& [time, energies, contacts] : samples_)
+    text += formatted("%.9g,%.9g,%.9g,%.9g,%.9g,%llu\n", time, energies.kinetic, energies.gravity,
+                      energies.springs, energies.maxStrain, static_cast<unsigned long long>(contacts));
+  writeFileAtomically(path, text);
 }
 
 // Timing uses a solver of its own, since the cloth must stay where it is.
@@ -251,12 +273,16 @@ void MeasurePanel::drawMemory(const SessionFacts& facts) {
   ImGui::EndTable();
 }
 
-void MeasurePanel::draw(const SessionFacts& facts, const RenderSettings& look) {
-  if (look.shader == "strain") drawStrainLegend(look, strainUnderCursor_);
+bool MeasurePanel::draw(const SessionFacts& facts, const RenderSettings& look) {
+  if (look.shader == "strain")
+    drawStrainLegend(look, underCursor_ ? std::optional(underCursor_->facts.strain) : std::nullopt);
   drawNumbers(*facts.scene);
-  drawPlots();
+  drawPlots(facts.scene->solver.selfCollision);
+  const bool saves = wideButton("Save the curves as CSV");
+  helpTip("Time, energies, strain and contacts of every sample in these plots.");
   drawPasses();
   drawMemory(facts);
+  return saves;
 }
 
 }  // namespace clothsim

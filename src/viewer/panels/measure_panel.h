@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -22,8 +23,11 @@ namespace clothsim {
 
 class MeasurePanel {
  public:
-  // `look` is that of the picture. Where it shows strain by colours, a legend is drawn.
-  void draw(const SessionFacts& facts, const RenderSettings& look);
+  // `look` is that of the picture. Where it shows strain by colours, a legend is drawn. Returns whether the
+  // numbers of the curves are to be saved.
+  [[nodiscard]] bool draw(const SessionFacts& facts, const RenderSettings& look);
+  // The curves as CSV, a line a sample. @throws InputOutputError
+  void saveCurves(const std::filesystem::path& path) const;
 
   // Takes a sample when it is time for one. `particleUnderCursor` is called then. Times the passes of a step
   // if the button was pressed.
@@ -49,14 +53,20 @@ class MeasurePanel {
   struct Sample {
     double time = 0;
     Energies energies;
+    std::uint64_t contacts = 0;
+  };
+  struct UnderCursor {
+    std::uint32_t particle = 0;
+    ParticleFacts facts;
   };
 
   void sampleSteps(Session& session, double now);
   void sample(Session& session, double now, std::optional<std::uint32_t> underCursor);
   void drawNumbers(const Scene& scene);
+  void drawUnderCursor();
   void drawContacts(SelfCollision mode);
   void drawConvergence();
-  void drawPlots();
+  void drawPlots(SelfCollision mode);
   void drawPasses();
   void timePasses(Session& session);
   static void drawMemory(const SessionFacts& facts);
@@ -66,7 +76,7 @@ class MeasurePanel {
   std::deque<Sample> samples_;
   std::vector<Spring> springs_;
   std::optional<std::uint64_t> springsOf_;  // the generation of their cloth
-  std::optional<double> strainUnderCursor_;
+  std::optional<UnderCursor> underCursor_;
   RunWatch watch_;
   RecentSteps implicitSteps_;
   ContactCounts contacts_;

@@ -1,5 +1,6 @@
 // The column of panels at the right of the window.
 #include <algorithm>
+#include <array>
 #include <cctype>
 
 #include "viewer/panels/panels.h"
@@ -9,12 +10,31 @@ namespace clothsim {
 namespace {
 
 constexpr float widestEm = 24, narrowestEm = 17;
+constexpr int tabsInARow = 3;
 constexpr float largestShare = 0.47f;  // of the window, so that the cloth is never hidden
 
 std::string titleOf(std::string_view name) {
   std::string title(name);
   title[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(title[0])));
   return title;
+}
+
+// In rows of three, so that their names fit into the narrowest column.
+void drawTabs(PanelName& open) {
+  std::array<std::string, panelNames.size()> titles;
+  std::array<const char*, panelNames.size()> labels{};
+  for (std::size_t i = 0; i < panelNames.size(); ++i) {
+    titles[i] = titleOf(panelNames[i]);
+    labels[i] = titles[i].c_str();
+  }
+  for (int first = 0; first < static_cast<int>(panelNames.size()); first += tabsInARow) {
+    ImGui::PushID(first);
+    const int now = static_cast<int>(open) - first;
+    const int chosen = segmentedButtons("tabs", labels.data() + first, tabsInARow, now);
+    if (chosen != now) open = static_cast<PanelName>(first + chosen);
+    ImGui::PopID();
+  }
+  ImGui::Dummy({0, 0.1f * em()});
 }
 
 }  // namespace
@@ -26,16 +46,19 @@ float PanelColumn::width(float windowWidth, float em) {
 
 void PanelColumn::drawPanel(PanelName panel, PanelContext& context) {
   switch (panel) {
-    case PanelName::simulation:
-      return drawSimulationPanel(context);
+    case PanelName::scene:
+      return scenes_.draw(context);
+    case PanelName::cloth:
+      return drawClothPanel(context);
+    case PanelName::solver:
+      return drawSolverPanel(context);
     case PanelName::colliders:
       return drawCollidersPanel(context);
     case PanelName::look:
       return drawLookPanel(context);
     case PanelName::measure:
-      return measures_.draw(context.facts, context.draft.render);
-    case PanelName::scene:
-      return scenes_.draw(context);
+      context.requests.saveCurves = measures_.draw(context.facts, context.draft.render);
+      return;
   }
 }
 
@@ -49,20 +72,14 @@ void PanelColumn::draw(PanelContext& context, ViewerConfig& config) {
   ImGui::Begin("panels", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_NoBringToFrontOnFocus | ImGuiWindowFlags_NoNav);
-  for (std::size_t i = 0; i < panelNames.size(); ++i) {
-    ImGui::SetNextItemOpen(config.open[i]);
-    config.open[i] = ImGui::CollapsingHeader(titleOf(panelNames[i]).c_str());
-    if (!config.open[i]) continue;
-    ImGui::PushID(static_cast<int>(i));
-    ImGui::Indent(0.25f * em());
-    drawPanel(static_cast<PanelName>(i), context);
-    ImGui::Unindent(0.25f * em());
-    ImGui::Dummy({0, 0.3f * em()});
-    ImGui::PopID();
-  }
+  drawTabs(config.panel);
+  ImGui::BeginChild(std::string(nameOf(config.panel)).c_str());  // scrolls under the tabs
+  drawPanel(config.panel, context);
+  ImGui::Dummy({0, 0.3f * em()});
+  ImGui::EndChild();
   ImGui::End();
   ImGui::PopStyleVar(2);
-  measures_.setOpen(config.open[static_cast<std::size_t>(PanelName::measure)]);
+  measures_.setOpen(config.panel == PanelName::measure);
 }
 
 }  // namespace clothsim

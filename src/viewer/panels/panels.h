@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "gl/texture.h"
 #include "render/renderer.h"
 #include "scene_io/scene_io.h"
 #include "viewer/open_scene.h"
@@ -23,6 +24,7 @@ struct PanelRequests {
   std::optional<std::string> backend;      // "cpu" or "gpu"
   std::optional<Quality> quality;          // of the picture
   bool resetScene = false;                 // back to the loaded scene
+  bool saveCurves = false;                 // of the panel Measure, as CSV
   friend bool operator==(const PanelRequests&, const PanelRequests&) = default;
 };
 
@@ -39,7 +41,8 @@ struct PanelContext {
   PanelRequests requests{};
 };
 
-void drawSimulationPanel(PanelContext& context);
+void drawClothPanel(PanelContext& context);
+void drawSolverPanel(PanelContext& context);
 void drawCollidersPanel(PanelContext& context);
 void drawLookPanel(PanelContext& context);
 
@@ -51,8 +54,17 @@ class ScenePanel {
   void remember(const std::string& path);
 
  private:
-  std::vector<BundledScene> bundled_;  // loaded when the panel is first opened
-  bool read_ = false;
+  struct Card {
+    BundledScene scene;
+    gl::Texture picture;
+  };
+
+  void readScenes();
+  void drawCards(PanelContext& context);
+
+  std::vector<Card> cards_;         // of the bundled scenes
+  std::vector<std::string> files_;  // scenes in the current folder
+  bool read_ = false;               // both, when the panel is first opened
   char open_[512] = "", save_[512] = "";
 };
 

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "core/files.h"
+#include "gl/gl_test.h"
 #include "measure/crossings.h"
 #include "support/process.h"
 #include "support/program.h"
@@ -321,11 +322,18 @@ TEST(Program, AnswersAPlaceItCannotWriteToWithFive) {
             5);
 }
 
+TEST(Backend, IsTheFasterOneUnlessGivenAndThatIsSaid) {
+  const std::string run = "run -f pinned2 --resolution 10x10 --frames 1";
+  const bool software = testContext().software;
+  EXPECT_EQ(jsonOf(run + " --json 2>/dev/null")["backend"], software ? "cpu" : "gpu");
+  EXPECT_EQ(clothsim(run).output.find("simulating on the CPU") != std::string::npos, software);
+}
+
 class NoOpenGl : public testing::TestWithParam<const char*> {};
 
 TEST_P(NoOpenGl, IsAnsweredWithFourAndWhatWasFoundAndNeeded) {
-  for (const char* command : {"run -f pinned2 --frames 1", "compare -f pinned2 --frames 1", "doctor",
-                              "render -f pinned2 --frames 1 --out /tmp/never.png"}) {
+  for (const char* command : {"run -f pinned2 --frames 1 --backend gpu", "compare -f pinned2 --frames 1",
+                              "doctor", "render -f pinned2 --frames 1 --out /tmp/never.png"}) {
     const CommandResult result = clothsim(command, GetParam());
     EXPECT_EQ(result.exitCode, 4) << command << "\n" << result.output;
     EXPECT_NE(result.output.find("4.5"), std::string::npos) << "what is needed: " << result.output;
@@ -334,7 +342,12 @@ TEST_P(NoOpenGl, IsAnsweredWithFourAndWhatWasFoundAndNeeded) {
 }
 
 TEST_P(NoOpenGl, DoesNotKeepTheCpuBackendFromRunning) {
-  EXPECT_EQ(clothsim("run -f pinned2 --resolution 10x10 --frames 2 --backend cpu", GetParam()).exitCode, 0);
+  const std::string run = "run -f pinned2 --resolution 10x10 --frames 2";
+  EXPECT_EQ(clothsim(run + " --backend cpu", GetParam()).exitCode, 0);
+  const CommandResult chosen = clothsim(run, GetParam());
+  EXPECT_EQ(chosen.exitCode, 0) << chosen.output;
+  EXPECT_NE(chosen.output.find("simulating on the CPU, since there is no usable OpenGL"), std::string::npos)
+      << chosen.output;
 }
 
 INSTANTIATE_TEST_SUITE_P(All, NoOpenGl,

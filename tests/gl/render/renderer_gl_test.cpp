@@ -154,6 +154,33 @@ TEST_F(RendererTest, DrawsEveryPlaneAndTheFloorOnlyWhereThereIsNoHorizontalOne) 
   EXPECT_EQ(floorPixel(both), floorPixel(withPlane)) << "the ground is drawn although the scene has a floor";
 }
 
+TEST_F(RendererTest, ClothThatLiesExactlyInAPlaneIsSeen) {
+  Scene scene;
+  scene.cloths[0].numWidthPoints = scene.cloths[0].numHeightPoints = 33;
+  scene.camera.position = Vec3d{1.6, 1.5, 2.2};
+  scene.camera.target = Vec3d{0.5, 0.3, 0.5};
+  const auto redPixels = [](const Scene& drawn) {
+    const Cloth cloth(drawn);
+    std::vector<Particle4> places;
+    for (const Vec3d& rest : cloth.positions())
+      places.push_back({static_cast<float>(rest.x), static_cast<float>(0.3 * rest.x + 0.1 * rest.z),
+                        static_cast<float>(rest.z), 1});
+    const gl::Buffer<Particle4> positions("positions", places);
+    Renderer renderer(cloth, drawn, {});
+    const Image image = renderImage(renderer, positions.name(), Camera(drawn, cloth), 0, 200, 120);
+    int red = 0;
+    for (std::size_t i = 0; i < image.rgb.size(); i += 3) red += image.rgb[i] > 2 * image.rgb[i + 1] ? 1 : 0;
+    return red;
+  };
+  const int alone = redPixels(scene);
+  Plane plane;
+  plane.point = {0, 0, 0};
+  plane.normal = {-0.3, 1, -0.1};
+  scene.colliders.emplace_back(plane);
+  EXPECT_GT(alone, 2000);
+  EXPECT_NEAR(redPixels(scene), alone, 0.01 * alone);
+}
+
 TEST_F(RendererTest, AnEditedSceneIsDrawnAnew) {
   const test::Drape drape(drapeScene());
   const gl::Buffer<Particle4> positions("positions", drape.positions);

@@ -1,8 +1,10 @@
 // Parts of the viewer that need no window.
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <cstdlib>
 #include <set>
+#include <sstream>
 
 #include "core/files.h"
 #include "gl/gl_test.h"
@@ -137,7 +139,8 @@ TEST(ViewerConfigFile, IsReadAsItWasWritten) {
   ViewerConfig config;
   config.showPanels = false;
   config.showOverlay = false;
-  config.open = {false, true, false, true, true};
+  config.panel = PanelName::look;
+  config.textSize = 1.25;
   EXPECT_EQ(saveViewerConfig(config, path), "");
   const LoadedConfig loaded = loadViewerConfig(path);
   EXPECT_EQ(loaded.config, config);
@@ -153,7 +156,7 @@ TEST(ViewerConfigFile, ThatIsMissingMeansDefaultsAndNoNotice) {
 
 TEST(ViewerConfigFile, ThatIsNoneIsPassedOverWithANoticeThatNamesIt) {
   const test::TemporaryFolder folder;
-  for (const char* text : {"{\"show_panels\": ", "[1, 2]", "{\"open\": {\"look\": 3}}", "\xff\xfe"}) {
+  for (const char* text : {"{\"show_panels\": ", "[1, 2]", "{\"panel\": 3}", "\xff\xfe"}) {
     writeFileAtomically(folder / "viewer.json", text);
     const LoadedConfig loaded = loadViewerConfig(folder / "viewer.json");
     EXPECT_EQ(loaded.config, ViewerConfig{}) << text;
@@ -300,6 +303,33 @@ TEST(MeasurePanel, TellsOfUnsolvedStepsWhileThereAreAnyWhateverTheSizeOfTheCloth
     panel.forget();
     EXPECT_FALSE(tellsOfConvergence(panel, scene)) << "after a restart";
   }
+}
+
+TEST(MeasurePanel, SavesTheSamplesOfItsCurves) {
+  const test::TemporaryFolder folder;
+  Session session(smallScene(), "cpu", makeCpuSolver);
+  MeasurePanel panel;
+  const auto nothing = []() -> std::optional<std::uint32_t> { return std::nullopt; };
+  for (int i = 0; i < 3; ++i) {
+    panel.update(session, 100.0 * i, nothing);
+    ASSERT_FALSE(session.stepFrames(2));
+  }
+  panel.saveCurves(folder / "curves.csv");
+  std::istringstream lines(readFile(folder / "curves.csv"));
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line, "time [s],kinetic [J],height [J],springs [J],max_strain,self_contacts");
+  std::vector<double> times, kinetic;
+  for (double time = 0, energy = 0; std::getline(lines, line);) {
+    ASSERT_EQ(std::sscanf(line.c_str(), "%lf,%lf,", &time, &energy), 2) << line;
+    times.push_back(time);
+    kinetic.push_back(energy);
+  }
+  ASSERT_EQ(times.size(), 3u);
+  EXPECT_EQ(times[0], 0);
+  EXPECT_NEAR(times[2], 4 / session.simulation().scene().solver.framesPerSec, 1e-6);
+  EXPECT_EQ(kinetic[0], 0);
+  EXPECT_GT(kinetic[2], kinetic[1]) << "it falls";
 }
 
 TEST(SessionPulse, ChangesNoBitHoweverAFrameIsDividedByIt) {

@@ -101,9 +101,22 @@ TEST(BundledScenes, AreListedByNameWithADescription) {
   EXPECT_GE(scenes.size(), 6U);
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     EXPECT_FALSE(scenes[i].description.empty()) << scenes[i].name;
+    EXPECT_TRUE(fs::exists(scenes[i].thumbnail))
+        << scenes[i].thumbnail << "; tools/gallery Thumbnails makes it";
     EXPECT_EQ(loadSceneByName(scenes[i].name), loadScene(scenes[i].path));
     EXPECT_TRUE(i == 0 || scenes[i - 1].name < scenes[i].name) << scenes[i].name;
   }
+}
+
+TEST(SceneFilesIn, ListsJsonThatMentionsACloth) {
+  const test::TemporaryFolder folder;
+  writeFileAtomically(folder / "b.json", "{\"cloth\": {}}");
+  writeFileAtomically(folder / "a.json", "{\"cloths\": [{}]}");
+  writeFileAtomically(folder / "recording.json", "{\"events\": []}");
+  writeFileAtomically(folder / "notes.txt", "\"cloth\"");
+  fs::create_directory(folder / "c.json");
+  EXPECT_EQ(sceneFilesIn(folder.path()), (std::vector<std::string>{"a.json", "b.json"}));
+  EXPECT_TRUE(sceneFilesIn(folder / "nowhere").empty());
 }
 
 TEST(LoadSceneByName, OffersTheNearestBundledScene) {

@@ -1,23 +1,10 @@
-// The panel Simulation: the controls of CS184's program, and more.
+// The panel Cloth: springs, material and size of each cloth.
 #include "cloth/material.h"
 #include "viewer/panels/panels.h"
 #include "viewer/ui_frame.h"
 
 namespace clothsim {
 namespace {
-
-constexpr Vec3d firstWind{0, 0, -3};  // when wind is switched on [m/s]
-
-void drawBackend(PanelContext& context) {
-  const char* const names[] = {"GPU", "CPU"};
-  const int now = context.backend == "gpu" ? 0 : 1;
-  const int chosen = segmentedButtons("backend", names, 2, now);
-  helpTip("Where the cloth is computed. Switching continues from the bit-identical state (B).");
-  if (chosen != now) context.requests.backend = chosen == 0 ? "gpu" : "cpu";
-  if (wideButton("Compare GPU and CPU from here"))
-    context.requests.actions.push_back(ViewerAction::compareBackends);
-  helpTip("Runs both from this state and counts the numbers that differ (C).");
-}
 
 // Toggles for the three kinds of springs in a row, as in CS184's program.
 void drawSpringKinds(PanelContext& context, ClothSettings& cloth, const std::string& path) {
@@ -72,53 +59,20 @@ void drawCloth(PanelContext& context, ClothSettings& cloth, const std::string& p
     context.widgets.some(cloth, path, {"width", "height", "num_width_points", "num_height_points"});
 }
 
-void drawWind(PanelContext& context) {
-  bool blows = context.draft.wind.has_value();
-  if (ImGui::Checkbox("wind", &blows)) {
-    context.draft.wind = blows ? std::optional(Wind{}) : std::nullopt;
-    if (blows) context.draft.wind->velocity = firstWind;
-    context.widgets.changed(Change::live);
-  }
-  helpTip(
-      "Air that moves past the cloth; without it no wind forces are computed.\n\nwind\nTakes effect "
-      "immediately.");
-  if (!context.draft.wind) return;
-  context.widgets.all(*context.draft.wind, "wind");
-  context.widgets.all(context.draft.wind->gust, "wind.gust");
-}
-
 }  // namespace
 
-void drawSimulationPanel(PanelContext& context) {
-  drawBackend(context);
-  context.widgets.some(context.draft.solver, "solver", {"integrator", "frames_per_sec", "simulation_steps"});
-  context.widgets.some(context.draft, "", {"gravity", "air_resistance"});
-  ImGui::Separator();
+void drawClothPanel(PanelContext& context) {
+  const bool several = context.draft.cloths.size() > 1;
   for (std::size_t i = 0; i < context.draft.cloths.size(); ++i) {
-    const bool several = context.draft.cloths.size() > 1;
-    const std::string path = several ? "cloths." + std::to_string(i) : "cloth";
     ImGui::PushID(static_cast<int>(i));
     const std::string label = "cloth " + std::to_string(i + 1);
     if (!several) {
-      drawCloth(context, context.draft.cloths[i], path);
+      drawCloth(context, context.draft.cloths[i], "cloth");
     } else if (ImGui::TreeNodeEx(label.c_str(), i == 0 ? ImGuiTreeNodeFlags_DefaultOpen : 0)) {
-      drawCloth(context, context.draft.cloths[i], path);
+      drawCloth(context, context.draft.cloths[i], "cloths." + std::to_string(i));
       ImGui::TreePop();
     }
     ImGui::PopID();
-  }
-  ImGui::Separator();
-  context.widgets.some(context.draft.solver, "solver", {"strain_limit", "self_collision", "self_friction"});
-  chooseCounts(context.draft);
-  ImGui::Separator();
-  drawWind(context);
-  ImGui::Separator();
-  // All other settings of the solver: a new key appears here automatically.
-  if (ImGui::TreeNode("more")) {
-    context.widgets.all(context.draft.solver, "solver",
-                        {"integrator", "frames_per_sec", "simulation_steps", "strain_limit", "self_collision",
-                         "self_friction", "friction_law"});
-    ImGui::TreePop();
   }
 }
 
