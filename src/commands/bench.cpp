@@ -48,6 +48,25 @@ double median(std::vector<double> values) {
 
 }  // namespace
 
+namespace {
+
+// Of few steps at a time, so that no queue of the driver is full.
+double timeSubmitting(Solver& solver, std::uint64_t dispatches) {
+  const int steps =
+      static_cast<int>(std::clamp<std::uint64_t>(512 / std::max<std::uint64_t>(dispatches, 1), 1, 64));
+  std::vector<double> times;
+  for (int i = 0; i < REPETITIONS; ++i) {
+    solver.finish();
+    const Clock::time_point start = Clock::now();
+    solver.step(steps);
+    times.push_back(secondsSince(start) / steps);
+  }
+  solver.finish();
+  return median(times);
+}
+
+}  // namespace
+
 StepRate measureStepRate(const Scene& scene, const std::string& backend, double seconds, const State& state) {
   const Shared<Cloth> sharedCloth = Cloth(scene);
   const Cloth& cloth = *sharedCloth;
@@ -74,6 +93,7 @@ StepRate measureStepRate(const Scene& scene, const std::string& backend, double 
   rate.selfCollision = scene.solver.selfCollision;
   rate.repetitions = REPETITIONS;
   rate.secondsPerStep = median(times);
+  if (dispatches > 0) rate.submitSecondsPerStep = timeSubmitting(*solver, dispatches);
   rate.dispatchesPerStep = dispatches;
   rate.particleStepsPerSecond = cloth.particleCount() / rate.secondsPerStep;
   const int timed = std::clamp(steps, 1, 20);

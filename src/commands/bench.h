@@ -20,6 +20,8 @@ struct StepRate {
   SelfCollision selfCollision = SelfCollision::off;
   int repetitions = 0;  // number of timings, of which the median is taken
   double secondsPerStep = 0;
+  double submitSecondsPerStep =
+      0;  // until the calls of a step return; what is asked for may not be done then
   std::uint64_t dispatchesPerStep = 0;  // of compute shaders; 0 on the CPU
   double particleStepsPerSecond = 0;
   std::vector<PassTime> passes;  // seconds a step

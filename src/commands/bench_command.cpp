@@ -25,7 +25,10 @@ nlohmann::ordered_json toJson(const StepRate& rate) {
                               {"repetitions", rate.repetitions},
                               {"ms_per_step", rate.secondsPerStep * 1e3},
                               {"particle_steps_per_second", rate.particleStepsPerSecond}};
-  if (rate.dispatchesPerStep > 0) json["dispatches_per_step"] = rate.dispatchesPerStep;
+  if (rate.dispatchesPerStep > 0) {
+    json["dispatches_per_step"] = rate.dispatchesPerStep;
+    json["submit_ms_per_step"] = rate.submitSecondsPerStep * 1e3;
+  }
   for (const PassTime& pass : rate.passes) json["pass_ms"][pass.name] = pass.seconds * 1e3;
   return json;
 }

@@ -72,9 +72,9 @@ CLI::Validator number(double low, double high) { return numberWithin(low, high, 
 // The values of all flags. Each command uses those that it declares.
 struct Arguments {
   bool draw = false;
-  bool describeStep = false;
+  bool describeStep = false, small = false;
   std::string scene = "pinned2", backend = "auto", from, quality = "final", viewerQuality = "auto", shader,
-              size = "1280x720", key, replay;
+              size = "1280x720", key, replay, only;
   std::string cellSize = "560x420", out, view = "0,0", trace;
   std::vector<std::string> variations, settings, saves, outs, resolutions, backends;
   int frames = 0, every = 1, around = 64, down = 48, threads = 0;
@@ -352,6 +352,21 @@ void declareInfoCommands(CLI::App& app, Arguments& a, Task& task) {
   addJson(*doctor, a);
   doctor->footer("Exit code 0 when the backends agree, 1 when they do not, 4 without usable OpenGL");
   doctor->callback([&] { task = [&] { return doctorCommand(a.json); }; });
+
+  CLI::App* probe = app.add_subcommand(
+      "probe",
+      "Measure the OpenGL driver, a line of JSON for each finding (tools/measure_gpu runs all blocks)");
+  probe->add_option("block", a.key, "limits, programs, contract, dispatches, roofs, steps, groups, demo")
+      ->required()
+      ->check(CLI::IsMember(
+          {"limits", "programs", "contract", "dispatches", "roofs", "steps", "groups", "demo"}));
+  probe->add_flag("--small", a.small, "with fewer points, frames and repetitions, for software renderers");
+  probe->add_option("--only", a.only, "of the contract, only the cases whose names contain this text")
+      ->type_name("TEXT");
+  probe->footer(
+      "Exit code 1 when contract finds a number that differs between CPU and GPU. docs/gpu.md explains the "
+      "blocks");
+  probe->callback([&] { task = [&] { return probeCommand(a.key, a.small, a.only); }; });
 
   CLI::App* describe = app.add_subcommand(
       "describe", "Explain every scene key: type, unit, range, default, meaning; or a step");

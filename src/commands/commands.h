@@ -93,6 +93,9 @@ struct BenchOptions {
 };
 int benchCommand(const BenchOptions& options);
 
+// `block`: one of those in probe.h. `small`: in seconds, with fewer points, frames and repetitions.
+// `only`: of the contract, the cases whose names contain it.
+int probeCommand(const std::string& block, bool small, const std::string& only);
 int doctorCommand(bool json);
 int scenesCommand();
 int describeCommand(const std::string& key);  // "": all keys

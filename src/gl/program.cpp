@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cassert>
+#include <chrono>
 
 #include "core/error.h"
 
@@ -51,7 +52,16 @@ void link(GLuint program, const std::string& label) {
 
 }  // namespace
 
+namespace {
+
+thread_local std::vector<Compilation> compiled;
+
+}  // namespace
+
+const std::vector<Compilation>& compilations() { return compiled; }
+
 Program Program::make(const std::vector<Stage>& stages, const Defines& defines) {
+  const auto start = std::chrono::steady_clock::now();
   std::string label;
   Program program;
   program.name_ = glCreateProgram();
@@ -66,6 +76,8 @@ Program Program::make(const std::vector<Stage>& stages, const Defines& defines) 
   GLsizei count = 0;
   glGetAttachedShaders(program.name_, static_cast<GLsizei>(attached.size()), &count, attached.data());
   for (GLsizei i = 0; i < count; ++i) glDetachShader(program.name_, attached[static_cast<std::size_t>(i)]);
+  compiled.push_back(
+      {label, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count()});
   return program;
 }
 

@@ -46,6 +46,12 @@ void dispatch(std::uint32_t columns, std::uint32_t rows, int groupColumns, int g
 void dispatch(std::size_t count, int workGroupSize);
 // As many work groups as the bound buffer says, at this byte (GL_DISPATCH_INDIRECT_BUFFER).
 void dispatchIndirect(std::size_t offset);
+// What this thread has compiled and linked so far, in order.
+struct Compilation {
+  std::string program;  // its files
+  double seconds = 0;
+};
+[[nodiscard]] const std::vector<Compilation>& compilations();
 // How many dispatches this thread has made so far.
 [[nodiscard]] std::uint64_t dispatchCount();
 

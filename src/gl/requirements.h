@@ -1,11 +1,21 @@
 // What the shaders need of an OpenGL context, and the message for a machine that lacks it.
 #pragma once
 
+#include <span>
 #include <string>
 
+#include "gl/api.h"
 #include "gl/context.h"
 
 namespace clothsim::gl {
+
+// A limit of drivers, and how much of it passes may take.
+struct NeededLimit {
+  GLenum name;
+  int least;
+  const char* what;  // for messages
+};
+[[nodiscard]] std::span<const NeededLimit> neededLimits();
 
 // The current context's first shortcoming as a phrase ("it has no ..."), empty when it can do everything.
 [[nodiscard]] std::string missingCapability(const ContextInfo& info);

@@ -478,8 +478,10 @@ std::vector<DrawTime> Renderer::timeDraw(GLuint positions, const Camera& camera,
     timer.begin();
     pass();
     timer.end();
-    times.push_back({name, timer.seconds()});
+    times.push_back({name, 0});
   });
+  const std::vector<double> seconds = timer.takeSeconds();
+  for (std::size_t i = 0; i < times.size(); ++i) times[i].seconds = seconds[i];
   return times;
 }
 

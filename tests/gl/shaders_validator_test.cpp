@@ -1,4 +1,5 @@
-// Every shader against Khronos' own reference compiler, which is stricter than any driver. Needs no context.
+// Every shader against Khronos' own reference compiler and its checker of SPIR-V, which are stricter than any
+// driver. Needs no context.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,7 +33,7 @@ std::string stageOf(const fs::path& file) {
 // Relative to shaders/, in alphabetical order.
 std::vector<std::string> shaderFiles() {
   std::vector<std::string> files;
-  for (const char* folder : {"sim", "render"}) {
+  for (const char* folder : {"sim", "render", "probe"}) {
     if (!fs::is_directory(shaderFolder / folder)) continue;  // a test of its own misses it
     for (const auto& entry : fs::recursive_directory_iterator(shaderFolder / folder))
       if (!stageOf(entry.path()).empty())
@@ -42,16 +43,31 @@ std::vector<std::string> shaderFiles() {
   return files;
 }
 
+// Compiles it to SPIR-V, and has that checked: drivers like zink and those of Vulkan's makers go the same
+// way.
 test::CommandResult validate(const std::string& source, const std::string& stage) {
   const test::TemporaryFolder folder;
   writeFileAtomically(folder / "shader.txt", source);
-  return test::runCommand("glslangValidator -S " + stage + " " + (folder / "shader.txt").string() + " 2>&1");
+  const std::string text = (folder / "shader.txt").string(), binary = (folder / "shader.spv").string();
+  return test::runCommand(
+      "(glslangValidator --target-env opengl --auto-map-locations --auto-map-bindings -S " + stage + " -o " +
+      binary + " " + text + " && spirv-val --target-env opengl4.5 " + binary + ") 2>&1");
 }
 
 // The variants in which the program compiles a shader: simulation passes with everything and with nothing of
 // what a scene may have, the resolve with and without multisampling, the other drawing shaders just as they
 // are.
 std::vector<gl::Defines> variantsOf(const std::string& file) {
+  if (file == "probe/stencil.comp") {
+    std::vector<gl::Defines> variants;
+    for (const char* loads : {"0", "1", "2"})
+      variants.push_back({{"GROUP_COLUMNS", "32"}, {"GROUP_ROWS", "8"}, {"SIZE", "1024u"}, {"LOADS", loads}});
+    return variants;
+  }
+  if (file == "probe/springs.comp")
+    return {{{"ARITHMETIC", "0"}, {"SPRINGS", "64u"}},
+            {{"ARITHMETIC", "1"}, {"SPRINGS", "64u"}},
+            {{"ARITHMETIC", "2"}, {"SPRINGS", "64u"}}};
   if (file == "render/floor_shadow.frag") return {{{"FIRST_AXIS", ""}}, gl::Defines{}};
   if (file == "render/normals.comp") return {gl::Defines{}, {{"CUTS", ""}, {"STRAIN", ""}}};
   if (file == "render/mesh_normals.comp") return {gl::Defines{}, {{"STRAIN", ""}}};

@@ -101,9 +101,7 @@ void GpuArrays::addImplicit(std::size_t particles, const GpuLevels& levels, bool
                             bool history) {
   const auto add = [&](Array array, std::size_t texels) {
     if ((*this)[array].buffer.name() != 0 && (*this)[array].buffer.size() >= texels) return;
-    const std::string label(nameOf(array));
-    checkFits(texels, sizeof(Particle4), label.c_str());
-    (*this)[array] = ParticleArray(label, texels);
+    (*this)[array] = ParticleArray(std::string(nameOf(array)), texels);
   };
   for (const Array array : {Array::rightHandSides, Array::displacements, Array::iterates, Array::directions,
                             Array::products, Array::increments})
@@ -118,6 +116,7 @@ void GpuArrays::addImplicit(std::size_t particles, const GpuLevels& levels, bool
   add(Array::coarseInverses, BLOCK_TEXELS * std::size_t{levels.vertices()});
   add(Array::dense, (std::size_t{levels.denseEntries()} + 3) / 4);
   ParticleArray& dense = (*this)[Array::dense];
+  checkTexelsFit(levels.denseEntries(), "numbers of dense inverses");
   dense.texture = gl::BufferTexture("dense", dense.buffer.name(), GL_R32F);  // a number a texel
   add(Array::airBlocks, wind ? AIR_TEXELS * particles : 1);
   add(Array::planes, colliders ? PLANE_TEXELS * particles : 1);

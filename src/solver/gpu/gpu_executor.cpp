@@ -9,9 +9,6 @@
 namespace clothsim {
 namespace {
 
-// How many steps the watchdog remembers one by one. Who takes more without asking for divergence has it
-// looked for once in so many.
-constexpr std::uint64_t WATCHED_STEPS = 1024;
 // As many as every driver takes in a work group.
 constexpr int MOST_LANES = 1024;
 // And in a dispatch.
@@ -52,10 +49,9 @@ GpuExecutor::GpuExecutor(const Cloth& cloth, const GpuOptions& options)
       lists_(cloth),
       kernels_(kernels().size()),
       selfCollision_(cloth, options.groupColumns, options.groupRows),
-      runner_(options.groupColumns, options.groupRows),
-      watch_("watchdog", WATCHED_STEPS) {
+      runner_(options.groupColumns, options.groupRows) {
   const std::vector<float> restLengths = measureRestLengths<float>(cloth);
-  checkFits(restLengths.size(), sizeof(float), "rest lengths");
+  checkTexelsFit(restLengths.size(), "rest lengths");
   restLengths_ = gl::Buffer<float>("rest lengths", std::span<const float>(restLengths));
   restLengthTexture_ = gl::BufferTexture("rest lengths", restLengths_.name(), GL_R32F);
   std::vector<ColorSlot> slots;
@@ -73,7 +69,7 @@ void GpuExecutor::setScene(const StepInputs& inputs) {
   arrays_.forgetHistory();
   if (distances_.name() == 0 || *inputs.colliders.distances() != *stagedDistances_) {
     stagedDistances_ = inputs.colliders.distances();
-    checkFits(stagedDistances_->size(), sizeof(float), "samples of mesh colliders' distances");
+    checkTexelsFit(stagedDistances_->size(), "samples of mesh colliders' distances");
     distances_ = gl::Buffer<float>("distances", std::span<const float>(*stagedDistances_));
     distanceTexture_ = gl::BufferTexture("distances", distances_.name(), GL_R32F);
   }
@@ -148,7 +144,7 @@ void GpuExecutor::run(const StepInputs& inputs, const PassList& list, int steps)
   if (!inputs.cuts.empty()) cutMaskTexture_.bind(CUT_MASKS_UNIT);
   levels_.bind();
   surfaceContact_.bindTextures();
-  bindWatch(inputs.clock.step);
+  watch_.bind(inputs.clock.step);
 
   for (std::span<const PassCall> rest = list.passes; !rest.empty();) rest = rest.subspan(runKernel(rest));
 
@@ -270,6 +266,10 @@ void GpuExecutor::runProlongations(const StagePrograms& programs, const std::str
 
 void GpuExecutor::flush() {
   glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
+  if (watch_.isPublished()) return;
+  // What the host will ask about these steps is on its way to it while it does other things.
+  surfaceContact_.publish();
+  watch_.publish();  // with a mark behind both
 }
 
 void GpuExecutor::finish() {
@@ -335,32 +335,18 @@ bool GpuExecutor::restore(const ParticleCopy& copy) {
   return true;
 }
 
-// The row of the step after `step` others. What comes after divergence is of no interest and shares the last
-// row.
-void GpuExecutor::bindWatch(std::uint64_t step) {
-  if (step - watchBase_ >= WATCHED_STEPS) (void)findDivergence(step + 1, true);
-  watch_.bindStorageRange(WATCH_BINDING, std::min(step - watchBase_, WATCHED_STEPS - 1), 1);
-}
-
 void GpuExecutor::forgetDivergence(std::uint64_t step) {
-  static constexpr GLuint sound = NO_DIVERGENCE;
-  glClearNamedBufferData(watch_.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &sound);
-  watchBase_ = step;
-  divergence_.reset();
+  watch_.forget(step);
   selfCollision_.forgetDivergence();
 }
 
 std::optional<Divergence> GpuExecutor::findDivergence(std::uint64_t step, bool wait) {
-  if (divergence_ || !wait) return divergence_;
+  if (watch_.found() || !wait) return watch_.found();
   gl::checkContext();
+  if (!watch_.isPublished()) flush();
+  const std::optional<Divergence> found = watch_.find(step - 1);
   surfaceContact_.makeRoom();
-  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-  const std::uint64_t rows = std::min(step - watchBase_, WATCHED_STEPS);
-  const std::vector<WatchSlot> slots = watch_.download(0, rows);
-  for (std::uint64_t i = 0; i < rows && !divergence_; ++i)
-    divergence_ = firstDivergence(slots[i].row, watchBase_ + i + 1);
-  if (!divergence_) watchBase_ = step - 1;  // nothing was written: the rows serve again
-  return divergence_;
+  return found;
 }
 
 ConvergenceCounts GpuExecutor::convergenceCounts() { return convergenceOf(arrays_.scalars()); }

@@ -19,6 +19,7 @@
 #include "solver/gpu/pass_runner.h"
 #include "solver/gpu/self_collision.h"
 #include "solver/gpu/surface_contact.h"
+#include "solver/gpu/watch.h"
 
 namespace clothsim {
 
@@ -70,14 +71,10 @@ class GpuExecutor final : public Executor {
   struct alignas(256) ColorSlot {                    // every driver takes uniform offsets in multiples of 256
     LimitColor color;
   };
-  struct alignas(256) WatchSlot {  // as every driver takes storage offsets
-    WatchRow row;
-  };
   struct Copy;
 
   void setSurface(const StepInputs& inputs);
   void compile(const StepInputs& inputs, const PassList& list);
-  void bindWatch(std::uint64_t step);
   std::size_t runKernel(std::span<const PassCall> passes);
   // A stage of a kernel, with its programs by piece.
   using StagePrograms = std::vector<const gl::Program*>;
@@ -110,9 +107,7 @@ class GpuExecutor final : public Executor {
   GpuSurfaceContact surfaceContact_;
   PassRunner runner_;
 
-  gl::Buffer<WatchSlot> watch_;           // a row a step since watchBase_
-  std::uint64_t watchBase_ = 0;           // the step whose row is the first one; steps before it were sound
-  std::optional<Divergence> divergence_;  // as far as it was looked for
+  GpuWatch watch_;
 };
 
 }  // namespace clothsim

@@ -27,7 +27,7 @@ LevelsInARow rowOf(const std::vector<LevelParams>& levels, std::size_t first, st
 template <class Element>
 GpuLevels::Texels<Element> GpuLevels::texels(const char* label, const std::vector<Element>& elements,
                                              GLenum format) {
-  checkFits(elements.size(), sizeof(Element), label);
+  checkTexelsFit(elements.size(), label);
   Texels<Element> result;
   result.buffer = gl::Buffer<Element>(label, std::span<const Element>(elements));
   result.texture = gl::BufferTexture(label, result.buffer.name(), format);

@@ -14,7 +14,7 @@ GpuMeshLists::Texels GpuMeshLists::texels(const char* label, const std::vector<E
   static_assert(sizeof(Element) % sizeof(Words) == 0, "elements are whole texels");
   // A cloth without hinges, or without springs, still has something to bind.
   std::vector<Words> words(std::max<std::size_t>(1, elements.size() * sizeof(Element) / sizeof(Words)));
-  checkFits(words.size(), sizeof(Words), label);
+  checkTexelsFit(words.size(), label);
   if (!elements.empty()) std::memcpy(words.data(), elements.data(), elements.size() * sizeof(Element));
   Texels result;
   result.buffer = gl::Buffer<Words>(label, std::span<const Words>(words));
@@ -30,7 +30,7 @@ GpuMeshLists::GpuMeshLists(const Cloth& cloth) : any_(cloth.hasMesh()) {
   hinges_ = texels("hinges", lists.hinges);
   triangles_ = texels("triangles of meshes", lists.triangles);
   limited_ = texels("springs of meshes", lists.limited);
-  checkFits(lists.numbers.size(), sizeof(std::uint32_t), "numbers in lists");
+  checkTexelsFit(lists.numbers.size(), "numbers in lists");
   numbers_ = gl::Buffer<std::uint32_t>("numbers in lists", std::span<const std::uint32_t>(lists.numbers));
   numbersTexture_ = gl::BufferTexture("numbers in lists", numbers_.name(), GL_R32UI);
   places_ =

@@ -9,16 +9,19 @@
 
 namespace clothsim {
 
+// @throws OpenGlError when so many elements, of a texel each, do not fit into a storage block or a texture of
+// this driver
+void checkFits(std::size_t elements, std::size_t bytesEach, const char* what);
+// For what passes only read: a storage block may be smaller. @throws OpenGlError
+void checkTexelsFit(std::size_t texels, const char* what);
+
 struct ParticleArray {
   ParticleArray() = default;
-  ParticleArray(const std::string& label, std::size_t count)
-      : buffer(label, count), texture(label, buffer.name(), GL_RGBA32F) {}
+  // @throws OpenGlError when it does not fit into a block or a texture of this driver
+  ParticleArray(const std::string& label, std::size_t count);
 
   gl::Buffer<Particle4> buffer;
   gl::BufferTexture texture;
 };
-
-// @throws OpenGlError when so many elements do not fit into a buffer or a texture of this driver
-void checkFits(std::size_t elements, std::size_t bytesEach, const char* what);
 
 }  // namespace clothsim

@@ -14,7 +14,7 @@ void PassRunner::runTimed(const gl::Program& pass, const std::string& name, Disp
   if (flushes_) glFlush();
   if (!timer_) return;
   timer_->end();
-  addTime(times_, name, timer_->seconds());
+  timed_.push_back(name);
 }
 
 void PassRunner::run(const gl::Program& pass, const std::string& name, std::uint32_t columns,
@@ -32,12 +32,15 @@ void PassRunner::runIndirect(const gl::Program& pass, const std::string& name, s
 
 void PassRunner::startTiming() {
   timer_.emplace();
-  times_.clear();
+  timed_.clear();
 }
 
 std::vector<PassTime> PassRunner::stopTiming() {
+  std::vector<PassTime> times;
+  const std::vector<double> seconds = timer_->takeSeconds();
+  for (std::size_t i = 0; i < seconds.size(); ++i) addTime(times, timed_[i], seconds[i]);
   timer_.reset();
-  return std::move(times_);
+  return times;
 }
 
 }  // namespace clothsim

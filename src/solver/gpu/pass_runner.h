@@ -46,7 +46,7 @@ class PassRunner {
   int groupColumns_, groupRows_;
   bool flushes_;
   std::optional<gl::Timer> timer_;
-  std::vector<PassTime> times_;
+  std::vector<std::string> timed_;  // the names of the timer's spans
 };
 
 }  // namespace clothsim

@@ -108,6 +108,7 @@ void GpuSurfaceContact::setSurface(ClothSurface<float> surface, std::uint32_t pa
   if (state_.name() == 0) {
     const SurfaceState fresh = freshSurfaceState();
     state_ = gl::Buffer<SurfaceState>("surface state", std::span(&fresh, 1));
+    stateCopy_ = gl::MappedBuffer<SurfaceState>("what the surface has counted", 1);
     const std::vector<Groups> none(1, Groups{0, 1, 1});
     dispatches_ = gl::Buffer<Groups>("pair dispatches", std::span<const Groups>(none));
     params_ = gl::Buffer<SurfaceParams>("surface parameters", 1);
@@ -154,10 +155,15 @@ void GpuSurfaceContact::uploadParams() {
   params_.upload({&params, 1});
 }
 
-void GpuSurfaceContact::makeRoom() {
+void GpuSurfaceContact::publish() {
   if (!isOn()) return;
-  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-  if (!growRoom(surface_, state_.download().front())) return;
+  stateCopy_.copyFrom(state_, 0, 1);
+  hasCopy_ = true;
+}
+
+void GpuSurfaceContact::makeRoom() {
+  if (!isOn() || !hasCopy_) return;
+  if (!growRoom(surface_, stateCopy_.elements().front())) return;
   allocatePairs();
   uploadParams();
 }

@@ -11,6 +11,7 @@
 
 #include "gl/buffer.h"
 #include "gl/buffer_texture.h"
+#include "gl/mapped_buffer.h"
 #include "gl/program.h"
 #include "solver/executor.h"
 #include "solver/gpu/arrays.h"
@@ -32,7 +33,10 @@ class GpuSurfaceContact {
   // Does a pass of Domain::surface.
   void run(PassRunner& runner, PassCall call, GpuArrays& arrays);
   [[nodiscard]] ContactCounts counts() const;
-  // Makes room for what the steps so far would have needed. On both backends at the same time.
+  // Asks for a copy of what the steps so far have counted; a barrier for buffer updates stands before.
+  void publish();
+  // Makes room for what those steps would have needed, once the copy is done. On both backends at the same
+  // time.
   void makeRoom();
 
  private:
@@ -80,6 +84,8 @@ class GpuSurfaceContact {
 
   gl::Buffer<SurfaceParams> params_;
   gl::Buffer<SurfaceState> state_;
+  gl::MappedBuffer<SurfaceState> stateCopy_;  // for the host
+  bool hasCopy_ = false;
   gl::Buffer<Groups> dispatches_;  // over the pairs
   gl::Buffer<LevelSlot> levels_;   // those of boxes, then the rounds of the guard
   std::size_t boxLevels_ = 0;      // how many of them are dispatched

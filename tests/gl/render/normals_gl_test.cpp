@@ -9,7 +9,7 @@
 namespace clothsim {
 namespace {
 
-using Surface = std::function<Vec3d(double u, double v)>;  // u and v from 0 to 1
+using ParametricSurface = std::function<Vec3d(double u, double v)>;  // u and v from 0 to 1
 
 Scene sheets(int count, int columns, int rows) {
   Scene scene;
@@ -26,7 +26,8 @@ struct Measured {
 };
 
 // Of sheets laid over a surface, row by row.
-Measured measure(const Cloth& cloth, const Surface& surface, const Cuts& cuts = {}, bool strain = false) {
+Measured measure(const Cloth& cloth, const ParametricSurface& surface, const Cuts& cuts = {},
+                 bool strain = false) {
   std::vector<Particle4> positions(cloth.particleCount());
   for (const Piece& piece : cloth.pieces()) {
     for (int row = 0; row < piece.rows; ++row) {
@@ -50,7 +51,7 @@ Measured measure(const Cloth& cloth, const Surface& surface, const Cuts& cuts = 
   return {mesh.normals().download(), mesh.tangents().download()};
 }
 
-std::vector<glm::vec4> normalsOf(const Cloth& cloth, const Surface& surface) {
+std::vector<glm::vec4> normalsOf(const Cloth& cloth, const ParametricSurface& surface) {
   return measure(cloth, surface).normals;
 }
 
@@ -71,7 +72,7 @@ TEST_F(NormalsTest, OfAFlatSheetPointUpEverywhereAtBordersAndCornersToo) {
 
 TEST_F(NormalsTest, FollowAWaveToTheSecondOrderOfItsSpacing) {
   constexpr double height = 0.05, k = 12;
-  const Surface wave = [](double u, double v) {
+  const ParametricSurface wave = [](double u, double v) {
     return Vec3d{u, height * std::sin(k * u) * std::cos(k * v), v};
   };
   const auto largestError = [&](int points) {
@@ -124,7 +125,7 @@ TEST_F(NormalsTest, TellTheHollowOfAFoldFromItsRidge) {
 
 TEST_F(NormalsTest, TangentsLieInTheSurfaceAlongU) {
   const Cloth cloth(sheets(1, 41, 33));
-  const Surface wave = [](double u, double v) {
+  const ParametricSurface wave = [](double u, double v) {
     return Vec3d{u + 0.2 * v, 0.05 * std::sin(6 * u) * std::cos(5 * v), v};
   };
   const Measured measured = measure(cloth, wave);
@@ -147,7 +148,9 @@ TEST_F(NormalsTest, TangentsLieInTheSurfaceAlongU) {
 // to the edge.
 TEST_F(NormalsTest, NextToACutAreThoseOfTheirOwnSide) {
   const Cloth cloth(sheets(1, 10, 7));
-  const Surface roof = [](double u, double v) { return u < 0.5 ? Vec3d{u, u, v} : Vec3d{u + 0.1, 1 - u, v}; };
+  const ParametricSurface roof = [](double u, double v) {
+    return u < 0.5 ? Vec3d{u, u, v} : Vec3d{u + 0.1, 1 - u, v};
+  };
   Cuts cuts;
   ASSERT_TRUE(cutAlong(cuts, cloth, 0, {4.5, -1}, {4.5, 8}));
   const Measured whole = measure(cloth, roof), cut = measure(cloth, roof, cuts);
@@ -163,10 +166,10 @@ TEST_F(NormalsTest, NextToACutAreThoseOfTheirOwnSide) {
 
 TEST_F(NormalsTest, BesideThemStrainIsTheLargestOfSidesAndDiagonalsThatAreLeft) {
   const Cloth cloth(sheets(1, 11, 11));  // 1 m x 1 m
-  const Surface stretched = [](double u, double v) { return Vec3d{1.08 * u, 1, 0.97 * v}; };
+  const ParametricSurface stretched = [](double u, double v) { return Vec3d{1.08 * u, 1, 0.97 * v}; };
   for (const glm::vec4 tangent : measure(cloth, stretched, {}, true).tangents)
     EXPECT_NEAR(tangent.w, 0.08, 1e-5);
-  const Surface apart = [](double u, double v) { return Vec3d{u + (u > 0.45 ? 0.5 : 0), 1, v}; };
+  const ParametricSurface apart = [](double u, double v) { return Vec3d{u + (u > 0.45 ? 0.5 : 0), 1, v}; };
   Cuts cuts;
   cutAlong(cuts, cloth, 0, {4.5, -1}, {4.5, 12});
   EXPECT_GT(measure(cloth, apart, {}, true).tangents[4].w, 4);
