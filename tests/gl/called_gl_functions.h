@@ -15,7 +15,7 @@
   X(glDeleteProgram) X(glDeleteQueries) X(glDeleteShader) X(glDeleteSync) X(glDeleteTextures) \
   X(glDeleteVertexArrays) X(glDepthFunc) X(glDepthMask) X(glDetachShader) X(glDisable) \
   X(glDispatchCompute) X(glDispatchComputeIndirect) X(glDrawArrays) X(glDrawArraysInstanced) \
-  X(glDrawElements) X(glDrawElementsInstanced) X(glDrawElementsInstancedBaseInstance) X(glEnable) \
+  X(glDrawElements) X(glDrawElementsIndirect) X(glDrawElementsInstanced) X(glDrawElementsInstancedBaseInstance) X(glEnable) \
   X(glEnableVertexArrayAttrib) X(glEndQuery) X(glFenceSync) X(glFinish) X(glFlush) \
   X(glGenerateTextureMipmap) X(glGetAttachedShaders) X(glGetError) X(glGetGraphicsResetStatus) \
   X(glGetInteger64v) X(glGetIntegeri_v) X(glGetIntegerv) X(glGetInternalformativ) \
