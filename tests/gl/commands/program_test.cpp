@@ -47,7 +47,7 @@ TEST(Program, SaysThatTheDeviceWasResetAndEndsWithExitCodeFour) {
   // A sanitizer's library would rather come before the one that is preloaded.
   const std::string lost =
       "ASAN_OPTIONS=verify_asan_link_order=0 LOSE_CONTEXT_WHEN=/ LD_PRELOAD=" LOST_CONTEXT;
-  for (const char* command : {"run -f pinned2 --frames 3", "compare -f pinned2 --frames 3"}) {
+  for (const char* command : {"run --backend gpu -f pinned2 --frames 3", "compare -f pinned2 --frames 3"}) {
     const CommandResult result = clothsim(std::string(command) + " --resolution 8x8", lost);
     EXPECT_EQ(result.exitCode, 4) << result.output;
     EXPECT_NE(result.output.find("the OpenGL context was lost: the driver reset the GPU"), std::string::npos)

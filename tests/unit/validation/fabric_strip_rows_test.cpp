@@ -230,6 +230,7 @@ void expectStanding(Integrator integrator, const std::string& fabric, int cells,
     const std::uint32_t i = piece.particle(column, cells + 1);
     lean += (static_cast<double>(solver.position(i).z) - cloth.positions()[i].z) / (3 * height);
   }
+  if (part > 1) lean = std::abs(lean);  // both sides are alike, and it may have swung through to the other
   expectNear(
       {"standing and lying strips",
        "lean of the tip over the height, " + std::to_string(part).substr(0, 3) + " of the buckling height, " +
