@@ -104,7 +104,7 @@ TEST_F(HandsUi, ADragOnTheClothTakesItAlongToTheCursor) {
     return std::sqrt(dot(held - target, held - target));
   };
   const double soft = missedBy(1), strong = missedBy(100);
-  EXPECT_LT(soft, 0.05) << "less than a spacing, in the hand as it is";
+  EXPECT_LT(soft, 0.12) << "the hand as it is, which must not overcome strain limit and contact";
   EXPECT_LT(strong, 0.2 * soft) << "a hundred times as strong; what is left of it is the strain limit's";
 
   viewer.perform("mouseup 1");
