@@ -139,7 +139,9 @@ std::vector<std::string> sceneFilesIn(const fs::path& folder) {
   std::vector<std::string> names = jsonFilesIn(folder);
   std::erase_if(names, [&](const std::string& name) {
     try {
-      return readFile(folder / name, largestFile).find("\"cloth") == std::string::npos;
+      const std::string text = readFile(folder / name, largestFile);
+      const auto has = [&](const char* words) { return text.find(words) != std::string::npos; };
+      return has("\"clothsim-recording/") || !(has("\"cloth\"") || has("\"cloths\""));
     } catch (const Error&) {
       return true;
     }

@@ -48,8 +48,8 @@ struct BundledScene {
 };
 [[nodiscard]] std::vector<BundledScene> bundledScenes();  // by name
 
-// The names of the files in the folder that look like scenes: JSON that mentions a cloth. Files that cannot
-// be read are passed over.
+// The names of the files in the folder that look like scenes: JSON with a cloth that is no recording. Files
+// that cannot be read are passed over.
 [[nodiscard]] std::vector<std::string> sceneFilesIn(const std::filesystem::path& folder);
 
 // `--resolution`: every grid gets columns x rows points; pins keep their place on the cloth, total mass and

@@ -16,16 +16,12 @@ using Cursor = ViewerWindow::Cursor;
 constexpr double zoomPerStep = 0.88;   // factor for a step of the wheel
 constexpr double grabbedSpacings = 3;  // radius of a grab in spacings,
 constexpr double grabbedShare = 0.04;  // or as a part of the smaller side of the cloth
-// The cloth follows in an eighth of a second [1/s^2]. A hand of 1e4 that pulled the demo's sheet off its ball
-// overcame strain limit and contact (strain .63 at .2 m and 1 m/s), one of 2500 at 1 m and 5 m/s; 1600 stays
-// below .12.
-constexpr double handStrength = 1600;
-constexpr double pinReach = 10;     // distance within which a click removes a pin [pixels]
-constexpr double blowSpeed = 12;    // [m/s]
-constexpr double blowShare = 0.10;  // radius of the jet as a part of the distance to the camera's target
-constexpr double longestCut = 20;   // between two picks of a stroke [pixels]
-constexpr int mostPicks = 12;       // for one movement of the mouse
-constexpr int edgeHalvings = 4;     // bisections to find where a cut crosses the outline
+constexpr double pinReach = 10;        // distance within which a click removes a pin [pixels]
+constexpr double blowSpeed = 12;       // [m/s]
+constexpr double blowShare = 0.10;     // radius of the jet as a part of the distance to the camera's target
+constexpr double longestCut = 20;      // between two picks of a stroke [pixels]
+constexpr int mostPicks = 12;          // for one movement of the mouse
+constexpr int edgeHalvings = 4;        // bisections to find where a cut crosses the outline
 constexpr double cellsBeyondTheEdge = 1.5;  // by which a cut that leaves the cloth is extended
 
 Vec3d toVec3d(glm::vec3 v) { return {v.x, v.y, v.z}; }
@@ -141,7 +137,7 @@ void MouseTools::grab(const MouseContext& context, const Pick& pick) {
   Grab grab;
   grab.particle = pick.particle;
   grab.target = toVec3d(pick.point);
-  grab.strength = handStrength;
+  grab.strength = HAND_STRENGTH;
   grab.radius = grabRadius(context.open.cloth().pieces()[pick.piece]);
   context.act(grab, false);
 }

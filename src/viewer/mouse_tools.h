@@ -33,6 +33,10 @@ struct MouseMarks {
   std::vector<glm::vec2> stroke;  // of a cut
 };
 
+// Of the hand's spring [1/s^2]: the cloth follows in an eighth of a second. One of 1e4 that holds the demo's
+// sheet while its ball spins overcomes strain limit and contact.
+inline constexpr double HAND_STRENGTH = 1600;
+
 class MouseTools {
  public:
   struct Modifiers {

@@ -209,8 +209,9 @@ void MeasurePanel::drawConvergence() {
 
 void MeasurePanel::drawPlots(SelfCollision mode) {
   std::vector<float> times;
-  std::vector<Curve> energy{
-      {"kinetic", {0.95f, 0.62f, 0.35f, 1}, {}}, {"height", theme::accent, {}}, {"springs", theme::good, {}}};
+  std::vector<Curve> energy{{"kinetic", {0.95f, 0.62f, 0.35f, 1}, {}},
+                            {"gravity", theme::accent, {}},
+                            {"springs", theme::good, {}}};
   std::vector<Curve> strain{{"max strain", {0.93f, 0.47f, 0.55f, 1}, {}}};
   std::vector<Curve> contacts{{"pairs", theme::alert, {}}};
   for (const Sample& sample : samples_) {
@@ -231,7 +232,7 @@ void MeasurePanel::drawPlots(SelfCollision mode) {
 }
 
 void MeasurePanel::saveCurves(const std::filesystem::path& path) const {
-  std::string text = "time [s],kinetic [J],height [J],springs [J],max_strain,self_contacts\n";
+  std::string text = "time,kinetic_energy,gravity_energy,spring_energy,max_strain,self_contacts\n";
   for (const auto& [time, energies, contacts] : samples_)
     text += formatted("%.9g,%.9g,%.9g,%.9g,%.9g,%llu\n", time, energies.kinetic, energies.gravity,
                       energies.springs, energies.maxStrain, static_cast<unsigned long long>(contacts));

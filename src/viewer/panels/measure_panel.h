@@ -26,7 +26,7 @@ class MeasurePanel {
   // `look` is that of the picture. Where it shows strain by colours, a legend is drawn. Returns whether the
   // numbers of the curves are to be saved.
   [[nodiscard]] bool draw(const SessionFacts& facts, const RenderSettings& look);
-  // The curves as CSV, a line a sample. @throws InputOutputError
+  // The curves as CSV, a line a sample; names and units are those of Trace. @throws InputOutputError
   void saveCurves(const std::filesystem::path& path) const;
 
   // Takes a sample when it is time for one. `particleUnderCursor` is called then. Times the passes of a step

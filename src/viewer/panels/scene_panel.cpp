@@ -50,7 +50,10 @@ bool drawCard(const std::string& name, const gl::Texture& picture, float width, 
 
 }  // namespace
 
-void ScenePanel::remember(const std::string& path) { std::snprintf(save_, sizeof save_, "%s", path.c_str()); }
+void ScenePanel::remember(const std::string& path) {
+  std::snprintf(save_, sizeof save_, "%s", path.c_str());
+  files_ = sceneFilesIn(".");  // a scene may have come
+}
 
 void ScenePanel::readScenes() {
   if (read_) return;
@@ -58,8 +61,13 @@ void ScenePanel::readScenes() {
   files_ = sceneFilesIn(".");
   try {
     for (BundledScene& scene : bundledScenes()) cards_.push_back({std::move(scene), {}});
-    for (Card& card : cards_) card.picture = loadPicture(card.scene.thumbnail);
-  } catch (const Error&) {  // one of the files is broken or missing; the command line tells more
+  } catch (const Error&) {  // one of the files is broken; the command line tells more
+  }
+  for (Card& card : cards_) {
+    try {
+      card.picture = loadPicture(card.scene.thumbnail);
+    } catch (const InputOutputError&) {  // its name alone is shown
+    }
   }
 }
 

@@ -112,7 +112,9 @@ TEST(SceneFilesIn, ListsJsonThatMentionsACloth) {
   const test::TemporaryFolder folder;
   writeFileAtomically(folder / "b.json", "{\"cloth\": {}}");
   writeFileAtomically(folder / "a.json", "{\"cloths\": [{}]}");
-  writeFileAtomically(folder / "recording.json", "{\"events\": []}");
+  writeFileAtomically(folder / "recording.json",
+                      R"({"schema": "clothsim-recording/1", "scene": {"cloth": {}}})");
+  writeFileAtomically(folder / "settings.json", R"({"clothsim": 1})");
   writeFileAtomically(folder / "notes.txt", "\"cloth\"");
   fs::create_directory(folder / "c.json");
   EXPECT_EQ(sceneFilesIn(folder.path()), (std::vector<std::string>{"a.json", "b.json"}));
