@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "core/exact_math.h"
 #include "solver/cpu/arrays.h"
@@ -87,16 +88,27 @@ INLINE void computeSprings(const PassArguments<Real>& arguments, std::uint32_t s
   if (!areThere) rows.clear(slot, row);
 }
 
-// f[i] + g[i], or f[i] - g[i].
-template <bool plus, class Real>
-INLINE void addRow(const Arrays<Real>& f, const Arrays<Real>& g, std::ptrdiff_t shift, std::ptrdiff_t count) {
-  const auto add = [=](Real * to, const Real* from) __attribute__((always_inline)) {
+// A row of forces by the columns of their owners, and how far from a particle to the owner.
+template <class Real>
+struct Term {
+  Arrays<Real> of;
+  std::ptrdiff_t shift;
+};
+
+// The sums, or 0, + g or - g for each of the terms, in their order; sums stay in registers meanwhile.
+template <bool fromZero, bool... plus, class Real, std::size_t... k>
+INLINE void addTerms(const Arrays<Real>& sums, std::ptrdiff_t count,
+                     const std::array<Term<Real>, sizeof...(k)>& terms, std::index_sequence<k...>) {
+  for (Real* Arrays<Real>::*const component : {&Arrays<Real>::x, &Arrays<Real>::y, &Arrays<Real>::z}) {
+    Real* const to = sums.*component;
+    const Real* const from[]{terms[k].of.*component + terms[k].shift...};
 #pragma GCC ivdep
-    for (std::ptrdiff_t c = 0; c < count; ++c) to[c] = plus ? to[c] + from[c] : to[c] - from[c];
-  };
-  add(f.x, g.x + shift);
-  add(f.y, g.y + shift);
-  add(f.z, g.z + shift);
+    for (std::ptrdiff_t c = 0; c < count; ++c) {
+      Real sum = fromZero ? Real(0) : to[c];
+      ((sum = plus ? sum + from[k][c] : sum - from[k][c]), ...);
+      to[c] = sum;
+    }
+  }
 }
 
 template <class Real>
@@ -117,10 +129,15 @@ INLINE void addSprings(const PassArguments<Real>& arguments, int row, ForceRows<
   const Range particles = rangeOf(arguments.step, row);
   const Arrays<Real> forces = forcesOf(arguments, particles);
   const std::ptrdiff_t count = particles.end - particles.begin;
-  for (const IncidentSpring& incident : incidentSprings)
-    incident.owned
-        ? addRow<true>(forces, rows.row(incident.slot, row), 0, count)
-        : addRow<false>(forces, rows.row(incident.slot, row + incident.rows), incident.columns, count);
+  const auto add = [&]<std::size_t... k>(std::index_sequence<k...> all) __attribute__((always_inline)) {
+    const auto term = [&](const IncidentSpring& incident) __attribute__((always_inline)) {
+      return incident.owned ? Term<Real>{rows.row(incident.slot, row), 0}
+                            : Term<Real>{rows.row(incident.slot, row + incident.rows), incident.columns};
+    };
+    addTerms<true, incidentSprings[k].owned...>(
+        forces, count, std::array<Term<Real>, sizeof...(k)>{term(incidentSprings[k])...}, all);
+  };
+  add(std::make_index_sequence<incidentSprings.size()>());
 }
 
 // What springs that are longer than limitLength add to their forces in `implicit`.
@@ -271,15 +288,14 @@ INLINE void addWind(const PassArguments<Real>& arguments, int row, ForceRows<Rea
         });
   const Range particles = rangeOf(arguments.step, row);
   const Arrays<Real> forces = forcesOf(arguments, particles);
-  const auto add = [&](std::size_t kind, int cells, int shift) __attribute__((always_inline)) {
-    addRow<true>(forces, rows.row(kind, cells), shift, particles.end - particles.begin);
+  const auto term = [&](std::size_t kind, int cells, std::ptrdiff_t shift) __attribute__((always_inline)) {
+    return Term<Real>{rows.row(kind, cells), shift};
   };
-  add(lower, row - 1, -1);
-  add(upper, row - 1, 0);
-  add(lower, row - 1, 0);
-  add(upper, row, -1);
-  add(lower, row, -1);
-  add(upper, row, 0);
+  addTerms<false, true, true, true, true, true, true>(
+      forces, particles.end - particles.begin,
+      std::array<Term<Real>, 6>{term(lower, row - 1, -1), term(upper, row - 1, 0), term(lower, row - 1, 0),
+                                term(upper, row, -1), term(lower, row, -1), term(upper, row, 0)},
+      std::make_index_sequence<6>());
 }
 
 template <class Real>
@@ -360,8 +376,8 @@ void addExternalForces(const PassArguments<Real>& arguments, int row) {
 
 template <class Real>
 INLINE void gatherForcesRow(const PassArguments<Real>& arguments, int row, ForceRows<Real>& rows) {
-  clearForces(arguments, row);
   if (arguments.step.isMesh != 0) {
+    clearForces(arguments, row);
     gatherMeshForces(arguments, row);
   } else {
     arguments.cutMasks != nullptr ? addElasticForces<true>(arguments, row, rows)
