@@ -1,20 +1,15 @@
 #include "solver/cpu/cpu_executor.h"
 
 #include <algorithm>
-#include <array>
-#include <atomic>
 #include <cassert>
 #include <chrono>
-#include <new>
 #include <utility>
 
 #include "core/exact_math.h"
 #include "core/thread_team.h"
 #include "solver/cpu/arrays.h"
 #include "solver/cpu/fixed_sum.h"
-#include "solver/cpu/force_rows.h"
 #include "solver/cpu/multilevel.h"
-#include "solver/cpu/rows.h"
 
 namespace clothsim {
 namespace {
@@ -22,62 +17,6 @@ namespace {
 // Sums below this count as 0: their reciprocal would not be safe.
 template <class Real>
 constexpr Real leastSum = static_cast<Real>(0x1p-110f);
-
-// A thread begins with rows about its first one.
-constexpr std::uint32_t LEAST_ROWS_AT_ONCE = 8;
-
-// What a pass does with one row of a grid, or of a mesh (rows.h).
-template <class Real>
-using RowPass = void (*)(const cpu::ImplicitArguments<Real>&, int row, cpu::ForceRows<Real>&);
-
-template <class Real>
-RowPass<Real> rowPassOf(Pass pass) {
-  using Arguments = cpu::ImplicitArguments<Real>;
-  using Rows = cpu::ForceRows<Real>;
-  switch (pass) {
-    case Pass::checkStart:
-      return [](const Arguments& piece, int row, Rows&) { cpu::checkStart(piece.step, row); };
-    case Pass::kick:
-      return [](const Arguments& piece, int row, Rows&) { cpu::kick(piece.step, row); };
-    case Pass::forces:
-      return [](const Arguments& piece, int row, Rows& rows) { cpu::gatherForces(piece.step, row, rows); };
-    case Pass::integrate:
-      return [](const Arguments& piece, int row, Rows&) { cpu::integrate(piece.step, row); };
-    case Pass::collide:
-      return [](const Arguments& piece, int row, Rows&) { cpu::collide(piece.step, row); };
-    case Pass::watchLimit:
-      return [](const Arguments& piece, int row, Rows&) { cpu::watchLimit(piece.step, row); };
-    case Pass::begin:
-      return [](const Arguments& piece, int row, Rows&) { cpu::begin(piece, row); };
-    case Pass::findPlanes:
-      return [](const Arguments& piece, int row, Rows&) {
-        cpu::findPlanes(piece.step, piece.own.iterate.positions, piece.own.planes, row);
-      };
-    case Pass::predictPlanes:
-      return [](const Arguments& piece, int row, Rows&) { cpu::predictPlanes(piece, row); };
-    case Pass::elasticForces:
-      return [](const Arguments& piece, int row, Rows& rows) { cpu::gatherElasticForces(piece, row, rows); };
-    case Pass::linearize:
-      return [](const Arguments& piece, int row, Rows&) { cpu::linearize(piece, row); };
-    case Pass::updateDirection:
-      return [](const Arguments& piece, int row, Rows&) { cpu::updateDirection(piece, row); };
-    case Pass::multiply:
-      return [](const Arguments& piece, int row, Rows&) { cpu::multiply(piece, row); };
-    case Pass::updateSolution:
-      return [](const Arguments& piece, int row, Rows&) { cpu::updateSolution(piece, row); };
-    case Pass::tryLengths:
-      return [](const Arguments& piece, int row, Rows&) { cpu::tryLengths(piece, row); };
-    case Pass::accept:
-      return [](const Arguments& piece, int row, Rows&) { cpu::accept(piece, row); };
-    case Pass::end:
-      return [](const Arguments& piece, int row, Rows&) { cpu::end(piece, row); };
-    case Pass::remember:
-      return [](const Arguments& piece, int row, Rows&) { cpu::remember(piece, row); };
-    default:
-      assert(false && "this pass does not run over rows");
-      return nullptr;
-  }
-}
 
 }  // namespace
 
@@ -108,6 +47,7 @@ CpuExecutor<Real>::CpuExecutor(const Cloth& cloth, bool sweeps)
       sweeps_(sweeps),
       restLengths_(measureRestLengths<Real>(cloth)),
       lists_(makeMeshLists<Real>(cloth)),
+      rowPasses_(cloth),
       selfCollision_(cloth) {
   const std::size_t count = cloth.particleCount();
   for (CpuState<Real>* state : {&particles_.state, &after_}) {
@@ -120,7 +60,6 @@ CpuExecutor<Real>::CpuExecutor(const Cloth& cloth, bool sweeps)
     cpu::put(particles_.state.positions, static_cast<std::ptrdiff_t>(i), startPosition<Real>(cloth, i));
     particles_.inverseMasses[i] = static_cast<Real>(cloth.inverseMasses()[i]);
   }
-  for (const Piece& piece : cloth.pieces()) limitColors_.push_back(makeLimitColors(piece));
 }
 
 template <class Real>
@@ -193,7 +132,8 @@ void CpuExecutor<Real>::run(const StepInputs& inputs, const PassList& list, int)
   for (std::size_t piece = 0; piece < cloth_->pieces().size(); ++piece)
     pieces_.push_back({argumentsOf(inputs, piece), implicit_});
   for (std::span<const PassCall> rest = list.passes; !rest.empty();) {
-    const std::size_t count = sweeps_ ? sweepLength(rest) : 1;
+    // Timed, so that each has its own time, passes do not go together further than a row of their own.
+    const std::size_t count = !sweeps_ ? 1 : isTimed_ ? sweepLength(rest) : cpu::waveLength(rest);
     if (!isSkipped(rest.front().traits().gate)) runSweep(rest.first(count));
     rest = rest.subspan(count);
   }
@@ -220,10 +160,8 @@ void CpuExecutor<Real>::runSweep(std::span<const PassCall> passes) {
   switch (first.traits().domain) {
     case Domain::gridPoints:
     case Domain::particles:
-      runByRows(passes);
-      break;
     case Domain::springs:
-      runOnColor(first.index);
+      rowPasses_.run(passes, pieces_);
       break;
     case Domain::coarseVertices:
     case Domain::coarseBlocks:
@@ -241,42 +179,6 @@ void CpuExecutor<Real>::runSweep(std::span<const PassCall> passes) {
   if (isTimed_)
     addTime(times_, nameOf(passes),
             std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
-}
-
-template <class Real>
-void CpuExecutor<Real>::runByRows(std::span<const PassCall> passes) {
-  std::array<RowPass<Real>, PASS_COUNT> rowPasses;
-  for (std::size_t k = 0; k < passes.size(); ++k) rowPasses[k] = rowPassOf<Real>(passes[k].pass);
-  std::atomic<bool> lacksMemory = false;  // threads must not throw
-  for (const cpu::ImplicitArguments<Real>& piece : pieces_) {
-    const Piece& lattice = cloth_->pieces()[piece.step.step.piece];
-    const int rows = cpu::rowsOf(lattice);
-    ThreadTeam::shared().forEachRange(0, static_cast<std::uint32_t>(rows),
-                                      std::max(rowsAtOnce(lattice), LEAST_ROWS_AT_ONCE),
-                                      [&](std::uint32_t begin, std::uint32_t end) {
-                                        thread_local cpu::ForceRows<Real> forceRows;
-                                        if (!forceRows.begin(lattice.isMesh ? 0 : lattice.columns)) {
-                                          lacksMemory = true;
-                                          return;
-                                        }
-                                        for (std::uint32_t row = begin; row < end; ++row)
-                                          for (std::size_t k = 0; k < passes.size(); ++k)
-                                            rowPasses[k](piece, static_cast<int>(row), forceRows);
-                                      });
-  }
-  if (lacksMemory) throw std::bad_alloc();
-}
-
-template <class Real>
-void CpuExecutor<Real>::runOnColor(std::size_t index) {
-  for (std::size_t piece = 0; piece < pieces_.size(); ++piece) {
-    if (index >= limitColors_[piece].size()) continue;
-    const Piece& lattice = cloth_->pieces()[piece];
-    const LimitColor& color = limitColors_[piece][index];
-    const std::uint32_t rows = cpu::limitRows(lattice, color);
-    ThreadTeam::shared().forEach(0, rows, rowsAtOnce(lattice),
-                                 [&](std::uint32_t j) { cpu::limitStrain(pieces_[piece].step, color, j); });
-  }
 }
 
 template <class Real>

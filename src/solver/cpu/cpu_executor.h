@@ -1,5 +1,6 @@
-// Executes passes on the CPU, with all threads: row by row, neighbouring passes in one sweep where they allow
-// it. CpuExecutor<float> is the bitwise twin of the GPU's, CpuExecutor<double> checks the physics.
+// Executes passes on the CPU, with all threads: row by row, several passes in one go where they allow it
+// (row_passes.h). CpuExecutor<float> is the bitwise twin of the GPU's, CpuExecutor<double> checks the
+// physics.
 #pragma once
 
 #include <memory>
@@ -11,6 +12,7 @@
 #include "solver/cpu/cpu_state.h"
 #include "solver/cpu/implicit_passes.h"
 #include "solver/cpu/passes.h"
+#include "solver/cpu/row_passes.h"
 #include "solver/cpu/self_collision.h"
 #include "solver/cpu/surface_contact.h"
 #include "solver/executor.h"
@@ -20,8 +22,8 @@ namespace clothsim {
 template <class Real>
 class CpuExecutor final : public Executor {
  public:
-  // `cloth` must outlive it. With `sweeps` a row goes through all passes that can share a sweep before the
-  // next one; the bits are the same either way.
+  // `cloth` must outlive it. With `sweeps` passes go down the rows together where they can; the bits are the
+  // same either way.
   CpuExecutor(const Cloth& cloth, bool sweeps);
 
   void prepare(const StepInputs& inputs, const PassList& list) override;
@@ -63,8 +65,6 @@ class CpuExecutor final : public Executor {
 
   [[nodiscard]] cpu::PassArguments<Real> argumentsOf(const StepInputs& inputs, std::size_t piece);
   void runSweep(std::span<const PassCall> passes);
-  void runByRows(std::span<const PassCall> passes);
-  void runOnColor(std::size_t color);
   void runContacts(PassCall call);
   void setSurface(const StepInputs& inputs);
   void sum(Pass pass);
@@ -81,13 +81,13 @@ class CpuExecutor final : public Executor {
   WatchRow watch_ = soundWatchRow();
   std::vector<Real> restLengths_;
   MeshLists<Real> lists_;
-  std::vector<std::vector<LimitColor>> limitColors_;     // by grid
   std::shared_ptr<const std::vector<float>> distances_;  // samples of the mesh colliders' grids
   Components<Real> pinStarts_;                           // empty without paths
   StepParameters<Real> parameters_;                      // of this step,
   std::vector<cpu::ImplicitArguments<Real>> pieces_;     // and what passes get, by grid
   cpu::ImplicitState<Real> implicit_;                    // empty until an implicit step needs it
   std::vector<Real> partialSums_;
+  cpu::RowPasses<Real> rowPasses_;
   cpu::SelfCollision<Real> selfCollision_;
   cpu::SurfaceContact<Real> surfaceContact_;
   bool isTimed_ = false;

@@ -40,7 +40,7 @@ INLINE auto computeSprings(const PassArguments<Real>& arguments, Range particles
   const Real *x = arguments.before.positions.x.data(), *y = arguments.before.positions.y.data(),
              *z = arguments.before.positions.z.data();
   Real *fx = row.x - start, *fy = row.y - start, *fz = row.z - start;
-  auto longest = bitsOf(Real(0));
+  decltype(bitsOf(Real(0))) longest[16]{};  // of every sixteenth: a vector, which is reduced once a row
   forEachSixteen(
       particles, [&](std::ptrdiff_t begin, std::ptrdiff_t end) __attribute__((always_inline)) {
 #pragma GCC ivdep
@@ -51,10 +51,10 @@ INLINE auto computeSprings(const PassArguments<Real>& arguments, Range particles
           fx[i] = isCut ? Real(0) : f.x;
           fy[i] = isCut ? Real(0) : f.y;
           fz[i] = isCut ? Real(0) : f.z;
-          longest = larger(longest, bitsOf(isCut ? Real(0) : dot(b - a, b - a)));
+          longest[i - begin] = larger(longest[i - begin], bitsOf(isCut ? Real(0) : dot(b - a, b - a)));
         }
       });
-  return longest;
+  return *std::max_element(std::begin(longest), std::end(longest));
 }
 
 // Particles of the row whose own springs in `slot` are too long.

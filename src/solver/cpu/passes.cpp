@@ -200,15 +200,17 @@ INLINE bool anyTooLong(const PassArguments<Real>& arguments, Range owners, std::
   return any != 0;
 }
 
-// Most springs are not too long: sixteen owners are looked at together first.
+// Most springs are not too long: a row of owners is looked at first, then sixteen of them together.
 template <class Real, class RestLengths>
-INLINE void limitRow(const PassArguments<Real>& arguments, const LimitColor& color, std::ptrdiff_t first,
-                     RestLengths rest) {
+INLINE void limitOwners(const PassArguments<Real>& arguments, const LimitColor& color, std::ptrdiff_t first,
+                        RestLengths rest) {
   constexpr std::uint32_t lookedAt = 16;
   const StepParams<Real>& step = arguments.step;
   const SpringOffset& offset = springOffsets[color.slot];
   const std::ptrdiff_t other = indexOffset(step, offset.columns, offset.rows);
   const Real nominal = step.springs[color.slot].limitLength;
+  const Range owners{first + color.firstColumn, first + color.endColumn};
+  if (!anyTooLong(arguments, owners, other, rest, nominal)) return;
   for (std::uint32_t begin = color.firstColumn; begin < color.endColumn; begin += lookedAt) {
     const std::uint32_t end = std::min(begin + lookedAt, color.endColumn);
     if (!anyTooLong(arguments, {first + begin, first + end}, other, rest, nominal)) continue;
@@ -222,20 +224,27 @@ INLINE void limitRow(const PassArguments<Real>& arguments, const LimitColor& col
 }
 
 template <class Real>
-INLINE void limitGrid(const PassArguments<Real>& arguments, const LimitColor& color, std::uint32_t j) {
+INLINE void limitGridRow(const PassArguments<Real>& arguments, const LimitColor& color, int row) {
   const StepParams<Real>& step = arguments.step;
-  const std::uint32_t row = color.firstRow + color.rowStep * (j / color.rowRun) + j % color.rowRun;
-  const auto first = static_cast<std::ptrdiff_t>(step.firstParticle) +
-                     static_cast<std::ptrdiff_t>(row) * static_cast<std::ptrdiff_t>(step.columns);
+  const std::ptrdiff_t first = rangeOf(step, row).begin;
   if (step.useRestLengthTable != 0)
-    limitRow(arguments, color, first,
-             arguments.restLengths + static_cast<std::size_t>(color.slot) * step.totalParticles);
+    limitOwners(arguments, color, first,
+                arguments.restLengths + static_cast<std::size_t>(color.slot) * step.totalParticles);
   else
-    limitRow(arguments, color, first, NominalLength<Real>{step.springs[color.slot].restLength});
+    limitOwners(arguments, color, first, NominalLength<Real>{step.springs[color.slot].restLength});
 }
-VECTOR_CLONES void limitFloatGrid(const PassArguments<float>& arguments, const LimitColor& color,
-                                  std::uint32_t j) {
-  limitGrid(arguments, color, j);
+VECTOR_CLONES void limitFloatRow(const PassArguments<float>& arguments, const LimitColor& color, int row) {
+  limitGridRow(arguments, color, row);
+}
+
+// Row number j of those that the colour has owners in, and whether a row is one of them.
+int ownerRow(const LimitColor& color, std::uint32_t j) {
+  return static_cast<int>(color.firstRow + color.rowStep * (j / color.rowRun) + j % color.rowRun);
+}
+bool hasOwners(const LimitColor& color, int row) {
+  const int place = row - static_cast<int>(color.firstRow);
+  return place >= 0 && row < static_cast<int>(color.endRow) &&
+         static_cast<std::uint32_t>(place) % color.rowStep < color.rowRun;
 }
 
 template <class Real>
@@ -271,13 +280,20 @@ void kick(const PassArguments<Real>& arguments, int row) {
   watchVelocities(arguments, PASS_KICK, row);
 }
 
+void limitRow(const PassArguments<float>& arguments, const LimitColor& color, int row) {
+  if (hasOwners(color, row)) limitFloatRow(arguments, color, row);
+}
+void limitRow(const PassArguments<double>& arguments, const LimitColor& color, int row) {
+  if (hasOwners(color, row)) limitGridRow(arguments, color, row);
+}
+
 void limitStrain(const PassArguments<float>& arguments, const LimitColor& color, std::uint32_t j) {
   arguments.step.isMesh != 0 ? limitMesh(arguments, color, color.firstColumn + j * MESH_ROW)
-                             : limitFloatGrid(arguments, color, j);
+                             : limitFloatRow(arguments, color, ownerRow(color, j));
 }
 void limitStrain(const PassArguments<double>& arguments, const LimitColor& color, std::uint32_t j) {
   arguments.step.isMesh != 0 ? limitMesh(arguments, color, color.firstColumn + j * MESH_ROW)
-                             : limitGrid(arguments, color, j);
+                             : limitGridRow(arguments, color, ownerRow(color, j));
 }
 
 std::uint32_t limitRows(const Piece& piece, const LimitColor& color) {

@@ -76,6 +76,9 @@ void movePins(const PassArguments<Real>& arguments, int row);
 template <class Real>
 void kick(const PassArguments<Real>& arguments, int row);
 
+// The springs of the colour that particles of a row of a grid own; works in place on `after`.
+void limitRow(const PassArguments<float>& arguments, const LimitColor& color, int row);
+void limitRow(const PassArguments<double>& arguments, const LimitColor& color, int row);
 // Row j of the colour's owners, or of a mesh its springs from j MESH_ROW on; works in place on `after`.
 void limitStrain(const PassArguments<float>& arguments, const LimitColor& color, std::uint32_t j);
 void limitStrain(const PassArguments<double>& arguments, const LimitColor& color, std::uint32_t j);

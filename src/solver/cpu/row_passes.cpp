@@ -1,0 +1,191 @@
+#include "solver/cpu/row_passes.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cassert>
+#include <new>
+
+#include "core/thread_team.h"
+#include "solver/cpu/collide.h"
+#include "solver/cpu/passes.h"
+#include "solver/cpu/rows.h"
+
+namespace clothsim::cpu {
+namespace {
+
+// A thread begins with rows about its first one.
+constexpr std::uint32_t LEAST_ROWS_AT_ONCE = 8;
+// Less than that is not worth a thread.
+constexpr int LEAST_PARTICLES = 1024;
+// So that a thread which does not get its core holds up less.
+constexpr int BANDS_A_THREAD = 2;
+// Plans are few: those of a step, and of what happens between steps.
+constexpr std::size_t MOST_PLANS = 64;
+
+template <class Real>
+bool beginRows(ForceRows<Real>& rows, const Piece& lattice) {
+  return rows.begin(lattice.isMesh ? 0 : lattice.columns);
+}
+
+}  // namespace
+
+template <class Real>
+RowPasses<Real>::RowPasses(const Cloth& cloth) : cloth_(&cloth) {
+  for (const Piece& piece : cloth.pieces()) limitColors_.push_back(makeLimitColors(piece));
+}
+
+template <class Real>
+auto RowPasses<Real>::rowPassOf(Pass pass) -> RowPass {
+  using Arguments = ImplicitArguments<Real>;
+  using Rows = ForceRows<Real>;
+  switch (pass) {
+    case Pass::checkStart:
+      return [](const Arguments& piece, int row, Rows&) { cpu::checkStart(piece.step, row); };
+    case Pass::kick:
+      return [](const Arguments& piece, int row, Rows&) { cpu::kick(piece.step, row); };
+    case Pass::forces:
+      return [](const Arguments& piece, int row, Rows& rows) { cpu::gatherForces(piece.step, row, rows); };
+    case Pass::integrate:
+      return [](const Arguments& piece, int row, Rows&) { cpu::integrate(piece.step, row); };
+    case Pass::collide:
+      return [](const Arguments& piece, int row, Rows&) { cpu::collide(piece.step, row); };
+    case Pass::watchLimit:
+      return [](const Arguments& piece, int row, Rows&) { cpu::watchLimit(piece.step, row); };
+    case Pass::begin:
+      return [](const Arguments& piece, int row, Rows&) { cpu::begin(piece, row); };
+    case Pass::findPlanes:
+      return [](const Arguments& piece, int row, Rows&) {
+        cpu::findPlanes(piece.step, piece.own.iterate.positions, piece.own.planes, row);
+      };
+    case Pass::predictPlanes:
+      return [](const Arguments& piece, int row, Rows&) { cpu::predictPlanes(piece, row); };
+    case Pass::elasticForces:
+      return [](const Arguments& piece, int row, Rows& rows) { cpu::gatherElasticForces(piece, row, rows); };
+    case Pass::linearize:
+      return [](const Arguments& piece, int row, Rows&) { cpu::linearize(piece, row); };
+    case Pass::updateDirection:
+      return [](const Arguments& piece, int row, Rows&) { cpu::updateDirection(piece, row); };
+    case Pass::multiply:
+      return [](const Arguments& piece, int row, Rows&) { cpu::multiply(piece, row); };
+    case Pass::updateSolution:
+      return [](const Arguments& piece, int row, Rows&) { cpu::updateSolution(piece, row); };
+    case Pass::tryLengths:
+      return [](const Arguments& piece, int row, Rows&) { cpu::tryLengths(piece, row); };
+    case Pass::accept:
+      return [](const Arguments& piece, int row, Rows&) { cpu::accept(piece, row); };
+    case Pass::end:
+      return [](const Arguments& piece, int row, Rows&) { cpu::end(piece, row); };
+    case Pass::remember:
+      return [](const Arguments& piece, int row, Rows&) { cpu::remember(piece, row); };
+    default:
+      assert(false && "this pass does not run over rows");
+      return nullptr;
+  }
+}
+
+template <class Real>
+auto RowPasses<Real>::planOf(std::span<const PassCall> passes, std::size_t piece) -> const Plan& {
+  const auto known = std::find_if(plans_.begin(), plans_.end(), [&](const Plan& plan) {
+    return plan.piece == piece &&
+           std::equal(passes.begin(), passes.end(), plan.passes.begin(), plan.passes.end());
+  });
+  if (known != plans_.end()) return *known;
+  if (plans_.size() == MOST_PLANS) plans_.clear();
+  Plan plan{{passes.begin(), passes.end()}, piece, makeWave(passes, limitColors_[piece]), {}};
+  for (const WavePass& pass : plan.wave.passes)
+    plan.works.push_back(pass.color != nullptr ? nullptr : rowPassOf(pass.call.pass));
+  return plans_.emplace_back(std::move(plan));
+}
+
+template <class Real>
+void RowPasses<Real>::run(std::span<const PassCall> passes,
+                          const std::vector<ImplicitArguments<Real>>& pieces) {
+  for (std::size_t piece = 0; piece < pieces.size(); ++piece) runOn(piece, passes, pieces[piece]);
+}
+
+// How many bands threads take of a grid; 0 where these would be fewer than the grid keeps busy pass by pass.
+template <class Real>
+int RowPasses<Real>::bandsOf(const Wave& wave, const Piece& lattice) const {
+  const int threads = ThreadTeam::shared().threads();
+  const int busy = std::min(threads, lattice.columns * lattice.rows / LEAST_PARTICLES);
+  if (busy <= 1) return 1;
+  const int bands = std::min(BANDS_A_THREAD * busy, lattice.rows / wave.leastBand());
+  return bands > 1 && 2 * bands >= busy ? bands : 0;
+}
+
+template <class Real>
+void RowPasses<Real>::runOn(std::size_t piece, std::span<const PassCall> passes,
+                            const ImplicitArguments<Real>& arguments) {
+  const Piece& lattice = cloth_->pieces()[piece];
+  const std::size_t ownRows = sweepLength(passes);
+  if (ownRows < passes.size() && !lattice.isMesh) {
+    const Plan& plan = planOf(passes, piece);
+    const int bands = bandsOf(plan.wave, lattice);
+    if (bands > 0) return runWave(plan, bands, arguments);
+  }
+  if (passes.front().traits().domain != Domain::springs)
+    runSweep(planOf(passes.first(ownRows), piece), arguments);
+  else if (passes.front().index < limitColors_[piece].size())
+    runColor(piece, limitColors_[piece][passes.front().index], arguments);
+  if (ownRows < passes.size()) runOn(piece, passes.subspan(ownRows), arguments);
+}
+
+template <class Real>
+void RowPasses<Real>::runSweep(const Plan& plan, const ImplicitArguments<Real>& arguments) {
+  const Piece& lattice = cloth_->pieces()[plan.piece];
+  std::atomic<bool> lacksMemory = false;  // threads must not throw
+  ThreadTeam::shared().forEachRange(0, static_cast<std::uint32_t>(rowsOf(lattice)),
+                                    std::max(rowsAtOnce(lattice), LEAST_ROWS_AT_ONCE),
+                                    [&](std::uint32_t begin, std::uint32_t end) {
+                                      thread_local ForceRows<Real> forceRows;
+                                      if (!beginRows(forceRows, lattice)) {
+                                        lacksMemory = true;
+                                        return;
+                                      }
+                                      for (std::uint32_t row = begin; row < end; ++row)
+                                        for (const RowPass work : plan.works)
+                                          work(arguments, static_cast<int>(row), forceRows);
+                                    });
+  if (lacksMemory) throw std::bad_alloc();
+}
+
+template <class Real>
+void RowPasses<Real>::runColor(std::size_t piece, const LimitColor& color,
+                               const ImplicitArguments<Real>& arguments) {
+  const Piece& lattice = cloth_->pieces()[piece];
+  ThreadTeam::shared().forEach(0, limitRows(lattice, color), rowsAtOnce(lattice),
+                               [&](std::uint32_t j) { limitStrain(arguments.step, color, j); });
+}
+
+template <class Real>
+void RowPasses<Real>::runWave(const Plan& plan, int bands, const ImplicitArguments<Real>& arguments) {
+  const Piece& lattice = cloth_->pieces()[plan.piece];
+  const auto firstRow = [&](std::uint32_t band) {
+    return static_cast<int>(std::int64_t{lattice.rows} * band / bands);
+  };
+  std::atomic<bool> lacksMemory = false;
+  std::array<std::atomic<bool>, BANDS_A_THREAD * ThreadTeam::MOST_THREADS> isOneSideDone{};  // by seam
+  const auto runBands = [&](std::uint32_t begin, std::uint32_t end) {
+    thread_local ForceRows<Real> forceRows;
+    if (!beginRows(forceRows, lattice)) lacksMemory = true;
+    if (lacksMemory) return;
+    const auto work = [&](std::size_t k, int row) {
+      const LimitColor* color = plan.wave.passes[k].color;
+      color != nullptr ? limitRow(arguments.step, *color, row) : plan.works[k](arguments, row, forceRows);
+    };
+    runBand(plan.wave, firstRow(begin), firstRow(end), lattice.rows, work);
+    for (const std::uint32_t seam : {begin, end}) {
+      const bool isInside = seam > 0 && seam < static_cast<std::uint32_t>(bands);
+      if (!isInside || !isOneSideDone[seam].exchange(true, std::memory_order_acq_rel)) continue;
+      runSeam(plan.wave, firstRow(seam), work);
+    }
+  };
+  ThreadTeam::shared().forEachRange(0, static_cast<std::uint32_t>(bands), 1, runBands);
+  if (lacksMemory) throw std::bad_alloc();
+}
+
+template class RowPasses<float>;
+template class RowPasses<double>;
+
+}  // namespace clothsim::cpu

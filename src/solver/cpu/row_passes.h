@@ -1,0 +1,51 @@
+// Runs those passes on the CPU that go down the rows of a cloth, on all threads: several in one go where they
+// allow it (wave.h).
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "cloth/cloth.h"
+#include "solver/cpu/force_rows.h"
+#include "solver/cpu/implicit_passes.h"
+#include "solver/cpu/wave.h"
+
+namespace clothsim::cpu {
+
+template <class Real>
+class RowPasses {
+ public:
+  explicit RowPasses(const Cloth& cloth);  // which must outlive it
+
+  // One sweep, or one wave, over all cloths; `pieces` are what passes get, by cloth. @throws std::bad_alloc
+  void run(std::span<const PassCall> passes, const std::vector<ImplicitArguments<Real>>& pieces);
+
+ private:
+  // What a pass does with one row of a grid, or of a mesh (rows.h).
+  using RowPass = void (*)(const ImplicitArguments<Real>&, int row, ForceRows<Real>&);
+  // A wave, which does not change from step to step.
+  struct Plan {
+    std::vector<PassCall> passes;
+    std::size_t piece;
+    Wave wave;
+    std::vector<RowPass> works;  // by pass of the wave; null for colours
+  };
+
+  [[nodiscard]] static RowPass rowPassOf(Pass pass);
+  [[nodiscard]] const Plan& planOf(std::span<const PassCall> passes, std::size_t piece);
+  [[nodiscard]] int bandsOf(const Wave& wave, const Piece& lattice) const;
+  void runOn(std::size_t piece, std::span<const PassCall> passes, const ImplicitArguments<Real>& arguments);
+  void runSweep(const Plan& plan, const ImplicitArguments<Real>& arguments);
+  void runWave(const Plan& plan, int bands, const ImplicitArguments<Real>& arguments);
+  void runColor(std::size_t piece, const LimitColor& color, const ImplicitArguments<Real>& arguments);
+
+  const Cloth* cloth_;
+  std::vector<std::vector<LimitColor>> limitColors_;  // by cloth
+  std::vector<Plan> plans_;
+};
+
+extern template class RowPasses<float>;
+extern template class RowPasses<double>;
+
+}  // namespace clothsim::cpu
