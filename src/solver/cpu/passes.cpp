@@ -1,6 +1,7 @@
 #include "solver/cpu/passes.h"
 
 #include <algorithm>
+#include <bit>
 #include <tuple>
 
 #include "core/exact_math.h"
@@ -11,6 +12,16 @@
 
 namespace clothsim::cpu {
 namespace {
+
+// canonical(x) where the mask is all ones, 0 where it is 0. By bits: with conditions the compiler stores each
+// number up to three times, under masks.
+template <class Real>
+INLINE auto canonicalBits(Real x, decltype(bitsOf(Real(0))) mask) {
+  using Bits = decltype(mask);
+  if constexpr (sizeof(Real) == sizeof(double)) return bitsOf(x) & mask;
+  const bool isSmall = (bitsOf(x) & ~bitsOf(Real(-0.0))) < bitsOf(static_cast<Real>(0x1p-40));
+  return bitsOf(x) & mask & (isSmall ? Bits(0) : ~Bits(0));
+}
 
 // One component of x' = x + h v', v' = (1 - damping) v + h (g + w f); pinned particles rest, unless
 // movePinsOf() follows.
@@ -24,9 +35,9 @@ INLINE void integrateComponent(const StepParams<Real>& step, Range particles, Re
     const Real acceleration = gravity + inverseMass[i] * force[i];
     const Real v = velocityKept * velocity[i] + timeStep * acceleration;
     const Real x = position[i] + timeStep * v;
-    const bool pinned = inverseMass[i] == Real(0);
-    newVelocity[i] = pinned ? Real(0) : canonical(v);
-    newPosition[i] = pinned ? position[i] : canonical(x);
+    const auto free = inverseMass[i] == Real(0) ? decltype(bitsOf(x))(0) : ~decltype(bitsOf(x))(0);
+    newVelocity[i] = std::bit_cast<Real>(canonicalBits(v, free));
+    newPosition[i] = std::bit_cast<Real>(canonicalBits(x, free) | (bitsOf(position[i]) & ~free));
   }
 }
 
