@@ -4,6 +4,9 @@
 #include <chrono>
 #include <cmath>
 #include <ctime>
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
 
 #include "core/error.h"
 #include "gl/framebuffer.h"
@@ -14,6 +17,7 @@
 #include "scene_io/scene_io.h"
 #include "simulation/gpu/simulation_renderer.h"
 #include "simulation/gpu/solvers.h"
+#include "solver/cpu/roof.h"
 
 namespace clothsim {
 namespace {
@@ -65,11 +69,43 @@ double timeSubmitting(Solver& solver, std::uint64_t dispatches) {
   return median(times);
 }
 
+// Bytes that are taken from the system's heap; 0 where it does not say.
+std::size_t heapBytes() {
+#if defined(__GLIBC__) && (__GLIBC__ > 2 || __GLIBC_MINOR__ >= 33)
+  const struct mallinfo2 info = mallinfo2();
+  return info.uordblks + info.hblkhd;
+#else
+  return 0;
+#endif
+}
+
+// The least that a step has to read and write: positions, velocities and inverse masses; new ones of the
+// first two.
+constexpr double STEP_BYTES = 13 * sizeof(float);
+
+// Multiplications, additions and comparisons of the laws, each spring once.
+double operationsPerParticle(const Scene& scene, const Cloth& cloth) {
+  constexpr double spring = 33;  // 27 for its force (force_laws.h), 6 to add it at both ends
+  constexpr double limit = 9;    // its squared length, and the look at it
+  constexpr double rest = 26;    // 7 for each of three components of the integration, 5 for its watch
+  if (scene.solver.integrator == Integrator::implicit) return 0;
+  const auto springs = static_cast<double>(cloth.springs().size()) / cloth.particleCount();
+  return springs * (scene.solver.strainLimit ? spring + limit : spring) + rest;
+}
+
 }  // namespace
+
+double StepRate::memoryShare() const {
+  return operationsPerParticle > 0 ? STEP_BYTES * particleStepsPerSecond / copiedBytesPerSecond : 0;
+}
+double StepRate::arithmeticShare() const {
+  return operationsPerParticle * particleStepsPerSecond / operationsPerSecond;
+}
 
 StepRate measureStepRate(const Scene& scene, const std::string& backend, double seconds, const State& state) {
   const Shared<Cloth> sharedCloth = Cloth(scene);
   const Cloth& cloth = *sharedCloth;
+  const std::size_t heapBefore = heapBytes();
   const std::unique_ptr<Solver> solver = makeSolver(backend, sharedCloth, scene);
   if (!state.positions.empty()) solver->setState(state);
   timeSteps(*solver, 2);  // some drivers compile shaders now
@@ -96,6 +132,13 @@ StepRate measureStepRate(const Scene& scene, const std::string& backend, double 
   if (dispatches > 0) rate.submitSecondsPerStep = timeSubmitting(*solver, dispatches);
   rate.dispatchesPerStep = dispatches;
   rate.particleStepsPerSecond = cloth.particleCount() / rate.secondsPerStep;
+  if (backend == "cpu") {
+    const std::size_t bytes = heapBytes() - heapBefore;
+    rate.bytesPerParticle = static_cast<double>(bytes) / cloth.particleCount();
+    rate.copiedBytesPerSecond = cpu::measureCopying(std::max<std::size_t>(bytes, 1 << 16));
+    rate.operationsPerSecond = cpu::measureArithmetic();
+    rate.operationsPerParticle = operationsPerParticle(scene, cloth);
+  }
   const int timed = std::clamp(steps, 1, 20);
   rate.passes = solver->timePasses(timed);
   for (PassTime& pass : rate.passes) pass.seconds /= timed;

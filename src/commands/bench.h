@@ -25,6 +25,13 @@ struct StepRate {
   std::uint64_t dispatchesPerStep = 0;  // of compute shaders; 0 on the CPU
   double particleStepsPerSecond = 0;
   std::vector<PassTime> passes;  // seconds a step
+  // On the CPU only:
+  double bytesPerParticle = 0;       // that the solver has taken of memory; 0 where the system does not say
+  double copiedBytesPerSecond = 0;   // roof of memory: of a loop over as many bytes
+  double operationsPerSecond = 0;    // roof of arithmetic (solver/cpu/roof.h)
+  double operationsPerParticle = 0;  // of springs, integration and strain limit; 0 for implicit steps
+  [[nodiscard]] double memoryShare() const;      // of the roofs; contacts, wind and colliders are
+  [[nodiscard]] double arithmeticShare() const;  // not counted
 };
 
 // Steps the scene for about `seconds` after a warm-up. It begins with `state`, or at the start where `state`

@@ -29,6 +29,13 @@ nlohmann::ordered_json toJson(const StepRate& rate) {
     json["dispatches_per_step"] = rate.dispatchesPerStep;
     json["submit_ms_per_step"] = rate.submitSecondsPerStep * 1e3;
   }
+  if (rate.operationsPerSecond > 0) {
+    json["bytes_per_particle"] = rate.bytesPerParticle;
+    json["roof"] = {{"copied_bytes_per_second", rate.copiedBytesPerSecond},
+                    {"operations_per_second", rate.operationsPerSecond}};
+  }
+  if (rate.operationsPerParticle > 0)
+    json["share_of_roof"] = {{"memory", rate.memoryShare()}, {"arithmetic", rate.arithmeticShare()}};
   for (const PassTime& pass : rate.passes) json["pass_ms"][pass.name] = pass.seconds * 1e3;
   return json;
 }
@@ -39,6 +46,11 @@ void print(const StepRate& rate) {
               rate.columns, rate.rows, rate.limiter ? "limiter" : "",
               contacts ? selfCollisionName(rate.selfCollision) : "", rate.secondsPerStep * 1e3,
               rate.particleStepsPerSecond * 1e-6);
+  if (rate.operationsPerParticle > 0)
+    std::printf("   %3.0f %% of %.0f GB/s copied, %3.0f %% of %.0f G operations/s", 100 * rate.memoryShare(),
+                rate.copiedBytesPerSecond * 1e-9, 100 * rate.arithmeticShare(),
+                rate.operationsPerSecond * 1e-9);
+  if (rate.bytesPerParticle > 0) std::printf("   %.0f B/particle", rate.bytesPerParticle);
   if (rate.dispatchesPerStep > 0)
     std::printf("   %llu dispatches/step", static_cast<unsigned long long>(rate.dispatchesPerStep));
   if (rate.cloths > 1) std::printf("   %zu cloths", rate.cloths);

@@ -471,6 +471,11 @@ TEST(Program, MeasuresStepsAndPassesAndTheDemoInRealTime) {
     if (step["backend"] == "gpu") {
       EXPECT_GT(step["pass_ms"].size(), 0u);
       EXPECT_GE(step["dispatches_per_step"], step["pass_ms"].size());
+    } else {
+      EXPECT_GT(step["bytes_per_particle"], 13 * sizeof(float))
+          << "two states and the inverse masses, at least";
+      EXPECT_GT(step["share_of_roof"]["memory"].get<double>(), 0);
+      EXPECT_GT(step["share_of_roof"]["arithmetic"].get<double>(), 0);
     }
   }
   EXPECT_EQ(bench["demo_real_time"].size(), 6u) << "two backends, three ways of drawing";
