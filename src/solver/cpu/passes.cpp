@@ -184,6 +184,53 @@ INLINE void limitSpring(const PassArguments<Real>& arguments, std::ptrdiff_t a, 
   }
 }
 
+template <class Real>
+struct SpringEnd {
+  Real *x, *v;
+};
+// What limitSpring() does to one component of one end, or nothing where the mask is 0.
+template <class Real, class Bits>
+INLINE void moveEnd(const SpringEnd<Real>& end, std::ptrdiff_t i, Real move, Real kick, Bits mask) {
+  const Real x = end.x[i], v = end.v[i];
+  end.x[i] = std::bit_cast<Real>(canonicalBits(x + move, mask) | (bitsOf(x) & ~mask));
+  end.v[i] = std::bit_cast<Real>(canonicalBits(v + kick, mask) | (bitsOf(v) & ~mask));
+}
+
+// limitSpring() for the springs of owners that share no end, in vectors. a + -b rounds as a - b does.
+template <bool hasCuts, class Real, class RestLengths>
+INLINE void limitTogether(const PassArguments<Real>& arguments, std::uint32_t slot, Range owners,
+                          std::ptrdiff_t other, RestLengths rest, Real nominal) {
+  Components<Real>&p = arguments.after.positions, &v = arguments.after.velocities;
+  const SpringEnd<Real> x{p.x.data(), v.x.data()}, y{p.y.data(), v.y.data()}, z{p.z.data(), v.z.data()};
+  const Real factor = arguments.step.limitFactor, inverseTimeStep = arguments.step.inverseTimeStep;
+  const Real* inverseMasses = arguments.inverseMasses;
+  const std::uint32_t* cutMasks = arguments.cutMasks;
+  using Bits = decltype(bitsOf(Real(0)));
+#pragma GCC ivdep
+  for (std::ptrdiff_t a = owners.begin; a < owners.end; ++a) {
+    const std::ptrdiff_t b = a + other;
+    const Vec3<Real> d = load(x.x, y.x, z.x, b) - load(x.x, y.x, z.x, a);
+    const Real lengthSquared = dot(d, d);
+    const Real limit = limitLength(rest, a, factor, nominal);
+    const bool isTooLong = (limit * limit < lengthSquared) & !isCutAt<hasCuts>(cutMasks, a, slot);
+    const Bits freeA = inverseMasses[a] > Real(0) ? ~Bits(0) : Bits(0);
+    const Bits freeB = inverseMasses[b] > Real(0) ? ~Bits(0) : Bits(0);
+    const Bits acts = isTooLong ? ~Bits(0) : Bits(0);
+    const Real inverseLength = inverseSquareRoot(lengthSquared);
+    const Real length = lengthSquared * inverseLength;
+    const Real excess = (length - limit) * inverseLength;
+    const Real share = (freeA & freeB) != 0 ? Real(0.5) * excess : excess;
+    const Vec3<Real> move = share * d;
+    const Vec3<Real> kick = inverseTimeStep * move;
+    moveEnd(x, a, move.x, kick.x, acts & freeA);
+    moveEnd(y, a, move.y, kick.y, acts & freeA);
+    moveEnd(z, a, move.z, kick.z, acts & freeA);
+    moveEnd(x, b, -move.x, -kick.x, acts & freeB);
+    moveEnd(y, b, -move.y, -kick.y, acts & freeB);
+    moveEnd(z, b, -move.z, -kick.z, acts & freeB);
+  }
+}
+
 // Of a mesh: the springs of the colour from number `first` on, MESH_ROW of them.
 template <class Real>
 void limitMesh(const PassArguments<Real>& arguments, const LimitColor& color, std::uint32_t first) {
@@ -224,7 +271,14 @@ INLINE void limitOwners(const PassArguments<Real>& arguments, const LimitColor& 
   if (!anyTooLong(arguments, owners, other, rest, nominal)) return;
   for (std::uint32_t begin = color.firstColumn; begin < color.endColumn; begin += lookedAt) {
     const std::uint32_t end = std::min(begin + lookedAt, color.endColumn);
-    if (!anyTooLong(arguments, {first + begin, first + end}, other, rest, nominal)) continue;
+    const Range together{first + begin, first + end};
+    if (!anyTooLong(arguments, together, other, rest, nominal)) continue;
+    if (offset.rows != 0) {  // to another row
+      arguments.cutMasks != nullptr
+          ? limitTogether<true>(arguments, color.slot, together, other, rest, nominal)
+          : limitTogether<false>(arguments, color.slot, together, other, rest, nominal);
+      continue;
+    }
     for (std::uint32_t column = begin; column < end; ++column) {
       const std::ptrdiff_t owner = first + column;
       if ((column - color.firstColumn) % color.columnStep >= color.columnRun) continue;
