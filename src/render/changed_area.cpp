@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "shared/render_layout.h"
 
@@ -73,9 +74,14 @@ PixelRect pixelsOf(const FlatBounds& seen, const ChangedArea::View& view) {
 
 }  // namespace
 
+// Whether pictures of both differ only by what moves.
+bool ChangedArea::Seen::isComparable(const Seen& other) const {
+  return view == other.view && planes == other.planes && solids.size() == other.solids.size();
+}
+
 std::optional<ChangedArea::Area> ChangedArea::next(const View& view, std::span<const glm::vec4> particles,
                                                    const Colliders& colliders) {
-  Seen now{view, colliders.places(), {}, {}};
+  Seen now{view, colliders.solids(), colliders.discs(), {}, {}};
   float nearestW = 1e30f;
   for (const glm::vec4& particle : particles) {
     const glm::vec3 place(particle);
@@ -89,21 +95,26 @@ std::optional<ChangedArea::Area> ChangedArea::next(const View& view, std::span<c
     now.picture = now.picture.grown(0.5f * static_cast<float>(std::max(view.width, view.height)) *
                                     view.reach * lengthOfRows(view.clipFromWorld) / nearestW);
   }
-  if (!last_ || !(last_->view == view) || last_->solidPlaces != now.solidPlaces) {
+  if (!last_ || !last_->isComparable(now)) {
     last_ = std::move(now);
     return std::nullopt;
   }
   FlatBounds shadow = now.shadow, picture = now.picture;
   shadow.add(last_->shadow);
   picture.add(last_->picture);
+  bool isSeen = true;
+  for (std::size_t i = 0; i < now.solids.size(); ++i) {
+    if (now.solids[i] == last_->solids[i]) continue;
+    isSeen = isSeen && addBox(last_->solids[i].box, view, shadow, picture) &&
+             addBox(now.solids[i].box, view, shadow, picture);
+  }
   last_ = std::move(now);
   shadow = shadow.grown(shadowMargin);
-  bool isSeen = true;
   for (const PlaneDisc& plane : colliders.discs())
     isSeen = isSeen && addShadowOn(plane, shadow, view, picture);
-  for (const Bounds& box : colliders.solidBounds()) {
+  for (const SolidPlace& solid : colliders.solids()) {
     FlatBounds boxShadow, boxPicture;
-    isSeen = isSeen && addBox(box, view, boxShadow, boxPicture);
+    isSeen = isSeen && addBox(solid.box, view, boxShadow, boxPicture);
     if (boxShadow.overlaps(shadow)) picture.add(boxPicture);
   }
   if (!isSeen) return std::nullopt;

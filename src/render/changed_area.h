@@ -1,5 +1,5 @@
-// Which part of a picture differs from the one before it, while the camera rests: where cloth is and was, and
-// where its shadow falls. The rest can be kept, pixel for pixel.
+// Which part of a picture differs from the one before it, while the camera rests: where cloth and moving
+// solids are and were, and where their shadows fall. The rest can be kept, pixel for pixel.
 #pragma once
 
 #include <algorithm>
@@ -50,7 +50,7 @@ class ChangedArea {
     FlatBounds shadow;  // in the shadow map, 0 to 1 in each coordinate
   };
 
-  // What has changed since the last call. None: everything, as when the camera or a solid has moved.
+  // What has changed since the last call. None: everything, as when the camera or a plane has moved.
   [[nodiscard]] std::optional<Area> next(const View& view, std::span<const glm::vec4> particles,
                                          const Colliders& colliders);
   // The next picture is new everywhere.
@@ -59,8 +59,10 @@ class ChangedArea {
  private:
   struct Seen {
     View view;
-    std::vector<glm::vec4> solidPlaces;
+    std::vector<SolidPlace> solids;
+    std::vector<PlaneDisc> planes;
     FlatBounds picture, shadow;  // of the cloth: pixels; 0 to 1
+    [[nodiscard]] bool isComparable(const Seen& other) const;
   };
   std::optional<Seen> last_;
 };

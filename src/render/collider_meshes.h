@@ -35,6 +35,7 @@ class SphereMesh {
 struct PlaneDisc {
   glm::vec4 place;   // centre and radius [m]
   glm::vec4 normal;  // xyz, unit; w: index of the collider, -1: of none
+  friend bool operator==(const PlaneDisc&, const PlaneDisc&) = default;
 };
 
 class PlaneMesh {

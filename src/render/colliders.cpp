@@ -23,8 +23,7 @@ void Colliders::place(const Scene& scene, const Stage& stage, double time) {
   std::vector<SpherePlace> places;
   std::vector<PlaneDisc>& discs = discs_;
   discs.clear();
-  places_.clear();
-  solidBounds_.clear();
+  solids_.clear();
   const glm::vec3 middle = stage.view.center();
   const float radius = floorRadius * glm::length(stage.view.size());
   const auto addDisc = [&](glm::vec3 point, glm::vec3 normal, float collider) {
@@ -45,16 +44,12 @@ void Colliders::place(const Scene& scene, const Stage& stage, double time) {
       continue;
     }
     const glm::vec3 at = toGlm(pose.position), half = toGlm(colliders_.halfExtent(i, pose.rotation));
-    solidBounds_.push_back({at - half, at + half});
-    places_.emplace_back(at, std::holds_alternative<Sphere>(collider) ? 1 : 0);
-    if (std::holds_alternative<Sphere>(collider)) continue;  // looks the same however it is turned
-    for (const Vec3d& row : pose.rotation) places_.emplace_back(toGlm(row), 0);
+    glm::mat3 rotation(1);
+    if (!std::holds_alternative<Sphere>(collider))
+      for (int row = 0; row < 3; ++row) rotation[row] = toGlm(pose.rotation[static_cast<std::size_t>(row)]);
+    solids_.push_back({at, rotation, {at - half, at + half}});
   }
   if (scene.render.ground && !hasFloor) addDisc({middle.x, stage.floorHeight, middle.z}, {0, 1, 0}, -1);
-  for (const PlaneDisc& disc : discs) {
-    places_.push_back(disc.place);
-    places_.push_back(disc.normal);
-  }
   spheres_.place(places);
   shapes_.place(colliders_, time);
   planes_.place(discs);

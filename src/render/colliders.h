@@ -9,6 +9,16 @@
 
 namespace clothsim {
 
+// Where a solid is seen.
+struct SolidPlace {
+  glm::vec3 at;
+  glm::mat3 rotation;  // none of a sphere, which looks the same however it is turned
+  Bounds box;          // around it
+  friend bool operator==(const SolidPlace& a, const SolidPlace& b) {
+    return a.at == b.at && a.rotation == b.rotation;
+  }
+};
+
 class Colliders {
  public:
   // @param longestEdge  the longest side of the cloth's triangles [m], for which solids are drawn smaller
@@ -19,11 +29,8 @@ class Colliders {
   // Where those of the scene that was built are at `time` [s].
   void place(const Scene& scene, const Stage& stage, double time);
 
-  // As place() has put them: numbers that differ when a solid or a plane is seen elsewhere,
-  [[nodiscard]] const std::vector<glm::vec4>& places() const { return places_; }
-  // boxes around the solids,
-  [[nodiscard]] const std::vector<Bounds>& solidBounds() const { return solidBounds_; }
-  // and the drawn parts of planes.
+  // As place() has put them: the solids, in the order of the scene, and the drawn parts of planes.
+  [[nodiscard]] const std::vector<SolidPlace>& solids() const { return solids_; }
   [[nodiscard]] const std::vector<PlaneDisc>& discs() const { return discs_; }
 
   void drawSolids(const gl::Program& sphere, const gl::Program& shape) const;
@@ -35,8 +42,7 @@ class Colliders {
   SphereMesh spheres_;
   ShapeMeshes shapes_;
   PlaneMesh planes_;
-  std::vector<glm::vec4> places_;
-  std::vector<Bounds> solidBounds_;
+  std::vector<SolidPlace> solids_;
   std::vector<PlaneDisc> discs_;
 };
 

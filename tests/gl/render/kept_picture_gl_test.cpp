@@ -1,5 +1,6 @@
 // Pictures of which only the changed part is drawn are those that are drawn whole, in every pixel.
 #include <limits>
+#include <optional>
 
 #include "gl/gl_test.h"
 #include "gl/render/picture.h"
@@ -81,6 +82,43 @@ TEST_F(KeptPictureTest, SeesSolidsThatMoveAndSolidsInTheShadowOfTheCloth) {
   travelling.motion = Motion{{{0, {-0.2, 0.1, 0.5}, {}}, {1, {0.8, 0.3, 0.5}, {}}}};
   scene.colliders.emplace_back(travelling);
   expectTheSame(scene, 1, 0.2);
+  Box turning;
+  turning.origin = {0.6, 0.4, 0.6};
+  turning.size = {0.5, 0.1, 0.2};
+  turning.motion = Motion{{{0, {0.6, 0.4, 0.6}, {}}, {1, {0.6, 0.4, 0.6}, {0, 200, 70}}}};
+  scene.colliders.emplace_back(turning);
+  expectTheSame(scene, 0.75, 0.2);
+}
+
+TEST_F(KeptPictureTest, DrawsOnlyAPartWhereASolidMoves) {
+  Scene scene = test::drapeScene();
+  Sphere travelling;
+  travelling.origin = {0.5, 0.5, 0.5};
+  travelling.radius = 0.1;
+  travelling.motion = Motion{{{0, {0.5, 0.5, 0.5}, {}}, {1, {0.6, 0.5, 0.5}, {}}}};
+  scene.colliders.emplace_back(travelling);
+  const test::Drape drape(scene);
+  const Camera camera(drape.scene, drape.cloth);
+  const Stage stage = makeStage(outlineOf(drape.cloth), drape.scene);
+  Colliders colliders(8, 8, 0.02);
+  colliders.build(drape.scene);
+  ShadowMap shadows(64);
+  shadows.cover(stage.reach, glm::normalize(glm::vec3(-0.5f, 1, 0.4f)));
+  const std::vector<glm::vec4> particles{{0.5f, 0.8f, 0.5f, 1}};
+  ChangedArea changes;
+  const auto pixelsAt = [&](double time) -> std::optional<int> {
+    colliders.place(drape.scene, stage, time);
+    const auto area =
+        changes.next({camera.projection(1.5) * camera.view(), shadows.shadowFromWorld(), width, height},
+                     particles, colliders);
+    if (!area) return std::nullopt;
+    return area->picture.width() * area->picture.height();
+  };
+  EXPECT_FALSE(pixelsAt(0)) << "the first picture is new everywhere";
+  const auto still = pixelsAt(0), moved = pixelsAt(1);
+  ASSERT_TRUE(still && moved);
+  EXPECT_GT(*moved, *still);
+  EXPECT_LT(*moved, 0.9 * width * height);
 }
 
 TEST_F(KeptPictureTest, FollowsTheCameraTheSceneAndTheSize) {
