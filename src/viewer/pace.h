@@ -34,7 +34,7 @@ class Pace {
   [[nodiscard]] double secondsUntilDue() const { return std::max(0.0, frameSeconds_ - owed_); }
 
   static constexpr int mostFramesAtOnce = 12;
-  static constexpr double simulationBudget = 1 / 25.0;  // for simulating, per displayed frame [s]
+  static constexpr double simulationBudget = 1 / 20.0;  // for simulating, per displayed frame [s]
 
  private:
   [[nodiscard]] int mostFrames() const {
