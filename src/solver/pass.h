@@ -35,6 +35,7 @@ enum class Pass : std::uint8_t {
   sumCurvature,
   updateSolution,
   sumNextResidual,
+  stopAtPlanes,
   tryLengths,
   sumEnergies,
   accept,

@@ -121,6 +121,7 @@ class StepBuilder {
     if (hasPairs()) list_.add(Pass::weighPairs);
     list_.add(Pass::linearize);
     solve();
+    if (hasColliders_) list_.add(Pass::stopAtPlanes);
     searchLine(Pass::sumEnergies);
     list_.add(Pass::measureUpdate);
   }

@@ -64,7 +64,7 @@ void addContact(uint i, float diagonal, vec3 d, inout vec3 residual, inout Symme
 #if HAS_SURFACE
   isPredicted = isPredicted && !mayTouchCloth(i);
 #endif
-  bool holds = presses || isPredicted;
+  bool holds = presses || isPredicted || (hasPlane && over > 0.0);
   float stiffness = holds ? contactStiffness(diagonal) : 0.0;
   precise float both = stiffness + own;
   precise float carried = push * (stiffness * reciprocal(both));

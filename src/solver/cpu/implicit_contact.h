@@ -69,14 +69,14 @@ INLINE bool mayTouchCloth(const TouchingPairs<Real>& touching, std::ptrdiff_t i)
 // Which plane holds in this Newton step, and what friction does there. `residual` and `block` are those of
 // the particle without contact, and become those with it.
 //
-// A plane holds what the particle's own Newton step would take across it (the primal-dual active set of
-// Hintermueller, Ito and Kunisch 2002, with the block as its constant): that the iterate is a hair outside
-// decides nothing. In the first Newton step all predicted planes hold, but not for particles that may touch
-// other cloth: the upper of two layers falls onto the lower one, not through it to the floor. Friction is
-// limited by what the plane carries once both it and the block have given way: the whole push would count the
-// part that the block's stiffness against bending takes, as if fabric weighed more on a plane that is softer.
-// The force of friction is constant beyond `slow`, and its Hessian 0 along the slip; where that would turn a
-// light particle round, a part of the secant's slope stands for it.
+// A plane holds what is across it, and what the particle's own Newton step would take there (the primal-dual
+// active set of Hintermueller, Ito and Kunisch 2002, with the block as its constant): that the iterate is a
+// hair outside decides nothing. In the first Newton step all predicted planes hold, but not for particles
+// that may touch other cloth: the upper of two layers falls onto the lower one, not through it to the floor.
+// Friction is limited by what the plane carries once both it and the block have given way: the whole push
+// would count the part that the block's stiffness against bending takes, as if fabric weighed more on a plane
+// that is softer. The force of friction is constant beyond `slow`, and its Hessian 0 along the slip; where
+// that would turn a light particle round, a part of the secant's slope stands for it.
 template <class Real>
 INLINE void addContact(const ImplicitArguments<Real>& arguments, std::ptrdiff_t i, Vec3<Real>& residual,
                        Symmetric<Real>& block) {
@@ -87,7 +87,7 @@ INLINE void addContact(const ImplicitArguments<Real>& arguments, std::ptrdiff_t 
   const bool isFirst = arguments.own.scalars.newtonSteps == 0, hasPlane = dot(normal, normal) > Real(0);
   const bool presses = hasPlane && push > Real(0),
              isPredicted = hasPlane && isFirst && !mayTouchCloth(arguments.own.touching, i),
-             holds = presses || isPredicted;
+             holds = presses || isPredicted || (hasPlane && over > Real(0));
   const Real stiffness = holds ? contactStiffness(arguments, i) : Real(0),
              carried = push * (stiffness * reciprocal(stiffness + own)),
              limit = presses ? planes.frictions.data()[i] * carried : Real(0);
@@ -103,6 +103,19 @@ INLINE void addContact(const ImplicitArguments<Real>& arguments, std::ptrdiff_t 
   block = block + contact;
   put(planes.blocks, i, contact);
   planes.limits.data()[i] = limit;
+}
+
+// An increment e of a particle at the displacement d, which ends on its plane where it would cross it and the
+// plane does not hold it: the linear system knows nothing of that plane (projected Newton steps: Bertsekas
+// 1982, "Projected Newton methods for optimization problems with simple constraints"). Without this the line
+// search would cut the whole step short for a few particles.
+template <class Real>
+INLINE Vec3<Real> stoppedAtPlane(const ContactPlanes<Real>& planes, std::ptrdiff_t i, Vec3<Real> d,
+                                 Vec3<Real> e) {
+  const Vec3<Real> normal = at(planes.normals, i), held = at(planes.blocks, i).diagonal;
+  const Real over = planes.offsets.data()[i] - dot(normal, d), after = over - dot(normal, e);
+  const bool crosses = !((held.x + held.y) + held.z > Real(0)) && after > Real(0);
+  return selected(crosses, e + after * normal, e);
 }
 
 // How the energy changes when what crosses a plane, `over` deep, moves on to `overAfter`.

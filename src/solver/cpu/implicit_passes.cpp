@@ -299,6 +299,20 @@ INLINE void updateSolutionRow(const ImplicitArguments<Real>& arguments, int row)
 }
 
 template <class Real>
+INLINE void stopAtPlanesRow(const ImplicitArguments<Real>& arguments, int row) {
+  ImplicitState<Real>& own = arguments.own;
+  const Range all = rangeOf(arguments.step.step, row);
+  const Arrays<Real> increments = arraysOf(own.increments);
+  const Real* w = arguments.step.inverseMasses;
+#pragma GCC ivdep
+  for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
+    const Vec3<Real> e = at(increments, i),
+                     stopped = canonical(stoppedAtPlane(own.planes, i, at(own.displacements, i), e));
+    put(increments, i, selected(w[i] == Real(0), e, stopped));
+  }
+}
+
+template <class Real>
 INLINE void acceptRow(const ImplicitArguments<Real>& arguments, int row) {
   ImplicitState<Real>& own = arguments.own;
   const Range all = rangeOf(arguments.step.step, row);
@@ -332,6 +346,10 @@ VECTOR_CLONES void updateSolution(const ImplicitArguments<float>& arguments, int
 void updateSolution(const ImplicitArguments<double>& arguments, int row) {
   updateSolutionRow(arguments, row);
 }
+VECTOR_CLONES void stopAtPlanes(const ImplicitArguments<float>& arguments, int row) {
+  stopAtPlanesRow(arguments, row);
+}
+void stopAtPlanes(const ImplicitArguments<double>& arguments, int row) { stopAtPlanesRow(arguments, row); }
 VECTOR_CLONES void tryLengths(const ImplicitArguments<float>& arguments, int row) {
   tryLengthsRow(arguments, row);
 }

@@ -93,6 +93,9 @@ void updateDirection(const ImplicitArguments<double>& arguments, int row);
 // increments += stepSize * directions, residuals -= stepSize * products
 void updateSolution(const ImplicitArguments<float>& arguments, int row);
 void updateSolution(const ImplicitArguments<double>& arguments, int row);
+// Cuts short the increments of particles that no plane holds and that would cross theirs.
+void stopAtPlanes(const ImplicitArguments<float>& arguments, int row);
+void stopAtPlanes(const ImplicitArguments<double>& arguments, int row);
 // trials: how the energy would change along the increments.
 void tryLengths(const ImplicitArguments<float>& arguments, int row);
 void tryLengths(const ImplicitArguments<double>& arguments, int row);

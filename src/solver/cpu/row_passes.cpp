@@ -70,6 +70,8 @@ auto RowPasses<Real>::rowPassOf(Pass pass) -> RowPass {
       return [](const Arguments& piece, int row, Rows&) { cpu::multiply(piece, row); };
     case Pass::updateSolution:
       return [](const Arguments& piece, int row, Rows&) { cpu::updateSolution(piece, row); };
+    case Pass::stopAtPlanes:
+      return [](const Arguments& piece, int row, Rows&) { cpu::stopAtPlanes(piece, row); };
     case Pass::tryLengths:
       return [](const Arguments& piece, int row, Rows&) { cpu::tryLengths(piece, row); };
     case Pass::accept:

@@ -138,6 +138,7 @@ const std::vector<Kernel>& kernels() {
       sum(Pass::sumCurvature, SUM_STEP),
       {{Pass::updateSolution}, {{"implicit/update_solution", Over::particles}}},
       sum(Pass::sumNextResidual, SUM_NEXT),
+      {{Pass::stopAtPlanes}, {{"implicit/stop_at_planes", Over::particles}}},
       {{Pass::tryLengths}, {{"implicit/try_lengths", Over::grids}}},
       sum(Pass::sumEnergies, SUM_LENGTH),
       {{Pass::accept}, {{"implicit/accept", Over::particles}}},

@@ -6,6 +6,7 @@
 
 #include "measure/measure.h"
 #include "solver/cpu/cpu_solver.h"
+#include "solver/cpu/implicit_contact.h"
 #include "support/material_sheet.h"
 
 namespace clothsim {
@@ -41,6 +42,33 @@ TEST(ImplicitContact, BendsASheetAroundABallWithoutCrumplingIt) {
   EXPECT_LT(longest, 0.15) << "crumpling stretches springs";
   EXPECT_NEAR(solver.position(33 * 16 + 16).y, 0.95, 0.005) << "it lies on the ball";
   EXPECT_LT(solver.position(0).y, 0.85) << "and hangs down around it";
+}
+
+// Five particles above a plane at height 0 that is .3 below; they move down by the increment.
+TEST(ImplicitContact, StopsAtPlanesThatDoNotHold) {
+  constexpr std::size_t count = 5;
+  cpu::ContactPlanes<double> planes;
+  planes.resize(count);
+  const auto plane = [&](std::size_t i, bool exists, bool holds) {
+    const auto place = static_cast<std::ptrdiff_t>(i);
+    cpu::put(planes.normals, place, exists ? Vec3d{0, 1, 0} : Vec3d{});
+    planes.offsets[i] = exists ? -0.3 : 0;
+    cpu::put(planes.blocks, place, cpu::Symmetric<double>{holds ? Vec3d{0, 7, 0} : Vec3d{}, {}});
+  };
+  plane(0, true, false), plane(1, true, false), plane(2, true, true), plane(3, false, false);
+  plane(4, true, false);
+  const Vec3d d{0.1, 0, 0}, e{0.2, -0.5, 0.4}, little{0.2, -0.25, 0.4};
+  const auto heightAfter = [&](std::ptrdiff_t i, Vec3d increment) {
+    const Vec3d stopped = cpu::stoppedAtPlane(planes, i, d, increment);
+    EXPECT_EQ(stopped.x, increment.x) << "along the plane it goes on";
+    EXPECT_EQ(stopped.z, increment.z);
+    return stopped.y;
+  };
+  EXPECT_DOUBLE_EQ(heightAfter(0, e), -0.3) << "on the plane";
+  EXPECT_EQ(heightAfter(1, little), -0.25) << "does not reach it";
+  EXPECT_EQ(heightAfter(2, e), -0.5) << "the plane holds: the linear system knows it";
+  EXPECT_EQ(heightAfter(3, e), -0.5) << "no plane";
+  EXPECT_EQ(heightAfter(4, {0.2, 0.5, 0.4}), 0.5) << "leaves it";
 }
 
 TEST(ImplicitContact, LaysASheetOnAFlatCap) {

@@ -81,6 +81,8 @@ TEST(StepList, SolvesAnImplicitStepByNewtonAndConjugateGradients) {
   EXPECT_EQ(step.loops[0].times, 2u) << "the last iteration needs no new direction";
   EXPECT_EQ(step.loops[1].times, 1u) << "the preconditioner is made before the first Newton step";
   EXPECT_EQ(step.loops[2].times, 2u);
+  const std::string onABall = order(stepOf(withBall(implicitSheet())));
+  EXPECT_NE(onABall.find("update solution, stop at planes, try lengths, "), std::string::npos) << onABall;
 }
 
 // Each array that a pass reads is one of the state, or an earlier pass has written it.
