@@ -14,6 +14,7 @@
 #include <type_traits>
 
 #include "commands/commands.h"
+#include "commands/version.h"
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "core/standard_streams.h"
@@ -426,7 +427,7 @@ namespace {
 
 int parseAndRun(int argc, char** argv) {
   CLI::App app{"clothsim: cloth simulation, bit-identical on GPU and CPU", "clothsim"};
-  app.set_version_flag("--version", "clothsim " CLOTHSIM_VERSION);
+  app.set_version_flag("--version", std::string("clothsim ") + versionText());
   app.set_help_all_flag("--help-all", "help of all commands");
   app.require_subcommand(0, 1);
   Arguments arguments;
