@@ -34,6 +34,13 @@ add_library(clothsim_stb INTERFACE)
 target_include_directories(clothsim_stb SYSTEM INTERFACE ${STB_INCLUDE_DIR})
 target_link_libraries(clothsim_stb INTERFACE ${STB_LIBRARY})
 
+# Debian's CMake package of libzip asks for command line tools that are packages of their own.
+find_path(ZIP_INCLUDE_DIR zip.h REQUIRED)
+find_library(ZIP_LIBRARY zip REQUIRED)
+add_library(clothsim_zip INTERFACE)
+target_include_directories(clothsim_zip SYSTEM INTERFACE ${ZIP_INCLUDE_DIR})
+target_link_libraries(clothsim_zip INTERFACE ${ZIP_LIBRARY})
+
 # Counts crossings (src/measure/crossings.cpp). Not needed to simulate: without it --check-crossings says what to install.
 set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)
 find_package(CGAL 5.0 QUIET)

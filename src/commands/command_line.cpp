@@ -172,7 +172,7 @@ void declareRun(CLI::App& app, Arguments& a, Task& task) {
   addThreads(*run, a);
   run->add_option(
          "--save", a.saves,
-         "save the last state as .csv .ply .obj .png, or .state (exact); with %04d in the name every "
+         "save the last state as .csv .ply .obj .npz .png, or .state (exact); with %04d in the name every "
          "K-th frame; all frames in one file: .pc2 (with its mesh, FILE_rest.obj), .usda "
          "(every K-th), .mp4 (real time; needs ffmpeg); may be repeated")
       ->type_name("FILE")
@@ -194,7 +194,7 @@ void declareRun(CLI::App& app, Arguments& a, Task& task) {
   for (CLI::Option* other : {scene, from, jitter, settings, resolution}) replay->excludes(other);
   run->add_option("--trace", a.trace,
                   "write a row of measures for each frame: energies, momentum, strain, contacts, iterations")
-      ->type_name("FILE.csv");
+      ->type_name("FILE.csv|npz");
   addCheckCrossings(*run, a);
   addStrict(*run, a);
   addJson(*run, a);

@@ -37,15 +37,17 @@ void checkSaves(const RunOptions& options) {
                        ": a file of this kind holds all frames; leave the number out of its name");
     if (!isSequence(save) && !isPicture(save) && !canSaveStateAs(save))
       throw UsageError("--save " + save +
-                       ": the extension is none of .csv, .ply, .obj, .state, .pc2, .usda, .png, .mp4");
+                       ": the extension is none of .csv, .ply, .obj, .npz, .state, .pc2, .usda, .png, .mp4");
   }
   for (const std::string& save : options.saves) {
     checkWritable(numberedName(save, options.frames.value_or(0)));
     if (isPointCache(save)) checkWritable(restMeshBeside(save));
   }
   if (options.trace.empty()) return;
-  if (std::filesystem::path(options.trace).extension() != ".csv")
-    throw UsageError("--trace " + options.trace + ": expected a name ending in .csv, as energies.csv");
+  const std::string extension = std::filesystem::path(options.trace).extension().string();
+  if (extension != ".csv" && extension != ".npz")
+    throw UsageError("--trace " + options.trace +
+                     ": expected a name ending in .csv or .npz, as energies.csv");
   checkWritable(options.trace);
 }
 
@@ -243,7 +245,8 @@ int runCommand(const RunOptions& options) {
   files.finish();
   pictures.finish();
   progress.finish();
-  if (!options.trace.empty()) writeFileAtomically(options.trace, trace.csv());
+  if (!options.trace.empty())
+    writeFileAtomically(options.trace, options.trace.ends_with(".npz") ? trace.npz() : trace.csv());
 
   nlohmann::ordered_json json = summary(options, run, seen);
   if (counter) json["crossings"] = toJson(crossings);

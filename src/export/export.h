@@ -12,8 +12,8 @@
 namespace clothsim {
 
 // .csv: header index,x,y,z,vx,vy,vz, values %.9g. .ply: binary little-endian, positions, normals, uv,
-// triangles. .obj: text with uv and normals. .state: binary and exact, loadState reads it back. @throws
-// UsageError for another extension, InputOutputError
+// triangles. .obj: text with uv and normals. .npz: arrays for NumPy (formats.h names them). .state: binary
+// and exact, loadState reads it back. @throws UsageError for another extension, InputOutputError
 void saveState(const State& state, const Cloth& cloth, const std::filesystem::path& path);
 [[nodiscard]] bool canSaveStateAs(const std::filesystem::path& path);
 

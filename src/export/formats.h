@@ -13,6 +13,9 @@ namespace clothsim {
 [[nodiscard]] std::string formatCsv(const State& state);
 [[nodiscard]] std::string formatPly(const State& state, const Cloth& cloth);
 [[nodiscard]] std::string formatObj(const State& state, const Cloth& cloth);
+// Arrays positions [m], velocities [m/s], inverse_masses [1/kg] (0: pinned), texture_coordinates, faces,
+// step.
+[[nodiscard]] std::string formatNpz(const State& state, const Cloth& cloth);
 
 // The `.state` file, little-endian throughout:
 //   offset  0  8 bytes  "clothsim"

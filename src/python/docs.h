@@ -110,7 +110,7 @@ view: (right, up, zoom) turns the camera, in degrees, and zooms in. Needs OpenGL
 CPU backend (OpenGlError).)";
 
 inline constexpr const char* save =
-    R"(Writes the state to a file; the extension chooses .csv, .ply, .obj or .state (exact).)";
+    R"(Writes the state to a file; the extension chooses .csv, .ply, .obj, .npz or .state (exact).)";
 
 inline constexpr const char* load = R"(Continues from a .state file of a cloth with as many particles.)";
 

@@ -16,7 +16,7 @@ SavedFiles::SavedFiles(const std::vector<std::string>& names, int every, int fra
     else if (canSaveStateAs(name))
       states_.push_back(name);
     else
-      throw UsageError(name + ": the extension is none of .csv, .ply, .obj, .state, .pc2, .usda");
+      throw UsageError(name + ": the extension is none of .csv, .ply, .obj, .npz, .state, .pc2, .usda");
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <charconv>
 
+#include "export/npz.h"
 #include "measure/energies.h"
 #include "solver/cpu/synchronized.h"
 
@@ -65,6 +66,16 @@ std::string Trace::csv() const {
     lines += '\n';
   }
   return lines;
+}
+
+std::string Trace::npz() const {
+  std::vector<NamedArray> arrays;
+  for (std::size_t column = 0; column < columns.size(); ++column) {
+    std::vector<double> numbers;
+    for (const Row& row : rows_) numbers.push_back(row[column]);
+    arrays.push_back(namedArray<double>(columns[column], {numbers.size()}, numbers));
+  }
+  return formatNpz(arrays);
 }
 
 }  // namespace clothsim

@@ -29,6 +29,8 @@ class Trace {
   [[nodiscard]] const std::vector<Row>& rows() const { return rows_; }
   // A line of names, then one a row; numbers as short as they can be read back exactly.
   [[nodiscard]] std::string csv() const;
+  // An array of binary64 for each column (export/npz.h).
+  [[nodiscard]] std::string npz() const;
 
  private:
   std::vector<Row> rows_;

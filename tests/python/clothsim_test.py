@@ -132,6 +132,30 @@ class AgainstTheProgram(unittest.TestCase):
             self.assertAlmostEqual(other.time, 2 / 90)
 
 
+    def test_saved_arrays_are_those_of_the_simulation(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path, trace = os.path.join(folder, "cloth.npz"), os.path.join(folder, "trace.npz")
+            told = run_json("-f", "skirt", "--frames", "2", "--save", path, "--trace", trace)
+            saved, traced = np.load(path), np.load(trace)
+            with open(path, "rb") as file:
+                first = file.read()
+            sim = clothsim.Simulation("skirt", backend="cpu")
+            columns = sim.run(2)
+            self.assertEqual(sim.state_hash, told["state_hash"])
+            for name in ("positions", "velocities", "inverse_masses", "faces"):
+                np.testing.assert_array_equal(saved[name], getattr(sim, name), err_msg=name)
+                self.assertEqual(saved[name].dtype, getattr(sim, name).dtype, name)
+            self.assertEqual(saved["texture_coordinates"].shape, (len(sim.positions), 2))
+            self.assertEqual(saved["step"].shape, ())
+            self.assertEqual(int(saved["step"]), told["steps"])
+            self.assertEqual(sorted(traced), sorted(columns))
+            for name, values in columns.items():
+                np.testing.assert_array_equal(traced[name], values, err_msg=name)
+            sim.save(path)
+            with open(path, "rb") as file:
+                self.assertEqual(file.read(), first, "the same bytes each time")
+
+
 class Arrays(unittest.TestCase):
     def test_positions_are_a_view_that_shows_the_current_state_at_one_address(self):
         for scene, settings in (("pinned2", {}), ("selfCollision", {}), ("pinned4", {"solver.integrator": "implicit"})):

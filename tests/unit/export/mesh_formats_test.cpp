@@ -114,6 +114,23 @@ TEST_F(MeshFormats, PlyIsAsLongAsItsHeaderSaysAndHoldsTheParticles) {
   for (int i = 0; i < 8; ++i) EXPECT_EQ(vertex[i], expected[i]) << "property " << i;
 }
 
+TEST_F(MeshFormats, NpzHoldsEachArrayUncompressedBehindAHeaderOfWholeLines) {
+  const std::string bytes = formatNpz(state_, cloth_);
+  EXPECT_TRUE(bytes.starts_with("PK\x03\x04")) << "a zip archive";
+  const std::size_t name = bytes.find("positions.npy"), array = name + std::string("positions.npy").size();
+  ASSERT_EQ(bytes.substr(array, 8), std::string("\x93NUMPY\x01\0", 8));
+  const std::size_t length = static_cast<unsigned char>(bytes[array + 8]);
+  EXPECT_EQ((10 + length) % 64, 0u);
+  EXPECT_TRUE(bytes.substr(array + 10, length)
+                  .starts_with("{'descr': '<f4', 'fortran_order': False, 'shape': (6,3,), }"));
+  float last[3];
+  std::memcpy(last, bytes.data() + array + 10 + length + 5 * sizeof last, sizeof last);
+  EXPECT_EQ(last[0], state_.positions[5].x);
+  EXPECT_EQ(last[1], state_.positions[5].y);
+  EXPECT_EQ(last[2], state_.positions[5].z);
+  EXPECT_EQ(bytes, formatNpz(state_, cloth_));
+}
+
 TEST(ObjFile, OfAMeshIsReadAsTheSameMesh) {
   Scene scene = test::meshScene({.disorder = 0.2});
   const std::string withCoordinates =
