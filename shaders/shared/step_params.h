@@ -49,7 +49,8 @@ using uint = std::uint32_t;
 #define REASON_RUNAWAY_SPEED 1u
 #define REASON_RUNAWAY_STRAIN 2u
 #define NO_DIVERGENCE 0xffffffffu
-#define WATCHED_ROWS 8u  // of the grid, by one invocation of sim/watch_limit.comp
+#define LINES_AT_ONCE 8u  // of springs, by one invocation of sim/limit_slot.comp
+#define WATCHED_ROWS 8u   // of the grid, by one invocation of sim/watch_limit.comp
 
 #define PIN_STARTS_UNIT 6   // a texel a particle: start position, and the number of its path + 1 (0: none)
 #define PIN_MOTIONS_UNIT 7  // PIN_MOTION_ROWS texels each

@@ -1,19 +1,10 @@
 // Pass 5: no spring longer than the strain limit allows. One dispatch a colour; springs of a colour share no particle, so
-// each works in place. Both ends move half of the excess towards each other, or the free end all of it.
+// each works in place.
 #include "sim/blocks.glsl"
 #include "sim/exact_math.glsl"
+#include "sim/limit.glsl"
 
 layout(std140, binding = LIMIT_COLOR_BINDING) uniform ColorBlock { LimitColor color; };
-
-const ivec2 toOtherEnd[6] =
-    ivec2[6](ivec2(-1, 0), ivec2(0, -1), ivec2(-1, -1), ivec2(1, -1), ivec2(-2, 0), ivec2(0, -2));
-
-void move(uint i, vec4 x, vec3 by) {
-  precise vec3 newX = x.xyz + by;
-  precise vec3 newV = texelFetch(velocitiesSoFar, int(i)).xyz + step.inverseTimeStep * by;
-  newPositions[i] = vec4(canonical(newX), x.w);
-  newVelocities[i] = vec4(canonical(newV), 0.0);
-}
 
 #if HAS_MESH
 #include "shared/mesh_lists.h"
@@ -41,30 +32,25 @@ LimitedSpring thisSpring() {
   uint a = step.firstParticle + row * step.columns + column;
   ivec2 offset = toOtherEnd[color.slot];
   uint b = uint(int(a) + offset.x + offset.y * int(step.columns));
-
-  precise float limit = step.springs[color.slot].limitLength;
-  if (hasRestLengthTable)
-    limit = step.limitFactor * texelFetch(restLengths, int(color.slot * step.totalParticles + a)).x;
-  return LimitedSpring(a, b, limit, isIntact(cutMaskOf(a), color.slot));
+  return LimitedSpring(a, b, longestOf(color.slot, a), isIntact(cutMaskOf(a), color.slot));
 #endif
+}
+
+SpringEnd endAt(uint i) {
+  return SpringEnd(texelFetch(positionsSoFar, int(i)), texelFetch(velocitiesSoFar, int(i)).xyz, false);
+}
+
+void store(uint i, SpringEnd end) {
+  if (!end.moved) return;
+  newPositions[i] = end.position;
+  newVelocities[i] = vec4(end.velocity, 0.0);
 }
 
 void main() {
   LimitedSpring spring = thisSpring();
   if (!spring.exists) return;
-  uint a = spring.a, b = spring.b;
-  vec4 xa = texelFetch(positionsSoFar, int(a)), xb = texelFetch(positionsSoFar, int(b));
-  precise float limit = spring.limit;
-  precise vec3 d = xb.xyz - xa.xyz;
-  precise float lengthSquared = sumOfProducts(d, d);
-  precise float limitSquared = limit * limit;
-  bool freeA = xa.w > 0.0, freeB = xb.w > 0.0;
-  if (!(limitSquared < lengthSquared) || !(freeA || freeB)) return;
-  precise float inverseLength = inverseSquareRoot(lengthSquared);
-  precise float len = lengthSquared * inverseLength;
-  precise float excess = (len - limit) * inverseLength;
-  precise float share = freeA && freeB ? 0.5 * excess : excess;
-  precise vec3 by = share * d;
-  if (freeA) move(a, xa, by);
-  if (freeB) move(b, xb, -by);
+  SpringEnd a = endAt(spring.a), b = endAt(spring.b);
+  limitSpring(a, b, spring.limit);
+  store(spring.a, a);
+  store(spring.b, b);
 }

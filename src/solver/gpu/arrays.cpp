@@ -106,7 +106,7 @@ void GpuArrays::addImplicit(std::size_t particles, const GpuLevels& levels, bool
   for (const Array array : {Array::rightHandSides, Array::displacements, Array::iterates, Array::directions,
                             Array::products, Array::increments})
     add(array, particles);
-  if (spareDirections_.buffer.size() < particles) spareDirections_ = ParticleArray("directions 2", particles);
+  addSpare(Array::directions);
   const std::size_t entries = particles + VERTEX_TEXELS * std::size_t{levels.vertices()};
   add(Array::residuals, entries);
   add(Array::corrections, entries);
@@ -162,11 +162,20 @@ void GpuArrays::bindFor(Pass pass) const {
   }
 }
 
-void GpuArrays::bindSpareDirections() const { spareDirections_.buffer.bindStorage(DIRECTIONS_BINDING); }
+void GpuArrays::addSpare(Array array) {
+  ParticleArray& spare = spares_[static_cast<std::size_t>(array)];
+  const std::size_t texels = (*this)[array].buffer.size();
+  if (spare.buffer.name() == 0 || spare.buffer.size() < texels)
+    spare = ParticleArray(std::string(nameOf(array)) + " 2", texels);
+}
 
-void GpuArrays::takeSpareDirections() {
-  std::swap((*this)[Array::directions], spareDirections_);
-  (*this)[Array::directions].texture.bind(DIRECTIONS_UNIT);
+void GpuArrays::bindSpare(Array array) const {
+  spares_[static_cast<std::size_t>(array)].buffer.bindStorage(static_cast<GLuint>(placeOf(array).binding));
+}
+
+void GpuArrays::takeSpare(Array array) {
+  std::swap((*this)[array], spares_[static_cast<std::size_t>(array)]);
+  (*this)[array].texture.bind(static_cast<GLuint>(placeOf(array).unit));
 }
 
 }  // namespace clothsim

@@ -36,13 +36,15 @@ class GpuArrays {
   // What a pass writes, and the array that it takes for the positions.
   void bindFor(Pass pass) const;
   void bindScalars() const { scalars_.bindStorage(SCALARS_BINDING); }
-  // Another buffer to write directions into, and what makes it that of the directions.
-  void bindSpareDirections() const;
-  void takeSpareDirections();
+  // A second buffer for what is written while others still read the old: to write into it, and to take it for
+  // the array.
+  void addSpare(Array array);
+  void bindSpare(Array array) const;
+  void takeSpare(Array array);
 
  private:
   std::array<ParticleArray, ARRAY_COUNT> arrays_;  // unused ones are empty
-  ParticleArray spareDirections_;
+  std::array<ParticleArray, ARRAY_COUNT> spares_;  // most are empty
   gl::Buffer<ImplicitScalars<float>> scalars_;
 };
 

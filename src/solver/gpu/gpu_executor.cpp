@@ -21,6 +21,19 @@ std::uint32_t ownersAlong(const LimitColor& color) {
   return ownerCount(color.firstRow, color.rowStep, color.rowRun, color.endRow);
 }
 
+// How many pairs of the second colour a line of `points` has, those with one end beyond the line's ends too.
+std::uint32_t middlePairs(std::uint32_t points, int offset) {
+  const auto reach = static_cast<std::uint32_t>(std::abs(offset));
+  return ownerCount(0, 2 * reach, reach, points + reach);
+}
+
+bool haveSameSlots(const Cloth& cloth) {
+  const Piece& first = cloth.pieces().front();
+  return std::all_of(cloth.pieces().begin(), cloth.pieces().end(), [&](const Piece& piece) {
+    return !piece.isMesh && piece.slotEnabled == first.slotEnabled;
+  });
+}
+
 // A software renderer steps through every lane of a group at each barrier, needed or not.
 GpuOptions withCoarseLanes(GpuOptions options) {
   if (options.coarseLanes == 0)
@@ -60,6 +73,7 @@ GpuExecutor::GpuExecutor(const Cloth& cloth, const GpuOptions& options)
     colors_.push_back(makeLimitColors(piece));
     for (const LimitColor& color : colors_.back()) slots.push_back({color});
   }
+  cloths_ = {cloth.pieces().size(), haveSameSlots(cloth)};
   colorSlots_ = gl::Buffer<ColorSlot>("strain limit colours", std::span<const ColorSlot>(slots));
   upload(stateAtRest(cloth));
   gl::checkErrors("the making of the GPU solver");  // above all: out of memory
@@ -106,6 +120,8 @@ void GpuExecutor::prepare(const StepInputs& inputs, const PassList& list) {
                         inputs.scene->wind.has_value() || inputs.interaction.jet.has_value(),
                         !inputs.scene->colliders.empty(), list.contains(Pass::remember));
   }
+  if (list.contains(Pass::limit) || list.contains(Pass::resolveContacts))
+    arrays_.addSpare(Array::newPositions);
   for (std::vector<Programs>& ofPieces : kernels_) ofPieces.clear();
   compile(inputs, list);
   compile(inputs, makeConversion());
@@ -117,7 +133,7 @@ void GpuExecutor::compile(const StepInputs& inputs, const PassList& list) {
     std::size_t count = 1;
     const Domain domain = rest.front().traits().domain;
     if (domain != Domain::contacts && domain != Domain::surface) {
-      const KernelChoice choice = kernelFor(rest, options_.fused, cloth_->pieces().size());
+      const KernelChoice choice = kernelFor(rest, options_.fused, cloths_);
       count = choice.passes;
       assert((kernels()[choice.kernel].stages.front().over != Over::grids || count <= sweepLength(rest)) &&
              "passes over grid points that have one shader must be able to share a sweep");
@@ -163,17 +179,17 @@ std::size_t GpuExecutor::runKernel(std::span<const PassCall> passes) {
     surfaceContact_.run(runner_, call, arrays_);
     return 1;
   }
-  const auto [number, count] = kernelFor(passes, options_.fused, cloth_->pieces().size());
+  const auto [number, count] = kernelFor(passes, options_.fused, cloths_);
   const Kernel& kernel = kernels()[number];
   const std::string name = runner_.isTiming() ? nameOf(passes.first(count)) : "";
   for (const Pass own : kernel.passes) arrays_.bindFor(own);
-  if (kernel.hasNewDirections) arrays_.bindSpareDirections();
+  if (kernel.rewritten) arrays_.bindSpare(*kernel.rewritten);
   for (std::size_t stage = 0; stage < kernel.stages.size(); ++stage) {
     StagePrograms programs;
     for (const Programs& ofPiece : kernels_[number]) programs.push_back(ofPiece[stage]);
     runStage(kernel.stages[stage].over, programs, call, name);
   }
-  if (kernel.hasNewDirections) arrays_.takeSpareDirections();
+  if (kernel.rewritten) arrays_.takeSpare(*kernel.rewritten);
   return count;
 }
 
@@ -186,6 +202,8 @@ void GpuExecutor::runStage(Over over, const StagePrograms& programs, const PassC
       return runOnEntries(*programs[0], name, cloth_->particleCount());
     case Over::colors:
       return runOnColor(programs, call.index, name);
+    case Over::slots:
+      return runOnSlot(programs, call.index, name);
     case Over::levels:
       return runOnLevel(programs, call, name);
     case Over::firstLevels:
@@ -225,6 +243,21 @@ void GpuExecutor::runOnColor(const StagePrograms& programs, std::size_t number, 
     parameters_.bindPiece(i);
     colorSlots_.bindUniformRange(LIMIT_COLOR_BINDING, firstColors_[i] + number, 1);
     runner_.run(*programs[i], name, ownersAcross(color), ownersAlong(color));
+  }
+}
+
+void GpuExecutor::runOnSlot(const StagePrograms& programs, std::size_t firstColor, const std::string& name) {
+  for (std::size_t i = 0; i < programs.size(); ++i) {
+    const Piece& piece = cloth_->pieces()[i];
+    const SpringOffset& offset = springOffsets[colors_[i][firstColor].slot];
+    auto columns = static_cast<std::uint32_t>(piece.columns), rows = static_cast<std::uint32_t>(piece.rows);
+    if (offset.rows == 0)
+      columns = middlePairs(columns, offset.columns);
+    else
+      rows = middlePairs(rows, offset.rows);
+    parameters_.bindPiece(i);
+    colorSlots_.bindUniformRange(LIMIT_COLOR_BINDING, firstColors_[i] + firstColor, 1);
+    runner_.run(*programs[i], name, columns, (rows + LINES_AT_ONCE - 1) / LINES_AT_ONCE);
   }
 }
 

@@ -81,6 +81,7 @@ class GpuExecutor final : public Executor {
   void runStage(Over over, const StagePrograms& programs, const PassCall& call, const std::string& name);
   void runOnGrids(const StagePrograms& programs, const PassCall& call, const std::string& name);
   void runOnColor(const StagePrograms& programs, std::size_t color, const std::string& name);
+  void runOnSlot(const StagePrograms& programs, std::size_t firstColor, const std::string& name);
   void runOnLevel(const StagePrograms& programs, const PassCall& call, const std::string& name);
   void runRestrictions(const StagePrograms& programs, const std::string& name);
   void runProlongations(const StagePrograms& programs, const std::string& name);
@@ -99,6 +100,7 @@ class GpuExecutor final : public Executor {
   std::vector<std::vector<LimitColor>> colors_;  // by grid,
   std::vector<std::size_t> firstColors_;         // and where they begin in
   gl::Buffer<ColorSlot> colorSlots_;
+  ClothsTraits cloths_;
   GpuLevels levels_;  // empty until an implicit step needs them
 
   PassLibrary library_;

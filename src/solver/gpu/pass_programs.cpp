@@ -111,7 +111,9 @@ const std::vector<Kernel>& kernels() {
       {{Pass::updateDirection, Pass::multiply, Pass::sumCurvature},
        {{"implicit/search", Over::sumBlocks, {sumKind(SUM_STEP)}}},
        true,
-       true},
+       false,
+       Array::directions},
+      {{Pass::limit, Pass::limit}, {{"limit_slot", Over::slots}}, false, true, Array::newPositions},
       precondition(false, Pass::sumFirstResidual, SUM_FIRST),
       precondition(true, Pass::sumNextResidual, SUM_NEXT),
       {{Pass::forces, Pass::integrate, Pass::collide}, {{"step", Over::grids, {{"COLLIDES_IN_STEP", "1"}}}}},
@@ -174,11 +176,11 @@ std::size_t passesOf(const Kernel& kernel, std::span<const PassCall> passes) {
 
 }  // namespace
 
-KernelChoice kernelFor(std::span<const PassCall> passes, bool fused, std::size_t cloths) {
+KernelChoice kernelFor(std::span<const PassCall> passes, bool fused, const ClothsTraits& cloths) {
   for (std::size_t number = 0; number < kernels().size(); ++number) {
     const Kernel& kernel = kernels()[number];
     if (!fused && kernel.passes.size() > 1 && kernel.passes.back() != Pass::kick) continue;
-    if (kernel.isOfOneCloth && cloths != 1) continue;
+    if ((kernel.isOfOneCloth && cloths.count != 1) || (kernel.isOfSlots && !cloths.sameSlots)) continue;
     if (const std::size_t count = passesOf(kernel, passes); count > 0) return {number, count};
   }
   assert(false && "every pass has a kernel, and the kick one with the forces");

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -49,6 +50,7 @@ enum class Over : std::uint8_t {
   grids,          // grid points, a dispatch a cloth
   particles,      // of all cloths
   colors,         // springs of a colour, a dispatch a cloth
+  slots,          // pairs of grid points of a slot of springs, a dispatch a cloth
   levels,         // what the pass does of a level, a dispatch a cloth
   firstLevels,    // the same, of finest levels only
   furtherLevels,  // of all others only
@@ -70,7 +72,8 @@ struct Kernel {
   std::vector<Pass> passes;         // one that runs over levels stands for all of them, unless it is alone
   std::vector<KernelStage> stages;  // one after the other
   bool isOfOneCloth = false;        // it is for scenes with a single cloth
-  bool hasNewDirections = false;    // it writes directions while others still read the old ones
+  bool isOfSlots = false;           // it is for cloths whose limited springs are those of the same slots
+  std::optional<Array> rewritten = {};  // what it writes while others still read the old
 };
 // All but those of self-collision, which has its own (gpu/self_collision.h).
 [[nodiscard]] const std::vector<Kernel>& kernels();
@@ -80,7 +83,12 @@ struct Kernel {
 struct KernelChoice {
   std::size_t kernel, passes;
 };
-[[nodiscard]] KernelChoice kernelFor(std::span<const PassCall> passes, bool fused, std::size_t cloths = 1);
+struct ClothsTraits {
+  std::size_t count = 1;
+  bool sameSlots = true;  // the limited springs of all are those of the same slots
+};
+[[nodiscard]] KernelChoice kernelFor(std::span<const PassCall> passes, bool fused,
+                                     const ClothsTraits& cloths = {});
 
 // All programs that were ever needed: toggling back compiles nothing.
 class PassLibrary {

@@ -86,7 +86,6 @@ void GpuSelfCollision::allocate(const SelfParams<float>& params) {
   candidates_ = gl::Buffer<std::uint32_t>("contact candidates", particles * (MOST_CANDIDATES + 1));
   hashed_ = ParticleArray("hashed positions", particles);
   sorted_ = ParticleArray("sorted particles", particles);
-  spare_ = ParticleArray("positions 2", particles);
   distancesTexture_ = gl::BufferTexture("contact distances", distances_.name(), GL_R32F);
   bucketsTexture_ = gl::BufferTexture("hash buckets", buckets_.name(), GL_R32UI);
   bucketBlocksTexture_ = gl::BufferTexture("hash bucket blocks", bucketBlocks_.name(), GL_R32UI);
@@ -165,23 +164,21 @@ void GpuSelfCollision::findCandidates(PassRunner& runner, const std::string& nam
 
 void GpuSelfCollision::run(PassRunner& runner, PassCall call, GpuArrays& arrays, const BindPiece& bindPiece) {
   const std::string name = runner.isTiming() ? nameOf(call.pass) : "";
-  ParticleArray& newPositions = arrays[Array::newPositions];
   arrays.bindFor(call.pass);
   switch (call.pass) {
     case Pass::checkHash:
       bind();
       return runOnPieces(runner, *now_.check, name, bindPiece);
     case Pass::buildHash:
-      return buildHash(runner, name, call.index == HASHES_START ? arrays[Array::positions] : newPositions);
+      return buildHash(runner, name,
+                       call.index == HASHES_START ? arrays[Array::positions] : arrays[Array::newPositions]);
     case Pass::findCandidates:
       return findCandidates(runner, name, bindPiece);
     case Pass::resolveContacts:
       // All particles read where the others were before: the new places go into another buffer.
-      spare_.buffer.bindStorage(NEW_POSITIONS_BINDING);
+      arrays.bindSpare(Array::newPositions);
       runOnPieces(runner, *now_.resolve, name, bindPiece);
-      std::swap(newPositions, spare_);
-      newPositions.texture.bind(NEW_POSITIONS_UNIT);
-      return newPositions.buffer.bindStorage(NEW_POSITIONS_BINDING);
+      return arrays.takeSpare(Array::newPositions);
     case Pass::checkMotion:
       return runOnPieces(runner, *now_.checkMotion, name, bindPiece);
     case Pass::clampMotion:

@@ -93,7 +93,7 @@ class GpuSelfCollision {
   gl::Buffer<Flags> flags_;
   gl::Buffer<Groups> dispatches_;
   gl::Buffer<std::uint32_t> buckets_, bucketBlocks_, candidates_;
-  ParticleArray hashed_, sorted_, spare_;
+  ParticleArray hashed_, sorted_;
   gl::BufferTexture distancesTexture_, bucketsTexture_, bucketBlocksTexture_, candidatesTexture_;
 };
 
