@@ -17,8 +17,10 @@ using uint = std::uint32_t;
 
 // Storage blocks. Passes that build the hash and passes that use it never run at once, so some share a place.
 #define CONTACT_FLAGS_BINDING 4
-#define BUCKETS_BINDING 5
+#define BUCKET_COUNTS_BINDING 5
 #define HASHED_BINDING 6
+#define BUCKET_BLOCKS_BINDING 6
+#define BUCKETS_BINDING 7
 #define CANDIDATES_BINDING 7
 #define DISPATCHES_BINDING 7
 
@@ -65,6 +67,11 @@ SHARED_STRUCT SelfParams {
                        // distance, robust only
   real fastSquared;    // farther than this within a step a particle could slip past another unseen [m^2]
   real codesPerMeter;  // of a mesh: a code is so much of the distance at rest
+
+  uint gridGroups;  // work groups of a pass over all grids; of the GPU only
+  uint unusedA;
+  uint unusedB;
+  uint unusedC;
 };
 
 #ifdef __cplusplus

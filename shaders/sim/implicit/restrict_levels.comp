@@ -6,7 +6,7 @@
 #include "sim/implicit/scalars.glsl"
 #include "sim/implicit/vertices.glsl"
 #include "sim/implicit/updated_solution.glsl"
-#include "sim/implicit/last_group.glsl"
+#include "sim/last_group.glsl"
 
 layout(std140, binding = LEVEL_PARAMS_BINDING) uniform LevelsBlock { LevelsInARow row; };
 layout(std430, binding = RESIDUALS_BINDING) coherent buffer Residuals { vec4 allResiduals[]; };
@@ -65,7 +65,7 @@ void main() {
   if (isSkipped()) return;
   uint entry = gl_GlobalInvocationID.x, lane = gl_LocalInvocationIndex, lanes = gl_WorkGroupSize.x;
   if (entry < row.levels[0].coarseCount) restrictTo(row.levels[0].coarseFirst + entry);
-  if (row.firstPart == row.endPart || !isLastGroup()) return;
+  if (row.firstPart == row.endPart || !isLastGroupOf(gl_NumWorkGroups.x)) return;
   for (uint n = 1u; n < row.count; ++n) {
     for (uint k = lane; k < row.levels[n].coarseCount; k += lanes) restrictTo(row.levels[n].coarseFirst + k);
     awaitGroup();

@@ -3,7 +3,7 @@
 // up the blocks. Needs `step`.
 #include "sim/exact_math.glsl"
 #include "sim/implicit/scalars.glsl"
-#include "sim/implicit/last_group.glsl"
+#include "sim/last_group.glsl"
 
 #if SUM_KIND == SUM_LENGTH
 #define Sum vec4
@@ -95,7 +95,7 @@ void addToTotal(Sum sum) {
   uint lane = gl_LocalInvocationIndex, group = gl_WorkGroupID.x, groups = gl_NumWorkGroups.x;
   Sum block = addLanes(sum);
   if (lane == 0u) partialSums[group] = block;
-  if (!isLastGroup()) return;
+  if (!isLastGroupOf(gl_NumWorkGroups.x)) return;
   precise Sum all = Sum(0.0);
   for (uint k = lane; k < groups; k += uint(SUM_LANES)) all = joined(all, partialSums[k]);
   Sum total = addLanes(all);

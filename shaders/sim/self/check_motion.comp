@@ -3,6 +3,7 @@
 #include "sim/exact_math.glsl"
 #include "sim/self/common.glsl"
 #include "sim/self/cells.glsl"
+#include "sim/self/plan.glsl"
 
 void look(uint i, uint candidate);
 #include "sim/self/pairs.glsl"
@@ -23,7 +24,7 @@ void look(uint i, uint candidate) {
 
 void main() {
   GridPoint p = thisGridPoint();
-  if (!p.exists || positionAt(p.index).w == 0.0 || contacts.broken != 0u) return;
-  lookAtCandidates(p);
+  if (p.exists && positionAt(p.index).w != 0.0 && contacts.broken == 0u) lookAtCandidates(p);
   if (found) contacts.tooNear = 1u;
+  planAfterAll();
 }

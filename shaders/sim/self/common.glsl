@@ -10,7 +10,7 @@ layout(binding = SORTED_UNIT) uniform samplerBuffer sortedParticles;
 layout(binding = CANDIDATES_UNIT) uniform usamplerBuffer candidates;
 layout(binding = CONTACT_DISTANCES_UNIT) uniform samplerBuffer contactDistances;
 
-layout(std430, binding = CONTACT_FLAGS_BINDING) buffer ContactFlags {
+layout(std430, binding = CONTACT_FLAGS_BINDING) coherent buffer ContactFlags {
   uint stale;         // some particle has moved too far for the hash
   uint fast;          // or within this step for the search
   uint tooNear;       // some pair of non-adjacent particles is nearer than D
@@ -19,8 +19,10 @@ layout(std430, binding = CONTACT_FLAGS_BINDING) buffer ContactFlags {
   uint fastSteps;     // and steps with these
   uint clampedSteps;
   uint broken;        // there was divergence (sim/watch.glsl): contacts in broken numbers could take minutes, and are left out
+  uint groupsDone;
 }
 contacts;
+#define GROUPS_DONE contacts.groupsDone
 
 const uint INDEX_MASK = (1u << CANDIDATE_BITS) - 1u;
 

@@ -1,7 +1,7 @@
 // A prefix sum over the lanes of a work group.
 shared uint laneTotals[HASH_GROUP];
 
-// The sum of `total` over the lanes up to and with this one. To be called once, by every lane.
+// The sum of `total` over the lanes up to and with this one. To be called by every lane.
 uint scanLanes(uint lane, uint total) {
   laneTotals[lane] = total;
   barrier();

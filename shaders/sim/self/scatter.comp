@@ -1,4 +1,4 @@
-// Building the hash, 5: every particle to its place in its bucket.
+// Building the hash, 3: every particle to its place in its bucket.
 #include "sim/self/particles.glsl"
 
 layout(std430, binding = HASHED_BINDING) writeonly buffer Sorted { vec4 sorted[]; };

@@ -18,6 +18,7 @@ namespace clothsim {
 // What glDispatchComputeIndirect reads, in steps of 16 bytes.
 struct Groups {
   std::uint32_t x = 0, y = 0, z = 0, unused = 0;
+  [[nodiscard]] std::uint32_t count() const { return x * y * z; }
 };
 
 class PassRunner {

@@ -43,7 +43,8 @@ void GpuSelfCollision::configure(const Scene& scene) {
   if (!isOn()) return;
   hasNearCodes_ = hasNearCodes(scene, *cloth_);
   choosePrograms();
-  const SelfParams<float> params = makeSelfParams<float>(scene, *cloth_);
+  SelfParams<float> params = makeSelfParams<float>(scene, *cloth_);
+  for (const Piece& piece : cloth_->pieces()) params.gridGroups += gridGroups(piece).count();
   if (params_.name() == 0) allocate(params);
   params_.upload({&params, 1});
   distances_.upload(makeContactDistances<float>(scene, *cloth_));
@@ -56,11 +57,8 @@ void GpuSelfCollision::choosePrograms() {
   const Variant any, mode{isRobust(), false, false, false},
       pairs{isRobust(), hasNearCodes_ || cut_, cut_, cloth_->hasMesh()};
   now_.check = program("check", mode);
-  now_.plan = program("plan", any);
-  now_.clear = program("clear", any);
   now_.count = program("count", any);
-  now_.scanBlocks = program("scan_blocks", any);
-  now_.scanTotals = program("scan_totals", any);
+  now_.scanBuckets = program("scan_buckets", any);
   now_.scatter = program("scatter", any);
   now_.find = program("find", pairs);
   now_.resolve = program("resolve_contacts", pairs);
@@ -81,7 +79,9 @@ void GpuSelfCollision::allocate(const SelfParams<float>& params) {
   distances_ = gl::Buffer<float>("contact distances", cloth_->pieces().size() * NEAREST_CODES);
   const Flags none;
   flags_ = gl::Buffer<Flags>("contact flags", std::span<const Flags>(&none, 1));
-  buckets_ = gl::Buffer<std::uint32_t>("hash buckets", std::size_t{params.bucketMask} + 1);
+  const std::vector<std::uint32_t> zeros(std::size_t{params.bucketMask} + 1);
+  bucketCounts_ = gl::Buffer<std::uint32_t>("hash bucket counts", std::span<const std::uint32_t>(zeros));
+  buckets_ = gl::Buffer<std::uint32_t>("hash buckets", zeros.size());
   bucketBlocks_ = gl::Buffer<std::uint32_t>("hash bucket blocks", params.bucketBlocks);
   candidates_ = gl::Buffer<std::uint32_t>("contact candidates", particles * (MOST_CANDIDATES + 1));
   hashed_ = ParticleArray("hashed positions", particles);
@@ -94,13 +94,15 @@ void GpuSelfCollision::allocate(const SelfParams<float>& params) {
   const auto groups = [](std::size_t invocations) {
     return Groups{groupsAcross(static_cast<int>(invocations), HASH_GROUP), 1, 1};
   };
-  std::vector<Groups> needed{
-      groups(buckets_.size()), groups(particles), {params.bucketBlocks, 1, 1}, {1, 1, 1}, groups(particles)};
-  for (const Piece& piece : cloth_->pieces())
-    needed.push_back({groupsAcross(piece.columns, groupColumns_), groupsAcross(piece.rows, groupRows_), 1});
+  std::vector<Groups> needed{groups(particles), {params.bucketBlocks, 1, 1}, groups(particles)};
+  for (const Piece& piece : cloth_->pieces()) needed.push_back(gridGroups(piece));
   std::vector<Groups> dispatches(needed.size());
   dispatches.insert(dispatches.end(), needed.begin(), needed.end());
   dispatches_ = gl::Buffer<Groups>("hash dispatches", std::span<const Groups>(dispatches));
+}
+
+Groups GpuSelfCollision::gridGroups(const Piece& piece) const {
+  return {groupsAcross(piece.columns, groupColumns_), groupsAcross(piece.rows, groupRows_), 1};
 }
 
 void GpuSelfCollision::restart() {
@@ -119,7 +121,7 @@ void GpuSelfCollision::forgetDivergence() {
 void GpuSelfCollision::bind() const {
   params_.bindUniform(SELF_PARAMS_BINDING);
   flags_.bindStorage(CONTACT_FLAGS_BINDING);
-  buckets_.bindStorage(BUCKETS_BINDING);
+  bucketCounts_.bindStorage(BUCKET_COUNTS_BINDING);
   hashed_.texture.bind(HASHED_POSITIONS_UNIT);
   sorted_.texture.bind(SORTED_UNIT);
   bucketsTexture_.bind(BUCKETS_UNIT);
@@ -139,16 +141,13 @@ void GpuSelfCollision::runOnPieces(PassRunner& runner, const gl::Program& pass, 
 
 void GpuSelfCollision::buildHash(PassRunner& runner, const std::string& name,
                                  const ParticleArray& positions) const {
-  dispatches_.bindStorage(DISPATCHES_BINDING);
-  runner.runGroups(*now_.plan, name, 1);
   dispatches_.bindDispatches();
   positions.texture.bind(POSITIONS_TO_HASH_UNIT);
-  runner.runIndirect(*now_.clear, name, clearPlace);
   hashed_.buffer.bindStorage(HASHED_BINDING);
   runner.runIndirect(*now_.count, name, countPlace);
-  bucketBlocks_.bindStorage(HASHED_BINDING);
-  runner.runIndirect(*now_.scanBlocks, name, scanBlocksPlace);
-  runner.runIndirect(*now_.scanTotals, name, scanTotalsPlace);
+  buckets_.bindStorage(BUCKETS_BINDING);
+  bucketBlocks_.bindStorage(BUCKET_BLOCKS_BINDING);
+  runner.runIndirect(*now_.scanBuckets, name, scanBucketsPlace);
   sorted_.buffer.bindStorage(HASHED_BINDING);
   runner.runIndirect(*now_.scatter, name, scatterPlace);
 }
@@ -168,6 +167,7 @@ void GpuSelfCollision::run(PassRunner& runner, PassCall call, GpuArrays& arrays,
   switch (call.pass) {
     case Pass::checkHash:
       bind();
+      dispatches_.bindStorage(DISPATCHES_BINDING);
       return runOnPieces(runner, *now_.check, name, bindPiece);
     case Pass::buildHash:
       return buildHash(runner, name,
@@ -180,6 +180,7 @@ void GpuSelfCollision::run(PassRunner& runner, PassCall call, GpuArrays& arrays,
       runOnPieces(runner, *now_.resolve, name, bindPiece);
       return arrays.takeSpare(Array::newPositions);
     case Pass::checkMotion:
+      dispatches_.bindStorage(DISPATCHES_BINDING);
       return runOnPieces(runner, *now_.checkMotion, name, bindPiece);
     case Pass::clampMotion:
       return runOnPieces(runner, *now_.clamp, name, bindPiece);

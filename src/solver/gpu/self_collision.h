@@ -51,30 +51,23 @@ class GpuSelfCollision {
  private:
   struct Flags {  // as ContactFlags in shaders/sim/self/common.glsl
     std::uint32_t stale = 1, fast = 0, tooNear = 0, clamping = 0, hashBuilds = 0, fastSteps = 0,
-                  clampedSteps = 0, broken = 0;
+                  clampedSteps = 0, broken = 0, groupsDone = 0;
   };
   struct Variant {  // of a program
     bool robust = false, nearCodes = false, cuts = false, mesh = false;
     friend auto operator<=>(const Variant&, const Variant&) = default;
   };
   struct Programs {
-    const gl::Program *check = nullptr, *plan = nullptr, *clear = nullptr, *count = nullptr,
-                      *scanBlocks = nullptr, *scanTotals = nullptr, *scatter = nullptr, *find = nullptr,
-                      *resolve = nullptr, *checkMotion = nullptr, *clamp = nullptr;
+    const gl::Program *check = nullptr, *count = nullptr, *scanBuckets = nullptr, *scatter = nullptr,
+                      *find = nullptr, *resolve = nullptr, *checkMotion = nullptr, *clamp = nullptr;
   };
   // Places in the dispatch buffer; those of `find` follow, one a grid.
-  enum Place : std::size_t {
-    clearPlace,
-    countPlace,
-    scanBlocksPlace,
-    scanTotalsPlace,
-    scatterPlace,
-    findPlace
-  };
+  enum Place : std::size_t { countPlace, scanBucketsPlace, scatterPlace, findPlace };
 
   const gl::Program* program(const std::string& pass, const Variant& variant);
   void choosePrograms();
   void allocate(const SelfParams<float>& params);
+  [[nodiscard]] Groups gridGroups(const Piece& piece) const;
   void bind() const;
   void buildHash(PassRunner& runner, const std::string& name, const ParticleArray& positions) const;
   void findCandidates(PassRunner& runner, const std::string& name, const BindPiece& bindPiece) const;
@@ -92,7 +85,7 @@ class GpuSelfCollision {
   gl::Buffer<float> distances_;
   gl::Buffer<Flags> flags_;
   gl::Buffer<Groups> dispatches_;
-  gl::Buffer<std::uint32_t> buckets_, bucketBlocks_, candidates_;
+  gl::Buffer<std::uint32_t> bucketCounts_, buckets_, bucketBlocks_, candidates_;
   ParticleArray hashed_, sorted_;
   gl::BufferTexture distancesTexture_, bucketsTexture_, bucketBlocksTexture_, candidatesTexture_;
 };

@@ -1,16 +1,16 @@
-// One invocation: how many work groups the building of the hash gets, none when the old one serves. Before the clamp it is built
-// for the start of the step: the hash of another step need not know all that were near then.
-#include "shared/step_params.h"
-#include "sim/self/common.glsl"
-
-layout(local_size_x = 1) in;
+// How many work groups the building of the hash gets, none when the old one serves: the last of the groups that have looked for a
+// need decides it. Before the clamp the hash is built for the start of the step: that of another step need not know all
+// that were near then.
+#include "sim/last_group.glsl"
 
 // Four numbers a dispatch, the last unused: first what the passes are dispatched with, then what they need.
 layout(std430, binding = DISPATCHES_BINDING) buffer Dispatches { uint groups[]; };
 
 layout(std430, binding = WATCH_BINDING) readonly buffer Watch { uint watchRow[PASSES]; };
 
-void main() {
+// For all invocations of a group, when they have looked.
+void planAfterAll() {
+  if (!isLastGroupOf(self.gridGroups) || gl_LocalInvocationIndex != 0u) return;
   for (uint pass = 0u; pass < uint(PASSES); ++pass)
     if (watchRow[pass] != NO_DIVERGENCE) contacts.broken = 1u;
   if (contacts.broken != 0u) {
