@@ -49,6 +49,9 @@ using uint = std::uint32_t;
 #define REASON_RUNAWAY_SPEED 1u
 #define REASON_RUNAWAY_STRAIN 2u
 #define NO_DIVERGENCE 0xffffffffu
+#define LIMIT_TILE 24  // grid points across and along that a work group of sim/limit_tile.comp stores
+#define LIMIT_HALO \
+  10  // and how far about them it looks: two colours for each slot, as far as its springs reach
 #define LINES_AT_ONCE 8u  // of springs, by one invocation of sim/limit_slot.comp
 #define WATCHED_ROWS 8u   // of the grid, by one invocation of sim/watch_limit.comp
 

@@ -11,6 +11,13 @@ void moveEnd(inout SpringEnd end, vec3 by) {
   end = SpringEnd(vec4(canonical(newX), end.position.w), canonical(newV), true);
 }
 
+bool isTooLong(vec3 a, vec3 b, float limit) {
+  precise vec3 d = b - a;
+  precise float lengthSquared = sumOfProducts(d, d);
+  precise float limitSquared = limit * limit;
+  return limitSquared < lengthSquared;
+}
+
 void limitSpring(inout SpringEnd a, inout SpringEnd b, float limit) {
   precise vec3 d = b.position.xyz - a.position.xyz;
   precise float lengthSquared = sumOfProducts(d, d);

@@ -60,11 +60,8 @@ SpringEnd endWithVelocityAt(Point point) {
 }
 
 bool isTooLong(Line line, int spring, SpringEnd a, SpringEnd b) {
-  precise vec3 d = b.position.xyz - a.position.xyz;
-  precise float lengthSquared = sumOfProducts(d, d);
-  precise float limit = longestOf(color.slot, line.points[spring].index);
-  precise float limitSquared = limit * limit;
-  return line.exists[spring] && limitSquared < lengthSquared;
+  float limit = longestOf(color.slot, line.points[spring].index);
+  return line.exists[spring] && isTooLong(a.position.xyz, b.position.xyz, limit);
 }
 
 // Stores the middle points where no spring is too long, and returns whether one is.

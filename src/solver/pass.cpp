@@ -151,7 +151,7 @@ constexpr std::array<PassTraits, PASS_COUNT> table{{
      {newPositions, newVelocities, watch}, {F::colliders}},
     {Pass::limit, "limit", Domain::springs, 2,
      {newPositions, newVelocities}, {},
-     {newPositions, newVelocities}, {F::restLengths, F::meshes, F::cuts}},
+     {newPositions, newVelocities}, {F::springs, F::restLengths, F::meshes, F::cuts}},
     {Pass::watchLimit, "watch limit", Domain::gridPoints, 0,
      {}, {newVelocities},
      {watch}, {}},

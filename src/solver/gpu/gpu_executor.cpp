@@ -34,10 +34,16 @@ bool haveSameSlots(const Cloth& cloth) {
   });
 }
 
-// A software renderer steps through every lane of a group at each barrier, needed or not.
-GpuOptions withCoarseLanes(GpuOptions options) {
-  if (options.coarseLanes == 0)
-    options.coarseLanes = gl::currentContextInfo().software ? SUM_LANES : MOST_LANES;
+// A software renderer steps through every lane of a group at each barrier, needed or not. On hardware, groups
+// of several rows read their neighbours' points less often.
+GpuOptions forThisDevice(GpuOptions options) {
+  const bool software = gl::currentContextInfo().software;
+  if (options.coarseLanes == 0) options.coarseLanes = software ? SUM_LANES : MOST_LANES;
+  if (options.groupColumns == 0) {
+    options.groupColumns = software ? 64 : 32;
+    options.groupRows = software ? 1 : 8;
+  }
+  if (!options.limitsInTiles) options.limitsInTiles = !software;
   return options;
 }
 
@@ -57,12 +63,12 @@ struct GpuExecutor::Copy final : ParticleCopy {
 
 GpuExecutor::GpuExecutor(const Cloth& cloth, const GpuOptions& options)
     : cloth_(&cloth),
-      options_(withCoarseLanes(options)),
+      options_(forThisDevice(options)),
       arrays_(cloth.particleCount()),
       lists_(cloth),
       kernels_(kernels().size()),
-      selfCollision_(cloth, options.groupColumns, options.groupRows),
-      runner_(options.groupColumns, options.groupRows) {
+      selfCollision_(cloth, options_.groupColumns, options_.groupRows),
+      runner_(options_.groupColumns, options_.groupRows) {
   const std::vector<float> restLengths = measureRestLengths<float>(cloth);
   checkTexelsFit(restLengths.size(), "rest lengths");
   restLengths_ = gl::Buffer<float>("rest lengths", std::span<const float>(restLengths));
@@ -73,7 +79,8 @@ GpuExecutor::GpuExecutor(const Cloth& cloth, const GpuOptions& options)
     colors_.push_back(makeLimitColors(piece));
     for (const LimitColor& color : colors_.back()) slots.push_back({color});
   }
-  cloths_ = {cloth.pieces().size(), haveSameSlots(cloth)};
+  kernelOptions_ = {options_.fused, cloth.pieces().size() == 1, haveSameSlots(cloth),
+                    *options_.limitsInTiles && !cloth.hasMesh()};
   colorSlots_ = gl::Buffer<ColorSlot>("strain limit colours", std::span<const ColorSlot>(slots));
   upload(stateAtRest(cloth));
   gl::checkErrors("the making of the GPU solver");  // above all: out of memory
@@ -133,7 +140,7 @@ void GpuExecutor::compile(const StepInputs& inputs, const PassList& list) {
     std::size_t count = 1;
     const Domain domain = rest.front().traits().domain;
     if (domain != Domain::contacts && domain != Domain::surface) {
-      const KernelChoice choice = kernelFor(rest, options_.fused, cloths_);
+      const KernelChoice choice = kernelFor(rest, kernelOptions_);
       count = choice.passes;
       assert((kernels()[choice.kernel].stages.front().over != Over::grids || count <= sweepLength(rest)) &&
              "passes over grid points that have one shader must be able to share a sweep");
@@ -179,7 +186,7 @@ std::size_t GpuExecutor::runKernel(std::span<const PassCall> passes) {
     surfaceContact_.run(runner_, call, arrays_);
     return 1;
   }
-  const auto [number, count] = kernelFor(passes, options_.fused, cloths_);
+  const auto [number, count] = kernelFor(passes, kernelOptions_);
   const Kernel& kernel = kernels()[number];
   const std::string name = runner_.isTiming() ? nameOf(passes.first(count)) : "";
   for (const Pass own : kernel.passes) arrays_.bindFor(own);
@@ -202,6 +209,8 @@ void GpuExecutor::runStage(Over over, const StagePrograms& programs, const PassC
       return runOnEntries(*programs[0], name, cloth_->particleCount());
     case Over::colors:
       return runOnColor(programs, call.index, name);
+    case Over::tiles:
+      return runOnTiles(programs, name);
     case Over::slots:
       return runOnSlot(programs, call.index, name);
     case Over::levels:
@@ -243,6 +252,17 @@ void GpuExecutor::runOnColor(const StagePrograms& programs, std::size_t number, 
     parameters_.bindPiece(i);
     colorSlots_.bindUniformRange(LIMIT_COLOR_BINDING, firstColors_[i] + number, 1);
     runner_.run(*programs[i], name, ownersAcross(color), ownersAlong(color));
+  }
+}
+
+void GpuExecutor::runOnTiles(const StagePrograms& programs, const std::string& name) {
+  const auto tiles = [](int points) {
+    return static_cast<std::uint32_t>((points + LIMIT_TILE - 1) / LIMIT_TILE);
+  };
+  for (std::size_t i = 0; i < programs.size(); ++i) {
+    const Piece& piece = cloth_->pieces()[i];
+    parameters_.bindPiece(i);
+    runner_.runGroups(*programs[i], name, tiles(piece.columns), tiles(piece.rows));
   }
 }
 

@@ -26,12 +26,15 @@ namespace clothsim {
 struct GpuOptions {
   bool fused = true;  // passes that share a sweep in one dispatch, where there is a kernel for them; the bits
                       // are the same either way
-  int groupColumns = 64;  // work group, in grid points
+  int groupColumns = 0;  // work group, in grid points; 0: as suits the device
   int groupRows = 1;
   // One work group takes all levels of at most `verticesAlone` vertices, but for the finest, with
   // `coarseLanes` invocations; 0: as many as suit the device.
   int coarseLanes = 0;
   std::uint32_t verticesAlone = 16384;
+  // The strain limit of grids in tiles of shared memory, all colours in one dispatch; empty: where OpenGL is
+  // hardware. A software renderer has slow shared memory.
+  std::optional<bool> limitsInTiles = {};
 };
 
 class GpuExecutor final : public Executor {
@@ -81,6 +84,7 @@ class GpuExecutor final : public Executor {
   void runStage(Over over, const StagePrograms& programs, const PassCall& call, const std::string& name);
   void runOnGrids(const StagePrograms& programs, const PassCall& call, const std::string& name);
   void runOnColor(const StagePrograms& programs, std::size_t color, const std::string& name);
+  void runOnTiles(const StagePrograms& programs, const std::string& name);
   void runOnSlot(const StagePrograms& programs, std::size_t firstColor, const std::string& name);
   void runOnLevel(const StagePrograms& programs, const PassCall& call, const std::string& name);
   void runRestrictions(const StagePrograms& programs, const std::string& name);
@@ -100,7 +104,7 @@ class GpuExecutor final : public Executor {
   std::vector<std::vector<LimitColor>> colors_;  // by grid,
   std::vector<std::size_t> firstColors_;         // and where they begin in
   gl::Buffer<ColorSlot> colorSlots_;
-  ClothsTraits cloths_;
+  KernelOptions kernelOptions_;
   GpuLevels levels_;  // empty until an implicit step needs them
 
   PassLibrary library_;

@@ -110,10 +110,10 @@ const std::vector<Kernel>& kernels() {
   static const std::vector<Kernel> all{
       {{Pass::updateDirection, Pass::multiply, Pass::sumCurvature},
        {{"implicit/search", Over::sumBlocks, {sumKind(SUM_STEP)}}},
-       true,
-       false,
+       For::one,
        Array::directions},
-      {{Pass::limit, Pass::limit}, {{"limit_slot", Over::slots}}, false, true, Array::newPositions},
+      {{Pass::limit, Pass::watchLimit}, {{"limit_tile", Over::tiles}}, For::tiles, Array::newPositions},
+      {{Pass::limit, Pass::limit}, {{"limit_slot", Over::slots}}, For::sameSlots, Array::newPositions},
       precondition(false, Pass::sumFirstResidual, SUM_FIRST),
       precondition(true, Pass::sumNextResidual, SUM_NEXT),
       {{Pass::forces, Pass::integrate, Pass::collide}, {{"step", Over::grids, {{"COLLIDES_IN_STEP", "1"}}}}},
@@ -168,19 +168,34 @@ std::size_t passesOf(const Kernel& kernel, std::span<const PassCall> passes) {
   for (const Pass own : kernel.passes) {
     if (count == passes.size() || passes[count].pass != own) return 0;
     ++count;
-    if (kernel.passes.size() == 1 || !runsOverLevels(own)) continue;
+    const bool standsForAll = runsOverLevels(own) || kernel.cloths == For::tiles;
+    if (kernel.passes.size() == 1 || !standsForAll) continue;
     while (count < passes.size() && passes[count].pass == own) ++count;
   }
   return count;
 }
 
+bool isFor(For cloths, const KernelOptions& options) {
+  switch (cloths) {
+    case For::all:
+      return true;
+    case For::one:
+      return options.oneCloth;
+    case For::sameSlots:
+      return options.sameSlots;
+    case For::tiles:
+      return options.tiles;
+  }
+  return false;
+}
+
 }  // namespace
 
-KernelChoice kernelFor(std::span<const PassCall> passes, bool fused, const ClothsTraits& cloths) {
+KernelChoice kernelFor(std::span<const PassCall> passes, const KernelOptions& options) {
   for (std::size_t number = 0; number < kernels().size(); ++number) {
     const Kernel& kernel = kernels()[number];
-    if (!fused && kernel.passes.size() > 1 && kernel.passes.back() != Pass::kick) continue;
-    if ((kernel.isOfOneCloth && cloths.count != 1) || (kernel.isOfSlots && !cloths.sameSlots)) continue;
+    if (!options.fused && kernel.passes.size() > 1 && kernel.passes.back() != Pass::kick) continue;
+    if (!isFor(kernel.cloths, options)) continue;
     if (const std::size_t count = passesOf(kernel, passes); count > 0) return {number, count};
   }
   assert(false && "every pass has a kernel, and the kick one with the forces");
@@ -195,8 +210,8 @@ std::vector<const gl::Program*> PassLibrary::find(const Kernel& kernel, const Pa
   std::vector<const gl::Program*> programs;
   for (const KernelStage& stage : kernel.stages) {
     PassFeatures ofStage = own;
-    if (stage.over == Over::sumBlocks || stage.over == Over::restrictions) {
-      ofStage.groupColumns = stage.over == Over::sumBlocks ? SUM_LANES : features.coarseLanes;
+    if (stage.over == Over::sumBlocks || stage.over == Over::restrictions || stage.over == Over::tiles) {
+      ofStage.groupColumns = stage.over == Over::restrictions ? features.coarseLanes : SUM_LANES;
       ofStage.groupRows = 1;
     }
     gl::Defines defines = definesFor(ofStage);

@@ -51,6 +51,7 @@ enum class Over : std::uint8_t {
   particles,      // of all cloths
   colors,         // springs of a colour, a dispatch a cloth
   slots,          // pairs of grid points of a slot of springs, a dispatch a cloth
+  tiles,          // of grid points, a work group each, a dispatch a cloth
   levels,         // what the pass does of a level, a dispatch a cloth
   firstLevels,    // the same, of finest levels only
   furtherLevels,  // of all others only
@@ -67,28 +68,37 @@ struct KernelStage {
   gl::Defines defines = {};  // besides those of the features
 };
 
+// The cloths that a kernel is for.
+enum class For : std::uint8_t {
+  all,
+  one,        // scenes with a single cloth
+  sameSlots,  // grids whose limited springs are those of the same slots
+  tiles       // grids, on devices with fast shared memory
+};
+
 // What runs in one go: a pass, or several that have shaders together.
 struct Kernel {
-  std::vector<Pass> passes;         // one that runs over levels stands for all of them, unless it is alone
+  // One that runs over levels stands for all of them, unless it is alone, and the strain limit in tiles for
+  // all colours.
+  std::vector<Pass> passes;
   std::vector<KernelStage> stages;  // one after the other
-  bool isOfOneCloth = false;        // it is for scenes with a single cloth
-  bool isOfSlots = false;           // it is for cloths whose limited springs are those of the same slots
+  For cloths = For::all;
   std::optional<Array> rewritten = {};  // what it writes while others still read the old
 };
 // All but those of self-collision, which has its own (gpu/self_collision.h).
 [[nodiscard]] const std::vector<Kernel>& kernels();
 
-// The number of the kernel for the first of these passes, and how many of them it takes. With `fused` false
-// only those together that have no kernels of their own.
+// What decides between the kernels of a pass.
+struct KernelOptions {
+  bool fused = true;  // otherwise only those passes together that have no kernels of their own
+  bool oneCloth = true, sameSlots = true, tiles = false;  // whether kernels for these may be taken
+};
+
+// The number of the kernel for the first of these passes, and how many of them it takes.
 struct KernelChoice {
   std::size_t kernel, passes;
 };
-struct ClothsTraits {
-  std::size_t count = 1;
-  bool sameSlots = true;  // the limited springs of all are those of the same slots
-};
-[[nodiscard]] KernelChoice kernelFor(std::span<const PassCall> passes, bool fused,
-                                     const ClothsTraits& cloths = {});
+[[nodiscard]] KernelChoice kernelFor(std::span<const PassCall> passes, const KernelOptions& options = {});
 
 // All programs that were ever needed: toggling back compiles nothing.
 class PassLibrary {

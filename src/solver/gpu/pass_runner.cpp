@@ -23,7 +23,12 @@ void PassRunner::run(const gl::Program& pass, const std::string& name, std::uint
 }
 
 void PassRunner::runGroups(const gl::Program& pass, const std::string& name, std::uint32_t groups) {
-  runTimed(pass, name, [&] { gl::dispatch(groups, 1); });
+  runGroups(pass, name, groups, 1);
+}
+
+void PassRunner::runGroups(const gl::Program& pass, const std::string& name, std::uint32_t across,
+                           std::uint32_t along) {
+  runTimed(pass, name, [&] { gl::dispatch(across, along, 1, 1); });
 }
 
 void PassRunner::runIndirect(const gl::Program& pass, const std::string& name, std::size_t place) {

@@ -29,8 +29,9 @@ class PassRunner {
 
   // One invocation a grid point.
   void run(const gl::Program& pass, const std::string& name, std::uint32_t columns, std::uint32_t rows);
-  // `groups` work groups.
+  // `groups` work groups, or `across` x `along`.
   void runGroups(const gl::Program& pass, const std::string& name, std::uint32_t groups);
+  void runGroups(const gl::Program& pass, const std::string& name, std::uint32_t across, std::uint32_t along);
   // As many work groups as the bound dispatch buffer says at that place.
   void runIndirect(const gl::Program& pass, const std::string& name, std::size_t place);
 

@@ -18,6 +18,7 @@
 #include "render/camera.h"
 #include "simulation/gpu/simulation_renderer.h"
 #include "simulation/gpu/solvers.h"
+#include "solver/gpu/gpu_solver.h"
 #include "support/compared_scenes.h"
 
 namespace clothsim {
@@ -33,7 +34,13 @@ struct Configuration {
   std::string name;
   int points;  // of N x N
   Scene scene;
+  SolverFactory makeSolver = clothsim::makeSolver;
 };
+
+std::unique_ptr<Solver> makeAsOnHardware(const std::string&, const Shared<Cloth>& cloth,
+                                         const Shared<Scene>& scene) {
+  return std::make_unique<GpuSolver>(*cloth, scene, GpuOptions{.limitsInTiles = true});
+}
 
 Scene hanging(int n) { return test::vertical(test::sheetScene(n)); }
 
@@ -66,6 +73,10 @@ std::vector<Configuration> configurations(bool whole) {
       all.push_back({"limiter", n, test::withLimiter(hanging(n))});
       all.push_back({"robust", n, withSelfCollision(test::withLimiter(hanging(n)), SelfCollision::robust)});
       all.push_back({"implicit with contact", n, inContact(n)});
+      all.push_back({"limiter, as on hardware", n, test::withLimiter(hanging(n)), makeAsOnHardware});
+      all.push_back({"robust, as on hardware", n,
+                     withSelfCollision(test::withLimiter(hanging(n)), SelfCollision::robust),
+                     makeAsOnHardware});
     }
     if (whole || n <= 512) all.push_back({"implicit", n, inImplicitSteps(hanging(n))});
   }
@@ -92,7 +103,7 @@ std::string row(const Configuration& of, int steps, bool drawn) {
 // A row for a step, and one for a frame as `clothsim render` makes it: steps, the question whether they went
 // well, a picture.
 std::string rowsOf(const Configuration& configuration) {
-  Simulation simulation(configuration.scene, "gpu", makeSolver);
+  Simulation simulation(configuration.scene, "gpu", configuration.makeSolver);
   SimulationRenderer renderer(simulation, {});
   const Camera camera(simulation.scene(), simulation.cloth());
   const gl::Framebuffer target(

@@ -147,9 +147,19 @@ TEST_F(GpuSolverTest, GivesTheSameBitsFusedAndPassByPass) {
 TEST_F(GpuSolverTest, GivesTheSameBitsAtEveryWorkGroupSize) {
   for (const Scene& scene : {test::everythingScene(37), test::layeredSheets(37, SelfCollision::robust)}) {
     const std::uint64_t usual = stateHash(steppedOnGpu(scene, 80));
-    for (const auto& [columns, rows] : {std::pair{1, 1}, {8, 8}, {16, 4}, {128, 1}, {256, 1}})
+    for (const auto& [columns, rows] : {std::pair{1, 1}, {8, 8}, {16, 4}, {32, 8}, {256, 1}})
       EXPECT_EQ(stateHash(steppedOnGpu(scene, 80, {.groupColumns = columns, .groupRows = rows})), usual)
           << columns << "x" << rows;
+  }
+}
+
+// As on hardware, with tiles that end within the grid.
+TEST_F(GpuSolverTest, LimitsStrainInTilesAsPassByPass) {
+  for (const auto& [name, scene] : test::comparedScenes(31)) {
+    if (!scene.solver.strainLimit) continue;
+    EXPECT_EQ(difference(steppedOnGpu(scene, 20, {.limitsInTiles = true}), steppedOnCpu(scene, 20)).differing,
+              0u)
+        << name;
   }
 }
 

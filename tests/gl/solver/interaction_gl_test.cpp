@@ -77,6 +77,7 @@ TEST_F(InteractionOnGpuTest, GivesTheSameBitsFusedAndPassByPass) {
     EXPECT_EQ(
         stateHash(playedOn<GpuSolver>(scene, GpuOptions{.fused = false, .groupColumns = 16, .groupRows = 4})),
         fused);
+    EXPECT_EQ(stateHash(playedOn<GpuSolver>(scene, GpuOptions{.limitsInTiles = true})), fused);
   }
 }
 

@@ -60,7 +60,7 @@ const gl::Program& programOf(PassLibrary& library, std::initializer_list<Pass> p
                              const PassFeatures& features) {
   std::vector<PassCall> wanted;
   for (const Pass pass : passes) wanted.push_back({pass});
-  return *library.find(kernels()[kernelFor(wanted, true).kernel], features).back();
+  return *library.find(kernels()[kernelFor(wanted).kernel], features).back();
 }
 
 struct Programs {
@@ -185,8 +185,7 @@ TEST_F(LayoutTest, OfWhatTheImplicitIntegratorSharesIsTheDrivers) {
            .find(kernels()[kernelFor(std::vector<PassCall>{{Pass::restrict},
                                                            {Pass::solveCoarsest},
                                                            {Pass::prolong},
-                                                           {Pass::sumFirstResidual}},
-                                     true)
+                                                           {Pass::sumFirstResidual}})
                                .kernel],
                  features)
            .front();
