@@ -22,8 +22,10 @@ using uint = std::uint32_t;
 
 #define NEW_POSITIONS_BINDING 0  // storage blocks: at the end of the step,
 #define NEW_VELOCITIES_BINDING 1
-#define FORCES_BINDING 2  // between separate passes
-#define WATCH_BINDING 3   // the watchdog's row of this step
+#define FORCES_BINDING 2     // between separate passes
+#define WATCH_BINDING 3      // the watchdog's row of this step
+#define POSITIONS_BINDING 8  // at the start of the step, where it is not read as texels
+#define VELOCITIES_BINDING 9
 
 #define POSITIONS_UNIT 0  // the particle buffers as texels: at the start of the step,
 #define VELOCITIES_UNIT 1

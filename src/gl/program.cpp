@@ -82,7 +82,11 @@ Program Program::make(const std::vector<Stage>& stages, const Defines& defines) 
 }
 
 Program Program::makeCompute(const std::string& file, const Defines& defines) {
-  return make({{GL_COMPUTE_SHADER, file}}, defines);
+  Program program = make({{GL_COMPUTE_SHADER, file}}, defines);
+  GLint size[3] = {};
+  glGetProgramiv(program.name_, GL_COMPUTE_WORK_GROUP_SIZE, size);
+  program.group_ = {size[0], size[1]};
+  return program;
 }
 
 Program Program::makeRender(const std::string& vertexFile, const std::string& fragmentFile,

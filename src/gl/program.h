@@ -11,6 +11,11 @@
 
 namespace clothsim::gl {
 
+// Invocations of a work group.
+struct GroupShape {
+  int columns = 1, rows = 1;
+};
+
 class Program {
  public:
   Program() = default;
@@ -21,13 +26,15 @@ class Program {
   [[nodiscard]] static Program makeRender(const std::string& vertexFile, const std::string& geometryFile,
                                           const std::string& fragmentFile, const Defines& defines = {});
   ~Program();
-  Program(Program&& other) noexcept { std::swap(name_, other.name_); }
+  Program(Program&& other) noexcept { *this = std::move(other); }
   Program& operator=(Program&& other) noexcept {
     std::swap(name_, other.name_);
+    std::swap(group_, other.group_);
     return *this;
   }
 
   [[nodiscard]] GLuint name() const { return name_; }
+  [[nodiscard]] GroupShape group() const { return group_; }  // as its shader declares it
   void bind() const { glUseProgram(name_); }
 
  private:
@@ -38,6 +45,7 @@ class Program {
   static Program make(const std::vector<Stage>& stages, const Defines& defines);
 
   GLuint name_ = 0;
+  GroupShape group_;
 };
 
 // Work groups for columns x rows invocations; asserts that they stay within the 65,535 that every driver

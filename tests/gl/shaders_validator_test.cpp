@@ -101,7 +101,8 @@ std::vector<gl::Defines> variantsOf(const std::string& file) {
   everything.limitSprings = everything.material = everything.contactPlanes = everything.history = true;
   everything.surface = everything.smallColliders = true;
   PassFeatures mesh = everything;
-  mesh.mesh = true;
+  mesh.mesh = mesh.storageLoads = true;
+  cs184.storageLoads = true;
   everything.gate = GATE_STEP;
   mesh.gate = GATE_SYSTEM;
   std::vector<gl::Defines> variants{definesFor(everything), definesFor(cs184), definesFor(PassFeatures{}),

@@ -140,7 +140,9 @@ ImplicitScalars<float> GpuArrays::scalars() const {
   return scalars_.download().front();
 }
 
-void GpuArrays::bindTextures() const {
+void GpuArrays::bindTextures(bool storageLoads) {
+  storageLoads_ = storageLoads;
+  if (storageLoads) (*this)[Array::velocities].buffer.bindStorage(VELOCITIES_BINDING);
   for (int i = 0; i < ARRAY_COUNT; ++i) {
     const int unit = placeOf(static_cast<Array>(i)).unit;
     const ParticleArray& array = arrays_[static_cast<std::size_t>(i)];
@@ -149,7 +151,9 @@ void GpuArrays::bindTextures() const {
 }
 
 void GpuArrays::bindFor(Pass pass) const {
-  (*this)[positionsOf(pass)].texture.bind(POSITIONS_UNIT);
+  const ParticleArray& positions = (*this)[positionsOf(pass)];
+  positions.texture.bind(POSITIONS_UNIT);
+  if (storageLoads_) positions.buffer.bindStorage(POSITIONS_BINDING);
   const PassTraits& traits = traitsOf(pass);
   if (traits.gate != Gate::none || (traits.reads | traits.writes).contains(Array::scalars))
     scalars_.bindStorage(SCALARS_BINDING);

@@ -31,8 +31,8 @@ class GpuArrays {
     return arrays_[static_cast<std::size_t>(array)];
   }
 
-  // All that can be read, once a list.
-  void bindTextures() const;
+  // All that can be read, once a list; with `storageLoads` the state at the start as storage blocks, too.
+  void bindTextures(bool storageLoads);
   // What a pass writes, and the array that it takes for the positions.
   void bindFor(Pass pass) const;
   void bindScalars() const { scalars_.bindStorage(SCALARS_BINDING); }
@@ -46,6 +46,7 @@ class GpuArrays {
   std::array<ParticleArray, ARRAY_COUNT> arrays_;  // unused ones are empty
   std::array<ParticleArray, ARRAY_COUNT> spares_;  // most are empty
   gl::Buffer<ImplicitScalars<float>> scalars_;
+  bool storageLoads_ = false;
 };
 
 // Where shaders find an array: the texture unit to read it from, the binding of the storage block to write it

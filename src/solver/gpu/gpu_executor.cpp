@@ -34,6 +34,14 @@ bool haveSameSlots(const Cloth& cloth) {
   });
 }
 
+// Two storage blocks more than what every device must have for the passes (gl/requirements.h).
+bool hasPlacesForStorageLoads() {
+  GLint blocks = 0, places = 0;
+  glGetIntegerv(GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS, &blocks);
+  glGetIntegerv(GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS, &places);
+  return blocks >= 11 && places > VELOCITIES_BINDING;
+}
+
 // A software renderer steps through every lane of a group at each barrier, needed or not. On hardware, groups
 // of several rows read their neighbours' points less often.
 GpuOptions forThisDevice(GpuOptions options) {
@@ -44,6 +52,7 @@ GpuOptions forThisDevice(GpuOptions options) {
     options.groupRows = software ? 1 : 8;
   }
   if (!options.limitsInTiles) options.limitsInTiles = !software;
+  if (!options.storageLoads) options.storageLoads = !software && hasPlacesForStorageLoads();
   return options;
 }
 
@@ -67,8 +76,7 @@ GpuExecutor::GpuExecutor(const Cloth& cloth, const GpuOptions& options)
       arrays_(cloth.particleCount()),
       lists_(cloth),
       kernels_(kernels().size()),
-      selfCollision_(cloth, options_.groupColumns, options_.groupRows),
-      runner_(options_.groupColumns, options_.groupRows) {
+      selfCollision_(cloth, options_.groupColumns, options_.groupRows) {
   const std::vector<float> restLengths = measureRestLengths<float>(cloth);
   checkTexelsFit(restLengths.size(), "rest lengths");
   restLengths_ = gl::Buffer<float>("rest lengths", std::span<const float>(restLengths));
@@ -149,6 +157,7 @@ void GpuExecutor::compile(const StepInputs& inputs, const PassList& list) {
         PassFeatures features = featuresOf(*inputs.scene, *cloth_, piece, inputs.interaction, inputs.cuts);
         features.groupColumns = options_.groupColumns;
         features.groupRows = options_.groupRows;
+        features.storageLoads = *options_.storageLoads;
         features.coarseLanes = options_.coarseLanes;
         programs.push_back(library_.find(kernels()[choice.kernel], features));
       }
@@ -159,7 +168,7 @@ void GpuExecutor::compile(const StepInputs& inputs, const PassList& list) {
 
 void GpuExecutor::run(const StepInputs& inputs, const PassList& list, int steps) {
   parameters_.bind(inputs, steps);
-  arrays_.bindTextures();
+  arrays_.bindTextures(*options_.storageLoads);
   arrays_[Array::forces].buffer.bindStorage(FORCES_BINDING);
   restLengthTexture_.bind(REST_LENGTHS_UNIT);
   distanceTexture_.bind(DISTANCES_UNIT);

@@ -35,6 +35,9 @@ struct GpuOptions {
   // The strain limit of grids in tiles of shared memory, all colours in one dispatch; empty: where OpenGL is
   // hardware. A software renderer has slow shared memory.
   std::optional<bool> limitsInTiles = {};
+  // The state at the start of a step is read from storage blocks instead of as texels; empty: where OpenGL is
+  // hardware. A software renderer is faster at texels.
+  std::optional<bool> storageLoads = {};
 };
 
 class GpuExecutor final : public Executor {

@@ -45,6 +45,7 @@ PassFeatures restricted(const PassFeatures& all, Features to) {
   };
   features.groupColumns = all.groupColumns;
   features.groupRows = all.groupRows;
+  features.storageLoads = all.storageLoads;
   take(Feature::springs, &PassFeatures::enabledSlots, &PassFeatures::material, &PassFeatures::limitSprings);
   take(Feature::restLengths, &PassFeatures::restLengthTable);
   take(Feature::meshes, &PassFeatures::mesh);
@@ -67,6 +68,7 @@ PassFeatures restricted(const PassFeatures& all, Features to) {
 gl::Defines definesFor(const PassFeatures& features) {
   return {{"WORK_GROUP_COLUMNS", std::to_string(features.groupColumns)},
           {"WORK_GROUP_ROWS", std::to_string(features.groupRows)},
+          {"LOADS_FROM_STORAGE", std::to_string(features.storageLoads)},
           {"HAS_WIND", std::to_string(features.wind)},
           {"ACTIVE_FORCES", std::to_string(features.particleForces) + "u"},
           {"COLLIDER_TYPES", std::to_string(features.colliderTypes) + "u"},
@@ -210,9 +212,12 @@ std::vector<const gl::Program*> PassLibrary::find(const Kernel& kernel, const Pa
   std::vector<const gl::Program*> programs;
   for (const KernelStage& stage : kernel.stages) {
     PassFeatures ofStage = own;
+    if (stage.over != Over::grids || features.mesh) {
+      ofStage.groupColumns *= ofStage.groupRows;
+      ofStage.groupRows = 1;
+    }
     if (stage.over == Over::sumBlocks || stage.over == Over::restrictions || stage.over == Over::tiles) {
       ofStage.groupColumns = stage.over == Over::restrictions ? features.coarseLanes : SUM_LANES;
-      ofStage.groupRows = 1;
     }
     gl::Defines defines = definesFor(ofStage);
     defines.insert(defines.end(), stage.defines.begin(), stage.defines.end());

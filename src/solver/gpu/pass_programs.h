@@ -32,7 +32,8 @@ struct PassFeatures {
   std::uint32_t colliderTypes = 0;               // one bit a COLLIDER_... of shared/shapes.h
   std::uint32_t particleForces = 0;              // one bit a FORCE_... of shared/forces.h
   std::uint32_t enabledSlots = 0;                // one bit a SpringSlot
-  int groupColumns = 64, groupRows = 1;
+  int groupColumns = 64, groupRows = 1;          // of passes over grid points; others have as many in one row
+  bool storageLoads = false;                     // the state at the start is read from storage blocks
   int coarseLanes = SUM_LANES;  // invocations of the work group that takes coarse levels alone
   int gate = 0;                 // GATE_... of shared/implicit.h
   friend auto operator<=>(const PassFeatures&, const PassFeatures&) = default;

@@ -10,7 +10,7 @@ void PassRunner::runTimed(const gl::Program& pass, const std::string& name, Disp
   pass.bind();
   if (timer_) timer_->begin();
   dispatch();
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
   if (flushes_) glFlush();
   if (!timer_) return;
   timer_->end();
@@ -19,7 +19,7 @@ void PassRunner::runTimed(const gl::Program& pass, const std::string& name, Disp
 
 void PassRunner::run(const gl::Program& pass, const std::string& name, std::uint32_t columns,
                      std::uint32_t rows) {
-  runTimed(pass, name, [&] { gl::dispatch(columns, rows, groupColumns_, groupRows_); });
+  runTimed(pass, name, [&] { gl::dispatch(columns, rows, pass.group().columns, pass.group().rows); });
 }
 
 void PassRunner::runGroups(const gl::Program& pass, const std::string& name, std::uint32_t groups) {
@@ -29,6 +29,11 @@ void PassRunner::runGroups(const gl::Program& pass, const std::string& name, std
 void PassRunner::runGroups(const gl::Program& pass, const std::string& name, std::uint32_t across,
                            std::uint32_t along) {
   runTimed(pass, name, [&] { gl::dispatch(across, along, 1, 1); });
+}
+
+void PassRunner::takeCounts(const gl::Buffer<Groups>& counts) {
+  glMemoryBarrier(GL_COMMAND_BARRIER_BIT);
+  counts.bindDispatches();
 }
 
 void PassRunner::runIndirect(const gl::Program& pass, const std::string& name, std::size_t place) {

@@ -24,15 +24,17 @@ struct Groups {
 class PassRunner {
  public:
   // For the current context.
-  PassRunner(int groupColumns, int groupRows)
-      : groupColumns_(groupColumns), groupRows_(groupRows), flushes_(gl::currentContextInfo().needsFlushes) {}
+  PassRunner() : flushes_(gl::currentContextInfo().needsFlushes) {}
 
-  // One invocation a grid point.
+  // At least columns x rows invocations.
   void run(const gl::Program& pass, const std::string& name, std::uint32_t columns, std::uint32_t rows);
   // `groups` work groups, or `across` x `along`.
   void runGroups(const gl::Program& pass, const std::string& name, std::uint32_t groups);
   void runGroups(const gl::Program& pass, const std::string& name, std::uint32_t across, std::uint32_t along);
-  // As many work groups as the bound dispatch buffer says at that place.
+  // The counts of work groups for runIndirect, as the passes so far have written them. The passes' own
+  // barriers leave them out, because few are followed by a reader of counts.
+  void takeCounts(const gl::Buffer<Groups>& counts);
+  // As many work groups as those counts say at that place.
   void runIndirect(const gl::Program& pass, const std::string& name, std::size_t place);
 
   // Between these, every dispatch is timed (which slows the whole), and times add up by name. Names
@@ -45,7 +47,6 @@ class PassRunner {
   template <class Dispatch>
   void runTimed(const gl::Program& pass, const std::string& name, Dispatch dispatch);
 
-  int groupColumns_, groupRows_;
   bool flushes_;
   std::optional<gl::Timer> timer_;
   std::vector<std::string> timed_;  // the names of the timer's spans

@@ -36,7 +36,9 @@ const gl::Program* GpuSelfCollision::program(const std::string& pass, const Vari
 }
 
 GpuSelfCollision::GpuSelfCollision(const Cloth& cloth, int groupColumns, int groupRows)
-    : cloth_(&cloth), groupColumns_(groupColumns), groupRows_(groupRows) {}
+    : cloth_(&cloth),
+      groupColumns_(cloth.hasMesh() ? groupColumns * groupRows : groupColumns),
+      groupRows_(cloth.hasMesh() ? 1 : groupRows) {}
 
 void GpuSelfCollision::configure(const Scene& scene) {
   mode_ = collidesWithItself(scene, *cloth_) ? scene.solver.selfCollision : SelfCollision::off;
@@ -141,7 +143,7 @@ void GpuSelfCollision::runOnPieces(PassRunner& runner, const gl::Program& pass, 
 
 void GpuSelfCollision::buildHash(PassRunner& runner, const std::string& name,
                                  const ParticleArray& positions) const {
-  dispatches_.bindDispatches();
+  runner.takeCounts(dispatches_);
   positions.texture.bind(POSITIONS_TO_HASH_UNIT);
   hashed_.buffer.bindStorage(HASHED_BINDING);
   runner.runIndirect(*now_.count, name, countPlace);

@@ -239,7 +239,7 @@ void GpuSurfaceContact::findTouching(PassRunner& runner, bool later) {
   runOn(runner, program("search", {.touching = true, .writes = true}), triangles);
   scan(runner, lists_, listBlocks_, particles_, true);
 
-  dispatches_.bindDispatches();
+  runner.takeCounts(dispatches_);
   cursors_.bindStorage(SURFACE_OUT_BINDING);
   entries_.buffer.bindStorage(SURFACE_LISTS_BINDING);
   runner.runIndirect(program("list"), name_, 0);

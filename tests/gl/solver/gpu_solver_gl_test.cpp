@@ -153,6 +153,15 @@ TEST_F(GpuSolverTest, GivesTheSameBitsAtEveryWorkGroupSize) {
   }
 }
 
+// As on hardware.
+TEST_F(GpuSolverTest, GivesTheSameBitsFromStorageBlocksAsFromTexels) {
+  const GpuOptions hardware{.groupColumns = 32, .groupRows = 8, .storageLoads = true};
+  for (const Scene& scene : {test::everythingScene(33), test::layeredSheets(17, SelfCollision::robust),
+                             test::implicitly(test::withColliders(test::materialScene(17))),
+                             test::meshWithEverything(8, SelfCollision::averaged)})
+    EXPECT_EQ(difference(steppedOnGpu(scene, 10, hardware), steppedOnCpu(scene, 10)).differing, 0u);
+}
+
 // As on hardware, with tiles that end within the grid.
 TEST_F(GpuSolverTest, LimitsStrainInTilesAsPassByPass) {
   for (const auto& [name, scene] : test::comparedScenes(31)) {
