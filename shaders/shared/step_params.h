@@ -155,6 +155,11 @@ SHARED_STRUCT StepParams {
   real secondTime;  // 2 h / 3 [s]
   real secondRate;  // 1 / secondTime
 
+  real pressureFactor;  // p / 6, below 0 where the front is against the order of the triangles' corners [Pa]
+  real unusedA;
+  real unusedB;
+  real unusedC;
+
   ROWS_OF(SpringParams) springs[6];
   ROWS_OF(AttractorParams) attractors[MOST_ATTRACTORS];
 };

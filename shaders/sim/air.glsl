@@ -43,6 +43,7 @@ vec3 windForce(uint a, uint b, uint c) {
     force = share * force;
     resistance = share * resistance;
   }
+  force = force + step.pressureFactor * normal;
   if (normalSquared < uintBitsToFloat(0x0d800000u)) return vec3(0.0);  // 2^-100: the triangle has no area
   precise vec3 scaledNormal = resistance * normal;
   precise vec3 diagonal = resistanceDiagonal + scaledNormal * normal;

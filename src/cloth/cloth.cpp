@@ -222,6 +222,8 @@ void Cloth::addGrid(const ClothSettings& settings) {
       inverseMasses_.push_back(1 / (piece.particleMass * piece.massWeight(column, row)));
   holdPins(settings, piece.firstParticle);
   piece.hasRestLengthTable = restsAsItStarts(settings) && differsFromNominal(piece, positions_);
+  piece.restScale = 1 - settings.shrink;
+  for (double& nominal : piece.nominalLength) nominal *= piece.restScale;
   pieces_.push_back(piece);
 }
 
@@ -244,7 +246,8 @@ void Cloth::addMesh(const ClothSettings& settings) {
     sum += l;
     mesh.longestEdge = std::max(mesh.longestEdge, l);
   }
-  mesh.nominalLength.fill(sum / static_cast<double>(shape->edges.size()));
+  mesh.restScale = 1 - settings.shrink;
+  mesh.nominalLength.fill(mesh.restScale * sum / static_cast<double>(shape->edges.size()));
   mesh.textureSize = textureSizeOf(*shape, points);
 
   positions_.insert(positions_.end(), points.begin(), points.end());
@@ -359,7 +362,7 @@ std::vector<Spring> Cloth::springs() const {
           springs.push_back(
               {static_cast<std::uint32_t>(SPRING_SLOTS * owner + slot), offset.kind, owner, other,
                piece.stiffness[slot] * piece.springWeight(column, row, static_cast<SpringSlot>(slot)),
-               piece.hasRestLengthTable ? measured : piece.nominalLength[slot]});
+               piece.hasRestLengthTable ? piece.restScale * measured : piece.nominalLength[slot]});
         }
       }
     }
@@ -367,7 +370,8 @@ std::vector<Spring> Cloth::springs() const {
   const std::uint32_t first = SPRING_SLOTS * particleCount();
   for (std::uint32_t n = 0; n < lists_.springs.size(); ++n) {
     const auto& [a, b, kind, stiffness] = lists_.springs[n];
-    springs.push_back({first + n, kind, a, b, stiffness, length(positions_[b] - positions_[a])});
+    const double scale = pieces_[pieceOf(a)].restScale;
+    springs.push_back({first + n, kind, a, b, stiffness, scale * length(positions_[b] - positions_[a])});
   }
   return springs;
 }

@@ -84,6 +84,8 @@ struct Piece {
   // energy 1/2 b |x(i-1) - 2 x(i) + x(i+1)|^2 a particle and direction instead of springs.
   bool hasMaterial = false;
   double bendAlongRow = 0, bendAlongColumn = 0;  // b [N/m]
+  double restScale =
+      1;  // of rest lengths, over those of the lattice or mesh as it is made; nominalLength has it
   // Of CS184's model: some spring of a kind starts by more than 1e-6 m off nominal, and rests as it starts.
   bool hasRestLengthTable = false;
 

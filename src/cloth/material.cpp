@@ -124,15 +124,15 @@ void giveMaterial(ClothSettings& cloth, const Material& material) {
 // hypot(dx, dy), C11 dx dy = k_row dx^2 + 2 k_d dx^4 / l^2 and C12 dx dy = 2 k_d dx^2 dy^2 / l^2; likewise
 // along columns.
 LatticeStiffness latticeStiffness(const Material& material, double dx, double dy) {
-  const double y = material.stretch, g = material.shear;
-  const double c11 = 0.5 * (y + std::sqrt(y * y + 4 * g * g));
+  const double y = material.stretch, g = material.shear, warp = material.stretchWarp.value_or(y);
+  const double c11 = 0.5 * (y + std::sqrt(y * y + 4 * g * g * (y / warp))), c22 = c11 * (warp / y);
   LatticeStiffness k;
   if (dx == 0 || dy == 0) return k;
   k.diagonal = g * (dx * dx + dy * dy) / (2 * dx * dy);
   k.alongRow = c11 * dy / dx - g * dx / dy;
-  k.alongColumn = c11 * dx / dy - g * dy / dx;
+  k.alongColumn = c22 * dx / dy - g * dy / dx;
   k.bendAlongRow = material.bend * dy / (dx * dx * dx);
-  k.bendAlongColumn = material.bend * dx / (dy * dy * dy);
+  k.bendAlongColumn = material.bendWarp.value_or(material.bend) * dx / (dy * dy * dy);
   return k;
 }
 
@@ -198,7 +198,8 @@ double stableStep(const Scene& scene) {
 }
 
 double bucklingHeight(const Material& material) {
-  return std::cbrt(7.8373 * material.bend / (material.density * 9.81));
+  const double bend = std::min(material.bend, material.bendWarp.value_or(material.bend));
+  return std::cbrt(7.8373 * bend / (material.density * 9.81));
 }
 
 namespace {

@@ -28,8 +28,9 @@ void giveMaterial(ClothSettings& cloth, const Material& material);
 }
 
 // Springs of a lattice with cells of `dx` by `dy` [m] that stretches and shears as the material does:
-// C11 = (Y + sqrt(Y^2 + 4 G^2)) / 2 in both directions and C12 = G, the only choice that central forces
-// leave. All of them count half along a border of the sheet.
+// C12 = G, the only choice that central forces leave, and with Y of the weft and Y' of the warp
+// C11 = (Y + sqrt(Y^2 + 4 G^2 Y/Y')) / 2 along rows and C22 = C11 Y'/Y along columns. All of them count half
+// along a border of the sheet.
 struct LatticeStiffness {
   double alongRow = 0, alongColumn = 0;  // structural [N/m]; below 0 when the cells are too oblong
   double diagonal = 0;                   // shear [N/m]

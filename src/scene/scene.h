@@ -2,6 +2,7 @@
 // ranges and help texts come from the field table (fields.h); nothing here knows of particles.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -72,13 +73,16 @@ struct PinMotion {
 
 // What is measured of a fabric, independent of the grid. Spring constants follow from it (cloth/material.h).
 struct Material {
-  double density = 0.15;      // mass per area [kg/m^2]
-  double stretch = 10'000;    // Young's modulus of the sheet, the bulk modulus times the thickness [N/m]
-  double shear = 50;          // shear modulus of the sheet [N/m]
-  double bend = 1e-5;         // bending rigidity [N m]
-  double damping = 0.5;       // rate at which velocities decay [1/s]
-  double thickness = 0.0005;  // [m]
-  double friction = 0.4;      // Coulomb's coefficient between layers of the fabric
+  double density = 0.15;    // mass per area [kg/m^2]
+  double stretch = 10'000;  // Young's modulus of the sheet, the bulk modulus times the thickness [N/m]
+  std::optional<double> stretchWarp =
+      {};                               // the same along the warp, the columns of a grid; none: as `stretch`
+  double shear = 50;                    // shear modulus of the sheet [N/m]
+  double bend = 1e-5;                   // bending rigidity [N m]
+  std::optional<double> bendWarp = {};  // of the warp; none: as `bend`
+  double damping = 0.5;                 // rate at which velocities decay [1/s]
+  double thickness = 0.0005;            // [m]
+  double friction = 0.4;                // Coulomb's coefficient between layers of the fabric
   friend bool operator==(const Material&, const Material&) = default;
 };
 
@@ -104,8 +108,11 @@ struct ClothSettings {
   double referenceLength = 0.1;  // [m]
   // A fabric. It replaces ks, density, mass, damping and thickness.
   std::optional<Material> material;
-  double damping = 0.2;       // percent of the velocity that is lost in a step, as in CS184
-  double thickness = 0.0095;  // [m]
+  double damping = 0.2;              // percent of the velocity that is lost in a step, as in CS184
+  double thickness = 0.0095;         // [m]
+  double pressure = 0;               // of the air behind the cloth above that before it [Pa]
+  double shrink = 0;                 // part of their length that all springs lose; below 0 they grow
+  std::optional<double> tearStrain;  // l/L - 1 beyond which a spring of a grid tears (solver/tearing.h)
   bool enableStructural = true, enableShearing = true, enableBending = true;
   std::vector<Pin> pinned;
   std::vector<PinMotion> pinMotion;  // A pin is moved by one of these at most, and otherwise stays.
@@ -255,6 +262,12 @@ struct Scene {
   std::optional<Expect> expect;
   friend bool operator==(const Scene&, const Scene&) = default;
 };
+
+// Whether the air acts on triangles.
+[[nodiscard]] inline bool hasAir(const Scene& scene) {
+  return scene.wind || std::any_of(scene.cloths.begin(), scene.cloths.end(),
+                                   [](const ClothSettings& cloth) { return cloth.pressure != 0; });
+}
 
 // Whether render.texture is the path of a file rather than the name of a bundled texture.
 [[nodiscard]] inline bool isTexturePath(std::string_view texture) {

@@ -118,6 +118,12 @@ void checkMesh(const JsonNode& node, const ClothSettings& cloth) {
       complain(*given, std::string("found both ") + key + " and mesh, expected one of them: " + key +
                            " belongs to a grid; a mesh has its shape from its file and is placed by scale, "
                            "rotation and position");
+  if (const JsonNode* given = node.find("tear_strain"))
+    complain(*given, "only grids tear; leave the key out for a cloth with the key \"mesh\"");
+  if (!cloth.material) return;
+  for (const char* key : {"stretch_warp", "bend_warp"})
+    if (const JsonNode* given = node.find("material")->find(key))
+      complain(*given, "the edges of a mesh know no threads: only grids have a warp of their own");
 }
 
 // Where else in the scene the key would be right: "strain_limit" written into a cloth.

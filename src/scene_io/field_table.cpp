@@ -130,6 +130,20 @@ std::span<const Field<ClothSettings>> fieldsOf<ClothSettings>() {
           .within(notNegative)
           .usually(0.001, 0.1)
           .rebuilds(),
+      field("pressure", &C::pressure,
+            "Pressure of the air behind the cloth above that in front; fills a closed mesh that faces "
+            "outwards.")
+          .in("Pa")
+          .usually(-100, 100),
+      field("shrink", &C::shrink, "Part by which all springs rest shorter than they are made; < 0: longer.")
+          .within({.low = -0.5, .high = 0.9})
+          .usually(-0.2, 0.5)
+          .rebuilds(),
+      field("tear_strain", &C::tearStrain,
+            "A spring of a grid longer than 1 + tear_strain tears, looked at after each frame.")
+          .within(positive)
+          .usually(0.05, 1)
+          .byDefault("none: nothing tears"),
       field("enable_structural", &C::enableStructural,
             "Springs to left and upper neighbours; along the edges of a mesh.")
           .rebuilds(),
@@ -162,6 +176,12 @@ std::span<const Field<Material>> fieldsOf<Material>() {
           .within(positive)
           .rebuilds()
           .alwaysWritten(),
+      field("stretch_warp", &M::stretchWarp,
+            "Young's modulus along the warp, the columns of a grid; stretch is then along the weft.")
+          .in("N/m")
+          .within(positive)
+          .byDefault("as stretch")
+          .rebuilds(),
       field("shear", &M::shear, "Shear modulus of the sheet; far smaller than stretch in woven cloth.")
           .in("N/m")
           .within(positive)
@@ -172,6 +192,11 @@ std::span<const Field<Material>> fieldsOf<Material>() {
           .within(notNegative)
           .rebuilds()
           .alwaysWritten(),
+      field("bend_warp", &M::bendWarp, "Bending rigidity of the warp; bend is then that of the weft.")
+          .in("N m")
+          .within(notNegative)
+          .byDefault("as bend")
+          .rebuilds(),
       field("damping", &M::damping, "Rate at which motion decays, as exp(-damping t).")
           .in("1/s")
           .within(notNegative)

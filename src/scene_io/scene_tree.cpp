@@ -93,6 +93,19 @@ void checkSelfCollision(const JsonNode& root, const Scene& scene) {
                "\"; set solver.integrator to \"implicit\" or \"bdf2\", or self_collision to \"robust\"");
 }
 
+// What the limit holds does not tear.
+void checkTearing(const JsonNode& root, const Scene& scene) {
+  const std::optional<double> limit = scene.solver.strainLimit;
+  for (std::size_t i = 0; limit && i < scene.cloths.size(); ++i) {
+    const std::optional<double> tears = scene.cloths[i].tearStrain;
+    if (!tears || *tears < *limit) continue;
+    complain(*root.find("cloths")->children[i]->find("tear_strain"),
+             "nothing tears at " + formatNumber(*tears) +
+                 ", because solver.strain_limit keeps springs below " + formatNumber(*limit) +
+                 "; set it to false, or tear_strain below it");
+  }
+}
+
 }  // namespace
 
 void gatherLists(JsonNode& root) {
@@ -115,6 +128,7 @@ Scene readScene(const JsonNode& root) {
   checkCloths(root, scene.cloths);
   checkFriction(root, scene);
   checkSelfCollision(root, scene);
+  checkTearing(root, scene);
   chooseCounts(scene);
   return scene;
 }

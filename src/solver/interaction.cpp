@@ -176,8 +176,8 @@ InteractionParams<Real> makeInteractionParams(const Interaction& interaction, co
 }
 
 template <class Real>
-void addJet(const Interaction& interaction, shared::StepParams<Real>& params) {
-  if (!interaction.jet || params.hasWind != 0) return;
+void addJet(const Interaction& interaction, const Scene& scene, shared::StepParams<Real>& params) {
+  if (!interaction.jet || scene.wind) return;
   const Wind usual;
   params.hasWind = 1;
   params.dragFactor = static_cast<Real>(usual.airDensity * usual.drag / 12);
@@ -186,7 +186,7 @@ void addJet(const Interaction& interaction, shared::StepParams<Real>& params) {
 
 template InteractionParams<float> makeInteractionParams(const Interaction&, const Scene&, std::uint64_t);
 template InteractionParams<double> makeInteractionParams(const Interaction&, const Scene&, std::uint64_t);
-template void addJet(const Interaction&, shared::StepParams<float>&);
-template void addJet(const Interaction&, shared::StepParams<double>&);
+template void addJet(const Interaction&, const Scene&, shared::StepParams<float>&);
+template void addJet(const Interaction&, const Scene&, shared::StepParams<double>&);
 
 }  // namespace clothsim

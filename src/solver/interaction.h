@@ -80,6 +80,6 @@ template <class Real>
                                                             const Scene& scene, std::uint64_t step);
 // A jet needs the forces of the air: those of the default Wind where the scene has none.
 template <class Real>
-void addJet(const Interaction& interaction, shared::StepParams<Real>& params);
+void addJet(const Interaction& interaction, const Scene& scene, shared::StepParams<Real>& params);
 
 }  // namespace clothsim

@@ -10,7 +10,8 @@ template <class Real>
 Real restLengthOf(const Cloth& cloth, const MeshSpring& spring) {
   const Vec3<Real> d = startPosition<Real>(cloth, spring.b) - startPosition<Real>(cloth, spring.a);
   const Real lengthSquared = dot(d, d);
-  return lengthSquared * inverseSquareRoot(lengthSquared);
+  const auto scale = static_cast<Real>(cloth.pieces()[cloth.pieceOf(spring.a)].restScale);
+  return scale * (lengthSquared * inverseSquareRoot(lengthSquared));
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "core/hash.h"
 #include "core/interrupt.h"
 #include "solver/step_params.h"
+#include "solver/tearing.h"
 
 namespace clothsim {
 
@@ -71,6 +72,15 @@ void Solver::convertVelocities() {
   executor_->run(inputs_, conversion_, 1);
 }
 
+// At the end of a frame.
+void Solver::tearCloth() {
+  const StepClock& clock = inputs_.clock;
+  const auto stepsPerFrame = static_cast<std::uint64_t>(inputs_.scene->solver.simulationSteps);
+  if (!canTear(*inputs_.scene) || divergence_ || (clock.step - clock.originStep) % stepsPerFrame != 0) return;
+  Cuts cuts = inputs_.cuts;
+  if (tear(cuts, *inputs_.cloth, *inputs_.scene, positions(0, inputs_.cloth->particleCount()))) setCuts(cuts);
+}
+
 void Solver::step(int count) {
   checkStart();
   convertVelocities();
@@ -79,6 +89,7 @@ void Solver::step(int count) {
     executor_->run(inputs_, step_, count - i);
     ++inputs_.clock.step;
     divergence_ = executor_->findDivergence(inputs_.clock.step, false);
+    tearCloth();
   }
   executor_->flush();
 }

@@ -46,7 +46,8 @@ class Solver {
 
   // Advances by `count` steps; by fewer once an interrupt has come (core/interrupt.h) or a divergence
   // is known. The CPU knows it at once, the GPU when divergence() was asked. Neither throws nor allocates; on
-  // the GPU nothing is waited for.
+  // the GPU nothing is waited for. Cloth that tears is the exception: its positions are read after each
+  // frame.
   void step(int count);
   // Waits until every step is done. @throws OpenGlError when the driver has reported an error meanwhile
   void finish() { executor_->finish(); }
@@ -117,6 +118,7 @@ class Solver {
   void setOffPath(std::vector<std::uint32_t> offPath);
   void checkStart();
   void holdPins();
+  void tearCloth();
 
   StepInputs inputs_;
   PassList step_;

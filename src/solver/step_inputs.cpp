@@ -11,7 +11,7 @@ void evaluate(const StepInputs& inputs, std::uint64_t ahead, StepParameters<Real
     StepParams<Real>& params = parameters.pieces[piece];
     params = makeStepParams<Real>(scene, *inputs.cloth, piece, begin);
     params.kickTime = velocityConversionTime<Real>(scene);
-    addJet(inputs.interaction, params);
+    addJet(inputs.interaction, scene, params);
   }
   parameters.colliders.resize(inputs.colliders.size());
   for (std::size_t i = 0; i < parameters.colliders.size(); ++i)

@@ -212,9 +212,11 @@ StepParams<Real> makeStepParams(const Scene& scene, const Cloth& cloth, std::siz
   params.gravityY = real<Real>(scene.gravity.y);
   params.gravityZ = real<Real>(scene.gravity.z);
   params.planeOffset = real<Real>(PLANE_OFFSET);
+  params.hasWind = hasAir(scene) ? 1 : 0;
+  const double front = piece.rowsGoUp ? -1 : 1;
+  params.pressureFactor = real<Real>(front * scene.cloths[pieceIndex].pressure / 6);
   if (scene.wind) {
     const Vec3d air = airVelocity(*scene.wind, time);
-    params.hasWind = 1;
     params.airVelocityX = real<Real>(air.x);
     params.airVelocityY = real<Real>(air.y);
     params.airVelocityZ = real<Real>(air.z);
@@ -248,7 +250,9 @@ std::vector<Real> measureRestLengths(const Cloth& cloth) {
     const Vec3<Real> d = startPosition<Real>(cloth, spring.b) - startPosition<Real>(cloth, spring.a);
     const Real lengthSquared = dot(d, d);
     const std::size_t slot = spring.number % SPRING_SLOTS;
-    lengths[slot * cloth.particleCount() + spring.a] = lengthSquared * inverseSquareRoot(lengthSquared);
+    const auto scale = static_cast<Real>(cloth.pieces()[cloth.pieceOf(spring.a)].restScale);
+    lengths[slot * cloth.particleCount() + spring.a] =
+        scale * (lengthSquared * inverseSquareRoot(lengthSquared));
   }
   return lengths;
 }

@@ -245,6 +245,18 @@ inline Scene meshOfMaterial(int n) {
   return scene;
 }
 
+// Blown up from below, shrunk, of two kinds of threads, and torn from its pins.
+inline Scene garment(int n) {
+  Scene scene = vertical(materialScene(n));
+  ClothSettings& cloth = scene.cloths[0];
+  cloth.material->stretchWarp = 2 * cloth.material->stretch;
+  cloth.material->bendWarp = 0.5 * cloth.material->bend;
+  cloth.pressure = 2;
+  cloth.shrink = 0.1;
+  cloth.tearStrain = 0.02;
+  return scene;
+}
+
 // In implicit steps, as few and as short iterations as still pass through everything.
 inline Scene implicitly(Scene scene) {
   scene.solver.integrator = Integrator::implicit;
@@ -286,6 +298,7 @@ inline std::vector<NamedScene> comparedScenes(int n) {
           {"stiffness reference", stiffnessReferenceScene(n)},
           {"material", materialScene(n)},
           {"material with everything", withWind(withColliders(withLimiter(vertical(materialScene(n)))))},
+          {"garment", garment(n)},
           {"averaged self-collision", layeredSheets(n, SelfCollision::averaged)},
           {"robust self-collision", withWind(withColliders(layeredSheets(n, SelfCollision::robust)))},
           {"thick averaged self-collision", thick(layeredSheets(n / 2, SelfCollision::averaged))},

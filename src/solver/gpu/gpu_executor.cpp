@@ -132,7 +132,7 @@ void GpuExecutor::prepare(const StepInputs& inputs, const PassList& list) {
     if (levels_.empty())
       levels_ = GpuLevels(makeHierarchy<float>(*cloth_, inputs.cutMasks), options_.verticesAlone);
     arrays_.addImplicit(cloth_->particleCount(), levels_,
-                        inputs.scene->wind.has_value() || inputs.interaction.jet.has_value(),
+                        hasAir(*inputs.scene) || inputs.interaction.jet.has_value(),
                         !inputs.scene->colliders.empty(), list.contains(Pass::remember));
   }
   if (list.contains(Pass::limit) || list.contains(Pass::resolveContacts))

@@ -13,7 +13,7 @@ PassFeatures featuresOf(const Scene& scene, const Cloth& cloth, std::size_t piec
                         const Interaction& interaction, const Cuts& cuts) {
   const Piece& piece = cloth.pieces()[pieceIndex];
   PassFeatures features;
-  features.wind = scene.wind.has_value() || interaction.jet.has_value();
+  features.wind = hasAir(scene) || interaction.jet.has_value();
   features.jet = interaction.jet.has_value();
   features.grab = interaction.grab && interaction.grab->piece == pieceIndex;
   features.externalForces = interaction.externalForces != nullptr;

@@ -36,6 +36,8 @@ class RandomScene {
                     .selfCollision = static_cast<SelfCollision>(whole(0, 2)),
                     .selfFriction = fraction(),
                     .frictionLaw = FrictionLaw::cs184};
+    for (ClothSettings& cloth : scene.cloths)
+      if (cloth.tearStrain && scene.solver.strainLimit) cloth.tearStrain = *scene.solver.strainLimit / 2;
     if (maybe()) makeCoulomb(scene);
     if (maybe()) scene.camera = {vector(), vector(), 1 + 169 * fraction()};
     scene.render = renderSettings();
@@ -102,6 +104,9 @@ class RandomScene {
     c.referenceLength = positive();
     c.damping = 100 * fraction();
     c.thickness = positive();
+    c.pressure = positive();
+    c.shrink = 0.5 * fraction();
+    c.tearStrain = optionalPositive();
     c.enableStructural = maybe();
     c.enableShearing = maybe();
     c.enableBending = maybe();
