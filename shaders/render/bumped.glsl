@@ -3,6 +3,7 @@
 #include "render/lights.glsl"
 #include "render/relief.glsl"
 #include "render/shadow.glsl"
+#include "render/sky_share.glsl"
 #include "render/surface.glsl"
 #include "render/tone.glsl"
 
@@ -21,7 +22,7 @@ void shadeBumped() {
   vec3 normal = tilted(t, slopeOfRelief(surface.uv) * side);
   vec3 toEye = normalize(frame.eye.xyz - surface.position);
   float lit = sunlit(surface.shadowPlace);
-  float open = clamp(1.0 - HOLLOW_SHADE * surface.hollow * side, 0.45, 1.1);
-  vec3 light = albedoOfSide() * diffuseLight(normal, lit) * open;
+  float open = openness(clamp(1.0 - HOLLOW_SHADE * surface.hollow * side, 0.45, 1.1));
+  vec3 light = albedoOfSide() * diffuseLight(normal, lit, skyShare(surface.position, normal)) * open;
   color = vec4(canvasFromLight(light + HIGHLIGHT * highlight(normal, toEye, EXPONENT, lit)), 1.0);
 }

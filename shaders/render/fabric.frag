@@ -8,6 +8,7 @@
 #include "render/frame.glsl"
 #include "render/hem.glsl"
 #include "render/shadow.glsl"
+#include "render/sky_share.glsl"
 #include "render/surface.glsl"
 #include "render/tone.glsl"
 #ifdef PRINT
@@ -45,9 +46,9 @@ void main() {
   vec3 halfway = normalize(toLight + toEye);
   float lit = sunlit(surface.shadowPlace);
   float normalLight = clamp(dot(normal, toLight), 0.0, 1.0), normalEye = clamp(dot(normal, toEye), 0.02, 1.0);
-  float open = clamp(1.0 - HOLLOW_SHADE * surface.hollow * side, 0.3, 1.12) * threads.light;
+  float open = openness(clamp(1.0 - HOLLOW_SHADE * surface.hollow * side, 0.3, 1.12)) * threads.light;
 
-  vec3 sky = skyIrradiance(normal) * open;
+  vec3 sky = skyIrradiance(normal) * (open * skyShare(surface.position, normal));
   // A thread that leans to the light is still in the shade of its own cloth where that turns away.
   // (Highlights keep farther away from where the shadow map's edges run.)
   float facing = dot(t.normal, toLight);

@@ -5,11 +5,11 @@ vec3 ambientLight(vec3 normal) {
   return mix(frame.bounceColor.rgb, frame.skyColor.rgb, 0.5 + 0.5 * normal.y);
 }
 
-// Key light (where `lit` says that it arrives), fill light and ambient light, without the surface's colour.
-vec3 diffuseLight(vec3 normal, float lit) {
+// Key light (where `lit` says that it arrives), fill light and a share of the ambient light, without the surface's colour.
+vec3 diffuseLight(vec3 normal, float lit, float share) {
   float key = max(dot(normal, frame.toKeyLight.xyz), 0.0) * lit;
   float fill = max(0.5 + 0.5 * dot(normal, frame.toFillLight.xyz), 0.0);
-  return key * frame.keyColor.rgb + fill * fill * frame.fillColor.rgb + ambientLight(normal);
+  return key * frame.keyColor.rgb + fill * fill * frame.fillColor.rgb + share * ambientLight(normal);
 }
 
 // Blinn-Phong highlight of the key light.

@@ -3,6 +3,7 @@
 #include "render/hem.glsl"
 #include "render/lights.glsl"
 #include "render/shadow.glsl"
+#include "render/sky_share.glsl"
 #include "render/surface.glsl"
 #include "render/tone.glsl"
 
@@ -22,11 +23,12 @@ void main() {
   vec3 toEye = normalize(frame.eye.xyz - surface.position);
   float lit = sunlit(surface.shadowPlace);
 
-  float open = clamp(1.0 - HOLLOW_SHADE * surface.hollow * side, 0.4, 1.15);
-  vec3 light = diffuseLight(normal, lit) * open;
+  float open = openness(clamp(1.0 - HOLLOW_SHADE * surface.hollow * side, 0.4, 1.15));
+  float share = skyShare(surface.position, normal);
+  vec3 light = diffuseLight(normal, lit, share) * open;
   light += TRANSMITTED * lit * max(-dot(normal, frame.toKeyLight.xyz), 0.0) * frame.keyColor.rgb;
   float grazing = 1.0 - clamp(dot(normal, toEye), 0.0, 1.0);
   float rim = grazing * grazing * grazing;
-  vec3 sheen = SHEEN * rim * open * ambientLight(normal) * mix(vec3(1), albedo, 0.7);
+  vec3 sheen = SHEEN * rim * open * share * ambientLight(normal) * mix(vec3(1), albedo, 0.7);
   color = vec4(canvasFromLight(albedo * light + HIGHLIGHT * highlight(normal, toEye, EXPONENT, lit) + sheen), 1.0);
 }

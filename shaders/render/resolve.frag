@@ -1,5 +1,5 @@
 // From the canvas to the screen: samples are averaged in linear light, or, where each pixel has just one, the edges smoothed;
-// the result is encoded as sRGB.
+// the result is encoded as sRGB. ADDS: the light alone, to be added to a mean; MEAN: from such a sum to the screen.
 #include "render/frame.glsl"
 #include "render/tone.glsl"
 
@@ -20,18 +20,34 @@ vec3 srgbEncoded(vec3 light) {
   return mix(curve, 12.92 * light, lessThanEqual(light, vec3(0.0031308)));
 }
 
-#if SAMPLES > 1
+#if defined(MEAN)
+vec3 pixelLight() {
+  vec4 sum = texelFetch(canvas, ivec2(gl_FragCoord.xy), 0);
+  return toneMapped(sum.rgb / sum.a);
+}
+#elif SAMPLES > 1
+#ifdef ADDS
+vec3 lightOfSample(vec3 stored) { return stored; }
+#else
+vec3 lightOfSample(vec3 stored) { return decodedLight(stored); }
+#endif
 vec3 pixelLight() {
   vec3 sum = vec3(0);
-  for (int i = 0; i < SAMPLES; ++i) sum += lightFromCanvas(texelFetch(canvas, ivec2(gl_FragCoord.xy), i).rgb);
+  for (int i = 0; i < SAMPLES; ++i) sum += lightOfSample(texelFetch(canvas, ivec2(gl_FragCoord.xy), i).rgb);
   return sum / float(SAMPLES);
 }
+#elif defined(ADDS)
+vec3 pixelLight() { return texelFetch(canvas, ivec2(gl_FragCoord.xy), 0).rgb; }
 #else
 #include "render/smooth_edges.glsl"
-vec3 pixelLight() { return lightFromCanvas(smoothedCanvas(ivec2(gl_FragCoord.xy))); }
+vec3 pixelLight() { return decodedLight(smoothedCanvas(ivec2(gl_FragCoord.xy))); }
 #endif
 
 void main() {
+#ifdef ADDS
+  color = vec4(pixelLight(), 1.0);
+  return;
+#endif
   vec2 otherNoise = gl_FragCoord.xy + 37.0;  // than that of the canvas, whose steps are not the screen's
   color = vec4(srgbEncoded(clamp(pixelLight(), 0.0, 1.0)) + dither(otherNoise), 1.0);
 }

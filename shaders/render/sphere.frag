@@ -1,6 +1,7 @@
 // Spheres: smooth porcelain that leaves the stage to the cloth.
 #include "render/lights.glsl"
 #include "render/shadow.glsl"
+#include "render/sky_share.glsl"
 #include "render/surface.glsl"
 #include "render/tone.glsl"
 
@@ -13,6 +14,6 @@ void main() {
   vec3 normal = normalize(surface.normal);
   vec3 toEye = normalize(frame.eye.xyz - surface.position);
   float lit = sunlit(surface.shadowPlace);
-  vec3 light = frame.sphereColor.rgb * diffuseLight(normal, lit) + HIGHLIGHT * highlight(normal, toEye, EXPONENT, lit);
+  vec3 light = frame.sphereColor.rgb * diffuseLight(normal, lit, skyShare(surface.position, normal)) + HIGHLIGHT * highlight(normal, toEye, EXPONENT, lit);
   color = vec4(canvasFromLight(light), 1.0);
 }

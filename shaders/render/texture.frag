@@ -2,6 +2,7 @@
 #include "render/lights.glsl"
 #include "render/print.glsl"
 #include "render/shadow.glsl"
+#include "render/sky_share.glsl"
 #include "render/surface.glsl"
 #include "render/tone.glsl"
 
@@ -14,6 +15,7 @@ layout(location = 0) out vec4 color;
 void main() {
   vec3 albedo = printAt(surface.uv);
   if (!gl_FrontFacing) albedo = mix(albedo, vec3(0.6), PALER);
-  vec3 light = diffuseLight(normalToEye(), sunlit(surface.shadowPlace));
+  vec3 normal = normalToEye();
+  vec3 light = diffuseLight(normal, sunlit(surface.shadowPlace), skyShare(surface.position, normal));
   color = vec4(canvasFromLight(albedo * light), 1.0);
 }

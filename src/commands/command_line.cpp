@@ -19,6 +19,7 @@
 #include "core/interrupt.h"
 #include "core/standard_streams.h"
 #include "core/thread_team.h"
+#include "render/quality.h"
 #include "viewer/viewer.h"
 
 namespace clothsim {
@@ -74,11 +75,11 @@ CLI::Validator number(double low, double high) { return numberWithin(low, high, 
 struct Arguments {
   bool draw = false;
   bool describeStep = false, small = false;
-  std::string scene = "pinned2", backend = "auto", from, quality = "final", viewerQuality = "auto", shader,
+  std::string scene = "pinned2", backend = "auto", from, quality = "auto", viewerQuality = "auto", shader,
               size = "1280x720", key, replay, only;
   std::string cellSize = "560x420", out, view = "0,0", trace;
   std::vector<std::string> variations, settings, saves, outs, resolutions, backends;
-  int frames = 0, every = 1, around = 64, down = 48, threads = 0;
+  int frames = 0, every = 1, exposures = 0, around = 64, down = 48, threads = 0;
   double fps = 30, seconds = 1, jitter = 0, restartAfter = 0;
   std::uint32_t seed = 1;
   bool json = false, checkCrossings = false, timings = false, strict = false;
@@ -129,7 +130,7 @@ void addThreads(CLI::App& app, Arguments& a) {
 }
 
 constexpr const char* qualityHelp =
-    "of the picture: draft (fast), normal, final (smooth edges, fine shadows)";
+    "of the picture: draft (fast), normal, final (the mean of 64 exposures: soft shadows, light in folds)";
 
 CLI::Option* addFrames(CLI::App& app, Arguments& a, bool required = true) {
   return app
@@ -289,9 +290,12 @@ void declareRender(CLI::App& app, Arguments& a, Task& task) {
   render->add_option("--fps", a.fps, "maximum frame rate of a video; it plays in real time")
       ->transform(number(1.0, 1000.0));
   addLooks(*render, a);
-  render->add_option("--quality", a.quality, qualityHelp)
-      ->check(CLI::IsMember({"draft", "normal", "final"}))
+  render->add_option("--quality", a.quality, qualityHelp + std::string("; auto: final for stills"))
+      ->check(CLI::IsMember({"auto", "draft", "normal", "final"}))
       ->capture_default_str();
+  render
+      ->add_option("--exposures", a.exposures, "of which each picture is the mean, instead of the quality's")
+      ->transform(wholeNumber(1, MOST_EXPOSURES));
   render->add_option("--from", a.from, "start from a saved .state")->type_name("STATE");
   addSphereSegments(*render, a);
   addStrict(*render, a);
@@ -300,8 +304,8 @@ void declareRender(CLI::App& app, Arguments& a, Task& task) {
     task = [&] {
       const GridSize size = parsePixels(a.size);
       return renderCommand({a.sceneOptions(), a.frames, a.backend, a.outs, size.columns, size.rows, a.every,
-                            a.fps, a.shader, a.around, a.down, a.from, parseView(a.view), a.strict,
-                            a.quality});
+                            a.fps, a.shader, a.around, a.down, a.from, parseView(a.view), a.strict, a.quality,
+                            a.exposures});
     };
   });
 }

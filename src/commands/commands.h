@@ -55,8 +55,9 @@ struct RenderCommandOptions {
   int sphereSegmentsAround = 64, sphereSegmentsDown = 48;
   std::string from;  // a .state file to begin with
   ViewTurn view{};
-  bool strict = false;  // warnings end it with exit code 1
-  std::string quality = "final";
+  bool strict = false;           // warnings end it with exit code 1
+  std::string quality = "auto";  // final, but of many pictures each one exposure
+  int exposures = 0;             // of which a picture is the mean; 0: as the quality says
 };
 int renderCommand(const RenderCommandOptions& options);
 

@@ -33,6 +33,16 @@ void checkOutputs(const RenderCommandOptions& options) {
   for (const std::string& out : options.outs) checkWritable(numberedName(out, options.frames));
 }
 
+// Of many pictures each is one exposure, unless final quality or a number of exposures is asked for.
+int exposuresOf(const RenderCommandOptions& options) {
+  if (options.exposures > 0) return options.exposures;
+  const bool isStill = std::all_of(options.outs.begin(), options.outs.end(), [](const std::string& out) {
+    return out.ends_with(".png") && !hasFrameNumber(out);
+  });
+  const bool isFinal = options.quality == "final" || (options.quality == "auto" && isStill);
+  return isFinal ? FINAL_EXPOSURES : 1;
+}
+
 }  // namespace
 
 int renderCommand(const RenderCommandOptions& options) {
@@ -42,10 +52,11 @@ int renderCommand(const RenderCommandOptions& options) {
   const gl::HeadlessContext context;
   Simulation simulation(scene, announcedBackend(options.backend), makeSolver);
   if (!options.from.empty()) simulation.setState(loadState(options.from, simulation.cloth()));
+  const int exposures = exposuresOf(options);
   const RenderOptions drawing =
       withQuality({options.sphereSegmentsAround, options.sphereSegmentsDown},
                   qualityNamed(options.quality).value_or(Quality::final), gl::currentContextInfo().software);
-  SimulationRenderer renderer(simulation, drawing);
+  SimulationRenderer renderer(simulation, exposures > 1 ? forExposures(drawing) : drawing);
   renderer.update();  // a loaded state may have cuts
   Camera camera(scene, simulation.cloth());
   camera.orbit(options.view.right * radians, options.view.up * radians);
@@ -65,7 +76,7 @@ int renderCommand(const RenderCommandOptions& options) {
     summary.add(simulation);
     if (std::any_of(outputs.begin(), outputs.end(),
                     [&](const PictureOutput& output) { return output.wants(frame); })) {
-      const Image image = renderer.picture(camera, options.width, options.height);
+      const Image image = renderer.picture(camera, options.width, options.height, exposures);
       for (PictureOutput& output : outputs)
         if (output.wants(frame)) output.add(image, frame);
     }

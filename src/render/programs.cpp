@@ -28,9 +28,15 @@ RenderPrograms::RenderPrograms(const ShadingModel& model, const std::string& bac
   chooseBackground(background);
 }
 
+MeanPrograms::MeanPrograms(int samples)
+    : add(gl::Program::makeRender("render/fullscreen.vert", "render/resolve.frag",
+                                  {{"SAMPLES", std::to_string(samples)}, {"ADDS", ""}})) {}
+
 void RenderPrograms::chooseSamples(int samples) {
   resolve = gl::Program::makeRender("render/fullscreen.vert", "render/resolve.frag",
                                     {{"SAMPLES", std::to_string(samples)}});
+  samples_ = samples;
+  mean_.reset();
 }
 
 void RenderPrograms::chooseModel(const ShadingModel& model) {
@@ -80,6 +86,11 @@ const OverlayPrograms& RenderPrograms::overlays() {
   return *overlays_;
 }
 
+const MeanPrograms& RenderPrograms::mean() {
+  if (!mean_) mean_.emplace(samples_);
+  return *mean_;
+}
+
 void tryAllShaders(const RenderSettings& settings, int samples) {
   RenderSettings other = settings;
   RenderPrograms programs(shadingModelOf(other), settings.background, samples);
@@ -93,6 +104,7 @@ void tryAllShaders(const RenderSettings& settings, int samples) {
   }
   static_cast<void>(programs.picking());
   static_cast<void>(programs.overlays());
+  static_cast<void>(programs.mean());
 }
 
 }  // namespace clothsim

@@ -19,6 +19,14 @@ struct PickPrograms {
   gl::Program plane = gl::Program::makeRender("render/pick_plane.vert", "render/pick.frag");
 };
 
+// Of pictures that are the mean of exposures.
+struct MeanPrograms {
+  explicit MeanPrograms(int samples);
+  gl::Program add;  // the canvas to the sum
+  gl::Program show = gl::Program::makeRender("render/fullscreen.vert", "render/resolve.frag",
+                                             {{"SAMPLES", "1"}, {"MEAN", ""}});
+};
+
 struct RenderPrograms {
   // From the files below the resource root as they are now. @throws OpenGlError, InputOutputError
   RenderPrograms(const ShadingModel& model, const std::string& background, int samples);
@@ -34,6 +42,7 @@ struct RenderPrograms {
   [[nodiscard]] const SmoothPrograms& smooth();  // the same for the smooth surface
   [[nodiscard]] const PickPrograms& picking();
   [[nodiscard]] const OverlayPrograms& overlays();
+  [[nodiscard]] const MeanPrograms& mean();
 
   gl::Program cloth, clothDepth, clothShadow, backdrop, layBackdrop, resolve;
   gl::Program sphere = gl::Program::makeRender("render/sphere.vert", "render/sphere.frag");
@@ -51,6 +60,8 @@ struct RenderPrograms {
   std::optional<SmoothPrograms> smooth_;
   std::optional<PickPrograms> picking_;
   std::optional<OverlayPrograms> overlays_;
+  std::optional<MeanPrograms> mean_;
+  int samples_ = 1;
 };
 
 // Compiles all there is, for the sake of the errors. @throws OpenGlError, InputOutputError

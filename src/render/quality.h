@@ -23,6 +23,9 @@ struct RenderOptions {
   bool keepsStill = false;
 };
 
+// Of how many exposures a picture in final quality is the mean, and may be.
+inline constexpr int FINAL_EXPOSURES = 64, MOST_EXPOSURES = 4096;
+
 enum class Quality { draft, normal, final };
 inline constexpr std::array<std::string_view, 3> qualityNames{"draft", "normal", "final"};
 
@@ -45,6 +48,13 @@ inline constexpr std::array<std::string_view, 3> qualityNames{"draft", "normal",
   options.subdivisions = quality == Quality::draft ? 0 : lean ? 1 : 3;
   options.flatness = lean ? 0.25 : 0;
   options.keepsStill = software && quality != Quality::final;
+  return options;
+}
+
+// Exposures smooth edges and shadows by themselves (render/exposure.h).
+[[nodiscard]] inline RenderOptions forExposures(RenderOptions options) {
+  options.samples = 1;
+  options.shadowMapSize = 2048;
   return options;
 }
 

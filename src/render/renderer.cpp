@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <span>
 
 #include "core/error.h"
@@ -13,6 +14,7 @@
 #include "render/changed_area.h"
 #include "render/cloth_mesh.h"
 #include "render/colliders.h"
+#include "render/exposure.h"
 #include "render/look.h"
 #include "render/model_textures.h"
 #include "render/programs.h"
@@ -25,6 +27,7 @@ namespace {
 
 constexpr GLenum backdropFormat = GL_RGB10_A2;  // its slow gradients would show steps in 8 bits
 constexpr GLenum canvasFormat = GL_RGBA8;       // square roots of linear light (shaders/render/tone.glsl)
+constexpr GLenum exposureFormat = GL_RGBA16F;   // the same of an exposure, without steps
 constexpr float planeDepthUnits = 256;  // 2e-6 of the distance each (Camera::projection, 24 bits of depth)
 constexpr std::size_t mostReadBack = 300'000;  // particles for which it pays to ask what has changed
 
@@ -55,6 +58,8 @@ struct Renderer::Parts {
     double time;
     GLuint target;
     int width, height;
+    const Exposure* exposure = nullptr;  // of a mean; none: the whole picture
+    int number = 0;                      // of the exposure
   };
 
   Parts(const Shared<Cloth>& drawn, const Shared<Scene>& first, const RenderOptions& wanted);
@@ -65,6 +70,9 @@ struct Renderer::Parts {
   void draw(const Picture& picture, Around around);
   void setOptions(const RenderOptions& wanted);
   void lookFrom(const Camera& camera, int width, int height, double aspect);
+  void shineFrom(const Exposure* exposure);
+  void lookThrough(const Exposure& exposure, const Camera& camera);
+  void addToMean(bool isFirst);
   void uploadFrame();
   [[nodiscard]] bool isDirect() const { return scale == 1 && !options.keepsStill; }
   void makeTargets(int width, int height, int shownWidth, int shownHeight);
@@ -74,12 +82,14 @@ struct Renderer::Parts {
   void computeNormals(GLuint positions);
   void drawSurface(GLuint positions, bool meshesAsLines = false);
   void drawShadows(GLuint positions);
+  void drawCasters(GLuint positions);
+  void drawSkyShadows(GLuint positions);
   void drawScene(GLuint positions);
   void drawCloth(GLuint positions);
   void drawOverlay(GLuint positions);
   void drawIdentities(GLuint positions);
   void drawBackdrop(int width, int height);
-  void resolveInto(GLuint destination, int width, int height);
+  void resolveInto(GLuint destination, int width, int height, const gl::Program& resolve, GLuint texture);
   void show(GLuint destination, int width, int height) const;
   void stretch() const;
 
@@ -99,11 +109,15 @@ struct Renderer::Parts {
   std::optional<SmoothSurface> smooth;  // drawn instead of the triangles of the particles
   Colliders colliders;
   ShadowMap shadowMap;
+  std::optional<ShadowMap> skyShadowMap;  // of an exposure
+  std::vector<Exposure> exposures;
+  gl::Framebuffer mean;  // the sum of the exposures' light, with their number
   SpringsOverlay springs;
   std::optional<PickTarget> pickTarget;
   double scale = 1;
   gl::Framebuffer canvas, backdrop;
   gl::Framebuffer finished, stretched;    // as the screen shows it; of a scale below 1 before and after it
+  glm::mat4 middleClipFromWorld{1};       // of the picture, whatever its exposures shift
   std::optional<glm::mat4> backdropSeen;  // from where the backdrop was drawn
   ChangedArea changes;
   std::optional<ChangedArea::Area> part;  // of the picture that is drawn; none: all of it
@@ -137,10 +151,8 @@ void Renderer::Parts::configure(const Shared<Scene>& edited) {
   stage = makeStage(outline, *scene);
   colliders.build(*scene);
   frame = makeLook(scene->render, outline.front, textures.irradiance());
-  shadowMap.cover(stage.reach, glm::vec3(frame.toKeyLight));
   frame.flatness = static_cast<float>(options.flatness);
-  frame.shadowFromWorld = shadowMap.shadowFromWorld();
-  frame.toKeyLight.w = shadowMap.texelLength();
+  shineFrom(nullptr);
   backdropSeen.reset();
   changes.forget();
 }
@@ -151,7 +163,10 @@ void Renderer::Parts::setOptions(const RenderOptions& wanted) {
   next.sphereSegmentsAround = options.sphereSegmentsAround;
   next.sphereSegmentsDown = options.sphereSegmentsDown;
   if (next.samples != options.samples) programs.chooseSamples(next.samples);
-  if (next.shadowMapSize != options.shadowMapSize) shadowMap = ShadowMap(next.shadowMapSize);
+  if (next.shadowMapSize != options.shadowMapSize) {
+    shadowMap = ShadowMap(next.shadowMapSize);
+    skyShadowMap.reset();
+  }
   options = next;
   configure(scene);
 }
@@ -161,12 +176,48 @@ void Renderer::Parts::lookFrom(const Camera& camera, int width, int height, doub
   const auto w = static_cast<float>(width), h = static_cast<float>(height);
   const glm::mat4 clipFromView = camera.projection(aspect);
   const glm::mat4 worldFromView = glm::inverse(camera.view());
-  frame.clipFromWorld = clipFromView * camera.view();
+  frame.clipFromWorld = middleClipFromWorld = clipFromView * camera.view();
   frame.eye = glm::vec4(camera.eye(), 0);
   frame.pixels = {w, h, 1 / w, 1 / h};
   frame.rayMiddle = -worldFromView[2];
   frame.rayRight = worldFromView[0] / clipFromView[0][0];
   frame.rayUp = worldFromView[1] / clipFromView[1][1];
+}
+
+// The main light, or the point of it that shines in an exposure.
+void Renderer::Parts::shineFrom(const Exposure* exposure) {
+  glm::vec3 toLight = directionToKeyLight(scene->render, outline.front);
+  frame.toSky = glm::vec4(0);
+  if (exposure != nullptr) {
+    const glm::vec3 across = glm::normalize(
+        glm::cross(toLight, std::abs(toLight.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0)));
+    const auto radius = static_cast<float>(std::tan(scene->render.lightSize * std::numbers::pi / 360));
+    toLight = glm::normalize(
+        toLight + radius * (exposure->light.x * across + exposure->light.y * glm::cross(toLight, across)));
+    if (!skyShadowMap) skyShadowMap.emplace(options.shadowMapSize);
+    skyShadowMap->cover(stage.reach, exposure->sky);
+    frame.skyShadowFromWorld = skyShadowMap->shadowFromWorld();
+    frame.toSky = glm::vec4(exposure->sky, skyShadowMap->texelLength());
+  }
+  shadowMap.cover(stage.reach, toLight);
+  frame.shadowFromWorld = shadowMap.shadowFromWorld();
+  frame.toKeyLight = glm::vec4(toLight, shadowMap.texelLength());
+}
+
+// From a point of the lens and a place in the pixels. What is at the distance of focus stays where it is.
+void Renderer::Parts::lookThrough(const Exposure& exposure, const Camera& camera) {
+  const glm::mat4 viewFromWorld = camera.view();
+  const float distance = scene->camera.focus ? static_cast<float>(*scene->camera.focus)
+                                             : glm::distance(camera.eye(), camera.target());
+  const glm::vec2 aside = static_cast<float>(0.5 * scene->camera.aperture) * exposure.lens;
+  glm::mat4 moved(1);
+  moved[3] = glm::vec4(-aside, 0, 1);
+  moved[2] = glm::vec4(-aside / distance, 1, 0);
+  glm::mat4 shifted(1);
+  shifted[3] = glm::vec4(2 * exposure.pixel.x * frame.pixels.z, 2 * exposure.pixel.y * frame.pixels.w, 0, 1);
+  const glm::mat4 clipFromView = middleClipFromWorld * glm::inverse(viewFromWorld);
+  frame.clipFromWorld = shifted * clipFromView * moved * viewFromWorld;
+  frame.eye = glm::vec4(camera.eye() + glm::vec3(glm::transpose(viewFromWorld) * glm::vec4(aside, 0, 0)), 0);
 }
 
 // As fine as it shows at the distance of what the camera looks at.
@@ -210,21 +261,34 @@ void Renderer::Parts::drawSurface(GLuint positions, bool meshesAsLines) {
 void Renderer::Parts::drawShadows(GLuint positions) {
   const FlatBounds* const region = part ? &part->shadow : nullptr;
   shadowMap.begin(region);
-  if (options.shadows) {
-    programs.clothShadow.bind();
-    // Shadows are softer than what a lean surface adds to the particles' triangles.
-    if (smooth && !smooth->isLean())
-      smooth->draw();
-    else
-      clothMesh.draw(positions);
-    // A solid's far side alone: its near side would shade itself by rounding.
-    glEnable(GL_CULL_FACE);
-    glCullFace(GL_FRONT);
-    colliders.drawSolids(programs.sphereShadow, programs.shapeShadow);
-    glDisable(GL_CULL_FACE);
-  }
+  if (options.shadows) drawCasters(positions);
   shadowMap.end();
   shadowMap.blurForFloors(programs, region);
+}
+
+void Renderer::Parts::drawCasters(GLuint positions) {
+  programs.clothShadow.bind();
+  // Shadows are softer than what a lean surface adds to the particles' triangles.
+  if (smooth && !smooth->isLean())
+    smooth->draw();
+  else
+    clothMesh.draw(positions);
+  // A solid's far side alone: its near side would shade itself by rounding.
+  glEnable(GL_CULL_FACE);
+  glCullFace(GL_FRONT);
+  colliders.drawSolids(programs.sphereShadow, programs.shapeShadow);
+  glDisable(GL_CULL_FACE);
+}
+
+// Casters are drawn by `shadowFromWorld`, whichever map they go to.
+void Renderer::Parts::drawSkyShadows(GLuint positions) {
+  frame.shadowFromWorld = skyShadowMap->shadowFromWorld();
+  uploadFrame();
+  skyShadowMap->begin();
+  if (options.shadows) drawCasters(positions);
+  skyShadowMap->end();
+  frame.shadowFromWorld = shadowMap.shadowFromWorld();
+  uploadFrame();
 }
 
 // Front to back as far as the order is known, so that hidden fragments are not shaded; what blends comes
@@ -233,6 +297,7 @@ void Renderer::Parts::drawScene(GLuint positions) {
   canvas.bind();
   scissor();
   shadowMap.bindTextures();
+  (skyShadowMap ? *skyShadowMap : shadowMap).bindDepth(SKY_SHADOW_UNIT);
   const float farthest = 1;
   glClearNamedFramebufferfv(canvas.name(), GL_DEPTH, 0, &farthest);
   glDisable(GL_DEPTH_TEST);
@@ -300,7 +365,10 @@ void Renderer::Parts::makeTargets(int width, int height, int shownWidth, int sho
     target = gl::Framebuffer(label, format);
     changes.forget();
   };
-  make(canvas, "canvas", {width, height, options.samples, canvasFormat, GL_DEPTH_COMPONENT24});
+  const bool exposes = frame.toSky.w > 0;
+  make(canvas, "canvas",
+       {width, height, options.samples, exposes ? exposureFormat : canvasFormat, GL_DEPTH_COMPONENT24});
+  if (exposes) make(mean, "mean of exposures", {.width = width, .height = height, .color = GL_RGBA32F});
   if (isDirect()) return;
   make(finished, "finished", {.width = width, .height = height, .color = GL_RGBA8});
   if (scale < 1)
@@ -310,7 +378,7 @@ void Renderer::Parts::makeTargets(int width, int height, int shownWidth, int sho
 void Renderer::Parts::findChanges(GLuint positions, int width, int height) {
   part.reset();
   // Heights move the surface away from the particles.
-  if (!options.keepsStill || model.displaces || cloth->particleCount() > mostReadBack)
+  if (!options.keepsStill || model.displaces || frame.toSky.w > 0 || cloth->particleCount() > mostReadBack)
     return changes.forget();
   std::vector<glm::vec4> particles(cloth->particleCount());
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);  // the solver's last writes
@@ -331,24 +399,40 @@ void Renderer::Parts::scissor() const {
 void Renderer::Parts::drawBackdrop(int width, int height) {
   const gl::FramebufferFormat format{.width = width, .height = height, .color = backdropFormat};
   const bool turns = scene->render.background == "sky";
-  if (backdropSeen && backdrop.format() == format && !(turns && *backdropSeen != frame.clipFromWorld)) return;
+  if (backdropSeen && backdrop.format() == format && !(turns && *backdropSeen != middleClipFromWorld)) return;
   if (!(backdrop.format() == format)) backdrop = gl::Framebuffer("backdrop", format);
   backdrop.bind();
   glDisable(GL_DEPTH_TEST);
   programs.backdrop.bind();
   noVertices.bind();
   glDrawArrays(GL_TRIANGLES, 0, 3);
-  backdropSeen = frame.clipFromWorld;
+  backdropSeen = middleClipFromWorld;
 }
 
-void Renderer::Parts::resolveInto(GLuint destination, int width, int height) {
+void Renderer::Parts::addToMean(bool isFirst) {
+  mean.bind();
+  const std::array<float, 4> nothing{};
+  if (isFirst) glClearNamedFramebufferfv(mean.name(), GL_COLOR, 0, nothing.data());
+  glDisable(GL_DEPTH_TEST);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE);
+  glBindTextureUnit(CANVAS_UNIT, canvas.colorTexture());
+  programs.mean().add.bind();
+  noVertices.bind();
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDisable(GL_BLEND);
+}
+
+// `texture`: the canvas, or the mean.
+void Renderer::Parts::resolveInto(GLuint destination, int width, int height, const gl::Program& resolve,
+                                  GLuint texture) {
   glDisable(GL_FRAMEBUFFER_SRGB);  // the shader encodes
   glBindFramebuffer(GL_FRAMEBUFFER, destination);
   glViewport(0, 0, width, height);
   scissor();
   glDisable(GL_DEPTH_TEST);
-  glBindTextureUnit(CANVAS_UNIT, canvas.colorTexture());
-  programs.resolve.bind();
+  glBindTextureUnit(CANVAS_UNIT, texture);
+  resolve.bind();
   noVertices.bind();
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glDisable(GL_SCISSOR_TEST);
@@ -441,23 +525,30 @@ Pick Renderer::pick(GLuint positions, const Camera& camera, double time, int wid
 
 template <class Around>
 void Renderer::Parts::draw(const Picture& picture, Around around) {
-  const auto [positions, camera, time, target, width, height] = picture;
+  const auto [positions, camera, time, target, width, height, exposure, number] = picture;
   if (width <= 0 || height <= 0) return;  // a minimised window
   const auto scaled = [&](int size) { return std::max(1, static_cast<int>(std::lround(scale * size))); };
   const int w = scaled(width), h = scaled(height);
   colliders.place(*scene, stage, time);
   const double aspect = static_cast<double>(width) / height;
   lookFrom(*camera, w, h, aspect);
+  if (exposure != nullptr || frame.toSky.w > 0) shineFrom(exposure);
+  if (exposure != nullptr) lookThrough(*exposure, *camera);
   chooseSurface(*camera, h, aspect);
   uploadFrame();
   textures.bind();
   makeTargets(w, h, width, height);
   findChanges(positions, w, h);
-  around("normals", [&, p = positions] { computeNormals(p); });
+  if (number == 0) around("normals", [&, p = positions] { computeNormals(p); });
   around("shadows", [&, p = positions] { drawShadows(p); });
+  if (exposure != nullptr) around("shadows of the sky", [&, p = positions] { drawSkyShadows(p); });
   around("backdrop", [&] { drawBackdrop(w, h); });
   around("scene", [&, p = positions] { drawScene(p); });
-  around("resolve", [&, t = isDirect() ? target : finished.name()] { resolveInto(t, w, h); });
+  if (exposure != nullptr) around("mean", [&, n = number] { addToMean(n == 0); });
+  around("resolve", [&, t = isDirect() ? target : finished.name(), exposes = exposure != nullptr] {
+    resolveInto(t, w, h, exposes ? programs.mean().show : programs.resolve,
+                exposes ? mean.colorTexture() : canvas.colorTexture());
+  });
   if (scale < 1) around("stretch", [&] { stretch(); });
   if (!isDirect())
     around("show",
@@ -468,6 +559,18 @@ void Renderer::draw(GLuint positions, const Camera& camera, double time, GLuint 
                     int height) {
   parts_->draw({positions, &camera, time, target, width, height},
                [](const char*, const auto& pass) { pass(); });
+}
+
+void Renderer::expose(int number, int count, GLuint positions, const Camera& camera, double time,
+                      GLuint target, int width, int height) {
+  if (parts_->exposures.size() != static_cast<std::size_t>(count)) parts_->exposures = makeExposures(count);
+  const Exposure& exposure = parts_->exposures[static_cast<std::size_t>(number)];
+  parts_->draw({positions, &camera, time, target, width, height, &exposure, number},
+               [](const char*, const auto& pass) { pass(); });
+}
+
+void Renderer::showMean(GLuint target, int width, int height) {
+  parts_->resolveInto(target, width, height, parts_->programs.mean().show, parts_->mean.colorTexture());
 }
 
 std::vector<DrawTime> Renderer::timeDraw(GLuint positions, const Camera& camera, double time, GLuint target,
@@ -486,9 +589,13 @@ std::vector<DrawTime> Renderer::timeDraw(GLuint positions, const Camera& camera,
 }
 
 Image renderImage(Renderer& renderer, GLuint positions, const Camera& camera, double time, int width,
-                  int height) {
+                  int height, int exposures) {
   const gl::Framebuffer picture("picture", {.width = width, .height = height, .color = GL_RGBA8});
-  renderer.draw(positions, camera, time, picture.name(), width, height);
+  if (exposures == 1)
+    renderer.draw(positions, camera, time, picture.name(), width, height);
+  else
+    for (int number = 0; number < exposures; ++number)
+      renderer.expose(number, exposures, positions, camera, time, picture.name(), width, height);
   Image image{width, height, picture.readRgb()};
   gl::checkContext();  // what it has read would be nothing
   return image;

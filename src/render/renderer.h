@@ -36,6 +36,13 @@ class Renderer {
   // positions.
   void draw(GLuint positions, const Camera& camera, double time, GLuint target, int width, int height);
 
+  // Exposure `number` of `count` (render/exposure.h), of the same state, camera and size as those before it;
+  // 0 begins a new mean. Shows the mean of those so far in `target`.
+  void expose(int number, int count, GLuint positions, const Camera& camera, double time, GLuint target,
+              int width, int height);
+  // The mean of the exposures so far once more.
+  void showMean(GLuint target, int width, int height);
+
   // draw(), with the time that each pass of it takes; waits for each.
   std::vector<DrawTime> timeDraw(GLuint positions, const Camera& camera, double time, GLuint target,
                                  int width, int height);
@@ -69,8 +76,8 @@ class Renderer {
   std::unique_ptr<Parts> parts_;
 };
 
-// Draws into an off-screen framebuffer and reads the picture back.
+// Draws into an off-screen framebuffer and reads the picture back: the mean of so many exposures.
 [[nodiscard]] Image renderImage(Renderer& renderer, GLuint positions, const Camera& camera, double time,
-                                int width, int height);
+                                int width, int height, int exposures = 1);
 
 }  // namespace clothsim

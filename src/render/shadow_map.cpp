@@ -106,6 +106,8 @@ void ShadowMap::blurForFloors(const RenderPrograms& programs, const FlatBounds* 
   glEnable(GL_DEPTH_TEST);
 }
 
+void ShadowMap::bindDepth(GLuint unit) const { glBindTextureUnit(unit, framebuffer_.depthTexture()); }
+
 void ShadowMap::bindTextures() const {
   glBindTextureUnit(SHADOW_MAP_UNIT, framebuffer_.depthTexture());
   glBindTextureUnit(FLOOR_SHADOW_UNIT, floorShadow_.colorTexture());

@@ -25,6 +25,7 @@ class ShadowMap {
   void end() const;
   void blurForFloors(const RenderPrograms& programs, const FlatBounds* part = nullptr) const;  // after end()
   void bindTextures() const;
+  void bindDepth(GLuint unit) const;  // the map alone
 
   [[nodiscard]] const glm::mat4& shadowFromWorld() const { return shadowFromWorld_; }
   [[nodiscard]] float texelLength() const { return texelLength_; }  // [m]

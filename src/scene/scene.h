@@ -203,6 +203,8 @@ struct SolverSettings {
 struct CameraSettings {
   std::optional<Vec3d> position, target;  // [m]
   double fov = 35;                        // vertical field of view [degrees]
+  double aperture = 0;                    // diameter of the lens [m]; 0: all is sharp
+  std::optional<double> focus;            // distance that is sharp [m]; none: that of the target
   friend bool operator==(const CameraSettings&, const CameraSettings&) = default;
 };
 
@@ -226,6 +228,7 @@ struct RenderSettings {
   double height = 0.012;              // of bump and displacement maps, from black to white [m]
   double strainRange = 0.1;           // l/L - 1 at the end of the strain map's scale
   std::optional<Vec3d> light;         // direction towards the main light; none: the upper left of the front
+  double lightSize = 9;               // angle of the main light's disc, seen from the scene [degrees]
   std::string background = "studio";
   Vec3d backgroundColor{0.62, 0.67, 0.72};  // of the plain background
   bool smooth = true;  // draw a smooth surface through the particles, but in draft quality

@@ -352,6 +352,14 @@ std::span<const Field<CameraSettings>> fieldsOf<CameraSettings>() {
           .in("degrees")
           .within({.low = 1, .high = 170})
           .usually(15, 90),
+      field("aperture", &C::aperture, "Diameter of the lens, in final quality; 0: everything is sharp.")
+          .in("m")
+          .within(notNegative)
+          .usually(0, 0.1),
+      field("focus", &C::focus, "Distance at which the picture is sharp.")
+          .in("m")
+          .within(positive)
+          .byDefault("that of the target"),
   };
   return fields;
 }
@@ -398,6 +406,10 @@ std::span<const Field<RenderSettings>> fieldsOf<RenderSettings>() {
       field("light", &R::light, "Direction towards the main light, of any length.")
           .within({.nonZero = true})
           .byDefault("from the viewer's side, upper left"),
+      field("light_size", &R::lightSize, "Angle across the main light, in final quality; 0: sharp shadows.")
+          .in("degrees")
+          .within({.low = 0, .high = 60})
+          .usually(0, 20),
       field("background", &R::background, "Background of the picture.").oneOf(backgrounds),
       field("background_color", &R::backgroundColor, "Colour of the plain background.")
           .in("sRGB")

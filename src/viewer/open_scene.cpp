@@ -64,9 +64,16 @@ void OpenScene::frameFor(int width, int height, const CoveredEdges& covered) {
 
 void OpenScene::draw(int width, int height) { renderer_.draw(camera_, 0, width, height); }
 
-Image OpenScene::picture(int width, int height) {
+void OpenScene::refine(int exposures, int width, int height) {
+  if (exposures < FINAL_EXPOSURES)
+    renderer_.expose(exposures, FINAL_EXPOSURES, camera_, 0, width, height);
+  else
+    renderer_.renderer().showMean(0, width, height);
+}
+
+Image OpenScene::picture(int width, int height, int exposures) {
   renderer_.renderer().setScale(1);
-  return renderer_.picture(camera_, width, height);
+  return renderer_.picture(camera_, width, height, exposures);
 }
 
 }  // namespace clothsim

@@ -60,7 +60,10 @@ class OpenScene {
   // stays.
   void frameFor(int width, int height, const CoveredEdges& covered);
   void draw(int width, int height);  // into the lower left of the window
-  [[nodiscard]] Image picture(int width, int height);
+  // The same in final quality, of what rests: one exposure more than the `exposures` that it has, all of them
+  // FINAL_EXPOSURES.
+  void refine(int exposures, int width, int height);
+  [[nodiscard]] Image picture(int width, int height, int exposures = 1);
 
  private:
   std::string source_;

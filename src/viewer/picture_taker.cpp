@@ -5,11 +5,11 @@
 
 namespace clothsim {
 
-std::string PictureTaker::screenshot(OpenScene& open, int width, int height) {
+std::string PictureTaker::screenshot(OpenScene& open, int width, int height, int exposures) {
   const std::string stem =
       open.name() + "-" + open.backend() + "-" + std::to_string(open.session().frameSinceStart());
   const std::filesystem::path path = freeName(outputFolder(), stem, ".png");
-  const Image image = open.picture(width, height);
+  const Image image = open.picture(width, height, exposures);
   savePng(path, image.width, image.height, image.rgb);
   return "Saved " + path.string();
 }

@@ -12,7 +12,7 @@ namespace clothsim {
 class PictureTaker {
  public:
   // Writes scene-backend-frame.png. Returns a message for the user. @throws InputOutputError
-  std::string screenshot(OpenScene& open, int width, int height);
+  std::string screenshot(OpenScene& open, int width, int height, int exposures);
   // Starts a clip, or ends it. Returns and throws as screenshot().
   std::string toggleClip(OpenScene& open, int width, int height);
   // To be called when the picture has been shown for that time [s]; adds it to a clip. @throws

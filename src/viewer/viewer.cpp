@@ -152,7 +152,16 @@ MouseContext Viewer::mouseContext() {
 
 bool Viewer::isIdle() {
   return paused_ && !stepAsked_ && !isStepping() && drawsLeft_ <= 0 && window_.inputQueue().isEmpty() &&
-         !compare_.isRunning() && !taker_.recordedSeconds();
+         !compare_.isRunning() && !taker_.recordedSeconds() && !isRefining();
+}
+
+// In final quality what rests is exposed again and again.
+bool Viewer::isRefining() const {
+  return paused_ && quality_ == Quality::final && exposures_ < FINAL_EXPOSURES;
+}
+
+std::optional<int> Viewer::refinedExposures() const {
+  return paused_ && quality_ == Quality::final ? std::optional(exposures_) : std::nullopt;
 }
 
 // Returns the number of frames that were simulated since the last call.
@@ -282,6 +291,12 @@ void Viewer::drawPicture(int width, int height) {
   const bool rests = paused_ && drawsLeft_ <= 0;
   const bool whole = rests || taker_.recordedSeconds() || !gl::currentContextInfo().software;
   open_->renderer().renderer().setScale(whole ? 1 : drawScale_.scale());
+  if (rests && quality_ == Quality::final) {
+    open_->refine(exposures_, width, height);
+    exposures_ = std::min(exposures_ + 1, FINAL_EXPOSURES);
+    return;
+  }
+  exposures_ = 0;
   LapClock clock;
   open_->draw(width, height);
   if (whole) return;
@@ -306,7 +321,7 @@ void Viewer::drawControls() {
   if (config_.showOverlay) drawAxes(open_->camera(), area);
   const float neededByOthers = showKeys_ ? 66.0f : compare_.isOpen() ? 40.0f : 0.0f;  // em
   if (config_.showOverlay && area.width >= neededByOthers * em())
-    drawFacts(viewerFacts(*open_, meter_, paused_, looksBack(), tempo_,
+    drawFacts(viewerFacts(*open_, meter_, paused_, looksBack(), tempo_, refinedExposures(),
                           column_.measures().warnings(open_->scene())),
               area);
   if (showsPanels()) drawPanels();

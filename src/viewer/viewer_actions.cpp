@@ -168,7 +168,9 @@ void Viewer::act(ViewerAction action) {
 void Viewer::actOnFile(ViewerAction action) {
   const PictureArea area = pictureArea();
   const int width = static_cast<int>(area.width), height = static_cast<int>(area.height);
-  if (action == ViewerAction::screenshot) say(taker_.screenshot(*open_, width, height), longNoticeSeconds);
+  if (action == ViewerAction::screenshot)
+    say(taker_.screenshot(*open_, width, height, quality_ == Quality::final ? FINAL_EXPOSURES : 1),
+        longNoticeSeconds);
   if (action == ViewerAction::recordClip) say(taker_.toggleClip(*open_, width, height), longNoticeSeconds);
   if (action == ViewerAction::saveScene) saveSceneAs(freeName(outputFolder(), open_->name(), ".json"));
   if (action == ViewerAction::saveRecording) {

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "gl/context.h"
+#include "render/quality.h"
 
 namespace clothsim {
 namespace {
@@ -66,7 +67,7 @@ std::string viewerTitle(const OpenScene& open, const SpeedMeter& meter, bool pau
 }
 
 OverlayFacts viewerFacts(const OpenScene& open, const SpeedMeter& meter, bool paused, bool looksBack,
-                         double tempo, const std::vector<Warning>& warnings) {
+                         double tempo, std::optional<int> exposures, const std::vector<Warning>& warnings) {
   const Simulation& simulation = open.session().simulation();
   OverlayFacts facts;
   facts.title = open.name();
@@ -81,6 +82,9 @@ OverlayFacts viewerFacts(const OpenScene& open, const SpeedMeter& meter, bool pa
     facts.rows.push_back(speedRow(open, meter, tempo));
   if (meter.framesPerSecond() > 0 && !paused)
     facts.rows.push_back({"display", formatted("%.0f frames/s", meter.framesPerSecond())});
+  if (exposures)
+    facts.rows.push_back(
+        {"picture", "refined " + std::to_string(*exposures) + " of " + std::to_string(FINAL_EXPOSURES)});
   for (const Warning& warning : warnings) facts.rows.push_back({warning.kind, warning.brief, true, true});
   facts.rows.push_back({"help", "F1 lists the keys", false, true});
   return facts;

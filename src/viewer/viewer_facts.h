@@ -1,6 +1,7 @@
 // The title of the window and the rows of the overlay, as they describe the simulation.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,9 @@ namespace clothsim {
 
 [[nodiscard]] const char* nameOf(Integrator integrator);
 [[nodiscard]] std::string viewerTitle(const OpenScene& open, const SpeedMeter& meter, bool paused);
+// `exposures`: of how many the picture is the mean, where it is refined.
 [[nodiscard]] OverlayFacts viewerFacts(const OpenScene& open, const SpeedMeter& meter, bool paused,
-                                       bool looksBack, double tempo, const std::vector<Warning>& warnings);
+                                       bool looksBack, double tempo, std::optional<int> exposures,
+                                       const std::vector<Warning>& warnings);
 
 }  // namespace clothsim

@@ -153,6 +153,8 @@ class Viewer {
   [[nodiscard]] std::optional<AxisEnd> axisEndUnder(ViewerWindow::Cursor cursor) const;
   [[nodiscard]] MouseContext mouseContext();
   [[nodiscard]] bool isIdle();
+  [[nodiscard]] bool isRefining() const;
+  [[nodiscard]] std::optional<int> refinedExposures() const;
 
   static constexpr int drawsAfterInput = 3;
   static constexpr double noticeSeconds = 2.5, longNoticeSeconds = 8;
@@ -212,6 +214,7 @@ class Viewer {
   std::vector<std::function<void()>>
       waiting_;                       // steps_ is busy, what asks the session for something waits here
   std::optional<Scene> waitingEdit_;  // the newest of the panels, which waits likewise
+  int exposures_ = 0;                 // of a picture that rests, in final quality
   bool paused_ = false, stepAsked_ = false, showKeys_ = false;
 };
 

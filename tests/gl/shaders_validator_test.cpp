@@ -74,7 +74,12 @@ std::vector<gl::Defines> variantsOf(const std::string& file) {
   if (file == "render/smooth_points.comp") return {gl::Defines{}, {{"LEAN", ""}}};
   if (file == "render/smooth_choose.comp") return {gl::Defines{}, {{"CENTERS", ""}}};
   if (file == "render/smooth_triangles.comp") return {gl::Defines{}, {{"COUNT", ""}}};
-  if (file == "render/resolve.frag") return {{{"SAMPLES", "1"}}, {{"SAMPLES", "4"}}};
+  if (file == "render/resolve.frag")
+    return {{{"SAMPLES", "1"}},
+            {{"SAMPLES", "4"}},
+            {{"SAMPLES", "1"}, {"ADDS", ""}},
+            {{"SAMPLES", "4"}, {"ADDS", ""}},
+            {{"SAMPLES", "1"}, {"MEAN", ""}}};
   if (file == "render/backdrop.frag") return {gl::Defines{}, {{"SKY", ""}}, {{"PLAIN", ""}}, {{"LAY", ""}}};
   if (file == "render/cloth.vert")
     return {gl::Defines{}, {{"TANGENT", ""}, {"DISPLACEMENT", ""}}, {{"STRAIN", ""}}};

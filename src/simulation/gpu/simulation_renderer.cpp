@@ -67,8 +67,13 @@ void SimulationRenderer::draw(const Camera& camera, GLuint target, int width, in
   renderer_->draw(positionsBuffer(), camera, time(), target, width, height);
 }
 
-Image SimulationRenderer::picture(const Camera& camera, int width, int height) {
-  return renderImage(*renderer_, positionsBuffer(), camera, time(), width, height);
+void SimulationRenderer::expose(int number, int count, const Camera& camera, GLuint target, int width,
+                                int height) {
+  renderer_->expose(number, count, positionsBuffer(), camera, time(), target, width, height);
+}
+
+Image SimulationRenderer::picture(const Camera& camera, int width, int height, int exposures) {
+  return renderImage(*renderer_, positionsBuffer(), camera, time(), width, height, exposures);
 }
 
 Pick SimulationRenderer::pick(const Camera& camera, int width, int height, double x, double y) {

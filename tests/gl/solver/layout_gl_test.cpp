@@ -11,6 +11,7 @@
 #include "gl/program.h"
 #include "solver/divergence.h"
 #include "solver/gpu/pass_programs.h"
+#include "solver/hierarchy.h"
 #include "solver/implicit.h"
 #include "solver/mesh_lists.h"
 #include "solver/pin_paths.h"

@@ -39,7 +39,7 @@ class RandomScene {
     for (ClothSettings& cloth : scene.cloths)
       if (cloth.tearStrain && scene.solver.strainLimit) cloth.tearStrain = *scene.solver.strainLimit / 2;
     if (maybe()) makeCoulomb(scene);
-    if (maybe()) scene.camera = {vector(), vector(), 1 + 169 * fraction()};
+    if (maybe()) scene.camera = {vector(), vector(), 1 + 169 * fraction(), positive(), optionalPositive()};
     scene.render = renderSettings();
     if (maybe()) scene.expect = expectation();
     return scene;
@@ -81,6 +81,7 @@ class RandomScene {
     render.normalStrength = 10 * fraction();
     render.height = fraction() - 0.5;
     render.strainRange = 1e-6 + fraction();
+    render.lightSize = 60 * fraction();
     if (maybe()) render.light = Vec3d{positive(), number(), number()};
     render.background = oneOf(backgrounds);
     render.backgroundColor = color();
