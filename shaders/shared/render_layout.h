@@ -38,7 +38,8 @@ using uint = unsigned int;
 #define HEIGHTS_UNIT 5
 #define ENVIRONMENT_UNIT 6
 #define BACKDROP_UNIT 7
-#define SKY_SHADOW_UNIT 8
+#define SKY_SHADOW_UNIT 8      // and those behind it: SKY_DIRECTIONS
+#define SKY_DIRECTIONS 4       // of an exposure (src/render/exposure.h)
 #define FLOOR_SHADOW_SIZE 256  // [texels] of the blurred shadow for floors
 #define MESH_NORMALS_GROUP 64  // particles of a mesh in a work group
 #define MESH_RING 8u           // particles around one that say how deep it lies in a fold
@@ -64,13 +65,13 @@ using uint = unsigned int;
 
 struct RenderFrame {
   mat4 clipFromWorld;
-  mat4 shadowFromWorld;     // to the shadow map, 0 to 1 in each coordinate
-  mat4 skyShadowFromWorld;  // the same for the light of the sky from `toSky`
-  vec4 eye;                 // xyz [m]
-  vec4 toKeyLight;          // xyz, unit; w: size of a texel of the shadow map [m]
-  vec4 toSky;  // xyz, unit; w: as of toKeyLight. 0: this is no exposure of a mean (src/render/exposure.h)
-  vec4 toFillLight;  // xyz, unit
-  vec4 keyColor;     // radiance times pi, so that a white matte surface facing the light returns it
+  mat4 shadowFromWorld;                     // to the shadow map, 0 to 1 in each coordinate
+  mat4 skyShadowFromWorld[SKY_DIRECTIONS];  // the same for the light of the sky from `toSky`
+  vec4 eye;                                 // xyz [m]
+  vec4 toKeyLight;                          // xyz, unit; w: size of a texel of the shadow map [m]
+  vec4 toSky[SKY_DIRECTIONS];  // xyz, unit; w: as of toKeyLight. 0: this is no exposure of a mean
+  vec4 toFillLight;            // xyz, unit
+  vec4 keyColor;               // radiance times pi, so that a white matte surface facing the light returns it
   vec4 fillColor;
   vec4 skyColor;     // ambient light from above
   vec4 bounceColor;  // ambient light from below

@@ -1,19 +1,22 @@
 // A final picture is the mean of exposures, each a whole picture from a slightly other place in the pixel and
-// on the lens, with light from another point of the main light's disc and another direction of the sky: so
+// on the lens, with light from another point of the main light's disc and other directions of the sky: so
 // edges, shadows, depth of field and the shade where surfaces meet come out as they are, without noise to
 // filter.
 #pragma once
 
+#include <array>
 #include <glm/glm.hpp>
 #include <vector>
+
+#include "shared/render_layout.h"
 
 namespace clothsim {
 
 struct Exposure {
-  glm::vec2 pixel{0};      // where in the picture, off the middles of its pixels, -1 to 1 [pixels]
-  glm::vec2 lens{0};       // within the unit disc
-  glm::vec2 light{0};      // the same
-  glm::vec3 sky{0, 1, 0};  // unit
+  glm::vec2 pixel{0};  // where in the picture, off the middles of its pixels, -1 to 1 [pixels]
+  glm::vec2 lens{0};   // within the unit disc
+  glm::vec2 light{0};  // the same
+  std::array<glm::vec3, SKY_DIRECTIONS> sky{};  // unit
 };
 
 // `count` of them, > 0: each two numbers evenly spread (M. Roberts, "The Unreasonable Effectiveness of

@@ -109,7 +109,7 @@ struct Renderer::Parts {
   std::optional<SmoothSurface> smooth;  // drawn instead of the triangles of the particles
   Colliders colliders;
   ShadowMap shadowMap;
-  std::optional<ShadowMap> skyShadowMap;  // of an exposure
+  std::vector<ShadowMap> skyShadowMaps;  // of an exposure
   std::vector<Exposure> exposures;
   gl::Framebuffer mean;  // the sum of the exposures' light, with their number
   SpringsOverlay springs;
@@ -165,7 +165,7 @@ void Renderer::Parts::setOptions(const RenderOptions& wanted) {
   if (next.samples != options.samples) programs.chooseSamples(next.samples);
   if (next.shadowMapSize != options.shadowMapSize) {
     shadowMap = ShadowMap(next.shadowMapSize);
-    skyShadowMap.reset();
+    skyShadowMaps.clear();
   }
   options = next;
   configure(scene);
@@ -187,17 +187,19 @@ void Renderer::Parts::lookFrom(const Camera& camera, int width, int height, doub
 // The main light, or the point of it that shines in an exposure.
 void Renderer::Parts::shineFrom(const Exposure* exposure) {
   glm::vec3 toLight = directionToKeyLight(scene->render, outline.front);
-  frame.toSky = glm::vec4(0);
+  frame.toSky[0] = glm::vec4(0);
   if (exposure != nullptr) {
     const glm::vec3 across = glm::normalize(
         glm::cross(toLight, std::abs(toLight.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0)));
     const auto radius = static_cast<float>(std::tan(scene->render.lightSize * std::numbers::pi / 360));
     toLight = glm::normalize(
         toLight + radius * (exposure->light.x * across + exposure->light.y * glm::cross(toLight, across)));
-    if (!skyShadowMap) skyShadowMap.emplace(options.shadowMapSize);
-    skyShadowMap->cover(stage.reach, exposure->sky);
-    frame.skyShadowFromWorld = skyShadowMap->shadowFromWorld();
-    frame.toSky = glm::vec4(exposure->sky, skyShadowMap->texelLength());
+    while (skyShadowMaps.size() < SKY_DIRECTIONS) skyShadowMaps.emplace_back(options.shadowMapSize / 2);
+    for (std::size_t k = 0; k < SKY_DIRECTIONS; ++k) {
+      skyShadowMaps[k].cover(stage.reach, exposure->sky[k]);
+      frame.skyShadowFromWorld[k] = skyShadowMaps[k].shadowFromWorld();
+      frame.toSky[k] = glm::vec4(exposure->sky[k], skyShadowMaps[k].texelLength());
+    }
   }
   shadowMap.cover(stage.reach, toLight);
   frame.shadowFromWorld = shadowMap.shadowFromWorld();
@@ -282,11 +284,13 @@ void Renderer::Parts::drawCasters(GLuint positions) {
 
 // Casters are drawn by `shadowFromWorld`, whichever map they go to.
 void Renderer::Parts::drawSkyShadows(GLuint positions) {
-  frame.shadowFromWorld = skyShadowMap->shadowFromWorld();
-  uploadFrame();
-  skyShadowMap->begin();
-  if (options.shadows) drawCasters(positions);
-  skyShadowMap->end();
+  for (const ShadowMap& map : skyShadowMaps) {
+    frame.shadowFromWorld = map.shadowFromWorld();
+    uploadFrame();
+    map.begin();
+    if (options.shadows) drawCasters(positions);
+    map.end();
+  }
   frame.shadowFromWorld = shadowMap.shadowFromWorld();
   uploadFrame();
 }
@@ -297,7 +301,9 @@ void Renderer::Parts::drawScene(GLuint positions) {
   canvas.bind();
   scissor();
   shadowMap.bindTextures();
-  (skyShadowMap ? *skyShadowMap : shadowMap).bindDepth(SKY_SHADOW_UNIT);
+  for (std::size_t k = 0; k < SKY_DIRECTIONS; ++k)
+    (skyShadowMaps.empty() ? shadowMap : skyShadowMaps[k])
+        .bindDepth(SKY_SHADOW_UNIT + static_cast<GLuint>(k));
   const float farthest = 1;
   glClearNamedFramebufferfv(canvas.name(), GL_DEPTH, 0, &farthest);
   glDisable(GL_DEPTH_TEST);
@@ -365,7 +371,7 @@ void Renderer::Parts::makeTargets(int width, int height, int shownWidth, int sho
     target = gl::Framebuffer(label, format);
     changes.forget();
   };
-  const bool exposes = frame.toSky.w > 0;
+  const bool exposes = frame.toSky[0].w > 0;
   make(canvas, "canvas",
        {width, height, options.samples, exposes ? exposureFormat : canvasFormat, GL_DEPTH_COMPONENT24});
   if (exposes) make(mean, "mean of exposures", {.width = width, .height = height, .color = GL_RGBA32F});
@@ -378,7 +384,7 @@ void Renderer::Parts::makeTargets(int width, int height, int shownWidth, int sho
 void Renderer::Parts::findChanges(GLuint positions, int width, int height) {
   part.reset();
   // Heights move the surface away from the particles.
-  if (!options.keepsStill || model.displaces || frame.toSky.w > 0 || cloth->particleCount() > mostReadBack)
+  if (!options.keepsStill || model.displaces || frame.toSky[0].w > 0 || cloth->particleCount() > mostReadBack)
     return changes.forget();
   std::vector<glm::vec4> particles(cloth->particleCount());
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);  // the solver's last writes
@@ -532,7 +538,7 @@ void Renderer::Parts::draw(const Picture& picture, Around around) {
   colliders.place(*scene, stage, time);
   const double aspect = static_cast<double>(width) / height;
   lookFrom(*camera, w, h, aspect);
-  if (exposure != nullptr || frame.toSky.w > 0) shineFrom(exposure);
+  if (exposure != nullptr || frame.toSky[0].w > 0) shineFrom(exposure);
   if (exposure != nullptr) lookThrough(*exposure, *camera);
   chooseSurface(*camera, h, aspect);
   uploadFrame();

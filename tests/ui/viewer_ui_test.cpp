@@ -54,6 +54,18 @@ TEST_F(ViewerUi, ChangesTheBackendWithoutMovingTheCloth) {
       << "the notice goes, the picture stays";
 }
 
+TEST_F(ViewerUi, RefinesWhatRestsInFinalQualityToTheSamePictureEachTime) {
+  const ViewerProgram viewer(std::string(shownScene) + " --quality final");
+  viewer.press("F2");
+  viewer.press("p");
+  ASSERT_TRUE(viewer.titleBecomesOneWith("paused")) << viewer.title();
+  const Picture refined = viewer.stillPicture();
+  viewer.press("F1");  // the list of keys: it begins anew
+  EXPECT_TRUE(test::eventually(seconds(20), [&] { return viewer.picture() != refined; }));
+  viewer.press("F1");
+  EXPECT_TRUE(test::eventually(seconds(20), [&] { return viewer.picture() == refined; }));
+}
+
 TEST_F(ViewerUi, PStopsThePictureAndNMovesItOnByAFrame) {
   const ViewerProgram viewer(shownScene);
   viewer.press("p");
