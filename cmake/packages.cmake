@@ -41,6 +41,13 @@ add_library(clothsim_zip INTERFACE)
 target_include_directories(clothsim_zip SYSTEM INTERFACE ${ZIP_INCLUDE_DIR})
 target_link_libraries(clothsim_zip INTERFACE ${ZIP_LIBRARY})
 
+# Debian's CMake package of Open Asset Import Library asks for what it was built with.
+find_path(ASSIMP_INCLUDE_DIR assimp/Exporter.hpp REQUIRED)
+find_library(ASSIMP_LIBRARY assimp REQUIRED)
+add_library(clothsim_assimp INTERFACE)
+target_include_directories(clothsim_assimp SYSTEM INTERFACE ${ASSIMP_INCLUDE_DIR})
+target_link_libraries(clothsim_assimp INTERFACE ${ASSIMP_LIBRARY})
+
 # Counts crossings (src/measure/crossings.cpp). Not needed to simulate: without it --check-crossings says what to install.
 set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)
 find_package(CGAL 5.0 QUIET)

@@ -171,11 +171,11 @@ void declareRun(CLI::App& app, Arguments& a, Task& task) {
   CLI::Option* resolution = addResolution(*run, a);
   CLI::Option* backend = addBackend(*run, a.backend);
   addThreads(*run, a);
-  run->add_option(
-         "--save", a.saves,
-         "save the last state as .csv .ply .obj .npz .png, or .state (exact); with %04d in the name every "
-         "K-th frame; all frames in one file: .pc2 (with its mesh, FILE_rest.obj), .usda "
-         "(every K-th), .mp4 (real time; needs ffmpeg); may be repeated")
+  run->add_option("--save", a.saves,
+                  "save the last state as .csv .ply .obj .glb .npz .png, or .state (exact); with %04d in the "
+                  "name every "
+                  "K-th frame; all frames in one file: .pc2 (with its mesh, FILE_rest.obj), .usda "
+                  "(every K-th), .mp4 (real time; needs ffmpeg); may be repeated")
       ->type_name("FILE")
       ->allow_extra_args(false);
   run->add_option("--every", a.every, "K for numbered files, .pc2 and .usda")

@@ -17,6 +17,10 @@ namespace clothsim {
 // step.
 [[nodiscard]] std::string formatNpz(const State& state, const Cloth& cloth);
 
+// glTF 2.0 in one binary file: a node with a mesh for each cloth, with normals and texture coordinates.
+// @throws InputOutputError
+[[nodiscard]] std::string formatGlb(const State& state, const Cloth& cloth);
+
 // The `.state` file, little-endian throughout:
 //   offset  0  8 bytes  "clothsim"
 //           8  u32      version of this layout, 3

@@ -14,13 +14,13 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "a PC2 file is little-endian");
 
-struct Header {
+struct CacheHeader {
   char signature[12] = {'P', 'O', 'I', 'N', 'T', 'C', 'A', 'C', 'H', 'E', '2', '\0'};
   std::int32_t version = 1, pointCount = 0;
   float startFrame = 0, sampleRate = 1;  // frames from one sample to the next
   std::int32_t sampleCount = 0;
 };
-static_assert(sizeof(Header) == 32);
+static_assert(sizeof(CacheHeader) == 32);
 
 template <class T>
 std::string_view bytesOf(const T& value) {
@@ -56,7 +56,7 @@ class PointCacheWriter final : public SequenceWriter {
   Cloth cloth_;
   std::filesystem::path path_;
   GrowingFile file_;
-  Header header_;
+  CacheHeader header_;
   State rest_;  // the first frame
 };
 

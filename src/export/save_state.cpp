@@ -15,10 +15,11 @@ struct Extension {
   std::string_view name;
   Format format;
 };
-constexpr std::array<Extension, 5> extensions{{
+constexpr std::array<Extension, 6> extensions{{
     {".csv", [](const State& state, const Cloth&) { return formatCsv(state); }},
     {".ply", formatPly},
     {".obj", formatObj},
+    {".glb", formatGlb},
     {".npz", [](const State& state, const Cloth& cloth) { return formatNpz(state, cloth); }},
     {".state", [](const State& state, const Cloth&) { return formatStateFile(state); }},
 }};
@@ -39,7 +40,7 @@ void saveState(const State& state, const Cloth& cloth, const std::filesystem::pa
   const Format format = formatFor(path);
   if (format == nullptr)
     throw UsageError("cannot save '" + path.string() + "': its extension is '" + path.extension().string() +
-                     "', expected .csv, .ply, .obj, .npz or .state");
+                     "', expected .csv, .ply, .obj, .glb, .npz or .state");
   writeFileAtomically(path, format(state, cloth));
 }
 

@@ -25,22 +25,22 @@ class SaveState : public testing::Test {
 TEST_F(SaveState, RefusesAnExtensionItDoesNotKnowAndNamesThoseItDoes) {
   const std::string message =
       messageThrownBy<UsageError>([&] { saveState(state_, cloth_, folder_ / "a.fbx"); });
-  for (const char* expected : {"a.fbx", "'.fbx'", ".csv", ".ply", ".obj", ".npz", ".state"})
+  for (const char* expected : {"a.fbx", "'.fbx'", ".csv", ".ply", ".obj", ".glb", ".npz", ".state"})
     EXPECT_NE(message.find(expected), std::string::npos) << message;
   EXPECT_EQ(folder_.fileCount(), 0);
 }
 
 TEST_F(SaveState, TellsBeforehandWhichExtensionsItKnows) {
-  for (const char* name : {"a.csv", "a.ply", "a.obj", "a.npz", "b.c/a.state"})
+  for (const char* name : {"a.csv", "a.ply", "a.obj", "a.glb", "a.npz", "b.c/a.state"})
     EXPECT_TRUE(canSaveStateAs(name)) << name;
   for (const char* name : {"a", "a.CSVX", "csv", "a.png", "a.ply.gz"})
     EXPECT_FALSE(canSaveStateAs(name)) << name;
 }
 
 TEST_F(SaveState, WritesOneFileAndNothingBesideIt) {
-  for (const char* name : {"a.csv", "a.ply", "a.obj", "a.npz", "a.state"})
+  for (const char* name : {"a.csv", "a.ply", "a.obj", "a.glb", "a.npz", "a.state"})
     saveState(state_, cloth_, folder_ / name);
-  EXPECT_EQ(folder_.fileCount(), 5);
+  EXPECT_EQ(folder_.fileCount(), 6);
 }
 
 // A full disk, played by a limit on the size of files.

@@ -1,0 +1,89 @@
+// glTF 2.0 in one binary file (.glb), written by Open Asset Import Library.
+#include <assimp/scene.h>
+#include <algorithm>
+#include <assimp/Exporter.hpp>
+#include <map>
+
+#include "core/error.h"
+#include "export/formats.h"
+
+namespace clothsim {
+namespace {
+
+aiVector3D vectorFrom(float x, float y, float z) { return {x, y, z}; }
+
+// The piece's own points, and those of the triangles that lie on it. What is made here belongs to the mesh.
+aiMesh* makeMesh(const Piece& piece, const State& state, const std::vector<Vec3f>& normals,
+                 const std::vector<std::array<float, 2>>& coordinates,
+                 const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+  auto* mesh = new aiMesh;
+  mesh->mPrimitiveTypes = aiPrimitiveType_TRIANGLE;
+  mesh->mNumVertices = piece.particleCount();
+  mesh->mVertices = new aiVector3D[mesh->mNumVertices];
+  mesh->mNormals = new aiVector3D[mesh->mNumVertices];
+  mesh->mTextureCoords[0] = new aiVector3D[mesh->mNumVertices];
+  mesh->mNumUVComponents[0] = 2;
+  for (std::uint32_t i = 0; i < mesh->mNumVertices; ++i) {
+    const std::size_t particle = piece.firstParticle + i;
+    const Particle4& x = state.positions[particle];
+    const Vec3f& n = normals[particle];
+    mesh->mVertices[i] = vectorFrom(x.x, x.y, x.z);
+    mesh->mNormals[i] = vectorFrom(n.x, n.y, n.z);
+    mesh->mTextureCoords[0][i] = vectorFrom(coordinates[particle][0], coordinates[particle][1], 0);
+  }
+  mesh->mNumFaces = static_cast<unsigned>(triangles.size());
+  mesh->mFaces = new aiFace[mesh->mNumFaces];
+  for (std::size_t t = 0; t < triangles.size(); ++t) {
+    mesh->mFaces[t].mNumIndices = 3;
+    mesh->mFaces[t].mIndices = new unsigned[3];
+    for (std::size_t k = 0; k < 3; ++k) mesh->mFaces[t].mIndices[k] = triangles[t][k] - piece.firstParticle;
+  }
+  return mesh;
+}
+
+aiNode* makeNode(const std::string& name) {
+  auto* node = new aiNode(name);
+  node->mNumMeshes = 1;
+  node->mMeshes = new unsigned[1];
+  return node;
+}
+
+// A node and a mesh a cloth, in one two-sided material. Frees what it holds.
+void fill(aiScene& scene, const State& state, const Cloth& cloth) {
+  const std::vector<Vec3f> normals = vertexNormals(state, cloth);
+  const std::vector<std::array<float, 2>> coordinates = pictureCoordinates(cloth);
+  std::vector<std::vector<std::array<std::uint32_t, 3>>> triangles(cloth.pieces().size());
+  for (const auto& triangle : remainingTriangles(cloth, state.cuts))
+    triangles[cloth.pieceOf(triangle[0])].push_back(triangle);
+  const auto count = static_cast<unsigned>(cloth.pieces().size());
+  scene.mNumMaterials = 1;
+  scene.mMaterials = new aiMaterial* [1] { new aiMaterial };
+  const int twoSided = 1;
+  scene.mMaterials[0]->AddProperty(&twoSided, 1, AI_MATKEY_TWOSIDED);
+  scene.mNumMeshes = count;
+  scene.mMeshes = new aiMesh*[count];
+  scene.mRootNode = new aiNode("clothsim");
+  scene.mRootNode->mNumChildren = count;
+  scene.mRootNode->mChildren = new aiNode*[count];
+  for (unsigned i = 0; i < count; ++i) {
+    const std::string name = count == 1 ? "cloth" : "cloth" + std::to_string(i);
+    scene.mMeshes[i] = makeMesh(cloth.pieces()[i], state, normals, coordinates, triangles[i]);
+    scene.mMeshes[i]->mName = name;
+    aiNode* const node = scene.mRootNode->mChildren[i] = makeNode(name);
+    node->mParent = scene.mRootNode;
+    node->mMeshes[0] = i;
+  }
+}
+
+}  // namespace
+
+std::string formatGlb(const State& state, const Cloth& cloth) {
+  aiScene scene;
+  fill(scene, state, cloth);
+  Assimp::Exporter exporter;
+  const aiExportDataBlob* const blob = exporter.ExportToBlob(&scene, "glb2");
+  if (blob == nullptr) throw InputOutputError(std::string("cannot write glTF: ") + exporter.GetErrorString());
+  return {static_cast<const char*>(blob->data), blob->size};
+}
+
+}  // namespace clothsim
