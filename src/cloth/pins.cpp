@@ -215,7 +215,7 @@ std::vector<bool> freeKeys(const PinMotion& motion) {
 
 std::vector<bool> freeAtTheStart(const ClothSettings& cloth) {
   const auto isFree = [](const PinMotion& motion) {
-    return motion.keys.front().free && motion.keys.front().t <= 0;
+    return !motion.keys.empty() && motion.keys.front().free && motion.keys.front().t <= 0;
   };
   if (std::none_of(cloth.pinMotion.begin(), cloth.pinMotion.end(), isFree)) return {};
   std::vector<bool> free;
@@ -227,8 +227,10 @@ std::vector<bool> freeAtTheStart(const ClothSettings& cloth) {
 Motion pathAbout(const PinMotion& motion, Vec3d center) {
   Motion path;
   path.loop = motion.loop;
+  path.interpolation = motion.interpolation;
   for (const PinMotion::Key& key : motion.keys)
     path.keys.push_back({key.t, key.position.value_or(center), key.rotation});
+  if (path.keys.empty()) path.keys.push_back({0, center, {}});
   return path;
 }
 

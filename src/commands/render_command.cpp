@@ -33,14 +33,10 @@ void checkOutputs(const RenderCommandOptions& options) {
   for (const std::string& out : options.outs) checkWritable(numberedName(out, options.frames));
 }
 
-// Of many pictures each is one exposure, unless final quality or a number of exposures is asked for.
 int exposuresOf(const RenderCommandOptions& options) {
   if (options.exposures > 0) return options.exposures;
-  const bool isStill = std::all_of(options.outs.begin(), options.outs.end(), [](const std::string& out) {
-    return out.ends_with(".png") && !hasFrameNumber(out);
-  });
-  const bool isFinal = options.quality == "final" || (options.quality == "auto" && isStill);
-  return isFinal ? FINAL_EXPOSURES : 1;
+  if (options.quality == "auto") return usualExposures(options.outs);
+  return options.quality == "final" ? FINAL_EXPOSURES : 1;
 }
 
 }  // namespace

@@ -2,24 +2,32 @@
 
 #include <algorithm>
 
+#include "gl/context.h"
+
 namespace clothsim {
 
 SavedPictures::SavedPictures(const RunOptions& options, const Scene& scene, int frames) {
   settings_.frames = frames;
   settings_.every = options.every;
+  std::vector<std::string> names;
   for (const std::string& save : options.saves)
-    if (isPicture(save)) pictures_.emplace_back(save, settings_, scene);
+    if (isPicture(save)) {
+      pictures_.emplace_back(save, settings_, scene);
+      names.push_back(save);
+    }
+  exposures_ = usualExposures(names);
 }
 
 void SavedPictures::add(Simulation& simulation, int frame) {
   const auto wants = [&](const PictureOutput& picture) { return picture.wants(frame); };
   if (std::none_of(pictures_.begin(), pictures_.end(), wants)) return;
   if (!renderer_) {
-    renderer_.emplace(simulation, RenderOptions{});
+    const RenderOptions drawing = withQuality({}, Quality::final, gl::currentContextInfo().software);
+    renderer_.emplace(simulation, exposures_ > 1 ? forExposures(drawing) : drawing);
     camera_.emplace(simulation.scene(), simulation.cloth());
   }
   renderer_->update();  // a recording changes scene, cloth and cuts
-  const Image image = renderer_->picture(*camera_, settings_.width, settings_.height);
+  const Image image = renderer_->picture(*camera_, settings_.width, settings_.height, exposures_);
   for (PictureOutput& picture : pictures_)
     if (picture.wants(frame)) picture.add(image, frame);
 }

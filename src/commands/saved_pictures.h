@@ -22,6 +22,7 @@ class SavedPictures {
 
  private:
   PictureSettings settings_;
+  int exposures_ = 1;  // of which each picture is the mean
   std::vector<PictureOutput> pictures_;
   std::optional<SimulationRenderer> renderer_;  // made for the first picture
   std::optional<Camera> camera_;

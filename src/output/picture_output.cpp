@@ -5,10 +5,18 @@
 
 #include "core/error.h"
 #include "core/files.h"
+#include "render/quality.h"
 
 namespace clothsim {
 
 bool isPicture(const std::string& name) { return name.ends_with(".png") || name.ends_with(".mp4"); }
+
+int usualExposures(const std::vector<std::string>& names) {
+  const bool areStills = std::all_of(names.begin(), names.end(), [](const std::string& name) {
+    return name.ends_with(".png") && !hasFrameNumber(name);
+  });
+  return areStills ? FINAL_EXPOSURES : 1;
+}
 
 void checkPicture(const std::string& flag, const std::string& name, const PictureSettings& settings) {
   if (name.ends_with(".mp4") && (settings.width % 2 != 0 || settings.height % 2 != 0))

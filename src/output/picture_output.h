@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "export/export.h"
 #include "render/image.h"
@@ -35,6 +36,10 @@ class PictureOutput {
   int frames_, every_ = 0;  // 0: only the last frame
   std::unique_ptr<VideoWriter> video_;
 };
+
+// Of how many exposures a picture is the mean where nobody says: FINAL_EXPOSURES where all are stills, 1 of
+// many.
+[[nodiscard]] int usualExposures(const std::vector<std::string>& names);
 
 // To be called before long work; `flag` is named in messages. @throws UsageError for a film of an odd width
 // or height

@@ -35,6 +35,10 @@ Vec3d rotateBack(const Matrix3& rotation, Vec3d v) {
   return v.x * rotation[0] + v.y * rotation[1] + v.z * rotation[2];
 }
 
+Matrix3 transposed(const Matrix3& a) {
+  return {Vec3d{a[0].x, a[1].x, a[2].x}, Vec3d{a[0].y, a[1].y, a[2].y}, Vec3d{a[0].z, a[1].z, a[2].z}};
+}
+
 Matrix3 product(const Matrix3& a, const Matrix3& b) {
   return {rotateBack(b, a[0]), rotateBack(b, a[1]), rotateBack(b, a[2])};
 }

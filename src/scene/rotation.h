@@ -17,6 +17,7 @@ inline constexpr Matrix3 identityMatrix{Vec3d{1, 0, 0}, Vec3d{0, 1, 0}, Vec3d{0,
 [[nodiscard]] Matrix3 rotationFromY(Vec3d axis);
 [[nodiscard]] Vec3d rotate(const Matrix3& rotation, Vec3d v);
 [[nodiscard]] Vec3d rotateBack(const Matrix3& rotation, Vec3d v);  // by the transpose
+[[nodiscard]] Matrix3 transposed(const Matrix3& a);
 // b first, then a.
 [[nodiscard]] Matrix3 product(const Matrix3& a, const Matrix3& b);
 

@@ -54,6 +54,8 @@ struct GroupPin {
 };
 using Pin = std::variant<GridPoint, GridRange, GridSide, VertexPin, RegionPin, GroupPin>;
 
+inline constexpr int NO_BODY = -1;
+
 // A path of pins. They move as one rigid body about their centre, the mean of their start positions. Times
 // and rotations are like those of Motion. A path with keys that are `free` is like that of a hand, which
 // takes hold of the cloth and lets go (solver/pin_paths.h).
@@ -67,7 +69,11 @@ struct PinMotion {
   };
   std::vector<Key> keys;
   bool loop = false;
-  std::vector<Pin> pinned;  // the pins that move, which the cloth must have; empty: all pins of the cloth
+  std::vector<Pin> pinned =
+      {};  // the pins that move, which the cloth must have; empty: all pins of the cloth
+  Interpolation interpolation = Interpolation::linear;
+  int collider = NO_BODY;              // instead of keys: the pins move with that collider, counted from 0
+  std::optional<double> release = {};  // from this time on no pin holds them [s]
   friend bool operator==(const PinMotion&, const PinMotion&) = default;
 };
 

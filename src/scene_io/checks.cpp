@@ -172,7 +172,13 @@ void finishReading(const JsonNode& node, Motion& motion) {
 
 template <>
 void finishReading(const JsonNode& node, PinMotion& motion) {
-  checkKeys(node, motion.keys, motion.loop);
+  const bool follows = motion.collider != NO_BODY;
+  if (follows && node.find("keys") != nullptr)
+    complain(*node.find("collider"), "found both keys and collider, expected one of them");
+  if (node.find("keys") != nullptr)
+    checkKeys(node, motion.keys, motion.loop);
+  else if (!follows && !motion.release)
+    complain(node, "the key \"keys\" is missing: a path, or \"collider\" or \"release\" instead");
   if (const JsonNode* pins = node.find("pinned"); pins != nullptr && motion.pinned.empty())
     complain(*pins, "expected at least one pin, found an empty list; leave the key out to move all pins");
 }

@@ -27,6 +27,8 @@ constexpr Words<Integrator, INTEGRATOR_COUNT> integrators{{{"verlet", Integrator
 constexpr Words<SelfCollision, 3> selfCollisions{{{"averaged", SelfCollision::averaged},
                                                   {"robust", SelfCollision::robust},
                                                   {"contact", SelfCollision::contact}}};
+constexpr Words<Interpolation> interpolations{
+    {{"linear", Interpolation::linear}, {"cubic", Interpolation::cubic}}};
 constexpr Words<FrictionLaw> frictionLaws{{{"cs184", FrictionLaw::cs184}, {"coulomb", FrictionLaw::coulomb}}};
 constexpr std::array<std::pair<std::string_view, GridSide>, 4> sides{{{"top", GridSide::top},
                                                                       {"bottom", GridSide::bottom},
@@ -170,6 +172,10 @@ void readValue(const JsonNode& node, const FieldTraits& traits, SelfCollision& t
     target = SelfCollision::robust;
 }
 
+void readValue(const JsonNode& node, const FieldTraits&, Interpolation& target) {
+  target = readWord(node, interpolations, "one of " + joined(wordsOf(interpolations)));
+}
+
 void readValue(const JsonNode& node, const FieldTraits&, FrictionLaw& target) {
   target = readWord(node, frictionLaws, "one of " + joined(wordsOf(frictionLaws)));
 }
@@ -293,6 +299,7 @@ JsonPointer writeValue(const FieldTraits&, SelfCollision value) {
 }
 
 JsonPointer writeValue(const FieldTraits&, FrictionLaw value) { return writeWord(frictionLaws, value); }
+JsonPointer writeValue(const FieldTraits&, Interpolation value) { return writeWord(interpolations, value); }
 
 JsonPointer writeValue(const FieldTraits&, GridPoint value) {
   JsonPointer pair = makeList();
@@ -369,6 +376,9 @@ std::string typeName(const FieldTraits&, const Integrator&) {
 }
 std::string typeName(const FieldTraits&, const FrictionLaw&) {
   return "one of " + joined(wordsOf(frictionLaws));
+}
+std::string typeName(const FieldTraits&, const Interpolation&) {
+  return "one of " + joined(wordsOf(interpolations));
 }
 std::string typeName(const FieldTraits&, const GridPoint&) { return "[column, row]"; }
 std::string typeName(const FieldTraits&, const Range&) { return "[low, high]"; }

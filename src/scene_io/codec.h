@@ -25,6 +25,7 @@ void readValue(const JsonNode& node, const FieldTraits& traits, Integrator& targ
 // `true` becomes `averaged` over a default of `averaged`, else `robust`.
 void readValue(const JsonNode& node, const FieldTraits& traits, SelfCollision& target);
 void readValue(const JsonNode& node, const FieldTraits& traits, FrictionLaw& target);
+void readValue(const JsonNode& node, const FieldTraits& traits, Interpolation& target);
 void readValue(const JsonNode& node, const FieldTraits& traits, GridPoint& target);
 void readValue(const JsonNode& node, const FieldTraits& traits, Range& target);
 void readValue(const JsonNode& node, const FieldTraits& traits, Pin& target);
@@ -44,6 +45,7 @@ void readValue(const JsonNode& node, const FieldTraits& traits, std::optional<Ma
 [[nodiscard]] JsonPointer writeValue(const FieldTraits& traits, Integrator value);
 [[nodiscard]] JsonPointer writeValue(const FieldTraits& traits, SelfCollision value);
 [[nodiscard]] JsonPointer writeValue(const FieldTraits& traits, FrictionLaw value);
+[[nodiscard]] JsonPointer writeValue(const FieldTraits& traits, Interpolation value);
 [[nodiscard]] JsonPointer writeValue(const FieldTraits& traits, GridPoint value);
 [[nodiscard]] JsonPointer writeValue(const FieldTraits& traits, const Range& value);
 [[nodiscard]] JsonPointer writeValue(const FieldTraits& traits, const Pin& value);
@@ -63,6 +65,7 @@ void readValue(const JsonNode& node, const FieldTraits& traits, std::optional<Ma
 [[nodiscard]] std::string typeName(const FieldTraits& traits, const Integrator&);
 [[nodiscard]] std::string typeName(const FieldTraits& traits, const SelfCollision&);
 [[nodiscard]] std::string typeName(const FieldTraits& traits, const FrictionLaw&);
+[[nodiscard]] std::string typeName(const FieldTraits& traits, const Interpolation&);
 [[nodiscard]] std::string typeName(const FieldTraits& traits, const GridPoint&);
 [[nodiscard]] std::string typeName(const FieldTraits& traits, const Range&);
 [[nodiscard]] std::string typeName(const FieldTraits& traits, const Pin&);

@@ -217,8 +217,9 @@ std::span<const Field<Material>> fieldsOf<Material>() {
 template <>
 std::span<const Field<Motion>> fieldsOf<Motion>() {
   static const std::array fields{
-      field("keys", &Motion::keys, "Keys along the path, interpolated linearly.").required(),
+      field("keys", &Motion::keys, "Keys along the path.").required(),
       field("loop", &Motion::loop, "Repeat after the last key; otherwise stop there."),
+      field("interpolation", &Motion::interpolation, "Between keys: linear, or cubic, without kinks."),
   };
   return fields;
 }

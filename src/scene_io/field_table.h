@@ -37,11 +37,11 @@ struct MemberOf<RegionPin> {
 };
 template <>
 struct MemberOf<Motion> {
-  using Type = MemberAmong<Motion, std::vector<Motion::Key>>;
+  using Type = MemberAmong<Motion, std::vector<Motion::Key>, Interpolation>;
 };
 template <>
 struct MemberOf<PinMotion> {
-  using Type = MemberAmong<PinMotion, std::vector<Pin>, std::vector<PinMotion::Key>>;
+  using Type = MemberAmong<PinMotion, std::vector<Pin>, std::vector<PinMotion::Key>, Interpolation>;
 };
 template <>
 struct MemberOf<PinMotion::Key> {

@@ -60,8 +60,19 @@ std::span<const Field<GroupPin>> fieldsOf<GroupPin>() {
 template <>
 std::span<const Field<PinMotion>> fieldsOf<PinMotion>() {
   static const std::array fields{
-      field("keys", &PinMotion::keys, "Keys along the path, interpolated linearly.").required(),
+      field("keys", &PinMotion::keys, "Keys along the path.")
+          .byDefault("none: the pins stay, or follow a collider"),
       field("loop", &PinMotion::loop, "Repeat after the last key; otherwise stop there."),
+      field("interpolation", &PinMotion::interpolation, "Between keys: linear, or cubic, without kinks."),
+      field("collider", &PinMotion::collider,
+            "Instead of keys: the collider that the pins move with, from 0.")
+          .within({.low = 0, .high = 9999})
+          .byDefault("none"),
+      field("release", &PinMotion::release, "Time from which on these pins hold nothing.")
+          .in("s")
+          .within(positive)
+          .byDefault("never")
+          .rebuilds(),
       field("pinned", &PinMotion::pinned, "The pins that follow this path; they must be pins of the cloth.")
           .byDefault("all pins of the cloth"),
   };

@@ -106,6 +106,18 @@ void checkTearing(const JsonNode& root, const Scene& scene) {
   }
 }
 
+// Pins that move with a collider.
+void checkFollowed(const JsonNode& root, const Scene& scene) {
+  for (std::size_t i = 0; i < scene.cloths.size(); ++i)
+    for (const PinMotion& motion : scene.cloths[i].pinMotion)
+      if (motion.collider >= static_cast<int>(scene.colliders.size()))
+        complain(*root.find("cloths")->children[i]->find("pin_motion"),
+                 "expected a collider from 0 to " +
+                     std::to_string(static_cast<int>(scene.colliders.size()) - 1) + " to move with, found " +
+                     std::to_string(motion.collider) + " of " + std::to_string(scene.colliders.size()) +
+                     " colliders");
+}
+
 }  // namespace
 
 void gatherLists(JsonNode& root) {
@@ -129,6 +141,7 @@ Scene readScene(const JsonNode& root) {
   checkFriction(root, scene);
   checkSelfCollision(root, scene);
   checkTearing(root, scene);
+  checkFollowed(root, scene);
   chooseCounts(scene);
   return scene;
 }

@@ -10,10 +10,10 @@ namespace clothsim {
 namespace {
 
 bool haveSameHolds(const ClothSettings& a, const ClothSettings& b) {
-  const auto lets = [](const PinMotion& motion) { return !freeKeys(motion).empty(); };
+  const auto lets = [](const PinMotion& motion) { return motion.release || !freeKeys(motion).empty(); };
   if (std::ranges::none_of(a.pinMotion, lets) && std::ranges::none_of(b.pinMotion, lets)) return true;
   return std::ranges::equal(a.pinMotion, b.pinMotion, [](const PinMotion& x, const PinMotion& y) {
-    return freeKeys(x) == freeKeys(y) && x.pinned == y.pinned;
+    return freeKeys(x) == freeKeys(y) && x.release == y.release && x.pinned == y.pinned;
   });
 }
 

@@ -31,6 +31,9 @@ PinPaths makePinPaths(const Scene& scene, const Cloth& cloth, std::span<const st
       if (counts[k] > 0) path.center = (1 / counts[k]) * sums[k];
       path.motion = pathAbout(settings.pinMotion[k], path.center);
       path.isFree = freeKeys(settings.pinMotion[k]);
+      path.release = settings.pinMotion[k].release;
+      if (const int body = settings.pinMotion[k].collider; body != NO_BODY)
+        path.body = scene.colliders[static_cast<std::size_t>(body)];
       result.paths.push_back(std::move(path));
     }
   }
@@ -39,6 +42,7 @@ PinPaths makePinPaths(const Scene& scene, const Cloth& cloth, std::span<const st
 }
 
 bool isHeld(const PinPath& path, double time) {
+  if (path.release && time >= *path.release) return false;
   if (path.isFree.empty()) return true;
   const double t = timeOnPath(path.motion, time);
   bool free = false;
@@ -46,9 +50,21 @@ bool isHeld(const PinPath& path, double time) {
   return !free;
 }
 
+namespace {
+
+// Where the centre is, and how the pins are turned about it.
+Pose poseOf(const PinPath& path, double time) {
+  if (!path.body) return poseAt(path.motion, time);
+  const Pose first = poseAt(*path.body, 0), now = poseAt(*path.body, time);
+  const Matrix3 turn = product(now.rotation, transposed(first.rotation));
+  return {now.position + rotate(turn, path.center - first.position), turn};
+}
+
+}  // namespace
+
 template <class Real>
 PinMotionParams<Real> makePinMotionParams(const PinPath& path, double time, double h) {
-  const Pose pose = poseAt(path.motion, time);
+  const Pose pose = poseOf(path, time);
   const auto& [rowX, rowY, rowZ] = pose.rotation;
   const Vec3d translation = pose.position - path.center;
   const auto real = [](double x) { return static_cast<Real>(x); };

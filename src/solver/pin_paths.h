@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,9 +25,11 @@ inline constexpr double HAND_SPEED = 2.5;  // [m/s]
 
 // One `pin_motion` of a cloth, with the centre of its pins.
 struct PinPath {
-  Vec3d center;              // mean of the start positions of its pins [m]
-  Motion motion;             // where the centre is; every key has a position
-  std::vector<bool> isFree;  // from each key on; empty: always pinned
+  Vec3d center;                   // mean of the start positions of its pins [m]
+  Motion motion;                  // where the centre is; every key has a position
+  std::vector<bool> isFree;       // from each key on; empty: always pinned
+  std::optional<double> release;  // from when on they are free for good [s]
+  std::optional<Collider> body;   // which they move with, instead of the motion
 };
 // Whether its particles are pinned in the step that begins at `time` [s].
 [[nodiscard]] bool isHeld(const PinPath& path, double time);

@@ -48,7 +48,7 @@ void Solver::holdPins() {
   const PinPaths& pins = inputs_.pinPaths;
   held_.resize(pins.paths.size());
   for (std::size_t path = 0; path < pins.paths.size(); ++path) {
-    if (pins.paths[path].isFree.empty()) continue;
+    if (pins.paths[path].isFree.empty() && !pins.paths[path].release) continue;
     const bool wanted = isHeld(pins.paths[path], inputs_.clock.time());
     if (std::exchange(held_[path], wanted) == wanted) continue;
     for (std::uint32_t i = 0; i < pins.numbers.size(); ++i)

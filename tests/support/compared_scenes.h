@@ -173,6 +173,8 @@ inline Scene withPinMotion(Scene scene) {
   flying.keys = {{.t = 0.01, .position = std::nullopt, .rotation = {}},
                  {.t = 0.1, .position = Vec3d{0.7, 0.6, 0.4}, .rotation = {0, 90, 0}},
                  {.t = 0.15, .position = Vec3d{0.9, 0.5, 0.1}, .rotation = {0, 90, 90}}};
+  flying.interpolation = Interpolation::cubic;
+  flying.release = 0.12;
   flying.pinned = {rightPins};
   straight.keys = {{.t = 0, .position = std::nullopt, .rotation = {}},
                    {.t = 0.01, .position = std::nullopt, .rotation = {}, .free = true},

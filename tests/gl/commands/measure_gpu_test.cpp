@@ -65,7 +65,7 @@ TEST(Probe, NamesThePassInWhichADriverBreaksTheContract) {
   } faults[] = {
       {"sim/integrate.glsl", "newX = x.xyz + step.timeStep * newV;",
        "newX = x.xyz + 1.0000002 * step.timeStep * newV;", "scene pinned2", "forces, integrate"},
-      {"sim/limit.comp", "? 0.5 * excess", "? 0.49 * excess", "scene fold", "limit"},
+      {"sim/limit.glsl", "? 0.5 * excess", "? 0.49 * excess", "scene fold", "limit"},
       {"sim/implicit/updated_solution.glsl", "scalars.stepSize * texelFetch(directions",
        "1.0001 * scalars.stepSize * texelFetch(directions", "pinned2, implicit",
        "Newton step 1, iteration 1"},

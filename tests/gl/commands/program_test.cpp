@@ -402,12 +402,14 @@ TEST(Program, SavesThePicturesOfARunThatRenderMakes) {
   ASSERT_EQ(
       clothsim("run" + scene + " --save " + at + "/still.png --every 2 --save " + at + "/f%02d.png").exitCode,
       0);
-  ASSERT_EQ(clothsim("render" + scene + " --out " + at + "/rendered.png").exitCode, 0);
+  ASSERT_EQ(clothsim("render" + scene + " --out " + at + "/rendered.png --every 2 --out " + at + "/r%02d.png")
+                .exitCode,
+            0);
   const std::string still = readFile(folder / "still.png");
   EXPECT_EQ(still, readFile(folder / "rendered.png"));
   EXPECT_EQ(still, readFile(folder / "f04.png"));
   EXPECT_NE(still, readFile(folder / "f00.png"));
-  EXPECT_EQ(folder.fileCount(), 5) << "and f02.png";
+  EXPECT_EQ(folder.fileCount(), 8) << "and f02.png, and as many of render";
   const CommandResult wrong = clothsim("run -f pinned2 --frames 1 --save " + at + "/still.gif");
   EXPECT_EQ(wrong.exitCode, 2);
   EXPECT_NE(wrong.output.find(".png, .mp4"), std::string::npos) << wrong.output;

@@ -135,6 +135,8 @@ class RandomScene {
     for (int i = whole(1, 4); i > 0; --i, t *= 1.5)
       motion.keys.push_back({t, maybe() ? std::optional(vector()) : std::nullopt, vector(), maybe()});
     motion.loop = maybe();
+    if (maybe()) motion.interpolation = Interpolation::cubic;
+    if (maybe()) motion.release = positive();
     return motion;
   }
 

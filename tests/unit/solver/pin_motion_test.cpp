@@ -78,6 +78,75 @@ TEST(PinMotion, TakesPinsWhereTheFormulaSays) {
   EXPECT_EQ(single.velocity(0), (Vec3f{0, 0, 0}));
 }
 
+// A cubic path goes through its keys, without a jump of its velocity, and is at rest at its ends.
+TEST(PinMotion, FollowsCubicPathsWithoutKinks) {
+  Motion motion;
+  motion.interpolation = Interpolation::cubic;
+  motion.keys = {{0, {0, 0, 0}, {0, 0, 0}},
+                 {0.5, {1, 2, 0}, {0, 90, 0}},
+                 {0.8, {3, 1, 1}, {0, 90, 45}},
+                 {2, {0, 0, 2}, {10, 0, 0}}};
+  const auto velocity = [&](double t, double side) {
+    constexpr double h = 1e-5;
+    return (1 / h) * (side * (keyAt(motion, t + side * h).position - keyAt(motion, t).position));
+  };
+  for (const Motion::Key& key : motion.keys) {
+    expectNear(keyAt(motion, key.t).position, key.position, 1e-12);
+    expectNear(keyAt(motion, key.t).rotation, key.rotation, 1e-12);
+    expectNear(velocity(key.t, 1), velocity(key.t, -1), 2e-3);
+  }
+  expectNear(velocity(0, 1), {0, 0, 0}, 1e-3);
+  expectNear(velocity(0.5, 1), (1 / 0.8) * Vec3d{3, 1, 1}, 1e-3);
+  motion.loop = true;
+  motion.keys.back().position = motion.keys.front().position;
+  expectNear(velocity(1e-9, 1), velocity(2 - 1e-9, -1), 2e-3);
+  motion.interpolation = Interpolation::linear;
+  expectNear(keyAt(motion, 0.25).position, {0.5, 1, 0}, 1e-12);
+}
+
+// A ball that is not at the pins' place, and is turned at the start.
+TEST(PinMotion, MovesPinsWithACollider) {
+  PinMotion motion;
+  motion.collider = 1;
+  Scene scene = leftColumnScene(motion);
+  Sphere ball;
+  ball.origin = {0, 5, 0};
+  ball.radius = 0.1;
+  scene.colliders = {ball, ball};
+  auto& turning = std::get<Sphere>(scene.colliders[1]);
+  turning.motion.emplace();
+  turning.motion->keys = {{0, {0.2, 3, 0}, {0, 0, 30}}, {0.05, {0.4, 3.1, 0}, {0, 0, 75}}};
+  const Cloth cloth(scene);
+  CpuSolver<double> solver(cloth, scene);
+  solver.step(40);  // 0.04 s: four fifths of the way
+  const Matrix3 turn = rotationMatrix({0, 0, 36});
+  for (int row = 0; row < 5; ++row) {
+    const std::uint32_t pin = cloth.pieces()[0].particle(0, row);
+    expectNear(solver.position(pin),
+               Vec3d{0.36, 3.08, 0} + rotate(turn, cloth.positions()[pin] - Vec3d{0.2, 3, 0}), 1e-9);
+  }
+}
+
+TEST(PinMotion, ReleasesPinsAtATimeForGood) {
+  for (const bool moves : {false, true}) {
+    PinMotion motion;
+    if (moves) motion.keys = {key(0, std::nullopt), key(1, Vec3d{0, 2, 0.5})};
+    motion.release = 0.02;
+    const Scene scene = leftColumnScene(motion);
+    const Cloth cloth(scene);
+    CpuSolver<double> solver(cloth, scene);
+    const std::uint32_t pin = cloth.pieces()[0].particle(0, 2);
+    solver.step(20);
+    const Vec3d held = solver.position(pin);
+    expectNear(held, {0, moves ? 1.02 : 1, 0.5}, 1e-6);
+    EXPECT_EQ(solver.state().positions[pin].w, 0);
+    solver.step(60);
+    EXPECT_GT(solver.state().positions[pin].w, 0);
+    EXPECT_LT(solver.position(pin).y, held.y + 0.06 * (moves ? 1 : 0) - 0.5 * 9.8 * 0.06 * 0.06 * 0.5)
+        << "falls";
+  }
+}
+
 TEST(PinMotion, BeginsAgainInALoop) {
   const Scene scene = leftColumnScene(
       {.keys = {key(0, std::nullopt), key(0.1, Vec3d{0, 1.3, 0.5})}, .loop = true, .pinned = {}});
