@@ -423,10 +423,11 @@ TEST(Program, DrawsTheCutsOfARecording) {
   writeFileAtomically(folder / "whole.json", whole);
   for (const char* name : {"cut", "whole"})
     ASSERT_EQ(clothsim("run --backend cpu --replay " + (folder / name).string() + ".json --save " +
-                       (folder / name).string() + ".png")
+                       (folder / name).string() + "%d.png --every 5")
                   .exitCode,
               0);
-  EXPECT_NE(readFile(folder / "cut.png"), readFile(folder / "whole.png"));
+  EXPECT_EQ(readFile(folder / "cut0.png"), readFile(folder / "whole0.png"));
+  EXPECT_NE(readFile(folder / "cut5.png"), readFile(folder / "whole5.png"));
 }
 
 TEST(Program, RendersAFilmOrSaysThatFfmpegIsMissing) {
