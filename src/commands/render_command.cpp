@@ -72,7 +72,12 @@ int renderCommand(const RenderCommandOptions& options) {
     summary.add(simulation);
     if (std::any_of(outputs.begin(), outputs.end(),
                     [&](const PictureOutput& output) { return output.wants(frame); })) {
-      const Image image = renderer.picture(camera, options.width, options.height, exposures);
+      Progress exposing("exposing", exposures);
+      const Image image = renderer.picture(camera, options.width, options.height, exposures, [&](int done) {
+        stopIfInterrupted();
+        exposing.update(done);
+      });
+      exposing.finish();
       for (PictureOutput& output : outputs)
         if (output.wants(frame)) output.add(image, frame);
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/interrupt.h"
 #include "gl/context.h"
 
 namespace clothsim {
@@ -27,7 +28,8 @@ void SavedPictures::add(Simulation& simulation, int frame) {
     camera_.emplace(simulation.scene(), simulation.cloth());
   }
   renderer_->update();  // a recording changes scene, cloth and cuts
-  const Image image = renderer_->picture(*camera_, settings_.width, settings_.height, exposures_);
+  const Image image = renderer_->picture(*camera_, settings_.width, settings_.height, exposures_,
+                                         [](int) { stopIfInterrupted(); });
   for (PictureOutput& picture : pictures_)
     if (picture.wants(frame)) picture.add(image, frame);
 }

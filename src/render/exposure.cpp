@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdint>
 #include <numbers>
-#include <numeric>
 #include <utility>
 
 #include "core/hash.h"
@@ -54,6 +53,21 @@ std::vector<Exposure> makeExposures(int count) {
     exposures.push_back(exposure);
   }
   return exposures;
+}
+
+glm::vec3 directionToLight(const Exposure& exposure, glm::vec3 toLight, double degrees) {
+  const glm::vec3 side = std::abs(toLight.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0);
+  const glm::vec3 across = glm::normalize(glm::cross(toLight, side)), along = glm::cross(toLight, across);
+  const auto radius = static_cast<float>(std::tan(degrees * std::numbers::pi / 360));
+  return glm::normalize(toLight + radius * (exposure.light.x * across + exposure.light.y * along));
+}
+
+glm::mat4 viewThroughLens(const Exposure& exposure, double aperture, double focus) {
+  const glm::vec2 aside = static_cast<float>(0.5 * aperture) * exposure.lens;
+  glm::mat4 moved(1);
+  moved[3] = glm::vec4(-aside, 0, 1);
+  moved[2] = glm::vec4(-aside / static_cast<float>(focus), 1, 0);
+  return moved;
 }
 
 }  // namespace clothsim

@@ -24,4 +24,12 @@ struct Exposure {
 // the pixel they follow a tent two pixels wide. The same every time.
 [[nodiscard]] std::vector<Exposure> makeExposures(int count);
 
+// From the scene to the point of the main light that shines, where `toLight` is the direction to its middle
+// and `degrees` the angle across it.
+[[nodiscard]] glm::vec3 directionToLight(const Exposure& exposure, glm::vec3 toLight, double degrees);
+
+// What the camera sees from the point of a lens of that diameter [m], in its own frame: what is at the
+// distance of focus [m] stays in its place of the picture.
+[[nodiscard]] glm::mat4 viewThroughLens(const Exposure& exposure, double aperture, double focus);
+
 }  // namespace clothsim

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <span>
 
 #include "core/error.h"
@@ -189,11 +188,7 @@ void Renderer::Parts::shineFrom(const Exposure* exposure) {
   glm::vec3 toLight = directionToKeyLight(scene->render, outline.front);
   frame.toSky[0] = glm::vec4(0);
   if (exposure != nullptr) {
-    const glm::vec3 across = glm::normalize(
-        glm::cross(toLight, std::abs(toLight.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0)));
-    const auto radius = static_cast<float>(std::tan(scene->render.lightSize * std::numbers::pi / 360));
-    toLight = glm::normalize(
-        toLight + radius * (exposure->light.x * across + exposure->light.y * glm::cross(toLight, across)));
+    toLight = directionToLight(*exposure, toLight, scene->render.lightSize);
     while (skyShadowMaps.size() < SKY_DIRECTIONS) skyShadowMaps.emplace_back(options.shadowMapSize / 2);
     for (std::size_t k = 0; k < SKY_DIRECTIONS; ++k) {
       skyShadowMaps[k].cover(stage.reach, exposure->sky[k]);
@@ -209,17 +204,13 @@ void Renderer::Parts::shineFrom(const Exposure* exposure) {
 // From a point of the lens and a place in the pixels. What is at the distance of focus stays where it is.
 void Renderer::Parts::lookThrough(const Exposure& exposure, const Camera& camera) {
   const glm::mat4 viewFromWorld = camera.view();
-  const float distance = scene->camera.focus ? static_cast<float>(*scene->camera.focus)
-                                             : glm::distance(camera.eye(), camera.target());
-  const glm::vec2 aside = static_cast<float>(0.5 * scene->camera.aperture) * exposure.lens;
-  glm::mat4 moved(1);
-  moved[3] = glm::vec4(-aside, 0, 1);
-  moved[2] = glm::vec4(-aside / distance, 1, 0);
+  const double focus =
+      scene->camera.focus.value_or(static_cast<double>(glm::distance(camera.eye(), camera.target())));
+  const glm::mat4 fromLens = viewThroughLens(exposure, scene->camera.aperture, focus) * viewFromWorld;
   glm::mat4 shifted(1);
   shifted[3] = glm::vec4(2 * exposure.pixel.x * frame.pixels.z, 2 * exposure.pixel.y * frame.pixels.w, 0, 1);
-  const glm::mat4 clipFromView = middleClipFromWorld * glm::inverse(viewFromWorld);
-  frame.clipFromWorld = shifted * clipFromView * moved * viewFromWorld;
-  frame.eye = glm::vec4(camera.eye() + glm::vec3(glm::transpose(viewFromWorld) * glm::vec4(aside, 0, 0)), 0);
+  frame.clipFromWorld = shifted * middleClipFromWorld * glm::inverse(viewFromWorld) * fromLens;
+  frame.eye = glm::inverse(fromLens)[3];
 }
 
 // As fine as it shows at the distance of what the camera looks at.
@@ -595,13 +586,15 @@ std::vector<DrawTime> Renderer::timeDraw(GLuint positions, const Camera& camera,
 }
 
 Image renderImage(Renderer& renderer, GLuint positions, const Camera& camera, double time, int width,
-                  int height, int exposures) {
+                  int height, int exposures, const std::function<void(int)>& before) {
   const gl::Framebuffer picture("picture", {.width = width, .height = height, .color = GL_RGBA8});
   if (exposures == 1)
     renderer.draw(positions, camera, time, picture.name(), width, height);
   else
-    for (int number = 0; number < exposures; ++number)
+    for (int number = 0; number < exposures; ++number) {
+      if (before) before(number);
       renderer.expose(number, exposures, positions, camera, time, picture.name(), width, height);
+    }
   Image image{width, height, picture.readRgb()};
   gl::checkContext();  // what it has read would be nothing
   return image;

@@ -2,6 +2,7 @@
 // background.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -77,7 +78,9 @@ class Renderer {
 };
 
 // Draws into an off-screen framebuffer and reads the picture back: the mean of so many exposures.
+// `before` is called with the number of each; what it throws ends the picture.
 [[nodiscard]] Image renderImage(Renderer& renderer, GLuint positions, const Camera& camera, double time,
-                                int width, int height, int exposures = 1);
+                                int width, int height, int exposures = 1,
+                                const std::function<void(int)>& before = {});
 
 }  // namespace clothsim

@@ -72,8 +72,9 @@ void SimulationRenderer::expose(int number, int count, const Camera& camera, GLu
   renderer_->expose(number, count, positionsBuffer(), camera, time(), target, width, height);
 }
 
-Image SimulationRenderer::picture(const Camera& camera, int width, int height, int exposures) {
-  return renderImage(*renderer_, positionsBuffer(), camera, time(), width, height, exposures);
+Image SimulationRenderer::picture(const Camera& camera, int width, int height, int exposures,
+                                  const std::function<void(int)>& before) {
+  return renderImage(*renderer_, positionsBuffer(), camera, time(), width, height, exposures, before);
 }
 
 Pick SimulationRenderer::pick(const Camera& camera, int width, int height, double x, double y) {

@@ -2,6 +2,7 @@
 // current.
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "gl/buffer.h"
@@ -36,7 +37,8 @@ class SimulationRenderer {
   // The functions of Renderer, with the positions and the time of the simulation.
   void draw(const Camera& camera, GLuint target, int width, int height);
   void expose(int number, int count, const Camera& camera, GLuint target, int width, int height);
-  [[nodiscard]] Image picture(const Camera& camera, int width, int height, int exposures = 1);
+  [[nodiscard]] Image picture(const Camera& camera, int width, int height, int exposures = 1,
+                              const std::function<void(int)>& before = {});
   [[nodiscard]] Pick pick(const Camera& camera, int width, int height, double x, double y);
 
  private:
