@@ -106,11 +106,12 @@ which measures() was called.)";
 inline constexpr const char* render =
     R"(A picture as `clothsim render` draws it: uint8, shape (height, width, 3), RGB, top row first.
 
-view: (right, up, zoom) turns the camera, in degrees, and zooms in. Needs OpenGL 4.5, also on the
+view: (right, up, zoom) turns the camera, in degrees, and zooms in. exposures: of how many the
+picture is the mean; the program takes 64 for a still. Needs OpenGL 4.5, also on the
 CPU backend (OpenGlError).)";
 
 inline constexpr const char* save =
-    R"(Writes the state to a file; the extension chooses .csv, .ply, .obj, .npz or .state (exact).)";
+    R"(Writes the state to a file; the extension chooses .csv, .ply, .obj, .glb, .npz or .state (exact).)";
 
 inline constexpr const char* load = R"(Continues from a .state file of a cloth with as many particles.)";
 

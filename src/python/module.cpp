@@ -183,9 +183,9 @@ py::dict dictOf(const Trace& trace) {
 }
 
 py::array_t<std::uint8_t> render(PythonSimulation& simulation, int width, int height,
-                                 const std::tuple<double, double, double>& view) {
+                                 const std::tuple<double, double, double>& view, int exposures) {
   const auto [right, up, zoom] = view;
-  const Image image = simulation.picture({width, height, right, up, zoom});
+  const Image image = simulation.picture({width, height, right, up, zoom, exposures});
   return py::array_t<std::uint8_t>({py::ssize_t{image.height}, py::ssize_t{image.width}, py::ssize_t{3}},
                                    image.rgb.data());
 }
@@ -307,7 +307,7 @@ void declareSimulation(py::module_& module) {
           docs::scene)
       .def("measures", &measuresOf, docs::measures)
       .def("render", &render, py::arg("width") = 1280, py::arg("height") = 720,
-           py::arg("view") = std::tuple(0.0, 0.0, 1.0), docs::render)
+           py::arg("view") = std::tuple(0.0, 0.0, 1.0), py::arg("exposures") = 1, docs::render)
       .def("save", &PythonSimulation::save, py::arg("path"), docs::save)
       .def("load", &PythonSimulation::load, py::arg("path"), docs::load)
       .def(

@@ -274,16 +274,22 @@ Image PythonSimulation::picture(const PictureView& view) {
   if (!(std::abs(view.right) <= 360) || !(std::abs(view.up) <= 180) ||
       !(view.zoom >= 0.01 && view.zoom <= 100))
     throw UsageError("render: view: expected (right, up, zoom) in degrees and a factor from 0.01 to 100");
+  if (view.exposures < 1 || view.exposures > MOST_EXPOSURES)
+    throw UsageError("render: expected 1 to " + std::to_string(MOST_EXPOSURES) + " exposures, found " +
+                     std::to_string(view.exposures));
   const Turn turn(*this);
   needContext();
+  const RenderOptions one = withQuality({}, Quality::final, gl::currentContextInfo().software);
+  const RenderOptions drawing = view.exposures > 1 ? forExposures(one) : one;
   if (!renderer_)
-    renderer_ = std::make_unique<SimulationRenderer>(
-        *simulation_, withQuality({}, Quality::final, gl::currentContextInfo().software));
+    renderer_ = std::make_unique<SimulationRenderer>(*simulation_, drawing);
+  else
+    renderer_->setOptions(drawing);
   renderer_->update();
   Camera camera(simulation_->scene(), simulation_->cloth());
   camera.orbit(view.right * radians, view.up * radians);
   camera.zoom(1 / view.zoom);
-  Image image = renderer_->picture(camera, view.width, view.height);
+  Image image = renderer_->picture(camera, view.width, view.height, view.exposures);
   stayInPlace();
   return image;
 }

@@ -28,6 +28,7 @@ namespace clothsim {
 struct PictureView {
   int width = 1280, height = 720;      // [pixels]
   double right = 0, up = 0, zoom = 1;  // [degrees], and a factor
+  int exposures = 1;                   // of which it is the mean (render/exposure.h)
 };
 
 // One thread at a time may call it, for others its functions throw UsageError; on the GPU, and once it has

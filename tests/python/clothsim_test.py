@@ -370,7 +370,10 @@ class OnTheGpu(unittest.TestCase):
 
     def test_pictures_are_the_programs(self):
         sim = clothsim.Simulation("pinned4", backend="cpu", resolution=(16, 16))
-        picture = sim.render(320, 180)
+        quick = sim.render(320, 180)
+        picture = sim.render(320, 180, exposures=64)
+        self.assertFalse(np.array_equal(quick, picture))
+        np.testing.assert_array_equal(quick, sim.render(320, 180))
         self.assertEqual((picture.shape, picture.dtype), ((180, 320, 3), np.uint8))
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "still.png")

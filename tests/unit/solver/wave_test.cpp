@@ -11,6 +11,7 @@
 #include "core/thread_team.h"
 #include "solver/cpu/cpu_solver.h"
 #include "solver/state.h"
+#include "support/compared_scenes.h"
 #include "support/test_scenes.h"
 
 namespace clothsim {
