@@ -26,14 +26,12 @@ vec3 pixelLight() {
   return toneMapped(sum.rgb / sum.a);
 }
 #elif SAMPLES > 1
-#ifdef ADDS
-vec3 lightOfSample(vec3 stored) { return stored; }
-#else
-vec3 lightOfSample(vec3 stored) { return decodedLight(stored); }
-#endif
 vec3 pixelLight() {
   vec3 sum = vec3(0);
-  for (int i = 0; i < SAMPLES; ++i) sum += lightOfSample(texelFetch(canvas, ivec2(gl_FragCoord.xy), i).rgb);
+  for (int i = 0; i < SAMPLES; ++i) {
+    vec3 stored = texelFetch(canvas, ivec2(gl_FragCoord.xy), i).rgb;
+    sum += isExposure() ? stored : decodedLight(stored);
+  }
   return sum / float(SAMPLES);
 }
 #elif defined(ADDS)
@@ -46,8 +44,8 @@ vec3 pixelLight() { return decodedLight(smoothedCanvas(ivec2(gl_FragCoord.xy)));
 void main() {
 #ifdef ADDS
   color = vec4(pixelLight(), 1.0);
-  return;
-#endif
+#else
   vec2 otherNoise = gl_FragCoord.xy + 37.0;  // than that of the canvas, whose steps are not the screen's
   color = vec4(srgbEncoded(clamp(pixelLight(), 0.0, 1.0)) + dither(otherNoise), 1.0);
+#endif
 }

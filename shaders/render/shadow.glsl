@@ -7,7 +7,7 @@ const float TAP_SPACING = 2.0;  // [texels]; bilinear taps two texels apart leav
 const float EXPOSED_SPACING = 5.0;  // of an exposure, whose shadow is one of many side by side
 
 float sunlit(vec3 place) {
-  vec2 texel = 0.5 * (frame.toSky[0].w > 0.0 ? EXPOSED_SPACING : TAP_SPACING) / vec2(textureSize(shadowMap, 0));
+  vec2 texel = 0.5 * (isExposure() ? EXPOSED_SPACING : TAP_SPACING) / vec2(textureSize(shadowMap, 0));
   vec3 inside = vec3(place.xy, min(place.z, 1.0));
   float sum = texture(shadowMap, inside + vec3(-texel.x, -texel.y, 0));
   sum += texture(shadowMap, inside + vec3(texel.x, -texel.y, 0));

@@ -1,7 +1,6 @@
 // Which share of the sky's light a matte surface gets in an exposure of a mean: that of a few directions out of all, each as
 // likely, so that the mean over the exposures is 1 where nothing is in the way. 1 in pictures that are one exposure.
 #include "render/frame.glsl"
-#include "render/tone.glsl"
 
 layout(binding = SKY_SHADOW_UNIT) uniform sampler2DShadow skyShadow[SKY_DIRECTIONS];
 

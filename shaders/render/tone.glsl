@@ -19,8 +19,7 @@ vec3 lightBeforeToneMapping(vec3 mapped) {
 vec3 encodedLight(vec3 light) { return sqrt(toneMapped(light)); }
 vec3 decodedLight(vec3 stored) { return stored * stored; }
 
-// An exposure of a mean (src/render/exposure.h) keeps its light as it is, in floating point: only the mean is mapped.
-bool isExposure() { return frame.toSky[0].w > 0.0; }
+// An exposure keeps its light as it is, in floating point: only the mean is mapped.
 vec3 canvasFromLight(vec3 light) { return isExposure() ? light : encodedLight(light); }
 vec3 canvasFromEncoded(vec3 stored) { return isExposure() ? lightBeforeToneMapping(decodedLight(stored)) : stored; }
 

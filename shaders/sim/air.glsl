@@ -4,7 +4,8 @@
 
 // A third of the force of the air on triangle (a, b, c): pressure along its normal, rho C_d / 2 A (u.n)|u.n| n, and lift
 // across the relative wind u, rho C_l / 2 A |u|^2 (e.n) (n - (e.n) e) with e = u/|u|. `normal` is 2 A n, and the factors of
-// the step hold rho C / 12. Both terms are even in n: it does not matter to which side it points.
+// the step hold rho C / 12. Both terms are even in n: it does not matter to which side it points. Pressure p
+// behind the cloth adds p A/3 n.
 //
 // It also adds up the matrices by which thirds of triangles resist a change of their velocity, as far as the implicit
 // integrator takes the pressure for linear: with |u.n| as it is. Other passes do not read them.

@@ -347,6 +347,11 @@ std::vector<std::array<float, 2>> Cloth::textureCoordinates() const {
   return coordinates;
 }
 
+double Cloth::restLength(const Piece& piece, std::size_t slot, std::uint32_t a, std::uint32_t b) const {
+  if (!piece.isMesh && !piece.hasRestLengthTable) return piece.nominalLength[slot];
+  return piece.restScale * length(positions_[b] - positions_[a]);
+}
+
 std::vector<Spring> Cloth::springs() const {
   std::vector<Spring> springs;
   for (const Piece& piece : pieces_) {
@@ -358,11 +363,10 @@ std::vector<Spring> Cloth::springs() const {
           if (!piece.slotEnabled[slot] || !piece.contains(column + offset.columns, row + offset.rows))
             continue;
           const std::uint32_t other = piece.particle(column + offset.columns, row + offset.rows);
-          const double measured = length(positions_[other] - positions_[owner]);
           springs.push_back(
               {static_cast<std::uint32_t>(SPRING_SLOTS * owner + slot), offset.kind, owner, other,
                piece.stiffness[slot] * piece.springWeight(column, row, static_cast<SpringSlot>(slot)),
-               piece.hasRestLengthTable ? piece.restScale * measured : piece.nominalLength[slot]});
+               restLength(piece, slot, owner, other)});
         }
       }
     }
@@ -370,8 +374,7 @@ std::vector<Spring> Cloth::springs() const {
   const std::uint32_t first = SPRING_SLOTS * particleCount();
   for (std::uint32_t n = 0; n < lists_.springs.size(); ++n) {
     const auto& [a, b, kind, stiffness] = lists_.springs[n];
-    const double scale = pieces_[pieceOf(a)].restScale;
-    springs.push_back({first + n, kind, a, b, stiffness, scale * length(positions_[b] - positions_[a])});
+    springs.push_back({first + n, kind, a, b, stiffness, restLength(pieces_[pieceOf(a)], 0, a, b)});
   }
   return springs;
 }

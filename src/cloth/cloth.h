@@ -84,8 +84,7 @@ struct Piece {
   // energy 1/2 b |x(i-1) - 2 x(i) + x(i+1)|^2 a particle and direction instead of springs.
   bool hasMaterial = false;
   double bendAlongRow = 0, bendAlongColumn = 0;  // b [N/m]
-  double restScale =
-      1;  // of rest lengths, over those of the lattice or mesh as it is made; nominalLength has it
+  double restScale = 1;  // rest lengths over those as it is made; part of nominalLength already
   // Of CS184's model: some spring of a kind starts by more than 1e-6 m off nominal, and rests as it starts.
   bool hasRestLengthTable = false;
 
@@ -162,6 +161,9 @@ class Cloth {
   [[nodiscard]] std::span<const Vec3d> positions() const { return positions_; }  // at the start [m]
   [[nodiscard]] std::span<const double> inverseMasses() const { return inverseMasses_; }  // [1/kg], 0: pinned
   [[nodiscard]] bool hasRestLengthTable() const;                                          // of any grid
+  // Of the spring of a grid in `slot`, or of a mesh, that joins two particles of the piece [m].
+  [[nodiscard]] double restLength(const Piece& piece, std::size_t slot, std::uint32_t a,
+                                  std::uint32_t b) const;
   [[nodiscard]] double massOf(std::uint32_t particle) const;         // when it is not pinned [kg]
   [[nodiscard]] const SpringLists& lists() const { return lists_; }  // of all meshes
   [[nodiscard]] bool hasMesh() const { return !lists_.empty(); }

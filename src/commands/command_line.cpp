@@ -173,8 +173,7 @@ void declareRun(CLI::App& app, Arguments& a, Task& task) {
   addThreads(*run, a);
   run->add_option("--save", a.saves,
                   "save the last state as .csv .ply .obj .glb .npz .png, or .state (exact); with %04d in the "
-                  "name every "
-                  "K-th frame; all frames in one file: .pc2 (with its mesh, FILE_rest.obj), .usda "
+                  "name every K-th frame; all frames in one file: .pc2 (with its mesh, FILE_rest.obj), .usda "
                   "(every K-th), .mp4 (real time; needs ffmpeg); may be repeated")
       ->type_name("FILE")
       ->allow_extra_args(false);

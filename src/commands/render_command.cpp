@@ -52,7 +52,7 @@ int renderCommand(const RenderCommandOptions& options) {
   const RenderOptions drawing =
       withQuality({options.sphereSegmentsAround, options.sphereSegmentsDown},
                   qualityNamed(options.quality).value_or(Quality::final), gl::currentContextInfo().software);
-  SimulationRenderer renderer(simulation, exposures > 1 ? forExposures(drawing) : drawing);
+  SimulationRenderer renderer(simulation, forExposures(drawing, exposures));
   renderer.update();  // a loaded state may have cuts
   Camera camera(scene, simulation.cloth());
   camera.orbit(options.view.right * radians, options.view.up * radians);

@@ -24,7 +24,7 @@ void SavedPictures::add(Simulation& simulation, int frame) {
   if (std::none_of(pictures_.begin(), pictures_.end(), wants)) return;
   if (!renderer_) {
     const RenderOptions drawing = withQuality({}, Quality::final, gl::currentContextInfo().software);
-    renderer_.emplace(simulation, exposures_ > 1 ? forExposures(drawing) : drawing);
+    renderer_.emplace(simulation, forExposures(drawing, exposures_));
     camera_.emplace(simulation.scene(), simulation.cloth());
   }
   renderer_->update();  // a recording changes scene, cloth and cuts

@@ -1,6 +1,5 @@
 // glTF 2.0 in one binary file (.glb), written by Open Asset Import Library.
 #include <assimp/scene.h>
-#include <algorithm>
 #include <assimp/Exporter.hpp>
 #include <map>
 
@@ -10,9 +9,7 @@
 namespace clothsim {
 namespace {
 
-aiVector3D vectorFrom(float x, float y, float z) { return {x, y, z}; }
-
-// The piece's own points, and those of the triangles that lie on it. What is made here belongs to the mesh.
+// The points of a piece and its triangles. The library frees what a scene holds.
 aiMesh* makeMesh(const Piece& piece, const State& state, const std::vector<Vec3f>& normals,
                  const std::vector<std::array<float, 2>>& coordinates,
                  const std::vector<std::array<std::uint32_t, 3>>& triangles) {
@@ -27,9 +24,9 @@ aiMesh* makeMesh(const Piece& piece, const State& state, const std::vector<Vec3f
     const std::size_t particle = piece.firstParticle + i;
     const Particle4& x = state.positions[particle];
     const Vec3f& n = normals[particle];
-    mesh->mVertices[i] = vectorFrom(x.x, x.y, x.z);
-    mesh->mNormals[i] = vectorFrom(n.x, n.y, n.z);
-    mesh->mTextureCoords[0][i] = vectorFrom(coordinates[particle][0], coordinates[particle][1], 0);
+    mesh->mVertices[i] = {x.x, x.y, x.z};
+    mesh->mNormals[i] = {n.x, n.y, n.z};
+    mesh->mTextureCoords[0][i] = {coordinates[particle][0], coordinates[particle][1], 0};
   }
   mesh->mNumFaces = static_cast<unsigned>(triangles.size());
   mesh->mFaces = new aiFace[mesh->mNumFaces];
@@ -48,30 +45,33 @@ aiNode* makeNode(const std::string& name) {
   return node;
 }
 
-// A node and a mesh a cloth, in one two-sided material. Frees what it holds.
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+
+// A node and a mesh a cloth, in one two-sided material. A cloth of which no triangle is left would be read as
+// loose points and has none.
 void fill(aiScene& scene, const State& state, const Cloth& cloth) {
   const std::vector<Vec3f> normals = vertexNormals(state, cloth);
   const std::vector<std::array<float, 2>> coordinates = pictureCoordinates(cloth);
-  std::vector<std::vector<std::array<std::uint32_t, 3>>> triangles(cloth.pieces().size());
+  std::map<std::size_t, Triangles> ofPieces;
   for (const auto& triangle : remainingTriangles(cloth, state.cuts))
-    triangles[cloth.pieceOf(triangle[0])].push_back(triangle);
-  const auto count = static_cast<unsigned>(cloth.pieces().size());
+    ofPieces[cloth.pieceOf(triangle[0])].push_back(triangle);
+  if (ofPieces.empty()) throw InputOutputError("cannot write glTF: no triangle of the cloth is left");
   scene.mNumMaterials = 1;
   scene.mMaterials = new aiMaterial* [1] { new aiMaterial };
   const int twoSided = 1;
   scene.mMaterials[0]->AddProperty(&twoSided, 1, AI_MATKEY_TWOSIDED);
-  scene.mNumMeshes = count;
-  scene.mMeshes = new aiMesh*[count];
+  scene.mMeshes = new aiMesh*[ofPieces.size()];
   scene.mRootNode = new aiNode("clothsim");
-  scene.mRootNode->mNumChildren = count;
-  scene.mRootNode->mChildren = new aiNode*[count];
-  for (unsigned i = 0; i < count; ++i) {
-    const std::string name = count == 1 ? "cloth" : "cloth" + std::to_string(i);
-    scene.mMeshes[i] = makeMesh(cloth.pieces()[i], state, normals, coordinates, triangles[i]);
-    scene.mMeshes[i]->mName = name;
-    aiNode* const node = scene.mRootNode->mChildren[i] = makeNode(name);
+  scene.mRootNode->mChildren = new aiNode*[ofPieces.size()];
+  for (const auto& [piece, triangles] : ofPieces) {
+    const unsigned number = scene.mNumMeshes++;
+    const std::string name = cloth.pieces().size() == 1 ? "cloth" : "cloth" + std::to_string(piece);
+    scene.mMeshes[number] = makeMesh(cloth.pieces()[piece], state, normals, coordinates, triangles);
+    scene.mMeshes[number]->mName = name;
+    aiNode* const node = scene.mRootNode->mChildren[number] = makeNode(name);
+    scene.mRootNode->mNumChildren = scene.mNumMeshes;
     node->mParent = scene.mRootNode;
-    node->mMeshes[0] = i;
+    node->mMeshes[0] = number;
   }
 }
 

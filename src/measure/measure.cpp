@@ -30,9 +30,7 @@ std::optional<double> maxStrain(const Cloth& cloth, const Piece& piece, const St
             const std::uint32_t a = piece.particle(column, row);
             if (isCut(state.cuts, a, static_cast<SpringSlot>(slot))) continue;
             const std::uint32_t b = piece.particle(column + offset.columns, row + offset.rows);
-            const double rest = piece.hasRestLengthTable
-                                    ? piece.restScale * length(cloth.positions()[b] - cloth.positions()[a])
-                                    : piece.nominalLength[slot];
+            const double rest = cloth.restLength(piece, slot, a, b);
             largest[r] = std::max(largest[r], length(positionOf(state, b) - positionOf(state, a)) / rest - 1);
           }
         }
@@ -48,8 +46,7 @@ std::optional<double> maxStrain(const Cloth& cloth, const std::vector<MeshSpring
   if (springs.empty()) return std::nullopt;
   double largest = -1;
   for (const MeshSpring& spring : springs) {
-    const double rest = cloth.pieces()[cloth.pieceOf(spring.a)].restScale *
-                        length(cloth.positions()[spring.b] - cloth.positions()[spring.a]);
+    const double rest = cloth.restLength(cloth.pieces()[cloth.pieceOf(spring.a)], 0, spring.a, spring.b);
     largest = std::max(largest, length(positionOf(state, spring.b) - positionOf(state, spring.a)) / rest - 1);
   }
   return largest;

@@ -279,8 +279,8 @@ Image PythonSimulation::picture(const PictureView& view) {
                      std::to_string(view.exposures));
   const Turn turn(*this);
   needContext();
-  const RenderOptions one = withQuality({}, Quality::final, gl::currentContextInfo().software);
-  const RenderOptions drawing = view.exposures > 1 ? forExposures(one) : one;
+  const RenderOptions drawing =
+      forExposures(withQuality({}, Quality::final, gl::currentContextInfo().software), view.exposures);
   if (!renderer_)
     renderer_ = std::make_unique<SimulationRenderer>(*simulation_, drawing);
   else

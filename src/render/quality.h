@@ -51,8 +51,10 @@ inline constexpr std::array<std::string_view, 3> qualityNames{"draft", "normal",
   return options;
 }
 
-// Exposures smooth edges and shadows by themselves (render/exposure.h).
-[[nodiscard]] inline RenderOptions forExposures(RenderOptions options) {
+// Of pictures that are the mean of so many exposures, which smooth edges and shadows by themselves
+// (render/exposure.h).
+[[nodiscard]] inline RenderOptions forExposures(RenderOptions options, int exposures) {
+  if (exposures == 1) return options;
   options.samples = 1;
   options.shadowMapSize = 2048;
   return options;

@@ -54,7 +54,7 @@ struct GroupPin {
 };
 using Pin = std::variant<GridPoint, GridRange, GridSide, VertexPin, RegionPin, GroupPin>;
 
-inline constexpr int NO_BODY = -1;
+inline constexpr int NO_BODY = -1;  // PinMotion::collider of pins that move with none
 
 // A path of pins. They move as one rigid body about their centre, the mean of their start positions. Times
 // and rotations are like those of Motion. A path with keys that are `free` is like that of a hand, which

@@ -112,10 +112,8 @@ void checkFollowed(const JsonNode& root, const Scene& scene) {
     for (const PinMotion& motion : scene.cloths[i].pinMotion)
       if (motion.collider >= static_cast<int>(scene.colliders.size()))
         complain(*root.find("cloths")->children[i]->find("pin_motion"),
-                 "expected a collider from 0 to " +
-                     std::to_string(static_cast<int>(scene.colliders.size()) - 1) + " to move with, found " +
-                     std::to_string(motion.collider) + " of " + std::to_string(scene.colliders.size()) +
-                     " colliders");
+                 "pins move with collider " + std::to_string(motion.collider) + ", but the scene has " +
+                     std::to_string(scene.colliders.size()) + ", counted from 0");
 }
 
 }  // namespace

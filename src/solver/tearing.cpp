@@ -51,9 +51,7 @@ class Strains {
     if (!piece_.slotEnabled[slot] || !piece_.contains(otherColumn, otherRow)) return;
     const std::uint32_t a = piece_.particle(column, row), b = piece_.particle(otherColumn, otherRow);
     if (isCut(cuts, a, slot)) return;
-    const double rest = piece_.hasRestLengthTable
-                            ? piece_.restScale * length(cloth.positions()[b] - cloth.positions()[a])
-                            : piece_.nominalLength[slot];
+    const double rest = cloth.restLength(piece_, slot, a, b);
     strains_[place(column, row, slot)] = length(vectorOf(positions[b]) - vectorOf(positions[a])) / rest - 1;
   }
 

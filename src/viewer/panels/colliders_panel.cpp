@@ -41,6 +41,21 @@ void drawAddition(PanelContext& context) {
   ImGui::EndCombo();
 }
 
+// Pins that move with it stay where they start; those of colliders behind it follow these to their new
+// numbers.
+void removeCollider(Scene& scene, std::size_t number) {
+  scene.colliders.erase(scene.colliders.begin() + static_cast<std::ptrdiff_t>(number));
+  for (ClothSettings& cloth : scene.cloths)
+    for (PinMotion& motion : cloth.pinMotion) {
+      if (motion.collider == static_cast<int>(number)) {
+        motion.collider = NO_BODY;
+        motion.keys = {PinMotion::Key{}};
+      } else if (motion.collider > static_cast<int>(number)) {
+        --motion.collider;
+      }
+    }
+}
+
 }  // namespace
 
 void drawCollidersPanel(PanelContext& context) {
@@ -59,7 +74,7 @@ void drawCollidersPanel(PanelContext& context) {
     }
     ImGui::PopID();
     if (removed) {
-      colliders.erase(colliders.begin() + static_cast<std::ptrdiff_t>(i));
+      removeCollider(context.draft, i);
       context.widgets.changed(Change::live);
       break;
     }

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "core/error.h"
 #include "export/formats.h"
 #include "unit/export/small_cloth.h"
 
@@ -82,6 +83,20 @@ TEST(Gltf, LeavesOutTrianglesThatAreCut) {
   const Glb glb = read(formatGlb(state, cloth));
   const std::size_t indices = glb.json["meshes"][0]["primitives"][0]["indices"];
   EXPECT_EQ(glb.json["accessors"][indices]["count"], 6u);
+}
+
+TEST(Gltf, LeavesOutAClothOfWhichNoTriangleIsLeft) {
+  Scene scene = test::smallScene();
+  scene.cloths.push_back(scene.cloths[0]);
+  const Cloth cloth(scene);
+  State state = test::smallState(cloth);
+  ASSERT_TRUE(cutAlong(state.cuts, cloth, 0, {-1, 0.5}, {3, 0.5}));
+  const Glb glb = read(formatGlb(state, cloth));
+  ASSERT_EQ(glb.json["meshes"].size(), 1u);
+  const std::size_t indices = glb.json["meshes"][0]["primitives"][0]["indices"];
+  EXPECT_EQ(glb.json["accessors"][indices]["count"], 12u);
+  ASSERT_TRUE(cutAlong(state.cuts, cloth, 1, {-1, 0.5}, {3, 0.5}));
+  EXPECT_THROW((void)formatGlb(state, cloth), InputOutputError);
 }
 
 }  // namespace

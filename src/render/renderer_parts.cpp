@@ -1,0 +1,407 @@
+#include "render/renderer_parts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+
+#include "gl/context.h"
+#include "render/look.h"
+
+namespace clothsim {
+namespace {
+
+constexpr GLenum backdropFormat = GL_RGB10_A2;  // its slow gradients would show steps in 8 bits
+constexpr GLenum canvasFormat = GL_RGBA8;       // square roots of linear light (shaders/render/tone.glsl)
+constexpr GLenum exposureFormat = GL_RGBA16F;   // the same of an exposure, without steps
+constexpr float planeDepthUnits = 256;  // 2e-6 of the distance each (Camera::projection, 24 bits of depth)
+constexpr std::size_t mostReadBack = 300'000;  // particles for which it pays to ask what has changed
+
+// The longest side of a triangle of cloth: the diagonal of a cell [m].
+double longestEdge(const Cloth& cloth) {
+  double longest = 0;
+  for (const Piece& piece : cloth.pieces()) {
+    if (piece.isMesh) {
+      longest = std::max(longest, piece.longestEdge);
+      continue;
+    }
+    longest = std::max(longest, std::hypot(piece.nominalLength[toLeft], piece.nominalLength[toUpper]));
+  }
+  return longest;
+}
+
+RenderOptions withSupportedSamples(RenderOptions options) {
+  options.samples = gl::supportedSamples(options.samples);
+  return options;
+}
+
+}  // namespace
+
+Renderer::Parts::Parts(const Shared<Cloth>& drawn, const Shared<Scene>& first, const RenderOptions& wanted)
+    : cloth(drawn),
+      options(withSupportedSamples(wanted)),
+      outline(outlineOf(*cloth)),
+      scene(first),
+      model(shadingModelOf(first->render)),
+      programs(model, first->render.background, options.samples),
+      clothMesh(*cloth),
+      colliders(wanted.sphereSegmentsAround, wanted.sphereSegmentsDown, longestEdge(*cloth)),
+      shadowMap(wanted.shadowMapSize) {
+  configure(first);
+}
+
+// What can fail comes first: after an error all is as it was.
+void Renderer::Parts::configure(const Shared<Scene>& edited) {
+  const ShadingModel wanted = shadingModelOf(edited->render);
+  textures.choose(wanted, edited->render.background);
+  if (edited->render.background != scene->render.background)
+    programs.chooseBackground(edited->render.background);
+  if (!(wanted == model)) programs.chooseModel(wanted);
+  model = wanted;
+  if (model.measuresStrain) clothMesh.keepRestPositions(*cloth);
+  scene = edited;
+  stage = makeStage(outline, *scene);
+  colliders.build(*scene);
+  frame = makeLook(scene->render, outline.front, textures.irradiance());
+  frame.flatness = static_cast<float>(options.flatness);
+  shineFrom(nullptr);
+  backdropSeen.reset();
+  changes.forget();
+}
+
+// What can fail comes first.
+void Renderer::Parts::setOptions(const RenderOptions& wanted) {
+  RenderOptions next = withSupportedSamples(wanted);
+  next.sphereSegmentsAround = options.sphereSegmentsAround;
+  next.sphereSegmentsDown = options.sphereSegmentsDown;
+  if (next.samples != options.samples) programs.chooseSamples(next.samples);
+  if (next.shadowMapSize != options.shadowMapSize) {
+    shadowMap = ShadowMap(next.shadowMapSize);
+    skyShadowMaps.clear();
+  }
+  options = next;
+  configure(scene);
+}
+
+// `aspect` is that of the picture in the end: of fewer pixels it would be rounded.
+void Renderer::Parts::lookFrom(const Camera& camera, int width, int height, double aspect) {
+  const auto w = static_cast<float>(width), h = static_cast<float>(height);
+  const glm::mat4 clipFromView = camera.projection(aspect);
+  const glm::mat4 worldFromView = glm::inverse(camera.view());
+  frame.clipFromWorld = middleClipFromWorld = clipFromView * camera.view();
+  frame.eye = glm::vec4(camera.eye(), 0);
+  frame.pixels = {w, h, 1 / w, 1 / h};
+  frame.rayMiddle = -worldFromView[2];
+  frame.rayRight = worldFromView[0] / clipFromView[0][0];
+  frame.rayUp = worldFromView[1] / clipFromView[1][1];
+}
+
+// The main light, or the point of it that shines in an exposure.
+void Renderer::Parts::shineFrom(const Exposure* exposure) {
+  glm::vec3 toLight = directionToKeyLight(scene->render, outline.front);
+  frame.toSky[0] = glm::vec4(0);
+  if (exposure != nullptr) {
+    toLight = directionToLight(*exposure, toLight, scene->render.lightSize);
+    while (skyShadowMaps.size() < SKY_DIRECTIONS) skyShadowMaps.emplace_back(options.shadowMapSize / 2);
+    for (std::size_t k = 0; k < SKY_DIRECTIONS; ++k) {
+      skyShadowMaps[k].cover(stage.reach, exposure->sky[k]);
+      frame.skyShadowFromWorld[k] = skyShadowMaps[k].shadowFromWorld();
+      frame.toSky[k] = glm::vec4(exposure->sky[k], skyShadowMaps[k].texelLength());
+    }
+  }
+  shadowMap.cover(stage.reach, toLight);
+  frame.shadowFromWorld = shadowMap.shadowFromWorld();
+  frame.toKeyLight = glm::vec4(toLight, shadowMap.texelLength());
+}
+
+// From a point of the lens and a place in the pixels. What is at the distance of focus stays where it is.
+void Renderer::Parts::lookThrough(const Exposure& exposure, const Camera& camera) {
+  const glm::mat4 viewFromWorld = camera.view();
+  const double focus =
+      scene->camera.focus.value_or(static_cast<double>(glm::distance(camera.eye(), camera.target())));
+  const glm::mat4 fromLens = viewThroughLens(exposure, scene->camera.aperture, focus) * viewFromWorld;
+  glm::mat4 shifted(1);
+  shifted[3] = glm::vec4(2 * exposure.pixel.x * frame.pixels.z, 2 * exposure.pixel.y * frame.pixels.w, 0, 1);
+  frame.clipFromWorld = shifted * middleClipFromWorld * glm::inverse(viewFromWorld) * fromLens;
+  frame.eye = glm::inverse(fromLens)[3];
+}
+
+// As fine as it shows at the distance of what the camera looks at.
+void Renderer::Parts::chooseSurface(const Camera& camera, int height, double aspect) {
+  // Lines and cuts are those of the particles' triangles.
+  const bool isRough = !scene->render.smooth || options.subdivisions == 0 || model.blends ||
+                       clothMesh.hasCuts() || cloth->hasMesh();
+  const double distance = static_cast<double>(glm::distance(camera.eye(), camera.target()));
+  const double pixelsAMetre = 0.5 * height * static_cast<double>(camera.projection(aspect)[1][1]) / distance;
+  std::vector<std::uint32_t> steps;
+  if (!isRough) steps = smoothSteps(*cloth, pixelsAMetre, options);
+  if (std::all_of(steps.begin(), steps.end(), [](std::uint32_t n) { return n == 1; })) {
+    smooth.reset();
+    return;
+  }
+  const bool isLean = options.flatness > 0 && !model.displaces;  // a relief shows everywhere
+  if (isLean) std::fill(steps.begin(), steps.end(), 2u);
+  if (!smooth || smooth->steps() != steps || smooth->isLean() != isLean)
+    smooth.emplace(*cloth, steps, isLean);
+}
+
+void Renderer::Parts::uploadFrame() {
+  frameBlock.upload(std::span(&frame, 1));
+  frameBlock.bindUniform(RENDER_FRAME_BINDING);
+}
+
+void Renderer::Parts::computeNormals(GLuint positions) {
+  clothMesh.computeNormals(
+      {programs.normals(clothMesh.hasCuts()), cloth->hasMesh() ? &programs.meshNormals() : nullptr},
+      positions);
+  if (smooth) smooth->compute(programs.smooth(), positions, clothMesh);
+}
+
+void Renderer::Parts::drawSurface(GLuint positions, bool meshesAsLines) {
+  if (smooth)
+    smooth->draw();
+  else
+    clothMesh.draw(positions, meshesAsLines);
+}
+
+void Renderer::Parts::drawShadows(GLuint positions) {
+  const FlatBounds* const region = part ? &part->shadow : nullptr;
+  shadowMap.begin(region);
+  if (options.shadows) drawCasters(positions);
+  shadowMap.end();
+  shadowMap.blurForFloors(programs, region);
+}
+
+void Renderer::Parts::drawCasters(GLuint positions) {
+  programs.clothShadow.bind();
+  // Shadows are softer than what a lean surface adds to the particles' triangles.
+  if (smooth && !smooth->isLean())
+    smooth->draw();
+  else
+    clothMesh.draw(positions);
+  // A solid's far side alone: its near side would shade itself by rounding.
+  glEnable(GL_CULL_FACE);
+  glCullFace(GL_FRONT);
+  colliders.drawSolids(programs.sphereShadow, programs.shapeShadow);
+  glDisable(GL_CULL_FACE);
+}
+
+// Casters are drawn by `shadowFromWorld`, whichever map they go to.
+void Renderer::Parts::drawSkyShadows(GLuint positions) {
+  for (const ShadowMap& map : skyShadowMaps) {
+    frame.shadowFromWorld = map.shadowFromWorld();
+    uploadFrame();
+    map.begin();
+    if (options.shadows) drawCasters(positions);
+    map.end();
+  }
+  frame.shadowFromWorld = shadowMap.shadowFromWorld();
+  uploadFrame();
+}
+
+// Front to back as far as the order is known, so that hidden fragments are not shaded; what blends comes
+// last.
+void Renderer::Parts::drawScene(GLuint positions) {
+  canvas.bind();
+  scissor();
+  shadowMap.bindTextures();
+  for (std::size_t k = 0; k < SKY_DIRECTIONS; ++k)
+    (skyShadowMaps.empty() ? shadowMap : skyShadowMaps[k])
+        .bindDepth(SKY_SHADOW_UNIT + static_cast<GLuint>(k));
+  const float farthest = 1;
+  glClearNamedFramebufferfv(canvas.name(), GL_DEPTH, 0, &farthest);
+  glDisable(GL_DEPTH_TEST);
+  glBindTextureUnit(BACKDROP_UNIT, backdrop.colorTexture());
+  programs.layBackdrop.bind();
+  noVertices.bind();
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glEnable(GL_DEPTH_TEST);
+  glDepthFunc(GL_LEQUAL);
+
+  if (!model.blends) drawCloth(positions);
+  glEnable(GL_CULL_FACE);
+  glCullFace(GL_BACK);
+  colliders.drawSolids(programs.sphere, programs.shape);
+  glDisable(GL_CULL_FACE);
+
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  glDepthMask(GL_FALSE);
+  // Cloth may lie exactly in a plane, and is seen there: planes count as farther by half a thousandth of
+  // their distance.
+  glEnable(GL_POLYGON_OFFSET_FILL);
+  glPolygonOffset(1, planeDepthUnits);
+  colliders.drawPlanes(programs.plane);
+  glDisable(GL_POLYGON_OFFSET_FILL);
+  if (model.blends) drawCloth(positions);
+  drawOverlay(positions);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_BLEND);
+  glDisable(GL_SCISSOR_TEST);
+}
+
+void Renderer::Parts::drawCloth(GLuint positions) {
+  if (!model.blends) {
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    programs.clothDepth.bind();
+    drawSurface(positions);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  }
+  programs.cloth.bind();
+  drawSurface(positions, model.name == "wireframe");  // whose lines are otherwise those of a grid
+}
+
+void Renderer::Parts::drawOverlay(GLuint positions) {
+  if (view == ViewOptions{}) return;
+  const float pinScale = scale < 1 ? 1.6f : 1.0f;  // which few pixels would wash out
+  springs.draw(view, programs.overlays(), *cloth, cuts, positions, pinScale);
+}
+
+void Renderer::Parts::drawIdentities(GLuint positions) {
+  glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);  // the solver's last positions
+  const PickPrograms& picking = programs.picking();
+  picking.cloth.bind();
+  clothMesh.draw(positions);
+  glEnable(GL_CULL_FACE);
+  glCullFace(GL_BACK);
+  colliders.drawSolids(picking.sphere, picking.shape);
+  colliders.drawPlanes(picking.plane);
+  glDisable(GL_CULL_FACE);
+}
+
+void Renderer::Parts::makeTargets(int width, int height, int shownWidth, int shownHeight) {
+  const auto make = [this](gl::Framebuffer& target, const char* label, const gl::FramebufferFormat& format) {
+    if (target.format() == format) return;
+    target = gl::Framebuffer(label, format);
+    changes.forget();
+  };
+  make(canvas, "canvas",
+       {width, height, options.samples, isExposed() ? exposureFormat : canvasFormat, GL_DEPTH_COMPONENT24});
+  if (isExposed()) make(mean, "mean of exposures", {.width = width, .height = height, .color = GL_RGBA32F});
+  if (isDirect()) return;
+  make(finished, "finished", {.width = width, .height = height, .color = GL_RGBA8});
+  if (scale < 1)
+    make(stretched, "stretched", {.width = shownWidth, .height = shownHeight, .color = GL_RGBA8});
+}
+
+void Renderer::Parts::findChanges(GLuint positions, int width, int height) {
+  part.reset();
+  // Heights move the surface away from the particles.
+  if (!options.keepsStill || model.displaces || isExposed() || cloth->particleCount() > mostReadBack)
+    return changes.forget();
+  std::vector<glm::vec4> particles(cloth->particleCount());
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);  // the solver's last writes
+  glGetNamedBufferSubData(positions, 0, static_cast<GLsizeiptr>(particles.size() * sizeof(glm::vec4)),
+                          particles.data());
+  const float reach = smooth ? static_cast<float>(longestEdge(*cloth)) : 0;
+  part =
+      changes.next({frame.clipFromWorld, frame.shadowFromWorld, width, height, reach}, particles, colliders);
+}
+
+void Renderer::Parts::scissor() const {
+  if (!part) return;
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(part->picture.left, part->picture.bottom, part->picture.width(), part->picture.height());
+}
+
+// Only the sky turns with the camera; others are drawn once.
+void Renderer::Parts::drawBackdrop(int width, int height) {
+  const gl::FramebufferFormat format{.width = width, .height = height, .color = backdropFormat};
+  const bool turns = scene->render.background == "sky";
+  if (backdropSeen && backdrop.format() == format && !(turns && *backdropSeen != middleClipFromWorld)) return;
+  if (!(backdrop.format() == format)) backdrop = gl::Framebuffer("backdrop", format);
+  backdrop.bind();
+  glDisable(GL_DEPTH_TEST);
+  programs.backdrop.bind();
+  noVertices.bind();
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  backdropSeen = middleClipFromWorld;
+}
+
+void Renderer::Parts::addToMean(bool isFirst) {
+  mean.bind();
+  const std::array<float, 4> nothing{};
+  if (isFirst) glClearNamedFramebufferfv(mean.name(), GL_COLOR, 0, nothing.data());
+  glDisable(GL_DEPTH_TEST);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_ONE, GL_ONE);
+  glBindTextureUnit(CANVAS_UNIT, canvas.colorTexture());
+  programs.mean().add.bind();
+  noVertices.bind();
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDisable(GL_BLEND);
+}
+
+// `texture`: the canvas, or the mean.
+void Renderer::Parts::resolveInto(GLuint destination, int width, int height, const gl::Program& resolve,
+                                  GLuint texture) {
+  glDisable(GL_FRAMEBUFFER_SRGB);  // the shader encodes
+  glBindFramebuffer(GL_FRAMEBUFFER, destination);
+  glViewport(0, 0, width, height);
+  scissor();
+  glDisable(GL_DEPTH_TEST);
+  glBindTextureUnit(CANVAS_UNIT, texture);
+  resolve.bind();
+  noVertices.bind();
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDisable(GL_SCISSOR_TEST);
+}
+
+// Only what has changed: copying what is kept costs a tenth of filtering it.
+void Renderer::Parts::stretch() const {
+  const gl::FramebufferFormat &from = finished.format(), &to = stretched.format();
+  if (part) {
+    const auto scaled = [](int at, int size, int toSize) {
+      return static_cast<int>(static_cast<std::int64_t>(at) * toSize / size);
+    };
+    // A pixel more on all sides, for the filter.
+    const int left = scaled(part->picture.left - 1, from.width, to.width),
+              bottom = scaled(part->picture.bottom - 1, from.height, to.height);
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(left, bottom, scaled(part->picture.right + 1, from.width, to.width) + 1 - left,
+              scaled(part->picture.top + 1, from.height, to.height) + 1 - bottom);
+  }
+  glBlitNamedFramebuffer(finished.name(), stretched.name(), 0, 0, from.width, from.height, 0, 0, to.width,
+                         to.height, GL_COLOR_BUFFER_BIT, GL_LINEAR);
+  glDisable(GL_SCISSOR_TEST);
+}
+
+void Renderer::Parts::show(GLuint destination, int width, int height) const {
+  glBlitNamedFramebuffer((scale < 1 ? stretched : finished).name(), destination, 0, 0, width, height, 0, 0,
+                         width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glBindFramebuffer(GL_FRAMEBUFFER, destination);  // for what is drawn over the picture
+  glViewport(0, 0, width, height);
+}
+
+void Renderer::Parts::draw(const Picture& picture, const Around& around) {
+  const auto [positions, camera, time, target, width, height, exposure, number] = picture;
+  if (width <= 0 || height <= 0) return;  // a minimised window
+  const auto scaled = [&](int size) { return std::max(1, static_cast<int>(std::lround(scale * size))); };
+  const int w = scaled(width), h = scaled(height);
+  colliders.place(*scene, stage, time);
+  const double aspect = static_cast<double>(width) / height;
+  lookFrom(*camera, w, h, aspect);
+  if (exposure != nullptr || isExposed()) shineFrom(exposure);
+  if (exposure != nullptr) lookThrough(*exposure, *camera);
+  chooseSurface(*camera, h, aspect);
+  uploadFrame();
+  textures.bind();
+  makeTargets(w, h, width, height);
+  findChanges(positions, w, h);
+  if (number == 0) around("normals", [&, p = positions] { computeNormals(p); });
+  around("shadows", [&, p = positions] { drawShadows(p); });
+  if (exposure != nullptr) around("shadows of the sky", [&, p = positions] { drawSkyShadows(p); });
+  around("backdrop", [&] { drawBackdrop(w, h); });
+  around("scene", [&, p = positions] { drawScene(p); });
+  if (exposure != nullptr) around("mean", [&, n = number] { addToMean(n == 0); });
+  around("resolve", [&, t = isDirect() ? target : finished.name(), exposes = exposure != nullptr] {
+    resolveInto(t, w, h, exposes ? programs.mean().show : programs.resolve,
+                exposes ? mean.colorTexture() : canvas.colorTexture());
+  });
+  if (scale < 1) around("stretch", [&] { stretch(); });
+  if (!isDirect())
+    around("show",
+           [&, t = target, fullWidth = width, fullHeight = height] { show(t, fullWidth, fullHeight); });
+}
+
+}  // namespace clothsim

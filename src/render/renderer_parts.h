@@ -1,0 +1,98 @@
+// What the renderer holds between pictures, and the passes of a picture.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "gl/buffer.h"
+#include "gl/framebuffer.h"
+#include "render/changed_area.h"
+#include "render/cloth_mesh.h"
+#include "render/colliders.h"
+#include "render/exposure.h"
+#include "render/model_textures.h"
+#include "render/programs.h"
+#include "render/renderer.h"
+#include "render/shadow_map.h"
+#include "render/smooth_surface.h"
+#include "render/stage.h"
+
+namespace clothsim {
+
+struct Renderer::Parts {
+  struct Picture {
+    GLuint positions;
+    const Camera* camera;
+    double time;
+    GLuint target;
+    int width, height;
+    const Exposure* exposure = nullptr;  // of a mean; none: the whole picture
+    int number = 0;                      // of the exposure
+  };
+
+  Parts(const Shared<Cloth>& drawn, const Shared<Scene>& first, const RenderOptions& wanted);
+
+  void configure(const Shared<Scene>& edited);
+  // The passes of a picture in their order, each through around(name, pass).
+  using Around = std::function<void(const char*, const std::function<void()>&)>;
+  void draw(const Picture& picture, const Around& around);
+  [[nodiscard]] bool isExposed() const { return frame.toSky[0].w > 0; }  // for a mean (render/exposure.h)
+  void setOptions(const RenderOptions& wanted);
+  void lookFrom(const Camera& camera, int width, int height, double aspect);
+  void shineFrom(const Exposure* exposure);
+  void lookThrough(const Exposure& exposure, const Camera& camera);
+  void addToMean(bool isFirst);
+  void uploadFrame();
+  [[nodiscard]] bool isDirect() const { return scale == 1 && !options.keepsStill; }
+  void makeTargets(int width, int height, int shownWidth, int shownHeight);
+  void findChanges(GLuint positions, int width, int height);
+  void scissor() const;
+  void chooseSurface(const Camera& camera, int height, double aspect);
+  void computeNormals(GLuint positions);
+  void drawSurface(GLuint positions, bool meshesAsLines = false);
+  void drawShadows(GLuint positions);
+  void drawCasters(GLuint positions);
+  void drawSkyShadows(GLuint positions);
+  void drawScene(GLuint positions);
+  void drawCloth(GLuint positions);
+  void drawOverlay(GLuint positions);
+  void drawIdentities(GLuint positions);
+  void drawBackdrop(int width, int height);
+  void resolveInto(GLuint destination, int width, int height, const gl::Program& resolve, GLuint texture);
+  void show(GLuint destination, int width, int height) const;
+  void stretch() const;
+
+  Shared<Cloth> cloth;
+  Cuts cuts;
+  RenderOptions options;
+  ViewOptions view;
+  ClothOutline outline;
+  Shared<Scene> scene;
+  Stage stage;
+  ShadingModel model;
+  shared::RenderFrame frame{};
+
+  RenderPrograms programs;
+  ModelTextures textures;
+  ClothMesh clothMesh;
+  std::optional<SmoothSurface> smooth;  // drawn instead of the triangles of the particles
+  Colliders colliders;
+  ShadowMap shadowMap;
+  std::vector<ShadowMap> skyShadowMaps;  // of an exposure
+  std::vector<Exposure> exposures;
+  gl::Framebuffer mean;  // the sum of the exposures' light, with their number
+  SpringsOverlay springs;
+  std::optional<PickTarget> pickTarget;
+  double scale = 1;
+  gl::Framebuffer canvas, backdrop;
+  gl::Framebuffer finished, stretched;    // as the screen shows it; of a scale below 1 before and after it
+  glm::mat4 middleClipFromWorld{1};       // of the picture, whatever its exposures shift
+  std::optional<glm::mat4> backdropSeen;  // from where the backdrop was drawn
+  ChangedArea changes;
+  std::optional<ChangedArea::Area> part;  // of the picture that is drawn; none: all of it
+  gl::Buffer<shared::RenderFrame> frameBlock{"render frame", 1};
+  gl::VertexArray noVertices{"no vertices"};
+};
+
+}  // namespace clothsim
