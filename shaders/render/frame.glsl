@@ -3,5 +3,10 @@
 
 layout(std140, binding = RENDER_FRAME_BINDING) uniform RenderFrameBlock { RenderFrame frame; };
 
-// Whether the picture is one exposure of a mean (src/render/exposure.h).
-bool isExposure() { return frame.toSky[0].w > 0.0; }
+// Whether the picture is one exposure of a mean (src/render/exposure.h). Known when the shader is compiled: llvmpipe would
+// run what exposures need for every picture.
+#ifdef EXPOSURE
+bool isExposure() { return true; }
+#else
+bool isExposure() { return false; }
+#endif

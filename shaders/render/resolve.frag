@@ -30,7 +30,11 @@ vec3 pixelLight() {
   vec3 sum = vec3(0);
   for (int i = 0; i < SAMPLES; ++i) {
     vec3 stored = texelFetch(canvas, ivec2(gl_FragCoord.xy), i).rgb;
-    sum += isExposure() ? stored : decodedLight(stored);
+#ifdef ADDS
+    sum += stored;
+#else
+    sum += decodedLight(stored);
+#endif
   }
   return sum / float(SAMPLES);
 }

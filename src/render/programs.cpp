@@ -21,11 +21,26 @@ gl::Program makeDepthOnly(const std::string& vertexFile, const ShadingModel& mod
 
 }  // namespace
 
-RenderPrograms::RenderPrograms(const ShadingModel& model, const std::string& background, int samples)
-    : layBackdrop(gl::Program::makeRender("render/fullscreen.vert", "render/backdrop.frag", {{"LAY", ""}})) {
+RenderPrograms::RenderPrograms(const ShadingModel& model, const std::string& background, int samples) {
   chooseSamples(samples);
   chooseModel(model);
   chooseBackground(background);
+}
+
+ShadedPrograms::ShadedPrograms(const ShadingModel& model, bool forExposures) {
+  gl::Defines exposure;
+  if (forExposures) exposure.emplace_back("EXPOSURE", "");
+  const auto withExposure = [&](gl::Defines defines) {
+    defines.insert(defines.end(), exposure.begin(), exposure.end());
+    return defines;
+  };
+  cloth = gl::Program::makeRender("render/cloth.vert", "render/" + model.name + ".frag",
+                                  withExposure(model.defines));
+  sphere = gl::Program::makeRender("render/sphere.vert", "render/sphere.frag", exposure);
+  shape = gl::Program::makeRender("render/shape.vert", "render/sphere.frag", exposure);
+  plane = gl::Program::makeRender("render/plane.vert", "render/plane.frag", exposure);
+  layBackdrop =
+      gl::Program::makeRender("render/fullscreen.vert", "render/backdrop.frag", withExposure({{"LAY", ""}}));
 }
 
 MeanPrograms::MeanPrograms(int samples)
@@ -40,12 +55,13 @@ void RenderPrograms::chooseSamples(int samples) {
 }
 
 void RenderPrograms::chooseModel(const ShadingModel& model) {
-  gl::Program shading = makeShading(model);
+  ShadedPrograms shaded(model, false);
   gl::Program depth = makeDepthOnly("render/cloth_depth.vert", model);
   clothShadow = makeDepthOnly("render/cloth_shadow.vert", model);
   clothDepth = std::move(depth);
-  cloth = std::move(shading);
-  if (std::exchange(measuresStrain_, model.measuresStrain) == model.measuresStrain) return;
+  shaded_ = std::move(shaded);
+  exposed_.reset();
+  if (std::exchange(model_, model).measuresStrain == model.measuresStrain) return;
   normals_.reset();
   normalsWithCuts_.reset();
   meshNormals_.reset();
@@ -60,14 +76,14 @@ void RenderPrograms::chooseBackground(const std::string& background) {
 
 const gl::Program& RenderPrograms::normals(bool withCuts) {
   auto& program = withCuts ? normalsWithCuts_ : normals_;
-  if (!program) program.emplace(makeNormals(withCuts, measuresStrain_));
+  if (!program) program.emplace(makeNormals(withCuts, model_.measuresStrain));
   return *program;
 }
 
 const gl::Program& RenderPrograms::meshNormals() {
   if (!meshNormals_)
     meshNormals_.emplace(gl::Program::makeCompute(
-        "render/mesh_normals.comp", measuresStrain_ ? gl::Defines{{"STRAIN", ""}} : gl::Defines{}));
+        "render/mesh_normals.comp", model_.measuresStrain ? gl::Defines{{"STRAIN", ""}} : gl::Defines{}));
   return *meshNormals_;
 }
 
@@ -86,6 +102,12 @@ const OverlayPrograms& RenderPrograms::overlays() {
   return *overlays_;
 }
 
+const ShadedPrograms& RenderPrograms::shaded(bool forExposures) {
+  if (!forExposures) return *shaded_;
+  if (!exposed_) exposed_.emplace(model_, true);
+  return *exposed_;
+}
+
 const MeanPrograms& RenderPrograms::mean() {
   if (!mean_) mean_.emplace(samples_);
   return *mean_;
@@ -101,6 +123,7 @@ void tryAllShaders(const RenderSettings& settings, int samples) {
     for (const bool withCuts : {false, true}) static_cast<void>(programs.normals(withCuts));
     static_cast<void>(programs.meshNormals());
     static_cast<void>(programs.smooth());
+    static_cast<void>(programs.shaded(true));
   }
   static_cast<void>(programs.picking());
   static_cast<void>(programs.overlays());

@@ -19,6 +19,13 @@ struct PickPrograms {
   gl::Program plane = gl::Program::makeRender("render/pick_plane.vert", "render/pick.frag");
 };
 
+// What shades: cloth, solids, planes, and the backdrop as a picture begins. Once for pictures that are one
+// exposure, and once for exposures of a mean, which see more light and shade.
+struct ShadedPrograms {
+  ShadedPrograms(const ShadingModel& model, bool forExposures);
+  gl::Program cloth, sphere, shape, plane, layBackdrop;
+};
+
 // Of pictures that are the mean of exposures.
 struct MeanPrograms {
   explicit MeanPrograms(int samples);
@@ -43,11 +50,9 @@ struct RenderPrograms {
   [[nodiscard]] const PickPrograms& picking();
   [[nodiscard]] const OverlayPrograms& overlays();
   [[nodiscard]] const MeanPrograms& mean();
+  [[nodiscard]] const ShadedPrograms& shaded(bool forExposures);
 
-  gl::Program cloth, clothDepth, clothShadow, backdrop, layBackdrop, resolve;
-  gl::Program sphere = gl::Program::makeRender("render/sphere.vert", "render/sphere.frag");
-  gl::Program shape = gl::Program::makeRender("render/shape.vert", "render/sphere.frag");
-  gl::Program plane = gl::Program::makeRender("render/plane.vert", "render/plane.frag");
+  gl::Program clothDepth, clothShadow, backdrop, resolve;
   gl::Program sphereShadow = gl::Program::makeRender("render/sphere_shadow.vert", "render/depth_only.frag");
   gl::Program shapeShadow = gl::Program::makeRender("render/shape_shadow.vert", "render/depth_only.frag");
   gl::Program blurFirstAxis =
@@ -55,7 +60,8 @@ struct RenderPrograms {
   gl::Program blurSecondAxis = gl::Program::makeRender("render/fullscreen.vert", "render/floor_shadow.frag");
 
  private:
-  bool measuresStrain_ = false;
+  ShadingModel model_;
+  std::optional<ShadedPrograms> shaded_, exposed_;
   std::optional<gl::Program> normals_, normalsWithCuts_, meshNormals_;
   std::optional<SmoothPrograms> smooth_;
   std::optional<PickPrograms> picking_;

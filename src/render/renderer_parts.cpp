@@ -202,6 +202,7 @@ void Renderer::Parts::drawSkyShadows(GLuint positions) {
 // Front to back as far as the order is known, so that hidden fragments are not shaded; what blends comes
 // last.
 void Renderer::Parts::drawScene(GLuint positions) {
+  const ShadedPrograms& shading = programs.shaded(isExposed());
   canvas.bind();
   scissor();
   shadowMap.bindTextures();
@@ -212,7 +213,7 @@ void Renderer::Parts::drawScene(GLuint positions) {
   glClearNamedFramebufferfv(canvas.name(), GL_DEPTH, 0, &farthest);
   glDisable(GL_DEPTH_TEST);
   glBindTextureUnit(BACKDROP_UNIT, backdrop.colorTexture());
-  programs.layBackdrop.bind();
+  shading.layBackdrop.bind();
   noVertices.bind();
   glDrawArrays(GL_TRIANGLES, 0, 3);
   glEnable(GL_DEPTH_TEST);
@@ -221,7 +222,7 @@ void Renderer::Parts::drawScene(GLuint positions) {
   if (!model.blends) drawCloth(positions);
   glEnable(GL_CULL_FACE);
   glCullFace(GL_BACK);
-  colliders.drawSolids(programs.sphere, programs.shape);
+  colliders.drawSolids(shading.sphere, shading.shape);
   glDisable(GL_CULL_FACE);
 
   glEnable(GL_BLEND);
@@ -231,7 +232,7 @@ void Renderer::Parts::drawScene(GLuint positions) {
   // their distance.
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(1, planeDepthUnits);
-  colliders.drawPlanes(programs.plane);
+  colliders.drawPlanes(shading.plane);
   glDisable(GL_POLYGON_OFFSET_FILL);
   if (model.blends) drawCloth(positions);
   drawOverlay(positions);
@@ -241,13 +242,14 @@ void Renderer::Parts::drawScene(GLuint positions) {
 }
 
 void Renderer::Parts::drawCloth(GLuint positions) {
+  const ShadedPrograms& shading = programs.shaded(isExposed());
   if (!model.blends) {
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     programs.clothDepth.bind();
     drawSurface(positions);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   }
-  programs.cloth.bind();
+  shading.cloth.bind();
   drawSurface(positions, model.name == "wireframe");  // whose lines are otherwise those of a grid
 }
 

@@ -38,8 +38,4 @@ ShadingModel shadingModelOf(const RenderSettings& settings) {
   return model;
 }
 
-gl::Program makeShading(const ShadingModel& model) {
-  return gl::Program::makeRender("render/cloth.vert", "render/" + model.name + ".frag", model.defines);
-}
-
 }  // namespace clothsim

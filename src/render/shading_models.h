@@ -31,7 +31,4 @@ struct ShadingModel {
 // @throws SceneError for a name that does not exist, listing those that do
 [[nodiscard]] ShadingModel shadingModelOf(const RenderSettings& settings);
 
-// @throws OpenGlError, InputOutputError
-[[nodiscard]] gl::Program makeShading(const ShadingModel& model);
-
 }  // namespace clothsim

@@ -80,15 +80,18 @@ std::vector<gl::Defines> variantsOf(const std::string& file) {
             {{"SAMPLES", "1"}, {"ADDS", ""}},
             {{"SAMPLES", "4"}, {"ADDS", ""}},
             {{"SAMPLES", "1"}, {"MEAN", ""}}};
-  if (file == "render/backdrop.frag") return {gl::Defines{}, {{"SKY", ""}}, {{"PLAIN", ""}}, {{"LAY", ""}}};
+  if (file == "render/backdrop.frag")
+    return {gl::Defines{}, {{"SKY", ""}}, {{"PLAIN", ""}}, {{"LAY", ""}}, {{"LAY", ""}, {"EXPOSURE", ""}}};
   if (file == "render/cloth.vert")
     return {gl::Defines{}, {{"TANGENT", ""}, {"DISPLACEMENT", ""}}, {{"STRAIN", ""}}};
   if (file == "render/cloth_shadow.vert" || file == "render/cloth_depth.vert")
     return {gl::Defines{}, {{"DISPLACEMENT", ""}}};
   if (file == "render/fabric.frag")
-    return {{{"TANGENT", ""}}, {{"TANGENT", ""}, {"WOVEN", ""}, {"PRINT", ""}}};
-  if (file == "render/bump.frag" || file == "render/displacement.frag") return {{{"TANGENT", ""}}};
-  if (file == "render/strain.frag") return {{{"STRAIN", ""}}};
+    return {{{"TANGENT", ""}}, {{"TANGENT", ""}, {"WOVEN", ""}, {"PRINT", ""}, {"EXPOSURE", ""}}};
+  if (file == "render/bump.frag" || file == "render/displacement.frag")
+    return {{{"TANGENT", ""}}, {{"TANGENT", ""}, {"EXPOSURE", ""}}};
+  if (file == "render/strain.frag") return {{{"STRAIN", ""}}, {{"STRAIN", ""}, {"EXPOSURE", ""}}};
+  if (file.starts_with("render/") && file.ends_with(".frag")) return {gl::Defines{}, {{"EXPOSURE", ""}}};
   if (!file.starts_with("sim/")) return {gl::Defines{}};
   PassFeatures everything{.wind = true,
                           .movingColliders = true,

@@ -1,4 +1,5 @@
 // The picture: against a stored one with a tolerance that broken shading exceeds, and rule by rule.
+#include "render/programs.h"
 #include "render/renderer.h"
 
 #include <array>
@@ -237,7 +238,8 @@ TEST_F(RendererTest, EveryShadingModelCompiles) {
   for (const std::string& name : shadingModelNames()) {
     RenderSettings settings;
     settings.shader = name;
-    EXPECT_NE(makeShading(shadingModelOf(settings)).name(), 0u) << name;
+    for (const bool forExposures : {false, true})
+      EXPECT_NE(ShadedPrograms(shadingModelOf(settings), forExposures).cloth.name(), 0u) << name;
   }
 }
 
