@@ -150,6 +150,7 @@ void UiFrame::loadFonts(double textScale) {
   ImGuiIO& io = ImGui::GetIO();
   io.Fonts->Clear();
   for (const float size : {textSize, titleSize}) addTypeface(*io.Fonts, std::round(size * scale));
+  kept_.forget();
   ImGui_ImplOpenGL3_DestroyFontsTexture();
   ImGui_ImplOpenGL3_CreateFontsTexture();
   ImGui::GetStyle() = styleFor(scale);
@@ -168,7 +169,8 @@ void UiFrame::end() {
   ImGui::ErrorCheckEndFrameRecover(nullptr);  // closes windows that an exception has left open
   ImGui::Render();
 }
-void UiFrame::draw() { ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData()); }
+
+void UiFrame::draw(float pictureWidth) { kept_.draw(*ImGui::GetDrawData(), pictureWidth); }
 
 void coloredText(std::string_view words, const ImVec4& color) {
   ImGui::PushStyleColor(ImGuiCol_Text, color);

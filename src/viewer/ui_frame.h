@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "viewer/input_queue.h"
+#include "viewer/kept_panels.h"
 
 struct GLFWwindow;
 
@@ -33,7 +34,9 @@ class UiFrame {
 
   void begin(double textScale);
   void end();
-  void draw();  // draws the controls made between begin() and end() over the picture
+  // Draws the controls made between begin() and end(): those right of the picture as they were kept, where
+  // nothing has changed, and the others over it.
+  void draw(float pictureWidth);
 
   [[nodiscard]] bool wantsMouse() const;  // as of the last frame
   [[nodiscard]] bool hasPopup() const;    // whether a list or a colour picker is open
@@ -46,6 +49,7 @@ class UiFrame {
   GLFWwindow* window_;
   InputQueue& input_;
   double textScale_ = 0;
+  KeptPanels kept_;
 };
 
 // The height of a line of text [pixels].

@@ -275,7 +275,7 @@ void Viewer::draw() {
     attempt([&] { drawControls(); });
     ui_.end();
   });
-  timings_.time(FrameTimings::drawControls, [&] { ui_.draw(); });
+  timings_.time(FrameTimings::drawControls, [&] { ui_.draw(area.width); });
   timings_.time(FrameTimings::swap, [&] { window_.swap(); });
   timings_.time(FrameTimings::after, [&] {
     applyRequests();

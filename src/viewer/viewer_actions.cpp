@@ -278,7 +278,7 @@ std::unique_ptr<OpenScene> Viewer::load(const std::string& source,
     ui_.begin(textScale());
     drawLoading(name);
     ui_.end();
-    ui_.draw();
+    ui_.draw(static_cast<float>(window_.size().width));
     window_.swap();
     window_.pollEvents();
   }
