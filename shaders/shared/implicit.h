@@ -104,8 +104,9 @@ using uint = std::uint32_t;
 #define LENGTHS_TRIED 4
 
 // A plane that a particle is behind pushes it back, with this many times the stiffness of its inertia and
-// what the stiffest spring of its cloth adds, within limits (StepParams::contactStiffness).
+// this part of the stiffest spring of its cloth, within limits (StepParams::contactStiffness).
 #define CONTACT_OVER_INERTIA 1024
+#define CONTACT_OVER_SPRINGS 0.04
 
 // Below this speed friction is less than in full [m/s].
 #define SLOW_SLIP 0.01f
@@ -179,7 +180,7 @@ SHARED_STRUCT ImplicitScalars {
   real leastResidual;   // the r.z at which the linear system is solved
   real lastUpdate;      // of the step so far: largest update over largest displacement, or over the spacing
   uint isSystemSolved;  // or SYSTEM_LOST
-  uint isStepSolved;    // STEP_ENDED: it is not, but nothing is done any more
+  uint isStepSolved;    // STEP_ENDED: it is not, but nothing is done any more (of a round of contact)
 
   uint iterations;        // of the step so far,
   uint newtonSteps;       // the same
@@ -198,6 +199,11 @@ SHARED_STRUCT ImplicitScalars {
   uint unconvergedSteps;  // that ended unsolved
   uint allIterations;
   uint allNewtonSteps;
+
+  real sufficientResidual;  // r.z at which further linear systems of the step end [N m]
+  uint unusedA;
+  uint unusedB;
+  uint unusedC;
 };
 
 #ifdef __cplusplus

@@ -48,10 +48,9 @@ using uint = std::uint32_t;
 // A particle's correction counts in so many parts.
 #define CORRECTION_WEIGHT 1024
 
-// A pair that touches is pushed apart with this many times the stiffness of its inertia, and with this part
-// of what the stiffest spring adds.
+// A pair that touches is pushed apart with this many times the stiffness of its inertia, and with what its
+// springs add (CONTACT_OVER_SPRINGS).
 #define PAIR_OVER_INERTIA 100.0f
-#define PAIR_OVER_SPRINGS 0.01f
 // Nearer than half of its thickness a pair is pushed more stiffly, down to this part of it.
 #define SQUEEZED 0.02f
 
@@ -142,7 +141,7 @@ SHARED_STRUCT SurfacePoint {
   real radius;     // half of the thickness [m]
   real friction;   // Coulomb's coefficient
   real share;      // of a contact at this corner that each of its triangles finds
-  real stiffness;  // of its springs [N/m]
+  real stiffness;  // what its springs add to a contact [N/m]
 };
 
 // A sphere or a capsule that is small against the cells of the cloth and acts on triangles, too. Its core is

@@ -15,9 +15,7 @@ namespace {
 // The counts that "auto" chooses.
 constexpr double LONGEST_CHOSEN_STEP = 1.0 / 60;     // [s],
 constexpr double LONGEST_BUCKLING_STEP = 1.0 / 120;  // of fabric that buckles, under an implicit integrator
-constexpr double LONGEST_CONTACT_STEP = 1.0 / 480;   // under self_collision "contact"
-constexpr double ITERATIONS_PER_SECOND = 1200, FEWEST_ITERATIONS = 10, FEWEST_ITERATIONS_IN_CONTACT = 20,
-                 MOST_ITERATIONS = 60;
+constexpr double ITERATIONS_PER_SECOND = 4800, FEWEST_ITERATIONS = 20, MOST_ITERATIONS = 60;
 
 struct Preset {
   std::string_view name;
@@ -210,10 +208,8 @@ bool buckles(const ClothSettings& cloth) {
 }
 
 // Newton's method is slow where folds come and go. There, halving the step makes the motion more accurate
-// than doubling the Newton steps does. Where layers lie on each other, steps of 1/480 s are solved in 3
-// Newton steps; in those of 1/120 s, 8 are not enough, and what they leave wrinkles the cloth.
+// than doubling the Newton steps does.
 double longestChosenStep(const Scene& scene) {
-  if (scene.solver.selfCollision == SelfCollision::contact) return LONGEST_CONTACT_STEP;
   const bool isShort =
       isImplicit(scene.solver.integrator) && std::any_of(scene.cloths.begin(), scene.cloths.end(), buckles);
   return isShort ? LONGEST_BUCKLING_STEP : LONGEST_CHOSEN_STEP;
@@ -229,13 +225,11 @@ int stableSteps(const Scene& scene) {
 
 namespace {
 
-// The longer the step, the further sound comes in it and the more there is to solve. (A sheet on a ball that
-// a step of 1/60 s solves with 20 iterations crumples with 10. Layers that press on each other want 20 in any
-// step.)
-int iterationsFor(double step, bool hasContact) {
+// The longer the step, the further sound comes in it and the more there is to solve. These are caps: most
+// linear systems end long before.
+int iterationsFor(double step) {
   const double iterations = std::ceil(step * ITERATIONS_PER_SECOND * (1 - 1e-9));
-  const double fewest = hasContact ? FEWEST_ITERATIONS_IN_CONTACT : FEWEST_ITERATIONS;
-  return static_cast<int>(std::clamp(iterations, fewest, MOST_ITERATIONS));
+  return static_cast<int>(std::clamp(iterations, FEWEST_ITERATIONS, MOST_ITERATIONS));
 }
 
 }  // namespace
@@ -244,8 +238,7 @@ void chooseCounts(Scene& scene) {
   SolverSettings& solver = scene.solver;
   if (solver.simulationSteps.automatic) solver.simulationSteps.count = stableSteps(scene);
   if (solver.cgIterations.automatic)
-    solver.cgIterations.count =
-        iterationsFor(stepLength(solver), solver.selfCollision == SelfCollision::contact);
+    solver.cgIterations.count = iterationsFor(stepLength(solver));
 }
 
 }  // namespace clothsim

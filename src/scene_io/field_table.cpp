@@ -294,8 +294,7 @@ std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
           .within({.low = 1, .high = 100})
           .usually(1, 16),
       field("cg_iterations", &S::cgIterations,
-            "Most CG iterations per Newton iteration; auto: 10 to 60 by the step length, at least 20 under "
-            "contact.")
+            "Most CG iterations per Newton iteration; auto: 20 to 60 by the step length.")
           .within({.low = 1, .high = 10'000})
           .usually(1, 40),
       field("frames_per_sec", &S::framesPerSec,

@@ -12,10 +12,10 @@
 //
 // The search starts from h v. It ends when the last update is at most `tolerance` of the largest
 // displacement, or of a tenth of the spacing where that is larger, and otherwise after `newton_steps`: then
-// the step counts as unconverged. The linear solver ends when r.z has fallen by tolerance^2, or after
-// `cg_iterations`. An update is small, too, where
-// the linear solver has hardly begun: such a step ends, but counts as unconverged unless updates fall fast
-// enough and what the linear system lacks is small (CpuExecutor::measureUpdate).
+// the step counts as unconverged. The linear solver ends when r.z has fallen by tolerance^2, or to what a
+// solved step may lack, or after `cg_iterations`. An update is small, too, where the linear solver has hardly
+// begun: updates also have to fall fast enough, and what the linear system lacks has to be small
+// (CpuExecutor::measureUpdate).
 //
 // Colliders take part. A particle in a collider gets the plane in which it touches it as a stiff spring, so
 // that the sheet bends around what it lies on; at first, so does a particle that inertia and gravity alone

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "shared/implicit.h"
 #include "solver/self_collision.h"
 
 namespace clothsim {
@@ -146,7 +147,7 @@ SurfacePoint<Real> makePoint(const Cloth& cloth, const Scene& scene, std::uint32
                                                                                : usualFriction);
   return {static_cast<Real>(radius), static_cast<Real>(friction),
           static_cast<Real>(1.0 / std::max(fan.count, 1u)),
-          static_cast<Real>(4 * cloth.pieces()[piece].stiffestSpring())};
+          static_cast<Real>(CONTACT_OVER_SPRINGS * cloth.pieces()[piece].stiffestSpring())};
 }
 
 // The blocks of a grid, row by row.

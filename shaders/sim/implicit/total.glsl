@@ -54,8 +54,9 @@ void takeTotal(Sum total) {
 #if SUM_KIND == SUM_FIRST
   float residual = total < 0.0 ? 0.0 : total;
   precise float least = step.systemTolerance * residual;
+  float sufficient = scalars.sufficientResidual;
   scalars.residual = residual;
-  scalars.leastResidual = least;
+  scalars.leastResidual = scalars.newtonSteps > 0u && least < sufficient ? sufficient : least;
   scalars.kept = 0.0;
   scalars.isSystemSolved = total < 0.0 ? SYSTEM_LOST : 0u;
 #elif SUM_KIND == SUM_STEP
@@ -77,12 +78,13 @@ void takeTotal(Sum total) {
   bool isFalling = scalars.newtonSteps == 0u || small <= step.tolerance || squaredUpdate <= allowed;
   scalars.lastUpdate = update;
   precise float tolerated = step.toleratedStiffness * motion;
+  precise float sufficient = step.toleratedStiffness * total.y;
+  scalars.sufficientResidual = sufficient;
   bool isFollowed = scalars.isSystemSolved != SYSTEM_LOST &&
                     (scalars.isSystemSolved != 0u || scalars.residual <= tolerated);
   bool touches = step.colliderCount != 0u || scalars.pairs != 0u;
   bool isConfirmed = !touches || scalars.newtonSteps > 0u;  // the first one takes predicted contacts
-  bool ends = isConfirmed && update <= step.tolerance;
-  scalars.isStepSolved = !ends ? 0u : isFollowed && isFalling ? 1u : STEP_ENDED;
+  scalars.isStepSolved = isConfirmed && update <= step.tolerance && isFollowed && isFalling ? 1u : 0u;
   scalars.isSystemSolved = 0u;
   scalars.newtonSteps += 1u;
 #else

@@ -91,7 +91,7 @@ void addPair(uvec4 ids, bool areSides, PartPlaces places, NearestParts nearest, 
   precise float halfReach = 0.5 * reach;
   precise float room = (4.0 * gap) * (reach - gap);
   precise float more = (reach * reach) * reciprocal(room);
-  precise float stiffness = PAIR_OVER_INERTIA * (inertia * reciprocal(squares)) + uintBitsToFloat(0x3c23d70au) * springs;  // PAIR_OVER_SPRINGS
+  precise float stiffness = PAIR_OVER_INERTIA * (inertia * reciprocal(squares)) + springs;
   precise float stiffer = stiffness * more;
   precise float ofPair = shareOf(ids.x, areSides, places, nearest) * (gap < halfReach ? stiffer : stiffness);
   if (!(ofPair > 0.0)) return;

@@ -52,6 +52,7 @@ GpuOptions forThisDevice(GpuOptions options) {
     options.groupRows = software ? 1 : 8;
   }
   if (!options.limitsInTiles) options.limitsInTiles = !software;
+  if (!options.looksAtFlags) options.looksAtFlags = software;
   if (!options.storageLoads) options.storageLoads = !software && hasPlacesForStorageLoads();
   return options;
 }
@@ -178,26 +179,46 @@ void GpuExecutor::run(const StepInputs& inputs, const PassList& list, int steps)
   surfaceContact_.bindTextures();
   watch_.bind(inputs.clock.step);
 
-  for (std::span<const PassCall> rest = list.passes; !rest.empty();) rest = rest.subspan(runKernel(rest));
+  seen_.reset();
+  for (std::span<const PassCall> rest = list.passes; !rest.empty();) {
+    const std::span<const PassCall> taken = rest.first(passesTaken(rest));
+    if (!isClosed(taken.front().traits().gate)) runKernel(taken);
+    rest = rest.subspan(taken.size());
+  }
 
   if (list.outcome == Outcome::state) std::swap(arrays_[Array::positions], arrays_[Array::newPositions]);
   if (list.outcome != Outcome::nothing) std::swap(arrays_[Array::velocities], arrays_[Array::newVelocities]);
 }
 
-// Returns how many passes it took.
-std::size_t GpuExecutor::runKernel(std::span<const PassCall> passes) {
+// Whether the passes behind the gate would do nothing (sim/implicit/gate.glsl), as far as that is known here.
+bool GpuExecutor::isClosed(Gate gate) {
+  if (gate == Gate::none || !*options_.looksAtFlags) return false;
+  if (!seen_) seen_ = arrays_.scalars();
+  return seen_->isStepSolved != 0 || (gate == Gate::system && seen_->isSystemSolved != 0);
+}
+
+// How many of the passes one kernel does.
+std::size_t GpuExecutor::passesTaken(std::span<const PassCall> passes) const {
+  const Domain domain = passes.front().traits().domain;
+  if (domain == Domain::contacts || domain == Domain::surface) return 1;
+  return kernelFor(passes, kernelOptions_).passes;
+}
+
+void GpuExecutor::runKernel(std::span<const PassCall> passes) {
   const PassCall& call = passes.front();
-  if (call.traits().domain == Domain::contacts) {
-    selfCollision_.run(runner_, call, arrays_, [&](std::size_t piece) { parameters_.bindPiece(piece); });
-    return 1;
-  }
+  if (std::ranges::any_of(passes,
+                          [](const PassCall& c) { return c.traits().writes.contains(Array::scalars); }))
+    seen_.reset();
+  if (call.traits().domain == Domain::contacts)
+    return selfCollision_.run(runner_, call, arrays_,
+                              [&](std::size_t piece) { parameters_.bindPiece(piece); });
   if (call.traits().domain == Domain::surface) {
-    surfaceContact_.run(runner_, call, arrays_);
-    return 1;
+    seen_.reset();
+    return surfaceContact_.run(runner_, call, arrays_);
   }
-  const auto [number, count] = kernelFor(passes, kernelOptions_);
+  const std::size_t number = kernelFor(passes, kernelOptions_).kernel;
   const Kernel& kernel = kernels()[number];
-  const std::string name = runner_.isTiming() ? nameOf(passes.first(count)) : "";
+  const std::string name = runner_.isTiming() ? nameOf(passes) : "";
   for (const Pass own : kernel.passes) arrays_.bindFor(own);
   if (kernel.rewritten) arrays_.bindSpare(*kernel.rewritten);
   for (std::size_t stage = 0; stage < kernel.stages.size(); ++stage) {
@@ -206,7 +227,6 @@ std::size_t GpuExecutor::runKernel(std::span<const PassCall> passes) {
     runStage(kernel.stages[stage].over, programs, call, name);
   }
   if (kernel.rewritten) arrays_.takeSpare(*kernel.rewritten);
-  return count;
 }
 
 void GpuExecutor::runStage(Over over, const StagePrograms& programs, const PassCall& call,

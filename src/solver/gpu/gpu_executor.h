@@ -38,6 +38,10 @@ struct GpuOptions {
   // The state at the start of a step is read from storage blocks instead of as texels; empty: where OpenGL is
   // hardware. A software renderer is faster at texels.
   std::optional<bool> storageLoads = {};
+  // Passes that would do nothing, because the step or the linear system is solved, are not even dispatched:
+  // the flags are read back. Empty: on a software renderer, which has set them by then; hardware would be
+  // waited for.
+  std::optional<bool> looksAtFlags = {};
 };
 
 class GpuExecutor final : public Executor {
@@ -81,7 +85,9 @@ class GpuExecutor final : public Executor {
 
   void setSurface(const StepInputs& inputs);
   void compile(const StepInputs& inputs, const PassList& list);
-  std::size_t runKernel(std::span<const PassCall> passes);
+  [[nodiscard]] std::size_t passesTaken(std::span<const PassCall> passes) const;
+  void runKernel(std::span<const PassCall> passes);
+  [[nodiscard]] bool isClosed(Gate gate);
   // A stage of a kernel, with its programs by piece.
   using StagePrograms = std::vector<const gl::Program*>;
   void runStage(Over over, const StagePrograms& programs, const PassCall& call, const std::string& name);
@@ -115,6 +121,8 @@ class GpuExecutor final : public Executor {
   GpuSelfCollision selfCollision_;
   GpuSurfaceContact surfaceContact_;
   PassRunner runner_;
+
+  std::optional<ImplicitScalars<float>> seen_;  // what no pass has written since
 
   GpuWatch watch_;
 };

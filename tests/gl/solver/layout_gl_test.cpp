@@ -200,7 +200,7 @@ TEST_F(LayoutTest, OfWhatTheImplicitIntegratorSharesIsTheDrivers) {
   const gl::Program& totals = programOf(library, {Pass::sumFirstResidual}, features);
   const GLuint index = glGetProgramResourceIndex(totals.name(), GL_BUFFER_VARIABLE, "scalars.residual");
   ASSERT_NE(index, GL_INVALID_INDEX);
-  EXPECT_EQ(sizeof(ImplicitScalars<float>), 80u);
+  EXPECT_EQ(sizeof(ImplicitScalars<float>), 96u);
   EXPECT_EQ(offsetof(ImplicitScalars<float>, newtonLength), 12u);
 }
 

@@ -138,9 +138,9 @@ TEST(CgIterations, GrowWithTheStepWhenAuto) {
                    std::to_string(framesPerSec) + "}}")
         .solver.cgIterations;
   };
-  EXPECT_EQ(iterations(1000), AutoCount(10, true));
-  EXPECT_EQ(iterations(60), AutoCount(20, true));
-  EXPECT_EQ(iterations(30), AutoCount(40, true));
+  EXPECT_EQ(iterations(1000), AutoCount(20, true));
+  EXPECT_EQ(iterations(120), AutoCount(40, true));
+  EXPECT_EQ(iterations(100), AutoCount(48, true));
   EXPECT_EQ(iterations(20), AutoCount(60, true));
   EXPECT_EQ(iterations(5), AutoCount(60, true));
   Scene scene = sceneOf(R"({"cloth": {}, "solver": {"simulation_steps": 1, "frames_per_sec": 60}})");
