@@ -108,4 +108,17 @@ int supportedSamples(int wanted) {
   return wanted;
 }
 
+void Framebuffer::copyColumnsInto(GLuint target, int from) const {
+  glBlitNamedFramebuffer(name_, target, from, 0, format_.width, format_.height, from, 0, format_.width,
+                         format_.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+GLuint boundFramebuffer() {
+  GLint name = 0;
+  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &name);
+  return static_cast<GLuint>(name);
+}
+
+void bindFramebuffer(GLuint name) { glBindFramebuffer(GL_FRAMEBUFFER, name); }
+
 }  // namespace clothsim::gl

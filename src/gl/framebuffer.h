@@ -37,6 +37,8 @@ class Framebuffer {
   [[nodiscard]] const FramebufferFormat& format() const { return format_; }
 
   void bind() const;  // for drawing, with the viewport over all of it
+  // Copies the colour of columns `from` to the last into framebuffer `target`, which is as large.
+  void copyColumnsInto(GLuint target, int from) const;
   // Averages the samples of the colour into `target`, which has the same size and format and is not
   // multisampled.
   void resolveInto(const Framebuffer& target) const;
@@ -54,5 +56,8 @@ class Framebuffer {
 // The most samples a pixel, up to `wanted`, that colour and depth attachments really have: a driver may round
 // up what it is asked for, and llvmpipe makes 4 of 2.
 [[nodiscard]] int supportedSamples(int wanted);
+// What is drawn into.
+[[nodiscard]] GLuint boundFramebuffer();
+void bindFramebuffer(GLuint name);
 
 }  // namespace clothsim::gl

@@ -67,8 +67,7 @@ void KeptPanels::draw(const ImDrawData& data, float left) {
                                      .color = GL_RGBA8};
   const int from = static_cast<int>(left);
   if (!lists.empty() && from < format.width) {
-    GLint shown = 0;
-    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &shown);
+    const GLuint shown = gl::boundFramebuffer();
     std::vector<std::byte> wanted = bytesOf(lists);
     if (!(kept_.format() == format)) {
       kept_ = gl::Framebuffer("panels", format);
@@ -79,10 +78,9 @@ void KeptPanels::draw(const ImDrawData& data, float left) {
       drawLists(data, lists);
       drawn_ = std::move(wanted);
       ++timesDrawn_;
-      glBindFramebuffer(GL_FRAMEBUFFER, static_cast<GLuint>(shown));
+      gl::bindFramebuffer(shown);
     }
-    glBlitNamedFramebuffer(kept_.name(), static_cast<GLuint>(shown), from, 0, format.width, format.height,
-                           from, 0, format.width, format.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    kept_.copyColumnsInto(shown, from);
   }
   drawLists(data, over);
 }
