@@ -170,6 +170,11 @@ struct LevelsInARow {
   uint unused;
 };
 
+// After so many Newton steps, linear systems of a step end at this part of the r.z that it may lack at its
+// end. The first ones are solved as well as the tolerance says: most steps need no more.
+#define THOROUGH_NEWTON_STEPS 3u
+#define SUFFICIENT_RESIDUAL 0.25
+
 // What conjugate gradients and the line search have come to.
 SHARED_STRUCT ImplicitScalars {
   real residual;      // r.z

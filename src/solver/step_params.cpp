@@ -110,12 +110,12 @@ double meanSpacing(const Cloth& cloth) {
   return sum / cloth.particleCount();
 }
 
-// What colliders add to CONTACT_OVER_INERTIA: the sheet is to bend around them, not to stretch into them, also
-// in long steps. Stiffer contact costs: a coarse vertex that moves as a rigid body cannot follow a curved
-// surface, and conjugate gradients have to. With 4 times the stiffest spring, folds of cotton around a ball
-// took 5 times the iterations. A limit keeps what slides solvable: where a normal is no axis, a coarse matrix
-// has the stiffness of contact and the inertia along the surface in the same entries, and binary32 holds both
-// up to this ratio.
+// What colliders add to CONTACT_OVER_INERTIA: the sheet is to bend around them, not to stretch into them,
+// also in long steps. Stiffer contact costs: a coarse vertex that moves as a rigid body cannot follow a
+// curved surface, and conjugate gradients have to. With 4 times the stiffest spring, folds of cotton around a
+// ball took 5 times the iterations. A limit keeps what slides solvable: where a normal is no axis, a coarse
+// matrix has the stiffness of contact and the inertia along the surface in the same entries, and binary32
+// holds both up to this ratio.
 double contactStiffness(const Piece& piece, double inertia) {
   return std::min(CONTACT_OVER_SPRINGS * piece.stiffestSpring(), piece.particleMass * inertia / LEAST_PIVOT);
 }

@@ -56,7 +56,7 @@ void takeTotal(Sum total) {
   precise float least = step.systemTolerance * residual;
   float sufficient = scalars.sufficientResidual;
   scalars.residual = residual;
-  scalars.leastResidual = scalars.newtonSteps > 0u && least < sufficient ? sufficient : least;
+  scalars.leastResidual = scalars.newtonSteps >= THOROUGH_NEWTON_STEPS && least < sufficient ? sufficient : least;
   scalars.kept = 0.0;
   scalars.isSystemSolved = total < 0.0 ? SYSTEM_LOST : 0u;
 #elif SUM_KIND == SUM_STEP
@@ -78,7 +78,7 @@ void takeTotal(Sum total) {
   bool isFalling = scalars.newtonSteps == 0u || small <= step.tolerance || squaredUpdate <= allowed;
   scalars.lastUpdate = update;
   precise float tolerated = step.toleratedStiffness * motion;
-  precise float sufficient = step.toleratedStiffness * total.y;
+  precise float sufficient = SUFFICIENT_RESIDUAL * (step.toleratedStiffness * total.y);
   scalars.sufficientResidual = sufficient;
   bool isFollowed = scalars.isSystemSolved != SYSTEM_LOST &&
                     (scalars.isSystemSolved != 0u || scalars.residual <= tolerated);

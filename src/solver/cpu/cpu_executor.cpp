@@ -211,7 +211,7 @@ void CpuExecutor<Real>::sum(Pass pass) {
     case Pass::sumFirstResidual:
       scalars.residual = residual();
       scalars.leastResidual = parameters_.pieces[0].systemTolerance * scalars.residual;
-      if (scalars.newtonSteps > 0)
+      if (scalars.newtonSteps >= THOROUGH_NEWTON_STEPS)
         scalars.leastResidual = cpu::larger(scalars.leastResidual, scalars.sufficientResidual);
       scalars.kept = 0;
       break;
@@ -266,9 +266,10 @@ Real largestSquare(const Components<Real>& v, Real most) {
 // The update over the motion of the step, or over the least motion that counts. An update is small, too,
 // where the linear solver has hardly begun: r.z, the energy of what is missing as the preconditioner sees it,
 // has to be small as well, against what such a motion would cost in inertia alone: linear systems of further
-// Newton steps end where it is. And updates have to fall: at the rate t of the last two, t/(1 - t) of the last
-// one is still to come (Hairer and Wanner, "Solving ordinary differential equations II", IV.8), twice the
-// tolerance at most. The first Newton step takes contacts as they were predicted: another one confirms it.
+// Newton steps end where it is. And updates have to fall: at the rate t of the last two, t/(1 - t) of the
+// last one is still to come (Hairer and Wanner, "Solving ordinary differential equations II", IV.8), twice
+// the tolerance at most. The first Newton step takes contacts as they were predicted: another one confirms
+// it.
 template <class Real>
 void CpuExecutor<Real>::measureUpdate() {
   ImplicitScalars<Real>& scalars = implicit_.scalars;
@@ -276,7 +277,7 @@ void CpuExecutor<Real>::measureUpdate() {
   const Real ownMotion = largestSquare(implicit_.displacements, Real(LARGE_SQUARE));
   const Real motion = cpu::larger(ownMotion, step.leastMotion * step.leastMotion);
   // Not by the least motion: cloth at rest lies on planes less deep than that would leave undecided.
-  scalars.sufficientResidual = step.toleratedStiffness * ownMotion;
+  scalars.sufficientResidual = Real(SUFFICIENT_RESIDUAL) * (step.toleratedStiffness * ownMotion);
   const Real square = largestSquare(implicit_.increments, Real(LARGE_SQUARE)) * reciprocal(motion);
   const Real update = square * inverseSquareRoot(square);
   const bool isFalling = scalars.newtonSteps == 0 || Real(8) * update <= step.tolerance ||
