@@ -14,12 +14,13 @@ layout(location = 0) out Surface surface;
 invariant gl_Position;  // the same as in cloth_depth.vert
 
 void main() {
-  vec3 point = drawnPoint(position.xyz, normal.xyz, uv);
+  vec3 point = drawnPoint(position.xyz, normal, uv);
+  vec3 lit = litPoint(position.xyz, normal, uv, frame.toKeyLight.xyz);
   surface.position = point;
   surface.normal = normal.xyz;
   surface.uv = uv;
   surface.hollow = normal.w;
-  surface.shadowPlace = shadowPlaceOf(point, normal.xyz, CLOTH_OFFSET_TEXELS);
+  surface.shadowPlace = shadowPlaceOf(lit, normal.xyz, CLOTH_OFFSET_TEXELS);
 #ifdef TANGENT
   surface.tangent = tangent.xyz;
 #endif

@@ -8,6 +8,6 @@ layout(location = TEXTURE_COORDINATE_LOCATION) in vec2 uv;
 invariant gl_Position;
 
 void main() {
-  vec3 point = drawnPoint(position.xyz, normal.xyz, uv);
+  vec3 point = drawnPoint(position.xyz, normal, uv);
   gl_Position = frame.clipFromWorld * vec4(point, 1.0);
 }

@@ -7,6 +7,8 @@ layout(location = NORMAL_LOCATION) in vec4 normal;
 layout(location = TEXTURE_COORDINATE_LOCATION) in vec2 uv;
 
 void main() {
-  vec3 point = drawnPoint(position.xyz, normal.xyz, uv);
+  // Depth grows away from the light.
+  vec3 toLight = -normalize(vec3(frame.shadowFromWorld[0].z, frame.shadowFromWorld[1].z, frame.shadowFromWorld[2].z));
+  vec3 point = castingPoint(position.xyz, normal, uv, toLight);
   gl_Position = vec4((frame.shadowFromWorld * vec4(point, 1.0)).xyz * 2.0 - 1.0, 1.0);
 }

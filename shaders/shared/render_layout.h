@@ -28,8 +28,12 @@ using uint = unsigned int;
 #define SMOOTH_COUNTS_BINDING 1   // a word for each work group
 #define SMOOTH_KEPT_BINDING 2     // three words a triangle
 #define SMOOTH_COMMAND_BINDING 3  // of glDrawElementsIndirect
-#define SMOOTH_GROUP 64           // invocations of a work group
-#define SHADOW_MAP_UNIT 0         // texture units
+#define RIM_CORNERS_BINDING \
+  6  // four words a corner: the point before it, it, the one after it, the bits of the radius
+#define RIM_PLACES_BINDING 7  // as SMOOTH_PLACES_BINDING
+#define RIM_POINTS 6          // of a rim at each corner; the middle is there twice
+#define SMOOTH_GROUP 64       // invocations of a work group
+#define SHADOW_MAP_UNIT 0     // texture units
 #define FLOOR_SHADOW_UNIT 1
 #define CANVAS_UNIT 2
 #define CUTS_BINDING 2  // storage block, a word a particle: which of its springs are cut (cloth/cuts.h)
@@ -93,7 +97,8 @@ struct RenderFrame {
   vec4 strainStops[STRAIN_STOPS];  // colours from the most compressed to the most stretched
   float strainRange;               // l/L - 1 at the last of them
   float flatness;                  // how far triangles may lie beside the smooth surface [pixels]
-  float unused1, unused2;
+  float thickness;                 // 1: cloth is drawn as thick as it is; 0: without thickness
+  float casterThickness;           // the same where its shadow falls from
 };
 
 struct ClothPiece {
@@ -106,6 +111,8 @@ struct ClothPiece {
   float front;   // -1 where rows go up on the front (a standing sheet), else 1
   uint steps;    // of the smooth surface on each side of a cell
   uint firstPoint, firstControl;  // of this piece there
+  float halfThickness;            // of what is drawn [m]
+  float unused1, unused2, unused3;
 };
 
 #ifdef __cplusplus

@@ -56,7 +56,8 @@ ClothMesh::ClothMesh(const Cloth& cloth)
                        .rows = block[0].rows,
                        .firstParticle = piece.firstParticle,
                        .particles = piece.particleCount(),
-                       .neighbours = {}});
+                       .neighbours = {},
+                       .values = block[0]});
     if (piece.isMesh)
       pieces_.back().neighbours =
           gl::Buffer<std::uint32_t>("mesh neighbours", meshNeighbours(cloth, piece, fold));
@@ -70,6 +71,7 @@ ClothMesh::ClothMesh(const Cloth& cloth)
 
 // Grid by grid, as remainingTriangles() has them.
 void ClothMesh::setTriangles(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+  rim_.reset();
   std::vector<std::uint32_t> indices;
   indices.reserve(3 * triangles.size());
   for (const auto& triangle : triangles) indices.insert(indices.end(), triangle.begin(), triangle.end());
@@ -91,6 +93,31 @@ void ClothMesh::setCuts(const Cloth& cloth, const Cuts& cuts) {
   setTriangles(remainingTriangles(cloth, cuts));
   const std::vector<std::uint32_t> words(cuts.begin(), cuts.end());
   cuts_ = words.empty() ? gl::Buffer<std::uint32_t>() : gl::Buffer<std::uint32_t>("cuts", words);
+}
+
+void ClothMesh::setThickness(std::span<const float> thickness) {
+  rim_.reset();
+  for (std::size_t i = 0; i < pieces_.size(); ++i) {
+    pieces_[i].values.halfThickness = thickness[i] / 2;
+    pieces_[i].block.upload(std::span(&pieces_[i].values, 1));
+  }
+}
+
+void ClothMesh::makeRim() {
+  const std::vector<std::uint32_t> words = indices_.download();
+  std::vector<ClothRim::Strip> strips;
+  for (const PieceBuffers& piece : pieces_) {
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    for (std::size_t at = piece.firstIndex; at < piece.firstIndex + piece.indexCount; at += 3)
+      triangles.push_back({words[at], words[at + 1], words[at + 2]});
+    strips.push_back({piece.values, borderOf(TriangleSides(triangles))});
+  }
+  rim_.emplace(strips, textureCoordinates_.download());
+}
+
+void ClothMesh::computeRim(const gl::Program& program, GLuint positions) {
+  if (!rim_) makeRim();
+  rim_->compute(program, positions, normals_.name(), tangents_.name());
 }
 
 void ClothMesh::keepRestPositions(const Cloth& cloth) {
@@ -122,6 +149,10 @@ void ClothMesh::computeNormals(const NormalsPrograms& programs, GLuint positions
     gl::dispatch(piece.columns, piece.rows, NORMALS_GROUP_SIZE, NORMALS_GROUP_SIZE);
   }
   glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);  // normals, and the solver's positions, as vertices
+}
+
+void ClothMesh::drawRim() const {
+  if (rim_) rim_->draw();
 }
 
 void ClothMesh::draw(GLuint positions, bool meshesAsLines) {

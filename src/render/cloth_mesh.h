@@ -2,6 +2,8 @@
 // normals and tangents are computed beside them on the GPU.
 #pragma once
 
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "cloth/cloth.h"
@@ -9,6 +11,7 @@
 #include "gl/buffer.h"
 #include "gl/program.h"
 #include "gl/vertex_array.h"
+#include "render/cloth_rim.h"
 #include "shared/render_layout.h"
 
 namespace clothsim {
@@ -29,6 +32,8 @@ class ClothMesh {
   // Triangles with a cut side are drawn no more, and do not bend their neighbours' normals.
   void setCuts(const Cloth& cloth, const Cuts& cuts);
   [[nodiscard]] bool hasCuts() const { return cuts_.size() > 0; }
+  // How thick each piece is drawn, by programs with THICK [m]. Without it nothing has an edge.
+  void setThickness(std::span<const float> thickness);
   // For a normals pass with STRAIN, which compares with the cloth at rest.
   void keepRestPositions(const Cloth& cloth);
 
@@ -36,6 +41,10 @@ class ClothMesh {
   void computeNormals(const NormalsPrograms& programs, GLuint positions);
   // The triangles of all pieces, with the program and its state bound by the caller.
   void draw(GLuint positions, bool meshesAsLines = false);
+  // The edge of cloth that is thick, of which draw() is the sides: after computeNormals(). Made when it is
+  // first asked for.
+  void computeRim(const gl::Program& program, GLuint positions);
+  void drawRim() const;
 
   // A vec4 a particle: unit normal; how far the cloth around rises above the tangent plane.
   [[nodiscard]] const gl::Buffer<glm::vec4>& normals() const { return normals_; }
@@ -49,8 +58,10 @@ class ClothMesh {
     GLuint columns, rows, firstParticle, particles;
     gl::Buffer<std::uint32_t> neighbours;  // of a mesh: meshNeighbours()
     std::size_t firstIndex = 0, indexCount = 0;
+    shared::ClothPiece values{};
     [[nodiscard]] bool isMesh() const { return neighbours.size() > 0; }
   };
+  void makeRim();
   void setTriangles(const std::vector<std::array<std::uint32_t, 3>>& triangles);
 
   std::vector<PieceBuffers> pieces_;
@@ -58,6 +69,7 @@ class ClothMesh {
   gl::Buffer<std::uint32_t> indices_;
   gl::Buffer<std::uint32_t> cuts_;
   gl::Buffer<std::array<float, 2>> textureCoordinates_;
+  std::optional<ClothRim> rim_;
   gl::VertexArray vertices_;
 };
 

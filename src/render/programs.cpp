@@ -16,6 +16,7 @@ gl::Program makeNormals(bool withCuts, bool withStrain) {
 gl::Program makeDepthOnly(const std::string& vertexFile, const ShadingModel& model) {
   gl::Defines defines;
   if (model.displaces) defines.emplace_back("DISPLACEMENT", "");
+  if (model.isThick) defines.emplace_back("THICK", "");
   return gl::Program::makeRender(vertexFile, "render/depth_only.frag", defines);
 }
 
@@ -92,6 +93,14 @@ const SmoothPrograms& RenderPrograms::smooth() {
   return *smooth_;
 }
 
+const gl::Program& RenderPrograms::rim(bool ofLean) {
+  auto& program = ofLean ? leanRim_ : rim_;
+  if (!program)
+    program.emplace(
+        gl::Program::makeCompute("render/rim.comp", ofLean ? gl::Defines{{"LEAN", ""}} : gl::Defines{}));
+  return *program;
+}
+
 const PickPrograms& RenderPrograms::picking() {
   if (!picking_) picking_.emplace();
   return *picking_;
@@ -124,7 +133,10 @@ void tryAllShaders(const RenderSettings& settings, int samples) {
     static_cast<void>(programs.meshNormals());
     static_cast<void>(programs.smooth());
     static_cast<void>(programs.shaded(true));
+    programs.chooseModel(shadingModelOf(other, true));
+    static_cast<void>(programs.shaded(true));
   }
+  for (const bool ofLean : {false, true}) static_cast<void>(programs.rim(ofLean));
   static_cast<void>(programs.picking());
   static_cast<void>(programs.overlays());
   static_cast<void>(programs.mean());

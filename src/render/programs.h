@@ -46,7 +46,8 @@ struct RenderPrograms {
   // The normals pass of the chosen model.
   [[nodiscard]] const gl::Program& normals(bool withCuts);
   [[nodiscard]] const gl::Program& meshNormals();
-  [[nodiscard]] const SmoothPrograms& smooth();  // the same for the smooth surface
+  [[nodiscard]] const SmoothPrograms& smooth();       // the same for the smooth surface
+  [[nodiscard]] const gl::Program& rim(bool ofLean);  // of cloth that is drawn thick
   [[nodiscard]] const PickPrograms& picking();
   [[nodiscard]] const OverlayPrograms& overlays();
   [[nodiscard]] const MeanPrograms& mean();
@@ -62,7 +63,7 @@ struct RenderPrograms {
  private:
   ShadingModel model_;
   std::optional<ShadedPrograms> shaded_, exposed_;
-  std::optional<gl::Program> normals_, normalsWithCuts_, meshNormals_;
+  std::optional<gl::Program> normals_, normalsWithCuts_, meshNormals_, rim_, leanRim_;
   std::optional<SmoothPrograms> smooth_;
   std::optional<PickPrograms> picking_;
   std::optional<OverlayPrograms> overlays_;

@@ -18,6 +18,7 @@ struct RenderOptions {
   int subdivisions = 3;
   double flatness =
       0;  // halved only where it is seen by so much [pixels]; 0: everywhere, for highlights' sake
+  bool thick = false;  // the cloth as thick as it is, with round edges, where that is seen
   // Draws only where a picture differs from the one before, with the same pixels. It reads particles back,
   // which is next to nothing where the device is the processor, and a stall elsewhere.
   bool keepsStill = false;
@@ -47,6 +48,7 @@ inline constexpr std::array<std::string_view, 3> qualityNames{"draft", "normal",
   const bool lean = quality == Quality::normal && software;
   options.subdivisions = quality == Quality::draft ? 0 : lean ? 1 : 3;
   options.flatness = lean ? 0.25 : 0;
+  options.thick = quality != Quality::draft;
   options.keepsStill = software && quality != Quality::final;
   return options;
 }

@@ -43,6 +43,7 @@ Refinement refineGrid(const Piece& grid, std::uint32_t steps, std::uint32_t firs
   points.rowsGoUp = grid.rowsGoUp;
 
   Refinement refinement;
+  refinement.grid = points;
   refinement.pointCount = points.particleCount();
   refinement.triangles.reserve(std::size_t{2} * refinement.pointCount);
   // Cell by cell of the grid, so that neighbouring triangles have most points in common.

@@ -11,6 +11,7 @@
 namespace clothsim {
 
 struct Refinement {
+  Piece grid;  // of the points
   std::uint32_t pointCount = 0;
   std::vector<std::array<std::uint32_t, 3>> triangles;  // of points, turned as those of the cloth
   // Of a grid with two steps the points that are no particles, for smooth_choose.comp. On sides of cells

@@ -42,7 +42,7 @@ Renderer::Parts::Parts(const Shared<Cloth>& drawn, const Shared<Scene>& first, c
       options(withSupportedSamples(wanted)),
       outline(outlineOf(*cloth)),
       scene(first),
-      model(shadingModelOf(first->render)),
+      model(shadingModelOf(first->render, options.thick)),
       programs(model, first->render.background, options.samples),
       clothMesh(*cloth),
       colliders(wanted.sphereSegmentsAround, wanted.sphereSegmentsDown, longestEdge(*cloth)),
@@ -52,7 +52,7 @@ Renderer::Parts::Parts(const Shared<Cloth>& drawn, const Shared<Scene>& first, c
 
 // What can fail comes first: after an error all is as it was.
 void Renderer::Parts::configure(const Shared<Scene>& edited) {
-  const ShadingModel wanted = shadingModelOf(edited->render);
+  const ShadingModel wanted = shadingModelOf(edited->render, options.thick);
   textures.choose(wanted, edited->render.background);
   if (edited->render.background != scene->render.background)
     programs.chooseBackground(edited->render.background);
@@ -60,6 +60,12 @@ void Renderer::Parts::configure(const Shared<Scene>& edited) {
   model = wanted;
   if (model.measuresStrain) clothMesh.keepRestPositions(*cloth);
   scene = edited;
+  const std::vector<float> thick = model.isThick ? drawnThickness(*scene, *cloth) : std::vector<float>{};
+  if (thick != thickness) {
+    thickness = thick;
+    smooth.reset();
+    if (model.isThick) clothMesh.setThickness(thickness);
+  }
   stage = makeStage(outline, *scene);
   colliders.build(*scene);
   frame = makeLook(scene->render, outline.front, textures.irradiance());
@@ -126,13 +132,18 @@ void Renderer::Parts::lookThrough(const Exposure& exposure, const Camera& camera
   frame.eye = glm::inverse(fromLens)[3];
 }
 
-// As fine as it shows at the distance of what the camera looks at.
+// As fine as it shows at the distance of what the camera looks at; thick where that is seen.
 void Renderer::Parts::chooseSurface(const Camera& camera, int height, double aspect) {
+  constexpr double leastSeen = 0.25;  // [pixels]
   // Lines and cuts are those of the particles' triangles.
   const bool isRough = !scene->render.smooth || options.subdivisions == 0 || model.blends ||
                        clothMesh.hasCuts() || cloth->hasMesh();
   const double distance = static_cast<double>(glm::distance(camera.eye(), camera.target()));
   const double pixelsAMetre = 0.5 * height * static_cast<double>(camera.projection(aspect)[1][1]) / distance;
+  const auto thickest = std::max_element(thickness.begin(), thickness.end());
+  const bool isThick =
+      thickest != thickness.end() && static_cast<double>(*thickest) * pixelsAMetre > leastSeen;
+  frame.thickness = frame.casterThickness = isThick ? 1.0f : 0.0f;
   std::vector<std::uint32_t> steps;
   if (!isRough) steps = smoothSteps(*cloth, pixelsAMetre, options);
   if (std::all_of(steps.begin(), steps.end(), [](std::uint32_t n) { return n == 1; })) {
@@ -141,8 +152,9 @@ void Renderer::Parts::chooseSurface(const Camera& camera, int height, double asp
   }
   const bool isLean = options.flatness > 0 && !model.displaces;  // a relief shows everywhere
   if (isLean) std::fill(steps.begin(), steps.end(), 2u);
+  if (isLean) frame.casterThickness = 0;  // casters are the particles' triangles, which bend elsewhere
   if (!smooth || smooth->steps() != steps || smooth->isLean() != isLean)
-    smooth.emplace(*cloth, steps, isLean);
+    smooth.emplace(*cloth, steps, isLean, thickness);
 }
 
 void Renderer::Parts::uploadFrame() {
@@ -155,6 +167,11 @@ void Renderer::Parts::computeNormals(GLuint positions) {
       {programs.normals(clothMesh.hasCuts()), cloth->hasMesh() ? &programs.meshNormals() : nullptr},
       positions);
   if (smooth) smooth->compute(programs.smooth(), positions, clothMesh);
+  if (!drawsThick()) return;
+  if (smooth)
+    smooth->computeRim(programs.rim(smooth->isLean()));
+  else
+    clothMesh.computeRim(programs.rim(false), positions);
 }
 
 void Renderer::Parts::drawSurface(GLuint positions, bool meshesAsLines) {
@@ -162,6 +179,15 @@ void Renderer::Parts::drawSurface(GLuint positions, bool meshesAsLines) {
     smooth->draw();
   else
     clothMesh.draw(positions, meshesAsLines);
+  drawRim();
+}
+
+void Renderer::Parts::drawRim() const {
+  if (!drawsThick()) return;
+  if (smooth)
+    smooth->drawRim();
+  else
+    clothMesh.drawRim();
 }
 
 void Renderer::Parts::drawShadows(GLuint positions) {
@@ -179,6 +205,7 @@ void Renderer::Parts::drawCasters(GLuint positions) {
     smooth->draw();
   else
     clothMesh.draw(positions);
+  drawRim();
   // A solid's far side alone: its near side would shade itself by rounding.
   glEnable(GL_CULL_FACE);
   glCullFace(GL_FRONT);
@@ -295,7 +322,8 @@ void Renderer::Parts::findChanges(GLuint positions, int width, int height) {
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);  // the solver's last writes
   glGetNamedBufferSubData(positions, 0, static_cast<GLsizeiptr>(particles.size() * sizeof(glm::vec4)),
                           particles.data());
-  const float reach = smooth ? static_cast<float>(longestEdge(*cloth)) : 0;
+  float reach = smooth ? static_cast<float>(longestEdge(*cloth)) : 0;
+  if (drawsThick()) reach += *std::max_element(thickness.begin(), thickness.end());
   part =
       changes.next({frame.clipFromWorld, frame.shadowFromWorld, width, height, reach}, particles, colliders);
 }

@@ -51,6 +51,8 @@ struct Renderer::Parts {
   void chooseSurface(const Camera& camera, int height, double aspect);
   void computeNormals(GLuint positions);
   void drawSurface(GLuint positions, bool meshesAsLines = false);
+  [[nodiscard]] bool drawsThick() const { return frame.thickness > 0; }
+  void drawRim() const;
   void drawShadows(GLuint positions);
   void drawCasters(GLuint positions);
   void drawSkyShadows(GLuint positions);
@@ -76,6 +78,7 @@ struct Renderer::Parts {
   RenderPrograms programs;
   ModelTextures textures;
   ClothMesh clothMesh;
+  std::vector<float> thickness;         // of each piece as it is drawn [m]
   std::optional<SmoothSurface> smooth;  // drawn instead of the triangles of the particles
   Colliders colliders;
   ShadowMap shadowMap;

@@ -8,7 +8,7 @@ namespace clothsim {
 
 std::vector<std::string> shadingModelNames() { return {shadingModels.begin(), shadingModels.end()}; }
 
-ShadingModel shadingModelOf(const RenderSettings& settings) {
+ShadingModel shadingModelOf(const RenderSettings& settings, bool thick) {
   const std::string& name = settings.shader;
   if (std::find(shadingModels.begin(), shadingModels.end(), name) == shadingModels.end()) {
     std::string known;
@@ -29,10 +29,12 @@ ShadingModel shadingModelOf(const RenderSettings& settings) {
   model.measuresStrain = name == "strain";
   model.displaces = name == "displacement";
   model.blends = name == "wireframe";
+  model.isThick = thick && !model.displaces && !model.blends;  // lines have none, and reliefs their own
 
   if (name == "fabric" || name == "bump" || name == "displacement") model.defines.emplace_back("TANGENT", "");
   if (model.measuresStrain) model.defines.emplace_back("STRAIN", "");
   if (model.displaces) model.defines.emplace_back("DISPLACEMENT", "");
+  if (model.isThick) model.defines.emplace_back("THICK", "");
   if (model.textureUse == TextureUse::print) model.defines.emplace_back("PRINT", "");
   if (!model.weave.empty()) model.defines.emplace_back("WOVEN", "");
   return model;

@@ -24,11 +24,13 @@ struct ShadingModel {
   bool seesEnvironment = false;  // the sky, as a cube map
   bool measuresStrain = false;   // of the cloth, particle by particle
   bool displaces = false;        // its surface is not where the particles are
+  bool isThick = false;          // the cloth is drawn as thick as it is
   bool blends = false;           // drawn last, without hiding what is behind it
   gl::Defines defines;           // of cloth.vert and its own shader
   friend bool operator==(const ShadingModel&, const ShadingModel&) = default;
 };
-// @throws SceneError for a name that does not exist, listing those that do
-[[nodiscard]] ShadingModel shadingModelOf(const RenderSettings& settings);
+// `thick`: with the cloth's thickness, where the model has one. @throws SceneError for a name that does not
+// exist, listing those that do
+[[nodiscard]] ShadingModel shadingModelOf(const RenderSettings& settings, bool thick = false);
 
 }  // namespace clothsim

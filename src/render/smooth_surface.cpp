@@ -42,11 +42,13 @@ std::vector<std::uint32_t> smoothSteps(const Cloth& cloth, double pixelsAMetre,
   return steps;
 }
 
-SmoothSurface::SmoothSurface(const Cloth& cloth, std::span<const std::uint32_t> steps, bool isLean)
+SmoothSurface::SmoothSurface(const Cloth& cloth, std::span<const std::uint32_t> steps, bool isLean,
+                             std::span<const float> thickness)
     : steps_(steps.begin(), steps.end()), isLean_(isLean), vertices_("smooth surface") {
   std::uint32_t pointCount = 0, controlCount = 0;
   std::vector<std::uint32_t> sides, centers;
   std::vector<std::array<float, 2>> coordinates;
+  std::vector<ClothRim::Strip> rim;
   for (std::size_t i = 0; i < steps_.size(); ++i) {
     const Piece& piece = cloth.pieces()[i];
     const Refinement refinement = refineGrid(piece, steps_[i], pointCount);
@@ -54,6 +56,10 @@ SmoothSurface::SmoothSurface(const Cloth& cloth, std::span<const std::uint32_t> 
     block[0].steps = steps_[i];
     block[0].firstPoint = pointCount;
     block[0].firstControl = controlCount;
+    if (!thickness.empty()) {
+      block[0].halfThickness = thickness[i] / 2;
+      rim.push_back({block[0], borderOfGrid(refinement.grid)});
+    }
     PieceBuffers& made = pieces_.emplace_back();
     made.block = gl::Buffer<shared::ClothPiece>("smooth piece", block);
     made.columns = block[0].columns;
@@ -75,6 +81,7 @@ SmoothSurface::SmoothSurface(const Cloth& cloth, std::span<const std::uint32_t> 
   }
   controls_ = gl::Buffer<glm::vec4>("smooth controls", controlCount);
   makePoints(pointCount, coordinates);
+  if (!rim.empty()) rim_.emplace(rim, coordinates);
   if (!isLean) return;
   std::vector<std::uint32_t> places(pointCount);
   std::iota(places.begin(), places.end(), 0u);  // where particles stay
@@ -140,6 +147,15 @@ void SmoothSurface::chooseTriangles(const SmoothPrograms& programs) {
       gl::dispatch(piece.counts.size(), 1);
     }
   }
+}
+
+void SmoothSurface::computeRim(const gl::Program& program) {
+  if (isLean_) places_.bindStorage(RIM_PLACES_BINDING);
+  if (rim_) rim_->compute(program, points_.name(), normals_.name(), tangents_.name());
+}
+
+void SmoothSurface::drawRim() const {
+  if (rim_) rim_->draw();
 }
 
 void SmoothSurface::draw() {

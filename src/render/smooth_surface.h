@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,7 @@
 #include "gl/program.h"
 #include "gl/vertex_array.h"
 #include "render/cloth_mesh.h"
+#include "render/cloth_rim.h"
 #include "render/quality.h"
 #include "shared/render_layout.h"
 
@@ -40,7 +42,9 @@ class SmoothSurface {
   // `steps` for each piece, 1 to 8, of a cloth without meshes. A lean surface, of pieces with two steps, has
   // points beside the particles only where triangles without them would be seen to lie beside the surface,
   // and all but the places of its points from the particles.
-  SmoothSurface(const Cloth& cloth, std::span<const std::uint32_t> steps, bool isLean);
+  // `thickness` is that of each piece as it is drawn [m]; empty: without one, and without an edge.
+  SmoothSurface(const Cloth& cloth, std::span<const std::uint32_t> steps, bool isLean,
+                std::span<const float> thickness = {});
   [[nodiscard]] const std::vector<std::uint32_t>& steps() const { return steps_; }
   [[nodiscard]] bool isLean() const { return isLean_; }
 
@@ -49,6 +53,10 @@ class SmoothSurface {
   void compute(const SmoothPrograms& programs, GLuint positions, const ClothMesh& particles);
   // The triangles of all pieces, with the program and its state bound by the caller.
   void draw();
+  // The edge of cloth that is thick, of which draw() is the sides: after compute(), by rim.comp with LEAN
+  // where isLean().
+  void computeRim(const gl::Program& program);
+  void drawRim() const;
 
   // A vec4 a point, piece by piece, row by row: place [m]; unit normal, hollow as in ClothMesh::normals().
   [[nodiscard]] const gl::Buffer<glm::vec4>& points() const { return points_; }
@@ -77,6 +85,7 @@ class SmoothSurface {
   gl::Buffer<glm::vec4> controls_, points_, normals_, tangents_;
   gl::Buffer<std::array<float, 2>> textureCoordinates_;
   gl::VertexArray vertices_;
+  std::optional<ClothRim> rim_;
 };
 
 }  // namespace clothsim

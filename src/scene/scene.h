@@ -237,8 +237,9 @@ struct RenderSettings {
   double lightSize = 9;               // angle of the main light's disc, seen from the scene [degrees]
   std::string background = "studio";
   Vec3d backgroundColor{0.62, 0.67, 0.72};  // of the plain background
-  bool smooth = true;  // draw a smooth surface through the particles, but in draft quality
-  bool ground = true;  // draw a floor below everything when the scene has no horizontal plane
+  std::optional<double> thickness;  // of the cloth as it is drawn [m]; none: its own, but in draft quality
+  bool smooth = true;               // draw a smooth surface through the particles, but in draft quality
+  bool ground = true;               // draw a floor below everything when the scene has no horizontal plane
   friend bool operator==(const RenderSettings&, const RenderSettings&) = default;
 };
 

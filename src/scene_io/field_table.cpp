@@ -415,6 +415,12 @@ std::span<const Field<RenderSettings>> fieldsOf<RenderSettings>() {
           .in("sRGB")
           .within(channel)
           .as(Format::color),
+      field("thickness", &R::thickness,
+            "How thick the cloth is drawn, with round edges; 0: as a sheet without thickness.")
+          .in("m")
+          .within({.low = 0, .high = 1})
+          .usually(0, 0.02)
+          .byDefault("of the cloth, at most half the distance of its points; in draft quality 0"),
       field(
           "smooth", &R::smooth,
           "Draw grids as a smooth surface through the particles; false: by their triangles, as draft does."),

@@ -85,6 +85,7 @@ class RandomScene {
     if (maybe()) render.light = Vec3d{positive(), number(), number()};
     render.background = oneOf(backgrounds);
     render.backgroundColor = color();
+    if (maybe()) render.thickness = fraction();
     render.smooth = maybe();
     render.ground = maybe();
     return render;
