@@ -30,10 +30,12 @@ using uint = unsigned int;
 #define SMOOTH_COMMAND_BINDING 3  // of glDrawElementsIndirect
 #define RIM_CORNERS_BINDING \
   6  // four words a corner: the point before it, it, the one after it, the bits of the radius
-#define RIM_PLACES_BINDING 7  // as SMOOTH_PLACES_BINDING
-#define RIM_POINTS 6          // of a rim at each corner; the middle is there twice
-#define SMOOTH_GROUP 64       // invocations of a work group
-#define SHADOW_MAP_UNIT 0     // texture units
+#define RIM_PLACES_BINDING 7    // as SMOOTH_PLACES_BINDING
+#define RIM_POINTS 6            // of a rim at each corner; the middle is there twice
+#define PATCH_POINTS_BINDING 6  // eight words a point: PatchPoint of src/render/patches.h
+#define CUT_CORNERS_BINDING 6   // four words a corner: the particle before it, it, the one after it, nothing
+#define SMOOTH_GROUP 64         // invocations of a work group
+#define SHADOW_MAP_UNIT 0       // texture units
 #define FLOOR_SHADOW_UNIT 1
 #define CANVAS_UNIT 2
 #define CUTS_BINDING 2  // storage block, a word a particle: which of its springs are cut (cloth/cuts.h)

@@ -28,6 +28,7 @@ void Renderer::setScale(double scale) { parts_->scale = std::clamp(scale, 0.1, 1
 void Renderer::setCuts(const Cuts& cuts) {
   parts_->cuts = cuts;
   parts_->clothMesh.setCuts(*parts_->cloth, cuts);
+  parts_->smooth.reset();
   parts_->springs.forgetCuts();
   parts_->changes.forget();
 }

@@ -15,6 +15,7 @@ constexpr GLenum backdropFormat = GL_RGB10_A2;  // its slow gradients would show
 constexpr GLenum canvasFormat = GL_RGBA8;       // square roots of linear light (shaders/render/tone.glsl)
 constexpr GLenum exposureFormat = GL_RGBA16F;   // the same of an exposure, without steps
 constexpr float planeDepthUnits = 256;  // 2e-6 of the distance each (Camera::projection, 24 bits of depth)
+constexpr std::uint32_t MOST_CUT_STEPS = 2;
 constexpr std::size_t mostReadBack = 300'000;  // particles for which it pays to ask what has changed
 
 // The longest side of a triangle of cloth: the diagonal of a cell [m].
@@ -135,9 +136,10 @@ void Renderer::Parts::lookThrough(const Exposure& exposure, const Camera& camera
 // As fine as it shows at the distance of what the camera looks at; thick where that is seen.
 void Renderer::Parts::chooseSurface(const Camera& camera, int height, double aspect) {
   constexpr double leastSeen = 0.25;  // [pixels]
-  // Lines and cuts are those of the particles' triangles.
+  // Lines are those of the particles' triangles, and a lean surface is that of whole grids.
+  const bool isOfGrids = !clothMesh.hasCuts() && !cloth->hasMesh();
   const bool isRough = !scene->render.smooth || options.subdivisions == 0 || model.blends ||
-                       clothMesh.hasCuts() || cloth->hasMesh();
+                       (options.flatness > 0 && !isOfGrids);
   const double distance = static_cast<double>(glm::distance(camera.eye(), camera.target()));
   const double pixelsAMetre = 0.5 * height * static_cast<double>(camera.projection(aspect)[1][1]) / distance;
   const auto thickest = std::max_element(thickness.begin(), thickness.end());
@@ -146,6 +148,8 @@ void Renderer::Parts::chooseSurface(const Camera& camera, int height, double asp
   frame.thickness = frame.casterThickness = isThick ? 1.0f : 0.0f;
   std::vector<std::uint32_t> steps;
   if (!isRough) steps = smoothSteps(*cloth, pixelsAMetre, options);
+  if (clothMesh.hasCuts())  // which are put together anew whenever cloth tears
+    for (std::uint32_t& n : steps) n = std::min(n, MOST_CUT_STEPS);
   if (std::all_of(steps.begin(), steps.end(), [](std::uint32_t n) { return n == 1; })) {
     smooth.reset();
     return;
@@ -154,7 +158,7 @@ void Renderer::Parts::chooseSurface(const Camera& camera, int height, double asp
   if (isLean) std::fill(steps.begin(), steps.end(), 2u);
   if (isLean) frame.casterThickness = 0;  // casters are the particles' triangles, which bend elsewhere
   if (!smooth || smooth->steps() != steps || smooth->isLean() != isLean)
-    smooth.emplace(*cloth, steps, isLean, thickness);
+    smooth.emplace(*cloth, steps, isLean, thickness, cuts);
 }
 
 void Renderer::Parts::uploadFrame() {

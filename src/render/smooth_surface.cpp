@@ -21,6 +21,42 @@ void append(std::vector<T>& all, const std::vector<T>& more) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+
+bool isPatched(const Piece& piece, const Cuts& cuts) {
+  if (piece.isMesh || cuts.empty()) return piece.isMesh;
+  const auto first = cuts.begin() + piece.firstParticle;
+  return std::any_of(first, first + piece.particleCount(), [](std::uint8_t bits) { return bits != 0; });
+}
+
+// Those of a piece, which lie together.
+std::span<const std::array<std::uint32_t, 3>> ofPiece(const Triangles& triangles, const Piece& piece) {
+  const auto isBefore = [](const auto& triangle, std::uint32_t particle) { return triangle[0] < particle; };
+  const auto first = std::lower_bound(triangles.begin(), triangles.end(), piece.firstParticle, isBefore);
+  const auto end =
+      std::lower_bound(first, triangles.end(), piece.firstParticle + piece.particleCount(), isBefore);
+  return {first, end};
+}
+
+// Before, here and after on the edges of a grid's cuts; without those on the grid's own border, and without
+// particles at which edges meet.
+std::vector<glm::uvec4> cornersOnCuts(const Piece& piece,
+                                      std::span<const std::array<std::uint32_t, 3>> triangles) {
+  const std::vector<BorderCorner> edge = borderOf(TriangleSides(triangles));
+  std::vector<int> count(piece.particleCount());
+  for (const BorderCorner& corner : edge) ++count[corner.here - piece.firstParticle];
+  std::vector<glm::uvec4> corners;
+  const auto columns = static_cast<std::uint32_t>(piece.columns),
+             rows = static_cast<std::uint32_t>(piece.rows);
+  for (const BorderCorner& corner : edge) {
+    const std::uint32_t local = corner.here - piece.firstParticle, column = local % columns,
+                        row = local / columns;
+    const bool isInside = column > 0 && column + 1 < columns && row > 0 && row + 1 < rows;
+    if (isInside && count[local] == 1) corners.emplace_back(corner.before, corner.here, corner.after, 0);
+  }
+  return corners;
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> smoothSteps(const Cloth& cloth, double pixelsAMetre,
@@ -43,51 +79,76 @@ std::vector<std::uint32_t> smoothSteps(const Cloth& cloth, double pixelsAMetre,
 }
 
 SmoothSurface::SmoothSurface(const Cloth& cloth, std::span<const std::uint32_t> steps, bool isLean,
-                             std::span<const float> thickness)
+                             std::span<const float> thickness, const Cuts& cuts)
     : steps_(steps.begin(), steps.end()), isLean_(isLean), vertices_("smooth surface") {
-  std::uint32_t pointCount = 0, controlCount = 0;
-  std::vector<std::uint32_t> sides, centers;
-  std::vector<std::array<float, 2>> coordinates;
-  std::vector<ClothRim::Strip> rim;
+  Points all;
+  const Triangles triangles =
+      cloth.hasMesh() || !cuts.empty() ? remainingTriangles(cloth, cuts) : Triangles{};
   for (std::size_t i = 0; i < steps_.size(); ++i) {
     const Piece& piece = cloth.pieces()[i];
-    const Refinement refinement = refineGrid(piece, steps_[i], pointCount);
-    std::array block{blockOf(piece)};
-    block[0].steps = steps_[i];
-    block[0].firstPoint = pointCount;
-    block[0].firstControl = controlCount;
-    if (!thickness.empty()) {
-      block[0].halfThickness = thickness[i] / 2;
-      rim.push_back({block[0], borderOfGrid(refinement.grid)});
-    }
-    PieceBuffers& made = pieces_.emplace_back();
-    made.block = gl::Buffer<shared::ClothPiece>("smooth piece", block);
-    made.columns = block[0].columns;
-    made.rows = block[0].rows;
-    if (isLean) {
-      const std::array command{DrawCommand{}};
-      const std::size_t cells = refinement.triangles.size() / 8;
-      made.counts = gl::Buffer<std::uint32_t>("smooth counts", (cells + SMOOTH_GROUP - 1) / SMOOTH_GROUP);
-      made.kept = gl::Buffer<std::uint32_t>("smooth triangles kept", 3 * refinement.triangles.size());
-      made.command = gl::Buffer<DrawCommand>("smooth command", command);
-    } else {
-      made.triangles = gl::Buffer<std::uint32_t>("smooth triangles", wordsOf(refinement.triangles));
-    }
-    append(sides, refinement.sides);
-    append(centers, refinement.centers);
-    append(coordinates, refinement.textureCoordinates);
-    pointCount += refinement.pointCount;
-    controlCount += 2 * (block[0].columns + 2) * (block[0].rows + 2);
+    shared::ClothPiece block = blockOf(piece);
+    block.steps = steps_[i];
+    block.firstPoint = all.count;
+    block.firstControl = all.controls;
+    if (!thickness.empty()) block.halfThickness = thickness[i] / 2;
+    pieces_.push_back(isPatched(piece, cuts)
+                          ? makePatches(cloth, piece, ofPiece(triangles, piece), block, all)
+                          : makeGrid(piece, block, all));
   }
-  controls_ = gl::Buffer<glm::vec4>("smooth controls", controlCount);
-  makePoints(pointCount, coordinates);
-  if (!rim.empty()) rim_.emplace(rim, coordinates);
+  controls_ = gl::Buffer<glm::vec4>("smooth controls", all.controls);
+  makePoints(all.count, all.textureCoordinates);
+  if (!thickness.empty()) rim_.emplace(all.rim, all.textureCoordinates);
+  if (!all.cutCorners.empty()) {
+    cutCorners_ = gl::Buffer<glm::uvec4>("smooth cut corners", all.cutCorners);
+    moved_ = gl::Buffer<glm::vec4>("smooth particles", cloth.particleCount());
+  }
   if (!isLean) return;
-  std::vector<std::uint32_t> places(pointCount);
+  std::vector<std::uint32_t> places(all.count);
   std::iota(places.begin(), places.end(), 0u);  // where particles stay
   places_ = gl::Buffer<std::uint32_t>("smooth places", places);
-  sides_ = gl::Buffer<std::uint32_t>("smooth sides", sides);
-  centers_ = gl::Buffer<std::uint32_t>("smooth centers", centers);
+  sides_ = gl::Buffer<std::uint32_t>("smooth sides", all.sides);
+  centers_ = gl::Buffer<std::uint32_t>("smooth centers", all.centers);
+}
+
+SmoothSurface::PieceBuffers SmoothSurface::makeGrid(const Piece& piece, const shared::ClothPiece& block,
+                                                    Points& all) const {
+  const Refinement refinement = refineGrid(piece, block.steps, block.firstPoint);
+  PieceBuffers made;
+  made.block = gl::Buffer<shared::ClothPiece>("smooth piece", std::span(&block, 1));
+  made.columns = block.columns;
+  made.rows = block.rows;
+  if (isLean_) {
+    const std::array command{DrawCommand{}};
+    const std::size_t cells = refinement.triangles.size() / 8;
+    made.counts = gl::Buffer<std::uint32_t>("smooth counts", (cells + SMOOTH_GROUP - 1) / SMOOTH_GROUP);
+    made.kept = gl::Buffer<std::uint32_t>("smooth triangles kept", 3 * refinement.triangles.size());
+    made.command = gl::Buffer<DrawCommand>("smooth command", command);
+  } else {
+    made.triangles = gl::Buffer<std::uint32_t>("smooth triangles", wordsOf(refinement.triangles));
+  }
+  append(all.sides, refinement.sides);
+  append(all.centers, refinement.centers);
+  append(all.textureCoordinates, refinement.textureCoordinates);
+  all.rim.push_back({block, borderOfGrid(refinement.grid)});
+  all.count += refinement.pointCount;
+  all.controls += 2 * (block.columns + 2) * (block.rows + 2);
+  return made;
+}
+
+SmoothSurface::PieceBuffers SmoothSurface::makePatches(
+    const Cloth& cloth, const Piece& piece, std::span<const std::array<std::uint32_t, 3>> triangles,
+    const shared::ClothPiece& block, Points& all) const {
+  const Patches patches = divideTriangles(triangles, block.steps, block.firstPoint, cloth.positions(),
+                                          cloth.textureCoordinates());
+  PieceBuffers made;
+  made.block = gl::Buffer<shared::ClothPiece>("smooth piece", std::span(&block, 1));
+  made.patches = gl::Buffer<PatchPoint>("smooth patches", patches.points);
+  made.triangles = gl::Buffer<std::uint32_t>("smooth triangles", wordsOf(patches.triangles));
+  if (!piece.isMesh) append(all.cutCorners, cornersOnCuts(piece, triangles));
+  append(all.textureCoordinates, patches.textureCoordinates);
+  all.rim.push_back({block, patches.border});
+  all.count += static_cast<std::uint32_t>(patches.points.size());
+  return made;
 }
 
 void SmoothSurface::makePoints(std::uint32_t count,
@@ -104,7 +165,9 @@ void SmoothSurface::makePoints(std::uint32_t count,
 }
 
 void SmoothSurface::compute(const SmoothPrograms& programs, GLuint positions, const ClothMesh& particles) {
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, NORMALS_POSITIONS_BINDING, positions);
+  if (moved_.size() > 0) evenOutCuts(programs, positions);
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, NORMALS_POSITIONS_BINDING,
+                   moved_.size() > 0 ? moved_.name() : positions);
   particles.normals().bindStorage(NORMALS_OUT_BINDING);
   particles.tangents().bindStorage(TANGENTS_OUT_BINDING);
   controls_.bindStorage(SMOOTH_CONTROLS_BINDING);
@@ -115,14 +178,37 @@ void SmoothSurface::compute(const SmoothPrograms& programs, GLuint positions, co
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     program.bind();
     for (const PieceBuffers& piece : pieces_) {
+      if (piece.isPatched()) continue;
       piece.block.bindUniform(CLOTH_GRID_BINDING);
       gl::dispatch(piece.columns + more, piece.rows + more, NORMALS_GROUP_SIZE, NORMALS_GROUP_SIZE);
     }
   };
   dispatch(programs.control, 2);
   dispatch(isLean_ ? programs.leanPoints : programs.points, 0);
+  computePatches(programs);
   if (isLean_) chooseTriangles(programs);
   glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+}
+
+void SmoothSurface::computePatches(const SmoothPrograms& programs) {
+  for (const PieceBuffers& piece : pieces_) {
+    if (!piece.isPatched()) continue;
+    programs.patches.bind();
+    piece.block.bindUniform(CLOTH_GRID_BINDING);
+    piece.patches.bindStorage(PATCH_POINTS_BINDING);
+    gl::dispatch(piece.patches.size(), SMOOTH_GROUP);
+  }
+}
+
+void SmoothSurface::evenOutCuts(const SmoothPrograms& programs, GLuint positions) {
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);  // the solver's last writes
+  glCopyNamedBufferSubData(positions, moved_.name(), 0, 0, static_cast<GLsizeiptr>(moved_.bytes()));
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, NORMALS_POSITIONS_BINDING, positions);
+  cutCorners_.bindStorage(CUT_CORNERS_BINDING);
+  moved_.bindStorage(SMOOTH_POINTS_BINDING);
+  programs.cuts.bind();
+  gl::dispatch(cutCorners_.size(), SMOOTH_GROUP);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
 void SmoothSurface::chooseTriangles(const SmoothPrograms& programs) {

@@ -1,6 +1,6 @@
 // A smooth surface through the particles, for drawing alone: that of a grid is a bicubic B-spline that comes
-// by its particles to the fourth order of their spacing. Its points, normals and triangles are computed on
-// the GPU.
+// by its particles to the fourth order of their spacing, that of a mesh or a cut grid consists of curved
+// triangles. Its points, normals and triangles are computed on the GPU.
 #pragma once
 
 #include <array>
@@ -11,11 +11,13 @@
 #include <vector>
 
 #include "cloth/cloth.h"
+#include "cloth/cuts.h"
 #include "gl/buffer.h"
 #include "gl/program.h"
 #include "gl/vertex_array.h"
 #include "render/cloth_mesh.h"
 #include "render/cloth_rim.h"
+#include "render/patches.h"
 #include "render/quality.h"
 #include "shared/render_layout.h"
 
@@ -29,6 +31,8 @@ struct SmoothPrograms {
   gl::Program chooseSides = gl::Program::makeCompute("render/smooth_choose.comp");
   gl::Program chooseCenters = gl::Program::makeCompute("render/smooth_choose.comp", {{"CENTERS", ""}});
   gl::Program count = gl::Program::makeCompute("render/smooth_triangles.comp", {{"COUNT", ""}});
+  gl::Program patches = gl::Program::makeCompute("render/smooth_patches.comp");
+  gl::Program cuts = gl::Program::makeCompute("render/smooth_cuts.comp");
   gl::Program triangles = gl::Program::makeCompute("render/smooth_triangles.comp");
 };
 
@@ -39,12 +43,12 @@ struct SmoothPrograms {
 
 class SmoothSurface {
  public:
-  // `steps` for each piece, 1 to 8, of a cloth without meshes. A lean surface, of pieces with two steps, has
-  // points beside the particles only where triangles without them would be seen to lie beside the surface,
-  // and all but the places of its points from the particles.
-  // `thickness` is that of each piece as it is drawn [m]; empty: without one, and without an edge.
+  // `steps` for each piece, 1 to 8; of a cloth with these cuts. A lean surface, of whole grids alone, of
+  // pieces with two steps, has points beside the particles only where triangles without them would be seen to
+  // lie beside the surface, and all but the places of its points from the particles. `thickness` is that of
+  // each piece as it is drawn [m]; empty: without one, and without an edge.
   SmoothSurface(const Cloth& cloth, std::span<const std::uint32_t> steps, bool isLean,
-                std::span<const float> thickness = {});
+                std::span<const float> thickness = {}, const Cuts& cuts = {});
   [[nodiscard]] const std::vector<std::uint32_t>& steps() const { return steps_; }
   [[nodiscard]] bool isLean() const { return isLean_; }
 
@@ -72,16 +76,34 @@ class SmoothSurface {
     gl::Buffer<shared::ClothPiece> block;
     GLuint columns = 0, rows = 0;
     gl::Buffer<std::uint32_t> triangles;     // all of them, unless the surface is lean
+    gl::Buffer<PatchPoint> patches;          // of a mesh or a cut grid
     gl::Buffer<std::uint32_t> counts, kept;  // of a lean surface: those that are drawn
     gl::Buffer<DrawCommand> command;
+    [[nodiscard]] bool isPatched() const { return patches.size() > 0; }
   };
   void makePoints(std::uint32_t count, std::span<const std::array<float, 2>> textureCoordinates);
+  // What all pieces are put together from.
+  struct Points {
+    std::uint32_t count = 0, controls = 0;
+    std::vector<std::uint32_t> sides, centers;
+    std::vector<std::array<float, 2>> textureCoordinates;
+    std::vector<ClothRim::Strip> rim;
+    std::vector<glm::uvec4> cutCorners;
+  };
+  PieceBuffers makeGrid(const Piece& piece, const shared::ClothPiece& block, Points& all) const;
+  PieceBuffers makePatches(const Cloth& cloth, const Piece& piece,
+                           std::span<const std::array<std::uint32_t, 3>> triangles,
+                           const shared::ClothPiece& block, Points& all) const;
+  void computePatches(const SmoothPrograms& programs);
+  void evenOutCuts(const SmoothPrograms& programs, GLuint positions);
   void chooseTriangles(const SmoothPrograms& programs);
 
   std::vector<std::uint32_t> steps_;
   bool isLean_;
   std::vector<PieceBuffers> pieces_;
   gl::Buffer<std::uint32_t> sides_, centers_, places_;
+  gl::Buffer<glm::uvec4> cutCorners_;  // which evenOutCuts() moves
+  gl::Buffer<glm::vec4> moved_;        // particles where it has them; empty without cuts
   gl::Buffer<glm::vec4> controls_, points_, normals_, tangents_;
   gl::Buffer<std::array<float, 2>> textureCoordinates_;
   gl::VertexArray vertices_;

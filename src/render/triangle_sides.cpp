@@ -38,18 +38,18 @@ std::uint32_t TriangleSides::nextOnBorder(std::uint32_t side) const {
 
 std::vector<BorderCorner> borderOf(const TriangleSides& sides) {
   constexpr std::uint32_t NONE = TriangleSides::NONE;
-  std::vector<std::uint32_t> border, before(sides.count(), NONE), place(sides.count(), NONE);
+  std::vector<std::uint32_t> found, before(sides.count(), NONE), place(sides.count(), NONE);
   for (std::uint32_t side = 0; side < sides.count(); ++side) {
     if (sides.twin(side) != NONE) continue;
     const std::uint32_t next = sides.nextOnBorder(side);
     if (next == NONE) continue;
     before[next] = side;
-    border.push_back(side);
+    found.push_back(side);
   }
-  std::erase_if(border, [&](std::uint32_t side) { return before[side] == NONE; });
-  for (std::size_t i = 0; i < border.size(); ++i) place[border[i]] = static_cast<std::uint32_t>(i);
+  std::erase_if(found, [&](std::uint32_t side) { return before[side] == NONE; });
+  for (std::size_t i = 0; i < found.size(); ++i) place[found[i]] = static_cast<std::uint32_t>(i);
   std::vector<BorderCorner> corners;
-  for (const std::uint32_t side : border)
+  for (const std::uint32_t side : found)
     corners.push_back(
         {sides.from(before[side]), sides.from(side), sides.to(side), place[sides.nextOnBorder(side)]});
   return corners;

@@ -423,7 +423,7 @@ std::span<const Field<RenderSettings>> fieldsOf<RenderSettings>() {
           .byDefault("of the cloth, at most half the distance of its points; in draft quality 0"),
       field(
           "smooth", &R::smooth,
-          "Draw grids as a smooth surface through the particles; false: by their triangles, as draft does."),
+          "Draw cloth as a smooth surface through the particles; false: by their triangles, as draft does."),
       field("ground", &R::ground, "Draw a floor if the scene has no horizontal plane."),
   };
   return fields;
