@@ -34,8 +34,9 @@ using uint = unsigned int;
 #define RIM_POINTS 6            // of a rim at each corner; the middle is there twice
 #define PATCH_POINTS_BINDING 6  // eight words a point: PatchPoint of src/render/patches.h
 #define CUT_CORNERS_BINDING 6   // four words a corner: the particle before it, it, the one after it, nothing
-#define SMOOTH_GROUP 64         // invocations of a work group
-#define SHADOW_MAP_UNIT 0       // texture units
+#define MOTION_VELOCITIES_BINDING 1  // a vec4 a particle
+#define SMOOTH_GROUP 64              // invocations of a work group
+#define SHADOW_MAP_UNIT 0            // texture units
 #define FLOOR_SHADOW_UNIT 1
 #define CANVAS_UNIT 2
 #define CUTS_BINDING 2  // storage block, a word a particle: which of its springs are cut (cloth/cuts.h)
@@ -101,6 +102,8 @@ struct RenderFrame {
   float flatness;                  // how far triangles may lie beside the smooth surface [pixels]
   float thickness;                 // 1: cloth is drawn as thick as it is; 0: without thickness
   float casterThickness;           // the same where its shadow falls from
+  float motion;                    // from the state to where it is drawn [s]
+  float unused1, unused2, unused3;
 };
 
 struct ClothPiece {

@@ -43,11 +43,14 @@ glm::vec3 onSphere(glm::dvec2 u) {
 
 std::vector<Exposure> makeExposures(int count) {
   const auto pixels = spread(count, 1), lenses = spread(count, 2), lights = spread(count, 3),
-             skies = spread(SKY_DIRECTIONS * count, 4);
+             times = spread(count, 5), skies = spread(SKY_DIRECTIONS * count, 4);
   std::vector<Exposure> exposures;
   for (std::size_t n = 0; n < pixels.size(); ++n) {
-    Exposure exposure{
-        glm::vec2(inTent(pixels[n].x), inTent(pixels[n].y)), inDisc(lenses[n]), inDisc(lights[n]), {}};
+    Exposure exposure{glm::vec2(inTent(pixels[n].x), inTent(pixels[n].y)),
+                      inDisc(lenses[n]),
+                      inDisc(lights[n]),
+                      {},
+                      times[n].x - 0.5};
     for (std::size_t k = 0; k < SKY_DIRECTIONS; ++k)
       exposure.sky[k] = onSphere(skies[SKY_DIRECTIONS * n + k]);
     exposures.push_back(exposure);

@@ -17,6 +17,7 @@ struct Exposure {
   glm::vec2 lens{0};   // within the unit disc
   glm::vec2 light{0};  // the same
   std::array<glm::vec3, SKY_DIRECTIONS> sky{};  // unit
+  double time = 0;  // from the middle of the time that the shutter is open, -1/2 to 1/2 of it
 };
 
 // `count` of them, > 0: each two numbers evenly spread (M. Roberts, "The Unreasonable Effectiveness of

@@ -30,6 +30,7 @@ struct ShadedPrograms {
 struct MeanPrograms {
   explicit MeanPrograms(int samples);
   gl::Program add;  // the canvas to the sum
+  gl::Program move = gl::Program::makeCompute("render/motion.comp");
   gl::Program show = gl::Program::makeRender("render/fullscreen.vert", "render/resolve.frag",
                                              {{"SAMPLES", "1"}, {"MEAN", ""}});
 };

@@ -83,6 +83,8 @@ void Renderer::expose(int number, int count, GLuint positions, const Camera& cam
                [](const char*, const auto& pass) { pass(); });
 }
 
+void Renderer::setVelocities(GLuint velocities) { parts_->velocities = velocities; }
+
 void Renderer::showMean(GLuint target, int width, int height) {
   parts_->resolveInto(target, width, height, parts_->programs.mean().show, parts_->mean.colorTexture());
 }

@@ -41,6 +41,9 @@ class Renderer {
   // 0 begins a new mean. Shows the mean of those so far in `target`.
   void expose(int number, int count, GLuint positions, const Camera& camera, double time, GLuint target,
               int width, int height);
+  // The velocities of the state that is exposed next, a vec4 a particle [m/s], for camera.shutter; 0: of
+  // none.
+  void setVelocities(GLuint velocities);
   // The mean of the exposures so far once more.
   void showMean(GLuint target, int width, int height);
 

@@ -166,6 +166,21 @@ void Renderer::Parts::uploadFrame() {
   frameBlock.bindUniform(RENDER_FRAME_BINDING);
 }
 
+// Where particles are at the time of an exposure.
+GLuint Renderer::Parts::moved(GLuint positions) {
+  if (frame.motion == 0 || velocities == 0) return positions;
+  if (movedPositions.size() == 0)
+    movedPositions = gl::Buffer<glm::vec4>("moved positions", cloth->particleCount());
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);  // the solver's last writes
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, NORMALS_POSITIONS_BINDING, positions);
+  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, MOTION_VELOCITIES_BINDING, velocities);
+  movedPositions.bindStorage(SMOOTH_POINTS_BINDING);
+  programs.mean().move.bind();
+  gl::dispatch(movedPositions.size(), SMOOTH_GROUP);
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
+  return movedPositions.name();
+}
+
 void Renderer::Parts::computeNormals(GLuint positions) {
   clothMesh.computeNormals(
       {programs.normals(clothMesh.hasCuts()), cloth->hasMesh() ? &programs.meshNormals() : nullptr},
@@ -408,11 +423,13 @@ void Renderer::Parts::show(GLuint destination, int width, int height) const {
 }
 
 void Renderer::Parts::draw(const Picture& picture, const Around& around) {
-  const auto [positions, camera, time, target, width, height, exposure, number] = picture;
+  const auto [state, camera, time, target, width, height, exposure, number] = picture;
   if (width <= 0 || height <= 0) return;  // a minimised window
   const auto scaled = [&](int size) { return std::max(1, static_cast<int>(std::lround(scale * size))); };
   const int w = scaled(width), h = scaled(height);
-  colliders.place(*scene, stage, time);
+  const double motion = exposure != nullptr ? scene->camera.shutter * exposure->time : 0;
+  frame.motion = static_cast<float>(motion);
+  colliders.place(*scene, stage, time + motion);
   const double aspect = static_cast<double>(width) / height;
   lookFrom(*camera, w, h, aspect);
   if (exposure != nullptr || isExposed()) shineFrom(exposure);
@@ -421,12 +438,13 @@ void Renderer::Parts::draw(const Picture& picture, const Around& around) {
   uploadFrame();
   textures.bind();
   makeTargets(w, h, width, height);
+  const GLuint positions = moved(state);
   findChanges(positions, w, h);
-  if (number == 0) around("normals", [&, p = positions] { computeNormals(p); });
-  around("shadows", [&, p = positions] { drawShadows(p); });
-  if (exposure != nullptr) around("shadows of the sky", [&, p = positions] { drawSkyShadows(p); });
+  if (number == 0 || positions != state) around("normals", [&] { computeNormals(positions); });
+  around("shadows", [&] { drawShadows(positions); });
+  if (exposure != nullptr) around("shadows of the sky", [&] { drawSkyShadows(positions); });
   around("backdrop", [&] { drawBackdrop(w, h); });
-  around("scene", [&, p = positions] { drawScene(p); });
+  around("scene", [&] { drawScene(positions); });
   if (exposure != nullptr) around("mean", [&, n = number] { addToMean(n == 0); });
   around("resolve", [&, t = isDirect() ? target : finished.name(), exposes = exposure != nullptr] {
     resolveInto(t, w, h, exposes ? programs.mean().show : programs.resolve,

@@ -44,6 +44,7 @@ struct Renderer::Parts {
   void lookThrough(const Exposure& exposure, const Camera& camera);
   void addToMean(bool isFirst);
   void uploadFrame();
+  GLuint moved(GLuint positions);
   [[nodiscard]] bool isDirect() const { return scale == 1 && !options.keepsStill; }
   void makeTargets(int width, int height, int shownWidth, int shownHeight);
   void findChanges(GLuint positions, int width, int height);
@@ -84,7 +85,9 @@ struct Renderer::Parts {
   ShadowMap shadowMap;
   std::vector<ShadowMap> skyShadowMaps;  // of an exposure
   std::vector<Exposure> exposures;
-  gl::Framebuffer mean;  // the sum of the exposures' light, with their number
+  GLuint velocities = 0;
+  gl::Buffer<glm::vec4> movedPositions;  // of an exposure, while the shutter is open
+  gl::Framebuffer mean;                  // the sum of the exposures' light, with their number
   SpringsOverlay springs;
   std::optional<PickTarget> pickTarget;
   double scale = 1;

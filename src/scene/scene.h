@@ -210,6 +210,7 @@ struct CameraSettings {
   std::optional<Vec3d> position, target;  // [m]
   double fov = 35;                        // vertical field of view [degrees]
   double aperture = 0;                    // diameter of the lens [m]; 0: all is sharp
+  double shutter = 0;                     // how long it is open, around the time of the picture [s]
   std::optional<double> focus;            // distance that is sharp [m]; none: that of the target
   friend bool operator==(const CameraSettings&, const CameraSettings&) = default;
 };

@@ -356,6 +356,12 @@ std::span<const Field<CameraSettings>> fieldsOf<CameraSettings>() {
           .in("m")
           .within(notNegative)
           .usually(0, 0.1),
+      field("shutter", &C::shutter,
+            "How long the shutter is open, in final quality; 0: what moves is sharp. Of films half the time "
+            "from picture to picture.")
+          .in("s")
+          .within(notNegative)
+          .usually(0, 0.1),
       field("focus", &C::focus, "Distance at which the picture is sharp.")
           .in("m")
           .within(positive)

@@ -15,6 +15,7 @@ SimulationRenderer::SimulationRenderer(Simulation& simulation, const RenderOptio
 void SimulationRenderer::hold() {
   update();
   static_cast<void>(positionsBuffer());
+  takeVelocities();
   heldTime_ = simulation_.time();
 }
 
@@ -63,17 +64,28 @@ GLuint SimulationRenderer::positionsBuffer() {
   return uploaded_.name();
 }
 
+// Of the state as it is now, where the picture shows them.
+void SimulationRenderer::takeVelocities() {
+  if (heldTime_) return;
+  renderer_->setVelocities(0);
+  if (simulation_.scene().camera.shutter == 0) return;
+  velocities_ = gl::Buffer<Particle4>("velocities to draw", simulation_.state().velocities);
+  renderer_->setVelocities(velocities_.name());
+}
+
 void SimulationRenderer::draw(const Camera& camera, GLuint target, int width, int height) {
   renderer_->draw(positionsBuffer(), camera, time(), target, width, height);
 }
 
 void SimulationRenderer::expose(int number, int count, const Camera& camera, GLuint target, int width,
                                 int height) {
+  if (number == 0) takeVelocities();
   renderer_->expose(number, count, positionsBuffer(), camera, time(), target, width, height);
 }
 
 Image SimulationRenderer::picture(const Camera& camera, int width, int height, int exposures,
                                   const std::function<void(int)>& before) {
+  if (exposures > 1) takeVelocities();
   return renderImage(*renderer_, positionsBuffer(), camera, time(), width, height, exposures, before);
 }
 

@@ -42,6 +42,8 @@ class SimulationRenderer {
   [[nodiscard]] Pick pick(const Camera& camera, int width, int height, double x, double y);
 
  private:
+  void takeVelocities();
+
   Simulation& simulation_;
   RenderOptions options_;
   std::optional<Renderer> renderer_;
@@ -49,7 +51,7 @@ class SimulationRenderer {
   Shared<Cloth> cloth_;
   Shared<Scene> scene_;
   Cuts cuts_;
-  gl::Buffer<Particle4> uploaded_;
+  gl::Buffer<Particle4> uploaded_, velocities_;
   std::vector<Particle4> lastUpload_;
   std::optional<double> heldTime_;
   std::uint64_t uploadedVersion_ = 0, uploadedStep_ = 0;

@@ -175,5 +175,35 @@ TEST_F(ExposuresTest, BlurWhatIsOutOfFocus) {
   EXPECT_NEAR(width(), DISC_RISE * confusion, 0.3 * DISC_RISE * confusion);
 }
 
+// A dark sheet moves to the right in front of white: its edges are as wide as the way that it goes meanwhile.
+TEST_F(ExposuresTest, BlurWhatMovesWhileTheShutterIsOpen) {
+  constexpr double SPEED = 6, SHUTTER = 0.02, DISTANCE = 2;
+  Scene scene;
+  scene.cloths[0].numWidthPoints = scene.cloths[0].numHeightPoints = 9;
+  scene.cloths[0].width = scene.cloths[0].height = 0.5;
+  scene.render.shader = "diffuse";
+  scene.render.color = scene.render.backColor = {0.05, 0.05, 0.05};
+  scene.render.background = "plain";
+  scene.render.backgroundColor = {1, 1, 1};
+  scene.render.ground = false;
+  scene.camera.position = Vec3d{0, 0, DISTANCE};
+  scene.camera.target = Vec3d{0, 0, 0};
+  const Cloth cloth(scene);
+  std::vector<Particle4> places, velocities(cloth.particleCount(), {SPEED, 0, 0, 0});
+  for (int i = 0; i < 81; ++i)
+    places.push_back({0.0625f * float(i % 9) - 0.25f, 0.25f - 0.0625f * float(i / 9), 0, 1});
+  const gl::Buffer<Particle4> positions("positions", places), moving("velocities", velocities);
+  const auto width = [&](double shutter) {
+    scene.camera.shutter = shutter;
+    Renderer renderer(cloth, scene, {.samples = 1, .shadowMapSize = 256});
+    renderer.setVelocities(moving.name());
+    const Image image = renderImage(renderer, positions.name(), Camera(scene, cloth), 0, SIZE, SIZE, 64);
+    return widthOfEdge(SIZE / 2, SIZE - 10, [&](int x) { return lightAt(image, x, SIZE / 2); });
+  };
+  const double way = SPEED * SHUTTER * SIZE / (2 * DISTANCE * halfView);
+  EXPECT_LT(width(0), 2);
+  EXPECT_NEAR(width(SHUTTER), 0.8 * way, 0.1 * way);
+}
+
 }  // namespace
 }  // namespace clothsim

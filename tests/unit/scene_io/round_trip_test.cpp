@@ -39,7 +39,8 @@ class RandomScene {
     for (ClothSettings& cloth : scene.cloths)
       if (cloth.tearStrain && scene.solver.strainLimit) cloth.tearStrain = *scene.solver.strainLimit / 2;
     if (maybe()) makeCoulomb(scene);
-    if (maybe()) scene.camera = {vector(), vector(), 1 + 169 * fraction(), positive(), optionalPositive()};
+    if (maybe())
+      scene.camera = {vector(), vector(), 1 + 169 * fraction(), positive(), positive(), optionalPositive()};
     scene.render = renderSettings();
     if (maybe()) scene.expect = expectation();
     return scene;
