@@ -1,7 +1,6 @@
 #include "render/patches.h"
 
 #include <algorithm>
-#include <unordered_map>
 
 namespace clothsim {
 namespace {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "gl/gl_test.h"
 #include "gl/render/picture.h"
