@@ -12,6 +12,7 @@
 #define COLLIDER_MESH 5u
 #define COLLIDER_CYLINDER 6u
 #define COLLIDER_CONE 7u
+#define COLLIDER_DEFORMS 16u  // none of them: stands among the types of a scene where some mesh deforms
 
 #ifdef LAW
 #include "shared/shapes/box.h"

@@ -61,11 +61,12 @@ using uint = std::uint32_t;
 #define PIN_MOTIONS_UNIT 7  // PIN_MOTION_ROWS texels each
 
 #define PIN_MOTION_ROWS 5
-#define COLLIDER_ROWS 13
+#define COLLIDER_ROWS 14
 #define COLLIDER_SWEEP_ROW 3   // read for spheres only
 #define COLLIDER_AXES_ROW 4    // read for shapes that have a frame of their own
 #define COLLIDER_GRID_ROW 7    // read for meshes
 #define COLLIDER_MOTION_ROW 9  // read where some collider moves
+#define COLLIDER_WAY_ROW 13    // read where some body deforms
 #define SWEEP_STEPS 8          // of the search for the place where a particle entered a shape
 
 // The springs of one slot (cloth/cloth.h).
@@ -210,7 +211,7 @@ SHARED_STRUCT ColliderParams {
   uint gridColumns;
   uint gridRows;
   uint gridLayers;
-  uint firstSample;  // among those of all meshes
+  uint firstSample;  // among those of all meshes; of a body that deforms, of the shape that it comes from
 
   // The rigid motion over the step: x + (rotation (x - pivot) + translation), where `rotation` lacks the
   // identity.
@@ -232,7 +233,15 @@ SHARED_STRUCT ColliderParams {
   real pivotX;  // the shape's origin or plane's point at the start of the step
   real pivotY;
   real pivotZ;
-  real unusedPivot;
+  uint nextSample;  // of a body that deforms: as firstSample, for the shape that it goes to
+
+  // Of a body that deforms: how much of the way to the next shape is done at the end of the step, how much of
+  // a way it goes in the step, and the first displacements of the way that it is on at the end and in the
+  // middle of the step. Both 0 for what is rigid.
+  real part;
+  real share;
+  uint way;
+  uint middleWay;
 };
 
 // The rigid motion of pins from the start of the simulation to the end of the step: x + (rotation (x - pivot)

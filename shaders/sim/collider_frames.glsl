@@ -36,22 +36,13 @@ ColliderParams loadCollider(uint k) {
     r = texelFetch(colliderRows, row + COLLIDER_MOTION_ROW + 2);
     c.rotationZX = r.x, c.rotationZY = r.y, c.rotationZZ = r.z, c.translationZ = r.w;
     r = texelFetch(colliderRows, row + COLLIDER_MOTION_ROW + 3);
-    c.pivotX = r.x, c.pivotY = r.y, c.pivotZ = r.z;
+    c.pivotX = r.x, c.pivotY = r.y, c.pivotZ = r.z, c.nextSample = floatBitsToUint(r.w);
+  }
+  if (hasType(COLLIDER_DEFORMS)) {
+    r = texelFetch(colliderRows, row + COLLIDER_WAY_ROW);
+    c.part = r.x, c.share = r.y, c.way = floatBitsToUint(r.z), c.middleWay = floatBitsToUint(r.w);
   }
   return c;
-}
-
-// Where the particle was at the start of the step, carried along with a moving collider.
-vec3 carried(ColliderParams collider, vec3 x) {
-  if (!hasMovingColliders || collider.moving == 0u) return x;
-  precise vec3 d = x - vec3(collider.pivotX, collider.pivotY, collider.pivotZ);
-  precise float rotatedX = sumOfProducts(vec3(collider.rotationXX, collider.rotationXY, collider.rotationXZ), d);
-  precise float rotatedY = sumOfProducts(vec3(collider.rotationYX, collider.rotationYY, collider.rotationYZ), d);
-  precise float rotatedZ = sumOfProducts(vec3(collider.rotationZX, collider.rotationZY, collider.rotationZZ), d);
-  precise vec3 move = vec3(rotatedX, rotatedY, rotatedZ) +
-                      vec3(collider.translationX, collider.translationY, collider.translationZ);
-  precise vec3 result = x + move;
-  return result;
 }
 
 vec3 pointOf(ColliderParams collider) { return vec3(collider.pointX, collider.pointY, collider.pointZ); }
@@ -69,6 +60,25 @@ vec3 toWorld(ColliderParams shape, vec3 v) {
   vec3 z = vec3(shape.axisZX, shape.axisZY, shape.axisZZ);
   precise vec3 result = (v.x * x + v.y * y) + v.z * z;
   return result;
+}
+
+// Where the particle was at the start of the step, carried along with a moving collider.
+vec3 carriedRigidly(ColliderParams collider, vec3 x) {
+  if (!hasMovingColliders || collider.moving == 0u) return x;
+  precise vec3 d = x - vec3(collider.pivotX, collider.pivotY, collider.pivotZ);
+  precise float rotatedX = sumOfProducts(vec3(collider.rotationXX, collider.rotationXY, collider.rotationXZ), d);
+  precise float rotatedY = sumOfProducts(vec3(collider.rotationYX, collider.rotationYY, collider.rotationYZ), d);
+  precise float rotatedZ = sumOfProducts(vec3(collider.rotationZX, collider.rotationZY, collider.rotationZZ), d);
+  precise vec3 move = vec3(rotatedX, rotatedY, rotatedZ) +
+                      vec3(collider.translationX, collider.translationY, collider.translationZ);
+  precise vec3 result = x + move;
+  return result;
+}
+vec3 carried(ColliderParams collider, vec3 x) {
+  vec3 result = carriedRigidly(collider, x);
+  if (!hasType(COLLIDER_DEFORMS) || collider.way == 0u) return result;
+  precise vec3 deformed = result + toWorld(collider, deformationNear(collider, toOwnFrame(collider, result)));
+  return deformed;
 }
 
 // A place in the own frame at the end of the step: one of then, or one of the start of the step, carried along.

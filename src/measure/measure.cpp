@@ -58,6 +58,7 @@ class Solid {
   Solid(const ColliderSet& colliders, std::size_t number, const Scene& scene, double time)
       : colliders_(&colliders),
         number_(number),
+        time_(time),
         now_(poseAt(colliders[number], time)),
         first_(poseAt(colliders[number], 0)),
         rotation_(colliders.rotationAt(number, time)),
@@ -66,7 +67,7 @@ class Solid {
 
   // The depth of a particle at x that started at `start`. CS184's planes keep each particle on its side.
   [[nodiscard]] double penetration(Vec3d start, Vec3d x) const {
-    const double depth = -colliders_->distance(number_, rotateBack(rotation_, x - now_.position));
+    const double depth = -colliders_->distance(number_, rotateBack(rotation_, x - now_.position), time_);
     return twoSided_ && startedBehind(start) ? -depth : depth;
   }
 
@@ -78,6 +79,7 @@ class Solid {
 
   const ColliderSet* colliders_;
   std::size_t number_;
+  double time_;
   Pose now_, first_;
   Matrix3 rotation_;
   bool twoSided_;

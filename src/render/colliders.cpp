@@ -47,7 +47,7 @@ void Colliders::place(const Scene& scene, const Stage& stage, double time) {
     glm::mat3 rotation(1);
     if (!std::holds_alternative<Sphere>(collider))
       for (int row = 0; row < 3; ++row) rotation[row] = toGlm(pose.rotation[static_cast<std::size_t>(row)]);
-    solids_.push_back({at, rotation, {at - half, at + half}});
+    solids_.push_back({at, rotation, {at - half, at + half}, momentOf(collider, time)});
   }
   if (scene.render.ground && !hasFloor) addDisc({middle.x, stage.floorHeight, middle.z}, {0, 1, 0}, -1);
   spheres_.place(places);

@@ -12,10 +12,11 @@ namespace clothsim {
 // Where a solid is seen.
 struct SolidPlace {
   glm::vec3 at;
-  glm::mat3 rotation;  // none of a sphere, which looks the same however it is turned
-  Bounds box;          // around it
+  glm::mat3 rotation;    // none of a sphere, which looks the same however it is turned
+  Bounds box;            // around it
+  ShapeMoment moment{};  // of one that deforms
   friend bool operator==(const SolidPlace& a, const SolidPlace& b) {
-    return a.at == b.at && a.rotation == b.rotation;
+    return a.at == b.at && a.rotation == b.rotation && a.moment == b.moment;
   }
 };
 

@@ -13,16 +13,22 @@ glm::vec3 glmOf(double x, double y, double z) {
 
 }  // namespace
 
+ShapeMoment momentOf(const Collider& collider, double time) {
+  const auto* mesh = std::get_if<MeshCollider>(&collider);
+  return mesh != nullptr ? mesh->momentAt(mesh->progressAt(time)) : ShapeMoment{};
+}
+
 ShapeMeshes::ShapeMeshes() : vertices_("shapes") {}
 
 void ShapeMeshes::build(const ColliderSet& colliders, double longestEdge) {
   std::vector<Surface::Vertex> points;
   std::vector<std::uint32_t> indices;
   parts_.clear();
+  longestEdge_ = longestEdge;
   for (std::size_t i = 0; i < colliders.size(); ++i) {
     const Surface surface = colliders.drawnSurface(i, longestEdge);
     if (surface.indices.empty()) continue;
-    parts_.push_back({indices.size(), surface.indices.size(), i});
+    parts_.push_back({indices.size(), surface.indices.size(), i, points.size(), momentOf(colliders[i], 0)});
     for (const std::uint32_t index : surface.indices)
       indices.push_back(index + static_cast<std::uint32_t>(points.size()));
     points.insert(points.end(), surface.vertices.begin(), surface.vertices.end());
@@ -50,9 +56,16 @@ void ShapeMeshes::build(const ColliderSet& colliders, double longestEdge) {
                                        .perInstance = true});
 }
 
+void ShapeMeshes::reshape(Part& part, const ColliderSet& colliders, double time) {
+  const ShapeMoment moment = momentOf(colliders[part.collider], time);
+  if (moment == part.moment) return;
+  points_.upload(colliders.drawnSurface(part.collider, longestEdge_, time).vertices, part.firstPoint);
+  part.moment = moment;
+}
+
 void ShapeMeshes::place(const ColliderSet& colliders, double time) {
   std::vector<Rows> rows;
-  for (const Part& part : parts_) {
+  for (Part& part : parts_) {
     const Vec3d place = poseAt(colliders[part.collider], time).position;
     const Matrix3 r = colliders.rotationAt(part.collider, time);
     const auto row = [&](Vec3d axis, double along) {
@@ -60,6 +73,7 @@ void ShapeMeshes::place(const ColliderSet& colliders, double time) {
     };
     rows.push_back({row(r[0], place.x), row(r[1], place.y), row(r[2], place.z),
                     glm::vec4(static_cast<float>(part.collider))});
+    reshape(part, colliders, time);
   }
   if (!rows.empty()) instances_.upload(rows);
 }

@@ -11,13 +11,16 @@
 
 namespace clothsim {
 
+// Which shapes a body that deforms is between at `time` [s]; of what is rigid always the same.
+[[nodiscard]] ShapeMoment momentOf(const Collider& collider, double time);
+
 class ShapeMeshes {
  public:
   ShapeMeshes();
   // Builds the meshes of those colliders that are drawn by one, in the scene's order; cloth has triangles of
   // `longestEdge` [m].
   void build(const ColliderSet& colliders, double longestEdge);
-  // Where they are at `time` [s].
+  // Where they are at `time` [s], and in which shapes.
   void place(const ColliderSet& colliders, double time);
   void draw() const;
 
@@ -27,8 +30,12 @@ class ShapeMeshes {
     glm::vec4 collider{0};  // x: its index in the scene
   };
   struct Part {
-    std::size_t firstIndex, indexCount, collider;
+    std::size_t firstIndex, indexCount, collider, firstPoint;
+    ShapeMoment moment;  // of a body that deforms, as its points are now
   };
+  void reshape(Part& part, const ColliderSet& colliders, double time);
+
+  double longestEdge_ = 0;
   std::vector<Part> parts_;
   gl::Buffer<Surface::Vertex> points_;
   gl::Buffer<std::uint32_t> indices_;

@@ -49,15 +49,16 @@ bool isPath(const std::string& nameOrPath) {
 }  // namespace
 
 void findMeshes(Scene& scene, const fs::path& file) {
-  const auto find = [&](std::string& mesh) {
+  // `first`: the file itself, or the first of several.
+  const auto find = [&](std::string& mesh, const std::string& first) {
     if (mesh.empty() || fs::path(mesh).is_absolute()) return;
-    const fs::path beside = folderOf(file) / mesh;
+    const fs::path folder = folderOf(file);
     std::error_code ignored;  // Reading the file will report it.
-    if (fs::exists(beside, ignored)) mesh = beside.lexically_normal().string();
+    if (fs::exists(folder / first, ignored)) mesh = (folder / mesh).lexically_normal().string();
   };
   for (Collider& collider : scene.colliders)
-    if (auto* mesh = std::get_if<MeshCollider>(&collider)) find(mesh->file);
-  for (ClothSettings& cloth : scene.cloths) find(cloth.mesh);
+    if (auto* mesh = std::get_if<MeshCollider>(&collider)) find(mesh->file, mesh->fileOf(0));
+  for (ClothSettings& cloth : scene.cloths) find(cloth.mesh, cloth.mesh);
 }
 
 Scene parseScene(std::string_view text, const std::string& source) {

@@ -1,5 +1,6 @@
 #include "solver/pin_paths.h"
 
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -7,6 +8,50 @@
 #include "scene/pose.h"
 
 namespace clothsim {
+
+namespace {
+
+// The triangle as a frame about the spot, in the world.
+Pose poseOf(const Collider& body, const SurfaceSpot& spot, double time) {
+  const auto& mesh = std::get<MeshCollider>(body);
+  const ShapeMoment moment = mesh.momentAt(mesh.progressAt(time));
+  const std::vector<SolidMesh>& shapes = spot.grid->shapes();
+  const SolidMesh::Triangle& triangle = shapes.front().triangles[spot.point.triangle];
+  std::array<Vec3d, 3> corners;
+  Vec3d place;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3d from = shapes[moment.from].points[triangle[k]], to = shapes[moment.to].points[triangle[k]];
+    corners[k] = from + moment.part * (to - from);
+    place = place + spot.point.weights[k] * corners[k];
+  }
+  const Vec3d along = unitVector(corners[1] - corners[0]),
+              normal = unitVector(cross(corners[1] - corners[0], corners[2] - corners[0]));
+  const Pose now = poseAt(body, time);
+  const Matrix3 own = product(now.rotation, ownRotation(body));
+  return {now.position + rotate(own, place), product(own, transposed({along, normal, cross(along, normal)}))};
+}
+
+// A path for each pin of the path `number`, which follows a body that deforms.
+void addSpots(const Cloth& cloth, std::size_t number, PinPaths& paths) {
+  const PinPath whole = paths.paths[number];
+  const Collider& body = *whole.body;
+  const auto grid = distanceGridOf(std::get<MeshCollider>(body));
+  const Pose start = poseAt(body, 0);
+  const Matrix3 own = product(start.rotation, ownRotation(body));
+  const auto& mesh = std::get<MeshCollider>(body);
+  const auto shape = grid->at(mesh.momentAt(mesh.progressAt(0)));
+  for (std::size_t i = 0; i < paths.numbers.size(); ++i) {
+    if (paths.numbers[i] != number + 1) continue;
+    PinPath single = whole;
+    single.center = cloth.positions()[i];
+    const Vec3d place = rotateBack(own, single.center - start.position);
+    single.spot = std::make_shared<const SurfaceSpot>(SurfaceSpot{grid, shape->tree.nearestPoint(place)});
+    paths.paths.push_back(std::move(single));
+    paths.numbers[i] = static_cast<std::uint32_t>(paths.paths.size());
+  }
+}
+
+}  // namespace
 
 PinPaths makePinPaths(const Scene& scene, const Cloth& cloth, std::span<const std::uint32_t> offPath) {
   PinPaths result;
@@ -37,6 +82,8 @@ PinPaths makePinPaths(const Scene& scene, const Cloth& cloth, std::span<const st
       result.paths.push_back(std::move(path));
     }
   }
+  for (std::size_t path = result.paths.size(); path-- > 0;)
+    if (result.paths[path].body && deforms(*result.paths[path].body)) addSpots(cloth, path, result);
   for (const std::uint32_t particle : offPath) result.numbers[particle] = 0;
   return result;
 }
@@ -55,7 +102,10 @@ namespace {
 // Where the centre is, and how the pins are turned about it.
 Pose poseOf(const PinPath& path, double time) {
   if (!path.body) return poseAt(path.motion, time);
-  const Pose first = poseAt(*path.body, 0), now = poseAt(*path.body, time);
+  const auto pose = [&](double t) {
+    return path.spot ? poseOf(*path.body, *path.spot, t) : poseAt(*path.body, t);
+  };
+  const Pose first = pose(0), now = pose(time);
   const Matrix3 turn = product(now.rotation, transposed(first.rotation));
   return {now.position + rotate(turn, path.center - first.position), turn};
 }

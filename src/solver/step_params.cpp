@@ -53,6 +53,7 @@ namespace {
 
 // Whether a collider's surface goes anywhere: a ball that turns in its place does not.
 bool travels(const Collider& collider) {
+  if (deforms(collider)) return true;
   if (!moves(collider)) return false;
   const std::vector<Motion::Key>& keys =
       std::visit([](const auto& c) -> const std::vector<Motion::Key>& { return c.motion->keys; }, collider);

@@ -278,6 +278,21 @@ inline Scene inSecondOrder(Scene scene) {
   return scene;
 }
 
+// On legs that walk, and on another body whose shapes end soon and that a motion turns besides.
+inline Scene withBodies(Scene scene) {
+  MeshCollider walk{
+      .file = "assets/meshes/walk/walk_%02d.obj", .origin = {0.4, 0.52, 0.2}, .scale = 0.6, .cells = 24};
+  walk.shapes = 5;
+  walk.shapesPerSecond = 60;
+  MeshCollider other = walk;
+  other.origin = {0.8, 0.86, 0.45};
+  other.rotation = {80, 0, 0};
+  other.shapesPerSecond = 30;
+  other.motion = Motion{.keys = {{0, other.origin, {}}, {0.2, {0.7, 0.91, 0.45}, {0, 90, 0}}}};
+  scene.colliders = {walk, other};
+  return scene;
+}
+
 struct NamedScene {
   std::string name;
   Scene scene;
@@ -294,6 +309,8 @@ inline std::vector<NamedScene> comparedScenes(int n) {
           {"spheres and planes, coulomb", withCoulomb(withColliders(vertical(sheetScene(n))))},
           {"meshes", withMeshes(vertical(sheetScene(n)))},
           {"meshes in long steps, coulomb", inLongSteps(withCoulomb(withMeshes(vertical(sheetScene(n)))))},
+          {"bodies", withBodies(sheetScene(n))},
+          {"bodies in long steps, coulomb", inLongSteps(withCoulomb(withBodies(sheetScene(n))))},
           {"long steps", inLongSteps(withColliders(vertical(sheetScene(n))))},
           {"shapes in long steps", inLongSteps(withShapes(vertical(sheetScene(n)), FrictionLaw::cs184))},
           {"everything", withWind(withColliders(withLimiter(vertical(sheetScene(n)))))},
@@ -323,6 +340,7 @@ inline std::vector<NamedScene> implicitScenes(int n) {
       {"implicit", implicitly(vertical(sheetScene(n)))},
       {"implicit, a material with everything",
        implicitly(withAttractors(withWind(withColliders(withLimiter(vertical(materialScene(n)))))))},
+      {"implicit, bodies", implicitly(withCoulomb(withBodies(materialScene(n))))},
       {"implicit, robust self-collision and pin motion",
        implicitly(withPinMotion(layeredSheets(n, SelfCollision::robust)))},
       {"implicit, two cloths with a rest length table",

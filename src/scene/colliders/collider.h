@@ -33,8 +33,15 @@ requires(WrittenShape<Shapes>&&...)
 [[nodiscard]] inline std::string_view typeOf(const Collider& collider) {
   return std::visit([](const auto& shape) { return shape.type; }, collider);
 }
+// Whether its shape changes in time.
+[[nodiscard]] inline bool deforms(const Collider& collider) {
+  const auto* mesh = std::get_if<MeshCollider>(&collider);
+  return mesh != nullptr && mesh->deforms();
+}
+// Whether its surface is elsewhere at another time, by a motion or as a body that deforms.
 [[nodiscard]] inline bool moves(const Collider& collider) {
-  return std::visit([](const auto& shape) { return shape.motion.has_value(); }, collider);
+  return deforms(collider) ||
+         std::visit([](const auto& shape) { return shape.motion.has_value(); }, collider);
 }
 [[nodiscard]] inline Vec3d& placeOf(Collider& collider) {
   return std::visit([](auto& shape) -> Vec3d& { return shape.place(); }, collider);

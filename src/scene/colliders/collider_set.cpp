@@ -46,6 +46,14 @@ void putMotion(const Pose& before, const Pose& after, ColliderParams<Real>& para
   put(params.pivotZ, before.position.z);
 }
 
+template <class Real>
+void packWays(const MeshCollider& body, const SampledMesh& mesh, double begin, double end,
+              ColliderParams<Real>& params) {
+  const double middle = 0.5 * (begin + end);
+  mesh.packWays(params, body.momentAt(body.progressAt(middle)),
+                body.progressAt(end) - body.progressAt(begin));
+}
+
 }  // namespace
 
 ColliderSet::ColliderSet(const Scene& scene, std::size_t mostSamples)
@@ -60,14 +68,14 @@ ColliderSet::ColliderSet(const Scene& scene, std::size_t mostSamples)
   distances_ = std::move(distances);
 }
 
-// Calls `use` with the shape, or with a mesh that has its samples.
+// Calls `use` with the shape, or with a mesh at `time` that has its samples.
 template <class Use>
-decltype(auto) ColliderSet::withSolid(std::size_t i, Use use) const {
+decltype(auto) ColliderSet::withSolid(std::size_t i, double time, Use use) const {
   return std::visit(
       [&](const auto& shape) {
         using Shape = std::remove_cvref_t<decltype(shape)>;
         if constexpr (std::is_same_v<Shape, MeshCollider>) {
-          return use(SampledMesh{*grids_[i], firstSamples_[i]});
+          return use(SampledMesh{*grids_[i], firstSamples_[i], shape.momentAt(shape.progressAt(time))});
         } else {
           static_assert(SolidShape<Shape, ColliderParams<float>>);
           return use(shape);
@@ -88,7 +96,11 @@ ColliderParams<Real> ColliderSet::params(std::size_t i, double begin, double end
   put(params.friction, std::visit([](const auto& shape) { return shape.friction; }, collider));
   params.coulomb = coulomb_ ? 1 : 0;
   params.type = static_cast<std::uint32_t>(collider.index());
-  withSolid(i, [&](const auto& solid) { solid.pack(params, after.rotation); });
+  withSolid(i, end, [&](const auto& solid) {
+    solid.pack(params, after.rotation);
+    if constexpr (requires { solid.grid; })
+      if (deforms(collider)) packWays(std::get<MeshCollider>(collider), solid, begin, end, params);
+  });
   putAxes(product(after.rotation, clothsim::ownRotation(collider)), params);
   if (moves(collider)) putMotion(before, after, params);
   return params;
@@ -98,17 +110,17 @@ Matrix3 ColliderSet::rotationAt(std::size_t i, double time) const {
   return product(poseAt(colliders_[i], time).rotation, ownRotation(colliders_[i]));
 }
 
-double ColliderSet::distance(std::size_t i, Vec3d p) const {
-  return withSolid(i, [&](const auto& solid) { return solid.distance(p); });
+double ColliderSet::distance(std::size_t i, Vec3d p, double time) const {
+  return withSolid(i, time, [&](const auto& solid) { return solid.distance(p); });
 }
 
-Surface ColliderSet::drawnSurface(std::size_t i, double longestEdge) const {
-  return withSolid(i, [&](const auto& solid) { return solid.surface(longestEdge); });
+Surface ColliderSet::drawnSurface(std::size_t i, double longestEdge, double time) const {
+  return withSolid(i, time, [&](const auto& solid) { return solid.surface(longestEdge); });
 }
 
 Vec3d ColliderSet::halfExtent(std::size_t i, const Matrix3& motion) const {
   const Matrix3 rotation = product(motion, ownRotation(colliders_[i]));
-  return withSolid(i, [&](const auto& solid) { return solid.halfExtent(rotation); });
+  return withSolid(i, 0, [&](const auto& solid) { return solid.halfExtent(rotation); });
 }
 
 template ColliderParams<float> ColliderSet::params(std::size_t, double, double) const;

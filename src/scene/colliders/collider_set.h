@@ -34,18 +34,18 @@ class ColliderSet {
 
   // By which the own frame of a collider is rotated in the world at `time` [s].
   [[nodiscard]] Matrix3 rotationAt(std::size_t i, double time) const;
-  // From a point of the own frame to the surface, exact, negative inside [m].
-  [[nodiscard]] double distance(std::size_t i, Vec3d p) const;
+  // From a point of the own frame to the surface at `time` [s], exact, negative inside [m].
+  [[nodiscard]] double distance(std::size_t i, Vec3d p, double time = 0) const;
   // In the own frame, a little smaller than the shape is, so that cloth with triangles of `longestEdge` [m]
   // does not dip below. Empty for spheres and planes, which are drawn by programs of their own.
-  [[nodiscard]] Surface drawnSurface(std::size_t i, double longestEdge) const;
-  // Half the sides of the axis-aligned box around a collider whose motion has rotated it so far [m]; zero for
-  // a plane.
+  [[nodiscard]] Surface drawnSurface(std::size_t i, double longestEdge, double time = 0) const;
+  // Half the sides of the axis-aligned box around a collider, whatever its shape now, whose motion has
+  // rotated it so far [m]; zero for a plane.
   [[nodiscard]] Vec3d halfExtent(std::size_t i, const Matrix3& motion) const;
 
  private:
   template <class Use>
-  decltype(auto) withSolid(std::size_t i, Use use) const;
+  decltype(auto) withSolid(std::size_t i, double time, Use use) const;
 
   std::vector<Collider> colliders_;
   DistanceGrids grids_;

@@ -8,7 +8,9 @@ namespace clothsim {
 
 // Moved inwards along the points' normals by what keeps it apart from the cloth in the depth buffer.
 Surface SampledMesh::surface(double longestEdge) const {
-  const SolidMesh& mesh = grid.mesh();
+  const SolidMesh mesh = grid.shapes().size() == 1
+                             ? grid.mesh()
+                             : between(grid.shapes()[moment.from], grid.shapes()[moment.to], moment.part);
   const double inset = std::min(0.15 * grid.cell() + 0.05 * longestEdge, grid.cell());
   Surface surface;
   for (std::size_t i = 0; i < mesh.points.size(); ++i)
@@ -19,13 +21,11 @@ Surface SampledMesh::surface(double longestEdge) const {
   return surface;
 }
 
-// To either side of the origin alike.
+// To either side of the origin alike, for all shapes.
 Vec3d SampledMesh::halfExtent(const Matrix3& rotation) const {
   Vec3d half;
-  for (const Vec3d& point : grid.mesh().points) {
-    const Vec3d reach = magnitude(rotate(rotation, point));
-    half = {std::max(half.x, reach.x), std::max(half.y, reach.y), std::max(half.z, reach.z)};
-  }
+  for (const SolidMesh& shape : grid.shapes())
+    for (const Vec3d& point : shape.points) half = upperCorner(half, magnitude(rotate(rotation, point)));
   return half;
 }
 

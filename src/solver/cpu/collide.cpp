@@ -115,6 +115,24 @@ INLINE Vec3<Real> toWorld(const ColliderParams<Real>& shape, Vec3<Real> v) {
   return (v.x * x + v.y * y) + v.z * z;
 }
 
+// Where the surface of a body that deforms takes in the step what was at x at its start.
+template <std::uint32_t type, class Real>
+INLINE Vec3<Real> deformed(const ColliderParams<Real>& shape, Vec3<Real> x, const float* distances) {
+  if constexpr (type == COLLIDER_MESH)
+    if (shape.way != 0)
+      return x + toWorld(shape, ShapeLaws<Real>{distances}.deformationNear(shape, toOwnFrame(shape, x)));
+  return x;
+}
+
+// Where a point was at the start of the step, carried along with the collider.
+template <class Real>
+INLINE Vec3<Real> previousOf(const PassArguments<Real>& arguments, const ColliderParams<Real>& collider,
+                             Vec3<Real> start) {
+  const Vec3<Real> rigid = collider.moving != 0 ? carried(collider, start) : start;
+  return collider.type == COLLIDER_MESH ? deformed<COLLIDER_MESH>(collider, rigid, arguments.distances)
+                                        : rigid;
+}
+
 // A shape known by its signed distance. A particle inside goes to the nearest point of the surface, provided
 // that this is on the side where it came in: the normals there and at the entry are less than 60 degrees
 // apart. Otherwise it goes back to the tangent plane at the entry. A particle that is outside on another
@@ -220,7 +238,8 @@ INLINE void collideWith(const PassArguments<Real>& arguments, const ColliderPara
   const auto body = [&](std::ptrdiff_t i) __attribute__((always_inline)) {
     const Vec3<Real> now = load(x, y, z, i), start = load(x0, y0, z0, i);
     const Vec3<Real> velocity = load(vx, vy, vz, i);
-    const Vec3<Real> previous = moving ? carried(collider, start) : start;
+    const Vec3<Real> rigid = moving ? carried(collider, start) : start;
+    const Vec3<Real> previous = deformed<type>(collider, rigid, arguments.distances);
     const Contact<Real> contact =
         findContact<type>(collider, coulomb, offset, previous, now, arguments.distances);
     // Away from a shape with a frame of its own nothing more is worked out.
@@ -316,7 +335,7 @@ void findPlanes(const PassArguments<Real>& arguments, const Components<Real>& pl
     for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
       if (arguments.inverseMasses[i] == Real(0)) continue;
       const Vec3<Real> start = at(arguments.before.positions, i), place = at(places, i);
-      const Vec3<Real> previous = collider.moving != 0 ? carried(collider, start) : start;
+      const Vec3<Real> previous = previousOf(arguments, collider, start);
       const Contact<Real> contact =
           findContact<type>(collider, collider.coulomb != 0, offset, previous, place, arguments.distances);
       if (!contact.touches) continue;
@@ -334,7 +353,7 @@ template <class Real>
 Touch<Real> touchAt(const PassArguments<Real>& arguments, std::uint32_t number, Vec3<Real> start,
                     Vec3<Real> place) {
   const ColliderParams<Real>& own = arguments.colliders[number];
-  const Vec3<Real> previous = own.moving != 0 ? carried(own, start) : start;
+  const Vec3<Real> previous = previousOf(arguments, own, start);
   const auto touch = [&]<std::uint32_t type>() -> Touch<Real> {
     const Contact<Real> contact = findContact<type>(own, own.coulomb != 0, arguments.step.planeOffset,
                                                     previous, place, arguments.distances);

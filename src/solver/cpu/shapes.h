@@ -32,6 +32,9 @@ struct ShapeLaws {
 
   const float* distances;  // samples of the meshes
 
+  INLINE static constexpr bool hasType(uint) {
+    return true;
+  }  // on the GPU what a scene lacks is compiled out
   INLINE real distanceSample(uint i) const { return static_cast<real>(distances[i]); }
   INLINE static real sumOfProducts(vec3 a, vec3 b) { return dot(a, b); }
   INLINE static vec3 canonical(vec3 v) {

@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "shared/implicit.h"
+#include "shared/shapes.h"
 #include "solver/step_params.h"
 #include "solver/surface.h"
 
@@ -21,6 +22,7 @@ PassFeatures featuresOf(const Scene& scene, const Cloth& cloth, std::size_t piec
   features.particleForces = particleForcesOf(scene);
   for (const Collider& collider : scene.colliders) {
     features.colliderTypes |= 1u << collider.index();
+    if (deforms(collider)) features.colliderTypes |= 1u << COLLIDER_DEFORMS;
     features.movingColliders |= moves(collider);
   }
   features.coulombFriction = !scene.colliders.empty() && scene.solver.frictionLaw == FrictionLaw::coulomb;

@@ -146,7 +146,7 @@ TEST_F(MeshFile, IsNotSampledBeyondTheBudgetOfAllCollidersTogether) {
   Scene scene;
   const MeshCollider collider{.file = (folder_ / "mesh.obj").string(), .cells = 8};
   scene.colliders.assign(3, collider);
-  const std::size_t each = SignedDistanceGrid::sampleCount(loadSolidMesh(collider.file, 1), 8);
+  const std::size_t each = SignedDistanceGrid::sampleCount(loadShapes(collider), false, 8);
   EXPECT_EQ(distanceGridOf(collider)->samples().size(), each);
   EXPECT_EQ(ColliderSet(scene, 3 * each).distances()->size(), 3 * each);
   const std::string message =

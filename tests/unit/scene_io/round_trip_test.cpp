@@ -166,7 +166,7 @@ class RandomScene {
       case 6:
         return Cylinder{vector(), direction, positive(), size, fraction(), motion};
       case 5:
-        return MeshCollider{text() + "x", vector(), vector(), size, whole(8, 256), fraction(), motion};
+        return meshCollider(size, motion);
       case 0:
         return Sphere{vector(), size, fraction(), motion};
       case 1:
@@ -179,6 +179,18 @@ class RandomScene {
       default:
         return Plane{vector(), direction, fraction(), motion};
     }
+  }
+
+  Collider meshCollider(double scale, const std::optional<Motion>& motion) {
+    MeshCollider mesh{text() + "x", vector(), vector(), scale, whole(8, 256), fraction(), motion};
+    if (!maybe()) return mesh;
+    mesh.file += maybe() ? "%d" : "%03d.obj";
+    mesh.shapes = whole(2, 1000);
+    mesh.firstShape = whole(0, 99);
+    mesh.shapesPerSecond = positive();
+    mesh.shapesStart = number();
+    mesh.shapesLoop = maybe();
+    return mesh;
   }
 
   // The law that allows friction above 1.
