@@ -174,10 +174,11 @@ void declareRun(CLI::App& app, Arguments& a, Task& task) {
   run->add_option("--save", a.saves,
                   "save the last state as .csv .ply .obj .glb .npz .png, or .state (exact); with %04d in the "
                   "name every K-th frame; all frames in one file: .pc2 (with its mesh, FILE_rest.obj), .usda "
+                  ".usdc .usd "
                   "(every K-th), .mp4 (real time; needs ffmpeg); may be repeated")
       ->type_name("FILE")
       ->allow_extra_args(false);
-  run->add_option("--every", a.every, "K for numbered files, .pc2 and .usda")
+  run->add_option("--every", a.every, "K for numbered files, .pc2 and USD")
       ->transform(wholeNumber(1, 1'000'000));
   CLI::Option* from = run->add_option("--from", a.from, "start from a saved .state")->type_name("STATE");
   CLI::Option* jitter =

@@ -36,9 +36,9 @@ void checkSaves(const RunOptions& options) {
       throw UsageError("--save " + save +
                        ": a file of this kind holds all frames; leave the number out of its name");
     if (!isSequence(save) && !isPicture(save) && !canSaveStateAs(save))
-      throw UsageError(
-          "--save " + save +
-          ": the extension is none of .csv, .ply, .obj, .glb, .npz, .state, .pc2, .usda, .png, .mp4");
+      throw UsageError("--save " + save +
+                       ": the extension is none of .csv, .ply, .obj, .glb, .npz, .state, .pc2, .usda, .usdc, "
+                       ".usd, .png, .mp4");
   }
   for (const std::string& save : options.saves) {
     checkWritable(numberedName(save, options.frames.value_or(0)));

@@ -33,6 +33,8 @@ class GrowingFile {
   // Replaces bytes that were written before. append() still continues at the end.
   void overwrite(std::uint64_t offset, std::string_view bytes);
   void close();
+  // For a program that writes the whole of it.
+  [[nodiscard]] int descriptor() const { return descriptor_; }
 
  private:
   void write(std::string_view bytes);

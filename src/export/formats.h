@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,8 +12,13 @@
 namespace clothsim {
 
 [[nodiscard]] std::string formatCsv(const State& state);
+// Of several cloths the faces tell whose they are: the integer property `cloth`, counted from 0.
 [[nodiscard]] std::string formatPly(const State& state, const Cloth& cloth);
-[[nodiscard]] std::string formatObj(const State& state, const Cloth& cloth);
+// A mesh in the OBJ format. Of several cloths each is an object, unless all are asked for as one, as a point
+// cache moves them.
+enum class ObjObjects { byCloth, one };
+[[nodiscard]] std::string formatObj(const State& state, const Cloth& cloth,
+                                    ObjObjects objects = ObjObjects::byCloth);
 // Arrays positions [m], velocities [m/s], inverse_masses [1/kg] (0: pinned), texture_coordinates, faces,
 // step.
 [[nodiscard]] std::string formatNpz(const State& state, const Cloth& cloth);
@@ -50,5 +56,10 @@ namespace clothsim {
 
 // Unit normals from the triangles around each particle, weighted by their areas; +y where those cancel out.
 [[nodiscard]] std::vector<Vec3f> vertexNormals(const State& state, const Cloth& cloth);
+[[nodiscard]] std::vector<Vec3f> vertexNormals(std::span<const Vec3f> points,
+                                               std::span<const std::array<std::uint32_t, 3>> triangles);
+
+// "cloth", or of several "cloth0", "cloth1" ...
+[[nodiscard]] std::string clothName(const Cloth& cloth, std::size_t piece);
 
 }  // namespace clothsim

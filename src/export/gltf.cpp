@@ -65,7 +65,7 @@ void fill(aiScene& scene, const State& state, const Cloth& cloth) {
   scene.mRootNode->mChildren = new aiNode*[ofPieces.size()];
   for (const auto& [piece, triangles] : ofPieces) {
     const unsigned number = scene.mNumMeshes++;
-    const std::string name = cloth.pieces().size() == 1 ? "cloth" : "cloth" + std::to_string(piece);
+    const std::string name = clothName(cloth, piece);
     scene.mMeshes[number] = makeMesh(cloth.pieces()[piece], state, normals, coordinates, triangles);
     scene.mMeshes[number]->mName = name;
     aiNode* const node = scene.mRootNode->mChildren[number] = makeNode(name);

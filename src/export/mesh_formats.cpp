@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 #include <initializer_list>
+#include <optional>
 
 #include "export/formats.h"
 #include "export/text_numbers.h"
@@ -27,8 +28,6 @@ void appendBytes(std::string& bytes, T value) {
   bytes.append(raw.data(), raw.size());
 }
 
-Vec3f xyz(const Particle4& particle) { return {particle.x, particle.y, particle.z}; }
-
 }  // namespace
 
 std::vector<std::array<float, 2>> pictureCoordinates(const Cloth& cloth) {
@@ -37,12 +36,24 @@ std::vector<std::array<float, 2>> pictureCoordinates(const Cloth& cloth) {
   return coordinates;
 }
 
+std::string clothName(const Cloth& cloth, std::size_t piece) {
+  return cloth.pieces().size() == 1 ? "cloth" : "cloth" + std::to_string(piece);
+}
+
 std::vector<Vec3f> vertexNormals(const State& state, const Cloth& cloth) {
-  std::vector<Vec3d> sums(state.positions.size());
-  for (const auto& triangle : remainingTriangles(cloth, state.cuts)) {
-    const Vec3d a = xyz(state.positions[triangle[0]]).cast<double>();
-    const Vec3d b = xyz(state.positions[triangle[1]]).cast<double>();
-    const Vec3d c = xyz(state.positions[triangle[2]]).cast<double>();
+  std::vector<Vec3f> points;
+  points.reserve(state.positions.size());
+  for (const Particle4& particle : state.positions) points.push_back({particle.x, particle.y, particle.z});
+  return vertexNormals(points, remainingTriangles(cloth, state.cuts));
+}
+
+std::vector<Vec3f> vertexNormals(std::span<const Vec3f> points,
+                                 std::span<const std::array<std::uint32_t, 3>> triangles) {
+  std::vector<Vec3d> sums(points.size());
+  for (const auto& triangle : triangles) {
+    const Vec3d a = points[triangle[0]].cast<double>();
+    const Vec3d b = points[triangle[1]].cast<double>();
+    const Vec3d c = points[triangle[2]].cast<double>();
     const Vec3d twiceArea = cross(b - a, c - a);
     for (const std::uint32_t corner : triangle) sums[corner] = sums[corner] + twiceArea;
   }
@@ -69,12 +80,16 @@ std::string formatCsv(const State& state) {
   return text;
 }
 
-std::string formatObj(const State& state, const Cloth& cloth) {
+std::string formatObj(const State& state, const Cloth& cloth, ObjObjects objects) {
   std::string text = "# clothsim, step " + std::to_string(state.clock.step) + ", metres, y up\n";
   for (const Particle4& x : state.positions) appendLine(text, "v", {x.x, x.y, x.z});
   for (const auto& uv : pictureCoordinates(cloth)) appendLine(text, "vt", {uv[0], uv[1]});
   for (const Vec3f& n : vertexNormals(state, cloth)) appendLine(text, "vn", {n.x, n.y, n.z});
+  const bool hasObjects = objects == ObjObjects::byCloth && cloth.pieces().size() > 1;
+  std::optional<std::size_t> object;
   for (const auto& triangle : remainingTriangles(cloth, state.cuts)) {
+    const std::size_t piece = cloth.pieceOf(triangle[0]);
+    if (hasObjects && object != piece) text += "o " + clothName(cloth, *(object = piece)) + "\n";
     text += 'f';
     for (const std::uint32_t corner : triangle) {
       text += ' ';
@@ -99,8 +114,9 @@ std::string formatPly(const State& state, const Cloth& cloth) {
   // s and t are the names that Blender and MeshLab know texture coordinates by.
   for (const char* name : {"x", "y", "z", "nx", "ny", "nz", "s", "t"})
     bytes += std::string("property float ") + name + "\n";
-  bytes += "element face " + std::to_string(triangles.size()) +
-           "\nproperty list uchar int vertex_indices\nend_header\n";
+  bytes += "element face " + std::to_string(triangles.size()) + "\nproperty list uchar int vertex_indices\n";
+  const bool tellsCloths = cloth.pieces().size() > 1;
+  bytes += tellsCloths ? "property int cloth\nend_header\n" : "end_header\n";
 
   for (std::size_t i = 0; i < state.positions.size(); ++i) {
     const Particle4& x = state.positions[i];
@@ -112,6 +128,7 @@ std::string formatPly(const State& state, const Cloth& cloth) {
   for (const auto& triangle : triangles) {
     appendBytes(bytes, std::uint8_t{3});
     for (const std::uint32_t corner : triangle) appendBytes(bytes, corner);
+    if (tellsCloths) appendBytes(bytes, static_cast<std::int32_t>(cloth.pieceOf(triangle[0])));
   }
   return bytes;
 }

@@ -6,7 +6,7 @@
 
 #include "core/error.h"
 #include "core/files.h"
-#include "export/export.h"
+#include "export/formats.h"
 #include "export/sequence_formats.h"
 
 namespace clothsim {
@@ -48,7 +48,7 @@ class PointCacheWriter final : public SequenceWriter {
 
   void close() override {
     file_.overwrite(0, bytesOf(header_));
-    saveState(rest_, cloth_, restMeshBeside(path_));
+    writeFileAtomically(restMeshBeside(path_), formatObj(rest_, cloth_, ObjObjects::one));
     file_.close();
   }
 

@@ -18,7 +18,7 @@ struct Extension {
 constexpr std::array<Extension, 6> extensions{{
     {".csv", [](const State& state, const Cloth&) { return formatCsv(state); }},
     {".ply", formatPly},
-    {".obj", formatObj},
+    {".obj", [](const State& state, const Cloth& cloth) { return formatObj(state, cloth); }},
     {".glb", formatGlb},
     {".npz", [](const State& state, const Cloth& cloth) { return formatNpz(state, cloth); }},
     {".state", [](const State& state, const Cloth&) { return formatStateFile(state); }},

@@ -2,11 +2,12 @@
 
 #include "core/error.h"
 #include "export/sequence_formats.h"
+#include "export/usd_binary.h"
 
 namespace clothsim {
 
 bool isSequence(const std::filesystem::path& path) {
-  return isPointCache(path) || path.extension() == ".usda";
+  return isPointCache(path) || path.extension() == ".usda" || isUsdBinary(path);
 }
 
 bool isPointCache(const std::filesystem::path& path) { return path.extension() == ".pc2"; }
@@ -17,11 +18,11 @@ std::filesystem::path restMeshBeside(const std::filesystem::path& pointCache) {
 }
 
 std::unique_ptr<SequenceWriter> makeSequenceWriter(const std::filesystem::path& path, const Cloth& cloth,
-                                                   const FrameTimes& times) {
+                                                   const Scene& scene, const FrameTimes& times) {
   if (isPointCache(path)) return makePointCacheWriter(path, cloth, times);
-  if (path.extension() == ".usda") return makeUsdWriter(path, cloth, times);
+  if (isSequence(path)) return makeUsdWriter(path, cloth, scene, times);
   throw UsageError("cannot save frames to '" + path.string() + "': its extension is '" +
-                   path.extension().string() + "', expected .pc2 or .usda");
+                   path.extension().string() + "', expected .pc2, .usda, .usdc or .usd");
 }
 
 void checkParticleCount(const State& state, const Cloth& cloth, const std::filesystem::path& path) {

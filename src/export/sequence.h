@@ -25,10 +25,11 @@ class SequenceWriter {
 };
 
 // .pc2: PC2 point cache, positions of the particles [m], little-endian; and beside cloth.pc2 the mesh that it
-// moves, cloth_rest.obj, the first frame with uv. .usda: USD as text, one mesh with animated points, in
-// metres, y up, with the frame rate. A mesh that is cut on the way changes its triangles in .usda, and keeps
-// them in .pc2. The PC2 header says that a sample stands for `every` frames. Blender takes each sample for
-// one frame, so that its modifier's Frame Scale must be 1 / every.
+// moves, cloth_rest.obj, the first frame with uv. .usda: USD as text, a mesh with animated points for each
+// cloth, the solids, materials and the camera, in metres, y up, with the frame rate; .usdc and .usd: the same
+// in binary, by Pixar's library (export/usd_binary.h). A mesh that is cut on the way changes its triangles in
+// .usda, and keeps them in .pc2. The PC2 header says that a sample stands for `every` frames. Blender takes
+// each sample for one frame, so that its modifier's Frame Scale must be 1 / every.
 [[nodiscard]] bool isSequence(const std::filesystem::path& path);
 [[nodiscard]] bool isPointCache(const std::filesystem::path& path);
 // The mesh that a point cache of that name moves.
@@ -36,6 +37,7 @@ class SequenceWriter {
 
 // @throws UsageError for another extension, InputOutputError
 [[nodiscard]] std::unique_ptr<SequenceWriter> makeSequenceWriter(const std::filesystem::path& path,
-                                                                 const Cloth& cloth, const FrameTimes& times);
+                                                                 const Cloth& cloth, const Scene& scene,
+                                                                 const FrameTimes& times);
 
 }  // namespace clothsim

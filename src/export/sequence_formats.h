@@ -9,7 +9,8 @@ namespace clothsim {
                                                                    const Cloth& cloth,
                                                                    const FrameTimes& times);
 [[nodiscard]] std::unique_ptr<SequenceWriter> makeUsdWriter(const std::filesystem::path& path,
-                                                            const Cloth& cloth, const FrameTimes& times);
+                                                            const Cloth& cloth, const Scene& scene,
+                                                            const FrameTimes& times);
 
 // @throws InputOutputError when the state is of another cloth
 void checkParticleCount(const State& state, const Cloth& cloth, const std::filesystem::path& path);

@@ -1,147 +1,200 @@
-// USD in its text form (.usda, openusd.org): one mesh with time samples. The stage's
-// own settings are written, too: metres, y up, frames a second.
+// USD (openusd.org): a mesh prim with time samples for each cloth, and the scene around. The stage's own
+// settings are written, too: metres, y up, frames a second. USD writes all samples of an attribute together,
+// so that positions wait in a spool until the run is over. It is written as text; Pixar's library makes the
+// binary form of that.
 #include <algorithm>
-#include <charconv>
+#include <cstring>
+#include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "core/files.h"
 #include "export/formats.h"
 #include "export/sequence_formats.h"
-#include "export/text_numbers.h"
+#include "export/spool.h"
+#include "export/usd_binary.h"
+#include "export/usd_parts.h"
 
 namespace clothsim {
 namespace {
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-std::string text(double value) {
-  std::array<char, 32> digits;
-  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
-}
-
-void appendVector(std::string& text, float x, float y, float z) {
-  text += '(';
-  appendNumber(text, x);
-  text += ", ";
-  appendNumber(text, y);
-  text += ", ";
-  appendNumber(text, z);
-  text += ')';
-}
-
-// "[a, b, c]", each element by `append`.
-template <class Range, class Append>
-void appendArray(std::string& text, const Range& range, Append append) {
-  text += '[';
-  bool first = true;
-  for (const auto& element : range) {
-    if (!std::exchange(first, false)) text += ", ";
-    append(element);
+UsdBox boxAround(std::span<const Vec3f> points) {
+  UsdBox box{points.front(), points.front()};
+  for (const Vec3f& x : points) {
+    box.low = {std::min(box.low.x, x.x), std::min(box.low.y, x.y), std::min(box.low.z, x.z)};
+    box.high = {std::max(box.high.x, x.x), std::max(box.high.y, x.y), std::max(box.high.z, x.z)};
   }
-  text += ']';
+  return box;
 }
 
-void appendPoints(std::string& text, const std::vector<Particle4>& points) {
-  appendArray(text, points, [&](const Particle4& x) { appendVector(text, x.x, x.y, x.z); });
-}
-
-// The smallest and the largest corner of a box around all points.
-void appendExtent(std::string& text, const std::vector<Particle4>& points) {
-  Particle4 low = points.front(), high = points.front();
-  for (const Particle4& x : points) {
-    low = {std::min(low.x, x.x), std::min(low.y, x.y), std::min(low.z, x.z)};
-    high = {std::max(high.x, x.x), std::max(high.y, x.y), std::max(high.z, x.z)};
-  }
-  appendArray(text, std::array{low, high}, [&](const Particle4& x) { appendVector(text, x.x, x.y, x.z); });
+void appendPoints(std::string& text, std::span<const Vec3f> points) {
+  appendUsdArray(text, points, [&](const Vec3f& x) { appendUsdVector(text, x); });
 }
 
 class UsdWriter final : public SequenceWriter {
  public:
-  UsdWriter(const std::filesystem::path& path, const Cloth& cloth, const FrameTimes& times)
-      : cloth_(cloth), path_(path), file_(path), times_(times) {
-    file_.append(
-        "#usda 1.0\n(\n    defaultPrim = \"Cloth\"\n    doc = \"Made by clothsim\"\n    metersPerUnit = 1\n"
-        "    upAxis = \"Y\"\n    startTimeCode = 0\n    endTimeCode = " +
-        std::to_string(times.last) + "\n    timeCodesPerSecond = " + text(times.framesPerSecond) +
-        "\n    framesPerSecond = " + text(times.framesPerSecond) +
-        "\n)\n\ndef Mesh \"Cloth\"\n{\n    uniform bool doubleSided = 1\n"
-        "    uniform token subdivisionScheme = \"none\"\n    texCoord2f[] primvars:st = ");
-    std::string uvs;
-    appendArray(uvs, pictureCoordinates(cloth), [&](const std::array<float, 2>& uv) {
-      uvs += '(';
-      appendNumber(uvs, uv[0]);
-      uvs += ", ";
-      appendNumber(uvs, uv[1]);
-      uvs += ')';
-    });
-    file_.append(uvs +
-                 " (\n        interpolation = \"vertex\"\n    )\n    point3f[] points.timeSamples = {\n");
+  UsdWriter(const std::filesystem::path& path, const Cloth& cloth, const Scene& scene,
+            const FrameTimes& times)
+      : cloth_(cloth), scene_(scene), path_(path), times_(times), spool_(path), file_(path) {
+    if (isUsdBinary(path)) {
+      checkUsdLibrary(path);
+      text_.emplace(path);
+    }
   }
 
   void addFrame(const State& state) override {
     checkParticleCount(state, cloth_, path_);
-    const std::string time = "        " + std::to_string(frame_) + ": ";
-    std::string points = time;
-    appendPoints(points, state.positions);
-    file_.append(points + ",\n");
-    extents_ += time;
-    appendExtent(extents_, state.positions);
-    extents_ += ",\n";
-    Triangles triangles = remainingTriangles(cloth_, state.cuts);
-    if (meshes_.empty() || meshes_.back().second != triangles)
-      meshes_.emplace_back(frame_, std::move(triangles));
-    frame_ += times_.every;
+    std::vector<Vec3f> points;
+    points.reserve(state.positions.size());
+    for (const Particle4& x : state.positions) points.push_back({x.x, x.y, x.z});
+    spool_.append({reinterpret_cast<const char*>(points.data()), points.size() * sizeof(Vec3f)});
+    if (frames_.empty()) start_ = boxAround(points);
+    if (meshes_.empty() || cuts_ != state.cuts) {
+      cuts_ = state.cuts;
+      meshes_.emplace_back(frames_.size(), remainingTriangles(cloth_, cuts_));
+    }
+    frames_.push_back({static_cast<int>(frames_.size()) * times_.every, state.clock.time()});
   }
 
   void close() override {
-    file_.append("    }\n    float3[] extent.timeSamples = {\n" + extents_ + "    }\n");
-    appendMeshes("faceVertexCounts", [](std::string& out, const Triangles& triangles) {
-      appendArray(out, triangles, [&](const auto&) { out += '3'; });
-    });
-    appendMeshes("faceVertexIndices", [](std::string& out, const Triangles& triangles) {
-      std::vector<std::uint32_t> corners;
-      for (const auto& triangle : triangles) corners.insert(corners.end(), triangle.begin(), triangle.end());
-      appendArray(out, corners, [&](std::uint32_t corner) { appendIndex(out, corner); });
-    });
-    file_.append("}\n");
+    const std::string rate = usdNumber(times_.framesPerSecond);
+    write(
+        "#usda 1.0\n(\n    defaultPrim = \"clothsim\"\n    doc = \"Made by clothsim\"\n" +
+        std::string("    metersPerUnit = 1\n    upAxis = \"Y\"\n    startTimeCode = 0\n    endTimeCode = ") +
+        std::to_string(times_.last) + "\n    timeCodesPerSecond = " + rate +
+        "\n    framesPerSecond = " + rate + "\n)\n\ndef Xform \"clothsim\"\n{\n");
+    for (std::size_t piece = 0; piece < cloth_.pieces().size(); ++piece) writeCloth(piece);
+    write(usdSurroundings(scene_, start_, frames_) + "}\n");
+    if (text_) makeUsdBinary(path_, text_->descriptor(), file_);
     file_.close();
   }
 
  private:
+  void write(const std::string& text) {
+    if (text_)
+      text_->append(text);
+    else
+      file_.append(text);
+  }
+
+  void writeCloth(std::size_t number) {
+    const Piece& piece = cloth_.pieces()[number];
+    std::string text = "    def Mesh \"" + clothName(cloth_, number) +
+                       "\" (\n        prepend apiSchemas = [\"MaterialBindingAPI\"]\n    )\n    {\n"
+                       "        uniform bool doubleSided = 1\n"
+                       "        uniform token subdivisionScheme = \"none\"\n        rel material:binding = " +
+                       USD_CLOTH_MATERIAL + "\n        texCoord2f[] primvars:st = ";
+    const auto coordinates = pictureCoordinates(cloth_);
+    appendUsdArray(text, std::span(coordinates).subspan(piece.firstParticle, piece.particleCount()),
+                   [&](const std::array<float, 2>& uv) {
+                     text += '(';
+                     appendNumber(text, uv[0]);
+                     text += ", ";
+                     appendNumber(text, uv[1]);
+                     text += ')';
+                   });
+    write(text + " (\n            interpolation = \"vertex\"\n        )\n");
+    writeSamples("point3f[] points", piece, appendPoints);
+    writeSamples("float3[] extent", piece, [](std::string& out, std::span<const Vec3f> points) {
+      const UsdBox box = boxAround(points);
+      appendPoints(out, std::array{box.low, box.high});
+    });
+    write("        normal3f[] normals (\n            interpolation = \"vertex\"\n        )\n");
+    writeNormals(piece);
+    writeTriangles("faceVertexCounts", piece, [](std::string& out, const Triangles& triangles) {
+      appendUsdArray(out, triangles, [&](const auto&) { out += '3'; });
+    });
+    writeTriangles("faceVertexIndices", piece, [](std::string& out, const Triangles& triangles) {
+      std::vector<std::uint32_t> corners;
+      for (const auto& triangle : triangles) corners.insert(corners.end(), triangle.begin(), triangle.end());
+      appendUsdArray(out, corners, [&](std::uint32_t corner) { appendIndex(out, corner); });
+    });
+    write("    }\n");
+  }
+
+  [[nodiscard]] std::vector<Vec3f> pointsOf(const Piece& piece, std::size_t frame) {
+    std::vector<Vec3f> points(piece.particleCount());
+    const std::uint64_t first = std::uint64_t{frame} * cloth_.particleCount() + piece.firstParticle;
+    const std::string bytes = spool_.read(first * sizeof(Vec3f), points.size() * sizeof(Vec3f));
+    std::memcpy(points.data(), bytes.data(), bytes.size());
+    return points;
+  }
+
+  [[nodiscard]] static Triangles trianglesOf(const Piece& piece, const Triangles& all) {
+    Triangles own;
+    for (const auto& [a, b, c] : all)
+      if (a - piece.firstParticle < piece.particleCount())
+        own.push_back({a - piece.firstParticle, b - piece.firstParticle, c - piece.firstParticle});
+    return own;
+  }
+
+  [[nodiscard]] std::string timeOf(std::size_t frame) const {
+    return "            " + std::to_string(frames_[frame].code) + ": ";
+  }
+
+  // An attribute that follows from the points of a frame.
+  template <class Append>
+  void writeSamples(const std::string& name, const Piece& piece, Append append) {
+    write("        " + name + ".timeSamples = {\n");
+    for (std::size_t frame = 0; frame < frames_.size(); ++frame) {
+      std::string text = timeOf(frame);
+      append(text, pointsOf(piece, frame));
+      write(text + ",\n");
+    }
+    write("        }\n");
+  }
+
+  void writeNormals(const Piece& piece) {
+    std::size_t frame = 0, mesh = 0;
+    Triangles triangles;
+    writeSamples("normal3f[] normals", piece, [&](std::string& out, std::span<const Vec3f> points) {
+      if (mesh < meshes_.size() && meshes_[mesh].first == frame)
+        triangles = trianglesOf(piece, meshes_[mesh++].second);
+      appendPoints(out, vertexNormals(points, triangles));
+      ++frame;
+    });
+  }
+
   // An attribute of the triangles: one value, or time samples where the cloth was cut on the way.
   template <class Append>
-  void appendMeshes(const std::string& name, Append append) {
-    std::string out = "    int[] " + name;
+  void writeTriangles(const std::string& name, const Piece& piece, Append append) {
+    std::string out = "        int[] " + name;
     if (meshes_.size() == 1) {
       out += " = ";
-      append(out, meshes_.front().second);
+      append(out, trianglesOf(piece, meshes_.front().second));
     } else {
       out += ".timeSamples = {\n";
       for (const auto& [frame, triangles] : meshes_) {
-        out += "        " + std::to_string(frame) + ": ";
-        append(out, triangles);
+        out += timeOf(frame);
+        append(out, trianglesOf(piece, triangles));
         out += ",\n";
       }
-      out += "    }";
+      out += "        }";
     }
-    file_.append(out + "\n");
+    write(out + "\n");
   }
 
   Cloth cloth_;
+  Scene scene_;
   std::filesystem::path path_;
-  GrowingFile file_;
   FrameTimes times_;
-  int frame_ = 0;
-  std::string extents_;                            // their time samples
-  std::vector<std::pair<int, Triangles>> meshes_;  // from each frame on
+  Spool spool_;  // the positions of all frames
+  GrowingFile file_;
+  std::optional<Spool> text_;  // of which the binary form is made
+  UsdBox start_;
+  std::vector<UsdFrame> frames_;
+  Cuts cuts_;                                              // in the frame before
+  std::vector<std::pair<std::size_t, Triangles>> meshes_;  // from each frame on, counted from 0
 };
 
 }  // namespace
 
 std::unique_ptr<SequenceWriter> makeUsdWriter(const std::filesystem::path& path, const Cloth& cloth,
-                                              const FrameTimes& times) {
-  return std::make_unique<UsdWriter>(path, cloth, times);
+                                              const Scene& scene, const FrameTimes& times) {
+  return std::make_unique<UsdWriter>(path, cloth, scene, times);
 }
 
 }  // namespace clothsim

@@ -11,12 +11,14 @@ SavedFiles::SavedFiles(const std::vector<std::string>& names, int every, int fra
     : every_(every), frames_(frames) {
   for (const std::string& name : names) {
     if (isSequence(name))
-      sequences_.push_back(makeSequenceWriter(
-          name, simulation.cloth(), {simulation.scene().solver.framesPerSec, every, frames / every * every}));
+      sequences_.push_back(
+          makeSequenceWriter(name, simulation.cloth(), simulation.scene(),
+                             {simulation.scene().solver.framesPerSec, every, frames / every * every}));
     else if (canSaveStateAs(name))
       states_.push_back(name);
     else
-      throw UsageError(name + ": the extension is none of .csv, .ply, .obj, .npz, .state, .pc2, .usda");
+      throw UsageError(
+          name + ": the extension is none of .csv, .ply, .obj, .glb, .npz, .state, .pc2, .usda, .usdc, .usd");
   }
 }
 

@@ -7,8 +7,8 @@ last_frame, frames = 119, [0, 60, 119]
 columns = "date commit check tool measured demand met unit".split()
 
 
-def clothsim(folder, *words, **options):
-    return subprocess.run([program, "run", "-f", "pinned2", "--backend", "cpu", *words], cwd=folder, text=True,
+def clothsim(folder, *words, scene="pinned2", **options):
+    return subprocess.run([program, "run", "-f", scene, "--backend", "cpu", *words], cwd=folder, text=True,
                           capture_output=True, **options)
 
 
@@ -51,7 +51,7 @@ def usd(folder):
         sys.exit("tools/validate: Pixar's USD library is missing (pip install usd-core, in a virtual environment, and run "
                  "tools/validate with its python3)")
     stage = Usd.Stage.Open(str(folder / "cloth.usda"))
-    mesh = UsdGeom.Mesh(stage.GetDefaultPrim())
+    mesh = UsdGeom.Mesh(stage.GetPrimAtPath("/clothsim/cloth"))
     assert UsdGeom.GetStageMetersPerUnit(stage) == 1 and UsdGeom.GetStageUpAxis(stage) == "Y"
     assert stage.GetTimeCodesPerSecond() == 90 and stage.GetEndTimeCode() == last_frame
     assert UsdGeom.PrimvarsAPI(mesh).GetPrimvar("st").GetInterpolation() == "vertex"
@@ -62,6 +62,106 @@ def usd(folder):
     for frame in frames:
         difference = largest_difference(mesh.GetPointsAttr().Get(frame), ours(folder, frame))
         yield f"USDA, frame {frame}: largest difference of a coordinate", f"usd-core {version}", difference, 1e-6, "m"
+
+
+# Four napkins, a ball and a floor, in each format that knows of several meshes.
+pieces, piece_points, several_frames = 4, 29 * 29, 30
+
+
+def export_several(folder):
+    files = ["all.usda", "last.obj", "last.ply", "last.glb", "frame_%04d.csv"]
+    try:
+        import pxr
+        files.append("all.usdc")
+    except ImportError:
+        pass
+    done = clothsim(folder, "--frames", str(several_frames), *(word for name in files for word in ("--save", name)), scene="stack",
+                    env={**os.environ, "CLOTHSIM_PYTHON": sys.executable})
+    assert done.returncode == 0, done.stderr
+    last = ours(folder, several_frames)
+    return [last[k * piece_points:(k + 1) * piece_points] for k in range(pieces)]
+
+
+# The largest distance from one of our points to the nearest of the others, where a reader orders or merges points anew.
+def farthest_from(points, others):
+    import numpy
+    a, b = numpy.array(points), numpy.array(others)
+    return max(float(numpy.sqrt(((b - p) ** 2).sum(axis=1).min())) for p in a)
+
+
+def blender_several(folder):
+    cloths = export_several(folder)
+    files = [str(folder / name) for name in ["last.obj", "last.ply", "all.usda", "all.usdc", "last.glb"] if (folder / name).exists()]
+    done = subprocess.run(["blender", "--background", "--factory-startup", "--python-exit-code", "1", "--python",
+                           root / "tools/exports/blender_meshes.py", "--", folder / "several.json", *files],
+                          capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    result = json.loads((folder / "several.json").read_text())
+    for extension, read in result["files"].items():
+        meshes = [mesh for mesh in read["meshes"] if extension == "ply" or mesh["name"].startswith("cloth")]
+        assert len(meshes) == (1 if extension == "ply" else pieces), (extension, [mesh["name"] for mesh in read["meshes"]])
+        assert sum(mesh["faces"] for mesh in meshes) == pieces * 2 * 28 * 28 and all(mesh["uvs"] for mesh in meshes)
+        if extension.startswith("usd"):
+            assert read["cameras"] == 1 and len(read["meshes"]) >= pieces + 1, "the camera and the floor"
+            continue  # at frame 0; usd() compares positions
+        each = [sum(cloths, [])] if extension == "ply" else cloths
+        difference = max(farthest_from(ours_, mesh["positions"]) for ours_, mesh in zip(each, meshes))
+        yield f"{extension.upper()} of four cloths: largest distance of a point", f'Blender {result["version"]}', difference, 1e-6, "m"
+
+
+def trimesh_several(folder):
+    try:
+        import numpy, trimesh
+    except ImportError:
+        sys.exit("tools/validate: trimesh is missing (pip install trimesh, in a virtual environment, and run tools/validate with its "
+                 "python3)")
+    cloths = export_several(folder)
+    tool = f"trimesh {trimesh.__version__}"
+    obj = trimesh.load(folder / "last.obj", split_objects=True, group_material=False, process=False)
+    read = [mesh for _, mesh in sorted(obj.geometry.items())]
+    assert len(read) == pieces and all(len(mesh.faces) == 2 * 28 * 28 for mesh in read), obj.geometry
+    yield "OBJ of four cloths: largest distance of a point", tool, \
+        max(farthest_from(c, mesh.vertices) for c, mesh in zip(cloths, read)), 1e-6, "m"
+    ply = trimesh.load(folder / "last.ply", process=False)
+    whose = ply.metadata["_ply_raw"]["face"]["data"]["cloth"]
+    assert [int((whose == k).sum()) for k in range(pieces)] == [2 * 28 * 28] * pieces
+    assert all((ply.faces[numpy.ravel(whose) == k] // piece_points == k).all() for k in range(pieces))
+    yield "PLY of four cloths: largest difference of a coordinate", tool, \
+        largest_difference(ply.vertices.tolist(), sum(cloths, [])), 1e-6, "m"
+
+
+def usd_several(folder):
+    from pxr import Gf, Usd, UsdGeom, UsdShade
+    cloths = export_several(folder)
+    version = ".".join(map(str, Usd.GetVersion()))
+    for name in ["all.usda", "all.usdc"]:
+        stage = Usd.Stage.Open(str(folder / name))
+        assert stage.GetDefaultPrim().GetPath() == "/clothsim"
+        worst, skew = 0, 0
+        for k, points in enumerate(cloths):
+            mesh = UsdGeom.Mesh(stage.GetPrimAtPath(f"/clothsim/cloth{k}"))
+            read = mesh.GetPointsAttr().Get(several_frames)
+            valid, reason = UsdGeom.Mesh.ValidateTopology(mesh.GetFaceVertexIndicesAttr().Get(),
+                                                          mesh.GetFaceVertexCountsAttr().Get(), len(read))
+            assert valid, reason
+            worst = max(worst, largest_difference(read, points))
+            normals = mesh.GetNormalsAttr().Get(several_frames)
+            assert len(normals) == len(read) and mesh.GetNormalsInterpolation() == "vertex"
+            skew = max(skew, max(abs(Gf.Vec3f(n).GetLength() - 1) for n in normals))
+            extent = UsdGeom.PointBased.ComputeExtent(read)
+            assert largest_difference(mesh.GetExtentAttr().Get(several_frames), extent) == 0
+            material, _ = UsdShade.MaterialBindingAPI(mesh).ComputeBoundMaterial()
+            surface, _, _ = material.ComputeSurfaceSource()
+            assert surface.GetIdAttr().Get() == "UsdPreviewSurface" and surface.GetInput("diffuseColor").Get() is not None
+        ball = UsdGeom.Sphere(stage.GetPrimAtPath("/clothsim/solids/sphere0"))
+        assert ball.GetRadiusAttr().Get() == 0.16 and stage.GetPrimAtPath("/clothsim/solids/plane1")
+        camera = UsdGeom.Camera(stage.GetPrimAtPath("/clothsim/camera")).GetCamera(0)
+        assert abs(camera.GetFieldOfView(Gf.Camera.FOVVertical) - 34) < 1e-4
+        axis = Gf.Vec3d(0, 0.13, 0) - Gf.Vec3d(0.8, 0.85, 1.35)
+        assert (camera.frustum.ComputeViewDirection() - axis.GetNormalized()).GetLength() < 1e-6
+        kind = "text" if name.endswith("a") else "binary"
+        yield f"USD of four cloths, {kind}: largest difference of a coordinate", f"usd-core {version}", worst, 1e-6, "m"
+        yield f"USD of four cloths, {kind}: largest difference of a normal's length from 1", f"usd-core {version}", skew, 1e-6, ""
 
 
 sequence = ["--resolution", "40x40", "--frames", "60", "--save", "frame_%04d.ply", "--save", "cloth.pc2", "--save",
@@ -133,6 +233,15 @@ def full_disk(folder):
             subprocess.run(["umount", disk], check=True)
 
 
+# One check after the other.
+def each_of(*checks):
+    return lambda folder: (row for check in checks for row in check(folder))
+
+
+by_name = {"blender": [blender, blender_several], "usd": [usd, usd_several], "trimesh": [trimesh_several], "kills": [kills],
+           "disk": [full_disk]}
+
+
 def run(commit, checks):
     path = root / "report/data/exports.csv"
     if not path.exists():
@@ -144,8 +253,7 @@ def run(commit, checks):
         if "blender" in checks or "usd" in checks:
             export(folder)
         for check in checks:
-            for what, tool, measured, demand, unit in {"blender": blender, "usd": usd, "kills": kills,
-                                                       "disk": full_disk}[check](folder):
+            for what, tool, measured, demand, unit in each_of(*by_name[check])(folder):
                 met = measured <= demand
                 failed |= not met
                 print(f'{what}, {tool}: {measured:.3g} {unit}, demanded <={demand:g}: {"met" if met else "NOT MET"}')

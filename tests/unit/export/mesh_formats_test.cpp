@@ -114,6 +114,27 @@ TEST_F(MeshFormats, PlyIsAsLongAsItsHeaderSaysAndHoldsTheParticles) {
   for (int i = 0; i < 8; ++i) EXPECT_EQ(vertex[i], expected[i]) << "property " << i;
 }
 
+TEST_F(MeshFormats, ObjAndPlyTellWhichClothAFaceIsOf) {
+  Scene scene = test::smallScene();
+  scene.cloths.push_back(scene.cloths[0]);
+  cloth_ = Cloth(scene);
+  state_ = test::smallState(cloth_);
+  std::string lines;
+  for (const std::string& line : linesOf(formatObj(state_, cloth_)))
+    if (line[0] == 'o' || line[0] == 'f') lines += line[0] == 'o' ? line + " " : line.substr(0, 1);
+  EXPECT_EQ(lines, "o cloth0 ffffo cloth1 ffff");
+  EXPECT_EQ(formatObj(state_, cloth_, ObjObjects::one).find("\no "), std::string::npos);
+
+  const std::string bytes = formatPly(state_, cloth_);
+  EXPECT_NE(bytes.find("property list uchar int vertex_indices\nproperty int cloth\nend_header\n"),
+            std::string::npos);
+  for (std::size_t face = 0; face < 8; ++face) {
+    std::int32_t cloth = -1;
+    std::memcpy(&cloth, bytes.data() + bytes.size() - 17 * (8 - face) + 13, sizeof cloth);
+    EXPECT_EQ(cloth, face < 4 ? 0 : 1);
+  }
+}
+
 TEST_F(MeshFormats, NpzHoldsEachArrayUncompressedBehindAHeaderOfWholeLines) {
   const std::string bytes = formatNpz(state_, cloth_);
   EXPECT_TRUE(bytes.starts_with("PK\x03\x04")) << "a zip archive";

@@ -21,7 +21,8 @@ using test::messageThrownBy;
 
 class Sequence : public testing::Test {
  protected:
-  Cloth cloth_{test::smallScene()};
+  Scene scene_ = test::smallScene();
+  Cloth cloth_{scene_};
   State first_ = test::smallState(cloth_), second_ = first_;
   test::TemporaryFolder folder_;
 
@@ -30,7 +31,7 @@ class Sequence : public testing::Test {
   }
   // Two frames, the second after three.
   void write(const std::string& name) const {
-    const auto writer = makeSequenceWriter(folder_ / name, cloth_, {60, 3, 3});
+    const auto writer = makeSequenceWriter(folder_ / name, cloth_, scene_, {60, 3, 3});
     writer->addFrame(first_);
     writer->addFrame(second_);
     writer->close();
@@ -41,10 +42,11 @@ class Sequence : public testing::Test {
 TEST_F(Sequence, KnowsItsExtensions) {
   EXPECT_TRUE(isSequence("a.pc2"));
   EXPECT_TRUE(isSequence("b/c.usda"));
-  EXPECT_FALSE(isSequence("a.usdc"));
+  EXPECT_TRUE(isSequence("a.usdc"));
+  EXPECT_TRUE(isSequence("a.usd"));
   EXPECT_FALSE(isSequence("a.obj"));
   const std::string message =
-      messageThrownBy<UsageError>([&] { (void)makeSequenceWriter(folder_ / "a.abc", cloth_, {}); });
+      messageThrownBy<UsageError>([&] { (void)makeSequenceWriter(folder_ / "a.abc", cloth_, scene_, {}); });
   EXPECT_TRUE(has(message, "a.abc") && has(message, ".pc2") && has(message, ".usda")) << message;
 }
 
@@ -95,14 +97,62 @@ TEST_F(Sequence, UsdTellsUnitsAxisFrameRateAndTheFrameOfEachSample) {
 TEST_F(Sequence, UsdChangesItsTrianglesWhereTheClothIsCutOnTheWay) {
   ASSERT_TRUE(cutAlong(second_.cuts, cloth_, 0, {0.5, -1}, {0.5, 2}));
   write("a.usda");
-  EXPECT_TRUE(has(readFile(folder_ / "a.usda"),
-                  "faceVertexCounts.timeSamples = {\n        0: [3, 3, 3, 3],\n        3: [3, 3],\n    }\n"));
+  EXPECT_TRUE(has(
+      readFile(folder_ / "a.usda"),
+      "faceVertexCounts.timeSamples = {\n            0: [3, 3, 3, 3],\n            3: [3, 3],\n        }\n"));
+}
+
+TEST_F(Sequence, UsdHasAMeshForEachClothWithItsOwnPointsAndTriangles) {
+  scene_.cloths.push_back(scene_.cloths[0]);
+  scene_.cloths[1].position = {0, 0.5, 0};
+  cloth_ = Cloth(scene_);
+  first_ = second_ = test::smallState(cloth_);
+  write("a.usda");
+  const std::string text = readFile(folder_ / "a.usda");
+  const std::size_t one = text.find("def Mesh \"cloth0\""), two = text.find("def Mesh \"cloth1\"");
+  ASSERT_TRUE(one != text.npos && two != text.npos && one < two);
+  for (const std::string& mesh : {text.substr(one, two - one), text.substr(two)}) {
+    EXPECT_TRUE(has(mesh, "faceVertexIndices = [0, 3, 1, 1, 3, 4, 1, 4, 2, 2, 4, 5]\n")) << mesh;
+    EXPECT_TRUE(has(mesh, "            3: [(0, 1, 0), (0, 1, 0)")) << "normals\n" << mesh;
+  }
+  EXPECT_TRUE(has(text.substr(one, two - one), "0: [(0, 1, 0), (1, 1, 0)"));
+  EXPECT_TRUE(has(text.substr(two), "0: [(0, 1.5, 0), (1, 1.5, 0)"));
+}
+
+// A ball that is turned by 90 degrees about z while it moves: USD multiplies rows by matrices.
+TEST_F(Sequence, UsdHasTheSolidsOnTheirWayTheMaterialsAndTheCamera) {
+  Sphere ball{.origin = {1, 2, 3}, .radius = 0.5};
+  ball.motion = Motion{.keys = {{0, {1, 2, 3}, {}}, {1, {2, 2, 3}, {0, 0, 90}}}};
+  scene_.colliders = {ball, Box{}};
+  scene_.render.color = {1, 0.5, 0};
+  scene_.camera = {.position = Vec3d{0, 0, 5}, .target = Vec3d{0, 0, 0}, .fov = 90};
+  first_.clock = {};
+  second_.clock = {.step = 1, .stepLength = 1};
+  write("a.usda");
+  const std::string text = readFile(folder_ / "a.usda");
+  for (const char* part : {"def Sphere \"sphere0\"", "double radius = 0.5\n", "def Mesh \"box1\"",
+                           "0: ( (1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (1, 2, 3, 1) )", "(2, 2, 3, 1) )",
+                           "inputs:diffuseColor = (1, 0.214041144, 0)\n",  // of sRGB 0.5
+                           "(0, 0, 1, 0), (0, 0, 5, 1) )", "verticalAperture = 24\n"})
+    EXPECT_TRUE(has(text, part)) << part << "\nis missing in\n" << text;
+}
+
+TEST_F(Sequence, BinaryUsdSaysWhatToInstallWherePixarsLibraryIsMissing) {
+  const char* const before = std::getenv("CLOTHSIM_PYTHON");
+  const std::string old = before == nullptr ? "" : before;
+  ::setenv("CLOTHSIM_PYTHON", "false", 1);
+  const std::string message = messageThrownBy<InputOutputError>(
+      [&] { (void)makeSequenceWriter(folder_ / "a.usdc", cloth_, scene_, {}); });
+  ::setenv("CLOTHSIM_PYTHON", old.c_str(), 1);
+  EXPECT_TRUE(has(message, "a.usdc") && has(message, "pip install usd-core") && has(message, ".usda"))
+      << message;
+  EXPECT_EQ(folder_.fileCount(), 0);
 }
 
 TEST_F(Sequence, IsWholeOrNotThere) {
   for (const char* name : {"a.pc2", "a.usda"}) {
     {
-      const auto writer = makeSequenceWriter(folder_ / name, cloth_, {});
+      const auto writer = makeSequenceWriter(folder_ / name, cloth_, scene_, {});
       writer->addFrame(first_);
       EXPECT_FALSE(std::filesystem::exists(folder_ / name)) << "before close()";
     }
@@ -112,7 +162,7 @@ TEST_F(Sequence, IsWholeOrNotThere) {
 
 TEST_F(Sequence, RefusesAClothThatWasRebuilt) {
   for (const char* name : {"a.pc2", "a.usda"}) {
-    const auto writer = makeSequenceWriter(folder_ / name, cloth_, {});
+    const auto writer = makeSequenceWriter(folder_ / name, cloth_, scene_, {});
     writer->addFrame(first_);
     second_.positions.resize(9);
     const std::string message = messageThrownBy<InputOutputError>([&] { writer->addFrame(second_); });

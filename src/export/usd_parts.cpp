@@ -1,0 +1,157 @@
+#include "export/usd_parts.h"
+
+#include <charconv>
+#include <cmath>
+#include <numbers>
+
+#include "scene/colliders/collider_set.h"
+#include "scene/pose.h"
+
+namespace clothsim {
+namespace {
+
+// Of USD's light: linear in intensity.
+std::string linearColor(Vec3d color) {
+  const auto linear = [](double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); };
+  std::string text;
+  appendUsdVector(text, Vec3d{linear(color.x), linear(color.y), linear(color.z)}.cast<float>());
+  return text;
+}
+
+std::string material(const std::string& name, Vec3d color, double roughness) {
+  return "        def Material \"" + name +
+         "\"\n        {\n            token outputs:surface.connect = " + "</clothsim/materials/" + name +
+         "/surface.outputs:surface>\n\n" + "            def Shader \"surface\"\n            {\n" +
+         "                uniform token info:id = \"UsdPreviewSurface\"\n" +
+         "                color3f inputs:diffuseColor = " + linearColor(color) + "\n" +
+         "                float inputs:roughness = " + usdNumber(roughness) + "\n" +
+         "                token outputs:surface\n            }\n        }\n";
+}
+
+std::string materials(const Scene& scene) {
+  constexpr Vec3d gray{0.5, 0.5, 0.5};
+  return "    def Scope \"materials\"\n    {\n" +
+         material("cloth", scene.render.color, 1 - 0.7 * scene.render.gloss) + material("solid", gray, 0.6) +
+         "    }\n";
+}
+
+// A frame that stands in the world: USD multiplies rows by matrices, so that the axes are rows.
+std::string matrix(const std::array<Vec3d, 3>& axes, Vec3d place) {
+  const auto row = [](Vec3d v, double last) {
+    return "(" + usdNumber(v.x) + ", " + usdNumber(v.y) + ", " + usdNumber(v.z) + ", " + usdNumber(last) +
+           ")";
+  };
+  return "( " + row(axes[0], 0) + ", " + row(axes[1], 0) + ", " + row(axes[2], 0) + ", " + row(place, 1) +
+         " )";
+}
+
+constexpr const char* TRANSFORM_ORDER =
+    "            uniform token[] xformOpOrder = [\"xformOp:transform\"]\n";
+
+std::string transform(const ColliderSet& colliders, std::size_t i, const std::vector<UsdFrame>& frames) {
+  const auto at = [&](double time) {
+    return matrix(transposed(colliders.rotationAt(i, time)), poseAt(colliders[i], time).position);
+  };
+  std::string text = "            matrix4d xformOp:transform";
+  if (!moves(colliders[i])) return text + " = " + at(frames.front().time) + "\n" + TRANSFORM_ORDER;
+  text += ".timeSamples = {\n";
+  for (const UsdFrame& frame : frames)
+    text += "                " + std::to_string(frame.code) + ": " + at(frame.time) + ",\n";
+  return text + "            }\n" + TRANSFORM_ORDER;
+}
+
+std::string sphereShape(const Sphere& sphere) {
+  const std::string r = usdNumber(sphere.radius);
+  return "            double radius = " + r + "\n            float3[] extent = [(-" + r + ", -" + r + ", -" +
+         r + "), (" + r + ", " + r + ", " + r + ")]\n";
+}
+
+std::string meshShape(const Surface& surface) {
+  std::string text =
+      "            uniform token subdivisionScheme = \"none\"\n            int[] faceVertexCounts = ";
+  appendUsdArray(text, std::vector<int>(surface.indices.size() / 3), [&](int) { text += '3'; });
+  text += "\n            int[] faceVertexIndices = ";
+  appendUsdArray(text, surface.indices, [&](std::uint32_t corner) { appendIndex(text, corner); });
+  text += "\n            point3f[] points = ";
+  appendUsdArray(text, surface.vertices, [&](const auto& v) { appendUsdVector(text, v.position); });
+  text += "\n            normal3f[] normals = ";
+  appendUsdArray(text, surface.vertices, [&](const auto& v) { appendUsdVector(text, v.normal); });
+  return text + " (\n                interpolation = \"vertex\"\n            )\n";
+}
+
+// A square of the plane around the foot of `middle`, in the plane's own frame, whose normal is y.
+Surface square(const ColliderSet& colliders, std::size_t i, double time, Vec3d middle, double half) {
+  const Vec3d foot = rotateBack(colliders.rotationAt(i, time), middle - poseAt(colliders[i], time).position);
+  Surface surface;
+  for (const auto& [x, z] : {std::pair{-1, -1}, {-1, 1}, {1, 1}, {1, -1}})
+    surface.vertices.push_back({Vec3d{foot.x + x * half, 0, foot.z + z * half}.cast<float>(), {0, 1, 0}});
+  surface.indices = {0, 1, 2, 0, 2, 3};
+  return surface;
+}
+
+std::string solids(const Scene& scene, Vec3d middle, double size, const std::vector<UsdFrame>& frames) {
+  const ColliderSet colliders(scene);
+  std::string text = "    def Scope \"solids\"\n    {\n";
+  for (std::size_t i = 0; i < colliders.size(); ++i) {
+    const auto* sphere = std::get_if<Sphere>(&colliders[i]);
+    constexpr double squares = 4;  // times the size of the cloth to each side
+    text += std::string("        def ") + (sphere != nullptr ? "Sphere" : "Mesh") + " \"" +
+            std::string(typeOf(colliders[i])) + std::to_string(i) +
+            "\" (\n            prepend apiSchemas = [\"MaterialBindingAPI\"]\n        )\n        {\n"
+            "            rel material:binding = </clothsim/materials/solid>\n";
+    if (sphere != nullptr)
+      text += sphereShape(*sphere);
+    else if (std::holds_alternative<Plane>(colliders[i]))
+      text += meshShape(square(colliders, i, frames.front().time, middle, squares * size));
+    else
+      text += meshShape(colliders.drawnSurface(i, 0));
+    text += transform(colliders, i, frames) + "        }\n";
+  }
+  return text + "    }\n";
+}
+
+Vec3d unit(Vec3d v) { return (1 / length(v)) * v; }
+
+std::string camera(const CameraSettings& wanted, Vec3d middle, double size) {
+  const double halfAngle = 0.5 * wanted.fov * std::numbers::pi / 180;
+  const Vec3d target = wanted.target.value_or(middle);
+  const Vec3d position =
+      wanted.position.value_or(target + (0.5 * size / std::sin(halfAngle)) * unit({0.5, 0.3, 0.8}));
+  const Vec3d back = unit(position - target);
+  const Vec3d right = unit(cross(std::abs(back.y) < 0.9999 ? Vec3d{0, 1, 0} : Vec3d{0, 0, -1}, back));
+  constexpr double filmHeight = 24;  // in units of the focal length: only their ratio shows
+  return "    def Camera \"camera\"\n    {\n        float2 clippingRange = (0.01, 1000)\n"
+         "        float focalLength = " +
+         usdNumber(0.5 * filmHeight / std::tan(halfAngle)) +
+         "\n        float verticalAperture = " + usdNumber(filmHeight) +
+         "\n        float horizontalAperture = " + usdNumber(filmHeight * 16 / 9) +
+         "\n        matrix4d xformOp:transform = " + matrix({right, cross(back, right), back}, position) +
+         "\n        uniform token[] xformOpOrder = [\"xformOp:transform\"]\n    }\n";
+}
+
+}  // namespace
+
+std::string usdNumber(double value) {
+  std::array<char, 32> digits;
+  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value + 0.0).ptr};
+}
+
+void appendUsdVector(std::string& text, Vec3f v) {
+  text += '(';
+  appendNumber(text, v.x);
+  text += ", ";
+  appendNumber(text, v.y);
+  text += ", ";
+  appendNumber(text, v.z);
+  text += ')';
+}
+
+std::string usdSurroundings(const Scene& scene, const UsdBox& cloth, const std::vector<UsdFrame>& frames) {
+  const Vec3d low = cloth.low.cast<double>(), high = cloth.high.cast<double>();
+  const Vec3d middle = 0.5 * (low + high);
+  const double size = length(high - low);
+  return materials(scene) + (scene.colliders.empty() ? "" : solids(scene, middle, size, frames)) +
+         camera(scene.camera, middle, size > 0 ? size : 1);
+}
+
+}  // namespace clothsim
