@@ -90,6 +90,14 @@ SHARED_STRUCT AttractorParams {
   real unusedC;
 };
 
+#define MOST_SEAMS 32
+SHARED_STRUCT SeamParams {
+  real lengthFactor;  // of a rest length over that at the start
+  real unusedA;
+  real unusedB;
+  real unusedC;
+};
+
 SHARED_STRUCT StepParams {
   uint firstParticle;
   uint columns;
@@ -163,6 +171,7 @@ SHARED_STRUCT StepParams {
 
   ROWS_OF(SpringParams) springs[6];
   ROWS_OF(AttractorParams) attractors[MOST_ATTRACTORS];
+  ROWS_OF(SeamParams) seams[MOST_SEAMS];
 };
 
 SHARED_STRUCT ColliderParams {

@@ -6,6 +6,9 @@
 #if HAS_MESH
 #include "sim/mesh.glsl"
 #endif
+#if HAS_SEAMS
+#include "sim/seam_forces.glsl"
+#endif
 
 layout(binding = EXTERNAL_FORCES_UNIT) uniform samplerBuffer externalForces;
 
@@ -20,6 +23,9 @@ vec3 gatherForces(GridPoint p) {
 #endif
   f = addParticleForces(positionAt(p.index), velocityAt(p.index), f);
   if (hasExternalForces) f = f + texelFetch(externalForces, int(p.index)).xyz;
+#if HAS_SEAMS
+  f = addSeamForces(p.index, f);
+#endif
   return f;
 }
 

@@ -191,6 +191,7 @@ Cloth::Cloth(const Scene& scene) {
   checkContactMemory(scene);
   for (const ClothSettings& settings : scene.cloths)
     settings.isMesh() ? addMesh(settings) : addGrid(settings);
+  seams_ = seamSprings(scene, pieces_, positions_);
   if (lists_.empty()) return;
   gatherIncidences(lists_, particleCount());
   meshMasses_.resize(particleCount());

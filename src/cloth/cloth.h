@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "cloth/seams.h"
 #include "cloth/spring_lists.h"
 #include "core/vec.h"
 #include "scene/scene.h"
@@ -166,6 +167,7 @@ class Cloth {
                                   std::uint32_t b) const;
   [[nodiscard]] double massOf(std::uint32_t particle) const;         // when it is not pinned [kg]
   [[nodiscard]] const SpringLists& lists() const { return lists_; }  // of all meshes
+  [[nodiscard]] const std::vector<SeamSpring>& seams() const { return seams_; }
   [[nodiscard]] bool hasMesh() const { return !lists_.empty(); }
   [[nodiscard]] bool isOfMesh(std::uint32_t particle) const {
     return hasMesh() && pieces_[pieceOf(particle)].isMesh;
@@ -195,6 +197,7 @@ class Cloth {
   std::vector<double> meshMasses_;                     // by particle; empty without meshes
   std::vector<std::array<float, 2>> meshCoordinates_;  // the same
   SpringLists lists_;
+  std::vector<SeamSpring> seams_;
 };
 
 }  // namespace clothsim

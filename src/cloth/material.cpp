@@ -238,9 +238,11 @@ int iterationsFor(double step) {
 }  // namespace
 
 void chooseCounts(Scene& scene) {
+  // The coarse levels do not know of seams: there are more directions for the iterations to find.
+  const int more = scene.seams.empty() ? 1 : 3;
   SolverSettings& solver = scene.solver;
   if (solver.simulationSteps.automatic) solver.simulationSteps.count = stableSteps(scene);
-  if (solver.cgIterations.automatic) solver.cgIterations.count = iterationsFor(stepLength(solver));
+  if (solver.cgIterations.automatic) solver.cgIterations.count = more * iterationsFor(stepLength(solver));
 }
 
 }  // namespace clothsim

@@ -37,12 +37,15 @@ std::string materials(const Scene& scene) {
 
 // A frame that stands in the world: USD multiplies rows by matrices, so that the axes are rows.
 std::string matrix(const std::array<Vec3d, 3>& axes, Vec3d place) {
-  const auto row = [](Vec3d v, double last) {
-    return "(" + usdNumber(v.x) + ", " + usdNumber(v.y) + ", " + usdNumber(v.z) + ", " + usdNumber(last) +
-           ")";
+  std::string text = "( ";
+  const auto appendRow = [&](Vec3d v, const char* end) {
+    text += '(';
+    for (const double value : {v.x, v.y, v.z}) text.append(usdNumber(value)).append(", ");
+    text += end;
   };
-  return "( " + row(axes[0], 0) + ", " + row(axes[1], 0) + ", " + row(axes[2], 0) + ", " + row(place, 1) +
-         " )";
+  for (const Vec3d& axis : axes) appendRow(axis, "0), ");
+  appendRow(place, "1) )");
+  return text;
 }
 
 constexpr const char* TRANSFORM_ORDER =
@@ -61,9 +64,13 @@ std::string transform(const ColliderSet& colliders, std::size_t i, const std::ve
 }
 
 std::string sphereShape(const Sphere& sphere) {
-  const std::string r = usdNumber(sphere.radius);
-  return "            double radius = " + r + "\n            float3[] extent = [(-" + r + ", -" + r + ", -" +
-         r + "), (" + r + ", " + r + ", " + r + ")]\n";
+  const auto r = static_cast<float>(sphere.radius);
+  std::string text = "            double radius = ";
+  text.append(usdNumber(sphere.radius)).append("\n            float3[] extent = [");
+  appendUsdVector(text, {-r, -r, -r});
+  text += ", ";
+  appendUsdVector(text, {r, r, r});
+  return text + "]\n";
 }
 
 std::string meshShape(const Surface& surface) {

@@ -126,6 +126,22 @@ struct ClothSettings {
   friend bool operator==(const ClothSettings&, const ClothSettings&) = default;
 };
 
+// A side of a seam: points of a cloth. On a grid they are lines, sewn one behind the other.
+struct SeamSide {
+  int cloth = 0;            // which of the scene's
+  std::vector<Pin> points;  // at least one
+  bool reverse = false;     // sewn from its last point to its first
+  friend bool operator==(const SeamSide&, const SeamSide&) = default;
+};
+// Springs between the points of two sides (cloth/seams.h), whose rest length falls from what is between them
+// at the start to 0.
+struct Seam {
+  SeamSide a, b;
+  double time = 0.5;                // until it is closed [s]
+  std::optional<double> stiffness;  // of a spring; none: of the stiffest spring of both cloths [N/m]
+  friend bool operator==(const Seam&, const Seam&) = default;
+};
+
 struct Gust {
   double strength = 0;     // standard deviation of the speed along the wind's direction [m/s]
   double frequency = 0.5;  // [Hz]
@@ -262,6 +278,7 @@ struct Scene {
   std::string schema = "clothsim/1";
   std::string name, description;
   std::vector<ClothSettings> cloths{ClothSettings{}};  // at least one; a single one is `cloth` in JSON
+  std::vector<Seam> seams;                             // at most MOST_SEAMS
   std::vector<Collider> colliders;                     // also those of CS184's `sphere` and `plane` objects
   Vec3d gravity{0, -9.8, 0};                           // [m/s^2]
   std::optional<Wind> wind;                            // none: no forces of the air on triangles

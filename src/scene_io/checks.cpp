@@ -7,6 +7,7 @@
 #include "scene/budget.h"
 #include "scene_io/codec.h"
 #include "scene_io/fields.h"
+#include "scene_io/scene_tree.h"
 
 namespace clothsim {
 
@@ -25,9 +26,7 @@ void checkOnGrid(const JsonNode& node, GridPoint point, const ClothSettings& clo
              "expected [column, row] on the grid, " + gridText(cloth) + ", found " + formatJsonLine(node));
 }
 
-// `owner`: the cloth or the motion that has the key "pinned".
-void checkPins(const JsonNode& owner, const std::vector<Pin>& pins, const ClothSettings& settings) {
-  const JsonNode* list = owner.find("pinned");
+void checkPinList(const JsonNode* list, const std::vector<Pin>& pins, const ClothSettings& settings) {
   for (std::size_t i = 0; i < pins.size(); ++i) {
     const JsonNode& node = *list->children[i];
     if (isMeshPin(pins[i]) != settings.isMesh())
@@ -43,6 +42,26 @@ void checkPins(const JsonNode& owner, const std::vector<Pin>& pins, const ClothS
       checkOnGrid(*node.find("from"), range->from, settings);
       checkOnGrid(*node.find("to"), range->to, settings);
     }
+  }
+}
+
+// `owner`: the cloth or the motion that has the key "pinned".
+void checkPins(const JsonNode& owner, const std::vector<Pin>& pins, const ClothSettings& settings) {
+  checkPinList(owner.find("pinned"), pins, settings);
+}
+
+void checkSide(const JsonNode& node, const SeamSide& side, const std::vector<ClothSettings>& cloths) {
+  if (side.cloth >= static_cast<int>(cloths.size()))
+    complain(*node.find("cloth"), "expected one of the " + std::to_string(cloths.size()) +
+                                      " cloths, counted from 0, found " + std::to_string(side.cloth));
+  const JsonNode& list = *node.find("points");
+  const ClothSettings& cloth = cloths[static_cast<std::size_t>(side.cloth)];
+  if (side.points.empty()) complain(list, "expected points to sew, found an empty list");
+  checkPinList(&list, side.points, cloth);
+  for (std::size_t i = 0; !cloth.isMesh() && i < side.points.size(); ++i) {
+    const GridRange line = pointsOf(side.points[i], cloth);
+    if (line.from.column != line.to.column && line.from.row != line.to.row)
+      complain(*list.children[i], "expected points of one row or one column, found a block");
   }
 }
 
@@ -151,6 +170,14 @@ void finishReading(const JsonNode& node, ClothSettings& cloth) {
   checkMesh(node, cloth);
   checkPins(node, cloth.pinned, cloth);
   checkPinMotions(node, cloth);
+}
+
+void checkSeams(const JsonNode& root, const Scene& scene) {
+  for (std::size_t i = 0; i < scene.seams.size(); ++i) {
+    const JsonNode& seam = *root.find("seams")->children[i];
+    checkSide(*seam.find("a"), scene.seams[i].a, scene.cloths);
+    checkSide(*seam.find("b"), scene.seams[i].b, scene.cloths);
+  }
 }
 
 template <>

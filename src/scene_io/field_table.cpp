@@ -26,6 +26,9 @@ std::span<const Field<Scene>> fieldsOf<Scene>() {
             "The cloths, one object each; a single one may be the object `cloth`, as in CS184.")
           .required()
           .rebuilds(),
+      field("seams", &Scene::seams, "Borders that are sewn together, of two cloths or of one.")
+          .within({.high = MOST_SEAMS})
+          .rebuilds(),
       field("colliders", &Scene::colliders,
             "Solid shapes; CS184's `plane` and `sphere` come first. Less than 2 cells thin: physics.md, "
             "contact."),

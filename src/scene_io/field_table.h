@@ -22,14 +22,22 @@ namespace clothsim {
 
 template <>
 struct MemberOf<Scene> {
-  using Type =
-      MemberAmong<Scene, std::vector<ClothSettings>, std::vector<Collider>, std::vector<Attractor>,
-                  std::optional<Wind>, SolverSettings, CameraSettings, RenderSettings, std::optional<Expect>>;
+  using Type = MemberAmong<Scene, std::vector<ClothSettings>, std::vector<Seam>, std::vector<Collider>,
+                           std::vector<Attractor>, std::optional<Wind>, SolverSettings, CameraSettings,
+                           RenderSettings, std::optional<Expect>>;
 };
 template <>
 struct MemberOf<ClothSettings> {
   using Type = MemberAmong<ClothSettings, Orientation, std::vector<Pin>, std::vector<PinMotion>,
                            std::optional<Material>, std::optional<Vec3d>>;
+};
+template <>
+struct MemberOf<SeamSide> {
+  using Type = MemberAmong<SeamSide, std::vector<Pin>>;
+};
+template <>
+struct MemberOf<Seam> {
+  using Type = MemberAmong<Seam, SeamSide>;
 };
 template <>
 struct MemberOf<RegionPin> {
@@ -100,6 +108,10 @@ template <>
 std::span<const Field<PinMotion>> fieldsOf<PinMotion>();
 template <>
 std::span<const Field<PinMotion::Key>> fieldsOf<PinMotion::Key>();
+template <>
+std::span<const Field<SeamSide>> fieldsOf<SeamSide>();
+template <>
+std::span<const Field<Seam>> fieldsOf<Seam>();
 template <>
 std::span<const Field<Wind>> fieldsOf<Wind>();
 template <>

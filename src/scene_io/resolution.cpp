@@ -24,19 +24,21 @@ int movedIndex(int i, int n, int m) {
   return static_cast<int>(std::lround(static_cast<double>(i) * (m - 1) / (n - 1)));
 }
 
-void movePins(ClothSettings& cloth, int columns, int rows) {
+// `cloth` still has as many points as the pins were made for.
+void movePins(std::vector<Pin>& pins, const ClothSettings& cloth, int columns, int rows) {
   const auto moved = [&](GridPoint point) {
     return GridPoint{movedIndex(point.column, cloth.numWidthPoints, columns),
                      movedIndex(point.row, cloth.numHeightPoints, rows)};
   };
-  const auto moveAll = [&](std::vector<Pin>& pins) {
-    for (Pin& pin : pins) {
-      if (auto* point = std::get_if<GridPoint>(&pin)) *point = moved(*point);
-      if (auto* range = std::get_if<GridRange>(&pin)) *range = {moved(range->from), moved(range->to)};
-    }
-  };
-  moveAll(cloth.pinned);
-  for (PinMotion& motion : cloth.pinMotion) moveAll(motion.pinned);
+  for (Pin& pin : pins) {
+    if (auto* point = std::get_if<GridPoint>(&pin)) *point = moved(*point);
+    if (auto* range = std::get_if<GridRange>(&pin)) *range = {moved(range->from), moved(range->to)};
+  }
+}
+
+void movePins(ClothSettings& cloth, int columns, int rows) {
+  movePins(cloth.pinned, cloth, columns, rows);
+  for (PinMotion& motion : cloth.pinMotion) movePins(motion.pinned, cloth, columns, rows);
 }
 
 // On a grid that is too coarse, pins of different motions would fall on one point.
@@ -120,6 +122,9 @@ std::string changeResolution(Scene& scene, int columns, int rows, bool keepSteps
     if (cloth.isMesh()) continue;
     factor = std::max(factor, stepFactor(cloth, columns, rows));
     movePins(cloth, columns, rows);
+    for (Seam& seam : scene.seams)
+      for (SeamSide* side : {&seam.a, &seam.b})
+        if (side->cloth == static_cast<int>(i)) movePins(side->points, cloth, columns, rows);
     const double before = smallerSpacing(cloth), thickness = cloth.thickness;
     cloth.numWidthPoints = columns;
     cloth.numHeightPoints = rows;

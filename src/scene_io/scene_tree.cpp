@@ -140,6 +140,7 @@ Scene readScene(const JsonNode& root) {
   checkSelfCollision(root, scene);
   checkTearing(root, scene);
   checkFollowed(root, scene);
+  checkSeams(root, scene);
   chooseCounts(scene);
   return scene;
 }

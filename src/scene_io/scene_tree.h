@@ -14,6 +14,10 @@ void gatherLists(JsonNode& root);
 // @throws JsonComplaint for everything that is wrong; `root` has been through gatherLists
 [[nodiscard]] Scene readScene(const JsonNode& root);
 
+// Both sides of each seam are lines of a grid, or points of a mesh, of a cloth that is there.
+// @throws JsonComplaint
+void checkSeams(const JsonNode& root, const Scene& scene);
+
 // Always with the lists `cloths` and `colliders`; keys at their defaults are left out.
 [[nodiscard]] JsonPointer writeScene(const Scene& scene);
 

@@ -20,7 +20,7 @@ bool haveSameHolds(const ClothSettings& a, const ClothSettings& b) {
 }  // namespace
 
 bool needsRebuild(const Scene& before, const Scene& after) {
-  if (before.cloths.size() != after.cloths.size()) return true;
+  if (before.cloths.size() != after.cloths.size() || before.seams != after.seams) return true;
   for (std::size_t i = 0; i < before.cloths.size(); ++i) {
     ClothSettings cloth = before.cloths[i];
     cloth.damping = after.cloths[i].damping;

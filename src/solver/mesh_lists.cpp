@@ -7,11 +7,32 @@ namespace clothsim {
 namespace {
 
 template <class Real>
-Real restLengthOf(const Cloth& cloth, const MeshSpring& spring) {
-  const Vec3<Real> d = startPosition<Real>(cloth, spring.b) - startPosition<Real>(cloth, spring.a);
+Real startLength(const Cloth& cloth, std::uint32_t a, std::uint32_t b) {
+  const Vec3<Real> d = startPosition<Real>(cloth, b) - startPosition<Real>(cloth, a);
   const Real lengthSquared = dot(d, d);
+  return lengthSquared * inverseSquareRoot(lengthSquared);
+}
+
+template <class Real>
+void addSeams(const Cloth& cloth, MeshLists<Real>& lists) {
+  if (cloth.seams().empty()) return;
+  std::vector<std::vector<typename MeshLists<Real>::SeamSpringAt>> at(cloth.particleCount());
+  for (const auto& [a, b, seam, stiffness] : cloth.seams()) {
+    const Real length = startLength<Real>(cloth, a, b), k = static_cast<Real>(stiffness);
+    at[a].push_back({b, seam, k, length});
+    at[b].push_back({a, seam, k, length});
+  }
+  for (const auto& own : at) {
+    lists.seamStarts.push_back(static_cast<std::uint32_t>(lists.seamSprings.size()));
+    lists.seamSprings.insert(lists.seamSprings.end(), own.begin(), own.end());
+  }
+  lists.seamStarts.push_back(static_cast<std::uint32_t>(lists.seamSprings.size()));
+}
+
+template <class Real>
+Real restLengthOf(const Cloth& cloth, const MeshSpring& spring) {
   const auto scale = static_cast<Real>(cloth.pieces()[cloth.pieceOf(spring.a)].restScale);
-  return scale * (lengthSquared * inverseSquareRoot(lengthSquared));
+  return scale * startLength<Real>(cloth, spring.a, spring.b);
 }
 
 }  // namespace
@@ -19,6 +40,7 @@ Real restLengthOf(const Cloth& cloth, const MeshSpring& spring) {
 template <class Real>
 MeshLists<Real> makeMeshLists(const Cloth& cloth) {
   MeshLists<Real> result;
+  addSeams(cloth, result);
   if (!cloth.hasMesh()) return result;
   const SpringLists& lists = cloth.lists();
   const auto hingeNumbers = static_cast<std::uint32_t>(lists.hingesOf.entries.size());

@@ -39,10 +39,24 @@ struct MeshLists {
   std::vector<LimitedSpring> limited;       // by number
   std::vector<std::array<Real, 4>> places;  // where particles start [m]
 
+  // Of seams, of grids, too; by particle, in the order of the scene. Empty without seams.
+  struct SeamSpringAt {
+    std::uint32_t other, seam;
+    Real stiffness, startLength;
+  };
+  std::vector<std::uint32_t> seamStarts;  // one more than particles
+  std::vector<SeamSpringAt> seamSprings;
+
+  [[nodiscard]] bool areSewn(std::uint32_t i, std::uint32_t j) const {
+    if (seamStarts.empty()) return false;
+    for (std::uint32_t n = seamStarts[i]; n < seamStarts[i + 1]; ++n)
+      if (seamSprings[n].other == j) return true;
+    return false;
+  }
   [[nodiscard]] bool empty() const { return starts.empty(); }
 };
 
-// Empty without meshes.
+// Without meshes it has none but the lists of seams.
 template <class Real>
 [[nodiscard]] MeshLists<Real> makeMeshLists(const Cloth& cloth);
 

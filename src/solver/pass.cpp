@@ -8,7 +8,7 @@ namespace {
 using enum Array;
 using F = Feature;
 
-constexpr Features elastic{F::springs, F::restLengths, F::meshes, F::cuts};
+constexpr Features elastic{F::springs, F::restLengths, F::meshes, F::cuts, F::seams};
 constexpr Features air{F::wind, F::particleForces, F::jets, F::externalForces, F::meshes, F::cuts};
 constexpr Features solved = elastic | Features{F::wind, F::planes, F::surface,
                                                F::smallColliders};  // what the linear system is made of
@@ -136,16 +136,16 @@ constexpr std::array<PassTraits, PASS_COUNT> table{{
      {hash, contactFlags}, {}},
     {Pass::findCandidates, "find candidates", Domain::contacts, 0,
      {hash}, {contactFlags},
-     {candidates}, {F::meshes, F::cuts}},
+     {candidates}, {F::meshes, F::cuts, F::seams}},
     {Pass::resolveContacts, "resolve contacts", Domain::contacts, 0,
      {positions, newPositions, hash, candidates}, {contactFlags},
-     {newPositions, newVelocities}, {F::meshes, F::cuts}},
+     {newPositions, newVelocities}, {F::meshes, F::cuts, F::seams}},
     {Pass::checkMotion, "check motion", Domain::contacts, 0,
      {positions, newPositions, hash, candidates}, {},
-     {contactFlags}, {F::meshes, F::cuts}},
+     {contactFlags}, {F::meshes, F::cuts, F::seams}},
     {Pass::clampMotion, "clamp motion", Domain::contacts, 0,
      {positions, newPositions, hash, candidates}, {contactFlags},
-     {newPositions, newVelocities}, {F::meshes, F::cuts}},
+     {newPositions, newVelocities}, {F::meshes, F::cuts, F::seams}},
     {Pass::collide, "collide", Domain::gridPoints, 0,
      {}, {positions, newPositions, newVelocities},
      {newPositions, newVelocities, watch}, {F::colliders}},
@@ -174,9 +174,9 @@ constexpr std::array<std::string_view, ARRAY_COUNT> arrayNames{
     "contact flags",  "watch"};
 
 constexpr std::array<std::string_view, FEATURE_COUNT> featureNames{
-    "springs",   "rest lengths", "meshes",          "wind",    "particle forces",
-    "jets",      "grabs",        "external forces", "cuts",    "moving pins",
-    "colliders", "planes",       "history",         "surface", "small colliders"};
+    "springs",         "rest lengths", "meshes",      "wind",      "particle forces", "jets",    "grabs",
+    "external forces", "cuts",         "moving pins", "colliders", "planes",          "history", "surface",
+    "small colliders", "seams"};
 
 bool runsByRows(Domain domain) { return domain == Domain::gridPoints || domain == Domain::particles; }
 

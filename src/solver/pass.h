@@ -143,8 +143,9 @@ enum class Feature : std::uint8_t {
   history,  // steps of second order
   surface,  // the surface that touches itself
   smallColliders,
+  seams,
 };
-inline constexpr int FEATURE_COUNT = static_cast<int>(Feature::smallColliders) + 1;
+inline constexpr int FEATURE_COUNT = static_cast<int>(Feature::seams) + 1;
 [[nodiscard]] std::string_view nameOf(Feature feature);
 using Features = SetOf<Feature>;
 
@@ -173,7 +174,8 @@ struct PassTraits {
   Pass pass;
   std::string_view name;  // for timings, the watchdog and people
   Domain domain;
-  int reach;       // how many rows beyond its own it reads of a grid; of a mesh it may read everything
+  int reach;  // how many rows beyond its own it reads of a grid; of a mesh, or through a seam, it may read
+              // everything
   Arrays gathers;  // read at neighbours within reach, too,
   Arrays reads;    // at its own entry only
   Arrays writes;   // at its own entry

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "cloth/seams.h"
 #include "core/hash.h"
 #include "scene/forces/air_resistance.h"
 #include "shared/forces.h"
@@ -168,7 +169,9 @@ bool dependsOnTime(const Scene& scene) {
   if (scene.wind && scene.wind->gust.strength != 0) return true;
   for (const Collider& collider : scene.colliders)
     if (moves(collider)) return true;
-  return hasPinMotion(scene);
+  const bool closes =
+      std::any_of(scene.seams.begin(), scene.seams.end(), [](const Seam& seam) { return seam.time > 0; });
+  return closes || hasPinMotion(scene);
 }
 
 std::uint32_t particleForcesOf(const Scene& scene) {
@@ -240,6 +243,8 @@ StepParams<Real> makeStepParams(const Scene& scene, const Cloth& cloth, std::siz
                             real<Real>(squareInRange((1 + scene.solver.maxStrain) * length))};
     if (piece.slotEnabled[slot]) params.enabledSlots |= 1u << slot;
   }
+  for (std::size_t seam = 0; seam < scene.seams.size(); ++seam)
+    params.seams[seam].lengthFactor = real<Real>(seamLengthFactor(scene.seams[seam], time));
   putImplicit(scene, cloth, pieceIndex, params);
   return params;
 }

@@ -107,7 +107,7 @@ std::vector<gl::Defines> variantsOf(const std::string& file) {
   PassFeatures cs184 = everything;
   cs184.coulombFriction = false;
   everything.limitSprings = everything.material = everything.contactPlanes = everything.history = true;
-  everything.surface = everything.smallColliders = true;
+  everything.surface = everything.smallColliders = everything.seams = true;
   PassFeatures mesh = everything;
   mesh.mesh = mesh.storageLoads = true;
   cs184.storageLoads = true;

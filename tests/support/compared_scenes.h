@@ -158,6 +158,20 @@ inline Scene twoCloths(Scene scene) {
   return scene;
 }
 
+// Their borders are sewn together, and the left and the right border of the first one.
+inline Scene withSeams(Scene scene) {
+  Seam between, tube;
+  between.a = {0, {GridSide::bottom}};
+  between.b = {1, {GridSide::top}, true};
+  between.time = 0.05;
+  tube.a = {0, {GridSide::left}};
+  tube.b = {0, {GridSide::right}};
+  tube.time = 0.3;
+  tube.stiffness = 700;
+  scene.seams = {between, tube};
+  return scene;
+}
+
 // The left column turns in a loop, the right one flies and turns, a point of the lower row goes straight and
 // is free for a while; the upper corners stay.
 inline Scene withPinMotion(Scene scene) {
@@ -324,6 +338,8 @@ inline std::vector<NamedScene> comparedScenes(int n) {
           {"thick robust self-collision", thick(layeredSheets(n / 2, SelfCollision::robust))},
           {"pins that move through other cloth", withPinMotion(layeredSheets(n, SelfCollision::robust))},
           {"two cloths", twoCloths(withLimiter(withWind(vertical(sheetScene(n)))))},
+          {"seams", withSeams(twoCloths(withLimiter(withWind(vertical(sheetScene(n))))))},
+          {"seams and robust self-collision", withSeams(layeredSheets(n, SelfCollision::robust))},
           {"mesh with everything", meshWithEverything(n / 2, SelfCollision::robust)},
           {"mesh with everything, averaged", meshWithEverything(n / 2, SelfCollision::averaged)},
           {"mesh of a material with attractors", withAttractors(meshOfMaterial(n / 2))},
@@ -345,6 +361,9 @@ inline std::vector<NamedScene> implicitScenes(int n) {
        implicitly(withPinMotion(layeredSheets(n, SelfCollision::robust)))},
       {"implicit, two cloths with a rest length table",
        implicitly(twoCloths(withLimiter(withWind(vertical(sheetScene(n))))))},
+      {"implicit, seams", implicitly(withSeams(twoCloths(withLimiter(withWind(vertical(sheetScene(n)))))))},
+      {"bdf2, seams of a material",
+       inSecondOrder(withSeams(twoCloths(withAttractors(vertical(materialScene(n))))))},
       {"implicit, a mesh with everything", implicitly(meshWithEverything(n / 2, SelfCollision::averaged))},
       {"bdf2, a material with everything",
        inSecondOrder(withAttractors(withWind(withColliders(withLimiter(vertical(materialScene(n)))))))},

@@ -12,6 +12,9 @@
 #if HAS_MESH
 #include "sim/implicit/mesh.glsl"
 #endif
+#if HAS_SEAMS
+#include "sim/implicit/seams.glsl"
+#endif
 
 layout(std430, binding = RESIDUALS_BINDING) writeonly buffer Residuals { vec4 newResiduals[]; };
 layout(std430, binding = FACTORS_BINDING) writeonly buffer FactorsOut { vec4 newFactors[]; };
@@ -146,6 +149,9 @@ void main() {
     block = sumOf(block, Symmetric(diagonal, outer.others));
   }
   if (hasMaterial) block = addBendingBlock(p, block);
+#endif
+#if HAS_SEAMS
+  block = addSeamBlocks(i, block);
 #endif
 
   vec3 displacement = texelFetch(displacements, int(i)).xyz;

@@ -11,13 +11,16 @@
 #if HAS_MESH
 #include "sim/implicit/mesh.glsl"
 #endif
+#if HAS_SEAMS
+#include "sim/implicit/seams.glsl"
+#endif
 
 vec3 productAt(GridPoint point) {
   uint i = point.index;
   vec4 x = iterateAt(i);
   vec3 p = positionAt(i).xyz;
 #if HAS_MESH
-  vec3 force = meshProducts(i);
+  precise vec3 force = meshProducts(i);
 #else
   uint cut = cutMaskOf(i);
   precise vec3 force = vec3(0.0);
@@ -31,6 +34,9 @@ vec3 productAt(GridPoint point) {
     force = force + f;
   }
   if (hasMaterial) force = addBending(point, force);
+#endif
+#if HAS_SEAMS
+  force = addSeamProducts(i, force);
 #endif
 #if HAS_SURFACE
   uvec2 range = pairsOf(i);

@@ -14,6 +14,9 @@
 #if HAS_MESH
 #include "sim/implicit/mesh.glsl"
 #endif
+#if HAS_SEAMS
+#include "sim/implicit/seam_trials.glsl"
+#endif
 
 layout(std430, binding = PRODUCTS_BINDING) writeonly buffer Trials { vec4 trials[]; };
 
@@ -107,6 +110,9 @@ void main() {
       trial[k] = hasPlane ? changed : trial[k];
     }
   }
+#if HAS_SEAMS
+  trial = addSeamTrials(i, trial);
+#endif
 #if HAS_MESH
   trial = addMeshTrials(i, trial);
 #else

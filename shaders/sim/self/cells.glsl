@@ -43,7 +43,14 @@ uint encodeOnMesh(uint i, uint j) {
 }
 #endif
 
+#if HAS_SEAMS
+#include "sim/seams.glsl"
+#endif
+
 uint encode(GridPoint p, uint j) {
+#if HAS_SEAMS
+  if (areSewn(p.index, j)) return EXCLUDED;
+#endif
   uint inPiece = j - step.firstParticle;
   if (inPiece >= step.columns * step.rows) return j;
 #if SELF_HAS_MESH

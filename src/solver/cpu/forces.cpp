@@ -13,6 +13,7 @@
 #include "solver/cpu/mesh_forces.h"
 #include "solver/cpu/particle_forces.h"
 #include "solver/cpu/rows.h"
+#include "solver/cpu/seam_passes.h"
 #include "solver/cpu/spring_rows.h"
 #include "solver/cpu/symmetric.h"
 #include "solver/cpu/watch.h"
@@ -386,6 +387,7 @@ INLINE void gatherForcesRow(const PassArguments<Real>& arguments, int row, Force
   }
   addParticleForces(arguments, row);
   if (arguments.externalForces != nullptr) addExternalForces(arguments, row);
+  if (hasSeams(arguments)) addSeamForces(arguments, row);
 }
 
 }  // namespace

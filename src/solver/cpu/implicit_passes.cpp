@@ -6,6 +6,7 @@
 #include "solver/cpu/implicit_laws.h"
 #include "solver/cpu/mesh_implicit.h"
 #include "solver/cpu/rows.h"
+#include "solver/cpu/seam_passes.h"
 #include "solver/cpu/spring_rows.h"
 #include "solver/cpu/watch.h"
 
@@ -114,6 +115,7 @@ INLINE void tryLengthsRow(const ImplicitArguments<Real>& arguments, int row) {
       own.trials[k].data()[i] = hasPlane ? own.trials[k].data()[i] + change : own.trials[k].data()[i];
     }
   }
+  if (hasSeams(pass)) addSeamTrials(arguments, row);
   if (pass.step.isMesh != 0) return addMeshTrials(arguments, row);
   pass.cutMasks != nullptr ? addSpringTrials<true>(arguments, row) : addSpringTrials<false>(arguments, row);
   if (pass.step.hasMaterial != 0) addBendingTrials(arguments, row);
@@ -216,6 +218,7 @@ INLINE void linearizeRow(const ImplicitArguments<Real>& arguments, int row) {
     pass.cutMasks != nullptr ? addSpringBlocks<true>(arguments, row) : addSpringBlocks<false>(arguments, row);
     if (pass.step.hasMaterial != 0) addBendingBlocks(arguments, row);
   }
+  if (hasSeams(pass)) addSeamBlocks(arguments, row);
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
     const bool pinned = pass.inverseMasses[i] == Real(0);
     const Vec3<Real> d = at(own.displacements, i), zero{};
@@ -248,6 +251,7 @@ INLINE void multiplyRow(const ImplicitArguments<Real>& arguments, int row) {
   } else {
     multiplyElements(arguments, row);
   }
+  if (hasSeams(pass)) addSeamProducts(arguments, row);
   if (!own.touching.pairs.empty())
     for (std::ptrdiff_t i = all.begin; i < all.end; ++i)
       put(products, i, at(products, i) - forceOfPairs(own.touching, i));

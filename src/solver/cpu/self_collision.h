@@ -11,6 +11,7 @@
 #include "solver/cpu/cpu_state.h"
 #include "solver/cpu/tile_search.h"
 #include "solver/executor.h"
+#include "solver/mesh_lists.h"
 #include "solver/self_collision.h"
 
 namespace clothsim::cpu {
@@ -77,6 +78,7 @@ class SelfCollision {
   void forEachBlock(Work work);
 
   const Cloth* cloth_;
+  MeshLists<Real> lists_;  // for those of seams; empty without any
   clothsim::SelfCollision mode_ = clothsim::SelfCollision::off;
   SelfParams<Real> params_{};
   std::vector<Real> distances_;

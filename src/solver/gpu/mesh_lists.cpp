@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "shared/seams.h"
 #include "solver/gpu/particle_array.h"
 
 namespace clothsim {
@@ -22,9 +23,18 @@ GpuMeshLists::Texels GpuMeshLists::texels(const char* label, const std::vector<E
   return result;
 }
 
-GpuMeshLists::GpuMeshLists(const Cloth& cloth) : any_(cloth.hasMesh()) {
-  if (!any_) return;
+void GpuMeshLists::addSeams(const MeshLists<float>& lists) {
+  std::vector<MeshLists<float>::SeamSpringAt> entries;
+  for (const std::uint32_t start : lists.seamStarts) entries.push_back({start, 0, 0, 0});
+  entries.insert(entries.end(), lists.seamSprings.begin(), lists.seamSprings.end());
+  seams_ = texels("seams", entries);
+}
+
+GpuMeshLists::GpuMeshLists(const Cloth& cloth) : any_(cloth.hasMesh()), anySeams_(!cloth.seams().empty()) {
+  if (!any_ && !anySeams_) return;
   const MeshLists<float> lists = makeMeshLists<float>(cloth);
+  if (anySeams_) addSeams(lists);
+  if (!any_) return;
   starts_ = texels("starts of lists", lists.starts);
   springs_ = texels("springs at particles", lists.springs);
   hinges_ = texels("hinges", lists.hinges);
@@ -39,6 +49,7 @@ GpuMeshLists::GpuMeshLists(const Cloth& cloth) : any_(cloth.hasMesh()) {
 }
 
 void GpuMeshLists::bind() const {
+  if (anySeams_) seams_.texture.bind(SEAMS_UNIT);
   if (!any_) return;
   starts_.texture.bind(LIST_STARTS_UNIT);
   springs_.texture.bind(MESH_SPRINGS_UNIT);

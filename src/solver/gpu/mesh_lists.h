@@ -13,7 +13,8 @@ namespace clothsim {
 class GpuMeshLists {
  public:
   GpuMeshLists() = default;
-  // Without meshes there are no buffers. @throws OpenGlError when one is larger than the driver allows
+  // Without meshes and seams there are no buffers. @throws OpenGlError when one is larger than the driver
+  // allows
   explicit GpuMeshLists(const Cloth& cloth);
 
   void bind() const;
@@ -26,8 +27,10 @@ class GpuMeshLists {
   template <class Element>
   static Texels texels(const char* label, const std::vector<Element>& elements);
 
-  bool any_ = false;
-  Texels starts_, springs_, hinges_, triangles_, limited_;
+  void addSeams(const MeshLists<float>& lists);
+
+  bool any_ = false, anySeams_ = false;
+  Texels starts_, springs_, hinges_, triangles_, limited_, seams_;
   gl::Buffer<std::uint32_t> numbers_;
   gl::BufferTexture numbersTexture_;
   gl::Buffer<std::array<float, 4>> places_;

@@ -34,6 +34,7 @@ PassFeatures featuresOf(const Scene& scene, const Cloth& cloth, std::size_t piec
   features.restLengthTable = piece.hasRestLengthTable;
   features.material = piece.hasMaterial;
   features.mesh = piece.isMesh;
+  features.seams = !cloth.seams().empty();
   features.limitSprings = isImplicit(scene.solver.integrator) && scene.solver.strainLimit;
   for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot)
     if (piece.slotEnabled[slot]) features.enabledSlots |= 1u << slot;
@@ -51,6 +52,7 @@ PassFeatures restricted(const PassFeatures& all, Features to) {
   take(Feature::springs, &PassFeatures::enabledSlots, &PassFeatures::material, &PassFeatures::limitSprings);
   take(Feature::restLengths, &PassFeatures::restLengthTable);
   take(Feature::meshes, &PassFeatures::mesh);
+  take(Feature::seams, &PassFeatures::seams);
   take(Feature::wind, &PassFeatures::wind);
   take(Feature::particleForces, &PassFeatures::particleForces);
   take(Feature::jets, &PassFeatures::jet);
@@ -80,6 +82,7 @@ gl::Defines definesFor(const PassFeatures& features) {
           {"HAS_REST_LENGTH_TABLE", std::to_string(features.restLengthTable)},
           {"HAS_MATERIAL", std::to_string(features.material)},
           {"HAS_MESH", std::to_string(features.mesh)},
+          {"HAS_SEAMS", std::to_string(features.seams)},
           {"HAS_LIMIT_SPRINGS", std::to_string(features.limitSprings)},
           {"HAS_CONTACT_PLANES", std::to_string(features.contactPlanes)},
           {"HAS_SURFACE", std::to_string(features.surface)},

@@ -21,7 +21,7 @@ namespace clothsim {
 
 struct PassFeatures {
   bool wind = false, movingColliders = false, coulombFriction = false, movingPins = false,
-       restLengthTable = false, material = false, mesh = false;
+       restLengthTable = false, material = false, mesh = false, seams = false;
   bool limitSprings = false;                     // the strain limit of the implicit integrator
   bool contactPlanes = false;                    // colliders in the implicit integrator
   bool history = false;                          // steps of second order

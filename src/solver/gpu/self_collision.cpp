@@ -23,6 +23,7 @@ const gl::Program* GpuSelfCollision::program(const std::string& pass, const Vari
   if (found == programs_.end()) {
     PassFeatures features;
     features.cuts = variant.cuts;
+    features.seams = variant.seams;
     features.groupColumns = groupColumns_;
     features.groupRows = groupRows_;
     gl::Defines defines = definesFor(features);
@@ -56,8 +57,8 @@ void GpuSelfCollision::configure(const Scene& scene) {
 // Cuts make neighbours non-adjacent particles, whose distance is that at rest. Passes that look at no pair
 // are the same for all of it.
 void GpuSelfCollision::choosePrograms() {
-  const Variant any, mode{isRobust(), false, false, false},
-      pairs{isRobust(), hasNearCodes_ || cut_, cut_, cloth_->hasMesh()};
+  const Variant any, mode{.robust = isRobust()},
+      pairs{isRobust(), hasNearCodes_ || cut_, cut_, cloth_->hasMesh(), !cloth_->seams().empty()};
   now_.check = program("check", mode);
   now_.count = program("count", any);
   now_.scanBuckets = program("scan_buckets", any);

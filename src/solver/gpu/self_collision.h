@@ -54,7 +54,7 @@ class GpuSelfCollision {
                   clampedSteps = 0, broken = 0, groupsDone = 0;
   };
   struct Variant {  // of a program
-    bool robust = false, nearCodes = false, cuts = false, mesh = false;
+    bool robust = false, nearCodes = false, cuts = false, mesh = false, seams = false;
     friend auto operator<=>(const Variant&, const Variant&) = default;
   };
   struct Programs {

@@ -125,7 +125,9 @@ TEST_F(Sequence, UsdHasTheSolidsOnTheirWayTheMaterialsAndTheCamera) {
   ball.motion = Motion{.keys = {{0, {1, 2, 3}, {}}, {1, {2, 2, 3}, {0, 0, 90}}}};
   scene_.colliders = {ball, Box{}};
   scene_.render.color = {1, 0.5, 0};
-  scene_.camera = {.position = Vec3d{0, 0, 5}, .target = Vec3d{0, 0, 0}, .fov = 90};
+  scene_.camera.position = {0, 0, 5};
+  scene_.camera.target = {0, 0, 0};
+  scene_.camera.fov = 90;
   first_.clock = {};
   second_.clock = {.step = 1, .stepLength = 1};
   write("a.usda");

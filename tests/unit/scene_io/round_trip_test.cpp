@@ -27,6 +27,7 @@ class RandomScene {
           Wind{vector(), {positive(), positive(), whole(0, 1 << 30)}, positive(), positive(), positive()};
     if (maybe()) scene.airResistance = positive();
     for (int i = whole(0, 2); i > 0; --i) scene.attractors.push_back({vector(), fraction(), positive()});
+    for (int i = whole(0, 2); i > 0; --i) scene.seams.push_back(seam(scene));
     scene.solver = {.integrator = static_cast<Integrator>(whole(0, 2)),
                     .framesPerSec = positive(),
                     .simulationSteps = whole(1, 1'000'000),
@@ -55,6 +56,15 @@ class RandomScene {
   double number() { return maybe() ? positive() : maybe() ? -positive() : whole(-3, 3); }
   Vec3d vector() { return {number(), number(), number()}; }
   Vec3d color() { return {fraction(), fraction(), fraction()}; }
+  SeamSide side(const Scene& scene) {
+    const int cloth = whole(0, static_cast<int>(scene.cloths.size()) - 1);
+    const bool isMesh = scene.cloths[static_cast<std::size_t>(cloth)].isMesh();
+    return {cloth, {isMesh ? Pin(VertexPin{whole(0, 9)}) : Pin(GridSide::left)}, maybe()};
+  }
+  Seam seam(const Scene& scene) {
+    const SeamSide a = side(scene), b = side(scene);
+    return {a, b, positive(), optionalPositive()};
+  }
   std::optional<double> optionalPositive() { return maybe() ? std::optional(positive()) : std::nullopt; }
 
   std::string text() {

@@ -1,5 +1,5 @@
-// Rows on what garments add to cloth: a balloon under pressure, a sheet that shrinks, threads of two kinds,
-// and cloth that tears under its own weight.
+// Rows on what garments add to cloth: a balloon under pressure, a seam that carries, a sheet that shrinks,
+// threads of two kinds, and cloth that tears under its own weight.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -88,6 +88,41 @@ void expectBalloon() {
 TEST(RowBalloon, CarriesPressureAsAThinSphere) {
   expectBalloon<double>();
   expectBalloon<float>();
+}
+
+// A strip that hangs from a seam of n springs of stiffness k: W / n k.
+template <class Real>
+void expectSeam() {
+  constexpr double DENSITY = 0.2, SIDE = 0.1, STIFFNESS = 2;
+  Scene scene = restingScene({.density = DENSITY, .stretch = 200, .shear = 30, .bend = 1e-6});
+  ClothSettings& cloth = scene.cloths[0];
+  cloth.width = cloth.height = SIDE;
+  cloth.numWidthPoints = cloth.numHeightPoints = 5;
+  scene.cloths.push_back(cloth);
+  scene.cloths[0].pinned = {GridRange{{0, 0}, {4, 4}}};
+  scene.cloths[1].position.z = 1.5 * SIDE;
+  scene.gravity.z = GRAVITY;
+  scene.seams.resize(1);
+  scene.seams[0].a = {0, {GridSide::bottom}};
+  scene.seams[0].b = {1, {GridSide::top}};
+  scene.seams[0].time = 0.2;
+  scene.seams[0].stiffness = STIFFNESS;
+  const Cloth made(scene);
+  CpuSolver<Real> solver(made, scene);
+  solver.step(180);
+  double sum = 0;
+  for (const SeamSpring& spring : made.seams())
+    sum +=
+        static_cast<double>(solver.position(spring.b).z) - static_cast<double>(solver.position(spring.a).z);
+  const double springs = static_cast<double>(made.seams().size());
+  expectNear(
+      {"seam", "gap at a seam of 5 springs that a strip hangs from over W / n k", precisionOf<Real>, ""},
+      sum / springs / (DENSITY * SIDE * SIDE * GRAVITY / (springs * STIFFNESS)), 1, 0.01);
+}
+
+TEST(RowSeam, CarriesAStripAsItsSpringsDo) {
+  expectSeam<double>();
+  expectSeam<float>();
 }
 
 // Pressure pushes a sheet towards its front with p A in all.

@@ -1,0 +1,165 @@
+// Seams: which points they join, and what their springs do in explicit and in implicit steps.
+#include "cloth/seams.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "scene_io/scene_io.h"
+#include "solver/cpu/cpu_solver.h"
+#include "support/test_scenes.h"
+
+namespace clothsim {
+namespace {
+
+// A strip of columns x rows points that stands; the second lies `gap` below the first one.
+Scene twoStrips(int columns, int otherColumns, double gap) {
+  Scene scene;
+  ClothSettings& upper = scene.cloths[0];
+  upper.ks = 2000;
+  upper.orientation = Orientation::vertical;
+  upper.width = upper.height = 0.2;
+  upper.numWidthPoints = columns;
+  upper.numHeightPoints = 3;
+  upper.density = 1;
+  upper.position = {0, 1, 0};
+  scene.cloths.push_back(upper);
+  scene.cloths[1].numWidthPoints = otherColumns;
+  scene.cloths[1].position.y = 1 - upper.height - gap;
+  Seam seam;
+  seam.a = {0, {GridSide::bottom}};
+  seam.b = {1, {GridSide::top}};
+  scene.seams = {seam};
+  return scene;
+}
+
+Scene inSteps(Scene scene, Integrator integrator) {
+  scene.solver.integrator = integrator;
+  scene.solver.framesPerSec = 60;
+  scene.solver.simulationSteps = isImplicit(integrator) ? 2 : 40;
+  scene.solver.newtonSteps = 8;
+  scene.solver.cgIterations = 60;
+  scene.solver.tolerance = 1e-4;
+  scene.solver.selfCollision = SelfCollision::off;
+  return scene;
+}
+
+// The mean distance of the particles that a scene's seams join, downwards.
+double gapOf(const Cloth& cloth, const State& state) {
+  double sum = 0;
+  for (const SeamSpring& spring : cloth.seams())
+    sum +=
+        static_cast<double>(state.positions[spring.a].y) - static_cast<double>(state.positions[spring.b].y);
+  return sum / static_cast<double>(cloth.seams().size());
+}
+
+std::vector<std::pair<std::uint32_t, std::uint32_t>> pairsOf(const Scene& scene) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  const Cloth cloth(scene);
+  for (const SeamSpring& spring : cloth.seams()) pairs.emplace_back(spring.a, spring.b);
+  return pairs;
+}
+
+TEST(Seams, JoinPointByPointWhereBothSidesHaveAsMany) {
+  // The bottom of a standing sheet is its row 0, the top its last.
+  using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+  EXPECT_EQ(pairsOf(twoStrips(3, 3, 0.1)), (Pairs{{0, 15}, {1, 16}, {2, 17}}));
+  Scene reversed = twoStrips(3, 3, 0.1);
+  reversed.seams[0].b.reverse = true;
+  EXPECT_EQ(pairsOf(reversed), (Pairs{{0, 17}, {1, 16}, {2, 15}}));
+}
+
+TEST(Seams, JoinEachPointOfTheFinerSideToTheOneAsFarAlong) {
+  using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+  EXPECT_EQ(pairsOf(twoStrips(5, 3, 0.1)), (Pairs{{0, 21}, {1, 22}, {2, 22}, {3, 23}, {4, 23}}));
+  EXPECT_EQ(pairsOf(twoStrips(3, 5, 0.1)), (Pairs{{0, 19}, {1, 20}, {1, 21}, {2, 22}, {2, 23}}));
+}
+
+TEST(Seams, StayAtTheirPlacesWhenTheResolutionChanges) {
+  Scene scene = twoStrips(5, 5, 0.1);
+  scene.seams[0].a.points = {GridRange{{0, 0}, {2, 0}}};
+  (void)changeResolution(scene, 9, 5, true);
+  EXPECT_EQ(scene.seams[0].a.points, (std::vector<Pin>{GridRange{{0, 0}, {4, 0}}}));
+  EXPECT_EQ(Cloth(scene).seams().size(), 9u) << "the finer side has all its points sewn";
+}
+
+TEST(Seams, CloseAStripToATube) {
+  Scene scene = twoStrips(3, 3, 0.1);
+  scene.seams[0].a = {0, {GridSide::left}};
+  scene.seams[0].b = {0, {GridSide::right}};
+  using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+  EXPECT_EQ(pairsOf(scene), (Pairs{{0, 2}, {3, 5}, {6, 8}}));
+}
+
+// A strip of weight W on n springs of stiffness k: the gap is W / (n k).
+TEST(Seams, CarryALoadWithTheGapThatHookesLawGives) {
+  constexpr double STIFFNESS = 40;
+  for (const Integrator integrator : {Integrator::verlet, Integrator::implicit}) {
+    Scene scene = inSteps(twoStrips(3, 3, 0.1), integrator);
+    scene.cloths[0].pinned = {GridRange{{0, 0}, {2, 2}}};
+    scene.cloths[1].damping = 1;
+    scene.seams[0].stiffness = STIFFNESS;
+    scene.seams[0].time = 0.2;
+    const Cloth cloth(scene);
+    CpuSolver<float> solver(cloth, scene);
+    solver.step(3 * 60 * scene.solver.simulationSteps);
+    const double weight = 9.8 * 1 * 0.2 * 0.2;
+    EXPECT_NEAR(gapOf(cloth, solver.state()), weight / (3 * STIFFNESS), 2e-5) << integratorName(integrator);
+  }
+}
+
+// Without other forces the gap follows the rest length, which falls evenly to 0.
+TEST(Seams, CloseEvenlyInTheirTime) {
+  for (const Integrator integrator : {Integrator::euler, Integrator::implicit}) {
+    Scene scene = inSteps(twoStrips(3, 3, 0.1), integrator);
+    scene.gravity = {0, 0, 0};
+    scene.cloths[0].pinned = {GridRange{{0, 0}, {2, 2}}};
+    scene.cloths[1].damping = 1;
+    scene.seams[0].time = 1;
+    const Cloth cloth(scene);
+    CpuSolver<float> solver(cloth, scene);
+    solver.step(30 * scene.solver.simulationSteps);
+    EXPECT_NEAR(gapOf(cloth, solver.state()), 0.05, 0.004) << integratorName(integrator);
+    solver.step(60 * scene.solver.simulationSteps);
+    EXPECT_NEAR(gapOf(cloth, solver.state()), 0, 1e-3) << integratorName(integrator);
+  }
+}
+
+TEST(Seams, PullBothSidesByAsMuch) {
+  for (const Integrator integrator : {Integrator::verlet, Integrator::implicit}) {
+    Scene scene = inSteps(twoStrips(4, 3, 0.1), integrator);
+    scene.gravity = {0, 0, 0};
+    scene.cloths[0].damping = scene.cloths[1].damping = 0;
+    scene.seams[0].time = 0.3;
+    const Cloth cloth(scene);
+    CpuSolver<double> solver(cloth, scene);
+    solver.step(9 * scene.solver.simulationSteps);
+    Vec3d momentum, absolute;
+    const State state = solver.state();
+    for (std::uint32_t i = 0; i < cloth.particleCount(); ++i) {
+      const Vec3d own = cloth.massOf(i) * vectorOf(state.velocities[i]);
+      momentum = momentum + own;
+      absolute = absolute + Vec3d{std::abs(own.x), std::abs(own.y), std::abs(own.z)};
+    }
+    EXPECT_GT(absolute.y, 1e-3) << "they move";
+    EXPECT_LT(length(momentum), 1e-3 * length(absolute)) << integratorName(integrator);
+  }
+}
+
+TEST(Seams, HoldWherePointsAreAtOnePlaceFromTheStart) {
+  for (const Integrator integrator : {Integrator::verlet, Integrator::implicit}) {
+    Scene scene = inSteps(twoStrips(3, 3, 0), integrator);
+    scene.cloths[0].pinned = {GridSide::top};
+    const Cloth cloth(scene);
+    CpuSolver<float> solver(cloth, scene);
+    solver.step(60 * scene.solver.simulationSteps);
+    const State state = solver.state();
+    for (const Particle4& x : state.positions) EXPECT_TRUE(std::isfinite(x.x) && std::isfinite(x.y));
+    EXPECT_LT(std::abs(gapOf(cloth, state)), 1e-3) << integratorName(integrator);
+  }
+}
+
+}  // namespace
+}  // namespace clothsim
