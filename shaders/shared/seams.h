@@ -4,6 +4,6 @@
 #pragma once
 #endif
 
-// For each particle, and once more, where its springs begin; behind those the springs: other end, number of
-// the seam, stiffness and length at the start as bits.
+// For each particle, and once more, where its springs and its neighbours across seams begin; behind those the
+// springs: other end, number of the seam, stiffness and length at the start as bits; then the neighbours.
 #define SEAMS_UNIT 66

@@ -18,9 +18,11 @@ SeamSpring seamSpring(uint n) {
   return SeamSpring(entry.x, uintBitsToFloat(entry.z), rest);
 }
 
-bool areSewn(uint i, uint j) {
-  uvec2 range = seamsOf(i);
-  for (uint n = range.x; n < range.y; ++n)
-    if (seamEntry(n).x == j) return true;
+// Whether a seam joins them, or one and a neighbour of the other (src/cloth/seam_neighbours.h).
+bool areNearSeam(uint i, uint j) {
+  int behind = int(step.totalParticles + 1u + texelFetch(seamSprings, int(step.totalParticles)).x);
+  uint end = texelFetch(seamSprings, int(i) + 1).y;
+  for (uint n = texelFetch(seamSprings, int(i)).y; n < end; ++n)
+    if (texelFetch(seamSprings, behind + int(n)).x == j) return true;
   return false;
 }

@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <cassert>
+#include <ctime>
 #include <functional>
 #include <memory>
 #include <numeric>

@@ -44,13 +44,13 @@ std::string python() {
   return wish != nullptr && *wish != '\0' ? wish : "python3";
 }
 
-struct Outcome {
+struct PythonRun {
   bool endedWell = false;
   std::string said;  // the end of what it wrote to stderr
 };
 
 // Runs a Python program that may have two files open; -1 for none.
-Outcome runPython(const char* program, int text, int binary) {
+PythonRun runPython(const char* program, int text, int binary) {
   const std::string name = python();
   std::array<char*, 4> arguments{const_cast<char*>(name.c_str()), const_cast<char*>("-c"),
                                  const_cast<char*>(program), nullptr};
@@ -72,24 +72,24 @@ Outcome runPython(const char* program, int text, int binary) {
   if (textCopy >= 0) ::close(textCopy);
   if (binaryCopy >= 0) ::close(binaryCopy);
 
-  Outcome outcome;
+  PythonRun run;
   if (error != 0) {
-    outcome.said = name + " does not start: " + std::strerror(error);
+    run.said = name + " does not start: " + std::strerror(error);
   } else {
     int status = 0;
     pid_t ended = -1;
     while ((ended = ::waitpid(child, &status, 0)) < 0 && errno == EINTR)
       if (isInterrupted()) ::kill(child, SIGKILL);
-    outcome.endedWell = ended > 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    run.endedWell = ended > 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0;
     std::array<char, 2000> end;
     const off_t size = ::lseek(words, 0, SEEK_END);
     const ssize_t got =
         ::pread(words, end.data(), end.size(), std::max<off_t>(0, size - static_cast<off_t>(end.size())));
-    outcome.said.assign(end.data(), static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
-    while (!outcome.said.empty() && outcome.said.back() == '\n') outcome.said.pop_back();
+    run.said.assign(end.data(), static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
+    while (!run.said.empty() && run.said.back() == '\n') run.said.pop_back();
   }
   ::close(words);
-  return outcome;
+  return run;
 }
 
 }  // namespace
@@ -99,9 +99,9 @@ bool isUsdBinary(const std::filesystem::path& path) {
 }
 
 void checkUsdLibrary(const std::filesystem::path& path) {
-  const Outcome outcome = runPython(importLibrary, -1, -1);
+  const PythonRun run = runPython(importLibrary, -1, -1);
   stopIfInterrupted();
-  if (outcome.endedWell) return;
+  if (run.endedWell) return;
   throw InputOutputError(
       path.string() + ": cannot be written: the binary form of USD is made by Pixar's library, which " +
       python() + " does not have. Install it (`pip install usd-core`; CLOTHSIM_PYTHON names another " +
@@ -109,11 +109,10 @@ void checkUsdLibrary(const std::filesystem::path& path) {
 }
 
 void makeUsdBinary(const std::filesystem::path& path, int text, GrowingFile& file) {
-  const Outcome outcome = runPython(convert, text, file.descriptor());
+  const PythonRun run = runPython(convert, text, file.descriptor());
   stopIfInterrupted();
-  if (!outcome.endedWell)
-    throw InputOutputError(path.string() +
-                           ": cannot be written: Pixar's USD library failed: " + outcome.said);
+  if (!run.endedWell)
+    throw InputOutputError(path.string() + ": cannot be written: Pixar's USD library failed: " + run.said);
 }
 
 }  // namespace clothsim

@@ -18,7 +18,7 @@ std::string linearColor(Vec3d color) {
   return text;
 }
 
-std::string material(const std::string& name, Vec3d color, double roughness) {
+std::string materialText(const std::string& name, Vec3d color, double roughness) {
   return "        def Material \"" + name +
          "\"\n        {\n            token outputs:surface.connect = " + "</clothsim/materials/" + name +
          "/surface.outputs:surface>\n\n" + "            def Shader \"surface\"\n            {\n" +
@@ -31,12 +31,12 @@ std::string material(const std::string& name, Vec3d color, double roughness) {
 std::string materials(const Scene& scene) {
   constexpr Vec3d gray{0.5, 0.5, 0.5};
   return "    def Scope \"materials\"\n    {\n" +
-         material("cloth", scene.render.color, 1 - 0.7 * scene.render.gloss) + material("solid", gray, 0.6) +
-         "    }\n";
+         materialText("cloth", scene.render.color, 1 - 0.7 * scene.render.gloss) +
+         materialText("solid", gray, 0.6) + "    }\n";
 }
 
 // A frame that stands in the world: USD multiplies rows by matrices, so that the axes are rows.
-std::string matrix(const std::array<Vec3d, 3>& axes, Vec3d place) {
+std::string matrixText(const std::array<Vec3d, 3>& axes, Vec3d place) {
   std::string text = "( ";
   const auto appendRow = [&](Vec3d v, const char* end) {
     text += '(';
@@ -51,9 +51,9 @@ std::string matrix(const std::array<Vec3d, 3>& axes, Vec3d place) {
 constexpr const char* TRANSFORM_ORDER =
     "            uniform token[] xformOpOrder = [\"xformOp:transform\"]\n";
 
-std::string transform(const ColliderSet& colliders, std::size_t i, const std::vector<UsdFrame>& frames) {
+std::string transformText(const ColliderSet& colliders, std::size_t i, const std::vector<UsdFrame>& frames) {
   const auto at = [&](double time) {
-    return matrix(transposed(colliders.rotationAt(i, time)), poseAt(colliders[i], time).position);
+    return matrixText(transposed(colliders.rotationAt(i, time)), poseAt(colliders[i], time).position);
   };
   std::string text = "            matrix4d xformOp:transform";
   if (!moves(colliders[i])) return text + " = " + at(frames.front().time) + "\n" + TRANSFORM_ORDER;
@@ -87,7 +87,7 @@ std::string meshShape(const Surface& surface) {
 }
 
 // A square of the plane around the foot of `middle`, in the plane's own frame, whose normal is y.
-Surface square(const ColliderSet& colliders, std::size_t i, double time, Vec3d middle, double half) {
+Surface planeSquare(const ColliderSet& colliders, std::size_t i, double time, Vec3d middle, double half) {
   const Vec3d foot = rotateBack(colliders.rotationAt(i, time), middle - poseAt(colliders[i], time).position);
   Surface surface;
   for (const auto& [x, z] : {std::pair{-1, -1}, {-1, 1}, {1, 1}, {1, -1}})
@@ -96,7 +96,7 @@ Surface square(const ColliderSet& colliders, std::size_t i, double time, Vec3d m
   return surface;
 }
 
-std::string solids(const Scene& scene, Vec3d middle, double size, const std::vector<UsdFrame>& frames) {
+std::string solidsText(const Scene& scene, Vec3d middle, double size, const std::vector<UsdFrame>& frames) {
   const ColliderSet colliders(scene);
   std::string text = "    def Scope \"solids\"\n    {\n";
   for (std::size_t i = 0; i < colliders.size(); ++i) {
@@ -109,30 +109,30 @@ std::string solids(const Scene& scene, Vec3d middle, double size, const std::vec
     if (sphere != nullptr)
       text += sphereShape(*sphere);
     else if (std::holds_alternative<Plane>(colliders[i]))
-      text += meshShape(square(colliders, i, frames.front().time, middle, squares * size));
+      text += meshShape(planeSquare(colliders, i, frames.front().time, middle, squares * size));
     else
       text += meshShape(colliders.drawnSurface(i, 0));
-    text += transform(colliders, i, frames) + "        }\n";
+    text += transformText(colliders, i, frames) + "        }\n";
   }
   return text + "    }\n";
 }
 
-Vec3d unit(Vec3d v) { return (1 / length(v)) * v; }
+Vec3d unitVector(Vec3d v) { return (1 / length(v)) * v; }
 
-std::string camera(const CameraSettings& wanted, Vec3d middle, double size) {
+std::string cameraText(const CameraSettings& wanted, Vec3d middle, double size) {
   const double halfAngle = 0.5 * wanted.fov * std::numbers::pi / 180;
   const Vec3d target = wanted.target.value_or(middle);
   const Vec3d position =
-      wanted.position.value_or(target + (0.5 * size / std::sin(halfAngle)) * unit({0.5, 0.3, 0.8}));
-  const Vec3d back = unit(position - target);
-  const Vec3d right = unit(cross(std::abs(back.y) < 0.9999 ? Vec3d{0, 1, 0} : Vec3d{0, 0, -1}, back));
+      wanted.position.value_or(target + (0.5 * size / std::sin(halfAngle)) * unitVector({0.5, 0.3, 0.8}));
+  const Vec3d back = unitVector(position - target);
+  const Vec3d right = unitVector(cross(std::abs(back.y) < 0.9999 ? Vec3d{0, 1, 0} : Vec3d{0, 0, -1}, back));
   constexpr double filmHeight = 24;  // in units of the focal length: only their ratio shows
   return "    def Camera \"camera\"\n    {\n        float2 clippingRange = (0.01, 1000)\n"
          "        float focalLength = " +
          usdNumber(0.5 * filmHeight / std::tan(halfAngle)) +
          "\n        float verticalAperture = " + usdNumber(filmHeight) +
          "\n        float horizontalAperture = " + usdNumber(filmHeight * 16 / 9) +
-         "\n        matrix4d xformOp:transform = " + matrix({right, cross(back, right), back}, position) +
+         "\n        matrix4d xformOp:transform = " + matrixText({right, cross(back, right), back}, position) +
          "\n        uniform token[] xformOpOrder = [\"xformOp:transform\"]\n    }\n";
 }
 
@@ -157,8 +157,8 @@ std::string usdSurroundings(const Scene& scene, const UsdBox& cloth, const std::
   const Vec3d low = cloth.low.cast<double>(), high = cloth.high.cast<double>();
   const Vec3d middle = 0.5 * (low + high);
   const double size = length(high - low);
-  return materials(scene) + (scene.colliders.empty() ? "" : solids(scene, middle, size, frames)) +
-         camera(scene.camera, middle, size > 0 ? size : 1);
+  return materials(scene) + (scene.colliders.empty() ? "" : solidsText(scene, middle, size, frames)) +
+         cameraText(scene.camera, middle, size > 0 ? size : 1);
 }
 
 }  // namespace clothsim

@@ -47,12 +47,6 @@ struct MeshLists {
   std::vector<std::uint32_t> seamStarts;  // one more than particles
   std::vector<SeamSpringAt> seamSprings;
 
-  [[nodiscard]] bool areSewn(std::uint32_t i, std::uint32_t j) const {
-    if (seamStarts.empty()) return false;
-    for (std::uint32_t n = seamStarts[i]; n < seamStarts[i + 1]; ++n)
-      if (seamSprings[n].other == j) return true;
-    return false;
-  }
   [[nodiscard]] bool empty() const { return starts.empty(); }
 };
 

@@ -49,7 +49,7 @@ uint encodeOnMesh(uint i, uint j) {
 
 uint encode(GridPoint p, uint j) {
 #if HAS_SEAMS
-  if (areSewn(p.index, j)) return EXCLUDED;
+  if (areNearSeam(p.index, j)) return EXCLUDED;
 #endif
   uint inPiece = j - step.firstParticle;
   if (inPiece >= step.columns * step.rows) return j;

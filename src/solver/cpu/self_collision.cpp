@@ -102,8 +102,8 @@ bool hasCell(const SelfParams<Real>& params, const Components<Real>& sortedPosit
 }  // namespace
 
 template <class Real>
-SelfCollision<Real>::SelfCollision(const Cloth& cloth) : cloth_(&cloth) {
-  if (!cloth.seams().empty()) lists_ = makeMeshLists<Real>(cloth);
+SelfCollision<Real>::SelfCollision(const Cloth& cloth)
+    : cloth_(&cloth), seamNeighbours_(seamNeighbours(cloth)) {
   if (!cloth.hasMesh()) return;
   for (std::uint32_t i = 0; i < cloth.particleCount(); ++i) places_.push_back(startPosition<Real>(cloth, i));
 }
@@ -169,7 +169,7 @@ std::uint32_t SelfCollision<Real>::encodeOnMesh(std::uint32_t i, std::uint32_t j
 
 template <class Real>
 std::uint32_t SelfCollision<Real>::encode(std::uint32_t number, std::uint32_t i, std::uint32_t j) const {
-  if (lists_.areSewn(i, j)) return EXCLUDED;
+  if (seamNeighbours_.areNear(i, j)) return EXCLUDED;
   const Piece& piece = cloth_->pieces()[number];
   if (j - piece.firstParticle >= piece.particleCount()) return j;
   if (piece.isMesh) return encodeOnMesh(i, j);

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "cloth/cloth.h"
+#include "cloth/seam_neighbours.h"
 #include "solver/cpu/contact_blocks.h"
 #include "solver/cpu/cpu_state.h"
 #include "solver/cpu/tile_search.h"
 #include "solver/executor.h"
-#include "solver/mesh_lists.h"
 #include "solver/self_collision.h"
 
 namespace clothsim::cpu {
@@ -78,7 +78,7 @@ class SelfCollision {
   void forEachBlock(Work work);
 
   const Cloth* cloth_;
-  MeshLists<Real> lists_;  // for those of seams; empty without any
+  SeamNeighbours seamNeighbours_;
   clothsim::SelfCollision mode_ = clothsim::SelfCollision::off;
   SelfParams<Real> params_{};
   std::vector<Real> distances_;

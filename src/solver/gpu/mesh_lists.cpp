@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "cloth/seam_neighbours.h"
 #include "shared/seams.h"
 #include "solver/gpu/particle_array.h"
 
@@ -23,17 +24,20 @@ GpuMeshLists::Texels GpuMeshLists::texels(const char* label, const std::vector<E
   return result;
 }
 
-void GpuMeshLists::addSeams(const MeshLists<float>& lists) {
+void GpuMeshLists::addSeams(const Cloth& cloth, const MeshLists<float>& lists) {
+  const SeamNeighbours near = seamNeighbours(cloth);
   std::vector<MeshLists<float>::SeamSpringAt> entries;
-  for (const std::uint32_t start : lists.seamStarts) entries.push_back({start, 0, 0, 0});
+  for (std::size_t i = 0; i < lists.seamStarts.size(); ++i)
+    entries.push_back({lists.seamStarts[i], near.starts[i], 0, 0});
   entries.insert(entries.end(), lists.seamSprings.begin(), lists.seamSprings.end());
+  for (const std::uint32_t other : near.entries) entries.push_back({other, 0, 0, 0});
   seams_ = texels("seams", entries);
 }
 
 GpuMeshLists::GpuMeshLists(const Cloth& cloth) : any_(cloth.hasMesh()), anySeams_(!cloth.seams().empty()) {
   if (!any_ && !anySeams_) return;
   const MeshLists<float> lists = makeMeshLists<float>(cloth);
-  if (anySeams_) addSeams(lists);
+  if (anySeams_) addSeams(cloth, lists);
   if (!any_) return;
   starts_ = texels("starts of lists", lists.starts);
   springs_ = texels("springs at particles", lists.springs);

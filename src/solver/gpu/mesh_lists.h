@@ -27,7 +27,7 @@ class GpuMeshLists {
   template <class Element>
   static Texels texels(const char* label, const std::vector<Element>& elements);
 
-  void addSeams(const MeshLists<float>& lists);
+  void addSeams(const Cloth& cloth, const MeshLists<float>& lists);
 
   bool any_ = false, anySeams_ = false;
   Texels starts_, springs_, hinges_, triangles_, limited_, seams_;
