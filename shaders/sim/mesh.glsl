@@ -7,6 +7,7 @@ layout(binding = MESH_SPRINGS_UNIT) uniform usamplerBuffer meshSprings;
 layout(binding = MESH_NUMBERS_UNIT) uniform usamplerBuffer meshNumbers;
 layout(binding = HINGES_UNIT) uniform usamplerBuffer hinges;
 layout(binding = MESH_TRIANGLES_UNIT) uniform usamplerBuffer meshTriangles;
+#include "sim/membrane.glsl"
 
 // Every spring is watched once, at its owner.
 vec3 gatherMeshSprings(uint i, uint first, uint end) {
@@ -22,7 +23,7 @@ vec3 gatherMeshSprings(uint i, uint first, uint end) {
     precise float longest = step.maxStretch * rest;
     precise float longestSquared = longest * longest;
     tooLong = tooLong || (spring.x < i && isBeyond(lengthSquared, longestSquared));
-    f = f + springForce(x, other, uintBitsToFloat(spring.z), rest);
+    if (uintBitsToFloat(spring.z) != 0.0) f = f + springForce(x, other, uintBitsToFloat(spring.z), rest);
     if (hasLimitSprings) {
       precise float inverseLength = inverseSquareRoot(lengthSquared);
       precise float over = lengthSquared * inverseLength - step.limitFactor * rest;
@@ -53,6 +54,22 @@ vec3 addHinges(uint first, uint end, vec3 force) {
   return f;
 }
 
+vec3 addMembranes(uint first, uint end, vec3 force) {
+  precise vec3 f = force;
+  for (uint n = first; n < end; ++n) {
+    uint number = texelFetch(meshNumbers, int(n)).x;
+    Membrane membrane = membraneAt(number);
+    uvec3 at = membrane.corners;
+    vec3 d[3] = edgesOf(positionAt(at.x).xyz, positionAt(at.y).xyz, positionAt(at.z).xyz);
+    vec3 tensions = timesMatrix(membrane, strainsOf(membrane, d));
+    precise vec3 x = tensions.x * d[0];
+    precise vec3 y = tensions.y * d[1];
+    precise vec3 z = tensions.z * d[2];
+    f = f + pullAt(number % 4u, vec3[3](x, y, z));
+  }
+  return f;
+}
+
 vec3 addMeshTriangles(uint first, uint end, vec3 force) {
   precise vec3 f = force;
   for (uint n = first; n < end; ++n) {
@@ -66,6 +83,7 @@ vec3 gatherMeshForces(uint i) {
   uvec4 first = texelFetch(listStarts, int(i)), end = texelFetch(listStarts, int(i) + 1);
   vec3 f = gatherMeshSprings(i, first.x, end.x);
   f = addHinges(first.y, end.y, f);
+  f = addMembranes(first.w, end.w, f);
   if (hasWind) f = addMeshTriangles(first.z, end.z, f);
   return f;
 }

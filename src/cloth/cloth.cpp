@@ -167,7 +167,8 @@ void appendSprings(const MeshShape& shape, const MeshMechanics& mechanics, std::
   for (std::size_t e = 0; e < shape.edges.size(); ++e) {
     const auto& [a, b, opposite, triangles] = shape.edges[e];
     if (mechanics.stretch[e] > 0)
-      springs.push_back({first + a, first + b, SpringKind::structural, mechanics.stretch[e]});
+      springs.push_back({first + a, first + b, SpringKind::structural,
+                         mechanics.membranes.empty() ? mechanics.stretch[e] : 0});
     if (mechanics.across[e] > 0)
       springs.push_back({first + std::max(opposite[0], opposite[1]),
                          first + std::min(opposite[0], opposite[1]), SpringKind::bending,
@@ -182,6 +183,17 @@ void appendHinges(const MeshShape& shape, const MeshMechanics& mechanics, std::u
     if (mechanics.bending[e] == std::array<double, 4>{}) continue;
     hinges.push_back(
         {{first + a, first + b, first + opposite[0], first + opposite[1]}, mechanics.bending[e]});
+  }
+}
+
+// With the moduli of the material on the shrunk triangles, too, whose squares of lengths are smaller.
+void appendMembranes(const MeshShape& shape, const MeshMechanics& mechanics, std::uint32_t first,
+                     double restScale, std::vector<Membrane>& membranes) {
+  for (std::size_t t = 0; t < mechanics.membranes.size(); ++t) {
+    const auto& [a, b, c] = shape.triangles[t];
+    Membrane membrane{{first + a, first + b, first + c}, mechanics.membranes[t]};
+    for (double& root : membrane.roots) root /= restScale;
+    membranes.push_back(membrane);
   }
 }
 
@@ -264,11 +276,12 @@ void Cloth::addMesh(const ClothSettings& settings) {
   appendSprings(*shape, mechanics, first, lists_.springs);
   mesh.colors = colorSprings(lists_.springs, firstSpring, end);
   double stiffest = 0;
-  for (std::size_t i = firstSpring; i < lists_.springs.size(); ++i)
-    stiffest = std::max(stiffest, lists_.springs[i].stiffness);
+  for (const std::vector<double>& stiffness : {mechanics.stretch, mechanics.across})
+    for (const double k : stiffness) stiffest = std::max(stiffest, k);
   mesh.stiffness.fill(stiffest);
   mesh.particleMass = std::accumulate(mechanics.masses.begin(), mechanics.masses.end(), 0.0) / mesh.columns;
   appendHinges(*shape, mechanics, first, lists_.hinges);
+  appendMembranes(*shape, mechanics, first, mesh.restScale, lists_.membranes);
   mesh.firstTriangle = static_cast<std::uint32_t>(lists_.triangles.size());
   for (const auto& [a, b, c] : shape->triangles)
     lists_.triangles.push_back({first + a, first + b, first + c});

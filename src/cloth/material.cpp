@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cloth/membrane.h"
 #include "cloth/mesh_shape.h"
 #include "core/error.h"
 #include "scene/budget.h"
@@ -119,12 +120,17 @@ void giveMaterial(ClothSettings& cloth, const Material& material) {
   cloth.thickness = plain.thickness;
 }
 
+SheetModuli sheetModuli(const Material& material) {
+  const double y = material.stretch, g = material.shear, warp = material.stretchWarp.value_or(y);
+  const double c11 = 0.5 * (y + std::sqrt(y * y + 4 * g * g * (y / warp)));
+  return {c11, c11 * (warp / y), g, g};
+}
+
 // The energy of springs k (l - L)^2 / 2 under a small strain, a cell: with two diagonals of length l =
 // hypot(dx, dy), C11 dx dy = k_row dx^2 + 2 k_d dx^4 / l^2 and C12 dx dy = 2 k_d dx^2 dy^2 / l^2; likewise
 // along columns.
 LatticeStiffness latticeStiffness(const Material& material, double dx, double dy) {
-  const double y = material.stretch, g = material.shear, warp = material.stretchWarp.value_or(y);
-  const double c11 = 0.5 * (y + std::sqrt(y * y + 4 * g * g * (y / warp))), c22 = c11 * (warp / y);
+  const auto [c11, c22, c12, g] = sheetModuli(material);
   LatticeStiffness k;
   if (dx == 0 || dy == 0) return k;
   k.diagonal = g * (dx * dx + dy * dy) / (2 * dx * dy);
@@ -137,6 +143,9 @@ LatticeStiffness latticeStiffness(const Material& material, double dx, double dy
 
 namespace {
 
+// How much stiffer a membrane is that is stretched by a tenth: (3 1.1^2 - 1) / 2.
+constexpr double MEMBRANE_MARGIN = 1.315;
+
 // The stable step of a mesh; infinite when its file cannot be read, which building the cloth will report.
 double stableStepOfMesh(const ClothSettings& cloth) {
   std::shared_ptr<const MeshShape> shape;
@@ -145,17 +154,24 @@ double stableStepOfMesh(const ClothSettings& cloth) {
   } catch (const SceneError&) {
     return std::numeric_limits<double>::infinity();
   }
-  const MeshMechanics mechanics = mechanicsOf(*shape, placedPoints(*shape, cloth), cloth);
+  const std::vector<Vec3d> points = placedPoints(*shape, cloth);
+  const MeshMechanics mechanics = mechanicsOf(*shape, points, cloth);
   std::vector<double> sums(shape->points.size());  // of |K| in each block row
   for (std::size_t e = 0; e < shape->edges.size(); ++e) {
     const MeshShape::Edge& edge = shape->edges[e];
-    for (const std::uint32_t end : {edge.a, edge.b}) sums[end] += 2 * mechanics.stretch[e];
+    if (mechanics.membranes.empty())
+      for (const std::uint32_t end : {edge.a, edge.b}) sums[end] += 2 * mechanics.stretch[e];
     for (const std::uint32_t end : edge.opposite) sums[end] += 2 * mechanics.across[e];
     if (mechanics.bending.empty()) continue;
     const auto& c = mechanics.bending[e];
     const double all = std::abs(c[0]) + std::abs(c[1]) + std::abs(c[2]) + std::abs(c[3]);
     const std::array corners{edge.a, edge.b, edge.opposite[0], edge.opposite[1]};
     for (std::size_t k = 0; k < 4; ++k) sums[corners[k]] += std::abs(c[k]) * all;
+  }
+  for (std::size_t t = 0; t < mechanics.membranes.size(); ++t) {
+    const double bound =
+        MEMBRANE_MARGIN * membraneBound(edgesOf(shape->triangles[t], points), mechanics.membranes[t]);
+    for (const std::uint32_t corner : shape->triangles[t]) sums[corner] += bound;
   }
   double largest = 0;
   for (std::size_t i = 0; i < sums.size(); ++i) largest = std::max(largest, sums[i] / mechanics.masses[i]);

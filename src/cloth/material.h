@@ -27,10 +27,17 @@ void giveMaterial(ClothSettings& cloth, const Material& material);
   return points > 1 ? length / (points - 1) : 0;
 }
 
-// Springs of a lattice with cells of `dx` by `dy` [m] that stretches and shears as the material does:
-// C12 = G, the only choice that central forces leave, and with Y of the weft and Y' of the warp
-// C11 = (Y + sqrt(Y^2 + 4 G^2 Y/Y')) / 2 along rows and C22 = C11 Y'/Y along columns. All of them count half
-// along a border of the sheet.
+// The elastic constants of a material in its plane, 1 along the weft and 2 along the warp [N/m]: of the
+// energy 1/2 (C11 E11^2 + C22 E22^2) + C12 E11 E22 + 1/2 G (2 E12)^2 an area. C12 = G, the only choice that
+// the central forces of a lattice leave, and with Y of the weft and Y' of the warp C11 = (Y + sqrt(Y^2 + 4
+// G^2 Y/Y')) / 2 and C22 = C11 Y'/Y.
+struct SheetModuli {
+  double c11 = 0, c22 = 0, c12 = 0, shear = 0;
+};
+[[nodiscard]] SheetModuli sheetModuli(const Material& material);
+
+// Springs of a lattice with cells of `dx` by `dy` [m] that stretches and shears as the material does, its
+// weft along rows. All of them count half along a border of the sheet.
 struct LatticeStiffness {
   double alongRow = 0, alongColumn = 0;  // structural [N/m]; below 0 when the cells are too oblong
   double diagonal = 0;                   // shear [N/m]

@@ -72,6 +72,9 @@ void projectTextureCoordinates(MeshShape& shape) {
     const float x = part(p.x, low.x, size.x), y = 1 - part(p.y, low.y, size.y), z = part(p.z, low.z, size.z);
     shape.textureCoordinates[i] = flatInX ? std::array{z, y} : flatInY ? std::array{x, z} : std::array{x, y};
   }
+  for (std::size_t t = 0; t < shape.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k)
+      shape.cornerCoordinates[t][k] = shape.textureCoordinates[shape.triangles[t][k]];
 }
 
 // OBJ's v points up, ours down.
@@ -90,14 +93,17 @@ void readFaces(const std::string& file, const ObjFile& obj, MeshShape& shape) {
     for (std::size_t first = 0; first + 2 < part.mesh.indices.size(); first += 3) {
       const Triangle corners = cornersOf(file, part.mesh.indices, first, points);
       shape.triangles.push_back(corners);
+      shape.cornerCoordinates.emplace_back();
       for (const std::string& name : names) groups[name].insert(corners.begin(), corners.end());
       for (std::size_t k = 0; k < 3; ++k) {
         const int at = part.mesh.indices[first + k].texcoord_index;
-        if (at < 0 || 2 * static_cast<std::size_t>(at) + 1 >= uv.size() || hasCoordinates[corners[k]])
-          continue;
+        if (at < 0 || 2 * static_cast<std::size_t>(at) + 1 >= uv.size()) continue;
+        const std::array here{uv[2 * static_cast<std::size_t>(at)],
+                              1 - uv[2 * static_cast<std::size_t>(at) + 1]};
+        shape.cornerCoordinates.back()[k] = here;
+        if (hasCoordinates[corners[k]]) continue;
         hasCoordinates[corners[k]] = true;
-        shape.textureCoordinates[corners[k]] = {uv[2 * static_cast<std::size_t>(at)],
-                                                1 - uv[2 * static_cast<std::size_t>(at) + 1]};
+        shape.textureCoordinates[corners[k]] = here;
       }
     }
   }
@@ -240,6 +246,24 @@ std::vector<double> massesOf(const MeshShape& shape, const std::vector<Vec3d>& p
   return masses;
 }
 
+// By triangle and edge to edges: the stiffness along each, of the triangles beside it.
+std::vector<double> stiffnessAlongEdges(const MeshShape& shape, const std::vector<Vec3d>& points,
+                                        const std::vector<MembraneRoots>& membranes) {
+  std::vector<double> sums(shape.edges.size());
+  for (std::size_t t = 0; t < membranes.size(); ++t) {
+    const TriangleEdges edges = edgesOf(shape.triangles[t], points);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t p = shape.triangles[t][(k + 1) % 3], q = shape.triangles[t][(k + 2) % 3];
+      const std::pair ends(std::max(p, q), std::min(p, q));
+      const auto edge =
+          std::lower_bound(shape.edges.begin(), shape.edges.end(), ends,
+                           [](const Edge& e, const auto& wanted) { return std::pair(e.a, e.b) < wanted; });
+      sums[static_cast<std::size_t>(edge - shape.edges.begin())] += stiffnessAlong(k, edges, membranes[t]);
+    }
+  }
+  return sums;
+}
+
 double sumOfAreas(const Edge& edge, const std::vector<Vec3d>& points) {
   double sum = 0;
   for (std::size_t k = 0; k < static_cast<std::size_t>(edge.triangles); ++k)
@@ -274,7 +298,6 @@ MeshMechanics mechanicsOf(const MeshShape& shape, const std::vector<Vec3d>& poin
     const bool bends = isInner && cloth.enableBending;
     double along = 0, across = 0;
     if (cloth.material) {
-      along = cloth.material->stretch * sumOfAreas(edge, points) / (l * l);
       if (bends) mechanics.bending.push_back(bendingAcross(edge, points, cloth.material->bend));
       if (!bends) mechanics.bending.push_back({});
     } else {
@@ -283,6 +306,10 @@ MeshMechanics mechanicsOf(const MeshShape& shape, const std::vector<Vec3d>& poin
     }
     mechanics.stretch.push_back(cloth.enableStructural ? along : 0);
     mechanics.across.push_back(across);
+  }
+  if (cloth.material && cloth.enableStructural) {
+    mechanics.membranes = membranesOf(shape, points, cloth);
+    mechanics.stretch = stiffnessAlongEdges(shape, points, mechanics.membranes);
   }
   return mechanics;
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "cloth/membrane.h"
 #include "scene/scene.h"
 
 namespace clothsim {
@@ -26,7 +27,9 @@ struct MeshShape {
   // u and v of each point: those of the first corner there that has any; where the file has none, the place
   // in the box around the mesh, seen along its shortest side, v downwards.
   std::vector<std::array<float, 2>> textureCoordinates;
-  std::vector<Triangle> triangles;                           // polygons are split
+  std::vector<Triangle> triangles;  // polygons are split
+  // Of each triangle those of its corners, which may differ from its points' at a seam of the texture.
+  std::vector<std::array<std::array<float, 2>, 3>> cornerCoordinates;
   std::vector<Edge> edges;                                   // ascending in (a, b)
   std::map<std::string, std::vector<std::uint32_t>> groups;  // points of the faces of each, ascending
 };
@@ -43,9 +46,11 @@ struct MeshShape {
 
 // Stiffness, masses and bending of a mesh from what its cloth is made of, in the order of edges or points.
 struct MeshMechanics {
-  std::vector<double> masses;   // [kg]: a third of each triangle around the point
-  std::vector<double> stretch;  // of the spring along each edge [N/m]
-  std::vector<double> across;   // of the spring across each edge [N/m]; 0: none
+  std::vector<double> masses;  // [kg]: a third of each triangle around the point
+  // Along each edge [N/m]: of its spring, or of the membrane while the other edges keep their lengths.
+  std::vector<double> stretch;
+  std::vector<MembraneRoots> membranes;  // of each triangle; empty without a material
+  std::vector<double> across;            // of the spring across each edge [N/m]; 0: none
   // Of the energy 1/2 |sum c_i x_i|^2 across each inner edge: the coefficients c of its ends a and b and of
   // the corners opposite [sqrt(N/m)]. Empty without a material.
   std::vector<std::array<double, 4>> bending;
@@ -53,13 +58,10 @@ struct MeshMechanics {
 // Of `ks`: ks along edges, 0.2 ks across; of `stiffness_reference` that times reference_length over the
 // length.
 //
-// Of a material: along edges Van Gelder's Y sum(areas) / length^2 (A. Van Gelder, "Approximate simulation of
-// elastic membranes by triangulated spring meshes", 1998), exact on equilateral triangles, where springs k
-// make a sheet of modulus Y = 2 k / sqrt(3). Edges know no threads: Poisson's ratio is 1/3, so that shear is
-// 3/8 Y whatever the material says. Bending is isometric (M. Bergou et al., "A quadratic bending model for
-// inextensible surfaces", 2006): with the cotangents K of an edge's angles, 1/2 B / (A1 + A2) |K x|^2. Their
-// factor is 3 times ours: on equilateral triangles ours is that of Seung and Nelson (1988), B = sqrt(3)/2
-// kappa, and bends a cylinder with 1/2 B / r^2 an area.
+// Of a material: a membrane with its moduli (cloth/membrane.h). Bending is isometric (M. Bergou et al., "A
+// quadratic bending model for inextensible surfaces", 2006): with the cotangents K of an edge's angles, 1/2 B
+// / (A1 + A2) |K x|^2. Their factor is 3 times ours: on equilateral triangles ours is that of Seung and
+// Nelson (1988), B = sqrt(3)/2 kappa, and bends a cylinder with 1/2 B / r^2 an area.
 [[nodiscard]] MeshMechanics mechanicsOf(const MeshShape& shape, const std::vector<Vec3d>& points,
                                         const ClothSettings& cloth);
 

@@ -43,6 +43,9 @@ void gatherIncidences(SpringLists& lists, std::uint32_t particles) {
   lists.trianglesOf = incidenceOf(lists.triangles, particles, [&](std::uint32_t n, auto add) {
     for (const std::uint32_t corner : lists.triangles[n]) add(corner, n);
   });
+  lists.membranesOf = incidenceOf(lists.membranes, particles, [&](std::uint32_t n, auto add) {
+    for (std::uint32_t k = 0; k < 3; ++k) add(lists.membranes[n].corners[k], 4 * n + k);
+  });
 }
 
 std::vector<SpringColor> colorSprings(std::vector<MeshSpring>& springs, std::size_t first,

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "cloth/membrane.h"
+
 namespace clothsim {
 
 enum class SpringKind { structural, shear, bending };
@@ -13,7 +15,7 @@ enum class SpringKind { structural, shear, bending };
 struct MeshSpring {
   std::uint32_t a, b;  // b < a: the owner is the end with the larger index
   SpringKind kind;
-  double stiffness;  // [N/m]
+  double stiffness;  // [N/m]; 0 along the edges of a membrane, where it only measures and limits
 };
 
 // Four particles around an inner edge: its ends, and the corners opposite. Energy 1/2 |sum c_i x_i|^2, so
@@ -21,6 +23,12 @@ struct MeshSpring {
 struct Hinge {
   std::array<std::uint32_t, 4> corners;
   std::array<double, 4> coefficients;  // [sqrt(N/m)]
+};
+
+// A triangle that resists strain in its plane.
+struct Membrane {
+  std::array<std::uint32_t, 3> corners;
+  MembraneRoots roots;
 };
 
 // Springs [first, end) of which no two share a particle: for the strain limit, which works in place.
@@ -33,6 +41,7 @@ struct SpringLists {
   std::vector<MeshSpring> springs;
   std::vector<Hinge> hinges;
   std::vector<std::array<std::uint32_t, 3>> triangles;  // as the file has them
+  std::vector<Membrane> membranes;                      // the triangles of meshes of a material
 
   // What particle i gathers over, ascending: entries [starts[i], starts[i + 1]) of each list.
   struct Incidence {
@@ -41,6 +50,7 @@ struct SpringLists {
   Incidence springsOf;    // numbers of springs
   Incidence hingesOf;     // 4 * number of the hinge + which of its corners
   Incidence trianglesOf;  // numbers of triangles
+  Incidence membranesOf;  // 4 * number of the membrane + which of its corners
 
   [[nodiscard]] bool empty() const { return triangles.empty(); }
   [[nodiscard]] bool joins(std::uint32_t i, std::uint32_t j) const;  // a structural spring

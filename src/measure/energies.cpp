@@ -4,6 +4,27 @@
 #include <cmath>
 
 namespace clothsim {
+namespace {
+
+double squaredLength(Vec3d a, Vec3d b) { return dot(b - a, b - a); }
+
+double membraneEnergy(const Cloth& cloth, const State& state) {
+  double sum = 0;
+  for (const Membrane& membrane : cloth.lists().membranes) {
+    const double scale = cloth.pieces()[cloth.pieceOf(membrane.corners[0])].restScale;
+    std::array<double, 3> e{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = membrane.corners[(k + 1) % 3], b = membrane.corners[(k + 2) % 3];
+      e[k] = 0.5 * (squaredLength(vectorOf(state.positions[a]), vectorOf(state.positions[b])) -
+                    scale * scale * squaredLength(cloth.positions()[a], cloth.positions()[b]));
+    }
+    const auto [x, y, z] = timesRoots(membrane.roots, e);
+    sum += 0.5 * (x * x + y * y + z * z);
+  }
+  return sum;
+}
+
+}  // namespace
 
 Energies energies(const Cloth& cloth, std::span<const Spring> springs, const Scene& scene, const Cuts& cuts,
                   const State& state) {
@@ -22,6 +43,7 @@ Energies energies(const Cloth& cloth, std::span<const Spring> springs, const Sce
     sum.maxStrain = std::max(sum.maxStrain, l / spring.restLength - 1);
     sum.springs += 0.5 * spring.stiffness * (l - spring.restLength) * (l - spring.restLength);
   }
+  sum.springs += membraneEnergy(cloth, state);
   return sum;
 }
 

@@ -13,7 +13,7 @@ namespace clothsim {
 struct Energies {      // [J]
   double kinetic = 0;  // 1/2 m v^2, with the velocities as given: under verlet those of the half step before
   double gravity = 0;  // m g h above where the particles started
-  double springs = 0;  // 1/2 k (l - L)^2 over enabled springs that are not cut
+  double springs = 0;  // 1/2 k (l - L)^2 over enabled springs that are not cut, and that of membranes
   double maxStrain = 0;  // largest l/L - 1 of those springs; no energy, but found in the same loop
   [[nodiscard]] double total() const { return kinetic + gravity + springs; }
 };
@@ -26,7 +26,7 @@ struct Energies {      // [J]
 struct ParticleFacts {
   double speed = 0;   // [m/s]
   double strain = 0;  // l/L - 1 of largest magnitude among its springs, with its sign; 0 without springs
-  double force = 0;   // k (l - L) of that spring, positive where it pulls [N]
+  double force = 0;   // k (l - L) of that spring, positive where it pulls [N]; 0 along edges of a membrane
 };
 [[nodiscard]] ParticleFacts factsOf(std::uint32_t particle, std::span<const Spring> springs, const Cuts& cuts,
                                     const State& state);

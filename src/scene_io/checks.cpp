@@ -140,9 +140,8 @@ void checkMesh(const JsonNode& node, const ClothSettings& cloth) {
   if (const JsonNode* given = node.find("tear_strain"))
     complain(*given, "only grids tear; leave the key out for a cloth with the key \"mesh\"");
   if (!cloth.material) return;
-  for (const char* key : {"stretch_warp", "bend_warp"})
-    if (const JsonNode* given = node.find("material")->find(key))
-      complain(*given, "the edges of a mesh know no threads: only grids have a warp of their own");
+  if (const JsonNode* given = node.find("material")->find("bend_warp"))
+    complain(*given, "a mesh bends alike in all directions: only grids have a warp that bends otherwise");
 }
 
 // Where else in the scene the key would be right: "strain_limit" written into a cloth.

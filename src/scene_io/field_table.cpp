@@ -180,7 +180,9 @@ std::span<const Field<Material>> fieldsOf<Material>() {
           .rebuilds()
           .alwaysWritten(),
       field("stretch_warp", &M::stretchWarp,
-            "Young's modulus along the warp, the columns of a grid; stretch is then along the weft.")
+            "Young's modulus along the warp, the columns of a grid, or across u of a mesh's texture "
+            "coordinates; "
+            "stretch is then along the weft.")
           .in("N/m")
           .within(positive)
           .byDefault("as stretch")

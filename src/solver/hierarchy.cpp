@@ -62,7 +62,7 @@ Lists springGraph(const Cloth& cloth, const Piece& piece, const std::vector<std:
 
 // The particles that the elements of particle i have: its own, the other ends of the springs that it owns,
 // and the ends of the lines of bending that it is in the middle of; of a mesh its springs to smaller numbers,
-// and the hinges whose first corner it is.
+// and the hinges and membranes whose first corner it is.
 template <class Visit>
 void forEachElementParticle(const Cloth& cloth, const Piece& piece, std::uint32_t i, Visit visit) {
   visit(i);
@@ -74,6 +74,10 @@ void forEachElementParticle(const Cloth& cloth, const Piece& piece, std::uint32_
     for (std::uint32_t n = lists.hingesOf.starts[i]; n < lists.hingesOf.starts[i + 1]; ++n)
       if (lists.hingesOf.entries[n] % 4 == 0)
         for (const std::uint32_t corner : lists.hinges[lists.hingesOf.entries[n] / 4].corners) visit(corner);
+    for (std::uint32_t n = lists.membranesOf.starts[i]; n < lists.membranesOf.starts[i + 1]; ++n)
+      if (lists.membranesOf.entries[n] % 4 == 0)
+        for (const std::uint32_t corner : lists.membranes[lists.membranesOf.entries[n] / 4].corners)
+          visit(corner);
     return;
   }
   if (!piece.hasMaterial) return;

@@ -35,6 +35,20 @@ Real restLengthOf(const Cloth& cloth, const MeshSpring& spring) {
   return scale * startLength<Real>(cloth, spring.a, spring.b);
 }
 
+template <class Real>
+auto membraneParamsOf(const Cloth& cloth, const Membrane& membrane) {
+  typename MeshLists<Real>::MembraneParams params{membrane.corners, {}, {}};
+  const auto scale = static_cast<Real>(cloth.pieces()[cloth.pieceOf(membrane.corners[0])].restScale);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3<Real> edge = startPosition<Real>(cloth, membrane.corners[(k + 2) % 3]) -
+                            startPosition<Real>(cloth, membrane.corners[(k + 1) % 3]);
+    params.restSquared[k] = (scale * scale) * dot(edge, edge);
+  }
+  for (std::size_t n = 0; n < membrane.roots.size(); ++n)
+    params.roots[n] = static_cast<Real>(membrane.roots[n]);
+  return params;
+}
+
 }  // namespace
 
 template <class Real>
@@ -43,10 +57,12 @@ MeshLists<Real> makeMeshLists(const Cloth& cloth) {
   addSeams(cloth, result);
   if (!cloth.hasMesh()) return result;
   const SpringLists& lists = cloth.lists();
-  const auto hingeNumbers = static_cast<std::uint32_t>(lists.hingesOf.entries.size());
+  const auto hingeNumbers = static_cast<std::uint32_t>(lists.hingesOf.entries.size()),
+             others = hingeNumbers + static_cast<std::uint32_t>(lists.trianglesOf.entries.size());
   for (std::size_t i = 0; i <= cloth.particleCount(); ++i)
-    result.starts.push_back(
-        {lists.springsOf.starts[i], lists.hingesOf.starts[i], hingeNumbers + lists.trianglesOf.starts[i], 0});
+    result.starts.push_back({lists.springsOf.starts[i], lists.hingesOf.starts[i],
+                             hingeNumbers + lists.trianglesOf.starts[i],
+                             others + lists.membranesOf.starts[i]});
   for (const MeshSpring& spring : lists.springs)
     result.limited.push_back({spring.a, spring.b, restLengthOf<Real>(cloth, spring), 0});
   for (std::uint32_t i = 0; i < cloth.particleCount(); ++i) {
@@ -61,8 +77,10 @@ MeshLists<Real> makeMeshLists(const Cloth& cloth) {
     }
   }
   result.numbers = lists.hingesOf.entries;
-  result.numbers.insert(result.numbers.end(), lists.trianglesOf.entries.begin(),
-                        lists.trianglesOf.entries.end());
+  for (const auto* incidence : {&lists.trianglesOf, &lists.membranesOf})
+    result.numbers.insert(result.numbers.end(), incidence->entries.begin(), incidence->entries.end());
+  for (const Membrane& membrane : lists.membranes)
+    result.membranes.push_back(membraneParamsOf<Real>(cloth, membrane));
   for (const Hinge& hinge : lists.hinges) {
     const auto& c = hinge.coefficients;
     const auto real = [](double x) { return static_cast<Real>(x); };

@@ -15,7 +15,7 @@ namespace clothsim {
 template <class Real>
 struct MeshLists {
   struct Starts {  // of what a particle gathers over
-    std::uint32_t springs, hinges, triangles, unused;
+    std::uint32_t springs, hinges, triangles, membranes;
   };
   struct SpringAt {
     std::uint32_t other;   // the other end
@@ -26,6 +26,11 @@ struct MeshLists {
     std::array<std::uint32_t, 4> corners;
     std::array<Real, 4> coefficients;
   };
+  struct MembraneParams {
+    std::array<std::uint32_t, 3> corners;
+    std::array<Real, 3> restSquared;  // of the edges opposite them [m^2]
+    std::array<Real, 6> roots;        // MembraneRoots
+  };
   struct LimitedSpring {
     std::uint32_t a, b;
     Real restLength, unused;
@@ -33,8 +38,9 @@ struct MeshLists {
 
   std::vector<Starts> starts;  // one more than particles
   std::vector<SpringAt> springs;
-  std::vector<std::uint32_t> numbers;  // of hinges, then of triangles
+  std::vector<std::uint32_t> numbers;  // of hinges, then of triangles, then of membranes
   std::vector<HingeParams> hinges;
+  std::vector<MembraneParams> membranes;
   std::vector<std::array<std::uint32_t, 4>> triangles;
   std::vector<LimitedSpring> limited;       // by number
   std::vector<std::array<Real, 4>> places;  // where particles start [m]

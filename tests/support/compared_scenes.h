@@ -251,11 +251,12 @@ inline Scene meshWithEverything(int n, SelfCollision mode) {
   return scene;
 }
 
-// Of a material, so that it bends over hinges.
+// Of a material, so that it has a membrane, and bends over hinges.
 inline Scene meshOfMaterial(int n) {
   Scene scene = withWind(meshScene({.columns = n, .rows = n, .edge = 1.0 / n, .disorder = 0.2}));
   scene.cloths[0].ks.reset();
-  scene.cloths[0].material = Material{.stretch = 100, .bend = 1e-4};
+  scene.cloths[0].material = Material{.stretch = 100, .stretchWarp = 150, .shear = 20, .bend = 1e-4};
+  scene.cloths[0].shrink = 0.02;
   scene.cloths[0].pinned = {GroupPin{"top"}};
   scene.cloths[0].rotation = {-60, 10, 0};
   return scene;
@@ -367,7 +368,8 @@ inline std::vector<NamedScene> implicitScenes(int n) {
       {"implicit, a mesh with everything", implicitly(meshWithEverything(n / 2, SelfCollision::averaged))},
       {"bdf2, a material with everything",
        inSecondOrder(withAttractors(withWind(withColliders(withLimiter(vertical(materialScene(n)))))))},
-      {"bdf2, a mesh of a material with attractors", inSecondOrder(withAttractors(meshOfMaterial(n / 2)))}};
+      {"bdf2, a mesh of a material with attractors",
+       inSecondOrder(withAttractors(withLimiter(meshOfMaterial(n / 2))))}};
 }
 
 inline Scene everythingScene(int n) { return withWind(withColliders(withLimiter(vertical(sheetScene(n))))); }

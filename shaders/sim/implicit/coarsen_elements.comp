@@ -60,10 +60,9 @@ RigidVector pullOf(vec4 lever, vec3 d) {
   precise vec3 force = lever.x * d;
   return RigidVector(force, crossProduct(lever.yzw, d));
 }
-void addPulling(float s, vec3 d, Hanging hanging) {
-  RigidVector p = pullOf(hanging.row, d), q = pullOf(hanging.column, d);
-  precise vec3 force = s * p.translation;
-  precise vec3 torque = s * p.rotation;
+// p q^T.
+void addOuter(RigidVector p, RigidVector q) {
+  vec3 force = p.translation, torque = p.rotation;
   for (int c = 0; c < 3; ++c) {
     precise vec3 tt = outer.tt[c] + force * q.translation[c];
     precise vec3 tr = outer.tr[c] + force * q.rotation[c];
@@ -74,6 +73,12 @@ void addPulling(float s, vec3 d, Hanging hanging) {
     outer.rt[c] = rt;
     outer.rr[c] = rr;
   }
+}
+void addPulling(float s, vec3 d, Hanging hanging) {
+  RigidVector p = pullOf(hanging.row, d), q = pullOf(hanging.column, d);
+  precise vec3 force = s * p.translation;
+  precise vec3 torque = s * p.rotation;
+  addOuter(RigidVector(force, torque), q);
 }
 
 // Cross products with the unit vectors, in components.
@@ -135,6 +140,42 @@ void addSpring(vec4 x, Hanging hanging, IncidentSpring spring) {
 }
 
 #if HAS_MESH
+Hanging difference(Hanging to, Hanging from) {
+  precise vec4 row = to.row - from.row;
+  precise vec4 column = to.column - from.column;
+  return Hanging(row, column);
+}
+
+// The force of a row of R, whose entries are `scales`, on a body on which edges d hang by `levers`.
+RigidVector pullOfEdges(vec3 scales, vec3 d[3], vec4 levers[3]) {
+  RigidVector x = pullOf(levers[0], d[0]), y = pullOf(levers[1], d[1]), z = pullOf(levers[2], d[2]);
+  precise vec3 force = (scales.x * x.translation + scales.y * y.translation) + scales.z * z.translation;
+  precise vec3 torque = (scales.x * x.rotation + scales.y * y.rotation) + scales.z * z.rotation;
+  return RigidVector(force, torque);
+}
+void addEdgesElement(vec3 scales, vec3 d[3], vec4 rows[3], vec4 columns[3]) {
+  addOuter(pullOfEdges(scales, d, rows), pullOfEdges(scales, d, columns));
+}
+
+// Of its first corner, which is at x.
+void addMembrane(vec4 x, Hanging first, Membrane m) {
+  vec4 second = positionAt(m.corners.y), third = positionAt(m.corners.z);
+  Hanging b = hangingOf(m.corners.y, second), c = hangingOf(m.corners.z, third);
+  Hanging edges[3] = Hanging[3](difference(c, b), difference(first, c), difference(b, first));
+  vec3 d[3] = edgesOf(x.xyz, second.xyz, third.xyz);
+  vec4 rows[3] = vec4[3](edges[0].row, edges[1].row, edges[2].row),
+       columns[3] = vec4[3](edges[0].column, edges[1].column, edges[2].column);
+  bool isRigid = isOfAll && x.w > 0.0 && second.w > 0.0 && third.w > 0.0;
+  if (!isRigid) {
+    addEdgesElement(m.first, d, rows, columns);
+    addEdgesElement(vec3(0.0, m.second), d, rows, columns);
+    addEdgesElement(vec3(0.0, 0.0, m.third), d, rows, columns);
+  }
+  vec3 tensions = positiveTensions(m, d);
+  for (int k = 0; k < 3; ++k)
+    if (tensions[k] > 0.0) addIsotropic(tensions[k], edges[k]);
+}
+
 void addElementsOf(uint i) {
   vec4 x = positionAt(i);
   Hanging hanging = hangingOf(i, x);
@@ -142,7 +183,7 @@ void addElementsOf(uint i) {
   uvec4 first = texelFetch(listStarts, int(i)), end = texelFetch(listStarts, int(i) + 1);
   for (uint n = first.x; n < end.x; ++n) {
     IncidentSpring spring = meshSpring(n);
-    if (spring.other < i) addSpring(x, hanging, spring);
+    if (spring.other < i && pulls(spring)) addSpring(x, hanging, spring);
   }
   for (uint n = first.y; n < end.y; ++n) {
     uint number = texelFetch(meshNumbers, int(n)).x;
@@ -156,6 +197,10 @@ void addElementsOf(uint i) {
       column = column + hinge.coefficients[k] * corner.column;
     }
     addIsotropic(1.0, Hanging(row, column));
+  }
+  for (uint n = first.w; n < end.w; ++n) {
+    uint number = texelFetch(meshNumbers, int(n)).x;
+    if (number % 4u == 0u) addMembrane(x, hanging, membraneAt(number));
   }
 }
 #else

@@ -9,6 +9,7 @@
 
 #include "solver/cpu/implicit_contact.h"
 #include "solver/cpu/implicit_laws.h"
+#include "solver/cpu/membrane_laws.h"
 #include "solver/cpu/rows.h"
 #include "solver/cpu/spring_rows.h"
 
@@ -40,7 +41,7 @@ class ElementLoop {
     count_ = levels_.touchedStarts[i + 1] - levels_.touchedStarts[i];
     blocks_ = levels_.elementBlocks.data() + levels_.elementBlockStarts[i];
     if (count_ == 0 || touched_[0] >= end_ || touched_[count_ - 1] < first_) return;
-    scratch_.resize(std::max<std::size_t>(scratch_.size(), 6 * std::size_t{count_}));
+    scratch_.resize(std::max<std::size_t>(scratch_.size(), 12 * std::size_t{count_}));
     pulling_.begin(2 * count_);
     isotropic_.begin(2 * count_);
     Four<Real>* own = leversIn(0);
@@ -94,9 +95,10 @@ class ElementLoop {
   INLINE void addMeshElements(std::uint32_t i, const Four<Real>* own) {
     addMeshSprings(i, own);
     addHinges(i);
+    addMembranes(i, own);
   }
 
-  // One of three rows of scratch, with two levers for each aggregate that the elements touch: its own, and
+  // One of six rows of scratch, with two levers for each aggregate that the elements touch: its own, and
   // behind them that of all vertices, moving as one body about its center.
   INLINE Four<Real>* leversIn(std::size_t row) { return &scratch_[2 * row * count_].lever; }
 
@@ -152,6 +154,25 @@ class ElementLoop {
     };
     for (std::uint32_t a = 0; a < count_; ++a) {
       if (isNone(levers[a])) continue;
+      add(a);
+      if (!isRigid) add(count_ + a);
+    }
+    ++pulling_.count;
+  }
+  // A force of each edge: the element |sum of scales_k pulls_k|^2 / 2 of edges that are d_k long, with their
+  // levers in rows 3 to 5 of the scratch.
+  INLINE void addEdgesElement(const std::array<Vec3<Real>, 3>& d, const OfEdges<Real>& scales, bool isRigid) {
+    if (pulling_.count == pulling_.MOST) addToBlocks();
+    const auto add = [&](std::uint32_t a) __attribute__((always_inline)) {
+      pulling_.add(a, [&] {
+        const Eight<Real> pull =
+            (scales[0] * pullOf(leversIn(3)[a], d[0]) + scales[1] * pullOf(leversIn(4)[a], d[1])) +
+            scales[2] * pullOf(leversIn(5)[a], d[2]);
+        return typename Waiting<Eight<Real>>::Factors{pull, pull};
+      });
+    };
+    for (std::uint32_t a = 0; a < count_; ++a) {
+      if (isNone(leversIn(3)[a]) && isNone(leversIn(4)[a]) && isNone(leversIn(5)[a])) continue;
       add(a);
       if (!isRigid) add(count_ + a);
     }
@@ -264,7 +285,8 @@ class ElementLoop {
     const MeshLists<Real>& lists = pass_.lists;
     for (std::uint32_t n = lists.starts[i].springs; n < lists.starts[i + 1].springs; ++n) {
       const auto& spring = lists.springs[n];
-      if (spring.other > i) continue;
+      const bool doesNothing = spring.stiffness == Real(0) && pass_.step.limitStiffness == Real(0);
+      if (spring.other > i || doesNothing) continue;
       addSpring(i, spring.other, own, spring.stiffness, spring.restLength,
                 pass_.step.limitFactor * spring.restLength);
     }
@@ -282,6 +304,34 @@ class ElementLoop {
       }
       addIsotropicElement(Real(1), bent);
     }
+  }
+
+  INLINE void addMembranes(std::uint32_t i, const Four<Real>* own) {
+    const MeshLists<Real>& lists = pass_.lists;
+    for (std::uint32_t n = lists.starts[i].membranes; n < lists.starts[i + 1].membranes; ++n)
+      if (lists.numbers[n] % 4 == 0) addMembrane(lists.membranes[lists.numbers[n] / 4], own);
+  }
+  // Of the particle at hand, its first corner.
+  INLINE void addMembrane(const typename MeshLists<Real>::MembraneParams& membrane, const Four<Real>* own) {
+    const auto& [corners, restSquared, roots] = membrane;
+    Four<Real>*second = leversIn(1), *third = leversIn(2);
+    gatherLevers(corners[1], second);
+    gatherLevers(corners[2], third);
+    for (std::uint32_t a = 0; a < 2 * count_; ++a) {
+      leversIn(3)[a] = third[a] - second[a];
+      leversIn(4)[a] = own[a] - third[a];
+      leversIn(5)[a] = second[a] - own[a];
+    }
+    const std::array<Vec3<Real>, 3> d = edgesOf(corners, own_.iterate.positions);
+    const OfEdges<Real> tensions = positiveTensions(roots, strainsOf(restSquared, d));
+    const Real* w = pass_.inverseMasses;
+    const bool isRigid = w[corners[0]] > Real(0) && w[corners[1]] > Real(0) && w[corners[2]] > Real(0);
+    const auto& [xx, xy, xz, yy, yz, zz] = roots;
+    addEdgesElement(d, {xx, xy, xz}, isRigid);
+    addEdgesElement(d, {0, yy, yz}, isRigid);
+    addEdgesElement(d, {0, 0, zz}, isRigid);
+    for (std::size_t k = 0; k < 3; ++k)
+      if (tensions[k] > Real(0)) addIsotropicElement(tensions[k], leversIn(3 + k));
   }
 
   const ImplicitArguments<Real>& arguments_;

@@ -2,6 +2,7 @@
 
 #include "core/exact_math.h"
 #include "solver/cpu/force_laws.h"
+#include "solver/cpu/membrane_laws.h"
 #include "solver/cpu/rows.h"
 #include "solver/cpu/symmetric.h"
 #include "solver/cpu/watch.h"
@@ -30,7 +31,7 @@ Vec3<Real> springsAt(const PassArguments<Real>& arguments, std::uint32_t i) {
     const Real longest = arguments.step.maxStretch * spring.restLength;
     const Real longestSquared = longest * longest;
     overlong = overlong || (spring.other < i && isBeyond(lengthSquared, longestSquared));
-    f = f + springForce(x, other, spring.stiffness, spring.restLength);
+    if (spring.stiffness != Real(0)) f = f + springForce(x, other, spring.stiffness, spring.restLength);
     if (arguments.step.limitStiffness > Real(0)) {
       const Real inverseLength = inverseSquareRoot(lengthSquared);
       const Real over = lengthSquared * inverseLength - arguments.step.limitFactor * spring.restLength;
@@ -59,6 +60,19 @@ Vec3<Real> addHinges(const PassArguments<Real>& arguments, std::uint32_t i, Vec3
   return f;
 }
 
+template <class Real>
+Vec3<Real> addMembranes(const PassArguments<Real>& arguments, std::uint32_t i, Vec3<Real> f) {
+  const MeshLists<Real>& lists = arguments.lists;
+  for (std::uint32_t n = lists.starts[i].membranes; n < lists.starts[i + 1].membranes; ++n) {
+    const auto& [corners, restSquared, roots] = lists.membranes[lists.numbers[n] / 4];
+    std::array<Vec3<Real>, 3> d = edgesOf(corners, arguments.before.positions);
+    const OfEdges<Real> tensions = timesMatrix(roots, strainsOf(restSquared, d));
+    for (std::size_t k = 0; k < 3; ++k) d[k] = tensions[k] * d[k];
+    f = f + pullAt(lists.numbers[n] % 4, d);
+  }
+  return f;
+}
+
 template <bool jet, class Real>
 Vec3<Real> addTriangles(const PassArguments<Real>& arguments, std::uint32_t i, Vec3<Real> f,
                         Symmetric<Real>* resistance = nullptr) {
@@ -79,7 +93,7 @@ void gather(const PassArguments<Real>& arguments, int row) {
   const Range particles = rangeOf(arguments.step, row);
   for (std::ptrdiff_t n = particles.begin; n < particles.end; ++n) {
     const auto i = static_cast<std::uint32_t>(n);
-    Vec3<Real> f = addHinges(arguments, i, springsAt(arguments, i));
+    Vec3<Real> f = addMembranes(arguments, i, addHinges(arguments, i, springsAt(arguments, i)));
     if (arguments.step.hasWind != 0)
       f = arguments.jet ? addTriangles<true>(arguments, i, f) : addTriangles<false>(arguments, i, f);
     arguments.forces.x[i] = f.x;

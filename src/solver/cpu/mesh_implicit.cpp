@@ -2,19 +2,21 @@
 
 #include "solver/cpu/arrays.h"
 #include "solver/cpu/implicit_laws.h"
+#include "solver/cpu/membrane_laws.h"
 #include "solver/cpu/rows.h"
 
 namespace clothsim::cpu {
 namespace {
 
 // Calls visit(spring, d, limitLength) for the springs of particle i in ascending number, d from it to the
-// other end.
+// other end; not for those that do nothing.
 template <class Real, class Visit>
 void forEachSpring(const ImplicitArguments<Real>& arguments, std::size_t i, Visit visit) {
   const MeshLists<Real>& lists = arguments.step.lists;
   const Components<Real>& x = arguments.own.iterate.positions;
   for (std::uint32_t n = lists.starts[i].springs; n < lists.starts[i + 1].springs; ++n) {
     const auto& spring = lists.springs[n];
+    if (spring.stiffness == Real(0) && arguments.step.step.limitStiffness == Real(0)) continue;
     visit(spring, at(x, spring.other) - at(x, static_cast<std::ptrdiff_t>(i)),
           arguments.step.step.limitFactor * spring.restLength);
   }
@@ -38,6 +40,58 @@ void forEachHinge(const ImplicitArguments<Real>& arguments, std::size_t i, Visit
     visit(lists.hinges[lists.numbers[n] / 4], lists.numbers[n] % 4);
 }
 
+// Calls visit(membrane, corner, d) for the membranes of particle i, d their edges.
+template <class Real, class Visit>
+void forEachMembrane(const ImplicitArguments<Real>& arguments, std::size_t i, Visit visit) {
+  const MeshLists<Real>& lists = arguments.step.lists;
+  for (std::uint32_t n = lists.starts[i].membranes; n < lists.starts[i + 1].membranes; ++n) {
+    const auto& membrane = lists.membranes[lists.numbers[n] / 4];
+    visit(membrane, lists.numbers[n] % 4, edgesOf(membrane.corners, arguments.own.iterate.positions));
+  }
+}
+
+// The tensions of the edges that meet at a corner, and of each row of R the force there.
+template <class Real>
+Symmetric<Real> blockOf(const typename MeshLists<Real>::MembraneParams& membrane, std::uint32_t corner,
+                        const std::array<Vec3<Real>, 3>& d) {
+  const OfEdges<Real> t = positiveTensions(membrane.roots, strainsOf(membrane.restSquared, d));
+  const std::size_t next = corner == 2 ? 0 : corner + 1, last = corner == 0 ? 2 : corner - 1;
+  const Real across = t[last] + t[next];
+  Symmetric<Real> block{{across, across, across}, {}};
+  const auto& [xx, xy, xz, yy, yz, zz] = membrane.roots;
+  const Vec3<Real> none{};
+  block = block + outerProduct(Real(1), pullAt<Real>(corner, {xx * d[0], xy * d[1], xz * d[2]}));
+  block = block + outerProduct(Real(1), pullAt<Real>(corner, {none, yy * d[1], yz * d[2]}));
+  return block + outerProduct(Real(1), pullAt<Real>(corner, {none, none, zz * d[2]}));
+}
+
+// How a membrane's energy changes as e does.
+template <class Real>
+Real membraneChange(const std::array<Real, 6>& roots, const OfEdges<Real>& before,
+                    const OfEdges<Real>& change) {
+  const OfEdges<Real> w = timesRoots(roots, before), dw = timesRoots(roots, change);
+  OfEdges<Real> part;
+  for (std::size_t k = 0; k < 3; ++k) part[k] = dw[k] * (w[k] + Real(0.5) * dw[k]);
+  return (part[0] + part[1]) + part[2];
+}
+
+template <class Real>
+void addMembraneTrials(const ImplicitArguments<Real>& arguments, std::size_t i) {
+  ImplicitState<Real>& own = arguments.own;
+  forEachMembrane(arguments, i, [&](const auto& membrane, std::uint32_t corner, const auto& d) {
+    if (corner != 0) return;
+    const auto more = edgesOf(membrane.corners, own.increments);
+    const OfEdges<Real> before = strainsOf(membrane.restSquared, d);
+    for (std::size_t k = 0; k < LENGTHS_TRIED; ++k) {
+      const Real l = lengthTried<Real>(k);
+      OfEdges<Real> change;
+      for (std::size_t n = 0; n < 3; ++n)
+        change[n] = l * (dot(d[n], more[n]) + (Real(0.5) * l) * dot(more[n], more[n]));
+      own.trials[k][i] = own.trials[k][i] + membraneChange(membrane.roots, before, change);
+    }
+  });
+}
+
 }  // namespace
 
 template <class Real>
@@ -56,6 +110,9 @@ void addMeshBlocks(const ImplicitArguments<Real>& arguments, int row) {
     forEachHinge(arguments, i, [&](const auto& hinge, std::uint32_t corner) {
       const Real b = hinge.coefficients[corner] * hinge.coefficients[corner];
       block.diagonal = block.diagonal + Vec3<Real>{b, b, b};
+    });
+    forEachMembrane(arguments, i, [&](const auto& membrane, std::uint32_t corner, const auto& d) {
+      block = block + blockOf<Real>(membrane, corner, d);
     });
     put(arguments.own.factors, n, block);
   }
@@ -78,13 +135,21 @@ void addMeshProducts(const ImplicitArguments<Real>& arguments, int row) {
     forEachHinge(arguments, i, [&](const auto& hinge, std::uint32_t corner) {
       f = f - hinge.coefficients[corner] * bentOf<Real>(hinge, p);
     });
+    forEachMembrane(arguments, i, [&](const auto& membrane, std::uint32_t corner, const auto& d) {
+      const auto e = edgesOf(membrane.corners, p);
+      const OfEdges<Real> t = positiveTensions(membrane.roots, strainsOf(membrane.restSquared, d)),
+                          more = timesMatrix<Real>(membrane.roots,
+                                                   {dot(d[0], e[0]), dot(d[1], e[1]), dot(d[2], e[2])});
+      f = f + pullAt<Real>(corner, {t[0] * e[0] + more[0] * d[0], t[1] * e[1] + more[1] * d[1],
+                                    t[2] * e[2] + more[2] * d[2]});
+    });
     products.x[i] = f.x;
     products.y[i] = f.y;
     products.z[i] = f.z;
   }
 }
 
-// A spring belongs to its end of the larger index, a hinge to its first corner.
+// A spring belongs to its end of the larger index, a hinge or a membrane to its first corner.
 template <class Real>
 void addMeshTrials(const ImplicitArguments<Real>& arguments, int row) {
   const Range all = rangeOf(arguments.step.step, row);
@@ -110,6 +175,7 @@ void addMeshTrials(const ImplicitArguments<Real>& arguments, int row) {
         own.trials[k][i] = own.trials[k][i] + l * (first + (Real(0.5) * l) * second);
       }
     });
+    addMembraneTrials(arguments, i);
   }
 }
 

@@ -1,6 +1,5 @@
-// Springs and hinges of meshes in an implicit step, gathered over lists; the twin of
-// shaders/sim/implicit/mesh.glsl. Meshes have no coarse levels: the preconditioner is that of their
-// diagonal blocks.
+// Springs, hinges and membranes of meshes in an implicit step, gathered over lists; the twin of
+// shaders/sim/implicit/mesh.glsl.
 #pragma once
 
 #include "solver/cpu/implicit_passes.h"

@@ -10,9 +10,34 @@
 
 namespace clothsim {
 
+namespace {
+
+using Words = std::array<std::uint32_t, 4>;
+
+// Hinges, then membranes, in whole texels.
+std::vector<Words> elementsOf(const MeshLists<float>& lists) {
+  std::vector<Words> words(HINGE_ROWS * lists.hinges.size() + MEMBRANE_ROWS * lists.membranes.size());
+  if (!lists.hinges.empty())
+    std::memcpy(words.data(), lists.hinges.data(), lists.hinges.size() * sizeof(lists.hinges[0]));
+  if (!lists.membranes.empty())
+    std::memcpy(words.data() + HINGE_ROWS * lists.hinges.size(), lists.membranes.data(),
+                lists.membranes.size() * sizeof(lists.membranes[0]));
+  return words;
+}
+
+// A membrane is named by its first texel there.
+std::vector<std::uint32_t> numbersOf(const MeshLists<float>& lists) {
+  std::vector<std::uint32_t> numbers = lists.numbers;
+  const auto hingeRows = static_cast<std::uint32_t>(HINGE_ROWS * lists.hinges.size());
+  for (std::size_t n = lists.starts.front().membranes; n < numbers.size(); ++n)
+    numbers[n] = 4 * (hingeRows + MEMBRANE_ROWS * (numbers[n] / 4)) + numbers[n] % 4;
+  return numbers;
+}
+
+}  // namespace
+
 template <class Element>
 GpuMeshLists::Texels GpuMeshLists::texels(const char* label, const std::vector<Element>& elements) {
-  using Words = std::array<std::uint32_t, 4>;
   static_assert(sizeof(Element) % sizeof(Words) == 0, "elements are whole texels");
   // A cloth without hinges, or without springs, still has something to bind.
   std::vector<Words> words(std::max<std::size_t>(1, elements.size() * sizeof(Element) / sizeof(Words)));
@@ -41,11 +66,11 @@ GpuMeshLists::GpuMeshLists(const Cloth& cloth) : any_(cloth.hasMesh()), anySeams
   if (!any_) return;
   starts_ = texels("starts of lists", lists.starts);
   springs_ = texels("springs at particles", lists.springs);
-  hinges_ = texels("hinges", lists.hinges);
+  hinges_ = texels("hinges and membranes", elementsOf(lists));
   triangles_ = texels("triangles of meshes", lists.triangles);
   limited_ = texels("springs of meshes", lists.limited);
   checkTexelsFit(lists.numbers.size(), "numbers in lists");
-  numbers_ = gl::Buffer<std::uint32_t>("numbers in lists", std::span<const std::uint32_t>(lists.numbers));
+  numbers_ = gl::Buffer<std::uint32_t>("numbers in lists", std::span<const std::uint32_t>(numbersOf(lists)));
   numbersTexture_ = gl::BufferTexture("numbers in lists", numbers_.name(), GL_R32UI);
   places_ =
       gl::Buffer<std::array<float, 4>>("places at rest", std::span<const std::array<float, 4>>(lists.places));

@@ -89,10 +89,12 @@ TEST(MeshShape, TellsWhatIsWrongWithAFile) {
   expectInMessage(squarePoints + "f 1 2 3\nf 1 4 3\n", "two triangles of opposite orientation");
 }
 
-TEST(MeshMechanics, OfAMaterialStretchesEquilateralTrianglesWithItsModulus) {
+// On equilateral triangles a membrane of Poisson's ratio 1/3 is made of springs along its edges (A. Van
+// Gelder, 1998).
+TEST(MeshMechanics, OfAMaterialIsAsStiffAlongItsEdgesAsSpringsOfItsModulus) {
   const auto shape = meshShapeOf(test::meshSheetFile({}));
   ClothSettings cloth;
-  cloth.material = Material{.stretch = 300};
+  cloth.material = Material{.stretch = 300, .shear = 0.375 * 300};
   const MeshMechanics mechanics = mechanicsOf(*shape, shape->points, cloth);
   for (std::size_t e = 0; e < shape->edges.size(); ++e)
     EXPECT_NEAR(mechanics.stretch[e], 300 * std::sqrt(0.75) * (shape->edges[e].triangles == 2 ? 1 : 0.5),
