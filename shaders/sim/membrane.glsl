@@ -54,8 +54,11 @@ vec3 pullAt(uint corner, vec3 pulls[3]) {
   return pull;
 }
 
-// The tensions that the implicit integrator takes into its matrix: none that push.
+// The tensions that the implicit integrator takes into its matrix.
 vec3 positiveTensions(Membrane m, vec3 d[3]) {
-  vec3 t = timesMatrix(m, strainsOf(m, d));
-  return vec3(t.x > 0.0 ? t.x : 0.0, t.y > 0.0 ? t.y : 0.0, t.z > 0.0 ? t.z : 0.0);
+  vec3 t = canonical(timesMatrix(m, strainsOf(m, d)));
+  precise float sum = (t.x + t.y) + t.z;
+  precise float determinant = (t.x * t.y + t.y * t.z) + t.z * t.x;
+  bool pulls = sum > 0.0 && determinant > 0.0;
+  return pulls ? t : vec3(t.x > 0.0 ? t.x : 0.0, t.y > 0.0 ? t.y : 0.0, t.z > 0.0 ? t.z : 0.0);
 }

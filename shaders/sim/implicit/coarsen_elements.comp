@@ -173,7 +173,7 @@ void addMembrane(vec4 x, Hanging first, Membrane m) {
   }
   vec3 tensions = positiveTensions(m, d);
   for (int k = 0; k < 3; ++k)
-    if (tensions[k] > 0.0) addIsotropic(tensions[k], edges[k]);
+    if (tensions[k] != 0.0) addIsotropic(tensions[k], edges[k]);
 }
 
 void addElementsOf(uint i) {

@@ -331,7 +331,7 @@ class ElementLoop {
     addEdgesElement(d, {0, yy, yz}, isRigid);
     addEdgesElement(d, {0, 0, zz}, isRigid);
     for (std::size_t k = 0; k < 3; ++k)
-      if (tensions[k] > Real(0)) addIsotropicElement(tensions[k], leversIn(3 + k));
+      if (tensions[k] != Real(0)) addIsotropicElement(tensions[k], leversIn(3 + k));
   }
 
   const ImplicitArguments<Real>& arguments_;

@@ -52,11 +52,15 @@ INLINE Vec3<Real> pullAt(std::uint32_t corner, const std::array<Vec3<Real>, 3>& 
   return pulls[last] - pulls[next];
 }
 
-// The tensions that the implicit integrator takes into its matrix: none that push.
+// The tensions that the implicit integrator takes into its matrix: those of a triangle that pulls in all
+// directions, which is where sum t (D.g)^2 over its edges D is positive for all g; else those that pull.
 template <class Real>
 INLINE OfEdges<Real> positiveTensions(const std::array<Real, 6>& roots, const OfEdges<Real>& e) {
   OfEdges<Real> t = timesMatrix(roots, e);
-  for (Real& tension : t) tension = tension > Real(0) ? tension : Real(0);
+  for (Real& tension : t) tension = canonical(tension);
+  const Real sum = (t[0] + t[1]) + t[2], determinant = (t[0] * t[1] + t[1] * t[2]) + t[2] * t[0];
+  const bool pulls = sum > Real(0) && determinant > Real(0);
+  for (Real& tension : t) tension = pulls || tension > Real(0) ? tension : Real(0);
   return t;
 }
 
