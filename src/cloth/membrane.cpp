@@ -22,16 +22,16 @@ Matrix inverse(const Matrix& m) {
   return {{{x.x, y.x, z.x}, {x.y, y.y, z.y}, {x.z, y.z, z.z}}};
 }
 
-// The direction in which v does not change and u does, along the triangle; if its texture coordinates tell
-// none, that of the x or, where it looks that way, of the z axis.
+// The direction in which v does not change, along the triangle; where it changes nowhere, that of the x or,
+// in a triangle that looks that way, of the z axis.
 Vec3d weftOf(const TriangleEdges& edges, Vec3d normal,
              const std::array<std::array<float, 2>, 3>& textureCoordinates) {
+  constexpr double ROUNDING = 1e-6;  // of texture coordinates
   const auto v = [&](std::size_t corner) { return double{textureCoordinates[corner][1]}; };
-  const auto u = [&](std::size_t corner) { return double{textureCoordinates[corner][0]}; };
-  const double pv = v(1) - v(0), qv = v(2) - v(0), pu = u(1) - u(0), qu = u(2) - u(0);
-  const bool isKnown = std::abs(pu * qv - qu * pv) > 1e-12;
+  const double second = v(1) - v(0), third = v(2) - v(0);
+  const bool isKnown = std::max(std::abs(second), std::abs(third)) > ROUNDING;
   const Vec3d axis = std::abs(normal.x) < 0.9 ? Vec3d{1, 0, 0} : Vec3d{0, 0, 1};
-  const Vec3d weft = isKnown ? qv * edges[2] + pv * edges[1] : axis - dot(axis, normal) * normal;
+  const Vec3d weft = isKnown ? third * edges[2] + second * edges[1] : axis - dot(axis, normal) * normal;
   return (1 / length(weft)) * weft;
 }
 

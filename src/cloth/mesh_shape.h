@@ -49,7 +49,7 @@ struct MeshMechanics {
   std::vector<double> masses;  // [kg]: a third of each triangle around the point
   // Along each edge [N/m]: of its spring, or of the membrane while the other edges keep their lengths.
   std::vector<double> stretch;
-  std::vector<MembraneRoots> membranes;  // of each triangle; empty without a material
+  std::vector<MembraneRoots> membranes;  // of each triangle; empty without a material or structural springs
   std::vector<double> across;            // of the spring across each edge [N/m]; 0: none
   // Of the energy 1/2 |sum c_i x_i|^2 across each inner edge: the coefficients c of its ends a and b and of
   // the corners opposite [sqrt(N/m)]. Empty without a material.

@@ -156,7 +156,8 @@ void MeasurePanel::drawUnderCursor() {
       "The particle under the mouse, by its number in exported files.");
   row("speed", formatted("%.3g m/s", facts.speed), "Of that particle.");
   row("strain", formatted("%+.2f %%", 100 * facts.strain), "Of its most strained spring, l/L - 1.");
-  row("force", formatted("%.3g N", facts.force), "Of that spring, k (l - L): it pulls where positive.");
+  row("force", formatted("%.3g N", facts.force),
+      "Of that spring, k (l - L): it pulls where positive. Edges of a membrane are no springs: 0.");
 }
 
 void MeasurePanel::drawContacts(SelfCollision mode) {
