@@ -297,11 +297,11 @@ std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
           .usually(1e-4, 1e-2),
       field("newton_steps", &S::newtonSteps, "Most Newton iterations per implicit step.")
           .within({.low = 1, .high = 100})
-          .usually(1, 16),
+          .usually(1, 40),
       field("cg_iterations", &S::cgIterations,
             "Most CG iterations per Newton iteration; auto: 20 to 60 by the step length.")
           .within({.low = 1, .high = 10'000})
-          .usually(1, 40),
+          .usually(1, 60),
       field("frames_per_sec", &S::framesPerSec,
             "Frames per simulated second; states and pictures are taken at the end of a frame.")
           .in("1/s")
