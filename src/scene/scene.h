@@ -207,7 +207,7 @@ struct SolverSettings {
   // spacing.
   double tolerance = 1e-2;
   int newtonSteps = 20;                 // most Newton steps in a step
-  AutoCount cgIterations = {10, true};  // most iterations of conjugate gradients in a Newton step
+  AutoCount cgIterations = {20, true};  // most iterations of conjugate gradients in a Newton step
   // The largest l/L - 1 of a spring after the limiter; none: no limiter. 0.1 in scenes with `ks`.
   std::optional<double> strainLimit;
   SelfCollision selfCollision = SelfCollision::off;  // averaged in scenes with `ks`, as CS184 does
