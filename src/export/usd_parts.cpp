@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/colliders/solid_mesh.h"
 #include "scene/colliders/collider_set.h"
 #include "scene/pose.h"
 
@@ -117,7 +118,6 @@ std::string solidsText(const Scene& scene, Vec3d middle, double size, const std:
   return text + "    }\n";
 }
 
-Vec3d unitVector(Vec3d v) { return (1 / length(v)) * v; }
 
 std::string cameraText(const CameraSettings& wanted, Vec3d middle, double size) {
   const double halfAngle = 0.5 * wanted.fov * std::numbers::pi / 180;
