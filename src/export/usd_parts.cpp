@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "scene/colliders/solid_mesh.h"
 #include "scene/colliders/collider_set.h"
+#include "scene/colliders/solid_mesh.h"
 #include "scene/pose.h"
 
 namespace clothsim {
@@ -117,7 +117,6 @@ std::string solidsText(const Scene& scene, Vec3d middle, double size, const std:
   }
   return text + "    }\n";
 }
-
 
 std::string cameraText(const CameraSettings& wanted, Vec3d middle, double size) {
   const double halfAngle = 0.5 * wanted.fov * std::numbers::pi / 180;

@@ -180,9 +180,8 @@ std::span<const Field<Material>> fieldsOf<Material>() {
           .rebuilds()
           .alwaysWritten(),
       field("stretch_warp", &M::stretchWarp,
-            "Young's modulus along the warp, the columns of a grid, or across u of a mesh's texture "
-            "coordinates; "
-            "stretch is then along the weft.")
+            "Young's modulus along the warp: columns of a grid, v of a mesh's texture; stretch is along the "
+            "weft.")
           .in("N/m")
           .within(positive)
           .byDefault("as stretch")
@@ -361,9 +360,9 @@ std::span<const Field<CameraSettings>> fieldsOf<CameraSettings>() {
           .in("m")
           .within(notNegative)
           .usually(0, 0.1),
-      field("shutter", &C::shutter,
-            "How long the shutter is open, in final quality; 0: what moves is sharp. Of films half the time "
-            "from picture to picture.")
+      field(
+          "shutter", &C::shutter,
+          "How long the shutter is open, in final quality; 0: sharp. Films: half the time between pictures.")
           .in("s")
           .within(notNegative)
           .usually(0, 0.1),

@@ -10,10 +10,9 @@ namespace clothsim {
 std::span<const Field<MeshCollider>> MeshCollider::fields() {
   using M = MeshCollider;
   static const std::array fields{
-      field(
-          "file", &M::file,
-          "OBJ file of a closed mesh, looked up beside the scene file, then in clothsim's folder; of several "
-          "shapes with a place for their numbers, such as walk_%03d.obj.")
+      field("file", &M::file,
+            "OBJ file of a closed mesh, beside the scene or in clothsim's folder; of several shapes: "
+            "walk_%03d.obj.")
           .required()
           .rebuilds(),
       field("shapes", &M::shapes,
