@@ -91,6 +91,11 @@ TemporaryFile::~TemporaryFile() {
   if (!name_.empty()) ::unlink(name_.c_str());
 }
 
+void TemporaryFile::removeName() {
+  (void)::unlink(name_.c_str());
+  name_.clear();
+}
+
 void TemporaryFile::publish() {
   if (!isSynchronised(descriptor_)) throw cannotBeWritten(path_, errno);
   // Some file systems report only here that the disk is full.

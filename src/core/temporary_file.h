@@ -36,6 +36,8 @@ class TemporaryFile {
   // Flushes the content to the disk, then renames the file: after a power failure there is the old file or
   // the new one, each whole.
   void publish();
+  // Takes the file's name away: its content lasts as long as this does, even if the program is killed.
+  void removeName();
 
  private:
   std::filesystem::path path_;

@@ -18,7 +18,9 @@ Destination placeBeside(const std::filesystem::path& path) {
 
 }  // namespace
 
-Spool::Spool(const std::filesystem::path& path) : path_(path), file_(path, placeBeside(path)) {}
+Spool::Spool(const std::filesystem::path& path) : path_(path), file_(path, placeBeside(path)) {
+  file_.removeName();
+}
 
 void Spool::flush() {
   std::string_view rest = pending_;

@@ -1,5 +1,5 @@
-// Bytes that are collected on the disk until a file can be made of them: in a file without a name that others
-// know, beside the one to be made, removed in any case.
+// Bytes that are collected on the disk until a file can be made of them: in a file without a name, beside the
+// one to be made, gone in any case.
 #pragma once
 
 #include <cstdint>
