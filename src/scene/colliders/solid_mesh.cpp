@@ -146,6 +146,7 @@ std::vector<SolidMesh> shapesOf(const std::vector<std::string>& files, double sc
     checkFinite(file, mesh);
     if (shapes.empty()) {
       welded = weld(mesh);
+      if (welded.triangles.empty()) throw SceneError(file + ": expected faces with an area, found none");
       first = mesh;
     } else {
       checkSameTriangles(file, mesh, files.front(), first);

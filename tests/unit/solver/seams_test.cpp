@@ -17,7 +17,7 @@ namespace {
 // A strip of columns x rows points that stands; the second lies `gap` below the first one.
 Scene twoStrips(int columns, int otherColumns, double gap) {
   Scene scene;
-  ClothSettings& upper = scene.cloths[0];
+  ClothSettings upper;
   upper.ks = 2000;
   upper.orientation = Orientation::vertical;
   upper.width = upper.height = 0.2;
@@ -25,7 +25,7 @@ Scene twoStrips(int columns, int otherColumns, double gap) {
   upper.numHeightPoints = 3;
   upper.density = 1;
   upper.position = {0, 1, 0};
-  scene.cloths.push_back(upper);
+  scene.cloths = {upper, upper};
   scene.cloths[1].numWidthPoints = otherColumns;
   scene.cloths[1].position.y = 1 - upper.height - gap;
   Seam seam;
