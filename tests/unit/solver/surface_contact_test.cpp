@@ -43,9 +43,9 @@ TEST(SurfaceContact, IsTheSameWithAnyNumberOfThreads) {
   const Scene scene = fallingSheet(13);
   const int threads = ThreadTeam::shared().threads();
   ThreadTeam::setSharedThreads(1);
-  const State alone = after(scene, 70);
+  const State alone = after(scene, 45);
   ThreadTeam::setSharedThreads(3);
-  const State together = after(scene, 70);
+  const State together = after(scene, 45);
   ThreadTeam::setSharedThreads(threads);
   for (std::size_t i = 0; i < alone.positions.size(); ++i) {
     ASSERT_EQ(alone.positions[i].x, together.positions[i].x) << i;
