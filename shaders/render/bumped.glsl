@@ -17,7 +17,7 @@ layout(location = 0) out vec4 color;
 
 void shadeBumped() {
   float side = facingSide();
-  TangentFrame t = tangentFrame(side);
+  TangentFrame t = tangentFrame(surface, side);
   // What rises on the front sinks on the back.
   vec3 normal = tilted(t, slopeOfRelief(surface.uv) * side);
   vec3 toEye = normalize(frame.eye.xyz - surface.position);

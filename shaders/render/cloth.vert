@@ -10,22 +10,51 @@ layout(location = TEXTURE_COORDINATE_LOCATION) in vec2 uv;
 #if defined(TANGENT) || defined(STRAIN)
 layout(location = TANGENT_LOCATION) in vec4 tangent;
 #endif
-layout(location = 0) out Surface surface;
+#ifdef LIT_AT_VERTICES
+#include "render/lit_vertex.glsl"
+#include "render/shadow.glsl"
+#include "render/fabric_light.glsl"
+layout(location = 0) out LitVertex lit;
+#else
+layout(location = 0) out Surface seen;
+#endif
 invariant gl_Position;  // the same as in cloth_depth.vert
+
+#ifdef LIT_AT_VERTICES
+LitVertex litVertex(Surface surface) {
+  TangentFrame front = tangentFrame(surface, 1.0), back = tangentFrame(surface, -1.0);
+  Threads ofFront = threadsAt(surface.uv, 1.0), ofBack = threadsAt(surface.uv, -1.0);
+  float unshadowed = sunlit(surface.shadowPlace);
+  LitVertex vertex;
+  vertex.uv = surface.uv;
+  vertex.front = matteLight(surface, front, 1.0, ofFront, albedoOfThreads(frame.clothFront.rgb, ofFront.warp), unshadowed);
+  vertex.back = matteLight(surface, back, -1.0, ofBack, albedoOfThreads(frame.clothBack.rgb, ofBack.warp), unshadowed);
+  vertex.along = alongThreads(front, surface.position);
+  vertex.shine = vec2(shineSeen(front, ofFront, unshadowed), shineSeen(back, ofBack, unshadowed));
+  vertex.warp = ofFront.warp;
+  return vertex;
+}
+#endif
 
 void main() {
   vec3 point = drawnPoint(position.xyz, normal, uv);
-  vec3 lit = litPoint(position.xyz, normal, uv, frame.toKeyLight.xyz);
+  vec3 towards = litPoint(position.xyz, normal, uv, frame.toKeyLight.xyz);
+  Surface surface;
   surface.position = point;
   surface.normal = normal.xyz;
   surface.uv = uv;
   surface.hollow = normal.w;
-  surface.shadowPlace = shadowPlaceOf(lit, normal.xyz, CLOTH_OFFSET_TEXELS);
+  surface.shadowPlace = shadowPlaceOf(towards, normal.xyz, CLOTH_OFFSET_TEXELS);
 #ifdef TANGENT
   surface.tangent = tangent.xyz;
 #endif
 #ifdef STRAIN
   surface.strain = tangent.w;
+#endif
+#ifdef LIT_AT_VERTICES
+  lit = litVertex(surface);
+#else
+  seen = surface;
 #endif
   gl_Position = frame.clipFromWorld * vec4(point, 1.0);
 }

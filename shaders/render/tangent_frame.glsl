@@ -1,9 +1,11 @@
-// Directions on the surface along the cloth's own u and v. Before the include: `surface`, with TANGENT.
+// Directions on the surface along the cloth's own u and v. With TANGENT.
+#include "render/surface.glsl"
+
 struct TangentFrame {
   vec3 u, v, normal;  // unit; `normal` faces the eye
 };
 
-TangentFrame tangentFrame(float side) {
+TangentFrame tangentFrame(Surface surface, float side) {
   vec3 front = normalize(surface.normal);
   vec3 u = normalize(surface.tangent - dot(surface.tangent, front) * front);
   return TangentFrame(u, cross(u, front), front * side);

@@ -180,29 +180,65 @@ double stableStepOfMesh(const ClothSettings& cloth) {
 
 }  // namespace
 
+namespace {
+
+// Springs of a grid, each [N/m]; `bend` of material's lines of three particles.
+struct GridSprings {
+  double row, column, diagonal, rowOverTwo, columnOverTwo, bendRow, bendColumn;
+};
+
+GridSprings springsOf(const ClothSettings& cloth, double dx, double dy) {
+  const double structural = cloth.enableStructural ? 1 : 0, shear = cloth.enableShearing ? 1 : 0,
+               bending = cloth.enableBending ? 1 : 0;
+  if (cloth.material) {
+    const LatticeStiffness k = latticeStiffness(*cloth.material, dx, dy);
+    return {structural * std::max(k.alongRow, 0.0),
+            structural * std::max(k.alongColumn, 0.0),
+            shear * k.diagonal,
+            0,
+            0,
+            bending * k.bendAlongRow,
+            bending * k.bendAlongColumn};
+  }
+  if (cloth.stiffnessReference) {
+    const double unit = *cloth.stiffnessReference * cloth.referenceLength;
+    return {structural * unit / dx,    structural * unit / dy,    shear * unit / std::hypot(dx, dy),
+            bending * unit / (2 * dx), bending * unit / (2 * dy), 0,
+            0};
+  }
+  const double ks = cloth.ks.value_or(defaultKs);
+  return {structural * ks, structural * ks, shear * ks, bending * 0.2 * ks, bending * 0.2 * ks, 0, 0};
+}
+
+// The largest eigenvalue of K of an endless grid whose springs resist in all directions as they do along
+// themselves: no shape of the cloth is stiffer, nor is a part of the grid. It is that of a wave, a and b the
+// cosines of its angles a cell.
+double largestEigenvalue(const GridSprings& k) {
+  constexpr int parts = 64;
+  double largest = 0;
+  for (int i = 0; i <= parts; ++i)
+    for (int j = 0; j <= parts; ++j) {
+      const double a = 1 - 2.0 * i / parts, b = 1 - 2.0 * j / parts;
+      largest =
+          std::max(largest, 2 * k.row * (1 - a) + 2 * k.column * (1 - b) + 4 * k.diagonal * (1 - a * b) +
+                                4 * k.rowOverTwo * (1 - a * a) + 4 * k.columnOverTwo * (1 - b * b) +
+                                4 * k.bendRow * (1 - a) * (1 - a) + 4 * k.bendColumn * (1 - b) * (1 - b));
+    }
+  constexpr double betweenThem = 1.001;  // of the waves that were looked at
+  return betweenThem * largest;
+}
+
+}  // namespace
+
 double stableStep(const ClothSettings& cloth) {
   if (cloth.isMesh()) return stableStepOfMesh(cloth);
   const double dx = spacing(cloth.width, cloth.numWidthPoints),
                dy = spacing(cloth.height, cloth.numHeightPoints);
-  const double structural = cloth.enableStructural ? 1 : 0, shear = cloth.enableShearing ? 1 : 0,
-               bending = cloth.enableBending ? 1 : 0;
-  // The sum of |K| over a block row. A spring adds its constant to the diagonal block and to one other.
-  double sum = 0;
-  double mass = cloth.mass.value_or(cloth.width * cloth.height * cloth.density) /
-                (static_cast<double>(cloth.numWidthPoints) * cloth.numHeightPoints);
-  if (cloth.material) {
-    const LatticeStiffness k = latticeStiffness(*cloth.material, dx, dy);
-    sum = structural * 4 * (k.alongRow + k.alongColumn) + shear * 8 * k.diagonal +
-          bending * 16 * (k.bendAlongRow + k.bendAlongColumn);
-    mass = cloth.material->density * dx * dy;
-  } else if (cloth.stiffnessReference) {
-    const double unit = *cloth.stiffnessReference * cloth.referenceLength;
-    sum = unit * (structural * 4 * (1 / dx + 1 / dy) + shear * 8 / std::hypot(dx, dy) +
-                  bending * 2 * (1 / dx + 1 / dy));
-  } else {
-    sum = cloth.ks.value_or(defaultKs) * (structural * 8 + shear * 8 + bending * 0.2 * 8);
-  }
-  return sum > 0 ? 2 * std::sqrt(mass / sum) : std::numeric_limits<double>::infinity();
+  const double mass = cloth.material ? cloth.material->density * dx * dy
+                                     : cloth.mass.value_or(cloth.width * cloth.height * cloth.density) /
+                                           (static_cast<double>(cloth.numWidthPoints) * cloth.numHeightPoints);
+  const double largest = largestEigenvalue(springsOf(cloth, dx, dy));
+  return largest > 0 ? 2 * std::sqrt(mass / largest) : std::numeric_limits<double>::infinity();
 }
 
 double stableStep(const Scene& scene) {

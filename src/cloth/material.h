@@ -47,8 +47,8 @@ struct LatticeStiffness {
 [[nodiscard]] LatticeStiffness latticeStiffness(const Material& material, double dx, double dy);
 
 // The length of a step with which explicit integrators are stable, whatever the cloth's shape [s]: 2 / omega,
-// where omega^2 bounds the largest eigenvalue of K/m by Gershgorin's circles over blocks. Infinite without
-// springs.
+// where omega^2 bounds the largest eigenvalue of K/m: of a grid by that of its graph, springs that resist in
+// all directions; of a mesh by Gershgorin's circles over blocks. Infinite without springs.
 [[nodiscard]] double stableStep(const ClothSettings& cloth);
 // The smallest stable step of its cloths; infinite under the implicit integrator.
 [[nodiscard]] double stableStep(const Scene& scene);

@@ -62,6 +62,7 @@ void RenderPrograms::chooseModel(const ShadingModel& model) {
   clothDepth = std::move(depth);
   shaded_ = std::move(shaded);
   exposed_.reset();
+  clothLitAtVertices_.reset();
   if (std::exchange(model_, model).measuresStrain == model.measuresStrain) return;
   normals_.reset();
   normalsWithCuts_.reset();
@@ -117,6 +118,16 @@ const ShadedPrograms& RenderPrograms::shaded(bool forExposures) {
   return *exposed_;
 }
 
+const gl::Program& RenderPrograms::clothLitAtVertices() {
+  if (!clothLitAtVertices_) {
+    gl::Defines defines = model_.defines;
+    defines.emplace_back("LIT_AT_VERTICES", "");
+    clothLitAtVertices_.emplace(
+        gl::Program::makeRender("render/cloth.vert", "render/" + model_.name + ".frag", defines));
+  }
+  return *clothLitAtVertices_;
+}
+
 const MeanPrograms& RenderPrograms::mean() {
   if (!mean_) mean_.emplace(samples_);
   return *mean_;
@@ -128,7 +139,9 @@ void tryAllShaders(const RenderSettings& settings, int samples) {
   for (const std::string_view background : backgrounds) programs.chooseBackground(std::string(background));
   for (const std::string_view name : shadingModels) {
     other.shader = name;
-    programs.chooseModel(shadingModelOf(other));
+    const ShadingModel model = shadingModelOf(other);
+    programs.chooseModel(model);
+    if (model.hasVertexLight) static_cast<void>(programs.clothLitAtVertices());
     for (const bool withCuts : {false, true}) static_cast<void>(programs.normals(withCuts));
     static_cast<void>(programs.meshNormals());
     static_cast<void>(programs.smooth());

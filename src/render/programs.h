@@ -53,6 +53,7 @@ struct RenderPrograms {
   [[nodiscard]] const OverlayPrograms& overlays();
   [[nodiscard]] const MeanPrograms& mean();
   [[nodiscard]] const ShadedPrograms& shaded(bool forExposures);
+  [[nodiscard]] const gl::Program& clothLitAtVertices();  // of a model with hasVertexLight
 
   gl::Program clothDepth, clothShadow, backdrop, resolve;
   gl::Program sphereShadow = gl::Program::makeRender("render/sphere_shadow.vert", "render/depth_only.frag");
@@ -64,7 +65,7 @@ struct RenderPrograms {
  private:
   ShadingModel model_;
   std::optional<ShadedPrograms> shaded_, exposed_;
-  std::optional<gl::Program> normals_, normalsWithCuts_, meshNormals_, rim_, leanRim_;
+  std::optional<gl::Program> normals_, normalsWithCuts_, meshNormals_, rim_, leanRim_, clothLitAtVertices_;
   std::optional<SmoothPrograms> smooth_;
   std::optional<PickPrograms> picking_;
   std::optional<OverlayPrograms> overlays_;

@@ -19,6 +19,9 @@ struct RenderOptions {
   double flatness =
       0;  // halved only where it is seen by so much [pixels]; 0: everywhere, for highlights' sake
   bool thick = false;  // the cloth as thick as it is, with round edges, where that is seen
+  // Light is worked out at the cloth's vertices where these are so dense in the picture that nobody sees it:
+  // a software renderer shades pixels in blocks, of which a small triangle needs as many as a large one.
+  bool lightsVertices = false;
   // Draws only where a picture differs from the one before, with the same pixels. It reads particles back,
   // which is next to nothing where the device is the processor, and a stall elsewhere.
   bool keepsStill = false;
@@ -49,6 +52,7 @@ inline constexpr std::array<std::string_view, 3> qualityNames{"draft", "normal",
   options.subdivisions = quality == Quality::draft ? 0 : lean ? 1 : 3;
   options.flatness = lean ? 0.25 : 0;
   options.thick = quality != Quality::draft;
+  options.lightsVertices = software && quality == Quality::draft;
   options.keepsStill = software && quality != Quality::final;
   return options;
 }

@@ -80,6 +80,7 @@ struct Renderer::Parts {
   ModelTextures textures;
   ClothMesh clothMesh;
   std::vector<float> thickness;         // of each piece as it is drawn [m]
+  bool lightsVertices = false;          // of the cloth, which is fine enough for that
   std::optional<SmoothSurface> smooth;  // drawn instead of the triangles of the particles
   Colliders colliders;
   ShadowMap shadowMap;

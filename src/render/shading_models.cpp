@@ -29,6 +29,7 @@ ShadingModel shadingModelOf(const RenderSettings& settings, bool thick) {
   model.measuresStrain = name == "strain";
   model.displaces = name == "displacement";
   model.blends = name == "wireframe";
+  model.hasVertexLight = name == "fabric" && model.textureUse == TextureUse::none;
   model.isThick = thick && !model.displaces && !model.blends;  // lines have none, and reliefs their own
 
   if (name == "fabric" || name == "bump" || name == "displacement") model.defines.emplace_back("TANGENT", "");

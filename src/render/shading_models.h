@@ -25,6 +25,7 @@ struct ShadingModel {
   bool measuresStrain = false;   // of the cloth, particle by particle
   bool displaces = false;        // its surface is not where the particles are
   bool isThick = false;          // the cloth is drawn as thick as it is
+  bool hasVertexLight = false;   // can be worked out at vertices, but for what pixels tell apart
   bool blends = false;           // drawn last, without hiding what is behind it
   gl::Defines defines;           // of cloth.vert and its own shader
   friend bool operator==(const ShadingModel&, const ShadingModel&) = default;

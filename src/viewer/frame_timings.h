@@ -34,13 +34,17 @@ class FrameTimings {
     frames_ += phase == swap ? 1 : 0;
   }
 
-  // A line for each phase; "" when it is off or nothing was drawn.
+  // So much was simulated since the last call [s].
+  void simulated(double seconds) { simulated_ += seconds; }
+
+  // A line for each phase, and the pace; "" when it is off or nothing was drawn.
   [[nodiscard]] std::string report() const;
 
  private:
   std::unique_ptr<gl::Timer> timer_;
   std::array<double, PHASES> host_{}, device_{};
   int frames_ = 0;
+  double simulated_ = 0;
 };
 
 }  // namespace clothsim

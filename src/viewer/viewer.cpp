@@ -87,6 +87,7 @@ void Viewer::iterate() {
   const bool draws = frames > 0 || drawsLeft_ > 0 || !steps_.isBusy() || now_ - lastDrawn_ > longestWait ||
                      !window_.inputQueue().isEmpty();
   meter_.add(elapsed, frames * open_->frameSeconds(), draws ? 1 : 0);
+  timings_.simulated(frames * open_->frameSeconds());
   if (!draws) return;
   lastDrawn_ = now_;
   attempt([&] { taker_.shown(*open_, paused_ ? elapsed : frames * open_->frameSeconds()); });
