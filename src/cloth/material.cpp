@@ -202,8 +202,12 @@ GridSprings springsOf(const ClothSettings& cloth, double dx, double dy) {
   }
   if (cloth.stiffnessReference) {
     const double unit = *cloth.stiffnessReference * cloth.referenceLength;
-    return {structural * unit / dx,    structural * unit / dy,    shear * unit / std::hypot(dx, dy),
-            bending * unit / (2 * dx), bending * unit / (2 * dy), 0,
+    return {structural * unit / dx,
+            structural * unit / dy,
+            shear * unit / std::hypot(dx, dy),
+            bending * unit / (2 * dx),
+            bending * unit / (2 * dy),
+            0,
             0};
   }
   const double ks = cloth.ks.value_or(defaultKs);
@@ -234,9 +238,10 @@ double stableStep(const ClothSettings& cloth) {
   if (cloth.isMesh()) return stableStepOfMesh(cloth);
   const double dx = spacing(cloth.width, cloth.numWidthPoints),
                dy = spacing(cloth.height, cloth.numHeightPoints);
-  const double mass = cloth.material ? cloth.material->density * dx * dy
-                                     : cloth.mass.value_or(cloth.width * cloth.height * cloth.density) /
-                                           (static_cast<double>(cloth.numWidthPoints) * cloth.numHeightPoints);
+  const double mass = cloth.material
+                          ? cloth.material->density * dx * dy
+                          : cloth.mass.value_or(cloth.width * cloth.height * cloth.density) /
+                                (static_cast<double>(cloth.numWidthPoints) * cloth.numHeightPoints);
   const double largest = largestEigenvalue(springsOf(cloth, dx, dy));
   return largest > 0 ? 2 * std::sqrt(mass / largest) : std::numeric_limits<double>::infinity();
 }

@@ -16,7 +16,7 @@ constexpr GLenum canvasFormat = GL_RGBA8;       // square roots of linear light 
 constexpr GLenum exposureFormat = GL_RGBA16F;   // the same of an exposure, without steps
 constexpr float planeDepthUnits = 256;  // 2e-6 of the distance each (Camera::projection, 24 bits of depth)
 constexpr std::uint32_t MOST_CUT_STEPS = 2;
-constexpr double MOST_VERTEX_DISTANCE = 12;  // of vertices that are lit [pixels]
+constexpr double MOST_VERTEX_DISTANCE = 12;    // of vertices that are lit [pixels]
 constexpr std::size_t mostReadBack = 300'000;  // particles for which it pays to ask what has changed
 
 // The longest side of a triangle of cloth: the diagonal of a cell [m].

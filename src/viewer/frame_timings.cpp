@@ -21,8 +21,8 @@ std::string FrameTimings::report() const {
   }
   std::snprintf(line, sizeof line, "  %-24s %28.3f\n", "whole frame", 1e3 * whole / frames_);
   text += line;
-  std::snprintf(line, sizeof line, "simulated %.2f s in %.2f s: %.2f of real time, %.1f frames/s\n", simulated_,
-                whole, simulated_ / whole, frames_ / whole);
+  std::snprintf(line, sizeof line, "simulated %.2f s in %.2f s: %.2f of real time, %.1f frames/s\n",
+                simulated_, whole, simulated_ / whole, frames_ / whole);
   return text + line;
 }
 

@@ -158,6 +158,34 @@ bool anyMovedFarther(const Components<Real>& now, const Components<Real>& then, 
   return anyLaneMoved(a, b, block, largestSquared);
 }
 
+namespace {
+
+template <class Real>
+INLINE bool anyLaneLeft(const Components<Real>& now, const Components<Real>& then,
+                        const RigidMap<Real>& motion, const Block& block, Real largestSquared) {
+  const Arrays<const Real> here = arraysOf(now), before = arraysOf(then);
+  const Vec3<Real> right = motion.rows[0], up = motion.rows[1], back = motion.rows[2];
+  const Vec3<Real> center = motion.center, movedCenter = motion.movedCenter;
+  std::uint32_t any = 0;
+  for (auto i = static_cast<std::ptrdiff_t>(block.begin); i < static_cast<std::ptrdiff_t>(block.end); ++i) {
+    const Vec3<Real> arm = at(before, i) - center, turned{dot(right, arm), dot(up, arm), dot(back, arm)};
+    const Vec3<Real> left = at(here, i) - (movedCenter + turned);
+    any |= dot(left, left) <= largestSquared ? 0U : 1U;  // no number has left it, too
+  }
+  return any != 0;
+}
+
+}  // namespace
+
+VECTOR_CLONES bool anyLeftMotion(const Components<float>& now, const Components<float>& then,
+                                 const RigidMap<float>& motion, const Block& block, float largestSquared) {
+  return anyLaneLeft(now, then, motion, block, largestSquared);
+}
+bool anyLeftMotion(const Components<double>& now, const Components<double>& then,
+                   const RigidMap<double>& motion, const Block& block, double largestSquared) {
+  return anyLaneLeft(now, then, motion, block, largestSquared);
+}
+
 template <class Real>
 void copyBlock(const Components<Real>& from, Components<Real>& to, const Block& block) {
   std::copy(&from.x[0] + block.begin, &from.x[0] + block.end, &to.x[0] + block.begin);

@@ -9,6 +9,7 @@
 
 #include "solver/cpu/contact_pairs.h"
 #include "solver/cpu/cpu_state.h"
+#include "solver/cpu/rigid_motion.h"
 
 namespace clothsim::cpu {
 
@@ -41,6 +42,11 @@ template <class Real>
 template <class Real>
 [[nodiscard]] bool anyMovedFarther(const Components<Real>& now, const Components<Real>& then,
                                    const Block& block, Real largestSquared);
+// Whether some particle is not within sqrt(largestSquared) of where the motion has taken it.
+[[nodiscard]] bool anyLeftMotion(const Components<float>& now, const Components<float>& then,
+                                 const RigidMap<float>& motion, const Block& block, float largestSquared);
+[[nodiscard]] bool anyLeftMotion(const Components<double>& now, const Components<double>& then,
+                                 const RigidMap<double>& motion, const Block& block, double largestSquared);
 template <class Real>
 void copyBlock(const Components<Real>& from, Components<Real>& to, const Block& block);
 

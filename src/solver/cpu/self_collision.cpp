@@ -195,10 +195,12 @@ void SelfCollision<Real>::forEachBlock(Work work) {
 }
 
 template <class Real>
-void SelfCollision<Real>::buildHash(const Components<Real>& positions) {
+void SelfCollision<Real>::buildHash(const CpuState<Real>& state) {
   ++counts_.hashBuilds;
   isStale_ = false;
-  hashedPositions_ = positions;
+  hashedPositions_ = state.positions;
+  hashedMotion_ = RigidMotion(state.positions, state.velocities);
+  stepsSinceHash_ = 0;
 }
 
 template <class Real>
@@ -312,6 +314,16 @@ void SelfCollision<Real>::checkHash(const CpuState<Real>& before, const CpuState
     if (isRobust() && !fast && anyMovedFarther(after.positions, before.positions, block, params_.fastSquared))
       fast = true;
   });
+  stepsSinceHash_ += 1;
+  if (stale && !isStale_) {  // unless the cloth moves as a whole, which brings nothing nearer
+    const RigidMap<Real> motion =
+        hashedMotion_.after<Real>(stepsSinceHash_ / static_cast<double>(params_.inverseTimeStep));
+    stale = false;
+    forEachBlock([&](const Block& block) {
+      if (!stale && anyLeftMotion(after.positions, hashedPositions_, motion, block, params_.reuseSquared))
+        stale = true;
+    });
+  }
   isStale_ = stale;
   if (fast) ++counts_.fastSteps;
 }
@@ -343,7 +355,7 @@ void SelfCollision<Real>::run(PassCall call, const CpuState<Real>& before, CpuSt
       // The hash of another step need not know all pairs that were near when this one began: the clamp needs
       // one of its own.
       isRebuilt_ = call.index == HASHES_START ? needsClamp_ : isStale_;
-      if (isRebuilt_) buildHash(call.index == HASHES_START ? before.positions : after.positions);
+      if (isRebuilt_) buildHash(call.index == HASHES_START ? before : after);
       return;
     case Pass::findCandidates:
       if (isRebuilt_) findCandidates();
@@ -392,7 +404,9 @@ void SelfCollision<Real>::clampMotion(const CpuState<Real>& before, CpuState<Rea
 template <class Real>
 std::vector<std::pair<std::uint32_t, std::uint32_t>> SelfCollision<Real>::candidatePairs(
     const Components<Real>& positions) {
-  buildHash(positions);
+  Components<Real> velocities;
+  velocities.resize(positions.x.size());
+  buildHash({positions, velocities});
   findCandidates();
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
   for (const Block& block : blocks_) {

@@ -52,7 +52,7 @@ class SelfCollision {
   [[nodiscard]] std::uint32_t encodeOnMesh(std::uint32_t i, std::uint32_t j) const;  // of one mesh
   void checkHash(const CpuState<Real>& before, const CpuState<Real>& after);
   // Takes these positions for those that candidates are near at; buckets wait until walk() needs them.
-  void buildHash(const Components<Real>& positions);
+  void buildHash(const CpuState<Real>& state);
   void fillBuckets();  // for walk()
   void findCandidates();
   // Those of a tile, from what lies near it.
@@ -93,6 +93,8 @@ class SelfCollision {
   ContactCounts counts_;
 
   Components<Real> hashedPositions_, sortedPositions_, moved_;
+  RigidMotion hashedMotion_;  // of the cloth when it was hashed
+  double stepsSinceHash_ = 0;
   std::vector<std::uint32_t> bucketStarts_, sorted_, bucketOf_, ranks_;
   std::vector<std::uint32_t> candidates_;      // slot-major
   std::vector<std::uint8_t> candidateCounts_;  // MOST_CANDIDATES + 1: walk through the cells

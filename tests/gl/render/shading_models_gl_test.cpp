@@ -38,6 +38,30 @@ TEST_P(ShadingModelPicture, WithoutShadowsIsAnother) {
 INSTANTIATE_TEST_SUITE_P(All, ShadingModelPicture, ::testing::ValuesIn(shadingModelNames()),
                          [](const auto& name) { return name.param; });
 
+// How far the picture with light worked out at vertices is from the one with light in every pixel.
+double differenceByVertexLight(int points) {
+  Scene scene = drapeWith("fabric");
+  scene.render.threadSpacing = 0.001;  // finer than the triangles
+  scene.cloths[0].numWidthPoints = scene.cloths[0].numHeightPoints = points;
+  RenderOptions atVertices;
+  atVertices.lightsVertices = true;
+  atVertices.subdivisions = 0;
+  RenderOptions inPixels = atVertices;
+  inPixels.lightsVertices = false;
+  return test::meanDifference(test::drawDrape(scene, atVertices, 160, 120),
+                              test::drawDrape(scene, inPixels, 160, 120));
+}
+
+using VertexLight = GlTest;
+
+TEST_F(VertexLight, OfFineClothIsHardToTellFromLightInEveryPixel) {
+  const double difference = differenceByVertexLight(65);
+  EXPECT_GT(difference, 0);
+  EXPECT_LT(difference, test::TOLERANCE);
+}
+
+TEST_F(VertexLight, IsNotWorkedOutForCoarseCloth) { EXPECT_EQ(differenceByVertexLight(9), 0); }
+
 // Breaks one shader, and expects the comparisons of `models`, and no others, to fail by it.
 void expectSeen(const std::string& file, const std::string& from, const std::string& to,
                 const std::vector<std::string>& models) {

