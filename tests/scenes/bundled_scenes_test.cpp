@@ -14,7 +14,7 @@
 namespace clothsim {
 namespace {
 
-constexpr int EVERY = 30, STRETCH = 3;  // frames
+constexpr int EVERY = 30, STRETCH = 2;  // frames
 
 class BundledSceneTest : public testing::TestWithParam<std::string> {
  protected:
