@@ -7,7 +7,7 @@ layout(binding = WEAVE_UNIT) uniform sampler2D weave;
 #endif
 
 const float SLOPE_RANGE = 3.0;      // of the weaves' pictures (tools/make_textures)
-const float SMALLEST_MIPMAP = 32.0; // or a smaller one
+const float SMALLEST_MIPMAP = 32.0;  // a level beyond the last means the last
 const float FLATTENED = 0.5;        // threads are pressed flat, compared with those pictures
 
 struct Threads {
@@ -33,6 +33,6 @@ Threads threadsAt(vec2 uv, float side) {
 
 // Highlights of fibres along u (weft) and v (warp), of which the direction halfway to the light has these parts.
 float threadShine(vec2 along, float warp, float exponent) {
-  vec2 shine = pow(1.0 - along * along, vec2(exponent));
+  vec2 shine = pow(max(1.0 - along * along, 0.0), vec2(exponent));
   return mix(shine.x, shine.y, warp);
 }

@@ -16,7 +16,7 @@ constexpr GLenum canvasFormat = GL_RGBA8;       // square roots of linear light 
 constexpr GLenum exposureFormat = GL_RGBA16F;   // the same of an exposure, without steps
 constexpr float planeDepthUnits = 256;  // 2e-6 of the distance each (Camera::projection, 24 bits of depth)
 constexpr std::uint32_t MOST_CUT_STEPS = 2;
-constexpr double MOST_VERTEX_DISTANCE = 12;    // of vertices that are lit [pixels]
+constexpr double MOST_VERTEX_DISTANCE = 12, MOST_THREAD_SPACING = 1;  // where vertices are lit [pixels]
 constexpr std::size_t mostReadBack = 300'000;  // particles for which it pays to ask what has changed
 
 // The longest side of a triangle of cloth: the diagonal of a cell [m].
@@ -147,7 +147,9 @@ void Renderer::Parts::chooseSurface(const Camera& camera, int height, double asp
   const bool isThick =
       thickest != thickness.end() && static_cast<double>(*thickest) * pixelsAMetre > leastSeen;
   frame.thickness = frame.casterThickness = isThick ? 1.0f : 0.0f;
-  lightsVertices = options.lightsVertices && model.hasVertexLight &&
+  const bool seesThreads =
+      !model.weave.empty() && scene->render.threadSpacing * pixelsAMetre > MOST_THREAD_SPACING;
+  lightsVertices = options.lightsVertices && model.hasVertexLight && !seesThreads &&
                    longestEdge(*cloth) * pixelsAMetre < MOST_VERTEX_DISTANCE;
   std::vector<std::uint32_t> steps;
   if (!isRough) steps = smoothSteps(*cloth, pixelsAMetre, options);

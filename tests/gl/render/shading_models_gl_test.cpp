@@ -39,9 +39,9 @@ INSTANTIATE_TEST_SUITE_P(All, ShadingModelPicture, ::testing::ValuesIn(shadingMo
                          [](const auto& name) { return name.param; });
 
 // How far the picture with light worked out at vertices is from the one with light in every pixel.
-double differenceByVertexLight(int points) {
+double differenceByVertexLight(int points, double threadSpacing = 0.001) {
   Scene scene = drapeWith("fabric");
-  scene.render.threadSpacing = 0.001;  // finer than the triangles
+  scene.render.threadSpacing = threadSpacing;
   scene.cloths[0].numWidthPoints = scene.cloths[0].numHeightPoints = points;
   RenderOptions atVertices;
   atVertices.lightsVertices = true;
@@ -60,7 +60,10 @@ TEST_F(VertexLight, OfFineClothIsHardToTellFromLightInEveryPixel) {
   EXPECT_LT(difference, test::TOLERANCE);
 }
 
-TEST_F(VertexLight, IsNotWorkedOutForCoarseCloth) { EXPECT_EQ(differenceByVertexLight(9), 0); }
+TEST_F(VertexLight, IsNotWorkedOutForCoarseClothNorWhereThreadsAreSeen) {
+  EXPECT_EQ(differenceByVertexLight(9), 0);
+  EXPECT_EQ(differenceByVertexLight(65, 0.02), 0);
+}
 
 // Breaks one shader, and expects the comparisons of `models`, and no others, to fail by it.
 void expectSeen(const std::string& file, const std::string& from, const std::string& to,
