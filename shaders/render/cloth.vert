@@ -38,13 +38,13 @@ LitVertex litVertex(Surface surface) {
 
 void main() {
   vec3 point = drawnPoint(position.xyz, normal, uv);
-  vec3 towards = litPoint(position.xyz, normal, uv, frame.toKeyLight.xyz);
+  vec3 litPlace = litPoint(position.xyz, normal, uv, frame.toKeyLight.xyz);
   Surface surface;
   surface.position = point;
   surface.normal = normal.xyz;
   surface.uv = uv;
   surface.hollow = normal.w;
-  surface.shadowPlace = shadowPlaceOf(towards, normal.xyz, CLOTH_OFFSET_TEXELS);
+  surface.shadowPlace = shadowPlaceOf(litPlace, normal.xyz, CLOTH_OFFSET_TEXELS);
 #ifdef TANGENT
   surface.tangent = tangent.xyz;
 #endif

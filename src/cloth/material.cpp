@@ -182,7 +182,7 @@ double stableStepOfMesh(const ClothSettings& cloth) {
 
 namespace {
 
-// Springs of a grid, each [N/m]; `bend` of material's lines of three particles.
+// Stiffnesses of a grid's springs, and of what bends over three particles (LatticeStiffness) [N/m].
 struct GridSprings {
   double row, column, diagonal, rowOverTwo, columnOverTwo, bendRow, bendColumn;
 };

@@ -7,7 +7,7 @@
 
 namespace clothsim::cpu {
 
-// From where particles were to where the motion takes them: x goes to center + moved + R (x - center).
+// From where particles were to where the motion takes them: x goes to movedCenter + R (x - center).
 template <class Real>
 struct RigidMap {
   Vec3<Real> rows[3];  // of R

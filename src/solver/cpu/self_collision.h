@@ -51,7 +51,8 @@ class SelfCollision {
   [[nodiscard]] std::uint32_t encode(std::uint32_t piece, std::uint32_t i, std::uint32_t j) const;
   [[nodiscard]] std::uint32_t encodeOnMesh(std::uint32_t i, std::uint32_t j) const;  // of one mesh
   void checkHash(const CpuState<Real>& before, const CpuState<Real>& after);
-  // Takes these positions for those that candidates are near at; buckets wait until walk() needs them.
+  // Takes the positions of the state for those that candidates are near at, and its motion for the one that
+  // needs no new search; buckets wait until walk() needs them.
   void buildHash(const CpuState<Real>& state);
   void fillBuckets();  // for walk()
   void findCandidates();

@@ -186,8 +186,8 @@ TEST_F(GpuSolverTest, GivesTheSameBitsInImplicitStepsHoweverTheyAreDispatched) {
         << options.coarseLanes;
 }
 
-// The CPU builds it anew in fewer steps: motion of the cloth as a whole brings nothing nearer.
-TEST_F(GpuSolverTest, BuildsTheHashNoMoreSeldomThanTheCpu) {
+// The CPU does without where the cloth moves as a whole, which brings nothing nearer.
+TEST_F(GpuSolverTest, BuildsTheHashAtLeastAsOftenAsTheCpu) {
   for (const SelfCollision mode : {SelfCollision::averaged, SelfCollision::robust}) {
     const Scene scene = test::layeredSheets(24, mode);
     const Cloth cloth(scene);
@@ -197,7 +197,7 @@ TEST_F(GpuSolverTest, BuildsTheHashNoMoreSeldomThanTheCpu) {
     cpu.step(300);
     EXPECT_GE(gpu.contactCounts().hashBuilds, cpu.contactCounts().hashBuilds);
     EXPECT_EQ(gpu.contactCounts().clampedSteps, cpu.contactCounts().clampedSteps);
-    EXPECT_GT(gpu.contactCounts().hashBuilds, 1u);
+    EXPECT_GT(cpu.contactCounts().hashBuilds, 1u);
     EXPECT_LT(gpu.contactCounts().hashBuilds, 150u);
   }
 }

@@ -5,7 +5,6 @@
 
 #include <cmath>
 
-#include "cloth/material.h"
 #include "solver/cpu/cpu_solver.h"
 #include "support/test_scenes.h"
 
