@@ -4,8 +4,12 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <string>
+#include <system_error>
+#include <thread>
 
 namespace clothsim::test {
 
@@ -27,6 +31,16 @@ class TemporaryFolder {
   [[nodiscard]] std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
   [[nodiscard]] std::ptrdiff_t fileCount() const {
     return std::distance(std::filesystem::directory_iterator(path_), std::filesystem::directory_iterator());
+  }
+  // Whether a file with something in it is here within half a minute. An empty one may only be a try whether the
+  // folder can be written.
+  [[nodiscard]] bool getsAFile() const {
+    for (int i = 0; i < 3000; ++i, std::this_thread::sleep_for(std::chrono::milliseconds(10)))
+      for (const std::filesystem::directory_entry& entry : std::filesystem::directory_iterator(path_)) {
+        std::error_code gone;
+        if (const std::uintmax_t size = entry.file_size(gone); !gone && size > 0) return true;
+      }
+    return false;
   }
 
  private:

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <mutex>
 #include <numeric>
 #include <set>
@@ -81,6 +82,19 @@ TEST(ThreadTeam, WorksOnSeveralThreads) {
       seen.insert(std::this_thread::get_id());
     });
   EXPECT_EQ(seen.size(), 2u);
+}
+
+TEST(ThreadTeam, LetsTheProgramEndWhileItComputes) {
+  testing::GTEST_FLAG(death_test_style) = "threadsafe";
+  EXPECT_EXIT(
+      {
+        std::thread([] {
+          for (;;) ThreadTeam::shared().forEach(0, 1000, 1, [](std::uint32_t) {});
+        }).detach();
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        std::exit(3);
+      },
+      testing::ExitedWithCode(3), "");
 }
 
 }  // namespace
