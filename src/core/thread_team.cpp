@@ -71,8 +71,9 @@ ThreadTeam::~ThreadTeam() {
 
 namespace {
 
-// Never destroyed: exit() may come while another thread computes, as when Xlib loses the screen in the midst of a
-// step. That thread's next job would undo the order to end, and the team would be waited for without end.
+// Never destroyed: exit() may come while another thread computes, as when Xlib loses the screen in the midst
+// of a step. That thread's next job would undo the order to end, and the team would be waited for without
+// end.
 std::unique_ptr<ThreadTeam>& sharedTeam() {
   static auto& team = *new auto(std::make_unique<ThreadTeam>(threadsWanted()));
   return team;

@@ -32,8 +32,8 @@ class TemporaryFolder {
   [[nodiscard]] std::ptrdiff_t fileCount() const {
     return std::distance(std::filesystem::directory_iterator(path_), std::filesystem::directory_iterator());
   }
-  // Whether a file with something in it is here within half a minute. An empty one may only be a try whether the
-  // folder can be written.
+  // Whether a file with something in it is here within half a minute. An empty one may only be a try whether
+  // the folder can be written.
   [[nodiscard]] bool getsAFile() const {
     for (int i = 0; i < 3000; ++i, std::this_thread::sleep_for(std::chrono::milliseconds(10)))
       for (const std::filesystem::directory_entry& entry : std::filesystem::directory_iterator(path_)) {
