@@ -55,7 +55,7 @@ TEST_F(ViewerUi, ChangesTheBackendWithoutMovingTheCloth) {
 }
 
 TEST_F(ViewerUi, RefinesWhatRestsInFinalQualityToTheSamePictureEachTime) {
-  const ViewerProgram viewer(std::string(shownScene) + " --quality final");
+  const ViewerProgram viewer("-f pinned2 --resolution 9x9 --quality final");
   viewer.press("F2");
   viewer.press("p");
   ASSERT_TRUE(viewer.titleBecomesOneWith("paused")) << viewer.title();
