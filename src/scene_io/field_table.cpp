@@ -320,7 +320,8 @@ std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
       field(
           "self_collision", &S::selfCollision,
           "Keeps layers apart. averaged: CS184's rule, leaks; robust: does not; contact: in implicit steps.")
-          .byDefault("false; in scenes with ks averaged. true means averaged there, else robust"),
+          .byDefault(
+              "contact in implicit steps of materials, robust in explicit ones; averaged in scenes with ks"),
       field("self_friction", &S::selfFriction,
             "Coulomb's coefficient of friction between layers of cloth, under robust and contact.")
           .within({.low = 0, .high = 10})
@@ -461,6 +462,12 @@ std::span<const Field<Expect>> fieldsOf<Expect>() {
   return fields;
 }
 
+SelfCollision usualSelfCollision(bool usesKs, bool usesMaterial, Integrator integrator) {
+  if (usesKs) return SelfCollision::averaged;
+  if (!usesMaterial) return SelfCollision::off;
+  return isImplicit(integrator) ? SelfCollision::contact : SelfCollision::robust;
+}
+
 SolverSettings solverDefaults(bool usesKs, bool usesMaterial) {
   SolverSettings solver;
   if (usesMaterial) {
@@ -468,11 +475,22 @@ SolverSettings solverDefaults(bool usesKs, bool usesMaterial) {
     solver.integrator = Integrator::implicit;
     solver.simulationSteps.automatic = true;
   }
-  if (usesKs) {
-    solver.strainLimit = 0.1;
-    solver.selfCollision = SelfCollision::averaged;
-  }
+  if (usesKs) solver.strainLimit = 0.1;
+  solver.selfCollision = usualSelfCollision(usesKs, usesMaterial, solver.integrator);
   return solver;
+}
+
+void setIntegrator(Scene& scene, Integrator integrator) {
+  SolverSettings& solver = scene.solver;
+  const auto usual = [&] {
+    return usualSelfCollision(usesKs(scene), usesMaterial(scene), solver.integrator);
+  };
+  const bool wasUsual = solver.selfCollision == usual();
+  solver.integrator = integrator;
+  if (wasUsual) solver.selfCollision = usual();
+  if (solver.selfCollision == SelfCollision::contact && !isImplicit(integrator))
+    solver.selfCollision = SelfCollision::robust;
+  chooseCounts(scene);
 }
 
 bool usesKs(const Scene& scene) {

@@ -135,6 +135,10 @@ Scene readScene(const JsonNode& root) {
   Scene scene;
   scene.solver = defaultsFor(root);
   readObject(root, scene, {"cloth", "plane", "sphere"});
+  const JsonNode* solver = root.find("solver");
+  if (solver == nullptr || solver->find("self_collision") == nullptr)
+    scene.solver.selfCollision =
+        usualSelfCollision(usesKs(scene), usesMaterial(scene), scene.solver.integrator);
   checkCloths(root, scene.cloths);
   checkFriction(root, scene);
   checkSelfCollision(root, scene);
@@ -148,6 +152,8 @@ Scene readScene(const JsonNode& root) {
 JsonPointer writeScene(const Scene& scene) {
   Scene defaults;
   defaults.solver = solverDefaults(usesKs(scene), usesMaterial(scene));
+  defaults.solver.selfCollision =
+      usualSelfCollision(usesKs(scene), usesMaterial(scene), scene.solver.integrator);
   return writeObject(scene, defaults);
 }
 

@@ -197,8 +197,9 @@ void Viewer::switchBackend(const std::string& backend) {
 
 void Viewer::switchIntegrator() {
   Scene scene = open_->scene();
-  Integrator& integrator = scene.solver.integrator;
-  integrator = static_cast<Integrator>((static_cast<int>(integrator) + 1) % INTEGRATOR_COUNT);
+  const auto integrator =
+      static_cast<Integrator>((static_cast<int>(scene.solver.integrator) + 1) % INTEGRATOR_COUNT);
+  setIntegrator(scene, integrator);
   if (integrator == Integrator::implicit) {  // one long step costs as much as dozens of short ones
     explicitSteps_.reset();
     if (!scene.solver.simulationSteps.automatic) explicitSteps_ = scene.solver.simulationSteps.count;

@@ -36,6 +36,7 @@ void chooseModel(Scene& scene, ClothSettings& cloth) {
     const SolverSettings usual = solverDefaults(usesKs(scene), true);
     scene.solver.integrator = usual.integrator;
     scene.solver.simulationSteps = usual.simulationSteps;
+    scene.solver.selfCollision = usual.selfCollision;
   }
   if (!cloth.material && !cloth.ks && !cloth.stiffnessReference) cloth.ks = defaultKs;
 }

@@ -1,5 +1,8 @@
 // The panel Solver: where and how steps are computed, gravity, air, and how layers are kept apart.
+#include <utility>
+
 #include "cloth/material.h"
+#include "scene_io/field_table.h"
 #include "viewer/panels/panels.h"
 #include "viewer/ui_frame.h"
 
@@ -38,7 +41,10 @@ void drawWind(PanelContext& context) {
 
 void drawSolverPanel(PanelContext& context) {
   drawBackend(context);
+  const Integrator before = context.draft.solver.integrator;
   context.widgets.some(context.draft.solver, "solver", {"integrator", "frames_per_sec", "simulation_steps"});
+  const Integrator chosen = std::exchange(context.draft.solver.integrator, before);
+  setIntegrator(context.draft, chosen);
   ImGui::Separator();
   context.widgets.some(context.draft.solver, "solver", {"strain_limit", "self_collision", "self_friction"});
   chooseCounts(context.draft);
