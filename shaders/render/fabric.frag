@@ -4,7 +4,11 @@
 #include "render/cloth_piece.glsl"
 #include "render/fabric_light.glsl"
 #include "render/frame.glsl"
+#ifdef WOVEN
 #include "render/hem.glsl"
+#else
+float hem(vec2 uv) { return 1.0; }  // nobody hems a film
+#endif
 #include "render/shadow.glsl"
 #include "render/surface.glsl"
 #include "render/tone.glsl"
@@ -43,7 +47,7 @@ vec3 light() {
   float side = facingSide(), lit = sunlit(surface.shadowPlace);
   TangentFrame t = tangentFrame(surface, side);
   Threads threads = threadsAt(surface.uv, side);
-  vec3 albedo = albedoOfThreads(dyeAt(surface.uv), threads.warp) * hem(surface.uv);
+  vec3 albedo = albedoOfThreads(dyeAt(surface.uv) * threads.dye, threads.warp) * hem(surface.uv);
   vec3 shine = shineOf(alongThreads(t, surface.position), threads.warp, albedo) * shineSeen(t, threads, lit);
   return matteLight(surface, t, side, threads, albedo, lit) + shine;
 }

@@ -5,11 +5,10 @@
 
 #include "render/stage.h"
 #include "render/strain_scale.h"
+#include "render/weaves.h"
 
 namespace clothsim {
 namespace {
-
-constexpr double weaveThreads = 16;  // in a repeat of the weaves' pictures (tools/make_textures)
 
 float linear(double encoded) {
   const double value = encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
@@ -32,6 +31,23 @@ void addSky(const std::array<glm::vec3, 9>& sky, shared::RenderFrame& frame) {
   const glm::vec3 up = sky[0] + sky[2] - sky[8];  // on a surface that faces (0, 1, 0)
   const glm::vec3 scale = glm::vec3(frame.skyColor) / glm::max(up, 1e-6f);
   for (std::size_t i = 0; i < sky.size(); ++i) frame.irradiance[i] = glm::vec4(scale * sky[i], 0);
+}
+
+void addThreads(const RenderSettings& settings, shared::RenderFrame& frame) {
+  Weave weave = weaveOf(settings.weave);
+  weave.weftIsOther &= settings.shader == "fabric";  // no other model sees threads
+  const double repeat = weave.across * settings.threadSpacing,
+               repeatAlong = weave.along * weave.distance * settings.threadSpacing;
+  // Silk is smooth where wool has loose fibres.
+  constexpr double sheenOfWool = 0.44, sheenOfSilk = 0.04;
+  const double sheen = weave.sheen * (sheenOfWool + (sheenOfSilk - sheenOfWool) * settings.gloss);
+  frame.fabric = {static_cast<float>(1 / repeat), static_cast<float>(1 / repeatAlong),
+                  static_cast<float>(settings.gloss), static_cast<float>(sheen)};
+  frame.yarns = {static_cast<float>(weave.across), static_cast<float>(weave.along),
+                 static_cast<float>(weave.unevenness), 0};
+  frame.weft = frame.clothBack;
+  frame.weft.w = weave.weftIsOther ? 1 : 0;
+  if (weave.weftIsOther) frame.clothBack = frame.clothFront;  // the warp is there on both sides
 }
 
 void addStrainScale(const RenderSettings& settings, shared::RenderFrame& frame) {
@@ -68,8 +84,7 @@ shared::RenderFrame makeLook(const RenderSettings& settings, glm::vec3 front,
   frame.backgroundBottom = linearColor(0.62, 0.67, 0.72);
   frame.backgroundGlow = {0.16f, 0.17f, 0.18f, 0};
   frame.backgroundPlain = linearColor(settings.backgroundColor);
-  frame.fabric = {static_cast<float>(1 / (weaveThreads * settings.threadSpacing)),
-                  static_cast<float>(settings.gloss), settings.weave == "denim" ? 0.5f : 0.0f, 0};
+  addThreads(settings, frame);
   frame.relief = {static_cast<float>(settings.normalStrength), static_cast<float>(settings.height),
                   static_cast<float>(settings.textureRepeat), 0};
   addSky(sky, frame);

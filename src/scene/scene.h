@@ -235,13 +235,14 @@ struct CameraSettings {
 inline constexpr std::array<std::string_view, 10> shadingModels{
     "fabric",       "phong",  "diffuse", "texture",   "bump",
     "displacement", "mirror", "normal",  "wireframe", "strain"};
-inline constexpr std::array<std::string_view, 5> weaves{"plain", "twill", "denim", "satin", "none"};
+inline constexpr std::array<std::string_view, 6> weaves{"plain", "twill", "denim", "satin", "jersey", "none"};
 inline constexpr std::array<std::string_view, 3> backgrounds{"studio", "sky", "plain"};
 
 struct RenderSettings {
   std::string shader = "fabric";
-  Vec3d color{0.70, 0.10, 0.12};      // front of the cloth, sRGB 0 to 1
-  Vec3d backColor{0.86, 0.70, 0.46};  // back of the cloth
+  // Those of scenes without a material; others have the look of theirs (cloth/material_look.h).
+  Vec3d color{0.70, 0.10, 0.12};      // front of the cloth, of denim its warp; sRGB 0 to 1
+  Vec3d backColor{0.86, 0.70, 0.46};  // back of the cloth, of denim its weft
   std::string texture;                // bundled name, or path of a PNG; "": the shading model's own
   double textureRepeat = 1;           // along the longer side of each cloth
   std::string weave = "plain";        // of fabric

@@ -381,28 +381,39 @@ std::span<const Field<RenderSettings>> fieldsOf<RenderSettings>() {
   constexpr Limits channel{.low = 0, .high = 1};
   static const std::array fields{
       field("shader", &R::shader, "Shading model of the cloth.").oneOf(shadingModels),
-      field("color", &R::color,
-            "Colour of the front: the upper side of a lying cloth, the side facing +z of a standing one.")
+      field(
+          "color", &R::color,
+          "Colour of the front: the upper side of a lying cloth, +z of a standing one; of denim the warp's.")
           .in("sRGB")
           .within(channel)
-          .as(Format::color),
-      field("back_color", &R::backColor, "Colour of the back of the cloth.")
+          .as(Format::color)
+          .byDefault("of the material; without one [0.7, 0.1, 0.12]"),
+      field("back_color", &R::backColor, "Colour of the back of the cloth; of denim the weft's.")
           .in("sRGB")
           .within(channel)
-          .as(Format::color),
+          .as(Format::color)
+          .byDefault("of the material; without one [0.86, 0.7, 0.46]"),
       field("texture", &R::texture,
             "Print (tartan, stripes, checker) or height map (quilt, knit, hammered), or the path of a PNG.")
           .byDefault("of texture: tartan; of bump and displacement: quilt; of fabric: none"),
       field("texture_repeat", &R::textureRepeat, "Repeats of the texture along the cloth's longer side.")
           .within({.low = 0.01, .high = 1000})
           .usually(0.5, 50),
-      field("weave", &R::weave, "Weave of the model fabric.").oneOf(weaves),
+      field("weave", &R::weave,
+            "Weave of the model fabric, or its knit: jersey; none: a film, as paper and rubber are.")
+          .oneOf(weaves)
+          .byDefault("of the material; without one plain"),
       field("thread_spacing", &R::threadSpacing,
-            "Distance between threads of the model fabric; 0.0003 to 0.002 in real cloth.")
+            "Distance between threads of the model fabric, along the weft, or of wales; 0.0003 to 0.002 in "
+            "real "
+            "cloth.")
           .in("m")
           .within({.low = 1e-5, .high = 1})
-          .usually(2e-4, 0.02),
-      field("gloss", &R::gloss, "Gloss of the model fabric: 0 is wool, 1 is silk.").within(channel),
+          .usually(2e-4, 0.02)
+          .byDefault("of the material; without one 0.0015"),
+      field("gloss", &R::gloss, "Gloss of the model fabric: 0 is wool, 1 is silk.")
+          .within(channel)
+          .byDefault("of the material; without one 0.3"),
       field("normal_strength", &R::normalStrength,
             "Strength of weaves and bumps: 0 is flat, 1 true to their height.")
           .within({.low = 0, .high = 10})

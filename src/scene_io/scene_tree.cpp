@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "cloth/material.h"
+#include "cloth/material_look.h"
 #include "scene_io/codec.h"
 
 namespace clothsim {
@@ -48,6 +49,13 @@ SolverSettings defaultsFor(const JsonNode& root) {
       ks |= !hasMaterial && cloth->find("stiffness_reference") == nullptr;
     }
   return solverDefaults(ks, material);
+}
+
+// Once the material is known: the keys of `render` once more, over the look of the material.
+void readOverLook(const JsonNode& root, Scene& scene) {
+  if (scene.cloths.empty()) return;
+  scene.render = usualLook(scene);
+  if (const JsonNode* render = root.find("render")) readObject(*render, scene.render);
 }
 
 // First of all checks: in a file of a later version, other complaints would mislead.
@@ -135,6 +143,7 @@ Scene readScene(const JsonNode& root) {
   Scene scene;
   scene.solver = defaultsFor(root);
   readObject(root, scene, {"cloth", "plane", "sphere"});
+  readOverLook(root, scene);
   const JsonNode* solver = root.find("solver");
   if (solver == nullptr || solver->find("self_collision") == nullptr)
     scene.solver.selfCollision =
@@ -152,6 +161,7 @@ Scene readScene(const JsonNode& root) {
 JsonPointer writeScene(const Scene& scene) {
   Scene defaults;
   defaults.solver = solverDefaults(usesKs(scene), usesMaterial(scene));
+  defaults.render = usualLook(scene);
   defaults.solver.selfCollision =
       usualSelfCollision(usesKs(scene), usesMaterial(scene), scene.solver.integrator);
   return writeObject(scene, defaults);

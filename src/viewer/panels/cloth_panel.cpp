@@ -1,5 +1,6 @@
 // The panel Cloth: springs, material and size of each cloth.
 #include "cloth/material.h"
+#include "cloth/material_look.h"
 #include "viewer/panels/panels.h"
 #include "viewer/ui_frame.h"
 
@@ -43,8 +44,10 @@ void chooseModel(Scene& scene, ClothSettings& cloth) {
 
 void drawCloth(PanelContext& context, ClothSettings& cloth, const std::string& path) {
   drawSpringKinds(context, cloth, path);
+  const RenderSettings look = usualLook(context.draft);
   context.widgets.some(cloth, path, {"material"});
   chooseModel(context.draft, cloth);
+  followLook(context.draft.render, look, usualLook(context.draft));
   if (cloth.material) {
     context.widgets.all(*cloth.material, path + ".material");
   } else {
