@@ -320,8 +320,9 @@ std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
       field(
           "self_collision", &S::selfCollision,
           "Keeps layers apart. averaged: CS184's rule, leaks; robust: does not; contact: in implicit steps.")
-          .byDefault(
-              "contact in implicit steps of materials, robust in explicit ones; averaged in scenes with ks"),
+          .byDefault("false; averaged in scenes with ks; with a material contact in implicit steps, robust "
+                     "in explicit ones. "
+                     "true means the same, but robust where that is false"),
       field("self_friction", &S::selfFriction,
             "Coulomb's coefficient of friction between layers of cloth, under robust and contact.")
           .within({.low = 0, .high = 10})
@@ -471,42 +472,6 @@ std::span<const Field<Expect>> fieldsOf<Expect>() {
             "Largest number of intersecting pairs of triangles in any frame: [minimum, maximum]."),
   };
   return fields;
-}
-
-SelfCollision usualSelfCollision(bool usesKs, bool usesMaterial, Integrator integrator) {
-  if (usesKs) return SelfCollision::averaged;
-  if (!usesMaterial) return SelfCollision::off;
-  return isImplicit(integrator) ? SelfCollision::contact : SelfCollision::robust;
-}
-
-SolverSettings solverDefaults(bool usesKs, bool usesMaterial) {
-  SolverSettings solver;
-  if (usesMaterial) {
-    solver.frictionLaw = FrictionLaw::coulomb;
-    solver.integrator = Integrator::implicit;
-    solver.simulationSteps.automatic = true;
-  }
-  if (usesKs) solver.strainLimit = 0.1;
-  solver.selfCollision = usualSelfCollision(usesKs, usesMaterial, solver.integrator);
-  return solver;
-}
-
-void setIntegrator(Scene& scene, Integrator integrator) {
-  SolverSettings& solver = scene.solver;
-  const auto usual = [&] {
-    return usualSelfCollision(usesKs(scene), usesMaterial(scene), solver.integrator);
-  };
-  const bool wasUsual = solver.selfCollision == usual();
-  solver.integrator = integrator;
-  if (wasUsual) solver.selfCollision = usual();
-  if (solver.selfCollision == SelfCollision::contact && !isImplicit(integrator))
-    solver.selfCollision = SelfCollision::robust;
-  chooseCounts(scene);
-}
-
-bool usesKs(const Scene& scene) {
-  return std::any_of(scene.cloths.begin(), scene.cloths.end(),
-                     [](const ClothSettings& cloth) { return !cloth.stiffnessReference && !cloth.material; });
 }
 
 Usual sliderRange(const FieldTraits& traits, double now) {

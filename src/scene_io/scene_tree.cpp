@@ -58,6 +58,16 @@ void readOverLook(const JsonNode& root, Scene& scene) {
   if (const JsonNode* render = root.find("render")) readObject(*render, scene.render);
 }
 
+// Once the integrator is known: contact that nobody asked for by name gives way to explicit steps.
+void keepUsualSelfCollision(const JsonNode& root, Scene& scene) {
+  const JsonNode* solver = root.find("solver");
+  const JsonNode* asked = solver == nullptr ? nullptr : solver->find("self_collision");
+  const bool isNamed = asked != nullptr && asked->kind == JsonKind::string;
+  if (!isNamed && scene.solver.selfCollision == SelfCollision::contact)
+    scene.solver.selfCollision =
+        usualSelfCollision(usesKs(scene), usesMaterial(scene), scene.solver.integrator);
+}
+
 // First of all checks: in a file of a later version, other complaints would mislead.
 void checkSchema(const JsonNode& root) {
   const JsonNode* schema = root.find("schema");
@@ -144,10 +154,7 @@ Scene readScene(const JsonNode& root) {
   scene.solver = defaultsFor(root);
   readObject(root, scene, {"cloth", "plane", "sphere"});
   readOverLook(root, scene);
-  const JsonNode* solver = root.find("solver");
-  if (solver == nullptr || solver->find("self_collision") == nullptr)
-    scene.solver.selfCollision =
-        usualSelfCollision(usesKs(scene), usesMaterial(scene), scene.solver.integrator);
+  keepUsualSelfCollision(root, scene);
   checkCloths(root, scene.cloths);
   checkFriction(root, scene);
   checkSelfCollision(root, scene);

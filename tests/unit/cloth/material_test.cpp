@@ -37,6 +37,8 @@ TEST(Material, BringsSelfCollisionThatNothingCrosses) {
   EXPECT_EQ(modeOf("{}"), SelfCollision::contact);
   EXPECT_EQ(modeOf(R"({"integrator": "bdf2"})"), SelfCollision::contact);
   EXPECT_EQ(modeOf(R"({"integrator": "verlet"})"), SelfCollision::robust);
+  EXPECT_EQ(modeOf(R"({"self_collision": true})"), SelfCollision::contact);
+  EXPECT_EQ(modeOf(R"({"self_collision": true, "integrator": "verlet"})"), SelfCollision::robust);
   EXPECT_EQ(modeOf(R"({"self_collision": false})"), SelfCollision::off);
   Scene scene = sceneOf(R"({"cloth": {"material": "silk"}})");
   setSceneValue(scene, "solver.integrator=verlet");
