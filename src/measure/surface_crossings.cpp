@@ -12,9 +12,8 @@ using Boxes = std::vector<cpu::Bounds<double>>;
 
 // The tree of boxes, without any room around its triangles.
 Boxes makeBoxes(const ClothSurface<double>& surface, const Components<double>& places) {
-  const std::vector<std::uint32_t>& first = surface.firstBoxes;
   const cpu::Arrays<const double> x = cpu::arraysOf(places);
-  Boxes boxes(first.back());
+  Boxes boxes(surface.firstBoxes.back());
   for (std::size_t i = 0; i < surface.triangles.size(); ++i) {
     const auto corners = cpu::cornersOf(surface.triangles[i]);
     boxes[i] = {cpu::fourAt<double>(x, corners[0]), cpu::fourAt<double>(x, corners[0])};
@@ -23,13 +22,7 @@ Boxes makeBoxes(const ClothSurface<double>& surface, const Components<double>& p
       boxes[i] = cpu::joined(boxes[i], cpu::Bounds<double>{place, place});
     }
   }
-  for (std::size_t level = 1; level + 1 < first.size(); ++level)
-    for (std::uint32_t i = first[level]; i < first[level + 1]; ++i) {
-      const std::uint32_t child = first[level - 1] + BOX_CHILDREN * (i - first[level]);
-      boxes[i] = boxes[child];
-      for (std::uint32_t k = child; k < std::min(child + BOX_CHILDREN, first[level]); ++k)
-        boxes[i] = cpu::joined(boxes[i], boxes[k]);
-    }
+  cpu::SurfaceSearch<double>::growTree(surface, boxes);
   return boxes;
 }
 
@@ -70,7 +63,7 @@ std::uint64_t crossingSides(const Cloth& cloth, const Scene& scene, const State&
     cpu::put(x, static_cast<std::ptrdiff_t>(i), vectorOf(state.positions[i]));
   if (surface.triangles.empty()) return 0;
   const Boxes boxes = makeBoxes(surface, x);
-  const cpu::SurfaceSearch<double> search{surface, boxes, boxes, x};
+  const cpu::SurfaceSearch<double> search{surface, boxes};
   std::uint64_t count = 0;
   for (std::uint32_t i = 0; i < surface.triangles.size(); ++i)
     search.forEachNeighbor(i, [&](std::uint32_t other) {

@@ -10,7 +10,9 @@
 namespace clothsim::cpu {
 namespace {
 
-constexpr std::uint32_t TRIANGLES_A_CHUNK = 64, BOXES_AT_ONCE = 256;
+// By how much of the margin the list of near parts looks farther than a step: lists last longer, and are
+// longer.
+constexpr double MORE_THAN_NEAR = 0.25;
 
 // A smaller number among those that threads bring to the same place.
 template <class Number>
@@ -21,12 +23,12 @@ void lower(Number& place, Number to) {
   }
 }
 
-// The mean motion of some particles.
+// The mean of some particles.
 template <class Real>
-Vec3<Real> shiftOf(const Components<Real>& motions) {
-  const auto particles = static_cast<std::uint32_t>(motions.x.size());
+Vec3<Real> meanOf(const Components<Real>& values) {
+  const auto particles = static_cast<std::uint32_t>(values.x.size());
   Vec3<Real> sum{};
-  for (std::uint32_t k = 0; k < SHIFT_SAMPLES; ++k) sum = sum + at(motions, k * particles / SHIFT_SAMPLES);
+  for (std::uint32_t k = 0; k < SHIFT_SAMPLES; ++k) sum = sum + at(values, k * particles / SHIFT_SAMPLES);
   return canonical((Real(1) / SHIFT_SAMPLES) * sum);
 }
 
@@ -52,33 +54,32 @@ template <class Real>
 void SurfaceContact<Real>::boxParticles(const Components<Real>& starts, Real around) {
   const Four<Real> shift = fourOf(shift_), r{around, around, around, Real(0)};
   const Arrays<const Real> from = arraysOf(starts), motions = arraysOf(std::as_const(motions_));
-  particleBoxes_.resize(starts.x.size());
-  for (std::size_t i = 0; i < particleBoxes_.size(); ++i) {
-    const auto place = static_cast<std::ptrdiff_t>(i);
-    const Four<Real> a = fourAt(from, place), b = a + (fourAt(motions, place) - shift);
-    const Bounds<Real> box = joined(Bounds<Real>{a, a}, Bounds<Real>{b, b});
-    particleBoxes_[i] = {box.low - r, box.high + r};
-  }
+  boxes_.particles.resize(starts.x.size());
+  ThreadTeam::shared().forEach(
+      0, static_cast<std::uint32_t>(boxes_.particles.size()), BOXES_AT_ONCE, [&](std::uint32_t i) {
+        const auto place = static_cast<std::ptrdiff_t>(i);
+        const Four<Real> a = fourAt(from, place), b = a + (fourAt(motions, place) - shift);
+        const Bounds<Real> box = joined(Bounds<Real>{a, a}, Bounds<Real>{b, b});
+        boxes_.particles[i] = {box.low - r, box.high + r};
+      });
+}
+template <class Real>
+void SurfaceContact<Real>::listNear(const Components<Real>& starts) {
+  nearParts_.update(surface_, boxes_, meanOf(starts), static_cast<Real>(MORE_THAN_NEAR) * surface_.margin);
 }
 
-// The same of triangles, and up the tree.
+// test(parts, nearest) for the pairs of parts that a triangle looks for: their boxes meet, and the cloth is
+// not flat there, areFlat(triangle, other). test() says whether to go on.
 template <class Real>
-void SurfaceContact<Real>::growBoxes() {
-  const std::vector<std::uint32_t>& first = surface_.firstBoxes;
-  boxes_.resize(first.back());
-  ThreadTeam::shared().forEach(
-      0, static_cast<std::uint32_t>(surface_.triangles.size()), BOXES_AT_ONCE, [&](std::uint32_t i) {
-        const auto [a, b, c] = cornersOf(surface_.triangles[i]);
-        boxes_[i] = joined(joined(particleBoxes_[a], particleBoxes_[b]), particleBoxes_[c]);
-      });
-  for (std::size_t level = 1; level + 1 < first.size(); ++level)
-    ThreadTeam::shared().forEach(first[level], first[level + 1], BOXES_AT_ONCE, [&](std::uint32_t i) {
-      const std::uint32_t child = first[level - 1] + BOX_CHILDREN * (i - first[level]),
-                          end = std::min(child + BOX_CHILDREN, first[level]);
-      Bounds<Real> box = boxes_[child];
-      for (std::uint32_t k = child + 1; k < end; ++k) box = joined(box, boxes_[k]);
-      boxes_[i] = box;
-    });
+template <class AreFlat, class Test>
+void SurfaceContact<Real>::forEachPair(std::uint32_t triangle, const Components<Real>& starts,
+                                       AreFlat areFlat, Test test) const {
+  nearParts_.forEachPair(triangle, [&](const Parts& parts) {
+    if (!overlap(boxes_.triangles[parts.first], boxes_.triangles[parts.second]) || !boxes_.meet(parts) ||
+        areFlat(triangle, parts.first == triangle ? parts.second : parts.first))
+      return true;
+    return test(parts, nearestOf<Real>(parts, starts));
+  });
 }
 
 template <class Real>
@@ -87,7 +88,7 @@ void SurfaceContact<Real>::findTouching(const CpuState<Real>& before, ImplicitSt
   const Components<Real>& starts = startsOf(before);
   const auto particles = static_cast<std::uint32_t>(starts.x.size()),
              triangles = static_cast<std::uint32_t>(surface_.triangles.size()),
-             chunks = (triangles + TRIANGLES_A_CHUNK - 1) / TRIANGLES_A_CHUNK;
+             chunks = (triangles + NearParts<Real>::TRIANGLES - 1) / NearParts<Real>::TRIANGLES;
   const bool isLater = state_.isLater != 0;
   state_.tooMany = 0;
   motions_ = implicit.displacements;
@@ -100,22 +101,22 @@ void SurfaceContact<Real>::findTouching(const CpuState<Real>& before, ImplicitSt
                        surface_.touchingReach);
   const bool mayTouchItself = surface_.touchesItself && !flatBlocks_.isAllFlat();
   if (mayTouchItself) {
-    shift_ = shiftOf(motions_);
+    shift_ = meanOf(motions_);
     boxParticles(starts, surface_.around);
-    growBoxes();
+    boxes_.joinTriangles(surface_);
+    listNear(starts);
   }
-  const SurfaceSearch<Real> search{surface_, boxes_, particleBoxes_, starts};
   const auto areFlat = [&](std::uint32_t a, std::uint32_t b) { return flatBlocks_.areFlat(surface_, a, b); };
   foundPairs_.resize(chunks);
   ThreadTeam::shared().forEach(0, chunks, 1, [&](std::uint32_t chunk) {
     std::vector<SurfacePair<Real>>& found = foundPairs_[chunk];
     found.clear();
     if (!mayTouchItself && surface_.colliders.empty()) return;
-    const std::uint32_t first = chunk * TRIANGLES_A_CHUNK;
-    for (std::uint32_t i = first; i < std::min(first + TRIANGLES_A_CHUNK, triangles); ++i) {
+    const std::uint32_t first = chunk * NearParts<Real>::TRIANGLES;
+    for (std::uint32_t i = first; i < std::min(first + NearParts<Real>::TRIANGLES, triangles); ++i) {
       const std::size_t most = found.size() + MOST_PAIRS_A_TRIANGLE;
       if (mayTouchItself)
-        search.forEachPair(i, areFlat, [&](const Parts& parts, const auto& nearest) {
+        forEachPair(i, starts, areFlat, [&](const Parts& parts, const auto& nearest) {
           const SurfacePair<Real> pair = pairOf(surface_, parts, nearest, starts, implicit, isLater);
           if (pair.stiffness > Real(0)) found.push_back(pair);
           return found.size() <= most;
@@ -257,16 +258,16 @@ void SurfaceContact<Real>::guard(const CpuState<Real>& before, CpuState<Real>& a
                        static_cast<Real>(LEAST_GAPS_OF_FLAT) * surface_.leastGap);
   const bool looksAtFlat = round >= CORRECTION_ROUNDS;
   if (!looksAtFlat && flatBlocks_.isAllFlat()) return;
-  if (round == 0) shift_ = shiftOf(motions_);
+  if (round == 0) shift_ = meanOf(motions_);
   if (round <= CORRECTION_ROUNDS) boxParticles(starts, surface_.leastGap);
-  if (round == 0 || round == CORRECTION_ROUNDS) growBoxes();
+  if (round == 0 || round == CORRECTION_ROUNDS) boxes_.joinTriangles(surface_);
+  if (round <= CORRECTION_ROUNDS) listNear(starts);
   const bool corrects = round < CORRECTION_ROUNDS, all = round + 1 == GUARD_ROUNDS;
-  const SurfaceSearch<Real> search{surface_, boxes_, particleBoxes_, starts};
   const auto areFlat = [&](std::uint32_t a, std::uint32_t b) {
     return !looksAtFlat && flatBlocks_.areFlat(surface_, a, b);
   };
-  ThreadTeam::shared().forEach(0, triangles, TRIANGLES_A_CHUNK, [&](std::uint32_t i) {
-    search.forEachPair(i, areFlat, [&](const Parts& parts, const auto& nearest) {
+  ThreadTeam::shared().forEach(0, triangles, NearParts<Real>::TRIANGLES, [&](std::uint32_t i) {
+    forEachPair(i, starts, areFlat, [&](const Parts& parts, const auto& nearest) {
       const Sides sides = sidesOf(parts, nearest.way, starts);
       const Real width = larger(widthOf(sides), Real(0)),
                  least = corrects ? surface_.leastGap : SurfaceLaws<Real>::leastOf(width, surface_.leastGap);

@@ -9,6 +9,7 @@
 #include "solver/cpu/cpu_state.h"
 #include "solver/cpu/flat_blocks.h"
 #include "solver/cpu/implicit_passes.h"
+#include "solver/cpu/near_parts.h"
 #include "solver/cpu/surface_search.h"
 #include "solver/executor.h"
 #include "solver/surface.h"
@@ -18,7 +19,10 @@ namespace clothsim::cpu {
 template <class Real>
 class SurfaceContact {
  public:
-  void setSurface(ClothSurface<Real> surface) { surface_ = std::move(surface); }
+  void setSurface(ClothSurface<Real> surface) {
+    surface_ = std::move(surface);
+    nearParts_.clear();
+  }
 
   // Does a pass of Domain::surface.
   void run(PassCall call, const CpuState<Real>& before, CpuState<Real>& after, ImplicitState<Real>& implicit,
@@ -41,7 +45,9 @@ class SurfaceContact {
   };
 
   void boxParticles(const Components<Real>& starts, Real around);
-  void growBoxes();
+  void listNear(const Components<Real>& starts);
+  template <class AreFlat, class Test>
+  void forEachPair(std::uint32_t triangle, const Components<Real>& starts, AreFlat areFlat, Test test) const;
   void findTouching(const CpuState<Real>& before, ImplicitState<Real>& implicit,
                     const PassArguments<Real>& arguments);
   void settle(const CpuState<Real>& before, const CpuState<Real>& after, ImplicitState<Real>& implicit);
@@ -67,7 +73,8 @@ class SurfaceContact {
 
   ClothSurface<Real> surface_;
   SurfaceState state_ = freshSurfaceState();
-  std::vector<Bounds<Real>> boxes_, particleBoxes_;
+  SurfaceBoxes<Real> boxes_;
+  NearParts<Real> nearParts_;
   FlatBlocks<Real> flatBlocks_;
   Components<Real> motions_;  // of this round
   Vec3<Real> shift_{};

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/thread_team.h"
 #include "solver/cpu/arrays.h"
 #include "solver/cpu/bounds.h"
 #include "solver/cpu/surface_laws.h"
@@ -17,9 +18,9 @@ namespace clothsim::cpu {
 // A corner and a triangle, or two sides.
 struct Parts {
   std::array<std::uint32_t, 4> particles;
-  bool areSides;
   std::uint32_t first, second;  // the triangles that they are of
-  std::uint32_t k, l;           // the corner, or the sides, in them
+  bool areSides;
+  std::uint8_t k, l;  // the corner, or the sides, in them
 };
 
 [[nodiscard]] inline std::array<std::uint32_t, 3> cornersOf(const SurfaceTriangle& t) {
@@ -29,19 +30,57 @@ struct Parts {
   return {t.acrossAB, t.acrossBC, t.acrossCA};
 }
 
+inline constexpr std::uint32_t BOXES_AT_ONCE = 256;  // that a thread takes
+
+// Boxes around the motions of particles and of triangles.
+template <class Real>
+struct SurfaceBoxes {
+  std::vector<Bounds<Real>> particles;
+  std::vector<Bounds<Real>> triangles;  // and room for the tree over them
+
+  // Those of triangles, around those of their corners.
+  void joinTriangles(const ClothSurface<Real>& surface) {
+    triangles.resize(surface.firstBoxes.back());
+    ThreadTeam::shared().forEach(0, static_cast<std::uint32_t>(surface.triangles.size()), BOXES_AT_ONCE,
+                                 [&](std::uint32_t i) {
+                                   const auto [a, b, c] = cornersOf(surface.triangles[i]);
+                                   triangles[i] = joined(joined(particles[a], particles[b]), particles[c]);
+                                 });
+  }
+  // Whether both parts are where they may meet.
+  [[nodiscard]] bool meet(const Parts& parts) const {
+    const auto& [i, j, k, l] = parts.particles;
+    const Bounds<Real>& second = triangles[parts.second];
+    if (!parts.areSides) return overlap(particles[i], second);
+    const Bounds<Real> side = joined(particles[i], particles[j]);
+    return overlap(side, second) && overlap(side, joined(particles[k], particles[l]));
+  }
+};
+
 template <class Real>
 struct SurfaceSearch {
   const ClothSurface<Real>& surface;
-  const std::vector<Bounds<Real>>& boxes;          // of the tree
-  const std::vector<Bounds<Real>>& particleBoxes;  // around each particle and its motion
-  const Components<Real>& starts;
+  const std::vector<Bounds<Real>>& tree;
+
+  // Makes the tree over the boxes of the triangles, which are its first.
+  static void growTree(const ClothSurface<Real>& surface, std::vector<Bounds<Real>>& tree) {
+    const std::vector<std::uint32_t>& first = surface.firstBoxes;
+    tree.resize(first.back());
+    for (std::size_t level = 1; level + 1 < first.size(); ++level)
+      for (std::uint32_t i = first[level]; i < first[level + 1]; ++i) {
+        const std::uint32_t child = first[level - 1] + BOX_CHILDREN * (i - first[level]),
+                            end = std::min(child + BOX_CHILDREN, first[level]);
+        tree[i] = tree[child];
+        for (std::uint32_t k = child + 1; k < end; ++k) tree[i] = joined(tree[i], tree[k]);
+      }
+  }
 
   // visit(triangle) for the triangles behind this one, in the order of the tree, whose boxes meet its own.
   template <class Visit>
   void forEachNeighbor(std::uint32_t triangle, Visit visit) const {
     const std::vector<std::uint32_t>& first = surface.firstBoxes;
     const std::size_t top = first.size() - 2;
-    const Bounds<Real> own = boxes[triangle];
+    const Bounds<Real> own = tree[triangle];
     std::size_t level = 0;
     std::uint32_t place = triangle + 1;  // within the level
     for (;;) {
@@ -53,7 +92,7 @@ struct SurfaceSearch {
           ++level;
           break;
         }
-        const bool meets = overlap(own, boxes[first[level] + place]);
+        const bool meets = overlap(own, tree[first[level] + place]);
         if (meets && level > 0) continue;
         if (meets) visit(place);
         ++place;
@@ -62,49 +101,41 @@ struct SurfaceSearch {
     }
   }
 
-  // test(parts, nearest) for the pairs of parts that this triangle finds: boxes meet, no particle is in both,
-  // and the cloth is not flat there, areFlat(triangle, other). test() says whether to go on.
-  template <class AreFlat, class Test>
-  void forEachPair(std::uint32_t triangle, AreFlat areFlat, Test test) const {
-    bool goesOn = true;
+  // visit(parts) for the pairs of parts that a triangle looks for: of it and of triangles behind it, without
+  // a particle that is in both, where the boxes meet.
+  template <class Visit>
+  void forEachPair(std::uint32_t triangle, const SurfaceBoxes<Real>& boxes, Visit visit) const {
+    const auto look = [&](const Parts& parts) {
+      if (boxes.meet(parts)) visit(parts);
+    };
     forEachNeighbor(triangle, [&](std::uint32_t neighbor) {
-      if (areFlat(triangle, neighbor)) return;
-      lookAtCorners(triangle, neighbor, goesOn, test);
-      lookAtCorners(neighbor, triangle, goesOn, test);
-      lookAtSides(triangle, neighbor, goesOn, test);
+      forEachCorner(triangle, neighbor, look);
+      forEachCorner(neighbor, triangle, look);
+      forEachSide(triangle, neighbor, look);
     });
   }
 
  private:
-  template <class Test>
-  void lookAtCorners(std::uint32_t from, std::uint32_t to, bool& goesOn, Test& test) const {
+  template <class Visit>
+  void forEachCorner(std::uint32_t from, std::uint32_t to, Visit& visit) const {
     const auto mine = cornersOf(surface.triangles[from]), theirs = cornersOf(surface.triangles[to]);
-    for (std::uint32_t k = 0; k < 3; ++k) {
+    for (std::uint8_t k = 0; k < 3; ++k) {
       const std::uint32_t i = mine[k];
       if ((surface.triangles[from].owned >> k & 1u) == 0) continue;
-      if (i == theirs[0] || i == theirs[1] || i == theirs[2] || !overlap(particleBoxes[i], boxes[to]))
-        continue;
-      const auto nearest = SurfaceLaws<Real>::nearestOnTriangle(at(starts, i), at(starts, theirs[0]),
-                                                                at(starts, theirs[1]), at(starts, theirs[2]));
-      goesOn = goesOn && test(Parts{{i, theirs[0], theirs[1], theirs[2]}, false, from, to, k, 0}, nearest);
+      if (i == theirs[0] || i == theirs[1] || i == theirs[2]) continue;
+      visit(Parts{{i, theirs[0], theirs[1], theirs[2]}, from, to, false, k, 0});
     }
   }
-  template <class Test>
-  void lookAtSides(std::uint32_t from, std::uint32_t to, bool& goesOn, Test& test) const {
+  template <class Visit>
+  void forEachSide(std::uint32_t from, std::uint32_t to, Visit& visit) const {
     const auto mine = cornersOf(surface.triangles[from]), theirs = cornersOf(surface.triangles[to]);
-    for (std::uint32_t k = 0; k < 3; ++k) {
+    for (std::uint8_t k = 0; k < 3; ++k) {
       if ((surface.triangles[from].owned >> (OWNED_SIDE + k) & 1u) == 0) continue;
       const std::uint32_t p = mine[k], q = mine[(k + 1) % 3];
-      const Bounds<Real> box = joined(particleBoxes[p], particleBoxes[q]);
-      if (!overlap(box, boxes[to])) continue;
-      for (std::uint32_t l = 0; l < 3; ++l) {
+      for (std::uint8_t l = 0; l < 3; ++l) {
         if ((surface.triangles[to].owned >> (OWNED_SIDE + l) & 1u) == 0) continue;
         const std::uint32_t a = theirs[l], b = theirs[(l + 1) % 3];
-        if (a == p || a == q || b == p || b == q || !overlap(box, joined(particleBoxes[a], particleBoxes[b])))
-          continue;
-        const auto nearest =
-            SurfaceLaws<Real>::nearestOnSegments(at(starts, p), at(starts, q), at(starts, a), at(starts, b));
-        goesOn = goesOn && test(Parts{{p, q, a, b}, true, from, to, k, l}, nearest);
+        if (a != p && a != q && b != p && b != q) visit(Parts{{p, q, a, b}, from, to, true, k, l});
       }
     }
   }

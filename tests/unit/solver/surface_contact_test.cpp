@@ -8,9 +8,11 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "core/thread_team.h"
 #include "solver/cpu/cpu_solver.h"
+#include "solver/cpu/near_parts.h"
 #include "solver/cpu/surface_laws.h"
 #include "support/material_sheet.h"
 
@@ -52,6 +54,63 @@ TEST(SurfaceContact, IsTheSameWithAnyNumberOfThreads) {
     ASSERT_EQ(alone.positions[i].y, together.positions[i].y) << i;
     ASSERT_EQ(alone.velocities[i].z, together.velocities[i].z) << i;
   }
+}
+
+cpu::SurfaceBoxes<float> boxesAround(const ClothSurface<float>& surface, const State& state) {
+  cpu::SurfaceBoxes<float> boxes;
+  for (const auto& x : state.positions) {
+    const cpu::Four<float> place{x.x, x.y, x.z, 0}, around = cpu::Four<float>{} + surface.around;
+    boxes.particles.push_back({place - around, place + around});
+  }
+  boxes.joinTriangles(surface);
+  return boxes;
+}
+// The parts of a triangle whose boxes meet, by their numbers.
+std::vector<std::uint32_t> meetingParts(const cpu::NearParts<float>& near, std::uint32_t triangle,
+                                        const cpu::SurfaceBoxes<float>& boxes) {
+  std::vector<std::uint32_t> found;
+  near.forEachPair(triangle, [&](const cpu::Parts& parts) {
+    if (boxes.meet(parts)) found.insert(found.end(), {parts.first, parts.second, parts.k, parts.l});
+    return true;
+  });
+  return found;
+}
+
+TEST(NearParts, AreThoseOfANewListWhileTheListIsKept) {
+  const Scene scene = fallingSheet(13);
+  const Cloth cloth(scene);
+  const auto surface = makeSurface<float>(cloth, scene, {});
+  CpuSolver<float> solver(cloth, scene);
+  cpu::NearParts<float> kept;
+  int made = 0;
+  std::size_t parts = 0;
+  solver.step(35);
+  State last = solver.state();
+  for (int part = 1; part <= 60; ++part) {  // of ten steps, in the midst of the fall
+    if (part % 6 == 1) {
+      last = solver.state();
+      solver.step(1);
+    }
+    const Vec3f origin{0.01f * static_cast<float>(part), 0, 0};
+    State state = solver.state();
+    for (std::size_t i = 0; i < state.positions.size(); ++i) {
+      const Vec3d from = vectorOf(last.positions[i]), to = vectorOf(state.positions[i]);
+      const Vec3f x = origin + (from + (part + 5) % 6 / 6.0 * (to - from)).cast<float>();
+      state.positions[i] = {x.x, x.y, x.z, 0};
+    }
+    const auto boxes = boxesAround(surface, state);
+    made += kept.update(surface, boxes, origin, surface.margin) ? 1 : 0;
+    cpu::NearParts<float> fresh;
+    ASSERT_TRUE(fresh.update(surface, boxes, {}, 0));
+    for (std::uint32_t i = 0; i < surface.triangles.size(); ++i) {
+      const auto expected = meetingParts(fresh, i, boxes);
+      ASSERT_EQ(meetingParts(kept, i, boxes), expected) << "triangle " << i << " at " << part;
+      parts += expected.size();
+    }
+  }
+  EXPECT_GT(made, 3) << "the sheet moves farther than one list reaches";
+  EXPECT_LT(made, 30);
+  EXPECT_GT(parts, 1000u);
 }
 
 using Laws = cpu::SurfaceLaws<double>;
