@@ -108,6 +108,10 @@ using uint = std::uint32_t;
 #define CONTACT_OVER_INERTIA 1024
 #define CONTACT_OVER_SPRINGS 0.04
 
+// The limits of friction follow what presses for so many Newton steps; in the others they stay. Limits that
+// are given make friction the gradient of a potential, whose minimum Newton steps find (Li et al. 2020,
+// "Incremental potential contact", take older ones throughout).
+#define FRICTION_FOLLOWS 5u
 // Below this speed friction is less than in full [m/s].
 #define SLOW_SLIP 0.01f
 // A particle is light for its friction where that is so many times as stiff as its inertia.

@@ -45,7 +45,7 @@ constexpr std::array<PassTraits, PASS_COUNT> table{{
      {iterates}, {},
      {forces, watch}, elastic, Gate::step},
     {Pass::linearize, "linearize", Domain::gridPoints, 2,
-     {iterates, pairForces}, {forces, rightHandSides, airBlocks, planes, displacements, touching, scalars},
+     {iterates, pairForces}, {forces, rightHandSides, airBlocks, planes, contactBlocks, displacements, touching, scalars},
      {residuals, factors, increments, contactBlocks}, solved, Gate::step},
     {Pass::findCenters, "find centers", Domain::coarseVertices, 1,
      {iterates, centers}, {},

@@ -49,7 +49,7 @@ struct SurfacePair {
   Real stiffness;    // [N/m]
   Real friction;     // Coulomb's coefficient
   Real pressed = 0;  // how they pressed in the Newton step before [N]
-  Real limit = 0;    // of friction [N]
+  Real limit = 0;    // of friction [N]; LARGE_SQUARE: not known yet
   Real held = 0;     // what the pair adds to the Hessian: its stiffness while it touches,
   Real across = 0;   // and friction's across the normal [N/m]
   // Of a triangle and a small collider, which of them; the fourth particle is the first once more, with

@@ -9,6 +9,7 @@ vec4 carryAt(uint i) { return texelFetch(contactPlanes, int(2u * i + 1u)); }
 Symmetric contactBlockAt(uint i) {
   return Symmetric(texelFetch(contactBlocks, int(2u * i)).xyz, texelFetch(contactBlocks, int(2u * i + 1u)).xyz);
 }
+// What the last Newton step has set.
 float frictionLimitAt(uint i) { return texelFetch(contactBlocks, int(2u * i)).w; }
 
 // How stiffly a collider pushes back (CONTACT_OVER_INERTIA).

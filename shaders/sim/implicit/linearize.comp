@@ -72,7 +72,7 @@ void addContact(uint i, float diagonal, vec3 d, inout vec3 residual, inout Symme
   precise float both = stiffness + own;
   precise float carried = push * (stiffness * reciprocal(both));
   precise float most = carry.w * carried;
-  float limit = presses ? most : 0.0;
+  float limit = frictionFollows() ? (presses ? most : 0.0) : frictionLimitAt(i);
   vec3 slip = slipOf(normal, carry.xyz, d);
   float squared = sumOfProducts(slip, slip), inverse = inverseSquareRoot(squared);
   precise float len = squared * inverse;

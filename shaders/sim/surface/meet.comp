@@ -43,20 +43,22 @@ void main() {
   }
   float inverse = reciprocal(squares);
   precise float ofInertia = inertia * inverse;
-  precise float most = MOST_OVER_INERTIA * ofInertia;
+  precise float mostSprings = MOST_OVER_INERTIA * ofInertia;
   precise float ofSprings = springs * inverse;
-  precise float stiffness = float(CONTACT_OVER_INERTIA) * ofInertia + (ofSprings < most ? ofSprings : most);
+  precise float stiffness = float(CONTACT_OVER_INERTIA) * ofInertia + (ofSprings < mostSprings ? ofSprings : mostSprings);
   float depth = met.touch.depth;
   bool holds = met.counts && (depth > 0.0 || pressed);
   float friction = hasCoulombFriction ? collider.friction : 0.0;
   vec3 normal = canonical(met.touch.normal);
   vec4 weights = vec4(met.weights, 0.0);
   precise float over = depth + sumOfProducts(normal, weightedSum(weights, dA, dB, dC, dA));
-  precise float limit = friction * (stiffness * (depth < 0.0 ? 0.0 : depth));
+  precise float most = friction * (stiffness * (depth < 0.0 ? 0.0 : depth));
+  bool isNew = !(law.z < LARGE_SQUARE);
+  float limit = isNew || frictionFollows() ? canonical(holds ? most : 0.0) : law.z;
   newRows[4u * q] = vec4(normal, canonical(over));
   newRows[4u * q + 1u] = weights;
   newRows[4u * q + 2u] =
-      vec4(met.counts ? stiffness : 0.0, law.y, canonical(holds ? limit : 0.0), holds ? stiffness : 0.0);
+      vec4(met.counts ? stiffness : 0.0, law.y, limit, holds ? stiffness : 0.0);
   newCarries[q] = vec4(canonical(met.touch.carry), 0.0);
   if (holds) atomicOr(scalars.isDisturbed, 1u);
 }

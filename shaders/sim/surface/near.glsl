@@ -49,7 +49,7 @@ void lookAtColliders(uint own) {
     newIds[q] = uvec4(corners.xyz, corners.x);
     newRows[4u * q] = vec4(0.0);
     newRows[4u * q + 1u] = vec4(0.0);
-    newRows[4u * q + 2u] = vec4(0.0, -float(s + 1u), 0.0, 0.0);
+    newRows[4u * q + 2u] = vec4(0.0, -float(s + 1u), LARGE_SQUARE, 0.0);
     newRows[4u * q + 3u] = vec4(0.0);
     for (int k = 0; k < 3; ++k) atomicAdd(listCounts[corners[k]], 1u);
     atomicAdd(listCounts[corners.x], 1u);

@@ -37,7 +37,8 @@ void main() {
   // The less of this and the last Newton step: what is not solved yet presses at random, and would stick.
   precise float press = law.x * (over < 0.0 ? 0.0 : over);
   precise float most = frictionOf(ids, weights) * (press < law.y ? press : law.y);
-  float limit = isOfCollider ? law.z : canonical(most);
+  bool isNew = !(law.y < LARGE_SQUARE), isLimited = isOfCollider || !(isNew || frictionFollows());
+  float limit = isLimited ? law.z : canonical(most);
   precise float across = limit * frictionSlope(len, inverse, slowSlip()).over;
   float held = isOfCollider ? law.w : over > 0.0 ? law.x : 0.0;
   precise vec3 force = (held * over) * normal.xyz - across * slip;

@@ -59,6 +59,11 @@ INLINE Real slowSlip(const StepParams<Real>& step) {
 }
 
 template <class Real>
+INLINE bool frictionFollows(const ImplicitState<Real>& own) {
+  return own.scalars.newtonSteps < FRICTION_FOLLOWS;
+}
+
+template <class Real>
 INLINE bool mayTouchCloth(const TouchingPairs<Real>& touching, std::ptrdiff_t i) {
   if (touching.pairs.empty()) return false;
   for (std::uint32_t k = touching.starts.data()[i]; k < touching.starts.data()[i + 1]; ++k)
@@ -90,7 +95,8 @@ INLINE void addContact(const ImplicitArguments<Real>& arguments, std::ptrdiff_t 
              holds = presses || isPredicted || (hasPlane && over > Real(0));
   const Real stiffness = holds ? contactStiffness(arguments, i) : Real(0),
              carried = push * (stiffness * reciprocal(stiffness + own)),
-             limit = presses ? planes.frictions.data()[i] * carried : Real(0);
+             most = presses ? planes.frictions.data()[i] * carried : Real(0),
+             limit = frictionFollows(arguments.own) ? most : planes.limits.data()[i];
   const Vec3<Real> slip = slipOf(planes, i, d);
   const Real squared = dot(slip, slip), inverse = inverseSquareRoot(squared);
   const FrictionSlope<Real> slope = frictionSlope(squared * inverse, inverse, slowSlip(arguments.step.step));

@@ -124,6 +124,7 @@ void addNearColliders(const ClothSurface<Real>& surface, const PassArguments<Rea
     SurfacePair<Real> pair{};
     pair.particles = {corners[0], corners[1], corners[2], corners[0]};
     pair.collider = s;
+    pair.limit = static_cast<Real>(LARGE_SQUARE);  // not known
     found.push_back(pair);
   }
 }
@@ -158,7 +159,9 @@ void meetColliders(const ClothSurface<Real>& surface, const PassArguments<Real>&
     pair.over = canonical(depth + dot(pair.normal, weighted(pair, implicit.displacements)));
     pair.stiffness = met.counts ? stiffness : Real(0);
     pair.held = holds ? stiffness : Real(0);
-    pair.limit = canonical(holds ? friction * (stiffness * larger(depth, Real(0))) : Real(0));
+    const bool isNew = !(pair.limit < static_cast<Real>(LARGE_SQUARE));
+    if (isNew || frictionFollows(implicit))
+      pair.limit = canonical(holds ? friction * (stiffness * larger(depth, Real(0))) : Real(0));
     touching.carries[q] = canonical(met.touch.carry);
     if (holds) std::atomic_ref(implicit.scalars.isDisturbed).store(1, std::memory_order_relaxed);
   });

@@ -130,7 +130,9 @@ void weighPairs(ImplicitState<Real>& own, const StepParams<Real>& step) {
     if (pair.collider == NO_COLLIDER) {
       // The less of this and the last Newton step: what is not solved yet presses at random, and would stick.
       const Real press = pair.stiffness * larger(over, Real(0));
-      pair.limit = canonical(pair.friction * (press < pair.pressed ? press : pair.pressed));
+      const bool isNew = !(pair.pressed < static_cast<Real>(LARGE_SQUARE));
+      if (isNew || frictionFollows(own))
+        pair.limit = canonical(pair.friction * (press < pair.pressed ? press : pair.pressed));
       pair.pressed = canonical(press);
       pair.held = over > Real(0) ? pair.stiffness : Real(0);
     }
