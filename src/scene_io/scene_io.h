@@ -38,8 +38,8 @@ void saveScene(const Scene& scene, const std::filesystem::path& path);
 // the value is JSON, or a bare word taken as a string; null takes a key back to its default, or an entry out
 // of its list. "sphere.x" and "plane.x" are those of the first collider of that type. Checks ranges as the
 // reader does, and leaves the scene as it was when something is wrong. Messages name `flag` as where it came
-// from. With the scene's first material solver.integrator and solver.simulation_steps go back to their
-// defaults. @throws SceneError, UsageError (no '=')
+// from. With the scene's first material solver.integrator, solver.simulation_steps and a kind of
+// solver.self_collision go back to their defaults. @throws SceneError, UsageError (no '=')
 void setSceneValue(Scene& scene, const std::string& keyEqualsValue, const std::string& flag = "--set");
 
 struct BundledScene {

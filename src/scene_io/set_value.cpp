@@ -165,12 +165,14 @@ void leaveToMaterial(JsonNode& root, const Steps& steps) {
     erase(*cloth, key);
 }
 
-// Integrator and steps chosen for springs do not suit a material: with the first one they return to their
-// defaults.
+// What was chosen for springs does not suit a material: with the first one integrator, steps and the kind of
+// self-collision return to their defaults. Where cloth was to pass through itself it still does.
 void leaveSolverToMaterial(JsonNode& root) {
   JsonNode* solver = root.find("solver");
   if (solver == nullptr) return;
   for (const char* key : {"integrator", "simulation_steps"}) erase(*solver, key);
+  const JsonNode* selfCollision = solver->find("self_collision");
+  if (selfCollision != nullptr && selfCollision->kind == JsonKind::string) erase(*solver, "self_collision");
 }
 
 // Where a cloth becomes a mesh, the keys of a grid are removed.

@@ -51,6 +51,18 @@ TEST(Material, BringsSelfCollisionThatNothingCrosses) {
   EXPECT_EQ(scene.solver.selfCollision, SelfCollision::off) << "as it was chosen";
 }
 
+TEST(Material, BringsContactInsteadOfWhatExplicitStepsHad) {
+  const auto modeWithSilk = [](const char* selfCollision) {
+    Scene scene =
+        sceneOf(std::string(R"({"cloth": {}, "solver": {"self_collision": )") + selfCollision + "}}");
+    setSceneValue(scene, "cloth.material=silk");
+    return scene.solver.selfCollision;
+  };
+  EXPECT_EQ(modeWithSilk(R"("robust")"), SelfCollision::contact);
+  EXPECT_EQ(modeWithSilk(R"("averaged")"), SelfCollision::contact);
+  EXPECT_EQ(modeWithSilk("false"), SelfCollision::off) << "as it was chosen";
+}
+
 TEST(Material, BringsTheImplicitIntegratorInAsManyStepsAsItNeeds) {
   const auto isImplicit = [](const Scene& scene) {
     return scene.solver.integrator == Integrator::implicit && scene.solver.simulationSteps.automatic &&
