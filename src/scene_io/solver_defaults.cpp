@@ -7,9 +7,9 @@
 namespace clothsim {
 
 SelfCollision usualSelfCollision(bool usesKs, bool usesMaterial, Integrator integrator) {
+  if (usesMaterial && isImplicit(integrator)) return SelfCollision::contact;
   if (usesKs) return SelfCollision::averaged;
-  if (!usesMaterial) return SelfCollision::off;
-  return isImplicit(integrator) ? SelfCollision::contact : SelfCollision::robust;
+  return usesMaterial ? SelfCollision::robust : SelfCollision::off;
 }
 
 SolverSettings solverDefaults(bool usesKs, bool usesMaterial) {

@@ -51,6 +51,11 @@ TEST(Material, BringsSelfCollisionThatNothingCrosses) {
   EXPECT_EQ(scene.solver.selfCollision, SelfCollision::off) << "as it was chosen";
 }
 
+TEST(Material, BringsContactToTheOtherClothsToo) {
+  const Scene scene = sceneOf(R"({"cloths": [{"material": "silk"}, {"ks": 500}]})");
+  EXPECT_EQ(scene.solver.selfCollision, SelfCollision::contact);
+}
+
 TEST(Material, BringsContactInsteadOfWhatExplicitStepsHad) {
   const auto modeWithSilk = [](const char* selfCollision) {
     Scene scene =
