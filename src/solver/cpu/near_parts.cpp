@@ -58,13 +58,18 @@ bool NearParts<Real>::update(const ClothSurface<Real>& surface, const SurfaceBox
   const SurfaceSearch<Real> search{surface, covers_.triangles};
   parts_.resize(chunks);
   ends_.resize(triangles);
+  isTooLong_.resize(chunks);
   ThreadTeam::shared().forEach(0, chunks, 1, [&](std::uint32_t chunk) {
     std::vector<Parts>& found = parts_[chunk];
     found.clear();
-    for (std::uint32_t i = chunk * TRIANGLES; i < std::min((chunk + 1) * TRIANGLES, triangles); ++i) {
-      search.forEachPair(i, covers_, [&](const Parts& parts) { found.push_back(parts); });
+    const std::uint32_t first = chunk * TRIANGLES, end = std::min(first + TRIANGLES, triangles);
+    for (std::uint32_t i = first; i < end && found.size() <= MOST; ++i) {
+      search.forEachPair(i, covers_, [&](const Parts& parts) {
+        if (found.size() <= MOST) found.push_back(parts);
+      });
       ends_[i] = static_cast<std::uint32_t>(found.size());
     }
+    isTooLong_[chunk] = found.size() > MOST ? 1 : 0;
   });
   return true;
 }

@@ -74,7 +74,7 @@ template <class Real>
 template <class AreFlat, class Test>
 void SurfaceContact<Real>::forEachPair(std::uint32_t triangle, const Components<Real>& starts,
                                        AreFlat areFlat, Test test) const {
-  nearParts_.forEachPair(triangle, [&](const Parts& parts) {
+  nearParts_.forEachPair(surface_, triangle, [&](const Parts& parts) {
     if (!overlap(boxes_.triangles[parts.first], boxes_.triangles[parts.second]) || !boxes_.meet(parts) ||
         areFlat(triangle, parts.first == triangle ? parts.second : parts.first))
       return true;

@@ -66,10 +66,10 @@ cpu::SurfaceBoxes<float> boxesAround(const ClothSurface<float>& surface, const S
   return boxes;
 }
 // The parts of a triangle whose boxes meet, by their numbers.
-std::vector<std::uint32_t> meetingParts(const cpu::NearParts<float>& near, std::uint32_t triangle,
-                                        const cpu::SurfaceBoxes<float>& boxes) {
+std::vector<std::uint32_t> meetingParts(const ClothSurface<float>& surface, const cpu::NearParts<float>& near,
+                                        std::uint32_t triangle, const cpu::SurfaceBoxes<float>& boxes) {
   std::vector<std::uint32_t> found;
-  near.forEachPair(triangle, [&](const cpu::Parts& parts) {
+  near.forEachPair(surface, triangle, [&](const cpu::Parts& parts) {
     if (boxes.meet(parts)) found.insert(found.end(), {parts.first, parts.second, parts.k, parts.l});
     return true;
   });
@@ -103,14 +103,37 @@ TEST(NearParts, AreThoseOfANewListWhileTheListIsKept) {
     cpu::NearParts<float> fresh;
     ASSERT_TRUE(fresh.update(surface, boxes, {}, 0));
     for (std::uint32_t i = 0; i < surface.triangles.size(); ++i) {
-      const auto expected = meetingParts(fresh, i, boxes);
-      ASSERT_EQ(meetingParts(kept, i, boxes), expected) << "triangle " << i << " at " << part;
+      const auto expected = meetingParts(surface, fresh, i, boxes);
+      ASSERT_EQ(meetingParts(surface, kept, i, boxes), expected) << "triangle " << i << " at " << part;
       parts += expected.size();
     }
   }
   EXPECT_GT(made, 3) << "the sheet moves farther than one list reaches";
   EXPECT_LT(made, 30);
   EXPECT_GT(parts, 1000u);
+}
+
+TEST(NearParts, AreFoundWhereListsWouldBeTooLong) {
+  const Scene scene = fallingSheet(13);
+  const Cloth cloth(scene);
+  const auto surface = makeSurface<float>(cloth, scene, {});
+  State state = initialState(cloth, scene);
+  for (auto& x : state.positions) x = {0.01f * x.x, 0.01f * x.y, 0.01f * x.z, 0};  // all near all
+  cpu::SurfaceBoxes<float> boxes = boxesAround(surface, state);
+  cpu::NearParts<float> near;
+  near.update(surface, boxes, {}, surface.margin);
+  cpu::SurfaceSearch<float>::growTree(surface, boxes.triangles);
+  const cpu::SurfaceSearch<float> search{surface, boxes.triangles};
+  std::size_t all = 0;
+  for (std::uint32_t i = 0; i < surface.triangles.size(); ++i) {
+    std::vector<std::uint32_t> expected;
+    search.forEachPair(i, boxes, [&](const cpu::Parts& parts) {
+      expected.insert(expected.end(), {parts.first, parts.second, parts.k, parts.l});
+    });
+    ASSERT_EQ(meetingParts(surface, near, i, boxes), expected) << "triangle " << i;
+    all += expected.size() / 4;
+  }
+  EXPECT_GT(all, cpu::NearParts<float>::MOST * surface.triangles.size() / cpu::NearParts<float>::TRIANGLES);
 }
 
 using Laws = cpu::SurfaceLaws<double>;
