@@ -307,7 +307,7 @@ std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
           .within(positive)
           .usually(15, 240),
       field("simulation_steps", &S::simulationSteps,
-            "Steps in a frame; auto: as few as are stable, and of 1/120 s at most for fabric that buckles.")
+            "Steps in a frame; auto: as few as are stable; where fabric folds, 1/120 to 1/480 s at most.")
           .within({.low = 1, .high = mostSteps})
           .usually(1, 200)
           .byDefault("30; in scenes with a material \"auto\""),
@@ -320,8 +320,8 @@ std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
       field(
           "self_collision", &S::selfCollision,
           "Keeps layers apart. averaged: CS184's rule, leaks; robust: does not; contact: in implicit steps.")
-          .byDefault("false; averaged in scenes with ks; with a material contact in implicit steps, robust "
-                     "in explicit ones. "
+          .byDefault("contact in implicit steps where a cloth has a material, else averaged in scenes with "
+                     "ks, robust with a material, false in others. "
                      "true means the same, but robust where that is false"),
       field("self_friction", &S::selfFriction,
             "Coulomb's coefficient of friction between layers of cloth, under robust and contact.")

@@ -63,6 +63,7 @@ void SurfaceContact<Real>::boxParticles(const Components<Real>& starts, Real aro
         boxes_.particles[i] = {box.low - r, box.high + r};
       });
 }
+
 template <class Real>
 void SurfaceContact<Real>::listNear(const Components<Real>& starts) {
   nearParts_.update(surface_, boxes_, meanOf(starts), static_cast<Real>(MORE_THAN_NEAR) * surface_.margin);
