@@ -147,16 +147,19 @@ namespace {
 // How much stiffer a membrane is that is stretched by a tenth: (3 1.1^2 - 1) / 2.
 constexpr double MEMBRANE_MARGIN = 1.315;
 
-// The stable step of a mesh; infinite when its file cannot be read, which building the cloth will report.
+// The stable step of a mesh; infinite when its file or its stiffness map is wrong, which building the cloth
+// will report.
 double stableStepOfMesh(const ClothSettings& cloth) {
   std::shared_ptr<const MeshShape> shape;
+  std::vector<Vec3d> points;
+  MeshMechanics mechanics;
   try {
     shape = meshShapeOf(cloth.mesh);
+    points = placedPoints(*shape, cloth);
+    mechanics = mechanicsOf(*shape, points, cloth);
   } catch (const SceneError&) {
     return std::numeric_limits<double>::infinity();
   }
-  const std::vector<Vec3d> points = placedPoints(*shape, cloth);
-  const MeshMechanics mechanics = mechanicsOf(*shape, points, cloth);
   std::vector<double> sums(shape->points.size());  // of |K| in each block row
   for (std::size_t e = 0; e < shape->edges.size(); ++e) {
     const MeshShape::Edge& edge = shape->edges[e];

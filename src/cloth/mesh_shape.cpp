@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "cloth/stiffness_map.h"
 #include "core/error.h"
 #include "core/recent.h"
 #include "scene/obj_file.h"
@@ -187,6 +188,9 @@ MeshShape load(const std::string& file) {
   const std::vector<float>& xyz = obj.attributes.vertices;
   for (std::size_t i = 0; i + 2 < xyz.size(); i += 3)
     shape.points.push_back({xyz[i], xyz[i + 1], xyz[i + 2]});
+  const std::vector<float>& rgb = obj.attributes.colors;
+  for (std::size_t i = 0; i + 2 < rgb.size(); i += 3)
+    shape.colors.push_back({rgb[i], rgb[i + 1], rgb[i + 2]});
   shape.textureCoordinates.resize(shape.points.size());
   if (!shape.points.empty()) readFaces(file, obj, shape);
   if (shape.triangles.empty())
@@ -286,6 +290,22 @@ double springOf(const ClothSettings& cloth, double restLength, bool across) {
   return (across ? 0.2 : 1) * cloth.ks.value_or(0);
 }
 
+// What the map says, on mechanics that the cloth's constants have made.
+void applyMap(const StiffnessMap& map, const MeshShape& shape, MeshMechanics& mechanics) {
+  for (std::size_t e = 0; e < shape.edges.size(); ++e) {
+    const Edge& edge = shape.edges[e];
+    const double bend = map.bendFactor({edge.a, edge.b});
+    mechanics.stretch[e] *= map.stretchFactor({edge.a, edge.b});
+    mechanics.across[e] *= bend;
+    if (mechanics.bending.empty()) continue;
+    for (double& coefficient : mechanics.bending[e]) coefficient *= std::sqrt(bend);
+  }
+  for (std::size_t t = 0; t < mechanics.membranes.size(); ++t) {
+    const auto& [a, b, c] = shape.triangles[t];
+    for (double& root : mechanics.membranes[t]) root *= std::sqrt(map.stretchFactor({a, b, c}));
+  }
+}
+
 }  // namespace
 
 MeshMechanics mechanicsOf(const MeshShape& shape, const std::vector<Vec3d>& points,
@@ -307,10 +327,10 @@ MeshMechanics mechanicsOf(const MeshShape& shape, const std::vector<Vec3d>& poin
     mechanics.stretch.push_back(cloth.enableStructural ? along : 0);
     mechanics.across.push_back(across);
   }
-  if (cloth.material && cloth.enableStructural) {
-    mechanics.membranes = membranesOf(shape, points, cloth);
-    mechanics.stretch = stiffnessAlongEdges(shape, points, mechanics.membranes);
-  }
+  const bool hasMembranes = cloth.material && cloth.enableStructural;
+  if (hasMembranes) mechanics.membranes = membranesOf(shape, points, cloth);
+  if (!cloth.stiffnessMap.empty()) applyMap(StiffnessMap(cloth, shape), shape, mechanics);
+  if (hasMembranes) mechanics.stretch = stiffnessAlongEdges(shape, points, mechanics.membranes);
   return mechanics;
 }
 

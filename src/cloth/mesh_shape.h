@@ -27,7 +27,8 @@ struct MeshShape {
   // u and v of each point: those of the first corner there that has any; where the file has none, the place
   // in the box around the mesh, seen along its shortest side, v downwards.
   std::vector<std::array<float, 2>> textureCoordinates;
-  std::vector<Triangle> triangles;  // polygons are split
+  std::vector<std::array<float, 3>> colors;  // r, g, b of each point; empty where some point has none
+  std::vector<Triangle> triangles;           // polygons are split
   // Of each triangle those of its corners, which may differ from its points' at a seam of the texture.
   std::vector<std::array<std::array<float, 2>, 3>> cornerCoordinates;
   std::vector<Edge> edges;                                   // ascending in (a, b)
@@ -55,6 +56,9 @@ struct MeshMechanics {
   // the corners opposite [sqrt(N/m)]. Empty without a material.
   std::vector<std::array<double, 4>> bending;
 };
+// All of it times what the cloth's stiffness map says (cloth/stiffness_map.h); @throws SceneError where that
+// names what the mesh does not have.
+//
 // Of `ks`: ks along edges, 0.2 ks across; of `stiffness_reference` that times reference_length over the
 // length.
 //

@@ -1,11 +1,14 @@
 #include "cloth/pins.h"
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <numeric>
+#include <utility>
 
 #include "cloth/mesh_shape.h"
 #include "core/error.h"
+#include "core/formatted.h"
 #include "core/nearest.h"
 
 namespace clothsim {
@@ -26,14 +29,19 @@ std::string particleText(std::uint32_t particle, const ClothSettings& cloth) {
 
 // --- Of a mesh
 
-[[noreturn]] void fail(const ClothSettings& cloth, const std::string& what) {
-  throw SceneError("cloth.pinned: " + what + " (" + cloth.mesh + ")");
-}
+// The cloth, and the key that names its points.
+struct Owner {
+  const ClothSettings& cloth;
+  std::string key;
+  [[noreturn]] void fail(const std::string& what) const {
+    throw SceneError(key + ": " + what + " (" + cloth.mesh + ")");
+  }
+};
 
-std::uint32_t vertexOf(const VertexPin& pin, const ClothSettings& cloth, const MeshShape& shape) {
+std::uint32_t vertexOf(const VertexPin& pin, const Owner& owner, const MeshShape& shape) {
   if (static_cast<std::size_t>(pin.vertex) >= shape.points.size())
-    fail(cloth, "expected a vertex from 0 to " + std::to_string(shape.points.size() - 1) +
-                    " of the mesh, found " + std::to_string(pin.vertex));
+    owner.fail("expected a vertex from 0 to " + std::to_string(shape.points.size() - 1) +
+               " of the mesh, found " + std::to_string(pin.vertex));
   return static_cast<std::uint32_t>(pin.vertex);
 }
 
@@ -43,7 +51,7 @@ bool isInside(const Region& region, Vec3d p) {
   return isBetween(p.x, from.x, to.x) && isBetween(p.y, from.y, to.y) && isBetween(p.z, from.z, to.z);
 }
 
-const std::vector<std::uint32_t>& verticesOf(const GroupPin& pin, const ClothSettings& cloth,
+const std::vector<std::uint32_t>& verticesOf(const GroupPin& pin, const Owner& owner,
                                              const MeshShape& shape) {
   if (const auto found = shape.groups.find(pin.group); found != shape.groups.end()) return found->second;
   std::vector<std::string> names;
@@ -52,15 +60,35 @@ const std::vector<std::uint32_t>& verticesOf(const GroupPin& pin, const ClothSet
     names.push_back(name);
     list += (list.empty() ? "" : ", ") + name;
   }
-  fail(cloth, "the mesh has no group \"" + pin.group + "\"" + didYouMean(pin.group, names) + "; it has " +
-                  (list.empty() ? "none" : list));
+  owner.fail("the mesh has no group \"" + pin.group + "\"" + didYouMean(pin.group, names) + "; it has " +
+             (list.empty() ? "none" : list));
+}
+
+// A channel of the colours of all points.
+std::vector<double> channelOf(const PaintedPin& pin, const Owner& owner, const MeshShape& shape) {
+  const auto channel = static_cast<std::size_t>(pin.painted);
+  const std::string name = std::array{"red", "green", "blue"}[channel];
+  if (shape.colors.empty())
+    owner.fail(
+        "expected colours of vertices in the mesh file, v x y z r g b for each, found vertices without "
+        "(in Blender: paint them in Vertex Paint, and export OBJ with Colors)");
+  std::vector<double> values;
+  for (const auto& color : shape.colors) {
+    const double value = double{color[channel]};
+    if (!(value >= 0 && value <= 1))
+      owner.fail("expected colours from 0 to 1 in the mesh file, found " + name + " " +
+                 formatted("%g", value) + " at vertex " + std::to_string(values.size()));
+    values.push_back(value);
+  }
+  return values;
 }
 
 // Visits the particles of pins. It visits a grid's only once until forget(), however often pins name them, so
 // that overlapping blocks cost no more than their rows.
 class PinnedParticles {
  public:
-  explicit PinnedParticles(const ClothSettings& cloth) : cloth_(&cloth) {
+  explicit PinnedParticles(const ClothSettings& cloth, std::string key = "cloth.pinned")
+      : owner_{cloth, std::move(key)} {
     if (cloth.isMesh()) {
       shape_ = meshShapeOf(cloth.mesh);
       return;
@@ -74,13 +102,14 @@ class PinnedParticles {
   // the mesh does not have what the pin names, or when there is too much to look at
   template <class Visit>
   bool forEach(const Pin& pin, Visit visit) {
-    if (!shape_) return forEachPoint(pointsOf(pin, *cloth_), visit);
-    if (const auto* vertex = std::get_if<VertexPin>(&pin)) return visit(vertexOf(*vertex, *cloth_, *shape_));
+    if (!shape_) return forEachPoint(pointsOf(pin, owner_.cloth), visit);
+    if (const auto* vertex = std::get_if<VertexPin>(&pin)) return visit(vertexOf(*vertex, owner_, *shape_));
     if (const auto* group = std::get_if<GroupPin>(&pin)) {
-      const std::vector<std::uint32_t>& members = verticesOf(*group, *cloth_, *shape_);
+      const std::vector<std::uint32_t>& members = verticesOf(*group, owner_, *shape_);
       countWork(members.size());
       return std::all_of(members.begin(), members.end(), visit);
     }
+    if (const auto* paint = std::get_if<PaintedPin>(&pin)) return forEachPainted(*paint, visit);
     const auto* region = std::get_if<RegionPin>(&pin);
     return region == nullptr || forEachInside(region->region, visit);  // The reader has complained of others.
   }
@@ -118,8 +147,22 @@ class PinnedParticles {
   }
 
   template <class Visit>
+  bool forEachPainted(const PaintedPin& pin, Visit visit) {
+    const std::vector<double> channel = channelOf(pin, owner_, *shape_);
+    countWork(channel.size());
+    bool isEmpty = true;
+    for (std::size_t i = 0; i < channel.size(); ++i) {
+      if (channel[i] <= 0.5) continue;
+      isEmpty = false;
+      if (!visit(static_cast<std::uint32_t>(i))) return false;
+    }
+    if (isEmpty) owner_.fail("expected paint of more than 0.5 at some vertex of the mesh, found none");
+    return true;
+  }
+
+  template <class Visit>
   bool forEachInside(const Region& region, Visit visit) {
-    if (points_.empty()) points_ = placedPoints(*shape_, *cloth_);
+    if (points_.empty()) points_ = placedPoints(*shape_, owner_.cloth);
     countWork(points_.size());
     bool isEmpty = true;
     for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -128,9 +171,9 @@ class PinnedParticles {
       if (!visit(static_cast<std::uint32_t>(i))) return false;
     }
     if (isEmpty)
-      fail(*cloth_,
-           "expected a region that holds vertices of the mesh as it is placed at the start, found one that "
-           "holds none");
+      owner_.fail(
+          "expected a region that holds vertices of the mesh as it is placed at the start, found one that "
+          "holds none");
     return true;
   }
 
@@ -138,11 +181,11 @@ class PinnedParticles {
     constexpr std::size_t most = std::size_t{1} << 28;
     work_ += more;
     if (work_ > most)
-      throw SceneError("cloth.pinned: the pins name " + std::string(shape_ ? "vertices" : "rows of points") +
+      throw SceneError(owner_.key + ": the pins name " + std::string(shape_ ? "vertices" : "rows of points") +
                        " more than " + std::to_string(most) + " times; expected fewer pins that overlap");
   }
 
-  const ClothSettings* cloth_;
+  Owner owner_;
   std::shared_ptr<const MeshShape> shape_;  // null: a grid
   std::vector<Vec3d> points_;               // of the mesh, when they are needed
   std::size_t width_ = 0, work_ = 0;        // places in a row: its points, and its end
@@ -153,7 +196,23 @@ class PinnedParticles {
 
 bool isMeshPin(const Pin& pin) {
   return std::holds_alternative<VertexPin>(pin) || std::holds_alternative<RegionPin>(pin) ||
-         std::holds_alternative<GroupPin>(pin);
+         std::holds_alternative<GroupPin>(pin) || std::holds_alternative<PaintedPin>(pin);
+}
+
+std::vector<double> weightsOf(const std::vector<Pin>& points, const ClothSettings& cloth,
+                              const std::string& key) {
+  const Owner owner{cloth, key};
+  std::vector<double> weights(particleCount(cloth));
+  PinnedParticles particles(cloth, key);
+  for (const Pin& pin : points) {
+    if (const auto* paint = std::get_if<PaintedPin>(&pin)) {
+      const std::vector<double> channel = channelOf(*paint, owner, *meshShapeOf(cloth.mesh));
+      for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = std::max(weights[i], channel[i]);
+    } else {
+      particles.forEach(pin, [&](std::uint32_t particle) { return (weights[particle] = 1) > 0; });
+    }
+  }
+  return weights;
 }
 
 std::vector<bool> pinnedParticles(const ClothSettings& cloth) {

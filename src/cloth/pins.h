@@ -16,12 +16,18 @@ namespace clothsim {
 // The block of points of a grid that a pin holds. The top of a vertical sheet is its last row.
 [[nodiscard]] GridRange pointsOf(const Pin& pin, const ClothSettings& cloth);
 
-// Whether the pin is one of meshes: a vertex, a region or a group.
+// Whether the pin is one of meshes: a vertex, a region, a group or paint.
 [[nodiscard]] bool isMeshPin(const Pin& pin);
 // Whether a pin holds a particle, by particle, counted from the cloth's first one. @throws SceneError when
 // its mesh cannot be read or does not have what a pin names, or when the pins overlap so often that going
 // through them would take minutes
 [[nodiscard]] std::vector<bool> pinnedParticles(const ClothSettings& cloth);
+
+// How far `points` of a mesh name each of its particles, 0 to 1: vertices, regions and groups wholly, paint
+// as far as the channel of the colour says. `key` is theirs, for messages. @throws SceneError as
+// pinnedParticles
+[[nodiscard]] std::vector<double> weightsOf(const std::vector<Pin>& points, const ClothSettings& cloth,
+                                            const std::string& key);
 
 // The pins that a motion moves: its own list, or all pins of the cloth where that is empty.
 [[nodiscard]] const std::vector<Pin>& pinsOf(const PinMotion& motion, const ClothSettings& cloth);

@@ -21,14 +21,13 @@ void appendLine(const GridRange& line, const Piece& piece, std::vector<std::uint
 std::vector<std::uint32_t> pointsOf(const SeamSide& side, const std::string& name, const Scene& scene,
                                     std::span<const Piece> pieces) {
   const auto number = static_cast<std::size_t>(side.cloth);
-  ClothSettings cloth = scene.cloths[number];
+  const ClothSettings& cloth = scene.cloths[number];
   const Piece& piece = pieces[number];
   std::vector<std::uint32_t> points;
   if (cloth.isMesh()) {
-    cloth.pinned = side.points;
-    const std::vector<bool> isSewn = pinnedParticles(cloth);
-    for (std::uint32_t i = 0; i < isSewn.size(); ++i)
-      if (isSewn[i]) points.push_back(piece.firstParticle + i);
+    const std::vector<double> weights = weightsOf(side.points, cloth, name + ".points");
+    for (std::uint32_t i = 0; i < weights.size(); ++i)
+      if (weights[i] > 0.5) points.push_back(piece.firstParticle + i);
   } else {
     for (const Pin& pin : side.points) {
       const GridRange line = pointsOf(pin, cloth);

@@ -118,8 +118,8 @@ ObjFile readObjFile(const std::string& file, const std::string& use) {
   ObjFile obj;
   std::vector<tinyobj::material_t> materials;
   std::string warnings, errors;
-  const bool read =
-      tinyobj::LoadObj(&obj.attributes, &obj.shapes, &materials, &warnings, &errors, &text, nullptr, true);
+  const bool read = tinyobj::LoadObj(&obj.attributes, &obj.shapes, &materials, &warnings, &errors, &text,
+                                     nullptr, true, false);
   if (!read) throw SceneError(file + ": cannot be read as an OBJ file: " + errors);
   // tinyobjloader leaves out triangles of polygons with such a corner.
   if (warnings.find("Vertex indices out of bounds") != std::string::npos ||

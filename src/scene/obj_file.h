@@ -13,7 +13,7 @@ namespace clothsim {
 [[nodiscard]] std::filesystem::path meshPath(const std::string& file);
 
 struct ObjFile {
-  tinyobj::attrib_t attributes;
+  tinyobj::attrib_t attributes;  // colours only where all points have one
   std::vector<tinyobj::shape_t> shapes;
 };
 // All polygons are split into triangles. `use` tells messages what the file is for. @throws

@@ -52,7 +52,21 @@ struct GroupPin {
   std::string group;
   friend bool operator==(const GroupPin&, const GroupPin&) = default;
 };
-using Pin = std::variant<GridPoint, GridRange, GridSide, VertexPin, RegionPin, GroupPin>;
+// Vertices by a channel of the colours that a mesh has in its file, 0 to 1. A pin holds those of more than
+// 0.5.
+enum class Paint { red, green, blue };
+struct PaintedPin {
+  Paint painted = Paint::red;
+  friend bool operator==(const PaintedPin&, const PaintedPin&) = default;
+};
+using Pin = std::variant<GridPoint, GridRange, GridSide, VertexPin, RegionPin, GroupPin, PaintedPin>;
+
+// A part of a mesh that is stiffer or softer than the rest (cloth/stiffness_map.h).
+struct StiffnessPart {
+  std::vector<Pin> points;       // at least one; vertices that are painted lightly count in part
+  double stretch = 1, bend = 1;  // factors on the stiffness in the plane and on that of folds
+  friend bool operator==(const StiffnessPart&, const StiffnessPart&) = default;
+};
 
 inline constexpr int NO_BODY = -1;  // PinMotion::collider of pins that move with none
 
@@ -120,6 +134,7 @@ struct ClothSettings {
   double shrink = 0;                 // part of their length that all springs lose; below 0 they grow
   std::optional<double> tearStrain;  // l/L - 1 beyond which a spring of a grid tears (solver/tearing.h)
   bool enableStructural = true, enableShearing = true, enableBending = true;
+  std::vector<StiffnessPart> stiffnessMap;  // of a mesh; where parts overlap their factors multiply
   std::vector<Pin> pinned;
   std::vector<PinMotion> pinMotion;  // A pin is moved by one of these at most, and otherwise stays.
   [[nodiscard]] bool isMesh() const { return !mesh.empty(); }

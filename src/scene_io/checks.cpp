@@ -33,8 +33,8 @@ void checkPinList(const JsonNode* list, const std::vector<Pin>& pins, const Clot
       complain(
           node,
           settings.isMesh()
-              ? "expected a pin of a mesh, {\"vertex\": number}, {\"region\": {from, to}} or {\"group\": "
-                "name}, found " +
+              ? "expected a pin of a mesh, {\"vertex\": number}, {\"region\": {from, to}}, {\"group\": "
+                "name} or {\"painted\": \"red\"}, found " +
                     formatJsonLine(node)
               : "expected a pin of a grid, since the cloth has no \"mesh\", found " + formatJsonLine(node));
     if (const auto* point = std::get_if<GridPoint>(&pins[i])) checkOnGrid(node, *point, settings);
@@ -48,6 +48,19 @@ void checkPinList(const JsonNode* list, const std::vector<Pin>& pins, const Clot
 // `owner`: the cloth or the motion that has the key "pinned".
 void checkPins(const JsonNode& owner, const std::vector<Pin>& pins, const ClothSettings& settings) {
   checkPinList(owner.find("pinned"), pins, settings);
+}
+
+// On a grid all springs of a kind are alike.
+void checkStiffnessMap(const JsonNode& node, const ClothSettings& cloth) {
+  const JsonNode* map = node.find("stiffness_map");
+  if (map == nullptr || cloth.stiffnessMap.empty()) return;
+  if (!cloth.isMesh())
+    complain(
+        *map,
+        "found a stiffness_map of a grid, expected one of a mesh: a grid is alike everywhere. Write it as a "
+        "mesh, with clothsim run --frames 0 --save cloth.obj, and name that file as \"mesh\"");
+  for (std::size_t i = 0; i < cloth.stiffnessMap.size(); ++i)
+    checkPinList(map->children[i]->find("points"), cloth.stiffnessMap[i].points, cloth);
 }
 
 void checkSide(const JsonNode& node, const SeamSide& side, const std::vector<ClothSettings>& cloths) {
@@ -167,6 +180,7 @@ void finishReading(const JsonNode& node, ClothSettings& cloth) {
   else if (!cloth.ks && !cloth.stiffnessReference)
     cloth.ks = defaultKs;
   checkMesh(node, cloth);
+  checkStiffnessMap(node, cloth);
   checkPins(node, cloth.pinned, cloth);
   checkPinMotions(node, cloth);
 }
@@ -189,6 +203,13 @@ template <>
 void finishReading(const JsonNode& node, Region& region) {
   if (region.from.x > region.to.x || region.from.y > region.to.y || region.from.z > region.to.z)
     complain(node, "expected \"from\" at most \"to\" in x, y and z, found " + formatJsonLine(node));
+}
+
+template <>
+void finishReading(const JsonNode& node, StiffnessPart& part) {
+  if (part.points.empty()) complain(*node.find("points"), "expected at least one entry, found an empty list");
+  if (node.find("stretch") == nullptr && node.find("bend") == nullptr)
+    complain(node, "expected a factor, \"stretch\", \"bend\" or both, found none");
 }
 
 template <>

@@ -29,6 +29,7 @@ constexpr Words<SelfCollision, 3> selfCollisions{{{"averaged", SelfCollision::av
                                                   {"contact", SelfCollision::contact}}};
 constexpr Words<Interpolation> interpolations{
     {{"linear", Interpolation::linear}, {"cubic", Interpolation::cubic}}};
+constexpr Words<Paint, 3> paints{{{"red", Paint::red}, {"green", Paint::green}, {"blue", Paint::blue}}};
 constexpr Words<FrictionLaw> frictionLaws{{{"cs184", FrictionLaw::cs184}, {"coulomb", FrictionLaw::coulomb}}};
 constexpr std::array<std::pair<std::string_view, GridSide>, 4> sides{{{"top", GridSide::top},
                                                                       {"bottom", GridSide::bottom},
@@ -176,6 +177,10 @@ void readValue(const JsonNode& node, const FieldTraits&, Interpolation& target) 
   target = readWord(node, interpolations, "one of " + joined(wordsOf(interpolations)));
 }
 
+void readValue(const JsonNode& node, const FieldTraits&, Paint& target) {
+  target = readWord(node, paints, "one of " + joined(wordsOf(paints)));
+}
+
 void readValue(const JsonNode& node, const FieldTraits&, FrictionLaw& target) {
   target = readWord(node, frictionLaws, "one of " + joined(wordsOf(frictionLaws)));
 }
@@ -209,9 +214,10 @@ Pin readPinObject(const JsonNode& node) {
   if (node.find("vertex") != nullptr) return pinOf<VertexPin>(node);
   if (node.find("region") != nullptr) return pinOf<RegionPin>(node);
   if (node.find("group") != nullptr) return pinOf<GroupPin>(node);
+  if (node.find("painted") != nullptr) return pinOf<PaintedPin>(node);
   for (const auto& member : node.children)
     if (!isComment(member->key) && member->key != "from" && member->key != "to")
-      complainUnknownKey(*member, {"from", "to", "vertex", "region", "group"});
+      complainUnknownKey(*member, {"from", "to", "vertex", "region", "group", "painted"});
   return pinOf<GridRange>(node);
 }
 
@@ -231,7 +237,7 @@ void readValue(const JsonNode& node, const FieldTraits& traits, Pin& target) {
       target = readWord(node, sides,
                         "[column, row], \"top\", \"bottom\", \"left\", \"right\", or "
                         "{\"from\": [column, row], \"to\": [column, row]}; of a mesh {\"vertex\": number}, "
-                        "{\"region\": {from, to}}, or {\"group\": name}");
+                        "{\"region\": {from, to}}, {\"group\": name}, or {\"painted\": \"red\"}");
   }
 }
 
@@ -300,6 +306,7 @@ JsonPointer writeValue(const FieldTraits&, SelfCollision value) {
 
 JsonPointer writeValue(const FieldTraits&, FrictionLaw value) { return writeWord(frictionLaws, value); }
 JsonPointer writeValue(const FieldTraits&, Interpolation value) { return writeWord(interpolations, value); }
+JsonPointer writeValue(const FieldTraits&, Paint value) { return writeWord(paints, value); }
 
 JsonPointer writeValue(const FieldTraits&, GridPoint value) {
   JsonPointer pair = makeList();
@@ -380,11 +387,12 @@ std::string typeName(const FieldTraits&, const FrictionLaw&) {
 std::string typeName(const FieldTraits&, const Interpolation&) {
   return "one of " + joined(wordsOf(interpolations));
 }
+std::string typeName(const FieldTraits&, const Paint&) { return "one of " + joined(wordsOf(paints)); }
 std::string typeName(const FieldTraits&, const GridPoint&) { return "[column, row]"; }
 std::string typeName(const FieldTraits&, const Range&) { return "[low, high]"; }
 std::string typeName(const FieldTraits&, const Pin&) {
   return "[column, row], " + joined(wordsOf(sides)) +
-         ", or {from, to}; of a mesh {vertex}, {region}, or {group}";
+         ", or {from, to}; of a mesh {vertex}, {region}, {group}, or {painted}";
 }
 std::string typeName(const FieldTraits&, const AutoCount&) { return "integer or auto"; }
 std::string typeName(const FieldTraits&, const std::optional<Material>&) {

@@ -26,6 +26,7 @@ void readValue(const JsonNode& node, const FieldTraits& traits, Integrator& targ
 void readValue(const JsonNode& node, const FieldTraits& traits, SelfCollision& target);
 void readValue(const JsonNode& node, const FieldTraits& traits, FrictionLaw& target);
 void readValue(const JsonNode& node, const FieldTraits& traits, Interpolation& target);
+void readValue(const JsonNode& node, const FieldTraits& traits, Paint& target);
 void readValue(const JsonNode& node, const FieldTraits& traits, GridPoint& target);
 void readValue(const JsonNode& node, const FieldTraits& traits, Range& target);
 void readValue(const JsonNode& node, const FieldTraits& traits, Pin& target);
@@ -46,6 +47,7 @@ void readValue(const JsonNode& node, const FieldTraits& traits, std::optional<Ma
 [[nodiscard]] JsonPointer writeValue(const FieldTraits& traits, SelfCollision value);
 [[nodiscard]] JsonPointer writeValue(const FieldTraits& traits, FrictionLaw value);
 [[nodiscard]] JsonPointer writeValue(const FieldTraits& traits, Interpolation value);
+[[nodiscard]] JsonPointer writeValue(const FieldTraits& traits, Paint value);
 [[nodiscard]] JsonPointer writeValue(const FieldTraits& traits, GridPoint value);
 [[nodiscard]] JsonPointer writeValue(const FieldTraits& traits, const Range& value);
 [[nodiscard]] JsonPointer writeValue(const FieldTraits& traits, const Pin& value);
@@ -66,6 +68,7 @@ void readValue(const JsonNode& node, const FieldTraits& traits, std::optional<Ma
 [[nodiscard]] std::string typeName(const FieldTraits& traits, const SelfCollision&);
 [[nodiscard]] std::string typeName(const FieldTraits& traits, const FrictionLaw&);
 [[nodiscard]] std::string typeName(const FieldTraits& traits, const Interpolation&);
+[[nodiscard]] std::string typeName(const FieldTraits& traits, const Paint&);
 [[nodiscard]] std::string typeName(const FieldTraits& traits, const GridPoint&);
 [[nodiscard]] std::string typeName(const FieldTraits& traits, const Range&);
 [[nodiscard]] std::string typeName(const FieldTraits& traits, const Pin&);
@@ -88,6 +91,8 @@ template <>
 void finishReading(const JsonNode& node, GridRange& range);
 template <>
 void finishReading(const JsonNode& node, Region& region);
+template <>
+void finishReading(const JsonNode& node, StiffnessPart& part);
 template <>
 void finishReading(const JsonNode& node, Motion& motion);
 template <>

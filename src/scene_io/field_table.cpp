@@ -154,6 +154,9 @@ std::span<const Field<ClothSettings>> fieldsOf<ClothSettings>() {
       field("enable_bending", &C::enableBending,
             "Springs to the second neighbours left and above; across the edges of a mesh.")
           .rebuilds(),
+      field("stiffness_map", &C::stiffnessMap,
+            "Parts of a mesh that are stiffer or softer; where they overlap their factors multiply.")
+          .rebuilds(),
       field("pinned", &C::pinned,
             "Points held in place: [column, row] from 0 (row 0: bottom of a standing cloth), sides, mesh "
             "vertices.")

@@ -28,8 +28,16 @@ struct MemberOf<Scene> {
 };
 template <>
 struct MemberOf<ClothSettings> {
-  using Type = MemberAmong<ClothSettings, Orientation, std::vector<Pin>, std::vector<PinMotion>,
-                           std::optional<Material>, std::optional<Vec3d>>;
+  using Type = MemberAmong<ClothSettings, Orientation, std::vector<StiffnessPart>, std::vector<Pin>,
+                           std::vector<PinMotion>, std::optional<Material>, std::optional<Vec3d>>;
+};
+template <>
+struct MemberOf<PaintedPin> {
+  using Type = MemberAmong<PaintedPin, Paint>;
+};
+template <>
+struct MemberOf<StiffnessPart> {
+  using Type = MemberAmong<StiffnessPart, std::vector<Pin>>;
 };
 template <>
 struct MemberOf<SeamSide> {
@@ -100,6 +108,10 @@ template <>
 std::span<const Field<RegionPin>> fieldsOf<RegionPin>();
 template <>
 std::span<const Field<GroupPin>> fieldsOf<GroupPin>();
+template <>
+std::span<const Field<PaintedPin>> fieldsOf<PaintedPin>();
+template <>
+std::span<const Field<StiffnessPart>> fieldsOf<StiffnessPart>();
 template <>
 std::span<const Field<Motion>> fieldsOf<Motion>();
 template <>

@@ -74,6 +74,7 @@ void describeInside(const std::string& path, const std::vector<Pin>&, Infos& inf
   describeObject<VertexPin>(path + "[].", infos);
   describeObject<RegionPin>(path + "[].", infos);
   describeObject<GroupPin>(path + "[].", infos);
+  describeObject<PaintedPin>(path + "[].", infos);
 }
 void describeInside(const std::string& path, const std::vector<Collider>&, Infos& infos) {
   infos.push_back(

@@ -1,4 +1,4 @@
-// The entries of the table of scene keys for pins and their motions.
+// The entries of the table of scene keys for pins, their motions, and parts of another stiffness.
 #include <array>
 
 #include "scene_io/field_table.h"
@@ -52,6 +52,42 @@ std::span<const Field<GroupPin>> fieldsOf<GroupPin>() {
   static const std::array fields{
       field("group", &GroupPin::group, "Name of a group (g) of mesh faces; all its vertices are pinned.")
           .required()
+          .rebuilds(),
+  };
+  return fields;
+}
+
+template <>
+std::span<const Field<PaintedPin>> fieldsOf<PaintedPin>() {
+  static const std::array fields{
+      field("painted", &PaintedPin::painted,
+            "Vertices by the colours of the mesh file (v x y z r g b), painted on black: pins hold those of "
+            "more "
+            "than 0.5.")
+          .required()
+          .rebuilds(),
+  };
+  return fields;
+}
+
+template <>
+std::span<const Field<StiffnessPart>> fieldsOf<StiffnessPart>() {
+  static const std::array fields{
+      field(
+          "points", &StiffnessPart::points,
+          "Vertices of the part, as in `pinned`; of painted ones the colour says how far the factors count.")
+          .required()
+          .rebuilds(),
+      field(
+          "stretch", &StiffnessPart::stretch,
+          "Factor on what resists stretch and shear: of edges or triangles whose vertices all belong to it.")
+          .within({.low = 1e-6, .high = 1e6})
+          .usually(0.1, 10)
+          .rebuilds(),
+      field("bend", &StiffnessPart::bend,
+            "Factor on what resists bending: across edges whose ends both belong to it.")
+          .within({.low = 0, .high = 1e6})
+          .usually(0, 100)
           .rebuilds(),
   };
   return fields;

@@ -236,6 +236,7 @@ inline Scene meshWithEverything(int n, SelfCollision mode) {
   cloth.position = {0, 0.4, 0.5};
   cloth.thickness = 1.2 / n;
   cloth.pinned = {GroupPin{"top"}, VertexPin{0}};
+  cloth.stiffnessMap = {{{GroupPin{"bottom"}}, 2, 3}};
   PinMotion motion;
   motion.keys = {{.t = 0, .position = std::nullopt, .rotation = {}},
                  {.t = 0.2, .position = Vec3d{0.6, 0.8, 0.3}, .rotation = {40, 30, 0}}};
@@ -257,6 +258,7 @@ inline Scene meshOfMaterial(int n) {
   scene.cloths[0].ks.reset();
   scene.cloths[0].material = Material{.stretch = 100, .stretchWarp = 150, .shear = 20, .bend = 1e-4};
   scene.cloths[0].shrink = 0.02;
+  scene.cloths[0].stiffnessMap = {{{GroupPin{"bottom"}}, 3, 5}, {{GroupPin{"middle"}}, 0.5, 0}};
   scene.cloths[0].pinned = {GroupPin{"top"}};
   scene.cloths[0].rotation = {-60, 10, 0};
   return scene;

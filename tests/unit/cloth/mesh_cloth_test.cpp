@@ -122,6 +122,37 @@ TEST(MeshCloth, ComplainsOfPinsThatTheMeshDoesNotHave) {
       << messageOf(GroupPin{"topp"});
 }
 
+TEST(MeshCloth, IsPinnedByPaint) {
+  const std::string faces = "f 1 2 3\nf 1 3 4\n";
+  const auto pinnedIn = [](const std::string& text, Paint paint) {
+    Scene scene;
+    scene.cloths[0].ks = 100;
+    scene.cloths[0].mesh = test::meshFile(text);
+    scene.cloths[0].pinned = {PaintedPin{paint}};
+    const Cloth cloth(scene);
+    std::vector<std::uint32_t> pinned;
+    for (std::uint32_t i = 0; i < cloth.particleCount(); ++i)
+      if (cloth.inverseMasses()[i] == 0) pinned.push_back(i);
+    return pinned;
+  };
+  const std::string painted = "v 0 0 0 1 0 0\nv 1 0 0 0.5 0.6 0\nv 1 1 0 0.51 0 0.2\nv 0 1 0 0 1 0\n" + faces;
+  EXPECT_EQ(pinnedIn(painted, Paint::red), (std::vector<std::uint32_t>{0, 2})) << "more than 0.5";
+  EXPECT_EQ(pinnedIn(painted, Paint::green), (std::vector<std::uint32_t>{1, 3}));
+  const auto messageOf = [&](const std::string& text, Paint paint) {
+    return test::messageThrownBy<SceneError>([&] { (void)pinnedIn(text, paint); });
+  };
+  EXPECT_NE(messageOf(painted, Paint::blue)
+                .find("cloth.pinned: expected paint of more than 0.5 at some vertex of the mesh, found none"),
+            std::string::npos);
+  for (const std::string first : {"v 0 0 0", "v 0 0 0 1", "v 0 0 0 1 0 red"})
+    EXPECT_NE(messageOf(first + "\nv 1 0 0 1 0 0\nv 1 1 0 1 0 0\nv 0 1 0 1 0 0\n" + faces, Paint::red)
+                  .find("v x y z r g b for each, found vertices without"),
+              std::string::npos);
+  EXPECT_NE(messageOf("v 0 0 0 1 0 0\nv 1 0 0 255 0 0\nv 1 1 0 1 0 0\nv 0 1 0 1 0 0\n" + faces, Paint::red)
+                .find("expected colours from 0 to 1 in the mesh file, found red 255 at vertex 1"),
+            std::string::npos);
+}
+
 TEST(MeshCloth, ComplainsOfMotionsOfVerticesThatAreNotPinned) {
   Scene scene = test::meshScene();
   scene.cloths[0].pinned = {GroupPin{"top"}};
