@@ -161,37 +161,49 @@ std::array<double, 2> textureSizeOf(const MeshShape& shape, const std::vector<Ve
   return areas > 0 ? std::array{alongU / areas, alongV / areas} : std::array{1.0, 1.0};
 }
 
-// The springs of a mesh whose particles begin at `first`, along and across its edges.
-void appendSprings(const MeshShape& shape, const MeshMechanics& mechanics, std::uint32_t first,
+// Where the particles and the triangles of a mesh begin.
+struct MeshPlace {
+  std::uint32_t particle, triangle;
+  [[nodiscard]] TrianglesBeside beside(const MeshShape::Edge& edge) const {
+    return {triangle + edge.beside[0], triangle + edge.beside[1]};
+  }
+};
+
+// The springs of a mesh along and across its edges.
+void appendSprings(const MeshShape& shape, const MeshMechanics& mechanics, const MeshPlace& place,
                    std::vector<MeshSpring>& springs) {
+  const std::uint32_t first = place.particle;
   for (std::size_t e = 0; e < shape.edges.size(); ++e) {
-    const auto& [a, b, opposite, triangles] = shape.edges[e];
+    const MeshShape::Edge& edge = shape.edges[e];
+    const auto& [p, q] = edge.opposite;
     if (mechanics.stretch[e] > 0)
-      springs.push_back({first + a, first + b, SpringKind::structural,
-                         mechanics.membranes.empty() ? mechanics.stretch[e] : 0});
+      springs.push_back({first + edge.a, first + edge.b, SpringKind::structural,
+                         mechanics.membranes.empty() ? mechanics.stretch[e] : 0, place.beside(edge)});
     if (mechanics.across[e] > 0)
-      springs.push_back({first + std::max(opposite[0], opposite[1]),
-                         first + std::min(opposite[0], opposite[1]), SpringKind::bending,
-                         mechanics.across[e]});
+      springs.push_back({first + std::max(p, q), first + std::min(p, q), SpringKind::bending,
+                         mechanics.across[e], place.beside(edge)});
   }
 }
 
-void appendHinges(const MeshShape& shape, const MeshMechanics& mechanics, std::uint32_t first,
+void appendHinges(const MeshShape& shape, const MeshMechanics& mechanics, const MeshPlace& place,
                   std::vector<Hinge>& hinges) {
+  const std::uint32_t first = place.particle;
   for (std::size_t e = 0; e < mechanics.bending.size(); ++e) {
-    const auto& [a, b, opposite, triangles] = shape.edges[e];
+    const MeshShape::Edge& edge = shape.edges[e];
     if (mechanics.bending[e] == std::array<double, 4>{}) continue;
-    hinges.push_back(
-        {{first + a, first + b, first + opposite[0], first + opposite[1]}, mechanics.bending[e]});
+    hinges.push_back({{first + edge.a, first + edge.b, first + edge.opposite[0], first + edge.opposite[1]},
+                      mechanics.bending[e],
+                      place.beside(edge)});
   }
 }
 
 // With the moduli of the material on the shrunk triangles, too, whose squares of lengths are smaller.
-void appendMembranes(const MeshShape& shape, const MeshMechanics& mechanics, std::uint32_t first,
+void appendMembranes(const MeshShape& shape, const MeshMechanics& mechanics, const MeshPlace& place,
                      double restScale, std::vector<Membrane>& membranes) {
-  for (std::size_t t = 0; t < mechanics.membranes.size(); ++t) {
+  const std::uint32_t first = place.particle;
+  for (std::uint32_t t = 0; t < mechanics.membranes.size(); ++t) {
     const auto& [a, b, c] = shape.triangles[t];
-    Membrane membrane{{first + a, first + b, first + c}, mechanics.membranes[t]};
+    Membrane membrane{{first + a, first + b, first + c}, mechanics.membranes[t], place.triangle + t};
     for (double& root : membrane.roots) root /= restScale;
     membranes.push_back(membrane);
   }
@@ -273,16 +285,17 @@ void Cloth::addMesh(const ClothSettings& settings) {
                           shape->textureCoordinates.end());
 
   const std::size_t firstSpring = lists_.springs.size();
-  appendSprings(*shape, mechanics, first, lists_.springs);
+  mesh.firstTriangle = static_cast<std::uint32_t>(lists_.triangles.size());
+  const MeshPlace place{first, mesh.firstTriangle};
+  appendSprings(*shape, mechanics, place, lists_.springs);
   mesh.colors = colorSprings(lists_.springs, firstSpring, end);
   double stiffest = 0;
   for (const std::vector<double>& stiffness : {mechanics.stretch, mechanics.across})
     for (const double k : stiffness) stiffest = std::max(stiffest, k);
   mesh.stiffness.fill(stiffest);
   mesh.particleMass = std::accumulate(mechanics.masses.begin(), mechanics.masses.end(), 0.0) / mesh.columns;
-  appendHinges(*shape, mechanics, first, lists_.hinges);
-  appendMembranes(*shape, mechanics, first, mesh.restScale, lists_.membranes);
-  mesh.firstTriangle = static_cast<std::uint32_t>(lists_.triangles.size());
+  appendHinges(*shape, mechanics, place, lists_.hinges);
+  appendMembranes(*shape, mechanics, place, mesh.restScale, lists_.membranes);
   for (const auto& [a, b, c] : shape->triangles)
     lists_.triangles.push_back({first + a, first + b, first + c});
   mesh.endTriangle = static_cast<std::uint32_t>(lists_.triangles.size());
@@ -387,7 +400,7 @@ std::vector<Spring> Cloth::springs() const {
   }
   const std::uint32_t first = SPRING_SLOTS * particleCount();
   for (std::uint32_t n = 0; n < lists_.springs.size(); ++n) {
-    const auto& [a, b, kind, stiffness] = lists_.springs[n];
+    const auto& [a, b, kind, stiffness, triangles] = lists_.springs[n];
     springs.push_back({first + n, kind, a, b, stiffness, restLength(pieces_[pieceOf(a)], 0, a, b)});
   }
   return springs;

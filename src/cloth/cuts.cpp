@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace clothsim {
 namespace {
@@ -44,13 +46,73 @@ bool cutAlong(Cuts& cuts, const Cloth& cloth, std::size_t piece, LatticePoint fr
         if (isCut(cuts, owner, static_cast<SpringSlot>(slot))) continue;
         if (!cross(from, to, {double(column), double(row)}, {double(otherColumn), double(otherRow)}))
           continue;
-        cuts.resize(cloth.particleCount());
+        cuts.resize(cutsSize(cloth));
         cuts[owner] = static_cast<std::uint8_t>(cuts[owner] | 1u << slot);
         any = true;
       }
     }
   }
   return any;
+}
+
+bool isCut(const Cuts& cuts, const Cloth& cloth, const Spring& spring) {
+  const std::uint32_t ofGrids = SPRING_SLOTS * cloth.particleCount();
+  if (spring.number < ofGrids)
+    return isCut(cuts, spring.a, static_cast<SpringSlot>(spring.number % SPRING_SLOTS));
+  return isCut(cuts, cloth, cloth.lists().springs[spring.number - ofGrids]);
+}
+
+bool isLost(const Cuts& cuts, const Cloth& cloth, std::uint32_t triangle) {
+  const std::size_t place = std::size_t{cloth.particleCount()} + triangle;
+  return place < cuts.size() && cuts[place] != 0;
+}
+
+bool isCut(const Cuts& cuts, const Cloth& cloth, const MeshSpring& spring) {
+  const bool first = isLost(cuts, cloth, spring.triangles[0]),
+             second = isLost(cuts, cloth, spring.triangles[1]);
+  return spring.kind == SpringKind::structural ? first && second : first || second;
+}
+
+bool isCut(const Cuts& cuts, const Cloth& cloth, const Hinge& hinge) {
+  return isLost(cuts, cloth, hinge.triangles[0]) || isLost(cuts, cloth, hinge.triangles[1]);
+}
+
+void tearEdge(Cuts& cuts, const Cloth& cloth, const MeshSpring& edge) {
+  cuts.resize(cutsSize(cloth));
+  for (const std::uint32_t triangle : edge.triangles) cuts[cloth.particleCount() + triangle] = 1;
+}
+
+namespace {
+
+// `isGone(entry)`: whether a particle no longer gathers over it.
+template <class IsGone>
+void leaveOut(SpringLists::Incidence& incidence, IsGone isGone) {
+  SpringLists::Incidence left;
+  for (std::size_t i = 0; i + 1 < incidence.starts.size(); ++i) {
+    left.starts.push_back(static_cast<std::uint32_t>(left.entries.size()));
+    for (std::uint32_t at = incidence.starts[i]; at < incidence.starts[i + 1]; ++at)
+      if (!isGone(incidence.entries[at])) left.entries.push_back(incidence.entries[at]);
+  }
+  left.starts.push_back(static_cast<std::uint32_t>(left.entries.size()));
+  incidence = std::move(left);
+}
+
+}  // namespace
+
+SpringLists remainingLists(const Cloth& cloth, const Cuts& cuts) {
+  SpringLists lists = cloth.lists();
+  if (lists.empty() || cuts.empty()) return lists;
+  leaveOut(lists.springsOf, [&](std::uint32_t entry) { return isCut(cuts, cloth, lists.springs[entry]); });
+  leaveOut(lists.hingesOf, [&](std::uint32_t entry) { return isCut(cuts, cloth, lists.hinges[entry / 4]); });
+  leaveOut(lists.trianglesOf, [&](std::uint32_t entry) { return isLost(cuts, cloth, entry); });
+  leaveOut(lists.membranesOf,
+           [&](std::uint32_t entry) { return isLost(cuts, cloth, lists.membranes[entry / 4].triangle); });
+  return lists;
+}
+
+bool areJoined(const Cuts& cuts, const Cloth& cloth, std::uint32_t i, std::uint32_t j) {
+  const std::optional<std::uint32_t> spring = cloth.lists().edgeBetween(i, j);
+  return spring && !isCut(cuts, cloth, cloth.lists().springs[*spring]);
 }
 
 namespace {
@@ -124,9 +186,8 @@ std::vector<std::array<std::uint32_t, 3>> remainingTriangles(const Cloth& cloth,
   std::vector<std::array<std::uint32_t, 3>> triangles;
   const auto& listed = cloth.lists().triangles;
   for (const Piece& piece : cloth.pieces()) {
-    if (piece.isMesh)
-      triangles.insert(triangles.end(), listed.begin() + piece.firstTriangle,
-                       listed.begin() + piece.endTriangle);
+    for (std::uint32_t t = piece.firstTriangle; t < piece.endTriangle; ++t)
+      if (!isLost(cuts, cloth, t)) triangles.push_back(listed[t]);
     for (int row = 0; row + 1 < piece.rows; ++row) {
       for (int column = 0; column + 1 < piece.columns; ++column) {
         const auto [first, second] = piece.cellTriangles(column, row);
@@ -151,6 +212,7 @@ std::uint64_t remainingSpringCount(const Cloth& cloth, const Cuts& cuts) {
       for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot)
         if (piece.slotEnabled[slot] && isCut(cuts, piece.firstParticle + i, static_cast<SpringSlot>(slot)))
           --count;
+  for (const MeshSpring& spring : cloth.lists().springs) count -= isCut(cuts, cloth, spring) ? 1 : 0;
   return count;
 }
 

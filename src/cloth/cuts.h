@@ -1,5 +1,6 @@
-// Cuts in a cloth: springs that are gone, and with them the triangles whose sides they were. Strokes run over
-// the lattice, so that a cut depends neither on how the cloth lies nor on the camera.
+// Cuts in a cloth: springs of grids that are gone, and with them the triangles whose sides they were; of
+// meshes triangles that are gone, and with them what they held. Strokes run over the lattice, so that a cut
+// depends neither on how the cloth lies nor on the camera.
 #pragma once
 
 #include <array>
@@ -10,8 +11,12 @@
 
 namespace clothsim {
 
-// A byte a particle: bit `slot` is set when the spring that it owns in that slot is cut. Empty: nothing is.
+// First a byte a particle: bit `slot` is set when the spring of a grid that it owns in that slot is cut.
+// Behind them a byte a triangle of Cloth::lists(): 1 when its mesh has lost it. Empty: nothing is cut.
 using Cuts = std::vector<std::uint8_t>;
+[[nodiscard]] inline std::size_t cutsSize(const Cloth& cloth) {
+  return cloth.particleCount() + cloth.lists().triangles.size();
+}
 
 inline constexpr std::uint32_t NO_SPRING = 31;  // a bit that no cut mask has
 
@@ -30,12 +35,22 @@ bool cutAlong(Cuts& cuts, const Cloth& cloth, std::size_t piece, LatticePoint fr
 [[nodiscard]] inline bool isCut(const Cuts& cuts, std::uint32_t owner, SpringSlot slot) {
   return !cuts.empty() && (cuts[owner] >> slot & 1) != 0;
 }
-// One of Cloth::springs(); those of meshes are not cut.
-[[nodiscard]] inline bool isCut(const Cuts& cuts, const Spring& spring) {
-  return isCut(cuts, spring.a, static_cast<SpringSlot>(spring.number % SPRING_SLOTS));
-}
+// One of Cloth::springs().
+[[nodiscard]] bool isCut(const Cuts& cuts, const Cloth& cloth, const Spring& spring);
 
-// Cloth::triangles() without those of which a side is cut, in the same order.
+// What meshes have lost: triangles; edges whose triangles are all lost; and springs and folds across an edge
+// with one of its triangles.
+[[nodiscard]] bool isLost(const Cuts& cuts, const Cloth& cloth, std::uint32_t triangle);
+[[nodiscard]] bool isCut(const Cuts& cuts, const Cloth& cloth, const MeshSpring& spring);
+[[nodiscard]] bool isCut(const Cuts& cuts, const Cloth& cloth, const Hinge& hinge);
+// Takes the triangles beside an edge of a mesh.
+void tearEdge(Cuts& cuts, const Cloth& cloth, const MeshSpring& edge);
+// Cloth::lists() where particles gather over what is left; all elements keep their places and numbers.
+[[nodiscard]] SpringLists remainingLists(const Cloth& cloth, const Cuts& cuts);
+// Whether an edge that is left joins two particles of a mesh.
+[[nodiscard]] bool areJoined(const Cuts& cuts, const Cloth& cloth, std::uint32_t i, std::uint32_t j);
+
+// Cloth::triangles() without those of which a side is cut and those that a mesh has lost, in the same order.
 [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> remainingTriangles(const Cloth& cloth,
                                                                            const Cuts& cuts);
 // How many those are.

@@ -142,15 +142,17 @@ void checkPointsAreUsed(const std::string& file, const MeshShape& shape) {
 struct Side {  // of a triangle, from its lower to its higher point
   std::uint32_t a, b, opposite;
   bool forwards;  // whether the triangle goes from a to b
+  std::uint32_t triangle;
 };
 
 std::vector<Side> sidesOf(const MeshShape& shape) {
   std::vector<Side> sides;
   sides.reserve(3 * shape.triangles.size());
-  for (const Triangle& t : shape.triangles)
+  for (std::uint32_t n = 0; n < shape.triangles.size(); ++n)
     for (std::size_t k = 0; k < 3; ++k) {
+      const Triangle& t = shape.triangles[n];
       const std::uint32_t from = t[k], to = t[(k + 1) % 3];
-      sides.push_back({std::max(from, to), std::min(from, to), t[(k + 2) % 3], from > to});
+      sides.push_back({std::max(from, to), std::min(from, to), t[(k + 2) % 3], from > to, n});
     }
   std::stable_sort(sides.begin(), sides.end(),
                    [](const Side& x, const Side& y) { return std::pair(x.a, x.b) < std::pair(y.a, y.b); });
@@ -164,7 +166,8 @@ void findEdges(const std::string& file, MeshShape& shape) {
     const std::string place =
         "the edge of points " + std::to_string(side.a + 1) + " and " + std::to_string(side.b + 1);
     if (last == nullptr || last->a != side.a || last->b != side.b) {
-      shape.edges.push_back({side.a, side.b, {side.opposite, side.opposite}, 1});
+      shape.edges.push_back(
+          {side.a, side.b, {side.opposite, side.opposite}, 1, {side.triangle, side.triangle}});
     } else if (last->triangles == 2) {
       fail(file,
            place +
@@ -177,6 +180,7 @@ void findEdges(const std::string& file, MeshShape& shape) {
                        " has two triangles of opposite orientation. Unify the normals (in Blender: Mesh, "
                        "Normals, Recalculate Outside).");
       last->triangles = 2;
+      last->beside[1] = side.triangle;
       (side.forwards ? last->opposite[0] : last->opposite[1]) = side.opposite;
     }
   }

@@ -21,6 +21,7 @@ struct MeshShape {
     std::uint32_t a = 0, b = 0;
     std::array<std::uint32_t, 2> opposite{};  // the third corners; `triangles` of them
     int triangles = 0;
+    std::array<std::uint32_t, 2> beside{};  // their numbers; of a single one twice
   };
 
   std::vector<Vec3d> points;  // in units of the file

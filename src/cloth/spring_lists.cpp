@@ -24,12 +24,13 @@ SpringLists::Incidence incidenceOf(const Elements& elements, std::uint32_t parti
 
 }  // namespace
 
-bool SpringLists::joins(std::uint32_t i, std::uint32_t j) const {
+std::optional<std::uint32_t> SpringLists::edgeBetween(std::uint32_t i, std::uint32_t j) const {
   for (std::uint32_t at = springsOf.starts[i]; at < springsOf.starts[i + 1]; ++at) {
     const MeshSpring& spring = springs[springsOf.entries[at]];
-    if (spring.kind == SpringKind::structural && (spring.a == j || spring.b == j)) return true;
+    if (spring.kind == SpringKind::structural && (spring.a == j || spring.b == j))
+      return springsOf.entries[at];
   }
-  return false;
+  return std::nullopt;
 }
 
 void gatherIncidences(SpringLists& lists, std::uint32_t particles) {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "cloth/membrane.h"
@@ -12,10 +13,14 @@ namespace clothsim {
 
 enum class SpringKind { structural, shear, bending };
 
+// Of an edge the numbers of the triangles beside it, in SpringLists::triangles; on a border twice the one.
+using TrianglesBeside = std::array<std::uint32_t, 2>;
+
 struct MeshSpring {
   std::uint32_t a, b;  // b < a: the owner is the end with the larger index
   SpringKind kind;
-  double stiffness;  // [N/m]; 0 along the edges of a membrane, where it only measures and limits
+  double stiffness;           // [N/m]; 0 along the edges of a membrane, where it only measures and limits
+  TrianglesBeside triangles;  // of the edge that it goes along or across
 };
 
 // Four particles around an inner edge: its ends, and the corners opposite. Energy 1/2 |sum c_i x_i|^2, so
@@ -23,12 +28,14 @@ struct MeshSpring {
 struct Hinge {
   std::array<std::uint32_t, 4> corners;
   std::array<double, 4> coefficients;  // [sqrt(N/m)]
+  TrianglesBeside triangles;
 };
 
 // A triangle that resists strain in its plane.
 struct Membrane {
   std::array<std::uint32_t, 3> corners;
   MembraneRoots roots;
+  std::uint32_t triangle;  // its number in SpringLists::triangles
 };
 
 // Springs [first, end) of which no two share a particle: for the strain limit, which works in place.
@@ -53,7 +60,9 @@ struct SpringLists {
   Incidence membranesOf;  // 4 * number of the membrane + which of its corners
 
   [[nodiscard]] bool empty() const { return triangles.empty(); }
-  [[nodiscard]] bool joins(std::uint32_t i, std::uint32_t j) const;  // a structural spring
+  // The number of the structural spring that joins two particles.
+  [[nodiscard]] std::optional<std::uint32_t> edgeBetween(std::uint32_t i, std::uint32_t j) const;
+  [[nodiscard]] bool joins(std::uint32_t i, std::uint32_t j) const { return edgeBetween(i, j).has_value(); }
 };
 
 // Fills the incidences, for `particles` particles.

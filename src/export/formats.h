@@ -38,17 +38,19 @@ enum class ObjObjects { byCloth, one };
 //          48  u64      after so many steps (solver/step_clock.h)
 //          56  n times  binary32 x, y, z [m], inverse mass [1/kg]
 //    56 + 16n  n times  binary32 vx, vy, vz [m/s], 0 (older versions wrote a number that is not used)
-//    56 + 32n  u64      number c of bytes of cuts, n or 0
-//    64 + 32n  c times  u8  the springs of a particle that are cut (cloth/cuts.h)
+//    56 + 32n  u64      number c of bytes of cuts: 0, n, or n and one for each triangle of meshes
+//    64 + 32n  c times  u8  the springs of a particle that are cut, and the triangles that are lost
+//                       (cloth/cuts.h)
 //   64+32n+c   u64      number p of particles pinned or freed during the run
 //   72+32n+c   p times  u32  those particles, ascending
 //              u64      FNV-1a of all bytes before
 // Older files are read. Version 2 has no offsets 32 to 55: the time is then step times the step length of the
 // scene that it is loaded into. Version 1 has no cuts and pins by hand either.
 [[nodiscard]] std::string formatStateFile(const State& state);
-// `source` names the file in messages. @throws InputOutputError
+// Of a cloth with so many particles, and triangles of meshes. `source` names the file in messages.
+// @throws InputOutputError
 [[nodiscard]] State parseStateFile(const std::string& bytes, std::size_t particleCount,
-                                   const std::string& source);
+                                   const std::string& source, std::size_t meshTriangles = 0);
 
 // Texture coordinates as OBJ, PLY and USD define them, with v counted from the lower edge of a picture. The
 // cloth counts its own from the upper edge.

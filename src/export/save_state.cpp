@@ -46,7 +46,8 @@ void saveState(const State& state, const Cloth& cloth, const std::filesystem::pa
 
 State loadState(const std::filesystem::path& path, const Cloth& cloth) {
   constexpr std::uintmax_t largestFile = std::uintmax_t{4} << 30;  // more than a sheet of 8192 x 8192 has
-  return parseStateFile(readFile(path, largestFile), cloth.particleCount(), path.string());
+  return parseStateFile(readFile(path, largestFile), cloth.particleCount(), path.string(),
+                        cloth.lists().triangles.size());
 }
 
 }  // namespace clothsim

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -130,14 +131,17 @@ StepClock readClock(const Header& header, const std::string& bytes, const std::s
 }
 
 // Refuses values that no working program writes, though the checksum fits them.
-void checkContent(const Header& header, const State& state, const std::string& source) {
+void checkContent(const Header& header, const State& state, std::size_t meshTriangles,
+                  const std::string& source) {
   if (header.integrator > static_cast<std::uint32_t>(Integrator::euler))
     refuse(source, "it names integrator number " + std::to_string(header.integrator) +
                        ", which this program does not know");
   const std::size_t particles = state.positions.size();
-  if (!state.cuts.empty() && state.cuts.size() != particles)
-    refuse(source, "it has cuts of " + std::to_string(state.cuts.size()) + " particles, expected " +
-                       std::to_string(particles));
+  if (const std::size_t size = state.cuts.size();
+      size != 0 && size != particles && size != particles + meshTriangles)
+    refuse(source, "it has cuts of " + std::to_string(size) +
+                       " particles and triangles of meshes, expected " + std::to_string(particles) +
+                       (meshTriangles > 0 ? " or " + std::to_string(particles + meshTriangles) : ""));
   for (std::size_t i = 0; i < particles; ++i) {
     const Particle4 &x = state.positions[i], &v = state.velocities[i];
     for (const float value : {x.x, x.y, x.z, v.x, v.y, v.z})
@@ -148,7 +152,11 @@ void checkContent(const Header& header, const State& state, const std::string& s
       refuse(source, "the inverse mass of particle " + std::to_string(i) + " is " + std::to_string(w) +
                          " 1/kg, expected a finite number from 0");
   }
-  for (std::size_t i = 0; i < state.cuts.size(); ++i)
+  for (std::size_t i = particles; i < state.cuts.size(); ++i)
+    if (state.cuts[i] > 1)
+      refuse(source, "whether triangle " + std::to_string(i - particles) + " of the meshes is lost is " +
+                         std::to_string(state.cuts[i]) + ", expected 0 or 1");
+  for (std::size_t i = 0; i < std::min(particles, state.cuts.size()); ++i)
     if (state.cuts[i] >> SPRING_SLOTS != 0)
       refuse(source, "the cuts of particle " + std::to_string(i) + " are " + std::to_string(state.cuts[i]) +
                          ", expected less than 64");
@@ -185,7 +193,8 @@ std::string formatStateFile(const State& state) {
   return bytes;
 }
 
-State parseStateFile(const std::string& bytes, std::size_t particleCount, const std::string& source) {
+State parseStateFile(const std::string& bytes, std::size_t particleCount, const std::string& source,
+                     std::size_t meshTriangles) {
   const Header header = checkedHeader(bytes, particleCount, source);
   Lists lists(bytes, particlesEnd(header.version, particleCount), source);
   if (bytes.size() < lists.place()) lists.refuseLength(lists.place() + sizeof(std::uint64_t));
@@ -207,7 +216,7 @@ State parseStateFile(const std::string& bytes, std::size_t particleCount, const 
     std::memcpy(state.positions.data(), begin, size);
     std::memcpy(state.velocities.data(), begin + size, size);
   }
-  checkContent(header, state, source);
+  checkContent(header, state, meshTriangles, source);
   return state;
 }
 

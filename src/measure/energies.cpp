@@ -8,9 +8,10 @@ namespace {
 
 double squaredLength(Vec3d a, Vec3d b) { return dot(b - a, b - a); }
 
-double membraneEnergy(const Cloth& cloth, const State& state) {
+double membraneEnergy(const Cloth& cloth, const Cuts& cuts, const State& state) {
   double sum = 0;
   for (const Membrane& membrane : cloth.lists().membranes) {
+    if (isLost(cuts, cloth, membrane.triangle)) continue;
     const double scale = cloth.pieces()[cloth.pieceOf(membrane.corners[0])].restScale;
     std::array<double, 3> e{};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -38,20 +39,20 @@ Energies energies(const Cloth& cloth, std::span<const Spring> springs, const Sce
     sum.gravity += mass * dot(scene.gravity, cloth.positions()[i] - vectorOf(x));
   }
   for (const Spring& spring : springs) {
-    if (isCut(cuts, spring)) continue;
+    if (isCut(cuts, cloth, spring)) continue;
     const double l = length(vectorOf(state.positions[spring.a]) - vectorOf(state.positions[spring.b]));
     sum.maxStrain = std::max(sum.maxStrain, l / spring.restLength - 1);
     sum.springs += 0.5 * spring.stiffness * (l - spring.restLength) * (l - spring.restLength);
   }
-  sum.springs += membraneEnergy(cloth, state);
+  sum.springs += membraneEnergy(cloth, cuts, state);
   return sum;
 }
 
-ParticleFacts factsOf(std::uint32_t particle, std::span<const Spring> springs, const Cuts& cuts,
-                      const State& state) {
+ParticleFacts factsOf(std::uint32_t particle, const Cloth& cloth, std::span<const Spring> springs,
+                      const Cuts& cuts, const State& state) {
   ParticleFacts facts{.speed = length(vectorOf(state.velocities[particle]))};
   for (const Spring& spring : springs) {
-    if ((spring.a != particle && spring.b != particle) || isCut(cuts, spring)) continue;
+    if ((spring.a != particle && spring.b != particle) || isCut(cuts, cloth, spring)) continue;
     const double l = length(vectorOf(state.positions[spring.a]) - vectorOf(state.positions[spring.b]));
     const double strain = l / spring.restLength - 1;
     if (std::abs(strain) <= std::abs(facts.strain)) continue;

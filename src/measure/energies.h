@@ -28,7 +28,7 @@ struct ParticleFacts {
   double strain = 0;  // l/L - 1 of largest magnitude among its springs, with its sign; 0 without springs
   double force = 0;   // k (l - L) of that spring, positive where it pulls [N]; 0 along edges of a membrane
 };
-[[nodiscard]] ParticleFacts factsOf(std::uint32_t particle, std::span<const Spring> springs, const Cuts& cuts,
-                                    const State& state);
+[[nodiscard]] ParticleFacts factsOf(std::uint32_t particle, const Cloth& cloth,
+                                    std::span<const Spring> springs, const Cuts& cuts, const State& state);
 
 }  // namespace clothsim

@@ -46,6 +46,7 @@ std::optional<double> maxStrain(const Cloth& cloth, const std::vector<MeshSpring
   if (springs.empty()) return std::nullopt;
   double largest = -1;
   for (const MeshSpring& spring : springs) {
+    if (isCut(state.cuts, cloth, spring)) continue;
     const double rest = cloth.restLength(cloth.pieces()[cloth.pieceOf(spring.a)], 0, spring.a, spring.b);
     largest = std::max(largest, length(positionOf(state, spring.b) - positionOf(state, spring.a)) / rest - 1);
   }

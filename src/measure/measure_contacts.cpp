@@ -14,12 +14,12 @@ constexpr double CONTACT_REACH =
 
 // The distance at rest of two particles of one piece, unless they share a cell and a spring. Infinite for
 // particles of two pieces.
-std::optional<double> restDistance(const Cloth& cloth, const Piece& piece,
+std::optional<double> restDistance(const Cloth& cloth, const Piece& piece, const Cuts& cuts,
                                    const std::vector<std::uint32_t>& cutMasks, std::uint32_t i,
                                    std::uint32_t j) {
   if (j - piece.firstParticle >= piece.particleCount()) return INFINITY;
   if (piece.isMesh) {
-    if (cloth.lists().joins(i, j)) return std::nullopt;
+    if (areJoined(cuts, cloth, i, j)) return std::nullopt;
     const Vec3d d = cloth.positions()[i] - cloth.positions()[j];
     return std::sqrt(dot(d, d));
   }
@@ -53,10 +53,11 @@ ContactMeasures measureContacts(const Cloth& cloth, const Scene& scene, const St
   cpu::SelfCollision<float> search(cloth);
   search.configure(scene);
   const std::vector<std::uint32_t> cutMasks = makeCutMasks(cloth, state.cuts);
-  search.setCutMasks(cutMasks);
+  search.setCuts(state.cuts);
   for (const auto& [i, j] : search.candidatePairs(positions)) {
     if (j < i) continue;
-    const std::optional<double> rest = restDistance(cloth, cloth.pieces()[cloth.pieceOf(i)], cutMasks, i, j);
+    const std::optional<double> rest =
+        restDistance(cloth, cloth.pieces()[cloth.pieceOf(i)], state.cuts, cutMasks, i, j);
     if (!rest) continue;
     const Vec3d apart = vectorOf(state.positions[i]) - vectorOf(state.positions[j]);
     const Vec3d relative = vectorOf(state.velocities[i]) - vectorOf(state.velocities[j]);

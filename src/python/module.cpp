@@ -316,7 +316,8 @@ void declareSimulation(py::module_& module) {
       .def(
           "set_state",
           [](PythonSimulation& simulation, const std::string& bytes) {
-            simulation.setState(parseStateFile(bytes, particlesOf(simulation), "set_state"));
+            simulation.setState(parseStateFile(bytes, particlesOf(simulation), "set_state",
+                                               simulation.simulation().cloth().lists().triangles.size()));
           },
           py::arg("state"), docs::setState)
       .def("__repr__", &textOf);

@@ -58,15 +58,20 @@ ClothMesh::ClothMesh(const Cloth& cloth)
                        .particles = piece.particleCount(),
                        .neighbours = {},
                        .values = block[0]});
-    if (piece.isMesh)
-      pieces_.back().neighbours =
-          gl::Buffer<std::uint32_t>("mesh neighbours", meshNeighbours(cloth, piece, fold));
   }
+  setNeighbours(cloth, cloth.lists());
   vertices_.attach(normals_.name(), {.location = NORMAL_LOCATION});
   vertices_.attach(tangents_.name(), {.location = TANGENT_LOCATION});
   vertices_.attach(textureCoordinates_.name(),
                    {.location = TEXTURE_COORDINATE_LOCATION, .components = 2, .stride = 8});
   setTriangles(cloth.triangles());
+}
+
+void ClothMesh::setNeighbours(const Cloth& cloth, const SpringLists& lists) {
+  for (std::size_t i = 0; i < pieces_.size(); ++i)
+    if (const Piece& piece = cloth.pieces()[i]; piece.isMesh)
+      pieces_[i].neighbours =
+          gl::Buffer<std::uint32_t>("mesh neighbours", meshNeighbours(cloth, lists, piece, fold));
 }
 
 // Grid by grid, as remainingTriangles() has them.
@@ -91,6 +96,7 @@ void ClothMesh::setTriangles(const std::vector<std::array<std::uint32_t, 3>>& tr
 void ClothMesh::setCuts(const Cloth& cloth, const Cuts& cuts) {
   if (cuts.empty() && !hasCuts()) return;
   setTriangles(remainingTriangles(cloth, cuts));
+  if (cloth.hasMesh()) setNeighbours(cloth, remainingLists(cloth, cuts));
   const std::vector<std::uint32_t> words(cuts.begin(), cuts.end());
   cuts_ = words.empty() ? gl::Buffer<std::uint32_t>() : gl::Buffer<std::uint32_t>("cuts", words);
 }

@@ -62,6 +62,7 @@ class ClothMesh {
     [[nodiscard]] bool isMesh() const { return neighbours.size() > 0; }
   };
   void makeRim();
+  void setNeighbours(const Cloth& cloth, const SpringLists& lists);
   void setTriangles(const std::vector<std::array<std::uint32_t, 3>>& triangles);
 
   std::vector<PieceBuffers> pieces_;

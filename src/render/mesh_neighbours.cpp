@@ -21,7 +21,7 @@ std::array<std::uint32_t, 2> othersOf(const std::array<std::uint32_t, 3>& t, std
 // The front of a walk over the mesh, edge by edge, that has gone `steps` edges from a particle.
 class Rings {
  public:
-  explicit Rings(const Cloth& cloth) : lists_(cloth.lists()), seen_(cloth.particleCount(), NEVER) {}
+  Rings(const SpringLists& lists, std::uint32_t particles) : lists_(lists), seen_(particles, NEVER) {}
 
   std::vector<std::uint32_t> around(std::uint32_t particle, int steps) {
     std::vector<std::uint32_t> front{particle}, next;
@@ -46,6 +46,7 @@ class Rings {
   std::vector<std::uint32_t> seen_;
 };
 
+// At the start, whatever the mesh has lost since.
 Vec3d normalAt(const Cloth& cloth, std::uint32_t i) {
   const SpringLists& lists = cloth.lists();
   Vec3d sum;
@@ -88,8 +89,8 @@ void appendSpread(const Cloth& cloth, std::uint32_t particle, const std::vector<
 
 }  // namespace
 
-std::vector<std::uint32_t> meshNeighbours(const Cloth& cloth, const Piece& mesh, double reach) {
-  const SpringLists& lists = cloth.lists();
+std::vector<std::uint32_t> meshNeighbours(const Cloth& cloth, const SpringLists& lists, const Piece& mesh,
+                                          double reach) {
   const std::uint32_t count = mesh.particleCount();
   std::vector<std::uint32_t> words(std::size_t{count} + 1);
   for (std::uint32_t local = 0; local < count; ++local) {
@@ -103,7 +104,7 @@ std::vector<std::uint32_t> meshNeighbours(const Cloth& cloth, const Piece& mesh,
   }
   words[count] = static_cast<std::uint32_t>(words.size());
   const int steps = static_cast<int>(std::clamp(std::lround(reach / mesh.nominalLength[toLeft]), 1L, 8L));
-  Rings rings(cloth);
+  Rings rings(lists, cloth.particleCount());
   for (std::uint32_t local = 0; local < count; ++local)
     appendSpread(cloth, mesh.firstParticle + local, rings.around(mesh.firstParticle + local, steps), words);
   return words;

@@ -11,7 +11,8 @@ namespace clothsim {
 // One array of words, for mesh_normals.comp. First for each particle of the mesh, and once behind the last,
 // where its corners begin: of every triangle around it the two other corners in their order, as particles.
 // Behind those for each particle MESH_RING particles about `reach` [m] away over the mesh, spread around it;
-// near a border the particle itself stands for those that are not there.
-[[nodiscard]] std::vector<std::uint32_t> meshNeighbours(const Cloth& cloth, const Piece& mesh, double reach);
+// near a border the particle itself stands for those that are not there. `lists`: remainingLists().
+[[nodiscard]] std::vector<std::uint32_t> meshNeighbours(const Cloth& cloth, const SpringLists& lists,
+                                                        const Piece& mesh, double reach);
 
 }  // namespace clothsim

@@ -25,7 +25,7 @@ float pinSize(const Cloth& cloth) {
 std::vector<std::uint32_t> endsOf(const Cloth& cloth, const Cuts& cuts, SpringKind kind) {
   std::vector<std::uint32_t> ends;
   for (const Spring& spring : cloth.springs()) {
-    if (spring.kind != kind || isCut(cuts, spring)) continue;
+    if (spring.kind != kind || isCut(cuts, cloth, spring)) continue;
     ends.push_back(spring.a);
     ends.push_back(spring.b);
   }

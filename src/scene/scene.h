@@ -132,7 +132,7 @@ struct ClothSettings {
   double thickness = 0.0095;         // [m]
   double pressure = 0;               // of the air behind the cloth above that before it [Pa]
   double shrink = 0;                 // part of their length that all springs lose; below 0 they grow
-  std::optional<double> tearStrain;  // l/L - 1 beyond which a spring of a grid tears (solver/tearing.h)
+  std::optional<double> tearStrain;  // l/L - 1 beyond which springs tear (solver/tearing.h)
   bool enableStructural = true, enableShearing = true, enableBending = true;
   std::vector<StiffnessPart> stiffnessMap;  // of a mesh; where parts overlap their factors multiply
   std::vector<Pin> pinned;

@@ -150,8 +150,6 @@ void checkMesh(const JsonNode& node, const ClothSettings& cloth) {
       complain(*given, std::string("found both ") + key + " and mesh, expected one of them: " + key +
                            " belongs to a grid; a mesh has its shape from its file and is placed by scale, "
                            "rotation and position");
-  if (const JsonNode* given = node.find("tear_strain"))
-    complain(*given, "only grids tear; leave the key out for a cloth with the key \"mesh\"");
   if (!cloth.material) return;
   if (const JsonNode* given = node.find("material")->find("bend_warp"))
     complain(*given, "a mesh bends alike in all directions: only grids have a warp that bends otherwise");

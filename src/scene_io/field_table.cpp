@@ -142,8 +142,10 @@ std::span<const Field<ClothSettings>> fieldsOf<ClothSettings>() {
           .within({.low = -0.5, .high = 0.9})
           .usually(-0.2, 0.5)
           .rebuilds(),
-      field("tear_strain", &C::tearStrain,
-            "A spring of a grid longer than 1 + tear_strain tears, looked at after each frame.")
+      field(
+          "tear_strain", &C::tearStrain,
+          "A spring to a neighbour, or an edge of a mesh, longer than 1 + tear_strain tears; looked at after "
+          "each frame.")
           .within(positive)
           .usually(0.05, 1)
           .byDefault("none: nothing tears"),

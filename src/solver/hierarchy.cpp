@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "cloth/cuts.h"
@@ -25,10 +26,9 @@ struct Lists {
 };
 
 template <class Visit>
-void forEachSpringOf(const Cloth& cloth, const Piece& piece, std::uint32_t i, std::uint32_t cutMask,
+void forEachSpringOf(const SpringLists& lists, const Piece& piece, std::uint32_t i, std::uint32_t cutMask,
                      Visit visit) {
   if (piece.isMesh) {
-    const SpringLists& lists = cloth.lists();
     for (std::uint32_t n = lists.springsOf.starts[i]; n < lists.springsOf.starts[i + 1]; ++n) {
       const MeshSpring& spring = lists.springs[lists.springsOf.entries[n]];
       visit(spring.a == i ? spring.b : spring.a, spring.kind == SpringKind::structural);
@@ -48,10 +48,10 @@ void forEachSpringOf(const Cloth& cloth, const Piece& piece, std::uint32_t i, st
 }
 
 // The neighbours of each particle of a piece, numbered from its first one.
-Lists springGraph(const Cloth& cloth, const Piece& piece, const std::vector<std::uint32_t>& cutMasks) {
+Lists springGraph(const SpringLists& lists, const Piece& piece, const std::vector<std::uint32_t>& cutMasks) {
   Lists graph;
   for (std::uint32_t i = piece.firstParticle; i < piece.firstParticle + piece.particleCount(); ++i) {
-    forEachSpringOf(cloth, piece, i, cutMasks.empty() ? 0 : cutMasks[i],
+    forEachSpringOf(lists, piece, i, cutMasks.empty() ? 0 : cutMasks[i],
                     [&](std::uint32_t other, bool isNear) {
                       if (isNear) graph.entries.push_back(other - piece.firstParticle);
                     });
@@ -64,13 +64,12 @@ Lists springGraph(const Cloth& cloth, const Piece& piece, const std::vector<std:
 // and the ends of the lines of bending that it is in the middle of; of a mesh its springs to smaller numbers,
 // and the hinges and membranes whose first corner it is.
 template <class Visit>
-void forEachElementParticle(const Cloth& cloth, const Piece& piece, std::uint32_t i, Visit visit) {
+void forEachElementParticle(const SpringLists& lists, const Piece& piece, std::uint32_t i, Visit visit) {
   visit(i);
-  forEachSpringOf(cloth, piece, i, 0, [&](std::uint32_t other, bool) {
+  forEachSpringOf(lists, piece, i, 0, [&](std::uint32_t other, bool) {
     if (other < i) visit(other);
   });
   if (piece.isMesh) {
-    const SpringLists& lists = cloth.lists();
     for (std::uint32_t n = lists.hingesOf.starts[i]; n < lists.hingesOf.starts[i + 1]; ++n)
       if (lists.hingesOf.entries[n] % 4 == 0)
         for (const std::uint32_t corner : lists.hinges[lists.hingesOf.entries[n] / 4].corners) visit(corner);
@@ -203,8 +202,9 @@ std::vector<std::pair<std::uint32_t, double>> weightsOf(const Lists& graph, cons
 template <class Real>
 class HierarchyBuilder {
  public:
-  HierarchyBuilder(const Cloth& cloth, const std::vector<std::uint32_t>& cutMasks)
-      : cloth_(cloth), cutMasks_(cutMasks) {
+  HierarchyBuilder(const Cloth& cloth, const Cuts& cuts)
+      : cloth_(cloth), cutMasks_(makeCutMasks(cloth, cuts)) {
+    if (!cuts.empty()) left_ = remainingLists(cloth, cuts);
     hierarchy_.particles = cloth.particleCount();
   }
 
@@ -219,9 +219,10 @@ class HierarchyBuilder {
   using Weight = typename Hierarchy<Real>::Weight;
   using Block = typename Hierarchy<Real>::Block;
 
+  [[nodiscard]] const SpringLists& lists() const { return left_ ? *left_ : cloth_.lists(); }
   void addPiece(const Piece& piece) {
     hierarchy_.pieces.emplace_back();
-    Lists graph = springGraph(cloth_, piece, cutMasks_);
+    Lists graph = springGraph(lists(), piece, cutMasks_);
     LevelParams level{};
     level.fineFirst = piece.firstParticle;
     for (bool isCoarsest = false; !isCoarsest;) {
@@ -267,7 +268,7 @@ class HierarchyBuilder {
     std::vector<std::vector<std::uint32_t>> touching(level.coarseCount);
     for (std::uint32_t i = level.fineFirst; i < level.fineFirst + level.fineCount; ++i) {
       std::vector<std::uint32_t> own;
-      forEachElementParticle(cloth_, piece, i, [&](std::uint32_t particle) {
+      forEachElementParticle(lists(), piece, i, [&](std::uint32_t particle) {
         for (const Weight& weight : weights_[particle]) own.push_back(weight.vertex);
       });
       std::sort(own.begin(), own.end());
@@ -378,7 +379,8 @@ class HierarchyBuilder {
   }
 
   const Cloth& cloth_;
-  const std::vector<std::uint32_t>& cutMasks_;
+  std::vector<std::uint32_t> cutMasks_;
+  std::optional<SpringLists> left_;           // of what meshes gather over, with cuts
   std::vector<std::vector<Weight>> weights_;  // by vertex
   Hierarchy<Real> hierarchy_;
 };
@@ -386,11 +388,11 @@ class HierarchyBuilder {
 }  // namespace
 
 template <class Real>
-Hierarchy<Real> makeHierarchy(const Cloth& cloth, const std::vector<std::uint32_t>& cutMasks) {
-  return HierarchyBuilder<Real>(cloth, cutMasks).build();
+Hierarchy<Real> makeHierarchy(const Cloth& cloth, const Cuts& cuts) {
+  return HierarchyBuilder<Real>(cloth, cuts).build();
 }
 
-template Hierarchy<float> makeHierarchy(const Cloth&, const std::vector<std::uint32_t>&);
-template Hierarchy<double> makeHierarchy(const Cloth&, const std::vector<std::uint32_t>&);
+template Hierarchy<float> makeHierarchy(const Cloth&, const Cuts&);
+template Hierarchy<double> makeHierarchy(const Cloth&, const Cuts&);
 
 }  // namespace clothsim

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "cloth/cloth.h"
+#include "cloth/cuts.h"
 #include "shared/implicit.h"
 
 namespace clothsim {
@@ -65,8 +66,8 @@ struct Hierarchy {
   [[nodiscard]] bool empty() const { return pieces.empty(); }
 };
 
-// `cutMasks` as makeCutMasks() gives them; empty for none.
+// Of a cloth with these cuts.
 template <class Real>
-[[nodiscard]] Hierarchy<Real> makeHierarchy(const Cloth& cloth, const std::vector<std::uint32_t>& cutMasks);
+[[nodiscard]] Hierarchy<Real> makeHierarchy(const Cloth& cloth, const Cuts& cuts);
 
 }  // namespace clothsim

@@ -1,10 +1,14 @@
 #include "solver/mesh_lists.h"
 
+#include <optional>
+
 #include "core/exact_math.h"
 #include "solver/step_params.h"
 
 namespace clothsim {
 namespace {
+
+constexpr double NEVER_TOO_LONG = 1e15;  // [m]; its square is finite in binary32
 
 template <class Real>
 Real startLength(const Cloth& cloth, std::uint32_t a, std::uint32_t b) {
@@ -52,11 +56,13 @@ auto membraneParamsOf(const Cloth& cloth, const Membrane& membrane) {
 }  // namespace
 
 template <class Real>
-MeshLists<Real> makeMeshLists(const Cloth& cloth) {
+MeshLists<Real> makeMeshLists(const Cloth& cloth, const Cuts& cuts) {
   MeshLists<Real> result;
   addSeams(cloth, result);
   if (!cloth.hasMesh()) return result;
-  const SpringLists& lists = cloth.lists();
+  std::optional<SpringLists> left;
+  if (!cuts.empty()) left = remainingLists(cloth, cuts);
+  const SpringLists& lists = left ? *left : cloth.lists();
   const auto hingeNumbers = static_cast<std::uint32_t>(lists.hingesOf.entries.size()),
              others = hingeNumbers + static_cast<std::uint32_t>(lists.trianglesOf.entries.size());
   for (std::size_t i = 0; i <= cloth.particleCount(); ++i)
@@ -64,7 +70,10 @@ MeshLists<Real> makeMeshLists(const Cloth& cloth) {
                              hingeNumbers + lists.trianglesOf.starts[i],
                              others + lists.membranesOf.starts[i]});
   for (const MeshSpring& spring : lists.springs)
-    result.limited.push_back({spring.a, spring.b, restLengthOf<Real>(cloth, spring), 0});
+    result.limited.push_back(
+        {spring.a, spring.b,
+         isCut(cuts, cloth, spring) ? static_cast<Real>(NEVER_TOO_LONG) : restLengthOf<Real>(cloth, spring),
+         0});
   for (std::uint32_t i = 0; i < cloth.particleCount(); ++i) {
     const Vec3<Real> place = startPosition<Real>(cloth, i);
     result.places.push_back({place.x, place.y, place.z, 0});
@@ -90,7 +99,7 @@ MeshLists<Real> makeMeshLists(const Cloth& cloth) {
   return result;
 }
 
-template MeshLists<float> makeMeshLists(const Cloth&);
-template MeshLists<double> makeMeshLists(const Cloth&);
+template MeshLists<float> makeMeshLists(const Cloth&, const Cuts&);
+template MeshLists<double> makeMeshLists(const Cloth&, const Cuts&);
 
 }  // namespace clothsim

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cloth/cloth.h"
+#include "cloth/cuts.h"
 #include "shared/mesh_lists.h"
 
 namespace clothsim {
@@ -56,8 +57,9 @@ struct MeshLists {
   [[nodiscard]] bool empty() const { return starts.empty(); }
 };
 
-// Without meshes it has none but the lists of seams.
+// Of what `cuts` have left: particles gather over that alone, and the strain limit finds no other spring too
+// long. Without meshes it has none but the lists of seams.
 template <class Real>
-[[nodiscard]] MeshLists<Real> makeMeshLists(const Cloth& cloth);
+[[nodiscard]] MeshLists<Real> makeMeshLists(const Cloth& cloth, const Cuts& cuts = {});
 
 }  // namespace clothsim

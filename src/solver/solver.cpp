@@ -32,7 +32,7 @@ void Solver::configure(const Shared<Scene>& scene) {
   inputs_.colliders = ColliderSet(*scene);
   inputs_.scene = scene;
   inputs_.clock.setStepLength(stepLength(inputs_.scene->solver));
-  step_ = makeStep(*inputs_.scene, *inputs_.cloth, inputs_.cutMasks);
+  step_ = makeStep(*inputs_.scene, *inputs_.cloth, inputs_.cuts);
   executor_->setScene(inputs_);
   setOffPath(inputs_.offPath);
 }
@@ -161,7 +161,7 @@ void Solver::setInteraction(const Interaction& interaction) {
 void Solver::setCuts(const Cuts& cuts) {
   inputs_.cuts = cuts;
   inputs_.cutMasks = makeCutMasks(*inputs_.cloth, cuts);
-  step_ = makeStep(*inputs_.scene, *inputs_.cloth, inputs_.cutMasks);
+  step_ = makeStep(*inputs_.scene, *inputs_.cloth, inputs_.cuts);
   executor_->setCuts(inputs_);
   executor_->prepare(inputs_, step_);
 }

@@ -42,10 +42,9 @@ class ListBuilder {
 };
 
 // How many coarser levels the finest of the cloths has, and the most colours of a strain limit.
-std::size_t mostLevels(const Cloth& cloth, const std::vector<std::uint32_t>& cutMasks) {
+std::size_t mostLevels(const Cloth& cloth, const Cuts& cuts) {
   std::size_t most = 0;
-  for (const auto& levels : makeHierarchy<float>(cloth, cutMasks).pieces)
-    most = std::max(most, levels.size());
+  for (const auto& levels : makeHierarchy<float>(cloth, cuts).pieces) most = std::max(most, levels.size());
   return most;
 }
 std::size_t mostColors(const Cloth& cloth) {
@@ -56,7 +55,7 @@ std::size_t mostColors(const Cloth& cloth) {
 
 class StepBuilder {
  public:
-  StepBuilder(const Scene& scene, const Cloth& cloth, const std::vector<std::uint32_t>& cutMasks)
+  StepBuilder(const Scene& scene, const Cloth& cloth, const Cuts& cuts)
       : solver_(scene.solver),
         hasColliders_(!scene.colliders.empty()),
         isImplicit_(isImplicit(scene.solver.integrator)),
@@ -64,7 +63,7 @@ class StepBuilder {
         hasSmallColliders_(hasSmallColliders(scene, cloth)),
         contacts_(collidesWithItself(scene, cloth) ? scene.solver.selfCollision : SelfCollision::off),
         rounds_(contactRounds(scene)),
-        levels_(isImplicit_ ? mostLevels(cloth, cutMasks) : 0),
+        levels_(isImplicit_ ? mostLevels(cloth, cuts) : 0),
         colors_(limitsInPasses(scene) ? mostColors(cloth) : 0) {}
 
   PassList step() {
@@ -288,8 +287,8 @@ bool PassList::contains(Pass pass) const {
   return std::any_of(passes.begin(), passes.end(), [&](const PassCall& call) { return call.pass == pass; });
 }
 
-PassList makeStep(const Scene& scene, const Cloth& cloth, const std::vector<std::uint32_t>& cutMasks) {
-  return StepBuilder(scene, cloth, cutMasks).step();
+PassList makeStep(const Scene& scene, const Cloth& cloth, const Cuts& cuts) {
+  return StepBuilder(scene, cloth, cuts).step();
 }
 
 PassList makeConversion() { return {{{Pass::forces}, {Pass::kick}}, {}, Outcome::velocities}; }

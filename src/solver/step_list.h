@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cloth/cloth.h"
+#include "cloth/cuts.h"
 #include "scene/scene.h"
 #include "solver/pass.h"
 
@@ -44,9 +45,8 @@ struct PassList {
 };
 
 // A step of the scene. The cloth's levels, which cuts change, and its colours decide how many passes some
-// parts have. `cutMasks` as makeCutMasks() gives them; empty for none.
-[[nodiscard]] PassList makeStep(const Scene& scene, const Cloth& cloth,
-                                const std::vector<std::uint32_t>& cutMasks = {});
+// parts have.
+[[nodiscard]] PassList makeStep(const Scene& scene, const Cloth& cloth, const Cuts& cuts = {});
 // Turns the velocities into those of the scene's integrator.
 [[nodiscard]] PassList makeConversion();
 // Looks at a state that was handed in.

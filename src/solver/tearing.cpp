@@ -70,6 +70,43 @@ bool tearAcross(Cuts& cuts, const Cloth& cloth, std::size_t piece, int column, i
                   {middle.column + across, middle.row + along});
 }
 
+double strainOf(const Cloth& cloth, const Piece& mesh, const MeshSpring& edge,
+                std::span<const Particle4> positions) {
+  const double rest = cloth.restLength(mesh, 0, edge.a, edge.b);
+  return length(vectorOf(positions[edge.b]) - vectorOf(positions[edge.a])) / rest - 1;
+}
+
+bool tearMesh(Cuts& cuts, const Cloth& cloth, const Piece& mesh, double limit,
+              std::span<const Particle4> positions) {
+  const std::vector<MeshSpring>& springs = cloth.lists().springs;
+  // At each particle the longest of its edges, of equal ones the first.
+  struct Longest {
+    double strain = -1;
+    const MeshSpring* edge = nullptr;
+  };
+  std::vector<Longest> longest(mesh.particleCount());
+  const auto at = [&](std::uint32_t particle) -> Longest& { return longest[particle - mesh.firstParticle]; };
+  const auto forEachEdge = [&](auto visit) {
+    for (const auto& [first, end] : mesh.colors)
+      for (std::uint32_t n = first; n < end; ++n)
+        if (springs[n].kind == SpringKind::structural) visit(springs[n]);
+  };
+  forEachEdge([&](const MeshSpring& edge) {
+    if (isCut(cuts, cloth, edge)) return;
+    const double strain = strainOf(cloth, mesh, edge, positions);
+    for (const std::uint32_t end : {edge.a, edge.b})
+      if (strain > at(end).strain) at(end) = {strain, &edge};
+  });
+  // Those that tear share no particle, and so no triangle.
+  bool any = false;
+  forEachEdge([&](const MeshSpring& edge) {
+    if (at(edge.a).edge != &edge || at(edge.b).edge != &edge || !(at(edge.a).strain > limit)) return;
+    tearEdge(cuts, cloth, edge);
+    any = true;
+  });
+  return any;
+}
+
 }  // namespace
 
 bool canTear(const Scene& scene) {
@@ -82,6 +119,7 @@ bool tear(Cuts& cuts, const Cloth& cloth, const Scene& scene, std::span<const Pa
   for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
     const Piece& piece = cloth.pieces()[i];
     const std::optional<double> limit = scene.cloths[i].tearStrain;
+    if (limit && piece.isMesh) any |= tearMesh(cuts, cloth, piece, *limit, positions);
     if (!limit || piece.isMesh) continue;
     const Strains strains(cloth, piece, cuts, positions);
     for (int row = 0; row < piece.rows; ++row)

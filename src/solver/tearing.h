@@ -12,11 +12,11 @@ namespace clothsim {
 // Whether some cloth has a tear_strain.
 [[nodiscard]] bool canTear(const Scene& scene);
 
-// Looks at the structural springs of grids whose cloth has a tear_strain. One that is longer tears when no
+// Looks at the structural springs of cloths that have a tear_strain. One that is longer tears when no
 // spring that shares an end with it is stretched more: so a tear runs on from where it ends, and cloth that
-// is stretched evenly does not fall to crumbs. It tears from the middle of one cell beside it to the middle
-// of the other. In double precision from the positions in binary32: the same on both backends. Returns
-// whether anything tore.
+// is stretched evenly does not fall to crumbs. A grid tears from the middle of one cell beside it to the
+// middle of the other; a mesh loses the triangles beside the edge. In double precision from the positions in
+// binary32: the same on both backends. Returns whether anything tore.
 bool tear(Cuts& cuts, const Cloth& cloth, const Scene& scene, std::span<const Particle4> positions);
 
 }  // namespace clothsim

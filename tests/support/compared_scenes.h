@@ -264,6 +264,14 @@ inline Scene meshOfMaterial(int n) {
   return scene;
 }
 
+// Pulled apart by its weight and what moves its pins, in triangles that fall on each other.
+inline Scene tornMesh(int n) {
+  Scene scene = meshOfMaterial(n);
+  scene.cloths[0].stiffnessMap.clear();
+  scene.cloths[0].tearStrain = 0.012;
+  return scene;
+}
+
 // Blown up from below, shrunk, of two kinds of threads, and torn from its pins.
 inline Scene garment(int n) {
   Scene scene = vertical(materialScene(n));

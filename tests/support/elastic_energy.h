@@ -17,7 +17,7 @@ class ElasticEnergy {
   ElasticEnergy(const Scene& scene, const Cloth& cloth, const Cuts& cuts = {}) {
     const StepParams<double> params = makeStepParams<double>(scene, cloth, 0, 0);
     for (const Spring& spring : cloth.springs()) {
-      if (isCut(cuts, spring)) continue;
+      if (isCut(cuts, cloth, spring)) continue;
       const Vec3d d = cloth.positions()[spring.b] - cloth.positions()[spring.a];
       const double rest = cloth.hasRestLengthTable() ? std::sqrt(dot(d, d)) : spring.restLength;
       springs_.push_back({spring.a, spring.b, spring.stiffness, rest, params.limitStiffness,

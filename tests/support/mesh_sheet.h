@@ -1,6 +1,7 @@
 // Triangle meshes for tests, as OBJ files: sheets of equilateral triangles, which have no rows and columns.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -9,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "cloth/cuts.h"
 #include "scene/scene.h"
 #include "support/temporary_folder.h"
 
@@ -71,6 +73,17 @@ inline Scene meshScene(const MeshSheet& sheet = {}) {
   scene.cloths[0].ks = 200;
   scene.cloths[0].density = 1;
   return scene;
+}
+
+// Takes all triangles that the height y [m] of the start passes through.
+inline Cuts tornAcross(const Cloth& cloth, double y) {
+  Cuts cuts;
+  for (const MeshSpring& spring : cloth.lists().springs) {
+    const double a = cloth.positions()[spring.a].y, b = cloth.positions()[spring.b].y;
+    if (spring.kind == SpringKind::structural && std::min(a, b) < y && y < std::max(a, b))
+      tearEdge(cuts, cloth, spring);
+  }
+  return cuts;
 }
 
 }  // namespace clothsim::test

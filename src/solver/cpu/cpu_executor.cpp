@@ -73,9 +73,10 @@ void CpuExecutor<Real>::setScene(const StepInputs& inputs) {
 template <class Real>
 void CpuExecutor<Real>::setCuts(const StepInputs& inputs) {
   implicit_.scalars.usualSteps = 0;
-  selfCollision_.setCutMasks(inputs.cutMasks);
+  selfCollision_.setCuts(inputs.cuts);
+  if (cloth_->hasMesh()) lists_ = makeMeshLists<Real>(*cloth_, inputs.cuts);
   setSurface(inputs);
-  if (!implicit_.hierarchy.empty()) implicit_.resize(makeHierarchy<Real>(*cloth_, inputs.cutMasks));
+  if (!implicit_.hierarchy.empty()) implicit_.resize(makeHierarchy<Real>(*cloth_, inputs.cuts));
 }
 
 template <class Real>
@@ -93,7 +94,7 @@ void CpuExecutor<Real>::prepare(const StepInputs& inputs, const PassList& list) 
       cpu::put(pinStarts_, static_cast<std::ptrdiff_t>(i), startPosition<Real>(*cloth_, i));
   }
   if (list.contains(Pass::begin) && implicit_.hierarchy.empty())
-    implicit_.resize(makeHierarchy<Real>(*cloth_, inputs.cutMasks));
+    implicit_.resize(makeHierarchy<Real>(*cloth_, inputs.cuts));
   if (list.contains(Pass::predictPlanes)) implicit_.planes.resize(cloth_->particleCount());
   if (list.contains(Pass::remember)) {
     implicit_.movedBefore.resize(cloth_->particleCount());

@@ -149,8 +149,9 @@ void SelfCollision<Real>::addLatticePlaces(const Piece& piece) {
 }
 
 template <class Real>
-void SelfCollision<Real>::setCutMasks(std::vector<std::uint32_t> masks) {
-  cutMasks_ = std::move(masks);
+void SelfCollision<Real>::setCuts(const Cuts& cuts) {
+  cuts_ = cuts;
+  cutMasks_ = makeCutMasks(*cloth_, cuts);
   isStale_ = true;
 }
 
@@ -163,7 +164,7 @@ std::uint32_t SelfCollision<Real>::encodeOnMesh(std::uint32_t i, std::uint32_t j
   const Real rest = lengthSquared * inverseLength;
   const Real code = params_.codesPerMeter * rest;
   if (!(code < static_cast<Real>(NEAREST_CODES))) return j;
-  if (code < Real(1) || (params_.firstCode > 1 && cloth_->lists().joins(i, j))) return EXCLUDED;
+  if (code < Real(1) || (params_.firstCode > 1 && areJoined(cuts_, *cloth_, i, j))) return EXCLUDED;
   return j | static_cast<std::uint32_t>(static_cast<std::int32_t>(code)) << CANDIDATE_BITS;
 }
 

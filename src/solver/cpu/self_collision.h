@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cloth/cloth.h"
+#include "cloth/cuts.h"
 #include "cloth/seam_neighbours.h"
 #include "solver/cpu/contact_blocks.h"
 #include "solver/cpu/cpu_state.h"
@@ -30,8 +31,7 @@ class SelfCollision {
   // steps in which the checks before them have found that there is no need.
   void run(PassCall call, const CpuState<Real>& before, CpuState<Real>& after,
            const std::vector<Real>& inverseMasses);
-  // By makeCutMasks(); empty: none.
-  void setCutMasks(std::vector<std::uint32_t> masks);
+  void setCuts(const Cuts& cuts);
   // For a new state: forgets the hash.
   void restart() { isStale_ = true; }
 
@@ -86,7 +86,8 @@ class SelfCollision {
   std::vector<Vec3<Real>> places_;  // at rest [m]; empty without meshes
   LatticePlaces<Real> lattice_;
   TileSearch<Real> tiles_;
-  std::vector<std::uint32_t> cutMasks_;
+  Cuts cuts_;
+  std::vector<std::uint32_t> cutMasks_;  // makeCutMasks(); empty: none
   bool hasNearCodes_ = false;
   bool isStale_ = true;     // the hash no longer serves
   bool isRebuilt_ = false;  // by the last buildHash()

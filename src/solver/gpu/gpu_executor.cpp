@@ -121,6 +121,7 @@ void GpuExecutor::setCuts(const StepInputs& inputs) {
     }
     cutMasks_.upload(inputs.cutMasks);
   }
+  if (cloth_->hasMesh()) lists_ = GpuMeshLists(*cloth_, inputs.cuts);
   arrays_.forgetHistory();
   levels_ = {};  // made anew when an implicit step needs them: no weight crosses a cut
   selfCollision_.setCut(!inputs.cuts.empty());
@@ -131,7 +132,7 @@ void GpuExecutor::prepare(const StepInputs& inputs, const PassList& list) {
   parameters_.prepare(inputs);
   if (list.contains(Pass::begin)) {
     if (levels_.empty())
-      levels_ = GpuLevels(makeHierarchy<float>(*cloth_, inputs.cutMasks), options_.verticesAlone);
+      levels_ = GpuLevels(makeHierarchy<float>(*cloth_, inputs.cuts), options_.verticesAlone);
     arrays_.addImplicit(cloth_->particleCount(), levels_,
                         hasAir(*inputs.scene) || inputs.interaction.jet.has_value(),
                         !inputs.scene->colliders.empty(), list.contains(Pass::remember));

@@ -59,9 +59,10 @@ void GpuMeshLists::addSeams(const Cloth& cloth, const MeshLists<float>& lists) {
   seams_ = texels("seams", entries);
 }
 
-GpuMeshLists::GpuMeshLists(const Cloth& cloth) : any_(cloth.hasMesh()), anySeams_(!cloth.seams().empty()) {
+GpuMeshLists::GpuMeshLists(const Cloth& cloth, const Cuts& cuts)
+    : any_(cloth.hasMesh()), anySeams_(!cloth.seams().empty()) {
   if (!any_ && !anySeams_) return;
-  const MeshLists<float> lists = makeMeshLists<float>(cloth);
+  const MeshLists<float> lists = makeMeshLists<float>(cloth, cuts);
   if (anySeams_) addSeams(cloth, lists);
   if (!any_) return;
   starts_ = texels("starts of lists", lists.starts);

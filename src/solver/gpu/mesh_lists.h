@@ -15,7 +15,7 @@ class GpuMeshLists {
   GpuMeshLists() = default;
   // Without meshes and seams there are no buffers. @throws OpenGlError when one is larger than the driver
   // allows
-  explicit GpuMeshLists(const Cloth& cloth);
+  explicit GpuMeshLists(const Cloth& cloth, const Cuts& cuts = {});
 
   void bind() const;
 

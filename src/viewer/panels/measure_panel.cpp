@@ -129,7 +129,8 @@ void MeasurePanel::sample(Session& session, double now, std::optional<std::uint3
     samples_.push_back({simulation.time(), energy, watch_.contacts().contacts()});
   if (samples_.size() > mostSamples) samples_.pop_front();
   underCursor_.reset();
-  if (underCursor) underCursor_ = {*underCursor, factsOf(*underCursor, springs_, session.cuts(), state)};
+  if (underCursor)
+    underCursor_ = {*underCursor, factsOf(*underCursor, cloth, springs_, session.cuts(), state)};
   rate_ = seconds_ > 0 ? particleSteps_ / seconds_ : 0;
   particleSteps_ = seconds_ = 0;
   nextSample_ = now + std::max(sampleSeconds, (secondsNow() - began) / shareOfTime);

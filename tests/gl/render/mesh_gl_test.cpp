@@ -52,6 +52,61 @@ TEST_F(MeshTest, HasTheNormalsThatItsFilesHave) {
   }
 }
 
+// The part below a tear has moved away: what is lost between both parts bends neither.
+TEST_F(MeshTest, HasTheNormalsOfWhatIsLeftWhereItIsTorn) {
+  const Scene scene = waveScene();
+  const Cloth cloth(scene);
+  State state = wavyState(cloth, scene);
+  constexpr double middle = 0.47;
+  state.cuts = test::tornAcross(cloth, middle);
+  for (std::size_t i = 0; i < state.positions.size(); ++i)
+    if (cloth.positions()[i].y < middle) state.positions[i].z += 0.3f;
+  const gl::Buffer<Particle4> positions("positions", state.positions);
+  ClothMesh mesh(cloth);
+  const std::vector<Vec3f> expected = vertexNormals(state, cloth);
+  const auto largestError = [&](const Cuts& cuts) {
+    mesh.setCuts(cloth, cuts);
+    const gl::Program pieces = gl::Program::makeCompute("render/normals.comp", {}),
+                      meshes = gl::Program::makeCompute("render/mesh_normals.comp", {});
+    mesh.computeNormals({pieces, &meshes}, positions.name());
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    float largest = 0;
+    const auto normals = mesh.normals().download();
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      largest = std::max(largest, glm::distance(glm::vec3(normals[i]),
+                                                glm::vec3(expected[i].x, expected[i].y, expected[i].z)));
+    return largest;
+  };
+  EXPECT_LT(largestError(state.cuts), 1e-5f);
+  EXPECT_GT(largestError({}), 0.5f) << "and whole again";
+}
+
+TEST_F(MeshTest, IsDrawnTornAndInCrumbs) {
+  Scene scene = waveScene();
+  scene.render.background = "plain";
+  const Cloth cloth(scene);
+  GpuSolver solver(cloth, scene);
+  Cuts crumbs;
+  for (const MeshSpring& spring : cloth.lists().springs) tearEdge(crumbs, cloth, spring);
+  for (const RenderOptions& options :
+       {RenderOptions{}, RenderOptions{.subdivisions = 0}, RenderOptions{.subdivisions = 1, .thick = true}}) {
+    Renderer renderer(cloth, scene, options);
+    const auto pixels = [&](const Cuts& cuts) {
+      renderer.setCuts(cuts);
+      return renderImage(renderer, solver.positionsBuffer(), Camera(scene, cloth), 0, 96, 96).rgb;
+    };
+    const auto whole = pixels({}), torn = pixels(test::tornAcross(cloth, 0.47)), nothing = pixels(crumbs);
+    std::size_t tear = 0, all = 0;
+    for (std::size_t i = 0; i < whole.size(); i += 3) {
+      tear += torn[i] != whole[i];
+      all += nothing[i] != whole[i];
+    }
+    EXPECT_GT(tear, 60u);
+    EXPECT_GT(all, 3 * tear);
+    EXPECT_EQ(pixels({}), whole);
+  }
+}
+
 TEST_F(MeshTest, IsDarkerInItsHollowsAndLighterOnItsRidges) {
   const Scene scene = waveScene();
   const Cloth cloth(scene);

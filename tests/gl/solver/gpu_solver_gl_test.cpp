@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "cloth/material.h"
 #include "gl/gl_test.h"
 #include "simulation/compare.h"
@@ -42,6 +44,33 @@ TEST_F(GpuSolverTest, AgreesWithTheCpuInEveryBit) { expectTheSameBits(test::comp
 
 TEST_F(GpuSolverTest, AgreesWithTheCpuInEveryBitInImplicitSteps) {
   expectTheSameBits(test::implicitScenes(33), 20);
+}
+
+// In explicit steps with springs, limit and self-collision, in implicit ones with membranes, folds and
+// contact.
+TEST_F(GpuSolverTest, TearsMeshesAsTheCpuDoes) {
+  Scene springs = test::meshWithEverything(12, SelfCollision::robust);
+  springs.cloths[0].tearStrain = springs.cloths[1].tearStrain = 0.02;
+  Scene averaged = springs;
+  averaged.solver.selfCollision = SelfCollision::averaged;
+  Scene contact = test::implicitly(test::tornMesh(12));
+  contact.solver.selfCollision = SelfCollision::contact;
+  contact.solver.strainLimit = 0.2;
+  const std::vector<test::NamedScene> scenes{
+      {"springs", springs},
+      {"springs in implicit steps", test::implicitly(averaged)},
+      {"fabric", test::tornMesh(12)},
+      {"fabric in contact", contact},
+      {"fabric in second order", test::inSecondOrder(test::tornMesh(12))}};
+  for (const auto& [name, scene] : scenes) {
+    const int steps = isImplicit(scene.solver.integrator) ? 20 : 5 * scene.solver.simulationSteps;
+    const State gpu = steppedOnGpu(scene, steps), cpu = steppedOnCpu(scene, steps);
+    const StateDifference result = difference(gpu, cpu);
+    EXPECT_EQ(result.differing, 0u) << name << ", by at most " << result.maxAbs;
+    EXPECT_TRUE(result.finite) << name;
+    EXPECT_EQ(gpu.cuts, cpu.cuts) << name;
+    EXPECT_GT(std::count(cpu.cuts.begin(), cpu.cuts.end(), 1), 2) << name << " hardly tears";
+  }
 }
 
 // A sheet with a cut falls into a heap on the floor, beside another one, over a ball that is smaller than a

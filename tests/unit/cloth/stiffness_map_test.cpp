@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <set>
+#include <span>
 
 #include "cloth/cloth.h"
 #include "cloth/material.h"

@@ -76,14 +76,14 @@ TEST(FactsOfAParticle, AreThoseOfItsMostStrainedSpringWithItsSign) {
   state.positions[8].x -= 0.1f;  // the corner: its spring to the left is 0.4 m instead of 0.5 m
   state.velocities[8].z = 3;
   const std::vector<Spring> springs = cloth.springs();
-  const ParticleFacts corner = factsOf(8, springs, {}, state);
+  const ParticleFacts corner = factsOf(8, cloth, springs, {}, state);
   EXPECT_NEAR(corner.strain, -0.2, 1e-5);
   EXPECT_NEAR(corner.force, -10, 1e-3) << "100 N/m and 0.1 m";
   EXPECT_NEAR(corner.speed, 3, 1e-6);
-  EXPECT_NEAR(factsOf(0, springs, {}, state).strain, 0, 1e-5);
+  EXPECT_NEAR(factsOf(0, cloth, springs, {}, state).strain, 0, 1e-5);
   Cuts cuts;
   ASSERT_TRUE(cutAlong(cuts, cloth, 0, {1.5, -1}, {1.5, 3}));
-  EXPECT_GT(factsOf(8, springs, cuts, state).strain, -0.2) << "the spring to the left is cut";
+  EXPECT_GT(factsOf(8, cloth, springs, cuts, state).strain, -0.2) << "the spring to the left is cut";
 }
 
 }  // namespace

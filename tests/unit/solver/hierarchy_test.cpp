@@ -18,7 +18,7 @@ const Material clothOfLevels{.density = 0.2, .stretch = 3000, .shear = 700, .ben
 
 Hierarchy<double> levelsOf(const Scene& scene, const Cuts& cuts = {}) {
   const Cloth cloth(scene);
-  return makeHierarchy<double>(cloth, makeCutMasks(cloth, cuts));
+  return makeHierarchy<double>(cloth, cuts);
 }
 
 // The weights of every vertex that is not on the coarsest level.

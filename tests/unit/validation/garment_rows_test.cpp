@@ -2,6 +2,7 @@
 // threads of two kinds, and cloth that tears under its own weight.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -254,6 +255,67 @@ TEST(RowTear, OfAStripThatHangsIsWhereItsWeightPullsMost) {
                lowest, 4);
   EXPECT_LT(state.positions.back().y, hung<float>(1).positions.back().y - 0.2) << "it falls";
   EXPECT_EQ(stateHash(state), stateHash(hung<float>(0.8 * strain)));
+}
+
+// The same strip as a mesh; its top row of triangles is pinned.
+constexpr test::MeshSheet STRIP{.columns = 5, .rows = 36, .edge = 0.033};
+
+Scene hangingMesh(double tearStrain) {
+  Scene scene = hangingStrip(tearStrain);
+  ClothSettings& cloth = scene.cloths[0];
+  cloth = ClothSettings{};
+  cloth.mesh = test::meshSheetFile(STRIP);
+  cloth.material = Material{.density = 0.2, .stretch = 20, .shear = 5, .bend = 1e-6, .damping = 20};
+  cloth.pinned = {GroupPin{"top"}};
+  cloth.tearStrain = tearStrain;
+  return scene;
+}
+
+State hungMesh(double tearStrain, bool untilItTears = false) {
+  const Scene scene = hangingMesh(tearStrain);
+  const Cloth cloth(scene);
+  CpuSolver<float> solver(cloth, scene);
+  for (int frame = 0; frame < 90 && !(untilItTears && !solver.cuts().empty()); ++frame) solver.step(1);
+  return solver.state();
+}
+
+// How many of the particles of the lowest row hang from the two pinned ones, over triangles.
+int stillHanging(const Cloth& cloth, const Cuts& cuts) {
+  const std::uint32_t count = cloth.particleCount();
+  std::vector<bool> hangs(count);
+  std::fill(hangs.end() - 2 * STRIP.columns, hangs.end(), true);
+  for (bool more = true; more;) {
+    more = false;
+    for (const auto& [a, b, c] : remainingTriangles(cloth, cuts)) {
+      if (hangs[a] == hangs[b] && hangs[b] == hangs[c]) continue;
+      hangs[a] = hangs[b] = hangs[c] = more = true;
+    }
+  }
+  return static_cast<int>(std::count(hangs.begin(), hangs.begin() + STRIP.columns, true));
+}
+
+// The tear begins below the clamp, which holds the mesh in width, too, so that some of its edges are
+// stretched by more than the weight alone would; from there it goes along triangles.
+TEST(RowTear, OfAMeshThatHangsBeginsWhereItsWeightPullsMost) {
+  const double height = std::sqrt(0.75) * STRIP.edge, strain = 0.2 * GRAVITY * (STRIP.rows - 2) * height / 20;
+  EXPECT_TRUE(hungMesh(2.5 * strain).cuts.empty());
+  const Cloth cloth(hangingMesh(1));
+  const double top = cloth.positions().back().y - height;
+  const State first = hungMesh(0.8 * strain, true), state = hungMesh(0.8 * strain);
+  ASSERT_FALSE(first.cuts.empty());
+  double lowest = 0;
+  for (std::uint32_t t = 0; t < cloth.triangleCount(); ++t)
+    if (isLost(first.cuts, cloth, t))
+      for (const std::uint32_t corner : cloth.lists().triangles[t])
+        lowest = std::max(lowest, (top - cloth.positions()[corner].y) / height);
+  expectAtMost(
+      {"tear of a hanging strip", "row where a mesh tears first, of 34 below the pins", "binary32", ""},
+      lowest, 2.01);
+  expectNear({"tear of a hanging strip", "particles of a mesh's free end that hang on, of 5", "binary32", ""},
+             stillHanging(cloth, state.cuts), 0, 0);
+  EXPECT_EQ(stillHanging(cloth, {}), 5);
+  EXPECT_LT(state.positions.front().y, hungMesh(1).positions.front().y - 0.2F) << "it falls";
+  EXPECT_EQ(stateHash(state), stateHash(hungMesh(0.8 * strain)));
 }
 
 TEST(Tear, OfSpringsSideBySideTakesTheLongestFirst) {

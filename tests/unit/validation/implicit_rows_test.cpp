@@ -45,9 +45,9 @@ class Sheet {
     solver_.setCuts(cuts);
     params_ = makeStepParams<double>(scene_, cloth_, 0, 0);
     restLengths_ = measureRestLengths<double>(cloth_);
-    lists_ = makeMeshLists<double>(cloth_);
+    lists_ = makeMeshLists<double>(cloth_, cuts);
     const std::size_t count = cloth_.particleCount();
-    own_.resize(makeHierarchy<double>(cloth_, cutMasks_));
+    own_.resize(makeHierarchy<double>(cloth_, cuts));
     forces_.resize(count);
     for (std::size_t i = 0; i < count; ++i) own_.diagonal[i] = 1 + static_cast<double>(i % 5);
   }
@@ -264,13 +264,16 @@ TEST(RowImplicitGradientAndHessian, ProductsAreDerivativesOfTheForces) {
   expectHessian("whole sheet", Sheet(scene), 0.002);
   expectHessian("torn sheet", Sheet(scene, test::someCuts(Cloth(scene))), 0.002);
   expectHessian("mesh", Sheet(limitedMesh()), 0.0015);
+  expectHessian("torn mesh", Sheet(limitedMesh(), test::tornAcross(Cloth(limitedMesh()), 0.3)), 0.0015);
 }
 
 // Also where springs push: there the exact Hessian is not positive.
 TEST(ImplicitMatrix, IsSymmetricAndPositiveOnCrumpledSheets) {
   const Scene piece = limitedSheet(), mesh = limitedMesh();
-  for (const auto& [scene, cuts] :
-       {std::pair{piece, Cuts{}}, {piece, test::someCuts(Cloth(piece))}, {mesh, Cuts{}}}) {
+  for (const auto& [scene, cuts] : {std::pair{piece, Cuts{}},
+                                    {piece, test::someCuts(Cloth(piece))},
+                                    {mesh, Cuts{}},
+                                    {mesh, test::tornAcross(Cloth(mesh), 0.3)}}) {
     Sheet sheet(scene, cuts);
     const Field x = sheet.deformed(0.7, 0.05);
     EXPECT_LT(strains(sheet.cloth(), x).first, -0.3);
@@ -287,8 +290,10 @@ TEST(ImplicitMatrix, IsSymmetricAndPositiveOnCrumpledSheets) {
 }
 
 TEST(ImplicitMatrix, BetweenAggregatesIsThatOfTheFirstCoarseLevel) {
-  for (const Scene& scene : {limitedSheet(), limitedMesh()}) {
-    Sheet sheet(scene);
+  const Scene grid = limitedSheet(), mesh = limitedMesh();
+  for (const auto& [scene, cuts] :
+       {std::pair{grid, Cuts{}}, {mesh, Cuts{}}, {mesh, test::tornAcross(Cloth(mesh), 0.3)}}) {
+    Sheet sheet(scene, cuts);
     const auto [error, most] = sheet.errorOfFirstLevel(sheet.deformed(1.05, 0.03));
     EXPECT_LT(error, 1e-12 * most);
   }
