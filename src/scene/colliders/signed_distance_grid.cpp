@@ -11,6 +11,7 @@
 #include "core/exact_math.h"
 #include "core/recent.h"
 #include "core/thread_team.h"
+#include "scene/colliders/enclosing.h"
 
 namespace clothsim {
 
@@ -84,6 +85,25 @@ SignedDistanceGrid::SignedDistanceGrid(std::vector<SolidMesh> shapes, bool loops
     sampleRoughly(shapes_[i], samples_.data() + firstOfShape(i));
   for (std::size_t i = 0; i < waysOf(shapes_.size(), loops); ++i)
     sampleDisplacements(shapes_[i], shapes_[(i + 1) % shapes_.size()], samples_.data() + firstOfWay(i));
+  if (shapes_.size() > 1) enclose(waysOf(shapes_.size(), loops));
+}
+
+// A way lowers the distances of both its shapes: of three ways in a row the middle one waits for the others.
+void SignedDistanceGrid::enclose(std::size_t ways) {
+  const SampleGrid grid{origin_, cell_, counts_}, coarse{origin_, 2 * cell_, countsOfDisplacements(counts_)};
+  ThreadTeam& team = ThreadTeam::shared();
+  team.forEach(0, static_cast<std::uint32_t>(shapes_.size()), 1,
+               [&](std::uint32_t i) { encloseShape(shapes_[i], grid, samples_.data() + firstOfShape(i)); });
+  const auto encloseWayOf = [&](std::size_t i) {
+    const std::size_t next = (i + 1) % shapes_.size();
+    encloseWay(shapes_[i], shapes_[next], grid, samples_.data() + firstOfShape(i),
+               samples_.data() + firstOfShape(next), coarse, samples_.data() + firstOfWay(i));
+  };
+  const std::size_t pairs = ways / 2;
+  for (const std::uint32_t odd : {0u, 1u})
+    team.forEach(0, static_cast<std::uint32_t>(pairs), 1,
+                 [&](std::uint32_t i) { encloseWayOf(2 * i + odd); });
+  if (ways % 2 == 1) encloseWayOf(ways - 1);
 }
 
 Vec3d SignedDistanceGrid::place(std::array<std::size_t, 3> number, double spacing) const {

@@ -56,6 +56,7 @@ class SignedDistanceGrid {
   [[nodiscard]] Vec3d place(std::array<std::size_t, 3> number, double spacing) const;
   void sampleDistances(const SolidMesh& shape, float* samples) const;
   void sampleRoughly(const SolidMesh& shape, float* samples) const;
+  void enclose(std::size_t ways);
   void sampleDisplacements(const SolidMesh& from, const SolidMesh& to, float* samples) const;
 
   std::vector<SolidMesh> shapes_;

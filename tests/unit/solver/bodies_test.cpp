@@ -144,6 +144,40 @@ TEST(WalkingFigure, IsFoundWithinAPartOfACellOnTheWaysBetweenItsShapes) {
   }
 }
 
+// Distances that are interpolated between exact samples were above 0 on 85 % of the surface, by up to 12 mm
+// at the toes, and cloth sank in by as much.
+TEST(WalkingFigure, IsEnclosedByItsSampledDistancesOnItsWholeWay) {
+  MeshCollider walk{.file = "assets/meshes/walk/walk_%02d.obj", .cells = 64};
+  walk.shapes = 24;
+  walk.shapesLoop = true;
+  walk.shapesPerSecond = 1;
+  const Scene scene = particleScene(walk, 0.01);
+  const ColliderSet colliders(scene);
+  const auto grid = distanceGridOf(walk);
+  cpu::ShapeLaws<double> laws{colliders.distances()->data()};
+  std::mt19937 engine(5);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  double worst = -1, sum = 0;
+  int points = 0, outside = 0;
+  for (int shape = 0; shape < walk.shapes; ++shape)
+    for (const double part : {0.0, 0.1, 0.4, 0.5, 0.85}) {
+      const auto params = colliders.params<double>(0, shape + part, shape + part);
+      const auto now = grid->at(walk.momentAt(shape + part));
+      for (std::size_t triangle = 0; triangle < now->mesh.triangles.size(); ++triangle) {
+        const double a = uniform(engine), b = (1 - a) * uniform(engine);
+        const double distance =
+            laws.nearestOnMesh(params, placeOf(now->mesh, {triangle, {a, b, 1 - a - b}})).distance;
+        worst = std::max(worst, distance);
+        sum += distance;
+        outside += distance > 2e-5 ? 1 : 0;
+        ++points;
+      }
+    }
+  EXPECT_LT(worst, 2e-4) << "between the points at which it was made so";
+  EXPECT_LT(outside, 1e-3 * points);
+  EXPECT_GT(sum / points, -2e-3) << "and is not much thicker than it is";
+}
+
 // A particle that lies on top of a ball that goes sideways under it, and sticks.
 TEST_F(Bodies, CarryWhatSticksToThemAlong) {
   MeshCollider body = passingBall();
