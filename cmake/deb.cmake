@@ -21,7 +21,12 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "libegl1, libgl1, libgl1-mesa-dri, fonts-roboto-unhinted, ffmpeg")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libclothsim-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libc6-dev, clothsim (= ${PROJECT_VERSION})")
+# The library is static: a program that uses it links what it uses (clothsimConfig.cmake.in).
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
+    "libc6-dev, clothsim (= ${PROJECT_VERSION}), libassimp-dev, libstb-dev, libtinyobjloader-dev, libzip-dev, nlohmann-json3-dev")
+if(CGAL_FOUND)
+  string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS ", libcgal-dev")
+endif()
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "${CPACK_PACKAGE_DESCRIPTION}")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Headers, the static library and the files for find_package(clothsim).")
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)

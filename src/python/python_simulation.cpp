@@ -115,6 +115,7 @@ void PythonSimulation::start(const std::optional<std::uint32_t>& seed) {
   summary.add(*simulation);
   renderer_.reset();  // before its simulation goes
   simulation_ = simulation;
+  stepsSinceKept_ = 0;
   summary_ = std::move(summary);
   lookers_ = std::make_shared<std::shared_ptr<Simulation>>(simulation_);
   positionsPlace_ = velocitiesPlace_ = nullptr;
@@ -133,12 +134,14 @@ int PythonSimulation::frame() const {
   return static_cast<int>(std::lround(simulation_->time() * simulation_->scene().solver.framesPerSec));
 }
 
+// A divergence goes back by a frame at most: who asks for single steps pays for the copy once a frame.
 void PythonSimulation::advance(std::int64_t steps, const std::function<void()>& poll) {
   using Clock = std::chrono::steady_clock;
   constexpr std::chrono::milliseconds pollTime{50};
   while (steps > 0) {
-    const std::int64_t frame = std::min<std::int64_t>(steps, simulation_->scene().solver.simulationSteps);
-    simulation_->keep();
+    const std::int64_t whole = simulation_->scene().solver.simulationSteps,
+                       frame = std::min(steps, whole - stepsSinceKept_);
+    if (stepsSinceKept_ == 0) simulation_->keep();
     for (std::int64_t done = 0; done < frame;) {
       const int count = static_cast<int>(std::min<std::int64_t>(stepsAtOnce_, frame - done));
       const Clock::time_point start = Clock::now();
@@ -152,9 +155,11 @@ void PythonSimulation::advance(std::int64_t steps, const std::function<void()>& 
         stepsAtOnce_ *= 2;
       poll();
     }
+    const std::int64_t since = std::exchange(stepsSinceKept_, 0) + frame;
     if (const std::optional<Divergence> divergence = simulation_->checkFrame())
       throw SimulationError(blowUpText(*divergence, simulation_->cloth(), simulation_->scene()) +
                             "\nThe state is the one before that frame.");
+    if (since < whole) stepsSinceKept_ = since;
     steps -= frame;
   }
 }
@@ -200,6 +205,7 @@ void PythonSimulation::reset(std::optional<std::uint32_t> seed) {
 void PythonSimulation::setState(const State& state) {
   const Turn turn(*this);
   simulation_->setState(state);
+  stepsSinceKept_ = 0;
   stayInPlace();
 }
 
@@ -214,6 +220,7 @@ void PythonSimulation::setPins(std::span<const bool> pinned) {
     leavePath(state.offPath, i);
   }
   simulation_->setState(state);
+  stepsSinceKept_ = 0;
   stayInPlace();
 }
 
@@ -233,6 +240,7 @@ void PythonSimulation::moveCollider(std::size_t collider, Vec3d position, std::o
   if (!(duration > 0 && duration <= 1e6))
     throw UsageError("move_collider: seconds: expected more than 0 and up to 1e6");
   simulation_->configure(withColliderOnItsWay(scene, collider, position, now, now + duration));
+  stepsSinceKept_ = 0;
 }
 
 std::vector<Vec3d> PythonSimulation::colliderPositions() const {
@@ -254,6 +262,7 @@ void PythonSimulation::configure(const std::vector<std::string>& settings) {
           "Simulation() instead");
   }
   simulation_->configure(std::move(scene));
+  stepsSinceKept_ = 0;
 }
 
 void PythonSimulation::measureNow() { summary_.add(*simulation_, frame()); }

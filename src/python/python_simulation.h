@@ -109,6 +109,7 @@ class PythonSimulation {
   std::vector<std::array<std::uint32_t, 3>> faces_;
   std::atomic_flag isBusy_;
   int stepsAtOnce_ = 1;
+  std::int64_t stepsSinceKept_ = 0;  // since the state that a divergence goes back to; 0: it is to be kept
 };
 
 }  // namespace clothsim
