@@ -63,12 +63,14 @@ bool NearParts<Real>::update(const ClothSurface<Real>& surface, const SurfaceBox
     std::vector<Parts>& found = parts_[chunk];
     found.clear();
     const std::uint32_t first = chunk * TRIANGLES, end = std::min(first + TRIANGLES, triangles);
-    for (std::uint32_t i = first; i < end && found.size() <= MOST; ++i) {
-      search.forEachPair(i, covers_, [&](const Parts& parts) {
-        if (found.size() <= MOST) found.push_back(parts);
-      });
-      ends_[i] = static_cast<std::uint32_t>(found.size());
-    }
+    std::vector<std::uint32_t> nearGroups;
+    for (std::uint32_t i = first; i < end && found.size() <= MOST; i += BOX_CHILDREN)
+      search.forEachPairOfGroup(
+          i / BOX_CHILDREN, covers_, nearGroups,
+          [&](const Parts& parts) {
+            if (found.size() <= MOST) found.push_back(parts);
+          },
+          [&](std::uint32_t triangle) { ends_[triangle] = static_cast<std::uint32_t>(found.size()); });
     isTooLong_[chunk] = found.size() > MOST ? 1 : 0;
   });
   return true;

@@ -75,14 +75,12 @@ struct SurfaceSearch {
       }
   }
 
-  // visit(triangle) for the triangles behind this one, in the order of the tree, whose boxes meet its own.
+  // visit(place) for the boxes of level `bottom` from `place` on, in the order of the tree, that meet `own`.
   template <class Visit>
-  void forEachNeighbor(std::uint32_t triangle, Visit visit) const {
+  void walk(std::size_t bottom, std::uint32_t place, const Bounds<Real>& own, Visit visit) const {
     const std::vector<std::uint32_t>& first = surface.firstBoxes;
     const std::size_t top = first.size() - 2;
-    const Bounds<Real> own = tree[triangle];
-    std::size_t level = 0;
-    std::uint32_t place = triangle + 1;  // within the level
+    std::size_t level = bottom;
     for (;;) {
       for (; place % BOX_CHILDREN == 0 && level < top; ++level) place /= BOX_CHILDREN;
       for (;; place *= BOX_CHILDREN, --level) {  // down, as long as boxes meet
@@ -93,7 +91,7 @@ struct SurfaceSearch {
           break;
         }
         const bool meets = overlap(own, tree[first[level] + place]);
-        if (meets && level > 0) continue;
+        if (meets && level > bottom) continue;
         if (meets) visit(place);
         ++place;
         break;
@@ -101,21 +99,51 @@ struct SurfaceSearch {
     }
   }
 
+  // visit(triangle) for the triangles behind this one whose boxes meet its own.
+  template <class Visit>
+  void forEachNeighbor(std::uint32_t triangle, Visit visit) const {
+    walk(0, triangle + 1, tree[triangle], visit);
+  }
+
   // visit(parts) for the pairs of parts that a triangle looks for: of it and of triangles behind it, without
   // a particle that is in both, where the boxes meet.
   template <class Visit>
   void forEachPair(std::uint32_t triangle, const SurfaceBoxes<Real>& boxes, Visit visit) const {
-    const auto look = [&](const Parts& parts) {
-      if (boxes.meet(parts)) visit(parts);
-    };
-    forEachNeighbor(triangle, [&](std::uint32_t neighbor) {
-      forEachCorner(triangle, neighbor, look);
-      forEachCorner(neighbor, triangle, look);
-      forEachSide(triangle, neighbor, look);
-    });
+    forEachNeighbor(triangle, [&](std::uint32_t neighbor) { forEachPair(triangle, neighbor, boxes, visit); });
+  }
+
+  // The same for triangles that have a box together, BOX_CHILDREN or fewer: they go through the tree as one.
+  // end(triangle) comes behind a triangle's pairs.
+  template <class Visit, class End>
+  void forEachPairOfGroup(std::uint32_t group, const SurfaceBoxes<Real>& boxes,
+                          std::vector<std::uint32_t>& nearGroups, Visit visit, End end) const {
+    const std::vector<std::uint32_t>& first = surface.firstBoxes;
+    nearGroups.clear();
+    if (first.size() > 2)
+      walk(1, group, tree[first[1] + group], [&](std::uint32_t near) { nearGroups.push_back(near); });
+    const std::uint32_t own = BOX_CHILDREN * group, behind = std::min(own + BOX_CHILDREN, first[1]);
+    for (std::uint32_t triangle = own; triangle < behind; ++triangle) {
+      const Bounds<Real> box = tree[triangle];
+      for (const std::uint32_t near : nearGroups) {
+        const std::uint32_t last = std::min(BOX_CHILDREN * (near + 1), first[1]);
+        for (std::uint32_t i = std::max(BOX_CHILDREN * near, triangle + 1); i < last; ++i)
+          if (overlap(box, tree[i])) forEachPair(triangle, i, boxes, visit);
+      }
+      end(triangle);
+    }
   }
 
  private:
+  template <class Visit>
+  void forEachPair(std::uint32_t triangle, std::uint32_t neighbor, const SurfaceBoxes<Real>& boxes,
+                   Visit& visit) const {
+    const auto look = [&](const Parts& parts) {
+      if (boxes.meet(parts)) visit(parts);
+    };
+    forEachCorner(triangle, neighbor, look);
+    forEachCorner(neighbor, triangle, look);
+    forEachSide(triangle, neighbor, look);
+  }
   template <class Visit>
   void forEachCorner(std::uint32_t from, std::uint32_t to, Visit& visit) const {
     const auto mine = cornersOf(surface.triangles[from]), theirs = cornersOf(surface.triangles[to]);
