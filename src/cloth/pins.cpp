@@ -209,7 +209,10 @@ std::vector<double> weightsOf(const std::vector<Pin>& points, const ClothSetting
       const std::vector<double> channel = channelOf(*paint, owner, *meshShapeOf(cloth.mesh));
       for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = std::max(weights[i], channel[i]);
     } else {
-      particles.forEach(pin, [&](std::uint32_t particle) { return (weights[particle] = 1) > 0; });
+      particles.forEach(pin, [&](std::uint32_t particle) {
+        weights[particle] = 1;
+        return true;
+      });
     }
   }
   return weights;

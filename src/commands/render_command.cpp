@@ -53,7 +53,6 @@ int renderCommand(const RenderCommandOptions& options) {
       withQuality({options.sphereSegmentsAround, options.sphereSegmentsDown},
                   qualityNamed(options.quality).value_or(Quality::final), gl::currentContextInfo().software);
   SimulationRenderer renderer(simulation, forExposures(drawing, exposures));
-  renderer.update();  // a loaded state may have cuts
   Camera camera(scene, simulation.cloth());
   camera.orbit(options.view.right * radians, options.view.up * radians);
   camera.zoom(1 / options.view.zoom);

@@ -27,7 +27,6 @@ void SavedPictures::add(Simulation& simulation, int frame) {
     renderer_.emplace(simulation, forExposures(drawing, exposures_));
     camera_.emplace(simulation.scene(), simulation.cloth());
   }
-  renderer_->update();  // a recording changes scene, cloth and cuts
   const Image image = renderer_->picture(*camera_, settings_.width, settings_.height, exposures_,
                                          [](int) { stopIfInterrupted(); });
   for (PictureOutput& picture : pictures_)

@@ -294,7 +294,6 @@ Image PythonSimulation::picture(const PictureView& view) {
     renderer_ = std::make_unique<SimulationRenderer>(*simulation_, drawing);
   else
     renderer_->setOptions(drawing);
-  renderer_->update();
   Camera camera(simulation_->scene(), simulation_->cloth());
   camera.orbit(view.right * radians, view.up * radians);
   camera.zoom(1 / view.zoom);

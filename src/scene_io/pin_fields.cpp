@@ -61,9 +61,8 @@ template <>
 std::span<const Field<PaintedPin>> fieldsOf<PaintedPin>() {
   static const std::array fields{
       field("painted", &PaintedPin::painted,
-            "Vertices by the colours of the mesh file (v x y z r g b), painted on black: pins hold those of "
-            "more "
-            "than 0.5.")
+            "Vertices by the colours of the mesh file (v x y z r g b), painted on black: pins hold those "
+            "of more than 0.5.")
           .required()
           .rebuilds(),
   };

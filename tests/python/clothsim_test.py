@@ -296,6 +296,22 @@ class Acting(unittest.TestCase):
             sim.step_frames(200)
         self.assertTrue(np.isfinite(sim.positions).all())
 
+    def test_single_steps_go_back_by_a_frame_at_most_when_cloth_blows_up(self):
+        sim = clothsim.Simulation("pinned2", backend="cpu")  # 30 steps a frame
+        start = sim.state_hash
+        for kept in (start, None):
+            if kept is None:  # what is set is what it goes back to
+                sim.step(2)
+                sim.set_state(sim.get_state())
+                kept = sim.state_hash
+            for _ in range(3):
+                sim.step(1)
+            sim.forces = np.full(sim.positions.shape, 1e9)
+            with self.assertRaisesRegex(clothsim.SimulationError, "the simulation blew up: "):
+                sim.step(1)
+            sim.forces = np.zeros(sim.positions.shape)
+            self.assertEqual(sim.state_hash, kept)
+
     def test_ctrl_c_ends_a_long_step_at_a_whole_step(self):
         sim = clothsim.Simulation("pinned2", backend="cpu")
         threading.Timer(0.3, lambda: os.kill(os.getpid(), signal.SIGINT)).start()

@@ -1,7 +1,7 @@
 // Sampled distances that enclose a body. Between samples a distance that is interpolated is too large where a
 // surface is convex, so that cloth would sink in by about h²/8 of the curvature, h the cell: 1.2 mm into a
 // thigh at cells of 24 mm, 4 mm at a knee. Here samples are fitted, then lowered until the interpolated
-// distance is nowhere above 0 on the triangles, so that who is outside by it is outside of them.
+// distance is nowhere above 0 on the triangles: whatever has a distance above 0 is outside of them.
 #pragma once
 
 #include <array>

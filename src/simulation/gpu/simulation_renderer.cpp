@@ -85,6 +85,7 @@ void SimulationRenderer::expose(int number, int count, const Camera& camera, GLu
 
 Image SimulationRenderer::picture(const Camera& camera, int width, int height, int exposures,
                                   const std::function<void(int)>& before) {
+  update();
   if (exposures > 1) takeVelocities();
   return renderImage(*renderer_, positionsBuffer(), camera, time(), width, height, exposures, before);
 }

@@ -37,6 +37,7 @@ class SimulationRenderer {
   // The functions of Renderer, with the positions and the time of the simulation.
   void draw(const Camera& camera, GLuint target, int width, int height);
   void expose(int number, int count, const Camera& camera, GLuint target, int width, int height);
+  // Calls update() first.
   [[nodiscard]] Image picture(const Camera& camera, int width, int height, int exposures = 1,
                               const std::function<void(int)>& before = {});
   [[nodiscard]] Pick pick(const Camera& camera, int width, int height, double x, double y);

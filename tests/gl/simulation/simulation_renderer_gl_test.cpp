@@ -25,7 +25,6 @@ TEST_F(SimulationRendererTest, FollowsEveryChange) {
   SimulationRenderer renderer(simulation, options);
   std::vector<std::vector<std::uint8_t>> pictures;
   const auto expectShown = [&](const char* change) {
-    renderer.update();
     const Image picture = renderer.picture(camera, 48, 32);
     for (const auto& earlier : pictures) EXPECT_NE(picture.rgb, earlier) << change << " shows";
     pictures.push_back(picture.rgb);
