@@ -1,21 +1,37 @@
 // Where a triangle meets the core of a small collider (SmallCollider). Written once, in the words that GLSL
 // and C++ share (src/solver/cpu/surface_laws.h), in the own frame of the collider at the end of the step.
 
-LAW vec3 nearestOnCore(SmallCollider core, vec3 p) {
+LAW real keptBetween(real low, real x, real high) { return x < low ? low : high < x ? high : x; }
+
+LAW vec3 nearestOnCore(SmallCollider core, vec3 place) {
   const real zero = real(0.0);
-  real above = p.y < -core.halfLength ? -core.halfLength : p.y;
-  real y = core.halfLength < above ? core.halfLength : above;
-  return vec3(zero, y, zero);
+  vec3 p = canonical(place);
+  real y = keptBetween(zero - core.coreY, p.y, core.coreY);
+  if (!(zero < core.outerRadius))
+    return vec3(keptBetween(zero - core.coreX, p.x, core.coreX), y,
+                keptBetween(zero - core.coreZ, p.z, core.coreZ));
+  precise real axisSquared = p.x * p.x + p.z * p.z;
+  precise real inverseAxis = inverseSquareRoot(axisSquared);
+  precise real fromAxis = axisSquared * inverseAxis;
+  precise real kept = keptBetween(core.coreX, fromAxis, core.outerRadius) * inverseAxis;
+  precise real x = kept * p.x;
+  precise real z = kept * p.z;
+  return vec3(x, y, z);
+}
+
+LAW bool isPoint(SmallCollider core) {
+  const real zero = real(0.0);
+  return !(zero < core.coreX || zero < core.coreY || zero < core.coreZ || zero < core.outerRadius);
 }
 
 // The nearest places of a triangle and of the core: by projecting from one on the other and back, which for a
 // point as core is done at once.
 LAW NearestParts nearestToCore(SmallCollider core, vec3 a, vec3 b, vec3 c) {
-  const real third = real(0.3333333432674407958984375), zero = real(0.0);
+  const real third = real(0.3333333432674407958984375);
   precise vec3 middle = third * ((a + b) + c);
   vec3 onCore = nearestOnCore(core, middle);
   NearestParts nearest = nearestOnTriangle(onCore, a, b, c);
-  if (!(zero < core.halfLength)) return nearest;
+  if (isPoint(core)) return nearest;
   for (int i = 0; i < CORE_ROUNDS; ++i) {
     precise vec3 place = onCore - nearest.way;
     onCore = nearestOnCore(core, place);
@@ -39,7 +55,9 @@ struct Meeting {
   real u;
   real v;
   uint part;
-  bool passes;  // the core goes through the triangle
+  bool isOnWay;  // the core passes the triangle or comes near it
+  bool passes;   // the core goes through the triangle
+  real pierced;  // how far a tip is through it [m]; 0: none is
 };
 LAW Meeting meetingOf(SmallCollider core, vec3 from[3], vec3 to[3]) {
   const real middle = real(0.5), slight = real(0.0625);
@@ -48,7 +66,9 @@ LAW Meeting meetingOf(SmallCollider core, vec3 from[3], vec3 to[3]) {
   meeting.u = nearest.u;
   meeting.v = nearest.v;
   meeting.part = nearest.part;
+  meeting.isOnWay = false;
   meeting.passes = false;
+  meeting.pierced = real(0.0);
   vec3 x[3];
   for (int k = 0; k < 3; ++k) x[k] = to[k];
   precise real radiusSquared = core.radius * core.radius;
@@ -76,6 +96,7 @@ LAW Meeting meetingOf(SmallCollider core, vec3 from[3], vec3 to[3]) {
     meeting.u = nearest.u;
     meeting.v = nearest.v;
     meeting.part = nearest.part;
+    meeting.isOnWay = true;
     meeting.passes = waySquared < slightSquared;
   }
   return meeting;

@@ -78,6 +78,9 @@ using uint = std::uint32_t;
 #define MOST_OVER_INERTIA 1048576.0f  // of a pair's stiffness, what springs add: 1 / LEAST_PIVOT
 #define CORE_ROUNDS 6
 #define CROSSING_ROUNDS 16
+// Rounds of the search for the place of a triangle that is deepest in a shape, and halvings in each.
+#define DEEPEST_ROUNDS 3
+#define DEEPEST_HALVINGS 6
 
 #define SURFACE_PARAMS_BINDING 3  // uniform blocks
 #define BOX_LEVEL_BINDING 4
@@ -144,18 +147,20 @@ SHARED_STRUCT SurfacePoint {
   real stiffness;  // what its springs add to a contact [N/m]
 };
 
-// A sphere or a capsule that is small against the cells of the cloth and acts on triangles, too. Its core is
-// the center, or the segment along y in its own frame: no triangle may pass that.
+// A collider that is thin or sharp against the cells of the cloth and acts on triangles, too. Its core lies
+// in the middle of it, in its own frame: no triangle may pass that. It is a box, as small as a point or a
+// segment, or, where outerRadius is above 0, all that is around y between the radii coreX and outerRadius
+// [m].
 SHARED_STRUCT SmallCollider {
   real number;  // among the scene's
   real bound;   // all that counts as near is so near to its center [m]
-  real radius;
-  real halfLength;  // of the core [m]
+  real radius;  // how thick it is around the core [m]
+  real near;    // what is so near to the core counts as near [m]
 
-  real near;  // what is so near to the core counts as near [m]
-  real unusedA;
-  real unusedB;
-  real unusedC;
+  real coreX;  // half sizes of the core [m]
+  real coreY;
+  real coreZ;
+  real outerRadius;  // below 0: it is so thick that nothing of the core counts
 };
 
 // What contact has come to.

@@ -87,3 +87,9 @@ vec3 placeInFrame(ColliderParams collider, vec3 x) {
   return hasType(COLLIDER_SPHERE) && collider.type == COLLIDER_SPHERE ? fromPoint : toOwnFrame(collider, x);
 }
 vec3 startInFrame(ColliderParams collider, vec3 x) { return placeInFrame(collider, carried(collider, x)); }
+
+// Others than round ones have edges, or may have.
+bool hasEdges(ColliderParams collider) {
+  const uint round = 1u << COLLIDER_SPHERE | 1u << COLLIDER_PLANE | 1u << COLLIDER_CAPSULE;
+  return (colliderTypes & ~round) != 0u && (round >> collider.type & 1u) == 0u;
+}

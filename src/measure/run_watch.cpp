@@ -180,8 +180,8 @@ std::vector<Warning> RunWatch::warnings(const Scene& scene) const {
         {"start", 0, "a collider is smaller than a cell",
          std::to_string(unseenColliders_) + (unseenColliders_ == 1 ? " collider is" : " colliders are") +
              " so thin that particles can be on all sides, and may pass through the cloth; raise "
-             "the resolution, or set solver.integrator to \"implicit\", where small spheres and "
-             "capsules act on triangles, too"});
+             "the resolution, or set solver.integrator to \"implicit\", where small colliders "
+             "but meshes act on triangles, too"});
   if (passedFrame_)
     warnings.push_back({"contact", passedFrame_, "a collider went through the cloth",
                         "small colliders went through triangles " + std::to_string(passages_) +

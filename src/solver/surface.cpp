@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "shared/implicit.h"
@@ -194,34 +195,38 @@ void findBlocks(const Cloth& cloth, const Cuts& cuts, ClothSurface<Real>& surfac
   surface.isOneGrid = cloth.pieces().size() == 1 && !surface.blocks.empty();
 }
 
-// A collider is small that is nowhere thicker than so many cells, to both sides of its middle.
+// A collider is small that is nowhere thicker than so many cells, to both sides of its middle, or that ends
+// in such a tip.
 constexpr double SMALL = 2;
 // What is so many cells from a small collider or from its way counts as near.
 constexpr double NEAR = 2;
 
-// How far the surface of a collider is from its middle, where it is thin.
-double thinnessOf(const Sphere& sphere) { return sphere.radius; }
-double thinnessOf(const Capsule& capsule) { return capsule.radius; }
-double thinnessOf(const Torus& torus) { return torus.tubeRadius; }
-double thinnessOf(const Box& box) { return 0.5 * std::min({box.size.x, box.size.y, box.size.z}); }
-double thinnessOf(const Cylinder& cylinder) { return std::min(cylinder.height / 2, cylinder.radius); }
-double thinnessOf(const Cone& cone) {
-  return std::min(cone.height / 2, std::max(cone.radius, cone.topRadius));
-}
-double thinnessOf(const Plane&) { return INFINITY; }
-double thinnessOf(const MeshCollider&) { return INFINITY; }  // not known
-
-// Half the length of the segment from which a round collider is `radius` thick. Other shapes do not act on
-// triangles.
+// What of a collider triangles meet (shared::SmallCollider).
 struct Core {
-  double radius = INFINITY, halfLength = 0;
+  double radius = INFINITY;        // how thick the collider is around it [m]
+  Vec3d size{};                    // [m]
+  std::optional<double> around{};  // the outer radius of a round one [m]
+  double tip = radius;             // how thick it is at its thinner end [m]
 };
-Core coreOf(const Sphere& sphere) { return {sphere.radius, 0}; }
-Core coreOf(const Capsule& capsule) { return {capsule.radius, capsule.length / 2}; }
-template <class Shape>
-Core coreOf(const Shape&) {
-  return {};
+Core coreOf(const Sphere& sphere) { return {sphere.radius}; }
+Core coreOf(const Capsule& capsule) { return {capsule.radius, {0, capsule.length / 2, 0}}; }
+Core coreOf(const Torus& torus) { return {torus.tubeRadius, {torus.radius, 0, torus.radius}, torus.radius}; }
+Core coreOf(const Box& box) {
+  const double radius = 0.5 * std::min({box.size.x, box.size.y, box.size.z});
+  return {radius, 0.5 * box.size - Vec3d{radius, radius, radius}};
 }
+Core roundCore(double height, double outer) {
+  const double radius = std::min(height / 2, outer), around = outer - radius;
+  return {radius, {0, height / 2 - radius, 0}, around > 0 ? std::optional(around) : std::nullopt};
+}
+Core coreOf(const Cylinder& cylinder) { return roundCore(cylinder.height, cylinder.radius); }
+Core coreOf(const Cone& cone) {
+  Core core = roundCore(cone.height, std::max(cone.radius, cone.topRadius));
+  core.tip = std::min({core.radius, cone.radius, cone.topRadius});
+  return core;
+}
+Core coreOf(const Plane&) { return {}; }
+Core coreOf(const MeshCollider&) { return {}; }  // not known
 
 // The longest sides of the cells of any cloth.
 double largestCell(const Cloth& cloth) {
@@ -236,11 +241,16 @@ std::vector<SmallCollider<Real>> makeSmallColliders(const Scene& scene, double c
   std::vector<SmallCollider<Real>> small;
   for (std::size_t i = 0; i < scene.colliders.size(); ++i) {
     const Core core = std::visit([](const auto& shape) { return coreOf(shape); }, scene.colliders[i]);
-    if (!(core.radius < SMALL * cell)) continue;
+    if (!(core.tip < SMALL * cell)) continue;
+    // What is thick meets triangles at its tip alone.
+    const bool isThick = !(core.radius < SMALL * cell);
+    const double near = core.radius + NEAR * cell, around = core.around.value_or(0),
+                 outerRadius = isThick ? -1 : around;
+    const Vec3d size = isThick && core.around ? Vec3d{around, core.size.y, around} : core.size;
+    const Vec3d extent = core.around ? Vec3d{around, core.size.y, around} : core.size;
     const auto real = [](double x) { return static_cast<Real>(x); };
-    const double near = core.radius + NEAR * cell;
-    small.push_back({real(static_cast<double>(i)), real(core.halfLength + near), real(core.radius),
-                     real(core.halfLength), real(near), 0, 0, 0});
+    small.push_back({real(static_cast<double>(i)), real(length(extent) + near), real(core.radius), real(near),
+                     real(size.x), real(size.y), real(size.z), real(outerRadius)});
   }
   return small;
 }
@@ -256,9 +266,9 @@ std::size_t unseenColliders(const Scene& scene, const Cloth& cloth) {
   const double halfDiagonal = std::sqrt(0.5) * largestCell(cloth);
   std::size_t count = 0;
   for (const Collider& collider : scene.colliders) {
-    const bool isSeen = isImplicit(scene.solver.integrator) && (std::holds_alternative<Sphere>(collider) ||
-                                                                std::holds_alternative<Capsule>(collider));
-    const double thinness = std::visit([](const auto& shape) { return thinnessOf(shape); }, collider);
+    const bool isSeen =
+        isImplicit(scene.solver.integrator) && !std::holds_alternative<MeshCollider>(collider);
+    const double thinness = std::visit([](const auto& shape) { return coreOf(shape).radius; }, collider);
     count += !isSeen && thinness < halfDiagonal ? 1 : 0;
   }
   return count;

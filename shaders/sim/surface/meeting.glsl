@@ -7,6 +7,7 @@
 #include "sim/surface/pairs.glsl"
 #include "shared/surface_laws.h"
 #include "shared/core_laws.h"
+#include "shared/deepest_place.h"
 
 layout(binding = SMALL_COLLIDERS_UNIT) uniform samplerBuffer smallColliders;
 layout(binding = SURFACE_POINTS_UNIT) uniform samplerBuffer points;
@@ -47,12 +48,24 @@ Met meet(SmallCollider small, ColliderParams collider, vec3 start[3], vec3 end[3
     from[k] = startInFrame(collider, start[k]);
     to[k] = placeInFrame(collider, end[k]);
   }
-  Meeting meeting = meetingOf(small, from, to);
+  bool edged = hasEdges(collider);
+  Meeting meeting;
+  if (edged)
+    meeting = meetingWithShape(collider, small, from, to);
+  else
+    meeting = meetingOf(small, from, to);
   precise float rest = (1.0 - meeting.u) - meeting.v;
   vec3 w = canonical(vec3(rest, meeting.u, meeting.v));
   precise vec3 startThere = (w.x * start[0] + w.y * start[1]) + w.z * start[2];
   precise vec3 endThere = (w.x * end[0] + w.y * end[1]) + w.z * end[2];
   Touch touch = touchAt(collider, startThere, endThere);
+  if (edged) {
+    WayOut way = wayOutOf(collider, small, from, to, meeting);
+    if (way.counts) {
+      touch.normal = toWorld(collider, way.normal);
+      touch.depth = way.depth;
+    }
+  }
   bool isCorner = meeting.part != NEAREST_FACE && meeting.part < NEAREST_SIDE;
   bool counts = (meeting.passes || !isCorner) && -small.radius < touch.depth;
   return Met(w, touch, counts, meeting.passes);

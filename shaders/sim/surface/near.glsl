@@ -17,6 +17,23 @@ bool isNearWay(Bounds box, vec3 low, vec3 high, float around) {
   return overlap(Bounds(from, to), Bounds(low, high));
 }
 
+// Whether a triangle comes to where the surface turns within it. On flat parts particles are enough.
+bool meetsEdge(ColliderParams collider, vec3 places[6], float reach) {
+  const float sameFace = 0.75;  // the cosine between normals of a surface that turns little
+  vec3 normals[6];
+  bool isNear = false, turns = false;
+  for (int k = 0; k < 6; ++k) {
+    Nearest nearest = nearestOnShape(collider, places[k]);
+    normals[k] = nearest.normal;
+    precise vec3 way = places[k % 3 + 3] - places[k % 3];
+    precise float room = nearest.distance - reach;
+    precise float roomSquared = room * room;
+    isNear = isNear || room < 0.0 || roomSquared < sumOfProducts(way, way);
+    for (int j = 0; j < k; ++j) turns = turns || sumOfProducts(normals[j], normals[k]) < sameFace;
+  }
+  return isNear && turns;
+}
+
 void lookAtColliders(uint own) {
   uvec4 corners = texelFetch(triangles, int(2u * own));
   vec3 x[6];
@@ -28,20 +45,21 @@ void lookAtColliders(uint own) {
   Bounds world = Bounds(x[0], x[0]);
   for (int k = 1; k < 6; ++k) world = with(world, x[k]);
   for (uint s = 0u; s < surface.smallColliders; ++s) {
-    vec4 small = texelFetch(smallColliders, int(2u * s));
-    float near = texelFetch(smallColliders, int(2u * s + 1u)).x;
+    vec4 small = texelFetch(smallColliders, int(2u * s)), core = texelFetch(smallColliders, int(2u * s + 1u));
     ColliderParams collider = loadCollider(step.firstCollider + uint(small.x));
     vec3 end = pointOf(collider);
     vec3 begin = hasMovingColliders && collider.moving != 0u ? vec3(collider.pivotX, collider.pivotY, collider.pivotZ) : end;
     Bounds way = with(Bounds(begin, begin), end);
     if (!isNearWay(world, way.low, way.high, small.y)) continue;
     if (collider.type != COLLIDER_SPHERE) {
-      vec3 first = startInFrame(collider, x[0]);
-      Bounds own = Bounds(first, first);
-      for (int k = 1; k < 3; ++k) own = with(own, startInFrame(collider, x[k]));
-      for (int k = 3; k < 6; ++k) own = with(own, placeInFrame(collider, x[k]));
-      vec3 high = vec3(0.0, small.w, 0.0);
-      if (!isNearWay(own, -high, high, near)) continue;
+      vec3 places[6];
+      for (int k = 0; k < 3; ++k) places[k] = startInFrame(collider, x[k]);
+      for (int k = 3; k < 6; ++k) places[k] = placeInFrame(collider, x[k]);
+      Bounds own = Bounds(places[0], places[0]);
+      for (int k = 1; k < 6; ++k) own = with(own, places[k]);
+      vec3 high = 0.0 < core.w ? vec3(core.w, core.y, core.w) : core.xyz;
+      if (!isNearWay(own, -high, high, small.w)) continue;
+      if (hasEdges(collider) && !meetsEdge(collider, places, small.w - small.z)) continue;
     }
     ++found;
 #if WRITES_PAIRS

@@ -8,8 +8,12 @@
 layout(std430, binding = SURFACE_STATE_BINDING) coherent buffer State { SurfaceState state; };
 layout(std430, binding = SURFACE_OUT_BINDING) writeonly buffer Rows { vec4 newRows[]; };
 
-// Deeper than this part of its radius is deep.
+// Deeper than this part of a small collider's radius, or of its reach, is deep.
 const float leftInside = 0.0625;
+float leastSize(SmallCollider small) {
+  precise float reach = small.near - small.radius;
+  return small.radius < reach ? small.radius : reach;
+}
 
 #if STOPS_SLIPS
 vec3 displacementAt(uint i) { return texelFetch(displacements, int(i)).xyz; }
@@ -64,13 +68,13 @@ void main() {
   Met met = meetAtEnd(small, ids);
 #endif
 #if ONLY_COUNTS
-  if (!met.passes) return;
+  if (!met.passes || !(leftInside * leastSize(small) < met.touch.depth)) return;
   atomicAdd(state.passages, 1u);
   if ((atomicOr(state.isPressed, 2u) & 2u) == 0u) atomicAdd(state.passageSteps, 1u);
 #else
 #if !STOPS_SLIPS
   float mobility = mobilityOf(met.weights, ids);
-  precise float left = leftInside * small.radius;
+  precise float left = leftInside * leastSize(small);
   precise float push = met.touch.depth - 0.5 * left;
   precise vec3 way = push * met.touch.normal;
   bool wants = met.counts && left < met.touch.depth && 0.0 < mobility;

@@ -388,9 +388,14 @@ template <class Real>
 Vec3<Real> startInFrame(const ColliderParams<Real>& collider, Vec3<Real> x) {
   return placeInFrame(collider, collider.moving != 0 ? carried(collider, x) : x);
 }
+template <class Real>
+Vec3<Real> directionInWorld(const ColliderParams<Real>& collider, Vec3<Real> direction) {
+  return toWorld(collider, direction);
+}
 
 #define INSTANTIATE(Real)                                                                          \
   template Touch<Real> touchAt(const PassArguments<Real>&, std::uint32_t, Vec3<Real>, Vec3<Real>); \
+  template Vec3<Real> directionInWorld(const ColliderParams<Real>&, Vec3<Real>);                   \
   template Vec3<Real> placeInFrame(const ColliderParams<Real>&, Vec3<Real>);                       \
   template Vec3<Real> startInFrame(const ColliderParams<Real>&, Vec3<Real>);
 INSTANTIATE(float)

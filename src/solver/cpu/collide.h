@@ -60,5 +60,8 @@ template <class Real>
 [[nodiscard]] Vec3<Real> placeInFrame(const ColliderParams<Real>& collider, Vec3<Real> x);
 template <class Real>
 [[nodiscard]] Vec3<Real> startInFrame(const ColliderParams<Real>& collider, Vec3<Real> x);
+// A direction of the own frame of a collider that is no sphere, in the world.
+template <class Real>
+[[nodiscard]] Vec3<Real> directionInWorld(const ColliderParams<Real>& collider, Vec3<Real> direction);
 
 }  // namespace clothsim::cpu

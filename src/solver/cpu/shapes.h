@@ -56,6 +56,19 @@ INLINE Nearest<Real> nearestOnShape(const ColliderParams<Real>& shape, Vec3<Real
 #undef NEAREST_IF
 }
 
+// The same for a shape of a type that is known when it runs.
+template <class Real>
+Nearest<Real> nearestOnShape(const ColliderParams<Real>& shape, Vec3<Real> p, const float* distances) {
+  switch (shape.type) {
+#define CASE(number, Struct, law) \
+  case number:                    \
+    return nearestOnShape<number>(shape, p, distances);
+    DISTANCE_SHAPES(CASE)
+#undef CASE
+  }
+  return {};
+}
+
 // Each number is the place of its shape among the alternatives of Collider, and none is missing.
 #define PLACE_OF(number, Struct, law) \
   static_assert(std::is_same_v<std::variant_alternative_t<number, Collider>, Struct>);

@@ -5,10 +5,53 @@
 #include "core/thread_team.h"
 #include "shared/shapes.h"
 #include "solver/cpu/implicit_contact.h"
+#include "solver/cpu/shapes.h"
 #include "solver/cpu/surface_search.h"
 #include "solver/hierarchy.h"
 
 namespace clothsim::cpu {
+
+#include "solver/cpu/begin_laws.h"
+
+// What the laws in shaders/shared/deepest_place.h are written in, as C++.
+template <class Real>
+struct MeetingLaws {
+  using real = Real;
+  using uint = std::uint32_t;
+  using vec3 = Vec3<Real>;
+  using SmallCollider = const shared::SmallCollider<Real>&;
+  using ColliderParams = const shared::ColliderParams<Real>&;
+  using Meeting = typename SurfaceLaws<Real>::Meeting;
+  using NearestParts = typename SurfaceLaws<Real>::NearestParts;
+
+  const float* distances;  // samples of the meshes
+
+  INLINE static real sumOfProducts(vec3 a, vec3 b) { return dot(a, b); }
+  INLINE static vec3 canonical(vec3 v) { return SurfaceLaws<Real>::canonical(v); }
+  Nearest<Real> nearestOnShape(ColliderParams shape, vec3 p) const {
+    return cpu::nearestOnShape(shape, p, distances);
+  }
+  INLINE static vec3 crossProduct(vec3 a, vec3 b) { return cross(a, b); }
+  INLINE static real inverseSquareRoot(real x) { return clothsim::inverseSquareRoot(x); }
+  static NearestParts nearestOnTriangle(vec3 p, vec3 a, vec3 b, vec3 c) {
+    return SurfaceLaws<Real>::nearestOnTriangle(p, a, b, c);
+  }
+  static NearestParts nearestToCore(SmallCollider core, vec3 a, vec3 b, vec3 c) {
+    return SurfaceLaws<Real>::nearestToCore(core, a, b, c);
+  }
+  static vec3 nearestOnCore(SmallCollider core, vec3 p) { return SurfaceLaws<Real>::nearestOnCore(core, p); }
+  static bool isAboveTriangle(vec3 p, vec3 a, vec3 b, vec3 c) {
+    return SurfaceLaws<Real>::isAboveTriangle(p, a, b, c);
+  }
+  static Meeting meetingOf(SmallCollider core, vec3 from[3], vec3 to[3]) {
+    return SurfaceLaws<Real>::meetingOf(core, from, to);
+  }
+
+#include "shared/deepest_place.h"
+};
+
+#include "solver/cpu/end_laws.h"
+
 namespace {
 
 constexpr std::uint32_t COLLIDER_PAIRS_AT_ONCE = 16;
@@ -30,7 +73,7 @@ struct WayBox {
     low = lowest(low, x);
     high = highest(high, x);
   }
-  [[nodiscard]] bool isNear(Vec3<Real> size, Real near) const {
+  [[nodiscard]] bool isNear(Vec3<Real> size, Real near) const {  // to a box around the center
     return low.x - near <= size.x && -size.x <= high.x + near && low.y - near <= size.y &&
            -size.y <= high.y + near && low.z - near <= size.z && -size.z <= high.z + near;
   }
@@ -39,6 +82,41 @@ struct WayBox {
 template <class Real>
 std::uint32_t numberOf(const SmallCollider<Real>& small) {
   return static_cast<std::uint32_t>(small.number);
+}
+
+// A round collider is where its core is nearest; others have an edge, or may have.
+inline bool isRound(std::uint32_t type) { return type == COLLIDER_SPHERE || type == COLLIDER_CAPSULE; }
+
+// The cosine between normals of a surface that turns little within a triangle.
+template <class Real>
+constexpr Real SAME_FACE = Real(0.75);
+
+template <class Real>
+Vec3<Real> coreSize(const SmallCollider<Real>& small) {
+  const bool around = Real(0) < small.outerRadius;
+  return {around ? small.outerRadius : small.coreX, small.coreY, around ? small.outerRadius : small.coreZ};
+}
+// How far from its surface is near.
+template <class Real>
+Real reachOf(const SmallCollider<Real>& small) {
+  return small.near - small.radius;
+}
+
+// Whether a triangle comes to where the surface turns within it. On flat parts particles are enough.
+template <class Real>
+bool meetsEdge(const ColliderParams<Real>& collider, const Vec3<Real> (&places)[6],
+               const SmallCollider<Real>& small, const float* distances) {
+  Nearest<Real> nearest[6];
+  bool isNear = false, turns = false;
+  for (std::size_t k = 0; k < 6; ++k) {
+    nearest[k] = nearestOnShape(collider, places[k], distances);
+    const Vec3<Real> way = places[k % 3 + 3] - places[k % 3];
+    const Real room = nearest[k].distance - reachOf(small);
+    isNear = isNear || room < Real(0) || room * room < dot(way, way);
+    for (std::size_t j = 0; j < k; ++j)
+      turns = turns || dot(nearest[j].normal, nearest[k].normal) < SAME_FACE<Real>;
+  }
+  return isNear && turns;
 }
 
 // Where a triangle meets a collider, as a point of the cloth.
@@ -63,7 +141,10 @@ Met<Real> meet(const PassArguments<Real>& arguments, const SmallCollider<Real>& 
     from[k] = startInFrame(collider, start[k]);
     to[k] = placeInFrame(collider, end[k]);
   }
-  const auto meeting = SurfaceLaws<Real>::meetingOf(small, from, to);
+  MeetingLaws<Real> laws{arguments.distances};
+  const bool round = isRound(collider.type);
+  const auto meeting = round ? SurfaceLaws<Real>::meetingOf(small, from, to)
+                             : laws.meetingWithShape(collider, small, from, to);
   Met<Real> met{};
   const Real rest = (Real(1) - meeting.u) - meeting.v;
   met.weights = {canonical(rest), canonical(meeting.u), canonical(meeting.v), Real(0)};
@@ -71,6 +152,11 @@ Met<Real> meet(const PassArguments<Real>& arguments, const SmallCollider<Real>& 
     return (met.weights[0] * x[0] + met.weights[1] * x[1]) + met.weights[2] * x[2];
   };
   met.touch = touchAt(arguments, number, weigh(start), weigh(end));
+  if (!round)
+    if (const auto way = laws.wayOutOf(collider, small, from, to, meeting); way.counts) {
+      met.touch.normal = directionInWorld(collider, way.normal);
+      met.touch.depth = way.depth;
+    }
   const bool isCorner = meeting.part != NEAREST_FACE && meeting.part < NEAREST_SIDE;
   met.counts = (meeting.passes || !isCorner) && -small.radius < met.touch.depth;
   met.passes = meeting.passes;
@@ -85,8 +171,8 @@ void forEachColliderPair(const TouchingPairs<Real>& touching, Visit visit) {
                                });
 }
 
-// Deeper than this part of its radius, what is left in a collider at the end of a step is pushed out, to half
-// of that depth: the solution leaves a little, as a stiff spring does.
+// Deeper than this part of its radius, or of its reach, what is left in a collider at the end of a step is
+// pushed out, to half of that depth: the solution leaves a little, as a stiff spring does.
 template <class Real>
 constexpr Real LEFT_INSIDE = Real(0.0625);
 
@@ -115,11 +201,13 @@ void addNearColliders(const ClothSurface<Real>& surface, const PassArguments<Rea
           low.y <= world.high.y + bound && world.low.z - bound <= high.z && low.z <= world.high.z + bound))
       continue;
     if (collider.type != COLLIDER_SPHERE) {
-      const Vec3<Real> first = startInFrame(collider, x[0]);
-      WayBox<Real> own{first, first};
-      for (std::size_t k = 1; k < 3; ++k) own.add(startInFrame(collider, x[k]));
-      for (std::size_t k = 3; k < 6; ++k) own.add(placeInFrame(collider, x[k]));
-      if (!own.isNear({Real(0), small.halfLength, Real(0)}, small.near)) continue;
+      Vec3<Real> places[6];
+      for (std::size_t k = 0; k < 3; ++k) places[k] = startInFrame(collider, x[k]);
+      for (std::size_t k = 3; k < 6; ++k) places[k] = placeInFrame(collider, x[k]);
+      WayBox<Real> own{places[0], places[0]};
+      for (const Vec3<Real>& place : places) own.add(place);
+      if (!own.isNear(coreSize(small), small.near)) continue;
+      if (!isRound(collider.type) && !meetsEdge(collider, places, small, arguments.distances)) continue;
     }
     SurfacePair<Real> pair{};
     pair.particles = {corners[0], corners[1], corners[2], corners[0]};
@@ -198,11 +286,11 @@ bool pushOut(const ClothSurface<Real>& surface, const PassArguments<Real>& argum
   SurfacePair<Real>& pair = touching.pairs[q];
   const SmallCollider<Real>& small = surface.colliders[pair.collider];
   const Met<Real> met = meet(arguments, small, pair.particles, arguments.after.positions);
-  passes = met.passes;
+  const Real reach = reachOf(small), left = LEFT_INSIDE<Real> * (small.radius < reach ? small.radius : reach);
+  passes = met.passes && left < met.touch.depth;
   if (onlyLooks) return false;
   pair.weights = met.weights;
-  const Real left = LEFT_INSIDE<Real> * small.radius, push = met.touch.depth - Real(0.5) * left,
-             mobility = mobilityOf(arguments, pair);
+  const Real push = met.touch.depth - Real(0.5) * left, mobility = mobilityOf(arguments, pair);
   const bool pushes = met.counts && left < met.touch.depth && Real(0) < mobility;
   pair.across = pushes ? reciprocal(mobility) : Real(0);
   touching.forces[q] = pushes ? canonical(push * met.touch.normal) : Vec3<Real>{};

@@ -23,6 +23,9 @@ struct SurfaceLaws {
   INLINE static vec3 crossProduct(vec3 a, vec3 b) { return cross(a, b); }
   INLINE static real inverseSquareRoot(real x) { return clothsim::inverseSquareRoot(x); }
   INLINE static real reciprocal(real x) { return clothsim::reciprocal(x); }
+  INLINE static vec3 canonical(vec3 v) {
+    return {clothsim::canonical(v.x), clothsim::canonical(v.y), clothsim::canonical(v.z)};
+  }
 
 #undef LAW
 #define LAW INLINE static

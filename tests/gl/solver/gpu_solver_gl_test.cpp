@@ -73,6 +73,36 @@ TEST_F(GpuSolverTest, TearsMeshesAsTheCpuDoes) {
   }
 }
 
+// A sheet of few cells falls on the tip of a cone, a board that stands on edge, a rod, and a ring that turns.
+TEST_F(GpuSolverTest, AgreesWithTheCpuOnSmallColliders) {
+  Scene scene = test::implicitly(test::sheetScene(9));
+  scene.cloths[0].material = materialPreset("cotton");
+  scene.cloths[0].position = {0, -1, 0};  // down to y = 0
+  scene.colliders = {
+      Cone{.origin = {0.3, -0.05, 0.3}, .height = 0.1, .radius = 0.03},
+      Box{.origin = {0.7, -0.06, 0.3}, .size = {0.2, 0.11, 0.004}, .rounding = 0.001},
+      Cylinder{.origin = {0.3, -0.03, 0.7}, .axis = {1, 0, 0.3}, .height = 0.2, .radius = 0.02},
+      Torus{.axis = {1, 0, 0},
+            .radius = 0.05,
+            .tubeRadius = 0.01,
+            .motion = Motion{.keys = {{0, {0.7, -0.07, 0.7}, {}}, {1, {0.7, 0.2, 0.7}, {0, 90, 0}}}}}};
+  scene.solver.selfCollision = SelfCollision::off;
+  scene.solver.framesPerSec = 60;
+  scene.solver.simulationSteps = 2;
+  scene.solver.frictionLaw = FrictionLaw::coulomb;
+  const Cloth cloth(scene);
+  GpuSolver gpu(cloth, scene, {});
+  CpuSolver<float> cpu(cloth, scene);
+  for (Solver* solver : std::initializer_list<Solver*>{&gpu, &cpu}) solver->step(12);
+  EXPECT_EQ(difference(gpu.state(), cpu.state()).differing, 0u);
+  EXPECT_EQ(gpu.contactCounts().pairs, cpu.contactCounts().pairs);
+  EXPECT_GT(cpu.contactCounts().pairs, 20u);
+  scene.colliders.clear();
+  CpuSolver<float> fallsFreely(cloth, scene);
+  fallsFreely.step(12);
+  EXPECT_GT(difference(fallsFreely.state(), cpu.state()).differing, 0u) << "nothing was touched";
+}
+
 // A sheet with a cut falls into a heap on the floor, beside another one, over a ball that is smaller than a
 // cell and a rod that turns.
 TEST_F(GpuSolverTest, AgreesWithTheCpuInContact) {
