@@ -5,6 +5,7 @@
 
 layout(location = INSTANCE_PLACE_LOCATION) in vec4 place;
 layout(location = INSTANCE_NORMAL_LOCATION) in vec3 normal;
+layout(location = INSTANCE_LOOK_LOCATION) in vec4 look;
 layout(location = 0) out vec2 fromCenter;  // 1 at the circle
 layout(location = 1) out vec3 shadowPlace;
 layout(location = 2) flat out vec3 keyLight;      // of the front
@@ -21,9 +22,10 @@ void main() {
   shadowPlace = (frame.shadowFromWorld * vec4(position, 1.0)).xyz;
   planePosition = position;
   planeNormal = normal;
-  fillLight = frame.floorColor.rgb * diffuseLight(normal, 0.0, 0.0);
-  keyLight = frame.floorColor.rgb * diffuseLight(normal, 1.0, 0.0) - fillLight;
-  skyLight = frame.floorColor.rgb * ambientLight(normal);
-  behindLight = frame.floorColor.rgb * diffuseLight(-normal, 1.0, 1.0);
+  vec3 albedo = look.r < 0.0 ? frame.floorColor.rgb : look.rgb;
+  fillLight = albedo * diffuseLight(normal, 0.0, 0.0);
+  keyLight = albedo * diffuseLight(normal, 1.0, 0.0) - fillLight;
+  skyLight = albedo * ambientLight(normal);
+  behindLight = albedo * diffuseLight(-normal, 1.0, 1.0);
   gl_Position = frame.clipFromWorld * vec4(position, 1.0);
 }

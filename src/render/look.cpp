@@ -15,10 +15,9 @@ float linear(double encoded) {
   return static_cast<float>(value);
 }
 
-glm::vec4 linearColor(double red, double green, double blue) {
+glm::vec4 linearOf(double red, double green, double blue) {
   return {linear(red), linear(green), linear(blue), 1};
 }
-glm::vec4 linearColor(Vec3d srgb) { return linearColor(srgb.x, srgb.y, srgb.z); }
 
 // A direction given relative to the viewer's side of the scene: x to the right, y up, z towards the viewer.
 glm::vec3 fromViewer(glm::vec3 front, glm::vec3 direction) {
@@ -55,12 +54,31 @@ void addStrainScale(const RenderSettings& settings, shared::RenderFrame& frame) 
   for (std::size_t i = 0; i < stops.size(); ++i) {
     const auto [red, green, blue] = stops[i].srgb;
     frame.strainStops[i] =
-        linearColor(static_cast<double>(red), static_cast<double>(green), static_cast<double>(blue));
+        linearOf(static_cast<double>(red), static_cast<double>(green), static_cast<double>(blue));
   }
   frame.strainRange = static_cast<float>(settings.strainRange);
 }
 
 }  // namespace
+
+glm::vec3 linearColor(Vec3d srgb) { return {linear(srgb.x), linear(srgb.y), linear(srgb.z)}; }
+
+glm::vec4 drawnLook(const Collider& collider) {
+  constexpr Vec3d porcelain{0.80, 0.82, 0.84};
+  const SolidLook& look =
+      std::visit([](const auto& shape) -> const SolidLook& { return shape.render; }, collider);
+  const auto gloss = static_cast<float>(look.gloss);
+  if (!look.color && std::holds_alternative<Plane>(collider)) return {-1, -1, -1, gloss};
+  return {linearColor(look.color.value_or(porcelain)), gloss};
+}
+
+void setClothLook(const RenderSettings& settings, shared::RenderFrame& frame) {
+  frame.clothFront = glm::vec4(linearColor(settings.color), 1);
+  frame.clothBack = glm::vec4(linearColor(settings.backColor), 1);
+  addThreads(settings, frame);
+  frame.relief = {static_cast<float>(settings.normalStrength), static_cast<float>(settings.height),
+                  static_cast<float>(settings.textureRepeat), 0};
+}
 
 glm::vec3 directionToKeyLight(const RenderSettings& settings, glm::vec3 front) {
   if (settings.light) return glm::normalize(toGlm(*settings.light));
@@ -76,17 +94,12 @@ shared::RenderFrame makeLook(const RenderSettings& settings, glm::vec3 front,
   frame.fillColor = {0.16f, 0.20f, 0.28f, 0};  // a cool fill from the other side
   frame.skyColor = {0.34f, 0.38f, 0.44f, 0};
   frame.bounceColor = {0.25f, 0.22f, 0.20f, 0};  // what the floor gives back
-  frame.clothFront = linearColor(settings.color);
-  frame.clothBack = linearColor(settings.backColor);
-  frame.sphereColor = linearColor(0.80, 0.82, 0.84);
-  frame.floorColor = linearColor(0.70, 0.73, 0.76);
-  frame.backgroundTop = linearColor(0.32, 0.38, 0.45);
-  frame.backgroundBottom = linearColor(0.62, 0.67, 0.72);
+  frame.floorColor = linearOf(0.70, 0.73, 0.76);
+  frame.backgroundTop = linearOf(0.32, 0.38, 0.45);
+  frame.backgroundBottom = linearOf(0.62, 0.67, 0.72);
   frame.backgroundGlow = {0.16f, 0.17f, 0.18f, 0};
-  frame.backgroundPlain = linearColor(settings.backgroundColor);
-  addThreads(settings, frame);
-  frame.relief = {static_cast<float>(settings.normalStrength), static_cast<float>(settings.height),
-                  static_cast<float>(settings.textureRepeat), 0};
+  frame.backgroundPlain = glm::vec4(linearColor(settings.backgroundColor), 1);
+  setClothLook(settings, frame);
   addSky(sky, frame);
   addStrainScale(settings, frame);
   return frame;

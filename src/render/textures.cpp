@@ -60,7 +60,8 @@ std::vector<std::string> bundledTextures() {
   std::error_code ignored;
   for (fs::directory_iterator entry(folder(), ignored), end; entry != end; entry.increment(ignored)) {
     const std::string name = entry->path().stem().string();
-    if (entry->path().extension() == ".png" && !name.starts_with("weave_") && name != "sky")
+    if (entry->path().extension() == ".png" && !name.starts_with("weave_") && !name.starts_with("ground_") &&
+        name != "sky")
       names.push_back(name);
   }
   std::sort(names.begin(), names.end());
