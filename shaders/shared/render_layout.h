@@ -71,6 +71,7 @@ using uint = unsigned int;
 #define PICK_COLLIDER 2u  // index of a collider
 
 #define STRAIN_STOPS 7
+#define STAGE_SIZES 4.5  // how far a stage's ground reaches, in sizes of the scene
 
 struct RenderFrame {
   mat4 clipFromWorld;
@@ -92,7 +93,7 @@ struct RenderFrame {
                 // z: gloss, w: 1 where the scene has a ground
   vec4 backgroundTop;
   vec4 backgroundBottom;
-  vec4 backgroundGlow;  // added around the middle of the picture
+  vec4 backgroundGlow;  // added around the middle of the picture; w: how much darker its corners are
   vec4 backgroundPlain;
   vec4 pixels;         // width, height, 1 / width, 1 / height
   vec4 rayMiddle;      // the direction in which the middle of the picture lies, and how it changes

@@ -1,5 +1,6 @@
 #include "render/colliders.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -9,9 +10,17 @@
 namespace clothsim {
 namespace {
 
-constexpr float floorRadius = 4.5f;  // of the stage's size: where planes have faded out
-
 bool isHorizontal(const Plane& plane) { return std::abs(glm::normalize(toGlm(plane.normal)).y) > 0.95f; }
+
+float groundRadius(const Stage& stage) {
+  return static_cast<float>(STAGE_SIZES) * glm::length(stage.view.size());
+}
+
+// On which the scene stands.
+bool isGround(const Collider& collider) {
+  const auto* plane = std::get_if<Plane>(&collider);
+  return plane != nullptr && isHorizontal(*plane) && plane->normal.y > 0 && !plane->render.color;
+}
 
 }  // namespace
 
@@ -26,7 +35,7 @@ void Colliders::place(const Scene& scene, const Stage& stage, double time) {
   discs.clear();
   solids_.clear();
   const glm::vec3 middle = stage.view.center();
-  const float radius = floorRadius * glm::length(stage.view.size());
+  const float radius = groundRadius(stage);
   const auto addDisc = [&](glm::vec3 point, glm::vec3 normal, float collider, glm::vec4 look) {
     const glm::vec3 center = middle - glm::dot(middle - point, normal) * normal;
     discs.push_back({glm::vec4(center, radius), glm::vec4(normal, collider), look});
@@ -57,6 +66,22 @@ void Colliders::place(const Scene& scene, const Stage& stage, double time) {
   spheres_.place(places);
   shapes_.place(colliders_, time);
   planes_.place(discs);
+}
+
+glm::vec4 groundPlace(const Scene& scene, const Stage& stage) {
+  glm::vec3 middle = stage.view.center();
+  const auto ground = std::find_if(scene.colliders.begin(), scene.colliders.end(), isGround);
+  middle.y = ground == scene.colliders.end() ? stage.floorHeight : toGlm(poseAt(*ground, 0).position).y;
+  return {middle, groundRadius(stage)};
+}
+
+bool hasGround(const Scene& scene) {
+  return std::any_of(scene.colliders.begin(), scene.colliders.end(), isGround) ||
+         (scene.render.ground &&
+          std::none_of(scene.colliders.begin(), scene.colliders.end(), [](const Collider& collider) {
+            const auto* plane = std::get_if<Plane>(&collider);
+            return plane != nullptr && isHorizontal(*plane);
+          }));
 }
 
 void Colliders::drawSolids(const gl::Program& sphere, const gl::Program& shape) const {

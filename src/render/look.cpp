@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "render/stage.h"
+#include "render/stage_look.h"
 #include "render/strain_scale.h"
 #include "render/weaves.h"
 
@@ -82,22 +83,24 @@ void setClothLook(const RenderSettings& settings, shared::RenderFrame& frame) {
 
 glm::vec3 directionToKeyLight(const RenderSettings& settings, glm::vec3 front) {
   if (settings.light) return glm::normalize(toGlm(*settings.light));
-  return fromViewer(front, {-0.55f, 1.0f, 0.42f});
+  return fromViewer(front, stageLook(settings.stage).toKey);
 }
 
 shared::RenderFrame makeLook(const RenderSettings& settings, glm::vec3 front,
                              const std::array<glm::vec3, 9>& sky) {
+  const StageLook& stage = stageLook(settings.stage);
   shared::RenderFrame frame{};
   frame.toKeyLight = glm::vec4(directionToKeyLight(settings, front), 0);
-  frame.toFillLight = glm::vec4(fromViewer(front, {0.9f, 0.25f, 0.35f}), 0);
-  frame.keyColor = {1.22f, 1.15f, 1.04f, 0};   // a warm key
-  frame.fillColor = {0.16f, 0.20f, 0.28f, 0};  // a cool fill from the other side
-  frame.skyColor = {0.34f, 0.38f, 0.44f, 0};
-  frame.bounceColor = {0.25f, 0.22f, 0.20f, 0};  // what the floor gives back
-  frame.floorColor = linearOf(0.70, 0.73, 0.76);
-  frame.backgroundTop = linearOf(0.32, 0.38, 0.45);
-  frame.backgroundBottom = linearOf(0.62, 0.67, 0.72);
-  frame.backgroundGlow = {0.16f, 0.17f, 0.18f, 0};
+  frame.toFillLight = glm::vec4(fromViewer(front, stage.toFill), 0);
+  frame.keyColor = glm::vec4(stage.key, 0);
+  frame.fillColor = glm::vec4(stage.fill, 0);
+  frame.skyColor = glm::vec4(stage.sky, 0);
+  frame.bounceColor = glm::vec4(stage.bounce, 0);  // what the floor gives back
+  frame.floorColor = glm::vec4(linearColor(stage.ground), 1);
+  frame.ground = stage.surface;
+  frame.backgroundTop = glm::vec4(stage.backdropTop, 1);
+  frame.backgroundBottom = glm::vec4(stage.backdropBottom, 1);
+  frame.backgroundGlow = {0.16f, 0.17f, 0.18f, stage.corners};
   frame.backgroundPlain = glm::vec4(linearColor(settings.backgroundColor), 1);
   setClothLook(settings, frame);
   addSky(sky, frame);

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "render/environment.h"
+#include "render/stage_look.h"
 #include "render/textures.h"
 #include "shared/render_layout.h"
 
@@ -30,7 +31,8 @@ void bindNamed(const Textures& textures, const std::string& name, GLuint unit) {
 
 }  // namespace
 
-void ModelTextures::choose(std::span<const ShadingModel> models, const std::string& background) {
+void ModelTextures::choose(std::span<const ShadingModel> models, const RenderSettings& settings,
+                           glm::vec3 toKey) {
   Names ofWeaves, ofPrints, ofHeights;
   for (const ShadingModel& model : models) {
     if (model.textureUse == TextureUse::print) ofPrints.insert(model.texture);
@@ -41,14 +43,25 @@ void ModelTextures::choose(std::span<const ShadingModel> models, const std::stri
   loadMissing(prints_, ofPrints, loadPrint);
   loadMissing(heights_, ofHeights, loadHeights);
   loadMissing(weaves_, ofWeaves, loadWeave);
+  const StageLook& stage = stageLook(settings.stage);
+  if (!stage.groundPicture.empty() && groundName_ != stage.groundPicture) {
+    ground_ = loadGround(std::string(stage.groundPicture));
+    groundName_ = stage.groundPicture;
+  }
   const bool seesEnvironment =
       std::any_of(models.begin(), models.end(), [](const auto& model) { return model.seesEnvironment; });
-  const bool needsMap = (seesEnvironment || background == "sky") && !sky_;
-  if (!knowsIrradiance_ || needsMap) {
-    const Environment environment;
+  // The generated sky where that is seen, or no stage has other surroundings.
+  const bool isSky = settings.background == "sky" || !hasSurroundings(settings.stage);
+  const std::string surroundings = isSky ? "sky" : settings.stage;
+  const bool isNew = surroundings != surroundings_ || (!isSky && toKey != toKey_);
+  const bool needsMap = seesEnvironment || settings.background == "sky";
+  if (isNew || (needsMap && !sky_)) {
+    const Environment environment = isSky ? Environment() : Environment(settings.stage, toKey);
     irradiance_ = environment.irradiance();
-    knowsIrradiance_ = true;
+    if (isNew) sky_.reset();
     if (needsMap) sky_ = environment.makeCubeMap();
+    surroundings_ = surroundings;
+    toKey_ = toKey;
   }
   keepOnly(prints_, ofPrints);
   keepOnly(heights_, ofHeights);
@@ -60,6 +73,7 @@ void ModelTextures::bind(const ShadingModel& model) const {
   bindNamed(model.textureUse == TextureUse::print ? prints_ : heights_, model.texture,
             model.textureUse == TextureUse::print ? PRINT_UNIT : HEIGHTS_UNIT);
   if (sky_) sky_->bind(ENVIRONMENT_UNIT);
+  if (ground_) ground_->bind(GROUND_UNIT);
 }
 
 }  // namespace clothsim

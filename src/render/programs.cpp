@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "render/stage_look.h"
+
 namespace clothsim {
 namespace {
 
@@ -29,24 +31,20 @@ gl::Program makeCloth(const ShadingModel& model, ClothLight light) {
 
 }  // namespace
 
-RenderPrograms::RenderPrograms(const ShadingModel& model, const std::string& background, int samples) {
+RenderPrograms::RenderPrograms(const ShadingModel& model, const RenderSettings& settings, int samples) {
   chooseSamples(samples);
   chooseModel(model);
-  chooseBackground(background);
+  chooseStage(settings);
 }
 
-ShadedPrograms::ShadedPrograms(bool forExposures) {
-  gl::Defines exposure;
-  if (forExposures) exposure.emplace_back("EXPOSURE", "");
-  const auto withExposure = [&](gl::Defines defines) {
-    defines.insert(defines.end(), exposure.begin(), exposure.end());
-    return defines;
-  };
-  sphere = gl::Program::makeRender("render/sphere.vert", "render/sphere.frag", exposure);
-  shape = gl::Program::makeRender("render/shape.vert", "render/sphere.frag", exposure);
-  plane = gl::Program::makeRender("render/plane.vert", "render/plane.frag", exposure);
-  layBackdrop =
-      gl::Program::makeRender("render/fullscreen.vert", "render/backdrop.frag", withExposure({{"LAY", ""}}));
+ShadedPrograms::ShadedPrograms(const gl::Defines& stage, bool forExposures) {
+  gl::Defines defines = stage;
+  if (forExposures) defines.emplace_back("EXPOSURE", "");
+  sphere = gl::Program::makeRender("render/sphere.vert", "render/sphere.frag", defines);
+  shape = gl::Program::makeRender("render/shape.vert", "render/sphere.frag", defines);
+  plane = gl::Program::makeRender("render/plane.vert", "render/plane.frag", defines);
+  defines.emplace_back("LAY", "");
+  layBackdrop = gl::Program::makeRender("render/fullscreen.vert", "render/backdrop.frag", defines);
 }
 
 MeanPrograms::MeanPrograms(int samples)
@@ -73,11 +71,13 @@ void RenderPrograms::chooseModel(const ShadingModel& model) {
   meshNormals_.reset();
 }
 
-void RenderPrograms::chooseBackground(const std::string& background) {
-  gl::Defines defines;
-  if (background == "sky") defines.emplace_back("SKY", "");
-  if (background == "plain") defines.emplace_back("PLAIN", "");
-  backdrop = gl::Program::makeRender("render/fullscreen.vert", "render/backdrop.frag", defines);
+void RenderPrograms::chooseStage(const RenderSettings& settings) {
+  ShadedPrograms shaded(stageDefines(settings), false);
+  backdrop =
+      gl::Program::makeRender("render/fullscreen.vert", "render/backdrop.frag", backdropDefines(settings));
+  shaded_ = std::move(shaded);
+  exposed_.reset();
+  stage_ = stageDefines(settings);
 }
 
 const gl::Program& RenderPrograms::normals(bool withCuts) {
@@ -118,7 +118,7 @@ const OverlayPrograms& RenderPrograms::overlays() {
 
 const ShadedPrograms& RenderPrograms::shaded(bool forExposures) {
   auto& programs = forExposures ? exposed_ : shaded_;
-  if (!programs) programs.emplace(forExposures);
+  if (!programs) programs.emplace(stage_, forExposures);
   return *programs;
 }
 
@@ -136,8 +136,18 @@ const MeanPrograms& RenderPrograms::mean() {
 
 void tryAllShaders(const RenderSettings& settings, int samples) {
   RenderSettings other = settings;
-  RenderPrograms programs(shadingModelOf(other), settings.background, samples);
-  for (const std::string_view background : backgrounds) programs.chooseBackground(std::string(background));
+  RenderPrograms programs(shadingModelOf(other), settings, samples);
+  for (const std::string_view background : backgrounds) {
+    other.background = background;
+    programs.chooseStage(other);
+  }
+  other.background = "studio";
+  for (const std::string_view stage : stages) {
+    other.stage = stage;
+    programs.chooseStage(other);
+    static_cast<void>(programs.shaded(true));
+  }
+  other.stage = settings.stage;
   for (const std::string_view name : shadingModels) {
     other.shader = name;
     const ShadingModel model = shadingModelOf(other);
@@ -151,7 +161,6 @@ void tryAllShaders(const RenderSettings& settings, int samples) {
     programs.chooseModel(thick);
     static_cast<void>(programs.cloth(thick, ClothLight::exposed));
   }
-  for (const bool forExposures : {false, true}) static_cast<void>(programs.shaded(forExposures));
   for (const bool ofLean : {false, true}) static_cast<void>(programs.rim(ofLean));
   static_cast<void>(programs.picking());
   static_cast<void>(programs.overlays());

@@ -22,7 +22,7 @@ struct PickPrograms {
 // What shades: solids, planes, and the backdrop as a picture begins. Once for pictures that are one
 // exposure, and once for exposures of a mean, which see more light and shade.
 struct ShadedPrograms {
-  explicit ShadedPrograms(bool forExposures);
+  ShadedPrograms(const gl::Defines& stage, bool forExposures);
   gl::Program sphere, shape, plane, layBackdrop;
 };
 
@@ -41,12 +41,12 @@ struct MeanPrograms {
 
 struct RenderPrograms {
   // From the files below the resource root as they are now. @throws OpenGlError, InputOutputError
-  RenderPrograms(const ShadingModel& model, const std::string& background, int samples);
+  RenderPrograms(const ShadingModel& model, const RenderSettings& settings, int samples);
 
   // What a scene chooses. @throws as the constructor, leaving what was there
   void chooseModel(const ShadingModel& model);
-  void chooseBackground(const std::string& background);
-  void chooseSamples(int samples);  // of a pixel
+  void chooseStage(const RenderSettings& settings);  // and the background
+  void chooseSamples(int samples);                   // of a pixel
 
   // The normals pass of the chosen model.
   [[nodiscard]] const gl::Program& normals(bool withCuts);
@@ -69,6 +69,7 @@ struct RenderPrograms {
 
  private:
   ShadingModel model_;
+  gl::Defines stage_;
   std::optional<ShadedPrograms> shaded_, exposed_;
   std::optional<gl::Program> normals_, normalsWithCuts_, meshNormals_, rim_, leanRim_;
   struct ClothProgram {

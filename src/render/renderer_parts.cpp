@@ -8,6 +8,7 @@
 #include "cloth/material_look.h"
 #include "gl/context.h"
 #include "render/look.h"
+#include "render/stage_look.h"
 
 namespace clothsim {
 namespace {
@@ -47,7 +48,7 @@ Renderer::Parts::Parts(const Shared<Cloth>& drawn, const Shared<Scene>& first, c
       scene(first),
       looks(looksOf(*scene, options.thick)),
       model(looks.front().model),
-      programs(model, first->render.background, options.samples),
+      programs(model, first->render, options.samples),
       clothMesh(*cloth),
       colliders(wanted.sphereSegmentsAround, wanted.sphereSegmentsDown, longestEdge(*cloth)),
       shadowMap(wanted.shadowMapSize) {
@@ -73,9 +74,9 @@ void Renderer::Parts::configure(const Shared<Scene>& edited) {
   const ShadingModel wanted = wantedLooks.front().model;
   std::vector<ShadingModel> models;
   for (const Look& look : wantedLooks) models.push_back(look.model);
-  textures.choose(models, edited->render.background);
-  if (edited->render.background != scene->render.background)
-    programs.chooseBackground(edited->render.background);
+  textures.choose(models, edited->render, directionToKeyLight(edited->render, outline.front));
+  if (edited->render.background != scene->render.background || edited->render.stage != scene->render.stage)
+    programs.chooseStage(edited->render);
   if (!(wanted == model)) programs.chooseModel(wanted);
   model = wanted;
   looks = std::move(wantedLooks);
@@ -94,6 +95,8 @@ void Renderer::Parts::configure(const Shared<Scene>& edited) {
   colliders.build(*scene);
   frame = makeLook(scene->render, outline.front, textures.irradiance());
   setClothLook(looks.front().settings, frame);
+  frame.stagePlace = groundPlace(*scene, stage);
+  frame.ground.w = hasGround(*scene) ? 1 : 0;
   frame.flatness = static_cast<float>(options.flatness);
   shineFrom(nullptr);
   backdropSeen.reset();
@@ -405,10 +408,10 @@ void Renderer::Parts::scissor() const {
   glScissor(part->picture.left, part->picture.bottom, part->picture.width(), part->picture.height());
 }
 
-// Only the sky turns with the camera; others are drawn once.
+// One that does not turn with the camera is drawn once.
 void Renderer::Parts::drawBackdrop(int width, int height) {
   const gl::FramebufferFormat format{.width = width, .height = height, .color = backdropFormat};
-  const bool turns = scene->render.background == "sky";
+  const bool turns = backdropTurns(scene->render);
   if (backdropSeen && backdrop.format() == format && !(turns && *backdropSeen != middleClipFromWorld)) return;
   if (!(backdrop.format() == format)) backdrop = gl::Framebuffer("backdrop", format);
   backdrop.bind();

@@ -110,6 +110,12 @@ gl::Texture loadPicture(const fs::path& path) {
   return gl::Texture::make2D(path.stem().string(), png.width, png.height, {}, eightBits(png).data());
 }
 
+gl::Texture loadGround(const std::string& name) {
+  const LoadedPng png = loadPng(folder() / (name + ".png"));
+  return gl::Texture::make2D(name, png.width, png.height, {.internal = GL_SRGB8_ALPHA8},
+                             eightBits(png).data());
+}
+
 gl::Texture loadWeave(const std::string& weave) {
   return loadPicture(folder() / ("weave_" + weave + ".png"));
 }

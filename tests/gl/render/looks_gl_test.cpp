@@ -88,7 +88,7 @@ TEST(BrokenLook, SolidsOfOneColourAreSeen) {
   expectBroken("render/sphere.frag", "look.rgb * diffuseLight", "vec3(0.6) * diffuseLight");
 }
 TEST(BrokenLook, PlanesInTheColourOfTheGroundAreSeen) {
-  expectBroken("render/plane.vert", "look.r < 0.0", "look.r < 2.0");
+  expectBroken("render/plane.frag", "bool isGround = look.r < 0.0", "bool isGround = look.r < 2.0");
 }
 
 }  // namespace

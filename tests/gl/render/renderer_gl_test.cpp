@@ -239,7 +239,7 @@ TEST_F(RendererTest, EveryShadingModelCompiles) {
     RenderSettings settings;
     settings.shader = name;
     const ShadingModel model = shadingModelOf(settings);
-    RenderPrograms programs(model, settings.background, 1);
+    RenderPrograms programs(model, settings, 1);
     for (const ClothLight light : {ClothLight::atPixels, ClothLight::exposed})
       EXPECT_NE(programs.cloth(model, light).name(), 0u) << name;
   }

@@ -67,11 +67,11 @@ TEST_F(TexturesTest, AWrongChoiceLeavesTheTexturesThatWereThere) {
   settings.shader = "texture";
   ModelTextures textures;
   const ShadingModel known = shadingModelOf(settings);
-  textures.choose(std::span(&known, 1), "studio");
+  textures.choose(std::span(&known, 1), settings, {0, 1, 0});
   const auto before = textures.irradiance();
   settings.texture = "no such texture";
   const ShadingModel unknown = shadingModelOf(settings);
-  EXPECT_THROW(textures.choose(std::span(&unknown, 1), "studio"), SceneError);
+  EXPECT_THROW(textures.choose(std::span(&unknown, 1), settings, {0, 1, 0}), SceneError);
   EXPECT_EQ(textures.irradiance(), before);
 }
 
