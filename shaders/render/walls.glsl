@@ -40,7 +40,7 @@ vec3 wallLight(vec3 position, vec3 normal, float height) {
   float groove = isBoard * (1.0 - smoothstep(0.0, 0.006 + pixel, abs(height - 0.8 * BOARD_HEIGHT)));
   float corner = 1.0 - 0.45 * exp(-5.0 * max(height, 0.0)) - 0.35 * groove;
   float lit = windowLight((frame.shadowFromWorld * vec4(position, 1.0)).xy);
-  return mix(PLASTER, BOARD, isBoard) * corner * (diffuseLight(normal, 0.8 * lit, 0.9) + 0.16);  // and what the floor throws back
+  return mix(PLASTER, BOARD, isBoard) * corner * (diffuseLight(normal, 0.8 * lit, 0.9) + 0.24);  // and what the floor throws back
 }
 #else
 // Curtains, whose folds hang down to the ground.
@@ -63,11 +63,11 @@ vec3 stageBehind(vec3 eye, vec3 ray) {
 #elif defined(TABLE)
 // A warm room far out of focus: a dark floor, a wall that light falls on in places, and the glow of lamps.
 vec3 roomLight(vec3 ray) {
-  vec3 wall = mix(vec3(0.040, 0.030, 0.024), vec3(0.150, 0.122, 0.098), smoothstep(-0.55, 0.15, ray.y));
+  vec3 wall = mix(vec3(0.034, 0.024, 0.018), vec3(0.125, 0.094, 0.070), smoothstep(-0.55, 0.15, ray.y));
   float around = atan(ray.x, ray.z);
   float patches = 0.85 + 0.22 * sin(3.0 * around + 0.6) + 0.14 * sin(7.0 * around + 2.1);
-  float lamp = exp(-7.0 * (1.0 - sin(2.0 * around - 0.9)) - 10.0 * (ray.y - 0.10) * (ray.y - 0.10));
-  return wall * patches + lamp * vec3(0.20, 0.15, 0.095);
+  float lamp = exp(-3.5 * (1.0 - sin(3.0 * around - 0.9)) - 7.0 * (ray.y - 0.10) * (ray.y - 0.10));
+  return wall * patches + lamp * vec3(0.46, 0.30, 0.15);
 }
 
 vec3 stageBehind(vec3 eye, vec3 ray) {

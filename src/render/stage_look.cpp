@@ -43,7 +43,7 @@ const std::array<StageLook, stages.size()>& stageLooks() {
        .toFill = {0.9f, 0.4f, 0.5f},
        .key = {1.50f, 1.40f, 1.22f},
        .fill = {0.06f, 0.07f, 0.10f},
-       .sky = {0.27f, 0.30f, 0.35f},
+       .sky = {0.35f, 0.37f, 0.41f},
        .bounce = {0.25f, 0.21f, 0.17f},
        .ground = {0.86, 0.83, 0.79},
        .surface = {1 / 1.2f, 0.80f, 0.35f, 0},
