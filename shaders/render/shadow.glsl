@@ -1,5 +1,8 @@
 // How much of the key light reaches a place: percentage-closer filtering with bilinear comparisons.
 #include "render/frame.glsl"
+#ifdef WINDOW
+#include "render/window.glsl"
+#endif
 
 layout(binding = SHADOW_MAP_UNIT) uniform sampler2DShadow shadowMap;
 
@@ -13,5 +16,8 @@ float sunlit(vec3 place) {
   sum += texture(shadowMap, inside + vec3(texel.x, -texel.y, 0));
   sum += texture(shadowMap, inside + vec3(-texel.x, texel.y, 0));
   sum += texture(shadowMap, inside + vec3(texel.x, texel.y, 0));
+#ifdef WINDOW
+  sum *= windowLight(place.xy);
+#endif
   return 0.25 * sum;
 }

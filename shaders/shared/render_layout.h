@@ -46,6 +46,7 @@ using uint = unsigned int;
 #define ENVIRONMENT_UNIT 6
 #define BACKDROP_UNIT 7
 #define SKY_SHADOW_UNIT 8      // and those behind it: SKY_DIRECTIONS
+#define GROUND_UNIT 12         // the picture of the stage's ground
 #define SKY_DIRECTIONS 4       // of an exposure (src/render/exposure.h)
 #define FLOOR_SHADOW_SIZE 256  // [texels] of the blurred shadow for floors
 #define MESH_NORMALS_GROUP 64  // particles of a mesh in a work group
@@ -59,6 +60,7 @@ using uint = unsigned int;
 #define INSTANCE_NORMAL_LOCATION 4  // plane: normal
 #define INSTANCE_ROWS_LOCATION 5    // and 6, 7. Other shapes: the rows that take their own frame to the world
 #define INSTANCE_COLLIDER_LOCATION 8  // index of the collider; -1: of none
+#define INSTANCE_LOOK_LOCATION 11     // colliders: linear colour and gloss; red below 0: the stage's ground
 #define TANGENT_LOCATION 10           // cloth: the direction of u, and the strain
 #define LINE_LOOK_LOCATION 9          // springs: sRGB colour and width [pixels], the same for all
 
@@ -69,6 +71,7 @@ using uint = unsigned int;
 #define PICK_COLLIDER 2u  // index of a collider
 
 #define STRAIN_STOPS 7
+#define STAGE_SIZES 4.5  // how far a stage's ground reaches, in sizes of the scene
 
 struct RenderFrame {
   mat4 clipFromWorld;
@@ -84,11 +87,13 @@ struct RenderFrame {
   vec4 bounceColor;  // ambient light from below
   vec4 clothFront;   // albedo
   vec4 clothBack;
-  vec4 sphereColor;
   vec4 floorColor;
+  vec4 stagePlace;  // the middle of the ground [m]; w: how far from there it fades out
+  vec4 ground;  // of the stage: x: repeats of its picture in a metre, y: how far the picture shows, 0 to 1,
+                // z: gloss, w: 1 where the scene has a ground
   vec4 backgroundTop;
   vec4 backgroundBottom;
-  vec4 backgroundGlow;  // added around the middle of the picture
+  vec4 backgroundGlow;  // added around the middle of the picture; w: how much darker its corners are
   vec4 backgroundPlain;
   vec4 pixels;         // width, height, 1 / width, 1 / height
   vec4 rayMiddle;      // the direction in which the middle of the picture lies, and how it changes

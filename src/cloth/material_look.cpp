@@ -44,9 +44,9 @@ const Look* lookOf(const Material& material) {
 
 }  // namespace
 
-RenderSettings usualLook(const Scene& scene) {
+RenderSettings usualLook(const ClothSettings& cloth) {
   RenderSettings render;
-  const std::optional<Material>& material = scene.cloths.front().material;
+  const std::optional<Material>& material = cloth.material;
   const Look* look = material ? lookOf(*material) : nullptr;
   if (look == nullptr) return render;
   render.weave = look->weave;
@@ -57,6 +57,8 @@ RenderSettings usualLook(const Scene& scene) {
   return render;
 }
 
+RenderSettings usualLook(const Scene& scene) { return usualLook(scene.cloths.front()); }
+
 void followLook(RenderSettings& render, const RenderSettings& before, const RenderSettings& after) {
   const auto follow = [&](auto member) {
     if (render.*member == before.*member) render.*member = after.*member;
@@ -66,6 +68,16 @@ void followLook(RenderSettings& render, const RenderSettings& before, const Rend
   follow(&RenderSettings::gloss);
   follow(&RenderSettings::color);
   follow(&RenderSettings::backColor);
+}
+
+RenderSettings lookOf(const Scene& scene, std::size_t cloth) {
+  const ClothSettings& settings = scene.cloths[cloth];
+  RenderSettings look = scene.render;
+  followLook(look, usualLook(scene), usualLook(settings));
+  forEachOfLook([&](auto own, auto ofScene) {
+    if (const auto& value = settings.render.*own) look.*ofScene = *value;
+  });
+  return look;
 }
 
 }  // namespace clothsim

@@ -86,7 +86,8 @@ class UsdWriter final : public SequenceWriter {
                        "\" (\n        prepend apiSchemas = [\"MaterialBindingAPI\"]\n    )\n    {\n"
                        "        uniform bool doubleSided = 1\n"
                        "        uniform token subdivisionScheme = \"none\"\n        rel material:binding = " +
-                       USD_CLOTH_MATERIAL + "\n        texCoord2f[] primvars:st = ";
+                       "</clothsim/materials/" + usdClothMaterial(scene_, number) +
+                       ">\n        texCoord2f[] primvars:st = ";
     const auto coordinates = pictureCoordinates(cloth_);
     appendUsdArray(text, std::span(coordinates).subspan(piece.firstParticle, piece.particleCount()),
                    [&](const std::array<float, 2>& uv) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "cloth/material_look.h"
 #include "scene/colliders/collider_set.h"
 #include "scene/colliders/solid_mesh.h"
 #include "scene/pose.h"
@@ -29,11 +30,27 @@ std::string materialText(const std::string& name, Vec3d color, double roughness)
          "                token outputs:surface\n            }\n        }\n";
 }
 
+const SolidLook& solidLookOf(const Collider& collider) {
+  return std::visit([](const auto& shape) -> const SolidLook& { return shape.render; }, collider);
+}
+
+// One for all, but for those that the scene gives a look of their own.
+std::string solidMaterial(const Scene& scene, std::size_t number) {
+  return solidLookOf(scene.colliders[number]) == SolidLook{} ? "solid" : "solid" + std::to_string(number);
+}
+
 std::string materials(const Scene& scene) {
   constexpr Vec3d gray{0.5, 0.5, 0.5};
-  return "    def Scope \"materials\"\n    {\n" +
-         materialText("cloth", scene.render.color, 1 - 0.7 * scene.render.gloss) +
-         materialText("solid", gray, 0.6) + "    }\n";
+  std::string text = "    def Scope \"materials\"\n    {\n";
+  for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
+    const RenderSettings look = lookOf(scene, i);
+    text += materialText(usdClothMaterial(scene, i), look.color, 1 - 0.7 * look.gloss);
+  }
+  text += materialText("solid", gray, 0.6);
+  for (std::size_t i = 0; i < scene.colliders.size(); ++i)
+    if (const SolidLook& look = solidLookOf(scene.colliders[i]); look != SolidLook{})
+      text += materialText(solidMaterial(scene, i), look.color.value_or(gray), 1 - 0.8 * look.gloss);
+  return text + "    }\n";
 }
 
 // A frame that stands in the world: USD multiplies rows by matrices, so that the axes are rows.
@@ -106,7 +123,8 @@ std::string solidsText(const Scene& scene, Vec3d middle, double size, const std:
     text += std::string("        def ") + (sphere != nullptr ? "Sphere" : "Mesh") + " \"" +
             std::string(typeOf(colliders[i])) + std::to_string(i) +
             "\" (\n            prepend apiSchemas = [\"MaterialBindingAPI\"]\n        )\n        {\n"
-            "            rel material:binding = </clothsim/materials/solid>\n";
+            "            rel material:binding = </clothsim/materials/" +
+            solidMaterial(scene, i) + ">\n";
     if (sphere != nullptr)
       text += sphereShape(*sphere);
     else if (std::holds_alternative<Plane>(colliders[i]))
@@ -150,6 +168,10 @@ void appendUsdVector(std::string& text, Vec3f v) {
   text += ", ";
   appendNumber(text, v.z);
   text += ')';
+}
+
+std::string usdClothMaterial(const Scene& scene, std::size_t cloth) {
+  return scene.cloths.size() == 1 ? "cloth" : "cloth" + std::to_string(cloth);
 }
 
 std::string usdSurroundings(const Scene& scene, const UsdBox& cloth, const std::vector<UsdFrame>& frames) {

@@ -42,6 +42,7 @@ struct UsdFrame {
 [[nodiscard]] std::string usdSurroundings(const Scene& scene, const UsdBox& cloth,
                                           const std::vector<UsdFrame>& frames);
 
-inline constexpr const char* USD_CLOTH_MATERIAL = "</clothsim/materials/cloth>";
+// The name of a cloth's material.
+[[nodiscard]] std::string usdClothMaterial(const Scene& scene, std::size_t cloth);
 
 }  // namespace clothsim

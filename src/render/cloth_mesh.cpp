@@ -6,6 +6,7 @@
 #include <span>
 
 #include "render/mesh_neighbours.h"
+#include "render/pieces.h"
 
 namespace clothsim {
 namespace {
@@ -157,14 +158,14 @@ void ClothMesh::computeNormals(const NormalsPrograms& programs, GLuint positions
   glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);  // normals, and the solver's positions, as vertices
 }
 
-void ClothMesh::drawRim() const {
-  if (rim_) rim_->draw();
+void ClothMesh::drawRim(std::optional<std::size_t> only) const {
+  if (rim_) rim_->draw(only);
 }
 
-void ClothMesh::draw(GLuint positions, bool meshesAsLines) {
+void ClothMesh::draw(GLuint positions, bool meshesAsLines, std::optional<std::size_t> only) {
   vertices_.attach(positions, {.location = POSITION_LOCATION});
   vertices_.bind();
-  for (const PieceBuffers& piece : pieces_) {
+  for (const PieceBuffers& piece : piecesOf(std::span(pieces_), only)) {
     piece.block.bindUniform(CLOTH_GRID_BINDING);
     const bool asLines = meshesAsLines && piece.isMesh();
     if (asLines) glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);

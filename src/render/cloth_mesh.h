@@ -40,11 +40,12 @@ class ClothMesh {
   // Smooth normals, tangents and strains for the positions in `positions`, one vec4 a particle.
   void computeNormals(const NormalsPrograms& programs, GLuint positions);
   // The triangles of all pieces, with the program and its state bound by the caller.
-  void draw(GLuint positions, bool meshesAsLines = false);
+  // `only`: one piece.
+  void draw(GLuint positions, bool meshesAsLines = false, std::optional<std::size_t> only = {});
   // The edge of cloth that is thick, of which draw() is the sides: after computeNormals(). Made when it is
   // first asked for.
   void computeRim(const gl::Program& program, GLuint positions);
-  void drawRim() const;
+  void drawRim(std::optional<std::size_t> only = {}) const;
 
   // A vec4 a particle: unit normal; how far the cloth around rises above the tangent plane.
   [[nodiscard]] const gl::Buffer<glm::vec4>& normals() const { return normals_; }

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include "render/pieces.h"
 
 namespace clothsim {
 namespace {
@@ -83,7 +84,9 @@ std::vector<float> drawnThickness(const Scene& scene, const Cloth& cloth) {
     const ClothSettings& settings = scene.cloths[i];
     const double own = settings.material ? settings.material->thickness : settings.thickness;
     const double spacing = std::min(piece.nominalLength[toLeft], piece.nominalLength[toUpper]);
-    thickness.push_back(static_cast<float>(scene.render.thickness.value_or(std::min(own, spacing / 2))));
+    const std::optional<double> wanted =
+        settings.render.thickness ? settings.render.thickness : scene.render.thickness;
+    thickness.push_back(static_cast<float>(wanted.value_or(std::min(own, spacing / 2))));
   }
   return thickness;
 }
@@ -136,9 +139,9 @@ void ClothRim::compute(const gl::Program& program, GLuint positions, GLuint norm
   glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);
 }
 
-void ClothRim::draw() const {
+void ClothRim::draw(std::optional<std::size_t> only) const {
   vertices_.bind();
-  for (const PieceBuffers& piece : pieces_) {
+  for (const PieceBuffers& piece : piecesOf(std::span(pieces_), only)) {
     if (piece.indexCount == 0) continue;
     piece.block.bindUniform(CLOTH_GRID_BINDING);
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(piece.indexCount), GL_UNSIGNED_INT,

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,8 +35,8 @@ class ClothRim {
 
   // From the buffers of the points, a vec4 each: places, normals with hollows, tangents with strains.
   void compute(const gl::Program& program, GLuint positions, GLuint normals, GLuint tangents);
-  // With the program and its state bound by the caller, who draws the cloth with the same.
-  void draw() const;
+  // With the program and its state bound by the caller, who draws the cloth with the same. `only`: one piece.
+  void draw(std::optional<std::size_t> only = {}) const;
 
  private:
   struct PieceBuffers {

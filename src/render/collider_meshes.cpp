@@ -71,6 +71,10 @@ void SphereMesh::place(const std::vector<SpherePlace>& spheres) {
                                        .stride = stride,
                                        .offset = offsetof(SpherePlace, collider),
                                        .perInstance = true});
+  vertices_.attach(instances_.name(), {.location = INSTANCE_LOOK_LOCATION,
+                                       .stride = stride,
+                                       .offset = offsetof(SpherePlace, look),
+                                       .perInstance = true});
 }
 
 void SphereMesh::draw() const {
@@ -98,6 +102,10 @@ void PlaneMesh::place(const std::vector<PlaneDisc>& discs) {
                                        .components = 1,
                                        .stride = stride,
                                        .offset = offsetof(PlaneDisc, normal) + 12,
+                                       .perInstance = true});
+  vertices_.attach(instances_.name(), {.location = INSTANCE_LOOK_LOCATION,
+                                       .stride = stride,
+                                       .offset = offsetof(PlaneDisc, look),
                                        .perInstance = true});
 }
 

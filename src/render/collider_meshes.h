@@ -14,6 +14,7 @@ namespace clothsim {
 struct SpherePlace {
   glm::vec4 place;        // centre and drawn radius [m]
   glm::vec4 collider{0};  // x: its index in the scene
+  glm::vec4 look{};       // linear colour and gloss
 };
 
 class SphereMesh {
@@ -35,6 +36,7 @@ class SphereMesh {
 struct PlaneDisc {
   glm::vec4 place;   // centre and radius [m]
   glm::vec4 normal;  // xyz, unit; w: index of the collider, -1: of none
+  glm::vec4 look;    // linear colour and gloss; red below 0: the stage's ground
   friend bool operator==(const PlaneDisc&, const PlaneDisc&) = default;
 };
 

@@ -1,16 +1,26 @@
 #include "render/colliders.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "render/look.h"
 #include "scene/colliders/surface.h"
 
 namespace clothsim {
 namespace {
 
-constexpr float floorRadius = 4.5f;  // of the stage's size: where planes have faded out
-
 bool isHorizontal(const Plane& plane) { return std::abs(glm::normalize(toGlm(plane.normal)).y) > 0.95f; }
+
+float groundRadius(const Stage& stage) {
+  return static_cast<float>(STAGE_SIZES) * glm::length(stage.view.size());
+}
+
+// On which the scene stands.
+bool isGround(const Collider& collider) {
+  const auto* plane = std::get_if<Plane>(&collider);
+  return plane != nullptr && isHorizontal(*plane) && plane->normal.y > 0 && !plane->render.color;
+}
 
 }  // namespace
 
@@ -25,10 +35,10 @@ void Colliders::place(const Scene& scene, const Stage& stage, double time) {
   discs.clear();
   solids_.clear();
   const glm::vec3 middle = stage.view.center();
-  const float radius = floorRadius * glm::length(stage.view.size());
-  const auto addDisc = [&](glm::vec3 point, glm::vec3 normal, float collider) {
+  const float radius = groundRadius(stage);
+  const auto addDisc = [&](glm::vec3 point, glm::vec3 normal, float collider, glm::vec4 look) {
     const glm::vec3 center = middle - glm::dot(middle - point, normal) * normal;
-    discs.push_back({glm::vec4(center, radius), glm::vec4(normal, collider)});
+    discs.push_back({glm::vec4(center, radius), glm::vec4(normal, collider), look});
   };
   bool hasFloor = false;
   for (std::size_t i = 0; i < colliders_.size(); ++i) {
@@ -37,9 +47,11 @@ void Colliders::place(const Scene& scene, const Stage& stage, double time) {
     const Pose pose = poseAt(collider, time);
     if (const auto* sphere = std::get_if<Sphere>(&collider)) {
       const double drawn = sphere->radius - sphereShrink(sphere->radius, longestEdge_);
-      places.push_back({glm::vec4(toGlm(pose.position), static_cast<float>(drawn)), glm::vec4(number)});
+      places.push_back({glm::vec4(toGlm(pose.position), static_cast<float>(drawn)), glm::vec4(number),
+                        drawnLook(collider)});
     } else if (const auto* plane = std::get_if<Plane>(&collider)) {
-      addDisc(toGlm(pose.position), glm::normalize(toGlm(rotate(pose.rotation, plane->normal))), number);
+      addDisc(toGlm(pose.position), glm::normalize(toGlm(rotate(pose.rotation, plane->normal))), number,
+              drawnLook(collider));
       hasFloor = hasFloor || isHorizontal(*plane);
       continue;
     }
@@ -49,10 +61,27 @@ void Colliders::place(const Scene& scene, const Stage& stage, double time) {
       for (int row = 0; row < 3; ++row) rotation[row] = toGlm(pose.rotation[static_cast<std::size_t>(row)]);
     solids_.push_back({at, rotation, {at - half, at + half}, momentOf(collider, time)});
   }
-  if (scene.render.ground && !hasFloor) addDisc({middle.x, stage.floorHeight, middle.z}, {0, 1, 0}, -1);
+  if (scene.render.ground && !hasFloor)
+    addDisc({middle.x, stage.floorHeight, middle.z}, {0, 1, 0}, -1, drawnLook(Plane{}));
   spheres_.place(places);
   shapes_.place(colliders_, time);
   planes_.place(discs);
+}
+
+glm::vec4 groundPlace(const Scene& scene, const Stage& stage) {
+  glm::vec3 middle = stage.view.center();
+  const auto ground = std::find_if(scene.colliders.begin(), scene.colliders.end(), isGround);
+  middle.y = ground == scene.colliders.end() ? stage.floorHeight : toGlm(poseAt(*ground, 0).position).y;
+  return {middle, groundRadius(stage)};
+}
+
+bool hasGround(const Scene& scene) {
+  return std::any_of(scene.colliders.begin(), scene.colliders.end(), isGround) ||
+         (scene.render.ground &&
+          std::none_of(scene.colliders.begin(), scene.colliders.end(), [](const Collider& collider) {
+            const auto* plane = std::get_if<Plane>(&collider);
+            return plane != nullptr && isHorizontal(*plane);
+          }));
 }
 
 void Colliders::drawSolids(const gl::Program& sphere, const gl::Program& shape) const {

@@ -20,6 +20,10 @@ struct SolidPlace {
   }
 };
 
+// Whether the stage's ground is drawn, and its place: xyz: its middle, w: how far it reaches [m].
+[[nodiscard]] bool hasGround(const Scene& scene);
+[[nodiscard]] glm::vec4 groundPlace(const Scene& scene, const Stage& stage);
+
 class Colliders {
  public:
   // @param longestEdge  the longest side of the cloth's triangles [m], for which solids are drawn smaller

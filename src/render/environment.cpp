@@ -49,24 +49,81 @@ std::array<float, 9> harmonics(glm::vec3 d) {
           0.546274f * (d.x * d.x - d.y * d.y)};
 }
 
+// Of a room or a stage: soft light from above, from the walls and from the ground, and a bright area of so
+// many degrees to each side where the main light comes from.
+struct Surroundings {
+  std::string_view stage;
+  glm::vec3 ceiling, wall, ground, lamp;
+  float lampAngle;
+
+  [[nodiscard]] glm::vec3 lightFrom(glm::vec3 direction, glm::vec3 toKey) const {
+    const glm::vec3 above = glm::mix(wall, ceiling, glm::smoothstep(0.1f, 0.8f, direction.y));
+    const glm::vec3 base = glm::mix(ground, above, glm::smoothstep(-0.25f, 0.05f, direction.y));
+    const float edge = std::cos(glm::radians(lampAngle)), inner = std::cos(glm::radians(0.6f * lampAngle));
+    return base + glm::smoothstep(edge, inner, glm::dot(direction, toKey)) * lamp;
+  }
+};
+
+const Surroundings* surroundingsOf(std::string_view stage) {
+  static constexpr std::array<Surroundings, 3> known{{
+      {"table", {0.50f, 0.46f, 0.42f}, {0.26f, 0.22f, 0.18f}, {0.16f, 0.10f, 0.06f}, {1.2f, 1.1f, 0.95f}, 34},
+      {"window",
+       {0.26f, 0.26f, 0.26f},
+       {0.30f, 0.28f, 0.26f},
+       {0.24f, 0.17f, 0.10f},
+       {1.6f, 1.7f, 1.85f},
+       42},
+      {"dark",
+       {0.03f, 0.03f, 0.035f},
+       {0.02f, 0.02f, 0.025f},
+       {0.05f, 0.04f, 0.03f},
+       {1.8f, 1.65f, 1.4f},
+       18},
+  }};
+  for (const Surroundings& each : known)
+    if (each.stage == stage) return &each;
+  return nullptr;
+}
+
+// The middle of a pixel of an equirectangular picture.
+glm::vec3 directionAt(int row, int column, int width, int height) {
+  const float pi = std::numbers::pi_v<float>;
+  const float polar = pi * (static_cast<float>(row) + 0.5f) / static_cast<float>(height);
+  const float azimuth = 2 * pi * ((static_cast<float>(column) + 0.5f) / static_cast<float>(width) - 0.5f);
+  return {std::sin(polar) * std::sin(azimuth), std::cos(polar), std::sin(polar) * std::cos(azimuth)};
+}
+
 }  // namespace
 
-Environment::Environment() : picture_(loadPng(resourceRoot() / "assets" / "textures" / "sky.png")) {
-  light_.reserve(picture_.rgba.size() / 4);
-  for (std::size_t i = 0; i < picture_.rgba.size(); i += 4)
-    light_.push_back(brightest * glm::vec3(linear(picture_.rgba[i]), linear(picture_.rgba[i + 1]),
-                                           linear(picture_.rgba[i + 2])));
+Environment::Environment() {
+  const LoadedPng picture = loadPng(resourceRoot() / "assets" / "textures" / "sky.png");
+  width_ = picture.width;
+  height_ = picture.height;
+  light_.reserve(picture.rgba.size() / 4);
+  for (std::size_t i = 0; i < picture.rgba.size(); i += 4)
+    light_.push_back(brightest * glm::vec3(linear(picture.rgba[i]), linear(picture.rgba[i + 1]),
+                                           linear(picture.rgba[i + 2])));
 }
+
+Environment::Environment(std::string_view stage, glm::vec3 toKey) : width_(128), height_(64) {
+  const Surroundings& around = *surroundingsOf(stage);
+  light_.reserve(static_cast<std::size_t>(width_ * height_));
+  for (int row = 0; row < height_; ++row)
+    for (int column = 0; column < width_; ++column)
+      light_.push_back(around.lightFrom(directionAt(row, column, width_, height_), toKey));
+}
+
+bool hasSurroundings(std::string_view stage) { return surroundingsOf(stage) != nullptr; }
 
 glm::vec3 Environment::lightFrom(glm::vec3 direction) const {
   const float pi = std::numbers::pi_v<float>;
-  const auto width = static_cast<float>(picture_.width), height = static_cast<float>(picture_.height);
+  const auto width = static_cast<float>(width_), height = static_cast<float>(height_);
   const float x = (std::atan2(direction.x, direction.z) / (2 * pi) + 0.5f) * width - 0.5f;
   const float y = std::acos(std::clamp(direction.y, -1.0f, 1.0f)) / pi * height - 0.5f;
   const auto at = [&](int column, int row) {
-    column = (column + picture_.width) % picture_.width;
-    row = std::clamp(row, 0, picture_.height - 1);
-    return light_[static_cast<std::size_t>(row * picture_.width + column)];
+    column = (column + width_) % width_;
+    row = std::clamp(row, 0, height_ - 1);
+    return light_[static_cast<std::size_t>(row * width_ + column)];
   };
   const int column = static_cast<int>(std::floor(x)), row = static_cast<int>(std::floor(y));
   const float right = x - std::floor(x), down = y - std::floor(y);
@@ -77,16 +134,14 @@ glm::vec3 Environment::lightFrom(glm::vec3 direction) const {
 std::array<glm::vec3, 9> Environment::irradiance() const {
   const float pi = std::numbers::pi_v<float>;
   std::array<glm::vec3, 9> sums{};
-  const auto width = static_cast<float>(picture_.width), height = static_cast<float>(picture_.height);
-  for (int row = 0; row < picture_.height; ++row) {
+  const auto width = static_cast<float>(width_), height = static_cast<float>(height_);
+  for (int row = 0; row < height_; ++row) {
     const float polar = pi * (static_cast<float>(row) + 0.5f) / height;
     const float solidAngle = 2 * pi * pi / (width * height) * std::sin(polar);
-    for (int column = 0; column < picture_.width; ++column) {
-      const float azimuth = 2 * pi * ((static_cast<float>(column) + 0.5f) / width - 0.5f);
-      const glm::vec3 direction{std::sin(polar) * std::sin(azimuth), std::cos(polar),
-                                std::sin(polar) * std::cos(azimuth)};
+    for (int column = 0; column < width_; ++column) {
+      const glm::vec3 direction = directionAt(row, column, width_, height_);
       const std::array<float, 9> basis = harmonics(direction);
-      const glm::vec3 light = solidAngle * light_[static_cast<std::size_t>(row * picture_.width + column)];
+      const glm::vec3 light = solidAngle * light_[static_cast<std::size_t>(row * width_ + column)];
       for (std::size_t i = 0; i < 9; ++i) sums[i] += basis[i] * light;
     }
   }

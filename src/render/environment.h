@@ -1,8 +1,10 @@
-// The generated sky as light: what a mirror shows, and how bright a matte surface is that faces any way.
+// The generated sky, or the surroundings of a stage, as light: what a mirror shows, and how bright a matte
+// surface is that faces any way.
 #pragma once
 
 #include <array>
 #include <glm/glm.hpp>
+#include <string_view>
 #include <vector>
 
 #include "gl/texture.h"
@@ -14,6 +16,9 @@ class Environment {
  public:
   // Reads assets/textures/sky.png. @throws InputOutputError
   Environment();
+  // Of a stage with surroundings of its own: a ceiling, walls, a ground, and a window or lamps where the main
+  // light comes from.
+  Environment(std::string_view stage, glm::vec3 toKey);
 
   // Linear light that comes from a unit direction.
   [[nodiscard]] glm::vec3 lightFrom(glm::vec3 direction) const;
@@ -26,8 +31,11 @@ class Environment {
   [[nodiscard]] gl::Texture makeCubeMap() const;
 
  private:
-  LoadedPng picture_;
-  std::vector<glm::vec3> light_;  // of the picture's pixels
+  int width_, height_;
+  std::vector<glm::vec3> light_;  // equirectangular, from the zenith down; the middle column looks along +z
 };
+
+// Whether a stage has surroundings of its own; the others are under the sky.
+[[nodiscard]] bool hasSurroundings(std::string_view stage);
 
 }  // namespace clothsim

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "render/stage.h"
+#include "render/stage_look.h"
 #include "render/strain_scale.h"
 #include "render/weaves.h"
 
@@ -15,10 +16,9 @@ float linear(double encoded) {
   return static_cast<float>(value);
 }
 
-glm::vec4 linearColor(double red, double green, double blue) {
+glm::vec4 linearOf(double red, double green, double blue) {
   return {linear(red), linear(green), linear(blue), 1};
 }
-glm::vec4 linearColor(Vec3d srgb) { return linearColor(srgb.x, srgb.y, srgb.z); }
 
 // A direction given relative to the viewer's side of the scene: x to the right, y up, z towards the viewer.
 glm::vec3 fromViewer(glm::vec3 front, glm::vec3 direction) {
@@ -55,38 +55,54 @@ void addStrainScale(const RenderSettings& settings, shared::RenderFrame& frame) 
   for (std::size_t i = 0; i < stops.size(); ++i) {
     const auto [red, green, blue] = stops[i].srgb;
     frame.strainStops[i] =
-        linearColor(static_cast<double>(red), static_cast<double>(green), static_cast<double>(blue));
+        linearOf(static_cast<double>(red), static_cast<double>(green), static_cast<double>(blue));
   }
   frame.strainRange = static_cast<float>(settings.strainRange);
 }
 
 }  // namespace
 
+glm::vec3 linearColor(Vec3d srgb) { return {linear(srgb.x), linear(srgb.y), linear(srgb.z)}; }
+
+glm::vec4 drawnLook(const Collider& collider) {
+  constexpr Vec3d porcelain{0.80, 0.82, 0.84};
+  const SolidLook& look =
+      std::visit([](const auto& shape) -> const SolidLook& { return shape.render; }, collider);
+  const auto gloss = static_cast<float>(look.gloss);
+  if (!look.color && std::holds_alternative<Plane>(collider)) return {-1, -1, -1, gloss};
+  return {linearColor(look.color.value_or(porcelain)), gloss};
+}
+
+void setClothLook(const RenderSettings& settings, shared::RenderFrame& frame) {
+  frame.clothFront = glm::vec4(linearColor(settings.color), 1);
+  frame.clothBack = glm::vec4(linearColor(settings.backColor), 1);
+  addThreads(settings, frame);
+  frame.relief = {static_cast<float>(settings.normalStrength), static_cast<float>(settings.height),
+                  static_cast<float>(settings.textureRepeat), 0};
+}
+
 glm::vec3 directionToKeyLight(const RenderSettings& settings, glm::vec3 front) {
   if (settings.light) return glm::normalize(toGlm(*settings.light));
-  return fromViewer(front, {-0.55f, 1.0f, 0.42f});
+  return fromViewer(front, stageLook(settings.stage).toKey);
 }
 
 shared::RenderFrame makeLook(const RenderSettings& settings, glm::vec3 front,
                              const std::array<glm::vec3, 9>& sky) {
+  const StageLook& stage = stageLook(settings.stage);
   shared::RenderFrame frame{};
   frame.toKeyLight = glm::vec4(directionToKeyLight(settings, front), 0);
-  frame.toFillLight = glm::vec4(fromViewer(front, {0.9f, 0.25f, 0.35f}), 0);
-  frame.keyColor = {1.22f, 1.15f, 1.04f, 0};   // a warm key
-  frame.fillColor = {0.16f, 0.20f, 0.28f, 0};  // a cool fill from the other side
-  frame.skyColor = {0.34f, 0.38f, 0.44f, 0};
-  frame.bounceColor = {0.25f, 0.22f, 0.20f, 0};  // what the floor gives back
-  frame.clothFront = linearColor(settings.color);
-  frame.clothBack = linearColor(settings.backColor);
-  frame.sphereColor = linearColor(0.80, 0.82, 0.84);
-  frame.floorColor = linearColor(0.70, 0.73, 0.76);
-  frame.backgroundTop = linearColor(0.32, 0.38, 0.45);
-  frame.backgroundBottom = linearColor(0.62, 0.67, 0.72);
-  frame.backgroundGlow = {0.16f, 0.17f, 0.18f, 0};
-  frame.backgroundPlain = linearColor(settings.backgroundColor);
-  addThreads(settings, frame);
-  frame.relief = {static_cast<float>(settings.normalStrength), static_cast<float>(settings.height),
-                  static_cast<float>(settings.textureRepeat), 0};
+  frame.toFillLight = glm::vec4(fromViewer(front, stage.toFill), 0);
+  frame.keyColor = glm::vec4(stage.key, 0);
+  frame.fillColor = glm::vec4(stage.fill, 0);
+  frame.skyColor = glm::vec4(stage.sky, 0);
+  frame.bounceColor = glm::vec4(stage.bounce, 0);  // what the floor gives back
+  frame.floorColor = glm::vec4(linearColor(stage.ground), 1);
+  frame.ground = stage.surface;
+  frame.backgroundTop = glm::vec4(stage.backdropTop, 1);
+  frame.backgroundBottom = glm::vec4(stage.backdropBottom, 1);
+  frame.backgroundGlow = {0.16f, 0.17f, 0.18f, stage.corners};
+  frame.backgroundPlain = glm::vec4(linearColor(settings.backgroundColor), 1);
+  setClothLook(settings, frame);
   addSky(sky, frame);
   addStrainScale(settings, frame);
   return frame;

@@ -1,9 +1,11 @@
-// The textures that the chosen shading model and background look at, loaded when first chosen.
+// The textures that the looks of the cloths and the background look at, loaded when first chosen.
 #pragma once
 
 #include <array>
 #include <glm/glm.hpp>
+#include <map>
 #include <optional>
+#include <span>
 #include <string>
 
 #include "gl/texture.h"
@@ -13,20 +15,21 @@ namespace clothsim {
 
 class ModelTextures {
  public:
-  // @throws SceneError, InputOutputError, leaving what was there
-  void choose(const ShadingModel& model, const std::string& background);
-  void bind() const;
-  // Of the sky, as Environment::irradiance().
+  // What no model looks at any more is let go. @throws SceneError, InputOutputError, leaving what was there
+  // @param toKey  the direction of the main light, from which the surroundings of some stages are lit
+  void choose(std::span<const ShadingModel> models, const RenderSettings& settings, glm::vec3 toKey);
+  // Those of a model that was chosen.
+  void bind(const ShadingModel& model) const;
+  // Of the stage's surroundings, as Environment::irradiance().
   [[nodiscard]] const std::array<glm::vec3, 9>& irradiance() const { return irradiance_; }
 
  private:
-  template <class Load>
-  static void replace(std::string& name, gl::Texture& texture, const std::string& wanted, Load load);
-
-  std::string weaveName_, printName_, heightsName_;
-  gl::Texture weave_, print_, heights_;
-  std::optional<gl::Texture> sky_;
-  bool knowsIrradiance_ = false;
+  // By their names.
+  using Textures = std::map<std::string, gl::Texture, std::less<>>;
+  Textures weaves_, prints_, heights_;
+  std::optional<gl::Texture> sky_, ground_;
+  std::string groundName_, surroundings_;  // those of which the irradiance is
+  glm::vec3 toKey_{};
   std::array<glm::vec3, 9> irradiance_{};
 };
 

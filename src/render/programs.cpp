@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "render/stage_look.h"
+
 namespace clothsim {
 namespace {
 
@@ -20,28 +22,29 @@ gl::Program makeDepthOnly(const std::string& vertexFile, const ShadingModel& mod
   return gl::Program::makeRender(vertexFile, "render/depth_only.frag", defines);
 }
 
-}  // namespace
-
-RenderPrograms::RenderPrograms(const ShadingModel& model, const std::string& background, int samples) {
-  chooseSamples(samples);
-  chooseModel(model);
-  chooseBackground(background);
+gl::Program makeCloth(const ShadingModel& model, ClothLight light) {
+  gl::Defines defines = model.defines;
+  if (light == ClothLight::atVertices) defines.emplace_back("LIT_AT_VERTICES", "");
+  if (light == ClothLight::exposed) defines.emplace_back("EXPOSURE", "");
+  return gl::Program::makeRender("render/cloth.vert", "render/" + model.name + ".frag", defines);
 }
 
-ShadedPrograms::ShadedPrograms(const ShadingModel& model, bool forExposures) {
-  gl::Defines exposure;
-  if (forExposures) exposure.emplace_back("EXPOSURE", "");
-  const auto withExposure = [&](gl::Defines defines) {
-    defines.insert(defines.end(), exposure.begin(), exposure.end());
-    return defines;
-  };
-  cloth = gl::Program::makeRender("render/cloth.vert", "render/" + model.name + ".frag",
-                                  withExposure(model.defines));
-  sphere = gl::Program::makeRender("render/sphere.vert", "render/sphere.frag", exposure);
-  shape = gl::Program::makeRender("render/shape.vert", "render/sphere.frag", exposure);
-  plane = gl::Program::makeRender("render/plane.vert", "render/plane.frag", exposure);
-  layBackdrop =
-      gl::Program::makeRender("render/fullscreen.vert", "render/backdrop.frag", withExposure({{"LAY", ""}}));
+}  // namespace
+
+RenderPrograms::RenderPrograms(const ShadingModel& model, const RenderSettings& settings, int samples) {
+  chooseSamples(samples);
+  chooseModel(model);
+  chooseStage(settings);
+}
+
+ShadedPrograms::ShadedPrograms(const gl::Defines& stage, bool forExposures) {
+  gl::Defines defines = stage;
+  if (forExposures) defines.emplace_back("EXPOSURE", "");
+  sphere = gl::Program::makeRender("render/sphere.vert", "render/sphere.frag", defines);
+  shape = gl::Program::makeRender("render/shape.vert", "render/sphere.frag", defines);
+  plane = gl::Program::makeRender("render/plane.vert", "render/plane.frag", defines);
+  defines.emplace_back("LAY", "");
+  layBackdrop = gl::Program::makeRender("render/fullscreen.vert", "render/backdrop.frag", defines);
 }
 
 MeanPrograms::MeanPrograms(int samples)
@@ -56,24 +59,25 @@ void RenderPrograms::chooseSamples(int samples) {
 }
 
 void RenderPrograms::chooseModel(const ShadingModel& model) {
-  ShadedPrograms shaded(model, false);
+  gl::Program shading = makeCloth(model, ClothLight::atPixels);
   gl::Program depth = makeDepthOnly("render/cloth_depth.vert", model);
   clothShadow = makeDepthOnly("render/cloth_shadow.vert", model);
   clothDepth = std::move(depth);
-  shaded_ = std::move(shaded);
-  exposed_.reset();
-  clothLitAtVertices_.reset();
+  cloth_.clear();
+  cloth_.push_back({model.defines, ClothLight::atPixels, std::move(shading)});
   if (std::exchange(model_, model).measuresStrain == model.measuresStrain) return;
   normals_.reset();
   normalsWithCuts_.reset();
   meshNormals_.reset();
 }
 
-void RenderPrograms::chooseBackground(const std::string& background) {
-  gl::Defines defines;
-  if (background == "sky") defines.emplace_back("SKY", "");
-  if (background == "plain") defines.emplace_back("PLAIN", "");
-  backdrop = gl::Program::makeRender("render/fullscreen.vert", "render/backdrop.frag", defines);
+void RenderPrograms::chooseStage(const RenderSettings& settings) {
+  ShadedPrograms shaded(stageDefines(settings), false);
+  backdrop =
+      gl::Program::makeRender("render/fullscreen.vert", "render/backdrop.frag", backdropDefines(settings));
+  shaded_ = std::move(shaded);
+  exposed_.reset();
+  stage_ = stageDefines(settings);
 }
 
 const gl::Program& RenderPrograms::normals(bool withCuts) {
@@ -113,19 +117,16 @@ const OverlayPrograms& RenderPrograms::overlays() {
 }
 
 const ShadedPrograms& RenderPrograms::shaded(bool forExposures) {
-  if (!forExposures) return *shaded_;
-  if (!exposed_) exposed_.emplace(model_, true);
-  return *exposed_;
+  auto& programs = forExposures ? exposed_ : shaded_;
+  if (!programs) programs.emplace(stage_, forExposures);
+  return *programs;
 }
 
-const gl::Program& RenderPrograms::clothLitAtVertices() {
-  if (!clothLitAtVertices_) {
-    gl::Defines defines = model_.defines;
-    defines.emplace_back("LIT_AT_VERTICES", "");
-    clothLitAtVertices_.emplace(
-        gl::Program::makeRender("render/cloth.vert", "render/" + model_.name + ".frag", defines));
-  }
-  return *clothLitAtVertices_;
+const gl::Program& RenderPrograms::cloth(const ShadingModel& model, ClothLight light) {
+  for (const ClothProgram& known : cloth_)
+    if (known.light == light && known.defines == model.defines) return known.program;
+  cloth_.push_back({model.defines, light, makeCloth(model, light)});
+  return cloth_.back().program;
 }
 
 const MeanPrograms& RenderPrograms::mean() {
@@ -135,19 +136,30 @@ const MeanPrograms& RenderPrograms::mean() {
 
 void tryAllShaders(const RenderSettings& settings, int samples) {
   RenderSettings other = settings;
-  RenderPrograms programs(shadingModelOf(other), settings.background, samples);
-  for (const std::string_view background : backgrounds) programs.chooseBackground(std::string(background));
+  RenderPrograms programs(shadingModelOf(other), settings, samples);
+  for (const std::string_view background : backgrounds) {
+    other.background = background;
+    programs.chooseStage(other);
+  }
+  other.background = "studio";
+  for (const std::string_view stage : stages) {
+    other.stage = stage;
+    programs.chooseStage(other);
+    static_cast<void>(programs.shaded(true));
+  }
+  other.stage = settings.stage;
   for (const std::string_view name : shadingModels) {
     other.shader = name;
     const ShadingModel model = shadingModelOf(other);
     programs.chooseModel(model);
-    if (model.hasVertexLight) static_cast<void>(programs.clothLitAtVertices());
+    if (model.hasVertexLight) static_cast<void>(programs.cloth(model, ClothLight::atVertices));
     for (const bool withCuts : {false, true}) static_cast<void>(programs.normals(withCuts));
     static_cast<void>(programs.meshNormals());
     static_cast<void>(programs.smooth());
-    static_cast<void>(programs.shaded(true));
-    programs.chooseModel(shadingModelOf(other, true));
-    static_cast<void>(programs.shaded(true));
+    static_cast<void>(programs.cloth(model, ClothLight::exposed));
+    const ShadingModel thick = shadingModelOf(other, true);
+    programs.chooseModel(thick);
+    static_cast<void>(programs.cloth(thick, ClothLight::exposed));
   }
   for (const bool ofLean : {false, true}) static_cast<void>(programs.rim(ofLean));
   static_cast<void>(programs.picking());

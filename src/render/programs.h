@@ -19,12 +19,16 @@ struct PickPrograms {
   gl::Program plane = gl::Program::makeRender("render/pick_plane.vert", "render/pick.frag");
 };
 
-// What shades: cloth, solids, planes, and the backdrop as a picture begins. Once for pictures that are one
+// What shades: solids, planes, and the backdrop as a picture begins. Once for pictures that are one
 // exposure, and once for exposures of a mean, which see more light and shade.
 struct ShadedPrograms {
-  ShadedPrograms(const ShadingModel& model, bool forExposures);
-  gl::Program cloth, sphere, shape, plane, layBackdrop;
+  ShadedPrograms(const gl::Defines& stage, bool forExposures);
+  gl::Program sphere, shape, plane, layBackdrop;
 };
+
+// Where light is worked out: at pixels, at vertices (of a model with hasVertexLight), or at the pixels of
+// exposures.
+enum class ClothLight { atPixels, atVertices, exposed };
 
 // Of pictures that are the mean of exposures.
 struct MeanPrograms {
@@ -37,12 +41,12 @@ struct MeanPrograms {
 
 struct RenderPrograms {
   // From the files below the resource root as they are now. @throws OpenGlError, InputOutputError
-  RenderPrograms(const ShadingModel& model, const std::string& background, int samples);
+  RenderPrograms(const ShadingModel& model, const RenderSettings& settings, int samples);
 
   // What a scene chooses. @throws as the constructor, leaving what was there
   void chooseModel(const ShadingModel& model);
-  void chooseBackground(const std::string& background);
-  void chooseSamples(int samples);  // of a pixel
+  void chooseStage(const RenderSettings& settings);  // and the background
+  void chooseSamples(int samples);                   // of a pixel
 
   // The normals pass of the chosen model.
   [[nodiscard]] const gl::Program& normals(bool withCuts);
@@ -53,7 +57,8 @@ struct RenderPrograms {
   [[nodiscard]] const OverlayPrograms& overlays();
   [[nodiscard]] const MeanPrograms& mean();
   [[nodiscard]] const ShadedPrograms& shaded(bool forExposures);
-  [[nodiscard]] const gl::Program& clothLitAtVertices();  // of a model with hasVertexLight
+  // What shades cloth, of the chosen model or one that differs from it by what it looks at.
+  [[nodiscard]] const gl::Program& cloth(const ShadingModel& model, ClothLight light);
 
   gl::Program clothDepth, clothShadow, backdrop, resolve;
   gl::Program sphereShadow = gl::Program::makeRender("render/sphere_shadow.vert", "render/depth_only.frag");
@@ -64,8 +69,15 @@ struct RenderPrograms {
 
  private:
   ShadingModel model_;
+  gl::Defines stage_;
   std::optional<ShadedPrograms> shaded_, exposed_;
-  std::optional<gl::Program> normals_, normalsWithCuts_, meshNormals_, rim_, leanRim_, clothLitAtVertices_;
+  std::optional<gl::Program> normals_, normalsWithCuts_, meshNormals_, rim_, leanRim_;
+  struct ClothProgram {
+    gl::Defines defines;
+    ClothLight light;
+    gl::Program program;
+  };
+  std::vector<ClothProgram> cloth_;  // of the chosen model's fragment shader
   std::optional<SmoothPrograms> smooth_;
   std::optional<PickPrograms> picking_;
   std::optional<OverlayPrograms> overlays_;

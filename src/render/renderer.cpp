@@ -36,8 +36,7 @@ void Renderer::setCuts(const Cuts& cuts) {
 std::optional<std::string> Renderer::reloadShaders() {
   try {
     tryAllShaders(parts_->scene->render, parts_->options.samples);
-    parts_->programs =
-        RenderPrograms(parts_->model, parts_->scene->render.background, parts_->options.samples);
+    parts_->programs = RenderPrograms(parts_->model, parts_->scene->render, parts_->options.samples);
     parts_->backdropSeen.reset();
     parts_->changes.forget();
     return std::nullopt;

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <span>
 
+#include "cloth/material_look.h"
 #include "gl/context.h"
 #include "render/look.h"
+#include "render/stage_look.h"
 
 namespace clothsim {
 namespace {
@@ -44,22 +46,43 @@ Renderer::Parts::Parts(const Shared<Cloth>& drawn, const Shared<Scene>& first, c
       options(withSupportedSamples(wanted)),
       outline(outlineOf(*cloth)),
       scene(first),
-      model(shadingModelOf(first->render, options.thick)),
-      programs(model, first->render.background, options.samples),
+      looks(looksOf(*scene, options.thick)),
+      model(looks.front().model),
+      programs(model, first->render, options.samples),
       clothMesh(*cloth),
       colliders(wanted.sphereSegmentsAround, wanted.sphereSegmentsDown, longestEdge(*cloth)),
       shadowMap(wanted.shadowMapSize) {
   configure(first);
 }
 
+// One, where all cloths look alike.
+std::vector<Renderer::Parts::Look> Renderer::Parts::looksOf(const Scene& scene, bool thick) {
+  std::vector<Look> looks;
+  for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
+    const RenderSettings settings = lookOf(scene, i);
+    looks.push_back({settings, shadingModelOf(settings, thick)});
+  }
+  if (std::all_of(looks.begin(), looks.end(),
+                  [&](const Look& look) { return look.settings == looks.front().settings; }))
+    looks.resize(1);
+  return looks;
+}
+
 // What can fail comes first: after an error all is as it was.
 void Renderer::Parts::configure(const Shared<Scene>& edited) {
-  const ShadingModel wanted = shadingModelOf(edited->render, options.thick);
-  textures.choose(wanted, edited->render.background);
-  if (edited->render.background != scene->render.background)
-    programs.chooseBackground(edited->render.background);
+  std::vector<Look> wantedLooks = looksOf(*edited, options.thick);
+  const ShadingModel wanted = wantedLooks.front().model;
+  std::vector<ShadingModel> models;
+  for (const Look& look : wantedLooks) models.push_back(look.model);
+  textures.choose(models, edited->render, directionToKeyLight(edited->render, outline.front));
+  if (edited->render.background != scene->render.background || edited->render.stage != scene->render.stage)
+    programs.chooseStage(edited->render);
   if (!(wanted == model)) programs.chooseModel(wanted);
   model = wanted;
+  looks = std::move(wantedLooks);
+  lookBlocks.resize(looks.size() > 1 ? looks.size() : 0);
+  for (auto& block : lookBlocks)
+    if (block.size() == 0) block = gl::Buffer<shared::RenderFrame>("render frame of a cloth", 1);
   if (model.measuresStrain) clothMesh.keepRestPositions(*cloth);
   scene = edited;
   const std::vector<float> thick = model.isThick ? drawnThickness(*scene, *cloth) : std::vector<float>{};
@@ -71,6 +94,9 @@ void Renderer::Parts::configure(const Shared<Scene>& edited) {
   stage = makeStage(outline, *scene);
   colliders.build(*scene);
   frame = makeLook(scene->render, outline.front, textures.irradiance());
+  setClothLook(looks.front().settings, frame);
+  frame.stagePlace = groundPlace(*scene, stage);
+  frame.ground.w = hasGround(*scene) ? 1 : 0;
   frame.flatness = static_cast<float>(options.flatness);
   shineFrom(nullptr);
   backdropSeen.reset();
@@ -147,10 +173,13 @@ void Renderer::Parts::chooseSurface(const Camera& camera, int height, double asp
   const bool isThick =
       thickest != thickness.end() && static_cast<double>(*thickest) * pixelsAMetre > leastSeen;
   frame.thickness = frame.casterThickness = isThick ? 1.0f : 0.0f;
-  const bool seesThreads =
-      !model.weave.empty() && scene->render.threadSpacing * pixelsAMetre > MOST_THREAD_SPACING;
-  lightsVertices = options.lightsVertices && model.hasVertexLight && !seesThreads &&
-                   longestEdge(*cloth) * pixelsAMetre < MOST_VERTEX_DISTANCE;
+  const bool hidesVertices = std::all_of(looks.begin(), looks.end(), [&](const Look& look) {
+    const bool seesThreads =
+        !look.model.weave.empty() && look.settings.threadSpacing * pixelsAMetre > MOST_THREAD_SPACING;
+    return look.model.hasVertexLight && !seesThreads;
+  });
+  lightsVertices =
+      options.lightsVertices && hidesVertices && longestEdge(*cloth) * pixelsAMetre < MOST_VERTEX_DISTANCE;
   std::vector<std::uint32_t> steps;
   if (!isRough) steps = smoothSteps(*cloth, pixelsAMetre, options);
   if (clothMesh.hasCuts())  // which are put together anew whenever cloth tears
@@ -167,6 +196,11 @@ void Renderer::Parts::chooseSurface(const Camera& camera, int height, double asp
 }
 
 void Renderer::Parts::uploadFrame() {
+  for (std::size_t i = 0; i < lookBlocks.size(); ++i) {
+    shared::RenderFrame own = frame;
+    setClothLook(looks[i].settings, own);
+    lookBlocks[i].upload(std::span(&own, 1));
+  }
   frameBlock.upload(std::span(&frame, 1));
   frameBlock.bindUniform(RENDER_FRAME_BINDING);
 }
@@ -198,20 +232,33 @@ void Renderer::Parts::computeNormals(GLuint positions) {
     clothMesh.computeRim(programs.rim(false), positions);
 }
 
-void Renderer::Parts::drawSurface(GLuint positions, bool meshesAsLines) {
-  if (smooth)
-    smooth->draw();
-  else
-    clothMesh.draw(positions, meshesAsLines);
-  drawRim();
+void Renderer::Parts::drawSurface(GLuint positions, const std::function<void(const Look&)>& choose,
+                                  bool meshesAsLines) {
+  if (lookBlocks.empty()) {
+    choose(looks.front());
+    drawPieces(positions, smooth.has_value(), meshesAsLines, {});
+    return;
+  }
+  for (std::size_t i = 0; i < looks.size(); ++i) {
+    textures.bind(looks[i].model);
+    lookBlocks[i].bindUniform(RENDER_FRAME_BINDING);
+    choose(looks[i]);
+    drawPieces(positions, smooth.has_value(), meshesAsLines, i);
+  }
+  frameBlock.bindUniform(RENDER_FRAME_BINDING);
 }
 
-void Renderer::Parts::drawRim() const {
+void Renderer::Parts::drawPieces(GLuint positions, bool smoothly, bool meshesAsLines,
+                                 std::optional<std::size_t> only) {
+  if (smoothly)
+    smooth->draw(only);
+  else
+    clothMesh.draw(positions, meshesAsLines, only);
   if (!drawsThick()) return;
   if (smooth)
-    smooth->drawRim();
+    smooth->drawRim(only);
   else
-    clothMesh.drawRim();
+    clothMesh.drawRim(only);
 }
 
 void Renderer::Parts::drawShadows(GLuint positions) {
@@ -223,13 +270,13 @@ void Renderer::Parts::drawShadows(GLuint positions) {
 }
 
 void Renderer::Parts::drawCasters(GLuint positions) {
-  programs.clothShadow.bind();
   // Shadows are softer than what a lean surface adds to the particles' triangles.
-  if (smooth && !smooth->isLean())
-    smooth->draw();
+  const bool smoothly = smooth && !smooth->isLean();
+  programs.clothShadow.bind();
+  if (model.displaces)  // by heights that differ from cloth to cloth
+    drawSurface(positions, [](const Look&) {});
   else
-    clothMesh.draw(positions);
-  drawRim();
+    drawPieces(positions, smoothly, false, {});
   // A solid's far side alone: its near side would shade itself by rounding.
   glEnable(GL_CULL_FACE);
   glCullFace(GL_FRONT);
@@ -293,16 +340,18 @@ void Renderer::Parts::drawScene(GLuint positions) {
 }
 
 void Renderer::Parts::drawCloth(GLuint positions) {
-  const ShadedPrograms& shading = programs.shaded(isExposed());
   if (!model.blends) {
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     programs.clothDepth.bind();
-    drawSurface(positions);
+    drawSurface(positions, [](const Look&) {});
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   }
-  const bool atVertices = lightsVertices && !smooth && !isExposed();
-  (atVertices ? programs.clothLitAtVertices() : shading.cloth).bind();
-  drawSurface(positions, model.name == "wireframe");  // whose lines are otherwise those of a grid
+  const ClothLight light = isExposed()                 ? ClothLight::exposed
+                           : lightsVertices && !smooth ? ClothLight::atVertices
+                                                       : ClothLight::atPixels;
+  drawSurface(
+      positions, [&](const Look& look) { programs.cloth(look.model, light).bind(); },
+      model.name == "wireframe");  // whose lines are otherwise those of a grid
 }
 
 void Renderer::Parts::drawOverlay(GLuint positions) {
@@ -359,10 +408,10 @@ void Renderer::Parts::scissor() const {
   glScissor(part->picture.left, part->picture.bottom, part->picture.width(), part->picture.height());
 }
 
-// Only the sky turns with the camera; others are drawn once.
+// One that does not turn with the camera is drawn once.
 void Renderer::Parts::drawBackdrop(int width, int height) {
   const gl::FramebufferFormat format{.width = width, .height = height, .color = backdropFormat};
-  const bool turns = scene->render.background == "sky";
+  const bool turns = backdropTurns(scene->render);
   if (backdropSeen && backdrop.format() == format && !(turns && *backdropSeen != middleClipFromWorld)) return;
   if (!(backdrop.format() == format)) backdrop = gl::Framebuffer("backdrop", format);
   backdrop.bind();
@@ -442,7 +491,7 @@ void Renderer::Parts::draw(const Picture& picture, const Around& around) {
   if (exposure != nullptr) lookThrough(*exposure, *camera);
   chooseSurface(*camera, h, aspect);
   uploadFrame();
-  textures.bind();
+  textures.bind(model);
   makeTargets(w, h, width, height);
   const GLuint positions = moved(state);
   findChanges(positions, w, h);

@@ -51,9 +51,17 @@ struct Renderer::Parts {
   void scissor() const;
   void chooseSurface(const Camera& camera, int height, double aspect);
   void computeNormals(GLuint positions);
-  void drawSurface(GLuint positions, bool meshesAsLines = false);
+  // How pieces are drawn: all of one look, or each of its own.
+  struct Look {
+    RenderSettings settings;
+    ShadingModel model;
+  };
+  [[nodiscard]] static std::vector<Look> looksOf(const Scene& scene, bool thick);
+  // `choose` binds the program for a look; its textures and its block are bound before.
+  void drawSurface(GLuint positions, const std::function<void(const Look&)>& choose,
+                   bool meshesAsLines = false);
+  void drawPieces(GLuint positions, bool smoothly, bool meshesAsLines, std::optional<std::size_t> only);
   [[nodiscard]] bool drawsThick() const { return frame.thickness > 0; }
-  void drawRim() const;
   void drawShadows(GLuint positions);
   void drawCasters(GLuint positions);
   void drawSkyShadows(GLuint positions);
@@ -73,7 +81,8 @@ struct Renderer::Parts {
   ClothOutline outline;
   Shared<Scene> scene;
   Stage stage;
-  ShadingModel model;
+  std::vector<Look> looks;  // at least one; several: one for each piece
+  ShadingModel model;       // of the first
   shared::RenderFrame frame{};
 
   RenderPrograms programs;
@@ -99,6 +108,7 @@ struct Renderer::Parts {
   ChangedArea changes;
   std::optional<ChangedArea::Area> part;  // of the picture that is drawn; none: all of it
   gl::Buffer<shared::RenderFrame> frameBlock{"render frame", 1};
+  std::vector<gl::Buffer<shared::RenderFrame>> lookBlocks;  // the same with the look of each piece
   gl::VertexArray noVertices{"no vertices"};
 };
 

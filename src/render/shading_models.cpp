@@ -38,6 +38,7 @@ ShadingModel shadingModelOf(const RenderSettings& settings, bool thick) {
   if (model.isThick) model.defines.emplace_back("THICK", "");
   if (model.textureUse == TextureUse::print) model.defines.emplace_back("PRINT", "");
   if (!model.weave.empty()) model.defines.emplace_back("WOVEN", "");
+  if (settings.stage == "window") model.defines.emplace_back("WINDOW", "");  // whose bars throw shadows
   return model;
 }
 

@@ -2,6 +2,7 @@
 
 #include <span>
 
+#include "render/look.h"
 #include "shared/render_layout.h"
 
 namespace clothsim {
@@ -54,6 +55,10 @@ void ShapeMeshes::build(const ColliderSet& colliders, double longestEdge) {
                                        .stride = sizeof(Rows),
                                        .offset = offsetof(Rows, collider),
                                        .perInstance = true});
+  vertices_.attach(instances_.name(), {.location = INSTANCE_LOOK_LOCATION,
+                                       .stride = sizeof(Rows),
+                                       .offset = offsetof(Rows, look),
+                                       .perInstance = true});
 }
 
 void ShapeMeshes::reshape(Part& part, const ColliderSet& colliders, double time) {
@@ -72,7 +77,7 @@ void ShapeMeshes::place(const ColliderSet& colliders, double time) {
       return glm::vec4(glmOf(axis.x, axis.y, axis.z), static_cast<float>(along));
     };
     rows.push_back({row(r[0], place.x), row(r[1], place.y), row(r[2], place.z),
-                    glm::vec4(static_cast<float>(part.collider))});
+                    glm::vec4(static_cast<float>(part.collider)), drawnLook(colliders[part.collider])});
     reshape(part, colliders, time);
   }
   if (!rows.empty()) instances_.upload(rows);

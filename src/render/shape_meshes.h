@@ -28,6 +28,7 @@ class ShapeMeshes {
   struct Rows {
     glm::vec4 x, y, z;      // world from own frame
     glm::vec4 collider{0};  // x: its index in the scene
+    glm::vec4 look{};       // linear colour and gloss
   };
   struct Part {
     std::size_t firstIndex, indexCount, collider, firstPoint;

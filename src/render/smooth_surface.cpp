@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <numeric>
 
+#include "render/pieces.h"
 #include "render/refinement.h"
 
 namespace clothsim {
@@ -240,12 +241,12 @@ void SmoothSurface::computeRim(const gl::Program& program) {
   if (rim_) rim_->compute(program, points_.name(), normals_.name(), tangents_.name());
 }
 
-void SmoothSurface::drawRim() const {
-  if (rim_) rim_->draw();
+void SmoothSurface::drawRim(std::optional<std::size_t> only) const {
+  if (rim_) rim_->draw(only);
 }
 
-void SmoothSurface::draw() {
-  for (const PieceBuffers& piece : pieces_) {
+void SmoothSurface::draw(std::optional<std::size_t> only) {
+  for (const PieceBuffers& piece : piecesOf(std::span(pieces_), only)) {
     vertices_.attachIndices(isLean_ ? piece.kept.name() : piece.triangles.name());
     vertices_.bind();
     piece.block.bindUniform(CLOTH_GRID_BINDING);

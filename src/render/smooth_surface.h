@@ -56,11 +56,12 @@ class SmoothSurface {
   // its triangles for the RenderFrame that is bound.
   void compute(const SmoothPrograms& programs, GLuint positions, const ClothMesh& particles);
   // The triangles of all pieces, with the program and its state bound by the caller.
-  void draw();
+  // `only`: one piece.
+  void draw(std::optional<std::size_t> only = {});
   // The edge of cloth that is thick, of which draw() is the sides: after compute(), by rim.comp with LEAN
   // where isLean().
   void computeRim(const gl::Program& program);
-  void drawRim() const;
+  void drawRim(std::optional<std::size_t> only = {}) const;
 
   // A vec4 a point, piece by piece, row by row: place [m]; unit normal, hollow as in ClothMesh::normals().
   [[nodiscard]] const gl::Buffer<glm::vec4>& points() const { return points_; }

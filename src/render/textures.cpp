@@ -60,7 +60,8 @@ std::vector<std::string> bundledTextures() {
   std::error_code ignored;
   for (fs::directory_iterator entry(folder(), ignored), end; entry != end; entry.increment(ignored)) {
     const std::string name = entry->path().stem().string();
-    if (entry->path().extension() == ".png" && !name.starts_with("weave_") && name != "sky")
+    if (entry->path().extension() == ".png" && !name.starts_with("weave_") && !name.starts_with("ground_") &&
+        name != "sky")
       names.push_back(name);
   }
   std::sort(names.begin(), names.end());
@@ -107,6 +108,12 @@ gl::Texture loadHeights(const std::string& texture) {
 gl::Texture loadPicture(const fs::path& path) {
   const LoadedPng png = loadPng(path);
   return gl::Texture::make2D(path.stem().string(), png.width, png.height, {}, eightBits(png).data());
+}
+
+gl::Texture loadGround(const std::string& name) {
+  const LoadedPng png = loadPng(folder() / (name + ".png"));
+  return gl::Texture::make2D(name, png.width, png.height, {.internal = GL_SRGB8_ALPHA8},
+                             eightBits(png).data());
 }
 
 gl::Texture loadWeave(const std::string& weave) {

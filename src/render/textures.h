@@ -29,6 +29,8 @@ struct LoadedPng {
 [[nodiscard]] gl::Texture loadHeights(const std::string& texture);
 // As it is in the file, for controls.
 [[nodiscard]] gl::Texture loadPicture(const std::filesystem::path& path);
+// The picture of a stage's ground, by its name in assets/textures; linear light when sampled.
+[[nodiscard]] gl::Texture loadGround(const std::string& name);
 [[nodiscard]] gl::Texture loadWeave(const std::string& weave);  // as tools/make_textures describes it
 
 }  // namespace clothsim

@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "core/vec.h"
+#include "scene/colliders/solid_look.h"
 #include "scene/motion.h"
 
 namespace clothsim {
@@ -62,7 +63,11 @@ using MemberAmong = std::variant<bool Owner::*, int Owner::*, double Owner::*, s
                                  Vec3d Owner::*, std::optional<double> Owner::*, More Owner::*...>;
 template <class Owner>
 struct MemberOf {
-  using Type = MemberAmong<Owner, GridPoint, Orientation, std::optional<Motion>>;
+  using Type = MemberAmong<Owner, GridPoint, Orientation, std::optional<Motion>, SolidLook>;
+};
+template <>
+struct MemberOf<SolidLook> {
+  using Type = MemberAmong<SolidLook, std::optional<Vec3d>>;
 };
 template <class Owner>
 using Member = typename MemberOf<Owner>::Type;

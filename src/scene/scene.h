@@ -109,6 +109,17 @@ struct Material {
 // CS184's stiffness, when a cloth names none [N/m].
 inline constexpr double defaultKs = 5000;
 
+// How one cloth is drawn where that is not as the scene's `render` and its own material have it
+// (cloth/material_look.h). Members are those of RenderSettings.
+struct ClothLook {
+  std::optional<Vec3d> color, backColor;
+  std::optional<std::string> texture;  // "": none
+  std::optional<double> textureRepeat;
+  std::optional<std::string> weave;
+  std::optional<double> threadSpacing, gloss, normalStrength, height, thickness;
+  friend bool operator==(const ClothLook&, const ClothLook&) = default;
+};
+
 struct ClothSettings {
   std::string mesh;              // an OBJ file, beside the scene file or below the resource root; "": a grid
   double scale = 1;              // metres in a unit of the mesh file
@@ -137,6 +148,7 @@ struct ClothSettings {
   std::vector<StiffnessPart> stiffnessMap;  // of a mesh; where parts overlap their factors multiply
   std::vector<Pin> pinned;
   std::vector<PinMotion> pinMotion;  // A pin is moved by one of these at most, and otherwise stays.
+  ClothLook render;
   [[nodiscard]] bool isMesh() const { return !mesh.empty(); }
   friend bool operator==(const ClothSettings&, const ClothSettings&) = default;
 };
@@ -246,11 +258,12 @@ struct CameraSettings {
   friend bool operator==(const CameraSettings&, const CameraSettings&) = default;
 };
 
-// The values of render.shader, render.weave and render.background.
+// The values of render.shader, render.weave, render.stage and render.background.
 inline constexpr std::array<std::string_view, 10> shadingModels{
     "fabric",       "phong",  "diffuse", "texture",   "bump",
     "displacement", "mirror", "normal",  "wireframe", "strain"};
 inline constexpr std::array<std::string_view, 6> weaves{"plain", "twill", "denim", "satin", "jersey", "none"};
+inline constexpr std::array<std::string_view, 5> stages{"studio", "table", "window", "dark", "none"};
 inline constexpr std::array<std::string_view, 3> backgrounds{"studio", "sky", "plain"};
 
 struct RenderSettings {
@@ -268,7 +281,9 @@ struct RenderSettings {
   double strainRange = 0.1;           // l/L - 1 at the end of the strain map's scale
   std::optional<Vec3d> light;         // direction towards the main light; none: the upper left of the front
   double lightSize = 9;               // angle of the main light's disc, seen from the scene [degrees]
-  std::string background = "studio";
+  // Where the scene stands, with its ground and its light (render/stage_look.h).
+  std::string stage = "studio";
+  std::string background = "studio";        // studio: that of the stage
   Vec3d backgroundColor{0.62, 0.67, 0.72};  // of the plain background
   std::optional<double> thickness;  // of the cloth as it is drawn [m]; none: its own, but in draft quality
   bool smooth = true;               // draw a smooth surface through the particles, but in draft quality

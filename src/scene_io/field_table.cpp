@@ -13,6 +13,10 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr Limits gridSide{.low = smallestSide, .high = largestSide};
+// Of looks, of the scene and of single cloths.
+constexpr Limits channel{.low = 0, .high = 1}, repeatLimits{.low = 0.01, .high = 1000},
+    threadLimits{.low = 1e-5, .high = 1}, strengthLimits{.low = 0, .high = 10},
+    reliefLimits{.low = -1, .high = 1}, thicknessLimits{.low = 0, .high = 1};
 
 }  // namespace
 
@@ -166,6 +170,55 @@ std::span<const Field<ClothSettings>> fieldsOf<ClothSettings>() {
       field("pin_motion", &C::pinMotion,
             "A path in time for the pins, or a list of paths with the pins that follow each.")
           .byDefault("none"),
+      field("render", &C::render, "How this cloth is drawn where it differs from the scene's `render`."),
+  };
+  return fields;
+}
+
+template <>
+std::span<const Field<ClothLook>> fieldsOf<ClothLook>() {
+  using L = ClothLook;
+  constexpr std::string_view asScene = "as the scene's render and the cloth's material have it";
+  static const std::array fields{
+      field("color", &L::color, "Colour of this cloth's front; of denim the warp's.")
+          .in("sRGB")
+          .within(channel)
+          .as(Format::color)
+          .byDefault(asScene),
+      field("back_color", &L::backColor, "Colour of this cloth's back; of denim the weft's.")
+          .in("sRGB")
+          .within(channel)
+          .as(Format::color)
+          .byDefault(asScene),
+      field("texture", &L::texture, "Print or height map of this cloth, as render.texture; \"\": none.")
+          .byDefault(asScene),
+      field("texture_repeat", &L::textureRepeat, "Repeats of the texture along this cloth's longer side.")
+          .within(repeatLimits)
+          .usually(0.5, 50)
+          .byDefault(asScene),
+      field("weave", &L::weave, "Weave or knit of this cloth.").oneOf(weaves).byDefault(asScene),
+      field("thread_spacing", &L::threadSpacing, "Distance between the threads of this cloth.")
+          .in("m")
+          .within(threadLimits)
+          .usually(2e-4, 0.02)
+          .byDefault(asScene),
+      field("gloss", &L::gloss, "Gloss of this cloth: 0 is wool, 1 is silk.")
+          .within(channel)
+          .byDefault(asScene),
+      field("normal_strength", &L::normalStrength, "Strength of this cloth's weave and bumps.")
+          .within(strengthLimits)
+          .usually(0, 3)
+          .byDefault(asScene),
+      field("height", &L::height, "Height of this cloth's bump or displacement map, from black to white.")
+          .in("m")
+          .within(reliefLimits)
+          .usually(-0.05, 0.05)
+          .byDefault(asScene),
+      field("thickness", &L::thickness, "How thick this cloth is drawn; 0: as a sheet without thickness.")
+          .in("m")
+          .within(thicknessLimits)
+          .usually(0, 0.02)
+          .byDefault(asScene),
   };
   return fields;
 }
@@ -384,7 +437,6 @@ std::span<const Field<CameraSettings>> fieldsOf<CameraSettings>() {
 template <>
 std::span<const Field<RenderSettings>> fieldsOf<RenderSettings>() {
   using R = RenderSettings;
-  constexpr Limits channel{.low = 0, .high = 1};
   static const std::array fields{
       field("shader", &R::shader, "Shading model of the cloth.").oneOf(shadingModels),
       field(
@@ -403,7 +455,7 @@ std::span<const Field<RenderSettings>> fieldsOf<RenderSettings>() {
             "Print (tartan, stripes, checker) or height map (quilt, knit, hammered), or the path of a PNG.")
           .byDefault("of texture: tartan; of bump and displacement: quilt; of fabric: none"),
       field("texture_repeat", &R::textureRepeat, "Repeats of the texture along the cloth's longer side.")
-          .within({.low = 0.01, .high = 1000})
+          .within(repeatLimits)
           .usually(0.5, 50),
       field("weave", &R::weave,
             "Weave of the model fabric, or its knit: jersey; none: a film, as paper and rubber are.")
@@ -414,7 +466,7 @@ std::span<const Field<RenderSettings>> fieldsOf<RenderSettings>() {
             "real "
             "cloth.")
           .in("m")
-          .within({.low = 1e-5, .high = 1})
+          .within(threadLimits)
           .usually(2e-4, 0.02)
           .byDefault("of the material; without one 0.0015"),
       field("gloss", &R::gloss, "Gloss of the model fabric: 0 is wool, 1 is silk.")
@@ -422,11 +474,11 @@ std::span<const Field<RenderSettings>> fieldsOf<RenderSettings>() {
           .byDefault("of the material; without one 0.3"),
       field("normal_strength", &R::normalStrength,
             "Strength of weaves and bumps: 0 is flat, 1 true to their height.")
-          .within({.low = 0, .high = 10})
+          .within(strengthLimits)
           .usually(0, 3),
       field("height", &R::height, "Height of bump and displacement maps, from black to white.")
           .in("m")
-          .within({.low = -1, .high = 1})
+          .within(reliefLimits)
           .usually(-0.05, 0.05),
       field("strain_range", &R::strainRange, "Stretch l/L - 1 at the end of the strain map's colour scale.")
           .within({.low = 1e-6, .high = 100})
@@ -438,7 +490,11 @@ std::span<const Field<RenderSettings>> fieldsOf<RenderSettings>() {
           .in("degrees")
           .within({.low = 0, .high = 60})
           .usually(0, 20),
-      field("background", &R::background, "Background of the picture.").oneOf(backgrounds),
+      field("stage", &R::stage,
+            "Where the scene stands: a studio's sweep, a table top, a room by a window, a dark stage; none.")
+          .oneOf(stages),
+      field("background", &R::background, "Background of the picture; studio: that of the stage.")
+          .oneOf(backgrounds),
       field("background_color", &R::backgroundColor, "Colour of the plain background.")
           .in("sRGB")
           .within(channel)
@@ -446,7 +502,7 @@ std::span<const Field<RenderSettings>> fieldsOf<RenderSettings>() {
       field("thickness", &R::thickness,
             "How thick the cloth is drawn, with round edges; 0: as a sheet without thickness.")
           .in("m")
-          .within({.low = 0, .high = 1})
+          .within(thicknessLimits)
           .usually(0, 0.02)
           .byDefault("of the cloth, at most half the distance of its points; in draft quality 0"),
       field(

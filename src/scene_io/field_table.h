@@ -29,7 +29,11 @@ struct MemberOf<Scene> {
 template <>
 struct MemberOf<ClothSettings> {
   using Type = MemberAmong<ClothSettings, Orientation, std::vector<StiffnessPart>, std::vector<Pin>,
-                           std::vector<PinMotion>, std::optional<Material>, std::optional<Vec3d>>;
+                           std::vector<PinMotion>, std::optional<Material>, std::optional<Vec3d>, ClothLook>;
+};
+template <>
+struct MemberOf<ClothLook> {
+  using Type = MemberAmong<ClothLook, std::optional<Vec3d>, std::optional<std::string>>;
 };
 template <>
 struct MemberOf<PaintedPin> {
@@ -96,6 +100,8 @@ template <>
 std::span<const Field<Scene>> fieldsOf<Scene>();
 template <>
 std::span<const Field<ClothSettings>> fieldsOf<ClothSettings>();
+template <>
+std::span<const Field<ClothLook>> fieldsOf<ClothLook>();
 template <>
 std::span<const Field<Material>> fieldsOf<Material>();
 template <>

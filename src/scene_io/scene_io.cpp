@@ -37,9 +37,13 @@ fs::path folderOf(const fs::path& file) {
 
 // A texture's path is relative to the scene; bundled ones have no extension.
 void findTexture(Scene& scene, const fs::path& scenePath) {
-  const fs::path texture = scene.render.texture;
-  if (!isTexturePath(scene.render.texture) || texture.is_absolute()) return;
-  scene.render.texture = (folderOf(scenePath) / texture).lexically_normal().string();
+  const auto find = [&](std::string& texture) {
+    if (!isTexturePath(texture) || fs::path(texture).is_absolute()) return;
+    texture = (folderOf(scenePath) / texture).lexically_normal().string();
+  };
+  find(scene.render.texture);
+  for (ClothSettings& cloth : scene.cloths)
+    if (cloth.render.texture) find(*cloth.render.texture);
 }
 
 bool isPath(const std::string& nameOrPath) {

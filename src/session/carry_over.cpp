@@ -24,6 +24,7 @@ bool needsRebuild(const Scene& before, const Scene& after) {
   for (std::size_t i = 0; i < before.cloths.size(); ++i) {
     ClothSettings cloth = before.cloths[i];
     cloth.damping = after.cloths[i].damping;
+    cloth.render = after.cloths[i].render;
     if (haveSameHolds(cloth, after.cloths[i])) cloth.pinMotion = after.cloths[i].pinMotion;
     if (cloth != after.cloths[i]) return true;
   }

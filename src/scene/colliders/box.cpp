@@ -21,6 +21,7 @@ std::span<const Field<Box>> Box::fields() {
           .usually(0, 0.2),
       frictionField<Box>(),
       motionField<Box>(),
+      lookField<Box>(),
   };
   return fields;
 }

@@ -12,6 +12,7 @@ struct Box {
   double rounding = 0.01;     // radius of its edges [m], at most half the smallest size
   double friction = 0.5;
   std::optional<Motion> motion{};
+  SolidLook render{};
   friend bool operator==(const Box&, const Box&) = default;
 
   [[nodiscard]] static std::span<const Field<Box>> fields();

@@ -19,6 +19,7 @@ std::span<const Field<Capsule>> Capsule::fields() {
       field("radius", &Capsule::radius, "Radius of a capsule.").in("m").within(positive).usually(0.01, 1),
       frictionField<Capsule>(),
       motionField<Capsule>(),
+      lookField<Capsule>(),
   };
   return fields;
 }

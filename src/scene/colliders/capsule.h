@@ -13,6 +13,7 @@ struct Capsule {
   double radius = 0.1;    // [m]
   double friction = 0.5;
   std::optional<Motion> motion{};
+  SolidLook render{};
   friend bool operator==(const Capsule&, const Capsule&) = default;
 
   [[nodiscard]] static std::span<const Field<Capsule>> fields();

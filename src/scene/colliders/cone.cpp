@@ -24,6 +24,7 @@ std::span<const Field<Cone>> Cone::fields() {
           .usually(0, 1),
       frictionField<C>(),
       motionField<C>(),
+      lookField<C>(),
   };
   return fields;
 }

@@ -16,6 +16,7 @@ struct Cone {
   double topRadius = 0;   // of the upper cap [m]; 0: a point
   double friction = 0.5;
   std::optional<Motion> motion{};
+  SolidLook render{};
   friend bool operator==(const Cone&, const Cone&) = default;
 
   [[nodiscard]] static std::span<const Field<Cone>> fields();

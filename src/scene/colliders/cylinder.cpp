@@ -20,6 +20,7 @@ std::span<const Field<Cylinder>> Cylinder::fields() {
       field("radius", &C::radius, "Radius of a cylinder.").in("m").within(positive).usually(0.01, 1),
       frictionField<C>(),
       motionField<C>(),
+      lookField<C>(),
   };
   return fields;
 }

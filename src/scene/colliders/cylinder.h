@@ -13,6 +13,7 @@ struct Cylinder {
   double radius = 0.2;    // [m]
   double friction = 0.5;
   std::optional<Motion> motion{};
+  SolidLook render{};
   friend bool operator==(const Cylinder&, const Cylinder&) = default;
 
   [[nodiscard]] static std::span<const Field<Cylinder>> fields();

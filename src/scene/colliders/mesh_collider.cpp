@@ -37,6 +37,7 @@ std::span<const Field<MeshCollider>> MeshCollider::fields() {
           .within({.low = 8, .high = 256}),
       frictionField<M>(),
       motionField<M>(),
+      lookField<M>(),
   };
   return fields;
 }

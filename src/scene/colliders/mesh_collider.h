@@ -26,6 +26,7 @@ struct MeshCollider {
   int cells = 64;           // of the signed distance grid, along the longest side
   double friction = 0.5;
   std::optional<Motion> motion{};
+  SolidLook render{};
   int shapes = 1;
   int firstShape = 0;           // the number of the first file
   double shapesPerSecond = 24;  // [1/s]

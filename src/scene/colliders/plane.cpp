@@ -10,6 +10,7 @@ std::span<const Field<Plane>> Plane::fields() {
       field("normal", &Plane::normal, "Normal of a plane, of any length.").within({.nonZero = true}),
       frictionField<Plane>(),
       motionField<Plane>(),
+      lookField<Plane>(),
   };
   return fields;
 }

@@ -11,6 +11,7 @@ struct Plane {
   Vec3d normal{0, 1, 0};  // any length but 0
   double friction = 0.5;
   std::optional<Motion> motion{};
+  SolidLook render{};
   friend bool operator==(const Plane&, const Plane&) = default;
 
   [[nodiscard]] static std::span<const Field<Plane>> fields();

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/vec.h"
+#include "scene/colliders/solid_look.h"
 #include "scene/motion.h"
 #include "scene/put.h"
 #include "scene/rotation.h"
@@ -47,6 +48,7 @@ concept WrittenShape = requires(S shape, const S& fixed) {
   { fixed.ownRotation() } -> std::same_as<Matrix3>;                   // before any motion
   { shape.friction } -> std::convertible_to<double>;
   { shape.motion } -> std::convertible_to<std::optional<Motion>>;
+  { shape.render } -> std::convertible_to<SolidLook>;
 };
 
 // What the program makes of it: of most shapes the same type, of a mesh the one that holds its samples.

@@ -19,5 +19,9 @@ template <class Shape>
 Field<Shape> motionField() {
   return field("motion", &Shape::motion, "A path in time along which the collider moves as a rigid body.");
 }
+template <class Shape>
+Field<Shape> lookField() {
+  return field("render", &Shape::render, "How this collider is drawn.");
+}
 
 }  // namespace clothsim

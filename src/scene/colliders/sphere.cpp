@@ -13,6 +13,7 @@ std::span<const Field<Sphere>> Sphere::fields() {
           .usually(0.01, 1),
       frictionField<Sphere>(),
       motionField<Sphere>(),
+      lookField<Sphere>(),
   };
   return fields;
 }

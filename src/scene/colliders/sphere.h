@@ -10,6 +10,7 @@ struct Sphere {
   double radius = 0.2;    // [m]
   double friction = 0.5;  // CS184's factor, 0 slides, 1 sticks; Coulomb's coefficient under `coulomb`
   std::optional<Motion> motion{};
+  SolidLook render{};
   friend bool operator==(const Sphere&, const Sphere&) = default;
 
   [[nodiscard]] static std::span<const Field<Sphere>> fields();

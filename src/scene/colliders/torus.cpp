@@ -22,6 +22,7 @@ std::span<const Field<Torus>> Torus::fields() {
           .usually(0.01, 1),
       frictionField<Torus>(),
       motionField<Torus>(),
+      lookField<Torus>(),
   };
   return fields;
 }

@@ -13,6 +13,7 @@ struct Torus {
   double tubeRadius = 0.1;  // [m], smaller than radius
   double friction = 0.5;
   std::optional<Motion> motion{};
+  SolidLook render{};
   friend bool operator==(const Torus&, const Torus&) = default;
 
   [[nodiscard]] static std::span<const Field<Torus>> fields();

@@ -167,7 +167,7 @@ void FieldWidgets::control(const FieldTraits& field, std::string_view path, doub
 void FieldWidgets::control(const FieldTraits& field, std::string_view path, std::string& value) {
   const std::string place = std::string(path) + "." + std::string(field.key);
   const auto found = std::find_if(choices_.begin(), choices_.end(),
-                                  [&](const Choices& choices) { return choices.path == place; });
+                                  [&](const Choices& choices) { return place.ends_with(choices.path); });
   beginRow(field, path, "");
   bool changed = false;
   if (!field.choices.empty())
@@ -211,7 +211,8 @@ void FieldWidgets::control(const FieldTraits& field, std::string_view path, std:
   bool on = value.has_value(), finished = false;
   bool changed = ImGui::Checkbox("##on", &on);
   if (changed) {
-    value = on ? std::optional(Vec3d{0, 1, 0}) : std::nullopt;
+    const Vec3d first = field.format == Format::color ? Vec3d{0.7, 0.7, 0.7} : Vec3d{0, 1, 0};
+    value = on ? std::optional(first) : std::nullopt;
     finished = true;
   }
   helpTip(helpOf(field, path));

@@ -39,7 +39,7 @@ class FieldWidgets {
         if (field.key == key) row(field, owner, path);
     endRows();
   }
-  // Offers texts for the string field of that path, which may also have others. "" is shown as "none".
+  // Offers texts for string fields whose path ends so, which may also have others. "" is shown as "none".
   void offer(std::string path, std::vector<std::string> words) {
     choices_.push_back({std::move(path), std::move(words)});
   }

@@ -48,6 +48,7 @@ inline Scene drapeScene() {
   ball.radius = 0.25;
   scene.colliders.emplace_back(ball);
   scene.render.shader = "phong";
+  scene.render.stage = "none";  // stages have pictures of their own
   scene.camera.position = Vec3d{1.35, 1.0, 2.0};
   scene.camera.target = Vec3d{0.55, 0.38, 0.5};
   return scene;

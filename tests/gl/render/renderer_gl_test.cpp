@@ -238,8 +238,10 @@ TEST_F(RendererTest, EveryShadingModelCompiles) {
   for (const std::string& name : shadingModelNames()) {
     RenderSettings settings;
     settings.shader = name;
-    for (const bool forExposures : {false, true})
-      EXPECT_NE(ShadedPrograms(shadingModelOf(settings), forExposures).cloth.name(), 0u) << name;
+    const ShadingModel model = shadingModelOf(settings);
+    RenderPrograms programs(model, settings, 1);
+    for (const ClothLight light : {ClothLight::atPixels, ClothLight::exposed})
+      EXPECT_NE(programs.cloth(model, light).name(), 0u) << name;
   }
 }
 

@@ -66,10 +66,12 @@ TEST_F(TexturesTest, AWrongChoiceLeavesTheTexturesThatWereThere) {
   RenderSettings settings;
   settings.shader = "texture";
   ModelTextures textures;
-  textures.choose(shadingModelOf(settings), "studio");
+  const ShadingModel known = shadingModelOf(settings);
+  textures.choose(std::span(&known, 1), settings, {0, 1, 0});
   const auto before = textures.irradiance();
   settings.texture = "no such texture";
-  EXPECT_THROW(textures.choose(shadingModelOf(settings), "studio"), SceneError);
+  const ShadingModel unknown = shadingModelOf(settings);
+  EXPECT_THROW(textures.choose(std::span(&unknown, 1), settings, {0, 1, 0}), SceneError);
   EXPECT_EQ(textures.irradiance(), before);
 }
 

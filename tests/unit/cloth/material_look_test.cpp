@@ -66,5 +66,34 @@ TEST(FollowLook, KeepsWhatWasChosen) {
   EXPECT_EQ(render.color, (Vec3d{0, 1, 0}));
 }
 
+TEST(LookOf, IsThatOfEachClothsOwnMaterial) {
+  const Scene scene = sceneOf(R"({"cloths": [{"material": "silk"}, {"material": "denim"}, {}]})");
+  EXPECT_EQ(lookOf(scene, 0), usualLook(scene.cloths[0]));
+  EXPECT_EQ(lookOf(scene, 1).weave, "denim");
+  EXPECT_EQ(lookOf(scene, 2), RenderSettings{});
+}
+
+TEST(LookOf, GivesWayToTheSceneAndThatToTheCloth) {
+  const Scene scene = sceneOf(R"({"cloths": [{"material": "silk"},
+    {"material": "denim", "render": {"back_color": [0, 1, 0], "texture": "", "thickness": 0.01}}],
+    "render": {"weave": "plain", "back_color": [1, 0, 0], "texture": "tartan"}})");
+  EXPECT_EQ(lookOf(scene, 0).backColor, (Vec3d{1, 0, 0}));
+  const RenderSettings look = lookOf(scene, 1);
+  EXPECT_EQ(look.weave, "plain");
+  EXPECT_EQ(look.backColor, (Vec3d{0, 1, 0}));
+  EXPECT_EQ(look.texture, "");
+  EXPECT_EQ(look.thickness, 0.01);
+  EXPECT_EQ(look.color, usualLook(scene.cloths[1]).color);
+  EXPECT_EQ(sceneOf(formatScene(scene)), scene);
+}
+
+TEST(LookOf, IsSetByPath) {
+  Scene scene = sceneOf(R"({"cloth": {}, "sphere": {}})");
+  setSceneValue(scene, "cloth.render.gloss=0.9");
+  setSceneValue(scene, "sphere.render.color=[0, 0, 1]");
+  EXPECT_EQ(lookOf(scene, 0).gloss, 0.9);
+  EXPECT_EQ(std::get<Sphere>(scene.colliders[0]).render.color, (Vec3d{0, 0, 1}));
+}
+
 }  // namespace
 }  // namespace clothsim

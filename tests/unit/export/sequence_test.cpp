@@ -123,6 +123,7 @@ TEST_F(Sequence, UsdHasAMeshForEachClothWithItsOwnPointsAndTriangles) {
 TEST_F(Sequence, UsdHasTheSolidsOnTheirWayTheMaterialsAndTheCamera) {
   Sphere ball{.origin = {1, 2, 3}, .radius = 0.5};
   ball.motion = Motion{.keys = {{0, {1, 2, 3}, {}}, {1, {2, 2, 3}, {0, 0, 90}}}};
+  ball.render.color = Vec3d{0, 0, 1};
   scene_.colliders = {ball, Box{}};
   scene_.render.color = {1, 0.5, 0};
   scene_.camera.position = {0, 0, 5};
@@ -135,6 +136,7 @@ TEST_F(Sequence, UsdHasTheSolidsOnTheirWayTheMaterialsAndTheCamera) {
   for (const char* part : {"def Sphere \"sphere0\"", "double radius = 0.5\n", "def Mesh \"box1\"",
                            "0: ( (1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (1, 2, 3, 1) )", "(2, 2, 3, 1) )",
                            "inputs:diffuseColor = (1, 0.214041144, 0)\n",  // of sRGB 0.5
+                           "</clothsim/materials/solid0>", "inputs:diffuseColor = (0, 0, 1)\n",
                            "(0, 0, 1, 0), (0, 0, 5, 1) )", "verticalAperture = 24\n"})
     EXPECT_TRUE(has(text, part)) << part << "\nis missing in\n" << text;
 }
