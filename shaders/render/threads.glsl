@@ -79,6 +79,10 @@ Threads threadsAt(vec2 uv, float side) {
   float dye = dyeOf(place * frame.yarns.xy);
 #endif
   float warp = stored.a / max(stored.b, 0.01);
+  if (frame.yarns.w > 0.0) {  // a knit: its reverse has rows of loops, which rise along v alone as far as is stored
+    if (side < 0.0) slope = vec2(0.0, (stored.a * 2.0 - 256.0 / 255.0) * (SLOPE_RANGE * FLATTENED * frame.relief.x));
+    warp = 0.5;
+  }
   return Threads(slope, stored.b, side > 0.0 ? warp : 1.0 - warp, dye);  // what is below on one side is above on the other
 #else
   return Threads(vec2(0), 1.0, 0.5, 1.0);

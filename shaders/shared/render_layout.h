@@ -100,7 +100,7 @@ struct RenderFrame {
   vec4 rayRight;       // from there to the right edge
   vec4 rayUp;          // and to the upper one
   vec4 fabric;         // x, y: repeats of the weave's picture in a metre along u and v, z: gloss, w: sheen
-  vec4 yarns;          // x, y: threads in a repeat along u and v, z: how far their dye differs
+  vec4 yarns;          // x, y: threads in a repeat along u and v, z: how far their dye differs, w: 1 of a knit
   vec4 weft;           // albedo; w: 1 where it is not that of the warp
   vec4 relief;         // x: strength of normals, y: height of height maps [m], z: repeats of a texture
   vec4 irradiance[9];  // of the sky (render/environment.h)

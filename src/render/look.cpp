@@ -44,7 +44,7 @@ void addThreads(const RenderSettings& settings, shared::RenderFrame& frame) {
   frame.fabric = {static_cast<float>(1 / repeat), static_cast<float>(1 / repeatAlong),
                   static_cast<float>(settings.gloss), static_cast<float>(sheen)};
   frame.yarns = {static_cast<float>(weave.across), static_cast<float>(weave.along),
-                 static_cast<float>(weave.unevenness), 0};
+                 static_cast<float>(weave.unevenness), weave.isKnit ? 1.0f : 0.0f};
   frame.weft = frame.clothBack;
   frame.weft.w = weave.weftIsOther ? 1 : 0;
   if (weave.weftIsOther) frame.clothBack = frame.clothFront;  // the warp is there on both sides

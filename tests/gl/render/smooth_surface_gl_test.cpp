@@ -10,6 +10,7 @@
 #include "gl/gl_test.h"
 #include "gl/render/picture.h"
 #include "gl/render/reference_picture.h"
+#include "simulation/simulation.h"
 
 namespace clothsim {
 namespace {
@@ -198,9 +199,8 @@ TEST_F(SmoothSurfaceTest, LooksOfFewPointsAsTheTrianglesOfManyDo) {
 }
 
 // Where a part of a picture of a folded sheet shows cloth: 480 x 270 of the pixels that lie in four times as
-// many rows and columns as a picture of 1920 x 1080 has. Folds of a radius of 0.85 cells of 129 x 129 points
-// run across the grid, and end in the air.
-std::vector<bool> coverOfFolds(int points, int subdivisions) {
+// many rows and columns as a picture of 1920 x 1080 has.
+std::vector<bool> coverOf(const Shape& folds, Vec3d eye, Vec3d target, int points, int subdivisions) {
   Scene scene = squareSheet(points);
   scene.render.shader = "diffuse";
   scene.render.color = scene.render.backColor = {0.05, 0.05, 0.05};
@@ -208,11 +208,8 @@ std::vector<bool> coverOfFolds(int points, int subdivisions) {
   scene.render.backgroundColor = {1, 1, 1};
   scene.render.ground = false;
   scene.camera.fov = 2 * std::atan(std::tan(20 * std::numbers::pi / 180) / 16) * 180 / std::numbers::pi;
-  scene.camera.position = Vec3d{-2.5, 0.25, 0.5};
-  scene.camera.target = Vec3d{0.5, 0.02, 0.5};
-  const Shape folds = [](double u, double v) {
-    return glm::dvec3{u, 0.025 * std::sin(2 * std::numbers::pi * 11.3 * (u + 0.45 * v)), v};
-  };
+  scene.camera.position = eye;
+  scene.camera.target = target;
   const Cloth cloth(scene);
   const gl::Buffer<glm::vec4> positions("positions", laidOver(cloth, folds));
   RenderOptions options;
@@ -224,6 +221,14 @@ std::vector<bool> coverOfFolds(int points, int subdivisions) {
   for (std::size_t i = 0; i < image.rgb.size(); i += 3)
     cover.push_back(image.rgb[i] + image.rgb[i + 1] + image.rgb[i + 2] < 400);
   return cover;
+}
+
+// Folds of a radius of 0.85 cells of 129 x 129 points run across the grid, and end in the air.
+std::vector<bool> coverOfFolds(int points, int subdivisions) {
+  const Shape folds = [](double u, double v) {
+    return glm::dvec3{u, 0.025 * std::sin(2 * std::numbers::pi * 11.3 * (u + 0.45 * v)), v};
+  };
+  return coverOf(folds, {-2.5, 0.25, 0.5}, {0.5, 0.02, 0.5}, points, subdivisions);
 }
 
 // How far, at most, a pixel of one class is from the nearest one of that class in the other picture.
@@ -250,6 +255,62 @@ TEST_F(SmoothSurfaceTest, OfAFoldAt129x129HasASilhouetteWithinHalfAPixelOfThatAt
   ASSERT_LT(covered, 480 * 270 * 9 / 10);
   const auto of = [&](int subdivisions) {  // [pixels of 1920 x 1080]
     const std::vector<bool> cover = coverOfFolds(129, subdivisions);
+    return std::max(deviation(cover, fine), deviation(fine, cover)) / 4;
+  };
+  const double rough = of(0), smooth = of(1);
+  RecordProperty("rough", std::to_string(rough));
+  RecordProperty("smooth", std::to_string(smooth));
+  EXPECT_LE(smooth, 0.5);
+  EXPECT_GT(rough, smooth);
+}
+
+// A sheet of 129 x 129 particles that hangs in folds over a ball, as a surface. It is the judge, so that it
+// is computed otherwise than the shaders do: by Lagrange's cubic through four particles each way.
+constexpr int SIMULATED_POINTS = 129;
+Shape drapedOverBall() {
+  Scene scene = squareSheet(SIMULATED_POINTS);
+  scene.cloths[0].position = {0, -0.55, 0};  // [m], just above the ball
+  Sphere ball;
+  ball.origin = {0.5, 0.2, 0.5};
+  ball.radius = 0.2;
+  scene.colliders = {ball};
+  Simulation simulation{Shared<Scene>(scene)};
+  simulation.stepFrames(45);
+  const auto particles = std::make_shared<const std::vector<Particle4>>(simulation.state().positions);
+  const auto weights = [](double t) {  // of Lagrange's polynomials at -1, 0, 1 and 2
+    return std::array{-t * (t - 1) * (t - 2) / 6, (t + 1) * (t - 1) * (t - 2) / 2, -(t + 1) * t * (t - 2) / 2,
+                      (t + 1) * t * (t - 1) / 6};
+  };
+  const auto firstOf = [](double place) {
+    return std::clamp(static_cast<int>(place) - 1, 0, SIMULATED_POINTS - 4);
+  };
+  return [=](double u, double v) {
+    const double x = u * (SIMULATED_POINTS - 1), y = v * (SIMULATED_POINTS - 1);
+    const int column = firstOf(x), row = firstOf(y);
+    const auto across = weights(x - column - 1), down = weights(y - row - 1);
+    glm::dvec3 place(0);
+    for (std::size_t j = 0; j < 4; ++j)
+      for (std::size_t i = 0; i < 4; ++i) {
+        const std::size_t at =
+            (static_cast<std::size_t>(row) + j) * SIMULATED_POINTS + static_cast<std::size_t>(column) + i;
+        const Particle4 p = (*particles)[at];
+        place += across[i] * down[j] * glm::dvec3(p.x, p.y, p.z);
+      }
+    return place;
+  };
+}
+
+TEST_F(SmoothSurfaceTest, OfASimulatedFoldAt129x129HasASilhouetteWithinHalfAPixelOfThatAt513x513) {
+  const Shape drape = drapedOverBall();
+  const auto coverAt = [&](int points, int subdivisions) {
+    return coverOf(drape, {3.1, 0.25, 0.9}, {0.5, 0.02, 0.75}, points, subdivisions);
+  };
+  const std::vector<bool> fine = coverAt(513, 0);
+  const auto covered = std::count(fine.begin(), fine.end(), true);
+  ASSERT_GT(covered, 480 * 270 / 10) << "the silhouette is in the picture";
+  ASSERT_LT(covered, 480 * 270 * 9 / 10);
+  const auto of = [&](int subdivisions) {  // [pixels of 1920 x 1080]
+    const std::vector<bool> cover = coverAt(SIMULATED_POINTS, subdivisions);
     return std::max(deviation(cover, fine), deviation(fine, cover)) / 4;
   };
   const double rough = of(0), smooth = of(1);

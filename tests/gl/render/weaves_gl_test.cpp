@@ -186,6 +186,28 @@ TEST_F(FadingThreads, FadeAlongTheDirectionInWhichTheyAreTooFine) {
   EXPECT_GT(columnContrast(swatchOf("jersey", 8, 82, 1), 8), 0.015);
 }
 
+// How much light differs between neighbours two pixels above each other, over how much it does beside each
+// other.
+double upOverAcross(const Image& image) {
+  const int low = SWATCH_PIXELS / 4, high = SWATCH_PIXELS - low;
+  double up = 0, across = 0;
+  for (int y = low; y < high; ++y)
+    for (int x = low; x < high; ++x) {
+      const double here = linearLight(test::pixelAt(image, x, y)[1]);
+      up += std::abs(linearLight(test::pixelAt(image, x, y + 2)[1]) - here);
+      across += std::abs(linearLight(test::pixelAt(image, x + 2, y)[1]) - here);
+    }
+  return up / across;
+}
+
+// The face of a knit has columns, its reverse rows.
+TEST_F(FadingThreads, OfAKnitAreRowsFromBehind) {
+  const double face = upOverAcross(swatchOf("jersey", 12, 0, 1)),
+               reverse = upOverAcross(swatchOf("jersey", 12, 180, 1));
+  EXPECT_LT(face, 1.0);
+  EXPECT_GT(reverse, 1.3 * face);
+}
+
 void expectFadingSeen(const std::string& from, const std::string& to, const std::string& name) {
   const test::ResourceCopy resources;
   ASSERT_TRUE(resources.change("render/threads.glsl", from, to))
@@ -203,6 +225,10 @@ TEST(BrokenFading, ThreadsThatDoNotFadeAreSeen) {
 }
 TEST(BrokenFading, ThreadsThatFadeAlikeInAllDirectionsAreSeen) {
   expectFadingSeen("MOST_OBLIQUE = 16.0", "MOST_OBLIQUE = 1.0", "FadeAlongTheDirectionInWhichTheyAreTooFine");
+}
+
+TEST(BrokenFading, AKnitWhoseReverseIsItsFaceIsSeen) {
+  expectFadingSeen("frame.yarns.w > 0.0", "false", "OfAKnitAreRowsFromBehind");
 }
 
 }  // namespace
