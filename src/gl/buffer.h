@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "gl/api.h"
+#include "gl/bindings.h"
 
 namespace clothsim::gl {
 
@@ -52,15 +53,24 @@ class Buffer {
     assert(other.size_ == size_ && "only buffers of one size are copied");
     glCopyNamedBufferSubData(other.name_, name_, 0, 0, static_cast<GLsizeiptr>(bytes()));
   }
-  void bindStorage(GLuint binding) const { glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, name_); }
+  void bindStorage(GLuint binding) const {
+    if (KeptBindings::changes(KeptBindings::Kind::storage, binding, {name_}))
+      glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, name_);
+  }
   // Binds it as the source of glDispatchComputeIndirect.
-  void bindDispatches() const { glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, name_); }
+  void bindDispatches() const {
+    if (KeptBindings::changes(KeptBindings::Kind::dispatches, 0, {name_}))
+      glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, name_);
+  }
   // The same of glDrawElementsIndirect.
   void bindDraws() const { glBindBuffer(GL_DRAW_INDIRECT_BUFFER, name_); }
   void bindStorageRange(GLuint binding, std::size_t firstElement, std::size_t count) const {
     bindRange(GL_SHADER_STORAGE_BUFFER, binding, firstElement, count);
   }
-  void bindUniform(GLuint binding) const { glBindBufferBase(GL_UNIFORM_BUFFER, binding, name_); }
+  void bindUniform(GLuint binding) const {
+    if (KeptBindings::changes(KeptBindings::Kind::uniforms, binding, {name_}))
+      glBindBufferBase(GL_UNIFORM_BUFFER, binding, name_);
+  }
   void bindUniformRange(GLuint binding, std::size_t firstElement, std::size_t count) const {
     bindRange(GL_UNIFORM_BUFFER, binding, firstElement, count);
   }
@@ -74,8 +84,12 @@ class Buffer {
     glObjectLabel(GL_BUFFER, name_, static_cast<GLsizei>(label.size()), label.c_str());
   }
   void bindRange(GLenum target, GLuint binding, std::size_t first, std::size_t count) const {
-    glBindBufferRange(target, binding, name_, static_cast<GLintptr>(first * sizeof(T)),
-                      static_cast<GLsizeiptr>(count * sizeof(T)));
+    const auto kind =
+        target == GL_UNIFORM_BUFFER ? KeptBindings::Kind::uniforms : KeptBindings::Kind::storage;
+    const KeptBindings::Bound range{name_, first * sizeof(T), count * sizeof(T)};
+    if (KeptBindings::changes(kind, binding, range))
+      glBindBufferRange(target, binding, name_, static_cast<GLintptr>(range.first),
+                        static_cast<GLsizeiptr>(range.bytes));
   }
   void reset() {
     if (name_ != 0) glDeleteBuffers(1, &name_);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "gl/api.h"
+#include "gl/bindings.h"
 
 namespace clothsim::gl {
 
@@ -29,7 +30,9 @@ class BufferTexture {
     return *this;
   }
 
-  void bind(GLuint unit) const { glBindTextureUnit(unit, name_); }
+  void bind(GLuint unit) const {
+    if (KeptBindings::changes(KeptBindings::Kind::texture, unit, {name_})) glBindTextureUnit(unit, name_);
+  }
 
   // How many texels such a texture may have.
   [[nodiscard]] static std::size_t largestSize() {

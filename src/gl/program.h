@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gl/api.h"
+#include "gl/bindings.h"
 #include "gl/shader_source.h"
 
 namespace clothsim::gl {
@@ -35,7 +36,9 @@ class Program {
 
   [[nodiscard]] GLuint name() const { return name_; }
   [[nodiscard]] GroupShape group() const { return group_; }  // as its shader declares it
-  void bind() const { glUseProgram(name_); }
+  void bind() const {
+    if (KeptBindings::changes(KeptBindings::Kind::program, 0, {name_})) glUseProgram(name_);
+  }
 
  private:
   struct Stage {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "gl/api.h"
+#include "gl/bindings.h"
 
 namespace clothsim::gl {
 
@@ -49,7 +50,9 @@ class Texture {
   }
 
   [[nodiscard]] GLuint name() const { return name_; }
-  void bind(GLuint unit) const { glBindTextureUnit(unit, name_); }
+  void bind(GLuint unit) const {
+    if (KeptBindings::changes(KeptBindings::Kind::texture, unit, {name_})) glBindTextureUnit(unit, name_);
+  }
 
  private:
   Texture(GLenum target, const std::string& label, int width, int height, GLenum internal) {

@@ -119,11 +119,9 @@ void main() {
   if (!p.exists) return;
   uint i = p.index;
   vec4 x = positionAt(i);
-  newResiduals[i] = vec4(0.0);
   newIncrements[i] = vec4(0.0);
-  newFactors[2u * i] = vec4(0.0);
-  newFactors[2u * i + 1u] = vec4(0.0);
   if (x.w == 0.0) {
+    newResiduals[i] = newFactors[2u * i] = newFactors[2u * i + 1u] = vec4(0.0);
     if (hasContacts) newContactBlocks[2u * i] = newContactBlocks[2u * i + 1u] = vec4(0.0);
     return;
   }

@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "core/error.h"
+#include "gl/bindings.h"
 
 namespace clothsim {
 namespace {
@@ -169,6 +170,7 @@ void GpuExecutor::compile(const StepInputs& inputs, const PassList& list) {
 }
 
 void GpuExecutor::run(const StepInputs& inputs, const PassList& list, int steps) {
+  const gl::KeptBindings bindings;
   parameters_.bind(inputs, steps);
   arrays_.bindTextures(*options_.storageLoads);
   arrays_[Array::forces].buffer.bindStorage(FORCES_BINDING);
@@ -265,6 +267,7 @@ void GpuExecutor::runStage(Over over, const StagePrograms& programs, const PassC
 }
 
 void GpuExecutor::runOnGrids(const StagePrograms& programs, const PassCall& call, const std::string& name) {
+  const PassRunner::SideBySide cloths(runner_);
   for (std::size_t i = 0; i < programs.size(); ++i) {
     const Piece& piece = cloth_->pieces()[i];
     const auto columns = static_cast<std::uint32_t>(piece.columns);
@@ -276,6 +279,7 @@ void GpuExecutor::runOnGrids(const StagePrograms& programs, const PassCall& call
 }
 
 void GpuExecutor::runOnColor(const StagePrograms& programs, std::size_t number, const std::string& name) {
+  const PassRunner::SideBySide cloths(runner_);
   for (std::size_t i = 0; i < programs.size(); ++i) {
     if (number >= colors_[i].size()) continue;
     const LimitColor& color = colors_[i][number];
@@ -289,6 +293,7 @@ void GpuExecutor::runOnTiles(const StagePrograms& programs, const std::string& n
   const auto tiles = [](int points) {
     return static_cast<std::uint32_t>((points + LIMIT_TILE - 1) / LIMIT_TILE);
   };
+  const PassRunner::SideBySide cloths(runner_);
   for (std::size_t i = 0; i < programs.size(); ++i) {
     const Piece& piece = cloth_->pieces()[i];
     parameters_.bindPiece(i);
@@ -297,6 +302,7 @@ void GpuExecutor::runOnTiles(const StagePrograms& programs, const std::string& n
 }
 
 void GpuExecutor::runOnSlot(const StagePrograms& programs, std::size_t firstColor, const std::string& name) {
+  const PassRunner::SideBySide cloths(runner_);
   for (std::size_t i = 0; i < programs.size(); ++i) {
     const Piece& piece = cloth_->pieces()[i];
     const SpringOffset& offset = springOffsets[colors_[i][firstColor].slot];
@@ -317,6 +323,7 @@ void GpuExecutor::runOnEntries(const gl::Program& program, const std::string& na
 }
 
 void GpuExecutor::runOnLevel(const StagePrograms& programs, const PassCall& call, const std::string& name) {
+  const PassRunner::SideBySide cloths(runner_);
   for (std::size_t i = 0; i < programs.size(); ++i) {
     if (call.index >= levels_.ofPiece(i).size()) continue;
     const LevelParams& level = levels_.ofPiece(i)[call.index];
@@ -330,21 +337,32 @@ void GpuExecutor::runOnLevel(const StagePrograms& programs, const PassCall& call
   }
 }
 
+// The cloths side by side, level by level. The last row of a cloth, in which work groups count themselves, is
+// alone: there is one such count.
 void GpuExecutor::runRestrictions(const StagePrograms& programs, const std::string& name) {
   const auto lanes = static_cast<std::uint32_t>(options_.coarseLanes);
+  const auto run = [&](std::size_t i, std::size_t level) {
+    levels_.bindRow(i, level);
+    runner_.runGroups(*programs[i], name, (levels_.ofPiece(i)[level].coarseCount + lanes - 1) / lanes);
+  };
+  for (std::size_t level = 0; level + 1 < levels_.mostRows(); ++level) {
+    const PassRunner::SideBySide cloths(runner_);
+    for (std::size_t i = 0; i < programs.size(); ++i)
+      if (level + 1 < levels_.rowsOf(i)) run(i, level);
+  }
   for (std::size_t i = 0; i < programs.size(); ++i)
-    for (std::size_t level = 0; level < levels_.rowsOf(i); ++level) {
-      levels_.bindRow(i, level);
-      runner_.runGroups(*programs[i], name, (levels_.ofPiece(i)[level].coarseCount + lanes - 1) / lanes);
-    }
+    if (levels_.rowsOf(i) > 0) run(i, levels_.rowsOf(i) - 1);
 }
 
 void GpuExecutor::runProlongations(const StagePrograms& programs, const std::string& name) {
-  for (std::size_t i = 0; i < programs.size(); ++i)
-    for (std::size_t level = levels_.rowsOf(i); level-- > 1;) {
+  for (std::size_t level = levels_.mostRows(); level-- > 1;) {
+    const PassRunner::SideBySide cloths(runner_);
+    for (std::size_t i = 0; i < programs.size(); ++i) {
+      if (level >= levels_.rowsOf(i)) continue;
       levels_.bindLevel(i, level);
       runOnEntries(*programs[i], name, levels_.ofPiece(i)[level].fineCount);
     }
+  }
 }
 
 void GpuExecutor::flush() {

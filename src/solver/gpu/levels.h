@@ -2,6 +2,7 @@
 // (solver/hierarchy.h), in buffers that are read as texels.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "gl/buffer.h"
@@ -23,6 +24,9 @@ class GpuLevels {
   // The levels to which a piece is restricted one by one, finest first; further ones go with the last of
   // them.
   [[nodiscard]] std::size_t rowsOf(std::size_t piece) const { return rows_[piece]; }
+  [[nodiscard]] std::size_t mostRows() const {  // of all pieces
+    return rows_.empty() ? 0 : *std::ranges::max_element(rows_);
+  }
   [[nodiscard]] std::uint32_t vertices() const { return coarseVertices_; }
   [[nodiscard]] std::size_t blocks() const { return blocks_.buffer.size(); }
   [[nodiscard]] std::uint32_t denseEntries() const { return denseEntries_; }

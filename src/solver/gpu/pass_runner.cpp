@@ -10,11 +10,23 @@ void PassRunner::runTimed(const gl::Program& pass, const std::string& name, Disp
   pass.bind();
   if (timer_) timer_->begin();
   dispatch();
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
-  if (flushes_) glFlush();
+  if (sideBySide_)
+    hasUnawaited_ = true;
+  else
+    awaitWrites();
   if (!timer_) return;
   timer_->end();
   timed_.push_back(name);
+}
+
+void PassRunner::awaitWrites() {
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
+  if (flushes_) glFlush();
+}
+
+void PassRunner::awaitAll() {
+  sideBySide_ = false;
+  if (std::exchange(hasUnawaited_, false)) awaitWrites();
 }
 
 void PassRunner::run(const gl::Program& pass, const std::string& name, std::uint32_t columns,

@@ -23,6 +23,19 @@ struct Groups {
 
 class PassRunner {
  public:
+  // While one lives, the passes' dispatches write nothing that others of them read, so that none waits for
+  // another: one barrier stands behind them all.
+  class SideBySide {
+   public:
+    explicit SideBySide(PassRunner& runner) : runner_(&runner) { runner.sideBySide_ = true; }
+    ~SideBySide() { runner_->awaitAll(); }
+    SideBySide(const SideBySide&) = delete;
+    SideBySide& operator=(const SideBySide&) = delete;
+
+   private:
+    PassRunner* runner_;
+  };
+
   // For the current context.
   PassRunner() : flushes_(gl::currentContextInfo().needsFlushes) {}
 
@@ -46,8 +59,10 @@ class PassRunner {
  private:
   template <class Dispatch>
   void runTimed(const gl::Program& pass, const std::string& name, Dispatch dispatch);
-
+  void awaitWrites();
+  void awaitAll();  // those side by side
   bool flushes_;
+  bool sideBySide_ = false, hasUnawaited_ = false;
   std::optional<gl::Timer> timer_;
   std::vector<std::string> timed_;  // the names of the timer's spans
 };

@@ -135,6 +135,7 @@ void GpuSelfCollision::bind() const {
 
 void GpuSelfCollision::runOnPieces(PassRunner& runner, const gl::Program& pass, const std::string& name,
                                    const BindPiece& bindPiece) const {
+  const PassRunner::SideBySide cloths(runner);
   for (std::size_t i = 0; i < cloth_->pieces().size(); ++i) {
     const Piece& piece = cloth_->pieces()[i];
     bindPiece(i);
@@ -158,6 +159,7 @@ void GpuSelfCollision::buildHash(PassRunner& runner, const std::string& name,
 void GpuSelfCollision::findCandidates(PassRunner& runner, const std::string& name,
                                       const BindPiece& bindPiece) const {
   candidates_.bindStorage(CANDIDATES_BINDING);
+  const PassRunner::SideBySide cloths(runner);
   for (std::size_t piece = 0; piece < cloth_->pieces().size(); ++piece) {
     bindPiece(piece);
     runner.runIndirect(*now_.find, name, findPlace + piece);

@@ -190,24 +190,43 @@ void GpuSurfaceContact::runOn(PassRunner& runner, const gl::Program& program, st
   runner.runGroups(program, name_, static_cast<std::uint32_t>((entries + SURFACE_GROUP - 1) / SURFACE_GROUP));
 }
 
-void GpuSurfaceContact::findFlat(PassRunner& runner, bool touching) {
-  if (surface_.blocks.empty()) return;
-  flatSides_.buffer.bindStorage(SURFACE_OUT_BINDING);
-  runOn(runner, program("flat_sides", {.touching = touching}), surface_.blocks.size());
-  flatFlags_.buffer.bindStorage(SURFACE_OUT_BINDING);
-  runOn(runner, program("flat_flags", {.touching = touching}), surface_.blocks.size());
-}
-
-void GpuSurfaceContact::growBoxes(PassRunner& runner, bool touching) {
+void GpuSurfaceContact::boxTriangles(PassRunner& runner, bool touching) {
   boxes_.buffer.bindStorage(SURFACE_OUT_BINDING);
   runOn(runner, program("triangle_boxes", {.touching = touching}), surface_.triangles.size());
-  for (std::size_t level = 0; level < boxLevels_; ++level) {
-    levels_.bindUniformRange(BOX_LEVEL_BINDING, level, 1);
-    const std::uint32_t count = surface_.firstBoxes[level + 2] - surface_.firstBoxes[level + 1];
-    runner.runGroups(
-        program("boxes"), name_,
-        level + 1 == boxLevels_ && count <= BOXES_ALONE ? 1 : (count + SURFACE_LANES - 1) / SURFACE_LANES);
+}
+
+void GpuSurfaceContact::boxLevel(PassRunner& runner, std::size_t level) {
+  boxes_.buffer.bindStorage(SURFACE_OUT_BINDING);
+  levels_.bindUniformRange(BOX_LEVEL_BINDING, level, 1);
+  const std::uint32_t count = surface_.firstBoxes[level + 2] - surface_.firstBoxes[level + 1];
+  runner.runGroups(
+      program("boxes"), name_,
+      level + 1 == boxLevels_ && count <= BOXES_ALONE ? 1 : (count + SURFACE_LANES - 1) / SURFACE_LANES);
+}
+
+void GpuSurfaceContact::growBoxes(PassRunner& runner) {
+  boxTriangles(runner, false);
+  for (std::size_t level = 0; level < boxLevels_; ++level) boxLevel(runner, level);
+}
+
+// What is flat and the boxes do not need each other, nor `besides` either of them.
+template <class Besides>
+void GpuSurfaceContact::startSearch(PassRunner& runner, bool touching, Besides besides) {
+  const bool hasBlocks = !surface_.blocks.empty();
+  {
+    const PassRunner::SideBySide all(runner);
+    besides();
+    boxTriangles(runner, touching);
+    flatSides_.buffer.bindStorage(SURFACE_OUT_BINDING);
+    if (hasBlocks) runOn(runner, program("flat_sides", {.touching = touching}), surface_.blocks.size());
   }
+  {
+    const PassRunner::SideBySide both(runner);
+    if (boxLevels_ > 0) boxLevel(runner, 0);
+    flatFlags_.buffer.bindStorage(SURFACE_OUT_BINDING);
+    if (hasBlocks) runOn(runner, program("flat_flags", {.touching = touching}), surface_.blocks.size());
+  }
+  for (std::size_t level = 1; level < boxLevels_; ++level) boxLevel(runner, level);
 }
 
 void GpuSurfaceContact::scan(PassRunner& runner, Numbers& counts, Numbers& blocks, std::size_t size,
@@ -220,20 +239,21 @@ void GpuSurfaceContact::scan(PassRunner& runner, Numbers& counts, Numbers& block
   runner.runGroups(program("scan_totals", variant), name_, 1);
 }
 
+void GpuSurfaceContact::clearLists(PassRunner& runner) {
+  lists_.buffer.bindStorage(SURFACE_LISTS_BINDING);
+  cursors_.bindStorage(SURFACE_OUT_BINDING);
+  runOn(runner, program("clear_lists"), particles_);
+}
+
 void GpuSurfaceContact::findTouching(PassRunner& runner, bool later) {
   const std::size_t triangles = surface_.triangles.size();
   runner.runGroups(program("begin", {.touching = true, .later = later}), name_, 1);
-  if (surface_.touchesItself) {
-    findFlat(runner, true);
-    growBoxes(runner, true);
-  }
+  surface_.touchesItself ? startSearch(runner, true, [&] { clearLists(runner); }) : clearLists(runner);
   counts_.buffer.bindStorage(SURFACE_COUNTS_BINDING);
   runOn(runner, program("search", {.touching = true}), triangles);
   scan(runner, counts_, blocks_, triangles, false);
 
   lists_.buffer.bindStorage(SURFACE_LISTS_BINDING);
-  cursors_.bindStorage(SURFACE_OUT_BINDING);
-  runOn(runner, program("clear_lists"), particles_);
   pairIds_.buffer.bindStorage(SURFACE_IDS_BINDING);
   pairRows_.buffer.bindStorage(SURFACE_OUT_BINDING);
   runOn(runner, program("search", {.touching = true, .writes = true}), triangles);
@@ -274,10 +294,9 @@ void GpuSurfaceContact::keep(PassRunner& runner, bool clears) {
 void GpuSurfaceContact::guard(PassRunner& runner, GpuArrays& arrays, std::uint32_t round) {
   if (round == 0) {
     runner.runGroups(program("begin"), name_, 1);
-    findFlat(runner, false);
-    keep(runner, true);
+    startSearch(runner, false, [&] { keep(runner, true); });
   }
-  if (round == 0 || round == CORRECTION_ROUNDS) growBoxes(runner, false);
+  if (round == CORRECTION_ROUNDS) growBoxes(runner);
   kept_.bindStorage(SURFACE_COUNTS_BINDING);
   newlyKept_.bindStorage(SURFACE_LISTS_BINDING);
   corrections_.bindStorage(SURFACE_OUT_BINDING);

@@ -63,8 +63,12 @@ class GpuSurfaceContact {
   void allocatePairs();
   void uploadParams();
   void runOn(PassRunner& runner, const gl::Program& program, std::size_t entries) const;
-  void findFlat(PassRunner& runner, bool touching);
-  void growBoxes(PassRunner& runner, bool touching);
+  void boxTriangles(PassRunner& runner, bool touching);
+  void boxLevel(PassRunner& runner, std::size_t level);
+  void growBoxes(PassRunner& runner);
+  template <class Besides>
+  void startSearch(PassRunner& runner, bool touching, Besides besides);
+  void clearLists(PassRunner& runner);
   void scan(PassRunner& runner, Numbers& counts, Numbers& blocks, std::size_t size, bool lists);
   void findTouching(PassRunner& runner, bool later);
   void keep(PassRunner& runner, bool clears);
