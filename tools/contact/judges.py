@@ -119,6 +119,10 @@ def run(commit, options):
     failed = False
     with concurrent.futures.ProcessPoolExecutor(options.jobs) as pool:
         for done in concurrent.futures.as_completed([pool.submit(judge, job) for job in jobs]):
+            if done.exception():
+                print(f"failed: {done.exception()}", flush=True)
+                failed = True
+                continue
             job, values, error = done.result()
             if error:
                 print(f"{job}: failed: {error}", flush=True)

@@ -33,11 +33,13 @@ def torus(points, collider):
 
 
 def box(points, collider):
-    if any(collider.get("rotation", [0, 0, 0])):
-        raise ValueError("the judge knows boxes without a rotation only")
+    x, y, z = angle = numpy.radians(collider.get("rotation", [0, 0, 0]))
+    size = numpy.linalg.norm(angle)
+    cross = numpy.array([[0, -z, y], [z, 0, -x], [-y, x, 0]]) / max(size, 1e-30)
+    rotation = numpy.eye(3) + numpy.sin(size) * cross + (1 - numpy.cos(size)) * cross @ cross
     rounding = collider.get("rounding", 0.01)
     inner = numpy.array(collider["size"], float) / 2 - rounding
-    outside = abs(points - numpy.array(collider["origin"], float)) - inner
+    outside = abs((points - numpy.array(collider["origin"], float)) @ rotation) - inner
     return numpy.linalg.norm(numpy.maximum(outside, 0), axis=1) + numpy.minimum(outside.max(axis=1), 0) - rounding
 
 
