@@ -95,15 +95,15 @@ struct RenderFrame {
   vec4 backgroundBottom;
   vec4 backgroundGlow;  // added around the middle of the picture; w: how much darker its corners are
   vec4 backgroundPlain;
-  vec4 pixels;         // width, height, 1 / width, 1 / height
-  vec4 rayMiddle;      // the direction in which the middle of the picture lies, and how it changes
-  vec4 rayRight;       // from there to the right edge
-  vec4 rayUp;          // and to the upper one
-  vec4 fabric;         // x, y: repeats of the weave's picture in a metre along u and v, z: gloss, w: sheen
-  vec4 yarns;          // x, y: threads in a repeat along u and v, z: how far their dye differs, w: 1 of a knit
-  vec4 weft;           // albedo; w: 1 where it is not that of the warp
-  vec4 relief;         // x: strength of normals, y: height of height maps [m], z: repeats of a texture
-  vec4 irradiance[9];  // of the sky (render/environment.h)
+  vec4 pixels;     // width, height, 1 / width, 1 / height
+  vec4 rayMiddle;  // the direction in which the middle of the picture lies, and how it changes
+  vec4 rayRight;   // from there to the right edge
+  vec4 rayUp;      // and to the upper one
+  vec4 fabric;     // x, y: repeats of the weave's picture in a metre along u and v, z: gloss, w: sheen
+  vec4 yarns;      // x, y: threads in a repeat along u and v, z: how far their dye differs, w: 1 of a knit
+  vec4 weft;       // albedo; w: 1 where it is not that of the warp
+  vec4 relief;     // x: strength of normals, y: height of height maps [m], z: repeats of a texture
+  vec4 irradiance[9];              // of the sky (render/environment.h)
   vec4 strainStops[STRAIN_STOPS];  // colours from the most compressed to the most stretched
   float strainRange;               // l/L - 1 at the last of them
   float flatness;                  // how far triangles may lie beside the smooth surface [pixels]

@@ -10,7 +10,7 @@ struct Weave {
   double distance = 1;             // from one thread of the weft, or course, to the next, in that of the warp
   double sheen = 1;                // of loose fibres, times what the gloss leaves of it
   double unevenness = 0;           // how far the dye of warp threads differs, as a part of it
-  bool isKnit = false;       // whose reverse is no mirror image of its face
+  bool isKnit = false;             // whose reverse is no mirror image of its face
   bool weftIsOther = false;        // its own colour, `back_color`, on both sides
 };
 [[nodiscard]] Weave weaveOf(std::string_view name);
