@@ -57,33 +57,36 @@ LAW Meeting deepestPlace(ColliderParams shape, SmallCollider core, vec3 corners[
   return meeting;
 }
 
-// The place of a shape that is farthest along n.
-LAW vec3 farthestPlace(ColliderParams shape, vec3 n) {
+// The corner or rim of a box, cylinder or cone that is farthest along n.
+struct Tip {
+  vec3 place;
+  real width;  // the radius of the rim [m]
+};
+LAW Tip farthestTip(ColliderParams shape, vec3 n) {
   const real zero = real(0.0);
+  Tip tip;
+  tip.width = zero;
   real up = n.y < zero ? -shape.sizeY : shape.sizeY;
   if (shape.type == COLLIDER_BOX) {
-    precise vec3 place =
+    precise vec3 corner =
         vec3(n.x < zero ? -shape.sizeX : shape.sizeX, up, n.z < zero ? -shape.sizeZ : shape.sizeZ) +
         shape.radius * n;
-    return place;
+    tip.place = corner;
+    return tip;
   }
   vec3 across = canonical(vec3(n.x, zero, n.z));
   real acrossSquared = sumOfProducts(across, across);
-  precise vec3 outward = inverseSquareRoot(acrossSquared) * across;
-  if (shape.type == COLLIDER_TORUS) {
-    precise vec3 place = shape.sizeX * outward + shape.radius * n;
-    return place;
-  }
-  real rim = shape.radius;
+  tip.width = shape.radius;
   if (shape.type == COLLIDER_CONE) {
     precise real reach = inverseSquareRoot(acrossSquared) * acrossSquared;
     precise real lower = shape.sizeX * reach - shape.sizeY * n.y;
     precise real upper = shape.sizeZ * reach + shape.sizeY * n.y;
-    rim = lower < upper ? shape.sizeZ : shape.sizeX;
+    tip.width = lower < upper ? shape.sizeZ : shape.sizeX;
     up = lower < upper ? shape.sizeY : -shape.sizeY;
   }
-  precise vec3 place = rim * outward;
-  return vec3(place.x, up, place.z);
+  precise vec3 rim = (tip.width * inverseSquareRoot(acrossSquared)) * across;
+  tip.place = vec3(rim.x, up, rim.z);
+  return tip;
 }
 
 // The unit normal of a triangle at the end, away from where the core was at its start.
@@ -98,24 +101,31 @@ LAW vec3 awayFromCore(vec3 inner, vec3 from[3], vec3 to[3]) {
 }
 
 // Where a triangle that moves from `from` to `to` meets such a shape: at the tip that goes through it; else
-// where the core passes it or comes near; else where it is deepest at the end.
-LAW Meeting meetingWithShape(ColliderParams shape, SmallCollider core, vec3 from[3], vec3 to[3]) {
+// where the core passes it or comes near; else where it is deepest at the end. At an edge that search does
+// not come to rest from one Newton step to the next: `keeps` says to stay at the place (u, v) there.
+LAW Meeting meetingWithShape(ColliderParams shape, SmallCollider core, vec3 from[3], vec3 to[3], bool keeps,
+                             real u, real v) {
   const real zero = real(0.0), quarter = real(0.25), eighth = real(0.125),
              third = real(0.3333333432674407958984375);
   precise vec3 middle = third * ((from[0] + from[1]) + from[2]);
   vec3 inner = nearestOnCore(core, middle);
   vec3 normal = awayFromCore(inner, from, to);
-  vec3 tip = farthestPlace(shape, normal);
-  NearestParts below = nearestOnTriangle(tip, to[0], to[1], to[2]);
+  Tip tip = farthestTip(shape, normal);
+  NearestParts below = nearestOnTriangle(tip.place, to[0], to[1], to[2]);
   real height = sumOfProducts(below.way, normal);
   bool isCorner = below.part != NEAREST_FACE && below.part < NEAREST_SIDE;
   precise real aside = quarter * sumOfProducts(below.way, below.way);
   precise real heightSquared = height * height;
   // It was not through before, or hardly.
-  precise vec3 towardsTip = tip - from[0];
+  precise vec3 towardsTip = tip.place - from[0];
   real heightBefore = sumOfProducts(towardsTip, awayFromCore(inner, from, from));
-  precise real hardly = eighth * (core.near - core.radius);
+  precise real reach = core.near - core.radius;
+  precise real hardly = eighth * reach;
   bool isTip = !isCorner && zero < height && heightBefore < hardly && aside < heightSquared;
+  // A wide rim is an edge, of which no place is farther along the normal than others for long.
+  precise real wide = quarter * reach;
+  bool isNarrow = shape.type != COLLIDER_TORUS && tip.width < wide;
+  isTip = isTip && isNarrow;
   Meeting meeting;
   meeting.isOnWay = false;
   meeting.passes = false;
@@ -126,6 +136,10 @@ LAW Meeting meetingWithShape(ColliderParams shape, SmallCollider core, vec3 from
     meeting.v = below.v;
     meeting.part = below.part;
     meeting.pierced = height;
+  } else if (!meeting.isOnWay && keeps && (shape.type == COLLIDER_BOX || !isNarrow)) {
+    meeting.u = u;
+    meeting.v = v;
+    meeting.part = NEAREST_FACE;
   } else if (!meeting.isOnWay) {
     meeting = deepestPlace(shape, core, to);
   }

@@ -31,7 +31,8 @@ void main() {
     start[k] = texelFetch(starts, int(ids[k])).xyz;
     end[k] = iterateAt(ids[k]).xyz;
   }
-  Met met = meet(small, collider, start, end);
+  bool isNew = !(law.z < LARGE_SQUARE), follows = isNew || frictionFollows();
+  Met met = meet(small, collider, start, end, !follows, pairRow(q, 1u).xyz);
   precise float inertia = 0.0;
   precise float springs = 0.0;
   precise float squares = 0.0;
@@ -53,8 +54,7 @@ void main() {
   vec4 weights = vec4(met.weights, 0.0);
   precise float over = depth + sumOfProducts(normal, weightedSum(weights, dA, dB, dC, dA));
   precise float most = friction * (stiffness * (depth < 0.0 ? 0.0 : depth));
-  bool isNew = !(law.z < LARGE_SQUARE);
-  float limit = isNew || frictionFollows() ? canonical(holds ? most : 0.0) : law.z;
+  float limit = follows ? canonical(holds ? most : 0.0) : law.z;
   newRows[4u * q] = vec4(normal, canonical(over));
   newRows[4u * q + 1u] = weights;
   newRows[4u * q + 2u] =

@@ -42,7 +42,8 @@ struct Met {
   bool counts;  // particles do not see it alone, and it is not far
   bool passes;
 };
-Met meet(SmallCollider small, ColliderParams collider, vec3 start[3], vec3 end[3]) {
+// `keeps`: at the place with the weights `before`, if no tip or core says otherwise.
+Met meet(SmallCollider small, ColliderParams collider, vec3 start[3], vec3 end[3], bool keeps, vec3 before) {
   vec3 from[3], to[3];
   for (int k = 0; k < 3; ++k) {
     from[k] = startInFrame(collider, start[k]);
@@ -51,7 +52,7 @@ Met meet(SmallCollider small, ColliderParams collider, vec3 start[3], vec3 end[3
   bool edged = hasEdges(collider);
   Meeting meeting;
   if (edged)
-    meeting = meetingWithShape(collider, small, from, to);
+    meeting = meetingWithShape(collider, small, from, to, keeps, before.y, before.z);
   else
     meeting = meetingOf(small, from, to);
   precise float rest = (1.0 - meeting.u) - meeting.v;

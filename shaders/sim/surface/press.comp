@@ -38,7 +38,7 @@ Met meetAtEnd(SmallCollider small, uvec4 ids) {
     start[k] = texelFetch(starts, int(ids[k])).xyz;
     end[k] = texelFetch(positionsSoFar, int(ids[k])).xyz;
   }
-  return meet(small, collider, start, end);
+  return meet(small, collider, start, end, false, vec3(0.0));
 }
 #endif
 

@@ -119,7 +119,7 @@ bool meetsEdge(const ColliderParams<Real>& collider, const Vec3<Real> (&places)[
   return isNear && turns;
 }
 
-// Where a triangle meets a collider, as a point of the cloth.
+// Where a triangle meets a collider, as a point of the cloth. `keeps`: as in shared/deepest_place.h.
 template <class Real>
 struct Met {
   std::array<Real, 4> weights;
@@ -130,7 +130,8 @@ struct Met {
 
 template <class Real>
 Met<Real> meet(const PassArguments<Real>& arguments, const SmallCollider<Real>& small,
-               const std::array<std::uint32_t, 4>& particles, const Components<Real>& ends) {
+               const SurfacePair<Real>& pair, const Components<Real>& ends, bool keeps = false) {
+  const std::array<std::uint32_t, 4>& particles = pair.particles;
   const std::uint32_t number = numberOf(small);
   const ColliderParams<Real>& collider = arguments.colliders[number];
   const Components<Real>& starts = arguments.before.positions;
@@ -143,8 +144,9 @@ Met<Real> meet(const PassArguments<Real>& arguments, const SmallCollider<Real>& 
   }
   MeetingLaws<Real> laws{arguments.distances};
   const bool round = isRound(collider.type);
-  const auto meeting = round ? SurfaceLaws<Real>::meetingOf(small, from, to)
-                             : laws.meetingWithShape(collider, small, from, to);
+  const auto meeting =
+      round ? SurfaceLaws<Real>::meetingOf(small, from, to)
+            : laws.meetingWithShape(collider, small, from, to, keeps, pair.weights[1], pair.weights[2]);
   Met<Real> met{};
   const Real rest = (Real(1) - meeting.u) - meeting.v;
   met.weights = {canonical(rest), canonical(meeting.u), canonical(meeting.v), Real(0)};
@@ -228,7 +230,9 @@ void meetColliders(const ClothSurface<Real>& surface, const PassArguments<Real>&
     // What still presses as it was is held as it is now: that it has slid a hair off decides nothing.
     const Real before = pair.over - dot(pair.normal, weighted(pair, implicit.displacements));
     const bool pressed = pair.held > Real(0) && before > Real(0);
-    const Met<Real> met = meet(arguments, small, pair.particles, implicit.iterate.positions);
+    const bool isNew = !(pair.limit < static_cast<Real>(LARGE_SQUARE));
+    const bool follows = isNew || frictionFollows(implicit);
+    const Met<Real> met = meet(arguments, small, pair, implicit.iterate.positions, !follows);
     pair.weights = met.weights;
     Real inertia = 0, springs = 0, squares = 0;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -247,9 +251,7 @@ void meetColliders(const ClothSurface<Real>& surface, const PassArguments<Real>&
     pair.over = canonical(depth + dot(pair.normal, weighted(pair, implicit.displacements)));
     pair.stiffness = met.counts ? stiffness : Real(0);
     pair.held = holds ? stiffness : Real(0);
-    const bool isNew = !(pair.limit < static_cast<Real>(LARGE_SQUARE));
-    if (isNew || frictionFollows(implicit))
-      pair.limit = canonical(holds ? friction * (stiffness * larger(depth, Real(0))) : Real(0));
+    if (follows) pair.limit = canonical(holds ? friction * (stiffness * larger(depth, Real(0))) : Real(0));
     touching.carries[q] = canonical(met.touch.carry);
     if (holds) std::atomic_ref(implicit.scalars.isDisturbed).store(1, std::memory_order_relaxed);
   });
@@ -285,7 +287,7 @@ bool pushOut(const ClothSurface<Real>& surface, const PassArguments<Real>& argum
              TouchingPairs<Real>& touching, std::uint32_t q, bool onlyLooks, bool& passes) {
   SurfacePair<Real>& pair = touching.pairs[q];
   const SmallCollider<Real>& small = surface.colliders[pair.collider];
-  const Met<Real> met = meet(arguments, small, pair.particles, arguments.after.positions);
+  const Met<Real> met = meet(arguments, small, pair, arguments.after.positions);
   const Real reach = reachOf(small), left = LEFT_INSIDE<Real> * (small.radius < reach ? small.radius : reach);
   passes = met.passes && left < met.touch.depth;
   if (onlyLooks) return false;
