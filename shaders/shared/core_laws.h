@@ -59,16 +59,20 @@ struct Meeting {
   bool passes;   // the core goes through the triangle
   real pierced;  // how far a tip is through it [m]; 0: none is
 };
-LAW Meeting meetingOf(SmallCollider core, vec3 from[3], vec3 to[3]) {
-  const real middle = real(0.5), slight = real(0.0625);
-  NearestParts nearest = nearestToCore(core, to[0], to[1], to[2]);
+LAW Meeting meetingAt(real u, real v, uint part) {
   Meeting meeting;
-  meeting.u = nearest.u;
-  meeting.v = nearest.v;
-  meeting.part = nearest.part;
+  meeting.u = u;
+  meeting.v = v;
+  meeting.part = part;
   meeting.isOnWay = false;
   meeting.passes = false;
   meeting.pierced = real(0.0);
+  return meeting;
+}
+LAW Meeting meetingOf(SmallCollider core, vec3 from[3], vec3 to[3]) {
+  const real middle = real(0.5), slight = real(0.0625);
+  NearestParts nearest = nearestToCore(core, to[0], to[1], to[2]);
+  Meeting meeting = meetingAt(nearest.u, nearest.v, nearest.part);
   vec3 x[3];
   for (int k = 0; k < 3; ++k) x[k] = to[k];
   precise real radiusSquared = core.radius * core.radius;

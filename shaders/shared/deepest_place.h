@@ -13,13 +13,7 @@ LAW Meeting deepestPlace(ColliderParams shape, SmallCollider core, vec3 corners[
   precise vec3 first =
       (corners[0] + nearest.u * (corners[1] - corners[0])) + nearest.v * (corners[2] - corners[0]);
   vec3 place = first;
-  Meeting meeting;
-  meeting.u = nearest.u;
-  meeting.v = nearest.v;
-  meeting.part = nearest.part;
-  meeting.isOnWay = false;
-  meeting.passes = false;
-  meeting.pierced = zero;
+  Meeting meeting = meetingAt(nearest.u, nearest.v, nearest.part);
   for (int round = 0; round < DEEPEST_ROUNDS; ++round) {
     vec3 normal = nearestOnShape(shape, canonical(place)).normal;
     int goal = 0;
@@ -126,10 +120,7 @@ LAW Meeting meetingWithShape(ColliderParams shape, SmallCollider core, vec3 from
   precise real wide = quarter * reach;
   bool isNarrow = shape.type != COLLIDER_TORUS && tip.width < wide;
   isTip = isTip && isNarrow;
-  Meeting meeting;
-  meeting.isOnWay = false;
-  meeting.passes = false;
-  meeting.pierced = zero;
+  Meeting meeting = meetingAt(zero, zero, NEAREST_CORNER);
   if (!(core.outerRadius < zero)) meeting = meetingOf(core, from, to);
   if (isTip) {
     meeting.u = below.u;
@@ -137,9 +128,7 @@ LAW Meeting meetingWithShape(ColliderParams shape, SmallCollider core, vec3 from
     meeting.part = below.part;
     meeting.pierced = height;
   } else if (!meeting.isOnWay && keeps && (shape.type == COLLIDER_BOX || !isNarrow)) {
-    meeting.u = u;
-    meeting.v = v;
-    meeting.part = NEAREST_FACE;
+    meeting = meetingAt(u, v, NEAREST_FACE);
   } else if (!meeting.isOnWay) {
     meeting = deepestPlace(shape, core, to);
   }

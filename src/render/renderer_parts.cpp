@@ -5,7 +5,6 @@
 #include <cmath>
 #include <span>
 
-#include "cloth/material_look.h"
 #include "gl/context.h"
 #include "render/look.h"
 #include "render/stage_look.h"
@@ -55,25 +54,12 @@ Renderer::Parts::Parts(const Shared<Cloth>& drawn, const Shared<Scene>& first, c
   configure(first);
 }
 
-// One, where all cloths look alike.
-std::vector<Renderer::Parts::Look> Renderer::Parts::looksOf(const Scene& scene, bool thick) {
-  std::vector<Look> looks;
-  for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
-    const RenderSettings settings = lookOf(scene, i);
-    looks.push_back({settings, shadingModelOf(settings, thick)});
-  }
-  if (std::all_of(looks.begin(), looks.end(),
-                  [&](const Look& look) { return look.settings == looks.front().settings; }))
-    looks.resize(1);
-  return looks;
-}
-
 // What can fail comes first: after an error all is as it was.
 void Renderer::Parts::configure(const Shared<Scene>& edited) {
-  std::vector<Look> wantedLooks = looksOf(*edited, options.thick);
+  std::vector<PieceLook> wantedLooks = looksOf(*edited, options.thick);
   const ShadingModel wanted = wantedLooks.front().model;
   std::vector<ShadingModel> models;
-  for (const Look& look : wantedLooks) models.push_back(look.model);
+  for (const PieceLook& look : wantedLooks) models.push_back(look.model);
   textures.choose(models, edited->render, directionToKeyLight(edited->render, outline.front));
   if (edited->render.background != scene->render.background || edited->render.stage != scene->render.stage)
     programs.chooseStage(edited->render);
@@ -173,7 +159,7 @@ void Renderer::Parts::chooseSurface(const Camera& camera, int height, double asp
   const bool isThick =
       thickest != thickness.end() && static_cast<double>(*thickest) * pixelsAMetre > leastSeen;
   frame.thickness = frame.casterThickness = isThick ? 1.0f : 0.0f;
-  const bool hidesVertices = std::all_of(looks.begin(), looks.end(), [&](const Look& look) {
+  const bool hidesVertices = std::all_of(looks.begin(), looks.end(), [&](const PieceLook& look) {
     const bool seesThreads =
         !look.model.weave.empty() && look.settings.threadSpacing * pixelsAMetre > MOST_THREAD_SPACING;
     return look.model.hasVertexLight && !seesThreads;
@@ -232,7 +218,7 @@ void Renderer::Parts::computeNormals(GLuint positions) {
     clothMesh.computeRim(programs.rim(false), positions);
 }
 
-void Renderer::Parts::drawSurface(GLuint positions, const std::function<void(const Look&)>& choose,
+void Renderer::Parts::drawSurface(GLuint positions, const std::function<void(const PieceLook&)>& choose,
                                   bool meshesAsLines) {
   if (lookBlocks.empty()) {
     choose(looks.front());
@@ -274,7 +260,7 @@ void Renderer::Parts::drawCasters(GLuint positions) {
   const bool smoothly = smooth && !smooth->isLean();
   programs.clothShadow.bind();
   if (model.displaces)  // by heights that differ from cloth to cloth
-    drawSurface(positions, [](const Look&) {});
+    drawSurface(positions, [](const PieceLook&) {});
   else
     drawPieces(positions, smoothly, false, {});
   // A solid's far side alone: its near side would shade itself by rounding.
@@ -343,14 +329,14 @@ void Renderer::Parts::drawCloth(GLuint positions) {
   if (!model.blends) {
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     programs.clothDepth.bind();
-    drawSurface(positions, [](const Look&) {});
+    drawSurface(positions, [](const PieceLook&) {});
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   }
   const ClothLight light = isExposed()                 ? ClothLight::exposed
                            : lightsVertices && !smooth ? ClothLight::atVertices
                                                        : ClothLight::atPixels;
   drawSurface(
-      positions, [&](const Look& look) { programs.cloth(look.model, light).bind(); },
+      positions, [&](const PieceLook& look) { programs.cloth(look.model, light).bind(); },
       model.name == "wireframe");  // whose lines are otherwise those of a grid
 }
 

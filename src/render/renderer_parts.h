@@ -12,6 +12,7 @@
 #include "render/colliders.h"
 #include "render/exposure.h"
 #include "render/model_textures.h"
+#include "render/piece_looks.h"
 #include "render/programs.h"
 #include "render/renderer.h"
 #include "render/shadow_map.h"
@@ -51,14 +52,8 @@ struct Renderer::Parts {
   void scissor() const;
   void chooseSurface(const Camera& camera, int height, double aspect);
   void computeNormals(GLuint positions);
-  // How pieces are drawn: all of one look, or each of its own.
-  struct Look {
-    RenderSettings settings;
-    ShadingModel model;
-  };
-  [[nodiscard]] static std::vector<Look> looksOf(const Scene& scene, bool thick);
   // `choose` binds the program for a look; its textures and its block are bound before.
-  void drawSurface(GLuint positions, const std::function<void(const Look&)>& choose,
+  void drawSurface(GLuint positions, const std::function<void(const PieceLook&)>& choose,
                    bool meshesAsLines = false);
   void drawPieces(GLuint positions, bool smoothly, bool meshesAsLines, std::optional<std::size_t> only);
   [[nodiscard]] bool drawsThick() const { return frame.thickness > 0; }
@@ -81,8 +76,8 @@ struct Renderer::Parts {
   ClothOutline outline;
   Shared<Scene> scene;
   Stage stage;
-  std::vector<Look> looks;  // at least one; several: one for each piece
-  ShadingModel model;       // of the first
+  std::vector<PieceLook> looks;  // at least one; several: one for each piece
+  ShadingModel model;            // of the first
   shared::RenderFrame frame{};
 
   RenderPrograms programs;

@@ -8,21 +8,35 @@
 namespace clothsim {
 namespace {
 
+constexpr StageLook STUDIO{.name = "studio",  // a warm key, a cool fill from the other side, on pale paper
+                           .define = "STUDIO",
+                           .toKey = {-0.55f, 1.0f, 0.42f},
+                           .toFill = {0.9f, 0.25f, 0.35f},
+                           .key = {1.22f, 1.15f, 1.04f},
+                           .fill = {0.16f, 0.20f, 0.28f},
+                           .sky = {0.34f, 0.38f, 0.44f},
+                           .bounce = {0.25f, 0.22f, 0.20f},
+                           .ground = {0.76, 0.745, 0.725},
+                           .surface = {0, 0, 0, 0},
+                           .backdropTop = {0.24f, 0.25f, 0.27f},
+                           .backdropBottom = {0.86f, 0.85f, 0.85f},
+                           .corners = 0.45f};
+
+// The studio's light before an even backdrop.
+constexpr StageLook bare() {
+  StageLook look = STUDIO;
+  look.name = "none";
+  look.define = "BARE";
+  look.ground = {0.70, 0.73, 0.76};
+  look.backdropTop = {0.0843f, 0.1195f, 0.1714f};     // sRGB 0.32, 0.38, 0.45
+  look.backdropBottom = {0.3419f, 0.4064f, 0.4770f};  // sRGB 0.62, 0.67, 0.72
+  look.corners = 0;
+  return look;
+}
+
 const std::array<StageLook, stages.size()>& stageLooks() {
   static const std::array<StageLook, stages.size()> looks{{
-      {.name = "studio",  // a warm key, a cool fill from the other side, on pale paper
-       .define = "STUDIO",
-       .toKey = {-0.55f, 1.0f, 0.42f},
-       .toFill = {0.9f, 0.25f, 0.35f},
-       .key = {1.22f, 1.15f, 1.04f},
-       .fill = {0.16f, 0.20f, 0.28f},
-       .sky = {0.34f, 0.38f, 0.44f},
-       .bounce = {0.25f, 0.22f, 0.20f},
-       .ground = {0.76, 0.745, 0.725},
-       .surface = {0, 0, 0, 0},
-       .backdropTop = {0.24f, 0.25f, 0.27f},
-       .backdropBottom = {0.86f, 0.85f, 0.85f},
-       .corners = 0.45f},
+      STUDIO,
       {.name = "table",  // in a warm room
        .define = "TABLE",
        .toKey = {-0.65f, 0.95f, 0.30f},
@@ -65,19 +79,7 @@ const std::array<StageLook, stages.size()>& stageLooks() {
        .backdropBottom = {},
        .corners = 0.3f,
        .groundPicture = "ground_boards"},
-      {.name = "none",  // the studio's light before an even backdrop
-       .define = "BARE",
-       .toKey = {-0.55f, 1.0f, 0.42f},
-       .toFill = {0.9f, 0.25f, 0.35f},
-       .key = {1.22f, 1.15f, 1.04f},
-       .fill = {0.16f, 0.20f, 0.28f},
-       .sky = {0.34f, 0.38f, 0.44f},
-       .bounce = {0.25f, 0.22f, 0.20f},
-       .ground = {0.70, 0.73, 0.76},
-       .surface = {0, 0, 0, 0},
-       .backdropTop = {0.0843f, 0.1195f, 0.1714f},     // sRGB 0.32, 0.38, 0.45
-       .backdropBottom = {0.3419f, 0.4064f, 0.4770f},  // sRGB 0.62, 0.67, 0.72
-       .corners = 0},
+      bare(),
   }};
   return looks;
 }

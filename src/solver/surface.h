@@ -76,8 +76,9 @@ struct ClothSurface {
 
 // Whether cloth touches itself and other cloth in the scene's steps.
 [[nodiscard]] bool hasSurfaceContact(const Scene& scene);
-// Whether implicit steps have colliders that are small against the cells of a cloth: so small that they would
-// pass between particles, or be deep in triangles before they meet one. Such colliders act on triangles, too.
+// How many colliders implicit steps have that are small against the cells of a cloth, or end in such a tip:
+// so small that they would pass between particles, or be deep in triangles before they meet one. These act on
+// triangles, too.
 [[nodiscard]] std::size_t smallColliders(const Scene& scene, const Cloth& cloth);
 [[nodiscard]] inline bool hasSmallColliders(const Scene& scene, const Cloth& cloth) {
   return smallColliders(scene, cloth) > 0;

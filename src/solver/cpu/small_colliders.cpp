@@ -15,36 +15,31 @@ namespace clothsim::cpu {
 
 // What the laws in shaders/shared/deepest_place.h are written in, as C++.
 template <class Real>
-struct MeetingLaws {
-  using real = Real;
-  using uint = std::uint32_t;
-  using vec3 = Vec3<Real>;
-  using SmallCollider = const shared::SmallCollider<Real>&;
+struct MeetingLaws : SurfaceLaws<Real> {
+  using Base = SurfaceLaws<Real>;
+  using typename Base::Meeting;
+  using typename Base::NearestParts;
+  using typename Base::real;
+  using typename Base::SmallCollider;
+  using typename Base::uint;
+  using typename Base::vec3;
   using ColliderParams = const shared::ColliderParams<Real>&;
-  using Meeting = typename SurfaceLaws<Real>::Meeting;
-  using NearestParts = typename SurfaceLaws<Real>::NearestParts;
+  using Base::canonical;
+  using Base::crossProduct;
+  using Base::inverseSquareRoot;
+  using Base::isAboveTriangle;
+  using Base::meetingAt;
+  using Base::meetingOf;
+  using Base::nearestOnCore;
+  using Base::nearestOnTriangle;
+  using Base::nearestToCore;
+  using Base::sumOfProducts;
 
   const float* distances;  // samples of the meshes
 
-  INLINE static real sumOfProducts(vec3 a, vec3 b) { return dot(a, b); }
-  INLINE static vec3 canonical(vec3 v) { return SurfaceLaws<Real>::canonical(v); }
+  explicit MeetingLaws(const float* samples) : distances(samples) {}
   Nearest<Real> nearestOnShape(ColliderParams shape, vec3 p) const {
     return cpu::nearestOnShape(shape, p, distances);
-  }
-  INLINE static vec3 crossProduct(vec3 a, vec3 b) { return cross(a, b); }
-  INLINE static real inverseSquareRoot(real x) { return clothsim::inverseSquareRoot(x); }
-  static NearestParts nearestOnTriangle(vec3 p, vec3 a, vec3 b, vec3 c) {
-    return SurfaceLaws<Real>::nearestOnTriangle(p, a, b, c);
-  }
-  static NearestParts nearestToCore(SmallCollider core, vec3 a, vec3 b, vec3 c) {
-    return SurfaceLaws<Real>::nearestToCore(core, a, b, c);
-  }
-  static vec3 nearestOnCore(SmallCollider core, vec3 p) { return SurfaceLaws<Real>::nearestOnCore(core, p); }
-  static bool isAboveTriangle(vec3 p, vec3 a, vec3 b, vec3 c) {
-    return SurfaceLaws<Real>::isAboveTriangle(p, a, b, c);
-  }
-  static Meeting meetingOf(SmallCollider core, vec3 from[3], vec3 to[3]) {
-    return SurfaceLaws<Real>::meetingOf(core, from, to);
   }
 
 #include "shared/deepest_place.h"
@@ -142,7 +137,7 @@ Met<Real> meet(const PassArguments<Real>& arguments, const SmallCollider<Real>& 
     from[k] = startInFrame(collider, start[k]);
     to[k] = placeInFrame(collider, end[k]);
   }
-  MeetingLaws<Real> laws{arguments.distances};
+  MeetingLaws<Real> laws(arguments.distances);
   const bool round = isRound(collider.type);
   const auto meeting =
       round ? SurfaceLaws<Real>::meetingOf(small, from, to)
