@@ -9,11 +9,13 @@
 #include "commands/print_json.h"
 #include "core/error.h"
 #include "core/nearest.h"
+#include "core/thread_team.h"
 #include "gl/context.h"
 #include "scene_io/fields.h"
 #include "scene_io/scene_io.h"
 #include "simulation/compare.h"
 #include "simulation/gpu/solvers.h"
+#include "solver/cpu/vector_set.h"
 #include "solver/step_list.h"
 
 namespace clothsim {
@@ -102,6 +104,8 @@ int doctorCommand(bool json) {
   report["max_storage_block_mib"] = info.maxStorageBlockBytes >> 20;
   report["max_work_group_invocations"] = info.maxWorkGroupInvocations;
   report["max_work_group_count"] = info.maxWorkGroupCountX;
+  report["threads"] = ThreadTeam::shared().threads();
+  report["vectors"] = cpu::nameOf(cpu::vectorSet());
   bool healthy = true;
   for (const Scene& scene : selfTestScenes()) {
     const Comparison result = compareBackends(scene, 5, makeSolver);
@@ -119,6 +123,8 @@ int doctorCommand(bool json) {
   std::printf(
       "limits         storage blocks of %lld MiB, work groups of %d invocations, %d groups a dispatch\n",
       info.maxStorageBlockBytes >> 20, info.maxWorkGroupInvocations, info.maxWorkGroupCountX);
+  std::printf("processor      %d threads, vectors of %s\n", report["threads"].get<int>(),
+              report["vectors"].get<std::string>().c_str());
   for (const auto& [name, result] : report["self_test"].items())
     std::printf("self-test      %-10s %4d steps on CPU and GPU: %d floats differ\n", name.c_str(),
                 result["steps"].get<int>(), result["differing_floats"].get<int>());

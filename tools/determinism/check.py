@@ -1,5 +1,5 @@
-"""One hash for each scene and integrator, whatever compiled it, however many threads computed it, and on two OpenGL drivers
-(tools/validate determinism)."""
+"""One hash for each scene and integrator, whatever compiled it, however many threads and whichever vectors computed it, and on
+two OpenGL drivers (tools/validate determinism)."""
 import csv, datetime, json, os, pathlib, shutil, subprocess, sys, tempfile
 
 root = pathlib.Path(__file__).resolve().parent.parent.parent
@@ -7,10 +7,11 @@ program = os.environ.get("CLOTHSIM", str(root / "build/release/clothsim"))
 gl_tests = root / "build/release/tests/gl_tests"
 frames_on_cpu, frames_on_drivers = 8, 2
 threads = [1, 2, 7]
+vectors = ["plain", "avx2", "avx512"]  # of g++, of which this processor may lack some
 builds = [(compiler, level) for compiler in ("g++", "clang++-14") for level in ("-O1", "-O3")]
 # Mesa's software drivers, chosen by no stronger variable than this one: tests set it to ask for a third.
 drivers = {name: {"LIBGL_ALWAYS_SOFTWARE": "1", "GALLIUM_DRIVER": name} for name in ("llvmpipe", "zink")}
-columns = "date commit command compiled_by device threads scene integrator particles frames steps state_hash same".split()
+columns = "date commit command compiled_by device threads vectors scene integrator particles frames steps state_hash same".split()
 path = root / "report/data/determinism.csv"
 
 
@@ -49,11 +50,11 @@ class Table:
         self.common = {"date": datetime.date.today().isoformat(), "commit": commit}
         self.lines, self.first = [], {}
 
-    def add(self, command, compiled_by, device, thread_count, scene, integrator, particles, frames, steps, state_hash):
+    def add(self, command, compiled_by, device, thread_count, scene, integrator, particles, frames, steps, state_hash, vector_set=""):
         expected = self.first.setdefault((scene, integrator, frames), state_hash)
         same = "yes" if state_hash == expected else "no"
         self.lines.append({**self.common, "command": command, "compiled_by": compiled_by, "device": device,
-                           "threads": thread_count, "scene": scene, "integrator": integrator, "particles": particles,
+                           "threads": thread_count, "vectors": vector_set, "scene": scene, "integrator": integrator, "particles": particles,
                            "frames": frames, "steps": steps, "state_hash": state_hash, "same": same})
         if same == "no":
             print(f"{scene}, {integrator}, {compiled_by}, {device}, {thread_count} threads: {state_hash}, expected {expected}", flush=True)
@@ -78,21 +79,29 @@ def variants_of(scene):
     return [(explicit, settings), ("implicit", ["solver.integrator=implicit", "solver.simulation_steps=2"])]
 
 
+def on_cpu(table, scenes, executable, compiled_by, count, vector_set=""):
+    environment = {"CLOTHSIM_THREADS": str(count), **({"CLOTHSIM_VECTORS": vector_set} if vector_set else {})}
+    for scene in scenes:
+        for integrator, settings in variants_of(scene):
+            words = [executable, frames_on_cpu, scene, *settings]
+            command = " ".join([f"{name}={value}" for name, value in environment.items()] + [str(word) for word in words])
+            done = execute(words, **environment)
+            if "CLOTHSIM_VECTORS is" in done.stderr:
+                return print(f"{vector_set}: not on this processor", flush=True)
+            if done.returncode:
+                fail(f"{command}:\n{done.stderr}")
+            particles, steps, state_hash = done.stdout.split()
+            table.add(command, compiled_by, "CPU", count, scene, integrator, particles, frames_on_cpu, steps, state_hash, vector_set)
+    print(f"{compiled_by}, {count} threads{vector_set and ', ' + vector_set}: done", flush=True)
+
+
 def compilers(table, scenes):
     for compiler, level in builds:
         executable = build(compiler, level).relative_to(root)
         for count in threads:
-            for scene in scenes:
-                for integrator, settings in variants_of(scene):
-                    words = [executable, frames_on_cpu, scene, *settings]
-                    command = f"CLOTHSIM_THREADS={count} {' '.join(map(str, words))}"
-                    done = execute(words, CLOTHSIM_THREADS=str(count))
-                    if done.returncode:
-                        fail(f"{command}:\n{done.stderr}")
-                    particles, steps, state_hash = done.stdout.split()
-                    table.add(command, f"{compiler} {level}", "CPU", count, scene, integrator, particles, frames_on_cpu, steps,
-                              state_hash)
-            print(f"{compiler} {level}, {count} threads: done", flush=True)
+            on_cpu(table, scenes, executable, f"{compiler} {level}", count)
+        for vector_set in vectors if (compiler, level) == ("g++", "-O3") else []:
+            on_cpu(table, scenes, executable, f"{compiler} {level}", 2, vector_set)
 
 
 def opengl(table, scenes):

@@ -408,10 +408,10 @@ INLINE void sumRows(const ImplicitArguments<Real>& arguments, const LevelParams&
 
 }  // namespace
 
-VECTOR_CLONES void sumElements(const ImplicitArguments<float>& arguments, const LevelParams& level,
-                               std::uint32_t first, std::uint32_t end) {
-  sumRows(arguments, level, first, end);
-}
+VECTOR_CLONES(void, sumElements,
+              (const ImplicitArguments<float>& arguments, const LevelParams& level, std::uint32_t first,
+               std::uint32_t end),
+              (arguments, level, first, end), sumRows(arguments, level, first, end))
 void sumElements(const ImplicitArguments<double>& arguments, const LevelParams& level, std::uint32_t first,
                  std::uint32_t end) {
   sumRows(arguments, level, first, end);

@@ -406,7 +406,8 @@ template void findPlanes(const PassArguments<float>&, const Components<float>&, 
 template void findPlanes(const PassArguments<double>&, const Components<double>&, ContactPlanes<double>&,
                          int);
 
-VECTOR_CLONES void collide(const PassArguments<float>& arguments, int row) { collideRow(arguments, row); }
+VECTOR_CLONES(void, collide, (const PassArguments<float>& arguments, int row), (arguments, row),
+              collideRow(arguments, row))
 void collide(const PassArguments<double>& arguments, int row) { collideRow(arguments, row); }
 
 }  // namespace clothsim::cpu

@@ -90,31 +90,29 @@ INLINE bool anyLaneMoved(const Real* const* now, const Real* const* then, const 
   return any != 0;
 }
 
-VECTOR_CLONES void addAveraged(const View<float>& view, const std::uint32_t* candidates, const Block& block,
-                               Sums<float>& sums) {
-  addLanes<false, false>(view, candidates, block, sums);
-}
-VECTOR_CLONES void addRobust(const View<float>& view, const std::uint32_t* candidates, const Block& block,
-                             Sums<float>& sums) {
-  addLanes<true, false>(view, candidates, block, sums);
-}
-VECTOR_CLONES bool anyFloatLaneTooNear(const View<float>& view, const std::uint32_t* candidates,
-                                       const Block& block) {
-  return anyLaneTooNear<false>(view, candidates, block);
-}
-VECTOR_CLONES bool anyFloatLaneMoved(const float* const* now, const float* const* then, const Block& block,
-                                     float largestSquared) {
-  return anyLaneMoved(now, then, block, largestSquared);
-}
+VECTOR_CLONES(void, addAveraged,
+              (const View<float>& view, const std::uint32_t* candidates, const Block& block,
+               Sums<float>& sums),
+              (view, candidates, block, sums), addLanes<false, false>(view, candidates, block, sums))
+VECTOR_CLONES(void, addRobust,
+              (const View<float>& view, const std::uint32_t* candidates, const Block& block,
+               Sums<float>& sums),
+              (view, candidates, block, sums), addLanes<true, false>(view, candidates, block, sums))
+VECTOR_CLONES(bool, anyFloatLaneTooNear,
+              (const View<float>& view, const std::uint32_t* candidates, const Block& block),
+              (view, candidates, block), anyLaneTooNear<false>(view, candidates, block))
+VECTOR_CLONES(bool, anyFloatLaneMoved,
+              (const float* const* now, const float* const* then, const Block& block, float largestSquared),
+              (now, then, block, largestSquared), anyLaneMoved(now, then, block, largestSquared))
 
-VECTOR_CLONES void moveAveraged(const View<float>& view, const Block& block, const Sums<float>& sums,
-                                float* const* newX, float* const* velocity) {
-  moveLanes<false>(view, block, sums, newX, velocity);
-}
-VECTOR_CLONES void moveRobust(const View<float>& view, const Block& block, const Sums<float>& sums,
-                              float* const* newX, float* const* velocity) {
-  moveLanes<true>(view, block, sums, newX, velocity);
-}
+VECTOR_CLONES(void, moveAveraged,
+              (const View<float>& view, const Block& block, const Sums<float>& sums, float* const* newX,
+               float* const* velocity),
+              (view, block, sums, newX, velocity), moveLanes<false>(view, block, sums, newX, velocity))
+VECTOR_CLONES(void, moveRobust,
+              (const View<float>& view, const Block& block, const Sums<float>& sums, float* const* newX,
+               float* const* velocity),
+              (view, block, sums, newX, velocity), moveLanes<true>(view, block, sums, newX, velocity))
 
 }  // namespace
 
@@ -177,10 +175,11 @@ INLINE bool anyLaneLeft(const Components<Real>& now, const Components<Real>& the
 
 }  // namespace
 
-VECTOR_CLONES bool anyLeftMotion(const Components<float>& now, const Components<float>& then,
-                                 const RigidMap<float>& motion, const Block& block, float largestSquared) {
-  return anyLaneLeft(now, then, motion, block, largestSquared);
-}
+VECTOR_CLONES(bool, anyLeftMotion,
+              (const Components<float>& now, const Components<float>& then, const RigidMap<float>& motion,
+               const Block& block, float largestSquared),
+              (now, then, motion, block, largestSquared),
+              anyLaneLeft(now, then, motion, block, largestSquared))
 bool anyLeftMotion(const Components<double>& now, const Components<double>& then,
                    const RigidMap<double>& motion, const Block& block, double largestSquared) {
   return anyLaneLeft(now, then, motion, block, largestSquared);

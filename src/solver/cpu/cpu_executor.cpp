@@ -10,6 +10,7 @@
 #include "solver/cpu/arrays.h"
 #include "solver/cpu/fixed_sum.h"
 #include "solver/cpu/multilevel.h"
+#include "solver/cpu/vector_set.h"
 
 namespace clothsim {
 namespace {
@@ -49,6 +50,7 @@ CpuExecutor<Real>::CpuExecutor(const Cloth& cloth, bool sweeps)
       lists_(makeMeshLists<Real>(cloth)),
       rowPasses_(cloth),
       selfCollision_(cloth) {
+  (void)cpu::vectorSet();  // for its error, which may not come while threads compute
   const std::size_t count = cloth.particleCount();
   for (CpuState<Real>* state : {&particles_.state, &after_}) {
     state->positions.resize(count);

@@ -392,16 +392,15 @@ INLINE void gatherForcesRow(const PassArguments<Real>& arguments, int row, Force
 
 }  // namespace
 
-VECTOR_CLONES void gatherForces(const PassArguments<float>& arguments, int row, ForceRows<float>& rows) {
-  gatherForcesRow(arguments, row, rows);
-}
+VECTOR_CLONES(void, gatherForces, (const PassArguments<float>& arguments, int row, ForceRows<float>& rows),
+              (arguments, row, rows), gatherForcesRow(arguments, row, rows))
 void gatherForces(const PassArguments<double>& arguments, int row, ForceRows<double>& rows) {
   gatherForcesRow(arguments, row, rows);
 }
 
-VECTOR_CLONES void addBendingForces(const PassArguments<float>& arguments, int row) {
-  arguments.cutMasks != nullptr ? addBending<true>(arguments, row) : addBending<false>(arguments, row);
-}
+VECTOR_CLONES(void, addBendingForces, (const PassArguments<float>& arguments, int row), (arguments, row),
+              arguments.cutMasks != nullptr ? addBending<true>(arguments, row)
+                                            : addBending<false>(arguments, row))
 void addBendingForces(const PassArguments<double>& arguments, int row) {
   arguments.cutMasks != nullptr ? addBending<true>(arguments, row) : addBending<false>(arguments, row);
 }

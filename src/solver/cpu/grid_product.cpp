@@ -139,9 +139,8 @@ void GridElements<Real>::clear(std::ptrdiff_t begin, std::ptrdiff_t end) {
   clearOne(bendAlongColumn);
 }
 
-VECTOR_CLONES void multiplyElements(const ImplicitArguments<float>& arguments, int row) {
-  multiplyElementsOfRow(arguments, row);
-}
+VECTOR_CLONES(void, multiplyElements, (const ImplicitArguments<float>& arguments, int row), (arguments, row),
+              multiplyElementsOfRow(arguments, row))
 void multiplyElements(const ImplicitArguments<double>& arguments, int row) {
   multiplyElementsOfRow(arguments, row);
 }

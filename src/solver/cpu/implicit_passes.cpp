@@ -330,35 +330,30 @@ INLINE void acceptRow(const ImplicitArguments<Real>& arguments, int row) {
 
 }  // namespace
 
-VECTOR_CLONES void linearize(const ImplicitArguments<float>& arguments, int row) {
-  linearizeRow(arguments, row);
-}
+VECTOR_CLONES(void, linearize, (const ImplicitArguments<float>& arguments, int row), (arguments, row),
+              linearizeRow(arguments, row))
 void linearize(const ImplicitArguments<double>& arguments, int row) { linearizeRow(arguments, row); }
-VECTOR_CLONES void multiply(const ImplicitArguments<float>& arguments, int row) {
-  multiplyRow(arguments, row);
-}
+VECTOR_CLONES(void, multiply, (const ImplicitArguments<float>& arguments, int row), (arguments, row),
+              multiplyRow(arguments, row))
 void multiply(const ImplicitArguments<double>& arguments, int row) { multiplyRow(arguments, row); }
-VECTOR_CLONES void updateDirection(const ImplicitArguments<float>& arguments, int row) {
-  updateDirectionRow(arguments, row);
-}
+VECTOR_CLONES(void, updateDirection, (const ImplicitArguments<float>& arguments, int row), (arguments, row),
+              updateDirectionRow(arguments, row))
 void updateDirection(const ImplicitArguments<double>& arguments, int row) {
   updateDirectionRow(arguments, row);
 }
-VECTOR_CLONES void updateSolution(const ImplicitArguments<float>& arguments, int row) {
-  updateSolutionRow(arguments, row);
-}
+VECTOR_CLONES(void, updateSolution, (const ImplicitArguments<float>& arguments, int row), (arguments, row),
+              updateSolutionRow(arguments, row))
 void updateSolution(const ImplicitArguments<double>& arguments, int row) {
   updateSolutionRow(arguments, row);
 }
-VECTOR_CLONES void stopAtPlanes(const ImplicitArguments<float>& arguments, int row) {
-  stopAtPlanesRow(arguments, row);
-}
+VECTOR_CLONES(void, stopAtPlanes, (const ImplicitArguments<float>& arguments, int row), (arguments, row),
+              stopAtPlanesRow(arguments, row))
 void stopAtPlanes(const ImplicitArguments<double>& arguments, int row) { stopAtPlanesRow(arguments, row); }
-VECTOR_CLONES void tryLengths(const ImplicitArguments<float>& arguments, int row) {
-  tryLengthsRow(arguments, row);
-}
+VECTOR_CLONES(void, tryLengths, (const ImplicitArguments<float>& arguments, int row), (arguments, row),
+              tryLengthsRow(arguments, row))
 void tryLengths(const ImplicitArguments<double>& arguments, int row) { tryLengthsRow(arguments, row); }
-VECTOR_CLONES void accept(const ImplicitArguments<float>& arguments, int row) { acceptRow(arguments, row); }
+VECTOR_CLONES(void, accept, (const ImplicitArguments<float>& arguments, int row), (arguments, row),
+              acceptRow(arguments, row))
 void accept(const ImplicitArguments<double>& arguments, int row) { acceptRow(arguments, row); }
 
 }  // namespace clothsim::cpu

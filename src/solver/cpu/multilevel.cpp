@@ -275,10 +275,10 @@ void prolong(ImplicitState<Real>& own, std::uint32_t coarse) {
       canonical(RigidVector<Real>{motion.translation - minus.translation, motion.rotation - minus.rotation});
 }
 
-VECTOR_CLONES void prolongParticles(ImplicitState<float>& own, const float* inverseMasses,
-                                    std::uint32_t first, std::uint32_t end) {
-  prolongRange(own, inverseMasses, first, end);
-}
+VECTOR_CLONES(void, prolongParticles,
+              (ImplicitState<float> & own, const float* inverseMasses, std::uint32_t first,
+               std::uint32_t end),
+              (own, inverseMasses, first, end), prolongRange(own, inverseMasses, first, end))
 void prolongParticles(ImplicitState<double>& own, const double* inverseMasses, std::uint32_t first,
                       std::uint32_t end) {
   prolongRange(own, inverseMasses, first, end);

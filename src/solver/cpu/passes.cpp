@@ -298,9 +298,8 @@ INLINE void limitGridRow(const PassArguments<Real>& arguments, const LimitColor&
   else
     limitOwners(arguments, color, first, NominalLength<Real>{step.springs[color.slot].restLength});
 }
-VECTOR_CLONES void limitFloatRow(const PassArguments<float>& arguments, const LimitColor& color, int row) {
-  limitGridRow(arguments, color, row);
-}
+VECTOR_CLONES(void, limitFloatRow, (const PassArguments<float>& arguments, const LimitColor& color, int row),
+              (arguments, color, row), limitGridRow(arguments, color, row))
 
 // Row number j of those that the colour has owners in, and whether a row is one of them.
 int ownerRow(const LimitColor& color, std::uint32_t j) {
@@ -328,7 +327,8 @@ void checkStartRow(const PassArguments<Real>& arguments, int row) {
 void checkStart(const PassArguments<float>& arguments, int row) { checkStartRow(arguments, row); }
 void checkStart(const PassArguments<double>& arguments, int row) { checkStartRow(arguments, row); }
 
-VECTOR_CLONES void integrate(const PassArguments<float>& arguments, int row) { integrateRow(arguments, row); }
+VECTOR_CLONES(void, integrate, (const PassArguments<float>& arguments, int row), (arguments, row),
+              integrateRow(arguments, row))
 void integrate(const PassArguments<double>& arguments, int row) { integrateRow(arguments, row); }
 
 template <class Real>
@@ -366,9 +366,8 @@ std::uint32_t limitRows(const Piece& piece, const LimitColor& color) {
   return ownerCount(color.firstRow, color.rowStep, color.rowRun, color.endRow);
 }
 
-VECTOR_CLONES void watchLimit(const PassArguments<float>& arguments, int row) {
-  watchVelocities(arguments, arguments.step.limitPass, row);
-}
+VECTOR_CLONES(void, watchLimit, (const PassArguments<float>& arguments, int row), (arguments, row),
+              watchVelocities(arguments, arguments.step.limitPass, row))
 void watchLimit(const PassArguments<double>& arguments, int row) {
   watchVelocities(arguments, arguments.step.limitPass, row);
 }

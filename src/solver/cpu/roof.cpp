@@ -35,10 +35,12 @@ double bestRate(const Work& work) {
 }
 
 // Scaled, so that the compiler does not call a copy that goes past the cache.
-VECTOR_CLONES void scale(const float* from, float* to, std::size_t begin, std::size_t end) {
+INLINE void scaleRange(const float* from, float* to, std::size_t begin, std::size_t end) {
 #pragma GCC ivdep
   for (std::size_t i = begin; i < end; ++i) to[i] = 0.5f * from[i];
 }
+VECTOR_CLONES(void, scale, (const float* from, float* to, std::size_t begin, std::size_t end),
+              (from, to, begin, end), scaleRange(from, to, begin, end))
 
 constexpr int NUMBERS = 1024;  // in the nearest cache
 // A multiplication and an addition each, in registers. Of longer chains a core does not see enough at once to
@@ -46,7 +48,7 @@ constexpr int NUMBERS = 1024;  // in the nearest cache
 constexpr int STEPS = 4;
 constexpr int ROUNDS = 1024;  // over all numbers, a stretch of work
 
-VECTOR_CLONES void multiplyAndAdd(float* values, float factor) {
+INLINE void multiplyAndAddAll(float* values, float factor) {
   for (int round = 0; round < ROUNDS; ++round)
 #pragma GCC ivdep
     for (int k = 0; k < NUMBERS; ++k) {
@@ -56,6 +58,8 @@ VECTOR_CLONES void multiplyAndAdd(float* values, float factor) {
       values[k] = x;
     }
 }
+VECTOR_CLONES(void, multiplyAndAdd, (float* values, float factor), (values, factor),
+              multiplyAndAddAll(values, factor))
 
 }  // namespace
 

@@ -84,11 +84,11 @@ INLINE void findInTile(const TileView<Real>& own, const Bounds<Real>& box, const
   }
 }
 
-VECTOR_CLONES void findInFloatTile(const TileView<float>& own, const Bounds<float>& box,
-                                   const TileView<float>& other, float reachSquared, float neighborsSquared,
-                                   std::vector<NearTile>& found) {
-  findInTile(own, box, other, reachSquared, neighborsSquared, found);
-}
+VECTOR_CLONES(void, findInFloatTile,
+              (const TileView<float>& own, const Bounds<float>& box, const TileView<float>& other,
+               float reachSquared, float neighborsSquared, std::vector<NearTile>& found),
+              (own, box, other, reachSquared, neighborsSquared, found),
+              findInTile(own, box, other, reachSquared, neighborsSquared, found))
 
 }  // namespace
 

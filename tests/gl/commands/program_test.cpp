@@ -6,12 +6,14 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <set>
 #include <string>
 #include <thread>
 
 #include "core/files.h"
 #include "gl/gl_test.h"
 #include "measure/crossings.h"
+#include "solver/cpu/vector_set.h"
 #include "support/process.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
@@ -104,6 +106,26 @@ TEST(Program, GivesOneHashOnBothBackendsAtAnyNumberOfThreads) {
               expected)
         << threads;
   }
+}
+
+TEST(Program, GivesOneHashWithAnyVectors) {
+  for (const char* scene :
+       {"pinned2 --resolution 40x40", "selfCollision --resolution 30x30 --set solver.self_collision=robust",
+        "sphere --resolution 21x21 --set solver.integrator=implicit --set cloth.material=silk"}) {
+    std::set<std::string> hashes;
+    for (const cpu::VectorSet set : cpu::vectorSetsHere())
+      hashes.insert(jsonOf("run --frames 12 --json --backend cpu -f " + std::string(scene),
+                           "CLOTHSIM_VECTORS=" + std::string(cpu::nameOf(set)))["state_hash"]);
+    EXPECT_EQ(hashes.size(), 1) << scene;
+  }
+}
+
+TEST(Program, SaysWhichVectorsThereAre) {
+  const CommandResult result =
+      clothsim("run -f pinned2 --resolution 8x8 --frames 1 --backend cpu", "CLOTHSIM_VECTORS=wide");
+  EXPECT_EQ(result.exitCode, 2);
+  EXPECT_NE(result.output.find("CLOTHSIM_VECTORS is \"wide\"; set it to plain"), std::string::npos)
+      << result.output;
 }
 
 TEST(Program, ComparesTheBackendsAndSaysSoInItsExitCode) {
@@ -484,6 +506,7 @@ TEST(Program, ExaminesTheDeviceAndTestsItself) {
   const json doctor = jsonOf("doctor --json");
   EXPECT_TRUE(doctor["bitwise_equal"].get<bool>());
   EXPECT_TRUE(doctor["software"].is_boolean());
+  EXPECT_EQ(doctor["vectors"], cpu::nameOf(cpu::vectorSet()));
   EXPECT_NE(doctor["suggested_demo_resolution"].get<std::string>().find('x'), std::string::npos);
 }
 
