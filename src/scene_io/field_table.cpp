@@ -192,7 +192,9 @@ std::span<const Field<Material>> fieldsOf<Material>() {
           .within(positive)
           .byDefault("as stretch")
           .rebuilds(),
-      field("shear", &M::shear, "Shear modulus of the sheet; far smaller than stretch in woven cloth.")
+      field("shear", &M::shear,
+            "Shear modulus of the sheet; far smaller than stretch in woven cloth. A grid as stiff as paper "
+            "bends along its rows and columns alone: make it a mesh.")
           .in("N/m")
           .within(positive)
           .rebuilds()
