@@ -138,6 +138,11 @@ std::optional<AxisEnd> Viewer::axisEndUnder(ViewerWindow::Cursor cursor) const {
   return axisEndAt(open_->camera(), pictureArea(), textHeight(), glm::vec2(cursor.x, cursor.y));
 }
 
+std::optional<GizmoMode> Viewer::gizmoButtonUnder(ViewerWindow::Cursor cursor) const {
+  if (!config_.showOverlay) return std::nullopt;
+  return gizmoButtonAt(pictureArea().width, textHeight(), glm::vec2(cursor.x, cursor.y));
+}
+
 MouseContext Viewer::mouseContext() {
   const PictureArea area = pictureArea();
   return {*open_,
@@ -145,6 +150,7 @@ MouseContext Viewer::mouseContext() {
           open_->camera(),
           std::max(1, static_cast<int>(area.width)),
           std::max(1, static_cast<int>(area.height)),
+          textHeight(),
           paused_,
           [this](const Action& action, bool continues) {
             whenIdle([=, this] { session().act(action, continues); });
@@ -319,7 +325,7 @@ void Viewer::measure() {
 void Viewer::drawControls() {
   const PictureArea area = pictureArea();
   drawMarks(mouse_.marks(mouseContext(), window_.cursor()));
-  if (config_.showOverlay) drawAxes(open_->camera(), area);
+  drawGizmos();
   const float neededByOthers = showKeys_ ? 66.0f : compare_.isOpen() ? 40.0f : 0.0f;  // em
   if (config_.showOverlay && area.width >= neededByOthers * em())
     drawFacts(viewerFacts(*open_, meter_, paused_, looksBack(), tempo_, refinedExposures(),
@@ -335,6 +341,17 @@ void Viewer::drawControls() {
   compare_.draw(area);
   if (notice_.secondsLeft > 0) drawNotice(notice_.text, notice_.isError, area, timelineHeight());
   if (showKeys_) drawKeyList(area);
+}
+
+void Viewer::drawGizmos() {
+  const ViewerWindow::Cursor cursor = window_.cursor();
+  const glm::vec2 place(cursor.x, cursor.y);
+  const MouseContext context = mouseContext();
+  mouse_.chosen().draw(context, isOverPicture(cursor) ? std::optional(place) : std::nullopt);
+  if (!config_.showOverlay) return;
+  drawAxes(open_->camera(), pictureArea());
+  const bool isShown = mouse_.chosen().gizmo(context).has_value();
+  drawGizmoButtons(pictureArea().width, isShown ? std::optional(mouse_.chosen().mode) : std::nullopt, place);
 }
 
 void Viewer::drawPanels() {

@@ -29,7 +29,7 @@ void Viewer::listen() {
                        bool shift) { atOnce([=, this] { onPress(button, cursor, control, shift); }); },
        .move =
            [this](ViewerWindow::Cursor cursor) {
-             atOnce([=, this] { mouse_.move(mouseContext(), cursor); });
+             atOnce([=, this] { mouse_.move(mouseContext(), cursor, window_.holdsControl()); });
            },
        .release =
            [this](ViewerWindow::Button button) {
@@ -85,6 +85,7 @@ void Viewer::escape() {
     showKeys_ = false;
     return;
   }
+  if (mouse_.chosen().gizmo(mouseContext())) return mouse_.chosen().chooseNothing();
   window_.requestClose();
 }
 
@@ -92,6 +93,7 @@ void Viewer::onPress(ViewerWindow::Button button, ViewerWindow::Cursor cursor, b
   if (!isOverPicture(cursor)) return;
   if (!compare_.isRunning()) compare_.close();
   if (const auto end = axisEndUnder(cursor)) return open_->camera().lookFrom(end->axis, end->positive);
+  if (const auto mode = gizmoButtonUnder(cursor)) return showGizmo(*mode);
   const std::string said =
       mouse_.press(mouseContext(), button, cursor, {control, shift, window_.holds(cutKey)});
   if (said.empty()) return;
@@ -132,6 +134,11 @@ void Viewer::act(ViewerAction action) {
       setQuality(
           static_cast<Quality>((static_cast<int>(quality_) + 1) % static_cast<int>(qualityNames.size())));
       return say("Quality of the picture: " + std::string(nameOf(quality_)));
+    case ViewerAction::nextGizmo: {
+      const bool isShown = mouse_.chosen().gizmo(mouseContext()).has_value();
+      const bool isMove = mouse_.chosen().mode == GizmoMode::move;
+      return showGizmo(isShown == isMove ? GizmoMode::rotate : GizmoMode::move);
+    }
     case ViewerAction::resetCamera:
       return open_->camera().reset();
     case ViewerAction::viewFromRight:
@@ -219,6 +226,14 @@ void Viewer::nextShader() {
   scene.render.shader = at == names.end() || at + 1 == names.end() ? names.front() : *(at + 1);
   edit(scene, false);
   say("Shading model: " + scene.render.shader);
+}
+
+void Viewer::showGizmo(GizmoMode mode) {
+  Chosen& chosen = mouse_.chosen();
+  if (chosen.isDragged()) return;
+  chosen.mode = mode;
+  if (!chosen.gizmo(mouseContext()) && !chosen.chooseFirst(mouseContext()))
+    say("This scene has neither solids nor pins that can be moved");
 }
 
 void Viewer::setQuality(Quality quality) {

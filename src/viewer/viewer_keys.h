@@ -21,6 +21,7 @@ enum class ViewerAction {
   slowMotion,
   nextShader,
   nextQuality,
+  nextGizmo,
   resetCamera,
   viewFromFront,
   viewFromRight,
@@ -50,12 +51,14 @@ struct ViewerKey {
 inline constexpr std::string_view blowKey = "W", cutKey = "X";
 
 inline constexpr std::array viewerKeys{
-    ViewerKey{"Left drag", "on cloth: grab it; on a solid: move it; elsewhere: orbit"},
+    ViewerKey{"Left drag", "on cloth: grab it; on a solid or a pin: move it; elsewhere: orbit"},
     ViewerKey{"Right drag", "pan (also Ctrl + left drag)"},
     ViewerKey{"Wheel", "zoom towards the cursor"},
     ViewerKey{"Shift+click", "pin the cloth here, or unpin it"},
     ViewerKey{blowKey, "hold: blow at what is under the cursor"},
     ViewerKey{cutKey, "hold and drag: cut the cloth"},
+    ViewerKey{"G", "handles of the chosen solid or pins: move / turn (Ctrl: in steps)",
+              ViewerAction::nextGizmo},
     ViewerKey{"Space", "reset the camera", ViewerAction::resetCamera},
     ViewerKey{"1", "look from the front; again: from behind", ViewerAction::viewFromFront},
     ViewerKey{"2", "look from the right; again: from the left", ViewerAction::viewFromRight},
@@ -113,6 +116,7 @@ struct KeyStroke {
     case ViewerAction::viewFromRight:
     case ViewerAction::viewFromTop:
     case ViewerAction::nextQuality:
+    case ViewerAction::nextGizmo:
     case ViewerAction::slowMotion:
     case ViewerAction::toggleKeyList:
     case ViewerAction::toggleOverlay:

@@ -99,6 +99,8 @@ class Viewer {
   void switchIntegrator();
   void nextShader();
   void setQuality(Quality quality);
+  // Of what is chosen, or of the first solid or pins.
+  void showGizmo(GizmoMode mode);
   [[nodiscard]] RenderOptions renderOptions() const;
   void edit(const Scene& scene, bool continues);
   void undo(bool again);
@@ -132,6 +134,7 @@ class Viewer {
   void drawPicture(int width, int height);
   void measure();
   void drawControls();
+  void drawGizmos();
   void drawPanels();
   void applyRequests();
   void apply(const FieldEdits& edits);
@@ -151,6 +154,7 @@ class Viewer {
   [[nodiscard]] CoveredEdges coveredEdges() const;
   [[nodiscard]] bool isOverPicture(ViewerWindow::Cursor cursor) const;
   [[nodiscard]] std::optional<AxisEnd> axisEndUnder(ViewerWindow::Cursor cursor) const;
+  [[nodiscard]] std::optional<GizmoMode> gizmoButtonUnder(ViewerWindow::Cursor cursor) const;
   [[nodiscard]] MouseContext mouseContext();
   [[nodiscard]] bool isIdle();
   [[nodiscard]] bool isRefining() const;

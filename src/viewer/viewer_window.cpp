@@ -194,6 +194,11 @@ bool ViewerWindow::holdsShift() const {
          glfwGetKey(window_, GLFW_KEY_RIGHT_SHIFT) == GLFW_PRESS;
 }
 
+bool ViewerWindow::holdsControl() const {
+  return glfwGetKey(window_, GLFW_KEY_LEFT_CONTROL) == GLFW_PRESS ||
+         glfwGetKey(window_, GLFW_KEY_RIGHT_CONTROL) == GLFW_PRESS;
+}
+
 double ViewerWindow::textScale() const {
   float desktop = 1, unused = 1;
   glfwGetWindowContentScale(window_, &desktop, &unused);

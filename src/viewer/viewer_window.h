@@ -62,6 +62,7 @@ class ViewerWindow {
   // Whether the key of that name (viewer_keys.h) is held now.
   [[nodiscard]] bool holds(std::string_view key) const;
   [[nodiscard]] bool holdsShift() const;
+  [[nodiscard]] bool holdsControl() const;
   // The factor by which text is larger than on an ordinary screen. It follows the scale of the desktop and
   // the size of the window.
   [[nodiscard]] double textScale() const;
