@@ -137,4 +137,23 @@ Scene withPinsMoved(Scene scene, const PinGroup& group, const Cloth& cloth, Vec3
   return scene;
 }
 
+Shared<Scene> withHandsOf(const Scene& other, const Shared<Scene>& scene) {
+  Scene result = *scene;
+  for (std::size_t i = 0; i < std::min(other.cloths.size(), result.cloths.size()); ++i) {
+    const ClothSettings& from = other.cloths[i];
+    ClothSettings& to = result.cloths[i];
+    if (from.mesh != to.mesh || from.numWidthPoints != to.numWidthPoints ||
+        from.numHeightPoints != to.numHeightPoints)
+      continue;
+    for (const PinMotion& motion : from.pinMotion) {
+      if (!isOfHands(motion)) continue;
+      const Pin& pin = motion.pinned[0];
+      if (handOf(to, pin) != nullptr || isOnAPath(particlesOf(pin, to), to)) continue;
+      if (std::ranges::find(to.pinned, pin) == to.pinned.end()) to.pinned.push_back(pin);
+      to.pinMotion.push_back(motion);
+    }
+  }
+  return result == *scene ? scene : Shared<Scene>(std::move(result));
+}
+
 }  // namespace clothsim

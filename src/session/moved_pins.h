@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "cloth/cloth.h"
+#include "core/shared.h"
 #include "scene/rotation.h"
 #include "scene/scene.h"
 
@@ -42,5 +43,9 @@ struct PinGroup {
 // by `way` [m].
 [[nodiscard]] Scene withPinsMoved(Scene scene, const PinGroup& group, const Cloth& cloth, Vec3d pivot,
                                   const Matrix3& turn, Vec3d way);
+
+// The scene with the hands of another one that it lacks, which hold on: so undo does not leave pins on their
+// way.
+[[nodiscard]] Shared<Scene> withHandsOf(const Scene& other, const Shared<Scene>& scene);
 
 }  // namespace clothsim

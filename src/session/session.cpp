@@ -9,6 +9,7 @@
 #include "scene/moved_collider.h"
 #include "session/action_checks.h"
 #include "session/carry_over.h"
+#include "session/moved_pins.h"
 
 namespace clothsim {
 
@@ -159,7 +160,7 @@ void Session::redo() { goBetween(now_.redo, now_.undo); }
 void Session::goBetween(SceneStack& from, SceneStack& to) {
   if (from.empty()) return;
   const Shared<Scene> before = now_.scene;
-  changeScene(from.back());
+  changeScene(withHandsOf(*before, from.back()));
   record(EditScene{now_.scene});
   from.pop_back();
   to.push_back(before);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "viewer/ui_frame.h"
+
 namespace clothsim {
 namespace {
 
@@ -43,7 +45,7 @@ void drawAxes(const Camera& camera, PictureArea area) {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const glm::vec2 middle = middleOf(area, em());
   for (const AxisEnd& end : axisEnds(camera, area, em())) {
-    const ImVec4 color = axisColors[static_cast<std::size_t>(end.axis)];
+    const ImVec4 color = theme::axes[static_cast<std::size_t>(end.axis)];
     const float light = 0.8f + 0.2f * end.toViewer;  // what points away is darker
     const ImVec2 at{end.place.x, end.place.y};
     if (!end.positive) {

@@ -7,14 +7,9 @@
 #include <optional>
 
 #include "render/camera.h"
-#include "viewer/ui_frame.h"
 #include "viewer/viewer_overlay.h"
 
 namespace clothsim {
-
-// Of x, y and z.
-inline const std::array<ImVec4, 3> axisColors{
-    {{0.86f, 0.37f, 0.40f, 1}, {0.50f, 0.74f, 0.36f, 1}, {0.36f, 0.58f, 0.90f, 1}}};
 
 struct AxisEnd {
   int axis = 0;  // x, y, z

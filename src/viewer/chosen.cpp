@@ -53,16 +53,22 @@ void Chosen::chooseNothing() {
   what_ = {};
 }
 
-std::optional<Gizmo> Chosen::gizmo(const MouseContext& context) const {
+// The solid's origin, or the middle of the pins [m].
+std::optional<Vec3d> Chosen::place(const MouseContext& context) const {
   const Scene& scene = context.open.scene();
   if (const auto* solid = std::get_if<Solid>(&what_); solid != nullptr && isSolid(scene, solid->collider))
-    return Gizmo{mode, toGlm(poseAt(scene.colliders[solid->collider], context.open.time()).position)};
+    return poseAt(scene.colliders[solid->collider], context.open.time()).position;
   const auto* group = std::get_if<PinGroup>(&what_);
   if (group == nullptr || !hasPins(scene, *group)) return std::nullopt;
   const std::vector<Vec3d> places = placesOf(*group, scene, context.open.cloth());
   Vec3d sum;
-  for (const Vec3d place : places) sum = sum + place;
-  return Gizmo{mode, toGlm((1.0 / static_cast<double>(places.size())) * sum)};
+  for (const Vec3d each : places) sum = sum + each;
+  return (1.0 / static_cast<double>(places.size())) * sum;
+}
+
+std::optional<Gizmo> Chosen::gizmo(const MouseContext& context) const {
+  const std::optional<Vec3d> middle = place(context);
+  return middle ? std::optional(Gizmo{mode, toGlm(*middle)}) : std::nullopt;
 }
 
 bool Chosen::pressHandle(const MouseContext& context, glm::vec2 cursor) {
@@ -77,9 +83,9 @@ bool Chosen::pressHandle(const MouseContext& context, glm::vec2 cursor) {
 }
 
 void Chosen::takeHold(const MouseContext& context, glm::vec3 point, glm::vec2 cursor) {
-  const std::optional<Gizmo> shown = gizmo(context);
-  if (!shown) return;
-  start_ = toVec3d(shown->place);
+  const std::optional<Vec3d> middle = place(context);
+  if (!middle) return;
+  start_ = *middle;
   drag_.emplace(Gizmo{GizmoMode::move, point}, GizmoHandle{GizmoHandle::Kind::center, 0}, context.view(),
                 context.em, cursor);
   byHandle_ = isNew_ = hasMoved_ = goesOn_ = false;
@@ -142,7 +148,7 @@ void Chosen::applyToPins(const MouseContext& context, const PinGroup& group, con
       throw;
     }
   }
-  const Vec3d pivot = toVec3d(gizmo(context)->place);
+  const Vec3d pivot = place(context).value_or(Vec3d{});
   context.act(EditScene{withPinsMoved(context.open.scene(), group, context.open.cloth(), pivot, turn,
                                       drag_->way() - appliedWay_)},
               std::exchange(goesOn_, true));

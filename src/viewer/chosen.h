@@ -52,6 +52,7 @@ class Chosen {
   };
   using What = std::variant<std::monostate, Solid, PinGroup>;
 
+  [[nodiscard]] std::optional<Vec3d> place(const MouseContext& context) const;
   void applyToSolid(const MouseContext& context, std::size_t collider, const Matrix3* turn);
   void applyToPins(const MouseContext& context, const PinGroup& group, const Matrix3& turn);
 

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "render/stage.h"
-#include "viewer/axis_gizmo.h"
 #include "viewer/gizmo_shapes.h"
 #include "viewer/ui_frame.h"
 
@@ -21,7 +20,7 @@ ImVec2 im(glm::vec2 v) { return {v.x, v.y}; }
 ImU32 handleColor(const GizmoHandle& handle, bool isLit, float alpha) {
   if (isLit) return ImGui::GetColorU32({1.0f, 0.86f, 0.36f, alpha});
   const bool isGrey = handle.kind == Kind::center || handle.kind == Kind::rim;
-  ImVec4 color = isGrey ? ImVec4(0.92f, 0.93f, 0.95f, 1) : axisColors[static_cast<std::size_t>(handle.axis)];
+  ImVec4 color = isGrey ? ImVec4(0.92f, 0.93f, 0.95f, 1) : theme::axes[static_cast<std::size_t>(handle.axis)];
   color.w = alpha;
   return ImGui::GetColorU32(color);
 }

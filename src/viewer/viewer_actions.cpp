@@ -11,6 +11,7 @@
 #include "output/numbered_files.h"
 #include "render/shading_models.h"
 #include "scene_io/scene_io.h"
+#include "viewer/mesh_scene.h"
 #include "viewer/viewer_facts.h"
 #include "viewer/viewer_program.h"
 
@@ -43,7 +44,7 @@ void Viewer::listen() {
            },
        .drop =
            [this](const std::vector<std::string>& paths) {
-             if (!paths.empty()) sceneToOpen_ = paths.front();
+             if (!paths.empty()) drop(paths.front());
            }});
 }
 
@@ -65,7 +66,8 @@ void Viewer::atOnce(std::function<void()> task) {
 }
 
 void Viewer::onKey(const KeyStroke& stroke, bool repeated) {
-  const ViewerAction action = ui_.wantsKeys() ? ViewerAction::none : actionOf(stroke);
+  const bool isTyping = ui_.wantsKeys() || (dialog_.isOpen() && actionOf(stroke) != ViewerAction::quit);
+  const ViewerAction action = isTyping ? ViewerAction::none : actionOf(stroke);
   if (action == ViewerAction::quit) return escape();  // never waits for a frame
   // A key that is held repeats only actions for which that makes sense.
   const bool repeats = action == ViewerAction::stepBack || action == ViewerAction::stepForward ||
@@ -80,6 +82,8 @@ void Viewer::onKey(const KeyStroke& stroke, bool repeated) {
 // Closes what is open over the picture, else the window.
 void Viewer::escape() {
   drawsLeft_ = drawsAfterInput;
+  if (isLoading_) return window_.requestClose();
+  if (dialog_.isOpen()) return dialog_.close();
   if (compare_.isOpen()) return compare_.close();
   if (showKeys_) {
     showKeys_ = false;
@@ -173,6 +177,7 @@ void Viewer::act(ViewerAction action) {
 }
 
 void Viewer::actOnFile(ViewerAction action) {
+  if (action == ViewerAction::openFile) return dialog_.open(config_.folder);
   const PictureArea area = pictureArea();
   const int width = static_cast<int>(area.width), height = static_cast<int>(area.height);
   if (action == ViewerAction::screenshot)
@@ -239,6 +244,7 @@ void Viewer::showGizmo(GizmoMode mode) {
 void Viewer::setQuality(Quality quality) {
   quality_ = quality;
   drawScale_ = DrawScale(pictureBudget(quality));
+  kept_.forget();
   if (open_) open_->renderer().setOptions(renderOptions());
 }
 
@@ -289,8 +295,8 @@ std::unique_ptr<OpenScene> Viewer::load(const std::string& source,
                                         const std::function<std::unique_ptr<OpenScene>()>& make) {
   const std::string name = std::filesystem::path(source).stem().string();
   window_.setTitle(title_ = name + " - loading - clothsim");
-  stepping_ = true;              // delays input
-  for (int i = 0; i < 2; ++i) {  // a window that was just opened may lose its first picture
+  stepping_ = isLoading_ = true;  // delays input
+  for (int i = 0; i < 2; ++i) {   // a window that was just opened may lose its first picture
     ui_.begin(textScale());
     drawLoading(name);
     ui_.end();
@@ -316,7 +322,7 @@ std::unique_ptr<OpenScene> Viewer::load(const std::string& source,
     std::_Exit(0);  // without waiting for the thread
   }
   window_.takeContext();
-  stepping_ = false;
+  stepping_ = isLoading_ = false;
   waiting_.clear();  // input while the scene was loading
   clock_.lap();
   return making.get();
@@ -325,19 +331,57 @@ std::unique_ptr<OpenScene> Viewer::load(const std::string& source,
 void Viewer::openScene(const std::string& source) {
   const std::string backend = open_->backend();
   std::unique_ptr<OpenScene> next = load(source, [&] {
-    return std::make_unique<OpenScene>(loadSceneByName(source), source, backend, renderOptions());
+    const bool isMesh = kindOfFile(source) == FileKind::mesh;
+    return std::make_unique<OpenScene>(isMesh ? sceneOfMesh(source) : loadSceneByName(source), source,
+                                       backend, renderOptions());
   });
+  dialog_.close();
   next->view = open_->view;
   taker_.abandonClip();
   compare_.close();
   mouse_ = {};
+  trials_.abandon();
+  triedFor_.first = nullptr;
   open_ = std::move(next);
+  kept_.forget();
   watchSteps();
   column_.measures().forget();
   pace_ = Pace(open_->frameSeconds());
   draftHeld_ = paused_ = false;
   notice_ = {};
   warnOfPaths();
+}
+
+// Of a mesh the dialog asks what it is to be.
+void Viewer::drop(const std::string& path) {
+  drawsLeft_ = drawsAfterInput;
+  if (kindOfFile(path) == FileKind::mesh)
+    dialog_.openAt(path);
+  else
+    sceneToOpen_ = path;
+}
+
+// While a frame is simulated another scene waits for its end, and so does a solid.
+void Viewer::openChosen(const OpenChoice& choice) {
+  if (choice.use != OpenChoice::Use::solid) {
+    sceneToOpen_ = choice.path;
+    return;
+  }
+  whenIdle([=, this] {
+    const bool went = attempt([&] {
+      edit(withMeshSolid(open_->scene(), choice.path, toVec3d(open_->camera().target())), false);
+      say("The mesh is a solid of this scene now (Ctrl+Z takes it out)", longNoticeSeconds);
+      mouse_.chosen().chooseSolid(open_->scene().colliders.size() - 1);
+    });
+    went ? dialog_.close() : tellDialog();
+  });
+}
+
+// What was wrong, where the user chose it.
+void Viewer::tellDialog() {
+  if (!dialog_.isOpen()) return;
+  dialog_.complain(notice_.text);
+  notice_ = {};
 }
 
 void Viewer::warnOfPaths() {
@@ -378,6 +422,7 @@ void Viewer::saveCurves() {
 }
 
 void Viewer::reloadShaders() {
+  kept_.forget();
   if (const std::optional<std::string> divergence = open_->renderer().renderer().reloadShaders())
     notice_ = {*divergence + "\nThe previous shaders are still in use.", 1e9, true};
   else

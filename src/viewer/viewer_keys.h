@@ -30,6 +30,7 @@ enum class ViewerAction {
   redo,
   screenshot,
   recordClip,
+  openFile,
   saveScene,
   saveRecording,
   toggleKeyList,
@@ -78,6 +79,7 @@ inline constexpr std::array viewerKeys{
     ViewerKey{"Ctrl+Shift+Z", "redo it", ViewerAction::redo},
     ViewerKey{"Ctrl+P", "screenshot", ViewerAction::screenshot},
     ViewerKey{"Ctrl+R", "start / stop recording a clip", ViewerAction::recordClip},
+    ViewerKey{"Ctrl+O", "open a scene or a mesh", ViewerAction::openFile},
     ViewerKey{"Ctrl+S", "save the scene", ViewerAction::saveScene},
     ViewerKey{"Ctrl+Shift+S", "save your actions, for run --replay", ViewerAction::saveRecording},
     ViewerKey{"F1", "show / hide this list", ViewerAction::toggleKeyList},
@@ -117,6 +119,7 @@ struct KeyStroke {
     case ViewerAction::viewFromTop:
     case ViewerAction::nextQuality:
     case ViewerAction::nextGizmo:
+    case ViewerAction::openFile:
     case ViewerAction::slowMotion:
     case ViewerAction::toggleKeyList:
     case ViewerAction::toggleOverlay:

@@ -50,7 +50,7 @@ void drawLookPanel(PanelContext& context);
 class ScenePanel {
  public:
   void draw(PanelContext& context);
-  // Shows the path that was last opened or saved in the lines for paths.
+  // Shows the path that was last saved in the line for it.
   void remember(const std::string& path);
 
  private:
@@ -65,7 +65,7 @@ class ScenePanel {
   std::vector<Card> cards_;         // of the bundled scenes
   std::vector<std::string> files_;  // scenes in the current folder
   bool read_ = false;               // both, when the panel is first opened
-  char open_[512] = "", save_[512] = "";
+  char save_[512] = "";
 };
 
 class PanelColumn {

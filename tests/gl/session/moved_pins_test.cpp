@@ -73,6 +73,7 @@ TEST_F(MovedPins, GoAtAHandsPaceAndComeBackWhenThatIsUndone) {
   EXPECT_LT(length(placesOf(group, scene(), cloth())[0] - (from + way)), 1e-6);
   EXPECT_EQ(positionOf(first), other) << "the other pin stays";
   session_.undo();
+  session_.undo();  // and the hand, which holds on: else the pin would stay on its way
   step(120);
   EXPECT_LT(length(positionOf(last) - from), 1e-3);
 }
