@@ -25,6 +25,10 @@ class Chosen {
   bool chooseFirst(const MouseContext& context);
   void chooseNothing();
 
+  [[nodiscard]] std::optional<std::size_t> solid() const {
+    const auto* solid = std::get_if<Solid>(&what_);
+    return solid == nullptr ? std::nullopt : std::optional(solid->collider);
+  }
   [[nodiscard]] bool isPins(const PinGroup& group) const { return what_ == What(group); }
   // Its gizmo; none where nothing is chosen, or where the scene no longer has it.
   [[nodiscard]] std::optional<Gizmo> gizmo(const MouseContext& context) const;

@@ -399,8 +399,15 @@ void Viewer::drawPanels() {
   const glm::vec3 target = open_->camera().target();
   const std::string name = open_->name();
   const SessionFacts facts = open_->facts();
-  PanelContext context{draft_, widgets_, facts, open_->backend(), open_->view, {target.x, target.y, target.z},
-                       name,   quality_};
+  PanelContext context{draft_,
+                       widgets_,
+                       facts,
+                       open_->backend(),
+                       open_->view,
+                       {target.x, target.y, target.z},
+                       name,
+                       quality_,
+                       mouse_.chosen().solid()};
   column_.draw(context, config_);
   requests_.edits = widgets_.takeEdits();
   requests_.panels = std::move(context.requests);
@@ -446,6 +453,7 @@ void Viewer::apply(const PanelRequests& requests) {
       restart();
     }
     if (requests.saveCurves) saveCurves();
+    if (requests.chooseSolid) mouse_.chosen().chooseSolid(*requests.chooseSolid);
     if (requests.openScene) sceneToOpen_ = requests.openScene;
   });
 }

@@ -178,6 +178,10 @@ void Viewer::act(ViewerAction action) {
 
 void Viewer::actOnFile(ViewerAction action) {
   if (action == ViewerAction::openFile) return dialog_.open(config_.folder);
+  if (action == ViewerAction::reloadScene) {
+    sceneToOpen_ = open_->source();
+    return;
+  }
   const PictureArea area = pictureArea();
   const int width = static_cast<int>(area.width), height = static_cast<int>(area.height);
   if (action == ViewerAction::screenshot)
@@ -337,6 +341,8 @@ void Viewer::openScene(const std::string& source) {
   });
   dialog_.close();
   next->view = open_->view;
+  if (source == open_->source())
+    next->camera() = open_->camera();  // whoever edits a scene looks at the same place
   taker_.abandonClip();
   compare_.close();
   mouse_ = {};

@@ -63,8 +63,8 @@ class ViewerWindow {
   [[nodiscard]] bool holds(std::string_view key) const;
   [[nodiscard]] bool holdsShift() const;
   [[nodiscard]] bool holdsControl() const;
-  // The factor by which text is larger than on an ordinary screen. It follows the scale of the desktop and
-  // the size of the window.
+  // The factor by which text is larger than on an ordinary screen. It follows the scale of the desktop, the
+  // pixels of the screen and the size of the window.
   [[nodiscard]] double textScale() const;
 
  private:

@@ -145,6 +145,9 @@ TEST_F(WindowUi, TakesEveryKeyOfItsListAndGoesOn) {
     if (key.action == ViewerAction::none || key.action == ViewerAction::quit) continue;
     viewer.press(xdotoolName(key.input));
     if (key.action == ViewerAction::openFile) viewer.press("Escape");  // its dialog takes the keys
+    if (key.action == ViewerAction::reloadScene) {
+      ASSERT_TRUE(viewer.titleBecomesOneWith("fps")) << viewer.title();
+    }
     ASSERT_FALSE(viewer.exitCodeWithin(test::milliseconds(50))) << key.input << ": " << viewer.output();
   }
   EXPECT_TRUE(test::eventually(seconds(20), [&] {

@@ -24,6 +24,7 @@ struct PanelRequests {
   std::optional<std::string> backend;      // "cpu" or "gpu"
   std::optional<Quality> quality;          // of the picture
   bool resetScene = false;                 // back to the loaded scene
+  std::optional<std::size_t> chooseSolid;  // in the picture, by its index in scene.colliders
   bool saveCurves = false;                 // of the panel Measure, as CSV
   friend bool operator==(const PanelRequests&, const PanelRequests&) = default;
 };
@@ -38,6 +39,7 @@ struct PanelContext {
   Vec3d lookedAt;  // target of the camera, where new colliders are placed [m]
   const std::string& sceneName;
   Quality quality;  // of the picture
+  std::optional<std::size_t> chosenSolid{};
   PanelRequests requests{};
 };
 

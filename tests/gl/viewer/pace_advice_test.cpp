@@ -25,7 +25,8 @@ Scene sheetOf(int side) {
 // The side of the square grid that is offered; 0 where there is none.
 int sideOffered(double pace, int side) {
   for (const PaceRemedy& remedy : remedies({pace, 0.95, 0.2}, sheetOf(side)))
-    if (remedy.scene) return remedy.scene->cloths[0].numWidthPoints;
+    if (remedy.scene && !isImplicit(remedy.scene->solver.integrator))
+      return remedy.scene->cloths[0].numWidthPoints;
   return 0;
 }
 
@@ -62,7 +63,7 @@ TEST(PaceAdvice, OffersFewerStepsOnlyWhereTheyStayStable) {
   Scene scene = sheetOf(33);
   scene.solver.simulationSteps = 8;
   for (const PaceRemedy& remedy : remedies({0.2, 1, 0}, scene))
-    EXPECT_FALSE(remedy.scene) << "it would blow up";
+    EXPECT_TRUE(!remedy.scene || isImplicit(remedy.scene->solver.integrator)) << "it would blow up";
   scene.solver.integrator = Integrator::implicit;
   const auto offered = remedies({0.4, 1, 0}, scene);
   ASSERT_TRUE(!offered.empty() && offered[0].scene);
@@ -83,8 +84,8 @@ TEST(PaceAdvice, KeepsWhatTrialsHaveShownToHelp) {
   EXPECT_EQ(namesOf({half, none, whole, slow}), "whole half slow ");
   EXPECT_EQ(namesOf({half, whole, half, whole, slow}), "whole whole slow ");
   const auto slowest = remedies({0.27, 1, 0}, sheetOf(16));
-  ASSERT_EQ(slowest.size(), 1u);
-  EXPECT_EQ(slowest[0].tempo, 0.25);
+  ASSERT_FALSE(slowest.empty());
+  EXPECT_EQ(slowest.back().tempo, 0.25);
 }
 
 TEST(PaceTrials, ContinueTheClothOnACoarserGridWhereItIs) {
