@@ -30,6 +30,15 @@ class KeptPicture {
   [[nodiscard]] bool isOf(const PictureKey& key, double scale) const {
     return key_ == key && scale_ >= scale;
   }
+  // Whether it is seen from the same place, whatever the state: an answer to input that need not wait for the
+  // next one.
+  [[nodiscard]] bool looksLike(PictureKey key, double scale) const {
+    if (!key_) return false;
+    key.scene = key_->scene;
+    key.time = key_->time;
+    key.version = key_->version;
+    return isOf(key, scale);
+  }
   // The framebuffer to draw another one into, of that size [pixels]; then what has been drawn.
   [[nodiscard]] GLuint drawInto(int width, int height);
   void drawn(const PictureKey& key, double scale) {

@@ -86,26 +86,34 @@ struct PaceTrials::Work {
   Shared<Scene> scene;
   Shared<Cloth> cloth;
   State state;
+  double wanted;
   std::atomic<bool> isDone{false}, isAbandoned{false};
 
   void tryAll() {
     giveWay();
+    std::vector<PaceRemedy> tried;
+    int enough = 2;  // of those that reach the pace
     for (PaceRemedy& remedy : remedies) {
-      if (isAbandoned) break;
-      if (remedy.tempo || remedy.quality || remedy.backend == "gpu") continue;
+      if (remedy.tempo || remedy.quality || remedy.backend == "gpu") {
+        tried.push_back(std::move(remedy));
+        continue;
+      }
+      if (isAbandoned || enough == 0) continue;
       try {
         remedy.pace = measuredPace(remedy.scene ? Shared<Scene>(*remedy.scene) : scene, *cloth, state);
-      } catch (const std::exception&) {
-        remedy.pace = 0;  // it cannot be made
+        if (*remedy.pace >= wanted) --enough;
+        tried.push_back(std::move(remedy));
+      } catch (const std::exception&) {  // it cannot be made
       }
     }
+    remedies = std::move(tried);
     isDone = true;
   }
 };
 
 void PaceTrials::start(std::vector<PaceRemedy> remedies, const Shared<Scene>& scene,
-                       const Shared<Cloth>& cloth, State state) {
-  work_ = std::shared_ptr<Work>(new Work{std::move(remedies), scene, cloth, std::move(state)});
+                       const Shared<Cloth>& cloth, State state, double wanted) {
+  work_ = std::shared_ptr<Work>(new Work{std::move(remedies), scene, cloth, std::move(state), wanted});
   std::thread([work = work_] { work->tryAll(); }).detach();
 }
 

@@ -22,11 +22,13 @@ namespace clothsim {
 
 class PaceTrials {
  public:
-  // Begins. Remedies of which `scene` and `backend` are absent, and those on the GPU, are not tried.
+  // Begins, and ends once two have come to the wanted pace [simulated seconds per second]. What is not
+  // simulated here is not tried: another quality, the GPU, slow motion.
   void start(std::vector<PaceRemedy> remedies, const Shared<Scene>& scene, const Shared<Cloth>& cloth,
-             State state);
+             State state, double wanted);
   [[nodiscard]] bool isRunning() const { return work_ != nullptr; }  // until take() or abandon()
   [[nodiscard]] bool isDone() const;
+  // Those that have been tried, and those that need not be.
   [[nodiscard]] std::vector<PaceRemedy> take();
   // Its thread ends after the remedy that it tries.
   void abandon();

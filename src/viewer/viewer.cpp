@@ -19,6 +19,7 @@ namespace {
 
 constexpr float panelsFrom =
     54;  // width of the window in em from which the panels are open at the first start
+constexpr double quickPicture = 0.015;         // takes so long at most [s]
 constexpr double slowSeconds = 2.5;            // after which remedies are tried
 constexpr double longestWait = 0.25;           // for input [s]: notices disappear
 constexpr double mostSimulationSeconds = 0.1;  // between two pictures, where a frame takes less
@@ -321,7 +322,11 @@ void Viewer::drawPicture(int width, int height) {
   exposures_ = 0;
   if (!software) return open_->draw(0, width, height);
   const PictureKey key = pictureKey(width, height);
-  drawInto(key, whole);
+  // What the input has changed over the picture is shown first, where a new one takes its time; never twice
+  // in a row.
+  answersFirst_ = std::exchange(hasInput_, false) && !answersFirst_ && !paused_ &&
+                  pictureSeconds_ > quickPicture && kept_.looksLike(key, whole ? 1 : drawScale_.scale());
+  if (!answersFirst_) drawInto(key, whole);
   gl::bindFramebuffer(0);  // of the window
   kept_.show();
 }
@@ -335,7 +340,8 @@ void Viewer::drawInto(const PictureKey& key, bool whole) {
   kept_.drawn(key, scale);
   if (whole) return;
   gl::finish();
-  drawScale_.drawn(clock.lap());
+  pictureSeconds_ = clock.lap();
+  drawScale_.drawn(pictureSeconds_);
 }
 
 PictureKey Viewer::pictureKey(int width, int height) {
@@ -504,7 +510,8 @@ bool Viewer::tryRemedies() {
     std::vector<PaceRemedy> remedies = remediesFor(paceFigures(), open_->scene(), quality_,
                                                    gl::currentContextInfo().software, open_->backend());
     Simulation& simulation = session().simulation();
-    trials_.start(std::move(remedies), open_->sharedScene(), simulation.sharedCloth(), simulation.state());
+    trials_.start(std::move(remedies), open_->sharedScene(), simulation.sharedCloth(), simulation.state(),
+                  tempo_);
   });
   return trials_.isRunning();
 }

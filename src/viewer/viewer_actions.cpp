@@ -51,6 +51,7 @@ void Viewer::listen() {
 // Input that comes within a frame is handled at the end of the frame.
 void Viewer::whenIdle(std::function<void()> task) {
   drawsLeft_ = drawsAfterInput;
+  hasInput_ = true;
   if (isStepping())
     waiting_.push_back(std::move(task));
   else
@@ -62,6 +63,7 @@ void Viewer::whenIdle(std::function<void()> task) {
 void Viewer::atOnce(std::function<void()> task) {
   if (stepping_) return whenIdle(std::move(task));
   drawsLeft_ = drawsAfterInput;
+  hasInput_ = true;
   attempt(task);
 }
 

@@ -214,6 +214,9 @@ class Viewer {
   DrawScale drawScale_{0};
   KeptPicture kept_;
   std::uint64_t shownVersion_ = 0;  // of the state that is shown
+  double pictureSeconds_ = 0;       // that the last one took
+  bool hasInput_ = false;           // since the last picture was drawn or shown again
+  bool answersFirst_ = false;       // the last picture was shown again for that
   LapClock clock_;
   FrameTimings timings_{options_.timings};
   StepThread steps_{[this] { window_.wakeUp(); }};  // simulates on the CPU backend

@@ -111,7 +111,7 @@ TEST(PaceTrials, MeasureEachRemedyOnTheCpu) {
   Session session(scene, "cpu", makeCpuSolver);
   PaceTrials trials;
   trials.start(remedies({0.05, 1, 0}, scene), scene, session.simulation().sharedCloth(),
-               session.simulation().state());
+               session.simulation().state(), 1e9);
   for (int i = 0; i < 600 && !trials.isDone(); ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   ASSERT_TRUE(trials.isDone());

@@ -211,6 +211,10 @@ TEST(KeptPicture, IsThatOfItsKeyDrawnAsSharplyAsIsWanted) {
                                   PictureKey{.width = 4, .height = 3, .time = 1.1, .version = 2},
                                   PictureKey{.width = 4, .height = 3, .time = 1, .version = 3}})
     EXPECT_FALSE(kept.isOf(other, 0.5));
+  EXPECT_TRUE(kept.looksLike({.width = 4, .height = 3, .time = 1.1, .version = 3}, 0.75))
+      << "of another state";
+  EXPECT_FALSE(kept.looksLike({.width = 5, .height = 3, .time = 1, .version = 2}, 0.75));
+  EXPECT_FALSE(kept.looksLike(key, 1));
   key.options.showPins = true;
   EXPECT_FALSE(kept.isOf(key, 0.5));
   key.options.showPins = false;
