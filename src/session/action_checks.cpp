@@ -75,14 +75,23 @@ class Checks {
             "blow: radius: expected 1e-6 to 1e6, found " + text(blow.radius));
   }
   void operator()(const MoveCollider& move) const {
-    const std::size_t colliders = scene_.colliders.size();
-    require(move.collider < colliders, "move_collider: there is no collider " +
-                                           std::to_string(move.collider) + ", the scene has " +
-                                           std::to_string(colliders));
+    checkCollider("move_collider", move.collider);
     checkPlace("move_collider: position", move.position);
+  }
+  void operator()(const TurnCollider& turn) const {
+    checkCollider("turn_collider", turn.collider);
+    const double angle = length(turn.turn);
+    require(isWithin(angle, 0, 180 + 1e-9),
+            "turn_collider: turn: expected 0 to 180 degrees, found " + text(angle));
   }
 
  private:
+  void checkCollider(const char* what, std::size_t collider) const {
+    const std::size_t colliders = scene_.colliders.size();
+    require(collider < colliders, std::string(what) + ": there is no collider " + std::to_string(collider) +
+                                      ", the scene has " + std::to_string(colliders));
+  }
+
   const Cloth& cloth_;
   const Scene& scene_;
 };

@@ -59,6 +59,12 @@ struct MoveCollider {
   std::size_t collider = 0;  // in scene.colliders
   Vec3d position;            // of its origin or point [m]
 };
+// Turns a collider about its origin or point at a steady rate over the next frame; friction sees it. Turns of
+// the same frame follow each other. A collider with a path of its own goes on along it, turned by as much.
+struct TurnCollider {
+  std::size_t collider = 0;  // in scene.colliders
+  Vec3d turn;                // rotation vector, axis times angle, at most 180 long [degrees]
+};
 struct SwitchBackend {
   std::string backend;  // "cpu" or "gpu"
 };
@@ -66,6 +72,6 @@ struct SwitchBackend {
 struct Restart {};
 
 using Action = std::variant<EditScene, Grab, MoveHand, Release, SetPin, CutStroke, Blow, MoveCollider,
-                            SwitchBackend, Restart>;
+                            TurnCollider, SwitchBackend, Restart>;
 
 }  // namespace clothsim

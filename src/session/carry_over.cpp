@@ -44,6 +44,7 @@ State carriedOver(const State& state, const Cloth& before, const Cloth& after) {
     for (std::uint32_t i = piece.firstParticle; i < piece.firstParticle + piece.particleCount(); ++i) {
       const bool wasPinned = before.inverseMasses()[i] == 0, isPinned = after.inverseMasses()[i] == 0;
       const bool pinned = wasPinned == isPinned ? state.positions[i].w == 0 : isPinned;
+      if (isPinned && !wasPinned) std::erase(result.offPath, i);  // the scene has it now
       result.positions[i].w = pinned ? 0 : static_cast<float>(1 / after.massOf(i));
       if (pinned && state.positions[i].w != 0) result.velocities[i] = {};
     }

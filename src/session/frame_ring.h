@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "core/shared.h"
+#include "scene/moved_collider.h"
 #include "scene/scene.h"
-#include "session/actions.h"
 #include "solver/interaction.h"
 #include "solver/solver.h"
 
@@ -26,7 +26,7 @@ struct SessionFrame {
   std::uint64_t step = 0;
   Shared<Scene> scene;
   Interaction interaction;
-  std::vector<MoveCollider> colliderMoves;  // to be done in the next frame
+  std::vector<ColliderMove> colliderMoves;  // to be done in the next frame
   SceneStack undo, redo;
 };
 

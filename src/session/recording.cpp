@@ -62,6 +62,11 @@ void fields(Io& io, MoveCollider& action) {
   io("position", action.position);
 }
 template <class Io>
+void fields(Io& io, TurnCollider& action) {
+  io("collider", action.collider);
+  io("turn", action.turn);
+}
+template <class Io>
 void fields(Io& io, SwitchBackend& action) {
   io("backend", action.backend);
 }
@@ -69,9 +74,9 @@ template <class Io>
 void fields(Io&, Restart&) {}
 
 // In the order of the variant Action.
-constexpr std::string_view actionNames[] = {"edit_scene",     "grab",   "move_hand", "release",
-                                            "set_pin",        "cut",    "blow",      "move_collider",
-                                            "switch_backend", "restart"};
+constexpr std::string_view actionNames[] = {
+    "edit_scene", "grab",          "move_hand",     "release",        "set_pin", "cut",
+    "blow",       "move_collider", "turn_collider", "switch_backend", "restart"};
 static_assert(std::size(actionNames) == std::variant_size_v<Action>);
 
 class Writer {

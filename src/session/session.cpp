@@ -9,6 +9,7 @@
 #include "scene/moved_collider.h"
 #include "session/action_checks.h"
 #include "session/carry_over.h"
+#include "session/moved_pins.h"
 
 namespace clothsim {
 
@@ -89,10 +90,21 @@ bool Session::apply(const Blow& blow) {
   return true;
 }
 
+// In the next frame.
+ColliderMove& Session::moveOf(std::size_t collider) {
+  std::vector<ColliderMove>& moves = now_.colliderMoves;
+  const auto found = std::ranges::find(moves, collider, &ColliderMove::collider);
+  return found != moves.end() ? *found : moves.emplace_back(ColliderMove{collider, std::nullopt});
+}
+
 bool Session::apply(const MoveCollider& move) {
-  std::erase_if(now_.colliderMoves,
-                [&](const MoveCollider& other) { return other.collider == move.collider; });
-  now_.colliderMoves.push_back(move);
+  moveOf(move.collider).position = move.position;
+  return true;
+}
+
+bool Session::apply(const TurnCollider& turn) {
+  std::optional<Matrix3>& whole = moveOf(turn.collider).turn;
+  whole = product(rotationMatrix(turn.turn), whole.value_or(identityMatrix));
   return true;
 }
 
@@ -121,7 +133,7 @@ void Session::changeScene(const Shared<Scene>& scene) {
   simulation_.solver().convertVelocities();
   // The edit may have removed a collider that was to be moved.
   std::erase_if(now_.colliderMoves,
-                [&](const MoveCollider& move) { return move.collider >= scene->colliders.size(); });
+                [&](const ColliderMove& move) { return move.collider >= scene->colliders.size(); });
   now_.scene = scene;
 }
 
@@ -148,7 +160,7 @@ void Session::redo() { goBetween(now_.redo, now_.undo); }
 void Session::goBetween(SceneStack& from, SceneStack& to) {
   if (from.empty()) return;
   const Shared<Scene> before = now_.scene;
-  changeScene(from.back());
+  changeScene(withHandsOf(*before, from.back()));
   record(EditScene{now_.scene});
   from.pop_back();
   to.push_back(before);
@@ -218,8 +230,8 @@ void Session::startColliderMoves() {
   if (now_.colliderMoves.empty()) return;
   Scene scene = *now_.scene;
   const double frame = 1 / scene.solver.framesPerSec, start = simulation_.time();
-  for (const MoveCollider& move : now_.colliderMoves)
-    scene = withColliderOnItsWay(std::move(scene), move.collider, move.position, start, start + frame);
+  for (const ColliderMove& move : now_.colliderMoves)
+    scene = withColliderOnItsWay(std::move(scene), move, start, start + frame);
   simulation_.configure(std::move(scene));
 }
 
@@ -228,9 +240,8 @@ void Session::finishColliderMoves() {
   const double time = simulation_.time();
   const auto moved = [&](const Shared<Scene>& scene) {
     Scene result = *scene;
-    for (const MoveCollider& move : now_.colliderMoves)
-      if (move.collider < scene->colliders.size())
-        result = withColliderAt(std::move(result), move.collider, move.position, time);
+    for (const ColliderMove& move : now_.colliderMoves)
+      if (move.collider < scene->colliders.size()) result = withColliderMoved(std::move(result), move, time);
     return Shared<Scene>(std::move(result));
   };
   now_.scene = moved(now_.scene);

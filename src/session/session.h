@@ -101,6 +101,7 @@ class Session {
   bool apply(const CutStroke& stroke);
   bool apply(const Blow& blow);
   bool apply(const MoveCollider& move);
+  bool apply(const TurnCollider& turn);
   bool apply(const SwitchBackend& to);
   bool apply(const Restart& restart);
   void record(const Action& action);
@@ -109,6 +110,7 @@ class Session {
   void goBetween(SceneStack& from, SceneStack& to);
   [[nodiscard]] std::optional<Divergence> stepFrame();
   [[nodiscard]] bool advance(int steps);
+  [[nodiscard]] ColliderMove& moveOf(std::size_t collider);
   void startColliderMoves();
   void finishColliderMoves();
   void dropLaterFrames();

@@ -4,10 +4,16 @@
 #include <cassert>
 #include <utility>
 
+#include "core/error.h"
+#include "core/thread_priority.h"
+#include "core/thread_team.h"
+
 namespace clothsim {
 
 StepThread::StepThread(std::function<void()> whenDone)
-    : whenDone_(std::move(whenDone)), thread_([this] { work(); }) {}
+    : whenDone_(std::move(whenDone)), thread_([this] { work(); }) {
+  isReady_.wait(false);
+}
 
 StepThread::~StepThread() {
   stop();
@@ -45,7 +51,19 @@ StepThread::Result StepThread::take() {
   return std::exchange(result_, {});
 }
 
+// Input and pictures come first, also before the threads that compute: these are as the one that starts them.
+void StepThread::goBehind() {
+  giveWay();
+  try {
+    ThreadTeam::shared();
+  } catch (const Error&) {  // the first step says what is wrong
+  }
+  isReady_ = true;
+  isReady_.notify_all();
+}
+
 void StepThread::work() {
+  goBehind();
   std::unique_lock lock(mutex_);
   for (;;) {
     changed_.wait(lock, [this] { return asked_ || ends_; });

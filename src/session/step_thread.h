@@ -24,7 +24,8 @@ class StepThread {
     std::exception_ptr error;
   };
 
-  // `whenDone` is called on the thread after each start(), for example to wake up who waits for events.
+  // The thread gives way to the others of the program, and so does ThreadTeam::shared() where it starts with
+  // this. `whenDone` is called on the thread after each start(), for example to wake up who waits for events.
   explicit StepThread(std::function<void()> whenDone = {});
   ~StepThread();
   StepThread(const StepThread&) = delete;
@@ -43,6 +44,7 @@ class StepThread {
   [[nodiscard]] bool waitFor(std::chrono::milliseconds time);
 
  private:
+  void goBehind();
   void work();
   [[nodiscard]] Result simulate();
 
@@ -55,6 +57,7 @@ class StepThread {
   std::condition_variable changed_;
   bool asked_ = false, ends_ = false;  // by mutex_
   std::atomic<bool> done_{false}, stopped_{false};
+  std::atomic<bool> isReady_{false};
   std::thread thread_;
 };
 

@@ -8,8 +8,6 @@ namespace clothsim {
 namespace {
 
 constexpr float fromCorner = 3.2f, armLength = 1.9f, markRadius = 0.62f;  // em
-const std::array<ImVec4, 3> colors{
-    {{0.86f, 0.37f, 0.40f, 1}, {0.50f, 0.74f, 0.36f, 1}, {0.36f, 0.58f, 0.90f, 1}}};
 constexpr std::array names{"X", "Y", "Z"};
 
 glm::vec2 middleOf(PictureArea area, float em) { return {area.width - fromCorner * em, fromCorner * em}; }
@@ -47,7 +45,7 @@ void drawAxes(const Camera& camera, PictureArea area) {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const glm::vec2 middle = middleOf(area, em());
   for (const AxisEnd& end : axisEnds(camera, area, em())) {
-    const ImVec4 color = colors[static_cast<std::size_t>(end.axis)];
+    const ImVec4 color = theme::axes[static_cast<std::size_t>(end.axis)];
     const float light = 0.8f + 0.2f * end.toViewer;  // what points away is darker
     const ImVec2 at{end.place.x, end.place.y};
     if (!end.positive) {

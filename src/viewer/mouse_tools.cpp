@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include "render/stage.h"
-#include "scene/moved_collider.h"
+#include <utility>
 
 namespace clothsim {
 namespace {
@@ -16,7 +14,8 @@ using Cursor = ViewerWindow::Cursor;
 constexpr double zoomPerStep = 0.88;   // factor for a step of the wheel
 constexpr double grabbedSpacings = 3;  // radius of a grab in spacings,
 constexpr double grabbedShare = 0.04;  // or as a part of the smaller side of the cloth
-constexpr double pinReach = 10;        // distance within which a click removes a pin [pixels]
+constexpr double pinReach = 10;        // distance within which a click removes a pin [pixels],
+constexpr double holdReach = 7;        // or takes hold of it
 constexpr double blowSpeed = 12;       // [m/s]
 constexpr double blowShare = 0.10;     // radius of the jet as a part of the distance to the camera's target
 constexpr double longestCut = 20;      // between two picks of a stroke [pixels]
@@ -24,7 +23,7 @@ constexpr int mostPicks = 12;          // for one movement of the mouse
 constexpr int edgeHalvings = 4;        // bisections to find where a cut crosses the outline
 constexpr double cellsBeyondTheEdge = 1.5;  // by which a cut that leaves the cloth is extended
 
-Vec3d toVec3d(glm::vec3 v) { return {v.x, v.y, v.z}; }
+glm::vec2 placeOf(Cursor cursor) { return {cursor.x, cursor.y}; }
 
 Pick pickAt(const MouseContext& context, Cursor cursor) {
   return context.renderer.pick(context.camera, context.width, context.height, cursor.x, cursor.y);
@@ -40,15 +39,16 @@ double grabRadius(const Piece& piece) {
   return std::max(grabbedSpacings * std::max(across, along), grabbedShare * side);
 }
 
-// The pinned particle that is drawn nearest to the cursor. It copies the whole state for one click.
-std::optional<std::uint32_t> pinUnder(const MouseContext& context, Cursor cursor) {
+// The pinned particle that is drawn nearest to the cursor, within `reach` [pixels]. It copies the whole state
+// for one click.
+std::optional<std::uint32_t> pinUnder(const MouseContext& context, Cursor cursor, double reach) {
   const std::vector<Particle4> positions = context.renderer.positions();
   std::optional<std::uint32_t> nearest;
-  double best = pinReach;
+  double best = reach;
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const Particle4& p = positions[i];
     if (p.w != 0) continue;
-    const auto place = placeInPicture(context.camera, context.width, context.height, {p.x, p.y, p.z});
+    const auto place = placeInPicture(context.view(), {p.x, p.y, p.z});
     if (!place) continue;
     const double distance =
         std::hypot(static_cast<double>(place->x) - cursor.x, static_cast<double>(place->y) - cursor.y);
@@ -74,24 +74,8 @@ LatticePoint overTheEdge(const Piece& piece, LatticePoint from, LatticePoint to)
 
 }  // namespace
 
-ViewRay rayThrough(const Camera& camera, int width, int height, Cursor cursor) {
-  const glm::mat4 clip = camera.projection(static_cast<double>(width) / height) * camera.view();
-  const glm::vec4 far =
-      glm::inverse(clip) * glm::vec4(2 * cursor.x / width - 1, 1 - 2 * cursor.y / height, 0.5, 1);
-  const glm::vec3 eye = camera.eye();
-  return {eye, glm::normalize(glm::vec3(far) / far.w - eye)};
-}
-
-std::optional<glm::vec2> placeInPicture(const Camera& camera, int width, int height, glm::vec3 point) {
-  const glm::vec4 clip =
-      camera.projection(static_cast<double>(width) / height) * camera.view() * glm::vec4(point, 1);
-  if (clip.w <= 0) return std::nullopt;
-  return glm::vec2{(clip.x / clip.w + 1) / 2 * static_cast<float>(width),
-                   (1 - clip.y / clip.w) / 2 * static_cast<float>(height)};
-}
-
 Vec3d MouseTools::targetAt(const MouseContext& context, Cursor cursor) const {
-  const ViewRay ray = rayThrough(context.camera, context.width, context.height, cursor);
+  const ViewRay ray = rayThrough(context.view(), placeOf(cursor));
   const float slope = glm::dot(ray.direction, planeNormal_);
   if (std::abs(slope) < 1e-4f) return toVec3d(grabbedPoint_);
   return toVec3d(ray.origin + glm::dot(grabbedPoint_ - ray.origin, planeNormal_) / slope * ray.direction);
@@ -99,8 +83,14 @@ Vec3d MouseTools::targetAt(const MouseContext& context, Cursor cursor) const {
 
 std::string MouseTools::press(const MouseContext& context, Button button, Cursor cursor, Modifiers held) {
   if (doing_ != Doing::nothing) return "";
+  isLetGo_ = false;
   button_ = button;
   last_ = cursor;
+  if (button == Button::left && !held.shift && !held.cuts && chosen_.pressHandle(context, placeOf(cursor))) {
+    doing_ = Doing::moveChosen;
+    wasChosen_ = false;
+    return "";
+  }
   if (button == Button::right || held.control) {
     doing_ = Doing::pan;
     return "";
@@ -114,22 +104,53 @@ std::string MouseTools::press(const MouseContext& context, Button button, Cursor
     return "";
   }
   if (held.shift) return pin(context, pick, cursor);
+  if (takePins(context, cursor)) return wasChosen_ ? "" : "Click again to take all pins of this cloth";
   grabbedPoint_ = pick.point;
   planeNormal_ = glm::normalize(context.camera.target() - context.camera.eye());
-  targetMoved_ = dragGoesOn_ = false;
+  targetMoved_ = hasOrbited_ = false;
   const auto& colliders = context.open.scene().colliders;
   if (pick.kind == Pick::Kind::cloth) {
     doing_ = Doing::grab;
     grab(context, pick);
   } else if (pick.kind == Pick::Kind::collider && !std::holds_alternative<Plane>(colliders[pick.collider])) {
     // Planes are not dragged: they fill the background, where dragging moves the camera.
-    doing_ = Doing::moveCollider;
-    collider_ = pick.collider;
-    offset_ = poseAt(colliders[collider_], context.open.time()).position - toVec3d(pick.point);
+    doing_ = Doing::moveChosen;
+    wasChosen_ = false;
+    chosen_.chooseSolid(pick.collider);
+    chosen_.takeHold(context, pick.point, placeOf(cursor));
   } else {
     doing_ = Doing::orbit;
   }
   return "";
+}
+
+bool MouseTools::takePins(const MouseContext& context, Cursor cursor) {
+  const auto pinned = pinUnder(context, cursor, holdReach);
+  if (!pinned) return false;
+  const Scene& scene = context.open.scene();
+  const std::optional<PinGroup> group = pinGroupOf(scene, context.open.cloth(), *pinned);
+  if (!group) return false;
+  const PinGroup whole = wholePinGroup(scene, group->cloth);
+  wasChosen_ = chosen_.isPins(*group) || chosen_.isPins(whole);
+  if (!wasChosen_) chosen_.choosePins(*group);
+  const Particle4 at = context.renderer.position(*pinned);
+  chosen_.takeHold(context, {at.x, at.y, at.z}, placeOf(cursor));
+  doing_ = Doing::moveChosen;
+  return true;
+}
+
+// A click without a movement: on pins that were chosen it goes between them and all pins of the cloth, on the
+// ground it chooses nothing.
+void MouseTools::endClick(const MouseContext& context) {
+  if (doing_ == Doing::orbit && !hasOrbited_) chosen_.chooseNothing();
+  if (doing_ != Doing::moveChosen || chosen_.hasMoved() || !wasChosen_) return;
+  const auto pinned = pinUnder(context, last_, holdReach);
+  const Scene& scene = context.open.scene();
+  const auto group = pinned ? pinGroupOf(scene, context.open.cloth(), *pinned) : std::nullopt;
+  if (!group) return;
+  PinGroup whole = wholePinGroup(scene, group->cloth);
+  const bool isWhole = chosen_.isPins(whole) || whole.pins.empty();
+  chosen_.choosePins(isWhole ? *group : std::move(whole));
 }
 
 void MouseTools::grab(const MouseContext& context, const Pick& pick) {
@@ -143,7 +164,7 @@ void MouseTools::grab(const MouseContext& context, const Pick& pick) {
 }
 
 std::string MouseTools::pin(const MouseContext& context, const Pick& pick, Cursor cursor) {
-  if (const auto pinned = pinUnder(context, cursor)) {
+  if (const auto pinned = pinUnder(context, cursor, pinReach)) {
     context.act(SetPin{*pinned, false}, false);
     return "Unpinned";
   }
@@ -152,21 +173,24 @@ std::string MouseTools::pin(const MouseContext& context, const Pick& pick, Curso
   return "Pinned";
 }
 
-void MouseTools::move(const MouseContext& context, Cursor cursor) {
+void MouseTools::move(const MouseContext& context, Cursor cursor, bool control) {
   const double dx = (cursor.x - last_.x) / context.height, dy = (last_.y - cursor.y) / context.height;
   if (dx == 0 && dy == 0) return;
   switch (doing_) {
     case Doing::nothing:
       break;
     case Doing::orbit:
+      hasOrbited_ = true;
       context.camera.orbit(-dx * std::numbers::pi, -dy * std::numbers::pi);
       break;
     case Doing::pan:
       context.camera.pan(-dx, -dy);  // the cloth follows the mouse
       break;
     case Doing::grab:
-    case Doing::moveCollider:
       targetMoved_ = true;
+      break;
+    case Doing::moveChosen:
+      chosen_.moveTo(context, placeOf(cursor), control);
       break;
     case Doing::cut:
       cutTo(context, cursor);
@@ -178,6 +202,8 @@ void MouseTools::move(const MouseContext& context, Cursor cursor) {
 void MouseTools::release(const MouseContext& context, Button button) {
   if (doing_ == Doing::nothing || button != button_) return;
   if (doing_ == Doing::grab) context.act(Release{}, false);
+  endClick(context);
+  if (doing_ == Doing::moveChosen) isLetGo_ = true;  // once where it is going is done
   doing_ = Doing::nothing;
   stroke_.clear();
 }
@@ -236,20 +262,10 @@ void MouseTools::beforeStep(const MouseContext& context, Cursor cursor, bool blo
     context.act(MoveHand{targetAt(context, cursor)}, false);
     targetMoved_ = false;
   }
-  if (doing_ == Doing::moveCollider && targetMoved_) {
-    const Vec3d place = targetAt(context, cursor) + offset_;
-    if (context.paused) {
-      // While the simulation is paused, moving a collider is an edit of the scene, which can be undone.
-      context.act(EditScene{withColliderAt(context.open.scene(), collider_, place, context.open.time())},
-                  dragGoesOn_);
-      dragGoesOn_ = true;
-    } else {
-      context.act(MoveCollider{collider_, place}, false);
-    }
-    targetMoved_ = false;
-  }
+  chosen_.apply(context);
+  if (std::exchange(isLetGo_, false)) chosen_.letGo();
   if (blows) {
-    const ViewRay ray = rayThrough(context.camera, context.width, context.height, cursor);
+    const ViewRay ray = rayThrough(context.view(), placeOf(cursor));
     const double distance = static_cast<double>(glm::length(context.camera.target() - context.camera.eye()));
     const Blow blow{toVec3d(ray.origin), toVec3d(ray.direction), blowSpeed, blowShare * distance};
     const bool same = blow_ && blow_->origin == blow.origin && blow_->direction == blow.direction;
@@ -266,6 +282,7 @@ void MouseTools::beforeStep(const MouseContext& context, Cursor cursor, bool blo
 void MouseTools::letGo(Session& session) {
   if (doing_ == Doing::grab && session.isGrabbing()) session.act(Release{});
   if (doing_ != Doing::orbit && doing_ != Doing::pan) doing_ = Doing::nothing;
+  chosen_.letGo();
   stroke_.clear();
 }
 
@@ -274,8 +291,7 @@ MouseMarks MouseTools::marks(const MouseContext& context, Cursor cursor) const {
   if (doing_ == Doing::grab) {
     marks.goal = {cursor.x, cursor.y};
     const Particle4 grabbed = context.renderer.position(grabbed_);
-    marks.grabbed =
-        placeInPicture(context.camera, context.width, context.height, {grabbed.x, grabbed.y, grabbed.z});
+    marks.grabbed = placeInPicture(context.view(), {grabbed.x, grabbed.y, grabbed.z});
   }
   if (blowing_) {
     marks.nozzle = {cursor.x, cursor.y};

@@ -1,28 +1,18 @@
-// What the mouse does: it grabs the cloth, moves colliders, pins, cuts and blows, and moves the camera where
-// nothing lies under it. Everything that changes the simulation goes through the session, which records it.
+// What the mouse does: it grabs the cloth, moves and turns solids and pins, pins, cuts and blows, and moves
+// the camera where nothing lies under it. Everything that changes the simulation goes through the session,
+// which records it.
 #pragma once
 
-#include <functional>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "viewer/open_scene.h"
+#include "viewer/chosen.h"
+#include "viewer/mouse_context.h"
 #include "viewer/viewer_window.h"
 
 namespace clothsim {
-
-// The scene under the mouse, shown in a picture of that size [pixels].
-struct MouseContext {
-  OpenScene& open;
-  SimulationRenderer& renderer;
-  Camera& camera;
-  int width, height;
-  bool paused;
-  // Session::act(), now or at the end of the frame that is being simulated.
-  std::function<void(const Action& action, bool continues)> act;
-};
 
 // What to draw over the picture, in pixels from its top left.
 struct MouseMarks {
@@ -45,7 +35,8 @@ class MouseTools {
   // Returns a message for the user, "" for none.
   std::string press(const MouseContext& context, ViewerWindow::Button button, ViewerWindow::Cursor cursor,
                     Modifiers held);
-  void move(const MouseContext& context, ViewerWindow::Cursor cursor);
+  // `control`: the handles of a gizmo move in steps.
+  void move(const MouseContext& context, ViewerWindow::Cursor cursor, bool control);
   void release(const MouseContext& context, ViewerWindow::Button button);
   void scroll(const MouseContext& context, double steps, ViewerWindow::Cursor cursor);
 
@@ -57,11 +48,16 @@ class MouseTools {
 
   [[nodiscard]] MouseMarks marks(const MouseContext& context, ViewerWindow::Cursor cursor) const;
   [[nodiscard]] bool isBusy() const { return doing_ != Doing::nothing || blowing_; }
+  [[nodiscard]] Chosen& chosen() { return chosen_; }
+  [[nodiscard]] const Chosen& chosen() const { return chosen_; }
 
  private:
-  enum class Doing { nothing, orbit, pan, grab, moveCollider, cut };
+  enum class Doing { nothing, orbit, pan, grab, moveChosen, cut };
 
   void grab(const MouseContext& context, const Pick& pick);
+  // Takes hold of pins under the cursor that can be moved.
+  bool takePins(const MouseContext& context, ViewerWindow::Cursor cursor);
+  void endClick(const MouseContext& context);
   std::string pin(const MouseContext& context, const Pick& pick, ViewerWindow::Cursor cursor);
   void cutTo(const MouseContext& context, ViewerWindow::Cursor cursor);
   void cutFromTo(const MouseContext& context, const Pick& from, const Pick& to);
@@ -70,25 +66,17 @@ class MouseTools {
   Doing doing_ = Doing::nothing;
   ViewerWindow::Button button_ = ViewerWindow::Button::left;
   ViewerWindow::Cursor last_;
-  // What is dragged moves in the plane through heldPoint_; offset_ leads from there to the collider's origin.
+  // The hand moves in the plane through grabbedPoint_.
   glm::vec3 grabbedPoint_{0}, planeNormal_{0, 0, 1};
-  Vec3d offset_;
-  std::size_t collider_ = 0;
   std::uint32_t grabbed_ = 0;
-  bool targetMoved_ = false, dragGoesOn_ = false;
+  bool targetMoved_ = false;
+  Chosen chosen_;
+  bool hasOrbited_ = false, wasChosen_ = false;  // since the press; what is pressed, before it
+  bool isLetGo_ = false;                         // the drag ends once it is applied
   Pick lastCut_;
   std::vector<glm::vec2> stroke_;
   bool blowing_ = false;
   std::optional<Blow> blow_;
 };
-
-// The ray from the eye through a place of the picture [pixels from the top left]; its direction has length 1.
-struct ViewRay {
-  glm::vec3 origin, direction;
-};
-[[nodiscard]] ViewRay rayThrough(const Camera& camera, int width, int height, ViewerWindow::Cursor cursor);
-// The place of a point of the world in the picture [pixels from the top left]; none behind the eye.
-[[nodiscard]] std::optional<glm::vec2> placeInPicture(const Camera& camera, int width, int height,
-                                                      glm::vec3 point);
 
 }  // namespace clothsim

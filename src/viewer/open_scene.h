@@ -59,9 +59,9 @@ class OpenScene {
   // Frames the scene for pictures of that size of which `covered` is hidden. A camera that the user has moved
   // stays.
   void frameFor(int width, int height, const CoveredEdges& covered);
-  void draw(int width, int height);  // into the lower left of the window
-  // The same in final quality, of what rests: one exposure more than the `exposures` that it has, all of them
-  // FINAL_EXPOSURES.
+  void draw(GLuint target, int width, int height);  // into the lower left of a framebuffer; 0: of the window
+  // Into the window, in final quality, of what rests: one exposure more than the `exposures` that it has, all
+  // of them FINAL_EXPOSURES.
   void refine(int exposures, int width, int height);
   [[nodiscard]] Image picture(int width, int height, int exposures = 1);
 

@@ -57,6 +57,7 @@ class SpeedMeter {
     simulated_ += simulated;
     frames_ += pictures;
     if (wall_ < windowSeconds) return;
+    isMeasured_ = true;
     framesPerSecond_ = frames_ / wall_;
     realTimeFactor_ = simulated_ / wall_;
     steppingShare_ = stepping_ / wall_;
@@ -71,15 +72,15 @@ class SpeedMeter {
   }
   [[nodiscard]] double steppingShare() const { return steppingShare_; }  // parts of the wall time
   [[nodiscard]] double drawingShare() const { return drawingShare_; }
-  [[nodiscard]] double framesPerSecond() const {
-    return framesPerSecond_;
-  }  // 0 before the first half second is over
+  [[nodiscard]] bool isMeasured() const { return isMeasured_; }  // once the first half second is over
+  [[nodiscard]] double framesPerSecond() const { return framesPerSecond_; }
   [[nodiscard]] double realTimeFactor() const { return realTimeFactor_; }
 
  private:
   static constexpr double windowSeconds = 0.5;  // [s]
   double wall_ = 0, simulated_ = 0, stepping_ = 0, drawing_ = 0;
   int frames_ = 0;
+  bool isMeasured_ = false;
   double framesPerSecond_ = 0, realTimeFactor_ = 0, steppingShare_ = 0, drawingShare_ = 0;
 };
 

@@ -144,6 +144,10 @@ bool UiFrame::hasPopup() const {
 }
 bool UiFrame::wantsKeys() const { return ImGui::GetIO().WantTextInput; }
 
+void UiFrame::closePopups() {
+  if (hasPopup()) ImGui::ClosePopupToLevel(0, false);
+}
+
 void UiFrame::loadFonts(double textScale) {
   textScale_ = textScale;
   const auto scale = static_cast<float>(textScale);

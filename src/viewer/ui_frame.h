@@ -4,6 +4,7 @@
 
 #include <imgui.h>
 
+#include <array>
 #include <optional>
 #include <string_view>
 
@@ -21,6 +22,9 @@ inline const ImVec4 plain{0.93f, 0.94f, 0.95f, 1}, quiet{0.62f, 0.66f, 0.71f, 1}
 inline const ImVec4 glass{0.07f, 0.08f, 0.10f, 0.72f},  // over the picture
     sheet{0.085f, 0.095f, 0.115f, 0.96f},               // for text
     column{0.105f, 0.115f, 0.137f, 1}, keyCap{0.22f, 0.245f, 0.29f, 1};
+inline const std::array<ImVec4, 3> axes{
+    // x, y, z
+    {{0.86f, 0.37f, 0.40f, 1}, {0.50f, 0.74f, 0.36f, 1}, {0.36f, 0.58f, 0.90f, 1}}};
 }  // namespace theme
 
 class UiFrame {
@@ -41,6 +45,7 @@ class UiFrame {
   [[nodiscard]] bool wantsMouse() const;  // as of the last frame
   [[nodiscard]] bool hasPopup() const;    // whether a list or a colour picker is open
   [[nodiscard]] bool wantsKeys() const;   // whether the user is typing
+  void closePopups();
 
  private:
   void loadFonts(double textScale);

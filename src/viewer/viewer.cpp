@@ -19,6 +19,8 @@ namespace {
 
 constexpr float panelsFrom =
     54;  // width of the window in em from which the panels are open at the first start
+constexpr double quickPicture = 0.015;         // takes so long at most [s]
+constexpr double slowSeconds = 2.5;            // after which remedies are tried
 constexpr double longestWait = 0.25;           // for input [s]: notices disappear
 constexpr double mostSimulationSeconds = 0.1;  // between two pictures, where a frame takes less
 
@@ -76,7 +78,9 @@ std::optional<LostSession> Viewer::run() {
 
 void Viewer::iterate() {
   timings_.time(FrameTimings::input, [&] { waitForInput(); });
-  if (sceneToOpen_ && !isStepping()) attempt([&] { openScene(*std::exchange(sceneToOpen_, std::nullopt)); });
+  if (sceneToOpen_ && !isStepping() &&
+      !attempt([&] { openScene(*std::exchange(sceneToOpen_, std::nullopt)); }))
+    tellDialog();
   const double elapsed = clock_.lap();
   now_ += elapsed;
   notice_.secondsLeft -= elapsed;
@@ -87,6 +91,7 @@ void Viewer::iterate() {
   const bool draws = frames > 0 || drawsLeft_ > 0 || !steps_.isBusy() || now_ - lastDrawn_ > longestWait ||
                      !window_.inputQueue().isEmpty();
   meter_.add(elapsed, frames * open_->frameSeconds(), draws ? 1 : 0);
+  watchPace(elapsed);
   timings_.simulated(frames * open_->frameSeconds());
   if (!draws) return;
   lastDrawn_ = now_;
@@ -127,6 +132,7 @@ CoveredEdges Viewer::coveredEdges() const {
 
 // Computed here, since Dear ImGui learns the position of the mouse only in the next frame.
 bool Viewer::isOverPicture(ViewerWindow::Cursor cursor) const {
+  if (dialog_.isOpen()) return false;
   const PictureArea area = pictureArea();
   const bool inside = cursor.x >= 0 && cursor.x < static_cast<double>(area.width) && cursor.y >= 0 &&
                       cursor.y < static_cast<double>(area.height - timelineHeight());
@@ -138,6 +144,11 @@ std::optional<AxisEnd> Viewer::axisEndUnder(ViewerWindow::Cursor cursor) const {
   return axisEndAt(open_->camera(), pictureArea(), textHeight(), glm::vec2(cursor.x, cursor.y));
 }
 
+std::optional<GizmoMode> Viewer::gizmoButtonUnder(ViewerWindow::Cursor cursor) const {
+  if (!config_.showOverlay) return std::nullopt;
+  return gizmoButtonAt(pictureArea().width, textHeight(), glm::vec2(cursor.x, cursor.y));
+}
+
 MouseContext Viewer::mouseContext() {
   const PictureArea area = pictureArea();
   return {*open_,
@@ -145,6 +156,7 @@ MouseContext Viewer::mouseContext() {
           open_->camera(),
           std::max(1, static_cast<int>(area.width)),
           std::max(1, static_cast<int>(area.height)),
+          textHeight(),
           paused_,
           [this](const Action& action, bool continues) {
             whenIdle([=, this] { session().act(action, continues); });
@@ -181,7 +193,7 @@ int Viewer::simulate(double elapsed) {
     mouse_.beforeStep(mouseContext(), window_.cursor(), blows);
   });
   const double unpaced = std::exchange(unpaced_, 0);
-  if (compare_.isRunning() || sceneToOpen_ || lost_) return done;
+  if (compare_.isRunning() || sceneToOpen_ || lost_ || tryRemedies()) return done;
   if (startsAgain()) {
     restart();
     say("Starts again, until you touch the cloth or change something");
@@ -214,6 +226,7 @@ int Viewer::stepFrames(int frames) {
 
 // On the CPU: the thread has the session until takeFrames(), and this one shows the state from before.
 void Viewer::startFrames(int frames) {
+  shownVersion_ = session().simulation().version();
   open_->hold();
   steps_.start(session(), frames, mostSimulationSeconds);
 }
@@ -254,9 +267,16 @@ void Viewer::doWaiting() {
 
 // Before the end: a step that does not end soon ends with the program.
 void Viewer::endFrames() {
+  if (trials_.isRunning() && !trials_.isDone()) leaveAtOnce();
   if (!steps_.isBusy()) return;
   steps_.stop();
   if (lost_ || steps_.waitFor(std::chrono::milliseconds(150))) return static_cast<void>(takeFrames());
+  leaveAtOnce();
+}
+
+// Without waiting for other threads.
+void Viewer::leaveAtOnce() {
+  std::fputs(timings_.report().c_str(), stderr);
   std::fflush(nullptr);
   std::_Exit(0);
 }
@@ -290,19 +310,47 @@ void Viewer::draw() {
 void Viewer::drawPicture(int width, int height) {
   open_->frameFor(width, height, coveredEdges());
   const bool rests = paused_ && drawsLeft_ <= 0;
-  const bool whole = rests || taker_.recordedSeconds() || !gl::currentContextInfo().software;
-  open_->renderer().renderer().setScale(whole ? 1 : drawScale_.scale());
+  const bool software = gl::currentContextInfo().software;
+  const bool whole = rests || taker_.recordedSeconds() || !software;
   if (rests && quality_ == Quality::final) {
+    kept_.forget();
+    open_->renderer().renderer().setScale(1);
     open_->refine(exposures_, width, height);
     exposures_ = std::min(exposures_ + 1, FINAL_EXPOSURES);
     return;
   }
   exposures_ = 0;
+  if (!software) return open_->draw(0, width, height);
+  const PictureKey key = pictureKey(width, height);
+  // What the input has changed over the picture is shown first, where a new one takes its time; never twice
+  // in a row.
+  answersFirst_ = std::exchange(hasInput_, false) && !answersFirst_ && !paused_ &&
+                  pictureSeconds_ > quickPicture && kept_.looksLike(key, whole ? 1 : drawScale_.scale());
+  if (!answersFirst_) drawInto(key, whole);
+  gl::bindFramebuffer(0);  // of the window
+  kept_.show();
+}
+
+void Viewer::drawInto(const PictureKey& key, bool whole) {
+  const double scale = whole ? 1 : drawScale_.scale();
+  if (kept_.isOf(key, scale)) return;
+  open_->renderer().renderer().setScale(scale);
   LapClock clock;
-  open_->draw(width, height);
+  open_->draw(kept_.drawInto(key.width, key.height), key.width, key.height);
+  kept_.drawn(key, scale);
   if (whole) return;
   gl::finish();
-  drawScale_.drawn(clock.lap());
+  pictureSeconds_ = clock.lap();
+  drawScale_.drawn(pictureSeconds_);
+}
+
+PictureKey Viewer::pictureKey(int width, int height) {
+  if (!steps_.isBusy()) shownVersion_ = session().simulation().version();  // as it stays while a thread steps
+  const Camera& camera = open_->camera();
+  return {camera.view(), camera.projection(double(width) / height),
+          width,         height,
+          open_->view,   &open_->scene(),
+          open_->time(), shownVersion_};
 }
 
 // To be called between two pictures, since picking draws into another framebuffer.
@@ -319,7 +367,7 @@ void Viewer::measure() {
 void Viewer::drawControls() {
   const PictureArea area = pictureArea();
   drawMarks(mouse_.marks(mouseContext(), window_.cursor()));
-  if (config_.showOverlay) drawAxes(open_->camera(), area);
+  drawGizmos();
   const float neededByOthers = showKeys_ ? 66.0f : compare_.isOpen() ? 40.0f : 0.0f;  // em
   if (config_.showOverlay && area.width >= neededByOthers * em())
     drawFacts(viewerFacts(*open_, meter_, paused_, looksBack(), tempo_, refinedExposures(),
@@ -327,7 +375,7 @@ void Viewer::drawControls() {
               area);
   if (showsPanels()) drawPanels();
   if (const std::optional<PaceAdvice> offered = advice(); offered && config_.showOverlay && !showKeys_)
-    if (drawAdvice(offered->cause, offered->button, area, timelineHeight())) requests_.advice = offered;
+    requests_.remedy = drawAdvice(*offered, tempo_, area, timelineHeight());
   const SessionFacts now = open_->facts();
   requests_.timeline = drawTimeline({now.oldestFrame, now.frame, now.newestFrame, now.frameSinceStart,
                                      open_->frameSeconds(), paused_, tempo_, taker_.recordedSeconds()},
@@ -335,6 +383,21 @@ void Viewer::drawControls() {
   compare_.draw(area);
   if (notice_.secondsLeft > 0) drawNotice(notice_.text, notice_.isError, area, timelineHeight());
   if (showKeys_) drawKeyList(area);
+  const bool wasOpen = std::exchange(dialogShown_, dialog_.isOpen());
+  if (wasOpen && !dialog_.isOpen()) ui_.closePopups();
+  requests_.file = dialog_.draw();
+  if (dialog_.isOpen()) config_.folder = dialog_.folder().string();
+}
+
+void Viewer::drawGizmos() {
+  const ViewerWindow::Cursor cursor = window_.cursor();
+  const glm::vec2 place(cursor.x, cursor.y);
+  const MouseContext context = mouseContext();
+  mouse_.chosen().draw(context, isOverPicture(cursor) ? std::optional(place) : std::nullopt);
+  if (!config_.showOverlay) return;
+  drawAxes(open_->camera(), pictureArea());
+  const bool isShown = mouse_.chosen().gizmo(context).has_value();
+  drawGizmoButtons(pictureArea().width, isShown ? std::optional(mouse_.chosen().mode) : std::nullopt, place);
 }
 
 void Viewer::drawPanels() {
@@ -342,8 +405,15 @@ void Viewer::drawPanels() {
   const glm::vec3 target = open_->camera().target();
   const std::string name = open_->name();
   const SessionFacts facts = open_->facts();
-  PanelContext context{draft_, widgets_, facts, open_->backend(), open_->view, {target.x, target.y, target.z},
-                       name,   quality_};
+  PanelContext context{draft_,
+                       widgets_,
+                       facts,
+                       open_->backend(),
+                       open_->view,
+                       {target.x, target.y, target.z},
+                       name,
+                       quality_,
+                       mouse_.chosen().solid()};
   column_.draw(context, config_);
   requests_.edits = widgets_.takeEdits();
   requests_.panels = std::move(context.requests);
@@ -359,7 +429,8 @@ void Viewer::applyRequests() {
   if (panels != PanelRequests{}) whenIdle([=, this] { apply(panels); });
   if (timeline != TimelineRequests{}) whenIdle([=, this] { apply(timeline); });
   if (timeline.slowMotion) atOnce([this] { act(ViewerAction::slowMotion); });
-  if (asked.advice) whenIdle([this, advice = *asked.advice] { apply(advice); });
+  if (asked.file) openChosen(*asked.file);
+  if (asked.remedy) whenIdle([this, remedy = *asked.remedy] { apply(remedy); });
 }
 
 void Viewer::apply(const FieldEdits& edits) {
@@ -388,6 +459,7 @@ void Viewer::apply(const PanelRequests& requests) {
       restart();
     }
     if (requests.saveCurves) saveCurves();
+    if (requests.chooseSolid) mouse_.chosen().chooseSolid(*requests.chooseSolid);
     if (requests.openScene) sceneToOpen_ = requests.openScene;
   });
 }
@@ -403,17 +475,54 @@ void Viewer::apply(const TimelineRequests& requests) {
   });
 }
 
-std::optional<PaceAdvice> Viewer::advice() const {
-  if (paused_ || compare_.isRunning() || meter_.framesPerSecond() == 0) return std::nullopt;
-  return adviceFor({meter_.realTimeFactor() / tempo_, meter_.steppingShare(), meter_.drawingShare()},
-                   open_->scene(), quality_, gl::currentContextInfo().software, open_->backend());
+PaceFigures Viewer::paceFigures() const {
+  return {meter_.realTimeFactor() / tempo_, meter_.steppingShare(), meter_.drawingShare(), tempo_};
 }
 
-void Viewer::apply(const PaceAdvice& advice) {
+std::optional<PaceAdvice> Viewer::advice() const {
+  if (paused_ || compare_.isRunning() || !meter_.isMeasured()) return std::nullopt;
+  if (trials_.isRunning()) return PaceAdvice{"Trying what would help ..."};
+  if (!isSlow(paceFigures()) || remedies_.empty() ||
+      triedFor_ != std::pair(&open_->scene(), open_->backend()))
+    return std::nullopt;
+  return PaceAdvice{causeOf(paceFigures()), bestOf(remedies_, paceFigures())};
+}
+
+void Viewer::watchPace(double elapsed) {
+  const bool waits = paused_ || compare_.isRunning() || mouse_.isBusy() || !meter_.isMeasured();
+  slowFor_ = !waits && isSlow(paceFigures()) ? slowFor_ + elapsed : 0;
+}
+
+// Once the scene has been slow for a while, and while nothing is stepped. Returns whether trials go on.
+bool Viewer::tryRemedies() {
+  if (trials_.isDone()) {
+    remedies_ = trials_.take();
+    meter_ = {};
+    slowFor_ = 0;
+    pace_ = Pace(open_->frameSeconds());
+  }
+  if (trials_.isRunning()) return true;
+  const std::pair now(&open_->scene(), open_->backend());
+  if (slowFor_ < slowSeconds || triedFor_ == now) return false;
+  triedFor_ = now;
+  remedies_.clear();
   attempt([&] {
-    if (advice.quality) setQuality(*advice.quality);
-    if (advice.backend) switchBackend(*advice.backend);
-    if (advice.scene) edit(*advice.scene, false);
+    std::vector<PaceRemedy> remedies = remediesFor(paceFigures(), open_->scene(), quality_,
+                                                   gl::currentContextInfo().software, open_->backend());
+    Simulation& simulation = session().simulation();
+    trials_.start(std::move(remedies), open_->sharedScene(), simulation.sharedCloth(), simulation.state(),
+                  tempo_);
+  });
+  return trials_.isRunning();
+}
+
+void Viewer::apply(const PaceRemedy& remedy) {
+  attempt([&] {
+    if (remedy.quality) setQuality(*remedy.quality);
+    if (remedy.backend) switchBackend(*remedy.backend);
+    if (remedy.scene) edit(*remedy.scene, false);
+    if (remedy.tempo) tempo_ = *remedy.tempo;
+    meter_ = {};
   });
 }
 

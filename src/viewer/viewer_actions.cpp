@@ -11,6 +11,7 @@
 #include "output/numbered_files.h"
 #include "render/shading_models.h"
 #include "scene_io/scene_io.h"
+#include "viewer/mesh_scene.h"
 #include "viewer/viewer_facts.h"
 #include "viewer/viewer_program.h"
 
@@ -29,7 +30,7 @@ void Viewer::listen() {
                        bool shift) { atOnce([=, this] { onPress(button, cursor, control, shift); }); },
        .move =
            [this](ViewerWindow::Cursor cursor) {
-             atOnce([=, this] { mouse_.move(mouseContext(), cursor); });
+             atOnce([=, this] { mouse_.move(mouseContext(), cursor, window_.holdsControl()); });
            },
        .release =
            [this](ViewerWindow::Button button) {
@@ -43,13 +44,14 @@ void Viewer::listen() {
            },
        .drop =
            [this](const std::vector<std::string>& paths) {
-             if (!paths.empty()) sceneToOpen_ = paths.front();
+             if (!paths.empty()) drop(paths.front());
            }});
 }
 
 // Input that comes within a frame is handled at the end of the frame.
 void Viewer::whenIdle(std::function<void()> task) {
   drawsLeft_ = drawsAfterInput;
+  hasInput_ = true;
   if (isStepping())
     waiting_.push_back(std::move(task));
   else
@@ -61,11 +63,13 @@ void Viewer::whenIdle(std::function<void()> task) {
 void Viewer::atOnce(std::function<void()> task) {
   if (stepping_) return whenIdle(std::move(task));
   drawsLeft_ = drawsAfterInput;
+  hasInput_ = true;
   attempt(task);
 }
 
 void Viewer::onKey(const KeyStroke& stroke, bool repeated) {
-  const ViewerAction action = ui_.wantsKeys() ? ViewerAction::none : actionOf(stroke);
+  const bool isTyping = ui_.wantsKeys() || (dialog_.isOpen() && actionOf(stroke) != ViewerAction::quit);
+  const ViewerAction action = isTyping ? ViewerAction::none : actionOf(stroke);
   if (action == ViewerAction::quit) return escape();  // never waits for a frame
   // A key that is held repeats only actions for which that makes sense.
   const bool repeats = action == ViewerAction::stepBack || action == ViewerAction::stepForward ||
@@ -80,11 +84,14 @@ void Viewer::onKey(const KeyStroke& stroke, bool repeated) {
 // Closes what is open over the picture, else the window.
 void Viewer::escape() {
   drawsLeft_ = drawsAfterInput;
+  if (isLoading_) return window_.requestClose();
+  if (dialog_.isOpen()) return dialog_.close();
   if (compare_.isOpen()) return compare_.close();
   if (showKeys_) {
     showKeys_ = false;
     return;
   }
+  if (mouse_.chosen().gizmo(mouseContext())) return mouse_.chosen().chooseNothing();
   window_.requestClose();
 }
 
@@ -92,6 +99,7 @@ void Viewer::onPress(ViewerWindow::Button button, ViewerWindow::Cursor cursor, b
   if (!isOverPicture(cursor)) return;
   if (!compare_.isRunning()) compare_.close();
   if (const auto end = axisEndUnder(cursor)) return open_->camera().lookFrom(end->axis, end->positive);
+  if (const auto mode = gizmoButtonUnder(cursor)) return showGizmo(*mode);
   const std::string said =
       mouse_.press(mouseContext(), button, cursor, {control, shift, window_.holds(cutKey)});
   if (said.empty()) return;
@@ -132,6 +140,11 @@ void Viewer::act(ViewerAction action) {
       setQuality(
           static_cast<Quality>((static_cast<int>(quality_) + 1) % static_cast<int>(qualityNames.size())));
       return say("Quality of the picture: " + std::string(nameOf(quality_)));
+    case ViewerAction::nextGizmo: {
+      const bool isShown = mouse_.chosen().gizmo(mouseContext()).has_value();
+      const bool isMove = mouse_.chosen().mode == GizmoMode::move;
+      return showGizmo(isShown == isMove ? GizmoMode::rotate : GizmoMode::move);
+    }
     case ViewerAction::resetCamera:
       return open_->camera().reset();
     case ViewerAction::viewFromRight:
@@ -166,6 +179,11 @@ void Viewer::act(ViewerAction action) {
 }
 
 void Viewer::actOnFile(ViewerAction action) {
+  if (action == ViewerAction::openFile) return dialog_.open(config_.folder);
+  if (action == ViewerAction::reloadScene) {
+    sceneToOpen_ = open_->source();
+    return;
+  }
   const PictureArea area = pictureArea();
   const int width = static_cast<int>(area.width), height = static_cast<int>(area.height);
   if (action == ViewerAction::screenshot)
@@ -221,9 +239,18 @@ void Viewer::nextShader() {
   say("Shading model: " + scene.render.shader);
 }
 
+void Viewer::showGizmo(GizmoMode mode) {
+  Chosen& chosen = mouse_.chosen();
+  if (chosen.isDragged()) return;
+  chosen.mode = mode;
+  if (!chosen.gizmo(mouseContext()) && !chosen.chooseFirst(mouseContext()))
+    say("This scene has neither solids nor pins that can be moved");
+}
+
 void Viewer::setQuality(Quality quality) {
   quality_ = quality;
   drawScale_ = DrawScale(pictureBudget(quality));
+  kept_.forget();
   if (open_) open_->renderer().setOptions(renderOptions());
 }
 
@@ -274,8 +301,8 @@ std::unique_ptr<OpenScene> Viewer::load(const std::string& source,
                                         const std::function<std::unique_ptr<OpenScene>()>& make) {
   const std::string name = std::filesystem::path(source).stem().string();
   window_.setTitle(title_ = name + " - loading - clothsim");
-  stepping_ = true;              // delays input
-  for (int i = 0; i < 2; ++i) {  // a window that was just opened may lose its first picture
+  stepping_ = isLoading_ = true;  // delays input
+  for (int i = 0; i < 2; ++i) {   // a window that was just opened may lose its first picture
     ui_.begin(textScale());
     drawLoading(name);
     ui_.end();
@@ -301,7 +328,7 @@ std::unique_ptr<OpenScene> Viewer::load(const std::string& source,
     std::_Exit(0);  // without waiting for the thread
   }
   window_.takeContext();
-  stepping_ = false;
+  stepping_ = isLoading_ = false;
   waiting_.clear();  // input while the scene was loading
   clock_.lap();
   return making.get();
@@ -310,19 +337,59 @@ std::unique_ptr<OpenScene> Viewer::load(const std::string& source,
 void Viewer::openScene(const std::string& source) {
   const std::string backend = open_->backend();
   std::unique_ptr<OpenScene> next = load(source, [&] {
-    return std::make_unique<OpenScene>(loadSceneByName(source), source, backend, renderOptions());
+    const bool isMesh = kindOfFile(source) == FileKind::mesh;
+    return std::make_unique<OpenScene>(isMesh ? sceneOfMesh(source) : loadSceneByName(source), source,
+                                       backend, renderOptions());
   });
+  dialog_.close();
   next->view = open_->view;
+  if (source == open_->source())
+    next->camera() = open_->camera();  // whoever edits a scene looks at the same place
   taker_.abandonClip();
   compare_.close();
   mouse_ = {};
+  trials_.abandon();
+  triedFor_.first = nullptr;
   open_ = std::move(next);
+  kept_.forget();
   watchSteps();
   column_.measures().forget();
   pace_ = Pace(open_->frameSeconds());
   draftHeld_ = paused_ = false;
   notice_ = {};
   warnOfPaths();
+}
+
+// Of a mesh the dialog asks what it is to be.
+void Viewer::drop(const std::string& path) {
+  drawsLeft_ = drawsAfterInput;
+  if (kindOfFile(path) == FileKind::mesh)
+    dialog_.openAt(path);
+  else
+    sceneToOpen_ = path;
+}
+
+// While a frame is simulated another scene waits for its end, and so does a solid.
+void Viewer::openChosen(const OpenChoice& choice) {
+  if (choice.use != OpenChoice::Use::solid) {
+    sceneToOpen_ = choice.path;
+    return;
+  }
+  whenIdle([=, this] {
+    const bool went = attempt([&] {
+      edit(withMeshSolid(open_->scene(), choice.path, toVec3d(open_->camera().target())), false);
+      say("The mesh is a solid of this scene now (Ctrl+Z takes it out)", longNoticeSeconds);
+      mouse_.chosen().chooseSolid(open_->scene().colliders.size() - 1);
+    });
+    went ? dialog_.close() : tellDialog();
+  });
+}
+
+// What was wrong, where the user chose it.
+void Viewer::tellDialog() {
+  if (!dialog_.isOpen()) return;
+  dialog_.complain(notice_.text);
+  notice_ = {};
 }
 
 void Viewer::warnOfPaths() {
@@ -363,6 +430,7 @@ void Viewer::saveCurves() {
 }
 
 void Viewer::reloadShaders() {
+  kept_.forget();
   if (const std::optional<std::string> divergence = open_->renderer().renderer().reloadShaders())
     notice_ = {*divergence + "\nThe previous shaders are still in use.", 1e9, true};
   else

@@ -31,6 +31,8 @@ ViewerConfig parse(const std::string& text) {
     for (std::size_t i = 0; i < panelNames.size(); ++i)  // a name of another version is passed over
       if (panelNames[i] == name) config.panel = static_cast<PanelName>(i);
   }
+  if (const auto folder = json.find("folder"); folder != json.end())
+    config.folder = folder->get<std::string>();
   if (const auto size = json.find("text_size"); size != json.end())
     config.textSize = std::clamp(size->get<double>(), LEAST_TEXT_SIZE, LARGEST_TEXT_SIZE);
   return config;
@@ -67,10 +69,13 @@ std::string saveViewerConfig(const ViewerConfig& config, const fs::path& path) {
   json["show_overlay"] = config.showOverlay;
   json["panel"] = std::string(nameOf(config.panel));
   json["text_size"] = config.textSize;
+  if (!config.folder.empty()) json["folder"] = config.folder;
   std::error_code ignored;  // the writer complains
   fs::create_directories(path.parent_path(), ignored);
   try {
-    writeFileAtomically(path, json.dump(2) + "\n");
+    const auto replaced =
+        nlohmann::json::error_handler_t::replace;  // what is no UTF-8 in the name of a folder
+    writeFileAtomically(path, json.dump(2, ' ', false, replaced) + "\n");
   } catch (const Error& error) {
     return error.what();
   }

@@ -25,6 +25,7 @@ struct ViewerConfig {
   std::optional<bool> showPanels;
   bool showOverlay = true;
   PanelName panel = PanelName::scene;  // that is open
+  std::string folder;                  // that the open dialog showed last; empty: none
   double textSize = 1;                 // times the size that fits the window and the desktop, LEAST_TEXT_SIZE
                                        // to LARGEST_TEXT_SIZE
   friend bool operator==(const ViewerConfig&, const ViewerConfig&) = default;

@@ -42,7 +42,7 @@ std::string gridSizes(const Cloth& cloth) {
 
 OverlayFacts::Row speedRow(const OpenScene& open, const SpeedMeter& meter, double tempo) {
   const double factor = meter.realTimeFactor();
-  if (meter.framesPerSecond() == 0) return {"speed", "measuring", false, true};
+  if (!meter.isMeasured()) return {"speed", "measuring", false, true};
   const bool slow = factor < 0.95 * tempo;
   // A software renderer is the CPU, and slower than the CPU backend.
   const bool cpuMayBeFaster = slow && gl::currentContextInfo().software && open.backend() == "gpu";
@@ -80,7 +80,7 @@ OverlayFacts viewerFacts(const OpenScene& open, const SpeedMeter& meter, bool pa
     facts.rows.push_back({"speed", looksBack ? "in the past (P: resume)" : "paused (P: resume)", true, true});
   else
     facts.rows.push_back(speedRow(open, meter, tempo));
-  if (meter.framesPerSecond() > 0 && !paused)
+  if (meter.isMeasured() && !paused)
     facts.rows.push_back({"display", formatted("%.0f frames/s", meter.framesPerSecond())});
   if (exposures)
     facts.rows.push_back(

@@ -21,6 +21,7 @@ enum class ViewerAction {
   slowMotion,
   nextShader,
   nextQuality,
+  nextGizmo,
   resetCamera,
   viewFromFront,
   viewFromRight,
@@ -29,6 +30,8 @@ enum class ViewerAction {
   redo,
   screenshot,
   recordClip,
+  openFile,
+  reloadScene,
   saveScene,
   saveRecording,
   toggleKeyList,
@@ -50,12 +53,14 @@ struct ViewerKey {
 inline constexpr std::string_view blowKey = "W", cutKey = "X";
 
 inline constexpr std::array viewerKeys{
-    ViewerKey{"Left drag", "on cloth: grab it; on a solid: move it; elsewhere: orbit"},
+    ViewerKey{"Left drag", "on cloth: grab it; on a solid or a pin: move it; elsewhere: orbit"},
     ViewerKey{"Right drag", "pan (also Ctrl + left drag)"},
     ViewerKey{"Wheel", "zoom towards the cursor"},
     ViewerKey{"Shift+click", "pin the cloth here, or unpin it"},
     ViewerKey{blowKey, "hold: blow at what is under the cursor"},
     ViewerKey{cutKey, "hold and drag: cut the cloth"},
+    ViewerKey{"G", "handles of the chosen solid or pins: move / turn (Ctrl: in steps)",
+              ViewerAction::nextGizmo},
     ViewerKey{"Space", "reset the camera", ViewerAction::resetCamera},
     ViewerKey{"1", "look from the front; again: from behind", ViewerAction::viewFromFront},
     ViewerKey{"2", "look from the right; again: from the left", ViewerAction::viewFromRight},
@@ -75,6 +80,8 @@ inline constexpr std::array viewerKeys{
     ViewerKey{"Ctrl+Shift+Z", "redo it", ViewerAction::redo},
     ViewerKey{"Ctrl+P", "screenshot", ViewerAction::screenshot},
     ViewerKey{"Ctrl+R", "start / stop recording a clip", ViewerAction::recordClip},
+    ViewerKey{"Ctrl+O", "open a scene or a mesh", ViewerAction::openFile},
+    ViewerKey{"Ctrl+L", "load the scene's file anew", ViewerAction::reloadScene},
     ViewerKey{"Ctrl+S", "save the scene", ViewerAction::saveScene},
     ViewerKey{"Ctrl+Shift+S", "save your actions, for run --replay", ViewerAction::saveRecording},
     ViewerKey{"F1", "show / hide this list", ViewerAction::toggleKeyList},
@@ -113,6 +120,8 @@ struct KeyStroke {
     case ViewerAction::viewFromRight:
     case ViewerAction::viewFromTop:
     case ViewerAction::nextQuality:
+    case ViewerAction::nextGizmo:
+    case ViewerAction::openFile:
     case ViewerAction::slowMotion:
     case ViewerAction::toggleKeyList:
     case ViewerAction::toggleOverlay:

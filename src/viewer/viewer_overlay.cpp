@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/formatted.h"
 #include "viewer/ui_frame.h"
 #include "viewer/viewer_keys.h"
 
@@ -125,13 +126,31 @@ void drawLoading(const std::string& name) {
   ImGui::PopStyleColor();
 }
 
-bool drawAdvice(const std::string& cause, const std::string& button, PictureArea area, float lift) {
+std::optional<PaceRemedy> drawAdvice(const PaceAdvice& advice, double tempo, PictureArea area, float lift) {
+  std::optional<PaceRemedy> pressed;
+  float widest = 0;
+  for (const PaceRemedy& remedy : advice.remedies)
+    widest = std::max(widest, ImGui::CalcTextSize(remedy.name.c_str()).x);
+  const float width = widest + 2 * ImGui::GetStyle().FramePadding.x;
   ImGui::SetNextWindowPos({0.8f * em(), area.height - lift - 0.8f * em()}, ImGuiCond_Always, {0, 1});
   ImGui::PushStyleColor(ImGuiCol_WindowBg, theme::glass);
   ImGui::Begin("advice", nullptr, overlayFlags & ~ImGuiWindowFlags_NoInputs);
-  coloredText(cause, theme::alert);
-  const bool pressed = ImGui::Button((button + "###advice").c_str());
-  helpTip("Would bring the scene nearer to its pace. A change of the cloth can be undone (Ctrl+Z).");
+  coloredText(advice.cause, theme::alert);
+  for (const PaceRemedy& remedy : advice.remedies) {
+    if (ImGui::Button(remedy.name.c_str(), {width, 0})) pressed = remedy;
+    helpTip(remedy.tempo
+                ? "As it runs anyway, but evenly (S)."
+                : "Tried on this machine just now. A change of the cloth or the solver can be undone "
+                  "(Ctrl+Z).");
+    if (!remedy.pace) continue;
+    ImGui::SameLine();
+    ImGui::AlignTextToFramePadding();
+    const bool holds = *remedy.pace >= 0.95 * tempo;
+    coloredText(remedy.tempo ? "steady"
+                : holds      ? "real time"
+                             : formatted("%.2f\u00d7", *remedy.pace),
+                holds || remedy.tempo ? theme::good : theme::quiet);
+  }
   ImGui::End();
   ImGui::PopStyleColor();
   return pressed;

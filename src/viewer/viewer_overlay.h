@@ -2,8 +2,11 @@
 // called between UiFrame::begin() and end().
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "viewer/pace_advice.h"
 
 namespace clothsim {
 
@@ -27,10 +30,10 @@ void drawFacts(const OverlayFacts& facts, PictureArea area);
 void drawKeyList(PictureArea area);
 // Fills the window while a scene is loaded.
 void drawLoading(const std::string& name);
-// What costs most, with a button for what would help, `lift` pixels above the bottom of the picture. Returns
-// whether it was pressed.
-[[nodiscard]] bool drawAdvice(const std::string& cause, const std::string& button, PictureArea area,
-                              float lift);
+// What costs most, with a button for each remedy and the pace that it was seen to bring, of `tempo` that are
+// wanted; `lift` pixels above the bottom of the picture. Returns the remedy that was pressed.
+[[nodiscard]] std::optional<PaceRemedy> drawAdvice(const PaceAdvice& advice, double tempo, PictureArea area,
+                                                   float lift);
 // Stands `lift` pixels above the bottom of the picture.
 void drawNotice(const std::string& words, bool isError, PictureArea area, float lift);
 

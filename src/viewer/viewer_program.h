@@ -19,10 +19,13 @@
 #include "viewer/axis_gizmo.h"
 #include "viewer/compare_card.h"
 #include "viewer/frame_timings.h"
+#include "viewer/kept_picture.h"
 #include "viewer/mouse_tools.h"
+#include "viewer/open_dialog.h"
 #include "viewer/open_scene.h"
 #include "viewer/pace.h"
 #include "viewer/pace_advice.h"
+#include "viewer/pace_trials.h"
 #include "viewer/panels/panels.h"
 #include "viewer/picture_taker.h"
 #include "viewer/timeline_bar.h"
@@ -78,7 +81,8 @@ class Viewer {
     FieldEdits edits;
     PanelRequests panels;
     TimelineRequests timeline;
-    std::optional<PaceAdvice> advice;  // that is to be followed
+    std::optional<PaceRemedy> remedy;  // that is to be applied
+    std::optional<OpenChoice> file;    // that is to be opened
   };
 
   // --- input from the window
@@ -99,6 +103,8 @@ class Viewer {
   void switchIntegrator();
   void nextShader();
   void setQuality(Quality quality);
+  // Of what is chosen, or of the first solid or pins.
+  void showGizmo(GizmoMode mode);
   [[nodiscard]] RenderOptions renderOptions() const;
   void edit(const Scene& scene, bool continues);
   void undo(bool again);
@@ -107,6 +113,9 @@ class Viewer {
   // Whether ViewerOptions::restartAfter is over.
   [[nodiscard]] bool startsAgain();
   void openScene(const std::string& source);
+  void drop(const std::string& path);
+  void openChosen(const OpenChoice& choice);
+  void tellDialog();
   // Loads a scene while the window says so. When the window is closed meanwhile, the program ends.
   [[nodiscard]] std::unique_ptr<OpenScene> load(const std::string& source,
                                                 const std::function<std::unique_ptr<OpenScene>()>& make);
@@ -125,20 +134,27 @@ class Viewer {
   [[nodiscard]] int finishedFrames(int frames, double seconds, bool went,
                                    const std::optional<Divergence>& divergence);
   void endFrames();
+  [[noreturn]] void leaveAtOnce();
   void doWaiting();
   [[nodiscard]] bool isStepping() const { return stepping_ || steps_.isBusy(); }
   void waitForInput();
   void draw();
   void drawPicture(int width, int height);
+  void drawInto(const PictureKey& key, bool whole);
+  [[nodiscard]] PictureKey pictureKey(int width, int height);
   void measure();
   void drawControls();
+  void drawGizmos();
   void drawPanels();
   void applyRequests();
   void apply(const FieldEdits& edits);
   void apply(const PanelRequests& requests);
   void apply(const TimelineRequests& requests);
-  void apply(const PaceAdvice& advice);
+  void apply(const PaceRemedy& remedy);
+  [[nodiscard]] PaceFigures paceFigures() const;
   [[nodiscard]] std::optional<PaceAdvice> advice() const;
+  void watchPace(double elapsed);
+  bool tryRemedies();
   void keepConfig();
 
   [[nodiscard]] Session& session() { return open_->session(); }
@@ -151,6 +167,7 @@ class Viewer {
   [[nodiscard]] CoveredEdges coveredEdges() const;
   [[nodiscard]] bool isOverPicture(ViewerWindow::Cursor cursor) const;
   [[nodiscard]] std::optional<AxisEnd> axisEndUnder(ViewerWindow::Cursor cursor) const;
+  [[nodiscard]] std::optional<GizmoMode> gizmoButtonUnder(ViewerWindow::Cursor cursor) const;
   [[nodiscard]] MouseContext mouseContext();
   [[nodiscard]] bool isIdle();
   [[nodiscard]] bool isRefining() const;
@@ -185,11 +202,21 @@ class Viewer {
   PanelColumn column_;
   FieldWidgets widgets_;
   CompareCard compare_;
+  OpenDialog dialog_;
   PictureTaker taker_;
   Pace pace_{1.0 / 90};
   SpeedMeter meter_;
+  PaceTrials trials_;
+  std::vector<PaceRemedy> remedies_;  // that have been tried, for the scene and the backend
+  std::pair<const Scene*, std::string> triedFor_{nullptr, ""};
+  double slowFor_ = 0;  // [s]
   Quality quality_ = Quality::final;
   DrawScale drawScale_{0};
+  KeptPicture kept_;
+  std::uint64_t shownVersion_ = 0;  // of the state that is shown
+  double pictureSeconds_ = 0;       // that the last one took
+  bool hasInput_ = false;           // since the last picture was drawn or shown again
+  bool answersFirst_ = false;       // the last picture was shown again for that
   LapClock clock_;
   FrameTimings timings_{options_.timings};
   StepThread steps_{[this] { window_.wakeUp(); }};  // simulates on the CPU backend
@@ -216,6 +243,8 @@ class Viewer {
   std::optional<Scene> waitingEdit_;  // the newest of the panels, which waits likewise
   int exposures_ = 0;                 // of a picture that rests, in final quality
   bool paused_ = false, stepAsked_ = false, showKeys_ = false;
+  bool isLoading_ = false;    // there may be no scene yet
+  bool dialogShown_ = false;  // in the last picture
 };
 
 }  // namespace clothsim

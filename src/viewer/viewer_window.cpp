@@ -33,12 +33,21 @@ std::string noWindow(const std::string& reason, const std::string& sceneName) {
          sceneName + " --frames 240 --save last.ply      the simulation alone, as a mesh";
 }
 
-// The size of a new window: scaled with the desktop, but no larger than the screen.
+// By how much text and windows are larger on a screen of many pixels, where the desktop does not scale: half
+// as large again on one of 3840 x 2160. In quarters.
+double screenScale() {
+  GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+  const GLFWvidmode* mode = monitor == nullptr ? nullptr : glfwGetVideoMode(monitor);
+  return mode == nullptr ? 1 : std::max(1.0, std::floor(4 * mode->height / 1440.0) / 4);
+}
+
+// The size of a new window: scaled with the desktop or the screen, but no larger than that.
 std::pair<int, int> firstSize() {
   GLFWmonitor* monitor = glfwGetPrimaryMonitor();
   if (monitor == nullptr) return {ordinaryWidth, ordinaryHeight};
   float scale = 1, unused = 1;
   glfwGetMonitorContentScale(monitor, &scale, &unused);
+  scale = std::max(scale, static_cast<float>(screenScale()));
   int x = 0, y = 0, width = 0, height = 0;
   glfwGetMonitorWorkarea(monitor, &x, &y, &width, &height);
   const auto fit = [scale](int wanted, int most) {
@@ -194,13 +203,18 @@ bool ViewerWindow::holdsShift() const {
          glfwGetKey(window_, GLFW_KEY_RIGHT_SHIFT) == GLFW_PRESS;
 }
 
+bool ViewerWindow::holdsControl() const {
+  return glfwGetKey(window_, GLFW_KEY_LEFT_CONTROL) == GLFW_PRESS ||
+         glfwGetKey(window_, GLFW_KEY_RIGHT_CONTROL) == GLFW_PRESS;
+}
+
 double ViewerWindow::textScale() const {
   float desktop = 1, unused = 1;
   glfwGetWindowContentScale(window_, &desktop, &unused);
   // Large windows get larger text where the desktop does not scale. The factor is rounded to quarters, so
   // that the font is not rebuilt for every pixel while a window is resized.
   const double large = std::floor(size().height / 1080.0 * 4) / 4;
-  return std::clamp(std::max(static_cast<double>(desktop), large), 1.0, 4.0);
+  return std::clamp(std::max({static_cast<double>(desktop), large, screenScale()}), 1.0, 4.0);
 }
 
 }  // namespace clothsim

@@ -62,8 +62,9 @@ class ViewerWindow {
   // Whether the key of that name (viewer_keys.h) is held now.
   [[nodiscard]] bool holds(std::string_view key) const;
   [[nodiscard]] bool holdsShift() const;
-  // The factor by which text is larger than on an ordinary screen. It follows the scale of the desktop and
-  // the size of the window.
+  [[nodiscard]] bool holdsControl() const;
+  // The factor by which text is larger than on an ordinary screen. It follows the scale of the desktop, the
+  // pixels of the screen and the size of the window.
   [[nodiscard]] double textScale() const;
 
  private:

@@ -52,6 +52,7 @@ void writeRecording(const fs::path& path) {
                             CutStroke{.piece = 0, .from = {0.5, 1}, .to = {9, 12.25}},
                             Blow{.origin = {0, 1, 0}, .direction = {1, 0, 0}, .speed = 5},
                             MoveCollider{.collider = 0, .position = {0, 0, 1}},
+                            TurnCollider{.collider = 0, .turn = {0, 30, 0}},
                             SwitchBackend{"cpu"},
                             Restart{}};
   static_assert(std::size(actions) == std::variant_size_v<Action>);

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "core/vec.h"
+#include "scene_io/scene_io.h"
 #include "ui/screen.h"
 
 namespace clothsim {
@@ -134,7 +135,7 @@ TEST_F(HandsUi, PinsCutsAndBlowsAreRepeatedByAReplayWithTheSameBitsOnBothBackend
   EXPECT_EQ(cpu.at("finite"), true);
 }
 
-TEST_F(HandsUi, ShiftClickOnAPinLetsItGo) {
+TEST_F(HandsUi, APinIsMovedByTheMouseAndLetGoByAShiftClick) {
   const ViewerProgram viewer(heldScene);
   // The mark of the upper right corner: a pin does not move.
   const Picture picture = viewer.picture();
@@ -143,14 +144,69 @@ TEST_F(HandsUi, ShiftClickOnAPinLetsItGo) {
     for (int column = x; column < picture.width; ++column)
       if (test::isPinYellow(picture.at(column, row))) x = column, y = row;
   ASSERT_GT(x, picture.width / 2) << "no mark of a pin";
-  viewer.perform("keydown shift at " + std::to_string((x + 0.5) / picture.width) + " " +
-                 std::to_string((y + 0.5) / picture.height) + " sleep 0.3 click 1 sleep 0.2 keyup shift");
+  const auto placeOf = [&](int column, int row) {
+    return std::to_string((column + 0.5) / picture.width) + " " +
+           std::to_string((row + 0.5) / picture.height);
+  };
+  viewer.perform("at " + placeOf(x, y) + " sleep 0.3 mousedown 1 sleep 0.2 at " + placeOf(x - 20, y - 10) +
+                 " sleep 0.2 at " + placeOf(x - 40, y - 20) + " sleep 0.5 mouseup 1");
+  const Json moved = recordingWhere(viewer, [&](const Json& now) {
+    const std::vector<Json> edits = actionsIn(now, "edit_scene");
+    return edits.size() > 1 &&
+           now.at("frames").get<int>() * stepsInAFrame > edits.back().at("step").get<int>() + 900;
+  });
+  EXPECT_TRUE(actionsIn(moved, "grab").empty());
+  const Json hand = actionsIn(moved, "edit_scene").back().at("scene").at("cloth").at("pin_motion").at(0);
+  const Vec3d wanted = vectorOf(hand.at("keys").at(0).at("position"));
+  const Json replayed = replay(viewer, "--save moved.csv");
+  EXPECT_EQ(replayed.at("finite"), true);
+  EXPECT_LT(length(particleIn(readFile(viewer.here() / "moved.csv"), 19) - wanted), 0.01)
+      << "it has come there";
+  viewer.press("ctrl+z");
+  viewer.press("ctrl+z");                   // and the hand that held it
+  std::this_thread::sleep_for(seconds(1));  // until it is back
+  viewer.perform("keydown shift at " + placeOf(x, y) + " sleep 0.3 click 1 sleep 0.2 keyup shift");
   const Json recording =
       recordingWhere(viewer, [&](const Json& now) { return !actionsIn(now, "set_pin").empty(); });
   const std::vector<Json> pins = actionsIn(recording, "set_pin");
   ASSERT_EQ(pins.size(), 1u);
   EXPECT_EQ(pins[0].at("particle"), 19);
   EXPECT_EQ(pins[0].at("pinned"), false);
+}
+
+TEST_F(HandsUi, HandlesTurnAndMoveASolidAndUndoBringsItBack) {
+  const ViewerProgram viewer(
+      std::string(heldScene) +
+      " --set 'colliders=[{\"type\":\"box\",\"origin\":[0.5,0.6,0.4],\"size\":[0.3,0.3,0.3]}]' --set "
+      "camera.target=[0.5,0.6,0.4] --set camera.position=[0.5,0.6,3]");
+  viewer.press("p");
+  viewer.press("r");  // the cloth lies above the box
+  ASSERT_TRUE(viewer.titleBecomesOneWith("paused at frame 0"));
+  int scenes = 0;
+  const auto saved = [&] {
+    const std::string file = "pinned2" + (++scenes == 1 ? "" : "-" + std::to_string(scenes)) + ".json";
+    viewer.press("ctrl+s");
+    EXPECT_TRUE(viewer.eventuallyHas(file)) << file;
+    return std::get<Box>(loadScene(viewer.here() / file).colliders.at(0));
+  };
+  const Box start = saved();
+  viewer.perform("at 0.5 0.5 sleep 0.3 click 1");
+  viewer.press("g");  // from arrows to rings
+  // A quarter along the outermost ring, which faces the eye: its radius is 5.5 lines of text of 16 pixels.
+  viewer.drag(1, 0.5 + 88.0 / 640, 0.5, 0.5, 0.5 - 88.0 / 480);
+  const Box turned = saved();
+  EXPECT_EQ(turned.origin, start.origin);
+  EXPECT_NEAR(turned.rotation.z, 90, 3);
+  EXPECT_NEAR(length(turned.rotation), turned.rotation.z, 1e-6);
+  viewer.press("ctrl+z");
+  EXPECT_EQ(saved(), start);
+  viewer.press("g");
+  viewer.drag(1, 0.5 + 70.0 / 640, 0.5, 0.5 + 130.0 / 640, 0.6);  // by the arrow along x
+  const Box moved = saved();
+  EXPECT_GT(moved.origin.x, start.origin.x + 0.05);
+  EXPECT_EQ((Vec3d{start.origin.x, moved.origin.y, moved.origin.z}), start.origin);
+  viewer.press("ctrl+z");
+  EXPECT_EQ(saved(), start);
 }
 
 TEST_F(HandsUi, BackendsToggledInMidSwingChangeNoBit) {

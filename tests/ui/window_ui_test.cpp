@@ -144,13 +144,17 @@ TEST_F(WindowUi, TakesEveryKeyOfItsListAndGoesOn) {
   for (const ViewerKey& key : viewerKeys) {
     if (key.action == ViewerAction::none || key.action == ViewerAction::quit) continue;
     viewer.press(xdotoolName(key.input));
+    if (key.action == ViewerAction::openFile) viewer.press("Escape");  // its dialog takes the keys
+    if (key.action == ViewerAction::reloadScene) {
+      ASSERT_TRUE(viewer.titleBecomesOneWith("fps")) << viewer.title();
+    }
     ASSERT_FALSE(viewer.exitCodeWithin(test::milliseconds(50))) << key.input << ": " << viewer.output();
   }
   EXPECT_TRUE(test::eventually(seconds(20), [&] {
     const auto count = std::distance(fs::directory_iterator(viewer.here()), fs::directory_iterator());
     return count >= 3;  // screenshot, scene, recording; the clip's file comes with its end
   })) << viewer.output();
-  for (int i = 0; i < 3 && !viewer.exitCodeWithin(seconds(2)); ++i) viewer.press("Escape");
+  for (int i = 0; i < 4 && !viewer.exitCodeWithin(seconds(2)); ++i) viewer.press("Escape");
   EXPECT_EQ(viewer.exitCodeWithin(seconds(10)), 0) << "what is open closes first: " << viewer.output();
   expectNoComplaints(viewer);
 }
@@ -215,7 +219,7 @@ TEST_F(WindowUi, LooksBackOverKeptFramesAndGoesOnFromThere) {
   EXPECT_TRUE(viewer.titleBecomesOneWith("fps")) << viewer.title();
 }
 
-TEST_F(WindowUi, UndoesAndRedoesAChangeOfAParameter) {
+TEST_F(WindowUi, IChangesTheIntegratorThatTheOverlayNamesAndUndoAndRedoDo) {
   const ViewerProgram viewer(windowScene);
   viewer.press("p");
   ASSERT_TRUE(viewer.titleBecomesOneWith("paused at frame "));
@@ -231,6 +235,8 @@ TEST_F(WindowUi, UndoesAndRedoesAChangeOfAParameter) {
   EXPECT_EQ(settled(), verlet);
   viewer.press("ctrl+shift+z");
   EXPECT_EQ(settled(), euler);
+  for (int i = 0; i < 3; ++i) viewer.press("i");  // after the implicit ones comes the first again
+  EXPECT_EQ(settled(), verlet);
 }
 
 TEST_F(WindowUi, ShowsWhatIsWrongWithAShaderAndGoesOnWithTheOldOne) {
@@ -250,6 +256,41 @@ TEST_F(WindowUi, ShowsWhatIsWrongWithAShaderAndGoesOnWithTheOldOne) {
   std::ofstream(shader) << sound;
   viewer.press("F5");
   EXPECT_TRUE(test::eventually(seconds(20), [&] { return !isShown(); })) << "the message stays";
+}
+
+// By the keyboard alone, then by the mouse.
+TEST_F(WindowUi, OpensASceneFromAFolderNamesWhatIsWrongWithAnotherAndRemembersTheFolder) {
+  ViewerProgram viewer(windowScene);
+  fs::create_directories(viewer.here() / "scenes" / "old");
+  fs::copy(fs::path(SOURCE_ROOT) / "assets" / "scenes" / "plane.json",
+           viewer.here() / "scenes" / "mine.json");
+  std::ofstream(viewer.here() / "scenes" / "wrong.json") << R"({"cloth": {"width": "wide"}})";
+  viewer.press("p");
+  ASSERT_TRUE(viewer.titleBecomesOneWith("paused"));
+  const auto type = [&](const std::string& words) { viewer.perform("sleep 0.5 type --delay 100 " + words); };
+  const auto shown = [&](auto&& condition) { return test::eventually(seconds(20), condition); };
+  const auto hasFault = [&] { return viewer.picture().share(0, 0.7, 1, 0.9, isAlert) > 0.002; };
+  viewer.press("ctrl+o");
+  type("scenes/");
+  viewer.press("Return");
+  type("wrong");
+  EXPECT_TRUE(shown(hasFault)) << "the chosen file's fault is not named";
+  viewer.press("Return");
+  viewer.perform("sleep 1 key --delay 100 BackSpace BackSpace BackSpace BackSpace BackSpace");
+  EXPECT_TRUE(shown([&] { return !hasFault(); }));
+  EXPECT_EQ(viewer.title().find("pinned2"), 0u) << viewer.title();
+  viewer.perform("key Down key Down key Up");  // old, mine, wrong
+  viewer.press("Return");
+  ASSERT_TRUE(viewer.titleBecomesOneWith("mine - cpu")) << viewer.title();
+  EXPECT_NE(viewer.settings().find("/here/scenes\""), std::string::npos) << viewer.settings();
+  viewer.press("ctrl+o");
+  EXPECT_TRUE(shown([&] {  // into "old"
+    viewer.perform("sleep 0.5 at 0.2 0.3 sleep 0.3 click --repeat 2 --delay 80 1 sleep 0.5");
+    return viewer.settings().find("/here/scenes/old\"") != std::string::npos;
+  })) << viewer.settings();
+  viewer.press("Escape");
+  viewer.press("p");
+  EXPECT_TRUE(viewer.titleBecomesOneWith("paused")) << "keys are the viewer's again: " << viewer.title();
 }
 
 class PanelsUi : public testing::Test {

@@ -1,5 +1,6 @@
 // The panel Colliders: a list of shapes with the fields of their types.
 #include <algorithm>
+#include <utility>
 
 #include "scene/field.h"
 #include "viewer/panels/panels.h"
@@ -61,11 +62,25 @@ void removeCollider(Scene& scene, std::size_t number) {
 void drawCollidersPanel(PanelContext& context) {
   context.widgets.some(context.draft.solver, "solver", {"friction_law"});
   std::vector<Collider>& colliders = context.draft.colliders;
+  int* const shown = ImGui::GetStateStorage()->GetIntRef(ImGui::GetID("chosen solid"), -1);
+  const int chosen = context.chosenSolid ? static_cast<int>(*context.chosenSolid) : -1;
+  const bool isNew = std::exchange(*shown, chosen) != chosen;
   for (std::size_t i = 0; i < colliders.size(); ++i) {
     ImGui::PushID(static_cast<int>(i));
     const std::string label = std::string(typeOf(colliders[i])) + " " + std::to_string(i + 1);
-    const bool open =
-        ImGui::TreeNodeEx(label.c_str(), colliders.size() < 4 ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+    const bool isChosen = context.chosenSolid == i;
+    if (isChosen && isNew) {  // chosen in the picture: shown here, too
+      ImGui::SetNextItemOpen(true);
+      ImGui::SetScrollHereY(0.1f);
+    }
+    ImGui::PushStyleColor(ImGuiCol_Header, theme::fill);
+    const bool open = ImGui::TreeNodeEx(
+        label.c_str(), (colliders.size() < 4 ? ImGuiTreeNodeFlags_DefaultOpen : 0) |
+                           (isChosen ? ImGuiTreeNodeFlags_Selected : 0) | ImGuiTreeNodeFlags_SpanAvailWidth);
+    ImGui::PopStyleColor();
+    if (ImGui::IsItemHovered() && ImGui::IsMouseReleased(0)) context.requests.chooseSolid = i;  // as it opens
+    helpTip(
+        "Opens it, and gives it the handles in the picture (G). A click on it in the picture opens it here.");
     bool removed = false;
     if (open) {
       drawFields(context, colliders[i], "colliders." + std::to_string(i));

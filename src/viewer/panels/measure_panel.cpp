@@ -91,6 +91,7 @@ void MeasurePanel::stepped(double particleSteps, double seconds) {
 
 void MeasurePanel::forget() {
   samples_.clear();
+  springsOf_.reset();  // another session numbers its cloths anew
   nextSample_ = 0;
   passes_.clear();
   watch_ = {};

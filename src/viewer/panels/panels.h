@@ -24,6 +24,7 @@ struct PanelRequests {
   std::optional<std::string> backend;      // "cpu" or "gpu"
   std::optional<Quality> quality;          // of the picture
   bool resetScene = false;                 // back to the loaded scene
+  std::optional<std::size_t> chooseSolid;  // in the picture, by its index in scene.colliders
   bool saveCurves = false;                 // of the panel Measure, as CSV
   friend bool operator==(const PanelRequests&, const PanelRequests&) = default;
 };
@@ -38,6 +39,7 @@ struct PanelContext {
   Vec3d lookedAt;  // target of the camera, where new colliders are placed [m]
   const std::string& sceneName;
   Quality quality;  // of the picture
+  std::optional<std::size_t> chosenSolid{};
   PanelRequests requests{};
 };
 
@@ -50,7 +52,7 @@ void drawLookPanel(PanelContext& context);
 class ScenePanel {
  public:
   void draw(PanelContext& context);
-  // Shows the path that was last opened or saved in the lines for paths.
+  // Shows the path that was last saved in the line for it.
   void remember(const std::string& path);
 
  private:
@@ -65,7 +67,7 @@ class ScenePanel {
   std::vector<Card> cards_;         // of the bundled scenes
   std::vector<std::string> files_;  // scenes in the current folder
   bool read_ = false;               // both, when the panel is first opened
-  char open_[512] = "", save_[512] = "";
+  char save_[512] = "";
 };
 
 class PanelColumn {

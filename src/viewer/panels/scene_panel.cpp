@@ -94,9 +94,8 @@ void ScenePanel::draw(PanelContext& context) {
   helpTip(
       "Saves the scene with its edits as JSON (Ctrl+S). What you did with the mouse is saved by "
       "Ctrl+Shift+S instead. A name ending in .obj, .ply, .csv or .state saves the cloth as it is now.");
-  if (pathLine("open", "path of a scene, or drop a file", open_, sizeof open_, "Open"))
-    context.requests.openScene = open_;
-  helpTip("Opens a scene file. You can also drop one on the window.");
+  if (wideButton("Open a scene or a mesh ...")) context.requests.actions.push_back(ViewerAction::openFile);
+  helpTip("A scene file, or an OBJ mesh (Ctrl+O). You can also drop one on the window.");
   ImGui::Separator();
   for (const std::string& file : files_)
     if (wideButton(file.c_str())) context.requests.openScene = "./" + file;

@@ -53,6 +53,7 @@ void play(Session& session, bool switches = false) {
   session.act(Blow{{0.5, 0.5, -1}, {0, 0, 1}, 6, 0.3});
   stepSoundly(session, 2);
   session.act(MoveCollider{0, {0.5, 0.45, 0.15}});
+  session.act(TurnCollider{0, {0, 40, 0}});
   stepSoundly(session, 1);
   Scene edited = session.simulation().scene();
   edited.gravity = {0, -5, 1};

@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "core/error.h"
 #include "core/files.h"
 #include "gl/gl_test.h"
 #include "output/clip_recorder.h"
@@ -15,7 +16,10 @@
 #include "solver/state.h"
 #include "support/temporary_folder.h"
 #include "viewer/compare_card.h"
+#include "viewer/folder_list.h"
 #include "viewer/input_queue.h"
+#include "viewer/kept_picture.h"
+#include "viewer/mesh_scene.h"
 #include "viewer/mouse_tools.h"
 #include "viewer/panels/field_widgets.h"
 #include "viewer/panels/measure_panel.h"
@@ -43,6 +47,12 @@ class ChangedEnvironment {
   const char* name_;
   std::optional<std::string> old_;
 };
+
+Scene smallScene() {
+  Scene scene = loadSceneByName("pinned2");
+  (void)changeResolution(scene, 12, 12, true);
+  return scene;
+}
 
 TEST(ViewerKeys, EachInputStandsInTheTableOnce) {
   std::set<std::string_view> inputs;
@@ -142,6 +152,7 @@ TEST(ViewerConfigFile, IsReadAsItWasWritten) {
   config.showOverlay = false;
   config.panel = PanelName::look;
   config.textSize = 1.25;
+  config.folder = "/home/somebody/scenes";
   EXPECT_EQ(saveViewerConfig(config, path), "");
   const LoadedConfig loaded = loadViewerConfig(path);
   EXPECT_EQ(loaded.config, config);
@@ -187,6 +198,67 @@ TEST(ViewerConfigFile, ThatCannotBeWrittenIsATroubleInWordsAndNoCrash) {
   const test::TemporaryFolder folder;
   writeFileAtomically(folder / "file", "no folder");
   EXPECT_NE(saveViewerConfig({}, folder / "file" / "clothsim" / "viewer.json"), "");
+}
+
+TEST(KeptPicture, IsThatOfItsKeyDrawnAsSharplyAsIsWanted) {
+  KeptPicture kept;
+  PictureKey key{.width = 4, .height = 3, .time = 1, .version = 2};
+  EXPECT_FALSE(kept.isOf(key, 0.5));
+  kept.drawn(key, 0.75);
+  EXPECT_TRUE(kept.isOf(key, 0.5));
+  EXPECT_FALSE(kept.isOf(key, 1));
+  for (const PictureKey& other : {PictureKey{.width = 5, .height = 3, .time = 1, .version = 2},
+                                  PictureKey{.width = 4, .height = 3, .time = 1.1, .version = 2},
+                                  PictureKey{.width = 4, .height = 3, .time = 1, .version = 3}})
+    EXPECT_FALSE(kept.isOf(other, 0.5));
+  EXPECT_TRUE(kept.looksLike({.width = 4, .height = 3, .time = 1.1, .version = 3}, 0.75))
+      << "of another state";
+  EXPECT_FALSE(kept.looksLike({.width = 5, .height = 3, .time = 1, .version = 2}, 0.75));
+  EXPECT_FALSE(kept.looksLike(key, 1));
+  key.options.showPins = true;
+  EXPECT_FALSE(kept.isOf(key, 0.5));
+  key.options.showPins = false;
+  kept.forget();
+  EXPECT_FALSE(kept.isOf(key, 0.5));
+}
+
+TEST(FolderList, HasFoldersFirstThenScenesAndMeshesByName) {
+  const test::TemporaryFolder folder;
+  for (const char* name : {"b.json", "A.OBJ", "notes.txt", ".hidden.json", "c.Json"})
+    writeFileAtomically(folder / name, "{}");
+  fs::create_directory(folder / "z");
+  fs::create_directory(folder / ".git");
+  fs::create_symlink("/nonexistent", folder / "gone.json");
+  const FolderList list = listFolder(folder.path());
+  EXPECT_EQ(list.fault, "");
+  std::vector<std::string> names;
+  for (const FolderEntry& entry : list.entries) names.push_back(entry.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"z", "A.OBJ", "b.json", "c.Json", "gone.json"}));
+  EXPECT_EQ(list.entries[0].kind, FileKind::folder);
+  EXPECT_EQ(list.entries[1].kind, FileKind::mesh);
+  EXPECT_EQ(list.entries[2].bytes, 2u);
+  EXPECT_NE(listFolder(folder / "b.json").fault.find("b.json"), std::string::npos) << "it is no folder";
+  EXPECT_TRUE(contains("Drape_Box.json", "BOX"));
+  EXPECT_FALSE(contains("Drape_Box.json", "ball"));
+}
+
+TEST(MeshScene, HasTheMeshAsClothAboveTheBallOrAsASolidAtItsPlace) {
+  const fs::path mesh = fs::path(SOURCE_ROOT) / "assets" / "meshes" / "cushion.obj";
+  const Scene scene = sceneOfMesh(mesh);
+  const Cloth cloth(scene);
+  EXPECT_TRUE(scene.cloths[0].material);
+  EXPECT_EQ(scene.solver.selfCollision, SelfCollision::contact) << "as in a file that names a material";
+  const auto& ball = std::get<Sphere>(scene.colliders.at(0));
+  double lowest = 1e9;
+  for (const Vec3d p : cloth.positions()) lowest = std::min(lowest, p.y);
+  EXPECT_GT(lowest, ball.origin.y + ball.radius);
+  EXPECT_LT(lowest, ball.origin.y + 2 * ball.radius);
+
+  const Scene with = withMeshSolid(smallScene(), mesh, {1, 2, 3});
+  ASSERT_EQ(with.colliders.size(), smallScene().colliders.size() + 1);
+  Session session(with, "cpu", makeCpuSolver);
+  EXPECT_FALSE(session.stepFrames(1));
+  EXPECT_THROW((void)sceneOfMesh("/nonexistent.obj"), SceneError);
 }
 
 TEST(NumberedFiles, NeverNameWhatIsThere) {
@@ -259,12 +331,6 @@ TEST(ClipRecorder, WithoutFfmpegWritesNumberedPicturesThatPlayInRealTime) {
   EXPECT_NE(clip.finish().find("demo-cpu-frames"), std::string::npos);
   EXPECT_TRUE(fs::exists(folder / "demo-cpu-frames" / "frame_0029.png"));
   EXPECT_FALSE(fs::exists(folder / "demo-cpu-frames" / "frame_0032.png"));
-}
-
-Scene smallScene() {
-  Scene scene = loadSceneByName("pinned2");
-  (void)changeResolution(scene, 12, 12, true);
-  return scene;
 }
 
 // Steps that cannot be solved, on a sheet of n x n points.
@@ -359,6 +425,20 @@ TEST(MeasurePanel, SavesTheSamplesOfItsCurves) {
   EXPECT_NEAR(times[2], 4 / session.simulation().scene().solver.framesPerSec, 1e-6);
   EXPECT_EQ(kinetic[0], 0);
   EXPECT_GT(kinetic[2], kinetic[1]) << "it falls";
+}
+
+TEST(MeasurePanel, MeasuresTheClothOfAnotherSessionByItsOwnSprings) {
+  const test::TemporaryFolder folder;
+  Session large(loadSceneByName("pinned2"), "cpu", makeCpuSolver), small(smallScene(), "cpu", makeCpuSolver);
+  const auto nothing = []() -> std::optional<std::uint32_t> { return std::nullopt; };
+  MeasurePanel used, fresh;
+  used.update(large, 0, nothing);
+  used.forget();
+  used.update(small, 1, nothing);
+  fresh.update(small, 1, nothing);
+  used.saveCurves(folder / "used.csv");
+  fresh.saveCurves(folder / "fresh.csv");
+  EXPECT_EQ(readFile(folder / "used.csv"), readFile(folder / "fresh.csv"));
 }
 
 TEST(SessionPulse, ChangesNoBitHoweverAFrameIsDividedByIt) {
