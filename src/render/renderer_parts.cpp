@@ -177,8 +177,12 @@ void Renderer::Parts::chooseSurface(const Camera& camera, int height, double asp
   const bool isLean = options.flatness > 0 && !model.displaces;  // a relief shows everywhere
   if (isLean) std::fill(steps.begin(), steps.end(), 2u);
   if (isLean) frame.casterThickness = 0;  // casters are the particles' triangles, which bend elsewhere
-  if (!smooth || smooth->steps() != steps || smooth->isLean() != isLean)
-    smooth.emplace(*cloth, steps, isLean, thickness, cuts);
+  const bool touches = scene->solver.selfCollision != SelfCollision::off;
+  if (smooth && smooth->steps() == steps && smooth->isLean() == isLean && smooth->hasLayers() == touches)
+    return;
+  const std::vector<float> distances = touches ? drawnThickness(*scene, *cloth) : std::vector<float>{0};
+  const float least = *std::min_element(distances.begin(), distances.end());
+  smooth.emplace(*cloth, steps, isLean, thickness, cuts, touches ? std::max(least, 1e-6f) : 0);
 }
 
 void Renderer::Parts::uploadFrame() {
@@ -210,7 +214,9 @@ void Renderer::Parts::computeNormals(GLuint positions) {
   clothMesh.computeNormals(
       {programs.normals(clothMesh.hasCuts()), cloth->hasMesh() ? &programs.meshNormals() : nullptr},
       positions);
-  if (smooth) smooth->compute(programs.smooth(), positions, clothMesh);
+  if (smooth)
+    smooth->compute(programs.smooth(), positions, clothMesh,
+                    smooth->hasLayers() ? &programs.layers() : nullptr);
   if (!drawsThick()) return;
   if (smooth)
     smooth->computeRim(programs.rim(smooth->isLean()));
