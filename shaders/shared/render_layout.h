@@ -40,15 +40,16 @@ using uint = unsigned int;
 #define LAYER_TRIANGLES_BINDING 2  // three words a triangle
 #define LAYER_ENTRIES_BINDING 1    // a vec4 a triangle
 #define LAYER_HEADS_BINDING 3      // a word a bucket
-#define LAYER_BULGES_BINDING 4     // a vec4 a triangle: way of the smooth surface from its middle, and its length
-#define LAYER_REST_BINDING 5       // a vec4 a particle
-#define LAYER_BEFORE_BINDING 6     // a float a particle
-#define LAYER_SHARES_BINDING 7     // a float a particle
-#define SMOOTH_SHARES_BINDING 6    // the same where the smooth surface of a grid is made,
-#define PATCH_SHARES_BINDING 7     // and of triangles
-#define LAYERS_APART 2.5           // in the cloth, or nothing is another layer [cells]
-#define SMOOTH_GROUP 64              // invocations of a work group
-#define SHADOW_MAP_UNIT 0            // texture units
+#define LAYER_BULGES_BINDING \
+  4                           // a vec4 a triangle: way of the smooth surface from its middle, and its length
+#define LAYER_REST_BINDING 5  // a vec4 a particle
+#define LAYER_BEFORE_BINDING 6   // a float a particle
+#define LAYER_SHARES_BINDING 7   // a float a particle
+#define SMOOTH_SHARES_BINDING 6  // the same where the smooth surface of a grid is made,
+#define PATCH_SHARES_BINDING 7   // and of triangles
+#define LAYERS_APART 2.5         // in the cloth, or nothing is another layer [cells]
+#define SMOOTH_GROUP 64          // invocations of a work group
+#define SHADOW_MAP_UNIT 0        // texture units
 #define FLOOR_SHADOW_UNIT 1
 #define CANVAS_UNIT 2
 #define CUTS_BINDING 2  // storage block, a word a particle: which of its springs are cut (cloth/cuts.h)

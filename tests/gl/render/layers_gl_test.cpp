@@ -123,7 +123,7 @@ void expectUpperLayer(std::size_t sheets, const std::vector<Shape>& shapes,
     const int kept = wrongPixels(pictureOf(scene, shapes, options, cuts), triangles);
     testing::Test::RecordProperty("without", std::to_string(free));
     EXPECT_GT(free, 150);
-  EXPECT_EQ(kept, 0) << "of " << free << " where layers do not matter";
+    EXPECT_EQ(kept, 0) << "of " << free << " where layers do not matter";
   }
 }
 
