@@ -81,6 +81,10 @@ void main() {
   vec4 bulge = bulges[triangle];
   if (bulge.w < search.leastBulge) return;
   uvec3 own = cornersOf(triangle);
+#ifdef AGAIN
+  // What goes a part of its way may go less far out of the way of another. All others found nothing to share.
+  if (before[own.x] >= 1.0 && before[own.y] >= 1.0 && before[own.z] >= 1.0) return;
+#endif
   vec3 here = entries[triangle].xyz, restHere = restPlaces[own.x].xyz;
   ivec3 first = ivec3(floor(here * search.perBucket - 0.5));
   for (int k = 0; k < 8; ++k) {
@@ -93,7 +97,8 @@ void main() {
       if (dot(off, off) > search.radius * search.radius) continue;
       vec3 restOff = restPlaces[corners[3u * other]].xyz - restHere;
       if (dot(restOff, restOff) < LAYERS_APART * LAYERS_APART) continue;
-      if (length(off) > search.centerToCorner + (bulge.w + bulges[other].w) / MOST_APPROACH) continue;
+      float both = bulge.w + bulges[other].w;
+      if (both < 2.0 * search.leastBulge || length(off) > search.centerToCorner + both / MOST_APPROACH) continue;
       keepApart(own, here, bulge.xyz, other);
     }
   }

@@ -8,10 +8,11 @@ namespace clothsim {
 namespace {
 
 // From the center of a right-angled triangle to its farthest corner, and how far layers that count are from
-// each other [cells]: the smooth surface leaves the triangles by up to a quarter.
-constexpr double CENTER_TO_CORNER = 0.75, MOST_DISTANCE = 0.5;
-constexpr double BULGE_OF_DISTANCE = 1.0 / 16;  // less than that does not matter to layers
-constexpr int ROUNDS = 2;                       // in the second each knows how far the others go
+// each other [cells]: twice what the smooth surface leaves the triangles by, of two layers together.
+constexpr double CENTER_TO_CORNER = 0.75, MOST_DISTANCE = 0.35;
+// Of two layers the farther bulge is half of both, which together may take half of the distance; and squeezed
+// layers are nearer than contact wants them, by half.
+constexpr double BULGE_OF_DISTANCE = 1.0 / 8;
 
 double cellOf(const Piece& piece) {
   const double mean = std::max({piece.nominalLength[toLeft], piece.nominalLength[toUpper], 1e-9});
@@ -86,8 +87,8 @@ void LayerShares::compute(const LayerPrograms& programs, GLuint positions) {
   shares_.bindStorage(LAYER_SHARES_BINDING);
   programs.insert.bind();
   gl::dispatch(triangles, SMOOTH_GROUP);
-  programs.share.bind();
-  for (int round = 0; round < ROUNDS; ++round) {
+  for (const gl::Program* program : {&programs.share, &programs.shareAgain}) {
+    program->bind();
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     before_.copyFrom(shares_);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);

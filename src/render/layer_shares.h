@@ -22,6 +22,7 @@ struct LayerPrograms {
   gl::Program patchBulges = gl::Program::makeCompute("render/layer_bulges.comp", {{"PATCHES", ""}});
   gl::Program insert = gl::Program::makeCompute("render/layer_shares.comp", {{"INSERT", ""}});
   gl::Program share = gl::Program::makeCompute("render/layer_shares.comp");
+  gl::Program shareAgain = gl::Program::makeCompute("render/layer_shares.comp", {{"AGAIN", ""}});
 };
 
 class LayerShares {

@@ -33,6 +33,14 @@ double longestEdge(const Cloth& cloth) {
   return longest;
 }
 
+// How far contact keeps layers apart, at least [m].
+double layerDistance(const Scene& scene) {
+  double least = INFINITY;
+  for (const ClothSettings& cloth : scene.cloths)
+    least = std::min(least, cloth.material ? cloth.material->thickness : cloth.thickness);
+  return std::max(least, 1e-6);
+}
+
 RenderOptions withSupportedSamples(RenderOptions options) {
   options.samples = gl::supportedSamples(options.samples);
   return options;
@@ -180,9 +188,8 @@ void Renderer::Parts::chooseSurface(const Camera& camera, int height, double asp
   const bool touches = scene->solver.selfCollision != SelfCollision::off;
   if (smooth && smooth->steps() == steps && smooth->isLean() == isLean && smooth->hasLayers() == touches)
     return;
-  const std::vector<float> distances = touches ? drawnThickness(*scene, *cloth) : std::vector<float>{0};
-  const float least = *std::min_element(distances.begin(), distances.end());
-  smooth.emplace(*cloth, steps, isLean, thickness, cuts, touches ? std::max(least, 1e-6f) : 0);
+  const double layers = touches ? layerDistance(*scene) : 0;
+  smooth.emplace(*cloth, steps, isLean, thickness, cuts, layers);
 }
 
 void Renderer::Parts::uploadFrame() {
