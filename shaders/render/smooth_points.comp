@@ -1,45 +1,25 @@
 // Points of the smooth surface of a grid, with their normals and tangents: each invocation has the cell to the right of and
 // below a particle, and evaluates the bicubic B-spline at the cell's points without its right and lower side. A lean surface
 // (LEAN) takes all but the place from the particles: its triangles are partly those of the particles, and should not be shaded
-// otherwise where they are divided.
+// otherwise where they are divided. Between layers points are nearer to the triangles.
 #include "render/cloth_piece.glsl"
 
 layout(local_size_x = NORMALS_GROUP_SIZE, local_size_y = NORMALS_GROUP_SIZE) in;
-layout(std430, binding = SMOOTH_CONTROLS_BINDING) readonly buffer Controls { vec4 controls[]; };
 layout(std430, binding = SMOOTH_POINTS_BINDING) writeonly buffer Points { vec4 points[]; };
 layout(std430, binding = SMOOTH_NORMALS_BINDING) writeonly buffer Normals { vec4 normals[]; };
 layout(std430, binding = SMOOTH_TANGENTS_BINDING) writeonly buffer Tangents { vec4 tangents[]; };
 layout(std430, binding = NORMALS_OUT_BINDING) readonly buffer ParticleNormals { vec4 particleNormals[]; };
 layout(std430, binding = TANGENTS_OUT_BINDING) readonly buffer ParticleTangents { vec4 particleTangents[]; };
+layout(std430, binding = NORMALS_POSITIONS_BINDING) readonly buffer Positions { vec4 positions[]; };
+layout(std430, binding = SMOOTH_SHARES_BINDING) readonly buffer Shares { float shares[]; };  // of the way from the triangles
 
-// The four cubic B-splines that are not 0 between two knots, and their derivatives.
-vec4 basisAt(float t) {
-  float s = 1.0 - t;
-  return vec4(s * s * s, 4.0 - 3.0 * t * t * (1.0 + s), 4.0 - 3.0 * s * s * (1.0 + t), t * t * t) / 6.0;
-}
-vec4 slopesAt(float t) {
-  float s = 1.0 - t;
-  return vec4(-s * s, t * (3.0 * t - 4.0), s * (4.0 - 3.0 * s), t * t) / 2.0;
-}
+#include "render/smooth_spline.glsl"
 
 // Values at the corners of a cell, left to right, above and below.
 vec4 between(mat4 corners, vec2 t) {
   return mix(mix(corners[0], corners[1], t.x), mix(corners[2], corners[3], t.x), t.y);
 }
-uvec4 cornersOf(ivec2 cell) {
-  uint first = piece.firstParticle + uint(cell.y) * piece.columns + uint(cell.x);
-  return first + uvec4(0u, 1u, piece.columns, piece.columns + 1u);
-}
-
-// The control points of a cell, of the first or the second kind (smooth_control.comp).
-mat4[4] rowsAt(ivec2 cell, uint kind) {
-  mat4 rows[4];
-  for (uint j = 0u; j < 4u; ++j) {
-    uint first = piece.firstControl + (kind * (piece.rows + 2u) + uint(cell.y) + j) * (piece.columns + 2u) + uint(cell.x);
-    rows[j] = mat4(controls[first], controls[first + 1u], controls[first + 2u], controls[first + 3u]);
-  }
-  return rows;
-}
+vec4 flatCorner(uint particle) { return vec4(positions[particle].xyz, shares[particle]); }
 
 vec3 unit(vec3 v, vec3 otherwise) {
   float l = length(v);
@@ -63,6 +43,8 @@ void main() {
   ivec2 count = ivec2(particle.x < size.x - 1 ? steps : 1, particle.y < size.y - 1 ? steps : 1);
   mat4 rows[4] = rowsAt(cell, 0u);
   uvec4 c = cornersOf(cell);
+  mat4 flatCorners = mat4(0);
+  if (piece.hasLayers > 0.0) flatCorners = mat4(flatCorner(c.x), flatCorner(c.y), flatCorner(c.z), flatCorner(c.w));
 #ifdef LEAN
   mat4 cornerNormals = mat4(particleNormals[c.x], particleNormals[c.y], particleNormals[c.z], particleNormals[c.w]);
   mat4 cornerTangents = mat4(particleTangents[c.x], particleTangents[c.y], particleTangents[c.z], particleTangents[c.w]);
@@ -83,6 +65,10 @@ void main() {
       float v = float(particle.y - cell.y) + float(j) / float(steps);
       uint point = piece.firstPoint + uint(particle.y * steps + j) * pointsInRow + uint(particle.x * steps + i);
       vec4 place = places * basisAt(v);
+      if (piece.hasLayers > 0.0) {
+        vec4 flatPlace = onTriangles(flatCorners, vec2(u, v));
+        place.xyz = mix(flatPlace.xyz, place.xyz, flatPlace.w);
+      }
 #ifdef LEAN
       vec4 normal = between(cornerNormals, vec2(u, v)), tangent = between(cornerTangents, vec2(u, v));
       store(point, vec4(place.xyz, normal.w), normal.xyz, tangent.xyz, tangent.w);

@@ -35,8 +35,21 @@ using uint = unsigned int;
 #define PATCH_POINTS_BINDING 6  // eight words a point: PatchPoint of src/render/patches.h
 #define CUT_CORNERS_BINDING 6   // four words a corner: the particle before it, it, the one after it, nothing
 #define MOTION_VELOCITIES_BINDING 1  // a vec4 a particle
-#define SMOOTH_GROUP 64              // invocations of a work group
-#define SHADOW_MAP_UNIT 0            // texture units
+// Passes that look for layers near each other (src/render/layer_shares.h).
+#define LAYER_SEARCH_BINDING 10    // uniform block LayerSearch
+#define LAYER_TRIANGLES_BINDING 2  // three words a triangle
+#define LAYER_ENTRIES_BINDING 1    // a vec4 a triangle
+#define LAYER_HEADS_BINDING 3      // a word a bucket
+#define LAYER_BULGES_BINDING \
+  4                           // a vec4 a triangle: way of the smooth surface from its middle, and its length
+#define LAYER_REST_BINDING 5  // a vec4 a particle
+#define LAYER_BEFORE_BINDING 6   // a float a particle
+#define LAYER_SHARES_BINDING 7   // a float a particle
+#define SMOOTH_SHARES_BINDING 6  // the same where the smooth surface of a grid is made,
+#define PATCH_SHARES_BINDING 7   // and of triangles
+#define LAYERS_APART 2.5         // in the cloth, or nothing is another layer [cells]
+#define SMOOTH_GROUP 64          // invocations of a work group
+#define SHADOW_MAP_UNIT 0        // texture units
 #define FLOOR_SHADOW_UNIT 1
 #define CANVAS_UNIT 2
 #define CUTS_BINDING 2  // storage block, a word a particle: which of its springs are cut (cloth/cuts.h)
@@ -124,7 +137,18 @@ struct ClothPiece {
   uint steps;    // of the smooth surface on each side of a cell
   uint firstPoint, firstControl;  // of this piece there
   float halfThickness;            // of what is drawn [m]
-  float unused1, unused2, unused3;
+  float hasLayers;                // 1: the smooth surface leaves the triangles as far as other layers let it
+  uint firstTriangle, triangles;  // of this piece, among all, where it has layers
+};
+
+struct LayerSearch {
+  uint triangles;
+  uint buckets;          // a power of two
+  float perBucket;       // of their side [1/m]
+  float radius;          // half of it: what counts is nearer, from center to center [m]
+  float centerToCorner;  // of a triangle, at most [m]
+  float leastBulge;      // less than half of that of two triangles together brings them no nearer than they may [m]
+  float unused1, unused2;
 };
 
 #ifdef __cplusplus

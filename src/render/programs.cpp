@@ -93,6 +93,11 @@ const gl::Program& RenderPrograms::meshNormals() {
   return *meshNormals_;
 }
 
+const LayerPrograms& RenderPrograms::layers() {
+  if (!layers_) layers_.emplace();
+  return *layers_;
+}
+
 const SmoothPrograms& RenderPrograms::smooth() {
   if (!smooth_) smooth_.emplace();
   return *smooth_;
@@ -156,6 +161,7 @@ void tryAllShaders(const RenderSettings& settings, int samples) {
     for (const bool withCuts : {false, true}) static_cast<void>(programs.normals(withCuts));
     static_cast<void>(programs.meshNormals());
     static_cast<void>(programs.smooth());
+    static_cast<void>(programs.layers());
     static_cast<void>(programs.cloth(model, ClothLight::exposed));
     const ShadingModel thick = shadingModelOf(other, true);
     programs.chooseModel(thick);

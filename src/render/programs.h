@@ -52,6 +52,7 @@ struct RenderPrograms {
   [[nodiscard]] const gl::Program& normals(bool withCuts);
   [[nodiscard]] const gl::Program& meshNormals();
   [[nodiscard]] const SmoothPrograms& smooth();       // the same for the smooth surface
+  [[nodiscard]] const LayerPrograms& layers();        // where it has layers
   [[nodiscard]] const gl::Program& rim(bool ofLean);  // of cloth that is drawn thick
   [[nodiscard]] const PickPrograms& picking();
   [[nodiscard]] const OverlayPrograms& overlays();
@@ -79,6 +80,7 @@ struct RenderPrograms {
   };
   std::vector<ClothProgram> cloth_;  // of the chosen model's fragment shader
   std::optional<SmoothPrograms> smooth_;
+  std::optional<LayerPrograms> layers_;
   std::optional<PickPrograms> picking_;
   std::optional<OverlayPrograms> overlays_;
   std::optional<MeanPrograms> mean_;

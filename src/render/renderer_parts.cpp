@@ -33,6 +33,14 @@ double longestEdge(const Cloth& cloth) {
   return longest;
 }
 
+// How far contact keeps layers apart, at least [m].
+double layerDistance(const Scene& scene) {
+  double least = INFINITY;
+  for (const ClothSettings& cloth : scene.cloths)
+    least = std::min(least, cloth.material ? cloth.material->thickness : cloth.thickness);
+  return std::max(least, 1e-6);
+}
+
 RenderOptions withSupportedSamples(RenderOptions options) {
   options.samples = gl::supportedSamples(options.samples);
   return options;
@@ -177,8 +185,11 @@ void Renderer::Parts::chooseSurface(const Camera& camera, int height, double asp
   const bool isLean = options.flatness > 0 && !model.displaces;  // a relief shows everywhere
   if (isLean) std::fill(steps.begin(), steps.end(), 2u);
   if (isLean) frame.casterThickness = 0;  // casters are the particles' triangles, which bend elsewhere
-  if (!smooth || smooth->steps() != steps || smooth->isLean() != isLean)
-    smooth.emplace(*cloth, steps, isLean, thickness, cuts);
+  const bool touches = scene->solver.selfCollision != SelfCollision::off;
+  if (smooth && smooth->steps() == steps && smooth->isLean() == isLean && smooth->hasLayers() == touches)
+    return;
+  const double layers = touches ? layerDistance(*scene) : 0;
+  smooth.emplace(*cloth, steps, isLean, thickness, cuts, layers);
 }
 
 void Renderer::Parts::uploadFrame() {
@@ -210,7 +221,9 @@ void Renderer::Parts::computeNormals(GLuint positions) {
   clothMesh.computeNormals(
       {programs.normals(clothMesh.hasCuts()), cloth->hasMesh() ? &programs.meshNormals() : nullptr},
       positions);
-  if (smooth) smooth->compute(programs.smooth(), positions, clothMesh);
+  if (smooth)
+    smooth->compute(programs.smooth(), positions, clothMesh,
+                    smooth->hasLayers() ? &programs.layers() : nullptr);
   if (!drawsThick()) return;
   if (smooth)
     smooth->computeRim(programs.rim(smooth->isLean()));

@@ -80,21 +80,29 @@ std::vector<std::uint32_t> smoothSteps(const Cloth& cloth, double pixelsAMetre,
 }
 
 SmoothSurface::SmoothSurface(const Cloth& cloth, std::span<const std::uint32_t> steps, bool isLean,
-                             std::span<const float> thickness, const Cuts& cuts)
+                             std::span<const float> thickness, const Cuts& cuts, double layers)
     : steps_(steps.begin(), steps.end()), isLean_(isLean), vertices_("smooth surface") {
   Points all;
   const Triangles triangles =
-      cloth.hasMesh() || !cuts.empty() ? remainingTriangles(cloth, cuts) : Triangles{};
+      layers > 0 || cloth.hasMesh() || !cuts.empty() ? remainingTriangles(cloth, cuts) : Triangles{};
+  if (layers > 0) layers_.emplace(cloth, triangles, layers);
   for (std::size_t i = 0; i < steps_.size(); ++i) {
     const Piece& piece = cloth.pieces()[i];
     shared::ClothPiece block = blockOf(piece);
     block.steps = steps_[i];
     block.firstPoint = all.count;
     block.firstControl = all.controls;
+    if (layers > 0) {
+      const auto own = ofPiece(triangles, piece);
+      block.hasLayers = 1;
+      block.firstTriangle = static_cast<std::uint32_t>(own.data() - triangles.data());
+      block.triangles = static_cast<std::uint32_t>(own.size());
+    }
     if (!thickness.empty()) block.halfThickness = thickness[i] / 2;
     pieces_.push_back(isPatched(piece, cuts)
                           ? makePatches(cloth, piece, ofPiece(triangles, piece), block, all)
                           : makeGrid(piece, block, all));
+    pieces_.back().layerTriangles = block.triangles;
   }
   controls_ = gl::Buffer<glm::vec4>("smooth controls", all.controls);
   makePoints(all.count, all.textureCoordinates);
@@ -165,36 +173,59 @@ void SmoothSurface::makePoints(std::uint32_t count,
                    {.location = TEXTURE_COORDINATE_LOCATION, .components = 2, .stride = 8});
 }
 
-void SmoothSurface::compute(const SmoothPrograms& programs, GLuint positions, const ClothMesh& particles) {
+void SmoothSurface::compute(const SmoothPrograms& programs, GLuint positions, const ClothMesh& particles,
+                            const LayerPrograms* layers) {
   if (moved_.size() > 0) evenOutCuts(programs, positions);
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, NORMALS_POSITIONS_BINDING,
-                   moved_.size() > 0 ? moved_.name() : positions);
-  particles.normals().bindStorage(NORMALS_OUT_BINDING);
-  particles.tangents().bindStorage(TANGENTS_OUT_BINDING);
-  controls_.bindStorage(SMOOTH_CONTROLS_BINDING);
+  const GLuint places = moved_.size() > 0 ? moved_.name() : positions;
+  const auto bindParticles = [&] {
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, NORMALS_POSITIONS_BINDING, places);
+    particles.normals().bindStorage(NORMALS_OUT_BINDING);
+    particles.tangents().bindStorage(TANGENTS_OUT_BINDING);
+    controls_.bindStorage(SMOOTH_CONTROLS_BINDING);
+  };
+  bindParticles();
+  dispatchGrids(programs.control, 2);
+  if (layers_) {
+    shareBetweenLayers(*layers, places);
+    layers_->shares().bindStorage(SMOOTH_SHARES_BINDING);
+    bindParticles();
+  }
   points_.bindStorage(SMOOTH_POINTS_BINDING);
   normals_.bindStorage(SMOOTH_NORMALS_BINDING);
   tangents_.bindStorage(SMOOTH_TANGENTS_BINDING);
-  const auto dispatch = [this](const gl::Program& program, GLuint more) {
-    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
-    program.bind();
-    for (const PieceBuffers& piece : pieces_) {
-      if (piece.isPatched()) continue;
-      piece.block.bindUniform(CLOTH_GRID_BINDING);
-      gl::dispatch(piece.columns + more, piece.rows + more, NORMALS_GROUP_SIZE, NORMALS_GROUP_SIZE);
-    }
-  };
-  dispatch(programs.control, 2);
-  dispatch(isLean_ ? programs.leanPoints : programs.points, 0);
+  dispatchGrids(isLean_ ? programs.leanPoints : programs.points);
   computePatches(programs);
   if (isLean_) chooseTriangles(programs);
   glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+}
+
+void SmoothSurface::dispatchGrids(const gl::Program& program, GLuint more) const {
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  program.bind();
+  for (const PieceBuffers& piece : pieces_) {
+    if (piece.isPatched()) continue;
+    piece.block.bindUniform(CLOTH_GRID_BINDING);
+    gl::dispatch(piece.columns + more, piece.rows + more, NORMALS_GROUP_SIZE, NORMALS_GROUP_SIZE);
+  }
+}
+
+void SmoothSurface::shareBetweenLayers(const LayerPrograms& programs, GLuint positions) {
+  layers_->bindBulges();
+  dispatchGrids(programs.bulges);
+  for (const PieceBuffers& piece : pieces_) {
+    if (!piece.isPatched()) continue;
+    programs.patchBulges.bind();
+    piece.block.bindUniform(CLOTH_GRID_BINDING);
+    gl::dispatch(piece.layerTriangles, SMOOTH_GROUP);
+  }
+  layers_->compute(programs, positions);
 }
 
 void SmoothSurface::computePatches(const SmoothPrograms& programs) {
   for (const PieceBuffers& piece : pieces_) {
     if (!piece.isPatched()) continue;
     programs.patches.bind();
+    if (layers_) layers_->shares().bindStorage(PATCH_SHARES_BINDING);
     piece.block.bindUniform(CLOTH_GRID_BINDING);
     piece.patches.bindStorage(PATCH_POINTS_BINDING);
     gl::dispatch(piece.patches.size(), SMOOTH_GROUP);

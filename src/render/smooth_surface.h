@@ -17,6 +17,7 @@
 #include "gl/vertex_array.h"
 #include "render/cloth_mesh.h"
 #include "render/cloth_rim.h"
+#include "render/layer_shares.h"
 #include "render/patches.h"
 #include "render/quality.h"
 #include "shared/render_layout.h"
@@ -46,15 +47,18 @@ class SmoothSurface {
   // `steps` for each piece, 1 to 8; of a cloth with these cuts. A lean surface, of whole grids alone, of
   // pieces with two steps, has points beside the particles only where triangles without them would be seen to
   // lie beside the surface, and all but the places of its points from the particles. `thickness` is that of
-  // each piece as it is drawn [m]; empty: without one, and without an edge.
+  // each piece as it is drawn [m]; empty: without one, and without an edge. `layers`: how far contact keeps
+  // layers apart [m], which then do not pass through each other; 0: they may.
   SmoothSurface(const Cloth& cloth, std::span<const std::uint32_t> steps, bool isLean,
-                std::span<const float> thickness = {}, const Cuts& cuts = {});
+                std::span<const float> thickness = {}, const Cuts& cuts = {}, double layers = 0);
   [[nodiscard]] const std::vector<std::uint32_t>& steps() const { return steps_; }
   [[nodiscard]] bool isLean() const { return isLean_; }
 
   // The surface of the particles at `positions`, one vec4 each, for which `particles` has computed normals;
-  // its triangles for the RenderFrame that is bound.
-  void compute(const SmoothPrograms& programs, GLuint positions, const ClothMesh& particles);
+  // its triangles for the RenderFrame that is bound. `layers`: where hasLayers().
+  void compute(const SmoothPrograms& programs, GLuint positions, const ClothMesh& particles,
+               const LayerPrograms* layers = nullptr);
+  [[nodiscard]] bool hasLayers() const { return layers_.has_value(); }
   // The triangles of all pieces, with the program and its state bound by the caller.
   // `only`: one piece.
   void draw(std::optional<std::size_t> only = {});
@@ -75,7 +79,7 @@ class SmoothSurface {
   };
   struct PieceBuffers {
     gl::Buffer<shared::ClothPiece> block;
-    GLuint columns = 0, rows = 0;
+    GLuint columns = 0, rows = 0, layerTriangles = 0;
     gl::Buffer<std::uint32_t> triangles;     // all of them, unless the surface is lean
     gl::Buffer<PatchPoint> patches;          // of a mesh or a cut grid
     gl::Buffer<std::uint32_t> counts, kept;  // of a lean surface: those that are drawn
@@ -95,7 +99,10 @@ class SmoothSurface {
   PieceBuffers makePatches(const Cloth& cloth, const Piece& piece,
                            std::span<const std::array<std::uint32_t, 3>> triangles,
                            const shared::ClothPiece& block, Points& all) const;
+  // A program over the particles of whole grids and so many more in each direction.
+  void dispatchGrids(const gl::Program& program, GLuint more = 0) const;
   void computePatches(const SmoothPrograms& programs);
+  void shareBetweenLayers(const LayerPrograms& programs, GLuint positions);
   void evenOutCuts(const SmoothPrograms& programs, GLuint positions);
   void chooseTriangles(const SmoothPrograms& programs);
 
@@ -109,6 +116,7 @@ class SmoothSurface {
   gl::Buffer<std::array<float, 2>> textureCoordinates_;
   gl::VertexArray vertices_;
   std::optional<ClothRim> rim_;
+  std::optional<LayerShares> layers_;
 };
 
 }  // namespace clothsim

@@ -179,7 +179,7 @@ TEST_F(PatchesTest, HaveNoPolygonalSilhouette) {
 
 TEST(BrokenPatches, AreSeenInThePicture) {
   const test::ResourceCopy resources;
-  ASSERT_TRUE(resources.change("render/smooth_patches.comp", "SHARE = 0.5", "SHARE = 0.1"));
+  ASSERT_TRUE(resources.change("render/patch_point.glsl", "SHARE = 0.5", "SHARE = 0.1"));
   const test::CommandResult result = resources.runTests("PatchesTest.*Silhouette:PatchesTest.*Cylinder*");
   EXPECT_NE(result.output.find("FAILED  ] PatchesTest.HaveNoPolygonalSilhouette"), std::string::npos)
       << result.output;
