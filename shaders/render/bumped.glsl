@@ -23,6 +23,6 @@ void shadeBumped() {
   vec3 toEye = normalize(frame.eye.xyz - surface.position);
   float lit = sunlit(surface.shadowPlace);
   float open = openness(clamp(1.0 - HOLLOW_SHADE * surface.hollow * side, 0.45, 1.1));
-  vec3 light = albedoOfSide() * diffuseLight(normal, lit, skyShare(surface.position, normal)) * open;
+  vec3 light = albedoOfSide() * (1.0 - highlightShare(HIGHLIGHT, EXPONENT)) * diffuseLight(normal, lit, skyShare(surface.position, normal)) * open;
   color = vec4(canvasFromLight(light + HIGHLIGHT * highlight(normal, toEye, EXPONENT, lit)), 1.0);
 }

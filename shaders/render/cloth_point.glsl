@@ -13,9 +13,11 @@ vec3 drawnPoint(vec3 position, vec4 normal, vec2 uv) {
 float sideOf(float facing) { return clamp(12.0 * facing, -1.0, 1.0); }
 
 // Of a bend it does so behind the silhouette, which is that of the outer side.
+float facingOf(vec3 position, vec4 normal) {
+  return dot(normal.xyz, normalize(frame.eye.xyz - position)) - clamp(1.5 * normal.w, -0.2, 0.2);
+}
 vec3 drawnPoint(vec3 position, vec4 normal, vec2 uv) {
-  float facing = dot(normal.xyz, normalize(frame.eye.xyz - position)), bend = clamp(1.5 * normal.w, -0.2, 0.2);
-  return position + normal.xyz * (frame.thickness * piece.halfThickness * sideOf(facing - bend));
+  return position + normal.xyz * (frame.thickness * piece.halfThickness * sideOf(facingOf(position, normal)));
 }
 vec3 litPoint(vec3 position, vec4 normal, vec2 uv, vec3 toLight) {
   return position + normal.xyz * (frame.thickness * piece.halfThickness * sideOf(dot(normal.xyz, toLight)));

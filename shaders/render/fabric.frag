@@ -22,33 +22,20 @@ layout(location = 0) in LitVertex lit;
 vec3 light() {
   vec3 dye = gl_FrontFacing ? frame.clothFront.rgb : frame.clothBack.rgb;
   float warp = gl_FrontFacing ? lit.warp : 1.0 - lit.warp;
-  vec3 shine = shineOf(lit.along, warp, albedoOfThreads(dye, warp)) * (gl_FrontFacing ? lit.shine.x : lit.shine.y);
+  vec3 shine = shineOf(lit.along, warp, albedoOfThreads(dye, warp), gl_FrontFacing ? 1.0 : -1.0) * (gl_FrontFacing ? lit.shine.x : lit.shine.y);
   return ((gl_FrontFacing ? lit.front : lit.back) + shine) * hem(lit.uv);
 }
 #else
 layout(location = 0) in Surface surface;
 #include "render/two_sided.glsl"
-#ifdef PRINT
-#include "render/print.glsl"
-
-const float PRINT_SEEN_FROM_BEHIND = 0.45;
-#endif
-
-vec3 dyeAt(vec2 uv) {
-  vec3 dye = albedoOfSide();
-#ifdef PRINT
-  vec3 print = printAt(uv);
-  dye = gl_FrontFacing ? print : mix(dye, print, PRINT_SEEN_FROM_BEHIND);
-#endif
-  return dye;
-}
+#include "render/dye.glsl"
 
 vec3 light() {
   float side = facingSide(), lit = sunlit(surface.shadowPlace);
   TangentFrame t = tangentFrame(surface, side);
   Threads threads = threadsAt(surface.uv, side);
-  vec3 albedo = albedoOfThreads(dyeAt(surface.uv) * threads.dye, threads.warp) * hem(surface.uv);
-  vec3 shine = shineOf(alongThreads(t, surface.position), threads.warp, albedo) * shineSeen(t, threads, lit);
+  vec3 albedo = albedoOfThreads(dyeAt(surface.uv, side) * threads.dye, threads.warp) * hem(surface.uv);
+  vec3 shine = shineOf(alongThreads(t, surface.position), threads.warp, albedo, side) * shineSeen(t, threads, lit);
   return matteLight(surface, t, side, threads, albedo, lit) + shine;
 }
 #endif

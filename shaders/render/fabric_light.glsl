@@ -10,39 +10,69 @@
 #include "render/tangent_frame.glsl"
 #include "render/threads.glsl"
 
-const float TRANSMITTED = 0.14;  // part of the key light that comes out at the other side
+const float TRANSMITTED = 0.14;     // part of the key light that comes out at the other side
 const float HOLLOW_SHADE = 1.7;
-const float SATIN_SKY = 0.45;      // part of the sky's light that silk sends on along its threads
+const float SHINE = 0.6;            // part of the light that the glossiest threads reflect along themselves, not all around
+const float NARROW_SHINE = 0.5;     // of it, in the narrow lobe
+const float LOBE_SCALE = 0.39;      // keeps the lobes' energy: measured (tests/gl/render/furnace_gl_test.cpp)
+const float DEEP_IN_PILE = 0.5;     // part of the light that a pile does not let out again
+const float UNDYED = 0.006;         // part of the light that threads reflect off their fibres' surface
 const float FILM_REFLECTED = 0.04;  // of light from straight ahead, at a refractive index of 1.5
 
 vec3 directionToEye(vec3 position) { return normalize(frame.eye.xyz - position); }
 
 // Between the threads of the warp, those of the weft show.
-vec3 albedoOfThreads(vec3 dye, float warp) { return mix(mix(dye, frame.weft.rgb, frame.weft.w), dye, warp); }
-
-// The rest is matte: glossy threads send less light through themselves in all directions.
-float matteShare() {
+vec3 albedoOfThreads(vec3 dye, float warp) {
+  vec3 dyed = mix(mix(dye, frame.weft.rgb, frame.weft.w), dye, warp);
 #ifdef WOVEN
-  return 1.0 - 0.3 * frame.fabric.z * frame.fabric.z;
+  return mix(dyed, vec3(1), UNDYED * (1.0 - frame.fabric.z));  // that of glossy ones is their shine
 #else
-  return 1.0;
+  return dyed;
 #endif
 }
 
-vec3 shineTint(vec3 albedo) { return mix(vec3(0.30), sqrt(albedo), 0.6); }
+// The reverse may be duller: of satin the weft is there.
+float glossOf(float side) { return frame.fabric.z * (side > 0.0 ? 1.0 : frame.relief.w); }
 
-// What comes from the sky without being dyed as matte light is: along the threads, or off a film (C. Schlick, "An Inexpensive
-// BRDF Model for Physically-based Rendering", 1994). A bundle of fibres has normals all around it: the one that faces the eye
-// most is that of its reflection.
-vec3 skyShine(TangentFrame t, Threads threads, vec3 normal, vec3 toEye, vec3 albedo, float share) {
-  float gloss = frame.fabric.z;
+// The part of the light that is reflected along the threads.
+float shineShare(float gloss) { return SHINE * gloss * gloss; }
+
+// Of light that has been inside of fibres and comes out again on the side from where it came.
+vec3 dyedShine(vec3 albedo) { return mix(albedo, sqrt(albedo), 0.2); }
+vec3 shineTint(vec3 albedo) { return mix(dyedShine(albedo), vec3(0.5), 0.12); }
+
+// What a film reflects at its surface (C. Schlick, "An Inexpensive BRDF Model for Physically-based Rendering", 1994).
+float filmReflected(float normalEye) {
+  float grazing = 1.0 - clamp(normalEye, 0.0, 1.0), grazing2 = grazing * grazing;
+  return FILM_REFLECTED + (1.0 - FILM_REFLECTED) * grazing2 * grazing2 * grazing;
+}
+
+// The sheen's colour and strength: fibres on the surface hardly dye what they reflect.
+vec3 sheenTint(vec3 albedo, float side) {
+  float fibres = frame.fabric.w * (side < 0.0 ? 1.0 - 0.8 * frame.pile : 1.0);  // no pile on the reverse
+  return fibres * mix(sqrt(albedo), vec3(1), 0.05);
+}
+
+// What is left for the matte threads below the sheen and the shine, or below the surface of a film, so that no more light
+// is sent back than comes (A. C. Estevez, C. Kulla, 2017, as in charlie.glsl).
+float matteShare(vec3 sheen, float gloss, float normalEye, float side) {
 #ifdef WOVEN
-  vec3 ofFibres = normalize(toEye - dot(toEye, t.v) * t.v + 0.3 * normal);
-  return skyIrradiance(reflect(-toEye, ofFibres)) * (share * SATIN_SKY * gloss * gloss * threads.warp) * shineTint(albedo);
+  float above = side < 0.0 ? 1.0 : 1.0 - DEEP_IN_PILE * frame.pile;
+  return above * (1.0 - shineShare(gloss)) * (1.0 - max(max(sheen.r, sheen.g), sheen.b) * sheenAlbedo(normalEye));
 #else
-  float grazing = 1.0 - clamp(dot(normal, toEye), 0.0, 1.0), grazing2 = grazing * grazing;
-  float reflected = FILM_REFLECTED + (1.0 - FILM_REFLECTED) * grazing2 * grazing2 * grazing;
-  return skyIrradiance(reflect(-toEye, normal)) * (share * reflected * mix(0.3, 1.0, gloss));
+  return 1.0 - filmReflected(normalEye);
+#endif
+}
+
+// What comes from the sky without being dyed as matte light is: along the threads, or off a film. A bundle of fibres has
+// normals all around it: the one that faces the eye most is that of its reflection.
+vec3 skyShine(TangentFrame t, Threads threads, vec3 normal, vec3 toEye, vec3 albedo, float gloss, float share) {
+#ifdef WOVEN
+  vec3 fibres = threads.warp > 0.5 ? t.v : t.u;
+  vec3 ofFibres = normalize(toEye - dot(toEye, fibres) * fibres + 0.3 * normal);
+  return skyIrradiance(reflect(-toEye, ofFibres)) * (share * shineShare(gloss) * max(threads.warp, 1.0 - threads.warp)) * shineTint(albedo);
+#else
+  return skyIrradiance(reflect(-toEye, normal)) * (share * filmReflected(dot(normal, toEye)) * mix(0.3, 1.0, gloss));
 #endif
 }
 
@@ -62,10 +92,10 @@ vec3 matteLight(Surface s, TangentFrame t, float side, Threads threads, vec3 alb
   vec3 key = frame.keyColor.rgb * lit;
   float fill = max(0.5 + 0.5 * dot(normal, frame.toFillLight.xyz), 0.0);
   float through = TRANSMITTED * max(-facing, 0.0);
-  vec3 light = albedo * matteShare() * (key * (normalLight * terminator * threads.light + through) + sky + fill * fill * open * frame.fillColor.rgb);
-
-  vec3 fibres = frame.fabric.w * (0.05 + 0.95 * sqrt(albedo));
-  return light + skyShine(t, threads, normal, toEye, albedo, share) + fibres * (key * highlit * sheenReflected(clamp(dot(normal, halfway), 0.0, 1.0), normalLight, normalEye) + sky * sheenAlbedo(normalEye));
+  float gloss = glossOf(side);
+  vec3 fibres = sheenTint(albedo, side);
+  vec3 light = albedo * matteShare(fibres, gloss, normalEye, side) * (key * ((1.0 - TRANSMITTED) * normalLight * terminator * threads.light + through) + sky + fill * fill * share * frame.fillColor.rgb);
+  return light + skyShine(t, threads, normal, toEye, albedo, gloss, share) + fibres * (key * highlit * sheenReflected(clamp(dot(normal, halfway), 0.0, 1.0), normalLight, normalEye) + sky * sheenAlbedo(normalEye));
 }
 
 // How the threads lie to the direction halfway between the eye and the light: its parts along u and v.
@@ -80,17 +110,22 @@ float shineSeen(TangentFrame t, Threads threads, float lit) {
 }
 
 #ifdef WOVEN
+// Over what it sends back of light from all around, which narrows as one over the root of the exponent.
+float lobeShine(vec2 along, float warp, float exponent) {
+  return threadShine(along, warp, exponent) * (LOBE_SCALE * sqrt(exponent + 0.8));
+}
+
 // A narrow highlight off the fibres, hardly dyed, in a wide one of light that has been inside of them (the lobes R and TRT of
 // S. Marschner et al., "Light Scattering from Human Hair Fibers", 2003).
-vec3 shineOf(vec2 along, float warp, vec3 albedo) {
-  float gloss = frame.fabric.z, exponent = mix(5.0, 44.0, gloss);
-  float narrow = threadShine(along, warp, 1.5 * exponent), wide = threadShine(along, warp, 0.3 * exponent);
-  vec3 light = narrow * mix(vec3(0.30), sqrt(albedo), 0.5) + 0.45 * wide * sqrt(albedo);
-  return light * (0.95 * gloss * gloss) * frame.keyColor.rgb;
+vec3 shineOf(vec2 along, float warp, vec3 albedo, float side) {
+  float gloss = glossOf(side), exponent = mix(5.0, 44.0, gloss);
+  vec3 narrow = lobeShine(along, warp, 2.0 * exponent) * mix(sqrt(albedo), vec3(0.5), 0.3);
+  vec3 wide = lobeShine(along, warp, 0.45 * exponent) * dyedShine(albedo);
+  return mix(wide, narrow, NARROW_SHINE) * shineShare(gloss) * frame.keyColor.rgb;
 }
 #else
 // Of a film: J. Blinn, "Models of Light Reflection for Computer Synthesized Pictures", 1977, times (n + 8) / 8 for the energy.
-vec3 shineOf(vec2 along, float warp, vec3 albedo) {
+vec3 shineOf(vec2 along, float warp, vec3 albedo, float side) {
   float exponent = exp2(mix(2.0, 8.0, frame.fabric.z));
   float highlight = pow(max(1.0 - dot(along, along), 0.0), 0.5 * exponent);
   return highlight * (FILM_REFLECTED * (exponent + 8.0) / 8.0) * frame.keyColor.rgb;

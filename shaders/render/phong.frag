@@ -9,7 +9,7 @@
 
 const float HIGHLIGHT = 0.08, EXPONENT = 24.0;
 const float SHEEN = 0.24;
-const float TRANSMITTED = 0.16;     // part of the key light that comes out at the other side
+const float TRANSMITTED = 0.12;     // part of the key light that comes out at the other side
 const float HOLLOW_SHADE = 1.4;
 
 layout(location = 0) in Surface surface;
@@ -25,10 +25,11 @@ void main() {
 
   float open = openness(clamp(1.0 - HOLLOW_SHADE * surface.hollow * side, 0.4, 1.15));
   float share = skyShare(surface.position, normal);
-  vec3 light = diffuseLight(normal, lit, share) * open;
-  light += TRANSMITTED * lit * max(-dot(normal, frame.toKeyLight.xyz), 0.0) * frame.keyColor.rgb;
   float grazing = 1.0 - clamp(dot(normal, toEye), 0.0, 1.0);
   float rim = grazing * grazing * grazing;
+  float matte = 1.0 - TRANSMITTED - highlightShare(HIGHLIGHT, EXPONENT) - SHEEN * rim;
+  vec3 light = matte * diffuseLight(normal, lit, share) * open;
+  light += TRANSMITTED * lit * max(-dot(normal, frame.toKeyLight.xyz), 0.0) * frame.keyColor.rgb;
   vec3 sheen = SHEEN * rim * open * share * ambientLight(normal) * mix(vec3(1), albedo, 0.7);
   color = vec4(canvasFromLight(albedo * light + HIGHLIGHT * highlight(normal, toEye, EXPONENT, lit) + sheen), 1.0);
 }

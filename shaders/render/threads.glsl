@@ -55,12 +55,12 @@ vec4 storedAt(vec2 place) {
 #if defined(LIT_AT_VERTICES)
   return textureLod(weave, place, SMALLEST_MIPMAP);  // threads that are much finer than a triangle, as a mean
 #elif defined(EXPOSURE)
-  // Exposures lie side by side in what the pixel covers: each needs only the mean over the width of that, and its length is
-  // the mean of the exposures. So threads fade along each direction by what is covered in it.
+  // Exposures lie side by side in what the pixel covers: each needs only the mean over half the width of that, and the rest
+  // is the mean of the exposures. So threads fade along each direction by what is covered in it.
   vec2 right = dFdx(place), up = dFdy(place);
   float longer = max(max(length(right), length(up)), 1e-9);
   float width = max(abs(right.x * up.y - right.y * up.x) / longer, longer / MOST_OBLIQUE);
-  return textureLod(weave, place, log2(width * float(textureSize(weave, 0).x)) + 0.4);
+  return textureLod(weave, place, log2(0.5 * width * float(textureSize(weave, 0).x)));
 #else
   // One mipmap smaller than usual: the weave repeats every two threads, which a pixel of one thread would turn into moire.
   return texture(weave, place, 1.0);
@@ -68,22 +68,27 @@ vec4 storedAt(vec2 place) {
 }
 #endif
 
+bool isKnit() { return frame.yarns.w > 0.0; }
+
 Threads threadsAt(vec2 uv, float side) {
 #ifdef WOVEN
   vec2 place = uv * vec2(piece.width, piece.height) * frame.fabric.xy;
-  vec4 stored = storedAt(place);
+  // The weft floats on the reverse as the warp does on the face.
+  bool isTurned = side < 0.0 && !isKnit();
+  vec4 stored = storedAt(isTurned ? place.yx : place);
   vec2 slope = (stored.rg * 2.0 - 256.0 / 255.0) * (SLOPE_RANGE * FLATTENED * frame.relief.x);
+  if (isTurned) slope = slope.yx;
 #ifdef LIT_AT_VERTICES
   float dye = 1.0;
 #else
   float dye = dyeOf(place * frame.yarns.xy);
 #endif
   float warp = stored.a / max(stored.b, 0.01);
-  if (frame.yarns.w > 0.0) {  // a knit: its reverse has rows of loops, which rise along v alone as far as is stored
+  if (isKnit()) {  // its reverse has rows of loops, which rise along v alone as far as is stored
     if (side < 0.0) slope = vec2(0.0, (stored.a * 2.0 - 256.0 / 255.0) * (SLOPE_RANGE * FLATTENED * frame.relief.x));
     warp = 0.5;
   }
-  return Threads(slope, stored.b, side > 0.0 ? warp : 1.0 - warp, dye);  // what is below on one side is above on the other
+  return Threads(slope, stored.b, side > 0.0 ? warp : 1.0 - warp, dye);
 #else
   return Threads(vec2(0), 1.0, 0.5, 1.0);
 #endif

@@ -76,6 +76,8 @@ using uint = unsigned int;
 #define INSTANCE_LOOK_LOCATION 11     // colliders: linear colour and gloss; red below 0: the stage's ground
 #define TANGENT_LOCATION 10           // cloth: the direction of u, and the strain
 #define LINE_LOOK_LOCATION 9          // springs: sRGB colour and width [pixels], the same for all
+#define FUZZ_SHELL_UNIFORM \
+  0  // vec3: height of a shell of fuzz and its depth, as parts of the fibres, and how far it is seen
 
 #define PICK_KIND_BITS 2  // of a picked pixel's identity; the rest is a number
 #define PICK_KIND_MASK 3u
@@ -115,7 +117,8 @@ struct RenderFrame {
   vec4 fabric;     // x, y: repeats of the weave's picture in a metre along u and v, z: gloss, w: sheen
   vec4 yarns;      // x, y: threads in a repeat along u and v, z: how far their dye differs, w: 1 of a knit
   vec4 weft;       // albedo; w: 1 where it is not that of the warp
-  vec4 relief;     // x: strength of normals, y: height of height maps [m], z: repeats of a texture
+  vec4 relief;  // x: strength of normals, y: height of height maps [m], z: repeats of a texture, w: gloss of
+                // the reverse over that of the face
   vec4 irradiance[9];              // of the sky (render/environment.h)
   vec4 strainStops[STRAIN_STOPS];  // colours from the most compressed to the most stretched
   float strainRange;               // l/L - 1 at the last of them
@@ -123,7 +126,9 @@ struct RenderFrame {
   float thickness;                 // 1: cloth is drawn as thick as it is; 0: without thickness
   float casterThickness;           // the same where its shadow falls from
   float motion;                    // from the state to where it is drawn [s]
-  float unused1, unused2, unused3;
+  float fuzz;                      // how far loose fibres stand off the cloth [m]
+  float fuzzCover;                 // their optical depth, seen from straight ahead
+  float pile;                      // 1: the front is one of upright fibres
 };
 
 struct ClothPiece {

@@ -12,13 +12,14 @@ struct Look {
   std::string_view material, weave;
   double threadSpacing, gloss;  // thread counts of such fabrics in shops
   Vec3d color, backColor;
+  double fuzz = 0;
 };
 
 constexpr std::array<Look, 7> looks{{
     {"silk", "satin", 0.00025, 0.85, {0.56, 0.05, 0.13}, {0.62, 0.14, 0.20}},
     {"cotton", "plain", 0.0004, 0.15, {0.87, 0.85, 0.79}, {0.87, 0.85, 0.79}},
     {"denim", "denim", 0.0004, 0.15, {0.045, 0.105, 0.25}, {0.68, 0.66, 0.61}},  // warp and weft
-    {"wool", "twill", 0.0009, 0.0, {0.47, 0.33, 0.22}, {0.47, 0.33, 0.22}},
+    {"wool", "twill", 0.0009, 0.0, {0.47, 0.33, 0.22}, {0.47, 0.33, 0.22}, 0.002},
     {"jersey", "jersey", 0.0009, 0.1, {0.46, 0.51, 0.58}, {0.46, 0.51, 0.58}},
     {"rubber", "none", 0.0015, 0.55, {0.13, 0.13, 0.14}, {0.13, 0.13, 0.14}},
     {"paper", "none", 0.0015, 0.1, {0.93, 0.92, 0.88}, {0.93, 0.92, 0.88}},
@@ -52,6 +53,7 @@ RenderSettings usualLook(const ClothSettings& cloth) {
   render.weave = look->weave;
   render.threadSpacing = look->threadSpacing;
   render.gloss = look->gloss;
+  render.fuzz = look->fuzz;
   render.color = look->color;
   render.backColor = look->backColor;
   return render;
@@ -66,6 +68,7 @@ void followLook(RenderSettings& render, const RenderSettings& before, const Rend
   follow(&RenderSettings::weave);
   follow(&RenderSettings::threadSpacing);
   follow(&RenderSettings::gloss);
+  follow(&RenderSettings::fuzz);
   follow(&RenderSettings::color);
   follow(&RenderSettings::backColor);
 }

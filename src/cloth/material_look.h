@@ -31,6 +31,7 @@ void forEachOfLook(Visit visit) {
   visit(&L::weave, &R::weave);
   visit(&L::threadSpacing, &R::threadSpacing);
   visit(&L::gloss, &R::gloss);
+  visit(&L::fuzz, &R::fuzz);
   visit(&L::normalStrength, &R::normalStrength);
   visit(&L::height, &R::height);
   visit(&L::thickness, &R::thickness);

@@ -1,5 +1,6 @@
 #include "render/look.h"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -47,6 +48,9 @@ void addThreads(const RenderSettings& settings, shared::RenderFrame& frame) {
                  static_cast<float>(weave.unevenness), weave.isKnit ? 1.0f : 0.0f};
   frame.weft = frame.clothBack;
   frame.weft.w = weave.weftIsOther ? 1 : 0;
+  frame.fuzz = static_cast<float>(std::max(settings.fuzz, weave.fuzz));
+  frame.fuzzCover = static_cast<float>(weave.fuzzCover);
+  frame.pile = weave.isPile ? 1.0f : 0.0f;
   if (weave.weftIsOther) frame.clothBack = frame.clothFront;  // the warp is there on both sides
 }
 
@@ -78,7 +82,8 @@ void setClothLook(const RenderSettings& settings, shared::RenderFrame& frame) {
   frame.clothBack = glm::vec4(linearColor(settings.backColor), 1);
   addThreads(settings, frame);
   frame.relief = {static_cast<float>(settings.normalStrength), static_cast<float>(settings.height),
-                  static_cast<float>(settings.textureRepeat), 0};
+                  static_cast<float>(settings.textureRepeat),
+                  static_cast<float>(weaveOf(settings.weave).reverseGloss)};
 }
 
 glm::vec3 directionToKeyLight(const RenderSettings& settings, glm::vec3 front) {

@@ -22,12 +22,16 @@ gl::Program makeDepthOnly(const std::string& vertexFile, const ShadingModel& mod
   return gl::Program::makeRender(vertexFile, "render/depth_only.frag", defines);
 }
 
-gl::Program makeCloth(const ShadingModel& model, ClothLight light) {
+gl::Program makeCloth(const ShadingModel& model, ClothLight light, const std::string& vertexFile,
+                      const std::string& fragmentFile) {
   gl::Defines defines = model.defines;
   if (light == ClothLight::atVertices) defines.emplace_back("LIT_AT_VERTICES", "");
   if (light == ClothLight::exposed) defines.emplace_back("EXPOSURE", "");
-  return gl::Program::makeRender("render/cloth.vert", "render/" + model.name + ".frag", defines);
+  return gl::Program::makeRender(vertexFile, fragmentFile, defines);
 }
+
+constexpr const char* clothVertices = "render/cloth.vert";
+std::string shadingFile(const ShadingModel& model) { return "render/" + model.name + ".frag"; }
 
 }  // namespace
 
@@ -59,11 +63,12 @@ void RenderPrograms::chooseSamples(int samples) {
 }
 
 void RenderPrograms::chooseModel(const ShadingModel& model) {
-  gl::Program shading = makeCloth(model, ClothLight::atPixels);
+  gl::Program shading = makeCloth(model, ClothLight::atPixels, clothVertices, shadingFile(model));
   gl::Program depth = makeDepthOnly("render/cloth_depth.vert", model);
   clothShadow = makeDepthOnly("render/cloth_shadow.vert", model);
   clothDepth = std::move(depth);
   cloth_.clear();
+  fuzz_.clear();
   cloth_.push_back({model.defines, ClothLight::atPixels, std::move(shading)});
   if (std::exchange(model_, model).measuresStrain == model.measuresStrain) return;
   normals_.reset();
@@ -127,11 +132,21 @@ const ShadedPrograms& RenderPrograms::shaded(bool forExposures) {
   return *programs;
 }
 
-const gl::Program& RenderPrograms::cloth(const ShadingModel& model, ClothLight light) {
-  for (const ClothProgram& known : cloth_)
+const gl::Program& RenderPrograms::made(std::vector<ClothProgram>& programs, const ShadingModel& model,
+                                        ClothLight light, const std::string& vertexFile,
+                                        const std::string& fragmentFile) {
+  for (const ClothProgram& known : programs)
     if (known.light == light && known.defines == model.defines) return known.program;
-  cloth_.push_back({model.defines, light, makeCloth(model, light)});
-  return cloth_.back().program;
+  programs.push_back({model.defines, light, makeCloth(model, light, vertexFile, fragmentFile)});
+  return programs.back().program;
+}
+
+const gl::Program& RenderPrograms::cloth(const ShadingModel& model, ClothLight light) {
+  return made(cloth_, model, light, clothVertices, shadingFile(model));
+}
+
+const gl::Program& RenderPrograms::fuzz(const ShadingModel& model, ClothLight light) {
+  return made(fuzz_, model, light, "render/fuzz.vert", "render/fuzz.frag");
 }
 
 const MeanPrograms& RenderPrograms::mean() {
@@ -166,6 +181,9 @@ void tryAllShaders(const RenderSettings& settings, int samples) {
     const ShadingModel thick = shadingModelOf(other, true);
     programs.chooseModel(thick);
     static_cast<void>(programs.cloth(thick, ClothLight::exposed));
+    if (name == "fabric")
+      for (const ClothLight light : {ClothLight::atPixels, ClothLight::exposed})
+        static_cast<void>(programs.fuzz(thick, light));
   }
   for (const bool ofLean : {false, true}) static_cast<void>(programs.rim(ofLean));
   static_cast<void>(programs.picking());

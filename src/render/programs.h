@@ -60,6 +60,7 @@ struct RenderPrograms {
   [[nodiscard]] const ShadedPrograms& shaded(bool forExposures);
   // What shades cloth, of the chosen model or one that differs from it by what it looks at.
   [[nodiscard]] const gl::Program& cloth(const ShadingModel& model, ClothLight light);
+  [[nodiscard]] const gl::Program& fuzz(const ShadingModel& model, ClothLight light);  // of what it shades
 
   gl::Program clothDepth, clothShadow, backdrop, resolve;
   gl::Program sphereShadow = gl::Program::makeRender("render/sphere_shadow.vert", "render/depth_only.frag");
@@ -78,7 +79,11 @@ struct RenderPrograms {
     ClothLight light;
     gl::Program program;
   };
+  static const gl::Program& made(std::vector<ClothProgram>& programs, const ShadingModel& model,
+                                 ClothLight light, const std::string& vertexFile,
+                                 const std::string& fragmentFile);
   std::vector<ClothProgram> cloth_;  // of the chosen model's fragment shader
+  std::vector<ClothProgram> fuzz_;
   std::optional<SmoothPrograms> smooth_;
   std::optional<LayerPrograms> layers_;
   std::optional<PickPrograms> picking_;

@@ -162,7 +162,7 @@ void Renderer::Parts::chooseSurface(const Camera& camera, int height, double asp
   const bool isRough = !scene->render.smooth || options.subdivisions == 0 || model.blends ||
                        (options.flatness > 0 && !isOfGrids);
   const double distance = static_cast<double>(glm::distance(camera.eye(), camera.target()));
-  const double pixelsAMetre = 0.5 * height * static_cast<double>(camera.projection(aspect)[1][1]) / distance;
+  pixelsAMetre = 0.5 * height * static_cast<double>(camera.projection(aspect)[1][1]) / distance;
   const auto thickest = std::max_element(thickness.begin(), thickness.end());
   const bool isThick =
       thickest != thickness.end() && static_cast<double>(*thickest) * pixelsAMetre > leastSeen;
@@ -332,6 +332,7 @@ void Renderer::Parts::drawScene(GLuint positions) {
   colliders.drawPlanes(shading.plane);
   glDisable(GL_POLYGON_OFFSET_FILL);
   if (model.blends) drawCloth(positions);
+  drawFuzz(positions);
   drawOverlay(positions);
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
@@ -397,6 +398,7 @@ void Renderer::Parts::findChanges(GLuint positions, int width, int height) {
                           particles.data());
   float reach = smooth ? static_cast<float>(longestEdge(*cloth)) : 0;
   if (drawsThick()) reach += *std::max_element(thickness.begin(), thickness.end());
+  reach += longestFuzz();
   part =
       changes.next({frame.clipFromWorld, frame.shadowFromWorld, width, height, reach}, particles, colliders);
 }
@@ -483,6 +485,7 @@ void Renderer::Parts::draw(const Picture& picture, const Around& around) {
   const int w = scaled(width), h = scaled(height);
   const double motion = exposure != nullptr ? scene->camera.shutter * exposure->time : 0;
   frame.motion = static_cast<float>(motion);
+  shellPlace = exposure != nullptr ? std::fmod(0.5 + number * 0.6180339887498949, 1.0) : 0.5;
   colliders.place(*scene, stage, time + motion);
   const double aspect = static_cast<double>(width) / height;
   lookFrom(*camera, w, h, aspect);

@@ -63,6 +63,8 @@ struct Renderer::Parts {
   void drawScene(GLuint positions);
   void drawCloth(GLuint positions);
   void drawOverlay(GLuint positions);
+  void drawFuzz(GLuint positions);          // in fuzz.cpp
+  [[nodiscard]] float longestFuzz() const;  // [m]
   void drawIdentities(GLuint positions);
   void drawBackdrop(int width, int height);
   void resolveInto(GLuint destination, int width, int height, const gl::Program& resolve, GLuint texture);
@@ -85,6 +87,8 @@ struct Renderer::Parts {
   ClothMesh clothMesh;
   std::vector<float> thickness;         // of each piece as it is drawn [m]
   bool lightsVertices = false;          // of the cloth, which is fine enough for that
+  double pixelsAMetre = 0;              // at the distance of what the camera looks at
+  double shellPlace = 0.5;              // of the shells of fuzz between their neighbours, 0 to 1
   std::optional<SmoothSurface> smooth;  // drawn instead of the triangles of the particles
   Colliders colliders;
   ShadowMap shadowMap;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "core/error.h"
+#include "render/weaves.h"
 
 namespace clothsim {
 
@@ -31,6 +32,7 @@ ShadingModel shadingModelOf(const RenderSettings& settings, bool thick) {
   model.blends = name == "wireframe";
   model.hasVertexLight = name == "fabric" && model.textureUse == TextureUse::none;
   model.isThick = thick && !model.displaces && !model.blends;  // lines have none, and reliefs their own
+  if (thick && !model.weave.empty()) model.fuzz = std::max(settings.fuzz, weaveOf(model.weave).fuzz);
 
   if (name == "fabric" || name == "bump" || name == "displacement") model.defines.emplace_back("TANGENT", "");
   if (model.measuresStrain) model.defines.emplace_back("STRAIN", "");

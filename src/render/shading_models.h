@@ -26,12 +26,13 @@ struct ShadingModel {
   bool displaces = false;        // its surface is not where the particles are
   bool isThick = false;          // the cloth is drawn as thick as it is
   bool hasVertexLight = false;   // can be worked out at vertices, but for what pixels tell apart
+  double fuzz = 0;               // how far fibres stand off the cloth that are drawn over it [m]
   bool blends = false;           // drawn last, without hiding what is behind it
   gl::Defines defines;           // of cloth.vert and its own shader
   friend bool operator==(const ShadingModel&, const ShadingModel&) = default;
 };
-// `thick`: with the cloth's thickness, where the model has one. @throws SceneError for a name that does not
-// exist, listing those that do
+// `thick`: with the cloth's thickness and fuzz, where the model has them. @throws SceneError for a name that
+// does not exist, listing those that do
 [[nodiscard]] ShadingModel shadingModelOf(const RenderSettings& settings, bool thick = false);
 
 }  // namespace clothsim

@@ -116,7 +116,7 @@ struct ClothLook {
   std::optional<std::string> texture;  // "": none
   std::optional<double> textureRepeat;
   std::optional<std::string> weave;
-  std::optional<double> threadSpacing, gloss, normalStrength, height, thickness;
+  std::optional<double> threadSpacing, gloss, fuzz, normalStrength, height, thickness;
   friend bool operator==(const ClothLook&, const ClothLook&) = default;
 };
 
@@ -262,7 +262,8 @@ struct CameraSettings {
 inline constexpr std::array<std::string_view, 10> shadingModels{
     "fabric",       "phong",  "diffuse", "texture",   "bump",
     "displacement", "mirror", "normal",  "wireframe", "strain"};
-inline constexpr std::array<std::string_view, 6> weaves{"plain", "twill", "denim", "satin", "jersey", "none"};
+inline constexpr std::array<std::string_view, 7> weaves{"plain",  "twill",  "denim", "satin",
+                                                        "jersey", "velvet", "none"};
 inline constexpr std::array<std::string_view, 5> stages{"studio", "table", "window", "dark", "none"};
 inline constexpr std::array<std::string_view, 3> backgrounds{"studio", "sky", "plain"};
 
@@ -276,6 +277,7 @@ struct RenderSettings {
   std::string weave = "plain";        // of fabric
   double threadSpacing = 0.0015;      // of fabric, from thread to thread [m]
   double gloss = 0.3;                 // of fabric: 0 wool, 1 silk
+  double fuzz = 0;                    // of fabric, how far loose fibres stand off it [m]
   double normalStrength = 1;          // of weaves and bumps: 0 flat, 1 as high as they are
   double height = 0.012;              // of bump and displacement maps, from black to white [m]
   double strainRange = 0.1;           // l/L - 1 at the end of the strain map's scale

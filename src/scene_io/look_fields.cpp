@@ -8,7 +8,8 @@ namespace {
 
 constexpr Limits channel{.low = 0, .high = 1}, repeatLimits{.low = 0.01, .high = 1000},
     threadLimits{.low = 1e-5, .high = 1}, strengthLimits{.low = 0, .high = 10},
-    reliefLimits{.low = -1, .high = 1}, thicknessLimits{.low = 0, .high = 1};
+    reliefLimits{.low = -1, .high = 1}, thicknessLimits{.low = 0, .high = 1},
+    fuzzLimits{.low = 0, .high = 0.1};
 
 }  // namespace
 
@@ -35,8 +36,9 @@ std::span<const Field<RenderSettings>> fieldsOf<RenderSettings>() {
       field("texture_repeat", &R::textureRepeat, "Repeats of the texture along the cloth's longer side.")
           .within(repeatLimits)
           .usually(0.5, 50),
-      field("weave", &R::weave,
-            "Weave of the model fabric, or its knit: jersey; none: a film, as paper and rubber are.")
+      field(
+          "weave", &R::weave,
+          "Weave of the model fabric; jersey is a knit, velvet a pile, none a film, as paper and rubber are.")
           .oneOf(weaves)
           .byDefault("of the material; without one plain"),
       field("thread_spacing", &R::threadSpacing,
@@ -50,6 +52,14 @@ std::span<const Field<RenderSettings>> fieldsOf<RenderSettings>() {
       field("gloss", &R::gloss, "Gloss of the model fabric: 0 is wool, 1 is silk.")
           .within(channel)
           .byDefault("of the material; without one 0.3"),
+      field("fuzz", &R::fuzz,
+            "How far loose fibres of the model fabric stand off the cloth, but in draft quality; of velvet "
+            "at least "
+            "0.0015.")
+          .in("m")
+          .within(fuzzLimits)
+          .usually(0, 0.005)
+          .byDefault("of the material: of wool 0.002; without one 0"),
       field("normal_strength", &R::normalStrength,
             "Strength of weaves and bumps: 0 is flat, 1 true to their height.")
           .within(strengthLimits)
@@ -120,6 +130,11 @@ std::span<const Field<ClothLook>> fieldsOf<ClothLook>() {
           .byDefault(asScene),
       field("gloss", &L::gloss, "Gloss of this cloth: 0 is wool, 1 is silk.")
           .within(channel)
+          .byDefault(asScene),
+      field("fuzz", &L::fuzz, "How far loose fibres stand off this cloth.")
+          .in("m")
+          .within(fuzzLimits)
+          .usually(0, 0.005)
           .byDefault(asScene),
       field("normal_strength", &L::normalStrength, "Strength of this cloth's weave and bumps.")
           .within(strengthLimits)

@@ -17,6 +17,7 @@ order = json.loads(pathlib.Path(sys.argv[sys.argv.index("--") + 1]).read_text())
 KEY, FILL, SKY = (1.22, 1.15, 1.04), (0.16, 0.20, 0.28), (0.34, 0.38, 0.44)
 SOLID, FLOOR, BACKDROP_TOP, BACKDROP_BOTTOM = (0.80, 0.82, 0.84), (0.70, 0.73, 0.76), (0.32, 0.38, 0.45), (0.62, 0.67, 0.72)
 GLOW = (0.16, 0.17, 0.18)
+PRINT_SEEN_FROM_BEHIND = 0.45  # shaders/render/dye.glsl
 KNEE = 0.65  # shaders/render/tone.glsl
 FLOOR_RADIUS, POOL_SHARPNESS = 6.0, 14.0
 
@@ -114,11 +115,16 @@ def add_lights():
     nodes.add("ShaderNodeOutputWorld", {"Surface": background.outputs[0]})
 
 
-def weave_pictures(cloth):
-    """Colour and normal of the weave, from the picture that clothsim has (tools/make_textures)."""
+def weave_pictures(cloth, reverse):
+    """Colour and normal of the weave, from the picture that clothsim has (tools/make_textures). The weft floats on the reverse as
+    the warp does on the face."""
     stored = pixels_of(root / f"assets/textures/weave_{cloth['weave']}.png")
+    if reverse:
+        stored = stored.transpose(1, 0, 2)[..., [1, 0, 2, 3]]
     warp = numpy.clip(stored[..., 3] / numpy.maximum(stored[..., 2], 0.01), 0, 1)[..., None]
     front, back = linear(cloth["color"]), linear(cloth["back_color"])
+    if reverse:
+        front, back = back, front
     color = (back + (front - back) * warp if cloth["weave"] == "denim" else numpy.ones_like(warp) * front) * stored[..., 2:3]
     slope = (stored[..., :2] * 2 - 256 / 255) * 1.5
     normal = numpy.concatenate([slope * (-1, 1), numpy.ones_like(warp)], 2)  # v goes up there, and down in clothsim
@@ -131,27 +137,31 @@ def scaled_place(nodes, uv, x, y):
     return nodes.add("ShaderNodeMapping", {"Vector": uv, "Scale": (x, y, 1), "Location": (0, -y, 0)}).outputs[0]
 
 
-def cloth_color(nodes, cloth, uv, weave):
-    side = nodes.add("ShaderNodeNewGeometry").outputs["Backfacing"]
+def cloth_color(nodes, cloth, uv, weave, reverse):
+    own = nodes.add("ShaderNodeRGB").outputs[0]
+    own.default_value = rgba(linear(cloth["back_color" if reverse else "color"]))
     if "print" in cloth:
         longer = max(cloth["size"])
         place = scaled_place(nodes, uv, *[cloth["print_repeat"] * each / longer for each in cloth["size"]])
         picture = bpy.data.images.load(str(root / f"assets/textures/{cloth['print']}.png"))
-        return nodes.add("ShaderNodeTexImage", {"Vector": place}, image=picture).outputs[0]
+        print_color = nodes.add("ShaderNodeTexImage", {"Vector": place}, image=picture).outputs[0]
+        seen = PRINT_SEEN_FROM_BEHIND if reverse else 1.0
+        return nodes.add("ShaderNodeMixRGB", {"Fac": seen, "Color1": own, "Color2": print_color}).outputs[0]
     if cloth["weave"] == "denim":
         return weave
-    return nodes.add("ShaderNodeMixRGB", {"Fac": side, "Color1": rgba(linear(cloth["color"])),
-                                          "Color2": rgba(linear(cloth["back_color"]))}).outputs[0]
+    return own
 
 
-def cloth_material(cloth):
-    made, nodes = material("cloth")
+def cloth_material(cloth, reverse):
+    if reverse:
+        cloth = {**cloth, **cloth.get("reverse", {})}
+    made, nodes = material("reverse" if reverse else "face")
     uv = nodes.add("ShaderNodeUVMap").outputs[0]
     place = scaled_place(nodes, uv, *[size / (threads * cloth["spacing"])
                                       for size, threads in zip(cloth["size"], cloth["threads"])])
     color, normal = [nodes.add("ShaderNodeTexImage", {"Vector": place}, image=each).outputs[0]
-                     for each in weave_pictures(cloth)]
-    base = cloth_color(nodes, cloth, uv, color)
+                     for each in weave_pictures(cloth, reverse)]
+    base = cloth_color(nodes, cloth, uv, color, reverse)
     bent = nodes.add("ShaderNodeNormalMap", {"Color": normal, "Strength": cloth["relief"]}).outputs[0]
     tangent = nodes.add("ShaderNodeTangent", direction_type="UV_MAP").outputs[0]
     surface = nodes.add("ShaderNodeBsdfPrincipled", {
@@ -190,10 +200,11 @@ def import_obj(file):
 
 
 def add_cloth(cloth):
-    made = cloth_material(cloth)
+    sides = [cloth_material(cloth, reverse) for reverse in (False, True)]
     for piece in import_obj(cloth["file"]):
         piece.data.materials.clear()
-        piece.data.materials.append(made)
+        for side in sides:
+            piece.data.materials.append(side)
         bpy.context.view_layer.objects.active = piece
         if cloth["is_grid"]:
             bpy.ops.object.mode_set(mode="EDIT")
@@ -203,7 +214,7 @@ def add_cloth(cloth):
         smooth = piece.modifiers.new("smooth", "SUBSURF")
         smooth.levels = smooth.render_levels = cloth["levels"]
         thick = piece.modifiers.new("thick", "SOLIDIFY")
-        thick.thickness, thick.offset = cloth["thickness"], 0
+        thick.thickness, thick.offset, thick.material_offset = cloth["thickness"], 0, 1  # the other side is the reverse
         for polygon in piece.data.polygons:
             polygon.use_smooth = True
 

@@ -14,7 +14,7 @@ void drawClothLook(PanelContext& context, std::size_t number) {
   RenderSettings look = before;
   context.widgets.some(look, "cloths." + std::to_string(number) + ".render",
                        {"color", "back_color", "texture", "texture_repeat", "weave", "thread_spacing",
-                        "gloss", "normal_strength", "height", "thickness"});
+                        "gloss", "fuzz", "normal_strength", "height", "thickness"});
   forEachOfLook([&](auto member, auto ofScene) {
     if (look.*ofScene != before.*ofScene) own.*member = look.*ofScene;
   });

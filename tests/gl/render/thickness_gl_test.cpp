@@ -69,10 +69,10 @@ double topAbove(const Image& image, int x) {
 glm::dvec3 onPlane(double u, double v) { return {u - 0.5, 0, v - 0.5}; }
 
 // Half a cylinder around z, short enough to be seen along it; its front outside, or inside.
-constexpr double RADIUS = 0.45;
+constexpr double BEND_RADIUS = 0.45;
 glm::dvec3 onArch(double u, double v) {
   const double angle = std::numbers::pi * (1 - u);
-  return {RADIUS * std::cos(angle), RADIUS * std::sin(angle), 0.3 * (v - 0.5)};
+  return {BEND_RADIUS * std::cos(angle), BEND_RADIUS * std::sin(angle), 0.3 * (v - 0.5)};
 }
 glm::dvec3 onArchFromInside(double u, double v) { return onArch(1 - u, v); }
 
@@ -85,13 +85,13 @@ TEST_F(ThicknessTest, GivesASheetSeenFromItsEdgeThatHeightAndRoundEnds) {
 }
 
 TEST_F(ThicknessTest, LiesHalfOnEachSideOfABend) {
-  const double ring = std::numbers::pi * THICKNESS * (RADIUS + THICKNESS / 4);
+  const double ring = std::numbers::pi * THICKNESS * (BEND_RADIUS + THICKNESS / 4);
   for (const Shape& shape : {Shape(onArch), Shape(onArchFromInside)}) {
     const Scene along = sheetFrom({0, 0, 1}), aside = sheetFrom({1, 0, 0});
     for (const RenderOptions& options :
          {RenderOptions{.thick = true}, RenderOptions{.subdivisions = 1, .flatness = 0.2, .thick = true}}) {
       EXPECT_NEAR(area(drawn(along, shape, options)), ring, 0.04 * ring);
-      EXPECT_NEAR(topAbove(drawn(aside, shape, options), SIZE / 2), RADIUS + THICKNESS / 2, 1.2 / PIXELS)
+      EXPECT_NEAR(topAbove(drawn(aside, shape, options), SIZE / 2), BEND_RADIUS + THICKNESS / 2, 1.2 / PIXELS)
           << "the silhouette is that of the outer side";
     }
   }

@@ -16,7 +16,7 @@ namespace {
 
 // Each with the gloss of what it is for; model_fabric.png has plain.
 const std::vector<std::pair<std::string, double>> weaveLooks{
-    {"denim", 0.15}, {"satin", 0.85}, {"jersey", 0.1}, {"none", 0.7}};
+    {"denim", 0.15}, {"satin", 0.85}, {"jersey", 0.1}, {"velvet", 0}, {"none", 0.7}};
 
 Scene drapeOfWeave(const std::string& weave, double gloss) {
   Scene scene = test::drapeScene();
@@ -85,7 +85,8 @@ constexpr double SWATCH_WIDTH = 0.5;  // what they show of the middle of the she
 // A standing sheet that fills the picture, turned by `angle` [degrees] about the picture's horizontal middle,
 // with threads of `pixels`. Relief is left out where means are compared: light on a slope is not linear in
 // it.
-Image swatchOf(const std::string& weave, double pixels, double angle = 0, double relief = 0) {
+Image swatchOf(const std::string& weave, double pixels, double angle = 0, double relief = 0,
+               double gloss = 0) {
   Scene scene;
   ClothSettings& cloth = scene.cloths[0];
   cloth.orientation = Orientation::vertical;
@@ -98,12 +99,13 @@ Image swatchOf(const std::string& weave, double pixels, double angle = 0, double
   scene.camera.position = Vec3d{0, distance * std::sin(turn), distance * std::cos(turn)};
   scene.render.shader = "fabric";
   scene.render.weave = weave;
-  scene.render.gloss = 0;
+  scene.render.gloss = gloss;
   scene.render.normalStrength = relief;
   scene.render.threadSpacing = pixels * SWATCH_WIDTH / SWATCH_PIXELS;
   scene.render.color = {0.10, 0.16, 0.34};
   scene.render.backColor = {0.80, 0.76, 0.66};
-  scene.render.light = relief > 0 ? Vec3d{1, 0, 1} : Vec3d{0, 0, 1};
+  const double towards = angle > 90 ? -1 : 1;  // the side that is seen
+  scene.render.light = relief > 0 ? Vec3d{1, 0, 1} : Vec3d{0, 0, towards};
   scene.render.thickness = 0;
   scene.render.ground = false;
   RenderOptions options = forExposures({}, FINAL_EXPOSURES);
@@ -173,17 +175,17 @@ TEST_F(FadingThreads, HaveTheColourOfTheirMean) {
 
 // Moire is a pattern where none can be: a period of four threads is below two pixels.
 TEST_F(FadingThreads, LeaveNoMoire) {
-  for (const char* weave : {"plain", "twill", "satin", "jersey"})
+  for (const char* weave : {"plain", "twill", "satin", "jersey", "velvet"})
     for (const double pixels : {0.47, 0.13}) {
       const Spread spread = spreadOf(swatchOf(weave, pixels), 1);
       EXPECT_LT(spread.deviation, 0.02 * spread.mean) << weave << ", " << pixels << " pixels a thread";
     }
 }
 
-// Seen at 8 degrees off its plane the courses of a knit are too close for pixels, the wales beside each other
+// Seen at 6 degrees off its plane the courses of a knit are too close for pixels, the wales beside each other
 // are not.
 TEST_F(FadingThreads, FadeAlongTheDirectionInWhichTheyAreTooFine) {
-  EXPECT_GT(columnContrast(swatchOf("jersey", 8, 82, 1), 8), 0.015);
+  EXPECT_GT(columnContrast(swatchOf("jersey", 8, 84, 1), 8), 0.04);
 }
 
 // How much light differs between neighbours two pixels above each other, over how much it does beside each
@@ -208,6 +210,32 @@ TEST_F(FadingThreads, OfAKnitAreRowsFromBehind) {
   EXPECT_GT(reverse, 1.3 * face);
 }
 
+// What floats on the face of satin is the warp, along v, and on its reverse the weft.
+TEST_F(FadingThreads, OfSatinFloatAcrossOnItsReverse) {
+  const double face = upOverAcross(swatchOf("satin", 12, 0, 1)),
+               reverse = upOverAcross(swatchOf("satin", 12, 180, 1));
+  EXPECT_LT(face, 0.8);
+  EXPECT_GT(reverse, 1.6 * face);
+}
+
+// The reverse of denim is pale with flecks of the warp.
+TEST_F(FadingThreads, OfDenimArePaleOnItsReverse) {
+  const Image face = swatchOf("denim", 0.1), reverse = swatchOf("denim", 0.1, 180);
+  EXPECT_GT(spreadOf(reverse, 0).mean, 3 * spreadOf(face, 0).mean);
+  const Spread close = spreadOf(swatchOf("denim", 6, 180), 0);
+  EXPECT_GT(close.deviation, 0.15 * close.mean);
+}
+
+// Satin shines less on its reverse, which is to be seen where light comes back as from a mirror.
+TEST_F(FadingThreads, OfSatinAreDullOnItsReverse) {
+  const auto shine = [](double angle) {
+    return spreadOf(swatchOf("satin", 0.1, angle, 0, 1), 1).mean -
+           spreadOf(swatchOf("satin", 0.1, angle), 1).mean;
+  };
+  EXPECT_GT(shine(0), 0.05);
+  EXPECT_LT(shine(180), 0.8 * shine(0));
+}
+
 void expectFadingSeen(const std::string& from, const std::string& to, const std::string& name) {
   const test::ResourceCopy resources;
   ASSERT_TRUE(resources.change("render/threads.glsl", from, to))
@@ -221,14 +249,17 @@ TEST(BrokenFading, AWeftThatGetsAsMuchLightAsTheWarpFromAfarIsSeen) {
   expectFadingSeen("stored.a / max(stored.b, 0.01)", "stored.a / 0.82", "HaveTheColourOfTheirMean");
 }
 TEST(BrokenFading, ThreadsThatDoNotFadeAreSeen) {
-  expectFadingSeen("log2(width * float(textureSize(weave, 0).x))", "0.0", "LeaveNoMoire");
+  expectFadingSeen("log2(0.5 * width * float(textureSize(weave, 0).x))", "0.0", "LeaveNoMoire");
 }
 TEST(BrokenFading, ThreadsThatFadeAlikeInAllDirectionsAreSeen) {
   expectFadingSeen("MOST_OBLIQUE = 16.0", "MOST_OBLIQUE = 1.0", "FadeAlongTheDirectionInWhichTheyAreTooFine");
 }
 
+TEST(BrokenFading, AReverseThatIsTheFaceIsSeen) {
+  expectFadingSeen("side < 0.0 && !isKnit()", "false", "OfSatinFloatAcrossOnItsReverse");
+}
 TEST(BrokenFading, AKnitWhoseReverseIsItsFaceIsSeen) {
-  expectFadingSeen("frame.yarns.w > 0.0", "false", "OfAKnitAreRowsFromBehind");
+  expectFadingSeen("if (side < 0.0) slope", "if (false) slope", "OfAKnitAreRowsFromBehind");
 }
 
 }  // namespace

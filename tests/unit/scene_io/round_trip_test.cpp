@@ -89,6 +89,7 @@ class RandomScene {
     render.weave = oneOf(weaves);
     render.threadSpacing = 1e-5 + 0.1 * fraction();
     render.gloss = fraction();
+    render.fuzz = 0.1 * fraction();
     render.normalStrength = 10 * fraction();
     render.height = fraction() - 0.5;
     render.strainRange = 1e-6 + fraction();
