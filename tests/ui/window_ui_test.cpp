@@ -164,6 +164,7 @@ TEST_F(WindowUi, WritesScreenshotsAndClipsUnderNamesThatNothingHas) {
   viewer.press("ctrl+r");
   viewer.press("p");
   ASSERT_TRUE(viewer.titleBecomesOneWith("paused at frame "));
+  std::this_thread::sleep_for(seconds(1));  // a frame that was under way ends after the pause
   std::string frame = viewer.title().substr(viewer.title().find("frame ") + 6);
   frame.erase(frame.find(' '));
   viewer.press("ctrl+p");
