@@ -152,7 +152,7 @@ struct LayerSearch {
   float perBucket;       // of their side [1/m]
   float radius;          // half of it: what counts is nearer, from center to center [m]
   float centerToCorner;  // of a triangle, at most [m]
-  float leastBulge;      // less than half of that of two triangles together brings them no nearer than they may [m]
+  float leastBulge;      // on average of two triangles, or they stay apart in any case [m]
   float unused1, unused2;
 };
 
