@@ -23,7 +23,7 @@
   X(glGetShaderInfoLog) X(glGetShaderiv) X(glGetString) X(glLinkProgram) X(glMapNamedBufferRange) \
   X(glMemoryBarrier) X(glNamedBufferStorage) X(glNamedBufferSubData) \
   X(glNamedFramebufferDrawBuffer) X(glNamedFramebufferReadBuffer) X(glNamedFramebufferTexture) \
-  X(glObjectLabel) X(glPixelStorei) X(glPolygonMode) X(glPolygonOffset) X(glReadPixels) \
+  X(glObjectLabel) X(glPixelStorei) X(glPolygonMode) X(glPolygonOffset) X(glProgramUniform3f) X(glReadPixels) \
   X(glScissor) X(glShaderSource) X(glTextureBuffer) X(glTextureParameterfv) X(glTextureParameteri) \
   X(glTextureStorage2D) X(glTextureStorage2DMultisample) X(glTextureSubImage2D) \
   X(glTextureSubImage3D) X(glUseProgram) X(glVertexArrayAttribBinding) \
