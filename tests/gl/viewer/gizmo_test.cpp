@@ -11,7 +11,7 @@ namespace clothsim {
 namespace {
 
 constexpr float em = 16;
-using Kind = GizmoHandle::Kind;
+using HandleKind = GizmoHandle::Kind;
 
 struct Seen {
   Camera camera;
@@ -26,8 +26,9 @@ Seen seenFrom(double azimuth, double elevation, GizmoMode mode) {
   return seen;
 }
 
-constexpr GizmoHandle moving[]{{Kind::arrow, 0},  {Kind::arrow, 1},  {Kind::arrow, 2}, {Kind::square, 0},
-                               {Kind::square, 1}, {Kind::square, 2}, {Kind::center, 0}};
+constexpr GizmoHandle moving[]{{HandleKind::arrow, 0},  {HandleKind::arrow, 1},  {HandleKind::arrow, 2},
+                               {HandleKind::square, 0}, {HandleKind::square, 1}, {HandleKind::square, 2},
+                               {HandleKind::center, 0}};
 
 TEST(Gizmo, IsTakenByTheHandleUnderTheCursor) {
   int found = 0;
@@ -56,10 +57,10 @@ TEST(Gizmo, MovesAlongItsAxisOrPlaneWithTheCursor) {
       const glm::vec3 axis = handle.axis == 0   ? glm::vec3(1, 0, 0)
                              : handle.axis == 1 ? glm::vec3(0, 1, 0)
                                                 : glm::vec3(0, 0, 1);
-      const bool isArrow = handle.kind == Kind::arrow;
+      const bool isArrow = handle.kind == HandleKind::arrow;
       const glm::vec3 wanted =
           isArrow ? 0.2f * axis : 0.15f * glm::cross(axis, glm::vec3(0.6f, 0.64f, 0.48f));
-      if (handle.kind == Kind::center) continue;
+      if (handle.kind == HandleKind::center) continue;
       const auto from = placeInPicture(seen.view(), seen.gizmo.place),
                  to = placeInPicture(seen.view(), seen.gizmo.place + wanted);
       ASSERT_TRUE(from && to);
@@ -81,7 +82,7 @@ TEST(Gizmo, TurnsByTheRightHandRuleAndOnBeyondAHalfTurn) {
       return *placeInPicture(
           seen.view(), seen.gizmo.place + 0.2f * (float(std::cos(angle)) * u + float(std::sin(angle)) * v));
     };
-    GizmoDrag drag(seen.gizmo, {Kind::ring, axis}, seen.view(), em, at(20));
+    GizmoDrag drag(seen.gizmo, {HandleKind::ring, axis}, seen.view(), em, at(20));
     for (int degrees = 30; degrees <= 500; degrees += 10) drag.moveTo(seen.view(), at(degrees), false);
     EXPECT_NEAR(drag.turn(), 480, 0.05) << axis;
     drag.moveTo(seen.view(), at(488), true);
@@ -94,7 +95,7 @@ TEST(Gizmo, TurnsByTheRightHandRuleAndOnBeyondAHalfTurn) {
 TEST(Gizmo, TurnsARingSeenFromTheEdge) {
   Seen seen = seenFrom(0, 0, GizmoMode::rotate);
   seen.camera.lookFrom(2);
-  const GizmoHandle ring{Kind::ring, 1};
+  const GizmoHandle ring{HandleKind::ring, 1};
   const auto grip = gripOf(ring, seen.gizmo, seen.view(), em);
   ASSERT_TRUE(grip);
   EXPECT_EQ(handleAt(seen.gizmo, seen.view(), em, *grip), ring);
