@@ -193,8 +193,8 @@ std::span<const Field<Material>> fieldsOf<Material>() {
           .byDefault("as stretch")
           .rebuilds(),
       field("shear", &M::shear,
-            "Shear modulus of the sheet; far smaller than stretch in woven cloth. A grid as stiff as paper "
-            "bends along its rows and columns alone: make it a mesh.")
+            "Shear modulus of the sheet; far smaller than stretch in woven cloth. What hardly shears is "
+            "better a mesh.")
           .in("N/m")
           .within(positive)
           .rebuilds()

@@ -82,13 +82,16 @@ std::vector<gl::Defines> variantsOf(const std::string& file) {
             {{"SAMPLES", "1"}, {"MEAN", ""}}};
   if (file == "render/backdrop.frag")
     return {gl::Defines{}, {{"SKY", ""}}, {{"PLAIN", ""}}, {{"LAY", ""}}, {{"LAY", ""}, {"EXPOSURE", ""}}};
+  if (file == "render/layer_bulges.comp") return {gl::Defines{}, {{"PATCHES", ""}}};
+  if (file == "render/layer_shares.comp") return {gl::Defines{}, {{"INSERT", ""}}, {{"AGAIN", ""}}};
+  if (file == "render/fuzz.vert") return {{{"TANGENT", ""}, {"THICK", ""}}};
   if (file == "render/cloth.vert")
     return {gl::Defines{}, {{"TANGENT", ""}, {"DISPLACEMENT", ""}}, {{"STRAIN", ""}}};
   if (file == "render/cloth_shadow.vert" || file == "render/cloth_depth.vert")
     return {gl::Defines{}, {{"DISPLACEMENT", ""}}};
   if (file == "render/fabric.frag")
     return {{{"TANGENT", ""}}, {{"TANGENT", ""}, {"WOVEN", ""}, {"PRINT", ""}, {"EXPOSURE", ""}}};
-  if (file == "render/bump.frag" || file == "render/displacement.frag")
+  if (file == "render/bump.frag" || file == "render/displacement.frag" || file == "render/fuzz.frag")
     return {{{"TANGENT", ""}}, {{"TANGENT", ""}, {"EXPOSURE", ""}}};
   if (file == "render/strain.frag") return {{{"STRAIN", ""}}, {{"STRAIN", ""}, {"EXPOSURE", ""}}};
   if (file.starts_with("render/") && file.ends_with(".frag")) return {gl::Defines{}, {{"EXPOSURE", ""}}};
