@@ -32,10 +32,6 @@ class Watch:
         self.lowest = float(grid[..., 1].min())
 
 
-def processor_seconds():
-    return time.process_time()
-
-
 def device():
     found = [line.split(":")[1].strip() for line in open("/proc/cpuinfo") if line.startswith("model name")]
     return f"{found[0]}, {len(found)} cores" if found else platform.machine()
@@ -101,14 +97,14 @@ def mujoco(count, steps, touches, frames):
         <elasticity young="{stretch / thickness}" poisson="{poisson}" thickness="{thickness}" elastic2d="both"/>
       </flexcomp></worldbody></mujoco>''')
     data, watch = engine.MjData(model), Watch(count)
-    begun = processor_seconds()
+    begun = time.process_time()
     for _ in range(frames):
         for _ in range(steps):
             engine.mj_step(model, data)
         engine.mj_kinematics(model, data)
         engine.mj_flex(model, data)
         watch.look(data.flexvert_xpos)
-    return watch, processor_seconds() - begun, engine.__version__, steps, "flex, elastic2d both, integrator discrete, solver CG", ""
+    return watch, time.process_time() - begun, engine.__version__, steps, "flex, elastic2d both, integrator discrete, solver CG", ""
 
 
 def newton(count, steps, touches, frames, iterations=20):
@@ -139,12 +135,12 @@ def newton(count, steps, touches, frames, iterations=20):
         now, after = after, now
 
     step(1e-9)  # compiles the kernels, which is not counted
-    begun = processor_seconds()
+    begun = time.process_time()
     for _ in range(frames):
         for _ in range(steps):
             step(1 / 60 / steps)
         watch.look(now.particle_q.numpy())
-    return watch, processor_seconds() - begun, engine.__version__, steps, f"VBD, {iterations} iterations a step", ""
+    return watch, time.process_time() - begun, engine.__version__, steps, f"VBD, {iterations} iterations a step", ""
 
 
 # Steps in 1/60 s, and whether layers touch. clothsim chooses the first itself; the others take what they need to end about as stiff.
