@@ -32,15 +32,26 @@ void Solver::configure(const Shared<Scene>& scene) {
   inputs_.colliders = ColliderSet(*scene);
   inputs_.scene = scene;
   inputs_.clock.setStepLength(stepLength(inputs_.scene->solver));
-  step_ = makeStep(*inputs_.scene, *inputs_.cloth, inputs_.cuts);
+  makeLists();
   executor_->setScene(inputs_);
   setOffPath(inputs_.offPath);
+}
+
+void Solver::makeLists() {
+  step_ = makeStep(*inputs_.scene, *inputs_.cloth, inputs_.cuts);
+  stepWithKeptLevels_ = makeStep(*inputs_.scene, *inputs_.cloth, inputs_.cuts, Levels::kept);
+}
+
+// What the second list needs, the first one does, too.
+void Solver::prepare() {
+  executor_->prepare(inputs_, step_);
+  levelsAreMade_ = false;
 }
 
 void Solver::setOffPath(std::vector<std::uint32_t> offPath) {
   inputs_.offPath = std::move(offPath);
   inputs_.pinPaths = makePinPaths(*inputs_.scene, *inputs_.cloth, inputs_.offPath);
-  executor_->prepare(inputs_, step_);
+  prepare();
 }
 
 // Takes hold of pins and lets them go, where that begins or ends with the next step.
@@ -72,11 +83,22 @@ void Solver::convertVelocities() {
   executor_->run(inputs_, conversion_, 1);
 }
 
+std::uint64_t Solver::stepInFrame() const {
+  const auto stepsPerFrame = static_cast<std::uint64_t>(inputs_.scene->solver.simulationSteps);
+  return (inputs_.clock.step - inputs_.clock.originStep) % stepsPerFrame;
+}
+
+// The levels are made in every second step of a frame. A frame begins with new ones, so that it does not
+// matter whether it is the first after a state was loaded.
+const PassList& Solver::nextStep() {
+  const bool keepsLevels = levelsAreMade_ && stepInFrame() % 2 != 0;
+  levelsAreMade_ = true;
+  return keepsLevels ? stepWithKeptLevels_ : step_;
+}
+
 // At the end of a frame.
 void Solver::tearCloth() {
-  const StepClock& clock = inputs_.clock;
-  const auto stepsPerFrame = static_cast<std::uint64_t>(inputs_.scene->solver.simulationSteps);
-  if (!canTear(*inputs_.scene) || divergence_ || (clock.step - clock.originStep) % stepsPerFrame != 0) return;
+  if (!canTear(*inputs_.scene) || divergence_ || stepInFrame() != 0) return;
   Cuts cuts = inputs_.cuts;
   if (tear(cuts, *inputs_.cloth, *inputs_.scene, positions(0, inputs_.cloth->particleCount()))) setCuts(cuts);
 }
@@ -86,7 +108,7 @@ void Solver::step(int count) {
   convertVelocities();
   for (int i = 0; i < count && !divergence_ && !isInterrupted(); ++i) {
     holdPins();
-    executor_->run(inputs_, step_, count - i);
+    executor_->run(inputs_, nextStep(), count - i);
     ++inputs_.clock.step;
     divergence_ = executor_->findDivergence(inputs_.clock.step, false);
     tearCloth();
@@ -155,15 +177,15 @@ void Solver::setAllButParticles(const StepClock& clock, Integrator integrator,
 
 void Solver::setInteraction(const Interaction& interaction) {
   inputs_.interaction = interaction;
-  executor_->prepare(inputs_, step_);
+  prepare();
 }
 
 void Solver::setCuts(const Cuts& cuts) {
   inputs_.cuts = cuts;
   inputs_.cutMasks = makeCutMasks(*inputs_.cloth, cuts);
-  step_ = makeStep(*inputs_.scene, *inputs_.cloth, inputs_.cuts);
+  makeLists();
   executor_->setCuts(inputs_);
-  executor_->prepare(inputs_, step_);
+  prepare();
 }
 
 void Solver::setPin(std::uint32_t particle, bool pinned) {

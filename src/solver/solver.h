@@ -51,7 +51,8 @@ class Solver {
   void step(int count);
   // Waits until every step is done. @throws OpenGlError when the driver has reported an error meanwhile
   void finish() { executor_->finish(); }
-  // The passes of a step.
+  // The passes of a step that makes the levels of the preconditioner; the others keep those of the step
+  // before.
   [[nodiscard]] const PassList& passes() const { return step_; }
   // Steps, and times every pass, which slows the whole.
   [[nodiscard]] std::vector<PassTime> timePasses(int steps);
@@ -116,15 +117,20 @@ class Solver {
   void setAllButParticles(const StepClock& clock, Integrator integrator,
                           const std::vector<std::uint32_t>& offPath, const Cuts& cuts);
   void setOffPath(std::vector<std::uint32_t> offPath);
+  void makeLists();
+  void prepare();
+  [[nodiscard]] const PassList& nextStep();
+  [[nodiscard]] std::uint64_t stepInFrame() const;
   void checkStart();
   void holdPins();
   void tearCloth();
 
   StepInputs inputs_;
-  PassList step_;
+  PassList step_, stepWithKeptLevels_;
   const PassList conversion_ = makeConversion(), startCheck_ = makeStartCheck();
   std::unique_ptr<Executor> executor_;
   bool startIsChecked_ = true;             // false once a state was handed in
+  bool levelsAreMade_ = false;             // false after a change from outside
   std::vector<std::optional<bool>> held_;  // of each path, whether the state has its particles pinned
   std::optional<Divergence> divergence_;
   std::unique_ptr<Snapshot> kept_;

@@ -55,8 +55,9 @@ std::size_t mostColors(const Cloth& cloth) {
 
 class StepBuilder {
  public:
-  StepBuilder(const Scene& scene, const Cloth& cloth, const Cuts& cuts)
+  StepBuilder(const Scene& scene, const Cloth& cloth, const Cuts& cuts, Levels levels)
       : solver_(scene.solver),
+        keepsLevels_(levels == Levels::kept),
         hasColliders_(!scene.colliders.empty()),
         isImplicit_(isImplicit(scene.solver.integrator)),
         touchesItself_(isImplicit_ && hasSurfaceContact(scene)),
@@ -125,13 +126,14 @@ class StepBuilder {
     list_.add(Pass::measureUpdate);
   }
 
-  // The preconditioner; it is kept for all Newton steps.
+  // The preconditioner; it is kept for all Newton steps. Where its matrices are kept, too, the aggregates
+  // still have to be where the cloth is.
   void makeLevels() {
     for (std::size_t level = 0; level < levels_; ++level) {
       list_.add(Pass::findCenters, level);
-      list_.add(Pass::coarsen, level);
+      if (!keepsLevels_) list_.add(Pass::coarsen, level);
     }
-    list_.add(Pass::invertDense);
+    if (!keepsLevels_) list_.add(Pass::invertDense);
   }
 
   // Conjugate gradients. The last iteration needs no new direction.
@@ -219,6 +221,7 @@ class StepBuilder {
   [[nodiscard]] bool hasPairs() const { return touchesItself_ || hasSmallColliders_; }
 
   const SolverSettings& solver_;
+  bool keepsLevels_;
   bool hasColliders_, isImplicit_, touchesItself_, hasSmallColliders_;
   SelfCollision contacts_;
   int rounds_;
@@ -287,8 +290,8 @@ bool PassList::contains(Pass pass) const {
   return std::any_of(passes.begin(), passes.end(), [&](const PassCall& call) { return call.pass == pass; });
 }
 
-PassList makeStep(const Scene& scene, const Cloth& cloth, const Cuts& cuts) {
-  return StepBuilder(scene, cloth, cuts).step();
+PassList makeStep(const Scene& scene, const Cloth& cloth, const Cuts& cuts, Levels levels) {
+  return StepBuilder(scene, cloth, cuts, levels).step();
 }
 
 PassList makeConversion() { return {{{Pass::forces}, {Pass::kick}}, {}, Outcome::velocities}; }

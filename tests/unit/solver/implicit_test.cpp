@@ -305,5 +305,38 @@ TEST(ImplicitStep, TakesPinsWhereTheirPathSays) {
   }
 }
 
+// With three steps a frame, the last step of a frame and the first one of the next both make levels.
+TEST(Implicit, GoesOnFromAnyFrameAsIfNothingHadHappened) {
+  Scene scene = fastSheet();
+  scene.solver.simulationSteps = 3;
+  const Cloth cloth(scene);
+  CpuSolver<float> whole(cloth, scene);
+  whole.step(15);
+  for (const int frames : {1, 2, 3}) {
+    CpuSolver<float> first(cloth, scene), second(cloth, scene);
+    first.step(3 * frames);
+    second.setState(first.state());
+    second.step(15 - 3 * frames);
+    EXPECT_EQ(stateHash(whole.state()), stateHash(second.state())) << frames;
+  }
+}
+// An edit may make the kept levels wrong: the next step makes its own.
+TEST(Implicit, MakesNewLevelsAfterAnEdit) {
+  Scene scene = fastSheet();
+  scene.solver.simulationSteps = 4;
+  const Cloth cloth(scene);
+  CpuSolver<float> solver(cloth, scene);
+  const auto makesLevels = [&] {
+    bool found = false;
+    for (const PassTime& time : solver.timePasses(1)) found = found || time.name.find("coarsen") == 0;
+    return found;
+  };
+  EXPECT_TRUE(makesLevels());
+  EXPECT_FALSE(makesLevels());
+  EXPECT_TRUE(makesLevels());
+  solver.setPin(40, true);
+  EXPECT_TRUE(makesLevels());
+}
+
 }  // namespace
 }  // namespace clothsim

@@ -85,6 +85,14 @@ TEST(StepList, SolvesAnImplicitStepByNewtonAndConjugateGradients) {
   EXPECT_NE(onABall.find("update solution, stop at planes, try lengths, "), std::string::npos) << onABall;
 }
 
+TEST(StepList, KeepsTheMatricesOfTheLevelsFromTheStepBefore) {
+  const Scene scene = implicitSheet();
+  const std::string made = order(stepOf(scene)),
+                    kept = order(makeStep(scene, Cloth(scene), {}, Levels::kept));
+  EXPECT_EQ(made.rfind("begin, find centers, coarsen, invert dense, ", 0), 0u) << made;
+  EXPECT_EQ(kept, "begin, find centers, " + made.substr(made.find("elastic forces")));
+}
+
 // Each array that a pass reads is one of the state, or an earlier pass has written it.
 TEST(StepList, ReadsNothingBeforeItIsWritten) {
   std::vector<Scene> scenes{sheet(), implicitSheet(), withBall(test::withLimiter(sheet())),
