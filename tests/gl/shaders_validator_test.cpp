@@ -137,7 +137,7 @@ std::vector<gl::Defines> variantsOf(const std::string& file) {
     variants[i].emplace_back("WRITES_PAIRS", std::to_string(i / 2));
     variants[i].emplace_back("SCANS_LISTS", std::to_string(i % 2));
     variants[i].emplace_back("LATER", std::to_string(i / 2));
-    variants[i].emplace_back("CLEARS", std::to_string(i % 2));
+    variants[i].emplace_back("ONLY_BOXES", std::to_string(i == 2));
     variants[i].emplace_back("ONLY_COUNTS", std::to_string(i == 1));
     variants[i].emplace_back("STOPS_SLIPS", std::to_string(i == 0));
   }

@@ -1,14 +1,14 @@
 // How a particle's part of the energy would change along the Newton step, at four lengths of it: its inertia, the springs it
 // owns and the lines of bending that it is in the middle of. Differences are taken where they arise, so that little ones
 // are exact. As a sum, for scenes with one cloth, they are added up at once (sim/implicit/total.glsl).
+#include "shared/implicit.h"
+#include "sim/implicit/scalars.glsl"
 #include "sim/implicit/common.glsl"
 #include "sim/watch.glsl"
 #include "sim/incident_springs.glsl"
 #include "sim/implicit/energy.glsl"
 #include "sim/implicit/contact.glsl"
 #if HAS_SURFACE
-#include "shared/implicit.h"
-#include "sim/implicit/scalars.glsl"
 #include "sim/surface/pairs.glsl"
 #endif
 #if HAS_MESH
