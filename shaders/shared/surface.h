@@ -65,8 +65,6 @@ using uint = std::uint32_t;
 // Counts are summed up in blocks of so many, a work group each.
 #define SURFACE_LANES 256
 #define SURFACE_BLOCK 2048u
-// The levels of boxes that have at most so many take one work group.
-#define BOXES_ALONE 1024u
 
 // An invocation an entry, in work groups of so many; dispatches of many groups have rows.
 #define SURFACE_GROUP 64
@@ -83,7 +81,7 @@ using uint = std::uint32_t;
 #define DEEPEST_HALVINGS 6
 
 #define SURFACE_PARAMS_BINDING 3  // uniform blocks
-#define BOX_LEVEL_BINDING 4
+#define GUARD_ROUND_BINDING 4
 #define SURFACE_STATE_BINDING 6  // storage blocks; each pass binds what it needs
 #define SURFACE_COUNTS_BINDING 4
 #define SURFACE_LISTS_BINDING 5
@@ -109,6 +107,7 @@ using uint = std::uint32_t;
 #define SMALL_COLLIDERS_UNIT 63  // two texels each
 #define PAIR_CARRIES_UNIT 64     // how far a small collider carries the pair along
 #define SURFACE_CARRIES_BINDING 1
+#define SURFACE_MOVED_BINDING 7
 
 struct SurfaceBlock {
   uint first;   // particle
@@ -192,7 +191,12 @@ struct SurfaceState {
   uint isPressed;     // of this step: some triangle was pushed out of a small collider
   uint passages;      // of triangles by cores of small colliders,
   uint passageSteps;  // and steps with some
-  uint unused;
+  uint groupsDone;    // on the GPU, work groups of the dispatch that is under way; 0 between dispatches
+
+  uint moved;  // on the GPU, particles that this round of the guard has moved or held back so far
+  uint unusedA;
+  uint unusedB;
+  uint unusedC;
 };
 
 // What the passes on the GPU need beside these.
@@ -224,13 +228,11 @@ struct SurfaceParams {
 #endif
 };
 
-// A level of the tree, of `count` boxes from `first` on, whose children begin at `below`. Rounds of the guard
-// come as `first`.
-struct BoxLevel {
-  uint below;
-  uint first;
-  uint count;
-  uint isLast;  // it takes all levels above, too, in one work group
+struct GuardRound {
+  uint number;
+  uint unusedA;
+  uint unusedB;
+  uint unusedC;
 };
 
 #ifdef __cplusplus

@@ -62,6 +62,12 @@ struct GridPoint {
   bool exists;
 };
 
+// That of a particle of this grid.
+GridPoint pointOf(uint i) {
+  uint place = i - step.firstParticle;
+  return GridPoint(place % step.columns, place / step.columns, i, true);
+}
+
 GridPoint thisGridPoint() {
   uvec2 point = gl_GlobalInvocationID.xy;
   bool exists = point.x < step.columns && point.y < step.rows;

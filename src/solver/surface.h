@@ -33,7 +33,7 @@ template <class Real>
 using SmallCollider = shared::SmallCollider<Real>;
 using SurfaceState = shared::SurfaceState;
 using SurfaceParams = shared::SurfaceParams;
-using BoxLevel = shared::BoxLevel;
+using GuardRound = shared::GuardRound;
 using SurfaceBlock = shared::SurfaceBlock;
 
 inline constexpr std::uint32_t NO_COLLIDER = 0xffffffffu;

@@ -119,8 +119,14 @@ std::vector<gl::Defines> variantsOf(const std::string& file) {
   std::vector<gl::Defines> variants{definesFor(everything), definesFor(cs184), definesFor(PassFeatures{}),
                                     definesFor(mesh)};
   const bool sumsNumbers = file.ends_with("search.comp") || file.ends_with("prolong_particles.comp");
+  const auto sumKind = [&](std::size_t i) -> std::size_t {
+    if (file.ends_with("try_lengths.comp")) return SUM_LENGTH;
+    if (file.ends_with("accept.comp")) return SUM_UPDATE;
+    return sumsNumbers ? i % SUM_LENGTH : i;
+  };
   for (std::size_t i = 0; i < variants.size(); ++i) {
-    variants[i].emplace_back("SUM_KIND", std::to_string(sumsNumbers ? i % SUM_LENGTH : i));
+    variants[i].emplace_back("SUM_KIND", std::to_string(sumKind(i)));
+    variants[i].emplace_back("IS_SUM", std::to_string(i % 2));
     variants[i].emplace_back("UPDATES_SOLUTION", std::to_string(i % 2));
     variants[i].emplace_back("PREDICTS", std::to_string(i % 2));
     variants[i].emplace_back("COLLIDES_IN_STEP", std::to_string(i % 2));
@@ -131,7 +137,7 @@ std::vector<gl::Defines> variantsOf(const std::string& file) {
     variants[i].emplace_back("WRITES_PAIRS", std::to_string(i / 2));
     variants[i].emplace_back("SCANS_LISTS", std::to_string(i % 2));
     variants[i].emplace_back("LATER", std::to_string(i / 2));
-    variants[i].emplace_back("CLEARS", std::to_string(i % 2));
+    variants[i].emplace_back("ONLY_BOXES", std::to_string(i == 2));
     variants[i].emplace_back("ONLY_COUNTS", std::to_string(i == 1));
     variants[i].emplace_back("STOPS_SLIPS", std::to_string(i == 0));
   }

@@ -1,4 +1,5 @@
 // products = H directions. POSITIONS_UNIT: the directions.
+#define MULTIPLIES_PAIRS 0
 #include "sim/implicit/common.glsl"
 #include "sim/implicit/product.glsl"
 

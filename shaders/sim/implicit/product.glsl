@@ -1,5 +1,6 @@
 // A particle of the product of the Hessian H and the directions p. Needs sim/implicit/common.glsl, with positionAt() for p, so
-// that what is linear serves as it is.
+// that what is linear serves as it is. MULTIPLIES_PAIRS: what pairs do to the directions is worked out here, too, once for each
+// of their particles; otherwise sim/surface/multiply_pairs.comp has done so.
 #include "sim/watch.glsl"
 #include "sim/incident_springs.glsl"
 #include "sim/bending.glsl"
@@ -7,6 +8,12 @@
 #if HAS_SURFACE
 #include "sim/implicit/scalars.glsl"
 #include "sim/surface/pairs.glsl"
+#if MULTIPLIES_PAIRS
+vec3 directionAt(uint i) { return positionAt(i).xyz; }
+#include "sim/surface/pair_product.glsl"
+#else
+vec3 pairProduct(uint q) { return pairRow(q, 3u).xyz; }
+#endif
 #endif
 #if HAS_MESH
 #include "sim/implicit/mesh.glsl"
@@ -43,7 +50,7 @@ vec3 productAt(GridPoint point) {
   precise vec3 ofPairs = vec3(0.0);
   for (uint k = range.x; k < range.y; ++k) {
     uint entry = pairEntry(k), q = entry / 4u;
-    ofPairs = ofPairs + pairRow(q, 1u)[entry % 4u] * pairRow(q, 3u).xyz;
+    ofPairs = ofPairs + pairRow(q, 1u)[entry % 4u] * pairProduct(q);
   }
   if (scalars.pairs != 0u) force = force - ofPairs;
 #endif

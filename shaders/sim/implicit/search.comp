@@ -2,6 +2,7 @@
 // neighbours are worked out where they are needed, from those before: the new ones go into another buffer.
 #include "shared/implicit.h"
 #include "sim/implicit/scalars.glsl"
+#define MULTIPLIES_PAIRS 1
 #define positionAt storedPositionAt
 #include "sim/implicit/common.glsl"
 #undef positionAt
@@ -14,9 +15,8 @@ layout(std430, binding = DIRECTIONS_BINDING) writeonly buffer Directions { vec4 
 layout(std430, binding = PRODUCTS_BINDING) writeonly buffer Products { vec4 newProducts[]; };
 
 float directionTimesProduct(uint i) {
-  uint place = i - step.firstParticle;
   vec4 direction = updatedDirection(i);
-  vec3 product = productAt(GridPoint(place % step.columns, place / step.columns, i, true));
+  vec3 product = productAt(pointOf(i));
   newDirections[i] = direction;
   newProducts[i] = vec4(product, 0.0);
   return sumOfProducts(direction.xyz, product);

@@ -16,19 +16,13 @@ layout(binding = DISPLACEMENTS_UNIT) uniform samplerBuffer displacements;
 #include "sim/implicit/gate.glsl"
 #include "sim/implicit/total.glsl"
 
-float squareOf(vec3 v) {
-  float square = sumOfProducts(v, v);
-  return square < LARGE_SQUARE ? square : LARGE_SQUARE;
-}
-
 Sum valueAt(int i) {
 #if SUM_KIND == SUM_STEP
   return sumOfProducts(texelFetch(directions, i).xyz, texelFetch(products, i).xyz);
 #elif SUM_KIND == SUM_LENGTH
   return texelFetch(products, i);
 #elif SUM_KIND == SUM_UPDATE
-  vec3 update = texelFetch(increments, i).xyz, displacement = texelFetch(displacements, i).xyz;
-  return vec2(squareOf(update), squareOf(displacement));
+  return squaresOf(texelFetch(increments, i).xyz, texelFetch(displacements, i).xyz);
 #else
   return sumOfProducts(texelFetch(residuals, i).xyz, texelFetch(corrections, i).xyz);
 #endif

@@ -44,6 +44,14 @@ Sum addLanes(Sum own) {
   return total;
 }
 
+#if SUM_KIND == SUM_UPDATE
+float squareOf(vec3 v) {
+  float square = sumOfProducts(v, v);
+  return square < LARGE_SQUARE ? square : LARGE_SQUARE;
+}
+Sum squaresOf(vec3 update, vec3 displacement) { return vec2(squareOf(update), squareOf(displacement)); }
+#endif
+
 // a / b; 0 where b is none or too small for a reciprocal.
 float quotient(float a, float b) {
   precise float result = a * reciprocal(b);

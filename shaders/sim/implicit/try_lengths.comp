@@ -1,14 +1,14 @@
 // How a particle's part of the energy would change along the Newton step, at four lengths of it: its inertia, the springs it
 // owns and the lines of bending that it is in the middle of. Differences are taken where they arise, so that little ones
-// are exact.
+// are exact. As a sum, for scenes with one cloth, they are added up at once (sim/implicit/total.glsl).
+#include "shared/implicit.h"
+#include "sim/implicit/scalars.glsl"
 #include "sim/implicit/common.glsl"
 #include "sim/watch.glsl"
 #include "sim/incident_springs.glsl"
 #include "sim/implicit/energy.glsl"
 #include "sim/implicit/contact.glsl"
 #if HAS_SURFACE
-#include "shared/implicit.h"
-#include "sim/implicit/scalars.glsl"
 #include "sim/surface/pairs.glsl"
 #endif
 #if HAS_MESH
@@ -18,7 +18,11 @@
 #include "sim/implicit/seam_trials.glsl"
 #endif
 
+#if IS_SUM
+#include "sim/implicit/total.glsl"
+#else
 layout(std430, binding = PRODUCTS_BINDING) writeonly buffer Trials { vec4 trials[]; };
+#endif
 
 // A line of three particles around one in the middle: b (l k.dk + l^2/2 |dk|^2), k = (m - a) + (m - c).
 vec4 addBendingTrial(vec4 trial, uint m, uint stride, float b) {
@@ -74,10 +78,7 @@ vec4 addPairTrials(uint i, vec4 trial) {
 }
 #endif
 
-void main() {
-  if (isSkipped()) return;
-  GridPoint p = thisGridPoint();
-  if (!p.exists) return;
+vec4 trialAt(GridPoint p) {
   uint i = p.index;
   vec3 x = iterateAt(i).xyz, e = incrementAt(i), displacement = texelFetch(displacements, int(i)).xyz;
   vec4 rightHandSide = texelFetch(rightHandSides, int(i));
@@ -129,5 +130,19 @@ void main() {
   }
   if (hasMaterial) trial = addBendingTrials(p, trial, cut);
 #endif
-  trials[i] = trial;
+  return trial;
+}
+
+void main() {
+  if (isSkipped()) return;
+#if IS_SUM
+  uint first = gl_WorkGroupID.x * SUM_BLOCK + gl_LocalInvocationIndex;
+  Sum sum = Sum(0.0);
+  for (uint i = first; i < first + SUM_BLOCK && i < step.totalParticles; i += uint(SUM_LANES))
+    sum = joined(sum, trialAt(pointOf(i)));
+  addToTotal(sum);
+#else
+  GridPoint p = thisGridPoint();
+  if (p.exists) trials[p.index] = trialAt(p);
+#endif
 }

@@ -35,7 +35,7 @@ bool isFlatEnough(Block block, BlockSides sides) {
 // Where the motion of this round ends, or is predicted to end.
 vec3 endAt(uint i) {
 #if SEARCHES_TOUCHING
-  return state.isLater != 0u ? startAt(i) : texelFetch(iterates, int(i)).xyz;
+  return isLater() ? startAt(i) : texelFetch(iterates, int(i)).xyz;
 #else
   return texelFetch(positionsSoFar, int(i)).xyz;
 #endif

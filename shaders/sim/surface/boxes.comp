@@ -1,29 +1,51 @@
-// A level of the tree from the one below; the last levels, which have few boxes, all in one work group.
+// The tree of boxes from its third level on, and which blocks are flat. A work group joins SURFACE_LANES boxes of that level into
+// one of the highest level that it can reach; the last group to finish takes all levels above. The other groups take blocks.
 #include "sim/surface/common.glsl"
+#include "sim/surface/flat_flags.glsl"
+#define GROUPS_DONE state.groupsDone
+#include "sim/last_group.glsl"
 
 layout(local_size_x = SURFACE_LANES) in;
-layout(std140, binding = BOX_LEVEL_BINDING) uniform LevelBlock { BoxLevel level; };
 layout(std430, binding = SURFACE_OUT_BINDING) coherent buffer Boxes { vec4 newBoxes[]; };
 
 Bounds newBoxAt(uint i) { return Bounds(newBoxes[2u * i].xyz, newBoxes[2u * i + 1u].xyz); }
 
+uint countOf(int level) { return surface.firstBoxes[level + 1].x - surface.firstBoxes[level].x; }
+
+void join(int level, uint k) {
+  uint box = surface.firstBoxes[level].x + k, child = surface.firstBoxes[level - 1].x + BOX_CHILDREN * k;
+  uint end = child + BOX_CHILDREN < surface.firstBoxes[level].x ? child + BOX_CHILDREN : surface.firstBoxes[level].x;
+  Bounds bounds = newBoxAt(child);
+  for (uint other = child + 1u; other < end; ++other) bounds = joined(bounds, newBoxAt(other));
+  newBoxes[2u * box] = vec4(bounds.low, 0.0);
+  newBoxes[2u * box + 1u] = vec4(bounds.high, 0.0);
+}
+
+void awaitGroup() {
+  memoryBarrierBuffer();
+  barrier();
+}
+
 void main() {
   if (isSettled()) return;
-  uint below = level.below, first = level.first, count = level.count;
-  for (;;) {
-    uint begin = gl_GlobalInvocationID.x, stride = gl_NumWorkGroups.x * uint(SURFACE_LANES);
-    for (uint k = begin; k < count; k += stride) {
-      uint child = below + BOX_CHILDREN * k, end = child + BOX_CHILDREN < first ? child + BOX_CHILDREN : first;
-      Bounds box = newBoxAt(child);
-      for (uint other = child + 1u; other < end; ++other) box = joined(box, newBoxAt(other));
-      newBoxes[2u * (first + k)] = vec4(box.low, 0.0);
-      newBoxes[2u * (first + k) + 1u] = vec4(box.high, 0.0);
-    }
-    if (level.isLast == 0u || count == 1u) return;
-    memoryBarrierBuffer();
-    barrier();
-    below = first;
-    first += count;
-    count = (count + BOX_CHILDREN - 1u) / BOX_CHILDREN;
+#if ONLY_BOXES
+  if (state.tooNear[0] == 0u) return;
+#endif
+  uint group = gl_WorkGroupID.x, lane = gl_LocalInvocationIndex;
+  int level = 2;
+  uint groups = surface.topLevel < level ? 0u : (countOf(level) + uint(SURFACE_LANES) - 1u) / uint(SURFACE_LANES);
+  if (group >= groups) {
+    findFlags(group - groups);
+    return;
+  }
+  for (uint width = uint(SURFACE_LANES); width > 0u && level <= surface.topLevel; width /= BOX_CHILDREN, ++level) {
+    uint k = group * width + lane;
+    if (lane < width && k < countOf(level)) join(level, k);
+    awaitGroup();
+  }
+  if (level > surface.topLevel || !isLastGroupOf(groups)) return;
+  for (; level <= surface.topLevel; ++level) {
+    for (uint k = lane; k < countOf(level); k += uint(SURFACE_LANES)) join(level, k);
+    awaitGroup();
   }
 }

@@ -4,6 +4,9 @@
 #include "shared/step_params.h"
 #include "shared/surface.h"
 #include "sim/exact_math.glsl"
+#ifndef IS_START
+#define IS_START 0
+#endif
 
 layout(std140, binding = STEP_PARAMS_BINDING) uniform StepBlock { StepParams step; };
 layout(std140, binding = SURFACE_PARAMS_BINDING) uniform SurfaceParamsBlock { SurfaceParams surface; };
@@ -30,8 +33,14 @@ vec4 weightsOf(bool areSides, NearestParts nearest) {
 // From where the motion of this round begins.
 vec3 startAt(uint i) { return texelFetch(surfaceStarts, int(i)).xyz; }
 
-// Where nothing was cut short, the step does not go on.
+// Where nothing was cut short, the step does not go on. The start of a step finds the state of the one before.
+#if IS_START && SEARCHES_TOUCHING && !LATER
+bool isSettled() { return false; }
+bool isLater() { return false; }
+#else
 bool isSettled() { return state.isSettled != 0u; }
+bool isLater() { return state.isLater != 0u; }
+#endif
 
 // An invocation an entry, in groups of SURFACE_GROUP; dispatches of many groups have rows of GROUPS_A_ROW.
 uint thisEntry() {
@@ -43,7 +52,7 @@ vec3 displacementAt(uint i) { return texelFetch(displacements, int(i)).xyz; }
 // The motion of this round: as it is predicted, or what it came to.
 vec3 motionAt(uint i) {
 #if SEARCHES_TOUCHING
-  return state.isLater != 0u ? vec3(0.0) : displacementAt(i);
+  return isLater() ? vec3(0.0) : displacementAt(i);
 #else
   precise vec3 motion = texelFetch(positionsSoFar, int(i)).xyz - startAt(i);
   return motion;
@@ -62,10 +71,17 @@ Bounds joined(Bounds a, Bounds b) {
 bool overlap(Bounds a, Bounds b) { return all(lessThanEqual(a.low, b.high)) && all(lessThanEqual(b.low, a.high)); }
 Bounds boxAt(uint i) { return Bounds(texelFetch(boxes, int(2u * i)).xyz, texelFetch(boxes, int(2u * i + 1u)).xyz); }
 
+#if IS_START
+vec3 shift = vec3(0.0);
+vec3 shiftOfBoxes() { return shift; }
+#else
+vec3 shiftOfBoxes() { return vec3(state.shiftX, state.shiftY, state.shiftZ); }
+#endif
+
 // Around a particle and its motion.
 Bounds boxOf(uint i) {
   vec3 a = startAt(i);
-  precise vec3 moved = motionAt(i) - vec3(state.shiftX, state.shiftY, state.shiftZ);
+  precise vec3 moved = motionAt(i) - shiftOfBoxes();
   precise vec3 b = a + moved;
   vec3 r = vec3(SEARCHES_TOUCHING != 0 ? surface.around : surface.leastGap);
   Bounds box = joined(Bounds(a, a), Bounds(b, b));

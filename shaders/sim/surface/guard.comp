@@ -1,12 +1,21 @@
 // A round of the guard, an invocation a triangle: pairs that the motion so far brings too near are pushed apart, or keep to
-// their own sides, in the last round all pairs. That may bring others too near: they are seen in the next round.
+// their own sides, in the last round all pairs. That may bring others too near: they are seen in the next round. The last work
+// group to finish moves the particles that are to be moved, or takes over what they keep of their motion.
 #include "sim/surface/common.glsl"
+#define GROUPS_DONE state.groupsDone
+#include "sim/last_group.glsl"
 
 layout(local_size_x = SURFACE_GROUP) in;
-layout(std140, binding = BOX_LEVEL_BINDING) uniform RoundBlock { BoxLevel round; };
-layout(std430, binding = SURFACE_COUNTS_BINDING) readonly buffer Kept { uint kept[]; };               // bits of floats
-layout(std430, binding = SURFACE_LISTS_BINDING) coherent buffer NewlyKept { uint newlyKept[]; };
-layout(std430, binding = SURFACE_OUT_BINDING) coherent buffer Corrections { int corrections[]; };
+layout(std140, binding = GUARD_ROUND_BINDING) uniform RoundBlock { GuardRound round; };
+// What each particle keeps of its motion, bits of floats; then the same with what this round takes.
+layout(std430, binding = SURFACE_COUNTS_BINDING) coherent buffer Kept { uint kept[]; };
+layout(std430, binding = SURFACE_LISTS_BINDING) coherent buffer Corrections { int corrections[]; };
+layout(std430, binding = SURFACE_MOVED_BINDING) coherent buffer Moved { uint moved[]; };  // particles, in any order
+layout(std430, binding = NEW_POSITIONS_BINDING) buffer NewPositions { vec4 newPositions[]; };
+layout(std430, binding = NEW_VELOCITIES_BINDING) buffer NewVelocities { vec4 newVelocities[]; };
+
+bool corrects() { return round.number < uint(CORRECTION_ROUNDS); }
+void noteMoved(uint i) { moved[atomicAdd(state.moved, 1u)] = i; }
 
 float larger(float a, float b) { return a < b ? b : a; }
 
@@ -95,7 +104,9 @@ void keepToSides(Sides sides) {
       part = 0.0;
     else if (!(room < towards) || !(towards > LEAST_APPROACH))
       continue;
-    atomicMin(newlyKept[sides.ids[k]], floatBitsToUint(canonical(part)));
+    uint i = sides.ids[k], bits = floatBitsToUint(canonical(part));
+    uint before = atomicMin(kept[step.totalParticles + i], bits);
+    if (bits < before && before == kept[i]) noteMoved(i);  // the first time in this round
   }
 }
 
@@ -143,22 +154,21 @@ void pushApart(uvec4 ids, bool areSides, vec3 way, float least) {
     atomicAdd(corrections[place], int(move.x));
     atomicAdd(corrections[place + 1u], int(move.y));
     atomicAdd(corrections[place + 2u], int(move.z));
-    atomicAdd(corrections[place + 3u], int(counts));
+    if (int(counts) != 0 && atomicAdd(corrections[place + 3u], int(counts)) == 0) noteMoved(ids[k]);
   }
 }
 
 void lookAt(uvec4 ids, bool areSides, PartPlaces places, NearestParts nearest) {
   Sides sides = sidesOf(ids, areSides, nearest.way);
-  bool takesAll = round.first + 1u == uint(GUARD_ROUNDS);
+  bool takesAll = round.number + 1u == uint(GUARD_ROUNDS);
   float width = larger(widthOf(sides), 0.0);
-  bool corrects = round.first < uint(CORRECTION_ROUNDS);
-  float least = corrects ? surface.leastGap : leastOf(width, surface.leastGap);
+  float least = corrects() ? surface.leastGap : leastOf(width, surface.leastGap);
   if (!takesAll && !isTooNear(sides, least)) return;
   Sides sliding = sidesOf(ids, areSides, acrossBoth(ids, areSides, nearest.way));
   if (!takesAll && !isTooNear(sliding, least)) return;
   if (!takesAll && !turnsTooNear(ids, areSides, nearest.way, least)) return;
-  state.tooNear[round.first] = 1u;
-  if (corrects) {
+  state.tooNear[round.number] = 1u;
+  if (corrects()) {
     pushApart(ids, areSides, nearest.way, least);
     return;
   }
@@ -170,13 +180,48 @@ void lookAt(uvec4 ids, bool areSides, PartPlaces places, NearestParts nearest) {
 }
 bool goesOn() { return true; }
 // Whatever the first rounds move, the first of the others looks at everything again.
-bool looksAtFlat() { return round.first >= uint(CORRECTION_ROUNDS); }
+bool looksAtFlat() { return !corrects(); }
 #include "sim/surface/walk.glsl"
 
+// In two halves, each of which converts exactly.
+float fromQuanta(int sum) {
+  precise float value = float(sum >> 12) * 4096.0 + float(sum & 4095);
+  return value;
+}
+
+// What the pairs that are too near want of a particle: the mean of it, where they want more than all.
+void correct(uint i) {
+  ivec4 sum = ivec4(corrections[4u * i], corrections[4u * i + 1u], corrections[4u * i + 2u], corrections[4u * i + 3u]);
+  vec4 place = newPositions[i];
+  if (!(place.w > 0.0)) return;
+  float weight = reciprocal(float(sum.w < CORRECTION_WEIGHT ? CORRECTION_WEIGHT : sum.w));
+  precise float part = (surface.quantum * float(CORRECTION_WEIGHT)) * weight;
+  precise vec3 motion = part * vec3(fromQuanta(sum.x), fromQuanta(sum.y), fromQuanta(sum.z));
+  precise vec3 end = place.xyz + motion;
+  precise vec3 velocity = newVelocities[i].xyz + step.inverseTimeStep * motion;
+  float squared = sumOfProducts(motion, motion);
+  precise float far = squared * inverseSquareRoot(squared);
+  atomicMax(state.largestCorrection, floatBitsToUint(canonical(far)));
+  newPositions[i] = vec4(canonical(end), place.w);
+  newVelocities[i] = vec4(canonical(velocity), 0.0);
+  for (uint k = 4u * i; k < 4u * i + 4u; ++k) corrections[k] = 0;
+}
+
 void main() {
-  uint own = thisEntry();
-  if (own >= surface.triangles || isSettled() || state.tooMany == 2u) return;
+  if (isSettled() || state.tooMany == 2u) return;
   // What was pushed apart may be too near to what no round has seen so far.
-  if (round.first > 0u && state.tooNear[round.first == uint(CORRECTION_ROUNDS) ? 0u : round.first - 1u] == 0u) return;
-  if (looksAtFlat() || state.isFlat == 0u) lookAround(own);
+  uint deciding = round.number == uint(CORRECTION_ROUNDS) ? 0u : round.number - 1u;
+  if (round.number > 0u && state.tooNear[deciding] == 0u) return;
+  uint own = thisEntry();
+  if (own < surface.triangles && (looksAtFlat() || state.isFlat == 0u)) lookAround(own);
+  if (!isLastGroupOf(gl_NumWorkGroups.x * gl_NumWorkGroups.y)) return;
+  for (uint k = gl_LocalInvocationIndex; k < state.moved; k += uint(SURFACE_GROUP)) {
+    uint i = moved[k];
+    if (corrects())
+      correct(i);
+    else
+      kept[i] = kept[step.totalParticles + i];
+  }
+  barrier();
+  if (gl_LocalInvocationIndex == 0u) state.moved = 0u;
 }

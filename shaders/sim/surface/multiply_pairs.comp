@@ -8,15 +8,10 @@ layout(std430, binding = SURFACE_OUT_BINDING) writeonly buffer Rows { vec4 newRo
 
 uint thisPair() { return (gl_WorkGroupID.y * GROUPS_A_ROW + gl_WorkGroupID.x) * uint(SURFACE_GROUP) + gl_LocalInvocationIndex; }
 vec3 directionAt(uint i) { return texelFetch(directions, int(i)).xyz; }
+#include "sim/surface/pair_product.glsl"
 
 void main() {
   uint q = thisPair();
   if (isSkipped() || q >= scalars.pairs) return;
-  uvec4 ids = texelFetch(pairIds, int(q));
-  vec3 normal = pairRow(q, 0u).xyz;
-  float held = pairRow(q, 2u).w, across = pairRow(q, 3u).w;
-  vec3 moved = weightedSum(pairRow(q, 1u), directionAt(ids.x), directionAt(ids.y), directionAt(ids.z), directionAt(ids.w));
-  precise float beyond = (held - across) * sumOfProducts(normal, moved);
-  precise vec3 force = across * moved + beyond * normal;
-  newRows[4u * q + 3u] = vec4(canonical(force), across);
+  newRows[4u * q + 3u] = vec4(pairProduct(q), pairRow(q, 3u).w);
 }

@@ -1,5 +1,5 @@
 // Where the cloth is too flat for parts of it to meet (leastStretch() in shaders/shared/surface_laws.h); the
-// twin of shaders/sim/surface/flat_*.comp.
+// twin of shaders/sim/surface/flat_*.glsl.
 #pragma once
 
 #include <cstdint>

@@ -114,11 +114,19 @@ const std::vector<Kernel>& kernels() {
     if (updates) kernel.passes.insert(kernel.passes.begin(), Pass::updateSolution);
     return kernel;
   };
+  const auto isSum = [](bool is) { return std::pair<std::string, std::string>{"IS_SUM", is ? "1" : "0"}; };
+  const std::vector<KernelStage> search{{"implicit/search", Over::sumBlocks, {sumKind(SUM_STEP)}}};
   static const std::vector<Kernel> all{
-      {{Pass::updateDirection, Pass::multiply, Pass::sumCurvature},
-       {{"implicit/search", Over::sumBlocks, {sumKind(SUM_STEP)}}},
+      {{Pass::updateDirection, Pass::multiply, Pass::sumCurvature}, search, For::one, Array::directions},
+      {{Pass::updateDirection, Pass::multiplyPairs, Pass::multiply, Pass::sumCurvature},
+       search,
        For::one,
        Array::directions},
+      {{Pass::tryLengths, Pass::sumEnergies},
+       {{"implicit/try_lengths", Over::sumBlocks, {isSum(true), sumKind(SUM_LENGTH)}}},
+       For::one},
+      {{Pass::accept, Pass::measureUpdate},
+       {{"implicit/accept", Over::sumBlocks, {isSum(true), sumKind(SUM_UPDATE)}}}},
       {{Pass::limit, Pass::watchLimit}, {{"limit_tile", Over::tiles}}, For::tiles, Array::newPositions},
       {{Pass::limit, Pass::limit}, {{"limit_slot", Over::slots}}, For::sameSlots, Array::newPositions},
       precondition(false, Pass::sumFirstResidual, SUM_FIRST),
@@ -148,9 +156,9 @@ const std::vector<Kernel>& kernels() {
       {{Pass::updateSolution}, {{"implicit/update_solution", Over::particles}}},
       sum(Pass::sumNextResidual, SUM_NEXT),
       {{Pass::stopAtPlanes}, {{"implicit/stop_at_planes", Over::particles}}},
-      {{Pass::tryLengths}, {{"implicit/try_lengths", Over::grids}}},
+      {{Pass::tryLengths}, {{"implicit/try_lengths", Over::grids, {isSum(false)}}}},
       sum(Pass::sumEnergies, SUM_LENGTH),
-      {{Pass::accept}, {{"implicit/accept", Over::particles}}},
+      {{Pass::accept}, {{"implicit/accept", Over::particles, {isSum(false)}}}},
       sum(Pass::measureUpdate, SUM_UPDATE),
       {{Pass::end}, {{"implicit/end", Over::grids}}},
       {{Pass::remember}, {{"implicit/remember", Over::grids}}},

@@ -36,7 +36,7 @@ const gl::Program& GpuSurfaceContact::program(const std::string& pass, const Var
                                           {"WRITES_PAIRS", std::to_string(variant.writes)},
                                           {"SCANS_LISTS", std::to_string(variant.lists)},
                                           {"LATER", std::to_string(variant.later)},
-                                          {"CLEARS", std::to_string(variant.clears)},
+                                          {"ONLY_BOXES", std::to_string(variant.onlyBoxes)},
                                           {"ONLY_COUNTS", std::to_string(variant.counts)},
                                           {"STOPS_SLIPS", std::to_string(variant.stops)}})
       defines.push_back(define);
@@ -48,16 +48,12 @@ const gl::Program& GpuSurfaceContact::program(const std::string& pass, const Var
 
 void GpuSurfaceContact::compile() {
   for (const bool touching : {false, true})
-    for (const char* pass : {"begin", "triangle_boxes", "flat_sides", "flat_flags"})
-      program(pass, {.touching = touching});
-  program("begin", {.touching = true, .later = true});
+    for (const char* pass : {"start", "boxes"}) program(pass, {.touching = touching});
+  program("start", {.touching = true, .later = true});
+  for (const char* pass : {"start", "boxes"}) program(pass, {.onlyBoxes = true});
   for (const bool writes : {false, true}) program("search", {.touching = true, .writes = writes});
-  for (const bool lists : {false, true})
-    for (const char* pass : {"scan_blocks", "scan_totals"}) program(pass, {.lists = lists});
-  for (const bool clears : {false, true}) program("keep", {.clears = clears});
-  for (const char* pass :
-       {"boxes", "clear_lists", "list", "sort_lists", "guard", "correct", "shorten", "settle"})
-    program(pass);
+  for (const bool lists : {false, true}) program("scan", {.lists = lists});
+  for (const char* pass : {"list", "sort_lists", "guard", "shorten", "settle"}) program(pass);
   program("weigh", {.gate = GATE_STEP});
   program("multiply_pairs", {.gate = GATE_SYSTEM});
   if (surface_.colliders.empty()) return;
@@ -100,8 +96,7 @@ void GpuSurfaceContact::setSurface(ClothSurface<float> surface, std::uint32_t pa
   lists_ = Numbers("pairs by particle", particles);
   listBlocks_ = Numbers("blocks of particles", blocksOf(particles));
   cursors_ = gl::Buffer<std::uint32_t>("list cursors", particles);
-  kept_ = gl::Buffer<std::uint32_t>("kept motions", particles);
-  newlyKept_ = gl::Buffer<std::uint32_t>("newly kept motions", particles);
+  kept_ = gl::Buffer<std::uint32_t>("kept motions", std::size_t{2} * particles);
   corrections_ = gl::Buffer<std::int32_t>("corrections", std::size_t{4} * particles);
   safePositions_ = ParticleArray("safe positions", particles);
   safeVelocities_ = ParticleArray("safe velocities", particles);
@@ -113,16 +108,9 @@ void GpuSurfaceContact::setSurface(ClothSurface<float> surface, std::uint32_t pa
     dispatches_ = gl::Buffer<Groups>("pair dispatches", std::span<const Groups>(none));
     params_ = gl::Buffer<SurfaceParams>("surface parameters", 1);
   }
-  std::vector<LevelSlot> slots;
-  const std::vector<std::uint32_t>& first = surface_.firstBoxes;
-  for (std::size_t level = 1; level + 1 < first.size(); ++level) {
-    const std::uint32_t count = first[level + 1] - first[level];
-    slots.push_back({{first[level - 1], first[level], count, count <= BOXES_ALONE ? 1u : 0u}});
-    if (count <= BOXES_ALONE) break;
-  }
-  boxLevels_ = slots.size();
-  for (std::uint32_t round = 0; round < GUARD_ROUNDS; ++round) slots.push_back({{0, round, 0, 0}});
-  levels_ = gl::Buffer<LevelSlot>("box levels", std::span<const LevelSlot>(slots));
+  std::vector<RoundSlot> rounds;
+  for (std::uint32_t round = 0; round < GUARD_ROUNDS; ++round) rounds.push_back({{round, 0, 0, 0}});
+  rounds_ = gl::Buffer<RoundSlot>("rounds of the guard", std::span<const RoundSlot>(rounds));
   allocatePairs();
   uploadParams();
 }
@@ -190,43 +178,40 @@ void GpuSurfaceContact::runOn(PassRunner& runner, const gl::Program& program, st
   runner.runGroups(program, name_, static_cast<std::uint32_t>((entries + SURFACE_GROUP - 1) / SURFACE_GROUP));
 }
 
-void GpuSurfaceContact::boxTriangles(PassRunner& runner, bool touching) {
+// The boxes of triangles, and what a search begins with.
+void GpuSurfaceContact::start(PassRunner& runner, const Variant& variant) {
+  const auto groupsFor = [](std::size_t entries) { return (entries + SURFACE_GROUP - 1) / SURFACE_GROUP; };
   boxes_.buffer.bindStorage(SURFACE_OUT_BINDING);
-  runOn(runner, program("triangle_boxes", {.touching = touching}), surface_.triangles.size());
-}
-
-void GpuSurfaceContact::boxLevel(PassRunner& runner, std::size_t level) {
-  boxes_.buffer.bindStorage(SURFACE_OUT_BINDING);
-  levels_.bindUniformRange(BOX_LEVEL_BINDING, level, 1);
-  const std::uint32_t count = surface_.firstBoxes[level + 2] - surface_.firstBoxes[level + 1];
-  runner.runGroups(
-      program("boxes"), name_,
-      level + 1 == boxLevels_ && count <= BOXES_ALONE ? 1 : (count + SURFACE_LANES - 1) / SURFACE_LANES);
-}
-
-void GpuSurfaceContact::growBoxes(PassRunner& runner) {
-  boxTriangles(runner, false);
-  for (std::size_t level = 0; level < boxLevels_; ++level) boxLevel(runner, level);
-}
-
-// What is flat and the boxes do not need each other, nor `besides` either of them.
-template <class Besides>
-void GpuSurfaceContact::startSearch(PassRunner& runner, bool touching, Besides besides) {
-  const bool hasBlocks = !surface_.blocks.empty();
-  {
-    const PassRunner::SideBySide all(runner);
-    besides();
-    boxTriangles(runner, touching);
-    flatSides_.buffer.bindStorage(SURFACE_OUT_BINDING);
-    if (hasBlocks) runOn(runner, program("flat_sides", {.touching = touching}), surface_.blocks.size());
+  std::size_t groups = 0;
+  if (surface_.touchesItself)
+    groups += groupsFor((surface_.triangles.size() + BOX_CHILDREN - 1) / BOX_CHILDREN);
+  if (!variant.onlyBoxes) {
+    flatSides_.buffer.bindStorage(SURFACE_IDS_BINDING);
+    (variant.touching ? cursors_ : kept_).bindStorage(SURFACE_COUNTS_BINDING);
+    if (variant.touching)
+      lists_.buffer.bindStorage(SURFACE_LISTS_BINDING);
+    else
+      corrections_.bindStorage(SURFACE_LISTS_BINDING);
+    if (surface_.touchesItself) groups += groupsFor(surface_.blocks.size());
+    groups += groupsFor(particles_);
   }
-  {
-    const PassRunner::SideBySide both(runner);
-    if (boxLevels_ > 0) boxLevel(runner, 0);
-    flatFlags_.buffer.bindStorage(SURFACE_OUT_BINDING);
-    if (hasBlocks) runOn(runner, program("flat_flags", {.touching = touching}), surface_.blocks.size());
+  const auto row = static_cast<std::uint32_t>(GROUPS_A_ROW), count = static_cast<std::uint32_t>(groups);
+  runner.runGroups(program("start", variant), name_, std::min(count, row), (count + row - 1) / row);
+  if (surface_.touchesItself) joinBoxes(runner, variant);
+}
+
+// The levels above those that start() has made, and which blocks are flat.
+void GpuSurfaceContact::joinBoxes(PassRunner& runner, const Variant& variant) {
+  const auto groupsFor = [](std::size_t entries) { return (entries + SURFACE_LANES - 1) / SURFACE_LANES; };
+  const std::vector<std::uint32_t>& first = surface_.firstBoxes;
+  constexpr std::size_t level = 2;
+  std::size_t groups = level + 1 < first.size() ? groupsFor(first[level + 1] - first[level]) : 0;
+  if (!variant.onlyBoxes) {
+    flatFlags_.buffer.bindStorage(SURFACE_IDS_BINDING);
+    groups += groupsFor(surface_.blocks.size());
   }
-  for (std::size_t level = 1; level < boxLevels_; ++level) boxLevel(runner, level);
+  const Variant own{.touching = variant.touching, .onlyBoxes = variant.onlyBoxes};
+  runner.runGroups(program("boxes", own), name_, static_cast<std::uint32_t>(groups));
 }
 
 void GpuSurfaceContact::scan(PassRunner& runner, Numbers& counts, Numbers& blocks, std::size_t size,
@@ -234,21 +219,12 @@ void GpuSurfaceContact::scan(PassRunner& runner, Numbers& counts, Numbers& block
   counts.buffer.bindStorage(SURFACE_COUNTS_BINDING);
   blocks.buffer.bindStorage(SURFACE_OUT_BINDING);
   dispatches_.bindStorage(SURFACE_IDS_BINDING);
-  const Variant variant{.lists = lists};
-  runner.runGroups(program("scan_blocks", variant), name_, blocksOf(size));
-  runner.runGroups(program("scan_totals", variant), name_, 1);
-}
-
-void GpuSurfaceContact::clearLists(PassRunner& runner) {
-  lists_.buffer.bindStorage(SURFACE_LISTS_BINDING);
-  cursors_.bindStorage(SURFACE_OUT_BINDING);
-  runOn(runner, program("clear_lists"), particles_);
+  runner.runGroups(program("scan", {.lists = lists}), name_, blocksOf(size));
 }
 
 void GpuSurfaceContact::findTouching(PassRunner& runner, bool later) {
   const std::size_t triangles = surface_.triangles.size();
-  runner.runGroups(program("begin", {.touching = true, .later = later}), name_, 1);
-  surface_.touchesItself ? startSearch(runner, true, [&] { clearLists(runner); }) : clearLists(runner);
+  start(runner, {.touching = true, .later = later});
   counts_.buffer.bindStorage(SURFACE_COUNTS_BINDING);
   runOn(runner, program("search", {.touching = true}), triangles);
   scan(runner, counts_, blocks_, triangles, false);
@@ -284,28 +260,15 @@ void GpuSurfaceContact::pressOut(PassRunner& runner, GpuArrays& arrays, std::uin
   runOn(runner, program("press_particles", {.stops = round == 0}), particles_);
 }
 
-void GpuSurfaceContact::keep(PassRunner& runner, bool clears) {
-  kept_.bindStorage(SURFACE_COUNTS_BINDING);
-  newlyKept_.bindStorage(SURFACE_LISTS_BINDING);
-  corrections_.bindStorage(SURFACE_OUT_BINDING);
-  runOn(runner, program("keep", {.clears = clears}), particles_);
-}
-
 void GpuSurfaceContact::guard(PassRunner& runner, GpuArrays& arrays, std::uint32_t round) {
-  if (round == 0) {
-    runner.runGroups(program("begin"), name_, 1);
-    startSearch(runner, false, [&] { keep(runner, true); });
-  }
-  if (round == CORRECTION_ROUNDS) growBoxes(runner);
-  kept_.bindStorage(SURFACE_COUNTS_BINDING);
-  newlyKept_.bindStorage(SURFACE_LISTS_BINDING);
-  corrections_.bindStorage(SURFACE_OUT_BINDING);
-  levels_.bindUniformRange(BOX_LEVEL_BINDING, boxLevels_ + round, 1);
-  runOn(runner, program("guard"), surface_.triangles.size());
-  if (round >= CORRECTION_ROUNDS) return keep(runner, false);
+  if (round == 0) start(runner, {});
+  if (round == CORRECTION_ROUNDS) start(runner, {.onlyBoxes = true});
   bindEnds(arrays);
+  kept_.bindStorage(SURFACE_COUNTS_BINDING);
   corrections_.bindStorage(SURFACE_LISTS_BINDING);
-  runOn(runner, program("correct"), particles_);
+  cursors_.bindStorage(SURFACE_MOVED_BINDING);  // which hold nothing by then
+  rounds_.bindUniformRange(GUARD_ROUND_BINDING, round, 1);
+  runOn(runner, program("guard"), surface_.triangles.size());
 }
 
 void GpuSurfaceContact::bindEnds(GpuArrays& arrays) const {

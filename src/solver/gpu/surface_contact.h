@@ -41,13 +41,13 @@ class GpuSurfaceContact {
 
  private:
   struct Variant {  // of a program
-    bool touching = false, writes = false, lists = false, later = false, clears = false, counts = false,
+    bool touching = false, writes = false, lists = false, later = false, onlyBoxes = false, counts = false,
          stops = false;
     int gate = 0;
     friend auto operator<=>(const Variant&, const Variant&) = default;
   };
-  struct alignas(256) LevelSlot {  // every driver takes uniform offsets in multiples of 256
-    BoxLevel level;
+  struct alignas(256) RoundSlot {  // every driver takes uniform offsets in multiples of 256
+    GuardRound round;
   };
   // A buffer of whole numbers and its view as texels.
   struct Numbers {
@@ -63,15 +63,10 @@ class GpuSurfaceContact {
   void allocatePairs();
   void uploadParams();
   void runOn(PassRunner& runner, const gl::Program& program, std::size_t entries) const;
-  void boxTriangles(PassRunner& runner, bool touching);
-  void boxLevel(PassRunner& runner, std::size_t level);
-  void growBoxes(PassRunner& runner);
-  template <class Besides>
-  void startSearch(PassRunner& runner, bool touching, Besides besides);
-  void clearLists(PassRunner& runner);
+  void start(PassRunner& runner, const Variant& variant);
+  void joinBoxes(PassRunner& runner, const Variant& variant);
   void scan(PassRunner& runner, Numbers& counts, Numbers& blocks, std::size_t size, bool lists);
   void findTouching(PassRunner& runner, bool later);
-  void keep(PassRunner& runner, bool clears);
   void guard(PassRunner& runner, GpuArrays& arrays, std::uint32_t round);
   void meetColliders(PassRunner& runner);
   void pressOut(PassRunner& runner, GpuArrays& arrays, std::uint32_t round);
@@ -91,10 +86,10 @@ class GpuSurfaceContact {
   gl::MappedBuffer<SurfaceState> stateCopy_;  // for the host
   bool hasCopy_ = false;
   gl::Buffer<Groups> dispatches_;  // over the pairs
-  gl::Buffer<LevelSlot> levels_;   // those of boxes, then the rounds of the guard
-  std::size_t boxLevels_ = 0;      // how many of them are dispatched
+  gl::Buffer<RoundSlot> rounds_;   // of the guard
   Numbers triangles_, counts_, blocks_, lists_, listBlocks_, entries_, pairIds_, flatBlocks_, flatFlags_;
-  gl::Buffer<std::uint32_t> cursors_, kept_, newlyKept_;
+  gl::Buffer<std::uint32_t> cursors_,
+      kept_;  // kept_: what particles keep, then the same with what a round takes
   gl::Buffer<std::int32_t> corrections_;
   ParticleArray points_, boxes_, pairRows_, safePositions_, safeVelocities_, flatSides_;
   ParticleArray smallColliders_, pairCarries_;

@@ -1,16 +1,12 @@
 // Of each block of a grid: the boxes of its sides along rows, and along columns, over their distance in the grid, at the start and
 // at the end of the motion; the twin is src/solver/cpu/flat_blocks.h.
-#include "sim/surface/common.glsl"
 #include "sim/surface/blocks.glsl"
 
-layout(local_size_x = SURFACE_GROUP) in;
-layout(std430, binding = SURFACE_OUT_BINDING) writeonly buffer Sides { vec4 newSides[]; };
+layout(std430, binding = SURFACE_IDS_BINDING) writeonly buffer Sides { vec4 newSides[]; };
 
 vec3 placeOf(uint i, int end) { return end == 0 ? startAt(i) : endAt(i); }
 
-void main() {
-  uint number = thisEntry();
-  if (number >= surface.blocks || isSettled()) return;
+void findSides(uint number) {
   Block block = blockAt(number);
   BlockSides sides = noSides();
   for (int end = 0; end < 2; ++end)

@@ -1,12 +1,10 @@
 // Which blocks are flat together with those around them, and, by the first work group, whether the only grid is as a whole.
-#include "sim/surface/common.glsl"
 #include "sim/surface/blocks.glsl"
 
-layout(local_size_x = SURFACE_GROUP) in;
 layout(binding = FLAT_SIDES_UNIT) uniform samplerBuffer flatSides;
-layout(std430, binding = SURFACE_OUT_BINDING) writeonly buffer Flags { uint newFlags[]; };
+layout(std430, binding = SURFACE_IDS_BINDING) writeonly buffer Flags { uint newFlags[]; };
 
-shared BlockSides lanes[SURFACE_GROUP];
+shared BlockSides lanes[SURFACE_LANES];
 
 BlockSides sidesAt(uint number) {
   int first = int(4u * number);
@@ -14,9 +12,9 @@ BlockSides sidesAt(uint number) {
                     Bounds(texelFetch(flatSides, first + 2).xyz, texelFetch(flatSides, first + 3).xyz));
 }
 
-void main() {
-  if (isSettled()) return;
-  uint number = thisEntry();
+// By all invocations of a work group, one of those for blocks.
+void findFlags(uint group) {
+  uint lane = gl_LocalInvocationIndex, number = group * uint(SURFACE_LANES) + lane;
   if (number < surface.blocks) {
     Block block = blockAt(number);
     BlockSides around = sidesAt(number);
@@ -26,13 +24,12 @@ void main() {
         around = joinedSides(around, sidesAt(block.firstOfGrid + row * block.places.x + column));
     newFlags[number] = isFlatEnough(block, around) ? 1u : 0u;
   }
-  if (gl_WorkGroupID.x != 0u || gl_WorkGroupID.y != 0u || surface.isOneGrid == 0u) return;
-  uint lane = gl_LocalInvocationIndex;
+  if (group != 0u || surface.isOneGrid == 0u) return;
   BlockSides own = noSides();
-  for (uint k = lane; k < surface.blocks; k += uint(SURFACE_GROUP)) own = joinedSides(own, sidesAt(k));
+  for (uint k = lane; k < surface.blocks; k += uint(SURFACE_LANES)) own = joinedSides(own, sidesAt(k));
   lanes[lane] = own;
   barrier();
   if (lane != 0u) return;
-  for (int k = 1; k < SURFACE_GROUP; ++k) own = joinedSides(own, lanes[k]);
+  for (int k = 1; k < SURFACE_LANES; ++k) own = joinedSides(own, lanes[k]);
   state.isFlat = isFlatEnough(blockAt(0u), own) ? 1u : 0u;
 }
