@@ -42,7 +42,7 @@ vec3 pixelLight() {
 vec3 pixelLight() { return texelFetch(canvas, ivec2(gl_FragCoord.xy), 0).rgb; }
 #else
 #include "render/smooth_edges.glsl"
-vec3 pixelLight() { return decodedLight(smoothedCanvas(ivec2(gl_FragCoord.xy))); }
+vec3 pixelLight() { return smoothedLight(ivec2(gl_FragCoord.xy)); }
 #endif
 
 void main() {

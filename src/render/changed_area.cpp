@@ -10,7 +10,7 @@ namespace clothsim {
 namespace {
 
 // Smoothing of edges looks this far [pixels], and marks of pins are this large, as a part of the height.
-constexpr float smoothingMargin = 8, marksMargin = 0.007f;
+constexpr float smoothingMargin = 24, marksMargin = 0.007f;
 // The blur of shadows on floors, and a texel for filters.
 constexpr float shadowMargin = 9.0f / FLOOR_SHADOW_SIZE;
 constexpr float nearest = 1e-3f;  // [m] before the eye
