@@ -58,7 +58,8 @@ vec3 stageBehind(vec3 eye, vec3 ray) {
   vec3 position = eye + min(wall, FAR) * ray;
   float height = (position.y - frame.stagePlace.y) * STAGE_SIZES / frame.stagePlace.w;
   vec3 light = wallLight(position, vec3(-normalize(fromMiddle(position)), 0.0).xzy, height);
-  return ground < wall ? groundBehind(eye + ground * ray) : light;
+  float before = wall - min(ground, 2.0 * wall);  // the ground lies before the wall
+  return mix(light, groundBehind(eye + ground * ray), clamp(0.5 + before / max(fwidth(before), 1e-6), 0.0, 1.0));
 }
 #elif defined(TABLE)
 // A warm room far out of focus: a dark floor, a wall that light falls on in places, and the glow of lamps.

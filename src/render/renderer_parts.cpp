@@ -12,9 +12,10 @@
 namespace clothsim {
 namespace {
 
-constexpr GLenum backdropFormat = GL_RGB10_A2;  // its slow gradients would show steps in 8 bits
-constexpr GLenum canvasFormat = GL_RGBA8;       // square roots of linear light (shaders/render/tone.glsl)
-constexpr GLenum exposureFormat = GL_RGBA16F;   // the same of an exposure, without steps
+constexpr GLenum backdropFormat =
+    GL_RGB10_A2;                               // for exposures: its slow gradients would show steps in 8 bits
+constexpr GLenum canvasFormat = GL_RGBA8;      // as the screen shows it (shaders/render/tone.glsl)
+constexpr GLenum exposureFormat = GL_RGBA16F;  // the same of an exposure, without steps
 constexpr float planeDepthUnits = 256;  // 2e-6 of the distance each (Camera::projection, 24 bits of depth)
 constexpr std::uint32_t MOST_CUT_STEPS = 2;
 constexpr double MOST_VERTEX_DISTANCE = 12, MOST_THREAD_SPACING = 1;  // where vertices are lit [pixels]
@@ -300,6 +301,7 @@ void Renderer::Parts::drawSkyShadows(GLuint positions) {
 // last.
 void Renderer::Parts::drawScene(GLuint positions) {
   const ShadedPrograms& shading = programs.shaded(isExposed());
+  layBackdrop();
   canvas.bind();
   scissor();
   shadowMap.bindTextures();
@@ -308,11 +310,6 @@ void Renderer::Parts::drawScene(GLuint positions) {
         .bindDepth(SKY_SHADOW_UNIT + static_cast<GLuint>(k));
   const float farthest = 1;
   glClearNamedFramebufferfv(canvas.name(), GL_DEPTH, 0, &farthest);
-  glDisable(GL_DEPTH_TEST);
-  glBindTextureUnit(BACKDROP_UNIT, backdrop.colorTexture());
-  shading.layBackdrop.bind();
-  noVertices.bind();
-  glDrawArrays(GL_TRIANGLES, 0, 3);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
 
@@ -329,7 +326,9 @@ void Renderer::Parts::drawScene(GLuint positions) {
   // their distance.
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(1, planeDepthUnits);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);  // which says that nothing lies before the stage
   colliders.drawPlanes(shading.plane);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDisable(GL_POLYGON_OFFSET_FILL);
   if (model.blends) drawCloth(positions);
   drawFuzz(positions);
@@ -411,16 +410,47 @@ void Renderer::Parts::scissor() const {
 
 // One that does not turn with the camera is drawn once.
 void Renderer::Parts::drawBackdrop(int width, int height) {
-  const gl::FramebufferFormat format{.width = width, .height = height, .color = backdropFormat};
+  const gl::FramebufferFormat format{
+      .width = width, .height = height, .color = isExposed() ? backdropFormat : canvasFormat};
   const bool turns = backdropTurns(scene->render);
   if (backdropSeen && backdrop.format() == format && !(turns && *backdropSeen != middleClipFromWorld)) return;
   if (!(backdrop.format() == format)) backdrop = gl::Framebuffer("backdrop", format);
   backdrop.bind();
   glDisable(GL_DEPTH_TEST);
-  programs.backdrop.bind();
+  programs.shaded(isExposed()).backdrop.bind();
   noVertices.bind();
   glDrawArrays(GL_TRIANGLES, 0, 3);
   backdropSeen = middleClipFromWorld;
+}
+
+PixelRect Renderer::Parts::drawnPart() const {
+  return part ? part->picture : PixelRect{0, 0, canvas.format().width, canvas.format().height};
+}
+
+// A copy where both are alike, which costs a software renderer a fiftieth of drawing it.
+void Renderer::Parts::layBackdrop() {
+  if (canvas.format().samples == 1 && !isExposed()) {
+    const auto [left, bottom, right, top] = drawnPart();
+    glBlitNamedFramebuffer(backdrop.name(), canvas.name(), left, bottom, right, top, left, bottom, right, top,
+                           GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    return;
+  }
+  canvas.bind();
+  scissor();
+  glDisable(GL_DEPTH_TEST);
+  glBindTextureUnit(BACKDROP_UNIT, backdrop.colorTexture());
+  programs.shaded(isExposed()).layBackdrop.bind();
+  noVertices.bind();
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDisable(GL_SCISSOR_TEST);
+}
+
+void Renderer::Parts::finishInto(GLuint destination, int width, int height) {
+  glDisable(GL_FRAMEBUFFER_SRGB);  // the shaders encode
+  if (options.samples == 1)
+    edges.smoothInto(destination, canvas, drawnPart(), programs.edges());
+  else
+    resolveInto(destination, width, height, programs.resolve, canvas.colorTexture());
 }
 
 void Renderer::Parts::addToMean(bool isFirst) {
@@ -504,8 +534,10 @@ void Renderer::Parts::draw(const Picture& picture, const Around& around) {
   around("scene", [&] { drawScene(positions); });
   if (exposure != nullptr) around("mean", [&, n = number] { addToMean(n == 0); });
   around("resolve", [&, t = isDirect() ? target : finished.name(), exposes = exposure != nullptr] {
-    resolveInto(t, w, h, exposes ? programs.mean().show : programs.resolve,
-                exposes ? mean.colorTexture() : canvas.colorTexture());
+    if (exposes)
+      resolveInto(t, w, h, programs.mean().show, mean.colorTexture());
+    else
+      finishInto(t, w, h);
   });
   if (scale < 1) around("stretch", [&] { stretch(); });
   if (!isDirect())

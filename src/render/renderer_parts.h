@@ -10,6 +10,7 @@
 #include "render/changed_area.h"
 #include "render/cloth_mesh.h"
 #include "render/colliders.h"
+#include "render/edges.h"
 #include "render/exposure.h"
 #include "render/model_textures.h"
 #include "render/piece_looks.h"
@@ -68,6 +69,9 @@ struct Renderer::Parts {
   void drawIdentities(GLuint positions);
   void drawBackdrop(int width, int height);
   void resolveInto(GLuint destination, int width, int height, const gl::Program& resolve, GLuint texture);
+  void finishInto(GLuint destination, int width, int height);  // from the canvas
+  void layBackdrop();
+  [[nodiscard]] PixelRect drawnPart() const;  // of the canvas
   void show(GLuint destination, int width, int height) const;
   void stretch() const;
 
@@ -101,6 +105,7 @@ struct Renderer::Parts {
   std::optional<PickTarget> pickTarget;
   double scale = 1;
   gl::Framebuffer canvas, backdrop;
+  Edges edges;
   gl::Framebuffer finished, stretched;    // as the screen shows it; of a scale below 1 before and after it
   glm::mat4 middleClipFromWorld{1};       // of the picture, whatever its exposures shift
   std::optional<glm::mat4> backdropSeen;  // from where the backdrop was drawn
