@@ -327,7 +327,7 @@ void Renderer::Parts::drawScene(GLuint positions) {
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(1, planeDepthUnits);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);  // which says that nothing lies before the stage
-  colliders.drawPlanes(shading.plane);
+  drawPlanes(shading.plane);
   glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDisable(GL_POLYGON_OFFSET_FILL);
   if (model.blends) drawCloth(positions);
@@ -336,6 +336,29 @@ void Renderer::Parts::drawScene(GLuint positions) {
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
   glDisable(GL_SCISSOR_TEST);
+}
+
+// Whether the backdrop shows it, too, as the eye sees it.
+bool Renderer::Parts::isGroundBehind(const PlaneDisc& plane) const {
+  return backdropShowsGround(scene->render) && frame.ground.w > 0 && plane.look.r < 0 &&
+         plane.normal.y == 1 && std::abs(plane.place.y - frame.stagePlace.y) < 1e-5f * frame.stagePlace.w &&
+         frame.eye.y > plane.place.y;
+}
+
+// The ground only under shadows, where those are known.
+void Renderer::Parts::drawPlanes(const gl::Program& program) {
+  if (!underShadows) return colliders.drawPlanes(program);
+  const PixelRect whole = drawnPart(), &under = *underShadows;
+  const PixelRect shaded{std::max(whole.left, under.left), std::max(whole.bottom, under.bottom),
+                         std::min(whole.right, under.right), std::min(whole.top, under.top)};
+  for (std::size_t i = 0; i < colliders.discs().size(); ++i) {
+    const PixelRect& drawn = isGroundBehind(colliders.discs()[i]) ? shaded : whole;
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(drawn.left, drawn.bottom, drawn.width(), drawn.height());
+    colliders.drawPlane(program, i);
+  }
+  glDisable(GL_SCISSOR_TEST);
+  scissor();
 }
 
 void Renderer::Parts::drawCloth(GLuint positions) {
@@ -388,6 +411,7 @@ void Renderer::Parts::makeTargets(int width, int height, int shownWidth, int sho
 
 void Renderer::Parts::findChanges(GLuint positions, int width, int height) {
   part.reset();
+  underShadows.reset();
   // Heights move the surface away from the particles.
   if (!options.keepsStill || model.displaces || isExposed() || cloth->particleCount() > mostReadBack)
     return changes.forget();
@@ -398,8 +422,10 @@ void Renderer::Parts::findChanges(GLuint positions, int width, int height) {
   float reach = smooth ? static_cast<float>(longestEdge(*cloth)) : 0;
   if (drawsThick()) reach += *std::max_element(thickness.begin(), thickness.end());
   reach += longestFuzz();
-  part =
-      changes.next({frame.clipFromWorld, frame.shadowFromWorld, width, height, reach}, particles, colliders);
+  const ChangedArea::View seen{frame.clipFromWorld, frame.shadowFromWorld, width, height, reach};
+  part = changes.next(seen, particles, colliders);
+  for (const PlaneDisc& plane : colliders.discs())
+    if (isGroundBehind(plane)) underShadows = ChangedArea::shadowsOn(plane, seen, particles, colliders);
 }
 
 void Renderer::Parts::scissor() const {

@@ -62,6 +62,8 @@ struct Renderer::Parts {
   void drawCasters(GLuint positions);
   void drawSkyShadows(GLuint positions);
   void drawScene(GLuint positions);
+  void drawPlanes(const gl::Program& program);
+  [[nodiscard]] bool isGroundBehind(const PlaneDisc& plane) const;
   void drawCloth(GLuint positions);
   void drawOverlay(GLuint positions);
   void drawFuzz(GLuint positions);          // in fuzz.cpp
@@ -111,6 +113,7 @@ struct Renderer::Parts {
   std::optional<glm::mat4> backdropSeen;  // from where the backdrop was drawn
   ChangedArea changes;
   std::optional<ChangedArea::Area> part;  // of the picture that is drawn; none: all of it
+  std::optional<PixelRect> underShadows;  // where the ground is drawn; none: everywhere
   gl::Buffer<shared::RenderFrame> frameBlock{"render frame", 1};
   std::vector<gl::Buffer<shared::RenderFrame>> lookBlocks;  // the same with the look of each piece
   gl::VertexArray noVertices{"no vertices"};
