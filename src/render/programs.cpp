@@ -25,7 +25,9 @@ gl::Program makeDepthOnly(const std::string& vertexFile, const ShadingModel& mod
 gl::Program makeCloth(const ShadingModel& model, ClothLight light, const std::string& vertexFile,
                       const std::string& fragmentFile) {
   gl::Defines defines = model.defines;
-  if (light == ClothLight::atVertices) defines.emplace_back("LIT_AT_VERTICES", "");
+  if (light == ClothLight::atVertices || light == ClothLight::plain)
+    defines.emplace_back("LIT_AT_VERTICES", "");
+  if (light == ClothLight::plain) defines.emplace_back("PLAIN", "");
   if (light == ClothLight::exposed) defines.emplace_back("EXPOSURE", "");
   return gl::Program::makeRender(vertexFile, fragmentFile, defines);
 }
@@ -180,6 +182,7 @@ void tryAllShaders(const RenderSettings& settings, int samples) {
     const ShadingModel model = shadingModelOf(other);
     programs.chooseModel(model);
     if (model.hasVertexLight) static_cast<void>(programs.cloth(model, ClothLight::atVertices));
+    if (model.isMatte) static_cast<void>(programs.cloth(model, ClothLight::plain));
     for (const bool withCuts : {false, true}) static_cast<void>(programs.normals(withCuts));
     static_cast<void>(programs.meshNormals());
     static_cast<void>(programs.smooth());

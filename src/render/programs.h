@@ -28,9 +28,9 @@ struct ShadedPrograms {
   gl::Program sphere, shape, plane, backdrop, layBackdrop;
 };
 
-// Where light is worked out: at pixels, at vertices (of a model with hasVertexLight), or at the pixels of
-// exposures.
-enum class ClothLight { atPixels, atVertices, exposed };
+// Where light is worked out: at pixels; at vertices (of a model with hasVertexLight); at vertices but for
+// shadows, without threads, shine and hem (of a model with isMatte); or at the pixels of exposures.
+enum class ClothLight { atPixels, atVertices, plain, exposed };
 
 // Of pictures that are the mean of exposures.
 struct MeanPrograms {

@@ -19,6 +19,7 @@ constexpr GLenum exposureFormat = GL_RGBA16F;  // the same of an exposure, witho
 constexpr float planeDepthUnits = 256;  // 2e-6 of the distance each (Camera::projection, 24 bits of depth)
 constexpr std::uint32_t MOST_CUT_STEPS = 2;
 constexpr double MOST_VERTEX_DISTANCE = 12, MOST_THREAD_SPACING = 1;  // where vertices are lit [pixels]
+constexpr double MOST_PLAIN_DISTANCE = 60;                            // the same but for shadows and shine
 constexpr std::size_t mostReadBack = 300'000;  // particles for which it pays to ask what has changed
 
 // The longest side of a triangle of cloth: the diagonal of a cell [m].
@@ -173,6 +174,7 @@ void Renderer::Parts::chooseSurface(const Camera& camera, int height, double asp
         !look.model.weave.empty() && look.settings.threadSpacing * pixelsAMetre > MOST_THREAD_SPACING;
     return look.model.hasVertexLight && !seesThreads;
   });
+  isFineForPlain = longestEdge(*cloth) * pixelsAMetre < MOST_PLAIN_DISTANCE;
   lightsVertices =
       options.lightsVertices && hidesVertices && longestEdge(*cloth) * pixelsAMetre < MOST_VERTEX_DISTANCE;
   std::vector<std::uint32_t> steps;
@@ -361,18 +363,25 @@ void Renderer::Parts::drawPlanes(const gl::Program& program) {
   scissor();
 }
 
+ClothLight Renderer::Parts::lightOf(const PieceLook& look) const {
+  if (isExposed()) return ClothLight::exposed;
+  if (smooth || !options.lightsVertices) return ClothLight::atPixels;
+  if (look.model.isMatte && isFineForPlain) return ClothLight::plain;
+  return lightsVertices ? ClothLight::atVertices : ClothLight::atPixels;
+}
+
 void Renderer::Parts::drawCloth(GLuint positions) {
-  if (!model.blends) {
+  // Plain light costs less than the depth of what hides it.
+  const bool isPlain = std::all_of(looks.begin(), looks.end(),
+                                   [&](const PieceLook& look) { return lightOf(look) == ClothLight::plain; });
+  if (!model.blends && !isPlain) {
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     programs.clothDepth.bind();
     drawSurface(positions, [](const PieceLook&) {});
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   }
-  const ClothLight light = isExposed()                 ? ClothLight::exposed
-                           : lightsVertices && !smooth ? ClothLight::atVertices
-                                                       : ClothLight::atPixels;
   drawSurface(
-      positions, [&](const PieceLook& look) { programs.cloth(look.model, light).bind(); },
+      positions, [&](const PieceLook& look) { programs.cloth(look.model, lightOf(look)).bind(); },
       model.name == "wireframe");  // whose lines are otherwise those of a grid
 }
 

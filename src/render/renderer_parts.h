@@ -65,6 +65,7 @@ struct Renderer::Parts {
   void drawPlanes(const gl::Program& program);
   [[nodiscard]] bool isGroundBehind(const PlaneDisc& plane) const;
   void drawCloth(GLuint positions);
+  [[nodiscard]] ClothLight lightOf(const PieceLook& look) const;
   void drawOverlay(GLuint positions);
   void drawFuzz(GLuint positions);          // in fuzz.cpp
   [[nodiscard]] float longestFuzz() const;  // [m]
@@ -93,6 +94,7 @@ struct Renderer::Parts {
   ClothMesh clothMesh;
   std::vector<float> thickness;         // of each piece as it is drawn [m]
   bool lightsVertices = false;          // of the cloth, which is fine enough for that
+  bool isFineForPlain = false;          // the same for ClothLight::plain
   double pixelsAMetre = 0;              // at the distance of what the camera looks at
   double shellPlace = 0.5;              // of the shells of fuzz between their neighbours, 0 to 1
   std::optional<SmoothSurface> smooth;  // drawn instead of the triangles of the particles
