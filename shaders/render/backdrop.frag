@@ -1,4 +1,4 @@
-// The backdrop, kept as on the canvas but finer; or, to begin a picture, laid on the canvas.
+// The backdrop, kept as it is on the canvas, or for exposures finer; or, to begin a picture, laid on the canvas.
 #include "render/background.glsl"
 #include "render/tone.glsl"
 
@@ -8,8 +8,11 @@ layout(location = 0) out vec4 color;
 layout(binding = BACKDROP_UNIT) uniform sampler2D backdrop;
 void main() {
   vec3 stored = texelFetch(backdrop, ivec2(gl_FragCoord.xy), 0).rgb;
-  color = vec4(canvasFromEncoded(stored) + canvasDither(gl_FragCoord.xy), 1.0);
+  color = isExposure() ? vec4(canvasFromEncoded(stored), 1.0) : vec4(stored, STAGE_ALPHA);
 }
 #else
-void main() { color = vec4(encodedLight(backgroundLight(gl_FragCoord.xy)), 1.0); }
+void main() {
+  vec3 light = backgroundLight(gl_FragCoord.xy);
+  color = vec4(isExposure() ? encodedLight(light) : canvasFromLight(light) + canvasDither(gl_FragCoord.xy), STAGE_ALPHA);
+}
 #endif

@@ -25,9 +25,5 @@ vec3 backgroundLight(vec2 pixel) {
   return light + glow * frame.backgroundGlow.rgb;
 }
 #else
-vec3 backgroundLight(vec2 pixel) {
-  vec2 place = pixel * frame.pixels.zw - 0.5;
-  float corners = 1.0 - frame.backgroundGlow.a * dot(place, place);
-  return corners * stageBehind(frame.eye.xyz, normalize(rayThrough(pixel)));
-}
+vec3 backgroundLight(vec2 pixel) { return stageBehind(frame.eye.xyz, normalize(rayThrough(pixel))); }
 #endif

@@ -24,14 +24,27 @@ invariant gl_Position;  // the same as in cloth_depth.vert
 LitVertex litVertex(Surface surface) {
   TangentFrame front = tangentFrame(surface, 1.0), back = tangentFrame(surface, -1.0);
   Threads ofFront = threadsAt(surface.uv, 1.0), ofBack = threadsAt(surface.uv, -1.0);
-  float unshadowed = sunlit(surface.shadowPlace);
   LitVertex vertex;
   vertex.uv = surface.uv;
+  vertex.warp = ofFront.warp;
+#ifdef PLAIN
+#ifdef PRINT
+  vec3 albedoOfFront = vec3(1), albedoOfBack = vec3(1);
+#else
+  vec3 albedoOfFront = albedoOfThreads(frame.clothFront.rgb, ofFront.warp), albedoOfBack = albedoOfThreads(frame.clothBack.rgb, ofBack.warp);
+#endif
+  vertex.shadowPlace = surface.shadowPlace;
+  vertex.front = matteLight(surface, front, 1.0, ofFront, albedoOfFront, 0.0);
+  vertex.back = matteLight(surface, back, -1.0, ofBack, albedoOfBack, 0.0);
+  vertex.frontKey = matteLight(surface, front, 1.0, ofFront, albedoOfFront, 1.0) - vertex.front;
+  vertex.backKey = matteLight(surface, back, -1.0, ofBack, albedoOfBack, 1.0) - vertex.back;
+#else
+  float unshadowed = sunlit(surface.shadowPlace);
   vertex.front = matteLight(surface, front, 1.0, ofFront, albedoOfThreads(frame.clothFront.rgb, ofFront.warp), unshadowed);
   vertex.back = matteLight(surface, back, -1.0, ofBack, albedoOfThreads(frame.clothBack.rgb, ofBack.warp), unshadowed);
   vertex.along = alongThreads(front, surface.position);
   vertex.shine = vec2(shineSeen(front, ofFront, unshadowed), shineSeen(back, ofBack, unshadowed));
-  vertex.warp = ofFront.warp;
+#endif
   return vertex;
 }
 #endif

@@ -1,7 +1,9 @@
 // Woven cloth (fabric_light.glsl). The threads' relief is a picture with mipmaps whose slopes are level on average: with
 // distance it fades into the cloth's own normal. LIT_AT_VERTICES: cloth.vert has worked out the light of both sides, but for
-// the shine, which would show the triangles.
+// the shine, which would show the triangles. PLAIN: so it has, and there is no shine, thread or hem to be seen, but shadows are
+// those of pixels.
 #include "render/cloth_piece.glsl"
+#include "render/dye.glsl"
 #include "render/fabric_light.glsl"
 #include "render/frame.glsl"
 #ifdef WOVEN
@@ -19,16 +21,25 @@ layout(location = 0) out vec4 color;
 #include "render/lit_vertex.glsl"
 layout(location = 0) in LitVertex lit;
 
+#ifdef PLAIN
+vec3 light() {
+  vec3 light = (gl_FrontFacing ? lit.front : lit.back) + (gl_FrontFacing ? lit.frontKey : lit.backKey) * sunlitOnce(lit.shadowPlace);
+#ifdef PRINT
+  light *= albedoOfThreads(dyeAt(lit.uv, gl_FrontFacing ? 1.0 : -1.0), gl_FrontFacing ? lit.warp : 1.0 - lit.warp);
+#endif
+  return light;
+}
+#else
 vec3 light() {
   vec3 dye = gl_FrontFacing ? frame.clothFront.rgb : frame.clothBack.rgb;
   float warp = gl_FrontFacing ? lit.warp : 1.0 - lit.warp;
   vec3 shine = shineOf(lit.along, warp, albedoOfThreads(dye, warp), gl_FrontFacing ? 1.0 : -1.0) * (gl_FrontFacing ? lit.shine.x : lit.shine.y);
   return ((gl_FrontFacing ? lit.front : lit.back) + shine) * hem(lit.uv);
 }
+#endif
 #else
 layout(location = 0) in Surface surface;
 #include "render/two_sided.glsl"
-#include "render/dye.glsl"
 
 vec3 light() {
   float side = facingSide(), lit = sunlit(surface.shadowPlace);

@@ -1,5 +1,6 @@
 // Planes and the ground: matte, in a pool of light, as far as the stage's ground goes; a plane in a colour of its own, or one
-// that is no ground, fades out into the backdrop. From behind only a veil, to see the cloth through it.
+// that is no ground, fades out into the backdrop. Where that shows the ground, too (GROUND_BEHIND), both are alike but for
+// shadows, so that the renderer may draw it under shadows alone. From behind only a veil, to see the cloth through it.
 #include "render/shadow.glsl"
 #include "render/sky_share.glsl"
 #include "render/stage.glsl"
@@ -37,6 +38,9 @@ void main() {
   float lit = poolAt(at) * litAt();
   vec3 front = albedo * (wideLight * skyShare(planePosition, planeNormal) + keyLight * lit);
   if (isGround) front += groundShine(planePosition, planeNormal, lit);
+#ifdef GROUND_BEHIND
+  if (isGround) front = groundInto(front, at, normalize(planePosition - frame.eye.xyz));
+#endif
   vec3 light = gl_FrontFacing ? front : albedo * behindLight;
   float opacity = covered * (gl_FrontFacing ? 1.0 : BEHIND);
   color = vec4((canvasFromLight(light) + canvasDither(gl_FragCoord.xy)) * opacity, opacity);

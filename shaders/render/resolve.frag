@@ -1,5 +1,6 @@
-// From the canvas to the screen: samples are averaged in linear light, or, where each pixel has just one, the edges smoothed;
-// the result is encoded as sRGB. ADDS: the light alone, to be added to a mean; MEAN: from such a sum to the screen.
+// From the canvas to the screen: samples are averaged in linear light, or, where each pixel has just one, the edges smoothed
+// (which is only drawn where there are any: src/render/edges.h). ADDS: the light alone, to be added to a mean; MEAN: from such
+// a sum to the screen.
 #include "render/frame.glsl"
 #include "render/tone.glsl"
 
@@ -12,13 +13,6 @@ layout(binding = CANVAS_UNIT) uniform sampler2DMS canvas;
 layout(binding = CANVAS_UNIT) uniform sampler2D canvas;
 #endif
 layout(location = 0) out vec4 color;
-
-// The curve of sRGB by square roots, which cost less than powers: off by at most 0.3 of 255 steps.
-vec3 srgbEncoded(vec3 light) {
-  vec3 root = sqrt(light), fourth = sqrt(root);
-  vec3 curve = 0.588657 * root + 0.776431 * fourth - 0.364366 * sqrt(fourth);
-  return mix(curve, 12.92 * light, lessThanEqual(light, vec3(0.0031308)));
-}
 
 #if defined(MEAN)
 vec3 pixelLight() {
@@ -33,7 +27,7 @@ vec3 pixelLight() {
 #ifdef ADDS
     sum += stored;
 #else
-    sum += decodedLight(stored);
+    sum += srgbDecoded(stored);
 #endif
   }
   return sum / float(SAMPLES);
@@ -41,13 +35,15 @@ vec3 pixelLight() {
 #elif defined(ADDS)
 vec3 pixelLight() { return texelFetch(canvas, ivec2(gl_FragCoord.xy), 0).rgb; }
 #else
+#define EDGES
 #include "render/smooth_edges.glsl"
-vec3 pixelLight() { return decodedLight(smoothedCanvas(ivec2(gl_FragCoord.xy))); }
 #endif
 
 void main() {
-#ifdef ADDS
+#if defined(ADDS)
   color = vec4(pixelLight(), 1.0);
+#elif defined(EDGES)
+  color = smoothedCanvas(ivec2(gl_FragCoord.xy));
 #else
   vec2 otherNoise = gl_FragCoord.xy + 37.0;  // than that of the canvas, whose steps are not the screen's
   color = vec4(srgbEncoded(clamp(pixelLight(), 0.0, 1.0)) + dither(otherNoise), 1.0);

@@ -7,6 +7,5 @@ layout(location = 0) out vec4 color;
 
 void main() {
   float cover = clamp(halfWidth + 0.5 - abs(across), 0.0, 1.0) * opacity;
-  vec3 canvas = pow(lineColor, vec3(1.1));  // sRGB to the canvas's square roots, near enough
-  color = vec4(canvas * cover, cover);
+  color = vec4(lineColor * cover, cover);
 }

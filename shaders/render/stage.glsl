@@ -53,11 +53,34 @@ const float ROOM = 2.1;  // radius of the round wall
 float groundCovers(vec2 at, float width) { return clamp(0.5 - (length(at) - ROOM) / max(width, 1e-5), 0.0, 1.0); }
 float edgeLight(vec2 at) { return 1.0 - 0.45 * exp(6.0 * min(length(at) - ROOM, 0.0)); }
 #else
-float groundCovers(vec2 at, float width) {
+float groundFade(vec2 at) {
   float fade = clamp(1.0 - dot(at, at) / (STAGE_SIZES * STAGE_SIZES), 0.0, 1.0);
   return fade * fade;
 }
+#ifdef GROUND_BEHIND
+float groundCovers(vec2 at, float width) { return 1.0; }
+#else
+float groundCovers(vec2 at, float width) { return groundFade(at); }
+#endif
 float edgeLight(vec2 at) { return 1.0; }
+#endif
+
+// What is behind the ground is darker in the corners of the picture.
+float cornerShade() {
+  vec2 place = gl_FragCoord.xy * frame.pixels.zw - 0.5;
+  return 1.0 - frame.backgroundGlow.a * dot(place, place);
+}
+
+// The ground's light as its stage lets it go over into what is behind it.
+#if defined(BOARDS)
+vec3 groundInto(vec3 light, vec2 at, vec3 ray) { return light; }
+#else
+// Paper that goes up behind the scene without an edge.
+const float RISES = 1.2;  // where it begins to
+vec3 paperLight(vec3 ray) { return cornerShade() * frame.floorColor.rgb * mix(frame.backgroundBottom.rgb, frame.backgroundTop.rgb, smoothstep(-0.12, 0.62, ray.y)); }
+vec3 groundInto(vec3 light, vec2 at, vec3 ray) {
+  return mix(light, paperLight(ray), smoothstep(RISES, STAGE_SIZES, length(at)) * (1.0 - groundFade(at)));
+}
 #endif
 
 // What a polished ground reflects: the key light, blurred, and the walls at grazing angles.

@@ -18,5 +18,5 @@ vec3 scaleColor(float strain) {
 void main() {
   float shape = 0.5 + 0.5 * dot(normalToEye(), frame.toKeyLight.xyz);
   float open = clamp(1.0 - surface.hollow * facingSide(), 0.5, 1.0);
-  color = vec4(sqrt(scaleColor(surface.strain) * (1.0 - SHADE * (1.0 - shape)) * open), 1.0);
+  color = vec4(canvasFromEncoded(sqrt(scaleColor(surface.strain) * (1.0 - SHADE * (1.0 - shape)) * open)), 1.0);
 }

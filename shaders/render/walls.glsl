@@ -58,7 +58,8 @@ vec3 stageBehind(vec3 eye, vec3 ray) {
   vec3 position = eye + min(wall, FAR) * ray;
   float height = (position.y - frame.stagePlace.y) * STAGE_SIZES / frame.stagePlace.w;
   vec3 light = wallLight(position, vec3(-normalize(fromMiddle(position)), 0.0).xzy, height);
-  return ground < wall ? groundBehind(eye + ground * ray) : light;
+  float before = wall - min(ground, 2.0 * wall);  // the ground lies before the wall
+  return mix(cornerShade() * light, groundBehind(eye + ground * ray), clamp(0.5 + before / max(fwidth(before), 1e-6), 0.0, 1.0));
 }
 #elif defined(TABLE)
 // A warm room far out of focus: a dark floor, a wall that light falls on in places, and the glow of lamps.
@@ -76,18 +77,12 @@ vec3 stageBehind(vec3 eye, vec3 ray) {
   vec2 at = fromMiddle(position);
   bool isNear = ground < FAR && length(at) < STAGE_SIZES;  // at the horizon pixels are endlessly wide
   float covered = groundCovers(at, max(fwidth(at.x), fwidth(at.y))) * float(isNear);
-  return mix(roomLight(ray), groundBehind(position), covered);
+  return mix(cornerShade() * roomLight(ray), groundBehind(position), covered);
 }
 #else
-// Paper that goes up behind the scene without an edge.
-const float RISES = 1.2;  // where it begins to
-
 vec3 stageBehind(vec3 eye, vec3 ray) {
   float ground = toGround(eye, ray);
   vec3 position = eye + ground * ray;
-  vec2 at = fromMiddle(position);
-  float up = ground < FAR ? smoothstep(RISES, STAGE_SIZES, length(at)) : 1.0;
-  vec3 wall = frame.floorColor.rgb * mix(frame.backgroundBottom.rgb, frame.backgroundTop.rgb, smoothstep(-0.12, 0.62, ray.y));
-  return ground < FAR ? mix(groundBehind(position), wall, up) : wall;
+  return ground < FAR ? groundInto(groundBehind(position), fromMiddle(position), ray) : paperLight(ray);
 }
 #endif

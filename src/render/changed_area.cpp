@@ -10,7 +10,7 @@ namespace clothsim {
 namespace {
 
 // Smoothing of edges looks this far [pixels], and marks of pins are this large, as a part of the height.
-constexpr float smoothingMargin = 8, marksMargin = 0.007f;
+constexpr float smoothingMargin = 24, marksMargin = 0.007f;
 // The blur of shadows on floors, and a texel for filters.
 constexpr float shadowMargin = 9.0f / FLOOR_SHADOW_SIZE;
 constexpr float nearest = 1e-3f;  // [m] before the eye
@@ -39,14 +39,24 @@ bool addShadowOn(const PlaneDisc& plane, const FlatBounds& shadow, const Changed
   const glm::mat4 worldFromShadow = glm::inverse(view.shadowFromWorld);
   const glm::vec3 normal(plane.normal), center(plane.place);
   const FlatBounds inMap{glm::max(shadow.low, 0.0f), glm::min(shadow.high, 1.0f)};
-  for (int corner = 0; corner < 4; ++corner) {
-    const float u = (corner & 1) != 0 ? inMap.high.x : inMap.low.x;
-    const float v = (corner & 2) != 0 ? inMap.high.y : inMap.low.y;
+  std::array<glm::vec4, 4> clip;  // around the shadow
+  for (std::size_t corner = 0; corner < 4; ++corner) {
+    const float u = corner == 1 || corner == 2 ? inMap.high.x : inMap.low.x;
+    const float v = corner >= 2 ? inMap.high.y : inMap.low.y;
     const glm::vec3 from(worldFromShadow * glm::vec4(u, v, 0, 1)),
         to(worldFromShadow * glm::vec4(u, v, 1, 1));
     const float slope = glm::dot(to - from, normal);
     if (std::abs(slope) < 1e-3f * glm::length(to - from)) return false;  // the light grazes it
-    if (!addSeen(from + glm::dot(center - from, normal) / slope * (to - from), view, seen)) return false;
+    clip[corner] =
+        view.clipFromWorld * glm::vec4(from + glm::dot(center - from, normal) / slope * (to - from), 1);
+    if (!std::isfinite(clip[corner].w)) return false;
+  }
+  // What of it is before the eye.
+  for (std::size_t corner = 0; corner < 4; ++corner) {
+    const glm::vec4 a = clip[corner], b = clip[(corner + 1) % 4];
+    if (a.w >= nearest) seen.add(pixelOf(a, view));
+    if ((a.w >= nearest) != (b.w >= nearest))
+      seen.add(pixelOf(glm::mix(a, b, (nearest - a.w) / (b.w - a.w)), view));
   }
   return true;
 }
@@ -77,6 +87,29 @@ PixelRect pixelsOf(const FlatBounds& seen, const ChangedArea::View& view) {
 // Whether pictures of both differ only by what moves.
 bool ChangedArea::Seen::isComparable(const Seen& other) const {
   return view == other.view && planes == other.planes && solids.size() == other.solids.size();
+}
+
+std::optional<PixelRect> ChangedArea::shadowsOn(const PlaneDisc& plane, const View& view,
+                                                std::span<const glm::vec4> particles,
+                                                const Colliders& colliders) {
+  constexpr float mostBelow = 2e-3f;  // [m]: so much lies in the plane, and in its own shadow
+  const glm::vec3 normal(plane.normal), center(plane.place);
+  const auto isBelow = [&](glm::vec3 point) { return !(glm::dot(point - center, normal) > -mostBelow); };
+  FlatBounds shadow, seen;
+  for (const glm::vec4& particle : particles) {
+    const glm::vec3 place(particle);
+    if (isBelow(place) && !addSeen(place, view, seen)) return {};
+    shadow.add(glm::vec2(view.shadowFromWorld * glm::vec4(place, 1)));
+  }
+  if (!particles.empty()) shadow = shadow.grown(view.reach * lengthOfRows(view.shadowFromWorld));
+  for (const SolidPlace& solid : colliders.solids()) {
+    const glm::vec3 lowest = glm::mix(solid.box.high, solid.box.low, glm::greaterThan(normal, glm::vec3(0)));
+    FlatBounds inPicture;
+    if (!addBox(solid.box, view, shadow, inPicture)) return {};
+    if (isBelow(lowest)) seen.add(inPicture);
+  }
+  if (!addShadowOn(plane, shadow.grown(shadowMargin), view, seen)) return {};
+  return pixelsOf(seen, view);
 }
 
 std::optional<ChangedArea::Area> ChangedArea::next(const View& view, std::span<const glm::vec4> particles,

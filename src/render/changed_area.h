@@ -53,6 +53,12 @@ class ChangedArea {
   // What has changed since the last call. None: everything, as when the camera or a plane has moved.
   [[nodiscard]] std::optional<Area> next(const View& view, std::span<const glm::vec4> particles,
                                          const Colliders& colliders);
+  // Where a plane is seen that a picture without shadows, and with nothing before it or below it, does not
+  // show already: where the shadows of particles and solids may fall, and where it hides any [pixels].
+  // None: that is unknown.
+  [[nodiscard]] static std::optional<PixelRect> shadowsOn(const PlaneDisc& plane, const View& view,
+                                                          std::span<const glm::vec4> particles,
+                                                          const Colliders& colliders);
   // The next picture is new everywhere.
   void forget() { last_.reset(); }
 

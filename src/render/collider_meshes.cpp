@@ -88,8 +88,7 @@ PlaneMesh::PlaneMesh() : vertices_("planes") {}
 
 void PlaneMesh::place(const std::vector<PlaneDisc>& discs) {
   uploadInstances("plane discs", instances_, discs);
-  count_ = static_cast<GLsizei>(discs.size());
-  if (count_ == 0) return;
+  if (discs.empty()) return;
   constexpr GLsizei stride = sizeof(PlaneDisc);
   vertices_.attach(instances_.name(),
                    {.location = INSTANCE_PLACE_LOCATION, .stride = stride, .perInstance = true});
@@ -109,10 +108,11 @@ void PlaneMesh::place(const std::vector<PlaneDisc>& discs) {
                                        .perInstance = true});
 }
 
-void PlaneMesh::draw() const {
-  if (count_ == 0) return;
+void PlaneMesh::draw(std::size_t first, std::size_t count) const {
+  if (count == 0) return;
   vertices_.bind();
-  glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count_);
+  glDrawArraysInstancedBaseInstance(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(count),
+                                    static_cast<GLuint>(first));
 }
 
 }  // namespace clothsim

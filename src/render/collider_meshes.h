@@ -44,12 +44,11 @@ class PlaneMesh {
  public:
   PlaneMesh();
   void place(const std::vector<PlaneDisc>& discs);  // in drawing order
-  void draw() const;
+  void draw(std::size_t first, std::size_t count) const;
 
  private:
   gl::Buffer<PlaneDisc> instances_;
   gl::VertexArray vertices_;
-  GLsizei count_ = 0;
 };
 
 }  // namespace clothsim

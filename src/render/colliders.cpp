@@ -93,7 +93,12 @@ void Colliders::drawSolids(const gl::Program& sphere, const gl::Program& shape) 
 
 void Colliders::drawPlanes(const gl::Program& plane) const {
   plane.bind();
-  planes_.draw();
+  planes_.draw(0, discs_.size());
+}
+
+void Colliders::drawPlane(const gl::Program& plane, std::size_t number) const {
+  plane.bind();
+  planes_.draw(number, 1);
 }
 
 }  // namespace clothsim

@@ -40,6 +40,7 @@ class Colliders {
 
   void drawSolids(const gl::Program& sphere, const gl::Program& shape) const;
   void drawPlanes(const gl::Program& plane) const;
+  void drawPlane(const gl::Program& plane, std::size_t number) const;  // of discs()
 
  private:
   double longestEdge_;

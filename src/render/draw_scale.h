@@ -36,7 +36,7 @@ class DrawScale {
     }
   }
 
-  static constexpr std::array<double, 6> SCALES{1, 0.87, 0.75, 0.65, 0.57, 0.5};
+  static constexpr std::array<double, 6> SCALES{1, 0.9, 0.81, 0.73, 0.66, 0.6};
   static constexpr double LEAST = SCALES.back();
 
  private:

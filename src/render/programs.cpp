@@ -25,7 +25,9 @@ gl::Program makeDepthOnly(const std::string& vertexFile, const ShadingModel& mod
 gl::Program makeCloth(const ShadingModel& model, ClothLight light, const std::string& vertexFile,
                       const std::string& fragmentFile) {
   gl::Defines defines = model.defines;
-  if (light == ClothLight::atVertices) defines.emplace_back("LIT_AT_VERTICES", "");
+  if (light == ClothLight::atVertices || light == ClothLight::plain)
+    defines.emplace_back("LIT_AT_VERTICES", "");
+  if (light == ClothLight::plain) defines.emplace_back("PLAIN", "");
   if (light == ClothLight::exposed) defines.emplace_back("EXPOSURE", "");
   return gl::Program::makeRender(vertexFile, fragmentFile, defines);
 }
@@ -41,9 +43,11 @@ RenderPrograms::RenderPrograms(const ShadingModel& model, const RenderSettings& 
   chooseStage(settings);
 }
 
-ShadedPrograms::ShadedPrograms(const gl::Defines& stage, bool forExposures) {
-  gl::Defines defines = stage;
-  if (forExposures) defines.emplace_back("EXPOSURE", "");
+ShadedPrograms::ShadedPrograms(const gl::Defines& stage, const gl::Defines& behind, bool forExposures) {
+  gl::Defines defines = stage, backdropDefines = behind;
+  if (forExposures)
+    for (gl::Defines* each : {&defines, &backdropDefines}) each->emplace_back("EXPOSURE", "");
+  backdrop = gl::Program::makeRender("render/fullscreen.vert", "render/backdrop.frag", backdropDefines);
   sphere = gl::Program::makeRender("render/sphere.vert", "render/sphere.frag", defines);
   shape = gl::Program::makeRender("render/shape.vert", "render/sphere.frag", defines);
   plane = gl::Program::makeRender("render/plane.vert", "render/plane.frag", defines);
@@ -56,8 +60,9 @@ MeanPrograms::MeanPrograms(int samples)
                                   {{"SAMPLES", std::to_string(samples)}, {"ADDS", ""}})) {}
 
 void RenderPrograms::chooseSamples(int samples) {
-  resolve = gl::Program::makeRender("render/fullscreen.vert", "render/resolve.frag",
-                                    {{"SAMPLES", std::to_string(samples)}});
+  resolve = samples == 1 ? gl::Program()
+                         : gl::Program::makeRender("render/fullscreen.vert", "render/resolve.frag",
+                                                   {{"SAMPLES", std::to_string(samples)}});
   samples_ = samples;
   mean_.reset();
 }
@@ -77,12 +82,11 @@ void RenderPrograms::chooseModel(const ShadingModel& model) {
 }
 
 void RenderPrograms::chooseStage(const RenderSettings& settings) {
-  ShadedPrograms shaded(stageDefines(settings), false);
-  backdrop =
-      gl::Program::makeRender("render/fullscreen.vert", "render/backdrop.frag", backdropDefines(settings));
+  ShadedPrograms shaded(stageDefines(settings), backdropDefines(settings), false);
   shaded_ = std::move(shaded);
   exposed_.reset();
   stage_ = stageDefines(settings);
+  behind_ = backdropDefines(settings);
 }
 
 const gl::Program& RenderPrograms::normals(bool withCuts) {
@@ -128,7 +132,7 @@ const OverlayPrograms& RenderPrograms::overlays() {
 
 const ShadedPrograms& RenderPrograms::shaded(bool forExposures) {
   auto& programs = forExposures ? exposed_ : shaded_;
-  if (!programs) programs.emplace(stage_, forExposures);
+  if (!programs) programs.emplace(stage_, behind_, forExposures);
   return *programs;
 }
 
@@ -147,6 +151,11 @@ const gl::Program& RenderPrograms::cloth(const ShadingModel& model, ClothLight l
 
 const gl::Program& RenderPrograms::fuzz(const ShadingModel& model, ClothLight light) {
   return made(fuzz_, model, light, "render/fuzz.vert", "render/fuzz.frag");
+}
+
+const EdgePrograms& RenderPrograms::edges() {
+  if (!edges_) edges_.emplace();
+  return *edges_;
 }
 
 const MeanPrograms& RenderPrograms::mean() {
@@ -173,6 +182,7 @@ void tryAllShaders(const RenderSettings& settings, int samples) {
     const ShadingModel model = shadingModelOf(other);
     programs.chooseModel(model);
     if (model.hasVertexLight) static_cast<void>(programs.cloth(model, ClothLight::atVertices));
+    if (model.isMatte) static_cast<void>(programs.cloth(model, ClothLight::plain));
     for (const bool withCuts : {false, true}) static_cast<void>(programs.normals(withCuts));
     static_cast<void>(programs.meshNormals());
     static_cast<void>(programs.smooth());
@@ -188,6 +198,7 @@ void tryAllShaders(const RenderSettings& settings, int samples) {
   for (const bool ofLean : {false, true}) static_cast<void>(programs.rim(ofLean));
   static_cast<void>(programs.picking());
   static_cast<void>(programs.overlays());
+  static_cast<void>(programs.edges());
   static_cast<void>(programs.mean());
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "gl/program.h"
+#include "render/edges.h"
 #include "render/shading_models.h"
 #include "render/smooth_surface.h"
 #include "render/springs_overlay.h"
@@ -19,16 +20,17 @@ struct PickPrograms {
   gl::Program plane = gl::Program::makeRender("render/pick_plane.vert", "render/pick.frag");
 };
 
-// What shades: solids, planes, and the backdrop as a picture begins. Once for pictures that are one
+// What shades: solids, planes, the backdrop, and the same as a picture begins. Once for pictures that are one
 // exposure, and once for exposures of a mean, which see more light and shade.
 struct ShadedPrograms {
-  ShadedPrograms(const gl::Defines& stage, bool forExposures);
-  gl::Program sphere, shape, plane, layBackdrop;
+  // Defines of what stands on the stage, and of what is behind it.
+  ShadedPrograms(const gl::Defines& stage, const gl::Defines& behind, bool forExposures);
+  gl::Program sphere, shape, plane, backdrop, layBackdrop;
 };
 
-// Where light is worked out: at pixels, at vertices (of a model with hasVertexLight), or at the pixels of
-// exposures.
-enum class ClothLight { atPixels, atVertices, exposed };
+// Where light is worked out: at pixels; at vertices (of a model with hasVertexLight); at vertices but for
+// shadows, without threads, shine and hem (of a model with isMatte); or at the pixels of exposures.
+enum class ClothLight { atPixels, atVertices, plain, exposed };
 
 // Of pictures that are the mean of exposures.
 struct MeanPrograms {
@@ -56,13 +58,15 @@ struct RenderPrograms {
   [[nodiscard]] const gl::Program& rim(bool ofLean);  // of cloth that is drawn thick
   [[nodiscard]] const PickPrograms& picking();
   [[nodiscard]] const OverlayPrograms& overlays();
+  [[nodiscard]] const EdgePrograms& edges();  // of one sample a pixel
   [[nodiscard]] const MeanPrograms& mean();
   [[nodiscard]] const ShadedPrograms& shaded(bool forExposures);
   // What shades cloth, of the chosen model or one that differs from it by what it looks at.
   [[nodiscard]] const gl::Program& cloth(const ShadingModel& model, ClothLight light);
   [[nodiscard]] const gl::Program& fuzz(const ShadingModel& model, ClothLight light);  // of what it shades
 
-  gl::Program clothDepth, clothShadow, backdrop, resolve;
+  gl::Program clothDepth, clothShadow;
+  gl::Program resolve;  // of several samples a pixel
   gl::Program sphereShadow = gl::Program::makeRender("render/sphere_shadow.vert", "render/depth_only.frag");
   gl::Program shapeShadow = gl::Program::makeRender("render/shape_shadow.vert", "render/depth_only.frag");
   gl::Program blurFirstAxis =
@@ -71,7 +75,7 @@ struct RenderPrograms {
 
  private:
   ShadingModel model_;
-  gl::Defines stage_;
+  gl::Defines stage_, behind_;
   std::optional<ShadedPrograms> shaded_, exposed_;
   std::optional<gl::Program> normals_, normalsWithCuts_, meshNormals_, rim_, leanRim_;
   struct ClothProgram {
@@ -88,6 +92,7 @@ struct RenderPrograms {
   std::optional<LayerPrograms> layers_;
   std::optional<PickPrograms> picking_;
   std::optional<OverlayPrograms> overlays_;
+  std::optional<EdgePrograms> edges_;
   std::optional<MeanPrograms> mean_;
   int samples_ = 1;
 };

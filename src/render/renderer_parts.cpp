@@ -12,12 +12,14 @@
 namespace clothsim {
 namespace {
 
-constexpr GLenum backdropFormat = GL_RGB10_A2;  // its slow gradients would show steps in 8 bits
-constexpr GLenum canvasFormat = GL_RGBA8;       // square roots of linear light (shaders/render/tone.glsl)
-constexpr GLenum exposureFormat = GL_RGBA16F;   // the same of an exposure, without steps
+constexpr GLenum backdropFormat =
+    GL_RGB10_A2;                               // for exposures: its slow gradients would show steps in 8 bits
+constexpr GLenum canvasFormat = GL_RGBA8;      // as the screen shows it (shaders/render/tone.glsl)
+constexpr GLenum exposureFormat = GL_RGBA16F;  // the same of an exposure, without steps
 constexpr float planeDepthUnits = 256;  // 2e-6 of the distance each (Camera::projection, 24 bits of depth)
 constexpr std::uint32_t MOST_CUT_STEPS = 2;
 constexpr double MOST_VERTEX_DISTANCE = 12, MOST_THREAD_SPACING = 1;  // where vertices are lit [pixels]
+constexpr double MOST_PLAIN_DISTANCE = 60;                            // the same but for shadows and shine
 constexpr std::size_t mostReadBack = 300'000;  // particles for which it pays to ask what has changed
 
 // The longest side of a triangle of cloth: the diagonal of a cell [m].
@@ -172,6 +174,7 @@ void Renderer::Parts::chooseSurface(const Camera& camera, int height, double asp
         !look.model.weave.empty() && look.settings.threadSpacing * pixelsAMetre > MOST_THREAD_SPACING;
     return look.model.hasVertexLight && !seesThreads;
   });
+  isFineForPlain = longestEdge(*cloth) * pixelsAMetre < MOST_PLAIN_DISTANCE;
   lightsVertices =
       options.lightsVertices && hidesVertices && longestEdge(*cloth) * pixelsAMetre < MOST_VERTEX_DISTANCE;
   std::vector<std::uint32_t> steps;
@@ -300,6 +303,7 @@ void Renderer::Parts::drawSkyShadows(GLuint positions) {
 // last.
 void Renderer::Parts::drawScene(GLuint positions) {
   const ShadedPrograms& shading = programs.shaded(isExposed());
+  layBackdrop();
   canvas.bind();
   scissor();
   shadowMap.bindTextures();
@@ -308,11 +312,6 @@ void Renderer::Parts::drawScene(GLuint positions) {
         .bindDepth(SKY_SHADOW_UNIT + static_cast<GLuint>(k));
   const float farthest = 1;
   glClearNamedFramebufferfv(canvas.name(), GL_DEPTH, 0, &farthest);
-  glDisable(GL_DEPTH_TEST);
-  glBindTextureUnit(BACKDROP_UNIT, backdrop.colorTexture());
-  shading.layBackdrop.bind();
-  noVertices.bind();
-  glDrawArrays(GL_TRIANGLES, 0, 3);
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LEQUAL);
 
@@ -329,7 +328,9 @@ void Renderer::Parts::drawScene(GLuint positions) {
   // their distance.
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(1, planeDepthUnits);
-  colliders.drawPlanes(shading.plane);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_FALSE);  // which says that nothing lies before the stage
+  drawPlanes(shading.plane);
+  glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   glDisable(GL_POLYGON_OFFSET_FILL);
   if (model.blends) drawCloth(positions);
   drawFuzz(positions);
@@ -339,18 +340,48 @@ void Renderer::Parts::drawScene(GLuint positions) {
   glDisable(GL_SCISSOR_TEST);
 }
 
+// Whether the backdrop shows it, too, as the eye sees it.
+bool Renderer::Parts::isGroundBehind(const PlaneDisc& plane) const {
+  return backdropShowsGround(scene->render) && frame.ground.w > 0 && plane.look.r < 0 &&
+         plane.normal.y == 1 && std::abs(plane.place.y - frame.stagePlace.y) < 1e-5f * frame.stagePlace.w &&
+         frame.eye.y > plane.place.y;
+}
+
+// The ground only under shadows, where those are known.
+void Renderer::Parts::drawPlanes(const gl::Program& program) {
+  if (!underShadows) return colliders.drawPlanes(program);
+  const PixelRect whole = drawnPart(), &under = *underShadows;
+  const PixelRect shaded{std::max(whole.left, under.left), std::max(whole.bottom, under.bottom),
+                         std::min(whole.right, under.right), std::min(whole.top, under.top)};
+  for (std::size_t i = 0; i < colliders.discs().size(); ++i) {
+    const PixelRect& drawn = isGroundBehind(colliders.discs()[i]) ? shaded : whole;
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(drawn.left, drawn.bottom, drawn.width(), drawn.height());
+    colliders.drawPlane(program, i);
+  }
+  glDisable(GL_SCISSOR_TEST);
+  scissor();
+}
+
+ClothLight Renderer::Parts::lightOf(const PieceLook& look) const {
+  if (isExposed()) return ClothLight::exposed;
+  if (smooth || !options.lightsVertices) return ClothLight::atPixels;
+  if (look.model.isMatte && isFineForPlain) return ClothLight::plain;
+  return lightsVertices ? ClothLight::atVertices : ClothLight::atPixels;
+}
+
 void Renderer::Parts::drawCloth(GLuint positions) {
-  if (!model.blends) {
+  // Plain light costs less than the depth of what hides it.
+  const bool isPlain = std::all_of(looks.begin(), looks.end(),
+                                   [&](const PieceLook& look) { return lightOf(look) == ClothLight::plain; });
+  if (!model.blends && !isPlain) {
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     programs.clothDepth.bind();
     drawSurface(positions, [](const PieceLook&) {});
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   }
-  const ClothLight light = isExposed()                 ? ClothLight::exposed
-                           : lightsVertices && !smooth ? ClothLight::atVertices
-                                                       : ClothLight::atPixels;
   drawSurface(
-      positions, [&](const PieceLook& look) { programs.cloth(look.model, light).bind(); },
+      positions, [&](const PieceLook& look) { programs.cloth(look.model, lightOf(look)).bind(); },
       model.name == "wireframe");  // whose lines are otherwise those of a grid
 }
 
@@ -389,6 +420,7 @@ void Renderer::Parts::makeTargets(int width, int height, int shownWidth, int sho
 
 void Renderer::Parts::findChanges(GLuint positions, int width, int height) {
   part.reset();
+  underShadows.reset();
   // Heights move the surface away from the particles.
   if (!options.keepsStill || model.displaces || isExposed() || cloth->particleCount() > mostReadBack)
     return changes.forget();
@@ -399,8 +431,10 @@ void Renderer::Parts::findChanges(GLuint positions, int width, int height) {
   float reach = smooth ? static_cast<float>(longestEdge(*cloth)) : 0;
   if (drawsThick()) reach += *std::max_element(thickness.begin(), thickness.end());
   reach += longestFuzz();
-  part =
-      changes.next({frame.clipFromWorld, frame.shadowFromWorld, width, height, reach}, particles, colliders);
+  const ChangedArea::View seen{frame.clipFromWorld, frame.shadowFromWorld, width, height, reach};
+  part = changes.next(seen, particles, colliders);
+  for (const PlaneDisc& plane : colliders.discs())
+    if (isGroundBehind(plane)) underShadows = ChangedArea::shadowsOn(plane, seen, particles, colliders);
 }
 
 void Renderer::Parts::scissor() const {
@@ -411,16 +445,47 @@ void Renderer::Parts::scissor() const {
 
 // One that does not turn with the camera is drawn once.
 void Renderer::Parts::drawBackdrop(int width, int height) {
-  const gl::FramebufferFormat format{.width = width, .height = height, .color = backdropFormat};
+  const gl::FramebufferFormat format{
+      .width = width, .height = height, .color = isExposed() ? backdropFormat : canvasFormat};
   const bool turns = backdropTurns(scene->render);
   if (backdropSeen && backdrop.format() == format && !(turns && *backdropSeen != middleClipFromWorld)) return;
   if (!(backdrop.format() == format)) backdrop = gl::Framebuffer("backdrop", format);
   backdrop.bind();
   glDisable(GL_DEPTH_TEST);
-  programs.backdrop.bind();
+  programs.shaded(isExposed()).backdrop.bind();
   noVertices.bind();
   glDrawArrays(GL_TRIANGLES, 0, 3);
   backdropSeen = middleClipFromWorld;
+}
+
+PixelRect Renderer::Parts::drawnPart() const {
+  return part ? part->picture : PixelRect{0, 0, canvas.format().width, canvas.format().height};
+}
+
+// A copy where both are alike, which costs a software renderer a fiftieth of drawing it.
+void Renderer::Parts::layBackdrop() {
+  if (canvas.format().samples == 1 && !isExposed()) {
+    const auto [left, bottom, right, top] = drawnPart();
+    glBlitNamedFramebuffer(backdrop.name(), canvas.name(), left, bottom, right, top, left, bottom, right, top,
+                           GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    return;
+  }
+  canvas.bind();
+  scissor();
+  glDisable(GL_DEPTH_TEST);
+  glBindTextureUnit(BACKDROP_UNIT, backdrop.colorTexture());
+  programs.shaded(isExposed()).layBackdrop.bind();
+  noVertices.bind();
+  glDrawArrays(GL_TRIANGLES, 0, 3);
+  glDisable(GL_SCISSOR_TEST);
+}
+
+void Renderer::Parts::finishInto(GLuint destination, int width, int height) {
+  glDisable(GL_FRAMEBUFFER_SRGB);  // the shaders encode
+  if (options.samples == 1)
+    edges.smoothInto(destination, canvas, drawnPart(), programs.edges());
+  else
+    resolveInto(destination, width, height, programs.resolve, canvas.colorTexture());
 }
 
 void Renderer::Parts::addToMean(bool isFirst) {
@@ -504,8 +569,10 @@ void Renderer::Parts::draw(const Picture& picture, const Around& around) {
   around("scene", [&] { drawScene(positions); });
   if (exposure != nullptr) around("mean", [&, n = number] { addToMean(n == 0); });
   around("resolve", [&, t = isDirect() ? target : finished.name(), exposes = exposure != nullptr] {
-    resolveInto(t, w, h, exposes ? programs.mean().show : programs.resolve,
-                exposes ? mean.colorTexture() : canvas.colorTexture());
+    if (exposes)
+      resolveInto(t, w, h, programs.mean().show, mean.colorTexture());
+    else
+      finishInto(t, w, h);
   });
   if (scale < 1) around("stretch", [&] { stretch(); });
   if (!isDirect())

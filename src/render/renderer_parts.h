@@ -10,6 +10,7 @@
 #include "render/changed_area.h"
 #include "render/cloth_mesh.h"
 #include "render/colliders.h"
+#include "render/edges.h"
 #include "render/exposure.h"
 #include "render/model_textures.h"
 #include "render/piece_looks.h"
@@ -61,13 +62,19 @@ struct Renderer::Parts {
   void drawCasters(GLuint positions);
   void drawSkyShadows(GLuint positions);
   void drawScene(GLuint positions);
+  void drawPlanes(const gl::Program& program);
+  [[nodiscard]] bool isGroundBehind(const PlaneDisc& plane) const;
   void drawCloth(GLuint positions);
+  [[nodiscard]] ClothLight lightOf(const PieceLook& look) const;
   void drawOverlay(GLuint positions);
   void drawFuzz(GLuint positions);          // in fuzz.cpp
   [[nodiscard]] float longestFuzz() const;  // [m]
   void drawIdentities(GLuint positions);
   void drawBackdrop(int width, int height);
   void resolveInto(GLuint destination, int width, int height, const gl::Program& resolve, GLuint texture);
+  void finishInto(GLuint destination, int width, int height);  // from the canvas
+  void layBackdrop();
+  [[nodiscard]] PixelRect drawnPart() const;  // of the canvas
   void show(GLuint destination, int width, int height) const;
   void stretch() const;
 
@@ -87,6 +94,7 @@ struct Renderer::Parts {
   ClothMesh clothMesh;
   std::vector<float> thickness;         // of each piece as it is drawn [m]
   bool lightsVertices = false;          // of the cloth, which is fine enough for that
+  bool isFineForPlain = false;          // the same for ClothLight::plain
   double pixelsAMetre = 0;              // at the distance of what the camera looks at
   double shellPlace = 0.5;              // of the shells of fuzz between their neighbours, 0 to 1
   std::optional<SmoothSurface> smooth;  // drawn instead of the triangles of the particles
@@ -101,11 +109,13 @@ struct Renderer::Parts {
   std::optional<PickTarget> pickTarget;
   double scale = 1;
   gl::Framebuffer canvas, backdrop;
+  Edges edges;
   gl::Framebuffer finished, stretched;    // as the screen shows it; of a scale below 1 before and after it
   glm::mat4 middleClipFromWorld{1};       // of the picture, whatever its exposures shift
   std::optional<glm::mat4> backdropSeen;  // from where the backdrop was drawn
   ChangedArea changes;
   std::optional<ChangedArea::Area> part;  // of the picture that is drawn; none: all of it
+  std::optional<PixelRect> underShadows;  // where the ground is drawn; none: everywhere
   gl::Buffer<shared::RenderFrame> frameBlock{"render frame", 1};
   std::vector<gl::Buffer<shared::RenderFrame>> lookBlocks;  // the same with the look of each piece
   gl::VertexArray noVertices{"no vertices"};

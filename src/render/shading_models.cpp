@@ -6,6 +6,11 @@
 #include "render/weaves.h"
 
 namespace clothsim {
+namespace {
+
+constexpr double MOST_MATTE_GLOSS = 0.35;  // of satin it is twice as much
+
+}  // namespace
 
 std::vector<std::string> shadingModelNames() { return {shadingModels.begin(), shadingModels.end()}; }
 
@@ -31,6 +36,7 @@ ShadingModel shadingModelOf(const RenderSettings& settings, bool thick) {
   model.displaces = name == "displacement";
   model.blends = name == "wireframe";
   model.hasVertexLight = name == "fabric" && model.textureUse == TextureUse::none;
+  model.isMatte = name == "fabric" && settings.gloss <= MOST_MATTE_GLOSS;
   model.isThick = thick && !model.displaces && !model.blends;  // lines have none, and reliefs their own
   if (thick && !model.weave.empty()) model.fuzz = std::max(settings.fuzz, weaveOf(model.weave).fuzz);
 

@@ -26,6 +26,7 @@ struct ShadingModel {
   bool displaces = false;        // its surface is not where the particles are
   bool isThick = false;          // the cloth is drawn as thick as it is
   bool hasVertexLight = false;   // can be worked out at vertices, but for what pixels tell apart
+  bool isMatte = false;          // its shine may be left out of a draft
   double fuzz = 0;               // how far fibres stand off the cloth that are drawn over it [m]
   bool blends = false;           // drawn last, without hiding what is behind it
   gl::Defines defines;           // of cloth.vert and its own shader

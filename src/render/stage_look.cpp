@@ -96,7 +96,9 @@ const StageLook& stageLook(std::string_view name) {
 }
 
 gl::Defines stageDefines(const RenderSettings& settings) {
-  return {{std::string(stageLook(settings.stage).define), ""}};
+  gl::Defines defines{{std::string(stageLook(settings.stage).define), ""}};
+  if (backdropShowsGround(settings)) defines.emplace_back("GROUND_BEHIND", "");
+  return defines;
 }
 
 gl::Defines backdropDefines(const RenderSettings& settings) {
@@ -105,8 +107,12 @@ gl::Defines backdropDefines(const RenderSettings& settings) {
   return stageDefines(settings);
 }
 
+bool backdropShowsGround(const RenderSettings& settings) {
+  return settings.background == "studio" && settings.stage != "none";
+}
+
 bool backdropTurns(const RenderSettings& settings) {
-  return settings.background == "sky" || (settings.background == "studio" && settings.stage != "none");
+  return settings.background == "sky" || backdropShowsGround(settings);
 }
 
 }  // namespace clothsim

@@ -31,6 +31,8 @@ struct StageLook {
 [[nodiscard]] gl::Defines stageDefines(const RenderSettings& settings);
 [[nodiscard]] gl::Defines backdropDefines(const RenderSettings& settings);
 
+// Whether the stage's ground is in the backdrop, as far as it is seen, without shadows.
+[[nodiscard]] bool backdropShowsGround(const RenderSettings& settings);
 // Whether the backdrop changes as the camera moves.
 [[nodiscard]] bool backdropTurns(const RenderSettings& settings);
 

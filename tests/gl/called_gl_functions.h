@@ -14,7 +14,8 @@
   X(glCullFace) X(glDebugMessageCallback) X(glDeleteBuffers) X(glDeleteFramebuffers) \
   X(glDeleteProgram) X(glDeleteQueries) X(glDeleteShader) X(glDeleteSync) X(glDeleteTextures) \
   X(glDeleteVertexArrays) X(glDepthFunc) X(glDepthMask) X(glDetachShader) X(glDisable) \
-  X(glDispatchCompute) X(glDispatchComputeIndirect) X(glDrawArrays) X(glDrawArraysInstanced) \
+  X(glDispatchCompute) X(glDispatchComputeIndirect) X(glDrawArrays) X(glDrawArraysIndirect) \
+  X(glDrawArraysInstancedBaseInstance) \
   X(glDrawElements) X(glDrawElementsIndirect) X(glDrawElementsInstanced) X(glDrawElementsInstancedBaseInstance) X(glEnable) \
   X(glEnableVertexArrayAttrib) X(glEndQuery) X(glFenceSync) X(glFinish) X(glFlush) \
   X(glGenerateTextureMipmap) X(glGetAttachedShaders) X(glGetError) X(glGetGraphicsResetStatus) \
@@ -23,7 +24,7 @@
   X(glGetShaderInfoLog) X(glGetShaderiv) X(glGetString) X(glLinkProgram) X(glMapNamedBufferRange) \
   X(glMemoryBarrier) X(glNamedBufferStorage) X(glNamedBufferSubData) \
   X(glNamedFramebufferDrawBuffer) X(glNamedFramebufferReadBuffer) X(glNamedFramebufferTexture) \
-  X(glObjectLabel) X(glPixelStorei) X(glPolygonMode) X(glPolygonOffset) X(glProgramUniform3f) X(glReadPixels) \
+  X(glObjectLabel) X(glPixelStorei) X(glPolygonMode) X(glPolygonOffset) X(glProgramUniform3f) X(glProgramUniform4i) X(glReadPixels) \
   X(glScissor) X(glShaderSource) X(glTextureBuffer) X(glTextureParameterfv) X(glTextureParameteri) \
   X(glTextureStorage2D) X(glTextureStorage2DMultisample) X(glTextureSubImage2D) \
   X(glTextureSubImage3D) X(glUseProgram) X(glVertexArrayAttribBinding) \

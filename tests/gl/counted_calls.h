@@ -59,9 +59,9 @@ class Counted<Pointer> {
   static Result count(Arguments... arguments) {
     ++glCounts.calls[name_];
     constexpr bool isWork = is(glad_glDispatchCompute) || is(glad_glDispatchComputeIndirect) ||
-                            is(glad_glDrawArrays) || is(glad_glDrawArraysInstanced) ||
-                            is(glad_glDrawElements) || is(glad_glDrawElementsInstanced) ||
-                            is(glad_glDrawElementsInstancedBaseInstance);
+                            is(glad_glDrawArrays) || is(glad_glDrawArraysIndirect) ||
+                            is(glad_glDrawArraysInstancedBaseInstance) || is(glad_glDrawElements) ||
+                            is(glad_glDrawElementsInstanced) || is(glad_glDrawElementsInstancedBaseInstance);
     if constexpr (isWork)
       if (leavesWorkOut) return;
     if constexpr (is(glad_glNamedBufferSubData))  // (buffer, offset, size, data)

@@ -21,6 +21,20 @@
 namespace clothsim {
 namespace {
 
+// The light that the canvas shows so: back through srgbEncoded() of shaders/render/tone.glsl, which grows
+// with it.
+double lightShownAs(double shown) {
+  double low = 0, high = 2;
+  for (int i = 0; i < 60; ++i) {
+    const double light = 0.5 * (low + high), root = std::sqrt(light), fourth = std::sqrt(root);
+    const double encoded = light <= 0.0031308
+                               ? 12.92 * light
+                               : 0.588657 * root + 0.776431 * fourth - 0.364366 * std::sqrt(fourth);
+    (encoded < shown ? low : high) = light;
+  }
+  return 0.5 * (low + high);
+}
+
 constexpr int SIDE = 40;                 // pixels along the target, one for each direction of the key light
 constexpr int DIRECTIONS = SIDE * SIDE;  // over the whole sphere: what shines through counts, too
 constexpr float DIM = 0.02f;             // so little light that it is not mapped to the screen's range
@@ -173,8 +187,8 @@ class Furnace {
                       static_cast<GLsizei>(pixels.size() * sizeof(float)), pixels.data());
     std::vector<Seen> seen;
     for (std::size_t k = 0; k < frames.size(); ++k) {
-      const double root = static_cast<double>(pixels[4 * k]), cover = static_cast<double>(pixels[4 * k + 3]);
-      seen.push_back({cover > 0 ? root / cover * root / cover : 0, cover});
+      const double shown = static_cast<double>(pixels[4 * k]), cover = static_cast<double>(pixels[4 * k + 3]);
+      seen.push_back({cover > 0 ? lightShownAs(shown / cover) : 0, cover});
     }
     return seen;
   }

@@ -1,6 +1,9 @@
 // Pictures of which only the changed part is drawn are those that are drawn whole, in every pixel.
+#include <algorithm>
+#include <cstdlib>
 #include <limits>
 #include <optional>
+#include <string_view>
 
 #include "gl/gl_test.h"
 #include "gl/render/picture.h"
@@ -65,6 +68,29 @@ TEST_F(KeptPictureTest, IsTheWholePictureUnderEveryBackgroundAndShadingModel) {
     Scene scene = test::drapeScene();
     scene.render.shader = shader;
     expectTheSame(scene, 1);
+  }
+}
+
+// Where nothing throws a shadow on it, the ground is left to the backdrop; solids may be sunk in it. Its far
+// edge differs, which is laid over itself where it is drawn.
+TEST_F(KeptPictureTest, HasTheGroundOfEveryStageAsIfItWereDrawnEverywhere) {
+  for (const std::string_view stage : stages) {
+    for (const double middle : {0.5, 0.1}) {
+      Scene scene = test::drapeScene();
+      scene.render.stage = stage;
+      std::get<Sphere>(scene.colliders.front()).origin.y = middle;
+      Plane ground;
+      ground.normal = {0, 1, 0};
+      scene.colliders.emplace_back(ground);
+      const test::Drape drape(scene);
+      Shown kept(drape, true), whole(drape, false);
+      const Camera camera(drape.scene, drape.cloth);
+      const Image a = kept.after(drape, 0, camera), b = whole.after(drape, 0, camera);
+      std::size_t others = 0;  // but for rounding
+      for (std::size_t i = 0; i < a.rgb.size(); ++i)
+        if (std::abs(static_cast<int>(a.rgb[i]) - static_cast<int>(b.rgb[i])) > 1) ++others;
+      EXPECT_LE(others, a.rgb.size() / 100) << stage << ", of a ball at a height of " << middle;
+    }
   }
 }
 

@@ -44,7 +44,7 @@ void expectOnlyOn(const std::string& file, const std::string& from, const std::s
 }
 
 TEST(BrokenStage, PaperThatDoesNotRiseIsSeenInTheStudio) {
-  expectOnlyOn("render/walls.glsl", "smoothstep(RISES, STAGE_SIZES, length(at))", "0.0", "studio");
+  expectOnlyOn("render/stage.glsl", "smoothstep(RISES, STAGE_SIZES, length(at))", "0.0", "studio");
 }
 TEST(BrokenStage, ATableWithoutAnEdgeIsSeen) {
   expectOnlyOn("render/stage.glsl", "HALF_TABLE = vec2(1.30, 0.92)", "HALF_TABLE = vec2(4.0, 4.0)", "table");
