@@ -39,8 +39,9 @@ INSTANTIATE_TEST_SUITE_P(All, ShadingModelPicture, ::testing::ValuesIn(shadingMo
                          [](const auto& name) { return name.param; });
 
 // How far the picture with light worked out at vertices is from the one with light in every pixel.
-double differenceByVertexLight(int points, double threadSpacing = 0.001) {
+double differenceByVertexLight(int points, double gloss, double threadSpacing = 0.001) {
   Scene scene = drapeWith("fabric");
+  scene.render.gloss = gloss;
   scene.render.threadSpacing = threadSpacing;
   scene.cloths[0].numWidthPoints = scene.cloths[0].numHeightPoints = points;
   RenderOptions atVertices;
@@ -53,16 +54,26 @@ double differenceByVertexLight(int points, double threadSpacing = 0.001) {
 }
 
 using VertexLight = GlTest;
+constexpr double GLOSSY = 0.6;  // too much for the plain light of matte cloth
 
 TEST_F(VertexLight, OfFineClothIsHardToTellFromLightInEveryPixel) {
-  const double difference = differenceByVertexLight(65);
+  const double difference = differenceByVertexLight(65, GLOSSY);
   EXPECT_GT(difference, 0);
   EXPECT_LT(difference, test::TOLERANCE);
 }
 
 TEST_F(VertexLight, IsNotWorkedOutForCoarseClothNorWhereThreadsAreSeen) {
-  EXPECT_EQ(differenceByVertexLight(9), 0);
-  EXPECT_EQ(differenceByVertexLight(65, 0.02), 0);
+  EXPECT_EQ(differenceByVertexLight(9, GLOSSY), 0);
+  EXPECT_EQ(differenceByVertexLight(65, GLOSSY, 0.02), 0);
+}
+
+// Its shine is left out, and so are threads.
+TEST_F(VertexLight, OfMatteClothIsHardToTellAlsoWhereItIsCoarse) {
+  for (const double spacing : {0.001, 0.02}) {
+    const double difference = differenceByVertexLight(9, 0.2, spacing);
+    EXPECT_GT(difference, 0);
+    EXPECT_LT(difference, test::TOLERANCE);
+  }
 }
 
 // Breaks one shader, and expects the comparisons of `models`, and no others, to fail by it.
