@@ -43,9 +43,9 @@
 // contacts, the others from the level before. Of the middle levels the blocks on the diagonal are inverted,
 // of the coarsest one the whole matrix. There one unknown is the motion of all as one rigid body, with a row
 // that is summed up without the springs, which it does not stretch: sheets as stiff as paper are 10^8 times
-// as stiff as their inertia, and sums in binary32 would hold nothing of that. They are made in
-// the first Newton step of every second step of a frame; in the steps between, only the places X_c are new.
-// D are the blocks of 3 x 3 of the particles. Pinned particles are no unknowns. All
+// as stiff as their inertia, and sums in binary32 would hold nothing of that. The matrices are made in every
+// second step of a frame, beginning with the first, before its first Newton step; in the steps between, only
+// the places X_c are new. D are the blocks of 3 x 3 of the particles. Pinned particles are no unknowns. All
 // sums run in a fixed order, and scalars stay on the device: there is no read-back in a step.
 #pragma once
 

@@ -39,7 +39,7 @@ void Solver::configure(const Shared<Scene>& scene) {
 
 void Solver::makeLists() {
   step_ = makeStep(*inputs_.scene, *inputs_.cloth, inputs_.cuts);
-  stepWithKeptLevels_ = makeStep(*inputs_.scene, *inputs_.cloth, inputs_.cuts, Levels::kept);
+  stepWithKeptLevels_ = keepingLevels(step_);
 }
 
 // What the second list needs, the first one does, too.

@@ -111,7 +111,7 @@ class Solver {
   [[nodiscard]] Executor& executor() const { return *executor_; }
   [[nodiscard]] const StepInputs& inputs() const { return inputs_; }
   // After a change of the state from outside: it may hold anything.
-  void distrustState() { startIsChecked_ = false; }
+  void distrustState() { startIsChecked_ = levelsAreMade_ = false; }
 
  private:
   void setAllButParticles(const StepClock& clock, Integrator integrator,

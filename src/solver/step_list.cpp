@@ -55,9 +55,8 @@ std::size_t mostColors(const Cloth& cloth) {
 
 class StepBuilder {
  public:
-  StepBuilder(const Scene& scene, const Cloth& cloth, const Cuts& cuts, Levels levels)
+  StepBuilder(const Scene& scene, const Cloth& cloth, const Cuts& cuts)
       : solver_(scene.solver),
-        keepsLevels_(levels == Levels::kept),
         hasColliders_(!scene.colliders.empty()),
         isImplicit_(isImplicit(scene.solver.integrator)),
         touchesItself_(isImplicit_ && hasSurfaceContact(scene)),
@@ -126,14 +125,13 @@ class StepBuilder {
     list_.add(Pass::measureUpdate);
   }
 
-  // The preconditioner; it is kept for all Newton steps. Where its matrices are kept, too, the aggregates
-  // still have to be where the cloth is.
+  // The preconditioner; it is kept for all Newton steps.
   void makeLevels() {
     for (std::size_t level = 0; level < levels_; ++level) {
       list_.add(Pass::findCenters, level);
-      if (!keepsLevels_) list_.add(Pass::coarsen, level);
+      list_.add(Pass::coarsen, level);
     }
-    if (!keepsLevels_) list_.add(Pass::invertDense);
+    list_.add(Pass::invertDense);
   }
 
   // Conjugate gradients. The last iteration needs no new direction.
@@ -221,7 +219,6 @@ class StepBuilder {
   [[nodiscard]] bool hasPairs() const { return touchesItself_ || hasSmallColliders_; }
 
   const SolverSettings& solver_;
-  bool keepsLevels_;
   bool hasColliders_, isImplicit_, touchesItself_, hasSmallColliders_;
   SelfCollision contacts_;
   int rounds_;
@@ -290,8 +287,21 @@ bool PassList::contains(Pass pass) const {
   return std::any_of(passes.begin(), passes.end(), [&](const PassCall& call) { return call.pass == pass; });
 }
 
-PassList makeStep(const Scene& scene, const Cloth& cloth, const Cuts& cuts, Levels levels) {
-  return StepBuilder(scene, cloth, cuts, levels).step();
+PassList makeStep(const Scene& scene, const Cloth& cloth, const Cuts& cuts) {
+  return StepBuilder(scene, cloth, cuts).step();
+}
+
+// The aggregates still have to be where the cloth is: their centers are found in every step.
+PassList keepingLevels(PassList step) {
+  const auto makesMatrices = [](const PassCall& call) {
+    return call.pass == Pass::coarsen || call.pass == Pass::invertDense;
+  };
+  for (PassList::Loop& loop : step.loops) {
+    const auto first = step.passes.begin() + static_cast<std::ptrdiff_t>(loop.first);
+    loop.first -= static_cast<std::size_t>(std::count_if(step.passes.begin(), first, makesMatrices));
+  }
+  std::erase_if(step.passes, makesMatrices);
+  return step;
 }
 
 PassList makeConversion() { return {{{Pass::forces}, {Pass::kick}}, {}, Outcome::velocities}; }

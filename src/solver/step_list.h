@@ -44,13 +44,11 @@ struct PassList {
   [[nodiscard]] bool contains(Pass pass) const;
 };
 
-// The matrices of the preconditioner's levels in a step.
-enum class Levels : std::uint8_t { made, kept };  // kept: those of the step before
-
 // A step of the scene. The cloth's levels, which cuts change, and its colours decide how many passes some
 // parts have.
-[[nodiscard]] PassList makeStep(const Scene& scene, const Cloth& cloth, const Cuts& cuts = {},
-                                Levels levels = Levels::made);
+[[nodiscard]] PassList makeStep(const Scene& scene, const Cloth& cloth, const Cuts& cuts = {});
+// The same step with the matrices of the preconditioner's levels that the step before has made.
+[[nodiscard]] PassList keepingLevels(PassList step);
 // Turns the velocities into those of the scene's integrator.
 [[nodiscard]] PassList makeConversion();
 // Looks at a state that was handed in.

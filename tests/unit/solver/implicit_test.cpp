@@ -306,7 +306,7 @@ TEST(ImplicitStep, TakesPinsWhereTheirPathSays) {
 }
 
 // With three steps a frame, the last step of a frame and the first one of the next both make levels.
-TEST(Implicit, GoesOnFromAnyFrameAsIfNothingHadHappened) {
+TEST(ImplicitStep, GoesOnFromAnyFrameAsIfNothingHadHappened) {
   Scene scene = fastSheet();
   scene.solver.simulationSteps = 3;
   const Cloth cloth(scene);
@@ -321,14 +321,14 @@ TEST(Implicit, GoesOnFromAnyFrameAsIfNothingHadHappened) {
   }
 }
 // An edit may make the kept levels wrong: the next step makes its own.
-TEST(Implicit, MakesNewLevelsAfterAnEdit) {
+TEST(ImplicitStep, MakesNewLevelsAfterAnEdit) {
   Scene scene = fastSheet();
   scene.solver.simulationSteps = 4;
   const Cloth cloth(scene);
   CpuSolver<float> solver(cloth, scene);
   const auto makesLevels = [&] {
     bool found = false;
-    for (const PassTime& time : solver.timePasses(1)) found = found || time.name.find("coarsen") == 0;
+    for (const PassTime& time : solver.timePasses(1)) found = found || time.name.starts_with("coarsen");
     return found;
   };
   EXPECT_TRUE(makesLevels());
