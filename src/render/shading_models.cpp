@@ -8,7 +8,7 @@
 namespace clothsim {
 namespace {
 
-constexpr double MOST_MATTE_GLOSS = 0.35;  // of satin it is twice as much
+constexpr double MOST_MATTE_GLOSS = 0.35;  // more shows highlights, which draft must not lose
 
 }  // namespace
 
