@@ -39,8 +39,8 @@ struct Contact {
 
 // Inside the sphere: the nearest point of its surface. A particle that a long step took through the sphere,
 // or to where another side of it is nearer, goes to the point where its way entered: the smaller root of
-// |previous + t (x - previous) - center| = radius.
-template <class Real>
+// |previous + t (x - previous) - center| = radius. `mayEnter`: the way may be that long.
+template <bool mayEnter, class Real>
 INLINE Contact<Real> sphereContact(const ColliderParams<Real>& sphere, Vec3<Real> previous, Vec3<Real> x) {
   const Vec3<Real> center = pointOf(sphere);
   const Vec3<Real> d = x - center;
@@ -48,6 +48,11 @@ INLINE Contact<Real> sphereContact(const ColliderParams<Real>& sphere, Vec3<Real
   const Real inverseDistance = inverseSquareRoot(distanceSquared);
   const Real distance = distanceSquared * inverseDistance;
   const bool inside = distanceSquared < sphere.radiusSquared;
+  if constexpr (!mayEnter) {
+    const Vec3<Real> normal = inverseDistance * d;
+    const Real depth = sphere.radius - distance;
+    return {inside, depth * normal, normal, depth};
+  }
 
   const Vec3<Real> way = x - previous;
   const Vec3<Real> from = previous - center;
@@ -183,11 +188,11 @@ INLINE Contact<Real> shapeContact(const ColliderParams<Real>& shape, Vec3<Real> 
   return {touches, toWorld(shape, offset), toWorld(shape, normal), depth};
 }
 
-template <std::uint32_t type, class Real>
+template <std::uint32_t type, bool mayEnter = true, class Real>
 INLINE Contact<Real> findContact(const ColliderParams<Real>& collider, bool coulomb, Real offset,
                                  Vec3<Real> previous, Vec3<Real> x, const float* distances) {
   if constexpr (type == COLLIDER_SPHERE) {
-    return sphereContact(collider, previous, x);
+    return sphereContact<mayEnter>(collider, previous, x);
   } else if constexpr (type == COLLIDER_PLANE) {
     return coulomb ? solidPlane(collider, x) : crossedPlane(collider, offset, previous, x);
   } else {
@@ -225,7 +230,7 @@ INLINE Vec3<Real> furtherOut(const ColliderParams<Real>& collider, Vec3<Real> x,
   }
 }
 
-template <std::uint32_t type, class Real>
+template <std::uint32_t type, bool mayEnter = true, class Real>
 INLINE void collideWith(const PassArguments<Real>& arguments, const ColliderParams<Real>& collider,
                         bool moving, bool coulomb, Range particles) {
   const Components<Real>& old = arguments.before.positions;
@@ -241,7 +246,7 @@ INLINE void collideWith(const PassArguments<Real>& arguments, const ColliderPara
     const Vec3<Real> rigid = moving ? carried(collider, start) : start;
     const Vec3<Real> previous = deformed<type>(collider, rigid, arguments.distances);
     const Contact<Real> contact =
-        findContact<type>(collider, coulomb, offset, previous, now, arguments.distances);
+        findContact<type, mayEnter>(collider, coulomb, offset, previous, now, arguments.distances);
     // Away from a shape with a frame of its own nothing more is worked out.
     if constexpr (type != COLLIDER_SPHERE && type != COLLIDER_PLANE)
       if (!contact.touches) return;
@@ -269,6 +274,53 @@ INLINE void collideWith(const PassArguments<Real>& arguments, const ColliderPara
   }
 }
 
+// What particles have to do with a sphere or a plane: none touches it without one of these.
+struct Nearness {
+  bool anyInside, anyEnters;  // behind the surface; on a way long enough to have gone through
+};
+template <std::uint32_t type, class Real>
+INLINE Nearness nearnessOf(const PassArguments<Real>& arguments, const ColliderParams<Real>& collider,
+                           bool moving, bool coulomb, Range particles) {
+  const Components<Real>&old = arguments.before.positions, &p = arguments.after.positions;
+  const Real *x0 = old.x.data(), *y0 = old.y.data(), *z0 = old.z.data(), *x = p.x.data(), *y = p.y.data(),
+             *z = p.z.data();
+  const Vec3<Real> point = pointOf(collider), normal{collider.normalX, collider.normalY, collider.normalZ};
+  using Bits = decltype(bitsOf(Real(0)));  // of numbers that are not negative: in the order of these
+  Bits nearest = ~Bits(0), longest = 0, behind = 0;
+#pragma GCC ivdep
+  for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
+    const Vec3<Real> now = load(x, y, z, i), start = load(x0, y0, z0, i);
+    const Vec3<Real> previous = moving ? carried(collider, start) : start;
+    if constexpr (type == COLLIDER_SPHERE) {
+      const Vec3<Real> d = now - point, way = now - previous;
+      const Bits distance = bitsOf(dot(d, d));
+      nearest = distance < nearest ? distance : nearest;
+      longest = larger(longest, bitsOf(dot(way, way)));
+    } else {
+      const Bits height = bitsOf(dot(now - point, normal)), before = bitsOf(dot(previous - point, normal));
+      behind |= coulomb ? height : height ^ before;
+    }
+  }
+  if constexpr (type == COLLIDER_SPHERE)
+    return {nearest < bitsOf(collider.radiusSquared), longest > bitsOf(collider.sweepSquared)};
+  return {(behind & bitsOf(Real(-0.0))) != 0, false};
+}
+
+// Most particles touch nothing: sixteen are looked at together.
+template <std::uint32_t type, class Real>
+INLINE void collideSixteen(const PassArguments<Real>& arguments, const ColliderParams<Real>& collider,
+                           bool moving, bool coulomb, Range particles) {
+  constexpr std::ptrdiff_t lookedAt = 16;
+  for (std::ptrdiff_t begin = particles.begin; begin < particles.end; begin += lookedAt) {
+    const Range some{begin, std::min(begin + lookedAt, particles.end)};
+    const auto [anyInside, anyEnters] = nearnessOf<type>(arguments, collider, moving, coulomb, some);
+    if (anyEnters)
+      collideWith<type, true>(arguments, collider, moving, coulomb, some);
+    else if (anyInside)
+      collideWith<type, false>(arguments, collider, moving, coulomb, some);
+  }
+}
+
 // Spheres and planes: compiled for each law, at rest and moving, so that the loop runs in vector registers.
 template <std::uint32_t type, class Real>
 INLINE void collideInVectors(const PassArguments<Real>& arguments, const ColliderParams<Real>& of,
@@ -276,13 +328,13 @@ INLINE void collideInVectors(const PassArguments<Real>& arguments, const Collide
   const ColliderParams<Real> collider = of;  // which no store to a particle changes
   const bool moving = collider.moving != 0, coulomb = collider.coulomb != 0;
   if (moving && coulomb)
-    collideWith<type>(arguments, collider, true, true, particles);
+    collideSixteen<type>(arguments, collider, true, true, particles);
   else if (moving)
-    collideWith<type>(arguments, collider, true, false, particles);
+    collideSixteen<type>(arguments, collider, true, false, particles);
   else if (coulomb)
-    collideWith<type>(arguments, collider, false, true, particles);
+    collideSixteen<type>(arguments, collider, false, true, particles);
   else
-    collideWith<type>(arguments, collider, false, false, particles);
+    collideSixteen<type>(arguments, collider, false, false, particles);
 }
 
 // Shapes with a frame of their own, particle by particle.
