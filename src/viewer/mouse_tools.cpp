@@ -262,8 +262,7 @@ void MouseTools::beforeStep(const MouseContext& context, Cursor cursor, bool blo
     context.act(MoveHand{targetAt(context, cursor)}, false);
     targetMoved_ = false;
   }
-  chosen_.apply(context);
-  if (std::exchange(isLetGo_, false)) chosen_.letGo();
+  moveChosen(context);
   if (blows) {
     const ViewRay ray = rayThrough(context.view(), placeOf(cursor));
     const double distance = static_cast<double>(glm::length(context.camera.target() - context.camera.eye()));
@@ -277,6 +276,11 @@ void MouseTools::beforeStep(const MouseContext& context, Cursor cursor, bool blo
     blow_.reset();
   }
   blowing_ = blows;
+}
+
+void MouseTools::moveChosen(const MouseContext& context) {
+  chosen_.apply(context);
+  if (std::exchange(isLetGo_, false)) chosen_.letGo();
 }
 
 void MouseTools::letGo(Session& session) {

@@ -43,6 +43,9 @@ class MouseTools {
   // To be called before frames are simulated, with the session at hand. Moves what is grabbed and the jet to
   // where the mouse is now.
   void beforeStep(const MouseContext& context, ViewerWindow::Cursor cursor, bool blows);
+  // Moves what was chosen to where the mouse has taken it. To be called when it is let go, too, before what
+  // the user asks for next, as saving the scene.
+  void moveChosen(const MouseContext& context);
   // Ends the grab and the jet, before another scene is opened or an earlier frame is shown.
   void letGo(Session& session);
 

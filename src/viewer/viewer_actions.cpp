@@ -35,6 +35,7 @@ void Viewer::listen() {
        .release =
            [this](ViewerWindow::Button button) {
              atOnce([=, this] { mouse_.release(mouseContext(), button); });
+             whenIdle([this] { mouse_.moveChosen(mouseContext()); });
            },
        .scroll =
            [this](double steps, ViewerWindow::Cursor cursor) {

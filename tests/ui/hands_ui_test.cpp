@@ -191,6 +191,10 @@ TEST_F(HandsUi, HandlesTurnAndMoveASolidAndUndoBringsItBack) {
   };
   const Box start = saved();
   viewer.perform("at 0.5 0.5 sleep 0.3 click 1");
+  const auto isArrowGreen = [](Picture::Pixel p) { return p.g > 120 && p.g > p.r + 40 && p.g > p.b + 40; };
+  EXPECT_TRUE(test::eventually(seconds(20), [&] {
+    return viewer.picture().share(0.48, 0.33, 0.52, 0.45, isArrowGreen) > 0.1;
+  })) << "no handles";
   viewer.press("g");  // from arrows to rings
   // A quarter along the outermost ring, which faces the eye: its radius is 5.5 lines of text of 16 pixels.
   viewer.drag(1, 0.5 + 88.0 / 640, 0.5, 0.5, 0.5 - 88.0 / 480);

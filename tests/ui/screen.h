@@ -194,11 +194,11 @@ class ViewerProgram {
               3u * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height));
     return picture;
   }
-  // The picture once it has stopped changing: two in a row that are equal.
-  [[nodiscard]] Picture stillPicture() const {
+  // The picture once it has stopped changing: two in a row that are equal, so long after each other.
+  [[nodiscard]] Picture stillPicture(milliseconds apart = milliseconds(300)) const {
     Picture last = picture();
-    EXPECT_TRUE(eventually(seconds(20), [&] {
-      std::this_thread::sleep_for(milliseconds(300));
+    EXPECT_TRUE(eventually(seconds(40), [&] {
+      std::this_thread::sleep_for(apart);
       Picture next = picture();
       const bool still = next == last;
       last = std::move(next);

@@ -302,7 +302,7 @@ INLINE Nearness nearnessOf(const PassArguments<Real>& arguments, const ColliderP
     }
   }
   if constexpr (type == COLLIDER_SPHERE)
-    return {nearest < bitsOf(collider.radiusSquared), longest > bitsOf(collider.sweepSquared)};
+    return {nearest<bitsOf(collider.radiusSquared), longest> bitsOf(collider.sweepSquared)};
   return {(behind & bitsOf(Real(-0.0))) != 0, false};
 }
 
