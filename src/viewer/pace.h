@@ -1,6 +1,6 @@
 // Keeps simulated time at the pace of the wall clock, whatever the frame rate of the display. On a slow
-// machine the simulation runs slower than real time: the number of frames simulated for each displayed one is
-// limited so that the display stays fluent, and the rest is skipped.
+// machine the simulation runs slower than real time: where the display waits for them, the number of frames
+// simulated for each displayed one is limited so that it stays fluent, and the rest is skipped.
 #pragma once
 
 #include <algorithm>
@@ -12,10 +12,10 @@ class Pace {
   explicit Pace(double frameSeconds) : frameSeconds_(frameSeconds) {}  // simulated time of one frame [s]
 
   // The number of frames to simulate now, `elapsed` [s] after the last call.
-  [[nodiscard]] int framesDue(double elapsed) {
+  [[nodiscard]] int framesDue(double elapsed, bool displayWaits = true) {
     owed_ += elapsed;
     const double due = owed_ / frameSeconds_;
-    const int most = mostFrames();
+    const int most = displayWaits ? mostFrames() : mostFramesAtOnce;
     if (due >= most + 1) {
       owed_ = 0;
       return most;

@@ -198,9 +198,10 @@ int Viewer::simulate(double elapsed) {
     restart();
     say("Starts again, until you touch the cloth or change something");
   }
-  const int frames = paused_ ? std::exchange(stepAsked_, false) : pace_.framesDue(tempo_ * unpaced);
+  const bool onGpu = open_->backend() != "cpu";
+  const int frames = paused_ ? std::exchange(stepAsked_, false) : pace_.framesDue(tempo_ * unpaced, onGpu);
   if (frames == 0) return done;
-  if (open_->backend() != "cpu") return done + stepFrames(frames);
+  if (onGpu) return done + stepFrames(frames);
   attempt([&] { startFrames(frames); });
   return done;
 }

@@ -5,6 +5,8 @@
 namespace clothsim::cpu {
 namespace {
 
+constexpr std::size_t SAMPLES = 1024;  // about so many particles tell how all of them move
+
 // The solution of A x = b by Cramer's rule, A by its columns; 0 where A is singular, as of particles in line.
 Vec3d solved(const Vec3d (&a)[3], Vec3d b) {
   const double determinant = dot(a[0], cross(a[1], a[2])), size = dot(a[0], a[0]);
@@ -18,14 +20,15 @@ Vec3d solved(const Vec3d (&a)[3], Vec3d b) {
 
 template <class Real>
 RigidMotion::RigidMotion(const Components<Real>& positions, const Components<Real>& velocities) {
-  const std::size_t count = positions.x.size();
-  if (count == 0) return;
+  const std::size_t particles = positions.x.size(), stride = 1 + particles / SAMPLES;
+  if (particles == 0) return;
+  const std::size_t count = (particles - 1) / stride + 1;
   const Arrays<const Real> x = arraysOf(positions), v = arraysOf(velocities);
   const auto placeAt = [&](std::size_t i) {
-    return at(x, static_cast<std::ptrdiff_t>(i)).template cast<double>();
+    return at(x, static_cast<std::ptrdiff_t>(i * stride)).template cast<double>();
   };
   const auto velocityAt = [&](std::size_t i) {
-    return at(v, static_cast<std::ptrdiff_t>(i)).template cast<double>();
+    return at(v, static_cast<std::ptrdiff_t>(i * stride)).template cast<double>();
   };
   for (std::size_t i = 0; i < count; ++i) {
     center_ = center_ + placeAt(i);

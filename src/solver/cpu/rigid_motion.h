@@ -17,8 +17,8 @@ struct RigidMap {
 class RigidMotion {
  public:
   RigidMotion() = default;
-  // Of least squares over all particles, which count alike: their mean velocity, and the angular velocity
-  // with their angular momentum.
+  // Of least squares over a sample of the particles, which count alike: their mean velocity, and the angular
+  // velocity with their angular momentum.
   template <class Real>
   RigidMotion(const Components<Real>& positions, const Components<Real>& velocities);
 
