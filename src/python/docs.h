@@ -90,6 +90,12 @@ inline constexpr const char* moveCollider =
 
 It stays there and leaves any path of the scene. Friction sees its velocity.)";
 
+inline constexpr const char* turnCollider =
+    R"(Turns a collider about its origin or point within so many seconds (None: one frame).
+
+turn: a rotation vector, axis times angle, at most 180 long [degrees]. It stays turned and leaves any
+path of the scene. Friction sees it turn.)";
+
 inline constexpr const char* set =
     R"(Changes keys of the scene from the next step on: sim.set(**{"wind.velocity": [0, 0, 4]}).
 

@@ -297,6 +297,13 @@ void declareSimulation(py::module_& module) {
           },
           py::arg("collider"), py::arg("position"), py::arg("seconds") = py::none(), docs::moveCollider)
       .def(
+          "turn_collider",
+          [](PythonSimulation& simulation, std::size_t collider, const std::array<double, 3>& turn,
+             std::optional<double> seconds) {
+            simulation.turnCollider(collider, {turn[0], turn[1], turn[2]}, seconds);
+          },
+          py::arg("collider"), py::arg("turn"), py::arg("seconds") = py::none(), docs::turnCollider)
+      .def(
           "set", [](PythonSimulation& s, const py::kwargs& values) { s.configure(settingsOf(values)); },
           docs::set)
       .def_property_readonly(

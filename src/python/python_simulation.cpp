@@ -234,12 +234,23 @@ void PythonSimulation::setForces(std::vector<Particle4> forces) {
 
 void PythonSimulation::moveCollider(std::size_t collider, Vec3d position, std::optional<double> seconds) {
   const Turn turn(*this);
+  checkAction(MoveCollider{collider, position}, simulation_->cloth(), simulation_->scene());
+  sendCollider("move_collider", {collider, position}, seconds);
+}
+
+void PythonSimulation::turnCollider(std::size_t collider, Vec3d degrees, std::optional<double> seconds) {
+  const Turn turn(*this);
+  checkAction(TurnCollider{collider, degrees}, simulation_->cloth(), simulation_->scene());
+  sendCollider("turn_collider", {collider, std::nullopt, rotationMatrix(degrees)}, seconds);
+}
+
+void PythonSimulation::sendCollider(const std::string& name, const ColliderMove& move,
+                                    std::optional<double> seconds) {
   const Scene& scene = simulation_->scene();
-  checkAction(MoveCollider{collider, position}, simulation_->cloth(), scene);
   const double duration = seconds.value_or(1 / scene.solver.framesPerSec), now = simulation_->time();
   if (!(duration > 0 && duration <= 1e6))
-    throw UsageError("move_collider: seconds: expected more than 0 and up to 1e6");
-  simulation_->configure(withColliderOnItsWay(scene, collider, position, now, now + duration));
+    throw UsageError(name + ": seconds: expected more than 0 and up to 1e6");
+  simulation_->configure(withColliderOnItsWay(scene, move, now, now + duration));
   stepsSinceKept_ = 0;
 }
 

@@ -15,6 +15,7 @@
 
 #include "gl/context.h"
 #include "render/image.h"
+#include "scene/moved_collider.h"
 #include "scene_io/scene_options.h"
 #include "simulation/gpu/simulation_renderer.h"
 #include "simulation/run_summary.h"
@@ -66,6 +67,8 @@ class PythonSimulation {
   [[nodiscard]] const std::vector<Particle4>* forces() const { return forces_.get(); }  // null: none
   // Moves a collider straight to a place within `seconds`; it stays there.
   void moveCollider(std::size_t collider, Vec3d position, std::optional<double> seconds);
+  // Turns a collider about its origin or point, by a rotation vector [degrees], within `seconds`.
+  void turnCollider(std::size_t collider, Vec3d degrees, std::optional<double> seconds);
   [[nodiscard]] std::vector<Vec3d> colliderPositions() const;
   // Live keys of the scene, as "key=value". @throws UsageError for a key that makes another cloth
   void configure(const std::vector<std::string>& settings);
@@ -89,6 +92,8 @@ class PythonSimulation {
   class Turn;
 
   void start(const std::optional<std::uint32_t>& seed);
+  // `name`: of the call, for messages.
+  void sendCollider(const std::string& name, const ColliderMove& move, std::optional<double> seconds);
   void advance(std::int64_t steps, const std::function<void()>& poll);
   void stayInPlace();
   void needContext();

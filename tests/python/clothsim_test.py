@@ -279,6 +279,24 @@ class Acting(unittest.TestCase):
         with self.assertRaisesRegex(clothsim.UsageError, "there is no collider 7"):
             sim.move_collider(7, (0, 0, 0))
 
+    def test_a_collider_turns_and_takes_the_cloth_along(self):
+        sim = clothsim.Simulation("sphere", backend="cpu", resolution=(24, 24))
+        sim.step_frames(90)
+        place = np.array(sim.collider_positions[0])
+
+        def directions():  # about the vertical axis
+            return np.arctan2(sim.positions[:, 0] - place[0], sim.positions[:, 2] - place[2])
+
+        on_top = sim.positions[:, 1] > place[1] + 0.15
+        before = directions()
+        sim.turn_collider(0, (0, 40, 0), seconds=0.5)
+        sim.step_frames(90)
+        np.testing.assert_allclose(sim.collider_positions[0], place, atol=1e-9)
+        turned = np.degrees(directions() - before)[on_top]
+        self.assertGreater(np.median((turned + 180) % 360 - 180), 20)
+        with self.assertRaisesRegex(clothsim.UsageError, "turn_collider: turn: expected 0 to 180 degrees"):
+            sim.turn_collider(0, (0, 200, 0))
+
     def test_live_keys_take_effect_and_others_are_refused(self):
         sim = clothsim.Simulation(FREE_PARTICLE, backend="cpu")
         sim.set(gravity=[2, 0, 0])
