@@ -88,12 +88,14 @@ Contact shapeContact(ColliderParams shape, vec3 previous, vec3 x) {
   precise float wayLength = waySquared * inverseWay;
   precise float t = 0.0;
   precise vec3 place = a;
-  Nearest entry = nearestOnShape(shape, a);
-  for (int i = 0; i < SWEEP_STEPS; ++i) {
-    bool goesOn = 0.0 < entry.distance && t < 1.0;
-    precise float farther = t + entry.distance * inverseWay;
-    t = goesOn ? farther : t;
-    place = a + t * way;
+  Nearest entry;
+  for (int i = 0; i <= SWEEP_STEPS; ++i) {  // the first place is its beginning
+    if (i > 0) {
+      bool goesOn = 0.0 < entry.distance && t < 1.0;
+      precise float farther = t + entry.distance * inverseWay;
+      t = goesOn ? farther : t;
+      place = a + t * way;
+    }
     entry = nearestOnShape(shape, place);
   }
   precise vec3 back = (place - entry.distance * entry.normal) - b;

@@ -49,7 +49,9 @@ TEST_F(WindowUi, OpensEveryBundledSceneAndClosesAtOnce) {
   for (const BundledScene& bundled : bundledScenes()) {
     SCOPED_TRACE(bundled.name);
     const bool isMesh = loadScene(bundled.path).cloths[0].isMesh();
-    ViewerProgram viewer("-f " + bundled.name + (isMesh ? "" : " --resolution 12x12") + " --backend cpu");
+    // The title has the backend once there was a picture.
+    ViewerProgram viewer("-f " + bundled.name + (isMesh ? "" : " --resolution 12x12") + " --backend cpu", "",
+                         bundled.name + " - cpu");
     EXPECT_EQ(viewer.title().find(bundled.name + " - cpu"), 0u) << viewer.title();
     viewer.press("Escape");
     EXPECT_EQ(viewer.exitCodeWithin(seconds(10)), 0) << viewer.output();

@@ -39,10 +39,9 @@ void main() {
 #if PREDICTS
   vec3 v = velocityAt(p.index);
   precise vec3 guess = start.xyz + step.guessTime * (v + step.timeStep * vec3(step.gravityX, step.gravityY, step.gravityZ));
-  findPlanesAt(start, guess);
   precise vec3 way = step.timeStep * v;
   precise vec3 place = start.xyz + canonical(way);
-  findPlanesAt(start, canonical(place));
+  for (int turn = 0; turn < 2; ++turn) findPlanesAt(start, turn == 0 ? guess : canonical(place));
 #if HAS_HISTORY
   vec3 held = contactBlockAt(p.index).diagonal;
   precise float trace = (held.x + held.y) + held.z;

@@ -119,7 +119,9 @@ bool turnsTooNear(uvec4 ids, bool areSides, vec3 way, float least) {
     y[k] = place;
   }
   precise float slack = uintBitsToFloat(0x3f733333u) * least;  // .95
-  return !staysApart(areSides, x, y, way, slack, 1) && !staysApart(areSides, x, y, way, slack, FINE_PARTS);
+  bool apart = false;
+  for (int turn = 0; turn < 2 && !apart; ++turn) apart = staysApart(areSides, x, y, way, slack, turn == 0 ? 1 : FINE_PARTS);
+  return !apart;
 }
 
 vec3 endAt(uint i) { return texelFetch(positionsSoFar, int(i)).xyz; }
@@ -173,10 +175,8 @@ void lookAt(uvec4 ids, bool areSides, PartPlaces places, NearestParts nearest) {
     return;
   }
   precise float enough = 0.5 * width;
-  if (widthOf(sliding) > enough)
-    keepToSides(sliding);
-  else
-    keepToSides(sides);
+  if (widthOf(sliding) > enough) sides = sliding;
+  keepToSides(sides);
 }
 bool goesOn() { return true; }
 // Whatever the first rounds move, the first of the others looks at everything again.

@@ -119,21 +119,20 @@ void lookAt(uvec4 ids, bool areSides, PartPlaces places, NearestParts nearest) {
   float squared = sumOfProducts(nearest.way, nearest.way);
   precise float distance = squared * inverseSquareRoot(squared);
   isAtEnd = false;
-  if (state.isLater != 0u) {
-    addPair(ids, areSides, places, nearest, true, distance);
-    return;
+  bool isMoved = state.isLater != 0u;
+  NearestParts seen = nearest;
+  if (!isMoved) {
+    vec3 before[4], after[4];
+    for (int k = 0; k < 4; ++k) {
+      before[k] = startAt(ids[k]);
+      after[k] = endAt(ids[k]);
+    }
+    NearestParts then = nearestParts(areSides, after[0], after[1], after[2], after[3]);
+    isAtEnd = passesBy(areSides, before, after, nearest.way, then.way, surface.leastGap);
+    isMoved = isAtEnd;
+    if (isAtEnd) seen = then;
   }
-  vec3 before[4], after[4];
-  for (int k = 0; k < 4; ++k) {
-    before[k] = startAt(ids[k]);
-    after[k] = endAt(ids[k]);
-  }
-  NearestParts then = nearestParts(areSides, after[0], after[1], after[2], after[3]);
-  isAtEnd = passesBy(areSides, before, after, nearest.way, then.way, surface.leastGap);
-  if (isAtEnd)
-    addPair(ids, areSides, places, then, true, distance);
-  else
-    addPair(ids, areSides, places, nearest, false, distance);
+  addPair(ids, areSides, places, seen, isMoved, distance);  // called once: drivers compile a copy for each call
 }
 
 bool goesOn() { return found <= MOST_PAIRS_A_TRIANGLE; }

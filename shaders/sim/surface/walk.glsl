@@ -62,8 +62,10 @@ void lookAround(uint own) {
       bool meets = overlap(ownBox, box);
       if (meets && level > 0) continue;
       if (meets && !areFlat(own, place)) {
-        lookAtCorners(own, place, box);
-        lookAtCorners(place, own, ownBox);
+        for (int turn = 0; turn < 2; ++turn) {  // a driver compiles a loop once, but a copy for each call
+          bool isFirst = turn == 0;
+          lookAtCorners(isFirst ? own : place, isFirst ? place : own, Bounds(isFirst ? box.low : ownBox.low, isFirst ? box.high : ownBox.high));
+        }
         lookAtSides(own, place, box);
       }
       ++place;

@@ -79,8 +79,9 @@ TEST(BrokenWeave, ThreadsInPlaceOfLoopsAreSeenOnJersey) {
 
 // --- From close to far
 
-constexpr int SWATCH_PIXELS = 128;    // of the square pictures [pixels]
-constexpr double SWATCH_WIDTH = 0.5;  // what they show of the middle of the sheet [m]
+constexpr int SWATCH_PIXELS = 80, MARGIN = 8;  // of the square pictures; around what is looked at [pixels]
+constexpr double PIXEL = 0.5 / 128;            // in the middle of the sheet [m]
+constexpr double EYE_DISTANCE = 0.8;           // [m]
 
 // A standing sheet that fills the picture, turned by `angle` [degrees] about the picture's horizontal middle,
 // with threads of `pixels`. Relief is left out where means are compared: light on a slope is not linear in
@@ -93,15 +94,15 @@ Image swatchOf(const std::string& weave, double pixels, double angle = 0, double
   cloth.width = cloth.height = 6;
   cloth.numWidthPoints = cloth.numHeightPoints = 3;
   cloth.position = {-3, -3, 0};
-  const double distance = 0.5 * SWATCH_WIDTH / std::tan(35 * std::numbers::pi / 360),
-               turn = angle * std::numbers::pi / 180;
+  const double turn = angle * std::numbers::pi / 180;
   scene.camera.target = Vec3d{0, 0, 0};
-  scene.camera.position = Vec3d{0, distance * std::sin(turn), distance * std::cos(turn)};
+  scene.camera.position = Vec3d{0, EYE_DISTANCE * std::sin(turn), EYE_DISTANCE * std::cos(turn)};
+  scene.camera.fov = 360 / std::numbers::pi * std::atan(0.5 * SWATCH_PIXELS * PIXEL / EYE_DISTANCE);
   scene.render.shader = "fabric";
   scene.render.weave = weave;
   scene.render.gloss = gloss;
   scene.render.normalStrength = relief;
-  scene.render.threadSpacing = pixels * SWATCH_WIDTH / SWATCH_PIXELS;
+  scene.render.threadSpacing = pixels * PIXEL;
   scene.render.color = {0.10, 0.16, 0.34};
   scene.render.backColor = {0.80, 0.76, 0.66};
   const double towards = angle > 90 ? -1 : 1;  // the side that is seen
@@ -123,12 +124,12 @@ double linearLight(int value) {
   return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
 }
 
-// Of linear light over the middle half of a picture.
+// Of linear light over a picture without its margin.
 struct Spread {
   double mean = 0, deviation = 0;
 };
 Spread spreadOf(const Image& image, std::size_t channel) {
-  const int low = SWATCH_PIXELS / 4, high = SWATCH_PIXELS - low, n = high - low;
+  const int low = MARGIN, high = SWATCH_PIXELS - low, n = high - low;
   Spread spread;
   double squares = 0;
   for (int y = low; y < high; ++y)
@@ -151,7 +152,7 @@ double columnContrast(const Image& image, int period) {
     return sum;
   };
   double squares = 0, mean = 0;
-  const int low = SWATCH_PIXELS / 4, high = SWATCH_PIXELS - low;
+  const int low = MARGIN, high = SWATCH_PIXELS - low;
   for (int x = low; x < high; ++x) {
     const double between = 0.5 * (column(x - period / 2) + column(x + period / 2));
     squares += (column(x) - between) * (column(x) - between) / (high - low);
@@ -174,13 +175,18 @@ TEST_F(FadingThreads, HaveTheColourOfTheirMean) {
 }
 
 // Moire is a pattern where none can be: a period of four threads is below two pixels.
-TEST_F(FadingThreads, LeaveNoMoire) {
-  for (const char* weave : {"plain", "twill", "satin", "jersey", "velvet"})
-    for (const double pixels : {0.47, 0.13}) {
-      const Spread spread = spreadOf(swatchOf(weave, pixels), 1);
-      EXPECT_LT(spread.deviation, 0.02 * spread.mean) << weave << ", " << pixels << " pixels a thread";
-    }
+class Moire : public GlTest, public ::testing::WithParamInterface<const char*> {};
+
+TEST_P(Moire, IsNotThere) {
+  for (const double pixels : {0.47, 0.13}) {
+    const Spread spread = spreadOf(swatchOf(GetParam(), pixels), 1);
+    EXPECT_LT(spread.deviation, 0.02 * spread.mean) << pixels << " pixels a thread";
+  }
 }
+
+INSTANTIATE_TEST_SUITE_P(OfFadingThreads, Moire,
+                         ::testing::Values("plain", "twill", "satin", "jersey", "velvet"),
+                         [](const auto& weave) { return std::string(weave.param); });
 
 // Seen at 6 degrees off its plane the courses of a knit are too close for pixels, the wales beside each other
 // are not.
@@ -191,7 +197,7 @@ TEST_F(FadingThreads, FadeAlongTheDirectionInWhichTheyAreTooFine) {
 // How much light differs between neighbours two pixels above each other, over how much it does beside each
 // other.
 double upOverAcross(const Image& image) {
-  const int low = SWATCH_PIXELS / 4, high = SWATCH_PIXELS - low;
+  const int low = MARGIN, high = SWATCH_PIXELS - low;
   double up = 0, across = 0;
   for (int y = low; y < high; ++y)
     for (int x = low; x < high; ++x) {
@@ -236,30 +242,32 @@ TEST_F(FadingThreads, OfSatinAreDullOnItsReverse) {
   EXPECT_LT(shine(180), 0.8 * shine(0));
 }
 
-void expectFadingSeen(const std::string& from, const std::string& to, const std::string& name) {
+void expectFadingSeen(const std::string& from, const std::string& to, const std::string& test) {
   const test::ResourceCopy resources;
   ASSERT_TRUE(resources.change("render/threads.glsl", from, to))
       << "the shader has changed: so must this test";
-  const std::string test = "FadingThreads." + name;
   const test::CommandResult result = resources.runTests(test);
   EXPECT_NE(result.output.find("FAILED  ] " + test), std::string::npos) << result.output;
 }
 
 TEST(BrokenFading, AWeftThatGetsAsMuchLightAsTheWarpFromAfarIsSeen) {
-  expectFadingSeen("stored.a / max(stored.b, 0.01)", "stored.a / 0.82", "HaveTheColourOfTheirMean");
+  expectFadingSeen("stored.a / max(stored.b, 0.01)", "stored.a / 0.82",
+                   "FadingThreads.HaveTheColourOfTheirMean");
 }
 TEST(BrokenFading, ThreadsThatDoNotFadeAreSeen) {
-  expectFadingSeen("log2(0.5 * width * float(textureSize(weave, 0).x))", "0.0", "LeaveNoMoire");
+  expectFadingSeen("log2(0.5 * width * float(textureSize(weave, 0).x))", "0.0",
+                   "OfFadingThreads/Moire.IsNotThere/jersey");
 }
 TEST(BrokenFading, ThreadsThatFadeAlikeInAllDirectionsAreSeen) {
-  expectFadingSeen("MOST_OBLIQUE = 16.0", "MOST_OBLIQUE = 1.0", "FadeAlongTheDirectionInWhichTheyAreTooFine");
+  expectFadingSeen("MOST_OBLIQUE = 16.0", "MOST_OBLIQUE = 1.0",
+                   "FadingThreads.FadeAlongTheDirectionInWhichTheyAreTooFine");
 }
 
 TEST(BrokenFading, AReverseThatIsTheFaceIsSeen) {
-  expectFadingSeen("side < 0.0 && !isKnit()", "false", "OfSatinFloatAcrossOnItsReverse");
+  expectFadingSeen("side < 0.0 && !isKnit()", "false", "FadingThreads.OfSatinFloatAcrossOnItsReverse");
 }
 TEST(BrokenFading, AKnitWhoseReverseIsItsFaceIsSeen) {
-  expectFadingSeen("if (side < 0.0) slope", "if (false) slope", "OfAKnitAreRowsFromBehind");
+  expectFadingSeen("if (side < 0.0) slope", "if (false) slope", "FadingThreads.OfAKnitAreRowsFromBehind");
 }
 
 }  // namespace
