@@ -25,9 +25,9 @@ LitVertex litVertex(Surface surface) {
   TangentFrame front = tangentFrame(surface, 1.0), back = tangentFrame(surface, -1.0);
   Threads ofFront = threadsAt(surface.uv, 1.0), ofBack = threadsAt(surface.uv, -1.0);
   LitVertex vertex;
+#ifdef PLAIN
   vertex.uv = surface.uv;
   vertex.warp = ofFront.warp;
-#ifdef PLAIN
 #ifdef PRINT
   vec3 albedoOfFront = vec3(1), albedoOfBack = vec3(1);
 #else
@@ -40,10 +40,11 @@ LitVertex litVertex(Surface surface) {
   vertex.backKey = matteLight(surface, back, -1.0, ofBack, albedoOfBack, 1.0) - vertex.back;
 #else
   float unshadowed = sunlit(surface.shadowPlace);
-  vertex.front = matteLight(surface, front, 1.0, ofFront, albedoOfThreads(frame.clothFront.rgb, ofFront.warp), unshadowed);
-  vertex.back = matteLight(surface, back, -1.0, ofBack, albedoOfThreads(frame.clothBack.rgb, ofBack.warp), unshadowed);
-  vertex.along = alongThreads(front, surface.position);
-  vertex.shine = vec2(shineSeen(front, ofFront, unshadowed), shineSeen(back, ofBack, unshadowed));
+  vec2 along = alongThreads(front, surface.position);
+  vertex.front = vec4(matteLight(surface, front, 1.0, ofFront, albedoOfThreads(frame.clothFront.rgb, ofFront.warp), unshadowed), along.x);
+  vertex.back = vec4(matteLight(surface, back, -1.0, ofBack, albedoOfThreads(frame.clothBack.rgb, ofBack.warp), unshadowed), along.y);
+  float shine = shineSeen(front, ofFront, unshadowed) - shineSeen(back, ofBack, unshadowed);  // one of them is 0
+  vertex.cloth = vec4(surface.uv, shine, ofFront.warp);
 #endif
   return vertex;
 }

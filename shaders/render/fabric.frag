@@ -32,9 +32,9 @@ vec3 light() {
 #else
 vec3 light() {
   vec3 dye = gl_FrontFacing ? frame.clothFront.rgb : frame.clothBack.rgb;
-  float warp = gl_FrontFacing ? lit.warp : 1.0 - lit.warp;
-  vec3 shine = shineOf(lit.along, warp, albedoOfThreads(dye, warp), gl_FrontFacing ? 1.0 : -1.0) * (gl_FrontFacing ? lit.shine.x : lit.shine.y);
-  return ((gl_FrontFacing ? lit.front : lit.back) + shine) * hem(lit.uv);
+  float side = gl_FrontFacing ? 1.0 : -1.0, warp = gl_FrontFacing ? lit.cloth.w : 1.0 - lit.cloth.w;
+  vec3 shine = shineOf(vec2(lit.front.w, lit.back.w), warp, albedoOfThreads(dye, warp), side) * max(side * lit.cloth.z, 0.0);
+  return ((gl_FrontFacing ? lit.front.rgb : lit.back.rgb) + shine) * hem(lit.cloth.xy);
 }
 #endif
 #else

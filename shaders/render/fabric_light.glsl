@@ -119,8 +119,17 @@ float lobeShine(vec2 along, float warp, float exponent) {
 // S. Marschner et al., "Light Scattering from Human Hair Fibers", 2003).
 vec3 shineOf(vec2 along, float warp, vec3 albedo, float side) {
   float gloss = glossOf(side), exponent = mix(5.0, 44.0, gloss);
-  vec3 narrow = lobeShine(along, warp, 2.0 * exponent) * mix(sqrt(albedo), vec3(0.5), 0.3);
-  vec3 wide = lobeShine(along, warp, 0.45 * exponent) * dyedShine(albedo);
+#ifdef LIT_AT_VERTICES
+  // ln(1 - x) = -x - x^2 / 2 - ..., and the narrow lobe as a power of the wide one: a third of the time of four powers.
+  vec2 squares = along * along, lobes = exp2(-1.442695 * 0.45 * exponent * (squares + 0.5 * squares * squares)), fourth = lobes * lobes * lobes * lobes;
+  float ofWide = mix(lobes.x, lobes.y, warp) * (LOBE_SCALE * sqrt(0.45 * exponent + 0.8));
+  vec2 narrowLobes = fourth * sqrt(lobes);
+  float ofNarrow = mix(narrowLobes.x, narrowLobes.y, warp) * (LOBE_SCALE * sqrt(2.0 * exponent + 0.8));
+#else
+  float ofNarrow = lobeShine(along, warp, 2.0 * exponent), ofWide = lobeShine(along, warp, 0.45 * exponent);
+#endif
+  vec3 narrow = ofNarrow * mix(sqrt(albedo), vec3(0.5), 0.3);
+  vec3 wide = ofWide * dyedShine(albedo);
   return mix(wide, narrow, NARROW_SHINE) * shineShare(gloss) * frame.keyColor.rgb;
 }
 #else

@@ -7,11 +7,9 @@ struct LitVertex {
   float warp;                           // part of the front that is warp
 };
 #else
+// Packed, since llvmpipe sets up each vector for every triangle.
 struct LitVertex {
-  vec2 uv;
-  vec3 front, back;  // light of each side, without the shine
-  vec2 along;        // how the threads lie to the light (fabric_light.glsl)
-  vec2 shine;        // what part of the shine is seen, of front and back
-  float warp;        // part of the front that is warp
+  vec4 front, back;  // light of each side, without the shine; how the threads lie to the light (fabric_light.glsl): along u, along v
+  vec4 cloth;        // uv; what part of the shine is seen, less than 0: of the back; part of the front that is warp
 };
 #endif

@@ -4,10 +4,11 @@
 #include "render/cloth_piece.glsl"
 
 layout(local_size_x = NORMALS_GROUP_SIZE, local_size_y = NORMALS_GROUP_SIZE) in;
-layout(std430, binding = NORMALS_POSITIONS_BINDING) readonly buffer Positions { vec4 positions[]; };
+layout(binding = NORMALS_POSITIONS_UNIT) uniform samplerBuffer positions;  // a texel a particle
 layout(std430, binding = NORMALS_OUT_BINDING) writeonly buffer Normals { vec4 normals[]; };
 layout(std430, binding = TANGENTS_OUT_BINDING) writeonly buffer Tangents { vec4 tangents[]; };
 
+vec3 placeOf(uint particle) { return texelFetch(positions, int(particle)).xyz; }
 uint particleAt(ivec2 point) { return piece.firstParticle + uint(point.y) * piece.columns + uint(point.x); }
 
 bool isOnGrid(ivec2 point) {
@@ -20,7 +21,7 @@ bool isOnGrid(ivec2 point) {
 // The neighbour's offset; zero beyond the border, so that triangles which do not exist add nothing.
 vec3 toNeighbour(ivec2 point, vec3 here, int columns, int rows) {
   ivec2 other = point + ivec2(columns, rows);
-  return isOnGrid(other) ? positions[particleAt(other)].xyz - here : vec3(0);
+  return isOnGrid(other) ? placeOf(particleAt(other)) - here : vec3(0);
 }
 
 // The mean sine of the elevation of the points on a ring around `point`, seen from it. What a cut has set free does not
@@ -43,7 +44,7 @@ float hollowAt(ivec2 point, vec3 here, vec3 normal) {
 void main() {
   ivec2 point = ivec2(gl_GlobalInvocationID.xy);
   if (point.x >= int(piece.columns) || point.y >= int(piece.rows)) return;
-  vec3 here = positions[particleAt(point)].xyz;
+  vec3 here = placeOf(particleAt(point));
   vec3 right = toNeighbour(point, here, 1, 0), left = toNeighbour(point, here, -1, 0);
   vec3 lower = toNeighbour(point, here, 0, 1), upper = toNeighbour(point, here, 0, -1);
   vec3 lowerLeft = toNeighbour(point, here, -1, 1), upperRight = toNeighbour(point, here, 1, -1);

@@ -1,4 +1,4 @@
-// How far the cloth is stretched at a particle. Before the include: what cuts.glsl asks for, and `positions`.
+// How far the cloth is stretched at a particle. Before the include: what cuts.glsl asks for, and `placeOf`.
 #ifdef STRAIN
 layout(std430, binding = REST_POSITIONS_BINDING) readonly buffer RestPositions { vec4 restPositions[]; };
 
@@ -8,7 +8,7 @@ float strainOf(ivec2 owner, ivec2 offset, uint slot) {
   if (!isOnGrid(owner) || !isOnGrid(other) || isCut(owner, slot)) return -1.0;
   uint a = particleAt(owner), b = particleAt(other);
   float rest = distance(restPositions[a].xyz, restPositions[b].xyz);
-  return distance(positions[a].xyz, positions[b].xyz) / max(rest, 1e-12) - 1.0;
+  return distance(placeOf(a), placeOf(b)) / max(rest, 1e-12) - 1.0;
 }
 
 // The largest of those around a particle.

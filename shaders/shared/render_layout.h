@@ -16,7 +16,6 @@ using uint = unsigned int;
 #define NORMALS_OUT_BINDING 1        // storage block, vec4 a particle
 #define TANGENTS_OUT_BINDING 3       // storage block, vec4 a particle
 #define REST_POSITIONS_BINDING 4     // storage block, vec4 a particle
-#define MESH_CORNERS_BINDING 5       // storage block, words: src/render/mesh_neighbours.h
 #define MESH_COORDINATES_BINDING 6   // storage block, vec2 a particle: texture coordinates
 // The passes of the smooth surface (src/render/smooth_surface.h), a vec4 a point unless said otherwise.
 #define SMOOTH_CONTROLS_BINDING 7
@@ -58,17 +57,19 @@ using uint = unsigned int;
 #define HEIGHTS_UNIT 5
 #define ENVIRONMENT_UNIT 6
 #define BACKDROP_UNIT 7
-#define SKY_SHADOW_UNIT 8       // and those behind it: SKY_DIRECTIONS
-#define GROUND_UNIT 12          // the picture of the stage's ground
-#define SKY_DIRECTIONS 4        // of an exposure (src/render/exposure.h)
-#define FLOOR_SHADOW_SIZE 256   // [texels] of the blurred shadow for floors
-#define EDGE_MIDDLES_BINDING 0  // storage blocks of src/render/edges.h: a vec2 a tile, and
-#define EDGE_COMMAND_BINDING 1  // of glDrawArraysIndirect
-#define EDGE_TILES_UNIFORM 0    // ivec4
-#define EDGE_TILE 8             // [pixels] along each side
-#define MESH_NORMALS_GROUP 64   // particles of a mesh in a work group
-#define MESH_RING 8u            // particles around one that say how deep it lies in a fold
-#define NORMALS_GROUP_SIZE 8    // work groups of 8 x 8 particles
+#define SKY_SHADOW_UNIT 8          // and those behind it: SKY_DIRECTIONS
+#define GROUND_UNIT 12             // the picture of the stage's ground
+#define NORMALS_POSITIONS_UNIT 13  // buffer textures of the normals passes: a texel a particle,
+#define MESH_CORNERS_UNIT 14       // and a texel a word of src/render/mesh_neighbours.h
+#define SKY_DIRECTIONS 4           // of an exposure (src/render/exposure.h)
+#define FLOOR_SHADOW_SIZE 256      // [texels] of the blurred shadow for floors
+#define EDGE_MIDDLES_BINDING 0     // storage blocks of src/render/edges.h: a vec2 a tile, and
+#define EDGE_COMMAND_BINDING 1     // of glDrawArraysIndirect
+#define EDGE_TILES_UNIFORM 0       // ivec4
+#define EDGE_TILE 8                // [pixels] along each side
+#define MESH_NORMALS_GROUP 64      // particles of a mesh in a work group
+#define MESH_RING 8u               // particles around one that say how deep it lies in a fold
+#define NORMALS_GROUP_SIZE 8       // work groups of 8 x 8 particles
 
 #define POSITION_LOCATION 0  // vertex attributes
 #define NORMAL_LOCATION 1

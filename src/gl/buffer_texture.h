@@ -30,6 +30,9 @@ class BufferTexture {
     return *this;
   }
 
+  // Shows that buffer from now on.
+  void attach(GLuint buffer, GLenum format) const { glTextureBuffer(name_, format, buffer); }
+
   void bind(GLuint unit) const {
     if (KeptBindings::changes(KeptBindings::Kind::texture, unit, {name_})) glBindTextureUnit(unit, name_);
   }

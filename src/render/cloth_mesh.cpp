@@ -25,6 +25,19 @@ shared::ClothPiece blockOfMesh(const Piece& mesh) {
   return block;
 }
 
+void drawIndices(std::size_t first, std::size_t count) {
+  glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(count), GL_UNSIGNED_INT,
+                 reinterpret_cast<const void*>(first * sizeof(std::uint32_t)));
+}
+
+// 0, 2, 4, ... and the last one.
+std::vector<GLuint> everySecond(GLuint count) {
+  std::vector<GLuint> chosen;
+  for (GLuint i = 0; i + 1 < count; i += 2) chosen.push_back(i);
+  chosen.push_back(count - 1);
+  return chosen;
+}
+
 }  // namespace
 
 shared::ClothPiece blockOf(const Piece& piece) {
@@ -45,10 +58,25 @@ shared::ClothPiece blockOf(const Piece& piece) {
   return block;
 }
 
+// Divided as the cells of the whole grid.
+std::vector<std::uint32_t> coarseTriangles(GLuint columns, GLuint rows, GLuint first) {
+  const std::vector<GLuint> across = everySecond(columns), down = everySecond(rows);
+  std::vector<std::uint32_t> indices;
+  for (std::size_t row = 0; row + 1 < down.size(); ++row)
+    for (std::size_t column = 0; column + 1 < across.size(); ++column) {
+      const auto at = [&](std::size_t c, std::size_t r) { return first + down[r] * columns + across[c]; };
+      const GLuint a = at(column, row), b = at(column + 1, row), c = at(column, row + 1),
+                   d = at(column + 1, row + 1);
+      indices.insert(indices.end(), {a, c, b, b, c, d});
+    }
+  return indices;
+}
+
 ClothMesh::ClothMesh(const Cloth& cloth)
     : normals_("cloth normals", cloth.particleCount()),
       tangents_("cloth tangents", cloth.particleCount()),
       textureCoordinates_("cloth texture coordinates", cloth.textureCoordinates()),
+      positionsTexture_("cloth positions", normals_.name(), GL_RGBA32F),
       vertices_("cloth") {
   for (const Piece& piece : cloth.pieces()) {
     const std::array block{blockOf(piece)};
@@ -70,9 +98,12 @@ ClothMesh::ClothMesh(const Cloth& cloth)
 
 void ClothMesh::setNeighbours(const Cloth& cloth, const SpringLists& lists) {
   for (std::size_t i = 0; i < pieces_.size(); ++i)
-    if (const Piece& piece = cloth.pieces()[i]; piece.isMesh)
-      pieces_[i].neighbours =
+    if (const Piece& piece = cloth.pieces()[i]; piece.isMesh) {
+      PieceBuffers& buffers = pieces_[i];
+      buffers.neighbours =
           gl::Buffer<std::uint32_t>("mesh neighbours", meshNeighbours(cloth, lists, piece, fold));
+      buffers.neighboursTexture = gl::BufferTexture("mesh neighbours", buffers.neighbours.name(), GL_R32UI);
+    }
 }
 
 // Grid by grid, as remainingTriangles() has them.
@@ -81,8 +112,6 @@ void ClothMesh::setTriangles(const std::vector<std::array<std::uint32_t, 3>>& tr
   std::vector<std::uint32_t> indices;
   indices.reserve(3 * triangles.size());
   for (const auto& triangle : triangles) indices.insert(indices.end(), triangle.begin(), triangle.end());
-  indices_ = gl::Buffer<std::uint32_t>("cloth indices", indices);
-  vertices_.attachIndices(indices_.name());
   auto triangle = triangles.begin();
   for (PieceBuffers& piece : pieces_) {
     const auto end = std::find_if(triangle, triangles.end(), [&](const auto& corners) {
@@ -91,7 +120,17 @@ void ClothMesh::setTriangles(const std::vector<std::array<std::uint32_t, 3>>& tr
     piece.firstIndex = 3 * static_cast<std::size_t>(triangle - triangles.begin());
     piece.indexCount = 3 * static_cast<std::size_t>(end - triangle);
     triangle = end;
+    piece.firstCoarseIndex = indices.size();
+    const std::size_t whole = std::size_t{6} * (piece.columns - 1) * (piece.rows - 1);
+    if (!piece.isMesh() && piece.indexCount == whole) {
+      const std::vector<std::uint32_t> coarse =
+          coarseTriangles(piece.columns, piece.rows, piece.firstParticle);
+      indices.insert(indices.end(), coarse.begin(), coarse.end());
+    }
+    piece.coarseIndexCount = indices.size() - piece.firstCoarseIndex;
   }
+  indices_ = gl::Buffer<std::uint32_t>("cloth indices", indices);
+  vertices_.attachIndices(indices_.name());
 }
 
 void ClothMesh::setCuts(const Cloth& cloth, const Cuts& cuts) {
@@ -139,14 +178,15 @@ void ClothMesh::keepRestPositions(const Cloth& cloth) {
 void ClothMesh::computeNormals(const NormalsPrograms& programs, GLuint positions) {
   if (hasCuts()) cuts_.bindStorage(CUTS_BINDING);
   if (restPositions_.size() > 0) restPositions_.bindStorage(REST_POSITIONS_BINDING);
-  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);  // the solver's last writes
-  glBindBufferBase(GL_SHADER_STORAGE_BUFFER, NORMALS_POSITIONS_BINDING, positions);
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);  // the solver's last writes
+  positionsTexture_.attach(positions, GL_RGBA32F);  // whose name may be that of one that is gone
+  positionsTexture_.bind(NORMALS_POSITIONS_UNIT);
   normals_.bindStorage(NORMALS_OUT_BINDING);
   tangents_.bindStorage(TANGENTS_OUT_BINDING);
   for (const PieceBuffers& piece : pieces_) {
     piece.block.bindUniform(CLOTH_GRID_BINDING);
     if (piece.isMesh()) {
-      piece.neighbours.bindStorage(MESH_CORNERS_BINDING);
+      piece.neighboursTexture.bind(MESH_CORNERS_UNIT);
       textureCoordinates_.bindStorage(MESH_COORDINATES_BINDING);
       programs.mesh->bind();
       gl::dispatch(piece.columns, 1, MESH_NORMALS_GROUP, 1);
@@ -162,15 +202,28 @@ void ClothMesh::drawRim(std::optional<std::size_t> only) const {
   if (rim_) rim_->draw(only);
 }
 
-void ClothMesh::draw(GLuint positions, bool meshesAsLines, std::optional<std::size_t> only) {
+void ClothMesh::attach(GLuint positions) {
   vertices_.attach(positions, {.location = POSITION_LOCATION});
   vertices_.bind();
+}
+
+void ClothMesh::drawCoarsely(GLuint positions) {
+  attach(positions);
+  for (const PieceBuffers& piece : pieces_) {
+    piece.block.bindUniform(CLOTH_GRID_BINDING);
+    const bool isCoarse = piece.coarseIndexCount > 0;
+    drawIndices(isCoarse ? piece.firstCoarseIndex : piece.firstIndex,
+                isCoarse ? piece.coarseIndexCount : piece.indexCount);
+  }
+}
+
+void ClothMesh::draw(GLuint positions, bool meshesAsLines, std::optional<std::size_t> only) {
+  attach(positions);
   for (const PieceBuffers& piece : piecesOf(std::span(pieces_), only)) {
     piece.block.bindUniform(CLOTH_GRID_BINDING);
     const bool asLines = meshesAsLines && piece.isMesh();
     if (asLines) glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
-    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(piece.indexCount), GL_UNSIGNED_INT,
-                   reinterpret_cast<const void*>(piece.firstIndex * sizeof(std::uint32_t)));
+    drawIndices(piece.firstIndex, piece.indexCount);
     if (asLines) glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   }
 }

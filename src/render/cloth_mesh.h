@@ -9,6 +9,7 @@
 #include "cloth/cloth.h"
 #include "cloth/cuts.h"
 #include "gl/buffer.h"
+#include "gl/buffer_texture.h"
 #include "gl/program.h"
 #include "gl/vertex_array.h"
 #include "render/cloth_rim.h"
@@ -24,6 +25,9 @@ struct NormalsPrograms {
 
 // What a program knows of a piece that it draws; without a smooth surface.
 [[nodiscard]] shared::ClothPiece blockOf(const Piece& piece);
+
+// The triangles of every second row and column of a grid, with the last ones, as indices from `first` on.
+[[nodiscard]] std::vector<std::uint32_t> coarseTriangles(GLuint columns, GLuint rows, GLuint first);
 
 class ClothMesh {
  public:
@@ -42,6 +46,8 @@ class ClothMesh {
   // The triangles of all pieces, with the program and its state bound by the caller.
   // `only`: one piece.
   void draw(GLuint positions, bool meshesAsLines = false, std::optional<std::size_t> only = {});
+  // The same, of every second row and column where a piece is a whole grid: a quarter of the triangles.
+  void drawCoarsely(GLuint positions);
   // The edge of cloth that is thick, of which draw() is the sides: after computeNormals(). Made when it is
   // first asked for.
   void computeRim(const gl::Program& program, GLuint positions);
@@ -58,10 +64,13 @@ class ClothMesh {
     gl::Buffer<shared::ClothPiece> block;
     GLuint columns, rows, firstParticle, particles;
     gl::Buffer<std::uint32_t> neighbours;  // of a mesh: meshNeighbours()
+    gl::BufferTexture neighboursTexture{};
     std::size_t firstIndex = 0, indexCount = 0;
+    std::size_t firstCoarseIndex = 0, coarseIndexCount = 0;  // 0: it has none
     shared::ClothPiece values{};
     [[nodiscard]] bool isMesh() const { return neighbours.size() > 0; }
   };
+  void attach(GLuint positions);
   void makeRim();
   void setNeighbours(const Cloth& cloth, const SpringLists& lists);
   void setTriangles(const std::vector<std::array<std::uint32_t, 3>>& triangles);
@@ -71,6 +80,7 @@ class ClothMesh {
   gl::Buffer<std::uint32_t> indices_;
   gl::Buffer<std::uint32_t> cuts_;
   gl::Buffer<std::array<float, 2>> textureCoordinates_;
+  gl::BufferTexture positionsTexture_;  // of the buffer that is measured
   std::optional<ClothRim> rim_;
   gl::VertexArray vertices_;
 };

@@ -17,7 +17,8 @@ constexpr GLenum exposureFormat = GL_RGBA16F;  // the same of an exposure, witho
 constexpr float planeDepthUnits = 256;  // 2e-6 of the distance each (Camera::projection, 24 bits of depth)
 constexpr std::uint32_t MOST_CUT_STEPS = 2;
 constexpr double MOST_VERTEX_DISTANCE = 12, MOST_THREAD_SPACING = 1;  // where vertices are lit [pixels]
-constexpr double MOST_PLAIN_DISTANCE = 60;                            // the same but for shadows and shine
+constexpr double MOST_COARSE_CASTER = 6;       // longest side of cloth that casts shadows coarsely [texels]
+constexpr double MOST_PLAIN_DISTANCE = 60;     // the same but for shadows and shine
 constexpr std::size_t mostReadBack = 300'000;  // particles for which it pays to ask what has changed
 
 // The longest side of a triangle of cloth: the diagonal of a cell [m].
@@ -56,6 +57,7 @@ Renderer::Parts::Parts(const Shared<Cloth>& drawn, const Shared<Scene>& first, c
       looks(looksOf(*scene, options.thick)),
       model(looks.front().model),
       programs(model, first->render, options.samples),
+      isSoftware(gl::currentContextInfo().software),
       clothMesh(*cloth),
       colliders(wanted.sphereSegmentsAround, wanted.sphereSegmentsDown, longestEdge(*cloth)),
       shadowMap(wanted.shadowMapSize) {
@@ -275,6 +277,8 @@ void Renderer::Parts::drawCasters(GLuint positions) {
   programs.clothShadow.bind();
   if (model.displaces)  // by heights that differ from cloth to cloth
     drawSurface(positions, [](const PieceLook&) {});
+  else if (castsCoarsely())
+    clothMesh.drawCoarsely(positions);
   else
     drawPieces(positions, smoothly, false, {});
   // A solid's far side alone: its near side would shade itself by rounding.
@@ -282,6 +286,13 @@ void Renderer::Parts::drawCasters(GLuint positions) {
   glCullFace(GL_FRONT);
   colliders.drawSolids(programs.sphereShadow, programs.shapeShadow);
   glDisable(GL_CULL_FACE);
+}
+
+// To a software renderer small triangles cost as much as large ones. The map is read so far off the cloth
+// (shadow_place.glsl) that what lies between the rows does not shade it.
+bool Renderer::Parts::castsCoarsely() const {
+  return options.lightsVertices && !smooth && !drawsThick() && !isExposed() &&
+         longestEdge(*cloth) < MOST_COARSE_CASTER * static_cast<double>(shadowMap.texelLength());
 }
 
 // Casters are drawn by `shadowFromWorld`, whichever map they go to.
@@ -346,10 +357,12 @@ ClothLight Renderer::Parts::lightOf(const PieceLook& look) const {
 }
 
 void Renderer::Parts::drawCloth(GLuint positions) {
-  // Plain light costs less than the depth of what hides it.
-  const bool isPlain = std::all_of(looks.begin(), looks.end(),
-                                   [&](const PieceLook& look) { return lightOf(look) == ClothLight::plain; });
-  if (!model.blends && !isPlain) {
+  // Light at vertices costs less than the depth of what hides it.
+  const bool isCheap = std::all_of(looks.begin(), looks.end(), [&](const PieceLook& look) {
+    const ClothLight light = lightOf(look);
+    return light == ClothLight::plain || light == ClothLight::atVertices;
+  });
+  if (!model.blends && !isCheap) {
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     programs.clothDepth.bind();
     drawSurface(positions, [](const PieceLook&) {});
@@ -460,19 +473,22 @@ void Renderer::Parts::resolveInto(GLuint destination, int width, int height, con
 }
 
 // Only what has changed: copying what is kept costs a tenth of filtering it.
-void Renderer::Parts::stretch() const {
+void Renderer::Parts::stretch() {
   const gl::FramebufferFormat &from = finished.format(), &to = stretched.format();
+  PixelRect changed{0, 0, to.width, to.height};
   if (part) {
-    const auto scaled = [](int at, int size, int toSize) {
-      return static_cast<int>(static_cast<std::int64_t>(at) * toSize / size);
-    };
     // A pixel more on all sides, for the filter.
-    const int left = scaled(part->picture.left - 1, from.width, to.width),
-              bottom = scaled(part->picture.bottom - 1, from.height, to.height);
-    glEnable(GL_SCISSOR_TEST);
-    glScissor(left, bottom, scaled(part->picture.right + 1, from.width, to.width) + 1 - left,
-              scaled(part->picture.top + 1, from.height, to.height) + 1 - bottom);
+    const auto scaled = [](int at, int size, int toSize) {
+      return std::clamp(static_cast<int>(static_cast<std::int64_t>(at) * toSize / size), 0, toSize);
+    };
+    changed = {scaled(part->picture.left - 1, from.width, to.width),
+               scaled(part->picture.bottom - 1, from.height, to.height),
+               scaled(part->picture.right + 2, from.width, to.width),
+               scaled(part->picture.top + 2, from.height, to.height)};
   }
+  if (isSoftware) return stretcher.run(finished, stretched, changed);
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(changed.left, changed.bottom, changed.width(), changed.height());
   glBlitNamedFramebuffer(finished.name(), stretched.name(), 0, 0, from.width, from.height, 0, 0, to.width,
                          to.height, GL_COLOR_BUFFER_BIT, GL_LINEAR);
   glDisable(GL_SCISSOR_TEST);

@@ -19,6 +19,7 @@
 #include "render/shadow_map.h"
 #include "render/smooth_surface.h"
 #include "render/stage.h"
+#include "render/stretch.h"
 
 namespace clothsim {
 
@@ -60,6 +61,7 @@ struct Renderer::Parts {
   [[nodiscard]] bool drawsThick() const { return frame.thickness > 0; }
   void drawShadows(GLuint positions);
   void drawCasters(GLuint positions);
+  [[nodiscard]] bool castsCoarsely() const;
   void drawSkyShadows(GLuint positions);
   void drawScene(GLuint positions);
   void drawPlanes(const gl::Program& program);
@@ -76,7 +78,7 @@ struct Renderer::Parts {
   void layBackdrop();
   [[nodiscard]] PixelRect drawnPart() const;  // of the canvas
   void show(GLuint destination, int width, int height) const;
-  void stretch() const;
+  void stretch();
 
   Shared<Cloth> cloth;
   Cuts cuts;
@@ -91,6 +93,7 @@ struct Renderer::Parts {
 
   RenderPrograms programs;
   ModelTextures textures;
+  bool isSoftware;  // the renderer is the processor
   ClothMesh clothMesh;
   std::vector<float> thickness;         // of each piece as it is drawn [m]
   bool lightsVertices = false;          // of the cloth, which is fine enough for that
@@ -110,6 +113,7 @@ struct Renderer::Parts {
   double scale = 1;
   gl::Framebuffer canvas, backdrop;
   Edges edges;
+  Stretch stretcher;
   gl::Framebuffer finished, stretched;    // as the screen shows it; of a scale below 1 before and after it
   glm::mat4 middleClipFromWorld{1};       // of the picture, whatever its exposures shift
   std::optional<glm::mat4> backdropSeen;  // from where the backdrop was drawn

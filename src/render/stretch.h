@@ -1,0 +1,34 @@
+// A picture in more pixels, by the processor: what a software renderer would do through its shaders in four
+// times as long.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "gl/framebuffer.h"
+#include "render/changed_area.h"
+
+namespace clothsim {
+
+struct PictureSize {
+  int width = 0, height = 0;  // [pixels], > 0
+};
+
+// Between two pictures of four bytes a pixel, row by row from the bottom: each pixel of `part` of the larger
+// one is mixed from the four of the smaller one around it, by their distances, as GL_LINEAR does. `into` has
+// the pixels of `part` alone.
+void stretchPixels(std::span<const std::uint8_t> from, PictureSize fromSize, PictureSize toSize,
+                   const PixelRect& part, std::span<std::uint8_t> into);
+
+// From one framebuffer of GL_RGBA8 to another one, through memory.
+class Stretch {
+ public:
+  // `part` [pixels of `to`] is all that changes.
+  void run(const gl::Framebuffer& from, const gl::Framebuffer& to, const PixelRect& part);
+
+ private:
+  std::vector<std::uint8_t> small_, large_;
+};
+
+}  // namespace clothsim
