@@ -22,7 +22,7 @@ constexpr float panelsFrom =
 constexpr double quickPicture = 0.015;         // takes so long at most [s]
 constexpr double slowSeconds = 2.5;            // after which remedies are tried
 constexpr double longestWait = 0.25;           // for input [s]: notices disappear
-constexpr double mostSimulationSeconds = 0.1;  // between two pictures, where a frame takes less
+constexpr double mostSimulationSeconds = 0.05;  // between two pictures, where a frame takes less
 
 }  // namespace
 
