@@ -11,7 +11,8 @@ class Pace {
  public:
   explicit Pace(double frameSeconds) : frameSeconds_(frameSeconds) {}  // simulated time of one frame [s]
 
-  // The number of frames to simulate now, `elapsed` [s] after the last call.
+  // The number of frames to simulate now, `elapsed` [s] after the last call. `displayWaits`: the next picture
+  // is not drawn before they are done.
   [[nodiscard]] int framesDue(double elapsed, bool displayWaits = true) {
     owed_ += elapsed;
     const double due = owed_ / frameSeconds_;

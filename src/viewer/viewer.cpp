@@ -19,9 +19,9 @@ namespace {
 
 constexpr float panelsFrom =
     54;  // width of the window in em from which the panels are open at the first start
-constexpr double quickPicture = 0.015;         // takes so long at most [s]
-constexpr double slowSeconds = 2.5;            // after which remedies are tried
-constexpr double longestWait = 0.25;           // for input [s]: notices disappear
+constexpr double quickPicture = 0.015;          // takes so long at most [s]
+constexpr double slowSeconds = 2.5;             // after which remedies are tried
+constexpr double longestWait = 0.25;            // for input [s]: notices disappear
 constexpr double mostSimulationSeconds = 0.05;  // between two pictures, where a frame takes less
 
 }  // namespace
