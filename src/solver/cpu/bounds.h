@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 
 #include "solver/cpu/vectors.h"
@@ -18,10 +19,20 @@ template <class Real>
 INLINE Bounds<Real> joined(const Bounds<Real>& a, const Bounds<Real>& b) {
   return {b.low < a.low ? b.low : a.low, a.high < b.high ? b.high : a.high};
 }
+// Of four comparisons a bit each.
+template <class Comparisons>
+INLINE std::uint32_t bitsOfFour(Comparisons c) {
+#ifdef __SSE__
+  if constexpr (sizeof(c) == 16)
+    return static_cast<std::uint32_t>(__builtin_ia32_movmskps(reinterpret_cast<VectorsOf<float>::Four>(c)));
+#endif
+  std::uint32_t bits = 0;
+  for (int k = 0; k < 4; ++k) bits |= c[k] != 0 ? 1u << k : 0u;
+  return bits;
+}
 template <class Real>
 INLINE bool overlap(const Bounds<Real>& a, const Bounds<Real>& b) {
-  const auto meet = (a.low <= b.high) & (b.low <= a.high);
-  return (meet[0] & meet[1] & meet[2]) != 0;
+  return (bitsOfFour((a.low <= b.high) & (b.low <= a.high)) & 7u) == 7u;
 }
 
 // Four boxes by axis; at the beginning nothing overlaps them.

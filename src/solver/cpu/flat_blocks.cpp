@@ -63,16 +63,19 @@ auto FlatBlocks<Real>::aroundOf(const std::vector<SurfaceBlock>& blocks, std::ui
 
 template <class Real>
 void FlatBlocks<Real>::update(const ClothSurface<Real>& surface, const Components<Real>& starts,
-                              const Components<Real>& ends, Real reach) {
+                              const Components<Real>& ends, Real reach, Real sureReach) {
   const std::vector<SurfaceBlock>& blocks = surface.blocks;
   const auto count = static_cast<std::uint32_t>(blocks.size());
   sides_.resize(count);
   isFlat_.resize(count);
+  isSurelyFlat_.resize(count);
   isAllFlat_ = false;
   ThreadTeam::shared().forEach(0, count, FLAT_BLOCKS_AT_ONCE,
                                [&](std::uint32_t i) { sides_[i] = sidesOf(blocks[i], starts, ends); });
   ThreadTeam::shared().forEach(0, count, FLAT_BLOCKS_AT_ONCE, [&](std::uint32_t i) {
-    isFlat_[i] = isFlat(blocks[i], aroundOf(blocks, i), reach) ? 1 : 0;
+    const Sides around = aroundOf(blocks, i);
+    isFlat_[i] = isFlat(blocks[i], around, reach) ? 1 : 0;
+    isSurelyFlat_[i] = isFlat(blocks[i], around, sureReach) ? 1 : 0;
   });
   if (!surface.isOneGrid) return;
   Sides all = sides_[0];

@@ -13,16 +13,24 @@ template <class Real>
 class FlatBlocks {
  public:
   // While the cloth moves from `starts` to `ends`: where are parts that have no particle in common farther
-  // apart than `reach`?
+  // apart than `reach`? And where for sure: farther than `sureReach`, the larger one.
   void update(const ClothSurface<Real>& surface, const Components<Real>& starts, const Components<Real>& ends,
-              Real reach);
+              Real reach, Real sureReach);
   // The same block, or neighbours, which are flat together.
   [[nodiscard]] bool areFlat(const ClothSurface<Real>& surface, std::uint32_t triangle,
                              std::uint32_t other) const {
+    return areFlatIn(surface, isFlat_, triangle, other);
+  }
+  // The same, with what is said to be flat, by block: 0 or not.
+  [[nodiscard]] static bool areFlatIn(const ClothSurface<Real>& surface,
+                                      const std::vector<std::uint8_t>& isFlat, std::uint32_t triangle,
+                                      std::uint32_t other) {
     const std::uint32_t block = surface.triangles[triangle].block;
-    return block != NO_BLOCK && isFlat_[block] != 0 &&
+    return block != NO_BLOCK && isFlat[block] != 0 &&
            areNeighbors(surface.blocks, block, surface.triangles[other].block);
   }
+  [[nodiscard]] const std::vector<std::uint8_t>& isFlat() const { return isFlat_; }
+  [[nodiscard]] const std::vector<std::uint8_t>& isSurelyFlat() const { return isSurelyFlat_; }
   // The cloth is one grid, which is flat as a whole.
   [[nodiscard]] bool isAllFlat() const { return isAllFlat_; }
 
@@ -46,7 +54,7 @@ class FlatBlocks {
   [[nodiscard]] Sides aroundOf(const std::vector<SurfaceBlock>& blocks, std::uint32_t block) const;
 
   std::vector<Sides> sides_;
-  std::vector<std::uint8_t> isFlat_;
+  std::vector<std::uint8_t> isFlat_, isSurelyFlat_;
   bool isAllFlat_ = false;
 };
 

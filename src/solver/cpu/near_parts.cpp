@@ -45,35 +45,62 @@ void NearParts<Real>::makeCovers(const ClothSurface<Real>& surface, const Surfac
   for (std::size_t i = 0; i < surface.triangles.size(); ++i)
     covers_.triangles[i] = joined(covers_.triangles[i], boxes.triangles[i]);
   SurfaceSearch<Real>::growTree(surface, covers_.triangles);
+  children_.assign((surface.triangles.size() + BOX_CHILDREN - 1) / BOX_CHILDREN, {});
+  for (std::size_t i = 0; i < surface.triangles.size(); ++i)
+    children_[i / BOX_CHILDREN].set(i % BOX_CHILDREN, covers_.triangles[i]);
 }
 
 template <class Real>
-bool NearParts<Real>::update(const ClothSurface<Real>& surface, const SurfaceBoxes<Real>& boxes,
-                             Vec3<Real> origin, Real more) {
-  if (covers(boxes.particles, fourOf(origin - origin_))) return false;
-  origin_ = origin;
-  makeCovers(surface, boxes, more);
+bool NearParts<Real>::areStillFlat(const FlatBlocks<Real>& flat) const {
+  for (std::size_t block = 0; block < leftOut_.size(); ++block)
+    if (leftOut_[block] > flat.isFlat()[block]) return false;
+  return true;
+}
+
+template <class Real>
+template <class Belongs>
+void NearParts<Real>::makeList(const ClothSurface<Real>& surface, List& list, Belongs belongs) const {
   const auto triangles = static_cast<std::uint32_t>(surface.triangles.size()),
              chunks = (triangles + TRIANGLES - 1) / TRIANGLES;
   const SurfaceSearch<Real> search{surface, covers_.triangles};
-  parts_.resize(chunks);
-  ends_.resize(triangles);
-  isTooLong_.resize(chunks);
+  list.parts.resize(chunks);
+  list.ends.resize(triangles);
+  list.isTooLong.resize(chunks);
   ThreadTeam::shared().forEach(0, chunks, 1, [&](std::uint32_t chunk) {
-    std::vector<Parts>& found = parts_[chunk];
+    std::vector<Parts>& found = list.parts[chunk];
     found.clear();
     const std::uint32_t first = chunk * TRIANGLES, end = std::min(first + TRIANGLES, triangles);
     std::vector<std::uint32_t> nearGroups;
     for (std::uint32_t i = first; i < end && found.size() <= MOST; i += BOX_CHILDREN)
       search.forEachPairOfGroup(
-          i / BOX_CHILDREN, covers_, nearGroups,
+          i / BOX_CHILDREN, covers_, children_, nearGroups, belongs,
           [&](const Parts& parts) {
             if (found.size() <= MOST) found.push_back(parts);
           },
-          [&](std::uint32_t triangle) { ends_[triangle] = static_cast<std::uint32_t>(found.size()); });
-    isTooLong_[chunk] = found.size() > MOST ? 1 : 0;
+          [&](std::uint32_t triangle) { list.ends[triangle] = static_cast<std::uint32_t>(found.size()); });
+    list.isTooLong[chunk] = found.size() > MOST ? 1 : 0;
   });
+}
+
+template <class Real>
+bool NearParts<Real>::update(const ClothSurface<Real>& surface, const SurfaceBoxes<Real>& boxes,
+                             Vec3<Real> origin, Real more, const FlatBlocks<Real>& flat) {
+  if (covers(boxes.particles, fourOf(origin - origin_)) && areStillFlat(flat)) return false;
+  origin_ = origin;
+  makeCovers(surface, boxes, more);
+  leftOut_ = flat.isSurelyFlat();
+  makeList(surface, near_,
+           [&](std::uint32_t triangle, std::uint32_t other) { return !isLeftOut(surface, triangle, other); });
+  hasFlat_ = false;
   return true;
+}
+
+template <class Real>
+void NearParts<Real>::listFlat(const ClothSurface<Real>& surface) {
+  if (hasFlat_) return;
+  makeList(surface, flat_,
+           [&](std::uint32_t triangle, std::uint32_t other) { return isLeftOut(surface, triangle, other); });
+  hasFlat_ = true;
 }
 
 template class NearParts<float>;

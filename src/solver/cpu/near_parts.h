@@ -1,4 +1,4 @@
-// Which parts of the surface are near each other: a list that is kept while the cloth moves little (Verlet,
+// Which parts of the surface are near each other: lists that are kept while the cloth moves little (Verlet,
 // "Computer experiments on classical fluids I", 1967). The GPU looks for them in every step and finds the
 // same, in the same order.
 #pragma once
@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "solver/cpu/flat_blocks.h"
 #include "solver/cpu/surface_search.h"
 
 namespace clothsim::cpu {
@@ -15,40 +16,75 @@ class NearParts {
  public:
   // Before the first update() of a surface.
   void clear() { covers_.particles.clear(); }
-  // Lists the pairs of parts whose boxes meet, and those that are nearly so near: the list is made again when
-  // a particle's box has left the one that it was made with, which is larger by `more` to each side [m].
-  // `origin`: where the cloth is as a whole; that it moves as one is no reason to. Says whether it was made.
+  // Lists the pairs of parts whose boxes meet, and those that are nearly so near, but not those where the
+  // cloth is surely flat. The list is made again when some of these are no longer flat, and when a particle's
+  // box has left the one that it was made with, which is larger by `more` to each side [m]. `origin`: where
+  // the cloth is as a whole; that it moves as one is no reason to. Says whether it was made.
   bool update(const ClothSurface<Real>& surface, const SurfaceBoxes<Real>& boxes, Vec3<Real> origin,
-              Real more);
+              Real more, const FlatBlocks<Real>& flat);
+  // Lists those where the cloth is surely flat, too, if update() has made new lists since.
+  void listFlat(const ClothSurface<Real>& surface);
   // visit(parts) for those of a triangle in the order of the tree, until it says no. Among them are all whose
-  // boxes meet.
+  // boxes meet where the cloth is not flat.
   template <class Visit>
   void forEachPair(const ClothSurface<Real>& surface, std::uint32_t triangle, Visit visit) const {
-    const std::uint32_t chunk = triangle / TRIANGLES;
-    if (isTooLong_[chunk] != 0) {
-      bool goesOn = true;
-      SurfaceSearch<Real>{surface, covers_.triangles}.forEachPair(
-          triangle, covers_, [&](const Parts& parts) { goesOn = goesOn && visit(parts); });
-      return;
-    }
-    const std::vector<Parts>& parts = parts_[chunk];
-    for (std::uint32_t n = triangle % TRIANGLES == 0 ? 0 : ends_[triangle - 1]; n < ends_[triangle]; ++n)
-      if (!visit(parts[n])) return;
+    forEachIn(near_, surface, triangle, visit,
+              [&](const Parts& parts) { return !isLeftOut(surface, parts); });
+  }
+  // visit(parts) for the others, which listFlat() has listed.
+  template <class Visit>
+  void forEachFlatPair(const ClothSurface<Real>& surface, std::uint32_t triangle, Visit visit) const {
+    forEachIn(flat_, surface, triangle, visit, [&](const Parts& parts) { return isLeftOut(surface, parts); });
   }
 
   static constexpr std::uint32_t TRIANGLES = 64;        // that a thread takes at once
   static constexpr std::size_t MOST = 128 * TRIANGLES;  // pairs that are listed for them
 
  private:
-  [[nodiscard]] bool covers(const std::vector<Bounds<Real>>& particles, Four<Real> shift) const;
-  void makeCovers(const ClothSurface<Real>& surface, const SurfaceBoxes<Real>& boxes, Real more);
+  struct List {
+    std::vector<std::vector<Parts>> parts;  // of TRIANGLES each
+    std::vector<std::uint32_t> ends;        // of a triangle's in them
+    // Where a list would take too much memory, it is not used, and parts are looked for each time.
+    std::vector<std::uint8_t> isTooLong;
+  };
 
-  SurfaceBoxes<Real> covers_;              // its triangles are those of a tree
-  Vec3<Real> origin_{};                    // when they were made
-  std::vector<std::vector<Parts>> parts_;  // of TRIANGLES each
-  std::vector<std::uint32_t> ends_;        // of a triangle's in them
-  // Where a list would take too much memory, it is not used, and parts are looked for each time.
-  std::vector<std::uint8_t> isTooLong_;
+  [[nodiscard]] bool covers(const std::vector<Bounds<Real>>& particles, Four<Real> shift) const;
+  [[nodiscard]] bool areStillFlat(const FlatBlocks<Real>& flat) const;
+  void makeCovers(const ClothSurface<Real>& surface, const SurfaceBoxes<Real>& boxes, Real more);
+  // Lists the pairs of triangles that belongs(triangle, other).
+  template <class Belongs>
+  void makeList(const ClothSurface<Real>& surface, List& list, Belongs belongs) const;
+  [[nodiscard]] bool isLeftOut(const ClothSurface<Real>& surface, std::uint32_t triangle,
+                               std::uint32_t other) const {
+    return FlatBlocks<Real>::areFlatIn(surface, leftOut_, triangle, other);
+  }
+  // Of two triangles the first looks for the parts of both, whichever of them a part is of.
+  [[nodiscard]] bool isLeftOut(const ClothSurface<Real>& surface, const Parts& parts) const {
+    return isLeftOut(surface, std::min(parts.first, parts.second), std::max(parts.first, parts.second));
+  }
+  template <class Visit, class Belongs>
+  void forEachIn(const List& list, const ClothSurface<Real>& surface, std::uint32_t triangle, Visit& visit,
+                 Belongs belongs) const {
+    const std::uint32_t chunk = triangle / TRIANGLES;
+    if (list.isTooLong[chunk] != 0) {
+      bool goesOn = true;
+      SurfaceSearch<Real>{surface, covers_.triangles}.forEachPair(triangle, covers_, [&](const Parts& parts) {
+        goesOn = goesOn && (!belongs(parts) || visit(parts));
+      });
+      return;
+    }
+    const std::vector<Parts>& parts = list.parts[chunk];
+    for (std::uint32_t n = triangle % TRIANGLES == 0 ? 0 : list.ends[triangle - 1]; n < list.ends[triangle];
+         ++n)
+      if (!visit(parts[n])) return;
+  }
+
+  SurfaceBoxes<Real> covers_;               // its triangles are those of a tree
+  std::vector<FourBounds<Real>> children_;  // triangles, by their box in the tree
+  Vec3<Real> origin_{};                     // when they were made
+  std::vector<std::uint8_t> leftOut_;       // blocks that were surely flat then
+  List near_, flat_;
+  bool hasFlat_ = false;  // flat_ is of these covers
 };
 
 extern template class NearParts<float>;

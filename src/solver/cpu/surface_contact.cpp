@@ -13,6 +13,8 @@ namespace {
 // By how much of the margin the list of near parts looks farther than a step: lists last longer, and are
 // longer.
 constexpr double MORE_THAN_NEAR = 0.25;
+// It leaves out what is flat for so many times the distance in which parts may touch: then it lasts, too.
+constexpr double SURELY_FLAT = 1.2;
 
 // A smaller number among those that threads bring to the same place.
 template <class Number>
@@ -66,21 +68,32 @@ void SurfaceContact<Real>::boxParticles(const Components<Real>& starts, Real aro
 
 template <class Real>
 void SurfaceContact<Real>::listNear(const Components<Real>& starts) {
-  nearParts_.update(surface_, boxes_, meanOf(starts), static_cast<Real>(MORE_THAN_NEAR) * surface_.margin);
+  nearParts_.update(surface_, boxes_, meanOf(starts), static_cast<Real>(MORE_THAN_NEAR) * surface_.margin,
+                    flatBlocks_);
+}
+
+template <class Real>
+void SurfaceContact<Real>::findFlat(const Components<Real>& starts, const Components<Real>& ends,
+                                    Real reach) {
+  flatBlocks_.update(surface_, starts, ends, reach, static_cast<Real>(SURELY_FLAT) * surface_.touchingReach);
 }
 
 // test(parts, nearest) for the pairs of parts that a triangle looks for: their boxes meet, and the cloth is
-// not flat there, areFlat(triangle, other). test() says whether to go on.
+// not flat there, or flat parts are looked at, too. test() says whether to go on.
 template <class Real>
-template <class AreFlat, class Test>
+template <bool looksAtFlat, class Test>
 void SurfaceContact<Real>::forEachPair(std::uint32_t triangle, const Components<Real>& starts,
-                                       AreFlat areFlat, Test test) const {
-  nearParts_.forEachPair(surface_, triangle, [&](const Parts& parts) {
-    if (!overlap(boxes_.triangles[parts.first], boxes_.triangles[parts.second]) || !boxes_.meet(parts) ||
-        areFlat(triangle, parts.first == triangle ? parts.second : parts.first))
+                                       Test test) const {
+  const auto visit = [&](const Parts& parts) {
+    if (!overlap(boxes_.triangles[parts.first], boxes_.triangles[parts.second]) || !boxes_.meet(parts))
       return true;
+    if constexpr (!looksAtFlat)
+      if (flatBlocks_.areFlat(surface_, triangle, parts.first == triangle ? parts.second : parts.first))
+        return true;
     return test(parts, nearestOf<Real>(parts, starts));
-  });
+  };
+  nearParts_.forEachPair(surface_, triangle, visit);
+  if constexpr (looksAtFlat) nearParts_.forEachFlatPair(surface_, triangle, visit);
 }
 
 template <class Real>
@@ -98,8 +111,7 @@ void SurfaceContact<Real>::findTouching(const CpuState<Real>& before, ImplicitSt
       std::fill_n(c->data(), c->size(), Real(0));
   // Small colliders find flat cloth, too.
   if (surface_.touchesItself)
-    flatBlocks_.update(surface_, starts, isLater ? starts : implicit.iterate.positions,
-                       surface_.touchingReach);
+    findFlat(starts, isLater ? starts : implicit.iterate.positions, surface_.touchingReach);
   const bool mayTouchItself = surface_.touchesItself && !flatBlocks_.isAllFlat();
   if (mayTouchItself) {
     shift_ = meanOf(motions_);
@@ -107,7 +119,6 @@ void SurfaceContact<Real>::findTouching(const CpuState<Real>& before, ImplicitSt
     boxes_.joinTriangles(surface_);
     listNear(starts);
   }
-  const auto areFlat = [&](std::uint32_t a, std::uint32_t b) { return flatBlocks_.areFlat(surface_, a, b); };
   foundPairs_.resize(chunks);
   ThreadTeam::shared().forEach(0, chunks, 1, [&](std::uint32_t chunk) {
     std::vector<SurfacePair<Real>>& found = foundPairs_[chunk];
@@ -117,7 +128,7 @@ void SurfaceContact<Real>::findTouching(const CpuState<Real>& before, ImplicitSt
     for (std::uint32_t i = first; i < std::min(first + NearParts<Real>::TRIANGLES, triangles); ++i) {
       const std::size_t most = found.size() + MOST_PAIRS_A_TRIANGLE;
       if (mayTouchItself)
-        forEachPair(i, starts, areFlat, [&](const Parts& parts, const auto& nearest) {
+        forEachPair<false>(i, starts, [&](const Parts& parts, const auto& nearest) {
           const SurfacePair<Real> pair = pairOf(surface_, parts, nearest, starts, implicit, isLater);
           if (pair.stiffness > Real(0)) found.push_back(pair);
           return found.size() <= most;
@@ -255,35 +266,32 @@ void SurfaceContact<Real>::guard(const CpuState<Real>& before, CpuState<Real>& a
   }
   // Whatever the first rounds move, the first of the others looks at everything again.
   if (round == 0)
-    flatBlocks_.update(surface_, starts, after.positions,
-                       static_cast<Real>(LEAST_GAPS_OF_FLAT) * surface_.leastGap);
+    findFlat(starts, after.positions, static_cast<Real>(LEAST_GAPS_OF_FLAT) * surface_.leastGap);
   const bool looksAtFlat = round >= CORRECTION_ROUNDS;
   if (!looksAtFlat && flatBlocks_.isAllFlat()) return;
   if (round == 0) shift_ = meanOf(motions_);
   if (round <= CORRECTION_ROUNDS) boxParticles(starts, surface_.leastGap);
   if (round == 0 || round == CORRECTION_ROUNDS) boxes_.joinTriangles(surface_);
   if (round <= CORRECTION_ROUNDS) listNear(starts);
+  if (looksAtFlat) nearParts_.listFlat(surface_);
   const bool corrects = round < CORRECTION_ROUNDS, all = round + 1 == GUARD_ROUNDS;
-  const auto areFlat = [&](std::uint32_t a, std::uint32_t b) {
-    return !looksAtFlat && flatBlocks_.areFlat(surface_, a, b);
+  const auto look = [&](const Parts& parts, const auto& nearest) {
+    const Sides sides = sidesOf(parts, nearest.way, starts);
+    const Real width = larger(widthOf(sides), Real(0)),
+               least = corrects ? surface_.leastGap : SurfaceLaws<Real>::leastOf(width, surface_.leastGap);
+    if (!all && !isTooNear(parts, sides, least)) return true;
+    const Sides sliding = sidesOf(parts, acrossBoth(parts, nearest.way, starts), starts);
+    if (!all && !isTooNear(parts, sliding, least)) return true;
+    if (!all && !turnsTooNear(parts, nearest.way, starts, least)) return true;
+    std::atomic_ref(state_.tooNear[round]).store(1, std::memory_order_relaxed);
+    if (corrects)
+      pushApart(parts, nearest.way, after.positions, least, inverseMasses);
+    else
+      keepToSides(parts, widthOf(sliding) > Real(0.5) * width ? sliding : sides);
+    return true;
   };
   ThreadTeam::shared().forEach(0, triangles, NearParts<Real>::TRIANGLES, [&](std::uint32_t i) {
-    forEachPair(i, starts, areFlat, [&](const Parts& parts, const auto& nearest) {
-      const Sides sides = sidesOf(parts, nearest.way, starts);
-      const Real width = larger(widthOf(sides), Real(0)),
-                 least = corrects ? surface_.leastGap : SurfaceLaws<Real>::leastOf(width, surface_.leastGap);
-      if (!all && !isTooNear(parts, sides, least)) return true;
-      const Sides sliding = sidesOf(parts, acrossBoth(parts, nearest.way, starts), starts);
-      if (!all && !isTooNear(parts, sliding, least)) return true;
-      if (!all && !turnsTooNear(parts, nearest.way, starts, least)) return true;
-      std::atomic_ref(state_.tooNear[round]).store(1, std::memory_order_relaxed);
-      if (corrects) {
-        pushApart(parts, nearest.way, after.positions, least, inverseMasses);
-        return true;
-      }
-      keepToSides(parts, widthOf(sliding) > Real(0.5) * width ? sliding : sides);
-      return true;
-    });
+    looksAtFlat ? forEachPair<true>(i, starts, look) : forEachPair<false>(i, starts, look);
   });
   if (corrects)
     correct(after, step, inverseMasses);

@@ -46,8 +46,9 @@ class SurfaceContact {
 
   void boxParticles(const Components<Real>& starts, Real around);
   void listNear(const Components<Real>& starts);
-  template <class AreFlat, class Test>
-  void forEachPair(std::uint32_t triangle, const Components<Real>& starts, AreFlat areFlat, Test test) const;
+  void findFlat(const Components<Real>& starts, const Components<Real>& ends, Real reach);
+  template <bool looksAtFlat, class Test>
+  void forEachPair(std::uint32_t triangle, const Components<Real>& starts, Test test) const;
   void findTouching(const CpuState<Real>& before, ImplicitState<Real>& implicit,
                     const PassArguments<Real>& arguments);
   void settle(const CpuState<Real>& before, const CpuState<Real>& after, ImplicitState<Real>& implicit);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -109,61 +110,91 @@ struct SurfaceSearch {
   // a particle that is in both, where the boxes meet.
   template <class Visit>
   void forEachPair(std::uint32_t triangle, const SurfaceBoxes<Real>& boxes, Visit visit) const {
-    forEachNeighbor(triangle, [&](std::uint32_t neighbor) { forEachPair(triangle, neighbor, boxes, visit); });
+    const BoxedTriangle own(surface, boxes, triangle);
+    forEachNeighbor(triangle, [&](std::uint32_t neighbor) {
+      forEachPair(own, {surface, boxes, neighbor}, visit);
+    });
   }
 
   // The same for triangles that have a box together, BOX_CHILDREN or fewer: they go through the tree as one.
-  // end(triangle) comes behind a triangle's pairs.
-  template <class Visit, class End>
+  // `children`: of each such box the boxes of its triangles. Of the triangles behind one, those that
+  // belongs(triangle, other). end(triangle) comes behind a triangle's pairs.
+  template <class Belongs, class Visit, class End>
   void forEachPairOfGroup(std::uint32_t group, const SurfaceBoxes<Real>& boxes,
-                          std::vector<std::uint32_t>& nearGroups, Visit visit, End end) const {
+                          const std::vector<FourBounds<Real>>& children,
+                          std::vector<std::uint32_t>& nearGroups, Belongs belongs, Visit visit,
+                          End end) const {
     const std::vector<std::uint32_t>& first = surface.firstBoxes;
     nearGroups.clear();
     if (first.size() > 2)
       walk(1, group, tree[first[1] + group], [&](std::uint32_t near) { nearGroups.push_back(near); });
-    const std::uint32_t own = BOX_CHILDREN * group, behind = std::min(own + BOX_CHILDREN, first[1]);
-    for (std::uint32_t triangle = own; triangle < behind; ++triangle) {
-      const Bounds<Real> box = tree[triangle];
+    const std::uint32_t firstOwn = BOX_CHILDREN * group, behind = std::min(firstOwn + BOX_CHILDREN, first[1]);
+    for (std::uint32_t triangle = firstOwn; triangle < behind; ++triangle) {
+      const BoxedTriangle own(surface, boxes, triangle);
       for (const std::uint32_t near : nearGroups) {
-        const std::uint32_t last = std::min(BOX_CHILDREN * (near + 1), first[1]);
-        for (std::uint32_t i = std::max(BOX_CHILDREN * near, triangle + 1); i < last; ++i)
-          if (overlap(box, tree[i])) forEachPair(triangle, i, boxes, visit);
+        std::uint32_t meet = bitsOfFour(overlap(children[near], own.box));
+        if (near == group) meet &= ~0u << (triangle - firstOwn + 1);
+        for (; meet != 0; meet &= meet - 1) {
+          const auto other = BOX_CHILDREN * near + static_cast<std::uint32_t>(std::countr_zero(meet));
+          if (belongs(triangle, other)) forEachPair(own, {surface, boxes, other}, visit);
+        }
       }
       end(triangle);
     }
   }
 
  private:
+  struct BoxedTriangle {
+    BoxedTriangle(const ClothSurface<Real>& surface, const SurfaceBoxes<Real>& boxes, std::uint32_t triangle)
+        : number(triangle),
+          corners(cornersOf(surface.triangles[triangle])),
+          owned(surface.triangles[triangle].owned),
+          box(boxes.triangles[triangle]) {
+      for (std::size_t k = 0; k < 3; ++k) cornerBoxes[k] = boxes.particles[corners[k]];
+    }
+    [[nodiscard]] bool has(std::uint32_t particle) const {
+      return particle == corners[0] || particle == corners[1] || particle == corners[2];
+    }
+    [[nodiscard]] bool ownsCorner(std::uint32_t k) const { return (owned >> k & 1u) != 0; }
+    [[nodiscard]] bool ownsSide(std::uint32_t k) const { return (owned >> (OWNED_SIDE + k) & 1u) != 0; }
+    [[nodiscard]] Bounds<Real> sideBox(std::uint32_t k) const {
+      return joined(cornerBoxes[k], cornerBoxes[(k + 1) % 3]);
+    }
+
+    std::uint32_t number;
+    std::array<std::uint32_t, 3> corners;
+    std::uint32_t owned;
+    Bounds<Real> box;
+    std::array<Bounds<Real>, 3> cornerBoxes;
+  };
+
   template <class Visit>
-  void forEachPair(std::uint32_t triangle, std::uint32_t neighbor, const SurfaceBoxes<Real>& boxes,
-                   Visit& visit) const {
-    const auto look = [&](const Parts& parts) {
-      if (boxes.meet(parts)) visit(parts);
-    };
-    forEachCorner(triangle, neighbor, look);
-    forEachCorner(neighbor, triangle, look);
-    forEachSide(triangle, neighbor, look);
+  static void forEachPair(const BoxedTriangle& triangle, const BoxedTriangle& neighbor, Visit& visit) {
+    forEachCorner(triangle, neighbor, visit);
+    forEachCorner(neighbor, triangle, visit);
+    forEachSide(triangle, neighbor, visit);
   }
   template <class Visit>
-  void forEachCorner(std::uint32_t from, std::uint32_t to, Visit& visit) const {
-    const auto mine = cornersOf(surface.triangles[from]), theirs = cornersOf(surface.triangles[to]);
+  static void forEachCorner(const BoxedTriangle& from, const BoxedTriangle& to, Visit& visit) {
+    const auto [a, b, c] = to.corners;
     for (std::uint8_t k = 0; k < 3; ++k) {
-      const std::uint32_t i = mine[k];
-      if ((surface.triangles[from].owned >> k & 1u) == 0) continue;
-      if (i == theirs[0] || i == theirs[1] || i == theirs[2]) continue;
-      visit(Parts{{i, theirs[0], theirs[1], theirs[2]}, from, to, false, k, 0});
+      const std::uint32_t i = from.corners[k];
+      if (from.ownsCorner(k) && !to.has(i) && overlap(from.cornerBoxes[k], to.box))
+        visit(Parts{{i, a, b, c}, from.number, to.number, false, k, 0});
     }
   }
   template <class Visit>
-  void forEachSide(std::uint32_t from, std::uint32_t to, Visit& visit) const {
-    const auto mine = cornersOf(surface.triangles[from]), theirs = cornersOf(surface.triangles[to]);
+  static void forEachSide(const BoxedTriangle& from, const BoxedTriangle& to, Visit& visit) {
     for (std::uint8_t k = 0; k < 3; ++k) {
-      if ((surface.triangles[from].owned >> (OWNED_SIDE + k) & 1u) == 0) continue;
-      const std::uint32_t p = mine[k], q = mine[(k + 1) % 3];
+      if (!from.ownsSide(k)) continue;
+      const Bounds<Real> side = from.sideBox(k);
+      if (!overlap(side, to.box)) continue;
+      const std::uint32_t p = from.corners[k], q = from.corners[(k + 1) % 3];
       for (std::uint8_t l = 0; l < 3; ++l) {
-        if ((surface.triangles[to].owned >> (OWNED_SIDE + l) & 1u) == 0) continue;
-        const std::uint32_t a = theirs[l], b = theirs[(l + 1) % 3];
-        if (a != p && a != q && b != p && b != q) visit(Parts{{p, q, a, b}, from, to, true, k, l});
+        if (!to.ownsSide(l)) continue;
+        const std::uint32_t a = to.corners[l], b = to.corners[(l + 1) % 3];
+        if (a != p && a != q && b != p && b != q && overlap(side, to.sideBox(l)))
+          visit(Parts{{p, q, a, b}, from.number, to.number, true, k, l});
       }
     }
   }

@@ -65,15 +65,46 @@ cpu::SurfaceBoxes<float> boxesAround(const ClothSurface<float>& surface, const S
   boxes.joinTriangles(surface);
   return boxes;
 }
-// The parts of a triangle whose boxes meet, by their numbers.
+cpu::FlatBlocks<float> flatBlocks(const ClothSurface<float>& surface, const State& state, float reach) {
+  Components<float> places;
+  places.resize(state.positions.size());
+  for (std::size_t i = 0; i < state.positions.size(); ++i) {
+    places.x[i] = state.positions[i].x;
+    places.y[i] = state.positions[i].y;
+    places.z[i] = state.positions[i].z;
+  }
+  cpu::FlatBlocks<float> flat;
+  flat.update(surface, places, places, reach, 1.2f * reach);
+  return flat;
+}
+constexpr float FAR = 1e3f;  // nothing is so flat that parts are farther apart [m]
+
+// The parts of a triangle whose boxes meet, by their numbers: where the cloth is not flat, or all.
 std::vector<std::uint32_t> meetingParts(const ClothSurface<float>& surface, const cpu::NearParts<float>& near,
-                                        std::uint32_t triangle, const cpu::SurfaceBoxes<float>& boxes) {
+                                        std::uint32_t triangle, const cpu::SurfaceBoxes<float>& boxes,
+                                        const cpu::FlatBlocks<float>* flat) {
   std::vector<std::uint32_t> found;
   near.forEachPair(surface, triangle, [&](const cpu::Parts& parts) {
-    if (boxes.meet(parts)) found.insert(found.end(), {parts.first, parts.second, parts.k, parts.l});
+    const std::uint32_t other = parts.first == triangle ? parts.second : parts.first;
+    if (boxes.meet(parts) && (flat == nullptr || !flat->areFlat(surface, triangle, other)))
+      found.insert(found.end(), {parts.first, parts.second, parts.k, parts.l});
     return true;
   });
   return found;
+}
+// How many the list of flat parts has, and how many numbers those have whose boxes meet.
+struct FlatParts {
+  std::size_t listed = 0, meeting = 0;
+};
+FlatParts countFlatParts(const ClothSurface<float>& surface, const cpu::NearParts<float>& near,
+                         std::uint32_t triangle, const cpu::SurfaceBoxes<float>& boxes) {
+  FlatParts count;
+  near.forEachFlatPair(surface, triangle, [&](const cpu::Parts& parts) {
+    ++count.listed;
+    count.meeting += boxes.meet(parts) ? 4 : 0;
+    return true;
+  });
+  return count;
 }
 
 TEST(NearParts, AreThoseOfANewListWhileTheListIsKept) {
@@ -83,10 +114,10 @@ TEST(NearParts, AreThoseOfANewListWhileTheListIsKept) {
   CpuSolver<float> solver(cloth, scene);
   cpu::NearParts<float> kept;
   int made = 0;
-  std::size_t parts = 0;
-  solver.step(35);
+  std::size_t parts = 0, flatParts = 0;
+  solver.step(10);
   State last = solver.state();
-  for (int part = 1; part <= 60; ++part) {  // of ten steps, in the midst of the fall
+  for (int part = 1; part <= 60; ++part) {  // of ten steps: flat at first, then it folds
     if (part % 6 == 1) {
       last = solver.state();
       solver.step(1);
@@ -99,18 +130,25 @@ TEST(NearParts, AreThoseOfANewListWhileTheListIsKept) {
       state.positions[i] = {x.x, x.y, x.z, 0};
     }
     const auto boxes = boxesAround(surface, state);
-    made += kept.update(surface, boxes, origin, surface.margin) ? 1 : 0;
+    const auto flat = flatBlocks(surface, state, surface.touchingReach);
+    made += kept.update(surface, boxes, origin, surface.margin, flat) ? 1 : 0;
+    kept.listFlat(surface);
     cpu::NearParts<float> fresh;
-    ASSERT_TRUE(fresh.update(surface, boxes, {}, 0));
+    ASSERT_TRUE(fresh.update(surface, boxes, {}, 0, flatBlocks(surface, state, FAR)));
     for (std::uint32_t i = 0; i < surface.triangles.size(); ++i) {
-      const auto expected = meetingParts(surface, fresh, i, boxes);
-      ASSERT_EQ(meetingParts(surface, kept, i, boxes), expected) << "triangle " << i << " at " << part;
+      const auto expected = meetingParts(surface, fresh, i, boxes, &flat);
+      ASSERT_EQ(meetingParts(surface, kept, i, boxes, &flat), expected) << "triangle " << i << " at " << part;
+      const FlatParts leftOut = countFlatParts(surface, kept, i, boxes);
+      ASSERT_EQ(meetingParts(surface, kept, i, boxes, nullptr).size() + leftOut.meeting,
+                meetingParts(surface, fresh, i, boxes, nullptr).size());
       parts += expected.size();
+      flatParts += leftOut.listed;
     }
   }
   EXPECT_GT(made, 3) << "the sheet moves farther than one list reaches";
   EXPECT_LT(made, 30);
   EXPECT_GT(parts, 1000u);
+  EXPECT_GT(flatParts, 1000u);
 }
 
 TEST(NearParts, AreFoundWhereListsWouldBeTooLong) {
@@ -121,7 +159,7 @@ TEST(NearParts, AreFoundWhereListsWouldBeTooLong) {
   for (auto& x : state.positions) x = {0.01f * x.x, 0.01f * x.y, 0.01f * x.z, 0};  // all near all
   cpu::SurfaceBoxes<float> boxes = boxesAround(surface, state);
   cpu::NearParts<float> near;
-  near.update(surface, boxes, {}, surface.margin);
+  near.update(surface, boxes, {}, surface.margin, flatBlocks(surface, state, FAR));
   cpu::SurfaceSearch<float>::growTree(surface, boxes.triangles);
   const cpu::SurfaceSearch<float> search{surface, boxes.triangles};
   std::size_t all = 0;
@@ -130,7 +168,7 @@ TEST(NearParts, AreFoundWhereListsWouldBeTooLong) {
     search.forEachPair(i, boxes, [&](const cpu::Parts& parts) {
       expected.insert(expected.end(), {parts.first, parts.second, parts.k, parts.l});
     });
-    ASSERT_EQ(meetingParts(surface, near, i, boxes), expected) << "triangle " << i;
+    ASSERT_EQ(meetingParts(surface, near, i, boxes, nullptr), expected) << "triangle " << i;
     all += expected.size() / 4;
   }
   EXPECT_GT(all, cpu::NearParts<float>::MOST * surface.triangles.size() / cpu::NearParts<float>::TRIANGLES);
