@@ -145,7 +145,8 @@ StepRate measureStepRate(const Scene& scene, const std::string& backend, double 
   return rate;
 }
 
-DrawRate measureDrawing(const Scene& scene, const State& state, Quality quality, int width, int height) {
+DrawRate measureDrawing(const Scene& scene, const State& state, Quality quality, int width, int height,
+                        int repetitions) {
   const Cloth cloth(scene);
   const gl::Buffer<Particle4> positions("positions to draw", state.positions);
   const bool software = gl::currentContextInfo().software;
@@ -169,7 +170,7 @@ DrawRate measureDrawing(const Scene& scene, const State& state, Quality quality,
   rate.scale = scale.scale();
   std::vector<double> whole, processor;
   std::vector<std::vector<double>> passes;
-  for (int i = 0; i < REPETITIONS; ++i) {
+  for (int i = 0; i < repetitions; ++i) {
     const std::clock_t before = std::clock();
     whole.push_back(draw());
     processor.push_back(static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC);

@@ -47,10 +47,10 @@ struct DrawRate {
   double processorSeconds = 0;   // of all threads of this program, for a picture
   std::vector<DrawTime> passes;  // each timed on its own
 };
-// The median times to draw a picture of the scene with `state` while the camera rests. Needs a current
-// context.
+// The median times of so many repetitions to draw a picture of the scene with `state` while the camera rests.
+// Needs a current context.
 [[nodiscard]] DrawRate measureDrawing(const Scene& scene, const State& state, Quality quality, int width,
-                                      int height);
+                                      int height, int repetitions = 7);
 
 struct DemoRate {
   int size = 0;                  // N of N x N

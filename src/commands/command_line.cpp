@@ -14,6 +14,7 @@
 #include <type_traits>
 
 #include "commands/commands.h"
+#include "commands/proposal.h"
 #include "commands/version.h"
 #include "core/error.h"
 #include "core/interrupt.h"
@@ -86,7 +87,7 @@ struct Arguments {
 
   [[nodiscard]] SceneOptions sceneOptions() const {
     SceneOptions options{.scene = scene, .resolution = std::nullopt, .settings = settings, .varied = {}};
-    if (!resolutions.empty()) options.resolution = parseSize(resolutions.front(), "--resolution");
+    if (!resolutions.empty()) options.resolution = parseResolution(resolutions.front());
     return options;
   }
 };
@@ -109,8 +110,10 @@ SceneFlags addSceneFlags(CLI::App& app, Arguments& a, bool sceneRequired) {
 
 CLI::Option* addResolution(CLI::App& app, Arguments& a) {
   return app
-      .add_option("--resolution", a.resolutions,
-                  "change the number of grid points; pins keep their place on the cloth")
+      .add_option(
+          "--resolution", a.resolutions,
+          "change the number of grid points; pins keep their place on the cloth; auto: as many as suit "
+          "this machine in the demo (`clothsim doctor`)")
       ->type_name("WxH")
       ->expected(1);
 }
@@ -419,6 +422,11 @@ void declareViewer(CLI::App& app, Arguments& a, Task& task) {
       "\nExit codes: 0 done, 1 the simulation failed or the backends differ, 2 wrong usage, 3 scene error,\n"
       "            4 no usable OpenGL or no display, 5 input/output");
   task = [&] {
+    if (!a.resolutions.empty() && a.resolutions.front() == "auto") {
+      const Proposal proposal = proposalHere();
+      if (a.backend == "auto") a.backend = proposal.backend;
+      if (a.viewerQuality == "auto") a.viewerQuality = nameOf(proposal.quality);
+    }
     runViewer(loadScene(a.sceneOptions()),
               {a.scene, a.backend, a.around, a.down, a.timings, a.viewerQuality, a.restartAfter});
     return 0;

@@ -15,6 +15,9 @@ namespace clothsim {
 
 // Reads "512x512". @throws UsageError that names the flag
 [[nodiscard]] GridSize parseSize(const std::string& text, const std::string& flag);
+// Of --resolution: "512x512", or "auto" for what is proposed here (proposal.h). @throws UsageError,
+// OpenGlError
+[[nodiscard]] GridSize parseResolution(const std::string& text);
 
 // readScene(); prints its remarks on stderr.
 [[nodiscard]] Scene loadScene(const SceneOptions& options);

@@ -1,12 +1,10 @@
 // `scenes` lists the scenes, `describe` explains their keys, `doctor` checks this machine.
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "commands/bench.h"
 #include "commands/commands.h"
 #include "commands/print_json.h"
+#include "commands/proposal.h"
 #include "core/error.h"
 #include "core/nearest.h"
 #include "core/thread_team.h"
@@ -39,22 +37,6 @@ std::vector<Scene> selfTestScenes() {
     (void)changeResolution(scenes.back(), 40, 40, false);
   }
   return scenes;
-}
-
-// The largest size at which the start of the demo, where nothing touches yet, is simulated in three quarters
-// of its time on a GPU, or in a good third of it on a software renderer: there folds take half as long again,
-// and the picture is drawn by the same cores. By the backend that the viewer starts with.
-std::string suggestedDemoResolution(bool software) {
-  int best = 48;
-  const double limit = (software ? 0.36 : 0.75) / 30;  // to simulate a 30th of a second [s]
-  for (const int size : {64, 80, 96, 128, 192, 256, 384, 512, 768, 1024}) {
-    double seconds = INFINITY;  // the least of some: others may use the cores, too
-    for (int k = 0; k < 4 && seconds > limit; ++k)
-      seconds = std::min(seconds, measureDemo(size, chosenBackend("auto"), 0, 0).simulationSeconds);
-    if (seconds > limit) break;
-    best = size;
-  }
-  return std::to_string(best) + "x" + std::to_string(best);
 }
 
 }  // namespace
@@ -113,7 +95,14 @@ int doctorCommand(bool json) {
     report["self_test"][scene.name] = {{"steps", result.steps}, {"differing_floats", result.differingFloats}};
   }
   report["bitwise_equal"] = healthy;
-  report["suggested_demo_resolution"] = suggestedDemoResolution(info.software);
+  const Proposal proposal = measureProposal(true);
+  keepProposal(proposal, proposalPath(), machineName());
+  const std::string size = std::to_string(proposal.size) + "x" + std::to_string(proposal.size);
+  report["proposal"] = {{"backend", proposal.backend},
+                        {"resolution", size},
+                        {"quality", nameOf(proposal.quality)},
+                        {"simulation_seconds", proposal.simulationSeconds},
+                        {"draw_seconds", proposal.drawSeconds}};
   if (json) {
     printJson(report);
     return healthy ? 0 : 1;
@@ -128,8 +117,11 @@ int doctorCommand(bool json) {
   for (const auto& [name, result] : report["self_test"].items())
     std::printf("self-test      %-10s %4d steps on CPU and GPU: %d floats differ\n", name.c_str(),
                 result["steps"].get<int>(), result["differing_floats"].get<int>());
-  std::printf("demo           suggested size here: %s\n",
-              report["suggested_demo_resolution"].get<std::string>().c_str());
+  std::printf(
+      "proposal       %s backend, %s points, %s quality: of the demo's start, %.1f ms for 1/30 s and %.1f ms "
+      "for a\n               picture of 1280 x 720; tools/demo and --resolution auto take it\n",
+      proposal.backend.c_str(), size.c_str(), std::string(nameOf(proposal.quality)).c_str(),
+      1e3 * proposal.simulationSeconds, 1e3 * proposal.drawSeconds);
   std::printf("%s\n",
               healthy
                   ? "All is well: CPU and GPU agree in every bit."

@@ -2,6 +2,7 @@
 #include <regex>
 
 #include "commands/commands.h"
+#include "commands/proposal.h"
 #include "core/error.h"
 
 namespace clothsim {
@@ -11,6 +12,12 @@ GridSize parseSize(const std::string& text, const std::string& flag) {
   if (!std::regex_match(text, match, std::regex("([0-9]{1,5})[xX]([0-9]{1,5})")))
     throw UsageError(flag + " " + text + ": expected WIDTHxHEIGHT, as 512x512");
   return {std::stoi(match[1]), std::stoi(match[2])};
+}
+
+GridSize parseResolution(const std::string& text) {
+  if (text != "auto") return parseSize(text, "--resolution");
+  const int size = proposalHere().size;
+  return {size, size};
 }
 
 Scene loadScene(const SceneOptions& options) {

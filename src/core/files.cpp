@@ -185,6 +185,15 @@ static fs::path& searchedFolder() {
 
 void beginResourceSearchAt(const fs::path& folder) { searchedFolder() = folder; }
 
+fs::path userConfigFolder() {
+  // The XDG specification demands that relative paths are ignored.
+  const char* xdg = std::getenv("XDG_CONFIG_HOME");
+  if (xdg != nullptr && fs::path(xdg).is_absolute()) return fs::path(xdg) / "clothsim";
+  const char* home = std::getenv("HOME");
+  if (home != nullptr && fs::path(home).is_absolute()) return fs::path(home) / ".config" / "clothsim";
+  return {};
+}
+
 const fs::path& resourceRoot() {
   static const fs::path root = [] {
     std::error_code ignored;

@@ -54,6 +54,10 @@ void checkWritable(const std::filesystem::path& path);
 [[nodiscard]] bool hasFrameNumber(const std::string& pattern);
 [[nodiscard]] std::string numberedName(const std::string& pattern, int frame);
 
+// The user's folder for what this program keeps between runs: $XDG_CONFIG_HOME/clothsim or
+// ~/.config/clothsim; empty where neither is set. It need not exist.
+[[nodiscard]] std::filesystem::path userConfigFolder();
+
 // The folder that holds shaders/ and assets/: $CLOTHSIM_ROOT, else beside the executable or one of the
 // folders above it, else the source tree it was built from. @throws InputOutputError when none has them
 [[nodiscard]] const std::filesystem::path& resourceRoot();

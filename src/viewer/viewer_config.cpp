@@ -1,7 +1,6 @@
 #include "viewer/viewer_config.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
@@ -41,13 +40,8 @@ ViewerConfig parse(const std::string& text) {
 }  // namespace
 
 fs::path viewerConfigPath() {
-  // The XDG specification demands that relative paths are ignored.
-  const char* xdg = std::getenv("XDG_CONFIG_HOME");
-  if (xdg != nullptr && fs::path(xdg).is_absolute()) return fs::path(xdg) / "clothsim" / "viewer.json";
-  const char* home = std::getenv("HOME");
-  if (home != nullptr && fs::path(home).is_absolute())
-    return fs::path(home) / ".config" / "clothsim" / "viewer.json";
-  return {};
+  const fs::path folder = userConfigFolder();
+  return folder.empty() ? folder : folder / "viewer.json";
 }
 
 LoadedConfig loadViewerConfig(const fs::path& path) {

@@ -502,14 +502,6 @@ TEST(Program, MeasuresStepsAndPassesAndTheDemoInRealTime) {
   EXPECT_EQ(bench["demo_real_time"].size(), 6u) << "two backends, three ways of drawing";
 }
 
-TEST(Program, ExaminesTheDeviceAndTestsItself) {
-  const json doctor = jsonOf("doctor --json");
-  EXPECT_TRUE(doctor["bitwise_equal"].get<bool>());
-  EXPECT_TRUE(doctor["software"].is_boolean());
-  EXPECT_EQ(doctor["vectors"], cpu::nameOf(cpu::vectorSet()));
-  EXPECT_NE(doctor["suggested_demo_resolution"].get<std::string>().find('x'), std::string::npos);
-}
-
 TEST(Program, ResolvesTheSameClothAtAnotherResolutionWithMoreSteps) {
   const json run = jsonOf("run -f pinned2 --resolution 99x99 --frames 1 --backend cpu --json");
   EXPECT_EQ(run["steps"], 60) << "half the spacing: twice the steps";

@@ -232,8 +232,8 @@ TEST_F(WhiteFurnaceItself, GetsAllBackFromLambert) {
   EXPECT_NEAR(furnace.ofSky(30, 0), 1, ROUNDING);
 }
 
-void expectSeen(const std::string& file, const std::string& from, const std::string& to,
-                const std::string& subject) {
+void expectSeenInFurnace(const std::string& file, const std::string& from, const std::string& to,
+                         const std::string& subject) {
   const test::ResourceCopy resources;
   ASSERT_TRUE(resources.change(file, from, to)) << file << " has changed: so must this test";
   const std::string test = "All/WhiteFurnace.GivesNoMoreThanItGets/" + subject;
@@ -242,13 +242,13 @@ void expectSeen(const std::string& file, const std::string& from, const std::str
 }
 
 TEST(BrokenFurnace, SheenOverUndimmedThreadsIsSeen) {
-  expectSeen("render/fabric_light.glsl", "* sheenAlbedo(normalEye));", "* 0.0);", "fabric_plain_0");
+  expectSeenInFurnace("render/fabric_light.glsl", "* sheenAlbedo(normalEye));", "* 0.0);", "fabric_plain_0");
 }
 TEST(BrokenFurnace, ShineOverUndimmedThreadsIsSeen) {
-  expectSeen("render/fabric_light.glsl", "(1.0 - shineShare(gloss)) *", "1.0 *", "fabric_satin_100");
+  expectSeenInFurnace("render/fabric_light.glsl", "(1.0 - shineShare(gloss)) *", "1.0 *", "fabric_satin_100");
 }
 TEST(BrokenFurnace, HighlightsOverUndimmedMatteAreSeen) {
-  expectSeen("render/lights.glsl", "strength * 8.0", "strength * 0.0", "bump");
+  expectSeenInFurnace("render/lights.glsl", "strength * 8.0", "strength * 0.0", "bump");
 }
 
 }  // namespace

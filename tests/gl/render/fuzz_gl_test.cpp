@@ -117,8 +117,8 @@ TEST_F(Fuzz, LeavesNoMoire) {
     }
 }
 
-void expectSeen(const std::string& file, const std::string& from, const std::string& to,
-                const std::string& test) {
+void expectSeenInFuzz(const std::string& file, const std::string& from, const std::string& to,
+                      const std::string& test) {
   const test::ResourceCopy resources;
   ASSERT_TRUE(resources.change(file, from, to)) << file << " has changed: so must this test";
   const test::CommandResult result = resources.runTests(test);
@@ -126,15 +126,15 @@ void expectSeen(const std::string& file, const std::string& from, const std::str
 }
 
 TEST(BrokenFuzz, ShellsThatDoNotStandOffAreSeen) {
-  expectSeen("render/fuzz.vert", "shell.x * frame.fuzz * side", "0.0", "Fuzz.StandsOffTheSilhouette");
+  expectSeenInFuzz("render/fuzz.vert", "shell.x * frame.fuzz * side", "0.0", "Fuzz.StandsOffTheSilhouette");
 }
 TEST(BrokenFuzz, FibresInTheLightOfTheSideThatFacesTheEyeAreSeen) {
-  expectSeen("render/fuzz.frag", "side < 0.0 ? -1.0 : 1.0", "gl_FrontFacing ? 1.0 : -1.0",
-             "All/FuzzPicture.IsTheStoredOne/twill");
+  expectSeenInFuzz("render/fuzz.frag", "side < 0.0 ? -1.0 : 1.0", "gl_FrontFacing ? 1.0 : -1.0",
+                   "All/FuzzPicture.IsTheStoredOne/twill");
 }
 TEST(BrokenFuzz, APileThatIsAsLightBelowAsAboveIsSeen) {
-  expectSeen("render/fuzz.frag", "depth = mix(0.05, 1.5,", "depth = mix(1.0, 1.0,",
-             "All/FuzzPicture.IsTheStoredOne/velvet");
+  expectSeenInFuzz("render/fuzz.frag", "depth = mix(0.05, 1.5,", "depth = mix(1.0, 1.0,",
+                   "All/FuzzPicture.IsTheStoredOne/velvet");
 }
 
 }  // namespace

@@ -77,8 +77,8 @@ TEST_F(VertexLight, OfMatteClothIsHardToTellAlsoWhereItIsCoarse) {
 }
 
 // Breaks one shader, and expects the comparisons of `models`, and no others, to fail by it.
-void expectSeen(const std::string& file, const std::string& from, const std::string& to,
-                const std::vector<std::string>& models) {
+void expectSeenInModel(const std::string& file, const std::string& from, const std::string& to,
+                       const std::vector<std::string>& models) {
   const test::ResourceCopy resources;
   ASSERT_TRUE(resources.change(file, from, to)) << file << " has changed: so must this test";
   const test::CommandResult result = resources.runTests("All/ShadingModelPicture.IsTheStoredOne/*");
@@ -92,17 +92,17 @@ void expectSeen(const std::string& file, const std::string& from, const std::str
 
 // A mirror does not mind: it reflects alike for both directions of its normal.
 TEST(BrokenShadingModel, FlippedNormalsAreSeenByAllThatLookAtNormals) {
-  expectSeen("render/normals.comp", "sum / area", "-sum / area",
-             {"fabric", "phong", "diffuse", "texture", "bump", "displacement", "normal", "strain"});
+  expectSeenInModel("render/normals.comp", "sum / area", "-sum / area",
+                    {"fabric", "phong", "diffuse", "texture", "bump", "displacement", "normal", "strain"});
 }
 // In the wireframe the ball below is seen.
 TEST(BrokenShadingModel, MissingShadowsOnTheClothAreSeenByAllThatAreLit) {
-  expectSeen("render/shadow.glsl", "return 0.25 * sum;", "return 1.0;",
-             {"fabric", "phong", "diffuse", "texture", "bump", "displacement", "wireframe"});
+  expectSeenInModel("render/shadow.glsl", "return 0.25 * sum;", "return 1.0;",
+                    {"fabric", "phong", "diffuse", "texture", "bump", "displacement", "wireframe"});
 }
 TEST(BrokenShadingModel, TangentsAlongVInsteadOfUAreSeenWhereAReliefTurnsWithThem) {
-  expectSeen("render/normals.comp", "vec3 along = right - left;", "vec3 along = upper - lower;",
-             {"bump", "displacement"});
+  expectSeenInModel("render/normals.comp", "vec3 along = right - left;", "vec3 along = upper - lower;",
+                    {"bump", "displacement"});
 }
 
 }  // namespace
