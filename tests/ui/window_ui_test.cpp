@@ -324,13 +324,17 @@ TEST_F(PanelsUi, SaveTheClothAsItIsByTheNamesEnding) {
   EXPECT_TRUE(readFile(mesh).starts_with("# clothsim, step ")) << mesh;
 }
 
-TEST_F(PanelsUi, ChangeAtAClickAndAreRememberedInTheUsersFolderOfConfiguration) {
+TEST_F(PanelsUi, ChangeAtAClickOpenScenesByTheirPicturesAndAreRememberedInTheUsersFolder) {
   ViewerProgram viewer(windowScene);
   for (const std::size_t panel : {1u, 2u, 3u, 4u, 5u, 0u}) {
     click(viewer, panel);
     EXPECT_TRUE(settingsSay(viewer, "\"panel\": \"" + std::string(panelNames[panel]) + "\""))
         << viewer.settings();
   }
+  EXPECT_TRUE(test::eventually(seconds(40), [&] {  // of a bundled scene the picture, in the second row
+    viewer.perform("at 0.922 0.633 sleep 0.3 click 1 sleep 1");
+    return viewer.title().find("cs171 - cpu") == 0;
+  })) << viewer.title();
   viewer.press("ctrl+equal");
   EXPECT_TRUE(settingsSay(viewer, "\"text_size\": 1.125")) << viewer.settings();
   viewer.press("ctrl+minus");
