@@ -116,8 +116,15 @@ State stateAfter(const Scene& scene, int frames) {
   return simulation.state();
 }
 
-// The scene with springs alone, with the strain limit, and with the limit and either self-collision.
+// The scene with springs alone, with the strain limit, and with the limit and either self-collision; implicit
+// steps without contact between layers, and with it.
 std::vector<Scene> variantsOf(const Scene& scene) {
+  if (isImplicit(scene.solver.integrator)) {
+    std::vector<Scene> both(2, scene);
+    both[0].solver.selfCollision = SelfCollision::off;
+    both[1].solver.selfCollision = SelfCollision::contact;
+    return both;
+  }
   std::vector<Scene> variants(4, scene);
   for (Scene& variant : variants) {
     variant.solver.strainLimit = scene.solver.strainLimit.value_or(0.1);

@@ -484,6 +484,16 @@ TEST(Program, ListsItsScenesAndExplainsItsKeys) {
   EXPECT_EQ(clothsim("describe").exitCode, 0);
 }
 
+TEST(Program, MeasuresImplicitStepsWithoutContactAndWithIt) {
+  const json bench = jsonOf(
+      "bench -f pinned2 --set cloth.material=cotton --resolution 12x12 --backend cpu --seconds 0.02 --json");
+  ASSERT_EQ(bench["steps"].size(), 2u);
+  EXPECT_EQ(bench["steps"][0]["self_collision"], "off");
+  EXPECT_EQ(bench["steps"][1]["self_collision"], "contact");
+  EXPECT_TRUE(bench["steps"][1]["pass_ms"].contains("find touching")) << bench["steps"][1]["pass_ms"];
+  EXPECT_FALSE(bench["steps"][0]["pass_ms"].contains("find touching"));
+}
+
 TEST(Program, MeasuresStepsAndPassesAndTheDemoInRealTime) {
   const json bench = jsonOf("bench --resolution 32x32 --seconds 0.05 --json");
   ASSERT_EQ(bench["steps"].size(), 8u) << "two backends: springs, limiter, two self-collisions";
