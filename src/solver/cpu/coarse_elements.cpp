@@ -1,7 +1,8 @@
 // The first coarse level's matrix, from the elements of the cloth: springs, bending, and what acts on single
 // particles; the twin of shaders/sim/implicit/coarsen_elements.comp. There, an invocation sums up a block;
 // here an element is worked out once, and a particle's elements are added to all blocks that they touch, in
-// the same order.
+// the same order. It is worked out for all aggregates that any of them touches, with levers of 0 where this
+// one does not: nothing is searched or told apart.
 #include "solver/cpu/coarse_elements.h"
 
 #include <algorithm>
@@ -72,14 +73,14 @@ class ElementLoop {
     const std::uint32_t* touched = levels_.touched.data() + levels_.touchedStarts[i];
     count_ = levels_.touchedStarts[i + 1] - levels_.touchedStarts[i];
     if (count_ == 0 || touched[0] >= end_ || touched[count_ - 1] < first_) return;
-    if (count_ > room_.size()) {
-      room_.resize(count_);
+    if (count_ > touched_.size()) {
+      touched_.resize(count_);
       pulls_.resize(MOST * std::size_t{count_});
       turns_.resize(MOST * std::size_t{count_});
     }
     const std::uint32_t* blocks = levels_.elementBlocks.data() + levels_.elementBlockStarts[i];
     const Vertex vertex = vertexAt(i);
-    Touched* aggregates = room_.data();
+    Touched* aggregates = touched_.data();
     for (std::uint32_t a = 0; a < count_; blocks += count_ - a + 1, ++a) {
       Touched& aggregate = aggregates[a];
       numberOf_[touched[a] - levelFirst_] = a;
@@ -106,7 +107,8 @@ class ElementLoop {
     Four<Real> x;
     Real isFree;
   };
-  // One of the aggregates that the elements of the particle at hand touch.
+  // One of the aggregates that the elements of the particle at hand touch. Structs of vectors say how they
+  // are aligned, or a std::vector of them would not be.
   struct alignas(4 * sizeof(Real)) Touched {
     Four<Real> center{};
     // How vertices of the element hang on it: (weight times where they are from the center, weight); 0 for
@@ -119,10 +121,12 @@ class ElementLoop {
   };
   // What elements make of an aggregate, before they are added to the blocks: the factors of their two sides,
   // and the second of all vertices, moving as one body about its center. MOST of either kind wait.
-  static constexpr std::uint32_t MOST = 32;
+  static constexpr std::uint32_t MOST = 32;  // the bits of Touched::pulls and turns
+  // s p q^T of forces, of an element with a direction.
   struct alignas(8 * sizeof(Real)) Pull {
     Eight<Real> left, right, all;
   };
+  // s p q^T of levers, of one without.
   struct alignas(8 * sizeof(Real)) Turn {
     Spread<Real> right;
     Four<Real> left, all;
@@ -139,7 +143,7 @@ class ElementLoop {
     if (vertex.isFree == Real(0)) return;
     for (std::uint32_t n = levels_.prolongationStarts[i]; n < levels_.prolongationStarts[i + 1]; ++n) {
       const auto& [coarse, weight] = levels_.prolongation[n];
-      Touched& aggregate = room_.data()[numberOf_[coarse - levelFirst_]];
+      Touched& aggregate = touched_.data()[numberOf_[coarse - levelFirst_]];
       visit(aggregate, weight * (vertex.x - aggregate.center));
     }
   }
@@ -156,6 +160,7 @@ class ElementLoop {
           aggregate.hangsOther = 1;
         });
   }
+  // For the most that an element has: a membrane's three of either kind.
   INLINE void makeRoom() {
     if (pullCount_ + 3 > MOST || turnCount_ + 3 > MOST) addToBlocks();
   }
@@ -163,7 +168,7 @@ class ElementLoop {
   // It has `others` vertices besides the particle at hand.
   template <int others, class Make>
   INLINE void forEachTouched(Make make) {
-    Touched* aggregates = room_.data();
+    Touched* aggregates = touched_.data();
     const std::uint32_t count = count_;
     for (std::uint32_t a = 0; a < count; ++a) {
       Touched& aggregate = aggregates[a];
@@ -174,6 +179,7 @@ class ElementLoop {
   }
 
   // s p p^T, p = (y, sigma): the element s |sigma t + r x y|^2 / 2 of a body of translation t and rotation r.
+  // `number`: its place among those that wait.
   INLINE void putTurn(Turn* turns, std::uint32_t a, std::uint32_t number, std::uint32_t acts,
                       Touched& aggregate, Real s, Four<Real> lever, Four<Real> all) {
     turns[a * MOST + number] = {spreadOf<Real>(lever), s * lever, all};
@@ -191,7 +197,7 @@ class ElementLoop {
     const Pull* pulls[MOST];
     const Turn* turns[MOST];
     const std::uint32_t count = count_;
-    Touched* aggregates = room_.data();
+    Touched* aggregates = touched_.data();
     for (std::uint32_t a = 0; a < count; ++a) {
       Touched& aggregate = aggregates[a];
       const std::uint32_t* block = aggregate.blocks;
@@ -272,7 +278,7 @@ class ElementLoop {
     turnCount_ += hasTurn;
     if (from.isFree * to.isFree == Real(0)) {
       for (std::uint32_t a = 0; a < count_; ++a)
-        pulls[a * MOST + pull].all = pullOf<Real>(leverOfAll(to, room_[a]) - room_[a].all, d);
+        pulls[a * MOST + pull].all = pullOf<Real>(leverOfAll(to, touched_[a]) - touched_[a].all, d);
       pullsOfAll_ |= 1u << pull;
     }
     forEachTouched<1>([&](std::uint32_t a, std::uint32_t acts, Touched & aggregate)
@@ -448,10 +454,10 @@ class ElementLoop {
   ElementSums<Real>* sums_;
   std::uint32_t first_, end_;  // rows
   std::uint32_t levelFirst_;
-  std::unique_ptr<std::uint32_t[]> numberOf_;  // of the level's aggregates that are touched
+  std::unique_ptr<std::uint32_t[]> numberOf_;  // of those of the level that are touched
   // Of the particle at hand.
   std::uint32_t count_ = 0;  // of `touched_`
-  std::vector<Touched> room_;
+  std::vector<Touched> touched_;
   std::array<Vertex, 3> vertices_{};  // of the element at hand
   // Elements that wait to be added.
   std::uint32_t pullCount_ = 0, turnCount_ = 0;
