@@ -8,7 +8,7 @@
 
 namespace clothsim::cpu {
 
-// Sums up the blocks of the rows [first, end) of the level.
+// The blocks of the rows [first, end) of the level, as the state may hold them (canonical()).
 void sumElements(const ImplicitArguments<float>& arguments, const LevelParams& level, std::uint32_t first,
                  std::uint32_t end);
 void sumElements(const ImplicitArguments<double>& arguments, const LevelParams& level, std::uint32_t first,

@@ -116,17 +116,18 @@ void findCenter(ImplicitState<Real>& own, std::uint32_t coarse);
 template <class Real>
 void coarsen(const ImplicitArguments<Real>& arguments, const LevelParams& level, std::uint32_t first,
              std::uint32_t end);
-// The matrix of a connected part of the coarsest level.
-template <class Real>
-void invertDense(ImplicitState<Real>& own, const DensePart& part);
-// Force and torque on an aggregate.
-template <class Real>
-void restrictResidual(ImplicitState<Real>& own, std::uint32_t coarse);
+// Minus the inverse of the matrix of a connected part of the coarsest level.
+void invertDense(ImplicitState<float>& own, const DensePart& part);
+void invertDense(ImplicitState<double>& own, const DensePart& part);
+// Forces and torques on the aggregates [first, end), of particles or of aggregates of a finer level.
+void restrictResiduals(ImplicitState<float>& own, bool isOfParticles, std::uint32_t first, std::uint32_t end);
+void restrictResiduals(ImplicitState<double>& own, bool isOfParticles, std::uint32_t first,
+                       std::uint32_t end);
 template <class Real>
 void solveCoarsest(ImplicitState<Real>& own, const DensePart& part, std::uint32_t vertex);
-// z of a coarse vertex: its own and what the next coarser level makes of it.
-template <class Real>
-void prolong(ImplicitState<Real>& own, std::uint32_t coarse);
+// z of the coarse vertices [first, end): their own and what the next coarser level makes of them.
+void prolong(ImplicitState<float>& own, std::uint32_t first, std::uint32_t end);
+void prolong(ImplicitState<double>& own, std::uint32_t first, std::uint32_t end);
 // z of the particles [first, end), at most PARTICLES_AT_ONCE. Pinned ones get 0.
 inline constexpr std::uint32_t PARTICLES_AT_ONCE = 256;
 void prolongParticles(ImplicitState<float>& own, const float* inverseMasses, std::uint32_t first,

@@ -16,20 +16,19 @@ namespace {
 
 // How many vertices of a level a thread takes at once.
 constexpr std::uint32_t VERTICES_AT_ONCE = 64;
-// Rows of a coarse matrix that a thread sums up together, so that few elements are worked out by two.
-constexpr std::uint32_t ROWS_AT_ONCE = 128;
+// Rows of a coarse matrix that a thread sums up together. Elements where two such stretches meet are worked
+// out for both: of a cloth of 128 x 128, in stretches of 128 rows, almost half of them.
+std::uint32_t rowsAtOnce(std::uint32_t rows) {
+  constexpr std::uint32_t LEAST = 128;
+  const auto threads = static_cast<std::uint32_t>(ThreadTeam::shared().threads());
+  return threads == 1 ? std::max(rows, 1u) : std::max(LEAST, rows / (2 * threads) + 1);
+}
 
 // Where a vertex is: a particle, or the center of an aggregate.
 template <class Real>
 INLINE Four<Real> placeOf(const ImplicitState<Real>& own, const Arrays<const Real>& x, std::uint32_t vertex) {
   return vertex < own.hierarchy.particles ? fourAt(x, static_cast<std::ptrdiff_t>(vertex))
                                           : own.centers.data()[vertex - own.hierarchy.particles];
-}
-
-template <class Real>
-INLINE void makeCanonical(RigidBlock<Real>& block) {
-  for (auto* columns : {&block.tt, &block.tr, &block.rt, &block.rr})
-    for (Four<Real>& column : *columns) column = canonicalOf(column);
 }
 
 template <class Real>
@@ -59,8 +58,11 @@ void findCenter(ImplicitState<Real>& own, std::uint32_t coarse) {
   own.centers[coarse] = canonicalOf(reciprocal(weights) * sum);
 }
 
+namespace {
+
 template <class Real>
-RigidBlock<Real> sumBlocks(const ImplicitState<Real>& own, const typename Hierarchy<Real>::Block& block) {
+INLINE RigidBlock<Real> sumBlocks(const ImplicitState<Real>& own,
+                                  const typename Hierarchy<Real>::Block& block) {
   const Hierarchy<Real>& hierarchy = own.hierarchy;
   const bool isOfAll = block.column == ALL_VERTICES;
   const Four<Real>* centers = own.centers.data();
@@ -82,23 +84,36 @@ RigidBlock<Real> sumBlocks(const ImplicitState<Real>& own, const typename Hierar
 }
 
 template <class Real>
+INLINE void coarsenRows(ImplicitState<Real>& own, bool isFirstLevel, std::uint32_t first, std::uint32_t end) {
+  const Hierarchy<Real>& hierarchy = own.hierarchy;
+  std::array<Real, 6> began, column;
+  for (std::uint32_t row = first; row < end; ++row) {
+    const std::uint32_t diagonal = hierarchy.blockStarts[row];
+    for (std::uint32_t n = diagonal; n < (isFirstLevel ? diagonal : hierarchy.blockStarts[row + 1]); ++n)
+      own.coarseBlocks[n] = canonical(sumBlocks(own, hierarchy.blocks[n]));
+    SixColumns<Real> inverse = columnsOf(own.coarseBlocks[diagonal]);
+    sweepOut(
+        6, began.data(),
+        column.data(), [&](std::size_t j) __attribute__((always_inline)) { return inverse[j].data(); });
+    own.coarseInverses[row] = blockOf(inverse);
+  }
+}
+
+VECTOR_CLONES(void, coarsenLevel,
+              (ImplicitState<float> & own, bool isFirstLevel, std::uint32_t first, std::uint32_t end),
+              (own, isFirstLevel, first, end), coarsenRows(own, isFirstLevel, first, end))
+void coarsenLevel(ImplicitState<double>& own, bool isFirstLevel, std::uint32_t first, std::uint32_t end) {
+  coarsenRows(own, isFirstLevel, first, end);
+}
+
+}  // namespace
+
+template <class Real>
 void coarsen(const ImplicitArguments<Real>& arguments, const LevelParams& level, std::uint32_t first,
              std::uint32_t end) {
-  ImplicitState<Real>& own = arguments.own;
-  const Hierarchy<Real>& hierarchy = own.hierarchy;
-  const bool isFirstLevel = level.fineFirst < hierarchy.particles;
+  const bool isFirstLevel = level.fineFirst < arguments.own.hierarchy.particles;
   if (isFirstLevel) sumElements(arguments, level, first, end);
-  std::array<Real, 6> began, column;
-  for (std::uint32_t n = hierarchy.blockStarts[first]; n < hierarchy.blockStarts[end]; ++n) {
-    const auto& block = hierarchy.blocks[n];
-    if (!isFirstLevel) own.coarseBlocks[n] = sumBlocks(own, block);
-    makeCanonical(own.coarseBlocks[n]);
-    if (block.row != block.column) continue;
-    SixColumns<Real> inverse = columnsOf(own.coarseBlocks[n]);
-    sweepOut(6, began.data(), column.data(),
-             [&](std::size_t i, std::size_t j) -> Real& { return inverse[j][i]; });
-    own.coarseInverses[block.row] = blockOf(inverse);
-  }
+  coarsenLevel(arguments.own, isFirstLevel, first, end);
 }
 
 namespace {
@@ -116,7 +131,7 @@ INLINE void addTo(Real* first, std::size_t stride, Vec3<Real> v) {
 
 // The vertex that is held most stiffly from outside, the first of several: about it, all of them turn easily.
 template <class Real>
-std::uint32_t mostHeldOf(const ImplicitState<Real>& own, const DensePart& part) {
+INLINE std::uint32_t mostHeldOf(const ImplicitState<Real>& own, const DensePart& part) {
   std::uint32_t held = part.first;
   Real most = 0;
   for (std::uint32_t k = part.firstBlock; k < part.endBlock; ++k) {
@@ -129,20 +144,21 @@ std::uint32_t mostHeldOf(const ImplicitState<Real>& own, const DensePart& part) 
   return held;
 }
 
-}  // namespace
-
 // The place of the vertex that is held most stiffly have all of them, moving as one rigid body about its
 // center: A' = Q^T A Q. So what is soft, the cloth as a whole, has entries of its own, and is no difference
 // of stiff ones. At the end A^-1 = Q A'^-1 Q^T.
 template <class Real>
-void invertDense(ImplicitState<Real>& own, const DensePart& part) {
+INLINE void invertPart(ImplicitState<Real>& own, const DensePart& part) {
   const std::size_t order = 6 * static_cast<std::size_t>(part.count);
   const std::uint32_t held = mostHeldOf(own, part), end = part.first + part.count;
   const std::size_t all = 6 * static_cast<std::size_t>(held - part.first);
   Real* matrix = own.dense.data() + part.firstEntry;
   std::fill(matrix, matrix + order * order, Real(0));
-  const auto offsetOf = [&](std::uint32_t vertex) { return own.centers[vertex] - own.centers[held]; };
-  const auto put = [&](const RigidBlock<Real>& block, std::size_t row, std::size_t column) {
+  const auto offsetOf = [&](std::uint32_t vertex) __attribute__((always_inline)) {
+    return own.centers[vertex] - own.centers[held];
+  };
+  const auto put = [&](const RigidBlock<Real>& block, std::size_t row, std::size_t column)
+      __attribute__((always_inline)) {
     const SixColumns<Real> entries = columnsOf(block);
     for (std::size_t j = 0; j < 6; ++j)
       for (std::size_t i = row == column ? j : 0; i < 6; ++i)
@@ -166,8 +182,9 @@ void invertDense(ImplicitState<Real>& own, const DensePart& part) {
   }
   put(whole, all, all);
   std::vector<Real> began(order), column(order);
-  sweepOut(order, began.data(), column.data(),
-           [=](std::size_t i, std::size_t j) -> Real& { return matrix[j * order + i]; });
+  sweepOut(
+      order, began.data(),
+      column.data(), [=](std::size_t j) __attribute__((always_inline)) { return matrix + j * order; });
   // Rows, then columns: a vertex moves with all, t + r x offset, besides on its own.
   for (const std::size_t stride : {std::size_t{1}, order}) {
     const std::size_t across = order + 1 - stride;
@@ -185,26 +202,58 @@ void invertDense(ImplicitState<Real>& own, const DensePart& part) {
   }
 }
 
-template <class Real>
-void restrictResidual(ImplicitState<Real>& own, std::uint32_t coarse) {
+}  // namespace
+
+VECTOR_CLONES(void, invertDense, (ImplicitState<float> & own, const DensePart& part), (own, part),
+              invertPart(own, part))
+void invertDense(ImplicitState<double>& own, const DensePart& part) { invertPart(own, part); }
+
+namespace {
+
+template <bool isOfParticles, class Real>
+INLINE void restrictTo(ImplicitState<Real>& own, std::uint32_t first, std::uint32_t end) {
   const Hierarchy<Real>& hierarchy = own.hierarchy;
+  const std::uint32_t *starts = hierarchy.restrictionStarts.data(), particles = hierarchy.particles;
   const typename Hierarchy<Real>::Weight* hangs = hierarchy.restriction.data();
   const Arrays<const Real> x = arraysOf(std::as_const(own.iterate.positions)),
                            residuals = arraysOf(std::as_const(own.residuals));
-  const Four<Real> center = own.centers[coarse];
-  RigidVector<Real> sum;
-  for (std::uint32_t n = hierarchy.restrictionStarts[coarse]; n < hierarchy.restrictionStarts[coarse + 1];
-       ++n) {
-    const auto [vertex, weight] = hangs[n];
-    const bool isParticle = vertex < hierarchy.particles;
-    const RigidVector<Real> force =
-        isParticle ? RigidVector<Real>{fourAt(residuals, static_cast<std::ptrdiff_t>(vertex)), {}}
-                   : own.coarseResiduals.data()[vertex - hierarchy.particles];
-    const Four<Real> torque = crossOf(placeOf(own, x, vertex) - center, force.translation) + force.rotation;
-    sum.translation = sum.translation + weight * force.translation;
-    sum.rotation = sum.rotation + weight * torque;
+  const Four<Real>* centers = own.centers.data();
+  RigidVector<Real>* forces = own.coarseResiduals.data();
+  for (std::uint32_t coarse = first; coarse < end; ++coarse) {
+    const Four<Real> center = centers[coarse];
+    RigidVector<Real> sum;
+    for (std::uint32_t n = starts[coarse]; n < starts[coarse + 1]; ++n) {
+      const auto [vertex, weight] = hangs[n];
+      Four<Real> force, torque;
+      if constexpr (isOfParticles) {
+        const auto i = static_cast<std::ptrdiff_t>(vertex);
+        force = fourAt(residuals, i);
+        torque = crossOf(fourAt(x, i) - center, force);
+      } else {
+        const RigidVector<Real>& fine = forces[vertex - particles];
+        force = fine.translation;
+        torque = crossOf(centers[vertex - particles] - center, force) + fine.rotation;
+      }
+      sum.translation = sum.translation + weight * force;
+      sum.rotation = sum.rotation + weight * torque;
+    }
+    forces[coarse] = canonical(sum);
   }
-  own.coarseResiduals[coarse] = canonical(sum);
+}
+template <class Real>
+INLINE void restrictRange(ImplicitState<Real>& own, bool isOfParticles, std::uint32_t first,
+                          std::uint32_t end) {
+  isOfParticles ? restrictTo<true>(own, first, end) : restrictTo<false>(own, first, end);
+}
+
+}  // namespace
+
+VECTOR_CLONES(void, restrictResiduals,
+              (ImplicitState<float> & own, bool isOfParticles, std::uint32_t first, std::uint32_t end),
+              (own, isOfParticles, first, end), restrictRange(own, isOfParticles, first, end))
+void restrictResiduals(ImplicitState<double>& own, bool isOfParticles, std::uint32_t first,
+                       std::uint32_t end) {
+  restrictRange(own, isOfParticles, first, end);
 }
 
 template <class Real>
@@ -265,14 +314,23 @@ INLINE void prolongRange(ImplicitState<Real>& own, const Real* inverseMasses, st
   }
 }
 
+template <class Real>
+INLINE void prolongVertices(ImplicitState<Real>& own, std::uint32_t first, std::uint32_t end) {
+  const std::uint32_t particles = own.hierarchy.particles;
+  for (std::uint32_t coarse = first; coarse < end; ++coarse) {
+    const RigidVector<Real> motion = prolonged(own, particles + coarse, own.centers.data()[coarse]),
+                            minus = own.coarseInverses.data()[coarse] * own.coarseResiduals.data()[coarse];
+    own.coarseCorrections.data()[coarse] = canonical(
+        RigidVector<Real>{motion.translation - minus.translation, motion.rotation - minus.rotation});
+  }
+}
+
 }  // namespace
 
-template <class Real>
-void prolong(ImplicitState<Real>& own, std::uint32_t coarse) {
-  const RigidVector<Real> motion = prolonged(own, own.hierarchy.particles + coarse, own.centers[coarse]),
-                          minus = own.coarseInverses[coarse] * own.coarseResiduals[coarse];
-  own.coarseCorrections[coarse] =
-      canonical(RigidVector<Real>{motion.translation - minus.translation, motion.rotation - minus.rotation});
+VECTOR_CLONES(void, prolong, (ImplicitState<float> & own, std::uint32_t first, std::uint32_t end),
+              (own, first, end), prolongVertices(own, first, end))
+void prolong(ImplicitState<double>& own, std::uint32_t first, std::uint32_t end) {
+  prolongVertices(own, first, end);
 }
 
 VECTOR_CLONES(void, prolongParticles,
@@ -322,27 +380,28 @@ void runOnLevel(PassCall call, std::span<const ImplicitArguments<Real>> pieces, 
       forEachVertex(level.coarseFirst, level.coarseCount, [&](std::uint32_t i) { findCenter(own, i); });
     else if (call.pass == Pass::coarsen)
       forEachStretch(
-          level.coarseFirst, level.coarseCount, ROWS_AT_ONCE,
+          level.coarseFirst, level.coarseCount, rowsAtOnce(level.coarseCount),
           [&](std::uint32_t first, std::uint32_t end) { coarsen(pieces[piece], level, first, end); });
     else if (call.pass == Pass::restrict)
-      forEachVertex(level.coarseFirst, level.coarseCount, [&](std::uint32_t i) { restrictResidual(own, i); });
+      ThreadTeam::shared().forEachRange(level.coarseFirst, level.coarseFirst + level.coarseCount,
+                                        VERTICES_AT_ONCE, [&](std::uint32_t first, std::uint32_t end) {
+                                          restrictResiduals(own, isFineOfParticles, first, end);
+                                        });
     else if (isFineOfParticles)
       forEachStretch(
           level.fineFirst, level.fineCount, PARTICLES_AT_ONCE,
           [&](std::uint32_t first, std::uint32_t end) { prolongParticles(own, inverseMasses, first, end); });
     else
-      forEachVertex(level.fineFirst - hierarchy.particles, level.fineCount,
-                    [&](std::uint32_t i) { prolong(own, i); });
+      ThreadTeam::shared().forEachRange(
+          level.fineFirst - hierarchy.particles, level.fineFirst - hierarchy.particles + level.fineCount,
+          VERTICES_AT_ONCE, [&](std::uint32_t first, std::uint32_t end) { prolong(own, first, end); });
   }
 }
 
 #define INSTANTIATE(Real)                                                                                  \
   template void findCenter(ImplicitState<Real>&, std::uint32_t);                                           \
   template void coarsen(const ImplicitArguments<Real>&, const LevelParams&, std::uint32_t, std::uint32_t); \
-  template void invertDense(ImplicitState<Real>&, const DensePart&);                                       \
-  template void restrictResidual(ImplicitState<Real>&, std::uint32_t);                                     \
   template void solveCoarsest(ImplicitState<Real>&, const DensePart&, std::uint32_t);                      \
-  template void prolong(ImplicitState<Real>&, std::uint32_t);                                              \
   template void runOnLevel(PassCall, std::span<const ImplicitArguments<Real>>, ImplicitState<Real>&,       \
                            const Real*);
 INSTANTIATE(float)

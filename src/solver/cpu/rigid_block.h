@@ -2,6 +2,7 @@
 // shaders/sim/implicit/rigid_block.glsl.
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "core/exact_math.h"
@@ -28,14 +29,21 @@ struct RigidBlock {
   Columns tt{}, tr{}, rt{}, rr{};
 };
 
+template <class Real>
+INLINE RigidBlock<Real> canonical(RigidBlock<Real> block) {
+  for (auto* columns : {&block.tt, &block.tr, &block.rt, &block.rr})
+    for (Four<Real>& column : *columns) column = canonicalOf(column);
+  return block;
+}
+
 // What elements add to a block, before it is one.
 template <class Real>
 struct alignas(8 * sizeof(Real)) ElementSums {
   // Of p q^T, a column each: the three of a force, 0, the three of a torque, 0.
   typename VectorsOf<Real>::Eight columns[6]{};
-  // Of (sigma, y) (sigma, y)^T, a column each. The vertices of an element follow a rigid body by
+  // Of (y, sigma) (y, sigma)^T, two columns each. The vertices of an element follow a rigid body by
   // sum of c w (t + r x (x - center)) = sigma t + r x y.
-  typename VectorsOf<Real>::Four moments[4]{};
+  typename VectorsOf<Real>::Eight moments[2]{};
 };
 
 template <class Real>
@@ -118,24 +126,26 @@ INLINE RigidBlock<Real> blockOf(const SixColumns<Real>& columns) {
   return block;
 }
 
-// Minus the inverse of a symmetric matrix of order n, in place: entry (row, column) is at(row, column). Every
-// pivot in turn is swept out (Goodnight 1979, "A tutorial on the SWEEP operator"). `began` and `column` are
-// scratch.
-template <class Real, class At>
-INLINE void sweepOut(std::size_t n, Real* began, Real* column, At at) {
-  for (std::size_t k = 0; k < n; ++k) began[k] = at(k, k);
+// Minus the inverse of a symmetric matrix of order n, in place: its columns are at columnAt(0), columnAt(1)
+// and so on. Every pivot in turn is swept out (Goodnight 1979, "A tutorial on the SWEEP operator"). `began`
+// and `pivots` are scratch.
+template <class Real, class ColumnAt>
+INLINE void sweepOut(std::size_t n, Real* began, Real* pivots, ColumnAt columnAt) {
+  for (std::size_t k = 0; k < n; ++k) began[k] = columnAt(k)[k];
   for (std::size_t k = 0; k < n; ++k) {
-    const Real inverse = inversePivot(at(k, k), began[k]);
-    for (std::size_t i = 0; i < n; ++i) column[i] = at(i, k);
+    const Real inverse = inversePivot(columnAt(k)[k], began[k]);
+    std::copy_n(columnAt(k), n, pivots);
     for (std::size_t j = 0; j < n; ++j) {
-      const Real other = column[j] * inverse;
-      for (std::size_t i = 0; i < n; ++i) {
-        Real& entry = at(i, j);
-        const Real updated = entry - column[i] * other;
-        const Real swept = i == k ? other : column[i] * inverse;
-        const Real next = i == k || j == k ? (i == j ? -inverse : swept) : updated;
-        entry = clothsim::canonical(next);
+      Real* column = columnAt(j);
+      const Real swept = pivots[j] * inverse;
+      if (j == k) {
+#pragma GCC ivdep
+        for (std::size_t i = 0; i < n; ++i) column[i] = clothsim::canonical(pivots[i] * inverse);
+      } else {
+#pragma GCC ivdep
+        for (std::size_t i = 0; i < n; ++i) column[i] = clothsim::canonical(column[i] - pivots[i] * swept);
       }
+      column[k] = clothsim::canonical(j == k ? -inverse : swept);
     }
   }
 }

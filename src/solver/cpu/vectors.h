@@ -48,10 +48,12 @@ INLINE Vector crossOf(Vector a, Vector b) {
          __builtin_shufflevector(a, a, 2, 0, 1, 3) * __builtin_shufflevector(b, b, 1, 2, 0, 3);
 }
 
+// canonical() of each.
 template <class Vector>
 INLINE Vector canonicalOf(Vector v) {
-  for (int k = 0; k < 3; ++k) v[k] = clothsim::canonical(v[k]);
-  return v;
+  if constexpr (std::is_same_v<std::remove_cvref_t<decltype(v[0])>, double>) return v;
+  const Vector magnitude = v < Vector{} ? -v : v;
+  return magnitude < Vector{} + 0x1p-40f ? Vector{} : v;
 }
 
 }  // namespace clothsim::cpu
