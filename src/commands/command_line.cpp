@@ -92,6 +92,15 @@ struct Arguments {
   }
 };
 
+// --resolution auto: as proposed here, with what else is "auto".
+void followProposal(Arguments& a) {
+  if (a.resolutions.empty() || a.resolutions.front() != "auto") return;
+  const Proposal proposal = proposalHere();
+  a.resolutions.front() = resolutionOf(proposal);
+  if (a.backend == "auto") a.backend = proposal.backend;
+  if (a.viewerQuality == "auto") a.viewerQuality = nameOf(proposal.quality);
+}
+
 struct SceneFlags {
   CLI::Option *file, *settings;
 };
@@ -306,6 +315,7 @@ void declareRender(CLI::App& app, Arguments& a, Task& task) {
   render->callback([&] {
     task = [&] {
       const GridSize size = parsePixels(a.size);
+      followProposal(a);
       return renderCommand({a.sceneOptions(), a.frames, a.backend, a.outs, size.columns, size.rows, a.every,
                             a.fps, a.shader, a.around, a.down, a.from, parseView(a.view), a.strict, a.quality,
                             a.exposures});
@@ -422,11 +432,7 @@ void declareViewer(CLI::App& app, Arguments& a, Task& task) {
       "\nExit codes: 0 done, 1 the simulation failed or the backends differ, 2 wrong usage, 3 scene error,\n"
       "            4 no usable OpenGL or no display, 5 input/output");
   task = [&] {
-    if (!a.resolutions.empty() && a.resolutions.front() == "auto") {
-      const Proposal proposal = proposalHere();
-      if (a.backend == "auto") a.backend = proposal.backend;
-      if (a.viewerQuality == "auto") a.viewerQuality = nameOf(proposal.quality);
-    }
+    followProposal(a);
     runViewer(loadScene(a.sceneOptions()),
               {a.scene, a.backend, a.around, a.down, a.timings, a.viewerQuality, a.restartAfter});
     return 0;

@@ -96,8 +96,8 @@ int doctorCommand(bool json) {
   }
   report["bitwise_equal"] = healthy;
   const Proposal proposal = measureProposal(true);
-  keepProposal(proposal, proposalPath(), machineName());
-  const std::string size = std::to_string(proposal.size) + "x" + std::to_string(proposal.size);
+  const std::string size = resolutionOf(proposal),
+                    fault = keepProposal(proposal, proposalPath(), machineName());
   report["proposal"] = {{"backend", proposal.backend},
                         {"resolution", size},
                         {"quality", nameOf(proposal.quality)},
@@ -119,9 +119,10 @@ int doctorCommand(bool json) {
                 result["steps"].get<int>(), result["differing_floats"].get<int>());
   std::printf(
       "proposal       %s backend, %s points, %s quality: of the demo's start, %.1f ms for 1/30 s and %.1f ms "
-      "for a\n               picture of 1280 x 720; tools/demo and --resolution auto take it\n",
+      "for a\n               picture of 1280 x 720; %s\n",
       proposal.backend.c_str(), size.c_str(), std::string(nameOf(proposal.quality)).c_str(),
-      1e3 * proposal.simulationSeconds, 1e3 * proposal.drawSeconds);
+      1e3 * proposal.simulationSeconds, 1e3 * proposal.drawSeconds,
+      fault.empty() ? "tools/demo and --resolution auto take it" : ("not kept: " + fault).c_str());
   std::printf("%s\n",
               healthy
                   ? "All is well: CPU and GPU agree in every bit."

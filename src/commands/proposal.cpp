@@ -115,8 +115,7 @@ std::optional<Proposal> keptProposal(const fs::path& path, const std::string& ma
   }
 }
 
-void keepProposal(const Proposal& proposal, const fs::path& path, const std::string& machine) {
-  if (path.empty()) return;
+std::string keepProposal(const Proposal& proposal, const fs::path& path, const std::string& machine) {
   nlohmann::ordered_json json;
   json["machine"] = machine;
   json["backend"] = proposal.backend;
@@ -124,12 +123,11 @@ void keepProposal(const Proposal& proposal, const fs::path& path, const std::str
   json["quality"] = std::string(nameOf(proposal.quality));
   json["simulation_seconds"] = proposal.simulationSeconds;
   json["draw_seconds"] = proposal.drawSeconds;
-  std::error_code ignored;  // the writer complains
-  fs::create_directories(path.parent_path(), ignored);
-  try {
-    writeFileAtomically(path, json.dump(2) + "\n");
-  } catch (const Error&) {
-  }
+  return saveInConfigFolder(path, json.dump(2) + "\n");
+}
+
+std::string resolutionOf(const Proposal& proposal) {
+  return std::to_string(proposal.size) + "x" + std::to_string(proposal.size);
 }
 
 Proposal proposalHere() {
@@ -138,9 +136,11 @@ Proposal proposalHere() {
   if (const std::optional<Proposal> kept = keptProposal(proposalPath(), machine)) return *kept;
   std::fprintf(stderr, "clothsim: measuring what suits this machine ...\n");
   const Proposal proposal = measureProposal(false);
-  std::fprintf(stderr, "clothsim: %dx%d points on the %s backend, pictures in %s quality\n", proposal.size,
-               proposal.size, proposal.backend.c_str(), std::string(nameOf(proposal.quality)).c_str());
-  keepProposal(proposal, proposalPath(), machine);
+  std::fprintf(stderr, "clothsim: %s points on the %s backend, pictures in %s quality\n",
+               resolutionOf(proposal).c_str(), proposal.backend.c_str(),
+               std::string(nameOf(proposal.quality)).c_str());
+  if (const std::string fault = keepProposal(proposal, proposalPath(), machine); !fault.empty())
+    std::fprintf(stderr, "clothsim: it will be measured again next time: %s\n", fault.c_str());
   return proposal;
 }
 

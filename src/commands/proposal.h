@@ -30,8 +30,11 @@ struct Proposal {
 // None where the file is of another machine, or cannot be read as one.
 [[nodiscard]] std::optional<Proposal> keptProposal(const std::filesystem::path& path,
                                                    const std::string& machine);
-// Nothing happens where it cannot be written: the next one measures again.
-void keepProposal(const Proposal& proposal, const std::filesystem::path& path, const std::string& machine);
+// Returns why it could not be written, "" when it was.
+[[nodiscard]] std::string keepProposal(const Proposal& proposal, const std::filesystem::path& path,
+                                       const std::string& machine);
+// "64x64"
+[[nodiscard]] std::string resolutionOf(const Proposal& proposal);
 
 // The one that is kept; else it is measured, announced on stderr, and kept. In a context of its own.
 // @throws OpenGlError where there is none

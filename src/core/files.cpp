@@ -194,6 +194,18 @@ fs::path userConfigFolder() {
   return {};
 }
 
+std::string saveInConfigFolder(const fs::path& path, std::string_view bytes) {
+  if (path.empty()) return "neither XDG_CONFIG_HOME nor HOME names a folder for settings";
+  std::error_code ignored;  // the writer complains
+  fs::create_directories(path.parent_path(), ignored);
+  try {
+    writeFileAtomically(path, bytes);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "";
+}
+
 const fs::path& resourceRoot() {
   static const fs::path root = [] {
     std::error_code ignored;

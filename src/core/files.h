@@ -57,6 +57,8 @@ void checkWritable(const std::filesystem::path& path);
 // The user's folder for what this program keeps between runs: $XDG_CONFIG_HOME/clothsim or
 // ~/.config/clothsim; empty where neither is set. It need not exist.
 [[nodiscard]] std::filesystem::path userConfigFolder();
+// Writes a file there, whole or not at all, and makes the folders. Returns why it could not, "" when it did.
+[[nodiscard]] std::string saveInConfigFolder(const std::filesystem::path& path, std::string_view bytes);
 
 // The folder that holds shaders/ and assets/: $CLOTHSIM_ROOT, else beside the executable or one of the
 // folders above it, else the source tree it was built from. @throws InputOutputError when none has them

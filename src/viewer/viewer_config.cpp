@@ -57,23 +57,14 @@ LoadedConfig loadViewerConfig(const fs::path& path) {
 }
 
 std::string saveViewerConfig(const ViewerConfig& config, const fs::path& path) {
-  if (path.empty()) return "neither XDG_CONFIG_HOME nor HOME names a folder for settings";
   nlohmann::ordered_json json;
   if (config.showPanels) json["show_panels"] = *config.showPanels;
   json["show_overlay"] = config.showOverlay;
   json["panel"] = std::string(nameOf(config.panel));
   json["text_size"] = config.textSize;
   if (!config.folder.empty()) json["folder"] = config.folder;
-  std::error_code ignored;  // the writer complains
-  fs::create_directories(path.parent_path(), ignored);
-  try {
-    const auto replaced =
-        nlohmann::json::error_handler_t::replace;  // what is no UTF-8 in the name of a folder
-    writeFileAtomically(path, json.dump(2, ' ', false, replaced) + "\n");
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  const auto replaced = nlohmann::json::error_handler_t::replace;  // what is no UTF-8 in the name of a folder
+  return saveInConfigFolder(path, json.dump(2, ' ', false, replaced) + "\n");
 }
 
 }  // namespace clothsim

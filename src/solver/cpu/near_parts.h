@@ -3,6 +3,7 @@
 // same, in the same order.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 

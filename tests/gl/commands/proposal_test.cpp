@@ -21,10 +21,12 @@ TEST(Proposal, IsKeptForTheMachineThatItWasMeasuredOn) {
   const test::TemporaryFolder folder;
   const auto path = folder / "settings" / "machine.json";  // the folder is made
   EXPECT_EQ(keptProposal(path, "this one"), std::nullopt) << "nothing is there yet";
-  keepProposal(some, path, "this one");
+  EXPECT_EQ(keepProposal(some, path, "this one"), "");
   EXPECT_EQ(keptProposal(path, "this one"), some);
   EXPECT_EQ(keptProposal(path, "another one"), std::nullopt);
   EXPECT_EQ(keptProposal("", "this one"), std::nullopt);
+  EXPECT_NE(keepProposal(some, "", "this one"), "");
+  EXPECT_NE(keepProposal(some, path / "below a file", "this one"), "");
 }
 
 TEST(Proposal, IsMeasuredAgainWhereItsFileIsNone) {
@@ -49,7 +51,7 @@ TEST(Proposal, ThatIsKeptIsTakenByAutoWithoutMeasuring) {
   const test::TemporaryFolder folder;
   testContext();
   const std::string home = "XDG_CONFIG_HOME=" + folder.path().string();
-  keepProposal(some, folder / "clothsim" / "machine.json", machineName());
+  EXPECT_EQ(keepProposal(some, folder / "clothsim" / "machine.json", machineName()), "");
   const test::CommandResult run = test::runCommand(
       "env " + home +
       " " CLOTHSIM_PROGRAM " run -f demo --resolution auto --frames 0 --backend cpu --json 2>&1 >/dev/null");
