@@ -175,9 +175,11 @@ struct LevelsInARow {
 };
 
 // After so many Newton steps, linear systems of a step end at this part of the r.z that it may lack at its
-// end. The first ones are solved as well as the tolerance says: most steps need no more.
+// end. The first ones are solved as well as the tolerance says: most steps need no more. Where nothing
+// touches, those behind the first one end early, at a smaller part: friction would feel what they lack.
 #define THOROUGH_NEWTON_STEPS 3u
 #define SUFFICIENT_RESIDUAL 0.25
+#define EARLY_RESIDUAL 0.00390625
 
 // What conjugate gradients and the line search have come to.
 SHARED_STRUCT ImplicitScalars {

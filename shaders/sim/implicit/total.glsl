@@ -64,7 +64,7 @@ void takeTotal(Sum total) {
   precise float least = step.systemTolerance * residual;
   float sufficient = scalars.sufficientResidual;
   scalars.residual = residual;
-  scalars.leastResidual = scalars.newtonSteps >= THOROUGH_NEWTON_STEPS && least < sufficient ? sufficient : least;
+  scalars.leastResidual = scalars.newtonSteps > 0u && least < sufficient ? sufficient : least;
   scalars.kept = 0.0;
   scalars.isSystemSolved = total < 0.0 ? SYSTEM_LOST : 0u;
 #elif SUM_KIND == SUM_STEP
@@ -86,11 +86,13 @@ void takeTotal(Sum total) {
   bool isFalling = scalars.newtonSteps == 0u || small <= step.tolerance || squaredUpdate <= allowed;
   scalars.lastUpdate = update;
   precise float tolerated = step.toleratedStiffness * motion;
-  precise float sufficient = SUFFICIENT_RESIDUAL * (step.toleratedStiffness * total.y);
+  bool touches = step.colliderCount != 0u || scalars.pairs != 0u;
+  bool isThorough = scalars.newtonSteps + 1u < THOROUGH_NEWTON_STEPS;
+  float part = !isThorough ? SUFFICIENT_RESIDUAL : touches ? 0.0 : EARLY_RESIDUAL;
+  precise float sufficient = part * (step.toleratedStiffness * total.y);
   scalars.sufficientResidual = sufficient;
   bool isFollowed = scalars.isSystemSolved != SYSTEM_LOST &&
                     (scalars.isSystemSolved != 0u || scalars.residual <= tolerated);
-  bool touches = step.colliderCount != 0u || scalars.pairs != 0u;
   bool isConfirmed = !touches || scalars.newtonSteps > 0u;  // the first one takes predicted contacts
   scalars.isStepSolved = isConfirmed && update <= step.tolerance && isFollowed && isFalling ? 1u : 0u;
   scalars.isSystemSolved = 0u;

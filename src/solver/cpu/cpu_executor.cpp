@@ -216,7 +216,7 @@ void CpuExecutor<Real>::sum(Pass pass) {
     case Pass::sumFirstResidual:
       scalars.residual = residual();
       scalars.leastResidual = parameters_.pieces[0].systemTolerance * scalars.residual;
-      if (scalars.newtonSteps >= THOROUGH_NEWTON_STEPS)
+      if (scalars.newtonSteps > 0)
         scalars.leastResidual = cpu::larger(scalars.leastResidual, scalars.sufficientResidual);
       scalars.kept = 0;
       break;
@@ -282,7 +282,10 @@ void CpuExecutor<Real>::measureUpdate() {
   const Real ownMotion = largestSquare(implicit_.displacements, Real(LARGE_SQUARE));
   const Real motion = cpu::larger(ownMotion, step.leastMotion * step.leastMotion);
   // Not by the least motion: cloth at rest lies on planes less deep than that would leave undecided.
-  scalars.sufficientResidual = Real(SUFFICIENT_RESIDUAL) * (step.toleratedStiffness * ownMotion);
+  const bool touches = step.colliderCount != 0 || scalars.pairs != 0;
+  const bool isThorough = scalars.newtonSteps + 1 < THOROUGH_NEWTON_STEPS;
+  const Real part = !isThorough ? Real(SUFFICIENT_RESIDUAL) : touches ? Real(0) : Real(EARLY_RESIDUAL);
+  scalars.sufficientResidual = part * (step.toleratedStiffness * ownMotion);
   const Real square = largestSquare(implicit_.increments, Real(LARGE_SQUARE)) * reciprocal(motion);
   const Real update = square * inverseSquareRoot(square);
   const bool isFalling = scalars.newtonSteps == 0 || Real(8) * update <= step.tolerance ||
@@ -291,7 +294,6 @@ void CpuExecutor<Real>::measureUpdate() {
   const bool isFollowed =
       scalars.isSystemSolved != SYSTEM_LOST &&
       (scalars.isSystemSolved != 0 || scalars.residual <= step.toleratedStiffness * motion);
-  const bool touches = step.colliderCount != 0 || scalars.pairs != 0;
   const bool isConfirmed = !touches || scalars.newtonSteps > 0;
   scalars.isStepSolved = isConfirmed && update <= step.tolerance && isFollowed && isFalling ? 1 : 0;
   scalars.isSystemSolved = 0;
