@@ -49,9 +49,8 @@ using uint = std::uint32_t;
 #define CORRECTION_WEIGHT 1024
 
 // A pair that touches is pushed apart with this many times the stiffness of its inertia, and with what its
-// springs add (CONTACT_OVER_SPRINGS), up to so many times that: a pile of paper would not be solved.
+// springs add (CONTACT_OVER_SPRINGS).
 #define PAIR_OVER_INERTIA 100.0f
-#define MOST_OF_SPRINGS 10.0f
 // Nearer than half of its thickness a pair is pushed more stiffly, down to this part of it.
 #define SQUEEZED 0.02f
 

@@ -1,4 +1,4 @@
-"""Contact inside the step, judged by others (tools/validate contact judges): every step of 12 scenes is exported and looked at by
+"""Contact inside the step, judged by others (tools/validate contact judges): every step of 13 scenes is exported and looked at by
 ipctk, and by formulas of this folder where it is about colliders. What the program says of itself stands beside it."""
 import concurrent.futures, csv, datetime, json, os, pathlib, shlex, subprocess, sys, tempfile
 
@@ -7,7 +7,7 @@ program = os.environ.get("CLOTHSIM", str(root / "build/release/clothsim"))
 
 # Frames of 1/60 s: until the cloth lies, or what is pulled and folded has been.
 scenes = {"sphere": 90, "selfCollision": 100, "fold": 225, "twist": 225, "stack": 75, "funnel": 180, "drape_box": 100, "bed": 60,
-          "coat_hook": 75, "pebbles": 60, "demo": 120, "pillow": 60}
+          "coat_hook": 75, "pebbles": 60, "wring": 225, "demo": 120, "pillow": 60}
 fabrics = ["cotton", "silk"]
 columns = ("date commit scene points fabric steps_a_frame seed frames ipctk_crossed_steps ipctk_blocked_steps cgal_crossings "
            "contact_sound deepest_vertex_mm deepest_side_mm peak_strain least_gap_mm unsolved_steps steps guarded_steps "
@@ -15,8 +15,9 @@ columns = ("date commit scene points fabric steps_a_frame seed frames ipctk_cros
 
 
 def points(scene, size):
-    """The strip of twist is four times as long as wide; fold has a column in the middle."""
-    return f"{2 * size - 1}x{(size + 1) // 2}" if scene == "twist" else f"{size}x{size}"
+    """The strips of twist and wring are four and six times as long as wide; fold has a column in the middle."""
+    longer = {"twist": 2 * size - 1, "wring": 3 * size - 2}
+    return f"{longer[scene]}x{(size + 1) // 2}" if scene in longer else f"{size}x{size}"
 
 
 def command_of(scene, size, fabric, steps, seed):

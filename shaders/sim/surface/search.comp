@@ -91,9 +91,7 @@ void addPair(uvec4 ids, bool areSides, PartPlaces places, NearestParts nearest, 
   precise float halfReach = 0.5 * reach;
   precise float room = (4.0 * gap) * (reach - gap);
   precise float more = (reach * reach) * reciprocal(room);
-  precise float byInertia = PAIR_OVER_INERTIA * (inertia * reciprocal(squares));
-  precise float most = MOST_OF_SPRINGS * byInertia;
-  precise float stiffness = byInertia + (springs < most ? springs : most);
+  precise float stiffness = PAIR_OVER_INERTIA * (inertia * reciprocal(squares)) + springs;
   precise float stiffer = stiffness * more;
   precise float ofPair = shareOf(ids.x, areSides, places, nearest) * (gap < halfReach ? stiffer : stiffness);
   if (!(ofPair > 0.0)) return;

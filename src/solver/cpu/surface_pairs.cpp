@@ -76,9 +76,7 @@ SurfacePair<Real> pairAt(const ClothSurface<Real>& surface, const Parts& parts,
   if (!((predicted < pair.distance ? predicted : pair.distance) < reach + surface.margin)) return pair;
   const Real gap = larger(pair.distance, static_cast<Real>(SQUEEZED) * reach), half = Real(0.5) * reach;
   const Real squeezed = (reach * reach) * reciprocal((Real(4) * gap) * (reach - gap));
-  const Real byInertia = static_cast<Real>(PAIR_OVER_INERTIA) * (inertia * reciprocal(weights)),
-             most = static_cast<Real>(MOST_OF_SPRINGS) * byInertia;
-  const Real stiffness = byInertia + (springs < most ? springs : most);
+  const Real stiffness = static_cast<Real>(PAIR_OVER_INERTIA) * (inertia * reciprocal(weights)) + springs;
   const Real over = reach - pair.distance;
   pair.over = canonical(isMoved ? over + along : over);
   pair.stiffness = shareOf(surface, parts, way, part, x) * (gap < half ? stiffness * squeezed : stiffness);
