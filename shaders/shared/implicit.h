@@ -175,8 +175,8 @@ struct LevelsInARow {
 };
 
 // After so many Newton steps, linear systems of a step end at this part of the r.z that it may lack at its
-// end. The first ones are solved as well as the tolerance says: most steps need no more. Where nothing
-// touches, those behind the first one end early, at a smaller part: friction would feel what they lack.
+// end. The first ones are solved as well as the tolerance says: most steps need no more. In scenes without
+// contacts the second and third end at a smaller part; with contacts, friction would feel what they lack.
 #define THOROUGH_NEWTON_STEPS 3u
 #define SUFFICIENT_RESIDUAL 0.25
 #define EARLY_RESIDUAL 0.00390625

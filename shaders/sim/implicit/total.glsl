@@ -87,8 +87,8 @@ void takeTotal(Sum total) {
   scalars.lastUpdate = update;
   precise float tolerated = step.toleratedStiffness * motion;
   bool touches = step.colliderCount != 0u || scalars.pairs != 0u;
-  bool isThorough = scalars.newtonSteps + 1u < THOROUGH_NEWTON_STEPS;
-  float part = !isThorough ? SUFFICIENT_RESIDUAL : touches ? 0.0 : EARLY_RESIDUAL;
+  bool isNextThorough = scalars.newtonSteps + 1u < THOROUGH_NEWTON_STEPS;
+  float part = !isNextThorough ? SUFFICIENT_RESIDUAL : touches ? 0.0 : EARLY_RESIDUAL;
   precise float sufficient = part * (step.toleratedStiffness * total.y);
   scalars.sufficientResidual = sufficient;
   bool isFollowed = scalars.isSystemSolved != SYSTEM_LOST &&

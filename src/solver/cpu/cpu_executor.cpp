@@ -281,10 +281,10 @@ void CpuExecutor<Real>::measureUpdate() {
   const StepParams<Real>& step = parameters_.pieces[0];
   const Real ownMotion = largestSquare(implicit_.displacements, Real(LARGE_SQUARE));
   const Real motion = cpu::larger(ownMotion, step.leastMotion * step.leastMotion);
-  // Not by the least motion: cloth at rest lies on planes less deep than that would leave undecided.
   const bool touches = step.colliderCount != 0 || scalars.pairs != 0;
-  const bool isThorough = scalars.newtonSteps + 1 < THOROUGH_NEWTON_STEPS;
-  const Real part = !isThorough ? Real(SUFFICIENT_RESIDUAL) : touches ? Real(0) : Real(EARLY_RESIDUAL);
+  const bool isNextThorough = scalars.newtonSteps + 1 < THOROUGH_NEWTON_STEPS;
+  const Real part = !isNextThorough ? Real(SUFFICIENT_RESIDUAL) : touches ? Real(0) : Real(EARLY_RESIDUAL);
+  // Not by the least motion: cloth at rest lies on planes less deep than that would leave undecided.
   scalars.sufficientResidual = part * (step.toleratedStiffness * ownMotion);
   const Real square = largestSquare(implicit_.increments, Real(LARGE_SQUARE)) * reciprocal(motion);
   const Real update = square * inverseSquareRoot(square);
