@@ -2,6 +2,8 @@
 #include "sim/implicit/level.glsl"
 #include "sim/implicit/store_block.glsl"
 
+layout(binding = COARSE_BLOCKS_UNIT) uniform samplerBuffer coarseBlocks;
+
 void main() {
   if (isSkipped()) return;
   uint i = thisEntry();

@@ -8,7 +8,7 @@
 #include "sim/incident_springs.glsl"
 #include "sim/implicit/contact.glsl"
 #if HAS_SURFACE
-#include "sim/surface/pairs.glsl"
+#include "sim/surface/pairs_of_particles.glsl"
 #endif
 #if HAS_MESH
 #include "sim/implicit/mesh.glsl"

@@ -6,15 +6,11 @@
 #include "sim/implicit/gate.glsl"
 #include "sim/implicit/symmetric.glsl"
 
-layout(binding = RESIDUALS_UNIT) uniform samplerBuffer residuals;
-layout(binding = CORRECTIONS_UNIT) uniform samplerBuffer corrections;
-layout(binding = FACTORS_UNIT) uniform samplerBuffer factors;
 layout(binding = RIGHT_HAND_SIDES_UNIT) uniform samplerBuffer rightHandSides;
 layout(binding = AIR_BLOCKS_UNIT) uniform samplerBuffer airBlocks;
 layout(binding = DISPLACEMENTS_UNIT) uniform samplerBuffer displacements;
 layout(binding = ITERATES_UNIT) uniform samplerBuffer iterates;
 layout(binding = DIRECTIONS_UNIT) uniform samplerBuffer directions;
-layout(binding = PRODUCTS_UNIT) uniform samplerBuffer products;
 layout(binding = INCREMENTS_UNIT) uniform samplerBuffer increments;
 layout(binding = STARTS_UNIT) uniform samplerBuffer starts;
 

@@ -1,5 +1,6 @@
 // Where the aggregates of a level are: the weighted mean of the places of what hangs on them.
 #include "sim/implicit/level.glsl"
+#include "sim/implicit/restriction_lists.glsl"
 
 layout(std430, binding = CENTERS_BINDING) writeonly buffer Centers { vec4 newCenters[]; };
 

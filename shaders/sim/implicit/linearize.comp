@@ -7,7 +7,7 @@
 #include "sim/incident_springs.glsl"
 #include "sim/implicit/contact.glsl"
 #if HAS_SURFACE
-#include "sim/surface/pairs.glsl"
+#include "sim/surface/pairs_of_particles.glsl"
 #endif
 #if HAS_MESH
 #include "sim/implicit/mesh.glsl"
@@ -20,6 +20,15 @@ layout(std430, binding = RESIDUALS_BINDING) writeonly buffer Residuals { vec4 ne
 layout(std430, binding = FACTORS_BINDING) writeonly buffer FactorsOut { vec4 newFactors[]; };
 layout(std430, binding = CONTACT_BLOCKS_BINDING) writeonly buffer ContactBlocks { vec4 newContactBlocks[]; };
 layout(std430, binding = INCREMENTS_BINDING) writeonly buffer Increments { vec4 newIncrements[]; };
+
+void storeFactors(uint i, Factors f) {
+  newFactors[2u * i] = vec4(f.lower, 0.0);
+  newFactors[2u * i + 1u] = vec4(f.inverse, 0.0);
+}
+void storeContactBlock(uint i, Symmetric contact, float frictionLimit) {
+  newContactBlocks[2u * i] = vec4(contact.diagonal, frictionLimit);
+  newContactBlocks[2u * i + 1u] = vec4(contact.others, 0.0);
+}
 
 // What bending adds to the diagonal block of particle i of `count` in a line, of those `stride` apart.
 float bendingBlock(uint index, uint i, uint count, uint stride, float b, uint cut, uint before, uint around, uint after) {
@@ -90,8 +99,7 @@ void addContact(uint i, float diagonal, vec3 d, inout vec3 residual, inout Symme
   precise vec3 with = residual + ((stiffness * over) * normal - across * slip);
   residual = with;
   block = sumOf(block, contact);
-  newContactBlocks[2u * i] = vec4(contact.diagonal, limit);
-  newContactBlocks[2u * i + 1u] = vec4(contact.others, 0.0);
+  storeContactBlock(i, contact, limit);
 }
 
 #if HAS_SURFACE
@@ -121,8 +129,9 @@ void main() {
   vec4 x = positionAt(i);
   newIncrements[i] = vec4(0.0);
   if (x.w == 0.0) {
-    newResiduals[i] = newFactors[2u * i] = newFactors[2u * i + 1u] = vec4(0.0);
-    if (hasContacts) newContactBlocks[2u * i] = newContactBlocks[2u * i + 1u] = vec4(0.0);
+    newResiduals[i] = vec4(0.0);
+    storeFactors(i, Factors(vec3(0.0), vec3(0.0)));
+    if (hasContacts) storeContactBlock(i, Symmetric(vec3(0.0), vec3(0.0)), 0.0);
     return;
   }
 
@@ -162,7 +171,5 @@ void main() {
 #endif
   if (hasContacts) addContact(i, rightHandSide.w, displacement, residual, block);
   newResiduals[i] = vec4(canonical(residual), 0.0);
-  Factors f = factorize(block);
-  newFactors[2u * i] = vec4(f.lower, 0.0);
-  newFactors[2u * i + 1u] = vec4(f.inverse, 0.0);
+  storeFactors(i, factorize(block));
 }

@@ -7,7 +7,7 @@
 #include "sim/implicit/contact.glsl"
 #if HAS_SURFACE
 #include "sim/implicit/scalars.glsl"
-#include "sim/surface/pairs.glsl"
+#include "sim/surface/pairs_of_particles.glsl"
 #if MULTIPLIES_PAIRS
 vec3 directionAt(uint i) { return positionAt(i).xyz; }
 #include "sim/surface/pair_product.glsl"

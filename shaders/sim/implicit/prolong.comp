@@ -1,5 +1,6 @@
 // Corrections of the vertices of a level.
 #include "sim/implicit/level.glsl"
+#include "sim/implicit/vectors.glsl"
 
 layout(std430, binding = CORRECTIONS_BINDING) writeonly buffer Corrections { vec4 newCorrections[]; };
 

@@ -1,6 +1,9 @@
 // Corrections of vertices: their own, D^-1 r, and what the aggregates that they hang on make of them. Needs
 // correctionOn(coarse vertex).
+#include "sim/implicit/vectors.glsl"
 #include "sim/implicit/vertices.glsl"
+
+layout(binding = COARSE_INVERSES_UNIT) uniform samplerBuffer coarseInverses;
 
 RigidVector prolonged(uint vertex) {
   vec3 place = placeOf(vertex);

@@ -1,5 +1,6 @@
 // Force and torque on the aggregates of a level.
 #include "sim/implicit/level.glsl"
+#include "sim/implicit/vectors.glsl"
 
 layout(std430, binding = RESIDUALS_BINDING) writeonly buffer Residuals { vec4 newResiduals[]; };
 

@@ -1,5 +1,5 @@
 // Force and torque on an aggregate, P^T r. Needs residualAt(particle) and residualOn(coarse vertex).
-#include "sim/implicit/vertices.glsl"
+#include "sim/implicit/restriction_lists.glsl"
 
 RigidVector restricted(uint coarse) {
   vec3 center = centerAt(coarse);

@@ -9,7 +9,7 @@
 #include "sim/implicit/energy.glsl"
 #include "sim/implicit/contact.glsl"
 #if HAS_SURFACE
-#include "sim/surface/pairs.glsl"
+#include "sim/surface/pairs_of_particles.glsl"
 #endif
 #if HAS_MESH
 #include "sim/implicit/mesh.glsl"

@@ -1,7 +1,6 @@
 // directions = corrections + kept * directions
 #include "shared/implicit.h"
 #include "sim/implicit/scalars.glsl"
-#include "sim/implicit/common.glsl"
 #include "sim/implicit/updated_direction.glsl"
 
 layout(std430, binding = DIRECTIONS_BINDING) writeonly buffer Directions { vec4 newDirections[]; };

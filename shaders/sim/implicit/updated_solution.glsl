@@ -1,5 +1,5 @@
 // The residuals and increments after a step of conjugate gradients along the direction.
-#include "sim/implicit/common.glsl"
+#include "sim/implicit/vectors.glsl"
 
 vec3 updatedResidual(uint i) {
   precise vec3 residual = texelFetch(residuals, int(i)).xyz - scalars.stepSize * texelFetch(products, int(i)).xyz;

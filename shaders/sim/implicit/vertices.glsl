@@ -4,12 +4,8 @@
 #include "sim/implicit/rigid_block.glsl"
 
 layout(binding = CENTERS_UNIT) uniform samplerBuffer centers;
-layout(binding = COARSE_BLOCKS_UNIT) uniform samplerBuffer coarseBlocks;
-layout(binding = COARSE_INVERSES_UNIT) uniform samplerBuffer coarseInverses;
 layout(binding = PROLONGATION_STARTS_UNIT) uniform usamplerBuffer prolongationStarts;
 layout(binding = PROLONGATION_UNIT) uniform usamplerBuffer prolongation;
-layout(binding = RESTRICTION_STARTS_UNIT) uniform usamplerBuffer restrictionStarts;
-layout(binding = RESTRICTION_UNIT) uniform usamplerBuffer restriction;
 layout(binding = COARSE_PAIRS_UNIT) uniform usamplerBuffer coarsePairs;
 layout(binding = COARSE_SOURCES_UNIT) uniform usamplerBuffer coarseSources;
 

@@ -3,7 +3,7 @@
 #include "shared/implicit.h"
 #include "sim/implicit/scalars.glsl"
 #include "sim/surface/common.glsl"
-#include "sim/surface/pairs.glsl"
+#include "sim/surface/pairs_of_particles.glsl"
 
 layout(local_size_x = SURFACE_GROUP) in;
 layout(binding = RIGHT_HAND_SIDES_UNIT) uniform samplerBuffer rightHandSides;

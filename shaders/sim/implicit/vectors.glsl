@@ -1,0 +1,7 @@
+// What conjugate gradients keep between their passes, and what no other pass reads.
+#include "sim/implicit/common.glsl"
+
+layout(binding = RESIDUALS_UNIT) uniform samplerBuffer residuals;
+layout(binding = CORRECTIONS_UNIT) uniform samplerBuffer corrections;
+layout(binding = FACTORS_UNIT) uniform samplerBuffer factors;
+layout(binding = PRODUCTS_UNIT) uniform samplerBuffer products;
