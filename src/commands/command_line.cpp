@@ -387,7 +387,7 @@ void declareInfoCommands(CLI::App& app, Arguments& a, Task& task) {
       ->check(CLI::IsMember(
           {"limits", "programs", "contract", "dispatches", "roofs", "steps", "groups", "demo"}));
   probe->add_flag("--small", a.small, "with fewer points, frames and repetitions, for software renderers");
-  probe->add_option("--only", a.only, "of the contract, only the cases whose names contain this text")
+  probe->add_option("--only", a.only, "of contract and steps, only the cases whose names contain this text")
       ->type_name("TEXT");
   probe->footer(
       "Exit code 1 when contract finds a number that differs between CPU and GPU. docs/gpu.md explains the "

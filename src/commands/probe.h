@@ -23,7 +23,8 @@ void probeDispatches(bool small, const ProbeLine& line);
 // What the device can do at best: copies [GB/s], the loads of a step [us], the springs of a step [1/s].
 void probeRoofs(bool small, const ProbeLine& line);
 // Steps of the usual configurations: time, time to submit, dispatches, time of each pass. [us/step]
-void probeSteps(bool small, const ProbeLine& line);
+// `only`: of those whose names contain it.
+void probeSteps(bool small, const std::string& only, const ProbeLine& line);
 // Explicit steps with other shapes of work groups. [us/step]
 void probeGroups(bool small, const ProbeLine& line);
 // The demo, simulated and drawn in 3840 x 2160 pixels. [ms]

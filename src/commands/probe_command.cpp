@@ -21,7 +21,7 @@ int probeCommand(const std::string& block, bool small, const std::string& only) 
   if (block == "contract") isEqual = probeContract(small, only, line);
   if (block == "dispatches") probeDispatches(small, line);
   if (block == "roofs") probeRoofs(small, line);
-  if (block == "steps") probeSteps(small, line);
+  if (block == "steps") probeSteps(small, only, line);
   if (block == "groups") probeGroups(small, line);
   if (block == "demo") probeDemo(small, line);
   gl::checkErrors("the measurements");

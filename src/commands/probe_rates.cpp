@@ -95,10 +95,11 @@ void probePrograms(const ProbeLine& line) {
   tellFrom("drawing the demo");
 }
 
-void probeSteps(bool small, const ProbeLine& line) {
+void probeSteps(bool small, const std::string& only, const ProbeLine& line) {
   for (const int size : small ? std::vector{32} : std::vector{128, 512, 1024})
     for (const Configuration& configuration : configurations()) {
       const std::string name = std::string(configuration.name) + " " + sizeText(size);
+      if (name.find(only) == std::string::npos) continue;
       measureOrSay(line, name, [&] {
         const StepRate rate = measureStepRate(sceneOf(configuration, size), "gpu", small ? 0.02 : 0.7);
         addValue(line, name, rate.secondsPerStep * 1e6, "us/step");

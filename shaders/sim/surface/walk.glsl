@@ -14,31 +14,51 @@ bool areFlat(uint triangle, uint other) {
   return isOneGrid && all(lessThanEqual(a, b + uvec2(1u))) && all(lessThanEqual(b, a + uvec2(1u)));
 }
 
-void lookAtCorners(uint from, uint to, Bounds boxOfTo) {
-  uvec4 mine = texelFetch(triangles, int(2u * from)), theirs = texelFetch(triangles, int(2u * to));
-  for (uint k = 0u; k < 3u; ++k) {
-    uint i = mine[k];
-    if ((mine.w >> k & 1u) == 0u || i == theirs.x || i == theirs.y || i == theirs.z || !overlap(boxOf(i), boxOfTo)) continue;
-    if (!goesOn()) return;
-    NearestParts nearest = nearestOnTriangle(startAt(i), startAt(theirs.x), startAt(theirs.y), startAt(theirs.z));
-    lookAt(uvec4(i, theirs.xyz), false, PartPlaces(from, to, k, 0u), nearest);
+// A pair of parts of two triangles: its particles, and where they are.
+struct Parts {
+  bool mayMeet, areSides;
+  uvec4 ids;
+  PartPlaces places;
+};
+const uint CORNER_PAIRS = 6u, PART_PAIRS = 15u;
+
+// Number n of them: the corners of the first triangle and the second one, the other way round, then two sides each.
+Parts partsOf(uint n, uint first, uint second, Bounds boxOfFirst, Bounds boxOfSecond) {
+  uvec4 mine = texelFetch(triangles, int(2u * first)), theirs = texelFetch(triangles, int(2u * second));
+  Parts parts;
+  parts.areSides = n >= CORNER_PAIRS;
+  if (parts.areSides) {
+    uint k = (n - CORNER_PAIRS) / 3u, l = (n - CORNER_PAIRS) % 3u;
+    parts.ids = uvec4(mine[k], mine[(k + 1u) % 3u], theirs[l], theirs[(l + 1u) % 3u]);
+    parts.places = PartPlaces(first, second, k, l);
+    bool own = (mine.w >> (uint(OWNED_SIDE) + k) & theirs.w >> (uint(OWNED_SIDE) + l) & 1u) != 0u;
+    parts.mayMeet = own && all(notEqual(parts.ids.xy, parts.ids.zw)) && all(notEqual(parts.ids.xy, parts.ids.wz));
+    if (!parts.mayMeet) return parts;
+    Bounds box = joined(boxOf(parts.ids.x), boxOf(parts.ids.y));
+    parts.mayMeet = overlap(box, boxOfSecond) && overlap(box, joined(boxOf(parts.ids.z), boxOf(parts.ids.w)));
+  } else {
+    bool isOfFirst = n < 3u;
+    uint k = isOfFirst ? n : n - 3u;
+    uvec4 from = isOfFirst ? mine : theirs, to = isOfFirst ? theirs : mine;
+    parts.ids = uvec4(from[k], to.xyz);
+    parts.places = PartPlaces(isOfFirst ? first : second, isOfFirst ? second : first, k, 0u);
+    parts.mayMeet = (from.w >> k & 1u) != 0u && all(notEqual(to.xyz, uvec3(from[k])));
+    if (!parts.mayMeet) return parts;
+    parts.mayMeet = overlap(boxOf(from[k]), Bounds(isOfFirst ? boxOfSecond.low : boxOfFirst.low,
+                                                   isOfFirst ? boxOfSecond.high : boxOfFirst.high));
   }
+  return parts;
 }
 
-void lookAtSides(uint from, uint to, Bounds boxOfTo) {
-  uvec4 mine = texelFetch(triangles, int(2u * from)), theirs = texelFetch(triangles, int(2u * to));
-  for (uint k = 0u; k < 3u; ++k) {
-    if ((mine.w >> (uint(OWNED_SIDE) + k) & 1u) == 0u) continue;
-    uint p = mine[k], q = mine[(k + 1u) % 3u];
-    Bounds box = joined(boxOf(p), boxOf(q));
-    if (!overlap(box, boxOfTo)) continue;
-    for (uint l = 0u; l < 3u; ++l) {
-      if ((theirs.w >> (uint(OWNED_SIDE) + l) & 1u) == 0u) continue;
-      uint a = theirs[l], b = theirs[(l + 1u) % 3u];
-      if (a == p || a == q || b == p || b == q || !overlap(box, joined(boxOf(a), boxOf(b)))) continue;
-      if (!goesOn()) return;
-      lookAt(uvec4(p, q, a, b), true, PartPlaces(from, to, k, l), nearestOnSegments(startAt(p), startAt(q), startAt(a), startAt(b)));
-    }
+// One loop with one call: a driver may compile a copy for each.
+void lookAtParts(uint first, uint second, Bounds boxOfFirst, Bounds boxOfSecond) {
+  for (uint n = 0u; n < PART_PAIRS; ++n) {
+    Parts parts = partsOf(n, first, second, boxOfFirst, boxOfSecond);
+    if (!parts.mayMeet) continue;
+    if (!goesOn()) return;
+    uvec4 ids = parts.ids;
+    lookAt(ids, parts.areSides, parts.places,
+           nearestParts(parts.areSides, startAt(ids.x), startAt(ids.y), startAt(ids.z), startAt(ids.w)));
   }
 }
 
@@ -61,13 +81,7 @@ void lookAround(uint own) {
       Bounds box = boxAt(first + place);
       bool meets = overlap(ownBox, box);
       if (meets && level > 0) continue;
-      if (meets && !areFlat(own, place)) {
-        for (int turn = 0; turn < 2; ++turn) {  // a driver compiles a loop once, but a copy for each call
-          bool isFirst = turn == 0;
-          lookAtCorners(isFirst ? own : place, isFirst ? place : own, Bounds(isFirst ? box.low : ownBox.low, isFirst ? box.high : ownBox.high));
-        }
-        lookAtSides(own, place, box);
-      }
+      if (meets && !areFlat(own, place)) lookAtParts(own, place, ownBox, box);
       ++place;
       break;
     }
