@@ -1,6 +1,7 @@
 // The start of a search: its state; the boxes around the motions of triangles, and around each four of them; the sides of blocks;
 // and what the search counts up for particles. Work groups take one of these each, in this order. LATER: of a round that goes
-// on from where motion was cut short, if there was any. ONLY_BOXES: those of triangles once more, after corrections.
+// on from where motion was cut short, if there was any. ONLY_BOXES: those of triangles once more, after corrections, and not
+// relative to the mean motion.
 #define IS_START 1
 #include "sim/surface/common.glsl"
 #include "sim/surface/flat_sides.glsl"
@@ -40,6 +41,12 @@ void findShift() {
   shift = canonical(mean);
 }
 
+void storeShift() {
+  state.shiftX = shift.x;
+  state.shiftY = shift.y;
+  state.shiftZ = shift.z;
+}
+
 // Nothing that this dispatch reads.
 void begin() {
 #if SEARCHES_TOUCHING
@@ -54,9 +61,7 @@ void begin() {
   state.isGuarded = 0u;
 #endif
   state.isFlat = 0u;
-  state.shiftX = shift.x;
-  state.shiftY = shift.y;
-  state.shiftZ = shift.z;
+  storeShift();
   for (uint pass = 0u; pass < uint(PASSES); ++pass)
     if (watchRow[pass] != NO_DIVERGENCE) state.tooMany = 2u;
 }
@@ -85,7 +90,8 @@ void main() {
   if (isSettled()) return;
 #if ONLY_BOXES
   if (state.tooNear[0] == 0u) return;  // nobody looks at them
-  shift = vec3(state.shiftX, state.shiftY, state.shiftZ);
+  // From here on particles may stay behind the others: boxes are of the whole way of which they keep a part.
+  if (thisEntry() == 0u) storeShift();
 #else
   findShift();
   if (thisEntry() == 0u) begin();

@@ -269,7 +269,10 @@ void SurfaceContact<Real>::guard(const CpuState<Real>& before, CpuState<Real>& a
     findFlat(starts, after.positions, static_cast<Real>(LEAST_GAPS_OF_FLAT) * surface_.leastGap);
   const bool looksAtFlat = round >= CORRECTION_ROUNDS;
   if (!looksAtFlat && flatBlocks_.isAllFlat()) return;
+  // From the first round on that cuts motions short, particles may stay behind the others: boxes are of the
+  // whole way of which they keep a part.
   if (round == 0) shift_ = meanOf(motions_);
+  if (round == CORRECTION_ROUNDS) shift_ = Vec3<Real>{};
   if (round <= CORRECTION_ROUNDS) boxParticles(starts, surface_.leastGap);
   if (round == 0 || round == CORRECTION_ROUNDS) boxes_.joinTriangles(surface_);
   if (round <= CORRECTION_ROUNDS) listNear(starts);

@@ -71,6 +71,37 @@ TEST(SurfaceContact, LetsNothingCrossInAHeap) {
   }
 }
 
+// Two sheets follow each other fast towards one that is held, and solving hardly begins. The guard cuts the
+// first one's motion short; then the second one runs into it, which it would not without that.
+TEST(SurfaceContact, StopsWhatFollowsASheetThatIsStopped) {
+  if (!CrossingCounter::available()) FAIL() << "needs CGAL";
+  constexpr int points = 7;
+  Scene scene = contactScene(points, 0.1, "cotton");
+  scene.colliders.clear();
+  scene.gravity = {0, 0, 0};
+  scene.solver.simulationSteps = scene.solver.newtonSteps = scene.solver.cgIterations = 1;
+  scene.cloths.resize(3, scene.cloths[0]);
+  for (int row = 0; row < points; ++row)
+    for (int column = 0; column < points; ++column) scene.cloths[0].pinned.push_back(GridPoint{column, row});
+  constexpr double way = 0.08;  // of a step [m]
+  for (const double gap : {0.6 * way, 0.7 * way, 0.8 * way, 0.9 * way}) {
+    scene.cloths[1].position.y = 0.003;
+    scene.cloths[2].position.y = 0.003 + gap;
+    const Shared<Cloth> cloth(Cloth{scene});
+    CpuSolver<float> solver(*cloth, scene);
+    State state = solver.state();
+    for (std::size_t i = points * points; i < state.velocities.size(); ++i)
+      state.velocities[i].y = static_cast<float>(-way * scene.solver.framesPerSec);
+    solver.setState(state);
+    const CrossingCounter counter(cloth);
+    for (int step = 0; step < 3; ++step) {
+      solver.step(1);
+      EXPECT_EQ(counter.count(solver.state()).apart, 0u) << "gap " << gap << " m, step " << step;
+    }
+    EXPECT_GT(solver.contactCounts().shortened, 0u) << "motion was cut short";
+  }
+}
+
 // A sheet that a breeze drapes over a ball: layers that fold, turn and slide together are not held back.
 TEST(SurfaceContact, LetsADrapeFallAsItDoesWithoutContact) {
   if (!CrossingCounter::available()) FAIL() << "needs CGAL";
