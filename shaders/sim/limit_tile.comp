@@ -14,7 +14,7 @@ shared float speedX[LIMIT_TILE * LIMIT_TILE], speedY[LIMIT_TILE * LIMIT_TILE], s
 ivec2 cornerOfHalo() { return ivec2(gl_WorkGroupID.xy) * LIMIT_TILE - LIMIT_HALO; }
 bool isInGrid(ivec2 place) {
   ivec2 inGrid = place + cornerOfHalo();
-  return inGrid.x >= 0 && inGrid.y >= 0 && inGrid.x < int(step.columns) && inGrid.y < int(step.rows);
+  return uint(inGrid.x) < step.columns && uint(inGrid.y) < step.rows;  // before the grid: beyond it
 }
 uint particleAt(ivec2 place) {
   ivec2 inGrid = place + cornerOfHalo();
@@ -81,20 +81,35 @@ void limit(uint slot, ivec2 owner, ivec2 other) {
 // Which points later slots still need: those so far from the border of the halo.
 const int inset[6] = int[6](0, 0, 2, 4, 6, 6);
 
+// Which line across the springs a number is of the owners of a colour: they come in runs of `reach`, one of two of them its
+// (makeLimitColors() of src/solver/step_params.cpp). reach: 1 or 2.
+int lineOf(int number, int reach, int color) {
+  int run = number >> (reach - 1), inRun = number & (reach - 1);
+  return reach * (2 * run + 1 + color) + inRun;
+}
+
+// Each invocation goes on by as many owners as there are invocations, in rows; it divides once.
 void limitColor(uint slot, int color) {
   ivec2 toOther = toOtherEnd[slot];
-  int side = SIDE - 2 * inset[slot];
-  int reach = max(abs(toOther.x), abs(toOther.y)), owners = side / 2;
-  for (int n = int(gl_LocalInvocationIndex); n < owners * side; n += WORK_GROUP_COLUMNS) {
-    // Colours have runs of `reach` owners (makeLimitColors() of src/solver/step_params.cpp).
-    int across = toOther.y == 0 ? n % owners : n / side;
-    int split = 2 * reach * (across / reach) + across % reach + reach * (1 + color);
-    ivec2 owner = toOther.y == 0 ? ivec2(split, n / owners) : ivec2(n % side, split);
-    ivec2 other = owner + toOther;
-    if (split >= side || other.x < 0 || other.x >= side) continue;
-    owner += inset[slot];
-    other += inset[slot];
-    if (isInGrid(owner) && isInGrid(other)) limit(slot, owner, other);
+  bool isAlongRow = toOther.y == 0;
+  int side = SIDE - 2 * inset[slot], lines = side / 2;
+  int reach = max(abs(toOther.x), abs(toOther.y)), width = isAlongRow ? lines : side, height = isAlongRow ? side : lines;
+  int column = int(gl_LocalInvocationIndex) % width, row = int(gl_LocalInvocationIndex) / width;
+  int columnsOn = WORK_GROUP_COLUMNS % width, rowsOn = WORK_GROUP_COLUMNS / width;
+  while (row < height) {
+    int line = lineOf(isAlongRow ? column : row, reach, color);
+    ivec2 owner = isAlongRow ? ivec2(line, row) : ivec2(column, line), other = owner + toOther;
+    if (line < side && other.x >= 0 && other.x < side && other.y >= 0) {
+      owner += inset[slot];
+      other += inset[slot];
+      if (isInGrid(owner) && isInGrid(other)) limit(slot, owner, other);
+    }
+    column += columnsOn;
+    row += rowsOn;
+    if (column >= width) {
+      column -= width;
+      ++row;
+    }
   }
 }
 
