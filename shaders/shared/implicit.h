@@ -92,6 +92,7 @@ using uint = std::uint32_t;
 // Sums over all particles have one order: lane t of 256 adds every 256th number of a block of 1024, the lanes
 // are added as a tree, and so are the blocks.
 #define SUM_LANES 256
+#define COARSE_BLOCK_LANES 64  // of sim/implicit/coarsen_blocks.comp
 #define SUM_BLOCK 1024u
 // Passes over all particles take them in rows of so many.
 #define PARTICLES_A_ROW 16384u

@@ -135,6 +135,7 @@ std::vector<gl::Defines> variantsOf(const std::string& file) {
   PassFeatures mesh = everything;
   mesh.mesh = mesh.storageLoads = true;
   cs184.storageLoads = true;
+  if (file.ends_with("invert_dense.comp")) cs184.groupColumns = 1024;
   everything.gate = GATE_STEP;
   mesh.gate = GATE_SYSTEM;
   std::vector<gl::Defines> variants{definesFor(everything), definesFor(cs184), definesFor(PassFeatures{}),

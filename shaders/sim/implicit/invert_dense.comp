@@ -8,7 +8,8 @@
 #include "sim/implicit/rigid_block.glsl"
 #include "sim/implicit/dense_part.glsl"
 
-layout(local_size_x = SUM_LANES) in;
+const uint LANES = WORK_GROUP_COLUMNS;
+layout(local_size_x = WORK_GROUP_COLUMNS) in;
 
 layout(binding = CENTERS_UNIT) uniform samplerBuffer centers;
 layout(binding = COARSE_BLOCKS_UNIT) uniform samplerBuffer coarseBlocks;
@@ -16,12 +17,14 @@ layout(binding = COARSE_PAIRS_UNIT) uniform usamplerBuffer coarsePairs;
 layout(std430, binding = DENSE_BINDING) coherent buffer Dense { float dense[]; };
 
 shared float began[6 * COARSEST_VERTICES];
-shared float column[6 * COARSEST_VERTICES];
+// 1024 lanes can keep the largest matrix in registers, each every SIDEth entry across and along.
+const uint SIDE = 32u, KEPT = (6u * COARSEST_VERTICES + SIDE - 1u) / SIDE;
+shared float column[SIDE * KEPT];
 shared uint blocksOfAll[COARSEST_VERTICES];  // of each row that of all vertices
 shared uint held;                            // the vertex that is held most stiffly from outside, the first of several
 
 void findHeld(DensePart part, uint lane) {
-  for (uint k = part.firstBlock + lane; k < part.endBlock; k += uint(SUM_LANES)) {
+  for (uint k = part.firstBlock + lane; k < part.endBlock; k += LANES) {
     uvec2 pair = texelFetch(coarsePairs, int(k)).xy;
     if (pair.y == ALL_VERTICES) blocksOfAll[pair.x - part.first] = k;
   }
@@ -66,12 +69,12 @@ void putAll(DensePart part, uint lane) {
   RigidBlock sum = noBlock();
   if (lane >= part.count) return;
   if (lane != held) {
-    addShifted(sum, 1.0, loadBlock(coarseBlocks, blocksOfAll[lane]), still, offsetOf(part, lane));
+    addBlock(sum, shiftedBlock(1.0, loadBlock(coarseBlocks, blocksOfAll[lane]), still, offsetOf(part, lane)));
     put(part, sum, 6u * lane, 6u * held);
   } else {
     for (uint k = 0u; k < part.count; ++k) {
       vec3 offset = offsetOf(part, k);
-      addShifted(sum, 1.0, loadBlock(coarseBlocks, blocksOfAll[k]), offset, offset);
+      addBlock(sum, shiftedBlock(1.0, loadBlock(coarseBlocks, blocksOfAll[k]), offset, offset));
     }
     put(part, sum, 6u * held, 6u * held);
   }
@@ -88,7 +91,7 @@ void addThree(uint first, uint stride, vec3 v) {
 // A vertex moves with all, t + r x offset, besides on its own: rows, where the stride is 1, or columns.
 void moveWithAll(DensePart part, uint lane, uint stride) {
   uint order = 6u * part.count, across = order + 1u - stride;
-  for (uint e = lane; e < part.count * order; e += uint(SUM_LANES)) {
+  for (uint e = lane; e < part.count * order; e += LANES) {
     if (e / order == held) continue;
     uint vertex = e / order, line = part.firstEntry + e % order * across, own = line + 6u * vertex * stride,
          all = line + 6u * held * stride;
@@ -101,14 +104,69 @@ void moveWithAll(DensePart part, uint lane, uint stride) {
   barrier();
 }
 
+float sweptEntry(float entry, uint i, uint j, uint k, float inverse, float inRow, float other) {
+  precise float updated = entry - inRow * other;
+  precise float swept = inRow * inverse;
+  return canonical(i != k && j != k ? updated : i == j ? -inverse : i == k ? other : swept);
+}
+
+#if WORK_GROUP_COLUMNS == 1024
+void sweepOut(uint first, uint order, uint lane) {
+  float kept[KEPT * KEPT];
+  uvec2 own = uvec2(lane % SIDE, lane / SIDE);  // the first row and column
+  for (uint q = 0u; q < KEPT; ++q)
+    for (uint r = 0u; r < KEPT; ++r) {
+      uint i = own.x + SIDE * r, j = own.y + SIDE * q;
+      kept[KEPT * q + r] = i < order && j < order ? dense[first + j * order + i] : 0.0;
+    }
+  for (uint k = 0u; k < order; ++k) {
+    barrier();
+    for (uint q = 0u; q < KEPT; ++q)
+      if (own.y + SIDE * q == k)
+        for (uint r = 0u; r < KEPT; ++r) column[own.x + SIDE * r] = kept[KEPT * q + r];
+    barrier();
+    float inverse = inversePivot(column[k], began[k]);
+    for (uint q = 0u; q < KEPT; ++q) {
+      uint j = own.y + SIDE * q;
+      precise float other = column[j] * inverse;
+      for (uint r = 0u; r < KEPT; ++r) {
+        uint i = own.x + SIDE * r;
+        kept[KEPT * q + r] = sweptEntry(kept[KEPT * q + r], i, j, k, inverse, column[i], other);
+      }
+    }
+  }
+  for (uint q = 0u; q < KEPT; ++q)
+    for (uint r = 0u; r < KEPT; ++r) {
+      uint i = own.x + SIDE * r, j = own.y + SIDE * q;
+      if (i < order && j < order) dense[first + j * order + i] = kept[KEPT * q + r];
+    }
+  memoryBarrierBuffer();
+}
+#else
+void sweepOut(uint first, uint order, uint lane) {
+  for (uint k = 0u; k < order; ++k) {
+    barrier();
+    for (uint i = lane; i < order; i += LANES) column[i] = dense[first + k * order + i];
+    barrier();
+    float inverse = inversePivot(column[k], began[k]);
+    for (uint e = lane; e < order * order; e += LANES) {
+      uint i = e % order, j = e / order;
+      precise float other = column[j] * inverse;
+      dense[first + e] = sweptEntry(dense[first + e], i, j, k, inverse, column[i], other);
+    }
+    memoryBarrierBuffer();
+  }
+}
+#endif
+
 void invert(DensePart part) {
   uint lane = gl_LocalInvocationID.x, order = 6u * part.count, entries = order * order, first = part.firstEntry;
-  for (uint e = lane; e < entries; e += uint(SUM_LANES)) dense[first + e] = 0.0;
+  for (uint e = lane; e < entries; e += LANES) dense[first + e] = 0.0;
   findHeld(part, lane);
   memoryBarrierBuffer();
   barrier();
   // An entry of a block each.
-  for (uint e = lane; e < 36u * (part.endBlock - part.firstBlock); e += uint(SUM_LANES)) {
+  for (uint e = lane; e < 36u * (part.endBlock - part.firstBlock); e += LANES) {
     uint number = part.firstBlock + e / 36u, j = e % 36u / 6u, i = e % 6u;
     uvec2 pair = texelFetch(coarsePairs, int(number)).xy;
     if (pair.y >= part.first + part.count) continue;  // of all; or across a cut, where it is 0
@@ -124,22 +182,8 @@ void invert(DensePart part) {
   putAll(part, lane);
   memoryBarrierBuffer();
   barrier();
-  for (uint k = lane; k < order; k += uint(SUM_LANES)) began[k] = dense[first + k * order + k];
-  for (uint k = 0u; k < order; ++k) {
-    barrier();
-    for (uint i = lane; i < order; i += uint(SUM_LANES)) column[i] = dense[first + k * order + i];
-    barrier();
-    float inverse = inversePivot(column[k], began[k]);
-    for (uint e = lane; e < entries; e += uint(SUM_LANES)) {
-      uint i = e % order, j = e / order;
-      precise float other = column[j] * inverse;
-      precise float updated = dense[first + e] - column[i] * other;
-      precise float swept = column[i] * inverse;
-      float next = i != k && j != k ? updated : i == j ? -inverse : i == k ? other : swept;
-      dense[first + e] = canonical(next);
-    }
-    memoryBarrierBuffer();
-  }
+  for (uint k = lane; k < order; k += LANES) began[k] = dense[first + k * order + k];
+  sweepOut(first, order, lane);
   barrier();
   moveWithAll(part, lane, 1u);
   moveWithAll(part, lane, order);

@@ -38,20 +38,35 @@ vec3 turnedColumn(vec3 a[3], int c, vec3 q) {
   return c == 0 ? first : c == 1 ? second : third;
 }
 
-// The block as bodies see it whose centers lie `p` and `q` before those of its own: adds s S(p)^T block S(q), S(p) (t, r) =
+// The block as bodies see it whose centers lie `p` and `q` before those of its own: s S(p)^T block S(q), S(p) (t, r) =
 // (t + r x p, r).
-void addShifted(inout RigidBlock sum, float s, RigidBlock block, vec3 p, vec3 q) {
+RigidBlock shiftedBlock(float s, RigidBlock block, vec3 p, vec3 q) {
+  RigidBlock part;
   for (int c = 0; c < 3; ++c) {
     precise vec3 tr = block.tr[c] + turnedColumn(block.tt, c, q);
     precise vec3 rr = block.rr[c] + turnedColumn(block.rt, c, q);
-    precise vec3 sumTT = sum.tt[c] + s * block.tt[c];
-    precise vec3 sumTR = sum.tr[c] + s * tr;
-    precise vec3 sumRT = sum.rt[c] + s * (block.rt[c] + crossProduct(p, block.tt[c]));
-    precise vec3 sumRR = sum.rr[c] + s * (rr + crossProduct(p, tr));
-    sum.tt[c] = sumTT;
-    sum.tr[c] = sumTR;
-    sum.rt[c] = sumRT;
-    sum.rr[c] = sumRR;
+    precise vec3 partTT = s * block.tt[c];
+    precise vec3 partTR = s * tr;
+    precise vec3 partRT = s * (block.rt[c] + crossProduct(p, block.tt[c]));
+    precise vec3 partRR = s * (rr + crossProduct(p, tr));
+    part.tt[c] = partTT;
+    part.tr[c] = partTR;
+    part.rt[c] = partRT;
+    part.rr[c] = partRR;
+  }
+  return part;
+}
+
+void addBlock(inout RigidBlock sum, RigidBlock part) {
+  for (int c = 0; c < 3; ++c) {
+    precise vec3 tt = sum.tt[c] + part.tt[c];
+    precise vec3 tr = sum.tr[c] + part.tr[c];
+    precise vec3 rt = sum.rt[c] + part.rt[c];
+    precise vec3 rr = sum.rr[c] + part.rr[c];
+    sum.tt[c] = tt;
+    sum.tr[c] = tr;
+    sum.rt[c] = rt;
+    sum.rr[c] = rr;
   }
 }
 

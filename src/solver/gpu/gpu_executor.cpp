@@ -53,6 +53,7 @@ GpuOptions forThisDevice(GpuOptions options) {
     options.groupRows = software ? 1 : 8;
   }
   if (!options.limitsInTiles) options.limitsInTiles = !software;
+  if (!options.coarsensInGroups) options.coarsensInGroups = !software;
   if (!options.looksAtFlags) options.looksAtFlags = software;
   if (!options.storageLoads) options.storageLoads = !software && hasPlacesForStorageLoads();
   return options;
@@ -90,7 +91,7 @@ GpuExecutor::GpuExecutor(const Cloth& cloth, const GpuOptions& options)
     for (const LimitColor& color : colors_.back()) slots.push_back({color});
   }
   kernelOptions_ = {options_.fused, cloth.pieces().size() == 1, haveSameSlots(cloth),
-                    *options_.limitsInTiles && !cloth.hasMesh()};
+                    *options_.limitsInTiles && !cloth.hasMesh(), *options_.coarsensInGroups};
   colorSlots_ = gl::Buffer<ColorSlot>("strain limit colours", std::span<const ColorSlot>(slots));
   upload(stateAtRest(cloth));
   gl::checkErrors("the making of the GPU solver");  // above all: out of memory
@@ -251,6 +252,8 @@ void GpuExecutor::runStage(Over over, const StagePrograms& programs, const PassC
       return call.index == 0 ? runOnLevel(programs, call, name) : void();
     case Over::furtherLevels:
       return call.index > 0 ? runOnLevel(programs, call, name) : void();
+    case Over::furtherBlocks:
+      return call.index > 0 ? runOnBlocks(programs, call.index, name) : void();
     case Over::restrictions:
       return runRestrictions(programs, name);
     case Over::prolongations:
@@ -334,6 +337,20 @@ void GpuExecutor::runOnLevel(const StagePrograms& programs, const PassCall& call
     parameters_.bindPiece(i);
     levels_.bindLevel(i, call.index);
     runOnEntries(*programs[i], name, count);
+  }
+}
+
+// A work group for each block of the level's matrix.
+void GpuExecutor::runOnBlocks(const StagePrograms& programs, std::size_t index, const std::string& name) {
+  const PassRunner::SideBySide cloths(runner_);
+  for (std::size_t i = 0; i < programs.size(); ++i) {
+    if (index >= levels_.ofPiece(i).size()) continue;
+    const LevelParams& level = levels_.ofPiece(i)[index];
+    const std::uint32_t blocks = level.endBlock - level.firstBlock,
+                        across = std::min(blocks, PARTICLES_A_ROW);
+    parameters_.bindPiece(i);
+    levels_.bindLevel(i, index);
+    runner_.runGroups(*programs[i], name, across, (blocks + across - 1) / across);
   }
 }
 

@@ -29,12 +29,16 @@ struct GpuOptions {
   int groupColumns = 0;  // work group, in grid points; 0: as suits the device
   int groupRows = 1;
   // One work group takes all levels of at most `verticesAlone` vertices, but for the finest, with
-  // `coarseLanes` invocations; 0: as many as suit the device.
+  // `coarseLanes` invocations; 0: as many as suit the device. 1024 hold the coarsest level's matrix in
+  // registers while it is inverted.
   int coarseLanes = 0;
   std::uint32_t verticesAlone = 16384;
   // The strain limit of grids in tiles of shared memory, all colours in one dispatch; empty: where OpenGL is
   // hardware. A software renderer has slow shared memory.
   std::optional<bool> limitsInTiles = {};
+  // The matrices of coarse levels beyond the first by a work group a block, with what its sources add in
+  // shared memory; empty: where OpenGL is hardware.
+  std::optional<bool> coarsensInGroups = {};
   // The state at the start of a step is read from storage blocks instead of as texels; empty: where OpenGL is
   // hardware. A software renderer is faster at texels.
   std::optional<bool> storageLoads = {};
@@ -96,6 +100,7 @@ class GpuExecutor final : public Executor {
   void runOnTiles(const StagePrograms& programs, const std::string& name);
   void runOnSlot(const StagePrograms& programs, std::size_t firstColor, const std::string& name);
   void runOnLevel(const StagePrograms& programs, const PassCall& call, const std::string& name);
+  void runOnBlocks(const StagePrograms& programs, std::size_t index, const std::string& name);
   void runRestrictions(const StagePrograms& programs, const std::string& name);
   void runProlongations(const StagePrograms& programs, const std::string& name);
   void runOnEntries(const gl::Program& program, const std::string& name, std::uint32_t count);

@@ -144,6 +144,9 @@ const std::vector<Kernel>& kernels() {
       {{Pass::linearize}, {{"implicit/linearize", Over::grids}}},
       {{Pass::findCenters}, {{"implicit/find_centers", Over::levels}}},
       {{Pass::coarsen},
+       {{"implicit/coarsen_elements", Over::firstLevels}, {"implicit/coarsen_blocks", Over::furtherBlocks}},
+       For::groups},
+      {{Pass::coarsen},
        {{"implicit/coarsen_elements", Over::firstLevels}, {"implicit/coarsen", Over::furtherLevels}}},
       {{Pass::invertDense}, {{"implicit/invert_dense", Over::parts}}},
       {{Pass::restrict}, {{"implicit/restrict", Over::levels}}},
@@ -200,6 +203,8 @@ bool isFor(For cloths, const KernelOptions& options) {
       return options.sameSlots;
     case For::tiles:
       return options.tiles;
+    case For::groups:
+      return options.groups;
   }
   return false;
 }
@@ -229,9 +234,10 @@ std::vector<const gl::Program*> PassLibrary::find(const Kernel& kernel, const Pa
       ofStage.groupColumns *= ofStage.groupRows;
       ofStage.groupRows = 1;
     }
-    if (stage.over == Over::sumBlocks || stage.over == Over::restrictions || stage.over == Over::tiles) {
-      ofStage.groupColumns = stage.over == Over::restrictions ? features.coarseLanes : SUM_LANES;
-    }
+    if (stage.over == Over::sumBlocks || stage.over == Over::tiles) ofStage.groupColumns = SUM_LANES;
+    if (stage.over == Over::restrictions) ofStage.groupColumns = features.coarseLanes;
+    if (stage.over == Over::parts) ofStage.groupColumns = std::max(features.coarseLanes, SUM_LANES);
+    if (stage.over == Over::furtherBlocks) ofStage.groupColumns = COARSE_BLOCK_LANES;
     gl::Defines defines = definesFor(ofStage);
     defines.insert(defines.end(), stage.defines.begin(), stage.defines.end());
     std::string name = stage.shader;

@@ -34,8 +34,8 @@ struct PassFeatures {
   std::uint32_t enabledSlots = 0;                // one bit a SpringSlot
   int groupColumns = 64, groupRows = 1;          // of passes over grid points; others have as many in one row
   bool storageLoads = false;                     // the state at the start is read from storage blocks
-  int coarseLanes = SUM_LANES;  // invocations of the work group that takes coarse levels alone
-  int gate = 0;                 // GATE_... of shared/implicit.h
+  int coarseLanes = SUM_LANES;                   // of the work group that takes coarse levels alone
+  int gate = 0;                                  // GATE_... of shared/implicit.h
   friend auto operator<=>(const PassFeatures&, const PassFeatures&) = default;
 };
 
@@ -56,6 +56,7 @@ enum class Over : std::uint8_t {
   levels,         // what the pass does of a level, a dispatch a cloth
   firstLevels,    // the same, of finest levels only
   furtherLevels,  // of all others only
+  furtherBlocks,  // blocks of the matrices of those, a work group each, a dispatch a cloth
   restrictions,   // coarse vertices, level by level; the last dispatch takes several levels (LevelsInARow)
   prolongations,  // fine vertices of the levels that are left to do but for the finest, level by level
   parts,          // connected parts of coarsest levels, a work group each
@@ -74,7 +75,8 @@ enum class For : std::uint8_t {
   all,
   one,        // scenes with a single cloth
   sameSlots,  // grids whose limited springs are those of the same slots
-  tiles       // grids, on devices with fast shared memory
+  tiles,      // grids, on devices with fast shared memory
+  groups      // any, on such devices
 };
 
 // What runs in one go: a pass, or several that have shaders together.
@@ -92,7 +94,8 @@ struct Kernel {
 // What decides between the kernels of a pass.
 struct KernelOptions {
   bool fused = true;  // otherwise only those passes together that have no kernels of their own
-  bool oneCloth = true, sameSlots = true, tiles = false;  // whether kernels for these may be taken
+  // Whether kernels for these may be taken.
+  bool oneCloth = true, sameSlots = true, tiles = false, groups = false;
 };
 
 // The number of the kernel for the first of these passes, and how many of them it takes.

@@ -115,7 +115,7 @@ TEST_F(PassTraitsTest, NameEveryArrayThatAShaderReadsOrWrites) {
         ++checked;
       }
   }
-  EXPECT_EQ(checked, 2 * (static_cast<int>(kernels().size()) + 5))
+  EXPECT_EQ(checked, 2 * (static_cast<int>(kernels().size()) + 6))
       << "coarsening has two shaders, preconditioning three";
 }
 
