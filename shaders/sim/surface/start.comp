@@ -28,18 +28,6 @@ void clear(uint i) {
 #endif
 }
 
-// The mean of some particles' motions. Every work group adds it up, in the same order: none waits for another.
-shared vec3 motions[SHIFT_SAMPLES];
-void findShift() {
-  uint lane = gl_LocalInvocationIndex;
-  for (uint k = lane; k < SHIFT_SAMPLES; k += uint(SURFACE_GROUP)) motions[k] = motionAt(k * step.totalParticles / SHIFT_SAMPLES);
-  barrier();
-  precise vec3 sum = vec3(0.0);
-  for (uint k = 0u; k < SHIFT_SAMPLES; ++k) sum = sum + motions[k];
-  precise vec3 mean = (1.0 / float(SHIFT_SAMPLES)) * sum;
-  shift = canonical(mean);
-}
-
 // Nothing that this dispatch reads.
 void begin() {
 #if SEARCHES_TOUCHING
@@ -54,25 +42,22 @@ void begin() {
   state.isGuarded = 0u;
 #endif
   state.isFlat = 0u;
-  state.shiftX = shift.x;
-  state.shiftY = shift.y;
-  state.shiftZ = shift.z;
   for (uint pass = 0u; pass < uint(PASSES); ++pass)
     if (watchRow[pass] != NO_DIVERGENCE) state.tooMany = 2u;
 }
 
-void store(uint box, Bounds bounds) {
-  newBoxes[2u * box] = vec4(bounds.low, 0.0);
-  newBoxes[2u * box + 1u] = vec4(bounds.high, 0.0);
+void store(uint box, MovingBounds bounds) {
+  vec4 rows[3] = rowsOf(bounds);
+  for (uint k = 0u; k < 3u; ++k) newBoxes[3u * box + k] = rows[k];
 }
 
 // The boxes of some triangles, and the one of the next level around them.
 void boxTriangles(uint parent) {
   uint first = BOX_CHILDREN * parent;
-  Bounds whole;
+  MovingBounds whole;
   for (uint k = 0u; k < BOX_CHILDREN && first + k < surface.triangles; ++k) {
     uvec4 corners = texelFetch(triangles, int(2u * (first + k)));
-    Bounds box = joined(joined(boxOf(corners.x), boxOf(corners.y)), boxOf(corners.z));
+    MovingBounds box = joined(joined(boxOf(corners.x), boxOf(corners.y)), boxOf(corners.z));
     store(first + k, box);
     whole = k == 0u ? box : joined(whole, box);
   }
@@ -85,9 +70,7 @@ void main() {
   if (isSettled()) return;
 #if ONLY_BOXES
   if (state.tooNear[0] == 0u) return;  // nobody looks at them
-  shift = vec3(state.shiftX, state.shiftY, state.shiftZ);
 #else
-  findShift();
   if (thisEntry() == 0u) begin();
 #endif
   uint group = thisEntry() / uint(SURFACE_GROUP), lane = gl_LocalInvocationIndex;

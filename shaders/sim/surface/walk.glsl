@@ -14,7 +14,7 @@ bool areFlat(uint triangle, uint other) {
   return isOneGrid && all(lessThanEqual(a, b + uvec2(1u))) && all(lessThanEqual(b, a + uvec2(1u)));
 }
 
-void lookAtCorners(uint from, uint to, Bounds boxOfTo) {
+void lookAtCorners(uint from, uint to, MovingBounds boxOfTo) {
   uvec4 mine = texelFetch(triangles, int(2u * from)), theirs = texelFetch(triangles, int(2u * to));
   for (uint k = 0u; k < 3u; ++k) {
     uint i = mine[k];
@@ -25,12 +25,12 @@ void lookAtCorners(uint from, uint to, Bounds boxOfTo) {
   }
 }
 
-void lookAtSides(uint from, uint to, Bounds boxOfTo) {
+void lookAtSides(uint from, uint to, MovingBounds boxOfTo) {
   uvec4 mine = texelFetch(triangles, int(2u * from)), theirs = texelFetch(triangles, int(2u * to));
   for (uint k = 0u; k < 3u; ++k) {
     if ((mine.w >> (uint(OWNED_SIDE) + k) & 1u) == 0u) continue;
     uint p = mine[k], q = mine[(k + 1u) % 3u];
-    Bounds box = joined(boxOf(p), boxOf(q));
+    MovingBounds box = joined(boxOf(p), boxOf(q));
     if (!overlap(box, boxOfTo)) continue;
     for (uint l = 0u; l < 3u; ++l) {
       if ((theirs.w >> (uint(OWNED_SIDE) + l) & 1u) == 0u) continue;
@@ -44,7 +44,7 @@ void lookAtSides(uint from, uint to, Bounds boxOfTo) {
 
 // The triangles behind this one, in the order of the tree.
 void lookAround(uint own) {
-  Bounds ownBox = boxAt(own);
+  MovingBounds ownBox = boxAt(own);
   int level = 0;
   uint place = own + 1u;  // within the level
   for (;;) {
@@ -58,13 +58,13 @@ void lookAround(uint own) {
         ++level;
         break;
       }
-      Bounds box = boxAt(first + place);
+      MovingBounds box = boxAt(first + place);
       bool meets = overlap(ownBox, box);
       if (meets && level > 0) continue;
       if (meets && !areFlat(own, place)) {
         for (int turn = 0; turn < 2; ++turn) {  // a driver compiles a loop once, but a copy for each call
           bool isFirst = turn == 0;
-          lookAtCorners(isFirst ? own : place, isFirst ? place : own, Bounds(isFirst ? box.low : ownBox.low, isFirst ? box.high : ownBox.high));
+          lookAtCorners(isFirst ? own : place, isFirst ? place : own, chosen(isFirst, box, ownBox));
         }
         lookAtSides(own, place, box);
       }
