@@ -59,9 +59,6 @@ using uint = std::uint32_t;
 // Approaches below this are none: their reciprocals would not be safe [m].
 #define LEAST_APPROACH 8.67361737988403547205962240695953369140625e-19f  // 2^-60
 
-// Boxes move along with the mean of so many particles: what flies together meets nothing on its way.
-#define SHIFT_SAMPLES 64u
-
 // Counts are summed up in blocks of so many, a work group each.
 #define SURFACE_LANES 256
 #define SURFACE_BLOCK 2048u
@@ -91,7 +88,7 @@ using uint = std::uint32_t;
 
 #define SURFACE_TRIANGLES_UNIT 50  // two texels each
 #define SURFACE_POINTS_UNIT 51
-#define SURFACE_BOXES_UNIT 52  // two texels each: low, high
+#define SURFACE_BOXES_UNIT 52  // three texels each (boundsOf() in sim/surface/common.glsl)
 #define PAIR_IDS_UNIT 53       // four particles
 #define PAIR_ROWS_UNIT \
   54  // four texels each: normal, over; weights; stiffness, pressed, limit, held; force, across. Pressed is
@@ -173,9 +170,9 @@ struct SurfaceState {
   uint tooNear[GUARD_ROUNDS];  // by round of the guard: some pair was
 
   uint isSettled;  // or would have, but there was none
-  float shiftX;    // of all boxes, on the GPU [m]
-  float shiftY;
-  float shiftZ;
+  uint moved;      // on the GPU, particles that this round of the guard has moved or held back so far
+  uint unusedA;
+  uint unusedB;
 
   // Of all steps:
   uint mostPairs;     // in a step; also those that there was no room for
@@ -192,11 +189,6 @@ struct SurfaceState {
   uint passages;      // of triangles by cores of small colliders,
   uint passageSteps;  // and steps with some
   uint groupsDone;    // on the GPU, work groups of the dispatch that is under way; 0 between dispatches
-
-  uint moved;  // on the GPU, particles that this round of the guard has moved or held back so far
-  uint unusedA;
-  uint unusedB;
-  uint unusedC;
 };
 
 // What the passes on the GPU need beside these.

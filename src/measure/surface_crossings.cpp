@@ -9,6 +9,7 @@ namespace clothsim {
 namespace {
 
 using Boxes = std::vector<cpu::Bounds<double>>;
+using Search = cpu::SurfaceSearch<double, cpu::Bounds<double>>;
 
 // The tree of boxes, without any room around its triangles.
 Boxes makeBoxes(const ClothSurface<double>& surface, const Components<double>& places) {
@@ -22,7 +23,7 @@ Boxes makeBoxes(const ClothSurface<double>& surface, const Components<double>& p
       boxes[i] = cpu::joined(boxes[i], cpu::Bounds<double>{place, place});
     }
   }
-  cpu::SurfaceSearch<double>::growTree(surface, boxes);
+  Search::growTree(surface, boxes);
   return boxes;
 }
 
@@ -63,7 +64,7 @@ std::uint64_t crossingSides(const Cloth& cloth, const Scene& scene, const State&
     cpu::put(x, static_cast<std::ptrdiff_t>(i), vectorOf(state.positions[i]));
   if (surface.triangles.empty()) return 0;
   const Boxes boxes = makeBoxes(surface, x);
-  const cpu::SurfaceSearch<double> search{surface, boxes};
+  const Search search{surface, boxes};
   std::uint64_t count = 0;
   for (std::uint32_t i = 0; i < surface.triangles.size(); ++i)
     search.forEachNeighbor(i, [&](std::uint32_t other) {

@@ -8,17 +8,17 @@
 layout(local_size_x = SURFACE_LANES) in;
 layout(std430, binding = SURFACE_OUT_BINDING) coherent buffer Boxes { vec4 newBoxes[]; };
 
-Bounds newBoxAt(uint i) { return Bounds(newBoxes[2u * i].xyz, newBoxes[2u * i + 1u].xyz); }
+MovingBounds newBoxAt(uint i) { return boundsOf(newBoxes[3u * i], newBoxes[3u * i + 1u], newBoxes[3u * i + 2u]); }
 
 uint countOf(int level) { return surface.firstBoxes[level + 1].x - surface.firstBoxes[level].x; }
 
 void join(int level, uint k) {
   uint box = surface.firstBoxes[level].x + k, child = surface.firstBoxes[level - 1].x + BOX_CHILDREN * k;
   uint end = child + BOX_CHILDREN < surface.firstBoxes[level].x ? child + BOX_CHILDREN : surface.firstBoxes[level].x;
-  Bounds bounds = newBoxAt(child);
+  MovingBounds bounds = newBoxAt(child);
   for (uint other = child + 1u; other < end; ++other) bounds = joined(bounds, newBoxAt(other));
-  newBoxes[2u * box] = vec4(bounds.low, 0.0);
-  newBoxes[2u * box + 1u] = vec4(bounds.high, 0.0);
+  vec4 rows[3] = rowsOf(bounds);
+  for (uint k = 0u; k < 3u; ++k) newBoxes[3u * box + k] = rows[k];
 }
 
 void awaitGroup() {

@@ -69,25 +69,52 @@ Bounds joined(Bounds a, Bounds b) {
              vec3(greater(a.high.x, b.high.x), greater(a.high.y, b.high.y), greater(a.high.z, b.high.z)));
 }
 bool overlap(Bounds a, Bounds b) { return all(lessThanEqual(a.low, b.high)) && all(lessThanEqual(b.low, a.high)); }
-Bounds boxAt(uint i) { return Bounds(texelFetch(boxes, int(2u * i)).xyz, texelFetch(boxes, int(2u * i + 1u)).xyz); }
 
-#if IS_START
-vec3 shift = vec3(0.0);
-vec3 shiftOfBoxes() { return shift; }
-#else
-vec3 shiftOfBoxes() { return vec3(state.shiftX, state.shiftY, state.shiftZ); }
+// Around what moves linearly: at the start and at the end of its motion.
+struct MovingBounds {
+  Bounds start, end;
+};
+MovingBounds joined(MovingBounds a, MovingBounds b) { return MovingBounds(joined(a.start, b.start), joined(a.end, b.end)); }
+// Whether anything of both may meet at the same time. What lies on one side of something at the start and at the end, does so on
+// the whole way.
+bool isNotAbove(MovingBounds a, MovingBounds b) {
+  bvec3 atStart = lessThanEqual(a.start.low, b.start.high), atEnd = lessThanEqual(a.end.low, b.end.high);
+  return (atStart.x || atEnd.x) && (atStart.y || atEnd.y) && (atStart.z || atEnd.z);
+}
+bool overlap(MovingBounds a, MovingBounds b) { return isNotAbove(a, b) && isNotAbove(b, a); }
+MovingBounds chosen(bool isFirst, MovingBounds a, MovingBounds b) {
+  if (isFirst) return a;
+  return b;
+}
+// What was held back may be anywhere on its way while others go on: then boxes are around all of it.
+#ifndef HOLDS_BACK
+#define HOLDS_BACK false
 #endif
+MovingBounds seen(MovingBounds box) {
+  if (!HOLDS_BACK) return box;
+  Bounds all = joined(box.start, box.end);
+  return MovingBounds(all, all);
+}
+
+// As boxes are stored.
+vec4[3] rowsOf(MovingBounds box) {
+  return vec4[3](vec4(box.start.low, box.end.low.x), vec4(box.start.high, box.end.low.y), vec4(box.end.high, box.end.low.z));
+}
+MovingBounds boundsOf(vec4 a, vec4 b, vec4 c) { return MovingBounds(Bounds(a.xyz, b.xyz), Bounds(vec3(a.w, b.w, c.w), c.xyz)); }
+MovingBounds boxAt(uint i) {
+  int first = int(3u * i);
+  return seen(boundsOf(texelFetch(boxes, first), texelFetch(boxes, first + 1), texelFetch(boxes, first + 2)));
+}
 
 // Around a particle and its motion.
-Bounds boxOf(uint i) {
-  vec3 a = startAt(i);
-  precise vec3 moved = motionAt(i) - shiftOfBoxes();
-  precise vec3 b = a + moved;
-  vec3 r = vec3(SEARCHES_TOUCHING != 0 ? surface.around : surface.leastGap);
-  Bounds box = joined(Bounds(a, a), Bounds(b, b));
-  precise vec3 low = box.low - r;
-  precise vec3 high = box.high + r;
-  return Bounds(low, high);
+MovingBounds boxOf(uint i) {
+  vec3 a = startAt(i), r = vec3(SEARCHES_TOUCHING != 0 ? surface.around : surface.leastGap);
+  precise vec3 b = a + motionAt(i);
+  precise vec3 startLow = a - r;
+  precise vec3 startHigh = a + r;
+  precise vec3 endLow = b - r;
+  precise vec3 endHigh = b + r;
+  return seen(MovingBounds(Bounds(startLow, startHigh), Bounds(endLow, endHigh)));
 }
 
 // Which parts: the triangles that they are of, and the corner, or the sides, in them.

@@ -1,12 +1,15 @@
 // A round of the guard, an invocation a triangle: pairs that the motion so far brings too near are pushed apart, or keep to
 // their own sides, in the last round all pairs. That may bring others too near: they are seen in the next round. The last work
 // group to finish moves the particles that are to be moved, or takes over what they keep of their motion.
+#include "shared/surface.h"
+
+layout(std140, binding = GUARD_ROUND_BINDING) uniform RoundBlock { GuardRound round; };
+#define HOLDS_BACK (round.number > uint(CORRECTION_ROUNDS))
 #include "sim/surface/common.glsl"
 #define GROUPS_DONE state.groupsDone
 #include "sim/last_group.glsl"
 
 layout(local_size_x = SURFACE_GROUP) in;
-layout(std140, binding = GUARD_ROUND_BINDING) uniform RoundBlock { GuardRound round; };
 // What each particle keeps of its motion, bits of floats; then the same with what this round takes.
 layout(std430, binding = SURFACE_COUNTS_BINDING) coherent buffer Kept { uint kept[]; };
 layout(std430, binding = SURFACE_LISTS_BINDING) coherent buffer Corrections { int corrections[]; };

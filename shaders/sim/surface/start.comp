@@ -1,7 +1,6 @@
 // The start of a search: its state; the boxes around the motions of triangles, and around each four of them; the sides of blocks;
 // and what the search counts up for particles. Work groups take one of these each, in this order. LATER: of a round that goes
-// on from where motion was cut short, if there was any. ONLY_BOXES: those of triangles once more, after corrections, and not
-// relative to the mean motion.
+// on from where motion was cut short, if there was any. ONLY_BOXES: those of triangles once more, after corrections.
 #define IS_START 1
 #include "sim/surface/common.glsl"
 #include "sim/surface/flat_sides.glsl"
@@ -29,24 +28,6 @@ void clear(uint i) {
 #endif
 }
 
-// The mean of some particles' motions. Every work group adds it up, in the same order: none waits for another.
-shared vec3 motions[SHIFT_SAMPLES];
-void findShift() {
-  uint lane = gl_LocalInvocationIndex;
-  for (uint k = lane; k < SHIFT_SAMPLES; k += uint(SURFACE_GROUP)) motions[k] = motionAt(k * step.totalParticles / SHIFT_SAMPLES);
-  barrier();
-  precise vec3 sum = vec3(0.0);
-  for (uint k = 0u; k < SHIFT_SAMPLES; ++k) sum = sum + motions[k];
-  precise vec3 mean = (1.0 / float(SHIFT_SAMPLES)) * sum;
-  shift = canonical(mean);
-}
-
-void storeShift() {
-  state.shiftX = shift.x;
-  state.shiftY = shift.y;
-  state.shiftZ = shift.z;
-}
-
 // Nothing that this dispatch reads.
 void begin() {
 #if SEARCHES_TOUCHING
@@ -61,23 +42,22 @@ void begin() {
   state.isGuarded = 0u;
 #endif
   state.isFlat = 0u;
-  storeShift();
   for (uint pass = 0u; pass < uint(PASSES); ++pass)
     if (watchRow[pass] != NO_DIVERGENCE) state.tooMany = 2u;
 }
 
-void store(uint box, Bounds bounds) {
-  newBoxes[2u * box] = vec4(bounds.low, 0.0);
-  newBoxes[2u * box + 1u] = vec4(bounds.high, 0.0);
+void store(uint box, MovingBounds bounds) {
+  vec4 rows[3] = rowsOf(bounds);
+  for (uint k = 0u; k < 3u; ++k) newBoxes[3u * box + k] = rows[k];
 }
 
 // The boxes of some triangles, and the one of the next level around them.
 void boxTriangles(uint parent) {
   uint first = BOX_CHILDREN * parent;
-  Bounds whole;
+  MovingBounds whole;
   for (uint k = 0u; k < BOX_CHILDREN && first + k < surface.triangles; ++k) {
     uvec4 corners = texelFetch(triangles, int(2u * (first + k)));
-    Bounds box = joined(joined(boxOf(corners.x), boxOf(corners.y)), boxOf(corners.z));
+    MovingBounds box = joined(joined(boxOf(corners.x), boxOf(corners.y)), boxOf(corners.z));
     store(first + k, box);
     whole = k == 0u ? box : joined(whole, box);
   }
@@ -90,10 +70,7 @@ void main() {
   if (isSettled()) return;
 #if ONLY_BOXES
   if (state.tooNear[0] == 0u) return;  // nobody looks at them
-  // From here on particles may stay behind the others: boxes are of the whole way of which they keep a part.
-  if (thisEntry() == 0u) storeShift();
 #else
-  findShift();
   if (thisEntry() == 0u) begin();
 #endif
   uint group = thisEntry() / uint(SURFACE_GROUP), lane = gl_LocalInvocationIndex;

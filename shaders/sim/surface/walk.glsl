@@ -23,7 +23,7 @@ struct Parts {
 const uint CORNER_PAIRS = 6u, PART_PAIRS = 15u;
 
 // Number n of them: the corners of the first triangle and the second one, the other way round, then two sides each.
-Parts partsOf(uint n, uint first, uint second, Bounds boxOfFirst, Bounds boxOfSecond) {
+Parts partsOf(uint n, uint first, uint second, MovingBounds boxOfFirst, MovingBounds boxOfSecond) {
   uvec4 mine = texelFetch(triangles, int(2u * first)), theirs = texelFetch(triangles, int(2u * second));
   Parts parts;
   parts.areSides = n >= CORNER_PAIRS;
@@ -34,7 +34,7 @@ Parts partsOf(uint n, uint first, uint second, Bounds boxOfFirst, Bounds boxOfSe
     bool own = (mine.w >> (uint(OWNED_SIDE) + k) & theirs.w >> (uint(OWNED_SIDE) + l) & 1u) != 0u;
     parts.mayMeet = own && all(notEqual(parts.ids.xy, parts.ids.zw)) && all(notEqual(parts.ids.xy, parts.ids.wz));
     if (!parts.mayMeet) return parts;
-    Bounds box = joined(boxOf(parts.ids.x), boxOf(parts.ids.y));
+    MovingBounds box = joined(boxOf(parts.ids.x), boxOf(parts.ids.y));
     parts.mayMeet = overlap(box, boxOfSecond) && overlap(box, joined(boxOf(parts.ids.z), boxOf(parts.ids.w)));
   } else {
     bool isOfFirst = n < 3u;
@@ -44,14 +44,13 @@ Parts partsOf(uint n, uint first, uint second, Bounds boxOfFirst, Bounds boxOfSe
     parts.places = PartPlaces(isOfFirst ? first : second, isOfFirst ? second : first, k, 0u);
     parts.mayMeet = (from.w >> k & 1u) != 0u && all(notEqual(to.xyz, uvec3(from[k])));
     if (!parts.mayMeet) return parts;
-    parts.mayMeet = overlap(boxOf(from[k]), Bounds(isOfFirst ? boxOfSecond.low : boxOfFirst.low,
-                                                   isOfFirst ? boxOfSecond.high : boxOfFirst.high));
+    parts.mayMeet = overlap(boxOf(from[k]), chosen(isOfFirst, boxOfSecond, boxOfFirst));
   }
   return parts;
 }
 
 // One loop with one call: a driver may compile a copy for each.
-void lookAtParts(uint first, uint second, Bounds boxOfFirst, Bounds boxOfSecond) {
+void lookAtParts(uint first, uint second, MovingBounds boxOfFirst, MovingBounds boxOfSecond) {
   for (uint n = 0u; n < PART_PAIRS; ++n) {
     Parts parts = partsOf(n, first, second, boxOfFirst, boxOfSecond);
     if (!parts.mayMeet) continue;
@@ -64,7 +63,7 @@ void lookAtParts(uint first, uint second, Bounds boxOfFirst, Bounds boxOfSecond)
 
 // The triangles behind this one, in the order of the tree.
 void lookAround(uint own) {
-  Bounds ownBox = boxAt(own);
+  MovingBounds ownBox = boxAt(own);
   int level = 0;
   uint place = own + 1u;  // within the level
   for (;;) {
@@ -78,7 +77,7 @@ void lookAround(uint own) {
         ++level;
         break;
       }
-      Bounds box = boxAt(first + place);
+      MovingBounds box = boxAt(first + place);
       bool meets = overlap(ownBox, box);
       if (meets && level > 0) continue;
       if (meets && !areFlat(own, place)) lookAtParts(own, place, ownBox, box);

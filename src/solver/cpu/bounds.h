@@ -35,6 +35,30 @@ INLINE bool overlap(const Bounds<Real>& a, const Bounds<Real>& b) {
   return (bitsOfFour((a.low <= b.high) & (b.low <= a.high)) & 7u) == 7u;
 }
 
+// Around what moves linearly: at the start and at the end of its motion.
+template <class Real>
+struct MovingBounds {
+  Bounds<Real> start, end;
+};
+template <class Real>
+INLINE MovingBounds<Real> joined(const MovingBounds<Real>& a, const MovingBounds<Real>& b) {
+  return {joined(a.start, b.start), joined(a.end, b.end)};
+}
+// Whether anything of both may meet at the same time. What lies on one side of something at the start and at
+// the end, does so on the whole way.
+template <class Real>
+INLINE bool overlap(const MovingBounds<Real>& a, const MovingBounds<Real>& b) {
+  const auto isNotAbove = (a.start.low <= b.start.high) | (a.end.low <= b.end.high),
+             isNotBelow = (b.start.low <= a.start.high) | (b.end.low <= a.end.high);
+  return (bitsOfFour(isNotAbove & isNotBelow) & 7u) == 7u;
+}
+// Around all of the way: what overlaps this may meet it at whatever times.
+template <class Real>
+INLINE MovingBounds<Real> atAnyTime(const MovingBounds<Real>& box) {
+  const Bounds<Real> all = joined(box.start, box.end);
+  return {all, all};
+}
+
 // Four boxes by axis; at the beginning nothing overlaps them.
 template <class Real>
 struct FourBounds {
@@ -59,6 +83,24 @@ template <class Real>
 INLINE auto overlap(const FourBounds<Real>& four, const Bounds<Real>& box) {
   return ((four.low[0] <= box.high[0]) & (four.low[1] <= box.high[1]) & (four.low[2] <= box.high[2])) &
          ((four.high[0] >= box.low[0]) & (four.high[1] >= box.low[1]) & (four.high[2] >= box.low[2]));
+}
+
+template <class Real>
+struct FourMovingBounds {
+  FourBounds<Real> start, end;
+
+  void set(std::size_t k, const MovingBounds<Real>& box) {
+    start.set(k, box.start);
+    end.set(k, box.end);
+  }
+};
+template <class Real>
+INLINE auto overlap(const FourMovingBounds<Real>& four, const MovingBounds<Real>& box) {
+  const auto along = [&](std::size_t axis) __attribute__((always_inline)) {
+    return ((four.start.low[axis] <= box.start.high[axis]) | (four.end.low[axis] <= box.end.high[axis])) &
+           ((four.start.high[axis] >= box.start.low[axis]) | (four.end.high[axis] >= box.end.low[axis]));
+  };
+  return along(0) & along(1) & along(2);
 }
 
 }  // namespace clothsim::cpu

@@ -18,16 +18,18 @@ bool isWithin(const Bounds<Real>& inner, const Bounds<Real>& outer, Four<Real> s
 }  // namespace
 
 template <class Real>
-bool NearParts<Real>::covers(const std::vector<Bounds<Real>>& particles, Four<Real> shift) const {
+bool NearParts<Real>::covers(const std::vector<MovingBounds<Real>>& particles, Four<Real> shift,
+                             Four<Real> shiftAtEnd) const {
   if (covers_.particles.size() != particles.size()) return false;
   std::atomic<bool> all = true;
-  ThreadTeam::shared().forEachRange(0, static_cast<std::uint32_t>(particles.size()), BOXES_AT_ONCE,
-                                    [&](std::uint32_t first, std::uint32_t end) {
-                                      for (std::uint32_t i = first;
-                                           i < end && all.load(std::memory_order_relaxed); ++i)
-                                        if (!isWithin(particles[i], covers_.particles[i], shift))
-                                          all.store(false, std::memory_order_relaxed);
-                                    });
+  ThreadTeam::shared().forEachRange(
+      0, static_cast<std::uint32_t>(particles.size()), BOXES_AT_ONCE,
+      [&](std::uint32_t first, std::uint32_t end) {
+        for (std::uint32_t i = first; i < end && all.load(std::memory_order_relaxed); ++i)
+          if (!isWithin(particles[i].start, covers_.particles[i].start, shift) ||
+              !isWithin(particles[i].end, covers_.particles[i].end, shiftAtEnd))
+            all.store(false, std::memory_order_relaxed);
+      });
   return all;
 }
 
@@ -37,10 +39,12 @@ void NearParts<Real>::makeCovers(const ClothSurface<Real>& surface, const Surfac
                                  Real more) {
   const Four<Real> around{more, more, more, Real(0)};
   covers_.particles.resize(boxes.particles.size());
-  ThreadTeam::shared().forEach(
-      0, static_cast<std::uint32_t>(boxes.particles.size()), BOXES_AT_ONCE, [&](std::uint32_t i) {
-        covers_.particles[i] = {boxes.particles[i].low - around, boxes.particles[i].high + around};
-      });
+  ThreadTeam::shared().forEach(0, static_cast<std::uint32_t>(boxes.particles.size()), BOXES_AT_ONCE,
+                               [&](std::uint32_t i) {
+                                 const MovingBounds<Real>& box = boxes.particles[i];
+                                 covers_.particles[i] = {{box.start.low - around, box.start.high + around},
+                                                         {box.end.low - around, box.end.high + around}};
+                               });
   covers_.joinTriangles(surface);
   for (std::size_t i = 0; i < surface.triangles.size(); ++i)
     covers_.triangles[i] = joined(covers_.triangles[i], boxes.triangles[i]);
@@ -84,9 +88,13 @@ void NearParts<Real>::makeList(const ClothSurface<Real>& surface, List& list, Be
 
 template <class Real>
 bool NearParts<Real>::update(const ClothSurface<Real>& surface, const SurfaceBoxes<Real>& boxes,
-                             Vec3<Real> origin, Real more, const FlatBlocks<Real>& flat) {
-  if (covers(boxes.particles, fourOf(origin - origin_)) && areStillFlat(flat)) return false;
+                             Vec3<Real> origin, Vec3<Real> originAtEnd, Real more,
+                             const FlatBlocks<Real>& flat) {
+  if (covers(boxes.particles, fourOf(origin - origin_), fourOf(originAtEnd - originAtEnd_)) &&
+      areStillFlat(flat))
+    return false;
   origin_ = origin;
+  originAtEnd_ = originAtEnd;
   makeCovers(surface, boxes, more);
   leftOut_ = flat.isSurelyFlat();
   makeList(surface, near_,

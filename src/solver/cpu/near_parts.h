@@ -20,9 +20,10 @@ class NearParts {
   // Lists the pairs of parts whose boxes meet, and those that are nearly so near, but not those where the
   // cloth is surely flat. The list is made again when some of these are no longer flat, and when a particle's
   // box has left the one that it was made with, which is larger by `more` to each side [m]. `origin`: where
-  // the cloth is as a whole; that it moves as one is no reason to. Says whether it was made.
+  // the cloth is as a whole, at the start and at the end of its motion; that it moves as one is no reason to.
+  // Says whether it was made.
   bool update(const ClothSurface<Real>& surface, const SurfaceBoxes<Real>& boxes, Vec3<Real> origin,
-              Real more, const FlatBlocks<Real>& flat);
+              Vec3<Real> originAtEnd, Real more, const FlatBlocks<Real>& flat);
   // Lists those where the cloth is surely flat, too, if update() has made new lists since.
   void listFlat(const ClothSurface<Real>& surface);
   // visit(parts) for those of a triangle in the order of the tree, until it says no. Among them are all whose
@@ -49,7 +50,8 @@ class NearParts {
     std::vector<std::uint8_t> isTooLong;
   };
 
-  [[nodiscard]] bool covers(const std::vector<Bounds<Real>>& particles, Four<Real> shift) const;
+  [[nodiscard]] bool covers(const std::vector<MovingBounds<Real>>& particles, Four<Real> shift,
+                            Four<Real> shiftAtEnd) const;
   [[nodiscard]] bool areStillFlat(const FlatBlocks<Real>& flat) const;
   void makeCovers(const ClothSurface<Real>& surface, const SurfaceBoxes<Real>& boxes, Real more);
   // Lists the pairs of triangles that belongs(triangle, other).
@@ -80,10 +82,10 @@ class NearParts {
       if (!visit(parts[n])) return;
   }
 
-  SurfaceBoxes<Real> covers_;               // its triangles are those of a tree
-  std::vector<FourBounds<Real>> children_;  // triangles, by their box in the tree
-  Vec3<Real> origin_{};                     // when they were made
-  std::vector<std::uint8_t> leftOut_;       // blocks that were surely flat then
+  SurfaceBoxes<Real> covers_;                     // its triangles are those of a tree
+  std::vector<FourMovingBounds<Real>> children_;  // triangles, by their box in the tree
+  Vec3<Real> origin_{}, originAtEnd_{};           // when they were made
+  std::vector<std::uint8_t> leftOut_;             // blocks that were surely flat then
   List near_, flat_;
   bool hasFlat_ = false;  // flat_ is of these covers
 };

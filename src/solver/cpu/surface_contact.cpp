@@ -25,13 +25,14 @@ void lower(Number& place, Number to) {
   }
 }
 
-// The mean of some particles.
+// The mean of some particles: where the cloth is as a whole.
+constexpr std::uint32_t MEAN_SAMPLES = 64;
 template <class Real>
 Vec3<Real> meanOf(const Components<Real>& values) {
   const auto particles = static_cast<std::uint32_t>(values.x.size());
   Vec3<Real> sum{};
-  for (std::uint32_t k = 0; k < SHIFT_SAMPLES; ++k) sum = sum + at(values, k * particles / SHIFT_SAMPLES);
-  return canonical((Real(1) / SHIFT_SAMPLES) * sum);
+  for (std::uint32_t k = 0; k < MEAN_SAMPLES; ++k) sum = sum + at(values, k * particles / MEAN_SAMPLES);
+  return canonical((Real(1) / MEAN_SAMPLES) * sum);
 }
 
 template <class Real>
@@ -54,22 +55,22 @@ Real fromQuanta(std::int32_t sum) {
 // Boxes around the motions of particles.
 template <class Real>
 void SurfaceContact<Real>::boxParticles(const Components<Real>& starts, Real around) {
-  const Four<Real> shift = fourOf(shift_), r{around, around, around, Real(0)};
+  const Four<Real> r{around, around, around, Real(0)};
   const Arrays<const Real> from = arraysOf(starts), motions = arraysOf(std::as_const(motions_));
   boxes_.particles.resize(starts.x.size());
-  ThreadTeam::shared().forEach(
-      0, static_cast<std::uint32_t>(boxes_.particles.size()), BOXES_AT_ONCE, [&](std::uint32_t i) {
-        const auto place = static_cast<std::ptrdiff_t>(i);
-        const Four<Real> a = fourAt(from, place), b = a + (fourAt(motions, place) - shift);
-        const Bounds<Real> box = joined(Bounds<Real>{a, a}, Bounds<Real>{b, b});
-        boxes_.particles[i] = {box.low - r, box.high + r};
-      });
+  ThreadTeam::shared().forEach(0, static_cast<std::uint32_t>(boxes_.particles.size()), BOXES_AT_ONCE,
+                               [&](std::uint32_t i) {
+                                 const auto place = static_cast<std::ptrdiff_t>(i);
+                                 const Four<Real> a = fourAt(from, place), b = a + fourAt(motions, place);
+                                 boxes_.particles[i] = {{a - r, a + r}, {b - r, b + r}};
+                               });
 }
 
 template <class Real>
 void SurfaceContact<Real>::listNear(const Components<Real>& starts) {
-  nearParts_.update(surface_, boxes_, meanOf(starts), static_cast<Real>(MORE_THAN_NEAR) * surface_.margin,
-                    flatBlocks_);
+  const Vec3<Real> origin = meanOf(starts);
+  nearParts_.update(surface_, boxes_, origin, origin + meanOf(motions_),
+                    static_cast<Real>(MORE_THAN_NEAR) * surface_.margin, flatBlocks_);
 }
 
 template <class Real>
@@ -114,7 +115,6 @@ void SurfaceContact<Real>::findTouching(const CpuState<Real>& before, ImplicitSt
     findFlat(starts, isLater ? starts : implicit.iterate.positions, surface_.touchingReach);
   const bool mayTouchItself = surface_.touchesItself && !flatBlocks_.isAllFlat();
   if (mayTouchItself) {
-    shift_ = meanOf(motions_);
     boxParticles(starts, surface_.around);
     boxes_.joinTriangles(surface_);
     listNear(starts);
@@ -269,13 +269,13 @@ void SurfaceContact<Real>::guard(const CpuState<Real>& before, CpuState<Real>& a
     findFlat(starts, after.positions, static_cast<Real>(LEAST_GAPS_OF_FLAT) * surface_.leastGap);
   const bool looksAtFlat = round >= CORRECTION_ROUNDS;
   if (!looksAtFlat && flatBlocks_.isAllFlat()) return;
-  // From the first round on that cuts motions short, particles may stay behind the others: boxes are of the
-  // whole way of which they keep a part.
-  if (round == 0) shift_ = meanOf(motions_);
-  if (round == CORRECTION_ROUNDS) shift_ = Vec3<Real>{};
   if (round <= CORRECTION_ROUNDS) boxParticles(starts, surface_.leastGap);
   if (round == 0 || round == CORRECTION_ROUNDS) boxes_.joinTriangles(surface_);
-  if (round <= CORRECTION_ROUNDS) listNear(starts);
+  // What was held back may be anywhere on its way while others go on.
+  if (round == CORRECTION_ROUNDS + 1)
+    for (auto* boxes : {&boxes_.particles, &boxes_.triangles})
+      for (MovingBounds<Real>& box : *boxes) box = atAnyTime(box);
+  if (round <= CORRECTION_ROUNDS + 1) listNear(starts);
   if (looksAtFlat) nearParts_.listFlat(surface_);
   const bool corrects = round < CORRECTION_ROUNDS, all = round + 1 == GUARD_ROUNDS;
   const auto look = [&](const Parts& parts, const auto& nearest) {

@@ -78,7 +78,6 @@ class SurfaceContact {
   NearParts<Real> nearParts_;
   FlatBlocks<Real> flatBlocks_;
   Components<Real> motions_;  // of this round
-  Vec3<Real> shift_{};
   Components<Real> safePositions_, safeVelocities_;
   std::vector<std::vector<SurfacePair<Real>>> foundPairs_;  // by chunk of triangles
   std::vector<Correction> corrections_;

@@ -36,8 +36,8 @@ inline constexpr std::uint32_t BOXES_AT_ONCE = 256;  // that a thread takes
 // Boxes around the motions of particles and of triangles.
 template <class Real>
 struct SurfaceBoxes {
-  std::vector<Bounds<Real>> particles;
-  std::vector<Bounds<Real>> triangles;  // and room for the tree over them
+  std::vector<MovingBounds<Real>> particles;
+  std::vector<MovingBounds<Real>> triangles;  // and room for the tree over them
 
   // Those of triangles, around those of their corners.
   void joinTriangles(const ClothSurface<Real>& surface) {
@@ -51,20 +51,21 @@ struct SurfaceBoxes {
   // Whether both parts are where they may meet.
   [[nodiscard]] bool meet(const Parts& parts) const {
     const auto& [i, j, k, l] = parts.particles;
-    const Bounds<Real>& second = triangles[parts.second];
+    const MovingBounds<Real>& second = triangles[parts.second];
     if (!parts.areSides) return overlap(particles[i], second);
-    const Bounds<Real> side = joined(particles[i], particles[j]);
+    const MovingBounds<Real> side = joined(particles[i], particles[j]);
     return overlap(side, second) && overlap(side, joined(particles[k], particles[l]));
   }
 };
 
-template <class Real>
+// Box: what the tree is made of.
+template <class Real, class Box = MovingBounds<Real>>
 struct SurfaceSearch {
   const ClothSurface<Real>& surface;
-  const std::vector<Bounds<Real>>& tree;
+  const std::vector<Box>& tree;
 
   // Makes the tree over the boxes of the triangles, which are its first.
-  static void growTree(const ClothSurface<Real>& surface, std::vector<Bounds<Real>>& tree) {
+  static void growTree(const ClothSurface<Real>& surface, std::vector<Box>& tree) {
     const std::vector<std::uint32_t>& first = surface.firstBoxes;
     tree.resize(first.back());
     for (std::size_t level = 1; level + 1 < first.size(); ++level)
@@ -78,7 +79,7 @@ struct SurfaceSearch {
 
   // visit(place) for the boxes of level `bottom` from `place` on, in the order of the tree, that meet `own`.
   template <class Visit>
-  void walk(std::size_t bottom, std::uint32_t place, const Bounds<Real>& own, Visit visit) const {
+  void walk(std::size_t bottom, std::uint32_t place, const Box& own, Visit visit) const {
     const std::vector<std::uint32_t>& first = surface.firstBoxes;
     const std::size_t top = first.size() - 2;
     std::size_t level = bottom;
@@ -121,7 +122,7 @@ struct SurfaceSearch {
   // belongs(triangle, other). end(triangle) comes behind a triangle's pairs.
   template <class Belongs, class Visit, class End>
   void forEachPairOfGroup(std::uint32_t group, const SurfaceBoxes<Real>& boxes,
-                          const std::vector<FourBounds<Real>>& children,
+                          const std::vector<FourMovingBounds<Real>>& children,
                           std::vector<std::uint32_t>& nearGroups, Belongs belongs, Visit visit,
                           End end) const {
     const std::vector<std::uint32_t>& first = surface.firstBoxes;
@@ -157,15 +158,15 @@ struct SurfaceSearch {
     }
     [[nodiscard]] bool ownsCorner(std::uint32_t k) const { return (owned >> k & 1u) != 0; }
     [[nodiscard]] bool ownsSide(std::uint32_t k) const { return (owned >> (OWNED_SIDE + k) & 1u) != 0; }
-    [[nodiscard]] Bounds<Real> sideBox(std::uint32_t k) const {
+    [[nodiscard]] MovingBounds<Real> sideBox(std::uint32_t k) const {
       return joined(cornerBoxes[k], cornerBoxes[(k + 1) % 3]);
     }
 
     std::uint32_t number;
     std::array<std::uint32_t, 3> corners;
     std::uint32_t owned;
-    Bounds<Real> box;
-    std::array<Bounds<Real>, 3> cornerBoxes;
+    MovingBounds<Real> box;
+    std::array<MovingBounds<Real>, 3> cornerBoxes;
   };
 
   template <class Visit>
@@ -187,7 +188,7 @@ struct SurfaceSearch {
   static void forEachSide(const BoxedTriangle& from, const BoxedTriangle& to, Visit& visit) {
     for (std::uint8_t k = 0; k < 3; ++k) {
       if (!from.ownsSide(k)) continue;
-      const Bounds<Real> side = from.sideBox(k);
+      const MovingBounds<Real> side = from.sideBox(k);
       if (!overlap(side, to.box)) continue;
       const std::uint32_t p = from.corners[k], q = from.corners[(k + 1) % 3];
       for (std::uint8_t l = 0; l < 3; ++l) {

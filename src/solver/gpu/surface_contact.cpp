@@ -11,7 +11,7 @@
 namespace clothsim {
 namespace {
 
-constexpr std::size_t PAIR_TEXELS = 4, BOX_TEXELS = 2;
+constexpr std::size_t PAIR_TEXELS = 4, BOX_TEXELS = 3;
 
 std::uint32_t blocksOf(std::size_t size) {
   return static_cast<std::uint32_t>((size + SURFACE_BLOCK - 1) / SURFACE_BLOCK);

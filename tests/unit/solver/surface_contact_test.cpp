@@ -60,7 +60,8 @@ cpu::SurfaceBoxes<float> boxesAround(const ClothSurface<float>& surface, const S
   cpu::SurfaceBoxes<float> boxes;
   for (const auto& x : state.positions) {
     const cpu::Four<float> place{x.x, x.y, x.z, 0}, around = cpu::Four<float>{} + surface.around;
-    boxes.particles.push_back({place - around, place + around});
+    const cpu::Bounds<float> box{place - around, place + around};
+    boxes.particles.push_back({box, box});
   }
   boxes.joinTriangles(surface);
   return boxes;
@@ -131,10 +132,10 @@ TEST(NearParts, AreThoseOfANewListWhileTheListIsKept) {
     }
     const auto boxes = boxesAround(surface, state);
     const auto flat = flatBlocks(surface, state, surface.touchingReach);
-    made += kept.update(surface, boxes, origin, surface.margin, flat) ? 1 : 0;
+    made += kept.update(surface, boxes, origin, origin, surface.margin, flat) ? 1 : 0;
     kept.listFlat(surface);
     cpu::NearParts<float> fresh;
-    ASSERT_TRUE(fresh.update(surface, boxes, {}, 0, flatBlocks(surface, state, FAR)));
+    ASSERT_TRUE(fresh.update(surface, boxes, {}, {}, 0, flatBlocks(surface, state, FAR)));
     for (std::uint32_t i = 0; i < surface.triangles.size(); ++i) {
       const auto expected = meetingParts(surface, fresh, i, boxes, &flat);
       ASSERT_EQ(meetingParts(surface, kept, i, boxes, &flat), expected) << "triangle " << i << " at " << part;
@@ -159,7 +160,7 @@ TEST(NearParts, AreFoundWhereListsWouldBeTooLong) {
   for (auto& x : state.positions) x = {0.01f * x.x, 0.01f * x.y, 0.01f * x.z, 0};  // all near all
   cpu::SurfaceBoxes<float> boxes = boxesAround(surface, state);
   cpu::NearParts<float> near;
-  near.update(surface, boxes, {}, surface.margin, flatBlocks(surface, state, FAR));
+  near.update(surface, boxes, {}, {}, surface.margin, flatBlocks(surface, state, FAR));
   cpu::SurfaceSearch<float>::growTree(surface, boxes.triangles);
   const cpu::SurfaceSearch<float> search{surface, boxes.triangles};
   std::size_t all = 0;
