@@ -14,6 +14,10 @@
 
 namespace clothsim::gl {
 
+// Where bits are compared, new buffers hold this in every word, as they may where memory was used before: no
+// number (0xffffffff), or one like any other. 0: what the driver leaves there.
+inline GLuint uninitialisedWord = 0;
+
 template <class T>
 class Buffer {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -81,6 +85,8 @@ class Buffer {
     size_ = size;
     const GLsizeiptr allocated = static_cast<GLsizeiptr>((size > 0 ? size : 1) * sizeof(T));
     glNamedBufferStorage(name_, allocated, size > 0 ? data : nullptr, GL_DYNAMIC_STORAGE_BIT);
+    if (uninitialisedWord != 0 && data == nullptr && allocated % GLsizeiptr{sizeof uninitialisedWord} == 0)
+      glClearNamedBufferData(name_, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &uninitialisedWord);
     glObjectLabel(GL_BUFFER, name_, static_cast<GLsizei>(label.size()), label.c_str());
   }
   void bindRange(GLenum target, GLuint binding, std::size_t first, std::size_t count) const {

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "gl/buffer.h"
 #include "gl/context.h"
 
 namespace clothsim {
@@ -11,6 +12,7 @@ namespace clothsim {
 // A missing context fails the test that asks: CI has llvmpipe, so nothing here is ever skipped.
 inline const gl::ContextInfo& testContext() {
   static const gl::HeadlessContext context;
+  gl::uninitialisedWord = 0xffffffffu;
   return context.info();
 }
 

@@ -30,6 +30,11 @@ vec4 grabParticle(GridPoint p, vec3 x, float mass, vec4 rightHandSide) {
   return vec4(b, a);
 }
 
+void storeAirBlock(uint i, Symmetric air) {
+  newAirBlocks[2u * i] = vec4(air.diagonal, 0.0);
+  newAirBlocks[2u * i + 1u] = vec4(air.others, 0.0);
+}
+
 void main() {
   GridPoint p = thisGridPoint();
   if (!p.exists) return;
@@ -43,6 +48,7 @@ void main() {
     newRightHandSides[i] = vec4(0.0);
     newDisplacements[i] = vec4(displacement, 0.0);
     newIterates[i] = vec4(target, 0.0);
+    if (hasWind) storeAirBlock(i, Symmetric(vec3(0.0), vec3(0.0)));  // 0 times what nobody has written may be no number
     return;
   }
   TimeScheme scheme = timeScheme();
@@ -73,8 +79,7 @@ void main() {
     precise vec3 diagonal = scheme.rate * resistance.diagonal;
     precise vec3 others = scheme.rate * resistance.others;
     if (scheme.isSecondOrder) b = b + timesVector(Symmetric(diagonal, others), carried);
-    newAirBlocks[2u * i] = vec4(diagonal, 0.0);
-    newAirBlocks[2u * i + 1u] = vec4(others, 0.0);
+    storeAirBlock(i, Symmetric(diagonal, others));
   }
   vec4 rightHandSide = vec4(b, stiffness);
   if (hasGrab) rightHandSide = grabParticle(p, x.xyz, mass, rightHandSide);

@@ -102,6 +102,9 @@ void GpuArrays::addImplicit(std::size_t particles, const GpuLevels& levels, bool
   const auto add = [&](Array array, std::size_t texels) {
     if ((*this)[array].buffer.name() != 0 && (*this)[array].buffer.size() >= texels) return;
     (*this)[array] = ParticleArray(std::string(nameOf(array)), texels);
+    // What pressed in the step before is compared with what does now: before the first one nothing did.
+    if (array == Array::contactBlocks)
+      glClearNamedBufferData((*this)[array].buffer.name(), GL_R32F, GL_RED, GL_FLOAT, nullptr);
   };
   for (const Array array : {Array::rightHandSides, Array::displacements, Array::iterates, Array::directions,
                             Array::products, Array::increments})
