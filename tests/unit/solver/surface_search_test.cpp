@@ -1,3 +1,5 @@
+// Boxes at the start and at the end of motions: nothing that comes near is left out
+// (solver/cpu/surface_search.h).
 #include "solver/cpu/surface_search.h"
 
 #include <gtest/gtest.h>
