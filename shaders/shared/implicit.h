@@ -129,9 +129,25 @@ using uint = std::uint32_t;
 #define LARGE_SQUARE 1152921504606846976.0f  // 2^60
 
 #define STEP_ENDED 2u
-// Of a linear system: rounding has left a preconditioner that is not positive. Nothing more is done, and the
-// step is not solved.
+// Of a linear system: rounding has left a preconditioner that is not positive, or the exact Hessian is not.
+// Nothing more is done, and the step is not solved.
 #define SYSTEM_LOST 2u
+
+// The Hessian of a Newton step. Projected, it lacks what compression takes from it, and is positive. But
+// where cloth has buckled that is nearly all of it: updates are small long before the step is solved. After
+// one of at most EXACT_BELOW tolerances, Newton steps take the exact Hessian. Where that is not positive,
+// leads uphill or to a larger update, the rest of the step is projected. So is all of it where cloth touches
+// something: there contacts change from one Newton step to the next, and the exact Hessian left more steps
+// unsolved.
+#define HESSIAN_PROJECTED 0u
+#define HESSIAN_EXACT 1u
+#define HESSIAN_REFUSED 2u  // projected until the step ends
+#define EXACT_BELOW 4.0f
+
+// A projected update that is so many times smaller than the tolerance ends a step: of cloth that touches
+// nothing, and of cloth in contact.
+#define TINY_UPDATE 64.0f
+#define TINY_UPDATE_IN_CONTACT 8.0f
 
 // When a pass does nothing any more.
 #define GATE_NONE 0
@@ -213,9 +229,9 @@ SHARED_STRUCT ImplicitScalars {
   uint allNewtonSteps;
 
   real sufficientResidual;  // r.z at which further linear systems of the step end [N m]
+  uint hessian;             // of the Newton step, HESSIAN_PROJECTED and so on
   uint unusedA;
   uint unusedB;
-  uint unusedC;
 };
 
 #ifdef __cplusplus

@@ -29,12 +29,12 @@ IncidentSpring incidentSpring(GridPoint p, uint k, uint cut) {
   return IncidentSpring(true, other, stiffness(p, slot), rest, limit);
 }
 
-// The Hessian of a spring between particles d apart, made positive: across 1 + along d d^T.
+// The Hessian of a spring between particles d apart, projected or exact: across 1 + along d d^T.
 struct SpringBlock {
   float across, along;
 };
 
-SpringBlock springBlock(vec3 d, IncidentSpring spring) {
+SpringBlock springBlock(vec3 d, IncidentSpring spring, bool isExact) {
   precise float lengthSquared = sumOfProducts(d, d);
   precise float inverseLength = inverseSquareRoot(lengthSquared);
   precise float len = lengthSquared * inverseLength;
@@ -49,7 +49,7 @@ SpringBlock springBlock(vec3 d, IncidentSpring spring) {
     }
   }
   precise float scale = tension * inverseLength;
-  float across = scale > 0.0 ? scale : 0.0;
+  float across = isExact || scale > 0.0 ? scale : 0.0;
   precise float along = (whole - across) * (inverseLength * inverseLength);
   return SpringBlock(across, along);
 }

@@ -14,7 +14,7 @@
 // displacement, or of a tenth of the spacing where that is larger, and otherwise after `newton_steps`: then
 // the step counts as unconverged. The linear solver ends when r.z has fallen by tolerance^2, or to what a
 // solved step may lack, or after `cg_iterations`. An update is small, too, where the linear solver has hardly
-// begun: updates also have to fall fast enough, and what the linear system lacks has to be small
+// begun: what the linear system lacks has to be small, and projected Newton steps have to fall fast enough
 // (CpuExecutor::measureUpdate).
 //
 // Colliders take part. A particle in a collider gets the plane in which it touches it as a stiff spring, so
@@ -27,9 +27,13 @@
 // what that leaves of the law stops the rest of the slip at the end. Particles end a hair inside; the
 // collision pass after the step moves them to the surface.
 //
-// A Newton step: the Hessian is made positive by clamping the springs' transverse part to k max(0, 1 - L/l)
-// (Choi and Ko 2002). It is solved by conjugate gradients with an additive multilevel preconditioner
-// (Bramble, Pasciak and Xu 1990):
+// A Newton step takes the Hessian projected: the springs' transverse part is clamped to k max(0, 1 - L/l)
+// (Choi and Ko 2002). Once an update is small, cloth that touches nothing takes the exact one: where cloth
+// has buckled, what compression takes from it is nearly all of it. Where conjugate gradients meet a direction
+// along which it is not positive, they end with what they have found so far (Nocedal and Wright, "Numerical
+// optimization", 2006, algorithm 7.1), and the rest of the step is projected (HESSIAN_REFUSED). The
+// preconditioner is always made of projected blocks; it is additive and multilevel (Bramble, Pasciak and Xu
+// 1990):
 //
 //   z = D^-1 r  +  sum over coarse levels of P_l A_l^-1 P_l^T r.
 //

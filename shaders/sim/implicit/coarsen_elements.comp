@@ -131,7 +131,7 @@ void addSpring(vec4 x, Hanging hanging, IncidentSpring spring) {
   vec4 other = positionAt(spring.other);
   Hanging end = hangingOf(spring.other, other);
   precise vec3 d = other.xyz - x.xyz;
-  SpringBlock s = springBlock(d, spring);
+  SpringBlock s = springBlock(d, spring, false);
   precise vec4 row = end.row - hanging.row;
   precise vec4 column = end.column - hanging.column;
   bool isRigid = isOfAll && x.w > 0.0 && other.w > 0.0;

@@ -18,6 +18,7 @@ void main() {
   scalars.usualSteps = isSmall && isUsual && scalars.isDisturbed == 0u ? scalars.usualSteps + 1u : 0u;
   scalars.hasNewContacts = 0u;
   scalars.isDisturbed = 0u;
+  scalars.hessian = HESSIAN_PROJECTED;
   scalars.isStepSolved = 0u;
   scalars.isSystemSolved = 0u;
   scalars.iterations = 0u;

@@ -150,7 +150,7 @@ void main() {
     if (!spring.exists) continue;
     vec4 end = positionAt(spring.other);
     precise vec3 d = end.xyz - x.xyz;
-    SpringBlock s = springBlock(d, spring);
+    SpringBlock s = springBlock(d, spring, false);
     Symmetric outer = outerProduct3(s.along, d);
     precise vec3 diagonal = outer.diagonal + vec3(s.across);
     block = sumOf(block, Symmetric(diagonal, outer.others));

@@ -58,10 +58,10 @@ Symmetric addBlockOf(Membrane m, uint corner, Symmetric block) {
 }
 
 // The force on a corner of a membrane whose corners move along the directions.
-vec3 membraneProduct(Membrane m, uint corner) {
+vec3 membraneProduct(Membrane m, uint corner, bool isExact) {
   uvec3 at = m.corners;
   vec3 d[3] = iterateEdges(at), e[3] = edgesOf(positionAt(at.x).xyz, positionAt(at.y).xyz, positionAt(at.z).xyz);
-  vec3 t = positiveTensions(m, d);
+  vec3 t = isExact ? timesMatrix(m, strainsOf(m, d)) : positiveTensions(m, d);
   vec3 more = timesMatrix(m, vec3(sumOfProducts(d[0], e[0]), sumOfProducts(d[1], e[1]), sumOfProducts(d[2], e[2])));
   precise vec3 x = t.x * e[0] + more.x * d[0];
   precise vec3 y = t.y * e[1] + more.y * d[1];
@@ -95,7 +95,7 @@ Symmetric addMeshBlocks(uint i, Symmetric block) {
     IncidentSpring spring = meshSpring(n);
     if (!pulls(spring)) continue;
     precise vec3 d = iterateAt(spring.other).xyz - x;
-    SpringBlock s = springBlock(d, spring);
+    SpringBlock s = springBlock(d, spring, false);
     Symmetric outer = outerProduct3(s.along, d);
     precise vec3 diagonal = outer.diagonal + vec3(s.across);
     block = sumOf(block, Symmetric(diagonal, outer.others));
@@ -115,7 +115,7 @@ Symmetric addMeshBlocks(uint i, Symmetric block) {
 }
 
 // Minus H times the directions, as far as springs, hinges and membranes go. POSITIONS_UNIT: the directions.
-vec3 meshProducts(uint i) {
+vec3 meshProducts(uint i, bool isExact) {
   uvec4 first = texelFetch(listStarts, int(i)), end = texelFetch(listStarts, int(i) + 1);
   vec3 x = iterateAt(i).xyz, p = positionAt(i).xyz;
   precise vec3 force = vec3(0.0);
@@ -123,7 +123,7 @@ vec3 meshProducts(uint i) {
     IncidentSpring spring = meshSpring(n);
     if (!pulls(spring)) continue;
     precise vec3 d = iterateAt(spring.other).xyz - x;
-    SpringBlock s = springBlock(d, spring);
+    SpringBlock s = springBlock(d, spring, isExact);
     precise vec3 e = positionAt(spring.other).xyz - p;
     precise vec3 f = s.across * e + (s.along * sumOfProducts(d, e)) * d;
     force = force + f;
@@ -137,7 +137,7 @@ vec3 meshProducts(uint i) {
   }
   for (uint n = first.w; n < end.w; ++n) {
     uint number = texelFetch(meshNumbers, int(n)).x;
-    force = force + membraneProduct(membraneAt(number), number % 4u);
+    force = force + membraneProduct(membraneAt(number), number % 4u, isExact);
   }
   return force;
 }

@@ -1,5 +1,7 @@
 // products = H directions. POSITIONS_UNIT: the directions.
 #define MULTIPLIES_PAIRS 0
+#include "shared/implicit.h"
+#include "sim/implicit/scalars.glsl"
 #include "sim/implicit/common.glsl"
 #include "sim/implicit/product.glsl"
 

@@ -1,12 +1,11 @@
-// A particle of the product of the Hessian H and the directions p. Needs sim/implicit/common.glsl, with positionAt() for p, so
-// that what is linear serves as it is. MULTIPLIES_PAIRS: what pairs do to the directions is worked out here, too, once for each
-// of their particles; otherwise sim/surface/multiply_pairs.comp has done so.
+// A particle of the product of the Hessian H and the directions p. Needs sim/implicit/scalars.glsl, and sim/implicit/common.glsl
+// with positionAt() for p, so that what is linear serves as it is. MULTIPLIES_PAIRS: what pairs do to the directions is worked out
+// here, too, once for each of their particles; otherwise sim/surface/multiply_pairs.comp has done so.
 #include "sim/watch.glsl"
 #include "sim/incident_springs.glsl"
 #include "sim/bending.glsl"
 #include "sim/implicit/contact.glsl"
 #if HAS_SURFACE
-#include "sim/implicit/scalars.glsl"
 #include "sim/surface/pairs_of_particles.glsl"
 #if MULTIPLIES_PAIRS
 vec3 directionAt(uint i) { return positionAt(i).xyz; }
@@ -26,8 +25,9 @@ vec3 productAt(GridPoint point) {
   uint i = point.index;
   vec4 x = iterateAt(i);
   vec3 p = positionAt(i).xyz;
+  bool isExact = scalars.hessian == HESSIAN_EXACT;
 #if HAS_MESH
-  precise vec3 force = meshProducts(i);
+  precise vec3 force = meshProducts(i, isExact);
 #else
   uint cut = cutMaskOf(i);
   precise vec3 force = vec3(0.0);
@@ -36,7 +36,7 @@ vec3 productAt(GridPoint point) {
     if (!spring.exists) continue;
     precise vec3 d = iterateAt(spring.other).xyz - x.xyz;
     precise vec3 e = positionAt(spring.other).xyz - p;
-    SpringBlock s = springBlock(d, spring);
+    SpringBlock s = springBlock(d, spring, isExact);
     precise vec3 f = s.across * e + (s.along * sumOfProducts(d, e)) * d;
     force = force + f;
   }

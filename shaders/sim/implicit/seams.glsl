@@ -11,7 +11,7 @@ IncidentSpring seamAsSpring(SeamSpring spring) {
 // That of a spring, but where both ends are at one place, or are to be: there it is as stiff in all directions.
 SpringBlock seamBlock(vec3 d, SeamSpring spring) {
   precise float lengthSquared = sumOfProducts(d, d);
-  SpringBlock s = springBlock(d, seamAsSpring(spring));
+  SpringBlock s = springBlock(d, seamAsSpring(spring), false);
   if (spring.restLength == 0.0 || lengthSquared < AT_ONE_PLACE) return SpringBlock(spring.stiffness, 0.0);
   return s;
 }

@@ -58,6 +58,13 @@ float quotient(float a, float b) {
   return b > uintBitsToFloat(0x08800000u) ? result : 0.0;  // 2^-110
 }
 
+#if SUM_KIND == SUM_STEP || SUM_KIND == SUM_LENGTH
+void refuseExactHessian() {
+  scalars.isSystemSolved = SYSTEM_LOST;
+  scalars.hessian = HESSIAN_REFUSED;
+}
+#endif
+
 void takeTotal(Sum total) {
 #if SUM_KIND == SUM_FIRST
   float residual = total < 0.0 ? 0.0 : total;
@@ -70,6 +77,7 @@ void takeTotal(Sum total) {
 #elif SUM_KIND == SUM_STEP
   scalars.stepSize = quotient(scalars.residual, total);
   scalars.iterations += 1u;
+  if (total < 0.0) refuseExactHessian();
 #elif SUM_KIND == SUM_NEXT
   float residual = total < 0.0 ? 0.0 : total;
   scalars.kept = quotient(residual, scalars.residual);
@@ -80,13 +88,15 @@ void takeTotal(Sum total) {
   float motion = total.y < leastMotion ? leastMotion : total.y;
   precise float square = total.x * reciprocal(motion);
   precise float update = square * inverseSquareRoot(square);
-  precise float small = 8.0 * update;
+  bool touches = step.colliderCount != 0u || scalars.pairs != 0u;
+  bool isExact = scalars.hessian == HESSIAN_EXACT && scalars.isSystemSolved == 1u;
+  precise float small = (touches ? TINY_UPDATE_IN_CONTACT : TINY_UPDATE) * update;
+  bool isTiny = small <= step.tolerance;
   precise float squaredUpdate = update * update;
   precise float allowed = (2.0 * step.tolerance) * (scalars.lastUpdate - update);
-  bool isFalling = scalars.newtonSteps == 0u || small <= step.tolerance || squaredUpdate <= allowed;
+  bool isFalling = (touches || scalars.hessian == HESSIAN_REFUSED) && scalars.newtonSteps > 0u && squaredUpdate <= allowed;
   scalars.lastUpdate = update;
   precise float tolerated = step.toleratedStiffness * motion;
-  bool touches = step.colliderCount != 0u || scalars.pairs != 0u;
   bool isNextThorough = scalars.newtonSteps + 1u < THOROUGH_NEWTON_STEPS;
   float part = !isNextThorough ? SUFFICIENT_RESIDUAL : touches ? 0.0 : EARLY_RESIDUAL;
   precise float sufficient = part * (step.toleratedStiffness * total.y);
@@ -94,11 +104,19 @@ void takeTotal(Sum total) {
   bool isFollowed = scalars.isSystemSolved != SYSTEM_LOST &&
                     (scalars.isSystemSolved != 0u || scalars.residual <= tolerated);
   bool isConfirmed = !touches || scalars.newtonSteps > 0u;  // the first one takes predicted contacts
-  scalars.isStepSolved = isConfirmed && update <= step.tolerance && isFollowed && isFalling ? 1u : 0u;
+  scalars.isStepSolved = isConfirmed && update <= step.tolerance && isFollowed && (isExact || isTiny || isFalling) ? 1u : 0u;
   scalars.isSystemSolved = 0u;
+  precise float exactBelow = EXACT_BELOW * step.tolerance;
+  if (!touches && scalars.hessian != HESSIAN_REFUSED && update <= exactBelow)
+    scalars.hessian = HESSIAN_EXACT;
+  else if (scalars.hessian == HESSIAN_EXACT)
+    scalars.hessian = HESSIAN_REFUSED;
   scalars.newtonSteps += 1u;
 #else
-  scalars.newtonLength = total.x <= 0.0 ? 1.0 : total.y <= 0.0 ? 0.5 : total.z <= 0.0 ? 0.25 : 0.125;
+  bool mayStay = scalars.hessian == HESSIAN_EXACT || scalars.isSystemSolved == SYSTEM_LOST;
+  float shortest = total.w <= 0.0 || !mayStay ? 0.125 : 0.0;
+  scalars.newtonLength = total.x <= 0.0 ? 1.0 : total.y <= 0.0 ? 0.5 : total.z <= 0.0 ? 0.25 : shortest;
+  if (scalars.newtonLength == 0.0) refuseExactHessian();
 #endif
 }
 

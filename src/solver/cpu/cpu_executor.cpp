@@ -223,6 +223,7 @@ void CpuExecutor<Real>::sum(Pass pass) {
     case Pass::sumCurvature: {
       const Real curvature = product(implicit_.directions.positions, implicit_.products);
       scalars.stepSize = curvature > leastSum<Real> ? scalars.residual * reciprocal(curvature) : Real(0);
+      if (curvature < Real(0)) refuseExactHessian();
       ++scalars.iterations;
       break;
     }
@@ -247,6 +248,7 @@ void CpuExecutor<Real>::sum(Pass pass) {
       const bool isSmall = scalars.isStepSolved != 0 && scalars.lastUpdate <= parameters_.pieces[0].tolerance;
       scalars.usualSteps = isSmall && isUsual && scalars.isDisturbed == 0 ? scalars.usualSteps + 1 : 0;
       scalars.hasNewContacts = scalars.isDisturbed = 0;
+      scalars.hessian = HESSIAN_PROJECTED;
       scalars.isStepSolved = scalars.isSystemSolved = scalars.iterations = scalars.newtonSteps = 0;
       break;
     }
@@ -271,10 +273,11 @@ Real largestSquare(const Components<Real>& v, Real most) {
 // The update over the motion of the step, or over the least motion that counts. An update is small, too,
 // where the linear solver has hardly begun: r.z, the energy of what is missing as the preconditioner sees it,
 // has to be small as well, against what such a motion would cost in inertia alone: linear systems of further
-// Newton steps end where it is. And updates have to fall: at the rate t of the last two, t/(1 - t) of the
-// last one is still to come (Hairer and Wanner, "Solving ordinary differential equations II", IV.8), twice
-// the tolerance at most. The first Newton step takes contacts as they were predicted: another one confirms
-// it.
+// Newton steps end where it is. And it has to be the update of an exact Newton step, or a tiny one. Where the
+// exact Hessian was refused, and in contact, projected updates that fall will do: at the rate t of the last
+// two, t/(1 - t) of the last one is still to come (Hairer and Wanner, "Solving ordinary differential
+// equations II", IV.8), twice the tolerance at most. The first Newton step takes contacts as they were
+// predicted: another one confirms it.
 template <class Real>
 void CpuExecutor<Real>::measureUpdate() {
   ImplicitScalars<Real>& scalars = implicit_.scalars;
@@ -288,28 +291,50 @@ void CpuExecutor<Real>::measureUpdate() {
   scalars.sufficientResidual = part * (step.toleratedStiffness * ownMotion);
   const Real square = largestSquare(implicit_.increments, Real(LARGE_SQUARE)) * reciprocal(motion);
   const Real update = square * inverseSquareRoot(square);
-  const bool isFalling = scalars.newtonSteps == 0 || Real(8) * update <= step.tolerance ||
+  const bool isExact = scalars.hessian == HESSIAN_EXACT && scalars.isSystemSolved == 1;
+  const bool isTiny = Real(touches ? TINY_UPDATE_IN_CONTACT : TINY_UPDATE) * update <= step.tolerance;
+  const bool isFalling = (touches || scalars.hessian == HESSIAN_REFUSED) && scalars.newtonSteps > 0 &&
                          update * update <= (Real(2) * step.tolerance) * (scalars.lastUpdate - update);
   scalars.lastUpdate = update;
   const bool isFollowed =
       scalars.isSystemSolved != SYSTEM_LOST &&
       (scalars.isSystemSolved != 0 || scalars.residual <= step.toleratedStiffness * motion);
   const bool isConfirmed = !touches || scalars.newtonSteps > 0;
-  scalars.isStepSolved = isConfirmed && update <= step.tolerance && isFollowed && isFalling ? 1 : 0;
+  scalars.isStepSolved =
+      isConfirmed && update <= step.tolerance && isFollowed && (isExact || isTiny || isFalling) ? 1 : 0;
   scalars.isSystemSolved = 0;
+  if (!touches && scalars.hessian != HESSIAN_REFUSED && update <= Real(EXACT_BELOW) * step.tolerance)
+    scalars.hessian = HESSIAN_EXACT;
+  else if (scalars.hessian == HESSIAN_EXACT)
+    scalars.hessian = HESSIAN_REFUSED;
   ++scalars.newtonSteps;
 }
 
-// The longest of the lengths tried that does not raise the energy, else the shortest.
+// The search goes on from where it is, with a Hessian that is positive.
+template <class Real>
+void CpuExecutor<Real>::refuseExactHessian() {
+  implicit_.scalars.isSystemSolved = SYSTEM_LOST;
+  implicit_.scalars.hessian = HESSIAN_REFUSED;
+}
+
+// The longest of the lengths tried that does not raise the energy, else the shortest; with the exact Hessian,
+// else none.
 template <class Real>
 void CpuExecutor<Real>::chooseLength() {
+  const bool mayStay =
+      implicit_.scalars.hessian == HESSIAN_EXACT || implicit_.scalars.isSystemSolved == SYSTEM_LOST;
   Real length = 1;
   for (int k = 0; k < LENGTHS_TRIED; ++k) {
     const std::vector<Real>& trial = implicit_.trials[static_cast<std::size_t>(k)];
     const Real change =
         cpu::fixedSum<Real>(trial.size(), partialSums_, [&](std::size_t i) { return trial.data()[i]; });
-    if (change <= Real(0) || k + 1 == LENGTHS_TRIED) break;
-    length = Real(0.5) * length;
+    if (change <= Real(0)) break;
+    if (k + 1 < LENGTHS_TRIED) {
+      length = Real(0.5) * length;
+    } else if (mayStay) {
+      length = 0;
+      refuseExactHessian();
+    }
   }
   implicit_.scalars.newtonLength = length;
 }

@@ -11,14 +11,14 @@
 
 namespace clothsim::cpu {
 
-// The Hessian of a spring between particles d apart, made positive: across 1 + along d d^T.
+// The Hessian of a spring between particles d apart, projected or exact: across 1 + along d d^T.
 template <class Real>
 struct SpringBlock {
   Real across, along;
 };
 template <class Real>
 INLINE SpringBlock<Real> springBlock(Vec3<Real> d, Real stiffness, Real restLength, Real limitStiffness,
-                                     Real limitLength) {
+                                     Real limitLength, bool isExact = false) {
   const Real lengthSquared = dot(d, d);
   const Real inverseLength = inverseSquareRoot(lengthSquared);
   const Real length = lengthSquared * inverseLength;
@@ -28,7 +28,7 @@ INLINE SpringBlock<Real> springBlock(Vec3<Real> d, Real stiffness, Real restLeng
   const Real tensionBeyond = tension + limitStiffness * over, wholeBeyond = stiffness + limitStiffness;
   const Real whole = beyond ? wholeBeyond : stiffness;
   const Real scale = (beyond ? tensionBeyond : tension) * inverseLength;
-  const Real across = scale > Real(0) ? scale : Real(0);
+  const Real across = isExact || scale > Real(0) ? scale : Real(0);
   return {across, (whole - across) * (inverseLength * inverseLength)};
 }
 

@@ -130,6 +130,7 @@ INLINE void addSpringBlocks(const ImplicitArguments<Real>& arguments, int row) {
   const SymmetricArrays<Real> blocks = arraysOf(own.factors);
   const std::uint32_t* cutMasks = pass.cutMasks;
   const Real limitStiffness = pass.step.limitStiffness, limitFactor = pass.step.limitFactor;
+  const bool isExact = own.scalars.hessian == HESSIAN_EXACT;
   forEachSpringRange(
       pass, row,
       [&](Range particles, SpringPlace place, const SpringParams<Real>& spring, auto rest)
@@ -140,15 +141,17 @@ INLINE void addSpringBlocks(const ImplicitArguments<Real>& arguments, int row) {
 #pragma GCC ivdep
             for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
               const Vec3<Real> d = at(x, i + place.other) - at(x, i);
-              const auto [across, along] = springBlock(d, spring.stiffness, rest[i], limitStiffness,
-                                                       limitLength(rest, i, limitFactor, spring.limitLength));
+              const Real limit = limitLength(rest, i, limitFactor, spring.limitLength);
+              const auto [across, along] = springBlock(d, spring.stiffness, rest[i], limitStiffness, limit);
               Symmetric<Real> k = outerProduct(along, d);
               k.diagonal = k.diagonal + Vec3<Real>{across, across, across};
               const bool isCut = isCutAt<hasCuts>(cutMasks, i, place.bit);
               addTo(blocks, i, (isCut ? Real(0) : Real(1)) * k);
               if (!incident.owned) continue;
-              keptAcross[i] = isCut ? Real(0) : across;
-              keptAlong[i] = isCut ? Real(0) : along;
+              const SpringBlock<Real> kept =
+                  springBlock(d, spring.stiffness, rest[i], limitStiffness, limit, isExact);
+              keptAcross[i] = isCut ? Real(0) : kept.across;
+              keptAlong[i] = isCut ? Real(0) : kept.along;
             }
           });
 }

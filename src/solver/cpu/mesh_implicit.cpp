@@ -123,12 +123,13 @@ void addMeshProducts(const ImplicitArguments<Real>& arguments, int row) {
   const Range all = rangeOf(arguments.step.step, row);
   const Components<Real>& p = arguments.own.directions.positions;
   Components<Real>& products = arguments.own.products;
+  const bool isExact = arguments.own.scalars.hessian == HESSIAN_EXACT;
   for (std::ptrdiff_t n = all.begin; n < all.end; ++n) {
     const auto i = static_cast<std::size_t>(n);
     Vec3<Real> f{};
     forEachSpring(arguments, i, [&](const auto& spring, Vec3<Real> d, Real limitLength) {
       const auto [across, along] = springBlock(d, spring.stiffness, spring.restLength,
-                                               arguments.step.step.limitStiffness, limitLength);
+                                               arguments.step.step.limitStiffness, limitLength, isExact);
       const Vec3<Real> e = at(p, spring.other) - at(p, static_cast<std::ptrdiff_t>(i));
       f = f + (across * e + (along * dot(d, e)) * d);
     });
@@ -137,7 +138,9 @@ void addMeshProducts(const ImplicitArguments<Real>& arguments, int row) {
     });
     forEachMembrane(arguments, i, [&](const auto& membrane, std::uint32_t corner, const auto& d) {
       const auto e = edgesOf(membrane.corners, p);
-      const OfEdges<Real> t = positiveTensions(membrane.roots, strainsOf(membrane.restSquared, d)),
+      const OfEdges<Real> strains = strainsOf(membrane.restSquared, d);
+      const OfEdges<Real> t = isExact ? timesMatrix(membrane.roots, strains)
+                                      : positiveTensions(membrane.roots, strains),
                           more = timesMatrix<Real>(membrane.roots,
                                                    {dot(d[0], e[0]), dot(d[1], e[1]), dot(d[2], e[2])});
       f = f + pullAt<Real>(corner, {t[0] * e[0] + more[0] * d[0], t[1] * e[1] + more[1] * d[1],

@@ -72,7 +72,8 @@ class Sheet {
     for (std::uint32_t i = 0; i < x.size(); ++i) solver_.setPosition(i, x[i]);
     return solver_.forces();
   }
-  // H p with the Hessian at x.
+  void takeExactHessian() { own_.scalars.hessian = HESSIAN_EXACT; }
+  // H p with the Hessian at x, projected if it is not asked otherwise.
   [[nodiscard]] Field product(const Field& x, const Field& p) {
     put(own_.iterate.positions, x);
     const cpu::PassArguments<double> pass = arguments();
@@ -113,7 +114,7 @@ class Sheet {
     }
     return {error, most};
   }
-  // The same from differences of the forces, where no spring pushes.
+  // That of the exact Hessian, from differences of the forces.
   [[nodiscard]] Field productByDifferences(const Field& x, const Field& p, double step) {
     Field forwards = x, backwards = x;
     for (std::size_t i = 0; i < x.size(); ++i) {
@@ -243,7 +244,7 @@ TEST(RowImplicitGradientAndHessian, ForcesAreTheGradientOfTheEnergy) {
   expectGradient("torn sheet", Sheet(scene, cuts), cuts);
 }
 
-// Where all springs pull, the Hessian is the exact one; some are beyond the beginning of the limit.
+// Where all springs pull, the projected Hessian is the exact one; some are beyond the beginning of the limit.
 void expectHessian(const std::string& what, Sheet sheet, double disorder) {
   const Field x = sheet.deformed(1.07, disorder);
   const auto [least, most] = strains(sheet.cloth(), x);
@@ -265,6 +266,22 @@ TEST(RowImplicitGradientAndHessian, ProductsAreDerivativesOfTheForces) {
   expectHessian("torn sheet", Sheet(scene, test::someCuts(Cloth(scene))), 0.002);
   expectHessian("mesh", Sheet(limitedMesh()), 0.0015);
   expectHessian("torn mesh", Sheet(limitedMesh(), test::tornAcross(Cloth(limitedMesh()), 0.3)), 0.0015);
+}
+
+TEST(RowImplicitGradientAndHessian, ExactProductsAreSoWhereSpringsPush) {
+  const Scene piece = limitedSheet(), mesh = limitedMesh();
+  for (const auto& [scene, cuts] : {std::pair{piece, Cuts{}}, {mesh, Cuts{}}}) {
+    Sheet sheet(scene, cuts);
+    const Field x = sheet.deformed(0.8, 0.005);
+    EXPECT_LT(strains(sheet.cloth(), x).second, -0.01);
+    const Field p = sheet.random(1, true), expected = sheet.productByDifferences(x, p, 1e-6);
+    const Field projected = sheet.product(x, p);
+    sheet.takeExactHessian();
+    expectAtMost({derivativesRow, "products where all springs push", "double", ""},
+                 relativeError(sheet.product(x, p), expected), 1e-5);
+    EXPECT_GT(relativeError(projected, expected), 0.01);
+    EXPECT_GT(product(p, projected), product(p, expected));
+  }
 }
 
 // Also where springs push: there the exact Hessian is not positive.
