@@ -129,8 +129,8 @@ using uint = std::uint32_t;
 #define LARGE_SQUARE 1152921504606846976.0f  // 2^60
 
 #define STEP_ENDED 2u
-// Of a linear system: rounding has left a preconditioner that is not positive, or the exact Hessian is not.
-// Nothing more is done, and the step is not solved.
+// Of a linear system: its preconditioner, by rounding, or its exact Hessian is not positive. It is left as it
+// is, and its Newton step does not count as the last one.
 #define SYSTEM_LOST 2u
 
 // The Hessian of a Newton step. Projected, it lacks what compression takes from it, and is positive. But

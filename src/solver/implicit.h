@@ -14,7 +14,7 @@
 // displacement, or of a tenth of the spacing where that is larger, and otherwise after `newton_steps`: then
 // the step counts as unconverged. The linear solver ends when r.z has fallen by tolerance^2, or to what a
 // solved step may lack, or after `cg_iterations`. An update is small, too, where the linear solver has hardly
-// begun: what the linear system lacks has to be small, and projected Newton steps have to fall fast enough
+// begun, or the Hessian was projected: what is still to come has to be small as well
 // (CpuExecutor::measureUpdate).
 //
 // Colliders take part. A particle in a collider gets the plane in which it touches it as a stiff spring, so
