@@ -42,7 +42,9 @@
 //
 //   d_i = sum of w_c (t_c + r_c x (x_i - X_c)),   X_c the weighted mean of the places,
 //
-// so that what turns as a whole, as the free end of a cantilever does, costs the solver nothing. The matrices
+// so that what turns as a whole, as the free end of a cantilever does, costs the solver nothing. Residuals
+// and corrections of all levels, forces and motions with six numbers each, are kept about the first particle:
+// so they add up as they are, and only the matrices are about the X_c. The matrices
 // of the levels are P_l^T H P_l (Galerkin): the first one is summed up from springs, bending, inertia and
 // contacts, the others from the level before. Of the middle levels the blocks on the diagonal are inverted,
 // of the coarsest one the whole matrix. There one unknown is the motion of all as one rigid body, with a row

@@ -14,7 +14,8 @@ RigidVector solvedFor(DensePart part, uint own) {
   precise vec3 translation = vec3(0.0);
   precise vec3 rotation = vec3(0.0);
   for (uint k = 0u; k < part.count; ++k) {
-    RigidVector residual = residualOn(part.first + k);
+    uint coarse = part.first + k;
+    RigidVector residual = forceAbout(fromOrigin(centerAt(coarse)), residualOn(coarse));
     for (uint j = 0u; j < 6u; ++j) {
       float r = j < 3u ? residual.translation[j] : residual.rotation[j - 3u];
       uint entry = part.firstEntry + (6u * k + j) * order + 6u * own;
@@ -22,5 +23,6 @@ RigidVector solvedFor(DensePart part, uint own) {
       rotation = rotation - r * threeAt(entry + 3u);
     }
   }
-  return RigidVector(canonical(translation), canonical(rotation));
+  RigidVector motion = motionFrom(fromOrigin(centerAt(part.first + own)), RigidVector(translation, rotation));
+  return RigidVector(canonical(motion.translation), canonical(motion.rotation));
 }

@@ -6,6 +6,17 @@ struct RigidVector {
   vec3 translation, rotation;
 };
 
+// Forces and motions of all vertices are about one origin: as they are, they add up from level to level. Here a force as it
+// is about `center`, where its torque is another, and a motion about `center` as it is about the origin.
+RigidVector forceAbout(vec3 center, RigidVector force) {
+  precise vec3 torque = force.rotation - crossProduct(center, force.translation);
+  return RigidVector(force.translation, torque);
+}
+RigidVector motionFrom(vec3 center, RigidVector motion) {
+  precise vec3 translation = motion.translation + crossProduct(center, motion.rotation);
+  return RigidVector(translation, motion.rotation);
+}
+
 // Columns of four 3 x 3 matrices: rows by columns, t for translation, r for rotation.
 struct RigidBlock {
   vec3 tt[3], tr[3], rt[3], rr[3];

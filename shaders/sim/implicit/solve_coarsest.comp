@@ -1,20 +1,10 @@
 // Corrections of the coarsest level, A^-1 r, a vertex an invocation, a connected part a work group.
-#include "shared/implicit.h"
-#include "shared/step_params.h"
-#include "sim/exact_math.glsl"
-#include "sim/implicit/gate.glsl"
-#include "sim/implicit/rigid_block.glsl"
+#include "sim/implicit/vectors.glsl"
+#include "sim/implicit/vertices.glsl"
 
-layout(local_size_x = 64) in;
-
-layout(std140, binding = STEP_PARAMS_BINDING) uniform StepBlock { StepParams step; };
-layout(binding = RESIDUALS_UNIT) uniform samplerBuffer residuals;
 layout(std430, binding = CORRECTIONS_BINDING) writeonly buffer Corrections { vec4 newCorrections[]; };
 
-RigidVector residualOn(uint coarse) {
-  int i = int(step.totalParticles + VERTEX_TEXELS * coarse);
-  return RigidVector(texelFetch(residuals, i).xyz, texelFetch(residuals, i + 1).xyz);
-}
+RigidVector residualOn(uint coarse) { return rigidAt(residuals, coarse); }
 #include "sim/implicit/dense.glsl"
 
 void main() {

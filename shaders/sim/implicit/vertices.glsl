@@ -20,6 +20,12 @@ vec3 placeOf(uint vertex) {
   return vertex < step.totalParticles ? iterateAt(vertex).xyz : centerAt(vertex - step.totalParticles);
 }
 
+// Places are from the first particle: where the cloth is in the world costs forces and motions no digits.
+vec3 fromOrigin(vec3 place) {
+  precise vec3 offset = place - iterateAt(0u).xyz;
+  return offset;
+}
+
 // Of a coarse vertex, behind the particles.
 int entryOfVertex(uint coarse) { return int(step.totalParticles + VERTEX_TEXELS * coarse); }
 RigidVector rigidAt(samplerBuffer values, uint coarse) {

@@ -179,7 +179,7 @@ void ImplicitState<Real>::resize(Hierarchy<Real> levels) {
   elements.resize(particles);
   factors.resize(particles);
   centers.resize(hierarchy.coarseVertices);
-  coarseResiduals.resize(hierarchy.coarseVertices);
+  forces.resize(particles + hierarchy.coarseVertices);
   coarseCorrections.resize(hierarchy.coarseVertices);
   coarseBlocks.resize(hierarchy.blocks.size());
   elementSums.resize(hierarchy.blocks.size());

@@ -51,9 +51,10 @@ struct ImplicitState {
   ImplicitScalars<Real> scalars{};
 
   Hierarchy<Real> hierarchy;
+  std::vector<RigidVector<Real>> forces;  // the residuals on vertices of all levels
   // Of coarse vertices.
   std::vector<Four<Real>> centers;  // [m]
-  std::vector<RigidVector<Real>> coarseResiduals, coarseCorrections;
+  std::vector<RigidVector<Real>> coarseCorrections;
   std::vector<RigidBlock<Real>> coarseBlocks;    // of the levels' matrices
   std::vector<ElementSums<Real>> elementSums;    // of the first levels' blocks
   std::vector<RigidBlock<Real>> coarseInverses;  // minus those of the diagonal blocks, by coarse vertex
@@ -119,10 +120,12 @@ void coarsen(const ImplicitArguments<Real>& arguments, const LevelParams& level,
 // Minus the inverse of the matrix of a connected part of the coarsest level.
 void invertDense(ImplicitState<float>& own, const DensePart& part);
 void invertDense(ImplicitState<double>& own, const DensePart& part);
-// Forces and torques on the aggregates [first, end), of particles or of aggregates of a finer level.
-void restrictResiduals(ImplicitState<float>& own, bool isOfParticles, std::uint32_t first, std::uint32_t end);
-void restrictResiduals(ImplicitState<double>& own, bool isOfParticles, std::uint32_t first,
-                       std::uint32_t end);
+// What residuals of the particles [first, end) are as forces, and the forces on the aggregates [first, end),
+// of what hangs on them.
+void putForces(ImplicitState<float>& own, std::uint32_t first, std::uint32_t end);
+void putForces(ImplicitState<double>& own, std::uint32_t first, std::uint32_t end);
+void restrictResiduals(ImplicitState<float>& own, std::uint32_t first, std::uint32_t end);
+void restrictResiduals(ImplicitState<double>& own, std::uint32_t first, std::uint32_t end);
 template <class Real>
 void solveCoarsest(ImplicitState<Real>& own, const DensePart& part, std::uint32_t vertex);
 // z of the coarse vertices [first, end): their own and what the next coarser level makes of them.

@@ -210,88 +210,84 @@ void invertDense(ImplicitState<double>& own, const DensePart& part) { invertPart
 
 namespace {
 
-template <bool isOfParticles, class Real>
-INLINE void restrictTo(ImplicitState<Real>& own, std::uint32_t first, std::uint32_t end) {
-  const Hierarchy<Real>& hierarchy = own.hierarchy;
-  const std::uint32_t *starts = hierarchy.restrictionStarts.data(), particles = hierarchy.particles;
-  const typename Hierarchy<Real>::Weight* hangs = hierarchy.restriction.data();
+// Places are from the first particle: where the cloth is in the world costs forces and motions no digits.
+template <class Real>
+INLINE Four<Real> centerOf(const ImplicitState<Real>& own, std::uint32_t coarse) {
+  return own.centers.data()[coarse] - fourAt(arraysOf(std::as_const(own.iterate.positions)), 0);
+}
+
+// The residuals of particles as forces with a torque.
+template <class Real>
+INLINE void putForcesRange(ImplicitState<Real>& own, std::uint32_t first, std::uint32_t end) {
   const Arrays<const Real> x = arraysOf(std::as_const(own.iterate.positions)),
                            residuals = arraysOf(std::as_const(own.residuals));
-  const Four<Real>* centers = own.centers.data();
-  RigidVector<Real>* forces = own.coarseResiduals.data();
-  for (std::uint32_t coarse = first; coarse < end; ++coarse) {
-    const Four<Real> center = centers[coarse];
-    RigidVector<Real> sum;
-    for (std::uint32_t n = starts[coarse]; n < starts[coarse + 1]; ++n) {
-      const auto [vertex, weight] = hangs[n];
-      Four<Real> force, torque;
-      if constexpr (isOfParticles) {
-        const auto i = static_cast<std::ptrdiff_t>(vertex);
-        force = fourAt(residuals, i);
-        torque = crossOf(fourAt(x, i) - center, force);
-      } else {
-        const RigidVector<Real>& fine = forces[vertex - particles];
-        force = fine.translation;
-        torque = crossOf(centers[vertex - particles] - center, force) + fine.rotation;
-      }
-      sum.translation = sum.translation + weight * force;
-      sum.rotation = sum.rotation + weight * torque;
-    }
-    forces[coarse] = canonical(sum);
+  const Vec3<Real> origin = at(x, 0);
+  Real* forces = numbersOf(own.forces.data());
+#pragma GCC ivdep
+  for (auto i = static_cast<std::ptrdiff_t>(first); i < static_cast<std::ptrdiff_t>(end); ++i) {
+    const Vec3<Real> force = at(residuals, i);
+    putThrees(forces, i, force, cross(at(x, i) - origin, force));
   }
 }
+
 template <class Real>
-INLINE void restrictRange(ImplicitState<Real>& own, bool isOfParticles, std::uint32_t first,
-                          std::uint32_t end) {
-  isOfParticles ? restrictTo<true>(own, first, end) : restrictTo<false>(own, first, end);
+INLINE void restrictRange(ImplicitState<Real>& own, std::uint32_t first, std::uint32_t end) {
+  const Hierarchy<Real>& hierarchy = own.hierarchy;
+  const std::uint32_t* starts = hierarchy.restrictionStarts.data();
+  const typename Hierarchy<Real>::Weight* hangs = hierarchy.restriction.data();
+  RigidVector<Real>* forces = own.forces.data();
+  for (std::uint32_t coarse = first; coarse < end; ++coarse) {
+    Eight<Real> sum{};
+    for (std::uint32_t n = starts[coarse]; n < starts[coarse + 1]; ++n)
+      sum = sum + hangs[n].weight * forces[hangs[n].vertex].both;
+    forces[hierarchy.particles + coarse].both = canonicalOf(sum);
+  }
 }
 
 }  // namespace
 
-VECTOR_CLONES(void, restrictResiduals,
-              (ImplicitState<float> & own, bool isOfParticles, std::uint32_t first, std::uint32_t end),
-              (own, isOfParticles, first, end), restrictRange(own, isOfParticles, first, end))
-void restrictResiduals(ImplicitState<double>& own, bool isOfParticles, std::uint32_t first,
-                       std::uint32_t end) {
-  restrictRange(own, isOfParticles, first, end);
+VECTOR_CLONES(void, putForces, (ImplicitState<float> & own, std::uint32_t first, std::uint32_t end),
+              (own, first, end), putForcesRange(own, first, end))
+void putForces(ImplicitState<double>& own, std::uint32_t first, std::uint32_t end) {
+  putForcesRange(own, first, end);
+}
+VECTOR_CLONES(void, restrictResiduals, (ImplicitState<float> & own, std::uint32_t first, std::uint32_t end),
+              (own, first, end), restrictRange(own, first, end))
+void restrictResiduals(ImplicitState<double>& own, std::uint32_t first, std::uint32_t end) {
+  restrictRange(own, first, end);
 }
 
 template <class Real>
 void solveCoarsest(ImplicitState<Real>& own, const DensePart& part, std::uint32_t vertex) {
   const std::size_t order = 6 * static_cast<std::size_t>(part.count);
   const Real* matrix = own.dense.data() + part.firstEntry + 6 * static_cast<std::size_t>(vertex - part.first);
-  RigidVector<Real> sum;
+  Eight<Real> sum{};
   for (std::uint32_t k = 0; k < part.count; ++k) {
-    const RigidVector<Real>& residual = own.coarseResiduals[part.first + k];
+    const std::uint32_t coarse = part.first + k;
+    const Eight<Real> force =
+        forceAbout(centerOf(own, coarse), own.forces[own.hierarchy.particles + coarse]).both;
     for (std::size_t j = 0; j < 6; ++j) {
-      const Real r = j < 3 ? residual.translation[j] : residual.rotation[j - 3];
       const Real* column = matrix + (6 * k + j) * order;
-      sum.translation = sum.translation - r * Four<Real>{column[0], column[1], column[2], Real(0)};
-      sum.rotation = sum.rotation - r * Four<Real>{column[3], column[4], column[5], Real(0)};
+      sum = sum - force[j < 3 ? j : j + 1] * Eight<Real>{column[0], column[1], column[2], Real(0),
+                                                         column[3], column[4], column[5], Real(0)};
     }
   }
-  own.coarseCorrections[vertex] = canonical(sum);
+  own.coarseCorrections[vertex] = canonical(motionFrom(centerOf(own, vertex), RigidVector<Real>(sum)));
 }
 
 namespace {
 
-// What the coarse vertices that a vertex hangs on make of it.
+// How the coarse vertices that a vertex hangs on move it.
 template <class Real>
-INLINE RigidVector<Real> prolonged(const ImplicitState<Real>& own, std::uint32_t vertex, Four<Real> place) {
+INLINE RigidVector<Real> prolonged(const ImplicitState<Real>& own, std::uint32_t vertex) {
   const Hierarchy<Real>& hierarchy = own.hierarchy;
   const std::uint32_t* starts = hierarchy.prolongationStarts.data();
   const typename Hierarchy<Real>::Weight* hangs = hierarchy.prolongation.data();
   const RigidVector<Real>* corrections = own.coarseCorrections.data();
-  const Four<Real>* centers = own.centers.data();
-  RigidVector<Real> sum;
-  for (std::uint32_t n = starts[vertex]; n < starts[vertex + 1]; ++n) {
-    const auto [coarse, weight] = hangs[n];
-    const RigidVector<Real>& motion = corrections[coarse];
-    const Four<Real> arm = place - centers[coarse];
-    sum.translation = sum.translation + weight * (motion.translation + crossOf(motion.rotation, arm));
-    sum.rotation = sum.rotation + weight * motion.rotation;
-  }
-  return sum;
+  Eight<Real> sum{};
+  for (std::uint32_t n = starts[vertex]; n < starts[vertex + 1]; ++n)
+    sum = sum + hangs[n].weight * corrections[hangs[n].vertex].both;
+  return RigidVector<Real>(sum);
 }
 
 template <class Real>
@@ -301,15 +297,16 @@ INLINE void prolongRange(ImplicitState<Real>& own, const Real* inverseMasses, st
                            residuals = arraysOf(std::as_const(own.residuals));
   const Arrays<Real> corrections = arraysOf(own.corrections);
   const SymmetricArrays<Real> factors = arraysOf(own.factors);
-  for (std::uint32_t vertex = first; vertex < end; ++vertex) {
-    const auto i = static_cast<std::ptrdiff_t>(vertex);
-    put(corrections, i, threeOf(prolonged(own, vertex, fourAt(x, i)).translation));
-  }
+  std::array<RigidVector<Real>, PARTICLES_AT_ONCE> motions;
+  for (std::uint32_t vertex = first; vertex < end; ++vertex) motions[vertex - first] = prolonged(own, vertex);
+  const Real* numbers = numbersOf(motions.data());
+  const Vec3<Real> origin = at(x, 0);
 #pragma GCC ivdep
   for (auto i = static_cast<std::ptrdiff_t>(first); i < static_cast<std::ptrdiff_t>(end); ++i) {
+    const auto [translation, rotation] = threesAt(numbers, i - static_cast<std::ptrdiff_t>(first));
     const Symmetric<Real> stored = at(factors, i);
-    const Vec3<Real> correction =
-        solve(Factors<Real>{stored.others, stored.diagonal}, at(residuals, i)) + at(corrections, i);
+    const Vec3<Real> correction = solve(Factors<Real>{stored.others, stored.diagonal}, at(residuals, i)) +
+                                  (translation + cross(rotation, at(x, i) - origin));
     put(corrections, i, selected(inverseMasses[i] == Real(0), Vec3<Real>{}, canonical(correction)));
   }
 }
@@ -318,10 +315,11 @@ template <class Real>
 INLINE void prolongVertices(ImplicitState<Real>& own, std::uint32_t first, std::uint32_t end) {
   const std::uint32_t particles = own.hierarchy.particles;
   for (std::uint32_t coarse = first; coarse < end; ++coarse) {
-    const RigidVector<Real> motion = prolonged(own, particles + coarse, own.centers.data()[coarse]),
-                            minus = own.coarseInverses.data()[coarse] * own.coarseResiduals.data()[coarse];
-    own.coarseCorrections.data()[coarse] = canonical(
-        RigidVector<Real>{motion.translation - minus.translation, motion.rotation - minus.rotation});
+    const Four<Real> center = centerOf(own, coarse);
+    const RigidVector<Real> motion = prolonged(own, particles + coarse),
+                            force = forceAbout(center, own.forces.data()[particles + coarse]),
+                            minus = motionFrom(center, own.coarseInverses.data()[coarse] * force);
+    own.coarseCorrections.data()[coarse].both = canonicalOf(motion.both - minus.both);
   }
 }
 
@@ -382,12 +380,14 @@ void runOnLevel(PassCall call, std::span<const ImplicitArguments<Real>> pieces, 
       forEachStretch(
           level.coarseFirst, level.coarseCount, rowsAtOnce(level.coarseCount),
           [&](std::uint32_t first, std::uint32_t end) { coarsen(pieces[piece], level, first, end); });
-    else if (call.pass == Pass::restrict)
-      ThreadTeam::shared().forEachRange(level.coarseFirst, level.coarseFirst + level.coarseCount,
-                                        VERTICES_AT_ONCE, [&](std::uint32_t first, std::uint32_t end) {
-                                          restrictResiduals(own, isFineOfParticles, first, end);
-                                        });
-    else if (isFineOfParticles)
+    else if (call.pass == Pass::restrict) {
+      if (isFineOfParticles)
+        forEachStretch(level.fineFirst, level.fineCount, PARTICLES_AT_ONCE,
+                       [&](std::uint32_t first, std::uint32_t end) { putForces(own, first, end); });
+      ThreadTeam::shared().forEachRange(
+          level.coarseFirst, level.coarseFirst + level.coarseCount, VERTICES_AT_ONCE,
+          [&](std::uint32_t first, std::uint32_t end) { restrictResiduals(own, first, end); });
+    } else if (isFineOfParticles)
       forEachStretch(
           level.fineFirst, level.fineCount, PARTICLES_AT_ONCE,
           [&](std::uint32_t first, std::uint32_t end) { prolongParticles(own, inverseMasses, first, end); });

@@ -12,14 +12,56 @@
 
 namespace clothsim::cpu {
 
-// A translation and a rotation, or a force and a torque.
+// A translation and a rotation, or a force and a torque, with a 0 behind either.
 template <class Real>
-struct RigidVector {
-  Four<Real> translation{}, rotation{};
+struct alignas(8 * sizeof(Real)) RigidVector {
+  Eight<Real> both{};
+
+  RigidVector() = default;
+  INLINE explicit RigidVector(const Eight<Real>& values) : both(values) {}
+  INLINE RigidVector(Four<Real> translation, Four<Real> rotation)
+      : both(__builtin_shufflevector(translation, rotation, 0, 1, 2, 3, 4, 5, 6, 7)) {}
+  [[nodiscard]] INLINE Four<Real> translation() const {
+    return __builtin_shufflevector(both, both, 0, 1, 2, 3);
+  }
+  [[nodiscard]] INLINE Four<Real> rotation() const { return __builtin_shufflevector(both, both, 4, 5, 6, 7); }
 };
 template <class Real>
 INLINE RigidVector<Real> canonical(const RigidVector<Real>& v) {
-  return {canonicalOf(v.translation), canonicalOf(v.rotation)};
+  return RigidVector<Real>(canonicalOf(v.both));
+}
+
+// Their numbers one after another, eight each, for loops that take a vector of every component.
+template <class Real>
+INLINE Real* numbersOf(RigidVector<Real>* vectors) {
+  return reinterpret_cast<Real*>(vectors);
+}
+template <class Real>
+struct Threes {
+  Vec3<Real> translation, rotation;
+};
+template <class Real>
+INLINE Threes<Real> threesAt(const Real* numbers, std::ptrdiff_t i) {
+  const Real* v = numbers + 8 * i;
+  return {{v[0], v[1], v[2]}, {v[4], v[5], v[6]}};
+}
+template <class Real>
+INLINE void putThrees(Real* numbers, std::ptrdiff_t i, Vec3<Real> translation, Vec3<Real> rotation) {
+  Real* v = numbers + 8 * i;
+  v[0] = translation.x, v[1] = translation.y, v[2] = translation.z, v[3] = Real(0);
+  v[4] = rotation.x, v[5] = rotation.y, v[6] = rotation.z, v[7] = Real(0);
+}
+
+// Forces and motions of all vertices are about one origin: as they are, they add up from level to level. Here
+// a force as it is about `center`, where its torque is another, and a motion about `center` as it is about
+// the origin.
+template <class Real>
+INLINE RigidVector<Real> forceAbout(Four<Real> center, const RigidVector<Real>& force) {
+  return {force.translation(), force.rotation() - crossOf(center, force.translation())};
+}
+template <class Real>
+INLINE RigidVector<Real> motionFrom(Four<Real> center, const RigidVector<Real>& motion) {
+  return {motion.translation() + crossOf(center, motion.rotation()), motion.rotation()};
 }
 
 // Columns of four 3 x 3 matrices: rows by columns, t for translation, r for rotation.
@@ -85,8 +127,9 @@ INLINE RigidVector<Real> operator*(const RigidBlock<Real>& a, const RigidVector<
       [](const typename RigidBlock<Real>::Columns& m, Four<Real> u) __attribute__((always_inline)) {
     return (u[0] * m[0] + u[1] * m[1]) + u[2] * m[2];
   };
-  return {product(a.tt, v.translation) + product(a.tr, v.rotation),
-          product(a.rt, v.translation) + product(a.rr, v.rotation)};
+  const Four<Real> translation = v.translation(), rotation = v.rotation();
+  return {product(a.tt, translation) + product(a.tr, rotation),
+          product(a.rt, translation) + product(a.rr, rotation)};
 }
 
 // The reciprocal of a pivot; 0 where rounding has left less of it than a part of the entry it began as, or
