@@ -107,9 +107,23 @@ LAW Meeting meetingWithShape(ColliderParams shape, SmallCollider core, vec3 from
   Tip tip = farthestTip(shape, normal);
   NearestParts below = nearestOnTriangle(tip.place, to[0], to[1], to[2]);
   real height = sumOfProducts(below.way, normal);
-  bool isCorner = below.part != NEAREST_FACE && below.part < NEAREST_SIDE;
-  precise real aside = quarter * sumOfProducts(below.way, below.way);
   precise real heightSquared = height * height;
+  precise real aside = quarter * sumOfProducts(below.way, below.way);
+  bool isCorner = below.part != NEAREST_FACE && below.part < NEAREST_SIDE;
+  // A tip that has gone through beside a corner of the triangle is nearest to that corner for all triangles
+  // around it. It went through the one that lies between the tip and the other end of the core.
+  if (isCorner && zero < height) {
+    vec3 otherEnd =
+        vec3(tip.place.x < zero ? core.coreX : -core.coreX, tip.place.y < zero ? core.coreY : -core.coreY,
+             tip.place.z < zero ? core.coreZ : -core.coreZ);
+    precise vec3 back = otherEnd - tip.place;
+    precise real fall = zero - sumOfProducts(back, normal);
+    precise vec3 crossing = tip.place + partOf(height, fall) * back;
+    below = nearestOnTriangle(crossing, to[0], to[1], to[2]);
+    precise real off = real(64.0) * sumOfProducts(below.way, below.way);
+    isCorner = !(off < heightSquared);
+    aside = zero;
+  }
   // It was not through before, or hardly.
   precise vec3 towardsTip = tip.place - from[0];
   real heightBefore = sumOfProducts(towardsTip, awayFromCore(inner, from, from));

@@ -33,6 +33,7 @@ struct MeetingLaws : SurfaceLaws<Real> {
   using Base::nearestOnCore;
   using Base::nearestOnTriangle;
   using Base::nearestToCore;
+  using Base::partOf;
   using Base::sumOfProducts;
 
   const float* distances;  // samples of the meshes
