@@ -57,13 +57,17 @@ INLINE Symmetric<Real> at(const SymmetricArrays<Real>& field, std::ptrdiff_t i) 
   return {{field.xx[i], field.yy[i], field.zz[i]}, {field.xy[i], field.xz[i], field.yz[i]}};
 }
 template <class Real>
+INLINE void put(const SymmetricArrays<Real>& field, std::ptrdiff_t i, const Symmetric<Real>& a) {
+  field.xx[i] = a.diagonal.x;
+  field.yy[i] = a.diagonal.y;
+  field.zz[i] = a.diagonal.z;
+  field.xy[i] = a.others.x;
+  field.xz[i] = a.others.y;
+  field.yz[i] = a.others.z;
+}
+template <class Real>
 INLINE void addTo(const SymmetricArrays<Real>& field, std::ptrdiff_t i, const Symmetric<Real>& a) {
-  field.xx[i] = field.xx[i] + a.diagonal.x;
-  field.yy[i] = field.yy[i] + a.diagonal.y;
-  field.zz[i] = field.zz[i] + a.diagonal.z;
-  field.xy[i] = field.xy[i] + a.others.x;
-  field.xz[i] = field.xz[i] + a.others.y;
-  field.yz[i] = field.yz[i] + a.others.z;
+  put(field, i, at(field, i) + a);
 }
 using clothsim::canonical;
 template <class Real>

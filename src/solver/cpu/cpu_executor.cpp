@@ -325,6 +325,7 @@ void CpuExecutor<Real>::chooseLength() {
       implicit_.scalars.hessian == HESSIAN_EXACT || implicit_.scalars.isSystemSolved == SYSTEM_LOST;
   Real length = 1;
   for (int k = 0; k < LENGTHS_TRIED; ++k) {
+    if (k == 1) tryShorterLengths();
     const std::vector<Real>& trial = implicit_.trials[static_cast<std::size_t>(k)];
     const Real change =
         cpu::fixedSum<Real>(trial.size(), partialSums_, [&](std::size_t i) { return trial.data()[i]; });
@@ -337,6 +338,14 @@ void CpuExecutor<Real>::chooseLength() {
     }
   }
   implicit_.scalars.newtonLength = length;
+}
+
+template <class Real>
+void CpuExecutor<Real>::tryShorterLengths() {
+  constexpr PassCall call{Pass::tryLengths};
+  implicit_.triesShorter = true;
+  rowPasses_.run({&call, 1}, pieces_);
+  implicit_.triesShorter = false;
 }
 
 template <class Real>

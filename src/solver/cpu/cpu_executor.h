@@ -69,6 +69,7 @@ class CpuExecutor final : public Executor {
   void setSurface(const StepInputs& inputs);
   void sum(Pass pass);
   void chooseLength();
+  void tryShorterLengths();
   void refuseExactHessian();
   void measureUpdate();
   [[nodiscard]] bool isSkipped(Gate gate) const;

@@ -184,12 +184,10 @@ INLINE void addPairTrials(ImplicitState<Real>& own, std::ptrdiff_t i, Real slow)
     const Vec3<Real> slip = tangential(pair.normal, d - carryOf(own.touching, q)),
                      slide = e - fall * pair.normal;
     const Real resisted = frictionPotential(slip, slow);
-    for (std::size_t k = 0; k < LENGTHS_TRIED; ++k) {
-      const Real l = lengthTried<Real>(k);
-      Real& trial = own.trials[k].data()[i];
-      trial = trial + (contactChange(pair.stiffness, over, over - l * fall) +
-                       pair.limit * (frictionPotential(slip + l * slide, slow) - resisted));
-    }
+    forEachLength(own, [&](Real* trial, Real l) {
+      trial[i] = trial[i] + (contactChange(pair.stiffness, over, over - l * fall) +
+                             pair.limit * (frictionPotential(slip + l * slide, slow) - resisted));
+    });
   });
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <type_traits>
 
 #include "core/exact_math.h"
 #include "core/vec.h"
@@ -53,6 +54,13 @@ template <class Real>
 INLINE Real lengthTried(std::size_t k) {
   constexpr std::array<Real, LENGTHS_TRIED> lengths{Real(1), Real(0.5), Real(0.25), Real(0.125)};
   return lengths[k];
+}
+// Calls add(trial, l) for the lengths that are tried now: l, and what particles sum up for it.
+template <class State, class Add>
+INLINE void forEachLength(State& own, Add add) {
+  using Real = std::remove_reference_t<decltype(own.trials[0][0])>;
+  for (std::size_t k = own.triesShorter ? 1 : 0; k < (own.triesShorter ? LENGTHS_TRIED : 1); ++k)
+    add(own.trials[k].data(), lengthTried<Real>(k));
 }
 
 }  // namespace clothsim::cpu

@@ -13,13 +13,27 @@
 namespace clothsim::cpu {
 namespace {
 
-template <bool hasCuts, class Real>
-INLINE void addSpringTrials(const ImplicitArguments<Real>& arguments, int row) {
+// Where the changes of energy by the lengths [first, end) are summed up.
+template <std::size_t first, std::size_t end, class Real>
+struct Trials {
+  std::array<Real*, LENGTHS_TRIED> of;
+
+  // Adds change(l) for each length l.
+  template <class Change>
+  INLINE void add(std::ptrdiff_t i, bool counts, Change change) const {
+#pragma GCC unroll 4
+    for (std::size_t k = first; k < end; ++k) {
+      const Real sum = of[k][i] + change(lengthTried<Real>(k));
+      of[k][i] = counts ? sum : of[k][i];
+    }
+  }
+};
+
+template <bool hasCuts, class Trials, class Real>
+INLINE void addSpringTrials(const ImplicitArguments<Real>& arguments, const Trials& trials, int row) {
   const PassArguments<Real>& pass = arguments.step;
-  ImplicitState<Real>& own = arguments.own;
-  const Arrays<Real> x = arraysOf(own.iterate.positions), increments = arraysOf(own.increments);
-  const std::array<Real*, LENGTHS_TRIED> trials{own.trials[0].data(), own.trials[1].data(),
-                                                own.trials[2].data(), own.trials[3].data()};
+  const Arrays<const Real> x = arraysOf(std::as_const(arguments.own.iterate.positions)),
+                           increments = arraysOf(std::as_const(arguments.own.increments));
   const std::uint32_t* cutMasks = pass.cutMasks;
   const Real limitStiffness = pass.step.limitStiffness, limitFactor = pass.step.limitFactor;
   forEachSpringRange(
@@ -32,61 +46,90 @@ INLINE void addSpringTrials(const ImplicitArguments<Real>& arguments, int row) {
               const Vec3<Real> d = at(x, i + place.other) - at(x, i),
                                e = at(increments, i + place.other) - at(increments, i);
               const Real limit = limitLength(rest, i, limitFactor, spring.limitLength);
-              const bool isCut = isCutAt<hasCuts>(cutMasks, i, place.bit);
-#pragma GCC unroll 4
-              for (std::size_t k = 0; k < LENGTHS_TRIED; ++k) {
-                const Real change = springChange(d, e, lengthTried<Real>(k), spring.stiffness, rest[i],
-                                                 limitStiffness, limit);
-                trials[k][i] = isCut ? trials[k][i] : trials[k][i] + change;
-              }
+              trials.add(
+                  i, !isCutAt<hasCuts>(cutMasks, i, place.bit), [&](Real l) __attribute__((always_inline)) {
+                    return springChange(d, e, l, spring.stiffness, rest[i], limitStiffness, limit);
+                  });
             }
           });
 }
 
-// One line of three particles around the middle i: b (l k.dk + l^2/2 |dk|^2), k = (m - a) + (m - c).
+// Bending stiffness of the line through particle `m`, by `stride` between its particles.
 template <class Real>
-void addBendingTrial(const ImplicitArguments<Real>& arguments, std::ptrdiff_t i, std::ptrdiff_t reach,
-                     Real b) {
-  ImplicitState<Real>& own = arguments.own;
+INLINE Real lineStiffness(const Real* w, std::ptrdiff_t m, std::ptrdiff_t stride, Real b) {
+  const bool endOfClamp = (w[m] == Real(0)) & ((w[m - stride] == Real(0)) != (w[m + stride] == Real(0)));
+  return endOfClamp ? Real(2) * b : b;
+}
+
+// Lines of three particles around the middle ones: b (l k.dk + l^2/2 |dk|^2), k = (m - a) + (m - c).
+template <bool hasCuts, class Trials, class Real>
+INLINE void addLineTrials(const ImplicitArguments<Real>& arguments, const Trials& trials, Range middles,
+                          std::ptrdiff_t stride, Real b, std::uint32_t link) {
+  const Arrays<const Real> x = arraysOf(std::as_const(arguments.own.iterate.positions)),
+                           increments = arraysOf(std::as_const(arguments.own.increments));
   const Real* w = arguments.step.inverseMasses;
-  const auto curvature = [&](const Components<Real>& c) {
+  const std::uint32_t* cutMasks = arguments.step.cutMasks;
+  const auto curvature = [=](const Arrays<const Real>& c, std::ptrdiff_t i) __attribute__((always_inline)) {
     const Vec3<Real> m = at(c, i);
-    return (m - at(c, i - reach)) + (m - at(c, i + reach));
+    return (m - at(c, i - stride)) + (m - at(c, i + stride));
   };
-  const bool endOfClamp = w[i] == Real(0) && (w[i - reach] == Real(0)) != (w[i + reach] == Real(0));
-  const Real weighted = endOfClamp ? Real(2) * b : b;
-  const Vec3<Real> k = curvature(own.iterate.positions), dk = curvature(own.increments);
-  const Real first = dot(k, dk), second = dot(dk, dk);
-  for (std::size_t t = 0; t < LENGTHS_TRIED; ++t) {
-    const Real l = lengthTried<Real>(t);
-    Real& trial = own.trials[t][static_cast<std::size_t>(i)];
-    trial = trial + (weighted * l) * (first + (Real(0.5) * l) * second);
+#pragma GCC ivdep
+  for (std::ptrdiff_t i = middles.begin; i < middles.end; ++i) {
+    bool counts = true;
+    if constexpr (hasCuts) counts = (cutMasks[i] & link) == 0;
+    const Real stiffness = lineStiffness(w, i, stride, b);
+    const Vec3<Real> k = curvature(x, i), dk = curvature(increments, i);
+    const Real first = dot(k, dk), second = dot(dk, dk);
+    trials.add(
+        i, counts, [&](Real l) __attribute__((always_inline)) {
+          return (stiffness * l) * (first + (Real(0.5) * l) * second);
+        });
   }
 }
 
-template <class Real>
-void addBendingTrials(const ImplicitArguments<Real>& arguments, int row) {
-  const PassArguments<Real>& pass = arguments.step;
-  const StepParams<Real>& step = pass.step;
-  const Range all = rangeOf(step, row);
+template <bool hasCuts, class Trials, class Real>
+INLINE void addBendingTrials(const ImplicitArguments<Real>& arguments, const Trials& trials, int row) {
+  const StepParams<Real>& step = arguments.step.step;
+  const Range all = rangeOf(step, row), inside = rangeOf(step, row, -1, 1);
   const bool borderRow = isBorder(row, step.rows);
+  addLineTrials<hasCuts>(arguments, trials, inside, 1,
+                         borderRow ? Real(0.5) * step.bendAlongRow : step.bendAlongRow, BENDING_ROW);
+  if (borderRow) return;
+  const auto addColumns = [&](Range middles, Real b) __attribute__((always_inline)) {
+    addLineTrials<hasCuts>(arguments, trials, middles, indexOffset(step, 0, 1), b, BENDING_COLUMN);
+  };
+  addColumns({all.begin, all.begin + 1}, Real(0.5) * step.bendAlongColumn);
+  addColumns(inside, step.bendAlongColumn);
+  addColumns({all.end - 1, all.end}, Real(0.5) * step.bendAlongColumn);
+}
+
+// Of the plane in which a particle touches a collider.
+template <class Trials, class Real>
+INLINE void addPlaneTrials(const ImplicitArguments<Real>& arguments, const Trials& trials, Range all) {
+  ImplicitState<Real>& own = arguments.own;
+  const Real slow = slowSlip(arguments.step.step);
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
-    const std::uint32_t cut = pass.cutMasks != nullptr ? pass.cutMasks[i] : 0;
-    const bool borderColumn = i == all.begin || i + 1 == all.end;
-    if (!borderColumn && (cut & BENDING_ROW) == 0)
-      addBendingTrial(arguments, i, 1, borderRow ? Real(0.5) * step.bendAlongRow : step.bendAlongRow);
-    if (!borderRow && (cut & BENDING_COLUMN) == 0)
-      addBendingTrial(arguments, i, indexOffset(step, 0, 1),
-                      borderColumn ? Real(0.5) * step.bendAlongColumn : step.bendAlongColumn);
+    const Vec3<Real> e = at(own.increments, i), d = at(own.displacements, i),
+                     normal = at(own.planes.normals, i);
+    const Real over = own.planes.offsets.data()[i] - dot(normal, d), fall = dot(normal, e),
+               stiffness = contactStiffness(arguments, i), limit = own.planes.limits.data()[i];
+    const Vec3<Real> slip = slipOf(own.planes, i, d), slide = e - fall * normal;
+    const Real resisted = frictionPotential(slip, slow);
+    trials.add(
+        i, dot(normal, normal) > Real(0), [&](Real l) __attribute__((always_inline)) {
+          return contactChange(stiffness, over, over - l * fall) +
+                 limit * (frictionPotential(slip + l * slide, slow) - resisted);
+        });
   }
 }
 
-template <class Real>
-INLINE void tryLengthsRow(const ImplicitArguments<Real>& arguments, int row) {
+template <std::size_t firstLength, std::size_t endLength, class Real>
+INLINE void tryLengthsOf(const ImplicitArguments<Real>& arguments, int row) {
   const PassArguments<Real>& pass = arguments.step;
   ImplicitState<Real>& own = arguments.own;
   const Range all = rangeOf(pass.step, row);
-  const bool contacts = hasContacts(arguments);
+  const Trials<firstLength, endLength, Real> trials{
+      {own.trials[0].data(), own.trials[1].data(), own.trials[2].data(), own.trials[3].data()}};
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
     const Vec3<Real> e = at(own.increments, i), d = at(own.displacements, i);
     Vec3<Real> force = own.diagonal.data()[i] * d, product = own.diagonal.data()[i] * e;
@@ -95,30 +138,26 @@ INLINE void tryLengthsRow(const ImplicitArguments<Real>& arguments, int row) {
       product = product + at(own.air, i) * e;
     }
     const Real first = dot(force - at(own.rightHandSide, i), e), second = Real(0.5) * dot(product, e);
-    for (std::size_t k = 0; k < LENGTHS_TRIED; ++k) {
+    for (std::size_t k = firstLength; k < endLength; ++k) {
       const Real l = lengthTried<Real>(k);
-      own.trials[k].data()[i] = l * (first + l * second);
-    }
-    addPairTrials(own, i, slowSlip(pass.step));
-    if (!contacts) continue;
-    const Vec3<Real> normal = at(own.planes.normals, i);
-    const Real over = own.planes.offsets.data()[i] - dot(normal, d), fall = dot(normal, e),
-               stiffness = contactStiffness(arguments, i), limit = own.planes.limits.data()[i],
-               slow = slowSlip(pass.step);
-    const Vec3<Real> slip = slipOf(own.planes, i, d), slide = e - fall * normal;
-    const Real resisted = frictionPotential(slip, slow);
-    const bool hasPlane = dot(normal, normal) > Real(0);
-    for (std::size_t k = 0; k < LENGTHS_TRIED; ++k) {
-      const Real l = lengthTried<Real>(k),
-                 change = contactChange(stiffness, over, over - l * fall) +
-                          limit * (frictionPotential(slip + l * slide, slow) - resisted);
-      own.trials[k].data()[i] = hasPlane ? own.trials[k].data()[i] + change : own.trials[k].data()[i];
+      trials.of[k][i] = l * (first + l * second);
     }
   }
+  if (!own.touching.pairs.empty())
+    for (std::ptrdiff_t i = all.begin; i < all.end; ++i) addPairTrials(own, i, slowSlip(pass.step));
+  if (hasContacts(arguments)) addPlaneTrials(arguments, trials, all);
   if (hasSeams(pass)) addSeamTrials(arguments, row);
   if (pass.step.isMesh != 0) return addMeshTrials(arguments, row);
-  pass.cutMasks != nullptr ? addSpringTrials<true>(arguments, row) : addSpringTrials<false>(arguments, row);
-  if (pass.step.hasMaterial != 0) addBendingTrials(arguments, row);
+  const auto addGrid = [&]<bool hasCuts>() __attribute__((always_inline)) {
+    addSpringTrials<hasCuts>(arguments, trials, row);
+    if (pass.step.hasMaterial != 0) addBendingTrials<hasCuts>(arguments, trials, row);
+  };
+  pass.cutMasks != nullptr ? addGrid.template operator()<true>() : addGrid.template operator()<false>();
+}
+template <class Real>
+INLINE void tryLengthsRow(const ImplicitArguments<Real>& arguments, int row) {
+  arguments.own.triesShorter ? tryLengthsOf<1, LENGTHS_TRIED>(arguments, row)
+                             : tryLengthsOf<0, 1>(arguments, row);
 }
 
 // The diagonal block, from the springs; those that a particle owns are kept for the products.
@@ -156,50 +195,73 @@ INLINE void addSpringBlocks(const ImplicitArguments<Real>& arguments, int row) {
           });
 }
 
-// Bending stiffness of the line through particle `m`, by `stride` between its particles.
+// The lines of three particles along rows or columns in which a particle is the last, the middle, the first:
+// which of them there are, and the bits of those that are cut.
 template <class Real>
-Real lineStiffness(const Real* w, std::ptrdiff_t m, std::ptrdiff_t stride, Real b) {
-  const bool endOfClamp = w[m] == Real(0) && (w[m - stride] == Real(0)) != (w[m + stride] == Real(0));
-  return endOfClamp ? Real(2) * b : b;
+struct BendingLines {
+  std::ptrdiff_t stride;
+  Real b;
+  bool endHere, passHere, beginHere;
+  std::uint32_t ending, passing, beginning;
+};
+template <class Real>
+INLINE BendingLines<Real> bendingLines(std::ptrdiff_t place, std::ptrdiff_t count, std::ptrdiff_t stride,
+                                       Real b, std::array<std::uint32_t, 3> cuts) {
+  return {stride,  b,       place >= 2, place >= 1 && place + 1 < count, place + 2 < count,
+          cuts[0], cuts[1], cuts[2]};
+}
+// What they add to the diagonal block of particle i; `middle` becomes the stiffness of the one around it.
+template <class Real>
+INLINE Real bendingBlock(const BendingLines<Real>& lines, const Real* w, std::ptrdiff_t i, std::uint32_t cut,
+                         Real& middle) {
+  const auto stiffness = [&](bool isThere, std::ptrdiff_t offset, std::uint32_t link)
+      __attribute__((always_inline)) {
+    const std::ptrdiff_t stride = isThere ? lines.stride : 0;
+    const Real whole = lineStiffness(w, i + (isThere ? offset : 0), stride, lines.b);
+    return isThere & ((cut & link) == 0) ? whole : Real(0);
+  };
+  middle = stiffness(lines.passHere, 0, lines.passing);
+  return (stiffness(lines.endHere, -lines.stride, lines.ending) + Real(4) * middle) +
+         stiffness(lines.beginHere, lines.stride, lines.beginning);
 }
 
-// What bending along a row or column adds to the diagonal block of a particle, `place` in it; `middle`
-// becomes the stiffness of the line whose middle it is.
-template <class Real>
-Real bendingBlock(const PassArguments<Real>& pass, std::ptrdiff_t i, std::ptrdiff_t place,
-                  std::ptrdiff_t count, std::ptrdiff_t stride, Real b, std::uint32_t cut,
-                  const std::uint32_t (&links)[3], Real& middle) {
-  const Real* w = pass.inverseMasses;
-  const bool isMiddle = place >= 1 && place + 1 < count && (cut & links[1]) == 0;
-  middle = isMiddle ? lineStiffness(w, i, stride, b) : Real(0);
-  Real sum = 0;
-  if (place >= 2 && (cut & links[0]) == 0) sum = sum + lineStiffness(w, i - stride, stride, b);
-  if (isMiddle) sum = sum + Real(4) * middle;
-  if (place + 2 < count && (cut & links[2]) == 0) sum = sum + lineStiffness(w, i + stride, stride, b);
-  return sum;
-}
-
-template <class Real>
-void addBendingBlocks(const ImplicitArguments<Real>& arguments, int row) {
+template <bool hasCuts, class Real>
+INLINE void addBendingBlocks(const ImplicitArguments<Real>& arguments, int row) {
   const PassArguments<Real>& pass = arguments.step;
   const StepParams<Real>& step = pass.step;
-  GridElements<Real>& elements = arguments.own.elements;
   const Range all = rangeOf(step, row);
-  const bool borderRow = isBorder(row, step.rows);
-  const auto columns = static_cast<std::ptrdiff_t>(step.columns),
-             rows = static_cast<std::ptrdiff_t>(step.rows);
-  for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
-    const std::uint32_t cut = pass.cutMasks != nullptr ? pass.cutMasks[i] : 0;
-    const bool borderColumn = i == all.begin || i + 1 == all.end;
-    const Real alongRow = borderRow ? Real(0.5) * step.bendAlongRow : step.bendAlongRow;
-    const Real alongColumn = borderColumn ? Real(0.5) * step.bendAlongColumn : step.bendAlongColumn;
-    const Real b =
-        bendingBlock(pass, i, i - all.begin, columns, 1, alongRow, cut,
-                     {BENDING_LEFT, BENDING_ROW, BENDING_RIGHT}, elements.bendAlongRow.data()[i]) +
-        bendingBlock(pass, i, row, rows, columns, alongColumn, cut,
-                     {BENDING_UPPER, BENDING_COLUMN, BENDING_LOWER}, elements.bendAlongColumn.data()[i]);
-    addTo(arguments.own.factors, i, Symmetric<Real>{{b, b, b}, {}});
-  }
+  const auto columns = static_cast<std::ptrdiff_t>(step.columns);
+  const Real* w = pass.inverseMasses;
+  const std::uint32_t* cutMasks = pass.cutMasks;
+  const SymmetricArrays<Real> blocks = arraysOf(arguments.own.factors);
+  Real *keptAlongRow = arguments.own.elements.bendAlongRow.data(),
+       *keptAlongColumn = arguments.own.elements.bendAlongColumn.data();
+  const Real alongRow = isBorder(row, step.rows) ? Real(0.5) * step.bendAlongRow : step.bendAlongRow;
+  // Of particles that are alike in the place that they have in the row.
+  const auto addAlike = [&](Range alike) __attribute__((always_inline)) {
+    const std::ptrdiff_t place = alike.begin - all.begin;
+    const BendingLines<Real> ofRow =
+        bendingLines(place, columns, 1, alongRow, {BENDING_LEFT, BENDING_ROW, BENDING_RIGHT});
+    const BendingLines<Real> ofColumn =
+        bendingLines(std::ptrdiff_t{row}, static_cast<std::ptrdiff_t>(step.rows), columns,
+                     isBorder(place, step.columns) ? Real(0.5) * step.bendAlongColumn : step.bendAlongColumn,
+                     {BENDING_UPPER, BENDING_COLUMN, BENDING_LOWER});
+#pragma GCC ivdep
+    for (std::ptrdiff_t i = alike.begin; i < alike.end; ++i) {
+      std::uint32_t cut = 0;
+      if constexpr (hasCuts) cut = cutMasks[i];
+      Real middleOfRow, middleOfColumn;
+      const Real b =
+          bendingBlock(ofRow, w, i, cut, middleOfRow) + bendingBlock(ofColumn, w, i, cut, middleOfColumn);
+      keptAlongRow[i] = middleOfRow;
+      keptAlongColumn[i] = middleOfColumn;
+      addTo(blocks, i, Symmetric<Real>{{b, b, b}, {}});
+    }
+  };
+  const std::ptrdiff_t inside = std::min(all.begin + 2, all.end), outside = std::max(inside, all.end - 2);
+  for (std::ptrdiff_t i = all.begin; i < inside; ++i) addAlike({i, i + 1});
+  addAlike({inside, outside});
+  for (std::ptrdiff_t i = outside; i < all.end; ++i) addAlike({i, i + 1});
 }
 
 template <class Real>
@@ -207,35 +269,56 @@ INLINE void linearizeRow(const ImplicitArguments<Real>& arguments, int row) {
   const PassArguments<Real>& pass = arguments.step;
   ImplicitState<Real>& own = arguments.own;
   const Range all = rangeOf(pass.step, row);
-  const bool wind = pass.step.hasWind != 0, contacts = hasContacts(arguments);
+  const bool wind = pass.step.hasWind != 0;
+  const Real *diagonal = own.diagonal.data(), *w = pass.inverseMasses;
+  const SymmetricArrays<Real> air = arraysOf(own.air), factors = arraysOf(own.factors);
+#pragma GCC ivdep
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
-    const Real a = own.diagonal.data()[i];
+    const Real a = diagonal[i];
     Symmetric<Real> block{{a, a, a}, {}};
-    if (wind) block = block + at(own.air, i);
-    put(own.factors, i, block);
+    if (wind) block = block + at(air, i);
+    put(factors, i, block);
   }
   if (pass.step.isMesh != 0) {
     addMeshBlocks(arguments, row);
   } else {
     own.elements.clear(all.begin, all.end);
-    pass.cutMasks != nullptr ? addSpringBlocks<true>(arguments, row) : addSpringBlocks<false>(arguments, row);
-    if (pass.step.hasMaterial != 0) addBendingBlocks(arguments, row);
+    const auto addBlocks = [&]<bool hasCuts>() __attribute__((always_inline)) {
+      addSpringBlocks<hasCuts>(arguments, row);
+      if (pass.step.hasMaterial != 0) addBendingBlocks<hasCuts>(arguments, row);
+    };
+    pass.cutMasks != nullptr ? addBlocks.template operator()<true>() : addBlocks.template operator()<false>();
   }
   if (hasSeams(pass)) addSeamBlocks(arguments, row);
+  const Arrays<Real> displacements = arraysOf(own.displacements), residuals = arraysOf(own.residuals),
+                     rightHandSide = arraysOf(own.rightHandSide), forces = arraysOf(pass.forces),
+                     increments = arraysOf(own.increments), directions = arraysOf(own.directions.positions);
+#pragma GCC ivdep
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
-    const bool pinned = pass.inverseMasses[i] == Real(0);
-    const Vec3<Real> d = at(own.displacements, i), zero{};
-    Vec3<Real> residual = at(own.rightHandSide, i) - own.diagonal.data()[i] * d;
-    if (wind) residual = residual - at(own.air, i) * d;
-    residual = residual + at(pass.forces, i);
-    Symmetric<Real> block = at(own.factors, i);
-    addPairs(own.touching, i, residual, block);
-    if (contacts) addContact(arguments, i, residual, block);
-    put(own.residuals, i, selected(pinned, zero, canonical(residual)));
-    put(own.increments, i, zero);
-    put(own.directions.positions, i, zero);
-    const Factors<Real> factors = factorize(block);
-    put(own.factors, i, {selected(pinned, zero, factors.inverse), selected(pinned, zero, factors.lower)});
+    const Vec3<Real> d = at(displacements, i);
+    Vec3<Real> residual = at(rightHandSide, i) - diagonal[i] * d;
+    if (wind) residual = residual - at(air, i) * d;
+    put(residuals, i, residual + at(forces, i));
+  }
+  const bool contacts = hasContacts(arguments);
+  if (contacts || !own.touching.pairs.empty())
+    for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
+      Vec3<Real> residual = at(residuals, i);
+      Symmetric<Real> block = at(factors, i);
+      addPairs(own.touching, i, residual, block);
+      if (contacts) addContact(arguments, i, residual, block);
+      put(residuals, i, residual);
+      put(own.factors, i, block);
+    }
+#pragma GCC ivdep
+  for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
+    const bool pinned = w[i] == Real(0);
+    const Vec3<Real> zero{};
+    put(residuals, i, selected(pinned, zero, canonical(at(residuals, i))));
+    put(increments, i, zero);
+    put(directions, i, zero);
+    const Factors<Real> f = factorize(at(factors, i));
+    put(factors, i, {selected(pinned, zero, f.inverse), selected(pinned, zero, f.lower)});
   }
 }
 

@@ -47,6 +47,7 @@ struct ImplicitState {
   Components<Real> products;           // H p
   Components<Real> increments;         // the Newton step so far
   std::array<std::vector<Real>, LENGTHS_TRIED> trials;  // a particle's change of energy
+  bool triesShorter = false;  // lengths behind the first are tried only where that one raises the energy
   TouchingPairs<Real> touching;
   ImplicitScalars<Real> scalars{};
 
@@ -97,7 +98,7 @@ void updateSolution(const ImplicitArguments<double>& arguments, int row);
 // Cuts short the increments of particles that no plane holds and that would cross theirs.
 void stopAtPlanes(const ImplicitArguments<float>& arguments, int row);
 void stopAtPlanes(const ImplicitArguments<double>& arguments, int row);
-// trials: how the energy would change along the increments.
+// trials: how the energy would change along the increments, by the first of the lengths or by the others.
 void tryLengths(const ImplicitArguments<float>& arguments, int row);
 void tryLengths(const ImplicitArguments<double>& arguments, int row);
 // displacements += newtonLength * increments

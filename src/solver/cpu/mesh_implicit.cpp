@@ -82,13 +82,12 @@ void addMembraneTrials(const ImplicitArguments<Real>& arguments, std::size_t i) 
     if (corner != 0) return;
     const auto more = edgesOf(membrane.corners, own.increments);
     const OfEdges<Real> before = strainsOf(membrane.restSquared, d);
-    for (std::size_t k = 0; k < LENGTHS_TRIED; ++k) {
-      const Real l = lengthTried<Real>(k);
+    forEachLength(own, [&](Real* trial, Real l) {
       OfEdges<Real> change;
       for (std::size_t n = 0; n < 3; ++n)
         change[n] = l * (dot(d[n], more[n]) + (Real(0.5) * l) * dot(more[n], more[n]));
-      own.trials[k][i] = own.trials[k][i] + membraneChange(membrane.roots, before, change);
-    }
+      trial[i] = trial[i] + membraneChange(membrane.roots, before, change);
+    });
   });
 }
 
@@ -163,20 +162,18 @@ void addMeshTrials(const ImplicitArguments<Real>& arguments, int row) {
       if (spring.other > i) return;
       const Vec3<Real> e =
           at(own.increments, spring.other) - at(own.increments, static_cast<std::ptrdiff_t>(i));
-      for (std::size_t k = 0; k < LENGTHS_TRIED; ++k)
-        own.trials[k][i] =
-            own.trials[k][i] + springChange(d, e, lengthTried<Real>(k), spring.stiffness, spring.restLength,
-                                            arguments.step.step.limitStiffness, limitLength);
+      forEachLength(own, [&](Real* trial, Real l) {
+        trial[i] = trial[i] + springChange(d, e, l, spring.stiffness, spring.restLength,
+                                           arguments.step.step.limitStiffness, limitLength);
+      });
     });
     forEachHinge(arguments, i, [&](const auto& hinge, std::uint32_t corner) {
       if (corner != 0) return;
       const Vec3<Real> bent = bentOf<Real>(hinge, own.iterate.positions),
                        more = bentOf<Real>(hinge, own.increments);
       const Real first = dot(bent, more), second = dot(more, more);
-      for (std::size_t k = 0; k < LENGTHS_TRIED; ++k) {
-        const Real l = lengthTried<Real>(k);
-        own.trials[k][i] = own.trials[k][i] + l * (first + (Real(0.5) * l) * second);
-      }
+      forEachLength(
+          own, [&](Real* trial, Real l) { trial[i] = trial[i] + l * (first + (Real(0.5) * l) * second); });
     });
     addMembraneTrials(arguments, i);
   }

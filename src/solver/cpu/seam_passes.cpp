@@ -83,10 +83,10 @@ void addSeamTrials(const ImplicitArguments<Real>& arguments, int row) {
     if (spring.other > place) return;
     const Vec3<Real> d = at(x, spring.other) - at(x, i),
                      e = at(own.increments, spring.other) - at(own.increments, i);
-    for (std::size_t k = 0; k < LENGTHS_TRIED; ++k)
-      own.trials[k][place] =
-          own.trials[k][place] + springChange(d, e, lengthTried<Real>(k), spring.stiffness, restLength,
-                                              arguments.step.step.limitStiffness, noLimitLength<Real>);
+    forEachLength(own, [&](Real* trial, Real l) {
+      trial[place] = trial[place] + springChange(d, e, l, spring.stiffness, restLength,
+                                                 arguments.step.step.limitStiffness, noLimitLength<Real>);
+    });
   });
 }
 
