@@ -233,7 +233,7 @@ struct SolverSettings {
   // Of `implicit`: the last update of a step, as part of its motion or, if that is larger, of a tenth of the
   // spacing.
   double tolerance = 1e-2;
-  int newtonSteps = 20;                 // most Newton steps in a step
+  int newtonSteps = 40;                 // most Newton steps in a step
   AutoCount cgIterations = {20, true};  // most iterations of conjugate gradients in a Newton step
   // The largest l/L - 1 of a spring after the limiter; none: no limiter. 0.1 in scenes with `ks`.
   std::optional<double> strainLimit;

@@ -78,7 +78,13 @@ void CpuExecutor<Real>::setCuts(const StepInputs& inputs) {
   selfCollision_.setCuts(inputs.cuts);
   if (cloth_->hasMesh()) lists_ = makeMeshLists<Real>(*cloth_, inputs.cuts);
   setSurface(inputs);
-  if (!implicit_.hierarchy.empty()) implicit_.resize(makeHierarchy<Real>(*cloth_, inputs.cuts));
+  if (!implicit_.hierarchy.empty()) makeImplicitLists(inputs.cuts);
+}
+
+template <class Real>
+void CpuExecutor<Real>::makeImplicitLists(const Cuts& cuts) {
+  implicit_.resize(makeHierarchy<Real>(*cloth_, cuts));
+  implicit_.stretches = cpu::makeMeshStretches<Real>(*cloth_, lists_);
 }
 
 template <class Real>
@@ -96,7 +102,7 @@ void CpuExecutor<Real>::prepare(const StepInputs& inputs, const PassList& list) 
       cpu::put(pinStarts_, static_cast<std::ptrdiff_t>(i), startPosition<Real>(*cloth_, i));
   }
   if (list.contains(Pass::begin) && implicit_.hierarchy.empty())
-    implicit_.resize(makeHierarchy<Real>(*cloth_, inputs.cuts));
+    makeImplicitLists(inputs.cuts);
   if (list.contains(Pass::predictPlanes)) implicit_.planes.resize(cloth_->particleCount());
   if (list.contains(Pass::remember)) {
     implicit_.movedBefore.resize(cloth_->particleCount());

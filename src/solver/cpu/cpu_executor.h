@@ -67,6 +67,7 @@ class CpuExecutor final : public Executor {
   void runSweep(std::span<const PassCall> passes);
   void runContacts(PassCall call);
   void setSurface(const StepInputs& inputs);
+  void makeImplicitLists(const Cuts& cuts);
   void sum(Pass pass);
   void chooseLength();
   void tryShorterLengths();

@@ -8,6 +8,7 @@
 
 #include "solver/cpu/collide.h"
 #include "solver/cpu/grid_product.h"
+#include "solver/cpu/mesh_products.h"
 #include "solver/cpu/passes.h"
 #include "solver/cpu/rigid_block.h"
 #include "solver/cpu/symmetric.h"
@@ -42,6 +43,7 @@ struct ImplicitState {
   Components<Real> residuals;          // r
   Components<Real> corrections;        // z
   GridElements<Real> elements;         // at the iterate
+  MeshStretches<Real> stretches;       // empty without meshes
   SymmetricField<Real> factors;        // L D L^T of diagonal blocks: 1/d1 1/d2 1/d3 and l21 l31 l32
   CpuState<Real> directions;           // p; no velocities
   Components<Real> products;           // H p

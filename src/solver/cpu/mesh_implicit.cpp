@@ -132,23 +132,11 @@ void addMeshProducts(const ImplicitArguments<Real>& arguments, int row) {
       const Vec3<Real> e = at(p, spring.other) - at(p, static_cast<std::ptrdiff_t>(i));
       f = f + (across * e + (along * dot(d, e)) * d);
     });
-    forEachHinge(arguments, i, [&](const auto& hinge, std::uint32_t corner) {
-      f = f - hinge.coefficients[corner] * bentOf<Real>(hinge, p);
-    });
-    forEachMembrane(arguments, i, [&](const auto& membrane, std::uint32_t corner, const auto& d) {
-      const auto e = edgesOf(membrane.corners, p);
-      const OfEdges<Real> strains = strainsOf(membrane.restSquared, d);
-      const OfEdges<Real> t = isExact ? timesMatrix(membrane.roots, strains)
-                                      : positiveTensions(membrane.roots, strains),
-                          more = timesMatrix<Real>(membrane.roots,
-                                                   {dot(d[0], e[0]), dot(d[1], e[1]), dot(d[2], e[2])});
-      f = f + pullAt<Real>(corner, {t[0] * e[0] + more[0] * d[0], t[1] * e[1] + more[1] * d[1],
-                                    t[2] * e[2] + more[2] * d[2]});
-    });
     products.x[i] = f.x;
     products.y[i] = f.y;
     products.z[i] = f.z;
   }
+  addElementProducts(arguments, row);
 }
 
 // A spring belongs to its end of the larger index, a hinge or a membrane to its first corner.

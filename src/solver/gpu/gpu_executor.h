@@ -23,6 +23,11 @@
 
 namespace clothsim {
 
+// When flags on the device are read back. Between Newton steps: where a fifth one or one behind it would
+// begin, and where a step may go on after contact. Hardware is waited for there, some ten microseconds; the
+// dispatches of a Newton step that does nothing take 200, and of most steps a dozen Newton steps are left.
+enum class FlagLooks { never, betweenNewtonSteps, always };
+
 struct GpuOptions {
   bool fused = true;  // passes that share a sweep in one dispatch, where there is a kernel for them; the bits
                       // are the same either way
@@ -42,10 +47,10 @@ struct GpuOptions {
   // The state at the start of a step is read from storage blocks instead of as texels; empty: where OpenGL is
   // hardware. A software renderer is faster at texels.
   std::optional<bool> storageLoads = {};
-  // Passes that would do nothing, because the step or the linear system is solved, are not even dispatched:
-  // the flags are read back. Empty: on a software renderer, which has set them by then; hardware would be
-  // waited for.
-  std::optional<bool> looksAtFlags = {};
+  // Passes that would do nothing, because the step or the linear system is solved, are not even dispatched
+  // where the flags are looked at. Empty: always on a software renderer, which has set them by then, and
+  // between Newton steps on hardware.
+  std::optional<FlagLooks> looksAtFlags = {};
 };
 
 class GpuExecutor final : public Executor {
@@ -92,6 +97,7 @@ class GpuExecutor final : public Executor {
   [[nodiscard]] std::size_t passesTaken(std::span<const PassCall> passes) const;
   void runKernel(std::span<const PassCall> passes);
   [[nodiscard]] bool isClosed(Gate gate);
+  void noteWritten(std::span<const PassCall> passes);
   // A stage of a kernel, with its programs by piece.
   using StagePrograms = std::vector<const gl::Program*>;
   void runStage(Over over, const StagePrograms& programs, const PassCall& call, const std::string& name);
@@ -128,6 +134,9 @@ class GpuExecutor final : public Executor {
   PassRunner runner_;
 
   std::optional<ImplicitScalars<float>> seen_;  // what no pass has written since
+  // Of the step that is run.
+  int newtonSteps_ = 0;
+  bool isBetweenNewtonSteps_ = false;
 
   GpuWatch watch_;
 };

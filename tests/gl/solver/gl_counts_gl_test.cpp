@@ -33,12 +33,13 @@ constexpr const char* HEADER =
 // Whole steps, of which passes behind closed gates are a part: how many that are depends on the cloth.
 std::unique_ptr<Solver> makeForWholeSteps(const std::string&, const Shared<Cloth>& cloth,
                                           const Shared<Scene>& scene) {
-  return std::make_unique<GpuSolver>(*cloth, scene, GpuOptions{.looksAtFlags = false});
+  return std::make_unique<GpuSolver>(*cloth, scene, GpuOptions{.looksAtFlags = FlagLooks::never});
 }
 
 std::unique_ptr<Solver> makeAsOnHardware(const std::string&, const Shared<Cloth>& cloth,
                                          const Shared<Scene>& scene) {
-  return std::make_unique<GpuSolver>(*cloth, scene, GpuOptions{.limitsInTiles = true, .looksAtFlags = false});
+  return std::make_unique<GpuSolver>(*cloth, scene,
+                                     GpuOptions{.limitsInTiles = true, .looksAtFlags = FlagLooks::never});
 }
 
 struct Configuration {

@@ -1,0 +1,197 @@
+#include "solver/cpu/mesh_products.h"
+
+#include <algorithm>
+#include <map>
+
+#include "solver/cpu/arrays.h"
+#include "solver/cpu/implicit_passes.h"
+#include "solver/cpu/membrane_laws.h"
+#include "solver/cpu/rows.h"
+#include "solver/cpu/vectors.h"
+
+namespace clothsim::cpu {
+namespace {
+
+// What the particles [first, end) of a mesh are corners of.
+template <class Real>
+void addStretch(MeshStretches<Real>& result, const MeshLists<Real>& lists, std::uint32_t first,
+                std::uint32_t end) {
+  const auto firstHinge = static_cast<std::uint32_t>(result.coefficients[0].size()),
+             firstMembrane = static_cast<std::uint32_t>(result.restSquared[0].size());
+  result.stretches.push_back({first, firstHinge, firstMembrane});
+  std::map<std::uint32_t, std::uint32_t> own;  // of the stretch, by number
+  for (std::uint32_t n = lists.starts[first].hinges; n < lists.starts[end].hinges; ++n)
+    own[lists.numbers[n] / 4] = 0;
+  for (auto& [number, place] : own) {
+    const auto& hinge = lists.hinges[number];
+    place = static_cast<std::uint32_t>(result.coefficients[0].size()) - firstHinge;
+    for (std::size_t k = 0; k < 4; ++k)
+      result.hingeCorners[k].push_back(static_cast<std::int32_t>(hinge.corners[k]));
+    for (std::size_t k = 0; k < 3; ++k) result.coefficients[k].push_back(hinge.coefficients[k + 1]);
+  }
+  for (std::uint32_t n = lists.starts[first].hinges; n < lists.starts[end].hinges; ++n) {
+    const std::uint32_t number = lists.numbers[n] / 4;
+    result.hingesAt[n] = {own[number], lists.hinges[number].coefficients[lists.numbers[n] % 4]};
+  }
+
+  own.clear();
+  for (std::uint32_t n = lists.starts[first].membranes; n < lists.starts[end].membranes; ++n)
+    own[lists.numbers[n] / 4] = 0;
+  for (auto& [number, place] : own) {
+    const auto& membrane = lists.membranes[number];
+    place = static_cast<std::uint32_t>(result.restSquared[0].size()) - firstMembrane;
+    for (std::size_t k = 0; k < 3; ++k) {
+      result.membraneCorners[k].push_back(static_cast<std::int32_t>(membrane.corners[k]));
+      result.restSquared[k].push_back(membrane.restSquared[k]);
+    }
+    for (std::size_t k = 0; k < 6; ++k) result.roots[k].push_back(membrane.roots[k]);
+  }
+  const auto count = static_cast<std::uint32_t>(own.size());
+  for (std::uint32_t n = lists.starts[first].membranes; n < lists.starts[end].membranes; ++n)
+    result.forcesAt[n - result.firstForce] = lists.numbers[n] % 4 * count + own[lists.numbers[n] / 4];
+}
+
+template <class Real>
+INLINE Vec3<Real> at(const Arrays<const Real>& field, std::int32_t i) {
+  return {field.x[i], field.y[i], field.z[i]};
+}
+
+// sum c_j (p_j - p_0) of the hinges from `first` on.
+template <class Real>
+INLINE void bendHinges(const MeshStretches<Real>& mesh, const Arrays<const Real>& p, std::size_t first,
+                       std::size_t count, Real* bent) {
+  const std::int32_t *a = mesh.hingeCorners[0].data() + first, *b = mesh.hingeCorners[1].data() + first,
+                     *c = mesh.hingeCorners[2].data() + first, *d = mesh.hingeCorners[3].data() + first;
+  const Real *ofB = mesh.coefficients[0].data() + first, *ofC = mesh.coefficients[1].data() + first,
+             *ofD = mesh.coefficients[2].data() + first;
+#pragma GCC ivdep
+  for (std::size_t k = 0; k < count; ++k) {
+    const Vec3<Real> origin = at(p, a[k]);
+    const Vec3<Real> sum = (ofB[k] * (at(p, b[k]) - origin) + ofC[k] * (at(p, c[k]) - origin)) +
+                           ofD[k] * (at(p, d[k]) - origin);
+    bent[4 * k] = sum.x, bent[4 * k + 1] = sum.y, bent[4 * k + 2] = sum.z, bent[4 * k + 3] = Real(0);
+  }
+}
+
+// The forces on the corners of the membranes from `first` on.
+template <bool isExact, class Real>
+INLINE void pullMembranes(const MeshStretches<Real>& mesh, const Arrays<const Real>& x,
+                          const Arrays<const Real>& p, std::size_t first, std::size_t count, Real* forces) {
+  const std::int32_t *a = mesh.membraneCorners[0].data() + first,
+                     *b = mesh.membraneCorners[1].data() + first,
+                     *c = mesh.membraneCorners[2].data() + first;
+  const std::array<const Real*, 3> rest{mesh.restSquared[0].data() + first,
+                                        mesh.restSquared[1].data() + first,
+                                        mesh.restSquared[2].data() + first};
+  std::array<const Real*, 6> stored;
+  for (std::size_t n = 0; n < 6; ++n) stored[n] = mesh.roots[n].data() + first;
+  Real *onFirst = forces, *onSecond = forces + 4 * count, *onThird = forces + 8 * count;
+  const auto edgesOf = [=](const Arrays<const Real>& field, std::size_t k) __attribute__((always_inline)) {
+    const Vec3<Real> u = at(field, a[k]), v = at(field, b[k]), w = at(field, c[k]);
+    return std::array<Vec3<Real>, 3>{w - v, u - w, v - u};
+  };
+  const auto put = [](Real* to, std::size_t k, Vec3<Real> v) __attribute__((always_inline)) {
+    to[4 * k] = v.x, to[4 * k + 1] = v.y, to[4 * k + 2] = v.z, to[4 * k + 3] = Real(0);
+  };
+#pragma GCC ivdep
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::array<Real, 6> roots{stored[0][k], stored[1][k], stored[2][k],
+                                    stored[3][k], stored[4][k], stored[5][k]};
+    const std::array<Vec3<Real>, 3> d = edgesOf(x, k), e = edgesOf(p, k);
+    const OfEdges<Real> strains = strainsOf<Real>({rest[0][k], rest[1][k], rest[2][k]}, d);
+    const OfEdges<Real> t = isExact ? timesMatrix(roots, strains) : positiveTensions(roots, strains),
+                        more = timesMatrix<Real>(roots, {dot(d[0], e[0]), dot(d[1], e[1]), dot(d[2], e[2])});
+    const Vec3<Real> pullA = t[0] * e[0] + more[0] * d[0], pullB = t[1] * e[1] + more[1] * d[1],
+                     pullC = t[2] * e[2] + more[2] * d[2];
+    put(onFirst, k, pullC - pullB);
+    put(onSecond, k, pullA - pullC);
+    put(onThird, k, pullB - pullA);
+  }
+}
+
+template <class Real>
+INLINE void addProductsOf(const ImplicitArguments<Real>& arguments, int row, Real* scratch) {
+  const MeshLists<Real>& lists = arguments.step.lists;
+  ImplicitState<Real>& own = arguments.own;
+  const MeshStretches<Real>& mesh = own.stretches;
+  const Range all = rangeOf(arguments.step.step, row);
+  const auto stretch = std::ranges::lower_bound(mesh.stretches, static_cast<std::uint32_t>(all.begin), {},
+                                                &MeshStretches<Real>::Stretch::firstParticle);
+  const std::size_t hinges = stretch[1].firstHinge - stretch->firstHinge,
+                    membranes = stretch[1].firstMembrane - stretch->firstMembrane;
+  Real *bent = scratch, *forces = scratch + 4 * hinges;
+  const Arrays<const Real> x = arraysOf(std::as_const(own.iterate.positions)),
+                           p = arraysOf(std::as_const(own.directions.positions));
+  bendHinges(mesh, p, stretch->firstHinge, hinges, bent);
+  own.scalars.hessian == HESSIAN_EXACT
+      ? pullMembranes<true>(mesh, x, p, stretch->firstMembrane, membranes, forces)
+      : pullMembranes<false>(mesh, x, p, stretch->firstMembrane, membranes, forces);
+  const Arrays<Real> products = arraysOf(own.products);
+  const auto fourOf = [](const Real* four) { return *reinterpret_cast<const Four<Real>*>(four); };
+  for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
+    const auto &begin = lists.starts[static_cast<std::size_t>(i)],
+               &end = lists.starts[static_cast<std::size_t>(i) + 1];
+    Four<Real> f{products.x[i], products.y[i], products.z[i], Real(0)};
+    for (std::uint32_t n = begin.hinges; n < end.hinges; ++n)
+      f = f - mesh.hingesAt[n].coefficient * fourOf(bent + 4 * std::size_t{mesh.hingesAt[n].hinge});
+    for (std::uint32_t n = begin.membranes - mesh.firstForce; n < end.membranes - mesh.firstForce; ++n)
+      f = f + fourOf(forces + 4 * std::size_t{mesh.forcesAt[n]});
+    put(products, i, threeOf(f));
+  }
+}
+
+template <class Real>
+struct alignas(4 * sizeof(Real)) FourNumbers {
+  Real numbers[4];
+};
+// Room for what the elements of a stretch come to, of a thread.
+template <class Real>
+Real* scratchFor(const ImplicitArguments<Real>& arguments) {
+  static thread_local std::vector<FourNumbers<Real>> room;
+  room.resize(std::max(room.size(), std::size_t{arguments.own.stretches.mostFours}));
+  return room.data()->numbers;
+}
+
+}  // namespace
+
+template <class Real>
+MeshStretches<Real> makeMeshStretches(const Cloth& cloth, const MeshLists<Real>& lists) {
+  MeshStretches<Real> result;
+  if (lists.empty()) return result;
+  result.firstForce = lists.starts.front().membranes;
+  result.hingesAt.resize(lists.starts.front().triangles);
+  result.forcesAt.resize(lists.numbers.size() - result.firstForce);
+  for (const Piece& piece : cloth.pieces())
+    for (int row = 0; piece.isMesh && row < rowsOf(piece); ++row) {
+      const auto first = piece.firstParticle + static_cast<std::uint32_t>(MESH_ROW * row),
+                 end = piece.firstParticle + static_cast<std::uint32_t>(piece.columns);
+      addStretch(result, lists, first, std::min(first + MESH_ROW, end));
+      const auto& stretch = result.stretches.back();
+      result.mostFours = std::max(
+          {result.mostFours, static_cast<std::uint32_t>(result.coefficients[0].size()) - stretch.firstHinge +
+                                   3 * (static_cast<std::uint32_t>(result.restSquared[0].size()) -
+                                        stretch.firstMembrane)});
+    }
+  result.stretches.push_back({static_cast<std::uint32_t>(cloth.particleCount()),
+                              static_cast<std::uint32_t>(result.coefficients[0].size()),
+                              static_cast<std::uint32_t>(result.restSquared[0].size())});
+  return result;
+}
+template MeshStretches<float> makeMeshStretches(const Cloth&, const MeshLists<float>&);
+template MeshStretches<double> makeMeshStretches(const Cloth&, const MeshLists<double>&);
+
+namespace {
+
+VECTOR_CLONES(void, addProducts, (const ImplicitArguments<float>& arguments, int row, float* scratch),
+              (arguments, row, scratch), addProductsOf(arguments, row, scratch))
+
+}  // namespace
+
+void addElementProducts(const ImplicitArguments<float>& arguments, int row) {
+  addProducts(arguments, row, scratchFor(arguments));
+}
+void addElementProducts(const ImplicitArguments<double>& arguments, int row) {
+  addProductsOf(arguments, row, scratchFor(arguments));
+}
+
+}  // namespace clothsim::cpu
