@@ -280,6 +280,7 @@ INLINE void linearizeRow(const ImplicitArguments<Real>& arguments, int row) {
     put(factors, i, block);
   }
   if (pass.step.isMesh != 0) {
+    linearizeMembranes(arguments, row);
     addMeshBlocks(arguments, row);
   } else {
     own.elements.clear(all.begin, all.end);

@@ -69,44 +69,101 @@ INLINE void bendHinges(const MeshStretches<Real>& mesh, const Arrays<const Real>
     const Vec3<Real> origin = at(p, a[k]);
     const Vec3<Real> sum = (ofB[k] * (at(p, b[k]) - origin) + ofC[k] * (at(p, c[k]) - origin)) +
                            ofD[k] * (at(p, d[k]) - origin);
-    bent[4 * k] = sum.x, bent[4 * k + 1] = sum.y, bent[4 * k + 2] = sum.z, bent[4 * k + 3] = Real(0);
+    bent[4 * k] = sum.x, bent[4 * k + 1] = sum.y, bent[4 * k + 2] = sum.z, bent[4 * k + 3] = sum.z;
+  }
+}
+
+template <class Real>
+using Edges = std::array<Vec3<Real>, 3>;
+using Corners = std::array<const std::int32_t*, 3>;
+template <class Real>
+INLINE Edges<Real> edgesAt(const Corners& corners, std::size_t k, const Arrays<const Real>& field) {
+  const Vec3<Real> a = at(field, corners[0][k]), b = at(field, corners[1][k]), c = at(field, corners[2][k]);
+  return {c - b, a - c, b - a};
+}
+
+// Of `count` membranes from the first one on, what their arrays hold.
+template <class Value, std::size_t size>
+INLINE auto from(std::size_t first, std::array<std::vector<Value>, size>& arrays) {
+  std::array<Value*, size> result;
+  for (std::size_t n = 0; n < size; ++n) result[n] = arrays[n].data() + first;
+  return result;
+}
+template <class Value, std::size_t size>
+INLINE auto from(std::size_t first, const std::array<std::vector<Value>, size>& arrays) {
+  std::array<const Value*, size> result;
+  for (std::size_t n = 0; n < size; ++n) result[n] = arrays[n].data() + first;
+  return result;
+}
+template <class Real>
+INLINE std::array<Real, 6> rootsAt(const std::array<const Real*, 6>& roots, std::size_t k) {
+  return {roots[0][k], roots[1][k], roots[2][k], roots[3][k], roots[4][k], roots[5][k]};
+}
+
+template <bool isExact, class Real>
+INLINE void findTensions(MeshStretches<Real>& mesh, const Arrays<const Real>& x, std::size_t first,
+                         std::size_t count) {
+  const auto corners = from(first, std::as_const(mesh.membraneCorners));
+  const auto rest = from(first, std::as_const(mesh.restSquared));
+  const auto roots = from(first, std::as_const(mesh.roots));
+  const auto edges = from(first, mesh.edges);
+  const auto tensions = from(first, mesh.tensions);
+#pragma GCC ivdep
+  for (std::size_t k = 0; k < count; ++k) {
+    const Edges<Real> d = edgesAt<Real>(corners, k, x);
+    const OfEdges<Real> strains = strainsOf<Real>({rest[0][k], rest[1][k], rest[2][k]}, d);
+    const std::array<Real, 6> own = rootsAt(roots, k);
+    const OfEdges<Real> t = isExact ? timesMatrix(own, strains) : positiveTensions(own, strains);
+#pragma GCC unroll 3
+    for (std::size_t n = 0; n < 3; ++n) {
+      edges[3 * n][k] = d[n].x, edges[3 * n + 1][k] = d[n].y, edges[3 * n + 2][k] = d[n].z;
+      tensions[n][k] = t[n];
+    }
   }
 }
 
 // The forces on the corners of the membranes from `first` on.
-template <bool isExact, class Real>
-INLINE void pullMembranes(const MeshStretches<Real>& mesh, const Arrays<const Real>& x,
-                          const Arrays<const Real>& p, std::size_t first, std::size_t count, Real* forces) {
-  const std::int32_t *a = mesh.membraneCorners[0].data() + first,
-                     *b = mesh.membraneCorners[1].data() + first,
-                     *c = mesh.membraneCorners[2].data() + first;
-  const std::array<const Real*, 3> rest{mesh.restSquared[0].data() + first,
-                                        mesh.restSquared[1].data() + first,
-                                        mesh.restSquared[2].data() + first};
-  std::array<const Real*, 6> stored;
-  for (std::size_t n = 0; n < 6; ++n) stored[n] = mesh.roots[n].data() + first;
+template <class Real>
+INLINE void pullMembranes(const MeshStretches<Real>& mesh, const Arrays<const Real>& p, std::size_t first,
+                          std::size_t count, Real* forces) {
+  const auto corners = from(first, mesh.membraneCorners);
+  const auto roots = from(first, mesh.roots);
+  const auto edges = from(first, mesh.edges);
+  const auto t = from(first, mesh.tensions);
   Real *onFirst = forces, *onSecond = forces + 4 * count, *onThird = forces + 8 * count;
-  const auto edgesOf = [=](const Arrays<const Real>& field, std::size_t k) __attribute__((always_inline)) {
-    const Vec3<Real> u = at(field, a[k]), v = at(field, b[k]), w = at(field, c[k]);
-    return std::array<Vec3<Real>, 3>{w - v, u - w, v - u};
-  };
   const auto put = [](Real* to, std::size_t k, Vec3<Real> v) __attribute__((always_inline)) {
-    to[4 * k] = v.x, to[4 * k + 1] = v.y, to[4 * k + 2] = v.z, to[4 * k + 3] = Real(0);
+    to[4 * k] = v.x, to[4 * k + 1] = v.y, to[4 * k + 2] = v.z, to[4 * k + 3] = v.z;
   };
 #pragma GCC ivdep
   for (std::size_t k = 0; k < count; ++k) {
-    const std::array<Real, 6> roots{stored[0][k], stored[1][k], stored[2][k],
-                                    stored[3][k], stored[4][k], stored[5][k]};
-    const std::array<Vec3<Real>, 3> d = edgesOf(x, k), e = edgesOf(p, k);
-    const OfEdges<Real> strains = strainsOf<Real>({rest[0][k], rest[1][k], rest[2][k]}, d);
-    const OfEdges<Real> t = isExact ? timesMatrix(roots, strains) : positiveTensions(roots, strains),
-                        more = timesMatrix<Real>(roots, {dot(d[0], e[0]), dot(d[1], e[1]), dot(d[2], e[2])});
-    const Vec3<Real> pullA = t[0] * e[0] + more[0] * d[0], pullB = t[1] * e[1] + more[1] * d[1],
-                     pullC = t[2] * e[2] + more[2] * d[2];
+    const Edges<Real> e = edgesAt<Real>(corners, k, p), d{{{edges[0][k], edges[1][k], edges[2][k]},
+                                                           {edges[3][k], edges[4][k], edges[5][k]},
+                                                           {edges[6][k], edges[7][k], edges[8][k]}}};
+    const OfEdges<Real> more =
+        timesMatrix<Real>(rootsAt(roots, k), {dot(d[0], e[0]), dot(d[1], e[1]), dot(d[2], e[2])});
+    const Vec3<Real> pullA = t[0][k] * e[0] + more[0] * d[0], pullB = t[1][k] * e[1] + more[1] * d[1],
+                     pullC = t[2][k] * e[2] + more[2] * d[2];
     put(onFirst, k, pullC - pullB);
     put(onSecond, k, pullA - pullC);
     put(onThird, k, pullB - pullA);
   }
+}
+
+template <class Real>
+INLINE auto stretchOf(const ImplicitArguments<Real>& arguments, int row) {
+  const Range all = rangeOf(arguments.step.step, row);
+  return std::ranges::lower_bound(arguments.own.stretches.stretches, static_cast<std::uint32_t>(all.begin),
+                                  {}, &MeshStretches<Real>::Stretch::firstParticle);
+}
+
+template <class Real>
+INLINE void linearizeMembranesOf(const ImplicitArguments<Real>& arguments, int row) {
+  ImplicitState<Real>& own = arguments.own;
+  const auto stretch = stretchOf(arguments, row);
+  const std::size_t first = stretch->firstMembrane, count = stretch[1].firstMembrane - first;
+  const Arrays<const Real> x = arraysOf(std::as_const(own.iterate.positions));
+  own.scalars.hessian == HESSIAN_EXACT ? findTensions<true>(own.stretches, x, first, count)
+                                       : findTensions<false>(own.stretches, x, first, count);
 }
 
 template <class Real>
@@ -115,17 +172,13 @@ INLINE void addProductsOf(const ImplicitArguments<Real>& arguments, int row, Rea
   ImplicitState<Real>& own = arguments.own;
   const MeshStretches<Real>& mesh = own.stretches;
   const Range all = rangeOf(arguments.step.step, row);
-  const auto stretch = std::ranges::lower_bound(mesh.stretches, static_cast<std::uint32_t>(all.begin), {},
-                                                &MeshStretches<Real>::Stretch::firstParticle);
+  const auto stretch = stretchOf(arguments, row);
   const std::size_t hinges = stretch[1].firstHinge - stretch->firstHinge,
                     membranes = stretch[1].firstMembrane - stretch->firstMembrane;
   Real *bent = scratch, *forces = scratch + 4 * hinges;
-  const Arrays<const Real> x = arraysOf(std::as_const(own.iterate.positions)),
-                           p = arraysOf(std::as_const(own.directions.positions));
+  const Arrays<const Real> p = arraysOf(std::as_const(own.directions.positions));
   bendHinges(mesh, p, stretch->firstHinge, hinges, bent);
-  own.scalars.hessian == HESSIAN_EXACT
-      ? pullMembranes<true>(mesh, x, p, stretch->firstMembrane, membranes, forces)
-      : pullMembranes<false>(mesh, x, p, stretch->firstMembrane, membranes, forces);
+  pullMembranes(mesh, p, stretch->firstMembrane, membranes, forces);
   const Arrays<Real> products = arraysOf(own.products);
   const auto fourOf = [](const Real* four) { return *reinterpret_cast<const Four<Real>*>(four); };
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
@@ -175,11 +228,18 @@ MeshStretches<Real> makeMeshStretches(const Cloth& cloth, const MeshLists<Real>&
   result.stretches.push_back({static_cast<std::uint32_t>(cloth.particleCount()),
                               static_cast<std::uint32_t>(result.coefficients[0].size()),
                               static_cast<std::uint32_t>(result.restSquared[0].size())});
+  for (std::vector<Real>& edge : result.edges) edge.resize(result.restSquared[0].size());
+  for (std::vector<Real>& tension : result.tensions) tension.resize(result.restSquared[0].size());
   return result;
 }
 template MeshStretches<float> makeMeshStretches(const Cloth&, const MeshLists<float>&);
 template MeshStretches<double> makeMeshStretches(const Cloth&, const MeshLists<double>&);
 
+VECTOR_CLONES(void, linearizeMembranes, (const ImplicitArguments<float>& arguments, int row),
+              (arguments, row), linearizeMembranesOf(arguments, row))
+void linearizeMembranes(const ImplicitArguments<double>& arguments, int row) {
+  linearizeMembranesOf(arguments, row);
+}
 namespace {
 
 VECTOR_CLONES(void, addProducts, (const ImplicitArguments<float>& arguments, int row, float* scratch),

@@ -40,11 +40,18 @@ struct MeshStretches {
   std::vector<std::uint32_t> forcesAt;
   std::uint32_t firstForce = 0;  // the place in MeshLists::numbers of the first of these
   std::uint32_t mostFours = 0;   // vectors that a stretch comes to: one a hinge, three a membrane
+
+  // Of membranes at the iterate, by component.
+  std::array<std::vector<Real>, 9> edges;     // [m]
+  std::array<std::vector<Real>, 3> tensions;  // over the lengths of the edges [N/m]
 };
 
 template <class Real>
 [[nodiscard]] MeshStretches<Real> makeMeshStretches(const Cloth& cloth, const MeshLists<Real>& lists);
 
+// The edges and tensions of a stretch.
+void linearizeMembranes(const ImplicitArguments<float>& arguments, int row);
+void linearizeMembranes(const ImplicitArguments<double>& arguments, int row);
 // Adds to the products of a stretch of particles, which springs have begun.
 void addElementProducts(const ImplicitArguments<float>& arguments, int row);
 void addElementProducts(const ImplicitArguments<double>& arguments, int row);

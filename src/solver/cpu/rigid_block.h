@@ -12,7 +12,7 @@
 
 namespace clothsim::cpu {
 
-// A translation and a rotation, or a force and a torque, with a 0 behind either.
+// A translation and a rotation, or a force and a torque; the number behind either means nothing.
 template <class Real>
 struct alignas(8 * sizeof(Real)) RigidVector {
   Eight<Real> both{};
@@ -48,8 +48,8 @@ INLINE Threes<Real> threesAt(const Real* numbers, std::ptrdiff_t i) {
 template <class Real>
 INLINE void putThrees(Real* numbers, std::ptrdiff_t i, Vec3<Real> translation, Vec3<Real> rotation) {
   Real* v = numbers + 8 * i;
-  v[0] = translation.x, v[1] = translation.y, v[2] = translation.z, v[3] = Real(0);
-  v[4] = rotation.x, v[5] = rotation.y, v[6] = rotation.z, v[7] = Real(0);
+  v[0] = translation.x, v[1] = translation.y, v[2] = translation.z, v[3] = translation.z;
+  v[4] = rotation.x, v[5] = rotation.y, v[6] = rotation.z, v[7] = rotation.z;
 }
 
 // Forces and motions of all vertices are about one origin: as they are, they add up from level to level. Here
