@@ -83,8 +83,7 @@ void CpuExecutor<Real>::setCuts(const StepInputs& inputs) {
 
 template <class Real>
 void CpuExecutor<Real>::makeImplicitLists(const Cuts& cuts) {
-  implicit_.resize(makeHierarchy<Real>(*cloth_, cuts));
-  implicit_.stretches = cpu::makeMeshStretches<Real>(*cloth_, lists_);
+  implicit_.resize(makeHierarchy<Real>(*cloth_, cuts), cpu::makeMeshStretches<Real>(*cloth_, lists_));
 }
 
 template <class Real>
@@ -101,8 +100,7 @@ void CpuExecutor<Real>::prepare(const StepInputs& inputs, const PassList& list) 
     for (std::size_t i = 0; i < pinStarts_.x.size(); ++i)
       cpu::put(pinStarts_, static_cast<std::ptrdiff_t>(i), startPosition<Real>(*cloth_, i));
   }
-  if (list.contains(Pass::begin) && implicit_.hierarchy.empty())
-    makeImplicitLists(inputs.cuts);
+  if (list.contains(Pass::begin) && implicit_.hierarchy.empty()) makeImplicitLists(inputs.cuts);
   if (list.contains(Pass::predictPlanes)) implicit_.planes.resize(cloth_->particleCount());
   if (list.contains(Pass::remember)) {
     implicit_.movedBefore.resize(cloth_->particleCount());

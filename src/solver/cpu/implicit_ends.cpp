@@ -167,8 +167,9 @@ void gatherElasticForces(const ImplicitArguments<Real>& arguments, int row, Forc
 }
 
 template <class Real>
-void ImplicitState<Real>::resize(Hierarchy<Real> levels) {
+void ImplicitState<Real>::resize(Hierarchy<Real> levels, MeshStretches<Real> ofMeshes) {
   hierarchy = std::move(levels);
+  stretches = std::move(ofMeshes);
   const std::size_t particles = hierarchy.particles;
   for (Components<Real>* c : {&rightHandSide, &displacements, &iterate.positions, &residuals, &corrections,
                               &directions.positions, &products, &increments})

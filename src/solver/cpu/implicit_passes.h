@@ -64,7 +64,7 @@ struct ImplicitState {
   std::vector<Real> dense;                       // minus the inverses of the coarsest levels' matrices
 
   // Without planes.
-  void resize(Hierarchy<Real> levels);
+  void resize(Hierarchy<Real> levels, MeshStretches<Real> ofMeshes);
 };
 
 template <class Real>

@@ -117,6 +117,7 @@ void addMeshBlocks(const ImplicitArguments<Real>& arguments, int row) {
   }
 }
 
+// Springs first, as in the forces.
 template <class Real>
 void addMeshProducts(const ImplicitArguments<Real>& arguments, int row) {
   const Range all = rangeOf(arguments.step.step, row);

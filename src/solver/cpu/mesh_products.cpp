@@ -56,33 +56,14 @@ INLINE Vec3<Real> at(const Arrays<const Real>& field, std::int32_t i) {
   return {field.x[i], field.y[i], field.z[i]};
 }
 
-// sum c_j (p_j - p_0) of the hinges from `first` on.
+// As the k-th vector of four; the last number means nothing, and with a number of its own the store is one
+// that compilers keep in vectors.
 template <class Real>
-INLINE void bendHinges(const MeshStretches<Real>& mesh, const Arrays<const Real>& p, std::size_t first,
-                       std::size_t count, Real* bent) {
-  const std::int32_t *a = mesh.hingeCorners[0].data() + first, *b = mesh.hingeCorners[1].data() + first,
-                     *c = mesh.hingeCorners[2].data() + first, *d = mesh.hingeCorners[3].data() + first;
-  const Real *ofB = mesh.coefficients[0].data() + first, *ofC = mesh.coefficients[1].data() + first,
-             *ofD = mesh.coefficients[2].data() + first;
-#pragma GCC ivdep
-  for (std::size_t k = 0; k < count; ++k) {
-    const Vec3<Real> origin = at(p, a[k]);
-    const Vec3<Real> sum = (ofB[k] * (at(p, b[k]) - origin) + ofC[k] * (at(p, c[k]) - origin)) +
-                           ofD[k] * (at(p, d[k]) - origin);
-    bent[4 * k] = sum.x, bent[4 * k + 1] = sum.y, bent[4 * k + 2] = sum.z, bent[4 * k + 3] = sum.z;
-  }
+INLINE void putFour(Real* vectors, std::size_t k, Vec3<Real> v) {
+  Real* to = vectors + 4 * k;
+  to[0] = v.x, to[1] = v.y, to[2] = v.z, to[3] = v.z;
 }
-
-template <class Real>
-using Edges = std::array<Vec3<Real>, 3>;
-using Corners = std::array<const std::int32_t*, 3>;
-template <class Real>
-INLINE Edges<Real> edgesAt(const Corners& corners, std::size_t k, const Arrays<const Real>& field) {
-  const Vec3<Real> a = at(field, corners[0][k]), b = at(field, corners[1][k]), c = at(field, corners[2][k]);
-  return {c - b, a - c, b - a};
-}
-
-// Of `count` membranes from the first one on, what their arrays hold.
+// Where arrays of components have what is of element `first`.
 template <class Value, std::size_t size>
 INLINE auto from(std::size_t first, std::array<std::vector<Value>, size>& arrays) {
   std::array<Value*, size> result;
@@ -95,6 +76,31 @@ INLINE auto from(std::size_t first, const std::array<std::vector<Value>, size>& 
   for (std::size_t n = 0; n < size; ++n) result[n] = arrays[n].data() + first;
   return result;
 }
+
+// sum c_j (p_j - p_0) of the hinges from `first` on.
+template <class Real>
+INLINE void bendHinges(const MeshStretches<Real>& mesh, const Arrays<const Real>& p, std::size_t first,
+                       std::size_t count, Real* bent) {
+  const auto corners = from(first, mesh.hingeCorners);
+  const auto c = from(first, mesh.coefficients);
+#pragma GCC ivdep
+  for (std::size_t k = 0; k < count; ++k) {
+    const Vec3<Real> origin = at(p, corners[0][k]);
+    putFour(bent, k,
+            (c[0][k] * (at(p, corners[1][k]) - origin) + c[1][k] * (at(p, corners[2][k]) - origin)) +
+                c[2][k] * (at(p, corners[3][k]) - origin));
+  }
+}
+
+template <class Real>
+using Edges = std::array<Vec3<Real>, 3>;
+using Corners = std::array<const std::int32_t*, 3>;
+template <class Real>
+INLINE Edges<Real> edgesAt(const Corners& corners, std::size_t k, const Arrays<const Real>& field) {
+  const Vec3<Real> a = at(field, corners[0][k]), b = at(field, corners[1][k]), c = at(field, corners[2][k]);
+  return {c - b, a - c, b - a};
+}
+
 template <class Real>
 INLINE std::array<Real, 6> rootsAt(const std::array<const Real*, 6>& roots, std::size_t k) {
   return {roots[0][k], roots[1][k], roots[2][k], roots[3][k], roots[4][k], roots[5][k]};
@@ -131,9 +137,6 @@ INLINE void pullMembranes(const MeshStretches<Real>& mesh, const Arrays<const Re
   const auto edges = from(first, mesh.edges);
   const auto t = from(first, mesh.tensions);
   Real *onFirst = forces, *onSecond = forces + 4 * count, *onThird = forces + 8 * count;
-  const auto put = [](Real* to, std::size_t k, Vec3<Real> v) __attribute__((always_inline)) {
-    to[4 * k] = v.x, to[4 * k + 1] = v.y, to[4 * k + 2] = v.z, to[4 * k + 3] = v.z;
-  };
 #pragma GCC ivdep
   for (std::size_t k = 0; k < count; ++k) {
     const Edges<Real> e = edgesAt<Real>(corners, k, p), d{{{edges[0][k], edges[1][k], edges[2][k]},
@@ -143,9 +146,9 @@ INLINE void pullMembranes(const MeshStretches<Real>& mesh, const Arrays<const Re
         timesMatrix<Real>(rootsAt(roots, k), {dot(d[0], e[0]), dot(d[1], e[1]), dot(d[2], e[2])});
     const Vec3<Real> pullA = t[0][k] * e[0] + more[0] * d[0], pullB = t[1][k] * e[1] + more[1] * d[1],
                      pullC = t[2][k] * e[2] + more[2] * d[2];
-    put(onFirst, k, pullC - pullB);
-    put(onSecond, k, pullA - pullC);
-    put(onThird, k, pullB - pullA);
+    putFour(onFirst, k, pullC - pullB);
+    putFour(onSecond, k, pullA - pullC);
+    putFour(onThird, k, pullB - pullA);
   }
 }
 
@@ -201,7 +204,7 @@ struct alignas(4 * sizeof(Real)) FourNumbers {
 template <class Real>
 Real* scratchFor(const ImplicitArguments<Real>& arguments) {
   static thread_local std::vector<FourNumbers<Real>> room;
-  room.resize(std::max(room.size(), std::size_t{arguments.own.stretches.mostFours}));
+  room.resize(std::max({room.size(), std::size_t{arguments.own.stretches.mostFours}, std::size_t{1}}));
   return room.data()->numbers;
 }
 
@@ -220,10 +223,9 @@ MeshStretches<Real> makeMeshStretches(const Cloth& cloth, const MeshLists<Real>&
                  end = piece.firstParticle + static_cast<std::uint32_t>(piece.columns);
       addStretch(result, lists, first, std::min(first + MESH_ROW, end));
       const auto& stretch = result.stretches.back();
-      result.mostFours = std::max(
-          {result.mostFours, static_cast<std::uint32_t>(result.coefficients[0].size()) - stretch.firstHinge +
-                                   3 * (static_cast<std::uint32_t>(result.restSquared[0].size()) -
-                                        stretch.firstMembrane)});
+      const std::size_t hinges = result.coefficients[0].size() - stretch.firstHinge,
+                        membranes = result.restSquared[0].size() - stretch.firstMembrane;
+      result.mostFours = std::max(result.mostFours, static_cast<std::uint32_t>(hinges + 3 * membranes));
     }
   result.stretches.push_back({static_cast<std::uint32_t>(cloth.particleCount()),
                               static_cast<std::uint32_t>(result.coefficients[0].size()),
@@ -240,6 +242,7 @@ VECTOR_CLONES(void, linearizeMembranes, (const ImplicitArguments<float>& argumen
 void linearizeMembranes(const ImplicitArguments<double>& arguments, int row) {
   linearizeMembranesOf(arguments, row);
 }
+
 namespace {
 
 VECTOR_CLONES(void, addProducts, (const ImplicitArguments<float>& arguments, int row, float* scratch),

@@ -31,7 +31,8 @@ INLINE RigidVector<Real> canonical(const RigidVector<Real>& v) {
   return RigidVector<Real>(canonicalOf(v.both));
 }
 
-// Their numbers one after another, eight each, for loops that take a vector of every component.
+// Their numbers one after another, eight each, for loops that take a vector of every component: a store of
+// eight numbers, none of them a constant, stays one of vectors.
 template <class Real>
 INLINE Real* numbersOf(RigidVector<Real>* vectors) {
   return reinterpret_cast<Real*>(vectors);

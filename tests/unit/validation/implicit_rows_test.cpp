@@ -47,7 +47,7 @@ class Sheet {
     restLengths_ = measureRestLengths<double>(cloth_);
     lists_ = makeMeshLists<double>(cloth_, cuts);
     const std::size_t count = cloth_.particleCount();
-    own_.resize(makeHierarchy<double>(cloth_, cuts));
+    own_.resize(makeHierarchy<double>(cloth_, cuts), cpu::makeMeshStretches<double>(cloth_, lists_));
     forces_.resize(count);
     for (std::size_t i = 0; i < count; ++i) own_.diagonal[i] = 1 + static_cast<double>(i % 5);
   }
