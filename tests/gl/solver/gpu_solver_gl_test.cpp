@@ -243,7 +243,8 @@ TEST_F(GpuSolverTest, GivesTheSameBitsInImplicitStepsHoweverTheyAreDispatched) {
   const std::uint64_t usual = stateHash(steppedOnGpu(scene, 2));
   for (const GpuOptions& options :
        {GpuOptions{.fused = false}, GpuOptions{.groupColumns = 16, .groupRows = 4},
-        GpuOptions{.coarseLanes = 32}, GpuOptions{.coarseLanes = 1024}, GpuOptions{.coarsensInGroups = true}})
+        GpuOptions{.coarseLanes = 32}, GpuOptions{.coarseLanes = 1024}, GpuOptions{.coarsensInGroups = true},
+        GpuOptions{.looksAtFlags = FlagLooks::betweenNewtonSteps}})
     EXPECT_EQ(stateHash(steppedOnGpu(scene, 2, options)), usual)
         << options.fused << ", " << options.groupColumns << "x" << options.groupRows << ", "
         << options.coarseLanes;
