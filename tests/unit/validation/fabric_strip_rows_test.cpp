@@ -117,7 +117,7 @@ class BiasStrip {
 };
 
 // Backward Euler damps the swing of the folds; `bdf2` leaves up to a tenth of the pull of it after 3 s,
-// of silk on the finest grid 15 thousandths after 10 s.
+// of silk on the finest grid 13 thousandths after 15 s, which is more than is asked.
 double secondsToRest(Integrator integrator) { return integrator == Integrator::bdf2 ? 15 : 3; }
 
 // Against the least energy that a direct solver finds from there on: in the plane if the strip has not left
