@@ -74,6 +74,12 @@ class Fence {
     reset();
     sync_ = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
   }
+  // Whether the commands before the mark are done; does not wait. Without a mark: no.
+  [[nodiscard]] bool isReached() const {
+    if (sync_ == nullptr) return false;
+    const GLenum answer = glClientWaitSync(sync_, 0, 0);
+    return answer == GL_ALREADY_SIGNALED || answer == GL_CONDITION_SATISFIED;
+  }
   // Waits until the commands before the mark are done, not for those behind it. @throws ContextLost
   void wait() {
     constexpr GLuint64 second = 1'000'000'000;
@@ -83,13 +89,13 @@ class Fence {
       if (answer != GL_TIMEOUT_EXPIRED) reset();
     }
   }
-
- private:
+  // Forgets the mark.
   void reset() {
     if (sync_ != nullptr) glDeleteSync(sync_);
     sync_ = nullptr;
   }
 
+ private:
   GLsync sync_ = nullptr;
 };
 

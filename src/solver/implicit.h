@@ -52,8 +52,8 @@
 // as stiff as their inertia, and sums in binary32 would hold nothing of that. The matrices are made in every
 // second step of a frame, beginning with the first, before its first Newton step; in the steps between, only
 // the places X_c are new. D are the blocks of 3 x 3 of the particles. Pinned particles are no unknowns. All
-// sums run in a fixed order, and scalars stay on the device. What is solved already does nothing; where much
-// of that would be submitted to a GPU, its flags are read back (FlagLooks in solver/gpu/gpu_executor.h).
+// sums run in a fixed order, and scalars stay on the device: no step waits for a read-back. What is solved
+// already does nothing, and is not even dispatched where the host knows it.
 #pragma once
 
 #include "shared/implicit.h"

@@ -201,8 +201,8 @@ template <class Real>
 struct BendingLines {
   std::ptrdiff_t stride;
   Real b;
-  bool endHere, passHere, beginHere;
-  std::uint32_t ending, passing, beginning;
+  bool isLast, isMiddle, isFirst;
+  std::uint32_t cutsLast, cutsMiddle, cutsFirst;
 };
 template <class Real>
 INLINE BendingLines<Real> bendingLines(std::ptrdiff_t place, std::ptrdiff_t count, std::ptrdiff_t stride,
@@ -220,9 +220,9 @@ INLINE Real bendingBlock(const BendingLines<Real>& lines, const Real* w, std::pt
     const Real whole = lineStiffness(w, i + (isThere ? offset : 0), stride, lines.b);
     return isThere & ((cut & link) == 0) ? whole : Real(0);
   };
-  middle = stiffness(lines.passHere, 0, lines.passing);
-  return (stiffness(lines.endHere, -lines.stride, lines.ending) + Real(4) * middle) +
-         stiffness(lines.beginHere, lines.stride, lines.beginning);
+  middle = stiffness(lines.isMiddle, 0, lines.cutsMiddle);
+  return (stiffness(lines.isLast, -lines.stride, lines.cutsLast) + Real(4) * middle) +
+         stiffness(lines.isFirst, lines.stride, lines.cutsFirst);
 }
 
 template <bool hasCuts, class Real>

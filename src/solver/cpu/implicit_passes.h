@@ -54,7 +54,8 @@ struct ImplicitState {
   ImplicitScalars<Real> scalars{};
 
   Hierarchy<Real> hierarchy;
-  std::vector<RigidVector<Real>> forces;  // the residuals on vertices of all levels
+  // The residuals of vertices of all levels: force, and torque about the first particle.
+  std::vector<RigidVector<Real>> forces;
   // Of coarse vertices.
   std::vector<Four<Real>> centers;  // [m]
   std::vector<RigidVector<Real>> coarseCorrections;
@@ -123,10 +124,10 @@ void coarsen(const ImplicitArguments<Real>& arguments, const LevelParams& level,
 // Minus the inverse of the matrix of a connected part of the coarsest level.
 void invertDense(ImplicitState<float>& own, const DensePart& part);
 void invertDense(ImplicitState<double>& own, const DensePart& part);
-// What residuals of the particles [first, end) are as forces, and the forces on the aggregates [first, end),
-// of what hangs on them.
+// `forces` of the particles [first, end): their residuals, and the torques of these about the first particle.
 void putForces(ImplicitState<float>& own, std::uint32_t first, std::uint32_t end);
 void putForces(ImplicitState<double>& own, std::uint32_t first, std::uint32_t end);
+// `forces` of the aggregates [first, end): the weighted sums of those of what hangs on them.
 void restrictResiduals(ImplicitState<float>& own, std::uint32_t first, std::uint32_t end);
 void restrictResiduals(ImplicitState<double>& own, std::uint32_t first, std::uint32_t end);
 template <class Real>

@@ -143,6 +143,11 @@ ImplicitScalars<float> GpuArrays::scalars() const {
   return scalars_.download().front();
 }
 
+void GpuArrays::copyScalars(gl::MappedBuffer<ImplicitScalars<float>>& copy) const {
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  copy.copyFrom(scalars_, 0, 1);
+}
+
 void GpuArrays::bindTextures(bool storageLoads) {
   storageLoads_ = storageLoads;
   if (storageLoads) (*this)[Array::velocities].buffer.bindStorage(VELOCITIES_BINDING);

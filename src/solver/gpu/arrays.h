@@ -6,6 +6,7 @@
 
 #include "gl/buffer.h"
 #include "gl/buffer_texture.h"
+#include "gl/mapped_buffer.h"
 #include "solver/gpu/levels.h"
 #include "solver/gpu/particle_array.h"
 #include "solver/implicit.h"
@@ -25,6 +26,8 @@ class GpuArrays {
   void forgetHistory();
   // What implicit steps have come to; zeros without any. Blocking.
   [[nodiscard]] ImplicitScalars<float> scalars() const;
+  // Asks for a copy of them, behind what was dispatched.
+  void copyScalars(gl::MappedBuffer<ImplicitScalars<float>>& copy) const;
 
   [[nodiscard]] ParticleArray& operator[](Array array) { return arrays_[static_cast<std::size_t>(array)]; }
   [[nodiscard]] const ParticleArray& operator[](Array array) const {

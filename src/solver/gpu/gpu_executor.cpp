@@ -54,8 +54,7 @@ GpuOptions forThisDevice(GpuOptions options) {
   }
   if (!options.limitsInTiles) options.limitsInTiles = !software;
   if (!options.coarsensInGroups) options.coarsensInGroups = !software;
-  if (!options.looksAtFlags)
-    options.looksAtFlags = software ? FlagLooks::always : FlagLooks::betweenNewtonSteps;
+  if (!options.looksAtFlags) options.looksAtFlags = software ? FlagLooks::always : FlagLooks::whenReady;
   if (!options.storageLoads) options.storageLoads = !software && hasPlacesForStorageLoads();
   return options;
 }
@@ -139,6 +138,8 @@ void GpuExecutor::prepare(const StepInputs& inputs, const PassList& list) {
     arrays_.addImplicit(cloth_->particleCount(), levels_,
                         hasAir(*inputs.scene) || inputs.interaction.jet.has_value(),
                         !inputs.scene->colliders.empty(), list.contains(Pass::remember));
+    if (flags_.elements().empty())
+      flags_ = gl::MappedBuffer<ImplicitScalars<float>>("flags of implicit steps", 1);
   }
   if (list.contains(Pass::limit) || list.contains(Pass::resolveContacts))
     arrays_.addSpare(Array::newPositions);
@@ -185,11 +186,14 @@ void GpuExecutor::run(const StepInputs& inputs, const PassList& list, int steps)
   watch_.bind(inputs.clock.step);
 
   seen_.reset();
-  newtonSteps_ = 0;
-  isBetweenNewtonSteps_ = false;
+  flagsAreThere_.reset();
+  isKnownToBeSolved_ = false;
   for (std::span<const PassCall> rest = list.passes; !rest.empty();) {
     const std::span<const PassCall> taken = rest.first(passesTaken(rest));
-    if (!isClosed(taken.front().traits().gate)) runKernel(taken);
+    if (!isClosed(taken.front().traits().gate)) {
+      runKernel(taken);
+      askForFlags(taken);
+    }
     rest = rest.subspan(taken.size());
   }
 
@@ -199,14 +203,18 @@ void GpuExecutor::run(const StepInputs& inputs, const PassList& list, int steps)
 
 // Whether the passes behind the gate would do nothing (sim/implicit/gate.glsl), as far as that is known here.
 bool GpuExecutor::isClosed(Gate gate) {
-  if (gate == Gate::none) return false;
-  if (!seen_) {
-    const FlagLooks looks = *options_.looksAtFlags;
-    if (looks == FlagLooks::never || (looks == FlagLooks::betweenNewtonSteps && !isBetweenNewtonSteps_))
-      return false;
-    seen_ = arrays_.scalars();
-  }
+  if (gate == Gate::none || *options_.looksAtFlags == FlagLooks::never) return false;
+  if (*options_.looksAtFlags == FlagLooks::whenReady) return isKnownToBeSolved();
+  if (!seen_) seen_ = arrays_.scalars();
   return seen_->isStepSolved != 0 || (gate == Gate::system && seen_->isSystemSolved != 0);
+}
+
+// What has been dispatched since the copy was asked for did nothing, if it says so.
+bool GpuExecutor::isKnownToBeSolved() {
+  if (!flagsAreThere_.isReached()) return isKnownToBeSolved_;
+  flagsAreThere_.reset();
+  isKnownToBeSolved_ = flags_.elements()[0].isStepSolved != 0;
+  return isKnownToBeSolved_;
 }
 
 // How many of the passes one kernel does.
@@ -216,27 +224,30 @@ std::size_t GpuExecutor::passesTaken(std::span<const PassCall> passes) const {
   return kernelFor(passes, kernelOptions_).passes;
 }
 
-// What was seen of the flags is old once a pass has written them.
-void GpuExecutor::noteWritten(std::span<const PassCall> passes) {
-  constexpr int UNASKED_NEWTON_STEPS = 4;
-  for (const PassCall& call : passes) {
-    const PassTraits& traits = call.traits();
-    const bool writes = traits.writes.contains(Array::scalars);
-    if (writes || traits.domain == Domain::surface) seen_.reset();
-    if (call.pass == Pass::measureUpdate) ++newtonSteps_;
-    if (writes && traits.gate != Gate::none)
-      isBetweenNewtonSteps_ = call.pass == Pass::measureUpdate && newtonSteps_ >= UNASKED_NEWTON_STEPS;
-    if (call.pass == Pass::settle) isBetweenNewtonSteps_ = true;
-  }
+// Behind a Newton step, and where the step goes on or does not (Pass::settle).
+void GpuExecutor::askForFlags(std::span<const PassCall> passes) {
+  if (*options_.looksAtFlags != FlagLooks::whenReady) return;
+  if (!std::ranges::any_of(
+          passes, [](const PassCall& c) { return c.pass == Pass::measureUpdate || c.pass == Pass::settle; }))
+    return;
+  isKnownToBeSolved_ = false;
+  arrays_.copyScalars(flags_);
+  flagsAreThere_.set();
+  glFlush();  // or the copy may wait for further commands
 }
 
 void GpuExecutor::runKernel(std::span<const PassCall> passes) {
   const PassCall& call = passes.front();
-  noteWritten(passes);
+  if (std::ranges::any_of(passes,
+                          [](const PassCall& c) { return c.traits().writes.contains(Array::scalars); }))
+    seen_.reset();
   if (call.traits().domain == Domain::contacts)
     return selfCollision_.run(runner_, call, arrays_,
                               [&](std::size_t piece) { parameters_.bindPiece(piece); });
-  if (call.traits().domain == Domain::surface) return surfaceContact_.run(runner_, call, arrays_);
+  if (call.traits().domain == Domain::surface) {
+    seen_.reset();
+    return surfaceContact_.run(runner_, call, arrays_);
+  }
   const std::size_t number = kernelFor(passes, kernelOptions_).kernel;
   const Kernel& kernel = kernels()[number];
   const std::string name = runner_.isTiming() ? nameOf(passes) : "";

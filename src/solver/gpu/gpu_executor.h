@@ -9,6 +9,7 @@
 
 #include "gl/buffer.h"
 #include "gl/buffer_texture.h"
+#include "gl/mapped_buffer.h"
 #include "gl/program.h"
 #include "solver/executor.h"
 #include "solver/gpu/arrays.h"
@@ -23,10 +24,10 @@
 
 namespace clothsim {
 
-// When flags on the device are read back. Between Newton steps: where a fifth one or one behind it would
-// begin, and where a step may go on after contact. Hardware is waited for there; the dispatches of a Newton
-// step that does nothing take .2 ms (docs/gpu.md), and of most steps dozens of Newton steps are left.
-enum class FlagLooks { never, betweenNewtonSteps, always };
+// When the host looks at the flags that say whether a step is solved. When ready: at a copy that was asked
+// for behind each Newton step, once it is there; nothing waits, and meanwhile passes are dispatched that may
+// do nothing. Always: before each pass, which waits.
+enum class FlagLooks { never, whenReady, always };
 
 struct GpuOptions {
   bool fused = true;  // passes that share a sweep in one dispatch, where there is a kernel for them; the bits
@@ -48,8 +49,8 @@ struct GpuOptions {
   // hardware. A software renderer is faster at texels.
   std::optional<bool> storageLoads = {};
   // Passes that would do nothing, because the step or the linear system is solved, are not even dispatched
-  // where the flags are looked at. Empty: always on a software renderer, which has set them by then, and
-  // between Newton steps on hardware.
+  // where the flags are looked at. Empty: always on a software renderer, which has set them by then, and when
+  // ready on hardware.
   std::optional<FlagLooks> looksAtFlags = {};
 };
 
@@ -97,7 +98,8 @@ class GpuExecutor final : public Executor {
   [[nodiscard]] std::size_t passesTaken(std::span<const PassCall> passes) const;
   void runKernel(std::span<const PassCall> passes);
   [[nodiscard]] bool isClosed(Gate gate);
-  void noteWritten(std::span<const PassCall> passes);
+  bool isKnownToBeSolved();
+  void askForFlags(std::span<const PassCall> passes);
   // A stage of a kernel, with its programs by piece.
   using StagePrograms = std::vector<const gl::Program*>;
   void runStage(Over over, const StagePrograms& programs, const PassCall& call, const std::string& name);
@@ -134,9 +136,10 @@ class GpuExecutor final : public Executor {
   PassRunner runner_;
 
   std::optional<ImplicitScalars<float>> seen_;  // what no pass has written since
-  // Of the step that is run.
-  int newtonSteps_ = 0;
-  bool isBetweenNewtonSteps_ = false;
+  // A copy of the flags behind the last Newton step, and whether one has said that the step is solved.
+  gl::MappedBuffer<ImplicitScalars<float>> flags_;
+  gl::Fence flagsAreThere_;
+  bool isKnownToBeSolved_ = false;
 
   GpuWatch watch_;
 };

@@ -244,7 +244,7 @@ TEST_F(GpuSolverTest, GivesTheSameBitsInImplicitStepsHoweverTheyAreDispatched) {
   for (const GpuOptions& options :
        {GpuOptions{.fused = false}, GpuOptions{.groupColumns = 16, .groupRows = 4},
         GpuOptions{.coarseLanes = 32}, GpuOptions{.coarseLanes = 1024}, GpuOptions{.coarsensInGroups = true},
-        GpuOptions{.looksAtFlags = FlagLooks::betweenNewtonSteps}})
+        GpuOptions{.looksAtFlags = FlagLooks::whenReady}})
     EXPECT_EQ(stateHash(steppedOnGpu(scene, 2, options)), usual)
         << options.fused << ", " << options.groupColumns << "x" << options.groupRows << ", "
         << options.coarseLanes;
