@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 
 #include "core/thread_team.h"
 
@@ -31,6 +32,37 @@ bool NearParts<Real>::covers(const std::vector<MovingBounds<Real>>& particles, F
             all.store(false, std::memory_order_relaxed);
       });
   return all;
+}
+
+// By how far particles are from the middle of their covers, wherever in their boxes they are, and what
+// rounding may hide.
+template <class Real>
+void NearParts<Real>::findDrifts(const ClothSurface<Real>& surface,
+                                 const std::vector<MovingBounds<Real>>& particles, Four<Real> shift,
+                                 Four<Real> shiftAtEnd, Real around) {
+  const Four<Real> within{around, around, around, Real(0)};
+  const Four<Real> rounding = Four<Real>{} + Real(8) * std::numeric_limits<Real>::epsilon();
+  const auto drift = [&](const Bounds<Real>& box, const Bounds<Real>& cover, Four<Real> moved) {
+    const Four<Real> middle = Real(0.5) * (cover.low + cover.high),
+                     above = ((box.high - moved) - within) - middle,
+                     below = middle - ((box.low - moved) + within), minus = Four<Real>{} - cover.low;
+    return (above < below ? below : above) + rounding * (minus < cover.high ? cover.high : minus);
+  };
+  constexpr Real ofAll = static_cast<Real>(3 * 1.74);  // start, and start and end, along the diagonal
+  particleDrifts_.resize(particles.size());
+  ThreadTeam::shared().forEach(
+      0, static_cast<std::uint32_t>(particles.size()), BOXES_AT_ONCE, [&](std::uint32_t i) {
+        const Four<Real> start = drift(particles[i].start, covers_.particles[i].start, shift),
+                         end = drift(particles[i].end, covers_.particles[i].end, shiftAtEnd);
+        const Four<Real> most = start < end ? end : start;
+        particleDrifts_[i] = ofAll * std::max({most[0], most[1], most[2]});
+      });
+  drifts_.resize(surface.triangles.size());
+  ThreadTeam::shared().forEach(
+      0, static_cast<std::uint32_t>(drifts_.size()), BOXES_AT_ONCE, [&](std::uint32_t i) {
+        const auto [a, b, c] = cornersOf(surface.triangles[i]);
+        drifts_[i] = std::max({particleDrifts_[a], particleDrifts_[b], particleDrifts_[c]});
+      });
 }
 
 // Triangles' boxes may be older than those of their particles.
@@ -68,11 +100,13 @@ void NearParts<Real>::makeList(const ClothSurface<Real>& surface, List& list, Be
              chunks = (triangles + TRIANGLES - 1) / TRIANGLES;
   const SurfaceSearch<Real> search{surface, covers_.triangles};
   list.parts.resize(chunks);
+  list.apart.resize(chunks);
   list.ends.resize(triangles);
   list.isTooLong.resize(chunks);
   ThreadTeam::shared().forEach(0, chunks, 1, [&](std::uint32_t chunk) {
     std::vector<Parts>& found = list.parts[chunk];
     found.clear();
+    list.apart[chunk].clear();
     const std::uint32_t first = chunk * TRIANGLES, end = std::min(first + TRIANGLES, triangles);
     std::vector<std::uint32_t> nearGroups;
     for (std::uint32_t i = first; i < end && found.size() <= MOST; i += BOX_CHILDREN)
@@ -81,21 +115,29 @@ void NearParts<Real>::makeList(const ClothSurface<Real>& surface, List& list, Be
           [&](const Parts& parts) {
             if (found.size() <= MOST) found.push_back(parts);
           },
-          [&](std::uint32_t triangle) { list.ends[triangle] = static_cast<std::uint32_t>(found.size()); });
+          [&](std::uint32_t triangle) {
+            for (std::size_t n = list.apart[chunk].size(); n < found.size(); ++n)
+              list.apart[chunk].push_back(
+                  {found[n].first == triangle ? found[n].second : found[n].first, Real(-1)});
+            list.ends[triangle] = static_cast<std::uint32_t>(found.size());
+          });
     list.isTooLong[chunk] = found.size() > MOST ? 1 : 0;
   });
 }
 
 template <class Real>
 bool NearParts<Real>::update(const ClothSurface<Real>& surface, const SurfaceBoxes<Real>& boxes,
-                             Vec3<Real> origin, Vec3<Real> originAtEnd, Real more,
+                             Vec3<Real> origin, Vec3<Real> originAtEnd, Real around, Real more,
                              const FlatBlocks<Real>& flat) {
-  if (covers(boxes.particles, fourOf(origin - origin_), fourOf(originAtEnd - originAtEnd_)) &&
-      areStillFlat(flat))
+  const Four<Real> shift = fourOf(origin - origin_), shiftAtEnd = fourOf(originAtEnd - originAtEnd_);
+  if (covers(boxes.particles, shift, shiftAtEnd) && areStillFlat(flat)) {
+    findDrifts(surface, boxes.particles, shift, shiftAtEnd, around);
     return false;
+  }
   origin_ = origin;
   originAtEnd_ = originAtEnd;
   makeCovers(surface, boxes, more);
+  findDrifts(surface, boxes.particles, Four<Real>{}, Four<Real>{}, around);
   leftOut_ = flat.isSurelyFlat();
   makeList(surface, near_,
            [&](std::uint32_t triangle, std::uint32_t other) { return !isLeftOut(surface, triangle, other); });

@@ -21,30 +21,45 @@ class NearParts {
   // cloth is surely flat. The list is made again when some of these are no longer flat, and when a particle's
   // box has left the one that it was made with, which is larger by `more` to each side [m]. `origin`: where
   // the cloth is as a whole, at the start and at the end of its motion; that it moves as one is no reason to.
-  // Says whether it was made.
+  // `around`: how far boxes reach around their particles [m]. Says whether it was made.
   bool update(const ClothSurface<Real>& surface, const SurfaceBoxes<Real>& boxes, Vec3<Real> origin,
-              Vec3<Real> originAtEnd, Real more, const FlatBlocks<Real>& flat);
+              Vec3<Real> originAtEnd, Real around, Real more, const FlatBlocks<Real>& flat);
   // Lists those where the cloth is surely flat, too, if update() has made new lists since.
   void listFlat(const ClothSurface<Real>& surface);
-  // visit(parts) for those of a triangle in the order of the tree, until it says no. Among them are all whose
-  // boxes meet where the cloth is not flat.
+  // visit(parts, apart) for those of a triangle in the order of the tree, until it says no. Among them are
+  // all whose boxes meet where the cloth is not flat, without those that surely stay farther apart than
+  // `reach` in the motion [m]. Where visit() learns how far apart parts stay, it sets `apart` to their
+  // apartIn().
   template <class Visit>
-  void forEachPair(const ClothSurface<Real>& surface, std::uint32_t triangle, Visit visit) const {
-    forEachIn(near_, surface, triangle, visit,
+  void forEachPair(const ClothSurface<Real>& surface, std::uint32_t triangle, Real reach, Visit visit) {
+    forEachIn(near_, surface, triangle, reach, visit,
               [&](const Parts& parts) { return !isLeftOut(surface, parts); });
   }
-  // visit(parts) for the others, which listFlat() has listed.
+  // The same for the others, which listFlat() has listed.
   template <class Visit>
-  void forEachFlatPair(const ClothSurface<Real>& surface, std::uint32_t triangle, Visit visit) const {
-    forEachIn(flat_, surface, triangle, visit, [&](const Parts& parts) { return isLeftOut(surface, parts); });
+  void forEachFlatPair(const ClothSurface<Real>& surface, std::uint32_t triangle, Real reach, Visit visit) {
+    forEachIn(flat_, surface, triangle, reach, visit,
+              [&](const Parts& parts) { return isLeftOut(surface, parts); });
+  }
+  // What surely is left between parts of this distance [m], of which no two particles move towards each other
+  // by more than `moving` [m], had no particle drifted since the list was made.
+  [[nodiscard]] Real apartIn(const Parts& parts, Real distance, Real moving) const {
+    return (static_cast<Real>(0.99) * distance - static_cast<Real>(1.01) * moving) -
+           (drifts_[parts.first] + drifts_[parts.second]);
   }
 
   static constexpr std::uint32_t TRIANGLES = 64;        // that a thread takes at once
   static constexpr std::size_t MOST = 128 * TRIANGLES;  // pairs that are listed for them
 
  private:
+  // The other triangle of a pair of parts, and their apartIn(); less than 0 where it is not known.
+  struct Apart {
+    std::uint32_t other;
+    Real distance;
+  };
   struct List {
     std::vector<std::vector<Parts>> parts;  // of TRIANGLES each
+    std::vector<std::vector<Apart>> apart;  // as many
     std::vector<std::uint32_t> ends;        // of a triangle's in them
     // Where a list would take too much memory, it is not used, and parts are looked for each time.
     std::vector<std::uint8_t> isTooLong;
@@ -53,6 +68,8 @@ class NearParts {
   [[nodiscard]] bool covers(const std::vector<MovingBounds<Real>>& particles, Four<Real> shift,
                             Four<Real> shiftAtEnd) const;
   [[nodiscard]] bool areStillFlat(const FlatBlocks<Real>& flat) const;
+  void findDrifts(const ClothSurface<Real>& surface, const std::vector<MovingBounds<Real>>& particles,
+                  Four<Real> shift, Four<Real> shiftAtEnd, Real around);
   void makeCovers(const ClothSurface<Real>& surface, const SurfaceBoxes<Real>& boxes, Real more);
   // Lists the pairs of triangles that belongs(triangle, other).
   template <class Belongs>
@@ -66,26 +83,34 @@ class NearParts {
     return isLeftOut(surface, std::min(parts.first, parts.second), std::max(parts.first, parts.second));
   }
   template <class Visit, class Belongs>
-  void forEachIn(const List& list, const ClothSurface<Real>& surface, std::uint32_t triangle, Visit& visit,
-                 Belongs belongs) const {
+  void forEachIn(List& list, const ClothSurface<Real>& surface, std::uint32_t triangle, Real reach,
+                 Visit& visit, Belongs belongs) {
     const std::uint32_t chunk = triangle / TRIANGLES;
     if (list.isTooLong[chunk] != 0) {
       bool goesOn = true;
+      Real notKept;
       SurfaceSearch<Real>{surface, covers_.triangles}.forEachPair(triangle, covers_, [&](const Parts& parts) {
-        goesOn = goesOn && (!belongs(parts) || visit(parts));
+        goesOn = goesOn && (!belongs(parts) || visit(parts, notKept));
       });
       return;
     }
-    const std::vector<Parts>& parts = list.parts[chunk];
+    const Real far = reach + drifts_[triangle];
+    const Parts* parts = list.parts[chunk].data();
+    Apart* apart = list.apart[chunk].data();
     for (std::uint32_t n = triangle % TRIANGLES == 0 ? 0 : list.ends[triangle - 1]; n < list.ends[triangle];
          ++n)
-      if (!visit(parts[n])) return;
+      if (!(far + drifts_[apart[n].other] < apart[n].distance) && !visit(parts[n], apart[n].distance)) return;
   }
 
   SurfaceBoxes<Real> covers_;                     // its triangles are those of a tree
   std::vector<FourMovingBounds<Real>> children_;  // triangles, by their box in the tree
   Vec3<Real> origin_{}, originAtEnd_{};           // when they were made
-  std::vector<std::uint8_t> leftOut_;             // blocks that were surely flat then
+  // How much nearer than then a triangle may be to another one at the end of the motion: it has come nearer
+  // by as much as its corners have drifted, and its motion is another one by as much as start and end have
+  // [m].
+  std::vector<Real> drifts_;
+  std::vector<Real> particleDrifts_;   // scratch
+  std::vector<std::uint8_t> leftOut_;  // blocks that were surely flat then
   List near_, flat_;
   bool hasFlat_ = false;  // flat_ is of these covers
 };

@@ -1,6 +1,7 @@
 #include "solver/cpu/surface_contact.h"
 
 #include <atomic>
+#include <cmath>
 
 #include "core/thread_team.h"
 #include "solver/cpu/implicit_contact.h"
@@ -67,9 +68,9 @@ void SurfaceContact<Real>::boxParticles(const Components<Real>& starts, Real aro
 }
 
 template <class Real>
-void SurfaceContact<Real>::listNear(const Components<Real>& starts) {
+void SurfaceContact<Real>::listNear(const Components<Real>& starts, Real around) {
   const Vec3<Real> origin = meanOf(starts);
-  nearParts_.update(surface_, boxes_, origin, origin + meanOf(motions_),
+  nearParts_.update(surface_, boxes_, origin, origin + meanOf(motions_), around,
                     static_cast<Real>(MORE_THAN_NEAR) * surface_.margin, flatBlocks_);
 }
 
@@ -79,22 +80,40 @@ void SurfaceContact<Real>::findFlat(const Components<Real>& starts, const Compon
   flatBlocks_.update(surface_, starts, ends, reach, static_cast<Real>(SURELY_FLAT) * surface_.touchingReach);
 }
 
+// How far two particles of a pair of parts may move towards each other, at most.
+template <class Real>
+Real SurfaceContact<Real>::movingOf(const Parts& parts) const {
+  const Vec3<Real> first = at(motions_, parts.particles[0]);
+  Real squared = 0;
+  for (const std::uint32_t i : parts.particles) {
+    const Vec3<Real> motion = at(motions_, i) - first;
+    squared = larger(squared, dot(motion, motion));
+  }
+  return Real(2) * std::sqrt(squared);
+}
+
 // test(parts, nearest) for the pairs of parts that a triangle looks for: their boxes meet, and the cloth is
-// not flat there, or flat parts are looked at, too. test() says whether to go on.
+// not flat there, or flat parts are looked at, too. Those that stay farther apart than `reach` in the motion
+// may be left out. test() says whether to go on.
 template <class Real>
 template <bool looksAtFlat, class Test>
-void SurfaceContact<Real>::forEachPair(std::uint32_t triangle, const Components<Real>& starts,
-                                       Test test) const {
-  const auto visit = [&](const Parts& parts) {
-    if (!overlap(boxes_.triangles[parts.first], boxes_.triangles[parts.second]) || !boxes_.meet(parts))
+void SurfaceContact<Real>::forEachPair(std::uint32_t triangle, const Components<Real>& starts, Real reach,
+                                       Test test) {
+  const auto visit = [&](const Parts& parts, Real& apart) {
+    if (!overlap(boxes_.triangles[parts.first], boxes_.triangles[parts.second]) || !boxes_.meet(parts)) {
+      // Boxes of half the reach do not meet: those of a smaller one will not, for a while.
+      if constexpr (!looksAtFlat) apart = larger(apart, nearParts_.apartIn(parts, reach, Real(0)));
       return true;
+    }
     if constexpr (!looksAtFlat)
       if (flatBlocks_.areFlat(surface_, triangle, parts.first == triangle ? parts.second : parts.first))
         return true;
-    return test(parts, nearestOf<Real>(parts, starts));
+    const auto nearest = nearestOf<Real>(parts, starts);
+    apart = nearParts_.apartIn(parts, lengthOf(nearest.way), movingOf(parts));
+    return test(parts, nearest);
   };
-  nearParts_.forEachPair(surface_, triangle, visit);
-  if constexpr (looksAtFlat) nearParts_.forEachFlatPair(surface_, triangle, visit);
+  nearParts_.forEachPair(surface_, triangle, reach, visit);
+  if constexpr (looksAtFlat) nearParts_.forEachFlatPair(surface_, triangle, reach, visit);
 }
 
 template <class Real>
@@ -117,7 +136,7 @@ void SurfaceContact<Real>::findTouching(const CpuState<Real>& before, ImplicitSt
   if (mayTouchItself) {
     boxParticles(starts, surface_.around);
     boxes_.joinTriangles(surface_);
-    listNear(starts);
+    listNear(starts, surface_.around);
   }
   foundPairs_.resize(chunks);
   ThreadTeam::shared().forEach(0, chunks, 1, [&](std::uint32_t chunk) {
@@ -128,7 +147,7 @@ void SurfaceContact<Real>::findTouching(const CpuState<Real>& before, ImplicitSt
     for (std::uint32_t i = first; i < std::min(first + NearParts<Real>::TRIANGLES, triangles); ++i) {
       const std::size_t most = found.size() + MOST_PAIRS_A_TRIANGLE;
       if (mayTouchItself)
-        forEachPair<false>(i, starts, [&](const Parts& parts, const auto& nearest) {
+        forEachPair<false>(i, starts, surface_.touchingReach, [&](const Parts& parts, const auto& nearest) {
           const SurfacePair<Real> pair = pairOf(surface_, parts, nearest, starts, implicit, isLater);
           if (pair.stiffness > Real(0)) found.push_back(pair);
           return found.size() <= most;
@@ -275,9 +294,10 @@ void SurfaceContact<Real>::guard(const CpuState<Real>& before, CpuState<Real>& a
   if (round == CORRECTION_ROUNDS + 1)
     for (auto* boxes : {&boxes_.particles, &boxes_.triangles})
       for (MovingBounds<Real>& box : *boxes) box = atAnyTime(box);
-  if (round <= CORRECTION_ROUNDS + 1) listNear(starts);
+  if (round <= CORRECTION_ROUNDS + 1) listNear(starts, surface_.leastGap);
   if (looksAtFlat) nearParts_.listFlat(surface_);
   const bool corrects = round < CORRECTION_ROUNDS, all = round + 1 == GUARD_ROUNDS;
+  const Real reach = all ? static_cast<Real>(LARGE_SQUARE) : surface_.leastGap;
   const auto look = [&](const Parts& parts, const auto& nearest) {
     const Sides sides = sidesOf(parts, nearest.way, starts);
     const Real width = larger(widthOf(sides), Real(0)),
@@ -294,7 +314,7 @@ void SurfaceContact<Real>::guard(const CpuState<Real>& before, CpuState<Real>& a
     return true;
   };
   ThreadTeam::shared().forEach(0, triangles, NearParts<Real>::TRIANGLES, [&](std::uint32_t i) {
-    looksAtFlat ? forEachPair<true>(i, starts, look) : forEachPair<false>(i, starts, look);
+    looksAtFlat ? forEachPair<true>(i, starts, reach, look) : forEachPair<false>(i, starts, reach, look);
   });
   if (corrects)
     correct(after, step, inverseMasses);

@@ -45,10 +45,11 @@ class SurfaceContact {
   };
 
   void boxParticles(const Components<Real>& starts, Real around);
-  void listNear(const Components<Real>& starts);
+  void listNear(const Components<Real>& starts, Real around);
   void findFlat(const Components<Real>& starts, const Components<Real>& ends, Real reach);
+  [[nodiscard]] Real movingOf(const Parts& parts) const;
   template <bool looksAtFlat, class Test>
-  void forEachPair(std::uint32_t triangle, const Components<Real>& starts, Test test) const;
+  void forEachPair(std::uint32_t triangle, const Components<Real>& starts, Real reach, Test test);
   void findTouching(const CpuState<Real>& before, ImplicitState<Real>& implicit,
                     const PassArguments<Real>& arguments);
   void settle(const CpuState<Real>& before, const CpuState<Real>& after, ImplicitState<Real>& implicit);

@@ -81,11 +81,11 @@ cpu::FlatBlocks<float> flatBlocks(const ClothSurface<float>& surface, const Stat
 constexpr float FAR = 1e3f;  // nothing is so flat that parts are farther apart [m]
 
 // The parts of a triangle whose boxes meet, by their numbers: where the cloth is not flat, or all.
-std::vector<std::uint32_t> meetingParts(const ClothSurface<float>& surface, const cpu::NearParts<float>& near,
+std::vector<std::uint32_t> meetingParts(const ClothSurface<float>& surface, cpu::NearParts<float>& near,
                                         std::uint32_t triangle, const cpu::SurfaceBoxes<float>& boxes,
                                         const cpu::FlatBlocks<float>* flat) {
   std::vector<std::uint32_t> found;
-  near.forEachPair(surface, triangle, [&](const cpu::Parts& parts) {
+  near.forEachPair(surface, triangle, FAR, [&](const cpu::Parts& parts, float&) {
     const std::uint32_t other = parts.first == triangle ? parts.second : parts.first;
     if (boxes.meet(parts) && (flat == nullptr || !flat->areFlat(surface, triangle, other)))
       found.insert(found.end(), {parts.first, parts.second, parts.k, parts.l});
@@ -97,10 +97,10 @@ std::vector<std::uint32_t> meetingParts(const ClothSurface<float>& surface, cons
 struct FlatParts {
   std::size_t listed = 0, meeting = 0;
 };
-FlatParts countFlatParts(const ClothSurface<float>& surface, const cpu::NearParts<float>& near,
+FlatParts countFlatParts(const ClothSurface<float>& surface, cpu::NearParts<float>& near,
                          std::uint32_t triangle, const cpu::SurfaceBoxes<float>& boxes) {
   FlatParts count;
-  near.forEachFlatPair(surface, triangle, [&](const cpu::Parts& parts) {
+  near.forEachFlatPair(surface, triangle, FAR, [&](const cpu::Parts& parts, float&) {
     ++count.listed;
     count.meeting += boxes.meet(parts) ? 4 : 0;
     return true;
@@ -132,10 +132,10 @@ TEST(NearParts, AreThoseOfANewListWhileTheListIsKept) {
     }
     const auto boxes = boxesAround(surface, state);
     const auto flat = flatBlocks(surface, state, surface.touchingReach);
-    made += kept.update(surface, boxes, origin, origin, surface.margin, flat) ? 1 : 0;
+    made += kept.update(surface, boxes, origin, origin, surface.around, surface.margin, flat) ? 1 : 0;
     kept.listFlat(surface);
     cpu::NearParts<float> fresh;
-    ASSERT_TRUE(fresh.update(surface, boxes, {}, {}, 0, flatBlocks(surface, state, FAR)));
+    ASSERT_TRUE(fresh.update(surface, boxes, {}, {}, surface.around, 0, flatBlocks(surface, state, FAR)));
     for (std::uint32_t i = 0; i < surface.triangles.size(); ++i) {
       const auto expected = meetingParts(surface, fresh, i, boxes, &flat);
       ASSERT_EQ(meetingParts(surface, kept, i, boxes, &flat), expected) << "triangle " << i << " at " << part;
@@ -152,6 +152,62 @@ TEST(NearParts, AreThoseOfANewListWhileTheListIsKept) {
   EXPECT_GT(flatParts, 1000u);
 }
 
+// A list leaves out what it knows to be far apart, and nothing that has come near since.
+TEST(NearParts, AreLookedAtAgainOnceTheyMayBeNear) {
+  const Scene scene = fallingSheet(13);
+  const Cloth cloth(scene);
+  const auto surface = makeSurface<float>(cloth, scene, {});
+  const State state = after(scene, 45);
+  const float reach = 0.1f * surface.margin;
+  cpu::NearParts<float> near;
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> part(-1, 1);
+  std::size_t visits = 0, firstVisits = 0, nearOnes = 0;
+  for (int round = 0; round < 40; ++round) {
+    // Particles drift, some of them farther, and the sheet as a whole.
+    const float most = 0.01f * static_cast<float>(round) * surface.margin;
+    const Vec3f origin{0.1f * static_cast<float>(round), 0, 0};
+    State moved = state;
+    for (auto& x : moved.positions) {
+      const float drift = part(random) < 0.5f ? 0.1f * most : most;
+      x = {x.x + origin.x + drift * part(random), x.y + drift * part(random), x.z + drift * part(random), 0};
+    }
+    const auto boxes = boxesAround(surface, moved);
+    const bool isMade = near.update(surface, boxes, origin, origin, surface.around, surface.margin,
+                                    flatBlocks(surface, moved, 1e-6f));
+    EXPECT_EQ(isMade, round == 0);
+    const auto wayOf = [&](const cpu::Parts& parts) {
+      Vec3f x[4];
+      for (std::size_t k = 0; k < 4; ++k) x[k] = vectorOf(moved.positions[parts.particles[k]]).cast<float>();
+      return cpu::SurfaceLaws<float>::nearestParts(parts.areSides, x[0], x[1], x[2], x[3]).way;
+    };
+    for (std::uint32_t i = 0; i < surface.triangles.size(); ++i) {
+      std::size_t visited = 0, found = 0, expected = 0;
+      const auto isNear = [&](const cpu::Parts& parts) {
+        const Vec3f way = wayOf(parts);
+        return dot(way, way) < reach * reach;
+      };
+      near.forEachPair(surface, i, reach, [&](const cpu::Parts& parts, float& apart) {
+        ++visited;
+        found += isNear(parts) ? 1 : 0;
+        const Vec3f way = wayOf(parts);
+        apart = near.apartIn(parts, std::sqrt(dot(way, way)), 0);
+        return true;
+      });
+      near.forEachPair(surface, i, 1e18f, [&](const cpu::Parts& parts, float&) {
+        expected += isNear(parts) ? 1 : 0;
+        return true;
+      });
+      ASSERT_EQ(found, expected) << "triangle " << i << " in round " << round;
+      nearOnes += expected;
+      visits += visited;
+      firstVisits += round == 0 ? visited : 0;
+    }
+  }
+  EXPECT_GT(nearOnes, 100u);
+  EXPECT_LT(visits, 20 * firstVisits);
+}
+
 TEST(NearParts, AreFoundWhereListsWouldBeTooLong) {
   const Scene scene = fallingSheet(13);
   const Cloth cloth(scene);
@@ -160,7 +216,7 @@ TEST(NearParts, AreFoundWhereListsWouldBeTooLong) {
   for (auto& x : state.positions) x = {0.01f * x.x, 0.01f * x.y, 0.01f * x.z, 0};  // all near all
   cpu::SurfaceBoxes<float> boxes = boxesAround(surface, state);
   cpu::NearParts<float> near;
-  near.update(surface, boxes, {}, {}, surface.margin, flatBlocks(surface, state, FAR));
+  near.update(surface, boxes, {}, {}, surface.around, surface.margin, flatBlocks(surface, state, FAR));
   cpu::SurfaceSearch<float>::growTree(surface, boxes.triangles);
   const cpu::SurfaceSearch<float> search{surface, boxes.triangles};
   std::size_t all = 0;
