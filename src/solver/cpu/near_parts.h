@@ -88,7 +88,7 @@ class NearParts {
     const std::uint32_t chunk = triangle / TRIANGLES;
     if (list.isTooLong[chunk] != 0) {
       bool goesOn = true;
-      Real notKept;
+      Real notKept = 0;
       SurfaceSearch<Real>{surface, covers_.triangles}.forEachPair(triangle, covers_, [&](const Parts& parts) {
         goesOn = goesOn && (!belongs(parts) || visit(parts, notKept));
       });
