@@ -42,11 +42,13 @@ void NearParts<Real>::findDrifts(const ClothSurface<Real>& surface,
                                  Four<Real> shiftAtEnd, Real around) {
   const Four<Real> within{around, around, around, Real(0)};
   const Four<Real> rounding = Four<Real>{} + Real(8) * std::numeric_limits<Real>::epsilon();
+  const auto largerOf = [](Four<Real> a, Four<Real> b) { return a < b ? b : a; };
   const auto drift = [&](const Bounds<Real>& box, const Bounds<Real>& cover, Four<Real> moved) {
     const Four<Real> middle = Real(0.5) * (cover.low + cover.high),
                      above = ((box.high - moved) - within) - middle,
-                     below = middle - ((box.low - moved) + within), minus = Four<Real>{} - cover.low;
-    return (above < below ? below : above) + rounding * (minus < cover.high ? cover.high : minus);
+                     below = middle - ((box.low - moved) + within);
+    return largerOf(above, below) +
+           rounding * (largerOf(cover.high, -cover.low) + largerOf(box.high, -box.low));
   };
   constexpr Real ofAll = static_cast<Real>(3 * 1.74);  // start, and start and end, along the diagonal
   particleDrifts_.resize(particles.size());
@@ -54,7 +56,7 @@ void NearParts<Real>::findDrifts(const ClothSurface<Real>& surface,
       0, static_cast<std::uint32_t>(particles.size()), BOXES_AT_ONCE, [&](std::uint32_t i) {
         const Four<Real> start = drift(particles[i].start, covers_.particles[i].start, shift),
                          end = drift(particles[i].end, covers_.particles[i].end, shiftAtEnd);
-        const Four<Real> most = start < end ? end : start;
+        const Four<Real> most = largerOf(start, end);
         particleDrifts_[i] = ofAll * std::max({most[0], most[1], most[2]});
       });
   drifts_.resize(surface.triangles.size());

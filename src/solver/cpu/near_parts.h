@@ -105,9 +105,9 @@ class NearParts {
   SurfaceBoxes<Real> covers_;                     // its triangles are those of a tree
   std::vector<FourMovingBounds<Real>> children_;  // triangles, by their box in the tree
   Vec3<Real> origin_{}, originAtEnd_{};           // when they were made
-  // How much nearer than then a triangle may be to another one at the end of the motion: it has come nearer
-  // by as much as its corners have drifted, and its motion is another one by as much as start and end have
-  // [m].
+  // Of a triangle, by how much its distance to another one may have fallen since [m]: its corners have
+  // drifted at the start of the motion, and the motion differs by what they have drifted at its start and
+  // end.
   std::vector<Real> drifts_;
   std::vector<Real> particleDrifts_;   // scratch
   std::vector<std::uint8_t> leftOut_;  // blocks that were surely flat then
