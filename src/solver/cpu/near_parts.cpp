@@ -34,8 +34,8 @@ bool NearParts<Real>::covers(const std::vector<MovingBounds<Real>>& particles, F
   return all;
 }
 
-// By how far particles are from the middle of their covers, wherever in their boxes they are, and what
-// rounding may hide.
+// From how far particles may be from the middle of their covers, wherever in their boxes they are, with what
+// rounding may hide of it.
 template <class Real>
 void NearParts<Real>::findDrifts(const ClothSurface<Real>& surface,
                                  const std::vector<MovingBounds<Real>>& particles, Four<Real> shift,
@@ -50,14 +50,14 @@ void NearParts<Real>::findDrifts(const ClothSurface<Real>& surface,
     return largerOf(above, below) +
            rounding * (largerOf(cover.high, -cover.low) + largerOf(box.high, -box.low));
   };
-  constexpr Real ofAll = static_cast<Real>(3 * 1.74);  // start, and start and end, along the diagonal
+  constexpr Real diagonal = static_cast<Real>(1.74);  // of a cube
   particleDrifts_.resize(particles.size());
   ThreadTeam::shared().forEach(
       0, static_cast<std::uint32_t>(particles.size()), BOXES_AT_ONCE, [&](std::uint32_t i) {
         const Four<Real> start = drift(particles[i].start, covers_.particles[i].start, shift),
                          end = drift(particles[i].end, covers_.particles[i].end, shiftAtEnd);
         const Four<Real> most = largerOf(start, end);
-        particleDrifts_[i] = ofAll * std::max({most[0], most[1], most[2]});
+        particleDrifts_[i] = Real(3) * diagonal * std::max({most[0], most[1], most[2]});
       });
   drifts_.resize(surface.triangles.size());
   ThreadTeam::shared().forEach(

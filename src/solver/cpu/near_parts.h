@@ -26,10 +26,9 @@ class NearParts {
               Vec3<Real> originAtEnd, Real around, Real more, const FlatBlocks<Real>& flat);
   // Lists those where the cloth is surely flat, too, if update() has made new lists since.
   void listFlat(const ClothSurface<Real>& surface);
-  // visit(parts, apart) for those of a triangle in the order of the tree, until it says no. Among them are
-  // all whose boxes meet where the cloth is not flat, without those that surely stay farther apart than
-  // `reach` in the motion [m]. Where visit() learns how far apart parts stay, it sets `apart` to their
-  // apartIn().
+  // visit(parts, apart) for those of a triangle in the order of the tree, until it says no: all whose boxes
+  // meet where the cloth is not flat, and some others. Those are left out of which the motion surely leaves
+  // more than `reach` [m]. visit() may set `apart` to apartIn() of what it leaves; until then it is negative.
   template <class Visit>
   void forEachPair(const ClothSurface<Real>& surface, std::uint32_t triangle, Real reach, Visit visit) {
     forEachIn(near_, surface, triangle, reach, visit,
@@ -41,18 +40,17 @@ class NearParts {
     forEachIn(flat_, surface, triangle, reach, visit,
               [&](const Parts& parts) { return isLeftOut(surface, parts); });
   }
-  // What surely is left between parts of this distance [m], of which no two particles move towards each other
-  // by more than `moving` [m], had no particle drifted since the list was made.
-  [[nodiscard]] Real apartIn(const Parts& parts, Real distance, Real moving) const {
-    return (static_cast<Real>(0.99) * distance - static_cast<Real>(1.01) * moving) -
-           (drifts_[parts.first] + drifts_[parts.second]);
+  // Of parts of which a motion surely leaves this distance: what any motion leaves while the list is kept,
+  // but for what their triangles drift in it [m].
+  [[nodiscard]] Real apartIn(const Parts& parts, Real left) const {
+    return left - (drifts_[parts.first] + drifts_[parts.second]);
   }
 
   static constexpr std::uint32_t TRIANGLES = 64;        // that a thread takes at once
   static constexpr std::size_t MOST = 128 * TRIANGLES;  // pairs that are listed for them
 
  private:
-  // The other triangle of a pair of parts, and their apartIn(); less than 0 where it is not known.
+  // The other triangle of a pair of parts, and their apartIn(): all that is read of pairs that are left out.
   struct Apart {
     std::uint32_t other;
     Real distance;
@@ -105,9 +103,8 @@ class NearParts {
   SurfaceBoxes<Real> covers_;                     // its triangles are those of a tree
   std::vector<FourMovingBounds<Real>> children_;  // triangles, by their box in the tree
   Vec3<Real> origin_{}, originAtEnd_{};           // when they were made
-  // Of a triangle, by how much its distance to another one may have fallen since [m]: its corners have
-  // drifted at the start of the motion, and the motion differs by what they have drifted at its start and
-  // end.
+  // By how much less than then a motion may leave of a triangle's distance to another one [m]: its corners
+  // start elsewhere, and move otherwise by how far elsewhere they start and end.
   std::vector<Real> drifts_;
   std::vector<Real> particleDrifts_;   // scratch
   std::vector<std::uint8_t> leftOut_;  // blocks that were surely flat then

@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cmath>
+#include <limits>
 
 #include "core/thread_team.h"
 #include "solver/cpu/implicit_contact.h"
@@ -80,37 +81,42 @@ void SurfaceContact<Real>::findFlat(const Components<Real>& starts, const Compon
   flatBlocks_.update(surface_, starts, ends, reach, static_cast<Real>(SURELY_FLAT) * surface_.touchingReach);
 }
 
-// How far two particles of a pair of parts may move towards each other, at most.
+// What the motion surely leaves of the distance of two parts, across any plane that separates them by it at
+// the start.
 template <class Real>
-Real SurfaceContact<Real>::movingOf(const Parts& parts) const {
+Real SurfaceContact<Real>::leftOf(Real distance, const Parts& parts) const {
   const Vec3<Real> first = at(motions_, parts.particles[0]);
   Real squared = 0;
   for (const std::uint32_t i : parts.particles) {
     const Vec3<Real> motion = at(motions_, i) - first;
     squared = larger(squared, dot(motion, motion));
   }
-  return Real(2) * std::sqrt(squared);
+  constexpr Real rounding = static_cast<Real>(0.01);
+  return (Real(1) - rounding) * distance - (Real(1) + rounding) * (Real(2) * std::sqrt(squared));
 }
 
 // test(parts, nearest) for the pairs of parts that a triangle looks for: their boxes meet, and the cloth is
-// not flat there, or flat parts are looked at, too. Those that stay farther apart than `reach` in the motion
-// may be left out. test() says whether to go on.
+// not flat there, or flat parts are looked at, too. Pairs are left out of which the motion surely leaves more
+// than `reach`. test() says whether to go on.
 template <class Real>
 template <bool looksAtFlat, class Test>
 void SurfaceContact<Real>::forEachPair(std::uint32_t triangle, const Components<Real>& starts, Real reach,
                                        Test test) {
   const auto visit = [&](const Parts& parts, Real& apart) {
     if (!overlap(boxes_.triangles[parts.first], boxes_.triangles[parts.second]) || !boxes_.meet(parts)) {
-      // Boxes of half the reach do not meet: those of a smaller one will not, for a while.
-      if constexpr (!looksAtFlat) apart = larger(apart, nearParts_.apartIn(parts, reach, Real(0)));
+      // Of parts that may touch, these boxes reach half as far. The guard's triangles may have older ones.
+      if (reach == surface_.touchingReach && apart < Real(0))
+        apart = nearParts_.apartIn(parts, leftOf(reach, parts));
       return true;
     }
     if constexpr (!looksAtFlat)
       if (flatBlocks_.areFlat(surface_, triangle, parts.first == triangle ? parts.second : parts.first))
         return true;
     const auto nearest = nearestOf<Real>(parts, starts);
-    apart = nearParts_.apartIn(parts, lengthOf(nearest.way), movingOf(parts));
-    return test(parts, nearest);
+    const Real left = leftOf(lengthOf(nearest.way), parts);
+    apart = nearParts_.apartIn(parts, left);
+    // Where flat parts are looked at, some may keep less of their motion than others.
+    return (!looksAtFlat && reach < left) || test(parts, nearest);
   };
   nearParts_.forEachPair(surface_, triangle, reach, visit);
   if constexpr (looksAtFlat) nearParts_.forEachFlatPair(surface_, triangle, reach, visit);
@@ -297,7 +303,7 @@ void SurfaceContact<Real>::guard(const CpuState<Real>& before, CpuState<Real>& a
   if (round <= CORRECTION_ROUNDS + 1) listNear(starts, surface_.leastGap);
   if (looksAtFlat) nearParts_.listFlat(surface_);
   const bool corrects = round < CORRECTION_ROUNDS, all = round + 1 == GUARD_ROUNDS;
-  const Real reach = all ? static_cast<Real>(LARGE_SQUARE) : surface_.leastGap;
+  const Real reach = all ? std::numeric_limits<Real>::infinity() : surface_.leastGap;
   const auto look = [&](const Parts& parts, const auto& nearest) {
     const Sides sides = sidesOf(parts, nearest.way, starts);
     const Real width = larger(widthOf(sides), Real(0)),

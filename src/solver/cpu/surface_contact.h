@@ -47,7 +47,7 @@ class SurfaceContact {
   void boxParticles(const Components<Real>& starts, Real around);
   void listNear(const Components<Real>& starts, Real around);
   void findFlat(const Components<Real>& starts, const Components<Real>& ends, Real reach);
-  [[nodiscard]] Real movingOf(const Parts& parts) const;
+  [[nodiscard]] Real leftOf(Real distance, const Parts& parts) const;
   template <bool looksAtFlat, class Test>
   void forEachPair(std::uint32_t triangle, const Components<Real>& starts, Real reach, Test test);
   void findTouching(const CpuState<Real>& before, ImplicitState<Real>& implicit,

@@ -1,7 +1,5 @@
 #include "solver/cpu/surface_pairs.h"
 
-#include <cmath>
-
 #include "core/thread_team.h"
 #include "solver/cpu/implicit_contact.h"
 
@@ -86,30 +84,12 @@ SurfacePair<Real> pairAt(const ClothSurface<Real>& surface, const Parts& parts,
   return pair;
 }
 
-// Whether parts are surely too far apart for a pair, at the start and at the predicted end: most of those
-// whose boxes meet. The GPU finds the same out by the pair itself.
-template <class Real>
-bool staysFar(const ClothSurface<Real>& surface, const Parts& parts, Vec3<Real> way,
-              const ImplicitState<Real>& implicit) {
-  const Vec3<Real> first = at(implicit.displacements, parts.particles[0]);
-  Real radius = 0, squaredMotion = 0;
-  for (const std::uint32_t i : parts.particles) {
-    const Vec3<Real> motion = at(implicit.displacements, i) - first;
-    radius = larger(radius, surface.points[i].radius);
-    squaredMotion = larger(squaredMotion, dot(motion, motion));
-  }
-  constexpr Real rounding = static_cast<Real>(1.01);
-  const Real far = rounding * (Real(2) * (radius + std::sqrt(squaredMotion)) + surface.margin);
-  return far * far < dot(way, way);
-}
-
 }  // namespace
 
 template <class Real>
 SurfacePair<Real> pairOf(const ClothSurface<Real>& surface, const Parts& parts,
                          const typename SurfaceLaws<Real>::NearestParts& nearest, const Components<Real>& x,
                          const ImplicitState<Real>& implicit, bool isLater) {
-  if (staysFar(surface, parts, nearest.way, implicit)) return {};
   if (isLater) return pairAt(surface, parts, nearest, x, implicit, true);
   Vec3<Real> before[4], after[4];
   for (std::size_t k = 0; k < 4; ++k) {

@@ -176,26 +176,23 @@ TEST(NearParts, AreLookedAtAgainOnceTheyMayBeNear) {
     const bool isMade = near.update(surface, boxes, origin, origin, surface.around, surface.margin,
                                     flatBlocks(surface, moved, 1e-6f));
     EXPECT_EQ(isMade, round == 0);
-    const auto wayOf = [&](const cpu::Parts& parts) {
+    const auto distanceOf = [&](const cpu::Parts& parts) {
       Vec3f x[4];
       for (std::size_t k = 0; k < 4; ++k) x[k] = vectorOf(moved.positions[parts.particles[k]]).cast<float>();
-      return cpu::SurfaceLaws<float>::nearestParts(parts.areSides, x[0], x[1], x[2], x[3]).way;
+      const Vec3f way = cpu::SurfaceLaws<float>::nearestParts(parts.areSides, x[0], x[1], x[2], x[3]).way;
+      return std::sqrt(dot(way, way));
     };
     for (std::uint32_t i = 0; i < surface.triangles.size(); ++i) {
       std::size_t visited = 0, found = 0, expected = 0;
-      const auto isNear = [&](const cpu::Parts& parts) {
-        const Vec3f way = wayOf(parts);
-        return dot(way, way) < reach * reach;
-      };
       near.forEachPair(surface, i, reach, [&](const cpu::Parts& parts, float& apart) {
+        const float distance = distanceOf(parts);
         ++visited;
-        found += isNear(parts) ? 1 : 0;
-        const Vec3f way = wayOf(parts);
-        apart = near.apartIn(parts, std::sqrt(dot(way, way)), 0);
+        found += distance < reach ? 1 : 0;
+        apart = near.apartIn(parts, distance);
         return true;
       });
-      near.forEachPair(surface, i, 1e18f, [&](const cpu::Parts& parts, float&) {
-        expected += isNear(parts) ? 1 : 0;
+      near.forEachPair(surface, i, FAR, [&](const cpu::Parts& parts, float&) {
+        expected += distanceOf(parts) < reach ? 1 : 0;
         return true;
       });
       ASSERT_EQ(found, expected) << "triangle " << i << " in round " << round;
