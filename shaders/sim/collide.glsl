@@ -124,6 +124,19 @@ Contact findContact(ColliderParams collider, vec3 previous, vec3 x) {
   return shapeContact(collider, previous, x);
 }
 
+// Of a place that touches nothing: how it would if the surface were there.
+Contact nearContact(ColliderParams collider, Contact contact, vec3 place) {
+  if (hasType(COLLIDER_SPHERE) && collider.type == COLLIDER_SPHERE) return contact;
+  if (!hasShapes || collider.type == COLLIDER_PLANE) {
+    if (!hasCoulombFriction && contact.depth > 0.0) contact.normal = -contact.normal;  // CS184's plane has two sides
+    return contact;
+  }
+  Nearest nearest = nearestOnShape(collider, toOwnFrame(collider, place));
+  vec3 normal = toWorld(collider, nearest.normal);
+  precise vec3 outward = (-nearest.distance) * normal;
+  return Contact(false, outward, normal, -nearest.distance);
+}
+
 // What friction takes of the way to the surface. CS184: a share. Coulomb: of the way along the surface, friction times the
 // depth that the contact pushed the particle out.
 vec3 takenByFriction(ColliderParams collider, Contact contact, vec3 way) {

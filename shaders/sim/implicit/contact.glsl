@@ -55,7 +55,11 @@ float frictionPotential(vec3 slip, float slow) {
   return len < slow ? rising : full;
 }
 float slowSlip() {
-  precise float slow = uintBitsToFloat(0x3c23d70au) * step.timeStep;  // SLOW_SLIP
+  precise float slow = SLOW_SLIP * step.timeStep;
+  return slow;
+}
+float slowSlipOfPairs() {
+  precise float slow = uintBitsToFloat(0x3c23d70au) * step.timeStep;  // SLOW_SLIP_OF_PAIRS
   return slow;
 }
 

@@ -1,7 +1,7 @@
 // What colliders the iterate is in: the planes in which particles touch them. Where several are touched, the last of the
-// scene's counts; what touches nothing keeps its plane. With PREDICTS, particles that touch nothing there get the planes where
-// inertia and gravity alone would take them, from where the velocities take them; and it is said whether what touches is not
-// what touched before.
+// scene's counts; what touches nothing keeps its plane. With PREDICTS, from where the velocities take them, particles that
+// touch nothing there get the planes where inertia and gravity alone would take them, or else that of the first collider that
+// is as near as a solved step may be wrong; and it is said whether what touches is not what touched before.
 #include "shared/implicit.h"
 #include "sim/implicit/scalars.glsl"
 #include "sim/implicit/common.glsl"
@@ -14,19 +14,25 @@
 layout(std430, binding = CONTACT_PLANES_BINDING) writeonly buffer Planes { vec4 newPlanes[]; };
 vec4 plane = vec4(0.0), carry = vec4(0.0);
 bool touches = false;
+bool hasPlane() { return sumOfProducts(plane.xyz, plane.xyz) > 0.0; }
 
-void findPlanesAt(vec4 start, vec3 place) {
+void findPlanesAt(vec4 start, vec3 place, float margin) {
   for (uint k = 0u; k < step.colliderCount && start.w != 0.0; ++k) {
     ColliderParams collider = loadCollider(step.firstCollider + k);
     vec3 previous = carried(collider, start.xyz);
     Contact contact = findContact(collider, previous, place);
-    if (!contact.touches) continue;
-    vec3 normal = contact.depth < 0.0 ? -contact.normal : contact.normal;  // a plane may be met from below
+    if (!contact.touches) {
+      if (margin == 0.0 || hasPlane()) continue;
+      contact = nearContact(collider, contact, place);
+      if (!(abs(contact.depth) < margin)) continue;
+    }
+    bool isFromBelow = contact.touches && contact.depth < 0.0;  // a plane may be met from there
+    vec3 normal = isFromBelow ? -contact.normal : contact.normal;
     precise vec3 reach = (place - start.xyz) + contact.outward;
     precise float offset = sumOfProducts(normal, reach);
     precise vec3 carriedBy = previous - start.xyz;
     plane = vec4(normal, offset);
-    touches = true;
+    touches = touches || contact.touches;
     carry = vec4(carriedBy, hasCoulombFriction ? collider.friction : 0.0);
   }
 }
@@ -41,14 +47,15 @@ void main() {
   precise vec3 guess = start.xyz + step.guessTime * (v + step.timeStep * vec3(step.gravityX, step.gravityY, step.gravityZ));
   precise vec3 way = step.timeStep * v;
   precise vec3 place = start.xyz + canonical(way);
-  for (int turn = 0; turn < 2; ++turn) findPlanesAt(start, turn == 0 ? guess : canonical(place));
+  precise float margin = step.tolerance * step.leastMotion;
+  for (int turn = 0; turn < 3; ++turn) findPlanesAt(start, turn == 0 ? guess : canonical(place), turn == 2 ? margin : 0.0);
 #if HAS_HISTORY
   vec3 held = contactBlockAt(p.index).diagonal;
   precise float trace = (held.x + held.y) + held.z;
-  if (touches != (trace > 0.0)) atomicOr(scalars.hasNewContacts, 1u);
+  if (trace > 0.0 ? !hasPlane() : touches) atomicOr(scalars.hasNewContacts, 1u);
 #endif
 #else
-  findPlanesAt(start, iterateAt(p.index).xyz);
+  findPlanesAt(start, iterateAt(p.index).xyz, 0.0);
   if (!touches) return;
 #endif
   newPlanes[2u * p.index] = plane;

@@ -72,11 +72,7 @@ void addContact(uint i, float diagonal, vec3 d, inout vec3 residual, inout Symme
   float own = sumOfProducts(normal, timesVector(block, normal));
   precise float push = own * over - sumOfProducts(normal, residual);
   bool hasPlane = sumOfProducts(normal, normal) > 0.0, presses = hasPlane && push > 0.0;
-  bool isPredicted = hasPlane && scalars.newtonSteps == 0u;
-#if HAS_SURFACE
-  isPredicted = isPredicted && !mayTouchCloth(i);
-#endif
-  bool holds = presses || isPredicted || (hasPlane && over > 0.0);
+  bool holds = presses || (hasPlane && over > 0.0);
   float stiffness = holds ? contactStiffness(diagonal) : 0.0;
   precise float both = stiffness + own;
   precise float carried = push * (stiffness * reciprocal(both));

@@ -29,10 +29,8 @@ Touch touchAt(ColliderParams collider, vec3 start, vec3 place) {
   vec3 previous = carried(collider, start);
   precise vec3 carry = previous - start;
   Contact contact = findContact(collider, previous, place);
-  bool tellsAll = collider.type == COLLIDER_SPHERE || collider.type == COLLIDER_PLANE;
-  if (contact.touches || tellsAll || !hasShapes) return Touch(contact.normal, contact.depth, carry);
-  Nearest nearest = nearestOnShape(collider, toOwnFrame(collider, place));
-  return Touch(toWorld(collider, nearest.normal), -nearest.distance, carry);
+  if (!contact.touches) contact = nearContact(collider, contact, place);
+  return Touch(contact.normal, contact.depth, carry);
 }
 
 // Where a triangle meets a collider, as a point of the cloth.

@@ -13,11 +13,3 @@ uvec2 pairsOf(uint i) {
   return uvec2(firstPairOf(i), end);
 }
 uint pairEntry(uint k) { return texelFetch(pairEntries, int(k)).x; }
-
-// Whether some pair of a particle is not with a small collider.
-bool mayTouchCloth(uint i) {
-  uvec2 range = pairsOf(i);
-  for (uint k = range.x; k < range.y; ++k)
-    if (!(pairRow(pairEntry(k) / 4u, 2u).y < 0.0)) return true;
-  return false;
-}

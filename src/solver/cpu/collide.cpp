@@ -378,9 +378,25 @@ INLINE void collideRow(const PassArguments<Real>& arguments, int row) {
 
 }  // namespace
 
+// Of a place that touches nothing: how it would if the surface were there.
+template <std::uint32_t type, class Real>
+INLINE Contact<Real> nearContact(const ColliderParams<Real>& collider, const Contact<Real>& contact,
+                                 Vec3<Real> place, const float* distances) {
+  if constexpr (type == COLLIDER_SPHERE) {
+    return contact;
+  } else if constexpr (type == COLLIDER_PLANE) {
+    const bool isBelow = collider.coulomb == 0 && contact.depth > Real(0);  // CS184's plane has two sides
+    return {false, contact.outward, isBelow ? Real(-1) * contact.normal : contact.normal, contact.depth};
+  } else {
+    const Nearest<Real> nearest = nearestOnShape<type>(collider, toOwnFrame(collider, place), distances);
+    const Vec3<Real> normal = toWorld(collider, nearest.normal);
+    return {false, (-nearest.distance) * normal, normal, -nearest.distance};
+  }
+}
+
 template <class Real>
 void findPlanes(const PassArguments<Real>& arguments, const Components<Real>& places,
-                ContactPlanes<Real>& planes, int row) {
+                ContactPlanes<Real>& planes, int row, Real margin) {
   const Range particles = rangeOf(arguments.step, row);
   const Real offset = arguments.step.planeOffset;
   forEachCollider(arguments, [&]<std::uint32_t type>(const ColliderParams<Real>& collider) {
@@ -388,11 +404,17 @@ void findPlanes(const PassArguments<Real>& arguments, const Components<Real>& pl
       if (arguments.inverseMasses[i] == Real(0)) continue;
       const Vec3<Real> start = at(arguments.before.positions, i), place = at(places, i);
       const Vec3<Real> previous = previousOf(arguments, collider, start);
-      const Contact<Real> contact =
+      Contact<Real> contact =
           findContact<type>(collider, collider.coulomb != 0, offset, previous, place, arguments.distances);
-      if (!contact.touches) continue;
-      // A plane may be met from below.
-      const Vec3<Real> normal = contact.depth < Real(0) ? Real(-1) * contact.normal : contact.normal;
+      if (!contact.touches) {
+        const Vec3<Real> own = at(planes.normals, i);
+        if (margin == Real(0) || dot(own, own) > Real(0)) continue;
+        contact = nearContact<type>(collider, contact, place, arguments.distances);
+        const Real distance = contact.depth < Real(0) ? -contact.depth : contact.depth;
+        if (!(distance < margin)) continue;
+      }
+      const bool isFromBelow = contact.touches && contact.depth < Real(0);  // a plane may be met from there
+      const Vec3<Real> normal = isFromBelow ? Real(-1) * contact.normal : contact.normal;
       put(planes.normals, i, normal);
       planes.offsets.data()[i] = dot(normal, (place - start) + contact.outward);
       put(planes.carries, i, previous - start);
@@ -409,15 +431,9 @@ Touch<Real> touchAt(const PassArguments<Real>& arguments, std::uint32_t number, 
   const auto touch = [&]<std::uint32_t type>() -> Touch<Real> {
     const Contact<Real> contact = findContact<type>(own, own.coulomb != 0, arguments.step.planeOffset,
                                                     previous, place, arguments.distances);
-    if (contact.touches) return {contact.normal, contact.depth, previous - start};
-    if constexpr (type == COLLIDER_SPHERE) {  // whose contact tells how far it is, too
-      return {contact.normal, contact.depth, previous - start};
-    } else if constexpr (type == COLLIDER_PLANE) {
-      return {contact.normal, contact.depth, previous - start};
-    } else {
-      const Nearest<Real> nearest = nearestOnShape<type>(own, toOwnFrame(own, place), arguments.distances);
-      return {toWorld(own, nearest.normal), -nearest.distance, previous - start};
-    }
+    const Contact<Real> known =
+        contact.touches ? contact : nearContact<type>(own, contact, place, arguments.distances);
+    return {known.normal, known.depth, previous - start};
   };
   switch (own.type) {
 #define CASE(number, Struct, law) \
@@ -454,9 +470,10 @@ INSTANTIATE(float)
 INSTANTIATE(double)
 #undef INSTANTIATE
 
-template void findPlanes(const PassArguments<float>&, const Components<float>&, ContactPlanes<float>&, int);
-template void findPlanes(const PassArguments<double>&, const Components<double>&, ContactPlanes<double>&,
-                         int);
+template void findPlanes(const PassArguments<float>&, const Components<float>&, ContactPlanes<float>&, int,
+                         float);
+template void findPlanes(const PassArguments<double>&, const Components<double>&, ContactPlanes<double>&, int,
+                         double);
 
 VECTOR_CLONES(void, collide, (const PassArguments<float>& arguments, int row), (arguments, row),
               collideRow(arguments, row))

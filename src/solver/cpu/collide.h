@@ -38,10 +38,11 @@ struct ContactPlanes {
 };
 
 // One row of the grid: the planes of particles at `places`. Where several colliders are touched, the last of
-// the scene's counts; what touches nothing keeps its plane.
+// the scene's counts; what touches nothing keeps its plane. What has none gets that of the first collider
+// whose surface is nearer than `margin` [m].
 template <class Real>
 void findPlanes(const PassArguments<Real>& arguments, const Components<Real>& places,
-                ContactPlanes<Real>& planes, int row);
+                ContactPlanes<Real>& planes, int row, Real margin = 0);
 
 // How a point of the cloth that goes from `start` to `place` in the step meets a collider.
 template <class Real>

@@ -57,18 +57,14 @@ template <class Real>
 INLINE Real slowSlip(const StepParams<Real>& step) {
   return static_cast<Real>(SLOW_SLIP) * step.timeStep;
 }
+template <class Real>
+INLINE Real slowSlipOfPairs(const StepParams<Real>& step) {
+  return static_cast<Real>(SLOW_SLIP_OF_PAIRS) * step.timeStep;
+}
 
 template <class Real>
 INLINE bool frictionFollows(const ImplicitState<Real>& own) {
   return own.scalars.newtonSteps < FRICTION_FOLLOWS;
-}
-
-template <class Real>
-INLINE bool mayTouchCloth(const TouchingPairs<Real>& touching, std::ptrdiff_t i) {
-  if (touching.pairs.empty()) return false;
-  for (std::uint32_t k = touching.starts.data()[i]; k < touching.starts.data()[i + 1]; ++k)
-    if (touching.pairs[touching.entries[k] / 4].collider == NO_COLLIDER) return true;
-  return false;
 }
 
 // Which plane holds in this Newton step, and what friction does there. `residual` and `block` are those of
@@ -76,8 +72,7 @@ INLINE bool mayTouchCloth(const TouchingPairs<Real>& touching, std::ptrdiff_t i)
 //
 // A plane holds what is across it, and what the particle's own Newton step would take there (the primal-dual
 // active set of Hintermueller, Ito and Kunisch 2002, with the block as its constant): that the iterate is a
-// hair outside decides nothing. In the first Newton step all predicted planes hold, but not for particles
-// that may touch other cloth: the upper of two layers falls onto the lower one, not through it to the floor.
+// hair outside decides nothing.
 // Friction is limited by what the plane carries once both it and the block have given way: the whole push
 // would count the part that the block's stiffness against bending takes, as if fabric weighed more on a plane
 // that is softer. The force of friction is constant beyond `slow`, and its Hessian 0 along the slip; where
@@ -89,10 +84,8 @@ INLINE void addContact(const ImplicitArguments<Real>& arguments, std::ptrdiff_t 
   const Vec3<Real> normal = at(planes.normals, i), d = at(arguments.own.displacements, i);
   const Real over = planes.offsets.data()[i] - dot(normal, d);
   const Real own = dot(normal, block * normal), push = own * over - dot(normal, residual);
-  const bool isFirst = arguments.own.scalars.newtonSteps == 0, hasPlane = dot(normal, normal) > Real(0);
-  const bool presses = hasPlane && push > Real(0),
-             isPredicted = hasPlane && isFirst && !mayTouchCloth(arguments.own.touching, i),
-             holds = presses || isPredicted || (hasPlane && over > Real(0));
+  const bool hasPlane = dot(normal, normal) > Real(0), presses = hasPlane && push > Real(0),
+             holds = presses || (hasPlane && over > Real(0));
   const Real stiffness = holds ? contactStiffness(arguments, i) : Real(0),
              carried = push * (stiffness * reciprocal(stiffness + own)),
              most = presses ? planes.frictions.data()[i] * carried : Real(0),

@@ -79,13 +79,20 @@ void predictPlanes(const ImplicitArguments<Real>& arguments, int row) {
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i)
     put(places, i, canonical(at(pass.before.positions, i) + startOf(arguments, i)));
   findPlanes(pass, places, own.planes, row);
-  if (step.secondRate == Real(0)) return;
-  bool isNew = false;
-  for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
-    const Vec3<Real> normal = at(own.planes.normals, i), held = at(own.planes.blocks, i).diagonal;
-    isNew = isNew || (dot(normal, normal) > Real(0)) != ((held.x + held.y) + held.z > Real(0));
-  }
-  if (isNew) std::atomic_ref(own.scalars.hasNewContacts).store(1, std::memory_order_relaxed);
+  const auto isNewWhere = [&](bool wasHeld) {
+    bool isNew = false;
+    for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
+      const Vec3<Real> normal = at(own.planes.normals, i), block = at(own.planes.blocks, i).diagonal;
+      const bool hasPlane = dot(normal, normal) > Real(0), held = (block.x + block.y) + block.z > Real(0);
+      isNew = isNew || (held == wasHeld && hasPlane != held);
+    }
+    return isNew;
+  };
+  const bool isSecondOrder = step.secondRate > Real(0), touchesMore = isSecondOrder && isNewWhere(false);
+  // What is so near that a solved step may be wrong about it may be held or not, and is not new either way.
+  findPlanes(pass, places, own.planes, row, step.tolerance * step.leastMotion);
+  if (touchesMore || (isSecondOrder && isNewWhere(true)))
+    std::atomic_ref(own.scalars.hasNewContacts).store(1, std::memory_order_relaxed);
 }
 
 template <class Real>

@@ -44,6 +44,26 @@ TEST(ImplicitContact, BendsASheetAroundABallWithoutCrumplingIt) {
   EXPECT_LT(solver.position(0).y, 0.85) << "and hangs down around it";
 }
 
+// Contacts are known when a step begins, and slips that friction stopped do not come back as forces.
+TEST(ImplicitContact, LetsClothBeThatLiesOnABallAndTheFloor) {
+  Scene scene = test::materialSheet(21, 21, 0.7, 0.7, *materialPreset("cotton"));
+  scene.solver.integrator = Integrator::implicit;
+  scene.solver.simulationSteps = 4;
+  scene.solver.frictionLaw = FrictionLaw::coulomb;
+  scene.solver.selfCollision = SelfCollision::off;
+  scene.colliders = {Sphere{.origin = {0.35, 0.84, 0.35}, .radius = 0.1, .friction = 0.4},
+                     Plane{.point = {0, 0.64, 0}, .normal = {0, 1, 0}, .friction = 0.5}};
+  chooseCounts(scene);
+  const Cloth cloth(scene);
+  CpuSolver<float> solver(cloth, scene);
+  solver.step(4 * 120);
+  const ConvergenceCounts before = solver.convergenceCounts();
+  solver.step(4 * 15);
+  const ConvergenceCounts resting = solver.convergenceCounts() - before;
+  EXPECT_EQ(resting.unconvergedSteps, 0u);
+  EXPECT_LE(resting.newtonSteps, 13 * resting.steps / 4);
+}
+
 // Five particles above a plane at height 0 that is .3 below; they move down by the increment.
 TEST(ImplicitContact, StopsAtPlanesThatDoNotHold) {
   constexpr std::size_t count = 5;
