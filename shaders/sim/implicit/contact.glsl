@@ -55,11 +55,7 @@ float frictionPotential(vec3 slip, float slow) {
   return len < slow ? rising : full;
 }
 float slowSlip() {
-  precise float slow = SLOW_SLIP * step.timeStep;
-  return slow;
-}
-float slowSlipOfPairs() {
-  precise float slow = uintBitsToFloat(0x3c23d70au) * step.timeStep;  // SLOW_SLIP_OF_PAIRS
+  precise float slow = uintBitsToFloat(0x3c23d70au) * step.timeStep;  // SLOW_SLIP
   return slow;
 }
 

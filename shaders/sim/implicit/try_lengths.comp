@@ -53,7 +53,7 @@ vec3 displacementAt(uint i) { return texelFetch(displacements, int(i)).xyz; }
 // Those of the pairs whose first particle this is.
 vec4 addPairTrials(uint i, vec4 trial) {
   uvec2 range = pairsOf(i);
-  float slow = slowSlipOfPairs();
+  float slow = slowSlip();
   for (uint k = range.x; k < range.y; ++k) {
     uint entry = pairEntry(k), q = entry / 4u;
     if (entry % 4u != 0u) continue;

@@ -25,7 +25,7 @@ vec4 slipOfPair(uint q, uvec4 ids, float limit) {
   precise vec3 slip = relative - sumOfProducts(normal, relative) * normal;
   float squared = sumOfProducts(slip, slip), inverse = inverseSquareRoot(squared);
   precise float len = squared * inverse;
-  precise float used = frictionSlope(len, inverse, slowSlipOfPairs()).over * len;
+  precise float used = frictionSlope(len, inverse, slowSlip()).over * len;
   precise float rest = 1.0 - used;
   precise float left = limit * (rest < 0.0 ? 0.0 : rest);
   return vec4(canonical(slip), canonical(left));

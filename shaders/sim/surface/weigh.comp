@@ -39,7 +39,7 @@ void main() {
   precise float most = frictionOf(ids, weights) * (press < law.y ? press : law.y);
   bool isNew = !(law.y < LARGE_SQUARE), isLimited = isOfCollider || !(isNew || frictionFollows());
   float limit = isLimited ? law.z : canonical(most);
-  precise float across = limit * frictionSlope(len, inverse, slowSlipOfPairs()).over;
+  precise float across = limit * frictionSlope(len, inverse, slowSlip()).over;
   float held = isOfCollider ? law.w : over > 0.0 ? law.x : 0.0;
   precise vec3 force = (held * over) * normal.xyz - across * slip;
   newRows[4u * q + 2u] = vec4(law.x, isOfCollider ? law.y : canonical(press), limit, held);

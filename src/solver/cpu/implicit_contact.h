@@ -57,10 +57,6 @@ template <class Real>
 INLINE Real slowSlip(const StepParams<Real>& step) {
   return static_cast<Real>(SLOW_SLIP) * step.timeStep;
 }
-template <class Real>
-INLINE Real slowSlipOfPairs(const StepParams<Real>& step) {
-  return static_cast<Real>(SLOW_SLIP_OF_PAIRS) * step.timeStep;
-}
 
 template <class Real>
 INLINE bool frictionFollows(const ImplicitState<Real>& own) {

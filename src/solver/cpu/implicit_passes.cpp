@@ -144,7 +144,7 @@ INLINE void tryLengthsOf(const ImplicitArguments<Real>& arguments, int row) {
     }
   }
   if (!own.touching.pairs.empty())
-    for (std::ptrdiff_t i = all.begin; i < all.end; ++i) addPairTrials(own, i, slowSlipOfPairs(pass.step));
+    for (std::ptrdiff_t i = all.begin; i < all.end; ++i) addPairTrials(own, i, slowSlip(pass.step));
   if (hasContacts(arguments)) addPlaneTrials(arguments, trials, all);
   if (hasSeams(pass)) addSeamTrials(arguments, row);
   if (pass.step.isMesh != 0) return addMeshTrials(arguments, row);

@@ -263,7 +263,7 @@ bool findSlip(const PassArguments<Real>& arguments, ImplicitState<Real>& implici
   const Vec3<Real> relative = weighted(pair, implicit.displacements) - touching.carries[q],
                    slip = tangential(pair.normal, relative);
   const Real squared = dot(slip, slip), inverse = inverseSquareRoot(squared), length = squared * inverse;
-  const Real used = frictionSlope(length, inverse, slowSlipOfPairs(arguments.step)).over * length;
+  const Real used = frictionSlope(length, inverse, slowSlip(arguments.step)).over * length;
   pair.across = canonical(pair.limit * larger(Real(1) - used, Real(0)));
   touching.forces[q] = canonical(slip);
   return Real(0) < pair.across;

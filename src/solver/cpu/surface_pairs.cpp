@@ -136,7 +136,7 @@ void weighPairs(ImplicitState<Real>& own, const StepParams<Real>& step) {
       pair.pressed = canonical(press);
       pair.held = over > Real(0) ? pair.stiffness : Real(0);
     }
-    const Real across = pair.limit * frictionSlope(squared * inverse, inverse, slowSlipOfPairs(step)).over;
+    const Real across = pair.limit * frictionSlope(squared * inverse, inverse, slowSlip(step)).over;
     pair.across = canonical(across);
     touching.forces[q] = canonical((pair.held * over) * pair.normal - across * slip);
   };
