@@ -18,15 +18,15 @@
 // (CpuExecutor::measureUpdate).
 //
 // Colliders take part. A particle in a collider gets the plane in which it touches it as a stiff spring, so
-// that the sheet bends around what it lies on; at first, so do a particle that inertia and gravity alone
-// would take into a collider, and the search starts with all of these on their planes, and one that is as
-// near to a collider as a solved step may be wrong: what is pulled over an edge, or lies on a slope, gravity
-// alone would take away from it. Which planes hold in a Newton step, the force on each particle decides, and
-// what no plane holds stops where it would cross its own (solver/cpu/implicit_contact.h). The line search
-// counts a plane from one side: what has left it costs nothing. Friction follows Coulomb's law with the push
-// of the particle and a potential that is smooth at slow slip (Li et al. 2020, "Incremental potential
-// contact"); what that leaves of the law stops the rest of the slip at the end. Particles end a hair inside;
-// the collision pass after the step moves them to the surface.
+// that the sheet bends around what it lies on. At first, so does a particle that inertia and gravity alone
+// would take into a collider; the search starts with all of these on their planes. And so does one that is
+// nearer to a collider than a solved step may be wrong: what is pulled over an edge, or lies on a slope,
+// gravity alone would take away from it. Which planes hold in a Newton step, the force on each particle
+// decides, and what no plane holds stops where it would cross its own (solver/cpu/implicit_contact.h). The
+// line search counts a plane from one side: what has left it costs nothing. Friction follows Coulomb's law
+// with the push of the particle and a potential that is smooth at slow slip (Li et al. 2020, "Incremental
+// potential contact"); what that leaves of the law stops the rest of the slip at the end. Particles end a
+// hair inside; the collision pass after the step moves them to the surface.
 //
 // A Newton step takes the Hessian projected: the springs' transverse part is clamped to k max(0, 1 - L/l)
 // (Choi and Ko 2002). Once an update is small, cloth that touches nothing takes the exact one: where cloth
