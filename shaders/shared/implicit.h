@@ -115,8 +115,8 @@ using uint = std::uint32_t;
 #define FRICTION_FOLLOWS 5u
 // Below this speed friction is less than in full [m/s]. What is left of the slip on a plane is taken back
 // when the step ends, and springs push with that in the next one: at 4 mm/s cloth at rest took half of the
-// Newton steps. But then coarse sheets stuck half a degree above the critical angle: in a step of 1/60 s,
-// what they slip below that speed is within the tolerance.
+// Newton steps. But then coarse sheets stuck half a degree above the critical angle (RowFabricOnASlope): in a
+// step of 1/60 s, what they slip below that speed is within the tolerance.
 #define SLOW_SLIP 0.01f
 // A particle is light for its friction where that is so many times as stiff as its inertia.
 #define LIGHT 8.0f

@@ -48,7 +48,7 @@ void main() {
   precise vec3 way = step.timeStep * v;
   precise vec3 place = start.xyz + canonical(way);
   precise float margin = step.tolerance * step.leastMotion;
-  for (int turn = 0; turn < 3; ++turn) findPlanesAt(start, turn == 0 ? guess : canonical(place), turn == 2 ? margin : 0.0);
+  for (int turn = 0; turn < 2; ++turn) findPlanesAt(start, turn == 0 ? guess : canonical(place), turn == 0 ? 0.0 : margin);
 #if HAS_HISTORY
   vec3 held = contactBlockAt(p.index).diagonal;
   precise float trace = (held.x + held.y) + held.z;

@@ -398,17 +398,19 @@ template <class Real>
 void findPlanes(const PassArguments<Real>& arguments, const Components<Real>& places,
                 ContactPlanes<Real>& planes, int row, Real margin) {
   const Range particles = rangeOf(arguments.step, row);
+  const bool seeksNear = margin > Real(0);
   const Real offset = arguments.step.planeOffset;
   forEachCollider(arguments, [&]<std::uint32_t type>(const ColliderParams<Real>& collider) {
     for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
       if (arguments.inverseMasses[i] == Real(0)) continue;
+      const Vec3<Real> known = at(planes.normals, i);
+      if (seeksNear && dot(known, known) > Real(0)) continue;
       const Vec3<Real> start = at(arguments.before.positions, i), place = at(places, i);
       const Vec3<Real> previous = previousOf(arguments, collider, start);
       Contact<Real> contact =
           findContact<type>(collider, collider.coulomb != 0, offset, previous, place, arguments.distances);
       if (!contact.touches) {
-        const Vec3<Real> own = at(planes.normals, i);
-        if (margin == Real(0) || dot(own, own) > Real(0)) continue;
+        if (!seeksNear) continue;
         contact = nearContact<type>(collider, contact, place, arguments.distances);
         const Real distance = contact.depth < Real(0) ? -contact.depth : contact.depth;
         if (!(distance < margin)) continue;

@@ -38,8 +38,8 @@ struct ContactPlanes {
 };
 
 // One row of the grid: the planes of particles at `places`. Where several colliders are touched, the last of
-// the scene's counts; what touches nothing keeps its plane. What has none gets that of the first collider
-// whose surface is nearer than `margin` [m].
+// the scene's counts; what touches nothing keeps its plane. With a margin [m], only of particles that have no
+// plane: that of the first collider whose surface is nearer.
 template <class Real>
 void findPlanes(const PassArguments<Real>& arguments, const Components<Real>& places,
                 ContactPlanes<Real>& planes, int row, Real margin = 0);

@@ -40,8 +40,8 @@ class NearParts {
     forEachIn(flat_, surface, triangle, reach, visit,
               [&](const Parts& parts) { return isLeftOut(surface, parts); });
   }
-  // Of parts of which a motion surely leaves this distance: what any motion leaves while the list is kept,
-  // but for what their triangles drift in it [m].
+  // Of parts of which this motion surely leaves so much distance [m]: a bound for as long as the list is
+  // kept. Any motion leaves at least the bound less what both triangles have drifted by then.
   [[nodiscard]] Real apartIn(const Parts& parts, Real left) const {
     return left - (drifts_[parts.first] + drifts_[parts.second]);
   }
@@ -103,8 +103,8 @@ class NearParts {
   SurfaceBoxes<Real> covers_;                     // its triangles are those of a tree
   std::vector<FourMovingBounds<Real>> children_;  // triangles, by their box in the tree
   Vec3<Real> origin_{}, originAtEnd_{};           // when they were made
-  // By how much less than then a motion may leave of a triangle's distance to another one [m]: its corners
-  // start elsewhere, and move otherwise by how far elsewhere they start and end.
+  // How much a triangle's drift since then may take from the distances that a motion leaves [m]: its corners
+  // start elsewhere, and the difference of their starts and ends is another one.
   std::vector<Real> drifts_;
   std::vector<Real> particleDrifts_;   // scratch
   std::vector<std::uint8_t> leftOut_;  // blocks that were surely flat then

@@ -104,7 +104,8 @@ void SurfaceContact<Real>::forEachPair(std::uint32_t triangle, const Components<
                                        Test test) {
   const auto visit = [&](const Parts& parts, Real& apart) {
     if (!overlap(boxes_.triangles[parts.first], boxes_.triangles[parts.second]) || !boxes_.meet(parts)) {
-      // Of parts that may touch, these boxes reach half as far. The guard's triangles may have older ones.
+      // In findTouching() boxes reach half as far as parts may touch, so these stay apart. In guard() the
+      // boxes of triangles may be older ones.
       if (reach == surface_.touchingReach && apart < Real(0))
         apart = nearParts_.apartIn(parts, leftOf(reach, parts));
       return true;

@@ -148,7 +148,7 @@ void expectRub(const StepKind& kind, const std::string& fabric, int points, doub
 }
 
 TEST(RowFabricOnASlope, SticksBelowTheCriticalAngleAndSlidesAbove) {
-  for (const double degrees : {-0.5, 5.0}) expectRub<float>({}, "cotton", 17, degrees);
+  for (const double degrees : {-0.5, 0.5, 5.0}) expectRub<float>({}, "cotton", 17, degrees);
   expectRub<float>({}, "denim", 33, 0.5);  // resists bending 400 times as stiffly as its inertia
 }
 
