@@ -25,6 +25,7 @@ using uint = std::uint32_t;
 #define CONTACT_PLANES_BINDING 4
 #define CONTACT_BLOCKS_BINDING 1
 #define HISTORIES_BINDING 4
+#define ELASTIC_SLIPS_BINDING 4
 #define PARTIAL_SUMS_BINDING 0
 #define CENTERS_BINDING 4
 #define COARSE_BLOCKS_BINDING 4
@@ -57,6 +58,8 @@ using uint = std::uint32_t;
 
 #define HISTORIES_UNIT \
   49  // two texels each, of `bdf2`: a third of what place and velocity changed in the last step
+
+#define ELASTIC_SLIPS_UNIT 67  // of friction on planes, that the last step has left [m]
 
 // Of the coarse levels (src/solver/hierarchy.h).
 #define CENTERS_UNIT 40          // of aggregates [m]
@@ -113,10 +116,9 @@ using uint = std::uint32_t;
 // are given make friction the gradient of a potential, whose minimum Newton steps find (Li et al. 2020,
 // "Incremental potential contact", take older ones throughout).
 #define FRICTION_FOLLOWS 5u
-// Below this speed friction is less than in full [m/s]. What is left of the slip on a plane is taken back
-// when the step ends, and springs push with that in the next one: at 4 mm/s cloth at rest took half of the
-// Newton steps. But then coarse sheets stuck half a degree above the critical angle (RowFabricOnASlope): in a
-// step of 1/60 s, what they slip below that speed is within the tolerance.
+// Slips that are slower meet less than all of friction [m/s]. With less than half of this, coarse sheets
+// stuck half a degree above the critical angle (RowFabricOnASlope): in a step of 1/60 s, what they slip at
+// that speed is within the tolerance.
 #define SLOW_SLIP 0.01f
 // A particle is light for its friction where that is so many times as stiff as its inertia.
 #define LIGHT 8.0f

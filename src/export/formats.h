@@ -29,7 +29,7 @@ enum class ObjObjects { byCloth, one };
 
 // The `.state` file, little-endian throughout:
 //   offset  0  8 bytes  "clothsim"
-//           8  u32      version of this layout, 3
+//           8  u32      version of this layout, 3 or 4
 //          12  u32      integrator: 0 verlet, 1 euler
 //          16  u64      particle count n
 //          24  u64      step
@@ -43,9 +43,12 @@ enum class ObjObjects { byCloth, one };
 //                       (cloth/cuts.h)
 //   64+32n+c   u64      number p of particles pinned or freed during the run
 //   72+32n+c   p times  u32  those particles, ascending
+//              u64      version 4 alone: number of elastic slips, n
+//              n times  version 4 alone: binary32 x, y, z [m], 0 (solver/state.h)
 //              u64      FNV-1a of all bytes before
-// Older files are read. Version 2 has no offsets 32 to 55: the time is then step times the step length of the
-// scene that it is loaded into. Version 1 has no cuts and pins by hand either.
+// Version 4 is written where friction of implicit steps holds something, else version 3. Older files are
+// read. Version 2 has no offsets 32 to 55: the time is then step times the step length of the scene that it
+// is loaded into. Version 1 has no cuts and pins by hand either.
 [[nodiscard]] std::string formatStateFile(const State& state);
 // Of a cloth with so many particles, and triangles of meshes. `source` names the file in messages.
 // @throws InputOutputError

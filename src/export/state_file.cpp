@@ -29,8 +29,9 @@ struct TimeBlock {  // behind the header since version 3; see StepClock
 static_assert(sizeof(TimeBlock) == 24);
 
 constexpr char fileMagic[] = "clothsim";
-// Version 2 added cuts and pins set during the run, version 3 the time. Version 3 is written.
-constexpr std::uint32_t plainVersion = 1, handledVersion = 2, timedVersion = 3;
+// Version 2 added cuts and pins set during the run, version 3 the time, version 4 what friction remembers.
+// Version 4 is written where there is some, else version 3.
+constexpr std::uint32_t plainVersion = 1, handledVersion = 2, timedVersion = 3, rubbedVersion = 4;
 
 std::uint64_t checksum(std::string_view bytes) {
   Fnv1a hash;
@@ -51,6 +52,14 @@ void append(std::string& bytes, const T* data, std::size_t count) {
   bytes.append(reinterpret_cast<const char*>(data), count * sizeof(T));
 }
 
+// A count, then so many elements.
+template <class T>
+void appendList(std::string& bytes, const std::vector<T>& list) {
+  const std::uint64_t count = list.size();
+  append(bytes, &count, 1);
+  append(bytes, list.data(), list.size());
+}
+
 [[noreturn]] void refuse(const std::string& source, const std::string& found) {
   throw InputOutputError("cannot continue from '" + source + "': " + found);
 }
@@ -61,16 +70,16 @@ Header checkedHeader(const std::string& bytes, std::size_t particleCount, const 
   if (bytes.size() < sizeof header || std::memcmp(bytes.data(), fileMagic, sizeof header.magic) != 0)
     refuse(source, "it is no state file of clothsim (those are written by `clothsim run --save NAME.state`)");
   std::memcpy(&header, bytes.data(), sizeof header);
-  if (header.version < plainVersion || header.version > timedVersion)
+  if (header.version < plainVersion || header.version > rubbedVersion)
     refuse(source, "it has version " + std::to_string(header.version) +
-                       " of the format, this program reads versions 1 to 3");
+                       " of the format, this program reads versions 1 to 4");
   if (header.particleCount != particleCount)
     refuse(source, "it holds " + std::to_string(header.particleCount) + " particles, the scene has " +
                        std::to_string(particleCount) + " (was it saved at another --resolution?)");
   return header;
 }
 
-// The lists since version 2: a count, then so many elements.
+// The lists since version 2.
 class Lists {
  public:
   Lists(const std::string& bytes, std::size_t place, const std::string& source)
@@ -152,6 +161,12 @@ void checkContent(const Header& header, const State& state, std::size_t meshTria
       refuse(source, "the inverse mass of particle " + std::to_string(i) + " is " + std::to_string(w) +
                          " 1/kg, expected a finite number from 0");
   }
+  if (const std::size_t size = state.elasticSlips.size(); size != 0 && size != particles)
+    refuse(source, "it has elastic slips of " + std::to_string(size) + " particles, expected " +
+                       std::to_string(particles));
+  for (std::size_t i = 0; i < state.elasticSlips.size(); ++i)
+    if (const Particle4& slip = state.elasticSlips[i]; !std::isfinite(slip.x + slip.y + slip.z))
+      refuse(source, "the elastic slip of particle " + std::to_string(i) + " is not finite");
   for (std::size_t i = particles; i < state.cuts.size(); ++i)
     if (state.cuts[i] > 1)
       refuse(source, "whether triangle " + std::to_string(i - particles) + " of the meshes is lost is " +
@@ -171,7 +186,7 @@ void checkContent(const Header& header, const State& state, std::size_t meshTria
 std::string formatStateFile(const State& state) {
   Header header{};
   std::memcpy(header.magic, fileMagic, sizeof header.magic);
-  header.version = timedVersion;
+  header.version = state.elasticSlips.empty() ? timedVersion : rubbedVersion;
   header.integrator = static_cast<std::uint32_t>(state.integrator);
   header.particleCount = state.positions.size();
   header.step = state.clock.step;
@@ -183,11 +198,9 @@ std::string formatStateFile(const State& state) {
   append(bytes, &time, 1);
   append(bytes, state.positions.data(), state.positions.size());
   append(bytes, state.velocities.data(), state.velocities.size());
-  const std::uint64_t counts[] = {state.cuts.size(), state.offPath.size()};
-  append(bytes, &counts[0], 1);
-  append(bytes, state.cuts.data(), state.cuts.size());
-  append(bytes, &counts[1], 1);
-  append(bytes, state.offPath.data(), state.offPath.size());
+  appendList(bytes, state.cuts);
+  appendList(bytes, state.offPath);
+  if (header.version >= rubbedVersion) appendList(bytes, state.elasticSlips);
   const std::uint64_t sum = checksum(bytes);
   append(bytes, &sum, 1);
   return bytes;
@@ -203,6 +216,7 @@ State parseStateFile(const std::string& bytes, std::size_t particleCount, const 
     state.cuts = lists.next<std::uint8_t>();
     state.offPath = lists.next<std::uint32_t>();
   }
+  if (header.version >= rubbedVersion) state.elasticSlips = lists.next<Particle4>();
   if (bytes.size() != lists.place() + sizeof(std::uint64_t))
     lists.refuseLength(lists.place() + sizeof(std::uint64_t));
   checkChecksum(bytes, source);

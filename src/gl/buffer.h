@@ -52,6 +52,8 @@ class Buffer {
                               static_cast<GLsizeiptr>(count * sizeof(T)), data.data());
     return data;
   }
+  // Fills it with zeros.
+  void clear() { glClearNamedBufferData(name_, GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, nullptr); }
   // Copies another buffer of the same size, on the device.
   void copyFrom(const Buffer& other) {
     assert(other.size_ == size_ && "only buffers of one size are copied");

@@ -32,14 +32,14 @@ constexpr std::array<PassTraits, PASS_COUNT> table{{
      {}, {positions, velocities, forces},
      {newPositions, newVelocities, watch}, {F::movingPins, F::grabs}},
     {Pass::predictPlanes, "predict planes", Domain::gridPoints, 0,
-     {}, {positions, velocities, contactBlocks},
+     {}, {positions, velocities, contactBlocks, elasticSlips},
      {planes, scalars}, {F::colliders, F::planes, F::history}},
     {Pass::begin, "begin", Domain::gridPoints, 1,
      {positions, velocities, scalars}, {planes, histories},
      {newPositions, newVelocities, forces, rightHandSides, airBlocks, displacements, iterates},
      air | Features{F::movingPins, F::grabs, F::planes, F::history}},
     {Pass::findPlanes, "contact planes", Domain::gridPoints, 0,
-     {}, {positions, iterates},
+     {}, {positions, iterates, elasticSlips},
      {planes}, {F::colliders}, Gate::step},
     {Pass::elasticForces, "elastic forces", Domain::gridPoints, 2,
      {iterates}, {},
@@ -99,8 +99,8 @@ constexpr std::array<PassTraits, PASS_COUNT> table{{
      {}, {increments, displacements},
      {partialSums, scalars}, {}, Gate::step},
     {Pass::end, "end", Domain::gridPoints, 0,
-     {}, {positions, rightHandSides, displacements, planes, contactBlocks, histories, scalars},
-     {newPositions, newVelocities, watch}, {F::movingPins, F::planes, F::history}},
+     {}, {positions, rightHandSides, displacements, planes, contactBlocks, elasticSlips, histories, scalars},
+     {newPositions, newVelocities, elasticSlips, watch}, {F::movingPins, F::planes, F::history}},
     {Pass::remember, "remember", Domain::gridPoints, 0,
      {}, {positions, velocities, newPositions, newVelocities, displacements},
      {histories, scalars}, {}},
@@ -166,12 +166,12 @@ constexpr bool isInOrder() {
 static_assert(isInOrder(), "the table has the order of the enumerators");
 
 constexpr std::array<std::string_view, ARRAY_COUNT> arrayNames{
-    "positions",      "velocities",  "new positions",    "new velocities", "forces",        "planes",
-    "contact blocks", "histories",   "right-hand sides", "air blocks",     "displacements", "iterates",
-    "residuals",      "corrections", "factors",          "centers",        "coarse blocks", "coarse inverses",
-    "dense",          "directions",  "products",         "increments",     "partial sums",  "scalars",
-    "hash",           "candidates",  "touching",         "pair forces",    "kept motions",  "safe positions",
-    "contact flags",  "watch"};
+    "positions",       "velocities",    "new positions", "new velocities",   "forces",      "planes",
+    "contact blocks",  "elastic slips", "histories",     "right-hand sides", "air blocks",  "displacements",
+    "iterates",        "residuals",     "corrections",   "factors",          "centers",     "coarse blocks",
+    "coarse inverses", "dense",         "directions",    "products",         "increments",  "partial sums",
+    "scalars",         "hash",          "candidates",    "touching",         "pair forces", "kept motions",
+    "safe positions",  "contact flags", "watch"};
 
 constexpr std::array<std::string_view, FEATURE_COUNT> featureNames{
     "springs",         "rest lengths", "meshes",      "wind",      "particle forces", "jets",    "grabs",

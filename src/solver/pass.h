@@ -74,6 +74,7 @@ enum class Array : std::uint8_t {
   forces,          // of springs and air [N]
   planes,          // in which particles touch colliders
   contactBlocks,   // what these do to the linear system
+  elasticSlips,    // of friction in these planes, from step to step
   histories,       // what the last step changed
   rightHandSides,  // b of inertia, air and grabs, and their diagonal
   airBlocks,       // what wind adds to the diagonal

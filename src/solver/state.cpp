@@ -8,6 +8,11 @@
 
 namespace clothsim {
 
+void dropZeros(std::vector<Particle4>& values) {
+  const auto isZero = [](const Particle4& p) { return p.x == 0 && p.y == 0 && p.z == 0; };
+  if (std::ranges::all_of(values, isZero)) values.clear();
+}
+
 void leavePath(std::vector<std::uint32_t>& offPath, std::uint32_t particle) {
   const auto place = std::lower_bound(offPath.begin(), offPath.end(), particle);
   if (place == offPath.end() || *place != particle) offPath.insert(place, particle);

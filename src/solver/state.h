@@ -24,10 +24,16 @@ struct State {
   std::vector<Particle4> velocities;  // xyz [m/s]; of the half step before under `verlet`. w: unused
   StepClock clock;
   Integrator integrator = Integrator::verlet;
+  // How far friction of implicit steps holds particles back from where it took hold of them on a collider
+  // (solver/implicit.h), xyz [m]; w: unused. Empty: nowhere.
+  std::vector<Particle4> elasticSlips;
   Cuts cuts;  // empty: none
   std::vector<std::uint32_t>
       offPath;  // particles that a person has pinned or freed, ascending: no path moves them
 };
+
+// Empties what holds only zeros, as State::elasticSlips before anything has touched.
+void dropZeros(std::vector<Particle4>& values);
 
 // Adds a particle to State::offPath.
 void leavePath(std::vector<std::uint32_t>& offPath, std::uint32_t particle);

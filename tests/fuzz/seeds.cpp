@@ -35,6 +35,9 @@ void writeStates(const fs::path& folder) {
   handled.cuts = {0, 1, 63, 0};
   handled.offPath = {1, 3};
   write(folder / "handled.state", formatStateFile(handled));
+  State rubbed = makeState(3, Integrator::euler);
+  rubbed.elasticSlips.assign(3, {1e-5f, 0, 0, 0});
+  write(folder / "rubbed.state", formatStateFile(rubbed));
 }
 
 // One event of every kind.

@@ -12,11 +12,13 @@
 #include "sim/implicit/contact.glsl"
 
 layout(std430, binding = CONTACT_PLANES_BINDING) writeonly buffer Planes { vec4 newPlanes[]; };
+layout(binding = ELASTIC_SLIPS_UNIT) uniform samplerBuffer elasticSlips;
 vec4 plane = vec4(0.0), carry = vec4(0.0);
 bool touches = false;
 bool hasPlane() { return sumOfProducts(plane.xyz, plane.xyz) > 0.0; }
 
 void findPlanesAt(vec4 start, vec3 place, float margin) {
+  vec3 elasticSlip = texelFetch(elasticSlips, int(thisGridPoint().index)).xyz;
   for (uint k = 0u; k < step.colliderCount && start.w != 0.0; ++k) {
     ColliderParams collider = loadCollider(step.firstCollider + k);
     vec3 previous = carried(collider, start.xyz);
@@ -30,7 +32,7 @@ void findPlanesAt(vec4 start, vec3 place, float margin) {
     vec3 normal = isFromBelow ? -contact.normal : contact.normal;
     precise vec3 reach = (place - start.xyz) + contact.outward;
     precise float offset = sumOfProducts(normal, reach);
-    precise vec3 carriedBy = previous - start.xyz;
+    precise vec3 carriedBy = (previous - start.xyz) - elasticSlip;
     plane = vec4(normal, offset);
     touches = touches || contact.touches;
     carry = vec4(carriedBy, hasCoulombFriction ? collider.friction : 0.0);

@@ -419,7 +419,7 @@ void findPlanes(const PassArguments<Real>& arguments, const Components<Real>& pl
       const Vec3<Real> normal = isFromBelow ? Real(-1) * contact.normal : contact.normal;
       put(planes.normals, i, normal);
       planes.offsets.data()[i] = dot(normal, (place - start) + contact.outward);
-      put(planes.carries, i, previous - start);
+      put(planes.carries, i, (previous - start) - at(planes.elasticSlips, i));
       planes.frictions.data()[i] = collider.coulomb != 0 ? collider.friction : Real(0);
     }
   });

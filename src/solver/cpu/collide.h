@@ -18,10 +18,13 @@ void collide(const PassArguments<double>& arguments, int row);
 // 0, none.
 template <class Real>
 struct ContactPlanes {
-  Components<Real> normals;     // n
-  std::vector<Real> offsets;    // [m]
-  Components<Real> carries;     // how far the moving collider carries the particle along [m]
-  std::vector<Real> frictions;  // Coulomb's coefficient; 0 under CS184's law
+  Components<Real> normals;   // n
+  std::vector<Real> offsets;  // [m]
+  // How far the moving collider carries the particle along, less the elastic slip [m]: what differs from it
+  // is what friction acts on.
+  Components<Real> carries;
+  Components<Real> elasticSlips;  // that the step before has left [m]
+  std::vector<Real> frictions;    // Coulomb's coefficient; 0 under CS184's law
   // Of the Newton step: what push and friction add to the Hessian [N/m], and the largest friction [N]. 0
   // where the plane does not hold.
   SymmetricField<Real> blocks;
@@ -31,6 +34,7 @@ struct ContactPlanes {
     normals.resize(particles);
     offsets.resize(particles);
     carries.resize(particles);
+    elasticSlips.resize(particles);
     frictions.resize(particles);
     blocks.resize(particles);
     limits.resize(particles);

@@ -24,9 +24,10 @@ constexpr Real leastSum = static_cast<Real>(0x1p-110f);
 template <class Real>
 struct CpuExecutor<Real>::Copy final : ParticleCopy {
   Particles particles;
+  Components<Real> elasticSlips;
 
   [[nodiscard]] std::size_t bytes() const override {
-    return 7 * particles.inverseMasses.size() * sizeof(Real);
+    return (7 * particles.inverseMasses.size() + 3 * elasticSlips.x.size()) * sizeof(Real);
   }
   void download(State& state) const override {
     const std::size_t count = particles.inverseMasses.size();
@@ -39,6 +40,12 @@ struct CpuExecutor<Real>::Copy final : ParticleCopy {
       state.positions[i] = {x.x, x.y, x.z, static_cast<float>(particles.inverseMasses[i])};
       state.velocities[i] = {v.x, v.y, v.z, 0};
     }
+    state.elasticSlips.clear();
+    for (std::size_t i = 0; i < elasticSlips.x.size(); ++i) {
+      const Vec3f slip = cpu::at(elasticSlips, static_cast<std::ptrdiff_t>(i)).template cast<float>();
+      state.elasticSlips.push_back({slip.x, slip.y, slip.z, 0});
+    }
+    dropZeros(state.elasticSlips);
   }
 };
 
@@ -361,6 +368,12 @@ void CpuExecutor<Real>::upload(const State& state) {
     cpu::put(particles_.state.velocities, place, Vec3f{v.x, v.y, v.z}.cast<Real>());
     particles_.inverseMasses[i] = static_cast<Real>(x.w);
   }
+  Components<Real>& slips = implicit_.planes.elasticSlips;
+  if (!state.elasticSlips.empty()) slips.resize(state.elasticSlips.size());
+  for (std::size_t i = 0; i < slips.x.size(); ++i) {
+    const Vec3d slip = state.elasticSlips.empty() ? Vec3d{} : vectorOf(state.elasticSlips[i]);
+    cpu::put(slips, static_cast<std::ptrdiff_t>(i), slip.template cast<Real>());
+  }
   implicit_.scalars.usualSteps = 0;
   selfCollision_.restart();
 }
@@ -390,7 +403,9 @@ void CpuExecutor<Real>::setInverseMass(std::uint32_t particle, double inverseMas
 template <class Real>
 std::unique_ptr<ParticleCopy> CpuExecutor<Real>::copy(std::unique_ptr<ParticleCopy> reuse) {
   if (dynamic_cast<Copy*>(reuse.get()) == nullptr) reuse = std::make_unique<Copy>();
-  static_cast<Copy&>(*reuse).particles = particles_;
+  auto& copy = static_cast<Copy&>(*reuse);
+  copy.particles = particles_;
+  copy.elasticSlips = implicit_.planes.elasticSlips;
   return reuse;
 }
 
@@ -399,6 +414,7 @@ bool CpuExecutor<Real>::restore(const ParticleCopy& copy) {
   const auto* own = dynamic_cast<const Copy*>(&copy);
   if (own == nullptr) return false;
   particles_ = own->particles;
+  implicit_.planes.elasticSlips = own->elasticSlips;
   implicit_.scalars.usualSteps = 0;
   return true;
 }

@@ -197,17 +197,25 @@ void ImplicitState<Real>::resize(Hierarchy<Real> levels, MeshStretches<Real> ofM
 
 namespace {
 
-// What the solution leaves of Coulomb's friction stops the slip, or shortens it: nothing creeps that sticks.
+// How the slip of a step ends: `elastic` of it, and of what was before, friction remembers and begins with in
+// the next step; `taken` is taken back. So what sticks stays where it is.
 template <class Real>
-INLINE Vec3<Real> withFriction(const ImplicitArguments<Real>& arguments, std::ptrdiff_t i,
-                               Vec3<Real> displacement) {
+struct SlipEnd {
+  Vec3<Real> elastic{}, taken{};
+};
+template <class Real>
+INLINE SlipEnd<Real> slipEnd(const ImplicitArguments<Real>& arguments, std::ptrdiff_t i) {
   const ContactPlanes<Real>& planes = arguments.own.planes;
-  const Vec3<Real> slip = slipOf(planes, i, displacement);
+  const Real limit = planes.limits.data()[i], slow = slowSlip(arguments.step.step);
+  const Vec3<Real> slip = slipOf(planes, i, at(arguments.own.displacements, i)),
+                   own = slip - tangential(at(planes.normals, i), at(planes.elasticSlips, i));
   const Real squared = dot(slip, slip), inverse = inverseSquareRoot(squared), length = squared * inverse;
-  const Real used = frictionSlope(length, inverse, slowSlip(arguments.step.step)).over * length;
-  const Real rest = planes.limits.data()[i] * (Real(1) - used);
-  const Real lost = (larger(rest, Real(0)) * reciprocal(arguments.own.diagonal.data()[i])) * inverse;
-  return displacement - (lost < Real(1) ? lost : Real(1)) * slip;
+  const Real used = frictionSlope(length, inverse, slow).over * length, part = slow * inverse;
+  // What the solution leaves of Coulomb's friction stops the slip, or shortens it.
+  const Real rest = larger(limit * (Real(1) - used), Real(0)) * reciprocal(arguments.own.diagonal.data()[i]),
+             lost = rest * inverseSquareRoot(dot(own, own));
+  if (!(limit > Real(0))) return {};
+  return {(part < Real(1) ? part : Real(1)) * slip, (lost < Real(1) ? lost : Real(1)) * own};
 }
 
 }  // namespace
@@ -219,10 +227,11 @@ void end(const ImplicitArguments<Real>& arguments, int row) {
   const bool contacts = hasContacts(arguments);
   const TimeScheme<Real> scheme = timeSchemeOf(arguments);
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
+    const SlipEnd<Real> slip = contacts ? slipEnd(arguments, i) : SlipEnd<Real>{};
+    if (contacts) put(arguments.own.planes.elasticSlips, i, canonical(slip.elastic));
     const bool pinned = pass.inverseMasses[i] == Real(0);
     if (pinned) continue;  // begin() has moved pins
-    Vec3<Real> displacement = at(arguments.own.displacements, i);
-    if (contacts) displacement = canonical(withFriction(arguments, i, displacement));
+    Vec3<Real> displacement = canonical(at(arguments.own.displacements, i) - slip.taken);
     put(pass.after.positions, i, canonical(at(pass.before.positions, i) + displacement));
     if (scheme.isSecondOrder) displacement = displacement - at(arguments.own.movedBefore, i);
     put(pass.after.velocities, i, canonical(scheme.rate * displacement));

@@ -29,6 +29,8 @@ ArrayPlace placeOf(Array array) {
       return {CONTACT_PLANES_UNIT, CONTACT_PLANES_BINDING};
     case Array::contactBlocks:
       return {CONTACT_BLOCKS_UNIT, CONTACT_BLOCKS_BINDING};
+    case Array::elasticSlips:
+      return {ELASTIC_SLIPS_UNIT, ELASTIC_SLIPS_BINDING};
     case Array::histories:
       return {HISTORIES_UNIT, HISTORIES_BINDING};
     case Array::rightHandSides:
@@ -103,8 +105,7 @@ void GpuArrays::addImplicit(std::size_t particles, const GpuLevels& levels, bool
     if ((*this)[array].buffer.name() != 0 && (*this)[array].buffer.size() >= texels) return;
     (*this)[array] = ParticleArray(std::string(nameOf(array)), texels);
     // What pressed in the step before is compared with what does now: before the first one nothing did.
-    if (array == Array::contactBlocks)
-      glClearNamedBufferData((*this)[array].buffer.name(), GL_R32F, GL_RED, GL_FLOAT, nullptr);
+    if (array == Array::contactBlocks || array == Array::elasticSlips) (*this)[array].buffer.clear();
   };
   for (const Array array : {Array::rightHandSides, Array::displacements, Array::iterates, Array::directions,
                             Array::products, Array::increments})
@@ -124,11 +125,23 @@ void GpuArrays::addImplicit(std::size_t particles, const GpuLevels& levels, bool
   add(Array::airBlocks, wind ? AIR_TEXELS * particles : 1);
   add(Array::planes, colliders ? PLANE_TEXELS * particles : 1);
   add(Array::contactBlocks, colliders ? PLANE_TEXELS * particles : 1);
+  add(Array::elasticSlips, colliders ? particles : 1);
   add(Array::histories, history ? HISTORY_TEXELS * particles : 1);
   add(Array::partialSums, (particles + SUM_BLOCK - 1) / SUM_BLOCK);
   const ImplicitScalars<float> none{};
   if (scalars_.name() == 0)
     scalars_ = gl::Buffer<ImplicitScalars<float>>("implicit scalars", std::span(&none, 1));
+}
+
+void GpuArrays::setElasticSlips(const gl::Buffer<Particle4>& slips) {
+  ParticleArray& own = (*this)[Array::elasticSlips];
+  const bool isThere = slips.name() != 0;
+  if (isThere && own.buffer.size() < slips.size())
+    own = ParticleArray(std::string(nameOf(Array::elasticSlips)), slips.size());
+  if (isThere)
+    own.buffer.copyFrom(slips);
+  else if (own.buffer.name() != 0)
+    own.buffer.clear();
 }
 
 void GpuArrays::forgetHistory() {

@@ -22,6 +22,8 @@ class GpuArrays {
 
   // What implicit steps need besides. Does nothing where that is there. @throws as the constructor
   void addImplicit(std::size_t particles, const GpuLevels& levels, bool wind, bool colliders, bool history);
+  // Those of a state, one a particle; without a buffer there are none.
+  void setElasticSlips(const gl::Buffer<Particle4>& slips);
   // The next step is backward Euler.
   void forgetHistory();
   // What implicit steps have come to; zeros without any. Blocking.

@@ -62,14 +62,18 @@ GpuOptions forThisDevice(GpuOptions options) {
 }  // namespace
 
 struct GpuExecutor::Copy final : ParticleCopy {
-  gl::Buffer<Particle4> positions, velocities;
+  gl::Buffer<Particle4> positions, velocities, elasticSlips;  // the last without a name where there are none
 
-  [[nodiscard]] std::size_t bytes() const override { return positions.bytes() + velocities.bytes(); }
+  [[nodiscard]] std::size_t bytes() const override {
+    return positions.bytes() + velocities.bytes() + elasticSlips.bytes();
+  }
   [[nodiscard]] bool needsContext() const override { return true; }
   void download(State& state) const override {
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     state.positions = positions.download();
     state.velocities = velocities.download();
+    state.elasticSlips = elasticSlips.download();
+    dropZeros(state.elasticSlips);
   }
 };
 
@@ -426,6 +430,9 @@ void GpuExecutor::finish() {
 void GpuExecutor::upload(const State& state) {
   arrays_[Array::positions].buffer.upload(state.positions);
   arrays_[Array::velocities].buffer.upload(state.velocities);
+  const std::span<const Particle4> slips = state.elasticSlips;
+  arrays_.setElasticSlips(slips.empty() ? gl::Buffer<Particle4>()
+                                        : gl::Buffer<Particle4>("elastic slips", slips));
   arrays_.forgetHistory();
   selfCollision_.restart();
 }
@@ -435,6 +442,13 @@ void GpuExecutor::download(State& state) {
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   state.positions = arrays_[Array::positions].buffer.download();
   state.velocities = arrays_[Array::velocities].buffer.download();
+  if (hasElasticSlips()) state.elasticSlips = arrays_[Array::elasticSlips].buffer.download();
+  dropZeros(state.elasticSlips);
+}
+
+// One a particle, in implicit steps with colliders.
+bool GpuExecutor::hasElasticSlips() const {
+  return arrays_[Array::elasticSlips].buffer.size() == cloth_->particleCount();
 }
 
 std::vector<Particle4> GpuExecutor::positions(std::uint32_t first, std::uint32_t count) {
@@ -468,6 +482,9 @@ std::unique_ptr<ParticleCopy> GpuExecutor::copy(std::unique_ptr<ParticleCopy> re
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   copy.positions.copyFrom(arrays_[Array::positions].buffer);
   copy.velocities.copyFrom(arrays_[Array::velocities].buffer);
+  if (!hasElasticSlips()) return reuse;
+  if (copy.elasticSlips.name() == 0) copy.elasticSlips = gl::Buffer<Particle4>("kept elastic slips", count);
+  copy.elasticSlips.copyFrom(arrays_[Array::elasticSlips].buffer);
   return reuse;
 }
 
@@ -477,6 +494,7 @@ bool GpuExecutor::restore(const ParticleCopy& copy) {
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   arrays_[Array::positions].buffer.copyFrom(own->positions);
   arrays_[Array::velocities].buffer.copyFrom(own->velocities);
+  arrays_.setElasticSlips(own->elasticSlips);
   arrays_.forgetHistory();
   return true;
 }

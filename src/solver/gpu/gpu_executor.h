@@ -98,6 +98,7 @@ class GpuExecutor final : public Executor {
   [[nodiscard]] std::size_t passesTaken(std::span<const PassCall> passes) const;
   void runKernel(std::span<const PassCall> passes);
   [[nodiscard]] bool isClosed(Gate gate);
+  [[nodiscard]] bool hasElasticSlips() const;
   bool isKnownToBeSolved();
   void askForFlags(std::span<const PassCall> passes);
   // A stage of a kernel, with its programs by piece.

@@ -9,6 +9,7 @@
 #include "solver/gpu/gpu_solver.h"
 #include "support/compared_scenes.h"
 #include "support/grabs.h"
+#include "support/material_sheet.h"
 
 namespace clothsim {
 namespace {
@@ -158,6 +159,32 @@ TEST_F(InteractionOnGpuTest, GoesBackToSnapshotsOfEitherBackend) {
   gpu.restore(*onCpu);
   gpu.step(50);
   EXPECT_EQ(difference(gpu.state(), after).differing, 0u);
+}
+
+// What friction remembers is a part of them.
+TEST_F(InteractionOnGpuTest, GoesBackToSnapshotsOfClothThatSticks) {
+  Scene scene = test::materialSheet(13, 13, 0.5, 0.5, *materialPreset("cotton"));
+  scene.solver.integrator = Integrator::implicit;
+  scene.solver.simulationSteps = 2;
+  scene.solver.frictionLaw = FrictionLaw::coulomb;
+  scene.colliders = {Sphere{.origin = {0.25, 0.89, 0.25}, .radius = 0.1, .friction = 0.5}};
+  const Cloth cloth(scene);
+  GpuSolver gpu(cloth, scene);
+  CpuSolver<float> cpu(cloth, scene);
+  gpu.step(20);
+  const std::unique_ptr<Snapshot> snapshot = gpu.snapshot(nullptr);
+  EXPECT_EQ(snapshot->state().elasticSlips.size(), cloth.particleCount());
+  gpu.step(5);
+  const std::uint64_t expected = stateHash(gpu.state());
+  const auto later = [&](Solver& solver, const Snapshot& from) {
+    solver.restore(from);
+    solver.step(5);
+    return stateHash(solver.state());
+  };
+  EXPECT_EQ(later(gpu, *snapshot), expected);
+  EXPECT_EQ(later(cpu, *snapshot), expected);
+  cpu.restore(*snapshot);
+  EXPECT_EQ(later(gpu, *cpu.snapshot(nullptr)), expected);
 }
 
 // A cut and an edit begin with a new hash, and forget nothing that a run has to tell.

@@ -82,8 +82,8 @@ TEST_F(StateFile, OfAnotherSceneIsRefusedWithBothParticleCounts) {
 }
 
 TEST_F(StateFile, OfALaterVersionIsRefusedWithBothVersions) {
-  bytes_[8] = 4;
-  EXPECT_NE(refusalOf(bytes_).find("version 4"), std::string::npos);
+  bytes_[8] = 5;
+  EXPECT_NE(refusalOf(bytes_).find("version 5"), std::string::npos);
 }
 
 TEST_F(StateFile, IsNotMistakenForWhatIsNone) {
@@ -187,6 +187,22 @@ TEST_F(HandledStateFile, IsRefusedWhenItsListsMakeNoSense) {
   EXPECT_NE(refusalOf(forged(cuts + 8 + 6 + 8 + 4, 6)).find("below 6"), std::string::npos);
   EXPECT_NE(refusalOf(forged(cuts + 7, '\x7f')).find("cut off"), std::string::npos) << "a count beyond all";
   EXPECT_NE(refusalOf(forged(cuts, 5)), "");
+}
+
+// Version 4.
+TEST_F(StateFile, HoldsWhatFrictionRemembersWhereThereIsSome) {
+  state_.elasticSlips.assign(6, {});
+  state_.elasticSlips[4] = {1e-5f, 0, -2e-5f, 0};
+  const std::string bytes = formatStateFile(state_);
+  EXPECT_EQ(bytes.size(), bytes_.size() + 8 + 16 * 6);
+  EXPECT_EQ(bytes[8], '\4');
+  const State back = parseStateFile(bytes, 6, "a.state");
+  ASSERT_EQ(back.elasticSlips.size(), 6u);
+  EXPECT_EQ(std::memcmp(back.elasticSlips.data(), state_.elasticSlips.data(), 16 * 6), 0);
+  state_.elasticSlips[5].y = std::bit_cast<float>(0x7fc00000u);
+  EXPECT_NE(refusalOf(formatStateFile(state_)).find("the elastic slip of particle 5"), std::string::npos);
+  state_.elasticSlips.resize(2);
+  EXPECT_NE(refusalOf(formatStateFile(state_)).find("elastic slips of 2 particles"), std::string::npos);
 }
 
 // The layout in formats.h, read by hand.

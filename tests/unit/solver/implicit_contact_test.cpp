@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "export/formats.h"
 #include "measure/measure.h"
 #include "solver/cpu/cpu_solver.h"
 #include "solver/cpu/implicit_contact.h"
@@ -45,7 +46,8 @@ TEST(ImplicitContact, BendsASheetAroundABallWithoutCrumplingIt) {
 }
 
 // Contacts are known when a step begins.
-TEST(ImplicitContact, LetsClothBeThatLiesOnABallAndTheFloor) {
+// On the floor, around a ball.
+Scene drapedBall() {
   Scene scene = test::materialSheet(21, 21, 0.7, 0.7, *materialPreset("cotton"));
   scene.solver.integrator = Integrator::implicit;
   scene.solver.simulationSteps = 4;
@@ -54,6 +56,11 @@ TEST(ImplicitContact, LetsClothBeThatLiesOnABallAndTheFloor) {
   scene.colliders = {Sphere{.origin = {0.35, 0.84, 0.35}, .radius = 0.1, .friction = 0.4},
                      Plane{.point = {0, 0.64, 0}, .normal = {0, 1, 0}, .friction = 0.5}};
   chooseCounts(scene);
+  return scene;
+}
+
+TEST(ImplicitContact, LetsClothBeThatLiesOnABallAndTheFloor) {
+  const Scene scene = drapedBall();
   const Cloth cloth(scene);
   CpuSolver<float> solver(cloth, scene);
   solver.step(4 * 120);
@@ -62,6 +69,31 @@ TEST(ImplicitContact, LetsClothBeThatLiesOnABallAndTheFloor) {
   const ConvergenceCounts resting = solver.convergenceCounts() - before;
   EXPECT_EQ(resting.unconvergedSteps, 0u);
   EXPECT_LE(resting.newtonSteps, 4 * resting.steps);
+}
+
+// What friction remembers is a part of the state.
+TEST(ImplicitContact, GoesOnFromASavedStateAsIfNothingHadHappened) {
+  const Scene scene = drapedBall();
+  const Cloth cloth(scene);
+  CpuSolver<float> whole(cloth, scene), second(cloth, scene), forgetful(cloth, scene);
+  whole.step(4 * 40);
+  State state = parseStateFile(formatStateFile(whole.state()), cloth.particleCount(), "ball.state");
+  EXPECT_EQ(state.elasticSlips.size(), cloth.particleCount());
+  second.setState(state);
+  state.elasticSlips.clear();
+  forgetful.setState(state);
+  for (CpuSolver<float>* solver : {&whole, &second, &forgetful}) solver->step(4);
+  EXPECT_EQ(stateHash(second.state()), stateHash(whole.state()));
+  EXPECT_NE(stateHash(forgetful.state()), stateHash(whole.state()));
+  // So it is of a snapshot, which a later one leaves alone.
+  const std::unique_ptr<Snapshot> kept = whole.snapshot();
+  const auto later = [&] {
+    whole.step(4);
+    return stateHash(whole.state());
+  };
+  const std::uint64_t first = later();
+  whole.restore(*kept);
+  EXPECT_EQ(later(), first);
 }
 
 // Five particles above a plane at height 0 that is .3 below; they move down by the increment.

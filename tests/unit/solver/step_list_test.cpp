@@ -107,14 +107,15 @@ TEST(StepList, ReadsNothingBeforeItIsWritten) {
   scenes.push_back(scenes[3]);
   scenes.back().solver.selfCollision = SelfCollision::contact;
   for (const Scene& scene : scenes) {
-    // Scalars and histories are kept from step to step. Wind and planes that are not there are not read. The
-    // first direction ignores what was there. The first coarse level is not made of a finer one.
-    // Contact reads safe positions once a step goes on from them, and of the pairs only those that it found.
+    // Scalars, histories and elastic slips are kept from step to step. Wind and planes that are not there are
+    // not read. The first direction ignores what was there. The first coarse level is not made of a finer
+    // one. Contact reads safe positions once a step goes on from them, and of the pairs only those that it
+    // found.
     Arrays known{Array::positions,  Array::velocities,    Array::hash,        Array::contactFlags,
                  Array::watch,      Array::airBlocks,     Array::planes,      Array::contactBlocks,
                  Array::directions, Array::coarseBlocks,  Array::centers,     Array::scalars,
                  Array::histories,  Array::safePositions, Array::keptMotions, Array::touching,
-                 Array::pairForces};
+                 Array::pairForces, Array::elasticSlips};
     for (const PassCall& call : stepOf(scene).passes) {
       const PassTraits& traits = call.traits();
       for (int i = 0; i < ARRAY_COUNT; ++i) {
