@@ -100,7 +100,7 @@ constexpr std::array<PassTraits, PASS_COUNT> table{{
      {partialSums, scalars}, {}, Gate::step},
     {Pass::end, "end", Domain::gridPoints, 0,
      {}, {positions, rightHandSides, displacements, planes, contactBlocks, elasticSlips, histories, scalars},
-     {newPositions, newVelocities, elasticSlips, watch}, {F::movingPins, F::planes, F::history}},
+     {newPositions, newVelocities, newElasticSlips, watch}, {F::movingPins, F::planes, F::history}},
     {Pass::remember, "remember", Domain::gridPoints, 0,
      {}, {positions, velocities, newPositions, newVelocities, displacements},
      {histories, scalars}, {}},
@@ -166,12 +166,18 @@ constexpr bool isInOrder() {
 static_assert(isInOrder(), "the table has the order of the enumerators");
 
 constexpr std::array<std::string_view, ARRAY_COUNT> arrayNames{
-    "positions",       "velocities",    "new positions", "new velocities",   "forces",      "planes",
-    "contact blocks",  "elastic slips", "histories",     "right-hand sides", "air blocks",  "displacements",
-    "iterates",        "residuals",     "corrections",   "factors",          "centers",     "coarse blocks",
-    "coarse inverses", "dense",         "directions",    "products",         "increments",  "partial sums",
-    "scalars",         "hash",          "candidates",    "touching",         "pair forces", "kept motions",
-    "safe positions",  "contact flags", "watch"};
+    "positions",      "velocities",       "new positions",
+    "new velocities", "forces",           "planes",
+    "contact blocks", "elastic slips",    "new elastic slips",
+    "histories",      "right-hand sides", "air blocks",
+    "displacements",  "iterates",         "residuals",
+    "corrections",    "factors",          "centers",
+    "coarse blocks",  "coarse inverses",  "dense",
+    "directions",     "products",         "increments",
+    "partial sums",   "scalars",          "hash",
+    "candidates",     "touching",         "pair forces",
+    "kept motions",   "safe positions",   "contact flags",
+    "watch"};
 
 constexpr std::array<std::string_view, FEATURE_COUNT> featureNames{
     "springs",         "rest lengths", "meshes",      "wind",      "particle forces", "jets",    "grabs",

@@ -71,35 +71,36 @@ enum class Array : std::uint8_t {
   velocities,    // at the start [m/s]
   newPositions,  // at the end
   newVelocities,
-  forces,          // of springs and air [N]
-  planes,          // in which particles touch colliders
-  contactBlocks,   // what these do to the linear system
-  elasticSlips,    // of friction in these planes, from step to step
-  histories,       // what the last step changed
-  rightHandSides,  // b of inertia, air and grabs, and their diagonal
-  airBlocks,       // what wind adds to the diagonal
-  displacements,   // d, since the start of the step [m]
-  iterates,        // x + d
-  residuals,       // *
-  corrections,     // * preconditioned residuals
-  factors,         // of the diagonal blocks
-  centers,         // of coarse vertices [m]
-  coarseBlocks,    // of the coarse levels' matrices
-  coarseInverses,  // of their diagonal blocks, an entry a coarse vertex
-  dense,           // inverses of the coarsest levels' matrices
-  directions,      // of conjugate gradients
-  products,        // H times the direction; also the changes of energy that the line search looks at
-  increments,      // the Newton step so far
-  partialSums,     // one a block of particles
-  scalars,         // of conjugate gradients and the line search
-  hash,            // of the cells that particles lie in
-  candidates,      // for contact, a list a particle
-  touching,        // pairs of parts of the surface that may touch
-  pairForces,      // what these do
-  keptMotions,     // how much of its motion each particle keeps
-  safePositions,   // where motion was cut short, and from where the step goes on
-  contactFlags,    // whether the hash is stale, whether motion has to be clamped
-  watch            // what the watchdog has found
+  forces,           // of springs and air [N]
+  planes,           // in which particles touch colliders
+  contactBlocks,    // what these do to the linear system
+  elasticSlips,     // of friction in these planes, at the start of the step
+  newElasticSlips,  // at the end
+  histories,        // what the last step changed
+  rightHandSides,   // b of inertia, air and grabs, and their diagonal
+  airBlocks,        // what wind adds to the diagonal
+  displacements,    // d, since the start of the step [m]
+  iterates,         // x + d
+  residuals,        // *
+  corrections,      // * preconditioned residuals
+  factors,          // of the diagonal blocks
+  centers,          // of coarse vertices [m]
+  coarseBlocks,     // of the coarse levels' matrices
+  coarseInverses,   // of their diagonal blocks, an entry a coarse vertex
+  dense,            // inverses of the coarsest levels' matrices
+  directions,       // of conjugate gradients
+  products,         // H times the direction; also the changes of energy that the line search looks at
+  increments,       // the Newton step so far
+  partialSums,      // one a block of particles
+  scalars,          // of conjugate gradients and the line search
+  hash,             // of the cells that particles lie in
+  candidates,       // for contact, a list a particle
+  touching,         // pairs of parts of the surface that may touch
+  pairForces,       // what these do
+  keptMotions,      // how much of its motion each particle keeps
+  safePositions,    // where motion was cut short, and from where the step goes on
+  contactFlags,     // whether the hash is stale, whether motion has to be clamped
+  watch             // what the watchdog has found
 };
 inline constexpr int ARRAY_COUNT = static_cast<int>(Array::watch) + 1;
 [[nodiscard]] std::string_view nameOf(Array array);

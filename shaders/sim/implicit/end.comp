@@ -9,7 +9,7 @@
 #include "sim/implicit/time_scheme.glsl"
 
 layout(binding = ELASTIC_SLIPS_UNIT) uniform samplerBuffer elasticSlips;
-layout(std430, binding = ELASTIC_SLIPS_BINDING) writeonly buffer ElasticSlips { vec4 newElasticSlips[]; };
+layout(std430, binding = NEW_ELASTIC_SLIPS_BINDING) writeonly buffer ElasticSlips { vec4 newElasticSlips[]; };
 
 // How the slip of a step ends: `elastic` of it, and of what was before, friction remembers and begins with in the next step;
 // `taken` is taken back. So what sticks stays where it is.

@@ -154,6 +154,8 @@ void CpuExecutor<Real>::run(const StepInputs& inputs, const PassList& list, int)
     rest = rest.subspan(count);
   }
   adopt(list.outcome);
+  if (list.contains(Pass::predictPlanes))
+    std::swap(implicit_.planes.elasticSlips, implicit_.planes.newElasticSlips);
 }
 
 template <class Real>

@@ -228,7 +228,7 @@ void end(const ImplicitArguments<Real>& arguments, int row) {
   const TimeScheme<Real> scheme = timeSchemeOf(arguments);
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
     const SlipEnd<Real> slip = contacts ? slipEnd(arguments, i) : SlipEnd<Real>{};
-    if (contacts) put(arguments.own.planes.elasticSlips, i, canonical(slip.elastic));
+    if (contacts) put(arguments.own.planes.newElasticSlips, i, canonical(slip.elastic));
     const bool pinned = pass.inverseMasses[i] == Real(0);
     if (pinned) continue;  // begin() has moved pins
     Vec3<Real> displacement = canonical(at(arguments.own.displacements, i) - slip.taken);

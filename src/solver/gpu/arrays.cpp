@@ -30,7 +30,9 @@ ArrayPlace placeOf(Array array) {
     case Array::contactBlocks:
       return {CONTACT_BLOCKS_UNIT, CONTACT_BLOCKS_BINDING};
     case Array::elasticSlips:
-      return {ELASTIC_SLIPS_UNIT, ELASTIC_SLIPS_BINDING};
+      return {ELASTIC_SLIPS_UNIT, -1};
+    case Array::newElasticSlips:
+      return {-1, NEW_ELASTIC_SLIPS_BINDING};
     case Array::histories:
       return {HISTORIES_UNIT, HISTORIES_BINDING};
     case Array::rightHandSides:
@@ -125,7 +127,8 @@ void GpuArrays::addImplicit(std::size_t particles, const GpuLevels& levels, bool
   add(Array::airBlocks, wind ? AIR_TEXELS * particles : 1);
   add(Array::planes, colliders ? PLANE_TEXELS * particles : 1);
   add(Array::contactBlocks, colliders ? PLANE_TEXELS * particles : 1);
-  add(Array::elasticSlips, colliders ? particles : 1);
+  for (const Array array : {Array::elasticSlips, Array::newElasticSlips})
+    add(array, colliders ? particles : 1);
   add(Array::histories, history ? HISTORY_TEXELS * particles : 1);
   add(Array::partialSums, (particles + SUM_BLOCK - 1) / SUM_BLOCK);
   const ImplicitScalars<float> none{};

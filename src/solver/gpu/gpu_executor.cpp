@@ -202,6 +202,8 @@ void GpuExecutor::run(const StepInputs& inputs, const PassList& list, int steps)
   }
 
   if (list.outcome == Outcome::state) std::swap(arrays_[Array::positions], arrays_[Array::newPositions]);
+  if (list.contains(Pass::predictPlanes))
+    std::swap(arrays_[Array::elasticSlips], arrays_[Array::newElasticSlips]);
   if (list.outcome != Outcome::nothing) std::swap(arrays_[Array::velocities], arrays_[Array::newVelocities]);
 }
 

@@ -96,6 +96,23 @@ TEST(ImplicitContact, GoesOnFromASavedStateAsIfNothingHadHappened) {
   EXPECT_EQ(later(), first);
 }
 
+// The step of cloth that may touch itself ends twice where nothing was cut short.
+TEST(ImplicitContact, SticksAsWellWhereClothMayTouchItself) {
+  Scene scene = drapedBall();
+  scene.colliders.erase(scene.colliders.begin());
+  scene.cloths[0].position.y -= 0.36;
+  scene.gravity = {9.81 * std::sin(0.4), -9.81 * std::cos(0.4), 0};
+  const Cloth cloth(scene);
+  for (const SelfCollision mode : {SelfCollision::contact, SelfCollision::off}) {
+    scene.solver.selfCollision = mode;
+    CpuSolver<float> solver(cloth, scene);
+    solver.step(4 * 15);
+    const State state = solver.state();
+    for (std::size_t i = 0; i < state.positions.size(); ++i)
+      ASSERT_NEAR(state.positions[i].x, cloth.positions()[i].x, 5e-6) << i;
+  }
+}
+
 // Five particles above a plane at height 0 that is .3 below; they move down by the increment.
 TEST(ImplicitContact, StopsAtPlanesThatDoNotHold) {
   constexpr std::size_t count = 5;
