@@ -102,8 +102,12 @@ using uint = std::uint32_t;
 #define FLAT_SIDES_UNIT 61  // four texels each: of the sides along rows the lowest and highest, of the others
 #define FLAT_FLAGS_UNIT 62  // whether a block and those around it are flat
 #define SMALL_COLLIDERS_UNIT 63  // two texels each
-#define PAIR_CARRIES_UNIT 64     // how far a small collider carries the pair along
+#define PAIR_CARRIES_UNIT 64     // how far a small collider carries the pair along, less its elastic slip
+#define PAIR_SLIPS_UNIT 68       // elastic slip as bits, and the pair's place (src/solver/surface.h)
+#define KEPT_IDS_UNIT 69         // of the pairs of the step before: particles,
+#define KEPT_SLIPS_UNIT 70       // what friction remembers, and places
 #define SURFACE_CARRIES_BINDING 1
+#define PAIR_SLIPS_BINDING 2
 #define SURFACE_MOVED_BINDING 7
 
 struct SurfaceBlock {
@@ -171,8 +175,8 @@ struct SurfaceState {
 
   uint isSettled;  // or would have, but there was none
   uint moved;      // on the GPU, particles that this round of the guard has moved or held back so far
+  uint keptPairs;  // on the GPU, how many pairs the step before had
   uint unusedA;
-  uint unusedB;
 
   // Of all steps:
   uint mostPairs;     // in a step; also those that there was no room for

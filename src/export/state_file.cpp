@@ -13,7 +13,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little,
               "the file is little-endian, and is copied as it lies in memory");
-static_assert(sizeof(Particle4) == 16);
+static_assert(sizeof(Particle4) == 16 && sizeof(PairSlip) == 32);
 
 struct Header {
   char magic[8];
@@ -167,6 +167,13 @@ void checkContent(const Header& header, const State& state, std::size_t meshTria
   for (std::size_t i = 0; i < state.elasticSlips.size(); ++i)
     if (const Particle4& slip = state.elasticSlips[i]; !std::isfinite(slip.x + slip.y + slip.z))
       refuse(source, "the elastic slip of particle " + std::to_string(i) + " is not finite");
+  for (std::size_t i = 0; i < state.pairSlips.size(); ++i) {
+    const PairSlip& slip = state.pairSlips[i];
+    if (!std::isfinite(slip.x + slip.y + slip.z))
+      refuse(source, "the elastic slip of pair " + std::to_string(i) + " is not finite");
+    if (i > 0 && slip.place < state.pairSlips[i - 1].place)
+      refuse(source, "its pairs with elastic slips are not in ascending order");
+  }
   for (std::size_t i = particles; i < state.cuts.size(); ++i)
     if (state.cuts[i] > 1)
       refuse(source, "whether triangle " + std::to_string(i - particles) + " of the meshes is lost is " +
@@ -186,7 +193,7 @@ void checkContent(const Header& header, const State& state, std::size_t meshTria
 std::string formatStateFile(const State& state) {
   Header header{};
   std::memcpy(header.magic, fileMagic, sizeof header.magic);
-  header.version = state.elasticSlips.empty() ? timedVersion : rubbedVersion;
+  header.version = state.elasticSlips.empty() && state.pairSlips.empty() ? timedVersion : rubbedVersion;
   header.integrator = static_cast<std::uint32_t>(state.integrator);
   header.particleCount = state.positions.size();
   header.step = state.clock.step;
@@ -200,7 +207,10 @@ std::string formatStateFile(const State& state) {
   append(bytes, state.velocities.data(), state.velocities.size());
   appendList(bytes, state.cuts);
   appendList(bytes, state.offPath);
-  if (header.version >= rubbedVersion) appendList(bytes, state.elasticSlips);
+  if (header.version >= rubbedVersion) {
+    appendList(bytes, state.elasticSlips);
+    appendList(bytes, state.pairSlips);
+  }
   const std::uint64_t sum = checksum(bytes);
   append(bytes, &sum, 1);
   return bytes;
@@ -216,7 +226,10 @@ State parseStateFile(const std::string& bytes, std::size_t particleCount, const 
     state.cuts = lists.next<std::uint8_t>();
     state.offPath = lists.next<std::uint32_t>();
   }
-  if (header.version >= rubbedVersion) state.elasticSlips = lists.next<Particle4>();
+  if (header.version >= rubbedVersion) {
+    state.elasticSlips = lists.next<Particle4>();
+    state.pairSlips = lists.next<PairSlip>();
+  }
   if (bytes.size() != lists.place() + sizeof(std::uint64_t))
     lists.refuseLength(lists.place() + sizeof(std::uint64_t));
   checkChecksum(bytes, source);

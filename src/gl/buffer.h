@@ -54,10 +54,10 @@ class Buffer {
   }
   // Fills it with zeros.
   void clear() { glClearNamedBufferData(name_, GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, nullptr); }
-  // Copies another buffer of the same size, on the device.
+  // Copies another buffer, on the device; one that is smaller, to the beginning.
   void copyFrom(const Buffer& other) {
-    assert(other.size_ == size_ && "only buffers of one size are copied");
-    glCopyNamedBufferSubData(other.name_, name_, 0, 0, static_cast<GLsizeiptr>(bytes()));
+    assert(other.size_ <= size_ && "a buffer is copied whole");
+    glCopyNamedBufferSubData(other.name_, name_, 0, 0, static_cast<GLsizeiptr>(other.bytes()));
   }
   void bindStorage(GLuint binding) const {
     if (KeptBindings::changes(KeptBindings::Kind::storage, binding, {name_}))

@@ -108,7 +108,7 @@ constexpr std::array<PassTraits, PASS_COUNT> table{{
      {}, {},
      {scalars}, {}},
     {Pass::findTouching, "find touching", Domain::surface, 0,
-     {positions, safePositions, displacements, iterates}, {rightHandSides},
+     {positions, safePositions, displacements, iterates}, {rightHandSides, pairSlips},
      {touching, scalars}, {F::cuts, F::smallColliders}},
     {Pass::weighPairs, "weigh pairs", Domain::surface, 0,
      {positions, displacements}, {rightHandSides, touching, scalars},
@@ -116,6 +116,9 @@ constexpr std::array<PassTraits, PASS_COUNT> table{{
     {Pass::multiplyPairs, "multiply pairs", Domain::surface, 0,
      {directions}, {touching},
      {pairForces}, {}, Gate::system},
+    {Pass::keepSlips, "keep slips", Domain::surface, 0,
+     {displacements}, {touching, scalars},
+     {newPairSlips}, {}},
     {Pass::guard, "guard", Domain::surface, 0,
      {positions, safePositions, newPositions, keptMotions}, {newVelocities},
      {keptMotions, newPositions, newVelocities}, {F::cuts}},
@@ -175,9 +178,9 @@ constexpr std::array<std::string_view, ARRAY_COUNT> arrayNames{
     "coarse blocks",  "coarse inverses",  "dense",
     "directions",     "products",         "increments",
     "partial sums",   "scalars",          "hash",
-    "candidates",     "touching",         "pair forces",
-    "kept motions",   "safe positions",   "contact flags",
-    "watch"};
+    "candidates",     "touching",         "pair slips",
+    "new pair slips", "pair forces",      "kept motions",
+    "safe positions", "contact flags",    "watch"};
 
 constexpr std::array<std::string_view, FEATURE_COUNT> featureNames{
     "springs",         "rest lengths", "meshes",      "wind",      "particle forces", "jets",    "grabs",

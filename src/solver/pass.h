@@ -47,6 +47,7 @@ enum class Pass : std::uint8_t {
   findTouching,
   weighPairs,
   multiplyPairs,
+  keepSlips,
   guard,
   shorten,
   settle,
@@ -96,6 +97,8 @@ enum class Array : std::uint8_t {
   hash,             // of the cells that particles lie in
   candidates,       // for contact, a list a particle
   touching,         // pairs of parts of the surface that may touch
+  pairSlips,        // of friction between these parts, at the start of the step
+  newPairSlips,     // at the end
   pairForces,       // what these do
   keptMotions,      // how much of its motion each particle keeps
   safePositions,    // where motion was cut short, and from where the step goes on

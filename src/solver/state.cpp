@@ -8,9 +8,10 @@
 
 namespace clothsim {
 
-void dropZeros(std::vector<Particle4>& values) {
-  const auto isZero = [](const Particle4& p) { return p.x == 0 && p.y == 0 && p.z == 0; };
-  if (std::ranges::all_of(values, isZero)) values.clear();
+void dropZeroSlips(State& state) {
+  const auto isZero = [](const auto& slip) { return slip.x == 0 && slip.y == 0 && slip.z == 0; };
+  if (std::ranges::all_of(state.elasticSlips, isZero)) state.elasticSlips.clear();
+  if (std::ranges::all_of(state.pairSlips, isZero)) state.pairSlips.clear();
 }
 
 void leavePath(std::vector<std::uint32_t>& offPath, std::uint32_t particle) {

@@ -2,6 +2,7 @@
 // buffers.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -19,6 +20,14 @@ struct alignas(16) Particle4 {  // one vec4 of a storage buffer
 
 [[nodiscard]] inline Vec3d vectorOf(const Particle4& p) { return Vec3f{p.x, p.y, p.z}.cast<double>(); }
 
+// How far friction of an implicit step holds two parts of the cloth's surface back, or one and a small
+// collider, from where it took hold of them (solver/implicit.h).
+struct PairSlip {
+  std::uint32_t place = 0;  // in the order in which a step finds pairs (solver/surface.h)
+  std::array<std::uint32_t, 4> particles{};
+  float x = 0, y = 0, z = 0;  // [m]
+};
+
 struct State {
   std::vector<Particle4> positions;   // xyz [m], w the inverse mass [1/kg], 0: pinned
   std::vector<Particle4> velocities;  // xyz [m/s]; of the half step before under `verlet`. w: unused
@@ -27,13 +36,14 @@ struct State {
   // How far friction of implicit steps holds particles back from where it took hold of them on a collider
   // (solver/implicit.h), xyz [m]; w: unused. Empty: nowhere.
   std::vector<Particle4> elasticSlips;
-  Cuts cuts;  // empty: none
+  std::vector<PairSlip> pairSlips;  // the same where cloth touches cloth, ascending by place
+  Cuts cuts;                        // empty: none
   std::vector<std::uint32_t>
       offPath;  // particles that a person has pinned or freed, ascending: no path moves them
 };
 
-// Empties what holds only zeros, as State::elasticSlips before anything has touched.
-void dropZeros(std::vector<Particle4>& values);
+// Empties elasticSlips and pairSlips where they hold only zeros, as before anything has touched.
+void dropZeroSlips(State& state);
 
 // Adds a particle to State::offPath.
 void leavePath(std::vector<std::uint32_t>& offPath, std::uint32_t particle);

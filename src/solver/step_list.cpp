@@ -92,7 +92,7 @@ class StepBuilder {
       findPlanes();
       newtonStep();
     });
-    list_.add(Pass::end);
+    endStep();
   }
 
   void finishMotion() {
@@ -100,6 +100,11 @@ class StepBuilder {
     if (hasSmallColliders_)
       for (std::size_t round = 0; round < PRESS_ROUNDS; ++round) list_.add(Pass::pressOut, round);
     if (touchesItself_) guardMotion();
+  }
+
+  void endStep() {
+    list_.add(Pass::end);
+    if (hasPairs()) list_.add(Pass::keepSlips);
   }
 
   // Where motion was cut short, the step goes on from there, with the contacts that are there. Otherwise this
@@ -111,7 +116,7 @@ class StepBuilder {
       findPlanes();
       newtonStep();
     });
-    list_.add(Pass::end);
+    endStep();
     finishMotion();
   }
 

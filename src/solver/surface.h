@@ -55,7 +55,17 @@ struct SurfacePair {
   // Of a triangle and a small collider, which of them; the fourth particle is the first once more, with
   // weight 0. What meets the collider says how friction is limited; `friction` and `pressed` stay 0.
   std::uint32_t collider = NO_COLLIDER;
+  std::uint32_t place = 0;  // placeOf() of the triangle that has found the pair
+  Vec3<Real> elasticSlip;   // of friction, at the start of the step [m]
 };
+
+// Pairs are found triangle by triangle, first those of cloth and cloth, then those with each small collider.
+// What friction remembers of a pair is found again by this number and the particles.
+[[nodiscard]] inline std::uint32_t placeOf(std::uint32_t triangle, std::uint32_t collider,
+                                           std::size_t colliders) {
+  const auto each = static_cast<std::uint32_t>(colliders) + 1;
+  return triangle * each + (collider == NO_COLLIDER ? 0 : collider + 1);
+}
 
 template <class Real>
 struct ClothSurface {

@@ -37,6 +37,7 @@ void writeStates(const fs::path& folder) {
   write(folder / "handled.state", formatStateFile(handled));
   State rubbed = makeState(3, Integrator::euler);
   rubbed.elasticSlips.assign(3, {1e-5f, 0, 0, 0});
+  rubbed.pairSlips = {{1, {0, 1, 2, 0}, 0, 1e-5f, 0}};
   write(folder / "rubbed.state", formatStateFile(rubbed));
 }
 

@@ -4,6 +4,7 @@
 #include "sim/implicit/common.glsl"
 #include "sim/surface/meeting.glsl"
 
+layout(binding = PAIR_SLIPS_UNIT) uniform usamplerBuffer pairSlips;
 layout(std430, binding = SURFACE_OUT_BINDING) writeonly buffer Rows { vec4 newRows[]; };
 layout(std430, binding = SURFACE_CARRIES_BINDING) writeonly buffer Carries { vec4 newCarries[]; };
 
@@ -13,10 +14,7 @@ void main() {
   uint q = thisPair();
   if (isSkipped() || q >= scalars.pairs) return;
   vec4 law = pairRow(q, 2u);
-  if (!(law.y < 0.0)) {
-    newCarries[q] = vec4(0.0);
-    return;
-  }
+  if (!(law.y < 0.0)) return;
   uvec4 ids = texelFetch(pairIds, int(q));
   vec4 old = pairRow(q, 0u);
   vec3 dA = displacementAt(ids.x), dB = displacementAt(ids.y), dC = displacementAt(ids.z);
@@ -59,6 +57,7 @@ void main() {
   newRows[4u * q + 1u] = weights;
   newRows[4u * q + 2u] =
       vec4(met.counts ? stiffness : 0.0, law.y, limit, holds ? stiffness : 0.0);
-  newCarries[q] = vec4(canonical(met.touch.carry), 0.0);
+  precise vec3 carry = canonical(met.touch.carry) - uintBitsToFloat(texelFetch(pairSlips, int(q)).xyz);
+  newCarries[q] = vec4(carry, 0.0);
   if (holds) atomicOr(scalars.isDisturbed, 1u);
 }

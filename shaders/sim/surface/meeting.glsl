@@ -12,8 +12,6 @@
 layout(binding = SMALL_COLLIDERS_UNIT) uniform samplerBuffer smallColliders;
 layout(binding = SURFACE_POINTS_UNIT) uniform samplerBuffer points;
 
-uint thisPair() { return (gl_WorkGroupID.y * GROUPS_A_ROW + gl_WorkGroupID.x) * uint(SURFACE_GROUP) + gl_LocalInvocationIndex; }
-
 SmallCollider smallColliderAt(uint s) {
   vec4 a = texelFetch(smallColliders, int(2u * s)), b = texelFetch(smallColliders, int(2u * s + 1u));
   return SmallCollider(a.x, a.y, a.z, a.w, b.x, b.y, b.z, b.w);

@@ -6,7 +6,6 @@
 
 layout(std430, binding = SURFACE_OUT_BINDING) writeonly buffer Rows { vec4 newRows[]; };
 
-uint thisPair() { return (gl_WorkGroupID.y * GROUPS_A_ROW + gl_WorkGroupID.x) * uint(SURFACE_GROUP) + gl_LocalInvocationIndex; }
 vec3 directionAt(uint i) { return texelFetch(directions, int(i)).xyz; }
 #include "sim/surface/pair_product.glsl"
 

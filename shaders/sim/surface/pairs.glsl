@@ -5,16 +5,15 @@
 layout(binding = PAIR_IDS_UNIT) uniform usamplerBuffer pairIds;
 layout(binding = PAIR_ROWS_UNIT) uniform samplerBuffer pairRows;
 
-#if HAS_SMALL_COLLIDERS
 layout(binding = PAIR_CARRIES_UNIT) uniform samplerBuffer pairCarries;
-// A displacement of a pair, relative to the small collider that it may be with.
+
+uint thisPair() { return (gl_WorkGroupID.y * GROUPS_A_ROW + gl_WorkGroupID.x) * uint(SURFACE_GROUP) + gl_LocalInvocationIndex; }
+
+// What friction acts on of a displacement of a pair.
 vec3 relativeToPair(uint q, vec3 d) {
   precise vec3 relative = d - texelFetch(pairCarries, int(q)).xyz;
   return relative;
 }
-#else
-vec3 relativeToPair(uint q, vec3 d) { return d; }
-#endif
 
 vec4 pairRow(uint q, uint row) { return texelFetch(pairRows, int(4u * q + row)); }
 

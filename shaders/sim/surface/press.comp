@@ -16,9 +16,10 @@ float leastSize(SmallCollider small) {
 }
 
 #if STOPS_SLIPS
+layout(binding = PAIR_SLIPS_UNIT) uniform usamplerBuffer pairSlips;
 vec3 displacementAt(uint i) { return texelFetch(displacements, int(i)).xyz; }
 
-// What the solution leaves of Coulomb's friction [N], in w, and the slip.
+// What the solution leaves of Coulomb's friction [N], in w, and the slip of the step.
 vec4 slipOfPair(uint q, uvec4 ids, float limit) {
   vec3 dA = displacementAt(ids.x), normal = pairRow(q, 0u).xyz;
   vec3 relative = relativeToPair(q, weightedSum(pairRow(q, 1u), dA, displacementAt(ids.y), displacementAt(ids.z), dA));
@@ -28,7 +29,9 @@ vec4 slipOfPair(uint q, uvec4 ids, float limit) {
   precise float used = frictionSlope(len, inverse, slowSlip()).over * len;
   precise float rest = 1.0 - used;
   precise float left = limit * (rest < 0.0 ? 0.0 : rest);
-  return vec4(canonical(slip), canonical(left));
+  vec3 elastic = uintBitsToFloat(texelFetch(pairSlips, int(q)).xyz);
+  precise vec3 own = slip - (elastic - sumOfProducts(normal, elastic) * normal);
+  return vec4(canonical(own), canonical(left));
 }
 #else
 Met meetAtEnd(SmallCollider small, uvec4 ids) {

@@ -12,11 +12,12 @@ layout(std430, binding = SURFACE_LISTS_BINDING) coherent buffer ListCounts { uin
 layout(binding = SURFACE_BLOCKS_UNIT) uniform usamplerBuffer blockStarts;
 layout(std430, binding = SURFACE_IDS_BINDING) writeonly buffer Ids { uvec4 newIds[]; };
 layout(std430, binding = SURFACE_OUT_BINDING) writeonly buffer Rows { vec4 newRows[]; };
+layout(std430, binding = PAIR_SLIPS_BINDING) writeonly buffer Slips { uvec4 newSlips[]; };
 #endif
 
 layout(binding = ITERATES_UNIT) uniform samplerBuffer iterates;
 
-uint found = 0u, firstFound = 0u;
+uint found = 0u, firstFound = 0u, firstPlace = 0u;
 #if HAS_SMALL_COLLIDERS
 #include "sim/surface/near.glsl"
 #endif
@@ -108,6 +109,7 @@ void addPair(uvec4 ids, bool areSides, PartPlaces places, NearestParts nearest, 
   newRows[4u * q + 1u] = weights;
   newRows[4u * q + 2u] = vec4(ofPair, LARGE_SQUARE, 0.0, held);
   newRows[4u * q + 3u] = vec4(0.0);
+  newSlips[q] = uvec4(uvec3(0u), firstPlace);
   for (int k = 0; k < 4; ++k) atomicAdd(listCounts[ids[k]], 1u);
   atomicMin(state.leastGap, floatBitsToUint(distanceBefore));
   if (held > 0.0) atomicOr(scalars.isDisturbed, 1u);
@@ -145,6 +147,7 @@ void main() {
 #if WRITES_PAIRS
   if (state.tooMany != 0u) return;
   firstFound = counts[own] + texelFetch(blockStarts, int(own / SURFACE_BLOCK)).x;
+  firstPlace = own * (surface.smallColliders + 1u);
 #else
   counts[own] = 0u;
   if (state.tooMany == 2u) return;

@@ -35,6 +35,7 @@ void begin() {
   state.isLater = 0u;
   state.isSettled = 0u;
   state.isPressed = 0u;
+  state.keptPairs = state.pairs;
 #endif
   state.tooMany = 0u;
 #else

@@ -8,7 +8,6 @@
 layout(binding = SURFACE_POINTS_UNIT) uniform samplerBuffer points;
 layout(std430, binding = SURFACE_OUT_BINDING) writeonly buffer Rows { vec4 newRows[]; };
 
-uint thisPair() { return (gl_WorkGroupID.y * GROUPS_A_ROW + gl_WorkGroupID.x) * uint(SURFACE_GROUP) + gl_LocalInvocationIndex; }
 vec3 displacementAt(uint i) { return texelFetch(displacements, int(i)).xyz; }
 
 float frictionOf(uvec4 ids, vec4 weights) {

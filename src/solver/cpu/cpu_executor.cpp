@@ -25,9 +25,11 @@ template <class Real>
 struct CpuExecutor<Real>::Copy final : ParticleCopy {
   Particles particles;
   Components<Real> elasticSlips;
+  std::vector<cpu::RememberedSlip<Real>> pairSlips;
 
   [[nodiscard]] std::size_t bytes() const override {
-    return (7 * particles.inverseMasses.size() + 3 * elasticSlips.x.size()) * sizeof(Real);
+    return (7 * particles.inverseMasses.size() + 3 * elasticSlips.x.size()) * sizeof(Real) +
+           pairSlips.size() * sizeof pairSlips[0];
   }
   void download(State& state) const override {
     const std::size_t count = particles.inverseMasses.size();
@@ -45,7 +47,12 @@ struct CpuExecutor<Real>::Copy final : ParticleCopy {
       const Vec3f slip = cpu::at(elasticSlips, static_cast<std::ptrdiff_t>(i)).template cast<float>();
       state.elasticSlips.push_back({slip.x, slip.y, slip.z, 0});
     }
-    dropZeros(state.elasticSlips);
+    state.pairSlips.clear();
+    for (const cpu::RememberedSlip<Real>& known : pairSlips) {
+      const Vec3f slip = known.slip.template cast<float>();
+      state.pairSlips.push_back({known.place, known.particles, slip.x, slip.y, slip.z});
+    }
+    dropZeroSlips(state);
   }
 };
 
@@ -156,6 +163,7 @@ void CpuExecutor<Real>::run(const StepInputs& inputs, const PassList& list, int)
   adopt(list.outcome);
   if (list.contains(Pass::predictPlanes))
     std::swap(implicit_.planes.elasticSlips, implicit_.planes.newElasticSlips);
+  if (list.contains(Pass::findTouching)) std::swap(implicit_.pairSlips, implicit_.newPairSlips);
 }
 
 template <class Real>
@@ -376,6 +384,10 @@ void CpuExecutor<Real>::upload(const State& state) {
     const Vec3d slip = state.elasticSlips.empty() ? Vec3d{} : vectorOf(state.elasticSlips[i]);
     cpu::put(slips, static_cast<std::ptrdiff_t>(i), slip.template cast<Real>());
   }
+  implicit_.pairSlips.clear();
+  for (const PairSlip& slip : state.pairSlips)
+    implicit_.pairSlips.push_back(
+        {slip.place, slip.particles, Vec3f{slip.x, slip.y, slip.z}.template cast<Real>()});
   implicit_.scalars.usualSteps = 0;
   selfCollision_.restart();
 }
@@ -408,6 +420,7 @@ std::unique_ptr<ParticleCopy> CpuExecutor<Real>::copy(std::unique_ptr<ParticleCo
   auto& copy = static_cast<Copy&>(*reuse);
   copy.particles = particles_;
   copy.elasticSlips = implicit_.planes.elasticSlips;
+  copy.pairSlips = implicit_.pairSlips;
   return reuse;
 }
 
@@ -417,6 +430,7 @@ bool CpuExecutor<Real>::restore(const ParticleCopy& copy) {
   if (own == nullptr) return false;
   particles_ = own->particles;
   implicit_.planes.elasticSlips = own->elasticSlips;
+  implicit_.pairSlips = own->pairSlips;
   implicit_.scalars.usualSteps = 0;
   return true;
 }

@@ -157,11 +157,6 @@ INLINE void addPairs(const TouchingPairs<Real>& touching, std::ptrdiff_t i, Vec3
     block.diagonal = block.diagonal + Vec3<Real>{across, across, across};
   });
 }
-// How far a small collider carries a pair along.
-template <class Real>
-INLINE Vec3<Real> carryOf(const TouchingPairs<Real>& touching, std::uint32_t q) {
-  return touching.carries.empty() ? Vec3<Real>{} : touching.carries[q];
-}
 // How the energies of the pairs whose first particle this is change along the increments.
 template <class Real>
 INLINE void addPairTrials(ImplicitState<Real>& own, std::ptrdiff_t i, Real slow) {
@@ -170,7 +165,7 @@ INLINE void addPairTrials(ImplicitState<Real>& own, std::ptrdiff_t i, Real slow)
     const SurfacePair<Real>& pair = own.touching.pairs[q];
     const Vec3<Real> d = weighted(pair, own.displacements), e = weighted(pair, own.increments);
     const Real along = dot(pair.normal, d), fall = dot(pair.normal, e), over = pair.over - along;
-    const Vec3<Real> slip = tangential(pair.normal, d - carryOf(own.touching, q)),
+    const Vec3<Real> slip = tangential(pair.normal, d - own.touching.carries[q]),
                      slide = e - fall * pair.normal;
     const Real resisted = frictionPotential(slip, slow);
     forEachLength(own, [&](Real* trial, Real l) {

@@ -25,8 +25,16 @@ struct TouchingPairs {
   std::vector<Vec3<Real>> forces;      // of a pair: at the iterate, later what it does to the directions
   std::vector<std::uint32_t> starts;   // of a particle's entries, and one more
   std::vector<std::uint32_t> entries;  // 4 * pair + place in it, ascending
-  // Of each pair, how far a small collider carries it along [m]; empty without such colliders.
+  // Of each pair, how far a small collider carries it along, less the elastic slip [m].
   std::vector<Vec3<Real>> carries;
+};
+
+// What friction remembers of a pair.
+template <class Real>
+struct RememberedSlip {
+  std::uint32_t place;
+  std::array<std::uint32_t, 4> particles;
+  Vec3<Real> slip;
 };
 
 // What an implicit step works on, an entry a particle.
@@ -51,6 +59,8 @@ struct ImplicitState {
   std::array<std::vector<Real>, LENGTHS_TRIED> trials;  // a particle's change of energy
   bool triesShorter = false;  // lengths behind the first are tried only where that one raises the energy
   TouchingPairs<Real> touching;
+  std::vector<RememberedSlip<Real>> pairSlips;     // of the step before, ascending by place,
+  std::vector<RememberedSlip<Real>> newPairSlips;  // and of this one
   ImplicitScalars<Real> scalars{};
 
   Hierarchy<Real> hierarchy;

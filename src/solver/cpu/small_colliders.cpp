@@ -248,14 +248,14 @@ void meetColliders(const ClothSurface<Real>& surface, const PassArguments<Real>&
     pair.stiffness = met.counts ? stiffness : Real(0);
     pair.held = holds ? stiffness : Real(0);
     if (follows) pair.limit = canonical(holds ? friction * (stiffness * larger(depth, Real(0))) : Real(0));
-    touching.carries[q] = canonical(met.touch.carry);
+    touching.carries[q] = canonical(met.touch.carry) - pair.elasticSlip;
     if (holds) std::atomic_ref(implicit.scalars.isDisturbed).store(1, std::memory_order_relaxed);
   });
 }
 
 namespace {
 
-// What the solution leaves of Coulomb's friction [N], and the slip, as the force of the pair.
+// What the solution leaves of Coulomb's friction [N], and the slip of the step, as the force of the pair.
 template <class Real>
 bool findSlip(const PassArguments<Real>& arguments, ImplicitState<Real>& implicit, std::uint32_t q) {
   TouchingPairs<Real>& touching = implicit.touching;
@@ -265,7 +265,7 @@ bool findSlip(const PassArguments<Real>& arguments, ImplicitState<Real>& implici
   const Real squared = dot(slip, slip), inverse = inverseSquareRoot(squared), length = squared * inverse;
   const Real used = frictionSlope(length, inverse, slowSlip(arguments.step)).over * length;
   pair.across = canonical(pair.limit * larger(Real(1) - used, Real(0)));
-  touching.forces[q] = canonical(slip);
+  touching.forces[q] = canonical(slip - tangential(pair.normal, pair.elasticSlip));
   return Real(0) < pair.across;
 }
 

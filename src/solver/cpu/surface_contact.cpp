@@ -152,7 +152,7 @@ void SurfaceContact<Real>::findTouching(const CpuState<Real>& before, ImplicitSt
     if (!mayTouchItself && surface_.colliders.empty()) return;
     const std::uint32_t first = chunk * NearParts<Real>::TRIANGLES;
     for (std::uint32_t i = first; i < std::min(first + NearParts<Real>::TRIANGLES, triangles); ++i) {
-      const std::size_t most = found.size() + MOST_PAIRS_A_TRIANGLE;
+      const std::size_t firstFound = found.size(), most = firstFound + MOST_PAIRS_A_TRIANGLE;
       if (mayTouchItself)
         forEachPair<false>(i, starts, surface_.touchingReach, [&](const Parts& parts, const auto& nearest) {
           const SurfacePair<Real> pair = pairOf(surface_, parts, nearest, starts, implicit, isLater);
@@ -160,6 +160,8 @@ void SurfaceContact<Real>::findTouching(const CpuState<Real>& before, ImplicitSt
           return found.size() <= most;
         });
       addNearColliders(surface_, arguments, implicit, surface_.triangles[i], found);
+      for (std::size_t k = firstFound; k < found.size(); ++k)
+        found[k].place = placeOf(i, found[k].collider, surface_.colliders.size());
       if (found.size() > most) std::atomic_ref(state_.tooMany).store(1, std::memory_order_relaxed);
     }
   });
@@ -181,9 +183,8 @@ void SurfaceContact<Real>::findTouching(const CpuState<Real>& before, ImplicitSt
   implicit.scalars.pairs = static_cast<std::uint32_t>(touching.pairs.size());
   touching.forces.resize(touching.pairs.size());
   listByParticle(touching, particles);
-  if (surface_.colliders.empty()) return;
-  touching.carries.assign(touching.pairs.size(), {});
-  meetColliders(surface_, arguments, implicit);
+  recallSlips(implicit);
+  if (!surface_.colliders.empty()) meetColliders(surface_, arguments, implicit);
 }
 
 template <class Real>
@@ -444,6 +445,8 @@ void SurfaceContact<Real>::run(PassCall call, const CpuState<Real>& before, CpuS
       return weighPairs(implicit, step);
     case Pass::multiplyPairs:
       return multiplyPairs(implicit);
+    case Pass::keepSlips:
+      return keepSlips(implicit, step);
     case Pass::pressOut:
       return pressOut(surface_, arguments, implicit, state_, call.index);
     case Pass::guard:

@@ -1,5 +1,7 @@
 #include "solver/cpu/surface_pairs.h"
 
+#include <algorithm>
+
 #include "core/thread_team.h"
 #include "solver/cpu/implicit_contact.h"
 
@@ -125,7 +127,7 @@ void weighPairs(ImplicitState<Real>& own, const StepParams<Real>& step) {
     SurfacePair<Real>& pair = touching.pairs[q];
     const Vec3<Real> moved = weighted(pair, own.displacements);
     const Real along = dot(pair.normal, moved), over = pair.over - along;
-    const Vec3<Real> slip = tangential(pair.normal, moved - carryOf(touching, q));
+    const Vec3<Real> slip = tangential(pair.normal, moved - touching.carries[q]);
     const Real squared = dot(slip, slip), inverse = inverseSquareRoot(squared);
     if (pair.collider == NO_COLLIDER) {
       // The less of this and the last Newton step: what is not solved yet presses at random, and would stick.
@@ -141,6 +143,39 @@ void weighPairs(ImplicitState<Real>& own, const StepParams<Real>& step) {
     touching.forces[q] = canonical((pair.held * over) * pair.normal - across * slip);
   };
   ThreadTeam::shared().forEach(0, static_cast<std::uint32_t>(touching.pairs.size()), PAIRS_AT_ONCE, weigh);
+}
+
+// Pairs that the step before has found, too, begin with the friction that it ended with.
+template <class Real>
+void recallSlips(ImplicitState<Real>& own) {
+  TouchingPairs<Real>& touching = own.touching;
+  touching.carries.resize(touching.pairs.size());
+  const auto recall = [&](std::uint32_t q) {
+    SurfacePair<Real>& pair = touching.pairs[q];
+    pair.elasticSlip = {};
+    auto known = std::ranges::lower_bound(own.pairSlips, pair.place, {}, &RememberedSlip<Real>::place);
+    while (known != own.pairSlips.end() && known->place == pair.place && known->particles != pair.particles)
+      ++known;
+    if (known != own.pairSlips.end() && known->place == pair.place) pair.elasticSlip = known->slip;
+    touching.carries[q] = Vec3<Real>{} - pair.elasticSlip;
+  };
+  ThreadTeam::shared().forEach(0, static_cast<std::uint32_t>(touching.pairs.size()), PAIRS_AT_ONCE, recall);
+}
+
+// As of planes (implicit_ends.cpp).
+template <class Real>
+void keepSlips(ImplicitState<Real>& own, const StepParams<Real>& step) {
+  const TouchingPairs<Real>& touching = own.touching;
+  own.newPairSlips.resize(touching.pairs.size());
+  const Real slow = slowSlip(step);
+  const auto keep = [&](std::uint32_t q) {
+    const SurfacePair<Real>& pair = touching.pairs[q];
+    const Vec3<Real> slip = tangential(pair.normal, weighted(pair, own.displacements) - touching.carries[q]);
+    const Real part = slow * inverseSquareRoot(dot(slip, slip));
+    const Vec3<Real> elastic = canonical((part < Real(1) ? part : Real(1)) * slip);
+    own.newPairSlips[q] = {pair.place, pair.particles, pair.limit > Real(0) ? elastic : Vec3<Real>{}};
+  };
+  ThreadTeam::shared().forEach(0, static_cast<std::uint32_t>(touching.pairs.size()), PAIRS_AT_ONCE, keep);
 }
 
 template <class Real>
@@ -161,6 +196,8 @@ void multiplyPairs(ImplicitState<Real>& own) {
                                     const Components<Real>&, const ImplicitState<Real>&, bool); \
   template void listByParticle(TouchingPairs<Real>&, std::size_t);                              \
   template void weighPairs(ImplicitState<Real>&, const StepParams<Real>&);                      \
+  template void recallSlips(ImplicitState<Real>&);                                              \
+  template void keepSlips(ImplicitState<Real>&, const StepParams<Real>&);                       \
   template void multiplyPairs(ImplicitState<Real>&);
 INSTANTIATE(float)
 INSTANTIATE(double)

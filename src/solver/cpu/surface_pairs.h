@@ -38,6 +38,11 @@ void listByParticle(TouchingPairs<Real>& touching, std::size_t particles);
 // Forces of the pairs at the iterate, and what they add to the Hessian.
 template <class Real>
 void weighPairs(ImplicitState<Real>& own, const StepParams<Real>& step);
+// What friction of the pairs remembers: as they begin with it, and as the step leaves it.
+template <class Real>
+void recallSlips(ImplicitState<Real>& own);
+template <class Real>
+void keepSlips(ImplicitState<Real>& own, const StepParams<Real>& step);
 // What the pairs do to the directions.
 template <class Real>
 void multiplyPairs(ImplicitState<Real>& own);

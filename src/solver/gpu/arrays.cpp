@@ -74,6 +74,8 @@ ArrayPlace placeOf(Array array) {
     case Array::contactFlags:
     case Array::touching:
     case Array::pairForces:
+    case Array::pairSlips:
+    case Array::newPairSlips:
     case Array::keptMotions:
     case Array::safePositions:
       return {};  // in buffers of self-collision's and surface contact's own

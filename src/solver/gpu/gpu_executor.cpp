@@ -63,9 +63,10 @@ GpuOptions forThisDevice(GpuOptions options) {
 
 struct GpuExecutor::Copy final : ParticleCopy {
   gl::Buffer<Particle4> positions, velocities, elasticSlips;  // the last without a name where there are none
+  GpuSurfaceContact::Slips pairSlips;
 
   [[nodiscard]] std::size_t bytes() const override {
-    return positions.bytes() + velocities.bytes() + elasticSlips.bytes();
+    return positions.bytes() + velocities.bytes() + elasticSlips.bytes() + pairSlips.bytes();
   }
   [[nodiscard]] bool needsContext() const override { return true; }
   void download(State& state) const override {
@@ -73,7 +74,8 @@ struct GpuExecutor::Copy final : ParticleCopy {
     state.positions = positions.download();
     state.velocities = velocities.download();
     state.elasticSlips = elasticSlips.download();
-    dropZeros(state.elasticSlips);
+    state.pairSlips = pairSlips.download();
+    dropZeroSlips(state);
   }
 };
 
@@ -435,6 +437,7 @@ void GpuExecutor::upload(const State& state) {
   const std::span<const Particle4> slips = state.elasticSlips;
   arrays_.setElasticSlips(slips.empty() ? gl::Buffer<Particle4>()
                                         : gl::Buffer<Particle4>("elastic slips", slips));
+  surfaceContact_.setSlips(state.pairSlips);
   arrays_.forgetHistory();
   selfCollision_.restart();
 }
@@ -445,7 +448,10 @@ void GpuExecutor::download(State& state) {
   state.positions = arrays_[Array::positions].buffer.download();
   state.velocities = arrays_[Array::velocities].buffer.download();
   if (hasElasticSlips()) state.elasticSlips = arrays_[Array::elasticSlips].buffer.download();
-  dropZeros(state.elasticSlips);
+  GpuSurfaceContact::Slips slips;
+  surfaceContact_.copySlips(slips);
+  state.pairSlips = slips.download();
+  dropZeroSlips(state);
 }
 
 // One a particle, in implicit steps with colliders.
@@ -484,6 +490,7 @@ std::unique_ptr<ParticleCopy> GpuExecutor::copy(std::unique_ptr<ParticleCopy> re
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   copy.positions.copyFrom(arrays_[Array::positions].buffer);
   copy.velocities.copyFrom(arrays_[Array::velocities].buffer);
+  surfaceContact_.copySlips(copy.pairSlips);
   if (!hasElasticSlips()) return reuse;
   if (copy.elasticSlips.name() == 0) copy.elasticSlips = gl::Buffer<Particle4>("kept elastic slips", count);
   copy.elasticSlips.copyFrom(arrays_[Array::elasticSlips].buffer);
@@ -497,6 +504,7 @@ bool GpuExecutor::restore(const ParticleCopy& copy) {
   arrays_[Array::positions].buffer.copyFrom(own->positions);
   arrays_[Array::velocities].buffer.copyFrom(own->velocities);
   arrays_.setElasticSlips(own->elasticSlips);
+  surfaceContact_.restoreSlips(own->pairSlips);
   arrays_.forgetHistory();
   return true;
 }

@@ -1,7 +1,9 @@
 #include "solver/gpu/surface_contact.h"
 
 #include <algorithm>
+#include <bit>
 #include <cassert>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -53,7 +55,8 @@ void GpuSurfaceContact::compile() {
   for (const char* pass : {"start", "boxes"}) program(pass, {.onlyBoxes = true});
   for (const bool writes : {false, true}) program("search", {.touching = true, .writes = writes});
   for (const bool lists : {false, true}) program("scan", {.lists = lists});
-  for (const char* pass : {"list", "sort_lists", "guard", "shorten", "settle"}) program(pass);
+  for (const char* pass : {"list", "sort_lists", "recall", "keep_slips", "guard", "shorten", "settle"})
+    program(pass);
   program("weigh", {.gate = GATE_STEP});
   program("multiply_pairs", {.gate = GATE_SYSTEM});
   if (surface_.colliders.empty()) return;
@@ -111,15 +114,27 @@ void GpuSurfaceContact::setSurface(ClothSurface<float> surface, std::uint32_t pa
   std::vector<RoundSlot> rounds;
   for (std::uint32_t round = 0; round < GUARD_ROUNDS; ++round) rounds.push_back({{round, 0, 0, 0}});
   rounds_ = gl::Buffer<RoundSlot>("rounds of the guard", std::span<const RoundSlot>(rounds));
-  allocatePairs();
+  allocatePairs(surface_.roomForPairs);
   uploadParams();
+  if (!waitingSlips_.empty()) setSlips(std::exchange(waitingSlips_, {}));
 }
 
-void GpuSurfaceContact::allocatePairs() {
-  const std::size_t room = surface_.roomForPairs;
-  pairIds_ = Numbers("pair particles", 4 * room, GL_RGBA32UI);
+// What friction remembers stays.
+void GpuSurfaceContact::allocatePairs(std::size_t pairs) {
+  const std::size_t room = std::max(pairs, pairIds_.buffer.size() / 4);
+  const auto grow = [&](Numbers& numbers, const char* label) {
+    Numbers larger(label, 4 * room, GL_RGBA32UI);
+    if (numbers.buffer.name() != 0) larger.buffer.copyFrom(numbers.buffer);
+    numbers = std::move(larger);
+  };
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  grow(pairIds_, "pair particles");
+  grow(newSlips_, "new elastic slips of pairs");
+  keptIds_ = Numbers("pair particles before", 4 * room, GL_RGBA32UI);
+  keptSlips_ = Numbers("elastic slips of pairs before", 4 * room, GL_RGBA32UI);
+  pairSlips_ = Numbers("elastic slips of pairs", 4 * room, GL_RGBA32UI);
   pairRows_ = ParticleArray("pairs", PAIR_TEXELS * room);
-  pairCarries_ = ParticleArray("pair carries", surface_.colliders.empty() ? 1 : room);
+  pairCarries_ = ParticleArray("pair carries", room);
   entries_ = Numbers("pair lists", 4 * room);
 }
 
@@ -152,7 +167,7 @@ void GpuSurfaceContact::publish() {
 void GpuSurfaceContact::makeRoom() {
   if (!isOn() || !hasCopy_) return;
   if (!growRoom(surface_, stateCopy_.elements().front())) return;
-  allocatePairs();
+  allocatePairs(surface_.roomForPairs);
   uploadParams();
 }
 
@@ -161,7 +176,7 @@ void GpuSurfaceContact::bindTextures() const {
   triangles_.texture.bind(SURFACE_TRIANGLES_UNIT);
   points_.texture.bind(SURFACE_POINTS_UNIT);
   boxes_.texture.bind(SURFACE_BOXES_UNIT);
-  pairIds_.texture.bind(PAIR_IDS_UNIT);
+  bindSlips();
   pairRows_.texture.bind(PAIR_ROWS_UNIT);
   lists_.texture.bind(PAIR_STARTS_UNIT);
   listBlocks_.texture.bind(PAIR_BLOCKS_UNIT);
@@ -172,6 +187,73 @@ void GpuSurfaceContact::bindTextures() const {
   flatFlags_.texture.bind(FLAT_FLAGS_UNIT);
   smallColliders_.texture.bind(SMALL_COLLIDERS_UNIT);
   pairCarries_.texture.bind(PAIR_CARRIES_UNIT);
+}
+
+void GpuSurfaceContact::bindSlips() const {
+  pairIds_.texture.bind(PAIR_IDS_UNIT);
+  pairSlips_.texture.bind(PAIR_SLIPS_UNIT);
+  keptIds_.texture.bind(KEPT_IDS_UNIT);
+  keptSlips_.texture.bind(KEPT_SLIPS_UNIT);
+}
+
+std::vector<PairSlip> GpuSurfaceContact::Slips::download() const {
+  if (ids.name() == 0) return {};
+  const std::size_t pairs = state.download().front().pairs;
+  const std::vector<std::uint32_t> particles = ids.download(0, 4 * pairs),
+                                   rows = slips.download(0, 4 * pairs);
+  std::vector<PairSlip> result(pairs);
+  for (std::size_t q = 0; q < pairs; ++q) {
+    const std::uint32_t *p = particles.data() + 4 * q, *row = rows.data() + 4 * q;
+    result[q] = {row[3],
+                 {p[0], p[1], p[2], p[3]},
+                 std::bit_cast<float>(row[0]),
+                 std::bit_cast<float>(row[1]),
+                 std::bit_cast<float>(row[2])};
+  }
+  return result;
+}
+
+void GpuSurfaceContact::copySlips(Slips& copy) const {
+  if (!isOn()) {
+    copy = {};
+    return;
+  }
+  if (copy.ids.size() != pairIds_.buffer.size()) {
+    copy.ids = gl::Buffer<std::uint32_t>("kept pairs", pairIds_.buffer.size());
+    copy.slips = gl::Buffer<std::uint32_t>("kept elastic slips of pairs", pairIds_.buffer.size());
+    copy.state = gl::Buffer<SurfaceState>("kept number of pairs", 1);
+  }
+  copy.ids.copyFrom(pairIds_.buffer);
+  copy.slips.copyFrom(newSlips_.buffer);
+  copy.state.copyFrom(state_);
+}
+
+void GpuSurfaceContact::restoreSlips(const Slips& copy) {
+  if (!isOn() || copy.ids.name() == 0) return setSlips(copy.download());
+  if (copy.ids.size() > pairIds_.buffer.size()) allocatePairs(copy.ids.size() / 4);
+  pairIds_.buffer.copyFrom(copy.ids);
+  newSlips_.buffer.copyFrom(copy.slips);
+  constexpr auto place = static_cast<GLintptr>(offsetof(SurfaceState, pairs));
+  glCopyNamedBufferSubData(copy.state.name(), state_.name(), place, place, sizeof(SurfaceState::pairs));
+}
+
+void GpuSurfaceContact::setSlips(const std::vector<PairSlip>& slips) {
+  if (!isOn()) {
+    waitingSlips_ = slips;
+    return;
+  }
+  std::vector<std::uint32_t> particles, rows;
+  for (const PairSlip& slip : slips) {
+    particles.insert(particles.end(), slip.particles.begin(), slip.particles.end());
+    for (const float component : {slip.x, slip.y, slip.z})
+      rows.push_back(std::bit_cast<std::uint32_t>(component));
+    rows.push_back(slip.place);
+  }
+  if (particles.size() > pairIds_.buffer.size()) allocatePairs(slips.size());
+  pairIds_.buffer.upload(particles);
+  newSlips_.buffer.upload(rows);
+  const auto pairs = static_cast<std::uint32_t>(slips.size());
+  glNamedBufferSubData(state_.name(), offsetof(SurfaceState, pairs), sizeof pairs, &pairs);
 }
 
 void GpuSurfaceContact::runOn(PassRunner& runner, const gl::Program& program, std::size_t entries) const {
@@ -224,6 +306,11 @@ void GpuSurfaceContact::scan(PassRunner& runner, Numbers& counts, Numbers& block
 
 void GpuSurfaceContact::findTouching(PassRunner& runner, bool later) {
   const std::size_t triangles = surface_.triangles.size();
+  if (!later) {
+    std::swap(pairIds_, keptIds_);
+    std::swap(newSlips_, keptSlips_);
+    bindSlips();
+  }
   start(runner, {.touching = true, .later = later});
   counts_.buffer.bindStorage(SURFACE_COUNTS_BINDING);
   runOn(runner, program("search", {.touching = true}), triangles);
@@ -232,6 +319,7 @@ void GpuSurfaceContact::findTouching(PassRunner& runner, bool later) {
   lists_.buffer.bindStorage(SURFACE_LISTS_BINDING);
   pairIds_.buffer.bindStorage(SURFACE_IDS_BINDING);
   pairRows_.buffer.bindStorage(SURFACE_OUT_BINDING);
+  pairSlips_.buffer.bindStorage(PAIR_SLIPS_BINDING);
   runOn(runner, program("search", {.touching = true, .writes = true}), triangles);
   scan(runner, lists_, listBlocks_, particles_, true);
 
@@ -240,6 +328,9 @@ void GpuSurfaceContact::findTouching(PassRunner& runner, bool later) {
   entries_.buffer.bindStorage(SURFACE_LISTS_BINDING);
   runner.runIndirect(program("list"), name_, 0);
   runOn(runner, program("sort_lists"), particles_);
+  pairCarries_.buffer.bindStorage(SURFACE_CARRIES_BINDING);
+  pairSlips_.buffer.bindStorage(PAIR_SLIPS_BINDING);
+  runner.runIndirect(program("recall"), name_, 0);
   meetColliders(runner);
 }
 
@@ -312,6 +403,10 @@ void GpuSurfaceContact::run(PassRunner& runner, PassCall call, GpuArrays& arrays
                                     ? program("weigh", {.gate = GATE_STEP})
                                     : program("multiply_pairs", {.gate = GATE_SYSTEM}),
                                 name_, 0);
+    case Pass::keepSlips:
+      dispatches_.bindDispatches();
+      newSlips_.buffer.bindStorage(SURFACE_OUT_BINDING);
+      return runner.runIndirect(program("keep_slips"), name_, 0);
     case Pass::pressOut:
       return pressOut(runner, arrays, call.index);
     case Pass::guard:

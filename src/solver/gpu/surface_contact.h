@@ -28,6 +28,19 @@ class GpuSurfaceContact {
   void setSurface(ClothSurface<float> surface, std::uint32_t particles, const PassFeatures& features);
   [[nodiscard]] bool isOn() const { return !programs_.empty(); }
 
+  // What friction remembers of pairs of the last step (State::pairSlips).
+  struct Slips {
+    gl::Buffer<std::uint32_t> ids, slips;  // four numbers a pair; without names where there is no contact
+    gl::Buffer<SurfaceState> state;
+
+    [[nodiscard]] std::size_t bytes() const { return ids.bytes() + slips.bytes() + state.bytes(); }
+    [[nodiscard]] std::vector<PairSlip> download() const;  // blocking
+  };
+  // A copy on the device, and back.
+  void copySlips(Slips& copy) const;
+  void restoreSlips(const Slips& copy);
+  void setSlips(const std::vector<PairSlip>& slips);
+
   // What the passes of the implicit step read.
   void bindTextures() const;
   // Does a pass of Domain::surface.
@@ -60,7 +73,8 @@ class GpuSurfaceContact {
   const gl::Program& program(const std::string& pass, const Variant& variant);
   const gl::Program& program(const std::string& pass) { return program(pass, Variant()); }
   void compile();
-  void allocatePairs();
+  void allocatePairs(std::size_t pairs);
+  void bindSlips() const;
   void uploadParams();
   void runOn(PassRunner& runner, const gl::Program& program, std::size_t entries) const;
   void start(PassRunner& runner, const Variant& variant);
@@ -87,7 +101,10 @@ class GpuSurfaceContact {
   bool hasCopy_ = false;
   gl::Buffer<Groups> dispatches_;  // over the pairs
   gl::Buffer<RoundSlot> rounds_;   // of the guard
-  Numbers triangles_, counts_, blocks_, lists_, listBlocks_, entries_, pairIds_, flatBlocks_, flatFlags_;
+  Numbers triangles_, counts_, blocks_, lists_, listBlocks_, entries_, flatBlocks_, flatFlags_;
+  // Of the pairs of this step and of the one before: particles, and elastic slips with places.
+  Numbers pairIds_, pairSlips_, newSlips_, keptIds_, keptSlips_;
+  std::vector<PairSlip> waitingSlips_;  // for the first surface
   gl::Buffer<std::uint32_t> cursors_,
       kept_;  // kept_: what particles keep, then the same with what a round takes
   gl::Buffer<std::int32_t> corrections_;

@@ -167,13 +167,17 @@ TEST_F(InteractionOnGpuTest, GoesBackToSnapshotsOfClothThatSticks) {
   scene.solver.integrator = Integrator::implicit;
   scene.solver.simulationSteps = 2;
   scene.solver.frictionLaw = FrictionLaw::coulomb;
+  scene.solver.selfCollision = SelfCollision::contact;
   scene.colliders = {Sphere{.origin = {0.25, 0.89, 0.25}, .radius = 0.1, .friction = 0.5}};
+  scene.cloths.push_back(scene.cloths[0]);
+  scene.cloths[1].position.y += 0.002;
   const Cloth cloth(scene);
   GpuSolver gpu(cloth, scene);
   CpuSolver<float> cpu(cloth, scene);
   gpu.step(20);
   const std::unique_ptr<Snapshot> snapshot = gpu.snapshot(nullptr);
   EXPECT_EQ(snapshot->state().elasticSlips.size(), cloth.particleCount());
+  EXPECT_FALSE(snapshot->state().pairSlips.empty());
   gpu.step(5);
   const std::uint64_t expected = stateHash(gpu.state());
   const auto later = [&](Solver& solver, const Snapshot& from) {

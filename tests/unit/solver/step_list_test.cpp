@@ -115,7 +115,7 @@ TEST(StepList, ReadsNothingBeforeItIsWritten) {
                  Array::watch,      Array::airBlocks,     Array::planes,      Array::contactBlocks,
                  Array::directions, Array::coarseBlocks,  Array::centers,     Array::scalars,
                  Array::histories,  Array::safePositions, Array::keptMotions, Array::touching,
-                 Array::pairForces, Array::elasticSlips};
+                 Array::pairForces, Array::elasticSlips,  Array::pairSlips};
     for (const PassCall& call : stepOf(scene).passes) {
       const PassTraits& traits = call.traits();
       for (int i = 0; i < ARRAY_COUNT; ++i) {

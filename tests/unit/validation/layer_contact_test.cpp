@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "export/formats.h"
 #include "measure/contact_report.h"
 #include "measure/crossings.h"
 #include "measure/measure.h"
@@ -216,6 +217,26 @@ double lostSpeed(double friction, double degrees, int stepsAFrame = 8) {
   for (std::uint32_t i = upper.firstParticle; i < cloth.particleCount(); ++i) sum += slid.velocities[i].x;
   EXPECT_EQ(solver.convergenceCounts().unconvergedSteps, 0u);
   return speed - sum / upper.particleCount();
+}
+
+// Friction begins a step as it ended the last one, also after a state was saved.
+TEST(SurfaceContact, KeepsLayersWhereTheyStick) {
+  Scene scene = layers("silk");
+  scene.solver.simulationSteps = 4;
+  std::get<Plane>(scene.colliders[0]).friction = 3;
+  const double angle = std::atan(scene.cloths[0].material->friction) - 0.05;
+  scene.gravity = {9.81 * std::sin(angle), -9.81 * std::cos(angle), 0};
+  const Cloth cloth(scene);
+  CpuSolver<float> solver(cloth, scene), second(cloth, scene);
+  solver.step(4 * 20);
+  const State then = solver.state();
+  EXPECT_FALSE(then.pairSlips.empty());
+  second.setState(parseStateFile(formatStateFile(then), cloth.particleCount(), "layers.state"));
+  for (CpuSolver<float>* own : {&solver, &second}) own->step(4 * 20);
+  const State now = solver.state();
+  EXPECT_EQ(stateHash(second.state()), stateHash(now));
+  for (std::size_t i = 0; i < now.positions.size(); ++i)
+    EXPECT_NEAR(length(vectorOf(now.positions[i]) - vectorOf(then.positions[i])), 0, 1e-5) << i;
 }
 
 TEST(SurfaceContact, RubsLayersOnEachOtherByCoulombsLaw) {
