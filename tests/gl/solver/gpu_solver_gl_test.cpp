@@ -11,6 +11,7 @@
 #include "simulation/compare.h"
 #include "solver/cpu/cpu_solver.h"
 #include "support/compared_scenes.h"
+#include "support/material_sheet.h"
 
 namespace clothsim {
 namespace {
@@ -105,6 +106,36 @@ TEST_F(GpuSolverTest, AgreesWithTheCpuOnSmallColliders) {
 
 // A sheet with a cut falls into a heap on the floor, beside another one, over a ball that is smaller than a
 // cell and a rod that turns.
+// Between frames both make room for more pairs; what friction remembers of those that were there stays.
+TEST_F(GpuSolverTest, RemembersFrictionWhereThereIsMoreRoomForPairs) {
+  Scene scene = test::materialSheet(7, 7, 0.03, 0.03, *materialPreset("cotton"));
+  scene.solver.integrator = Integrator::implicit;
+  scene.solver.selfCollision = SelfCollision::contact;
+  scene.solver.framesPerSec = 60;
+  scene.solver.simulationSteps = 2;
+  scene.solver.frictionLaw = FrictionLaw::coulomb;
+  scene.gravity = {1.7, -9.65, 0};
+  scene.colliders = {Plane{.point = {0, 1, 0}, .normal = {0, 1, 0}, .friction = 0.5}};
+  scene.cloths.resize(3, scene.cloths[0]);
+  for (int i = 0; i < 3; ++i) {
+    scene.cloths[i].position = {0, 0.0003 + 0.0003 * i, 0};
+    scene.cloths[i].rotation = {0, 11.0 * i, 0};
+  }
+  const Cloth cloth(scene);
+  GpuSolver gpu(cloth, scene);
+  CpuSolver<float> cpu(cloth, scene);
+  for (int frame = 0; frame < 4; ++frame) {
+    for (Solver* solver : std::initializer_list<Solver*>{&gpu, &cpu}) {
+      solver->step(2);
+      EXPECT_FALSE(solver->divergence().has_value());
+    }
+    const State onGpu = gpu.state(), onCpu = cpu.state();
+    ASSERT_EQ(difference(onGpu, onCpu).differing, 0u) << frame;
+    ASSERT_EQ(onGpu.pairSlips.size(), onCpu.pairSlips.size());
+  }
+  EXPECT_GT(cpu.contactCounts().pairs, 4 * cloth.particleCount()) << "more than half of the room at first";
+}
+
 TEST_F(GpuSolverTest, AgreesWithTheCpuInContact) {
   Scene scene = test::implicitly(test::sheetScene(17));
   scene.cloths = {ClothSettings{}};
