@@ -59,7 +59,8 @@ using uint = std::uint32_t;
 #define HISTORIES_UNIT \
   49  // two texels each, of `bdf2`: a third of what place and velocity changed in the last step
 
-#define ELASTIC_SLIPS_UNIT 67  // of friction on planes, that the last step has left [m]
+#define ELASTIC_SLIPS_UNIT \
+  67  // of friction on planes, that the last step has left [m], and what held then (LEAST_HELD)
 
 // Of the coarse levels (src/solver/hierarchy.h).
 #define CENTERS_UNIT 40          // of aggregates [m]
@@ -120,6 +121,11 @@ using uint = std::uint32_t;
 // stuck half a degree above the critical angle (RowFabricOnASlope): in a step of 1/60 s, what they slip at
 // that speed is within the tolerance.
 #define SLOW_SLIP 0.01f
+// What a step remembers of a contact that holds when it ends is the limit of its friction, or this where that
+// is less [N]; of others 0. In the first Newton step of the next one, such a contact holds, and the limit is
+// that: by the forces at the initial guess, which springs exaggerate, every fifth contact of a sheet that
+// turned with a ball let go.
+#define LEAST_HELD 9.094947017729282379150390625e-13f  // 2^-40
 // A particle is light for its friction where that is so many times as stiff as its inertia.
 #define LIGHT 8.0f
 

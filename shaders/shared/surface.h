@@ -103,9 +103,10 @@ using uint = std::uint32_t;
 #define FLAT_FLAGS_UNIT 62  // whether a block and those around it are flat
 #define SMALL_COLLIDERS_UNIT 63  // two texels each
 #define PAIR_CARRIES_UNIT 64     // how far a small collider carries the pair along, less its elastic slip
-#define PAIR_SLIPS_UNIT 68       // elastic slip as bits, and the pair's place (src/solver/surface.h)
-#define KEPT_IDS_UNIT 69         // of the pairs of the step before: particles,
-#define KEPT_SLIPS_UNIT 70       // what friction remembers, and places
+#define PAIR_SLIPS_UNIT \
+  68  // two texels each: elastic slip as bits, and the pair's place; what held (LEAST_HELD)
+#define KEPT_IDS_UNIT 69    // of the pairs of the step before: particles,
+#define KEPT_SLIPS_UNIT 70  // and the same
 #define SURFACE_CARRIES_BINDING 1
 #define PAIR_SLIPS_BINDING 2
 #define SURFACE_MOVED_BINDING 7

@@ -44,9 +44,10 @@ enum class ObjObjects { byCloth, one };
 //   64+32n+c   u64      number p of particles pinned or freed during the run
 //   72+32n+c   p times  u32  those particles, ascending
 //              u64      version 4 alone: number of elastic slips (solver/state.h), 0 or n
-//                       so many times  binary32 x, y, z [m], 0
+//                       so many times  binary32 x, y, z [m], what held [N]
 //              u64      version 4 alone: number of pairs with elastic slips
-//                       so many times  u32  place, four particles; binary32 x, y, z [m]
+//                       so many times  u32  place, four particles; binary32 x, y, z [m],
+//                       what held [N]
 //              u64      FNV-1a of all bytes before
 // Version 4 is written where friction of implicit steps holds something, else version 3. Older files are
 // read. Version 2 has no offsets 32 to 55: the time is then step times the step length of the scene that it

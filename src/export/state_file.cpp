@@ -13,7 +13,7 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little,
               "the file is little-endian, and is copied as it lies in memory");
-static_assert(sizeof(Particle4) == 16 && sizeof(PairSlip) == 32);
+static_assert(sizeof(Particle4) == 16 && sizeof(PairSlip) == 36);
 
 struct Header {
   char magic[8];
@@ -165,11 +165,11 @@ void checkContent(const Header& header, const State& state, std::size_t meshTria
     refuse(source, "it has elastic slips of " + std::to_string(size) + " particles, expected " +
                        std::to_string(particles));
   for (std::size_t i = 0; i < state.elasticSlips.size(); ++i)
-    if (const Particle4& slip = state.elasticSlips[i]; !std::isfinite(slip.x + slip.y + slip.z))
+    if (const Particle4& slip = state.elasticSlips[i]; !std::isfinite(slip.x + slip.y + slip.z + slip.w))
       refuse(source, "the elastic slip of particle " + std::to_string(i) + " is not finite");
   for (std::size_t i = 0; i < state.pairSlips.size(); ++i) {
     const PairSlip& slip = state.pairSlips[i];
-    if (!std::isfinite(slip.x + slip.y + slip.z))
+    if (!std::isfinite(slip.x + slip.y + slip.z + slip.heldLimit))
       refuse(source, "the elastic slip of pair " + std::to_string(i) + " is not finite");
     if (i > 0 && slip.place < state.pairSlips[i - 1].place)
       refuse(source, "its pairs with elastic slips are not in ascending order");

@@ -26,9 +26,10 @@
 // line search counts a plane from one side: what has left it costs nothing. Friction follows Coulomb's law
 // with the push of the particle and a potential that is smooth at slow slip (Li et al. 2020, "Incremental
 // potential contact"). Friction remembers how far it was stretched when a step ended, its elastic slip
-// (Cundall and Strack 1979, "A discrete numerical model for granular assemblies"), and begins with that:
-// cloth at rest has nothing to find. What the solution leaves of the law stops the rest of the slip at the
-// end. Particles end a hair inside; the collision pass after the step moves them to the surface.
+// (Cundall and Strack 1979, "A discrete numerical model for granular assemblies"), and begins with that; in
+// the first Newton step, what held then holds. So cloth at rest has nothing to find. What the solution leaves
+// of the law stops the rest of the slip at the end. Particles end a hair inside; the collision pass after the
+// step moves them to the surface.
 //
 // A Newton step takes the Hessian projected: the springs' transverse part is clamped to k max(0, 1 - L/l)
 // (Choi and Ko 2002). Once an update is small, cloth that touches nothing takes the exact one: where cloth

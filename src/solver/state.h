@@ -26,6 +26,7 @@ struct PairSlip {
   std::uint32_t place = 0;  // in the order in which a step finds pairs (solver/surface.h)
   std::array<std::uint32_t, 4> particles{};
   float x = 0, y = 0, z = 0;  // [m]
+  float heldLimit = 0;        // as State::elasticSlips' w
 };
 
 struct State {
@@ -34,7 +35,8 @@ struct State {
   StepClock clock;
   Integrator integrator = Integrator::verlet;
   // How far friction of implicit steps holds particles back from where it took hold of them on a collider
-  // (solver/implicit.h), xyz [m]; w: unused. Empty: nowhere.
+  // (solver/implicit.h), xyz [m]; w: how much friction could hold then, at least 2^-40 [N], or 0 where no
+  // collider held. Empty: nothing is remembered.
   std::vector<Particle4> elasticSlips;
   std::vector<PairSlip> pairSlips;  // the same where cloth touches cloth, ascending by place
   Cuts cuts;                        // empty: none

@@ -56,7 +56,8 @@ struct SurfacePair {
   // weight 0. What meets the collider says how friction is limited; `friction` and `pressed` stay 0.
   std::uint32_t collider = NO_COLLIDER;
   std::uint32_t place = 0;  // placeOf() of the triangle that has found the pair
-  Vec3<Real> elasticSlip;   // of friction, at the start of the step [m]
+  Vec3<Real> elasticSlip;   // of friction, at the start of the step [m],
+  Real heldLimit = 0;       // and what held then (LEAST_HELD) [N]
 };
 
 // Pairs are found triangle by triangle, first those of cloth and cloth, then those with each small collider.

@@ -36,8 +36,8 @@ void writeStates(const fs::path& folder) {
   handled.offPath = {1, 3};
   write(folder / "handled.state", formatStateFile(handled));
   State rubbed = makeState(3, Integrator::euler);
-  rubbed.elasticSlips.assign(3, {1e-5f, 0, 0, 0});
-  rubbed.pairSlips = {{1, {0, 1, 2, 0}, 0, 1e-5f, 0}};
+  rubbed.elasticSlips.assign(3, {1e-5f, 0, 0, 0.5f});
+  rubbed.pairSlips = {{1, {0, 1, 2, 0}, 0, 1e-5f, 0, 0.5f}};
   write(folder / "rubbed.state", formatStateFile(rubbed));
 }
 

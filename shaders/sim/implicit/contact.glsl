@@ -18,6 +18,10 @@ float contactStiffness(float diagonal) {
   return stiffness;
 }
 
+// What is remembered of a contact (LEAST_HELD), and the limit of friction that this says.
+float heldLimit(bool holds, float limit) { return holds ? larger(limit, LEAST_HELD) : 0.0; }
+float limitOf(float held) { return held > LEAST_HELD ? held : 0.0; }
+
 // How far a displacement d goes along the plane, relative to the collider.
 vec3 slipOf(vec3 normal, vec3 carry, vec3 d) {
   precise vec3 relative = d - carry;

@@ -44,7 +44,9 @@ void main() {
   SlipEnd slip = SlipEnd(vec3(0.0), vec3(0.0));
   if (hasContacts) {
     slip = slipEnd(i);
-    newElasticSlips[i] = vec4(canonical(slip.elastic), 0.0);
+    vec3 block = contactBlockAt(i).diagonal;
+    precise float trace = (block.x + block.y) + block.z;
+    newElasticSlips[i] = vec4(canonical(slip.elastic), heldLimit(trace > 0.0, frictionLimitAt(i)));
   }
   if (x.w == 0.0) {
     if (hasMovingPins) particle = movePin(i, x);

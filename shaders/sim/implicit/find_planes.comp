@@ -12,6 +12,9 @@
 #include "sim/implicit/contact.glsl"
 
 layout(std430, binding = CONTACT_PLANES_BINDING) writeonly buffer Planes { vec4 newPlanes[]; };
+#if PREDICTS
+layout(std430, binding = CONTACT_BLOCKS_BINDING) writeonly buffer ContactBlocks { vec4 newContactBlocks[]; };
+#endif
 layout(binding = ELASTIC_SLIPS_UNIT) uniform samplerBuffer elasticSlips;
 vec4 plane = vec4(0.0), carry = vec4(0.0);
 bool touches = false;
@@ -51,11 +54,11 @@ void main() {
   precise vec3 place = start.xyz + canonical(way);
   precise float margin = step.tolerance * step.leastMotion;
   for (int turn = 0; turn < 2; ++turn) findPlanesAt(start, turn == 0 ? guess : canonical(place), turn == 0 ? 0.0 : margin);
+  float held = texelFetch(elasticSlips, int(p.index)).w;
 #if HAS_HISTORY
-  vec3 held = contactBlockAt(p.index).diagonal;
-  precise float trace = (held.x + held.y) + held.z;
-  if (trace > 0.0 ? !hasPlane() : touches) atomicOr(scalars.hasNewContacts, 1u);
+  if (held > 0.0 ? !hasPlane() : touches) atomicOr(scalars.hasNewContacts, 1u);
 #endif
+  newContactBlocks[2u * p.index] = vec4(held, 0.0, 0.0, 0.0);  // for the first Newton step
 #else
   findPlanesAt(start, iterateAt(p.index).xyz, 0.0);
   if (!touches) return;

@@ -72,12 +72,15 @@ void addContact(uint i, float diagonal, vec3 d, inout vec3 residual, inout Symme
   float own = sumOfProducts(normal, timesVector(block, normal));
   precise float push = own * over - sumOfProducts(normal, residual);
   bool hasPlane = sumOfProducts(normal, normal) > 0.0, presses = hasPlane && push > 0.0;
-  bool holds = presses || (hasPlane && over > 0.0);
+  float before = scalars.newtonSteps == 0u ? contactBlockAt(i).diagonal.x : 0.0;  // find_planes.comp
+  bool held = hasPlane && before > 0.0;
+  bool holds = presses || held || (hasPlane && over > 0.0);
   float stiffness = holds ? contactStiffness(diagonal) : 0.0;
   precise float both = stiffness + own;
   precise float carried = push * (stiffness * reciprocal(both));
   precise float most = carry.w * carried;
-  float limit = frictionFollows() ? (presses ? most : 0.0) : frictionLimitAt(i);
+  float follows = presses ? most : 0.0;
+  float limit = held ? limitOf(before) : frictionFollows() ? follows : frictionLimitAt(i);
   vec3 slip = slipOf(normal, carry.xyz, d);
   float squared = sumOfProducts(slip, slip), inverse = inverseSquareRoot(squared);
   precise float len = squared * inverse;

@@ -21,6 +21,8 @@ void main() {
   precise vec3 slip = relative - sumOfProducts(normal, relative) * normal;
   precise float part = slowSlip() * inverseSquareRoot(sumOfProducts(slip, slip));
   precise vec3 elastic = (part < 1.0 ? part : 1.0) * slip;
-  vec3 kept = pairRow(q, 2u).z > 0.0 ? canonical(elastic) : vec3(0.0);
-  newSlips[q] = uvec4(floatBitsToUint(kept), texelFetch(pairSlips, int(q)).w);
+  vec4 law = pairRow(q, 2u);
+  vec3 kept = law.z > 0.0 ? canonical(elastic) : vec3(0.0);
+  newSlips[2u * q] = uvec4(floatBitsToUint(kept), texelFetch(pairSlips, int(2u * q)).w);
+  newSlips[2u * q + 1u] = uvec4(floatBitsToUint(heldLimit(law.w > 0.0, law.z)), uvec3(0u));
 }

@@ -57,7 +57,7 @@ void main() {
   newRows[4u * q + 1u] = weights;
   newRows[4u * q + 2u] =
       vec4(met.counts ? stiffness : 0.0, law.y, limit, holds ? stiffness : 0.0);
-  precise vec3 carry = canonical(met.touch.carry) - uintBitsToFloat(texelFetch(pairSlips, int(q)).xyz);
+  precise vec3 carry = canonical(met.touch.carry) - uintBitsToFloat(texelFetch(pairSlips, int(2u * q)).xyz);
   newCarries[q] = vec4(carry, 0.0);
   if (holds) atomicOr(scalars.isDisturbed, 1u);
 }

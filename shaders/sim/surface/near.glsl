@@ -69,7 +69,7 @@ void lookAtColliders(uint own) {
     newRows[4u * q + 1u] = vec4(0.0);
     newRows[4u * q + 2u] = vec4(0.0, -float(s + 1u), LARGE_SQUARE, 0.0);
     newRows[4u * q + 3u] = vec4(0.0);
-    newSlips[q] = uvec4(uvec3(0u), firstPlace + s + 1u);
+    newSlips[2u * q] = uvec4(uvec3(0u), firstPlace + s + 1u);
     for (int k = 0; k < 3; ++k) atomicAdd(listCounts[corners[k]], 1u);
     atomicAdd(listCounts[corners.x], 1u);
 #endif

@@ -29,7 +29,7 @@ vec4 slipOfPair(uint q, uvec4 ids, float limit) {
   precise float used = frictionSlope(len, inverse, slowSlip()).over * len;
   precise float rest = 1.0 - used;
   precise float left = limit * (rest < 0.0 ? 0.0 : rest);
-  vec3 elastic = uintBitsToFloat(texelFetch(pairSlips, int(q)).xyz);
+  vec3 elastic = uintBitsToFloat(texelFetch(pairSlips, int(2u * q)).xyz);
   precise vec3 own = slip - (elastic - sumOfProducts(normal, elastic) * normal);
   return vec4(canonical(own), canonical(left));
 }

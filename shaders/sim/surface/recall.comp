@@ -10,7 +10,7 @@ layout(binding = KEPT_SLIPS_UNIT) uniform usamplerBuffer keptSlips;
 layout(std430, binding = PAIR_SLIPS_BINDING) writeonly buffer Slips { uvec4 newSlips[]; };
 layout(std430, binding = SURFACE_CARRIES_BINDING) writeonly buffer Carries { vec4 newCarries[]; };
 
-uint keptPlace(uint k) { return texelFetch(keptSlips, int(k)).w; }
+uint keptPlace(uint k) { return texelFetch(keptSlips, int(2u * k)).w; }
 
 // The first of the step before that is not before this place.
 uint firstKeptAt(uint place) {
@@ -29,11 +29,12 @@ void main() {
   uint q = thisEntry();
   if (q >= state.pairs || isSettled()) return;
   uvec4 ids = texelFetch(pairIds, int(q));
-  uint place = texelFetch(pairSlips, int(q)).w, k = firstKeptAt(place);
+  uint place = texelFetch(pairSlips, int(2u * q)).w, k = firstKeptAt(place);
   while (k < state.keptPairs && keptPlace(k) == place && texelFetch(keptIds, int(k)) != ids) ++k;
   bool isKnown = k < state.keptPairs && keptPlace(k) == place;
-  uvec3 slip = isKnown ? texelFetch(keptSlips, int(k)).xyz : uvec3(0u);
+  uvec3 slip = isKnown ? texelFetch(keptSlips, int(2u * k)).xyz : uvec3(0u);
   precise vec3 carry = vec3(0.0) - uintBitsToFloat(slip);
-  newSlips[q] = uvec4(slip, place);
+  newSlips[2u * q] = uvec4(slip, place);
+  newSlips[2u * q + 1u] = isKnown ? texelFetch(keptSlips, int(2u * k + 1u)) : uvec4(0u);
   newCarries[q] = vec4(carry, 0.0);
 }

@@ -109,7 +109,7 @@ void addPair(uvec4 ids, bool areSides, PartPlaces places, NearestParts nearest, 
   newRows[4u * q + 1u] = weights;
   newRows[4u * q + 2u] = vec4(ofPair, LARGE_SQUARE, 0.0, held);
   newRows[4u * q + 3u] = vec4(0.0);
-  newSlips[q] = uvec4(uvec3(0u), firstPlace);
+  newSlips[2u * q] = uvec4(uvec3(0u), firstPlace);
   for (int k = 0; k < 4; ++k) atomicAdd(listCounts[ids[k]], 1u);
   atomicMin(state.leastGap, floatBitsToUint(distanceBefore));
   if (held > 0.0) atomicOr(scalars.isDisturbed, 1u);

@@ -5,6 +5,7 @@
 #include "sim/implicit/contact.glsl"
 #include "sim/surface/pairs.glsl"
 
+layout(binding = PAIR_SLIPS_UNIT) uniform usamplerBuffer pairSlips;
 layout(binding = SURFACE_POINTS_UNIT) uniform samplerBuffer points;
 layout(std430, binding = SURFACE_OUT_BINDING) writeonly buffer Rows { vec4 newRows[]; };
 
@@ -37,9 +38,11 @@ void main() {
   precise float press = law.x * (over < 0.0 ? 0.0 : over);
   precise float most = frictionOf(ids, weights) * (press < law.y ? press : law.y);
   bool isNew = !(law.y < LARGE_SQUARE), isLimited = isOfCollider || !(isNew || frictionFollows());
-  float limit = isLimited ? law.z : canonical(most);
+  float before = uintBitsToFloat(texelFetch(pairSlips, int(2u * q + 1u)).x);
+  bool wasHeld = !isOfCollider && scalars.newtonSteps == 0u && before > 0.0;  // when the last step ended
+  float limit = wasHeld ? limitOf(before) : isLimited ? law.z : canonical(most);
   precise float across = limit * frictionSlope(len, inverse, slowSlip()).over;
-  float held = isOfCollider ? law.w : over > 0.0 ? law.x : 0.0;
+  float held = isOfCollider ? law.w : wasHeld || over > 0.0 ? law.x : 0.0;
   precise vec3 force = (held * over) * normal.xyz - across * slip;
   newRows[4u * q + 2u] = vec4(law.x, isOfCollider ? law.y : canonical(press), limit, held);
   newRows[4u * q + 3u] = vec4(canonical(force), canonical(across));

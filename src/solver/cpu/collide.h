@@ -23,9 +23,10 @@ struct ContactPlanes {
   // How far the moving collider carries the particle along, less the elastic slip [m]: what differs from it
   // is what friction acts on.
   Components<Real> carries;
-  Components<Real> elasticSlips;     // that the step before has left [m],
-  Components<Real> newElasticSlips;  // and that this one leaves
-  std::vector<Real> frictions;       // Coulomb's coefficient; 0 under CS184's law
+  // What the step before remembers, and this one leaves: elastic slips [m], and what held (LEAST_HELD) [N].
+  Components<Real> elasticSlips, newElasticSlips;
+  std::vector<Real> heldLimits, newHeldLimits;
+  std::vector<Real> frictions;  // Coulomb's coefficient; 0 under CS184's law
   // Of the Newton step: what push and friction add to the Hessian [N/m], and the largest friction [N]. 0
   // where the plane does not hold.
   SymmetricField<Real> blocks;
@@ -37,6 +38,8 @@ struct ContactPlanes {
     carries.resize(particles);
     elasticSlips.resize(particles);
     newElasticSlips.resize(particles);
+    heldLimits.resize(particles);
+    newHeldLimits.resize(particles);
     frictions.resize(particles);
     blocks.resize(particles);
     limits.resize(particles);

@@ -25,10 +25,11 @@ template <class Real>
 struct CpuExecutor<Real>::Copy final : ParticleCopy {
   Particles particles;
   Components<Real> elasticSlips;
+  std::vector<Real> heldLimits;
   std::vector<cpu::RememberedSlip<Real>> pairSlips;
 
   [[nodiscard]] std::size_t bytes() const override {
-    return (7 * particles.inverseMasses.size() + 3 * elasticSlips.x.size()) * sizeof(Real) +
+    return (7 * particles.inverseMasses.size() + 4 * heldLimits.size()) * sizeof(Real) +
            pairSlips.size() * sizeof pairSlips[0];
   }
   void download(State& state) const override {
@@ -45,12 +46,13 @@ struct CpuExecutor<Real>::Copy final : ParticleCopy {
     state.elasticSlips.clear();
     for (std::size_t i = 0; i < elasticSlips.x.size(); ++i) {
       const Vec3f slip = cpu::at(elasticSlips, static_cast<std::ptrdiff_t>(i)).template cast<float>();
-      state.elasticSlips.push_back({slip.x, slip.y, slip.z, 0});
+      state.elasticSlips.push_back({slip.x, slip.y, slip.z, static_cast<float>(heldLimits[i])});
     }
     state.pairSlips.clear();
     for (const cpu::RememberedSlip<Real>& known : pairSlips) {
       const Vec3f slip = known.slip.template cast<float>();
-      state.pairSlips.push_back({known.place, known.particles, slip.x, slip.y, slip.z});
+      state.pairSlips.push_back(
+          {known.place, known.particles, slip.x, slip.y, slip.z, static_cast<float>(known.heldLimit)});
     }
     dropZeroSlips(state);
   }
@@ -161,8 +163,10 @@ void CpuExecutor<Real>::run(const StepInputs& inputs, const PassList& list, int)
     rest = rest.subspan(count);
   }
   adopt(list.outcome);
-  if (list.contains(Pass::predictPlanes))
+  if (list.contains(Pass::predictPlanes)) {
     std::swap(implicit_.planes.elasticSlips, implicit_.planes.newElasticSlips);
+    std::swap(implicit_.planes.heldLimits, implicit_.planes.newHeldLimits);
+  }
   if (list.contains(Pass::findTouching)) std::swap(implicit_.pairSlips, implicit_.newPairSlips);
 }
 
@@ -380,14 +384,17 @@ void CpuExecutor<Real>::upload(const State& state) {
   }
   Components<Real>& slips = implicit_.planes.elasticSlips;
   if (!state.elasticSlips.empty()) slips.resize(state.elasticSlips.size());
+  implicit_.planes.heldLimits.resize(slips.x.size());
   for (std::size_t i = 0; i < slips.x.size(); ++i) {
-    const Vec3d slip = state.elasticSlips.empty() ? Vec3d{} : vectorOf(state.elasticSlips[i]);
-    cpu::put(slips, static_cast<std::ptrdiff_t>(i), slip.template cast<Real>());
+    const Particle4 slip = state.elasticSlips.empty() ? Particle4{} : state.elasticSlips[i];
+    cpu::put(slips, static_cast<std::ptrdiff_t>(i), vectorOf(slip).template cast<Real>());
+    implicit_.planes.heldLimits[i] = static_cast<Real>(slip.w);
   }
   implicit_.pairSlips.clear();
   for (const PairSlip& slip : state.pairSlips)
-    implicit_.pairSlips.push_back(
-        {slip.place, slip.particles, Vec3f{slip.x, slip.y, slip.z}.template cast<Real>()});
+    implicit_.pairSlips.push_back({slip.place, slip.particles,
+                                   Vec3f{slip.x, slip.y, slip.z}.template cast<Real>(),
+                                   static_cast<Real>(slip.heldLimit)});
   implicit_.scalars.usualSteps = 0;
   selfCollision_.restart();
 }
@@ -420,6 +427,7 @@ std::unique_ptr<ParticleCopy> CpuExecutor<Real>::copy(std::unique_ptr<ParticleCo
   auto& copy = static_cast<Copy&>(*reuse);
   copy.particles = particles_;
   copy.elasticSlips = implicit_.planes.elasticSlips;
+  copy.heldLimits = implicit_.planes.heldLimits;
   copy.pairSlips = implicit_.pairSlips;
   return reuse;
 }
@@ -430,6 +438,7 @@ bool CpuExecutor<Real>::restore(const ParticleCopy& copy) {
   if (own == nullptr) return false;
   particles_ = own->particles;
   implicit_.planes.elasticSlips = own->elasticSlips;
+  implicit_.planes.heldLimits = own->heldLimits;
   implicit_.pairSlips = own->pairSlips;
   implicit_.scalars.usualSteps = 0;
   return true;

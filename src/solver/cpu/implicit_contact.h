@@ -63,12 +63,22 @@ INLINE bool frictionFollows(const ImplicitState<Real>& own) {
   return own.scalars.newtonSteps < FRICTION_FOLLOWS;
 }
 
+// What is remembered of a contact (LEAST_HELD), and the limit of friction that this says.
+template <class Real>
+INLINE Real heldLimit(bool holds, Real limit) {
+  return holds ? larger(limit, Real(LEAST_HELD)) : Real(0);
+}
+template <class Real>
+INLINE Real limitOf(Real held) {
+  return held > Real(LEAST_HELD) ? held : Real(0);
+}
+
 // Which plane holds in this Newton step, and what friction does there. `residual` and `block` are those of
 // the particle without contact, and become those with it.
 //
 // A plane holds what is across it, and what the particle's own Newton step would take there (the primal-dual
 // active set of Hintermueller, Ito and Kunisch 2002, with the block as its constant): that the iterate is a
-// hair outside decides nothing.
+// hair outside decides nothing. In the first Newton step, what held when the last step ended does, too.
 // Friction is limited by what the plane carries once both it and the block have given way: the whole push
 // would count the part that the block's stiffness against bending takes, as if fabric weighed more on a plane
 // that is softer. The force of friction is constant beyond `slow`, and its Hessian 0 along the slip; where
@@ -80,12 +90,15 @@ INLINE void addContact(const ImplicitArguments<Real>& arguments, std::ptrdiff_t 
   const Vec3<Real> normal = at(planes.normals, i), d = at(arguments.own.displacements, i);
   const Real over = planes.offsets.data()[i] - dot(normal, d);
   const Real own = dot(normal, block * normal), push = own * over - dot(normal, residual);
+  const Real before = arguments.own.scalars.newtonSteps == 0 ? planes.heldLimits.data()[i] : Real(0);
   const bool hasPlane = dot(normal, normal) > Real(0), presses = hasPlane && push > Real(0),
-             holds = presses || (hasPlane && over > Real(0));
+             held = hasPlane && before > Real(0), holds = presses || held || (hasPlane && over > Real(0));
   const Real stiffness = holds ? contactStiffness(arguments, i) : Real(0),
              carried = push * (stiffness * reciprocal(stiffness + own)),
              most = presses ? planes.frictions.data()[i] * carried : Real(0),
-             limit = frictionFollows(arguments.own) ? most : planes.limits.data()[i];
+             limit = held                             ? limitOf(before)
+                     : frictionFollows(arguments.own) ? most
+                                                      : planes.limits.data()[i];
   const Vec3<Real> slip = slipOf(planes, i, d);
   const Real squared = dot(slip, slip), inverse = inverseSquareRoot(squared);
   const FrictionSlope<Real> slope = frictionSlope(squared * inverse, inverse, slowSlip(arguments.step.step));

@@ -82,8 +82,8 @@ void predictPlanes(const ImplicitArguments<Real>& arguments, int row) {
   const auto isNewWhere = [&](bool wasHeld) {
     bool isNew = false;
     for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
-      const Vec3<Real> normal = at(own.planes.normals, i), block = at(own.planes.blocks, i).diagonal;
-      const bool hasPlane = dot(normal, normal) > Real(0), held = (block.x + block.y) + block.z > Real(0);
+      const Vec3<Real> normal = at(own.planes.normals, i);
+      const bool hasPlane = dot(normal, normal) > Real(0), held = own.planes.heldLimits.data()[i] > Real(0);
       isNew = isNew || (held == wasHeld && hasPlane != held);
     }
     return isNew;
@@ -228,7 +228,13 @@ void end(const ImplicitArguments<Real>& arguments, int row) {
   const TimeScheme<Real> scheme = timeSchemeOf(arguments);
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
     const SlipEnd<Real> slip = contacts ? slipEnd(arguments, i) : SlipEnd<Real>{};
-    if (contacts) put(arguments.own.planes.newElasticSlips, i, canonical(slip.elastic));
+    if (contacts) {
+      ContactPlanes<Real>& planes = arguments.own.planes;
+      const Vec3<Real> block = at(planes.blocks, i).diagonal;
+      put(planes.newElasticSlips, i, canonical(slip.elastic));
+      planes.newHeldLimits.data()[i] =
+          heldLimit((block.x + block.y) + block.z > Real(0), planes.limits.data()[i]);
+    }
     const bool pinned = pass.inverseMasses[i] == Real(0);
     if (pinned) continue;  // begin() has moved pins
     Vec3<Real> displacement = canonical(at(arguments.own.displacements, i) - slip.taken);

@@ -35,6 +35,7 @@ struct RememberedSlip {
   std::uint32_t place;
   std::array<std::uint32_t, 4> particles;
   Vec3<Real> slip;
+  Real heldLimit;  // LEAST_HELD
 };
 
 // What an implicit step works on, an entry a particle.

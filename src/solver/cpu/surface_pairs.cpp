@@ -135,8 +135,10 @@ void weighPairs(ImplicitState<Real>& own, const StepParams<Real>& step) {
       const bool isNew = !(pair.pressed < static_cast<Real>(LARGE_SQUARE));
       if (isNew || frictionFollows(own))
         pair.limit = canonical(pair.friction * (press < pair.pressed ? press : pair.pressed));
+      const bool held = own.scalars.newtonSteps == 0 && pair.heldLimit > Real(0);  // when the last step ended
+      if (held) pair.limit = limitOf(pair.heldLimit);
       pair.pressed = canonical(press);
-      pair.held = over > Real(0) ? pair.stiffness : Real(0);
+      pair.held = held || over > Real(0) ? pair.stiffness : Real(0);
     }
     const Real across = pair.limit * frictionSlope(squared * inverse, inverse, slowSlip(step)).over;
     pair.across = canonical(across);
@@ -153,10 +155,14 @@ void recallSlips(ImplicitState<Real>& own) {
   const auto recall = [&](std::uint32_t q) {
     SurfacePair<Real>& pair = touching.pairs[q];
     pair.elasticSlip = {};
+    pair.heldLimit = 0;
     auto known = std::ranges::lower_bound(own.pairSlips, pair.place, {}, &RememberedSlip<Real>::place);
     while (known != own.pairSlips.end() && known->place == pair.place && known->particles != pair.particles)
       ++known;
-    if (known != own.pairSlips.end() && known->place == pair.place) pair.elasticSlip = known->slip;
+    if (known != own.pairSlips.end() && known->place == pair.place) {
+      pair.elasticSlip = known->slip;
+      pair.heldLimit = known->heldLimit;
+    }
     touching.carries[q] = Vec3<Real>{} - pair.elasticSlip;
   };
   ThreadTeam::shared().forEach(0, static_cast<std::uint32_t>(touching.pairs.size()), PAIRS_AT_ONCE, recall);
@@ -173,7 +179,8 @@ void keepSlips(ImplicitState<Real>& own, const StepParams<Real>& step) {
     const Vec3<Real> slip = tangential(pair.normal, weighted(pair, own.displacements) - touching.carries[q]);
     const Real part = slow * inverseSquareRoot(dot(slip, slip));
     const Vec3<Real> elastic = canonical((part < Real(1) ? part : Real(1)) * slip);
-    own.newPairSlips[q] = {pair.place, pair.particles, pair.limit > Real(0) ? elastic : Vec3<Real>{}};
+    own.newPairSlips[q] = {pair.place, pair.particles, pair.limit > Real(0) ? elastic : Vec3<Real>{},
+                           heldLimit(pair.held > Real(0), pair.limit)};
   };
   ThreadTeam::shared().forEach(0, static_cast<std::uint32_t>(touching.pairs.size()), PAIRS_AT_ONCE, keep);
 }

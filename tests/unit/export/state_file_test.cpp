@@ -192,7 +192,7 @@ TEST_F(HandledStateFile, IsRefusedWhenItsListsMakeNoSense) {
 // Version 4.
 TEST_F(StateFile, HoldsWhatFrictionRemembersWhereThereIsSome) {
   state_.elasticSlips.assign(6, {});
-  state_.elasticSlips[4] = {1e-5f, 0, -2e-5f, 0};
+  state_.elasticSlips[4] = {1e-5f, 0, -2e-5f, 0.25f};
   const std::string bytes = formatStateFile(state_);
   EXPECT_EQ(bytes.size(), bytes_.size() + 8 + 16 * 6 + 8);
   EXPECT_EQ(bytes[8], '\4');
@@ -206,15 +206,15 @@ TEST_F(StateFile, HoldsWhatFrictionRemembersWhereThereIsSome) {
 }
 
 TEST_F(StateFile, HoldsWhatFrictionRemembersOfPairs) {
-  state_.pairSlips = {{7, {0, 1, 2, 3}, 1e-5f, 0, 0}, {7, {0, 2, 3, 4}, 0, -1e-6f, 0}};
+  state_.pairSlips = {{7, {0, 1, 2, 3}, 1e-5f, 0, 0, 0.5f}, {7, {0, 2, 3, 4}, 0, -1e-6f, 0, 0.25f}};
   const std::string bytes = formatStateFile(state_);
-  EXPECT_EQ(bytes.size(), bytes_.size() + 8 + 8 + 32 * 2);
+  EXPECT_EQ(bytes.size(), bytes_.size() + 8 + 8 + 36 * 2);
   const State back = parseStateFile(bytes, 6, "a.state");
   ASSERT_EQ(back.pairSlips.size(), 2u);
-  EXPECT_EQ(std::memcmp(back.pairSlips.data(), state_.pairSlips.data(), 32 * 2), 0);
+  EXPECT_EQ(std::memcmp(back.pairSlips.data(), state_.pairSlips.data(), 36 * 2), 0);
   state_.pairSlips[1].place = 6;
   EXPECT_NE(refusalOf(formatStateFile(state_)).find("ascending"), std::string::npos);
-  state_.pairSlips[1] = {8, {0, 2, 3, 4}, 0, std::bit_cast<float>(0x7f800000u), 0};
+  state_.pairSlips[1] = {8, {0, 2, 3, 4}, 0, std::bit_cast<float>(0x7f800000u), 0, 0};
   EXPECT_NE(refusalOf(formatStateFile(state_)).find("the elastic slip of pair 1"), std::string::npos);
 }
 

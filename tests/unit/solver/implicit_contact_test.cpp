@@ -59,6 +59,8 @@ Scene drapedBall() {
   return scene;
 }
 
+// What held when a step ended holds in the next one, as strongly: two Newton steps find that nothing else has
+// changed.
 TEST(ImplicitContact, LetsClothBeThatLiesOnABallAndTheFloor) {
   const Scene scene = drapedBall();
   const Cloth cloth(scene);
@@ -69,6 +71,24 @@ TEST(ImplicitContact, LetsClothBeThatLiesOnABallAndTheFloor) {
   const ConvergenceCounts resting = solver.convergenceCounts() - before;
   EXPECT_EQ(resting.unconvergedSteps, 0u);
   EXPECT_LE(resting.newtonSteps, 4 * resting.steps);
+}
+
+// What held when a step ended holds in the next one, as strongly: two Newton steps find that nothing else has
+// changed.
+TEST(ImplicitContact, TurnsASheetAlongWithABall) {
+  Scene scene = drapedBall();
+  scene.colliders = {Sphere{.origin = {0.35, 0.69, 0.35},
+                            .radius = 0.3,
+                            .friction = 0.4,
+                            .motion = Motion{.keys = {{0, {}, {}}, {9, {}, {0, 810, 0}}}}}};
+  const Cloth cloth(scene);
+  CpuSolver<float> solver(cloth, scene);
+  solver.step(4 * 150);
+  const ConvergenceCounts before = solver.convergenceCounts();
+  solver.step(4 * 15);
+  const ConvergenceCounts turning = solver.convergenceCounts() - before;
+  EXPECT_EQ(turning.unconvergedSteps, 0u);
+  EXPECT_LE(10 * turning.newtonSteps, 25 * turning.steps) << turning.newtonSteps;
 }
 
 // What friction remembers is a part of the state.
