@@ -54,10 +54,11 @@ class Buffer {
   }
   // Fills it with zeros.
   void clear() { glClearNamedBufferData(name_, GL_R8UI, GL_RED_INTEGER, GL_UNSIGNED_BYTE, nullptr); }
-  // Copies another buffer, on the device; one that is smaller, to the beginning.
-  void copyFrom(const Buffer& other) {
-    assert(other.size_ <= size_ && "a buffer is copied whole");
-    glCopyNamedBufferSubData(other.name_, name_, 0, 0, static_cast<GLsizeiptr>(other.bytes()));
+  // Copies another buffer, or so many of its first elements, to the beginning, on the device.
+  void copyFrom(const Buffer& other) { copyFrom(other, other.size_); }
+  void copyFrom(const Buffer& other, std::size_t count) {
+    assert(count <= size_ && count <= other.size_ && "what is copied must lie in both buffers");
+    glCopyNamedBufferSubData(other.name_, name_, 0, 0, static_cast<GLsizeiptr>(count * sizeof(T)));
   }
   void bindStorage(GLuint binding) const {
     if (KeptBindings::changes(KeptBindings::Kind::storage, binding, {name_}))

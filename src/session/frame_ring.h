@@ -1,6 +1,7 @@
 // A ring buffer of past frames. Each holds all that is needed to continue from it with the same bits. When
 // the memory budget is used up, the oldest frames are dropped. To store a frame takes about half the time of
-// a step: the copy has 32 bytes a particle on the GPU and 28 on the CPU.
+// a step: the copy has 32 bytes a particle on the GPU and 28 on the CPU, in implicit steps 16 more where
+// there are colliders, and about 50 for each pair of parts that touch.
 #pragma once
 
 #include <cstdint>

@@ -13,7 +13,7 @@
 namespace clothsim {
 namespace {
 
-constexpr std::size_t PAIR_TEXELS = 4, BOX_TEXELS = 3;
+constexpr std::size_t PAIR_TEXELS = 4, BOX_TEXELS = 3, SLIP_TEXELS = 2;
 
 std::uint32_t blocksOf(std::size_t size) {
   return static_cast<std::uint32_t>((size + SURFACE_BLOCK - 1) / SURFACE_BLOCK);
@@ -122,17 +122,17 @@ void GpuSurfaceContact::setSurface(ClothSurface<float> surface, std::uint32_t pa
 // What friction remembers stays.
 void GpuSurfaceContact::allocatePairs(std::size_t pairs) {
   const std::size_t room = std::max(pairs, pairIds_.buffer.size() / 4);
-  const auto grow = [&](Numbers& numbers, const char* label) {
-    Numbers larger(label, 4 * room, GL_RGBA32UI);
+  const auto grow = [&](Numbers& numbers, const char* label, std::size_t texels) {
+    Numbers larger(label, 4 * texels * room, GL_RGBA32UI);
     if (numbers.buffer.name() != 0) larger.buffer.copyFrom(numbers.buffer);
     numbers = std::move(larger);
   };
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-  grow(pairIds_, "pair particles");
-  grow(newSlips_, "new elastic slips of pairs");
+  grow(pairIds_, "pair particles", 1);
+  grow(newSlips_, "new elastic slips of pairs", SLIP_TEXELS);
   keptIds_ = Numbers("pair particles before", 4 * room, GL_RGBA32UI);
-  keptSlips_ = Numbers("elastic slips of pairs before", 4 * room, GL_RGBA32UI);
-  pairSlips_ = Numbers("elastic slips of pairs", 4 * room, GL_RGBA32UI);
+  keptSlips_ = Numbers("elastic slips of pairs before", 4 * SLIP_TEXELS * room, GL_RGBA32UI);
+  pairSlips_ = Numbers("elastic slips of pairs", 4 * SLIP_TEXELS * room, GL_RGBA32UI);
   pairRows_ = ParticleArray("pairs", PAIR_TEXELS * room);
   pairCarries_ = ParticleArray("pair carries", room);
   entries_ = Numbers("pair lists", 4 * room);
@@ -166,6 +166,7 @@ void GpuSurfaceContact::publish() {
 
 void GpuSurfaceContact::makeRoom() {
   if (!isOn() || !hasCopy_) return;
+  knownPairs_ = stateCopy_.elements().front().pairs;
   if (!growRoom(surface_, stateCopy_.elements().front())) return;
   allocatePairs(surface_.roomForPairs);
   uploadParams();
@@ -200,15 +201,12 @@ std::vector<PairSlip> GpuSurfaceContact::Slips::download() const {
   if (ids.name() == 0) return {};
   const std::size_t pairs = state.download().front().pairs;
   const std::vector<std::uint32_t> particles = ids.download(0, 4 * pairs),
-                                   rows = slips.download(0, 4 * pairs);
+                                   rows = slips.download(0, 4 * SLIP_TEXELS * pairs);
   std::vector<PairSlip> result(pairs);
   for (std::size_t q = 0; q < pairs; ++q) {
-    const std::uint32_t *p = particles.data() + 4 * q, *row = rows.data() + 4 * q;
-    result[q] = {row[3],
-                 {p[0], p[1], p[2], p[3]},
-                 std::bit_cast<float>(row[0]),
-                 std::bit_cast<float>(row[1]),
-                 std::bit_cast<float>(row[2])};
+    const std::uint32_t *p = particles.data() + 4 * q, *row = rows.data() + 4 * SLIP_TEXELS * q;
+    const auto number = [&](std::size_t k) { return std::bit_cast<float>(row[k]); };
+    result[q] = {row[3], {p[0], p[1], p[2], p[3]}, number(0), number(1), number(2), number(4)};
   }
   return result;
 }
@@ -218,18 +216,20 @@ void GpuSurfaceContact::copySlips(Slips& copy) const {
     copy = {};
     return;
   }
-  if (copy.ids.size() != pairIds_.buffer.size()) {
-    copy.ids = gl::Buffer<std::uint32_t>("kept pairs", pairIds_.buffer.size());
-    copy.slips = gl::Buffer<std::uint32_t>("kept elastic slips of pairs", pairIds_.buffer.size());
+  const std::size_t pairs = knownPairs_.value_or(pairIds_.buffer.size() / 4);
+  if (copy.state.name() == 0 || copy.ids.size() < 4 * pairs || copy.ids.size() > 8 * pairs) {
+    copy.ids = gl::Buffer<std::uint32_t>("kept pairs", 4 * pairs);
+    copy.slips = gl::Buffer<std::uint32_t>("kept elastic slips of pairs", 4 * SLIP_TEXELS * pairs);
     copy.state = gl::Buffer<SurfaceState>("kept number of pairs", 1);
   }
-  copy.ids.copyFrom(pairIds_.buffer);
-  copy.slips.copyFrom(newSlips_.buffer);
+  copy.ids.copyFrom(pairIds_.buffer, 4 * pairs);
+  copy.slips.copyFrom(newSlips_.buffer, 4 * SLIP_TEXELS * pairs);
   copy.state.copyFrom(state_);
 }
 
 void GpuSurfaceContact::restoreSlips(const Slips& copy) {
   if (!isOn() || copy.ids.name() == 0) return setSlips(copy.download());
+  knownPairs_.reset();
   if (copy.ids.size() > pairIds_.buffer.size()) allocatePairs(copy.ids.size() / 4);
   pairIds_.buffer.copyFrom(copy.ids);
   newSlips_.buffer.copyFrom(copy.slips);
@@ -238,6 +238,7 @@ void GpuSurfaceContact::restoreSlips(const Slips& copy) {
 }
 
 void GpuSurfaceContact::setSlips(const std::vector<PairSlip>& slips) {
+  knownPairs_.reset();
   if (!isOn()) {
     waitingSlips_ = slips;
     return;
@@ -245,9 +246,9 @@ void GpuSurfaceContact::setSlips(const std::vector<PairSlip>& slips) {
   std::vector<std::uint32_t> particles, rows;
   for (const PairSlip& slip : slips) {
     particles.insert(particles.end(), slip.particles.begin(), slip.particles.end());
-    for (const float component : {slip.x, slip.y, slip.z})
-      rows.push_back(std::bit_cast<std::uint32_t>(component));
-    rows.push_back(slip.place);
+    const auto bits = [](float number) { return std::bit_cast<std::uint32_t>(number); };
+    rows.insert(rows.end(),
+                {bits(slip.x), bits(slip.y), bits(slip.z), slip.place, bits(slip.heldLimit), 0, 0, 0});
   }
   if (particles.size() > pairIds_.buffer.size()) allocatePairs(slips.size());
   pairIds_.buffer.upload(particles);
@@ -386,6 +387,7 @@ void GpuSurfaceContact::settle(PassRunner& runner, GpuArrays& arrays) {
 
 void GpuSurfaceContact::run(PassRunner& runner, PassCall call, GpuArrays& arrays) {
   name_ = runner.isTiming() ? nameOf(call.pass) : "";
+  knownPairs_.reset();
   arrays.bindFor(call.pass);
   arrays.bindScalars();
   params_.bindUniform(SURFACE_PARAMS_BINDING);

@@ -6,6 +6,7 @@
 #include <compare>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -36,7 +37,8 @@ class GpuSurfaceContact {
     [[nodiscard]] std::size_t bytes() const { return ids.bytes() + slips.bytes() + state.bytes(); }
     [[nodiscard]] std::vector<PairSlip> download() const;  // blocking
   };
-  // A copy on the device, and back.
+  // A copy on the device, and back. It has room for all pairs that there may be, unless makeRoom() has just
+  // seen how many there are.
   void copySlips(Slips& copy) const;
   void restoreSlips(const Slips& copy);
   void setSlips(const std::vector<PairSlip>& slips);
@@ -99,8 +101,9 @@ class GpuSurfaceContact {
   gl::Buffer<SurfaceState> state_;
   gl::MappedBuffer<SurfaceState> stateCopy_;  // for the host
   bool hasCopy_ = false;
-  gl::Buffer<Groups> dispatches_;  // over the pairs
-  gl::Buffer<RoundSlot> rounds_;   // of the guard
+  std::optional<std::size_t> knownPairs_;  // of the last step, while nothing has happened since
+  gl::Buffer<Groups> dispatches_;          // over the pairs
+  gl::Buffer<RoundSlot> rounds_;           // of the guard
   Numbers triangles_, counts_, blocks_, lists_, listBlocks_, entries_, flatBlocks_, flatFlags_;
   // Of the pairs of this step and of the one before: particles, and elastic slips with places.
   Numbers pairIds_, pairSlips_, newSlips_, keptIds_, keptSlips_;
