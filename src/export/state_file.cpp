@@ -29,9 +29,9 @@ struct TimeBlock {  // behind the header since version 3; see StepClock
 static_assert(sizeof(TimeBlock) == 24);
 
 constexpr char fileMagic[] = "clothsim";
-// Version 2 added cuts and pins set during the run, version 3 the time, version 4 what friction remembers.
+// Version 2 added cuts and pins set during the run, version 3 the time, version 4 what contacts remember.
 // Version 4 is written where there is some, else version 3.
-constexpr std::uint32_t plainVersion = 1, handledVersion = 2, timedVersion = 3, rubbedVersion = 4;
+constexpr std::uint32_t plainVersion = 1, handledVersion = 2, timedVersion = 3, touchedVersion = 4;
 
 std::uint64_t checksum(std::string_view bytes) {
   Fnv1a hash;
@@ -70,7 +70,7 @@ Header checkedHeader(const std::string& bytes, std::size_t particleCount, const 
   if (bytes.size() < sizeof header || std::memcmp(bytes.data(), fileMagic, sizeof header.magic) != 0)
     refuse(source, "it is no state file of clothsim (those are written by `clothsim run --save NAME.state`)");
   std::memcpy(&header, bytes.data(), sizeof header);
-  if (header.version < plainVersion || header.version > rubbedVersion)
+  if (header.version < plainVersion || header.version > touchedVersion)
     refuse(source, "it has version " + std::to_string(header.version) +
                        " of the format, this program reads versions 1 to 4");
   if (header.particleCount != particleCount)
@@ -193,7 +193,7 @@ void checkContent(const Header& header, const State& state, std::size_t meshTria
 std::string formatStateFile(const State& state) {
   Header header{};
   std::memcpy(header.magic, fileMagic, sizeof header.magic);
-  header.version = state.elasticSlips.empty() && state.pairSlips.empty() ? timedVersion : rubbedVersion;
+  header.version = state.elasticSlips.empty() && state.pairSlips.empty() ? timedVersion : touchedVersion;
   header.integrator = static_cast<std::uint32_t>(state.integrator);
   header.particleCount = state.positions.size();
   header.step = state.clock.step;
@@ -207,7 +207,7 @@ std::string formatStateFile(const State& state) {
   append(bytes, state.velocities.data(), state.velocities.size());
   appendList(bytes, state.cuts);
   appendList(bytes, state.offPath);
-  if (header.version >= rubbedVersion) {
+  if (header.version >= touchedVersion) {
     appendList(bytes, state.elasticSlips);
     appendList(bytes, state.pairSlips);
   }
@@ -226,7 +226,7 @@ State parseStateFile(const std::string& bytes, std::size_t particleCount, const 
     state.cuts = lists.next<std::uint8_t>();
     state.offPath = lists.next<std::uint32_t>();
   }
-  if (header.version >= rubbedVersion) {
+  if (header.version >= touchedVersion) {
     state.elasticSlips = lists.next<Particle4>();
     state.pairSlips = lists.next<PairSlip>();
   }

@@ -491,9 +491,11 @@ std::unique_ptr<ParticleCopy> GpuExecutor::copy(std::unique_ptr<ParticleCopy> re
   copy.positions.copyFrom(arrays_[Array::positions].buffer);
   copy.velocities.copyFrom(arrays_[Array::velocities].buffer);
   surfaceContact_.copySlips(copy.pairSlips);
-  if (!hasElasticSlips()) return reuse;
-  if (copy.elasticSlips.name() == 0) copy.elasticSlips = gl::Buffer<Particle4>("kept elastic slips", count);
-  copy.elasticSlips.copyFrom(arrays_[Array::elasticSlips].buffer);
+  if (!hasElasticSlips())
+    copy.elasticSlips = {};
+  else if (copy.elasticSlips.name() == 0)
+    copy.elasticSlips = gl::Buffer<Particle4>("kept elastic slips", count);
+  if (hasElasticSlips()) copy.elasticSlips.copyFrom(arrays_[Array::elasticSlips].buffer);
   return reuse;
 }
 
