@@ -45,10 +45,9 @@ TEST(ImplicitContact, BendsASheetAroundABallWithoutCrumplingIt) {
   EXPECT_LT(solver.position(0).y, 0.85) << "and hangs down around it";
 }
 
-// Contacts are known when a step begins.
 // On the floor, around a ball.
 Scene drapedBall() {
-  Scene scene = test::materialSheet(21, 21, 0.7, 0.7, *materialPreset("cotton"));
+  Scene scene = test::materialSheet(15, 15, 0.7, 0.7, *materialPreset("cotton"));
   scene.solver.integrator = Integrator::implicit;
   scene.solver.simulationSteps = 4;
   scene.solver.frictionLaw = FrictionLaw::coulomb;
@@ -59,36 +58,19 @@ Scene drapedBall() {
   return scene;
 }
 
-// What held when a step ended holds in the next one, as strongly: two Newton steps find that nothing else has
-// changed.
+// Contacts are known when a step begins; and what held when the last one ended holds, as strongly.
 TEST(ImplicitContact, LetsClothBeThatLiesOnABallAndTheFloor) {
-  const Scene scene = drapedBall();
+  Scene scene = drapedBall();
+  scene.solver.framesPerSec = 60;
+  scene.solver.selfCollision = SelfCollision::contact;
   const Cloth cloth(scene);
   CpuSolver<float> solver(cloth, scene);
-  solver.step(4 * 120);
+  solver.step(4 * 90);
   const ConvergenceCounts before = solver.convergenceCounts();
   solver.step(4 * 15);
   const ConvergenceCounts resting = solver.convergenceCounts() - before;
   EXPECT_EQ(resting.unconvergedSteps, 0u);
-  EXPECT_LE(resting.newtonSteps, 4 * resting.steps);
-}
-
-// What held when a step ended holds in the next one, as strongly: two Newton steps find that nothing else has
-// changed.
-TEST(ImplicitContact, TurnsASheetAlongWithABall) {
-  Scene scene = drapedBall();
-  scene.colliders = {Sphere{.origin = {0.35, 0.69, 0.35},
-                            .radius = 0.3,
-                            .friction = 0.4,
-                            .motion = Motion{.keys = {{0, {}, {}}, {9, {}, {0, 810, 0}}}}}};
-  const Cloth cloth(scene);
-  CpuSolver<float> solver(cloth, scene);
-  solver.step(4 * 150);
-  const ConvergenceCounts before = solver.convergenceCounts();
-  solver.step(4 * 15);
-  const ConvergenceCounts turning = solver.convergenceCounts() - before;
-  EXPECT_EQ(turning.unconvergedSteps, 0u);
-  EXPECT_LE(10 * turning.newtonSteps, 25 * turning.steps) << turning.newtonSteps;
+  EXPECT_LE(10 * resting.newtonSteps, 22 * resting.steps) << resting.newtonSteps;
 }
 
 // What friction remembers is a part of the state.
@@ -96,7 +78,7 @@ TEST(ImplicitContact, GoesOnFromASavedStateAsIfNothingHadHappened) {
   const Scene scene = drapedBall();
   const Cloth cloth(scene);
   CpuSolver<float> whole(cloth, scene), second(cloth, scene), forgetful(cloth, scene);
-  whole.step(4 * 40);
+  whole.step(4 * 30);
   State state = parseStateFile(formatStateFile(whole.state()), cloth.particleCount(), "ball.state");
   EXPECT_EQ(state.elasticSlips.size(), cloth.particleCount());
   second.setState(state);
