@@ -123,8 +123,8 @@ using uint = std::uint32_t;
 #define SLOW_SLIP 0.01f
 // What a step remembers of a contact that holds when it ends is the limit of its friction, or this where that
 // is less [N]; of others 0. In the first Newton step of the next one, such a contact holds, and the limit is
-// that: by the forces at the initial guess, which springs exaggerate, every fifth contact of a sheet that
-// turned with a ball let go.
+// that: by the forces at the initial guess, which springs exaggerate, contacts of a sheet that turns with a
+// ball let go.
 #define LEAST_HELD 9.094947017729282379150390625e-13f  // 2^-40
 // A particle is light for its friction where that is so many times as stiff as its inertia.
 #define LIGHT 8.0f

@@ -166,13 +166,14 @@ void checkContent(const Header& header, const State& state, std::size_t meshTria
                        std::to_string(particles));
   for (std::size_t i = 0; i < state.elasticSlips.size(); ++i)
     if (const Particle4& slip = state.elasticSlips[i]; !std::isfinite(slip.x + slip.y + slip.z + slip.w))
-      refuse(source, "the elastic slip of particle " + std::to_string(i) + " is not finite");
+      refuse(source,
+             "the elastic slip of particle " + std::to_string(i) + " is none, expected finite numbers");
   for (std::size_t i = 0; i < state.pairSlips.size(); ++i) {
     const PairSlip& slip = state.pairSlips[i];
     if (!std::isfinite(slip.x + slip.y + slip.z + slip.heldLimit))
-      refuse(source, "the elastic slip of pair " + std::to_string(i) + " is not finite");
+      refuse(source, "the elastic slip of pair " + std::to_string(i) + " is none, expected finite numbers");
     if (i > 0 && slip.place < state.pairSlips[i - 1].place)
-      refuse(source, "its pairs with elastic slips are not in ascending order");
+      refuse(source, "its pairs with elastic slips are not in ascending order of their places");
   }
   for (std::size_t i = particles; i < state.cuts.size(); ++i)
     if (state.cuts[i] > 1)

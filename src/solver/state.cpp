@@ -9,9 +9,10 @@
 namespace clothsim {
 
 void dropZeroSlips(State& state) {
-  if (std::ranges::all_of(state.elasticSlips, [](const Particle4& slip) { return slip.w == 0; }))
+  const auto isZero = [](const auto& slip) { return slip.x == 0 && slip.y == 0 && slip.z == 0; };
+  if (std::ranges::all_of(state.elasticSlips, [&](const Particle4& s) { return isZero(s) && s.w == 0; }))
     state.elasticSlips.clear();
-  if (std::ranges::all_of(state.pairSlips, [](const PairSlip& slip) { return slip.heldLimit == 0; }))
+  if (std::ranges::all_of(state.pairSlips, [&](const PairSlip& s) { return isZero(s) && s.heldLimit == 0; }))
     state.pairSlips.clear();
 }
 
