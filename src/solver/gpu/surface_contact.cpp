@@ -161,12 +161,12 @@ void GpuSurfaceContact::uploadParams() {
 void GpuSurfaceContact::publish() {
   if (!isOn()) return;
   stateCopy_.copyFrom(state_, 0, 1);
-  hasCopy_ = isCopyCurrent_ = true;
+  hasCopy_ = true;
 }
 
 void GpuSurfaceContact::makeRoom() {
   if (!isOn() || !hasCopy_) return;
-  if (isCopyCurrent_) knownPairs_ = stateCopy_.elements().front().pairs;
+  knownPairs_ = stateCopy_.elements().front().pairs;
   if (!growRoom(surface_, stateCopy_.elements().front())) return;
   allocatePairs(surface_.roomForPairs);
   uploadParams();
@@ -229,7 +229,7 @@ void GpuSurfaceContact::copySlips(Slips& copy) const {
 
 void GpuSurfaceContact::restoreSlips(const Slips& copy) {
   if (!isOn() || copy.ids.name() == 0) return setSlips(copy.download());
-  forgetPairCount();
+  knownPairs_.reset();
   if (copy.ids.size() > pairIds_.buffer.size()) allocatePairs(copy.ids.size() / 4);
   pairIds_.buffer.copyFrom(copy.ids);
   newSlips_.buffer.copyFrom(copy.slips);
@@ -237,14 +237,8 @@ void GpuSurfaceContact::restoreSlips(const Slips& copy) {
   glCopyNamedBufferSubData(copy.state.name(), state_.name(), place, place, sizeof(SurfaceState::pairs));
 }
 
-// The copy of what has been counted is of before.
-void GpuSurfaceContact::forgetPairCount() {
-  isCopyCurrent_ = false;
-  knownPairs_.reset();
-}
-
 void GpuSurfaceContact::setSlips(const std::vector<PairSlip>& slips) {
-  forgetPairCount();
+  knownPairs_.reset();
   if (!isOn()) {
     waitingSlips_ = slips;
     return;
@@ -393,7 +387,7 @@ void GpuSurfaceContact::settle(PassRunner& runner, GpuArrays& arrays) {
 
 void GpuSurfaceContact::run(PassRunner& runner, PassCall call, GpuArrays& arrays) {
   name_ = runner.isTiming() ? nameOf(call.pass) : "";
-  forgetPairCount();
+  knownPairs_.reset();
   arrays.bindFor(call.pass);
   arrays.bindScalars();
   params_.bindUniform(SURFACE_PARAMS_BINDING);
