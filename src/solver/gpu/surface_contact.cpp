@@ -161,12 +161,12 @@ void GpuSurfaceContact::uploadParams() {
 void GpuSurfaceContact::publish() {
   if (!isOn()) return;
   stateCopy_.copyFrom(state_, 0, 1);
-  hasCopy_ = true;
+  hasCopy_ = isCopyCurrent_ = true;
 }
 
 void GpuSurfaceContact::makeRoom() {
   if (!isOn() || !hasCopy_) return;
-  knownPairs_ = stateCopy_.elements().front().pairs;
+  if (isCopyCurrent_) knownPairs_ = stateCopy_.elements().front().pairs;
   if (!growRoom(surface_, stateCopy_.elements().front())) return;
   allocatePairs(surface_.roomForPairs);
   uploadParams();
@@ -229,7 +229,7 @@ void GpuSurfaceContact::copySlips(Slips& copy) const {
 
 void GpuSurfaceContact::restoreSlips(const Slips& copy) {
   if (!isOn() || copy.ids.name() == 0) return setSlips(copy.download());
-  knownPairs_.reset();
+  forgetPairCount();
   if (copy.ids.size() > pairIds_.buffer.size()) allocatePairs(copy.ids.size() / 4);
   pairIds_.buffer.copyFrom(copy.ids);
   newSlips_.buffer.copyFrom(copy.slips);
@@ -237,8 +237,14 @@ void GpuSurfaceContact::restoreSlips(const Slips& copy) {
   glCopyNamedBufferSubData(copy.state.name(), state_.name(), place, place, sizeof(SurfaceState::pairs));
 }
 
-void GpuSurfaceContact::setSlips(const std::vector<PairSlip>& slips) {
+// The copy of what has been counted is of before.
+void GpuSurfaceContact::forgetPairCount() {
+  isCopyCurrent_ = false;
   knownPairs_.reset();
+}
+
+void GpuSurfaceContact::setSlips(const std::vector<PairSlip>& slips) {
+  forgetPairCount();
   if (!isOn()) {
     waitingSlips_ = slips;
     return;
@@ -387,7 +393,7 @@ void GpuSurfaceContact::settle(PassRunner& runner, GpuArrays& arrays) {
 
 void GpuSurfaceContact::run(PassRunner& runner, PassCall call, GpuArrays& arrays) {
   name_ = runner.isTiming() ? nameOf(call.pass) : "";
-  knownPairs_.reset();
+  forgetPairCount();
   arrays.bindFor(call.pass);
   arrays.bindScalars();
   params_.bindUniform(SURFACE_PARAMS_BINDING);

@@ -77,6 +77,7 @@ class GpuSurfaceContact {
   void compile();
   void allocatePairs(std::size_t pairs);
   void bindSlips() const;
+  void forgetPairCount();
   void uploadParams();
   void runOn(PassRunner& runner, const gl::Program& program, std::size_t entries) const;
   void start(PassRunner& runner, const Variant& variant);
@@ -100,7 +101,7 @@ class GpuSurfaceContact {
   gl::Buffer<SurfaceParams> params_;
   gl::Buffer<SurfaceState> state_;
   gl::MappedBuffer<SurfaceState> stateCopy_;  // for the host
-  bool hasCopy_ = false;
+  bool hasCopy_ = false, isCopyCurrent_ = false;
   std::optional<std::size_t> knownPairs_;  // of the last step, while nothing has happened since
   gl::Buffer<Groups> dispatches_;          // over the pairs
   gl::Buffer<RoundSlot> rounds_;           // of the guard

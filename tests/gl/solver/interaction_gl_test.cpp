@@ -195,6 +195,18 @@ TEST_F(InteractionOnGpuTest, GoesBackToSnapshotsOfClothThatSticks) {
   EXPECT_EQ(later(cpu, *snapshot), expected);
   cpu.restore(*snapshot);
   EXPECT_EQ(later(gpu, *cpu.snapshot(nullptr)), expected);
+  // What was counted before a snapshot came back says nothing about it.
+  State apart = initialState(cloth, scene);
+  for (std::size_t i = 81; i < apart.positions.size(); ++i) apart.positions[i].y += 1;
+  gpu.setState(apart);
+  gpu.step(1);
+  EXPECT_FALSE(gpu.divergence().has_value());
+  gpu.restore(*shorter);
+  EXPECT_FALSE(gpu.divergence().has_value());
+  const std::unique_ptr<Snapshot> again = gpu.snapshot(nullptr);
+  gpu.setState(apart);
+  gpu.step(1);
+  EXPECT_EQ(later(gpu, *again), expected);
 }
 
 // A cut and an edit begin with a new hash, and forget nothing that a run has to tell.
