@@ -107,6 +107,8 @@ using uint = std::uint32_t;
   68  // two texels each: elastic slip as bits, and the pair's place; what held (LEAST_HELD)
 #define KEPT_IDS_UNIT 69    // of the pairs of the step before: particles,
 #define KEPT_SLIPS_UNIT 70  // and the same
+#define SURFACE_RINGS_UNIT \
+  71  // the particles around each: where those of a particle begin, for each and one more, then they
 #define SURFACE_CARRIES_BINDING 1
 #define PAIR_SLIPS_BINDING 2
 #define SURFACE_MOVED_BINDING 7

@@ -99,10 +99,12 @@ LAW NearestParts nearestOnSegments(vec3 p, vec3 q, vec3 a, vec3 b) {
   return nearest;
 }
 
-// Whether a corner or side, from which `way` leads to something near, is still the nearest part where another
-// triangle goes on from it `outward`. A little aslant counts, too: then each finds its share of the contact.
+// Whether a corner or side, from which `way` leads to something near, is still the nearest part where the
+// surface goes on from it `outward`. A little aslant (1.8 degrees) counts, too: then each triangle there
+// finds its share of the contact. Layers that slide over each other meet these ways as bumps: with 5 degrees
+// they lost 3 % more or less speed than by Coulomb's law in steps of 1/240 s.
 LAW bool isStillNearest(vec3 way, vec3 outward) {
-  const real slanted = real(0.0078125);
+  const real slanted = real(0.0009765625);  // the square of a cosine
   real rise = sumOfProducts(way, outward);
   precise real risen = rise * rise;
   precise real most = slanted * (sumOfProducts(way, way) * sumOfProducts(outward, outward));
@@ -192,16 +194,22 @@ LAW bool staysApart(bool areSides, vec3 x[4], vec3 y[4], vec3 way, real slack, i
   return true;
 }
 
-// Whether parts that move from x to y surely come there without passing through each other: their way to each
-// other turns by less than 60 degrees and keeps half of its length, or they stay apart by more than `slack`.
-LAW bool passesBy(bool areSides, vec3 x[4], vec3 y[4], vec3 way, vec3 wayAfter, real slack) {
+// Whether the way between two parts turns by less than 60 degrees.
+LAW bool turnsLittle(vec3 way, vec3 wayAfter) {
   const real quarter = real(0.25);
   real before = sumOfProducts(way, way), after = sumOfProducts(wayAfter, wayAfter),
        both = sumOfProducts(way, wayAfter);
   precise real squared = both * both;
   precise real turned = quarter * (before * after);
-  precise real shortest = quarter * before;
-  if (real(0.0) < both && turned < squared && shortest < after) return true;
+  return real(0.0) < both && turned < squared;
+}
+
+// Whether parts that move from x to y surely come there without passing through each other: their way to each
+// other turns by less than 60 degrees and keeps half of its length, or they stay apart by more than `slack`.
+LAW bool passesBy(bool areSides, vec3 x[4], vec3 y[4], vec3 way, vec3 wayAfter, real slack) {
+  const real quarter = real(0.25);
+  precise real shortest = quarter * sumOfProducts(way, way);
+  if (turnsLittle(way, wayAfter) && shortest < sumOfProducts(wayAfter, wayAfter)) return true;
   return staysApart(areSides, x, y, way, slack, FINE_PARTS);
 }
 

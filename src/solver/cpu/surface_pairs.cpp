@@ -36,17 +36,18 @@ Real shareOf(const ClothSurface<Real>& surface, const Parts& parts, Vec3<Real> w
   if (part == NEAREST_FACE) return 1;
   const auto corners = cornersOf(triangle), across = acrossOf(triangle);
   const auto isNearest = [&](std::uint32_t outer, std::uint32_t corner) {
-    if (outer == NO_PARTICLE) return true;
     return outer != parts.particles[0] &&
            SurfaceLaws<Real>::isStillNearest(way, at(x, outer) - at(x, corner));
   };
   if (part >= NEAREST_SIDE) {
     const std::uint32_t k = part - NEAREST_SIDE;
-    return !isNearest(across[k], corners[k]) ? Real(0) : across[k] == NO_PARTICLE ? Real(1) : Real(0.5);
+    if (across[k] == NO_PARTICLE) return 1;
+    return isNearest(across[k], corners[k]) ? Real(0.5) : Real(0);
   }
-  const std::uint32_t k = part - NEAREST_CORNER;
-  const bool isNearestHere = isNearest(across[k], corners[k]) && isNearest(across[(k + 2) % 3], corners[k]);
-  return isNearestHere ? surface.points[corners[k]].share : Real(0);
+  const std::uint32_t corner = corners[part - NEAREST_CORNER], *ring = surface.rings.data();
+  for (std::uint32_t k = ring[corner]; k < ring[corner + 1]; ++k)
+    if (!isNearest(ring[k], corner)) return 0;
+  return surface.points[corner].share;
 }
 
 // The pair as it is at the places x: those of the start, or moved by the displacements.
@@ -88,6 +89,9 @@ SurfacePair<Real> pairAt(const ClothSurface<Real>& surface, const Parts& parts,
 
 }  // namespace
 
+// Where parts surely pass each other on the way that is predicted, the pair is as it will be at its end; or
+// none, where they have left each other behind then: what is across its normal there would be a bump for what
+// comes less far.
 template <class Real>
 SurfacePair<Real> pairOf(const ClothSurface<Real>& surface, const Parts& parts,
                          const typename SurfaceLaws<Real>::NearestParts& nearest, const Components<Real>& x,
@@ -102,6 +106,7 @@ SurfacePair<Real> pairOf(const ClothSurface<Real>& surface, const Parts& parts,
   if (!SurfaceLaws<Real>::passesBy(parts.areSides, before, after, nearest.way, then.way, surface.leastGap))
     return pairAt(surface, parts, nearest, x, implicit, false);
   SurfacePair<Real> pair = pairAt(surface, parts, then, implicit.iterate.positions, implicit, true);
+  if (!(pair.held > Real(0)) && !SurfaceLaws<Real>::turnsLittle(nearest.way, then.way)) return {};
   const Real squared = dot(nearest.way, nearest.way);
   pair.distance = squared * inverseSquareRoot(squared);
   return pair;
@@ -130,13 +135,16 @@ void weighPairs(ImplicitState<Real>& own, const StepParams<Real>& step) {
     const Vec3<Real> slip = tangential(pair.normal, moved - touching.carries[q]);
     const Real squared = dot(slip, slip), inverse = inverseSquareRoot(squared);
     if (pair.collider == NO_COLLIDER) {
-      // The less of this and the last Newton step: what is not solved yet presses at random, and would stick.
+      // Where cloth is predicted to come it presses a hundred times too much, so that the first Newton step
+      // knows friction only of what held when the last step ended. Then the less of this and the last Newton
+      // step: what is not solved yet presses at random, and would stick.
       const Real press = pair.stiffness * larger(over, Real(0));
-      const bool isNew = !(pair.pressed < static_cast<Real>(LARGE_SQUARE));
-      if (isNew || frictionFollows(own))
+      const bool isFirst = own.scalars.newtonSteps == 0, held = isFirst && pair.heldLimit > Real(0),
+                 isNew = !(pair.pressed < static_cast<Real>(LARGE_SQUARE));
+      if (isFirst)
+        pair.limit = limitOf(pair.heldLimit);
+      else if (isNew || frictionFollows(own))
         pair.limit = canonical(pair.friction * (press < pair.pressed ? press : pair.pressed));
-      const bool held = own.scalars.newtonSteps == 0 && pair.heldLimit > Real(0);  // when the last step ended
-      if (held) pair.limit = limitOf(pair.heldLimit);
       pair.pressed = canonical(press);
       pair.held = held || over > Real(0) ? pair.stiffness : Real(0);
     }

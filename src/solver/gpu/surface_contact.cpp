@@ -82,6 +82,8 @@ void GpuSurfaceContact::setSurface(ClothSurface<float> surface, std::uint32_t pa
   points_ = ParticleArray("surface points", particles);
   static_assert(sizeof(SurfacePoint<float>) == sizeof(Particle4));
   points_.buffer.upload({reinterpret_cast<const Particle4*>(surface_.points.data()), particles});
+  rings_ = Numbers("rings of particles", surface_.rings.size());
+  rings_.buffer.upload(surface_.rings);
   static_assert(sizeof(SurfaceBlock) == 12 * sizeof(std::uint32_t));
   const std::size_t blocks = surface_.blocks.size();
   flatBlocks_ = Numbers("blocks of grids", 12 * std::max<std::size_t>(blocks, 1), GL_RGBA32UI);
@@ -176,6 +178,7 @@ void GpuSurfaceContact::bindTextures() const {
   if (!isOn()) return;
   triangles_.texture.bind(SURFACE_TRIANGLES_UNIT);
   points_.texture.bind(SURFACE_POINTS_UNIT);
+  rings_.texture.bind(SURFACE_RINGS_UNIT);
   boxes_.texture.bind(SURFACE_BOXES_UNIT);
   bindSlips();
   pairRows_.texture.bind(PAIR_ROWS_UNIT);

@@ -105,7 +105,7 @@ class GpuSurfaceContact {
   std::optional<std::size_t> knownPairs_;  // of the last step, while nothing has happened since
   gl::Buffer<Groups> dispatches_;          // over the pairs
   gl::Buffer<RoundSlot> rounds_;           // of the guard
-  Numbers triangles_, counts_, blocks_, lists_, listBlocks_, entries_, flatBlocks_, flatFlags_;
+  Numbers triangles_, rings_, counts_, blocks_, lists_, listBlocks_, entries_, flatBlocks_, flatFlags_;
   // Of the pairs of this step and of the one before: particles, and elastic slips with places.
   Numbers pairIds_, pairSlips_, newSlips_, keptIds_, keptSlips_;
   std::vector<PairSlip> waitingSlips_;  // for the first surface

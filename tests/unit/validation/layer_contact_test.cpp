@@ -176,8 +176,8 @@ TEST(SurfaceContact, KeepsLayersApartByTheThicknessOfTheFabric) {
     Scene scene = layers(fabric);
     scene.solver.simulationSteps = {8, true};
     chooseCounts(scene);
-    ASSERT_EQ(scene.solver.simulationSteps, 8) << "steps that are solved";
-    const State state = after(scene, 240);
+    ASSERT_EQ(scene.solver.simulationSteps, 4) << "steps that are solved";
+    const State state = after(scene, 120);
     const double thickness = scene.cloths[0].material->thickness;
     const Cloth cloth(scene);
     // The middle of the upper sheet lies on the lower one, which lies on the floor.
@@ -189,13 +189,13 @@ TEST(SurfaceContact, KeepsLayersApartByTheThicknessOfTheFabric) {
 
 // How much speed a sheet loses in 1/20 s that slides over another one, past the corners and sides of its
 // grid [m/s].
-double lostSpeed(double friction, double degrees, int stepsAFrame = 8) {
+double lostSpeed(double friction, double degrees, int stepsAFrame = 4, double tolerance = 1e-3) {
   Scene scene = layers("cotton");
   scene.solver.simulationSteps = stepsAFrame;
   chooseCounts(scene);
   scene.solver.selfFriction = friction;
-  scene.solver.tolerance = 1e-3;  // and so many iterations that all steps are solved
-  scene.solver.cgIterations = 60;
+  scene.solver.tolerance = tolerance;
+  scene.solver.cgIterations = 60;  // all steps are solved
   scene.cloths[0].width = scene.cloths[0].height = 0.6;
   scene.cloths[0].numWidthPoints = scene.cloths[0].numHeightPoints = 33;
   scene.cloths[0].pinned = {GridSide::left, GridSide::right, GridSide::top, GridSide::bottom};
@@ -239,18 +239,25 @@ TEST(SurfaceContact, KeepsLayersWhereTheyStick) {
     EXPECT_NEAR(length(vectorOf(now.positions[i]) - vectorOf(then.positions[i])), 0, 1e-5) << i;
 }
 
+// Corners and sides that a layer slides past are no bumps, also where it slides half a cell in a step.
 TEST(SurfaceContact, RubsLayersOnEachOtherByCoulombsLaw) {
   EXPECT_NEAR(lostSpeed(0, 7), 0, 1e-4);
   struct Case {
     double friction, degrees;
     int stepsAFrame;
-    double tolerance;
+    double tolerance, mostError;
   };
-  for (const auto [friction, degrees, stepsAFrame, tolerance] :
-       {Case{0.3, 0, 8, 0.02}, {0.1, 7, 8, 0.02}, {0.3, 7, 8, 0.02}, {0.3, 7, 4, 0.04}}) {
+  for (const auto [friction, degrees, stepsAFrame, tolerance, mostError] : {Case{0.3, 0, 4, 1e-3, 0.02},
+                                                                            {0.1, 7, 4, 1e-3, 0.02},
+                                                                            {0.3, 7, 4, 1e-3, 0.02},
+                                                                            {0.3, 20, 4, 1e-3, 0.02},
+                                                                            {0.3, 7, 1, 1e-3, 0.05},
+                                                                            {0.3, 7, 4, 1e-2, 0.05},
+                                                                            {0.3, 20, 4, 1e-2, 0.05}}) {
     const double byCoulomb = friction * 9.81 / 20;
-    EXPECT_NEAR(lostSpeed(friction, degrees, stepsAFrame) / byCoulomb, 1, tolerance)
-        << friction << ", " << degrees << " degrees, " << stepsAFrame << " steps a frame";
+    EXPECT_NEAR(lostSpeed(friction, degrees, stepsAFrame, tolerance) / byCoulomb, 1, mostError)
+        << friction << ", " << degrees << " degrees, " << stepsAFrame << " steps a frame, tolerance "
+        << tolerance;
   }
 }
 
