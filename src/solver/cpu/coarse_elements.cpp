@@ -246,7 +246,7 @@ class ElementLoop {
       const Vec3<Real> normal = at(own_.planes.normals, n);
       if (normal != Vec3<Real>{}) addPush(contactStiffness(arguments_, n), fourOf(normal));
     }
-    forEachPairOf(own_.touching, n, [&](std::uint32_t q, std::uint32_t place) {
+    forEachPairOf(own_.touching.all, n, [&](std::uint32_t q, std::uint32_t place) {
       const SurfacePair<Real>& pair = own_.touching.pairs[q];
       const Real weight = pair.weights[place];
       if (pair.held > Real(0)) addPush((weight * weight) * pair.held, fourOf(pair.normal));

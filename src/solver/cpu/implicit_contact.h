@@ -145,16 +145,16 @@ INLINE Vec3<Real> weighted(const SurfacePair<Real>& pair, const Components<Real>
   return ((pair.weights[0] * at(c, a) + pair.weights[1] * at(c, b)) + pair.weights[2] * at(c, d)) +
          pair.weights[3] * at(c, e);
 }
-template <class Real, class Visit>
-INLINE void forEachPairOf(const TouchingPairs<Real>& touching, std::ptrdiff_t i, Visit visit) {
-  if (touching.pairs.empty()) return;
-  for (std::uint32_t k = touching.starts.data()[i]; k < touching.starts.data()[i + 1]; ++k)
-    visit(touching.entries[k] / 4, touching.entries[k] % 4);
+template <class Visit>
+INLINE void forEachPairOf(const PairLists& lists, std::ptrdiff_t i, Visit visit) {
+  if (lists.entries.empty()) return;
+  for (std::uint32_t k = lists.starts.data()[i]; k < lists.starts.data()[i + 1]; ++k)
+    visit(lists.entries[k] / 4, lists.entries[k] % 4);
 }
 template <class Real>
 INLINE Vec3<Real> forceOfPairs(const TouchingPairs<Real>& touching, std::ptrdiff_t i) {
   Vec3<Real> force{};
-  forEachPairOf(touching, i, [&](std::uint32_t q, std::uint32_t place) {
+  forEachPairOf(touching.ofActing, i, [&](std::uint32_t q, std::uint32_t place) {
     force = force + touching.pairs[q].weights[place] * touching.forces[q];
   });
   return force;
@@ -162,7 +162,7 @@ INLINE Vec3<Real> forceOfPairs(const TouchingPairs<Real>& touching, std::ptrdiff
 template <class Real>
 INLINE void addPairs(const TouchingPairs<Real>& touching, std::ptrdiff_t i, Vec3<Real>& residual,
                      Symmetric<Real>& block) {
-  forEachPairOf(touching, i, [&](std::uint32_t q, std::uint32_t place) {
+  forEachPairOf(touching.ofActing, i, [&](std::uint32_t q, std::uint32_t place) {
     const SurfacePair<Real>& pair = touching.pairs[q];
     const Real weight = pair.weights[place], square = weight * weight, across = square * pair.across;
     residual = residual + weight * touching.forces[q];
@@ -173,7 +173,7 @@ INLINE void addPairs(const TouchingPairs<Real>& touching, std::ptrdiff_t i, Vec3
 // How the energies of the pairs whose first particle this is change along the increments.
 template <class Real>
 INLINE void addPairTrials(ImplicitState<Real>& own, std::ptrdiff_t i, Real slow) {
-  forEachPairOf(own.touching, i, [&](std::uint32_t q, std::uint32_t place) {
+  forEachPairOf(own.touching.all, i, [&](std::uint32_t q, std::uint32_t place) {
     if (place != 0) return;
     const SurfacePair<Real>& pair = own.touching.pairs[q];
     const Vec3<Real> d = weighted(pair, own.displacements), e = weighted(pair, own.increments);

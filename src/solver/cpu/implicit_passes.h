@@ -18,13 +18,20 @@
 
 namespace clothsim::cpu {
 
+// Of some pairs, those of each particle.
+struct PairLists {
+  std::vector<std::uint32_t> starts;   // of a particle's entries, and one more
+  std::vector<std::uint32_t> entries;  // 4 * pair + place in it, ascending
+};
+
 // Parts of the surface that may touch in this step (solver/surface.h); empty without contact.
 template <class Real>
 struct TouchingPairs {
   std::vector<SurfacePair<Real>> pairs;
-  std::vector<Vec3<Real>> forces;      // of a pair: at the iterate, later what it does to the directions
-  std::vector<std::uint32_t> starts;   // of a particle's entries, and one more
-  std::vector<std::uint32_t> entries;  // 4 * pair + place in it, ascending
+  std::vector<Vec3<Real>> forces;     // of a pair: at the iterate, later what it does to the directions
+  PairLists all;                      // and those that press or rub in this Newton step
+  std::vector<std::uint32_t> acting;  // ascending
+  PairLists ofActing;
   // Of each pair, how far a small collider carries it along, less the elastic slip [m].
   std::vector<Vec3<Real>> carries;
 };

@@ -304,7 +304,7 @@ struct Wanted {
 template <class Real>
 Wanted<Real> wantedOf(const TouchingPairs<Real>& touching, std::uint32_t i, Real factor) {
   Wanted<Real> wanted;
-  forEachPairOf(touching, i, [&](std::uint32_t q, std::uint32_t place) {
+  forEachPairOf(touching.all, i, [&](std::uint32_t q, std::uint32_t place) {
     const SurfacePair<Real>& pair = touching.pairs[q];
     if (pair.collider == NO_COLLIDER) return;
     const Real part = (pair.weights[place] * factor) * pair.across;

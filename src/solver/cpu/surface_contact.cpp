@@ -182,7 +182,7 @@ void SurfaceContact<Real>::findTouching(const CpuState<Real>& before, ImplicitSt
   }
   implicit.scalars.pairs = static_cast<std::uint32_t>(touching.pairs.size());
   touching.forces.resize(touching.pairs.size());
-  listByParticle(touching, particles);
+  listPairs(touching, particles);
   recallSlips(implicit);
   if (!surface_.colliders.empty()) meetColliders(surface_, arguments, implicit);
 }

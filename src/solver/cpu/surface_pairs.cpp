@@ -1,6 +1,7 @@
 #include "solver/cpu/surface_pairs.h"
 
 #include <algorithm>
+#include <ranges>
 
 #include "core/thread_team.h"
 #include "solver/cpu/implicit_contact.h"
@@ -112,17 +113,38 @@ SurfacePair<Real> pairOf(const ClothSurface<Real>& surface, const Parts& parts,
   return pair;
 }
 
-template <class Real>
-void listByParticle(TouchingPairs<Real>& touching, std::size_t particles) {
-  touching.starts.assign(particles + 1, 0);
-  for (const SurfacePair<Real>& pair : touching.pairs)
-    for (const std::uint32_t i : pair.particles) ++touching.starts[i + 1];
-  for (std::size_t i = 0; i < particles; ++i) touching.starts[i + 1] += touching.starts[i];
-  touching.entries.resize(4 * touching.pairs.size());
-  std::vector<std::uint32_t> next(touching.starts.begin(), touching.starts.end() - 1);
-  for (std::uint32_t q = 0; q < touching.pairs.size(); ++q)
+namespace {
+
+// Of the pairs of these numbers, which ascend.
+template <class Real, class Numbers>
+void listByParticle(const std::vector<SurfacePair<Real>>& pairs, const Numbers& numbers,
+                    std::size_t particles, PairLists& lists) {
+  // One too many: while entries come, starts[i + 1] is where the next one of i goes.
+  lists.starts.assign(particles + 2, 0);
+  for (const std::uint32_t q : numbers)
+    for (const std::uint32_t i : pairs[q].particles) ++lists.starts[i + 2];
+  for (std::size_t i = 0; i < particles; ++i) lists.starts[i + 2] += lists.starts[i + 1];
+  lists.entries.resize(4 * numbers.size());
+  for (const std::uint32_t q : numbers)
     for (std::uint32_t k = 0; k < 4; ++k)
-      touching.entries[next[touching.pairs[q].particles[k]]++] = 4 * q + k;
+      lists.entries[lists.starts[pairs[q].particles[k] + 1]++] = 4 * q + k;
+}
+
+// Few of the pairs that may touch do, and a product with the Hessian sees only those.
+template <class Real>
+void listActing(TouchingPairs<Real>& touching, std::size_t particles) {
+  touching.acting.clear();
+  for (std::uint32_t q = 0; q < touching.pairs.size(); ++q)
+    if (touching.pairs[q].held > Real(0) || touching.pairs[q].across > Real(0)) touching.acting.push_back(q);
+  listByParticle(touching.pairs, touching.acting, particles, touching.ofActing);
+}
+
+}  // namespace
+
+template <class Real>
+void listPairs(TouchingPairs<Real>& touching, std::size_t particles) {
+  const auto count = static_cast<std::uint32_t>(touching.pairs.size());
+  listByParticle(touching.pairs, std::views::iota(0u, count), particles, touching.all);
 }
 
 template <class Real>
@@ -153,6 +175,7 @@ void weighPairs(ImplicitState<Real>& own, const StepParams<Real>& step) {
     touching.forces[q] = canonical((pair.held * over) * pair.normal - across * slip);
   };
   ThreadTeam::shared().forEach(0, static_cast<std::uint32_t>(touching.pairs.size()), PAIRS_AT_ONCE, weigh);
+  listActing(touching, own.displacements.x.size());
 }
 
 // Pairs that the step before has found, too, begin with the friction that it ended with.
@@ -196,20 +219,22 @@ void keepSlips(ImplicitState<Real>& own, const StepParams<Real>& step) {
 template <class Real>
 void multiplyPairs(ImplicitState<Real>& own) {
   TouchingPairs<Real>& touching = own.touching;
-  const auto multiply = [&](std::uint32_t q) {
+  const auto multiply = [&](std::uint32_t k) {
+    const std::uint32_t q = touching.acting[k];
     const SurfacePair<Real>& pair = touching.pairs[q];
     const Vec3<Real> moved = weighted(pair, own.directions.positions);
     const Real beyond = (pair.held - pair.across) * dot(pair.normal, moved);
     touching.forces[q] = canonical(pair.across * moved + beyond * pair.normal);
   };
-  ThreadTeam::shared().forEach(0, static_cast<std::uint32_t>(touching.pairs.size()), PAIRS_AT_ONCE, multiply);
+  ThreadTeam::shared().forEach(0, static_cast<std::uint32_t>(touching.acting.size()), PAIRS_AT_ONCE,
+                               multiply);
 }
 
 #define INSTANTIATE(Real)                                                                       \
   template SurfacePair<Real> pairOf(const ClothSurface<Real>&, const Parts&,                    \
                                     const typename SurfaceLaws<Real>::NearestParts&,            \
                                     const Components<Real>&, const ImplicitState<Real>&, bool); \
-  template void listByParticle(TouchingPairs<Real>&, std::size_t);                              \
+  template void listPairs(TouchingPairs<Real>&, std::size_t);                                   \
   template void weighPairs(ImplicitState<Real>&, const StepParams<Real>&);                      \
   template void recallSlips(ImplicitState<Real>&);                                              \
   template void keepSlips(ImplicitState<Real>&, const StepParams<Real>&);                       \

@@ -32,9 +32,9 @@ template <class Real>
                                        const typename SurfaceLaws<Real>::NearestParts& nearest,
                                        const Components<Real>& x, const ImplicitState<Real>& implicit,
                                        bool isLater);
-// The list of each particle's pairs.
+// The list of each particle's pairs, of those that may touch.
 template <class Real>
-void listByParticle(TouchingPairs<Real>& touching, std::size_t particles);
+void listPairs(TouchingPairs<Real>& touching, std::size_t particles);
 // Forces of the pairs at the iterate, and what they add to the Hessian.
 template <class Real>
 void weighPairs(ImplicitState<Real>& own, const StepParams<Real>& step);
