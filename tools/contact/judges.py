@@ -80,6 +80,7 @@ def judge(job):
     begun = time.process_time()
     ipctk.set_num_threads(1)
     edges = ipctk.edges(triangles)
+    seconds = scenes[scene] / 60
     crossed = blocked = 0
     vertex = side = 0.0
     mesh = ipctk.CollisionMesh(numpy.asfortranarray(frames[0]), edges, triangles)
@@ -87,8 +88,8 @@ def judge(job):
         crossed += ipctk.has_intersections(mesh, place)
         blocked += at > 0 and not goes_free(mesh, before, place)
         if at > 0:  # where the jitter has put it at the start is not the solver's
-            vertex = max(vertex, shapes.depth(place, colliders))
-            side = max(side, shapes.depth(place[edges].mean(axis=1), colliders))
+            vertex = max(vertex, shapes.depth(place, colliders, seconds))
+            side = max(side, shapes.depth(place[edges].mean(axis=1), colliders, seconds))
         before = place
     contact, ends = result["contact"], result["convergence"]
     gap = contact["least_gap"]

@@ -46,12 +46,14 @@ def box(points, collider):
 shapes = {"plane": plane, "sphere": sphere, "capsule": capsule, "torus": torus, "box": box}
 
 
-def depth(points, colliders):
+def depth(points, colliders, seconds):
     """How deep the deepest of the points is inside a collider [m], 0 when none is. Colliders may turn, as long as that does
-    not change where they are."""
+    not change where they are in the first seconds."""
     deepest = 0.0
     for collider in colliders:
         keys = collider.get("motion", {}).get("keys", [])
+        later = [key["t"] for key in keys if key["t"] >= seconds]
+        keys = [key for key in keys if key["t"] <= min(later, default=seconds)]
         if any("position" in key and key["position"] != collider.get("origin") for key in keys):
             raise ValueError(f"the judge knows no moving colliders: {collider['type']}")
         deepest = max(deepest, -float(shapes[collider["type"]](points, collider).min()))
