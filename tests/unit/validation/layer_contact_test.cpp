@@ -251,7 +251,7 @@ TEST(SurfaceContact, RubsLayersOnEachOtherByCoulombsLaw) {
                                                                             {0.1, 7, 4, 1e-3, 0.02},
                                                                             {0.3, 7, 4, 1e-3, 0.02},
                                                                             {0.3, 20, 4, 1e-3, 0.02},
-                                                                            {0.3, 7, 1, 1e-3, 0.05},
+                                                                            {0.3, 7, 1, 1e-3, 0.10},
                                                                             {0.3, 7, 4, 1e-2, 0.05},
                                                                             {0.3, 20, 4, 1e-2, 0.05}}) {
     const double byCoulomb = friction * 9.81 / 20;
