@@ -195,7 +195,8 @@ double lostSpeed(double friction, double degrees, int stepsAFrame = 4, double to
   chooseCounts(scene);
   scene.solver.selfFriction = friction;
   scene.solver.tolerance = tolerance;
-  scene.solver.cgIterations = 60;  // all steps are solved
+  const bool isSolved = tolerance < 0.01;
+  if (isSolved) scene.solver.cgIterations = 60;
   scene.cloths[0].width = scene.cloths[0].height = 0.6;
   scene.cloths[0].numWidthPoints = scene.cloths[0].numHeightPoints = 33;
   scene.cloths[0].pinned = {GridSide::left, GridSide::right, GridSide::top, GridSide::bottom};
@@ -215,7 +216,9 @@ double lostSpeed(double friction, double degrees, int stepsAFrame = 4, double to
   const State slid = solver.state();
   double sum = 0;
   for (std::uint32_t i = upper.firstParticle; i < cloth.particleCount(); ++i) sum += slid.velocities[i].x;
-  EXPECT_EQ(solver.convergenceCounts().unconvergedSteps, 0u);
+  if (isSolved) {
+    EXPECT_EQ(solver.convergenceCounts().unconvergedSteps, 0u);
+  }
   return speed - sum / upper.particleCount();
 }
 
@@ -239,7 +242,8 @@ TEST(SurfaceContact, KeepsLayersWhereTheyStick) {
     EXPECT_NEAR(length(vectorOf(now.positions[i]) - vectorOf(then.positions[i])), 0, 1e-5) << i;
 }
 
-// Corners and sides that a layer slides past are no bumps, also where it slides half a cell in a step.
+// Corners and sides that a layer slides past are no bumps, also where it slides half a cell in a step, or at
+// the usual tolerance.
 TEST(SurfaceContact, RubsLayersOnEachOtherByCoulombsLaw) {
   EXPECT_NEAR(lostSpeed(0, 7), 0, 1e-4);
   struct Case {
@@ -252,8 +256,8 @@ TEST(SurfaceContact, RubsLayersOnEachOtherByCoulombsLaw) {
                                                                             {0.3, 7, 4, 1e-3, 0.02},
                                                                             {0.3, 20, 4, 1e-3, 0.02},
                                                                             {0.3, 7, 1, 1e-3, 0.10},
-                                                                            {0.3, 7, 4, 1e-2, 0.05},
-                                                                            {0.3, 20, 4, 1e-2, 0.05}}) {
+                                                                            {0.3, 7, 4, 1e-2, 0.20},
+                                                                            {0.3, 20, 4, 1e-2, 0.20}}) {
     const double byCoulomb = friction * 9.81 / 20;
     EXPECT_NEAR(lostSpeed(friction, degrees, stepsAFrame, tolerance) / byCoulomb, 1, mostError)
         << friction << ", " << degrees << " degrees, " << stepsAFrame << " steps a frame, tolerance "
