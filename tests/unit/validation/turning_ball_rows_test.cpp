@@ -59,6 +59,7 @@ void expectCarriedAlong(const std::string& fabric, int points, int settlingFrame
   const auto steps = static_cast<std::uint32_t>(scene.solver.simulationSteps);
   solver.step(steps * static_cast<std::uint32_t>(settlingFrames));
   const double before = turnOf(cloth, solver.state(), points);
+  const auto unsolvedBefore = solver.convergenceCounts().unconvergedSteps;
   double least = INFINITY, most = 0;
   constexpr int frames = 60;
   for (int frame = 0; frame < frames; ++frame) {
@@ -78,7 +79,7 @@ void expectCarriedAlong(const std::string& fabric, int points, int settlingFrame
   expectAtMost({row, "wander of the largest strain in 1 s" + what, precisionOf<float>, ""}, most - least,
                0.005);
   expectAtMost({row, "lag in 1 s" + what, precisionOf<float>, "degrees"}, std::abs(turned), 0.05);
-  EXPECT_EQ(solver.convergenceCounts().unconvergedSteps, 0u);
+  EXPECT_EQ(solver.convergenceCounts().unconvergedSteps, unsolvedBefore);
 }
 
 TEST(RowSheetOnATurningBall, IsCarriedAlongAndNotStretched) { expectCarriedAlong("cotton", 17, 90); }
