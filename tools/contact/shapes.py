@@ -47,8 +47,8 @@ shapes = {"plane": plane, "sphere": sphere, "capsule": capsule, "torus": torus, 
 
 
 def depth(points, colliders, seconds):
-    """How deep the deepest of the points is inside a collider [m], 0 when none is. Colliders may turn, as long as that does
-    not change where they are in the first seconds."""
+    """How deep the deepest of the points is inside a collider [m], 0 when none is. Colliders may turn, as long as they are
+    where they began for so many seconds."""
     deepest = 0.0
     for collider in colliders:
         keys = collider.get("motion", {}).get("keys", [])

@@ -28,9 +28,10 @@ struct PairLists {
 template <class Real>
 struct TouchingPairs {
   std::vector<SurfacePair<Real>> pairs;
-  std::vector<Vec3<Real>> forces;     // of a pair: at the iterate, later what it does to the directions
-  PairLists all;                      // and those that press or rub in this Newton step
-  std::vector<std::uint32_t> acting;  // ascending
+  std::vector<Vec3<Real>> forces;  // of a pair: at the iterate, later what it does to the directions
+  PairLists all;
+  // The pairs that press or rub in this Newton step, ascending, and each particle's.
+  std::vector<std::uint32_t> acting;
   PairLists ofActing;
   // Of each pair, how far a small collider carries it along, less the elastic slip [m].
   std::vector<Vec3<Real>> carries;

@@ -90,9 +90,6 @@ SurfacePair<Real> pairAt(const ClothSurface<Real>& surface, const Parts& parts,
 
 }  // namespace
 
-// Where parts surely pass each other on the way that is predicted, the pair is as it will be at its end; or
-// none, where they have left each other behind then: what is across its normal there would be a bump for what
-// comes less far.
 template <class Real>
 SurfacePair<Real> pairOf(const ClothSurface<Real>& surface, const Parts& parts,
                          const typename SurfaceLaws<Real>::NearestParts& nearest, const Components<Real>& x,

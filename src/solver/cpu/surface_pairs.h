@@ -26,7 +26,8 @@ INLINE typename SurfaceLaws<Real>::NearestParts nearestOf(const Parts& parts, co
 
 // The pair of parts that may touch, which are `nearest` at the start; without stiffness where they do not.
 // Where they surely pass each other on the way that is predicted, it is as it will be at its end: what slides
-// over a border, or past a corner, does not run into it.
+// over a border, or past a corner, does not run into it. There is none where they have left each other behind
+// by then: it would be a bump for what comes less far.
 template <class Real>
 [[nodiscard]] SurfacePair<Real> pairOf(const ClothSurface<Real>& surface, const Parts& parts,
                                        const typename SurfaceLaws<Real>::NearestParts& nearest,
