@@ -149,8 +149,9 @@ void putForces(ImplicitState<double>& own, std::uint32_t first, std::uint32_t en
 // `forces` of the aggregates [first, end): the weighted sums of those of what hangs on them.
 void restrictResiduals(ImplicitState<float>& own, std::uint32_t first, std::uint32_t end);
 void restrictResiduals(ImplicitState<double>& own, std::uint32_t first, std::uint32_t end);
-template <class Real>
-void solveCoarsest(ImplicitState<Real>& own, const DensePart& part, std::uint32_t vertex);
+// z of the coarsest level's vertices in a connected part.
+void solveCoarsest(ImplicitState<float>& own, const DensePart& part);
+void solveCoarsest(ImplicitState<double>& own, const DensePart& part);
 // z of the coarse vertices [first, end): their own and what the next coarser level makes of them.
 void prolong(ImplicitState<float>& own, std::uint32_t first, std::uint32_t end);
 void prolong(ImplicitState<double>& own, std::uint32_t first, std::uint32_t end);

@@ -257,23 +257,36 @@ void restrictResiduals(ImplicitState<double>& own, std::uint32_t first, std::uin
   restrictRange(own, first, end);
 }
 
+namespace {
+
+// Column by column, all rows at once: every row adds up in one order.
 template <class Real>
-void solveCoarsest(ImplicitState<Real>& own, const DensePart& part, std::uint32_t vertex) {
+INLINE void solvePart(ImplicitState<Real>& own, const DensePart& part) {
   const std::size_t order = 6 * static_cast<std::size_t>(part.count);
-  const Real* matrix = own.dense.data() + part.firstEntry + 6 * static_cast<std::size_t>(vertex - part.first);
-  Eight<Real> sum{};
-  for (std::uint32_t k = 0; k < part.count; ++k) {
-    const std::uint32_t coarse = part.first + k;
-    const Eight<Real> force =
-        forceAbout(centerOf(own, coarse), own.forces[own.hierarchy.particles + coarse]).both;
-    for (std::size_t j = 0; j < 6; ++j) {
-      const Real* column = matrix + (6 * k + j) * order;
-      sum = sum - force[j < 3 ? j : j + 1] * Eight<Real>{column[0], column[1], column[2], Real(0),
-                                                         column[3], column[4], column[5], Real(0)};
+  std::array<Real, 6 * COARSEST_VERTICES> sums;
+  std::fill_n(sums.data(), order, Real(0));
+  const Real* column = own.dense.data() + part.firstEntry;
+  for (std::uint32_t coarse = part.first; coarse < part.first + part.count; ++coarse) {
+    const RigidVector<Real> force =
+        forceAbout(centerOf(own, coarse), own.forces[own.hierarchy.particles + coarse]);
+    for (std::size_t j = 0; j < 6; ++j, column += order) {
+      const Real f = force.both[j < 3 ? j : j + 1];
+      for (std::size_t i = 0; i < order; ++i) sums[i] = sums[i] - f * column[i];
     }
   }
-  own.coarseCorrections[vertex] = canonical(motionFrom(centerOf(own, vertex), RigidVector<Real>(sum)));
+  for (std::uint32_t k = 0; k < part.count; ++k) {
+    const Real* s = sums.data() + 6 * static_cast<std::size_t>(k);
+    const RigidVector<Real> motion(Four<Real>{s[0], s[1], s[2], Real(0)},
+                                   Four<Real>{s[3], s[4], s[5], Real(0)});
+    own.coarseCorrections[part.first + k] = canonical(motionFrom(centerOf(own, part.first + k), motion));
+  }
 }
+
+}  // namespace
+
+VECTOR_CLONES(void, solveCoarsest, (ImplicitState<float> & own, const DensePart& part), (own, part),
+              solvePart(own, part))
+void solveCoarsest(ImplicitState<double>& own, const DensePart& part) { solvePart(own, part); }
 
 namespace {
 
@@ -367,8 +380,7 @@ void runOnLevel(PassCall call, std::span<const ImplicitArguments<Real>> pieces, 
       continue;
     }
     if (call.pass == Pass::solveCoarsest) {
-      for (const DensePart& part : hierarchy.parts[piece])
-        forEachVertex(part.first, part.count, [&](std::uint32_t i) { solveCoarsest(own, part, i); });
+      for (const DensePart& part : hierarchy.parts[piece]) solveCoarsest(own, part);
       continue;
     }
     if (call.index >= hierarchy.pieces[piece].size()) continue;
@@ -401,7 +413,6 @@ void runOnLevel(PassCall call, std::span<const ImplicitArguments<Real>> pieces, 
 #define INSTANTIATE(Real)                                                                                  \
   template void findCenter(ImplicitState<Real>&, std::uint32_t);                                           \
   template void coarsen(const ImplicitArguments<Real>&, const LevelParams&, std::uint32_t, std::uint32_t); \
-  template void solveCoarsest(ImplicitState<Real>&, const DensePart&, std::uint32_t);                      \
   template void runOnLevel(PassCall, std::span<const ImplicitArguments<Real>>, ImplicitState<Real>&,       \
                            const Real*);
 INSTANTIATE(float)
