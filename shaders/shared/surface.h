@@ -216,9 +216,9 @@ struct SurfaceParams {
   uint touchesItself;  // cloth is a collider, too
 
   uint smallColliders;  // how many there are
+  float largestPush;    // that one pair asks for [m]
   uint unusedA;
   uint unusedB;
-  uint unusedC;
 
 #ifdef __cplusplus
   uint firstBoxes[MOST_BOX_LEVELS][4];

@@ -18,6 +18,10 @@ constexpr std::uint32_t PAIRS_A_PARTICLE = 8, COLLIDERS_A_TRIANGLE = 4, LEAST_RO
 // In the largest correction.
 constexpr double QUANTA = 0x1p20;
 
+// By how much a step may move otherwise than predicted, for its pairs to be found: over a pile of thin
+// layers, a quarter of a cell would find all of them with all others.
+constexpr double UNFORESEEN_SPEED = 0.4;  // [m/s]
+
 constexpr std::uint32_t NO_TRIANGLE = 0xffffffffu;
 
 using Corners = std::array<std::uint32_t, 3>;
@@ -314,11 +318,13 @@ ClothSurface<Real> makeSurface(const Cloth& cloth, const Scene& scene, const Cut
   }
   if (count > 0) {
     constexpr double rounding = 0x1p-24;  // of places about 1 m from the origin, across a side
-    surface.margin = static_cast<Real>(widest / 4);
-    surface.perQuantum = static_cast<Real>(static_cast<float>(QUANTA / surface.margin));
-    surface.quantum = static_cast<Real>(static_cast<float>(surface.margin / QUANTA));
-    surface.around = static_cast<Real>(largestRadius + widest / 8);
-    surface.touchingReach = static_cast<Real>(static_cast<float>(1.01 * (2 * largestRadius + widest / 4)));
+    const double margin = std::min(widest / 4, UNFORESEEN_SPEED * stepLength(scene.solver));
+    surface.margin = static_cast<Real>(static_cast<float>(margin));
+    surface.largestPush = static_cast<Real>(widest / 4);
+    surface.perQuantum = static_cast<Real>(static_cast<float>(QUANTA / surface.largestPush));
+    surface.quantum = static_cast<Real>(static_cast<float>(surface.largestPush / QUANTA));
+    surface.around = static_cast<Real>(largestRadius + margin / 2);
+    surface.touchingReach = static_cast<Real>(static_cast<float>(1.01 * (2 * largestRadius + margin)));
     surface.leastGap = static_cast<Real>(
         std::min(std::max(0.1 * smallestRadius, std::sqrt(rounding * widest)), 0.5 * smallestRadius));
   }

@@ -81,6 +81,7 @@ struct ClothSurface {
   Real touchingReach = 0;  // parts that may touch are nearer at the start or at the predicted end [m]
   Real around = 0;         // how far the search for those looks around each part [m]
   Real margin = 0;         // parts that are predicted to come so near count as pairs that may touch [m]
+  Real largestPush = 0;    // that one pair asks for, where the step ends too near [m]
   std::uint32_t roomForPairs = 0;    // how many a step may have
   Real quantum = 0, perQuantum = 0;  // of corrections [m], and its reciprocal
   Real leastGap = 0;                 // what motion leaves of a distance, if it was more [m]

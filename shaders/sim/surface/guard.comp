@@ -149,7 +149,7 @@ void pushApart(uvec4 ids, bool areSides, vec3 way, float least) {
   }
   precise float missing = 2.0 * least - sumOfProducts(normal, nearest.way);
   if (!(missing > 0.0) || !(mobility > 0.0)) return;
-  precise float push = surface.perQuantum * (missing < surface.margin ? missing : surface.margin);
+  precise float push = surface.perQuantum * (missing < surface.largestPush ? missing : surface.largestPush);
   for (int k = 0; k < 4; ++k) {
     precise float whole = (weights[k] * inverses[k]) * reciprocal(mobility);
     precise float part = push * (whole < -1.0 ? -1.0 : 1.0 < whole ? 1.0 : whole);

@@ -348,7 +348,7 @@ void SurfaceContact<Real>::pushApart(const Parts& parts, Vec3<Real> way, const C
   }
   const Real missing = Real(2) * least - dot(normal, nearest.way);
   if (!(missing > Real(0)) || !(mobility > Real(0))) return;
-  const Real push = surface_.perQuantum * (missing < surface_.margin ? missing : surface_.margin);
+  const Real push = surface_.perQuantum * (missing < surface_.largestPush ? missing : surface_.largestPush);
   for (std::size_t k = 0; k < 4; ++k) {
     const Real whole = (weights[k] * inverses[k]) * reciprocal(mobility), one = 1,
                part = push * (whole < -one  ? -one

@@ -147,6 +147,7 @@ void GpuSurfaceContact::uploadParams() {
   params.roomForPairs = surface_.roomForPairs;
   params.around = surface_.around;
   params.margin = surface_.margin;
+  params.largestPush = surface_.largestPush;
   params.leastGap = surface_.leastGap;
   params.quantum = surface_.quantum;
   params.perQuantum = surface_.perQuantum;

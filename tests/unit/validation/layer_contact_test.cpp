@@ -118,7 +118,7 @@ TEST(SurfaceContact, LetsADrapeFallAsItDoesWithoutContact) {
     const CrossingCounter counter(cloth);
     CpuSolver<float> solver(*cloth, scene);
     double longest = 0;
-    for (int frame = 0; frame < 40; ++frame) {
+    for (int frame = 0; frame < 50; ++frame) {
       solver.step(2);
       longest = std::max(longest, measure(*cloth, scene, solver.state()).maxStrain);
     }
