@@ -20,7 +20,7 @@ constexpr double QUANTA = 0x1p20;
 
 // By how much a step may move otherwise than predicted, for its pairs to be found: over a pile of thin
 // layers, a quarter of a cell would find all of them with all others.
-constexpr double UNFORESEEN_SPEED = 0.4;  // [m/s]
+constexpr double UNFORESEEN_SPEED = 0.6;  // [m/s]
 
 constexpr std::uint32_t NO_TRIANGLE = 0xffffffffu;
 
