@@ -18,9 +18,10 @@ constexpr std::uint32_t PAIRS_A_PARTICLE = 8, COLLIDERS_A_TRIANGLE = 4, LEAST_RO
 // In the largest correction.
 constexpr double QUANTA = 0x1p20;
 
-// By how much a step may move otherwise than predicted, for its pairs to be found: over a pile of thin
-// layers, a quarter of a cell would find all of them with all others.
-constexpr double UNFORESEEN_SPEED = 0.6;  // [m/s]
+// Parts are pairs that come as near as this acceleration may bring them otherwise than predicted, or a
+// quarter of a cell. In short steps that is less than a quarter, by which all layers of a pile would be
+// pairs.
+constexpr double UNFORESEEN_ACCELERATION = 150;  // [m/s^2]
 
 constexpr std::uint32_t NO_TRIANGLE = 0xffffffffu;
 
@@ -318,7 +319,8 @@ ClothSurface<Real> makeSurface(const Cloth& cloth, const Scene& scene, const Cut
   }
   if (count > 0) {
     constexpr double rounding = 0x1p-24;  // of places about 1 m from the origin, across a side
-    const double margin = std::min(widest / 4, UNFORESEEN_SPEED * stepLength(scene.solver));
+    const double h = stepLength(scene.solver);
+    const double margin = std::min(widest / 4, UNFORESEEN_ACCELERATION * h * h);
     surface.margin = static_cast<Real>(static_cast<float>(margin));
     surface.largestPush = static_cast<Real>(widest / 4);
     surface.perQuantum = static_cast<Real>(static_cast<float>(QUANTA / surface.largestPush));
