@@ -18,8 +18,8 @@ constexpr std::uint32_t PAIRS_A_PARTICLE = 8, COLLIDERS_A_TRIANGLE = 4, LEAST_RO
 // In the largest correction.
 constexpr double QUANTA = 0x1p20;
 
-// Parts are pairs that come as near as this acceleration may bring them otherwise than predicted, or a
-// quarter of a cell. In short steps that is less than a quarter, by which all layers of a pile would be
+// A step may bring parts nearer than predicted, by this acceleration times its square; pairs are looked for
+// so far, but at most a quarter of a cell. With a quarter in short steps, too, all layers of a pile would be
 // pairs.
 constexpr double UNFORESEEN_ACCELERATION = 150;  // [m/s^2]
 
