@@ -1,40 +1,29 @@
-// Which part of a picture differs from the one before it, while the camera rests: where cloth and moving
-// solids are and were, and where their shadows fall. The rest can be kept, pixel for pixel.
+// Which part of a picture differs from the one before it: where cloth and moving solids are and were, and
+// where their shadows fall. The rest can be kept, pixel for pixel.
 #pragma once
 
-#include <algorithm>
 #include <glm/glm.hpp>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "render/colliders.h"
+#include "render/flat_bounds.h"
+#include "render/shadow_footprint.h"
 
 namespace clothsim {
 
-// Pixels from left and bottom to right and top, which do not belong to it.
-struct PixelRect {
-  int left = 0, bottom = 0, right = 0, top = 0;
-  [[nodiscard]] int width() const { return std::max(0, right - left); }
-  [[nodiscard]] int height() const { return std::max(0, top - bottom); }
-  friend bool operator==(const PixelRect&, const PixelRect&) = default;
-};
+// Parts of a picture one above the other, each as wide as what it shows.
+class PixelBands {
+ public:
+  static constexpr int HEIGHT = 32;
+  PixelBands(int width, int height);
+  void add(const FlatBounds& seen);  // [pixels]; what is outside of the picture is left out
+  [[nodiscard]] std::span<const PixelRect> bands() const { return bands_; }
 
-// A rectangle of reals; empty until something is added.
-struct FlatBounds {
-  glm::vec2 low{1e30f}, high{-1e30f};
-  void add(glm::vec2 point) {
-    low = glm::min(low, point);
-    high = glm::max(high, point);
-  }
-  void add(const FlatBounds& other) {
-    low = glm::min(low, other.low);
-    high = glm::max(high, other.high);
-  }
-  [[nodiscard]] FlatBounds grown(float by) const { return {low - by, high + by}; }
-  [[nodiscard]] bool overlaps(const FlatBounds& other) const {
-    return low.x <= other.high.x && other.low.x <= high.x && low.y <= other.high.y && other.low.y <= high.y;
-  }
+ private:
+  int width_;
+  std::vector<PixelRect> bands_;
 };
 
 class ChangedArea {
@@ -49,16 +38,27 @@ class ChangedArea {
     PixelRect picture;
     FlatBounds shadow;  // in the shadow map, 0 to 1 in each coordinate
   };
+  // Where cloth is seen, and where in the shadow map, with all that filters there look at.
+  struct ClothPlace {
+    FlatBounds picture;  // [pixels]
+    ShadowFootprint shadow;
+  };
 
-  // What has changed since the last call. None: everything, as when the camera or a plane has moved.
-  [[nodiscard]] std::optional<Area> next(const View& view, std::span<const glm::vec4> particles,
+  // None: a particle has no place in the picture.
+  [[nodiscard]] static std::optional<ClothPlace> placeOf(const Cloth& cloth,
+                                                         std::span<const glm::vec4> particles,
+                                                         const View& view);
+  // What has changed since the last call. None: everything, as when a plane has moved. Where the camera has
+  // moved, all of the picture, but not of the shadow map.
+  [[nodiscard]] std::optional<Area> next(const View& view, const ClothPlace& place,
                                          const Colliders& colliders);
   // Where a plane is seen that a picture without shadows, and with nothing before it or below it, does not
-  // show already: where the shadows of particles and solids may fall, and where it hides any [pixels].
+  // show already: where the shadows of particles and solids may fall, and where it hides any.
   // None: that is unknown.
-  [[nodiscard]] static std::optional<PixelRect> shadowsOn(const PlaneDisc& plane, const View& view,
-                                                          std::span<const glm::vec4> particles,
-                                                          const Colliders& colliders);
+  [[nodiscard]] static std::optional<PixelBands> shadowsOn(const PlaneDisc& plane, const View& view,
+                                                           const ClothPlace& place,
+                                                           std::span<const glm::vec4> particles,
+                                                           const Colliders& colliders);
   // The next picture is new everywhere.
   void forget() { last_.reset(); }
 
@@ -67,8 +67,7 @@ class ChangedArea {
     View view;
     std::vector<SolidPlace> solids;
     std::vector<PlaneDisc> planes;
-    FlatBounds picture, shadow;  // of the cloth: pixels; 0 to 1
-    [[nodiscard]] bool isComparable(const Seen& other) const;
+    ClothPlace cloth;
   };
   std::optional<Seen> last_;
 };

@@ -9,7 +9,7 @@
 #include "gl/framebuffer.h"
 #include "gl/program.h"
 #include "gl/vertex_array.h"
-#include "render/changed_area.h"
+#include "render/flat_bounds.h"
 
 namespace clothsim {
 

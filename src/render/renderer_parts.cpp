@@ -420,9 +420,12 @@ void Renderer::Parts::findChanges(GLuint positions, int width, int height) {
   if (drawsThick()) reach += *std::max_element(thickness.begin(), thickness.end());
   reach += longestFuzz();
   const ChangedArea::View seen{frame.clipFromWorld, frame.shadowFromWorld, width, height, reach};
-  part = changes.next(seen, particles, colliders);
+  const auto place = ChangedArea::placeOf(*cloth, particles, seen);
+  if (!place) return changes.forget();
+  part = changes.next(seen, *place, colliders);
   for (const PlaneDisc& plane : colliders.discs())
-    if (isGroundBehind(plane)) underShadows = ChangedArea::shadowsOn(plane, seen, particles, colliders);
+    if (isGroundBehind(plane))
+      underShadows = ChangedArea::shadowsOn(plane, seen, *place, particles, colliders);
 }
 
 void Renderer::Parts::scissor() const {

@@ -118,8 +118,8 @@ struct Renderer::Parts {
   glm::mat4 middleClipFromWorld{1};       // of the picture, whatever its exposures shift
   std::optional<glm::mat4> backdropSeen;  // from where the backdrop was drawn
   ChangedArea changes;
-  std::optional<ChangedArea::Area> part;  // of the picture that is drawn; none: all of it
-  std::optional<PixelRect> underShadows;  // where the ground is drawn; none: everywhere
+  std::optional<ChangedArea::Area> part;   // of the picture that is drawn; none: all of it
+  std::optional<PixelBands> underShadows;  // where the ground is drawn; none: everywhere
   gl::Buffer<shared::RenderFrame> frameBlock{"render frame", 1};
   std::vector<gl::Buffer<shared::RenderFrame>> lookBlocks;  // the same with the look of each piece
   gl::VertexArray noVertices{"no vertices"};

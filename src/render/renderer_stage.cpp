@@ -55,14 +55,18 @@ bool Renderer::Parts::isGroundBehind(const PlaneDisc& plane) const {
 // The ground only under shadows, where those are known.
 void Renderer::Parts::drawPlanes(const gl::Program& program) {
   if (!underShadows) return colliders.drawPlanes(program);
-  const PixelRect whole = drawnPart(), &under = *underShadows;
-  const PixelRect shaded{std::max(whole.left, under.left), std::max(whole.bottom, under.bottom),
-                         std::min(whole.right, under.right), std::min(whole.top, under.top)};
-  for (std::size_t i = 0; i < colliders.discs().size(); ++i) {
-    const PixelRect& drawn = isGroundBehind(colliders.discs()[i]) ? shaded : whole;
-    glEnable(GL_SCISSOR_TEST);
+  glEnable(GL_SCISSOR_TEST);
+  const auto drawIn = [&](std::size_t number, const PixelRect& drawn) {
+    if (drawn.width() == 0 || drawn.height() == 0) return;
     glScissor(drawn.left, drawn.bottom, drawn.width(), drawn.height());
-    colliders.drawPlane(program, i);
+    colliders.drawPlane(program, number);
+  };
+  for (std::size_t i = 0; i < colliders.discs().size(); ++i) {
+    if (!isGroundBehind(colliders.discs()[i])) {
+      drawIn(i, drawnPart());
+      continue;
+    }
+    for (const PixelRect& band : underShadows->bands()) drawIn(i, common(band, drawnPart()));
   }
   glDisable(GL_SCISSOR_TEST);
   scissor();

@@ -6,7 +6,7 @@
 
 #include "gl/framebuffer.h"
 #include "gl/vertex_array.h"
-#include "render/changed_area.h"
+#include "render/flat_bounds.h"
 #include "render/programs.h"
 #include "render/stage.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "gl/framebuffer.h"
-#include "render/changed_area.h"
+#include "render/flat_bounds.h"
 
 namespace clothsim {
 

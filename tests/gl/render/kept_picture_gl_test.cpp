@@ -27,6 +27,12 @@ class KeptPictureTest : public GlTest {
     return positions;
   }
 
+  static std::vector<glm::vec4> particlesOf(const test::Drape& drape) {
+    std::vector<glm::vec4> particles;
+    for (const Particle4& p : drape.positions) particles.emplace_back(p.x, p.y, p.z, p.w);
+    return particles;
+  }
+
   struct Shown {
     Shown(const test::Drape& drape, bool keeps, double scale = 1)
         : positions("positions", drape.positions),
@@ -130,13 +136,15 @@ TEST_F(KeptPictureTest, DrawsOnlyAPartWhereASolidMoves) {
   colliders.build(drape.scene);
   ShadowMap shadows(64);
   shadows.cover(stage.reach, glm::normalize(glm::vec3(-0.5f, 1, 0.4f)));
-  const std::vector<glm::vec4> particles{{0.5f, 0.8f, 0.5f, 1}};
+  const ChangedArea::View view{camera.projection(1.5) * camera.view(), shadows.shadowFromWorld(), 4 * width,
+                               4 * height};
+  const std::vector<glm::vec4> atOnePoint(drape.cloth.particleCount(), {0.5f, 0.8f, 0.3f, 1});
+  const auto place = ChangedArea::placeOf(drape.cloth, atOnePoint, view);
+  ASSERT_TRUE(place);
   ChangedArea changes;
   const auto pixelsAt = [&](double time) -> std::optional<int> {
     colliders.place(drape.scene, stage, time);
-    const auto area =
-        changes.next({camera.projection(1.5) * camera.view(), shadows.shadowFromWorld(), width, height},
-                     particles, colliders);
+    const auto area = changes.next(view, *place, colliders);
     if (!area) return std::nullopt;
     return area->picture.width() * area->picture.height();
   };
@@ -144,7 +152,7 @@ TEST_F(KeptPictureTest, DrawsOnlyAPartWhereASolidMoves) {
   const auto still = pixelsAt(0), moved = pixelsAt(1);
   ASSERT_TRUE(still && moved);
   EXPECT_GT(*moved, *still);
-  EXPECT_LT(*moved, 0.9 * width * height);
+  EXPECT_LT(*moved, 0.9 * 16 * width * height);
 }
 
 TEST_F(KeptPictureTest, FollowsTheCameraTheSceneAndTheSize) {
@@ -177,16 +185,47 @@ TEST_F(KeptPictureTest, DrawsOnlyAPartOfItAndAllOfItWhereThatIsUnknown) {
   const glm::mat4 clip = camera.projection(1.5) * camera.view();
   ShadowMap shadows(64);
   shadows.cover(stage.reach, glm::normalize(glm::vec3(-0.5f, 1, 0.4f)));
-  std::vector<glm::vec4> particles;
-  for (const Particle4& p : drape.positions) particles.emplace_back(p.x, p.y, p.z, p.w);
-  const ChangedArea::View view{clip, shadows.shadowFromWorld(), width, height};
-  EXPECT_FALSE(changes.next(view, particles, colliders)) << "the first picture is new everywhere";
-  const auto area = changes.next(view, particles, colliders);
+  std::vector<glm::vec4> particles = particlesOf(drape);
+  ChangedArea::View view{clip, shadows.shadowFromWorld(), width, height};
+  const auto place = ChangedArea::placeOf(drape.cloth, particles, view);
+  ASSERT_TRUE(place);
+  EXPECT_FALSE(changes.next(view, *place, colliders)) << "the first picture is new everywhere";
+  const auto area = changes.next(view, *place, colliders);
   ASSERT_TRUE(area);
   EXPECT_LT(area->picture.width() * area->picture.height(), 0.9 * width * height);
   EXPECT_GT(area->picture.width() * area->picture.height(), 0.05 * width * height);
+  Camera turned = camera;
+  turned.orbit(0.1, 0);
+  view.clipFromWorld = turned.projection(1.5) * turned.view();
+  const auto orbited = changes.next(view, *place, colliders);
+  ASSERT_TRUE(orbited);
+  EXPECT_EQ(orbited->picture, (PixelRect{0, 0, width, height}));
+  EXPECT_EQ(orbited->shadow.low, area->shadow.low) << "the light does not turn with the camera";
   particles[0].x = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_FALSE(changes.next(view, particles, colliders)) << "who is nowhere may be anywhere";
+  EXPECT_FALSE(ChangedArea::placeOf(drape.cloth, particles, view)) << "who is nowhere may be anywhere";
+}
+
+// A stretched diagonal of cloth covers a rectangle's corners alone.
+TEST_F(KeptPictureTest, FollowsTheOutlineOfShadows) {
+  const test::Drape drape(test::drapeScene());
+  std::vector<glm::vec2> places;
+  const std::size_t count = drape.cloth.particleCount();
+  for (std::size_t i = 0; i < count; ++i)
+    places.emplace_back(static_cast<float>(i) / static_cast<float>(count - 1));
+  const ShadowFootprint diagonal = footprintOf(drape.cloth, places, 0);
+  int cells = 0;
+  for (int row = 0; row < ShadowFootprint::CELLS; ++row)
+    for (int column = 0; column < ShadowFootprint::CELLS; ++column)
+      cells += diagonal.has(column, row) ? 1 : 0;
+  EXPECT_GE(cells, ShadowFootprint::CELLS);
+  EXPECT_LT(cells, ShadowFootprint::CELLS * ShadowFootprint::CELLS / 4);
+  EXPECT_EQ(diagonal.bounds().low, glm::vec2(0));
+  EXPECT_EQ(diagonal.bounds().high, glm::vec2(1));
+  EXPECT_FALSE(ShadowFootprint{}.overlaps(diagonal));
+  PixelBands bands(width, height);
+  bands.add({{-50, 40}, {20, 70}});
+  for (const PixelRect& band : bands.bands())
+    EXPECT_EQ(band.width(), band.top > 40 && band.bottom < 70 ? 20 : 0) << "from " << band.bottom;
 }
 
 TEST_F(KeptPictureTest, OfHalfTheScaleShowsTheSameSceneSofter) {
