@@ -37,21 +37,21 @@ float poolAt(vec2 at) {
 }
 
 #if defined(TABLE)
-const vec2 HALF_TABLE = vec2(1.30, 0.92);  // half its size
-const float CORNER = 0.09, EDGE = 0.014;
+const vec2 HALF_TABLE = vec2(HALF_TABLE_LENGTH, HALF_TABLE_DEPTH);
+const float EDGE = 0.014;
 
 // To the table's edge, negative on it.
 float beyondEdge(vec2 at) {
-  vec2 q = abs(at) - (HALF_TABLE - CORNER);
-  return length(max(q, 0.0)) + min(max(q.x, q.y), 0.0) - CORNER;
+  vec2 q = abs(at) - (HALF_TABLE - TABLE_CORNER);
+  return length(max(q, 0.0)) + min(max(q.x, q.y), 0.0) - TABLE_CORNER;
 }
 // How much of a pixel so wide the ground covers; and how its rounded edge catches light.
 float groundCovers(vec2 at, float width) { return clamp(0.5 - beyondEdge(at) / max(width, 1e-5), 0.0, 1.0); }
 float edgeLight(vec2 at) { return 1.0 + 0.55 * smoothstep(-EDGE, -0.4 * EDGE, beyondEdge(at)); }
 #elif defined(WINDOW) || defined(DARK)
-const float ROOM = 2.1;  // radius of the round wall
-float groundCovers(vec2 at, float width) { return clamp(0.5 - (length(at) - ROOM) / max(width, 1e-5), 0.0, 1.0); }
-float edgeLight(vec2 at) { return 1.0 - 0.45 * exp(6.0 * min(length(at) - ROOM, 0.0)); }
+// ROOM_RADIUS is that of the round wall.
+float groundCovers(vec2 at, float width) { return clamp(0.5 - (length(at) - ROOM_RADIUS) / max(width, 1e-5), 0.0, 1.0); }
+float edgeLight(vec2 at) { return 1.0 - 0.45 * exp(6.0 * min(length(at) - ROOM_RADIUS, 0.0)); }
 #else
 float groundFade(vec2 at) {
   float fade = clamp(1.0 - dot(at, at) / (STAGE_SIZES * STAGE_SIZES), 0.0, 1.0);

@@ -25,7 +25,7 @@ vec3 groundBehind(vec3 position) {
 // Where the ray meets the far side of the round wall.
 float toWall(vec3 eye, vec3 ray) {
   vec2 from = fromMiddle(eye), along = ray.xz * (STAGE_SIZES / frame.stagePlace.w);
-  float a = max(dot(along, along), 1e-9), b = dot(from, along), c = dot(from, from) - ROOM * ROOM;
+  float a = max(dot(along, along), 1e-9), b = dot(from, along), c = dot(from, from) - ROOM_RADIUS * ROOM_RADIUS;
   return (sqrt(max(b * b - a * c, 0.0)) - b) / a;
 }
 
@@ -53,36 +53,47 @@ vec3 wallLight(vec3 position, vec3 normal, float height) {
 }
 #endif
 
-vec3 stageBehind(vec3 eye, vec3 ray) {
-  float ground = toGround(eye, ray), wall = toWall(eye, ray);
-  vec3 position = eye + min(wall, FAR) * ray;
+vec3 behindGround(vec3 eye, vec3 ray) {
+  vec3 position = eye + min(toWall(eye, ray), FAR) * ray;
   float height = (position.y - frame.stagePlace.y) * STAGE_SIZES / frame.stagePlace.w;
-  vec3 light = wallLight(position, vec3(-normalize(fromMiddle(position)), 0.0).xzy, height);
+  return cornerShade() * wallLight(position, vec3(-normalize(fromMiddle(position)), 0.0).xzy, height);
+}
+float groundShare(vec3 eye, vec3 ray) {
+  float ground = toGround(eye, ray), wall = toWall(eye, ray);
   float before = wall - min(ground, 2.0 * wall);  // the ground lies before the wall
-  return mix(cornerShade() * light, groundBehind(eye + ground * ray), clamp(0.5 + before / max(fwidth(before), 1e-6), 0.0, 1.0));
+  return clamp(0.5 + before / max(fwidth(before), 1e-6), 0.0, 1.0);
 }
 #elif defined(TABLE)
 // A warm room far out of focus: a dark floor, a wall that light falls on in places, and the glow of lamps.
-vec3 roomLight(vec3 ray) {
+vec3 behindGround(vec3 eye, vec3 ray) {
   vec3 wall = mix(vec3(0.034, 0.024, 0.018), vec3(0.125, 0.094, 0.070), smoothstep(-0.55, 0.15, ray.y));
   float around = atan(ray.x, ray.z);
   float patches = 0.85 + 0.22 * sin(3.0 * around + 0.6) + 0.14 * sin(7.0 * around + 2.1);
   float lamp = exp(-3.5 * (1.0 - sin(3.0 * around - 0.9)) - 7.0 * (ray.y - 0.10) * (ray.y - 0.10));
-  return wall * patches + lamp * vec3(0.46, 0.30, 0.15);
+  return cornerShade() * (wall * patches + lamp * vec3(0.46, 0.30, 0.15));
 }
-
-vec3 stageBehind(vec3 eye, vec3 ray) {
+float groundShare(vec3 eye, vec3 ray) {
   float ground = toGround(eye, ray);
-  vec3 position = eye + ground * ray;
-  vec2 at = fromMiddle(position);
+  vec2 at = fromMiddle(eye + ground * ray);
   bool isNear = ground < FAR && length(at) < STAGE_SIZES;  // at the horizon pixels are endlessly wide
-  float covered = groundCovers(at, max(fwidth(at.x), fwidth(at.y))) * float(isNear);
-  return mix(cornerShade() * roomLight(ray), groundBehind(position), covered);
+  return groundCovers(at, max(fwidth(at.x), fwidth(at.y))) * float(isNear);
 }
 #else
-vec3 stageBehind(vec3 eye, vec3 ray) {
-  float ground = toGround(eye, ray);
-  vec3 position = eye + ground * ray;
-  return ground < FAR ? groundInto(groundBehind(position), fromMiddle(position), ray) : paperLight(ray);
-}
+vec3 behindGround(vec3 eye, vec3 ray) { return paperLight(ray); }
+float groundShare(vec3 eye, vec3 ray) { return float(toGround(eye, ray) < FAR); }
 #endif
+
+// Whole, or of parts of a picture that show but one of both (src/render/backdrop_parts.h).
+vec3 stageBehind(vec3 eye, vec3 ray) {
+#ifdef BEHIND_GROUND
+  return behindGround(eye, ray);
+#else
+  vec3 position = eye + toGround(eye, ray) * ray;
+  vec3 ground = groundInto(groundBehind(position), fromMiddle(position), ray);
+#ifdef GROUND_ALONE
+  return ground;
+#else
+  return mix(behindGround(eye, ray), ground, groundShare(eye, ray));
+#endif
+#endif
+}

@@ -63,13 +63,17 @@ using uint = unsigned int;
 #define MESH_CORNERS_UNIT 14       // and a texel a word of src/render/mesh_neighbours.h
 #define SKY_DIRECTIONS 4           // of an exposure (src/render/exposure.h)
 #define FLOOR_SHADOW_SIZE 256      // [texels] of the blurred shadow for floors
-#define EDGE_MIDDLES_BINDING 0     // storage blocks of src/render/edges.h: a vec2 a tile, and
-#define EDGE_COMMAND_BINDING 1     // of glDrawArraysIndirect
-#define EDGE_TILES_UNIFORM 0       // ivec4
-#define EDGE_TILE 8                // [pixels] along each side
-#define MESH_NORMALS_GROUP 64      // particles of a mesh in a work group
-#define MESH_RING 8u               // particles around one that say how deep it lies in a fold
-#define NORMALS_GROUP_SIZE 8       // work groups of 8 x 8 particles
+#define HALF_TABLE_LENGTH 1.30     // of the stages' grounds [sizes of the scene]
+#define HALF_TABLE_DEPTH 0.92
+#define TABLE_CORNER 0.09
+#define ROOM_RADIUS 2.1
+#define EDGE_MIDDLES_BINDING 0  // storage blocks of src/render/edges.h: a vec2 a tile, and
+#define EDGE_COMMAND_BINDING 1  // of glDrawArraysIndirect
+#define EDGE_TILES_UNIFORM 0    // ivec4
+#define EDGE_TILE 8             // [pixels] along each side
+#define MESH_NORMALS_GROUP 64   // particles of a mesh in a work group
+#define MESH_RING 8u            // particles around one that say how deep it lies in a fold
+#define NORMALS_GROUP_SIZE 8    // work groups of 8 x 8 particles
 
 #define POSITION_LOCATION 0  // vertex attributes
 #define NORMAL_LOCATION 1

@@ -85,6 +85,8 @@ void RenderPrograms::chooseStage(const RenderSettings& settings) {
   ShadedPrograms shaded(stageDefines(settings), backdropDefines(settings), false);
   shaded_ = std::move(shaded);
   exposed_.reset();
+  groundAlone_.reset();
+  behindGround_.reset();
   stage_ = stageDefines(settings);
   behind_ = backdropDefines(settings);
 }
@@ -136,6 +138,16 @@ const ShadedPrograms& RenderPrograms::shaded(bool forExposures) {
   return *programs;
 }
 
+const gl::Program& RenderPrograms::backdropOf(BackdropShows shown) {
+  if (shown == BackdropShows::both) return shaded(false).backdrop;
+  const bool isGround = shown == BackdropShows::ground;
+  auto& program = isGround ? groundAlone_ : behindGround_;
+  if (program) return *program;
+  gl::Defines defines = behind_;
+  defines.emplace_back(isGround ? "GROUND_ALONE" : "BEHIND_GROUND", "");
+  return program.emplace(gl::Program::makeRender("render/fullscreen.vert", "render/backdrop.frag", defines));
+}
+
 const gl::Program& RenderPrograms::made(std::vector<ClothProgram>& programs, const ShadingModel& model,
                                         ClothLight light, const std::string& vertexFile,
                                         const std::string& fragmentFile) {
@@ -175,6 +187,8 @@ void tryAllShaders(const RenderSettings& settings, int samples) {
     other.stage = stage;
     programs.chooseStage(other);
     static_cast<void>(programs.shaded(true));
+    for (const BackdropShows shown : {BackdropShows::ground, BackdropShows::behindGround})
+      static_cast<void>(programs.backdropOf(shown));
   }
   other.stage = settings.stage;
   for (const std::string_view name : shadingModels) {

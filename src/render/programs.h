@@ -5,6 +5,7 @@
 #include <string>
 
 #include "gl/program.h"
+#include "render/backdrop_parts.h"
 #include "render/edges.h"
 #include "render/shading_models.h"
 #include "render/smooth_surface.h"
@@ -60,6 +61,7 @@ struct RenderPrograms {
   [[nodiscard]] const OverlayPrograms& overlays();
   [[nodiscard]] const EdgePrograms& edges();  // of one sample a pixel
   [[nodiscard]] const MeanPrograms& mean();
+  [[nodiscard]] const gl::Program& backdropOf(BackdropShows shown);  // on the canvas
   [[nodiscard]] const ShadedPrograms& shaded(bool forExposures);
   // What shades cloth, of the chosen model or one that differs from it by what it looks at.
   [[nodiscard]] const gl::Program& cloth(const ShadingModel& model, ClothLight light);
@@ -77,6 +79,7 @@ struct RenderPrograms {
   ShadingModel model_;
   gl::Defines stage_, behind_;
   std::optional<ShadedPrograms> shaded_, exposed_;
+  std::optional<gl::Program> groundAlone_, behindGround_;
   std::optional<gl::Program> normals_, normalsWithCuts_, meshNormals_, rim_, leanRim_;
   struct ClothProgram {
     gl::Defines defines;

@@ -21,10 +21,22 @@ void Renderer::Parts::drawBackdrop(int width, int height) {
   if (!(backdrop.format() == format)) backdrop = gl::Framebuffer("backdrop", format);
   backdrop.bind();
   glDisable(GL_DEPTH_TEST);
-  programs.shaded(isExposed()).backdrop.bind();
   noVertices.bind();
-  glDrawArrays(GL_TRIANGLES, 0, 3);
+  // The first one is drawn whole, for which a program less is compiled.
+  const bool inParts = isSoftware && backdropSeen && !isExposed() && backdropShowsGround(scene->render);
   backdropSeen = middleClipFromWorld;
+  if (!inParts) {
+    programs.shaded(isExposed()).backdrop.bind();
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    return;
+  }
+  glEnable(GL_SCISSOR_TEST);
+  for (const auto& [pixels, shown] : backdropParts(frame, stageLook(scene->render.stage).groundShape)) {
+    programs.backdropOf(shown).bind();
+    glScissor(pixels.left, pixels.bottom, pixels.width(), pixels.height());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+  }
+  glDisable(GL_SCISSOR_TEST);
 }
 
 // A copy where both are alike, which costs a software renderer a fiftieth of drawing it.

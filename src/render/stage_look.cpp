@@ -50,7 +50,8 @@ const std::array<StageLook, stages.size()>& stageLooks() {
        .backdropTop = {},
        .backdropBottom = {},
        .corners = 0.35f,
-       .groundPicture = "ground_boards"},
+       .groundPicture = "ground_boards",
+       .groundShape = GroundShape::table},
       {.name = "window",  // low light from the left
        .define = "WINDOW",
        .toKey = {-0.95f, 0.82f, 0.38f},
@@ -64,7 +65,8 @@ const std::array<StageLook, stages.size()>& stageLooks() {
        .backdropTop = {},
        .backdropBottom = {},
        .corners = 0.25f,
-       .groundPicture = "ground_boards"},
+       .groundPicture = "ground_boards",
+       .groundShape = GroundShape::room},
       {.name = "dark",  // a spot from above, and a cold light from behind
        .define = "DARK",
        .toKey = {-0.42f, 1.15f, 0.40f},
@@ -78,7 +80,8 @@ const std::array<StageLook, stages.size()>& stageLooks() {
        .backdropTop = {},
        .backdropBottom = {},
        .corners = 0.3f,
-       .groundPicture = "ground_boards"},
+       .groundPicture = "ground_boards",
+       .groundShape = GroundShape::room},
       bare(),
   }};
   return looks;

@@ -10,6 +10,9 @@
 
 namespace clothsim {
 
+// How far the ground goes: beyond the picture, to the edge of a table, or to the round wall of a room.
+enum class GroundShape { endless, table, room };
+
 // Light in linear RGB; directions as the viewer of the front sees them: x to the right, y up, z to the
 // viewer.
 struct StageLook {
@@ -22,6 +25,7 @@ struct StageLook {
   glm::vec3 backdropTop, backdropBottom;
   float corners = 0;  // how much darker the backdrop is in the picture's corners
   std::string_view groundPicture{};
+  GroundShape groundShape = GroundShape::endless;
 };
 
 // @throws SceneError for a name that is none of `stages`

@@ -102,7 +102,13 @@ std::vector<gl::Defines> variantsOf(const std::string& file) {
             {{"SAMPLES", "4"}, {"ADDS", ""}},
             {{"SAMPLES", "1"}, {"MEAN", ""}}};
   if (file == "render/backdrop.frag")
-    return {gl::Defines{}, {{"SKY", ""}}, {{"PLAIN", ""}}, {{"LAY", ""}}, {{"LAY", ""}, {"EXPOSURE", ""}}};
+    return {gl::Defines{},
+            {{"SKY", ""}},
+            {{"PLAIN", ""}},
+            {{"LAY", ""}},
+            {{"LAY", ""}, {"EXPOSURE", ""}},
+            {{"TABLE", ""}, {"GROUND_ALONE", ""}},
+            {{"WINDOW", ""}, {"BEHIND_GROUND", ""}}};
   if (file == "render/layer_bulges.comp") return {gl::Defines{}, {{"PATCHES", ""}}};
   if (file == "render/layer_shares.comp") return {gl::Defines{}, {{"INSERT", ""}}, {{"AGAIN", ""}}};
   if (file == "render/fuzz.vert") return {{{"TANGENT", ""}, {"THICK", ""}}};

@@ -174,6 +174,25 @@ TEST_F(KeptPictureTest, FollowsTheCameraTheSceneAndTheSize) {
   EXPECT_EQ(kept.after(drape, 1, camera).rgb, whole.after(drape, 1, camera).rgb);
 }
 
+// Of which a software renderer draws the ground and what is behind it apart once the camera turns.
+TEST_F(KeptPictureTest, HasTheBackdropOfAPictureThatIsDrawnAtOnce) {
+  for (const std::string_view stage : stages) {
+    Scene scene = test::drapeScene();
+    scene.render.stage = stage;
+    const test::Drape drape(scene);
+    Shown turning(drape, true);
+    Camera camera(drape.scene, drape.cloth);
+    static_cast<void>(turning.after(drape, 0, camera));
+    for (int turn = 0; turn < 6; ++turn) {
+      camera.orbit(0.9, turn % 2 == 0 ? 0.35 : -0.5);
+      camera.zoom(turn % 3 == 0 ? 2 : 0.6);
+      Shown atOnce(drape, true);
+      EXPECT_EQ(turning.after(drape, 0, camera).rgb, atOnce.after(drape, 0, camera).rgb)
+          << stage << ", turn " << turn;
+    }
+  }
+}
+
 TEST_F(KeptPictureTest, DrawsOnlyAPartOfItAndAllOfItWhereThatIsUnknown) {
   const test::Drape drape(test::drapeScene());
   const Camera camera(drape.scene, drape.cloth);
