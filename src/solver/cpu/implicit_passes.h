@@ -11,6 +11,7 @@
 #include "solver/cpu/mesh_products.h"
 #include "solver/cpu/passes.h"
 #include "solver/cpu/rigid_block.h"
+#include "solver/cpu/stretches.h"
 #include "solver/cpu/symmetric.h"
 #include "solver/hierarchy.h"
 #include "solver/implicit.h"
@@ -22,6 +23,12 @@ namespace clothsim::cpu {
 struct PairLists {
   std::vector<std::uint32_t> starts;   // of a particle's entries, and one more
   std::vector<std::uint32_t> entries;  // 4 * pair + place in it, ascending
+};
+
+// The vertices of each level that passes work on, of all cloths, and the coarsest levels' parts.
+struct LevelStretches {
+  std::vector<Stretches> fine, coarse;  // by level
+  Stretches parts;
 };
 
 // Parts of the surface that may touch in this step (solver/surface.h); empty without contact.
@@ -73,6 +80,7 @@ struct ImplicitState {
   ImplicitScalars<Real> scalars{};
 
   Hierarchy<Real> hierarchy;
+  LevelStretches stretchesOfLevels;
   // The residuals of vertices of all levels: force, and torque about the first particle.
   std::vector<RigidVector<Real>> forces;
   // Of coarse vertices.
@@ -133,6 +141,8 @@ void end(const ImplicitArguments<Real>& arguments, int row);
 template <class Real>
 void remember(const ImplicitArguments<Real>& arguments, int row);
 
+template <class Real>
+[[nodiscard]] LevelStretches stretchesOf(const Hierarchy<Real>& hierarchy);
 // Where an aggregate is.
 template <class Real>
 void findCenter(ImplicitState<Real>& own, std::uint32_t coarse);

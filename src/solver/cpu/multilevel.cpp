@@ -10,6 +10,7 @@
 #include "solver/cpu/implicit_passes.h"
 #include "solver/cpu/rigid_block.h"
 #include "solver/cpu/rows.h"
+#include "solver/cpu/stretches.h"
 
 namespace clothsim::cpu {
 namespace {
@@ -353,66 +354,68 @@ void prolongParticles(ImplicitState<double>& own, const double* inverseMasses, s
   prolongRange(own, inverseMasses, first, end);
 }
 
-namespace {
-
-// body(begin, end) for stretches of [first, first + count) of at most `atOnce`, on all threads.
-template <class Body>
-void forEachStretch(std::uint32_t first, std::uint32_t count, std::uint32_t atOnce, const Body& body) {
-  ThreadTeam::shared().forEach(0, (count + atOnce - 1) / atOnce, 1, [&](std::uint32_t k) {
-    body(first + k * atOnce, first + std::min(count, (k + 1) * atOnce));
-  });
+template <class Real>
+LevelStretches stretchesOf(const Hierarchy<Real>& hierarchy) {
+  LevelStretches all;
+  for (std::uint32_t piece = 0; piece < hierarchy.pieces.size(); ++piece) {
+    const std::vector<LevelParams>& levels = hierarchy.pieces[piece];
+    if (all.fine.size() < levels.size()) all.fine.resize(levels.size()), all.coarse.resize(levels.size());
+    for (std::size_t k = 0; k < levels.size(); ++k) {
+      all.fine[k].add(piece, levels[k].fineFirst, levels[k].fineCount);
+      all.coarse[k].add(piece, levels[k].coarseFirst, levels[k].coarseCount);
+    }
+    all.parts.add(piece, 0, static_cast<std::uint32_t>(hierarchy.parts[piece].size()));
+  }
+  return all;
 }
-
-template <class Body>
-void forEachVertex(std::uint32_t first, std::uint32_t count, const Body& body) {
-  ThreadTeam::shared().forEach(first, first + count, VERTICES_AT_ONCE, body);
-}
-
-}  // namespace
 
 template <class Real>
 void runOnLevel(PassCall call, std::span<const ImplicitArguments<Real>> pieces, ImplicitState<Real>& own,
                 const Real* inverseMasses) {
   const Hierarchy<Real>& hierarchy = own.hierarchy;
-  for (std::size_t piece = 0; piece < pieces.size(); ++piece) {
-    if (call.pass == Pass::invertDense) {
-      for (const DensePart& part : hierarchy.parts[piece]) invertDense(own, part);
-      continue;
-    }
-    if (call.pass == Pass::solveCoarsest) {
-      for (const DensePart& part : hierarchy.parts[piece]) solveCoarsest(own, part);
-      continue;
-    }
-    if (call.index >= hierarchy.pieces[piece].size()) continue;
-    const LevelParams& level = hierarchy.pieces[piece][call.index];
-    const bool isFineOfParticles = level.fineFirst < hierarchy.particles;
-    if (call.pass == Pass::findCenters)
-      forEachVertex(level.coarseFirst, level.coarseCount, [&](std::uint32_t i) { findCenter(own, i); });
-    else if (call.pass == Pass::coarsen)
-      forEachStretch(
-          level.coarseFirst, level.coarseCount, rowsAtOnce(level.coarseCount),
-          [&](std::uint32_t first, std::uint32_t end) { coarsen(pieces[piece], level, first, end); });
-    else if (call.pass == Pass::restrict) {
-      if (isFineOfParticles)
-        forEachStretch(level.fineFirst, level.fineCount, PARTICLES_AT_ONCE,
-                       [&](std::uint32_t first, std::uint32_t end) { putForces(own, first, end); });
-      ThreadTeam::shared().forEachRange(
-          level.coarseFirst, level.coarseFirst + level.coarseCount, VERTICES_AT_ONCE,
-          [&](std::uint32_t first, std::uint32_t end) { restrictResiduals(own, first, end); });
-    } else if (isFineOfParticles)
-      forEachStretch(
-          level.fineFirst, level.fineCount, PARTICLES_AT_ONCE,
-          [&](std::uint32_t first, std::uint32_t end) { prolongParticles(own, inverseMasses, first, end); });
-    else
-      ThreadTeam::shared().forEachRange(
-          level.fineFirst - hierarchy.particles, level.fineFirst - hierarchy.particles + level.fineCount,
-          VERTICES_AT_ONCE, [&](std::uint32_t first, std::uint32_t end) { prolong(own, first, end); });
+  const auto& [allFine, allCoarse, parts] = own.stretchesOfLevels;
+  if (call.index >= allFine.size()) return;
+  const Stretches &fine = allFine[call.index], &coarse = allCoarse[call.index];
+  const bool isOfParticles = call.index == 0;
+  const auto forEachPart = [&](const auto& work) {
+    parts.forEach(1, [&](const Stretch& s) {
+      for (std::uint32_t k = s.begin; k < s.end; ++k) work(hierarchy.parts[s.piece][k]);
+    });
+  };
+  switch (call.pass) {
+    case Pass::invertDense:
+      return forEachPart([&](const DensePart& part) { invertDense(own, part); });
+    case Pass::solveCoarsest:
+      return forEachPart([&](const DensePart& part) { solveCoarsest(own, part); });
+    case Pass::findCenters:
+      return coarse.forEach(VERTICES_AT_ONCE, [&](const Stretch& s) {
+        for (std::uint32_t i = s.begin; i < s.end; ++i) findCenter(own, i);
+      });
+    case Pass::coarsen:
+      return coarse.forEach(rowsAtOnce(coarse.size()), [&](const Stretch& s) {
+        coarsen(pieces[s.piece], hierarchy.pieces[s.piece][call.index], s.begin, s.end);
+      });
+    case Pass::restrict:
+      if (isOfParticles)
+        fine.forEach(PARTICLES_AT_ONCE, [&](const Stretch& s) { putForces(own, s.begin, s.end); });
+      return coarse.forEach(VERTICES_AT_ONCE,
+                            [&](const Stretch& s) { restrictResiduals(own, s.begin, s.end); });
+    default:
+      if (!isOfParticles)
+        return fine.forEach(VERTICES_AT_ONCE, [&](const Stretch& s) {
+          prolong(own, s.begin - hierarchy.particles, s.end - hierarchy.particles);
+        });
+      return fine.forEach(PARTICLES_AT_ONCE, [&](const Stretch& s) {
+        for (std::uint32_t i = s.begin; i < s.end; i += PARTICLES_AT_ONCE)
+          prolongParticles(own, inverseMasses, i, std::min(s.end, i + PARTICLES_AT_ONCE));
+      });
   }
 }
 
 #define INSTANTIATE(Real)                                                                                  \
   template void findCenter(ImplicitState<Real>&, std::uint32_t);                                           \
   template void coarsen(const ImplicitArguments<Real>&, const LevelParams&, std::uint32_t, std::uint32_t); \
+  template LevelStretches stretchesOf(const Hierarchy<Real>&);                                             \
   template void runOnLevel(PassCall, std::span<const ImplicitArguments<Real>>, ImplicitState<Real>&,       \
                            const Real*);
 INSTANTIATE(float)

@@ -16,12 +16,14 @@ namespace {
 
 // A thread begins with rows about its first one.
 constexpr std::uint32_t LEAST_ROWS_AT_ONCE = 8;
+// Particles that a thread takes: some 10 us of work.
+constexpr std::uint32_t SWEPT_AT_ONCE = 512;
 // Less than that is not worth a thread.
 constexpr int LEAST_PARTICLES = 1024;
 // So that a thread which does not get its core holds up less.
 constexpr int BANDS_A_THREAD = 2;
-// Plans are few: those of a step, and of what happens between steps.
-constexpr std::size_t MOST_PLANS = 64;
+// Of a cloth; plans are few: those of a step, and of what happens between steps.
+constexpr std::size_t MOST_PLANS = 16;
 
 template <class Real>
 bool beginRows(ForceRows<Real>& rows, const Piece& lattice) {
@@ -32,7 +34,20 @@ bool beginRows(ForceRows<Real>& rows, const Piece& lattice) {
 
 template <class Real>
 RowPasses<Real>::RowPasses(const Cloth& cloth) : cloth_(&cloth) {
-  for (const Piece& piece : cloth.pieces()) limitColors_.push_back(makeLimitColors(piece));
+  std::uint32_t particles = 0;
+  bool hasGrid = false;
+  for (const Piece& piece : cloth.pieces()) {
+    limitColors_.push_back(makeLimitColors(piece));
+    rowStarts_.push_back(rows_.size());
+    rows_.add(static_cast<std::uint32_t>(rowStarts_.size() - 1), 0,
+              static_cast<std::uint32_t>(rowsOf(piece)));
+    particles += piece.particleCount();
+    hasGrid |= !piece.isMesh;
+  }
+  rowStarts_.push_back(rows_.size());
+  rowsAtOnce_ =
+      std::max(SWEPT_AT_ONCE * rows_.size() / std::max(particles, 1u), hasGrid ? LEAST_ROWS_AT_ONCE : 1u);
+  plans_.resize(cloth.pieces().size());
 }
 
 template <class Real>
@@ -88,22 +103,26 @@ auto RowPasses<Real>::rowPassOf(Pass pass) -> RowPass {
 
 template <class Real>
 auto RowPasses<Real>::planOf(std::span<const PassCall> passes, std::size_t piece) -> const Plan& {
-  const auto known = std::find_if(plans_.begin(), plans_.end(), [&](const Plan& plan) {
-    return plan.piece == piece &&
-           std::equal(passes.begin(), passes.end(), plan.passes.begin(), plan.passes.end());
+  std::deque<Plan>& plans = plans_[piece];
+  const auto known = std::find_if(plans.begin(), plans.end(), [&](const Plan& plan) {
+    return std::equal(passes.begin(), passes.end(), plan.passes.begin(), plan.passes.end());
   });
-  if (known != plans_.end()) return *known;
-  if (plans_.size() == MOST_PLANS) plans_.clear();
+  if (known != plans.end()) return *known;
+  if (plans.size() == MOST_PLANS) plans.clear();
   Plan plan{{passes.begin(), passes.end()}, piece, makeWave(passes, limitColors_[piece]), {}};
   for (const WavePass& pass : plan.wave.passes)
     plan.works.push_back(pass.color != nullptr ? nullptr : rowPassOf(pass.call.pass));
-  return plans_.emplace_back(std::move(plan));
+  return plans.emplace_back(std::move(plan));
 }
 
 template <class Real>
 void RowPasses<Real>::run(std::span<const PassCall> passes,
                           const std::vector<ImplicitArguments<Real>>& pieces) {
-  for (std::size_t piece = 0; piece < pieces.size(); ++piece) runOn(piece, passes, pieces[piece]);
+  const bool isSweep = sweepLength(passes) == passes.size();
+  if (isSweep && passes.front().traits().domain != Domain::springs)
+    return runSweep(passes, pieces, 0, pieces.size());
+  if (!isSweep && pieces.size() > 1 && runWaves(passes, pieces)) return;
+  for (std::size_t piece = 0; piece < pieces.size(); ++piece) runOn(piece, passes, pieces);
 }
 
 // How many bands threads take of a grid; 0 where these would be fewer than the grid keeps busy pass by pass.
@@ -116,39 +135,64 @@ int RowPasses<Real>::bandsOf(const Wave& wave, const Piece& lattice) const {
   return bands > 1 && 2 * bands >= busy ? bands : 0;
 }
 
+// Several cloths that are too small for bands, each as one. False where they are not.
+template <class Real>
+bool RowPasses<Real>::runWaves(std::span<const PassCall> passes,
+                               std::span<const ImplicitArguments<Real>> pieces) {
+  std::uint32_t particles = 0;
+  for (const Piece& lattice : cloth_->pieces()) {
+    particles += lattice.particleCount();
+    if (lattice.isMesh || lattice.particleCount() >= 2 * LEAST_PARTICLES) return false;
+  }
+  const auto count = static_cast<std::uint32_t>(pieces.size());
+  if (particles < 2 * LEAST_PARTICLES) return false;
+  std::atomic<bool> lacksMemory = false;  // threads must not throw
+  std::vector<const Plan*> plans;
+  for (std::size_t piece = 0; piece < count; ++piece) plans.push_back(&planOf(passes, piece));
+  ThreadTeam::shared().forEach(0, count, std::max(1u, count * LEAST_PARTICLES / particles / 2),
+                               [&](std::uint32_t piece) {
+                                 if (!runWave(*plans[piece], 1, pieces[piece])) lacksMemory = true;
+                               });
+  if (lacksMemory) throw std::bad_alloc();
+  return true;
+}
+
 template <class Real>
 void RowPasses<Real>::runOn(std::size_t piece, std::span<const PassCall> passes,
-                            const ImplicitArguments<Real>& arguments) {
+                            std::span<const ImplicitArguments<Real>> pieces) {
   const Piece& lattice = cloth_->pieces()[piece];
   const std::size_t ownRows = sweepLength(passes);
   if (ownRows < passes.size() && !lattice.isMesh) {
     const Plan& plan = planOf(passes, piece);
     const int bands = bandsOf(plan.wave, lattice);
-    if (bands > 0) return runWave(plan, bands, arguments);
+    if (bands > 0) {
+      if (!runWave(plan, bands, pieces[piece])) throw std::bad_alloc();
+      return;
+    }
   }
   if (passes.front().traits().domain != Domain::springs)
-    runSweep(planOf(passes.first(ownRows), piece), arguments);
+    runSweep(passes.first(ownRows), pieces, piece, piece + 1);
   else if (passes.front().index < limitColors_[piece].size())
-    runColor(piece, limitColors_[piece][passes.front().index], arguments);
-  if (ownRows < passes.size()) runOn(piece, passes.subspan(ownRows), arguments);
+    runColor(piece, limitColors_[piece][passes.front().index], pieces[piece]);
+  if (ownRows < passes.size()) runOn(piece, passes.subspan(ownRows), pieces);
 }
 
 template <class Real>
-void RowPasses<Real>::runSweep(const Plan& plan, const ImplicitArguments<Real>& arguments) {
-  const Piece& lattice = cloth_->pieces()[plan.piece];
+void RowPasses<Real>::runSweep(std::span<const PassCall> passes,
+                               std::span<const ImplicitArguments<Real>> pieces, std::size_t first,
+                               std::size_t end) {
+  works_.clear();
+  for (const PassCall& call : passes) works_.push_back(rowPassOf(call.pass));
   std::atomic<bool> lacksMemory = false;  // threads must not throw
-  ThreadTeam::shared().forEachRange(0, static_cast<std::uint32_t>(rowsOf(lattice)),
-                                    std::max(rowsAtOnce(lattice), LEAST_ROWS_AT_ONCE),
-                                    [&](std::uint32_t begin, std::uint32_t end) {
-                                      thread_local ForceRows<Real> forceRows;
-                                      if (!beginRows(forceRows, lattice)) {
-                                        lacksMemory = true;
-                                        return;
-                                      }
-                                      for (std::uint32_t row = begin; row < end; ++row)
-                                        for (const RowPass work : plan.works)
-                                          work(arguments, static_cast<int>(row), forceRows);
-                                    });
+  rows_.forEach(rowStarts_[first], rowStarts_[end], rowsAtOnce_, [&](const Stretch& stretch) {
+    thread_local ForceRows<Real> forceRows;
+    if (!beginRows(forceRows, cloth_->pieces()[stretch.piece])) {
+      lacksMemory = true;
+      return;
+    }
+    for (std::uint32_t row = stretch.begin; row < stretch.end; ++row)
+      for (const RowPass work : works_) work(pieces[stretch.piece], static_cast<int>(row), forceRows);
+  });
   if (lacksMemory) throw std::bad_alloc();
 }
 
@@ -161,7 +205,7 @@ void RowPasses<Real>::runColor(std::size_t piece, const LimitColor& color,
 }
 
 template <class Real>
-void RowPasses<Real>::runWave(const Plan& plan, int bands, const ImplicitArguments<Real>& arguments) {
+bool RowPasses<Real>::runWave(const Plan& plan, int bands, const ImplicitArguments<Real>& arguments) {
   const Piece& lattice = cloth_->pieces()[plan.piece];
   const auto firstRow = [&](std::uint32_t band) {
     return static_cast<int>(std::int64_t{lattice.rows} * band / bands);
@@ -184,7 +228,7 @@ void RowPasses<Real>::runWave(const Plan& plan, int bands, const ImplicitArgumen
     }
   };
   ThreadTeam::shared().forEachRange(0, static_cast<std::uint32_t>(bands), 1, runBands);
-  if (lacksMemory) throw std::bad_alloc();
+  return !lacksMemory;
 }
 
 template class RowPasses<float>;

@@ -3,12 +3,14 @@
 #pragma once
 
 #include <cstddef>
+#include <deque>
 #include <span>
 #include <vector>
 
 #include "cloth/cloth.h"
 #include "solver/cpu/force_rows.h"
 #include "solver/cpu/implicit_passes.h"
+#include "solver/cpu/stretches.h"
 #include "solver/cpu/wave.h"
 
 namespace clothsim::cpu {
@@ -35,14 +37,23 @@ class RowPasses {
   [[nodiscard]] static RowPass rowPassOf(Pass pass);
   [[nodiscard]] const Plan& planOf(std::span<const PassCall> passes, std::size_t piece);
   [[nodiscard]] int bandsOf(const Wave& wave, const Piece& lattice) const;
-  void runOn(std::size_t piece, std::span<const PassCall> passes, const ImplicitArguments<Real>& arguments);
-  void runSweep(const Plan& plan, const ImplicitArguments<Real>& arguments);
-  void runWave(const Plan& plan, int bands, const ImplicitArguments<Real>& arguments);
+  bool runWaves(std::span<const PassCall> passes, std::span<const ImplicitArguments<Real>> pieces);
+  void runOn(std::size_t piece, std::span<const PassCall> passes,
+             std::span<const ImplicitArguments<Real>> pieces);
+  // Of the cloths [first, end).
+  void runSweep(std::span<const PassCall> passes, std::span<const ImplicitArguments<Real>> pieces,
+                std::size_t first, std::size_t end);
+  // False where memory is lacking.
+  [[nodiscard]] bool runWave(const Plan& plan, int bands, const ImplicitArguments<Real>& arguments);
   void runColor(std::size_t piece, const LimitColor& color, const ImplicitArguments<Real>& arguments);
 
   const Cloth* cloth_;
   std::vector<std::vector<LimitColor>> limitColors_;  // by cloth
-  std::vector<Plan> plans_;
+  std::vector<std::deque<Plan>> plans_;               // by cloth
+  Stretches rows_;                                    // of all cloths
+  std::vector<std::uint32_t> rowStarts_;              // of a cloth there, and one more
+  std::uint32_t rowsAtOnce_ = 1;                      // that a thread takes
+  std::vector<RowPass> works_;                        // of the sweep that is run
 };
 
 extern template class RowPasses<float>;
