@@ -43,6 +43,25 @@ TEST(CpuSolver, GivesTheSameBitsAtAnyNumberOfThreads) {
   EXPECT_EQ(hashes[0], hashes[2]);
 }
 
+// Each of them too small for a second thread.
+TEST(CpuSolver, SharesSeveralClothsByAnyNumberOfThreads) {
+  Scene scene = test::twoCloths(test::twoCloths(test::withLimiter(test::vertical(test::sheetScene(31)))));
+  scene.solver.strainLimit = 0.001;
+  const int usual = ThreadTeam::shared().threads();
+  for (const Integrator integrator : {Integrator::euler, Integrator::implicit}) {
+    scene.solver.integrator = integrator;
+    const int steps = integrator == Integrator::implicit ? 2 : 40;
+    ThreadTeam::setSharedThreads(1);
+    const std::uint64_t alone = stateHash(stepped(scene, steps));
+    EXPECT_EQ(stateHash(stepped(scene, steps, false)), alone) << "pass by pass";
+    for (const int threads : {2, 3, 5}) {
+      ThreadTeam::setSharedThreads(threads);
+      EXPECT_EQ(stateHash(stepped(scene, steps)), alone) << threads << " threads";
+    }
+  }
+  ThreadTeam::setSharedThreads(usual);
+}
+
 TEST(CpuSolver, GivesTheSameBitsFusedAndPassByPass) {
   const Scene scene = busyScene(20);
   EXPECT_EQ(stateHash(stepped(scene, 300, true)), stateHash(stepped(scene, 300, false)));
