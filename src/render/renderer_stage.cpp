@@ -22,7 +22,7 @@ void Renderer::Parts::drawBackdrop(int width, int height) {
   backdrop.bind();
   glDisable(GL_DEPTH_TEST);
   noVertices.bind();
-  // The first one is drawn whole, for which a program less is compiled.
+  // The first one is drawn whole: while the camera rests, nobody waits for the programs of parts.
   const bool inParts = isSoftware && backdropSeen && !isExposed() && backdropShowsGround(scene->render);
   backdropSeen = middleClipFromWorld;
   if (!inParts) {
