@@ -53,7 +53,7 @@ vec3 wallLight(vec3 position, vec3 normal, float height) {
 }
 #endif
 
-vec3 behindGround(vec3 eye, vec3 ray) {
+vec3 beyondGround(vec3 eye, vec3 ray) {
   vec3 position = eye + min(toWall(eye, ray), FAR) * ray;
   float height = (position.y - frame.stagePlace.y) * STAGE_SIZES / frame.stagePlace.w;
   return cornerShade() * wallLight(position, vec3(-normalize(fromMiddle(position)), 0.0).xzy, height);
@@ -65,7 +65,7 @@ float groundShare(vec3 eye, vec3 ray) {
 }
 #elif defined(TABLE)
 // A warm room far out of focus: a dark floor, a wall that light falls on in places, and the glow of lamps.
-vec3 behindGround(vec3 eye, vec3 ray) {
+vec3 beyondGround(vec3 eye, vec3 ray) {
   vec3 wall = mix(vec3(0.034, 0.024, 0.018), vec3(0.125, 0.094, 0.070), smoothstep(-0.55, 0.15, ray.y));
   float around = atan(ray.x, ray.z);
   float patches = 0.85 + 0.22 * sin(3.0 * around + 0.6) + 0.14 * sin(7.0 * around + 2.1);
@@ -79,21 +79,21 @@ float groundShare(vec3 eye, vec3 ray) {
   return groundCovers(at, max(fwidth(at.x), fwidth(at.y))) * float(isNear);
 }
 #else
-vec3 behindGround(vec3 eye, vec3 ray) { return paperLight(ray); }
+vec3 beyondGround(vec3 eye, vec3 ray) { return paperLight(ray); }
 float groundShare(vec3 eye, vec3 ray) { return float(toGround(eye, ray) < FAR); }
 #endif
 
 // Whole, or of parts of a picture that show but one of both (src/render/backdrop_parts.h).
 vec3 stageBehind(vec3 eye, vec3 ray) {
-#ifdef BEHIND_GROUND
-  return behindGround(eye, ray);
+#ifdef BEYOND_ALONE
+  return beyondGround(eye, ray);
 #else
   vec3 position = eye + toGround(eye, ray) * ray;
   vec3 ground = groundInto(groundBehind(position), fromMiddle(position), ray);
 #ifdef GROUND_ALONE
   return ground;
 #else
-  return mix(behindGround(eye, ray), ground, groundShare(eye, ray));
+  return mix(beyondGround(eye, ray), ground, groundShare(eye, ray));
 #endif
 #endif
 }

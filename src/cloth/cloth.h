@@ -132,10 +132,10 @@ struct Piece {
   }
 };
 
-// How many rows of a grid a thread takes at once: some 10 us of work.
+// How many particles, or rows of a grid, a thread takes at once: some 10 us of work.
+inline constexpr int ROW_PARTICLES_AT_ONCE = 512;
 [[nodiscard]] inline std::uint32_t rowsAtOnce(const Piece& piece) {
-  constexpr int particles = 512;
-  return static_cast<std::uint32_t>(1 + (particles - 1) / piece.columns);
+  return static_cast<std::uint32_t>(1 + (ROW_PARTICLES_AT_ONCE - 1) / piece.columns);
 }
 
 struct Spring {

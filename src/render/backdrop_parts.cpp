@@ -7,9 +7,8 @@
 namespace clothsim {
 namespace {
 
-constexpr int TILE = 32;          // [pixels]
-constexpr float margin = 2;       // [pixels] around the ground's outline, where both are seen
-constexpr float nearest = 1e-3f;  // [m] before the eye
+constexpr int TILE = 32;     // [pixels]
+constexpr float margin = 2;  // [pixels] around the ground's outline, where both are seen
 
 // Of the ground [sizes of the scene], by sides so short that tiles along them are few.
 std::vector<glm::vec2> outlineOf(GroundShape shape) {
@@ -58,12 +57,8 @@ class SeenGround {
 
   // The pixels of a side of the outline; empty where it is behind the eye.
   [[nodiscard]] FlatBounds sideAt(glm::vec2 from, glm::vec2 to) const {
-    const glm::vec4 a = clipOf(from), b = clipOf(to);
     FlatBounds seen;
-    if (a.w >= nearest) seen.add(pixelOf(a));
-    if (b.w >= nearest) seen.add(pixelOf(b));
-    if ((a.w >= nearest) != (b.w >= nearest))
-      seen.add(pixelOf(glm::mix(a, b, (nearest - a.w) / (b.w - a.w))));
+    addSide(clipOf(from), clipOf(to), {frame_.pixels.x, frame_.pixels.y}, seen);
     return seen;
   }
 
@@ -84,9 +79,6 @@ class SeenGround {
     const glm::vec2 metres = at * (frame_.stagePlace.w / static_cast<float>(STAGE_SIZES));
     return frame_.clipFromWorld *
            glm::vec4(frame_.stagePlace.x + metres.x, frame_.stagePlace.y, frame_.stagePlace.z + metres.y, 1);
-  }
-  [[nodiscard]] glm::vec2 pixelOf(glm::vec4 clip) const {
-    return 0.5f * (glm::vec2(clip.x, clip.y) / clip.w + 1.0f) * glm::vec2(frame_.pixels.x, frame_.pixels.y);
   }
 
   const shared::RenderFrame& frame_;
@@ -128,9 +120,7 @@ BackdropShows shownIn(const SeenGround& ground, int column, int row) {
   int corners = 0;
   for (const float x : {left, left + side})
     for (const float y : {bottom, bottom + side}) corners += ground.isAt({x, y}) ? 1 : 0;
-  return corners == 4   ? BackdropShows::ground
-         : corners == 0 ? BackdropShows::behindGround
-                        : BackdropShows::both;
+  return corners == 4 ? BackdropShows::ground : corners == 0 ? BackdropShows::beyond : BackdropShows::both;
 }
 
 }  // namespace

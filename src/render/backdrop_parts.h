@@ -10,7 +10,7 @@
 
 namespace clothsim {
 
-enum class BackdropShows { both, ground, behindGround };
+enum class BackdropShows { both, ground, beyond };
 
 struct BackdropPart {
   PixelRect pixels;

@@ -13,11 +13,8 @@ namespace {
 constexpr float smoothingMargin = 24, marksMargin = 0.007f;
 // The blur of shadows on floors, and a texel for filters.
 constexpr float shadowMargin = 9.0f / FLOOR_SHADOW_SIZE;
-constexpr float nearest = 1e-3f;  // [m] before the eye
 
-glm::vec2 pixelOf(glm::vec4 clip, const ChangedArea::View& view) {
-  return 0.5f * (glm::vec2(clip.x, clip.y) / clip.w + 1.0f) * glm::vec2(view.width, view.height);
-}
+glm::vec2 sizeOf(const ChangedArea::View& view) { return {view.width, view.height}; }
 
 // By how much the first two coordinates change for a metre, at most.
 float lengthOfRows(const glm::mat4& m) {
@@ -28,8 +25,8 @@ float lengthOfRows(const glm::mat4& m) {
 // Adds a point of the world to what is seen. False for one that has no place in the picture.
 bool addSeen(glm::vec3 point, const ChangedArea::View& view, FlatBounds& seen) {
   const glm::vec4 clip = view.clipFromWorld * glm::vec4(point, 1);
-  if (!(clip.w > nearest)) return false;  // not a number, too
-  seen.add(pixelOf(clip, view));
+  if (!(clip.w > NEAREST_SEEN)) return false;  // not a number, too
+  seen.add(pixelOf(clip, sizeOf(view)));
   return true;
 }
 
@@ -56,12 +53,8 @@ class ShadowOnPlane {
           view_.clipFromWorld * glm::vec4(from + glm::dot(center_ - from, normal_) / slope * (to - from), 1);
       if (!std::isfinite(clip[corner].w)) return false;
     }
-    for (std::size_t corner = 0; corner < 4; ++corner) {
-      const glm::vec4 a = clip[corner], b = clip[(corner + 1) % 4];
-      if (a.w >= nearest) seen.add(pixelOf(a, view_));
-      if ((a.w >= nearest) != (b.w >= nearest))
-        seen.add(pixelOf(glm::mix(a, b, (nearest - a.w) / (b.w - a.w)), view_));
-    }
+    for (std::size_t corner = 0; corner < 4; ++corner)
+      addSide(clip[corner], clip[(corner + 1) % 4], sizeOf(view_), seen);
     return true;
   }
 

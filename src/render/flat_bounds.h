@@ -37,4 +37,18 @@ struct FlatBounds {
   }
 };
 
+inline constexpr float NEAREST_SEEN = 1e-3f;  // [m] before the eye
+
+[[nodiscard]] inline glm::vec2 pixelOf(glm::vec4 clip, glm::vec2 picture) {
+  return 0.5f * (glm::vec2(clip.x, clip.y) / clip.w + 1.0f) * picture;
+}
+
+// Adds the pixels of what of a side is before the eye; its ends are in clip space.
+inline void addSide(glm::vec4 a, glm::vec4 b, glm::vec2 picture, FlatBounds& seen) {
+  if (a.w >= NEAREST_SEEN) seen.add(pixelOf(a, picture));
+  if (b.w >= NEAREST_SEEN) seen.add(pixelOf(b, picture));
+  if ((a.w >= NEAREST_SEEN) != (b.w >= NEAREST_SEEN))
+    seen.add(pixelOf(glm::mix(a, b, (NEAREST_SEEN - a.w) / (b.w - a.w)), picture));
+}
+
 }  // namespace clothsim

@@ -86,7 +86,7 @@ void RenderPrograms::chooseStage(const RenderSettings& settings) {
   shaded_ = std::move(shaded);
   exposed_.reset();
   groundAlone_.reset();
-  behindGround_.reset();
+  beyondAlone_.reset();
   stage_ = stageDefines(settings);
   behind_ = backdropDefines(settings);
 }
@@ -141,10 +141,10 @@ const ShadedPrograms& RenderPrograms::shaded(bool forExposures) {
 const gl::Program& RenderPrograms::backdropOf(BackdropShows shown) {
   if (shown == BackdropShows::both) return shaded(false).backdrop;
   const bool isGround = shown == BackdropShows::ground;
-  auto& program = isGround ? groundAlone_ : behindGround_;
+  auto& program = isGround ? groundAlone_ : beyondAlone_;
   if (program) return *program;
   gl::Defines defines = behind_;
-  defines.emplace_back(isGround ? "GROUND_ALONE" : "BEHIND_GROUND", "");
+  defines.emplace_back(isGround ? "GROUND_ALONE" : "BEYOND_ALONE", "");
   return program.emplace(gl::Program::makeRender("render/fullscreen.vert", "render/backdrop.frag", defines));
 }
 
@@ -187,7 +187,7 @@ void tryAllShaders(const RenderSettings& settings, int samples) {
     other.stage = stage;
     programs.chooseStage(other);
     static_cast<void>(programs.shaded(true));
-    for (const BackdropShows shown : {BackdropShows::ground, BackdropShows::behindGround})
+    for (const BackdropShows shown : {BackdropShows::ground, BackdropShows::beyond})
       static_cast<void>(programs.backdropOf(shown));
   }
   other.stage = settings.stage;

@@ -79,7 +79,7 @@ struct RenderPrograms {
   ShadingModel model_;
   gl::Defines stage_, behind_;
   std::optional<ShadedPrograms> shaded_, exposed_;
-  std::optional<gl::Program> groundAlone_, behindGround_;
+  std::optional<gl::Program> groundAlone_, beyondAlone_;
   std::optional<gl::Program> normals_, normalsWithCuts_, meshNormals_, rim_, leanRim_;
   struct ClothProgram {
     gl::Defines defines;

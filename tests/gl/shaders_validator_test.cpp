@@ -108,7 +108,7 @@ std::vector<gl::Defines> variantsOf(const std::string& file) {
             {{"LAY", ""}},
             {{"LAY", ""}, {"EXPOSURE", ""}},
             {{"TABLE", ""}, {"GROUND_ALONE", ""}},
-            {{"WINDOW", ""}, {"BEHIND_GROUND", ""}}};
+            {{"WINDOW", ""}, {"BEYOND_ALONE", ""}}};
   if (file == "render/layer_bulges.comp") return {gl::Defines{}, {{"PATCHES", ""}}};
   if (file == "render/layer_shares.comp") return {gl::Defines{}, {{"INSERT", ""}}, {{"AGAIN", ""}}};
   if (file == "render/fuzz.vert") return {{{"TANGENT", ""}, {"THICK", ""}}};

@@ -176,7 +176,7 @@ void gatherElasticForces(const ImplicitArguments<Real>& arguments, int row, Forc
 template <class Real>
 void ImplicitState<Real>::resize(Hierarchy<Real> levels, MeshStretches<Real> ofMeshes) {
   hierarchy = std::move(levels);
-  stretchesOfLevels = stretchesOf(hierarchy);
+  levelRanges = levelRangesOf(hierarchy);
   stretches = std::move(ofMeshes);
   const std::size_t particles = hierarchy.particles;
   for (Components<Real>* c : {&rightHandSide, &displacements, &iterate.positions, &residuals, &corrections,

@@ -10,8 +10,8 @@
 #include "solver/cpu/grid_product.h"
 #include "solver/cpu/mesh_products.h"
 #include "solver/cpu/passes.h"
+#include "solver/cpu/piece_ranges.h"
 #include "solver/cpu/rigid_block.h"
-#include "solver/cpu/stretches.h"
 #include "solver/cpu/symmetric.h"
 #include "solver/hierarchy.h"
 #include "solver/implicit.h"
@@ -26,10 +26,12 @@ struct PairLists {
 };
 
 // The vertices of each level that passes work on, of all cloths, and the coarsest levels' parts.
-struct LevelStretches {
-  std::vector<Stretches> fine, coarse;  // by level
-  Stretches parts;
+struct LevelRanges {
+  std::vector<PieceRanges> fine, coarse;  // by level
+  PieceRanges parts;
 };
+template <class Real>
+[[nodiscard]] LevelRanges levelRangesOf(const Hierarchy<Real>& hierarchy);
 
 // Parts of the surface that may touch in this step (solver/surface.h); empty without contact.
 template <class Real>
@@ -80,7 +82,7 @@ struct ImplicitState {
   ImplicitScalars<Real> scalars{};
 
   Hierarchy<Real> hierarchy;
-  LevelStretches stretchesOfLevels;
+  LevelRanges levelRanges;
   // The residuals of vertices of all levels: force, and torque about the first particle.
   std::vector<RigidVector<Real>> forces;
   // Of coarse vertices.
@@ -141,8 +143,6 @@ void end(const ImplicitArguments<Real>& arguments, int row);
 template <class Real>
 void remember(const ImplicitArguments<Real>& arguments, int row);
 
-template <class Real>
-[[nodiscard]] LevelStretches stretchesOf(const Hierarchy<Real>& hierarchy);
 // Where an aggregate is.
 template <class Real>
 void findCenter(ImplicitState<Real>& own, std::uint32_t coarse);

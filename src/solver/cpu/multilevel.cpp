@@ -8,9 +8,9 @@
 #include "core/thread_team.h"
 #include "solver/cpu/coarse_elements.h"
 #include "solver/cpu/implicit_passes.h"
+#include "solver/cpu/piece_ranges.h"
 #include "solver/cpu/rigid_block.h"
 #include "solver/cpu/rows.h"
-#include "solver/cpu/stretches.h"
 
 namespace clothsim::cpu {
 namespace {
@@ -355,8 +355,8 @@ void prolongParticles(ImplicitState<double>& own, const double* inverseMasses, s
 }
 
 template <class Real>
-LevelStretches stretchesOf(const Hierarchy<Real>& hierarchy) {
-  LevelStretches all;
+LevelRanges levelRangesOf(const Hierarchy<Real>& hierarchy) {
+  LevelRanges all;
   for (std::uint32_t piece = 0; piece < hierarchy.pieces.size(); ++piece) {
     const std::vector<LevelParams>& levels = hierarchy.pieces[piece];
     if (all.fine.size() < levels.size()) all.fine.resize(levels.size()), all.coarse.resize(levels.size());
@@ -373,12 +373,12 @@ template <class Real>
 void runOnLevel(PassCall call, std::span<const ImplicitArguments<Real>> pieces, ImplicitState<Real>& own,
                 const Real* inverseMasses) {
   const Hierarchy<Real>& hierarchy = own.hierarchy;
-  const auto& [allFine, allCoarse, parts] = own.stretchesOfLevels;
+  const auto& [allFine, allCoarse, parts] = own.levelRanges;
   if (call.index >= allFine.size()) return;
-  const Stretches &fine = allFine[call.index], &coarse = allCoarse[call.index];
+  const PieceRanges &fine = allFine[call.index], &coarse = allCoarse[call.index];
   const bool isOfParticles = call.index == 0;
   const auto forEachPart = [&](const auto& work) {
-    parts.forEach(1, [&](const Stretch& s) {
+    parts.forEach(1, [&](const PieceRange& s) {
       for (std::uint32_t k = s.begin; k < s.end; ++k) work(hierarchy.parts[s.piece][k]);
     });
   };
@@ -388,24 +388,24 @@ void runOnLevel(PassCall call, std::span<const ImplicitArguments<Real>> pieces, 
     case Pass::solveCoarsest:
       return forEachPart([&](const DensePart& part) { solveCoarsest(own, part); });
     case Pass::findCenters:
-      return coarse.forEach(VERTICES_AT_ONCE, [&](const Stretch& s) {
+      return coarse.forEach(VERTICES_AT_ONCE, [&](const PieceRange& s) {
         for (std::uint32_t i = s.begin; i < s.end; ++i) findCenter(own, i);
       });
     case Pass::coarsen:
-      return coarse.forEach(rowsAtOnce(coarse.size()), [&](const Stretch& s) {
+      return coarse.forEach(rowsAtOnce(coarse.size()), [&](const PieceRange& s) {
         coarsen(pieces[s.piece], hierarchy.pieces[s.piece][call.index], s.begin, s.end);
       });
     case Pass::restrict:
       if (isOfParticles)
-        fine.forEach(PARTICLES_AT_ONCE, [&](const Stretch& s) { putForces(own, s.begin, s.end); });
+        fine.forEach(PARTICLES_AT_ONCE, [&](const PieceRange& s) { putForces(own, s.begin, s.end); });
       return coarse.forEach(VERTICES_AT_ONCE,
-                            [&](const Stretch& s) { restrictResiduals(own, s.begin, s.end); });
+                            [&](const PieceRange& s) { restrictResiduals(own, s.begin, s.end); });
     default:
       if (!isOfParticles)
-        return fine.forEach(VERTICES_AT_ONCE, [&](const Stretch& s) {
+        return fine.forEach(VERTICES_AT_ONCE, [&](const PieceRange& s) {
           prolong(own, s.begin - hierarchy.particles, s.end - hierarchy.particles);
         });
-      return fine.forEach(PARTICLES_AT_ONCE, [&](const Stretch& s) {
+      return fine.forEach(PARTICLES_AT_ONCE, [&](const PieceRange& s) {
         for (std::uint32_t i = s.begin; i < s.end; i += PARTICLES_AT_ONCE)
           prolongParticles(own, inverseMasses, i, std::min(s.end, i + PARTICLES_AT_ONCE));
       });
@@ -415,7 +415,7 @@ void runOnLevel(PassCall call, std::span<const ImplicitArguments<Real>> pieces, 
 #define INSTANTIATE(Real)                                                                                  \
   template void findCenter(ImplicitState<Real>&, std::uint32_t);                                           \
   template void coarsen(const ImplicitArguments<Real>&, const LevelParams&, std::uint32_t, std::uint32_t); \
-  template LevelStretches stretchesOf(const Hierarchy<Real>&);                                             \
+  template LevelRanges levelRangesOf(const Hierarchy<Real>&);                                              \
   template void runOnLevel(PassCall, std::span<const ImplicitArguments<Real>>, ImplicitState<Real>&,       \
                            const Real*);
 INSTANTIATE(float)

@@ -16,8 +16,6 @@ namespace {
 
 // A thread begins with rows about its first one.
 constexpr std::uint32_t LEAST_ROWS_AT_ONCE = 8;
-// Particles that a thread takes: some 10 us of work.
-constexpr std::uint32_t SWEPT_AT_ONCE = 512;
 // Less than that is not worth a thread.
 constexpr int LEAST_PARTICLES = 1024;
 // So that a thread which does not get its core holds up less.
@@ -45,8 +43,8 @@ RowPasses<Real>::RowPasses(const Cloth& cloth) : cloth_(&cloth) {
     hasGrid |= !piece.isMesh;
   }
   rowStarts_.push_back(rows_.size());
-  rowsAtOnce_ =
-      std::max(SWEPT_AT_ONCE * rows_.size() / std::max(particles, 1u), hasGrid ? LEAST_ROWS_AT_ONCE : 1u);
+  rowsAtOnce_ = std::max(ROW_PARTICLES_AT_ONCE * rows_.size() / std::max(particles, 1u),
+                         hasGrid ? LEAST_ROWS_AT_ONCE : 1u);
   plans_.resize(cloth.pieces().size());
 }
 
@@ -135,7 +133,6 @@ int RowPasses<Real>::bandsOf(const Wave& wave, const Piece& lattice) const {
   return bands > 1 && 2 * bands >= busy ? bands : 0;
 }
 
-// Several cloths that are too small for bands, each as one. False where they are not.
 template <class Real>
 bool RowPasses<Real>::runWaves(std::span<const PassCall> passes,
                                std::span<const ImplicitArguments<Real>> pieces) {
@@ -147,12 +144,12 @@ bool RowPasses<Real>::runWaves(std::span<const PassCall> passes,
   const auto count = static_cast<std::uint32_t>(pieces.size());
   if (particles < 2 * LEAST_PARTICLES) return false;
   std::atomic<bool> lacksMemory = false;  // threads must not throw
-  std::vector<const Plan*> plans;
-  for (std::size_t piece = 0; piece < count; ++piece) plans.push_back(&planOf(passes, piece));
-  ThreadTeam::shared().forEach(0, count, std::max(1u, count * LEAST_PARTICLES / particles / 2),
-                               [&](std::uint32_t piece) {
-                                 if (!runWave(*plans[piece], 1, pieces[piece])) lacksMemory = true;
-                               });
+  waves_.clear();
+  for (std::size_t piece = 0; piece < count; ++piece) waves_.push_back(&planOf(passes, piece));
+  const std::uint32_t atOnce = std::max(1u, ROW_PARTICLES_AT_ONCE * count / particles);
+  ThreadTeam::shared().forEach(0, count, atOnce, [&](std::uint32_t piece) {
+    if (!runWave(*waves_[piece], 1, pieces[piece])) lacksMemory = true;
+  });
   if (lacksMemory) throw std::bad_alloc();
   return true;
 }
@@ -184,14 +181,14 @@ void RowPasses<Real>::runSweep(std::span<const PassCall> passes,
   works_.clear();
   for (const PassCall& call : passes) works_.push_back(rowPassOf(call.pass));
   std::atomic<bool> lacksMemory = false;  // threads must not throw
-  rows_.forEach(rowStarts_[first], rowStarts_[end], rowsAtOnce_, [&](const Stretch& stretch) {
+  rows_.forEach(rowStarts_[first], rowStarts_[end], rowsAtOnce_, [&](const PieceRange& range) {
     thread_local ForceRows<Real> forceRows;
-    if (!beginRows(forceRows, cloth_->pieces()[stretch.piece])) {
+    if (!beginRows(forceRows, cloth_->pieces()[range.piece])) {
       lacksMemory = true;
       return;
     }
-    for (std::uint32_t row = stretch.begin; row < stretch.end; ++row)
-      for (const RowPass work : works_) work(pieces[stretch.piece], static_cast<int>(row), forceRows);
+    for (std::uint32_t row = range.begin; row < range.end; ++row)
+      for (const RowPass work : works_) work(pieces[range.piece], static_cast<int>(row), forceRows);
   });
   if (lacksMemory) throw std::bad_alloc();
 }

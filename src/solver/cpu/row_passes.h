@@ -10,7 +10,7 @@
 #include "cloth/cloth.h"
 #include "solver/cpu/force_rows.h"
 #include "solver/cpu/implicit_passes.h"
-#include "solver/cpu/stretches.h"
+#include "solver/cpu/piece_ranges.h"
 #include "solver/cpu/wave.h"
 
 namespace clothsim::cpu {
@@ -37,7 +37,10 @@ class RowPasses {
   [[nodiscard]] static RowPass rowPassOf(Pass pass);
   [[nodiscard]] const Plan& planOf(std::span<const PassCall> passes, std::size_t piece);
   [[nodiscard]] int bandsOf(const Wave& wave, const Piece& lattice) const;
-  bool runWaves(std::span<const PassCall> passes, std::span<const ImplicitArguments<Real>> pieces);
+  // Several cloths that are too small for bands, each as one band. False, and nothing is done, where one is
+  // large or a mesh, or all are next to nothing.
+  [[nodiscard]] bool runWaves(std::span<const PassCall> passes,
+                              std::span<const ImplicitArguments<Real>> pieces);
   void runOn(std::size_t piece, std::span<const PassCall> passes,
              std::span<const ImplicitArguments<Real>> pieces);
   // Of the cloths [first, end).
@@ -50,9 +53,10 @@ class RowPasses {
   const Cloth* cloth_;
   std::vector<std::vector<LimitColor>> limitColors_;  // by cloth
   std::vector<std::deque<Plan>> plans_;               // by cloth
-  Stretches rows_;                                    // of all cloths
-  std::vector<std::uint32_t> rowStarts_;              // of a cloth there, and one more
+  PieceRanges rows_;                                  // of all cloths
+  std::vector<std::uint32_t> rowStarts_;              // number of a cloth's first row there, and one more
   std::uint32_t rowsAtOnce_ = 1;                      // that a thread takes
+  std::vector<const Plan*> waves_;                    // that are run side by side
   std::vector<RowPass> works_;                        // of the sweep that is run
 };
 

@@ -10,11 +10,11 @@
 namespace clothsim::cpu {
 
 // Entries [begin, end) of a cloth: rows, particles, vertices.
-struct Stretch {
+struct PieceRange {
   std::uint32_t piece, begin, end;
 };
 
-class Stretches {
+class PieceRanges {
  public:
   void clear() { all_.clear(); }
   void add(std::uint32_t piece, std::uint32_t first, std::uint32_t count) {
@@ -25,17 +25,17 @@ class Stretches {
     return all_.empty() ? 0 : all_.back().start + (all_.back().whole.end - all_.back().whole.begin);
   }
 
-  // body(stretch) for all entries in [first, end), in any order, on all threads, of which each takes so many
+  // body(range) for all entries in [first, end), in any order, on all threads, of which each takes so many
   // at once.
   template <class Body>
   void forEach(std::uint32_t first, std::uint32_t end, std::uint32_t atOnce, const Body& body) const {
     ThreadTeam::shared().forEachRange(first, end, atOnce, [&](std::uint32_t begin, std::uint32_t stop) {
       const auto isBehind = [](std::uint32_t entry, const Numbered& one) { return entry < one.start; };
       for (auto of = std::upper_bound(all_.begin(), all_.end(), begin, isBehind) - 1; begin < stop; ++of) {
-        const Stretch& whole = of->whole;
+        const PieceRange& whole = of->whole;
         const std::uint32_t from = whole.begin + (begin - of->start),
                             to = std::min(whole.end, whole.begin + (stop - of->start));
-        if (from < to) body(Stretch{whole.piece, from, to});
+        if (from < to) body(PieceRange{whole.piece, from, to});
         begin += to - from;
       }
     });
@@ -47,7 +47,7 @@ class Stretches {
 
  private:
   struct Numbered {
-    Stretch whole;
+    PieceRange whole;
     std::uint32_t start;  // number of its first entry
   };
   std::vector<Numbered> all_;

@@ -1,6 +1,6 @@
 // Entries of several cloths are shared by threads as one job: each is visited once, whatever the threads
 // take.
-#include "solver/cpu/stretches.h"
+#include "solver/cpu/piece_ranges.h"
 
 #include <gtest/gtest.h>
 
@@ -11,24 +11,24 @@
 namespace clothsim {
 namespace {
 
-TEST(Stretches, AreVisitedOnceEntryByEntry) {
-  cpu::Stretches stretches;
-  EXPECT_EQ(stretches.size(), 0u);
-  stretches.forEach(1, [](const cpu::Stretch&) { FAIL() << "nothing was added"; });
-  stretches.add(0, 5, 3);
-  stretches.add(2, 100, 0);  // a cloth without any
-  stretches.add(3, 0, 40);
-  stretches.add(4, 7, 1);
-  ASSERT_EQ(stretches.size(), 44u);
+TEST(PieceRanges, AreVisitedOnceEntryByEntry) {
+  cpu::PieceRanges ranges;
+  EXPECT_EQ(ranges.size(), 0u);
+  ranges.forEach(1, [](const cpu::PieceRange&) { FAIL() << "nothing was added"; });
+  ranges.add(0, 5, 3);
+  ranges.add(2, 100, 0);  // a cloth without any
+  ranges.add(3, 0, 40);
+  ranges.add(4, 7, 1);
+  ASSERT_EQ(ranges.size(), 44u);
   const int usual = ThreadTeam::shared().threads();
   for (const int threads : {1, 3}) {
     ThreadTeam::setSharedThreads(threads);
     for (const std::uint32_t atOnce : {1u, 2u, 7u, 100u}) {
       std::map<std::pair<std::uint32_t, std::uint32_t>, int> visits;
       std::mutex mutex;
-      stretches.forEach(atOnce, [&](const cpu::Stretch& stretch) {
+      ranges.forEach(atOnce, [&](const cpu::PieceRange& range) {
         const std::scoped_lock lock(mutex);
-        for (std::uint32_t i = stretch.begin; i < stretch.end; ++i) ++visits[{stretch.piece, i}];
+        for (std::uint32_t i = range.begin; i < range.end; ++i) ++visits[{range.piece, i}];
       });
       EXPECT_EQ(visits.size(), 44u) << atOnce << " at once";
       for (const auto& [entry, count] : visits) EXPECT_EQ(count, 1) << entry.first << ", " << entry.second;
@@ -37,9 +37,9 @@ TEST(Stretches, AreVisitedOnceEntryByEntry) {
   }
   ThreadTeam::setSharedThreads(usual);
   int entries = 0;
-  stretches.forEach(3, 10, 100, [&](const cpu::Stretch& stretch) {
-    EXPECT_EQ(stretch.piece, 3u) << "of the cloth that begins with number 3";
-    entries += static_cast<int>(stretch.end - stretch.begin);
+  ranges.forEach(3, 10, 100, [&](const cpu::PieceRange& range) {
+    EXPECT_EQ(range.piece, 3u) << "of the cloth that begins with number 3";
+    entries += static_cast<int>(range.end - range.begin);
   });
   EXPECT_EQ(entries, 7);
 }
