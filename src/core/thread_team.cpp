@@ -9,32 +9,13 @@
 #include <string_view>
 
 #include "core/error.h"
+#include "core/spin.h"
 
 namespace clothsim {
 namespace {
 
-// How often a thread looks for work before it sleeps: some 20 to 50 us, longer than the pauses between the
-// passes of a step.
-constexpr int LOOKS = 1000;
 // First entry of a part that waits for its job; no end lies behind it.
 constexpr std::uint32_t NOTHING_LEFT = 0xffffffff;
-
-void pause() {
-#if defined(__x86_64__) || defined(__i386__)
-  __builtin_ia32_pause();
-#else
-  std::this_thread::yield();
-#endif
-}
-
-template <class Done>
-bool spinUntil(Done done) {
-  for (int look = 0; look < LOOKS; ++look) {
-    if (done()) return true;
-    pause();
-  }
-  return false;
-}
 
 int threadsWanted() {
   const char* text = std::getenv("CLOTHSIM_THREADS");

@@ -100,17 +100,21 @@ auto RowPasses<Real>::rowPassOf(Pass pass) -> RowPass {
 }
 
 template <class Real>
-auto RowPasses<Real>::planOf(std::span<const PassCall> passes, std::size_t piece) -> const Plan& {
+auto RowPasses<Real>::planOf(std::span<const PassCall> passes, std::size_t piece) -> Plan& {
   std::deque<Plan>& plans = plans_[piece];
   const auto known = std::find_if(plans.begin(), plans.end(), [&](const Plan& plan) {
     return std::equal(passes.begin(), passes.end(), plan.passes.begin(), plan.passes.end());
   });
   if (known != plans.end()) return *known;
   if (plans.size() == MOST_PLANS) plans.clear();
-  Plan plan{{passes.begin(), passes.end()}, piece, makeWave(passes, limitColors_[piece]), {}};
+  Plan& plan = plans.emplace_back();
+  plan.piece = piece;
+  plan.wave = makeWave(passes, limitColors_[piece]);
   for (const WavePass& pass : plan.wave.passes)
     plan.works.push_back(pass.color != nullptr ? nullptr : rowPassOf(pass.call.pass));
-  return plans.emplace_back(std::move(plan));
+  plan.pipeline.emplace(plan.wave, cloth_->pieces()[piece].rows);
+  plan.passes.assign(passes.begin(), passes.end());  // last, so that none is known half made
+  return plan;
 }
 
 template <class Real>
@@ -123,14 +127,9 @@ void RowPasses<Real>::run(std::span<const PassCall> passes,
   for (std::size_t piece = 0; piece < pieces.size(); ++piece) runOn(piece, passes, pieces);
 }
 
-// How many bands threads take of a grid; 0 where these would be fewer than the grid keeps busy pass by pass.
 template <class Real>
-int RowPasses<Real>::bandsOf(const Wave& wave, const Piece& lattice) const {
-  const int threads = ThreadTeam::shared().threads();
-  const int busy = std::min(threads, lattice.columns * lattice.rows / LEAST_PARTICLES);
-  if (busy <= 1) return 1;
-  const int bands = std::min(BANDS_A_THREAD * busy, lattice.rows / wave.leastBand());
-  return bands > 1 && 2 * bands >= busy ? bands : 0;
+int RowPasses<Real>::threadsFor(const Piece& lattice) const {
+  return std::clamp(lattice.columns * lattice.rows / LEAST_PARTICLES, 1, ThreadTeam::shared().threads());
 }
 
 template <class Real>
@@ -160,12 +159,15 @@ void RowPasses<Real>::runOn(std::size_t piece, std::span<const PassCall> passes,
   const Piece& lattice = cloth_->pieces()[piece];
   const std::size_t ownRows = sweepLength(passes);
   if (ownRows < passes.size() && !lattice.isMesh) {
-    const Plan& plan = planOf(passes, piece);
-    const int bands = bandsOf(plan.wave, lattice);
-    if (bands > 0) {
-      if (!runWave(plan, bands, pieces[piece])) throw std::bad_alloc();
-      return;
-    }
+    Plan& plan = planOf(passes, piece);
+    const int threads = threadsFor(lattice);
+    const int bands = std::min(BANDS_A_THREAD * threads, lattice.rows / plan.wave.leastBand());
+    // Where bands are few, their seams, which one thread does, are much of the grid.
+    const bool isDone = threads == 1      ? runWave(plan, 1, pieces[piece])
+                        : bands > threads ? runWave(plan, bands, pieces[piece])
+                                          : runPipeline(plan, threads, pieces[piece]);
+    if (!isDone) throw std::bad_alloc();
+    return;
   }
   if (passes.front().traits().domain != Domain::springs)
     runSweep(passes.first(ownRows), pieces, piece, piece + 1);
@@ -225,6 +227,20 @@ bool RowPasses<Real>::runWave(const Plan& plan, int bands, const ImplicitArgumen
     }
   };
   ThreadTeam::shared().forEachRange(0, static_cast<std::uint32_t>(bands), 1, runBands);
+  return !lacksMemory;
+}
+
+template <class Real>
+bool RowPasses<Real>::runPipeline(Plan& plan, int threads, const ImplicitArguments<Real>& arguments) {
+  std::atomic<bool> lacksMemory = false;
+  const auto work = [&](std::size_t k, int row, ForceRows<Real>& forces) {
+    const LimitColor* color = plan.wave.passes[k].color;
+    color != nullptr ? limitRow(arguments.step, *color, row) : plan.works[k](arguments, row, forces);
+  };
+  plan.pipeline->begin();
+  ThreadTeam::shared().forEach(0, static_cast<std::uint32_t>(threads), 1, [&](std::uint32_t) {
+    if (!plan.pipeline->run(cloth_->pieces()[plan.piece].columns, work)) lacksMemory = true;
+  });
   return !lacksMemory;
 }
 

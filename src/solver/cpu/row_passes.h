@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "solver/cpu/implicit_passes.h"
 #include "solver/cpu/piece_ranges.h"
 #include "solver/cpu/wave.h"
+#include "solver/cpu/wave_pipeline.h"
 
 namespace clothsim::cpu {
 
@@ -29,14 +31,16 @@ class RowPasses {
   // A wave, which does not change from step to step.
   struct Plan {
     std::vector<PassCall> passes;
-    std::size_t piece;
+    std::size_t piece = 0;
     Wave wave;
     std::vector<RowPass> works;  // by pass of the wave; null for colours
+    std::optional<WavePipeline<Real>> pipeline;
   };
 
   [[nodiscard]] static RowPass rowPassOf(Pass pass);
-  [[nodiscard]] const Plan& planOf(std::span<const PassCall> passes, std::size_t piece);
-  [[nodiscard]] int bandsOf(const Wave& wave, const Piece& lattice) const;
+  [[nodiscard]] Plan& planOf(std::span<const PassCall> passes, std::size_t piece);
+  // How many threads a grid keeps busy.
+  [[nodiscard]] int threadsFor(const Piece& lattice) const;
   // Several cloths that are too small for bands, each as one band. False, and nothing is done, where one is
   // large or a mesh, or all are next to nothing.
   [[nodiscard]] bool runWaves(std::span<const PassCall> passes,
@@ -48,6 +52,7 @@ class RowPasses {
                 std::size_t first, std::size_t end);
   // False where memory is lacking.
   [[nodiscard]] bool runWave(const Plan& plan, int bands, const ImplicitArguments<Real>& arguments);
+  [[nodiscard]] bool runPipeline(Plan& plan, int threads, const ImplicitArguments<Real>& arguments);
   void runColor(std::size_t piece, const LimitColor& color, const ImplicitArguments<Real>& arguments);
 
   const Cloth* cloth_;

@@ -41,6 +41,21 @@ struct Wave {
 // Colours that a grid does not have are left out. `colors` must outlive the wave.
 [[nodiscard]] Wave makeWave(std::span<const PassCall> passes, std::span<const LimitColor> colors);
 
+// Passes of a wave [first, end), by number.
+struct PassRange {
+  std::size_t first, end;
+};
+
+// Calls work(number of the pass, row) for a grid with so many rows, as the first pass of the wave comes, or
+// would come, to rows [first, end).
+template <class Work>
+void runFronts(const Wave& wave, PassRange passes, int first, int end, int rows, Work work) {
+  for (int front = first; front < end; ++front)
+    for (std::size_t k = passes.first; k < passes.end; ++k) {
+      const int row = front - wave.passes[k].behind;
+      if (row >= 0 && row < rows) work(k, row);
+    }
+}
 // Calls work(number of the pass, row) for rows [first, end) of a grid with so many rows, except for what its
 // seams leave.
 template <class Work>

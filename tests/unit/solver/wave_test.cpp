@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <mutex>
 #include <set>
 #include <string>
 #include <utility>
@@ -10,6 +11,7 @@
 
 #include "core/thread_team.h"
 #include "solver/cpu/cpu_solver.h"
+#include "solver/cpu/wave_pipeline.h"
 #include "solver/state.h"
 #include "support/compared_scenes.h"
 #include "support/test_scenes.h"
@@ -64,36 +66,75 @@ TEST(Wave, IsAsFarBehindAsSpringsReach) {
   EXPECT_EQ(inside, (std::vector{0, 0, 0, 0, 0, 1, 2, 3, 4, 5, 6, 6, 6, 8, 10, 10}));
 }
 
-// Bands in any order, then seams, do each row of each pass once, and none before what it needs: the rows of
-// earlier passes that a spring joins to it, which are at most two away.
+// Expects each row of each pass once, and none before what it needs: the rows of earlier passes that a spring
+// joins to it, which are at most two away.
+class OrderOfRows {
+ public:
+  OrderOfRows(const cpu::Wave& wave, int rows) : wave_(&wave), rows_(rows) {}
+  ~OrderOfRows() { EXPECT_EQ(done_.size(), wave_->passes.size() * static_cast<std::size_t>(rows_)); }
+
+  void isDone(std::size_t k, int row) {
+    EXPECT_TRUE(row >= 0 && row < rows_);
+    const std::lock_guard lock(mutex_);
+    if (const LimitColor* own = wave_->passes[k].color; own != nullptr) {
+      const int above = springOffsets[own->slot].rows;  // its springs join [row + above, row]
+      for (std::size_t earlier = 0; earlier < k; ++earlier) {
+        const LimitColor* color = wave_->passes[earlier].color;
+        const int reach = color == nullptr ? 0 : -springOffsets[color->slot].rows;
+        for (int other = row + above; other <= row + reach; ++other)
+          EXPECT_TRUE(other < 0 || other >= rows_ || done_.contains({earlier, other}))
+              << "pass " << k << ", row " << row << " before pass " << earlier << ", row " << other;
+      }
+    }
+    EXPECT_TRUE(done_.insert({k, row}).second) << "pass " << k << ", row " << row << " twice";
+  }
+
+ private:
+  const cpu::Wave* wave_;
+  int rows_;
+  std::mutex mutex_;
+  std::set<std::pair<std::size_t, int>> done_;
+};
+
+// Bands in any order, then seams.
 TEST(Wave, DoesEveryRowOnceAndInOrder) {
   const Planned planned = limitedSheet();
   const cpu::Wave& wave = planned.wave;
   const int rows = 3 * wave.leastBand() + 1;
   const std::vector<int> seams{0, wave.leastBand(), 2 * wave.leastBand(), rows};
-  std::set<std::pair<std::size_t, int>> done;
-  const auto work = [&](std::size_t k, int row) {
-    EXPECT_TRUE(row >= 0 && row < rows);
-    EXPECT_TRUE(done.insert({k, row}).second) << "pass " << k << ", row " << row << " twice";
-    if (wave.passes[k].color == nullptr) return;
-    const int above = springOffsets[wave.passes[k].color->slot].rows;  // its springs join [row + above, row]
-    for (std::size_t earlier = 0; earlier < k; ++earlier) {
-      const LimitColor* color = wave.passes[earlier].color;
-      const int reach = color == nullptr ? 0 : -springOffsets[color->slot].rows;
-      for (int other = row + above; other <= row + reach; ++other)
-        EXPECT_TRUE(other < 0 || other >= rows || done.contains({earlier, other}))
-            << "pass " << k << ", row " << row << " before pass " << earlier << ", row " << other;
-    }
-  };
+  OrderOfRows order(wave, rows);
+  const auto work = [&](std::size_t k, int row) { order.isDone(k, row); };
   for (const std::size_t band : {2u, 0u, 1u}) cpu::runBand(wave, seams[band], seams[band + 1], rows, work);
   for (const std::size_t seam : {1u, 2u}) cpu::runSeam(wave, seams[seam], work);
-  EXPECT_EQ(done.size(), wave.passes.size() * static_cast<std::size_t>(rows));
 }
 
-// Of a sheet that the limit acts on, in several bands.
-TEST(Wave, HasTheBitsOfPassesOneByOne) {
-  Scene scene = test::withLimiter(test::vertical(test::sheetScene(121)));
-  scene.solver.strainLimit = 0.001;
+// More rows than the wave is long, and fewer; again with the same pipeline.
+TEST(WavePipeline, DoesEveryRowOnceAndInOrder) {
+  const Planned planned = limitedSheet();
+  for (const int rows : {61, 9, 1})
+    for (const int threads : {1, 2, 3}) {
+      cpu::WavePipeline<float> pipeline(planned.wave, rows);
+      EXPECT_GE(pipeline.stages(), 3u);
+      ThreadTeam team(threads);
+      for (int step = 0; step < 2; ++step) {
+        OrderOfRows order(planned.wave, rows);
+        pipeline.begin();
+        team.forEach(0, static_cast<std::uint32_t>(threads), 1, [&](std::uint32_t) {
+          EXPECT_TRUE(pipeline.run(9, [&](std::size_t k, int row, cpu::ForceRows<float>& forces) {
+            forces.clear(0, row);  // a stage has rows of its own
+            order.isDone(k, row);
+          }));
+        });
+      }
+    }
+}
+
+// Of a sheet that the limit acts on: in several bands, and as a pipeline.
+class WaveOnThreads : public testing::TestWithParam<int> {};
+
+TEST_P(WaveOnThreads, HasTheBitsOfPassesOneByOne) {
+  Scene scene = test::withLimiter(test::vertical(test::sheetScene(GetParam())));
+  scene.solver.strainLimit = 0.0001;
   scene.solver.simulationSteps = 400;
   const auto stepped = [](const Scene& of, bool sweeps) {
     const Cloth cloth(of);
@@ -112,6 +153,7 @@ TEST(Wave, HasTheBitsOfPassesOneByOne) {
   }
   ThreadTeam::setSharedThreads(usual);
 }
+INSTANTIATE_TEST_SUITE_P(Columns, WaveOnThreads, testing::Values(49, 65, 121));
 
 }  // namespace
 }  // namespace clothsim

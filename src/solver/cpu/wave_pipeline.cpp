@@ -1,0 +1,55 @@
+#include "solver/cpu/wave_pipeline.h"
+
+namespace clothsim::cpu {
+namespace {
+
+// What passes take, about, in times of a colour of the strain limit; and what a stage does at least, so that
+// taking it is worth it.
+constexpr int COLOR_WORK = 1, LIGHT_WORK = 3, FORCES_WORK = 45, COLLIDE_WORK = 40, LEAST_STAGE = 12;
+
+int workOf(const WavePass& pass) {
+  if (pass.color != nullptr) return COLOR_WORK;
+  if (pass.call.pass == Pass::forces) return FORCES_WORK;
+  return pass.call.pass == Pass::collide ? COLLIDE_WORK : LIGHT_WORK;
+}
+
+}  // namespace
+
+template <class Real>
+WavePipeline<Real>::WavePipeline(const Wave& wave, int rows)
+    : wave_(&wave), rows_(rows), end_(rows + wave.behind) {
+  int work = LEAST_STAGE;
+  for (std::size_t k = 0; k < wave.passes.size(); ++k) {
+    if (work >= LEAST_STAGE) {
+      stages_.emplace_back().passes = {k, k};
+      work = 0;
+    }
+    work += workOf(wave.passes[k]);
+    stages_.back().passes.end = k + 1;
+  }
+}
+
+template <class Real>
+void WavePipeline<Real>::begin() {
+  for (Stage& stage : stages_) stage.fronts.store(0, std::memory_order_relaxed);
+}
+
+template <class Real>
+auto WavePipeline<Real>::take() -> Stage* {
+  for (std::size_t s = stages_.size(); s-- > 0;) {
+    Stage& stage = stages_[s];
+    const auto mayGoOn = [&] {
+      const int front = stage.fronts.load(std::memory_order_relaxed);
+      return front < end_ && (s == 0 || stages_[s - 1].fronts.load(std::memory_order_acquire) > front);
+    };
+    if (!mayGoOn() || stage.isTaken.test_and_set(std::memory_order_acquire)) continue;
+    if (mayGoOn()) return &stage;
+    stage.isTaken.clear(std::memory_order_release);  // another thread has just gone on with it
+  }
+  return nullptr;
+}
+
+template class WavePipeline<float>;
+template class WavePipeline<double>;
+
+}  // namespace clothsim::cpu
