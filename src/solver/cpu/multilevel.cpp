@@ -15,11 +15,12 @@
 namespace clothsim::cpu {
 namespace {
 
-// How many vertices of a level a thread takes at once.
-constexpr std::uint32_t VERTICES_AT_ONCE = 64;
-// Rows of a coarse matrix that a thread sums up together. Elements where two such stretches meet are worked
-// out for both: of a cloth of 128 x 128, in stretches of 128 rows, almost half of them.
-std::uint32_t rowsAtOnce(std::uint32_t rows) {
+// How many vertices of a level a thread takes at once, and how many of their rows of the matrix, each of
+// which takes some 50 us to sum up.
+constexpr std::uint32_t VERTICES_AT_ONCE = 64, ROWS_AT_ONCE = 4;
+// Rows of the first level's matrix that a thread sums up together. Elements where two such stretches meet are
+// worked out for both: of a cloth of 128 x 128, in stretches of 128 rows, almost half of them.
+std::uint32_t firstRowsAtOnce(std::uint32_t rows) {
   constexpr std::uint32_t LEAST = 128;
   const auto threads = static_cast<std::uint32_t>(ThreadTeam::shared().threads());
   return threads == 1 ? std::max(rows, 1u) : std::max(LEAST, rows / (2 * threads) + 1);
@@ -392,9 +393,10 @@ void runOnLevel(PassCall call, std::span<const ImplicitArguments<Real>> pieces, 
         for (std::uint32_t i = s.begin; i < s.end; ++i) findCenter(own, i);
       });
     case Pass::coarsen:
-      return coarse.forEach(rowsAtOnce(coarse.size()), [&](const PieceRange& s) {
-        coarsen(pieces[s.piece], hierarchy.pieces[s.piece][call.index], s.begin, s.end);
-      });
+      return coarse.forEach(isOfParticles ? firstRowsAtOnce(coarse.size()) : ROWS_AT_ONCE,
+                            [&](const PieceRange& s) {
+                              coarsen(pieces[s.piece], hierarchy.pieces[s.piece][call.index], s.begin, s.end);
+                            });
     case Pass::restrict:
       if (isOfParticles)
         fine.forEach(PARTICLES_AT_ONCE, [&](const PieceRange& s) { putForces(own, s.begin, s.end); });
