@@ -116,6 +116,8 @@ ViewerWindow::ViewerWindow(const std::string& title, const std::string& sceneNam
     throw;
   }
   installCallbacks();
+  lookAtScreen();
+  glfwGetCursorPos(window_, &cursor_.x, &cursor_.y);
 }
 
 ViewerWindow::~ViewerWindow() { glfwTerminate(); }
@@ -146,8 +148,9 @@ void ViewerWindow::installCallbacks() {
   glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int mods) {
     selfOf(window).onButton(button, action, mods);
   });
-  glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double, double) {
-    const ViewerWindow& self = selfOf(window);
+  glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double x, double y) {
+    ViewerWindow& self = selfOf(window);
+    self.cursor_ = {x, y};
     if (self.input_.move) self.input_.move(self.cursor());
   });
   glfwSetScrollCallback(window_, [](GLFWwindow* window, double, double steps) {
@@ -158,6 +161,20 @@ void ViewerWindow::installCallbacks() {
     const ViewerWindow& self = selfOf(window);
     if (self.input_.drop) self.input_.drop({paths, paths + count});
   });
+  const auto onChange = [](GLFWwindow* window, int, int) { selfOf(window).lookAtScreen(); };
+  glfwSetFramebufferSizeCallback(window_, onChange);
+  glfwSetWindowSizeCallback(window_, onChange);
+  glfwSetWindowPosCallback(window_, onChange);
+  glfwSetWindowContentScaleCallback(window_,
+                                    [](GLFWwindow* window, float, float) { selfOf(window).lookAtScreen(); });
+}
+
+void ViewerWindow::lookAtScreen() {
+  glfwGetFramebufferSize(window_, &pixels_.width, &pixels_.height);
+  glfwGetWindowSize(window_, &units_.width, &units_.height);
+  float desktop = 1, unused = 1;
+  glfwGetWindowContentScale(window_, &desktop, &unused);
+  leastTextScale_ = std::max(static_cast<double>(desktop), screenScale());
 }
 
 bool ViewerWindow::shouldClose() const {
@@ -172,24 +189,9 @@ void ViewerWindow::takeContext() { glfwMakeContextCurrent(window_); }
 void ViewerWindow::wakeUp() { glfwPostEmptyEvent(); }
 void ViewerWindow::setTitle(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
 
-ViewerWindow::Size ViewerWindow::size() const {
-  Size size;
-  glfwGetFramebufferSize(window_, &size.width, &size.height);
-  return size;
-}
-
 ViewerWindow::Cursor ViewerWindow::cursor() const {
-  Cursor cursor;
-  glfwGetCursorPos(window_, &cursor.x, &cursor.y);
-  // On a scaled desktop the size of the window differs from that of its framebuffer.
-  int width = 0, height = 0;
-  glfwGetWindowSize(window_, &width, &height);
-  const Size pixels = size();
-  if (width > 0 && height > 0) {
-    cursor.x *= static_cast<double>(pixels.width) / width;
-    cursor.y *= static_cast<double>(pixels.height) / height;
-  }
-  return cursor;
+  if (units_.width <= 0 || units_.height <= 0) return cursor_;
+  return {cursor_.x * pixels_.width / units_.width, cursor_.y * pixels_.height / units_.height};
 }
 
 bool ViewerWindow::holds(std::string_view key) const {
@@ -209,12 +211,10 @@ bool ViewerWindow::holdsControl() const {
 }
 
 double ViewerWindow::textScale() const {
-  float desktop = 1, unused = 1;
-  glfwGetWindowContentScale(window_, &desktop, &unused);
   // Large windows get larger text where the desktop does not scale. The factor is rounded to quarters, so
   // that the font is not rebuilt for every pixel while a window is resized.
-  const double large = std::floor(size().height / 1080.0 * 4) / 4;
-  return std::clamp(std::max({static_cast<double>(desktop), large, screenScale()}), 1.0, 4.0);
+  const double large = std::floor(pixels_.height / 1080.0 * 4) / 4;
+  return std::clamp(std::max(leastTextScale_, large), 1.0, 4.0);
 }
 
 }  // namespace clothsim

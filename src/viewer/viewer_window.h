@@ -57,7 +57,7 @@ class ViewerWindow {
   struct Size {
     int width = 0, height = 0;  // pixels; 0 while minimised
   };
-  [[nodiscard]] Size size() const;
+  [[nodiscard]] Size size() const { return pixels_; }
   [[nodiscard]] Cursor cursor() const;
   // Whether the key of that name (viewer_keys.h) is held now.
   [[nodiscard]] bool holds(std::string_view key) const;
@@ -69,9 +69,14 @@ class ViewerWindow {
 
  private:
   void installCallbacks();
+  void lookAtScreen();
   void onButton(int button, int action, int mods);
 
   GLFWwindow* window_ = nullptr;
+  // As events have told: whoever draws asks a hundred times, and each question would wait for the X server.
+  Size pixels_, units_;  // of the framebuffer; of the window, which on a scaled desktop are others
+  Cursor cursor_;        // [units]
+  double leastTextScale_ = 1;
   Input input_;
   InputQueue queue_;
 };
