@@ -17,7 +17,7 @@ namespace {
 // A thread begins with rows about its first one.
 constexpr std::uint32_t LEAST_ROWS_AT_ONCE = 8;
 // Less than that is not worth a thread.
-constexpr int LEAST_PARTICLES = 1024;
+constexpr int LEAST_PARTICLES = 512;
 // So that a thread which does not get its core holds up less.
 constexpr int BANDS_A_THREAD = 2;
 // Of a cloth; plans are few: those of a step, and of what happens between steps.
