@@ -1,6 +1,7 @@
 #include "solver/cpu/collide.h"
 
 #include "solver/cpu/arrays.h"
+#include "solver/cpu/collider_frames.h"
 #include "solver/cpu/shapes.h"
 #include "solver/cpu/watch.h"
 
@@ -10,23 +11,6 @@ namespace {
 template <class Real>
 INLINE Vec3<Real> select(bool which, Vec3<Real> a, Vec3<Real> b) {
   return {which ? a.x : b.x, which ? a.y : b.y, which ? a.z : b.z};
-}
-
-// Where the particle was at the start of the step, carried along with a moving collider.
-template <class Real>
-INLINE Vec3<Real> carried(const ColliderParams<Real>& collider, Vec3<Real> x) {
-  const Vec3<Real> d = x - Vec3<Real>{collider.pivotX, collider.pivotY, collider.pivotZ};
-  const Vec3<Real> rotated{dot({collider.rotationXX, collider.rotationXY, collider.rotationXZ}, d),
-                           dot({collider.rotationYX, collider.rotationYY, collider.rotationYZ}, d),
-                           dot({collider.rotationZX, collider.rotationZY, collider.rotationZZ}, d)};
-  const Vec3<Real> move =
-      rotated + Vec3<Real>{collider.translationX, collider.translationY, collider.translationZ};
-  return x + move;
-}
-
-template <class Real>
-INLINE Vec3<Real> pointOf(const ColliderParams<Real>& collider) {
-  return {collider.pointX, collider.pointY, collider.pointZ};
 }
 
 template <class Real>
@@ -105,21 +89,6 @@ INLINE Contact<Real> solidPlane(const ColliderParams<Real>& plane, Vec3<Real> x)
   return {height < Real(0), (-height) * normal, normal, -height};
 }
 
-// Components below 2^-40 are 0, so that their squares are no denormals.
-template <class Real>
-INLINE Vec3<Real> toOwnFrame(const ColliderParams<Real>& shape, Vec3<Real> x) {
-  const Vec3<Real> d = x - pointOf(shape);
-  return {canonical(dot({shape.axisXX, shape.axisXY, shape.axisXZ}, d)),
-          canonical(dot({shape.axisYX, shape.axisYY, shape.axisYZ}, d)),
-          canonical(dot({shape.axisZX, shape.axisZY, shape.axisZZ}, d))};
-}
-template <class Real>
-INLINE Vec3<Real> toWorld(const ColliderParams<Real>& shape, Vec3<Real> v) {
-  const Vec3<Real> x{shape.axisXX, shape.axisXY, shape.axisXZ}, y{shape.axisYX, shape.axisYY, shape.axisYZ},
-      z{shape.axisZX, shape.axisZY, shape.axisZZ};
-  return (v.x * x + v.y * y) + v.z * z;
-}
-
 // Where the surface of a body that deforms takes in the step what was at x at its start.
 template <std::uint32_t type, class Real>
 INLINE Vec3<Real> deformed(const ColliderParams<Real>& shape, Vec3<Real> x, const float* distances) {
@@ -164,10 +133,8 @@ INLINE Contact<Real> shapeContact(const ColliderParams<Real>& shape, Vec3<Real> 
   Real t = Real(0);
   Vec3<Real> place = a;
   Nearest<Real> entry = nearestOnShape<type>(shape, a, distances);
-  for (int i = 0; i < SWEEP_STEPS; ++i) {
-    const bool goesOn = (Real(0) < entry.distance) & (t < Real(1));
-    const Real farther = t + entry.distance * inverseWay;
-    t = goesOn ? farther : t;
+  for (int i = 0; i < SWEEP_STEPS && Real(0) < entry.distance && t < Real(1); ++i) {
+    t = t + entry.distance * inverseWay;
     place = a + t * way;
     entry = nearestOnShape<type>(shape, place, distances);
   }
@@ -340,8 +307,8 @@ INLINE void collideInVectors(const PassArguments<Real>& arguments, const Collide
 // Shapes with a frame of their own, particle by particle.
 template <std::uint32_t type, class Real>
 [[gnu::noinline]] void collideWithShape(const PassArguments<Real>& arguments,
-                                        const ColliderParams<Real>& collider, Range particles) {
-  collideWith<type>(arguments, collider, collider.moving != 0, collider.coulomb != 0, particles);
+                                        const ColliderParams<Real>& collider, std::ptrdiff_t i) {
+  collideWith<type>(arguments, collider, collider.moving != 0, collider.coulomb != 0, {i, i + 1});
 }
 
 // body.operator()<COLLIDER_...>(collider) for each collider.
@@ -371,7 +338,11 @@ INLINE void collideRow(const PassArguments<Real>& arguments, int row) {
                        if constexpr (type == COLLIDER_SPHERE || type == COLLIDER_PLANE)
                          collideInVectors<type>(arguments, collider, particles);
                        else
-                         collideWithShape<type>(arguments, collider, particles);
+                         forEachNear(
+                             collider, arguments.before.positions, arguments.after.positions, particles,
+                             Real(0), [&](std::ptrdiff_t i) __attribute__((always_inline)) {
+                               collideWithShape<type>(arguments, collider, i);
+                             });
                      });
   if (arguments.step.colliderCount > 0) watchVelocities(arguments, PASS_COLLIDE, row);
 }
@@ -401,19 +372,19 @@ void findPlanes(const PassArguments<Real>& arguments, const Components<Real>& pl
   const bool seeksNear = margin > Real(0);
   const Real offset = arguments.step.planeOffset;
   forEachCollider(arguments, [&]<std::uint32_t type>(const ColliderParams<Real>& collider) {
-    for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
-      if (arguments.inverseMasses[i] == Real(0)) continue;
+    forEachNear(collider, arguments.before.positions, places, particles, margin, [&](std::ptrdiff_t i) {
+      if (arguments.inverseMasses[i] == Real(0)) return;
       const Vec3<Real> known = at(planes.normals, i);
-      if (seeksNear && dot(known, known) > Real(0)) continue;
+      if (seeksNear && dot(known, known) > Real(0)) return;
       const Vec3<Real> start = at(arguments.before.positions, i), place = at(places, i);
       const Vec3<Real> previous = previousOf(arguments, collider, start);
       Contact<Real> contact =
           findContact<type>(collider, collider.coulomb != 0, offset, previous, place, arguments.distances);
       if (!contact.touches) {
-        if (!seeksNear) continue;
+        if (!seeksNear) return;
         contact = nearContact<type>(collider, contact, place, arguments.distances);
         const Real distance = contact.depth < Real(0) ? -contact.depth : contact.depth;
-        if (!(distance < margin)) continue;
+        if (!(distance < margin)) return;
       }
       const bool isFromBelow = contact.touches && contact.depth < Real(0);  // a plane may be met from there
       const Vec3<Real> normal = isFromBelow ? Real(-1) * contact.normal : contact.normal;
@@ -421,7 +392,7 @@ void findPlanes(const PassArguments<Real>& arguments, const Components<Real>& pl
       planes.offsets.data()[i] = dot(normal, (place - start) + contact.outward);
       put(planes.carries, i, (previous - start) - at(planes.elasticSlips, i));
       planes.frictions.data()[i] = collider.coulomb != 0 ? collider.friction : Real(0);
-    }
+    });
   });
 }
 
