@@ -91,9 +91,8 @@ Contact shapeContact(ColliderParams shape, vec3 previous, vec3 x) {
   Nearest entry;
   for (int i = 0; i <= SWEEP_STEPS; ++i) {  // the first place is its beginning
     if (i > 0) {
-      bool goesOn = 0.0 < entry.distance && t < 1.0;
-      precise float farther = t + entry.distance * inverseWay;
-      t = goesOn ? farther : t;
+      if (!(0.0 < entry.distance) || !(t < 1.0)) break;
+      t = t + entry.distance * inverseWay;
       place = a + t * way;
     }
     entry = nearestOnShape(shape, place);

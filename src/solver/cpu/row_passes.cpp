@@ -16,8 +16,8 @@ namespace {
 
 // A thread begins with rows about its first one.
 constexpr std::uint32_t LEAST_ROWS_AT_ONCE = 8;
-// Less than that is not worth a thread.
-constexpr int LEAST_PARTICLES = 512;
+// Less than that is not worth a thread; several cloths of less than that run side by side.
+constexpr int LEAST_PARTICLES = 512, MOST_SIDE_BY_SIDE = 2048;
 // So that a thread which does not get its core holds up less.
 constexpr int BANDS_A_THREAD = 2;
 // Of a cloth; plans are few: those of a step, and of what happens between steps.
@@ -138,7 +138,7 @@ bool RowPasses<Real>::runWaves(std::span<const PassCall> passes,
   std::uint32_t particles = 0;
   for (const Piece& lattice : cloth_->pieces()) {
     particles += lattice.particleCount();
-    if (lattice.isMesh || lattice.particleCount() >= 2 * LEAST_PARTICLES) return false;
+    if (lattice.isMesh || lattice.particleCount() >= MOST_SIDE_BY_SIDE) return false;
   }
   const auto count = static_cast<std::uint32_t>(pieces.size());
   if (particles < 2 * LEAST_PARTICLES) return false;
@@ -157,23 +157,33 @@ template <class Real>
 void RowPasses<Real>::runOn(std::size_t piece, std::span<const PassCall> passes,
                             std::span<const ImplicitArguments<Real>> pieces) {
   const Piece& lattice = cloth_->pieces()[piece];
-  const std::size_t ownRows = sweepLength(passes);
-  if (ownRows < passes.size() && !lattice.isMesh) {
-    Plan& plan = planOf(passes, piece);
-    const int threads = threadsFor(lattice);
-    const int bands = std::min(BANDS_A_THREAD * threads, lattice.rows / plan.wave.leastBand());
-    // Where bands are few, their seams, which one thread does, are much of the grid.
-    const bool isDone = threads == 1      ? runWave(plan, 1, pieces[piece])
-                        : bands > threads ? runWave(plan, bands, pieces[piece])
-                                          : runPipeline(plan, threads, pieces[piece]);
-    if (!isDone) throw std::bad_alloc();
-    return;
+  if (sweepLength(passes) == passes.size() || lattice.isMesh) return runOneByOne(piece, passes, pieces);
+  Plan& plan = planOf(passes, piece);
+  const int threads = threadsFor(lattice), pipelined = std::min(threads, plan.pipeline->mostThreads());
+  const int bands = std::min(BANDS_A_THREAD * threads, lattice.rows / plan.wave.leastBand());
+  bool isDone = true;
+  if (threads == 1)
+    isDone = runWave(plan, 1, pieces[piece]);
+  else if (bands > pipelined && 2 * bands >= threads)  // few bands: seams, of one thread each, would be much
+    isDone = runWave(plan, bands, pieces[piece]);
+  else if (2 * pipelined >= threads)
+    isDone = runPipeline(plan, pipelined, pieces[piece]);
+  else
+    runOneByOne(piece, passes, pieces);
+  if (!isDone) throw std::bad_alloc();
+}
+
+template <class Real>
+void RowPasses<Real>::runOneByOne(std::size_t piece, std::span<const PassCall> passes,
+                                  std::span<const ImplicitArguments<Real>> pieces) {
+  while (!passes.empty()) {
+    const std::size_t ownRows = sweepLength(passes);
+    if (passes.front().traits().domain != Domain::springs)
+      runSweep(passes.first(ownRows), pieces, piece, piece + 1);
+    else if (passes.front().index < limitColors_[piece].size())
+      runColor(piece, limitColors_[piece][passes.front().index], pieces[piece]);
+    passes = passes.subspan(ownRows);
   }
-  if (passes.front().traits().domain != Domain::springs)
-    runSweep(passes.first(ownRows), pieces, piece, piece + 1);
-  else if (passes.front().index < limitColors_[piece].size())
-    runColor(piece, limitColors_[piece][passes.front().index], pieces[piece]);
-  if (ownRows < passes.size()) runOn(piece, passes.subspan(ownRows), pieces);
 }
 
 template <class Real>

@@ -47,6 +47,9 @@ class RowPasses {
                               std::span<const ImplicitArguments<Real>> pieces);
   void runOn(std::size_t piece, std::span<const PassCall> passes,
              std::span<const ImplicitArguments<Real>> pieces);
+  // All rows of a pass, or a sweep, before the next one.
+  void runOneByOne(std::size_t piece, std::span<const PassCall> passes,
+                   std::span<const ImplicitArguments<Real>> pieces);
   // Of the cloths [first, end).
   void runSweep(std::span<const PassCall> passes, std::span<const ImplicitArguments<Real>> pieces,
                 std::size_t first, std::size_t end);

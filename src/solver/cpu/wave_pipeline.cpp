@@ -1,5 +1,7 @@
 #include "solver/cpu/wave_pipeline.h"
 
+#include <algorithm>
+
 namespace clothsim::cpu {
 namespace {
 
@@ -18,20 +20,26 @@ int workOf(const WavePass& pass) {
 template <class Real>
 WavePipeline<Real>::WavePipeline(const Wave& wave, int rows)
     : wave_(&wave), rows_(rows), end_(rows + wave.behind) {
-  int work = LEAST_STAGE;
+  int work = LEAST_STAGE, most = 1, all = 0;
   for (std::size_t k = 0; k < wave.passes.size(); ++k) {
     if (work >= LEAST_STAGE) {
       stages_.emplace_back().passes = {k, k};
       work = 0;
     }
-    work += workOf(wave.passes[k]);
     stages_.back().passes.end = k + 1;
+    work += workOf(wave.passes[k]);
+    all += workOf(wave.passes[k]);
+    most = std::max(most, work);
   }
+  mostThreads_ = (all + most - 1) / most;
 }
 
 template <class Real>
 void WavePipeline<Real>::begin() {
-  for (Stage& stage : stages_) stage.fronts.store(0, std::memory_order_relaxed);
+  for (Stage& stage : stages_) {
+    stage.fronts.store(0, std::memory_order_relaxed);
+    stage.isTaken.clear(std::memory_order_relaxed);  // whoever lacked memory left it taken
+  }
 }
 
 template <class Real>

@@ -20,6 +20,8 @@ class WavePipeline {
   WavePipeline(const Wave& wave, int rows);
 
   [[nodiscard]] std::size_t stages() const { return stages_.size(); }
+  // That it keeps busy, the last one perhaps in part.
+  [[nodiscard]] int mostThreads() const { return mostThreads_; }
 
   // Before any thread runs it.
   void begin();
@@ -60,6 +62,7 @@ class WavePipeline {
   const Wave* wave_;
   int rows_;
   int end_;  // fronts of each stage
+  int mostThreads_ = 1;
   std::deque<Stage> stages_;
 };
 
