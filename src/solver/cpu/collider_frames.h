@@ -17,15 +17,14 @@ INLINE Vec3<Real> pointOf(const ColliderParams<Real>& collider) {
   return {collider.pointX, collider.pointY, collider.pointZ};
 }
 
-// Where the particle was at the start of the step, carried along with a moving collider.
-template <class Real>
-INLINE Vec3<Real> carried(const ColliderParams<Real>& collider, Vec3<Real> x) {
-  const Vec3<Real> d = x - Vec3<Real>{collider.pivotX, collider.pivotY, collider.pivotZ};
-  const Vec3<Real> rotated{dot({collider.rotationXX, collider.rotationXY, collider.rotationXZ}, d),
-                           dot({collider.rotationYX, collider.rotationYY, collider.rotationYZ}, d),
-                           dot({collider.rotationZX, collider.rotationZY, collider.rotationZZ}, d)};
-  const Vec3<Real> move =
-      rotated + Vec3<Real>{collider.translationX, collider.translationY, collider.translationZ};
+// x after a rigid motion: of a moving collider over the step, of pins since the start.
+template <class Motion, class Real>
+INLINE Vec3<Real> carried(const Motion& motion, Vec3<Real> x) {
+  const Vec3<Real> d = x - Vec3<Real>{motion.pivotX, motion.pivotY, motion.pivotZ};
+  const Vec3<Real> rotated{dot({motion.rotationXX, motion.rotationXY, motion.rotationXZ}, d),
+                           dot({motion.rotationYX, motion.rotationYY, motion.rotationYZ}, d),
+                           dot({motion.rotationZX, motion.rotationZY, motion.rotationZZ}, d)};
+  const Vec3<Real> move = rotated + Vec3<Real>{motion.translationX, motion.translationY, motion.translationZ};
   return x + move;
 }
 

@@ -6,6 +6,7 @@
 
 #include "core/exact_math.h"
 #include "solver/cpu/arrays.h"
+#include "solver/cpu/collider_frames.h"
 #include "solver/cpu/rows.h"
 #include "solver/cpu/spring_rows.h"
 #include "solver/cpu/watch.h"
@@ -101,14 +102,7 @@ void movePinsOf(const PassArguments<Real>& arguments, Range particles) {
     const std::uint32_t number = arguments.pinPathNumbers[i];
     if (number == 0 || arguments.inverseMasses[i] != Real(0)) continue;
     const PinMotionParams<Real>& motion = arguments.pinMotions[number - 1];
-    const Vec3<Real> start{s.x[i], s.y[i], s.z[i]};
-    const Vec3<Real> d = start - Vec3<Real>{motion.pivotX, motion.pivotY, motion.pivotZ};
-    const Vec3<Real> rotated{dot({motion.rotationXX, motion.rotationXY, motion.rotationXZ}, d),
-                             dot({motion.rotationYX, motion.rotationYY, motion.rotationYZ}, d),
-                             dot({motion.rotationZX, motion.rotationZY, motion.rotationZZ}, d)};
-    const Vec3<Real> move =
-        rotated + Vec3<Real>{motion.translationX, motion.translationY, motion.translationZ};
-    const Vec3<Real> sum = start + move;
+    const Vec3<Real> sum = carried(motion, Vec3<Real>{s.x[i], s.y[i], s.z[i]});
     const Vec3<Real> place{canonical(sum.x), canonical(sum.y), canonical(sum.z)};
     cpu::put(p, i, motion.follow == Real(0) ? place : nearer({old.x[i], old.y[i], old.z[i]}, place, motion));
     const Real inverseTimeStep = arguments.step.inverseTimeStep;
