@@ -44,7 +44,7 @@ INLINE Vec3<Real> toWorld(const ColliderParams<Real>& shape, Vec3<Real> v) {
 }
 
 // A box around a collider, along the axes of its frame. Most particles are farther from it than they move in
-// a step: that takes a tenth of the time to see that the distance from the shape itself takes.
+// a step. That is quickly seen; the distance from the shape itself takes long to work out.
 template <class Real>
 struct ColliderBox {
   Vec3<Real> center, halfSize;
@@ -71,7 +71,7 @@ struct ColliderBox {
         halfSize = {std::max(c.sizeX, c.sizeZ), c.sizeY, std::max(c.sizeX, c.sizeZ)};
         return;
       case COLLIDER_MESH:
-        // The grid of its distances. A body that deforms takes particles along: they move farther than it.
+        // Its grid of distances. A body that deforms has no box: how far it carries particles is not known.
         if (c.way == 0) {
           const Real half = Real(0.5) * reciprocal(c.inverseCell);
           halfSize = {half * Real(c.gridColumns - 1), half * Real(c.gridRows - 1),

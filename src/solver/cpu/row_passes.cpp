@@ -214,6 +214,13 @@ void RowPasses<Real>::runColor(std::size_t piece, const LimitColor& color,
 }
 
 template <class Real>
+void RowPasses<Real>::Plan::run(std::size_t k, const ImplicitArguments<Real>& arguments, int row,
+                                ForceRows<Real>& forces) const {
+  const LimitColor* color = wave.passes[k].color;
+  color != nullptr ? limitRow(arguments.step, *color, row) : works[k](arguments, row, forces);
+}
+
+template <class Real>
 bool RowPasses<Real>::runWave(const Plan& plan, int bands, const ImplicitArguments<Real>& arguments) {
   const Piece& lattice = cloth_->pieces()[plan.piece];
   const auto firstRow = [&](std::uint32_t band) {
@@ -225,10 +232,7 @@ bool RowPasses<Real>::runWave(const Plan& plan, int bands, const ImplicitArgumen
     thread_local ForceRows<Real> forceRows;
     if (!beginRows(forceRows, lattice)) lacksMemory = true;
     if (lacksMemory) return;
-    const auto work = [&](std::size_t k, int row) {
-      const LimitColor* color = plan.wave.passes[k].color;
-      color != nullptr ? limitRow(arguments.step, *color, row) : plan.works[k](arguments, row, forceRows);
-    };
+    const auto work = [&](std::size_t k, int row) { plan.run(k, arguments, row, forceRows); };
     runBand(plan.wave, firstRow(begin), firstRow(end), lattice.rows, work);
     for (const std::uint32_t seam : {begin, end}) {
       const bool isInside = seam > 0 && seam < static_cast<std::uint32_t>(bands);
@@ -244,8 +248,7 @@ template <class Real>
 bool RowPasses<Real>::runPipeline(Plan& plan, int threads, const ImplicitArguments<Real>& arguments) {
   std::atomic<bool> lacksMemory = false;
   const auto work = [&](std::size_t k, int row, ForceRows<Real>& forces) {
-    const LimitColor* color = plan.wave.passes[k].color;
-    color != nullptr ? limitRow(arguments.step, *color, row) : plan.works[k](arguments, row, forces);
+    plan.run(k, arguments, row, forces);
   };
   plan.pipeline->begin();
   ThreadTeam::shared().forEach(0, static_cast<std::uint32_t>(threads), 1, [&](std::uint32_t) {

@@ -35,6 +35,9 @@ class RowPasses {
     Wave wave;
     std::vector<RowPass> works;  // by pass of the wave; null for colours
     std::optional<WavePipeline<Real>> pipeline;
+
+    // Pass k of the wave on one row.
+    void run(std::size_t k, const ImplicitArguments<Real>& arguments, int row, ForceRows<Real>& forces) const;
   };
 
   [[nodiscard]] static RowPass rowPassOf(Pass pass);

@@ -46,8 +46,8 @@ struct PassRange {
   std::size_t first, end;
 };
 
-// Calls work(number of the pass, row) for a grid with so many rows, as the first pass of the wave comes, or
-// would come, to rows [first, end).
+// Calls work(number of the pass, row) while the first pass of the wave goes down rows [first, end) of a grid
+// with `rows` of them. The passes behind it need it to go on beyond the last row.
 template <class Work>
 void runFronts(const Wave& wave, PassRange passes, int first, int end, int rows, Work work) {
   for (int front = first; front < end; ++front)

@@ -5,9 +5,10 @@
 namespace clothsim::cpu {
 namespace {
 
-// What passes take, about, in times of a colour of the strain limit; and what a stage does at least, so that
+// What passes take, about, in times of a colour of the strain limit (perf record of the demo at 96 x 96:
+// forces 17 %, three rounds of collisions 18 %, 36 colours 12 %); and the least work of a stage, so that
 // taking it is worth it.
-constexpr int COLOR_WORK = 1, LIGHT_WORK = 3, FORCES_WORK = 45, COLLIDE_WORK = 40, LEAST_STAGE = 12;
+constexpr int COLOR_WORK = 1, LIGHT_WORK = 3, FORCES_WORK = 50, COLLIDE_WORK = 18, LEAST_STAGE = 12;
 
 int workOf(const WavePass& pass) {
   if (pass.color != nullptr) return COLOR_WORK;
