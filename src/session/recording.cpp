@@ -268,9 +268,9 @@ Recording Recording::load(const std::filesystem::path& path) {
   try {
     Recording recording = parse(readFile(path, LARGEST_FILE), path.string());
     const auto findMeshesOf = [&](Shared<Scene>& shared) {
-      Scene scene = *shared;
-      findMeshes(scene, path);
-      shared = std::move(scene);
+      Scene found = *shared;
+      findMeshes(found, path);
+      shared = std::move(found);
     };
     findMeshesOf(recording.scene);
     for (Event& event : recording.events)

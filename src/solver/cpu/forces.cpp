@@ -36,7 +36,7 @@ INLINE void forEachSixteen(Range particles, Work work) {
 template <bool hasCuts, class Real, class RestLengths>
 INLINE auto computeSprings(const PassArguments<Real>& arguments, Range particles, SpringPlace place,
                            Real stiffness, RestLengths rest, const Arrays<Real>& row, std::ptrdiff_t start) {
-  const auto [bit, other] = place;
+  const std::ptrdiff_t other = place.other;
   const std::uint32_t* cutMasks = arguments.cutMasks;
   const Real *x = arguments.before.positions.x.data(), *y = arguments.before.positions.y.data(),
              *z = arguments.before.positions.z.data();
@@ -48,7 +48,7 @@ INLINE auto computeSprings(const PassArguments<Real>& arguments, Range particles
         for (std::ptrdiff_t i = begin; i < end; ++i) {
           const Vec3<Real> a = load(x, y, z, i), b = load(x, y, z, i + other);
           const Vec3<Real> f = springForce(a, b, stiffness, rest[i]);
-          const bool isCut = isCutAt<hasCuts>(cutMasks, i, bit);
+          const bool isCut = isCutAt<hasCuts>(cutMasks, i, place.bit);
           fx[i] = isCut ? Real(0) : f.x;
           fy[i] = isCut ? Real(0) : f.y;
           fz[i] = isCut ? Real(0) : f.z;

@@ -218,7 +218,7 @@ INLINE Real bendingBlock(const BendingLines<Real>& lines, const Real* w, std::pt
       __attribute__((always_inline)) {
     const std::ptrdiff_t stride = isThere ? lines.stride : 0;
     const Real whole = lineStiffness(w, i + (isThere ? offset : 0), stride, lines.b);
-    return isThere & ((cut & link) == 0) ? whole : Real(0);
+    return (isThere & ((cut & link) == 0)) ? whole : Real(0);
   };
   middle = stiffness(lines.isMiddle, 0, lines.cutsMiddle);
   return (stiffness(lines.isLast, -lines.stride, lines.cutsLast) + Real(4) * middle) +

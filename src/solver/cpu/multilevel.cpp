@@ -374,12 +374,12 @@ template <class Real>
 void runOnLevel(PassCall call, std::span<const ImplicitArguments<Real>> pieces, ImplicitState<Real>& own,
                 const Real* inverseMasses) {
   const Hierarchy<Real>& hierarchy = own.hierarchy;
-  const auto& [allFine, allCoarse, parts] = own.levelRanges;
-  if (call.index >= allFine.size()) return;
-  const PieceRanges &fine = allFine[call.index], &coarse = allCoarse[call.index];
+  const LevelRanges& ranges = own.levelRanges;
+  if (call.index >= ranges.fine.size()) return;
+  const PieceRanges &fine = ranges.fine[call.index], &coarse = ranges.coarse[call.index];
   const bool isOfParticles = call.index == 0;
   const auto forEachPart = [&](const auto& work) {
-    parts.forEach(1, [&](const PieceRange& s) {
+    ranges.parts.forEach(1, [&](const PieceRange& s) {
       for (std::uint32_t k = s.begin; k < s.end; ++k) work(hierarchy.parts[s.piece][k]);
     });
   };

@@ -1,7 +1,6 @@
 #include "solver/cpu/surface_pairs.h"
 
 #include <algorithm>
-#include <ranges>
 
 #include "core/thread_team.h"
 #include "solver/cpu/implicit_contact.h"
@@ -112,19 +111,21 @@ SurfacePair<Real> pairOf(const ClothSurface<Real>& surface, const Parts& parts,
 
 namespace {
 
-// Of the pairs of these numbers, which ascend.
-template <class Real, class Numbers>
-void listByParticle(const std::vector<SurfacePair<Real>>& pairs, const Numbers& numbers,
+// Of `count` pairs, whose numbers numberOf(0), numberOf(1) ... ascend.
+template <class Real, class NumberOf>
+void listByParticle(const std::vector<SurfacePair<Real>>& pairs, std::size_t count, const NumberOf& numberOf,
                     std::size_t particles, PairLists& lists) {
   // One too many: while entries come, starts[i + 1] is where the next one of i goes.
   lists.starts.assign(particles + 2, 0);
-  for (const std::uint32_t q : numbers)
-    for (const std::uint32_t i : pairs[q].particles) ++lists.starts[i + 2];
+  for (std::size_t k = 0; k < count; ++k)
+    for (const std::uint32_t i : pairs[numberOf(k)].particles) ++lists.starts[i + 2];
   for (std::size_t i = 0; i < particles; ++i) lists.starts[i + 2] += lists.starts[i + 1];
-  lists.entries.resize(4 * numbers.size());
-  for (const std::uint32_t q : numbers)
-    for (std::uint32_t k = 0; k < 4; ++k)
-      lists.entries[lists.starts[pairs[q].particles[k] + 1]++] = 4 * q + k;
+  lists.entries.resize(4 * count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const std::uint32_t q = numberOf(k);
+    for (std::uint32_t corner = 0; corner < 4; ++corner)
+      lists.entries[lists.starts[pairs[q].particles[corner] + 1]++] = 4 * q + corner;
+  }
 }
 
 // Few of the pairs that may touch do, and a product with the Hessian sees only those.
@@ -133,15 +134,18 @@ void listActing(TouchingPairs<Real>& touching, std::size_t particles) {
   touching.acting.clear();
   for (std::uint32_t q = 0; q < touching.pairs.size(); ++q)
     if (touching.pairs[q].held > Real(0) || touching.pairs[q].across > Real(0)) touching.acting.push_back(q);
-  listByParticle(touching.pairs, touching.acting, particles, touching.ofActing);
+  listByParticle(
+      touching.pairs, touching.acting.size(), [&](std::size_t k) { return touching.acting[k]; }, particles,
+      touching.ofActing);
 }
 
 }  // namespace
 
 template <class Real>
 void listPairs(TouchingPairs<Real>& touching, std::size_t particles) {
-  const auto count = static_cast<std::uint32_t>(touching.pairs.size());
-  listByParticle(touching.pairs, std::views::iota(0u, count), particles, touching.all);
+  listByParticle(
+      touching.pairs, touching.pairs.size(), [](std::size_t k) { return static_cast<std::uint32_t>(k); },
+      particles, touching.all);
 }
 
 template <class Real>

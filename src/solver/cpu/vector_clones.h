@@ -8,7 +8,14 @@
 
 // The function `result name parameters { return body; }`, compiled for each set. `values` are the parameters'
 // names: VECTOR_CLONES(void, move, (float* x, int count), (x, count), moveAll(x, count))
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
+#if defined(__SANITIZE_ADDRESS__)
+#define HAS_ADDRESS_SANITIZER
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define HAS_ADDRESS_SANITIZER
+#endif
+#endif
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(HAS_ADDRESS_SANITIZER) && \
     !defined(__SANITIZE_THREAD__)
 #define HAS_VECTOR_CLONES
 #define AVX2_INSTRUCTIONS "avx2,bmi,bmi2,f16c,fma,lzcnt,movbe"
@@ -33,7 +40,7 @@
   result name parameters { return __VA_ARGS__; }
 #endif
 
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(HAS_ADDRESS_SANITIZER)
 #define INLINE inline
 #else
 #define INLINE [[gnu::always_inline]] inline
