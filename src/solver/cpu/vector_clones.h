@@ -6,8 +6,7 @@
 
 #include "solver/cpu/vector_set.h"
 
-// The function `result name parameters { return body; }`, compiled for each set. `values` are the parameters'
-// names: VECTOR_CLONES(void, move, (float* x, int count), (x, count), moveAll(x, count))
+// g++ tells of the address sanitizer by a macro, clang++ by a feature.
 #if defined(__SANITIZE_ADDRESS__)
 #define HAS_ADDRESS_SANITIZER
 #elif defined(__has_feature)
@@ -15,6 +14,9 @@
 #define HAS_ADDRESS_SANITIZER
 #endif
 #endif
+
+// The function `result name parameters { return body; }`, compiled for each set. `values` are the parameters'
+// names: VECTOR_CLONES(void, move, (float* x, int count), (x, count), moveAll(x, count))
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(HAS_ADDRESS_SANITIZER) && \
     !defined(__SANITIZE_THREAD__)
 #define HAS_VECTOR_CLONES

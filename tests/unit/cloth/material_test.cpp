@@ -135,8 +135,8 @@ TEST(LatticeStiffness, IsTheKnownOneOnSquares) {
 TEST(LatticeStiffness, GivesOblongCellsTheSameModuli) {
   const Material material{.stretch = 1000, .shear = 200};
   const double c11 = 0.5 * (1000 + std::sqrt(1e6 + 4 * 200.0 * 200));
-  for (const auto& [width, height] : {std::pair{0.01, 0.01}, {0.012, 0.01}, {0.01, 0.015}}) {
-    const double dx = width, dy = height;
+  for (const auto& cell : {std::pair{0.01, 0.01}, {0.012, 0.01}, {0.01, 0.015}}) {
+    const double dx = cell.first, dy = cell.second;
     const LatticeStiffness k = latticeStiffness(material, dx, dy);
     const auto energy = [&](double xx, double yy, double xy) {  // strains; per area
       const double l = std::hypot(dx, dy);

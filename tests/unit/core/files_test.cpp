@@ -75,9 +75,9 @@ TEST(CheckWritable, RefusesNamesThatNoFileCanHave) {
       {folder / "nowhere.csv", "No such file or directory"},
       {folder / "file" / "a.csv", "Not a directory"},
       {folder.path() / std::string(5000, 'x'), "File name too long"}};
-  for (const auto& [name, reason] : cases) {
-    const fs::path& path = name;
-    const std::string expected = printable(path.string() + ": cannot be written: " + reason);
+  for (const auto& refused : cases) {
+    const fs::path& path = refused.first;
+    const std::string expected = printable(path.string() + ": cannot be written: " + refused.second);
     EXPECT_EQ(messageOf([&] { checkWritable(path); }), expected);
     EXPECT_EQ(messageOf([&] { writeFileAtomically(path, "x"); }), expected);
   }
