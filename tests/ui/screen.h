@@ -195,9 +195,10 @@ class ViewerProgram {
     return picture;
   }
   // The picture once it has stopped changing: two in a row that are equal, so long after each other.
-  [[nodiscard]] Picture stillPicture(milliseconds apart = milliseconds(300)) const {
+  [[nodiscard]] Picture stillPicture(milliseconds apart = milliseconds(300),
+                                     milliseconds atMost = seconds(40)) const {
     Picture last = picture();
-    EXPECT_TRUE(eventually(seconds(40), [&] {
+    EXPECT_TRUE(eventually(atMost, [&] {
       std::this_thread::sleep_for(apart);
       Picture next = picture();
       const bool still = next == last;

@@ -83,8 +83,9 @@ TEST_F(WindowUi, AnswersWithinAFrameThatWouldTakeMinutes) {
 
 TEST_F(WindowUi, SaysWhatItLoadsAndClosesAtOnceMeanwhile) {
   ViewerProgram viewer("-f pinned2 --backend cpu --resolution 2048x2048", "", "pinned2 - loading");
-  viewer.press("Escape");
-  EXPECT_EQ(viewer.exitCodeWithin(seconds(1)), 0) << viewer.output();
+  viewer.press(
+      "Escape");  // some seconds before it is loaded; on a busy machine giving back its memory takes one
+  EXPECT_EQ(viewer.exitCodeWithin(seconds(3)), 0) << viewer.output();
 }
 
 TEST_F(WindowUi, GoesOnWithAMessageWhenAFileCannotBeNamed) {
