@@ -17,6 +17,7 @@ namespace {
 constexpr double LONGEST_CHOSEN_STEP = 1.0 / 60;     // [s],
 constexpr double LONGEST_BUCKLING_STEP = 1.0 / 120;  // of fabric that buckles, under an implicit integrator
 constexpr double LONGEST_FOLDING_STEP = 1.0 / 240;   // where cloth touches cloth: self_collision "contact"
+constexpr double MOST_AIR_AGAINST_INERTIA = 0.09;    // of cloth under pressure, in a step of an implicit one
 constexpr double ITERATIONS_PER_SECOND = 4800, FEWEST_ITERATIONS = 20, MOST_ITERATIONS = 60;
 
 struct Preset {
@@ -146,19 +147,29 @@ namespace {
 // How much stiffer a membrane is that is stretched by a tenth: (3 1.1^2 - 1) / 2.
 constexpr double MEMBRANE_MARGIN = 1.315;
 
-// The stable step of a mesh; infinite when its file or its stiffness map is wrong, which building the cloth
-// will report.
-double stableStepOfMesh(const ClothSettings& cloth) {
+// A mesh as it is built; none when its file or its stiffness map is wrong, which building the cloth will
+// report.
+struct PlacedMesh {
   std::shared_ptr<const MeshShape> shape;
   std::vector<Vec3d> points;
   MeshMechanics mechanics;
+};
+std::optional<PlacedMesh> placedMesh(const ClothSettings& cloth) {
   try {
-    shape = meshShapeOf(cloth.mesh);
-    points = placedPoints(*shape, cloth);
-    mechanics = mechanicsOf(*shape, points, cloth);
+    PlacedMesh mesh{.shape = meshShapeOf(cloth.mesh), .points = {}, .mechanics = {}};
+    mesh.points = placedPoints(*mesh.shape, cloth);
+    mesh.mechanics = mechanicsOf(*mesh.shape, mesh.points, cloth);
+    return mesh;
   } catch (const SceneError&) {
-    return std::numeric_limits<double>::infinity();
+    return std::nullopt;
   }
+}
+
+// Infinite without a mesh.
+double stableStepOfMesh(const ClothSettings& cloth) {
+  const std::optional<PlacedMesh> placed = placedMesh(cloth);
+  if (!placed) return std::numeric_limits<double>::infinity();
+  const auto& [shape, points, mechanics] = *placed;
   std::vector<double> sums(shape->points.size());  // of |K| in each block row
   for (std::size_t e = 0; e < shape->edges.size(); ++e) {
     const MeshShape::Edge& edge = shape->edges[e];
@@ -235,18 +246,22 @@ double largestEigenvalue(const GridSprings& k) {
   return betweenThem * largest;
 }
 
+// Of a particle inside a grid [kg].
+double gridMass(const ClothSettings& cloth, double dx, double dy) {
+  if (cloth.material) return cloth.material->density * dx * dy;
+  return cloth.mass.value_or(cloth.width * cloth.height * cloth.density) /
+         (static_cast<double>(cloth.numWidthPoints) * cloth.numHeightPoints);
+}
+
 }  // namespace
 
 double stableStep(const ClothSettings& cloth) {
   if (cloth.isMesh()) return stableStepOfMesh(cloth);
   const double dx = spacing(cloth.width, cloth.numWidthPoints),
                dy = spacing(cloth.height, cloth.numHeightPoints);
-  const double mass = cloth.material
-                          ? cloth.material->density * dx * dy
-                          : cloth.mass.value_or(cloth.width * cloth.height * cloth.density) /
-                                (static_cast<double>(cloth.numWidthPoints) * cloth.numHeightPoints);
   const double largest = largestEigenvalue(springsOf(cloth, dx, dy));
-  return largest > 0 ? 2 * std::sqrt(mass / largest) : std::numeric_limits<double>::infinity();
+  return largest > 0 ? 2 * std::sqrt(gridMass(cloth, dx, dy) / largest)
+                     : std::numeric_limits<double>::infinity();
 }
 
 double stableStep(const Scene& scene) {
@@ -268,6 +283,26 @@ bool buckles(const ClothSettings& cloth) {
          (cloth.isMesh() || std::max(cloth.width, cloth.height) > bucklingHeight(*cloth.material));
 }
 
+// Newton's method does not know how the air's force turns with the cloth: by pressure times the length of an
+// edge for a particle's way. Against its inertia that must be little.
+double longestPressedStep(const ClothSettings& cloth) {
+  double mass = 0, edge = 0;  // of a particle, the mean one of a mesh
+  if (!cloth.isMesh()) {
+    const double dx = spacing(cloth.width, cloth.numWidthPoints),
+                 dy = spacing(cloth.height, cloth.numHeightPoints);
+    mass = gridMass(cloth, dx, dy);
+    edge = std::max(dx, dy);
+  } else if (const std::optional<PlacedMesh> mesh = placedMesh(cloth)) {
+    for (const double each : mesh->mechanics.masses) mass += each;
+    for (const auto& each : mesh->shape->edges) edge += length(mesh->points[each.b] - mesh->points[each.a]);
+    mass /= static_cast<double>(mesh->points.size());
+    edge /= static_cast<double>(mesh->shape->edges.size());
+  }
+  const double turning = std::abs(cloth.pressure) * edge;
+  return turning > 0 ? std::sqrt(MOST_AIR_AGAINST_INERTIA * mass / turning)
+                     : std::numeric_limits<double>::infinity();
+}
+
 // Newton's method is slow where folds come and go. There, halving the step makes the motion more accurate
 // than doubling the Newton steps does. Friction between layers is Coulomb's within 2 % in steps of 1/240 s
 // that are solved well (SurfaceContact.RubsLayersOnEachOtherByCoulombsLaw); at the usual tolerance it is not,
@@ -276,8 +311,11 @@ double longestChosenStep(const Scene& scene) {
   const bool isSolved = isImplicit(scene.solver.integrator),
              touches = scene.solver.selfCollision == SelfCollision::contact,
              folds = isSolved && std::any_of(scene.cloths.begin(), scene.cloths.end(), buckles);
-  if (touches && (folds || scene.cloths.size() > 1)) return LONGEST_FOLDING_STEP;
-  return folds ? LONGEST_BUCKLING_STEP : LONGEST_CHOSEN_STEP;
+  double longest = folds ? LONGEST_BUCKLING_STEP : LONGEST_CHOSEN_STEP;
+  if (touches && (folds || scene.cloths.size() > 1)) longest = LONGEST_FOLDING_STEP;
+  if (isSolved)
+    for (const ClothSettings& cloth : scene.cloths) longest = std::min(longest, longestPressedStep(cloth));
+  return longest;
 }
 
 }  // namespace

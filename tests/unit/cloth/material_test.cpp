@@ -172,6 +172,25 @@ TEST(SimulationSteps, AreChosenWhenAuto) {
   EXPECT_EQ(scene.solver.simulationSteps, AutoCount(7));
 }
 
+// A cushion that fills with air would not be solved in the steps that its folds alone ask for.
+TEST(SimulationSteps, AreAsShortAsAPressureAsksFor) {
+  for (const char* cloth : {R"("width": 0.4, "height": 0.4, "num_width_points": 41, "num_height_points": 41)",
+                            R"("mesh": "assets/meshes/cushion.obj")"}) {
+    const auto steps = [&](double pressure, const char* integrator) {
+      return sceneOf(std::string(R"({"cloth": {)") + cloth + R"(, "material": "cotton", "pressure": )" +
+                     std::to_string(pressure) + R"(}, "solver": {"self_collision": false, "integrator": ")" +
+                     integrator + "\"}}")
+          .solver.simulationSteps.count;
+    };
+    const int without = steps(0, "implicit");
+    EXPECT_EQ(steps(0.1, "implicit"), without) << cloth;
+    EXPECT_GE(steps(60, "implicit"), 3 * without) << cloth;
+    EXPECT_EQ(steps(-60, "implicit"), steps(60, "implicit")) << "which side it is on does not matter";
+    EXPECT_NEAR(steps(960, "implicit"), 4 * steps(60, "implicit"), 3) << "as its square root";
+    EXPECT_EQ(steps(60, "verlet"), steps(0, "verlet")) << "explicit steps are as short as is stable";
+  }
+}
+
 TEST(CgIterations, GrowWithTheStepWhenAuto) {
   const auto iterations = [](int framesPerSec) {
     return sceneOf(R"({"cloth": {}, "solver": {"simulation_steps": 1, "frames_per_sec": )" +
