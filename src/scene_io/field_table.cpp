@@ -306,7 +306,8 @@ std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
           .within({.low = 1, .high = 100})
           .usually(1, 40),
       field("cg_iterations", &S::cgIterations,
-            "Most CG iterations per Newton iteration; auto: 20 to 60 by the step length.")
+            "Most CG iterations per Newton iteration; auto: 20 to 60 by the step length, 40 at least with "
+            "contact.")
           .within({.low = 1, .high = 10'000})
           .usually(1, 60),
       field("frames_per_sec", &S::framesPerSec,

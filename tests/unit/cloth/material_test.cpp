@@ -211,6 +211,17 @@ TEST(CgIterations, GrowWithTheStepWhenAuto) {
   EXPECT_EQ(scene.solver.cgIterations, AutoCount(60, true));
 }
 
+// What 20 iterations leave of the press of layers is noise that rubs.
+TEST(CgIterations, AreMoreInShortStepsWhereClothMayTouch) {
+  const auto iterations = [](const char* touches) {
+    return sceneOf(std::string(R"({"cloth": {"material": "silk"}, "solver": {"self_collision": )") + touches +
+                   "}}")
+        .solver.cgIterations.count;
+  };
+  EXPECT_EQ(iterations(R"("contact")"), 40);
+  EXPECT_LT(iterations("false"), 40);
+}
+
 TEST(ChangeResolution, LeavesAMaterialAndMultipliesItsSteps) {
   Scene scene =
       sceneOf(R"({"cloth": {"material": {"bend": 0}, "num_width_points": 11, "num_height_points": 11},

@@ -210,7 +210,7 @@ double lostSpeed(const Slide& slide) {
   scene.cloths[0].numWidthPoints = scene.cloths[0].numHeightPoints = 33;
   scene.cloths[0].pinned = {GridSide::left, GridSide::right, GridSide::top, GridSide::bottom};
   scene.cloths[0].position = {-0.1, 0.0002 - 1, -0.15};  // a horizontal sheet is made at height 1 m
-  scene.cloths[1].position = {0.003, 0.0009 - 1, 0.002};
+  scene.cloths[1].position = {0.003, 0.0009 - 1, 0.002 + 5 * 0.01875};  // nowhere over a border
   scene.cloths[1].rotation = {0, slide.degrees, 0};
   scene.cloths[0].material->damping = scene.cloths[1].material->damping = 0;
   const Cloth cloth(scene);
@@ -264,8 +264,8 @@ TEST(SurfaceContact, RubsLayersOnEachOtherByCoulombsLaw) {
                                          {{0.3, 7}, 0.02},
                                          {{0.3, 20}, 0.02},
                                          {{0.3, 7, 1}, 0.10},
-                                         {{0.3, 7, 4, 1e-2}, 0.20},
-                                         {{0.3, 20, 4, 1e-2}, 0.20}}) {
+                                         {{0.3, 7, 4, 1e-2}, 0.12},
+                                         {{0.3, 20, 4, 1e-2}, 0.12}}) {
     const double byCoulomb = slide.friction * 9.81 / 20;
     EXPECT_NEAR(lostSpeed(slide) / byCoulomb, 1, mostError)
         << slide.friction << ", " << slide.degrees << " degrees, " << slide.stepsAFrame
