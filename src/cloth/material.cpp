@@ -305,9 +305,7 @@ double longestPressedStep(const ClothSettings& cloth) {
 }
 
 // Newton's method is slow where folds come and go. There, halving the step makes the motion more accurate
-// than doubling the Newton steps does. Friction between layers is Coulomb's within 2 % in steps of 1/240 s
-// that are solved well (SurfaceContact.RubsLayersOnEachOtherByCoulombsLaw); at the usual tolerance it is not,
-// and twice as many steps do not change that (RowLayersThatRub).
+// than doubling the Newton steps does.
 double longestChosenStep(const Scene& scene) {
   const bool isSolved = isImplicit(scene.solver.integrator),
              touches = scene.solver.selfCollision == SelfCollision::contact,
