@@ -17,7 +17,7 @@ namespace {
 constexpr double LONGEST_CHOSEN_STEP = 1.0 / 60;     // [s],
 constexpr double LONGEST_BUCKLING_STEP = 1.0 / 120;  // of fabric that buckles, under an implicit integrator
 constexpr double LONGEST_FOLDING_STEP = 1.0 / 240;   // where cloth touches cloth: self_collision "contact"
-constexpr double MOST_AIR_AGAINST_INERTIA = 0.09;    // of cloth under pressure, in a step of an implicit one
+constexpr double MOST_AIR_AGAINST_INERTIA = 0.09;    // in an implicit step under pressure: h^2 p L / m
 constexpr double ITERATIONS_PER_SECOND = 4800, FEWEST_ITERATIONS = 20, MOST_ITERATIONS = 60;
 constexpr double FEWEST_CONTACT_ITERATIONS = 40;
 
@@ -166,7 +166,7 @@ std::optional<PlacedMesh> placedMesh(const ClothSettings& cloth) {
   }
 }
 
-// Infinite without a mesh.
+// Infinite when the mesh cannot be built.
 double stableStepOfMesh(const ClothSettings& cloth) {
   const std::optional<PlacedMesh> placed = placedMesh(cloth);
   if (!placed) return std::numeric_limits<double>::infinity();
@@ -287,6 +287,7 @@ bool buckles(const ClothSettings& cloth) {
 // Newton's method does not know how the air's force turns with the cloth: by pressure times the length of an
 // edge for a particle's way. Against its inertia that must be little.
 double longestPressedStep(const ClothSettings& cloth) {
+  if (cloth.pressure == 0) return std::numeric_limits<double>::infinity();
   double mass = 0, edge = 0;  // of a particle, the mean one of a mesh
   if (!cloth.isMesh()) {
     const double dx = spacing(cloth.width, cloth.numWidthPoints),
