@@ -83,7 +83,8 @@ using uint = std::uint32_t;
 
 // The coarsest level of connected cloth has at most so many vertices.
 #define COARSEST_VERTICES 25
-// What a pivot that counts is at least, of the entry it began as: below, binary32 holds no more of it.
+// What a pivot that counts is at least, of its scale (src/solver/cpu/rigid_block.h): below, binary32 holds no
+// more of it.
 #define LEAST_PIVOT 0x1p-20
 
 // The column of a row's last block: it joins the vertex of the row to all vertices of the level, moving as

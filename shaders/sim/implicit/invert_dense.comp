@@ -16,7 +16,7 @@ layout(binding = COARSE_BLOCKS_UNIT) uniform samplerBuffer coarseBlocks;
 layout(binding = COARSE_PAIRS_UNIT) uniform usamplerBuffer coarsePairs;
 layout(std430, binding = DENSE_BINDING) coherent buffer Dense { float dense[]; };
 
-shared float began[6 * COARSEST_VERTICES];
+shared float scales[6 * COARSEST_VERTICES];  // of pivots, beginning with the entries that they began as
 // 1024 lanes can keep the largest matrix in registers, each every SIDEth entry across and along.
 const uint SIDE = 32u, KEPT = (6u * COARSEST_VERTICES + SIDE - 1u) / SIDE;
 shared float column[SIDE * KEPT];
@@ -110,6 +110,12 @@ float sweptEntry(float entry, uint i, uint j, uint k, float inverse, float inRow
   return canonical(i != k && j != k ? updated : i == j ? -inverse : i == k ? other : swept);
 }
 
+// Those of the pivots that are still to come.
+void enlargeScales(uint order, uint k, float inverse, uint lane) {
+  for (uint i = lane; i < order; i += LANES)
+    if (i > k) scales[i] = scaleAfter(scales[i], column[i], inverse, scales[k]);
+}
+
 #if WORK_GROUP_COLUMNS == 1024
 void sweepOut(uint first, uint order, uint lane) {
   float kept[KEPT * KEPT];
@@ -125,7 +131,8 @@ void sweepOut(uint first, uint order, uint lane) {
       if (own.y + SIDE * q == k)
         for (uint r = 0u; r < KEPT; ++r) column[own.x + SIDE * r] = kept[KEPT * q + r];
     barrier();
-    float inverse = inversePivot(column[k], began[k]);
+    float inverse = inversePivot(column[k], scales[k]);
+    enlargeScales(order, k, inverse, lane);
     for (uint q = 0u; q < KEPT; ++q) {
       uint j = own.y + SIDE * q;
       precise float other = column[j] * inverse;
@@ -148,7 +155,8 @@ void sweepOut(uint first, uint order, uint lane) {
     barrier();
     for (uint i = lane; i < order; i += LANES) column[i] = dense[first + k * order + i];
     barrier();
-    float inverse = inversePivot(column[k], began[k]);
+    float inverse = inversePivot(column[k], scales[k]);
+    enlargeScales(order, k, inverse, lane);
     for (uint e = lane; e < order * order; e += LANES) {
       uint i = e % order, j = e / order;
       precise float other = column[j] * inverse;
@@ -182,7 +190,7 @@ void invert(DensePart part) {
   putAll(part, lane);
   memoryBarrierBuffer();
   barrier();
-  for (uint k = lane; k < order; k += LANES) began[k] = dense[first + k * order + k];
+  for (uint k = lane; k < order; k += LANES) scales[k] = dense[first + k * order + k];
   sweepOut(first, order, lane);
   barrier();
   moveWithAll(part, lane, 1u);

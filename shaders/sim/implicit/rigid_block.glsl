@@ -103,10 +103,18 @@ RigidBlock loadBlock(samplerBuffer stored, uint number) {
   return block;
 }
 
-// The reciprocal of a pivot; 0 where rounding has left less of it than a part of the entry it began as, or where nothing is:
-// that unknown stays 0.
-float inversePivot(float pivot, float began) {
-  precise float least = uintBitsToFloat(0x35800000u) * began;  // LEAST_PIVOT
-  bool isSafe = began > uintBitsToFloat(0x21800000u) && pivot >= least;  // 2^-60
+// The reciprocal of a pivot; 0 where less of it is left than a part of its scale, which may be rounding alone, or where nothing
+// is: that unknown stays 0.
+float inversePivot(float pivot, float scale) {
+  precise float least = uintBitsToFloat(0x35800000u) * scale;  // LEAST_PIVOT
+  bool isSafe = scale > uintBitsToFloat(0x21800000u) && pivot >= least;  // 2^-60
   return isSafe ? reciprocal(pivot) : 0.0;
+}
+
+// The scale of a pivot is what its rounding is in proportion to: the entry that it began as, and what other pivots took from it,
+// times how much larger their scales are than they. `entry` joins it to the pivot that is swept out.
+float scaleAfter(float scale, float entry, float inverse, float sweptScale) {
+  precise float enlarged = inverse * sweptScale;
+  precise float result = scale + ((entry * inverse) * entry) * enlarged;
+  return result;
 }

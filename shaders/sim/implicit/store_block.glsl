@@ -5,11 +5,14 @@ layout(std430, binding = COARSE_INVERSES_BINDING) writeonly buffer CoarseInverse
 // Minus the inverse of a symmetric matrix, column by column, in place: every pivot in turn is swept out (Goodnight 1979, "A
 // tutorial on the SWEEP operator").
 void sweepOut(inout float matrix[36]) {
-  float began[6], column[6];
-  for (int k = 0; k < 6; ++k) began[k] = matrix[7 * k];
+  float scales[6], column[6];
+  for (int k = 0; k < 6; ++k) scales[k] = matrix[7 * k];
   for (int k = 0; k < 6; ++k) {
-    float inverse = inversePivot(matrix[7 * k], began[k]);
-    for (int i = 0; i < 6; ++i) column[i] = matrix[6 * k + i];
+    float inverse = inversePivot(matrix[7 * k], scales[k]), scale = scales[k];
+    for (int i = 0; i < 6; ++i) {
+      column[i] = matrix[6 * k + i];
+      scales[i] = scaleAfter(scales[i], column[i], inverse, scale);
+    }
     for (int j = 0; j < 6; ++j) {
       precise float other = column[j] * inverse;
       for (int i = 0; i < 6; ++i) {

@@ -88,14 +88,14 @@ INLINE RigidBlock<Real> sumBlocks(const ImplicitState<Real>& own,
 template <class Real>
 INLINE void coarsenRows(ImplicitState<Real>& own, bool isFirstLevel, std::uint32_t first, std::uint32_t end) {
   const Hierarchy<Real>& hierarchy = own.hierarchy;
-  std::array<Real, 6> began, column;
+  std::array<Real, 6> scales, column;
   for (std::uint32_t row = first; row < end; ++row) {
     const std::uint32_t diagonal = hierarchy.blockStarts[row];
     for (std::uint32_t n = diagonal; n < (isFirstLevel ? diagonal : hierarchy.blockStarts[row + 1]); ++n)
       own.coarseBlocks[n] = canonical(sumBlocks(own, hierarchy.blocks[n]));
     SixColumns<Real> inverse = columnsOf(own.coarseBlocks[diagonal]);
     sweepOut(
-        6, began.data(),
+        6, scales.data(),
         column.data(), [&](std::size_t j) __attribute__((always_inline)) { return inverse[j].data(); });
     own.coarseInverses[row] = blockOf(inverse);
   }
@@ -183,9 +183,9 @@ INLINE void invertPart(ImplicitState<Real>& own, const DensePart& part) {
     }
   }
   put(whole, all, all);
-  std::vector<Real> began(order), column(order);
+  std::array<Real, 6 * COARSEST_VERTICES> scales, column;
   sweepOut(
-      order, began.data(),
+      order, scales.data(),
       column.data(), [=](std::size_t j) __attribute__((always_inline)) { return matrix + j * order; });
   // Rows, then columns: a vertex moves with all, t + r x offset, besides on its own.
   for (const std::size_t stride : {std::size_t{1}, order}) {

@@ -133,12 +133,12 @@ INLINE RigidVector<Real> operator*(const RigidBlock<Real>& a, const RigidVector<
           product(a.rt, translation) + product(a.rr, rotation)};
 }
 
-// The reciprocal of a pivot; 0 where rounding has left less of it than a part of the entry it began as, or
-// where nothing is: that unknown stays 0.
+// The reciprocal of a pivot; 0 where less of it is left than a part of its scale, which may be rounding
+// alone, or where nothing is: that unknown stays 0.
 template <class Real>
-INLINE Real inversePivot(Real pivot, Real began) {
-  const Real least = static_cast<Real>(LEAST_PIVOT) * began;
-  const bool isSafe = began > static_cast<Real>(0x1p-60) && pivot >= least;
+INLINE Real inversePivot(Real pivot, Real scale) {
+  const Real least = static_cast<Real>(LEAST_PIVOT) * scale;
+  const bool isSafe = scale > static_cast<Real>(0x1p-60) && pivot >= least;
   return isSafe ? reciprocal(pivot) : Real(0);
 }
 
@@ -171,14 +171,19 @@ INLINE RigidBlock<Real> blockOf(const SixColumns<Real>& columns) {
 }
 
 // Minus the inverse of a symmetric matrix of order n, in place: its columns are at columnAt(0), columnAt(1)
-// and so on. Every pivot in turn is swept out (Goodnight 1979, "A tutorial on the SWEEP operator"). `began`
-// and `pivots` are scratch.
+// and so on. Every pivot in turn is swept out (Goodnight 1979, "A tutorial on the SWEEP operator"). The scale
+// of a pivot is what its rounding is in proportion to: the entry that it began as, and what other pivots took
+// from it, times how much larger their scales are than they. `scales` and `pivots` are scratch.
 template <class Real, class ColumnAt>
-INLINE void sweepOut(std::size_t n, Real* began, Real* pivots, ColumnAt columnAt) {
-  for (std::size_t k = 0; k < n; ++k) began[k] = columnAt(k)[k];
+INLINE void sweepOut(std::size_t n, Real* scales, Real* pivots, ColumnAt columnAt) {
+  for (std::size_t k = 0; k < n; ++k) scales[k] = columnAt(k)[k];
   for (std::size_t k = 0; k < n; ++k) {
-    const Real inverse = inversePivot(columnAt(k)[k], began[k]);
+    const Real inverse = inversePivot(columnAt(k)[k], scales[k]);
+    const Real enlarged = inverse * scales[k];
     std::copy_n(columnAt(k), n, pivots);
+#pragma GCC ivdep
+    for (std::size_t i = 0; i < n; ++i)
+      scales[i] = scales[i] + ((pivots[i] * inverse) * pivots[i]) * enlarged;
     for (std::size_t j = 0; j < n; ++j) {
       Real* column = columnAt(j);
       const Real swept = pivots[j] * inverse;
