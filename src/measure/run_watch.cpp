@@ -72,11 +72,16 @@ Warning contactWarning(const ContactFailure& failure, const Scene& scene) {
                 " of a side and a triangle): contact keeps it so; begin with the layers apart"};
   }
   Warning warning{"contact", failure.frame, "", ""};
-  const bool averaged = scene.solver.selfCollision == SelfCollision::averaged;
+  const bool averaged = scene.solver.selfCollision == SelfCollision::averaged,
+             isSolved =
+                 isImplicit(scene.solver.integrator) && scene.solver.selfCollision != SelfCollision::contact;
+  const std::string better = isSolved ? "self_collision=contact" : averaged ? "self_collision=robust" : "";
   warning.brief = "lost in frame " + std::to_string(failure.frame) + ": " +
-                  (averaged ? "set self_collision=robust" : "raise simulation_steps");
+                  (better.empty() ? "raise simulation_steps" : "set " + better);
   const std::string advice =
-      averaged ? "set solver.self_collision=robust, which keeps layers apart" : stepsAdvice(scene);
+      better.empty() ? stepsAdvice(scene)
+                     : "set solver." + better +
+                           (isSolved ? ", which implicit steps solve for" : ", which keeps layers apart");
   if (failure.condition == ContactFailure::Condition::fastStep)
     warning.text =
         "contact is not certain: a particle moved farther in a step than the search for contacts reaches; " +

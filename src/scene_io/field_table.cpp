@@ -315,9 +315,10 @@ std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
           .in("1/s")
           .within(positive)
           .usually(15, 240),
-      field("simulation_steps", &S::simulationSteps,
-            "Steps in a frame; auto: as few as are stable, 1/120 to 1/240 s where fabric folds, less under "
-            "pressure.")
+      field(
+          "simulation_steps", &S::simulationSteps,
+          "Steps in a frame; auto: as few as are stable, 1/120 to 1/240 s for folds, less if stiff or under "
+          "pressure.")
           .within({.low = 1, .high = mostSteps})
           .usually(1, 200)
           .byDefault("30; in scenes with a material \"auto\""),

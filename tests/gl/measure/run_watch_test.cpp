@@ -145,6 +145,15 @@ TEST_F(DoubtfulRun, NamesTheConditionOfContactThatFailed) {
   EXPECT_TRUE(std::any_of(result["warnings"].begin(), result["warnings"].end(), named)) << result["warnings"];
 }
 
+TEST_F(DoubtfulRun, SaysThatImplicitStepsKnowABetterContact) {
+  const std::string implicitly = scene_ + "--set solver.integrator=implicit --set solver.simulation_steps=1 ";
+  const std::string advice = "set solver.self_collision=contact, which implicit steps solve for";
+  const CommandResult after = clothsim("run " + implicitly),
+                      inside = clothsim("run " + implicitly + "--set solver.self_collision=contact");
+  EXPECT_NE(after.output.find(advice), std::string::npos) << after.output;
+  EXPECT_EQ(inside.output.find(advice), std::string::npos) << inside.output;
+}
+
 TEST(SoundRun, HasNoWarningsAndPassesUnderStrict) {
   const CommandResult run = test::runCommand(
       CLOTHSIM_PROGRAM

@@ -101,6 +101,18 @@ TEST(Material, TakesStepsOfASixtiethWhereItIsTooStiffToBuckle) {
   EXPECT_EQ(stepsOf(0.99 * density * 9.81 / 7.8373), 4) << "its folds may touch";
 }
 
+TEST(Material, TakesShorterStepsWhereSoundInItIsFast) {
+  for (const std::string& fabric : materialPresetNames()) {
+    Scene scene = sceneOf(R"({"cloth": {"material": "silk"}, "solver": {"frames_per_sec": 60}})");
+    scene.cloths[0].material = materialPreset(fabric);
+    chooseCounts(scene);
+    EXPECT_EQ(scene.solver.simulationSteps.count, fabric == "paper" ? 8 : 4) << fabric;
+    scene.solver.selfCollision = SelfCollision::off;
+    chooseCounts(scene);
+    EXPECT_EQ(scene.solver.simulationSteps.count, 2) << fabric;
+  }
+}
+
 TEST(Material, ReplacesKsWhenItIsSet) {
   Scene scene = sceneOf(R"({"cloth": {"ks": 900, "damping": 1, "thickness": 0.02}})");
   setSceneValue(scene, "cloth.material=denim");
