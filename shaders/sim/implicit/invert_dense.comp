@@ -16,7 +16,7 @@ layout(binding = COARSE_BLOCKS_UNIT) uniform samplerBuffer coarseBlocks;
 layout(binding = COARSE_PAIRS_UNIT) uniform usamplerBuffer coarsePairs;
 layout(std430, binding = DENSE_BINDING) coherent buffer Dense { float dense[]; };
 
-shared float scales[6 * COARSEST_VERTICES];  // of pivots, beginning with the entries that they began as
+shared float scales[6 * COARSEST_VERTICES];  // of pivots, at first the entries that they begin as
 // 1024 lanes can keep the largest matrix in registers, each every SIDEth entry across and along.
 const uint SIDE = 32u, KEPT = (6u * COARSEST_VERTICES + SIDE - 1u) / SIDE;
 shared float column[SIDE * KEPT];

@@ -111,8 +111,8 @@ float inversePivot(float pivot, float scale) {
   return isSafe ? reciprocal(pivot) : 0.0;
 }
 
-// The scale of a pivot is what its rounding is in proportion to: the entry that it began as, and what other pivots took from it,
-// times how much larger their scales are than they. `entry` joins it to the pivot that is swept out.
+// The scale of a pivot, to which its rounding is in proportion: the entry that it began as, plus what each pivot swept out before
+// took from it, times the ratio of that pivot's scale to that pivot. `entry` joins it to the pivot that is swept out.
 float scaleAfter(float scale, float entry, float inverse, float sweptScale) {
   precise float enlarged = inverse * sweptScale;
   precise float result = scale + ((entry * inverse) * entry) * enlarged;

@@ -172,8 +172,9 @@ INLINE RigidBlock<Real> blockOf(const SixColumns<Real>& columns) {
 
 // Minus the inverse of a symmetric matrix of order n, in place: its columns are at columnAt(0), columnAt(1)
 // and so on. Every pivot in turn is swept out (Goodnight 1979, "A tutorial on the SWEEP operator"). The scale
-// of a pivot is what its rounding is in proportion to: the entry that it began as, and what other pivots took
-// from it, times how much larger their scales are than they. `scales` and `pivots` are scratch.
+// of a pivot, to which its rounding is in proportion, is the entry that it began as, plus what each pivot
+// swept out before took from it, times the ratio of that pivot's scale to that pivot. `scales` and `pivots`
+// are scratch.
 template <class Real, class ColumnAt>
 INLINE void sweepOut(std::size_t n, Real* scales, Real* pivots, ColumnAt columnAt) {
   for (std::size_t k = 0; k < n; ++k) scales[k] = columnAt(k)[k];
