@@ -332,9 +332,10 @@ TEST_F(PanelsUi, ChangeAtAClickOpenScenesByTheirPicturesAndAreRememberedInTheUse
     EXPECT_TRUE(settingsSay(viewer, "\"panel\": \"" + std::string(panelNames[panel]) + "\""))
         << viewer.settings();
   }
-  EXPECT_TRUE(test::eventually(seconds(40), [&] {  // of a bundled scene the picture, in the second row
+  const std::string fourth = bundledScenes().at(3).name;  // by name, two pictures a row
+  EXPECT_TRUE(test::eventually(seconds(40), [&] {
     viewer.perform("at 0.922 0.633 sleep 0.3 click 1 sleep 1");
-    return viewer.title().find("cs171 - cpu") == 0;
+    return viewer.title().find(fourth + " - cpu") == 0;
   })) << viewer.title();
   viewer.press("ctrl+equal");
   EXPECT_TRUE(settingsSay(viewer, "\"text_size\": 1.125")) << viewer.settings();
