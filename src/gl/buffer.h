@@ -1,6 +1,7 @@
 // A typed, immutable-size buffer object, by direct state access; move-only.
 #pragma once
 
+#include <bit>
 #include <cassert>
 #include <cstddef>
 #include <span>
@@ -17,6 +18,14 @@ namespace clothsim::gl {
 // Where bits are compared, new buffers hold this in every word, as they may where memory was used before: no
 // number (0xffffffff), or one like any other. 0: what the driver leaves there.
 inline GLuint uninitialisedWord = 0;
+
+// How much is allocated for so many bytes. llvmpipe compiles a kernel once more for a buffer texture whose
+// length, unlike that of the one before, is a power of two, or is 0 in bits 8 to 15. No buffer's length is
+// either.
+constexpr std::size_t allocatedBytes(std::size_t bytes) {
+  if ((bytes >> 8 & 0xff) == 0) bytes += 256;
+  return std::has_single_bit(bytes) ? bytes + 16 : bytes;
+}
 
 template <class T>
 class Buffer {
@@ -62,7 +71,7 @@ class Buffer {
   }
   void bindStorage(GLuint binding) const {
     if (KeptBindings::changes(KeptBindings::Kind::storage, binding, {name_}))
-      glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, name_);
+      glBindBufferRange(GL_SHADER_STORAGE_BUFFER, binding, name_, 0, static_cast<GLsizeiptr>(usedBytes()));
   }
   // Binds it as the source of glDispatchComputeIndirect.
   void bindDispatches() const {
@@ -86,12 +95,15 @@ class Buffer {
   void make(const std::string& label, std::size_t size, const T* data) {
     glCreateBuffers(1, &name_);
     size_ = size;
-    const GLsizeiptr allocated = static_cast<GLsizeiptr>((size > 0 ? size : 1) * sizeof(T));
-    glNamedBufferStorage(name_, allocated, size > 0 ? data : nullptr, GL_DYNAMIC_STORAGE_BIT);
-    if (uninitialisedWord != 0 && data == nullptr && allocated % GLsizeiptr{sizeof uninitialisedWord} == 0)
+    glNamedBufferStorage(name_, static_cast<GLsizeiptr>(allocatedBytes(usedBytes())), nullptr,
+                         GL_DYNAMIC_STORAGE_BIT);
+    if (data != nullptr && size > 0)
+      glNamedBufferSubData(name_, 0, static_cast<GLsizeiptr>(bytes()), data);
+    else if (uninitialisedWord != 0 && usedBytes() % sizeof uninitialisedWord == 0)
       glClearNamedBufferData(name_, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &uninitialisedWord);
     glObjectLabel(GL_BUFFER, name_, static_cast<GLsizei>(label.size()), label.c_str());
   }
+  [[nodiscard]] std::size_t usedBytes() const { return (size_ > 0 ? size_ : 1) * sizeof(T); }
   void bindRange(GLenum target, GLuint binding, std::size_t first, std::size_t count) const {
     const auto kind =
         target == GL_UNIFORM_BUFFER ? KeptBindings::Kind::uniforms : KeptBindings::Kind::storage;

@@ -3,6 +3,7 @@
 // as fast there.)
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <utility>
 
@@ -20,6 +21,11 @@ class BufferTexture {
     glCreateTextures(GL_TEXTURE_BUFFER, 1, &name_);
     glTextureBuffer(name_, format, buffer);
     glObjectLabel(GL_TEXTURE, name_, static_cast<GLsizei>(label.size()), label.c_str());
+  }
+  // Of the first `bytes` alone, for shaders that ask for its size: buffers are longer than what they hold.
+  BufferTexture(const std::string& label, GLuint buffer, GLenum format, std::size_t bytes)
+      : BufferTexture(label, buffer, format) {
+    glTextureBufferRange(name_, format, buffer, 0, static_cast<GLsizeiptr>(bytes));
   }
   ~BufferTexture() {
     if (name_ != 0) glDeleteTextures(1, &name_);
