@@ -19,13 +19,14 @@ namespace clothsim::gl {
 // number (0xffffffff), or one like any other. 0: what the driver leaves there.
 inline GLuint uninitialisedWord = 0;
 
-// How much is allocated for so many bytes. llvmpipe compiles a kernel once more for a buffer texture whose
-// length, unlike that of the one before, is a power of two, or is 0 in bits 8 to 15. No buffer's length is
-// either.
+// The length of a buffer that holds so many bytes: never a power of two, and never 0 in bits 8 to 15.
+// llvmpipe compiles a kernel again when one of its buffer textures becomes or ceases to be either.
 constexpr std::size_t allocatedBytes(std::size_t bytes) {
   if ((bytes >> 8 & 0xff) == 0) bytes += 256;
   return std::has_single_bit(bytes) ? bytes + 16 : bytes;
 }
+static_assert(allocatedBytes(32) == 288 && allocatedBytes(256) == 272 && allocatedBytes(300) == 300 &&
+              allocatedBytes(65536) == 65792);
 
 template <class T>
 class Buffer {

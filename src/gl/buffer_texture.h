@@ -22,11 +22,6 @@ class BufferTexture {
     glTextureBuffer(name_, format, buffer);
     glObjectLabel(GL_TEXTURE, name_, static_cast<GLsizei>(label.size()), label.c_str());
   }
-  // Of the first `bytes` alone, for shaders that ask for its size: buffers are longer than what they hold.
-  BufferTexture(const std::string& label, GLuint buffer, GLenum format, std::size_t bytes)
-      : BufferTexture(label, buffer, format) {
-    glTextureBufferRange(name_, format, buffer, 0, static_cast<GLsizeiptr>(bytes));
-  }
   ~BufferTexture() {
     if (name_ != 0) glDeleteTextures(1, &name_);
   }
@@ -38,6 +33,10 @@ class BufferTexture {
 
   // Shows that buffer from now on.
   void attach(GLuint buffer, GLenum format) const { glTextureBuffer(name_, format, buffer); }
+  // Its first `bytes` alone, for shaders that ask for textureSize(): a buffer is longer than its elements.
+  void attach(GLuint buffer, GLenum format, std::size_t bytes) const {
+    glTextureBufferRange(name_, format, buffer, 0, static_cast<GLsizeiptr>(bytes));
+  }
 
   void bind(GLuint unit) const {
     if (KeptBindings::changes(KeptBindings::Kind::texture, unit, {name_})) glBindTextureUnit(unit, name_);

@@ -55,9 +55,8 @@ GpuLevels::GpuLevels(const Hierarchy<float>& hierarchy, std::uint32_t verticesAl
   }
   levelSlots_ = gl::Buffer<LevelSlot>("levels", std::span<const LevelSlot>(levels));
   rowSlots_ = gl::Buffer<RowSlot>("levels in a row", std::span<const RowSlot>(rows));
-  parts_.buffer = gl::Buffer<DensePart>("parts of the coarsest levels", std::span<const DensePart>(parts));
-  parts_.texture = gl::BufferTexture("parts of the coarsest levels", parts_.buffer.name(), GL_RGBA32UI,
-                                     parts.size() * sizeof(DensePart));  // its size is how many there are
+  parts_ = texels("parts of the coarsest levels", parts, GL_RGBA32UI);
+  parts_.texture.attach(parts_.buffer.name(), GL_RGBA32UI, parts_.buffer.bytes());  // shaders ask how many
   prolongationStarts_ = texels("starts of prolongation", hierarchy.prolongationStarts, GL_R32UI);
   prolongation_ = texels("prolongation", hierarchy.prolongation, GL_RG32UI);
   restrictionStarts_ = texels("starts of restriction", hierarchy.restrictionStarts, GL_R32UI);
