@@ -61,6 +61,18 @@ py::capsule keeperOf(std::shared_ptr<const void> memory) {
           [](void* pointer) { delete static_cast<std::shared_ptr<const void>*>(pointer); }};
 }
 
+// In C's order. Its strides are given, since Debian's pybind11 reads the size of an element where NumPy 2 has
+// it no longer.
+template <class T>
+py::array_t<T> denseArray(std::size_t rows, std::vector<py::ssize_t> shapeOfRow = {},
+                          const T* values = nullptr, py::handle keeper = {}) {
+  std::vector<py::ssize_t> shape{static_cast<py::ssize_t>(rows)}, strides;
+  shape.insert(shape.end(), shapeOfRow.begin(), shapeOfRow.end());
+  strides.resize(shape.size(), sizeof(T));
+  for (std::size_t i = shape.size() - 1; i > 0; --i) strides[i - 1] = strides[i] * shape[i];
+  return {shape, strides, values, keeper};
+}
+
 py::array readOnly(py::array array) {
   array.attr("setflags")(py::arg("write") = false);
   return array;
@@ -74,7 +86,7 @@ py::array viewOf(PythonSimulation& simulation, const Components<float>& values) 
 }
 
 py::array copyOf(const std::vector<Particle4>& particles) {
-  py::array_t<float> array({static_cast<py::ssize_t>(particles.size()), py::ssize_t{3}});
+  auto array = denseArray<float>(particles.size(), {3});
   auto values = array.mutable_unchecked<2>();
   for (std::size_t i = 0; i < particles.size(); ++i) {
     const auto row = static_cast<py::ssize_t>(i);
@@ -97,19 +109,17 @@ py::array velocitiesOf(PythonSimulation& simulation) {
 py::array inverseMassesOf(PythonSimulation& simulation) {
   if (const auto* memory = simulation.memory()) {
     const std::vector<float>& masses = memory->inverseMasses();
-    return readOnly(py::array_t<float>(static_cast<py::ssize_t>(masses.size()), masses.data(),
-                                       keeperOf(simulation.shareMemory())));
+    return readOnly(denseArray(masses.size(), {}, masses.data(), keeperOf(simulation.shareMemory())));
   }
   const std::vector<Particle4> particles = simulation.state().positions;
-  py::array_t<float> array(static_cast<py::ssize_t>(particles.size()));
+  auto array = denseArray<float>(particles.size());
   for (std::size_t i = 0; i < particles.size(); ++i) array.mutable_data()[i] = particles[i].w;
   return readOnly(array);
 }
 
 py::array facesOf(const py::object& self) {
   const auto& faces = self.cast<PythonSimulation&>().faces();
-  return readOnly(py::array_t<std::uint32_t>({static_cast<py::ssize_t>(faces.size()), py::ssize_t{3}},
-                                             reinterpret_cast<const std::uint32_t*>(faces.data()), self));
+  return readOnly(denseArray(faces.size(), {3}, reinterpret_cast<const std::uint32_t*>(faces.data()), self));
 }
 
 std::size_t particlesOf(const PythonSimulation& simulation) {
@@ -155,7 +165,7 @@ void setForces(PythonSimulation& simulation, const std::optional<Floats>& rows) 
 
 py::array_t<bool> pinsOf(PythonSimulation& simulation) {
   const State state = simulation.state();
-  py::array_t<bool> pins(static_cast<py::ssize_t>(state.positions.size()));
+  auto pins = denseArray<bool>(state.positions.size());
   for (std::size_t i = 0; i < state.positions.size(); ++i) pins.mutable_data()[i] = state.positions[i].w == 0;
   return pins;
 }
@@ -174,7 +184,7 @@ py::dict measuresOf(PythonSimulation& simulation) {
 py::dict dictOf(const Trace& trace) {
   py::dict columns;
   for (std::size_t column = 0; column < Trace::columns.size(); ++column) {
-    py::array_t<double> values(static_cast<py::ssize_t>(trace.rows().size()));
+    auto values = denseArray<double>(trace.rows().size());
     for (std::size_t row = 0; row < trace.rows().size(); ++row)
       values.mutable_data()[row] = trace.rows()[row][column];
     columns[Trace::columns[column]] = values;
@@ -186,8 +196,7 @@ py::array_t<std::uint8_t> render(PythonSimulation& simulation, int width, int he
                                  const std::tuple<double, double, double>& view, int exposures) {
   const auto [right, up, zoom] = view;
   const Image image = simulation.picture({width, height, right, up, zoom, exposures});
-  return py::array_t<std::uint8_t>({py::ssize_t{image.height}, py::ssize_t{image.width}, py::ssize_t{3}},
-                                   image.rgb.data());
+  return denseArray(static_cast<std::size_t>(image.height), {image.width, 3}, image.rgb.data());
 }
 
 py::list colliderPositionsOf(const PythonSimulation& simulation) {

@@ -1,6 +1,8 @@
 // The scenes that the two backends are compared on: each pass of a step takes part in one of them.
 #pragma once
 
+#include <set>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -360,6 +362,29 @@ inline std::vector<NamedScene> comparedScenes(int n) {
           {"two cloths with pin motion", twoClothsWithPinMotion(withLimiter(vertical(sheetScene(n))))}};
 }
 
+// Those of them in which most comes together, for what has shaders of its own: llvmpipe takes longer to
+// compile than to run them.
+inline std::vector<NamedScene> fullestScenes(int n) {
+  const std::set<std::string> names{"shapes, coulomb",
+                                    "meshes in long steps, coulomb",
+                                    "bodies",
+                                    "stiffness reference",
+                                    "material with everything",
+                                    "garment",
+                                    "thick averaged self-collision",
+                                    "pins that move through other cloth",
+                                    "seams and robust self-collision",
+                                    "mesh with everything",
+                                    "mesh of a material with attractors",
+                                    "everything with pin motion",
+                                    "two cloths with pin motion"};
+  std::vector<NamedScene> scenes = comparedScenes(n);
+  std::erase_if(scenes, [&](const NamedScene& scene) { return !names.contains(scene.name); });
+  if (scenes.size() != names.size())
+    throw std::logic_error("fullestScenes() names a scene that is not compared");
+  return scenes;
+}
+
 // The same for implicit steps. They cost dozens of explicit ones, and what is fused or not is no question to
 // them.
 inline std::vector<NamedScene> implicitScenes(int n) {
@@ -370,9 +395,8 @@ inline std::vector<NamedScene> implicitScenes(int n) {
       {"implicit, bodies", implicitly(withCoulomb(withBodies(materialScene(n))))},
       {"implicit, robust self-collision and pin motion",
        implicitly(withPinMotion(layeredSheets(n, SelfCollision::robust)))},
-      {"implicit, two cloths with a rest length table",
-       implicitly(twoCloths(withLimiter(withWind(vertical(sheetScene(n))))))},
-      {"implicit, seams", implicitly(withSeams(twoCloths(withLimiter(withWind(vertical(sheetScene(n)))))))},
+      {"implicit, seams and a rest length table",
+       implicitly(withSeams(twoCloths(withLimiter(withWind(vertical(sheetScene(n)))))))},
       {"bdf2, seams of a material",
        inSecondOrder(withSeams(twoCloths(withAttractors(vertical(materialScene(n))))))},
       {"implicit, a mesh with everything", implicitly(meshWithEverything(n / 2, SelfCollision::averaged))},

@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "gl/bindings.h"
+#include "solver/tearing.h"
 
 namespace clothsim {
 namespace {
@@ -103,13 +104,7 @@ void GpuExecutor::setSurface(const StepInputs& inputs) {
 }
 
 void GpuExecutor::setCuts(const StepInputs& inputs) {
-  if (!inputs.cutMasks.empty()) {
-    if (cutMasks_.size() != inputs.cutMasks.size()) {
-      cutMasks_ = gl::Buffer<std::uint32_t>("cut masks", inputs.cutMasks.size());
-      cutMaskTexture_ = gl::BufferTexture("cut masks", cutMasks_.name(), GL_R32UI);
-    }
-    cutMasks_.upload(inputs.cutMasks);
-  }
+  cutMasks_ = {};  // made by prepare()
   if (cloth_->hasMesh()) lists_ = GpuMeshLists(*cloth_, inputs.cuts);
   arrays_.forgetHistory();
   levels_ = {};  // made anew when an implicit step needs them: no weight crosses a cut
@@ -127,6 +122,12 @@ void GpuExecutor::prepare(const StepInputs& inputs, const PassList& list) {
                         !inputs.scene->colliders.empty(), list.contains(Pass::remember));
     if (flags_.elements().empty())
       flags_ = gl::MappedBuffer<ImplicitScalars<float>>("flags of implicit steps", 1);
+  }
+  if (mayBeCut(*inputs.scene, inputs.cuts) && cutMasks_.size() == 0) {
+    const std::vector<std::uint32_t> none(inputs.cuts.empty() ? cloth_->particleCount() : 0);
+    cutMasks_ =
+        gl::Buffer<std::uint32_t>("cut masks", std::span(inputs.cuts.empty() ? none : inputs.cutMasks));
+    cutMaskTexture_ = gl::BufferTexture("cut masks", cutMasks_.name(), GL_R32UI);
   }
   if (list.contains(Pass::limit) || list.contains(Pass::resolveContacts))
     arrays_.addSpare(Array::newPositions);
@@ -167,7 +168,7 @@ void GpuExecutor::run(const StepInputs& inputs, const PassList& list, int steps)
   restLengthTexture_.bind(REST_LENGTHS_UNIT);
   distanceTexture_.bind(DISTANCES_UNIT);
   lists_.bind();
-  if (!inputs.cuts.empty()) cutMaskTexture_.bind(CUT_MASKS_UNIT);
+  if (cutMasks_.size() > 0) cutMaskTexture_.bind(CUT_MASKS_UNIT);
   levels_.bind();
   surfaceContact_.bindTextures();
   watch_.bind(inputs.clock.step);

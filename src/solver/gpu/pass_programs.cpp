@@ -7,6 +7,7 @@
 #include "shared/shapes.h"
 #include "solver/step_params.h"
 #include "solver/surface.h"
+#include "solver/tearing.h"
 
 namespace clothsim {
 
@@ -18,7 +19,7 @@ PassFeatures featuresOf(const Scene& scene, const Cloth& cloth, std::size_t piec
   features.jet = interaction.jet.has_value();
   features.grab = interaction.grab && interaction.grab->piece == pieceIndex;
   features.externalForces = interaction.externalForces != nullptr;
-  features.cuts = !cuts.empty();
+  features.cuts = mayBeCut(scene, cuts);  // no kernel is compiled in the frame in which cloth tears
   features.particleForces = particleForcesOf(scene);
   for (const Collider& collider : scene.colliders) {
     features.colliderTypes |= 1u << collider.index();

@@ -8,6 +8,7 @@
 
 #include "shared/step_params.h"
 #include "solver/gpu/pass_programs.h"
+#include "solver/tearing.h"
 
 namespace clothsim {
 namespace {
@@ -45,6 +46,7 @@ void GpuSelfCollision::configure(const Scene& scene) {
   mode_ = collidesWithItself(scene, *cloth_) ? scene.solver.selfCollision : SelfCollision::off;
   if (!isOn()) return;
   hasNearCodes_ = hasNearCodes(scene, *cloth_);
+  canTear_ = canTear(scene);
   choosePrograms();
   SelfParams<float> params = makeSelfParams<float>(scene, *cloth_);
   for (const Piece& piece : cloth_->pieces()) params.gridGroups += gridGroups(piece).count();
@@ -57,8 +59,9 @@ void GpuSelfCollision::configure(const Scene& scene) {
 // Cuts make neighbours non-adjacent particles, whose distance is that at rest. Passes that look at no pair
 // are the same for all of it.
 void GpuSelfCollision::choosePrograms() {
+  const bool cut = isCut_ || canTear_;
   const Variant any, mode{.robust = isRobust()},
-      pairs{isRobust(), hasNearCodes_ || cut_, cut_, cloth_->hasMesh(), !cloth_->seams().empty()};
+      pairs{isRobust(), hasNearCodes_ || cut, cut, cloth_->hasMesh(), !cloth_->seams().empty()};
   now_.check = program("check", mode);
   now_.count = program("count", any);
   now_.scanBuckets = program("scan_buckets", any);
@@ -72,7 +75,7 @@ void GpuSelfCollision::choosePrograms() {
 
 void GpuSelfCollision::setCut(bool cut) {
   restart();
-  if (std::exchange(cut_, cut) != cut && isOn()) choosePrograms();
+  if (std::exchange(isCut_, cut) != cut && isOn()) choosePrograms();
 }
 
 void GpuSelfCollision::allocate(const SelfParams<float>& params) {

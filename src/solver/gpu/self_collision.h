@@ -77,7 +77,7 @@ class GpuSelfCollision {
   const Cloth* cloth_;
   int groupColumns_, groupRows_;
   SelfCollision mode_ = SelfCollision::off;
-  bool hasNearCodes_ = false, cut_ = false;
+  bool hasNearCodes_ = false, isCut_ = false, canTear_ = false;
   std::map<std::pair<std::string, Variant>, gl::Program> programs_;  // all that were ever needed,
   Programs now_;                                                     // those in use
 

@@ -17,7 +17,7 @@ namespace {
 using GlCallsTest = GlTest;
 
 TEST_F(GlCallsTest, AFrameReadsNothingBackAndUploadsNoPositions) {
-  std::vector<test::NamedScene> scenes = test::comparedScenes(40);
+  std::vector<test::NamedScene> scenes = test::fullestScenes(40);
   scenes.push_back(test::implicitScenes(20)[1]);
   for (const auto& [name, scene] : scenes) {
     if (canTear(scene)) continue;  // its positions are read after each frame

@@ -52,17 +52,15 @@ TEST_F(GpuSolverTest, AgreesWithTheCpuInEveryBitInImplicitSteps) {
 TEST_F(GpuSolverTest, TearsMeshesAsTheCpuDoes) {
   Scene springs = test::meshWithEverything(12, SelfCollision::robust);
   springs.cloths[0].tearStrain = springs.cloths[1].tearStrain = 0.02;
-  Scene averaged = springs;
-  averaged.solver.selfCollision = SelfCollision::averaged;
+  Scene both = springs;
+  both.solver.selfCollision = SelfCollision::averaged;
+  both.cloths = {springs.cloths[1], test::tornMesh(12).cloths[0]};
   Scene contact = test::implicitly(test::tornMesh(12));
   contact.solver.selfCollision = SelfCollision::contact;
   contact.solver.strainLimit = 0.2;
-  const std::vector<test::NamedScene> scenes{
-      {"springs", springs},
-      {"springs in implicit steps", test::implicitly(averaged)},
-      {"fabric", test::tornMesh(12)},
-      {"fabric in contact", contact},
-      {"fabric in second order", test::inSecondOrder(test::tornMesh(12))}};
+  const std::vector<test::NamedScene> scenes{{"springs", springs},
+                                             {"fabric in contact", contact},
+                                             {"both in second order", test::inSecondOrder(both)}};
   for (const auto& [name, scene] : scenes) {
     const int steps = isImplicit(scene.solver.integrator) ? 20 : 5 * scene.solver.simulationSteps;
     const State gpu = steppedOnGpu(scene, steps), cpu = steppedOnCpu(scene, steps);
@@ -245,7 +243,7 @@ TEST_F(GpuSolverTest, AgreesWithTheCpuOnGridsOfEveryShape) {
 }
 
 TEST_F(GpuSolverTest, GivesTheSameBitsFusedAndPassByPass) {
-  for (const auto& [name, scene] : test::comparedScenes(20))
+  for (const auto& [name, scene] : test::fullestScenes(20))
     EXPECT_EQ(difference(steppedOnGpu(scene, 30), steppedOnGpu(scene, 30, {.fused = false})).differing, 0u)
         << name;
 }
@@ -253,7 +251,7 @@ TEST_F(GpuSolverTest, GivesTheSameBitsFusedAndPassByPass) {
 TEST_F(GpuSolverTest, GivesTheSameBitsAtEveryWorkGroupSize) {
   for (const Scene& scene : {test::everythingScene(37), test::layeredSheets(37, SelfCollision::robust)}) {
     const std::uint64_t usual = stateHash(steppedOnGpu(scene, 80));
-    for (const auto& [columns, rows] : {std::pair{1, 1}, {8, 8}, {16, 4}, {32, 8}, {256, 1}})
+    for (const auto& [columns, rows] : {std::pair{1, 1}, {8, 8}, {256, 1}})
       EXPECT_EQ(stateHash(steppedOnGpu(scene, 80, {.groupColumns = columns, .groupRows = rows})), usual)
           << columns << "x" << rows;
   }
@@ -270,7 +268,7 @@ TEST_F(GpuSolverTest, GivesTheSameBitsFromStorageBlocksAsFromTexels) {
 
 // As on hardware, with tiles that end within the grid.
 TEST_F(GpuSolverTest, LimitsStrainInTilesAsPassByPass) {
-  for (const auto& [name, scene] : test::comparedScenes(31)) {
+  for (const auto& [name, scene] : test::fullestScenes(31)) {
     if (!scene.solver.strainLimit) continue;
     EXPECT_EQ(difference(steppedOnGpu(scene, 20, {.limitsInTiles = true}), steppedOnCpu(scene, 20)).differing,
               0u)
@@ -334,7 +332,7 @@ TEST_F(GpuSolverTest, DoesNotDependOnHowStepsAreBatched) {
 }
 
 TEST_F(GpuSolverTest, HandsItsStateToTheCpuAndBackWithoutChangingABitOfWhatFollows) {
-  for (const auto& [name, scene] : test::comparedScenes(20)) {
+  for (const auto& [name, scene] : test::fullestScenes(20)) {
     const Cloth cloth(scene);
     GpuSolver gpu(cloth, scene);
     CpuSolver<float> cpu(cloth, scene);
