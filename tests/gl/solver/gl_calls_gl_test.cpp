@@ -67,6 +67,24 @@ TEST_F(GlCallsTest, AFrameReadsNothingBackAndUploadsNoPositions) {
   }
 }
 
+TEST_F(GlCallsTest, AFrameInWhichClothTearsCompilesNothing) {
+  Scene scene = test::garment(16);
+  scene.solver.selfCollision = SelfCollision::averaged;
+  const Cloth cloth(scene);
+  GpuSolver solver(cloth, scene);
+  solver.step(1);
+  ASSERT_TRUE(solver.cuts().empty());
+  test::glCounts = {};
+  {
+    COUNTED(glCompileShader);
+    COUNTED(glDispatchCompute);
+    solver.step(5 * scene.solver.simulationSteps);
+  }
+  EXPECT_FALSE(solver.cuts().empty()) << "nothing tore";
+  EXPECT_GT(test::glCounts.of("glDispatchCompute"), 0u) << "the counters work";
+  EXPECT_EQ(test::glCounts.of("glCompileShader"), 0u);
+}
+
 // As on hardware, with the settings that a user gets. Of a sheet that hangs in folds, and takes a few Newton
 // steps, three quarters of what a step may take are left out, and nothing is waited for.
 TEST_F(GlCallsTest, AStepLeavesOutWhatItIsKnownNotToNeed) {
