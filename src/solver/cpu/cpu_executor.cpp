@@ -64,6 +64,7 @@ CpuExecutor<Real>::CpuExecutor(const Cloth& cloth, bool sweeps)
       sweeps_(sweeps),
       restLengths_(measureRestLengths<Real>(cloth)),
       lists_(makeMeshLists<Real>(cloth)),
+      stretches_(cpu::makeMeshStretches<Real>(cloth, lists_)),
       rowPasses_(cloth),
       selfCollision_(cloth) {
   (void)cpu::vectorSet();  // for its error, which may not come while threads compute
@@ -92,14 +93,17 @@ template <class Real>
 void CpuExecutor<Real>::setCuts(const StepInputs& inputs) {
   implicit_.scalars.usualSteps = 0;
   selfCollision_.setCuts(inputs.cuts);
-  if (cloth_->hasMesh()) lists_ = makeMeshLists<Real>(*cloth_, inputs.cuts);
+  if (cloth_->hasMesh()) {
+    lists_ = makeMeshLists<Real>(*cloth_, inputs.cuts);
+    stretches_ = cpu::makeMeshStretches<Real>(*cloth_, lists_);
+  }
   setSurface(inputs);
   if (!implicit_.hierarchy.empty()) makeImplicitLists(inputs.cuts);
 }
 
 template <class Real>
 void CpuExecutor<Real>::makeImplicitLists(const Cuts& cuts) {
-  implicit_.resize(makeHierarchy<Real>(*cloth_, cuts), cpu::makeMeshStretches<Real>(*cloth_, lists_));
+  implicit_.resize(makeHierarchy<Real>(*cloth_, cuts), stretches_.membraneCount());
 }
 
 template <class Real>
@@ -137,6 +141,7 @@ cpu::PassArguments<Real> CpuExecutor<Real>::argumentsOf(const StepInputs& inputs
           particles_.inverseMasses.data(),
           restLengths_.data(),
           lists_,
+          stretches_,
           parameters_.interaction,
           holds ? interaction.grab->points->data() : nullptr,
           interaction.jet.has_value(),

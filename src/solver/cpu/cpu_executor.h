@@ -11,6 +11,7 @@
 
 #include "solver/cpu/cpu_state.h"
 #include "solver/cpu/implicit_passes.h"
+#include "solver/cpu/mesh_stretches.h"
 #include "solver/cpu/passes.h"
 #include "solver/cpu/row_passes.h"
 #include "solver/cpu/self_collision.h"
@@ -84,6 +85,7 @@ class CpuExecutor final : public Executor {
   WatchRow watch_ = soundWatchRow();
   std::vector<Real> restLengths_;
   MeshLists<Real> lists_;
+  cpu::MeshStretches<Real> stretches_;
   std::shared_ptr<const std::vector<float>> distances_;  // samples of the mesh colliders' grids
   Components<Real> pinStarts_;                           // empty without paths
   StepParameters<Real> parameters_;                      // of this step,

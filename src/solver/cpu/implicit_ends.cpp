@@ -174,10 +174,10 @@ void gatherElasticForces(const ImplicitArguments<Real>& arguments, int row, Forc
 }
 
 template <class Real>
-void ImplicitState<Real>::resize(Hierarchy<Real> levels, MeshStretches<Real> ofMeshes) {
+void ImplicitState<Real>::resize(Hierarchy<Real> levels, std::size_t meshMembranes) {
   hierarchy = std::move(levels);
   levelRanges = levelRangesOf(hierarchy);
-  stretches = std::move(ofMeshes);
+  membranes.resize(meshMembranes);
   const std::size_t particles = hierarchy.particles;
   for (Components<Real>* c : {&rightHandSide, &displacements, &iterate.positions, &residuals, &corrections,
                               &directions.positions, &products, &increments})

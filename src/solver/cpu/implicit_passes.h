@@ -69,7 +69,7 @@ struct ImplicitState {
   Components<Real> residuals;          // r
   Components<Real> corrections;        // z
   GridElements<Real> elements;         // at the iterate
-  MeshStretches<Real> stretches;       // empty without meshes
+  MembraneTensions<Real> membranes;    // empty without meshes
   SymmetricField<Real> factors;        // L D L^T of diagonal blocks: 1/d1 1/d2 1/d3 and l21 l31 l32
   CpuState<Real> directions;           // p; no velocities
   Components<Real> products;           // H p
@@ -94,7 +94,7 @@ struct ImplicitState {
   std::vector<Real> dense;                       // minus the inverses of the coarsest levels' matrices
 
   // Without planes.
-  void resize(Hierarchy<Real> levels, MeshStretches<Real> ofMeshes);
+  void resize(Hierarchy<Real> levels, std::size_t meshMembranes);
 };
 
 template <class Real>

@@ -3,6 +3,7 @@
 #include "core/exact_math.h"
 #include "solver/cpu/force_laws.h"
 #include "solver/cpu/membrane_laws.h"
+#include "solver/cpu/mesh_elements.h"
 #include "solver/cpu/rows.h"
 #include "solver/cpu/symmetric.h"
 #include "solver/cpu/watch.h"
@@ -43,34 +44,36 @@ Vec3<Real> springsAt(const PassArguments<Real>& arguments, std::uint32_t i) {
   return f;
 }
 
-// -c_i sum c_j (x_j - x_0): the differences are small, and the c sum to 0.
-template <class Real>
-Vec3<Real> addHinges(const PassArguments<Real>& arguments, std::uint32_t i, Vec3<Real> f) {
-  const MeshLists<Real>& lists = arguments.lists;
-  const Components<Real>& x = arguments.before.positions;
-  for (std::uint32_t n = lists.starts[i].hinges; n < lists.starts[i + 1].hinges; ++n) {
-    const auto& [corners, c] = lists.hinges[lists.numbers[n] / 4];
-    const Vec3<Real> origin = at(x, corners[0]);
-    const Vec3<Real> b = c[1] * (at(x, corners[1]) - origin);
-    const Vec3<Real> p = c[2] * (at(x, corners[2]) - origin);
-    const Vec3<Real> q = c[3] * (at(x, corners[3]) - origin);
-    const Vec3<Real> bent = (b + p) + q;
-    f = f - c[lists.numbers[n] % 4] * bent;
+// The forces of springs from `first` on. Returns whether one is too long for the watchdog.
+template <bool areStiff, class Real>
+INLINE bool pullSprings(const MeshStretches<Real>& mesh, const Arrays<const Real>& x, Real maxStretch,
+                        std::size_t first, std::size_t count, Real* forces) {
+  const std::int32_t *ends = mesh.ends.data() + first, *others = mesh.others.data() + first;
+  const Real *stiffnesses = mesh.stiffnesses.data() + first, *restLengths = mesh.restLengths.data() + first;
+  std::uint32_t overlong = 0;
+#pragma GCC ivdep
+  for (std::size_t k = 0; k < count; ++k) {
+    const Vec3<Real> end = placeAt(x, ends[k]), other = placeAt(x, others[k]), d = other - end;
+    const Real longest = maxStretch * restLengths[k];
+    overlong |= isBeyond(dot(d, d), longest * longest) ? 1u : 0u;
+    if constexpr (areStiff) putFour(forces, k, springForce(end, other, stiffnesses[k], restLengths[k]));
   }
-  return f;
+  return overlong != 0;
 }
 
 template <class Real>
-Vec3<Real> addMembranes(const PassArguments<Real>& arguments, std::uint32_t i, Vec3<Real> f) {
-  const MeshLists<Real>& lists = arguments.lists;
-  for (std::uint32_t n = lists.starts[i].membranes; n < lists.starts[i + 1].membranes; ++n) {
-    const auto& [corners, restSquared, roots] = lists.membranes[lists.numbers[n] / 4];
-    std::array<Vec3<Real>, 3> d = edgesOf(corners, arguments.before.positions);
-    const OfEdges<Real> tensions = timesMatrix(roots, strainsOf(restSquared, d));
-    for (std::size_t k = 0; k < 3; ++k) d[k] = tensions[k] * d[k];
-    f = f + pullAt(lists.numbers[n] % 4, d);
+INLINE void pullMembranes(const MeshStretches<Real>& mesh, const Arrays<const Real>& x, std::size_t first,
+                          std::size_t count, Real* pulls) {
+  const auto corners = from(first, mesh.membraneCorners);
+  const auto rest = from(first, mesh.restSquared);
+  const auto roots = from(first, mesh.roots);
+#pragma GCC ivdep
+  for (std::size_t k = 0; k < count; ++k) {
+    const Edges<Real> d = edgesAt<Real>(corners, k, x);
+    const OfEdges<Real> t =
+        timesMatrix(rootsAt(roots, k), strainsOf<Real>({rest[0][k], rest[1][k], rest[2][k]}, d));
+    putPulls(pulls, count, k, t[0] * d[0], t[1] * d[1], t[2] * d[2]);
   }
-  return f;
 }
 
 template <bool jet, class Real>
@@ -89,23 +92,48 @@ Vec3<Real> addTriangles(const PassArguments<Real>& arguments, std::uint32_t i, V
 }
 
 template <class Real>
-void gather(const PassArguments<Real>& arguments, int row) {
+INLINE void gather(const PassArguments<Real>& arguments, int row, Real* scratch) {
+  const MeshStretches<Real>& mesh = arguments.stretches;
+  const auto stretch = stretchOf(arguments, row);
+  const std::uint32_t firstSpring = stretch->firstSpring;
+  const ElementsOfStretch<Real> elements(*stretch, stretch[1], scratch);
+  const Arrays<const Real> x = arraysOf(std::as_const(arguments.before.positions));
+  const Real maxStretch = arguments.step.maxStretch;
+  bendHinges(mesh, x, stretch->firstHinge, elements.hinges, elements.bent);
+  pullMembranes(mesh, x, stretch->firstMembrane, elements.membranes, elements.pulls);
+  const bool overlong = stretch->hasStiffSprings ? pullSprings<true>(mesh, x, maxStretch, firstSpring,
+                                                                     elements.springs, elements.forces)
+                                                 : pullSprings<false>(mesh, x, maxStretch, firstSpring,
+                                                                      elements.springs, elements.forces),
+             oneByOne = overlong || arguments.step.limitStiffness > Real(0);
   const Range particles = rangeOf(arguments.step, row);
   for (std::ptrdiff_t n = particles.begin; n < particles.end; ++n) {
     const auto i = static_cast<std::uint32_t>(n);
-    Vec3<Real> f = addMembranes(arguments, i, addHinges(arguments, i, springsAt(arguments, i)));
+    Four<Real> sum{};
+    if (oneByOne)
+      sum = fourOf(springsAt(arguments, i));
+    else if (stretch->hasStiffSprings)
+      for (std::uint32_t k = arguments.lists.starts[i].springs; k < arguments.lists.starts[i + 1].springs;
+           ++k)
+        if (mesh.stiffnesses[k] != Real(0)) sum = sum + vectorAt(elements.forces, k - firstSpring);
+    Vec3<Real> f = threeOf(withElements(arguments, elements, n, sum));
     if (arguments.step.hasWind != 0)
       f = arguments.jet ? addTriangles<true>(arguments, i, f) : addTriangles<false>(arguments, i, f);
-    arguments.forces.x[i] = f.x;
-    arguments.forces.y[i] = f.y;
-    arguments.forces.z[i] = f.z;
+    put(arguments.forces, n, f);
   }
 }
 
+VECTOR_CLONES(void, gatherWithScratch, (const PassArguments<float>& arguments, int row, float* scratch),
+              (arguments, row, scratch), gather(arguments, row, scratch))
+
 }  // namespace
 
-void gatherMeshForces(const PassArguments<float>& arguments, int row) { gather(arguments, row); }
-void gatherMeshForces(const PassArguments<double>& arguments, int row) { gather(arguments, row); }
+void gatherMeshForces(const PassArguments<float>& arguments, int row) {
+  gatherWithScratch(arguments, row, scratchFor(arguments.stretches));
+}
+void gatherMeshForces(const PassArguments<double>& arguments, int row) {
+  gather(arguments, row, scratchFor(arguments.stretches));
+}
 
 template <class Real>
 void gatherMeshWind(const PassArguments<Real>& arguments, int row, SymmetricField<Real>& resistance) {

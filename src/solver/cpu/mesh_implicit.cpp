@@ -3,6 +3,7 @@
 #include "solver/cpu/arrays.h"
 #include "solver/cpu/implicit_laws.h"
 #include "solver/cpu/membrane_laws.h"
+#include "solver/cpu/mesh_elements.h"
 #include "solver/cpu/rows.h"
 
 namespace clothsim::cpu {
@@ -123,16 +124,19 @@ void addMeshProducts(const ImplicitArguments<Real>& arguments, int row) {
   const Range all = rangeOf(arguments.step.step, row);
   const Components<Real>& p = arguments.own.directions.positions;
   Components<Real>& products = arguments.own.products;
-  const bool isExact = arguments.own.scalars.hessian == HESSIAN_EXACT;
+  const bool isExact = arguments.own.scalars.hessian == HESSIAN_EXACT,
+             hasSprings = stretchOf(arguments.step, row)->hasStiffSprings ||
+                          arguments.step.step.limitStiffness > Real(0);
   for (std::ptrdiff_t n = all.begin; n < all.end; ++n) {
     const auto i = static_cast<std::size_t>(n);
     Vec3<Real> f{};
-    forEachSpring(arguments, i, [&](const auto& spring, Vec3<Real> d, Real limitLength) {
-      const auto [across, along] = springBlock(d, spring.stiffness, spring.restLength,
-                                               arguments.step.step.limitStiffness, limitLength, isExact);
-      const Vec3<Real> e = at(p, spring.other) - at(p, static_cast<std::ptrdiff_t>(i));
-      f = f + (across * e + (along * dot(d, e)) * d);
-    });
+    if (hasSprings)
+      forEachSpring(arguments, i, [&](const auto& spring, Vec3<Real> d, Real limitLength) {
+        const auto [across, along] = springBlock(d, spring.stiffness, spring.restLength,
+                                                 arguments.step.step.limitStiffness, limitLength, isExact);
+        const Vec3<Real> e = at(p, spring.other) - at(p, static_cast<std::ptrdiff_t>(i));
+        f = f + (across * e + (along * dot(d, e)) * d);
+      });
     products.x[i] = f.x;
     products.y[i] = f.y;
     products.z[i] = f.z;

@@ -8,46 +8,19 @@
 #include <cstdint>
 #include <vector>
 
-#include "solver/mesh_lists.h"
-
 namespace clothsim::cpu {
 
 template <class Real>
 struct ImplicitArguments;
 
-// The hinges and membranes that the particles of a stretch (MESH_ROW of them, solver/cpu/rows.h) are corners
-// of, stretch after stretch. One that reaches into several is in each.
+// Of membranes at the iterate, by component, in the order of MeshStretches.
 template <class Real>
-struct MeshStretches {
-  struct Stretch {
-    std::uint32_t firstParticle, firstHinge, firstMembrane;
-  };
-  std::vector<Stretch> stretches;  // by ascending particles, and one that ends the last
-  // By component, for loops over many elements. Indices are signed: so they can be gathered by.
-  std::array<std::vector<std::int32_t>, 4> hingeCorners;
-  std::array<std::vector<Real>, 3> coefficients;  // of the corners behind the first
-  std::array<std::vector<std::int32_t>, 3> membraneCorners;
-  std::array<std::vector<Real>, 3> restSquared;
-  std::array<std::vector<Real>, 6> roots;
-  // By place in MeshLists::numbers: which hinge of the stretch, and the coefficient of the particle there;
-  // from the first membrane on, which of the forces on corners, those on all first ones before all second
-  // ones.
-  struct HingeAt {
-    std::uint32_t hinge;
-    Real coefficient;
-  };
-  std::vector<HingeAt> hingesAt;
-  std::vector<std::uint32_t> forcesAt;
-  std::uint32_t firstForce = 0;  // the place in MeshLists::numbers of the first of these
-  std::uint32_t mostFours = 0;   // vectors that a stretch comes to: one a hinge, three a membrane
-
-  // Of membranes at the iterate, by component.
+struct MembraneTensions {
   std::array<std::vector<Real>, 9> edges;     // [m]
   std::array<std::vector<Real>, 3> tensions;  // over the lengths of the edges [N/m]
-};
 
-template <class Real>
-[[nodiscard]] MeshStretches<Real> makeMeshStretches(const Cloth& cloth, const MeshLists<Real>& lists);
+  void resize(std::size_t membranes);
+};
 
 // The edges and tensions of a stretch.
 void linearizeMembranes(const ImplicitArguments<float>& arguments, int row);

@@ -7,6 +7,7 @@
 
 #include "cloth/cloth.h"
 #include "solver/cpu/cpu_state.h"
+#include "solver/cpu/mesh_stretches.h"
 #include "solver/divergence.h"
 #include "solver/interaction.h"
 #include "solver/mesh_lists.h"
@@ -33,6 +34,7 @@ struct PassArguments {
   const Real* inverseMasses;
   const Real* restLengths;                     // slot-major; null when no grid needs the table
   const MeshLists<Real>& lists;                // of all meshes; empty without any
+  const MeshStretches<Real>& stretches;        // the same
   const InteractionParams<Real>& interaction;  // of this step
   const GrabSpring::Point* grabbed;  // the block of this grid that is grabbed, row-major; null without
   bool jet;                          // whether air blows from `interaction`
@@ -48,10 +50,10 @@ struct PassArguments {
 template <class Real>
 PassArguments<Real> withState(const PassArguments<Real>& of, const StepParams<Real>& step,
                               const CpuState<Real>& before, Components<Real>& forces) {
-  return {step,         of.colliders,     of.distances,   of.pinMotions,     of.pinPathNumbers,
-          of.pinStarts, of.inverseMasses, of.restLengths, of.lists,          of.interaction,
-          of.grabbed,   of.jet,           of.cutMasks,    of.externalForces, before,
-          of.after,     forces,           of.watch};
+  return {step,           of.colliders,     of.distances,   of.pinMotions, of.pinPathNumbers,
+          of.pinStarts,   of.inverseMasses, of.restLengths, of.lists,      of.stretches,
+          of.interaction, of.grabbed,       of.jet,         of.cutMasks,   of.externalForces,
+          before,         of.after,         forces,         of.watch};
 }
 
 // Looks for what is not finite in the state that a step begins with.

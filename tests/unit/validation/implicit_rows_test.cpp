@@ -47,7 +47,8 @@ class Sheet {
     restLengths_ = measureRestLengths<double>(cloth_);
     lists_ = makeMeshLists<double>(cloth_, cuts);
     const std::size_t count = cloth_.particleCount();
-    own_.resize(makeHierarchy<double>(cloth_, cuts), cpu::makeMeshStretches<double>(cloth_, lists_));
+    stretches_ = cpu::makeMeshStretches<double>(cloth_, lists_);
+    own_.resize(makeHierarchy<double>(cloth_, cuts), stretches_.membraneCount());
     forces_.resize(count);
     for (std::size_t i = 0; i < count; ++i) own_.diagonal[i] = 1 + static_cast<double>(i % 5);
   }
@@ -140,6 +141,7 @@ class Sheet {
             inverseMasses_.data(),
             restLengths_.data(),
             lists_,
+            stretches_,
             interaction_,
             nullptr,
             false,
@@ -181,6 +183,7 @@ class Sheet {
   std::vector<double> inverseMasses_{cloth_.inverseMasses().begin(), cloth_.inverseMasses().end()};
   std::vector<double> restLengths_;
   MeshLists<double> lists_;
+  cpu::MeshStretches<double> stretches_;
   InteractionParams<double> interaction_{};
   std::vector<std::uint32_t> cutMasks_;
   CpuState<double> state_;
