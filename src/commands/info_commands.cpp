@@ -1,6 +1,7 @@
 // `scenes` lists the scenes, `describe` explains their keys, `doctor` checks this machine.
 #include <cstdio>
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "commands/commands.h"
 #include "commands/print_json.h"
@@ -47,7 +48,11 @@ int scenesCommand() {
   return 0;
 }
 
-int describeCommand(const std::string& key) {
+int describeCommand(const std::string& typed) {
+  // Also as --set and messages write them: cloths.0.ks, colliders.1.radius, cloth.pinned.0.
+  std::string key = std::regex_replace(typed, std::regex("^cloths\\.[0-9]+"), "cloth");
+  key = std::regex_replace(key, std::regex("\\.[0-9]+$"), "");
+  key = std::regex_replace(key, std::regex("\\.[0-9]+\\."), "[].");
   const std::vector<FieldInfo> fields = describeFields();
   if (key.empty()) {
     for (const FieldInfo& field : fields) printField(field);
@@ -65,7 +70,7 @@ int describeCommand(const std::string& key) {
   }
   if (!found)
     throw UsageError("there is no scene key \"" + key + "\"" + didYouMean(key, paths) +
-                     " `clothsim describe` lists all.");
+                     "; `clothsim describe` lists all");
   return 0;
 }
 

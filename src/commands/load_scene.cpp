@@ -9,7 +9,7 @@ namespace clothsim {
 
 GridSize parseSize(const std::string& text, const std::string& flag) {
   std::smatch match;
-  if (!std::regex_match(text, match, std::regex("([0-9]{1,5})[xX]([0-9]{1,5})")))
+  if (!std::regex_match(text, match, std::regex("([0-9]{1,9})[xX]([0-9]{1,9})")))
     throw UsageError(flag + " " + text + ": expected WIDTHxHEIGHT, as 512x512");
   return {std::stoi(match[1]), std::stoi(match[2])};
 }

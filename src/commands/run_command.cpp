@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "commands/blow_up.h"
 #include "commands/commands.h"
@@ -29,6 +30,21 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+// Each file is written by one of the options. @throws UsageError
+void checkDistinct(const RunOptions& options) {
+  std::set<std::filesystem::path> names;
+  const auto add = [&](const std::filesystem::path& name, const std::string& option) {
+    if (!names.insert(std::filesystem::absolute(name).lexically_normal()).second)
+      throw UsageError(option + ": another option writes " + name.string() +
+                       ", too; give each a file of its own");
+  };
+  for (const std::string& save : options.saves) {
+    add(save, "--save " + save);
+    if (isPointCache(save)) add(restMeshBeside(save), "--save " + save);
+  }
+  if (!options.trace.empty()) add(options.trace, "--trace " + options.trace);
+}
+
 // Checks the names before the run. @throws UsageError for unknown extensions, InputOutputError
 void checkSaves(const RunOptions& options) {
   for (const std::string& save : options.saves) {
@@ -44,6 +60,7 @@ void checkSaves(const RunOptions& options) {
     checkWritable(numberedName(save, options.frames.value_or(0)));
     if (isPointCache(save)) checkWritable(restMeshBeside(save));
   }
+  checkDistinct(options);
   if (options.trace.empty()) return;
   const std::string extension = std::filesystem::path(options.trace).extension().string();
   if (extension != ".csv" && extension != ".npz")

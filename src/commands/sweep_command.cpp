@@ -168,6 +168,7 @@ class SweepRun {
     if (divergence_) showDivergence(cells);
     print(warnings(), which());
   }
+  [[nodiscard]] bool blewUp() const { return divergence_.has_value(); }
   [[nodiscard]] std::vector<Warning> warnings() const { return summary_.watch.warnings(planned_.scene()); }
 
  private:
@@ -431,10 +432,12 @@ int sweepCommand(const SweepOptions& options) {
   Progress progress("sweeping", framesInAll);
   std::vector<Cell> cells(table.cells());
   std::vector<Warning> warnings;
+  int blownUp = 0;
   for (const PlannedRun& planned : runs) {
     SweepRun run(options, backend, planned, cameras);
     run.run(cells, [&](int frame) { progress.update(framesDone + frame); });
     std::ranges::move(run.warnings(), std::back_inserter(warnings));
+    blownUp += run.blewUp() ? 1 : 0;
     framesDone += planned.lastFrame();
   }
   progress.finish();
@@ -447,6 +450,9 @@ int sweepCommand(const SweepOptions& options) {
     printJson(toJson(options, table, sheet, cells));
   else
     std::printf("%s\n%s\n", options.out.c_str(), tableFile(options).string().c_str());
+  if (options.strict && blownUp > 0)
+    throw SimulationError("--strict: " + std::to_string(blownUp) +
+                          (blownUp == 1 ? " simulation" : " simulations") + " blew up");
   checkStrict(options.strict, warnings);
   return 0;
 }

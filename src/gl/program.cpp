@@ -103,7 +103,13 @@ Program Program::makeRender(const std::string& vertexFile, const std::string& ge
 }
 
 Program::~Program() {
-  if (name_ != 0) glDeleteProgram(name_);
+  if (name_ == 0) return;
+  // One that is in use lives on, nameless, until another is. Who notes its name until then, as Dear ImGui
+  // does to use it again when all is drawn, causes an error.
+  GLint used = 0;
+  glGetIntegerv(GL_CURRENT_PROGRAM, &used);
+  if (static_cast<GLuint>(used) == name_) glUseProgram(0);
+  glDeleteProgram(name_);
 }
 
 namespace {

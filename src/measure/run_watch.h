@@ -18,7 +18,7 @@
 namespace clothsim {
 
 struct Warning {
-  std::string kind;          // "start", "path", "contact", "strain" or "convergence"
+  std::string kind;          // "start", "step", "path", "contact", "strain" or "convergence"
   std::optional<int> frame;  // in which it was found first
   std::string brief;         // a few words, for the viewer's overlay
   std::string text;          // a sentence with advice
@@ -37,6 +37,10 @@ struct Warning {
 [[nodiscard]] Warning convergenceWarning(const ConvergenceCounts& counts, double largestUpdate,
                                          const Scene& scene);
 
+// That explicit steps are a tenth longer than stableStep(): with a strain limit such cloth may boil without
+// blowing up.
+[[nodiscard]] std::optional<Warning> longStepsWarning(const Scene& scene);
+
 class RunWatch {
  public:
   // To be called with the state before the first step.
@@ -50,8 +54,8 @@ class RunWatch {
 
   [[nodiscard]] const ContactReport& contacts() const { return contacts_; }
   [[nodiscard]] const ColliderOverlaps& startInColliders() const { return startInColliders_; }
-  // In the order start, path, contact, strain, convergence. There is at most one of each kind, except of
-  // paths. Of convergence only where more than a hundredth of all implicit steps ended unsolved.
+  // In the order start, step, path, contact, strain, convergence. There is at most one of each kind, except
+  // of paths. Of convergence only where more than a hundredth of all implicit steps ended unsolved.
   [[nodiscard]] std::vector<Warning> warnings(const Scene& scene) const;
 
  private:

@@ -36,14 +36,29 @@ std::vector<std::string> settingsOf(const py::kwargs& values) {
   return settings;
 }
 
+// Two whole numbers.
+GridSize sizeOf(const py::object& resolution) {
+  try {
+    const auto [columns, rows] = resolution.cast<std::pair<int, int>>();
+    return {columns, rows};
+  } catch (const py::cast_error&) {
+    throw UsageError("resolution: expected two whole numbers, as (64, 48), found " +
+                     std::string(py::repr(resolution)));
+  }
+}
+
+void setThreads(int threads) {
+  if (threads < 1 || threads > ThreadTeam::MOST_THREADS)
+    throw UsageError("set_threads: expected 1 to " + std::to_string(ThreadTeam::MOST_THREADS) + ", found " +
+                     std::to_string(threads));
+  ThreadTeam::setSharedThreads(threads);
+}
+
 // A name, a path or a dict.
 RemarkedScene readAny(const py::object& scene, const py::object& resolution, const py::kwargs& values) {
   SceneOptions options;
   options.settings = settingsOf(values);
-  if (!resolution.is_none()) {
-    const auto [columns, rows] = resolution.cast<std::pair<int, int>>();
-    options.resolution = GridSize{columns, rows};
-  }
+  if (!resolution.is_none()) options.resolution = sizeOf(resolution);
   if (py::isinstance<py::dict>(scene)) return changedScene(parseScene(jsonOf(scene), "the dict"), options);
   options.scene = py::str(py::module_::import("os").attr("fspath")(scene));
   return readScene(options);
@@ -359,5 +374,5 @@ PYBIND11_MODULE(_clothsim, module) {
         return names;
       },
       docs::scenes);
-  module.def("set_threads", &ThreadTeam::setSharedThreads, py::arg("threads"), docs::setThreads);
+  module.def("set_threads", &setThreads, py::arg("threads"), docs::setThreads);
 }

@@ -75,6 +75,8 @@ TEST(ProgramsFiles, HaveNamesThatAreAnsweredWhateverTheyAre) {
       {quickRun + " --save " + at + std::string(249, 'x') + ".pc2", 5},  // no room for _rest.obj
       {quickRun + " --save " + at + "circle.json/a.csv", 5},
       {quickRun + " --from " + at + longName + ".state", 5},
+      {quickRun + " --save " + at + "a.csv --trace " + at + "a.csv", 2},
+      {quickRun + " --save " + at + "b.pc2 --save " + at + "b_rest.obj", 2},
       {"run --replay " + at + longName, 3},
       {"sweep -f sphere --frames 1 --vary colliders." + std::string(100'000, '0') +
            ".radius=1 --out /nowhere/a.png",

@@ -478,6 +478,8 @@ TEST(Program, ListsItsScenesAndExplainsItsKeys) {
   const CommandResult scenes = clothsim("scenes");
   EXPECT_EQ(scenes.exitCode, 0);
   EXPECT_NE(scenes.output.find("selfCollision"), std::string::npos);
+  EXPECT_NE(clothsim("describe cloths.0.ks").output.find("cloth.ks"), std::string::npos)
+      << "as messages write it";
   const CommandResult key = clothsim("describe cloth.ks");
   EXPECT_EQ(key.exitCode, 0);
   EXPECT_NE(key.output.find("N/m"), std::string::npos) << key.output;

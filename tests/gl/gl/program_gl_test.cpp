@@ -62,6 +62,15 @@ void main() {
   EXPECT_EQ(values[100], 7u) << "the last, partly filled work group must not write past the end";
 }
 
+// Dear ImGui notes the program in use, draws, and uses that one again.
+TEST_F(ProgramTest, ThatGoesIsInUseNoLonger) {
+  const std::string file = write("nothing.comp", "layout(local_size_x = 1) in;\nvoid main() {}\n");
+  gl::Program::makeCompute(file).bind();
+  GLint used = -1;
+  glGetIntegerv(GL_CURRENT_PROGRAM, &used);
+  EXPECT_EQ(used, 0);
+}
+
 TEST_F(ProgramTest, AnErrorNamesTheFileAndLine) {
   const std::string file =
       write("wrong.comp", "layout(local_size_x = 1) in;\nvoid main() {\n  nonsense = 1;\n}\n");

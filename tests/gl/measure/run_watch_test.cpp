@@ -104,6 +104,23 @@ TEST(RunWatch, NamesTheFirstFrameAndThePeakOfADoubtfulStrain) {
   EXPECT_NE(warnings[0].text.find("solver.simulation_steps (now 30)"), std::string::npos) << warnings[0].text;
 }
 
+// Springs hold lighter particles more stiffly. The strain limit keeps such cloth from blowing up, and it
+// boils.
+TEST(RunWatch, SaysThatStepsAreTooLongForSprings) {
+  Scene scene = loadSceneByName("pinned2");
+  EXPECT_FALSE(longStepsWarning(scene).has_value());
+  scene.cloths[0].density = 1.5;
+  const std::optional<Warning> warning = longStepsWarning(scene);
+  ASSERT_TRUE(warning.has_value());
+  EXPECT_EQ(warning->kind, "step");
+  EXPECT_NE(warning->text.find("simulation_steps=56 (now 30)"), std::string::npos) << warning->text;
+  scene.solver.simulationSteps = 56;
+  EXPECT_FALSE(longStepsWarning(scene).has_value());
+  scene.solver.simulationSteps = 1;
+  scene.solver.integrator = Integrator::implicit;
+  EXPECT_FALSE(longStepsWarning(scene).has_value());
+}
+
 TEST(RunWatch, TakesFabricsForStretchedSoonerThanSprings) {
   EXPECT_EQ(doubtfulStrain(parseScene(R"({"cloth": {"ks": 5}})", "springs")), 1);
   EXPECT_EQ(doubtfulStrain(parseScene(R"({"cloth": {"material": "silk"}})", "silk")), 0.5);
