@@ -1,15 +1,18 @@
 #include "scene/obj_file.h"
 
 #include <algorithm>
+#include <cassert>
 #include <charconv>
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <span>
 #include <sstream>
 #include <string_view>
 
 #include "core/error.h"
 #include "core/files.h"
+#include "scene/polygon.h"
 
 namespace clothsim {
 
@@ -60,8 +63,9 @@ class Line {
   std::string_view text_;
 };
 
-// Refuses numbers so large that tinyobjloader would wrap them around. `corners`: "1 2/3 -4//5".
-void checkFace(const Line& line, std::string_view corners) {
+// How many corners it has. Refuses numbers so large that tinyobjloader would wrap them around. `corners`: "1
+// 2/3 -4//5".
+std::size_t checkedFace(const Line& line, std::string_view corners) {
   std::size_t count = 0;
   while (!corners.empty()) {
     if (isBlank(corners.front()) || corners.front() == '/') {
@@ -82,28 +86,61 @@ void checkFace(const Line& line, std::string_view corners) {
     }
     corners.remove_prefix(end);
   }
+  return count;
 }
 
 // The lines that a cloth or a collider needs, checked: tinyobjloader reads what is no number as 0, and for
-// some other lines allocates as much memory as they ask for.
-std::string checkedLines(const std::string& file, std::string_view text) {
-  std::string kept;
-  kept.reserve(text.size() + 1);
+// some other lines allocates as much memory as they ask for. It counts corners of faces to 255, then from 0
+// on.
+struct CheckedLines {
+  std::string text;
+  std::vector<std::size_t> corners;  // of each face
+};
+CheckedLines checkedLines(const std::string& file, std::string_view text) {
+  CheckedLines kept;
+  kept.text.reserve(text.size() + 1);
   for (std::size_t number = 1; !text.empty(); ++number) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     std::string_view line = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
     while (!line.empty() && isBlank(line.front())) line.remove_prefix(1);
+    if (line.starts_with('v') || line.starts_with('f')) line = line.substr(0, line.find('#'));
     while (!line.empty() && isBlank(line.back())) line.remove_suffix(1);
     const std::string_view word = line.substr(0, std::min(line.find_first_of(" \t"), line.size()));
     if (word == "v" && !hasThreeNumbers(line.substr(1)))
       Line(file, number, line).failExpecting("a point, v and three finite numbers");
-    if (word == "f") checkFace(Line(file, number, line), line.substr(1));
+    if (word == "f") {
+      const std::size_t corners = checkedFace(Line(file, number, line), line.substr(1));
+      if (corners >= 3) kept.corners.push_back(corners);  // tinyobjloader leaves out others
+    }
     const std::string_view needed[] = {"v", "vt", "vn", "f", "g", "o"};
-    if (std::find(std::begin(needed), std::end(needed), word) != std::end(needed)) kept.append(line);
-    kept += '\n';  // so that tinyobjloader counts lines as the file has them
+    if (std::find(std::begin(needed), std::end(needed), word) != std::end(needed)) kept.text.append(line);
+    kept.text += '\n';  // so that tinyobjloader counts lines as the file has them
   }
   return kept;
+}
+
+// tinyobjloader itself covers a hollow polygon more than once, and one with corners along its sides with
+// triangles of no area. `faces`: corners of each face; gets shorter by those of this mesh.
+void splitIntoTriangles(tinyobj::mesh_t& mesh, const std::vector<tinyobj::real_t>& points,
+                        std::span<const std::size_t>& faces) {
+  std::vector<tinyobj::index_t> corners;
+  std::vector<Vec3d> polygon;
+  for (std::size_t first = 0; first < mesh.indices.size();
+       first += polygon.size(), faces = faces.subspan(1)) {
+    assert(!faces.empty() && first + faces[0] <= mesh.indices.size() &&
+           "tinyobjloader keeps the order of faces");
+    polygon.clear();
+    for (std::size_t k = 0; k < faces[0]; ++k) {
+      const tinyobj::real_t* point =
+          points.data() + 3 * static_cast<std::size_t>(mesh.indices[first + k].vertex_index);
+      polygon.push_back({point[0], point[1], point[2]});
+    }
+    for (const auto& triangle : trianglesOf(polygon))
+      for (const std::size_t corner : triangle) corners.push_back(mesh.indices[first + corner]);
+  }
+  mesh.indices = std::move(corners);
+  mesh.num_face_vertices.assign(mesh.indices.size() / 3, 3);
 }
 
 }  // namespace
@@ -114,18 +151,25 @@ fs::path meshPath(const std::string& file) {
 }
 
 ObjFile readObjFile(const std::string& file, const std::string& use) {
-  std::istringstream text(checkedLines(file, readMeshFile(file, use)));
+  const CheckedLines lines = checkedLines(file, readMeshFile(file, use));
+  std::istringstream text(lines.text);
   ObjFile obj;
   std::vector<tinyobj::material_t> materials;
   std::string warnings, errors;
   const bool read = tinyobj::LoadObj(&obj.attributes, &obj.shapes, &materials, &warnings, &errors, &text,
-                                     nullptr, true, false);
+                                     nullptr, false, false);
   if (!read) throw SceneError(file + ": cannot be read as an OBJ file: " + errors);
-  // tinyobjloader leaves out triangles of polygons with such a corner.
-  if (warnings.find("Vertex indices out of bounds") != std::string::npos ||
-      warnings.find("invalid vertex index") != std::string::npos)
+  const auto points = static_cast<int>(obj.attributes.vertices.size() / 3);
+  const auto hasNoPoint = [&](const tinyobj::index_t& corner) {
+    return corner.vertex_index < 0 || corner.vertex_index >= points;
+  };
+  if (std::ranges::any_of(obj.shapes, [&](const tinyobj::shape_t& shape) {
+        return std::ranges::any_of(shape.mesh.indices, hasNoPoint);
+      }))
     throw SceneError(file + ": a face names a point that the file does not have, expected 1 to " +
-                     std::to_string(obj.attributes.vertices.size() / 3));
+                     std::to_string(points));
+  std::span<const std::size_t> faces(lines.corners);
+  for (tinyobj::shape_t& shape : obj.shapes) splitIntoTriangles(shape.mesh, obj.attributes.vertices, faces);
   return obj;
 }
 
