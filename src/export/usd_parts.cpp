@@ -91,17 +91,40 @@ std::string sphereShape(const Sphere& sphere) {
   return text + "]\n";
 }
 
+std::string pointsText(const Surface& surface) {
+  std::string text;
+  appendUsdArray(text, surface.vertices, [&](const auto& v) { appendUsdVector(text, v.position); });
+  return text;
+}
+std::string normalsText(const Surface& surface) {
+  std::string text;
+  appendUsdArray(text, surface.vertices, [&](const auto& v) { appendUsdVector(text, v.normal); });
+  return text;
+}
+
 std::string meshShape(const Surface& surface) {
   std::string text =
       "            uniform token subdivisionScheme = \"none\"\n            int[] faceVertexCounts = ";
   appendUsdArray(text, std::vector<int>(surface.indices.size() / 3), [&](int) { text += '3'; });
   text += "\n            int[] faceVertexIndices = ";
   appendUsdArray(text, surface.indices, [&](std::uint32_t corner) { appendIndex(text, corner); });
-  text += "\n            point3f[] points = ";
-  appendUsdArray(text, surface.vertices, [&](const auto& v) { appendUsdVector(text, v.position); });
-  text += "\n            normal3f[] normals = ";
-  appendUsdArray(text, surface.vertices, [&](const auto& v) { appendUsdVector(text, v.normal); });
+  text += "\n            point3f[] points = " + pointsText(surface) +
+          "\n            normal3f[] normals = " + normalsText(surface);
   return text + " (\n                interpolation = \"vertex\"\n            )\n";
+}
+
+// The same triangles in each frame.
+std::string deformingShape(const ColliderSet& colliders, std::size_t i, const std::vector<UsdFrame>& frames) {
+  std::string points = "            point3f[] points.timeSamples = {\n",
+              normals = "            normal3f[] normals.timeSamples = {\n";
+  for (const UsdFrame& frame : frames) {
+    const Surface surface = colliders.drawnSurface(i, 0, frame.time);
+    const std::string code = "                " + std::to_string(frame.code) + ": ";
+    points += code + pointsText(surface) + ",\n";
+    normals += code + normalsText(surface) + ",\n";
+  }
+  return meshShape(colliders.drawnSurface(i, 0, frames.front().time)) + points + "            }\n" + normals +
+         "            }\n";
 }
 
 // A square of the plane around the foot of `middle`, in the plane's own frame, whose normal is y.
@@ -129,6 +152,8 @@ std::string solidsText(const Scene& scene, Vec3d middle, double size, const std:
       text += sphereShape(*sphere);
     else if (std::holds_alternative<Plane>(colliders[i]))
       text += meshShape(planeSquare(colliders, i, frames.front().time, middle, squares * size));
+    else if (deforms(colliders[i]))
+      text += deformingShape(colliders, i, frames);
     else
       text += meshShape(colliders.drawnSurface(i, 0));
     text += transformText(colliders, i, frames) + "        }\n";

@@ -37,8 +37,8 @@ struct UsdFrame {
 };
 
 // The materials of cloth and solids, the solids on their ways, and the camera. Spheres are prims of that
-// kind, planes squares, all others meshes. `cloth` is the box around it at the start: a camera that the scene
-// does not place looks at it, and squares lie below it.
+// kind, planes squares, all others meshes, in the shape of each frame. `cloth` is the box around it at the
+// start: a camera that the scene does not place looks at it, and squares lie below it.
 [[nodiscard]] std::string usdSurroundings(const Scene& scene, const UsdBox& cloth,
                                           const std::vector<UsdFrame>& frames);
 

@@ -1,7 +1,6 @@
 #include "scene/obj_file.h"
 
 #include <algorithm>
-#include <cassert>
 #include <charconv>
 #include <cmath>
 #include <iterator>
@@ -121,15 +120,15 @@ CheckedLines checkedLines(const std::string& file, std::string_view text) {
 }
 
 // tinyobjloader itself covers a hollow polygon more than once, and one with corners along its sides with
-// triangles of no area. `faces`: corners of each face; gets shorter by those of this mesh.
-void splitIntoTriangles(tinyobj::mesh_t& mesh, const std::vector<tinyobj::real_t>& points,
-                        std::span<const std::size_t>& faces) {
+// triangles of no area. `faces`: corners of each face; gets shorter by those of this mesh. False where
+// tinyobjloader has counted otherwise.
+[[nodiscard]] bool splitIntoTriangles(tinyobj::mesh_t& mesh, const std::vector<tinyobj::real_t>& points,
+                                      std::span<const std::size_t>& faces) {
   std::vector<tinyobj::index_t> corners;
   std::vector<Vec3d> polygon;
   for (std::size_t first = 0; first < mesh.indices.size();
        first += polygon.size(), faces = faces.subspan(1)) {
-    assert(!faces.empty() && first + faces[0] <= mesh.indices.size() &&
-           "tinyobjloader keeps the order of faces");
+    if (faces.empty() || first + faces[0] > mesh.indices.size()) return false;
     polygon.clear();
     for (std::size_t k = 0; k < faces[0]; ++k) {
       const tinyobj::real_t* point =
@@ -141,6 +140,7 @@ void splitIntoTriangles(tinyobj::mesh_t& mesh, const std::vector<tinyobj::real_t
   }
   mesh.indices = std::move(corners);
   mesh.num_face_vertices.assign(mesh.indices.size() / 3, 3);
+  return true;
 }
 
 }  // namespace
@@ -169,7 +169,11 @@ ObjFile readObjFile(const std::string& file, const std::string& use) {
     throw SceneError(file + ": a face names a point that the file does not have, expected 1 to " +
                      std::to_string(points));
   std::span<const std::size_t> faces(lines.corners);
-  for (tinyobj::shape_t& shape : obj.shapes) splitIntoTriangles(shape.mesh, obj.attributes.vertices, faces);
+  const bool areSplit = std::ranges::all_of(obj.shapes, [&](tinyobj::shape_t& shape) {
+    return splitIntoTriangles(shape.mesh, obj.attributes.vertices, faces);
+  });
+  if (!areSplit || !faces.empty())
+    throw SceneError(file + ": a face makes no sense, expected f and its corners, as f 1 2 3");
   return obj;
 }
 

@@ -119,6 +119,28 @@ TEST_F(Sequence, UsdHasAMeshForEachClothWithItsOwnPointsAndTriangles) {
   EXPECT_TRUE(has(text.substr(two), "0: [(0, 1.5, 0), (1, 1.5, 0)"));
 }
 
+TEST_F(Sequence, UsdHasBodiesInTheShapesThatTheyTake) {
+  MeshCollider walk{.file = "assets/meshes/walk/walk_%02d.obj", .cells = 24};
+  walk.shapes = 5;
+  walk.shapesPerSecond = 60;
+  scene_.colliders = {walk};
+  first_.clock = {};
+  second_.clock = {.step = 1, .stepLength = 0.02};
+  write("a.usda");
+  const std::string text = readFile(folder_ / "a.usda");
+  const std::size_t samples = text.find("point3f[] points.timeSamples = {", text.find("def Mesh \"mesh0\""));
+  ASSERT_NE(samples, text.npos);
+  const auto pointsAt = [&](const std::string& code) {
+    const std::size_t begin = text.find(" " + code + ": ", samples);
+    return text.substr(begin + code.size() + 3, text.find('\n', begin) - begin - code.size() - 3);
+  };
+  const std::string shape = readFile(resourceRoot() / "assets/meshes/walk/walk_00.obj");
+  const auto points = static_cast<long>(std::count(shape.begin(), shape.end(), 'v'));
+  EXPECT_GT(points, 100);
+  for (const char* code : {"0", "3"}) EXPECT_EQ(std::ranges::count(pointsAt(code), '('), points) << code;
+  EXPECT_NE(pointsAt("0"), pointsAt("3"));
+}
+
 // A ball that is turned by 90 degrees about z while it moves: USD multiplies rows by matrices.
 TEST_F(Sequence, UsdHasTheSolidsOnTheirWayTheMaterialsAndTheCamera) {
   Sphere ball{.origin = {1, 2, 3}, .radius = 0.5};
