@@ -91,9 +91,9 @@ Real* scratchFor(const MeshStretches<Real>& mesh) {
   return room.data()->numbers;
 }
 
-// A stretch's elements, and what they come to: of each hinge sum c_j (p_j - p_0), of each membrane the forces
-// on its first, all of these before all on second ones, and on its third corner; of each spring its force. A
-// vector each.
+// How many elements a stretch has, and where the vectors lie that they come to: `bent`, of each hinge, sum
+// c_j (p_j - p_0); `pulls`, of each membrane, the forces on its corners, those on all first ones before all
+// second ones; `forces`, of each spring.
 template <class Real>
 struct ElementsOfStretch {
   using Stretch = typename MeshStretches<Real>::Stretch;
