@@ -366,13 +366,6 @@ PYBIND11_MODULE(_clothsim, module) {
   module.attr("__version__") = CLOTHSIM_VERSION;
   declareErrors(module);
   declareSimulation(module);
-  module.def(
-      "scenes",
-      [] {
-        std::vector<std::string> names;
-        for (const BundledScene& scene : bundledScenes()) names.push_back(scene.name);
-        return names;
-      },
-      docs::scenes);
+  module.def("scenes", &bundledNames, docs::scenes);
   module.def("set_threads", &setThreads, py::arg("threads"), docs::setThreads);
 }

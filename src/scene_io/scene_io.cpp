@@ -100,9 +100,7 @@ Scene loadSceneByName(const std::string& nameOrPath) {
   const fs::path path = bundledFolder() / (nameOrPath + ".json");
   std::error_code ignored;
   if (fs::exists(path, ignored)) return loadScene(path);
-  std::vector<std::string> names;
-  for (const std::string& file : jsonFilesIn(bundledFolder()))
-    names.push_back(fs::path(file).stem().string());
+  const std::vector<std::string> names = bundledNames();
   std::string list;
   for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
   throw SceneError("no bundled scene is called \"" + nameOrPath + "\"" + didYouMean(nameOrPath, names) +
@@ -129,11 +127,17 @@ std::string formatScene(const Scene& scene) {
 
 void saveScene(const Scene& scene, const fs::path& path) { writeFileAtomically(path, formatScene(scene)); }
 
+std::vector<std::string> bundledNames() {
+  std::vector<std::string> names;
+  for (const std::string& file : jsonFilesIn(bundledFolder()))
+    names.push_back(fs::path(file).stem().string());
+  return names;
+}
+
 std::vector<BundledScene> bundledScenes() {
   std::vector<BundledScene> scenes;
-  for (const std::string& file : jsonFilesIn(bundledFolder())) {
-    const fs::path path = bundledFolder() / file;
-    const std::string name = path.stem().string();
+  for (const std::string& name : bundledNames()) {
+    const fs::path path = bundledFolder() / (name + ".json");
     scenes.push_back({name, loadScene(path).description, path,
                       resourceRoot() / "assets" / "thumbnails" / (name + ".png")});
   }

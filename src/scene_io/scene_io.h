@@ -46,6 +46,7 @@ struct BundledScene {
   std::string name, description;
   std::filesystem::path path, thumbnail;  // of the scene; of its picture, a PNG, which may be missing
 };
+[[nodiscard]] std::vector<std::string> bundledNames();    // sorted; no file is read for them
 [[nodiscard]] std::vector<BundledScene> bundledScenes();  // by name
 
 // The names of the files in the folder that look like scenes: JSON with a cloth that is no recording. Files

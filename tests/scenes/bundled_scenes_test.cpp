@@ -72,12 +72,6 @@ TEST_P(BundledSceneTest, KeepsItsPromisesAndAgreesOnBothBackends) {
   }
 }
 
-std::vector<std::string> bundledNames() {
-  std::vector<std::string> names;
-  for (const BundledScene& scene : bundledScenes()) names.push_back(scene.name);
-  return names;
-}
-
 INSTANTIATE_TEST_SUITE_P(All, BundledSceneTest, testing::ValuesIn(bundledNames()),
                          [](const auto& instance) { return instance.param; });
 

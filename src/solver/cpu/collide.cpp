@@ -245,9 +245,9 @@ INLINE void collideWith(const PassArguments<Real>& arguments, const ColliderPara
 struct Nearness {
   bool anyInside, anyEnters;  // behind the surface; on a way long enough to have gone through
 };
-template <std::uint32_t type, class Real>
+template <std::uint32_t type, bool moving, class Real>
 INLINE Nearness nearnessOf(const PassArguments<Real>& arguments, const ColliderParams<Real>& collider,
-                           bool moving, bool coulomb, Range particles) {
+                           bool coulomb, Range particles) {
   const Components<Real>&old = arguments.before.positions, &p = arguments.after.positions;
   const Real *x0 = old.x.data(), *y0 = old.y.data(), *z0 = old.z.data(), *x = p.x.data(), *y = p.y.data(),
              *z = p.z.data();
@@ -273,14 +273,17 @@ INLINE Nearness nearnessOf(const PassArguments<Real>& arguments, const ColliderP
   return {(behind & bitsOf(Real(-0.0))) != 0, false};
 }
 
-// Most particles touch nothing: sixteen are looked at together.
+// Spheres and planes. Most particles touch nothing: sixteen are looked at together, in vector registers.
 template <std::uint32_t type, class Real>
-INLINE void collideSixteen(const PassArguments<Real>& arguments, const ColliderParams<Real>& collider,
-                           bool moving, bool coulomb, Range particles) {
+INLINE void collideInVectors(const PassArguments<Real>& arguments, const ColliderParams<Real>& of,
+                             Range particles) {
+  const ColliderParams<Real> collider = of;  // which no store to a particle changes
+  const bool moving = collider.moving != 0, coulomb = collider.coulomb != 0;
   constexpr std::ptrdiff_t lookedAt = 16;
   for (std::ptrdiff_t begin = particles.begin; begin < particles.end; begin += lookedAt) {
     const Range some{begin, std::min(begin + lookedAt, particles.end)};
-    const auto [anyInside, anyEnters] = nearnessOf<type>(arguments, collider, moving, coulomb, some);
+    const auto [anyInside, anyEnters] = moving ? nearnessOf<type, true>(arguments, collider, coulomb, some)
+                                               : nearnessOf<type, false>(arguments, collider, coulomb, some);
     if (anyEnters)
       collideWith<type, true>(arguments, collider, moving, coulomb, some);
     else if (anyInside)
@@ -288,66 +291,48 @@ INLINE void collideSixteen(const PassArguments<Real>& arguments, const ColliderP
   }
 }
 
-// Spheres and planes: compiled for each law, at rest and moving, so that the loop runs in vector registers.
-template <std::uint32_t type, class Real>
-INLINE void collideInVectors(const PassArguments<Real>& arguments, const ColliderParams<Real>& of,
-                             Range particles) {
-  const ColliderParams<Real> collider = of;  // which no store to a particle changes
-  const bool moving = collider.moving != 0, coulomb = collider.coulomb != 0;
-  if (moving && coulomb)
-    collideSixteen<type>(arguments, collider, true, true, particles);
-  else if (moving)
-    collideSixteen<type>(arguments, collider, true, false, particles);
-  else if (coulomb)
-    collideSixteen<type>(arguments, collider, false, true, particles);
-  else
-    collideSixteen<type>(arguments, collider, false, false, particles);
+// body.operator()<COLLIDER_...>() for the type of the collider.
+template <class Real, class Body>
+INLINE auto withTypeOf(const ColliderParams<Real>& collider, Body body) {
+  switch (collider.type) {
+#define CASE(number, Struct, law) \
+  case number:                    \
+    return body.template operator()<number>();
+    CASE(COLLIDER_PLANE, Plane, )
+    DISTANCE_SHAPES(CASE)
+#undef CASE
+  }
+  return body.template operator()<COLLIDER_SPHERE>();
 }
 
-// Shapes with a frame of their own, particle by particle.
-template <std::uint32_t type, class Real>
+// Of a shape with a frame of its own: particle by particle.
+template <class Real>
 [[gnu::noinline]] void collideWithShape(const PassArguments<Real>& arguments,
                                         const ColliderParams<Real>& collider, std::ptrdiff_t i) {
-  collideWith<type>(arguments, collider, collider.moving != 0, collider.coulomb != 0, {i, i + 1});
-}
-
-// body.operator()<COLLIDER_...>(collider) for each collider.
-template <class Real, class Body>
-INLINE void forEachCollider(const PassArguments<Real>& arguments, Body body) {
-  for (std::uint32_t k = 0; k < arguments.step.colliderCount; ++k) {
-    const ColliderParams<Real>& collider = arguments.colliders[k];
-    switch (collider.type) {
-#define CASE(number, Struct, law)               \
-  case number:                                  \
-    body.template operator()<number>(collider); \
-    break;
-      CASE(COLLIDER_SPHERE, Sphere, )
-      CASE(COLLIDER_PLANE, Plane, )
-      DISTANCE_SHAPES(CASE)
-#undef CASE
-    }
-  }
+  withTypeOf(collider, [&]<std::uint32_t type>() {
+    if constexpr (type != COLLIDER_SPHERE && type != COLLIDER_PLANE)
+      collideWith<type>(arguments, collider, collider.moving != 0, collider.coulomb != 0, {i, i + 1});
+  });
 }
 
 template <class Real>
 INLINE void collideRow(const PassArguments<Real>& arguments, int row) {
   const Range particles = rangeOf(arguments.step, row);
-  forEachCollider(
-      arguments, [&]<std::uint32_t type>(const ColliderParams<Real>& collider)
-                     __attribute__((always_inline)) {
-                       if constexpr (type == COLLIDER_SPHERE || type == COLLIDER_PLANE)
-                         collideInVectors<type>(arguments, collider, particles);
-                       else
-                         forEachNear(
-                             collider, arguments.before.positions, arguments.after.positions, particles,
-                             Real(0), [&](std::ptrdiff_t i) __attribute__((always_inline)) {
-                               collideWithShape<type>(arguments, collider, i);
-                             });
-                     });
+  for (std::uint32_t k = 0; k < arguments.step.colliderCount; ++k) {
+    const ColliderParams<Real>& collider = arguments.colliders[k];
+    if (collider.type == COLLIDER_SPHERE)
+      collideInVectors<COLLIDER_SPHERE>(arguments, collider, particles);
+    else if (collider.type == COLLIDER_PLANE)
+      collideInVectors<COLLIDER_PLANE>(arguments, collider, particles);
+    else
+      forEachNear(
+          collider, arguments.before.positions, arguments.after.positions, particles,
+          Real(0), [&](std::ptrdiff_t i) __attribute__((always_inline)) {
+            collideWithShape(arguments, collider, i);
+          });
+  }
   if (arguments.step.colliderCount > 0) watchVelocities(arguments, PASS_COLLIDE, row);
 }
-
-}  // namespace
 
 // Of a place that touches nothing: how it would if the surface were there.
 template <std::uint32_t type, class Real>
@@ -365,27 +350,36 @@ INLINE Contact<Real> nearContact(const ColliderParams<Real>& collider, const Con
   }
 }
 
+// The contact of what comes from `previous` to `place`; `seeksNear`: also of what touches nothing.
+template <class Real>
+Contact<Real> contactAt(const PassArguments<Real>& arguments, const ColliderParams<Real>& collider,
+                        Vec3<Real> previous, Vec3<Real> place, bool seeksNear) {
+  return withTypeOf(collider, [&]<std::uint32_t type>() -> Contact<Real> {
+    const Contact<Real> contact = findContact<type>(
+        collider, collider.coulomb != 0, arguments.step.planeOffset, previous, place, arguments.distances);
+    return contact.touches || !seeksNear ? contact
+                                         : nearContact<type>(collider, contact, place, arguments.distances);
+  });
+}
+
+}  // namespace
+
 template <class Real>
 void findPlanes(const PassArguments<Real>& arguments, const Components<Real>& places,
                 ContactPlanes<Real>& planes, int row, Real margin) {
   const Range particles = rangeOf(arguments.step, row);
   const bool seeksNear = margin > Real(0);
-  const Real offset = arguments.step.planeOffset;
-  forEachCollider(arguments, [&]<std::uint32_t type>(const ColliderParams<Real>& collider) {
+  for (std::uint32_t k = 0; k < arguments.step.colliderCount; ++k) {
+    const ColliderParams<Real>& collider = arguments.colliders[k];
     forEachNear(collider, arguments.before.positions, places, particles, margin, [&](std::ptrdiff_t i) {
       if (arguments.inverseMasses[i] == Real(0)) return;
       const Vec3<Real> known = at(planes.normals, i);
       if (seeksNear && dot(known, known) > Real(0)) return;
       const Vec3<Real> start = at(arguments.before.positions, i), place = at(places, i);
       const Vec3<Real> previous = previousOf(arguments, collider, start);
-      Contact<Real> contact =
-          findContact<type>(collider, collider.coulomb != 0, offset, previous, place, arguments.distances);
-      if (!contact.touches) {
-        if (!seeksNear) return;
-        contact = nearContact<type>(collider, contact, place, arguments.distances);
-        const Real distance = contact.depth < Real(0) ? -contact.depth : contact.depth;
-        if (!(distance < margin)) return;
-      }
+      const Contact<Real> contact = contactAt(arguments, collider, previous, place, seeksNear);
+      const Real distance = contact.depth < Real(0) ? -contact.depth : contact.depth;
+      if (!contact.touches && !(seeksNear && distance < margin)) return;
       const bool isFromBelow = contact.touches && contact.depth < Real(0);  // a plane may be met from there
       const Vec3<Real> normal = isFromBelow ? Real(-1) * contact.normal : contact.normal;
       put(planes.normals, i, normal);
@@ -393,31 +387,16 @@ void findPlanes(const PassArguments<Real>& arguments, const Components<Real>& pl
       put(planes.carries, i, (previous - start) - at(planes.elasticSlips, i));
       planes.frictions.data()[i] = collider.coulomb != 0 ? collider.friction : Real(0);
     });
-  });
+  }
 }
 
 template <class Real>
 Touch<Real> touchAt(const PassArguments<Real>& arguments, std::uint32_t number, Vec3<Real> start,
                     Vec3<Real> place) {
-  const ColliderParams<Real>& own = arguments.colliders[number];
-  const Vec3<Real> previous = previousOf(arguments, own, start);
-  const auto touch = [&]<std::uint32_t type>() -> Touch<Real> {
-    const Contact<Real> contact = findContact<type>(own, own.coulomb != 0, arguments.step.planeOffset,
-                                                    previous, place, arguments.distances);
-    const Contact<Real> known =
-        contact.touches ? contact : nearContact<type>(own, contact, place, arguments.distances);
-    return {known.normal, known.depth, previous - start};
-  };
-  switch (own.type) {
-#define CASE(number, Struct, law) \
-  case number:                    \
-    return touch.template operator()<number>();
-    CASE(COLLIDER_SPHERE, Sphere, )
-    CASE(COLLIDER_PLANE, Plane, )
-    DISTANCE_SHAPES(CASE)
-#undef CASE
-  }
-  return {};
+  const ColliderParams<Real>& collider = arguments.colliders[number];
+  const Vec3<Real> previous = previousOf(arguments, collider, start);
+  const Contact<Real> known = contactAt(arguments, collider, previous, place, true);
+  return {known.normal, known.depth, previous - start};
 }
 
 template <class Real>

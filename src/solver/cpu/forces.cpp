@@ -168,68 +168,66 @@ INLINE void addLimitSprings(const PassArguments<Real>& arguments, int row) {
           });
 }
 
-// Three particles in a line, and the particle among them that gathers: the force on an end is b (2 m - a -
-// c), that on the middle -2 times as large. Where the pins of a clamp end, the curvature of the first half
-// cell shows at the last pin, half as large as it is: it counts twice. `links`: the springs, as bits of a cut
-// mask, of which none may be cut.
+// Three particles in a line, as seen by the one that gathers: the first, the middle, the last of them. The
+// force on an end is b (2 m - a - c), that on the middle -2 times as large.
+template <class Real>
+struct BendingLine {
+  std::ptrdiff_t toA, toM, toC;
+  Real factor;
+  std::uint32_t links;  // the springs, as bits of a cut mask, of which none may be cut
+};
+template <class Real>
+INLINE std::array<BendingLine<Real>, 3> bendingLines(std::ptrdiff_t one,
+                                                     const std::array<std::uint32_t, 3>& links) {
+  return {{{-2 * one, -one, 0, Real(1), links[0]},
+           {-one, 0, one, Real(-2), links[1]},
+           {0, one, 2 * one, Real(1), links[2]}}};
+}
+
+// Where the pins of a clamp end, the curvature of the first half cell shows at the last pin, half as large as
+// it is: it counts twice.
 template <bool hasCuts, class Real>
-INLINE void addBendingLine(const PassArguments<Real>& arguments, Range particles, std::ptrdiff_t toA,
-                           std::ptrdiff_t toM, std::ptrdiff_t toC, Real b,
-                           [[maybe_unused]] std::uint32_t links) {
+INLINE void addBendingLine(const PassArguments<Real>& arguments, Range particles,
+                           const BendingLine<Real>& line, Real b) {
   [[maybe_unused]] const std::uint32_t* cutMasks = arguments.cutMasks;
   const Real *x = arguments.before.positions.x.data(), *y = arguments.before.positions.y.data(),
              *z = arguments.before.positions.z.data(), *w = arguments.inverseMasses;
   Real *fx = arguments.forces.x.data(), *fy = arguments.forces.y.data(), *fz = arguments.forces.z.data();
-  const bool gathersInMiddle = toM == 0;
+  const std::ptrdiff_t toA = line.toA, toM = line.toM, toC = line.toC;
+  const Real factor = line.factor;
 #pragma omp simd
   for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
     const Vec3<Real> a = load(x, y, z, i + toA), m = load(x, y, z, i + toM), c = load(x, y, z, i + toC);
     const bool endOfClamp = w[i + toM] == Real(0) && (w[i + toA] == Real(0)) != (w[i + toC] == Real(0));
     const Real weighted = endOfClamp ? Real(2) * b : b;
-    const Vec3<Real> force = weighted * ((m - a) + (m - c));
-    const Vec3<Real> f{gathersInMiddle ? fx[i] - Real(2) * force.x : fx[i] + force.x,
-                       gathersInMiddle ? fy[i] - Real(2) * force.y : fy[i] + force.y,
-                       gathersInMiddle ? fz[i] - Real(2) * force.z : fz[i] + force.z};
+    const Vec3<Real> force = factor * (weighted * ((m - a) + (m - c)));
     bool isCut = false;
-    if constexpr (hasCuts) isCut = (cutMasks[i] & links) != 0;
-    fx[i] = isCut ? fx[i] : f.x;
-    fy[i] = isCut ? fy[i] : f.y;
-    fz[i] = isCut ? fz[i] : f.z;
+    if constexpr (hasCuts) isCut = (cutMasks[i] & line.links) != 0;
+    fx[i] = isCut ? fx[i] : fx[i] + force.x;
+    fy[i] = isCut ? fy[i] : fy[i] + force.y;
+    fz[i] = isCut ? fz[i] : fz[i] + force.z;
   }
 }
 
-// Along the row, all particles of which have the same border weight.
-template <bool hasCuts, class Real>
-INLINE void addBendingAlongRow(const PassArguments<Real>& arguments, int row) {
-  const StepParams<Real>& step = arguments.step;
-  const Real b = isBorder(row, step.rows) ? Real(0.5) * step.bendAlongRow : step.bendAlongRow;
-  addBendingLine<hasCuts>(arguments, rangeOf(step, row, -2, 0), -2, -1, 0, b, BENDING_LEFT);
-  addBendingLine<hasCuts>(arguments, rangeOf(step, row, -1, 1), -1, 0, 1, b, BENDING_ROW);
-  addBendingLine<hasCuts>(arguments, rangeOf(step, row, 0, 2), 0, 1, 2, b, BENDING_RIGHT);
-}
-
-// Along the columns through particles of the row.
-template <bool hasCuts, class Real>
-INLINE void addBendingAlongColumns(const PassArguments<Real>& arguments, int row, Range particles, Real b) {
-  const StepParams<Real>& step = arguments.step;
-  const int rows = static_cast<int>(step.rows);
-  const std::ptrdiff_t one = indexOffset(step, 0, 1);
-  if (row >= 2) addBendingLine<hasCuts>(arguments, particles, -2 * one, -one, 0, b, BENDING_UPPER);
-  if (row >= 1 && row + 1 < rows)
-    addBendingLine<hasCuts>(arguments, particles, -one, 0, one, b, BENDING_COLUMN);
-  if (row + 2 < rows) addBendingLine<hasCuts>(arguments, particles, 0, one, 2 * one, b, BENDING_LOWER);
-}
-
+// Along the row, all particles of which have the same border weight; then along the columns.
 template <bool hasCuts, class Real>
 INLINE void addBending(const PassArguments<Real>& arguments, int row) {
   const StepParams<Real>& step = arguments.step;
-  addBendingAlongRow<hasCuts>(arguments, row);
-  const Range all = rangeOf(step, row);
-  const Real inside = step.bendAlongColumn, halved = Real(0.5) * inside;
-  const std::ptrdiff_t last = std::max(all.begin + 1, all.end - 1);
-  addBendingAlongColumns<hasCuts>(arguments, row, {all.begin, all.begin + 1}, halved);
-  addBendingAlongColumns<hasCuts>(arguments, row, {all.begin + 1, last}, inside);
-  addBendingAlongColumns<hasCuts>(arguments, row, {last, all.end}, halved);
+  const int rows = static_cast<int>(step.rows);
+  const Real alongRow = isBorder(row, step.rows) ? Real(0.5) * step.bendAlongRow : step.bendAlongRow;
+  const auto ofRow = bendingLines<Real>(1, {BENDING_LEFT, BENDING_ROW, BENDING_RIGHT}),
+             ofColumn =
+                 bendingLines<Real>(indexOffset(step, 0, 1), {BENDING_UPPER, BENDING_COLUMN, BENDING_LOWER});
+  for (int k = 0; k < 3; ++k)
+    addBendingLine<hasCuts>(arguments, rangeOf(step, row, k - 2, k), ofRow[static_cast<std::size_t>(k)],
+                            alongRow);
+  forEachPart(
+      rangeOf(step, row), true, [&](Range particles, bool isEnd) __attribute__((always_inline)) {
+        const Real b = isEnd ? Real(0.5) * step.bendAlongColumn : step.bendAlongColumn;
+        for (int k = 0; k < 3; ++k)
+          if (row + k - 2 >= 0 && row + k < rows)
+            addBendingLine<hasCuts>(arguments, particles, ofColumn[static_cast<std::size_t>(k)], b);
+      });
 }
 
 template <bool hasCuts, class Real>

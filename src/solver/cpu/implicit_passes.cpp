@@ -90,17 +90,17 @@ INLINE void addLineTrials(const ImplicitArguments<Real>& arguments, const Trials
 template <bool hasCuts, class Trials, class Real>
 INLINE void addBendingTrials(const ImplicitArguments<Real>& arguments, const Trials& trials, int row) {
   const StepParams<Real>& step = arguments.step.step;
-  const Range all = rangeOf(step, row), inside = rangeOf(step, row, -1, 1);
+  const Range inside = rangeOf(step, row, -1, 1);
   const bool borderRow = isBorder(row, step.rows);
   addLineTrials<hasCuts>(arguments, trials, inside, 1,
                          borderRow ? Real(0.5) * step.bendAlongRow : step.bendAlongRow, BENDING_ROW);
   if (borderRow) return;
-  const auto addColumns = [&](Range middles, Real b) __attribute__((always_inline)) {
-    addLineTrials<hasCuts>(arguments, trials, middles, indexOffset(step, 0, 1), b, BENDING_COLUMN);
-  };
-  addColumns({all.begin, all.begin + 1}, Real(0.5) * step.bendAlongColumn);
-  addColumns(inside, step.bendAlongColumn);
-  addColumns({all.end - 1, all.end}, Real(0.5) * step.bendAlongColumn);
+  forEachPart(
+      rangeOf(step, row), true, [&](Range middles, bool isEnd) __attribute__((always_inline)) {
+        addLineTrials<hasCuts>(arguments, trials, middles, indexOffset(step, 0, 1),
+                               isEnd ? Real(0.5) * step.bendAlongColumn : step.bendAlongColumn,
+                               BENDING_COLUMN);
+      });
 }
 
 // Of the plane in which a particle touches a collider.

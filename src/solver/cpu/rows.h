@@ -37,6 +37,17 @@ Range rangeOf(const StepParams<Real>& step, int row, int firstOffset = 0, int la
   return {start + std::max(0, -firstOffset), start + columns - std::max(0, lastOffset)};
 }
 
+// body(particles, isEnd) for all of a row, or, with its ends apart, for its first particle, those inside, and
+// its last one. A loop: what is inlined in the body is compiled once for all of them.
+template <class Body>
+INLINE void forEachPart(Range all, bool endsApart, Body body) {
+  const std::ptrdiff_t first = endsApart ? all.begin + 1 : all.end,
+                       last = endsApart ? std::max(first, all.end - 1) : all.end;
+  for (Range part{all.begin, first}; part.begin < all.end;
+       part = {part.end, part.end < last ? last : all.end})
+    body(part, endsApart && (part.begin == all.begin || part.begin == last));
+}
+
 template <class Real>
 std::ptrdiff_t indexOffset(const StepParams<Real>& step, int columns, int rows) {
   return columns + rows * static_cast<std::ptrdiff_t>(step.columns);

@@ -60,19 +60,14 @@ INLINE bool forEachStretch(const PassArguments<Real>& arguments, int row, std::u
   const int otherRow = row + incident.rows, rows = static_cast<int>(step.rows);
   const bool enabled = (step.enabledSlots >> incident.slot & 1u) != 0;
   if (!enabled || row >= rows || otherRow < 0 || otherRow >= rows) return false;
-  const Range particles = rangeOf(step, row, incident.columns, incident.columns);
+  const bool halvesRow = step.hasMaterial != 0 && incident.slot == toLeft && isBorder(row, step.rows),
+             halvesEnds = step.hasMaterial != 0 && incident.slot == toUpper;
   const Real inside = step.springs[incident.slot].stiffness, halved = Real(0.5) * inside;
-  if (step.hasMaterial == 0) {
-    visitRange(arguments, particles, k, inside, visit);
-  } else if (incident.slot != toUpper) {
-    const bool onBorder = incident.slot == toLeft && isBorder(row, step.rows);
-    visitRange(arguments, particles, k, onBorder ? halved : inside, visit);
-  } else {
-    const std::ptrdiff_t last = std::max(particles.begin + 1, particles.end - 1);
-    visitRange(arguments, {particles.begin, particles.begin + 1}, k, halved, visit);
-    visitRange(arguments, {particles.begin + 1, last}, k, inside, visit);
-    visitRange(arguments, {last, particles.end}, k, halved, visit);
-  }
+  forEachPart(
+      rangeOf(step, row, incident.columns, incident.columns),
+      halvesEnds, [&](Range particles, bool isEnd) __attribute__((always_inline)) {
+        visitRange(arguments, particles, k, isEnd || halvesRow ? halved : inside, visit);
+      });
   return true;
 }
 

@@ -65,11 +65,6 @@ TEST_P(BundledFraming, LooksFromSlightlyAboveAndNotFromFarAway) {
       << "the sheet spans less than " << 50 * least << " % of the picture";
 }
 
-std::vector<std::string> bundledNames() {
-  std::vector<std::string> names;
-  for (const BundledScene& scene : bundledScenes()) names.push_back(scene.name);
-  return names;
-}
 INSTANTIATE_TEST_SUITE_P(All, BundledFraming, ::testing::ValuesIn(bundledNames()),
                          [](const auto& name) { return name.param; });
 
