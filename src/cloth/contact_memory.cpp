@@ -17,7 +17,7 @@ void checkContactMemory(const Scene& scene, double memory) {
     if (cloth.isMesh()) continue;
     const double dx = cloth.width / (cloth.numWidthPoints - 1),
                  dy = cloth.height / (cloth.numHeightPoints - 1);
-    const double thickness = cloth.material ? cloth.material->thickness : cloth.thickness;
+    const double thickness = cloth.thicknessInUse();
     const double radius = reach * std::min(2 * thickness, most * std::min(dx, dy));
     const double pairs = std::numbers::pi * radius * radius / (dx * dy);
     needed += static_cast<double>(cloth.numWidthPoints) * cloth.numHeightPoints *

@@ -199,6 +199,7 @@ void declareRun(CLI::App& app, Arguments& a, Task& task) {
              "displace free particles at the start by up to this many metres along each axis (default 0)")
           ->transform(number(0.0, 1.0));
   run->add_option("--seed", a.seed, "random seed of --jitter (default 1)")
+      ->needs(jitter)
       ->transform(wholeNumber(0, UINT32_MAX));
   CLI::Option* replay =
       run->add_option("--replay", a.replay,

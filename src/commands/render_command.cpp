@@ -30,6 +30,9 @@ void checkOutputs(const RenderCommandOptions& options) {
                        ": expected a name ending in .png or .mp4, as still.png, frame_%04d.png, clip.mp4");
     checkPicture("--out", out, settingsOf(options));
   }
+  if (options.every != 1 && std::none_of(options.outs.begin(), options.outs.end(), hasFrameNumber))
+    throw UsageError("--every " + std::to_string(options.every) +
+                     ": no picture is saved every so many frames; give --out a name as frame_%04d.png");
   for (const std::string& out : options.outs) checkWritable(numberedName(out, options.frames));
 }
 
@@ -53,7 +56,7 @@ int renderCommand(const RenderCommandOptions& options) {
       withQuality({options.sphereSegmentsAround, options.sphereSegmentsDown},
                   qualityNamed(options.quality).value_or(Quality::final), gl::currentContextInfo().software);
   SimulationRenderer renderer(simulation, forExposures(drawing, exposures));
-  Camera camera(scene, simulation.cloth());
+  Camera camera = pictureCamera(scene, simulation.cloth(), options.width, options.height);
   camera.orbit(options.view.right * radians, options.view.up * radians);
   camera.zoom(1 / options.view.zoom);
 

@@ -45,6 +45,16 @@ void checkDistinct(const RunOptions& options) {
   if (!options.trace.empty()) add(options.trace, "--trace " + options.trace);
 }
 
+// @throws UsageError where --every is for no output
+void checkEvery(const RunOptions& options) {
+  const auto hasFrames = [](const std::string& save) { return isSequence(save) || hasFrameNumber(save); };
+  if (options.every != 1 && std::none_of(options.saves.begin(), options.saves.end(), hasFrames))
+    throw UsageError(
+        "--every " + std::to_string(options.every) +
+        ": nothing is saved every so many frames; give --save a name as cloth_%04d.obj, or .pc2, "
+        ".usda, .usdc, .usd");
+}
+
 // Checks the names before the run. @throws UsageError for unknown extensions, InputOutputError
 void checkSaves(const RunOptions& options) {
   for (const std::string& save : options.saves) {
@@ -56,6 +66,7 @@ void checkSaves(const RunOptions& options) {
                        ": the extension is none of .csv, .ply, .obj, .glb, .npz, .state, .pc2, .usda, .usdc, "
                        ".usd, .png, .mp4");
   }
+  checkEvery(options);
   for (const std::string& save : options.saves) {
     checkWritable(numberedName(save, options.frames.value_or(0)));
     if (isPointCache(save)) checkWritable(restMeshBeside(save));
@@ -67,6 +78,16 @@ void checkSaves(const RunOptions& options) {
     throw UsageError("--trace " + options.trace +
                      ": expected a name ending in .csv or .npz, as energies.csv");
   checkWritable(options.trace);
+}
+
+// The points of a point cache are those of the mesh beside it, which cannot change.
+void warnOfWholeMeshes(const std::vector<std::string>& saves) {
+  for (const std::string& save : saves)
+    if (isPointCache(save))
+      std::cerr
+          << "clothsim: warning: " << save
+          << " has cloth that was cut or tore as it was at the start; save .usda, .usdc or .usd to have "
+             "it cut\n";
 }
 
 // Whether there are pictures to draw, which needs OpenGL.
@@ -231,9 +252,14 @@ int runCommand(const RunOptions& options) {
     pictures.add(run.simulation(), frame);
   };
   save(0);
+  const Cuts cutsAtStart = seen.state.cuts;
   Trace trace;
   const auto addToTrace = [&] {
     if (!options.trace.empty()) trace.add(seen, run.simulation());
+  };
+  const auto writeTrace = [&] {
+    if (options.trace.empty()) return;
+    writeFileAtomically(options.trace, options.trace.ends_with(".npz") ? trace.npz() : trace.csv());
   };
   addToTrace();
   Progress progress("simulating", frames);
@@ -243,6 +269,7 @@ int runCommand(const RunOptions& options) {
     run.stepFrame();
     seen.seconds += std::chrono::duration<double>(Clock::now() - start).count();
     if (const std::optional<Divergence> divergence = run.checkFrame()) {
+      writeTrace();  // of the frames before
       SceneOptions scene = options.scene;
       if (run.isReplay()) scene.scene = options.replay;
       stopBlownUp(*divergence, run.simulation(),
@@ -263,8 +290,8 @@ int runCommand(const RunOptions& options) {
   files.finish();
   pictures.finish();
   progress.finish();
-  if (!options.trace.empty())
-    writeFileAtomically(options.trace, options.trace.ends_with(".npz") ? trace.npz() : trace.csv());
+  writeTrace();
+  if (seen.state.cuts != cutsAtStart) warnOfWholeMeshes(options.saves);
 
   nlohmann::ordered_json json = summary(options, run, seen);
   if (counter) json["crossings"] = toJson(crossings);

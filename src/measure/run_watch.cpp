@@ -11,6 +11,8 @@
 #include "core/formatted.h"
 #include "scene/pose.h"
 #include "solver/pin_paths.h"
+#include "solver/self_collision.h"
+#include "solver/surface.h"
 
 namespace clothsim {
 namespace {
@@ -161,10 +163,31 @@ std::optional<Warning> longStepsWarning(const Scene& scene) {
                      std::to_string(scene.solver.simulationSteps) + "), or solver.integrator=implicit"};
 }
 
+std::optional<Warning> thinLayersWarning(const Scene& scene, const Cloth& cloth) {
+  double asked = 0, kept = 0;
+  std::string where;
+  if (const ThinnedLayers thinned = thinnedLayers(scene, cloth); thinned.particles > 0) {
+    for (const ClothSettings& settings : scene.cloths) asked = std::max(asked, settings.thicknessInUse());
+    kept = thinned.least;
+    where = " at " + std::to_string(thinned.particles) + " of " + std::to_string(cloth.particleCount()) +
+            " particles, half the shortest side there";
+  } else if (collidesWithItself(scene, cloth)) {
+    asked = thicknessDistance(scene);
+    kept = contactDistance(scene, cloth);
+    where = ", 7 of the shortest spacings";
+  }
+  if (!(kept < asked)) return std::nullopt;
+  const auto millimeters = [](double x) { return formatted("%.3g mm", 1000 * x); };
+  return Warning{"contact", 0, "layers are thinner than the cloth",
+                 "layers meet at " + millimeters(kept) + " instead of " + millimeters(asked) + where +
+                     "; use fewer points or a smaller thickness"};
+}
+
 void RunWatch::start(const Cloth& cloth, const Scene& scene, const State& state) {
   startInColliders_ = overlapsWithColliders(cloth, scene, state);
   paths_ = pathWarnings(cloth, scene, state);
   unseenColliders_ = unseenColliders(scene, cloth);
+  thinLayers_ = thinLayersWarning(scene, cloth);
 }
 
 void RunWatch::add(int frame, const Cloth& cloth, const Scene& scene, const State& state, double strain,
@@ -202,6 +225,7 @@ std::vector<Warning> RunWatch::warnings(const Scene& scene) const {
              " so thin that particles can be on all sides, and may pass through the cloth; raise "
              "the resolution, or set solver.integrator to \"implicit\", where small colliders "
              "but meshes act on triangles, too"});
+  if (thinLayers_) warnings.push_back(*thinLayers_);
   if (passedFrame_)
     warnings.push_back({"contact", passedFrame_, "a collider went through the cloth",
                         "small colliders went through triangles " + std::to_string(passages_) +

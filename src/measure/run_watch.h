@@ -41,6 +41,9 @@ struct Warning {
 // blowing up.
 [[nodiscard]] std::optional<Warning> longStepsWarning(const Scene& scene);
 
+// That layers meet nearer than the thickness of the cloth, which is too much for its cells.
+[[nodiscard]] std::optional<Warning> thinLayersWarning(const Scene& scene, const Cloth& cloth);
+
 class RunWatch {
  public:
   // To be called with the state before the first step.
@@ -66,6 +69,7 @@ class RunWatch {
   double peakStrain_ = 0;
   std::uint64_t crowdedSteps_ = 0;
   std::uint64_t passages_ = 0, unseenColliders_ = 0;
+  std::optional<Warning> thinLayers_;
   std::optional<int> passedFrame_;
   std::optional<int> crowdedFrame_;  // the first with a step that had too many pairs to push
   ConvergenceCounts convergence_;

@@ -305,7 +305,7 @@ Image PythonSimulation::picture(const PictureView& view) {
     renderer_ = std::make_unique<SimulationRenderer>(*simulation_, drawing);
   else
     renderer_->setOptions(drawing);
-  Camera camera(simulation_->scene(), simulation_->cloth());
+  Camera camera = pictureCamera(simulation_->scene(), simulation_->cloth(), view.width, view.height);
   camera.orbit(view.right * radians, view.up * radians);
   camera.zoom(1 / view.zoom);
   Image image = renderer_->picture(camera, view.width, view.height, view.exposures);

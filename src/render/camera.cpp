@@ -122,6 +122,10 @@ Camera::Camera(const Scene& scene, const Cloth& cloth, double aspect, const Cove
   start_ = now_ = place;
 }
 
+Camera pictureCamera(const Scene& scene, const Cloth& cloth, int width, int height) {
+  return Camera(scene, cloth, scene.camera.position ? widestFramed : static_cast<double>(width) / height);
+}
+
 void Camera::orbit(double azimuthRadians, double elevationRadians) {
   now_.azimuth += azimuthRadians;
   now_.elevation = std::clamp(now_.elevation + elevationRadians, -steepest, steepest);

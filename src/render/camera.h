@@ -46,4 +46,7 @@ class Camera {
   Place now_, start_;
 };
 
+// For a picture of so many pixels. A scene's own camera stands where the scene puts it, whatever it crops.
+[[nodiscard]] Camera pictureCamera(const Scene& scene, const Cloth& cloth, int width, int height);
+
 }  // namespace clothsim

@@ -82,7 +82,7 @@ std::vector<float> drawnThickness(const Scene& scene, const Cloth& cloth) {
   for (std::size_t i = 0; i < cloth.pieces().size(); ++i) {
     const Piece& piece = cloth.pieces()[i];
     const ClothSettings& settings = scene.cloths[i];
-    const double own = settings.material ? settings.material->thickness : settings.thickness;
+    const double own = settings.thicknessInUse();
     const double spacing = std::min(piece.nominalLength[toLeft], piece.nominalLength[toUpper]);
     const std::optional<double> wanted =
         settings.render.thickness ? settings.render.thickness : scene.render.thickness;

@@ -37,8 +37,7 @@ double longestEdge(const Cloth& cloth) {
 // How far contact keeps layers apart, at least [m].
 double layerDistance(const Scene& scene) {
   double least = INFINITY;
-  for (const ClothSettings& cloth : scene.cloths)
-    least = std::min(least, cloth.material ? cloth.material->thickness : cloth.thickness);
+  for (const ClothSettings& cloth : scene.cloths) least = std::min(least, cloth.thicknessInUse());
   return std::max(least, 1e-6);
 }
 

@@ -150,6 +150,7 @@ struct ClothSettings {
   std::vector<PinMotion> pinMotion;  // A pin is moved by one of these at most, and otherwise stays.
   ClothLook render;
   [[nodiscard]] bool isMesh() const { return !mesh.empty(); }
+  [[nodiscard]] double thicknessInUse() const { return material ? material->thickness : thickness; }  // [m]
   friend bool operator==(const ClothSettings&, const ClothSettings&) = default;
 };
 

@@ -59,18 +59,22 @@ double expectedStrain(const Scene& scene) { return scene.solver.strainLimit.valu
 
 double crossingDistance(const Cloth& cloth, double stretch) { return (1 + stretch) * largestSpacing(cloth); }
 
-double contactDistance(const Scene& scene, const Cloth& cloth) {
-  double thickness = 0, finest = largestSpacing(cloth);
+double thicknessDistance(const Scene& scene) {
+  double thickness = 0;
   for (const ClothSettings& settings : scene.cloths)
-    thickness = std::max(thickness, settings.material ? settings.material->thickness : settings.thickness);
+    thickness = std::max(thickness, settings.thicknessInUse());
+  return scene.solver.selfCollision == SelfCollision::robust ? thickness : 2 * thickness;
+}
+
+double contactDistance(const Scene& scene, const Cloth& cloth) {
+  double finest = largestSpacing(cloth), distance = thicknessDistance(scene);
   const bool onlyMeshes = std::all_of(cloth.pieces().begin(), cloth.pieces().end(),
                                       [](const Piece& piece) { return piece.isMesh; });
   for (const Piece& piece : cloth.pieces())
     if (!piece.isMesh) finest = std::min({finest, piece.nominalLength[toLeft], piece.nominalLength[toUpper]});
-  double distance = 2 * thickness;
   if (scene.solver.selfCollision == SelfCollision::robust)
-    distance = std::max(thickness, crossingDistance(cloth, expectedStrain(scene)) +
-                                       RELATIVE_MOTION / 2 * largestSpacing(cloth));
+    distance = std::max(distance, crossingDistance(cloth, expectedStrain(scene)) +
+                                      RELATIVE_MOTION / 2 * largestSpacing(cloth));
   return onlyMeshes ? distance : std::min(distance, 7 * finest);
 }
 

@@ -43,6 +43,9 @@ inline constexpr int FIXED_POINT_BITS<double> = 40;
 // Whether there is anything to do: it is on, and d > 0.
 [[nodiscard]] bool collidesWithItself(const Scene& scene, const Cloth& cloth);
 
+// What thickness asks for: that of the thickest cloth, twice that under "averaged" [m].
+[[nodiscard]] double thicknessDistance(const Scene& scene);
+
 // d, the distance that the scene's self-collision keeps between non-adjacent particles [m]; at most 7
 // spacings of the finest grid, so that every particle nearer at rest is known by its place on the lattice.
 [[nodiscard]] double contactDistance(const Scene& scene, const Cloth& cloth);

@@ -158,13 +158,17 @@ SurfaceTriangle makeTriangle(std::uint32_t number, const std::vector<Corners>& t
   return {own[0], own[1], own[2], owned, across[0], across[1], across[2], NO_BLOCK};
 }
 
+// A particle's own: its layer would touch its neighbours if it were thicker than their half distance. [m]
+double layerThickness(const ClothSettings& settings, const Fan& fan) {
+  return std::min(settings.thicknessInUse(), fan.shortestSide / 2);
+}
+
 template <class Real>
 SurfacePoint<Real> makePoint(const Cloth& cloth, const Scene& scene, std::uint32_t particle, const Fan& fan) {
   const std::size_t piece = cloth.pieceOf(particle);
   const ClothSettings& settings = scene.cloths[piece];
   constexpr double usualFriction = 0.3;
-  const double thickness = settings.material ? settings.material->thickness : settings.thickness,
-               radius = fan.count > 0 ? std::min(thickness / 2, fan.shortestSide / 4) : 0,
+  const double radius = fan.count > 0 ? layerThickness(settings, fan) / 2 : 0,
                friction = scene.solver.selfFriction.value_or(settings.material ? settings.material->friction
                                                                                : usualFriction);
   return {static_cast<Real>(radius), static_cast<Real>(friction),
@@ -293,6 +297,19 @@ std::size_t unseenColliders(const Scene& scene, const Cloth& cloth) {
     count += !isSeen && thinness < halfDiagonal ? 1 : 0;
   }
   return count;
+}
+ThinnedLayers thinnedLayers(const Scene& scene, const Cloth& cloth) {
+  ThinnedLayers thinned;
+  if (!hasSurfaceContact(scene)) return thinned;
+  const std::vector<Fan> fans = makeFans(cloth, remainingTriangles(cloth, {}));
+  for (std::uint32_t i = 0; i < cloth.particleCount(); ++i) {
+    const ClothSettings& settings = scene.cloths[cloth.pieceOf(i)];
+    const double thickness = layerThickness(settings, fans[i]);
+    if (thickness >= settings.thicknessInUse()) continue;
+    ++thinned.particles;
+    thinned.least = std::min(thinned.least, thickness);
+  }
+  return thinned;
 }
 bool hasSurface(const Scene& scene, const Cloth& cloth) {
   return hasSurfaceContact(scene) || hasSmallColliders(scene, cloth);

@@ -100,6 +100,13 @@ struct ClothSurface {
 }
 // How many of those that act on particles alone are so small that they can pass between them, unseen.
 [[nodiscard]] std::size_t unseenColliders(const Scene& scene, const Cloth& cloth);
+// At how many particles layers are thinner than their fabric, since half the shortest side there is less, and
+// the thinnest of them.
+struct ThinnedLayers {
+  std::size_t particles = 0;
+  double least = INFINITY;  // [m]
+};
+[[nodiscard]] ThinnedLayers thinnedLayers(const Scene& scene, const Cloth& cloth);
 // Whether steps have either.
 [[nodiscard]] bool hasSurface(const Scene& scene, const Cloth& cloth);
 

@@ -223,9 +223,10 @@ TEST(Program, FailsWithOneWhenTheSimulationBlowsUp) {
   const test::TemporaryFolder folder;  // also of the last good state
   const CommandResult result = clothsim(
       "run -f pinned2 --frames 50 --backend cpu --set cloth.ks=1e9 --set solver.strain_limit=false --save " +
-      (folder / "end.csv").string());
+      (folder / "end.csv").string() + " --trace " + (folder / "trace.csv").string());
   EXPECT_EQ(result.exitCode, 1);
   EXPECT_NE(result.output.find("solver.simulation_steps"), std::string::npos) << result.output;
+  EXPECT_NE(readFile(folder / "trace.csv").find("\n0,"), std::string::npos) << "the frames before are kept";
 }
 
 TEST(Program, SavesTheLastGoodStateOfAnExplosionAndNothingThatIsNotFinite) {
@@ -323,7 +324,9 @@ TEST(Program, AnswersWrongUsageWithTwo) {
         "run -f pinned2 --frames 1 --backend abacus", "run -f pinned2 --frames 1 --resolution big",
         "run -f pinned2 --frames 1 --save cloth.docx", "run -f pinned2 --frames 1 --save cloth_%04d.pc2",
         "render -f pinned2 --frames 1 --out clip.gif", "render -f pinned2 --frames 1 --out a.png --size 0x0",
-        "describe cloth.dampin"})
+        "describe cloth.dampin", "run -f pinned2 --frames 1 --seed 2",
+        "run -f pinned2 --frames 4 --every 2 --save a.obj",
+        "render -f pinned2 --frames 4 --every 2 --out a.png"})
     EXPECT_EQ(clothsim(arguments).exitCode, 2) << arguments;
 }
 

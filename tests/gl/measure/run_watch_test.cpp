@@ -121,6 +121,29 @@ TEST(RunWatch, SaysThatStepsAreTooLongForSprings) {
   EXPECT_FALSE(longStepsWarning(scene).has_value());
 }
 
+TEST(RunWatch, SaysThatLayersAreThinnerThanTheCloth) {
+  const auto warningOf = [](const Scene& scene) { return thinLayersWarning(scene, Cloth(scene)); };
+  const auto expectText = [&](const Scene& scene, const std::string& part) {
+    const std::optional<Warning> warning = warningOf(scene);
+    ASSERT_TRUE(warning.has_value());
+    EXPECT_NE(warning->text.find(part), std::string::npos) << warning->text;
+  };
+  const std::string sheet =
+      R"({"cloth": {"width": 0.1, "height": 0.1, "num_width_points": 101, "num_height_points": 51)";
+  const Scene wool =
+      parseScene(sheet + R"(, "material": "wool"}, "solver": {"integrator": "implicit"}})", "wool");
+  expectText(wool, "layers meet at 0.5 mm instead of 0.8 mm at 5151 of 5151 particles");
+  Scene coarse = wool;
+  coarse.cloths[0].numWidthPoints = 41;
+  EXPECT_FALSE(warningOf(coarse).has_value());
+
+  Scene springs =
+      parseScene(sheet + R"(, "thickness": 0.01}, "solver": {"self_collision": "averaged"}})", "springs");
+  expectText(springs, "layers meet at 7 mm instead of 20 mm, 7 of the shortest spacings");
+  springs.cloths[0].thickness = 0.003;
+  EXPECT_FALSE(warningOf(springs).has_value());
+}
+
 TEST(RunWatch, TakesFabricsForStretchedSoonerThanSprings) {
   EXPECT_EQ(doubtfulStrain(parseScene(R"({"cloth": {"ks": 5}})", "springs")), 1);
   EXPECT_EQ(doubtfulStrain(parseScene(R"({"cloth": {"material": "silk"}})", "silk")), 0.5);
