@@ -15,6 +15,7 @@
 
 #include "commands/commands.h"
 #include "commands/proposal.h"
+#include "commands/unknown_words.h"
 #include "commands/version.h"
 #include "core/error.h"
 #include "core/interrupt.h"
@@ -462,6 +463,9 @@ int parseAndRun(int argc, char** argv) {
     if (arguments.threads > 0) ThreadTeam::setSharedThreads(arguments.threads);
     return task();
   } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() != 0)
+      if (const std::string unknown = unknownWord(app, {argv + 1, argv + argc}); !unknown.empty())
+        throw UsageError(unknown + "\nRun with --help or --help-all for more information.");
     return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::usage);
   }
 }
