@@ -167,7 +167,7 @@ std::optional<Warning> thinLayersWarning(const Scene& scene, const Cloth& cloth)
   double asked = 0, kept = 0;
   std::string where;
   if (const ThinnedLayers thinned = thinnedLayers(scene, cloth); thinned.particles > 0) {
-    for (const ClothSettings& settings : scene.cloths) asked = std::max(asked, settings.thicknessInUse());
+    asked = thinned.fabric;
     kept = thinned.least;
     where = " at " + std::to_string(thinned.particles) + " of " + std::to_string(cloth.particleCount()) +
             " particles, half the shortest side there";

@@ -307,7 +307,7 @@ ThinnedLayers thinnedLayers(const Scene& scene, const Cloth& cloth) {
     const double thickness = layerThickness(settings, fans[i]);
     if (thickness >= settings.thicknessInUse()) continue;
     ++thinned.particles;
-    thinned.least = std::min(thinned.least, thickness);
+    if (thickness < thinned.least) thinned.least = thickness, thinned.fabric = settings.thicknessInUse();
   }
   return thinned;
 }

@@ -15,6 +15,7 @@
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -101,10 +102,10 @@ struct ClothSurface {
 // How many of those that act on particles alone are so small that they can pass between them, unseen.
 [[nodiscard]] std::size_t unseenColliders(const Scene& scene, const Cloth& cloth);
 // At how many particles layers are thinner than their fabric, since half the shortest side there is less, and
-// the thinnest of them.
+// the thinnest of them, with the thickness of its fabric [m].
 struct ThinnedLayers {
   std::size_t particles = 0;
-  double least = INFINITY;  // [m]
+  double least = INFINITY, fabric = 0;
 };
 [[nodiscard]] ThinnedLayers thinnedLayers(const Scene& scene, const Cloth& cloth);
 // Whether steps have either.
