@@ -80,14 +80,13 @@ void checkSaves(const RunOptions& options) {
   checkWritable(options.trace);
 }
 
-// The points of a point cache are those of the mesh beside it, which cannot change.
-void warnOfWholeMeshes(const std::vector<std::string>& saves) {
+// The mesh beside a point cache is that of the start.
+void warnOfOldMeshes(const std::vector<std::string>& saves) {
   for (const std::string& save : saves)
     if (isPointCache(save))
       std::cerr
           << "clothsim: warning: " << save
-          << " has cloth that was cut or tore as it was at the start; save .usda, .usdc or .usd to have "
-             "it cut\n";
+          << " keeps the triangles of the start, but cloth was cut or tore; save .usda, .usdc or .usd\n";
 }
 
 // Whether there are pictures to draw, which needs OpenGL.
@@ -291,7 +290,7 @@ int runCommand(const RunOptions& options) {
   pictures.finish();
   progress.finish();
   writeTrace();
-  if (seen.state.cuts != cutsAtStart) warnOfWholeMeshes(options.saves);
+  if (seen.state.cuts != cutsAtStart) warnOfOldMeshes(options.saves);
 
   nlohmann::ordered_json json = summary(options, run, seen);
   if (counter) json["crossings"] = toJson(crossings);

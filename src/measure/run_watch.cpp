@@ -186,6 +186,10 @@ std::optional<Warning> thinLayersWarning(const Scene& scene, const Cloth& cloth)
 void RunWatch::start(const Cloth& cloth, const Scene& scene, const State& state) {
   startInColliders_ = overlapsWithColliders(cloth, scene, state);
   paths_ = pathWarnings(cloth, scene, state);
+  startWithoutState(cloth, scene);
+}
+
+void RunWatch::startWithoutState(const Cloth& cloth, const Scene& scene) {
   unseenColliders_ = unseenColliders(scene, cloth);
   thinLayers_ = thinLayersWarning(scene, cloth);
 }

@@ -48,6 +48,8 @@ class RunWatch {
  public:
   // To be called with the state before the first step.
   void start(const Cloth& cloth, const Scene& scene, const State& state);
+  // The part of that for which the state does not matter.
+  void startWithoutState(const Cloth& cloth, const Scene& scene);
   // To be called at the end of every frame; frame 0 is the start. `strain` is Measures::maxStrain, `counts`
   // are those since the start.
   void add(int frame, const Cloth& cloth, const Scene& scene, const State& state, double strain,

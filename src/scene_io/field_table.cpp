@@ -128,7 +128,7 @@ std::span<const Field<ClothSettings>> fieldsOf<ClothSettings>() {
           .within({.low = 0, .high = 100})
           .usually(0, 2),
       field("thickness", &C::thickness,
-            "Self-collision keeps particles 2 thickness apart (averaged), or at least 1 (robust).")
+            "Particles stay 2 thickness apart (averaged) or at least 1 (robust), layers 1 (contact).")
           .in("m")
           .within(notNegative)
           .usually(0.001, 0.1)
@@ -214,7 +214,8 @@ std::span<const Field<Material>> fieldsOf<Material>() {
           .within(notNegative)
           .alwaysWritten(),
       field("thickness", &M::thickness,
-            "Thickness of the fabric; self-collision keeps layers at least this far apart.")
+            "Thickness of the fabric, at which layers meet; where cells are too fine for it, a warning says "
+            "so.")
           .in("m")
           .within(notNegative)
           .rebuilds()

@@ -158,7 +158,7 @@ SurfaceTriangle makeTriangle(std::uint32_t number, const std::vector<Corners>& t
   return {own[0], own[1], own[2], owned, across[0], across[1], across[2], NO_BLOCK};
 }
 
-// A particle's own: its layer would touch its neighbours if it were thicker than their half distance. [m]
+// At most half the shortest side at the particle, or neighbours in the sheet would touch each other. [m]
 double layerThickness(const ClothSettings& settings, const Fan& fan) {
   return std::min(settings.thicknessInUse(), fan.shortestSide / 2);
 }

@@ -120,6 +120,7 @@ void MeasurePanel::sample(Session& session, double now, std::optional<std::uint3
     springsOf_ = session.clothGeneration();
     samples_.clear();
     watch_ = {};
+    watch_.startWithoutState(cloth, simulation.scene());
   }
   const State state = session.simulation().solver().state();
   if (!samples_.empty() && simulation.time() < samples_.back().time) samples_.clear();
