@@ -7,8 +7,8 @@
 namespace clothsim {
 namespace {
 
-constexpr int TILE = 32;     // [pixels]
-constexpr float margin = 2;  // [pixels] around the ground's outline, where both are seen
+constexpr int TILE = 32;             // [pixels]
+constexpr float OUTLINE_MARGIN = 2;  // [pixels] around the ground's outline, where both are seen
 
 // Of the ground [sizes of the scene], by sides so short that tiles along them are few.
 std::vector<glm::vec2> outlineOf(GroundShape shape) {
@@ -101,7 +101,8 @@ std::vector<bool> tilesOnOutline(const SeenGround& ground, GroundShape shape, co
   };
   const std::vector<glm::vec2> outline = outlineOf(shape);
   for (std::size_t i = 0; i < outline.size(); ++i) {
-    const FlatBounds side = ground.sideAt(outline[i], outline[(i + 1) % outline.size()]).grown(margin);
+    const FlatBounds side =
+        ground.sideAt(outline[i], outline[(i + 1) % outline.size()]).grown(OUTLINE_MARGIN);
     if (!(side.low.x <= side.high.x)) continue;
     const int left = std::max(tileAt(side.low.x, tiles.columns), 0),
               right = std::min(tileAt(side.high.x, tiles.columns), tiles.columns - 1),
@@ -115,8 +116,8 @@ std::vector<bool> tilesOnOutline(const SeenGround& ground, GroundShape shape, co
 
 // Of a tile without the outline, but perhaps with the horizon.
 BackdropShows shownIn(const SeenGround& ground, int column, int row) {
-  const float left = static_cast<float>(column * TILE) - margin,
-              bottom = static_cast<float>(row * TILE) - margin, side = TILE + 2 * margin;
+  const float left = static_cast<float>(column * TILE) - OUTLINE_MARGIN,
+              bottom = static_cast<float>(row * TILE) - OUTLINE_MARGIN, side = TILE + 2 * OUTLINE_MARGIN;
   int corners = 0;
   for (const float x : {left, left + side})
     for (const float y : {bottom, bottom + side}) corners += ground.isAt({x, y}) ? 1 : 0;

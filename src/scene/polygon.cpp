@@ -6,7 +6,7 @@
 namespace clothsim {
 namespace {
 
-using Triangle = std::array<std::size_t, 3>;
+using Corners = std::array<std::size_t, 3>;
 
 // Of the area that a triangle has at least, as a part of the whole polygon's.
 constexpr double LEAST_PART = 1e-9;
@@ -28,8 +28,8 @@ class EarCutter {
     std::iota(left_.begin(), left_.end(), 0);
   }
 
-  std::vector<Triangle> cut() {
-    std::vector<Triangle> triangles;
+  std::vector<Corners> cut() {
+    std::vector<Corners> triangles;
     while (left_.size() > 3) {
       const std::size_t ear = nextEar();
       triangles.push_back(cornerAt(ear));
@@ -40,13 +40,13 @@ class EarCutter {
   }
 
   // Twice the area of a triangle as seen along the polygon's normal, times twice the polygon's.
-  [[nodiscard]] double seen(const Triangle& t) const {
+  [[nodiscard]] double seen(const Corners& t) const {
     return dot(normal_, cross(polygon_[t[1]] - polygon_[t[0]], polygon_[t[2]] - polygon_[t[0]]));
   }
-  [[nodiscard]] bool isWhole(const Triangle& t) const { return seen(t) > least_; }
+  [[nodiscard]] bool isWhole(const Corners& t) const { return seen(t) > least_; }
 
  private:
-  [[nodiscard]] Triangle cornerAt(std::size_t place) const {
+  [[nodiscard]] Corners cornerAt(std::size_t place) const {
     const std::size_t count = left_.size();
     return {left_[(place + count - 1) % count], left_[place], left_[(place + 1) % count]};
   }
@@ -57,7 +57,7 @@ class EarCutter {
   }
 
   // Whether no other corner lies within, or on the sides.
-  [[nodiscard]] bool isEmpty(const Triangle& t) const {
+  [[nodiscard]] bool isEmpty(const Corners& t) const {
     return std::none_of(left_.begin(), left_.end(), [&](std::size_t other) {
       for (const std::size_t corner : t)
         if (polygon_[corner] == polygon_[other]) return false;
@@ -71,7 +71,7 @@ class EarCutter {
     for (std::size_t place = 0; place < order.size(); ++place) order[place] = {thirdSideOf(place), place};
     std::sort(order.begin(), order.end());
     for (const auto& [side, place] : order) {
-      const Triangle corner = cornerAt(place);
+      const Corners corner = cornerAt(place);
       if (isWhole(corner) && isEmpty(corner)) return place;
     }
     return order.front().second;
@@ -85,14 +85,14 @@ class EarCutter {
 
 }  // namespace
 
-std::vector<Triangle> trianglesOf(std::span<const Vec3d> polygon) {
+std::vector<Corners> trianglesOf(std::span<const Vec3d> polygon) {
   if (polygon.size() == 3) return {{0, 1, 2}};
   EarCutter cutter(polygon);
   if (polygon.size() == 4) {
     const Vec3d first = polygon[2] - polygon[0], second = polygon[3] - polygon[1];
-    const std::vector<Triangle> halves = dot(first, first) < dot(second, second)
-                                             ? std::vector<Triangle>{{0, 1, 2}, {0, 2, 3}}
-                                             : std::vector<Triangle>{{0, 1, 3}, {1, 2, 3}};
+    const std::vector<Corners> halves = dot(first, first) < dot(second, second)
+                                            ? std::vector<Corners>{{0, 1, 2}, {0, 2, 3}}
+                                            : std::vector<Corners>{{0, 1, 3}, {1, 2, 3}};
     if (cutter.isWhole(halves[0]) && cutter.isWhole(halves[1])) return halves;
   }
   return cutter.cut();

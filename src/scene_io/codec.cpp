@@ -31,10 +31,10 @@ constexpr Words<Interpolation> interpolations{
     {{"linear", Interpolation::linear}, {"cubic", Interpolation::cubic}}};
 constexpr Words<Paint, 3> paints{{{"red", Paint::red}, {"green", Paint::green}, {"blue", Paint::blue}}};
 constexpr Words<FrictionLaw> frictionLaws{{{"cs184", FrictionLaw::cs184}, {"coulomb", FrictionLaw::coulomb}}};
-constexpr std::array<std::pair<std::string_view, GridSide>, 4> sides{{{"top", GridSide::top},
-                                                                      {"bottom", GridSide::bottom},
-                                                                      {"left", GridSide::left},
-                                                                      {"right", GridSide::right}}};
+constexpr std::array<std::pair<std::string_view, GridSide>, 4> gridSides{{{"top", GridSide::top},
+                                                                          {"bottom", GridSide::bottom},
+                                                                          {"left", GridSide::left},
+                                                                          {"right", GridSide::right}}};
 
 std::vector<std::string> wordsOf(std::span<const std::string_view> choices) {
   return {choices.begin(), choices.end()};
@@ -234,7 +234,7 @@ void readValue(const JsonNode& node, const FieldTraits& traits, Pin& target) {
       target = readPinObject(node);
       break;
     default:
-      target = readWord(node, sides,
+      target = readWord(node, gridSides,
                         "[column, row], \"top\", \"bottom\", \"left\", \"right\", or "
                         "{\"from\": [column, row], \"to\": [column, row]}; of a mesh {\"vertex\": number}, "
                         "{\"region\": {from, to}}, {\"group\": name}, or {\"painted\": \"red\"}");
@@ -323,7 +323,7 @@ JsonPointer writeValue(const FieldTraits&, const Range& value) {
 }
 
 JsonPointer writeValue(const FieldTraits& traits, const Pin& value) {
-  if (const auto* side = std::get_if<GridSide>(&value)) return writeWord(sides, *side);
+  if (const auto* side = std::get_if<GridSide>(&value)) return writeWord(gridSides, *side);
   if (const auto* point = std::get_if<GridPoint>(&value)) return writeValue(traits, *point);
   return std::visit(
       [](const auto& pin) -> JsonPointer {
@@ -391,7 +391,7 @@ std::string typeName(const FieldTraits&, const Paint&) { return "one of " + join
 std::string typeName(const FieldTraits&, const GridPoint&) { return "[column, row]"; }
 std::string typeName(const FieldTraits&, const Range&) { return "[low, high]"; }
 std::string typeName(const FieldTraits&, const Pin&) {
-  return "[column, row], " + joined(wordsOf(sides)) +
+  return "[column, row], " + joined(wordsOf(gridSides)) +
          ", or {from, to}; of a mesh {vertex}, {region}, {group}, or {painted}";
 }
 std::string typeName(const FieldTraits&, const AutoCount&) { return "integer or auto"; }

@@ -17,7 +17,7 @@ Vec3d momentumOf(const State& state) {
   return sum;
 }
 
-std::string text(double number) {
+std::string shortestText(double number) {
   std::array<char, 32> digits;
   return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr};
 }
@@ -62,7 +62,7 @@ std::string Trace::csv() const {
   lines += '\n';
   for (const Row& row : rows_) {
     for (std::size_t column = 0; column < row.size(); ++column)
-      lines += (column > 0 ? "," : "") + text(row[column]);
+      lines += (column > 0 ? "," : "") + shortestText(row[column]);
     lines += '\n';
   }
   return lines;

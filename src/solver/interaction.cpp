@@ -15,7 +15,7 @@ constexpr double LARGEST_HAND_SPEED = 30;
 
 // No denormals: what a driver makes of them is its own affair.
 template <class Real>
-Real real(double x) {
+Real withoutDenormals(double x) {
   return canonical(static_cast<Real>(x));
 }
 
@@ -81,38 +81,38 @@ void putGrabSpring(const GrabSpring& grab, double h, std::uint64_t step, Interac
   const Vec3d goal = placeOf(grab, step + 1);
   const Vec3d velocity = (1 / h) * (goal - placeOf(grab, step));
   const Vec3d push = (kept * 2 * h * w) * velocity;
-  params.goalX = real<Real>(goal.x);
-  params.goalY = real<Real>(goal.y);
-  params.goalZ = real<Real>(goal.z);
-  params.velocityKept = real<Real>(kept);
-  params.pushX = real<Real>(push.x);
-  params.pushY = real<Real>(push.y);
-  params.pushZ = real<Real>(push.z);
-  params.pull = real<Real>(kept * h * grab.strength);
+  params.goalX = withoutDenormals<Real>(goal.x);
+  params.goalY = withoutDenormals<Real>(goal.y);
+  params.goalZ = withoutDenormals<Real>(goal.z);
+  params.velocityKept = withoutDenormals<Real>(kept);
+  params.pushX = withoutDenormals<Real>(push.x);
+  params.pushY = withoutDenormals<Real>(push.y);
+  params.pushZ = withoutDenormals<Real>(push.z);
+  params.pull = withoutDenormals<Real>(kept * h * grab.strength);
   params.firstColumn = grab.firstColumn;
   params.firstRow = grab.firstRow;
   params.columns = grab.columns;
   params.rows = grab.rows;
-  params.resistance = real<Real>(resistance);
-  params.reach = real<Real>(resistance > 0 ? h * (1 + resistance) / resistance : 0);
-  params.largestDisplacement = real<Real>(h * LARGEST_HAND_SPEED);
-  params.largestDisplacementSquared = real<Real>(h * h * LARGEST_HAND_SPEED * LARGEST_HAND_SPEED);
-  params.largestSpeed = real<Real>(LARGEST_HAND_SPEED);
-  params.largestSpeedSquared = real<Real>(LARGEST_HAND_SPEED * LARGEST_HAND_SPEED);
+  params.resistance = withoutDenormals<Real>(resistance);
+  params.reach = withoutDenormals<Real>(resistance > 0 ? h * (1 + resistance) / resistance : 0);
+  params.largestDisplacement = withoutDenormals<Real>(h * LARGEST_HAND_SPEED);
+  params.largestDisplacementSquared = withoutDenormals<Real>(h * h * LARGEST_HAND_SPEED * LARGEST_HAND_SPEED);
+  params.largestSpeed = withoutDenormals<Real>(LARGEST_HAND_SPEED);
+  params.largestSpeedSquared = withoutDenormals<Real>(LARGEST_HAND_SPEED * LARGEST_HAND_SPEED);
 }
 
 template <class Real>
 void putJet(const Jet& jet, bool alone, InteractionParams<Real>& params) {
   const Vec3d direction = unit(jet.direction);
-  params.inverseRadius = real<Real>(1 / jet.radius);
-  params.inverseRadiusSquared = real<Real>(1 / (jet.radius * jet.radius));
-  params.originX = real<Real>(jet.origin.x);
-  params.originY = real<Real>(jet.origin.y);
-  params.originZ = real<Real>(jet.origin.z);
-  params.jetSpeed = real<Real>(jet.speed);
-  params.directionX = real<Real>(direction.x);
-  params.directionY = real<Real>(direction.y);
-  params.directionZ = real<Real>(direction.z);
+  params.inverseRadius = withoutDenormals<Real>(1 / jet.radius);
+  params.inverseRadiusSquared = withoutDenormals<Real>(1 / (jet.radius * jet.radius));
+  params.originX = withoutDenormals<Real>(jet.origin.x);
+  params.originY = withoutDenormals<Real>(jet.origin.y);
+  params.originZ = withoutDenormals<Real>(jet.origin.z);
+  params.jetSpeed = withoutDenormals<Real>(jet.speed);
+  params.directionX = withoutDenormals<Real>(direction.x);
+  params.directionY = withoutDenormals<Real>(direction.y);
+  params.directionZ = withoutDenormals<Real>(direction.z);
   params.jetAlone = alone ? 1 : 0;
 }
 

@@ -223,10 +223,10 @@ StepParams<Real> makeStepParams(const Scene& scene, const Cloth& cloth, std::siz
   const double front = piece.rowsGoUp ? -1 : 1;
   params.pressureFactor = real<Real>(front * scene.cloths[pieceIndex].pressure / 6);
   if (scene.wind) {
-    const Vec3d air = airVelocity(*scene.wind, time);
-    params.airVelocityX = real<Real>(air.x);
-    params.airVelocityY = real<Real>(air.y);
-    params.airVelocityZ = real<Real>(air.z);
+    const Vec3d velocity = airVelocity(*scene.wind, time);
+    params.airVelocityX = real<Real>(velocity.x);
+    params.airVelocityY = real<Real>(velocity.y);
+    params.airVelocityZ = real<Real>(velocity.z);
     params.dragFactor = real<Real>(scene.wind->airDensity * scene.wind->drag / 12);
     params.liftFactor = real<Real>(scene.wind->airDensity * scene.wind->lift / 12);
   }

@@ -82,12 +82,13 @@ TEST(BrokenWeave, ThreadsInPlaceOfLoopsAreSeenOnJersey) {
 constexpr int SWATCH_PIXELS = 80, MARGIN = 8;  // of the square pictures; around what is looked at [pixels]
 constexpr double PIXEL = 0.5 / 128;            // in the middle of the sheet [m]
 constexpr double EYE_DISTANCE = 0.8;           // [m]
+constexpr int FEW_EXPOSURES = 16;              // enough for a mean
 
 // A standing sheet that fills the picture, turned by `angle` [degrees] about the picture's horizontal middle,
 // with threads of `pixels`. Relief is left out where means are compared: light on a slope is not linear in
 // it.
-Image swatchOf(const std::string& weave, double pixels, double angle = 0, double relief = 0,
-               double gloss = 0) {
+Image swatchOf(const std::string& weave, double pixels, double angle = 0, double relief = 0, double gloss = 0,
+               int exposures = FINAL_EXPOSURES) {
   Scene scene;
   ClothSettings& cloth = scene.cloths[0];
   cloth.orientation = Orientation::vertical;
@@ -109,14 +110,14 @@ Image swatchOf(const std::string& weave, double pixels, double angle = 0, double
   scene.render.light = relief > 0 ? Vec3d{1, 0, 1} : Vec3d{0, 0, towards};
   scene.render.thickness = 0;
   scene.render.ground = false;
-  RenderOptions options = forExposures({}, FINAL_EXPOSURES);
+  RenderOptions options = forExposures({}, exposures);
   options.shadows = false;
   const Cloth made(scene);
   const State state = initialState(made, scene);
   const gl::Buffer<Particle4> positions("positions", state.positions);
   Renderer renderer(made, scene, options);
   return renderImage(renderer, positions.name(), Camera(scene, made), 0, SWATCH_PIXELS, SWATCH_PIXELS,
-                     FINAL_EXPOSURES);
+                     exposures);
 }
 
 double linearLight(int value) {
@@ -166,7 +167,8 @@ using FadingThreads = GlTest;
 // The mean of light is linear, so that what is seen from afar must be the mean of what is seen from close up:
 // the weft of denim lies in the shade of the warp, and counts by the light that it gets.
 TEST_F(FadingThreads, HaveTheColourOfTheirMean) {
-  const Image close = swatchOf("denim", 3), far = swatchOf("denim", 0.1);
+  const Image close = swatchOf("denim", 3, 0, 0, 0, FEW_EXPOSURES),
+              far = swatchOf("denim", 0.1, 0, 0, 0, FEW_EXPOSURES);
   for (const std::size_t channel : {0u, 1u, 2u}) {
     const double expected = spreadOf(close, channel).mean;
     EXPECT_GT(spreadOf(close, channel).deviation, 0.12 * expected) << "threads are to be seen from close up";
@@ -226,17 +228,18 @@ TEST_F(FadingThreads, OfSatinFloatAcrossOnItsReverse) {
 
 // The reverse of denim is pale with flecks of the warp.
 TEST_F(FadingThreads, OfDenimArePaleOnItsReverse) {
-  const Image face = swatchOf("denim", 0.1), reverse = swatchOf("denim", 0.1, 180);
+  const Image face = swatchOf("denim", 0.1, 0, 0, 0, FEW_EXPOSURES),
+              reverse = swatchOf("denim", 0.1, 180, 0, 0, FEW_EXPOSURES);
   EXPECT_GT(spreadOf(reverse, 0).mean, 3 * spreadOf(face, 0).mean);
-  const Spread close = spreadOf(swatchOf("denim", 6, 180), 0);
+  const Spread close = spreadOf(swatchOf("denim", 6, 180, 0, 0, FEW_EXPOSURES), 0);
   EXPECT_GT(close.deviation, 0.15 * close.mean);
 }
 
 // Satin shines less on its reverse, which is to be seen where light comes back as from a mirror.
 TEST_F(FadingThreads, OfSatinAreDullOnItsReverse) {
   const auto shine = [](double angle) {
-    return spreadOf(swatchOf("satin", 0.1, angle, 0, 1), 1).mean -
-           spreadOf(swatchOf("satin", 0.1, angle), 1).mean;
+    return spreadOf(swatchOf("satin", 0.1, angle, 0, 1, FEW_EXPOSURES), 1).mean -
+           spreadOf(swatchOf("satin", 0.1, angle, 0, 0, FEW_EXPOSURES), 1).mean;
   };
   EXPECT_GT(shine(0), 0.05);
   EXPECT_LT(shine(180), 0.8 * shine(0));

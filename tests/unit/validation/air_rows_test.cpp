@@ -65,7 +65,7 @@ TEST(RowWindOnAPlate, PressesAlongItsNormalWhateverTheTriangulation) {
   expectPressure<float>();
 }
 
-constexpr double DENSITY = 0.2;
+constexpr double SHEET_DENSITY = 0.2;
 
 // A sheet that falls flat, and stiff enough in bending to stay so: a triangle's corners carry equal parts of
 // the air's force, but the sheet's corners have other masses.
@@ -73,7 +73,8 @@ Scene fallingSheet(Integrator integrator) {
   Scene scene;
   ClothSettings& cloth = scene.cloths[0];
   cloth.numWidthPoints = cloth.numHeightPoints = 17;
-  cloth.material = Material{.density = DENSITY, .stretch = 2000, .shear = 500, .bend = 0.05, .damping = 0};
+  cloth.material =
+      Material{.density = SHEET_DENSITY, .stretch = 2000, .shear = 500, .bend = 0.05, .damping = 0};
   scene.gravity = {0, -GRAVITY, 0};
   scene.wind = Wind{.velocity = {0, 0, 0}, .gust = {}, .drag = 1.2, .lift = 0, .airDensity = 1.2};
   scene.solver.integrator = integrator;
@@ -81,7 +82,7 @@ Scene fallingSheet(Integrator integrator) {
 }
 
 double terminalSpeed() {
-  const double terminal = std::sqrt(2 * DENSITY * GRAVITY / (1.2 * 1.2));
+  const double terminal = std::sqrt(2 * SHEET_DENSITY * GRAVITY / (1.2 * 1.2));
   EXPECT_NEAR(terminal, 1.650757, 1e-6);
   return terminal;
 }
