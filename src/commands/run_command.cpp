@@ -134,6 +134,7 @@ class Run {
   }
 
   [[nodiscard]] int frames() const { return frames_; }
+  [[nodiscard]] int soundFrames() const { return soundFrames_; }
   [[nodiscard]] bool isReplay() const { return isReplay_; }
   [[nodiscard]] std::uint64_t steps() const { return steps_; }
   [[nodiscard]] double simulatedSeconds() const { return simulatedSeconds_; }
@@ -141,18 +142,22 @@ class Run {
   [[nodiscard]] const Scene& scene() { return simulation().scene(); }
 
   void stepFrame() {
-    const SolverSettings& settings = scene().solver;
-    steps_ += static_cast<std::uint64_t>(settings.simulationSteps);
-    simulatedSeconds_ += 1 / settings.framesPerSec;
+    stepsOfFrame_ = static_cast<std::uint64_t>(scene().solver.simulationSteps);
+    secondsOfFrame_ = 1 / scene().solver.framesPerSec;
     if (isReplay_)
       replayDivergence_ = replay_->stepFrame();
     else
       plain_->stepFrame();
     simulation().finish();
   }
-  // Returns the divergence in the last frame, if any.
+  // Returns the divergence in the last frame, if any; else the frame counts.
   [[nodiscard]] std::optional<Divergence> checkFrame() {
-    return isReplay_ ? replayDivergence_ : plain_->checkFrame();
+    const std::optional<Divergence> divergence = isReplay_ ? replayDivergence_ : plain_->checkFrame();
+    if (divergence) return divergence;
+    ++soundFrames_;
+    steps_ += stepsOfFrame_;
+    simulatedSeconds_ += secondsOfFrame_;
+    return std::nullopt;
   }
 
  private:
@@ -184,9 +189,9 @@ class Run {
   }
 
   bool isReplay_;
-  int frames_ = 0;
-  std::uint64_t steps_ = 0;
-  double simulatedSeconds_ = 0;
+  int frames_ = 0, soundFrames_ = 0;
+  std::uint64_t steps_ = 0, stepsOfFrame_ = 0;
+  double simulatedSeconds_ = 0, secondsOfFrame_ = 0;
   std::optional<gl::HeadlessContext> context_;
   std::optional<Simulation> plain_;
   std::optional<Replay> replay_;
@@ -210,7 +215,7 @@ nlohmann::ordered_json summary(const RunOptions& options, Run& run, const RunSum
   json["particles"] = simulation.cloth().particleCount();
   json["springs"] = remainingSpringCount(simulation.cloth(), last.cuts);
   json["triangles"] = remainingTriangleCount(simulation.cloth(), last.cuts);
-  json["frames"] = run.frames();
+  json["frames"] = run.soundFrames();
   json["steps"] = run.steps();
   json["dt"] = stepLength(scene.solver);
   json["integrator"] = integratorName(scene.solver.integrator);
@@ -220,6 +225,18 @@ nlohmann::ordered_json summary(const RunOptions& options, Run& run, const RunSum
   json["seconds"] = seen.seconds;
   json["particle_steps_per_second"] = seen.seconds > 0 ? particles * steps / seen.seconds : 0;
   seen.write(json, simulation);
+  return json;
+}
+
+// What it prints of a run that ended early: the last sound frame, and why it is the last.
+nlohmann::ordered_json summaryOfBlowUp(const RunOptions& options, Run& run, const RunSummary& seen,
+                                       const Divergence& divergence) {
+  nlohmann::ordered_json json = summary(options, run, seen);
+  json["finite"] = false;
+  json["divergence"] = {{"frame", run.soundFrames() + 1},
+                        {"step", divergence.step},
+                        {"particle", divergence.particle},
+                        {"text", divergenceText(divergence, run.simulation().cloth(), run.scene())}};
   return json;
 }
 
@@ -269,6 +286,7 @@ int runCommand(const RunOptions& options) {
     seen.seconds += std::chrono::duration<double>(Clock::now() - start).count();
     if (const std::optional<Divergence> divergence = run.checkFrame()) {
       writeTrace();  // of the frames before
+      if (options.json) printJson(summaryOfBlowUp(options, run, seen, *divergence));
       SceneOptions scene = options.scene;
       if (run.isReplay()) scene.scene = options.replay;
       stopBlownUp(*divergence, run.simulation(),

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/fnv.h"
 #include "export/formats.h"
+#include "shared/implicit.h"
 
 namespace clothsim {
 namespace {
@@ -29,9 +30,10 @@ struct TimeBlock {  // behind the header since version 3; see StepClock
 static_assert(sizeof(TimeBlock) == 24);
 
 constexpr char fileMagic[] = "clothsim";
-// Version 2 added cuts and pins set during the run, version 3 the time, version 4 what contacts remember.
-// Version 4 is written where there is some, else version 3.
-constexpr std::uint32_t plainVersion = 1, handledVersion = 2, timedVersion = 3, touchedVersion = 4;
+// Version 2 added cuts and pins set during the run, version 3 the time, version 4 what contacts remember,
+// version 5 what `bdf2` does. From version 3 on the first is written that holds all there is.
+constexpr std::uint32_t plainVersion = 1, handledVersion = 2, timedVersion = 3, touchedVersion = 4,
+                        secondOrderVersion = 5;
 
 std::uint64_t checksum(std::string_view bytes) {
   Fnv1a hash;
@@ -70,9 +72,9 @@ Header checkedHeader(const std::string& bytes, std::size_t particleCount, const 
   if (bytes.size() < sizeof header || std::memcmp(bytes.data(), fileMagic, sizeof header.magic) != 0)
     refuse(source, "it is no state file of clothsim (those are written by `clothsim run --save NAME.state`)");
   std::memcpy(&header, bytes.data(), sizeof header);
-  if (header.version < plainVersion || header.version > touchedVersion)
+  if (header.version < plainVersion || header.version > secondOrderVersion)
     refuse(source, "it has version " + std::to_string(header.version) +
-                       " of the format, this program reads versions 1 to 4");
+                       " of the format, this program reads versions 1 to 5");
   if (header.particleCount != particleCount)
     refuse(source, "it holds " + std::to_string(header.particleCount) + " particles, the scene has " +
                        std::to_string(particleCount) + " (was it saved at another --resolution?)");
@@ -96,6 +98,11 @@ class Lists {
     std::vector<T> list(count);
     copy(list.data(), count);
     return list;
+  }
+  std::uint32_t nextNumber() {
+    std::uint32_t number = 0;
+    copy(&number, 1);
+    return number;
   }
   [[noreturn]] void refuseLength(std::uint64_t expected) const {
     refuse(source_, "it has " + std::to_string(bytes_.size()) + " bytes where " + std::to_string(expected) +
@@ -175,6 +182,16 @@ void checkContent(const Header& header, const State& state, std::size_t meshTria
     if (i > 0 && slip.place < state.pairSlips[i - 1].place)
       refuse(source, "its pairs with elastic slips are not in ascending order of their places");
   }
+  if (const std::size_t size = state.histories.size();
+      header.version >= secondOrderVersion &&
+      (size != 2 * particles || state.usualSteps == 0 || state.usualSteps > USUAL_STEPS))
+    refuse(source, "it has " + std::to_string(size) + " changes of the last step and " +
+                       std::to_string(state.usualSteps) + " usual steps, expected " +
+                       std::to_string(2 * particles) + " and 1 to " + std::to_string(USUAL_STEPS));
+  for (std::size_t i = 0; i < state.histories.size(); ++i)
+    if (const Particle4& change = state.histories[i]; !std::isfinite(change.x + change.y + change.z))
+      refuse(source, "what the last step changed of particle " + std::to_string(i / 2) +
+                         " is none, expected finite numbers");
   for (std::size_t i = particles; i < state.cuts.size(); ++i)
     if (state.cuts[i] > 1)
       refuse(source, "whether triangle " + std::to_string(i - particles) + " of the meshes is lost is " +
@@ -194,7 +211,9 @@ void checkContent(const Header& header, const State& state, std::size_t meshTria
 std::string formatStateFile(const State& state) {
   Header header{};
   std::memcpy(header.magic, fileMagic, sizeof header.magic);
-  header.version = state.elasticSlips.empty() && state.pairSlips.empty() ? timedVersion : touchedVersion;
+  header.version = !state.histories.empty()                                ? secondOrderVersion
+                   : state.elasticSlips.empty() && state.pairSlips.empty() ? timedVersion
+                                                                           : touchedVersion;
   header.integrator = static_cast<std::uint32_t>(state.integrator);
   header.particleCount = state.positions.size();
   header.step = state.clock.step;
@@ -211,6 +230,10 @@ std::string formatStateFile(const State& state) {
   if (header.version >= touchedVersion) {
     appendList(bytes, state.elasticSlips);
     appendList(bytes, state.pairSlips);
+  }
+  if (header.version >= secondOrderVersion) {
+    appendList(bytes, state.histories);
+    append(bytes, &state.usualSteps, 1);
   }
   const std::uint64_t sum = checksum(bytes);
   append(bytes, &sum, 1);
@@ -230,6 +253,10 @@ State parseStateFile(const std::string& bytes, std::size_t particleCount, const 
   if (header.version >= touchedVersion) {
     state.elasticSlips = lists.next<Particle4>();
     state.pairSlips = lists.next<PairSlip>();
+  }
+  if (header.version >= secondOrderVersion) {
+    state.histories = lists.next<Particle4>();
+    state.usualSteps = lists.nextNumber();
   }
   if (bytes.size() != lists.place() + sizeof(std::uint64_t))
     lists.refuseLength(lists.place() + sizeof(std::uint64_t));

@@ -157,11 +157,13 @@ void put(std::vector<Particle4>& particles, const Floats& rows, const char* what
 void setPositions(PythonSimulation& simulation, const Floats& rows) {
   State state = simulation.state();
   put(state.positions, rows, "positions");
+  forgetHistory(state);
   simulation.setState(state);
 }
 void setVelocities(PythonSimulation& simulation, const Floats& rows) {
   State state = simulation.state();
   put(state.velocities, rows, "velocities");
+  forgetHistory(state);
   simulation.setState(state);
 }
 

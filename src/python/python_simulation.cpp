@@ -219,6 +219,7 @@ void PythonSimulation::setPins(std::span<const bool> pinned) {
     state.velocities[i] = {};
     leavePath(state.offPath, i);
   }
+  forgetHistory(state);
   simulation_->setState(state);
   stepsSinceKept_ = 0;
   stayInPlace();

@@ -40,6 +40,7 @@ bool haveSameLattice(const Cloth& a, const Cloth& b) {
 
 State carriedOver(const State& state, const Cloth& before, const Cloth& after) {
   State result = state;
+  forgetHistory(result);
   for (const Piece& piece : after.pieces()) {
     for (std::uint32_t i = piece.firstParticle; i < piece.firstParticle + piece.particleCount(); ++i) {
       const bool wasPinned = before.inverseMasses()[i] == 0, isPinned = after.inverseMasses()[i] == 0;

@@ -16,7 +16,7 @@ namespace clothsim {
 [[nodiscard]] bool haveSameLattice(const Cloth& a, const Cloth& b);
 // The state for a new cloth on the same lattice. A particle stays pinned or free unless the pins of the scene
 // have changed there; then a path may move it that the user had taken it off. Masses are those of the new
-// cloth.
+// cloth, whose next step looks back at none.
 [[nodiscard]] State carriedOver(const State& state, const Cloth& before, const Cloth& after);
 // The pins that the user has set, at the nearest points of a cloth on another lattice.
 [[nodiscard]] std::vector<SetPin> pinsByHand(const State& state, const Cloth& before, const Cloth& after);

@@ -88,7 +88,7 @@ class Executor {
   // Waits until every list is done. @throws OpenGlError when the driver has reported an error meanwhile
   virtual void finish() = 0;
 
-  // Positions and velocities of a state, and back; blocking. What was known of contacts is forgotten.
+  // What a state knows of particles, and back; blocking. What was known of contacts is forgotten.
   virtual void upload(const State& state) = 0;
   virtual void download(State& state) = 0;
   [[nodiscard]] virtual std::vector<Particle4> positions(std::uint32_t first, std::uint32_t count) = 0;
@@ -97,6 +97,9 @@ class Executor {
   // A copy on the device, in the memory of `reuse` where it fits, and back. False for another device's copy.
   [[nodiscard]] virtual std::unique_ptr<ParticleCopy> copy(std::unique_ptr<ParticleCopy> reuse) = 0;
   [[nodiscard]] virtual bool restore(const ParticleCopy& copy) = 0;
+
+  // The next step looks back at none before it.
+  virtual void forgetHistory() = 0;
 
   // What the watchdog has found up to the step after `step` steps. With `wait` false only what is known
   // without waiting for the device.

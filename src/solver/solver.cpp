@@ -11,6 +11,7 @@ namespace clothsim {
 State Snapshot::state() const {
   State state;
   particles->download(state);
+  if (!isSecondOrder) forgetHistory(state);
   state.clock = clock;
   state.integrator = integrator;
   state.cuts = cuts;
@@ -135,18 +136,21 @@ std::unique_ptr<Snapshot> Solver::snapshot(std::unique_ptr<Snapshot> reuse) {
   reuse->integrator = inputs_.velocityMeaning;
   reuse->cuts = inputs_.cuts;
   reuse->offPath = inputs_.offPath;
+  reuse->isSecondOrder = isSecondOrder();
   return reuse;
 }
 
 void Solver::restore(const Snapshot& snapshot) {
-  if (!executor_->restore(*snapshot.particles)) return setState(snapshot.state());
   setAllButParticles(snapshot.clock, snapshot.integrator, snapshot.offPath, snapshot.cuts);
+  if (!executor_->restore(*snapshot.particles)) return setState(snapshot.state());
+  if (!snapshot.isSecondOrder || !looksBackAt(snapshot.clock)) executor_->forgetHistory();
 }
 
 State Solver::state() {
   convertVelocities();
   State state;
   executor_->download(state);
+  if (!isSecondOrder()) forgetHistory(state);
   state.clock = inputs_.clock;
   state.integrator = inputs_.velocityMeaning;
   state.cuts = inputs_.cuts;
@@ -157,8 +161,16 @@ State Solver::state() {
 void Solver::setState(const State& state) {
   assert(state.positions.size() == inputs_.cloth->particleCount() &&
          "the state must be of the solver's cloth");
-  executor_->upload(state);
   setAllButParticles(state.clock, state.integrator, state.offPath, state.cuts);
+  executor_->upload(state);
+  if (!looksBackAt(state.clock)) executor_->forgetHistory();
+}
+
+bool Solver::isSecondOrder() const { return inputs_.scene->solver.integrator == Integrator::bdf2; }
+
+// Whether the next step may look back at a step before that time.
+bool Solver::looksBackAt(const StepClock& clock) const {
+  return isSecondOrder() && clock.stepLength == stepLength(inputs_.scene->solver);
 }
 
 // What a state holds besides the particles.

@@ -26,6 +26,7 @@ struct Snapshot {
   Integrator integrator = Integrator::verlet;
   Cuts cuts;
   std::vector<std::uint32_t> offPath;
+  bool isSecondOrder = false;  // made between steps of `bdf2`
 
   [[nodiscard]] std::size_t bytes() const { return particles->bytes(); }  // of the particles, on the device
   [[nodiscard]] State state() const;                                      // blocking
@@ -116,6 +117,8 @@ class Solver {
  private:
   void setAllButParticles(const StepClock& clock, Integrator integrator,
                           const std::vector<std::uint32_t>& offPath, const Cuts& cuts);
+  [[nodiscard]] bool isSecondOrder() const;
+  [[nodiscard]] bool looksBackAt(const StepClock& clock) const;
   void setOffPath(std::vector<std::uint32_t> offPath);
   void makeLists();
   void prepare();

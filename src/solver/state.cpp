@@ -16,6 +16,11 @@ void dropZeroSlips(State& state) {
     state.pairSlips.clear();
 }
 
+void forgetHistory(State& state) {
+  state.histories.clear();
+  state.usualSteps = 0;
+}
+
 void leavePath(std::vector<std::uint32_t>& offPath, std::uint32_t particle) {
   const auto place = std::lower_bound(offPath.begin(), offPath.end(), particle);
   if (place == offPath.end() || *place != particle) offPath.insert(place, particle);

@@ -39,13 +39,21 @@ struct State {
   // collider held. Empty: nothing is remembered.
   std::vector<Particle4> elasticSlips;
   std::vector<PairSlip> pairSlips;  // the same where cloth touches cloth, ascending by place
-  Cuts cuts;                        // empty: none
+  // What `bdf2` looks back at (solver/implicit.h): a third of what the last step changed of each particle's
+  // place [m] and velocity [m/s], one after the other, and how many steps before the next one were usual, up
+  // to USUAL_STEPS. Empty and 0: the next step is backward Euler.
+  std::vector<Particle4> histories;
+  std::uint32_t usualSteps = 0;
+  Cuts cuts;  // empty: none
   std::vector<std::uint32_t>
       offPath;  // particles that a person has pinned or freed, ascending: no path moves them
 };
 
 // Empties elasticSlips and pairSlips where they hold only zeros, as before anything has touched.
 void dropZeroSlips(State& state);
+
+// To be called where particles are moved by something else than a step.
+void forgetHistory(State& state);
 
 // Adds a particle to State::offPath.
 void leavePath(std::vector<std::uint32_t>& offPath, std::uint32_t particle);

@@ -39,6 +39,10 @@ void writeStates(const fs::path& folder) {
   rubbed.elasticSlips.assign(3, {1e-5f, 0, 0, 0.5f});
   rubbed.pairSlips = {{1, {0, 1, 2, 0}, 0, 1e-5f, 0, 0.5f}};
   write(folder / "rubbed.state", formatStateFile(rubbed));
+  State swinging = makeState(2, Integrator::euler);
+  swinging.histories.assign(4, {0, 1e-3f, 0, 0});
+  swinging.usualSteps = 2;
+  write(folder / "swinging.state", formatStateFile(swinging));
 }
 
 // One event of every kind.

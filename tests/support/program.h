@@ -16,11 +16,12 @@ inline CommandResult clothsim(const std::string& arguments, const std::string& e
                     arguments + " 2>&1");
 }
 
-// The JSON object on stdout of a command that must succeed.
-inline nlohmann::json jsonOf(const std::string& arguments, const std::string& environment = "") {
+// The JSON object on stdout of a command that must end so.
+inline nlohmann::json jsonOf(const std::string& arguments, const std::string& environment = "",
+                             int exitCode = 0) {
   const CommandResult result =
       runCommand("env " + environment + " " CLOTHSIM_PROGRAM " " + arguments + " 2>/dev/null");
-  EXPECT_EQ(result.exitCode, 0) << arguments;
+  EXPECT_EQ(result.exitCode, exitCode) << arguments;
   return nlohmann::json::parse(result.output, nullptr, false);
 }
 

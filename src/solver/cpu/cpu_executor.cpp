@@ -22,43 +22,6 @@ constexpr Real leastSum = static_cast<Real>(0x1p-110f);
 }  // namespace
 
 template <class Real>
-struct CpuExecutor<Real>::Copy final : ParticleCopy {
-  Particles particles;
-  Components<Real> elasticSlips;
-  std::vector<Real> heldLimits;
-  std::vector<cpu::RememberedSlip<Real>> pairSlips;
-
-  [[nodiscard]] std::size_t bytes() const override {
-    return (7 * particles.inverseMasses.size() + 4 * heldLimits.size()) * sizeof(Real) +
-           pairSlips.size() * sizeof pairSlips[0];
-  }
-  void download(State& state) const override {
-    const std::size_t count = particles.inverseMasses.size();
-    state.positions.resize(count);
-    state.velocities.resize(count);
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto place = static_cast<std::ptrdiff_t>(i);
-      const Vec3f x = cpu::at(particles.state.positions, place).template cast<float>(),
-                  v = cpu::at(particles.state.velocities, place).template cast<float>();
-      state.positions[i] = {x.x, x.y, x.z, static_cast<float>(particles.inverseMasses[i])};
-      state.velocities[i] = {v.x, v.y, v.z, 0};
-    }
-    state.elasticSlips.clear();
-    for (std::size_t i = 0; i < elasticSlips.x.size(); ++i) {
-      const Vec3f slip = cpu::at(elasticSlips, static_cast<std::ptrdiff_t>(i)).template cast<float>();
-      state.elasticSlips.push_back({slip.x, slip.y, slip.z, static_cast<float>(heldLimits[i])});
-    }
-    state.pairSlips.clear();
-    for (const cpu::RememberedSlip<Real>& known : pairSlips) {
-      const Vec3f slip = known.slip.template cast<float>();
-      state.pairSlips.push_back(
-          {known.place, known.particles, slip.x, slip.y, slip.z, static_cast<float>(known.heldLimit)});
-    }
-    dropZeroSlips(state);
-  }
-};
-
-template <class Real>
 CpuExecutor<Real>::CpuExecutor(const Cloth& cloth, bool sweeps)
     : cloth_(&cloth),
       sweeps_(sweeps),
@@ -83,7 +46,7 @@ CpuExecutor<Real>::CpuExecutor(const Cloth& cloth, bool sweeps)
 
 template <class Real>
 void CpuExecutor<Real>::setScene(const StepInputs& inputs) {
-  implicit_.scalars.usualSteps = 0;
+  forgetHistory();
   distances_ = inputs.colliders.distances();
   selfCollision_.configure(*inputs.scene);
   setSurface(inputs);
@@ -91,7 +54,7 @@ void CpuExecutor<Real>::setScene(const StepInputs& inputs) {
 
 template <class Real>
 void CpuExecutor<Real>::setCuts(const StepInputs& inputs) {
-  implicit_.scalars.usualSteps = 0;
+  forgetHistory();
   selfCollision_.setCuts(inputs.cuts);
   if (cloth_->hasMesh()) {
     lists_ = makeMeshLists<Real>(*cloth_, inputs.cuts);
@@ -376,77 +339,6 @@ void CpuExecutor<Real>::tryShorterLengths() {
   implicit_.triesShorter = true;
   rowPasses_.run({&call, 1}, pieces_);
   implicit_.triesShorter = false;
-}
-
-template <class Real>
-void CpuExecutor<Real>::upload(const State& state) {
-  for (std::size_t i = 0; i < state.positions.size(); ++i) {
-    const Particle4 &x = state.positions[i], &v = state.velocities[i];
-    const auto place = static_cast<std::ptrdiff_t>(i);
-    cpu::put(particles_.state.positions, place, Vec3f{x.x, x.y, x.z}.cast<Real>());
-    cpu::put(particles_.state.velocities, place, Vec3f{v.x, v.y, v.z}.cast<Real>());
-    particles_.inverseMasses[i] = static_cast<Real>(x.w);
-  }
-  Components<Real>& slips = implicit_.planes.elasticSlips;
-  if (!state.elasticSlips.empty()) slips.resize(state.elasticSlips.size());
-  implicit_.planes.heldLimits.resize(slips.x.size());
-  for (std::size_t i = 0; i < slips.x.size(); ++i) {
-    const Particle4 slip = state.elasticSlips.empty() ? Particle4{} : state.elasticSlips[i];
-    cpu::put(slips, static_cast<std::ptrdiff_t>(i), vectorOf(slip).template cast<Real>());
-    implicit_.planes.heldLimits[i] = static_cast<Real>(slip.w);
-  }
-  implicit_.pairSlips.clear();
-  for (const PairSlip& slip : state.pairSlips)
-    implicit_.pairSlips.push_back({slip.place, slip.particles,
-                                   Vec3f{slip.x, slip.y, slip.z}.template cast<Real>(),
-                                   static_cast<Real>(slip.heldLimit)});
-  implicit_.scalars.usualSteps = 0;
-  selfCollision_.restart();
-}
-
-template <class Real>
-void CpuExecutor<Real>::download(State& state) {
-  copy(nullptr)->download(state);
-}
-
-template <class Real>
-std::vector<Particle4> CpuExecutor<Real>::positions(std::uint32_t first, std::uint32_t count) {
-  std::vector<Particle4> result(count);
-  for (std::uint32_t k = 0; k < count; ++k) {
-    const Vec3f x = cpu::at(particles_.state.positions, first + k).template cast<float>();
-    result[k] = {x.x, x.y, x.z, static_cast<float>(particles_.inverseMasses[first + k])};
-  }
-  return result;
-}
-
-template <class Real>
-void CpuExecutor<Real>::setInverseMass(std::uint32_t particle, double inverseMass, bool rests) {
-  particles_.inverseMasses[particle] = static_cast<Real>(inverseMass);
-  if (rests) cpu::put(particles_.state.velocities, particle, Vec3<Real>{});
-  implicit_.scalars.usualSteps = 0;
-}
-
-template <class Real>
-std::unique_ptr<ParticleCopy> CpuExecutor<Real>::copy(std::unique_ptr<ParticleCopy> reuse) {
-  if (dynamic_cast<Copy*>(reuse.get()) == nullptr) reuse = std::make_unique<Copy>();
-  auto& copy = static_cast<Copy&>(*reuse);
-  copy.particles = particles_;
-  copy.elasticSlips = implicit_.planes.elasticSlips;
-  copy.heldLimits = implicit_.planes.heldLimits;
-  copy.pairSlips = implicit_.pairSlips;
-  return reuse;
-}
-
-template <class Real>
-bool CpuExecutor<Real>::restore(const ParticleCopy& copy) {
-  const auto* own = dynamic_cast<const Copy*>(&copy);
-  if (own == nullptr) return false;
-  particles_ = own->particles;
-  implicit_.planes.elasticSlips = own->elasticSlips;
-  implicit_.planes.heldLimits = own->heldLimits;
-  implicit_.pairSlips = own->pairSlips;
-  implicit_.scalars.usualSteps = 0;
-  return true;
 }
 
 // What a step no longer needs holds the places that it did not leave its result in.

@@ -39,6 +39,7 @@ class CpuExecutor final : public Executor {
   void setInverseMass(std::uint32_t particle, double inverseMass, bool rests) override;
   [[nodiscard]] std::unique_ptr<ParticleCopy> copy(std::unique_ptr<ParticleCopy> reuse) override;
   [[nodiscard]] bool restore(const ParticleCopy& copy) override;
+  void forgetHistory() override;
   [[nodiscard]] std::optional<Divergence> findDivergence(std::uint64_t step, bool wait) override;
   void forgetDivergence(std::uint64_t step) override;
   [[nodiscard]] ContactCounts contactCounts() override {
@@ -68,6 +69,7 @@ class CpuExecutor final : public Executor {
   void runSweep(std::span<const PassCall> passes);
   void runContacts(PassCall call);
   void setSurface(const StepInputs& inputs);
+  void setHistory(const State& state);
   void makeImplicitLists(const Cuts& cuts);
   void sum(Pass pass);
   void chooseLength();

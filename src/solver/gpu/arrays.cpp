@@ -149,10 +149,53 @@ void GpuArrays::setElasticSlips(const gl::Buffer<Particle4>& slips) {
     own.buffer.clear();
 }
 
+namespace {
+
+constexpr GLintptr USUAL_STEPS_OFFSET = offsetof(ImplicitScalars<float>, usualSteps);
+
+}  // namespace
+
+void GpuHistory::download(State& state) const {
+  clothsim::forgetHistory(state);
+  if (scalars.name() == 0) return;
+  state.usualSteps = std::min(scalars.download().front().usualSteps, USUAL_STEPS);
+  if (state.usualSteps > 0) state.histories = changes.download();
+}
+
+bool GpuArrays::hasHistory() const {
+  return (*this)[Array::histories].buffer.size() == HISTORY_TEXELS * (*this)[Array::positions].buffer.size();
+}
+
 void GpuArrays::forgetHistory() {
   static constexpr GLuint none = 0;
-  if (scalars_.name() != 0)
-    glNamedBufferSubData(scalars_.name(), offsetof(ImplicitScalars<float>, usualSteps), sizeof none, &none);
+  if (scalars_.name() != 0) glNamedBufferSubData(scalars_.name(), USUAL_STEPS_OFFSET, sizeof none, &none);
+}
+
+void GpuArrays::setHistory(const State& state) {
+  if (!hasHistory() || state.histories.size() != (*this)[Array::histories].buffer.size())
+    return forgetHistory();
+  (*this)[Array::histories].buffer.upload(state.histories);
+  glNamedBufferSubData(scalars_.name(), USUAL_STEPS_OFFSET, sizeof state.usualSteps, &state.usualSteps);
+}
+
+void GpuArrays::copyHistory(GpuHistory& copy) const {
+  if (!hasHistory()) {
+    copy = {};
+    return;
+  }
+  const gl::Buffer<Particle4>& own = (*this)[Array::histories].buffer;
+  if (copy.changes.size() != own.size())
+    copy = {gl::Buffer<Particle4>("kept histories", own.size()),
+            gl::Buffer<ImplicitScalars<float>>("kept implicit scalars", std::size_t{1})};
+  copy.changes.copyFrom(own);
+  copy.scalars.copyFrom(scalars_);
+}
+
+void GpuArrays::restoreHistory(const GpuHistory& copy) {
+  if (!hasHistory() || copy.changes.name() == 0) return forgetHistory();
+  (*this)[Array::histories].buffer.copyFrom(copy.changes);
+  glCopyNamedBufferSubData(copy.scalars.name(), scalars_.name(), USUAL_STEPS_OFFSET, USUAL_STEPS_OFFSET,
+                           sizeof(GLuint));
 }
 
 ImplicitScalars<float> GpuArrays::scalars() const {

@@ -14,6 +14,15 @@
 
 namespace clothsim {
 
+// What `bdf2` looks back at, as State::histories; buffers without names where that is nothing.
+struct GpuHistory {
+  gl::Buffer<Particle4> changes;
+  gl::Buffer<ImplicitScalars<float>> scalars;  // of which usualSteps counts
+
+  [[nodiscard]] std::size_t bytes() const { return changes.bytes() + scalars.bytes(); }
+  void download(State& state) const;  // blocking
+};
+
 class GpuArrays {
  public:
   GpuArrays() = default;
@@ -26,6 +35,10 @@ class GpuArrays {
   void setElasticSlips(const gl::Buffer<Particle4>& slips);
   // The next step is backward Euler.
   void forgetHistory();
+  // That of a state, where steps of second order have room for it.
+  void setHistory(const State& state);
+  void copyHistory(GpuHistory& copy) const;
+  void restoreHistory(const GpuHistory& copy);
   // What implicit steps have come to; zeros without any. Blocking.
   [[nodiscard]] ImplicitScalars<float> scalars() const;
   // Asks for a copy of them, behind what was dispatched.
@@ -48,6 +61,8 @@ class GpuArrays {
   void takeSpare(Array array);
 
  private:
+  [[nodiscard]] bool hasHistory() const;
+
   std::array<ParticleArray, ARRAY_COUNT> arrays_;  // unused ones are empty
   std::array<ParticleArray, ARRAY_COUNT> spares_;  // most are empty
   gl::Buffer<ImplicitScalars<float>> scalars_;

@@ -72,6 +72,7 @@ class GpuExecutor final : public Executor {
   void setInverseMass(std::uint32_t particle, double inverseMass, bool rests) override;
   [[nodiscard]] std::unique_ptr<ParticleCopy> copy(std::unique_ptr<ParticleCopy> reuse) override;
   [[nodiscard]] bool restore(const ParticleCopy& copy) override;
+  void forgetHistory() override;
   [[nodiscard]] std::optional<Divergence> findDivergence(std::uint64_t step, bool wait) override;
   void forgetDivergence(std::uint64_t step) override;
   [[nodiscard]] ContactCounts contactCounts() override {

@@ -9,9 +9,11 @@ namespace clothsim {
 struct GpuExecutor::Copy final : ParticleCopy {
   gl::Buffer<Particle4> positions, velocities, elasticSlips;  // the last without a name where there are none
   GpuSurfaceContact::Slips pairSlips;
+  GpuHistory history;
 
   [[nodiscard]] std::size_t bytes() const override {
-    return positions.bytes() + velocities.bytes() + elasticSlips.bytes() + pairSlips.bytes();
+    return positions.bytes() + velocities.bytes() + elasticSlips.bytes() + pairSlips.bytes() +
+           history.bytes();
   }
   [[nodiscard]] bool needsContext() const override { return true; }
   void download(State& state) const override {
@@ -21,6 +23,7 @@ struct GpuExecutor::Copy final : ParticleCopy {
     state.elasticSlips = elasticSlips.download();
     state.pairSlips = pairSlips.download();
     dropZeroSlips(state);
+    history.download(state);
   }
 };
 
@@ -31,7 +34,7 @@ void GpuExecutor::upload(const State& state) {
   arrays_.setElasticSlips(slips.empty() ? gl::Buffer<Particle4>()
                                         : gl::Buffer<Particle4>("elastic slips", slips));
   surfaceContact_.setSlips(state.pairSlips);
-  arrays_.forgetHistory();
+  arrays_.setHistory(state);
   selfCollision_.restart();
 }
 
@@ -45,7 +48,12 @@ void GpuExecutor::download(State& state) {
   surfaceContact_.copySlips(slips);
   state.pairSlips = slips.download();
   dropZeroSlips(state);
+  GpuHistory history;
+  arrays_.copyHistory(history);
+  history.download(state);
 }
+
+void GpuExecutor::forgetHistory() { arrays_.forgetHistory(); }
 
 // One a particle, in implicit steps with colliders.
 bool GpuExecutor::hasElasticSlips() const {
@@ -84,6 +92,7 @@ std::unique_ptr<ParticleCopy> GpuExecutor::copy(std::unique_ptr<ParticleCopy> re
   copy.positions.copyFrom(arrays_[Array::positions].buffer);
   copy.velocities.copyFrom(arrays_[Array::velocities].buffer);
   surfaceContact_.copySlips(copy.pairSlips);
+  arrays_.copyHistory(copy.history);
   if (!hasElasticSlips())
     copy.elasticSlips = {};
   else if (copy.elasticSlips.name() == 0)
@@ -100,7 +109,7 @@ bool GpuExecutor::restore(const ParticleCopy& copy) {
   arrays_[Array::velocities].buffer.copyFrom(own->velocities);
   arrays_.setElasticSlips(own->elasticSlips);
   surfaceContact_.restoreSlips(own->pairSlips);
-  arrays_.forgetHistory();
+  arrays_.restoreHistory(own->history);
   return true;
 }
 

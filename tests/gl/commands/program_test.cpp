@@ -227,6 +227,16 @@ TEST(Program, FailsWithOneWhenTheSimulationBlowsUp) {
   EXPECT_EQ(result.exitCode, 1);
   EXPECT_NE(result.output.find("solver.simulation_steps"), std::string::npos) << result.output;
   EXPECT_NE(readFile(folder / "trace.csv").find("\n0,"), std::string::npos) << "the frames before are kept";
+  const json summary = jsonOf(
+      "run -f pinned2 --frames 50 --backend cpu --set cloth.ks=1e7 --set solver.simulation_steps=1 --json "
+      "--save " +
+          (folder / "end.csv").string(),
+      "", 1);
+  EXPECT_EQ(summary["frames"], 1);
+  EXPECT_EQ(summary["steps"], 1);
+  EXPECT_EQ(summary["finite"], false);
+  EXPECT_EQ(summary["divergence"]["frame"], 2);
+  EXPECT_NE(summary["divergence"]["text"].get<std::string>().find("pass integrate"), std::string::npos);
 }
 
 TEST(Program, SavesTheLastGoodStateOfAnExplosionAndNothingThatIsNotFinite) {

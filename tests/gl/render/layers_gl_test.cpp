@@ -14,7 +14,7 @@ namespace {
 using LayersTest = GlTest;
 using Shape = std::function<glm::dvec3(double u, double v)>;  // u and v from 0 to 1
 
-constexpr int SIZE = 240;                            // of the square pictures [pixels]
+constexpr int PICTURE_SIZE = 240;                    // of the square pictures [pixels]
 constexpr double CELL = 1.0 / 8, THICKNESS = 0.002;  // [m]
 constexpr Vec3d ABOVE{0.7, 0.05, 0.05}, BELOW{0.05, 0.05, 0.7};
 
@@ -63,10 +63,11 @@ Picture pictureOf(const Scene& scene, const std::vector<Shape>& shapes, const Re
   const gl::Buffer<glm::vec4> positions("positions", placesOf(cloth, shapes));
   Renderer renderer(cloth, scene, options);
   if (cuts) renderer.setCuts(cuts(cloth));
-  const Image image = renderImage(renderer, positions.name(), Camera(scene, cloth), 0, SIZE, SIZE);
+  const Image image =
+      renderImage(renderer, positions.name(), Camera(scene, cloth), 0, PICTURE_SIZE, PICTURE_SIZE);
   Picture picture;
-  for (int y = 0; y < SIZE; ++y)
-    for (int x = 0; x < SIZE; ++x) {
+  for (int y = 0; y < PICTURE_SIZE; ++y)
+    for (int x = 0; x < PICTURE_SIZE; ++x) {
       const auto [r, g, b] = test::pixelAt(image, x, y);
       picture.push_back(g > 150 ? Layer::none : r > b ? Layer::above : Layer::below);
     }
@@ -77,9 +78,9 @@ Picture pictureOf(const Scene& scene, const std::vector<Shape>& shapes, const Re
 // around.
 int wrongPixels(const Picture& picture, const Picture& triangles) {
   int count = 0;
-  for (int y = 1; y + 1 < SIZE; ++y)
-    for (int x = 1; x + 1 < SIZE; ++x) {
-      const auto at = [&](int i, int j) { return std::size_t((y + j) * SIZE + x + i); };
+  for (int y = 1; y + 1 < PICTURE_SIZE; ++y)
+    for (int x = 1; x + 1 < PICTURE_SIZE; ++x) {
+      const auto at = [&](int i, int j) { return std::size_t((y + j) * PICTURE_SIZE + x + i); };
       bool isAbove = picture[at(0, 0)] == Layer::below;
       for (int k = 0; k < 9; ++k) isAbove = isAbove && triangles[at(k % 3 - 1, k / 3 - 1)] == Layer::above;
       count += isAbove ? 1 : 0;
@@ -114,7 +115,7 @@ void expectUpperLayer(std::size_t sheets, const std::vector<Shape>& shapes,
   RenderOptions rough = SMOOTH[0];
   rough.subdivisions = 0;
   const Picture triangles = pictureOf(scene, shapes, rough, cuts);
-  ASSERT_GT(std::count(triangles.begin(), triangles.end(), Layer::above), SIZE * SIZE / 3);
+  ASSERT_GT(std::count(triangles.begin(), triangles.end(), Layer::above), PICTURE_SIZE * PICTURE_SIZE / 3);
   for (const RenderOptions& options : SMOOTH) {
     if (cuts && options.flatness > 0) continue;  // a lean surface is that of whole grids
     scene.solver.selfCollision = SelfCollision::off;

@@ -13,13 +13,13 @@
 namespace clothsim {
 namespace {
 
-constexpr int columns = 12;
+constexpr int GRID_COLUMNS = 12;
 
 class MovedPins : public testing::Test {
  protected:
   static Scene hangingSheet() {
     Scene scene = loadSceneByName("pinned2");
-    (void)changeResolution(scene, columns, columns, true);
+    (void)changeResolution(scene, GRID_COLUMNS, GRID_COLUMNS, true);
     scene.solver.simulationSteps = 10;
     return scene;
   }
@@ -42,7 +42,7 @@ class MovedPins : public testing::Test {
 
   Session session_{hangingSheet(), "cpu", makeCpuSolver};
   // pinned2 holds both ends of its first row.
-  static constexpr std::uint32_t first = 0, last = columns - 1;
+  static constexpr std::uint32_t first = 0, last = GRID_COLUMNS - 1;
 };
 
 TEST_F(MovedPins, ChangeNoBitWhileHandsHoldThemWhereTheyAre) {
@@ -91,7 +91,7 @@ TEST_F(MovedPins, TurnTogetherAboutTheirMiddle) {
 }
 
 TEST_F(MovedPins, MayBeOnesThatTheUserHasSetWhereverTheClothWas) {
-  constexpr std::uint32_t inside = 6 * columns + 5;
+  constexpr std::uint32_t inside = 6 * GRID_COLUMNS + 5;
   step(30);
   session_.act(SetPin{inside, true});
   const Vec3d from = positionOf(inside);

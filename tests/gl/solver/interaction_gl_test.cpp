@@ -162,6 +162,36 @@ TEST_F(InteractionOnGpuTest, GoesBackToSnapshotsOfEitherBackend) {
 }
 
 // What friction remembers is a part of them.
+TEST_F(InteractionOnGpuTest, GoesOnInSecondOrderFromStatesAndSnapshots) {
+  const Scene scene = test::inSecondOrder(test::vertical(test::materialScene(9)));
+  const Cloth cloth(scene);
+  GpuSolver gpu(cloth, scene);
+  CpuSolver<float> cpu(cloth, scene);
+  gpu.step(8);
+  const State state = gpu.state();
+  EXPECT_EQ(state.histories.size(), 2 * cloth.particleCount());
+  const std::unique_ptr<Snapshot> snapshot = gpu.snapshot(nullptr);
+  const auto later = [](Solver& solver) {
+    solver.step(3);
+    return stateHash(solver.state());
+  };
+  const std::uint64_t expected = later(gpu);
+  EXPECT_GT(gpu.convergenceCounts().secondOrderSteps, 5u);
+  gpu.restore(*snapshot);
+  EXPECT_EQ(later(gpu), expected);
+  cpu.restore(*snapshot);
+  const std::unique_ptr<Snapshot> onCpu = cpu.snapshot(nullptr);
+  EXPECT_EQ(later(cpu), expected);
+  cpu.setState(state);
+  EXPECT_EQ(later(cpu), expected);
+  gpu.restore(*onCpu);
+  EXPECT_EQ(later(gpu), expected);
+  State moved = state;
+  forgetHistory(moved);
+  gpu.setState(moved);
+  EXPECT_NE(later(gpu), expected);
+}
+
 TEST_F(InteractionOnGpuTest, GoesBackToSnapshotsOfClothThatSticks) {
   Scene scene = test::materialSheet(9, 9, 0.5, 0.5, *materialPreset("cotton"));
   scene.solver.integrator = Integrator::implicit;

@@ -6,7 +6,7 @@
 namespace clothsim {
 namespace {
 
-constexpr PictureArea area{800, 600};
+constexpr PictureArea gizmoArea{800, 600};
 constexpr float lineHeight = 16;
 
 Camera someCamera() {
@@ -23,9 +23,9 @@ TEST(AxisGizmo, LooksFromTheEndThatIsClickedWhereverTheCameraIs) {
         Camera camera = someCamera();
         camera.orbit(azimuth, 0.2);
         glm::vec2 place{0};
-        for (const AxisEnd& end : axisEnds(camera, area, lineHeight))
+        for (const AxisEnd& end : axisEnds(camera, gizmoArea, lineHeight))
           if (end.axis == axis && end.positive == positive) place = end.place;
-        const std::optional<AxisEnd> clicked = axisEndAt(camera, area, lineHeight, place);
+        const std::optional<AxisEnd> clicked = axisEndAt(camera, gizmoArea, lineHeight, place);
         ASSERT_TRUE(clicked);
         if (clicked->axis != axis || clicked->positive != positive) continue;  // a nearer one covers it
         camera.lookFrom(clicked->axis, clicked->positive);
@@ -37,12 +37,12 @@ TEST(AxisGizmo, LooksFromTheEndThatIsClickedWhereverTheCameraIs) {
 
 TEST(AxisGizmo, IsNotClickedElsewhere) {
   const Camera camera = someCamera();
-  EXPECT_FALSE(axisEndAt(camera, area, lineHeight, {400, 300}));
-  EXPECT_FALSE(axisEndAt(camera, area, lineHeight, {795, 5}));
+  EXPECT_FALSE(axisEndAt(camera, gizmoArea, lineHeight, {400, 300}));
+  EXPECT_FALSE(axisEndAt(camera, gizmoArea, lineHeight, {795, 5}));
 }
 
 TEST(AxisGizmo, DrawsTheNearestEndLast) {
-  const auto ends = axisEnds(someCamera(), area, lineHeight);
+  const auto ends = axisEnds(someCamera(), gizmoArea, lineHeight);
   for (std::size_t i = 1; i < ends.size(); ++i) EXPECT_LE(ends[i - 1].toViewer, ends[i].toViewer);
 }
 

@@ -82,8 +82,8 @@ TEST_F(StateFile, OfAnotherSceneIsRefusedWithBothParticleCounts) {
 }
 
 TEST_F(StateFile, OfALaterVersionIsRefusedWithBothVersions) {
-  bytes_[8] = 5;
-  EXPECT_NE(refusalOf(bytes_).find("version 5"), std::string::npos);
+  bytes_[8] = 6;
+  EXPECT_NE(refusalOf(bytes_).find("version 6"), std::string::npos);
 }
 
 TEST_F(StateFile, IsNotMistakenForWhatIsNone) {
@@ -105,6 +105,23 @@ TEST_F(StateFile, WithAParticleThatIsNowhereIsRefused) {
   state_.velocities[5].z = std::bit_cast<float>(0x7fc12345u);
   EXPECT_NE(refusalOf(formatStateFile(state_)).find("place or velocity of particle 5 is nan"),
             std::string::npos);
+}
+
+TEST_F(StateFile, KeepsWhatStepsOfSecondOrderLookBackAt) {
+  state_.histories.assign(12, {1e-3f, 0, -2e-3f, 0});
+  state_.histories[11].z = 0.25f;
+  state_.usualSteps = 2;
+  const State back = parseStateFile(formatStateFile(state_), 6, "a.state");
+  ASSERT_EQ(back.histories.size(), 12u);
+  EXPECT_EQ(std::memcmp(back.histories.data(), state_.histories.data(), 12 * sizeof(Particle4)), 0);
+  EXPECT_EQ(back.usualSteps, 2u);
+  state_.usualSteps = 3;
+  EXPECT_NE(refusalOf(formatStateFile(state_)).find("3 usual steps"), std::string::npos);
+  state_.usualSteps = 2;
+  state_.histories[7].x = std::bit_cast<float>(0x7f800000u);
+  EXPECT_NE(refusalOf(formatStateFile(state_)).find("changed of particle 3"), std::string::npos);
+  state_.histories.pop_back();
+  EXPECT_NE(refusalOf(formatStateFile(state_)).find("11 changes of the last step"), std::string::npos);
 }
 
 // Versions 1 and 2, put together by hand.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "export/formats.h"
 #include "solver/cpu/cpu_solver.h"
 #include "support/material_sheet.h"
 
@@ -86,19 +87,65 @@ TEST(SecondOrder, BeginsAnewAfterEveryEdit) {
   solver.step(60);
   EXPECT_EQ(count(), 58U);
   EXPECT_NEAR(solver.position(7).y - cloth.positions()[7].y, -9.81 / 2, 2 * 9.81 / 3600);
-  solver.setState(solver.state());
+  State moved = solver.state();
+  forgetHistory(moved);
+  solver.setState(moved);
   solver.step(3);
-  EXPECT_EQ(count(), 59U) << "a state that was handed in has no step before";
+  EXPECT_EQ(count(), 59U) << "a state that was changed has no step before";
   scene.gravity.y = -5;
   solver.configure(scene);
   solver.step(3);
   EXPECT_EQ(count(), 60U);
-  solver.restore(*solver.snapshot());
-  solver.step(3);
-  EXPECT_EQ(count(), 61U);
   solver.setCuts({});
   solver.step(3);
+  EXPECT_EQ(count(), 61U);
+  solver.setPin(7, true);
+  solver.step(3);
   EXPECT_EQ(count(), 62U);
+}
+
+// A strip with a cut swings from its top.
+TEST(SecondOrder, GoesOnFromAStateAndASnapshotAsIfNothingHadHappened) {
+  Scene scene = sheetUnder(5, 17, 0.2, 1, Integrator::bdf2);
+  scene.cloths[0].orientation = Orientation::vertical;
+  scene.cloths[0].pinned = {GridSide::top};
+  scene.gravity = {0, -5, 8};
+  const Cloth cloth(scene);
+  Cuts cuts;
+  cutAlong(cuts, cloth, 0, {1.5, -1}, {1.5, 5.5});
+  CpuSolver<float> whole(cloth, scene);
+  whole.setCuts(cuts);
+  whole.step(30);
+  const State state = parseStateFile(formatStateFile(whole.state()), cloth.particleCount(), "a.state");
+  EXPECT_EQ(state.histories.size(), 2 * cloth.particleCount());
+  const std::unique_ptr<Snapshot> snapshot = whole.snapshot();
+  const auto later = [](CpuSolver<float>& solver) {
+    solver.step(10);
+    return stateHash(solver.state());
+  };
+  const std::uint64_t expected = later(whole);
+  whole.restore(*snapshot);
+  EXPECT_EQ(later(whole), expected);
+  CpuSolver<float> fromState(cloth, scene), fromSnapshot(cloth, scene), forgetful(cloth, scene);
+  fromState.setState(state);
+  EXPECT_EQ(later(fromState), expected);
+  fromSnapshot.restore(*snapshot);
+  EXPECT_EQ(later(fromSnapshot), expected);
+  State moved = state;
+  forgetHistory(moved);
+  forgetful.setState(moved);
+  EXPECT_NE(later(forgetful), expected);
+
+  // In steps of another length, or of another integrator, it means nothing.
+  scene.solver.simulationSteps = 2;
+  CpuSolver<float> shorter(cloth, scene);
+  shorter.setState(state);
+  shorter.step(3);
+  EXPECT_EQ(shorter.convergenceCounts().secondOrderSteps, 1u);
+  scene.solver.integrator = Integrator::implicit;
+  CpuSolver<float> implicit(cloth, scene);
+  implicit.setState(state);
+  EXPECT_TRUE(implicit.state().histories.empty());
 }
 
 TEST(SecondOrder, LooksBackAtNoStepThatWasNotSolved) {
