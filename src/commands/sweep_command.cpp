@@ -74,6 +74,22 @@ void checkFrames(const SweepOptions& options, const SweepTable& table) {
   if (!variesFrame && !options.frames) throw UsageError("--frames is required, or --vary frame=30,60,90");
 }
 
+// What is varied cannot be one thing besides: the one would be ignored.
+void checkVaried(const SweepOptions& options, const SweepTable& table) {
+  const auto isSet = [&](const std::string& key) -> std::string {
+    if (key == resolutionWord && options.scene.resolution) return "--resolution";
+    if (key == "render.shader" && !options.shader.empty()) return "--shader";
+    const auto& settings = options.scene.settings;
+    const bool isAmong = std::any_of(settings.begin(), settings.end(), [&](const std::string& setting) {
+      return setting.starts_with(key + "=");
+    });
+    return isAmong ? "--set " + key + "=..." : "";
+  };
+  for (const Variation& variation : table.variations())
+    if (const std::string other = isSet(variation.key); !other.empty())
+      throw UsageError(other + " and --vary " + variation.key + "=... both say what it is; give one of them");
+}
+
 // Reads every scene before any is simulated, so that a mistake in the last one is reported at once.
 std::vector<PlannedRun> planRuns(const SweepOptions& options, const SweepTable& table) {
   std::vector<PlannedRun> runs;
@@ -96,7 +112,7 @@ std::vector<PlannedRun> planRuns(const SweepOptions& options, const SweepTable& 
         chosen.varied.push_back(key + "=" + value);
     }
     RemarkedScene read = readScene(chosen);
-    if (!options.shader.empty() && !varies(table, "render.shader")) read.scene.render.shader = options.shader;
+    if (!options.shader.empty()) read.scene.render.shader = options.shader;
     for (const std::string& remark : read.remarks)
       if (std::find(remarks.begin(), remarks.end(), remark) == remarks.end()) remarks.push_back(remark);
     const auto [place, isNew] = known.emplace(choice, runs.size());
@@ -418,6 +434,7 @@ int sweepCommand(const SweepOptions& options) {
   for (const std::string& text : options.variations) variations.push_back(parseVariation(text));
   const SweepTable table(std::move(variations), static_cast<double>(options.width) / options.height);
   checkFrames(options, table);
+  checkVaried(options, table);
   const std::vector<PlannedRun> runs = planRuns(options, table);
   ContactSheet sheet = makeSheet(options, table, runs);
   checkSize(sheet, options);

@@ -98,6 +98,21 @@ TEST(ImplicitContact, GoesOnFromASavedStateAsIfNothingHadHappened) {
   EXPECT_EQ(later(), first);
 }
 
+// A snapshot of before there was anything to touch knows of no friction.
+TEST(ImplicitContact, GoesBackToBeforeThereWasAnythingToTouch) {
+  const Scene touching = drapedBall();
+  Scene free = touching;
+  free.colliders.clear();
+  const Cloth cloth(free);
+  CpuSolver<float> solver(cloth, free), fresh(cloth, touching);
+  const std::unique_ptr<Snapshot> start = solver.snapshot();
+  solver.configure(touching);
+  solver.step(4 * 30);
+  solver.restore(*start);
+  for (CpuSolver<float>* each : {&solver, &fresh}) each->step(4 * 30);
+  EXPECT_EQ(stateHash(solver.state()), stateHash(fresh.state()));
+}
+
 // The step of cloth that may touch itself ends twice where nothing was cut short.
 TEST(ImplicitContact, SticksAsWellWhereClothMayTouchItself) {
   Scene scene = drapedBall();
