@@ -74,7 +74,7 @@ void checkFrames(const SweepOptions& options, const SweepTable& table) {
   if (!variesFrame && !options.frames) throw UsageError("--frames is required, or --vary frame=30,60,90");
 }
 
-// What is varied cannot be one thing besides: the one would be ignored.
+// A value that is fixed beside --vary would be ignored.
 void checkVaried(const SweepOptions& options, const SweepTable& table) {
   const auto isSet = [&](const std::string& key) -> std::string {
     if (key == resolutionWord && options.scene.resolution) return "--resolution";
@@ -87,7 +87,7 @@ void checkVaried(const SweepOptions& options, const SweepTable& table) {
   };
   for (const Variation& variation : table.variations())
     if (const std::string other = isSet(variation.key); !other.empty())
-      throw UsageError(other + " and --vary " + variation.key + "=... both say what it is; give one of them");
+      throw UsageError(other + " and --vary " + variation.key + "=... both set it; give one of them");
 }
 
 // Reads every scene before any is simulated, so that a mistake in the last one is reported at once.

@@ -29,7 +29,7 @@ enum class ObjObjects { byCloth, one };
 
 // The `.state` file, little-endian throughout:
 //   offset  0  8 bytes  "clothsim"
-//           8  u32      version of this layout, 3 or 4
+//           8  u32      version of this layout, 3, 4 or 5
 //          12  u32      integrator: 0 verlet, 1 euler
 //          16  u64      particle count n
 //          24  u64      step
@@ -43,15 +43,19 @@ enum class ObjObjects { byCloth, one };
 //                       (cloth/cuts.h)
 //   64+32n+c   u64      number p of particles pinned or freed during the run
 //   72+32n+c   p times  u32  those particles, ascending
-//              u64      version 4 alone: number of elastic slips (solver/state.h), 0 or n
+//              u64      from version 4 on: number of elastic slips (solver/state.h), 0 or n
 //                       so many times  binary32 x, y, z [m], what held [N]
-//              u64      version 4 alone: number of pairs with elastic slips
+//              u64      from version 4 on: number of pairs with elastic slips
 //                       so many times  u32  place, four particles; binary32 x, y, z [m],
 //                       what held [N]
+//              u64      version 5 alone: number of changes in the last step (solver/state.h), 2n
+//                       n times  binary32 x, y, z [m], 0; then x, y, z [m/s], 0
+//              u32      version 5 alone: how many steps were usual (solver/state.h), 1 or 2
 //              u64      FNV-1a of all bytes before
-// Version 4 is written where friction of implicit steps holds something, else version 3. Older files are
-// read. Version 2 has no offsets 32 to 55: the time is then step times the step length of the scene that it
-// is loaded into. Version 1 has no cuts and pins by hand either.
+// Version 5 is written where the next step of `bdf2` looks back, version 4 where friction of implicit steps
+// holds something, else version 3. Older files are read. Version 2 has no offsets 32 to
+// 55: the time is then step times the step length of the scene that it is loaded into. Version 1 has no cuts
+// and pins by hand either.
 [[nodiscard]] std::string formatStateFile(const State& state);
 // Of a cloth with so many particles, and triangles of meshes. `source` names the file in messages.
 // @throws InputOutputError

@@ -224,7 +224,7 @@ void GpuArrays::bindFor(Pass pass) const {
   positions.texture.bind(POSITIONS_UNIT);
   if (storageLoads_) positions.buffer.bindStorage(POSITIONS_BINDING);
   const PassTraits& traits = traitsOf(pass);
-  if (traits.gate != Gate::none || (traits.reads | traits.writes).contains(Array::scalars))
+  if (traits.gate != Gate::none || (traits.gathers | traits.reads | traits.writes).contains(Array::scalars))
     scalars_.bindStorage(SCALARS_BINDING);
   for (int i = 0; i < ARRAY_COUNT; ++i) {
     const auto array = static_cast<Array>(i);

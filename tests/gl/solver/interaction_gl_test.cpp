@@ -190,6 +190,12 @@ TEST_F(InteractionOnGpuTest, GoesOnInSecondOrderFromStatesAndSnapshots) {
   forgetHistory(moved);
   gpu.setState(moved);
   EXPECT_NE(later(gpu), expected);
+  // One that has not stepped yet goes on as well, whatever the other's last steps were.
+  gpu.setState(moved);
+  gpu.step(1);
+  GpuSolver fresh(cloth, scene);
+  fresh.setState(state);
+  EXPECT_EQ(later(fresh), expected);
 }
 
 TEST_F(InteractionOnGpuTest, GoesBackToSnapshotsOfClothThatSticks) {
