@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "cloth/cloth.h"
 #include "solver/state.h"
@@ -16,6 +17,7 @@ namespace clothsim {
 // and exact, loadState reads it back. @throws UsageError for another extension, InputOutputError
 void saveState(const State& state, const Cloth& cloth, const std::filesystem::path& path);
 [[nodiscard]] bool canSaveStateAs(const std::filesystem::path& path);
+inline constexpr std::string_view STATE_EXTENSIONS = ".csv, .ply, .obj, .glb, .npz or .state";
 
 // @throws InputOutputError for a missing, truncated or foreign file, or one with another particle count
 [[nodiscard]] State loadState(const std::filesystem::path& path, const Cloth& cloth);

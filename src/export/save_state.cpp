@@ -40,7 +40,7 @@ void saveState(const State& state, const Cloth& cloth, const std::filesystem::pa
   const Format format = formatFor(path);
   if (format == nullptr)
     throw UsageError("cannot save '" + path.string() + "': its extension is '" + path.extension().string() +
-                     "', expected .csv, .ply, .obj, .glb, .npz or .state");
+                     "', expected " + std::string(STATE_EXTENSIONS));
   writeFileAtomically(path, format(state, cloth));
 }
 

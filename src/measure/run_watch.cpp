@@ -81,7 +81,7 @@ Warning contactWarning(const ContactFailure& failure, const Scene& scene) {
              isSolved =
                  isImplicit(scene.solver.integrator) && scene.solver.selfCollision != SelfCollision::contact;
   const std::string better = isSolved ? "self_collision=contact" : averaged ? "self_collision=robust" : "";
-  warning.brief = "lost in frame " + std::to_string(failure.frame) + ": " +
+  warning.brief = "lost, seen in frame " + std::to_string(failure.frame) + ": " +
                   (better.empty() ? "raise simulation_steps" : "set " + better);
   const std::string advice =
       better.empty() ? stepsAdvice(scene)

@@ -100,7 +100,45 @@ std::string shortNumber(double value) {
   return text.data();
 }
 
+// One cloth gets that grid. Returns the factor of steps that it needs then.
+int changeGrid(Scene& scene, std::size_t index, int columns, int rows) {
+  ClothSettings& cloth = scene.cloths[index];
+  const int factor = stepFactor(cloth, columns, rows);
+  movePins(cloth, columns, rows);
+  for (Seam& seam : scene.seams)
+    for (SeamSide* side : {&seam.a, &seam.b})
+      if (side->cloth == static_cast<int>(index)) movePins(side->points, cloth, columns, rows);
+  const double before = smallerSpacing(cloth);
+  cloth.numWidthPoints = columns;
+  cloth.numHeightPoints = rows;
+  if (cloth.ks) cloth.thickness *= smallerSpacing(cloth) / before;
+  return factor;
+}
+
+void multiplySteps(SolverSettings& solver, int factor) {
+  solver.simulationSteps =
+      static_cast<int>(std::min(static_cast<double>(solver.simulationSteps) * factor, double{mostSteps}));
+}
+
 }  // namespace
+
+void followGrids(Scene& edited, const Scene& before) {
+  int factor = 1;
+  for (std::size_t i = 0; i < std::min(edited.cloths.size(), before.cloths.size()); ++i) {
+    ClothSettings& cloth = edited.cloths[i];
+    const ClothSettings& old = before.cloths[i];
+    const int columns = cloth.numWidthPoints, rows = cloth.numHeightPoints;
+    if (cloth.isMesh() || old.isMesh() || (columns == old.numWidthPoints && rows == old.numHeightPoints))
+      continue;
+    checkPinsStayApart({cloth}, columns, rows);
+    cloth.numWidthPoints = old.numWidthPoints;
+    cloth.numHeightPoints = old.numHeightPoints;
+    factor = std::max(factor, changeGrid(edited, i, columns, rows));
+  }
+  if (!edited.solver.simulationSteps.automatic && !isImplicit(edited.solver.integrator))
+    multiplySteps(edited.solver, factor);
+  chooseCounts(edited);
+}
 
 std::string changeResolution(Scene& scene, int columns, int rows, bool keepSteps) {
   checkSides(
@@ -118,17 +156,10 @@ std::string changeResolution(Scene& scene, int columns, int rows, bool keepSteps
   keepSteps = keepSteps || isImplicit(scene.solver.integrator);
   int factor = 1;
   for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
-    ClothSettings& cloth = scene.cloths[i];
+    const ClothSettings& cloth = scene.cloths[i];
     if (cloth.isMesh()) continue;
-    factor = std::max(factor, stepFactor(cloth, columns, rows));
-    movePins(cloth, columns, rows);
-    for (Seam& seam : scene.seams)
-      for (SeamSide* side : {&seam.a, &seam.b})
-        if (side->cloth == static_cast<int>(i)) movePins(side->points, cloth, columns, rows);
-    const double before = smallerSpacing(cloth), thickness = cloth.thickness;
-    cloth.numWidthPoints = columns;
-    cloth.numHeightPoints = rows;
-    if (cloth.ks) cloth.thickness *= smallerSpacing(cloth) / before;
+    const double thickness = cloth.thickness;
+    factor = std::max(factor, changeGrid(scene, i, columns, rows));
     add((scene.cloths.size() > 1 ? "cloths." + std::to_string(i) + "." : "") + "thickness", thickness,
         cloth.thickness);
   }
@@ -137,10 +168,9 @@ std::string changeResolution(Scene& scene, int columns, int rows, bool keepSteps
     chooseCounts(scene);
     add("simulation_steps", before, scene.solver.simulationSteps);
   } else if (!keepSteps) {
-    const double steps =
-        std::min(static_cast<double>(scene.solver.simulationSteps) * factor, double{mostSteps});
-    add("simulation_steps", scene.solver.simulationSteps, steps);
-    scene.solver.simulationSteps = static_cast<int>(steps);
+    const int before = scene.solver.simulationSteps;
+    multiplySteps(scene.solver, factor);
+    add("simulation_steps", before, scene.solver.simulationSteps);
   }
   chooseCounts(scene);
   if (changes.empty()) return "";

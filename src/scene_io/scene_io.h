@@ -61,5 +61,8 @@ struct BundledScene {
 // @throws UsageError for sides outside 2 to 16384, more than 2^26 particles, or a grid on which two pin
 // motions would meet in one point
 [[nodiscard]] std::string changeResolution(Scene& scene, int columns, int rows, bool keepSteps);
+// The same for cloths whose numbers of points alone have been edited: what else depends on them follows.
+// `before` is the scene before the edit. @throws UsageError as changeResolution() for pin motions
+void followGrids(Scene& edited, const Scene& before);
 
 }  // namespace clothsim

@@ -73,8 +73,9 @@ void Simulation::switchBackend(const std::string& backend) {
   touch();
 }
 
-std::string blowUpText(const Divergence& divergence, const Cloth& cloth, const Scene& scene) {
-  return "the simulation blew up: " + divergenceText(divergence, cloth, scene) + ". " +
+std::string blowUpText(const Divergence& divergence, const Cloth& cloth, const Scene& scene,
+                       std::optional<int> frame) {
+  return "the simulation blew up: " + divergenceText(divergence, cloth, scene, frame) + ". " +
          remedyFor(divergence, scene).text;
 }
 

@@ -91,6 +91,7 @@ class Simulation {
 };
 
 // The message "the simulation blew up: in step ..." with advice.
-[[nodiscard]] std::string blowUpText(const Divergence& divergence, const Cloth& cloth, const Scene& scene);
+[[nodiscard]] std::string blowUpText(const Divergence& divergence, const Cloth& cloth, const Scene& scene,
+                                     std::optional<int> frame = std::nullopt);
 
 }  // namespace clothsim

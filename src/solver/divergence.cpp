@@ -60,10 +60,12 @@ std::optional<Divergence> firstDivergence(const WatchRow& row, std::uint64_t ste
   return std::nullopt;
 }
 
-std::string divergenceText(const Divergence& divergence, const Cloth& cloth, const Scene& scene) {
+std::string divergenceText(const Divergence& divergence, const Cloth& cloth, const Scene& scene,
+                           std::optional<int> frame) {
   const auto stepsPerFrame = static_cast<std::uint64_t>(scene.solver.simulationSteps);
+  const std::uint64_t counted = (divergence.step + stepsPerFrame - 1) / stepsPerFrame;
   return "in step " + std::to_string(divergence.step) + " (frame " +
-         std::to_string((divergence.step + stepsPerFrame - 1) / stepsPerFrame) + "), pass " +
+         (frame ? std::to_string(*frame) : std::to_string(counted)) + "), pass " +
          nameOf(divergence.pass) + ", particle " + std::to_string(divergence.particle) + " (" +
          placeOnTheCloth(divergence.particle, cloth) + ") " + what(divergence, scene);
 }

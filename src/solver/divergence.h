@@ -41,8 +41,9 @@ using WatchRow = std::array<std::uint32_t, PASSES>;
 
 // For a person, as a sentence without its full stop: "in step 7 (frame 1), pass integrate, particle 12 (cloth
 // 0, column 2, row 1) ...".
-[[nodiscard]] std::string divergenceText(const Divergence& divergence, const Cloth& cloth,
-                                         const Scene& scene);
+// Where `simulation_steps` has changed on the way, `frame` is to be given.
+[[nodiscard]] std::string divergenceText(const Divergence& divergence, const Cloth& cloth, const Scene& scene,
+                                         std::optional<int> frame = std::nullopt);
 // What may help against it: in sentences, and as key=value for --set.
 struct Remedy {
   std::string text;

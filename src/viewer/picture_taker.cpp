@@ -19,6 +19,11 @@ std::string PictureTaker::toggleClip(OpenScene& open, int width, int height) {
     clip_.emplace(outputFolder(), open.name() + "-" + open.backend(), width, height);
     return "Recording; Ctrl+R stops";
   }
+  return endClip();
+}
+
+std::string PictureTaker::endClip() {
+  if (!clip_) return "";
   ClipRecorder clip = std::move(*clip_);
   clip_.reset();
   return "Saved " + clip.finish();

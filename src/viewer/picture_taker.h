@@ -18,7 +18,9 @@ class PictureTaker {
   // To be called when the picture has been shown for that time [s]; adds it to a clip. @throws
   // InputOutputError
   void shown(OpenScene& open, double seconds);
-  void abandonClip() { clip_.reset(); }
+  // Ends a clip that runs, whose film is kept. Returns a message for the user, "" where there was none.
+  // @throws InputOutputError
+  std::string endClip();
 
   [[nodiscard]] std::optional<double> recordedSeconds() const {
     return clip_ ? std::optional(clip_->seconds()) : std::nullopt;

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "output/picture_font.h"
 
@@ -94,6 +95,20 @@ void textUnformatted(std::string_view words) {
   ImGui::TextUnformatted(words.data(), words.data() + words.size());
 }
 
+// Of a bar, what has been typed so far: it counts when the field is left.
+struct TypedNumber {
+  ImGuiID of = 0;
+  double number = 0;
+};
+
+// Whether a number is being typed, of which Dear ImGui would leave out a comma: 1,5 would be 15.
+bool isTypingNumber() {
+  const ImGuiContext& context = *ImGui::GetCurrentContext();
+  return context.ActiveId != 0 && context.ActiveId == context.InputTextState.ID &&
+         (context.InputTextState.Flags &
+          (ImGuiInputTextFlags_CharsDecimal | ImGuiInputTextFlags_CharsScientific)) != 0;
+}
+
 }  // namespace
 
 UiFrame::UiFrame(GLFWwindow* window, InputQueue& input) : window_(window), input_(input) {
@@ -121,7 +136,8 @@ std::optional<ImVec2> UiFrame::passInputOn() {
         ImGui_ImplGlfw_KeyCallback(window_, event.code, event.scancode, event.action, event.mods);
         break;
       case InputEvent::Kind::character:
-        ImGui_ImplGlfw_CharCallback(window_, static_cast<unsigned int>(event.code));
+        ImGui_ImplGlfw_CharCallback(
+            window_, event.code == ',' && isTypingNumber() ? '.' : static_cast<unsigned int>(event.code));
         break;
       case InputEvent::Kind::button:
         ImGui_ImplGlfw_MouseButtonCallback(window_, event.code, event.action, event.mods);
@@ -198,6 +214,14 @@ void wrappedText(std::string_view words, const ImVec4& color) {
 
 void helpTip(std::string_view words) {
   if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) || ImGui::IsAnyItemActive()) return;
+  // Beside a panel at the right edge, whose rows it would cover.
+  const ImVec2 whole = ImGui::GetIO().DisplaySize, window = ImGui::GetWindowPos();
+  if (window.x > 0.4f * whole.x) {
+    const bool isLow = ImGui::GetItemRectMin().y > 0.6f * whole.y;
+    ImGui::SetNextWindowPos(
+        {window.x - 0.4f * em(), isLow ? ImGui::GetItemRectMax().y : ImGui::GetItemRectMin().y},
+        ImGuiCond_Always, {1, isLow ? 1.0f : 0.0f});
+  }
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(20 * em());
   textUnformatted(words);
@@ -232,9 +256,29 @@ bool barSlider(ImGuiDataType type, void* value, double low, double high, const c
   const int lowInteger = static_cast<int>(low), highInteger = static_cast<int>(high);
   const void *const first = isInteger ? static_cast<const void*>(&lowInteger) : &low,
                     *const last = isInteger ? static_cast<const void*>(&highInteger) : &high;
+  // Dear ImGui opens the field at a click with Ctrl.
+  ImGuiIO& io = ImGui::GetIO();
+  const bool control = std::exchange(io.KeyCtrl, io.KeyCtrl || io.MouseDoubleClicked[0]);
   const bool changed = ImGui::SliderScalar("##value", type, value, first, last, format, scale);
+  io.KeyCtrl = control;
   ImGui::PopStyleColor(5);
-  return changed;
+  const auto set = [&](double number) {
+    isInteger ? *static_cast<int*>(value) = static_cast<int>(number) : *static_cast<double*>(value) = number;
+  };
+  static TypedNumber typed;
+  const ImGuiID id = ImGui::GetItemID();
+  const bool isTyping = ImGui::TempInputIsActive(id);
+  const bool isOnlyClicked = ImGui::IsItemActive() && !ImGui::IsMouseDragging(0);
+  if (changed && (isTyping || isOnlyClicked)) {
+    if (isTyping) typed = {id, isInteger ? *static_cast<int*>(value) : *static_cast<double*>(value)};
+    set(now);
+    return false;
+  }
+  if (typed.of != id || isTyping) return changed;
+  const double number = std::exchange(typed, {}).number;
+  if (changed) return true;  // confirmed, or taken back
+  set(number);
+  return number != now;
 }
 
 bool toggleButton(const char* label, bool& on, float width) {

@@ -68,7 +68,7 @@ Viewer::Viewer(const Shared<Scene>& scene, const ViewerOptions& options,
 std::optional<LostSession> Viewer::run() {
   clock_.lap();  // the time for loading is not simulated
   while (!window_.shouldClose() && !lost_) iterate();
-  taker_.abandonClip();
+  endClip();
   endFrames();
   if (lost_ && !window_.shouldClose())
     return LostSession{open_->source(), open_->loaded(), open_->sharedScene(), session().past(), *lost_};
@@ -90,7 +90,7 @@ void Viewer::iterate() {
   // While a frame takes its time, the picture changes only by what the user does.
   const bool draws = frames > 0 || drawsLeft_ > 0 || !steps_.isBusy() || now_ - lastDrawn_ > longestWait ||
                      !window_.inputQueue().isEmpty();
-  meter_.add(elapsed, frames * open_->frameSeconds(), draws ? 1 : 0);
+  if (!trials_.isRunning()) meter_.add(elapsed, frames * open_->frameSeconds(), draws ? 1 : 0);
   watchPace(elapsed);
   timings_.simulated(frames * open_->frameSeconds());
   if (!draws) return;
@@ -248,7 +248,8 @@ int Viewer::finishedFrames(int frames, double seconds, bool went,
   doWaiting();
   if (divergence) {
     paused_ = true;
-    notice_ = {blowUpText(*divergence, session().simulation().cloth(), open_->scene()) +
+    notice_ = {blowUpText(*divergence, session().simulation().cloth(), open_->scene(),
+                          session().frameSinceStart() + 1) +
                    "\nPaused at the last good state. Press R to restart.",
                1e9, true};
   }
@@ -375,14 +376,18 @@ void Viewer::drawControls() {
                           column_.measures().warnings(open_->scene())),
               area);
   if (showsPanels()) drawPanels();
-  if (const std::optional<PaceAdvice> offered = advice(); offered && config_.showOverlay && !showKeys_)
-    requests_.remedy = drawAdvice(*offered, tempo_, area, timelineHeight());
+  float noticeLift = timelineHeight();
+  if (const std::optional<PaceAdvice> offered = advice(); offered && config_.showOverlay && !showKeys_) {
+    const DrawnAdvice drawn = drawAdvice(*offered, tempo_, area, timelineHeight());
+    requests_.remedy = drawn.pressed;
+    noticeLift += drawn.height + 0.8f * em();
+  }
   const SessionFacts now = open_->facts();
   requests_.timeline = drawTimeline({now.oldestFrame, now.frame, now.newestFrame, now.frameSinceStart,
                                      open_->frameSeconds(), paused_, tempo_, taker_.recordedSeconds()},
                                     area);
   compare_.draw(area);
-  if (notice_.secondsLeft > 0) drawNotice(notice_.text, notice_.isError, area, timelineHeight());
+  if (notice_.secondsLeft > 0) drawNotice(notice_.text, notice_.isError, area, noticeLift);
   if (showKeys_) drawKeyList(area);
   const bool wasOpen = std::exchange(dialogShown_, dialog_.isOpen());
   if (wasOpen && !dialog_.isOpen()) ui_.closePopups();
@@ -390,7 +395,12 @@ void Viewer::drawControls() {
   if (dialog_.isOpen()) config_.folder = dialog_.folder().string();
 }
 
+// Clipped to the picture: what lies under the panels cannot be reached there.
 void Viewer::drawGizmos() {
+  const PictureArea area = pictureArea();
+  ImGui::GetBackgroundDrawList()->PushClipRect({0, 0}, {area.width, area.height});
+  const std::shared_ptr<void> unclip(nullptr,
+                                     [](void*) { ImGui::GetBackgroundDrawList()->PopClipRect(); });
   const ViewerWindow::Cursor cursor = window_.cursor();
   const glm::vec2 place(cursor.x, cursor.y);
   const MouseContext context = mouseContext();
@@ -437,6 +447,8 @@ void Viewer::applyRequests() {
 void Viewer::apply(const FieldEdits& edits) {
   draftHeld_ = edits.holding;
   const bool edited = edits.live || edits.rebuild;
+  if (edits.rebuild && !attempt([&] { followGrids(draft_, waitingEdit_ ? *waitingEdit_ : open_->scene()); }))
+    return static_cast<void>(draftHeld_ = false);
   if (edited && isStepping()) {
     waitingEdit_ = draft_;
   } else if (edited) {
@@ -458,6 +470,10 @@ void Viewer::apply(const PanelRequests& requests) {
     if (requests.resetScene) {
       edit(*open_->loaded(), false);
       restart();
+    }
+    if (requests.startsAnew) {
+      restart();
+      say("Springs and fabrics differ too much for a change in motion: starts again", longNoticeSeconds);
     }
     if (requests.saveCurves) saveCurves();
     if (requests.chooseSolid) mouse_.chosen().chooseSolid(*requests.chooseSolid);

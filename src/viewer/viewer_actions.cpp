@@ -86,6 +86,7 @@ void Viewer::onKey(const KeyStroke& stroke, bool repeated) {
 void Viewer::escape() {
   drawsLeft_ = drawsAfterInput;
   if (isLoading_) return window_.requestClose();
+  if (ui_.hasPopup()) return ui_.closePopups();
   if (dialog_.isOpen()) return dialog_.close();
   if (compare_.isOpen()) return compare_.close();
   if (showKeys_) {
@@ -258,6 +259,7 @@ void Viewer::setQuality(Quality quality) {
 void Viewer::edit(const Scene& scene, bool continues) {
   const double before = open_->frameSeconds();
   open_->edit(scene, continues);
+  column_.measures().sampleSoon();
   if (open_->frameSeconds() != before) pace_ = Pace(open_->frameSeconds());
 }
 
@@ -265,6 +267,7 @@ void Viewer::undo(bool again) {
   if (again ? !session().canRedo() : !session().canUndo())
     return say(again ? "Nothing to redo" : "Nothing to undo");
   again ? session().redo() : session().undo();
+  column_.measures().sampleSoon();
   pace_ = Pace(open_->frameSeconds());
   say(again ? "Redone" : "Undone");
 }
@@ -324,7 +327,7 @@ std::unique_ptr<OpenScene> Viewer::load(const std::string& source,
   while (making.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
     window_.waitEvents(0.05);
     if (!window_.shouldClose()) continue;
-    taker_.abandonClip();
+    endClip();
     std::fflush(nullptr);
     std::_Exit(0);  // without waiting for the thread
   }
@@ -346,7 +349,8 @@ void Viewer::openScene(const std::string& source) {
   next->view = open_->view;
   if (source == open_->source())
     next->camera() = open_->camera();  // whoever edits a scene looks at the same place
-  taker_.abandonClip();
+  std::string clipSaved;
+  const bool clipEnded = attempt([&] { clipSaved = taker_.endClip(); });
   compare_.close();
   mouse_ = {};
   trials_.abandon();
@@ -357,8 +361,17 @@ void Viewer::openScene(const std::string& source) {
   column_.measures().forget();
   pace_ = Pace(open_->frameSeconds());
   draftHeld_ = paused_ = false;
-  notice_ = {};
+  if (clipEnded) notice_ = {};
+  if (!clipSaved.empty()) say(clipSaved, longNoticeSeconds);
   warnOfPaths();
+}
+
+// When the program ends: what was recorded is kept.
+void Viewer::endClip() {
+  attempt([&] {
+    if (const std::string saved = taker_.endClip(); !saved.empty())
+      std::fprintf(stderr, "clothsim: %s\n", saved.c_str());
+  });
 }
 
 // Of a mesh the dialog asks what it is to be.
@@ -409,6 +422,9 @@ void Viewer::saveSceneAs(const std::filesystem::path& path) {
         " would hold many frames. Save your actions (Ctrl+Shift+S) and run: clothsim run --replay FILE "
         "--save " +
         path.filename().string());
+  if (!canSaveStateAs(path) && path.extension() != ".json")
+    return complain(path.string() + ": expected a name that ends in .json for the scene, or in " +
+                    std::string(STATE_EXTENSIONS) + " for the cloth as it is now");
   std::error_code ignored;  // the writer complains
   if (std::filesystem::exists(path, ignored) && confirmed_ != path.string()) {
     confirmed_ = path.string();
@@ -421,7 +437,7 @@ void Viewer::saveSceneAs(const std::filesystem::path& path) {
     saveScene(open_->scene(), path);
   confirmed_ = path.string();
   column_.scenes().remember(path.string());
-  say("Saved " + path.string(), longNoticeSeconds);
+  say("Saved " + std::filesystem::absolute(path).lexically_normal().string(), longNoticeSeconds);
 }
 
 void Viewer::saveCurves() {

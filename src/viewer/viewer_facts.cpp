@@ -30,13 +30,21 @@ std::string backendText(const Solver& solver) {
   return (solver.backend() == "gpu" ? "GPU: " : "CPU: ") + device;
 }
 
-// "50 x 50"; several cloths are separated by commas.
+// "50 x 50"; several cloths are separated by commas, "5 of 8 x 11" where they are alike.
 std::string gridSizes(const Cloth& cloth) {
+  std::vector<std::pair<std::string, int>> sizes;
+  for (const Piece& piece : cloth.pieces()) {
+    const std::string size =
+        piece.isMesh ? "mesh of " + withCommas(piece.endTriangle - piece.firstTriangle) + " triangles"
+                     : std::to_string(piece.columns) + " \u00d7 " + std::to_string(piece.rows);
+    if (!sizes.empty() && sizes.back().first == size)
+      ++sizes.back().second;
+    else
+      sizes.emplace_back(size, 1);
+  }
   std::string text;
-  for (const Piece& piece : cloth.pieces())
-    text += (text.empty() ? "" : ", ") +
-            (piece.isMesh ? "mesh of " + withCommas(piece.endTriangle - piece.firstTriangle) + " triangles"
-                          : std::to_string(piece.columns) + " \u00d7 " + std::to_string(piece.rows));
+  for (const auto& [size, count] : sizes)
+    text += (text.empty() ? "" : ", ") + (count > 1 ? std::to_string(count) + " of " : "") + size;
   return text;
 }
 

@@ -126,8 +126,8 @@ void drawLoading(const std::string& name) {
   ImGui::PopStyleColor();
 }
 
-std::optional<PaceRemedy> drawAdvice(const PaceAdvice& advice, double tempo, PictureArea area, float lift) {
-  std::optional<PaceRemedy> pressed;
+DrawnAdvice drawAdvice(const PaceAdvice& advice, double tempo, PictureArea area, float lift) {
+  DrawnAdvice drawn;
   float widest = 0;
   for (const PaceRemedy& remedy : advice.remedies)
     widest = std::max(widest, ImGui::CalcTextSize(remedy.name.c_str()).x);
@@ -137,7 +137,7 @@ std::optional<PaceRemedy> drawAdvice(const PaceAdvice& advice, double tempo, Pic
   ImGui::Begin("advice", nullptr, overlayFlags & ~ImGuiWindowFlags_NoInputs);
   coloredText(advice.cause, theme::alert);
   for (const PaceRemedy& remedy : advice.remedies) {
-    if (ImGui::Button(remedy.name.c_str(), {width, 0})) pressed = remedy;
+    if (ImGui::Button(remedy.name.c_str(), {width, 0})) drawn.pressed = remedy;
     helpTip(remedy.tempo
                 ? "As it runs anyway, but evenly (S)."
                 : "Tried on this machine just now. A change of the cloth or the solver can be undone "
@@ -151,9 +151,10 @@ std::optional<PaceRemedy> drawAdvice(const PaceAdvice& advice, double tempo, Pic
                              : formatted("%.2f\u00d7", *remedy.pace),
                 holds || remedy.tempo ? theme::good : theme::quiet);
   }
+  drawn.height = ImGui::GetWindowHeight();
   ImGui::End();
   ImGui::PopStyleColor();
-  return pressed;
+  return drawn;
 }
 
 void drawNotice(const std::string& words, bool isError, PictureArea area, float lift) {

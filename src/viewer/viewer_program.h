@@ -113,6 +113,7 @@ class Viewer {
   // Whether ViewerOptions::restartAfter is over.
   [[nodiscard]] bool startsAgain();
   void openScene(const std::string& source);
+  void endClip();
   void drop(const std::string& path);
   void openChosen(const OpenChoice& choice);
   void tellDialog();

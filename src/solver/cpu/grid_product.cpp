@@ -110,7 +110,10 @@ INLINE void multiplyElementsOfRow(const ImplicitArguments<Real>& arguments, int 
   }
   const Neighbourhood near = neighbourhoodOf(step, row);
   const Range all = rangeOf(step, row);
-  const bool isNearEnd = row < 2 || row + 2 >= static_cast<int>(step.rows);
+  // Of a row's ends, springs lead so far beyond it.
+  const std::ptrdiff_t reach = indexOffset(step, 2, 1);
+  const bool isNearEnd =
+      all.begin < reach || all.end + reach > static_cast<std::ptrdiff_t>(step.totalParticles);
   const std::ptrdiff_t border = isNearEnd ? 2 : 0, first = std::min(all.begin + border, all.end),
                        last = std::max(first, all.end - border);
   for (std::ptrdiff_t i = all.begin; i < first; ++i) multiplyParticle(arrays, inside(near, step, i), i);

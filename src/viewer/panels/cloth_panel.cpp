@@ -30,23 +30,27 @@ void drawSpringKinds(PanelContext& context, ClothSettings& cloth, const std::str
 }
 
 // A cloth that is given a material loses its spring constants, and the solver gets the defaults for
-// materials. A cloth without a material gets CS184's spring constant back.
-void chooseModel(Scene& scene, ClothSettings& cloth) {
+// materials. A cloth without a material gets CS184's spring constant back. Returns whether it was either: the
+// strain of soft springs would tear a fabric to pieces.
+bool chooseModel(Scene& scene, ClothSettings& cloth) {
   if (cloth.material && (cloth.ks || cloth.stiffnessReference)) {
     giveMaterial(cloth, Material{*cloth.material});
     const SolverSettings usual = solverDefaults(usesKs(scene), true);
     scene.solver.integrator = usual.integrator;
     scene.solver.simulationSteps = usual.simulationSteps;
     scene.solver.selfCollision = usual.selfCollision;
+    return true;
   }
-  if (!cloth.material && !cloth.ks && !cloth.stiffnessReference) cloth.ks = defaultKs;
+  if (cloth.material || cloth.ks || cloth.stiffnessReference) return false;
+  cloth.ks = defaultKs;
+  return true;
 }
 
 void drawCloth(PanelContext& context, ClothSettings& cloth, const std::string& path) {
   drawSpringKinds(context, cloth, path);
   const RenderSettings look = usualLook(context.draft);
   context.widgets.some(cloth, path, {"material"});
-  chooseModel(context.draft, cloth);
+  if (chooseModel(context.draft, cloth)) context.requests.startsAnew = true;
   followLook(context.draft.render, look, usualLook(context.draft));
   if (cloth.material) {
     context.widgets.all(*cloth.material, path + ".material");

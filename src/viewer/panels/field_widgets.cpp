@@ -126,9 +126,9 @@ void FieldWidgets::beginRow(const FieldTraits& field, std::string_view path, std
   ImGui::SetNextItemWidth(-FLT_MIN);
 }
 
-void FieldWidgets::endRow(const FieldTraits& field, std::string_view path, bool changedNow,
-                          bool finishedNow) {
-  helpTip(helpOf(field, path));
+void FieldWidgets::endRow(const FieldTraits& field, std::string_view path, bool changedNow, bool finishedNow,
+                          bool isBar) {
+  helpTip(helpOf(field, path) + (isBar ? "\nDrag, or double-click to type a number." : ""));
   note(changedNow, field.change, finishedNow);
   ImGui::PopID();
 }
@@ -147,7 +147,7 @@ void FieldWidgets::control(const FieldTraits& field, std::string_view path, int&
   const bool changed =
       barSlider(ImGuiDataType_S32, &value, range.low, range.high, format.c_str(), isLogarithmic(range));
   if (changed) value = static_cast<int>(std::clamp<double>(value, field.limits.low, field.limits.high));
-  endRow(field, path, changed, ImGui::IsItemDeactivatedAfterEdit());
+  endRow(field, path, changed, ImGui::IsItemDeactivatedAfterEdit(), true);
 }
 
 bool FieldWidgets::number(const FieldTraits& field, double& value) {
@@ -161,7 +161,7 @@ bool FieldWidgets::number(const FieldTraits& field, double& value) {
 void FieldWidgets::control(const FieldTraits& field, std::string_view path, double& value) {
   beginRow(field, path, "");
   const bool changed = number(field, value);
-  endRow(field, path, changed, ImGui::IsItemDeactivatedAfterEdit());
+  endRow(field, path, changed, ImGui::IsItemDeactivatedAfterEdit(), true);
 }
 
 void FieldWidgets::control(const FieldTraits& field, std::string_view path, std::string& value) {

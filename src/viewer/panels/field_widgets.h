@@ -81,7 +81,8 @@ class FieldWidgets {
   [[nodiscard]] bool beginRows(std::string_view path);
   void endRows();
   void beginRow(const FieldTraits& field, std::string_view path, std::string_view unit);
-  void endRow(const FieldTraits& field, std::string_view path, bool changedNow, bool finishedNow);
+  void endRow(const FieldTraits& field, std::string_view path, bool changedNow, bool finishedNow,
+              bool isBar = false);
   bool number(const FieldTraits& field, double& value);
   void note(bool changedNow, Change when, bool finishedNow);
 

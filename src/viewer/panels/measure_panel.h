@@ -42,6 +42,8 @@ class MeasurePanel {
   // The warnings from the samples since the last start; of unsolved steps only while there are any.
   [[nodiscard]] std::vector<Warning> warnings(const Scene& scene) const;
   void setOpen(bool open) { open_ = open; }
+  // To be called when something else than a step has changed the simulation: what is shown is of before.
+  void sampleSoon() { nextSample_ = 0; }
   // To be called with the number of particles times steps, and the time that they took.
   void stepped(double particleSteps, double seconds);
   // To be called when the simulation was restarted. Drops the samples.

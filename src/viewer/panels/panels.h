@@ -24,6 +24,7 @@ struct PanelRequests {
   std::optional<std::string> backend;      // "cpu" or "gpu"
   std::optional<Quality> quality;          // of the picture
   bool resetScene = false;                 // back to the loaded scene
+  bool startsAnew = false;                 // the scene, since springs and fabrics differ too much
   std::optional<std::size_t> chooseSolid;  // in the picture, by its index in scene.colliders
   bool saveCurves = false;                 // of the panel Measure, as CSV
   friend bool operator==(const PanelRequests&, const PanelRequests&) = default;
