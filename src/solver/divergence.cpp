@@ -65,8 +65,8 @@ std::string divergenceText(const Divergence& divergence, const Cloth& cloth, con
   const auto stepsPerFrame = static_cast<std::uint64_t>(scene.solver.simulationSteps);
   const std::uint64_t counted = (divergence.step + stepsPerFrame - 1) / stepsPerFrame;
   return "in step " + std::to_string(divergence.step) + " (frame " +
-         (frame ? std::to_string(*frame) : std::to_string(counted)) + "), pass " +
-         nameOf(divergence.pass) + ", particle " + std::to_string(divergence.particle) + " (" +
+         (frame ? std::to_string(*frame) : std::to_string(counted)) + "), pass " + nameOf(divergence.pass) +
+         ", particle " + std::to_string(divergence.particle) + " (" +
          placeOnTheCloth(divergence.particle, cloth) + ") " + what(divergence, scene);
 }
 

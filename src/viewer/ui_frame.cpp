@@ -103,10 +103,8 @@ struct TypedNumber {
 
 // Whether a number is being typed, of which Dear ImGui would leave out a comma: 1,5 would be 15.
 bool isTypingNumber() {
-  const ImGuiContext& context = *ImGui::GetCurrentContext();
-  return context.ActiveId != 0 && context.ActiveId == context.InputTextState.ID &&
-         (context.InputTextState.Flags &
-          (ImGuiInputTextFlags_CharsDecimal | ImGuiInputTextFlags_CharsScientific)) != 0;
+  const ImGuiID active = ImGui::GetActiveID();
+  return active != 0 && ImGui::TempInputIsActive(active);
 }
 
 }  // namespace

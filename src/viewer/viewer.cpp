@@ -399,8 +399,7 @@ void Viewer::drawControls() {
 void Viewer::drawGizmos() {
   const PictureArea area = pictureArea();
   ImGui::GetBackgroundDrawList()->PushClipRect({0, 0}, {area.width, area.height});
-  const std::shared_ptr<void> unclip(nullptr,
-                                     [](void*) { ImGui::GetBackgroundDrawList()->PopClipRect(); });
+  const std::shared_ptr<void> unclip(nullptr, [](void*) { ImGui::GetBackgroundDrawList()->PopClipRect(); });
   const ViewerWindow::Cursor cursor = window_.cursor();
   const glm::vec2 place(cursor.x, cursor.y);
   const MouseContext context = mouseContext();

@@ -325,6 +325,41 @@ TEST_F(PanelsUi, SaveTheClothAsItIsByTheNamesEnding) {
   EXPECT_TRUE(readFile(mesh).starts_with("# clothsim, step ")) << mesh;
 }
 
+// Double clicks type; what is typed counts when Enter ends it.
+TEST_F(PanelsUi, TakeTypedNumbersKeepPinsInPlaceAndCloseAListAtEsc) {
+  ViewerProgram viewer("-f pinned2 --resolution 12x12");
+  click(viewer, 1);
+  ASSERT_TRUE(settingsSay(viewer, "\"panel\": \"" + std::string(panelNames[1]) + "\""));
+  const auto type = [&](int y, const std::string& number) {  // into the slider at that height [pixels]
+    viewer.perform("at 0.915 " + std::to_string(y / 600.0) +
+                   " sleep 0.3 click --repeat 2 --delay 80 1 sleep 0.7 type --delay 100 " + number);
+    viewer.perform("sleep 0.5 key Return sleep 0.7");
+  };
+  const auto saved = [&] {
+    fs::remove(viewer.here() / "pinned2.json");
+    viewer.press("ctrl+s");
+    EXPECT_TRUE(viewer.eventuallyHas("pinned2.json"));
+    return loadScene(viewer.here() / "pinned2.json").cloths[0];
+  };
+  EXPECT_TRUE(test::eventually(seconds(60), [&] {
+    type(192, "1,5");
+    return saved().density == 1.5;
+  })) << saved().density;
+  EXPECT_TRUE(test::eventually(seconds(60), [&] {
+    type(348, "23");
+    return saved().numWidthPoints == 23;
+  })) << saved().numWidthPoints;
+  EXPECT_EQ(saved().pinned, (std::vector<Pin>{GridPoint{0, 0}, GridPoint{22, 0}}));
+
+  viewer.perform("at 0.915 0.2 sleep 0.3 click 1 sleep 1 key Escape");
+  EXPECT_EQ(viewer.exitCodeWithin(seconds(2)), std::nullopt) << "Esc closes the list of materials";
+  viewer.perform("key ctrl+r sleep 1.5 key Escape");
+  EXPECT_EQ(viewer.exitCodeWithin(seconds(20)), 0) << viewer.output();
+  EXPECT_TRUE(fs::exists(viewer.here() / "pinned2-cpu.mp4") ||
+              fs::exists(viewer.here() / "pinned2-cpu-frames"))
+      << "a clip is kept: " << viewer.output();
+}
+
 TEST_F(PanelsUi, ChangeAtAClickOpenScenesByTheirPicturesAndAreRememberedInTheUsersFolder) {
   ViewerProgram viewer(windowScene);
   for (const std::size_t panel : {1u, 2u, 3u, 4u, 5u, 0u}) {

@@ -29,6 +29,23 @@ TEST(ChangeResolution, MovesInnerPinsAndRangesAlongAndLeavesSides) {
             (std::vector<Pin>{GridPoint{50, 20}, GridRange{{20, 0}, {80, 40}}, GridSide::left}));
 }
 
+TEST(FollowGrids, MovesPinsOfWhatHasAnotherGridAndTakesTheStepsThatItNeeds) {
+  const Scene before = sceneOf(
+      R"({"cloths": [{"num_width_points": 11, "num_height_points": 21, "thickness": 0.01, "pinned": [[10, 10]]},
+                     {"num_width_points": 11, "num_height_points": 21, "pinned": [[10, 10]]}],
+          "solver": {"simulation_steps": 30}})");
+  Scene edited = before;
+  edited.cloths[0].numWidthPoints = 41;
+  followGrids(edited, before);
+  EXPECT_EQ(edited.cloths[0].pinned, (std::vector<Pin>{GridPoint{40, 10}}));
+  EXPECT_EQ(edited.cloths[0].numWidthPoints, 41);
+  EXPECT_LT(edited.cloths[0].thickness, 0.01);
+  EXPECT_EQ(edited.cloths[1], before.cloths[1]);
+  EXPECT_EQ(edited.solver.simulationSteps, 120);
+  followGrids(edited, edited);
+  EXPECT_EQ(edited.solver.simulationSteps, 120) << "nothing has changed";
+}
+
 TEST(ChangeResolution, MovesThePinsOfMotionsAlong) {
   Scene scene = sceneOf(
       R"({"cloth": {"num_width_points": 11, "num_height_points": 21, "pinned": ["left", {"from": [5, 0], "to": [5, 20]}],

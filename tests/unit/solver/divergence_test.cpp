@@ -187,6 +187,9 @@ TEST(DivergenceText, NamesStepFramePassParticleAndItsPlaceOnTheCloth) {
   const std::string text =
       divergenceText({DivergenceReason::runawaySpeed, Pass::collide, 61, particle}, cloth, scene);
   EXPECT_NE(text.find("step 61 (frame 3)"), std::string::npos) << text;
+  EXPECT_NE(divergenceText({DivergenceReason::runawaySpeed, Pass::collide, 61, particle}, cloth, scene, 7)
+                .find("step 61 (frame 7)"),
+            std::string::npos);
   EXPECT_NE(text.find("pass collide"), std::string::npos) << text;
   EXPECT_NE(text.find("particle " + std::to_string(particle) + " (cloth 1, column 4, row 2)"),
             std::string::npos)
