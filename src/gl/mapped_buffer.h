@@ -74,6 +74,7 @@ class Fence {
     reset();
     sync_ = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
   }
+  [[nodiscard]] bool isSet() const { return sync_ != nullptr; }
   // Whether the commands before the mark are done; does not wait. Without a mark: no.
   [[nodiscard]] bool isReached() const {
     if (sync_ == nullptr) return false;

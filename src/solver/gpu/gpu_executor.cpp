@@ -14,6 +14,8 @@ namespace {
 constexpr int MOST_LANES = 1024;
 // And in a dispatch.
 constexpr std::size_t MOST_GROUPS = 65535;
+// Of conjugate gradients, between two looks at the flags.
+constexpr int ITERATIONS_UNSEEN = 4;
 
 std::uint32_t ownersAcross(const LimitColor& color) {
   return ownerCount(color.firstColumn, color.columnStep, color.columnRun, color.endColumn);
@@ -175,7 +177,7 @@ void GpuExecutor::run(const StepInputs& inputs, const PassList& list, int steps)
 
   seen_.reset();
   flagsAreThere_.reset();
-  isKnownToBeSolved_ = false;
+  areOfThisSystem_ = isStepKnownSolved_ = isSystemKnownSolved_ = false;
   for (std::span<const PassCall> rest = list.passes; !rest.empty();) {
     const std::span<const PassCall> taken = rest.first(passesTaken(rest));
     if (!isClosed(taken.front().traits().gate)) {
@@ -194,17 +196,21 @@ void GpuExecutor::run(const StepInputs& inputs, const PassList& list, int steps)
 // Whether the passes behind the gate would do nothing (sim/implicit/gate.glsl), as far as that is known here.
 bool GpuExecutor::isClosed(Gate gate) {
   if (gate == Gate::none || *options_.looksAtFlags == FlagLooks::never) return false;
-  if (*options_.looksAtFlags == FlagLooks::whenReady) return isKnownToBeSolved();
+  if (*options_.looksAtFlags == FlagLooks::whenReady) {
+    lookAtFlags();
+    return isStepKnownSolved_ || (gate == Gate::system && isSystemKnownSolved_);
+  }
   if (!seen_) seen_ = arrays_.scalars();
   return seen_->isStepSolved != 0 || (gate == Gate::system && seen_->isSystemSolved != 0);
 }
 
 // What has been dispatched since the copy was asked for did nothing, if it says so.
-bool GpuExecutor::isKnownToBeSolved() {
-  if (!flagsAreThere_.isReached()) return isKnownToBeSolved_;
+void GpuExecutor::lookAtFlags() {
+  if (!flagsAreThere_.isReached()) return;
   flagsAreThere_.reset();
-  isKnownToBeSolved_ = flags_.elements()[0].isStepSolved != 0;
-  return isKnownToBeSolved_;
+  const ImplicitScalars<float>& flags = flags_.elements()[0];
+  isStepKnownSolved_ = flags.isStepSolved != 0;
+  isSystemKnownSolved_ = areOfThisSystem_ && flags.isSystemSolved != 0;
 }
 
 // How many of the passes one kernel does.
@@ -214,13 +220,21 @@ std::size_t GpuExecutor::passesTaken(std::span<const PassCall> passes) const {
   return kernelFor(passes, kernelOptions_).passes;
 }
 
-// Behind a Newton step, and where the step goes on or does not (Pass::settle).
+// Behind a Newton step, where the step goes on or does not (Pass::settle), and behind some iterations of
+// conjugate gradients unless an answer is still to come: devices that lag behind would never give one.
 void GpuExecutor::askForFlags(std::span<const PassCall> passes) {
   if (*options_.looksAtFlags != FlagLooks::whenReady) return;
-  if (!std::ranges::any_of(
-          passes, [](const PassCall& c) { return c.pass == Pass::measureUpdate || c.pass == Pass::settle; }))
-    return;
-  isKnownToBeSolved_ = false;
+  const auto are = [&](Pass a, Pass b) {
+    return std::ranges::any_of(passes, [&](const PassCall& c) { return c.pass == a || c.pass == b; });
+  };
+  if (are(Pass::linearize, Pass::linearize)) areOfThisSystem_ = isSystemKnownSolved_ = false;
+  const bool endsNewtonStep = are(Pass::measureUpdate, Pass::settle),
+             endsIteration = are(Pass::sumFirstResidual, Pass::sumNextResidual);
+  if (!endsNewtonStep && !endsIteration) return;
+  if (endsIteration && (flagsAreThere_.isSet() || ++iterationsUnseen_ < ITERATIONS_UNSEEN)) return;
+  if (endsNewtonStep) isStepKnownSolved_ = false;
+  areOfThisSystem_ = endsIteration;
+  iterationsUnseen_ = 0;
   arrays_.copyScalars(flags_);
   flagsAreThere_.set();
   glFlush();  // or the copy may wait for further commands

@@ -24,9 +24,9 @@
 
 namespace clothsim {
 
-// When the host looks at the flags that say whether a step is solved. When ready: at a copy that was asked
-// for behind each Newton step, once it is there; nothing waits, and meanwhile passes are dispatched that may
-// do nothing. Always: before each pass, which waits.
+// When the host looks at the flags that say whether a step or its linear system is solved. When ready: at a
+// copy that was asked for behind each Newton step and now and then within one, once it is there; nothing
+// waits, and meanwhile passes are dispatched that may do nothing. Always: before each pass, which waits.
 enum class FlagLooks { never, whenReady, always };
 
 struct GpuOptions {
@@ -100,7 +100,7 @@ class GpuExecutor final : public Executor {
   void runKernel(std::span<const PassCall> passes);
   [[nodiscard]] bool isClosed(Gate gate);
   [[nodiscard]] bool hasElasticSlips() const;
-  bool isKnownToBeSolved();
+  void lookAtFlags();
   void askForFlags(std::span<const PassCall> passes);
   // A stage of a kernel, with its programs by piece.
   using StagePrograms = std::vector<const gl::Program*>;
@@ -138,10 +138,12 @@ class GpuExecutor final : public Executor {
   PassRunner runner_;
 
   std::optional<ImplicitScalars<float>> seen_;  // what no pass has written since
-  // A copy of the flags behind the last Newton step, and whether one has said that the step is solved.
+  // The newest copy of the flags that was asked for, and what copies have said.
   gl::MappedBuffer<ImplicitScalars<float>> flags_;
   gl::Fence flagsAreThere_;
-  bool isKnownToBeSolved_ = false;
+  bool areOfThisSystem_ = false;  // that copy's
+  bool isStepKnownSolved_ = false, isSystemKnownSolved_ = false;
+  int iterationsUnseen_ = 0;
 
   GpuWatch watch_;
 };
