@@ -53,6 +53,7 @@ std::string firstDifferingPass(const ContractCase& of, const Cloth& cloth, const
     if (!hasNewState) continue;
     PassList part = whole;
     part.passes.resize(count);
+    part.findGateEnds();
     gpu.setState(equal);
     cpu.setState(equal);
     if (difference(cpu.after(part), gpu.after(part)).differing > 0)

@@ -307,8 +307,8 @@ std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
           .within({.low = 1, .high = 100})
           .usually(1, 40),
       field("cg_iterations", &S::cgIterations,
-            "Most CG iterations per Newton iteration; auto: 20 to 60 by the step length, 40 at least with "
-            "contact.")
+            "Most CG iterations per Newton iteration; auto: 20 to 60 by step and contact, fivefold after the "
+            "11th.")
           .within({.low = 1, .high = 10'000})
           .usually(1, 60),
       field("frames_per_sec", &S::framesPerSec,

@@ -173,7 +173,7 @@ enum class Gate : std::uint8_t {
   none,
   step,
   system
-};  // never; once the step, or the linear system, is solved
+};  // never; once the step, or the linear system, is solved: what closes later comes first
 
 struct PassTraits {
   Pass pass;

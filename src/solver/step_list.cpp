@@ -34,6 +34,7 @@ class ListBuilder {
   }
   PassList finish(Outcome outcome) {
     list_.outcome = outcome;
+    list_.findGateEnds();
     return std::move(list_);
   }
 
@@ -52,6 +53,9 @@ std::size_t mostColors(const Cloth& cloth) {
   for (const Piece& piece : cloth.pieces()) most = std::max(most, makeLimitColors(piece).size());
   return most;
 }
+
+// Newton steps of a step, after which its linear systems may take so many times the iterations.
+constexpr int QUICK_NEWTON_STEPS = 10, LATE_ITERATIONS = 5;
 
 class StepBuilder {
  public:
@@ -87,12 +91,23 @@ class StepBuilder {
     list_.add(Pass::begin);
     if (hasPairs()) list_.add(Pass::findTouching, 0);
     makeLevels();
-    newtonStep();
-    list_.repeat("further Newton step", solver_.newtonSteps - 1, [&] {
-      findPlanes();
-      newtonStep();
-    });
+    newtonStep(solver_.cgIterations);
+    furtherNewtonSteps(solver_.newtonSteps - 1);
     endStep();
+  }
+
+  // Where a few Newton steps have not solved the step, linear systems that were cut short are in the way:
+  // layer upon layer of cloth needs more iterations than anything else.
+  void furtherNewtonSteps(int count) {
+    const int usual = std::min(count, QUICK_NEWTON_STEPS), most = solver_.cgIterations;
+    const auto repeat = [&](const char* name, int times, int iterations) {
+      list_.repeat(name, times, [&] {
+        findPlanes();
+        newtonStep(iterations);
+      });
+    };
+    repeat("further Newton step", usual, most);
+    repeat("late Newton step", count - usual, solver_.cgIterations.automatic ? LATE_ITERATIONS * most : most);
   }
 
   void finishMotion() {
@@ -112,19 +127,16 @@ class StepBuilder {
   void goOnAfterContact() {
     list_.add(Pass::settle);
     list_.add(Pass::findTouching, 1);
-    list_.repeat("Newton step", std::max(solver_.newtonSteps / 2, 1), [&] {
-      findPlanes();
-      newtonStep();
-    });
+    furtherNewtonSteps(std::max(solver_.newtonSteps / 2, 1));
     endStep();
     finishMotion();
   }
 
-  void newtonStep() {
+  void newtonStep(int iterations) {
     list_.add(Pass::elasticForces);
     if (hasPairs()) list_.add(Pass::weighPairs);
     list_.add(Pass::linearize);
-    solve();
+    solve(iterations);
     if (hasColliders_) list_.add(Pass::stopAtPlanes);
     searchLine(Pass::sumEnergies);
     list_.add(Pass::measureUpdate);
@@ -140,7 +152,7 @@ class StepBuilder {
   }
 
   // Conjugate gradients. The last iteration needs no new direction.
-  void solve() {
+  void solve(int iterations) {
     const auto iterate = [&] {
       list_.add(Pass::updateDirection);
       if (hasPairs()) list_.add(Pass::multiplyPairs);
@@ -150,12 +162,12 @@ class StepBuilder {
     };
     precondition();
     list_.add(Pass::sumFirstResidual);
-    list_.repeat("iteration", solver_.cgIterations - 1, [&] {
+    list_.repeat("iteration", iterations - 1, [&] {
       iterate();
       precondition();
       list_.add(Pass::sumNextResidual);
     });
-    if (solver_.cgIterations > 0) iterate();
+    if (iterations > 0) iterate();
   }
 
   void precondition() {
@@ -292,6 +304,16 @@ bool PassList::contains(Pass pass) const {
   return std::any_of(passes.begin(), passes.end(), [&](const PassCall& call) { return call.pass == pass; });
 }
 
+// From the last pass on: behind one with a gate that closes as early, the search goes on at that one's end.
+void PassList::findGateEnds() {
+  gateEnds.resize(passes.size());
+  for (std::size_t i = passes.size(); i-- > 0;) {
+    std::size_t end = i + 1;
+    while (end < passes.size() && passes[end].traits().gate >= passes[i].traits().gate) end = gateEnds[end];
+    gateEnds[i] = static_cast<std::uint32_t>(end);
+  }
+}
+
 PassList makeStep(const Scene& scene, const Cloth& cloth, const Cuts& cuts) {
   return StepBuilder(scene, cloth, cuts).step();
 }
@@ -306,12 +328,19 @@ PassList keepingLevels(PassList step) {
     loop.first -= static_cast<std::size_t>(std::count_if(step.passes.begin(), first, makesMatrices));
   }
   std::erase_if(step.passes, makesMatrices);
+  step.findGateEnds();
   return step;
 }
 
-PassList makeConversion() { return {{{Pass::forces}, {Pass::kick}}, {}, Outcome::velocities}; }
+PassList listOf(std::initializer_list<Pass> passes, Outcome outcome) {
+  ListBuilder list;
+  for (const Pass pass : passes) list.add(pass);
+  return list.finish(outcome);
+}
 
-PassList makeStartCheck() { return {{{Pass::checkStart}}, {}, Outcome::nothing}; }
+PassList makeConversion() { return listOf({Pass::forces, Pass::kick}, Outcome::velocities); }
+
+PassList makeStartCheck() { return listOf({Pass::checkStart}, Outcome::nothing); }
 
 std::size_t sweepLength(std::span<const PassCall> passes) {
   const auto fits = [&](std::size_t count) {

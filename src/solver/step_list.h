@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <span>
 #include <string>
 #include <vector>
@@ -40,6 +41,10 @@ struct PassList {
   std::vector<PassCall> passes;  // in order, loops unrolled
   std::vector<Loop> loops;       // for people
   Outcome outcome = Outcome::nothing;
+  // Of each pass, the first one behind it with a gate that closes later: where a pass does nothing since its
+  // gate is closed, so do all before that one. A step may take thousands of passes and need a few.
+  std::vector<std::uint32_t> gateEnds;
+  void findGateEnds();  // to be called once the passes stand
 
   [[nodiscard]] bool contains(Pass pass) const;
 };
@@ -49,6 +54,7 @@ struct PassList {
 [[nodiscard]] PassList makeStep(const Scene& scene, const Cloth& cloth, const Cuts& cuts = {});
 // The same step with the matrices of the preconditioner's levels that the step before has made.
 [[nodiscard]] PassList keepingLevels(PassList step);
+[[nodiscard]] PassList listOf(std::initializer_list<Pass> passes, Outcome outcome);
 // Turns the velocities into those of the scene's integrator.
 [[nodiscard]] PassList makeConversion();
 // Looks at a state that was handed in.

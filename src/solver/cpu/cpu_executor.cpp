@@ -122,13 +122,19 @@ void CpuExecutor<Real>::run(const StepInputs& inputs, const PassList& list, int)
   pieces_.clear();
   for (std::size_t piece = 0; piece < cloth_->pieces().size(); ++piece)
     pieces_.push_back({argumentsOf(inputs, piece), implicit_});
-  for (std::span<const PassCall> rest = list.passes; !rest.empty();) {
+  const std::span<const PassCall> passes = list.passes;
+  for (std::size_t next = 0; next < passes.size();) {
+    const std::span<const PassCall> rest = passes.subspan(next);
+    if (isSkipped(rest.front().traits().gate)) {
+      next = list.gateEnds[next];
+      continue;
+    }
     // Timed, so that each has its own time, passes do not go together further than a row of their own; nor
     // where seams join rows that are far apart.
     const bool byRows = isTimed_ || !lists_.seamStarts.empty();
     const std::size_t count = !sweeps_ ? 1 : byRows ? sweepLength(rest) : cpu::waveLength(rest);
-    if (!isSkipped(rest.front().traits().gate)) runSweep(rest.first(count));
-    rest = rest.subspan(count);
+    runSweep(rest.first(count));
+    next += count;
   }
   adopt(list.outcome);
   if (list.contains(Pass::predictPlanes)) {

@@ -25,7 +25,7 @@ void CpuSolver<Real>::setVelocity(std::uint32_t particle, Vec3<Real> velocity) {
 
 template <class Real>
 std::vector<Vec3<Real>> CpuSolver<Real>::forces() {
-  own().run(inputs(), {{{Pass::forces}}, {}, Outcome::nothing}, 1);
+  own().run(inputs(), listOf({Pass::forces}, Outcome::nothing), 1);
   std::vector<Vec3<Real>> result(inputs().cloth->particleCount());
   for (std::size_t i = 0; i < result.size(); ++i)
     result[i] = cpu::at(own().forces(), static_cast<std::ptrdiff_t>(i));

@@ -178,13 +178,17 @@ void GpuExecutor::run(const StepInputs& inputs, const PassList& list, int steps)
   seen_.reset();
   flagsAreThere_.reset();
   areOfThisSystem_ = isStepKnownSolved_ = isSystemKnownSolved_ = false;
-  for (std::span<const PassCall> rest = list.passes; !rest.empty();) {
-    const std::span<const PassCall> taken = rest.first(passesTaken(rest));
-    if (!isClosed(taken.front().traits().gate)) {
-      runKernel(taken);
-      askForFlags(taken);
+  const std::span<const PassCall> passes = list.passes;
+  for (std::size_t next = 0; next < passes.size();) {
+    const std::span<const PassCall> rest = passes.subspan(next);
+    if (isClosed(rest.front().traits().gate)) {
+      next = list.gateEnds[next];
+      continue;
     }
-    rest = rest.subspan(taken.size());
+    const std::span<const PassCall> taken = rest.first(passesTaken(rest));
+    runKernel(taken);
+    askForFlags(taken);
+    next += taken.size();
   }
 
   if (list.outcome == Outcome::state) std::swap(arrays_[Array::positions], arrays_[Array::newPositions]);

@@ -172,6 +172,33 @@ TEST(StepList, IsPrintedWithItsLoopsOnce) {
             "end\ncount step\n");
 }
 
+// Where layer lies upon layer, linear systems that are cut short would keep a step from being solved.
+TEST(StepList, TakesLongerSystemsInLateNewtonStepsUnlessTheUserSaysHowLong) {
+  Scene scene = implicitSheet();
+  scene.solver.newtonSteps = 14;
+  const auto iterationsOf = [&](bool automatic) {
+    scene.solver.cgIterations = 4;
+    scene.solver.cgIterations.automatic = automatic;
+    const PassList step = stepOf(scene);
+    return std::ranges::count(step.passes, Pass::updateDirection, &PassCall::pass);
+  };
+  EXPECT_EQ(iterationsOf(false), 14 * 4);
+  EXPECT_EQ(iterationsOf(true), 11 * 4 + 3 * 20);
+}
+
+TEST(StepList, KnowsHowFarAClosedGateReaches) {
+  const PassList step = stepOf(implicitSheet());
+  ASSERT_EQ(step.gateEnds.size(), step.passes.size());
+  const auto gateOf = [&](std::size_t k) { return step.passes[k].traits().gate; };
+  for (std::size_t k = 0; k < step.passes.size(); ++k) {
+    std::size_t end = k + 1;
+    while (end < step.passes.size() && gateOf(end) >= gateOf(k)) ++end;
+    EXPECT_EQ(step.gateEnds[k], end) << k;
+  }
+  EXPECT_TRUE(
+      std::ranges::any_of(step.passes, [](const PassCall& c) { return c.traits().gate == Gate::system; }));
+}
+
 TEST(StepList, NamesTheTimesOfTheCpu) {
   const Scene scene = withBall(test::withLimiter(test::vertical(test::sheetScene(16))));
   const Cloth cloth(scene);
