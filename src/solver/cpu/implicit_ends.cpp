@@ -95,6 +95,18 @@ void predictPlanes(const ImplicitArguments<Real>& arguments, int row) {
     std::atomic_ref(own.scalars.hasNewContacts).store(1, std::memory_order_relaxed);
 }
 
+// Pins at the end of the step, where their paths lead.
+template <class Real>
+void placePins(const PassArguments<Real>& pass, int row) {
+  const Range all = rangeOf(pass.step, row);
+  for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
+    if (pass.inverseMasses[i] > Real(0)) continue;
+    put(pass.after.positions, i, at(pass.before.positions, i));
+    put(pass.after.velocities, i, Vec3<Real>{});
+  }
+  movePins(pass, row);
+}
+
 template <class Real>
 void begin(const ImplicitArguments<Real>& arguments, int row) {
   const PassArguments<Real>& pass = arguments.step;
@@ -105,12 +117,7 @@ void begin(const ImplicitArguments<Real>& arguments, int row) {
   const TimeScheme<Real> scheme = timeSchemeOf(arguments);
   const bool contacts = hasContacts(arguments);
   if (step.hasWind != 0) gatherWind(pass, row, own.air);
-  for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
-    if (pass.inverseMasses[i] > Real(0)) continue;
-    put(pass.after.positions, i, at(pass.before.positions, i));
-    put(pass.after.velocities, i, zero);
-  }
-  movePins(pass, row);
+  placePins(pass, row);
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
     const Vec3<Real> x = at(pass.before.positions, i), v = at(pass.before.velocities, i);
     if (pass.inverseMasses[i] == Real(0)) {
@@ -227,6 +234,7 @@ void end(const ImplicitArguments<Real>& arguments, int row) {
   const Range all = rangeOf(pass.step, row);
   const bool contacts = hasContacts(arguments);
   const TimeScheme<Real> scheme = timeSchemeOf(arguments);
+  placePins(pass, row);  // again: in a further round of contact, those that were kept back try to go on
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
     const SlipEnd<Real> slip = contacts ? slipEnd(arguments, i) : SlipEnd<Real>{};
     if (contacts) {
@@ -236,8 +244,7 @@ void end(const ImplicitArguments<Real>& arguments, int row) {
       planes.newHeldLimits.data()[i] =
           heldLimit((block.x + block.y) + block.z > Real(0), planes.limits.data()[i]);
     }
-    const bool pinned = pass.inverseMasses[i] == Real(0);
-    if (pinned) continue;  // begin() has moved pins
+    if (pass.inverseMasses[i] == Real(0)) continue;
     Vec3<Real> displacement = canonical(at(arguments.own.displacements, i) - slip.taken);
     put(pass.after.positions, i, canonical(at(pass.before.positions, i) + displacement));
     if (scheme.isSecondOrder) displacement = displacement - at(arguments.own.movedBefore, i);
