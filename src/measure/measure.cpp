@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "core/thread_team.h"
 #include "scene/colliders/collider_set.h"
@@ -130,8 +131,7 @@ ColliderOverlaps overlapsWithColliders(const Cloth& cloth, const Scene& scene, c
   std::vector<Solid> solids;
   const ColliderSet colliders(scene);
   for (std::size_t number = 0; number < colliders.size(); ++number)
-    if (!std::holds_alternative<Plane>(colliders[number]))
-      solids.emplace_back(colliders, number, scene, state.clock.time());
+    solids.emplace_back(colliders, number, scene, state.clock.time());
   ColliderOverlaps overlaps;
   for (std::size_t i = 0; i < state.positions.size(); ++i) {
     if (state.positions[i].w == 0) continue;
@@ -142,6 +142,22 @@ ColliderOverlaps overlapsWithColliders(const Cloth& cloth, const Scene& scene, c
     overlaps.depth = std::max(overlaps.depth, depth);
   }
   return overlaps;
+}
+
+// Sorted along a direction in which no grid or plane is likely to have many particles side by side.
+std::uint64_t coincidentPoints(const State& state) {
+  constexpr double near = 1e-5;  // [m]
+  const Vec3d direction{0.5377, 0.6124, 0.5796};
+  std::vector<std::pair<double, std::uint32_t>> places(state.positions.size());
+  for (std::uint32_t i = 0; i < places.size(); ++i) places[i] = {dot(direction, positionOf(state, i)), i};
+  std::ranges::sort(places);
+  std::vector<bool> coincides(places.size());
+  for (std::size_t a = 0; a < places.size(); ++a)
+    for (std::size_t b = a + 1; b < places.size() && places[b].first - places[a].first <= near; ++b) {
+      const Vec3d way = positionOf(state, places[a].second) - positionOf(state, places[b].second);
+      if (dot(way, way) <= near * near) coincides[a] = coincides[b] = true;
+    }
+  return static_cast<std::uint64_t>(std::ranges::count(coincides, true));
 }
 
 }  // namespace clothsim

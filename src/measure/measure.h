@@ -23,13 +23,15 @@ struct Measures {
 };
 
 // The number of free particles inside a collider. A depth up to 2 % of the smallest spacing is not counted,
-// since contact itself leaves as much. Planes have no inside.
+// since contact itself leaves as much. CS184's planes have no inside; those with Coulomb's friction do.
 struct ColliderOverlaps {
   std::uint32_t particles = 0;
   double depth = 0;  // of the deepest [m]
 };
 [[nodiscard]] ColliderOverlaps overlapsWithColliders(const Cloth& cloth, const Scene& scene,
                                                      const State& state);
+// The number of particles that lie where others do, within 0.01 mm: borders of panels that were not welded.
+[[nodiscard]] std::uint64_t coincidentPoints(const State& state);
 
 [[nodiscard]] Measures measure(const Cloth& cloth, const Scene& scene, const State& state);
 

@@ -66,6 +66,7 @@ class RunWatch {
  private:
   ContactReport contacts_;
   ColliderOverlaps startInColliders_;
+  std::uint64_t coincidentPoints_ = 0;
   std::vector<Warning> paths_;
   std::optional<int> doubtfulFrame_;  // the first with a doubtful strain
   double peakStrain_ = 0;

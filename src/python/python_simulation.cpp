@@ -176,14 +176,23 @@ void PythonSimulation::step(std::int64_t steps, const std::function<void()>& pol
   stayInPlace();
 }
 
-void PythonSimulation::stepFrames(std::int64_t frames, const std::function<void()>& poll) {
+namespace {
+
+void checkFrames(std::int64_t frames) {
   constexpr std::int64_t most = 10'000'000;  // as run --frames
   if (frames < 0 || frames > most)
     throw UsageError("frames: expected 0 to 10000000, found " + std::to_string(frames));
+}
+
+}  // namespace
+
+void PythonSimulation::stepFrames(std::int64_t frames, const std::function<void()>& poll) {
+  checkFrames(frames);
   step(frames * simulation_->scene().solver.simulationSteps, poll);
 }
 
 Trace PythonSimulation::run(std::int64_t frames, const std::function<void()>& poll) {
+  checkFrames(frames);
   Trace trace;
   for (std::int64_t done = 0;; ++done) {
     {

@@ -12,6 +12,7 @@
 #include "solver/cpu/cpu_solver.h"
 #include "support/compared_scenes.h"
 #include "support/material_sheet.h"
+#include "support/scene_text.h"
 
 namespace clothsim {
 namespace {
@@ -132,6 +133,23 @@ TEST_F(GpuSolverTest, RemembersFrictionWhereThereIsMoreRoomForPairs) {
     ASSERT_EQ(onGpu.pairSlips.size(), onCpu.pairSlips.size());
   }
   EXPECT_GT(cpu.contactCounts().pairs, 4 * cloth.particleCount()) << "more than half of the room at first";
+}
+
+// The two ends of a strip pass each other: what hangs on them is in the way.
+TEST_F(GpuSolverTest, KeepsBackPinsAsTheCpuDoes) {
+  const Scene scene = test::sceneOf(
+      R"({"cloth": {"width": 0.3, "height": 0.15, "num_width_points": 9, "num_height_points": 5, "material": "cotton",
+                    "pinned": ["left", "right"],
+                    "pin_motion": [{"pinned": ["left"], "keys": [{"t": 0}, {"t": 0.1, "position": [0.18, 1, 0.07]}]},
+                                   {"pinned": ["right"], "keys": [{"t": 0}, {"t": 0.1, "position": [0.12, 1, 0.07]}]}]},
+          "solver": {"frames_per_sec": 120, "simulation_steps": 1}})");
+  const Cloth cloth(scene);
+  GpuSolver gpu(cloth, scene, {});
+  CpuSolver<float> cpu(cloth, scene);
+  for (Solver* solver : std::initializer_list<Solver*>{&gpu, &cpu}) solver->step(14);
+  EXPECT_EQ(difference(gpu.state(), cpu.state()).differing, 0u);
+  EXPECT_GT(cpu.contactCounts().pinLag, 0);
+  EXPECT_EQ(gpu.contactCounts().pinLag, cpu.contactCounts().pinLag);
 }
 
 TEST_F(GpuSolverTest, AgreesWithTheCpuInContact) {
