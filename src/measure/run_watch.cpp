@@ -183,6 +183,19 @@ std::optional<Warning> thinLayersWarning(const Scene& scene, const Cloth& cloth)
                      "; use fewer points or a smaller thickness"};
 }
 
+namespace {
+
+// Whether planes have a friction that does not act.
+bool hasSlipperyPlanes(const Scene& scene) {
+  return isImplicit(scene.solver.integrator) && scene.solver.frictionLaw == FrictionLaw::cs184 &&
+         std::ranges::any_of(scene.colliders, [](const Collider& collider) {
+           const auto* plane = std::get_if<Plane>(&collider);
+           return plane != nullptr && plane->friction > 0;
+         });
+}
+
+}  // namespace
+
 void RunWatch::start(const Cloth& cloth, const Scene& scene, const State& state) {
   startInColliders_ = overlapsWithColliders(cloth, scene, state);
   coincidentPoints_ = hasSurfaceContact(scene) ? coincidentPoints(state) : 0;
@@ -202,6 +215,8 @@ void RunWatch::add(int frame, const Cloth& cloth, const Scene& scene, const Stat
   crowdedSteps_ = counts.crowdedSteps;
   passages_ = counts.passages;
   if (passages_ > 0 && !passedFrame_) passedFrame_ = frame;
+  pinLag_ = counts.pinLag;
+  if (pinLag_ > doubtfulDistance(cloth) && !laggingFrame_) laggingFrame_ = frame;
   if (crowdedSteps_ > 0 && !crowdedFrame_) crowdedFrame_ = frame;
   if (strain > doubtfulStrain(scene) && !doubtfulFrame_) doubtfulFrame_ = frame;
 }
@@ -246,6 +261,17 @@ std::vector<Warning> RunWatch::warnings(const Scene& scene) const {
         {"contact", std::nullopt, "layers do not meet: contact needs integrator=implicit",
          "solver.self_collision \"contact\" needs implicit steps, and nothing keeps layers apart now; "
          "set solver.integrator to \"implicit\" or \"bdf2\", or self_collision to \"robust\""});
+  if (hasSlipperyPlanes(scene))
+    warnings.push_back({"start", std::nullopt, "planes have no friction in implicit steps",
+                        "CS184's friction acts where a step ends behind a plane, and implicit steps end "
+                        "before it: cloth slides "
+                        "there; set solver.friction_law to \"coulomb\""});
+  if (laggingFrame_)
+    warnings.push_back(
+        {"path", laggingFrame_, "pins were kept back by layers of cloth",
+         formatted("pins ended steps up to %.3g mm behind their paths, since layers of cloth were "
+                   "in the way; lead them around, or slower",
+                   1000 * pinLag_)});
   if (crowdedFrame_)
     warnings.push_back(
         {"contact", crowdedFrame_, "too many contacts at once",

@@ -74,6 +74,8 @@ class RunWatch {
   std::uint64_t passages_ = 0, unseenColliders_ = 0;
   std::optional<Warning> thinLayers_;
   std::optional<int> passedFrame_;
+  double pinLag_ = 0;                // [m]
+  std::optional<int> laggingFrame_;  // the first with pins far behind their paths
   std::optional<int> crowdedFrame_;  // the first with a step that had too many pairs to push
   ConvergenceCounts convergence_;
   double largestUpdate_ = 0;          // of the last steps of frames

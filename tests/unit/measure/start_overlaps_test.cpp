@@ -54,5 +54,34 @@ TEST(StartOverlaps, TellOfPointsThatCoincideWhereContactWouldHoldThem) {
   EXPECT_TRUE(warningsOf(robust).empty());
 }
 
+TEST(Warnings, TellOfPlanesWhoseFrictionDoesNotAct) {
+  Scene scene = test::sceneOf(
+      R"({"cloth": {"num_width_points": 3, "num_height_points": 3}, "solver": {"integrator": "implicit"},
+          "plane": {"point": [0, 0, 0], "normal": [0, 1, 0], "friction": 0.3}})");
+  EXPECT_EQ(RunWatch().warnings(scene).size(), 1u);
+  Scene slippery = scene;
+  std::get<Plane>(slippery.colliders[0]).friction = 0;
+  EXPECT_TRUE(RunWatch().warnings(slippery).empty());
+  scene.solver.frictionLaw = FrictionLaw::coulomb;
+  EXPECT_TRUE(RunWatch().warnings(scene).empty());
+}
+
+TEST(Warnings, TellOfPinsFarBehindTheirPaths) {
+  const Scene scene = test::sceneOf(R"({"cloth": {"num_width_points": 11, "num_height_points": 11}})");
+  const Cloth cloth(scene);
+  const State state = initialState(cloth, scene);
+  ContactCounts counts;
+  RunWatch watch;
+  counts.pinLag = 0.04;  // less than half a spacing
+  watch.add(1, cloth, scene, state, 0, counts);
+  EXPECT_TRUE(watch.warnings(scene).empty());
+  counts.pinLag = 0.06;
+  watch.add(2, cloth, scene, state, 0, counts);
+  const std::vector<Warning> warnings = watch.warnings(scene);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].frame, 2);
+  EXPECT_NE(warnings[0].text.find("60 mm behind"), std::string::npos) << warnings[0].text;
+}
+
 }  // namespace
 }  // namespace clothsim
