@@ -155,7 +155,9 @@ std::uint64_t coincidentPoints(const State& state) {
   for (std::size_t a = 0; a < places.size(); ++a)
     for (std::size_t b = a + 1; b < places.size() && places[b].first - places[a].first <= near; ++b) {
       const Vec3d way = positionOf(state, places[a].second) - positionOf(state, places[b].second);
-      if (dot(way, way) <= near * near) coincides[a] = coincides[b] = true;
+      if (!(dot(way, way) <= near * near)) continue;
+      coincides[a] = coincides[b] = true;
+      break;  // a heap of points at one place is walked through once
     }
   return static_cast<std::uint64_t>(std::ranges::count(coincides, true));
 }
