@@ -107,6 +107,15 @@ std::string percent(std::uint64_t part, std::uint64_t whole) {
   return formatted(share < 1 ? "%.1g %%" : "%.0f %%", share);
 }
 
+// Whether planes have a friction that does not act.
+bool hasSlipperyPlanes(const Scene& scene) {
+  return isImplicit(scene.solver.integrator) && scene.solver.frictionLaw == FrictionLaw::cs184 &&
+         std::ranges::any_of(scene.colliders, [](const Collider& collider) {
+           const auto* plane = std::get_if<Plane>(&collider);
+           return plane != nullptr && plane->friction > 0;
+         });
+}
+
 }  // namespace
 
 double doubtfulStrain(const Scene& scene) { return usesMaterial(scene) ? 0.5 : 1; }
@@ -182,19 +191,6 @@ std::optional<Warning> thinLayersWarning(const Scene& scene, const Cloth& cloth)
                  "layers meet at " + millimeters(kept) + " instead of " + millimeters(asked) + where +
                      "; use fewer points or a smaller thickness"};
 }
-
-namespace {
-
-// Whether planes have a friction that does not act.
-bool hasSlipperyPlanes(const Scene& scene) {
-  return isImplicit(scene.solver.integrator) && scene.solver.frictionLaw == FrictionLaw::cs184 &&
-         std::ranges::any_of(scene.colliders, [](const Collider& collider) {
-           const auto* plane = std::get_if<Plane>(&collider);
-           return plane != nullptr && plane->friction > 0;
-         });
-}
-
-}  // namespace
 
 void RunWatch::start(const Cloth& cloth, const Scene& scene, const State& state) {
   startInColliders_ = overlapsWithColliders(cloth, scene, state);

@@ -13,7 +13,8 @@
 // The search starts from h v. It ends when the last update is at most `tolerance` of the largest
 // displacement, or of a tenth of the spacing where that is larger, and otherwise after `newton_steps`: then
 // the step counts as unconverged. The linear solver ends when r.z has fallen by tolerance^2, or to what a
-// solved step may lack, or after `cg_iterations`. An update is small, too, where the linear solver has hardly
+// solved step may lack, or after `cg_iterations`; where that is "auto", after five times as many in late
+// Newton steps. An update is small, too, where the linear solver has hardly
 // begun, or the Hessian was projected: what is still to come has to be small as well
 // (CpuExecutor::measureUpdate).
 //

@@ -30,12 +30,12 @@ void drawFacts(const OverlayFacts& facts, PictureArea area);
 void drawKeyList(PictureArea area);
 // Fills the window while a scene is loaded.
 void drawLoading(const std::string& name);
-// What costs most, with a button for each remedy and the pace that it was seen to bring, of `tempo` that are
-// wanted; `lift` pixels above the bottom of the picture.
 struct DrawnAdvice {
   std::optional<PaceRemedy> pressed;
   float height = 0;  // [pixels]
 };
+// What costs most, with a button for each remedy and the pace that it was seen to bring, of `tempo` that are
+// wanted; `lift` pixels above the bottom of the picture.
 [[nodiscard]] DrawnAdvice drawAdvice(const PaceAdvice& advice, double tempo, PictureArea area, float lift);
 // Stands `lift` pixels above the bottom of the picture.
 void drawNotice(const std::string& words, bool isError, PictureArea area, float lift);

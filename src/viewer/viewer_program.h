@@ -1,5 +1,5 @@
-// The viewer: its state, its actions and its main loop. viewer.cpp has the loop, viewer_actions.cpp the
-// actions of keys, mouse and panels.
+// The viewer: its state, its actions and its main loop. viewer.cpp has the loop, viewer_controls.cpp what is
+// drawn over the picture, viewer_actions.cpp the actions of keys, mouse and panels.
 #pragma once
 
 #include <chrono>

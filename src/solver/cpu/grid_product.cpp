@@ -110,7 +110,7 @@ INLINE void multiplyElementsOfRow(const ImplicitArguments<Real>& arguments, int 
   }
   const Neighbourhood near = neighbourhoodOf(step, row);
   const Range all = rangeOf(step, row);
-  // Of a row's ends, springs lead so far beyond it.
+  // Springs reach at most so many particles beyond the ends of a row.
   const std::ptrdiff_t reach = indexOffset(step, 2, 1);
   const bool isNearEnd =
       all.begin < reach || all.end + reach > static_cast<std::ptrdiff_t>(step.totalParticles);

@@ -228,12 +228,12 @@ std::size_t GpuExecutor::passesTaken(std::span<const PassCall> passes) const {
 // conjugate gradients unless an answer is still to come: devices that lag behind would never give one.
 void GpuExecutor::askForFlags(std::span<const PassCall> passes) {
   if (*options_.looksAtFlags != FlagLooks::whenReady) return;
-  const auto are = [&](Pass a, Pass b) {
-    return std::ranges::any_of(passes, [&](const PassCall& c) { return c.pass == a || c.pass == b; });
+  const auto hasAny = [&](auto... wanted) {
+    return std::ranges::any_of(passes, [&](const PassCall& c) { return ((c.pass == wanted) || ...); });
   };
-  if (are(Pass::linearize, Pass::linearize)) areOfThisSystem_ = isSystemKnownSolved_ = false;
-  const bool endsNewtonStep = are(Pass::measureUpdate, Pass::settle),
-             endsIteration = are(Pass::sumFirstResidual, Pass::sumNextResidual);
+  if (hasAny(Pass::linearize)) areOfThisSystem_ = isSystemKnownSolved_ = false;
+  const bool endsNewtonStep = hasAny(Pass::measureUpdate, Pass::settle),
+             endsIteration = hasAny(Pass::sumFirstResidual, Pass::sumNextResidual);
   if (!endsNewtonStep && !endsIteration) return;
   if (endsIteration && (flagsAreThere_.isSet() || ++iterationsUnseen_ < ITERATIONS_UNSEEN)) return;
   if (endsNewtonStep) isStepKnownSolved_ = false;
