@@ -28,6 +28,9 @@ using uint = std::uint32_t;
 // Of SurfaceTriangle::owned: bit k says that the triangle looks for contacts of its corner k, bit 3 + k of
 // its side from corner k to the next one. Of the triangles that share one, the first does.
 #define OWNED_SIDE 3
+// And this bit says that corners of it are sewn: behind all triangles lies a row for each, which has the
+// joints of its corners (ClothSurface::joints).
+#define IS_SEWN 6
 
 // Which part of a triangle is nearest: its face, the corner 1 + k, or the side 4 + k.
 #define NEAREST_FACE 0u
@@ -86,7 +89,7 @@ using uint = std::uint32_t;
 #define SURFACE_IDS_BINDING 1
 #define SURFACE_VELOCITIES_BINDING 2
 
-#define SURFACE_TRIANGLES_UNIT 50  // two texels each
+#define SURFACE_TRIANGLES_UNIT 50  // two texels each, and one more with seams
 #define SURFACE_POINTS_UNIT 51
 #define SURFACE_BOXES_UNIT 52  // three texels each (boundsOf() in sim/surface/common.glsl)
 #define PAIR_IDS_UNIT 53       // four particles

@@ -1,6 +1,7 @@
 #include "cloth/seam_neighbours.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace clothsim {
 namespace {
@@ -53,6 +54,21 @@ SeamNeighbours seamNeighbours(const Cloth& cloth) {
   }
   result.starts.push_back(static_cast<std::uint32_t>(result.entries.size()));
   return result;
+}
+
+std::vector<std::uint32_t> seamJoints(const Cloth& cloth) {
+  std::vector<std::uint32_t> joints(cloth.particleCount());
+  std::iota(joints.begin(), joints.end(), 0u);
+  const auto firstOf = [&](std::uint32_t i) {
+    while (joints[i] != i) i = joints[i] = joints[joints[i]];
+    return i;
+  };
+  for (const SeamSpring& spring : cloth.seams()) {
+    const auto [low, high] = std::minmax({firstOf(spring.a), firstOf(spring.b)});
+    joints[high] = low;
+  }
+  for (std::uint32_t& joint : joints) joint = firstOf(joint);
+  return joints;
 }
 
 }  // namespace clothsim

@@ -18,4 +18,8 @@ struct SeamNeighbours {
 
 [[nodiscard]] SeamNeighbours seamNeighbours(const Cloth& cloth);
 
+// Of each particle the lowest number among those that seams join to it, directly or by way of others; its own
+// where none does.
+[[nodiscard]] std::vector<std::uint32_t> seamJoints(const Cloth& cloth);
+
 }  // namespace clothsim

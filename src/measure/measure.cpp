@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "cloth/seam_neighbours.h"
 #include "core/thread_team.h"
 #include "scene/colliders/collider_set.h"
 
@@ -145,17 +146,19 @@ ColliderOverlaps overlapsWithColliders(const Cloth& cloth, const Scene& scene, c
 }
 
 // Sorted along a direction in which no grid or plane is likely to have many particles side by side.
-std::uint64_t coincidentPoints(const State& state) {
+std::uint64_t coincidentPoints(const Cloth& cloth, const State& state) {
   constexpr double near = 1e-5;  // [m]
   const Vec3d direction{0.5377, 0.6124, 0.5796};
+  const std::vector<std::uint32_t> joints = seamJoints(cloth);
   std::vector<std::pair<double, std::uint32_t>> places(state.positions.size());
   for (std::uint32_t i = 0; i < places.size(); ++i) places[i] = {dot(direction, positionOf(state, i)), i};
   std::ranges::sort(places);
   std::vector<bool> coincides(places.size());
   for (std::size_t a = 0; a < places.size(); ++a)
     for (std::size_t b = a + 1; b < places.size() && places[b].first - places[a].first <= near; ++b) {
-      const Vec3d way = positionOf(state, places[a].second) - positionOf(state, places[b].second);
-      if (!(dot(way, way) <= near * near)) continue;
+      const std::uint32_t i = places[a].second, j = places[b].second;
+      const Vec3d way = positionOf(state, i) - positionOf(state, j);
+      if (!(dot(way, way) <= near * near) || joints[i] == joints[j]) continue;
       coincides[a] = coincides[b] = true;
       break;  // a heap of points at one place is walked through once
     }

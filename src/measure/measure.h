@@ -30,8 +30,9 @@ struct ColliderOverlaps {
 };
 [[nodiscard]] ColliderOverlaps overlapsWithColliders(const Cloth& cloth, const Scene& scene,
                                                      const State& state);
-// The number of particles that lie where others do, within 0.01 mm: borders of panels that were not welded.
-[[nodiscard]] std::uint64_t coincidentPoints(const State& state);
+// The number of particles that lie where others do, within 0.01 mm, to which no seam joins them: borders of
+// panels that were neither welded nor sewn.
+[[nodiscard]] std::uint64_t coincidentPoints(const Cloth& cloth, const State& state);
 
 [[nodiscard]] Measures measure(const Cloth& cloth, const Scene& scene, const State& state);
 

@@ -194,7 +194,7 @@ std::optional<Warning> thinLayersWarning(const Scene& scene, const Cloth& cloth)
 
 void RunWatch::start(const Cloth& cloth, const Scene& scene, const State& state) {
   startInColliders_ = overlapsWithColliders(cloth, scene, state);
-  coincidentPoints_ = hasSurfaceContact(scene) ? coincidentPoints(state) : 0;
+  coincidentPoints_ = hasSurfaceContact(scene) ? coincidentPoints(cloth, state) : 0;
   paths_ = pathWarnings(cloth, scene, state);
   startWithoutState(cloth, scene);
 }
@@ -233,10 +233,11 @@ std::vector<Warning> RunWatch::warnings(const Scene& scene) const {
                             formatted("%.3g mm", 1000 * startInColliders_.depth) +
                             " deep; the first step pushes them out"});
   if (coincidentPoints_ > 0)
-    warnings.push_back({"start", 0, "points of the cloth coincide",
-                        std::to_string(coincidentPoints_) +
-                            " points lie on others, where contact cannot tell one side of the cloth from the "
-                            "other and holds it fast; weld them, or begin with borders 1 mm apart"});
+    warnings.push_back(
+        {"start", 0, "points of the cloth coincide",
+         std::to_string(coincidentPoints_) +
+             " points lie on others, where contact cannot tell one side of the cloth from the "
+             "other and holds it fast; weld them, sew them (seams), or begin with borders 1 mm apart"});
   if (std::optional<Warning> longSteps = longStepsWarning(scene)) warnings.push_back(std::move(*longSteps));
   warnings.insert(warnings.end(), paths_.begin(), paths_.end());
   if (unseenColliders_ > 0)

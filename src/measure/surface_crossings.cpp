@@ -36,16 +36,19 @@ bool crosses(Vec3d p, Vec3d q, Vec3d a, Vec3d b, Vec3d c) {
 }
 
 // The sides that the first triangle looks after, with the second triangle.
-std::uint64_t crossingsOf(const SurfaceTriangle& first, const SurfaceTriangle& second,
+std::uint64_t crossingsOf(const ClothSurface<double>& surface, std::uint32_t first, std::uint32_t second,
                           const Components<double>& x) {
-  const auto mine = cpu::cornersOf(first), theirs = cpu::cornersOf(second);
-  const auto isTheirs = [&](std::uint32_t i) {
-    return std::find(theirs.begin(), theirs.end(), i) != theirs.end();
+  const SurfaceTriangle& own = surface.triangles[first];
+  const auto mine = cpu::cornersOf(own), theirs = cpu::cornersOf(surface.triangles[second]);
+  const auto myJoints = surface.jointsOf(own), theirJoints = surface.jointsOf(surface.triangles[second]);
+  const auto isTheirs = [&](std::uint32_t joint) {
+    return std::find(theirJoints.begin(), theirJoints.end(), joint) != theirJoints.end();
   };
   std::uint64_t count = 0;
   for (std::uint32_t k = 0; k < 3; ++k) {
-    const std::uint32_t p = mine[k], q = mine[(k + 1) % 3];
-    if ((first.owned >> (OWNED_SIDE + k) & 1u) == 0 || isTheirs(p) || isTheirs(q)) continue;
+    const std::uint32_t next = (k + 1) % 3, p = mine[k], q = mine[next];
+    if ((own.owned >> (OWNED_SIDE + k) & 1u) == 0 || isTheirs(myJoints[k]) || isTheirs(myJoints[next]))
+      continue;
     count += crosses(cpu::at(x, p), cpu::at(x, q), cpu::at(x, theirs[0]), cpu::at(x, theirs[1]),
                      cpu::at(x, theirs[2]))
                  ? 1
@@ -68,8 +71,7 @@ std::uint64_t crossingSides(const Cloth& cloth, const Scene& scene, const State&
   std::uint64_t count = 0;
   for (std::uint32_t i = 0; i < surface.triangles.size(); ++i)
     search.forEachNeighbor(i, [&](std::uint32_t other) {
-      count += crossingsOf(surface.triangles[i], surface.triangles[other], x) +
-               crossingsOf(surface.triangles[other], surface.triangles[i], x);
+      count += crossingsOf(surface, i, other, x) + crossingsOf(surface, other, i, x);
     });
   return count;
 }

@@ -10,8 +10,9 @@
 
 namespace clothsim {
 
-// How many pairs of a side and a triangle that have no particle in common cross, by signs of volumes in
-// double: what only touches does not count. CrossingCounter (crossings.h) is exact, and needs CGAL.
+// How many pairs of a side and a triangle that have no particle in common, and no seam, cross, by signs of
+// volumes in double: what only touches does not count. CrossingCounter (crossings.h) is exact, and needs
+// CGAL.
 [[nodiscard]] std::uint64_t crossingSides(const Cloth& cloth, const Scene& scene, const State& state);
 
 }  // namespace clothsim

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "render/look.h"
@@ -60,20 +61,36 @@ void addCorners(const Bounds& box, Stage& stage) {
   }
 }
 
-// Free cloth falls onto the solids below it and hangs down around them, or onto the highest plane.
-void addFalling(const Bounds& cloth, const ColliderSet& colliders, Stage& stage) {
+// The solids that cloth falls onto, or hangs around from the start.
+struct Support {
+  Bounds solids;                                     // empty without any
+  float lowest = std::numeric_limits<float>::max();  // to which cloth hangs down around them [m]
+  bool isUnder = true;                               // all of them begin below the cloth
+};
+
+Support supportOf(const Bounds& cloth, const ColliderSet& colliders) {
   const float halfDiagonal = 0.5f * glm::length(cloth.size());
-  float rest = cloth.low.y - 2 * halfDiagonal;
-  bool onSolid = false;
+  Support support;
   for (std::size_t i = 0; i < colliders.size(); ++i) {
     const Pose pose = poseAt(colliders[i], 0);
     const glm::vec3 place = toGlm(pose.position), half = toGlm(colliders.halfExtent(i, pose.rotation));
-    if (half == glm::vec3(0)) continue;
+    const glm::vec3 low = place - half, high = place + half;
+    const bool isBeside = low.x > cloth.high.x || high.x < cloth.low.x || low.z > cloth.high.z ||
+                          high.z < cloth.low.z || low.y > cloth.high.y;
+    if (half == glm::vec3(0) || isBeside) continue;
+    support.solids.add(low);
+    support.solids.add(high);
+    support.isUnder = support.isUnder && place.y < cloth.low.y;
     // Over the top, a quarter of the way around, and straight down from there.
     const float overhang = std::max(0.0f, halfDiagonal - 1.5708f * 0.5f * (half.x + half.z));
-    rest = onSolid ? std::min(rest, place.y - overhang) : place.y - overhang;
-    onSolid = true;
+    support.lowest = std::min(support.lowest, place.y - overhang);
   }
+  return support;
+}
+
+// The highest plane under the middle of the cloth.
+std::optional<float> floorUnder(const Bounds& cloth, const ColliderSet& colliders) {
+  std::optional<float> floor;
   for (std::size_t i = 0; i < colliders.size(); ++i) {
     const auto* plane = std::get_if<Plane>(&colliders[i]);
     if (plane == nullptr) continue;
@@ -83,8 +100,23 @@ void addFalling(const Bounds& cloth, const ColliderSet& colliders, Stage& stage)
     const glm::vec3 middle = cloth.center();
     const float height =
         point.y - (normal.x * (middle.x - point.x) + normal.z * (middle.z - point.z)) / normal.y;
-    if (height < cloth.high.y) rest = std::max(rest, height);
+    if (height < cloth.high.y) floor = std::max(floor.value_or(height), height);
   }
+  return floor;
+}
+
+// Free cloth stays on solids that its middle is above, and where there is no floor also around those that it
+// begins around. Otherwise it falls to the floor, or on and on.
+void addFalling(const Bounds& cloth, const ColliderSet& colliders, Stage& stage) {
+  const float halfDiagonal = 0.5f * glm::length(cloth.size());
+  const std::optional<float> floor = floorUnder(cloth, colliders);
+  const Support support = supportOf(cloth, colliders);
+  const glm::vec3 middle = cloth.center();
+  const bool isOver = middle.x >= support.solids.low.x && middle.x <= support.solids.high.x &&
+                      middle.z >= support.solids.low.z && middle.z <= support.solids.high.z;
+  const bool onSolid = isOver && (support.isUnder || !floor);
+  float rest = floor.value_or(cloth.low.y - 2 * halfDiagonal);
+  if (onSolid) rest = floor ? std::max(*floor, support.lowest) : support.lowest;
   const glm::vec3 low{cloth.low.x, rest, cloth.low.z}, high{cloth.high.x, rest, cloth.high.z};
   const float folded = onSolid ? 0.15f : 0.0f;  // hanging in folds it is narrower
   glm::vec3 inward = folded * glm::vec3(high.x - low.x, 0, high.z - low.z);

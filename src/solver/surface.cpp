@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "cloth/seam_neighbours.h"
 #include "shared/implicit.h"
 #include "solver/self_collision.h"
 
@@ -220,6 +221,16 @@ void findBlocks(const Cloth& cloth, const Cuts& cuts, ClothSurface<Real>& surfac
   surface.isOneGrid = cloth.pieces().size() == 1 && !surface.blocks.empty();
 }
 
+template <class Real>
+void joinAtSeams(const Cloth& cloth, ClothSurface<Real>& surface) {
+  surface.joints = seamJoints(cloth);
+  std::vector<bool> isSewn(cloth.particleCount());
+  for (const SeamSpring& spring : cloth.seams()) isSewn[spring.a] = isSewn[spring.b] = true;
+  for (SurfaceTriangle& triangle : surface.triangles)
+    if (isSewn[triangle.cornerA] || isSewn[triangle.cornerB] || isSewn[triangle.cornerC])
+      triangle.owned |= 1u << IS_SEWN;
+}
+
 // A collider is small that is nowhere thicker than so many cells, to both sides of its middle, or that ends
 // in such a tip.
 constexpr double SMALL = 2;
@@ -324,6 +335,7 @@ ClothSurface<Real> makeSurface(const Cloth& cloth, const Scene& scene, const Cut
   const auto count = static_cast<std::uint32_t>(triangles.size());
   for (std::uint32_t i = 0; i < count; ++i)
     surface.triangles.push_back(makeTriangle(i, triangles, fans, sides));
+  if (!cloth.seams().empty()) joinAtSeams(cloth, surface);
   surface.rings = makeRings(triangles, cloth.particleCount());
   double smallestRadius = INFINITY, largestRadius = 0, widest = 0;
   for (std::uint32_t i = 0; i < cloth.particleCount(); ++i) {

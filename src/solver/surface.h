@@ -73,6 +73,9 @@ template <class Real>
 struct ClothSurface {
   std::vector<SurfaceTriangle> triangles;  // without those that cuts took
   std::vector<SurfacePoint<Real>> points;  // by particle
+  // Of each particle the first of those that seams join to one place, itself included; empty without seams.
+  // Parts that have one in common do not collide: seams close.
+  std::vector<std::uint32_t> joints;
   // The particles around each, in the triangles that it is a corner of: where those of a particle begin, for
   // each and one more, then they.
   std::vector<std::uint32_t> rings;
@@ -88,6 +91,11 @@ struct ClothSurface {
   Real leastGap = 0;                 // what motion leaves of a distance, if it was more [m]
   bool touchesItself = false;
   std::vector<SmallCollider<Real>> colliders;  // that act on triangles, too
+
+  [[nodiscard]] std::array<std::uint32_t, 3> jointsOf(const SurfaceTriangle& t) const {
+    if (joints.empty()) return {t.cornerA, t.cornerB, t.cornerC};
+    return {joints[t.cornerA], joints[t.cornerB], joints[t.cornerC]};
+  }
 };
 
 // Whether cloth touches itself and other cloth in the scene's steps.

@@ -1,5 +1,5 @@
 // The walk of a triangle through the tree of boxes. Before the include: lookAt(), which sees the pairs of parts that it finds,
-// where boxes meet, no particle is in both, and the cloth is not flat; goesOn(), whether to go on looking; and looksAtFlat(),
+// where boxes meet, no particle is in both or sewn to one of the other, and the cloth is not flat; goesOn(), whether to go on looking; and looksAtFlat(),
 // whether to look there, too.
 layout(binding = FLAT_BLOCKS_UNIT) uniform usamplerBuffer blocksOfGrids;
 layout(binding = FLAT_FLAGS_UNIT) uniform usamplerBuffer flatFlags;
@@ -14,6 +14,12 @@ bool areFlat(uint triangle, uint other) {
   return isOneGrid && all(lessThanEqual(a, b + uvec2(1u))) && all(lessThanEqual(b, a + uvec2(1u)));
 }
 
+// What is sewn together counts as one particle here.
+uvec3 jointsOf(uint triangle, uvec4 corners) {
+  if ((corners.w >> IS_SEWN & 1u) == 0u) return corners.xyz;
+  return texelFetch(triangles, int(2u * surface.triangles + triangle)).xyz;
+}
+
 // A pair of parts of two triangles: its particles, and where they are.
 struct Parts {
   bool mayMeet, areSides;
@@ -25,6 +31,7 @@ const uint CORNER_PAIRS = 6u, PART_PAIRS = 15u;
 // Number n of them: the corners of the first triangle and the second one, the other way round, then two sides each.
 Parts partsOf(uint n, uint first, uint second, MovingBounds boxOfFirst, MovingBounds boxOfSecond) {
   uvec4 mine = texelFetch(triangles, int(2u * first)), theirs = texelFetch(triangles, int(2u * second));
+  uvec3 myJoints = jointsOf(first, mine), theirJoints = jointsOf(second, theirs);
   Parts parts;
   parts.areSides = n >= CORNER_PAIRS;
   if (parts.areSides) {
@@ -32,7 +39,8 @@ Parts partsOf(uint n, uint first, uint second, MovingBounds boxOfFirst, MovingBo
     parts.ids = uvec4(mine[k], mine[(k + 1u) % 3u], theirs[l], theirs[(l + 1u) % 3u]);
     parts.places = PartPlaces(first, second, k, l);
     bool own = (mine.w >> (uint(OWNED_SIDE) + k) & theirs.w >> (uint(OWNED_SIDE) + l) & 1u) != 0u;
-    parts.mayMeet = own && all(notEqual(parts.ids.xy, parts.ids.zw)) && all(notEqual(parts.ids.xy, parts.ids.wz));
+    uvec2 a = uvec2(myJoints[k], myJoints[(k + 1u) % 3u]), b = uvec2(theirJoints[l], theirJoints[(l + 1u) % 3u]);
+    parts.mayMeet = own && all(notEqual(a, b)) && all(notEqual(a, b.yx));
     if (!parts.mayMeet) return parts;
     MovingBounds box = joined(boxOf(parts.ids.x), boxOf(parts.ids.y));
     parts.mayMeet = overlap(box, boxOfSecond) && overlap(box, joined(boxOf(parts.ids.z), boxOf(parts.ids.w)));
@@ -42,7 +50,9 @@ Parts partsOf(uint n, uint first, uint second, MovingBounds boxOfFirst, MovingBo
     uvec4 from = isOfFirst ? mine : theirs, to = isOfFirst ? theirs : mine;
     parts.ids = uvec4(from[k], to.xyz);
     parts.places = PartPlaces(isOfFirst ? first : second, isOfFirst ? second : first, k, 0u);
-    parts.mayMeet = (from.w >> k & 1u) != 0u && all(notEqual(to.xyz, uvec3(from[k])));
+    uvec3 others = isOfFirst ? theirJoints : myJoints;
+    uint joint = isOfFirst ? myJoints[k] : theirJoints[k];
+    parts.mayMeet = (from.w >> k & 1u) != 0u && all(notEqual(others, uvec3(joint)));
     if (!parts.mayMeet) return parts;
     parts.mayMeet = overlap(boxOf(from[k]), chosen(isOfFirst, boxOfSecond, boxOfFirst));
   }

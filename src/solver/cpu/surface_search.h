@@ -108,7 +108,7 @@ struct SurfaceSearch {
   }
 
   // visit(parts) for the pairs of parts that a triangle looks for: of it and of triangles behind it, without
-  // a particle that is in both, where the boxes meet.
+  // a particle that is in both or sewn to one of the other, where the boxes meet.
   template <class Visit>
   void forEachPair(std::uint32_t triangle, const SurfaceBoxes<Real>& boxes, Visit visit) const {
     const BoxedTriangle own(surface, boxes, triangle);
@@ -149,12 +149,13 @@ struct SurfaceSearch {
     BoxedTriangle(const ClothSurface<Real>& surface, const SurfaceBoxes<Real>& boxes, std::uint32_t triangle)
         : number(triangle),
           corners(cornersOf(surface.triangles[triangle])),
+          joints(surface.jointsOf(surface.triangles[triangle])),
           owned(surface.triangles[triangle].owned),
           box(boxes.triangles[triangle]) {
       for (std::size_t k = 0; k < 3; ++k) cornerBoxes[k] = boxes.particles[corners[k]];
     }
-    [[nodiscard]] bool has(std::uint32_t particle) const {
-      return particle == corners[0] || particle == corners[1] || particle == corners[2];
+    [[nodiscard]] bool has(std::uint32_t joint) const {
+      return joint == joints[0] || joint == joints[1] || joint == joints[2];
     }
     [[nodiscard]] bool ownsCorner(std::uint32_t k) const { return (owned >> k & 1u) != 0; }
     [[nodiscard]] bool ownsSide(std::uint32_t k) const { return (owned >> (OWNED_SIDE + k) & 1u) != 0; }
@@ -163,7 +164,7 @@ struct SurfaceSearch {
     }
 
     std::uint32_t number;
-    std::array<std::uint32_t, 3> corners;
+    std::array<std::uint32_t, 3> corners, joints;
     std::uint32_t owned;
     MovingBounds<Real> box;
     std::array<MovingBounds<Real>, 3> cornerBoxes;
@@ -179,9 +180,8 @@ struct SurfaceSearch {
   static void forEachCorner(const BoxedTriangle& from, const BoxedTriangle& to, Visit& visit) {
     const auto [a, b, c] = to.corners;
     for (std::uint8_t k = 0; k < 3; ++k) {
-      const std::uint32_t i = from.corners[k];
-      if (from.ownsCorner(k) && !to.has(i) && overlap(from.cornerBoxes[k], to.box))
-        visit(Parts{{i, a, b, c}, from.number, to.number, false, k, 0});
+      if (from.ownsCorner(k) && !to.has(from.joints[k]) && overlap(from.cornerBoxes[k], to.box))
+        visit(Parts{{from.corners[k], a, b, c}, from.number, to.number, false, k, 0});
     }
   }
   template <class Visit>
@@ -190,12 +190,19 @@ struct SurfaceSearch {
       if (!from.ownsSide(k)) continue;
       const MovingBounds<Real> side = from.sideBox(k);
       if (!overlap(side, to.box)) continue;
-      const std::uint32_t p = from.corners[k], q = from.corners[(k + 1) % 3];
+      const std::size_t nextK = (k + 1) % 3;
+      const std::uint32_t p = from.joints[k], q = from.joints[nextK];
       for (std::uint8_t l = 0; l < 3; ++l) {
         if (!to.ownsSide(l)) continue;
-        const std::uint32_t a = to.corners[l], b = to.corners[(l + 1) % 3];
+        const std::size_t nextL = (l + 1) % 3;
+        const std::uint32_t a = to.joints[l], b = to.joints[nextL];
         if (a != p && a != q && b != p && b != q && overlap(side, to.sideBox(l)))
-          visit(Parts{{p, q, a, b}, from.number, to.number, true, k, l});
+          visit(Parts{{from.corners[k], from.corners[nextK], to.corners[l], to.corners[nextL]},
+                      from.number,
+                      to.number,
+                      true,
+                      k,
+                      l});
       }
     }
   }

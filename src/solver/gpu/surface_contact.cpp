@@ -19,6 +19,19 @@ std::uint32_t blocksOf(std::size_t size) {
   return static_cast<std::uint32_t>((size + SURFACE_BLOCK - 1) / SURFACE_BLOCK);
 }
 
+// Two rows of 16 bytes a triangle; with seams behind all of them one more each, the joints of its corners.
+std::vector<std::uint32_t> triangleRows(const ClothSurface<float>& surface) {
+  static_assert(sizeof(SurfaceTriangle) == 8 * sizeof(std::uint32_t));
+  const auto* numbers = reinterpret_cast<const std::uint32_t*>(surface.triangles.data());
+  std::vector<std::uint32_t> rows(numbers, numbers + 8 * surface.triangles.size());
+  if (surface.joints.empty()) return rows;
+  for (const SurfaceTriangle& triangle : surface.triangles) {
+    const auto [a, b, c] = surface.jointsOf(triangle);
+    rows.insert(rows.end(), {a, b, c, 0});
+  }
+  return rows;
+}
+
 }  // namespace
 
 GpuSurfaceContact::Numbers::Numbers(const std::string& label, std::size_t count, GLenum format)
@@ -76,9 +89,9 @@ void GpuSurfaceContact::setSurface(ClothSurface<float> surface, std::uint32_t pa
   colliderFeatures_ = known;
   compile();
   const std::size_t triangles = surface_.triangles.size();
-  triangles_ = Numbers("surface triangles", 8 * triangles, GL_RGBA32UI);
-  triangles_.buffer.upload(
-      {reinterpret_cast<const std::uint32_t*>(surface_.triangles.data()), 8 * triangles});
+  const std::vector<std::uint32_t> rows = triangleRows(surface_);
+  triangles_ = Numbers("surface triangles", rows.size(), GL_RGBA32UI);
+  triangles_.buffer.upload(rows);
   points_ = ParticleArray("surface points", particles);
   static_assert(sizeof(SurfacePoint<float>) == sizeof(Particle4));
   points_.buffer.upload({reinterpret_cast<const Particle4*>(surface_.points.data()), particles});

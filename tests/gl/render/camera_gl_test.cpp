@@ -107,6 +107,23 @@ TEST(AutomaticCamera, KeepsClothInTheWindInThePicture) {
   EXPECT_LT(farthestFromMiddle(scene, 2), 1);
 }
 
+// A floor 1.5 m below, alone, under a ball beside the cloth, and under a box that only one of two cloths
+// stays on.
+TEST(AutomaticCamera, KeepsClothThatFallsToTheFloorInThePicture) {
+  const std::string sheet = R"({"width": 0.5, "height": 0.5, "num_width_points": 9, "num_height_points": 9,
+                                "material": "cotton", "position": [)";
+  const std::string first = R"({"cloths": [)" + sheet + "-0.25, 0.5, -0.25]}",
+                    floor = R"("colliders": [{"type": "plane", "friction": 0.5})";
+  const Scene alone = parseScene(first + "], " + floor + "]}", "alone"),
+              beside = parseScene(
+                  first + "], " + floor + R"(, {"type": "sphere", "origin": [0.6, 1.2, 0], "radius": 0.2}]})",
+                  "beside"),
+              two = parseScene(first + ", " + sheet + "0.5, 0.5, -0.25]}], " + floor +
+                                   R"(, {"type": "box", "origin": [0, 1, 0], "size": [0.3, 0.3, 0.3]}]})",
+                               "two");
+  for (const Scene& scene : {alone, beside, two}) EXPECT_LT(farthestFromMiddle(scene, 1), 1) << scene.name;
+}
+
 TEST(AutomaticCamera, KeepsPinsAndSolidsInThePictureAllAlongTheirPaths) {
   const Scene carried = parseScene(std::string(standing) + R"(, "pin_motion": {"keys": [
       {"t": 0}, {"t": 0.7, "position": [3, 2, 1]}, {"t": 1.4, "rotation": [0, 180, 0]}]}}})",

@@ -103,8 +103,6 @@ TEST_F(GpuSolverTest, AgreesWithTheCpuOnSmallColliders) {
   EXPECT_GT(difference(fallsFreely.state(), cpu.state()).differing, 0u) << "nothing was touched";
 }
 
-// A sheet with a cut falls into a heap on the floor, beside another one, over a ball that is smaller than a
-// cell and a rod that turns.
 // Between frames both make room for more pairs; what friction remembers of those that were there stays.
 TEST_F(GpuSolverTest, RemembersFrictionWhereThereIsMoreRoomForPairs) {
   Scene scene = test::materialSheet(7, 7, 0.03, 0.03, *materialPreset("cotton"));
@@ -152,6 +150,8 @@ TEST_F(GpuSolverTest, KeepsBackPinsAsTheCpuDoes) {
   EXPECT_EQ(gpu.contactCounts().pinLag, cpu.contactCounts().pinLag);
 }
 
+// A sheet with a cut falls into a heap on the floor, over a ball that is smaller than a cell and a rod that
+// turns, sewn to another one along its upper border.
 TEST_F(GpuSolverTest, AgreesWithTheCpuInContact) {
   Scene scene = test::implicitly(test::sheetScene(17));
   scene.cloths = {ClothSettings{}};
@@ -164,6 +164,9 @@ TEST_F(GpuSolverTest, AgreesWithTheCpuInContact) {
   scene.cloths.push_back(scene.cloths[0]);
   scene.cloths[1].position.z = 0.01;
   scene.cloths[1].numWidthPoints = 11;
+  scene.seams.resize(1);
+  scene.seams[0].a = {0, {GridSide::top}};
+  scene.seams[0].b = {1, {GridSide::top}};
   scene.colliders = {
       Plane{.point = {0, 0, 0}, .normal = {0, 1, 0}, .friction = 0.4},
       Sphere{.origin = {0.1, 0.02, 0}, .radius = 0.02, .friction = 0.4},

@@ -36,10 +36,17 @@ Scene panels(const std::string& distance) {
 
 TEST(StartOverlaps, TellOfPointsThatCoincideWhereContactWouldHoldThem) {
   const auto pointsOf = [](const Scene& scene) {
-    return coincidentPoints(initialState(Cloth(scene), scene));
+    const Cloth cloth(scene);
+    return coincidentPoints(cloth, initialState(cloth, scene));
   };
   EXPECT_EQ(pointsOf(panels("1")), 22u);
   EXPECT_EQ(pointsOf(panels("1.0005")), 0u);
+  Scene sewn = panels("1");
+  Seam seam;
+  seam.a = {0, {GridSide::right}};
+  seam.b = {1, {GridSide::left}};
+  sewn.seams = {seam};
+  EXPECT_EQ(pointsOf(sewn), 0u);
   const auto warningsOf = [](const Scene& scene) {
     const Cloth cloth(scene);
     RunWatch watch;

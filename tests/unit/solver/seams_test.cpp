@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "cloth/seam_neighbours.h"
 #include "scene_io/scene_io.h"
 #include "solver/cpu/cpu_solver.h"
 #include "support/test_scenes.h"
@@ -93,6 +94,19 @@ TEST(Seams, CloseAStripToATube) {
   EXPECT_EQ(pairsOf(scene), (Pairs{{0, 2}, {3, 5}, {6, 8}}));
 }
 
+TEST(Seams, MakeOnePlaceOfAllPointsThatTheyJoin) {
+  using Joints = std::vector<std::uint32_t>;
+  const auto jointsOf = [](const Scene& scene) {
+    const Joints all = seamJoints(Cloth(scene));
+    return Joints(all.begin(), all.begin() + 3);
+  };
+  EXPECT_EQ(jointsOf(twoStrips(3, 3, 0.1)), (Joints{0, 1, 2}));
+  Scene tube = twoStrips(3, 3, 0.1);
+  tube.seams.push_back(tube.seams[0]);
+  tube.seams[1].b = {1, {GridSide::top}, true};
+  EXPECT_EQ(jointsOf(tube), (Joints{0, 1, 0})) << "by way of the points 15 and 17 of the other";
+}
+
 // A strip of weight W on n springs of stiffness k: the gap is W / (n k).
 TEST(Seams, CarryALoadWithTheGapThatHookesLawGives) {
   constexpr double STIFFNESS = 40;
@@ -150,8 +164,9 @@ TEST(Seams, PullBothSidesByAsMuch) {
 
 // Points that are nearer than the contact distance, and would otherwise be held apart.
 TEST(Seams, CloseBetweenPointsThatWouldCollide) {
-  for (const SelfCollision mode : {SelfCollision::averaged, SelfCollision::robust}) {
-    Scene scene = inSteps(twoStrips(3, 3, 0.1), Integrator::verlet);
+  for (const SelfCollision mode : {SelfCollision::averaged, SelfCollision::robust, SelfCollision::contact}) {
+    const bool isInside = mode == SelfCollision::contact;
+    Scene scene = inSteps(twoStrips(3, 3, 0.1), isInside ? Integrator::implicit : Integrator::verlet);
     scene.solver.selfCollision = mode;
     for (ClothSettings& cloth : scene.cloths) cloth.thickness = 0.02;
     scene.cloths[0].pinned = {GridRange{{0, 0}, {2, 2}}};
@@ -166,8 +181,11 @@ TEST(Seams, CloseBetweenPointsThatWouldCollide) {
 }
 
 TEST(Seams, HoldWherePointsAreAtOnePlaceFromTheStart) {
-  for (const Integrator integrator : {Integrator::verlet, Integrator::implicit}) {
+  for (const auto& [integrator, mode] : {std::pair{Integrator::verlet, SelfCollision::off},
+                                         std::pair{Integrator::implicit, SelfCollision::off},
+                                         std::pair{Integrator::implicit, SelfCollision::contact}}) {
     Scene scene = inSteps(twoStrips(3, 3, 0), integrator);
+    scene.solver.selfCollision = mode;
     scene.cloths[0].pinned = {GridSide::top};
     const Cloth cloth(scene);
     CpuSolver<float> solver(cloth, scene);
