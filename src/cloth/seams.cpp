@@ -76,6 +76,7 @@ std::vector<SeamSpring> seamSprings(const Scene& scene, std::span<const Piece> p
     const bool areLines = !clothOf(seam.a).isMesh() && !clothOf(seam.b).isMesh();
     const double stiffness =
         seam.stiffness.value_or(std::max(pieceOf(seam.a).stiffestSpring(), pieceOf(seam.b).stiffestSpring()));
+    const std::size_t first = springs.size();
     const bool aIsFiner = a.size() >= b.size();
     const std::vector<std::uint32_t>&fine = aIsFiner ? a : b, &coarse = aIsFiner ? b : a;
     for (std::size_t k = 0; k < fine.size(); ++k) {
@@ -86,6 +87,8 @@ std::vector<SeamSpring> seamSprings(const Scene& scene, std::span<const Piece> p
       springs.push_back(
           {aIsFiner ? own : other, aIsFiner ? other : own, static_cast<std::uint32_t>(s), stiffness});
     }
+    if (springs.size() == first)
+      throw SceneError(name + ": expected two borders, found the same points on both sides");
   }
   return springs;
 }

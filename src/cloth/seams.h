@@ -21,7 +21,8 @@ struct SeamSpring {
 // Two sides that are lines of grids are sewn along their lengths: each particle of the side that has more is
 // joined to the one that lies as far along the other. Where a side is of a mesh, whose points have no order,
 // each is joined to the nearest one at the start. No particle is joined to itself.
-// @throws SceneError where a side names no points, or on a grid a block that is no line
+// @throws SceneError where a side names no points, or on a grid a block that is no line, or both sides name
+// the same
 [[nodiscard]] std::vector<SeamSpring> seamSprings(const Scene& scene, std::span<const Piece> pieces,
                                                   std::span<const Vec3d> positions);
 

@@ -49,8 +49,9 @@ int scenesCommand() {
 }
 
 int describeCommand(const std::string& typed) {
-  // Also as --set and messages write them: cloths.0.ks, colliders.1.radius, cloth.pinned.0.
+  // Also as --set and messages write them: cloths.0.ks, colliders.1.radius, cloth.pinned.0, sphere.radius.
   std::string key = std::regex_replace(typed, std::regex("^cloths\\.[0-9]+"), "cloth");
+  key = std::regex_replace(key, std::regex("^(sphere|plane)(?=\\.|$)"), "colliders[]");
   key = std::regex_replace(key, std::regex("\\.[0-9]+$"), "");
   key = std::regex_replace(key, std::regex("\\.[0-9]+\\."), "[].");
   const std::vector<FieldInfo> fields = describeFields();

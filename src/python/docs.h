@@ -77,7 +77,8 @@ inline constexpr const char* inverseMasses =
     R"(Inverse masses [1/kg]: float32, shape (particles,), 0 where pinned; read-only, as `positions`.)";
 
 inline constexpr const char* faces =
-    R"(Triangles: uint32, shape (triangles, 3), indices of particles, counterclockwise seen from the front.)";
+    R"(Triangles that are left now (cloth may tear): uint32, shape (triangles, 3), indices of particles,
+counterclockwise seen from the front.)";
 
 inline constexpr const char* stateHash =
     R"(FNV-1a over positions and velocities, 16 hex digits: `state_hash` of `clothsim run --json`.)";

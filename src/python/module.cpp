@@ -6,6 +6,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <cmath>
+#include <cstring>
 #include <string>
 
 #include "core/error.h"
@@ -132,9 +133,11 @@ py::array inverseMassesOf(PythonSimulation& simulation) {
   return readOnly(array);
 }
 
-py::array facesOf(const py::object& self) {
-  const auto& faces = self.cast<PythonSimulation&>().faces();
-  return readOnly(denseArray(faces.size(), {3}, reinterpret_cast<const std::uint32_t*>(faces.data()), self));
+py::array facesOf(PythonSimulation& simulation) {
+  const auto faces = simulation.faces();
+  auto array = denseArray<std::uint32_t>(faces.size(), {3});
+  std::memcpy(array.mutable_data(), faces.data(), faces.size() * sizeof(faces[0]));
+  return readOnly(array);
 }
 
 std::size_t particlesOf(const PythonSimulation& simulation) {
@@ -348,8 +351,8 @@ void declareSimulation(py::module_& module) {
           docs::getState)
       .def(
           "set_state",
-          [](PythonSimulation& simulation, const std::string& bytes) {
-            simulation.setState(parseStateFile(bytes, particlesOf(simulation), "set_state",
+          [](PythonSimulation& simulation, const py::bytes& bytes) {
+            simulation.setState(parseStateFile(std::string(bytes), particlesOf(simulation), "set_state",
                                                simulation.simulation().cloth().lists().triangles.size()));
           },
           py::arg("state"), docs::setState)

@@ -120,7 +120,6 @@ void PythonSimulation::start(const std::optional<std::uint32_t>& seed) {
   lookers_ = std::make_shared<std::shared_ptr<Simulation>>(simulation_);
   positionsPlace_ = velocitiesPlace_ = nullptr;
   forces_.reset();
-  faces_.clear();
 }
 
 State PythonSimulation::state() {
@@ -330,9 +329,9 @@ void PythonSimulation::load(const std::filesystem::path& path) {
   setState(loadState(path, simulation_->cloth()));
 }
 
-const std::vector<std::array<std::uint32_t, 3>>& PythonSimulation::faces() {
-  if (faces_.empty()) faces_ = simulation_->cloth().triangles();
-  return faces_;
+std::vector<std::array<std::uint32_t, 3>> PythonSimulation::faces() {
+  const Turn turn(*this);
+  return remainingTriangles(simulation_->cloth(), simulation_->solver().cuts());
 }
 
 const CpuSolver<float>* PythonSimulation::memory() {

@@ -80,7 +80,7 @@ class PythonSimulation {
   void save(const std::filesystem::path& path);
   void load(const std::filesystem::path& path);
 
-  [[nodiscard]] const std::vector<std::array<std::uint32_t, 3>>& faces();
+  [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> faces();
 
   // The particles in memory, on the CPU backend; nullptr on the GPU. Whoever keeps a copy of the pointer of
   // shareMemory() can look at them for as long as he has it, also after reset(), and until then steps leave
@@ -111,7 +111,6 @@ class PythonSimulation {
   std::shared_ptr<const std::vector<Particle4>> forces_;
   std::unique_ptr<SimulationRenderer> renderer_;
   RunSummary summary_;
-  std::vector<std::array<std::uint32_t, 3>> faces_;
   std::atomic_flag isBusy_;
   int stepsAtOnce_ = 1;
   std::int64_t stepsSinceKept_ = 0;  // since the state that a divergence goes back to; 0: it is to be kept

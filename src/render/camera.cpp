@@ -102,6 +102,7 @@ Camera::Camera(const Scene& scene, const Cloth& cloth, double aspect, const Cove
   const ClothOutline outline = outlineOf(cloth);
   const Stage stage = makeStage(outline, scene);
   const CameraSettings& wanted = scene.camera;
+  back_ = widestFramed / framed;
   Place place;
   place.fov = wanted.fov;
   place.azimuth = std::atan2(outline.front.x, outline.front.z) + defaultAzimuth;
@@ -112,7 +113,7 @@ Camera::Camera(const Scene& scene, const Cloth& cloth, double aspect, const Cove
     place.distance = std::max(1e-3, static_cast<double>(glm::length(offset)));
     place.azimuth = std::atan2(offset.x, offset.z);
     place.elevation = std::clamp(std::asin(offset.y / place.distance), -steepest, steepest);
-    place.distance *= widestFramed / framed;
+    place.distance *= back_;
   } else {
     const Frame frame =
         frameStage(stage, directionOf(place.azimuth, place.elevation), place.fov, framed, covered);
@@ -161,6 +162,15 @@ void Camera::setHome(const Camera& other) {
 
 glm::vec3 Camera::eye() const {
   return now_.target + static_cast<float>(now_.distance) * directionOf(now_.azimuth, now_.elevation);
+}
+
+CameraSettings Camera::settings(CameraSettings own) const {
+  if (now_ == start_) return own;
+  const glm::vec3 direction = directionOf(now_.azimuth, now_.elevation);
+  const auto rounded = [](glm::vec3 place) { return 1e-5 * toVec3d(glm::round(1e5f * place)); };  // to read
+  own.target = rounded(now_.target);
+  own.position = rounded(now_.target + static_cast<float>(now_.distance / back_) * direction);
+  return own;
 }
 
 glm::mat4 Camera::view() const { return glm::lookAt(eye(), now_.target, glm::vec3(0, 1, 0)); }

@@ -35,6 +35,9 @@ class Camera {
   [[nodiscard]] glm::mat4 view() const;
   [[nodiscard]] glm::mat4 projection(double aspect) const;
   [[nodiscard]] glm::vec3 eye() const;
+  // With which a scene has this camera at its start, in a picture of this aspect; `own` where it was not
+  // moved.
+  [[nodiscard]] CameraSettings settings(CameraSettings own) const;
   [[nodiscard]] glm::vec3 target() const { return now_.target; }
 
  private:
@@ -44,6 +47,7 @@ class Camera {
     friend bool operator==(const Place&, const Place&) = default;
   };
   Place now_, start_;
+  double back_ = 1;  // by how much a scene's own camera is farther away, in narrow pictures
 };
 
 // For a picture of so many pixels. A scene's own camera stands where the scene puts it, whatever it crops.

@@ -47,5 +47,6 @@ struct Stage {
 [[nodiscard]] inline glm::vec3 toGlm(Vec3d v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
+[[nodiscard]] inline Vec3d toVec3d(glm::vec3 v) { return {v.x, v.y, v.z}; }
 
 }  // namespace clothsim

@@ -173,6 +173,8 @@ void finishReading(const JsonNode& node, ClothSettings& cloth) {
         *node.find("stiffness_reference"),
         "found both ks and stiffness_reference, expected one of them: ks is CS184's stiffness of a spring, "
         "stiffness_reference CS171's");
+  if (const JsonNode* density = node.find("density"); density != nullptr && cloth.mass)
+    complain(*density, "found both density and mass, expected one of them: mass is that of the whole cloth");
   if (cloth.material)
     checkMaterial(node, cloth);
   else if (!cloth.ks && !cloth.stiffnessReference)
@@ -188,6 +190,8 @@ void checkSeams(const JsonNode& root, const Scene& scene) {
     const JsonNode& seam = *root.find("seams")->children[i];
     checkSide(*seam.find("a"), scene.seams[i].a, scene.cloths);
     checkSide(*seam.find("b"), scene.seams[i].b, scene.cloths);
+    if (scene.seams[i].a == scene.seams[i].b)
+      complain(*seam.find("b"), "expected another border than that of a, found the same");
   }
 }
 
@@ -258,7 +262,9 @@ void complainUnknownKey(const JsonNode& member, const std::vector<std::string>& 
   std::string advice = didYouMean(member.key, known);
   if (advice.empty()) {
     const std::string place = placeOfKey(member.key);
-    if (!place.empty()) advice = "; it belongs to " + place;
+    const JsonNode* type = member.parent == nullptr ? nullptr : member.parent->find("type");
+    if (!place.empty() && !(place.starts_with("colliders[].") && type != nullptr))
+      advice = "; it belongs to " + place;
   }
   if (advice.empty()) {
     for (const std::string& key : known) advice += (advice.empty() ? "; known here: " : ", ") + key;

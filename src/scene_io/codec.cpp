@@ -293,6 +293,14 @@ void readValue(const JsonNode& node, const FieldTraits&, std::optional<Material>
   readObject(node, *target);
 }
 
+// A preset by its name, which says more than its numbers.
+JsonPointer writeValue(const FieldTraits&, const std::optional<Material>& value) {
+  for (const std::string& name : materialPresetNames())
+    if (value == materialPreset(name)) return makeString(name);
+  return spelledOut(*value);
+}
+JsonPointer spelledOut(const Material& material) { return writeObject(material, Material{}); }
+
 JsonPointer writeValue(const FieldTraits&, bool value) { return makeBoolean(value); }
 JsonPointer writeValue(const FieldTraits&, int value) { return makeNumber(value); }
 JsonPointer writeValue(const FieldTraits&, double value) { return makeNumber(value); }

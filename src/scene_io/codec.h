@@ -55,6 +55,8 @@ void readValue(const JsonNode& node, const FieldTraits& traits, std::optional<Ma
 // A single motion of all pins is an object, without a list around it.
 [[nodiscard]] JsonPointer writeValue(const FieldTraits& traits, const std::vector<PinMotion>& values);
 [[nodiscard]] JsonPointer writeValue(const FieldTraits& traits, const std::optional<double>& value);
+[[nodiscard]] JsonPointer writeValue(const FieldTraits& traits, const std::optional<Material>& value);
+[[nodiscard]] JsonPointer spelledOut(const Material& material);  // also where it is a preset
 [[nodiscard]] JsonPointer writeValue(const FieldTraits& traits, const AutoCount& value);
 
 // What describe says of a type.

@@ -97,7 +97,7 @@ std::span<const Field<ClothSettings>> fieldsOf<ClothSettings>() {
           .within(positive)
           .usually(1, 1000)
           .rebuilds(),
-      field("mass", &C::mass, "Total mass; replaces density.")
+      field("mass", &C::mass, "Total mass, instead of density.")
           .in("kg")
           .within(positive)
           .usually(0.01, 100)

@@ -7,6 +7,7 @@
 #include "cloth/material.h"
 #include "core/error.h"
 #include "core/nearest.h"
+#include "scene_io/codec.h"
 #include "scene_io/fields.h"
 #include "scene_io/json_tree.h"
 #include "scene_io/scene_io.h"
@@ -155,7 +156,8 @@ void setAt(JsonNode& root, const Steps& steps, JsonPointer value) {
     replace(*node, steps.back(), std::move(value));
 }
 
-// Where a cloth is given a material, or a part of one, the keys that a material replaces are removed.
+// Where a cloth is given a material, or a part of one, the keys that a material replaces are removed. A
+// preset of which a part changes is spelled out.
 void leaveToMaterial(JsonNode& root, const Steps& steps) {
   const auto material = std::find(steps.begin(), steps.end(), "material");
   if (material == steps.end()) return;
@@ -163,6 +165,16 @@ void leaveToMaterial(JsonNode& root, const Steps& steps) {
   for (std::size_t i = 0; &steps[i] != &*material; ++i) cloth = &descend(*cloth, steps, i);
   for (const char* key : {"ks", "stiffness_reference", "density", "mass", "damping", "thickness"})
     erase(*cloth, key);
+  const JsonNode* named = cloth->find("material");
+  if (named != nullptr && named->kind == JsonKind::string && material + 1 != steps.end())
+    replace(*cloth, "material", spelledOut(*materialPreset(named->text)));
+}
+
+// Of density and mass the one that is set stays.
+void leaveOneMass(JsonNode& root, const Steps& steps, const JsonNode& value) {
+  if (steps.size() != 3 || steps[0] != "cloths" || value.kind == JsonKind::null) return;
+  if (steps[2] == "density" || steps[2] == "mass")
+    erase(descend(descend(root, steps, 0), steps, 1), steps[2] == "density" ? "mass" : "density");
 }
 
 // What was chosen for springs does not suit a material: with the first one integrator, steps and the kind of
@@ -208,6 +220,7 @@ void setSceneValue(Scene& scene, const std::string& keyEqualsValue, const std::s
     resolved = resolveAliases(typed, *root, *value);
     leaveToMaterial(*root, resolved);
     leaveToMesh(*root, resolved, *value);
+    leaveOneMass(*root, resolved, *value);
     setAt(*root, resolved, std::move(value));
     Scene changed = readScene(*root);
     if (usesMaterial(changed) && !usesMaterial(scene)) {

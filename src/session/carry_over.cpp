@@ -72,4 +72,33 @@ std::vector<SetPin> pinsByHand(const State& state, const Cloth& before, const Cl
   return pins;
 }
 
+Scene withPinsByHand(Scene scene, const Cloth& cloth, const State& state) {
+  const auto pinOf = [](const Piece& piece, std::uint32_t particle) -> Pin {
+    const auto place = static_cast<int>(particle - piece.firstParticle);
+    if (piece.isMesh) return VertexPin{place};
+    return GridPoint{place % piece.columns, place / piece.columns};
+  };
+  const auto isFree = [&](std::uint32_t particle) { return state.positions[particle].w != 0; };
+  const auto isScenes = [&](std::uint32_t particle) { return cloth.inverseMasses()[particle] == 0; };
+  for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
+    ClothSettings& settings = scene.cloths[i];
+    const Piece& piece = cloth.pieces()[i];
+    const auto isOwn = [&](std::uint32_t particle) { return cloth.pieceOf(particle) == i; };
+    const bool takesOff =
+        settings.pinMotion.empty() && std::ranges::any_of(state.offPath, [&](std::uint32_t particle) {
+          return isOwn(particle) && isScenes(particle) && isFree(particle);
+        });
+    if (takesOff) {  // sides and regions become the points that are left of them
+      settings.pinned.clear();
+      for (std::uint32_t k = piece.firstParticle; k < piece.firstParticle + piece.particleCount(); ++k)
+        if (isScenes(k) && !(isFree(k) && std::ranges::binary_search(state.offPath, k)))
+          settings.pinned.push_back(pinOf(piece, k));
+    }
+    for (const std::uint32_t particle : state.offPath)
+      if (isOwn(particle) && !isScenes(particle) && !isFree(particle))
+        settings.pinned.push_back(pinOf(piece, particle));
+  }
+  return scene;
+}
+
 }  // namespace clothsim

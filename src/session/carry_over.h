@@ -20,5 +20,8 @@ namespace clothsim {
 [[nodiscard]] State carriedOver(const State& state, const Cloth& before, const Cloth& after);
 // The pins that the user has set, at the nearest points of a cloth on another lattice.
 [[nodiscard]] std::vector<SetPin> pinsByHand(const State& state, const Cloth& before, const Cloth& after);
+// The scene with the pins that the user has set, and without those that he has taken off; where a cloth has
+// pins on paths, which name them, all of its own stay.
+[[nodiscard]] Scene withPinsByHand(Scene scene, const Cloth& cloth, const State& state);
 
 }  // namespace clothsim

@@ -69,6 +69,19 @@ void Solver::holdPins() {
   }
 }
 
+// Taking hold of pins that the state holds already would end what `bdf2` looks back at.
+std::vector<std::optional<bool>> Solver::heldIn(const State& state) const {
+  const PinPaths& pins = inputs_.pinPaths;
+  std::vector<bool> holdsSome(pins.paths.size()), leavesSome(pins.paths.size());
+  for (std::uint32_t i = 0; i < pins.numbers.size(); ++i)
+    if (pins.numbers[i] != 0)
+      (state.positions[i].w == 0 ? holdsSome : leavesSome)[pins.numbers[i] - 1] = true;
+  std::vector<std::optional<bool>> held(pins.paths.size());
+  for (std::size_t path = 0; path < held.size(); ++path)
+    if (holdsSome[path] != leavesSome[path]) held[path] = holdsSome[path];
+  return held;
+}
+
 void Solver::checkStart() {
   if (startIsChecked_) return;
   startIsChecked_ = true;
@@ -137,12 +150,14 @@ std::unique_ptr<Snapshot> Solver::snapshot(std::unique_ptr<Snapshot> reuse) {
   reuse->cuts = inputs_.cuts;
   reuse->offPath = inputs_.offPath;
   reuse->isSecondOrder = isSecondOrder();
+  reuse->held = held_;
   return reuse;
 }
 
 void Solver::restore(const Snapshot& snapshot) {
   setAllButParticles(snapshot.clock, snapshot.integrator, snapshot.offPath, snapshot.cuts);
   if (!executor_->restore(*snapshot.particles)) return setState(snapshot.state());
+  if (snapshot.held.size() == inputs_.pinPaths.paths.size()) held_ = snapshot.held;
   if (!snapshot.isSecondOrder || !looksBackAt(snapshot.clock)) executor_->forgetHistory();
 }
 
@@ -163,6 +178,7 @@ void Solver::setState(const State& state) {
          "the state must be of the solver's cloth");
   setAllButParticles(state.clock, state.integrator, state.offPath, state.cuts);
   executor_->upload(state);
+  held_ = heldIn(state);
   if (!looksBackAt(state.clock)) executor_->forgetHistory();
 }
 

@@ -26,7 +26,8 @@ struct Snapshot {
   Integrator integrator = Integrator::verlet;
   Cuts cuts;
   std::vector<std::uint32_t> offPath;
-  bool isSecondOrder = false;  // made between steps of `bdf2`
+  bool isSecondOrder = false;             // made between steps of `bdf2`
+  std::vector<std::optional<bool>> held;  // of each path of pins, whether it has its particles pinned
 
   [[nodiscard]] std::size_t bytes() const { return particles->bytes(); }  // of the particles, on the device
   [[nodiscard]] State state() const;                                      // blocking
@@ -126,6 +127,7 @@ class Solver {
   [[nodiscard]] std::uint64_t stepInFrame() const;
   void checkStart();
   void holdPins();
+  [[nodiscard]] std::vector<std::optional<bool>> heldIn(const State& state) const;
   void tearCloth();
 
   StepInputs inputs_;
@@ -134,7 +136,7 @@ class Solver {
   std::unique_ptr<Executor> executor_;
   bool startIsChecked_ = true;             // false once a state was handed in
   bool levelsAreMade_ = false;             // false after a change from outside
-  std::vector<std::optional<bool>> held_;  // of each path, whether the state has its particles pinned
+  std::vector<std::optional<bool>> held_;  // as Snapshot::held; none: not known
   std::optional<Divergence> divergence_;
   std::unique_ptr<Snapshot> kept_;
 };

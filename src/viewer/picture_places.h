@@ -6,6 +6,7 @@
 
 #include "core/vec.h"
 #include "render/camera.h"
+#include "render/stage.h"
 
 namespace clothsim {
 
@@ -24,7 +25,5 @@ struct ViewRay {
 [[nodiscard]] std::optional<glm::vec2> placeInPicture(const PictureView& view, glm::vec3 point);
 // How long a pixel is at a point of the world, across the view [m]; 0 behind the eye.
 [[nodiscard]] float pixelSizeAt(const PictureView& view, glm::vec3 point);
-
-[[nodiscard]] inline Vec3d toVec3d(glm::vec3 v) { return {v.x, v.y, v.z}; }
 
 }  // namespace clothsim

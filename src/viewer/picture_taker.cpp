@@ -17,6 +17,7 @@ std::string PictureTaker::screenshot(OpenScene& open, int width, int height, int
 std::string PictureTaker::toggleClip(OpenScene& open, int width, int height) {
   if (!clip_) {
     clip_.emplace(outputFolder(), open.name() + "-" + open.backend(), width, height);
+    shown(open, 0);  // a clip has a picture, however soon it ends
     return "Recording; Ctrl+R stops";
   }
   return endClip();

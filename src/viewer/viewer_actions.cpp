@@ -11,6 +11,7 @@
 #include "output/numbered_files.h"
 #include "render/shading_models.h"
 #include "scene_io/scene_io.h"
+#include "session/carry_over.h"
 #include "viewer/mesh_scene.h"
 #include "viewer/viewer_facts.h"
 #include "viewer/viewer_program.h"
@@ -413,6 +414,14 @@ void Viewer::warnOfPaths() {
   if (!warnings.empty()) say(warnings.front().text, longNoticeSeconds);
 }
 
+// The scene with the pins that were set by hand and the camera where it is.
+Scene Viewer::sceneAsSeen() {
+  Simulation& simulation = session().simulation();
+  Scene scene = withPinsByHand(open_->scene(), simulation.cloth(), simulation.solver().state());
+  scene.camera = open_->camera().settings(scene.camera);
+  return scene;
+}
+
 // Saves the scene, or the state of the cloth, depending on the extension. An existing file is overwritten
 // only when the user saves twice.
 void Viewer::saveSceneAs(const std::filesystem::path& path) {
@@ -431,13 +440,16 @@ void Viewer::saveSceneAs(const std::filesystem::path& path) {
     return complain(path.string() + " already exists; press Save again to overwrite it");
   }
   Simulation& simulation = session().simulation();
-  if (canSaveStateAs(path))
-    saveState(simulation.solver().state(), simulation.cloth(), path);
-  else
-    saveScene(open_->scene(), path);
+  const State state = simulation.solver().state();
+  const bool isScene = !canSaveStateAs(path);
+  isScene ? saveScene(sceneAsSeen(), path) : saveState(state, simulation.cloth(), path);
   confirmed_ = path.string();
   column_.scenes().remember(path.string());
-  say("Saved " + std::filesystem::absolute(path).lexically_normal().string(), longNoticeSeconds);
+  say("Saved " + std::filesystem::absolute(path).lexically_normal().string() +
+          (isScene && std::ranges::any_of(state.cuts, [](std::uint8_t cut) { return cut != 0; })
+               ? "\nA scene has no cuts; Ctrl+Shift+S saves what you did"
+               : ""),
+      longNoticeSeconds);
 }
 
 void Viewer::saveCurves() {

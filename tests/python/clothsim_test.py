@@ -155,6 +155,16 @@ class AgainstTheProgram(unittest.TestCase):
             with open(path, "rb") as file:
                 self.assertEqual(file.read(), first, "the same bytes each time")
 
+    def test_faces_are_those_that_are_left_of_torn_cloth(self):
+        sim = clothsim.Simulation("tear", resolution=(25, 25), backend="cpu")
+        whole = len(sim.faces)
+        sim.step_frames(45)
+        self.assertLess(len(sim.faces), whole)
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "torn.npz")
+            sim.save(path)
+            np.testing.assert_array_equal(np.load(path)["faces"], sim.faces)
+
 
 class Arrays(unittest.TestCase):
     def test_positions_are_a_view_that_shows_the_current_state_at_one_address(self):

@@ -177,6 +177,22 @@ TEST(AutomaticCamera, LeavesACameraOfTheScenesOwnWhereItIs) {
   EXPECT_EQ(Camera(scene, cloth, wide, {.right = 0.4}).eye(), Camera(scene, cloth).eye());
 }
 
+TEST(SavedCamera, IsWhereItWasMovedToInThePictureThatWasSeen) {
+  for (const char* camera : {"}", R"(, "camera": {"position": [0, 1, 3], "fov": 50}})"}) {
+    Scene scene = parseScene(std::string(standing) + "}" + camera, "standing");
+    const Cloth cloth(scene);
+    Camera moved(scene, cloth, 1.2);
+    EXPECT_EQ(moved.settings(scene.camera), scene.camera) << "it was not moved";
+    moved.orbit(0.4, 0.2);
+    moved.zoom(0.7);
+    scene.camera = moved.settings(scene.camera);
+    const Camera again(scene, cloth, 1.2);
+    EXPECT_LT(glm::distance(again.eye(), moved.eye()), 3e-5f);
+    EXPECT_LT(glm::distance(again.target(), moved.target()), 3e-5f);
+    EXPECT_EQ(again.projection(1.2), moved.projection(1.2)) << "the field of view stays";
+  }
+}
+
 class CameraTest : public ::testing::Test {
  protected:
   Scene scene_;

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "scene_io/scene_io.h"
+#include "session/carry_over.h"
 #include "session/session.h"
 #include "solver/pin_paths.h"
 #include "solver/state.h"
@@ -54,6 +55,31 @@ TEST_F(MovedPins, ChangeNoBitWhileHandsHoldThemWhereTheyAre) {
   EXPECT_EQ(stateHash(session_.simulation().solver().state()),
             stateHash(plain.simulation().solver().state()));
   EXPECT_EQ(parseScene(formatScene(scene()), "saved"), scene()) << "the scene says it all";
+}
+
+TEST_F(MovedPins, AreSavedWhereAHandSetThemAndNotWhereItTookThemOff) {
+  Scene twoSheets = hangingSheet();
+  twoSheets.cloths.push_back(twoSheets.cloths[0]);
+  twoSheets.cloths[1].pinned = {GridSide::top};
+  Session session(twoSheets, "cpu", makeCpuSolver);
+  const auto saved = [&] {
+    const Simulation& simulation = session.simulation();
+    return withPinsByHand(simulation.scene(), simulation.cloth(), session.simulation().solver().state());
+  };
+  EXPECT_EQ(saved(), twoSheets);
+  const std::uint32_t inTheMiddle = 5 * GRID_COLUMNS + 3, other = GRID_COLUMNS * GRID_COLUMNS;
+  session.act(SetPin{inTheMiddle, true});
+  session.act(SetPin{other + 1, false});
+  ASSERT_EQ(session.stepFrames(2), std::nullopt);
+  const Scene scene = saved();
+  std::vector<Pin> pins = twoSheets.cloths[0].pinned;
+  pins.emplace_back(GridPoint{3, 5});
+  EXPECT_EQ(scene.cloths[0].pinned, pins);
+  const Cloth before(twoSheets), after(scene);
+  for (std::uint32_t i = 0; i < before.particleCount(); ++i) {
+    const bool isPinned = i == inTheMiddle || (i != other + 1 && before.inverseMasses()[i] == 0);
+    EXPECT_EQ(after.inverseMasses()[i] == 0, isPinned) << i;
+  }
 }
 
 TEST_F(MovedPins, GoAtAHandsPaceAndComeBackWhenThatIsUndone) {

@@ -62,7 +62,9 @@ class RandomScene {
     return {cloth, {isMesh ? Pin(VertexPin{whole(0, 9)}) : Pin(GridSide::left)}, maybe()};
   }
   Seam seam(const Scene& scene) {
-    const SeamSide a = side(scene), b = side(scene);
+    const SeamSide a = side(scene);
+    SeamSide b = side(scene);
+    if (a == b) b.reverse = !a.reverse;
     return {a, b, positive(), optionalPositive()};
   }
   std::optional<double> optionalPositive() { return maybe() ? std::optional(positive()) : std::nullopt; }
@@ -112,8 +114,8 @@ class RandomScene {
     c.orientation = maybe() ? Orientation::horizontal : Orientation::vertical;
     c.position = vector();
     c.rotation = vector();
-    c.density = positive();
     c.mass = optionalPositive();
+    if (!c.mass) c.density = positive();
     (maybe() ? c.ks : c.stiffnessReference) = positive();
     c.referenceLength = positive();
     c.damping = 100 * fraction();
@@ -298,6 +300,14 @@ TEST(FormatScene, WritesAMotionOfAllPinsAsOneObject) {
       << formatScene(scene);
   scene.cloths[0].pinMotion[0].pinned = {GridSide::top};
   EXPECT_NE(formatScene(scene).find("\"pin_motion\": ["), std::string::npos);
+}
+
+TEST(FormatScene, NamesAFabricThatIsAPresetAndSpellsOutOthers) {
+  Scene scene = parseScene(R"({"cloth": {"material": "denim"}})", "test");
+  EXPECT_NE(formatScene(scene).find(R"("material": "denim")"), std::string::npos) << formatScene(scene);
+  scene.cloths[0].material->density *= 2;
+  EXPECT_EQ(formatScene(scene).find("denim"), std::string::npos);
+  EXPECT_EQ(parseScene(formatScene(scene), "saved"), scene);
 }
 
 TEST(SavedScene, KeepsTheSignOfZero) {

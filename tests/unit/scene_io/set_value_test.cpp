@@ -161,6 +161,16 @@ TEST(SetSceneValue, OffersTheNearestKey) {
             "--set damping=1: damping: unknown key; it belongs to cloth.damping");
 }
 
+TEST(SetSceneValue, OfDensityAndMassKeepsTheOneThatIsSet) {
+  Scene scene = loadSceneByName("cs171");
+  setSceneValue(scene, "cloth.density=0.5");
+  EXPECT_FALSE(scene.cloths[0].mass.has_value());
+  EXPECT_EQ(scene.cloths[0].density, 0.5);
+  setSceneValue(scene, "cloth.mass=2");
+  EXPECT_EQ(scene.cloths[0].mass, 2);
+  EXPECT_EQ(scene.cloths[0].density, ClothSettings{}.density);
+}
+
 TEST(SetSceneValue, RefusesPathsThatLeadNowhere) {
   EXPECT_NE(messageOf(plain(), "cloths.1.ks=3")
                 .find("cloths: expected the number of an entry, 0 to 0, found \"1\""),

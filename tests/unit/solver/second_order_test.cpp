@@ -148,6 +148,35 @@ TEST(SecondOrder, GoesOnFromAStateAndASnapshotAsIfNothingHadHappened) {
   EXPECT_TRUE(implicit.state().histories.empty());
 }
 
+// One row is let go after a while, another taken hold of again.
+TEST(SecondOrder, GoesOnWhilePathsHoldPinsAndLetThemGo) {
+  Scene scene = sheetUnder(5, 17, 0.2, 1, Integrator::bdf2);
+  scene.cloths[0].pinned = {GridSide::top, GridSide::bottom};
+  PinMotion released, held;
+  released.pinned = {GridSide::top};
+  released.keys = {{0, {}, {}, false}};
+  released.release = 0.3;
+  held.pinned = {GridSide::bottom};
+  held.keys = {{0, {}, {}, false}, {0.1, {}, {}, true}, {0.4, {}, {}, false}};
+  scene.cloths[0].pinMotion = {released, held};
+  const Cloth cloth(scene);
+  CpuSolver<float> whole(cloth, scene);
+  const auto at = [&](CpuSolver<float>& solver, std::uint64_t step) {
+    solver.step(static_cast<int>(step - solver.state().clock.step));
+    return stateHash(solver.state());
+  };
+  CpuSolver<float> straight(cloth, scene);
+  const std::uint64_t expected = at(straight, 40);
+  for (const std::uint64_t step : {3u, 12u, 30u}) {
+    (void)at(whole, step);
+    CpuSolver<float> fromState(cloth, scene), fromSnapshot(cloth, scene);
+    fromState.setState(whole.state());
+    fromSnapshot.restore(*whole.snapshot());
+    EXPECT_EQ(at(fromState, 40), expected) << step;
+    EXPECT_EQ(at(fromSnapshot, 40), expected) << step;
+  }
+}
+
 TEST(SecondOrder, LooksBackAtNoStepThatWasNotSolved) {
   Scene scene = sheetUnder(33, 33, 1, 1, Integrator::bdf2);
   scene.cloths[0].material = materialPreset("silk");
