@@ -189,7 +189,7 @@ TEST(SavedCamera, IsWhereItWasMovedToInThePictureThatWasSeen) {
     const Camera again(scene, cloth, 1.2);
     EXPECT_LT(glm::distance(again.eye(), moved.eye()), 3e-5f);
     EXPECT_LT(glm::distance(again.target(), moved.target()), 3e-5f);
-    EXPECT_EQ(again.projection(1.2), moved.projection(1.2)) << "the field of view stays";
+    EXPECT_EQ(again.projection(1.2)[1][1], moved.projection(1.2)[1][1]) << "the field of view stays";
   }
 }
 
