@@ -81,7 +81,7 @@ struct Arguments {
               size = "1280x720", key, replay, only;
   std::string cellSize = "560x420", out, view = "0,0", trace;
   std::vector<std::string> variations, settings, saves, outs, resolutions, backends;
-  int frames = 0, every = 1, exposures = 0, around = 64, down = 48, threads = 0;
+  int frames = 0, every = 1, firstFrame = 0, exposures = 0, around = 64, down = 48, threads = 0;
   double fps = 30, seconds = 1, jitter = 0, restartAfter = 0;
   std::uint32_t seed = 1;
   bool json = false, checkCrossings = false, timings = false, strict = false;
@@ -163,6 +163,12 @@ void addJson(CLI::App& app, Arguments& a) {
   app.add_flag("--json", a.json, "print one JSON object on stdout");
 }
 
+void addFirstFrame(CLI::App& app, Arguments& a) {
+  app.add_option("--first-frame", a.firstFrame,
+                 "number of the first frame in names and USD, where --from goes on (default 0)")
+      ->transform(wholeNumber(0, 1'000'000));
+}
+
 void addStrict(CLI::App& app, Arguments& a) {
   app.add_flag("--strict", a.strict,
                "end with exit code 1 when there was a warning: contact lost, springs stretched too far...");
@@ -193,6 +199,7 @@ void declareRun(CLI::App& app, Arguments& a, Task& task) {
       ->allow_extra_args(false);
   run->add_option("--every", a.every, "K for numbered files, .pc2 and USD")
       ->transform(wholeNumber(1, 1'000'000));
+  addFirstFrame(*run, a);
   CLI::Option* from = run->add_option("--from", a.from, "start from a saved .state")->type_name("STATE");
   CLI::Option* jitter =
       run->add_option(
@@ -217,7 +224,7 @@ void declareRun(CLI::App& app, Arguments& a, Task& task) {
   run->callback([&a, &task, scene = scene, frames, backend, replay] {
     if (replay->count() == 0 && scene->count() == 0) throw CLI::RequiredError("-f,--scene or --replay");
     if (replay->count() == 0 && frames->count() == 0) throw CLI::RequiredError("--frames");
-    RunOptions options{a.sceneOptions(), {},       {},     a.saves,  a.every,  a.from, a.json,
+    RunOptions options{a.sceneOptions(), {},       {},     a.saves,  a.every,  a.firstFrame, a.from, a.json,
                        a.checkCrossings, a.jitter, a.seed, a.replay, a.strict, a.trace};
     if (frames->count() > 0) options.frames = a.frames;
     if (backend->count() > 0) options.backend = a.backend;
@@ -301,6 +308,7 @@ void declareRender(CLI::App& app, Arguments& a, Task& task) {
   render->add_option("--size", a.size, "pixels")->type_name("WxH")->capture_default_str();
   render->add_option("--every", a.every, "numbered pictures: save every K-th frame")
       ->transform(wholeNumber(1, 1'000'000));
+  addFirstFrame(*render, a);
   render->add_option("--fps", a.fps, "maximum frame rate of a video; it plays in real time")
       ->transform(number(1.0, 1000.0));
   addLooks(*render, a);
@@ -319,8 +327,8 @@ void declareRender(CLI::App& app, Arguments& a, Task& task) {
       const GridSize size = parsePixels(a.size);
       followProposal(a);
       return renderCommand({a.sceneOptions(), a.frames, a.backend, a.outs, size.columns, size.rows, a.every,
-                            a.fps, a.shader, a.around, a.down, a.from, parseView(a.view), a.strict, a.quality,
-                            a.exposures});
+                            a.firstFrame, a.fps, a.shader, a.around, a.down, a.from, parseView(a.view),
+                            a.strict, a.quality, a.exposures});
     };
   });
 }

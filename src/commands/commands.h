@@ -28,7 +28,8 @@ struct RunOptions {
   std::optional<std::string> backend;  // none: gpu, or those of the recording
   std::vector<std::string> saves;      // files by extension; numbered ones get every `every`-th frame
   int every = 1;
-  std::string from;  // a .state file to begin with
+  int firstFrame = 0;  // number of the first frame in names and USD
+  std::string from;    // a .state file to begin with
   bool json = false;
   bool checkCrossings = false;
   double jitter = 0;       // moves every free particle at the start by up to this along each axis [m]
@@ -53,6 +54,7 @@ struct RenderCommandOptions {
   std::vector<std::string> outs;  // still.png, frame_%04d.png, clip.mp4
   int width = 1280, height = 720;
   int every = 1;                // numbered pictures: every so many frames
+  int firstFrame = 0;           // number of the first of them
   double framesPerSecond = 30;  // of a film, at most
   std::string shader;           // "" for the scene's own
   int sphereSegmentsAround = 64, sphereSegmentsDown = 48;

@@ -20,7 +20,8 @@ namespace clothsim {
 namespace {
 
 PictureSettings settingsOf(const RenderCommandOptions& options) {
-  return {options.frames, options.width, options.height, options.every, options.framesPerSecond};
+  return {options.frames, options.width,           options.height,
+          options.every,  options.framesPerSecond, options.firstFrame};
 }
 
 void checkOutputs(const RenderCommandOptions& options) {
@@ -33,7 +34,8 @@ void checkOutputs(const RenderCommandOptions& options) {
   if (options.every != 1 && std::none_of(options.outs.begin(), options.outs.end(), hasFrameNumber))
     throw UsageError("--every " + std::to_string(options.every) +
                      ": no picture is saved every so many frames; give --out a name as frame_%04d.png");
-  for (const std::string& out : options.outs) checkWritable(numberedName(out, options.frames));
+  for (const std::string& out : options.outs)
+    checkWritable(numberedName(out, options.firstFrame + options.frames));
 }
 
 int exposuresOf(const RenderCommandOptions& options) {

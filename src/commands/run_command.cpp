@@ -68,7 +68,7 @@ void checkSaves(const RunOptions& options) {
   }
   checkEvery(options);
   for (const std::string& save : options.saves) {
-    checkWritable(numberedName(save, options.frames.value_or(0)));
+    checkWritable(numberedName(save, options.firstFrame + options.frames.value_or(0)));
     if (isPointCache(save)) checkWritable(restMeshBeside(save));
   }
   checkDistinct(options);
@@ -261,7 +261,7 @@ int runCommand(const RunOptions& options) {
   if (options.checkCrossings) counter.emplace(countedCloth);
   CrossingSummary crossings;
   if (counter) crossings.add(0, counter->count(seen.state));
-  SavedFiles files(filesOf(options), options.every, frames, run.simulation());
+  SavedFiles files(filesOf(options), options.every, frames, run.simulation(), options.firstFrame);
   SavedPictures pictures(options, run.scene(), frames);
   const auto save = [&](int frame) {
     files.add(run.simulation(), seen.state, frame);

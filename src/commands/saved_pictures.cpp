@@ -10,6 +10,7 @@ namespace clothsim {
 SavedPictures::SavedPictures(const RunOptions& options, const Scene& scene, int frames) {
   settings_.frames = frames;
   settings_.every = options.every;
+  settings_.first = options.firstFrame;
   std::vector<std::string> names;
   for (const std::string& save : options.saves)
     if (isPicture(save)) {

@@ -12,8 +12,9 @@ namespace clothsim {
 
 struct FrameTimes {
   double framesPerSecond = 90;
-  int every = 1;  // frames 0, every, 2 every ...
+  int every = 1;  // frames first, first + every, first + 2 every ...
   int last = 0;   // saved frame
+  int first = 0;
 };
 
 class SequenceWriter {

@@ -56,16 +56,16 @@ class UsdWriter final : public SequenceWriter {
       cuts_ = state.cuts;
       meshes_.emplace_back(frames_.size(), remainingTriangles(cloth_, cuts_));
     }
-    frames_.push_back({static_cast<int>(frames_.size()) * times_.every, state.clock.time()});
+    frames_.push_back({times_.first + static_cast<int>(frames_.size()) * times_.every, state.clock.time()});
   }
 
   void close() override {
     const std::string rate = usdNumber(times_.framesPerSecond);
-    write(
-        "#usda 1.0\n(\n    defaultPrim = \"clothsim\"\n    doc = \"Made by clothsim\"\n" +
-        std::string("    metersPerUnit = 1\n    upAxis = \"Y\"\n    startTimeCode = 0\n    endTimeCode = ") +
-        std::to_string(times_.last) + "\n    timeCodesPerSecond = " + rate +
-        "\n    framesPerSecond = " + rate + "\n)\n\ndef Xform \"clothsim\"\n{\n");
+    write("#usda 1.0\n(\n    defaultPrim = \"clothsim\"\n    doc = \"Made by clothsim\"\n" +
+          std::string("    metersPerUnit = 1\n    upAxis = \"Y\"\n    startTimeCode = ") +
+          std::to_string(times_.first) + "\n    endTimeCode = " + std::to_string(times_.last) +
+          "\n    timeCodesPerSecond = " + rate + "\n    framesPerSecond = " + rate +
+          "\n)\n\ndef Xform \"clothsim\"\n{\n");
     for (std::size_t piece = 0; piece < cloth_.pieces().size(); ++piece) writeCloth(piece);
     write(usdSurroundings(scene_, start_, frames_) + "}\n");
     if (text_) makeUsdBinary(path_, text_->descriptor(), file_);

@@ -25,7 +25,7 @@ void checkPicture(const std::string& flag, const std::string& name, const Pictur
 }
 
 PictureOutput::PictureOutput(std::string name, const PictureSettings& settings, const Scene& scene)
-    : name_(std::move(name)), frames_(settings.frames) {
+    : name_(std::move(name)), frames_(settings.frames), first_(settings.first) {
   if (name_.ends_with(".mp4")) {
     // A film plays in real time. Frames are left out to stay at or below the given rate.
     const double rate = scene.solver.framesPerSec;
@@ -40,7 +40,7 @@ void PictureOutput::add(const Image& image, int frame) {
   if (video_)
     video_->addFrame(image.rgb);
   else
-    savePng(every_ > 0 ? numberedName(name_, frame) : name_, image.width, image.height, image.rgb);
+    savePng(every_ > 0 ? numberedName(name_, first_ + frame) : name_, image.width, image.height, image.rgb);
 }
 
 void PictureOutput::close() {

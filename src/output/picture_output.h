@@ -16,6 +16,7 @@ struct PictureSettings {
   int width = 1280, height = 720;  // [pixels]
   int every = 1;                   // numbered pictures: every so many frames
   double picturesPerSecond = 30;   // of a film, at most
+  int first = 0;                   // number of frame 0 in numbered names
 };
 
 // Whether the name ends in .png or .mp4.
@@ -33,7 +34,7 @@ class PictureOutput {
 
  private:
   std::string name_;
-  int frames_, every_ = 0;  // 0: only the last frame
+  int frames_, first_, every_ = 0;  // 0: only the last frame
   std::unique_ptr<VideoWriter> video_;
 };
 

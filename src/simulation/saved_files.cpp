@@ -7,13 +7,13 @@
 namespace clothsim {
 
 SavedFiles::SavedFiles(const std::vector<std::string>& names, int every, int frames,
-                       const Simulation& simulation)
-    : every_(every), frames_(frames) {
+                       const Simulation& simulation, int first)
+    : every_(every), frames_(frames), first_(first) {
   for (const std::string& name : names) {
     if (isSequence(name))
-      sequences_.push_back(
-          makeSequenceWriter(name, simulation.cloth(), simulation.scene(),
-                             {simulation.scene().solver.framesPerSec, every, frames / every * every}));
+      sequences_.push_back(makeSequenceWriter(
+          name, simulation.cloth(), simulation.scene(),
+          {simulation.scene().solver.framesPerSec, every, first + frames / every * every, first}));
     else if (canSaveStateAs(name))
       states_.push_back(name);
     else
@@ -28,7 +28,7 @@ void SavedFiles::add(const Simulation& simulation, const State& state, int frame
     if (isDue) sequence->addFrame(state);
   for (const std::string& name : states_)
     if (hasFrameNumber(name) ? isDue : frame == frames_)
-      saveState(state, simulation.cloth(), numberedName(name, frame));
+      saveState(state, simulation.cloth(), numberedName(name, first_ + frame));
 }
 
 void SavedFiles::finish() {

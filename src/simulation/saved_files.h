@@ -13,9 +13,10 @@ namespace clothsim {
 class SavedFiles {
  public:
   // The extension of a name chooses the format; makeSequenceWriter() and saveState() list them. Sequences and
-  // names with %04d get frame 0 and every `every`-th frame. Other names get the last of `frames` frames.
-  // @throws UsageError for another extension, InputOutputError
-  SavedFiles(const std::vector<std::string>& names, int every, int frames, const Simulation& simulation);
+  // names with %04d get frame 0 and every `every`-th frame, numbered from `first` on. Other names get the
+  // last of `frames` frames. @throws UsageError for another extension, InputOutputError
+  SavedFiles(const std::vector<std::string>& names, int every, int frames, const Simulation& simulation,
+             int first = 0);
 
   // To be called for frame 0 and after every frame, with the state then. @throws InputOutputError, as
   // finish() does
@@ -24,7 +25,7 @@ class SavedFiles {
   void finish();
 
  private:
-  int every_, frames_;
+  int every_, frames_, first_;
   std::vector<std::string> states_;
   std::vector<std::unique_ptr<SequenceWriter>> sequences_;
 };

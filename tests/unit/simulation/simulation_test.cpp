@@ -72,16 +72,19 @@ TEST(Simulation, SavesEveryKindOfFileWithoutPictures) {
   const test::TemporaryFolder folder;
   const auto name = [&](const char* file) { return (folder / file).string(); };
   Simulation simulation(smallScene());
-  SavedFiles saved({name("all.pc2"), name("all.usda"), name("last.csv"), name("%02d.obj")}, 2, 3, simulation);
+  SavedFiles saved({name("all.pc2"), name("all.usda"), name("last.csv"), name("%02d.obj")}, 2, 3, simulation,
+                   10);
   for (int frame = 0; frame <= 3; ++frame) {
     if (frame > 0) simulation.stepFrame();
     saved.add(simulation, simulation.state(), frame);
   }
   saved.finish();
-  for (const char* file : {"all.pc2", "all_rest.obj", "all.usda", "last.csv", "00.obj", "02.obj"})
+  for (const char* file : {"all.pc2", "all_rest.obj", "all.usda", "last.csv", "10.obj", "12.obj"})
     EXPECT_TRUE(std::filesystem::exists(folder / file)) << file;
-  EXPECT_FALSE(std::filesystem::exists(folder / "01.obj")) << "only every second frame was asked for";
-  EXPECT_FALSE(std::filesystem::exists(folder / "03.obj"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "11.obj")) << "only every second frame was asked for";
+  EXPECT_FALSE(std::filesystem::exists(folder / "13.obj"));
+  EXPECT_NE(readFile(folder / "all.usda").find("startTimeCode = 10\n    endTimeCode = 12\n"),
+            std::string::npos);
   EXPECT_THROW(SavedFiles({name("picture.png")}, 1, 1, simulation), UsageError);
 }
 
