@@ -354,7 +354,7 @@ int iterationsFor(double step, bool touches) {
 }  // namespace
 
 void chooseCounts(Scene& scene) {
-  // The coarse levels do not know of seams: there are more directions for the iterations to find.
+  // The coarse levels do not know what seams join: there are more directions for the iterations to find.
   const int more = scene.seams.empty() ? 1 : 3;
   SolverSettings& solver = scene.solver;
   if (solver.simulationSteps.automatic) solver.simulationSteps.count = stableSteps(scene);

@@ -449,10 +449,6 @@ void declareViewer(CLI::App& app, Arguments& a, Task& task) {
   };
 }
 
-}  // namespace
-
-namespace {
-
 int parseAndRun(int argc, char** argv) {
   CLI::App app{"clothsim: cloth simulation, bit-identical on GPU and CPU", "clothsim"};
   app.set_version_flag("--version", std::string("clothsim ") + versionText());
@@ -474,6 +470,9 @@ int parseAndRun(int argc, char** argv) {
     if (error.get_exit_code() != 0)
       if (const std::string unknown = unknownWord(app, {argv + 1, argv + argc}); !unknown.empty())
         throw UsageError(unknown + "\nRun with --help or --help-all for more information.");
+    const std::string text = error.what(), twice = ": At Most 1 required";
+    if (const std::size_t end = text.find(twice); end != std::string::npos)
+      throw UsageError(text.substr(0, end) + ": expected once, found more often");
     return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::usage);
   }
 }

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdlib>
 
+#include "cloth/seam_neighbours.h"
 #include "core/error.h"
 #include "core/thread_team.h"
 
@@ -28,6 +29,7 @@ bool CrossingCounter::areNeighbours(const Triangle& a, const Triangle& b) const 
     const Place& p = places_[i];
     for (const std::uint32_t j : b) {
       const Place& q = places_[j];
+      if (joints_[i] == joints_[j]) return true;
       if (cloth_->hasMesh() && p.piece == q.piece && cloth_->pieces()[p.piece].isMesh) {
         if (i == j || cloth_->lists().joins(i, j)) return true;
       } else if (p.piece == q.piece && std::abs(p.column - q.column) <= 1 && std::abs(p.row - q.row) <= 1) {
@@ -77,7 +79,7 @@ bool cross(const std::vector<Point>& points, Triangle a, Triangle b) {
 
 bool CrossingCounter::available() { return true; }
 
-CrossingCounter::CrossingCounter(const Shared<Cloth>& cloth) : cloth_(cloth) {
+CrossingCounter::CrossingCounter(const Shared<Cloth>& cloth) : cloth_(cloth), joints_(seamJoints(*cloth)) {
   for (std::uint32_t piece = 0; piece < cloth->pieces().size(); ++piece)
     for (int row = 0; row < cloth->pieces()[piece].rows; ++row)
       for (int column = 0; column < cloth->pieces()[piece].columns; ++column)

@@ -32,7 +32,7 @@ class CrossingCounter {
   explicit CrossingCounter(const Shared<Cloth>& cloth);
 
   // The positions of the state must be finite. Triangles with a cut side are not counted. Triangles on the
-  // two sides of a cut count as neighbours.
+  // two sides of a cut count as neighbours, and those that share a sewn point.
   [[nodiscard]] CrossingCount count(const State& state) const;
 
  private:
@@ -44,7 +44,8 @@ class CrossingCounter {
   [[nodiscard]] bool areNeighbours(const Triangle& a, const Triangle& b) const;
 
   Shared<Cloth> cloth_;
-  std::vector<Place> places_;  // of each particle
+  std::vector<Place> places_;          // of each particle
+  std::vector<std::uint32_t> joints_;  // seamJoints()
 };
 
 // Sums up the counts over the frames of a run.

@@ -12,7 +12,8 @@ std::span<const Field<SeamSide>> fieldsOf<SeamSide>() {
           .within({.low = 0, .high = 9999})
           .required(),
       field("points", &SeamSide::points,
-            "The points that are sewn, as in `pinned`; on a grid a border, or lines one behind the other.")
+            "The points that are sewn, as in `pinned`; on a grid a border (`top` of a lying cloth is row 0), "
+            "or lines.")
           .required(),
       field("reverse", &SeamSide::reverse, "Sew from the last point of this side to the first."),
   };

@@ -13,6 +13,9 @@
 #if HAS_MESH
 #include "sim/implicit/mesh.glsl"
 #endif
+#if HAS_SEAMS
+#include "sim/seams.glsl"
+#endif
 
 uvec2 pair;      // row and column of the block
 bool isOfAll;    // the column has all vertices, moving as one body about the center of the row
@@ -106,7 +109,7 @@ RigidBlock blockOfSums() {
   return block;
 }
 
-// Inertia, air, grabs and the collider that is touched.
+// Inertia, air, grabs, the collider that is touched, and seams as if what they are sewn to stood still.
 void addParticle(uint i, Hanging hanging) {
   float diagonal = texelFetch(rightHandSides, int(i)).w;
   precise float stiffness = diagonal;
@@ -114,6 +117,10 @@ void addParticle(uint i, Hanging hanging) {
     vec3 air = airBlockAt(i).diagonal;
     stiffness = stiffness + uintBitsToFloat(0x3eaaaaabu) * ((air.x + air.y) + air.z);
   }
+#if HAS_SEAMS
+  uvec2 seams = seamsOf(i);
+  for (uint n = seams.x; n < seams.y; ++n) stiffness = stiffness + seamSpring(n).stiffness;
+#endif
   addIsotropic(stiffness, hanging);
   if (hasContacts) addPulling(contactStiffness(diagonal), contactPlaneAt(i).xyz, hanging);
 #if HAS_SURFACE

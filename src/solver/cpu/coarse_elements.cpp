@@ -13,6 +13,7 @@
 #include "solver/cpu/implicit_laws.h"
 #include "solver/cpu/membrane_laws.h"
 #include "solver/cpu/rows.h"
+#include "solver/cpu/seam_passes.h"
 #include "solver/cpu/spring_rows.h"
 
 namespace clothsim::cpu {
@@ -228,7 +229,7 @@ class ElementLoop {
     pullCount_ = turnCount_ = pullsOfAll_ = 0;
   }
 
-  // Inertia, air, grabs and the collider that is touched.
+  // Inertia, air, grabs, the collider that is touched, and seams as if what they are sewn to stood still.
   INLINE void addParticle(std::uint32_t i) {
     const auto n = static_cast<std::ptrdiff_t>(i);
     Real stiffness = own_.diagonal[i];
@@ -236,6 +237,9 @@ class ElementLoop {
       const Vec3<Real> air = at(own_.air, n).diagonal;
       stiffness = stiffness + static_cast<Real>(0x1.555556p-2f) * ((air.x + air.y) + air.z);
     }
+    if (hasSeams(pass_))
+      for (std::uint32_t k = pass_.lists.seamStarts[i]; k < pass_.lists.seamStarts[i + 1]; ++k)
+        stiffness = stiffness + pass_.lists.seamSprings[k].stiffness;
     const std::uint32_t number = turnCount_++;
     Turn* turns = turns_.data();
     forEachTouched<0>([&](std::uint32_t a, std::uint32_t acts,

@@ -1,5 +1,6 @@
 // The springs of seams, gathered over lists; the twin of shaders/sim/seams.glsl, seam_forces.glsl and
-// implicit/seams.glsl. The coarse levels of the preconditioner do not know them.
+// implicit/seams.glsl. The coarse levels of the preconditioner know that they hold a particle, not what else
+// they join.
 #pragma once
 
 #include "solver/cpu/implicit_passes.h"

@@ -340,13 +340,14 @@ TEST(Program, AnswersWrongUsageWithTwo) {
     EXPECT_EQ(clothsim(arguments).exitCode, 2) << arguments;
 }
 
-TEST(Program, NamesTheWordThatItDoesNotKnow) {
+TEST(Program, NamesTheWordThatItDoesNotKnowOrTakesOnlyOnce) {
   const std::vector<std::pair<std::string, std::string>> cases{
       {"run -f pinned2 --frame 3", "run: there is no option --frame; did you mean \"--frames\"?"},
       {"render -f pinned2 --outt a.png --frames 2", "did you mean \"--out\"?"},
       {"rnu -f pinned2 --frames 2", "there is no command \"rnu\"; did you mean \"run\"?"},
       {"-f pinned2 run --frames 2", "write it behind: clothsim run -f ..."},
       {"run --set solver.cg_iterations=1 -q --frames -1", "run: there is no option -q"},
+      {"run -f pinned2 --frames 1 --trace a.csv --trace b.csv", "--trace: expected once, found more often"},
       {"run --frames -1 -f pinned2", "--frames"}};
   for (const auto& [arguments, part] : cases) {
     const CommandResult result = clothsim(arguments);

@@ -168,6 +168,18 @@ TEST(CrossingSummary, KeepsTheWorstTheSumAndTheFirst) {
   EXPECT_EQ(summary.neighbours, 9u);
 }
 
+// Two sheets side by side whose borders lie on each other.
+TEST_F(Crossings, CountTrianglesThatShareASewnPointAsNeighbours) {
+  Scene scene = twoSheets(5, 5, {0, 0, 0}, {1, 0, 0});
+  EXPECT_GT(countAtStart(scene).apart, 0u);
+  Seam seam;
+  seam.a = {0, {GridSide::right}};
+  seam.b = {1, {GridSide::left}};
+  scene.seams = {seam};
+  EXPECT_EQ(countAtStart(scene).apart, 0u);
+  EXPECT_GT(countAtStart(scene).neighbours, 0u);
+}
+
 TEST(CrossingCounter, SaysWhatToInstallWhenBuiltWithoutCgal) {
   const Cloth cloth(test::sheetScene(2));
   if (CrossingCounter::available())
