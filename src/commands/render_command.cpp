@@ -31,9 +31,13 @@ void checkOutputs(const RenderCommandOptions& options) {
                        ": expected a name ending in .png or .mp4, as still.png, frame_%04d.png, clip.mp4");
     checkPicture("--out", out, settingsOf(options));
   }
-  if (options.every != 1 && std::none_of(options.outs.begin(), options.outs.end(), hasFrameNumber))
+  const bool hasNumbers = std::ranges::any_of(options.outs, hasFrameNumber);
+  if (options.every != 1 && !hasNumbers)
     throw UsageError("--every " + std::to_string(options.every) +
                      ": no picture is saved every so many frames; give --out a name as frame_%04d.png");
+  if (options.firstFrame != 0 && !hasNumbers)
+    throw UsageError("--first-frame " + std::to_string(options.firstFrame) +
+                     ": no picture has the number of its frame; give --out a name as frame_%04d.png");
   for (const std::string& out : options.outs)
     checkWritable(numberedName(out, options.firstFrame + options.frames));
 }

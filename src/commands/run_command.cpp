@@ -45,9 +45,17 @@ void checkDistinct(const RunOptions& options) {
   if (!options.trace.empty()) add(options.trace, "--trace " + options.trace);
 }
 
-// @throws UsageError where --every is for no output
-void checkEvery(const RunOptions& options) {
+// @throws UsageError where --every or --first-frame is for no output
+void checkNumbering(const RunOptions& options) {
   const auto hasFrames = [](const std::string& save) { return isSequence(save) || hasFrameNumber(save); };
+  const auto hasNumbers = [](const std::string& save) {
+    return hasFrameNumber(save) || (isSequence(save) && !isPointCache(save));
+  };
+  if (options.firstFrame != 0 && std::ranges::none_of(options.saves, hasNumbers))
+    throw UsageError(
+        "--first-frame " + std::to_string(options.firstFrame) +
+        ": nothing that is saved has numbers of frames; give --save a name as cloth_%04d.obj, or "
+        ".usda, .usdc, .usd");
   if (options.every != 1 && std::none_of(options.saves.begin(), options.saves.end(), hasFrames))
     throw UsageError(
         "--every " + std::to_string(options.every) +
@@ -66,7 +74,7 @@ void checkSaves(const RunOptions& options) {
                        ": the extension is none of .csv, .ply, .obj, .glb, .npz, .state, .pc2, .usda, .usdc, "
                        ".usd, .png, .mp4");
   }
-  checkEvery(options);
+  checkNumbering(options);
   for (const std::string& save : options.saves) {
     checkWritable(numberedName(save, options.firstFrame + options.frames.value_or(0)));
     if (isPointCache(save)) checkWritable(restMeshBeside(save));

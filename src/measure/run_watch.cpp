@@ -236,9 +236,9 @@ std::vector<Warning> RunWatch::warnings(const Scene& scene) const {
     warnings.push_back(
         {"start", 0, "points of the cloth coincide",
          std::to_string(coincidentPoints_) +
-             " points lie on others, to which no seam joins them: contact cannot tell one side of the cloth "
-             "from the other there and holds it fast; weld or sew them (of a lying cloth `top` is "
-             "row 0), or begin with borders 1 mm apart"});
+             " points lie on others, to which no seam joins them: contact holds them fast, since it cannot "
+             "tell one side of the cloth from the other there; weld or sew them, or begin with "
+             "borders 1 mm apart"});
   if (std::optional<Warning> longSteps = longStepsWarning(scene)) warnings.push_back(std::move(*longSteps));
   warnings.insert(warnings.end(), paths_.begin(), paths_.end());
   if (unseenColliders_ > 0)

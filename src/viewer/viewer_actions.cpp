@@ -415,9 +415,8 @@ void Viewer::warnOfPaths() {
 }
 
 // The scene with the pins that were set by hand and the camera where it is.
-Scene Viewer::sceneAsSeen() {
-  Simulation& simulation = session().simulation();
-  Scene scene = withPinsByHand(open_->scene(), simulation.cloth(), simulation.solver().state());
+Scene Viewer::sceneAsSeen(const State& state) {
+  Scene scene = withPinsByHand(open_->scene(), session().simulation().cloth(), state);
   scene.camera = open_->camera().settings(scene.camera);
   return scene;
 }
@@ -442,7 +441,7 @@ void Viewer::saveSceneAs(const std::filesystem::path& path) {
   Simulation& simulation = session().simulation();
   const State state = simulation.solver().state();
   const bool isScene = !canSaveStateAs(path);
-  isScene ? saveScene(sceneAsSeen(), path) : saveState(state, simulation.cloth(), path);
+  isScene ? saveScene(sceneAsSeen(state), path) : saveState(state, simulation.cloth(), path);
   confirmed_ = path.string();
   column_.scenes().remember(path.string());
   say("Saved " + std::filesystem::absolute(path).lexically_normal().string() +

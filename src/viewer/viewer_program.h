@@ -120,7 +120,7 @@ class Viewer {
   // Loads a scene while the window says so. When the window is closed meanwhile, the program ends.
   [[nodiscard]] std::unique_ptr<OpenScene> load(const std::string& source,
                                                 const std::function<std::unique_ptr<OpenScene>()>& make);
-  [[nodiscard]] Scene sceneAsSeen();
+  [[nodiscard]] Scene sceneAsSeen(const State& state);
   void saveSceneAs(const std::filesystem::path& path);
   void saveCurves();
   void reloadShaders();

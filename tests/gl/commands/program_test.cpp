@@ -336,7 +336,9 @@ TEST(Program, AnswersWrongUsageWithTwo) {
         "render -f pinned2 --frames 1 --out clip.gif", "render -f pinned2 --frames 1 --out a.png --size 0x0",
         "describe cloth.dampin", "run -f pinned2 --frames 1 --seed 2",
         "run -f pinned2 --frames 4 --every 2 --save a.obj",
-        "render -f pinned2 --frames 4 --every 2 --out a.png"})
+        "render -f pinned2 --frames 4 --every 2 --out a.png",
+        "run -f pinned2 --frames 4 --first-frame 2 --save a.pc2",
+        "render -f pinned2 --frames 4 --first-frame 2 --out a.png"})
     EXPECT_EQ(clothsim(arguments).exitCode, 2) << arguments;
 }
 
