@@ -10,7 +10,6 @@ layout(binding = RIGHT_HAND_SIDES_UNIT) uniform samplerBuffer rightHandSides;
 layout(binding = AIR_BLOCKS_UNIT) uniform samplerBuffer airBlocks;
 layout(binding = DISPLACEMENTS_UNIT) uniform samplerBuffer displacements;
 layout(binding = ITERATES_UNIT) uniform samplerBuffer iterates;
-layout(binding = DIRECTIONS_UNIT) uniform samplerBuffer directions;
 layout(binding = INCREMENTS_UNIT) uniform samplerBuffer increments;
 layout(binding = STARTS_UNIT) uniform samplerBuffer starts;
 

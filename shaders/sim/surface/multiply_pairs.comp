@@ -1,7 +1,7 @@
 // What the pairs do to the directions.
 #include "shared/implicit.h"
 #include "sim/implicit/scalars.glsl"
-#include "sim/implicit/common.glsl"
+#include "sim/implicit/vectors.glsl"
 #include "sim/surface/pairs.glsl"
 
 layout(std430, binding = SURFACE_OUT_BINDING) writeonly buffer Rows { vec4 newRows[]; };
