@@ -38,14 +38,15 @@ void main() {
   if (local >= piece.columns) return;
   uint i = piece.firstParticle + local;
   vec3 here = placeOf(i);
-  vec2 uv = coordinates[i];
   vec3 sum = vec3(0), along = vec3(0);
   float strain = -1.0;
-  // Of every triangle around the particle the two other corners in their order.
-  for (uint at = cornerAt(local), end = cornerAt(local + 1u); at < end; at += 2u) {
-    uint next = cornerAt(at), previous = cornerAt(at + 1u);
+  // Of every triangle around the particle the two other corners in their order, and where its own texture coordinates are.
+  for (uint at = cornerAt(local), end = cornerAt(local + 1u); at < end; at += 3u) {
+    uint next = cornerAt(at), previous = cornerAt(at + 1u), own = cornerAt(at + 2u);
+    bool isAtSeam = own != 0u;
     vec3 p = placeOf(next) - here, q = placeOf(previous) - here;
-    vec2 uvP = coordinates[next] - uv, uvQ = coordinates[previous] - uv;
+    vec2 uv = coordinates[isAtSeam ? own : i];
+    vec2 uvP = coordinates[isAtSeam ? own + 1u : next] - uv, uvQ = coordinates[isAtSeam ? own + 2u : previous] - uv;
     sum += cross(p, q);
     along += sign(uvP.x * uvQ.y - uvQ.x * uvP.y) * (uvQ.y * p - uvP.y * q);
     strain = max(strain, max(strainOf(i, next), strainOf(i, previous)));

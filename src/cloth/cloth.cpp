@@ -146,10 +146,10 @@ void checkPinMotions(const ClothSettings& settings) {
 // How long a unit of u and of v is on the mesh, as the mean over its area: |dx/du|, |dx/dv|.
 std::array<double, 2> textureSizeOf(const MeshShape& shape, const std::vector<Vec3d>& points) {
   double areas = 0, alongU = 0, alongV = 0;
-  for (const MeshShape::Triangle& t : shape.triangles) {
+  for (std::size_t i = 0; i < shape.triangles.size(); ++i) {
+    const MeshShape::Triangle& t = shape.triangles[i];
     const Vec3d p = points[t[1]] - points[t[0]], q = points[t[2]] - points[t[0]];
-    const auto& [a, b, c] = std::array{shape.textureCoordinates[t[0]], shape.textureCoordinates[t[1]],
-                                       shape.textureCoordinates[t[2]]};
+    const auto& [a, b, c] = shape.cornerCoordinates[i];
     const double pu = double{b[0]} - double{a[0]}, pv = double{b[1]} - double{a[1]},
                  qu = double{c[0]} - double{a[0]}, qv = double{c[1]} - double{a[1]};
     const double determinant = pu * qv - qu * pv, area = length(cross(p, q));
@@ -296,8 +296,14 @@ void Cloth::addMesh(const ClothSettings& settings) {
   mesh.particleMass = std::accumulate(mechanics.masses.begin(), mechanics.masses.end(), 0.0) / mesh.columns;
   appendHinges(*shape, mechanics, place, lists_.hinges);
   appendMembranes(*shape, mechanics, place, mesh.restScale, lists_.membranes);
-  for (const auto& [a, b, c] : shape->triangles)
+  for (std::size_t t = 0; t < shape->triangles.size(); ++t) {
+    const auto& [a, b, c] = shape->triangles[t];
     lists_.triangles.push_back({first + a, first + b, first + c});
+    const std::array ofPoints{shape->textureCoordinates[a], shape->textureCoordinates[b],
+                              shape->textureCoordinates[c]};
+    if (shape->cornerCoordinates[t] != ofPoints)
+      textureSeams_.emplace(lists_.triangles.back(), shape->cornerCoordinates[t]);
+  }
   mesh.endTriangle = static_cast<std::uint32_t>(lists_.triangles.size());
   pieces_.push_back(std::move(mesh));
 }

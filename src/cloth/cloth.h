@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -147,6 +148,10 @@ struct Spring {
 };
 
 class Cloth;
+// Where parts of a texture meet on a mesh, a point has other texture coordinates in one triangle than in the
+// next: of triangles that have others than Cloth::textureCoordinates() those of their corners.
+using TextureSeams = std::map<std::array<std::uint32_t, 3>, std::array<std::array<float, 2>, 3>>;
+
 // The smallest distance of two neighbours at rest, on grids and meshes; 0 for particles without any [m].
 [[nodiscard]] double smallestSpacing(const Cloth& cloth);
 
@@ -180,6 +185,7 @@ class Cloth {
   // 0 to 1, u along the columns and v downwards along the rows, which is from the last row to the first where
   // rowsGoUp; of a mesh those of its file.
   [[nodiscard]] std::vector<std::array<float, 2>> textureCoordinates() const;
+  [[nodiscard]] const TextureSeams& textureSeams() const { return textureSeams_; }
   // All enabled springs in ascending number; for measuring and drawing, not used while stepping.
   [[nodiscard]] std::vector<Spring> springs() const;
   [[nodiscard]] std::uint64_t triangleCount() const;
@@ -196,6 +202,7 @@ class Cloth {
   std::vector<double> inverseMasses_;
   std::vector<double> meshMasses_;                     // by particle; empty without meshes
   std::vector<std::array<float, 2>> meshCoordinates_;  // the same
+  TextureSeams textureSeams_;
   SpringLists lists_;
   std::vector<SeamSpring> seams_;
 };

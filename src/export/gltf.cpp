@@ -1,39 +1,43 @@
 // glTF 2.0 in one binary file (.glb), written by Open Asset Import Library.
 #include <assimp/scene.h>
+#include <algorithm>
 #include <assimp/Exporter.hpp>
 #include <map>
 
 #include "core/error.h"
 #include "export/formats.h"
+#include "export/texture_points.h"
 
 namespace clothsim {
 namespace {
 
-// The points of a piece and its triangles. The library frees what a scene holds.
-aiMesh* makeMesh(const Piece& piece, const State& state, const std::vector<Vec3f>& normals,
-                 const std::vector<std::array<float, 2>>& coordinates,
+// The points of a piece and its triangles; at a seam of the texture a point is there once for each of its
+// coordinates. The library frees what a scene holds.
+aiMesh* makeMesh(const Cloth& cloth, const Piece& piece, const State& state,
+                 const std::vector<Vec3f>& normals,
                  const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+  const TexturePoints texture(cloth, piece);
   auto* mesh = new aiMesh;
   mesh->mPrimitiveTypes = aiPrimitiveType_TRIANGLE;
-  mesh->mNumVertices = piece.particleCount();
+  mesh->mNumVertices = static_cast<unsigned>(texture.points().size());
   mesh->mVertices = new aiVector3D[mesh->mNumVertices];
   mesh->mNormals = new aiVector3D[mesh->mNumVertices];
   mesh->mTextureCoords[0] = new aiVector3D[mesh->mNumVertices];
   mesh->mNumUVComponents[0] = 2;
   for (std::uint32_t i = 0; i < mesh->mNumVertices; ++i) {
-    const std::size_t particle = piece.firstParticle + i;
+    const auto& [particle, uv] = texture.points()[i];
     const Particle4& x = state.positions[particle];
     const Vec3f& n = normals[particle];
     mesh->mVertices[i] = {x.x, x.y, x.z};
     mesh->mNormals[i] = {n.x, n.y, n.z};
-    mesh->mTextureCoords[0][i] = {coordinates[particle][0], coordinates[particle][1], 0};
+    mesh->mTextureCoords[0][i] = {uv[0], uv[1], 0};
   }
   mesh->mNumFaces = static_cast<unsigned>(triangles.size());
   mesh->mFaces = new aiFace[mesh->mNumFaces];
   for (std::size_t t = 0; t < triangles.size(); ++t) {
     mesh->mFaces[t].mNumIndices = 3;
     mesh->mFaces[t].mIndices = new unsigned[3];
-    for (std::size_t k = 0; k < 3; ++k) mesh->mFaces[t].mIndices[k] = triangles[t][k] - piece.firstParticle;
+    std::ranges::copy(texture.of(triangles[t]), mesh->mFaces[t].mIndices);
   }
   return mesh;
 }
@@ -51,7 +55,6 @@ using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 // loose points and has none.
 void fill(aiScene& scene, const State& state, const Cloth& cloth) {
   const std::vector<Vec3f> normals = vertexNormals(state, cloth);
-  const std::vector<std::array<float, 2>> coordinates = pictureCoordinates(cloth);
   std::map<std::size_t, Triangles> ofPieces;
   for (const auto& triangle : remainingTriangles(cloth, state.cuts))
     ofPieces[cloth.pieceOf(triangle[0])].push_back(triangle);
@@ -66,7 +69,7 @@ void fill(aiScene& scene, const State& state, const Cloth& cloth) {
   for (const auto& [piece, triangles] : ofPieces) {
     const unsigned number = scene.mNumMeshes++;
     const std::string name = clothName(cloth, piece);
-    scene.mMeshes[number] = makeMesh(cloth.pieces()[piece], state, normals, coordinates, triangles);
+    scene.mMeshes[number] = makeMesh(cloth, cloth.pieces()[piece], state, normals, triangles);
     scene.mMeshes[number]->mName = name;
     aiNode* const node = scene.mRootNode->mChildren[number] = makeNode(name);
     scene.mRootNode->mNumChildren = scene.mNumMeshes;

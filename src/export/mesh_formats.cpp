@@ -7,6 +7,7 @@
 
 #include "export/formats.h"
 #include "export/text_numbers.h"
+#include "export/texture_points.h"
 
 namespace clothsim {
 namespace {
@@ -83,7 +84,16 @@ std::string formatCsv(const State& state) {
 std::string formatObj(const State& state, const Cloth& cloth, ObjObjects objects) {
   std::string text = "# clothsim, step " + std::to_string(state.clock.step) + ", metres, y up\n";
   for (const Particle4& x : state.positions) appendLine(text, "v", {x.x, x.y, x.z});
-  for (const auto& uv : pictureCoordinates(cloth)) appendLine(text, "vt", {uv[0], uv[1]});
+  std::vector<TexturePoints> texture;
+  std::vector<std::size_t> firstPoints;  // of each cloth in the list of all texture coordinates
+  std::size_t points = 0;
+  for (const Piece& piece : cloth.pieces()) {
+    texture.emplace_back(cloth, piece);
+    firstPoints.push_back(points);
+    points += texture.back().points().size();
+    for (const TexturePoints::Point& point : texture.back().points())
+      appendLine(text, "vt", {point.coordinates[0], point.coordinates[1]});
+  }
   for (const Vec3f& n : vertexNormals(state, cloth)) appendLine(text, "vn", {n.x, n.y, n.z});
   const bool hasObjects = objects == ObjObjects::byCloth && cloth.pieces().size() > 1;
   std::optional<std::size_t> object;
@@ -91,12 +101,15 @@ std::string formatObj(const State& state, const Cloth& cloth, ObjObjects objects
     const std::size_t piece = cloth.pieceOf(triangle[0]);
     if (hasObjects && object != piece) text += "o " + clothName(cloth, *(object = piece)) + "\n";
     text += 'f';
-    for (const std::uint32_t corner : triangle) {
+    const std::array<std::uint32_t, 3> ofTexture = texture[piece].of(triangle);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t corner = triangle[k] + std::size_t{1};  // OBJ counts from one
       text += ' ';
-      for (const char* separator : {"/", "/", ""}) {
-        appendIndex(text, corner + std::size_t{1});  // OBJ counts from one
-        text += separator;
-      }
+      appendIndex(text, corner);
+      text += '/';
+      appendIndex(text, firstPoints[piece] + ofTexture[k] + 1);
+      text += '/';
+      appendIndex(text, corner);
     }
     text += '\n';
   }

@@ -13,6 +13,7 @@
 #include "export/formats.h"
 #include "export/sequence_formats.h"
 #include "export/spool.h"
+#include "export/texture_points.h"
 #include "export/usd_binary.h"
 #include "export/usd_parts.h"
 
@@ -32,6 +33,17 @@ UsdBox boxAround(std::span<const Vec3f> points) {
 
 void appendPoints(std::string& text, std::span<const Vec3f> points) {
   appendUsdArray(text, points, [&](const Vec3f& x) { appendUsdVector(text, x); });
+}
+
+// A list of what `cornersOf` has for the corners of each triangle.
+template <class CornersOf>
+void appendCorners(std::string& text, const Triangles& triangles, CornersOf cornersOf) {
+  std::vector<std::uint32_t> corners;
+  for (const auto& triangle : triangles) {
+    const std::array<std::uint32_t, 3> found = cornersOf(triangle);
+    corners.insert(corners.end(), found.begin(), found.end());
+  }
+  appendUsdArray(text, corners, [&](std::uint32_t corner) { appendIndex(text, corner); });
 }
 
 class UsdWriter final : public SequenceWriter {
@@ -88,16 +100,23 @@ class UsdWriter final : public SequenceWriter {
                        "        uniform token subdivisionScheme = \"none\"\n        rel material:binding = " +
                        "</clothsim/materials/" + usdClothMaterial(scene_, number) +
                        ">\n        texCoord2f[] primvars:st = ";
-    const auto coordinates = pictureCoordinates(cloth_);
-    appendUsdArray(text, std::span(coordinates).subspan(piece.firstParticle, piece.particleCount()),
-                   [&](const std::array<float, 2>& uv) {
-                     text += '(';
-                     appendNumber(text, uv[0]);
-                     text += ", ";
-                     appendNumber(text, uv[1]);
-                     text += ')';
-                   });
-    write(text + " (\n            interpolation = \"vertex\"\n        )\n");
+    const TexturePoints texture(cloth_, piece);
+    appendUsdArray(text, texture.points(), [&](const TexturePoints::Point& point) {
+      text += '(';
+      appendNumber(text, point.coordinates[0]);
+      text += ", ";
+      appendNumber(text, point.coordinates[1]);
+      text += ')';
+    });
+    write(text + " (\n            interpolation = \"" + (texture.hasSeams() ? "faceVarying" : "vertex") +
+          "\"\n        )\n");
+    if (texture.hasSeams())
+      writeTriangles("primvars:st:indices", piece, [&](std::string& out, const Triangles& triangles) {
+        appendCorners(out, triangles, [&](const Triangles::value_type& t) {
+          const std::uint32_t first = piece.firstParticle;
+          return texture.of({first + t[0], first + t[1], first + t[2]});
+        });
+      });
     writeSamples("point3f[] points", piece, appendPoints);
     writeSamples("float3[] extent", piece, [](std::string& out, std::span<const Vec3f> points) {
       const UsdBox box = boxAround(points);
@@ -109,9 +128,7 @@ class UsdWriter final : public SequenceWriter {
       appendUsdArray(out, triangles, [&](const auto&) { out += '3'; });
     });
     writeTriangles("faceVertexIndices", piece, [](std::string& out, const Triangles& triangles) {
-      std::vector<std::uint32_t> corners;
-      for (const auto& triangle : triangles) corners.insert(corners.end(), triangle.begin(), triangle.end());
-      appendUsdArray(out, corners, [&](std::uint32_t corner) { appendIndex(out, corner); });
+      appendCorners(out, triangles, [](const Triangles::value_type& triangle) { return triangle; });
     });
     write("    }\n");
   }

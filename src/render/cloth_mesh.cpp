@@ -75,7 +75,7 @@ std::vector<std::uint32_t> coarseTriangles(GLuint columns, GLuint rows, GLuint f
 ClothMesh::ClothMesh(const Cloth& cloth)
     : normals_("cloth normals", cloth.particleCount()),
       tangents_("cloth tangents", cloth.particleCount()),
-      textureCoordinates_("cloth texture coordinates", cloth.textureCoordinates()),
+      textureCoordinates_("cloth texture coordinates", textureCoordinatesOf(cloth)),
       positionsTexture_("cloth positions", normals_.name(), GL_RGBA32F),
       vertices_("cloth") {
   for (const Piece& piece : cloth.pieces()) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "shared/render_layout.h"
@@ -87,19 +88,46 @@ void appendSpread(const Cloth& cloth, std::uint32_t particle, const std::vector<
   }
 }
 
+// Of a triangle at a seam of the texture the coordinates of its corners 0, 1, 2, 0, 1: from each corner on
+// there are three.
+constexpr std::uint32_t COORDINATES_A_TRIANGLE = 5;
+
+// Where in textureCoordinatesOf() those of each such triangle begin.
+std::map<Triangles::value_type, std::uint32_t> placesAtSeams(const Cloth& cloth) {
+  std::map<Triangles::value_type, std::uint32_t> places;
+  std::uint32_t place = cloth.particleCount();
+  for (const auto& [triangle, corners] : cloth.textureSeams()) {
+    places.emplace_hint(places.end(), triangle, place);
+    place += COORDINATES_A_TRIANGLE;
+  }
+  return places;
+}
+
 }  // namespace
+
+std::vector<std::array<float, 2>> textureCoordinatesOf(const Cloth& cloth) {
+  std::vector<std::array<float, 2>> coordinates = cloth.textureCoordinates();
+  for (const auto& [triangle, corners] : cloth.textureSeams())
+    for (std::uint32_t k = 0; k < COORDINATES_A_TRIANGLE; ++k) coordinates.push_back(corners[k % 3]);
+  return coordinates;
+}
 
 std::vector<std::uint32_t> meshNeighbours(const Cloth& cloth, const SpringLists& lists, const Piece& mesh,
                                           double reach) {
   const std::uint32_t count = mesh.particleCount();
+  const std::map<Triangles::value_type, std::uint32_t> seams = placesAtSeams(cloth);
   std::vector<std::uint32_t> words(std::size_t{count} + 1);
   for (std::uint32_t local = 0; local < count; ++local) {
     const std::uint32_t i = mesh.firstParticle + local;
     words[local] = static_cast<std::uint32_t>(words.size());
     for (std::uint32_t at = lists.trianglesOf.starts[i]; at < lists.trianglesOf.starts[i + 1]; ++at) {
-      const auto [next, previous] = othersOf(lists.triangles[lists.trianglesOf.entries[at]], i);
+      const auto& triangle = lists.triangles[lists.trianglesOf.entries[at]];
+      const auto [next, previous] = othersOf(triangle, i);
       words.push_back(next);
       words.push_back(previous);
+      const auto seam = seams.find(triangle);
+      const auto corner = static_cast<std::uint32_t>(std::ranges::find(triangle, i) - triangle.begin());
+      words.push_back(seam == seams.end() ? 0 : seam->second + corner);
     }
   }
   words[count] = static_cast<std::uint32_t>(words.size());

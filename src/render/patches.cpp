@@ -1,6 +1,8 @@
 #include "render/patches.h"
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 namespace clothsim {
 namespace {
@@ -11,13 +13,14 @@ class Divider {
  public:
   Divider(std::span<const std::array<std::uint32_t, 3>> triangles, std::uint32_t steps,
           std::uint32_t firstPoint, std::span<const Vec3d> rest,
-          std::span<const std::array<float, 2>> textureCoordinates)
+          std::span<const std::array<float, 2>> textureCoordinates, const TextureSeams& textureSeams)
       : sides_(triangles),
         corners_(borderOf(sides_)),
         steps_(steps),
         firstPoint_(firstPoint),
         rest_(rest),
-        textureCoordinates_(textureCoordinates) {
+        textureCoordinates_(textureCoordinates),
+        textureSeams_(textureSeams) {
     makeCornerPoints();
     makeSidePoints();
     for (std::uint32_t triangle = 0; triangle < triangles.size(); ++triangle) divide(triangle);
@@ -27,19 +30,32 @@ class Divider {
   Patches made;
 
  private:
-  std::uint32_t add(const PatchPoint& point, std::array<double, 2> textureCoordinate) {
+  std::uint32_t add(const PatchPoint& point, std::array<float, 2> textureCoordinate) {
     made.points.push_back(point);
-    made.textureCoordinates.push_back(
-        {static_cast<float>(textureCoordinate[0]), static_cast<float>(textureCoordinate[1])});
+    made.textureCoordinates.push_back(textureCoordinate);
     return firstPoint_ + static_cast<std::uint32_t>(made.points.size()) - 1;
   }
   // Between three particles, by their steps.
   std::uint32_t addBetween(std::array<std::uint32_t, 3> p, std::array<std::uint32_t, 3> steps) {
+    const std::array corners{textureCoordinates_[p[0]], textureCoordinates_[p[1]], textureCoordinates_[p[2]]};
+    return add({{p[0], p[1], p[2], p[2]}, {steps[0], steps[1], steps[2], 0}}, between(corners, steps));
+  }
+  // Texture coordinates that are `steps` away from those of three corners.
+  [[nodiscard]] std::array<float, 2> between(const std::array<std::array<float, 2>, 3>& corners,
+                                             std::array<std::uint32_t, 3> steps) const {
     std::array<double, 2> uv{};
     for (std::size_t k = 0; k < 3; ++k)
       for (std::size_t c = 0; c < 2; ++c)
-        uv[c] += static_cast<double>(steps[k]) / steps_ * static_cast<double>(textureCoordinates_[p[k]][c]);
-    return add({{p[0], p[1], p[2], p[2]}, {steps[0], steps[1], steps[2], 0}}, uv);
+        uv[c] += static_cast<double>(steps[k]) / steps_ * static_cast<double>(corners[k][c]);
+    return {static_cast<float>(uv[0]), static_cast<float>(uv[1])};
+  }
+  // The point itself, or one at its place with these texture coordinates.
+  std::uint32_t withCoordinates(std::uint32_t point, std::array<float, 2> uv) {
+    const std::size_t local = point - firstPoint_;
+    if (made.textureCoordinates[local] == uv) return point;
+    const auto [found, isNew] = pointsAtSeams_.try_emplace({point, uv}, 0);
+    if (isNew) found->second = add(PatchPoint{made.points[local]}, uv);
+    return found->second;
   }
 
   void makeCornerPoints() {
@@ -94,6 +110,7 @@ class Divider {
   void divide(std::uint32_t triangle) {
     const std::uint32_t side = 3 * triangle;
     const std::array corners{sides_.from(side), sides_.from(side + 1), sides_.from(side + 2)};
+    const auto seam = textureSeams_.find(corners);
     std::vector<std::uint32_t> below, row;
     for (std::uint32_t k = 0; k <= steps_; ++k) {
       row.clear();
@@ -107,6 +124,8 @@ class Divider {
           row.push_back(pointOnSide(side + 2, i));
         else
           row.push_back(addBetween(corners, {i, j, k}));
+        if (seam != textureSeams_.end())
+          row.back() = withCoordinates(row.back(), between(seam->second, {i, j, k}));
       }
       for (std::size_t j = 0; k > 0 && j < row.size(); ++j) {
         made.triangles.push_back({below[j], below[j + 1], row[j]});
@@ -136,6 +155,8 @@ class Divider {
   std::uint32_t steps_, firstPoint_;
   std::span<const Vec3d> rest_;
   std::span<const std::array<float, 2>> textureCoordinates_;
+  const TextureSeams& textureSeams_;
+  std::map<std::pair<std::uint32_t, std::array<float, 2>>, std::uint32_t> pointsAtSeams_;
   std::vector<std::uint32_t> pointOf_;      // by particle
   std::vector<std::uint32_t> firstOnSide_;  // NONE: on its twin
 };
@@ -144,8 +165,9 @@ class Divider {
 
 Patches divideTriangles(std::span<const std::array<std::uint32_t, 3>> triangles, std::uint32_t steps,
                         std::uint32_t firstPoint, std::span<const Vec3d> rest,
-                        std::span<const std::array<float, 2>> textureCoordinates) {
-  return Divider(triangles, steps, firstPoint, rest, textureCoordinates).made;
+                        std::span<const std::array<float, 2>> textureCoordinates,
+                        const TextureSeams& textureSeams) {
+  return Divider(triangles, steps, firstPoint, rest, textureCoordinates, textureSeams).made;
 }
 
 }  // namespace clothsim

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "cloth/cloth.h"
 #include "core/vec.h"
 #include "render/triangle_sides.h"
 
@@ -29,10 +30,11 @@ struct Patches {
 
 // Of triangles whose sides have `steps`, 1 to 8. Points are numbered from `firstPoint`. `rest` and
 // `textureCoordinates` are those of all particles; borders are curves but where they turn by more than 45
-// degrees at rest.
+// degrees at rest. At seams of the texture there are several points at one place.
 [[nodiscard]] Patches divideTriangles(std::span<const std::array<std::uint32_t, 3>> triangles,
                                       std::uint32_t steps, std::uint32_t firstPoint,
                                       std::span<const Vec3d> rest,
-                                      std::span<const std::array<float, 2>> textureCoordinates);
+                                      std::span<const std::array<float, 2>> textureCoordinates,
+                                      const TextureSeams& textureSeams = {});
 
 }  // namespace clothsim

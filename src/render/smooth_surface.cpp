@@ -148,7 +148,7 @@ SmoothSurface::PieceBuffers SmoothSurface::makePatches(
     const Cloth& cloth, const Piece& piece, std::span<const std::array<std::uint32_t, 3>> triangles,
     const shared::ClothPiece& block, Points& all) const {
   const Patches patches = divideTriangles(triangles, block.steps, block.firstPoint, cloth.positions(),
-                                          cloth.textureCoordinates());
+                                          cloth.textureCoordinates(), cloth.textureSeams());
   PieceBuffers made;
   made.block = gl::Buffer<shared::ClothPiece>("smooth piece", std::span(&block, 1));
   made.patches = gl::Buffer<PatchPoint>("smooth patches", patches.points);

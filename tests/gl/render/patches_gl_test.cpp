@@ -97,6 +97,27 @@ TEST_F(PatchesTest, HaveNoGapsBetweenThem) {
   }
 }
 
+// The triangles of one half have another part of the texture than those of the other.
+TEST_F(PatchesTest, KeepToTheirPartOfTheTextureAtItsSeams) {
+  const Rolled rolled;
+  const auto triangles = rolled.cloth.triangles();
+  TextureSeams seams;
+  for (std::size_t t = triangles.size() / 2; t < triangles.size(); ++t)
+    seams[triangles[t]] = {{{5, 5}, {5.5f, 5}, {5, 5.5f}}};
+  constexpr std::uint32_t STEPS = 3;
+  const Patches patches = divideTriangles(triangles, STEPS, 0, rolled.cloth.positions(),
+                                          rolled.cloth.textureCoordinates(), seams);
+  for (std::size_t t = 0; t < patches.triangles.size(); ++t) {
+    const bool isBehind = t / (STEPS * STEPS) >= triangles.size() / 2;
+    for (const std::uint32_t point : patches.triangles[t])
+      EXPECT_EQ(patches.textureCoordinates[point][0] >= 5, isBehind) << t;
+  }
+  const Patches without =
+      divideTriangles(triangles, STEPS, 0, rolled.cloth.positions(), rolled.cloth.textureCoordinates());
+  EXPECT_GT(patches.points.size(), without.points.size());
+  EXPECT_EQ(patches.border, without.border);
+}
+
 TEST_F(PatchesTest, FaceWhereTheirTrianglesDoAndKeepParticlesInPlace) {
   const Rolled rolled;
   const Computed surface = computed(rolled.cloth, rolled.places, 4);
