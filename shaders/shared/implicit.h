@@ -141,9 +141,12 @@ using uint = std::uint32_t;
 #define LARGE_SQUARE 1152921504606846976.0f  // 2^60
 
 #define STEP_ENDED 2u
-// Of a linear system: its preconditioner, by rounding, or its exact Hessian is not positive. It is left as it
-// is, and its Newton step does not count as the last one.
+// Of a linear system: its preconditioner, by rounding, or its exact Hessian is not positive, or r.z has risen
+// to so many times what it began with. It is left as it is, and its Newton step does not count as the last
+// one. Contacts of stiff sheets let r.z rise to 2^18 times and fall again; once it is rounding alone, it
+// rises without end.
 #define SYSTEM_LOST 2u
+#define LOST_RISE 1048576.0f  // 2^20
 
 // The Hessian of a Newton step. Projected, it lacks what compression takes from it, and is positive. But
 // where cloth has buckled that is nearly all of it: updates are small long before the step is solved. After
@@ -242,8 +245,8 @@ SHARED_STRUCT ImplicitScalars {
 
   real sufficientResidual;  // r.z at which further linear systems of the step end [N m]
   uint hessian;             // of the Newton step, HESSIAN_PROJECTED and so on
-  uint unusedA;
-  uint unusedB;
+  real updateBefore;        // the one before lastUpdate
+  real mostResidual;        // r.z beyond which the linear system is lost
 };
 
 #ifdef __cplusplus

@@ -18,7 +18,7 @@ constexpr double LONGEST_CHOSEN_STEP = 1.0 / 60;     // [s],
 constexpr double LONGEST_BUCKLING_STEP = 1.0 / 120;  // of fabric that buckles, under an implicit integrator
 constexpr double LONGEST_FOLDING_STEP = 1.0 / 240;   // where cloth touches cloth: self_collision "contact"
 constexpr double FURTHEST_SOUND =
-    4.4;  // that sound comes in fabric in such a step [m]; of all presets, paper needs it
+    4.4;  // that sound comes in fabric in an implicit step [m]; of all presets, paper needs it
 constexpr double MOST_AIR_AGAINST_INERTIA = 0.09;  // in an implicit step under pressure: h^2 p L / m
 constexpr double ITERATIONS_PER_SECOND = 4800, FEWEST_ITERATIONS = 20, MOST_ITERATIONS = 60;
 constexpr double FEWEST_CONTACT_ITERATIONS = 40;
@@ -307,13 +307,13 @@ double longestPressedStep(const ClothSettings& cloth) {
                      : std::numeric_limits<double>::infinity();
 }
 
-// Crumpled fabric presses on itself by how stiff it is, against its inertia: by the speed of sound,
-// (Y/rho)^(1/2).
-double longestFoldingStep(const ClothSettings& cloth) {
-  if (!buckles(cloth)) return std::numeric_limits<double>::infinity();
+// How stiff fabric is, against its inertia: by the speed of sound, (Y/rho)^(1/2). Crumpled fabric presses on
+// itself by that, and a stiff sheet that turns is stretched by it in every Newton step.
+double longestSoundStep(const ClothSettings& cloth) {
+  if (!cloth.material) return std::numeric_limits<double>::infinity();
   const Material& material = *cloth.material;
   const double stretch = std::max(material.stretch, material.stretchWarp.value_or(material.stretch));
-  return std::min(LONGEST_FOLDING_STEP, FURTHEST_SOUND * std::sqrt(material.density / stretch));
+  return FURTHEST_SOUND * std::sqrt(material.density / stretch);
 }
 
 // Newton's method is slow where folds come and go. There, halving the step makes the motion more accurate
@@ -325,10 +325,8 @@ double longestChosenStep(const Scene& scene) {
   double longest = folds ? LONGEST_BUCKLING_STEP : LONGEST_CHOSEN_STEP;
   if (touches && (folds || scene.cloths.size() > 1)) longest = LONGEST_FOLDING_STEP;
   if (!isSolved) return longest;
-  for (const ClothSettings& cloth : scene.cloths) {
-    longest = std::min(longest, longestPressedStep(cloth));
-    if (touches) longest = std::min(longest, longestFoldingStep(cloth));
-  }
+  for (const ClothSettings& cloth : scene.cloths)
+    longest = std::min({longest, longestPressedStep(cloth), longestSoundStep(cloth)});
   return longest;
 }
 

@@ -51,7 +51,7 @@ constexpr std::array<PassTraits, PASS_COUNT> table{{
      {iterates, centers}, {},
      {centers}, {}},
     {Pass::coarsen, "coarsen", Domain::coarseBlocks, 1,
-     {iterates, centers, coarseBlocks}, {rightHandSides, airBlocks, planes, touching, scalars},
+     {positions, iterates, centers, coarseBlocks}, {rightHandSides, airBlocks, planes, touching, scalars},
      {coarseBlocks, coarseInverses}, solved},
     {Pass::invertDense, "invert dense", Domain::coarseBlocks, 1,
      {centers, coarseBlocks}, {},

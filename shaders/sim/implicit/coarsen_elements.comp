@@ -1,5 +1,6 @@
 // The matrix of the first coarse level, from the elements of the cloth: springs, bending, and what acts on single particles;
-// a block an invocation. The twin of src/solver/cpu/coarse_elements.cpp. POSITIONS_UNIT: the iterate.
+// a block an invocation. The twin of src/solver/cpu/coarse_elements.cpp. POSITIONS_UNIT: where the step starts. Tension is that of
+// there: straight motions, with which the search begins, stretch what turns, and would make turning stiff.
 #include "shared/implicit.h"
 #include "sim/implicit/scalars.glsl"
 #include "sim/implicit/level.glsl"
@@ -47,7 +48,7 @@ Hanging hangingOf(uint i, vec4 x) {
   precise vec3 column = weights.y * (x.xyz - columnCenter);
   return Hanging(vec4(weights.x, row), vec4(weights.y, column));
 }
-Hanging hangingOf(uint i) { return hangingOf(i, positionAt(i)); }
+Hanging hangingOf(uint i) { return hangingOf(i, iterateAt(i)); }
 
 // The element s |sigma t + r x y|^2 / 2.
 void addIsotropic(float s, Hanging hanging) {
@@ -134,16 +135,17 @@ void addParticle(uint i, Hanging hanging) {
 #endif
 }
 
-void addSpring(vec4 x, Hanging hanging, IncidentSpring spring) {
-  vec4 other = positionAt(spring.other);
+void addSpring(uint i, vec4 x, Hanging hanging, IncidentSpring spring) {
+  vec4 other = iterateAt(spring.other);
   Hanging end = hangingOf(spring.other, other);
   precise vec3 d = other.xyz - x.xyz;
-  SpringBlock s = springBlock(d, spring, false);
+  precise vec3 atStart = positionAt(spring.other).xyz - positionAt(i).xyz;
+  float along = springBlock(d, spring, false).along, across = springBlock(atStart, spring, false).across;
   precise vec4 row = end.row - hanging.row;
   precise vec4 column = end.column - hanging.column;
   bool isRigid = isOfAll && x.w > 0.0 && other.w > 0.0;
-  if (!isRigid) addPulling(s.along, d, Hanging(row, column));
-  if (s.across > 0.0) addIsotropic(s.across, Hanging(row, column));
+  if (!isRigid) addPulling(along, d, Hanging(row, column));
+  if (across > 0.0) addIsotropic(across, Hanging(row, column));
 }
 
 #if HAS_MESH
@@ -166,7 +168,7 @@ void addEdgesElement(vec3 scales, vec3 d[3], vec4 rows[3], vec4 columns[3]) {
 
 // Of its first corner, which is at x.
 void addMembrane(vec4 x, Hanging first, Membrane m) {
-  vec4 second = positionAt(m.corners.y), third = positionAt(m.corners.z);
+  vec4 second = iterateAt(m.corners.y), third = iterateAt(m.corners.z);
   Hanging b = hangingOf(m.corners.y, second), c = hangingOf(m.corners.z, third);
   Hanging edges[3] = Hanging[3](difference(c, b), difference(first, c), difference(b, first));
   vec3 d[3] = edgesOf(x.xyz, second.xyz, third.xyz);
@@ -178,19 +180,20 @@ void addMembrane(vec4 x, Hanging first, Membrane m) {
     addEdgesElement(vec3(0.0, m.second), d, rows, columns);
     addEdgesElement(vec3(0.0, 0.0, m.third), d, rows, columns);
   }
-  vec3 tensions = positiveTensions(m, d);
+  uvec3 at = m.corners;
+  vec3 tensions = positiveTensions(m, edgesOf(positionAt(at.x).xyz, positionAt(at.y).xyz, positionAt(at.z).xyz));
   for (int k = 0; k < 3; ++k)
     if (tensions[k] != 0.0) addIsotropic(tensions[k], edges[k]);
 }
 
 void addElementsOf(uint i) {
-  vec4 x = positionAt(i);
+  vec4 x = iterateAt(i);
   Hanging hanging = hangingOf(i, x);
   addParticle(i, hanging);
   uvec4 first = texelFetch(listStarts, int(i)), end = texelFetch(listStarts, int(i) + 1);
   for (uint n = first.x; n < end.x; ++n) {
     IncidentSpring spring = meshSpring(n);
-    if (spring.other < i && pulls(spring)) addSpring(x, hanging, spring);
+    if (spring.other < i && pulls(spring)) addSpring(i, x, hanging, spring);
   }
   for (uint n = first.y; n < end.y; ++n) {
     uint number = texelFetch(meshNumbers, int(n)).x;
@@ -212,7 +215,7 @@ void addElementsOf(uint i) {
 }
 #else
 void addLine(uint i, uint stride, Hanging middle, float b) {
-  bool endOfClamp = positionAt(i).w == 0.0 && (positionAt(i - stride).w == 0.0) != (positionAt(i + stride).w == 0.0);
+  bool endOfClamp = iterateAt(i).w == 0.0 && (iterateAt(i - stride).w == 0.0) != (iterateAt(i + stride).w == 0.0);
   Hanging before = hangingOf(i - stride), behind = hangingOf(i + stride);
   precise float weighted = endOfClamp ? 2.0 * b : b;
   precise vec4 row = (before.row - middle.row) + (behind.row - middle.row);
@@ -223,13 +226,13 @@ void addLine(uint i, uint stride, Hanging middle, float b) {
 void addElementsOf(uint i) {
   uint place = i - step.firstParticle;
   GridPoint p = GridPoint(place % step.columns, place / step.columns, i, true);
-  vec4 x = positionAt(i);
+  vec4 x = iterateAt(i);
   Hanging hanging = hangingOf(i, x);
   addParticle(i, hanging);
   uint cut = cutMaskOf(i);
   for (uint k = 0u; k < OWNED_SPRINGS; ++k) {
     IncidentSpring spring = incidentSpring(p, k, cut);
-    if (spring.exists) addSpring(x, hanging, spring);
+    if (spring.exists) addSpring(i, x, hanging, spring);
   }
   if (!hasMaterial) return;
   bool borderRow = p.row == 0u || p.row + 1u == step.rows;

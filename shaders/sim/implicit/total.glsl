@@ -73,6 +73,8 @@ void takeTotal(Sum total) {
   scalars.residual = residual;
   scalars.leastResidual = scalars.newtonSteps > 0u && least < sufficient ? sufficient : least;
   scalars.kept = 0.0;
+  precise float most = LOST_RISE * residual;
+  scalars.mostResidual = most;
   scalars.isSystemSolved = total < 0.0 ? SYSTEM_LOST : 0u;
 #elif SUM_KIND == SUM_STEP
   scalars.stepSize = quotient(scalars.residual, total);
@@ -82,7 +84,8 @@ void takeTotal(Sum total) {
   float residual = total < 0.0 ? 0.0 : total;
   scalars.kept = quotient(residual, scalars.residual);
   scalars.residual = residual;
-  scalars.isSystemSolved = total < 0.0 ? SYSTEM_LOST : residual <= scalars.leastResidual ? 1u : 0u;
+  bool isLost = total < 0.0 || total > scalars.mostResidual;
+  scalars.isSystemSolved = isLost ? SYSTEM_LOST : residual <= scalars.leastResidual ? 1u : 0u;
 #elif SUM_KIND == SUM_UPDATE
   precise float leastMotion = step.leastMotion * step.leastMotion;
   float motion = total.y < leastMotion ? leastMotion : total.y;
@@ -92,9 +95,15 @@ void takeTotal(Sum total) {
   bool isExact = scalars.hessian == HESSIAN_EXACT && scalars.isSystemSolved == 1u;
   precise float small = (touches ? TINY_UPDATE_IN_CONTACT : TINY_UPDATE) * update;
   bool isTiny = small <= step.tolerance;
+  float last = scalars.lastUpdate;
+  precise float most = 2.0 * step.tolerance;
   precise float squaredUpdate = update * update;
-  precise float allowed = (2.0 * step.tolerance) * (scalars.lastUpdate - update);
-  bool isFalling = (touches || scalars.hessian == HESSIAN_REFUSED) && scalars.newtonSteps > 0u && squaredUpdate <= allowed;
+  precise float allowed = most * (last - update);
+  precise float lastTimesUpdate = last * update;
+  precise float allowedBefore = most * (scalars.updateBefore - last);
+  bool isFalling = (touches || scalars.hessian == HESSIAN_REFUSED) && scalars.newtonSteps > 0u && squaredUpdate <= allowed &&
+                   (touches || scalars.newtonSteps <= 2u || lastTimesUpdate <= allowedBefore);
+  scalars.updateBefore = last;
   scalars.lastUpdate = update;
   precise float tolerated = step.toleratedStiffness * motion;
   bool isNextThorough = scalars.newtonSteps + 1u < THOROUGH_NEWTON_STEPS;

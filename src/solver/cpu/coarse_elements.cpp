@@ -63,6 +63,7 @@ class ElementLoop {
         own_(arguments.own),
         levels_(arguments.own.hierarchy),
         x_(arraysOf(std::as_const(own_.iterate.positions))),
+        starts_(arraysOf(pass_.before.positions)),
         centers_(own_.centers.data()),
         sums_(own_.elementSums.data()),
         first_(first),
@@ -268,13 +269,19 @@ class ElementLoop {
     pullsOfAll_ |= 1u << number;
   }
 
-  INLINE void addSpring(std::uint32_t other, Real stiffness, Real restLength, Real limitLength) {
+  // Tension is that of the start of the step: straight motions, with which the search begins, stretch what
+  // turns, and would make turning stiff.
+  INLINE void addSpring(std::uint32_t own, std::uint32_t other, Real stiffness, Real restLength,
+                        Real limitLength) {
     setVertex(1, other);
     const Vertex from = vertices_[0], to = vertices_[1];
     const Four<Real> d = to.x - from.x;
-    const SpringBlock<Real> block =
-        springBlock(threeOf(d), stiffness, restLength, pass_.step.limitStiffness, limitLength);
-    const Real along = block.along, across = block.across;
+    const Vec3<Real> atStart =
+        at(starts_, static_cast<std::ptrdiff_t>(other)) - at(starts_, static_cast<std::ptrdiff_t>(own));
+    const auto blockOf = [&](Vec3<Real> way) __attribute__((always_inline)) {
+      return springBlock(way, stiffness, restLength, pass_.step.limitStiffness, limitLength);
+    };
+    const Real along = blockOf(threeOf(d)).along, across = blockOf(atStart).across;
     makeRoom();
     Pull* pulls = pulls_.data();
     Turn* turns = turns_.data();
@@ -320,7 +327,7 @@ class ElementLoop {
       rest = pass_.restLengths[static_cast<std::size_t>(incident.slot) * step.totalParticles + i];
       limit = step.limitFactor * rest;
     }
-    addSpring(step.firstParticle + otherRow * step.columns + otherColumn, stiffness, rest, limit);
+    addSpring(i, step.firstParticle + otherRow * step.columns + otherColumn, stiffness, rest, limit);
   }
 
   INLINE void addLines(std::uint32_t i, std::uint32_t column, std::uint32_t row, std::uint32_t cut) {
@@ -364,7 +371,7 @@ class ElementLoop {
       const auto& spring = lists.springs[n];
       const bool doesNothing = spring.stiffness == Real(0) && pass_.step.limitStiffness == Real(0);
       if (spring.other > i || doesNothing) continue;
-      addSpring(spring.other, spring.stiffness, spring.restLength,
+      addSpring(i, spring.other, spring.stiffness, spring.restLength,
                 pass_.step.limitFactor * spring.restLength);
     }
   }
@@ -408,7 +415,8 @@ class ElementLoop {
     setVertex(1, corners[1]);
     setVertex(2, corners[2]);
     const std::array<Vec3<Real>, 3> edges = edgesOf(corners, own_.iterate.positions);
-    const OfEdges<Real> tensions = positiveTensions(roots, strainsOf(restSquared, edges));
+    const OfEdges<Real> tensions =
+        positiveTensions(roots, strainsOf(restSquared, edgesOf(corners, pass_.before.positions)));
     const Four<Real> d[3]{fourOf(edges[0]), fourOf(edges[1]), fourOf(edges[2])};
     const Vertex first = vertices_[0], second = vertices_[1], third = vertices_[2];
     const auto& [xx, xy, xz, yy, yz, zz] = roots;
@@ -453,7 +461,7 @@ class ElementLoop {
   const PassArguments<Real>& pass_;
   ImplicitState<Real>& own_;
   const Hierarchy<Real>& levels_;
-  const Arrays<const Real> x_;
+  const Arrays<const Real> x_, starts_;
   const Four<Real>* centers_;
   ElementSums<Real>* sums_;
   std::uint32_t first_, end_;  // rows

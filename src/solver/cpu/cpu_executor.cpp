@@ -206,19 +206,19 @@ void CpuExecutor<Real>::sum(Pass pass) {
       return dot(cpu::at(left, place), cpu::at(right, place));
     });
   };
-  const auto residual = [&] {
-    const Real sum = product(implicit_.residuals, implicit_.corrections);
-    scalars.isSystemSolved = sum < Real(0) ? SYSTEM_LOST : 0;
-    return cpu::larger(sum, Real(0));
-  };
+  const auto residual = [&] { return product(implicit_.residuals, implicit_.corrections); };
   switch (pass) {
-    case Pass::sumFirstResidual:
-      scalars.residual = residual();
+    case Pass::sumFirstResidual: {
+      const Real first = residual();
+      scalars.residual = cpu::larger(first, Real(0));
+      scalars.mostResidual = Real(LOST_RISE) * scalars.residual;
+      scalars.isSystemSolved = first < Real(0) ? SYSTEM_LOST : 0;
       scalars.leastResidual = parameters_.pieces[0].systemTolerance * scalars.residual;
       if (scalars.newtonSteps > 0)
         scalars.leastResidual = cpu::larger(scalars.leastResidual, scalars.sufficientResidual);
       scalars.kept = 0;
       break;
+    }
     case Pass::sumCurvature: {
       const Real curvature = product(implicit_.directions.positions, implicit_.products);
       scalars.stepSize = curvature > leastSum<Real> ? scalars.residual * reciprocal(curvature) : Real(0);
@@ -227,10 +227,11 @@ void CpuExecutor<Real>::sum(Pass pass) {
       break;
     }
     case Pass::sumNextResidual: {
-      const Real next = residual();
+      const Real sum = residual(), next = cpu::larger(sum, Real(0));
       scalars.kept = scalars.residual > leastSum<Real> ? next * reciprocal(scalars.residual) : Real(0);
       scalars.residual = next;
-      if (scalars.isSystemSolved == 0) scalars.isSystemSolved = next <= scalars.leastResidual ? 1 : 0;
+      const bool isLost = sum < Real(0) || sum > scalars.mostResidual;
+      scalars.isSystemSolved = isLost ? SYSTEM_LOST : next <= scalars.leastResidual ? 1 : 0;
       break;
     }
     case Pass::measureUpdate:
@@ -275,8 +276,9 @@ Real largestSquare(const Components<Real>& v, Real most) {
 // Newton steps end where it is. And it has to be the update of an exact Newton step, or a tiny one. Where the
 // exact Hessian was refused, and in contact, projected updates that fall will do: at the rate t of the last
 // two, t/(1 - t) of the last one is still to come (Hairer and Wanner, "Solving ordinary differential
-// equations II", IV.8), twice the tolerance at most. The first Newton step takes contacts as they were
-// predicted: another one confirms it.
+// equations II", IV.8), twice the tolerance at most; where nothing touches, at the rate of the two before,
+// too: one Newton step stretches a stiff sheet that turns, and the small update of the next one undoes that.
+// The first Newton step takes contacts as they were predicted: another one confirms it.
 template <class Real>
 void CpuExecutor<Real>::measureUpdate() {
   ImplicitScalars<Real>& scalars = implicit_.scalars;
@@ -292,8 +294,12 @@ void CpuExecutor<Real>::measureUpdate() {
   const Real update = square * inverseSquareRoot(square);
   const bool isExact = scalars.hessian == HESSIAN_EXACT && scalars.isSystemSolved == 1;
   const bool isTiny = Real(touches ? TINY_UPDATE_IN_CONTACT : TINY_UPDATE) * update <= step.tolerance;
-  const bool isFalling = (touches || scalars.hessian == HESSIAN_REFUSED) && scalars.newtonSteps > 0 &&
-                         update * update <= (Real(2) * step.tolerance) * (scalars.lastUpdate - update);
+  const Real last = scalars.lastUpdate, most = Real(2) * step.tolerance;
+  const bool isFalling =
+      (touches || scalars.hessian == HESSIAN_REFUSED) && scalars.newtonSteps > 0 &&
+      update * update <= most * (last - update) &&
+      (touches || scalars.newtonSteps <= 2 || last * update <= most * (scalars.updateBefore - last));
+  scalars.updateBefore = last;
   scalars.lastUpdate = update;
   const bool isFollowed =
       scalars.isSystemSolved != SYSTEM_LOST &&

@@ -87,7 +87,6 @@ Array positionsOf(Pass pass) {
   switch (pass) {
     case Pass::elasticForces:
     case Pass::linearize:
-    case Pass::coarsen:
       return Array::iterates;
     case Pass::multiply:
       return Array::directions;

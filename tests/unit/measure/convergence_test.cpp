@@ -57,6 +57,46 @@ TEST(Convergence, OfAStepIsThatItsLastUpdateIsWithinTheTolerance) {
   EXPECT_GT(solved, 0u) << "both kinds were seen";
 }
 
+// A card of paper hangs on one edge, as on a hinge, and swings down, in one long step a frame. Newton steps
+// stretch it, for they go straight, and what is stretched does not turn: the step looks solved.
+TEST(Convergence, IsNotThatOfStiffSheetsBeforeTheyHaveTurned) {
+  Scene scene = test::materialSheet(11, 11, 0.08, 0.08, *materialPreset("paper"));
+  for (int column = 0; column < 11; ++column) scene.cloths[0].pinned.push_back(GridPoint{column, 0});
+  scene.solver.integrator = Integrator::implicit;
+  scene.solver.framesPerSec = 60;
+  scene.solver.simulationSteps = 1;
+  const auto dropIn = [&](double tolerance) {
+    scene.solver.tolerance = tolerance;
+    scene.solver.newtonSteps = tolerance < 1e-3 ? 100 : 40;
+    scene.solver.cgIterations = tolerance < 1e-3 ? 200 : 60;
+    Simulation simulation(scene);
+    const RunSummary summary = runOf(simulation, 6);
+    EXPECT_EQ(summary.convergence.unconvergedSteps, 0u) << tolerance;
+    return simulation.cloth().positions()[0].y - summary.measures.minY;
+  };
+  const double solved = dropIn(1e-4);
+  EXPECT_GT(solved, 0.05);
+  EXPECT_NEAR(dropIn(0.01), solved, 0.02 * solved);
+}
+
+// A sheet at rest, which moves by less than binary32 can solve for: r.z is rounding, and may rise without
+// end.
+TEST(Convergence, IsNotReachedWhereRoundingIsAllThatIsLeft) {
+  Scene scene = test::materialSheet(
+      7, 9, 0.6, 0.8, {.density = 0.2, .stretch = 400, .shear = 60, .bend = 2e-4, .damping = 0.7});
+  scene.cloths[0].orientation = Orientation::vertical;
+  scene.cloths[0].pinned = {GridSide::top};
+  scene.solver.integrator = Integrator::implicit;
+  scene.solver.simulationSteps = 1;
+  scene.solver.tolerance = 1e-6;
+  scene.solver.cgIterations = 500;
+  Simulation simulation(scene);
+  const RunSummary summary = runOf(simulation, 60);
+  EXPECT_FALSE(simulation.checkFrame());
+  EXPECT_GT(summary.convergence.unconvergedSteps, 0u);
+  EXPECT_LT(summary.measures.kineticEnergy, 1e-6);
+}
+
 // A strip of denim that is clamped in a level direction and falls.
 Scene fallingStrip(int newtonSteps, int cgIterations) {
   Scene scene = test::materialSheet(33, 3, 0.3, 0.02, *materialPreset("denim"));

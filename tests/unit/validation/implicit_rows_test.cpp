@@ -91,6 +91,7 @@ class Sheet {
   // largest difference and the largest entry.
   [[nodiscard]] std::pair<double, double> errorOfFirstLevel(const Field& x) {
     (void)product(x, Field(x.size()));
+    state_.positions = own_.iterate.positions;  // where the step starts
     const Hierarchy<double>& levels = own_.hierarchy;
     const LevelParams& level = levels.pieces[0][0];
     for (std::uint32_t c = 0; c < level.coarseCount; ++c)
