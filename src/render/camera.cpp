@@ -158,6 +158,7 @@ void Camera::reset() { now_ = start_; }
 void Camera::setHome(const Camera& other) {
   if (now_ == start_) now_ = other.start_;
   start_ = other.start_;
+  back_ = other.back_;
 }
 
 glm::vec3 Camera::eye() const {

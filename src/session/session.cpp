@@ -27,7 +27,8 @@ void Session::act(const Action& action, bool continues) {
   const Shared<Scene> before = now_.scene;
   if (!std::visit([this](const auto& now) { return apply(now); }, action)) return;
   simulation_.touch();
-  if (std::holds_alternative<EditScene>(action)) {
+  if (std::holds_alternative<EditScene>(action) || std::holds_alternative<MoveCollider>(action) ||
+      std::holds_alternative<TurnCollider>(action)) {
     if (!continues || now_.undo.empty()) now_.undo.push_back(before);
     now_.redo.clear();
   }
@@ -238,15 +239,10 @@ void Session::startColliderMoves() {
 void Session::finishColliderMoves() {
   if (now_.colliderMoves.empty()) return;
   const double time = simulation_.time();
-  const auto moved = [&](const Shared<Scene>& scene) {
-    Scene result = *scene;
-    for (const ColliderMove& move : now_.colliderMoves)
-      if (move.collider < scene->colliders.size()) result = withColliderMoved(std::move(result), move, time);
-    return Shared<Scene>(std::move(result));
-  };
-  now_.scene = moved(now_.scene);
-  for (SceneStack* stack : {&now_.undo, &now_.redo})
-    for (Shared<Scene>& scene : *stack) scene = moved(scene);
+  Scene moved = *now_.scene;
+  for (const ColliderMove& move : now_.colliderMoves)
+    if (move.collider < moved.colliders.size()) moved = withColliderMoved(std::move(moved), move, time);
+  now_.scene = Shared<Scene>(std::move(moved));
   simulation_.configure(now_.scene);
   now_.colliderMoves.clear();
 }

@@ -38,7 +38,7 @@ class Session {
   [[nodiscard]] std::uint64_t clothGeneration() const { return clothGeneration_; }
 
   // Applies an action now and records it, unless it has no effect: a Release without a Grab, a cut beside the
-  // cloth. An EditScene that `continues` the one before it, as while a slider is dragged, is undone together
+  // cloth. What `continues` the edit or the move before it, as while a slider is dragged, is undone together
   // with that one. @throws UsageError for an action that is impossible now, SceneError, OpenGlError; then
   // nothing has changed
   void act(const Action& action, bool continues = false);
@@ -53,8 +53,8 @@ class Session {
   // returns; the state is that of the frame before.
   void setPoll(std::function<bool()> poll) { poll_ = std::move(poll); }
 
-  // Undo and redo EditScene actions. Each is recorded as another EditScene. Colliders that the user has moved
-  // stay where they are.
+  // Undo and redo actions that edit the scene, or that move or turn a collider: it jumps back. Each is
+  // recorded as an EditScene.
   [[nodiscard]] bool canUndo() const { return !now_.undo.empty(); }
   [[nodiscard]] bool canRedo() const { return !now_.redo.empty(); }
   void undo();

@@ -129,8 +129,9 @@ void Chosen::applyToSolid(const MouseContext& context, std::size_t collider, con
     context.act(EditScene{std::move(scene)}, std::exchange(goesOn_, true));
     return;
   }
-  if (moves) context.act(MoveCollider{collider, place}, false);
-  if (turn != nullptr) context.act(TurnCollider{collider, rotationVector(*turn)}, false);
+  if (moves) context.act(MoveCollider{collider, place}, std::exchange(goesOn_, true));
+  if (turn != nullptr)
+    context.act(TurnCollider{collider, rotationVector(*turn)}, std::exchange(goesOn_, true));
 }
 
 void Chosen::applyToPins(const MouseContext& context, const PinGroup& group, const Matrix3& turn) {

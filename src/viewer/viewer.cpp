@@ -20,6 +20,7 @@ constexpr float panelsFrom =
     54;  // width of the window in em from which the panels are open at the first start
 constexpr double quickPicture = 0.015;          // takes so long at most [s]
 constexpr double slowSeconds = 2.5;             // after which remedies are tried
+constexpr double longestWaitForFrame = 1;       // of edits and of other scenes [s]
 constexpr double longestWait = 0.25;            // for input [s]: notices disappear
 constexpr double mostSimulationSeconds = 0.05;  // between two pictures, where a frame takes less
 
@@ -84,6 +85,7 @@ void Viewer::iterate() {
   now_ += elapsed;
   notice_.secondsLeft -= elapsed;
   compare_.pass(elapsed);
+  hurrySteps();
   int frames = 0;
   timings_.time(FrameTimings::simulate, [&] { frames = simulate(elapsed); });
   // While a frame takes its time, the picture changes only by what the user does.
@@ -264,6 +266,15 @@ int Viewer::finishedFrames(int frames, double seconds, bool went,
 void Viewer::doWaiting() {
   if (waitingEdit_) attempt([&] { edit(*std::exchange(waitingEdit_, std::nullopt), editContinues_); });
   for (const auto& task : std::exchange(waiting_, {})) attempt(task);
+}
+
+// A frame that takes long is given up for what waits for its end.
+void Viewer::hurrySteps() {
+  const bool waits = sceneToOpen_ || waitingEdit_ || !waiting_.empty();
+  if (!waits || !steps_.isBusy()) return static_cast<void>(waitingSince_ = now_);
+  if (now_ - waitingSince_ < longestWaitForFrame) return;
+  steps_.stop();
+  say("Waiting for the end of a step");
 }
 
 // Before the end: a step that does not end soon ends with the program.

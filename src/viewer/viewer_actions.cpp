@@ -22,6 +22,13 @@ namespace {
 constexpr double textSizeStep = 0.125;
 constexpr double pinsShownSeconds = 2;  // after a pin was set
 
+// Whether a cloth of springs is a fabric in the other scene.
+bool areOfOtherKinds(const Scene& a, const Scene& b) {
+  return !std::ranges::equal(a.cloths, b.cloths, [](const ClothSettings& one, const ClothSettings& other) {
+    return one.material.has_value() == other.material.has_value();
+  });
+}
+
 }  // namespace
 
 void Viewer::listen() {
@@ -267,9 +274,11 @@ void Viewer::edit(const Scene& scene, bool continues) {
 void Viewer::undo(bool again) {
   if (again ? !session().canRedo() : !session().canUndo())
     return say(again ? "Nothing to redo" : "Nothing to undo");
+  const Shared<Scene> before = open_->sharedScene();
   again ? session().redo() : session().undo();
   column_.measures().sampleSoon();
   pace_ = Pace(open_->frameSeconds());
+  if (areOfOtherKinds(*before, open_->scene())) return startAnew();
   say(again ? "Redone" : "Undone");
 }
 
@@ -290,6 +299,11 @@ void Viewer::restart() {
   column_.measures().forget();
   if (notice_.isError) paused_ = false;  // an error has paused it
   notice_ = {};
+}
+
+void Viewer::startAnew() {
+  restart();
+  say("Springs and fabrics differ too much for a change in motion: starts again", longNoticeSeconds);
 }
 
 bool Viewer::startsAgain() {

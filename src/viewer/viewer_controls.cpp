@@ -113,10 +113,7 @@ void Viewer::apply(const PanelRequests& requests) {
       edit(*open_->loaded(), false);
       restart();
     }
-    if (requests.startsAnew) {
-      restart();
-      say("Springs and fabrics differ too much for a change in motion: starts again", longNoticeSeconds);
-    }
+    if (requests.startsAnew) startAnew();
     if (requests.saveCurves) saveCurves();
     if (requests.chooseSolid) mouse_.chosen().chooseSolid(*requests.chooseSolid);
     if (requests.openScene) sceneToOpen_ = requests.openScene;

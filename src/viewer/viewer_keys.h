@@ -76,7 +76,7 @@ inline constexpr std::array viewerKeys{
     ViewerKey{"I", "next integrator: verlet, euler, implicit, bdf2", ViewerAction::toggleIntegrator},
     ViewerKey{"Tab", "next shading model", ViewerAction::nextShader},
     ViewerKey{"Q", "next quality of the picture: draft, normal, final", ViewerAction::nextQuality},
-    ViewerKey{"Ctrl+Z", "undo the last parameter change", ViewerAction::undo},
+    ViewerKey{"Ctrl+Z", "undo the last change of a parameter, or move of a solid", ViewerAction::undo},
     ViewerKey{"Ctrl+Shift+Z", "redo it", ViewerAction::redo},
     ViewerKey{"Ctrl+P", "screenshot", ViewerAction::screenshot},
     ViewerKey{"Ctrl+R", "start / stop recording a clip", ViewerAction::recordClip},

@@ -110,6 +110,7 @@ class Viewer {
   void undo(bool again);
   void seek(int frame);
   void restart();
+  void startAnew();  // the same where springs have become fabric, or fabric springs
   // Whether ViewerOptions::restartAfter is over.
   [[nodiscard]] bool startsAgain();
   void openScene(const std::string& source);
@@ -138,6 +139,7 @@ class Viewer {
   void endFrames();
   [[noreturn]] void leaveAtOnce();
   void doWaiting();
+  void hurrySteps();
   [[nodiscard]] bool isStepping() const { return stepping_ || steps_.isBusy(); }
   void waitForInput();
   void draw();
@@ -239,6 +241,7 @@ class Viewer {
   double tempo_ = 1;                     // simulated seconds per second that are wanted
   double unpaced_ = 0;                   // time that pace_ does not know of yet [s]
   double lastDrawn_ = 0;                 // [s] since the start
+  double waitingSince_ = 0;              // [s] since the start
   bool stepping_ = false;                // the session is within a frame on this thread. Then, and while
   std::vector<std::function<void()>>
       waiting_;                       // steps_ is busy, what asks the session for something waits here

@@ -181,7 +181,8 @@ TEST(SavedCamera, IsWhereItWasMovedToInThePictureThatWasSeen) {
   for (const char* camera : {"}", R"(, "camera": {"position": [0, 1, 3], "fov": 50}})"}) {
     Scene scene = parseScene(std::string(standing) + "}" + camera, "standing");
     const Cloth cloth(scene);
-    Camera moved(scene, cloth, 1.2);
+    Camera moved(scene, cloth);
+    moved.setHome(Camera(scene, cloth, 1.2));  // as the viewer does, once it knows its window
     EXPECT_EQ(moved.settings(scene.camera), scene.camera) << "it was not moved";
     moved.orbit(0.4, 0.2);
     moved.zoom(0.7);

@@ -210,15 +210,24 @@ TEST_F(SessionTest, UndoesAndRedoesEditsOneByOne) {
   EXPECT_FALSE(session.canRedo()) << "another way was taken";
 }
 
-TEST_F(SessionTest, LeavesMovedCollidersWhereTheyAreWhenItUndoes) {
+TEST_F(SessionTest, UndoesMovesOfCollidersAsEdits) {
   Session session(sheet(), "cpu", makeSolver);
   Scene edited = session.simulation().scene();
   edited.gravity = {0, -1, 0};
   session.act(EditScene{edited});
-  session.act(MoveCollider{0, {1, 2, 3}});
-  stepSoundly(session, 1);
+  const auto origin = [&] { return std::get<Sphere>(session.simulation().scene().colliders[0]).origin; };
+  const Vec3d before = origin();
+  for (int frame = 1; frame <= 2; ++frame) {
+    session.act(MoveCollider{0, {1, 2, 2.0 + frame}}, frame > 1);
+    stepSoundly(session, 1);
+  }
   session.undo();
-  EXPECT_EQ(std::get<Sphere>(session.simulation().scene().colliders[0]).origin, (Vec3d{1, 2, 3}));
+  EXPECT_EQ(origin(), before) << "both at once, since the second goes on with the first";
+  EXPECT_EQ(session.simulation().scene().gravity, (Vec3d{0, -1, 0})) << "the edit before is another one";
+  session.redo();
+  EXPECT_EQ(origin(), (Vec3d{1, 2, 4}));
+  session.undo();
+  session.undo();
   EXPECT_EQ(session.simulation().scene().gravity, (Vec3d{0, -9.8, 0}));
 }
 
