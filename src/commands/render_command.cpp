@@ -69,6 +69,8 @@ int renderCommand(const RenderCommandOptions& options) {
   std::vector<PictureOutput> outputs;
   for (const std::string& out : options.outs) outputs.emplace_back(out, settingsOf(options), scene);
   RunSummary summary;
+  summary.watchesEnergy = options.from.empty();
+  std::vector<Warning> atStart;
   Progress progress("rendering", options.frames);
   for (int frame = 0; frame <= options.frames; ++frame) {
     stopIfInterrupted();
@@ -78,6 +80,7 @@ int renderCommand(const RenderCommandOptions& options) {
                   {options.scene, options.backend, frame, options.frames,
                    std::filesystem::path(options.outs.front()).parent_path()});
     summary.add(simulation);
+    if (frame == 0) print(atStart = summary.watch.warnings(scene));
     if (std::any_of(outputs.begin(), outputs.end(),
                     [&](const PictureOutput& output) { return output.wants(frame); })) {
       Progress exposing("exposing", exposures);
@@ -95,7 +98,7 @@ int renderCommand(const RenderCommandOptions& options) {
   progress.finish();
   for (const std::string& out : options.outs) std::printf("%s\n", out.c_str());
   const std::vector<Warning> warnings = summary.watch.warnings(scene);
-  print(warnings);
+  printLater(warnings, atStart);
   checkStrict(options.strict, warnings);
   return 0;
 }

@@ -88,13 +88,13 @@ void checkSaves(const RunOptions& options) {
   checkWritable(options.trace);
 }
 
-// The mesh beside a point cache is that of the start.
-void warnOfOldMeshes(const std::vector<std::string>& saves) {
+// Warns of point caches, where the mesh beside them is that of the start, of cloth that was cut or tore.
+void addOldMeshes(std::vector<Warning>& warnings, const std::vector<std::string>& saves) {
   for (const std::string& save : saves)
     if (isPointCache(save))
-      std::cerr
-          << "clothsim: warning: " << save
-          << " keeps the triangles of the start, but cloth was cut or tore; save .usda, .usdc or .usd\n";
+      warnings.push_back(
+          {"file", std::nullopt, save + " keeps triangles that are cut",
+           save + " keeps the triangles of the start, but cloth was cut or tore; save .usda, .usdc or .usd"});
 }
 
 // Whether there are pictures to draw, which needs OpenGL.
@@ -262,8 +262,11 @@ int runCommand(const RunOptions& options) {
   Run run(options);
   const int frames = run.frames();
   RunSummary seen;
+  seen.watchesEnergy = !run.isReplay() && options.from.empty();
   seen.add(run.simulation());
   checkStart(options, seen.measures);
+  const std::vector<Warning> atStart = seen.watch.warnings(run.scene());
+  print(atStart);
   std::optional<CrossingCounter> counter;
   Shared<Cloth> countedCloth = run.simulation().sharedCloth();
   if (options.checkCrossings) counter.emplace(countedCloth);
@@ -316,16 +319,17 @@ int runCommand(const RunOptions& options) {
   pictures.finish();
   progress.finish();
   writeTrace();
-  if (seen.state.cuts != cutsAtStart) warnOfOldMeshes(options.saves);
 
+  std::vector<Warning> warnings = seen.watch.warnings(run.scene());
+  if (seen.state.cuts != cutsAtStart) addOldMeshes(warnings, options.saves);
   nlohmann::ordered_json json = summary(options, run, seen);
+  json["warnings"] = toJson(warnings);
   if (counter) json["crossings"] = toJson(crossings);
   if (options.json)
     printJson(json);
   else
     printForPeople(json);
-  const std::vector<Warning> warnings = seen.watch.warnings(run.scene());
-  print(warnings);
+  printLater(warnings, atStart);
   checkStrict(options.strict, warnings);
   return 0;
 }

@@ -90,6 +90,20 @@ class Solid {
 
 }  // namespace
 
+SeamGap seamGap(const Cloth& cloth, const Scene& scene, const State& state, std::optional<double> settled) {
+  SeamGap largest;
+  const double time = state.clock.time();
+  for (const SeamSpring& spring : cloth.seams()) {
+    const Seam& seam = scene.seams[spring.seam];
+    if (settled && time < seam.time + *settled) continue;
+    const double left =
+        seamLengthFactor(seam, time) * length(cloth.positions()[spring.b] - cloth.positions()[spring.a]);
+    const double gap = length(positionOf(state, spring.b) - positionOf(state, spring.a)) - left;
+    if (gap > largest.distance) largest = {gap, spring.seam, spring.stiffness};
+  }
+  return largest;
+}
+
 Measures measure(const Cloth& cloth, const Scene& scene, const State& state) {
   Measures measures;
   const std::size_t count = state.positions.size();
@@ -122,6 +136,7 @@ Measures measure(const Cloth& cloth, const Scene& scene, const State& state) {
         measures.maxPenetration =
             std::max(measures.maxPenetration, solid.penetration(cloth.positions()[i], positionOf(state, i)));
   }
+  measures.seamGap = seamGap(cloth, scene, state).distance;
   return measures;
 }
 

@@ -101,6 +101,17 @@ Warning contactWarning(const ContactFailure& failure, const Scene& scene) {
   return warning;
 }
 
+Warning energyWarning(const EnergyWatch::Gain& gain, const Scene& scene) {
+  const bool isExplicit = !isImplicit(scene.solver.integrator);
+  const bool pushes = isExplicit && scene.solver.selfCollision != SelfCollision::off;
+  return {"energy", gain.frame, "the cloth gains energy",
+          formatted("the cloth moves with up to %.2g J, of which falling has given %.2g J; ", gain.kinetic,
+                    gain.fallen) +
+              (pushes ? "self_collision pushes it: set solver.integrator=implicit and "
+                        "solver.self_collision=contact"
+                      : stepsAdvice(scene))};
+}
+
 // "31 %", "0.4 %"
 std::string percent(std::uint64_t part, std::uint64_t whole) {
   const double share = 100 * static_cast<double>(part) / static_cast<double>(whole);
@@ -152,13 +163,16 @@ std::vector<Warning> pathWarnings(const Cloth& cloth, const Scene& scene, const 
 
 Warning convergenceWarning(const ConvergenceCounts& counts, double largestUpdate, const Scene& scene) {
   const std::string share = percent(counts.unconvergedSteps, counts.steps);
+  // Small updates do not count where their linear systems ended early.
+  const bool endedEarly = largestUpdate <= scene.solver.tolerance;
+  const std::string cap = endedEarly ? "cg_iterations (now " + std::to_string(scene.solver.cgIterations.count)
+                                     : "newton_steps (now " + std::to_string(scene.solver.newtonSteps);
   return {"convergence", std::nullopt,
           share + formatted(" of steps not solved (last update up to %.1g)", largestUpdate),
           std::to_string(counts.unconvergedSteps) + " of " + std::to_string(counts.steps) + " steps (" +
               share + ") ended before they were solved (" +
               formatted("last update up to %.2g, tolerance %.2g", largestUpdate, scene.solver.tolerance) +
-              "); " + stepsAdvice(scene) + " or solver.newton_steps (now " +
-              std::to_string(scene.solver.newtonSteps) + ")"};
+              "); " + stepsAdvice(scene) + " or solver." + cap + ")"};
 }
 
 std::optional<Warning> longStepsWarning(const Scene& scene) {
@@ -192,10 +206,40 @@ std::optional<Warning> thinLayersWarning(const Scene& scene, const Cloth& cloth)
                      "; use fewer points or a smaller thickness"};
 }
 
+std::optional<Warning> farFromOriginWarning(const Scene& scene, const State& state) {
+  constexpr double doubtfulSpeed = 0.005;  // [m/s]
+  if (isImplicit(scene.solver.integrator)) return std::nullopt;
+  float farthest = 0;
+  for (const Particle4& x : state.positions)
+    farthest = std::max({farthest, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
+  // A step adds to a coordinate what is more than half of its last digit.
+  const double digit = std::nextafter(farthest, 2 * farthest) - farthest,
+               lost = 0.5 * digit / stepLength(scene.solver);
+  if (!(lost > doubtfulSpeed)) return std::nullopt;
+  return Warning{"start", 0, "far from the origin, where explicit steps lose slow motions",
+                 formatted("the cloth begins %.3g m from the origin, where binary32 holds places to %.1g m: "
+                           "explicit steps of %.2g s lose motions below %.2g m/s there; ",
+                           static_cast<double>(farthest), digit, stepLength(scene.solver), lost) +
+                     "move the scene nearer to the origin, or set solver.integrator=implicit"};
+}
+
+std::optional<Warning> seamWarning(int frame, const Cloth& cloth, const Scene& scene, const State& state) {
+  constexpr double settled = 0.2;  // what swings when a seam closes has come to rest [s]
+  const SeamGap gap = seamGap(cloth, scene, state, settled);
+  if (gap.distance <= doubtfulDistance(cloth)) return std::nullopt;
+  const std::string far = formatted("%.3g mm", 1000 * gap.distance),
+                    name = "seams." + std::to_string(gap.seam);
+  return Warning{"seam", frame, name + " gapes by " + far,
+                 "points that " + name + " joins are " + far + " apart though it is closed; raise " + name +
+                     ".stiffness" + formatted(" (now %.3g N/m)", gap.stiffness) +
+                     ", or see that it joins the borders you mean"};
+}
+
 void RunWatch::start(const Cloth& cloth, const Scene& scene, const State& state) {
   startInColliders_ = overlapsWithColliders(cloth, scene, state);
   coincidentPoints_ = hasSurfaceContact(scene) ? coincidentPoints(cloth, state) : 0;
   paths_ = pathWarnings(cloth, scene, state);
+  farFromOrigin_ = farFromOriginWarning(scene, state);
   startWithoutState(cloth, scene);
 }
 
@@ -207,6 +251,7 @@ void RunWatch::startWithoutState(const Cloth& cloth, const Scene& scene) {
 void RunWatch::add(int frame, const Cloth& cloth, const Scene& scene, const State& state, double strain,
                    const ContactCounts& counts) {
   contacts_.add(frame, cloth, scene, state, strain, counts);
+  seams_ = seamWarning(frame, cloth, scene, state);
   peakStrain_ = std::max(peakStrain_, strain);
   crowdedSteps_ = counts.crowdedSteps;
   passages_ = counts.passages;
@@ -239,6 +284,7 @@ std::vector<Warning> RunWatch::warnings(const Scene& scene) const {
              " points lie on others, to which no seam joins them: contact holds them fast, since it cannot "
              "tell one side of the cloth from the other there; weld or sew them, or begin with "
              "borders 1 mm apart"});
+  if (farFromOrigin_) warnings.push_back(*farFromOrigin_);
   if (std::optional<Warning> longSteps = longStepsWarning(scene)) warnings.push_back(std::move(*longSteps));
   warnings.insert(warnings.end(), paths_.begin(), paths_.end());
   if (unseenColliders_ > 0)
@@ -277,12 +323,14 @@ std::vector<Warning> RunWatch::warnings(const Scene& scene) const {
              std::to_string(crowdedSteps_) + (crowdedSteps_ == 1 ? " step" : " steps") +
              ", in which nothing pushed them apart (layers do not cross); the frames after "
              "have more room"});
+  if (seams_) warnings.push_back(*seams_);
   if (doubtfulFrame_)
     warnings.push_back({"strain", doubtfulFrame_,
                         formatted("springs stretched by %.0f %%: raise simulation_steps", 100 * peakStrain_),
                         "a spring is stretched by " + formatted("%.0f %%", 100 * doubtfulStrain(scene)) +
                             " or more, in this run by up to " + formatted("%.0f %%", 100 * peakStrain_) +
                             "; " + stepsAdvice(scene) + ", or set solver.strain_limit"});
+  if (energy_ && energy_->gain()) warnings.push_back(energyWarning(*energy_->gain(), scene));
   if (100 * convergence_.unconvergedSteps > convergence_.steps) {
     warnings.push_back(convergenceWarning(convergence_, largestUpdate_, scene));
     warnings.back().frame = unsolvedFrame_;
@@ -296,6 +344,14 @@ void print(const std::vector<Warning>& warnings, const std::string& which) {
     if (warning.frame) std::cerr << "frame " << *warning.frame << ": ";
     std::cerr << warning.text << '\n';
   }
+}
+
+void printLater(const std::vector<Warning>& warnings, const std::vector<Warning>& printed) {
+  std::vector<Warning> later;
+  std::ranges::copy_if(warnings, std::back_inserter(later), [&](const Warning& warning) {
+    return std::ranges::find(printed, warning) == printed.end();
+  });
+  print(later);
 }
 
 nlohmann::ordered_json toJson(const std::vector<Warning>& warnings) {

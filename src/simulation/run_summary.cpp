@@ -13,6 +13,8 @@ void RunSummary::add(Simulation& simulation, int number) {
   state = simulation.solver().state();
   measures = measure(simulation.cloth(), simulation.scene(), state);
   if (isFirst) watch.start(simulation.cloth(), simulation.scene(), state);
+  if (isFirst && watchesEnergy) watch.watchEnergy(simulation.cloth(), simulation.scene(), state);
+  watch.addEnergy(frame, simulation.cloth(), state, measures.kineticEnergy);
   watch.add(frame, simulation.cloth(), simulation.scene(), state, measures.maxStrain,
             simulation.contactCounts());
   convergence = simulation.convergenceCounts();
@@ -31,6 +33,7 @@ void RunSummary::write(nlohmann::ordered_json& json, Simulation& simulation) con
   json["centroid"] = {measures.centroid.x, measures.centroid.y, measures.centroid.z};
   json["kinetic_energy"] = measure(cloth, scene, synchronized(cloth, scene, state)).kineticEnergy;
   json["max_penetration"] = maxPenetration;
+  if (!scene.seams.empty()) json["seam_gap"] = measures.seamGap;
   json["start_overlaps"] = {{"colliders", watch.startInColliders().particles},  // particles,
                             {"self", watch.contacts().overlapsAtStart()}};      // pairs
   if (isImplicit(scene.solver.integrator) || convergence.steps > 0) {

@@ -18,6 +18,7 @@ struct RunSummary {
   Measures measures;              // of that state
   ConvergenceCounts convergence;  // up to it
   RunWatch watch;
+  bool watchesEnergy = false;  // RunWatch::watchEnergy()
 
   // To be called at the start, which is frame 0, and at the end of every frame.
   void add(Simulation& simulation) { add(simulation, frame + 1); }

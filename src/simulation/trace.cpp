@@ -47,6 +47,7 @@ void Trace::add(const RunSummary& summary, Simulation& simulation) {
                    centroid.y,
                    centroid.z,
                    summary.measures.maxPenetration,
+                   summary.measures.seamGap,
                    static_cast<double>(summary.watch.contacts().contacts()),
                    static_cast<double>(solved.steps),
                    static_cast<double>(solved.unconvergedSteps),

@@ -15,13 +15,14 @@ class Trace {
   // The columns; what `run --json` reports, too, has the same name there. Energies [J] are of free particles:
   // kinetic with the velocities of the frame's own time, gravity above the start, springs 1/2 k (l - L)^2
   // (bending of materials and meshes is not in it). Momentum [kg m/s] is the sum of m v. Strains are l/L - 1,
-  // penetration [m] the deepest of this frame. Counts of implicit steps are those of this frame alone.
+  // penetration [m] the deepest of this frame, seam_gap [m] Measures::seamGap. Counts of implicit steps are
+  // those of this frame alone.
   static constexpr std::array columns{
-      "frame",         "time",           "kinetic_energy",    "gravity_energy", "spring_energy",
-      "total_energy",  "momentum_x",     "momentum_y",        "momentum_z",     "max_strain",
-      "min_y",         "centroid_x",     "centroid_y",        "centroid_z",     "max_penetration",
-      "self_contacts", "implicit_steps", "unconverged_steps", "newton_steps",   "cg_iterations",
-      "last_update"};
+      "frame",         "time",          "kinetic_energy", "gravity_energy",    "spring_energy",
+      "total_energy",  "momentum_x",    "momentum_y",     "momentum_z",        "max_strain",
+      "min_y",         "centroid_x",    "centroid_y",     "centroid_z",        "max_penetration",
+      "seam_gap",      "self_contacts", "implicit_steps", "unconverged_steps", "newton_steps",
+      "cg_iterations", "last_update"};
   using Row = std::array<double, columns.size()>;
 
   // Adds the frame that was last added to the summary.

@@ -126,6 +126,7 @@ void MeasurePanel::sample(Session& session, double now, std::optional<std::uint3
   if (!samples_.empty() && simulation.time() < samples_.back().time) samples_.clear();
   const Energies energy = energies(cloth, springs_, simulation.scene(), session.cuts(), state);
   contacts_ = session.simulation().contactCounts();
+  seamGap_ = seamGap(cloth, simulation.scene(), state).distance;
   watch_.add(session.frameSinceStart(), cloth, simulation.scene(), state, energy.maxStrain, contacts_);
   if (samples_.empty() || simulation.time() > samples_.back().time)
     samples_.push_back({simulation.time(), energy, watch_.contacts().contacts()});
@@ -145,6 +146,9 @@ void MeasurePanel::drawNumbers(const Scene& scene) {
       "The largest stretch l/L - 1 of all springs that are enabled and not cut.");
   drawUnderCursor();
   drawContacts(scene.solver.selfCollision);
+  if (!scene.seams.empty())
+    row("seam gap", formatted("%.3g mm", 1000 * seamGap_),
+        "How far points that a seam joins are apart at most, beyond the length that it leaves them now.");
   if (isImplicit(scene.solver.integrator)) drawConvergence();
   row("particle steps", rate_ > 0 ? formatted("%.3g million/s", rate_ / 1e6) : "-",
       "Particles times steps computed per second.");

@@ -82,6 +82,7 @@ class MeasurePanel {
   RunWatch watch_;
   RecentSteps implicitSteps_;
   ContactCounts contacts_;
+  double seamGap_ = 0;                      // [m]
   double particleSteps_ = 0, seconds_ = 0;  // since the last sample
   double rate_ = 0;                         // particle steps a second
   std::vector<PassTime> passes_;

@@ -121,6 +121,20 @@ TEST(RunWatch, SaysThatStepsAreTooLongForSprings) {
   EXPECT_FALSE(longStepsWarning(scene).has_value());
 }
 
+TEST(RunWatch, SaysThatExplicitStepsLoseSlowMotionsFarFromTheOrigin) {
+  const auto warningAt = [](double x, Integrator integrator) {
+    Scene scene = parseScene(std::string(R"({"cloth": {)") + SHEET + "}}", "far");
+    scene.solver.integrator = integrator;
+    scene.cloths[0].position.x = x;
+    return farFromOriginWarning(scene, initialState(Cloth(scene), scene));
+  };
+  EXPECT_FALSE(warningAt(5, Integrator::verlet));
+  EXPECT_FALSE(warningAt(1000, Integrator::implicit)) << "which take velocities from displacements";
+  const auto warning = warningAt(199, Integrator::verlet);
+  ASSERT_TRUE(warning);
+  EXPECT_NE(warning->text.find("begins 200 m from the origin"), std::string::npos) << warning->text;
+}
+
 TEST(RunWatch, SaysThatLayersAreThinnerThanTheCloth) {
   const auto warningOf = [](const Scene& scene) { return thinLayersWarning(scene, Cloth(scene)); };
   const auto expectText = [&](const Scene& scene, const std::string& part) {

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "measure/energy_watch.h"
 #include "solver/solver.h"
+#include "support/scene_text.h"
 
 namespace clothsim {
 namespace {
@@ -84,6 +86,31 @@ TEST(FactsOfAParticle, AreThoseOfItsMostStrainedSpringWithItsSign) {
   Cuts cuts;
   ASSERT_TRUE(cutAlong(cuts, cloth, 0, {1.5, -1}, {1.5, 3}));
   EXPECT_GT(factsOf(8, cloth, springs, cuts, state).strain, -0.2) << "the spring to the left is cut";
+}
+
+// A sheet of 1 kg at a height of 0.3 m less than it began with has 2.9 J to move with.
+TEST(EnergyWatch, SeesWhatFallingHasNotGiven) {
+  const Scene scene =
+      test::sceneOf(R"({"cloth": {"num_width_points": 9, "num_height_points": 9, "ks": 100, "density": 1}})");
+  const Cloth cloth(scene);
+  const State start = initialState(cloth, scene);
+  State fallen = start;
+  for (Particle4& x : fallen.positions) x.y -= 0.3f;
+  EnergyWatch watch(cloth, scene, start);
+  watch.add(1, cloth, fallen, 2.9);
+  EXPECT_FALSE(watch.gain());
+  watch.add(2, cloth, fallen, 6);
+  watch.add(3, cloth, fallen, 7);
+  ASSERT_TRUE(watch.gain());
+  EXPECT_EQ(watch.gain()->frame, 2);
+  EXPECT_EQ(watch.gain()->kinetic, 7);
+  EXPECT_NEAR(watch.gain()->fallen, 0.3 * 9.8, 0.01);
+
+  Scene windy = scene;
+  windy.wind.emplace();
+  EnergyWatch driven(cloth, windy, start);
+  driven.add(1, cloth, fallen, 100);
+  EXPECT_FALSE(driven.gain()) << "the wind may have given it";
 }
 
 }  // namespace

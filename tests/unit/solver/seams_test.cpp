@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cloth/seam_neighbours.h"
+#include "measure/run_watch.h"
 #include "scene_io/scene_io.h"
 #include "solver/cpu/cpu_solver.h"
 #include "support/test_scenes.h"
@@ -122,6 +123,27 @@ TEST(Seams, CarryALoadWithTheGapThatHookesLawGives) {
     const double weight = 9.8 * 1 * 0.2 * 0.2;
     EXPECT_NEAR(gapOf(cloth, solver.state()), weight / (3 * STIFFNESS), 2e-5) << integratorName(integrator);
   }
+}
+
+TEST(Seams, AreSaidToGapeOnceTheyHaveBeenClosedForAWhile) {
+  Scene scene = inSteps(twoStrips(3, 3, 0.1), Integrator::implicit);
+  scene.seams[0].time = 0.2;
+  scene.seams[0].stiffness = 40;
+  const Cloth cloth(scene);
+  State state = initialState(cloth, scene);
+  EXPECT_NEAR(measure(cloth, scene, state).seamGap, 0, 1e-6) << "as far apart as the seam begins";
+  state.clock.originTime = 0.1;
+  EXPECT_NEAR(measure(cloth, scene, state).seamGap, 0.05, 1e-5) << "half closed";
+  EXPECT_FALSE(seamWarning(6, cloth, scene, state));
+  state.clock.originTime = 0.3;
+  EXPECT_FALSE(seamWarning(18, cloth, scene, state)) << "it may still swing";
+  state.clock.originTime = 0.5;
+  const std::optional<Warning> warning = seamWarning(30, cloth, scene, state);
+  ASSERT_TRUE(warning);
+  EXPECT_NE(warning->text.find("seams.0 joins are 100 mm apart though it is closed; raise "
+                               "seams.0.stiffness (now 40 N/m)"),
+            std::string::npos)
+      << warning->text;
 }
 
 // Without other forces the gap follows the rest length, which falls evenly to 0.
