@@ -107,8 +107,9 @@ struct SceneFlags {
 };
 
 SceneFlags addSceneFlags(CLI::App& app, Arguments& a, bool sceneRequired) {
-  CLI::Option* file = app.add_option(
-      "-f,--scene", a.scene, "name of a bundled scene, or a path (containing '/' or ending in .json)");
+  CLI::Option* file =
+      app.add_option("-f,--scene", a.scene,
+                     "name of a bundled scene, a path (containing '/' or ending in .json), or a mesh (.obj)");
   if (sceneRequired) file->required();
   CLI::Option* settings =
       app.add_option("--set", a.settings,

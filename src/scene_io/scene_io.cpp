@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/nearest.h"
+#include "scene_io/mesh_scene.h"
 #include "scene_io/scene_tree.h"
 
 namespace clothsim {
@@ -96,6 +97,7 @@ Scene loadScene(const fs::path& path) {
 }
 
 Scene loadSceneByName(const std::string& nameOrPath) {
+  if (isMeshFile(nameOrPath)) return sceneOfMesh(nameOrPath);
   if (isPath(nameOrPath)) return loadScene(nameOrPath);
   const fs::path path = bundledFolder() / (nameOrPath + ".json");
   std::error_code ignored;

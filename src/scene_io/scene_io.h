@@ -24,8 +24,8 @@ void findMeshes(Scene& scene, const std::filesystem::path& file);
 // scene)
 [[nodiscard]] Scene loadScene(const std::filesystem::path& path);
 
-// Loads what the flag -f names: a path if it has a '/' or ends in ".json", else a bundled scene. @throws
-// SceneError
+// Loads what the flag -f names: a mesh if it ends in ".obj" (scene_io/mesh_scene.h), a path if it has a '/'
+// or ends in ".json", else a bundled scene. @throws SceneError
 [[nodiscard]] Scene loadSceneByName(const std::string& nameOrPath);
 
 // JSON text that parseScene turns into an equal scene. Keys at their defaults are left out.

@@ -30,6 +30,7 @@ Solver::Solver(const Cloth& cloth, const Shared<Scene>& scene, std::unique_ptr<E
 void Solver::configure(const Shared<Scene>& scene) {
   assert(scene->cloths.size() == inputs_.cloth->pieces().size() &&
          "configure() takes live edits of the solver's own scene");
+  if (stepLength(scene->solver) != inputs_.clock.stepLength) leaveHalfStep();
   inputs_.colliders = ColliderSet(*scene);
   inputs_.scene = scene;
   inputs_.clock.setStepLength(stepLength(inputs_.scene->solver));
@@ -95,6 +96,21 @@ void Solver::convertVelocities() {
   checkStart();
   inputs_.velocityMeaning = wanted;
   executor_->run(inputs_, conversion_, 1);
+}
+
+// What verlet's velocity means depends on the length of the last step, which the clock has. At the start it
+// is what the scene begins with.
+void Solver::leaveHalfStep() {
+  const double last = inputs_.clock.stepLength;
+  if (inputs_.clock.step == 0 || last == 0 || inputs_.velocityMeaning != Integrator::verlet) return;
+  const Shared<Scene> own = inputs_.scene;
+  Scene scene = *own;
+  scene.solver.integrator = Integrator::euler;
+  scene.solver.framesPerSec = 1 / last;
+  scene.solver.simulationSteps.count = 1;
+  inputs_.scene = Shared<Scene>(std::move(scene));
+  convertVelocities();
+  inputs_.scene = own;
 }
 
 std::uint64_t Solver::stepInFrame() const {
@@ -178,6 +194,11 @@ void Solver::setState(const State& state) {
          "the state must be of the solver's cloth");
   setAllButParticles(state.clock, state.integrator, state.offPath, state.cuts);
   executor_->upload(state);
+  if (state.clock.stepLength != inputs_.clock.stepLength) {
+    inputs_.clock = state.clock;
+    leaveHalfStep();
+    inputs_.clock.setStepLength(stepLength(inputs_.scene->solver));
+  }
   held_ = heldIn(state);
   if (!looksBackAt(state.clock)) executor_->forgetHistory();
 }

@@ -126,6 +126,7 @@ class Solver {
   [[nodiscard]] const PassList& nextStep();
   [[nodiscard]] std::uint64_t stepInFrame() const;
   void checkStart();
+  void leaveHalfStep();
   void holdPins();
   [[nodiscard]] std::vector<std::optional<bool>> heldIn(const State& state) const;
   void tearCloth();

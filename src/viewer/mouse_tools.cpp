@@ -97,7 +97,9 @@ std::string MouseTools::press(const MouseContext& context, Button button, Cursor
   }
   const Pick pick = pickAt(context, cursor);
   if (held.cuts) {
-    if (isOnMesh(context, pick)) return "A cloth made from a mesh cannot be cut";
+    const auto pieces = context.open.cloth().pieces();
+    if (isOnMesh(context, pick) || std::ranges::all_of(pieces, &Piece::isMesh))
+      return "A cloth made from a mesh cannot be cut";
     doing_ = Doing::cut;
     lastCut_ = pick;
     stroke_.assign(1, {cursor.x, cursor.y});

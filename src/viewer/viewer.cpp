@@ -245,10 +245,10 @@ int Viewer::takeFrames() {
 
 int Viewer::finishedFrames(int frames, double seconds, bool went,
                            const std::optional<Divergence>& divergence) {
-  if (!went) paused_ = true;
+  if (!went) paused_ = pausedByError_ = true;
   doWaiting();
   if (divergence) {
-    paused_ = true;
+    paused_ = pausedByError_ = true;
     notice_ = {blowUpText(*divergence, session().simulation().cloth(), open_->scene(),
                           session().frameSinceStart() + 1) +
                    "\nPaused at the last good state. Press R to restart.",

@@ -10,9 +10,9 @@
 #include "export/sequence.h"
 #include "output/numbered_files.h"
 #include "render/shading_models.h"
+#include "scene_io/mesh_scene.h"
 #include "scene_io/scene_io.h"
 #include "session/carry_over.h"
-#include "viewer/mesh_scene.h"
 #include "viewer/viewer_facts.h"
 #include "viewer/viewer_program.h"
 
@@ -124,6 +124,7 @@ void Viewer::act(ViewerAction action) {
       return;
     case ViewerAction::pause:
       paused_ = !paused_;
+      pausedByError_ = false;
       if (notice_.isError) notice_ = {};
       return;
     case ViewerAction::stepFrame:
@@ -273,7 +274,7 @@ void Viewer::edit(const Scene& scene, bool continues) {
 
 void Viewer::undo(bool again) {
   if (again ? !session().canRedo() : !session().canUndo())
-    return say(again ? "Nothing to redo" : "Nothing to undo");
+    return say(again ? "Nothing to redo" : "Nothing to undo; the timeline takes back cuts and pins");
   const Shared<Scene> before = open_->sharedScene();
   again ? session().redo() : session().undo();
   column_.measures().sampleSoon();
@@ -288,7 +289,9 @@ void Viewer::seek(int frame) {
                                                : "No earlier frame is kept in memory");
   if (frame == session().frame()) return;
   mouse_.letGo(session());
+  const Shared<Scene> before = open_->sharedScene();
   session().seek(frame);
+  if (*before != open_->scene()) say("Parameters are as they were in this frame");
   paused_ = true;
   pace_ = Pace(open_->frameSeconds());
 }
@@ -297,7 +300,7 @@ void Viewer::restart() {
   mouse_.letGo(session());
   session().act(Restart{});
   column_.measures().forget();
-  if (notice_.isError) paused_ = false;  // an error has paused it
+  if (std::exchange(pausedByError_, false)) paused_ = false;
   notice_ = {};
 }
 
@@ -356,9 +359,7 @@ std::unique_ptr<OpenScene> Viewer::load(const std::string& source,
 void Viewer::openScene(const std::string& source) {
   const std::string backend = open_->backend();
   std::unique_ptr<OpenScene> next = load(source, [&] {
-    const bool isMesh = kindOfFile(source) == FileKind::mesh;
-    return std::make_unique<OpenScene>(isMesh ? sceneOfMesh(source) : loadSceneByName(source), source,
-                                       backend, renderOptions());
+    return std::make_unique<OpenScene>(loadSceneByName(source), source, backend, renderOptions());
   });
   dialog_.close();
   next->view = open_->view;
@@ -375,7 +376,7 @@ void Viewer::openScene(const std::string& source) {
   watchSteps();
   column_.measures().forget();
   pace_ = Pace(open_->frameSeconds());
-  draftHeld_ = paused_ = false;
+  draftHeld_ = paused_ = pausedByError_ = false;
   if (clipEnded) notice_ = {};
   if (!clipSaved.empty()) say(clipSaved, longNoticeSeconds);
   warnOfPaths();

@@ -248,8 +248,9 @@ class Viewer {
   std::optional<Scene> waitingEdit_;  // the newest of the panels, which waits likewise
   int exposures_ = 0;                 // of a picture that rests, in final quality
   bool paused_ = false, stepAsked_ = false, showKeys_ = false;
-  bool isLoading_ = false;    // there may be no scene yet
-  bool dialogShown_ = false;  // in the last picture
+  bool pausedByError_ = false;  // until the user pauses or goes on
+  bool isLoading_ = false;      // there may be no scene yet
+  bool dialogShown_ = false;    // in the last picture
 };
 
 }  // namespace clothsim

@@ -37,7 +37,8 @@ class ColliderSet {
   // From a point of the own frame to the surface at `time` [s], exact, negative inside [m].
   [[nodiscard]] double distance(std::size_t i, Vec3d p, double time = 0) const;
   // In the own frame, a little smaller than the shape is, so that cloth with triangles of `longestEdge` [m]
-  // does not dip below. Empty for spheres and planes, which are drawn by programs of their own.
+  // does not dip below; as large as it is where that is 0. Empty for spheres and planes, which are drawn by
+  // programs of their own.
   [[nodiscard]] Surface drawnSurface(std::size_t i, double longestEdge, double time = 0) const;
   // Half the sides of the axis-aligned box around a collider, whatever its shape now, whose motion has
   // rotated it so far [m]; zero for a plane.

@@ -11,7 +11,7 @@ Surface SampledMesh::surface(double longestEdge) const {
   const SolidMesh mesh = grid.shapes().size() == 1
                              ? grid.mesh()
                              : between(grid.shapes()[moment.from], grid.shapes()[moment.to], moment.part);
-  const double inset = std::min(0.15 * grid.cell() + 0.05 * longestEdge, grid.cell());
+  const double inset = longestEdge > 0 ? std::min(0.15 * grid.cell() + 0.05 * longestEdge, grid.cell()) : 0;
   Surface surface;
   for (std::size_t i = 0; i < mesh.points.size(); ++i)
     surface.vertices.push_back(

@@ -34,6 +34,7 @@ Surface revolved(const std::vector<ProfilePoint>& profile) {
 }
 
 double faceInset(double size, double longestEdge) {
+  if (longestEdge <= 0) return 0;
   return std::min(0.003 * size + 0.05 * longestEdge, 0.1 * size);
 }
 
@@ -69,6 +70,7 @@ Surface pulledApart(double halfX, double halfY, double halfZ, double radius) {
 }
 
 double sphereShrink(double radius, double longestEdge) {
+  if (longestEdge <= 0) return 0;
   // The hypotenuse of a right triangle is its circumscribed circle's diameter. Stretched cloth has longer
   // edges: 10 %.
   const double half = std::min(0.5 * 1.1 * longestEdge, radius);

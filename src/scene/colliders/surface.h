@@ -19,7 +19,8 @@ struct ProfilePoint {
 [[nodiscard]] Surface revolved(const std::vector<ProfilePoint>& profile);
 
 // How far inside of a flat face it is drawn: apart from cloth on it in the depth buffer. `size` [m]: the
-// smallest of the shape.
+// smallest of the shape. Here and below, `longestEdge` is the longest side of the cloth's triangles [m]; 0:
+// there is no cloth, and the shape is not made smaller.
 [[nodiscard]] double faceInset(double size, double longestEdge);
 
 // A sphere whose eight octants were pulled apart by `half` in each direction: a rounded box; along y alone a
@@ -29,7 +30,6 @@ struct ProfilePoint {
 // How much smaller than its true radius a sphere must be drawn so that cloth on it never dips below what is
 // drawn. The particles lie on the sphere; the flat triangles between them sink under it by the sagitta of
 // their circumscribed circle. (The drawn sphere's own facets only sink further.)
-// @param longestEdge  the longest side of the cloth's triangles [m]
 [[nodiscard]] double sphereShrink(double radius, double longestEdge);
 
 // The magnitude of each component.

@@ -11,6 +11,7 @@
 #include "gl/gl_test.h"
 #include "output/clip_recorder.h"
 #include "output/numbered_files.h"
+#include "scene_io/mesh_scene.h"
 #include "scene_io/scene_io.h"
 #include "session/session.h"
 #include "solver/state.h"
@@ -19,7 +20,6 @@
 #include "viewer/folder_list.h"
 #include "viewer/input_queue.h"
 #include "viewer/kept_picture.h"
-#include "viewer/mesh_scene.h"
 #include "viewer/mouse_tools.h"
 #include "viewer/panels/field_widgets.h"
 #include "viewer/panels/measure_panel.h"
@@ -259,6 +259,17 @@ TEST(MeshScene, HasTheMeshAsClothAboveTheBallOrAsASolidAtItsPlace) {
   Session session(with, "cpu", makeCpuSolver);
   EXPECT_FALSE(session.stepFrames(1));
   EXPECT_THROW((void)sceneOfMesh("/nonexistent.obj"), SceneError);
+}
+
+TEST(MeshScene, GuessesTheUnitOfTheFileFromItsSize) {
+  const test::TemporaryFolder folder;
+  const auto scaleOf = [&](const std::string& side) {
+    writeFileAtomically(folder / "m.obj", "v 0 0 0\nv " + side + " 0 0\nv 0 0 " + side + "\nf 1 3 2\n");
+    return loadSceneByName((folder / "m.obj").string()).cloths[0].scale;
+  };
+  EXPECT_EQ(scaleOf("1.8"), 1);
+  EXPECT_EQ(scaleOf("170"), 0.01);
+  EXPECT_EQ(scaleOf("1000"), 0.001) << "a disc of 1 m, not of 10 m";
 }
 
 TEST(NumberedFiles, NeverNameWhatIsThere) {

@@ -228,6 +228,32 @@ TEST(Integrators, CanBeSwitchedBackAndForthWithoutLosingTheVelocity) {
   EXPECT_NEAR(solver.velocity(55).y, half.y, 1e-12);
 }
 
+TEST(Integrators, KeepTheVelocityWhenTheStepChanges) {
+  Scene scene = sheetScene(10);
+  scene.cloths[0].pinned.clear();
+  scene.cloths[0].damping = 0;
+  Scene longer = scene;
+  longer.solver.simulationSteps = 4;
+  const Cloth cloth(scene);
+  CpuSolver<double> live(cloth, scene);
+  live.step(50);
+  const State saved = live.state();
+  Scene synchronous = scene;
+  synchronous.solver.integrator = longer.solver.integrator = Integrator::euler;
+  const auto velocityOf = [](CpuSolver<double>& solver) {
+    (void)solver.state();  // converts
+    return solver.velocity(55).y;
+  };
+  live.configure(synchronous);
+  const double velocity = velocityOf(live);
+  live.setState(saved);
+  live.configure(longer);
+  EXPECT_NEAR(velocityOf(live), velocity, 1e-7) << "while it goes on";
+  CpuSolver<double> loaded(cloth, longer);
+  loaded.setState(saved);
+  EXPECT_NEAR(velocityOf(loaded), velocity, 1e-7) << "from a state";
+}
+
 TEST(Integrators, OfKsScenesBeginAsCs184DoesAndOthersSynchronously) {
   Scene scene = sheetScene(5);
   EXPECT_EQ(stepped(scene, 0).velocities[7].y, 0);

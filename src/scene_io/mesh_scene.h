@@ -1,5 +1,4 @@
-// Meshes that are opened in the viewer: as a cloth in a scene of its own, or as a solid in the scene that is
-// open.
+// Meshes in place of scene files: as a cloth in a scene of its own, or as a solid in another scene.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +8,12 @@
 
 namespace clothsim {
 
+// Whether a file is a mesh by its name.
+[[nodiscard]] bool isMeshFile(const std::filesystem::path& file);
+
 // A piece of cotton with the shape of an OBJ file falls over a ball onto the ground. Files whose mesh would
-// be larger than 20 m are taken to be in centimetres or millimetres. @throws SceneError as meshShapeOf()
+// be larger than 20 m are taken to be in centimetres, or in millimetres where it is larger than 5 m then;
+// the description says so. @throws SceneError as meshShapeOf()
 [[nodiscard]] Scene sceneOfMesh(const std::filesystem::path& file);
 
 // The same scene with the mesh as a collider, its middle at `place` [m]. @throws SceneError as meshShapeOf();
