@@ -176,18 +176,24 @@ void Renderer::Parts::chooseSurface(const Camera& camera, int height, double asp
   isFineForPlain = longestEdge(*cloth) * pixelsAMetre < MOST_PLAIN_DISTANCE;
   lightsVertices =
       options.lightsVertices && hidesVertices && longestEdge(*cloth) * pixelsAMetre < MOST_VERTEX_DISTANCE;
+  // At a seam of its texture a mesh has several points at one place, which particles cannot be.
+  const bool keepsSeams = !cloth->textureSeams().empty() && !model.blends;
   std::vector<std::uint32_t> steps;
-  if (!isRough) steps = smoothSteps(*cloth, pixelsAMetre, options);
+  if (!isRough)
+    steps = smoothSteps(*cloth, pixelsAMetre, options);
+  else if (keepsSeams)
+    steps.assign(cloth->pieces().size(), 1);
   if (clothMesh.hasCuts())  // which are put together anew whenever cloth tears
     for (std::uint32_t& n : steps) n = std::min(n, MOST_CUT_STEPS);
-  if (std::all_of(steps.begin(), steps.end(), [](std::uint32_t n) { return n == 1; })) {
+  if (!keepsSeams && std::all_of(steps.begin(), steps.end(), [](std::uint32_t n) { return n == 1; })) {
     smooth.reset();
     return;
   }
-  const bool isLean = options.flatness > 0 && !model.displaces;  // a relief shows everywhere
+  // A relief shows everywhere.
+  const bool isLean = options.flatness > 0 && isOfGrids && !model.displaces;
   if (isLean) std::fill(steps.begin(), steps.end(), 2u);
   if (isLean) frame.casterThickness = 0;  // casters are the particles' triangles, which bend elsewhere
-  const bool touches = scene->solver.selfCollision != SelfCollision::off;
+  const bool touches = !isRough && scene->solver.selfCollision != SelfCollision::off;
   if (smooth && smooth->steps() == steps && smooth->isLean() == isLean && smooth->hasLayers() == touches)
     return;
   const double layers = touches ? layerDistance(*scene) : 0;
