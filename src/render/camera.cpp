@@ -168,7 +168,10 @@ glm::vec3 Camera::eye() const {
 CameraSettings Camera::settings(CameraSettings own) const {
   if (now_ == start_) return own;
   const glm::vec3 direction = directionOf(now_.azimuth, now_.elevation);
-  const auto rounded = [](glm::vec3 place) { return 1e-5 * toVec3d(glm::round(1e5f * place)); };  // to read
+  const auto rounded = [](glm::vec3 place) {  // to read
+    const Vec3d whole = toVec3d(glm::round(1e5f * place));
+    return Vec3d{whole.x / 1e5, whole.y / 1e5, whole.z / 1e5};
+  };
   own.target = rounded(now_.target);
   own.position = rounded(now_.target + static_cast<float>(now_.distance / back_) * direction);
   return own;

@@ -87,6 +87,8 @@ void Renderer::Parts::configure(const Shared<Scene>& edited) {
     if (model.isThick) clothMesh.setThickness(thickness);
   }
   stage = makeStage(outline, *scene);
+  lowestFloor = std::min(lowestFloor, stage.floorHeight);
+  stage.floorHeight = lowestFloor;  // a solid that is lifted does not take the floor with it
   colliders.build(*scene);
   frame = makeLook(scene->render, outline.front, textures.irradiance());
   setClothLook(looks.front().settings, frame);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -87,8 +88,9 @@ struct Renderer::Parts {
   ClothOutline outline;
   Shared<Scene> scene;
   Stage stage;
-  std::vector<PieceLook> looks;  // at least one; several: one for each piece
-  ShadingModel model;            // of the first
+  float lowestFloor = std::numeric_limits<float>::infinity();  // of all scenes so far [m]
+  std::vector<PieceLook> looks;                                // at least one; several: one for each piece
+  ShadingModel model;                                          // of the first
   shared::RenderFrame frame{};
 
   RenderPrograms programs;

@@ -107,7 +107,8 @@ void takeTotal(Sum total) {
   scalars.lastUpdate = update;
   precise float tolerated = step.toleratedStiffness * motion;
   bool isNextThorough = scalars.newtonSteps + 1u < THOROUGH_NEWTON_STEPS;
-  float part = !isNextThorough ? SUFFICIENT_RESIDUAL : touches ? 0.0 : EARLY_RESIDUAL;
+  float later = touches ? SUFFICIENT_RESIDUAL : SUFFICIENT_RESIDUAL_APART;
+  float part = !isNextThorough ? later : touches ? 0.0 : EARLY_RESIDUAL;
   precise float sufficient = part * (step.toleratedStiffness * total.y);
   scalars.sufficientResidual = sufficient;
   bool isFollowed = scalars.isSystemSolved != SYSTEM_LOST &&

@@ -287,7 +287,8 @@ void CpuExecutor<Real>::measureUpdate() {
   const Real motion = cpu::larger(ownMotion, step.leastMotion * step.leastMotion);
   const bool touches = step.colliderCount != 0 || scalars.pairs != 0;
   const bool isNextThorough = scalars.newtonSteps + 1 < THOROUGH_NEWTON_STEPS;
-  const Real part = !isNextThorough ? Real(SUFFICIENT_RESIDUAL) : touches ? Real(0) : Real(EARLY_RESIDUAL);
+  const Real later = touches ? Real(SUFFICIENT_RESIDUAL) : Real(SUFFICIENT_RESIDUAL_APART);
+  const Real part = !isNextThorough ? later : touches ? Real(0) : Real(EARLY_RESIDUAL);
   // Not by the least motion: cloth at rest lies on planes less deep than that would leave undecided.
   scalars.sufficientResidual = part * (step.toleratedStiffness * ownMotion);
   const Real square = largestSquare(implicit_.increments, Real(LARGE_SQUARE)) * reciprocal(motion);

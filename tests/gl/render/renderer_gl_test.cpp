@@ -79,6 +79,33 @@ TEST_F(RendererTest, DrawsTheSamePictureTwice) {
   EXPECT_EQ(renderImage(renderer, positions.name(), camera, 0, 96, 64).rgb, first.rgb);
 }
 
+// The floor lies below what is in a scene at its start; a camera near it was under the floor then.
+TEST_F(RendererTest, LeavesTheFloorWhereItIsWhenASolidIsLifted) {
+  Scene scene;
+  scene.cloths[0].numWidthPoints = scene.cloths[0].numHeightPoints = 5;
+  scene.cloths[0].width = scene.cloths[0].height = 0.4;
+  scene.cloths[0].orientation = Orientation::vertical;
+  scene.cloths[0].position = {-0.5, 1, 0};
+  scene.cloths[0].pinned = {GridSide::top};
+  Sphere ball;
+  ball.origin = {0.4, 0.2, 0};
+  ball.radius = 0.2;
+  scene.colliders.emplace_back(ball);
+  scene.camera.position = Vec3d{0, 0.4, 2.6};
+  scene.camera.target = Vec3d{0, 0.3, 0};
+  const Cloth cloth(scene);
+  const gl::Buffer<Particle4> positions("positions", stateAtRest(cloth).positions);
+  Renderer renderer(cloth, scene, {});
+  const Camera camera(scene, cloth);
+  const auto corner = [&] {
+    return pixelAt(renderImage(renderer, positions.name(), camera, 0, 96, 64), 2, 62);
+  };
+  const std::array<int, 3> before = corner();
+  std::get<Sphere>(scene.colliders[0]).origin.y = 0.9;
+  renderer.configure(scene);
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(corner()[c], before[c], 8);
+}
+
 // A sheet that fills the picture, seen from one side or the other.
 std::array<int, 3> middleOfSheetSeenFrom(double height) {
   Scene scene;
