@@ -40,7 +40,8 @@ void main() {
   vec3 here = placeOf(i);
   vec3 sum = vec3(0), along = vec3(0);
   float strain = -1.0;
-  // Of every triangle around the particle the two other corners in their order, and where its own texture coordinates are.
+  // Of every triangle around the particle the two other corners in their order, and where the triangle has texture coordinates
+  // of its own, or 0.
   for (uint at = cornerAt(local), end = cornerAt(local + 1u); at < end; at += 3u) {
     uint next = cornerAt(at), previous = cornerAt(at + 1u), own = cornerAt(at + 2u);
     bool isAtSeam = own != 0u;

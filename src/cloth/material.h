@@ -58,8 +58,8 @@ struct LatticeStiffness {
 [[nodiscard]] double bucklingHeight(const Material& material);
 // The least number of steps in a frame with which a step is no longer than the stable one, nor than 1/60 s;
 // nor, under an implicit integrator where fabric is larger than its buckling height, than 1/120 s; nor
-// where such fabric, or several cloths, touch each other in steps, than 1/240 s, nor than sound takes for 4.4
-// m of the fabric. Pressure asks for shorter ones yet (docs/physics.md).
+// where such fabric, or several cloths, touch each other in steps, than 1/240 s. No implicit step is longer
+// than sound takes for 4.4 m of the fabric. Pressure asks for shorter ones yet (docs/physics.md).
 [[nodiscard]] int stableSteps(const Scene& scene);
 // Sets solver.simulation_steps and solver.cg_iterations where they are "auto".
 void chooseCounts(Scene& scene);

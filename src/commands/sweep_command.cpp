@@ -162,6 +162,7 @@ class SweepRun {
         cameras_(cameras),
         simulation_(planned.sharedScene(), backend, makeSolver),
         renderer_(simulation_, {}) {
+    summary_.watchesEnergy = true;
     summary_.add(simulation_);
   }
 

@@ -37,7 +37,8 @@
 // has buckled, what compression takes from it is nearly all of it. Where conjugate gradients meet a direction
 // along which it is not positive, they end with what they have found so far (Nocedal and Wright, "Numerical
 // optimization", 2006, algorithm 7.1), and the rest of the step is projected (HESSIAN_REFUSED). The
-// preconditioner is always made of projected blocks; it is additive and multilevel (Bramble, Pasciak and Xu
+// preconditioner is always made of projected blocks, with the tension of the step's start, since straight
+// motions stretch what turns; it is additive and multilevel (Bramble, Pasciak and Xu
 // 1990):
 //
 //   z = D^-1 r  +  sum over coarse levels of P_l A_l^-1 P_l^T r.
