@@ -87,10 +87,6 @@ std::string numberText(const Limits& limits, const std::string& noun) {
   return noun + (text.find(" to ") != std::string::npos ? " from " : " ") + text;
 }
 
-bool within(const Limits& limits, double value) {
-  return value <= limits.high && (limits.lowOpen ? value > limits.low : value >= limits.low);
-}
-
 void checkNumber(const JsonNode& node, const Limits& limits, const std::string& expected) {
   if (node.kind != JsonKind::number || !within(limits, node.number)) complainExpected(node, expected);
   const double size = std::abs(node.number);

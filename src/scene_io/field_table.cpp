@@ -417,6 +417,10 @@ Usual sliderRange(const FieldTraits& traits, double now) {
   return {limits.low > -infinite ? limits.low : -span, limits.high < infinite ? limits.high : span};
 }
 
+bool within(const Limits& limits, double value) {
+  return value <= limits.high && (limits.lowOpen ? value > limits.low : value >= limits.low);
+}
+
 std::string limitsText(const Limits& limits) {
   if (limits.nonZero) return "not [0, 0, 0]";
   const bool hasLow = limits.low > -infinite, hasHigh = limits.high < infinite;

@@ -16,6 +16,7 @@ namespace clothsim {
 
 // "> 0", "0 to 1", "" for any.
 [[nodiscard]] std::string limitsText(const Limits& limits);
+[[nodiscard]] bool within(const Limits& limits, double value);
 
 // The ends of a slider for the field: what is usual, else its limits, else ten times its value `now`.
 [[nodiscard]] Usual sliderRange(const FieldTraits& traits, double now);

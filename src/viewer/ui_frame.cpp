@@ -95,12 +95,6 @@ void textUnformatted(std::string_view words) {
   ImGui::TextUnformatted(words.data(), words.data() + words.size());
 }
 
-// Of a bar, what has been typed so far: it counts when the field is left.
-struct TypedNumber {
-  ImGuiID of = 0;
-  double number = 0;
-};
-
 // Whether a number is being typed, of which Dear ImGui would leave out a comma: 1,5 would be 15.
 bool isTypingNumber() {
   const ImGuiID active = ImGui::GetActiveID();
@@ -225,58 +219,6 @@ void helpTip(std::string_view words) {
   textUnformatted(words);
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
-}
-
-bool barSlider(ImGuiDataType type, void* value, double low, double high, const char* format,
-               bool logarithmic) {
-  const bool isInteger = type == ImGuiDataType_S32;
-  const double now = isInteger ? *static_cast<int*>(value) : *static_cast<double*>(value);
-  const double share =
-      logarithmic ? std::log(std::max(now, low) / low) / std::log(high / low) : (now - low) / (high - low);
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  const ImVec2 size{ImGui::CalcItemWidth(), ImGui::GetFrameHeight()};
-  const float rounding = ImGui::GetStyle().FrameRounding;
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, ImGui::GetColorU32(ImGuiCol_FrameBg), rounding);
-  const float filled = size.x * static_cast<float>(std::clamp(share, 0.0, 1.0));
-  if (filled > 1) {
-    list.PushClipRect(at, {at.x + filled, at.y + size.y}, true);
-    list.AddRectFilled(at, {at.x + size.x, at.y + size.y}, ImGui::GetColorU32(theme::fill), rounding);
-    list.PopClipRect();
-  }
-  const ImVec4 nothing{0, 0, 0, 0}, veil{1, 1, 1, 0.05f};
-  ImGui::PushStyleColor(ImGuiCol_FrameBg, nothing);
-  ImGui::PushStyleColor(ImGuiCol_FrameBgHovered, veil);
-  ImGui::PushStyleColor(ImGuiCol_FrameBgActive, veil);
-  ImGui::PushStyleColor(ImGuiCol_SliderGrab, nothing);
-  ImGui::PushStyleColor(ImGuiCol_SliderGrabActive, nothing);
-  const ImGuiSliderFlags scale = logarithmic ? ImGuiSliderFlags_Logarithmic : 0;
-  const int lowInteger = static_cast<int>(low), highInteger = static_cast<int>(high);
-  const void *const first = isInteger ? static_cast<const void*>(&lowInteger) : &low,
-                    *const last = isInteger ? static_cast<const void*>(&highInteger) : &high;
-  // Dear ImGui opens the field at a click with Ctrl.
-  ImGuiIO& io = ImGui::GetIO();
-  const bool control = std::exchange(io.KeyCtrl, io.KeyCtrl || io.MouseDoubleClicked[0]);
-  const bool changed = ImGui::SliderScalar("##value", type, value, first, last, format, scale);
-  io.KeyCtrl = control;
-  ImGui::PopStyleColor(5);
-  const auto set = [&](double number) {
-    isInteger ? *static_cast<int*>(value) = static_cast<int>(number) : *static_cast<double*>(value) = number;
-  };
-  static TypedNumber typed;
-  const ImGuiID id = ImGui::GetItemID();
-  const bool isTyping = ImGui::TempInputIsActive(id);
-  const bool isOnlyClicked = ImGui::IsItemActive() && !ImGui::IsMouseDragging(0);
-  if (changed && (isTyping || isOnlyClicked)) {
-    if (isTyping) typed = {id, isInteger ? *static_cast<int*>(value) : *static_cast<double*>(value)};
-    set(now);
-    return false;
-  }
-  if (typed.of != id || isTyping) return changed;
-  const double number = std::exchange(typed, {}).number;
-  if (changed) return true;  // confirmed, or taken back
-  set(number);
-  return number != now;
 }
 
 bool toggleButton(const char* label, bool& on, float width) {

@@ -67,11 +67,6 @@ void titleText(std::string_view words);  // in the larger typeface
 void wrappedText(std::string_view words, const ImVec4& color);
 // A tip that is shown while the mouse rests on the last control.
 void helpTip(std::string_view words);
-// A slider drawn as a bar that is filled up to the number, with the number written on it. It is dragged; a
-// double click or Ctrl+click types a number. It has the width of the next item; `format` is that of
-// ImGui::SliderScalar. True when the number was changed.
-bool barSlider(ImGuiDataType type, void* value, double low, double high, const char* format,
-               bool logarithmic);
 // A button that is highlighted while it is on. True when it was changed.
 bool toggleButton(const char* label, bool& on, float width);
 // A button as wide as its column. True when it was clicked.

@@ -353,6 +353,12 @@ TEST_F(PanelsUi, TakeTypedNumbersKeepPinsInPlaceAndCloseAListAtEsc) {
     type(192, "1,5");
     return saved().density == 1.5;
   })) << saved().density;
+  type(192, "2lb");
+  EXPECT_EQ(saved().density, 1.5) << "nor a number of another unit";
+  EXPECT_TRUE(test::eventually(seconds(60), [&] {
+    type(192, "150g/m^2");
+    return saved().density == 0.15;
+  })) << saved().density;
   EXPECT_TRUE(test::eventually(seconds(60), [&] {
     type(348, "23");
     return saved().numWidthPoints == 23;

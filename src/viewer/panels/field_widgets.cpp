@@ -8,6 +8,7 @@
 
 #include "cloth/material.h"
 #include "scene_io/codec.h"
+#include "viewer/panels/number_controls.h"
 #include "viewer/ui_frame.h"
 
 namespace clothsim {
@@ -75,9 +76,12 @@ bool openCombo(std::string& chosen, const std::vector<std::string>& words) {
   return changed;
 }
 
-double clampTo(const Limits& limits, double value, double smallest) {
-  const double low = limits.lowOpen ? limits.low + smallest : limits.low;
-  return std::clamp(value, low, limits.high);
+// Takes `value` back to what it was before where it is beyond its limits.
+template <class Number>
+void keepWithin(const FieldTraits& field, Number& value, Number before) {
+  if (within(field.limits, value)) return;
+  value = before;
+  tellBriefly(labelOf(field.key) + " has to be " + limitsText(field.limits) + ": it stays");
 }
 
 }  // namespace
@@ -128,7 +132,7 @@ void FieldWidgets::beginRow(const FieldTraits& field, std::string_view path, std
 
 void FieldWidgets::endRow(const FieldTraits& field, std::string_view path, bool changedNow, bool finishedNow,
                           bool isBar) {
-  helpTip(helpOf(field, path) + (isBar ? "\nDrag, or double-click to type a number." : ""));
+  helpTip(helpOf(field, path) + (isBar ? "\nDrag, or double-click to type a number, such as 20 cm." : ""));
   note(changedNow, field.change, finishedNow);
   ImGui::PopID();
 }
@@ -141,20 +145,16 @@ void FieldWidgets::control(const FieldTraits& field, std::string_view path, bool
 
 void FieldWidgets::control(const FieldTraits& field, std::string_view path, int& value) {
   beginRow(field, path, "");
-  const Usual range = sliderRange(field, value);
-  const std::string unit = unitText(field.unit);
-  const std::string format = unit.empty() ? "%d" : "%d " + unit;
-  const bool changed =
-      barSlider(ImGuiDataType_S32, &value, range.low, range.high, format.c_str(), isLogarithmic(range));
-  if (changed) value = static_cast<int>(std::clamp<double>(value, field.limits.low, field.limits.high));
+  const int before = value;
+  const bool changed = barSlider(value, sliderRange(field, value), field.unit);
+  if (changed) keepWithin(field, value, before);
   endRow(field, path, changed, ImGui::IsItemDeactivatedAfterEdit(), true);
 }
 
 bool FieldWidgets::number(const FieldTraits& field, double& value) {
-  const Usual range = sliderRange(field, value);
-  const bool changed = barSlider(ImGuiDataType_Double, &value, range.low, range.high,
-                                 numberFormat(field.unit).c_str(), isLogarithmic(range));
-  if (changed) value = clampTo(field.limits, value, 1e-6 * range.high);
+  const double before = value;
+  const bool changed = barSlider(value, sliderRange(field, value), field.unit);
+  if (changed) keepWithin(field, value, before);
   return changed;
 }
 
@@ -191,10 +191,10 @@ bool FieldWidgets::vector(const FieldTraits& field, Vec3d& value) {
   const Usual range = sliderRange(field, std::max({value.x, value.y, value.z}));
   const float speed = static_cast<float>((range.high - range.low) / 400);
   const Vec3d before = value;
-  if (!ImGui::DragScalarN("##value", ImGuiDataType_Double, &value.x, 3, speed, nullptr, nullptr, "%.4g"))
-    return false;
-  for (double* component : {&value.x, &value.y, &value.z})
-    *component = clampTo(field.limits, *component, 1e-6 * range.high);
+  if (!dragVector(value, speed, field.unit)) return false;
+  keepWithin(field, value.x, before.x);
+  keepWithin(field, value.y, before.y);
+  keepWithin(field, value.z, before.z);
   if (field.limits.nonZero && value == Vec3d{}) value = before;
   return true;
 }
@@ -280,9 +280,10 @@ void FieldWidgets::control(const FieldTraits& field, std::string_view path, Auto
   helpTip(helpOf(field, path));
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-FLT_MIN);
-  const Usual range = sliderRange(field, value.count);
-  if (barSlider(ImGuiDataType_S32, &value.count, range.low, range.high, "%d", isLogarithmic(range))) {
-    value = static_cast<int>(std::clamp<double>(value.count, field.limits.low, field.limits.high));
+  int count = value.count;
+  if (barSlider(count, sliderRange(field, count), field.unit)) {
+    keepWithin(field, count, value.count);
+    value = count;
     changed = true;
   }
   endRow(field, path, changed, changed || ImGui::IsItemDeactivatedAfterEdit());

@@ -23,6 +23,7 @@
 #include "viewer/mouse_tools.h"
 #include "viewer/panels/field_widgets.h"
 #include "viewer/panels/measure_panel.h"
+#include "viewer/panels/number_controls.h"
 #include "viewer/viewer.h"
 #include "viewer/viewer_config.h"
 #include "viewer/viewer_keys.h"
@@ -294,6 +295,23 @@ TEST(FieldText, SaysUnitsAsAPersonWouldWriteThem) {
   EXPECT_EQ(numberFormat("%"), "%.4g %%");
   EXPECT_EQ(numberFormat(""), "%.4g");
   EXPECT_EQ(labelOf("num_width_points"), "num width points");
+}
+
+TEST(FieldText, TypedNumbersMayHaveAUnit) {
+  EXPECT_EQ(numberIn(" 0.5 ", "m"), 0.5);
+  EXPECT_EQ(numberIn("1e-3", ""), 1e-3);
+  EXPECT_EQ(numberIn("+2 m", "m"), 2);
+  EXPECT_DOUBLE_EQ(numberIn("20 cm", "m").value(), 0.2);
+  EXPECT_DOUBLE_EQ(numberIn("3mm", "m").value(), 0.003);
+  EXPECT_DOUBLE_EQ(numberIn("10 in", "m").value(), 0.254);
+  EXPECT_DOUBLE_EQ(numberIn("36 km/h", "m/s").value(), 10);
+  EXPECT_DOUBLE_EQ(numberIn("150 g/m^2", "kg/m^2").value(), 0.15);
+  EXPECT_DOUBLE_EQ(numberIn("150 g/m\u00b2", "kg/m^2").value(), 0.15);
+  EXPECT_EQ(numberIn("1 kg", "kg"), 1);
+  EXPECT_EQ(numberIn("50 %", "%"), 50);
+  for (const char* wrong : {"", "m", "2 lb", "2 m/s", "nan", "1e999", "2 3", "*2"})
+    EXPECT_EQ(numberIn(wrong, "m"), std::nullopt) << wrong;
+  EXPECT_EQ(numberIn("2 m", ""), std::nullopt);
 }
 
 TEST(FieldText, EverySliderHasARangeThatHoldsItsDefaultAndLiesWithinTheLimits) {
