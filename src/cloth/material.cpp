@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cloth/cloth.h"
 #include "cloth/membrane.h"
 #include "cloth/mesh_shape.h"
 #include "core/error.h"
@@ -258,6 +259,26 @@ double gridMass(const ClothSettings& cloth, double dx, double dy) {
 
 }  // namespace
 
+namespace {
+
+// Bounds that of K/m of the seams alone, by Gershgorin's circles; 0 when the cloth cannot be built.
+double largestSeamEigenvalue(const Scene& scene) {
+  if (scene.seams.empty()) return 0;
+  try {
+    const Cloth cloth(scene);
+    std::vector<double> sums(cloth.particleCount());
+    for (const SeamSpring& spring : cloth.seams())
+      for (const std::uint32_t end : {spring.a, spring.b}) sums[end] += 2 * spring.stiffness;
+    double largest = 0;
+    for (std::uint32_t i = 0; i < sums.size(); ++i) largest = std::max(largest, sums[i] / cloth.massOf(i));
+    return largest;
+  } catch (const SceneError&) {
+    return 0;
+  }
+}
+
+}  // namespace
+
 double stableStep(const ClothSettings& cloth) {
   if (cloth.isMesh()) return stableStepOfMesh(cloth);
   const double dx = spacing(cloth.width, cloth.numWidthPoints),
@@ -271,7 +292,8 @@ double stableStep(const Scene& scene) {
   if (isImplicit(scene.solver.integrator)) return std::numeric_limits<double>::infinity();
   double smallest = std::numeric_limits<double>::infinity();
   for (const ClothSettings& cloth : scene.cloths) smallest = std::min(smallest, stableStep(cloth));
-  return smallest;
+  const double seams = largestSeamEigenvalue(scene), cloths = 4 / (smallest * smallest);
+  return seams > 0 ? 2 / std::sqrt(cloths + seams) : smallest;
 }
 
 double bucklingHeight(const Material& material) {

@@ -50,7 +50,7 @@ struct LatticeStiffness {
 // where omega^2 bounds the largest eigenvalue of K/m: of a grid by that of its graph, springs that resist in
 // all directions; of a mesh by Gershgorin's circles over blocks. Infinite without springs.
 [[nodiscard]] double stableStep(const ClothSettings& cloth);
-// The smallest stable step of its cloths; infinite under the implicit integrator.
+// The same of a scene, of all cloths and the seams between them; infinite under an implicit integrator.
 [[nodiscard]] double stableStep(const Scene& scene);
 
 // Above which height an upright strip buckles under its own weight [m]: (7.84 B / rho g)^(1/3) (A. G.

@@ -40,12 +40,11 @@ void ContactReport::add(int frame, const Cloth& cloth, const Scene& scene, const
     if (overlapsAtStart_ > 0) failure_ = {Condition::startCrossings, 0, overlapsAtStart_, 0, 0};
   }
   isCut_ = isCut_ || !state.cuts.empty();
-  if (isCut_)
-    failure_.reset();
-  else if (!failure_ && last_.overlaps > 0)
+  // What was lost before a cut stays lost.
+  if (!failure_ && !isCut_ && last_.overlaps > 0)
     failure_ = {Condition::pairsTooNear, frame, last_.overlaps, last_.smallestDistance.value_or(0),
                 last_.neededDistance};
-  else if (!failure_ && counts.fastSteps > 0)
+  else if (!failure_ && !isCut_ && counts.fastSteps > 0)
     failure_ = {Condition::fastStep, frame, 0, 0, 0};
   largestStrain_ = std::max(largestStrain_, strain);
   worst_.contacts = std::max(worst_.contacts, last_.contacts);
@@ -65,7 +64,7 @@ void ContactReport::write(nlohmann::ordered_json& json, const Cloth& cloth, cons
         {"number", small}, {"passages", counts.passages}, {"steps_with_passages", counts.passageSteps}};
   if (scene.solver.selfCollision == SelfCollision::contact) {
     json["contact_sound"] = !failure_;
-    if (isCut_) json["contact_sound"] = nullptr;
+    if (isCut_ && !failure_) json["contact_sound"] = nullptr;
     nlohmann::ordered_json& contact = json["contact"] = nlohmann::ordered_json::object();
     contact["failed"] = toJson(failure_);
     contact["most_pairs"] = counts.pairs;
@@ -87,7 +86,7 @@ void ContactReport::write(nlohmann::ordered_json& json, const Cloth& cloth, cons
   std::optional<ContactFailure> failure = failure_;
   if (!failure && !isCut_ && counts.fastSteps > 0) failure = {Condition::fastStep, lastFrame_, 0, 0, 0};
   json["contact_sound"] = !failure;
-  if (isCut_) json["contact_sound"] = nullptr;
+  if (isCut_ && !failure) json["contact_sound"] = nullptr;
   nlohmann::ordered_json& contact = json["contact"] = nlohmann::ordered_json::object();
   contact["failed"] = toJson(failure);
   contact["distance"] = contactDistance(scene, cloth);

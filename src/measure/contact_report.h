@@ -32,7 +32,8 @@ class ContactReport {
 
   // Adds to the object: self_contacts of the last frame; contact_sound, whether no two non-adjacent triangles
   // can have crossed at the end of any frame; and the measures behind that, with the first violation, under
-  // `contact`. Without self-collision and in cloth that is cut this is not known, and contact_sound is null.
+  // `contact`. Without self-collision, and from a cut on, this is not known, and contact_sound is null unless
+  // something was violated before.
   // Contact inside the step lets nothing cross in any step: there it is whether nothing crossed at the start.
   // `counts` are those of the whole run.
   void write(nlohmann::ordered_json& json, const Cloth& cloth, const Scene& scene,

@@ -319,10 +319,10 @@ std::vector<Warning> RunWatch::warnings(const Scene& scene) const {
   if (crowdedFrame_)
     warnings.push_back(
         {"contact", crowdedFrame_, "too many contacts at once",
-         "layers, or cloth and small colliders, touched at more places than there was room for in " +
+         "layers, or cloth and small colliders, touched at hundreds of places a particle in " +
              std::to_string(crowdedSteps_) + (crowdedSteps_ == 1 ? " step" : " steps") +
-             ", in which nothing pushed them apart (layers do not cross); the frames after "
-             "have more room"});
+             ", and nothing pushed them apart there (layers do not cross); make the fabric thinner, or "
+             "spread the cloth at the start"});
   if (seams_) warnings.push_back(*seams_);
   if (doubtfulFrame_)
     warnings.push_back({"strain", doubtfulFrame_,

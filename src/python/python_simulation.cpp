@@ -111,6 +111,7 @@ void PythonSimulation::start(const std::optional<std::uint32_t>& seed) {
     jitter(jittered, jitter_, seed.value_or(seed_));
     simulation->setState(jittered);
   }
+  simulation->solver().convertVelocities();
   RunSummary summary;
   summary.add(*simulation);
   renderer_.reset();  // before its simulation goes
@@ -213,6 +214,7 @@ void PythonSimulation::reset(std::optional<std::uint32_t> seed) {
 void PythonSimulation::setState(const State& state) {
   const Turn turn(*this);
   simulation_->setState(state);
+  simulation_->solver().convertVelocities();
   stepsSinceKept_ = 0;
   stayInPlace();
 }
@@ -282,7 +284,9 @@ void PythonSimulation::configure(const std::vector<std::string>& settings) {
           "Simulation() instead");
   }
   simulation_->configure(std::move(scene));
+  simulation_->solver().convertVelocities();  // the bits must not depend on when the state is read
   stepsSinceKept_ = 0;
+  stayInPlace();
 }
 
 void PythonSimulation::measureNow() { summary_.add(*simulation_, frame()); }

@@ -104,6 +104,13 @@ class Executor {
   // What the watchdog has found up to the step after `step` steps. With `wait` false only what is known
   // without waiting for the device.
   [[nodiscard]] virtual std::optional<Divergence> findDivergence(std::uint64_t step, bool wait) = 0;
+  // On the GPU, steps may find more pairs that touch than there is room for. They are made again then, with
+  // more room: whether that may be; to keep what has been counted, and to go back to that; and, after
+  // findDivergence() has waited, whether steps since then have lacked room that there is now.
+  [[nodiscard]] virtual bool mayLackRoom() const { return false; }
+  virtual void keepCounts() {}
+  virtual void restoreCounts() {}
+  [[nodiscard]] virtual bool lackedRoom() { return false; }
   // From the step after `step` steps on, everything counts as sound.
   virtual void forgetDivergence(std::uint64_t step) = 0;
   // A small blocking read-back on the GPU.

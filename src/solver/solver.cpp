@@ -24,12 +24,39 @@ Solver::Solver(const Cloth& cloth, const Shared<Scene>& scene, std::unique_ptr<E
   inputs_.cloth = &cloth;
   inputs_.velocityMeaning = startingVelocityMeaning(*scene);
   executor_->forgetDivergence(0);
-  configure(scene);
+  takeScene(scene);
 }
+
+namespace {
+
+// Whether they differ at most in how they look.
+bool movesAlike(const Scene& a, Scene b) {
+  b.name = a.name;
+  b.description = a.description;
+  b.camera = a.camera;
+  b.render = a.render;
+  b.expect = a.expect;
+  for (std::size_t i = 0; i < std::min(a.cloths.size(), b.cloths.size()); ++i)
+    b.cloths[i].render = a.cloths[i].render;
+  for (std::size_t i = 0; i < std::min(a.colliders.size(), b.colliders.size()); ++i)
+    std::visit([](const auto& own, auto& other) { other.render = own.render; }, a.colliders[i],
+               b.colliders[i]);
+  return a == b;
+}
+
+}  // namespace
 
 void Solver::configure(const Shared<Scene>& scene) {
   assert(scene->cloths.size() == inputs_.cloth->pieces().size() &&
          "configure() takes live edits of the solver's own scene");
+  settle();
+  if (movesAlike(*inputs_.scene, *scene))
+    inputs_.scene = scene;
+  else
+    takeScene(scene);
+}
+
+void Solver::takeScene(const Shared<Scene>& scene) {
   if (stepLength(scene->solver) != inputs_.clock.stepLength) leaveHalfStep();
   inputs_.colliders = ColliderSet(*scene);
   inputs_.scene = scene;
@@ -121,14 +148,15 @@ std::uint64_t Solver::stepInFrame() const {
 // The levels are made in every second step of a frame. A frame begins with new ones, so that it does not
 // matter whether it is the first after a state was loaded.
 const PassList& Solver::nextStep() {
-  const bool keepsLevels = levelsAreMade_ && stepInFrame() % 2 != 0;
+  const PassList& step = keepsLevels() ? stepWithKeptLevels_ : step_;
   levelsAreMade_ = true;
-  return keepsLevels ? stepWithKeptLevels_ : step_;
+  return step;
 }
 
 // At the end of a frame.
 void Solver::tearCloth() {
   if (!canTear(*inputs_.scene) || divergence_ || stepInFrame() != 0) return;
+  settle();
   Cuts cuts = inputs_.cuts;
   if (tear(cuts, *inputs_.cloth, *inputs_.scene, positions(0, inputs_.cloth->particleCount()))) setCuts(cuts);
 }
@@ -137,13 +165,42 @@ void Solver::step(int count) {
   checkStart();
   convertVelocities();
   for (int i = 0; i < count && !divergence_ && !isInterrupted(); ++i) {
-    holdPins();
-    executor_->run(inputs_, nextStep(), count - i);
-    ++inputs_.clock.step;
-    divergence_ = executor_->findDivergence(inputs_.clock.step, false);
-    tearCloth();
+    keepStretch();
+    advance(count - i);
   }
   executor_->flush();
+}
+
+void Solver::advance(int following) {
+  holdPins();
+  executor_->run(inputs_, nextStep(), following);
+  ++inputs_.clock.step;
+  divergence_ = executor_->findDivergence(inputs_.clock.step, false);
+  tearCloth();
+}
+
+// A stretch begins where a step makes the levels of the preconditioner: with those of another step, the next
+// one would not be the same again.
+void Solver::keepStretch() {
+  if (!executor_->mayLackRoom()) return;
+  if (stretch_.isSettled && !keepsLevels()) {
+    stretch_.start = snapshot(std::move(stretch_.start));
+    stretch_.steps = 0;
+    executor_->keepCounts();
+  }
+  ++stretch_.steps;
+  stretch_.isSettled = false;
+}
+
+void Solver::settle() {
+  while (!stretch_.isSettled) {
+    divergence_ = executor_->findDivergence(inputs_.clock.step + 1, true);
+    stretch_.isSettled = true;
+    if (!executor_->lackedRoom()) return;
+    restore(*stretch_.start);
+    executor_->restoreCounts();
+    step(stretch_.steps);
+  }
 }
 
 std::vector<PassTime> Solver::timePasses(int steps) {
@@ -153,12 +210,14 @@ std::vector<PassTime> Solver::timePasses(int steps) {
 }
 
 std::optional<Divergence> Solver::divergence() {
+  settle();
   // A conversion belongs to the step that follows it.
   if (!divergence_) divergence_ = executor_->findDivergence(inputs_.clock.step + 1, true);
   return divergence_;
 }
 
 std::unique_ptr<Snapshot> Solver::snapshot(std::unique_ptr<Snapshot> reuse) {
+  settle();
   if (!reuse) reuse = std::make_unique<Snapshot>();
   reuse->particles = executor_->copy(std::move(reuse->particles));
   reuse->clock = inputs_.clock;
@@ -171,6 +230,7 @@ std::unique_ptr<Snapshot> Solver::snapshot(std::unique_ptr<Snapshot> reuse) {
 }
 
 void Solver::restore(const Snapshot& snapshot) {
+  stretch_.isSettled = true;
   setAllButParticles(snapshot.clock, snapshot.integrator, snapshot.offPath, snapshot.cuts);
   if (!executor_->restore(*snapshot.particles)) return setState(snapshot.state());
   if (snapshot.held.size() == inputs_.pinPaths.paths.size()) held_ = snapshot.held;
@@ -178,6 +238,7 @@ void Solver::restore(const Snapshot& snapshot) {
 }
 
 State Solver::state() {
+  settle();
   convertVelocities();
   State state;
   executor_->download(state);
@@ -192,6 +253,7 @@ State Solver::state() {
 void Solver::setState(const State& state) {
   assert(state.positions.size() == inputs_.cloth->particleCount() &&
          "the state must be of the solver's cloth");
+  stretch_.isSettled = true;
   setAllButParticles(state.clock, state.integrator, state.offPath, state.cuts);
   executor_->upload(state);
   if (state.clock.stepLength != inputs_.clock.stepLength) {
@@ -224,12 +286,29 @@ void Solver::setAllButParticles(const StepClock& clock, Integrator integrator,
   executor_->forgetDivergence(inputs_.clock.step);
 }
 
+std::vector<Particle4> Solver::positions(std::uint32_t first, std::uint32_t count) {
+  settle();
+  return executor_->positions(first, count);
+}
+
+ContactCounts Solver::contactCounts() {
+  settle();
+  return executor_->contactCounts();
+}
+
+ConvergenceCounts Solver::convergenceCounts() {
+  settle();
+  return executor_->convergenceCounts();
+}
+
 void Solver::setInteraction(const Interaction& interaction) {
+  settle();
   inputs_.interaction = interaction;
   prepare();
 }
 
 void Solver::setCuts(const Cuts& cuts) {
+  settle();
   inputs_.cuts = cuts;
   inputs_.cutMasks = makeCutMasks(*inputs_.cloth, cuts);
   makeLists();
@@ -238,6 +317,7 @@ void Solver::setCuts(const Cuts& cuts) {
 }
 
 void Solver::setPin(std::uint32_t particle, bool pinned) {
+  settle();
   executor_->setInverseMass(particle, pinned ? 0 : 1 / inputs_.cloth->massOf(particle), true);
   std::vector<std::uint32_t> offPath = inputs_.offPath;
   leavePath(offPath, particle);

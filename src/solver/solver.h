@@ -42,14 +42,14 @@ class Solver {
   Solver& operator=(const Solver&) = delete;
 
   // Live parameters: gravity, wind, damping, colliders, integrator, step length... of `scene`, from the next
-  // step on. The time stays what it is. Changing the integrator converts the velocities by -+ h a / 2. The
-  // grids must be those of the solver's cloth.
+  // step on. The time stays what it is. Changing the integrator converts the velocities by -+ h a / 2. What
+  // moves no cloth, such as looks and the camera, changes nothing. The grids must be those of the solver's
+  // cloth.
   void configure(const Shared<Scene>& scene);
 
   // Advances by `count` steps; by fewer once an interrupt has come (core/interrupt.h) or a divergence
-  // is known. The CPU knows it at once, the GPU when divergence() was asked. Neither throws nor allocates; on
-  // the GPU nothing is waited for. Cloth that tears is the exception: its positions are read after each
-  // frame.
+  // is known. The CPU knows it at once, the GPU when divergence() was asked, where nothing is waited for.
+  // Cloth that tears is the exception: its positions are read after each frame.
   void step(int count);
   // Waits until every step is done. @throws OpenGlError when the driver has reported an error meanwhile
   void finish() { executor_->finish(); }
@@ -61,7 +61,9 @@ class Solver {
 
   // The first divergence since the solver was made or setState() was called; the same on both backends. Waits
   // for the steps, and looks at a few bytes for each of them. Steps after divergence lead nowhere and look
-  // for no contacts, which could take minutes in a heap of broken numbers.
+  // for no contacts, which could take minutes in a heap of broken numbers. Whatever else asks for what steps
+  // have come to, or changes what the next ones begin with, waits likewise where layers may touch: steps that
+  // the GPU had too little room for are made again first.
   [[nodiscard]] std::optional<Divergence> divergence();
 
   // A copy of the state where it lies, and back to it, which forgets divergence. On its own device nothing is
@@ -84,9 +86,7 @@ class Solver {
   // integrator that configure() has brought.
   void convertVelocities();
   // Positions of a few particles [first, first + count); a small blocking read-back on the GPU.
-  [[nodiscard]] std::vector<Particle4> positions(std::uint32_t first, std::uint32_t count) {
-    return executor_->positions(first, count);
-  }
+  [[nodiscard]] std::vector<Particle4> positions(std::uint32_t first, std::uint32_t count);
 
   // What an interaction does from the next step on.
   void setInteraction(const Interaction& interaction);
@@ -103,8 +103,8 @@ class Solver {
   [[nodiscard]] const StepClock& clock() const { return inputs_.clock; }
   [[nodiscard]] std::uint64_t stepIndex() const { return clock().step; }
   // A small blocking read-back on the GPU.
-  [[nodiscard]] ContactCounts contactCounts() { return executor_->contactCounts(); }
-  [[nodiscard]] ConvergenceCounts convergenceCounts() { return executor_->convergenceCounts(); }
+  [[nodiscard]] ContactCounts contactCounts();
+  [[nodiscard]] ConvergenceCounts convergenceCounts();
 
   [[nodiscard]] std::string backend() const { return executor_->backend(); }  // "cpu" or "gpu"
   [[nodiscard]] std::string device() const { return executor_->device(); }    // what it runs on, for people
@@ -116,6 +116,17 @@ class Solver {
   void distrustState() { startIsChecked_ = levelsAreMade_ = false; }
 
  private:
+  // Steps that may have to be made again, with more room for pairs (Executor::mayLackRoom()).
+  struct Stretch {
+    std::unique_ptr<Snapshot> start;
+    int steps = 0;
+    bool isSettled = true;
+  };
+
+  void takeScene(const Shared<Scene>& scene);
+  void keepStretch();
+  void settle();
+  void advance(int following);
   void setAllButParticles(const StepClock& clock, Integrator integrator,
                           const std::vector<std::uint32_t>& offPath, const Cuts& cuts);
   [[nodiscard]] bool isSecondOrder() const;
@@ -123,6 +134,7 @@ class Solver {
   void setOffPath(std::vector<std::uint32_t> offPath);
   void makeLists();
   void prepare();
+  [[nodiscard]] bool keepsLevels() const { return levelsAreMade_ && stepInFrame() % 2 != 0; }
   [[nodiscard]] const PassList& nextStep();
   [[nodiscard]] std::uint64_t stepInFrame() const;
   void checkStart();
@@ -139,6 +151,7 @@ class Solver {
   bool levelsAreMade_ = false;             // false after a change from outside
   std::vector<std::optional<bool>> held_;  // as Snapshot::held; none: not known
   std::optional<Divergence> divergence_;
+  Stretch stretch_;
   std::unique_ptr<Snapshot> kept_;
 };
 

@@ -14,7 +14,8 @@ namespace clothsim {
 namespace {
 
 // Room at the start, which grows.
-constexpr std::uint32_t PAIRS_A_PARTICLE = 8, COLLIDERS_A_TRIANGLE = 4, LEAST_ROOM = 1024;
+constexpr std::uint32_t PAIRS_A_PARTICLE = 8, MOST_PAIRS_A_PARTICLE = 256, COLLIDERS_A_TRIANGLE = 4,
+                        LEAST_ROOM = 1024;
 
 // In the largest correction.
 constexpr double QUANTA = 0x1p20;
@@ -368,6 +369,8 @@ ClothSurface<Real> makeSurface(const Cloth& cloth, const Scene& scene, const Cut
   if (surface.touchesItself) surface.roomForPairs = PAIRS_A_PARTICLE * particles;
   if (colliders > 0)
     surface.roomForPairs += std::max(std::min(colliders, COLLIDERS_A_TRIANGLE) * count, LEAST_ROOM);
+  const std::uint64_t most = std::uint64_t{MOST_PAIRS_A_PARTICLE} * particles + surface.roomForPairs;
+  surface.mostPairs = static_cast<std::uint32_t>(std::min(most, std::uint64_t{1} << 30));
   surface.firstBoxes = {0};
   for (std::uint32_t boxes = count; boxes > 0;
        boxes = boxes == 1 ? 0 : (boxes + BOX_CHILDREN - 1) / BOX_CHILDREN)
@@ -379,13 +382,6 @@ SurfaceState freshSurfaceState() {
   SurfaceState state{};
   state.leastGap = gapBits(INFINITY);
   return state;
-}
-
-template <class Real>
-bool growRoom(ClothSurface<Real>& surface, const SurfaceState& state) {
-  if (state.mostPairs <= surface.roomForPairs / 2) return false;
-  surface.roomForPairs = 2 * state.mostPairs;
-  return true;
 }
 
 ContactCounts countsOf(const SurfaceState& state) {
@@ -402,8 +398,6 @@ ContactCounts countsOf(const SurfaceState& state) {
   return counts;
 }
 
-template bool growRoom(ClothSurface<float>&, const SurfaceState&);
-template bool growRoom(ClothSurface<double>&, const SurfaceState&);
 template ClothSurface<float> makeSurface(const Cloth&, const Scene&, const Cuts&);
 template ClothSurface<double> makeSurface(const Cloth&, const Scene&, const Cuts&);
 

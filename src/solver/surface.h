@@ -82,11 +82,12 @@ struct ClothSurface {
   std::vector<std::uint32_t> firstBoxes;  // of each level, the finest first, and one more: how many there are
   std::vector<SurfaceBlock> blocks;       // of grids that are whole
   bool isOneGrid = false;                 // and nothing else is there
-  Real touchingReach = 0;  // parts that may touch are nearer at the start or at the predicted end [m]
-  Real around = 0;         // how far the search for those looks around each part [m]
-  Real margin = 0;         // parts that are predicted to come so near count as pairs that may touch [m]
-  Real largestPush = 0;    // that one pair asks for, where the step ends too near [m]
-  std::uint32_t roomForPairs = 0;    // how many a step may have
+  Real touchingReach = 0;       // parts that may touch are nearer at the start or at the predicted end [m]
+  Real around = 0;              // how far the search for those looks around each part [m]
+  Real margin = 0;              // parts that are predicted to come so near count as pairs that may touch [m]
+  Real largestPush = 0;         // that one pair asks for, where the step ends too near [m]
+  std::uint32_t mostPairs = 0;  // of a step; one with more has none
+  std::uint32_t roomForPairs = 0;    // on the GPU, at first
   Real quantum = 0, perQuantum = 0;  // of corrections [m], and its reciprocal
   Real leastGap = 0;                 // what motion leaves of a distance, if it was more [m]
   bool touchesItself = false;
@@ -121,10 +122,6 @@ struct ThinnedLayers {
 
 // Before the first step.
 [[nodiscard]] SurfaceState freshSurfaceState();
-// Makes room for twice as many as any step has had so far, where there was not that much. Says whether it
-// did.
-template <class Real>
-bool growRoom(ClothSurface<Real>& surface, const SurfaceState& state);
 [[nodiscard]] ContactCounts countsOf(const SurfaceState& state);
 // A gap as an integer that is ordered as gaps are.
 template <class Real>

@@ -254,6 +254,19 @@ class Acting(unittest.TestCase):
         self.assertEqual((sim.state_hash, sim.time), (start, 0))
         self.assertEqual(sim.scene, clothsim.Simulation("pinned2", backend="cpu").scene)
 
+    def test_reading_changes_nothing(self):
+        hashes = set()
+        for reads in (False, True):
+            sim = clothsim.Simulation("pinned2", backend="cpu", resolution=(6, 6))
+            sim.step_frames(1)
+            for setting in ({"solver.integrator": "euler"}, {"gravity": [3, 0, 0]}, {"solver.integrator": "verlet"}):
+                sim.set(**setting)
+                if reads:
+                    self.assertEqual(len(sim.velocities), 36)
+            sim.step_frames(1)
+            hashes.add(sim.state_hash)
+        self.assertEqual(len(hashes), 1)
+
     def test_forces_accelerate_and_balance_weight(self):
         for integrator in ("verlet", "euler", "implicit", "bdf2"):
             with self.subTest(integrator=integrator):

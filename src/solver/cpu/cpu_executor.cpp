@@ -371,8 +371,7 @@ void CpuExecutor<Real>::returnTo(const Real* positions, const Real* velocities) 
 }
 
 template <class Real>
-std::optional<Divergence> CpuExecutor<Real>::findDivergence(std::uint64_t step, bool wait) {
-  if (wait) surfaceContact_.makeRoom();
+std::optional<Divergence> CpuExecutor<Real>::findDivergence(std::uint64_t step, bool) {
   return firstDivergence(watch_, step);
 }
 

@@ -28,8 +28,6 @@ class SurfaceContact {
   void run(PassCall call, const CpuState<Real>& before, CpuState<Real>& after, ImplicitState<Real>& implicit,
            const PassArguments<Real>& arguments, const std::vector<Real>& inverseMasses);
   [[nodiscard]] ContactCounts counts() const { return countsOf(state_); }
-  // Makes room for what the steps so far would have needed. On both backends at the same time.
-  void makeRoom() { growRoom(surface_, state_); }
 
  private:
   // Two parts across the way on which they are nearest: where their particles are along it, from the first

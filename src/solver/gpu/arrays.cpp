@@ -203,6 +203,17 @@ ImplicitScalars<float> GpuArrays::scalars() const {
   return scalars_.download().front();
 }
 
+void GpuArrays::keepCounts() {
+  if (scalars_.name() == 0) return;
+  if (keptScalars_.name() == 0)
+    keptScalars_ = gl::Buffer<ImplicitScalars<float>>("kept counts", std::size_t{1});
+  keptScalars_.copyFrom(scalars_);
+}
+
+void GpuArrays::restoreCounts() {
+  if (keptScalars_.name() != 0) scalars_.copyFrom(keptScalars_);
+}
+
 void GpuArrays::copyScalars(gl::MappedBuffer<ImplicitScalars<float>>& copy) const {
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   copy.copyFrom(scalars_, 0, 1);

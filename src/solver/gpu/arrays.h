@@ -41,6 +41,9 @@ class GpuArrays {
   void restoreHistory(const GpuHistory& copy);
   // What implicit steps have come to; zeros without any. Blocking.
   [[nodiscard]] ImplicitScalars<float> scalars() const;
+  // What implicit steps have counted so far, to go back to.
+  void keepCounts();
+  void restoreCounts();
   // Asks for a copy of them, behind what was dispatched.
   void copyScalars(gl::MappedBuffer<ImplicitScalars<float>>& copy) const;
 
@@ -65,7 +68,7 @@ class GpuArrays {
 
   std::array<ParticleArray, ARRAY_COUNT> arrays_;  // unused ones are empty
   std::array<ParticleArray, ARRAY_COUNT> spares_;  // most are empty
-  gl::Buffer<ImplicitScalars<float>> scalars_;
+  gl::Buffer<ImplicitScalars<float>> scalars_, keptScalars_;
   bool storageLoads_ = false;
 };
 

@@ -441,8 +441,20 @@ std::optional<Divergence> GpuExecutor::findDivergence(std::uint64_t step, bool w
   gl::checkContext();
   if (!watch_.isPublished()) flush();
   const std::optional<Divergence> found = watch_.find(step - 1);
-  surfaceContact_.makeRoom();
+  lackedRoom_ = surfaceContact_.makeRoom();
   return found;
+}
+
+void GpuExecutor::keepCounts() {
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  surfaceContact_.keepCounts();
+  arrays_.keepCounts();
+}
+
+void GpuExecutor::restoreCounts() {
+  seen_.reset();
+  surfaceContact_.restoreCounts();
+  arrays_.restoreCounts();
 }
 
 ConvergenceCounts GpuExecutor::convergenceCounts() { return convergenceOf(arrays_.scalars()); }

@@ -74,6 +74,10 @@ class GpuExecutor final : public Executor {
   [[nodiscard]] bool restore(const ParticleCopy& copy) override;
   void forgetHistory() override;
   [[nodiscard]] std::optional<Divergence> findDivergence(std::uint64_t step, bool wait) override;
+  [[nodiscard]] bool mayLackRoom() const override { return surfaceContact_.isOn(); }
+  void keepCounts() override;
+  void restoreCounts() override;
+  [[nodiscard]] bool lackedRoom() override { return std::exchange(lackedRoom_, false); }
   void forgetDivergence(std::uint64_t step) override;
   [[nodiscard]] ContactCounts contactCounts() override {
     return selfCollision_.counts() + surfaceContact_.counts();
@@ -146,6 +150,7 @@ class GpuExecutor final : public Executor {
   int iterationsUnseen_ = 0;
 
   GpuWatch watch_;
+  bool lackedRoom_ = false;
 };
 
 }  // namespace clothsim

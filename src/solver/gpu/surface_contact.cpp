@@ -81,7 +81,9 @@ void GpuSurfaceContact::compile() {
 
 void GpuSurfaceContact::setSurface(ClothSurface<float> surface, std::uint32_t particles,
                                    const PassFeatures& features) {
+  const std::uint32_t room = surface_.roomForPairs;
   surface_ = std::move(surface);
+  surface_.roomForPairs = std::min(std::max(room, surface_.roomForPairs), surface_.mostPairs);
   particles_ = particles;
   PassFeatures known = restricted(features, {Feature::smallColliders});
   if (known.smallColliders) known = restricted(features, {Feature::smallColliders, Feature::colliders});
@@ -180,12 +182,26 @@ void GpuSurfaceContact::publish() {
   hasCopy_ = isCopyCurrent_ = true;
 }
 
-void GpuSurfaceContact::makeRoom() {
-  if (!isOn() || !hasCopy_) return;
-  if (isCopyCurrent_) knownPairs_ = stateCopy_.elements().front().pairs;
-  if (!growRoom(surface_, stateCopy_.elements().front())) return;
+bool GpuSurfaceContact::makeRoom() {
+  if (!isOn() || !hasCopy_) return false;
+  const SurfaceState& counted = stateCopy_.elements().front();
+  if (isCopyCurrent_) knownPairs_ = counted.pairs;
+  const std::uint32_t room = surface_.roomForPairs, most = surface_.mostPairs;
+  if (counted.mostPairs <= room / 2 || room == most) return false;
+  surface_.roomForPairs = counted.mostPairs < most / 2 ? 2 * counted.mostPairs : most;
   allocatePairs(surface_.roomForPairs);
   uploadParams();
+  return counted.mostPairs > room;
+}
+
+void GpuSurfaceContact::keepCounts() {
+  if (!isOn()) return;
+  if (keptState_.name() == 0) keptState_ = gl::Buffer<SurfaceState>("kept surface state", 1);
+  keptState_.copyFrom(state_);
+}
+
+void GpuSurfaceContact::restoreCounts() {
+  if (isOn()) state_.copyFrom(keptState_);
 }
 
 void GpuSurfaceContact::bindTextures() const {

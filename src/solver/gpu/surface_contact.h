@@ -50,9 +50,12 @@ class GpuSurfaceContact {
   [[nodiscard]] ContactCounts counts() const;
   // Asks for a copy of what the steps so far have counted; a barrier for buffer updates stands before.
   void publish();
-  // Makes room for what those steps would have needed, once the copy is done. On both backends at the same
-  // time.
-  void makeRoom();
+  // Makes room for twice as many pairs as any of those steps has had, once the copy is done. True if one has
+  // had more than there was room for.
+  bool makeRoom();
+  // Counts of the steps so far, to go back to.
+  void keepCounts();
+  void restoreCounts();
 
  private:
   struct Variant {  // of a program
@@ -99,7 +102,7 @@ class GpuSurfaceContact {
   PassFeatures colliderFeatures_;  // what programs know of the scene
 
   gl::Buffer<SurfaceParams> params_;
-  gl::Buffer<SurfaceState> state_;
+  gl::Buffer<SurfaceState> state_, keptState_;
   gl::MappedBuffer<SurfaceState> stateCopy_;  // for the host
   bool hasCopy_ = false, isCopyCurrent_ = false;
   std::optional<std::size_t> knownPairs_;  // of the last step, while nothing has happened since

@@ -103,9 +103,10 @@ TEST_F(GpuSolverTest, AgreesWithTheCpuOnSmallColliders) {
   EXPECT_GT(difference(fallsFreely.state(), cpu.state()).differing, 0u) << "nothing was touched";
 }
 
-// Between frames both make room for more pairs; what friction remembers of those that were there stays.
-TEST_F(GpuSolverTest, RemembersFrictionWhereThereIsMoreRoomForPairs) {
-  Scene scene = test::materialSheet(7, 7, 0.03, 0.03, *materialPreset("cotton"));
+// Layers upon layers on a leaning plane.
+Scene sceneOfLayers(int layers, int points) {
+  Scene scene = test::materialSheet(points, points, 0.005 * (points - 1), 0.005 * (points - 1),
+                                    *materialPreset("cotton"));
   scene.solver.integrator = Integrator::implicit;
   scene.solver.selfCollision = SelfCollision::contact;
   scene.solver.framesPerSec = 60;
@@ -113,11 +114,17 @@ TEST_F(GpuSolverTest, RemembersFrictionWhereThereIsMoreRoomForPairs) {
   scene.solver.frictionLaw = FrictionLaw::coulomb;
   scene.gravity = {1.7, -9.65, 0};
   scene.colliders = {Plane{.point = {0, 1, 0}, .normal = {0, 1, 0}, .friction = 0.5}};
-  scene.cloths.resize(3, scene.cloths[0]);
-  for (int i = 0; i < 3; ++i) {
+  scene.cloths.resize(layers, scene.cloths[0]);
+  for (int i = 0; i < layers; ++i) {
     scene.cloths[i].position = {0, 0.0003 + 0.0003 * i, 0};
     scene.cloths[i].rotation = {0, 11.0 * i, 0};
   }
+  return scene;
+}
+
+// Between frames the GPU makes room for more pairs; what friction remembers of those that were there stays.
+TEST_F(GpuSolverTest, RemembersFrictionWhereThereIsMoreRoomForPairs) {
+  const Scene scene = sceneOfLayers(3, 7);
   const Cloth cloth(scene);
   GpuSolver gpu(cloth, scene);
   CpuSolver<float> cpu(cloth, scene);
@@ -131,6 +138,22 @@ TEST_F(GpuSolverTest, RemembersFrictionWhereThereIsMoreRoomForPairs) {
     ASSERT_EQ(onGpu.pairSlips.size(), onCpu.pairSlips.size());
   }
   EXPECT_GT(cpu.contactCounts().pairs, 4 * cloth.particleCount()) << "more than half of the room at first";
+}
+
+TEST_F(GpuSolverTest, MakesStepsAgainThatHadTooLittleRoomForPairs) {
+  const Scene scene = sceneOfLayers(5, 4);
+  const Cloth cloth(scene);
+  GpuSolver gpu(cloth, scene);
+  CpuSolver<float> cpu(cloth, scene);
+  for (Solver* solver : std::initializer_list<Solver*>{&gpu, &cpu}) {
+    solver->step(1);
+    solver->step(1);
+  }
+  EXPECT_EQ(difference(gpu.state(), cpu.state()).differing, 0u);
+  EXPECT_GT(cpu.contactCounts().pairs, 8 * cloth.particleCount()) << "more than the room at first";
+  EXPECT_EQ(gpu.contactCounts().pairs, cpu.contactCounts().pairs);
+  EXPECT_EQ(gpu.contactCounts().crowdedSteps, 0u);
+  EXPECT_EQ(gpu.convergenceCounts().steps, 2u) << "those made again count once";
 }
 
 // The two ends of a strip pass each other: what hangs on them is in the way.

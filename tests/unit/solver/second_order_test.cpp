@@ -92,16 +92,21 @@ TEST(SecondOrder, BeginsAnewAfterEveryEdit) {
   solver.setState(moved);
   solver.step(3);
   EXPECT_EQ(count(), 59U) << "a state that was changed has no step before";
+  scene.camera.fov = 20;
+  scene.render.gloss = 0.3;
+  solver.configure(scene);
+  solver.step(1);
+  EXPECT_EQ(count(), 60U) << "which moves no cloth";
   scene.gravity.y = -5;
   solver.configure(scene);
   solver.step(3);
-  EXPECT_EQ(count(), 60U);
+  EXPECT_EQ(count(), 61U);
   solver.setCuts({});
   solver.step(3);
-  EXPECT_EQ(count(), 61U);
+  EXPECT_EQ(count(), 62U);
   solver.setPin(7, true);
   solver.step(3);
-  EXPECT_EQ(count(), 62U);
+  EXPECT_EQ(count(), 63U);
 }
 
 // A strip with a cut swings from its top.

@@ -151,6 +151,11 @@ TEST(SurfaceContact, SaysWhatCrossesAtTheStart) {
   report.write(json, cloth, scene, {});
   EXPECT_EQ(json["contact_sound"], false);
   EXPECT_EQ(json["contact"]["failed"]["condition"], "start_crossings");
+  State torn = state;
+  cutAlong(torn.cuts, cloth, 0, {1.5, -1}, {1.5, 40});
+  report.add(1, cloth, scene, torn, 0, {});
+  report.write(json, cloth, scene, {});
+  EXPECT_EQ(json["contact_sound"], false) << "what was lost before a cut stays lost";
 }
 
 // A row of pins that is carried down through a pinned sheet.
