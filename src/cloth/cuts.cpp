@@ -8,14 +8,18 @@
 namespace clothsim {
 namespace {
 
-// Which side of the line from `a` to `b` the point is on. What lies on the line belongs to one side, so a
-// stroke through a grid point misses no spring that passes it.
-bool isLeftOf(LatticePoint a, LatticePoint b, LatticePoint point) {
-  return (b.column - a.column) * (point.row - a.row) - (b.row - a.row) * (point.column - a.column) >= 0;
+// Above 0 on one side of the line from `a` to `b`, below 0 on the other.
+double sideOf(LatticePoint a, LatticePoint b, LatticePoint point) {
+  return (b.column - a.column) * (point.row - a.row) - (b.row - a.row) * (point.column - a.column);
 }
 
+// Whether the stroke from `a` to `b` cuts the spring from `p` to `q`. A grid point on the stroke belongs to
+// one side of it, so that a stroke through it misses no spring that passes it; a stroke that ends on a spring
+// cuts it.
 bool cross(LatticePoint a, LatticePoint b, LatticePoint p, LatticePoint q) {
-  return isLeftOf(a, b, p) != isLeftOf(a, b, q) && isLeftOf(p, q, a) != isLeftOf(p, q, b);
+  const double sideOfA = sideOf(p, q, a), sideOfB = sideOf(p, q, b);
+  return (sideOf(a, b, p) >= 0) != (sideOf(a, b, q) >= 0) && !(sideOfA > 0 && sideOfB > 0) &&
+         !(sideOfA < 0 && sideOfB < 0);
 }
 
 struct Extent {  // of grid points that may own a spring across the stroke

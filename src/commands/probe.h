@@ -10,6 +10,9 @@ namespace clothsim {
 
 using ProbeLine = std::function<void(const nlohmann::ordered_json&)>;
 
+// @throws UsageError that says so
+[[noreturn]] void complainNothingMatches(const std::string& only);
+
 // Name, version and the limits that the passes depend on.
 void probeLimits(const ProbeLine& line);
 // Seconds to compile and link each program of the usual configurations. [s]

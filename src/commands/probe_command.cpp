@@ -9,7 +9,13 @@
 
 namespace clothsim {
 
+void complainNothingMatches(const std::string& only) {
+  throw UsageError("--only " + only + ": expected a part of a case's name, found no case with it");
+}
+
 int probeCommand(const std::string& block, bool small, const std::string& only) {
+  if (!only.empty() && block != "contract" && block != "steps")
+    throw UsageError("--only: expected the block contract or steps, found " + block);
   const gl::HeadlessContext context;
   const ProbeLine line = [](const nlohmann::ordered_json& json) {
     std::cout << json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) << std::endl;

@@ -160,9 +160,11 @@ Scene bundledScene(const std::string& name, bool small) {
 bool probeContract(bool small, const std::string& only, const ProbeLine& line) {
   gl::uninitialisedWord = 0x3f800000u;  // 1
   const int frames = small ? 1 : 10, size = small ? 20 : 64, large = small ? 40 : 512;
-  bool isEqual = true;
+  bool isEqual = true, hasCases = false;
   const auto compare = [&](const ContractCase& one) {
-    if (one.name.find(only) != std::string::npos) isEqual = compareCase(one, line) && isEqual;
+    if (one.name.find(only) == std::string::npos) return;
+    hasCases = true;
+    isEqual = compareCase(one, line) && isEqual;
   };
   const auto inFrames = [&](const std::string& name, const Scene& scene) {
     return ContractCase{name, scene, frames * scene.solver.simulationSteps};
@@ -195,6 +197,7 @@ bool probeContract(bool small, const std::string& only, const ProbeLine& line) {
   const std::string largeSize = std::to_string(large) + "x" + std::to_string(large);
   compare({"large, " + largeSize + ", explicit", sceneWith("pinned2", large, everything), small ? 2 : 20});
   compare({"large, " + largeSize + ", implicit", sceneWith("pinned2", large, implicitly), small ? 1 : 4});
+  if (!hasCases) complainNothingMatches(only);
   return isEqual;
 }
 

@@ -100,10 +100,12 @@ void probePrograms(const ProbeLine& line) {
 }
 
 void probeSteps(bool small, const std::string& only, const ProbeLine& line) {
+  bool hasCases = false;
   for (const int size : small ? std::vector{32} : std::vector{128, 512, 1024})
     for (const Configuration& configuration : configurations()) {
       const std::string name = std::string(configuration.name) + " " + sizeText(size);
       if (name.find(only) == std::string::npos) continue;
+      hasCases = true;
       measureOrSay(line, name, [&] {
         const Scene scene = sceneOf(configuration, size);
         const StepRate rate = measureStepRate(scene, "gpu", small ? 0.02 : 0.7);
@@ -116,6 +118,7 @@ void probeSteps(bool small, const std::string& only, const ProbeLine& line) {
           addValue(line, name + ", pass " + pass.name, pass.seconds * 1e6, "us/step");
       });
     }
+  if (!hasCases) complainNothingMatches(only);
 }
 
 void probeGroups(bool small, const ProbeLine& line) {

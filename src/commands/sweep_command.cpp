@@ -207,8 +207,8 @@ class SweepRun {
   // The varied settings, each followed by a space.
   [[nodiscard]] std::string which() const {
     std::string text;
-    for (const std::string& setting : planned_.options.varied) text += setting + " ";
-    return text;
+    for (const std::string& setting : planned_.options.varied) text += (text.empty() ? "" : ", ") + setting;
+    return text.empty() ? text : text + ": ";
   }
 
   Cell cell(const Shot& shot, int wantedFrame) {

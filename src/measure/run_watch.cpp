@@ -208,7 +208,7 @@ std::optional<Warning> thinLayersWarning(const Scene& scene, const Cloth& cloth)
 
 std::optional<Warning> farFromOriginWarning(const Scene& scene, const State& state) {
   constexpr double doubtfulSpeed = 0.005;  // [m/s]
-  if (isImplicit(scene.solver.integrator)) return std::nullopt;
+  const bool isSolved = isImplicit(scene.solver.integrator);
   float farthest = 0;
   for (const Particle4& x : state.positions)
     farthest = std::max({farthest, std::abs(x.x), std::abs(x.y), std::abs(x.z)});
@@ -216,11 +216,13 @@ std::optional<Warning> farFromOriginWarning(const Scene& scene, const State& sta
   const double digit = std::nextafter(farthest, 2 * farthest) - farthest,
                lost = 0.5 * digit / stepLength(scene.solver);
   if (!(lost > doubtfulSpeed)) return std::nullopt;
-  return Warning{"start", 0, "far from the origin, where explicit steps lose slow motions",
+  return Warning{"start", 0, "far from the origin, where steps lose slow motions",
                  formatted("the cloth begins %.3g m from the origin, where binary32 holds places to %.1g m: "
-                           "explicit steps of %.2g s lose motions below %.2g m/s there; ",
-                           static_cast<double>(farthest), digit, stepLength(scene.solver), lost) +
-                     "move the scene nearer to the origin, or set solver.integrator=implicit"};
+                           "steps of %.2g s lose motions below %.2g m/s there%s; ",
+                           static_cast<double>(farthest), digit, stepLength(scene.solver), lost,
+                           isSolved ? ", and some are not solved" : "") +
+                     "move the scene nearer to the origin" +
+                     (isSolved ? "" : ", or set solver.integrator=implicit")};
 }
 
 std::optional<Warning> seamWarning(int frame, const Cloth& cloth, const Scene& scene, const State& state) {
@@ -253,6 +255,7 @@ void RunWatch::add(int frame, const Cloth& cloth, const Scene& scene, const Stat
   contacts_.add(frame, cloth, scene, state, strain, counts);
   seams_ = seamWarning(frame, cloth, scene, state);
   peakStrain_ = std::max(peakStrain_, strain);
+  if (frame == 0) startStrain_ = strain;
   crowdedSteps_ = counts.crowdedSteps;
   passages_ = counts.passages;
   if (passages_ > 0 && !passedFrame_) passedFrame_ = frame;
@@ -324,7 +327,11 @@ std::vector<Warning> RunWatch::warnings(const Scene& scene) const {
              ", and nothing pushed them apart there (layers do not cross); make the fabric thinner, or "
              "spread the cloth at the start"});
   if (seams_) warnings.push_back(*seams_);
-  if (doubtfulFrame_)
+  if (startStrain_ > 1)
+    warnings.push_back({"start", 0, formatted("springs begin stretched by %.0f %%", 100 * startStrain_),
+                        formatted("springs begin stretched by up to %.0f %%: ", 100 * startStrain_) +
+                            "is the state that was loaded of another scene or resolution?"});
+  else if (doubtfulFrame_)
     warnings.push_back({"strain", doubtfulFrame_,
                         formatted("springs stretched by %.0f %%: raise simulation_steps", 100 * peakStrain_),
                         "a spring is stretched by " + formatted("%.0f %%", 100 * doubtfulStrain(scene)) +

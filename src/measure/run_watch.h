@@ -90,6 +90,7 @@ class RunWatch {
   std::optional<EnergyWatch> energy_;
   std::optional<int> doubtfulFrame_;  // the first with a doubtful strain
   double peakStrain_ = 0;
+  double startStrain_ = 0;
   std::uint64_t crowdedSteps_ = 0;
   std::uint64_t passages_ = 0, unseenColliders_ = 0;
   std::optional<Warning> thinLayers_;

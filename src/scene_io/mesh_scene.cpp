@@ -6,6 +6,7 @@
 
 #include "cloth/material.h"
 #include "cloth/mesh_shape.h"
+#include "core/formatted.h"
 #include "scene_io/scene_io.h"
 
 namespace clothsim {
@@ -73,6 +74,13 @@ Scene sceneOfMesh(const std::filesystem::path& file) {
   ball.radius = radius;
   chooseCounts(scene);
   return scene;
+}
+
+std::string remarkOfMeshScene(const Scene& scene) {
+  const ClothSettings& cloth = scene.cloths[0];
+  return std::filesystem::path(cloth.mesh).filename().string() +
+         formatted(": taken with cloth.scale=%g and moved by [%.4g, %.4g, %.4g] m, to above a ball",
+                   cloth.scale, cloth.position.x, cloth.position.y, cloth.position.z);
 }
 
 Scene withMeshSolid(Scene scene, const std::filesystem::path& file, Vec3d place) {

@@ -16,6 +16,9 @@ namespace clothsim {
 // the description says so. @throws SceneError as meshShapeOf()
 [[nodiscard]] Scene sceneOfMesh(const std::filesystem::path& file);
 
+// What it has done to the mesh: the unit that it takes for the file's, and where it puts it.
+[[nodiscard]] std::string remarkOfMeshScene(const Scene& scene);
+
 // The same scene with the mesh as a collider, its middle at `place` [m]. @throws SceneError as meshShapeOf();
 // whether it is closed shows when the scene is used
 [[nodiscard]] Scene withMeshSolid(Scene scene, const std::filesystem::path& file, Vec3d place);

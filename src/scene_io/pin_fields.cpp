@@ -40,7 +40,7 @@ std::span<const Field<Region>> fieldsOf<Region>() {
 template <>
 std::span<const Field<RegionPin>> fieldsOf<RegionPin>() {
   static const std::array fields{
-      field("region", &RegionPin::region, "A box; all mesh vertices inside it at the start are pinned.")
+      field("region", &RegionPin::region, "A box; all mesh vertices inside it at the start are meant.")
           .required()
           .rebuilds(),
   };
@@ -50,7 +50,7 @@ std::span<const Field<RegionPin>> fieldsOf<RegionPin>() {
 template <>
 std::span<const Field<GroupPin>> fieldsOf<GroupPin>() {
   static const std::array fields{
-      field("group", &GroupPin::group, "Name of a group (g) of mesh faces; all its vertices are pinned.")
+      field("group", &GroupPin::group, "Name of a group (g) of mesh faces; all its vertices are meant.")
           .required()
           .rebuilds(),
   };

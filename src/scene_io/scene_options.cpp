@@ -5,6 +5,7 @@
 
 #include "cloth/material.h"
 #include "core/formatted.h"
+#include "scene_io/mesh_scene.h"
 #include "scene_io/scene_io.h"
 
 namespace clothsim {
@@ -46,7 +47,9 @@ std::string chosenCounts(const SolverSettings& solver) {
 }  // namespace
 
 RemarkedScene readScene(const SceneOptions& options) {
-  return changedScene(loadSceneByName(options.scene), options);
+  RemarkedScene read = changedScene(loadSceneByName(options.scene), options);
+  if (isMeshFile(options.scene)) read.remarks.insert(read.remarks.begin(), remarkOfMeshScene(read.scene));
+  return read;
 }
 
 RemarkedScene changedScene(Scene from, const SceneOptions& options) {
@@ -54,6 +57,11 @@ RemarkedScene changedScene(Scene from, const SceneOptions& options) {
   Scene& scene = read.scene;
   const std::vector<Setting> settings = settingsInOrder(options);
   if (options.resolution) {
+    for (const Setting& setting : settings)
+      if (setting.text.find("num_width_points=") != std::string::npos ||
+          setting.text.find("num_height_points=") != std::string::npos)
+        throw UsageError(std::string(setting.flag) + " " + setting.text +
+                         ": expected no number of points beside --resolution, which sets both");
     const bool keepsSteps = std::any_of(settings.begin(), settings.end(), setsSteps);
     const std::string remark =
         changeResolution(scene, options.resolution->columns, options.resolution->rows, keepsSteps);

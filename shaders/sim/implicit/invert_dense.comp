@@ -110,10 +110,13 @@ float sweptEntry(float entry, uint i, uint j, uint k, float inverse, float inRow
   return canonical(i != k && j != k ? updated : i == j ? -inverse : i == k ? other : swept);
 }
 
+// The pivots in the order in which they are swept out: what moves all first, before the rounding of stiff differences is in it.
+uint pivotAt(uint place, uint order) { return (6u * held + place) % order; }
+
 // Those of the pivots that are still to come.
 void enlargeScales(uint order, uint k, float inverse, uint lane) {
   for (uint i = lane; i < order; i += LANES)
-    if (i > k) scales[i] = scaleAfter(scales[i], column[i], inverse, scales[k]);
+    if (i != k) scales[i] = scaleAfter(scales[i], column[i], inverse, scales[k]);
 }
 
 #if WORK_GROUP_COLUMNS == 1024
@@ -125,7 +128,8 @@ void sweepOut(uint first, uint order, uint lane) {
       uint i = own.x + SIDE * r, j = own.y + SIDE * q;
       kept[KEPT * q + r] = i < order && j < order ? dense[first + j * order + i] : 0.0;
     }
-  for (uint k = 0u; k < order; ++k) {
+  for (uint place = 0u; place < order; ++place) {
+    uint k = pivotAt(place, order);
     barrier();
     for (uint q = 0u; q < KEPT; ++q)
       if (own.y + SIDE * q == k)
@@ -151,7 +155,8 @@ void sweepOut(uint first, uint order, uint lane) {
 }
 #else
 void sweepOut(uint first, uint order, uint lane) {
-  for (uint k = 0u; k < order; ++k) {
+  for (uint place = 0u; place < order; ++place) {
+    uint k = pivotAt(place, order);
     barrier();
     for (uint i = lane; i < order; i += LANES) column[i] = dense[first + k * order + i];
     barrier();

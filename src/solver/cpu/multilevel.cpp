@@ -95,7 +95,7 @@ INLINE void coarsenRows(ImplicitState<Real>& own, bool isFirstLevel, std::uint32
       own.coarseBlocks[n] = canonical(sumBlocks(own, hierarchy.blocks[n]));
     SixColumns<Real> inverse = columnsOf(own.coarseBlocks[diagonal]);
     sweepOut(
-        6, scales.data(),
+        6, 0, scales.data(),
         column.data(), [&](std::size_t j) __attribute__((always_inline)) { return inverse[j].data(); });
     own.coarseInverses[row] = blockOf(inverse);
   }
@@ -184,8 +184,9 @@ INLINE void invertPart(ImplicitState<Real>& own, const DensePart& part) {
   }
   put(whole, all, all);
   std::array<Real, 6 * COARSEST_VERTICES> scales, column;
+  // What moves all is swept out first, before the rounding of stiff differences is in it.
   sweepOut(
-      order, scales.data(),
+      order, all, scales.data(),
       column.data(), [=](std::size_t j) __attribute__((always_inline)) { return matrix + j * order; });
   // Rows, then columns: a vertex moves with all, t + r x offset, besides on its own.
   for (const std::size_t stride : {std::size_t{1}, order}) {

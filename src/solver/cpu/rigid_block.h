@@ -171,14 +171,15 @@ INLINE RigidBlock<Real> blockOf(const SixColumns<Real>& columns) {
 }
 
 // Minus the inverse of a symmetric matrix of order n, in place: its columns are at columnAt(0), columnAt(1)
-// and so on. Every pivot in turn is swept out (Goodnight 1979, "A tutorial on the SWEEP operator"). The scale
-// of a pivot, to which its rounding is in proportion, is the entry that it began as, plus what each pivot
-// swept out before took from it, times the ratio of that pivot's scale to that pivot. `scales` and `pivots`
-// are scratch.
+// and so on. Every pivot in turn is swept out (Goodnight 1979, "A tutorial on the SWEEP operator"), number
+// `begin` first and those before it last. The scale of a pivot, to which its rounding is in proportion, is
+// the entry that it began as, plus what each pivot swept out before took from it, times the ratio of that
+// pivot's scale to that pivot. `scales` and `pivots` are scratch.
 template <class Real, class ColumnAt>
-INLINE void sweepOut(std::size_t n, Real* scales, Real* pivots, ColumnAt columnAt) {
+INLINE void sweepOut(std::size_t n, std::size_t begin, Real* scales, Real* pivots, ColumnAt columnAt) {
   for (std::size_t k = 0; k < n; ++k) scales[k] = columnAt(k)[k];
-  for (std::size_t k = 0; k < n; ++k) {
+  for (std::size_t swept = 0; swept < n; ++swept) {
+    const std::size_t k = begin + swept < n ? begin + swept : begin + swept - n;
     const Real inverse = inversePivot(columnAt(k)[k], scales[k]);
     const Real enlarged = inverse * scales[k];
     std::copy_n(columnAt(k), n, pivots);
@@ -187,15 +188,15 @@ INLINE void sweepOut(std::size_t n, Real* scales, Real* pivots, ColumnAt columnA
       scales[i] = scales[i] + ((pivots[i] * inverse) * pivots[i]) * enlarged;
     for (std::size_t j = 0; j < n; ++j) {
       Real* column = columnAt(j);
-      const Real swept = pivots[j] * inverse;
+      const Real inColumn = pivots[j] * inverse;
       if (j == k) {
 #pragma GCC ivdep
         for (std::size_t i = 0; i < n; ++i) column[i] = clothsim::canonical(pivots[i] * inverse);
       } else {
 #pragma GCC ivdep
-        for (std::size_t i = 0; i < n; ++i) column[i] = clothsim::canonical(column[i] - pivots[i] * swept);
+        for (std::size_t i = 0; i < n; ++i) column[i] = clothsim::canonical(column[i] - pivots[i] * inColumn);
       }
-      column[k] = clothsim::canonical(j == k ? -inverse : swept);
+      column[k] = clothsim::canonical(j == k ? -inverse : inColumn);
     }
   }
 }

@@ -214,11 +214,8 @@ TEST_F(InteractionOnGpuTest, GoesBackToSnapshotsOfClothThatSticks) {
   const std::unique_ptr<Snapshot> snapshot = gpu.snapshot(nullptr);
   EXPECT_EQ(snapshot->state().elasticSlips.size(), cloth.particleCount());
   EXPECT_FALSE(snapshot->state().pairSlips.empty());
-  // Once it is known how many pairs there are, a snapshot needs room for no more.
-  EXPECT_FALSE(gpu.divergence().has_value());
-  const std::unique_ptr<Snapshot> shorter = gpu.snapshot(nullptr);
-  EXPECT_LT(shorter->bytes(), snapshot->bytes());
-  EXPECT_EQ(shorter->state().pairSlips.size(), snapshot->state().pairSlips.size());
+  // It is known how many pairs there are, and a snapshot has room for no more.
+  EXPECT_LT(snapshot->bytes(), 8 * cloth.particleCount() * 12 * sizeof(float));
   gpu.step(2);
   const std::uint64_t expected = stateHash(gpu.state());
   const auto later = [&](Solver& solver, const Snapshot& from) {
@@ -227,7 +224,6 @@ TEST_F(InteractionOnGpuTest, GoesBackToSnapshotsOfClothThatSticks) {
     return stateHash(solver.state());
   };
   EXPECT_EQ(later(gpu, *snapshot), expected);
-  EXPECT_EQ(later(gpu, *shorter), expected);
   EXPECT_EQ(later(cpu, *snapshot), expected);
   cpu.restore(*snapshot);
   EXPECT_EQ(later(gpu, *cpu.snapshot(nullptr)), expected);
@@ -237,7 +233,7 @@ TEST_F(InteractionOnGpuTest, GoesBackToSnapshotsOfClothThatSticks) {
   gpu.setState(apart);
   gpu.step(1);
   EXPECT_FALSE(gpu.divergence().has_value());
-  gpu.restore(*shorter);
+  gpu.restore(*snapshot);
   EXPECT_FALSE(gpu.divergence().has_value());
   const std::unique_ptr<Snapshot> again = gpu.snapshot(nullptr);
   gpu.setState(apart);

@@ -45,6 +45,16 @@ TEST(CutAlong, SeparatesEvenAlongALineOfGridPoints) {
   }
 }
 
+TEST(CutAlong, SeparatesFromBorderToBorderAlongALineOfGridPoints) {
+  const Cloth cloth(sheetScene(10));
+  for (const auto& [from, to] : {std::pair{LatticePoint{0, 4}, LatticePoint{9, 4}},
+                                 std::pair{LatticePoint{9, 4}, LatticePoint{0, 4}}}) {
+    Cuts cuts;
+    cutAlong(cuts, cloth, 0, from, to);
+    EXPECT_FALSE(pieceAround(remainingTriangles(cloth, cuts), 0).contains(99));
+  }
+}
+
 TEST(CutAlong, TearsTheSpringsUnderTheStrokeAndNoOthers) {
   const Cloth cloth(sheetScene(10));
   Cuts cuts;
