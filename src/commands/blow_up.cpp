@@ -1,5 +1,8 @@
 #include "commands/blow_up.h"
 
+#include <algorithm>
+
+#include "commands/run_files.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "export/formats.h"
@@ -22,6 +25,26 @@ std::string quoted(const std::string& word) {
 
 std::string keyOf(const std::string& setting) { return setting.substr(0, setting.find('=')); }
 
+// A name beside that of a file whose frames end at `frame`.
+std::string nameFrom(const std::string& name, int frame) {
+  fs::path path = name;
+  const std::string extension = path.extension().string();
+  return path.replace_filename(path.stem().string() + "-from" + std::to_string(frame) + extension).string();
+}
+
+// The options that save the rest of the run, and overwrite nothing of what is there.
+std::string optionsToSave(const RunOptions& run, int lastFrame) {
+  const int number = run.firstFrame + lastFrame;
+  std::string options;
+  for (const std::string& save : run.saves)
+    options += " --save " + quoted(holdsFrames(save) ? nameFrom(save, number) : save);
+  if (run.every != 1) options += " --every " + std::to_string(run.every);
+  if (number != 0 && std::ranges::any_of(run.saves, numbersFrames))
+    options += " --first-frame " + std::to_string(number);
+  if (!run.trace.empty()) options += " --trace " + quoted(nameFrom(run.trace, number));
+  return options;
+}
+
 // The command line that continues from the state, with the settings in `changes`.
 std::string commandToGoOn(const BlowUpContext& context, const std::string& stateFile,
                           const std::vector<std::string>& changes) {
@@ -34,8 +57,9 @@ std::string commandToGoOn(const BlowUpContext& context, const std::string& state
   settings.insert(settings.end(), changes.begin(), changes.end());
   for (const std::string& setting : settings) command += " --set " + quoted(setting);
   if (context.backend != "gpu") command += " --backend " + context.backend;
-  return command + " --from " + quoted(stateFile) + " --frames " +
-         std::to_string(context.frames - context.frame + 1);
+  command +=
+      " --from " + quoted(stateFile) + " --frames " + std::to_string(context.frames - context.frame + 1);
+  return context.run == nullptr ? command : command + optionsToSave(*context.run, context.frame - 1);
 }
 
 // The first name under which no file lies, or a file with the same bytes.
@@ -53,7 +77,7 @@ fs::path freeStateName(const fs::path& folder, const std::string& stem, const st
 }  // namespace
 
 void stopBlownUp(const Divergence& divergence, Simulation& simulation, const BlowUpContext& context) {
-  std::string message = blowUpText(divergence, simulation.cloth(), simulation.scene());
+  std::string message = blowUpText(divergence, simulation.cloth(), simulation.scene()) + context.filesText;
   const std::string frame = std::to_string(context.frame - 1);
   try {
     const std::string bytes = formatStateFile(simulation.solver().state());

@@ -11,10 +11,12 @@
 namespace clothsim {
 
 struct BlowUpContext {
-  const SceneOptions& scene;
+  SceneOptions scene;
   std::string backend;
   int frame = 0, frames = 0;           // of the divergence, and in the whole run
   std::filesystem::path outputFolder;  // "" for the current folder
+  std::string filesText;               // what is said of the files of the run; "" or lines
+  const RunOptions* run = nullptr;     // whose files the command that continues saves, too
   bool replays = false;                // scene.scene is a recording, from which no command can continue
 };
 // To be called after simulation.checkFrame(). Saves the state as <scene>-frame<N>-last-good.state in the

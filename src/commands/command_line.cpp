@@ -441,7 +441,7 @@ void declareViewer(CLI::App& app, Arguments& a, Task& task) {
   app.footer(
       "Without a command: the viewer.\n\nKeys and mouse in the viewer:\n" + viewerKeysText() +
       "\nExit codes: 0 done, 1 the simulation failed or the backends differ, 2 wrong usage, 3 scene error,\n"
-      "            4 no usable OpenGL or no display, 5 input/output");
+      "            4 no usable OpenGL or no display, 5 input/output, 130 interrupted");
   task = [&] {
     followProposal(a);
     runViewer(loadScene(a.sceneOptions()),

@@ -5,6 +5,7 @@
 
 #include "commands/blow_up.h"
 #include "commands/commands.h"
+#include "commands/run_files.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/interrupt.h"
@@ -48,6 +49,17 @@ int exposuresOf(const RenderCommandOptions& options) {
   return options.quality == "final" ? FINAL_EXPOSURES : 1;
 }
 
+// Films are complete with the pictures up to `frame`. Returns earlyEndText(), or why they could not be.
+std::string finishEarly(std::vector<PictureOutput>& outputs, const std::vector<std::string>& names,
+                        int frame) {
+  try {
+    for (PictureOutput& output : outputs) output.close();
+    return earlyEndText(names, frame);
+  } catch (const Error& error) {
+    return std::string("\nThe film could not be finished: ") + error.what();
+  }
+}
+
 }  // namespace
 
 int renderCommand(const RenderCommandOptions& options) {
@@ -72,13 +84,15 @@ int renderCommand(const RenderCommandOptions& options) {
   summary.watchesEnergy = options.from.empty();
   std::vector<Warning> atStart;
   Progress progress("rendering", options.frames);
-  for (int frame = 0; frame <= options.frames; ++frame) {
+  int lastFrame = -1;  // of which the pictures are there
+  const auto renderFrame = [&](int frame) {
     stopIfInterrupted();
     if (frame > 0) simulation.stepFrame();
     if (const std::optional<Divergence> divergence = simulation.checkFrame())
       stopBlownUp(*divergence, simulation,
                   {options.scene, options.backend, frame, options.frames,
-                   std::filesystem::path(options.outs.front()).parent_path()});
+                   std::filesystem::path(options.outs.front()).parent_path(),
+                   finishEarly(outputs, options.outs, frame - 1), nullptr});
     summary.add(simulation);
     if (frame == 0) print(atStart = summary.watch.warnings(scene));
     if (std::any_of(outputs.begin(), outputs.end(),
@@ -92,7 +106,13 @@ int renderCommand(const RenderCommandOptions& options) {
       for (PictureOutput& output : outputs)
         if (output.wants(frame)) output.add(image, frame);
     }
-    progress.update(frame);
+    progress.update(lastFrame = frame);
+  };
+  try {
+    for (int frame = 0; frame <= options.frames; ++frame) renderFrame(frame);
+  } catch (const Interrupted&) {
+    if (lastFrame < 0) throw;
+    stopInterrupted(lastFrame, options.frames, [&] { return finishEarly(outputs, options.outs, lastFrame); });
   }
   for (PictureOutput& output : outputs) output.close();
   progress.finish();

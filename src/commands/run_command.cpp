@@ -10,7 +10,7 @@
 #include "commands/blow_up.h"
 #include "commands/commands.h"
 #include "commands/print_json.h"
-#include "commands/saved_pictures.h"
+#include "commands/run_files.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/interrupt.h"
@@ -22,8 +22,6 @@
 #include "session/replay.h"
 #include "simulation/gpu/solvers.h"
 #include "simulation/run_summary.h"
-#include "simulation/saved_files.h"
-#include "simulation/trace.h"
 
 namespace clothsim {
 namespace {
@@ -48,10 +46,7 @@ void checkDistinct(const RunOptions& options) {
 // @throws UsageError where --every or --first-frame is for no output
 void checkNumbering(const RunOptions& options) {
   const auto hasFrames = [](const std::string& save) { return isSequence(save) || hasFrameNumber(save); };
-  const auto hasNumbers = [](const std::string& save) {
-    return hasFrameNumber(save) || (isSequence(save) && !isPointCache(save));
-  };
-  if (options.firstFrame != 0 && std::ranges::none_of(options.saves, hasNumbers))
+  if (options.firstFrame != 0 && std::ranges::none_of(options.saves, numbersFrames))
     throw UsageError(
         "--first-frame " + std::to_string(options.firstFrame) +
         ": nothing that is saved has numbers of frames; give --save a name as cloth_%04d.obj, or "
@@ -100,13 +95,6 @@ void addOldMeshes(std::vector<Warning>& warnings, const std::vector<std::string>
 // Whether there are pictures to draw, which needs OpenGL.
 bool savesPictures(const RunOptions& options) {
   return std::any_of(options.saves.begin(), options.saves.end(), isPicture);
-}
-
-// The names of options.saves that are not pictures.
-std::vector<std::string> filesOf(const RunOptions& options) {
-  std::vector<std::string> files;
-  std::remove_copy_if(options.saves.begin(), options.saves.end(), std::back_inserter(files), isPicture);
-  return files;
 }
 
 // A state file may hold anything. The watchdog checks only what steps compute.
@@ -248,6 +236,19 @@ nlohmann::ordered_json summaryOfBlowUp(const RunOptions& options, Run& run, cons
   return json;
 }
 
+BlowUpContext contextOf(const RunOptions& options, Run& run, int frame, const std::string& filesText) {
+  SceneOptions scene = options.scene;
+  if (run.isReplay()) scene.scene = options.replay;
+  return {scene,
+          run.simulation().solver().backend(),
+          frame,
+          run.frames(),
+          options.saves.empty() ? "" : std::filesystem::path(options.saves.front()).parent_path(),
+          filesText,
+          run.isReplay() ? nullptr : &options,
+          run.isReplay()};
+}
+
 void printForPeople(const nlohmann::ordered_json& json) {
   for (const auto& [key, value] : json.items())
     if (key != "warnings")  // these are printed on stderr
@@ -272,38 +273,18 @@ int runCommand(const RunOptions& options) {
   if (options.checkCrossings) counter.emplace(countedCloth);
   CrossingSummary crossings;
   if (counter) crossings.add(0, counter->count(seen.state));
-  SavedFiles files(filesOf(options), options.every, frames, run.simulation(), options.firstFrame);
-  SavedPictures pictures(options, run.scene(), frames);
-  const auto save = [&](int frame) {
-    files.add(run.simulation(), seen.state, frame);
-    pictures.add(run.simulation(), frame);
-  };
-  save(0);
+  RunFiles files(options, run.simulation(), frames);
+  files.add(run.simulation(), seen, 0);
   const Cuts cutsAtStart = seen.state.cuts;
-  Trace trace;
-  const auto addToTrace = [&] {
-    if (!options.trace.empty()) trace.add(seen, run.simulation());
-  };
-  const auto writeTrace = [&] {
-    if (options.trace.empty()) return;
-    writeFileAtomically(options.trace, options.trace.ends_with(".npz") ? trace.npz() : trace.csv());
-  };
-  addToTrace();
   Progress progress("simulating", frames);
-  for (int frame = 1; frame <= frames; ++frame) {
+  const auto simulateFrame = [&](int frame) {
     stopIfInterrupted();
     const Clock::time_point start = Clock::now();
     run.stepFrame();
     seen.seconds += std::chrono::duration<double>(Clock::now() - start).count();
     if (const std::optional<Divergence> divergence = run.checkFrame()) {
-      writeTrace();  // of the frames before
       if (options.json) printJson(summaryOfBlowUp(options, run, seen, *divergence));
-      SceneOptions scene = options.scene;
-      if (run.isReplay()) scene.scene = options.replay;
-      stopBlownUp(*divergence, run.simulation(),
-                  {scene, run.simulation().solver().backend(), frame, frames,
-                   options.saves.empty() ? "" : std::filesystem::path(options.saves.front()).parent_path(),
-                   run.isReplay()});
+      stopBlownUp(*divergence, run.simulation(), contextOf(options, run, frame, files.finishEarly()));
     }
     seen.add(run.simulation());
     if (counter && !countedCloth.isSameAs(run.simulation().sharedCloth())) {
@@ -311,14 +292,16 @@ int runCommand(const RunOptions& options) {
       counter.emplace(countedCloth);
     }
     if (counter) crossings.add(frame, counter->count(seen.state));
-    save(frame);
-    addToTrace();
+    files.add(run.simulation(), seen, frame);
     progress.update(frame);
+  };
+  try {
+    for (int frame = 1; frame <= frames; ++frame) simulateFrame(frame);
+  } catch (const Interrupted&) {
+    stopInterrupted(files.lastFrame(), frames, [&] { return files.finishEarly(); });
   }
   files.finish();
-  pictures.finish();
   progress.finish();
-  writeTrace();
 
   std::vector<Warning> warnings = seen.watch.warnings(run.scene());
   if (seen.state.cuts != cutsAtStart) addOldMeshes(warnings, options.saves);

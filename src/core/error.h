@@ -8,7 +8,15 @@
 
 namespace clothsim {
 
-enum class ExitCode : int { done = 0, failed = 1, usage = 2, scene = 3, openGl = 4, inputOutput = 5 };
+enum class ExitCode : int {
+  done = 0,
+  failed = 1,
+  usage = 2,
+  scene = 3,
+  openGl = 4,
+  inputOutput = 5,
+  interrupted = 130
+};
 
 // A message for a person: the file and place, what was found, what was expected, and what to do. It may quote
 // foreign files: what() has been through printable().
@@ -36,6 +44,9 @@ struct OpenGlError : Error {
 };
 struct InputOutputError : Error {
   explicit InputOutputError(const std::string& message) : Error(ExitCode::inputOutput, message) {}
+};
+struct Interrupted : Error {
+  explicit Interrupted(const std::string& message) : Error(ExitCode::interrupted, message) {}
 };
 
 }  // namespace clothsim

@@ -1,5 +1,6 @@
 #include "core/interrupt.h"
 
+#include <array>
 #include <csignal>
 
 #include "core/error.h"
@@ -11,10 +12,12 @@ volatile std::sig_atomic_t interrupted = 0;
 
 void remember(int) { interrupted = 1; }
 
+constexpr std::array caughtSignals{SIGINT, SIGHUP, SIGTERM, SIGXCPU};
+
 }  // namespace
 
 void catchInterrupts() {
-  for (const int signal : {SIGINT, SIGHUP, SIGTERM, SIGXCPU}) {
+  for (const int signal : caughtSignals) {
     struct sigaction action {
     }, before{};
     action.sa_handler = remember;
@@ -28,10 +31,19 @@ void catchInterrupts() {
   std::signal(SIGCHLD, SIG_DFL);  // a parent may have it ignored, which would hide how ffmpeg ended
 }
 
+void finishAfterInterrupt() {
+  for (const int signal : caughtSignals) {
+    struct sigaction now {};
+    sigaction(signal, nullptr, &now);
+    if (now.sa_handler == remember) std::signal(signal, signal == SIGXCPU ? SIG_IGN : SIG_DFL);
+  }
+  interrupted = 0;
+}
+
 bool isInterrupted() { return interrupted != 0; }
 
 void stopIfInterrupted() {
-  if (isInterrupted()) throw SimulationError("interrupted; no file was left half written");
+  if (isInterrupted()) throw Interrupted("interrupted; no file was left half written");
 }
 
 }  // namespace clothsim

@@ -12,7 +12,11 @@ void catchInterrupts();
 // Whether an interrupt has come. Solver::step() then ends before its next step.
 [[nodiscard]] bool isInterrupted();
 
-// For loops that take long. @throws SimulationError once an interrupt has come
+// For loops that take long. @throws Interrupted once an interrupt has come
 void stopIfInterrupted();
+
+// For a command that has stopped, and now finishes files that are worth keeping: the interrupt counts as
+// answered, and another one ends the program at once.
+void finishAfterInterrupt();
 
 }  // namespace clothsim

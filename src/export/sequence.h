@@ -13,7 +13,6 @@ namespace clothsim {
 struct FrameTimes {
   double framesPerSecond = 90;
   int every = 1;  // frames first, first + every, first + 2 every ...
-  int last = 0;   // saved frame
   int first = 0;
 };
 
@@ -22,7 +21,8 @@ class SequenceWriter {
   virtual ~SequenceWriter() = default;  // Without close() it leaves no file.
   // Adds the next frame. @throws InputOutputError, also for another number of particles than before
   virtual void addFrame(const State& state) = 0;
-  virtual void close() = 0;  // @throws InputOutputError
+  // The file is complete with the frames that were added. @throws InputOutputError
+  virtual void close() = 0;
 };
 
 // .pc2: PC2 point cache, positions of the particles [m], little-endian; and beside cloth.pc2 the mesh that it

@@ -75,7 +75,8 @@ class UsdWriter final : public SequenceWriter {
     const std::string rate = usdNumber(times_.framesPerSecond);
     write("#usda 1.0\n(\n    defaultPrim = \"clothsim\"\n    doc = \"Made by clothsim\"\n" +
           std::string("    metersPerUnit = 1\n    upAxis = \"Y\"\n    startTimeCode = ") +
-          std::to_string(times_.first) + "\n    endTimeCode = " + std::to_string(times_.last) +
+          std::to_string(times_.first) +
+          "\n    endTimeCode = " + std::to_string(frames_.empty() ? times_.first : frames_.back().code) +
           "\n    timeCodesPerSecond = " + rate + "\n    framesPerSecond = " + rate +
           "\n)\n\ndef Xform \"clothsim\"\n{\n");
     for (std::size_t piece = 0; piece < cloth_.pieces().size(); ++piece) writeCloth(piece);

@@ -152,9 +152,7 @@ void VideoWriter::addFrame(std::span<const std::uint8_t> rgb) {
     const ssize_t written = ::send(pipe_->input, rgb.data(), rgb.size(), MSG_NOSIGNAL);
     if (written >= 0)
       rgb = rgb.subspan(static_cast<std::size_t>(written));
-    else if (errno == EINTR)
-      stopIfInterrupted();
-    else
+    else if (errno != EINTR)  // part of a picture would spoil the film: who calls stops after it
       pipe_->fail();
   }
 }

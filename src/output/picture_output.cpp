@@ -37,6 +37,7 @@ PictureOutput::PictureOutput(std::string name, const PictureSettings& settings, 
 }
 
 void PictureOutput::add(const Image& image, int frame) {
+  hasPictures_ = true;
   if (video_)
     video_->addFrame(image.rgb);
   else
@@ -44,7 +45,7 @@ void PictureOutput::add(const Image& image, int frame) {
 }
 
 void PictureOutput::close() {
-  if (video_) video_->close();
+  if (video_ && hasPictures_) video_->close();
 }
 
 }  // namespace clothsim

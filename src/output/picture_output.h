@@ -30,11 +30,12 @@ class PictureOutput {
   [[nodiscard]] bool wants(int frame) const { return every_ > 0 ? frame % every_ == 0 : frame == frames_; }
   // @throws InputOutputError, as close() does
   void add(const Image& image, int frame);
-  void close();
+  void close();  // A film is complete with the pictures that were added; there is none without any.
 
  private:
   std::string name_;
   int frames_, first_, every_ = 0;  // 0: only the last frame
+  bool hasPictures_ = false;
   std::unique_ptr<VideoWriter> video_;
 };
 

@@ -266,6 +266,7 @@ void declareErrors(py::module_& module) {
           return PyErr_SetString(files, error.what());
         case ExitCode::done:
         case ExitCode::failed:
+        case ExitCode::interrupted:
           return PyErr_SetString(failed, error.what());
       }
     }

@@ -11,9 +11,8 @@ SavedFiles::SavedFiles(const std::vector<std::string>& names, int every, int fra
     : every_(every), frames_(frames), first_(first) {
   for (const std::string& name : names) {
     if (isSequence(name))
-      sequences_.push_back(makeSequenceWriter(
-          name, simulation.cloth(), simulation.scene(),
-          {simulation.scene().solver.framesPerSec, every, first + frames / every * every, first}));
+      sequences_.push_back(makeSequenceWriter(name, simulation.cloth(), simulation.scene(),
+                                              {simulation.scene().solver.framesPerSec, every, first}));
     else if (canSaveStateAs(name))
       states_.push_back(name);
     else

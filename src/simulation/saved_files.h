@@ -21,7 +21,7 @@ class SavedFiles {
   // To be called for frame 0 and after every frame, with the state then. @throws InputOutputError, as
   // finish() does
   void add(const Simulation& simulation, const State& state, int frame);
-  // Closes the sequences, which are complete from then on.
+  // Closes the sequences, which are complete from then on, with the frames that were added.
   void finish();
 
  private:

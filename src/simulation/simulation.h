@@ -48,7 +48,7 @@ class Simulation {
   void stepFrames(int frames);
   // The divergence in the steps since the last stepFrame(), stepFrames() or keep(), if any. The state is then
   // the sound one from before that call, so that nothing broken can be drawn or saved. @throws
-  // SimulationError when an interrupt cut the frames short
+  // Interrupted when an interrupt cut the frames short
   [[nodiscard]] std::optional<Divergence> checkFrame();
   // The same in parts: remembers the state for checkFrame() to go back to, and makes single steps.
   void keep() { solver_->keep(); }

@@ -15,7 +15,7 @@ constexpr double mostSeconds = 4;  // for both backends together
 constexpr double atOnce = 0.05;    // on a backend before the window is served [s]
 constexpr double resultSeconds = 12;
 constexpr double mostCovered = 0.45;  // of the picture
-constexpr float margin = 0.8f;        // em
+constexpr float cardMargin = 0.8f;    // em
 constexpr const char* backendLabels[] = {"GPU", "CPU"};
 
 std::string secondsText(double seconds) {
@@ -112,7 +112,7 @@ CoveredEdges CompareCard::coveredEdges(PictureArea area) const {
 
 void CompareCard::draw(PictureArea area) {
   if (!open_) return;
-  ImGui::SetNextWindowPos({area.width - margin * em(), margin * em()}, ImGuiCond_Always, {1, 0});
+  ImGui::SetNextWindowPos({area.width - cardMargin * em(), cardMargin * em()}, ImGuiCond_Always, {1, 0});
   ImGui::PushStyleColor(ImGuiCol_WindowBg, theme::sheet);
   ImGui::Begin("compare", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
@@ -137,8 +137,8 @@ void CompareCard::draw(PictureArea area) {
   }
   if (wideButton(running_ ? "Stop" : "Close")) close();
   pointedAt_ = ImGui::IsWindowHovered(ImGuiHoveredFlags_RootAndChildWindows);
-  width_ = ImGui::GetWindowWidth() + 2 * margin * em();
-  height_ = ImGui::GetWindowHeight() + 2 * margin * em();
+  width_ = ImGui::GetWindowWidth() + 2 * cardMargin * em();
+  height_ = ImGui::GetWindowHeight() + 2 * cardMargin * em();
   ImGui::End();
   ImGui::PopStyleColor();
 }

@@ -1,7 +1,10 @@
 // The program among full disks, closed streams, signals and names that nobody would choose.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <csignal>
+#include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <regex>
 #include <string>
@@ -133,17 +136,27 @@ TEST(ProgramsMemory, EndsWithAMessage) {
 
 class ProgramsEndBy : public testing::TestWithParam<int> {};
 
-TEST_P(ProgramsEndBy, SignalLeavesNoFile) {
+TEST_P(ProgramsEndBy, SignalKeepsTheFramesBefore) {
   const test::TemporaryFolder folder, apart;
   test::Process run({CLOTHSIM_PROGRAM, "run", "-f", "pinned2", "--resolution", "16x16", "--frames",
-                     "10000000", "--backend", "cpu", "--save", (folder / "a.pc2").string()},
+                     "10000000", "--backend", "cpu", "--save", (folder / "a.pc2").string(), "--save",
+                     (folder / "end.obj").string(), "--trace", (folder / "t.csv").string()},
                     (apart / "said").string());
   ASSERT_TRUE(folder.getsAFile());
   ASSERT_EQ(folder.fileCount(), 1) << "the file grows under a temporary name";
   run.send(GetParam());
-  EXPECT_EQ(run.waitFor(std::chrono::seconds(30)), 1);
-  EXPECT_EQ(folder.fileCount(), 0);
-  EXPECT_NE(readFile(apart / "said").find("interrupted"), std::string::npos);
+  EXPECT_EQ(run.waitFor(std::chrono::seconds(30)), 130);
+  EXPECT_EQ(folder.fileCount(), 3) << "a.pc2, a_rest.obj and t.csv";
+  const std::string cache = readFile(folder / "a.pc2"), trace = readFile(folder / "t.csv");
+  std::int32_t samples = 0;
+  std::memcpy(&samples, &cache.at(28), sizeof samples);
+  EXPECT_EQ(cache.size(), 32 + static_cast<std::size_t>(samples) * 16 * 16 * 12);
+  EXPECT_EQ(std::ranges::count(trace, '\n'), samples + 1) << "a line of names";
+  const std::string said = readFile(apart / "said");
+  EXPECT_NE(said.find("interrupted after frame " + std::to_string(samples - 1)), std::string::npos) << said;
+  EXPECT_NE(said.find("Not written, for want of a last frame: " + (folder / "end.obj").string()),
+            std::string::npos)
+      << said;
 }
 
 TEST(ProgramsEnd, DoesNotComeByASignalThatWasIgnoredBefore) {
@@ -159,7 +172,7 @@ TEST(ProgramsEnd, DoesNotComeByASignalThatWasIgnoredBefore) {
   run.send(SIGHUP);  // as to nohup
   EXPECT_FALSE(run.waitFor(std::chrono::milliseconds(200)).has_value());
   run.send(SIGTERM);
-  EXPECT_EQ(run.waitFor(std::chrono::seconds(30)), 1);
+  EXPECT_EQ(run.waitFor(std::chrono::seconds(30)), 130);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ProgramsEndBy, testing::Values(SIGINT, SIGTERM, SIGHUP, SIGXCPU),

@@ -264,6 +264,27 @@ TEST(Program, SavesTheLastGoodStateOfAnExplosionAndNothingThatIsNotFinite) {
   }
 }
 
+TEST(Program, KeepsTheFramesBeforeAnExplosionAndGoesOnBesideThem) {
+  const test::TemporaryFolder folder;
+  const std::string at = folder.path().string() + "/";
+  const CommandResult run = clothsim(
+      "run -f pinned2 --resolution 16x16 --set cloth.ks=1e7 --set solver.simulation_steps=1 --backend cpu "
+      "--frames 9 --first-frame 4 --save " +
+      at + "a.pc2 --save " + at + "a.usda --save " + at + "f_%d.obj --save " + at + "end.npz --save " + at +
+      "a.mp4");
+  EXPECT_EQ(run.exitCode, 1);
+  const auto says = [&](const std::string& part) {
+    EXPECT_NE(run.output.find(part), std::string::npos) << part << " in:\n" << run.output;
+  };
+  says("up to frame 2: " + at + "a.pc2 with " + at + "a_rest.obj, " + at + "a.usda");
+  says("Not written, for want of a last frame: " + at + "end.npz\n");
+  says("--save " + at + "a-from6.pc2 --save " + at + "a-from6.usda --save " + at + "f_%d.obj");
+  says("--first-frame 6\n");
+  EXPECT_EQ(readFile(folder / "a.pc2").size(), 32 + 3 * 16 * 16 * 12u);
+  EXPECT_NE(readFile(folder / "a.usda").find("startTimeCode = 4\n    endTimeCode = 6\n"), std::string::npos);
+  EXPECT_EQ(readFile(folder / "a.mp4").substr(4, 4), "ftyp");
+}
+
 TEST(Program, DoesNotOverwriteAnotherFileByALastGoodState) {
   const test::TemporaryFolder folder;
   writeFileAtomically(folder / "pinned2-frame1-last-good.state", "dear to somebody");
@@ -494,7 +515,7 @@ TEST(Program, RendersAFilmOrSaysThatFfmpegIsMissing) {
   EXPECT_NE(without.output.find("ffmpeg"), std::string::npos) << without.output;
 }
 
-TEST(Program, LeavesNothingBehindWhenItIsInterruptedInAFilm) {
+TEST(Program, FinishesTheFilmWhenItIsInterrupted) {
   const test::TemporaryFolder folder;
   const std::string film = (folder.path() / "clip.mp4").string();
   test::Process render({CLOTHSIM_PROGRAM, "render", "-f", "pinned2", "--resolution", "16x16", "--frames",
@@ -504,8 +525,9 @@ TEST(Program, LeavesNothingBehindWhenItIsInterruptedInAFilm) {
   ASSERT_EQ(folder.fileCount(), 1) << "the film grows under a temporary name";
   ASSERT_FALSE(std::filesystem::exists(film));
   render.send(SIGINT);
-  EXPECT_EQ(render.waitFor(std::chrono::seconds(30)), 1);
-  EXPECT_EQ(folder.fileCount(), 0);
+  EXPECT_EQ(render.waitFor(std::chrono::seconds(30)), 130);
+  EXPECT_EQ(folder.fileCount(), 1);
+  EXPECT_EQ(readFile(film).substr(4, 4), "ftyp");
 }
 
 TEST(Program, ListsItsScenesAndExplainsItsKeys) {

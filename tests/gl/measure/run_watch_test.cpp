@@ -270,7 +270,7 @@ TEST(Interrupt, EndsALongFrameBetweenTwoSteps) {
     std::this_thread::sleep_for(std::chrono::milliseconds(700));
     ASSERT_TRUE(run.running()) << readFile(folder / "log");
     run.send(SIGINT);
-    EXPECT_EQ(run.waitFor(std::chrono::seconds(3)), 1) << backend;
+    EXPECT_EQ(run.waitFor(std::chrono::seconds(3)), 130) << backend;
     EXPECT_NE(readFile(folder / "log").find("interrupted"), std::string::npos) << readFile(folder / "log");
   }
   EXPECT_FALSE(std::filesystem::exists(folder / "never.state"));

@@ -31,7 +31,7 @@ class Sequence : public testing::Test {
   }
   // Two frames, the second after three.
   void write(const std::string& name) const {
-    const auto writer = makeSequenceWriter(folder_ / name, cloth_, scene_, {60, 3, 3});
+    const auto writer = makeSequenceWriter(folder_ / name, cloth_, scene_, {60, 3});
     writer->addFrame(first_);
     writer->addFrame(second_);
     writer->close();

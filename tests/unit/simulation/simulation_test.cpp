@@ -88,6 +88,18 @@ TEST(Simulation, SavesEveryKindOfFileWithoutPictures) {
   EXPECT_THROW(SavedFiles({name("picture.png")}, 1, 1, simulation), UsageError);
 }
 
+TEST(Simulation, SequencesOfARunThatEndsEarlyAreCompleteWithItsFrames) {
+  const test::TemporaryFolder folder;
+  const auto name = [&](const char* file) { return (folder / file).string(); };
+  Simulation simulation(smallScene());
+  SavedFiles saved({name("all.pc2"), name("all.usda"), name("last.csv")}, 1, 9, simulation);
+  for (int frame = 0; frame <= 1; ++frame) saved.add(simulation, simulation.state(), frame);
+  saved.finish();
+  EXPECT_EQ(readFile(folder / "all.pc2").size(), 32 + 2 * 12 * simulation.state().positions.size());
+  EXPECT_NE(readFile(folder / "all.usda").find("endTimeCode = 1\n"), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(folder / "last.csv"));
+}
+
 TEST(Simulation, IsBackAtTheLastSoundStateAfterDivergence) {
   Scene scene = smallScene();
   Simulation simulation(scene);

@@ -1,0 +1,84 @@
+#include "commands/run_files.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+#include "core/files.h"
+#include "export/export.h"
+#include "output/picture_output.h"
+
+namespace clothsim {
+namespace {
+
+// The names of options.saves that are not pictures.
+std::vector<std::string> filesOf(const RunOptions& options) {
+  std::vector<std::string> files;
+  std::remove_copy_if(options.saves.begin(), options.saves.end(), std::back_inserter(files), isPicture);
+  return files;
+}
+
+void addName(std::string& list, const std::string& name) { list += (list.empty() ? "" : ", ") + name; }
+
+}  // namespace
+
+bool numbersFrames(const std::string& save) {
+  return hasFrameNumber(save) || (isSequence(save) && !isPointCache(save));
+}
+
+bool holdsFrames(const std::string& save) { return isSequence(save) || save.ends_with(".mp4"); }
+
+std::string earlyEndText(const std::vector<std::string>& names, int frame, const std::string& trace) {
+  std::string written = trace, missing;
+  for (const std::string& name : names) {
+    if (!holdsFrames(name) && !hasFrameNumber(name))
+      addName(missing, name);
+    else
+      addName(written, isPointCache(name) ? name + " with " + restMeshBeside(name).string() : name);
+  }
+  std::string text;
+  if (!written.empty())
+    text += "\nWritten, with what there was to save up to frame " + std::to_string(frame) + ": " + written;
+  if (!missing.empty()) text += "\nNot written, for want of a last frame: " + missing;
+  return text;
+}
+
+RunFiles::RunFiles(const RunOptions& options, Simulation& simulation, int frames)
+    : options_(options),
+      files_(filesOf(options), options.every, frames, simulation, options.firstFrame),
+      pictures_(options, simulation.scene(), frames) {}
+
+void RunFiles::add(Simulation& simulation, const RunSummary& seen, int frame) {
+  pictures_.add(simulation, frame);  // first, since an interrupt ends drawing
+  isWhole_ = false;
+  files_.add(simulation, seen.state, frame);
+  isWhole_ = true;
+  if (!options_.trace.empty()) trace_.add(seen, simulation);
+  lastFrame_ = frame;
+}
+
+void RunFiles::finish() {
+  files_.finish();
+  pictures_.finish();
+  writeTrace();
+}
+
+std::string RunFiles::finishEarly() {
+  try {
+    writeTrace();
+    if (isWhole_) {
+      files_.finish();
+      pictures_.finish();
+    }
+    return earlyEndText(isWhole_ ? options_.saves : std::vector<std::string>(), lastFrame_, options_.trace);
+  } catch (const Error& error) {
+    return "\nNot all that there was to save up to frame " + std::to_string(lastFrame_) +
+           " could be written: " + error.what();
+  }
+}
+
+void RunFiles::writeTrace() const {
+  if (options_.trace.empty()) return;
+  writeFileAtomically(options_.trace, options_.trace.ends_with(".npz") ? trace_.npz() : trace_.csv());
+}
+
+}  // namespace clothsim
