@@ -30,6 +30,7 @@ void checkOutputs(const RenderCommandOptions& options) {
     if (!isPicture(out))
       throw UsageError("--out " + out +
                        ": expected a name ending in .png or .mp4, as still.png, frame_%04d.png, clip.mp4");
+    checkFrameNumber("--out", out);
     checkPicture("--out", out, settingsOf(options));
   }
   const bool hasNumbers = std::ranges::any_of(options.outs, hasFrameNumber);

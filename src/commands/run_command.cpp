@@ -61,9 +61,7 @@ void checkNumbering(const RunOptions& options) {
 // Checks the names before the run. @throws UsageError for unknown extensions, InputOutputError
 void checkSaves(const RunOptions& options) {
   for (const std::string& save : options.saves) {
-    if (isSequence(save) && hasFrameNumber(save))
-      throw UsageError("--save " + save +
-                       ": a file of this kind holds all frames; leave the number out of its name");
+    checkFrameNumber("--save", save);
     if (!isSequence(save) && !isPicture(save) && !canSaveStateAs(save))
       throw UsageError("--save " + save +
                        ": the extension is none of .csv, .ply, .obj, .glb, .npz, .state, .pc2, .usda, .usdc, "

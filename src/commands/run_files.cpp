@@ -27,6 +27,18 @@ bool numbersFrames(const std::string& save) {
 
 bool holdsFrames(const std::string& save) { return isSequence(save) || save.ends_with(".mp4"); }
 
+void checkFrameNumber(const std::string& flag, const std::string& name) {
+  const std::string foreign = foreignFrameNumber(name);
+  if (holdsFrames(name) && (hasFrameNumber(name) || !foreign.empty()))
+    throw UsageError(flag + " " + name +
+                     ": a file of this kind holds all frames; leave the number out of its name");
+  if (foreign.empty()) return;
+  std::string right = name;
+  right.replace(name.find(foreign), foreign.size(), "%04d");
+  throw UsageError(flag + " " + name + ": expected %04d for the number of a frame, found " + foreign +
+                   "; write " + right);
+}
+
 std::string earlyEndText(const std::vector<std::string>& names, int frame, const std::string& trace) {
   std::string written = trace, missing;
   for (const std::string& name : names) {

@@ -19,6 +19,10 @@ namespace clothsim {
 // Whether one file of that name holds many frames.
 [[nodiscard]] bool holdsFrames(const std::string& save);
 
+// @throws UsageError for a name of `flag` with a number where one file holds all frames, or with one that
+// other programs understand
+void checkFrameNumber(const std::string& flag, const std::string& name);
+
 // For messages of a command that ends after `frame`, before its last: which of the files hold what there was
 // up to then, and which are missing, since they are of the last frame. It begins with a line end.
 [[nodiscard]] std::string earlyEndText(const std::vector<std::string>& names, int frame,

@@ -1,10 +1,19 @@
 #include "simulation/saved_files.h"
 
+#include <regex>
+
 #include "core/error.h"
 #include "core/files.h"
 #include "export/export.h"
 
 namespace clothsim {
+
+std::string foreignFrameNumber(const std::string& name) {
+  if (hasFrameNumber(name)) return "";
+  static const std::regex foreign(R"(%[-+. 0-9]*[diu]|##+|\$F[0-9]*)");
+  std::smatch found;
+  return std::regex_search(name, found, foreign) ? found.str() : "";
+}
 
 SavedFiles::SavedFiles(const std::vector<std::string>& names, int every, int frames,
                        const Simulation& simulation, int first)

@@ -10,6 +10,10 @@
 
 namespace clothsim {
 
+// What in a name looks like the number of a frame, but is none that numberedName() understands: "%4d",
+// "####", "$F4", "%04i"; "" where there is nothing of the kind.
+[[nodiscard]] std::string foreignFrameNumber(const std::string& name);
+
 class SavedFiles {
  public:
   // The extension of a name chooses the format; makeSequenceWriter() and saveState() list them. Sequences and

@@ -504,6 +504,17 @@ TEST(Program, DrawsTheCutsOfARecording) {
   EXPECT_NE(readFile(folder / "cut5.png"), readFile(folder / "whole5.png"));
 }
 
+TEST(Program, RefusesNumbersOfFramesThatItDoesNotUnderstand) {
+  for (const char* command : {"run -f pinned2 --frames 1 --save ", "render -f pinned2 --frames 1 --out "}) {
+    const CommandResult odd = clothsim(std::string(command) + "x_%4d.png"),
+                        film = clothsim(std::string(command) + "x_%04d.mp4");
+    EXPECT_EQ(odd.exitCode, 2) << odd.output;
+    EXPECT_NE(odd.output.find("found %4d; write x_%04d.png"), std::string::npos) << odd.output;
+    EXPECT_EQ(film.exitCode, 2) << film.output;
+    EXPECT_NE(film.output.find("holds all frames"), std::string::npos) << film.output;
+  }
+}
+
 TEST(Program, RendersAFilmOrSaysThatFfmpegIsMissing) {
   const test::TemporaryFolder folder;
   const std::string film = (folder.path() / "clip.mp4").string();

@@ -100,6 +100,15 @@ TEST(Simulation, SequencesOfARunThatEndsEarlyAreCompleteWithItsFrames) {
   EXPECT_FALSE(std::filesystem::exists(folder / "last.csv"));
 }
 
+TEST(ForeignFrameNumber, IsWhatOtherProgramsCountFramesWith) {
+  EXPECT_EQ(foreignFrameNumber("out/x_%4d.obj"), "%4d");
+  EXPECT_EQ(foreignFrameNumber("y_####.obj"), "####");
+  EXPECT_EQ(foreignFrameNumber("z_$F4.obj"), "$F4");
+  EXPECT_EQ(foreignFrameNumber("w_%04i.obj"), "%04i");
+  for (const char* name : {"x_%04d.obj", "%d.obj", "take#2.obj", "50%.obj", "still.png", "price$.obj"})
+    EXPECT_EQ(foreignFrameNumber(name), "") << name;
+}
+
 TEST(Simulation, IsBackAtTheLastSoundStateAfterDivergence) {
   Scene scene = smallScene();
   Simulation simulation(scene);
