@@ -14,8 +14,10 @@ namespace clothsim {
 
 // .csv: header index,x,y,z,vx,vy,vz, values %.9g. .ply: binary little-endian, positions, normals, uv,
 // triangles. .obj: text with uv and normals. .npz: arrays for NumPy (formats.h names them). .state: binary
-// and exact, loadState reads it back. @throws UsageError for another extension, InputOutputError
-void saveState(const State& state, const Cloth& cloth, const std::filesystem::path& path);
+// and exact, loadState reads it back. .glb: glTF, in the colours of the cloths of `looksOf`, or white.
+// @throws UsageError for another extension, InputOutputError
+void saveState(const State& state, const Cloth& cloth, const std::filesystem::path& path,
+               const Scene* looksOf = nullptr);
 [[nodiscard]] bool canSaveStateAs(const std::filesystem::path& path);
 inline constexpr std::string_view STATE_EXTENSIONS = ".csv, .ply, .obj, .glb, .npz or .state";
 

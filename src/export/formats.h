@@ -23,9 +23,9 @@ enum class ObjObjects { byCloth, one };
 // step.
 [[nodiscard]] std::string formatNpz(const State& state, const Cloth& cloth);
 
-// glTF 2.0 in one binary file: a node with a mesh for each cloth, with normals and texture coordinates.
-// @throws InputOutputError
-[[nodiscard]] std::string formatGlb(const State& state, const Cloth& cloth);
+// glTF 2.0 in one binary file: a node with a mesh and a material for each cloth, with normals and texture
+// coordinates. `looksOf` has colours and gloss; none: white. @throws InputOutputError
+[[nodiscard]] std::string formatGlb(const State& state, const Cloth& cloth, const Scene* looksOf = nullptr);
 
 // The `.state` file, little-endian throughout:
 //   offset  0  8 bytes  "clothsim"

@@ -9,19 +9,19 @@
 namespace clothsim {
 namespace {
 
-using Format = std::string (*)(const State&, const Cloth&);
+using Format = std::string (*)(const State&, const Cloth&, const Scene*);
 
 struct Extension {
   std::string_view name;
   Format format;
 };
 constexpr std::array<Extension, 6> extensions{{
-    {".csv", [](const State& state, const Cloth&) { return formatCsv(state); }},
-    {".ply", formatPly},
-    {".obj", [](const State& state, const Cloth& cloth) { return formatObj(state, cloth); }},
+    {".csv", [](const State& state, const Cloth&, const Scene*) { return formatCsv(state); }},
+    {".ply", [](const State& state, const Cloth& cloth, const Scene*) { return formatPly(state, cloth); }},
+    {".obj", [](const State& state, const Cloth& cloth, const Scene*) { return formatObj(state, cloth); }},
     {".glb", formatGlb},
-    {".npz", [](const State& state, const Cloth& cloth) { return formatNpz(state, cloth); }},
-    {".state", [](const State& state, const Cloth&) { return formatStateFile(state); }},
+    {".npz", [](const State& state, const Cloth& cloth, const Scene*) { return formatNpz(state, cloth); }},
+    {".state", [](const State& state, const Cloth&, const Scene*) { return formatStateFile(state); }},
 }};
 
 // Null for an extension that no format has.
@@ -36,12 +36,13 @@ Format formatFor(const std::filesystem::path& path) {
 
 bool canSaveStateAs(const std::filesystem::path& path) { return formatFor(path) != nullptr; }
 
-void saveState(const State& state, const Cloth& cloth, const std::filesystem::path& path) {
+void saveState(const State& state, const Cloth& cloth, const std::filesystem::path& path,
+               const Scene* looksOf) {
   const Format format = formatFor(path);
   if (format == nullptr)
     throw UsageError("cannot save '" + path.string() + "': its extension is '" + path.extension().string() +
                      "', expected " + std::string(STATE_EXTENSIONS));
-  writeFileAtomically(path, format(state, cloth));
+  writeFileAtomically(path, format(state, cloth, looksOf));
 }
 
 State loadState(const std::filesystem::path& path, const Cloth& cloth) {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "cloth/material_look.h"
+#include "export/surface_color.h"
 #include "scene/colliders/collider_set.h"
 #include "scene/colliders/solid_mesh.h"
 #include "scene/pose.h"
@@ -12,11 +13,9 @@
 namespace clothsim {
 namespace {
 
-// Of USD's light: linear in intensity.
-std::string linearColor(Vec3d color) {
-  const auto linear = [](double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); };
+std::string colorText(Vec3d color) {
   std::string text;
-  appendUsdVector(text, Vec3d{linear(color.x), linear(color.y), linear(color.z)}.cast<float>());
+  appendUsdVector(text, linearFromSrgb(color).cast<float>());
   return text;
 }
 
@@ -25,7 +24,7 @@ std::string materialText(const std::string& name, Vec3d color, double roughness)
          "\"\n        {\n            token outputs:surface.connect = " + "</clothsim/materials/" + name +
          "/surface.outputs:surface>\n\n" + "            def Shader \"surface\"\n            {\n" +
          "                uniform token info:id = \"UsdPreviewSurface\"\n" +
-         "                color3f inputs:diffuseColor = " + linearColor(color) + "\n" +
+         "                color3f inputs:diffuseColor = " + colorText(color) + "\n" +
          "                float inputs:roughness = " + usdNumber(roughness) + "\n" +
          "                token outputs:surface\n            }\n        }\n";
 }
@@ -44,7 +43,7 @@ std::string materials(const Scene& scene) {
   std::string text = "    def Scope \"materials\"\n    {\n";
   for (std::size_t i = 0; i < scene.cloths.size(); ++i) {
     const RenderSettings look = lookOf(scene, i);
-    text += materialText(usdClothMaterial(scene, i), look.color, 1 - 0.7 * look.gloss);
+    text += materialText(usdClothMaterial(scene, i), look.color, clothRoughness(look));
   }
   text += materialText("solid", gray, 0.6);
   for (std::size_t i = 0; i < scene.colliders.size(); ++i)

@@ -327,7 +327,7 @@ Image PythonSimulation::picture(const PictureView& view) {
 }
 
 void PythonSimulation::save(const std::filesystem::path& path) {
-  saveState(state(), simulation_->cloth(), path);
+  saveState(state(), simulation_->cloth(), path, &simulation_->scene());
 }
 void PythonSimulation::load(const std::filesystem::path& path) {
   setState(loadState(path, simulation_->cloth()));

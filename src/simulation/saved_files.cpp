@@ -36,7 +36,7 @@ void SavedFiles::add(const Simulation& simulation, const State& state, int frame
     if (isDue) sequence->addFrame(state);
   for (const std::string& name : states_)
     if (hasFrameNumber(name) ? isDue : frame == frames_)
-      saveState(state, simulation.cloth(), numberedName(name, first_ + frame));
+      saveState(state, simulation.cloth(), numberedName(name, first_ + frame), &simulation.scene());
 }
 
 void SavedFiles::finish() {

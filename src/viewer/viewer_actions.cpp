@@ -456,7 +456,8 @@ void Viewer::saveSceneAs(const std::filesystem::path& path) {
   Simulation& simulation = session().simulation();
   const State state = simulation.solver().state();
   const bool isScene = !canSaveStateAs(path);
-  isScene ? saveScene(sceneAsSeen(state), path) : saveState(state, simulation.cloth(), path);
+  isScene ? saveScene(sceneAsSeen(state), path)
+          : saveState(state, simulation.cloth(), path, &simulation.scene());
   confirmed_ = path.string();
   column_.scenes().remember(path.string());
   say("Saved " + std::filesystem::absolute(path).lexically_normal().string() +
