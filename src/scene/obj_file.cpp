@@ -8,6 +8,7 @@
 #include <span>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 #include "core/error.h"
 #include "core/files.h"
@@ -50,9 +51,10 @@ class Line {
  public:
   Line(const std::string& file, std::size_t number, std::string_view text)
       : file_(file), number_(number), text_(text) {}
-  [[noreturn]] void failExpecting(const std::string& what) const {
+  [[noreturn]] void failExpecting(const std::string& what) const { fail("expected " + what); }
+  [[noreturn]] void fail(const std::string& what) const {
     const std::string quote(text_.substr(0, 80));
-    throw SceneError(file_ + ":" + std::to_string(number_) + ": expected " + what + ", found \"" + quote +
+    throw SceneError(file_ + ":" + std::to_string(number_) + ": " + what + ", found \"" + quote +
                      (quote.size() < text_.size() ? "...\"" : "\""));
   }
 
@@ -62,10 +64,17 @@ class Line {
   std::string_view text_;
 };
 
-// How many corners it has. Refuses numbers so large that tinyobjloader would wrap them around. `corners`: "1
-// 2/3 -4//5".
-std::size_t checkedFace(const Line& line, std::string_view corners) {
+struct Face {
+  int highest = 0;  // number of a point at a corner
+  std::size_t line = 0;
+  std::string text;
+};
+
+// How many corners it has, and the highest number of a point there. Refuses numbers so large that
+// tinyobjloader would wrap them around. `corners`: "1 2/3 -4//5".
+std::pair<std::size_t, int> checkedFace(const Line& line, std::string_view corners) {
   std::size_t count = 0;
+  int highest = 0;
   while (!corners.empty()) {
     if (isBlank(corners.front()) || corners.front() == '/') {
       corners.remove_prefix(1);
@@ -75,17 +84,19 @@ std::size_t checkedFace(const Line& line, std::string_view corners) {
     if (++count > MOST_CORNERS)
       line.failExpecting("a face of at most " + std::to_string(MOST_CORNERS) + " corners");
     std::string_view corner = corners.substr(0, end);
+    bool isPoint = true;  // before the first slash
     while (!corner.empty()) {
       int index = 0;
       const auto [next, code] = std::from_chars(corner.data(), corner.data() + corner.size(), index);
       if (code == std::errc::result_out_of_range)
         line.failExpecting("numbers of points of at most " + std::to_string(std::numeric_limits<int>::max()));
+      if (std::exchange(isPoint, false)) highest = std::max(highest, index);
       const std::size_t slash = corner.find('/');
       corner.remove_prefix(slash == corner.npos ? corner.size() : slash + 1);
     }
     corners.remove_prefix(end);
   }
-  return count;
+  return {count, highest};
 }
 
 // The lines that a cloth or a collider needs, checked: tinyobjloader reads what is no number as 0, and for
@@ -94,27 +105,48 @@ std::size_t checkedFace(const Line& line, std::string_view corners) {
 struct CheckedLines {
   std::string text;
   std::vector<std::size_t> corners;  // of each face
+  std::size_t points = 0;
+  Face farthest;  // that names the highest number of a point
 };
+
+// A line without its end, and how many lines of the file it is: one that ends with a backslash goes on.
+std::size_t takeLine(std::string_view& text, std::string& line) {
+  line.clear();
+  for (std::size_t count = 1;; ++count) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    line.append(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+    while (!line.empty() && isBlank(line.back())) line.pop_back();
+    if (text.empty() || !line.ends_with('\\') || line.find('#') != line.npos) return count;
+    line.back() = ' ';
+  }
+}
+
 CheckedLines checkedLines(const std::string& file, std::string_view text) {
+  constexpr std::string_view byteOrderMark = "\xEF\xBB\xBF";
+  if (text.starts_with(byteOrderMark)) text.remove_prefix(byteOrderMark.size());
   CheckedLines kept;
   kept.text.reserve(text.size() + 1);
-  for (std::size_t number = 1; !text.empty(); ++number) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    std::string_view line = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
+  std::string whole;
+  for (std::size_t number = 1, lines = 0; !text.empty(); number += lines) {
+    lines = takeLine(text, whole);
+    std::string_view line = whole;
     while (!line.empty() && isBlank(line.front())) line.remove_prefix(1);
     if (line.starts_with('v') || line.starts_with('f')) line = line.substr(0, line.find('#'));
     while (!line.empty() && isBlank(line.back())) line.remove_suffix(1);
     const std::string_view word = line.substr(0, std::min(line.find_first_of(" \t"), line.size()));
     if (word == "v" && !hasThreeNumbers(line.substr(1)))
       Line(file, number, line).failExpecting("a point, v and three finite numbers");
+    if (word == "v") ++kept.points;
     if (word == "f") {
-      const std::size_t corners = checkedFace(Line(file, number, line), line.substr(1));
+      const auto [corners, highest] = checkedFace(Line(file, number, line), line.substr(1));
       if (corners >= 3) kept.corners.push_back(corners);  // tinyobjloader leaves out others
+      if (corners >= 3 && highest > kept.farthest.highest)
+        kept.farthest = {highest, number, std::string(line)};
     }
     const std::string_view needed[] = {"v", "vt", "vn", "f", "g", "o"};
     if (std::find(std::begin(needed), std::end(needed), word) != std::end(needed)) kept.text.append(line);
-    kept.text += '\n';  // so that tinyobjloader counts lines as the file has them
+    kept.text.append(lines, '\n');  // so that tinyobjloader counts lines as the file has them
   }
   return kept;
 }
@@ -152,12 +184,17 @@ fs::path meshPath(const std::string& file) {
 
 ObjFile readObjFile(const std::string& file, const std::string& use) {
   const CheckedLines lines = checkedLines(file, readMeshFile(file, use));
+  const std::string noSuchPoint =
+      "a face names a point that the file does not have, expected 1 to " + std::to_string(lines.points);
+  if (static_cast<std::size_t>(lines.farthest.highest) > lines.points)
+    Line(file, lines.farthest.line, lines.farthest.text).fail(noSuchPoint);
   std::istringstream text(lines.text);
   ObjFile obj;
   std::vector<tinyobj::material_t> materials;
   std::string warnings, errors;
   const bool read = tinyobj::LoadObj(&obj.attributes, &obj.shapes, &materials, &warnings, &errors, &text,
                                      nullptr, false, false);
+  while (!errors.empty() && errors.back() == '\n') errors.pop_back();
   if (!read) throw SceneError(file + ": cannot be read as an OBJ file: " + errors);
   const auto points = static_cast<int>(obj.attributes.vertices.size() / 3);
   const auto hasNoPoint = [&](const tinyobj::index_t& corner) {
@@ -166,8 +203,7 @@ ObjFile readObjFile(const std::string& file, const std::string& use) {
   if (std::ranges::any_of(obj.shapes, [&](const tinyobj::shape_t& shape) {
         return std::ranges::any_of(shape.mesh.indices, hasNoPoint);
       }))
-    throw SceneError(file + ": a face names a point that the file does not have, expected 1 to " +
-                     std::to_string(points));
+    throw SceneError(file + ": " + noSuchPoint);
   std::span<const std::size_t> faces(lines.corners);
   const bool areSplit = std::ranges::all_of(obj.shapes, [&](tinyobj::shape_t& shape) {
     return splitIntoTriangles(shape.mesh, obj.attributes.vertices, faces);
