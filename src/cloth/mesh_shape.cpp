@@ -57,11 +57,14 @@ std::vector<std::string> wordsOf(const std::string& text) {
 
 // The two longest sides of the box around the points as u and v.
 void projectTextureCoordinates(MeshShape& shape) {
-  Vec3d low = shape.points[0], high = low;
-  for (const Vec3d& p : shape.points) {
+  if (shape.triangles.empty()) return;
+  Vec3d low = shape.points[shape.triangles[0][0]], high = low;
+  const auto enclose = [&](const Vec3d& p) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
+  };
+  for (const Triangle& t : shape.triangles)
+    for (const std::uint32_t corner : t) enclose(shape.points[corner]);
   const Vec3d size = high - low;
   const auto part = [](double x, double from, double extent) {
     return static_cast<float>(extent > 0 ? (x - from) / extent : 0);
@@ -125,16 +128,34 @@ void checkTriangles(const std::string& file, const MeshShape& shape) {
   }
 }
 
-void checkPointsAreUsed(const std::string& file, const MeshShape& shape) {
+// The last step of reading: until then messages name points as the file counts them. The others keep their
+// order, and so edges and groups theirs.
+void dropLoosePoints(MeshShape& shape) {
   std::vector<bool> used(shape.points.size());
   for (const Triangle& t : shape.triangles)
     for (const std::uint32_t corner : t) used[corner] = true;
-  const auto loose = static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
-  if (loose == 0) return;
-  const auto first = std::find(used.begin(), used.end(), false) - used.begin();
-  fail(file, std::to_string(loose) + " points belong to no face, the first is point " +
-                 std::to_string(first + 1) +
-                 ". Delete loose points (in Blender: Mesh, Clean Up, Delete Loose).");
+  if (std::find(used.begin(), used.end(), false) == used.end()) return;
+  std::vector<std::uint32_t> places(used.size());
+  for (std::uint32_t i = 0; i < used.size(); ++i) {
+    if (!used[i]) continue;
+    const std::size_t place = shape.fileIndices.size();
+    places[i] = static_cast<std::uint32_t>(place);
+    shape.fileIndices.push_back(i);
+    shape.points[place] = shape.points[i];
+    shape.textureCoordinates[place] = shape.textureCoordinates[i];
+    if (!shape.colors.empty()) shape.colors[place] = shape.colors[i];
+  }
+  shape.points.resize(shape.fileIndices.size());
+  shape.textureCoordinates.resize(shape.fileIndices.size());
+  if (!shape.colors.empty()) shape.colors.resize(shape.fileIndices.size());
+  shape.loosePoints = used.size() - shape.fileIndices.size();
+  for (Triangle& t : shape.triangles)
+    for (std::uint32_t& corner : t) corner = places[corner];
+  for (Edge& edge : shape.edges)
+    for (std::uint32_t* point : {&edge.a, &edge.b, &edge.opposite[0], &edge.opposite[1]})
+      *point = places[*point];
+  for (auto& [name, members] : shape.groups)
+    for (std::uint32_t& member : members) member = places[member];
 }
 
 // --- Edges
@@ -159,6 +180,17 @@ std::vector<Side> sidesOf(const MeshShape& shape) {
   return sides;
 }
 
+// Its edges would be said to have too many triangles, which another cure is for.
+void checkForDoubles(const std::string& file, const MeshShape& shape) {
+  std::vector<Triangle> triangles = shape.triangles;
+  for (Triangle& t : triangles) std::ranges::sort(t);
+  std::ranges::sort(triangles);
+  const auto twice = std::ranges::adjacent_find(triangles);
+  if (twice == triangles.end()) return;
+  fail(file, "the triangle of points " + faceText(*twice) +
+                 " is there twice. Leave one (in Blender: Mesh, Clean Up, Merge by Distance).");
+}
+
 void findEdges(const std::string& file, MeshShape& shape) {
   const std::vector<Side> sides = sidesOf(shape);
   for (const Side& side : sides) {
@@ -169,16 +201,19 @@ void findEdges(const std::string& file, MeshShape& shape) {
       shape.edges.push_back(
           {side.a, side.b, {side.opposite, side.opposite}, 1, {side.triangle, side.triangle}});
     } else if (last->triangles == 2) {
+      checkForDoubles(file, shape);
       fail(file,
            place +
                " has more than two triangles: cloth is a surface, on which at most two meet. Take layers "
                "apart (in Blender: Select, All by Trait, Non Manifold).");
     } else {
       const bool before = (&side - 1)->forwards;
-      if (before == side.forwards)
+      if (before == side.forwards) {
+        checkForDoubles(file, shape);
         fail(file, place +
                        " has two triangles of opposite orientation. Unify the normals (in Blender: Mesh, "
                        "Normals, Recalculate Outside).");
+      }
       last->triangles = 2;
       last->beside[1] = side.triangle;
       (side.forwards ? last->opposite[0] : last->opposite[1]) = side.opposite;
@@ -200,8 +235,8 @@ MeshShape load(const std::string& file) {
   if (shape.triangles.empty())
     fail(file, "expected an OBJ file with faces (lines that begin with f), found none");
   checkTriangles(file, shape);
-  checkPointsAreUsed(file, shape);
   findEdges(file, shape);
+  dropLoosePoints(shape);
   return shape;
 }
 
@@ -217,6 +252,13 @@ std::shared_ptr<const MeshShape> meshShapeOf(const std::string& file) {
   auto shape = std::make_shared<const MeshShape>(load(file));
   shapes.add(version, shape, shape->points.size());
   return shape;
+}
+
+std::optional<std::uint32_t> MeshShape::pointAt(std::uint32_t fileIndex) const {
+  if (fileIndices.empty()) return fileIndex < points.size() ? std::optional(fileIndex) : std::nullopt;
+  const auto found = std::ranges::lower_bound(fileIndices, fileIndex);
+  if (found == fileIndices.end() || *found != fileIndex) return std::nullopt;
+  return static_cast<std::uint32_t>(found - fileIndices.begin());
 }
 
 std::vector<Vec3d> placedPoints(const MeshShape& shape, const ClothSettings& cloth) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,12 +35,21 @@ struct MeshShape {
   std::vector<std::array<std::array<float, 2>, 3>> cornerCoordinates;
   std::vector<Edge> edges;                                   // ascending in (a, b)
   std::map<std::string, std::vector<std::uint32_t>> groups;  // points of the faces of each, ascending
+
+  // Points of the file that belong to no face are left out here. Scenes name the others as the file counts
+  // them, from 0.
+  std::size_t loosePoints = 0;
+  std::vector<std::uint32_t> fileIndices;  // of the points, ascending; empty where none is left out
+  [[nodiscard]] std::uint32_t fileIndexOf(std::uint32_t point) const {
+    return fileIndices.empty() ? point : fileIndices[point];
+  }
+  [[nodiscard]] std::optional<std::uint32_t> pointAt(std::uint32_t fileIndex) const;  // none: left out
 };
 
 // Reads the OBJ file of a cloth, and reads it again only when it has changed. `file`: a path, or one below
 // the resource root. Vertices are those of the file (`v`): corners that differ in texture coordinates or
 // normals alone are one. @throws SceneError when it cannot be read, has no faces, a number that is none, a
-// corner that is no vertex, a vertex in no face, a triangle without area, or an edge with more than two
+// corner that is no vertex, a triangle without area or one that is there twice, or an edge with more than two
 // triangles or with two of opposite orientation
 [[nodiscard]] std::shared_ptr<const MeshShape> meshShapeOf(const std::string& file);
 

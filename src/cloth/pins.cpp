@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "cloth/mesh_shape.h"
@@ -22,7 +23,7 @@ std::size_t particleCount(const ClothSettings& cloth) {
 }
 
 std::string particleText(std::uint32_t particle, const ClothSettings& cloth) {
-  if (cloth.isMesh()) return "vertex " + std::to_string(particle);
+  if (cloth.isMesh()) return "vertex " + std::to_string(meshShapeOf(cloth.mesh)->fileIndexOf(particle));
   const auto place = static_cast<int>(particle);
   return pointText({place % cloth.numWidthPoints, place / cloth.numWidthPoints});
 }
@@ -39,10 +40,12 @@ struct Owner {
 };
 
 std::uint32_t vertexOf(const VertexPin& pin, const Owner& owner, const MeshShape& shape) {
-  if (static_cast<std::size_t>(pin.vertex) >= shape.points.size())
-    owner.fail("expected a vertex from 0 to " + std::to_string(shape.points.size() - 1) +
-               " of the mesh, found " + std::to_string(pin.vertex));
-  return static_cast<std::uint32_t>(pin.vertex);
+  const auto index = static_cast<std::uint32_t>(pin.vertex);
+  if (const std::optional<std::uint32_t> point = shape.pointAt(index)) return *point;
+  const auto points = static_cast<std::uint32_t>(shape.points.size() + shape.loosePoints);
+  if (index < points) owner.fail("vertex " + std::to_string(index) + " of the mesh belongs to no face");
+  owner.fail("expected a vertex from 0 to " + std::to_string(points - 1) + " of the mesh, found " +
+             std::to_string(pin.vertex));
 }
 
 bool isInside(const Region& region, Vec3d p) {
@@ -77,7 +80,8 @@ std::vector<double> channelOf(const PaintedPin& pin, const Owner& owner, const M
     const double value = double{color[channel]};
     if (!(value >= 0 && value <= 1))
       owner.fail("expected colours from 0 to 1 in the mesh file, found " + name + " " +
-                 formatted("%g", value) + " at vertex " + std::to_string(values.size()));
+                 formatted("%g", value) + " at vertex " +
+                 std::to_string(shape.fileIndexOf(static_cast<std::uint32_t>(values.size()))));
     values.push_back(value);
   }
   return values;
@@ -193,6 +197,10 @@ class PinnedParticles {
 };
 
 }  // namespace
+
+VertexPin vertexPinOf(const ClothSettings& cloth, std::uint32_t point) {
+  return {static_cast<int>(meshShapeOf(cloth.mesh)->fileIndexOf(point))};
+}
 
 bool isMeshPin(const Pin& pin) {
   return std::holds_alternative<VertexPin>(pin) || std::holds_alternative<RegionPin>(pin) ||

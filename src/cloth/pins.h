@@ -16,6 +16,9 @@ namespace clothsim {
 // The block of points of a grid that a pin holds. The top of a vertical sheet is its last row.
 [[nodiscard]] GridRange pointsOf(const Pin& pin, const ClothSettings& cloth);
 
+// That names a point of a mesh as its file counts it.
+[[nodiscard]] VertexPin vertexPinOf(const ClothSettings& cloth, std::uint32_t point);
+
 // Whether the pin is one of meshes: a vertex, a region, a group or paint.
 [[nodiscard]] bool isMeshPin(const Pin& pin);
 // Whether a pin holds a particle, by particle, counted from the cloth's first one. @throws SceneError when

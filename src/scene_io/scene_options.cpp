@@ -1,9 +1,11 @@
 #include "scene_io/scene_options.h"
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "cloth/material.h"
+#include "cloth/mesh_shape.h"
 #include "core/formatted.h"
 #include "scene_io/mesh_scene.h"
 #include "scene_io/scene_io.h"
@@ -44,6 +46,18 @@ std::string chosenCounts(const SolverSettings& solver) {
   return text.empty() ? "" : "auto chose " + text;
 }
 
+// Once for each mesh.
+void addLoosePoints(RemarkedScene& read) {
+  std::set<std::string> files;
+  for (const ClothSettings& cloth : read.scene.cloths) {
+    if (!cloth.isMesh() || !files.insert(cloth.mesh).second) continue;
+    if (const std::size_t loose = meshShapeOf(cloth.mesh)->loosePoints; loose > 0)
+      read.remarks.push_back(
+          cloth.mesh + ": left out " + std::to_string(loose) +
+          (loose == 1 ? " point that belongs to no face" : " points that belong to no face"));
+  }
+}
+
 }  // namespace
 
 RemarkedScene readScene(const SceneOptions& options) {
@@ -68,6 +82,7 @@ RemarkedScene changedScene(Scene from, const SceneOptions& options) {
     if (!remark.empty()) read.remarks.push_back(remark);
   }
   for (const Setting& setting : settings) setSceneValue(scene, setting.text, setting.flag);
+  addLoosePoints(read);
   if (const std::string chosen = chosenCounts(scene.solver); !chosen.empty()) read.remarks.push_back(chosen);
   if (usesMaterial(scene) && stepLength(scene.solver) > stableStep(scene) * (1 + 1e-9))
     read.remarks.push_back(

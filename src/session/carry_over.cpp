@@ -73,9 +73,10 @@ std::vector<SetPin> pinsByHand(const State& state, const Cloth& before, const Cl
 }
 
 Scene withPinsByHand(Scene scene, const Cloth& cloth, const State& state) {
-  const auto pinOf = [](const Piece& piece, std::uint32_t particle) -> Pin {
+  const auto pinOf = [&](const Piece& piece, std::uint32_t particle) -> Pin {
     const auto place = static_cast<int>(particle - piece.firstParticle);
-    if (piece.isMesh) return VertexPin{place};
+    if (piece.isMesh)
+      return vertexPinOf(scene.cloths[cloth.pieceOf(particle)], particle - piece.firstParticle);
     return GridPoint{place % piece.columns, place / piece.columns};
   };
   const auto isFree = [&](std::uint32_t particle) { return state.positions[particle].w != 0; };

@@ -71,8 +71,8 @@ std::optional<PinGroup> pinGroupOf(const Scene& scene, const Cloth& cloth, std::
     if (isOnAPath(particles, settings)) return std::nullopt;
     return PinGroup{number, {pin}};
   }
+  if (settings.isMesh()) return PinGroup{number, {vertexPinOf(settings, place)}};
   const int index = static_cast<int>(place);
-  if (settings.isMesh()) return PinGroup{number, {VertexPin{index}}};
   return PinGroup{number, {GridPoint{index % settings.numWidthPoints, index / settings.numWidthPoints}}};
 }
 

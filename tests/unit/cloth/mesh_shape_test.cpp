@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "cloth/material.h"
+#include "cloth/pins.h"
 #include "core/error.h"
 #include "scene_io/scene_io.h"
+#include "scene_io/scene_options.h"
 #include "support/mesh_sheet.h"
 #include "support/throws.h"
 
@@ -75,18 +77,54 @@ TEST(MeshShape, TellsWhatIsWrongWithAFile) {
   expectInMessage("hello\n", "expected an OBJ file with faces");
   expectInMessage(squarePoints, "expected an OBJ file with faces");
   expectInMessage(squarePoints + "f 1 2 9\n",
-                  "a face names a point that the file does not have, expected 1 to 4");
+                  ":5: a face names a point that the file does not have, expected 1 to 4, found \"f 1 2 9\"");
   expectInMessage(squarePoints + "f 1 2 3 9\n", "a face names a point that the file does not have");
   expectInMessage("v 0 0 0\nv 1 nan 0\nv 1 1 0\nf 1 2 3\n",
                   ":2: expected a point, v and three finite numbers");
   expectInMessage("v 0 0 0\nv 1 1e99 0\nv 1 1 0\nf 1 2 3\n", "three finite numbers");
   expectInMessage("v 0 0 0\nv 1 0\nv 1 1 0\nf 1 2 3\n", "three finite numbers");
-  expectInMessage(squarePoints + "f 1 2 3\n", "1 points belong to no face, the first is point 4");
   expectInMessage(squarePoints + "f 1 2 3\nf 1 3 3\nf 1 3 4\n", "has no area");
   expectInMessage("v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 4\n", "has no area");
   expectInMessage(squarePoints + "v 0 0 1\nf 1 2 3\nf 1 3 4\nf 1 3 5\n",
                   "the edge of points 3 and 1 has more than two triangles");
   expectInMessage(squarePoints + "f 1 2 3\nf 1 4 3\n", "two triangles of opposite orientation");
+  const std::string twice = "the triangle of points 1, 2, 3 is there twice";
+  expectInMessage(squarePoints + "f 1 2 3\nf 1 3 4\nf 2 3 1\n", twice);
+  expectInMessage(squarePoints + "f 1 2 3\nf 1 3 4\nf 3 2 1\n", twice);
+}
+
+TEST(MeshShape, IsReadBehindAByteOrderMarkAndFromLinesThatGoOn) {
+  const auto shape = meshShapeOf(test::meshFile("\xEF\xBB\xBF" + squarePoints + "f 1 2 \\\n 3 4\n"));
+  EXPECT_EQ(shape->points.size(), 4u);
+  EXPECT_EQ(shape->triangles.size(), 2u);
+  expectInMessage(squarePoints + "f 1 2 \\\r\n 3 4\nv 1 2\n", ":7: expected a point");
+}
+
+TEST(MeshShape, LeavesOutPointsOfNoFaceAndKnowsTheOthersByTheirPlaceInTheFile) {
+  const auto shape =
+      meshShapeOf(test::meshFile("v 9 9 9\n" + squarePoints + "v 9 0 0\ng all\nf 2 3 4\nf 2 4 5\n"));
+  EXPECT_EQ(shape->loosePoints, 2u);
+  ASSERT_EQ(shape->points.size(), 4u);
+  EXPECT_EQ(shape->points[1], (Vec3d{1, 0, 0}));
+  EXPECT_EQ(shape->triangles, (std::vector<MeshShape::Triangle>{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(shape->groups.at("all"), (std::vector<std::uint32_t>{0, 1, 2, 3}));
+  EXPECT_EQ(shape->textureCoordinates[1], (std::array{1.0f, 1.0f})) << "of the box around the faces";
+  EXPECT_EQ(shape->edges.back().a, 3u);
+  EXPECT_EQ(shape->fileIndexOf(3), 4u);
+  EXPECT_EQ(shape->pointAt(1), 0u);
+  EXPECT_FALSE(shape->pointAt(0) || shape->pointAt(5) || shape->pointAt(6));
+  ClothSettings cloth;
+  cloth.mesh = test::meshFile("v 9 9 9\n" + squarePoints + "f 2 3 4 5\n");
+  cloth.pinned = {VertexPin{2}};
+  EXPECT_EQ(pinnedParticles(cloth), (std::vector<bool>{false, true, false, false}));
+  EXPECT_EQ(vertexPinOf(cloth, 1), VertexPin{2}) << "as a scene that is saved names it";
+  cloth.pinned = {VertexPin{0}};
+  EXPECT_NE(test::messageThrownBy<SceneError>([&] {
+              (void)pinnedParticles(cloth);
+            }).find("vertex 0 of the mesh belongs to no face"),
+            std::string::npos);
+  const RemarkedScene read = readScene({.scene = cloth.mesh});
+  EXPECT_NE(read.remarks.at(0).find("left out 1 point that belongs to no face"), std::string::npos);
 }
 
 // On equilateral triangles a membrane of Poisson's ratio 1/3 is made of springs along its edges (A. Van
