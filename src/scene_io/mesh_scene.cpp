@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <string_view>
 
 #include "cloth/material.h"
 #include "cloth/mesh_shape.h"
+#include "core/error.h"
 #include "core/formatted.h"
 #include "scene_io/scene_io.h"
 
@@ -45,12 +47,23 @@ MeshBox boxOf(const std::string& file) {
   return box;
 }
 
-}  // namespace
-
-bool isMeshFile(const std::filesystem::path& file) {
+std::string lowerExtension(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
   for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return extension == ".obj";
+  return extension;
+}
+
+}  // namespace
+
+bool isMeshFile(const std::filesystem::path& file) { return lowerExtension(file) == ".obj"; }
+
+void checkIsNoOtherMesh(const std::filesystem::path& file) {
+  constexpr std::array<std::string_view, 10> others{".ply",  ".glb", ".gltf", ".usd", ".usda",
+                                                    ".usdc", ".fbx", ".stl",  ".abc", ".dae"};
+  const std::string extension = lowerExtension(file);
+  if (std::ranges::find(others, extension) == others.end()) return;
+  throw SceneError(file.string() + ": expected a scene (.json) or a mesh as .obj, found " + extension +
+                   "; meshes are read as .obj only: export this one as OBJ");
 }
 
 Scene sceneOfMesh(const std::filesystem::path& file) {

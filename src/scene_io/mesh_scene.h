@@ -10,6 +10,8 @@ namespace clothsim {
 
 // Whether a file is a mesh by its name.
 [[nodiscard]] bool isMeshFile(const std::filesystem::path& file);
+// @throws SceneError for meshes in formats that are not read
+void checkIsNoOtherMesh(const std::filesystem::path& file);
 
 // A piece of cotton with the shape of an OBJ file falls over a ball onto the ground. Files whose mesh would
 // be larger than 20 m are taken to be in centimetres, or in millimetres where it is larger than 5 m then;

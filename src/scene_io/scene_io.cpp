@@ -98,6 +98,7 @@ Scene loadScene(const fs::path& path) {
 
 Scene loadSceneByName(const std::string& nameOrPath) {
   if (isMeshFile(nameOrPath)) return sceneOfMesh(nameOrPath);
+  checkIsNoOtherMesh(nameOrPath);
   if (isPath(nameOrPath)) return loadScene(nameOrPath);
   const fs::path path = bundledFolder() / (nameOrPath + ".json");
   std::error_code ignored;

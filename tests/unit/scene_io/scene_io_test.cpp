@@ -241,5 +241,16 @@ TEST(SaveScene, SaysWhenItCannotWrite) {
   EXPECT_THROW(saveScene(Scene{}, "/nonexistent/folder/a.json"), InputOutputError);
 }
 
+TEST(LoadSceneByName, SaysWhichMeshesAreRead) {
+  for (const std::string name : {"cloth.ply", "a/cloth.USDC", "cloth.glb"}) try {
+      (void)loadSceneByName(name);
+      ADD_FAILURE() << name;
+    } catch (const SceneError& error) {
+      EXPECT_TRUE(
+          std::string(error.what()).starts_with(name + ": expected a scene (.json) or a mesh as .obj"))
+          << error.what();
+    }
+}
+
 }  // namespace
 }  // namespace clothsim
