@@ -46,7 +46,7 @@ std::string python() {
 
 struct PythonRun {
   bool endedWell = false;
-  std::string said;  // the end of what it wrote to stderr
+  std::string said;  // the last line that it wrote to stderr
 };
 
 // Runs a Python program that may have two files open; -1 for none.
@@ -87,6 +87,7 @@ PythonRun runPython(const char* program, int text, int binary) {
         ::pread(words, end.data(), end.size(), std::max<off_t>(0, size - static_cast<off_t>(end.size())));
     run.said.assign(end.data(), static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
     while (!run.said.empty() && run.said.back() == '\n') run.said.pop_back();
+    run.said.erase(0, run.said.rfind('\n') + 1);  // what a traceback ends with says what is wrong
   }
   ::close(words);
   return run;

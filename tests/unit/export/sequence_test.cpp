@@ -175,6 +175,22 @@ TEST_F(Sequence, BinaryUsdSaysWhatToInstallWherePixarsLibraryIsMissing) {
   EXPECT_EQ(folder_.fileCount(), 0);
 }
 
+TEST_F(Sequence, BinaryUsdTellsTheLastLineOfATraceback) {
+  const std::filesystem::path python = folder_ / "python";
+  writeFileAtomically(
+      python,
+      "#!/bin/sh\ncase \"$2\" in *shutil*) printf 'Traceback (most recent call last):\\n  File\\n"
+      "OSError: No space left on device\\n' >&2; exit 1;; esac\n");
+  std::filesystem::permissions(python, std::filesystem::perms::owner_all);
+  const char* const before = std::getenv("CLOTHSIM_PYTHON");
+  const std::string old = before == nullptr ? "" : before;
+  ::setenv("CLOTHSIM_PYTHON", python.c_str(), 1);
+  const std::string message = messageThrownBy<InputOutputError>([&] { write("a.usdc"); });
+  ::setenv("CLOTHSIM_PYTHON", old.c_str(), 1);
+  EXPECT_TRUE(has(message, "a.usdc: cannot be written") && has(message, "No space left")) << message;
+  EXPECT_FALSE(has(message, "Traceback")) << message;
+}
+
 TEST_F(Sequence, IsWholeOrNotThere) {
   for (const char* name : {"a.pc2", "a.usda"}) {
     {
