@@ -53,6 +53,7 @@ int exposuresOf(const RenderCommandOptions& options) {
 // Films are complete with the pictures up to `frame`. Returns earlyEndText(), or why they could not be.
 std::string finishEarly(std::vector<PictureOutput>& outputs, const std::vector<std::string>& names,
                         int frame) {
+  if (frame < 0) return "";
   try {
     for (PictureOutput& output : outputs) output.close();
     return earlyEndText(names, frame);
