@@ -10,6 +10,7 @@
 
 #include "scene/scene.h"
 #include "scene_io/scene_options.h"
+#include "simulation/simulation.h"
 
 namespace clothsim {
 
@@ -19,6 +20,8 @@ namespace clothsim {
 // OpenGlError
 [[nodiscard]] GridSize parseResolution(const std::string& text);
 
+// loadState() into a simulation; says on stderr what of it is not as in the scene.
+void continueFrom(const std::string& file, Simulation& simulation);
 // readScene(); prints its remarks on stderr.
 [[nodiscard]] Scene loadScene(const SceneOptions& options);
 

@@ -4,6 +4,7 @@
 #include "commands/commands.h"
 #include "commands/proposal.h"
 #include "core/error.h"
+#include "export/export.h"
 
 namespace clothsim {
 
@@ -18,6 +19,13 @@ GridSize parseResolution(const std::string& text) {
   if (text != "auto") return parseSize(text, "--resolution");
   const int size = proposalHere().size;
   return {size, size};
+}
+
+void continueFrom(const std::string& file, Simulation& simulation) {
+  const State state = loadState(file, simulation.cloth());
+  if (const std::string remark = remarkOfState(state, simulation.cloth()); !remark.empty())
+    std::cerr << "clothsim: " << file << ": " << remark << '\n';
+  simulation.setState(state);
 }
 
 Scene loadScene(const SceneOptions& options) {

@@ -70,7 +70,7 @@ int renderCommand(const RenderCommandOptions& options) {
   if (!options.shader.empty()) scene.render.shader = options.shader;
   const gl::HeadlessContext context;
   Simulation simulation(scene, announcedBackend(options.backend), makeSolver);
-  if (!options.from.empty()) simulation.setState(loadState(options.from, simulation.cloth()));
+  if (!options.from.empty()) continueFrom(options.from, simulation);
   const int exposures = exposuresOf(options);
   const RenderOptions drawing =
       withQuality({options.sphereSegmentsAround, options.sphereSegmentsDown},

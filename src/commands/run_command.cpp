@@ -118,7 +118,7 @@ class Run {
       frames_ = options.frames.value_or(0);
       const std::string backend = preparedBackend(options);
       plain_.emplace(scene, backend, makeSolver);
-      if (!options.from.empty()) plain_->setState(loadState(options.from, plain_->cloth()));
+      if (!options.from.empty()) continueFrom(options.from, *plain_);
       if (options.jitter > 0) {
         State jittered = plain_->state();
         jitter(jittered, options.jitter, options.seed);

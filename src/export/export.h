@@ -23,6 +23,9 @@ inline constexpr std::string_view STATE_EXTENSIONS = ".csv, .ply, .obj, .glb, .n
 
 // @throws InputOutputError for a missing, truncated or foreign file, or one with another particle count
 [[nodiscard]] State loadState(const std::filesystem::path& path, const Cloth& cloth);
+// Pins and masses are a part of a state. Says at how many particles they are other ones than at the start of
+// the cloth's scene; "" where they are the same.
+[[nodiscard]] std::string remarkOfState(const State& state, const Cloth& cloth);
 
 // PNG from 8 bit RGB, top row first. @throws InputOutputError
 void savePng(const std::filesystem::path& path, int width, int height, std::span<const std::uint8_t> rgb);

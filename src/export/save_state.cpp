@@ -1,10 +1,12 @@
 #include <array>
+#include <cmath>
 #include <string_view>
 
 #include "core/error.h"
 #include "core/files.h"
 #include "export/export.h"
 #include "export/formats.h"
+#include "solver/executor.h"
 
 namespace clothsim {
 namespace {
@@ -49,6 +51,25 @@ State loadState(const std::filesystem::path& path, const Cloth& cloth) {
   constexpr std::uintmax_t largestFile = std::uintmax_t{4} << 30;  // more than a sheet of 8192 x 8192 has
   return parseStateFile(readFile(path, largestFile), cloth.particleCount(), path.string(),
                         cloth.lists().triangles.size());
+}
+
+std::string remarkOfState(const State& state, const Cloth& cloth) {
+  const State atStart = stateAtRest(cloth);
+  std::size_t pins = 0, masses = 0;
+  for (std::size_t i = 0; i < state.positions.size(); ++i) {
+    const float own = state.positions[i].w, ofScene = atStart.positions[i].w;
+    if ((own == 0) != (ofScene == 0))
+      ++pins;
+    else if (std::abs(own - ofScene) > 1e-5f * ofScene)
+      ++masses;
+  }
+  if (pins + masses == 0) return "";
+  const auto many = [](std::size_t count, const char* what) {
+    return count == 0 ? std::string() : std::to_string(count) + what;
+  };
+  return "the state's own pins and masses are kept: " +
+         many(pins, " particles are pinned there and not in the scene, or the other way round") +
+         (pins > 0 && masses > 0 ? ", " : "") + many(masses, " have another mass than in the scene");
 }
 
 }  // namespace clothsim

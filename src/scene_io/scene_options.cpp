@@ -62,7 +62,7 @@ void addLoosePoints(RemarkedScene& read) {
 
 RemarkedScene readScene(const SceneOptions& options) {
   RemarkedScene read = changedScene(loadSceneByName(options.scene), options);
-  if (isMeshFile(options.scene)) read.remarks.insert(read.remarks.begin(), remarkOfMeshScene(read.scene));
+  if (isMeshFile(options.scene)) read.remarks.push_back(remarkOfMeshScene(read.scene));
   return read;
 }
 

@@ -81,6 +81,15 @@ TEST_F(StateFile, OfAnotherSceneIsRefusedWithBothParticleCounts) {
   EXPECT_NE(message.find("2500"), std::string::npos) << message;
 }
 
+TEST_F(StateFile, SaysWherePinsAndMassesAreNotThoseOfTheScene) {
+  State state = stateAtRest(cloth_);
+  EXPECT_EQ(remarkOfState(state, cloth_), "");
+  state.positions[1].w = 2 * state.positions[1].w + 1;
+  EXPECT_NE(remarkOfState(state, cloth_).find("1 have another mass"), std::string::npos);
+  state.positions[2].w = state.positions[2].w == 0 ? 1.0f : 0.0f;
+  EXPECT_NE(remarkOfState(state, cloth_).find("1 particles are pinned there"), std::string::npos);
+}
+
 TEST_F(StateFile, OfALaterVersionIsRefusedWithBothVersions) {
   bytes_[8] = 6;
   EXPECT_NE(refusalOf(bytes_).find("version 6"), std::string::npos);

@@ -13,7 +13,7 @@ using Matrix = std::array<std::array<float, 6>, 6>;
 
 Matrix inverseOf(Matrix matrix) {
   std::array<float, 6> scales, pivots;
-  sweepOut(6, scales.data(), pivots.data(), [&](std::size_t j) { return matrix[j].data(); });
+  sweepOut(6, 0, scales.data(), pivots.data(), [&](std::size_t j) { return matrix[j].data(); });
   for (auto& column : matrix)
     for (float& entry : column) entry = -entry;
   return matrix;

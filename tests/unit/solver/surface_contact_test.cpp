@@ -157,7 +157,7 @@ TEST(NearParts, AreLookedAtAgainOnceTheyMayBeNear) {
   const Scene scene = fallingSheet(13);
   const Cloth cloth(scene);
   const auto surface = makeSurface<float>(cloth, scene, {});
-  const State state = after(scene, 60);
+  const State state = after(scene, 50);
   float reach = 0;
   cpu::NearParts<float> near;
   std::mt19937 random(5);

@@ -112,7 +112,7 @@ void expectFreeSlideOnALeaningPlane(const std::string& fabric, int points, doubl
 
 TEST(RowFabricOnASlope, SlidesFreelyDownALeaningPlane) {
   expectFreeSlideOnALeaningPlane("paper", 33, 30);
-  expectFreeSlideOnALeaningPlane("silk", 65, 45);
+  expectFreeSlideOnALeaningPlane("silk", 129, 45);  // where the coarsest level's sum of all is a small rest
 }
 
 TEST(RowFabricOnASlope, LongSlidesFreelyDownALeaningPlane) {
