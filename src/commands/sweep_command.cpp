@@ -183,7 +183,7 @@ class SweepRun {
       atFrame(frame_);
     }
     if (divergence_) showDivergence(cells);
-    print(warnings(), which());
+    print(warnings(), which().empty() ? "" : which() + ": ");
   }
   [[nodiscard]] bool blewUp() const { return divergence_.has_value(); }
   [[nodiscard]] std::vector<Warning> warnings() const { return summary_.watch.warnings(planned_.scene()); }
@@ -200,15 +200,15 @@ class SweepRun {
     for (const auto& [frame, shots] : planned_.shots)
       for (const Shot& shot : shots)
         if (frame > frame_) cells[shot.cell] = cell(shot, frame);
-    std::cerr << "clothsim: " << which() << "blew up "
+    std::cerr << "clothsim: " << which() << " blew up "
               << divergenceText(*divergence_, simulation_.cloth(), planned_.scene()) << '\n';
   }
 
-  // The varied settings, each followed by a space.
+  // The varied settings.
   [[nodiscard]] std::string which() const {
     std::string text;
     for (const std::string& setting : planned_.options.varied) text += (text.empty() ? "" : ", ") + setting;
-    return text.empty() ? text : text + ": ";
+    return text;
   }
 
   Cell cell(const Shot& shot, int wantedFrame) {

@@ -43,7 +43,8 @@ struct Warning {
 // blowing up.
 [[nodiscard]] std::optional<Warning> longStepsWarning(const Scene& scene);
 
-// That explicit steps so far from the origin lose slow motions, by rounding.
+// That so far from the origin rounding stops slow motions in explicit steps, or is in strains of implicit
+// ones.
 [[nodiscard]] std::optional<Warning> farFromOriginWarning(const Scene& scene, const State& state);
 
 // That seams gape though they have long been closed.

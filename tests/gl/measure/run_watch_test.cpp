@@ -133,6 +133,9 @@ TEST(RunWatch, SaysThatExplicitStepsLoseSlowMotionsFarFromTheOrigin) {
   const auto warning = warningAt(199, Integrator::verlet);
   ASSERT_TRUE(warning);
   EXPECT_NE(warning->text.find("begins 200 m from the origin"), std::string::npos) << warning->text;
+  const auto solved = warningAt(1e4, Integrator::implicit);
+  ASSERT_TRUE(solved);
+  EXPECT_NE(solved->text.find("strains and contacts are wrong by that"), std::string::npos) << solved->text;
 }
 
 TEST(RunWatch, SaysThatLayersAreThinnerThanTheCloth) {
