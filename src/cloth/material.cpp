@@ -257,13 +257,9 @@ double gridMass(const ClothSettings& cloth, double dx, double dy) {
          (static_cast<double>(cloth.numWidthPoints) * cloth.numHeightPoints);
 }
 
-}  // namespace
-
-namespace {
-
-// Bounds that of K/m of the seams alone, by Gershgorin's circles; 0 when the cloth cannot be built.
-double largestSeamEigenvalue(const Scene& scene) {
-  if (scene.seams.empty()) return 0;
+// Bounds the largest eigenvalue of K/m of the seams alone, by Gershgorin's circles; 0 when the cloth cannot
+// be built.
+double seamEigenvalueOf(const Scene& scene) {
   try {
     const Cloth cloth(scene);
     std::vector<double> sums(cloth.particleCount());
@@ -275,6 +271,19 @@ double largestSeamEigenvalue(const Scene& scene) {
   } catch (const SceneError&) {
     return 0;
   }
+}
+
+// The viewer asks in every frame, and it takes a cloth to know.
+double largestSeamEigenvalue(const Scene& scene) {
+  if (scene.seams.empty()) return 0;
+  thread_local struct {
+    std::vector<ClothSettings> cloths;
+    std::vector<Seam> seams;
+    double largest = 0;
+  } known;
+  if (known.cloths != scene.cloths || known.seams != scene.seams)
+    known = {scene.cloths, scene.seams, seamEigenvalueOf(scene)};
+  return known.largest;
 }
 
 }  // namespace

@@ -48,8 +48,9 @@ class Solver {
   void configure(const Shared<Scene>& scene);
 
   // Advances by `count` steps; by fewer once an interrupt has come (core/interrupt.h) or a divergence
-  // is known. The CPU knows it at once, the GPU when divergence() was asked, where nothing is waited for.
-  // Cloth that tears is the exception: its positions are read after each frame.
+  // is known: by the CPU at once, by the GPU after divergence(). On the GPU nothing is waited for, except by
+  // cloth that tears, whose positions are read after each frame; where layers may touch, the state is copied
+  // on the device, once for all steps until the next question.
   void step(int count);
   // Waits until every step is done. @throws OpenGlError when the driver has reported an error meanwhile
   void finish() { executor_->finish(); }
@@ -61,9 +62,8 @@ class Solver {
 
   // The first divergence since the solver was made or setState() was called; the same on both backends. Waits
   // for the steps, and looks at a few bytes for each of them. Steps after divergence lead nowhere and look
-  // for no contacts, which could take minutes in a heap of broken numbers. Whatever else asks for what steps
-  // have come to, or changes what the next ones begin with, waits likewise where layers may touch: steps that
-  // the GPU had too little room for are made again first.
+  // for no contacts, which could take minutes in a heap of broken numbers. Where layers may touch, all other
+  // questions and changes wait, too: steps for which the GPU had too little room are made again first.
   [[nodiscard]] std::optional<Divergence> divergence();
 
   // A copy of the state where it lies, and back to it, which forgets divergence. On its own device nothing is
@@ -116,7 +116,8 @@ class Solver {
   void distrustState() { startIsChecked_ = levelsAreMade_ = false; }
 
  private:
-  // Steps that may have to be made again, with more room for pairs (Executor::mayLackRoom()).
+  // Steps that may have to be made again, with more room for pairs (Executor::mayLackRoom()). Settled: they
+  // are as they should be.
   struct Stretch {
     std::unique_ptr<Snapshot> start;
     int steps = 0;

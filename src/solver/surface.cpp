@@ -13,9 +13,9 @@
 namespace clothsim {
 namespace {
 
-// Room at the start, which grows.
-constexpr std::uint32_t PAIRS_A_PARTICLE = 8, MOST_PAIRS_A_PARTICLE = 256, COLLIDERS_A_TRIANGLE = 4,
-                        LEAST_ROOM = 1024;
+// Room at the start, which grows, and how far.
+constexpr std::uint32_t PAIRS_A_PARTICLE = 8, COLLIDERS_A_TRIANGLE = 4, LEAST_ROOM = 1024;
+constexpr std::uint64_t MOST_PAIRS_A_PARTICLE = 256, MOST_PAIRS = 1u << 30;
 
 // In the largest correction.
 constexpr double QUANTA = 0x1p20;
@@ -369,8 +369,8 @@ ClothSurface<Real> makeSurface(const Cloth& cloth, const Scene& scene, const Cut
   if (surface.touchesItself) surface.roomForPairs = PAIRS_A_PARTICLE * particles;
   if (colliders > 0)
     surface.roomForPairs += std::max(std::min(colliders, COLLIDERS_A_TRIANGLE) * count, LEAST_ROOM);
-  const std::uint64_t most = std::uint64_t{MOST_PAIRS_A_PARTICLE} * particles + surface.roomForPairs;
-  surface.mostPairs = static_cast<std::uint32_t>(std::min(most, std::uint64_t{1} << 30));
+  surface.pairLimit = static_cast<std::uint32_t>(
+      std::min(MOST_PAIRS_A_PARTICLE * particles + surface.roomForPairs, MOST_PAIRS));
   surface.firstBoxes = {0};
   for (std::uint32_t boxes = count; boxes > 0;
        boxes = boxes == 1 ? 0 : (boxes + BOX_CHILDREN - 1) / BOX_CHILDREN)

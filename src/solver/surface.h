@@ -86,8 +86,8 @@ struct ClothSurface {
   Real around = 0;              // how far the search for those looks around each part [m]
   Real margin = 0;              // parts that are predicted to come so near count as pairs that may touch [m]
   Real largestPush = 0;         // that one pair asks for, where the step ends too near [m]
-  std::uint32_t mostPairs = 0;  // of a step; one with more has none
-  std::uint32_t roomForPairs = 0;    // on the GPU, at first
+  std::uint32_t pairLimit = 0;  // a step that finds more pairs takes none
+  std::uint32_t roomForPairs = 0;    // of the GPU, which makes more up to that limit
   Real quantum = 0, perQuantum = 0;  // of corrections [m], and its reciprocal
   Real leastGap = 0;                 // what motion leaves of a distance, if it was more [m]
   bool touchesItself = false;

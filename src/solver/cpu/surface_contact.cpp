@@ -170,7 +170,7 @@ void SurfaceContact<Real>::findTouching(const CpuState<Real>& before, ImplicitSt
   std::size_t count = 0;
   for (const auto& found : foundPairs_) count += found.size();
   state_.mostPairs = std::max(state_.mostPairs, static_cast<std::uint32_t>(count));
-  if (count > surface_.mostPairs) state_.tooMany = 1;
+  if (count > surface_.pairLimit) state_.tooMany = 1;
   if (!surface_.touchesItself && state_.tooMany != 0) ++state_.crowdedSteps;
   if (state_.tooMany == 0)
     for (const auto& found : foundPairs_)

@@ -83,7 +83,7 @@ void GpuSurfaceContact::setSurface(ClothSurface<float> surface, std::uint32_t pa
                                    const PassFeatures& features) {
   const std::uint32_t room = surface_.roomForPairs;
   surface_ = std::move(surface);
-  surface_.roomForPairs = std::min(std::max(room, surface_.roomForPairs), surface_.mostPairs);
+  surface_.roomForPairs = std::min(std::max(room, surface_.roomForPairs), surface_.pairLimit);
   particles_ = particles;
   PassFeatures known = restricted(features, {Feature::smallColliders});
   if (known.smallColliders) known = restricted(features, {Feature::smallColliders, Feature::colliders});
@@ -186,9 +186,9 @@ bool GpuSurfaceContact::makeRoom() {
   if (!isOn() || !hasCopy_) return false;
   const SurfaceState& counted = stateCopy_.elements().front();
   if (isCopyCurrent_) knownPairs_ = counted.pairs;
-  const std::uint32_t room = surface_.roomForPairs, most = surface_.mostPairs;
-  if (counted.mostPairs <= room / 2 || room == most) return false;
-  surface_.roomForPairs = counted.mostPairs < most / 2 ? 2 * counted.mostPairs : most;
+  const std::uint32_t room = surface_.roomForPairs, limit = surface_.pairLimit;
+  if (counted.mostPairs <= room / 2 || room == limit) return false;
+  surface_.roomForPairs = counted.mostPairs < limit / 2 ? 2 * counted.mostPairs : limit;
   allocatePairs(surface_.roomForPairs);
   uploadParams();
   return counted.mostPairs > room;

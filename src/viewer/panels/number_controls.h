@@ -22,8 +22,8 @@ namespace clothsim {
 bool barSlider(double& value, const Usual& range, std::string_view unit);
 bool barSlider(int& value, const Usual& range, std::string_view unit);
 
-// Three numbers beside each other, with the width of the next item; a unit of length [pixels] that the mouse
-// is dragged changes one by `speed`.
+// Three numbers beside each other, with the width of the next item; dragging one by a pixel changes it by
+// `speed`.
 bool dragVector(Vec3d& value, float speed, std::string_view unit);
 
 // Says something below the last of these controls for a moment.

@@ -89,6 +89,9 @@ TEST(Probe, FindsNoDifferenceHere) {
       test::runCommand("'" CLOTHSIM_PROGRAM "' probe contract --small --only cut,");
   EXPECT_EQ(result.exitCode, 0) << result.output;
   EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 2);
+  const test::CommandResult none =
+      test::runCommand("'" CLOTHSIM_PROGRAM "' probe contract --small --only nosuch 2>&1");
+  EXPECT_EQ(none.exitCode, 2) << none.output;
 }
 
 }  // namespace

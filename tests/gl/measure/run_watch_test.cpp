@@ -104,6 +104,19 @@ TEST(RunWatch, NamesTheFirstFrameAndThePeakOfADoubtfulStrain) {
   EXPECT_NE(warnings[0].text.find("solver.simulation_steps (now 30)"), std::string::npos) << warnings[0].text;
 }
 
+TEST(RunWatch, AsksWhetherAStateThatBeginsTornApartIsOfAnotherScene) {
+  const Scene scene = parseScene(std::string(R"({"cloth": {)") + SHEET + "}}", "torn");
+  const Cloth cloth(scene);
+  const State state = initialState(cloth, scene);
+  RunWatch watch;
+  watch.start(cloth, scene, state);
+  watch.add(0, cloth, scene, state, 15, {});
+  const auto warnings = watch.warnings(scene);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0].kind, "start");
+  EXPECT_NE(warnings[0].text.find("of another scene or resolution?"), std::string::npos) << warnings[0].text;
+}
+
 // Springs hold lighter particles more stiffly. The strain limit keeps such cloth from blowing up, and it
 // boils.
 TEST(RunWatch, SaysThatStepsAreTooLongForSprings) {

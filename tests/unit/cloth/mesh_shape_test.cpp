@@ -125,6 +125,7 @@ TEST(MeshShape, LeavesOutPointsOfNoFaceAndKnowsTheOthersByTheirPlaceInTheFile) {
             std::string::npos);
   const RemarkedScene read = readScene({.scene = cloth.mesh});
   EXPECT_NE(read.remarks.at(0).find("left out 1 point that belongs to no face"), std::string::npos);
+  EXPECT_NE(read.remarks.back().find("taken with cloth.scale="), std::string::npos);
 }
 
 // On equilateral triangles a membrane of Poisson's ratio 1/3 is made of springs along its edges (A. Van

@@ -28,6 +28,12 @@ Scene smallScene(const std::string& name = "pinned2") {
 
 std::string hashOf(Simulation& simulation) { return hashText(stateHash(simulation.state())); }
 
+TEST(SceneOptions, RefuseANumberOfPointsBesideAResolution) {
+  SceneOptions options{.scene = "pinned2", .resolution = GridSize{9, 9}};
+  options.settings = {"cloth.num_width_points=17"};
+  EXPECT_THROW((void)readScene(options), UsageError);
+}
+
 TEST(Simulation, IsLoadedSteppedAndMeasuredWithoutOpenGl) {
   Simulation simulation(smallScene());
   RunSummary summary;
