@@ -97,9 +97,14 @@ double operationsPerParticle(const Scene& scene, const Cloth& cloth) {
   constexpr double spring = 33;  // 27 for its force (force_laws.h), 6 to add it at both ends
   constexpr double limit = 9;    // its squared length, and the look at it
   constexpr double rest = 26;    // 7 for each of three components of the integration, 5 for its watch
-  if (scene.solver.integrator == Integrator::implicit) return 0;
+  if (isImplicit(scene.solver.integrator)) return 0;
   const auto springs = static_cast<double>(cloth.springs().size()) / cloth.particleCount();
   return springs * (scene.solver.strainLimit ? spring + limit : spring) + rest;
+}
+
+std::string pointsText(const Piece& piece) {
+  return piece.isMesh ? std::to_string(piece.particleCount())
+                      : std::to_string(piece.columns) + "x" + std::to_string(piece.rows);
 }
 
 }  // namespace
@@ -131,8 +136,7 @@ StepRate measureStepRate(const Scene& scene, const std::string& backend, double 
   StepRate rate;
   rate.backend = backend;
   rate.device = solver->device();
-  rate.columns = cloth.pieces()[0].columns;
-  rate.rows = cloth.pieces()[0].rows;
+  rate.points = pointsText(cloth.pieces()[0]);
   rate.cloths = cloth.pieces().size();
   rate.limiter = scene.solver.strainLimit.has_value();
   rate.selfCollision = scene.solver.selfCollision;

@@ -14,7 +14,7 @@ namespace clothsim {
 
 struct StepRate {
   std::string backend, device;
-  int columns = 0, rows = 0;  // of each cloth
+  std::string points;  // of the first cloth: "64x64", or "4151" of a mesh
   std::size_t cloths = 1;
   bool limiter = false;
   SelfCollision selfCollision = SelfCollision::off;

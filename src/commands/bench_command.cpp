@@ -18,7 +18,7 @@ namespace {
 nlohmann::ordered_json toJson(const StepRate& rate) {
   nlohmann::ordered_json json{{"backend", rate.backend},
                               {"device", rate.device},
-                              {"resolution", std::to_string(rate.columns) + "x" + std::to_string(rate.rows)},
+                              {"resolution", rate.points},
                               {"cloths", rate.cloths},
                               {"strain_limit", rate.limiter},
                               {"self_collision", selfCollisionName(rate.selfCollision)},
@@ -42,8 +42,8 @@ nlohmann::ordered_json toJson(const StepRate& rate) {
 
 void print(const StepRate& rate) {
   const bool contacts = rate.selfCollision != SelfCollision::off;
-  std::printf("%-4s %5dx%-5d %-7s %-8s %10.4f ms/step %9.1f M particle-steps/s", rate.backend.c_str(),
-              rate.columns, rate.rows, rate.limiter ? "limiter" : "",
+  std::printf("%-4s %-11s %-7s %-8s %10.4f ms/step %9.1f M particle-steps/s", rate.backend.c_str(),
+              rate.points.c_str(), rate.limiter ? "limiter" : "",
               contacts ? selfCollisionName(rate.selfCollision) : "", rate.secondsPerStep * 1e3,
               rate.particleStepsPerSecond * 1e-6);
   if (rate.operationsPerParticle > 0)

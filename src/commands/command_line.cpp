@@ -207,7 +207,7 @@ void declareRun(CLI::App& app, Arguments& a, Task& task) {
              "--jitter", a.jitter,
              "displace free particles at the start by up to this many metres along each axis (default 0)")
           ->transform(number(0.0, 1.0));
-  run->add_option("--seed", a.seed, "random seed of --jitter (default 1)")
+  run->add_option("--seed", a.seed, "seed of the random displacements of --jitter (default 1)")
       ->needs(jitter)
       ->transform(wholeNumber(0, UINT32_MAX));
   CLI::Option* replay =
@@ -259,7 +259,8 @@ void declareSimulationCommands(CLI::App& app, Arguments& a, Task& task) {
   bench->add_option("--backend", a.backends, "gpu, cpu; may be repeated (both)")
       ->check(CLI::IsMember({"gpu", "cpu"}));
   addThreads(*bench, a);
-  bench->add_option("--seconds", a.seconds, "duration of each measurement")->transform(number(0.01, 600.0));
+  bench->add_option("--seconds", a.seconds, "duration of each measurement of steps")
+      ->transform(number(0.01, 600.0));
   bench->add_option("--after", a.frames, "measure the cloth after this many frames (default 0)")
       ->transform(wholeNumber(0, 10'000'000));
   bench->add_flag("--draw", a.draw, "measure drawing instead: each pass of every shading model at 1280x720");

@@ -17,6 +17,14 @@
 #include "simulation/gpu/solvers.h"
 
 namespace clothsim {
+namespace {
+
+nlohmann::ordered_json textOf(const std::optional<Divergence>& divergence, const Cloth& cloth,
+                              const Scene& scene) {
+  return divergence ? nlohmann::ordered_json(divergenceText(*divergence, cloth, scene)) : nullptr;
+}
+
+}  // namespace
 
 int compareCommand(const CompareOptions& options) {
   const Shared<Scene> sharedScene = loadScene(options.scene);
@@ -54,6 +62,10 @@ int compareCommand(const CompareOptions& options) {
   json["bitwise_equal"] = result.differingFloats == 0;
   json["finite"] = result.finite;
   json["same_trouble"] = result.cpuDivergence == result.gpuDivergence;  // on both backends, or on none
+  if (result.cpuDivergence || result.gpuDivergence)
+    json["divergence"] = {{"frame", result.frames + 1},
+                          {"cpu", textOf(result.cpuDivergence, cloth, scene)},
+                          {"gpu", textOf(result.gpuDivergence, cloth, scene)}};
   json["state_hash"] = {{"cpu", result.cpuHash}, {"gpu", result.gpuHash}};
   json["max_penetration"] = maxPenetration;
   contacts.write(json, cloth, scene, result.contacts);

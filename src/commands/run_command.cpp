@@ -234,6 +234,12 @@ nlohmann::ordered_json summaryOfBlowUp(const RunOptions& options, Run& run, cons
   return json;
 }
 
+nlohmann::ordered_json summaryOfInterrupted(const RunOptions& options, Run& run, const RunSummary& seen) {
+  nlohmann::ordered_json json = summary(options, run, seen);
+  json["interrupted"] = true;
+  return json;
+}
+
 BlowUpContext contextOf(const RunOptions& options, Run& run, int frame, const std::string& filesText) {
   SceneOptions scene = options.scene;
   if (run.isReplay()) scene.scene = options.replay;
@@ -296,6 +302,7 @@ int runCommand(const RunOptions& options) {
   try {
     for (int frame = 1; frame <= frames; ++frame) simulateFrame(frame);
   } catch (const Interrupted&) {
+    if (options.json) printJson(summaryOfInterrupted(options, run, seen));
     stopInterrupted(files.lastFrame(), frames, [&] { return files.finishEarly(); });
   }
   files.finish();

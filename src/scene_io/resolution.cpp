@@ -78,11 +78,11 @@ int stepFactor(const ClothSettings& cloth, int columns, int rows) {
 }
 
 void checkSides(std::size_t grids, int columns, int rows) {
-  const std::string asked = "--resolution " + std::to_string(columns) + "x" + std::to_string(rows) + ": ";
   if (grids == 0)
-    throw UsageError(asked +
-                     "expected a scene with a grid, found only meshes, whose resolution is that of their "
-                     "files; subdivide them in a modelling program");
+    throw UsageError(
+        "--resolution: expected a scene with a grid, found only meshes, whose resolution is that of their "
+        "files; subdivide them in a modelling program");
+  const std::string asked = "--resolution " + std::to_string(columns) + "x" + std::to_string(rows) + ": ";
   for (const int side : {columns, rows})
     if (side < smallestSide || side > largestSide)
       throw UsageError(asked + "expected " + std::to_string(smallestSide) + " to " +

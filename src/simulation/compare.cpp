@@ -63,7 +63,6 @@ Comparison compareBackends(const Shared<Scene>& scene, int frames, SolverFactory
     gpuState = gpu.solver().state();
     if (result.cpuDivergence || result.gpuDivergence) {
       now.finite = false;
-      ++result.frames;
       break;
     }
     now = difference(cpuState, gpuState);

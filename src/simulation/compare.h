@@ -15,15 +15,15 @@
 namespace clothsim {
 
 struct Comparison {
-  int frames = 0;  // simulated; fewer than asked for when the backends differ
+  int frames = 0;  // compared; fewer than asked for when the backends differ or have divergence
   std::uint64_t steps = 0;
   std::uint64_t floats = 0;           // in a state: 6 a particle
   std::uint64_t differingFloats = 0;  // in the first frame that differs
   double maxAbsDifference = 0;
   std::optional<std::uint64_t> firstDifferingStep;  // the frame is repeated step by step to find it
   bool finite = true;
-  // The divergence of each backend; they differ only when a driver breaks the numeric contract. The frame in
-  // which it occurred counts as simulated and is not compared.
+  // The divergence of each backend in the frame after those; they differ only when a driver breaks the
+  // numeric contract.
   std::optional<Divergence> cpuDivergence, gpuDivergence;
   ContactCounts contacts;  // of the CPU backend
   std::string device, cpuHash, gpuHash;

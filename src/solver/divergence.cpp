@@ -90,11 +90,12 @@ Remedy forExplicitSteps(const Scene& scene) {
   const double h = stepLength(scene.solver), stable = stableStep(scene);
   const std::string implicit = "solver.integrator=implicit";
   if (h <= stable * (1 + 1e-9))
-    return {"The springs are not the cause: steps up to " + number(stable) +
-                " s are guaranteed stable, and " + "these are of " + number(h) +
-                " s. Pins, colliders, wind or hands may move too fast for " + "explicit steps: --set " +
-                implicit + ".",
-            {implicit}};
+    return {
+        "The springs are not the cause: steps up to " + number(stable) +
+            " s are guaranteed stable, and these are of " + number(h) +
+            " s. Pins, colliders, air, shrinking cloth or hands may be too fast for explicit steps: --set " +
+            implicit + ".",
+        {implicit}};
   const int steps = stableSteps(scene);
   const bool stableStepsExist = 1 / (scene.solver.framesPerSec * steps) <= stable * (1 + 1e-9);
   std::string text = "Steps of " + number(h) + " s are too long for these springs; steps up to " +

@@ -129,6 +129,19 @@ TEST(Program, EndsEveryCommandThatSimulatesWithOneWhenItBlowsUp) {
   EXPECT_FALSE(std::filesystem::exists(folder / "a.png"));
 }
 
+TEST(Program, ComparesTheFramesBeforeAnExplosionAndSaysWhichItWas) {
+  const json summary = jsonOf(
+      "compare -f pinned2 --resolution 12x12 --frames 9 --set cloth.ks=1e7 --set solver.simulation_steps=1 "
+      "--json",
+      "", 1);
+  const int frames = summary["frames"];
+  EXPECT_LT(frames, 9);
+  EXPECT_EQ(summary["steps"], frames);
+  EXPECT_EQ(summary["divergence"]["frame"], frames + 1);
+  EXPECT_EQ(summary["divergence"]["cpu"], summary["divergence"]["gpu"]);
+  EXPECT_NE(summary["divergence"]["cpu"].get<std::string>().find("pass integrate"), std::string::npos);
+}
+
 TEST(Program, FinishesTheFilmWhenItIsInterrupted) {
   const test::TemporaryFolder folder;
   const std::string film = (folder.path() / "clip.mp4").string();

@@ -139,8 +139,8 @@ class ProgramsEndBy : public testing::TestWithParam<int> {};
 TEST_P(ProgramsEndBy, SignalKeepsTheFramesBefore) {
   const test::TemporaryFolder folder, apart;
   test::Process run({CLOTHSIM_PROGRAM, "run", "-f", "pinned2", "--resolution", "16x16", "--frames",
-                     "10000000", "--backend", "cpu", "--save", (folder / "a.pc2").string(), "--save",
-                     (folder / "end.obj").string(), "--trace", (folder / "t.csv").string()},
+                     "10000000", "--backend", "cpu", "--json", "--save", (folder / "a.pc2").string(),
+                     "--save", (folder / "end.obj").string(), "--trace", (folder / "t.csv").string()},
                     (apart / "said").string());
   ASSERT_TRUE(folder.getsAFile());
   ASSERT_EQ(folder.fileCount(), 1) << "the file grows under a temporary name";
@@ -154,6 +154,9 @@ TEST_P(ProgramsEndBy, SignalKeepsTheFramesBefore) {
   EXPECT_EQ(std::ranges::count(trace, '\n'), samples + 1) << "a line of names";
   const std::string said = readFile(apart / "said");
   EXPECT_NE(said.find("interrupted after frame " + std::to_string(samples - 1)), std::string::npos) << said;
+  for (const std::string& part :
+       {"\"frames\": " + std::to_string(samples - 1), std::string("\"interrupted\": true")})
+    EXPECT_NE(said.find(part), std::string::npos) << part << " in:\n" << said;
   EXPECT_NE(said.find("Not written, for want of a last frame: " + (folder / "end.obj").string()),
             std::string::npos)
       << said;
