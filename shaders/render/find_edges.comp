@@ -17,7 +17,7 @@ void main() {
   int rows = min(EDGE_TILE + 1, int(frame.pixels.x));  // which no compiler knows: unrolled it would be a long program
   for (int y = -1; y < rows; ++y)
     for (int x = -1; x <= EDGE_TILE; ++x) {
-      vec4 color = texelFetch(canvas, corner + ivec2(x, y), 0);  // black outside of the canvas does no harm
+      vec4 color = canvasAt(corner + ivec2(x, y));
       float here = brightness(color.rgb);
       least = min(least, here);
       most = max(most, here);

@@ -8,7 +8,8 @@ layout(local_size_x = SMOOTH_GROUP) in;
 layout(std140, binding = LAYER_SEARCH_BINDING) uniform LayerSearchBlock { LayerSearch search; };
 layout(std430, binding = NORMALS_POSITIONS_BINDING) readonly buffer Positions { vec4 positions[]; };
 layout(std430, binding = LAYER_TRIANGLES_BINDING) readonly buffer Triangles { uint corners[]; };
-layout(std430, binding = LAYER_ENTRIES_BINDING) buffer Entries { vec4 entries[]; };  // center; number of the next one
+struct Entry { vec3 center; uint next; };  // of a triangle; the next one of its bucket, its number + 1
+layout(std430, binding = LAYER_ENTRIES_BINDING) buffer Entries { Entry entries[]; };
 layout(std430, binding = LAYER_HEADS_BINDING) buffer Heads { uint heads[]; };        // of buckets: a triangle's number + 1
 
 uint bucketOf(ivec3 cell) {
@@ -26,7 +27,7 @@ void main() {
   uvec3 c = cornersOf(triangle);
   vec3 center = (positions[c.x].xyz + positions[c.y].xyz + positions[c.z].xyz) / 3.0;
   uint next = atomicExchange(heads[bucketOf(ivec3(floor(center * search.perBucket)))], triangle + 1u);
-  entries[triangle] = vec4(center, uintBitsToFloat(next));
+  entries[triangle] = Entry(center, next);
 }
 #else
 layout(std430, binding = LAYER_BULGES_BINDING) readonly buffer Bulges { vec4 bulges[]; };  // at centers; its length
@@ -85,15 +86,15 @@ void main() {
   // What goes a part of its way may go less far out of the way of another. All others found nothing to share.
   if (before[own.x] >= 1.0 && before[own.y] >= 1.0 && before[own.z] >= 1.0) return;
 #endif
-  vec3 here = entries[triangle].xyz, restHere = restPlaces[own.x].xyz;
+  vec3 here = entries[triangle].center, restHere = restPlaces[own.x].xyz;
   ivec3 first = ivec3(floor(here * search.perBucket - 0.5));
   for (int k = 0; k < 8; ++k) {
     uint next = heads[bucketOf(first + ivec3(k & 1, k >> 1 & 1, k >> 2))];
     while (next != 0u) {
       uint other = next - 1u;
-      vec4 entry = entries[other];
-      next = floatBitsToUint(entry.w);
-      vec3 off = entry.xyz - here;
+      Entry entry = entries[other];
+      next = entry.next;
+      vec3 off = entry.center - here;
       if (dot(off, off) > search.radius * search.radius) continue;
       vec3 restOff = restPlaces[corners[3u * other]].xyz - restHere;
       if (dot(restOff, restOff) < LAYERS_APART * LAYERS_APART) continue;

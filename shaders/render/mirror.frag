@@ -1,5 +1,5 @@
 // A mirror that shows the generated sky, two-sided; at grazing angles it reflects all, else a little less.
-#include "render/lights.glsl"
+#include "render/frame.glsl"
 #include "render/shadow.glsl"
 #include "render/sky.glsl"
 #include "render/surface.glsl"

@@ -1,5 +1,5 @@
 // The strain map: how far the cloth is stretched, in the colours of the legend, with a little shade for its shape.
-#include "render/lights.glsl"
+#include "render/frame.glsl"
 #include "render/surface.glsl"
 #include "render/tone.glsl"
 

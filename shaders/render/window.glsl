@@ -7,7 +7,8 @@ const vec2 OPENING = vec2(1.36, 1.30);  // half the window's
 const float BAR = 0.035, PENUMBRA = 0.05, WALL = 0.05;  // WALL: light that comes in otherwise
 
 float windowLight(vec2 place) {
-  float metres = inversesqrt(dot(frame.shadowFromWorld[0].x * frame.shadowFromWorld[0].x + frame.shadowFromWorld[1].x * frame.shadowFromWorld[1].x + frame.shadowFromWorld[2].x * frame.shadowFromWorld[2].x, 1.0));
+  vec3 right = vec3(frame.shadowFromWorld[0].x, frame.shadowFromWorld[1].x, frame.shadowFromWorld[2].x);
+  float metres = inversesqrt(dot(right, right));
   vec2 at = abs(place - 0.5) * (metres / frame.stagePlace.w * STAGE_SIZES);
   vec2 open = 1.0 - smoothstep(OPENING - PENUMBRA, OPENING + PENUMBRA, at);
   vec2 bars = smoothstep(vec2(BAR - PENUMBRA), vec2(BAR + PENUMBRA), abs(at - PANE));

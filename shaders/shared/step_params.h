@@ -111,7 +111,7 @@ SHARED_STRUCT StepParams {
 
   real timeStep;         // h [s]
   real inverseTimeStep;  // 1 / h
-  real velocityKept;     // 1 - damping / 100, of a step
+  real velocityKept;     // what a step keeps of a velocity: 1 - damping / 100, of a material exp(-damping h)
   real airResistance;    // a of -a |v| v [kg/m]
 
   real gravityX;  // [m/s^2]

@@ -1,4 +1,4 @@
-// Pass 4: out of spheres, back across planes.
+// Collide: particles that are inside a collider, or went through it, come back to its surface.
 #include "sim/blocks.glsl"
 #include "sim/exact_math.glsl"
 #include "sim/watch.glsl"

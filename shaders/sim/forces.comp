@@ -1,4 +1,4 @@
-// Pass 1: forces of springs and air on every particle of a grid.
+// Forces: of springs and air on every particle of a grid.
 #include "sim/blocks.glsl"
 #include "sim/exact_math.glsl"
 #include "sim/watch.glsl"

@@ -1,4 +1,4 @@
-// Pass 2: velocities and positions at the end of the step.
+// Integrate: velocities and positions at the end of the step.
 #include "sim/blocks.glsl"
 #include "sim/exact_math.glsl"
 #include "sim/watch.glsl"

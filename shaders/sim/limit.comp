@@ -1,4 +1,4 @@
-// Pass 5: no spring longer than the strain limit allows. One dispatch a colour; springs of a colour share no particle, so
+// Limit: no spring longer than the strain limit allows. One dispatch a colour; springs of a colour share no particle, so
 // each works in place.
 #include "sim/blocks.glsl"
 #include "sim/exact_math.glsl"

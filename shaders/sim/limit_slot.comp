@@ -1,4 +1,4 @@
-// Pass 5 on grids: both colours of a slot in one dispatch. Springs of a slot make lines of grid points; of four points in
+// Limit on grids: both colours of a slot in one dispatch. Springs of a slot make lines of grid points; of four points in
 // a row, the first colour has the outer springs and the second the middle one. Whoever stores the middle points limits
 // all three springs, of which neighbours limit the outer ones again. They read where points were before, so the new
 // positions go into another buffer.

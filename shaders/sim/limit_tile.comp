@@ -1,4 +1,4 @@
-// Pass 5 on grids, for devices with fast shared memory: all colours in one dispatch. A work group takes a tile of grid
+// Limit on grids, for devices with fast shared memory: all colours in one dispatch. A work group takes a tile of grid
 // points with so wide a halo about it that what it does not see cannot reach the tile. Neighbours limit the springs of the
 // halo again, so the new positions go into another buffer.
 #include "sim/blocks.glsl"

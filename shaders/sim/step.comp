@@ -1,4 +1,5 @@
-// Passes 1, 2 and, without self-collision, 4 in one: nothing between them needs a neighbour's new state.
+// Forces, integrate and, without self-collision, collide in one dispatch: nothing between them needs a neighbour's new
+// state.
 #include "sim/blocks.glsl"
 #include "sim/exact_math.glsl"
 #include "sim/watch.glsl"

@@ -26,7 +26,7 @@ struct LatticePoint {
   friend bool operator==(const LatticePoint&, const LatticePoint&) = default;
 };
 
-// Cuts every spring of the cloth's piece number `grid` that crosses the straight stroke from `from` to `to`,
+// Cuts every spring of the cloth's piece number `piece` that crosses the straight stroke from `from` to `to`,
 // whether it is enabled or not. Returns whether there was anything left to cut. May lie off the grid in part.
 // Meshes are not cut.
 bool cutAlong(Cuts& cuts, const Cloth& cloth, std::size_t piece, LatticePoint from, LatticePoint to);

@@ -15,11 +15,11 @@ namespace clothsim {
 namespace {
 
 // The counts that "auto" chooses.
-constexpr double LONGEST_CHOSEN_STEP = 1.0 / 60;     // [s],
+constexpr double LONGEST_CHOSEN_STEP = 1.0 / 60;     // [s]
 constexpr double LONGEST_BUCKLING_STEP = 1.0 / 120;  // of fabric that buckles, under an implicit integrator
 constexpr double LONGEST_FOLDING_STEP = 1.0 / 240;   // where cloth touches cloth: self_collision "contact"
-constexpr double FURTHEST_SOUND =
-    4.4;  // that sound comes in fabric in an implicit step [m]; of all presets, paper needs it
+// That sound comes in fabric in an implicit step [m]; of all presets, paper needs it.
+constexpr double FURTHEST_SOUND = 4.4;
 constexpr double MOST_AIR_AGAINST_INERTIA = 0.09;  // in an implicit step under pressure: h^2 p L / m
 constexpr double ITERATIONS_PER_SECOND = 4800, FEWEST_ITERATIONS = 20, MOST_ITERATIONS = 60;
 constexpr double FEWEST_CONTACT_ITERATIONS = 40;

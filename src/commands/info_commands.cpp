@@ -77,7 +77,8 @@ int describeCommand(const std::string& typed) {
 
 int describeStepCommand(const SceneOptions& options) {
   const Scene scene = loadScene(options);
-  std::printf("%s", describe(makeStep(scene, Cloth(scene))).c_str());
+  const Cloth cloth(scene);
+  std::printf("%s", describe(makeStep(scene, cloth, mostLevels(cloth, {}))).c_str());
   return 0;
 }
 

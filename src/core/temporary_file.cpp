@@ -43,9 +43,9 @@ void synchroniseFolder(const fs::path& path, const fs::path& folder) {
     if (errno == EACCES) return;
     throw cannotBeWritten(path, errno);
   }
-  const int divergence = isSynchronised(descriptor) ? 0 : errno;
+  const int reason = isSynchronised(descriptor) ? 0 : errno;
   ::close(descriptor);
-  if (divergence != 0) throw cannotBeWritten(path, divergence);
+  if (reason != 0) throw cannotBeWritten(path, reason);
 }
 
 }  // namespace

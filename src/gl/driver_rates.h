@@ -22,7 +22,7 @@ using TellRate = std::function<void(const std::string&, double, const char*)>;
 // What a dispatch costs by itself, by the barrier behind it and what else changes in between. [us/dispatch]
 // `small`: fewer repetitions, smaller sizes.
 void measureDispatches(bool small, const TellRate& tell);
-// Copies [GB/s], the 13 loads of a particle in a step [us], springs without any load [1/s].
+// Copies [GB/s], the 13 loads of a particle in a step [us], springs without any load [G/s].
 void measureRoofs(bool small, const TellRate& tell);
 
 struct WorkTime {

@@ -30,7 +30,9 @@ class MappedBuffer {
     glNamedBufferStorage(name_, bytes, nullptr, access | GL_CLIENT_STORAGE_BIT);
     glObjectLabel(GL_BUFFER, name_, static_cast<GLsizei>(label.size()), label.c_str());
     elements_ = static_cast<const T*>(glMapNamedBufferRange(name_, 0, bytes, access));
-    if (elements_ == nullptr) throw OpenGlError("the driver gives no memory for " + label);
+    if (elements_ != nullptr) return;
+    glDeleteBuffers(1, &name_);
+    throw OpenGlError("the driver gives no memory for " + label);
   }
   ~MappedBuffer() {
     if (name_ != 0) glDeleteBuffers(1, &name_);  // which unmaps it

@@ -12,8 +12,9 @@ namespace {
 // A compiled shader that is deleted with its scope; a linked program keeps what it needs of it.
 class Shader {
  public:
-  Shader(GLenum stage, const std::string& file, const Defines& defines) : name_(glCreateShader(stage)) {
+  Shader(GLenum stage, const std::string& file, const Defines& defines) {
     const ShaderSource source = loadShaderSource(file, defines);
+    name_ = glCreateShader(stage);
     const char* text = source.text.c_str();
     glShaderSource(name_, 1, &text, nullptr);
     glCompileShader(name_);
@@ -34,7 +35,7 @@ class Shader {
   [[nodiscard]] GLuint name() const { return name_; }
 
  private:
-  GLuint name_;
+  GLuint name_ = 0;
 };
 
 void link(GLuint program, const std::string& label) {
@@ -49,10 +50,6 @@ void link(GLuint program, const std::string& label) {
   glGetProgramInfoLog(program, length, nullptr, log.data());
   throw OpenGlError(label + " does not link:\n" + log.c_str());
 }
-
-}  // namespace
-
-namespace {
 
 thread_local std::vector<Compilation> compiled;
 

@@ -1,25 +1,23 @@
 #include "solver/divergence.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "cloth/material.h"
+#include "cloth/pins.h"
+#include "core/formatted.h"
 #include "scene/budget.h"
 
 namespace clothsim {
 namespace {
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
-}
+std::string number(double value) { return formatted("%g", value); }
 
-std::string placeOnTheCloth(std::uint32_t particle, const Cloth& cloth) {
+std::string placeOnTheCloth(std::uint32_t particle, const Cloth& cloth, const Scene& scene) {
   const std::size_t index = cloth.pieceOf(particle);
   const Piece& piece = cloth.pieces()[index];
   if (piece.isMesh)
-    return "cloth " + std::to_string(index) + ", vertex " + std::to_string(particle - piece.firstParticle);
+    return "cloth " + std::to_string(index) + ", vertex " +
+           std::to_string(vertexPinOf(scene.cloths[index], particle - piece.firstParticle).vertex);
   const std::uint32_t onGrid = particle - piece.firstParticle,
                       columns = static_cast<std::uint32_t>(piece.columns);
   return "cloth " + std::to_string(index) + ", column " + std::to_string(onGrid % columns) + ", row " +
@@ -67,7 +65,7 @@ std::string divergenceText(const Divergence& divergence, const Cloth& cloth, con
   return "in step " + std::to_string(divergence.step) + " (frame " +
          (frame ? std::to_string(*frame) : std::to_string(counted)) + "), pass " + nameOf(divergence.pass) +
          ", particle " + std::to_string(divergence.particle) + " (" +
-         placeOnTheCloth(divergence.particle, cloth) + ") " + what(divergence, scene);
+         placeOnTheCloth(divergence.particle, cloth, scene) + ") " + what(divergence, scene);
 }
 
 namespace {
@@ -81,7 +79,7 @@ std::string stepsSetting(int steps) { return "solver.simulation_steps=" + std::t
 Remedy forImplicitSteps(const Scene& scene) {
   const int steps = std::min(scene.solver.simulationSteps * SHORTER_IMPLICIT_STEPS, mostSteps);
   return {"Implicit steps are stable, but in one of " + number(stepLength(scene.solver)) +
-              " s fast pins, colliders or hands outrun the cloth. Take shorter ones: --set " +
+              " s fast pins, colliders or grabs outrun the cloth. Take shorter ones: --set " +
               stepsSetting(steps) + ".",
           {stepsSetting(steps)}};
 }
@@ -93,7 +91,7 @@ Remedy forExplicitSteps(const Scene& scene) {
     return {
         "The springs are not the cause: steps up to " + number(stable) +
             " s are guaranteed stable, and these are of " + number(h) +
-            " s. Pins, colliders, air, shrinking cloth or hands may be too fast for explicit steps: --set " +
+            " s. Pins, colliders, air, shrinking cloth or grabs may be too fast for explicit steps: --set " +
             implicit + ".",
         {implicit}};
   const int steps = stableSteps(scene);

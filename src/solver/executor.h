@@ -19,8 +19,8 @@ namespace clothsim {
 // How far implicit steps were solved since the solver was made.
 struct ConvergenceCounts {
   std::uint64_t steps = 0;
-  std::uint64_t unconvergedSteps =
-      0;  // whose last update, or what its linear system lacked, was above the tolerance
+  // Whose last update, or what its linear system lacked, was above the tolerance.
+  std::uint64_t unconvergedSteps = 0;
   std::uint64_t newtonSteps = 0;
   std::uint64_t iterations = 0;        // of conjugate gradients
   double lastUpdate = 0;               // of the last step: over its motion, or a tenth of the spacing

@@ -11,7 +11,7 @@ namespace {
 
 // No grab is faster [m/s]. A goal far away is approached at this speed instead of in one step, which would
 // tear the particle from its neighbours.
-constexpr double LARGEST_HAND_SPEED = 30;
+constexpr double LARGEST_GRAB_SPEED = 30;
 
 // No denormals: what a driver makes of them is its own affair.
 template <class Real>
@@ -95,10 +95,10 @@ void putGrabSpring(const GrabSpring& grab, double h, std::uint64_t step, Interac
   params.rows = grab.rows;
   params.resistance = withoutDenormals<Real>(resistance);
   params.reach = withoutDenormals<Real>(resistance > 0 ? h * (1 + resistance) / resistance : 0);
-  params.largestDisplacement = withoutDenormals<Real>(h * LARGEST_HAND_SPEED);
-  params.largestDisplacementSquared = withoutDenormals<Real>(h * h * LARGEST_HAND_SPEED * LARGEST_HAND_SPEED);
-  params.largestSpeed = withoutDenormals<Real>(LARGEST_HAND_SPEED);
-  params.largestSpeedSquared = withoutDenormals<Real>(LARGEST_HAND_SPEED * LARGEST_HAND_SPEED);
+  params.largestDisplacement = withoutDenormals<Real>(h * LARGEST_GRAB_SPEED);
+  params.largestDisplacementSquared = withoutDenormals<Real>(h * h * LARGEST_GRAB_SPEED * LARGEST_GRAB_SPEED);
+  params.largestSpeed = withoutDenormals<Real>(LARGEST_GRAB_SPEED);
+  params.largestSpeedSquared = withoutDenormals<Real>(LARGEST_GRAB_SPEED * LARGEST_GRAB_SPEED);
 }
 
 template <class Real>

@@ -168,12 +168,12 @@ enum class Domain : std::uint8_t {
 };
 [[nodiscard]] std::string_view nameOf(Domain domain);
 
-// When a pass of an implicit step does nothing any more.
+// When a pass of an implicit step does nothing any more. What closes later comes first.
 enum class Gate : std::uint8_t {
-  none,
-  step,
-  system
-};  // never; once the step, or the linear system, is solved: what closes later comes first
+  none,   // never
+  step,   // once the step is solved
+  system  // once the linear system is
+};
 
 struct PassTraits {
   Pass pass;

@@ -27,6 +27,12 @@ double spacing(const Piece& piece) {
   return std::sqrt((x * x + y * y) / 2);
 }
 
+// A rope has none across.
+double smallestSpacing(const Piece& grid) {
+  const double x = grid.nominalLength[toLeft], y = grid.nominalLength[toUpper];
+  return x == 0 ? y : y == 0 ? x : std::min(x, y);
+}
+
 double largestSpacing(const Cloth& cloth) {
   double largest = 0;
   for (const Piece& piece : cloth.pieces()) largest = std::max(largest, spacing(piece));
@@ -71,7 +77,7 @@ double contactDistance(const Scene& scene, const Cloth& cloth) {
   const bool onlyMeshes = std::all_of(cloth.pieces().begin(), cloth.pieces().end(),
                                       [](const Piece& piece) { return piece.isMesh; });
   for (const Piece& piece : cloth.pieces())
-    if (!piece.isMesh) finest = std::min({finest, piece.nominalLength[toLeft], piece.nominalLength[toUpper]});
+    if (!piece.isMesh) finest = std::min(finest, smallestSpacing(piece));
   if (scene.solver.selfCollision == SelfCollision::robust)
     distance = std::max(distance, crossingDistance(cloth, expectedStrain(scene)) +
                                       RELATIVE_MOTION / 2 * largestSpacing(cloth));
@@ -132,9 +138,8 @@ bool hasNearCodes(const Scene& scene, const Cloth& cloth) {
   const double d = contactDistance(scene, cloth);
   const auto first = static_cast<double>(firstCode(scene));
   if (cloth.hasMesh()) return true;
-  return std::any_of(cloth.pieces().begin(), cloth.pieces().end(), [&](const Piece& piece) {
-    return first * std::min(piece.nominalLength[toLeft], piece.nominalLength[toUpper]) < d;
-  });
+  return std::any_of(cloth.pieces().begin(), cloth.pieces().end(),
+                     [&](const Piece& piece) { return first * smallestSpacing(piece) < d; });
 }
 
 template SelfParams<float> makeSelfParams(const Scene&, const Cloth&);

@@ -67,7 +67,9 @@ void Solver::takeScene(const Shared<Scene>& scene) {
 }
 
 void Solver::makeLists() {
-  step_ = makeStep(*inputs_.scene, *inputs_.cloth, inputs_.cuts);
+  if (!levels_ && isImplicit(inputs_.scene->solver.integrator))
+    levels_ = mostLevels(*inputs_.cloth, inputs_.cuts);
+  step_ = makeStep(*inputs_.scene, *inputs_.cloth, levels_.value_or(0));
   stepWithKeptLevels_ = keepingLevels(step_);
 }
 
@@ -310,6 +312,7 @@ void Solver::setInteraction(const Interaction& interaction) {
 void Solver::setCuts(const Cuts& cuts) {
   settle();
   inputs_.cuts = cuts;
+  levels_.reset();
   inputs_.cutMasks = makeCutMasks(*inputs_.cloth, cuts);
   makeLists();
   executor_->setCuts(inputs_);

@@ -148,6 +148,7 @@ class Solver {
   PassList step_, stepWithKeptLevels_;
   const PassList conversion_ = makeConversion(), startCheck_ = makeStartCheck();
   std::unique_ptr<Executor> executor_;
+  std::optional<std::size_t> levels_;      // mostLevels(), once an implicit step needs it
   bool startIsChecked_ = true;             // false once a state was handed in
   bool levelsAreMade_ = false;             // false after a change from outside
   std::vector<std::optional<bool>> held_;  // as Snapshot::held; none: not known

@@ -45,8 +45,8 @@ struct State {
   std::vector<Particle4> histories;
   std::uint32_t usualSteps = 0;
   Cuts cuts;  // empty: none
-  std::vector<std::uint32_t>
-      offPath;  // particles that a person has pinned or freed, ascending: no path moves them
+  // Particles that a person has pinned or freed, ascending: no path moves them.
+  std::vector<std::uint32_t> offPath;
 };
 
 // Empties elasticSlips and pairSlips where they hold only zeros, as before anything has touched.

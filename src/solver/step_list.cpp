@@ -42,12 +42,7 @@ class ListBuilder {
   PassList list_;
 };
 
-// How many coarser levels the finest of the cloths has, and the most colours of a strain limit.
-std::size_t mostLevels(const Cloth& cloth, const Cuts& cuts) {
-  std::size_t most = 0;
-  for (const auto& levels : makeHierarchy<float>(cloth, cuts).pieces) most = std::max(most, levels.size());
-  return most;
-}
+// Of a strain limit.
 std::size_t mostColors(const Cloth& cloth) {
   std::size_t most = 0;
   for (const Piece& piece : cloth.pieces()) most = std::max(most, makeLimitColors(piece).size());
@@ -59,7 +54,7 @@ constexpr int QUICK_NEWTON_STEPS = 10, LATE_ITERATIONS = 5;
 
 class StepBuilder {
  public:
-  StepBuilder(const Scene& scene, const Cloth& cloth, const Cuts& cuts)
+  StepBuilder(const Scene& scene, const Cloth& cloth, std::size_t levels)
       : solver_(scene.solver),
         hasColliders_(!scene.colliders.empty()),
         isImplicit_(isImplicit(scene.solver.integrator)),
@@ -67,7 +62,7 @@ class StepBuilder {
         hasSmallColliders_(hasSmallColliders(scene, cloth)),
         contacts_(collidesWithItself(scene, cloth) ? scene.solver.selfCollision : SelfCollision::off),
         rounds_(contactRounds(scene)),
-        levels_(isImplicit_ ? mostLevels(cloth, cuts) : 0),
+        levels_(levels),
         colors_(limitsInPasses(scene) ? mostColors(cloth) : 0) {}
 
   PassList step() {
@@ -138,7 +133,7 @@ class StepBuilder {
     list_.add(Pass::linearize);
     solve(iterations);
     if (hasColliders_) list_.add(Pass::stopAtPlanes);
-    searchLine(Pass::sumEnergies);
+    searchLine();
     list_.add(Pass::measureUpdate);
   }
 
@@ -176,9 +171,9 @@ class StepBuilder {
     for (std::size_t level = levels_; level-- > 0;) list_.add(Pass::prolong, level);
   }
 
-  void searchLine(Pass sum) {
+  void searchLine() {
     list_.add(Pass::tryLengths);
-    list_.add(sum);
+    list_.add(Pass::sumEnergies);
     list_.add(Pass::accept);
   }
 
@@ -314,8 +309,14 @@ void PassList::findGateEnds() {
   }
 }
 
-PassList makeStep(const Scene& scene, const Cloth& cloth, const Cuts& cuts) {
-  return StepBuilder(scene, cloth, cuts).step();
+std::size_t mostLevels(const Cloth& cloth, const Cuts& cuts) {
+  std::size_t most = 0;
+  for (const auto& levels : makeHierarchy<float>(cloth, cuts).pieces) most = std::max(most, levels.size());
+  return most;
+}
+
+PassList makeStep(const Scene& scene, const Cloth& cloth, std::size_t levels) {
+  return StepBuilder(scene, cloth, levels).step();
 }
 
 // The aggregates still have to be where the cloth is: their centers are found in every step.

@@ -18,8 +18,9 @@ namespace clothsim {
 // A pass of a list. It runs over all cloths.
 struct PassCall {
   Pass pass;
-  // limit: the colour; coarsen, restrict, prolong: the level, 0 the finest; buildHash: HASHES_START or
-  // HASHES_END.
+  // limit: the colour; findCenters, coarsen, restrict, prolong: the level, 0 the finest; buildHash:
+  // HASHES_START or HASHES_END; guard and pressOut: the round; findTouching: 0 at the start, 1 in later
+  // rounds.
   std::uint16_t index = 0;
 
   [[nodiscard]] const PassTraits& traits() const { return traitsOf(pass); }
@@ -49,9 +50,10 @@ struct PassList {
   [[nodiscard]] bool contains(Pass pass) const;
 };
 
-// A step of the scene. The cloth's levels, which cuts change, and its colours decide how many passes some
-// parts have.
-[[nodiscard]] PassList makeStep(const Scene& scene, const Cloth& cloth, const Cuts& cuts = {});
+// How many coarser levels the finest of the cloths has for implicit steps.
+[[nodiscard]] std::size_t mostLevels(const Cloth& cloth, const Cuts& cuts);
+// A step of the scene. Of explicit steps, `levels` does not matter.
+[[nodiscard]] PassList makeStep(const Scene& scene, const Cloth& cloth, std::size_t levels);
 // The same step with the matrices of the preconditioner's levels that the step before has made.
 [[nodiscard]] PassList keepingLevels(PassList step);
 [[nodiscard]] PassList listOf(std::initializer_list<Pass> passes, Outcome outcome);

@@ -1,7 +1,8 @@
 // Minus the inverse of the matrix of a connected part of the coarsest level, a work group each. Every pivot in turn is swept out
-// (Goodnight 1979, "A tutorial on the SWEEP operator"); the twin is invertDense() of src/solver/cpu/multilevel.cpp. The place of
-// the vertex that is held most stiffly have all of them, moving as one rigid body about its center: A' = Q^T A Q. So what is soft, the cloth as a
-// whole, has entries of its own, and is no difference of stiff ones. At the end A^-1 = Q A'^-1 Q^T.
+// (Goodnight 1979, "A tutorial on the SWEEP operator"); the twin is invertDense() of src/solver/cpu/multilevel.cpp.
+// The unknowns of the vertex that is held most stiffly are replaced by the motion of all vertices as one rigid body about its
+// center: A' = Q^T A Q. The cloth as a whole, which is soft, then has entries of its own and is no difference of stiff ones. At
+// the end A^-1 = Q A'^-1 Q^T.
 #include "shared/implicit.h"
 #include "sim/exact_math.glsl"
 #include "sim/implicit/gate.glsl"

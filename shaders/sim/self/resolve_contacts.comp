@@ -1,4 +1,4 @@
-// Pass 3: particles nearer than their distance go apart, by half of what is missing each (all of it for CS184's rule, and next
+// Resolve contacts: particles nearer than their distance go apart, by half of what is missing each (all of it for CS184's rule, and next
 // to a pinned particle); friction takes back what they slid past each other in this step, up to its coefficient times that. A
 // particle moves by the mean over its contacts, summed in fixed-point units, so that their order does not matter.
 #include "sim/blocks.glsl"

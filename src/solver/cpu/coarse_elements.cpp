@@ -478,7 +478,7 @@ class ElementLoop {
   std::vector<Turn> turns_;
 };
 
-// What the sums make of a block: see addIsotropicElement(), and cross products in components.
+// What the sums make of a block: see addIsotropic(), and cross products in components.
 template <class Real>
 INLINE RigidBlock<Real> blockOfSums(const ElementSums<Real>& sums) {
   const auto m = [&](int row, int column) __attribute__((always_inline)) {

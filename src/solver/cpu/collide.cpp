@@ -268,8 +268,11 @@ INLINE Nearness nearnessOf(const PassArguments<Real>& arguments, const ColliderP
       behind |= coulomb ? height : height ^ before;
     }
   }
-  if constexpr (type == COLLIDER_SPHERE)
-    return {nearest<bitsOf(collider.radiusSquared), longest> bitsOf(collider.sweepSquared)};
+  if constexpr (type == COLLIDER_SPHERE) {
+    const bool isInside =
+        nearest<bitsOf(collider.radiusSquared), isFar = longest> bitsOf(collider.sweepSquared);
+    return {isInside, isFar};
+  }
   return {(behind & bitsOf(Real(-0.0))) != 0, false};
 }
 

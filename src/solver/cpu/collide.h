@@ -1,4 +1,4 @@
-// Pass 4 on the CPU: particles out of colliders; the twin of shaders/sim/collide.glsl.
+// Collide on the CPU: particles out of colliders; the twin of shaders/sim/collide.glsl.
 #pragma once
 
 #include "solver/cpu/passes.h"

@@ -72,8 +72,12 @@ void CpuExecutor<Real>::makeImplicitLists(const Cuts& cuts) {
 template <class Real>
 void CpuExecutor<Real>::setSurface(const StepInputs& inputs) {
   implicit_.touching = {};
-  if (hasSurface(*inputs.scene, *cloth_))
+  implicit_.scalars.pairs = 0;
+  hasSurface_ = hasSurface(*inputs.scene, *cloth_);
+  if (hasSurface_)
     surfaceContact_.setSurface(makeSurface<Real>(*cloth_, *inputs.scene, inputs.cuts));
+  else
+    implicit_.pairSlips.clear();
 }
 
 template <class Real>

@@ -97,6 +97,7 @@ class CpuExecutor final : public Executor {
   cpu::RowPasses<Real> rowPasses_;
   cpu::SelfCollision<Real> selfCollision_;
   cpu::SurfaceContact<Real> surfaceContact_;
+  bool hasSurface_ = false;  // otherwise friction remembers no pairs
   bool isTimed_ = false;
   std::vector<PassTime> times_;
 };

@@ -72,7 +72,7 @@ void CpuExecutor<Real>::upload(const State& state) {
     implicit_.planes.heldLimits[i] = static_cast<Real>(slip.w);
   }
   implicit_.pairSlips.clear();
-  for (const PairSlip& slip : state.pairSlips)
+  for (const PairSlip& slip : hasSurface_ ? std::span(state.pairSlips) : std::span<const PairSlip>())
     implicit_.pairSlips.push_back({slip.place, slip.particles,
                                    Vec3f{slip.x, slip.y, slip.z}.template cast<Real>(),
                                    static_cast<Real>(slip.heldLimit)});
@@ -146,7 +146,8 @@ bool CpuExecutor<Real>::restore(const ParticleCopy& copy) {
     implicit_.planes.elasticSlips.resize(slips);
     implicit_.planes.heldLimits.resize(slips);
   }
-  implicit_.pairSlips = own->pairSlips;
+  implicit_.pairSlips.clear();
+  if (hasSurface_) implicit_.pairSlips = own->pairSlips;
   implicit_.scalars.usualSteps = own->usualSteps;
   if (own->usualSteps > 0) {
     implicit_.movedBefore = own->movedBefore;

@@ -396,13 +396,6 @@ void gatherForces(const PassArguments<double>& arguments, int row, ForceRows<dou
   gatherForcesRow(arguments, row, rows);
 }
 
-VECTOR_CLONES(void, addBendingForces, (const PassArguments<float>& arguments, int row), (arguments, row),
-              arguments.cutMasks != nullptr ? addBending<true>(arguments, row)
-                                            : addBending<false>(arguments, row))
-void addBendingForces(const PassArguments<double>& arguments, int row) {
-  arguments.cutMasks != nullptr ? addBending<true>(arguments, row) : addBending<false>(arguments, row);
-}
-
 template <class Real>
 void gatherWind(const PassArguments<Real>& arguments, int row, SymmetricField<Real>& resistance) {
   if (arguments.step.isMesh != 0) return gatherMeshWind(arguments, row, resistance);

@@ -68,7 +68,7 @@ void predictPlanes(const ImplicitArguments<Real>& arguments, int row) {
   ImplicitState<Real>& own = arguments.own;
   const Range all = rangeOf(step, row);
   const Vec3<Real> gravity{step.gravityX, step.gravityY, step.gravityZ};
-  Components<Real>& places = own.iterate.positions;  // scratch here: begin() writes the iterate anew
+  Components<Real>& places = own.planes.newElasticSlips;  // scratch here: the end of the step writes it
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
     put(own.planes.normals, i, Vec3<Real>{});
     put(places, i,

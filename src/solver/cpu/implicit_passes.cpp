@@ -293,7 +293,7 @@ INLINE void linearizeRow(const ImplicitArguments<Real>& arguments, int row) {
   if (hasSeams(pass)) addSeamBlocks(arguments, row);
   const Arrays<Real> displacements = arraysOf(own.displacements), residuals = arraysOf(own.residuals),
                      rightHandSide = arraysOf(own.rightHandSide), forces = arraysOf(pass.forces),
-                     increments = arraysOf(own.increments), directions = arraysOf(own.directions.positions);
+                     increments = arraysOf(own.increments);
 #pragma GCC ivdep
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
     const Vec3<Real> d = at(displacements, i);
@@ -317,7 +317,6 @@ INLINE void linearizeRow(const ImplicitArguments<Real>& arguments, int row) {
     const Vec3<Real> zero{};
     put(residuals, i, selected(pinned, zero, canonical(at(residuals, i))));
     put(increments, i, zero);
-    put(directions, i, zero);
     const Factors<Real> f = factorize(at(factors, i));
     put(factors, i, {selected(pinned, zero, f.inverse), selected(pinned, zero, f.lower)});
   }
@@ -370,9 +369,12 @@ INLINE void updateDirectionRow(const ImplicitArguments<Real>& arguments, int row
   const Range all = rangeOf(arguments.step.step, row);
   const Arrays<Real> directions = arraysOf(own.directions.positions), corrections = arraysOf(own.corrections);
   const Real kept = own.scalars.kept;
+  const bool isFirst = kept == Real(0);  // then what lies there belongs to another Newton step
 #pragma GCC ivdep
-  for (std::ptrdiff_t i = all.begin; i < all.end; ++i)
-    put(directions, i, canonical(at(corrections, i) + kept * at(directions, i)));
+  for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
+    const Vec3<Real> last = selected(isFirst, Vec3<Real>{}, at(directions, i));
+    put(directions, i, canonical(at(corrections, i) + kept * last));
+  }
 }
 
 template <class Real>

@@ -146,9 +146,9 @@ INLINE std::uint32_t mostHeldOf(const ImplicitState<Real>& own, const DensePart&
   return held;
 }
 
-// The place of the vertex that is held most stiffly have all of them, moving as one rigid body about its
-// center: A' = Q^T A Q. So what is soft, the cloth as a whole, has entries of its own, and is no difference
-// of stiff ones. At the end A^-1 = Q A'^-1 Q^T.
+// The unknowns of the vertex that is held most stiffly are replaced by the motion of all vertices as one
+// rigid body about its center: A' = Q^T A Q. The cloth as a whole, which is soft, then has entries of its own
+// and is no difference of stiff ones. At the end A^-1 = Q A'^-1 Q^T.
 template <class Real>
 INLINE void invertPart(ImplicitState<Real>& own, const DensePart& part) {
   const std::size_t order = 6 * static_cast<std::size_t>(part.count);

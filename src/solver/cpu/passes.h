@@ -66,8 +66,6 @@ void gatherForces(const PassArguments<double>& arguments, int row, ForceRows<dou
 void integrate(const PassArguments<float>& arguments, int row);
 void integrate(const PassArguments<double>& arguments, int row);
 // Adds what a material's bending does to before.positions to the forces.
-void addBendingForces(const PassArguments<float>& arguments, int row);
-void addBendingForces(const PassArguments<double>& arguments, int row);
 // The forces of the wind alone, and the matrices by which it resists velocities [N s/m] (implicit).
 template <class Real>
 void gatherWind(const PassArguments<Real>& arguments, int row, SymmetricField<Real>& resistance);

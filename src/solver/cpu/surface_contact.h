@@ -83,13 +83,6 @@ class SurfaceContact {
   std::vector<Real> kept_, newlyKept_;  // how much of its motion each particle keeps
 };
 
-// How the pairs press at the displacements so far: forces, and what they add to the Hessian.
-template <class Real>
-void weighPairs(ImplicitState<Real>& own, const StepParams<Real>& step);
-// What the pairs do to the directions.
-template <class Real>
-void multiplyPairs(ImplicitState<Real>& own);
-
 extern template class SurfaceContact<float>;
 extern template class SurfaceContact<double>;
 

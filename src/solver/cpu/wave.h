@@ -34,7 +34,6 @@ struct Wave {
   std::vector<WavePass> passes;
   int behind = 0, inside = 0;  // the most of all passes
 
-  [[nodiscard]] bool hasSeams() const { return behind + inside > 0; }
   // In bands of so many rows no two seams have a row in common, nor rows that springs join.
   [[nodiscard]] int leastBand() const { return behind + inside + 8; }
 };

@@ -105,10 +105,11 @@ GpuArrays::GpuArrays(std::size_t particles) {
 void GpuArrays::addImplicit(std::size_t particles, const GpuLevels& levels, bool wind, bool colliders,
                             bool history) {
   const auto add = [&](Array array, std::size_t texels) {
-    if ((*this)[array].buffer.name() != 0 && (*this)[array].buffer.size() >= texels) return;
+    if ((*this)[array].buffer.name() != 0 && (*this)[array].buffer.size() >= texels) return false;
     (*this)[array] = ParticleArray(std::string(nameOf(array)), texels);
     // What pressed in the step before is compared with what does now: before the first one nothing did.
     if (array == Array::contactBlocks || array == Array::elasticSlips) (*this)[array].buffer.clear();
+    return true;
   };
   for (const Array array : {Array::rightHandSides, Array::displacements, Array::iterates, Array::directions,
                             Array::products, Array::increments})
@@ -121,10 +122,11 @@ void GpuArrays::addImplicit(std::size_t particles, const GpuLevels& levels, bool
   add(Array::centers, levels.vertices());
   add(Array::coarseBlocks, BLOCK_TEXELS * levels.blocks());
   add(Array::coarseInverses, BLOCK_TEXELS * std::size_t{levels.vertices()});
-  add(Array::dense, (std::size_t{levels.denseEntries()} + 3) / 4);
-  ParticleArray& dense = (*this)[Array::dense];
-  checkTexelsFit(levels.denseEntries(), "numbers of dense inverses");
-  dense.texture = gl::BufferTexture("dense", dense.buffer.name(), GL_R32F);  // a number a texel
+  if (add(Array::dense, (std::size_t{levels.denseEntries()} + 3) / 4)) {
+    checkTexelsFit(levels.denseEntries(), "numbers of dense inverses");
+    ParticleArray& dense = (*this)[Array::dense];
+    dense.texture = gl::BufferTexture("dense", dense.buffer.name(), GL_R32F);  // a number a texel
+  }
   add(Array::airBlocks, wind ? AIR_TEXELS * particles : 1);
   add(Array::planes, colliders ? PLANE_TEXELS * particles : 1);
   add(Array::contactBlocks, colliders ? PLANE_TEXELS * particles : 1);
@@ -165,9 +167,13 @@ bool GpuArrays::hasHistory() const {
   return (*this)[Array::histories].buffer.size() == HISTORY_TEXELS * (*this)[Array::positions].buffer.size();
 }
 
-void GpuArrays::forgetHistory() {
+void GpuArrays::forgetHistory() { resetScalar(USUAL_STEPS_OFFSET); }
+
+void GpuArrays::forgetPairs() { resetScalar(offsetof(ImplicitScalars<float>, pairs)); }
+
+void GpuArrays::resetScalar(GLintptr offset) {
   static constexpr GLuint none = 0;
-  if (scalars_.name() != 0) glNamedBufferSubData(scalars_.name(), USUAL_STEPS_OFFSET, sizeof none, &none);
+  if (scalars_.name() != 0) glNamedBufferSubData(scalars_.name(), offset, sizeof none, &none);
 }
 
 void GpuArrays::setHistory(const State& state) {

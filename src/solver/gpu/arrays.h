@@ -35,6 +35,8 @@ class GpuArrays {
   void setElasticSlips(const gl::Buffer<Particle4>& slips);
   // The next step is backward Euler.
   void forgetHistory();
+  // Nothing touches until a step looks for it.
+  void forgetPairs();
   // That of a state, where steps of second order have room for it.
   void setHistory(const State& state);
   void copyHistory(GpuHistory& copy) const;
@@ -65,6 +67,7 @@ class GpuArrays {
 
  private:
   [[nodiscard]] bool hasHistory() const;
+  void resetScalar(GLintptr offset);
 
   std::array<ParticleArray, ARRAY_COUNT> arrays_;  // unused ones are empty
   std::array<ParticleArray, ARRAY_COUNT> spares_;  // most are empty

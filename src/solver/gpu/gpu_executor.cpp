@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <limits>
 
 #include "core/error.h"
 #include "gl/bindings.h"
@@ -23,6 +24,8 @@ std::uint32_t ownersAcross(const LimitColor& color) {
 std::uint32_t ownersAlong(const LimitColor& color) {
   return ownerCount(color.firstRow, color.rowStep, color.rowRun, color.endRow);
 }
+
+constexpr std::size_t OF_CONTACT = std::numeric_limits<std::size_t>::max();  // instead of a kernel's number
 
 // How many pairs of the second colour a line of `points` has, those with one end beyond the line's ends too.
 std::uint32_t middlePairs(std::uint32_t points, int offset) {
@@ -100,9 +103,12 @@ void GpuExecutor::setScene(const StepInputs& inputs) {
 }
 
 void GpuExecutor::setSurface(const StepInputs& inputs) {
+  arrays_.forgetPairs();
   if (hasSurface(*inputs.scene, *cloth_))
     surfaceContact_.setSurface(makeSurface<float>(*cloth_, *inputs.scene, inputs.cuts),
                                cloth_->particleCount(), featuresOf(*inputs.scene, *cloth_, 0));
+  else
+    surfaceContact_.switchOff();
 }
 
 void GpuExecutor::setCuts(const StepInputs& inputs) {
@@ -133,7 +139,7 @@ void GpuExecutor::prepare(const StepInputs& inputs, const PassList& list) {
   }
   if (list.contains(Pass::limit) || list.contains(Pass::resolveContacts))
     arrays_.addSpare(Array::newPositions);
-  for (std::vector<Programs>& ofPieces : kernels_) ofPieces.clear();
+  for (std::vector<StagePrograms>& programs : kernels_) programs.clear();
   compile(inputs, list);
   compile(inputs, makeConversion());
   compile(inputs, makeStartCheck());
@@ -141,24 +147,21 @@ void GpuExecutor::prepare(const StepInputs& inputs, const PassList& list) {
 
 void GpuExecutor::compile(const StepInputs& inputs, const PassList& list) {
   for (std::span<const PassCall> rest = list.passes; !rest.empty();) {
-    std::size_t count = 1;
-    const Domain domain = rest.front().traits().domain;
-    if (domain != Domain::contacts && domain != Domain::surface) {
-      const KernelChoice choice = kernelFor(rest, kernelOptions_);
-      count = choice.passes;
-      assert((kernels()[choice.kernel].stages.front().over != Over::grids || count <= sweepLength(rest)) &&
-             "passes over grid points that have one shader must be able to share a sweep");
-      std::vector<Programs>& programs = kernels_[choice.kernel];
-      for (std::size_t piece = programs.size(); piece < cloth_->pieces().size(); ++piece) {
-        PassFeatures features = featuresOf(*inputs.scene, *cloth_, piece, inputs.interaction, inputs.cuts);
-        features.groupColumns = options_.groupColumns;
-        features.groupRows = options_.groupRows;
-        features.storageLoads = *options_.storageLoads;
-        features.coarseLanes = options_.coarseLanes;
-        programs.push_back(library_.find(kernels()[choice.kernel], features));
-      }
+    const KernelChoice choice = choose(rest);
+    rest = rest.subspan(choice.passes);
+    if (choice.kernel == OF_CONTACT || !kernels_[choice.kernel].empty()) continue;
+    const Kernel& kernel = kernels()[choice.kernel];
+    std::vector<StagePrograms>& programs = kernels_[choice.kernel];
+    programs.resize(kernel.stages.size());
+    for (std::size_t piece = 0; piece < cloth_->pieces().size(); ++piece) {
+      PassFeatures features = featuresOf(*inputs.scene, *cloth_, piece, inputs.interaction, inputs.cuts);
+      features.groupColumns = options_.groupColumns;
+      features.groupRows = options_.groupRows;
+      features.storageLoads = *options_.storageLoads;
+      features.coarseLanes = options_.coarseLanes;
+      const std::vector<const gl::Program*> found = library_.find(kernel, features);
+      for (std::size_t stage = 0; stage < programs.size(); ++stage) programs[stage].push_back(found[stage]);
     }
-    rest = rest.subspan(count);
   }
 }
 
@@ -185,8 +188,9 @@ void GpuExecutor::run(const StepInputs& inputs, const PassList& list, int steps)
       next = list.gateEnds[next];
       continue;
     }
-    const std::span<const PassCall> taken = rest.first(passesTaken(rest));
-    runKernel(taken);
+    const KernelChoice choice = choose(rest);
+    const std::span<const PassCall> taken = rest.first(choice.passes);
+    runKernel(choice.kernel, taken);
     askForFlags(taken);
     next += taken.size();
   }
@@ -217,11 +221,15 @@ void GpuExecutor::lookAtFlags() {
   isSystemKnownSolved_ = areOfThisSystem_ && flags.isSystemSolved != 0;
 }
 
-// How many of the passes one kernel does.
-std::size_t GpuExecutor::passesTaken(std::span<const PassCall> passes) const {
+// Passes of contact have kernels of their own, one each.
+KernelChoice GpuExecutor::choose(std::span<const PassCall> passes) const {
   const Domain domain = passes.front().traits().domain;
-  if (domain == Domain::contacts || domain == Domain::surface) return 1;
-  return kernelFor(passes, kernelOptions_).passes;
+  if (domain == Domain::contacts || domain == Domain::surface) return {OF_CONTACT, 1};
+  const KernelChoice choice = kernelFor(passes, kernelOptions_);
+  assert(
+      (kernels()[choice.kernel].stages.front().over != Over::grids || choice.passes <= sweepLength(passes)) &&
+      "passes over grid points that have one shader must be able to share a sweep");
+  return choice;
 }
 
 // Behind a Newton step, where the step goes on or does not (Pass::settle), and behind some iterations of
@@ -244,7 +252,7 @@ void GpuExecutor::askForFlags(std::span<const PassCall> passes) {
   glFlush();  // or the copy may wait for further commands
 }
 
-void GpuExecutor::runKernel(std::span<const PassCall> passes) {
+void GpuExecutor::runKernel(std::size_t number, std::span<const PassCall> passes) {
   const PassCall& call = passes.front();
   if (std::ranges::any_of(passes,
                           [](const PassCall& c) { return c.traits().writes.contains(Array::scalars); }))
@@ -256,16 +264,12 @@ void GpuExecutor::runKernel(std::span<const PassCall> passes) {
     seen_.reset();
     return surfaceContact_.run(runner_, call, arrays_);
   }
-  const std::size_t number = kernelFor(passes, kernelOptions_).kernel;
   const Kernel& kernel = kernels()[number];
   const std::string name = runner_.isTiming() ? nameOf(passes) : "";
   for (const Pass own : kernel.passes) arrays_.bindFor(own);
   if (kernel.rewritten) arrays_.bindSpare(*kernel.rewritten);
-  for (std::size_t stage = 0; stage < kernel.stages.size(); ++stage) {
-    StagePrograms programs;
-    for (const Programs& ofPiece : kernels_[number]) programs.push_back(ofPiece[stage]);
-    runStage(kernel.stages[stage].over, programs, call, name);
-  }
+  for (std::size_t stage = 0; stage < kernel.stages.size(); ++stage)
+    runStage(kernel.stages[stage].over, kernels_[number][stage], call, name);
   if (kernel.rewritten) arrays_.takeSpare(*kernel.rewritten);
 }
 

@@ -92,22 +92,21 @@ class GpuExecutor final : public Executor {
   [[nodiscard]] GLuint positionsBuffer() const { return arrays_[Array::positions].buffer.name(); }
 
  private:
-  using Programs = std::vector<const gl::Program*>;  // of a kernel, one a shader
-  struct alignas(256) ColorSlot {                    // every driver takes uniform offsets in multiples of 256
+  using StagePrograms = std::vector<const gl::Program*>;  // of one shader of a kernel, one a cloth
+  struct alignas(256) ColorSlot {  // every driver takes uniform offsets in multiples of 256
     LimitColor color;
   };
   struct Copy;
 
   void setSurface(const StepInputs& inputs);
   void compile(const StepInputs& inputs, const PassList& list);
-  [[nodiscard]] std::size_t passesTaken(std::span<const PassCall> passes) const;
-  void runKernel(std::span<const PassCall> passes);
+  [[nodiscard]] KernelChoice choose(std::span<const PassCall> passes) const;
+  void runKernel(std::size_t kernel, std::span<const PassCall> passes);
   [[nodiscard]] bool isClosed(Gate gate);
   [[nodiscard]] bool hasElasticSlips() const;
   void lookAtFlags();
   void askForFlags(std::span<const PassCall> passes);
   // A stage of a kernel, with its programs by piece.
-  using StagePrograms = std::vector<const gl::Program*>;
   void runStage(Over over, const StagePrograms& programs, const PassCall& call, const std::string& name);
   void runOnGrids(const StagePrograms& programs, const PassCall& call, const std::string& name);
   void runOnColor(const StagePrograms& programs, std::size_t color, const std::string& name);
@@ -136,7 +135,7 @@ class GpuExecutor final : public Executor {
   GpuLevels levels_;  // empty until an implicit step needs them
 
   PassLibrary library_;
-  std::vector<std::vector<Programs>> kernels_;  // by kernel and grid; empty where no list needs it
+  std::vector<std::vector<StagePrograms>> kernels_;  // by kernel and shader; empty where no list needs it
   GpuSelfCollision selfCollision_;
   GpuSurfaceContact surfaceContact_;
   PassRunner runner_;

@@ -65,7 +65,6 @@ std::vector<Particle4> GpuExecutor::positions(std::uint32_t first, std::uint32_t
   return arrays_[Array::positions].buffer.download(first, count);
 }
 
-// A few bytes are read back.
 void GpuExecutor::setInverseMass(std::uint32_t particle, double inverseMass, bool rests) {
   const auto w = static_cast<float>(inverseMass);
   const Particle4 atRest;

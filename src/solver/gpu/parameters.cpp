@@ -53,7 +53,7 @@ void GpuParameters::preparePins(const PinPaths& paths, const Cloth& cloth, std::
 }
 
 void GpuParameters::prepareInteraction(const Interaction& interaction, std::size_t batch) {
-  reserve(interactions_, stagedInteractions_, "hand parameters", batch);
+  reserve(interactions_, stagedInteractions_, "interaction parameters", batch);
   if (!interaction.grab || interaction.grab->points == grabbedPoints_) return;
   grabbedPoints_ = interaction.grab->points;
   grabbed_ =

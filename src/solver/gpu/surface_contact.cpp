@@ -34,12 +34,14 @@ std::vector<std::uint32_t> triangleRows(const ClothSurface<float>& surface) {
 
 }  // namespace
 
-GpuSurfaceContact::Numbers::Numbers(const std::string& label, std::size_t count, GLenum format)
-    : buffer(label, count), texture(label, buffer.name(), format) {
-  checkFits(count, sizeof(std::uint32_t), label.c_str());
+GpuSurfaceContact::Numbers::Numbers(const std::string& label, std::size_t count, GLenum format) {
+  const std::size_t numbersATexel = format == GL_RGBA32UI ? 4 : 1;
+  checkFits(count / numbersATexel, numbersATexel * sizeof(std::uint32_t), label.c_str());
+  buffer = gl::Buffer<std::uint32_t>(label, count);
+  texture = gl::BufferTexture(label, buffer.name(), format);
 }
 
-const gl::Program& GpuSurfaceContact::program(const std::string& pass, const Variant& variant) {
+const gl::Program& GpuSurfaceContact::program(const char* pass, const Variant& variant) {
   auto found = programs_.find({pass, variant});
   if (found == programs_.end()) {
     PassFeatures features = colliderFeatures_;
@@ -55,8 +57,8 @@ const gl::Program& GpuSurfaceContact::program(const std::string& pass, const Var
                                           {"ONLY_COUNTS", std::to_string(variant.counts)},
                                           {"STOPS_SLIPS", std::to_string(variant.stops)}})
       defines.push_back(define);
-    gl::Program made = gl::Program::makeCompute("sim/surface/" + pass + ".comp", defines);
-    found = programs_.emplace(std::pair{pass, variant}, std::move(made)).first;
+    gl::Program made = gl::Program::makeCompute("sim/surface/" + std::string(pass) + ".comp", defines);
+    found = programs_.emplace(std::pair{std::string_view(pass), variant}, std::move(made)).first;
   }
   return found->second;
 }
@@ -133,7 +135,12 @@ void GpuSurfaceContact::setSurface(ClothSurface<float> surface, std::uint32_t pa
   rounds_ = gl::Buffer<RoundSlot>("rounds of the guard", std::span<const RoundSlot>(rounds));
   allocatePairs(surface_.roomForPairs);
   uploadParams();
-  if (!waitingSlips_.empty()) setSlips(std::exchange(waitingSlips_, {}));
+  isOn_ = true;
+}
+
+void GpuSurfaceContact::switchOff() {
+  setSlips({});
+  isOn_ = false;
 }
 
 // What friction remembers stays.
@@ -278,10 +285,7 @@ void GpuSurfaceContact::forgetPairCount() {
 
 void GpuSurfaceContact::setSlips(const std::vector<PairSlip>& slips) {
   forgetPairCount();
-  if (!isOn()) {
-    waitingSlips_ = slips;
-    return;
-  }
+  if (!isOn()) return;
   std::vector<std::uint32_t> particles, rows;
   for (const PairSlip& slip : slips) {
     particles.insert(particles.end(), slip.particles.begin(), slip.particles.end());
@@ -461,7 +465,7 @@ void GpuSurfaceContact::run(PassRunner& runner, PassCall call, GpuArrays& arrays
 }
 
 ContactCounts GpuSurfaceContact::counts() const {
-  if (!isOn()) return {};
+  if (state_.name() == 0) return {};
   glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
   return countsOf(state_.download().front());
 }

@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "gl/buffer.h"
@@ -27,7 +28,9 @@ class GpuSurfaceContact {
  public:
   // @throws OpenGlError when a buffer is larger than the driver allows, or a shader does not compile
   void setSurface(ClothSurface<float> surface, std::uint32_t particles, const PassFeatures& features);
-  [[nodiscard]] bool isOn() const { return !programs_.empty(); }
+  // No pairs from here on, nor what friction remembers of them.
+  void switchOff();
+  [[nodiscard]] bool isOn() const { return isOn_; }
 
   // What friction remembers of pairs of the last step (State::pairSlips).
   struct Slips {
@@ -75,8 +78,9 @@ class GpuSurfaceContact {
     gl::BufferTexture texture;
   };
 
-  const gl::Program& program(const std::string& pass, const Variant& variant);
-  const gl::Program& program(const std::string& pass) { return program(pass, Variant()); }
+  // `pass` is a literal: programs_ keeps where it lies.
+  const gl::Program& program(const char* pass, const Variant& variant);
+  const gl::Program& program(const char* pass) { return program(pass, Variant()); }
   void compile();
   void allocatePairs(std::size_t pairs);
   void bindSlips() const;
@@ -95,10 +99,11 @@ class GpuSurfaceContact {
   void shorten(PassRunner& runner, GpuArrays& arrays);
   void settle(PassRunner& runner, GpuArrays& arrays);
 
+  bool isOn_ = false;
   ClothSurface<float> surface_;
   std::uint32_t particles_ = 0;
   std::string name_;  // of the pass, for timings
-  std::map<std::pair<std::string, Variant>, gl::Program> programs_;
+  std::map<std::pair<std::string_view, Variant>, gl::Program> programs_;
   PassFeatures colliderFeatures_;  // what programs know of the scene
 
   gl::Buffer<SurfaceParams> params_;
@@ -111,9 +116,8 @@ class GpuSurfaceContact {
   Numbers triangles_, rings_, counts_, blocks_, lists_, listBlocks_, entries_, flatBlocks_, flatFlags_;
   // Of the pairs of this step and of the one before: particles, and elastic slips with places.
   Numbers pairIds_, pairSlips_, newSlips_, keptIds_, keptSlips_;
-  std::vector<PairSlip> waitingSlips_;  // for the first surface
-  gl::Buffer<std::uint32_t> cursors_,
-      kept_;  // kept_: what particles keep, then the same with what a round takes
+  gl::Buffer<std::uint32_t> cursors_;
+  gl::Buffer<std::uint32_t> kept_;  // of their motion by particles, then the same with what a round takes
   gl::Buffer<std::int32_t> corrections_;
   ParticleArray points_, boxes_, pairRows_, safePositions_, safeVelocities_, flatSides_;
   ParticleArray smallColliders_, pairCarries_;

@@ -39,10 +39,10 @@ class GpuWatch {
   gl::Buffer<Slot> rows_;  // of the steps since base_
   gl::MappedBuffer<Slot> copies_;
   gl::Fence copied_;
-  std::uint64_t base_ = 0;   // the step whose row is the first one; steps before it were sound
-  std::size_t written_ = 0;  // rows that passes may have written to since then,
-  std::size_t firstUncopied_ =
-      0;  // and the first of them that is not copied yet, or may have been written to again
+  std::uint64_t base_ = 0;  // the step whose row is the first one; steps before it were sound
+  // Rows that passes may have written to since then, and the first of them that is not copied yet, or may
+  // have been written to again.
+  std::size_t written_ = 0, firstUncopied_ = 0;
   bool isCopied_ = true;
   std::optional<Divergence> divergence_;
 };

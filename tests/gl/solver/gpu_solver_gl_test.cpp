@@ -140,6 +140,32 @@ TEST_F(GpuSolverTest, RemembersFrictionWhereThereIsMoreRoomForPairs) {
   EXPECT_GT(cpu.contactCounts().pairs, 4 * cloth.particleCount()) << "more than half of the room at first";
 }
 
+// What touched before says nothing of the steps after: they are those of a solver that is made for them.
+TEST_F(GpuSolverTest, ForgetsWhatTouchedWhenContactIsSwitchedOff) {
+  const Scene scene = sceneOfLayers(3, 5);
+  Scene off = scene;
+  off.solver.selfCollision = SelfCollision::off;
+  off.colliders.clear();
+  const Cloth cloth(scene);
+  GpuSolver gpu(cloth, scene), freshGpu(cloth, off);
+  CpuSolver<float> cpu(cloth, scene), freshCpu(cloth, off);
+  const auto compare = [&](Solver& solver, Solver& fresh) {
+    solver.step(2);
+    const State touching = solver.state();
+    EXPECT_FALSE(touching.pairSlips.empty());
+    EXPECT_GT(solver.contactCounts().pairs, 0u);
+    solver.configure(off);
+    fresh.setState(touching);
+    for (Solver* each : {&solver, &fresh}) each->step(2);
+    EXPECT_EQ(difference(solver.state(), fresh.state()).differing, 0u) << solver.backend();
+    EXPECT_TRUE(solver.state().pairSlips.empty());
+  };
+  compare(gpu, freshGpu);
+  compare(cpu, freshCpu);
+  EXPECT_EQ(difference(gpu.state(), cpu.state()).differing, 0u);
+  EXPECT_GT(gpu.contactCounts().pairs, 0u) << "what was counted stays counted";
+}
+
 TEST_F(GpuSolverTest, MakesStepsAgainThatHadTooLittleRoomForPairs) {
   const Scene scene = sceneOfLayers(5, 4);
   const Cloth cloth(scene);

@@ -10,6 +10,7 @@
 #include "solver/cpu/cpu_solver.h"
 #include "support/compared_scenes.h"
 #include "support/injections.h"
+#include "support/mesh_sheet.h"
 #include "support/scene_text.h"
 
 namespace clothsim {
@@ -195,6 +196,14 @@ TEST(DivergenceText, NamesStepFramePassParticleAndItsPlaceOnTheCloth) {
             std::string::npos)
       << text;
   EXPECT_NE(text.find("solver.max_speed, 10000 m/s"), std::string::npos) << text;
+}
+
+TEST(DivergenceText, NamesAVertexAsTheFileOfItsMeshCounts) {
+  Scene scene;
+  scene.cloths[0].mesh = test::meshFile("v 9 9 9\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 2 3 4\n");
+  const Divergence divergence{DivergenceReason::runawaySpeed, Pass::integrate, 1, 0};
+  EXPECT_NE(divergenceText(divergence, Cloth(scene), scene).find("(cloth 0, vertex 1)"), std::string::npos)
+      << "the file's first point is of no face";
 }
 
 // The shortest scene of a fabric, and what the watchdog proposes where somebody sets CS184's steps for it.

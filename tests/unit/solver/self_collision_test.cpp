@@ -259,5 +259,13 @@ TEST(ContactDistance, IsTwiceTheThicknessForCs184AndSoundForRobust) {
   EXPECT_FALSE(collidesWithItself(scene, cloth));
 }
 
+TEST(ContactDistance, IsThatOfTheSheetAlsoBesideARope) {
+  Scene scene = contactScene(11, SelfCollision::averaged);
+  scene.cloths.push_back(scene.cloths[0]);
+  scene.cloths[1].numHeightPoints = 1;
+  const Cloth cloth(scene);
+  EXPECT_NEAR(contactDistance(scene, cloth), 2 * 0.049, 1e-12) << "a rope has no spacing across";
+}
+
 }  // namespace
 }  // namespace clothsim

@@ -37,7 +37,10 @@ Scene withBall(Scene scene) {
   scene.colliders = {Sphere{}};
   return scene;
 }
-PassList stepOf(const Scene& scene) { return makeStep(scene, Cloth(scene)); }
+PassList stepOf(const Scene& scene) {
+  const Cloth cloth(scene);
+  return makeStep(scene, cloth, mostLevels(cloth, {}));
+}
 
 TEST(StepList, OfCs184CollidesAndLimitsAfterTheIntegration) {
   Scene scene = withBall(test::withLimiter(sheet()));

@@ -30,7 +30,7 @@ Planned limitedSheet() {
   Scene scene = test::withLimiter(test::sheetScene(9));
   scene.colliders = {Sphere{}};
   const Cloth cloth(scene);
-  Planned planned{makeStep(scene, cloth), makeLimitColors(cloth.pieces()[0]), {}};
+  Planned planned{makeStep(scene, cloth, mostLevels(cloth, {})), makeLimitColors(cloth.pieces()[0]), {}};
   const std::span<const PassCall> passes = planned.step.passes;
   planned.wave = cpu::makeWave(passes.first(cpu::waveLength(passes)), planned.colors);
   return planned;
@@ -46,7 +46,8 @@ TEST(Wave, EndsBeforeWhatNeedsAllParticles) {
   Scene scene = test::withLimiter(test::sheetScene(9));
   scene.solver.selfCollision = SelfCollision::averaged;
   scene.cloths[0].thickness = 0.01;
-  const PassList step = makeStep(scene, Cloth(scene));
+  const Cloth cloth(scene);
+  const PassList step = makeStep(scene, cloth, mostLevels(cloth, {}));
   EXPECT_EQ(cpu::waveLength(step.passes), 2u);
   EXPECT_EQ(step.passes[2].pass, Pass::checkHash);
   const std::vector<PassCall> sums{{Pass::predictPlanes}, {Pass::begin}};
