@@ -44,6 +44,8 @@ using uint = std::uint32_t;
 // the others they keep to their own sides; in the last one, if there were some in the round before, all do.
 #define GUARD_ROUNDS 16
 #define CORRECTION_ROUNDS 8
+// Parts that come nearer than this part of their gap are too near.
+#define KEPT_GAP 0.95f
 // What is flat keeps parts apart by so many least gaps, at least.
 #define LEAST_GAPS_OF_FLAT 4.0f
 // Where parts turn about each other, the motion is looked at in so many parts.
@@ -73,6 +75,11 @@ using uint = std::uint32_t;
 // Small colliders: in the first round friction stops slips, in the others triangles that are still in them
 // are pushed out; and rounds of the search for where a triangle meets their cores.
 #define PRESS_ROUNDS 9
+// Deeper than this part of its radius, or of its reach, what is left in a collider at the end of a step is
+// pushed out, to half of that depth: the solution leaves a little, as a stiff spring does.
+#define LEFT_INSIDE 0.0625f
+// The cosine between normals of a surface that turns little within a triangle.
+#define SAME_FACE 0.75f
 #define MOST_OVER_INERTIA 1048576.0f  // of a pair's stiffness, what springs add: 1 / LEAST_PIVOT
 #define CORE_ROUNDS 6
 #define CROSSING_ROUNDS 16

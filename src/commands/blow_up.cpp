@@ -77,7 +77,9 @@ fs::path freeStateName(const fs::path& folder, const std::string& stem, const st
 }  // namespace
 
 void stopBlownUp(const Divergence& divergence, Simulation& simulation, const BlowUpContext& context) {
-  std::string message = blowUpText(divergence, simulation.cloth(), simulation.scene()) + context.filesText;
+  std::string message =
+      blowUpText(divergence, simulation.cloth(), simulation.scene(), context.frame) + context.filesText;
+  if (context.replays) message += "\nA replay takes no --set: record it anew with these settings.";
   const std::string frame = std::to_string(context.frame - 1);
   try {
     const std::string bytes = formatStateFile(simulation.solver().state());

@@ -81,15 +81,6 @@ void checkSaves(const RunOptions& options) {
   checkWritable(options.trace);
 }
 
-// Warns of point caches, where the mesh beside them is that of the start, of cloth that was cut or tore.
-void addOldMeshes(std::vector<Warning>& warnings, const std::vector<std::string>& saves) {
-  for (const std::string& save : saves)
-    if (isPointCache(save))
-      warnings.push_back(
-          {"file", std::nullopt, save + " keeps triangles that are cut",
-           save + " keeps the triangles of the start, but cloth was cut or tore; save .usda, .usdc or .usd"});
-}
-
 // Whether there are pictures to draw, which needs OpenGL.
 bool savesPictures(const RunOptions& options) {
   return std::any_of(options.saves.begin(), options.saves.end(), isPicture);
@@ -109,9 +100,11 @@ class Run {
     if (isReplay_) {
       Recording recording = Recording::load(options.replay);
       frames_ = options.frames.value_or(recording.frames);
-      if (usesGpu(recording, options) || savesPictures(options)) context_.emplace();
-      std::optional<std::string> backend = options.backend;
-      if (backend) backend = announcedBackend(*backend);
+      std::optional<std::string> backend;
+      if (options.backend)
+        backend = preparedBackend(options);
+      else if (usesGpu(recording) || savesPictures(options))
+        context_.emplace();
       replay_.emplace(std::move(recording), backend, makeSolver);
     } else {
       const Shared<Scene> scene = loadScene(options.scene);
@@ -132,6 +125,13 @@ class Run {
   [[nodiscard]] bool isReplay() const { return isReplay_; }
   [[nodiscard]] std::uint64_t steps() const { return steps_; }
   [[nodiscard]] double simulatedSeconds() const { return simulatedSeconds_; }
+  [[nodiscard]] std::vector<Warning> warnings() const {
+    std::vector<Warning> warnings;
+    if (isReplay_)
+      for (const std::string& remark : replay_->remarks())
+        warnings.push_back({"file", std::nullopt, remark, remark});
+    return warnings;
+  }
   [[nodiscard]] Simulation& simulation() { return isReplay_ ? replay_->session().simulation() : *plain_; }
   [[nodiscard]] const Scene& scene() { return simulation().scene(); }
 
@@ -173,8 +173,7 @@ class Run {
     return announcedBackend(wish);
   }
 
-  static bool usesGpu(const Recording& recording, const RunOptions& options) {
-    if (options.backend) return *options.backend != "cpu";
+  static bool usesGpu(const Recording& recording) {
     return recording.backend == "gpu" ||
            std::any_of(recording.events.begin(), recording.events.end(), [](const Recording::Event& event) {
              const auto* to = std::get_if<SwitchBackend>(&event.action);
@@ -227,10 +226,11 @@ nlohmann::ordered_json summaryOfBlowUp(const RunOptions& options, Run& run, cons
                                        const Divergence& divergence) {
   nlohmann::ordered_json json = summary(options, run, seen);
   json["finite"] = false;
-  json["divergence"] = {{"frame", run.soundFrames() + 1},
-                        {"step", divergence.step},
-                        {"particle", divergence.particle},
-                        {"text", divergenceText(divergence, run.simulation().cloth(), run.scene())}};
+  json["divergence"] = {
+      {"frame", run.soundFrames() + 1},
+      {"step", divergence.step},
+      {"particle", divergence.particle},
+      {"text", divergenceText(divergence, run.simulation().cloth(), run.scene(), run.soundFrames() + 1)}};
   return json;
 }
 
@@ -279,7 +279,6 @@ int runCommand(const RunOptions& options) {
   if (counter) crossings.add(0, counter->count(seen.state));
   RunFiles files(options, run.simulation(), frames);
   files.add(run.simulation(), seen, 0);
-  const Cuts cutsAtStart = seen.state.cuts;
   Progress progress("simulating", frames);
   const auto simulateFrame = [&](int frame) {
     stopIfInterrupted();
@@ -309,7 +308,8 @@ int runCommand(const RunOptions& options) {
   progress.finish();
 
   std::vector<Warning> warnings = seen.watch.warnings(run.scene());
-  if (seen.state.cuts != cutsAtStart) addOldMeshes(warnings, options.saves);
+  std::ranges::move(files.warnings(), std::back_inserter(warnings));
+  std::ranges::move(run.warnings(), std::back_inserter(warnings));
   nlohmann::ordered_json json = summary(options, run, seen);
   json["warnings"] = toJson(warnings);
   if (counter) json["crossings"] = toJson(crossings);

@@ -88,6 +88,12 @@ std::string RunFiles::finishEarly() {
   }
 }
 
+std::vector<Warning> RunFiles::warnings() const {
+  std::vector<Warning> warnings;
+  for (const std::string& loss : files_.losses()) warnings.push_back({"file", std::nullopt, loss, loss});
+  return warnings;
+}
+
 void RunFiles::writeTrace() const {
   if (options_.trace.empty()) return;
   writeFileAtomically(options_.trace, options_.trace.ends_with(".npz") ? trace_.npz() : trace_.csv());

@@ -48,6 +48,7 @@ class RunFiles {
   // Instead of finish(), for a run that ends early: what holds many frames is complete with those that were
   // added. Returns earlyEndText(), or why it could not.
   [[nodiscard]] std::string finishEarly();
+  [[nodiscard]] std::vector<Warning> warnings() const;        // of files that show less than there was
   [[nodiscard]] int lastFrame() const { return lastFrame_; }  // that was added; -1 before
 
  private:

@@ -36,14 +36,20 @@ class PointCacheWriter final : public SequenceWriter {
     file_.append(bytesOf(header_));
   }
 
-  void addFrame(const State& state) override {
-    checkParticleCount(state, cloth_, path_);
+  void addFrame(const State& state, const Cloth& cloth, const Scene& /*scene*/) override {
+    checkIsSameMesh(cloth, cloth_, path_);
     if (header_.sampleCount == 0) rest_ = state;
+    isCut_ = isCut_ || state.cuts != rest_.cuts;
     std::string frame;
     frame.reserve(12 * state.positions.size());
     for (const Particle4& x : state.positions) frame.append(bytesOf(std::array<float, 3>{x.x, x.y, x.z}));
     file_.append(frame);
     ++header_.sampleCount;
+  }
+
+  [[nodiscard]] std::vector<std::string> losses() const override {
+    if (!isCut_) return {};
+    return {"keeps the triangles of the start, but cloth was cut or tore; save .usda, .usdc or .usd"};
   }
 
   void close() override {
@@ -57,7 +63,8 @@ class PointCacheWriter final : public SequenceWriter {
   std::filesystem::path path_;
   GrowingFile file_;
   CacheHeader header_;
-  State rest_;  // the first frame
+  State rest_;          // the first frame
+  bool isCut_ = false;  // in some frame otherwise than in the first
 };
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include "core/files.h"
 #include "export/export.h"
 #include "export/formats.h"
-#include "solver/executor.h"
+#include "solver/state.h"
 
 namespace clothsim {
 namespace {

@@ -1,5 +1,7 @@
 #include "export/sequence.h"
 
+#include <algorithm>
+
 #include "core/error.h"
 #include "export/sequence_formats.h"
 #include "export/usd_binary.h"
@@ -25,10 +27,16 @@ std::unique_ptr<SequenceWriter> makeSequenceWriter(const std::filesystem::path& 
                    path.extension().string() + "', expected .pc2, .usda, .usdc or .usd");
 }
 
-void checkParticleCount(const State& state, const Cloth& cloth, const std::filesystem::path& path) {
-  if (state.positions.size() == cloth.particleCount()) return;
-  throw InputOutputError(path.string() + ": holds a mesh of " + std::to_string(cloth.particleCount()) +
-                         " points, but the cloth was rebuilt with " + std::to_string(state.positions.size()) +
+void checkIsSameMesh(const Cloth& now, const Cloth& start, const std::filesystem::path& path) {
+  const auto isSame = [](const Piece& a, const Piece& b) {
+    return a.columns == b.columns && a.rows == b.rows && a.isMesh == b.isMesh;
+  };
+  if (std::ranges::equal(now.pieces(), start.pieces(), isSame) &&
+      now.lists().triangles == start.lists().triangles)
+    return;
+  throw InputOutputError(path.string() + ": holds a mesh of " + std::to_string(start.particleCount()) +
+                         " points, but the cloth was rebuilt as another one with " +
+                         std::to_string(now.particleCount()) +
                          ". Save numbered files instead (cloth_%04d.obj).");
 }
 

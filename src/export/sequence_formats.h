@@ -12,7 +12,7 @@ namespace clothsim {
                                                             const Cloth& cloth, const Scene& scene,
                                                             const FrameTimes& times);
 
-// @throws InputOutputError when the state is of another cloth
-void checkParticleCount(const State& state, const Cloth& cloth, const std::filesystem::path& path);
+// @throws InputOutputError when `now` has other points or triangles than the cloth of the start
+void checkIsSameMesh(const Cloth& now, const Cloth& start, const std::filesystem::path& path);
 
 }  // namespace clothsim

@@ -50,15 +50,23 @@ class UsdWriter final : public SequenceWriter {
  public:
   UsdWriter(const std::filesystem::path& path, const Cloth& cloth, const Scene& scene,
             const FrameTimes& times)
-      : cloth_(cloth), scene_(scene), path_(path), times_(times), spool_(path), file_(path) {
+      : cloth_(cloth),
+        scene_(scene),
+        path_(path),
+        times_(times),
+        spool_(path),
+        file_(path),
+        colliders_(scene.colliders),
+        solids_(scene) {
     if (isUsdBinary(path)) {
       checkUsdLibrary(path);
       text_.emplace(path);
     }
   }
 
-  void addFrame(const State& state) override {
-    checkParticleCount(state, cloth_, path_);
+  void addFrame(const State& state, const Cloth& cloth, const Scene& scene) override {
+    checkIsSameMesh(cloth, cloth_, path_);
+    follow(scene);
     std::vector<Vec3f> points;
     points.reserve(state.positions.size());
     for (const Particle4& x : state.positions) points.push_back({x.x, x.y, x.z});
@@ -68,7 +76,20 @@ class UsdWriter final : public SequenceWriter {
       cuts_ = state.cuts;
       meshes_.emplace_back(frames_.size(), remainingTriangles(cloth_, cuts_));
     }
-    frames_.push_back({times_.first + static_cast<int>(frames_.size()) * times_.every, state.clock.time()});
+    const int code = times_.first + static_cast<int>(frames_.size()) * times_.every;
+    const double time = state.clock.time();
+    frames_.push_back({code, time, usdMatrices(solids_, time)});
+  }
+
+  [[nodiscard]] std::vector<std::string> losses() const override {
+    std::vector<std::string> losses;
+    if (hasOtherSolids_)
+      losses.emplace_back(
+          "shows the solids of the start alone, but some were added, removed or changed on the way");
+    if (hasOtherPace_)
+      losses.push_back("plays " + usdNumber(times_.framesPerSecond) +
+                       " frames a second throughout, but solver.frames_per_sec was changed on the way");
+    return losses;
   }
 
   void close() override {
@@ -86,6 +107,34 @@ class UsdWriter final : public SequenceWriter {
   }
 
  private:
+  // Solids may be moved and turned between frames.
+  void follow(const Scene& scene) {
+    hasOtherPace_ = hasOtherPace_ || scene.solver.framesPerSec != times_.framesPerSecond;
+    if (scene.colliders == colliders_) return;
+    colliders_ = scene.colliders;
+    const std::size_t count = scene_.colliders.size();
+    const bool areThere = std::ranges::equal(std::span(colliders_).first(std::min(count, colliders_.size())),
+                                             scene_.colliders, {}, shapeAlone, shapeAlone);
+    if (areThere) solids_ = ColliderSet(scene);
+    hasOtherSolids_ = hasOtherSolids_ || !areThere || colliders_.size() > count;
+  }
+
+  // Of the same colliders at other places these are equal.
+  static Collider shapeAlone(Collider collider) {
+    placeOf(collider) = {};
+    std::visit(
+        [](auto& shape) {
+          shape.motion.reset();
+          shape.render = {};
+          shape.friction = 0;
+          if constexpr (requires { shape.rotation; }) shape.rotation = {};
+          if constexpr (requires { shape.axis; }) shape.axis = {};
+          if constexpr (requires { shape.normal; }) shape.normal = {};
+        },
+        collider);
+    return collider;
+  }
+
   void write(const std::string& text) {
     if (text_)
       text_->append(text);
@@ -202,7 +251,10 @@ class UsdWriter final : public SequenceWriter {
   FrameTimes times_;
   Spool spool_;  // the positions of all frames
   GrowingFile file_;
-  std::optional<Spool> text_;  // of which the binary form is made
+  std::optional<Spool> text_;        // of which the binary form is made
+  std::vector<Collider> colliders_;  // in the frame before, and as they are placed
+  ColliderSet solids_;
+  bool hasOtherSolids_ = false, hasOtherPace_ = false;  // than at the start
   UsdBox start_;
   std::vector<UsdFrame> frames_;
   Cuts cuts_;                                              // in the frame before

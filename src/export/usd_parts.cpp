@@ -1,12 +1,12 @@
 #include "export/usd_parts.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <numbers>
 
 #include "cloth/material_look.h"
 #include "export/surface_color.h"
-#include "scene/colliders/collider_set.h"
 #include "scene/colliders/solid_mesh.h"
 #include "scene/pose.h"
 
@@ -68,15 +68,14 @@ std::string matrixText(const std::array<Vec3d, 3>& axes, Vec3d place) {
 constexpr const char* TRANSFORM_ORDER =
     "            uniform token[] xformOpOrder = [\"xformOp:transform\"]\n";
 
-std::string transformText(const ColliderSet& colliders, std::size_t i, const std::vector<UsdFrame>& frames) {
-  const auto at = [&](double time) {
-    return matrixText(transposed(colliders.rotationAt(i, time)), poseAt(colliders[i], time).position);
-  };
+std::string transformText(std::size_t i, const std::vector<UsdFrame>& frames) {
+  const std::string& first = frames.front().solids[i];
   std::string text = "            matrix4d xformOp:transform";
-  if (!moves(colliders[i])) return text + " = " + at(frames.front().time) + "\n" + TRANSFORM_ORDER;
+  if (std::ranges::all_of(frames, [&](const UsdFrame& frame) { return frame.solids[i] == first; }))
+    return text + " = " + first + "\n" + TRANSFORM_ORDER;
   text += ".timeSamples = {\n";
   for (const UsdFrame& frame : frames)
-    text += "                " + std::to_string(frame.code) + ": " + at(frame.time) + ",\n";
+    text += "                " + std::to_string(frame.code) + ": " + frame.solids[i] + ",\n";
   return text + "            }\n" + TRANSFORM_ORDER;
 }
 
@@ -155,7 +154,7 @@ std::string solidsText(const Scene& scene, Vec3d middle, double size, const std:
       text += deformingShape(colliders, i, frames);
     else
       text += meshShape(colliders.drawnSurface(i, 0));
-    text += transformText(colliders, i, frames) + "        }\n";
+    text += transformText(i, frames) + "        }\n";
   }
   return text + "    }\n";
 }
@@ -196,6 +195,14 @@ void appendUsdVector(std::string& text, Vec3f v) {
 
 std::string usdClothMaterial(const Scene& scene, std::size_t cloth) {
   return scene.cloths.size() == 1 ? "cloth" : "cloth" + std::to_string(cloth);
+}
+
+std::vector<std::string> usdMatrices(const ColliderSet& colliders, double time) {
+  std::vector<std::string> matrices;
+  for (std::size_t i = 0; i < colliders.size(); ++i)
+    matrices.push_back(
+        matrixText(transposed(colliders.rotationAt(i, time)), poseAt(colliders[i], time).position));
+  return matrices;
 }
 
 std::string usdSurroundings(const Scene& scene, const UsdBox& cloth, const std::vector<UsdFrame>& frames) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "export/text_numbers.h"
+#include "scene/colliders/collider_set.h"
 #include "scene/scene.h"
 
 namespace clothsim {
@@ -30,15 +31,19 @@ struct UsdBox {
   Vec3f low, high;
 };
 
-// A saved frame: its number, which is the time code, and the time [s].
+// A saved frame: its number, which is the time code, the time [s], and where each solid stands then, as a
+// matrix.
 struct UsdFrame {
   int code = 0;
   double time = 0;
+  std::vector<std::string> solids = {};
 };
+[[nodiscard]] std::vector<std::string> usdMatrices(const ColliderSet& colliders, double time);
 
-// The materials of cloth and solids, the solids on their ways, and the camera. Spheres are prims of that
-// kind, planes squares, all others meshes, in the shape of each frame. `cloth` is the box around it at the
-// start: a camera that the scene does not place looks at it, and squares lie below it.
+// The materials of cloth and solids, the solids on their ways, and the camera. The scene is that of the
+// start. Spheres are prims of that kind, planes squares, all others meshes, in the shape of each frame.
+// `cloth` is the box around it at the start: a camera that the scene does not place looks at it, and squares
+// lie below it.
 [[nodiscard]] std::string usdSurroundings(const Scene& scene, const UsdBox& cloth,
                                           const std::vector<UsdFrame>& frames);
 

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "session/recording.h"
 #include "session/session.h"
@@ -19,6 +20,9 @@ class Replay {
   // Simulates a frame, then applies the actions recorded at its end. Beyond the end of the recording frames
   // are simulated without any action. @throws as the constructor
   [[nodiscard]] std::optional<Divergence> stepFrame();
+  // What is odd about the recording as far as it was repeated, a sentence each: recordings of the viewer have
+  // nothing of the kind.
+  [[nodiscard]] std::vector<std::string> remarks() const;
 
  private:
   void applyDueEvents();
@@ -27,6 +31,8 @@ class Replay {
   bool keepsBackend_;
   Session session_;
   std::size_t next_ = 0;  // index of the first event that is not applied yet
+  std::size_t late_ = 0;  // events that lie within a frame
+  int frames_ = 0;        // simulated
 };
 
 }  // namespace clothsim

@@ -19,10 +19,11 @@ SavedFiles::SavedFiles(const std::vector<std::string>& names, int every, int fra
                        const Simulation& simulation, int first)
     : every_(every), frames_(frames), first_(first) {
   for (const std::string& name : names) {
-    if (isSequence(name))
+    if (isSequence(name)) {
       sequences_.push_back(makeSequenceWriter(name, simulation.cloth(), simulation.scene(),
                                               {simulation.scene().solver.framesPerSec, every, first}));
-    else if (canSaveStateAs(name))
+      sequenceNames_.push_back(name);
+    } else if (canSaveStateAs(name))
       states_.push_back(name);
     else
       throw UsageError(
@@ -33,10 +34,17 @@ SavedFiles::SavedFiles(const std::vector<std::string>& names, int every, int fra
 void SavedFiles::add(const Simulation& simulation, const State& state, int frame) {
   const bool isDue = frame % every_ == 0;
   for (const auto& sequence : sequences_)
-    if (isDue) sequence->addFrame(state);
+    if (isDue) sequence->addFrame(state, simulation.cloth(), simulation.scene());
   for (const std::string& name : states_)
     if (hasFrameNumber(name) ? isDue : frame == frames_)
       saveState(state, simulation.cloth(), numberedName(name, first_ + frame), &simulation.scene());
+}
+
+std::vector<std::string> SavedFiles::losses() const {
+  std::vector<std::string> all;
+  for (std::size_t i = 0; i < sequences_.size(); ++i)
+    for (const std::string& loss : sequences_[i]->losses()) all.push_back(sequenceNames_[i] + " " + loss);
+  return all;
 }
 
 void SavedFiles::finish() {

@@ -11,15 +11,4 @@ void addTime(std::vector<PassTime>& times, const std::string& name, double secon
   found->seconds += seconds;
 }
 
-State stateAtRest(const Cloth& cloth) {
-  State state;
-  state.positions.resize(cloth.particleCount());
-  state.velocities.resize(cloth.particleCount());
-  for (std::size_t i = 0; i < state.positions.size(); ++i) {
-    const auto x = startPosition<float>(cloth, i);
-    state.positions[i] = {x.x, x.y, x.z, static_cast<float>(cloth.inverseMasses()[i])};
-  }
-  return state;
-}
-
 }  // namespace clothsim

@@ -54,9 +54,6 @@ struct PassTime {
 // Adds to the time of that name, or appends it.
 void addTime(std::vector<PassTime>& times, const std::string& name, double seconds);
 
-// On the lattice, at time 0.
-[[nodiscard]] State stateAtRest(const Cloth& cloth);
-
 // Positions, velocities and inverse masses on a device. Outlives the executor, on the GPU not the
 // context.
 class ParticleCopy {

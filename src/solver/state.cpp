@@ -4,9 +4,22 @@
 #include <cassert>
 #include <cstddef>
 
+#include "cloth/cloth.h"
 #include "core/fnv.h"
+#include "solver/step_params.h"
 
 namespace clothsim {
+
+State stateAtRest(const Cloth& cloth) {
+  State state;
+  state.positions.resize(cloth.particleCount());
+  state.velocities.resize(cloth.particleCount());
+  for (std::size_t i = 0; i < state.positions.size(); ++i) {
+    const auto x = startPosition<float>(cloth, i);
+    state.positions[i] = {x.x, x.y, x.z, static_cast<float>(cloth.inverseMasses()[i])};
+  }
+  return state;
+}
 
 void dropZeroSlips(State& state) {
   const auto isZero = [](const auto& slip) { return slip.x == 0 && slip.y == 0 && slip.z == 0; };

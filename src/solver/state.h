@@ -14,6 +14,8 @@
 
 namespace clothsim {
 
+class Cloth;
+
 struct alignas(16) Particle4 {  // one vec4 of a storage buffer
   float x = 0, y = 0, z = 0, w = 0;
 };
@@ -48,6 +50,9 @@ struct State {
   // Particles that a person has pinned or freed, ascending: no path moves them.
   std::vector<std::uint32_t> offPath;
 };
+
+// On the lattice, at time 0.
+[[nodiscard]] State stateAtRest(const Cloth& cloth);
 
 // Empties elasticSlips and pairSlips where they hold only zeros, as before anything has touched.
 void dropZeroSlips(State& state);

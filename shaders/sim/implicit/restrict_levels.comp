@@ -56,11 +56,6 @@ DensePart partWith(uint coarse) {
   return densePartAt(number);
 }
 
-void awaitGroup() {
-  memoryBarrierBuffer();
-  barrier();
-}
-
 void main() {
   if (isSkipped()) return;
   uint entry = gl_GlobalInvocationID.x, lane = gl_LocalInvocationIndex, lanes = gl_WorkGroupSize.x;

@@ -2,7 +2,8 @@
 // the blocks' totals. The counts are zero again for the next time.
 #include "sim/self/particles.glsl"
 #include "sim/last_group.glsl"
-#include "sim/self/scan.glsl"
+#define SCAN_LANES HASH_GROUP
+#include "sim/scan_lanes.glsl"
 
 layout(std430, binding = BUCKET_COUNTS_BINDING) buffer Counts { uint counts[]; };
 layout(std430, binding = BUCKETS_BINDING) writeonly buffer Buckets { uint starts[]; };

@@ -21,11 +21,6 @@ void join(int level, uint k) {
   for (uint k = 0u; k < 3u; ++k) newBoxes[3u * box + k] = rows[k];
 }
 
-void awaitGroup() {
-  memoryBarrierBuffer();
-  barrier();
-}
-
 void main() {
   if (isSettled()) return;
 #if ONLY_BOXES

@@ -20,8 +20,6 @@ layout(std430, binding = NEW_VELOCITIES_BINDING) buffer NewVelocities { vec4 new
 bool corrects() { return round.number < uint(CORRECTION_ROUNDS); }
 void noteMoved(uint i) { moved[atomicAdd(state.moved, 1u)] = i; }
 
-float larger(float a, float b) { return a < b ? b : a; }
-
 // Two parts across the way on which they are nearest: where their particles are along it, from the first one on, and how far
 // they move.
 struct Sides {
@@ -33,8 +31,8 @@ struct Sides {
 
 float nearestOfFirst(bool areSides, vec4 p) { return areSides && p.y < p.x ? p.y : p.x; }
 float nearestOfSecond(bool areSides, vec4 p) {
-  float last = larger(p.z, p.w);
-  return areSides ? last : larger(p.y, last);
+  float last = greater(p.z, p.w);
+  return areSides ? last : greater(p.y, last);
 }
 
 Sides sidesOf(uvec4 ids, bool areSides, vec3 way) {
@@ -66,7 +64,7 @@ bool isTooNear(Sides sides, float least) {
     p[k] = place;
   }
   precise float left = nearestOfFirst(sides.areSides, p) - nearestOfSecond(sides.areSides, p);
-  precise float slack = uintBitsToFloat(0x3f733333u) * least;  // .95
+  precise float slack = uintBitsToFloat(0x3f733333u) * least;  // KEPT_GAP
   return !(left > slack) || !(widthOf(sides) > slack);
 }
 
@@ -89,20 +87,20 @@ void keepToSides(Sides sides) {
   float firstMotion = 0.0, secondMotion = 0.0;
   for (int k = 0; k < 4; ++k) {
     if (k < firsts)
-      firstMotion = larger(firstMotion, -sides.motions[k]);
+      firstMotion = greater(firstMotion, -sides.motions[k]);
     else
-      secondMotion = larger(secondMotion, sides.motions[k]);
+      secondMotion = greater(secondMotion, sides.motions[k]);
   }
-  float width = widthOf(sides), budget = budgetOf(larger(width, 0.0), surface.leastGap);
+  float width = widthOf(sides), budget = budgetOf(greater(width, 0.0), surface.leastGap);
   precise float both = firstMotion + secondMotion;
-  precise float share = budget * (firstMotion * reciprocal(larger(both, LEAST_APPROACH)));
+  precise float share = budget * (firstMotion * reciprocal(greater(both, LEAST_APPROACH)));
   for (int k = 0; k < 4; ++k) {
     bool isFirst = k < firsts;
     float towards = isFirst ? -sides.motions[k] : sides.motions[k];
     precise float firstRoom = share + (sides.places[k] - sides.first);
     precise float secondRoom = (budget - share) + (sides.second - sides.places[k]);
     float room = isFirst ? firstRoom : secondRoom;
-    precise float part = room * reciprocal(larger(towards, LEAST_APPROACH));
+    precise float part = room * reciprocal(greater(towards, LEAST_APPROACH));
     if (!(width > 0.0))
       part = 0.0;
     else if (!(room < towards) || !(towards > LEAST_APPROACH))
@@ -121,7 +119,7 @@ bool turnsTooNear(uvec4 ids, bool areSides, vec3 way, float least) {
     precise vec3 place = x[k] + uintBitsToFloat(kept[ids[k]]) * motionAt(ids[k]);
     y[k] = place;
   }
-  precise float slack = uintBitsToFloat(0x3f733333u) * least;  // .95
+  precise float slack = uintBitsToFloat(0x3f733333u) * least;  // KEPT_GAP
   bool apart = false;
   for (int turn = 0; turn < 2 && !apart; ++turn) apart = staysApart(areSides, x, y, way, slack, turn == 0 ? 1 : FINE_PARTS);
   return !apart;
@@ -166,7 +164,7 @@ void pushApart(uvec4 ids, bool areSides, vec3 way, float least) {
 void lookAt(uvec4 ids, bool areSides, PartPlaces places, NearestParts nearest) {
   Sides sides = sidesOf(ids, areSides, nearest.way);
   bool takesAll = round.number + 1u == uint(GUARD_ROUNDS);
-  float width = larger(widthOf(sides), 0.0);
+  float width = greater(widthOf(sides), 0.0);
   float least = corrects() ? surface.leastGap : leastOf(width, surface.leastGap);
   if (!takesAll && !isTooNear(sides, least)) return;
   Sides sliding = sidesOf(ids, areSides, acrossBoth(ids, areSides, nearest.way));

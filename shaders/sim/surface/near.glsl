@@ -19,7 +19,6 @@ bool isNearWay(Bounds box, vec3 low, vec3 high, float around) {
 
 // Whether a triangle comes to where the surface turns within it. On flat parts particles are enough.
 bool meetsEdge(ColliderParams collider, vec3 places[6], float reach) {
-  const float sameFace = 0.75;  // the cosine between normals of a surface that turns little
   vec3 normals[6];
   bool isNear = false, turns = false;
   for (int k = 0; k < 6; ++k) {
@@ -29,7 +28,7 @@ bool meetsEdge(ColliderParams collider, vec3 places[6], float reach) {
     precise float room = nearest.distance - reach;
     precise float roomSquared = room * room;
     isNear = isNear || room < 0.0 || roomSquared < sumOfProducts(way, way);
-    for (int j = 0; j < k; ++j) turns = turns || sumOfProducts(normals[j], normals[k]) < sameFace;
+    for (int j = 0; j < k; ++j) turns = turns || sumOfProducts(normals[j], normals[k]) < SAME_FACE;
   }
   return isNear && turns;
 }

@@ -8,8 +8,7 @@
 layout(std430, binding = SURFACE_STATE_BINDING) coherent buffer State { SurfaceState state; };
 layout(std430, binding = SURFACE_OUT_BINDING) writeonly buffer Rows { vec4 newRows[]; };
 
-// Deeper than this part of a small collider's radius, or of its reach, is deep.
-const float leftInside = 0.0625;
+// What LEFT_INSIDE is a part of.
 float leastSize(SmallCollider small) {
   precise float reach = small.near - small.radius;
   return small.radius < reach ? small.radius : reach;
@@ -71,13 +70,13 @@ void main() {
   Met met = meetAtEnd(small, ids);
 #endif
 #if ONLY_COUNTS
-  if (!met.passes || !(leftInside * leastSize(small) < met.touch.depth)) return;
+  if (!met.passes || !(LEFT_INSIDE * leastSize(small) < met.touch.depth)) return;
   atomicAdd(state.passages, 1u);
   if ((atomicOr(state.isPressed, 2u) & 2u) == 0u) atomicAdd(state.passageSteps, 1u);
 #else
 #if !STOPS_SLIPS
   float mobility = mobilityOf(met.weights, ids);
-  precise float left = leftInside * leastSize(small);
+  precise float left = LEFT_INSIDE * leastSize(small);
   precise float push = met.touch.depth - 0.5 * left;
   precise vec3 way = push * met.touch.normal;
   bool wants = met.counts && left < met.touch.depth && 0.0 < mobility;

@@ -10,20 +10,8 @@ layout(std430, binding = SURFACE_COUNTS_BINDING) buffer Counts { uint counts[]; 
 layout(std430, binding = SURFACE_OUT_BINDING) coherent buffer Blocks { uint blockTotals[]; };
 layout(std430, binding = SURFACE_IDS_BINDING) writeonly buffer Dispatches { uvec4 dispatches[]; };
 
-shared uint laneTotals[SURFACE_LANES];
-
-// The sum of `total` over the lanes up to and with this one. Between two calls lies a barrier.
-uint scanLanes(uint lane, uint total) {
-  laneTotals[lane] = total;
-  barrier();
-  for (uint reach = 1u; reach < uint(SURFACE_LANES); reach *= 2u) {
-    uint left = lane >= reach ? laneTotals[lane - reach] : 0u;
-    barrier();
-    laneTotals[lane] += left;
-    barrier();
-  }
-  return laneTotals[lane];
-}
+#define SCAN_LANES SURFACE_LANES
+#include "sim/scan_lanes.glsl"
 
 // The total of the block up to and with this lane.
 uint scanBlock(uint lane, uint size) {

@@ -261,6 +261,8 @@ void CpuExecutor<Real>::sum(Pass pass) {
   }
 }
 
+namespace {
+
 // The largest of |v|^2 over all particles; `most` for what is larger or no number.
 template <class Real>
 Real largestSquare(const Components<Real>& v, Real most) {
@@ -273,6 +275,8 @@ Real largestSquare(const Components<Real>& v, Real most) {
   }
   return largest;
 }
+
+}  // namespace
 
 // The update over the motion of the step, or over the least motion that counts. An update is small, too,
 // where the linear solver has hardly begun: r.z, the energy of what is missing as the preconditioner sees it,

@@ -83,10 +83,6 @@ std::uint32_t numberOf(const SmallCollider<Real>& small) {
 // A round collider is where its core is nearest; others have an edge, or may have.
 inline bool isRound(std::uint32_t type) { return type == COLLIDER_SPHERE || type == COLLIDER_CAPSULE; }
 
-// The cosine between normals of a surface that turns little within a triangle.
-template <class Real>
-constexpr Real SAME_FACE = Real(0.75);
-
 template <class Real>
 Vec3<Real> coreSize(const SmallCollider<Real>& small) {
   const bool around = Real(0) < small.outerRadius;
@@ -110,7 +106,7 @@ bool meetsEdge(const ColliderParams<Real>& collider, const Vec3<Real> (&places)[
     const Real room = nearest[k].distance - reachOf(small);
     isNear = isNear || room < Real(0) || room * room < dot(way, way);
     for (std::size_t j = 0; j < k; ++j)
-      turns = turns || dot(nearest[j].normal, nearest[k].normal) < SAME_FACE<Real>;
+      turns = turns || dot(nearest[j].normal, nearest[k].normal) < Real(SAME_FACE);
   }
   return isNear && turns;
 }
@@ -168,11 +164,6 @@ void forEachColliderPair(const TouchingPairs<Real>& touching, Visit visit) {
                                  if (touching.pairs[q].collider != NO_COLLIDER) visit(q);
                                });
 }
-
-// Deeper than this part of its radius, or of its reach, what is left in a collider at the end of a step is
-// pushed out, to half of that depth: the solution leaves a little, as a stiff spring does.
-template <class Real>
-constexpr Real LEFT_INSIDE = Real(0.0625);
 
 }  // namespace
 
@@ -284,7 +275,7 @@ bool pushOut(const ClothSurface<Real>& surface, const PassArguments<Real>& argum
   SurfacePair<Real>& pair = touching.pairs[q];
   const SmallCollider<Real>& small = surface.colliders[pair.collider];
   const Met<Real> met = meet(arguments, small, pair, arguments.after.positions);
-  const Real reach = reachOf(small), left = LEFT_INSIDE<Real> * (small.radius < reach ? small.radius : reach);
+  const Real reach = reachOf(small), left = Real(LEFT_INSIDE) * (small.radius < reach ? small.radius : reach);
   passes = met.passes && left < met.touch.depth;
   if (onlyLooks) return false;
   pair.weights = met.weights;

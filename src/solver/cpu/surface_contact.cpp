@@ -211,7 +211,7 @@ bool SurfaceContact<Real>::isTooNear(const Parts& parts, const Sides& sides, Rea
   for (std::size_t k = 0; k < 4; ++k) p[k] = sides.places[k] + kept_[parts.particles[k]] * sides.motions[k];
   const Real first = parts.areSides && p[1] < p[0] ? p[1] : p[0], last = larger(p[2], p[3]),
              second = parts.areSides ? last : larger(p[1], last);
-  const Real slack = static_cast<Real>(0.95f) * least;
+  const Real slack = static_cast<Real>(KEPT_GAP) * least;
   return !(first - second > slack) || !(widthOf(sides) > slack);
 }
 
@@ -236,7 +236,7 @@ bool SurfaceContact<Real>::turnsTooNear(const Parts& parts, Vec3<Real> way, cons
     x[k] = at(starts, i);
     y[k] = x[k] + kept_[i] * at(motions_, i);
   }
-  const Real slack = static_cast<Real>(0.95f) * least;
+  const Real slack = static_cast<Real>(KEPT_GAP) * least;
   return !SurfaceLaws<Real>::staysApart(parts.areSides, x, y, way, slack, 1) &&
          !SurfaceLaws<Real>::staysApart(parts.areSides, x, y, way, slack, int{FINE_PARTS});
 }

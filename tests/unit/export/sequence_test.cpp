@@ -32,8 +32,8 @@ class Sequence : public testing::Test {
   // Two frames, the second after three.
   void write(const std::string& name) const {
     const auto writer = makeSequenceWriter(folder_ / name, cloth_, scene_, {60, 3});
-    writer->addFrame(first_);
-    writer->addFrame(second_);
+    writer->addFrame(first_, cloth_, scene_);
+    writer->addFrame(second_, cloth_, scene_);
     writer->close();
   }
   static bool has(const std::string& text, const std::string& part) { return text.find(part) != text.npos; }
@@ -195,21 +195,46 @@ TEST_F(Sequence, IsWholeOrNotThere) {
   for (const char* name : {"a.pc2", "a.usda"}) {
     {
       const auto writer = makeSequenceWriter(folder_ / name, cloth_, scene_, {});
-      writer->addFrame(first_);
+      writer->addFrame(first_, cloth_, scene_);
       EXPECT_FALSE(std::filesystem::exists(folder_ / name)) << "before close()";
     }
     EXPECT_EQ(folder_.fileCount(), 0) << "without close() nothing is left";
   }
 }
 
-TEST_F(Sequence, RefusesAClothThatWasRebuilt) {
+TEST_F(Sequence, RefusesAClothThatWasRebuiltAlsoWithAsManyPoints) {
+  Scene turned = scene_;
+  std::swap(turned.cloths[0].numWidthPoints, turned.cloths[0].numHeightPoints);
+  const Cloth other(turned);
+  ASSERT_EQ(other.particleCount(), cloth_.particleCount());
   for (const char* name : {"a.pc2", "a.usda"}) {
     const auto writer = makeSequenceWriter(folder_ / name, cloth_, scene_, {});
-    writer->addFrame(first_);
-    second_.positions.resize(9);
-    const std::string message = messageThrownBy<InputOutputError>([&] { writer->addFrame(second_); });
-    EXPECT_TRUE(has(message, name) && has(message, "6") && has(message, "9")) << message;
+    writer->addFrame(first_, cloth_, scene_);
+    const std::string message =
+        messageThrownBy<InputOutputError>([&] { writer->addFrame(second_, other, turned); });
+    EXPECT_TRUE(has(message, name) && has(message, "rebuilt")) << message;
   }
+}
+
+// As replays of what a person has done in the viewer do.
+TEST_F(Sequence, FollowsSolidsThatAreMovedAndSaysWhatItCannotFollow) {
+  scene_.colliders = {Sphere{.origin = {0, 0.5, 0}, .radius = 0.25}};
+  scene_.solver.framesPerSec = 60;
+  const auto writer = makeSequenceWriter(folder_ / "a.usda", cloth_, scene_, {60});
+  writer->addFrame(first_, cloth_, scene_);
+  std::get<Sphere>(scene_.colliders[0]).origin = {0, 0.5, -0.125};
+  writer->addFrame(second_, cloth_, scene_);
+  EXPECT_TRUE(writer->losses().empty());
+  scene_.solver.framesPerSec = 30;
+  std::get<Sphere>(scene_.colliders[0]).radius = 0.125;
+  writer->addFrame(second_, cloth_, scene_);
+  ASSERT_EQ(writer->losses().size(), 2u);
+  EXPECT_TRUE(has(writer->losses()[0], "solids of the start alone") &&
+              has(writer->losses()[1], "60 frames a second"));
+  writer->close();
+  const std::string text = readFile(folder_ / "a.usda");
+  EXPECT_TRUE(has(text, "0: ( (1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0.5, 0, 1) )")) << text;
+  EXPECT_TRUE(has(text, "1: ( (1, 0, 0, 0), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0.5, -0.125, 1) )")) << text;
 }
 
 // A full disk, played by a limit on the size of files.

@@ -72,7 +72,7 @@ TEST(TexturePoints, AreOfCornersInUsdAndVerticesInGltf) {
   const State state = test::smallState(cloth);
   const test::TemporaryFolder folder;
   auto usd = makeUsdWriter(folder / "a.usda", cloth, panels(), {});
-  usd->addFrame(state);
+  usd->addFrame(state, cloth, panels());
   usd->close();
   const std::string text = readFile(folder / "a.usda");
   const std::size_t grid = text.find("interpolation = \"vertex\""), mesh = text.find("\"faceVarying\"");

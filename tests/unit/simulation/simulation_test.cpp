@@ -188,6 +188,21 @@ TEST(Simulation, RepeatsARecordingWithoutOpenGl) {
     untouched.stepFrames(3);
     return hashOf(untouched);
   }());
+  EXPECT_TRUE(replay.remarks().empty());
+}
+
+TEST(Simulation, SaysWhichActionsOfARecordingItCouldNotDoInTime) {
+  Session session(smallScene(), "cpu", makeCpuSolver);
+  ASSERT_FALSE(session.stepFrames(2));
+  Recording recording = session.recording();
+  const std::uint64_t frame = session.step() / 2;
+  for (const std::uint64_t step : {frame - 1, 5 * frame})
+    recording.events.push_back({.step = step, .action = Grab{.particle = 40, .target = {0.5, 1.2, 0.5}}});
+  Replay replay(recording, std::nullopt, makeCpuSolver);
+  for (int i = 0; i < 2; ++i) ASSERT_FALSE(replay.stepFrame());
+  ASSERT_EQ(replay.remarks().size(), 2u);
+  EXPECT_NE(replay.remarks()[0].find("1 of its actions lie within a frame"), std::string::npos);
+  EXPECT_NE(replay.remarks()[1].find("1 of its actions come after its 2 frames"), std::string::npos);
 }
 
 }  // namespace
