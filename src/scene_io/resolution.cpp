@@ -1,12 +1,11 @@
 // --resolution: the same cloth with another number of points.
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "cloth/material.h"
 #include "cloth/pins.h"
 #include "core/error.h"
+#include "core/formatted.h"
 #include "scene_io/field_table.h"
 #include "scene_io/json_tree.h"
 #include "scene_io/scene_io.h"
@@ -41,24 +40,24 @@ void movePins(ClothSettings& cloth, int columns, int rows) {
   for (PinMotion& motion : cloth.pinMotion) movePins(motion.pinned, cloth, columns, rows);
 }
 
-// On a grid that is too coarse, pins of different motions would fall on one point.
-void checkPinsStayApart(const std::vector<ClothSettings>& cloths, int columns, int rows) {
-  for (ClothSettings cloth : cloths) {
-    if (cloth.pinMotion.empty() || cloth.isMesh()) continue;
-    movePins(cloth, columns, rows);
-    cloth.numWidthPoints = columns;
-    cloth.numHeightPoints = rows;
-    const auto conflict = findPinConflict(cloth);
-    if (!conflict) continue;
-    const std::string asked = "--resolution " + std::to_string(columns) + "x" + std::to_string(rows);
-    const std::string& point = conflict->point;
-    if (conflict->otherMotion)
-      throw UsageError(asked + ": two of a cloth's pin motions would meet in point " + point +
-                       "; expected a grid fine enough to tell their pins apart");
-    throw UsageError(asked + ": a pin motion would move point " + point +
-                     ", which is not pinned then; expected \"pinned\" and \"pin_motion\" to name the same "
-                     "ranges or points");
-  }
+std::string sidesText(int columns, int rows) { return std::to_string(columns) + "x" + std::to_string(rows); }
+
+// On a grid that is too coarse, pins of different motions would fall on one point. `cloth` still has as many
+// points as the pins were made for; `asked` is what the user asked for.
+void checkPinsStayApart(ClothSettings cloth, int columns, int rows, const std::string& asked) {
+  if (cloth.pinMotion.empty() || cloth.isMesh()) return;
+  movePins(cloth, columns, rows);
+  cloth.numWidthPoints = columns;
+  cloth.numHeightPoints = rows;
+  const auto conflict = findPinConflict(cloth);
+  if (!conflict) return;
+  const std::string& point = conflict->point;
+  if (conflict->otherMotion)
+    throw UsageError(asked + ": two of a cloth's pin motions would meet in point " + point +
+                     "; expected a grid fine enough to tell their pins apart");
+  throw UsageError(asked + ": a pin motion would move point " + point +
+                   ", which is not pinned then; expected \"pinned\" and \"pin_motion\" to name the same "
+                   "ranges or points");
 }
 
 // How many steps an explicit integrator needs in place of one before the change. In scenes with `ks` a
@@ -82,7 +81,7 @@ void checkSides(std::size_t grids, int columns, int rows) {
     throw UsageError(
         "--resolution: expected a scene with a grid, found only meshes, whose resolution is that of their "
         "files; subdivide them in a modelling program");
-  const std::string asked = "--resolution " + std::to_string(columns) + "x" + std::to_string(rows) + ": ";
+  const std::string asked = "--resolution " + sidesText(columns, rows) + ": ";
   for (const int side : {columns, rows})
     if (side < smallestSide || side > largestSide)
       throw UsageError(asked + "expected " + std::to_string(smallestSide) + " to " +
@@ -94,11 +93,7 @@ void checkSides(std::size_t grids, int columns, int rows) {
 }
 
 // A number for a remark: rounded, but with all digits of a count of steps.
-std::string shortNumber(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.7g", value);
-  return text.data();
-}
+std::string shortNumber(double value) { return formatted("%.7g", value); }
 
 // One cloth gets that grid. Returns the factor of steps that it needs then.
 int changeGrid(Scene& scene, std::size_t index, int columns, int rows) {
@@ -130,9 +125,9 @@ void followGrids(Scene& edited, const Scene& before) {
     const int columns = cloth.numWidthPoints, rows = cloth.numHeightPoints;
     if (cloth.isMesh() || old.isMesh() || (columns == old.numWidthPoints && rows == old.numHeightPoints))
       continue;
-    checkPinsStayApart({cloth}, columns, rows);
     cloth.numWidthPoints = old.numWidthPoints;
     cloth.numHeightPoints = old.numHeightPoints;
+    checkPinsStayApart(cloth, columns, rows, sidesText(columns, rows) + " points");
     factor = std::max(factor, changeGrid(edited, i, columns, rows));
   }
   if (!edited.solver.simulationSteps.automatic && !isImplicit(edited.solver.integrator))
@@ -145,7 +140,8 @@ std::string changeResolution(Scene& scene, int columns, int rows, bool keepSteps
       static_cast<std::size_t>(std::count_if(scene.cloths.begin(), scene.cloths.end(),
                                              [](const ClothSettings& cloth) { return !cloth.isMesh(); })),
       columns, rows);
-  checkPinsStayApart(scene.cloths, columns, rows);
+  for (const ClothSettings& cloth : scene.cloths)
+    checkPinsStayApart(cloth, columns, rows, "--resolution " + sidesText(columns, rows));
   std::string changes;
   const auto add = [&](const std::string& name, double before, double after) {
     if (before != after)
@@ -163,18 +159,12 @@ std::string changeResolution(Scene& scene, int columns, int rows, bool keepSteps
     add((scene.cloths.size() > 1 ? "cloths." + std::to_string(i) + "." : "") + "thickness", thickness,
         cloth.thickness);
   }
-  if (scene.solver.simulationSteps.automatic) {
-    const int before = scene.solver.simulationSteps;
-    chooseCounts(scene);
-    add("simulation_steps", before, scene.solver.simulationSteps);
-  } else if (!keepSteps) {
-    const int before = scene.solver.simulationSteps;
-    multiplySteps(scene.solver, factor);
-    add("simulation_steps", before, scene.solver.simulationSteps);
-  }
+  const int before = scene.solver.simulationSteps;
+  if (!scene.solver.simulationSteps.automatic && !keepSteps) multiplySteps(scene.solver, factor);
   chooseCounts(scene);
+  add("simulation_steps", before, scene.solver.simulationSteps);
   if (changes.empty()) return "";
-  return "at " + std::to_string(columns) + "x" + std::to_string(rows) + ": " + changes;
+  return "at " + sidesText(columns, rows) + ": " + changes;
 }
 
 }  // namespace clothsim

@@ -46,6 +46,30 @@ TEST(FollowGrids, MovesPinsOfWhatHasAnotherGridAndTakesTheStepsThatItNeeds) {
   EXPECT_EQ(edited.solver.simulationSteps, 120) << "nothing has changed";
 }
 
+// A slider has set the new numbers of points already, while the pins are those of the finer grid.
+TEST(FollowGrids, CoarsensAClothWithMovedPinsInItsLastRow) {
+  const Scene before = sceneOf(
+      R"({"cloth": {"num_width_points": 31, "num_height_points": 31, "pinned": [{"from": [0, 30], "to": [30, 30]}],
+          "pin_motion": [{"keys": [{"t": 0}], "pinned": [{"from": [0, 30], "to": [30, 30]}]}]}})");
+  Scene edited = before;
+  edited.cloths[0].numWidthPoints = edited.cloths[0].numHeightPoints = 10;
+  followGrids(edited, before);
+  EXPECT_EQ(edited.cloths[0].pinned, (std::vector<Pin>{GridRange{{0, 9}, {9, 9}}}));
+  EXPECT_EQ(edited.cloths[0].pinMotion[0].pinned, edited.cloths[0].pinned);
+}
+
+TEST(FollowGrids, RefusesAGridOnWhichPinsOfTwoMotionsMeet) {
+  const Scene before = sceneOf(
+      R"({"cloth": {"num_width_points": 10, "num_height_points": 31, "pinned": [[0, 30], [1, 30]],
+          "pin_motion": [{"keys": [{"t": 0}], "pinned": [[0, 30]]}, {"keys": [{"t": 0}], "pinned": [[1, 30]]}]}})");
+  Scene edited = before;
+  edited.cloths[0].numWidthPoints = edited.cloths[0].numHeightPoints = 5;
+  EXPECT_EQ(
+      test::messageThrownBy<UsageError>([&] { followGrids(edited, before); }),
+      "5x5 points: two of a cloth's pin motions would meet in point [0, 4]; expected a grid fine enough "
+      "to tell their pins apart");
+}
+
 TEST(ChangeResolution, MovesThePinsOfMotionsAlong) {
   Scene scene = sceneOf(
       R"({"cloth": {"num_width_points": 11, "num_height_points": 21, "pinned": ["left", {"from": [5, 0], "to": [5, 20]}],
