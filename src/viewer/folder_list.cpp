@@ -43,7 +43,8 @@ FolderList listFolder(const fs::path& folder) {
     const bool isFolder = entry->is_directory(ignored);
     if (name.starts_with('.') || (!isFolder && kindOfFile(name) == FileKind::folder)) continue;
     FolderEntry found{name, isFolder ? FileKind::folder : kindOfFile(name), 0, changeTimeOf(entry->path())};
-    if (!isFolder) found.bytes = entry->file_size(ignored);
+    const std::uintmax_t bytes = isFolder ? 0 : entry->file_size(ignored);
+    if (!ignored) found.bytes = bytes;
     list.entries.push_back(std::move(found));
   }
   if (error) list.fault = folder.string() + " cannot be read: " + error.message();

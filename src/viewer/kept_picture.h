@@ -3,6 +3,7 @@
 // renderer some twenty times as long.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
@@ -22,6 +23,27 @@ struct PictureKey {
   double time = 0;              // [s]
   std::uint64_t version = 0;    // of the state: Simulation::version()
   friend bool operator==(const PictureKey&, const PictureKey&) = default;
+};
+
+// A picture that rests, as the mean of more and more exposures.
+class RefinedPicture {
+ public:
+  // How many exposures it has; none of a picture of another key.
+  [[nodiscard]] int exposuresOf(const PictureKey& key) {
+    if (key_ != key) exposures_ = 0;
+    key_ = key;
+    return exposures_;
+  }
+  [[nodiscard]] int exposures() const { return exposures_; }
+  void exposed(int most) { exposures_ = std::min(exposures_ + 1, most); }
+  void forget() {
+    key_.reset();
+    exposures_ = 0;
+  }
+
+ private:
+  std::optional<PictureKey> key_;
+  int exposures_ = 0;
 };
 
 class KeptPicture {

@@ -171,11 +171,11 @@ bool Viewer::isIdle() {
 
 // In final quality what rests is exposed again and again.
 bool Viewer::isRefining() const {
-  return paused_ && quality_ == Quality::final && exposures_ < FINAL_EXPOSURES;
+  return paused_ && quality_ == Quality::final && refined_.exposures() < FINAL_EXPOSURES;
 }
 
 std::optional<int> Viewer::refinedExposures() const {
-  return paused_ && quality_ == Quality::final ? std::optional(exposures_) : std::nullopt;
+  return paused_ && quality_ == Quality::final ? std::optional(refined_.exposures()) : std::nullopt;
 }
 
 // Returns the number of frames that were simulated since the last call.
@@ -327,11 +327,11 @@ void Viewer::drawPicture(int width, int height) {
   if (rests && quality_ == Quality::final) {
     kept_.forget();
     open_->renderer().renderer().setScale(1);
-    open_->refine(exposures_, width, height);
-    exposures_ = std::min(exposures_ + 1, FINAL_EXPOSURES);
+    open_->refine(refined_.exposuresOf(pictureKey(width, height)), width, height);
+    refined_.exposed(FINAL_EXPOSURES);
     return;
   }
-  exposures_ = 0;
+  refined_.forget();
   if (!software) return open_->draw(0, width, height);
   const PictureKey key = pictureKey(width, height);
   // What the input has changed over the picture is shown first, where a new one takes its time; never twice
@@ -429,9 +429,9 @@ void Viewer::apply(const PaceRemedy& remedy) {
 
 void Viewer::keepConfig() {
   if (config_ == savedConfig_) return;
-  const std::string divergence = saveViewerConfig(config_, viewerConfigPath());
+  const std::string fault = saveViewerConfig(config_, viewerConfigPath());
   savedConfig_ = config_;  // tried once for each change
-  if (!divergence.empty()) complain("The state of the panels cannot be saved: " + divergence);
+  if (!fault.empty()) complain("The state of the panels cannot be saved: " + fault);
 }
 
 void runViewer(const Shared<Scene>& scene, const ViewerOptions& options) {

@@ -15,7 +15,7 @@ void Viewer::drawControls() {
   drawGizmos();
   const float neededByOthers = showKeys_ ? 66.0f : compare_.isOpen() ? 40.0f : 0.0f;  // em
   if (config_.showOverlay && area.width >= neededByOthers * em())
-    drawFacts(viewerFacts(*open_, meter_, paused_, looksBack(), tempo_, refinedExposures(),
+    drawFacts(viewerFacts(*open_, meter_, paused_, tempo_, refinedExposures(),
                           column_.measures().warnings(open_->scene())),
               area);
   if (showsPanels()) drawPanels();

@@ -74,8 +74,8 @@ std::string viewerTitle(const OpenScene& open, const SpeedMeter& meter, bool pau
          " - clothsim";
 }
 
-OverlayFacts viewerFacts(const OpenScene& open, const SpeedMeter& meter, bool paused, bool looksBack,
-                         double tempo, std::optional<int> exposures, const std::vector<Warning>& warnings) {
+OverlayFacts viewerFacts(const OpenScene& open, const SpeedMeter& meter, bool paused, double tempo,
+                         std::optional<int> exposures, const std::vector<Warning>& warnings) {
   const Simulation& simulation = open.session().simulation();
   OverlayFacts facts;
   facts.title = open.name();
@@ -84,8 +84,11 @@ OverlayFacts viewerFacts(const OpenScene& open, const SpeedMeter& meter, bool pa
                               withCommas(simulation.cloth().particleCount()) + " particles"},
                 {"integrator", nameOf(open.scene().solver.integrator), false, true},
                 {"time", formatted("%.2f s", open.time())}};
+  const SessionFacts now = open.facts();
   if (paused)
-    facts.rows.push_back({"speed", looksBack ? "in the past (P: resume)" : "paused (P: resume)", true, true});
+    facts.rows.push_back({"speed",
+                          now.frame < now.newestFrame ? "in the past (P: resume)" : "paused (P: resume)",
+                          true, true});
   else
     facts.rows.push_back(speedRow(open, meter, tempo));
   if (meter.isMeasured() && !paused)

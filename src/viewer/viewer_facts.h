@@ -16,7 +16,7 @@ namespace clothsim {
 [[nodiscard]] std::string viewerTitle(const OpenScene& open, const SpeedMeter& meter, bool paused);
 // `exposures`: of how many the picture is the mean, where it is refined.
 [[nodiscard]] OverlayFacts viewerFacts(const OpenScene& open, const SpeedMeter& meter, bool paused,
-                                       bool looksBack, double tempo, std::optional<int> exposures,
+                                       double tempo, std::optional<int> exposures,
                                        const std::vector<Warning>& warnings);
 
 }  // namespace clothsim

@@ -162,7 +162,6 @@ class Viewer {
   void keepConfig();
 
   [[nodiscard]] Session& session() { return open_->session(); }
-  [[nodiscard]] bool looksBack() const { return open_->session().frame() < open_->session().newestFrame(); }
   // Of text, and of all controls with it.
   [[nodiscard]] double textScale() const { return config_.textSize * window_.textScale(); }
   [[nodiscard]] float textHeight() const { return static_cast<float>(16 * textScale()); }  // [pixels]
@@ -217,6 +216,7 @@ class Viewer {
   Quality quality_ = Quality::final;
   DrawScale drawScale_{0};
   KeptPicture kept_;
+  RefinedPicture refined_;          // in final quality
   std::uint64_t shownVersion_ = 0;  // of the state that is shown
   double pictureSeconds_ = 0;       // that the last one took
   bool hasInput_ = false;           // since the last picture was drawn or shown again
@@ -246,7 +246,6 @@ class Viewer {
   std::vector<std::function<void()>>
       waiting_;                       // steps_ is busy, what asks the session for something waits here
   std::optional<Scene> waitingEdit_;  // the newest of the panels, which waits likewise
-  int exposures_ = 0;                 // of a picture that rests, in final quality
   bool paused_ = false, stepAsked_ = false, showKeys_ = false;
   bool pausedByError_ = false;  // until the user pauses or goes on
   bool isLoading_ = false;      // there may be no scene yet

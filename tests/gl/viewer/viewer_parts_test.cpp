@@ -24,6 +24,7 @@
 #include "viewer/panels/measure_panel.h"
 #include "viewer/viewer.h"
 #include "viewer/viewer_config.h"
+#include "viewer/viewer_facts.h"
 #include "viewer/viewer_keys.h"
 
 namespace clothsim {
@@ -221,6 +222,38 @@ TEST(KeptPicture, IsThatOfItsKeyDrawnAsSharplyAsIsWanted) {
   EXPECT_FALSE(kept.isOf(key, 0.5));
 }
 
+TEST(RefinedPicture, BeginsAnewWhenThePictureIsAnother) {
+  RefinedPicture refined;
+  PictureKey key{.width = 640, .height = 480};
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_EQ(refined.exposuresOf(key), std::min(i, 3));
+    refined.exposed(3);
+  }
+  key.width = 800;
+  EXPECT_EQ(refined.exposuresOf(key), 0) << "what is exposed has another size";
+  refined.exposed(3);
+  EXPECT_EQ(refined.exposuresOf(key), 1);
+  refined.forget();
+  EXPECT_EQ(refined.exposuresOf(key), 0);
+}
+
+class ViewerFactsTest : public GlTest {};
+
+TEST_F(ViewerFactsTest, AreThoseOfTheFrameThatIsShownWhileAThreadHasTheSession) {
+  OpenScene open(loadSceneByName("pinned2"), "pinned2", "cpu", {});
+  ASSERT_FALSE(open.session().stepFrames(2));
+  const auto speed = [&] {
+    for (const OverlayFacts::Row& row : viewerFacts(open, SpeedMeter{}, true, 1, std::nullopt, {}).rows)
+      if (row.label == "speed") return row.value;
+    return std::string();
+  };
+  open.hold();
+  open.session().seek(1);  // as the thread does after a frame that blows up
+  EXPECT_EQ(speed(), "paused (P: resume)");
+  open.release();
+  EXPECT_EQ(speed(), "in the past (P: resume)");
+}
+
 TEST(FolderList, HasFoldersFirstThenScenesAndMeshesByName) {
   const test::TemporaryFolder folder;
   for (const char* name : {"b.json", "A.OBJ", "notes.txt", ".hidden.json", "c.Json"})
@@ -236,6 +269,7 @@ TEST(FolderList, HasFoldersFirstThenScenesAndMeshesByName) {
   EXPECT_EQ(list.entries[0].kind, FileKind::folder);
   EXPECT_EQ(list.entries[1].kind, FileKind::mesh);
   EXPECT_EQ(list.entries[2].bytes, 2u);
+  EXPECT_EQ(list.entries[4].bytes, 0u) << "a link that leads nowhere";
   EXPECT_NE(listFolder(folder / "b.json").fault.find("b.json"), std::string::npos) << "it is no folder";
   EXPECT_TRUE(contains("Drape_Box.json", "BOX"));
   EXPECT_FALSE(contains("Drape_Box.json", "ball"));
