@@ -1,5 +1,6 @@
 // JSON text to a tree with line numbers. RapidJSON reads the text and hands its values to a builder; the
 // offsets of its stream tell where they are, and its error codes what is wrong.
+#include <locale.h>  // newlocale() and strtod_l() of POSIX
 #include <rapidjson/memorystream.h>
 #include <rapidjson/reader.h>
 
@@ -17,11 +18,10 @@ namespace clothsim {
 namespace {
 
 constexpr std::size_t deepest = 64;
-constexpr std::size_t mostValues = 1'000'000;
 constexpr std::string_view byteOrderMark = "\xEF\xBB\xBF";
 constexpr std::string_view incompleteEscape = "a \\u escape is incomplete; write the character itself";
 
-// Numbers are handed over as they are spelled, for messages; std::strtod rounds them correctly.
+// Numbers are handed over as they are spelled, for messages; numberOf() rounds them correctly.
 constexpr unsigned readerFlags =
     rapidjson::kParseValidateEncodingFlag | rapidjson::kParseNumbersAsStringsFlag;
 
@@ -44,10 +44,17 @@ std::string inAscii(std::string_view text) {
   return result.size() > 160 ? result.substr(0, 160) + "..." : result;
 }
 
+// JSON has a decimal point wherever the program that loaded this library comes from: std::strtod would take
+// what the user's language has.
+double numberOf(const char* spelled) {
+  static const locale_t plain = ::newlocale(LC_ALL_MASK, "C", nullptr);
+  return ::strtod_l(spelled, nullptr, plain);
+}
+
 // RapidJSON gives up on some numbers that are spelled as no person would: 0e400, or 400 digits and e-300.
 [[noreturn]] void complainOfNumber(std::string_view text, std::size_t begin, std::size_t end) {
   const std::string spelled(text.substr(begin, end - begin));
-  const bool isTooLarge = !std::isfinite(std::strtod(spelled.c_str(), nullptr));
+  const bool isTooLarge = !std::isfinite(numberOf(spelled.c_str()));
   complainAt(text, end - 1,
              "the number " + inAscii(spelled) +
                  (isTooLarge ? " is too large" : " has too many digits or too large an exponent"));
@@ -226,12 +233,13 @@ Mistake refined(std::string_view text, Mistake mistake) {
 // RapidJSON's handler: builds the tree, and refuses duplicate keys and what is too deep or too much.
 class TreeBuilder {
  public:
-  TreeBuilder(std::string_view text, const rapidjson::MemoryStream& stream) : text_(text), stream_(stream) {}
+  TreeBuilder(std::string_view text, const rapidjson::MemoryStream& stream, std::size_t mostValues)
+      : text_(text), stream_(stream), mostValues_(mostValues) {}
 
   bool Null() { return add(std::make_unique<JsonNode>()); }
   bool Bool(bool value) { return add(makeBoolean(value)); }
   bool RawNumber(const char* spelled, rapidjson::SizeType length, bool) {
-    JsonPointer node = makeNumber(std::strtod(spelled, nullptr));
+    JsonPointer node = makeNumber(numberOf(spelled));
     node->text.assign(spelled, length);
     if (!std::isfinite(node->number)) complainOfNumber(text_, stream_.Tell() - length, stream_.Tell());
     return add(std::move(node));
@@ -290,9 +298,9 @@ class TreeBuilder {
 
   JsonNode& insert(JsonPointer node) {
     node->line = currentLine();
-    if (++values_ > mostValues)
+    if (++values_ > mostValues_)
       throw JsonComplaint(node->line, 0, "",
-                          "the file holds more than " + std::to_string(mostValues) + " values");
+                          "the file holds more than " + std::to_string(mostValues_) + " values");
     if (!open_.empty()) return open_.back()->append(std::move(key_), std::move(node));
     root_ = std::move(node);
     return *root_;
@@ -315,7 +323,7 @@ class TreeBuilder {
 
   std::string_view text_;
   const rapidjson::MemoryStream& stream_;
-  std::size_t counted_ = 0, values_ = 0;
+  std::size_t mostValues_, counted_ = 0, values_ = 0;
   int line_ = 1;
   std::string key_;
   JsonPointer root_;
@@ -325,7 +333,7 @@ class TreeBuilder {
 
 }  // namespace
 
-JsonPointer parseJson(std::string_view text) {
+JsonPointer parseJson(std::string_view text, std::size_t mostValues) {
   if (text.find_first_not_of(" \t\r\n\xEF\xBB\xBF") == std::string_view::npos)
     throw JsonComplaint(0, 0, "", "the file is empty; expected a scene, {...}");
   rapidjson::MemoryStream stream(text.data(), text.size());
@@ -334,7 +342,7 @@ JsonPointer parseJson(std::string_view text) {
       if (stream.Peek() != byte) complainAt(text, stream.Tell(), "the file is not text in UTF-8");
       stream.Take();
     }
-  TreeBuilder builder(text, stream);
+  TreeBuilder builder(text, stream, mostValues);
   rapidjson::Reader reader;
   const rapidjson::ParseResult result = reader.Parse<readerFlags>(stream, builder);
   if (result.Code() == rapidjson::kParseErrorNumberTooBig)

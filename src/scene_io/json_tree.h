@@ -3,6 +3,7 @@
 // for readers of files that hold scenes among other things.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -64,8 +65,10 @@ struct JsonComplaint : std::runtime_error {
 // Whether a key is a comment for people, which readers pass over: "comment", or one that begins with "//".
 [[nodiscard]] bool isComment(std::string_view key);
 
-// @throws JsonComplaint: wrong syntax, duplicate keys, invalid UTF-8, more than 64 levels or a million values
-[[nodiscard]] JsonPointer parseJson(std::string_view text);
+inline constexpr std::size_t MOST_SCENE_VALUES = 1'000'000;  // in the JSON of a scene
+
+// @throws JsonComplaint: wrong syntax, duplicate keys, invalid UTF-8, more than 64 levels or `mostValues`
+[[nodiscard]] JsonPointer parseJson(std::string_view text, std::size_t mostValues = MOST_SCENE_VALUES);
 
 // Two spaces a level; a list or object that fits is kept on one line. Numbers in the fewest digits that read
 // back exactly.

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "cloth/material.h"
 #include "core/error.h"
 #include "core/files.h"
 #include "core/nearest.h"
@@ -19,6 +20,7 @@ namespace {
 
 constexpr std::string_view SCHEMA = "clothsim-recording/1";
 constexpr std::uintmax_t LARGEST_FILE = std::uintmax_t{256} << 20;
+constexpr std::size_t MOST_VALUES = 20'000'000;  // more than a recording of that size has
 
 // The fields of every action. `io(key, value)` writes or reads one of them.
 template <class Io>
@@ -253,7 +255,7 @@ std::string Recording::format() const {
 
 Recording Recording::parse(std::string_view text, const std::string& source) {
   try {
-    const JsonPointer root = parseJson(text);
+    const JsonPointer root = parseJson(text, MOST_VALUES);
     Recording recording = readRecording(*root);
     recording.source = source;
     return recording;
@@ -270,6 +272,7 @@ Recording Recording::load(const std::filesystem::path& path) {
     const auto findMeshesOf = [&](Shared<Scene>& shared) {
       Scene found = *shared;
       findMeshes(found, path);
+      chooseCounts(found);  // once more, since the counts of a mesh follow from its file
       shared = std::move(found);
     };
     findMeshesOf(recording.scene);

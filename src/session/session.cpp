@@ -22,6 +22,16 @@ Session::Session(const Shared<Scene>& scene, const std::string& backend, SolverF
   simulation_.solver().convertVelocities();  // the bits must not depend on when the state is first read
 }
 
+namespace {
+
+// Whether nothing is left of the first scene once another one of this kind has followed.
+bool leavesNoTrace(const Scene& before, const Scene& after) {
+  return !needsRebuild(before, after) && before.solver == after.solver &&
+         before.colliders.size() == after.colliders.size();
+}
+
+}  // namespace
+
 void Session::act(const Action& action, bool continues) {
   checkAction(action, simulation_.cloth(), simulation_.scene());
   const Shared<Scene> before = now_.scene;
@@ -32,13 +42,29 @@ void Session::act(const Action& action, bool continues) {
     if (!continues || now_.undo.empty()) now_.undo.push_back(before);
     now_.redo.clear();
   }
+  const auto* edit = std::get_if<EditScene>(&action);
+  if (edit != nullptr && continues && takesPlaceOfLast(*edit, before)) {
+    recording_.events.back().action = action;
+    return;
+  }
   record(action);
+  if (edit != nullptr) beforeLastEdit_ = before;
+}
+
+// A dragged slider edits the scene with every picture, hundreds of times within a paused frame: the recording
+// needs the last one alone. Where that is as before the drag, a replay would see no edit at all.
+bool Session::takesPlaceOfLast(const EditScene& edit, const Shared<Scene>& before) {
+  dropLaterFrames();
+  if (!beforeLastEdit_ || recording_.events.back().step != now_.step) return false;
+  const Scene &first = **beforeLastEdit_, &last = *edit.scene;
+  return leavesNoTrace(first, *before) && leavesNoTrace(*before, last) && first != last;
 }
 
 // An action in an earlier frame drops the later ones.
 void Session::record(const Action& action) {
   dropLaterFrames();
   recording_.events.push_back({now_.step, action});
+  beforeLastEdit_.reset();
 }
 
 bool Session::apply(const EditScene& edit) {
@@ -270,7 +296,9 @@ int Session::newestFrame() const {
 void Session::dropLaterFrames() {
   if (now_.number == newestFrame()) return;
   ring_.forgetAfter(now_.number, simulation_.solver());
-  std::erase_if(recording_.events, [&](const Recording::Event& event) { return event.step > now_.step; });
+  const auto dropped =
+      std::erase_if(recording_.events, [&](const Recording::Event& event) { return event.step > now_.step; });
+  if (dropped > 0) beforeLastEdit_.reset();
   recording_.frames = now_.number;
 }
 

@@ -39,8 +39,8 @@ class Session {
 
   // Applies an action now and records it, unless it has no effect: a Release without a Grab, a cut beside the
   // cloth. What `continues` the edit or the move before it, as while a slider is dragged, is undone together
-  // with that one. @throws UsageError for an action that is impossible now, SceneError, OpenGlError; then
-  // nothing has changed
+  // with that one, and may take its place in the recording. @throws UsageError for an action that is
+  // impossible now, SceneError, OpenGlError; then nothing has changed
   void act(const Action& action, bool continues = false);
 
   // Simulates frames and stores the start of each. After divergence the state is that of the last sound
@@ -85,10 +85,10 @@ class Session {
   [[nodiscard]] const Recording& recording() const { return recording_; }
 
   [[nodiscard]] std::size_t snapshotBytes() const { return ring_.bytes(); }
-  // The newest stored frame is kept whatever the budget.
   // Frees memory of the GPU that stepping on the CPU backend has left over. To be called where the context
   // is.
   void freeDropped() { ring_.freeDropped(); }
+  // The newest stored frame is kept whatever the budget.
   void setSnapshotBudget(std::size_t bytes) { ring_.setBudget(bytes); }
 
  private:
@@ -104,6 +104,7 @@ class Session {
   bool apply(const TurnCollider& turn);
   bool apply(const SwitchBackend& to);
   bool apply(const Restart& restart);
+  [[nodiscard]] bool takesPlaceOfLast(const EditScene& edit, const Shared<Scene>& before);
   void record(const Action& action);
   void changeScene(const Shared<Scene>& scene);
   void rebuild(const Shared<Scene>& scene);
@@ -118,6 +119,7 @@ class Session {
 
   Simulation simulation_;
   Recording recording_;
+  std::optional<Shared<Scene>> beforeLastEdit_;  // where the last event is an edit by act()
   SessionFrame now_;
   FrameRing ring_;
   std::uint64_t clothGeneration_ = 0;

@@ -9,8 +9,11 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "gl/gl_test.h"
+#include "scene_io/json_tree.h"
+#include "scene_io/scene_io.h"
 #include "session/replay.h"
 #include "support/compared_scenes.h"
+#include "support/mesh_sheet.h"
 #include "support/temporary_folder.h"
 #include "support/throws.h"
 
@@ -387,6 +390,67 @@ TEST(RecordingTest, NamesFileLineAndPathOfWhatIsWrong) {
   EXPECT_NE(
       messageThrownBy<SceneError>([&] { (void)Recording::load(folder / "none.json"); }).find("none.json"),
       std::string::npos);
+}
+
+// A slider that is dragged for a while edits the scene with every picture.
+TEST(RecordingTest, HasTheLastEditOfADragInAFrame) {
+  Session live(sheet(), "cpu", makeSolver);
+  const auto drag = [&](double gravity, bool continues) {
+    Scene edited = live.simulation().scene();
+    edited.gravity = {0, gravity, 0};
+    live.act(EditScene{edited}, continues);
+  };
+  drag(-9, false);
+  for (int i = 0; i < 50; ++i) drag(-8 + 0.1 * i, true);
+  EXPECT_EQ(live.recording().events.size(), 1u);
+  stepSoundly(live, 2);
+  drag(1, true);
+  EXPECT_EQ(live.recording().events.size(), 2u) << "in another frame";
+  drag(2, false);
+  EXPECT_EQ(live.recording().events.size(), 3u) << "another drag";
+  live.act(SetPin{60, true});
+  drag(3, true);
+  EXPECT_EQ(live.recording().events.size(), 5u) << "something else was done between";
+  stepSoundly(live, 2);
+  Replay replay(live.recording(), "cpu", makeSolver);
+  for (int frame = 0; frame < 4; ++frame) ASSERT_EQ(replay.stepFrame(), std::nullopt);
+  EXPECT_EQ(hashOf(replay.session()), hashOf(live));
+  live.undo();
+  EXPECT_EQ(live.simulation().scene().gravity.y, 1) << "undone with the drag that it continued";
+}
+
+// What makes another cloth, or another step, leaves its trace even where the next edit takes it back.
+TEST(RecordingTest, HasEveryEditThatLeavesATrace) {
+  Session live(sheet(), "cpu", makeSolver);
+  Scene edited = sheet();
+  live.act(EditScene{edited});
+  edited.solver.integrator = Integrator::euler;
+  live.act(EditScene{edited}, true);
+  edited.cloths[0].thickness *= 2;
+  live.act(EditScene{edited}, true);
+  EXPECT_EQ(live.recording().events.size(), 3u);
+}
+
+// A drag of an hour.
+TEST(RecordingTest, MayHoldMoreValuesThanAScene) {
+  std::string text =
+      R"({"schema": "clothsim-recording/1", "backend": "cpu", "frames": 0, "scene": {"cloth": {}}, "//": [0)";
+  for (std::size_t i = 0; i < MOST_SCENE_VALUES; ++i) text += ",0";
+  EXPECT_EQ(Recording::parse(text + R"(], "events": []})", "long").events.size(), 0u);
+}
+
+// The steps that a mesh needs are those of its file, also of one that is found beside the recording.
+TEST(RecordingTest, ChoosesTheCountsOfMeshesThatItFinds) {
+  const test::TemporaryFolder folder;
+  writeFileAtomically(folder / "sheet.obj", test::meshSheetText({.columns = 30, .rows = 30, .edge = 0.01}));
+  const std::string scene =
+      R"({"cloth": {"mesh": "sheet.obj", "material": "cotton"}, "solver": {"integrator": "verlet"}})";
+  writeFileAtomically(folder / "scene.json", scene);
+  writeFileAtomically(folder / "r.json",
+                      R"({"schema": "clothsim-recording/1", "backend": "cpu", "frames": 0, "scene": )" +
+                          scene + R"(, "events": []})");
+  EXPECT_EQ(Recording::load(folder / "r.json").scene->solver.simulationSteps.count,
+            loadScene(folder / "scene.json").solver.simulationSteps.count);
 }
 
 // Beside the recording, or by their full path.
