@@ -94,11 +94,11 @@ py::array readOnly(py::array array) {
   return array;
 }
 
-py::array viewOf(PythonSimulation& simulation, const Components<float>& values) {
+py::array viewOf(const SharedParticles& memory, const SharedParticles::Rows& rows) {
   constexpr auto number = static_cast<py::ssize_t>(sizeof(float));
-  return readOnly(py::array_t<float>({static_cast<py::ssize_t>(values.x.size()), py::ssize_t{3}},
-                                     {number, number * static_cast<py::ssize_t>(values.distance())},
-                                     values.x.data(), keeperOf(simulation.shareMemory())));
+  return readOnly(py::array_t<float>({static_cast<py::ssize_t>(memory.count), py::ssize_t{3}},
+                                     {number, number * static_cast<py::ssize_t>(rows.distance)}, rows.first,
+                                     keeperOf(memory.keeper)));
 }
 
 py::array copyOf(const std::vector<Particle4>& particles) {
@@ -114,19 +114,17 @@ py::array copyOf(const std::vector<Particle4>& particles) {
 }
 
 py::array positionsOf(PythonSimulation& simulation) {
-  if (const auto* memory = simulation.memory()) return viewOf(simulation, memory->particles().positions);
+  if (const auto memory = simulation.memory()) return viewOf(*memory, memory->positions);
   return copyOf(simulation.state().positions);
 }
 py::array velocitiesOf(PythonSimulation& simulation) {
-  if (const auto* memory = simulation.memory()) return viewOf(simulation, memory->particles().velocities);
+  if (const auto memory = simulation.memory()) return viewOf(*memory, memory->velocities);
   return copyOf(simulation.state().velocities);
 }
 
 py::array inverseMassesOf(PythonSimulation& simulation) {
-  if (const auto* memory = simulation.memory()) {
-    const std::vector<float>& masses = memory->inverseMasses();
-    return readOnly(denseArray(masses.size(), {}, masses.data(), keeperOf(simulation.shareMemory())));
-  }
+  if (const auto memory = simulation.memory())
+    return readOnly(denseArray(memory->count, {}, memory->inverseMasses, keeperOf(memory->keeper)));
   const std::vector<Particle4> particles = simulation.state().positions;
   auto array = denseArray<float>(particles.size());
   for (std::size_t i = 0; i < particles.size(); ++i) array.mutable_data()[i] = particles[i].w;
@@ -138,10 +136,6 @@ py::array facesOf(PythonSimulation& simulation) {
   auto array = denseArray<std::uint32_t>(faces.size(), {3});
   std::memcpy(array.mutable_data(), faces.data(), faces.size() * sizeof(faces[0]));
   return readOnly(array);
-}
-
-std::size_t particlesOf(const PythonSimulation& simulation) {
-  return simulation.simulation().cloth().particleCount();
 }
 
 // Rows of three finite numbers, one a particle.
@@ -170,14 +164,14 @@ void setVelocities(PythonSimulation& simulation, const Floats& rows) {
   simulation.setState(state);
 }
 
-py::array forcesOf(const PythonSimulation& simulation) {
-  if (const auto* forces = simulation.forces()) return copyOf(*forces);
-  return copyOf(std::vector<Particle4>(particlesOf(simulation)));
+py::array forcesOf(PythonSimulation& simulation) {
+  if (const auto forces = simulation.forces()) return copyOf(*forces);
+  return copyOf(std::vector<Particle4>(simulation.particles()));
 }
 void setForces(PythonSimulation& simulation, const std::optional<Floats>& rows) {
   std::vector<Particle4> forces;
   if (rows) {
-    forces.resize(particlesOf(simulation));
+    forces.resize(simulation.particles());
     put(forces, *rows, "forces");
   }
   simulation.setForces(std::move(forces));
@@ -190,7 +184,7 @@ py::array_t<bool> pinsOf(PythonSimulation& simulation) {
   return pins;
 }
 void setPins(PythonSimulation& simulation, const py::array_t<bool, py::array::c_style>& pins) {
-  const std::size_t particles = particlesOf(simulation);
+  const std::size_t particles = simulation.particles();
   if (pins.ndim() != 1 || static_cast<std::size_t>(pins.shape(0)) != particles)
     throw UsageError("pins: expected an array of " + std::to_string(particles) + " booleans, found shape " +
                      std::string(py::str(pins.attr("shape"))));
@@ -219,17 +213,11 @@ py::array_t<std::uint8_t> render(PythonSimulation& simulation, int width, int he
   return denseArray(static_cast<std::size_t>(image.height), {image.width, 3}, image.rgb.data());
 }
 
-py::list colliderPositionsOf(const PythonSimulation& simulation) {
+py::list colliderPositionsOf(PythonSimulation& simulation) {
   py::list places;
   for (const Vec3d& place : simulation.colliderPositions())
     places.append(py::make_tuple(place.x, place.y, place.z));
   return places;
-}
-
-std::string textOf(const PythonSimulation& simulation) {
-  const Simulation& inside = simulation.simulation();
-  return "<clothsim.Simulation: " + std::to_string(inside.cloth().particleCount()) + " particles, " +
-         inside.solver().backend() + ", " + std::to_string(inside.time()) + " s>";
 }
 
 // Each kind of the program's errors is a class; where Python has one of that meaning, it is one of those,
@@ -301,14 +289,10 @@ void declareSimulation(py::module_& module) {
           },
           py::arg("frames"), docs::run)
       .def("reset", &PythonSimulation::reset, py::arg("seed") = py::none(), released, docs::reset)
-      .def_property_readonly(
-          "time", [](const PythonSimulation& s) { return s.simulation().time(); }, docs::time)
+      .def_property_readonly("time", &PythonSimulation::time, docs::time)
       .def_property_readonly("frame", &PythonSimulation::frame, docs::frame)
-      .def_property_readonly(
-          "backend", [](const PythonSimulation& s) { return s.simulation().solver().backend(); },
-          docs::backend)
-      .def_property_readonly(
-          "device", [](const PythonSimulation& s) { return s.simulation().solver().device(); }, docs::device)
+      .def_property_readonly("backend", &PythonSimulation::backend, docs::backend)
+      .def_property_readonly("device", &PythonSimulation::device, docs::device)
       .def_property_readonly("remarks", &PythonSimulation::remarks, docs::remarks)
       .def_property("positions", &positionsOf, &setPositions, docs::positions)
       .def_property("velocities", &velocitiesOf, &setVelocities, docs::velocities)
@@ -338,8 +322,8 @@ void declareSimulation(py::module_& module) {
           docs::set)
       .def_property_readonly(
           "scene",
-          [](const PythonSimulation& simulation) {
-            return py::module_::import("json").attr("loads")(formatScene(simulation.simulation().scene()));
+          [](PythonSimulation& simulation) {
+            return py::module_::import("json").attr("loads")(formatScene(simulation.scene()));
           },
           docs::scene)
       .def("measures", &measuresOf, docs::measures)
@@ -353,11 +337,11 @@ void declareSimulation(py::module_& module) {
       .def(
           "set_state",
           [](PythonSimulation& simulation, const py::bytes& bytes) {
-            simulation.setState(parseStateFile(std::string(bytes), particlesOf(simulation), "set_state",
-                                               simulation.simulation().cloth().lists().triangles.size()));
+            simulation.setState(parseStateFile(std::string(bytes), simulation.particles(), "set_state",
+                                               simulation.triangles()));
           },
           py::arg("state"), docs::setState)
-      .def("__repr__", &textOf);
+      .def("__repr__", &PythonSimulation::text);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <thread>
@@ -22,26 +23,26 @@ namespace clothsim {
 namespace {
 
 // All simulations of the process share one context, which belongs to the thread that was first to need it.
+// Threads come here at once, since the interpreter lets others run while a simulation is made.
 struct SharedContext {
+  std::mutex mutex;
   std::weak_ptr<gl::HeadlessContext> context;
   std::thread::id thread;
 };
-SharedContext& sharedContext() {
-  static SharedContext shared;
-  return shared;
-}
 
-std::shared_ptr<gl::HeadlessContext> openContext() {
-  SharedContext& shared = sharedContext();
-  if (std::shared_ptr<gl::HeadlessContext> context = shared.context.lock()) return context;
+// Null where another thread has it. @throws OpenGlError
+std::shared_ptr<gl::HeadlessContext> contextOfThisThread() {
+  static SharedContext shared;
+  const std::lock_guard lock(shared.mutex);
+  const bool isHere = shared.thread == std::this_thread::get_id();
+  if (std::shared_ptr<gl::HeadlessContext> context = shared.context.lock()) return isHere ? context : nullptr;
   const auto context = std::make_shared<gl::HeadlessContext>();
-  shared = {context, std::this_thread::get_id()};
+  shared.context = context;
+  shared.thread = std::this_thread::get_id();
   return context;
 }
 
 constexpr double radians = std::numbers::pi / 180;  // in a degree
-
-bool isContextHere() { return sharedContext().thread == std::this_thread::get_id(); }
 
 }  // namespace
 
@@ -51,7 +52,7 @@ class PythonSimulation::Turn {
   explicit Turn(PythonSimulation& simulation) : simulation_(simulation) {
     if (simulation.isBusy_.test_and_set())
       throw UsageError("another thread uses this simulation; make one for each thread");
-    if (simulation.context_ && !isContextHere()) {
+    if (simulation.context_ && !simulation.isContextHere()) {
       simulation.isBusy_.clear();
       throw UsageError(
           "this simulation uses OpenGL, which belongs to the thread that first used it; call it from there, "
@@ -77,16 +78,20 @@ PythonSimulation::PythonSimulation(RemarkedScene read, const std::string& backen
     throw UsageError("backend: expected auto, cpu or gpu, found \"" + backend + "\"");
   if (!(jitter >= 0 && jitter <= 1)) throw UsageError("jitter: expected 0 to 1 m");
   if (backend == "gpu") needContext();
-  if (backend == "auto") {
-    try {
-      needContext();
-      backend_ = chosenBackend(backend);
-    } catch (const OpenGlError&) {
-      backend_ = "cpu";
-    }
-    if (backend_ == "cpu") context_.reset();
-  }
+  if (backend == "auto") chooseBackend();
   start(seed);
+  particles_ = simulation_->cloth().particleCount();
+  triangles_ = simulation_->cloth().lists().triangles.size();
+}
+
+// The CPU, too, where another thread of the process has OpenGL.
+void PythonSimulation::chooseBackend() {
+  backend_ = "cpu";
+  try {
+    if (takeContext()) backend_ = chosenBackend("auto");
+  } catch (const OpenGlError&) {  // there is none
+  }
+  if (backend_ == "cpu") context_.reset();
 }
 
 PythonSimulation::~PythonSimulation() {
@@ -97,11 +102,16 @@ PythonSimulation::~PythonSimulation() {
   new std::shared_ptr<gl::HeadlessContext>(context_);
 }
 
+bool PythonSimulation::isContextHere() const { return contextThread_ == std::this_thread::get_id(); }
+
+bool PythonSimulation::takeContext() {
+  if (!context_) context_ = contextOfThisThread();
+  contextThread_ = std::this_thread::get_id();
+  return context_ != nullptr;
+}
+
 void PythonSimulation::needContext() {
-  if (context_) return;
-  const std::shared_ptr<gl::HeadlessContext> context = openContext();
-  if (!isContextHere()) throw UsageError("OpenGL is used by another thread of this process; call from there");
-  context_ = context;
+  if (!takeContext()) throw UsageError("OpenGL is used by another thread of this process; call from there");
 }
 
 void PythonSimulation::start(const std::optional<std::uint32_t>& seed) {
@@ -123,15 +133,49 @@ void PythonSimulation::start(const std::optional<std::uint32_t>& seed) {
   forces_.reset();
 }
 
+std::string PythonSimulation::device() {
+  const Turn turn(*this);
+  return simulation_->solver().device();
+}
+
 State PythonSimulation::state() {
   const Turn turn(*this);
+  return readState();
+}
+
+State PythonSimulation::readState() {
   State state = simulation_->state();
   stayInPlace();
   return state;
 }
 
-int PythonSimulation::frame() const {
+double PythonSimulation::time() {
+  const Turn turn(*this);
+  return simulation_->time();
+}
+
+int PythonSimulation::frame() {
+  const Turn turn(*this);
+  return frameNow();
+}
+
+int PythonSimulation::frameNow() const {
   return static_cast<int>(std::lround(simulation_->time() * simulation_->scene().solver.framesPerSec));
+}
+
+Scene PythonSimulation::scene() {
+  const Turn turn(*this);
+  return simulation_->scene();
+}
+
+std::string PythonSimulation::text() {
+  std::string now;
+  try {
+    now = std::to_string(time()) + " s";
+  } catch (const UsageError&) {
+    now = "in use by another thread";
+  }
+  return "<clothsim.Simulation: " + std::to_string(particles_) + " particles, " + backend_ + ", " + now + ">";
 }
 
 // A divergence goes back by a frame at most: who asks for single steps pays for the copy once a frame.
@@ -165,8 +209,12 @@ void PythonSimulation::advance(std::int64_t steps, const std::function<void()>& 
 }
 
 void PythonSimulation::step(std::int64_t steps, const std::function<void()>& poll) {
-  const Turn turn(*this);
   if (steps < 0) throw UsageError("steps: expected 0 or more, found " + std::to_string(steps));
+  const Turn turn(*this);
+  stepSoundly(steps, poll);
+}
+
+void PythonSimulation::stepSoundly(std::int64_t steps, const std::function<void()>& poll) {
   try {
     advance(steps, poll);
   } catch (...) {
@@ -188,7 +236,8 @@ void checkFrames(std::int64_t frames) {
 
 void PythonSimulation::stepFrames(std::int64_t frames, const std::function<void()>& poll) {
   checkFrames(frames);
-  step(frames * simulation_->scene().solver.simulationSteps, poll);
+  const Turn turn(*this);
+  stepSoundly(frames * simulation_->scene().solver.simulationSteps, poll);
 }
 
 Trace PythonSimulation::run(std::int64_t frames, const std::function<void()>& poll) {
@@ -213,6 +262,10 @@ void PythonSimulation::reset(std::optional<std::uint32_t> seed) {
 
 void PythonSimulation::setState(const State& state) {
   const Turn turn(*this);
+  takeState(state);
+}
+
+void PythonSimulation::takeState(const State& state) {
   simulation_->setState(state);
   simulation_->solver().convertVelocities();
   stepsSinceKept_ = 0;
@@ -265,7 +318,13 @@ void PythonSimulation::sendCollider(const std::string& name, const ColliderMove&
   stepsSinceKept_ = 0;
 }
 
-std::vector<Vec3d> PythonSimulation::colliderPositions() const {
+std::shared_ptr<const std::vector<Particle4>> PythonSimulation::forces() {
+  const Turn turn(*this);
+  return forces_;
+}
+
+std::vector<Vec3d> PythonSimulation::colliderPositions() {
+  const Turn turn(*this);
   std::vector<Vec3d> positions;
   for (const Collider& collider : simulation_->scene().colliders)
     positions.push_back(poseAt(collider, simulation_->time()).position);
@@ -289,7 +348,7 @@ void PythonSimulation::configure(const std::vector<std::string>& settings) {
   stayInPlace();
 }
 
-void PythonSimulation::measureNow() { summary_.add(*simulation_, frame()); }
+void PythonSimulation::measureNow() { summary_.add(*simulation_, frameNow()); }
 
 std::string PythonSimulation::measures() {
   const Turn turn(*this);
@@ -327,10 +386,12 @@ Image PythonSimulation::picture(const PictureView& view) {
 }
 
 void PythonSimulation::save(const std::filesystem::path& path) {
-  saveState(state(), simulation_->cloth(), path, &simulation_->scene());
+  const Turn turn(*this);
+  saveState(readState(), simulation_->cloth(), path, &simulation_->scene());
 }
 void PythonSimulation::load(const std::filesystem::path& path) {
-  setState(loadState(path, simulation_->cloth()));
+  const Turn turn(*this);
+  takeState(loadState(path, simulation_->cloth()));
 }
 
 std::vector<std::array<std::uint32_t, 3>> PythonSimulation::faces() {
@@ -338,15 +399,21 @@ std::vector<std::array<std::uint32_t, 3>> PythonSimulation::faces() {
   return remainingTriangles(simulation_->cloth(), simulation_->solver().cuts());
 }
 
-const CpuSolver<float>* PythonSimulation::memory() {
+std::optional<SharedParticles> PythonSimulation::memory() {
   const Turn turn(*this);
   auto* solver = dynamic_cast<CpuSolver<float>*>(&simulation_->solver());
-  if (solver == nullptr) return nullptr;
+  if (solver == nullptr) return std::nullopt;
   solver->convertVelocities();
   stayInPlace();
-  positionsPlace_ = solver->particles().positions.x.data();
-  velocitiesPlace_ = solver->particles().velocities.x.data();
-  return solver;
+  const Components<float>&positions = solver->particles().positions,
+        &velocities = solver->particles().velocities;
+  positionsPlace_ = positions.x.data();
+  velocitiesPlace_ = velocities.x.data();
+  return SharedParticles{particles_,
+                         {positionsPlace_, positions.distance()},
+                         {velocitiesPlace_, velocities.distance()},
+                         solver->inverseMasses().data(),
+                         lookers_};
 }
 
 void PythonSimulation::stayInPlace() {

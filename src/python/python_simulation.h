@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "gl/context.h"
@@ -32,8 +33,22 @@ struct PictureView {
   int exposures = 1;                   // of which it is the mean (render/exposure.h)
 };
 
+// Particles in the memory of a simulation, for as long as somebody keeps `keeper`: also after reset(), and
+// until then steps leave them at the same place.
+struct SharedParticles {
+  struct Rows {
+    const float* first = nullptr;  // x of the first particle
+    std::size_t distance = 0;      // from there to its y, and to its z [floats]
+  };
+  std::size_t count = 0;
+  Rows positions, velocities;
+  const float* inverseMasses = nullptr;
+  std::shared_ptr<const void> keeper;
+};
+
 // One thread at a time may call it, for others its functions throw UsageError; on the GPU, and once it has
-// drawn, only the thread that made it. All functions throw what the program would report.
+// drawn, only the thread that made it. What never changes anybody may ask for: remarks(), backend(), and
+// the numbers of particles and triangles. All functions throw what the program would report.
 class PythonSimulation {
  public:
   // Displaces free particles by up to `jitter` [m] at random, as `run --jitter --seed` does. `backend`: auto,
@@ -44,9 +59,15 @@ class PythonSimulation {
   PythonSimulation& operator=(const PythonSimulation&) = delete;
 
   [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
-  [[nodiscard]] const Simulation& simulation() const { return *simulation_; }
+  [[nodiscard]] const std::string& backend() const { return backend_; }  // cpu or gpu
+  [[nodiscard]] std::size_t particles() const { return particles_; }
+  [[nodiscard]] std::size_t triangles() const { return triangles_; }  // at the start, without cuts
+  [[nodiscard]] std::string device();
   [[nodiscard]] State state();
-  [[nodiscard]] int frame() const;  // of the time that has passed, in whole frames
+  [[nodiscard]] double time();       // [s]
+  [[nodiscard]] int frame();         // of the time that has passed, in whole frames
+  [[nodiscard]] Scene scene();       // as it is now
+  [[nodiscard]] std::string text();  // for people; never throws UsageError
 
   // Steps or frames. `poll` is called some ten times a second and ends the steps by throwing; the state is
   // then that after some whole step. A simulation that blows up goes back to the start of the frame.
@@ -64,12 +85,12 @@ class PythonSimulation {
   void setPins(std::span<const bool> pinned);
   // Forces on each particle, xyz [N], from the next step on until others are set; empty: none.
   void setForces(std::vector<Particle4> forces);
-  [[nodiscard]] const std::vector<Particle4>* forces() const { return forces_.get(); }  // null: none
+  [[nodiscard]] std::shared_ptr<const std::vector<Particle4>> forces();  // null: none
   // Moves a collider straight to a place within `seconds`; it stays there.
   void moveCollider(std::size_t collider, Vec3d position, std::optional<double> seconds);
   // Turns a collider about its origin or point, by a rotation vector [degrees], within `seconds`.
   void turnCollider(std::size_t collider, Vec3d degrees, std::optional<double> seconds);
-  [[nodiscard]] std::vector<Vec3d> colliderPositions() const;
+  [[nodiscard]] std::vector<Vec3d> colliderPositions();
   // Live keys of the scene, as "key=value". @throws UsageError for a key that makes another cloth
   void configure(const std::vector<std::string>& settings);
 
@@ -82,11 +103,8 @@ class PythonSimulation {
 
   [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> faces();
 
-  // The particles in memory, on the CPU backend; nullptr on the GPU. Whoever keeps a copy of the pointer of
-  // shareMemory() can look at them for as long as he has it, also after reset(), and until then steps leave
-  // them at the same place.
-  [[nodiscard]] const CpuSolver<float>* memory();
-  [[nodiscard]] std::shared_ptr<const void> shareMemory() const { return lookers_; }
+  // On the CPU backend; nothing on the GPU.
+  [[nodiscard]] std::optional<SharedParticles> memory();
 
  private:
   class Turn;
@@ -94,14 +112,24 @@ class PythonSimulation {
   void start(const std::optional<std::uint32_t>& seed);
   // `name`: of the call, for messages.
   void sendCollider(const std::string& name, const ColliderMove& move, std::optional<double> seconds);
+  // What follows is called within a turn.
   void advance(std::int64_t steps, const std::function<void()>& poll);
+  void stepSoundly(std::int64_t steps, const std::function<void()>& poll);
+  [[nodiscard]] State readState();
+  void takeState(const State& state);
+  [[nodiscard]] int frameNow() const;
   void stayInPlace();
+  void chooseBackend();
+  [[nodiscard]] bool takeContext();  // false where another thread has it
   void needContext();
+  [[nodiscard]] bool isContextHere() const;
   void measureNow();
 
   std::shared_ptr<gl::HeadlessContext> context_;  // outlives what lies on it
+  std::thread::id contextThread_;                 // where there is one
   Shared<Scene> scene_;                           // at the start
   std::string backend_;
+  std::size_t particles_ = 0, triangles_ = 0;
   double jitter_;
   std::uint32_t seed_;
   std::vector<std::string> remarks_;
