@@ -3,12 +3,6 @@
 #include <algorithm>
 
 namespace clothsim {
-namespace {
-
-constexpr int MOST_TRIANGLES_AROUND = 1000;  // a point
-
-}  // namespace
-
 TriangleSides::TriangleSides(std::span<const std::array<std::uint32_t, 3>> triangles)
     : triangles_(triangles) {
   std::uint32_t points = 0;
@@ -28,7 +22,9 @@ std::uint32_t TriangleSides::find(std::uint32_t from, std::uint32_t to) const {
 }
 
 std::uint32_t TriangleSides::nextOnBorder(std::uint32_t side) const {
-  for (int k = 0; k < MOST_TRIANGLES_AROUND; ++k) {
+  // Each triangle around the point has a side that begins there.
+  const std::uint32_t point = to(side), around = starts_[point + 1] - starts_[point];
+  for (std::uint32_t k = 0; k < around; ++k) {
     const std::uint32_t next = side / 3 * 3 + (side + 1) % 3, other = twin(next);
     if (other == NONE) return next;
     side = other;
@@ -36,22 +32,48 @@ std::uint32_t TriangleSides::nextOnBorder(std::uint32_t side) const {
   return NONE;
 }
 
-std::vector<BorderCorner> borderOf(const TriangleSides& sides) {
-  constexpr std::uint32_t NONE = TriangleSides::NONE;
-  std::vector<std::uint32_t> found, before(sides.count(), NONE), place(sides.count(), NONE);
+namespace {
+
+constexpr std::uint32_t NONE = TriangleSides::NONE;
+
+// For each side on a border the next one, else NONE. Where triangles make no surface a border may break off:
+// then its sides have none, either, since who follows a border comes back to its beginning.
+std::vector<std::uint32_t> sidesBehind(const TriangleSides& sides) {
+  enum : std::uint8_t { unseen, onTheWay, closed, open };
+  std::vector<std::uint32_t> behind(sides.count(), NONE), way;
+  std::vector<std::uint8_t> found(sides.count(), unseen);
+  for (std::uint32_t side = 0; side < sides.count(); ++side)
+    if (sides.twin(side) == NONE) behind[side] = sides.nextOnBorder(side);
   for (std::uint32_t side = 0; side < sides.count(); ++side) {
-    if (sides.twin(side) != NONE) continue;
-    const std::uint32_t next = sides.nextOnBorder(side);
-    if (next == NONE) continue;
-    before[next] = side;
+    std::uint32_t at = side;
+    for (; at != NONE && found[at] == unseen; at = behind[at]) {
+      found[at] = onTheWay;
+      way.push_back(at);
+    }
+    const bool breaksOff = at == NONE || found[at] == open;
+    for (const std::uint32_t passed : way) found[passed] = breaksOff ? open : closed;
+    way.clear();
+  }
+  for (std::uint32_t side = 0; side < sides.count(); ++side)
+    if (found[side] == open) behind[side] = NONE;
+  return behind;
+}
+
+}  // namespace
+
+std::vector<BorderCorner> borderOf(const TriangleSides& sides) {
+  const std::vector<std::uint32_t> behind = sidesBehind(sides);
+  std::vector<std::uint32_t> found, before(sides.count(), NONE), place(sides.count(), NONE);
+  for (std::uint32_t side = 0; side < sides.count(); ++side)
+    if (behind[side] != NONE) before[behind[side]] = side;
+  for (std::uint32_t side = 0; side < sides.count(); ++side) {
+    if (behind[side] == NONE || before[side] == NONE) continue;
+    place[side] = static_cast<std::uint32_t>(found.size());
     found.push_back(side);
   }
-  std::erase_if(found, [&](std::uint32_t side) { return before[side] == NONE; });
-  for (std::size_t i = 0; i < found.size(); ++i) place[found[i]] = static_cast<std::uint32_t>(i);
   std::vector<BorderCorner> corners;
   for (const std::uint32_t side : found)
-    corners.push_back(
-        {sides.from(before[side]), sides.from(side), sides.to(side), place[sides.nextOnBorder(side)]});
+    corners.push_back({sides.from(before[side]), sides.from(side), sides.to(side), place[behind[side]]});
   return corners;
 }
 

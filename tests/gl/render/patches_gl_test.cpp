@@ -97,6 +97,31 @@ TEST_F(PatchesTest, HaveNoGapsBetweenThem) {
   }
 }
 
+// A half disc of them, whose middle lies on the border.
+TEST_F(PatchesTest, GoAroundAPointWithAnyNumberOfTriangles) {
+  constexpr std::uint32_t COUNT = 1500;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<Vec3d> rest{{0, 0, 0}};
+  for (std::uint32_t i = 0; i <= COUNT; ++i) {
+    rest.push_back({std::cos(M_PI * i / COUNT), std::sin(M_PI * i / COUNT), 0});
+    if (i > 0) triangles.push_back({0, i, i + 1});
+  }
+  const std::vector<std::array<float, 2>> coordinates(rest.size());
+  EXPECT_EQ(borderOf(TriangleSides(triangles)).size(), COUNT + 2);
+  EXPECT_EQ(divideTriangles(triangles, 2, 0, rest, coordinates).border.size(), 2 * (COUNT + 2));
+}
+
+// Around point 0 one triangle looks the other way, so that no border goes on there.
+TEST_F(PatchesTest, LeaveOutBordersThatBreakOff) {
+  const std::vector<std::array<std::uint32_t, 3>> triangles{
+      {0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {0, 2, 4}, {0, 4, 3}};
+  const std::vector<BorderCorner> corners = borderOf(TriangleSides(triangles));
+  for (const BorderCorner& corner : corners) {
+    ASSERT_LT(corner.next, corners.size());
+    EXPECT_EQ(corners[corner.next].here, corner.after);
+  }
+}
+
 // The triangles of one half have another part of the texture than those of the other.
 TEST_F(PatchesTest, KeepToTheirPartOfTheTextureAtItsSeams) {
   const Rolled rolled;
