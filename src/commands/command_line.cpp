@@ -225,10 +225,20 @@ void declareRun(CLI::App& app, Arguments& a, Task& task) {
   run->callback([&a, &task, scene = scene, frames, backend, replay] {
     if (replay->count() == 0 && scene->count() == 0) throw CLI::RequiredError("-f,--scene or --replay");
     if (replay->count() == 0 && frames->count() == 0) throw CLI::RequiredError("--frames");
-    RunOptions options{a.sceneOptions(), {},       {},     a.saves,  a.every,  a.firstFrame, a.from, a.json,
-                       a.checkCrossings, a.jitter, a.seed, a.replay, a.strict, a.trace};
-    if (frames->count() > 0) options.frames = a.frames;
-    if (backend->count() > 0) options.backend = a.backend;
+    const RunOptions options{.scene = a.sceneOptions(),
+                             .frames = frames->count() > 0 ? std::optional(a.frames) : std::nullopt,
+                             .backend = backend->count() > 0 ? std::optional(a.backend) : std::nullopt,
+                             .saves = a.saves,
+                             .every = a.every,
+                             .firstFrame = a.firstFrame,
+                             .from = a.from,
+                             .json = a.json,
+                             .checkCrossings = a.checkCrossings,
+                             .jitter = a.jitter,
+                             .seed = a.seed,
+                             .replay = a.replay,
+                             .strict = a.strict,
+                             .trace = a.trace};
     task = [options] { return runCommand(options); };
   });
 }
@@ -246,7 +256,12 @@ void declareSimulationCommands(CLI::App& app, Arguments& a, Task& task) {
   addJson(*compare, a);
   compare->footer("Example: clothsim compare -f pinned2 --frames 300");
   compare->callback([&] {
-    task = [&] { return compareCommand({a.sceneOptions(), a.frames, a.json, a.checkCrossings}); };
+    task = [&] {
+      return compareCommand({.scene = a.sceneOptions(),
+                             .frames = a.frames,
+                             .json = a.json,
+                             .checkCrossings = a.checkCrossings});
+    };
   });
 
   CLI::App* bench = app.add_subcommand(
@@ -276,8 +291,13 @@ void declareSimulationCommands(CLI::App& app, Arguments& a, Task& task) {
       "clothsim bench --resolution 256x256");
   bench->callback([&] {
     task = [&] {
-      BenchOptions options{
-          {a.scene, std::nullopt, a.settings, {}}, {}, a.backends, a.seconds, a.frames, a.json, a.draw};
+      BenchOptions options{.scene = {a.scene, std::nullopt, a.settings, {}},
+                           .resolutions = {},
+                           .backends = a.backends,
+                           .seconds = a.seconds,
+                           .afterFrames = a.frames,
+                           .json = a.json,
+                           .draw = a.draw};
       for (const std::string& resolution : a.resolutions)
         options.resolutions.push_back(parseSize(resolution, "--resolution"));
       return benchCommand(options);
@@ -328,9 +348,23 @@ void declareRender(CLI::App& app, Arguments& a, Task& task) {
     task = [&] {
       const GridSize size = parsePixels(a.size);
       followProposal(a);
-      return renderCommand({a.sceneOptions(), a.frames, a.backend, a.outs, size.columns, size.rows, a.every,
-                            a.firstFrame, a.fps, a.shader, a.around, a.down, a.from, parseView(a.view),
-                            a.strict, a.quality, a.exposures});
+      return renderCommand({.scene = a.sceneOptions(),
+                            .frames = a.frames,
+                            .backend = a.backend,
+                            .outs = a.outs,
+                            .width = size.columns,
+                            .height = size.rows,
+                            .every = a.every,
+                            .firstFrame = a.firstFrame,
+                            .framesPerSecond = a.fps,
+                            .shader = a.shader,
+                            .sphereSegmentsAround = a.around,
+                            .sphereSegmentsDown = a.down,
+                            .from = a.from,
+                            .view = parseView(a.view),
+                            .strict = a.strict,
+                            .quality = a.quality,
+                            .exposures = a.exposures});
     };
   });
 }
@@ -370,11 +404,17 @@ void declareSweep(CLI::App& app, Arguments& a, Task& task) {
   sweep->callback([&a, &task, frames] {
     task = [&a, frames] {
       const GridSize size = parsePixels(a.cellSize);
-      SweepOptions options{a.sceneOptions(), a.variations, {},       a.backend,         a.out,
-                           size.columns,     size.rows,    a.shader, parseView(a.view), a.json,
-                           a.strict};
-      if (frames->count() > 0) options.frames = a.frames;
-      return sweepCommand(options);
+      return sweepCommand({.scene = a.sceneOptions(),
+                           .variations = a.variations,
+                           .frames = frames->count() > 0 ? std::optional(a.frames) : std::nullopt,
+                           .backend = a.backend,
+                           .out = a.out,
+                           .width = size.columns,
+                           .height = size.rows,
+                           .shader = a.shader,
+                           .view = parseView(a.view),
+                           .json = a.json,
+                           .strict = a.strict});
     };
   });
 }
@@ -436,7 +476,7 @@ void declareViewer(CLI::App& app, Arguments& a, Task& task) {
   app.add_option(
          "--restart", a.restartAfter,
          "viewer: start again after so many simulated seconds, until you touch the cloth or change something")
-      ->check(CLI::PositiveNumber)
+      ->transform(number(0.001, 1e9))
       ->type_name("SECONDS");
   app.add_flag("--timings", a.timings, "viewer: print on exit how long each part of a displayed frame took");
   app.footer(
@@ -445,8 +485,13 @@ void declareViewer(CLI::App& app, Arguments& a, Task& task) {
       "            4 no usable OpenGL or no display, 5 input/output, 130 interrupted");
   task = [&] {
     followProposal(a);
-    runViewer(loadScene(a.sceneOptions()),
-              {a.scene, a.backend, a.around, a.down, a.timings, a.viewerQuality, a.restartAfter});
+    runViewer(loadScene(a.sceneOptions()), {.sceneName = a.scene,
+                                            .backend = a.backend,
+                                            .sphereSegmentsAround = a.around,
+                                            .sphereSegmentsDown = a.down,
+                                            .timings = a.timings,
+                                            .quality = a.viewerQuality,
+                                            .restartAfter = a.restartAfter});
     return 0;
   };
 }

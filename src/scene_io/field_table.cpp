@@ -314,7 +314,7 @@ std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
       field("frames_per_sec", &S::framesPerSec,
             "Frames per simulated second; states and pictures are taken at the end of a frame.")
           .in("1/s")
-          .within(positive)
+          .within({.low = 0, .high = 1e6, .lowOpen = true})
           .usually(15, 240),
       field(
           "simulation_steps", &S::simulationSteps,

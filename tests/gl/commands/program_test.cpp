@@ -194,8 +194,9 @@ TEST(Program, RefusesWhatIsNoPlainNumber) {
     EXPECT_EQ(result.exitCode, 2) << command << "\n" << result.output;
   };
   const std::string run = "run -f pinned2 --frames 1 ", render = "render -f pinned2 --frames 1 --out a.mp4 ";
-  for (const std::string& command : {run + "--seed ", render + "--fps ", render + "--view 0,",
-                                     std::string("bench --seconds "), std::string("bench --after ")})
+  for (const std::string& command :
+       {run + "--seed ", render + "--fps ", render + "--view 0,", std::string("bench --seconds "),
+        std::string("bench --after "), std::string("-f pinned2 --restart ")})
     refuses(command + "nan");
   for (const std::string number : {"nan", "inf", "0x1", "''", "1e999", "' 1'", "'1;5'"}) {
     refuses("run -f pinned2 --frames " + number);
