@@ -64,12 +64,14 @@ std::string remarkOfState(const State& state, const Cloth& cloth) {
       ++masses;
   }
   if (pins + masses == 0) return "";
-  const auto many = [](std::size_t count, const char* what) {
-    return count == 0 ? std::string() : std::to_string(count) + what;
+  const auto many = [](std::size_t count, const char* one, const char* several) {
+    return count == 0 ? std::string() : std::to_string(count) + (count == 1 ? one : several);
   };
   return "the state's own pins and masses are kept: " +
-         many(pins, " particles are pinned there and not in the scene, or the other way round") +
-         (pins > 0 && masses > 0 ? ", " : "") + many(masses, " have another mass than in the scene");
+         many(pins, " particle is pinned there and not in the scene, or the other way round",
+              " particles are pinned there and not in the scene, or the other way round") +
+         (pins > 0 && masses > 0 ? ", " : "") +
+         many(masses, " has another mass than in the scene", " have another mass than in the scene");
 }
 
 }  // namespace clothsim

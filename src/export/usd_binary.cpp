@@ -6,7 +6,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdlib>
@@ -15,6 +14,7 @@
 
 #include "core/error.h"
 #include "core/interrupt.h"
+#include "export/child_words.h"
 
 extern char** environ;
 
@@ -81,12 +81,7 @@ PythonRun runPython(const char* program, int text, int binary) {
     while ((ended = ::waitpid(child, &status, 0)) < 0 && errno == EINTR)
       if (isInterrupted()) ::kill(child, SIGKILL);
     run.endedWell = ended > 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0;
-    std::array<char, 2000> end;
-    const off_t size = ::lseek(words, 0, SEEK_END);
-    const ssize_t got =
-        ::pread(words, end.data(), end.size(), std::max<off_t>(0, size - static_cast<off_t>(end.size())));
-    run.said.assign(end.data(), static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
-    while (!run.said.empty() && run.said.back() == '\n') run.said.pop_back();
+    run.said = lastWords(words);
     run.said.erase(0, run.said.rfind('\n') + 1);  // what a traceback ends with says what is wrong
   }
   ::close(words);

@@ -10,7 +10,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cerrno>
@@ -22,6 +21,7 @@
 #include "core/error.h"
 #include "core/interrupt.h"
 #include "core/temporary_file.h"
+#include "export/child_words.h"
 #include "export/export.h"
 
 extern char** environ;
@@ -131,9 +131,7 @@ void VideoWriter::Pipe::start(const std::vector<std::string>& arguments) {
 
 void VideoWriter::Pipe::fail() {
   if (ffmpeg > 0) waitForEnd();
-  std::string said(2000, '\0');
-  said.resize(static_cast<std::size_t>(std::max<ssize_t>(::pread(words, said.data(), said.size(), 0), 0)));
-  while (!said.empty() && said.back() == '\n') said.pop_back();
+  const std::string said = lastWords(words);
   throw InputOutputError("cannot write '" + path.string() + "': ffmpeg failed" +
                          (said.empty() ? "" : ": " + said));
 }

@@ -112,12 +112,15 @@ struct CheckedLines {
 // A line without its end, and how many lines of the file it is: one that ends with a backslash goes on.
 std::size_t takeLine(std::string_view& text, std::string& line) {
   line.clear();
+  bool hasComment = false;
   for (std::size_t count = 1;; ++count) {
     const std::size_t end = std::min(text.find('\n'), text.size());
-    line.append(text.substr(0, end));
+    const std::string_view part = text.substr(0, end);
+    line.append(part);
+    hasComment = hasComment || part.find('#') != part.npos;
     text.remove_prefix(std::min(end + 1, text.size()));
     while (!line.empty() && isBlank(line.back())) line.pop_back();
-    if (text.empty() || !line.ends_with('\\') || line.find('#') != line.npos) return count;
+    if (text.empty() || !line.ends_with('\\') || hasComment) return count;
     line.back() = ' ';
   }
 }

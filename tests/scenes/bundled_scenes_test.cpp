@@ -60,7 +60,7 @@ TEST_P(BundledSceneTest, KeepsItsPromisesAndAgreesOnBothBackends) {
   expectWithin(measure(cpu.cloth(), scene, synchronized(cpu.cloth(), scene, state)).kineticEnergy,
                expect.kineticEnergy, "kinetic_energy");
   const bool isToRest = expect.kineticEnergy && expect.kineticEnergy->low == 0;
-  if (isToRest && scene.solver.integrator == Integrator::implicit) {
+  if (isToRest && isImplicit(scene.solver.integrator)) {
     EXPECT_LT(cpu.convergenceCounts().lastUpdate, 1e-3) << "low energy alone is no rest (docs/physics.md)";
   }
   if (counter) expectWithin(static_cast<double>(crossings.worst), expect.crossings, "crossings");

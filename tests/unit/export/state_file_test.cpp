@@ -85,9 +85,9 @@ TEST_F(StateFile, SaysWherePinsAndMassesAreNotThoseOfTheScene) {
   State state = stateAtRest(cloth_);
   EXPECT_EQ(remarkOfState(state, cloth_), "");
   state.positions[1].w = 2 * state.positions[1].w + 1;
-  EXPECT_NE(remarkOfState(state, cloth_).find("1 have another mass"), std::string::npos);
+  EXPECT_NE(remarkOfState(state, cloth_).find("1 has another mass"), std::string::npos);
   state.positions[2].w = state.positions[2].w == 0 ? 1.0f : 0.0f;
-  EXPECT_NE(remarkOfState(state, cloth_).find("1 particles are pinned there"), std::string::npos);
+  EXPECT_NE(remarkOfState(state, cloth_).find("1 particle is pinned there"), std::string::npos);
 }
 
 TEST_F(StateFile, OfALaterVersionIsRefusedWithBothVersions) {

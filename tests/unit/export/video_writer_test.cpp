@@ -109,6 +109,14 @@ TEST_F(StandInTest, PassesOnWhatFfmpegSaysWhenItFails) {
   EXPECT_EQ(folder_.fileCount(), 1) << "no film, not even a part of one";
 }
 
+// What it says before is about every frame.
+TEST_F(StandInTest, PassesOnTheEndOfWhatFfmpegSays) {
+  standIn("for i in $(seq 500); do echo frame $i is odd >&2; done; echo 'no space left' >&2; exit 1");
+  const std::string message =
+      messageThrownBy<InputOutputError>([&] { VideoWriter(folder_ / "a.mp4", 33, 17, 30).close(); });
+  EXPECT_TRUE(message.ends_with("frame 500 is odd\nno space left")) << message;
+}
+
 // Nobody can tell then how a child ended.
 TEST_F(StandInTest, DoesNotTakeAFailureForAFilmWhereTheEndOfChildrenIsIgnored) {
   standIn("echo half >&3; exit 1");
