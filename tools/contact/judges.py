@@ -1,9 +1,9 @@
-"""Contact inside the step, judged by others (tools/validate contact judges): every step of 13 scenes is exported and looked at by
+"""Contact inside the step, judged by others (tools/validate contact): every step of 13 scenes is exported and looked at by
 ipctk, and by formulas of this folder where it is about colliders. What the program says of itself stands beside it."""
 import concurrent.futures, csv, datetime, json, os, pathlib, shlex, subprocess, sys, tempfile
 
-root = pathlib.Path(__file__).resolve().parent.parent.parent
-program = os.environ.get("CLOTHSIM", str(root / "build/release/clothsim"))
+from tree import program, root
+
 
 # Frames of 1/60 s: until the cloth lies, or what is pulled and folded has been.
 scenes = {"sphere": 90, "selfCollision": 100, "fold": 225, "twist": 225, "stack": 75, "funnel": 180, "drape_box": 100, "bed": 60,

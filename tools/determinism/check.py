@@ -2,8 +2,8 @@
 two OpenGL drivers (tools/validate determinism)."""
 import csv, datetime, json, os, pathlib, shutil, subprocess, sys, tempfile
 
-root = pathlib.Path(__file__).resolve().parent.parent.parent
-program = os.environ.get("CLOTHSIM", str(root / "build/release/clothsim"))
+from tree import program, root
+
 gl_tests = root / "build/release/tests/gl_tests"
 frames_on_cpu, frames_on_drivers = 8, 2
 threads = [1, 2, 7]

@@ -3,8 +3,8 @@ sheet, the same ball and friction. How far threads are stretched, how deep cloth
 the same code from the places of the particles at each 1/60 s."""
 import csv, datetime, json, os, pathlib, platform, resource, subprocess, sys, tempfile, time
 
-root = pathlib.Path(__file__).resolve().parent.parent.parent
-program = os.environ.get("CLOTHSIM", str(root / "build/release/clothsim"))
+from tree import program, root
+
 path = root / "report/data/engines.csv"
 columns = ("date commit command device program version points steps_in_a_60th settings self_contact seconds peak_strain_percent "
            "final_strain_percent deepest_mm lowest_m cpu_seconds unsolved_steps").split()

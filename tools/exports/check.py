@@ -1,8 +1,8 @@
 """Exports against readers that nobody on this project wrote, and against kills and full disks (tools/validate exports)."""
 import csv, datetime, json, os, pathlib, random, resource, shutil, signal, subprocess, sys, tempfile, time
 
-root = pathlib.Path(__file__).resolve().parent.parent.parent
-program = os.environ.get("CLOTHSIM", str(root / "build/release/clothsim"))
+from tree import program, root
+
 last_frame, frames = 119, [0, 60, 119]
 columns = "date commit check tool measured demand met unit".split()
 
@@ -204,7 +204,7 @@ def kills(folder):
     yield f"torn files after kill -9 at 50 moments of a run ({interrupted} still at work)", "kill -9", len(torn), 0, "files"
 
 
-# On a file system of 1 MiB where one can be mounted, else with files of 1 MiB at most.
+# On a file system of 1 MiB where one can be mounted, else with files of 64 KiB at most.
 def full_disk(folder):
     whole, _ = reference(folder)
     disk = folder / "disk"

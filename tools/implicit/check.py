@@ -2,8 +2,8 @@
 in report/data anew, a line a figure, with the run of clothsim that it comes from."""
 import csv, datetime, json, os, pathlib, shlex, statistics, subprocess, sys, tempfile
 
-root = pathlib.Path(__file__).resolve().parent.parent.parent
-program = os.environ.get("CLOTHSIM", str(root / "build/release/clothsim"))
+from tree import program, root
+
 
 
 def clothsim(*words):
