@@ -1,5 +1,5 @@
-#include <bit>
-#include <cmath>
+#include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -24,31 +24,16 @@ nlohmann::ordered_json textOf(const std::optional<Divergence>& divergence, const
   return divergence ? nlohmann::ordered_json(divergenceText(*divergence, cloth, scene)) : nullptr;
 }
 
-}  // namespace
-
-int compareCommand(const CompareOptions& options) {
-  const Shared<Scene> sharedScene = loadScene(options.scene);
-  const Scene& scene = *sharedScene;
-  const gl::HeadlessContext context;
-  Progress progress("comparing", options.frames);
-  const Shared<Cloth> sharedCloth = Cloth(scene);
-  const Cloth& cloth = *sharedCloth;
-  std::optional<CrossingCounter> counter;
-  if (options.checkCrossings) counter.emplace(sharedCloth);
+// What was looked at beside the bits.
+struct Looks {
+  std::optional<CrossingCounter> counter;  // where crossings are asked for
   CrossingSummary crossings;
   ContactReport contacts;
-  double maxPenetration = 0;
-  const Comparison result =
-      compareBackends(sharedScene, options.frames, makeSolver, [&](int frame, const State& state) {
-        stopIfInterrupted();
-        if (counter) crossings.add(frame, counter->count(state));
-        const Measures measures = measure(cloth, scene, state);
-        maxPenetration = std::max(maxPenetration, measures.maxPenetration);
-        contacts.add(frame, cloth, scene, state, measures.maxStrain, {});
-        progress.update(frame);
-      });
-  progress.finish();
+  double maxPenetration = 0;  // [m]
+};
 
+nlohmann::ordered_json jsonOf(const CompareOptions& options, const Comparison& result, const Looks& looks,
+                              const Cloth& cloth, const Scene& scene) {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   json["scene"] = options.scene.scene;
   json["device"] = result.device;
@@ -61,33 +46,36 @@ int compareCommand(const CompareOptions& options) {
       result.firstDifferingStep ? nlohmann::ordered_json(*result.firstDifferingStep) : nullptr;
   json["bitwise_equal"] = result.differingFloats == 0;
   json["finite"] = result.finite;
-  json["same_trouble"] = result.cpuDivergence == result.gpuDivergence;  // on both backends, or on none
+  json["same_divergence"] = result.cpuDivergence == result.gpuDivergence;  // on both backends, or on none
   if (result.cpuDivergence || result.gpuDivergence)
     json["divergence"] = {{"frame", result.frames + 1},
                           {"cpu", textOf(result.cpuDivergence, cloth, scene)},
                           {"gpu", textOf(result.gpuDivergence, cloth, scene)}};
   json["state_hash"] = {{"cpu", result.cpuHash}, {"gpu", result.gpuHash}};
-  json["max_penetration"] = maxPenetration;
-  contacts.write(json, cloth, scene, result.contacts);
-  if (counter) json["crossings"] = toJson(crossings);
-  if (options.json) {
-    printJson(json);
-  } else if (result.differingFloats == 0) {
+  json["max_penetration"] = looks.maxPenetration;
+  looks.contacts.write(json, cloth, scene, result.contacts);
+  if (looks.counter) json["crossings"] = toJson(looks.crossings);
+  return json;
+}
+
+void printComparison(const std::string& name, const Comparison& result, const Looks& looks) {
+  const auto number = [](std::uint64_t count) { return static_cast<unsigned long long>(count); };
+  if (result.differingFloats == 0)
     std::printf(
         "%s: CPU and GPU (%s) agree in every bit of %llu floats after each of %d frames (%llu steps)\n",
-        options.scene.scene.c_str(), result.device.c_str(), static_cast<unsigned long long>(result.floats),
-        result.frames, static_cast<unsigned long long>(result.steps));
-  } else {
+        name.c_str(), result.device.c_str(), number(result.floats), result.frames, number(result.steps));
+  else
     std::printf("%s: CPU and GPU (%s) differ in %llu of %llu floats, by at most %g, first in step %llu\n",
-                options.scene.scene.c_str(), result.device.c_str(),
-                static_cast<unsigned long long>(result.differingFloats),
-                static_cast<unsigned long long>(result.floats), result.maxAbsDifference,
-                static_cast<unsigned long long>(result.firstDifferingStep.value_or(0)));
-  }
-  if (counter && !options.json)
+                name.c_str(), result.device.c_str(), number(result.differingFloats), number(result.floats),
+                result.maxAbsDifference, number(result.firstDifferingStep.value_or(0)));
+  if (looks.counter)
     std::printf("crossing pairs of triangles: at most %llu apart and %llu neighbours, in %d frames\n",
-                static_cast<unsigned long long>(crossings.worst),
-                static_cast<unsigned long long>(crossings.neighbours), crossings.framesChecked);
+                number(looks.crossings.worst), number(looks.crossings.neighbours),
+                looks.crossings.framesChecked);
+}
+
+// @throws SimulationError where the cloth blew up on some backend
+void checkSound(const Comparison& result, const Cloth& cloth, const Scene& scene) {
   const auto blowUp = [&](const std::optional<Divergence>& divergence, const char* backend) {
     if (divergence)
       throw SimulationError(std::string(backend) + blowUpText(*divergence, cloth, scene) +
@@ -98,6 +86,34 @@ int compareCommand(const CompareOptions& options) {
     blowUp(result.gpuDivergence, "on the GPU alone ");
   }
   blowUp(result.cpuDivergence, "");
+}
+
+}  // namespace
+
+int compareCommand(const CompareOptions& options) {
+  const Shared<Scene> sharedScene = loadScene(options.scene);
+  const Scene& scene = *sharedScene;
+  const gl::HeadlessContext context;
+  Progress progress("comparing", options.frames);
+  const Shared<Cloth> sharedCloth = Cloth(scene);
+  const Cloth& cloth = *sharedCloth;
+  Looks looks;
+  if (options.checkCrossings) looks.counter.emplace(sharedCloth);
+  const Comparison result =
+      compareBackends(sharedScene, options.frames, makeSolver, [&](int frame, const State& state) {
+        stopIfInterrupted();
+        if (looks.counter) looks.crossings.add(frame, looks.counter->count(state));
+        const Measures measures = measure(cloth, scene, state);
+        looks.maxPenetration = std::max(looks.maxPenetration, measures.maxPenetration);
+        looks.contacts.add(frame, cloth, scene, state, measures.maxStrain, {});
+        progress.update(frame);
+      });
+  progress.finish();
+  if (options.json)
+    printJson(jsonOf(options, result, looks, cloth, scene));
+  else
+    printComparison(options.scene.scene, result, looks);
+  checkSound(result, cloth, scene);
   return result.differingFloats == 0 && result.finite ? 0 : 1;
 }
 

@@ -20,7 +20,7 @@
 #include "export/export.h"
 #include "gl/context.h"
 #include "output/contact_sheet.h"
-#include "scene_io/fields.h"
+#include "scene_io/describe.h"
 #include "scene_io/variations.h"
 #include "simulation/gpu/simulation_renderer.h"
 #include "simulation/gpu/solvers.h"
@@ -233,8 +233,8 @@ class SweepRun {
     ordered_json json = ordered_json::object();
     json["frames"] = frame_;
     json["finite"] = isSound;
-    json["trouble"] = isSound ? ordered_json(nullptr)
-                              : ordered_json(divergenceText(*divergence_, simulation_.cloth(), scene));
+    json["divergence"] = isSound ? ordered_json(nullptr)
+                                 : ordered_json(divergenceText(*divergence_, simulation_.cloth(), scene));
     json["backend"] = simulation_.solver().backend();
     json["device"] = simulation_.solver().device();
     json["particles"] = simulation_.cloth().particleCount();
@@ -365,7 +365,7 @@ std::string csvWord(const ordered_json& value) {
 constexpr std::array measureColumns{
     "frames",
     "finite",
-    "trouble",
+    "divergence",
     "max_strain",
     "peak_strain",
     "min_y",

@@ -12,6 +12,7 @@
 #include "render/shading_models.h"
 #include "scene_io/mesh_scene.h"
 #include "scene_io/scene_io.h"
+#include "scene_io/solver_defaults.h"
 #include "session/carry_over.h"
 #include "viewer/viewer_facts.h"
 #include "viewer/viewer_program.h"
@@ -475,8 +476,8 @@ void Viewer::saveCurves() {
 
 void Viewer::reloadShaders() {
   kept_.forget();
-  if (const std::optional<std::string> divergence = open_->renderer().renderer().reloadShaders())
-    notice_ = {*divergence + "\nThe previous shaders are still in use.", 1e9, true};
+  if (const std::optional<std::string> fault = open_->renderer().renderer().reloadShaders())
+    notice_ = {*fault + "\nThe previous shaders are still in use.", 1e9, true};
   else
     say("Shaders reloaded");
 }

@@ -256,16 +256,16 @@ void MeasurePanel::timePasses(Session& session) {
     solver->setState(simulation.state());
     passes_ = solver->timePasses(timedSteps);
     passSteps_ = timedSteps;
-    passDivergence_.clear();
+    passFault_.clear();
   } catch (const Error& error) {
-    passDivergence_ = error.what();
+    passFault_ = error.what();
   }
 }
 
 void MeasurePanel::drawPasses() {
   if (wideButton("Time the passes of a step")) passesAsked_ = true;
   helpTip("Simulates 60 steps on a copy of the cloth and times each pass.");
-  if (!passDivergence_.empty()) wrappedText(passDivergence_, theme::alert);
+  if (!passFault_.empty()) wrappedText(passFault_, theme::alert);
   if (passes_.empty() || !beginRows("passes")) return;
   for (const PassTime& pass : passes_)
     row(pass.name.c_str(), formatted("%.1f \u00b5s", 1e6 * pass.seconds / passSteps_),

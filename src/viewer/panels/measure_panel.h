@@ -88,7 +88,7 @@ class MeasurePanel {
   std::vector<PassTime> passes_;
   int passSteps_ = 0;
   bool passesAsked_ = false;
-  std::string passDivergence_;
+  std::string passFault_;
 };
 
 }  // namespace clothsim
