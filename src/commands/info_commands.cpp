@@ -10,7 +10,7 @@
 #include "core/nearest.h"
 #include "core/thread_team.h"
 #include "gl/context.h"
-#include "scene_io/fields.h"
+#include "scene_io/describe.h"
 #include "scene_io/scene_io.h"
 #include "simulation/compare.h"
 #include "simulation/gpu/solvers.h"

@@ -1,5 +1,5 @@
 // What the user wrote: plain structs in SI units, with the defaults of CS184's program. Reading, writing,
-// ranges and help texts come from the field table (fields.h); nothing here knows of particles.
+// ranges and help texts come from the field table (scene_io/field_table.h); nothing here knows of particles.
 #pragma once
 
 #include <algorithm>

@@ -6,7 +6,7 @@
 #include "core/nearest.h"
 #include "scene/budget.h"
 #include "scene_io/codec.h"
-#include "scene_io/fields.h"
+#include "scene_io/describe.h"
 #include "scene_io/scene_tree.h"
 
 namespace clothsim {

@@ -7,6 +7,7 @@
 #include "cloth/material.h"
 #include "cloth/material_look.h"
 #include "scene_io/codec.h"
+#include "scene_io/solver_defaults.h"
 
 namespace clothsim {
 

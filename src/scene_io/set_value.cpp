@@ -8,7 +8,7 @@
 #include "core/error.h"
 #include "core/nearest.h"
 #include "scene_io/codec.h"
-#include "scene_io/fields.h"
+#include "scene_io/describe.h"
 #include "scene_io/json_tree.h"
 #include "scene_io/scene_io.h"
 #include "scene_io/scene_tree.h"

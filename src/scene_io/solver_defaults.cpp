@@ -1,8 +1,8 @@
-// What the solver does where a scene does not say.
+#include "scene_io/solver_defaults.h"
+
 #include <algorithm>
 
 #include "cloth/material.h"
-#include "scene_io/field_table.h"
 
 namespace clothsim {
 

@@ -8,8 +8,8 @@
 #include "cloth/material.h"
 #include "core/error.h"
 #include "core/formatted.h"
-#include "scene_io/field_table.h"
 #include "scene_io/scene_io.h"
+#include "scene_io/solver_defaults.h"
 
 namespace clothsim {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "core/files.h"
 #include "export/formats.h"
-#include "scene_io/fields.h"
+#include "scene_io/describe.h"
 #include "scene_io/scene_io.h"
 #include "session/recording.h"
 

@@ -1,6 +1,7 @@
 // The panel Cloth: springs, material and size of each cloth.
 #include "cloth/material.h"
 #include "cloth/material_look.h"
+#include "scene_io/solver_defaults.h"
 #include "viewer/panels/panels.h"
 #include "viewer/ui_frame.h"
 

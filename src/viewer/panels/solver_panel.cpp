@@ -3,6 +3,7 @@
 
 #include "cloth/material.h"
 #include "scene_io/field_table.h"
+#include "scene_io/solver_defaults.h"
 #include "viewer/panels/panels.h"
 #include "viewer/ui_frame.h"
 
@@ -29,9 +30,8 @@ void drawWind(PanelContext& context) {
     if (blows) context.draft.wind->velocity = firstWind;
     context.widgets.changed(Change::live);
   }
-  helpTip(
-      "Air that moves past the cloth; without it no wind forces are computed.\n\nwind\nTakes effect "
-      "immediately.");
+  for (const Field<Scene>& field : fieldsOf<Scene>())
+    if (field.key == "wind") helpTip(helpOf(field, "wind"));
   if (!context.draft.wind) return;
   context.widgets.all(*context.draft.wind, "wind");
   context.widgets.all(context.draft.wind->gust, "wind.gust");

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "scene_io/field_table.h"
 #include "scene_io/scene_io.h"
+#include "scene_io/solver_defaults.h"
 #include "support/scene_text.h"
 
 namespace clothsim {

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "scene_io/fields.h"
+#include "scene_io/describe.h"
 #include "scene_io/scene_io.h"
 #include "support/scene_text.h"
 

@@ -1,5 +1,4 @@
-// The one table of scene keys: JSON reading and writing, `--set`, `describe` and the viewer's panels are made
-// from it.
+// The table of scene keys (field_table.h) as text, for `clothsim describe`.
 #pragma once
 
 #include <string>

@@ -1,4 +1,4 @@
-#include "scene_io/fields.h"
+#include "scene_io/describe.h"
 
 #include <gtest/gtest.h>
 

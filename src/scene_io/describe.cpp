@@ -1,5 +1,5 @@
 // The field table as text, for `clothsim describe` and the reference documentation.
-#include "scene_io/fields.h"
+#include "scene_io/describe.h"
 
 #include <algorithm>
 #include <utility>
