@@ -12,7 +12,8 @@ using namespace clothsim;
 
 int main(int argc, char** argv) try {
   beginResourceSearchAt(CLOTHSIM_RESOURCES);  // where the bundled scenes are
-  const SceneOptions options{.scene = "sphere", .resolution = {{40, 40}}, .settings = {"cloth.material=cotton"}};
+  const SceneOptions options{
+      .scene = "sphere", .resolution = {{40, 40}}, .settings = {"cloth.material=cotton"}};
   Simulation simulation(readScene(options).scene);
   for (int frame = 0; frame < 60; ++frame) {
     simulation.stepFrame();

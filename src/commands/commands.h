@@ -28,7 +28,7 @@ void continueFrom(const std::string& file, Simulation& simulation);
 struct RunOptions {
   SceneOptions scene;
   std::optional<int> frames;           // none: as many as the recording has
-  std::optional<std::string> backend;  // none: gpu, or those of the recording
+  std::optional<std::string> backend;  // none: auto, or those of the recording
   std::vector<std::string> saves;      // files by extension; numbered ones get every `every`-th frame
   int every = 1;
   int firstFrame = 0;  // number of the first frame in names and USD

@@ -18,7 +18,7 @@ Vec3d positionOf(const State& state, std::size_t i) {
 
 bool finite(const Particle4& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-// The largest strain of one piece, -1 without springs.
+// The largest strain of one piece; none without springs.
 std::optional<double> maxStrain(const Cloth& cloth, const Piece& piece, const State& state) {
   std::vector<double> largest(static_cast<std::size_t>(piece.rows), -1);  // -1: of a spring of length 0
   ThreadTeam::shared().forEach(
@@ -42,7 +42,7 @@ std::optional<double> maxStrain(const Cloth& cloth, const Piece& piece, const St
   return *std::max_element(largest.begin(), largest.end());
 }
 
-// The largest strain of all meshes, -1 without springs.
+// The largest strain of all meshes; none without springs.
 std::optional<double> maxStrain(const Cloth& cloth, const std::vector<MeshSpring>& springs,
                                 const State& state) {
   if (springs.empty()) return std::nullopt;

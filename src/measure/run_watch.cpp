@@ -281,6 +281,19 @@ void RunWatch::addConvergence(int frame, const ConvergenceCounts& counts) {
 
 std::vector<Warning> RunWatch::warnings(const Scene& scene) const {
   std::vector<Warning> warnings;
+  addStart(warnings, scene);
+  addContacts(warnings, scene);
+  if (seams_) warnings.push_back(*seams_);
+  addStrains(warnings, scene);
+  if (energy_ && energy_->gain()) warnings.push_back(energyWarning(*energy_->gain(), scene));
+  if (100 * convergence_.unconvergedSteps > convergence_.steps) {
+    warnings.push_back(convergenceWarning(convergence_, largestUpdate_, scene));
+    warnings.back().frame = unsolvedFrame_;
+  }
+  return warnings;
+}
+
+void RunWatch::addStart(std::vector<Warning>& warnings, const Scene& scene) const {
   if (startInColliders_.particles > 0)
     warnings.push_back({"start", 0, "starts inside a collider",
                         std::to_string(startInColliders_.particles) +
@@ -306,6 +319,9 @@ std::vector<Warning> RunWatch::warnings(const Scene& scene) const {
              "the resolution, or set solver.integrator to \"implicit\", where small colliders "
              "but meshes act on triangles, too"});
   if (thinLayers_) warnings.push_back(*thinLayers_);
+}
+
+void RunWatch::addContacts(std::vector<Warning>& warnings, const Scene& scene) const {
   if (passedFrame_)
     warnings.push_back({"contact", passedFrame_, "a collider went through the cloth",
                         "small colliders went through triangles " + std::to_string(passages_) +
@@ -334,7 +350,9 @@ std::vector<Warning> RunWatch::warnings(const Scene& scene) const {
              std::to_string(crowdedSteps_) + (crowdedSteps_ == 1 ? " step" : " steps") +
              ", and nothing pushed them apart there (layers do not cross); make the fabric thinner, or "
              "spread the cloth at the start"});
-  if (seams_) warnings.push_back(*seams_);
+}
+
+void RunWatch::addStrains(std::vector<Warning>& warnings, const Scene& scene) const {
   if (startStrain_ > 1)
     warnings.push_back({"start", 0, formatted("springs begin stretched by %.0f %%", 100 * startStrain_),
                         formatted("springs begin stretched by up to %.0f %%: ", 100 * startStrain_) +
@@ -345,12 +363,6 @@ std::vector<Warning> RunWatch::warnings(const Scene& scene) const {
                         "a spring is stretched by " + formatted("%.0f %%", 100 * doubtfulStrain(scene)) +
                             " or more, in this run by up to " + formatted("%.0f %%", 100 * peakStrain_) +
                             "; " + stepsAdvice(scene) + ", or set solver.strain_limit"});
-  if (energy_ && energy_->gain()) warnings.push_back(energyWarning(*energy_->gain(), scene));
-  if (100 * convergence_.unconvergedSteps > convergence_.steps) {
-    warnings.push_back(convergenceWarning(convergence_, largestUpdate_, scene));
-    warnings.back().frame = unsolvedFrame_;
-  }
-  return warnings;
 }
 
 void print(const std::vector<Warning>& warnings, const std::string& which) {

@@ -77,12 +77,15 @@ class RunWatch {
 
   [[nodiscard]] const ContactReport& contacts() const { return contacts_; }
   [[nodiscard]] const ColliderOverlaps& startInColliders() const { return startInColliders_; }
-  // In the order start, step, path, contact, seam, strain, energy, convergence. There is at most one of each
-  // kind, except of paths. Of convergence only where more than a hundredth of all implicit steps ended
-  // unsolved.
+  // Those of the start come first; several may be of one kind. Of convergence only where more than a
+  // hundredth of all implicit steps ended unsolved.
   [[nodiscard]] std::vector<Warning> warnings(const Scene& scene) const;
 
  private:
+  void addStart(std::vector<Warning>& warnings, const Scene& scene) const;
+  void addContacts(std::vector<Warning>& warnings, const Scene& scene) const;
+  void addStrains(std::vector<Warning>& warnings, const Scene& scene) const;
+
   ContactReport contacts_;
   ColliderOverlaps startInColliders_;
   std::uint64_t coincidentPoints_ = 0;

@@ -19,7 +19,8 @@ struct Pose {
 // The time on the path of a motion at time t: within its keys, where it loops [s].
 [[nodiscard]] double timeOnPath(const Motion& motion, double t);
 
-// The key of a motion, which has at least one, at time t [s]: linear between those given.
+// The key of a motion, which has at least one, at time t [s]: between those given straight or smooth, as the
+// motion's `interpolation` says.
 [[nodiscard]] Motion::Key keyAt(const Motion& motion, double t);
 
 // The pose at time t [s]; without a motion the collider's own place, unrotated.

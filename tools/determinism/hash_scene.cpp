@@ -1,6 +1,6 @@
 // What the CPU backend makes of a scene, as a hash: hash_scene FRAMES SCENE [KEY=VALUE...]
-// Prints particles, steps and the hash of the last frame's state. Links no OpenGL, so that any compiler builds it
-// from a few files (tools/validate determinism).
+// Prints particles, steps and the hash of the last frame's state. Links no OpenGL, so that any compiler
+// builds it from a few files (tools/validate determinism).
 #include <cstdio>
 #include <exception>
 #include <string>

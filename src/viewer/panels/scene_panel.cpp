@@ -2,8 +2,10 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <string>
 
 #include "core/error.h"
+#include "export/export.h"
 #include "render/textures.h"
 #include "viewer/panels/panels.h"
 #include "viewer/ui_frame.h"
@@ -93,7 +95,8 @@ void ScenePanel::draw(PanelContext& context) {
     context.requests.saveSceneAs = save_;
   helpTip(
       "Saves the scene with its edits as JSON (Ctrl+S). What you did with the mouse is saved by "
-      "Ctrl+Shift+S instead. A name ending in .obj, .ply, .csv or .state saves the cloth as it is now.");
+      "Ctrl+Shift+S instead. A name ending in " +
+      std::string(STATE_EXTENSIONS) + " saves the cloth as it is now.");
   if (wideButton("Open a scene or a mesh ...")) context.requests.actions.push_back(ViewerAction::openFile);
   helpTip("A scene file, or an OBJ mesh (Ctrl+O). You can also drop one on the window.");
   ImGui::Separator();
