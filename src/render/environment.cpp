@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/files.h"
+#include "core/srgb.h"
 
 namespace clothsim {
 namespace {
@@ -12,10 +13,7 @@ namespace {
 constexpr float brightest = 2;  // the light that the picture's white stands for
 constexpr int cubeSize = 256;   // pixels along each side of a face
 
-float linear(std::uint16_t stored) {
-  const float encoded = static_cast<float>(stored) / 65535.0f;
-  return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
-}
+float linear(std::uint16_t stored) { return static_cast<float>(linearOfSrgb(stored / 65535.0)); }
 
 // The direction of a place on a cube's face, both -1 to 1, x to the right and y down (OpenGL 4.5,
 // table 8.19).

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/srgb.h"
 #include "render/stage.h"
 #include "render/stage_look.h"
 #include "render/strain_scale.h"
@@ -12,10 +13,7 @@
 namespace clothsim {
 namespace {
 
-float linear(double encoded) {
-  const double value = encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4);
-  return static_cast<float>(value);
-}
+float linear(double encoded) { return static_cast<float>(linearOfSrgb(encoded)); }
 
 glm::vec4 linearOf(double red, double green, double blue) {
   return {linear(red), linear(green), linear(blue), 1};

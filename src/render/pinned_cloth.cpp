@@ -157,10 +157,9 @@ class HangingCloth {
 
   // What is left of an angle when it has swung to the other side.
   [[nodiscard]] float swungBy(float angle, float length) const {
-    const double rate = settings_.material ? settings_.material->damping
-                        : isImplicit(scene_.solver.integrator)
-                            ? 27 * settings_.damping
-                            : settings_.damping / 100 / stepLength(scene_.solver);
+    // CS184's is percent a step; implicit steps take its 2700 steps a second.
+    const double stepRate = isImplicit(scene_.solver.integrator) ? 2700 : 1 / stepLength(scene_.solver);
+    const double rate = settings_.material ? settings_.material->damping : settings_.damping / 100 * stepRate;
     const double half = std::numbers::pi * std::sqrt(2.0 * length / (3 * std::max(1e-6f, gravity_)));
     return swingKept * angle * static_cast<float>(std::exp(-0.5 * rate * half));
   }

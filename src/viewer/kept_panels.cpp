@@ -77,7 +77,6 @@ void KeptPanels::draw(const ImDrawData& data, float left) {
       kept_.bind();
       drawLists(data, lists);
       drawn_ = std::move(wanted);
-      ++timesDrawn_;
       gl::bindFramebuffer(shown);
     }
     kept_.copyColumnsInto(shown, from);

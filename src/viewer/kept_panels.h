@@ -18,12 +18,10 @@ class KeptPanels {
   // the others over it.
   void draw(const ImDrawData& data, float left);
   void forget() { drawn_.clear(); }  // what is in the textures that the lists name has changed
-  [[nodiscard]] int timesDrawn() const { return timesDrawn_; }
 
  private:
   gl::Framebuffer kept_;
   std::vector<std::byte> drawn_;  // vertices, indices and commands that kept_ shows
-  int timesDrawn_ = 0;
 };
 
 }  // namespace clothsim

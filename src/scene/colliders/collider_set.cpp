@@ -1,6 +1,8 @@
 #include "scene/colliders/collider_set.h"
 
+#include <mutex>
 #include <type_traits>
+#include <utility>
 
 #include "scene/colliders/sampled_mesh.h"
 
@@ -54,18 +56,41 @@ void packWays(const MeshCollider& body, const SampledMesh& mesh, double begin, d
                 body.progressAt(end) - body.progressAt(begin));
 }
 
+// The samples of the grids, one after the other, and the grids that they are from.
+struct Samples {
+  DistanceGrids grids;
+  std::vector<float> values;
+};
+
+// Sets with the same grids share one list: measuring makes a set in every frame. `firsts`: by grid.
+std::shared_ptr<const std::vector<float>> samplesOf(const DistanceGrids& grids,
+                                                    std::vector<std::size_t>& firsts) {
+  static std::mutex mutex;
+  static std::weak_ptr<const Samples> last;
+  std::size_t count = 0;
+  for (const auto& grid : grids) {
+    firsts.push_back(count);
+    count += grid ? grid->samples().size() : 0;
+  }
+  const std::lock_guard lock(mutex);
+  std::shared_ptr<const Samples> shared = last.lock();
+  if (!shared || shared->grids != grids) {
+    Samples made{grids, {}};
+    made.values.reserve(count);
+    for (const auto& grid : grids)
+      if (grid) made.values.insert(made.values.end(), grid->samples().begin(), grid->samples().end());
+    last = shared = std::make_shared<const Samples>(std::move(made));
+  }
+  return {shared, &shared->values};
+}
+
 }  // namespace
 
 ColliderSet::ColliderSet(const Scene& scene, std::size_t mostSamples)
     : colliders_(scene.colliders),
       grids_(distanceGridsOf(scene.colliders, mostSamples)),
       coulomb_(scene.solver.frictionLaw == FrictionLaw::coulomb) {
-  auto distances = std::make_shared<std::vector<float>>();
-  for (const auto& grid : grids_) {
-    firstSamples_.push_back(distances->size());
-    if (grid) distances->insert(distances->end(), grid->samples().begin(), grid->samples().end());
-  }
-  distances_ = std::move(distances);
+  distances_ = samplesOf(grids_, firstSamples_);
 }
 
 // Calls `use` with the shape, or with a mesh at `time` that has its samples.

@@ -28,12 +28,8 @@ FileMesh readMesh(const std::string& file, const std::string& use, double scale)
   for (const tinyobj::shape_t& shape : obj.shapes)
     for (std::size_t i = 0; i + 2 < shape.mesh.indices.size(); i += 3) {
       SolidMesh::Triangle triangle{};
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto point = static_cast<std::size_t>(shape.mesh.indices[i + k].vertex_index);
-        if (point >= mesh.points.size())
-          throw SceneError(file + ": a face names a point that the file does not have");
-        triangle[k] = static_cast<std::uint32_t>(point);
-      }
+      for (std::size_t k = 0; k < 3; ++k)
+        triangle[k] = static_cast<std::uint32_t>(shape.mesh.indices[i + k].vertex_index);
       mesh.triangles.push_back(triangle);
     }
   return mesh;

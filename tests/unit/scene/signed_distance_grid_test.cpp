@@ -137,6 +137,10 @@ TEST_F(MeshFile, StaysTheSameForWhoHoldsItWhateverBecomesOfTheFile) {
   std::weak_ptr<const SignedDistanceGrid> first = distanceGridOf(collider);
   EXPECT_EQ(distanceGridOf(collider), first.lock()) << "computed once";
   const auto held = first.lock();
+  Scene scene;
+  scene.colliders = {collider};
+  const ColliderSet set(scene);
+  EXPECT_EQ(ColliderSet(scene).distances(), set.distances()) << "nor is it copied for another set";
   write("f 1 2 3\n");
   EXPECT_EQ(distanceGridOf(collider), held) << "whatever becomes of the file";
 }
