@@ -76,7 +76,7 @@ CLI::Validator number(double low, double high) { return numberWithin(low, high, 
 // The values of all flags. Each command uses those that it declares.
 struct Arguments {
   bool draw = false;
-  bool describeStep = false, small = false;
+  bool describeStep = false, markdown = false, small = false;
   std::string scene = "pinned2", backend = "auto", from, quality = "auto", viewerQuality = "auto", shader,
               size = "1280x720", key, replay, only;
   std::string cellSize = "560x420", out, view = "0,0", trace;
@@ -123,8 +123,9 @@ CLI::Option* addResolution(CLI::App& app, Arguments& a) {
   return app
       .add_option(
           "--resolution", a.resolutions,
-          "change the number of grid points; pins keep their place on the cloth; auto: as many as suit "
-          "this machine in the demo (`clothsim doctor`)")
+          "change the number of grid points; pins keep their place on the cloth; the thickness of cloth "
+          "with ks changes with the spacing; auto: as many as suit this machine in the demo (`clothsim "
+          "doctor`)")
       ->type_name("WxH")
       ->expected(1);
 }
@@ -132,7 +133,7 @@ CLI::Option* addResolution(CLI::App& app, Arguments& a) {
 CLI::Option* addBackend(CLI::App& app, std::string& backend) {
   return app
       .add_option("--backend", backend,
-                  "gpu (compute shaders), cpu, or auto: gpu but on software OpenGL; the same bits")
+                  "auto: the GPU, or the CPU where OpenGL is a software renderer; the results are identical")
       ->check(CLI::IsMember({"auto", "gpu", "cpu"}))
       ->capture_default_str();
 }
@@ -165,8 +166,9 @@ void addJson(CLI::App& app, Arguments& a) {
 }
 
 void addFirstFrame(CLI::App& app, Arguments& a) {
-  app.add_option("--first-frame", a.firstFrame,
-                 "number of the first frame in names and USD, where --from goes on (default 0)")
+  app.add_option(
+         "--first-frame", a.firstFrame,
+         "number of the first frame in file names and USD, for a run that goes on with --from (default 0)")
       ->transform(wholeNumber(0, 1'000'000));
 }
 
@@ -338,7 +340,9 @@ void declareRender(CLI::App& app, Arguments& a, Task& task) {
       ->check(CLI::IsMember({"auto", "draft", "normal", "final"}))
       ->capture_default_str();
   render
-      ->add_option("--exposures", a.exposures, "of which each picture is the mean, instead of the quality's")
+      ->add_option(
+          "--exposures", a.exposures,
+          "draw each picture so many times and take the mean, instead of as often as the quality does")
       ->transform(wholeNumber(1, MOST_EXPOSURES));
   render->add_option("--from", a.from, "start from a saved .state")->type_name("STATE");
   addSphereSegments(*render, a);
@@ -448,20 +452,27 @@ void declareInfoCommands(CLI::App& app, Arguments& a, Task& task) {
 
   CLI::App* describe = app.add_subcommand(
       "describe", "Explain every scene key: type, unit, range, default, meaning; or a step");
-  CLI::Option* key = describe->add_option("key", a.key, "one key or group, as cloth.ks, cloth or damping");
+  CLI::Option* key =
+      describe->add_option("key", a.key, "one key or group, as cloth.ks, cloth, sphere or damping");
   CLI::Option* step =
       describe
           ->add_flag("--step", a.describeStep,
                      "list the passes that a step of the scene is made of, in order: what each "
                      "runs over, reads, writes and depends on")
           ->excludes(key);
+  describe->add_flag("--markdown", a.markdown, "print all keys as a page, as in docs/scene-format.md")
+      ->excludes(key)
+      ->excludes(step);
   const SceneFlags scene = addSceneFlags(*describe, a, false);
   for (CLI::Option* option : {scene.file, scene.settings, addResolution(*describe, a)}) option->needs(step);
   describe->footer(
       "Examples: clothsim describe, clothsim describe solver, clothsim describe strain_limit,\n"
       "          clothsim describe --step -f pinned2 --set solver.integrator=implicit");
   describe->callback([&] {
-    task = [&] { return a.describeStep ? describeStepCommand(a.sceneOptions()) : describeCommand(a.key); };
+    task = [&] {
+      if (a.markdown) return describeMarkdownCommand();
+      return a.describeStep ? describeStepCommand(a.sceneOptions()) : describeCommand(a.key);
+    };
   });
 }
 

@@ -108,6 +108,7 @@ int probeCommand(const std::string& block, bool small, const std::string& only);
 int doctorCommand(bool json);
 int scenesCommand();
 int describeCommand(const std::string& key);  // "": all keys
+int describeMarkdownCommand();
 int describeStepCommand(const SceneOptions& options);
 
 // Parses argv, runs the subcommand, prints errors to stderr; returns the exit code.

@@ -49,16 +49,18 @@ int scenesCommand() {
 }
 
 int describeCommand(const std::string& typed) {
-  // Also as --set and messages write them: cloths.0.ks, colliders.1.radius, cloth.pinned.0, sphere.radius.
+  // Also as --set and messages write them: cloths.0.ks, colliders.1.radius, cloth.pinned.0.
   std::string key = std::regex_replace(typed, std::regex("^cloths\\.[0-9]+"), "cloth");
-  key = std::regex_replace(key, std::regex("^(sphere|plane)(?=\\.|$)"), "colliders[]");
   key = std::regex_replace(key, std::regex("\\.[0-9]+$"), "");
   key = std::regex_replace(key, std::regex("\\.[0-9]+\\."), "[].");
-  const std::vector<FieldInfo> fields = describeFields();
+  std::vector<FieldInfo> fields = describeFields();
   if (key.empty()) {
     for (const FieldInfo& field : fields) printField(field);
     return 0;
   }
+  // "sphere", "capsule.radius": the keys of that shape alone.
+  const std::vector<FieldInfo> ofShape = describeShape(key.substr(0, key.find('.')));
+  fields.insert(fields.end(), ofShape.begin(), ofShape.end());
   bool found = false;
   std::vector<std::string> paths;
   for (const FieldInfo& field : fields) {
@@ -72,6 +74,11 @@ int describeCommand(const std::string& typed) {
   if (!found)
     throw UsageError("there is no scene key \"" + key + "\"" + didYouMean(key, paths) +
                      "; `clothsim describe` lists all");
+  return 0;
+}
+
+int describeMarkdownCommand() {
+  std::printf("%s", fieldsAsMarkdown().c_str());
   return 0;
 }
 

@@ -2,6 +2,7 @@
 #include "scene_io/describe.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "scene_io/codec.h"
@@ -108,12 +109,77 @@ void describeObject(const std::string& prefix, Infos& infos) {
   }
 }
 
+// A row of a table: key, type with unit and range, default, help.
+std::string markdownRow(const FieldInfo& info, const std::string& key) {
+  std::string value = info.type;
+  if (!info.unit.empty()) value += " [" + info.unit + "]";
+  if (!info.range.empty()) value += ", " + info.range;
+  if (info.live) value += "; live";
+  std::string row = "| `" + key + "` | " + value + " | " + info.defaultValue + " | ";
+  for (const char c : info.help) row += c == '|' ? "\\|" : std::string(1, c);
+  row += " |\n";
+  return row;
+}
+
 }  // namespace
 
 std::vector<FieldInfo> describeFields() {
   Infos infos;
   describeObject<Scene>("", infos);
   return infos;
+}
+
+std::vector<FieldInfo> describeShape(std::string_view type) {
+  Infos infos;
+  for (const Collider& collider : defaultColliders())
+    if (typeOf(collider) == type)
+      std::visit(
+          [&](const auto& shape) {
+            describeObject<std::remove_cvref_t<decltype(shape)>>(std::string(type) + ".", infos);
+          },
+          collider);
+  return infos;
+}
+
+std::string fieldsAsMarkdown() {
+  std::string page =
+      "# Scene files, key by key\n\n"
+      "A scene file is one JSON object. `clothsim describe KEY` prints the same; this page is made by\n"
+      "`clothsim describe --markdown > docs/scene-format.md`. `[]` is one object of a list: in `--set` its "
+      "number\n"
+      "stands there, as `colliders.0.radius`. A key that is *live* acts from the next step on; a change of "
+      "any\n"
+      "other makes the cloth anew. Objects that occur in several places have their table where they come "
+      "first.\n";
+  const auto parentOf = [](const std::string& path) { return path.substr(0, path.find_last_of('.') + 1); };
+  std::map<std::string, std::string> written;  // the rows of a group, which is one object's keys: its path
+  const auto write = [&](const Infos& infos, const std::string& heading) {
+    std::vector<std::string> parents;
+    for (const FieldInfo& info : infos) {
+      std::string parent = info.path.find('.') == std::string::npos ? "" : parentOf(info.path);
+      if (std::ranges::find(parents, parent) == parents.end()) parents.push_back(std::move(parent));
+    }
+    for (const std::string& parent : parents) {
+      std::string rows;
+      for (const FieldInfo& info : infos)
+        if (parentOf(info.path) == parent) rows += markdownRow(info, info.path.substr(parent.size()));
+      const std::string path = parent.substr(0, parent.empty() ? 0 : parent.size() - 1);
+      const auto [first, isNew] = written.emplace(rows, path);
+      const auto lastName = [](const std::string& of) { return of.substr(of.find_last_of('.') + 1); };
+      if (!isNew && lastName(first->second) == lastName(path)) continue;
+      page += "\n" + (path.empty() ? heading : "## `" + path + "`") + "\n\n" +
+              (isNew ? "| key | value | default | |\n|---|---|---|---|\n" + rows
+                     : "The keys of `" + first->second + "`.\n");
+    }
+  };
+  Infos infos = describeFields();
+  std::erase_if(infos, [](const FieldInfo& info) {
+    return info.path.starts_with("colliders[].") && info.path != "colliders[].type";
+  });
+  write(infos, "## The scene");
+  page += "\nThe other keys of a collider are those of its type:\n";
+  for (const Collider& collider : defaultColliders()) write(describeShape(typeOf(collider)), "");
+  return page;
 }
 
 }  // namespace clothsim

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace clothsim {
@@ -17,5 +18,11 @@ struct FieldInfo {
   bool live = false;         // takes effect in the next step; otherwise the cloth is rebuilt
 };
 [[nodiscard]] std::vector<FieldInfo> describeFields();
+
+// The keys of a collider of this type, as "sphere.radius"; none where there is no such type.
+[[nodiscard]] std::vector<FieldInfo> describeShape(std::string_view type);
+
+// All keys as a page in Markdown, a table for each group: docs/scene-format.md.
+[[nodiscard]] std::string fieldsAsMarkdown();
 
 }  // namespace clothsim

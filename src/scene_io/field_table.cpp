@@ -30,8 +30,8 @@ std::span<const Field<Scene>> fieldsOf<Scene>() {
           .within({.high = MOST_SEAMS})
           .rebuilds(),
       field("colliders", &Scene::colliders,
-            "Solid shapes; CS184's `plane` and `sphere` come first. Less than 2 cells thin: physics.md, "
-            "contact."),
+            "CS184's `plane` and `sphere` come first. Implicit steps keep thin shapes, not meshes, from "
+            "slipping through."),
       field("gravity", &Scene::gravity, "Acceleration of every free particle.").in("m/s^2").usually(-20, 20),
       field("wind", &Scene::wind, "Air that moves past the cloth; without it no wind forces are computed."),
       field("air_resistance", &Scene::airResistance,
@@ -142,10 +142,8 @@ std::span<const Field<ClothSettings>> fieldsOf<ClothSettings>() {
           .within({.low = -0.5, .high = 0.9})
           .usually(-0.2, 0.5)
           .rebuilds(),
-      field(
-          "tear_strain", &C::tearStrain,
-          "A spring to a neighbour, or an edge of a mesh, longer than 1 + tear_strain tears; looked at after "
-          "each frame.")
+      field("tear_strain", &C::tearStrain,
+            "A spring or mesh edge stretched beyond this strain (l/L - 1) tears. Checked after each frame.")
           .within(positive)
           .usually(0.05, 1)
           .byDefault("none: nothing tears"),
@@ -303,11 +301,12 @@ std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
             "An implicit step is solved when its last update is this part of the motion in it.")
           .within({.low = 1e-6, .high = 1})
           .usually(1e-4, 1e-2),
-      field("newton_steps", &S::newtonSteps, "Most Newton iterations per implicit step.")
+      field("newton_steps", &S::newtonSteps, "Most Newton steps in an implicit step.")
           .within({.low = 1, .high = 100})
           .usually(1, 40),
       field("cg_iterations", &S::cgIterations,
-            "Most CG iterations per Newton iteration; auto: 20 to 60 by step and contact, fivefold after the "
+            "Most CG iterations in a Newton step; auto: 20 to 60 by step length and contact, fivefold after "
+            "the "
             "11th.")
           .within({.low = 1, .high = 10'000})
           .usually(1, 60),
@@ -324,7 +323,7 @@ std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
           .usually(1, 200)
           .byDefault("30; in scenes with a material \"auto\""),
       field("strain_limit", &S::strainLimit,
-            "Largest allowed stretch l/L - 1: a pass after each step; a second, stiff spring with implicit.")
+            "Largest allowed strain l/L - 1: a pass after each step; a second, stiff spring with implicit.")
           .within(notNegative)
           .usually(0, 0.5)
           .as(Format::orFalse)
@@ -332,9 +331,9 @@ std::span<const Field<SolverSettings>> fieldsOf<SolverSettings>() {
       field(
           "self_collision", &S::selfCollision,
           "Keeps layers apart. averaged: CS184's rule, leaks; robust: does not; contact: in implicit steps.")
-          .byDefault("contact in implicit steps where a cloth has a material, else averaged in scenes with "
-                     "ks, robust with a material, false in others. "
-                     "true means the same, but robust where that is false"),
+          .byDefault("contact in implicit steps with a material, averaged in other scenes with ks, robust in "
+                     "other scenes with a material, else false; true: this default, or robust where it is "
+                     "false"),
       field("self_friction", &S::selfFriction,
             "Coulomb's coefficient of friction between layers of cloth, under robust and contact.")
           .within({.low = 0, .high = 10})
@@ -376,7 +375,7 @@ std::span<const Field<CameraSettings>> fieldsOf<CameraSettings>() {
           .usually(0, 0.1),
       field(
           "shutter", &C::shutter,
-          "How long the shutter is open, in final quality; 0: sharp. Films: half the time between pictures.")
+          "How long the shutter is open, in final quality; 0: sharp. Videos: half the time between pictures.")
           .in("s")
           .within(notNegative)
           .usually(0, 0.1),

@@ -53,9 +53,8 @@ std::span<const Field<RenderSettings>> fieldsOf<RenderSettings>() {
           .within(channel)
           .byDefault("of the material; without one 0.3"),
       field("fuzz", &R::fuzz,
-            "How far loose fibres of the model fabric stand off the cloth, but in draft quality; of velvet "
-            "at least "
-            "0.0015.")
+            "Length of the loose fibres of the model fabric; velvet: at least 0.0015. Not drawn in draft "
+            "quality.")
           .in("m")
           .within(fuzzLimits)
           .usually(0, 0.005)
@@ -68,7 +67,7 @@ std::span<const Field<RenderSettings>> fieldsOf<RenderSettings>() {
           .in("m")
           .within(reliefLimits)
           .usually(-0.05, 0.05),
-      field("strain_range", &R::strainRange, "Stretch l/L - 1 at the end of the strain map's colour scale.")
+      field("strain_range", &R::strainRange, "Strain l/L - 1 at the end of the strain map's colour scale.")
           .within({.low = 1e-6, .high = 100})
           .usually(0.001, 1),
       field("light", &R::light, "Direction towards the main light, of any length.")

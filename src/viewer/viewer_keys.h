@@ -53,13 +53,13 @@ struct ViewerKey {
 inline constexpr std::string_view blowKey = "W", cutKey = "X";
 
 inline constexpr std::array viewerKeys{
-    ViewerKey{"Left drag", "on cloth: grab it; on a solid or a pin: move it; elsewhere: orbit"},
+    ViewerKey{"Left drag", "on cloth: grab it; on a collider or a pin: move it; elsewhere: orbit"},
     ViewerKey{"Right drag", "pan (also Ctrl + left drag)"},
     ViewerKey{"Wheel", "zoom towards the cursor"},
     ViewerKey{"Shift+click", "pin the cloth here, or unpin it"},
     ViewerKey{blowKey, "hold: blow at what is under the cursor"},
     ViewerKey{cutKey, "hold and drag: cut the cloth"},
-    ViewerKey{"G", "handles of the chosen solid or pins: move / turn (Ctrl: in steps)",
+    ViewerKey{"G", "handles of the chosen collider or pins: move / turn (Ctrl: in steps)",
               ViewerAction::nextGizmo},
     ViewerKey{"Space", "reset the camera", ViewerAction::resetCamera},
     ViewerKey{"1", "look from the front; again: from behind", ViewerAction::viewFromFront},
@@ -76,7 +76,7 @@ inline constexpr std::array viewerKeys{
     ViewerKey{"I", "next integrator: verlet, euler, implicit, bdf2", ViewerAction::toggleIntegrator},
     ViewerKey{"Tab", "next shading model", ViewerAction::nextShader},
     ViewerKey{"Q", "next quality of the picture: draft, normal, final", ViewerAction::nextQuality},
-    ViewerKey{"Ctrl+Z", "undo the last change of a parameter, or move of a solid", ViewerAction::undo},
+    ViewerKey{"Ctrl+Z", "undo the last change of a parameter, or move of a collider", ViewerAction::undo},
     ViewerKey{"Ctrl+Shift+Z", "redo it", ViewerAction::redo},
     ViewerKey{"Ctrl+P", "screenshot", ViewerAction::screenshot},
     ViewerKey{"Ctrl+R", "start / stop recording a clip", ViewerAction::recordClip},

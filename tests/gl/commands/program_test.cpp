@@ -429,6 +429,10 @@ TEST(Program, ListsItsScenesAndExplainsItsKeys) {
   EXPECT_EQ(key.exitCode, 0);
   EXPECT_NE(key.output.find("N/m"), std::string::npos) << key.output;
   EXPECT_EQ(clothsim("describe").exitCode, 0);
+  const std::string sphere = clothsim("describe sphere").output;
+  EXPECT_NE(sphere.find("sphere.radius\n"), std::string::npos) << sphere;
+  EXPECT_EQ(sphere.find("normal"), std::string::npos) << "a key of planes: " << sphere;
+  EXPECT_NE(clothsim("describe capsule.radius").output.find("capsule.radius\n"), std::string::npos);
 }
 
 TEST(Program, MeasuresImplicitStepsWithoutContactAndWithIt) {

@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
+
+#include "core/files.h"
 
 namespace clothsim {
 namespace {
@@ -49,6 +52,19 @@ TEST(DescribeFields, TellsTypeUnitRangeDefaultAndWhenAChangeTakesEffect) {
 TEST(DescribeFields, NamesEveryKeyOnce) {
   std::set<std::string> paths;
   for (const FieldInfo& field : describeFields()) EXPECT_TRUE(paths.insert(field.path).second) << field.path;
+}
+
+TEST(DescribeFields, TellsTheKeysOfAShapeAlone) {
+  std::set<std::string> paths;
+  for (const FieldInfo& field : describeShape("sphere")) paths.insert(field.path);
+  EXPECT_TRUE(paths.contains("sphere.origin") && paths.contains("sphere.radius"));
+  EXPECT_FALSE(paths.contains("sphere.normal") || paths.contains("sphere.file"));
+  EXPECT_TRUE(describeShape("cube").empty());
+}
+
+TEST(DescribeFields, AreThePageOfSceneFiles) {
+  EXPECT_EQ(readFile(std::filesystem::path(SOURCE_ROOT) / "docs/scene-format.md"), fieldsAsMarkdown())
+      << "make it anew: clothsim describe --markdown > docs/scene-format.md";
 }
 
 TEST(DescribeFields, HelpsInOneLineThatFitsATerminal) {
