@@ -315,9 +315,8 @@ void RunWatch::addStart(std::vector<Warning>& warnings, const Scene& scene) cons
     warnings.push_back(
         {"start", 0, "a collider is smaller than a cell",
          std::to_string(unseenColliders_) + (unseenColliders_ == 1 ? " collider is" : " colliders are") +
-             " so thin that particles can be on all sides, and may pass through the cloth; raise "
-             "the resolution, or set solver.integrator to \"implicit\", where small colliders "
-             "but meshes act on triangles, too"});
+             " thinner than a cell and may pass through the cloth. Raise the resolution, or set "
+             "solver.integrator=implicit (this does not help mesh colliders)."});
   if (thinLayers_) warnings.push_back(*thinLayers_);
 }
 

@@ -44,7 +44,7 @@ the state before: ask for new ones.)";
 inline constexpr const char* time = "Simulated time [s].";
 inline constexpr const char* frame = "Frames that fit into `time`, rounded.";
 inline constexpr const char* backend = "\"cpu\" or \"gpu\".";
-inline constexpr const char* device = "What it runs on, for people.";
+inline constexpr const char* device = "Name of the device, for display.";
 inline constexpr const char* remarks = "What the program would tell about the scene on stderr: sentences.";
 
 inline constexpr const char* positions =

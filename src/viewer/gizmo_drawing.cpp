@@ -253,8 +253,8 @@ void drawGizmoButtons(float pictureWidth, std::optional<GizmoMode> on, glm::vec2
   }
   if (!under) return;
   ImGui::BeginTooltip();
-  ImGui::TextUnformatted(*under == GizmoMode::move ? "Move the chosen solid or pins (G)"
-                                                   : "Turn the chosen solid or pins (G)");
+  ImGui::TextUnformatted(*under == GizmoMode::move ? "Move the chosen collider or pins (G)"
+                                                   : "Turn the chosen collider or pins (G)");
   quietText("Click one to choose it. Ctrl: in steps");
   ImGui::EndTooltip();
 }

@@ -275,7 +275,7 @@ void OpenDialog::drawButtons() {
     if (ImGui::Button("As cloth", {width, 0})) decide(OpenChoice::Use::cloth);
     helpTip("Cotton with the shape of the mesh falls over a ball (Enter).");
     ImGui::SameLine();
-    if (ImGui::Button("As a solid", {width, 0})) decide(OpenChoice::Use::solid);
+    if (ImGui::Button("As a collider", {width, 0})) decide(OpenChoice::Use::solid);
     helpTip("Puts the mesh, which must be closed, into the scene that is open.");
   } else if (ImGui::Button("Open", {width, 0})) {
     enter();

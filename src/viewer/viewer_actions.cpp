@@ -256,7 +256,7 @@ void Viewer::showGizmo(GizmoMode mode) {
   if (chosen.isDragged()) return;
   chosen.mode = mode;
   if (!chosen.gizmo(mouseContext()) && !chosen.chooseFirst(mouseContext()))
-    say("This scene has neither solids nor pins that can be moved");
+    say("This scene has neither colliders nor pins that can be moved");
 }
 
 void Viewer::setQuality(Quality quality) {
@@ -307,7 +307,7 @@ void Viewer::restart() {
 
 void Viewer::startAnew() {
   restart();
-  say("Springs and fabrics differ too much for a change in motion: starts again", longNoticeSeconds);
+  say("The cloth restarts: springs and fabric cannot be exchanged while it moves.", longNoticeSeconds);
 }
 
 bool Viewer::startsAgain() {
@@ -409,7 +409,7 @@ void Viewer::openChosen(const OpenChoice& choice) {
   whenIdle([=, this] {
     const bool went = attempt([&] {
       edit(withMeshSolid(open_->scene(), choice.path, toVec3d(open_->camera().target())), false);
-      say("The mesh is a solid of this scene now (Ctrl+Z takes it out)", longNoticeSeconds);
+      say("The mesh is a collider of this scene now (Ctrl+Z takes it out)", longNoticeSeconds);
       mouse_.chosen().chooseSolid(open_->scene().colliders.size() - 1);
     });
     went ? dialog_.close() : tellDialog();

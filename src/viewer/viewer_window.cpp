@@ -29,7 +29,7 @@ std::string lastGlfwError() {
 std::string noWindow(const std::string& reason, const std::string& sceneName) {
   return "No window can be opened: " + reason + "\nThese commands need no screen:\n  clothsim render -f " +
          sceneName +
-         " --frames 240 --out clip.mp4     a film, or a picture with --out still.png\n  clothsim run -f " +
+         " --frames 240 --out clip.mp4     a video, or a picture with --out still.png\n  clothsim run -f " +
          sceneName + " --frames 240 --save last.ply      the simulation alone, as a mesh";
 }
 

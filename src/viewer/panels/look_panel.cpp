@@ -61,8 +61,9 @@ void drawLookPanel(PanelContext& context) {
   const int quality = static_cast<int>(context.quality);
   const int chosen = segmentedButtons("quality", qualities, 3, quality);
   helpTip(
-      "draft: on a software renderer the scene is drawn in as few pixels as a fluent picture needs, with "
-      "coarser shadows. normal: in fewer pixels only below 30 frames/s. final: as render draws it. A setting "
+      "draft: on a software renderer the scene is drawn in as few pixels as a smooth frame rate needs, "
+      "with coarser shadows. normal: in fewer pixels only below 30 frames/s. final: as render draws it. A "
+      "setting "
       "of the viewer, not of the scene (Q).");
   if (chosen != quality) context.requests.quality = static_cast<Quality>(chosen);
   ImGui::Separator();

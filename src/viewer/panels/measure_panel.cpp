@@ -202,11 +202,11 @@ void MeasurePanel::drawConvergence() {
   row("unconverged steps",
       formatted("%llu of %llu", static_cast<unsigned long long>(all.unconvergedSteps),
                 static_cast<unsigned long long>(all.steps)),
-      "Implicit steps that ended before they were solved to solver.tolerance, since the scene was opened. "
+      "Implicit steps that ended before they converged to solver.tolerance, since the scene was opened. "
       "Set solver.simulation_steps or solver.newton_steps higher.");
   row("last update", formatted("%.2g", all.lastUpdate),
-      "Of the last step: how much its last Newton step changed the displacements, over the largest "
-      "displacement or the spacing. Cloth is at rest when its kinetic energy is low and this is below "
+      "The last Newton step's largest change, divided by the largest displacement or by a tenth of the "
+      "spacing, whichever is larger. Cloth is at rest when its kinetic energy is low and this is below "
       "0.001.");
   row("iterations a step",
       recent.steps > 0
