@@ -289,8 +289,8 @@ void declareSimulationCommands(CLI::App& app, Arguments& a, Task& task) {
       "What\n"
       "springs, integration and strain limit need at least counts, each spring once; contacts do not. Passes "
       "are\n"
-      "timed one by one: they take longer than in a step, where they share a wave. Example:\n"
-      "clothsim bench --resolution 256x256");
+      "timed one by one: they take longer than in a step, where they share a wave.\n"
+      "Example: clothsim bench --resolution 256x256");
   bench->callback([&] {
     task = [&] {
       BenchOptions options{.scene = {a.scene, std::nullopt, a.settings, {}},
