@@ -24,7 +24,7 @@ int main(int argc, char** argv) try {
   const Measures measures = measure(simulation.cloth(), simulation.scene(), state);
   std::printf("after %.3f s: lowest point %.4f m, largest strain %.2f %%, state %s\n", simulation.time(),
               measures.minY, 100 * measures.maxStrain, hashText(stateHash(state)).c_str());
-  if (argc > 1) saveState(state, simulation.cloth(), argv[1]);  // .obj, .ply, .csv or .state
+  if (argc > 1) saveState(state, simulation.cloth(), argv[1]);  // .obj, .ply, .csv, .glb, .npz or .state
 } catch (const Error& error) {
   std::cerr << "drape: " << error.what() << '\n';
   return static_cast<int>(error.exitCode());
