@@ -37,8 +37,11 @@ using uint = std::uint32_t;
 #define NEAREST_CORNER 1u
 #define NEAREST_SIDE 4u
 
-// A step goes on so many times from where motion was cut short, the first time included.
-#define CONTACT_ROUNDS 2
+// A step is solved so many times at most: it goes on from where motion was cut short, or parts were pushed
+// far apart. Otherwise the cloth around would be stretched, by half its length where silk falls into folds.
+#define CONTACT_ROUNDS 4
+// Further than this part of the largest push is far.
+#define FAR_PUSH 0.25f
 
 // Rounds of the guard: in the first ones, pairs that the motion so far brings too near are pushed apart. In
 // the others they keep to their own sides; in the last one, if there were some in the round before, all do.
@@ -182,14 +185,14 @@ struct SurfaceState {
   uint tooMany;    // 1: there was no room for all pairs; 2: the state is broken, and nothing is looked for
   uint pairs;      // that may touch
   uint isGuarded;  // some motion was cut short
-  uint isLater;    // the step goes on from where motion was cut short,
+  uint isLater;    // the step goes on from where motion was cut short or parts were pushed far apart,
 
   uint tooNear[GUARD_ROUNDS];  // by round of the guard: some pair was
 
   uint isSettled;  // or would have, but there was none
   uint moved;      // on the GPU, particles that this round of the guard has moved or held back so far
   uint keptPairs;  // on the GPU, how many pairs the step before had
-  uint unusedA;
+  uint isPushed;   // of this step so far: some part was pushed far (FAR_PUSH)
 
   // Of all steps:
   uint mostPairs;     // in a step; also those that there was no room for

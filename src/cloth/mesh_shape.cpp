@@ -1,10 +1,14 @@
 #include "cloth/mesh_shape.h"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <set>
 #include <sstream>
+#include <tuple>
 
 #include "cloth/stiffness_map.h"
 #include "core/error.h"
@@ -243,12 +247,14 @@ MeshShape load(const std::string& file) {
 }  // namespace
 
 std::shared_ptr<const MeshShape> meshShapeOf(const std::string& file) {
-  using Version = std::pair<std::string, fs::file_time_type>;  // of a file
+  // Of a file: when it was written, and its number, since the clock ticks seldom.
+  using Version = std::tuple<std::string, std::int64_t, std::int64_t, std::uint64_t>;
   static Recent<Version, MeshShape> shapes(MOST_KEPT_POINTS);
   const fs::path path = meshPath(file);
-  std::error_code missing;  // Reading the file will report it.
-  const Version version{path.string(), fs::last_write_time(path, missing)};
-  if (auto shape = shapes.find(version); shape && !missing) return shape;
+  struct stat facts {};
+  const bool isThere = ::stat(path.c_str(), &facts) == 0;  // otherwise reading the file will report it
+  const Version version{path.string(), facts.st_mtim.tv_sec, facts.st_mtim.tv_nsec, facts.st_ino};
+  if (auto shape = shapes.find(version); shape && isThere) return shape;
   auto shape = std::make_shared<const MeshShape>(load(file));
   shapes.add(version, shape, shape->points.size());
   return shape;

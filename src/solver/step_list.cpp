@@ -117,8 +117,8 @@ class StepBuilder {
     if (hasPairs()) list_.add(Pass::keepSlips);
   }
 
-  // Where motion was cut short, the step goes on from there, with the contacts that are there. Otherwise this
-  // changes nothing.
+  // Where motion was cut short, or parts were pushed far apart, the step goes on from there, with the
+  // contacts that are there. Otherwise this changes nothing.
   void goOnAfterContact() {
     list_.add(Pass::settle);
     list_.add(Pass::findTouching, 1);

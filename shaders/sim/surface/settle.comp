@@ -1,4 +1,4 @@
-// Where motion was cut short, the step goes on from there.
+// Where motion was cut short, or parts were pushed far apart, the step goes on from there.
 #include "shared/implicit.h"
 #include "sim/implicit/scalars.glsl"
 #include "sim/surface/common.glsl"
@@ -13,7 +13,7 @@ layout(std430, binding = SURFACE_COUNTS_BINDING) writeonly buffer SafeVelocities
 
 void main() {
   uint i = thisEntry();
-  bool goesOn = state.isGuarded != 0u;
+  bool goesOn = state.isGuarded != 0u || state.isPushed != 0u;
   if (i == 0u) {
     state.isLater = 1u;
     state.isSettled = goesOn ? 0u : 1u;

@@ -281,6 +281,7 @@ void SurfaceContact<Real>::guard(const CpuState<Real>& before, CpuState<Real>& a
              triangles = static_cast<std::uint32_t>(surface_.triangles.size());
   if (round == 0) {
     std::fill(std::begin(state_.tooNear), std::end(state_.tooNear), 0u);
+    state_.isPushed = 0;
     kept_.assign(particles, Real(1));
     newlyKept_ = kept_;
     corrections_.assign(particles, {});
@@ -374,7 +375,9 @@ void SurfaceContact<Real>::correct(CpuState<Real>& after, const StepParams<Real>
     const Real part = (surface_.quantum * Real(CORRECTION_WEIGHT)) * weight;
     const Vec3<Real> moved =
         part * Vec3<Real>{fromQuanta<Real>(sum.x), fromQuanta<Real>(sum.y), fromQuanta<Real>(sum.z)};
-    state_.largestCorrection = std::max(state_.largestCorrection, gapBits(lengthOf(moved)));
+    const Real far = lengthOf(moved);
+    state_.largestCorrection = std::max(state_.largestCorrection, gapBits(far));
+    if (far > static_cast<Real>(FAR_PUSH) * surface_.largestPush) state_.isPushed = 1;
     put(after.positions, i, canonical(at(after.positions, i) + moved));
     put(after.velocities, i, canonical(at(after.velocities, i) + step.inverseTimeStep * moved));
     corrections_[i] = {};
@@ -407,9 +410,10 @@ template <class Real>
 void SurfaceContact<Real>::settle(const CpuState<Real>& before, const CpuState<Real>& after,
                                   ImplicitState<Real>& implicit) {
   state_.isLater = 1;
-  state_.isSettled = state_.isGuarded != 0 ? 0 : 1;
+  const bool goesOn = state_.isGuarded != 0 || state_.isPushed != 0;
+  state_.isSettled = goesOn ? 0 : 1;
   std::uint32_t& isSolved = implicit.scalars.isStepSolved;
-  isSolved = state_.isGuarded != 0 ? 0 : isSolved == 1 ? 1 : STEP_ENDED;
+  isSolved = goesOn ? 0 : isSolved == 1 ? 1 : STEP_ENDED;
   safePositions_ = after.positions;
   safeVelocities_ = after.velocities;
   if (state_.isSettled != 0) return;
