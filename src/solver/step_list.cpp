@@ -307,6 +307,9 @@ void PassList::findGateEnds() {
     while (end < passes.size() && passes[end].traits().gate >= passes[i].traits().gate) end = gateEnds[end];
     gateEnds[i] = static_cast<std::uint32_t>(end);
   }
+  const auto last = std::find_if(passes.rbegin(), passes.rend(),
+                                 [](const PassCall& call) { return call.pass == Pass::shorten; });
+  settledEnd = static_cast<std::uint32_t>(passes.rend() - last);
 }
 
 std::size_t mostLevels(const Cloth& cloth, const Cuts& cuts) {

@@ -45,7 +45,9 @@ struct PassList {
   // Of each pass, the first one behind it with a gate that closes later: where a pass does nothing since its
   // gate is closed, so do all before that one. A step may take thousands of passes and need a few.
   std::vector<std::uint32_t> gateEnds;
-  void findGateEnds();  // to be called once the passes stand
+  // Behind the rounds of contact: where the first `settle` finds nothing to go on with, they do nothing.
+  std::uint32_t settledEnd = 0;
+  void findGateEnds();  // finds both; to be called once the passes stand
 
   [[nodiscard]] bool contains(Pass pass) const;
 };

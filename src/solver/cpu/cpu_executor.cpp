@@ -139,6 +139,7 @@ void CpuExecutor<Real>::run(const StepInputs& inputs, const PassList& list, int)
     const std::size_t count = !sweeps_ ? 1 : byRows ? sweepLength(rest) : cpu::waveLength(rest);
     runSweep(rest.first(count));
     next += count;
+    if (rest.front().pass == Pass::settle && isSkipped(Gate::step)) next = list.settledEnd;
   }
   adopt(list.outcome);
   if (list.contains(Pass::predictPlanes)) {

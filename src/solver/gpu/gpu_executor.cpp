@@ -193,6 +193,7 @@ void GpuExecutor::run(const StepInputs& inputs, const PassList& list, int steps)
     runKernel(choice.kernel, taken);
     askForFlags(taken);
     next += taken.size();
+    if (rest.front().pass == Pass::settle && isClosed(Gate::step)) next = list.settledEnd;
   }
 
   if (list.outcome == Outcome::state) std::swap(arrays_[Array::positions], arrays_[Array::newPositions]);
