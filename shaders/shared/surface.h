@@ -189,10 +189,10 @@ struct SurfaceState {
 
   uint tooNear[GUARD_ROUNDS];  // by round of the guard: some pair was
 
-  uint isSettled;  // or would have, but there was none
-  uint moved;      // on the GPU, particles that this round of the guard has moved or held back so far
-  uint keptPairs;  // on the GPU, how many pairs the step before had
-  uint isPushed;   // of this step so far: some part was pushed far (FAR_PUSH)
+  uint isSettled;     // or would have, but there was none
+  uint moved;         // on the GPU, particles that this round of the guard has moved or held back so far
+  uint keptPairs;     // on the GPU, how many pairs the step before had
+  uint wasPushedFar;  // of this step so far: some part was pushed far (FAR_PUSH)
 
   // Of all steps:
   uint mostPairs;     // in a step; also those that there was no room for

@@ -49,7 +49,8 @@ class PointCacheWriter final : public SequenceWriter {
 
   [[nodiscard]] std::vector<std::string> losses() const override {
     if (!isCut_) return {};
-    return {"keeps the triangles of the start, but cloth was cut or tore; save .usda, .usdc or .usd"};
+    return {path_.string() +
+            " keeps the triangles of the start, but cloth was cut or tore; save .usda, .usdc or .usd"};
   }
 
   void close() override {

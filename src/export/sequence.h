@@ -24,7 +24,7 @@ class SequenceWriter {
   // Adds the next frame, with the cloth and the scene as they are then: a replay may have edited them.
   // @throws InputOutputError, also for cloth with other points or triangles than that of the start
   virtual void addFrame(const State& state, const Cloth& cloth, const Scene& scene) = 0;
-  // What the file shows otherwise than the frames were, since its kind cannot do better, as "keeps ...".
+  // What the file shows otherwise than the frames were, since its kind cannot do better: a sentence each.
   [[nodiscard]] virtual std::vector<std::string> losses() const = 0;
   // The file is complete with the frames that were added. @throws InputOutputError
   virtual void close() = 0;

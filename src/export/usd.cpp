@@ -84,11 +84,11 @@ class UsdWriter final : public SequenceWriter {
   [[nodiscard]] std::vector<std::string> losses() const override {
     std::vector<std::string> losses;
     if (hasOtherSolids_)
-      losses.emplace_back(
-          "shows the solids of the start alone, but some were added, removed or changed on the way");
+      losses.push_back(path_.string() +
+                       " shows the colliders of the start alone, but some were added, removed or changed");
     if (hasOtherPace_)
-      losses.push_back("plays " + usdNumber(times_.framesPerSecond) +
-                       " frames a second throughout, but solver.frames_per_sec was changed on the way");
+      losses.push_back(path_.string() + " plays " + usdNumber(times_.framesPerSecond) +
+                       " frames a second throughout, but solver.frames_per_sec was changed");
     return losses;
   }
 
@@ -107,7 +107,7 @@ class UsdWriter final : public SequenceWriter {
   }
 
  private:
-  // Solids may be moved and turned between frames.
+  // Colliders may be moved and turned between frames.
   void follow(const Scene& scene) {
     hasOtherPace_ = hasOtherPace_ || scene.solver.framesPerSec != times_.framesPerSecond;
     if (scene.colliders == colliders_) return;

@@ -1,6 +1,7 @@
 #include "simulation/saved_files.h"
 
 #include <regex>
+#include <utility>
 
 #include "core/error.h"
 #include "core/files.h"
@@ -19,11 +20,10 @@ SavedFiles::SavedFiles(const std::vector<std::string>& names, int every, int fra
                        const Simulation& simulation, int first)
     : every_(every), frames_(frames), first_(first) {
   for (const std::string& name : names) {
-    if (isSequence(name)) {
+    if (isSequence(name))
       sequences_.push_back(makeSequenceWriter(name, simulation.cloth(), simulation.scene(),
                                               {simulation.scene().solver.framesPerSec, every, first}));
-      sequenceNames_.push_back(name);
-    } else if (canSaveStateAs(name))
+    else if (canSaveStateAs(name))
       states_.push_back(name);
     else
       throw UsageError(
@@ -42,8 +42,8 @@ void SavedFiles::add(const Simulation& simulation, const State& state, int frame
 
 std::vector<std::string> SavedFiles::losses() const {
   std::vector<std::string> all;
-  for (std::size_t i = 0; i < sequences_.size(); ++i)
-    for (const std::string& loss : sequences_[i]->losses()) all.push_back(sequenceNames_[i] + " " + loss);
+  for (const auto& sequence : sequences_)
+    for (std::string& loss : sequence->losses()) all.push_back(std::move(loss));
   return all;
 }
 

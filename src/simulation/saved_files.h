@@ -27,14 +27,13 @@ class SavedFiles {
   void add(const Simulation& simulation, const State& state, int frame);
   // Closes the sequences, which are complete from then on, with the frames that were added.
   void finish();
-  // What sequences show otherwise than the frames were, a sentence each (SequenceWriter::losses()).
+  // SequenceWriter::losses() of all.
   [[nodiscard]] std::vector<std::string> losses() const;
 
  private:
   int every_, frames_, first_;
   std::vector<std::string> states_;
   std::vector<std::unique_ptr<SequenceWriter>> sequences_;
-  std::vector<std::string> sequenceNames_;
 };
 
 }  // namespace clothsim

@@ -45,13 +45,13 @@ def read_triangles(path):
     return numpy.array([[face[0], face[i], face[i + 1]] for face in corners for i in range(1, len(face) - 1)], dtype=numpy.int32)
 
 
-def joints_of(scene, size):
+def joints_of(scene, size, particles):
     """Of each particle the lowest one that the scene's seams join to it. Seams from side to side of square grids, as in pillow."""
     import numpy
     text = json.loads((root / f"assets/scenes/{scene}.json").read_text())
+    joints = numpy.arange(particles)
     grid = numpy.arange(size * size).reshape(size, size)
     sides = {"bottom": grid[0], "top": grid[-1], "left": grid[:, 0], "right": grid[:, -1]}
-    joints = numpy.arange(max(1, len(text.get("cloths", []))) * size * size)
     for seam in text.get("seams", []):
         a, b = (sides[seam[end]["points"][0]][::-1 if seam[end].get("reverse") else 1] + seam[end]["cloth"] * size * size for end in "ab")
         for i, j in zip(a, b, strict=True):
@@ -139,8 +139,7 @@ def judge(job):
     seconds = scenes[scene] / 60
     crossed = blocked = 0
     vertex = side = 0.0
-    found = Judge(numpy.asfortranarray(frames[0]), triangles,
-                  joints_of(scene, size) if scene == "pillow" else numpy.arange(frames.shape[1]))
+    found = Judge(numpy.asfortranarray(frames[0]), triangles, joints_of(scene, size, frames.shape[1]))
     edges = found.mesh.edges
     for at, place in enumerate(numpy.asfortranarray(frame) for frame in frames):
         crossed += found.crosses(place)

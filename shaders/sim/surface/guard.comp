@@ -203,7 +203,7 @@ void correct(uint i) {
   float squared = sumOfProducts(motion, motion);
   precise float far = squared * inverseSquareRoot(squared);
   atomicMax(state.largestCorrection, floatBitsToUint(canonical(far)));
-  if (far > FAR_PUSH * surface.largestPush) state.isPushed = 1u;
+  if (far > FAR_PUSH * surface.largestPush) state.wasPushedFar = 1u;
   newPositions[i] = vec4(canonical(end), place.w);
   newVelocities[i] = vec4(canonical(velocity), 0.0);
   for (uint k = 4u * i; k < 4u * i + 4u; ++k) corrections[k] = 0;

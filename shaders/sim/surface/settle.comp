@@ -13,7 +13,7 @@ layout(std430, binding = SURFACE_COUNTS_BINDING) writeonly buffer SafeVelocities
 
 void main() {
   uint i = thisEntry();
-  bool goesOn = state.isGuarded != 0u || state.isPushed != 0u;
+  bool goesOn = state.isGuarded != 0u || state.wasPushedFar != 0u;
   if (i == 0u) {
     state.isLater = 1u;
     state.isSettled = goesOn ? 0u : 1u;

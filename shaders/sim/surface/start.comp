@@ -41,7 +41,7 @@ void begin() {
 #else
   for (uint round = 0u; round < uint(GUARD_ROUNDS); ++round) state.tooNear[round] = 0u;
   state.isGuarded = 0u;
-  state.isPushed = 0u;
+  state.wasPushedFar = 0u;
 #endif
   state.isFlat = 0u;
   for (uint pass = 0u; pass < uint(PASSES); ++pass)

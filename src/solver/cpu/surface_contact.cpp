@@ -281,7 +281,7 @@ void SurfaceContact<Real>::guard(const CpuState<Real>& before, CpuState<Real>& a
              triangles = static_cast<std::uint32_t>(surface_.triangles.size());
   if (round == 0) {
     std::fill(std::begin(state_.tooNear), std::end(state_.tooNear), 0u);
-    state_.isPushed = 0;
+    state_.wasPushedFar = 0;
     kept_.assign(particles, Real(1));
     newlyKept_ = kept_;
     corrections_.assign(particles, {});
@@ -377,7 +377,7 @@ void SurfaceContact<Real>::correct(CpuState<Real>& after, const StepParams<Real>
         part * Vec3<Real>{fromQuanta<Real>(sum.x), fromQuanta<Real>(sum.y), fromQuanta<Real>(sum.z)};
     const Real far = lengthOf(moved);
     state_.largestCorrection = std::max(state_.largestCorrection, gapBits(far));
-    if (far > static_cast<Real>(FAR_PUSH) * surface_.largestPush) state_.isPushed = 1;
+    if (far > static_cast<Real>(FAR_PUSH) * surface_.largestPush) state_.wasPushedFar = 1;
     put(after.positions, i, canonical(at(after.positions, i) + moved));
     put(after.velocities, i, canonical(at(after.velocities, i) + step.inverseTimeStep * moved));
     corrections_[i] = {};
@@ -410,7 +410,7 @@ template <class Real>
 void SurfaceContact<Real>::settle(const CpuState<Real>& before, const CpuState<Real>& after,
                                   ImplicitState<Real>& implicit) {
   state_.isLater = 1;
-  const bool goesOn = state_.isGuarded != 0 || state_.isPushed != 0;
+  const bool goesOn = state_.isGuarded != 0 || state_.wasPushedFar != 0;
   state_.isSettled = goesOn ? 0 : 1;
   std::uint32_t& isSolved = implicit.scalars.isStepSolved;
   isSolved = goesOn ? 0 : isSolved == 1 ? 1 : STEP_ENDED;

@@ -229,7 +229,7 @@ TEST_F(Sequence, FollowsSolidsThatAreMovedAndSaysWhatItCannotFollow) {
   std::get<Sphere>(scene_.colliders[0]).radius = 0.125;
   writer->addFrame(second_, cloth_, scene_);
   ASSERT_EQ(writer->losses().size(), 2u);
-  EXPECT_TRUE(has(writer->losses()[0], "solids of the start alone") &&
+  EXPECT_TRUE(has(writer->losses()[0], "colliders of the start alone") &&
               has(writer->losses()[1], "60 frames a second"));
   writer->close();
   const std::string text = readFile(folder_ / "a.usda");
