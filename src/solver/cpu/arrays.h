@@ -44,6 +44,11 @@ INLINE void put(const Arrays<Real>& c, std::ptrdiff_t i, Vec3<Real> v) {
   c.y[i] = v.y;
   c.z[i] = v.z;
 }
+// The same numbers, counted from the one that is at `from`.
+template <class Real>
+INLINE Arrays<Real> countedFrom(std::ptrdiff_t from, const Arrays<Real>& c) {
+  return {c.x + from, c.y + from, c.z + from};
+}
 template <class Real>
 INLINE Vec3<Real> at(const Components<Real>& c, std::ptrdiff_t i) {
   return at(arraysOf(c), i);

@@ -1,24 +1,28 @@
-// Room for the forces of springs and triangles of the rows about the one that is worked on, so that each is
-// computed once for all particles that it acts on.
+// Room for the forces of springs, triangles and bending lines of the rows about the one that is worked on, so
+// that each is computed once for all particles that it acts on.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <new>
+#include <utility>
 #include <vector>
 
 #include "cloth/cloth.h"
 #include "solver/cpu/arrays.h"
+#include "solver/cpu/rows.h"
 
 namespace clothsim::cpu {
 
 template <class Real>
 class ForceRows {
  public:
-  // By their owners: springs by slot, then the two triangles of a cell.
+  // By their owners: springs by slot, then the two triangles of a cell, then the bending lines around a
+  // particle.
   static constexpr std::size_t UPPER_TRIANGLE = SPRING_SLOTS, LOWER_TRIANGLE = SPRING_SLOTS + 1,
-                               KINDS = SPRING_SLOTS + 2;
+                               LINE_ALONG_ROW = SPRING_SLOTS + 2, LINE_ALONG_COLUMN = SPRING_SLOTS + 3,
+                               KINDS = SPRING_SLOTS + 4;
 
   // For rows of a grid, ascending and without gaps. Returns whether there is memory for them.
   [[nodiscard]] bool begin(int columns) noexcept try {
@@ -58,5 +62,55 @@ class ForceRows {
   std::array<int, KINDS> ends_{};  // rows before these are there
   std::vector<Real> values_;
 };
+
+// work(begin, end) for sixteen particles each, so that a loop over them needs no remainder: the last ones may
+// be worked on twice, which must do no harm.
+template <class Work>
+INLINE void forEachSixteen(Range particles, Work work) {
+  constexpr std::ptrdiff_t sixteen = 16;
+  const std::ptrdiff_t last = particles.end - sixteen;
+  if (last < particles.begin) return work(particles.begin, particles.end);
+  for (std::ptrdiff_t begin = particles.begin; begin < last; begin += sixteen) work(begin, begin + sixteen);
+  work(last, last + sixteen);
+}
+
+// A row of forces by the columns of their owners, and how far from a particle to the owner.
+template <class Real>
+struct Term {
+  Arrays<Real> of;
+  std::ptrdiff_t shift;
+};
+
+// The sums, or 0, + g or - g for each of the terms, in their order; sums stay in registers meanwhile.
+template <bool fromZero, bool... plus, class Real, std::size_t... k>
+INLINE void addTerms(const Arrays<Real>& sums, std::ptrdiff_t count,
+                     const std::array<Term<Real>, sizeof...(k)>& terms, std::index_sequence<k...>) {
+  for (Real* Arrays<Real>::*const component : {&Arrays<Real>::x, &Arrays<Real>::y, &Arrays<Real>::z}) {
+    Real* const to = sums.*component;
+    const Real* const from[]{terms[k].of.*component + terms[k].shift...};
+#pragma GCC ivdep
+    for (std::ptrdiff_t c = 0; c < count; ++c) {
+      Real sum = fromZero ? Real(0) : to[c];
+      ((sum = plus ? sum + from[k][c] : sum - from[k][c]), ...);
+      to[c] = sum;
+    }
+  }
+}
+
+// The sums of what springs do to the particles of a row, in the order of incidentSprings, from the rows of
+// their owners. What one end feels is exactly the negative of what the other does. Where there is no spring,
+// a 0 is added: sums that begin with 0 are never -0, so that nothing changes.
+template <class Real>
+INLINE void sumSprings(ForceRows<Real>& rows, int row, const Arrays<Real>& sums, std::ptrdiff_t count) {
+  const auto sum = [&]<std::size_t... k>(std::index_sequence<k...> all) __attribute__((always_inline)) {
+    const auto term = [&](const IncidentSpring& incident) __attribute__((always_inline)) {
+      return incident.owned ? Term<Real>{rows.row(incident.slot, row), 0}
+                            : Term<Real>{rows.row(incident.slot, row + incident.rows), incident.columns};
+    };
+    addTerms<true, incidentSprings[k].owned...>(
+        sums, count, std::array<Term<Real>, sizeof...(k)>{term(incidentSprings[k])...}, all);
+  };
+  sum(std::make_index_sequence<incidentSprings.size()>());
+}
 
 }  // namespace clothsim::cpu

@@ -21,17 +21,6 @@
 namespace clothsim::cpu {
 namespace {
 
-// work(begin, end) for sixteen particles each, so that a loop over them needs no remainder: the last ones may
-// be worked on twice, which must do no harm.
-template <class Work>
-INLINE void forEachSixteen(Range particles, Work work) {
-  constexpr std::ptrdiff_t sixteen = 16;
-  const std::ptrdiff_t last = particles.end - sixteen;
-  if (last < particles.begin) return work(particles.begin, particles.end);
-  for (std::ptrdiff_t begin = particles.begin; begin < last; begin += sixteen) work(begin, begin + sixteen);
-  work(last, last + sixteen);
-}
-
 // The forces of the springs that the particles of a stretch own, into `row`. Returns the largest bits of l^2.
 template <bool hasCuts, class Real, class RestLengths>
 INLINE auto computeSprings(const PassArguments<Real>& arguments, Range particles, SpringPlace place,
@@ -89,37 +78,11 @@ INLINE void computeSprings(const PassArguments<Real>& arguments, std::uint32_t s
   if (!areThere) rows.clear(slot, row);
 }
 
-// A row of forces by the columns of their owners, and how far from a particle to the owner.
-template <class Real>
-struct Term {
-  Arrays<Real> of;
-  std::ptrdiff_t shift;
-};
-
-// The sums, or 0, + g or - g for each of the terms, in their order; sums stay in registers meanwhile.
-template <bool fromZero, bool... plus, class Real, std::size_t... k>
-INLINE void addTerms(const Arrays<Real>& sums, std::ptrdiff_t count,
-                     const std::array<Term<Real>, sizeof...(k)>& terms, std::index_sequence<k...>) {
-  for (Real* Arrays<Real>::*const component : {&Arrays<Real>::x, &Arrays<Real>::y, &Arrays<Real>::z}) {
-    Real* const to = sums.*component;
-    const Real* const from[]{terms[k].of.*component + terms[k].shift...};
-#pragma GCC ivdep
-    for (std::ptrdiff_t c = 0; c < count; ++c) {
-      Real sum = fromZero ? Real(0) : to[c];
-      ((sum = plus ? sum + from[k][c] : sum - from[k][c]), ...);
-      to[c] = sum;
-    }
-  }
-}
-
 template <class Real>
 INLINE Arrays<Real> forcesOf(const PassArguments<Real>& arguments, Range particles) {
-  Components<Real>& f = arguments.forces;
-  return {f.x.data() + particles.begin, f.y.data() + particles.begin, f.z.data() + particles.begin};
+  return countedFrom(particles.begin, arraysOf(arguments.forces));
 }
 
-// What one end feels is exactly the negative of what the other does. Where there is no spring, a 0 is added:
-// sums that begin with 0 are never -0, so that nothing changes.
 template <bool hasCuts, class Real>
 INLINE void addSprings(const PassArguments<Real>& arguments, int row, ForceRows<Real>& rows) {
   for (std::uint32_t slot = 0; slot < SPRING_SLOTS; ++slot)
@@ -128,17 +91,7 @@ INLINE void addSprings(const PassArguments<Real>& arguments, int row, ForceRows<
           computeSprings<hasCuts>(arguments, slot, owners, rows);
         });
   const Range particles = rangeOf(arguments.step, row);
-  const Arrays<Real> forces = forcesOf(arguments, particles);
-  const std::ptrdiff_t count = particles.end - particles.begin;
-  const auto add = [&]<std::size_t... k>(std::index_sequence<k...> all) __attribute__((always_inline)) {
-    const auto term = [&](const IncidentSpring& incident) __attribute__((always_inline)) {
-      return incident.owned ? Term<Real>{rows.row(incident.slot, row), 0}
-                            : Term<Real>{rows.row(incident.slot, row + incident.rows), incident.columns};
-    };
-    addTerms<true, incidentSprings[k].owned...>(
-        forces, count, std::array<Term<Real>, sizeof...(k)>{term(incidentSprings[k])...}, all);
-  };
-  add(std::make_index_sequence<incidentSprings.size()>());
+  sumSprings(rows, row, forcesOf(arguments, particles), particles.end - particles.begin);
 }
 
 // What springs that are longer than limitLength add to their forces in `implicit`.

@@ -1,125 +1,112 @@
 #include "solver/cpu/grid_product.h"
 
 #include <algorithm>
+#include <utility>
 
+#include "solver/cpu/arrays.h"
+#include "solver/cpu/force_rows.h"
 #include "solver/cpu/implicit_passes.h"
 #include "solver/cpu/rows.h"
 
 namespace clothsim::cpu {
 namespace {
 
-constexpr std::size_t SPRINGS = incidentSprings.size();
-
-// Where the incident springs and lines of particle i are found: indices are i + the number.
-struct Neighbourhood {
-  struct Line {
-    std::ptrdiff_t toA, toM, toC, toStiffness;
-  };
-  std::array<std::ptrdiff_t, SPRINGS> toOther, toBlock;
-  std::array<Line, 3> alongRow, alongColumn;  // in which the particle is the last, the middle, the first
-};
-
-// Those of a row. What leaves the grid sideways finds an element that is not there, stored as 0, in the next
-// row or the one before; what leaves it at row 0 or the last one is sent to row 0, which owns nothing
-// upwards.
+// Of the springs in a slot that the particles of a row own, what they add to the owners' products.
 template <class Real>
-INLINE Neighbourhood neighbourhoodOf(const StepParams<Real>& step, int row) {
-  const int rows = static_cast<int>(step.rows);
-  const std::ptrdiff_t one = indexOffset(step, 0, 1), toRowZero = -row * one;
-  Neighbourhood result;
-  for (std::size_t k = 0; k < SPRINGS; ++k) {
-    const IncidentSpring& spring = incidentSprings[k];
-    const bool isThere = row + spring.rows >= 0 && row + spring.rows < rows;
-    result.toOther[k] = isThere ? indexOffset(step, spring.columns, spring.rows) : 0;
-    result.toBlock[k] = !isThere ? toRowZero : spring.owned ? 0 : result.toOther[k];
-  }
-  result.alongRow = {{{-2, -1, 0, -1}, {-1, 0, 1, 0}, {0, 1, 2, 1}}};
-  for (int k = 0; k < 3; ++k) {
-    const bool isThere = row + k - 2 >= 0 && row + k < rows;
-    result.alongColumn[static_cast<std::size_t>(k)] =
-        isThere ? Neighbourhood::Line{(k - 2) * one, (k - 1) * one, k * one, (k - 1) * one}
-                : Neighbourhood::Line{0, 0, 0, toRowZero};
-  }
-  return result;
-}
-
-// That of one particle, without what lies outside the arrays: it is sent to the first particle, which owns
-// nothing.
-template <class Real>
-Neighbourhood inside(Neighbourhood all, const StepParams<Real>& step, std::ptrdiff_t i) {
-  const auto end = static_cast<std::ptrdiff_t>(step.totalParticles),
-             toFirst = static_cast<std::ptrdiff_t>(step.firstParticle) - i;
-  const auto isInside = [&](std::ptrdiff_t offset) { return i + offset >= 0 && i + offset < end; };
-  for (std::size_t k = 0; k < SPRINGS; ++k)
-    if (!isInside(all.toOther[k])) all.toOther[k] = 0, all.toBlock[k] = toFirst;
-  for (Neighbourhood::Line& line : all.alongRow)
-    if (!isInside(line.toA) || !isInside(line.toC)) line = {0, 0, 0, toFirst};
-  return all;
-}
-
-template <class Real>
-struct ProductArrays {
-  Arrays<const Real> positions, directions;
-  Arrays<Real> products;
-  std::array<const Real*, SPRING_SLOTS> across, along;
-  const Real *bendAlongRow, *bendAlongColumn;
-};
-
-// The sums go on in the order of the incident springs, rows before columns, as in the forces.
-template <class Real>
-INLINE void multiplyParticle(const ProductArrays<Real>& arrays, const Neighbourhood& near, std::ptrdiff_t i) {
-  const Vec3<Real> x = at(arrays.positions, i), p = at(arrays.directions, i);
-  Vec3<Real> sum{};
-#pragma GCC unroll 12
-  for (std::size_t k = 0; k < SPRINGS; ++k) {
-    const auto slot = static_cast<std::size_t>(incidentSprings[k].slot);
-    const Vec3<Real> d = at(arrays.positions, i + near.toOther[k]) - x,
-                     e = at(arrays.directions, i + near.toOther[k]) - p;
-    const Real across = arrays.across[slot][i + near.toBlock[k]],
-               along = arrays.along[slot][i + near.toBlock[k]];
-    sum = sum + (across * e + (along * dot(d, e)) * d);
-  }
-  const auto addLine = [&](const Neighbourhood::Line& line, const Real* stiffness, bool isMiddle)
-      __attribute__((always_inline)) {
-    const Vec3<Real> a = at(arrays.directions, i + line.toA), m = at(arrays.directions, i + line.toM),
-                     c = at(arrays.directions, i + line.toC);
-    const Vec3<Real> force = stiffness[i + line.toStiffness] * ((m - a) + (m - c));
-    sum = isMiddle ? sum - Real(2) * force : sum + force;
-  };
-#pragma GCC unroll 3
-  for (std::size_t k = 0; k < 3; ++k) addLine(near.alongRow[k], arrays.bendAlongRow, k == 1);
-#pragma GCC unroll 3
-  for (std::size_t k = 0; k < 3; ++k) addLine(near.alongColumn[k], arrays.bendAlongColumn, k == 1);
-  put(arrays.products, i, sum);
-}
-
-template <class Real>
-INLINE void multiplyElementsOfRow(const ImplicitArguments<Real>& arguments, int row) {
-  ImplicitState<Real>& own = arguments.own;
+INLINE void multiplySprings(const ImplicitArguments<Real>& arguments, std::uint32_t slot, int row,
+                            ForceRows<Real>& rows) {
   const StepParams<Real>& step = arguments.step.step;
-  ProductArrays<Real> arrays{arraysOf(std::as_const(own.iterate.positions)),
-                             arraysOf(std::as_const(own.directions.positions)),
-                             arraysOf(own.products),
-                             {},
-                             {},
-                             own.elements.bendAlongRow.data(),
-                             own.elements.bendAlongColumn.data()};
-  for (std::size_t slot = 0; slot < SPRING_SLOTS; ++slot) {
-    arrays.across[slot] = own.elements.across[slot].data();
-    arrays.along[slot] = own.elements.along[slot].data();
-  }
-  const Neighbourhood near = neighbourhoodOf(step, row);
-  const Range all = rangeOf(step, row);
-  // Springs reach at most so many particles beyond the ends of a row.
-  const std::ptrdiff_t reach = indexOffset(step, 2, 1);
-  const bool isNearEnd =
-      all.begin < reach || all.end + reach > static_cast<std::ptrdiff_t>(step.totalParticles);
-  const std::ptrdiff_t border = isNearEnd ? 2 : 0, first = std::min(all.begin + border, all.end),
-                       last = std::max(first, all.end - border);
-  for (std::ptrdiff_t i = all.begin; i < first; ++i) multiplyParticle(arrays, inside(near, step, i), i);
+  const SpringOffset& offset = springOffsets[slot];
+  const bool enabled = (step.enabledSlots >> slot & 1u) != 0;
+  if (!enabled || row + offset.rows < 0 || row >= static_cast<int>(step.rows)) return rows.clear(slot, row);
+  ImplicitState<Real>& own = arguments.own;
+  const Arrays<const Real> x = arraysOf(std::as_const(own.iterate.positions)),
+                           p = arraysOf(std::as_const(own.directions.positions));
+  const Real *across = own.elements.across[slot].data(), *along = own.elements.along[slot].data();
+  const Arrays<Real> products = countedFrom(-rangeOf(step, row).begin, rows.row(slot, row));
+  const std::ptrdiff_t other = indexOffset(step, offset.columns, offset.rows);
+  forEachSixteen(
+      rangeOf(step, row, offset.columns, offset.columns), [&](std::ptrdiff_t begin, std::ptrdiff_t end)
+                                                              __attribute__((always_inline)) {
 #pragma GCC ivdep
-  for (std::ptrdiff_t i = first; i < last; ++i) multiplyParticle(arrays, near, i);
-  for (std::ptrdiff_t i = last; i < all.end; ++i) multiplyParticle(arrays, inside(near, step, i), i);
+                                                                for (std::ptrdiff_t i = begin; i < end; ++i) {
+                                                                  const Vec3<Real> d = at(x, i + other) -
+                                                                                       at(x, i),
+                                                                                   e = at(p, i + other) -
+                                                                                       at(p, i);
+                                                                  put(products, i,
+                                                                      across[i] * e +
+                                                                          (along[i] * dot(d, e)) * d);
+                                                                }
+                                                              });
+}
+
+// Of the bending lines whose middles are the particles of a row, what they add to the products of their ends.
+template <class Real>
+INLINE void multiplyLines(const ImplicitArguments<Real>& arguments, std::size_t kind, int row,
+                          ForceRows<Real>& rows) {
+  const StepParams<Real>& step = arguments.step.step;
+  const bool isAlongRow = kind == ForceRows<Real>::LINE_ALONG_ROW,
+             isInside = row >= 1 && row + 1 < static_cast<int>(step.rows);
+  if (!isAlongRow && !isInside) return rows.clear(kind, row);
+  ImplicitState<Real>& own = arguments.own;
+  const Arrays<const Real> p = arraysOf(std::as_const(own.directions.positions));
+  const Real* stiffness = (isAlongRow ? own.elements.bendAlongRow : own.elements.bendAlongColumn).data();
+  const Arrays<Real> products = countedFrom(-rangeOf(step, row).begin, rows.row(kind, row));
+  const std::ptrdiff_t one = isAlongRow ? 1 : indexOffset(step, 0, 1);
+  forEachSixteen(
+      isAlongRow ? rangeOf(step, row, -1, 1) : rangeOf(step, row), [&](std::ptrdiff_t begin,
+                                                                       std::ptrdiff_t end)
+                                                                       __attribute__((always_inline)) {
+#pragma GCC ivdep
+                                                                         for (std::ptrdiff_t i = begin;
+                                                                              i < end; ++i) {
+                                                                           const Vec3<Real> m = at(p, i);
+                                                                           put(products, i,
+                                                                               stiffness[i] *
+                                                                                   ((m - at(p, i - one)) +
+                                                                                    (m - at(p, i + one))));
+                                                                         }
+                                                                       });
+}
+
+// A particle is the last, the middle and the first of three lines along the row, then along the column.
+template <class Real>
+INLINE void addLines(const Arrays<Real>& sums, std::ptrdiff_t count, int row, ForceRows<Real>& rows) {
+  constexpr std::size_t alongRow = ForceRows<Real>::LINE_ALONG_ROW,
+                        alongColumn = ForceRows<Real>::LINE_ALONG_COLUMN;
+  const Arrays<Real> inRow = rows.row(alongRow, row), above = rows.row(alongColumn, row - 1),
+                     here = rows.row(alongColumn, row), below = rows.row(alongColumn, row + 1);
+#pragma GCC ivdep
+  for (std::ptrdiff_t c = 0; c < count; ++c) {
+    const Vec3<Real> ofRow = ((at(sums, c) + at(inRow, c - 1)) - Real(2) * at(inRow, c)) + at(inRow, c + 1);
+    put(sums, c, ((ofRow + at(above, c)) - Real(2) * at(here, c)) + at(below, c));
+  }
+}
+
+// In the order of the forces: incident springs, then lines along the row, then along the column.
+template <class Real>
+INLINE void multiplyElementsOfRow(const ImplicitArguments<Real>& arguments, int row, ForceRows<Real>& rows) {
+  const StepParams<Real>& step = arguments.step.step;
+  const Range all = rangeOf(step, row);
+  const Arrays<Real> products = countedFrom(all.begin, arraysOf(arguments.own.products));
+  const std::ptrdiff_t count = all.end - all.begin;
+  for (std::uint32_t slot = 0; slot < SPRING_SLOTS; ++slot)
+    rows.ensure(
+        slot, row, row - springOffsets[slot].rows, [&](int owners) __attribute__((always_inline)) {
+          multiplySprings(arguments, slot, owners, rows);
+        });
+  sumSprings(rows, row, products, count);
+  if (step.hasMaterial == 0) return;
+  const auto ensureLines = [&](std::size_t kind, int around) __attribute__((always_inline)) {
+    rows.ensure(
+        kind, row - around, row + around, [&](int middles) __attribute__((always_inline)) {
+          multiplyLines(arguments, kind, middles, rows);
+        });
+  };
+  ensureLines(ForceRows<Real>::LINE_ALONG_ROW, 0);
+  ensureLines(ForceRows<Real>::LINE_ALONG_COLUMN, 1);
+  addLines(products, count, row, rows);
 }
 
 }  // namespace
@@ -142,10 +129,11 @@ void GridElements<Real>::clear(std::ptrdiff_t begin, std::ptrdiff_t end) {
   clearOne(bendAlongColumn);
 }
 
-VECTOR_CLONES(void, multiplyElements, (const ImplicitArguments<float>& arguments, int row), (arguments, row),
-              multiplyElementsOfRow(arguments, row))
-void multiplyElements(const ImplicitArguments<double>& arguments, int row) {
-  multiplyElementsOfRow(arguments, row);
+VECTOR_CLONES(void, multiplyElements,
+              (const ImplicitArguments<float>& arguments, int row, ForceRows<float>& rows),
+              (arguments, row, rows), multiplyElementsOfRow(arguments, row, rows))
+void multiplyElements(const ImplicitArguments<double>& arguments, int row, ForceRows<double>& rows) {
+  multiplyElementsOfRow(arguments, row, rows);
 }
 template struct GridElements<float>;
 template struct GridElements<double>;

@@ -12,6 +12,8 @@ namespace clothsim::cpu {
 
 template <class Real>
 struct ImplicitArguments;
+template <class Real>
+class ForceRows;
 
 // Springs and bending lines at an iterate, an entry a particle; 0 where there is none. For grids.
 template <class Real>
@@ -26,8 +28,9 @@ struct GridElements {
   void clear(std::ptrdiff_t begin, std::ptrdiff_t end);
 };
 
-// products = minus what springs and bending add to H directions.
-void multiplyElements(const ImplicitArguments<float>& arguments, int row);
-void multiplyElements(const ImplicitArguments<double>& arguments, int row);
+// products = minus what springs and bending add to H directions, of a row of a grid; `rows` as of
+// gatherForces().
+void multiplyElements(const ImplicitArguments<float>& arguments, int row, ForceRows<float>& rows);
+void multiplyElements(const ImplicitArguments<double>& arguments, int row, ForceRows<double>& rows);
 
 }  // namespace clothsim::cpu

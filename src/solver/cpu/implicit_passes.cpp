@@ -323,7 +323,7 @@ INLINE void linearizeRow(const ImplicitArguments<Real>& arguments, int row) {
 }
 
 template <class Real>
-INLINE void multiplyRow(const ImplicitArguments<Real>& arguments, int row) {
+INLINE void multiplyRow(const ImplicitArguments<Real>& arguments, int row, ForceRows<Real>& rows) {
   const PassArguments<Real>& pass = arguments.step;
   ImplicitState<Real>& own = arguments.own;
   const Range all = rangeOf(pass.step, row);
@@ -335,7 +335,7 @@ INLINE void multiplyRow(const ImplicitArguments<Real>& arguments, int row) {
     for (std::ptrdiff_t i = all.begin; i < all.end; ++i) put(products, i, zero);
     addMeshProducts(arguments, row);
   } else {
-    multiplyElements(arguments, row);
+    multiplyElements(arguments, row, rows);
   }
   if (hasSeams(pass)) addSeamProducts(arguments, row);
   if (!own.touching.pairs.empty())
@@ -422,9 +422,11 @@ INLINE void acceptRow(const ImplicitArguments<Real>& arguments, int row) {
 VECTOR_CLONES(void, linearize, (const ImplicitArguments<float>& arguments, int row), (arguments, row),
               linearizeRow(arguments, row))
 void linearize(const ImplicitArguments<double>& arguments, int row) { linearizeRow(arguments, row); }
-VECTOR_CLONES(void, multiply, (const ImplicitArguments<float>& arguments, int row), (arguments, row),
-              multiplyRow(arguments, row))
-void multiply(const ImplicitArguments<double>& arguments, int row) { multiplyRow(arguments, row); }
+VECTOR_CLONES(void, multiply, (const ImplicitArguments<float>& arguments, int row, ForceRows<float>& rows),
+              (arguments, row, rows), multiplyRow(arguments, row, rows))
+void multiply(const ImplicitArguments<double>& arguments, int row, ForceRows<double>& rows) {
+  multiplyRow(arguments, row, rows);
+}
 VECTOR_CLONES(void, updateDirection, (const ImplicitArguments<float>& arguments, int row), (arguments, row),
               updateDirectionRow(arguments, row))
 void updateDirection(const ImplicitArguments<double>& arguments, int row) {

@@ -119,8 +119,8 @@ void gatherElasticForces(const ImplicitArguments<Real>& arguments, int row, Forc
 void linearize(const ImplicitArguments<float>& arguments, int row);
 void linearize(const ImplicitArguments<double>& arguments, int row);
 // products = H directions
-void multiply(const ImplicitArguments<float>& arguments, int row);
-void multiply(const ImplicitArguments<double>& arguments, int row);
+void multiply(const ImplicitArguments<float>& arguments, int row, ForceRows<float>& rows);
+void multiply(const ImplicitArguments<double>& arguments, int row, ForceRows<double>& rows);
 // directions = corrections + kept * directions
 void updateDirection(const ImplicitArguments<float>& arguments, int row);
 void updateDirection(const ImplicitArguments<double>& arguments, int row);

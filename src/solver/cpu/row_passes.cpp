@@ -80,7 +80,7 @@ auto RowPasses<Real>::rowPassOf(Pass pass) -> RowPass {
     case Pass::updateDirection:
       return [](const Arguments& piece, int row, Rows&) { cpu::updateDirection(piece, row); };
     case Pass::multiply:
-      return [](const Arguments& piece, int row, Rows&) { cpu::multiply(piece, row); };
+      return [](const Arguments& piece, int row, Rows& rows) { cpu::multiply(piece, row, rows); };
     case Pass::updateSolution:
       return [](const Arguments& piece, int row, Rows&) { cpu::updateSolution(piece, row); };
     case Pass::stopAtPlanes:

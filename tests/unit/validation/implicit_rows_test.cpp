@@ -6,6 +6,7 @@
 
 #include "solver/cpu/coarse_elements.h"
 #include "solver/cpu/cpu_solver.h"
+#include "solver/cpu/force_rows.h"
 #include "solver/cpu/implicit_passes.h"
 #include "solver/cpu/rows.h"
 #include "support/elastic_energy.h"
@@ -81,7 +82,9 @@ class Sheet {
     const int rows = cpu::rowsOf(cloth_.pieces()[0]);
     for (int row = 0; row < rows; ++row) cpu::linearize({pass, own_}, row);
     put(own_.directions.positions, p);
-    for (int row = 0; row < rows; ++row) cpu::multiply({pass, own_}, row);
+    cpu::ForceRows<double> forceRows;
+    EXPECT_TRUE(forceRows.begin(cloth_.pieces()[0].isMesh ? 0 : cloth_.pieces()[0].columns));
+    for (int row = 0; row < rows; ++row) cpu::multiply({pass, own_}, row, forceRows);
     Field result(x.size());
     for (std::size_t i = 0; i < x.size(); ++i)
       result[i] = {own_.products.x[i], own_.products.y[i], own_.products.z[i]};
