@@ -190,9 +190,11 @@ struct Wind {
 // difference of second order, which keeps a swing alive (docs/physics.md).
 enum class Integrator { verlet, euler, implicit, bdf2 };
 inline constexpr int INTEGRATOR_COUNT = 4;
+// Their words, in files and in what is printed.
+inline constexpr std::array<const char*, INTEGRATOR_COUNT> integratorNames{"verlet", "euler", "implicit",
+                                                                           "bdf2"};
 [[nodiscard]] inline const char* integratorName(Integrator integrator) {
-  constexpr const char* names[INTEGRATOR_COUNT]{"verlet", "euler", "implicit", "bdf2"};
-  return names[static_cast<int>(integrator)];
+  return integratorNames[static_cast<std::size_t>(integrator)];
 }
 // Whether a step solves for the positions at its end (solver/implicit.h).
 [[nodiscard]] inline bool isImplicit(Integrator integrator) {
@@ -205,9 +207,10 @@ inline constexpr int INTEGRATOR_COUNT = 4;
 // contact: of implicit steps; layers touch at the thickness of the fabric, inside the step, and no parts of
 // the surface cross (solver/surface.h).
 enum class SelfCollision { off, averaged, robust, contact };
+// Their words; files have `false` for "off".
+inline constexpr std::array<const char*, 4> selfCollisionNames{"off", "averaged", "robust", "contact"};
 [[nodiscard]] inline const char* selfCollisionName(SelfCollision mode) {
-  constexpr const char* names[]{"off", "averaged", "robust", "contact"};
-  return names[static_cast<int>(mode)];
+  return selfCollisionNames[static_cast<std::size_t>(mode)];
 }
 
 // What a collider's `friction` means (docs/physics.md). cs184: the part of its motion that a touching

@@ -18,15 +18,18 @@ constexpr double largestNumber = 1e15, smallestNumber = 1e-20;
 template <class Enum, std::size_t count = 2>
 using Words = std::array<std::pair<std::string_view, Enum>, count>;
 
+// Of an enumeration whose words stand in its order, without the first `left`.
+template <class Enum, std::size_t left = 0, std::size_t count>
+constexpr auto wordsInOrder(const std::array<const char*, count>& names) {
+  Words<Enum, count - left> words{};
+  for (std::size_t i = left; i < count; ++i) words[i - left] = {names[i], static_cast<Enum>(i)};
+  return words;
+}
+
 constexpr Words<Orientation> orientations{
     {{"horizontal", Orientation::horizontal}, {"vertical", Orientation::vertical}}};
-constexpr Words<Integrator, INTEGRATOR_COUNT> integrators{{{"verlet", Integrator::verlet},
-                                                           {"euler", Integrator::euler},
-                                                           {"implicit", Integrator::implicit},
-                                                           {"bdf2", Integrator::bdf2}}};
-constexpr Words<SelfCollision, 3> selfCollisions{{{"averaged", SelfCollision::averaged},
-                                                  {"robust", SelfCollision::robust},
-                                                  {"contact", SelfCollision::contact}}};
+constexpr auto integrators = wordsInOrder<Integrator>(integratorNames);
+constexpr auto selfCollisions = wordsInOrder<SelfCollision, 1>(selfCollisionNames);  // but "off"
 constexpr Words<Interpolation> interpolations{
     {{"linear", Interpolation::linear}, {"cubic", Interpolation::cubic}}};
 constexpr Words<Paint, 3> paints{{{"red", Paint::red}, {"green", Paint::green}, {"blue", Paint::blue}}};

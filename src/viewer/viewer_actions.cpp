@@ -239,7 +239,7 @@ void Viewer::switchIntegrator() {
     scene.solver.simulationSteps = *explicitSteps_;
   }
   edit(scene, false);
-  say(std::string("Integrator: ") + nameOf(integrator));
+  say(std::string("Integrator: ") + integratorName(integrator));
 }
 
 void Viewer::nextShader() {

@@ -63,8 +63,6 @@ OverlayFacts::Row speedRow(const OpenScene& open, const SpeedMeter& meter, doubl
 
 }  // namespace
 
-const char* nameOf(Integrator integrator) { return integratorName(integrator); }
-
 std::string viewerTitle(const OpenScene& open, const SpeedMeter& meter, bool paused) {
   const double rate = meter.framesPerSecond();
   return open.name() + " - " + open.backend() +
@@ -82,7 +80,7 @@ OverlayFacts viewerFacts(const OpenScene& open, const SpeedMeter& meter, bool pa
   facts.rows = {{"backend", backendText(simulation.solver()), false, true},
                 {"cloth", gridSizes(simulation.cloth()) + " = " +
                               withCommas(simulation.cloth().particleCount()) + " particles"},
-                {"integrator", nameOf(open.scene().solver.integrator), false, true},
+                {"integrator", integratorName(open.scene().solver.integrator), false, true},
                 {"time", formatted("%.2f s", open.time())}};
   const SessionFacts now = open.facts();
   if (paused)

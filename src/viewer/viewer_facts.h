@@ -12,7 +12,6 @@
 
 namespace clothsim {
 
-[[nodiscard]] const char* nameOf(Integrator integrator);
 [[nodiscard]] std::string viewerTitle(const OpenScene& open, const SpeedMeter& meter, bool paused);
 // `exposures`: of how many the picture is the mean, where it is refined.
 [[nodiscard]] OverlayFacts viewerFacts(const OpenScene& open, const SpeedMeter& meter, bool paused,
