@@ -519,6 +519,7 @@ int parseAndRun(int argc, char** argv) {
   declareRender(app, arguments, task);
   declareSweep(app, arguments, task);
   declareInfoCommands(app, arguments, task);
+  refuseEmptyValues(app);
   try {
     app.parse(argc, argv);
     catchInterrupts();

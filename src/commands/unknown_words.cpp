@@ -60,4 +60,13 @@ std::string unknownWord(const CLI::App& app, std::span<const char* const> words)
   return "";
 }
 
+void refuseEmptyValues(CLI::App& app) {
+  for (CLI::Option* option : app.get_options())
+    if (option->get_items_expected_max() > 0)
+      option->check([](const std::string& value) -> std::string {
+        return value.empty() ? "expected a value, found \"\"; leave the option out if there is none" : "";
+      });
+  for (CLI::App* command : app.get_subcommands({})) refuseEmptyValues(*command);
+}
+
 }  // namespace clothsim

@@ -1,4 +1,4 @@
-// Words of a command line that the program does not know.
+// Words of a command line that the program does not know, and words that are none.
 #pragma once
 
 #include <span>
@@ -14,5 +14,9 @@ namespace clothsim {
 // know, or that stands in the wrong place, with what may be meant. Empty if there is none. CLI11 lists such
 // words backwards, without a proposal, and not at all where something required is missing.
 [[nodiscard]] std::string unknownWord(const CLI::App& app, std::span<const char* const> words);
+
+// Makes "" wrong usage as the value of any option that the app and its commands have: it comes from a
+// variable of a script that is not set, and would pass for an option that is not given.
+void refuseEmptyValues(CLI::App& app);
 
 }  // namespace clothsim

@@ -272,6 +272,28 @@ TEST(Program, NamesTheWordThatItDoesNotKnowOrTakesOnlyOnce) {
   }
 }
 
+TEST(Program, NamesTheOptionWhoseValueIsEmpty) {
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"-f ''", "--scene"},
+      {"run -f '' --frames 1", "--scene"},
+      {"run -f pinned2 --frames 1 --from ''", "--from"},
+      {"run --replay ''", "--replay"},
+      {"run --replay '' -f pinned2 --frames 1", "--replay"},
+      {"run -f pinned2 --frames 1 --trace ''", "--trace"},
+      {"run -f pinned2 --frames 1 --save ''", "--save"},
+      {"run -f pinned2 --frames 1 --save a.obj --save ''", "--save"},
+      {"run -f pinned2 --frames 1 --backend ''", "--backend"},
+      {"render -f pinned2 --frames 1 --out ''", "--out"},
+      {"render -f pinned2 --frames 1 --out a.png --from ''", "--from"},
+      {"sweep -f pinned2 --vary cloth.ks=5 --out ''", "--out"},
+      {"describe ''", "key"}};
+  for (const auto& [arguments, option] : cases) {
+    const CommandResult result = clothsim(arguments);
+    EXPECT_EQ(result.exitCode, 2) << arguments;
+    EXPECT_NE(result.output.find(option + ": "), std::string::npos) << arguments << "\n" << result.output;
+  }
+}
+
 TEST(Program, AnswersAWrongSceneWithThreeAndTheNearestName) {
   const CommandResult result = clothsim("run -f pined2 --frames 1");
   EXPECT_EQ(result.exitCode, 3);
