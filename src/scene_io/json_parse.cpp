@@ -333,9 +333,9 @@ class TreeBuilder {
 
 }  // namespace
 
-JsonPointer parseJson(std::string_view text, std::size_t mostValues) {
+JsonPointer parseJson(std::string_view text, std::size_t mostValues, const std::string& what) {
   if (text.find_first_not_of(" \t\r\n\xEF\xBB\xBF") == std::string_view::npos)
-    throw JsonComplaint(0, 0, "", "the file is empty; expected a scene, {...}");
+    throw JsonComplaint(0, 0, "", "the file is empty; expected " + what + ", {...}");
   rapidjson::MemoryStream stream(text.data(), text.size());
   if (text.starts_with(byteOrderMark.front()))
     for (const char byte : byteOrderMark) {

@@ -67,8 +67,10 @@ struct JsonComplaint : std::runtime_error {
 
 inline constexpr std::size_t MOST_SCENE_VALUES = 1'000'000;  // in the JSON of a scene
 
+// `what`: is expected in place of an empty file.
 // @throws JsonComplaint: wrong syntax, duplicate keys, invalid UTF-8, more than 64 levels or `mostValues`
-[[nodiscard]] JsonPointer parseJson(std::string_view text, std::size_t mostValues = MOST_SCENE_VALUES);
+[[nodiscard]] JsonPointer parseJson(std::string_view text, std::size_t mostValues = MOST_SCENE_VALUES,
+                                    const std::string& what = "a scene");
 
 // Two spaces a level; a list or object that fits is kept on one line. Numbers in the fewest digits that read
 // back exactly.

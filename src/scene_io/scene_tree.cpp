@@ -73,6 +73,8 @@ void keepUsualSelfCollision(const JsonNode& root, Scene& scene) {
 void checkSchema(const JsonNode& root) {
   const JsonNode* schema = root.find("schema");
   const std::string known = Scene{}.schema;
+  if (schema != nullptr && schema->text.starts_with("clothsim-recording/"))
+    complain(*schema, "expected a scene, found a recording; clothsim run --replay takes it");
   if (schema != nullptr && schema->kind == JsonKind::string && schema->text != known)
     complain(*schema, "unknown version " + foundText(*schema) +
                           " of the scene format; this program reads \"" + known + "\"");

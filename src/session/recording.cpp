@@ -223,6 +223,8 @@ Recording readRecording(JsonNode& root) {
   Reader reader(root);
   std::string schema;
   reader("schema", schema);
+  if (schema == Scene{}.schema)
+    complain(*root.find("schema"), "expected a recording, found a scene; -f takes it, without --replay");
   if (schema != SCHEMA) complainExpected(*root.find("schema"), "\"" + std::string(SCHEMA) + "\"");
   Recording recording;
   reader("backend", recording.backend);
@@ -255,7 +257,7 @@ std::string Recording::format() const {
 
 Recording Recording::parse(std::string_view text, const std::string& source) {
   try {
-    const JsonPointer root = parseJson(text, MOST_VALUES);
+    const JsonPointer root = parseJson(text, MOST_VALUES, "a recording");
     Recording recording = readRecording(*root);
     recording.source = source;
     return recording;
@@ -265,6 +267,19 @@ Recording Recording::parse(std::string_view text, const std::string& source) {
 }
 
 void Recording::save(const std::filesystem::path& path) const { writeFileAtomically(path, format()); }
+
+void Recording::within(std::size_t event, const std::function<void()>& work) const {
+  const auto fail = [&](const Error& error) {
+    throw SceneError(source + ": events." + std::to_string(event) + ": " + error.what());
+  };
+  try {
+    work();
+  } catch (const UsageError& error) {
+    fail(error);
+  } catch (const SceneError& error) {
+    fail(error);
+  }
+}
 
 Recording Recording::load(const std::filesystem::path& path) {
   try {
@@ -276,8 +291,9 @@ Recording Recording::load(const std::filesystem::path& path) {
       shared = std::move(found);
     };
     findMeshesOf(recording.scene);
-    for (Event& event : recording.events)
-      if (auto* edit = std::get_if<EditScene>(&event.action)) findMeshesOf(edit->scene);
+    for (std::size_t i = 0; i < recording.events.size(); ++i)
+      if (auto* edit = std::get_if<EditScene>(&recording.events[i].action))
+        recording.within(i, [&] { findMeshesOf(edit->scene); });
     return recording;
   } catch (const InputOutputError& error) {
     throw SceneError(error.what());

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -36,6 +37,9 @@ struct Recording {
   void save(const std::filesystem::path& path) const;
   // Parses a file. Mesh files that lie beside it get their full path. @throws SceneError
   [[nodiscard]] static Recording load(const std::filesystem::path& path);
+
+  // Does `work` for an event. What is wrong there becomes a SceneError that names the file and the event.
+  void within(std::size_t event, const std::function<void()>& work) const;
 };
 
 }  // namespace clothsim

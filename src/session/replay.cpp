@@ -3,7 +3,6 @@
 #include <string>
 #include <utility>
 
-#include "core/error.h"
 #include "core/interrupt.h"
 
 namespace clothsim {
@@ -42,11 +41,7 @@ void Replay::applyDueEvents() {
     const Action& action = recording_.events[next_].action;
     if (recording_.events[next_].step < session_.step()) ++late_;
     if (keepsBackend_ && std::holds_alternative<SwitchBackend>(action)) continue;
-    try {
-      session_.act(action);
-    } catch (const UsageError& error) {
-      throw SceneError(recording_.source + ": events." + std::to_string(next_) + ": " + error.what());
-    }
+    recording_.within(next_, [&] { session_.act(action); });
   }
 }
 
