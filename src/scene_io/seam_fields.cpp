@@ -10,12 +10,14 @@ std::span<const Field<SeamSide>> fieldsOf<SeamSide>() {
   static const std::array fields{
       field("cloth", &SeamSide::cloth, "Which of the cloths a side of a seam is of, from 0.")
           .within({.low = 0, .high = 9999})
-          .required(),
+          .required()
+          .rebuilds(),
       field("points", &SeamSide::points,
             "The points that are sewn, as in `pinned`; on a grid a border (`top` of a lying cloth is row 0), "
             "or lines.")
-          .required(),
-      field("reverse", &SeamSide::reverse, "Sew from the last point of this side to the first."),
+          .required()
+          .rebuilds(),
+      field("reverse", &SeamSide::reverse, "Sew from the last point of this side to the first.").rebuilds(),
   };
   return fields;
 }
@@ -23,8 +25,8 @@ std::span<const Field<SeamSide>> fieldsOf<SeamSide>() {
 template <>
 std::span<const Field<Seam>> fieldsOf<Seam>() {
   static const std::array fields{
-      field("a", &Seam::a, "One side of a seam.").required(),
-      field("b", &Seam::b, "The other side; of the same cloth or of another.").required(),
+      field("a", &Seam::a, "One side of a seam.").required().rebuilds(),
+      field("b", &Seam::b, "The other side; of the same cloth or of another.").required().rebuilds(),
       field("time", &Seam::time, "Time over which the seam closes, from the start on.")
           .in("s")
           .within(notNegative)
@@ -33,7 +35,8 @@ std::span<const Field<Seam>> fieldsOf<Seam>() {
           .in("N/m")
           .within(positive)
           .usually(1, 10000)
-          .byDefault("that of the stiffest spring of both cloths"),
+          .byDefault("that of the stiffest spring of both cloths")
+          .rebuilds(),
   };
   return fields;
 }

@@ -20,11 +20,22 @@ bool haveSameHolds(const ClothSettings& a, const ClothSettings& b) {
 }  // namespace
 
 bool needsRebuild(const Scene& before, const Scene& after) {
-  if (before.cloths.size() != after.cloths.size() || before.seams != after.seams) return true;
+  if (before.cloths.size() != after.cloths.size() || before.seams.size() != after.seams.size()) return true;
+  for (std::size_t i = 0; i < before.seams.size(); ++i) {
+    Seam seam = before.seams[i];
+    seam.time = after.seams[i].time;
+    if (seam != after.seams[i]) return true;
+  }
   for (std::size_t i = 0; i < before.cloths.size(); ++i) {
     ClothSettings cloth = before.cloths[i];
     cloth.damping = after.cloths[i].damping;
+    cloth.pressure = after.cloths[i].pressure;
+    cloth.tearStrain = after.cloths[i].tearStrain;
     cloth.render = after.cloths[i].render;
+    if (cloth.material && after.cloths[i].material) {
+      cloth.material->damping = after.cloths[i].material->damping;
+      cloth.material->friction = after.cloths[i].material->friction;
+    }
     if (haveSameHolds(cloth, after.cloths[i])) cloth.pinMotion = after.cloths[i].pinMotion;
     if (cloth != after.cloths[i]) return true;
   }
