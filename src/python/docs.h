@@ -45,7 +45,8 @@ inline constexpr const char* time = "Simulated time [s].";
 inline constexpr const char* frame = "Frames that fit into `time`, rounded.";
 inline constexpr const char* backend = "\"cpu\" or \"gpu\".";
 inline constexpr const char* device = "Name of the device, for display.";
-inline constexpr const char* remarks = "What the program would tell about the scene on stderr: sentences.";
+inline constexpr const char* remarks =
+    R"(What the program would tell on stderr about the scene and the state that was loaded last: sentences.)";
 
 inline constexpr const char* positions =
     R"(Positions [m]: float32, shape (particles, 3), row by row of the grids; read-only.
@@ -71,7 +72,7 @@ until another one or None is assigned, or reset(). Pinned particles stay. States
 inline constexpr const char* pins =
     R"(Which particles are pinned: bool, shape (particles,), a copy.
 
-Assign to pin and free: what changes is at rest where it is, and leaves any path of the scene.)";
+Assign booleans to pin and free: what changes is at rest where it is, and leaves any path of the scene.)";
 
 inline constexpr const char* inverseMasses =
     R"(Inverse masses [1/kg]: float32, shape (particles,), 0 where pinned; read-only, as `positions`.)";

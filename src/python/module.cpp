@@ -183,11 +183,16 @@ py::array_t<bool> pinsOf(PythonSimulation& simulation) {
   for (std::size_t i = 0; i < state.positions.size(); ++i) pins.mutable_data()[i] = state.positions[i].w == 0;
   return pins;
 }
-void setPins(PythonSimulation& simulation, const py::array_t<bool, py::array::c_style>& pins) {
+// Numbers are refused: they may be meant as the indices of particles.
+void setPins(PythonSimulation& simulation, const py::object& value) {
   const std::size_t particles = simulation.particles();
-  if (pins.ndim() != 1 || static_cast<std::size_t>(pins.shape(0)) != particles)
-    throw UsageError("pins: expected an array of " + std::to_string(particles) + " booleans, found shape " +
-                     std::string(py::str(pins.attr("shape"))));
+  const py::array array = py::module_::import("numpy").attr("asarray")(value);
+  const std::string type = py::str(array.attr("dtype"));
+  if (type != "bool" || array.ndim() != 1 || static_cast<std::size_t>(array.shape(0)) != particles)
+    throw UsageError("pins: expected an array of " + std::to_string(particles) + " booleans, found " + type +
+                     " of shape " + std::string(py::str(array.attr("shape"))) +
+                     "; astype(bool) turns 0 and 1 into them, and indices set them in a copy of sim.pins");
+  const py::array_t<bool, py::array::c_style> pins(array);
   simulation.setPins({pins.data(), particles});
 }
 

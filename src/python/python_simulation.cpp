@@ -127,10 +127,12 @@ void PythonSimulation::start(const std::optional<std::uint32_t>& seed) {
   renderer_.reset();  // before its simulation goes
   simulation_ = simulation;
   stepsSinceKept_ = 0;
+  ways_.clear();
   summary_ = std::move(summary);
   lookers_ = std::make_shared<std::shared_ptr<Simulation>>(simulation_);
   positionsPlace_ = velocitiesPlace_ = nullptr;
   forces_.reset();
+  remarkOfState_.clear();
 }
 
 std::string PythonSimulation::device() {
@@ -163,6 +165,13 @@ int PythonSimulation::frameNow() const {
   return static_cast<int>(std::lround(simulation_->time() * simulation_->scene().solver.framesPerSec));
 }
 
+// Steps may have had other lengths before.
+int PythonSimulation::wholeFrames() const {
+  constexpr double rounding = 1e-6;
+  return static_cast<int>(
+      std::floor(simulation_->time() * simulation_->scene().solver.framesPerSec + rounding));
+}
+
 Scene PythonSimulation::scene() {
   const Turn turn(*this);
   return simulation_->scene();
@@ -183,8 +192,11 @@ void PythonSimulation::advance(std::int64_t steps, const std::function<void()>& 
   using Clock = std::chrono::steady_clock;
   constexpr std::chrono::milliseconds pollTime{50};
   while (steps > 0) {
-    const std::int64_t whole = simulation_->scene().solver.simulationSteps,
-                       frame = std::min(steps, whole - stepsSinceKept_);
+    restArrivedColliders();
+    const SolverSettings& solver = simulation_->scene().solver;
+    const std::int64_t whole = solver.simulationSteps,
+                       frame = std::min({steps, whole - stepsSinceKept_,
+                                         ways_.stepsLeft(simulation_->time(), stepLength(solver))});
     if (stepsSinceKept_ == 0) simulation_->keep();
     for (std::int64_t done = 0; done < frame;) {
       const int count = static_cast<int>(std::min<std::int64_t>(stepsAtOnce_, frame - done));
@@ -201,10 +213,20 @@ void PythonSimulation::advance(std::int64_t steps, const std::function<void()>& 
     }
     const std::int64_t since = std::exchange(stepsSinceKept_, 0) + frame;
     if (const std::optional<Divergence> divergence = simulation_->checkFrame())
-      throw SimulationError(blowUpText(*divergence, simulation_->cloth(), simulation_->scene()) +
-                            "\nThe state is the one before that frame.");
+      throw SimulationError(
+          blowUpText(*divergence, simulation_->cloth(), simulation_->scene(), wholeFrames() + 1) +
+          "\nThe state is the one before that frame.");
     if (since < whole) stepsSinceKept_ = since;
     steps -= frame;
+  }
+  restArrivedColliders();
+}
+
+void PythonSimulation::restArrivedColliders() {
+  const Scene& scene = simulation_->scene();
+  if (std::optional<Scene> rest = ways_.arrived(scene, simulation_->time(), stepLength(scene.solver))) {
+    simulation_->configure(std::move(*rest));
+    stepsSinceKept_ = 0;
   }
 }
 
@@ -262,10 +284,12 @@ void PythonSimulation::reset(std::optional<std::uint32_t> seed) {
 
 void PythonSimulation::setState(const State& state) {
   const Turn turn(*this);
-  takeState(state);
+  takeState(state, "set_state");
 }
 
-void PythonSimulation::takeState(const State& state) {
+void PythonSimulation::takeState(const State& state, const std::string& source) {
+  const std::string remark = remarkOfState(state, simulation_->cloth());
+  remarkOfState_ = remark.empty() ? "" : source + ": " + remark;
   simulation_->setState(state);
   simulation_->solver().convertVelocities();
   stepsSinceKept_ = 0;
@@ -314,7 +338,7 @@ void PythonSimulation::sendCollider(const std::string& name, const ColliderMove&
   const double duration = seconds.value_or(1 / scene.solver.framesPerSec), now = simulation_->time();
   if (!(duration > 0 && duration <= 1e6))
     throw UsageError(name + ": seconds: expected more than 0 and up to 1e6");
-  simulation_->configure(withColliderOnItsWay(scene, move, now, now + duration));
+  simulation_->configure(ways_.sent(scene, move, now, now + duration));
   stepsSinceKept_ = 0;
 }
 
@@ -391,7 +415,14 @@ void PythonSimulation::save(const std::filesystem::path& path) {
 }
 void PythonSimulation::load(const std::filesystem::path& path) {
   const Turn turn(*this);
-  takeState(loadState(path, simulation_->cloth()));
+  takeState(loadState(path, simulation_->cloth()), path.string());
+}
+
+std::vector<std::string> PythonSimulation::remarks() {
+  const Turn turn(*this);
+  std::vector<std::string> remarks = remarks_;
+  if (!remarkOfState_.empty()) remarks.push_back(remarkOfState_);
+  return remarks;
 }
 
 std::vector<std::array<std::uint32_t, 3>> PythonSimulation::faces() {

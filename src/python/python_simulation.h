@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "gl/context.h"
+#include "python/collider_ways.h"
 #include "render/image.h"
 #include "scene/moved_collider.h"
 #include "scene_io/scene_options.h"
@@ -47,8 +48,8 @@ struct SharedParticles {
 };
 
 // One thread at a time may call it, for others its functions throw UsageError; on the GPU, and once it has
-// drawn, only the thread that made it. What never changes anybody may ask for: remarks(), backend(), and
-// the numbers of particles and triangles. All functions throw what the program would report.
+// drawn, only the thread that made it. What never changes anybody may ask for: backend() and the numbers of
+// particles and triangles. All functions throw what the program would report.
 class PythonSimulation {
  public:
   // Displaces free particles by up to `jitter` [m] at random, as `run --jitter --seed` does. `backend`: auto,
@@ -58,10 +59,11 @@ class PythonSimulation {
   PythonSimulation(const PythonSimulation&) = delete;
   PythonSimulation& operator=(const PythonSimulation&) = delete;
 
-  [[nodiscard]] const std::vector<std::string>& remarks() const { return remarks_; }
   [[nodiscard]] const std::string& backend() const { return backend_; }  // cpu or gpu
   [[nodiscard]] std::size_t particles() const { return particles_; }
   [[nodiscard]] std::size_t triangles() const { return triangles_; }  // at the start, without cuts
+  // Of the scene, and of the state that was loaded last, until reset().
+  [[nodiscard]] std::vector<std::string> remarks();
   [[nodiscard]] std::string device();
   [[nodiscard]] State state();
   [[nodiscard]] double time();       // [s]
@@ -112,12 +114,15 @@ class PythonSimulation {
   void start(const std::optional<std::uint32_t>& seed);
   // `name`: of the call, for messages.
   void sendCollider(const std::string& name, const ColliderMove& move, std::optional<double> seconds);
+  void restArrivedColliders();
   // What follows is called within a turn.
   void advance(std::int64_t steps, const std::function<void()>& poll);
   void stepSoundly(std::int64_t steps, const std::function<void()>& poll);
   [[nodiscard]] State readState();
-  void takeState(const State& state);
+  // `source`: what it comes from, for remarks.
+  void takeState(const State& state, const std::string& source);
   [[nodiscard]] int frameNow() const;
+  [[nodiscard]] int wholeFrames() const;  // that have passed
   void stayInPlace();
   void chooseBackend();
   [[nodiscard]] bool takeContext();  // false where another thread has it
@@ -132,11 +137,13 @@ class PythonSimulation {
   std::size_t particles_ = 0, triangles_ = 0;
   double jitter_;
   std::uint32_t seed_;
-  std::vector<std::string> remarks_;
+  std::vector<std::string> remarks_;  // of the scene
+  std::string remarkOfState_;         // "" for none
   std::shared_ptr<Simulation> simulation_;
   std::shared_ptr<const void> lookers_;  // keeps the simulation for those who look at its memory
   const float *positionsPlace_ = nullptr, *velocitiesPlace_ = nullptr;
   std::shared_ptr<const std::vector<Particle4>> forces_;
+  ColliderWays ways_;
   std::unique_ptr<SimulationRenderer> renderer_;
   RunSummary summary_;
   std::atomic_flag isBusy_;

@@ -49,6 +49,19 @@ Scene withColliderOnItsWay(Scene scene, const ColliderMove& move, double from, d
   return scene;
 }
 
+Scene withColliderAtRest(Scene scene, std::size_t collider, double now) {
+  const Pose pose = poseAt(scene.colliders[collider], now);
+  std::visit(
+      [&](auto& shape) {
+        if (!shape.motion) return;
+        turnShape(shape, pose.rotation);
+        shape.place() = pose.position;
+        shape.motion.reset();
+      },
+      scene.colliders[collider]);
+  return scene;
+}
+
 Scene withColliderMoved(Scene scene, const ColliderMove& move, double now) {
   Collider& collider = scene.colliders[move.collider];
   const Pose pose = poseAt(collider, now);

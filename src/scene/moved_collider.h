@@ -22,6 +22,8 @@ struct ColliderMove {
 // The scene once it has arrived, at time `now` [s]: it stays as it is, or its whole path is shifted and
 // turned.
 [[nodiscard]] Scene withColliderMoved(Scene scene, const ColliderMove& move, double now);
+// The scene in which a collider stays from time `now` [s] on where its path has taken it.
+[[nodiscard]] Scene withColliderAtRest(Scene scene, std::size_t collider, double now);
 
 [[nodiscard]] inline Scene withColliderOnItsWay(Scene scene, std::size_t collider, Vec3d position,
                                                 double from, double until) {

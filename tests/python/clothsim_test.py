@@ -132,6 +132,23 @@ class AgainstTheProgram(unittest.TestCase):
             other.load(path)
             self.assertAlmostEqual(other.time, 2 / 90)
 
+    def test_remarks_are_what_the_program_tells_on_stderr(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "pinned.state")
+            sim = clothsim.Simulation("pinned2", backend="cpu", resolution=(9, 9))
+            pins = sim.pins
+            pins[40] = True
+            sim.pins = pins
+            sim.save(path)
+            other = clothsim.Simulation("pinned2", backend="cpu", resolution=(9, 9))
+            of_the_scene = other.remarks
+            other.load(path)
+            said = program("run", "-f", "pinned2", "--backend", "cpu", "--resolution", "9x9", "--from", path,
+                           "--frames", "0", "--json").stderr
+            self.assertEqual(["clothsim: " + remark for remark in other.remarks], said.splitlines())
+            self.assertIn("1 particle is pinned there", other.remarks[-1])
+            other.reset()
+            self.assertEqual(other.remarks, of_the_scene)
 
     def test_saved_arrays_are_those_of_the_simulation(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -223,6 +240,10 @@ class Arrays(unittest.TestCase):
             sim.positions = broken
         with self.assertRaisesRegex(clothsim.UsageError, "pins: expected an array of 2500 booleans"):
             sim.pins = np.zeros(3, dtype=bool)
+        with self.assertRaisesRegex(clothsim.UsageError, r"2500 booleans, found int64 of shape \(2500,\)"):
+            sim.pins = np.zeros(2500, dtype=np.int64)
+        with self.assertRaisesRegex(clothsim.UsageError, r"2500 booleans, found int64 of shape \(2,\)"):
+            sim.pins = [0, 49]
         self.assertEqual(sim.state_hash, before)
 
     def test_pins_hold_and_free_particles_fall_again(self):
@@ -303,6 +324,32 @@ class Acting(unittest.TestCase):
         with self.assertRaisesRegex(clothsim.UsageError, "there is no collider 7"):
             sim.move_collider(7, (0, 0, 0))
 
+    def test_colliders_move_as_a_recording_moves_them_to_the_bit(self):
+        box = {"type": "box", "origin": [0.5, 0.75, 0.5], "size": [0.5, 0.1, 0.3], "rotation": [0, 20, 10], "friction": 0.5}
+        cloth = {"width": 1, "height": 1, "num_width_points": 12, "num_height_points": 12, "pinned": [[0, 0]]}
+        for integrator, settings in (("verlet", {"ks": 5000}), ("implicit", {"material": "cotton"}),
+                                     ("bdf2", {"material": "cotton"})):
+            sim = clothsim.Simulation({"cloth": cloth | settings, "colliders": [box], "solver": {
+                "integrator": integrator, "frames_per_sec": 60, "simulation_steps": 30 if integrator == "verlet" else 8}},
+                backend="cpu")
+            recording = {"schema": "clothsim-recording/1", "backend": "cpu", "frames": 14, "scene": sim.scene, "events": []}
+            steps = recording["scene"]["solver"].get("simulation_steps", 30)
+            sim.step_frames(6)
+            for frame in (6, 7, 10):
+                place, turn = [0.5, 0.78 + 0.004 * frame, 0.5], [0, 2.5, 1]
+                sim.move_collider(0, place)
+                sim.turn_collider(0, turn)
+                for event in ({"action": "move_collider", "position": place}, {"action": "turn_collider", "turn": turn}):
+                    recording["events"].append({"step": frame * steps, "collider": 0, **event})
+                sim.step(5)
+                sim.step(3 * steps - 5 if frame == 7 else steps - 5)
+            sim.step_frames(3)
+            self.assertNotIn("motion", sim.scene["colliders"][0], "it rests")
+            with tempfile.TemporaryDirectory() as folder:
+                path = pathlib.Path(folder, "moved.json")
+                path.write_text(json.dumps(recording), encoding="utf-8")
+                self.assertEqual(run_json("--replay", str(path))["state_hash"], sim.state_hash, integrator)
+
     def test_a_collider_turns_and_takes_the_cloth_along(self):
         sim = clothsim.Simulation("sphere", backend="cpu", resolution=(24, 24))
         sim.step_frames(90)
@@ -328,6 +375,7 @@ class Acting(unittest.TestCase):
         sim.step(10)
         h = sim.time / 10
         np.testing.assert_allclose(sim.positions - start, np.tile([2 * h * h * 55, 0, 0], (16, 1)), atol=1e-6)
+        sim.set(**{"solver.strain_limit": False, "cloth.pressure": 3, "cloth.tear_strain": 0.5})
         with self.assertRaisesRegex(clothsim.UsageError, "makes another cloth"):
             sim.set(**{"cloth.num_width_points": 5})
 
@@ -337,6 +385,17 @@ class Acting(unittest.TestCase):
         with self.assertRaisesRegex(clothsim.SimulationError, "the simulation blew up: "):
             sim.step_frames(200)
         self.assertTrue(np.isfinite(sim.positions).all())
+
+    def test_a_blow_up_names_the_frame_whatever_the_steps_before_it_were(self):
+        sim = clothsim.Simulation("pinned2", backend="cpu", resolution=(9, 9))
+        sim.step_frames(3)
+        sim.set(**{"solver.simulation_steps": 90})
+        sim.forces = np.full(sim.positions.shape, 1e9)
+        with self.assertRaisesRegex(clothsim.SimulationError, r"in step 91 \(frame 4\)"):
+            sim.step_frames(2)
+        sim.set(**{"solver.simulation_steps": 30})
+        with self.assertRaisesRegex(clothsim.SimulationError, r"in step 91 \(frame 4\)"):
+            sim.step(1)
 
     def test_single_steps_go_back_by_a_frame_at_most_when_cloth_blows_up(self):
         sim = clothsim.Simulation("pinned2", backend="cpu")  # 30 steps a frame

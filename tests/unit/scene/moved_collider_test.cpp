@@ -53,6 +53,16 @@ TEST(MovedCollider, ShiftsAPathOfItsOwn) {
   EXPECT_EQ(poseAt(after.colliders[1], 2).position, (Vec3d{4, 5, 0}));
 }
 
+TEST(MovedCollider, RestsWhereItsPathHasTakenIt) {
+  const Motion path{{{0, {1, 0, 0}, {}}, {2, {3, 0, 0}, {0, 0, 60}}}};
+  const Scene moving = sceneWith(Box{.origin = {1, 0, 0}, .rotation = {0, 0, 20}, .motion = path});
+  const Scene rest = withColliderAtRest(moving, 1, 1);
+  EXPECT_FALSE(moves(rest.colliders[1]));
+  EXPECT_EQ(std::get<Box>(rest.colliders[1]).origin, (Vec3d{2, 0, 0}));
+  EXPECT_LT(length(std::get<Box>(rest.colliders[1]).rotation - Vec3d{0, 0, 50}), 1e-9);
+  EXPECT_EQ(withColliderAtRest(rest, 1, 5), rest);
+}
+
 TEST(MovedCollider, DoesNotSpinBackWhereALoopBeginsAnew) {
   Sphere sphere;
   sphere.motion = pathTo({4, 0, 0});
