@@ -61,6 +61,8 @@ void play(Session& session, bool switches = false) {
   Scene edited = session.simulation().scene();
   edited.gravity = {0, -5, 1};
   edited.solver.integrator = Integrator::euler;
+  edited.cloths[0].pressure = 20;
+  edited.cloths[0].tearStrain = 0.05;
   session.act(EditScene{edited});
   session.act(Blow{});
   stepSoundly(session, 2);
