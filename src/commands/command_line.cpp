@@ -197,7 +197,7 @@ void declareRun(CLI::App& app, Arguments& a, Task& task) {
                   "save the last state as .csv .ply .obj .glb .npz .png, or .state (exact); with %04d in the "
                   "name every K-th frame; all frames in one file: .pc2 (with its mesh, FILE_rest.obj), .usda "
                   ".usdc .usd "
-                  "(every K-th), .mp4 (real time; needs ffmpeg); may be repeated")
+                  "(every K-th), .mp4 .webp (real time; needs ffmpeg); may be repeated")
       ->type_name("FILE")
       ->allow_extra_args(false);
   run->add_option("--every", a.every, "K for numbered files, .pc2 and USD")
@@ -325,7 +325,8 @@ void declareRender(CLI::App& app, Arguments& a, Task& task) {
   addThreads(*render, a);
   render
       ->add_option("--out", a.outs,
-                   "still.png (the last frame), frame_%04d.png, clip.mp4 (needs ffmpeg); may be repeated")
+                   "still.png (the last frame), frame_%04d.png, clip.mp4 or clip.webp (needs ffmpeg); may be "
+                   "repeated")
       ->required()
       ->type_name("FILE")
       ->allow_extra_args(false);

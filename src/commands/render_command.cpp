@@ -28,8 +28,9 @@ PictureSettings settingsOf(const RenderCommandOptions& options) {
 void checkOutputs(const RenderCommandOptions& options) {
   for (const std::string& out : options.outs) {
     if (!isPicture(out))
-      throw UsageError("--out " + out +
-                       ": expected a name ending in .png or .mp4, as still.png, frame_%04d.png, clip.mp4");
+      throw UsageError(
+          "--out " + out +
+          ": expected a name ending in .png, .mp4 or .webp, as still.png, frame_%04d.png, clip.mp4");
     checkFrameNumber("--out", out);
     checkPicture("--out", out, settingsOf(options));
   }

@@ -65,7 +65,7 @@ void checkSaves(const RunOptions& options) {
     if (!isSequence(save) && !isPicture(save) && !canSaveStateAs(save))
       throw UsageError("--save " + save +
                        ": the extension is none of .csv, .ply, .obj, .glb, .npz, .state, .pc2, .usda, .usdc, "
-                       ".usd, .png, .mp4");
+                       ".usd, .png, .mp4, .webp");
   }
   checkNumbering(options);
   for (const std::string& save : options.saves) {

@@ -25,7 +25,7 @@ bool numbersFrames(const std::string& save) {
   return hasFrameNumber(save) || (isSequence(save) && !isPointCache(save));
 }
 
-bool holdsFrames(const std::string& save) { return isSequence(save) || save.ends_with(".mp4"); }
+bool holdsFrames(const std::string& save) { return isSequence(save) || isFilm(save); }
 
 void checkFrameNumber(const std::string& flag, const std::string& name) {
   const std::string foreign = foreignFrameNumber(name);

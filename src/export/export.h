@@ -30,7 +30,11 @@ inline constexpr std::string_view STATE_EXTENSIONS = ".csv, .ply, .obj, .glb, .n
 // PNG from 8 bit RGB, top row first. @throws InputOutputError
 void savePng(const std::filesystem::path& path, int width, int height, std::span<const std::uint8_t> rgb);
 
-// MP4 (H.264, yuv420p) through the ffmpeg program. Frames go to a temporary file that close() renames.
+// Whether the name ends in .mp4 or .webp.
+[[nodiscard]] bool isFilm(const std::string& name);
+
+// MP4 (H.264, yuv420p), or an animated WebP, which pages of text show and which begins again at its end,
+// through the ffmpeg program. Frames go to a temporary file that close() renames.
 class VideoWriter {
  public:
   // @throws InputOutputError when ffmpeg is not installed (says how to get it) or does not start

@@ -32,23 +32,50 @@ namespace {
 constexpr int filmDescriptor =
     3;  // the film's number in ffmpeg, which opens it anew through /proc, also to read
 
-std::vector<std::string> ffmpegArguments(int width, int height, double framesPerSecond) {
+// yuv420p, which every player shows, takes even sizes only. The colours are converted to BT.709, and labelled
+// so.
+const std::vector<std::string> mp4{"-vf",
+                                   "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv",
+                                   "-c:v",
+                                   "libx264",
+                                   "-preset",
+                                   "medium",
+                                   "-crf",
+                                   "18",
+                                   "-pix_fmt",
+                                   "yuv420p",
+                                   "-colorspace",
+                                   "bt709",
+                                   "-color_primaries",
+                                   "bt709",
+                                   "-color_trc",
+                                   "bt709",
+                                   "-color_range",
+                                   "tv",
+                                   "-movflags",
+                                   "+faststart",
+                                   "-f",
+                                   "mp4"};
+const std::vector<std::string> webp{"-c:v", "libwebp_anim", "-quality", "75", "-loop", "0", "-f", "webp"};
+
+std::vector<std::string> ffmpegArguments(const std::filesystem::path& path, int width, int height,
+                                         double framesPerSecond) {
   std::array<char, 32> rate;
   const auto end = std::to_chars(rate.data(), rate.data() + rate.size(), framesPerSecond).ptr;
-  return {"ffmpeg", "-hide_banner", "-nostdin", "-loglevel", "error", "-y",
-          // The input.
-          "-f", "rawvideo", "-pixel_format", "rgb24", "-video_size",
-          std::to_string(width) + "x" + std::to_string(height), "-framerate", std::string(rate.data(), end),
-          "-i", "pipe:0",
-          // The output. yuv420p, which every player shows, takes even sizes only. The colours are converted
-          // to BT.709, and labelled so.
-          "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv", "-c:v", "libx264",
-          "-preset", "medium", "-crf", "18", "-pix_fmt", "yuv420p", "-colorspace", "bt709",
-          "-color_primaries", "bt709", "-color_trc", "bt709", "-color_range", "tv", "-movflags", "+faststart",
-          "-f", "mp4", "file:/proc/self/fd/" + std::to_string(filmDescriptor)};
+  std::vector<std::string> arguments{"ffmpeg", "-hide_banner", "-nostdin", "-loglevel", "error", "-y",
+                                     // The input.
+                                     "-f", "rawvideo", "-pixel_format", "rgb24", "-video_size",
+                                     std::to_string(width) + "x" + std::to_string(height), "-framerate",
+                                     std::string(rate.data(), end), "-i", "pipe:0"};
+  const std::vector<std::string>& encoder = path.extension() == ".webp" ? webp : mp4;
+  arguments.insert(arguments.end(), encoder.begin(), encoder.end());
+  arguments.push_back("file:/proc/self/fd/" + std::to_string(filmDescriptor));
+  return arguments;
 }
 
 }  // namespace
+
+bool isFilm(const std::string& name) { return name.ends_with(".mp4") || name.ends_with(".webp"); }
 
 struct VideoWriter::Pipe {
   Pipe(const std::filesystem::path& wanted, std::size_t bytes)
@@ -139,7 +166,7 @@ void VideoWriter::Pipe::fail() {
 VideoWriter::VideoWriter(const std::filesystem::path& path, int width, int height, double framesPerSecond)
     : pipe_(std::make_unique<Pipe>(path,
                                    3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height))) {
-  pipe_->start(ffmpegArguments(width, height, framesPerSecond));
+  pipe_->start(ffmpegArguments(path, width, height, framesPerSecond));
 }
 
 VideoWriter::~VideoWriter() = default;

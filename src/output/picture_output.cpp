@@ -9,7 +9,7 @@
 
 namespace clothsim {
 
-bool isPicture(const std::string& name) { return name.ends_with(".png") || name.ends_with(".mp4"); }
+bool isPicture(const std::string& name) { return name.ends_with(".png") || isFilm(name); }
 
 int usualExposures(const std::vector<std::string>& names) {
   const bool areStills = std::all_of(names.begin(), names.end(), [](const std::string& name) {
@@ -26,7 +26,7 @@ void checkPicture(const std::string& flag, const std::string& name, const Pictur
 
 PictureOutput::PictureOutput(std::string name, const PictureSettings& settings, const Scene& scene)
     : name_(std::move(name)), frames_(settings.frames), first_(settings.first) {
-  if (name_.ends_with(".mp4")) {
+  if (isFilm(name_)) {
     // A film plays in real time. Frames are left out to stay at or below the given rate.
     const double rate = scene.solver.framesPerSec;
     every_ = std::max(1, static_cast<int>(std::ceil(rate / settings.picturesPerSecond - 1e-9)));

@@ -1,4 +1,5 @@
-// Saves the pictures of a run: still.png gets the last frame, frame_%04d.png and clip.mp4 many.
+// Saves the pictures of a run: still.png gets the last frame, frame_%04d.png, clip.mp4 and clip.webp
+// many.
 #pragma once
 
 #include <memory>
@@ -19,7 +20,7 @@ struct PictureSettings {
   int first = 0;                   // number of frame 0 in numbered names
 };
 
-// Whether the name ends in .png or .mp4.
+// Whether the name ends in .png, .mp4 or .webp.
 [[nodiscard]] bool isPicture(const std::string& name);
 
 class PictureOutput {
@@ -43,7 +44,7 @@ class PictureOutput {
 // many.
 [[nodiscard]] int usualExposures(const std::vector<std::string>& names);
 
-// To be called before long work; `flag` is named in messages. @throws UsageError for a film of an odd width
+// To be called before long work; `flag` is named in messages. @throws UsageError for an .mp4 of an odd width
 // or height
 void checkPicture(const std::string& flag, const std::string& name, const PictureSettings& settings);
 

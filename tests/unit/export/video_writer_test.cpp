@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <vector>
@@ -40,6 +41,27 @@ TEST_F(VideoWriterTest, MakesAnMp4OfEvenSizeWithEveryFrame) {
   writer.close();
   EXPECT_EQ(probe(folder_ / "a.mp4"), "h264,34,18,yuv420p,90/1,12\n");
   EXPECT_EQ(folder_.fileCount(), 1);
+}
+
+// (ffprobe does not read animated WebP.)
+TEST_F(VideoWriterTest, MakesAWebpOfAnySizeThatRepeats) {
+  VideoWriter writer(folder_ / "a.webp", 33, 17, 20);
+  for (const int gray : {200, 100, 0}) {
+    std::ranges::fill(frame_, static_cast<std::uint8_t>(gray));
+    writer.addFrame(frame_);
+  }
+  writer.close();
+  const std::string film = readFile(folder_ / "a.webp");
+  EXPECT_EQ(film.substr(0, 4) + film.substr(8, 8), "RIFFWEBPVP8X");
+  EXPECT_EQ(film.substr(24, 6), std::string("\x20\0\0\x10\0\0", 6)) << "33 x 17, less one each";
+  EXPECT_EQ(film.substr(30, 4), "ANIM");
+  EXPECT_EQ(film.substr(42, 2), std::string(2, '\0')) << "it repeats for ever";
+  int frames = 0;
+  for (std::size_t at = film.find("ANMF"); at != std::string::npos; at = film.find("ANMF", at + 4)) {
+    EXPECT_EQ(film.substr(at + 20, 3), std::string("\x32\0\0", 3)) << "50 ms each";
+    ++frames;
+  }
+  EXPECT_EQ(frames, 3);
 }
 
 TEST_F(VideoWriterTest, LeavesTheOldFilmWhenItIsAbandoned) {
