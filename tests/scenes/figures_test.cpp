@@ -81,9 +81,9 @@ TEST(Figures, ThatFailAreNamed) {
   const test::TemporaryFolder folder;
   EXPECT_EQ(gallery("nowhere.png").exitCode, 2);
   const test::CommandResult broken =
-      gallery("demo.png --quick --program /bin/false --out " + folder.path().string());
+      gallery("fold.png --quick --program /bin/false --out " + folder.path().string());
   EXPECT_EQ(broken.exitCode, 1);
-  EXPECT_NE(broken.output.find("assets/readme/demo.png: exit code 1"), std::string::npos) << broken.output;
+  EXPECT_NE(broken.output.find("assets/readme/fold.png: exit code 1"), std::string::npos) << broken.output;
 }
 
 }  // namespace

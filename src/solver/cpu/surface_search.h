@@ -150,25 +150,32 @@ struct SurfaceSearch {
         : number(triangle),
           corners(cornersOf(surface.triangles[triangle])),
           joints(surface.jointsOf(surface.triangles[triangle])),
-          owned(surface.triangles[triangle].owned),
-          box(boxes.triangles[triangle]) {
-      for (std::size_t k = 0; k < 3; ++k) cornerBoxes[k] = boxes.particles[corners[k]];
-    }
+          ownedCorners(surface.triangles[triangle].owned & 7u),
+          ownedSides(surface.triangles[triangle].owned >> OWNED_SIDE & 7u),
+          box(boxes.triangles[triangle]),
+          particleBoxes(boxes.particles.data()) {}
     [[nodiscard]] bool has(std::uint32_t joint) const {
       return joint == joints[0] || joint == joints[1] || joint == joints[2];
     }
-    [[nodiscard]] bool ownsCorner(std::uint32_t k) const { return (owned >> k & 1u) != 0; }
-    [[nodiscard]] bool ownsSide(std::uint32_t k) const { return (owned >> (OWNED_SIDE + k) & 1u) != 0; }
+    [[nodiscard]] const MovingBounds<Real>& cornerBox(std::uint32_t k) const {
+      return particleBoxes[corners[k]];
+    }
     [[nodiscard]] MovingBounds<Real> sideBox(std::uint32_t k) const {
-      return joined(cornerBoxes[k], cornerBoxes[(k + 1) % 3]);
+      return joined(cornerBox(k), cornerBox(next(k)));
     }
 
     std::uint32_t number;
     std::array<std::uint32_t, 3> corners, joints;
-    std::uint32_t owned;
-    MovingBounds<Real> box;
-    std::array<MovingBounds<Real>, 3> cornerBoxes;
+    std::uint32_t ownedCorners, ownedSides;  // a bit each
+    const MovingBounds<Real>& box;
+    const MovingBounds<Real>* particleBoxes;
   };
+  [[nodiscard]] static std::uint32_t next(std::uint32_t k) { return k == 2 ? 0 : k + 1; }
+  // work(k) for the bits that are set.
+  template <class Work>
+  static void forEachBit(std::uint32_t bits, Work work) {
+    for (; bits != 0; bits &= bits - 1) work(static_cast<std::uint8_t>(std::countr_zero(bits)));
+  }
 
   template <class Visit>
   static void forEachPair(const BoxedTriangle& triangle, const BoxedTriangle& neighbor, Visit& visit) {
@@ -179,32 +186,29 @@ struct SurfaceSearch {
   template <class Visit>
   static void forEachCorner(const BoxedTriangle& from, const BoxedTriangle& to, Visit& visit) {
     const auto [a, b, c] = to.corners;
-    for (std::uint8_t k = 0; k < 3; ++k) {
-      if (from.ownsCorner(k) && !to.has(from.joints[k]) && overlap(from.cornerBoxes[k], to.box))
+    forEachBit(from.ownedCorners, [&](std::uint8_t k) {
+      if (!to.has(from.joints[k]) && overlap(from.cornerBox(k), to.box))
         visit(Parts{{from.corners[k], a, b, c}, from.number, to.number, false, k, 0});
-    }
+    });
   }
   template <class Visit>
   static void forEachSide(const BoxedTriangle& from, const BoxedTriangle& to, Visit& visit) {
-    for (std::uint8_t k = 0; k < 3; ++k) {
-      if (!from.ownsSide(k)) continue;
+    if (to.ownedSides == 0) return;
+    forEachBit(from.ownedSides, [&](std::uint8_t k) {
       const MovingBounds<Real> side = from.sideBox(k);
-      if (!overlap(side, to.box)) continue;
-      const std::size_t nextK = (k + 1) % 3;
-      const std::uint32_t p = from.joints[k], q = from.joints[nextK];
-      for (std::uint8_t l = 0; l < 3; ++l) {
-        if (!to.ownsSide(l)) continue;
-        const std::size_t nextL = (l + 1) % 3;
-        const std::uint32_t a = to.joints[l], b = to.joints[nextL];
+      if (!overlap(side, to.box)) return;
+      const std::uint32_t p = from.joints[k], q = from.joints[next(k)];
+      forEachBit(to.ownedSides, [&](std::uint8_t l) {
+        const std::uint32_t a = to.joints[l], b = to.joints[next(l)];
         if (a != p && a != q && b != p && b != q && overlap(side, to.sideBox(l)))
-          visit(Parts{{from.corners[k], from.corners[nextK], to.corners[l], to.corners[nextL]},
+          visit(Parts{{from.corners[k], from.corners[next(k)], to.corners[l], to.corners[next(l)]},
                       from.number,
                       to.number,
                       true,
                       k,
                       l});
-      }
-    }
+      });
+    });
   }
 };
 
