@@ -185,10 +185,10 @@ struct SurfaceSearch {
   }
   template <class Visit>
   static void forEachCorner(const BoxedTriangle& from, const BoxedTriangle& to, Visit& visit) {
-    const auto [a, b, c] = to.corners;
+    const std::array<std::uint32_t, 3>& t = to.corners;
     forEachBit(from.ownedCorners, [&](std::uint8_t k) {
       if (!to.has(from.joints[k]) && overlap(from.cornerBox(k), to.box))
-        visit(Parts{{from.corners[k], a, b, c}, from.number, to.number, false, k, 0});
+        visit(Parts{{from.corners[k], t[0], t[1], t[2]}, from.number, to.number, false, k, 0});
     });
   }
   template <class Visit>
