@@ -32,31 +32,32 @@ namespace {
 constexpr int filmDescriptor =
     3;  // the film's number in ffmpeg, which opens it anew through /proc, also to read
 
-// yuv420p, which every player shows, takes even sizes only. The colours are converted to BT.709, and labelled
-// so.
-const std::vector<std::string> mp4{"-vf",
-                                   "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv",
-                                   "-c:v",
-                                   "libx264",
-                                   "-preset",
-                                   "medium",
-                                   "-crf",
-                                   "18",
-                                   "-pix_fmt",
-                                   "yuv420p",
-                                   "-colorspace",
-                                   "bt709",
-                                   "-color_primaries",
-                                   "bt709",
-                                   "-color_trc",
-                                   "bt709",
-                                   "-color_range",
-                                   "tv",
-                                   "-movflags",
-                                   "+faststart",
-                                   "-f",
-                                   "mp4"};
-const std::vector<std::string> webp{"-c:v", "libwebp_anim", "-quality", "75", "-loop", "0", "-f", "webp"};
+constexpr std::array mp4Words{
+    // yuv420p, which every player shows, takes even sizes only. The colours are converted to BT.709, and
+    // labelled so.
+    "-vf",
+    "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv",
+    "-c:v",
+    "libx264",
+    "-preset",
+    "medium",
+    "-crf",
+    "18",
+    "-pix_fmt",
+    "yuv420p",
+    "-colorspace",
+    "bt709",
+    "-color_primaries",
+    "bt709",
+    "-color_trc",
+    "bt709",
+    "-color_range",
+    "tv",
+    "-movflags",
+    "+faststart",
+    "-f",
+    "mp4"};
+constexpr std::array webpWords{"-c:v", "libwebp_anim", "-quality", "75", "-loop", "0", "-f", "webp"};
 
 std::vector<std::string> ffmpegArguments(const std::filesystem::path& path, int width, int height,
                                          double framesPerSecond) {
@@ -67,8 +68,8 @@ std::vector<std::string> ffmpegArguments(const std::filesystem::path& path, int 
                                      "-f", "rawvideo", "-pixel_format", "rgb24", "-video_size",
                                      std::to_string(width) + "x" + std::to_string(height), "-framerate",
                                      std::string(rate.data(), end), "-i", "pipe:0"};
-  const std::vector<std::string>& encoder = path.extension() == ".webp" ? webp : mp4;
-  arguments.insert(arguments.end(), encoder.begin(), encoder.end());
+  const auto add = [&](const auto& words) { arguments.insert(arguments.end(), words.begin(), words.end()); };
+  path.extension() == ".webp" ? add(webpWords) : add(mp4Words);
   arguments.push_back("file:/proc/self/fd/" + std::to_string(filmDescriptor));
   return arguments;
 }

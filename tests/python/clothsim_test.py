@@ -13,6 +13,7 @@ import tempfile
 import unittest
 
 import clothsim
+from needs_opengl import NeedsOpenGl
 import numpy as np
 
 PROGRAM = os.environ["CLOTHSIM_PROGRAM"]
@@ -409,14 +410,7 @@ class Acting(unittest.TestCase):
             self.assertEqual(sim.state_hash, kept)
 
 
-class OnTheGpu(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        try:
-            clothsim.Simulation("pinned4", backend="gpu", resolution=(8, 8))
-        except clothsim.OpenGlError as error:
-            raise unittest.SkipTest(str(error))
-
+class OnTheGpu(NeedsOpenGl):
     def test_both_backends_agree_and_arrays_are_copies(self):
         states = []
         for backend in ("gpu", "cpu"):

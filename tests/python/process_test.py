@@ -11,6 +11,7 @@ import time
 import unittest
 
 import clothsim
+from needs_opengl import NeedsOpenGl
 
 
 class Threads(unittest.TestCase):
@@ -77,14 +78,7 @@ class Threads(unittest.TestCase):
         self.assertIn("another thread uses this simulation", said)
 
 
-class ThreadsWithOpenGl(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        try:
-            clothsim.Simulation("pinned4", backend="gpu", resolution=(8, 8))
-        except clothsim.OpenGlError as error:
-            raise unittest.SkipTest(str(error))
-
+class ThreadsWithOpenGl(NeedsOpenGl):
     def test_it_belongs_to_its_thread(self):
         sim = clothsim.Simulation("pinned4", backend="gpu", resolution=(8, 8))
         said = []

@@ -1,5 +1,6 @@
 // Room for the forces of springs, triangles and bending lines of the rows about the one that is worked on, so
-// that each is computed once for all particles that it acts on.
+// that each is computed once for all particles that it acts on. Passes that go down the rows together must
+// not share them.
 #pragma once
 
 #include <algorithm>

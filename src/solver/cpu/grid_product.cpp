@@ -25,20 +25,14 @@ INLINE void multiplySprings(const ImplicitArguments<Real>& arguments, std::uint3
   const Real *across = own.elements.across[slot].data(), *along = own.elements.along[slot].data();
   const Arrays<Real> products = countedFrom(-rangeOf(step, row).begin, rows.row(slot, row));
   const std::ptrdiff_t other = indexOffset(step, offset.columns, offset.rows);
-  forEachSixteen(
-      rangeOf(step, row, offset.columns, offset.columns), [&](std::ptrdiff_t begin, std::ptrdiff_t end)
-                                                              __attribute__((always_inline)) {
+  const auto multiply = [&](std::ptrdiff_t begin, std::ptrdiff_t end) __attribute__((always_inline)) {
 #pragma GCC ivdep
-                                                                for (std::ptrdiff_t i = begin; i < end; ++i) {
-                                                                  const Vec3<Real> d = at(x, i + other) -
-                                                                                       at(x, i),
-                                                                                   e = at(p, i + other) -
-                                                                                       at(p, i);
-                                                                  put(products, i,
-                                                                      across[i] * e +
-                                                                          (along[i] * dot(d, e)) * d);
-                                                                }
-                                                              });
+    for (std::ptrdiff_t i = begin; i < end; ++i) {
+      const Vec3<Real> d = at(x, i + other) - at(x, i), e = at(p, i + other) - at(p, i);
+      put(products, i, across[i] * e + (along[i] * dot(d, e)) * d);
+    }
+  };
+  forEachSixteen(rangeOf(step, row, offset.columns, offset.columns), multiply);
 }
 
 // Of the bending lines whose middles are the particles of a row, what they add to the products of their ends.
@@ -54,20 +48,14 @@ INLINE void multiplyLines(const ImplicitArguments<Real>& arguments, std::size_t 
   const Real* stiffness = (isAlongRow ? own.elements.bendAlongRow : own.elements.bendAlongColumn).data();
   const Arrays<Real> products = countedFrom(-rangeOf(step, row).begin, rows.row(kind, row));
   const std::ptrdiff_t one = isAlongRow ? 1 : indexOffset(step, 0, 1);
-  forEachSixteen(
-      isAlongRow ? rangeOf(step, row, -1, 1) : rangeOf(step, row), [&](std::ptrdiff_t begin,
-                                                                       std::ptrdiff_t end)
-                                                                       __attribute__((always_inline)) {
+  const auto multiply = [&](std::ptrdiff_t begin, std::ptrdiff_t end) __attribute__((always_inline)) {
 #pragma GCC ivdep
-                                                                         for (std::ptrdiff_t i = begin;
-                                                                              i < end; ++i) {
-                                                                           const Vec3<Real> m = at(p, i);
-                                                                           put(products, i,
-                                                                               stiffness[i] *
-                                                                                   ((m - at(p, i - one)) +
-                                                                                    (m - at(p, i + one))));
-                                                                         }
-                                                                       });
+    for (std::ptrdiff_t i = begin; i < end; ++i) {
+      const Vec3<Real> m = at(p, i);
+      put(products, i, stiffness[i] * ((m - at(p, i - one)) + (m - at(p, i + one))));
+    }
+  };
+  forEachSixteen(isAlongRow ? rangeOf(step, row, -1, 1) : rangeOf(step, row), multiply);
 }
 
 // A particle is the last, the middle and the first of three lines along the row, then along the column.
