@@ -37,10 +37,14 @@ bool setsSteps(const Setting& setting) {
 
 // What "auto" stands for in this scene; empty when nothing that counts is automatic.
 std::string chosenCounts(const SolverSettings& solver) {
+  constexpr double small = 1.0 / 6000;  // such steps make most scenes slower than a solve would [s]
   std::string text;
-  if (solver.simulationSteps.automatic)
+  if (solver.simulationSteps.automatic) {
     text = formatted("solver.simulation_steps=%d, %s steps of %.3g s", solver.simulationSteps.count,
                      integratorName(solver.integrator), stepLength(solver));
+    if (!isImplicit(solver.integrator) && stepLength(solver) < small)
+      text += "; solver.integrator=implicit takes larger ones";
+  }
   if (isImplicit(solver.integrator) && solver.cgIterations.automatic)
     text += (text.empty() ? "" : "; ") + formatted("solver.cg_iterations=%d", solver.cgIterations.count);
   return text.empty() ? "" : "auto chose " + text;

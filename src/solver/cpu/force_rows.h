@@ -114,4 +114,31 @@ INLINE void sumSprings(ForceRows<Real>& rows, int row, const Arrays<Real>& sums,
   sum(std::make_index_sequence<incidentSprings.size()>());
 }
 
+// Calls compute(kind, row) for the bending lines that act on the particles of a row and are not there yet.
+template <class Real, class Compute>
+INLINE void ensureLines(ForceRows<Real>& rows, int row, Compute compute) {
+  const auto ensure = [&](std::size_t kind, int around) __attribute__((always_inline)) {
+    rows.ensure(
+        kind, row - around,
+        row + around, [&](int middles) __attribute__((always_inline)) { compute(kind, middles); });
+  };
+  ensure(ForceRows<Real>::LINE_ALONG_ROW, 0);
+  ensure(ForceRows<Real>::LINE_ALONG_COLUMN, 1);
+}
+
+// Adds what bending lines do to the particles of a row, of which each is the last, the middle and the first
+// of three lines along the row, then along the column. The middle feels -2 times what an end does.
+template <class Real>
+INLINE void addLines(const Arrays<Real>& sums, std::ptrdiff_t count, int row, ForceRows<Real>& rows) {
+  constexpr std::size_t alongRow = ForceRows<Real>::LINE_ALONG_ROW,
+                        alongColumn = ForceRows<Real>::LINE_ALONG_COLUMN;
+  const Arrays<Real> inRow = rows.row(alongRow, row), above = rows.row(alongColumn, row - 1),
+                     here = rows.row(alongColumn, row), below = rows.row(alongColumn, row + 1);
+#pragma GCC ivdep
+  for (std::ptrdiff_t c = 0; c < count; ++c) {
+    const Vec3<Real> ofRow = ((at(sums, c) + at(inRow, c - 1)) - Real(2) * at(inRow, c)) + at(inRow, c + 1);
+    put(sums, c, ((ofRow + at(above, c)) - Real(2) * at(here, c)) + at(below, c));
+  }
+}
+
 }  // namespace clothsim::cpu

@@ -121,73 +121,56 @@ INLINE void addLimitSprings(const PassArguments<Real>& arguments, int row) {
           });
 }
 
-// Three particles in a line, as seen by the one that gathers: the first, the middle, the last of them. The
-// force on an end is b (2 m - a - c), that on the middle -2 times as large.
-template <class Real>
-struct BendingLine {
-  std::ptrdiff_t toA, toM, toC;
-  Real factor;
-  std::uint32_t links;  // the springs, as bits of a cut mask, of which none may be cut
-};
-template <class Real>
-INLINE std::array<BendingLine<Real>, 3> bendingLines(std::ptrdiff_t one,
-                                                     const std::array<std::uint32_t, 3>& links) {
-  return {{{-2 * one, -one, 0, Real(1), links[0]},
-           {-one, 0, one, Real(-2), links[1]},
-           {0, one, 2 * one, Real(1), links[2]}}};
-}
-
+// Of the bending lines whose middles m are the particles of a row, what acts on their ends: b (2 m - a - c).
 // Where the pins of a clamp end, the curvature of the first half cell shows at the last pin, half as large as
-// it is: it counts twice.
+// it is: it counts twice. Lines along a border count half.
 template <bool hasCuts, class Real>
-INLINE void addBendingLine(const PassArguments<Real>& arguments, Range particles,
-                           const BendingLine<Real>& line, Real b) {
-  [[maybe_unused]] const std::uint32_t* cutMasks = arguments.cutMasks;
-  const Real *x = arguments.before.positions.x.data(), *y = arguments.before.positions.y.data(),
-             *z = arguments.before.positions.z.data(), *w = arguments.inverseMasses;
-  Real *fx = arguments.forces.x.data(), *fy = arguments.forces.y.data(), *fz = arguments.forces.z.data();
-  const std::ptrdiff_t toA = line.toA, toM = line.toM, toC = line.toC;
-  const Real factor = line.factor;
-#pragma omp simd
-  for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
-    const Vec3<Real> a = load(x, y, z, i + toA), m = load(x, y, z, i + toM), c = load(x, y, z, i + toC);
-    const bool endOfClamp = w[i + toM] == Real(0) && (w[i + toA] == Real(0)) != (w[i + toC] == Real(0));
-    const Real weighted = endOfClamp ? Real(2) * b : b;
-    const Vec3<Real> force = factor * (weighted * ((m - a) + (m - c)));
-    bool isCut = false;
-    if constexpr (hasCuts) isCut = (cutMasks[i] & line.links) != 0;
-    fx[i] = isCut ? fx[i] : fx[i] + force.x;
-    fy[i] = isCut ? fy[i] : fy[i] + force.y;
-    fz[i] = isCut ? fz[i] : fz[i] + force.z;
-  }
+INLINE void computeLines(const PassArguments<Real>& arguments, std::size_t kind, int row,
+                         ForceRows<Real>& rows) {
+  const StepParams<Real>& step = arguments.step;
+  const bool isAlongRow = kind == ForceRows<Real>::LINE_ALONG_ROW, isBorderRow = isBorder(row, step.rows);
+  if (!isAlongRow && (row < 0 || row >= static_cast<int>(step.rows) || isBorderRow))
+    return rows.clear(kind, row);
+  const std::uint32_t* cutMasks = arguments.cutMasks;
+  const Arrays<const Real> p = arraysOf(arguments.before.positions);
+  const Real* w = arguments.inverseMasses;
+  const Real stiffness = isAlongRow ? step.bendAlongRow : step.bendAlongColumn;
+  const std::ptrdiff_t one = isAlongRow ? 1 : indexOffset(step, 0, 1);
+  const std::uint32_t links = isAlongRow ? BENDING_ROW : BENDING_COLUMN;
+  const Arrays<Real> forces = countedFrom(-rangeOf(step, row).begin, rows.row(kind, row));
+  const auto compute = [&](Range middles, bool isEnd) __attribute__((always_inline)) {
+    const Real b = isEnd || (isAlongRow && isBorderRow) ? Real(0.5) * stiffness : stiffness;
+    forEachSixteen(
+        middles, [&](std::ptrdiff_t begin, std::ptrdiff_t end) __attribute__((always_inline)) {
+#pragma GCC ivdep
+          for (std::ptrdiff_t i = begin; i < end; ++i) {
+            const Vec3<Real> a = at(p, i - one), m = at(p, i), c = at(p, i + one);
+            const bool endOfClamp = w[i] == Real(0) && (w[i - one] == Real(0)) != (w[i + one] == Real(0));
+            const Vec3<Real> force = (endOfClamp ? Real(2) * b : b) * ((m - a) + (m - c));
+            bool isCut = false;
+            if constexpr (hasCuts) isCut = (cutMasks[i] & links) != 0;
+            put(forces, i, {isCut ? Real(0) : force.x, isCut ? Real(0) : force.y, isCut ? Real(0) : force.z});
+          }
+        });
+  };
+  forEachPart(isAlongRow ? rangeOf(step, row, -1, 1) : rangeOf(step, row), !isAlongRow, compute);
 }
 
-// Along the row, all particles of which have the same border weight; then along the columns.
 template <bool hasCuts, class Real>
-INLINE void addBending(const PassArguments<Real>& arguments, int row) {
-  const StepParams<Real>& step = arguments.step;
-  const int rows = static_cast<int>(step.rows);
-  const Real alongRow = isBorder(row, step.rows) ? Real(0.5) * step.bendAlongRow : step.bendAlongRow;
-  const auto ofRow = bendingLines<Real>(1, {BENDING_LEFT, BENDING_ROW, BENDING_RIGHT}),
-             ofColumn =
-                 bendingLines<Real>(indexOffset(step, 0, 1), {BENDING_UPPER, BENDING_COLUMN, BENDING_LOWER});
-  for (int k = 0; k < 3; ++k)
-    addBendingLine<hasCuts>(arguments, rangeOf(step, row, k - 2, k), ofRow[static_cast<std::size_t>(k)],
-                            alongRow);
-  forEachPart(
-      rangeOf(step, row), true, [&](Range particles, bool isEnd) __attribute__((always_inline)) {
-        const Real b = isEnd ? Real(0.5) * step.bendAlongColumn : step.bendAlongColumn;
-        for (int k = 0; k < 3; ++k)
-          if (row + k - 2 >= 0 && row + k < rows)
-            addBendingLine<hasCuts>(arguments, particles, ofColumn[static_cast<std::size_t>(k)], b);
+INLINE void addBending(const PassArguments<Real>& arguments, int row, ForceRows<Real>& rows) {
+  ensureLines(
+      rows, row, [&](std::size_t kind, int middles) __attribute__((always_inline)) {
+        computeLines<hasCuts>(arguments, kind, middles, rows);
       });
+  const Range particles = rangeOf(arguments.step, row);
+  addLines(forcesOf(arguments, particles), particles.end - particles.begin, row, rows);
 }
 
 template <bool hasCuts, class Real>
 INLINE void addElasticForces(const PassArguments<Real>& arguments, int row, ForceRows<Real>& rows) {
   addSprings<hasCuts>(arguments, row, rows);
   if (arguments.step.limitStiffness > Real(0)) addLimitSprings<hasCuts>(arguments, row);
-  if (arguments.step.hasMaterial != 0) addBending<hasCuts>(arguments, row);
+  if (arguments.step.hasMaterial != 0) addBending<hasCuts>(arguments, row, rows);
 }
 
 // The wind on the triangles of the cells of a row: a corner at (c, r), or at (c + 1, r + 1).

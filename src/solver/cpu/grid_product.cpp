@@ -58,20 +58,6 @@ INLINE void multiplyLines(const ImplicitArguments<Real>& arguments, std::size_t 
   forEachSixteen(isAlongRow ? rangeOf(step, row, -1, 1) : rangeOf(step, row), multiply);
 }
 
-// A particle is the last, the middle and the first of three lines along the row, then along the column.
-template <class Real>
-INLINE void addLines(const Arrays<Real>& sums, std::ptrdiff_t count, int row, ForceRows<Real>& rows) {
-  constexpr std::size_t alongRow = ForceRows<Real>::LINE_ALONG_ROW,
-                        alongColumn = ForceRows<Real>::LINE_ALONG_COLUMN;
-  const Arrays<Real> inRow = rows.row(alongRow, row), above = rows.row(alongColumn, row - 1),
-                     here = rows.row(alongColumn, row), below = rows.row(alongColumn, row + 1);
-#pragma GCC ivdep
-  for (std::ptrdiff_t c = 0; c < count; ++c) {
-    const Vec3<Real> ofRow = ((at(sums, c) + at(inRow, c - 1)) - Real(2) * at(inRow, c)) + at(inRow, c + 1);
-    put(sums, c, ((ofRow + at(above, c)) - Real(2) * at(here, c)) + at(below, c));
-  }
-}
-
 // In the order of the forces: incident springs, then lines along the row, then along the column.
 template <class Real>
 INLINE void multiplyElementsOfRow(const ImplicitArguments<Real>& arguments, int row, ForceRows<Real>& rows) {
@@ -86,14 +72,10 @@ INLINE void multiplyElementsOfRow(const ImplicitArguments<Real>& arguments, int 
         });
   sumSprings(rows, row, products, count);
   if (step.hasMaterial == 0) return;
-  const auto ensureLines = [&](std::size_t kind, int around) __attribute__((always_inline)) {
-    rows.ensure(
-        kind, row - around, row + around, [&](int middles) __attribute__((always_inline)) {
-          multiplyLines(arguments, kind, middles, rows);
-        });
-  };
-  ensureLines(ForceRows<Real>::LINE_ALONG_ROW, 0);
-  ensureLines(ForceRows<Real>::LINE_ALONG_COLUMN, 1);
+  ensureLines(
+      rows, row, [&](std::size_t kind, int middles) __attribute__((always_inline)) {
+        multiplyLines(arguments, kind, middles, rows);
+      });
   addLines(products, count, row, rows);
 }
 
