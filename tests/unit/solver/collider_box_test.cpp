@@ -67,7 +67,10 @@ INSTANTIATE_TEST_SUITE_P(
                     Collider(Torus{.radius = 0.3, .tubeRadius = 0.1}),
                     Collider(MeshCollider{.file = "assets/meshes/pawn.obj", .cells = 16}),
                     Collider(Cylinder{.height = 0.5, .radius = 0.3}),
-                    Collider(Cone{.height = 0.5, .radius = 0.1, .topRadius = 0.4})));
+                    Collider(Cone{.height = 0.5, .radius = 0.1, .topRadius = 0.4})),
+    [](const auto& instance) {
+      return std::visit([](const auto& shape) { return std::string(shape.type); }, instance.param);
+    });
 
 // Neither a plane nor a body that deforms has a box.
 TEST(ColliderBoxes, AreNotAroundWhatHasNoEndOrDeforms) {
