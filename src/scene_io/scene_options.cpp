@@ -37,7 +37,7 @@ bool setsSteps(const Setting& setting) {
 
 // What "auto" stands for in this scene; empty when nothing that counts is automatic.
 std::string chosenCounts(const SolverSettings& solver) {
-  constexpr double small = 1.0 / 6000;  // such steps make most scenes slower than a solve would [s]
+  constexpr double small = 5e-5;  // such steps take longer than a solve would in most scenes [s]
   std::string text;
   if (solver.simulationSteps.automatic) {
     text = formatted("solver.simulation_steps=%d, %s steps of %.3g s", solver.simulationSteps.count,
@@ -60,6 +60,21 @@ void addLoosePoints(RemarkedScene& read) {
           cloth.mesh + ": left out " + std::to_string(loose) +
           (loose == 1 ? " point that belongs to no face" : " points that belong to no face"));
   }
+}
+
+// Settings that are given and change nothing.
+void addIdleSettings(RemarkedScene& read) {
+  const SolverSettings& solver = read.scene.solver;
+  for (std::size_t i = 0; i < read.scene.cloths.size(); ++i) {
+    const ClothSettings& cloth = read.scene.cloths[i];
+    if (!cloth.stiffnessReference && cloth.referenceLength != ClothSettings{}.referenceLength)
+      read.remarks.push_back("cloths." + std::to_string(i) +
+                             ".reference_length changes nothing without stiffness_reference");
+  }
+  if (solver.selfFriction && solver.selfCollision != SelfCollision::robust &&
+      solver.selfCollision != SelfCollision::contact)
+    read.remarks.push_back(std::string("solver.self_friction changes nothing where self_collision is ") +
+                           selfCollisionName(solver.selfCollision) + "; robust and contact have friction");
 }
 
 }  // namespace
@@ -87,6 +102,7 @@ RemarkedScene changedScene(Scene from, const SceneOptions& options) {
   }
   for (const Setting& setting : settings) setSceneValue(scene, setting.text, setting.flag);
   addLoosePoints(read);
+  addIdleSettings(read);
   if (const std::string chosen = chosenCounts(scene.solver); !chosen.empty()) read.remarks.push_back(chosen);
   if (usesMaterial(scene) && stepLength(scene.solver) > stableStep(scene) * (1 + 1e-9))
     read.remarks.push_back(
