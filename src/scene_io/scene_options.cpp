@@ -6,6 +6,7 @@
 
 #include "cloth/material.h"
 #include "cloth/mesh_shape.h"
+#include "core/error.h"
 #include "core/formatted.h"
 #include "scene_io/mesh_scene.h"
 #include "scene_io/scene_io.h"
