@@ -193,6 +193,7 @@ DrawRate measureDrawing(const Scene& scene, const State& state, Quality quality,
       passes[pass].push_back(rate.passes[pass].seconds);
   }
   rate.seconds = median(whole);
+  rate.leastSeconds = *std::min_element(whole.begin(), whole.end());
   rate.processorSeconds = median(processor);
   for (std::size_t pass = 0; pass < passes.size(); ++pass) rate.passes[pass].seconds = median(passes[pass]);
   return rate;

@@ -44,6 +44,7 @@ struct DrawRate {
   Quality quality = Quality::final;
   double scale = 1;              // of the pixels that the scene is drawn in, where that adapts
   double seconds = 0;            // for a picture, as the viewer draws it
+  double leastSeconds = 0;       // for the quickest one: others may use the cores, too
   double processorSeconds = 0;   // of all threads of this program, for a picture
   std::vector<DrawTime> passes;  // each timed on its own
 };
