@@ -63,7 +63,7 @@ void measureStencils(bool small, const TellRate& tell) {
                                                       {"SIZE", std::to_string(size) + "u"},
                                                       {"LOADS", std::to_string(load)}});
       stencil.bind();
-      const WorkTime time = timeWork(small ? 2 : 200, [&] {
+      const WorkTime time = timeWork(small ? 2 : 200, [&, columns = columns, rows = rows] {
         dispatch(static_cast<std::uint32_t>(size), static_cast<std::uint32_t>(size), columns, rows);
         glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT);
       });
