@@ -3,6 +3,8 @@
 // every bit; tools/compare_scenes goes the whole way.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "gl/gl_test.h"
 #include "measure/crossings.h"
 #include "measure/measure.h"

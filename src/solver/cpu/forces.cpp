@@ -283,6 +283,7 @@ INLINE void addParticleForces(const PassArguments<Real>& arguments, int row) {
   const Range particles = rangeOf(arguments.step, row);
   forEachParticleForce(
       arguments.step, [&](auto law) __attribute__((always_inline)) {
+// With a simd clause GCC 12 keeps what a law returns in memory, and the loop stays scalar.
 #pragma GCC ivdep
         for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
           const Vec3<Real> f = law(load(x, y, z, i), load(vx, vy, vz, i), massOf(w[i])).force;

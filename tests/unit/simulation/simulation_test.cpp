@@ -34,6 +34,16 @@ TEST(SceneOptions, RefuseANumberOfPointsBesideAResolution) {
   EXPECT_THROW((void)readScene(options), UsageError);
 }
 
+TEST(SceneOptions, NameImplicitStepsWhereExplicitOnesBecomeVerySmall) {
+  const auto namesImplicit = [](int side) {
+    const RemarkedScene read =
+        readScene({.scene = "demo", .resolution = GridSize{side, side}, .settings = {"cloth.material=silk"}});
+    return read.remarks.back().find("solver.integrator=implicit takes larger ones") != std::string::npos;
+  };
+  EXPECT_FALSE(namesImplicit(9));
+  EXPECT_TRUE(namesImplicit(97));
+}
+
 TEST(SceneOptions, TellOfSettingsThatChangeNothing) {
   const auto remarksOf = [](const char* scene, std::vector<std::string> given) {
     given.push_back("solver.simulation_steps=8");
