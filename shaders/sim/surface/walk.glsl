@@ -59,41 +59,57 @@ Parts partsOf(uint n, uint first, uint second, MovingBounds boxOfFirst, MovingBo
   return parts;
 }
 
-// One loop with one call: a driver may compile a copy for each.
-void lookAtParts(uint first, uint second, MovingBounds boxOfFirst, MovingBounds boxOfSecond) {
-  for (uint n = 0u; n < PART_PAIRS; ++n) {
-    Parts parts = partsOf(n, first, second, boxOfFirst, boxOfSecond);
-    if (!parts.mayMeet) continue;
-    if (!goesOn()) return;
-    uvec4 ids = parts.ids;
-    lookAt(ids, parts.areSides, parts.places,
-           nearestParts(parts.areSides, startAt(ids.x), startAt(ids.y), startAt(ids.z), startAt(ids.w)));
+// Where the walk of a triangle has come to: a box of a level, the triangle that it met last, and the next pair of their parts.
+struct Walk {
+  int level;
+  uint place;  // within the level
+  uint met, part;
+  MovingBounds box;  // of the triangle that it met
+};
+
+// On to the next triangle behind this one, in the order of the tree, whose box meets; false at the end.
+bool meetNext(uint own, MovingBounds ownBox, inout Walk walk) {
+  for (;;) {
+    for (; walk.place % BOX_CHILDREN == 0u && walk.level < surface.topLevel; ++walk.level) walk.place /= BOX_CHILDREN;
+    for (;; walk.place *= BOX_CHILDREN, --walk.level) {  // down, as long as boxes meet
+      uint first = surface.firstBoxes[walk.level].x;
+      if (walk.place >= surface.firstBoxes[walk.level + 1].x - first) {
+        if (walk.level == surface.topLevel) return false;
+        walk.place = walk.place / BOX_CHILDREN + 1u;
+        ++walk.level;
+        break;
+      }
+      walk.box = boxAt(first + walk.place);
+      bool meets = overlap(ownBox, walk.box);
+      if (meets && walk.level > 0) continue;
+      walk.met = walk.place++;
+      walk.part = 0u;
+      if (meets && !areFlat(own, walk.met)) return true;
+      break;
+    }
   }
 }
 
-// The triangles behind this one, in the order of the tree.
+// On to the next pair of parts that may meet; false at the end.
+bool findNext(uint own, MovingBounds ownBox, inout Walk walk, inout Parts parts) {
+  do {
+    while (walk.part < PART_PAIRS) {
+      parts = partsOf(walk.part++, own, walk.met, ownBox, walk.box);
+      if (parts.mayMeet) return true;
+    }
+  } while (meetNext(own, ownBox, walk));
+  return false;
+}
+
+// Each invocation goes on until it has a pair to look at, then all look at theirs together: they would wait for each other at
+// every pair of one of them (Aila and Laine 2009, "while-while"). One call: a driver may compile a copy for each.
 void lookAround(uint own) {
   MovingBounds ownBox = boxAt(own);
-  int level = 0;
-  uint place = own + 1u;  // within the level
-  for (;;) {
-    for (; place % BOX_CHILDREN == 0u && level < surface.topLevel; ++level) place /= BOX_CHILDREN;
-    bool isDone = false;
-    for (;; place *= BOX_CHILDREN, --level) {  // down, as long as boxes meet
-      uint first = surface.firstBoxes[level].x;
-      if (place >= surface.firstBoxes[level + 1].x - first) {
-        isDone = level == surface.topLevel;
-        place = place / BOX_CHILDREN + 1u;
-        ++level;
-        break;
-      }
-      MovingBounds box = boxAt(first + place);
-      bool meets = overlap(ownBox, box);
-      if (meets && level > 0) continue;
-      if (meets && !areFlat(own, place)) lookAtParts(own, place, ownBox, box);
-      ++place;
-      break;
-    }
-    if (isDone) break;
+  Walk walk = Walk(0, own + 1u, own, PART_PAIRS, ownBox);
+  Parts parts;
+  while (goesOn() && findNext(own, ownBox, walk, parts)) {
+    uvec4 ids = parts.ids;
+    lookAt(ids, parts.areSides, parts.places,
+           nearestParts(parts.areSides, startAt(ids.x), startAt(ids.y), startAt(ids.z), startAt(ids.w)));
   }
 }

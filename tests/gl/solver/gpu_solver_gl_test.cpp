@@ -42,7 +42,7 @@ void expectTheSameBits(const std::vector<test::NamedScene>& scenes, int steps) {
   }
 }
 
-TEST_F(GpuSolverTest, AgreesWithTheCpuInEveryBit) { expectTheSameBits(test::comparedScenes(33), 140); }
+TEST_F(GpuSolverTest, AgreesWithTheCpuInEveryBit) { expectTheSameBits(test::comparedScenes(21), 140); }
 
 TEST_F(GpuSolverTest, AgreesWithTheCpuInEveryBitInImplicitSteps) {
   expectTheSameBits(test::implicitScenes(33), 12);
