@@ -17,7 +17,9 @@ float massOf(float inverseMass) { return inverseMass == 0.0 ? 0.0 : reciprocal(i
 
 vec3 addParticleForces(vec4 x, vec3 v, vec3 sum) {
   precise vec3 f = sum;
-#define ADD_FORCE(number, Struct, law) if (acts(number)) f = f + law(x.xyz, v, massOf(x.w)).force;
+#define ADD_FORCE(number, Struct, sources, law) \
+  if (acts(number))                             \
+    for (uint source = 0u; source < sources; ++source) f = f + law(x.xyz, v, massOf(x.w), source).force;
   PARTICLE_FORCES(ADD_FORCE)
 #undef ADD_FORCE
   return f;
@@ -28,14 +30,15 @@ vec3 addParticleForces(vec4 x, vec3 v, vec3 sum) {
 vec4 addParticleForcesToSystem(vec3 x, vec3 v, float mass, float rate, bool isSecondOrder, vec3 carried, vec4 rightHandSide) {
   precise vec3 b = rightHandSide.xyz;
   precise float a = rightHandSide.w;
-#define ADD_TO_SYSTEM(number, Struct, law)                                     \
-  if (acts(number)) {                                                          \
-    ParticleForce own = law(x, v, mass);                                       \
-    precise float damping = own.damping * rate;                                \
-    b = b + (own.force + own.damping * v);                                     \
-    if (isSecondOrder) b = b + damping * carried;                              \
-    a = a + (damping + own.stiffness);                                         \
-  }
+#define ADD_TO_SYSTEM(number, Struct, sources, law)              \
+  if (acts(number))                                              \
+    for (uint source = 0u; source < sources; ++source) {         \
+      ParticleForce own = law(x, v, mass, source);               \
+      precise float damping = own.damping * rate;                \
+      b = b + (own.force + own.damping * v);                     \
+      if (isSecondOrder) b = b + damping * carried;              \
+      a = a + (damping + own.stiffness);                         \
+    }
   PARTICLE_FORCES(ADD_TO_SYSTEM)
 #undef ADD_TO_SYSTEM
   return vec4(b, a);

@@ -176,7 +176,7 @@ bool dependsOnTime(const Scene& scene) {
 
 std::uint32_t particleForcesOf(const Scene& scene) {
   std::uint32_t forces = 0;
-#define ADD_BIT(number, Struct, law) \
+#define ADD_BIT(number, Struct, sources, law) \
   if (Struct::acts(scene)) forces |= 1u << number;
   PARTICLE_FORCES(ADD_BIT)
 #undef ADD_BIT
@@ -188,7 +188,7 @@ namespace {
 template <class Real>
 void putParticleForces(const Scene& scene, StepParams<Real>& params) {
   params.particleForces = particleForcesOf(scene);
-#define PACK(number, Struct, law) Struct::pack(scene, params);
+#define PACK(number, Struct, sources, law) Struct::pack(scene, params);
   PARTICLE_FORCES(PACK)
 #undef PACK
 }

@@ -1,5 +1,5 @@
 // -a |v| v, in an implicit step -a |v| v'.
-LAW ParticleForce airResistance(vec3 x, vec3 v, real mass) {
+LAW ParticleForce airResistance(vec3 x, vec3 v, real mass, uint source) {
   precise real speedSquared = sumOfProducts(v, v);
   precise real speed = speedSquared * inverseSquareRoot(speedSquared);
   precise real damping = step.airResistance * speed;

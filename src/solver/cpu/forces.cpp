@@ -244,12 +244,11 @@ INLINE void addWind(const PassArguments<Real>& arguments, int row, ForceRows<Rea
 // The wind on the triangles at each particle, and the matrices r n n^T by which they resist.
 template <bool hasCuts, bool jet, class Real>
 INLINE void addResistingWind(const PassArguments<Real>& arguments, int row,
-                             SymmetricField<Real>& resistance) {
+                             const SymmetricArrays<Real>& resistance) {
   const StepParams<Real>& step = arguments.step;
-  const Components<Real>&p = arguments.before.positions, &v = arguments.before.velocities;
-  const Real *x = p.x.data(), *y = p.y.data(), *z = p.z.data(), *vx = v.x.data(), *vy = v.y.data(),
-             *vz = v.z.data();
-  Real *fx = arguments.forces.x.data(), *fy = arguments.forces.y.data(), *fz = arguments.forces.z.data();
+  const Arrays<const Real> p = arraysOf(arguments.before.positions),
+                           v = arraysOf(arguments.before.velocities);
+  const Arrays<Real> forces = arraysOf(arguments.forces);
   const std::uint32_t* cutMasks = arguments.cutMasks;
   const InteractionParams<Real>& interaction = arguments.interaction;
   for (std::uint32_t k = 0; k < incidentTriangles.size(); ++k) {
@@ -260,16 +259,14 @@ INLINE void addResistingWind(const PassArguments<Real>& arguments, int row,
     const Range particles = rangeOf(step, row, firstColumn, lastColumn);
     const std::ptrdiff_t ia = indexOffset(step, a.columns, a.rows), ib = indexOffset(step, b.columns, b.rows),
                          ic = indexOffset(step, c.columns, c.rows);
-#pragma omp simd
+#pragma GCC ivdep
     for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
       const bool isCut = isCutAt<hasCuts>(cutMasks, i, FIRST_CUT_TRIANGLE + k);
-      const auto [f, normal, r] =
-          windOn<jet>(step, interaction, load(x, y, z, i + ia), load(x, y, z, i + ib), load(x, y, z, i + ic),
-                      load(vx, vy, vz, i + ia), load(vx, vy, vz, i + ib), load(vx, vy, vz, i + ic));
-      fx[i] = isCut ? fx[i] : fx[i] + f.x;
-      fy[i] = isCut ? fy[i] : fy[i] + f.y;
-      fz[i] = isCut ? fz[i] : fz[i] + f.z;
-      if (!isCut) addTo(resistance, i, outerProduct(r, normal));
+      const TriangleWind<Real> wind = windOn<jet>(step, interaction, at(p, i + ia), at(p, i + ib),
+                                                  at(p, i + ic), at(v, i + ia), at(v, i + ib), at(v, i + ic));
+      const Vec3<Real> before = at(forces, i), f = before + wind.force;
+      put(forces, i, {isCut ? before.x : f.x, isCut ? before.y : f.y, isCut ? before.z : f.z});
+      put(resistance, i, at(resistance, i) + outerProduct(isCut ? Real(0) : wind.resistance, wind.normal));
     }
   }
 }
@@ -325,6 +322,23 @@ INLINE void gatherForcesRow(const PassArguments<Real>& arguments, int row, Force
   if (hasSeams(arguments)) addSeamForces(arguments, row);
 }
 
+template <class Real>
+INLINE void gatherWindRow(const PassArguments<Real>& arguments, int row, SymmetricField<Real>& resistance) {
+  if (arguments.step.isMesh != 0) return gatherMeshWind(arguments, row, resistance);
+  clearForces(arguments, row);
+  const Range particles = rangeOf(arguments.step, row);
+  for (std::vector<Real>* r : resistance.all())
+    std::fill(r->data() + particles.begin, r->data() + particles.end, Real(0));
+  const SymmetricArrays<Real> to = arraysOf(resistance);
+  const bool hasCuts = arguments.cutMasks != nullptr;
+  if (hasCuts)
+    arguments.jet ? addResistingWind<true, true>(arguments, row, to)
+                  : addResistingWind<true, false>(arguments, row, to);
+  else
+    arguments.jet ? addResistingWind<false, true>(arguments, row, to)
+                  : addResistingWind<false, false>(arguments, row, to);
+}
+
 }  // namespace
 
 VECTOR_CLONES(void, gatherForces, (const PassArguments<float>& arguments, int row, ForceRows<float>& rows),
@@ -333,22 +347,11 @@ void gatherForces(const PassArguments<double>& arguments, int row, ForceRows<dou
   gatherForcesRow(arguments, row, rows);
 }
 
-template <class Real>
-void gatherWind(const PassArguments<Real>& arguments, int row, SymmetricField<Real>& resistance) {
-  if (arguments.step.isMesh != 0) return gatherMeshWind(arguments, row, resistance);
-  clearForces(arguments, row);
-  const Range particles = rangeOf(arguments.step, row);
-  for (std::vector<Real>* r : resistance.all())
-    std::fill(r->data() + particles.begin, r->data() + particles.end, Real(0));
-  const bool hasCuts = arguments.cutMasks != nullptr;
-  if (hasCuts)
-    arguments.jet ? addResistingWind<true, true>(arguments, row, resistance)
-                  : addResistingWind<true, false>(arguments, row, resistance);
-  else
-    arguments.jet ? addResistingWind<false, true>(arguments, row, resistance)
-                  : addResistingWind<false, false>(arguments, row, resistance);
+VECTOR_CLONES(void, gatherWind,
+              (const PassArguments<float>& arguments, int row, SymmetricField<float>& resistance),
+              (arguments, row, resistance), gatherWindRow(arguments, row, resistance))
+void gatherWind(const PassArguments<double>& arguments, int row, SymmetricField<double>& resistance) {
+  gatherWindRow(arguments, row, resistance);
 }
-template void gatherWind(const PassArguments<float>&, int, SymmetricField<float>&);
-template void gatherWind(const PassArguments<double>&, int, SymmetricField<double>&);
 
 }  // namespace clothsim::cpu

@@ -47,16 +47,17 @@ INLINE Real massOf(Real inverseMass) {
   return inverseMass == Real(0) ? Real(0) : reciprocal(inverseMass);
 }
 
-// Calls use(law) for each force that acts; law(x, v, mass) is a ParticleForce.
+// Calls use(law) for each source of each force that acts; law(x, v, mass) is a ParticleForce.
 template <class Real, class Use>
 INLINE void forEachParticleForce(const StepParams<Real>& step, Use use) {
   ForceLaws<Real> laws{step};
-#define USE_IF(number, Struct, law)                \
-  if ((step.particleForces >> number & 1u) != 0)   \
-    use([&](Vec3<Real> x, Vec3<Real> v, Real mass) \
-            __attribute__((always_inline)) { return laws.law(x, v, mass); });
-  PARTICLE_FORCES(USE_IF)
-#undef USE_IF
+#define USE_SOURCES(number, Struct, sources, law)                \
+  if ((step.particleForces >> number & 1u) != 0)                 \
+    for (std::uint32_t source = 0; source < (sources); ++source) \
+      use([&](Vec3<Real> x, Vec3<Real> v, Real mass)             \
+              __attribute__((always_inline)) { return laws.law(x, v, mass, source); });
+  PARTICLE_FORCES(USE_SOURCES)
+#undef USE_SOURCES
 }
 
 }  // namespace clothsim::cpu

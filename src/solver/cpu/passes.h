@@ -65,10 +65,9 @@ void gatherForces(const PassArguments<float>& arguments, int row, ForceRows<floa
 void gatherForces(const PassArguments<double>& arguments, int row, ForceRows<double>& rows);
 void integrate(const PassArguments<float>& arguments, int row);
 void integrate(const PassArguments<double>& arguments, int row);
-// Adds what a material's bending does to before.positions to the forces.
 // The forces of the wind alone, and the matrices by which it resists velocities [N s/m] (implicit).
-template <class Real>
-void gatherWind(const PassArguments<Real>& arguments, int row, SymmetricField<Real>& resistance);
+void gatherWind(const PassArguments<float>& arguments, int row, SymmetricField<float>& resistance);
+void gatherWind(const PassArguments<double>& arguments, int row, SymmetricField<double>& resistance);
 // Where their paths take the pins, into `after`; pins without a path are left alone.
 template <class Real>
 void movePins(const PassArguments<Real>& arguments, int row);
