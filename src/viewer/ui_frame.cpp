@@ -154,6 +154,7 @@ bool UiFrame::wantsKeys() const { return ImGui::GetIO().WantTextInput; }
 
 void UiFrame::closePopups() {
   if (hasPopup()) ImGui::ClosePopupToLevel(0, false);
+  ImGui::GetIO().WantTextInput = false;  // a key may follow before the next frame
 }
 
 void UiFrame::loadFonts(double textScale) {

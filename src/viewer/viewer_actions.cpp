@@ -70,8 +70,9 @@ void Viewer::whenIdle(std::function<void()> task) {
 
 // What asks the session for nothing, or through MouseContext::act alone. It waits for a frame that this
 // thread is in, which may be within a call of the session.
-void Viewer::atOnce(std::function<void()> task) {
-  if (stepping_) return whenIdle(std::move(task));
+void Viewer::atOnce(std::function<void()> task) { stepping_ ? whenIdle(std::move(task)) : doNow(task); }
+
+void Viewer::doNow(const std::function<void()>& task) {
   drawsLeft_ = drawsAfterInput;
   hasInput_ = true;
   attempt(task);
@@ -88,6 +89,7 @@ void Viewer::onKey(const KeyStroke& stroke, bool repeated) {
   const auto task = [=, this] {
     if (!repeated || repeats) act(action);
   };
+  if (action == ViewerAction::openFile) return doNow(task);  // nor does it: Esc finds it open
   isImmediate(action) ? atOnce(task) : whenIdle(task);
 }
 
@@ -95,8 +97,10 @@ void Viewer::onKey(const KeyStroke& stroke, bool repeated) {
 void Viewer::escape() {
   drawsLeft_ = drawsAfterInput;
   if (isLoading_) return window_.requestClose();
-  if (ui_.hasPopup()) return ui_.closePopups();
-  if (dialog_.isOpen()) return dialog_.close();
+  if (dialog_.isOpen() || ui_.hasPopup()) {
+    dialog_.close();
+    return ui_.closePopups();
+  }
   if (compare_.isOpen()) return compare_.close();
   if (showKeys_) {
     showKeys_ = false;

@@ -89,6 +89,7 @@ class Viewer {
   void listen();
   void whenIdle(std::function<void()> task);
   void atOnce(std::function<void()> task);
+  void doNow(const std::function<void()>& task);
   void onKey(const KeyStroke& stroke, bool repeated);
   void escape();
   void onPress(ViewerWindow::Button button, ViewerWindow::Cursor cursor, bool control, bool shift);
