@@ -33,7 +33,7 @@ inline Scene withLimiter(Scene scene) {
 // A sphere that flies and turns through the sheet's place, a resting one, a floor and a wall.
 inline Scene withColliders(Scene scene) {
   Motion motion;
-  motion.keys = {{0, {0.5, 0.5, -0.3}, {0, 0, 0}}, {0.2, {0.5, 0.5, 0.1}, {0, 90, 0}}};
+  motion.keys = {{0, {0.5, 0.5, -0.3}, {0, 0, 0}}, {0.1, {0.5, 0.5, 0.1}, {0, 90, 0}}};
   scene.colliders = {
       Sphere{.origin = {0.5, 0.5, -0.3}, .radius = 0.2, .friction = 0.3, .motion = motion},
       Plane{.point = {0, 0.02, 0}, .normal = {0, 1, 0}, .friction = 0.5, .motion = std::nullopt},
@@ -44,7 +44,7 @@ inline Scene withColliders(Scene scene) {
 
 inline Motion flyingPast(Vec3d from, Vec3d to) {
   Motion motion;
-  motion.keys = {{0, from, {0, 0, 0}}, {0.2, to, {30, 90, -50}}};
+  motion.keys = {{0, from, {0, 0, 0}}, {0.1, to, {30, 90, -50}}};
   return motion;
 }
 

@@ -27,8 +27,9 @@ TEST_F(GlCallsTest, AFrameReadsNothingBackAndUploadsNoPositions) {
     const Camera camera(scene, cloth);
     const gl::Framebuffer target(
         "picture", {.width = 64, .height = 48, .color = GL_SRGB8_ALPHA8, .depth = GL_DEPTH_COMPONENT24});
+    constexpr int frames = 3, steps = 4;
     const auto frame = [&] {
-      solver.step(8);
+      solver.step(steps);
       renderer.draw(solver.positionsBuffer(), camera, 0.1, target.name(), 64, 48);
     };
     frame();  // what is made once, is made here
@@ -48,9 +49,9 @@ TEST_F(GlCallsTest, AFrameReadsNothingBackAndUploadsNoPositions) {
       COUNTED(glLinkProgram);
       COUNTED(glNamedBufferSubData);
       COUNTED(glDispatchCompute);
-      for (int i = 0; i < 5; ++i) frame();
+      for (int i = 0; i < frames; ++i) frame();
     }
-    EXPECT_GT(test::glCounts.of("glDispatchCompute"), 40u) << name << ": the counters work";
+    EXPECT_GE(test::glCounts.of("glDispatchCompute"), 1u * frames * steps) << name << ": the counters work";
     for (const auto& [function, count] : test::glCounts.calls) {
       if (function == "glDispatchCompute" || function == "glNamedBufferSubData") continue;
       EXPECT_EQ(count, 0u) << name << ": " << function;
@@ -60,10 +61,10 @@ TEST_F(GlCallsTest, AFrameReadsNothingBackAndUploadsNoPositions) {
     std::size_t pinMotions = 0;
     for (const ClothSettings& settings : scene.cloths) pinMotions += settings.pinMotion.size();
     constexpr std::size_t slot = (sizeof(StepParams<float>) + 255) / 256 * 256;
-    const std::size_t parameters = 5 * 8 *
+    const std::size_t parameters = frames * steps *
                                    (scene.cloths.size() * slot +
                                     scene.colliders.size() * sizeof(ColliderParams<float>) + pinMotions * 64);
-    EXPECT_LE(test::glCounts.uploadedBytes, parameters + 5 * 4096) << name;
+    EXPECT_LE(test::glCounts.uploadedBytes, parameters + frames * 4096) << name;
   }
 }
 
@@ -95,7 +96,7 @@ TEST_F(GlCallsTest, AStepLeavesOutWhatItIsKnownNotToNeed) {
   scene.solver.integrator = Integrator::implicit;
   chooseCounts(scene);
   const Cloth cloth(scene);
-  constexpr int steps = 6;
+  constexpr int steps = 2;
   const auto stepped = [&](FlagLooks looks) {
     GpuSolver solver(cloth, scene, GpuOptions{.looksAtFlags = looks});
     solver.step(1);
