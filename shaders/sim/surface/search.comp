@@ -146,12 +146,19 @@ bool goesOn() { return found <= MOST_PAIRS_A_TRIANGLE; }
 bool looksAtFlat() { return false; }
 #include "sim/surface/walk.glsl"
 
+#if WRITES_PAIRS
+uint startOf(uint triangle) {
+  return triangle < surface.triangles ? counts[triangle] + texelFetch(blockStarts, int(triangle / SURFACE_BLOCK)).x : state.pairs;
+}
+#endif
+
 void main() {
   uint own = thisEntry();
   if (own >= surface.triangles || isSettled()) return;
 #if WRITES_PAIRS
   if (state.tooMany != 0u) return;
-  firstFound = counts[own] + texelFetch(blockStarts, int(own / SURFACE_BLOCK)).x;
+  firstFound = startOf(own);
+  if (startOf(own + 1u) == firstFound) return;  // it has found none
   firstPlace = own * (surface.smallColliders + 1u);
 #else
   counts[own] = 0u;
