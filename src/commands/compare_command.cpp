@@ -39,6 +39,7 @@ nlohmann::ordered_json jsonOf(const CompareOptions& options, const Comparison& r
   json["device"] = result.device;
   json["frames"] = result.frames;
   json["steps"] = result.steps;
+  json["integrator"] = integratorName(scene.solver.integrator);
   json["floats"] = result.floats;
   json["differing_floats"] = result.differingFloats;
   json["max_abs_difference"] = result.maxAbsDifference;

@@ -135,6 +135,7 @@ TEST(Program, ComparesTheBackendsAndSaysSoInItsExitCode) {
   EXPECT_EQ(compare["floats"], 6 * 24 * 24);
   EXPECT_EQ(compare["frames"], 4);
   EXPECT_TRUE(compare["first_differing_step"].is_null());
+  EXPECT_EQ(compare["integrator"], "verlet");
 }
 
 // What the viewer's hands did, done again without a window.
