@@ -81,13 +81,15 @@ Warning contactWarning(const ContactFailure& failure, const Scene& scene) {
              isSolved =
                  isImplicit(scene.solver.integrator) && scene.solver.selfCollision != SelfCollision::contact;
   const std::string better = isSolved ? "self_collision=contact" : averaged ? "self_collision=robust" : "";
-  warning.brief = "lost, seen in frame " + std::to_string(failure.frame) + ": " +
+  const bool isFast = failure.condition == ContactFailure::Condition::fastStep;
+  warning.brief = (isFast ? "not certain since frame " : "lost, seen in frame ") +
+                  std::to_string(failure.frame) + ": " +
                   (better.empty() ? "raise simulation_steps" : "set " + better);
   const std::string advice =
       better.empty() ? stepsAdvice(scene)
                      : "set solver." + better +
                            (isSolved ? ", which implicit steps solve for" : ", which keeps layers apart");
-  if (failure.condition == ContactFailure::Condition::fastStep)
+  if (isFast)
     warning.text =
         "contact is not certain: a particle moved farther in a step than the search for contacts reaches; " +
         advice;

@@ -41,6 +41,10 @@ class Simulation {
   [[nodiscard]] double time() const { return solver_->clock().time(); }  // simulated [s]
   // Summed over all solvers that this simulation has had.
   [[nodiscard]] ContactCounts contactCounts() { return contactsBefore_ + solver_->contactCounts(); }
+  void forgetContactCounts() {  // they begin anew, for a run that does
+    contactsBefore_ = {};
+    solver_->forgetContactCounts();
+  }
   // The same. The last update is 0 while the integrator is an explicit one.
   [[nodiscard]] ConvergenceCounts convergenceCounts();
 

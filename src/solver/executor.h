@@ -113,6 +113,7 @@ class Executor {
   // A small blocking read-back on the GPU.
   [[nodiscard]] virtual ContactCounts contactCounts() = 0;
   [[nodiscard]] virtual ConvergenceCounts convergenceCounts() = 0;  // the same
+  virtual void forgetContactCounts() = 0;                           // they begin anew
 
   // Between these, passes are timed (which slows the whole), and times add up by name.
   virtual void startTiming() = 0;

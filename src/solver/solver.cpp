@@ -298,6 +298,11 @@ ContactCounts Solver::contactCounts() {
   return executor_->contactCounts();
 }
 
+void Solver::forgetContactCounts() {
+  settle();
+  executor_->forgetContactCounts();
+}
+
 ConvergenceCounts Solver::convergenceCounts() {
   settle();
   return executor_->convergenceCounts();

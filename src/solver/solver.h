@@ -105,6 +105,7 @@ class Solver {
   // A small blocking read-back on the GPU.
   [[nodiscard]] ContactCounts contactCounts();
   [[nodiscard]] ConvergenceCounts convergenceCounts();
+  void forgetContactCounts();  // they begin anew
 
   [[nodiscard]] std::string backend() const { return executor_->backend(); }  // "cpu" or "gpu"
   [[nodiscard]] std::string device() const { return executor_->device(); }    // what it runs on, for people

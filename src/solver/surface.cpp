@@ -384,6 +384,12 @@ SurfaceState freshSurfaceState() {
   return state;
 }
 
+void forgetCounts(SurfaceState& state) {
+  state.mostPairs = state.shortened = state.guardedSteps = state.crowdedSteps = 0;
+  state.pinLag = state.largestCorrection = state.passages = state.passageSteps = 0;
+  state.leastGap = gapBits(INFINITY);
+}
+
 ContactCounts countsOf(const SurfaceState& state) {
   ContactCounts counts;
   counts.clampedSteps = state.guardedSteps;

@@ -123,6 +123,7 @@ struct ThinnedLayers {
 // Before the first step.
 [[nodiscard]] SurfaceState freshSurfaceState();
 [[nodiscard]] ContactCounts countsOf(const SurfaceState& state);
+void forgetCounts(SurfaceState& state);
 // A gap as an integer that is ordered as gaps are.
 template <class Real>
 [[nodiscard]] inline std::uint32_t gapBits(Real gap) {

@@ -137,7 +137,7 @@ bool Viewer::isOverPicture(ViewerWindow::Cursor cursor) const {
   const PictureArea area = pictureArea();
   const bool inside = cursor.x >= 0 && cursor.x < static_cast<double>(area.width) && cursor.y >= 0 &&
                       cursor.y < static_cast<double>(area.height - timelineHeight());
-  return inside && !((ui_.hasPopup() || compare_.isOpen() || advice()) && ui_.wantsMouse());
+  return inside && !((ui_.hasPopup() || compare_.isOpen() || showKeys_ || advice()) && ui_.wantsMouse());
 }
 
 std::optional<AxisEnd> Viewer::axisEndUnder(ViewerWindow::Cursor cursor) const {
@@ -202,6 +202,7 @@ int Viewer::simulate(double elapsed) {
   const bool onGpu = open_->backend() != "cpu";
   const int frames = paused_ ? std::exchange(stepAsked_, false) : pace_.framesDue(tempo_ * unpaced, onGpu);
   if (frames == 0) return done;
+  if (session().frame() < session().newestFrame()) column_.measures().dropFuture(session());
   if (onGpu) return done + stepFrames(frames);
   attempt([&] { startFrames(frames); });
   return done;

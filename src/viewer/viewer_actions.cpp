@@ -295,6 +295,7 @@ void Viewer::seek(int frame) {
   if (frame == session().frame()) return;
   mouse_.letGo(session());
   const Shared<Scene> before = open_->sharedScene();
+  column_.measures().keepCounts(session());
   session().seek(frame);
   if (*before != open_->scene()) say("Parameters are as they were in this frame");
   paused_ = true;
@@ -304,7 +305,7 @@ void Viewer::seek(int frame) {
 void Viewer::restart() {
   mouse_.letGo(session());
   session().act(Restart{});
-  column_.measures().forget();
+  column_.measures().forget(session());
   if (std::exchange(pausedByError_, false)) paused_ = false;
   notice_ = {};
 }
@@ -379,7 +380,7 @@ void Viewer::openScene(const std::string& source) {
   open_ = std::move(next);
   kept_.forget();
   watchSteps();
-  column_.measures().forget();
+  column_.measures().forget(session());
   pace_ = Pace(open_->frameSeconds());
   draftHeld_ = paused_ = pausedByError_ = false;
   if (clipEnded) notice_ = {};

@@ -36,6 +36,7 @@ class SelfCollision {
   void restart() { isStale_ = true; }
 
   [[nodiscard]] ContactCounts counts() const { return counts_; }
+  void forgetCounts() { counts_ = {}; }
   // Memory whose content nobody needs between steps; in a step it changes places with the positions.
   [[nodiscard]] Components<Real>& unusedPositions() { return moved_; }
 

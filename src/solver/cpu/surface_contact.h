@@ -28,6 +28,7 @@ class SurfaceContact {
   void run(PassCall call, const CpuState<Real>& before, CpuState<Real>& after, ImplicitState<Real>& implicit,
            const PassArguments<Real>& arguments, const std::vector<Real>& inverseMasses);
   [[nodiscard]] ContactCounts counts() const { return countsOf(state_); }
+  void forgetCounts() { clothsim::forgetCounts(state_); }
 
  private:
   // Two parts across the way on which they are nearest: where their particles are along it, from the first

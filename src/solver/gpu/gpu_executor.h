@@ -83,6 +83,10 @@ class GpuExecutor final : public Executor {
     return selfCollision_.counts() + surfaceContact_.counts();
   }
   [[nodiscard]] ConvergenceCounts convergenceCounts() override;
+  void forgetContactCounts() override {
+    selfCollision_.forgetCounts();
+    surfaceContact_.forgetCounts();
+  }
   void startTiming() override;
   [[nodiscard]] std::vector<PassTime> stopTiming() override;
   [[nodiscard]] std::string backend() const override { return "gpu"; }

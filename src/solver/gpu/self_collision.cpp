@@ -204,4 +204,12 @@ ContactCounts GpuSelfCollision::counts() const {
   return {flags.hashBuilds, flags.clampedSteps, flags.fastSteps};
 }
 
+void GpuSelfCollision::forgetCounts() {
+  if (flags_.name() == 0) return;
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  std::vector<Flags> flags = flags_.download();
+  flags[0].hashBuilds = flags[0].clampedSteps = flags[0].fastSteps = 0;
+  flags_.upload(flags);
+}
+
 }  // namespace clothsim

@@ -47,6 +47,7 @@ class GpuSelfCollision {
   void forgetDivergence();
 
   [[nodiscard]] ContactCounts counts() const;
+  void forgetCounts();
 
  private:
   struct Flags {  // as ContactFlags in shaders/sim/self/common.glsl

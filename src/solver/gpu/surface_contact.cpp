@@ -470,4 +470,12 @@ ContactCounts GpuSurfaceContact::counts() const {
   return countsOf(state_.download().front());
 }
 
+void GpuSurfaceContact::forgetCounts() {
+  if (state_.name() == 0) return;
+  glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+  std::vector<SurfaceState> state = state_.download();
+  clothsim::forgetCounts(state.front());
+  state_.upload(state);
+}
+
 }  // namespace clothsim

@@ -51,6 +51,7 @@ class GpuSurfaceContact {
   // Does a pass of Domain::surface.
   void run(PassRunner& runner, PassCall call, GpuArrays& arrays);
   [[nodiscard]] ContactCounts counts() const;
+  void forgetCounts();
   // Asks for a copy of what the steps so far have counted; a barrier for buffer updates stands before.
   void publish();
   // Makes room for twice as many pairs as any of those steps has had, once the copy is done. True if one has

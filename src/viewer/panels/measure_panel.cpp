@@ -89,13 +89,30 @@ void MeasurePanel::stepped(double particleSteps, double seconds) {
   seconds_ += seconds;
 }
 
-void MeasurePanel::forget() {
+void MeasurePanel::forget(Session& session) {
   samples_.clear();
   springsOf_.reset();  // another session numbers its cloths anew
   nextSample_ = 0;
   passes_.clear();
   watch_ = {};
   implicitSteps_ = {};
+  contactsBefore_ = {};
+  session.simulation().forgetContactCounts();
+}
+
+void MeasurePanel::keepCounts(Session& session) {
+  contactsBefore_ = contactsBefore_ + session.simulation().contactCounts();
+  session.simulation().forgetContactCounts();
+}
+
+void MeasurePanel::dropFuture(const Session& session) {
+  const Simulation& simulation = session.simulation();
+  while (!samples_.empty() && samples_.back().time > simulation.time()) samples_.pop_back();
+  watch_ = {};
+  contactsBefore_ = {};
+  if (samples_.empty()) return watch_.startWithoutState(simulation.cloth(), simulation.scene());
+  watch_ = samples_.back().watch;
+  contactsBefore_ = samples_.back().contacts;
 }
 
 std::vector<Warning> MeasurePanel::warnings(const Scene& scene) const {
@@ -123,13 +140,12 @@ void MeasurePanel::sample(Session& session, double now, std::optional<std::uint3
     watch_.startWithoutState(cloth, simulation.scene());
   }
   const State state = session.simulation().solver().state();
-  if (!samples_.empty() && simulation.time() < samples_.back().time) samples_.clear();
   const Energies energy = energies(cloth, springs_, simulation.scene(), session.cuts(), state);
-  contacts_ = session.simulation().contactCounts();
+  contacts_ = contactsBefore_ + session.simulation().contactCounts();
   seamGap_ = seamGap(cloth, simulation.scene(), state).distance;
   watch_.add(session.frameSinceStart(), cloth, simulation.scene(), state, energy.maxStrain, contacts_);
   if (samples_.empty() || simulation.time() > samples_.back().time)
-    samples_.push_back({simulation.time(), energy, watch_.contacts().contacts()});
+    samples_.push_back({simulation.time(), energy, watch_, contacts_});
   if (samples_.size() > mostSamples) samples_.pop_front();
   underCursor_.reset();
   if (underCursor)
@@ -191,7 +207,8 @@ void MeasurePanel::drawContacts(SelfCollision mode) {
   const std::string pairs = formatted("%llu", number(watch_.contacts().contacts()));
   row("self-contacts",
       mode == SelfCollision::off   ? "off"
-      : contacts_.clampedSteps > 0 ? pairs + formatted(", %llu steps guarded", number(contacts_.clampedSteps))
+      : contacts_.clampedSteps > 0 ? pairs + formatted(", %llu ", number(contacts_.clampedSteps)) +
+                                         (contacts_.clampedSteps == 1 ? "step guarded" : "steps guarded")
                                    : pairs,
       "Pairs of particles that touch and are not neighbours on the cloth. In a guarded step motion had to "
       "be shortened.");
@@ -228,7 +245,7 @@ void MeasurePanel::drawPlots(SelfCollision mode) {
     energy[1].values.push_back(static_cast<float>(sample.energies.gravity));
     energy[2].values.push_back(static_cast<float>(sample.energies.springs));
     strain[0].values.push_back(static_cast<float>(100 * sample.energies.maxStrain));
-    contacts[0].values.push_back(static_cast<float>(sample.contacts));
+    contacts[0].values.push_back(static_cast<float>(sample.watch.contacts().contacts()));
   }
   drawPlot("energy", times, energy, " J");
   helpTip("Energy over simulated time: kinetic, potential (relative to the start) and stored in springs.");
@@ -241,9 +258,10 @@ void MeasurePanel::drawPlots(SelfCollision mode) {
 
 void MeasurePanel::saveCurves(const std::filesystem::path& path) const {
   std::string text = "time,kinetic_energy,gravity_energy,spring_energy,max_strain,self_contacts\n";
-  for (const auto& [time, energies, contacts] : samples_)
-    text += formatted("%.9g,%.9g,%.9g,%.9g,%.9g,%llu\n", time, energies.kinetic, energies.gravity,
-                      energies.springs, energies.maxStrain, static_cast<unsigned long long>(contacts));
+  for (const Sample& sample : samples_)
+    text += formatted("%.9g,%.9g,%.9g,%.9g,%.9g,%llu\n", sample.time, sample.energies.kinetic,
+                      sample.energies.gravity, sample.energies.springs, sample.energies.maxStrain,
+                      static_cast<unsigned long long>(sample.watch.contacts().contacts()));
   writeFileAtomically(path, text);
 }
 

@@ -46,8 +46,12 @@ class MeasurePanel {
   void sampleSoon() { nextSample_ = 0; }
   // To be called with the number of particles times steps, and the time that they took.
   void stepped(double particleSteps, double seconds);
-  // To be called when the simulation was restarted. Drops the samples.
-  void forget();
+  // To be called when the simulation begins anew. Drops the samples and what has been counted.
+  void forget(Session& session);
+  // Before another frame is shown: what has been counted up to now stays so.
+  void keepCounts(Session& session);
+  // Before a step from a frame of the past: what came after it has not happened.
+  void dropFuture(const Session& session);
 
  private:
   static constexpr std::uint32_t ALWAYS_SAMPLED = 65'536;  // particles
@@ -55,7 +59,8 @@ class MeasurePanel {
   struct Sample {
     double time = 0;
     Energies energies;
-    std::uint64_t contacts = 0;
+    RunWatch watch;  // what has been seen up to then,
+    ContactCounts contacts;
   };
   struct UnderCursor {
     std::uint32_t particle = 0;
@@ -81,10 +86,10 @@ class MeasurePanel {
   std::optional<UnderCursor> underCursor_;
   RunWatch watch_;
   RecentSteps implicitSteps_;
-  ContactCounts contacts_;
-  double seamGap_ = 0;                      // [m]
-  double particleSteps_ = 0, seconds_ = 0;  // since the last sample
-  double rate_ = 0;                         // particle steps a second
+  ContactCounts contactsBefore_, contacts_;  // up to where time went back last; up to now
+  double seamGap_ = 0;                       // [m]
+  double particleSteps_ = 0, seconds_ = 0;   // since the last sample
+  double rate_ = 0;                          // particle steps a second
   std::vector<PassTime> passes_;
   int passSteps_ = 0;
   bool passesAsked_ = false;

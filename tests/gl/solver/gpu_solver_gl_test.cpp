@@ -182,6 +182,8 @@ TEST_F(GpuSolverTest, AgreesWithTheCpuInContact) {
   EXPECT_EQ(onGpu.leastGap, onCpu.leastGap);
   EXPECT_EQ(onGpu.largestCorrection, onCpu.largestCorrection);
   EXPECT_EQ(onGpu.pinLag, onCpu.pinLag);
+  gpu.forgetContactCounts();
+  EXPECT_EQ(gpu.contactCounts().pairs + gpu.contactCounts().shortened, 0u);
 }
 
 TEST_F(GpuSolverTest, CountsStepsAndUpdatesAsTheCpuDoes) {
@@ -322,6 +324,12 @@ TEST_F(GpuSolverTest, GuardsAsTheCpuDoes) {
   EXPECT_EQ(difference(gpu.state(), cpu.state()).differing, 0u);
   EXPECT_GT(cpu.contactCounts().clampedSteps, 0u);
   EXPECT_EQ(gpu.contactCounts().clampedSteps, cpu.contactCounts().clampedSteps);
+  for (Solver* solver : std::initializer_list<Solver*>{&gpu, &cpu}) {
+    solver->forgetContactCounts();
+    EXPECT_EQ(solver->contactCounts().clampedSteps, 0u);
+    solver->step(20);
+  }
+  EXPECT_EQ(difference(gpu.state(), cpu.state()).differing, 0u);
 }
 
 TEST_F(GpuSolverTest, DoesNotDependOnHowStepsAreBatched) {

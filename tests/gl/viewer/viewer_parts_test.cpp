@@ -370,7 +370,7 @@ TEST(MeasurePanel, TellsOfUnsolvedStepsWhileThereAreAnyWhateverTheSizeOfTheCloth
     Scene explicitly = scene;
     explicitly.solver.integrator = Integrator::verlet;
     EXPECT_FALSE(tellsOfConvergence(panel, explicitly));
-    panel.forget();
+    panel.forget(session);
     EXPECT_FALSE(tellsOfConvergence(panel, scene)) << "after a restart";
   }
 }
@@ -436,12 +436,46 @@ TEST(MeasurePanel, MeasuresTheClothOfAnotherSessionByItsOwnSprings) {
   const auto nothing = []() -> std::optional<std::uint32_t> { return std::nullopt; };
   MeasurePanel used, fresh;
   used.update(large, 0, nothing);
-  used.forget();
+  used.forget(small);
   used.update(small, 1, nothing);
   fresh.update(small, 1, nothing);
   used.saveCurves(folder / "used.csv");
   fresh.saveCurves(folder / "fresh.csv");
   EXPECT_EQ(readFile(folder / "used.csv"), readFile(folder / "fresh.csv"));
+}
+
+TEST(MeasurePanel, TellsOfNothingThatHappenedInAFutureOrARunThatIsGone) {
+  Scene scene = smallScene();
+  scene.solver.selfCollision = SelfCollision::robust;
+  Session session(scene, "cpu", makeCpuSolver);
+  MeasurePanel panel;
+  double now = 0;
+  const auto tells = [&] {
+    panel.update(session, now += 100, []() -> std::optional<std::uint32_t> { return std::nullopt; });
+    return !panel.warnings(scene).empty();
+  };
+  const auto throwDown = [&] {  // farther in a step than the search for contacts reaches
+    State state = session.simulation().state();
+    for (Particle4& velocity : state.velocities) velocity.y = -200;
+    session.simulation().setState(state);
+    ASSERT_FALSE(session.stepFrames(1));
+  };
+  ASSERT_FALSE(session.stepFrames(2));
+  ASSERT_FALSE(tells());
+  throwDown();
+  ASSERT_TRUE(tells());
+  panel.keepCounts(session);
+  session.seek(1);
+  EXPECT_TRUE(tells()) << "only another frame is shown";
+  panel.dropFuture(session);
+  ASSERT_FALSE(session.stepFrames(2));
+  EXPECT_FALSE(tells());
+  throwDown();
+  ASSERT_TRUE(tells());
+  session.act(Restart{});
+  panel.forget(session);
+  ASSERT_FALSE(session.stepFrames(1));
+  EXPECT_FALSE(tells());
 }
 
 TEST(SessionPulse, ChangesNoBitHoweverAFrameIsDividedByIt) {
