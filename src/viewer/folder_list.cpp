@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 #include <ctime>
+#include <fstream>
 
 namespace clothsim {
 
@@ -26,6 +27,14 @@ std::string changeTimeOf(const fs::path& path) {
   return std::strftime(text, sizeof text, "%Y-%m-%d %H:%M", &time) > 0 ? text : "";
 }
 
+// "schema" stands at the beginning of a recording.
+bool isRecording(const fs::path& path) {
+  std::ifstream file(path);
+  std::string begin(128, '\0');
+  file.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  return begin.find("clothsim-recording/") != std::string::npos;
+}
+
 }  // namespace
 
 FileKind kindOfFile(const fs::path& path) {
@@ -42,6 +51,7 @@ FolderList listFolder(const fs::path& folder) {
     std::error_code ignored;  // of a link that leads nowhere
     const bool isFolder = entry->is_directory(ignored);
     if (name.starts_with('.') || (!isFolder && kindOfFile(name) == FileKind::folder)) continue;
+    if (!isFolder && kindOfFile(name) == FileKind::scene && isRecording(entry->path())) continue;
     FolderEntry found{name, isFolder ? FileKind::folder : kindOfFile(name), 0, changeTimeOf(entry->path())};
     const std::uintmax_t bytes = isFolder ? 0 : entry->file_size(ignored);
     if (!ignored) found.bytes = bytes;

@@ -27,7 +27,7 @@ struct FolderList {
 // file of ours".
 [[nodiscard]] FileKind kindOfFile(const std::filesystem::path& path);
 
-// Hidden files and those of other kinds are left out. Never throws.
+// Hidden files, those of other kinds, and recordings are left out. Never throws.
 [[nodiscard]] FolderList listFolder(const std::filesystem::path& folder);
 
 // Whether the words occur in the name, regardless of case.

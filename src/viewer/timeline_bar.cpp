@@ -137,14 +137,19 @@ TimelineRequests drawTimeline(const TimelineState& state, PictureArea area) {
   const float words = std::max(ImGui::CalcTextSize(time.c_str()).x, 5.5f * em());
   const float buttons =
       2 * 1.25f * ImGui::GetFrameHeight() + (clip[0] != '\0' ? 3.2f * em() : 0) + 1.2f * em();
-  const float track = ImGui::GetContentRegionAvail().x - words - buttons - 0.6f * em();
-  if (track > 3 * em()) {
+  const float room = ImGui::GetContentRegionAvail().x - buttons, track = room - words - 0.6f * em();
+  const bool hasTrack = track > 3 * em();
+  if (hasTrack) {
     requests.seek = drawTrack(state, track);
     ImGui::SameLine(0, 0.5f * em());
+  }
+  const std::string shown = hasTrack ? time : std::to_string(state.shownNumber);
+  const float shownWidth = hasTrack ? words : ImGui::CalcTextSize(shown.c_str()).x;
+  if (hasTrack || room > shownWidth + 0.5f * em()) {
     ImGui::AlignTextToFramePadding();
     const ImVec2 at = ImGui::GetCursorPos();
-    coloredText(time, state.now < state.newest ? theme::alert : theme::quiet);
-    ImGui::SetCursorPos({at.x + words + 0.5f * em(), at.y});
+    coloredText(shown, state.now < state.newest ? theme::alert : theme::quiet);
+    ImGui::SetCursorPos({at.x + shownWidth + 0.5f * em(), at.y});
   }
   requests.screenshot = symbolButton("##screenshot", Symbol::camera, false, "Screenshot (Ctrl+P)");
   ImGui::SameLine();

@@ -64,6 +64,7 @@ void colorize(ImVec4* colors) {
   colors[ImGuiCol_PlotLines] = theme::accent;
   colors[ImGuiCol_TextSelectedBg] = accent(0.55f, 0.6f);
   colors[ImGuiCol_NavHighlight] = accent(0.8f);
+  colors[ImGuiCol_ModalWindowDimBg] = {0, 0, 0, 0.45f};
 }
 
 ImGuiStyle styleFor(float scale) {
@@ -209,7 +210,11 @@ void helpTip(std::string_view words) {
   if (!ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled) || ImGui::IsAnyItemActive()) return;
   // Beside a panel at the right edge, whose rows it would cover.
   const ImVec2 whole = ImGui::GetIO().DisplaySize, window = ImGui::GetWindowPos();
-  if (window.x > 0.4f * whole.x) {
+  if (window.y > 0.8f * whole.y) {  // above a bar at the lower edge
+    const float x =
+        std::clamp(ImGui::GetIO().MousePos.x, 10 * em(), std::max(10 * em(), whole.x - 10 * em()));
+    ImGui::SetNextWindowPos({x, window.y - 0.3f * em()}, ImGuiCond_Always, {0.5f, 1});
+  } else if (window.x > 0.4f * whole.x) {
     const bool isLow = ImGui::GetItemRectMin().y > 0.6f * whole.y;
     ImGui::SetNextWindowPos(
         {window.x - 0.4f * em(), isLow ? ImGui::GetItemRectMax().y : ImGui::GetItemRectMin().y},

@@ -15,14 +15,14 @@ constexpr ImGuiWindowFlags overlayFlags =
     ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_AlwaysAutoResize |
     ImGuiWindowFlags_NoFocusOnAppearing;
 
-constexpr float keyColumnWidth = 27;  // of the list of keys [em]
-constexpr float narrowPicture = 46;   // em
+constexpr float narrowPicture = 46;  // em
+constexpr float keyMargin = 0.4f;    // on both sides of the name of a key [em]
 
 // Draws the name of a key on a small rounded rectangle, as on a keyboard.
 void drawKeyCap(std::string_view name) {
   const ImVec2 size = ImGui::CalcTextSize(name.data(), name.data() + name.size());
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float margin = 0.4f * em(), lift = 0.1f * em();
+  const float margin = keyMargin * em(), lift = 0.1f * em();
   ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + size.x + 2 * margin, at.y + size.y + 2 * lift},
                                             ImGui::GetColorU32(theme::keyCap), 0.25f * em());
   ImGui::SetCursorScreenPos({at.x + margin, at.y + lift});
@@ -30,6 +30,20 @@ void drawKeyCap(std::string_view name) {
   // Makes the table column as wide as the cap.
   ImGui::SameLine(0, 0);
   ImGui::Dummy({margin, 1});
+}
+
+float widthOf(std::string_view words) {
+  return ImGui::CalcTextSize(words.data(), words.data() + words.size()).x;
+}
+
+// Of a column of the list: keys, and what they do.
+float widthOfKeyRows(std::size_t first, std::size_t last) {
+  float keys = 0, effects = 0;
+  for (std::size_t i = first; i < last; ++i) {
+    keys = std::max(keys, widthOf(viewerKeys[i].input) + 2 * keyMargin * em());
+    effects = std::max(effects, widthOf(viewerKeys[i].effect));
+  }
+  return keys + effects + 4 * ImGui::GetStyle().CellPadding.x;
 }
 
 void drawKeyRows(std::size_t first, std::size_t last) {
@@ -51,8 +65,8 @@ void drawFacts(const OverlayFacts& all, PictureArea area) {
   OverlayFacts facts = all;
   if (area.width < narrowPicture * em())
     std::erase_if(facts.rows, [](const OverlayFacts::Row& row) { return !row.important; });
-  // The text is measured first, since a window that sizes itself does so a frame late.
-  const auto widthOf = [](const std::string& words) { return ImGui::CalcTextSize(words.c_str()).x; };
+  // The text is measured first, since a window that sizes itself does so a frame late. Long values are
+  // wrapped, so that the card leaves the other side of the picture to the axes.
   float labels = 0, values = 0;
   for (const OverlayFacts::Row& row : facts.rows) {
     labels = std::max(labels, widthOf(row.label));
@@ -60,10 +74,17 @@ void drawFacts(const OverlayFacts& all, PictureArea area) {
   }
   labels += 0.9f * em();
   const ImVec2 padding = ImGui::GetStyle().WindowPadding;
-  const float line = 1.35f * em(), titleHeight = 2 * em();
-  ImGui::SetNextWindowPos({0.8f * em(), 0.8f * em()});
-  ImGui::SetNextWindowSize({labels + values + 2 * padding.x,
-                            titleHeight + line * static_cast<float>(facts.rows.size()) + 2 * padding.y});
+  const float line = 1.35f * em(), titleHeight = 2 * em(), edge = 0.8f * em(), besideAxes = 7.5f * em();
+  const float most = area.width - besideAxes - edge - labels - 2 * padding.x;
+  values = std::min(values, std::max(most, 9 * em()));
+  const auto heightOf = [&](const OverlayFacts::Row& row) {
+    const float oneLine = ImGui::GetTextLineHeight();
+    return line - oneLine + ImGui::CalcTextSize(row.value.c_str(), nullptr, false, values + 1).y;
+  };
+  float height = titleHeight + 2 * padding.y;
+  for (const OverlayFacts::Row& row : facts.rows) height += heightOf(row);
+  ImGui::SetNextWindowPos({edge, edge});
+  ImGui::SetNextWindowSize({labels + values + 2 * padding.x, height});
   ImGui::PushStyleColor(ImGuiCol_WindowBg, theme::glass);
   ImGui::Begin("facts", nullptr, overlayFlags & ~ImGuiWindowFlags_AlwaysAutoResize);
   titleText(facts.title);
@@ -72,8 +93,10 @@ void drawFacts(const OverlayFacts& all, PictureArea area) {
     ImGui::SetCursorPos({padding.x, y});
     quietText(row.label);
     ImGui::SetCursorPos({padding.x + labels, y});
+    ImGui::PushTextWrapPos(padding.x + labels + values + 1);
     coloredText(row.value, row.alert ? theme::alert : theme::plain);
-    y += line;
+    ImGui::PopTextWrapPos();
+    y += heightOf(row);
   }
   ImGui::End();
   ImGui::PopStyleColor();
@@ -83,30 +106,32 @@ void drawKeyList(PictureArea area) {
   // One column or two, whichever allows the larger text, so that nothing needs scrolling. Where the picture
   // is too small the list also covers the panels.
   const ImVec2 whole = ImGui::GetIO().DisplaySize;
-  const auto scaleFor = [&](float columns) {
-    const float lines = std::ceil(static_cast<float>(viewerKeys.size()) / columns);
-    return std::min(
-        {1.0f, whole.x / (keyColumnWidth * columns * em()), whole.y / ((1.7f * lines + 4) * em())});
+  constexpr std::size_t count = viewerKeys.size(), half = (count + 1) / 2;
+  const float gap = 1.6f * em(), margins = 2 * ImGui::GetStyle().WindowPadding.x + 0.5f * em();
+  const float oneWide = widthOfKeyRows(0, count) + margins,
+              twoWide = widthOfKeyRows(0, half) + gap + widthOfKeyRows(half, count) + margins;
+  const auto scaleFor = [&](float width, std::size_t lines) {
+    return std::min({1.0f, whole.x / width, whole.y / ((1.7f * static_cast<float>(lines) + 4) * em())});
   };
-  const bool twoColumns = scaleFor(2) >= scaleFor(1);
-  const float scale = scaleFor(twoColumns ? 2 : 1),
-              width = keyColumnWidth * (twoColumns ? 2 : 1) * scale * em();
+  const float scaleOfOne = scaleFor(oneWide, count), scaleOfTwo = scaleFor(twoWide, half);
+  const bool twoColumns = scaleOfTwo >= scaleOfOne;
+  const float scale = twoColumns ? scaleOfTwo : scaleOfOne, width = scale * (twoColumns ? twoWide : oneWide);
   const float middle = area.width > width ? area.width / 2 : whole.x / 2;
   ImGui::SetNextWindowPos({middle, area.height / 2}, ImGuiCond_Always, {0.5f, 0.5f});
   ImGui::SetNextWindowFocus();
   ImGui::PushStyleColor(ImGuiCol_WindowBg, theme::sheet);
-  ImGui::Begin("keys", nullptr, overlayFlags);
+  // The wheel and clicks do not reach what lies under it.
+  ImGui::Begin("keys", nullptr, overlayFlags & ~ImGuiWindowFlags_NoInputs);
   ImGui::SetWindowFontScale(scale);
   titleText("Keys and mouse");
-  const std::size_t half = twoColumns ? (viewerKeys.size() + 1) / 2 : viewerKeys.size();
   ImGui::BeginGroup();
-  drawKeyRows(0, half);
+  drawKeyRows(0, twoColumns ? half : count);
   ImGui::EndGroup();
   if (twoColumns) {
-    ImGui::SameLine(0, 1.6f * em());
+    ImGui::SameLine(0, scale * gap);
     ImGui::BeginGroup();
     ImGui::PushID("second");
-    drawKeyRows(half, viewerKeys.size());
+    drawKeyRows(half, count);
     ImGui::PopID();
     ImGui::EndGroup();
   }
