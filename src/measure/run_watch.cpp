@@ -9,6 +9,7 @@
 #include "cloth/material.h"
 #include "core/error.h"
 #include "core/formatted.h"
+#include "scene/cloth_name.h"
 #include "scene/pose.h"
 #include "solver/pin_paths.h"
 #include "solver/self_collision.h"
@@ -26,10 +27,6 @@ constexpr double DOUBTFUL_STEP = 1.1;
 double doubtfulDistance(const Cloth& cloth) {
   constexpr double least = 1e-3;  // [m]
   return std::max(0.5 * smallestSpacing(cloth), least);
-}
-
-std::string nameOfCloth(const Scene& scene, std::size_t cloth) {
-  return scene.cloths.size() == 1 ? "cloth" : "cloths." + std::to_string(cloth);
 }
 
 double degreesBetween(const Pose& a, const Pose& b) {

@@ -6,6 +6,7 @@
 #include "cloth/pins.h"
 #include "core/error.h"
 #include "core/formatted.h"
+#include "scene/cloth_name.h"
 #include "scene_io/field_table.h"
 #include "scene_io/json_tree.h"
 #include "scene_io/scene_io.h"
@@ -156,13 +157,12 @@ std::string changeResolution(Scene& scene, int columns, int rows, bool keepSteps
     if (cloth.isMesh()) continue;
     const double thickness = cloth.thickness;
     factor = std::max(factor, changeGrid(scene, i, columns, rows));
-    add((scene.cloths.size() > 1 ? "cloths." + std::to_string(i) + "." : "") + "thickness", thickness,
-        cloth.thickness);
+    add(nameOfCloth(scene, i) + ".thickness", thickness, cloth.thickness);
   }
   const int before = scene.solver.simulationSteps;
   if (!scene.solver.simulationSteps.automatic && !keepSteps) multiplySteps(scene.solver, factor);
   chooseCounts(scene);
-  add("simulation_steps", before, scene.solver.simulationSteps);
+  add("solver.simulation_steps", before, scene.solver.simulationSteps);
   if (changes.empty()) return "";
   return "at " + sidesText(columns, rows) + ": " + changes;
 }

@@ -8,6 +8,7 @@
 #include "cloth/mesh_shape.h"
 #include "core/error.h"
 #include "core/formatted.h"
+#include "scene/cloth_name.h"
 #include "scene_io/mesh_scene.h"
 #include "scene_io/scene_io.h"
 
@@ -69,7 +70,7 @@ void addIdleSettings(RemarkedScene& read) {
   for (std::size_t i = 0; i < read.scene.cloths.size(); ++i) {
     const ClothSettings& cloth = read.scene.cloths[i];
     if (!cloth.stiffnessReference && cloth.referenceLength != ClothSettings{}.referenceLength)
-      read.remarks.push_back("cloths." + std::to_string(i) +
+      read.remarks.push_back(nameOfCloth(read.scene, i) +
                              ".reference_length changes nothing without stiffness_reference");
   }
   if (solver.selfFriction && solver.selfCollision != SelfCollision::robust &&

@@ -157,7 +157,7 @@ TEST(ChangeResolution, LeavesStepsThatWereSetByHand) {
 TEST(ChangeResolution, SaysWhatElseItChanged) {
   Scene scene = loadSceneByName("pinned2");
   EXPECT_EQ(changeResolution(scene, 99, 99, false),
-            "at 99x99: thickness 0.0095 -> 0.00475, simulation_steps 30 -> 60");
+            "at 99x99: cloth.thickness 0.0095 -> 0.00475, solver.simulation_steps 30 -> 60");
   EXPECT_EQ(changeResolution(scene, 99, 99, false), "");
   Scene other = loadSceneByName("cs171");
   EXPECT_EQ(changeResolution(other, 80, 60, true), "");

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "scene/cloth_name.h"
 #include "scene_io/describe.h"
 #include "scene_io/scene_io.h"
 #include "support/scene_text.h"
@@ -75,6 +76,13 @@ TEST(SetSceneValue, TakesClothForTheFirstCloth) {
   EXPECT_EQ(changed(two, "cloth.ks=3").cloths[0].ks, 3);
   EXPECT_EQ(changed(two, "cloths.1.ks=3").cloths[1].ks, 3);
   EXPECT_EQ(changed(two, "cloths.1.ks=3").cloths[0].ks, 1);
+}
+
+TEST(SetSceneValue, TakesTheNameThatMessagesGiveACloth) {
+  EXPECT_EQ(nameOfCloth(plain(), 0), "cloth");
+  const Scene two = sceneOf(R"({"cloths": [{"ks": 1}, {"ks": 2}]})");
+  EXPECT_EQ(nameOfCloth(two, 0), "cloths.0");
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(changed(two, nameOfCloth(two, i) + ".ks=3").cloths[i].ks, 3);
 }
 
 TEST(SetSceneValue, TakesSphereAndPlaneForTheFirstColliderOfThatType) {

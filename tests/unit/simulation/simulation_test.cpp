@@ -53,7 +53,7 @@ TEST(SceneOptions, TellOfSettingsThatChangeNothing) {
   const std::vector<std::string> idle =
       remarksOf("pinned2", {"cloth.reference_length=0.2", "solver.self_friction=0.2"});
   ASSERT_EQ(idle.size(), 2u);
-  EXPECT_EQ(idle[0], "cloths.0.reference_length changes nothing without stiffness_reference");
+  EXPECT_EQ(idle[0], "cloth.reference_length changes nothing without stiffness_reference");
   EXPECT_EQ(idle[1],
             "solver.self_friction changes nothing where self_collision is averaged; robust and contact have "
             "friction");
