@@ -162,7 +162,8 @@ std::span<const Field<ClothSettings>> fieldsOf<ClothSettings>() {
             "vertices.")
           .rebuilds(),
       field("pin_motion", &C::pinMotion,
-            "A path in time for the pins, or a list of paths with the pins that follow each.")
+            "A path in time for the pins, or a list of paths with the pins that follow each; live if none "
+            "lets go.")
           .byDefault("none"),
       field("render", &C::render, "How this cloth is drawn where it differs from the scene's `render`."),
   };

@@ -95,7 +95,7 @@ std::span<const Field<StiffnessPart>> fieldsOf<StiffnessPart>() {
 template <>
 std::span<const Field<PinMotion>> fieldsOf<PinMotion>() {
   static const std::array fields{
-      field("keys", &PinMotion::keys, "Keys along the path.")
+      field("keys", &PinMotion::keys, "Keys along the path; another number of them is live if none is free.")
           .byDefault("none: the pins stay, or follow a collider"),
       field("loop", &PinMotion::loop, "Repeat after the last key; otherwise stop there."),
       field("interpolation", &PinMotion::interpolation, "Between keys: linear, or cubic, without kinks."),
@@ -108,7 +108,8 @@ std::span<const Field<PinMotion>> fieldsOf<PinMotion>() {
           .within(positive)
           .byDefault("never")
           .rebuilds(),
-      field("pinned", &PinMotion::pinned, "The pins that follow this path; they must be pins of the cloth.")
+      field("pinned", &PinMotion::pinned,
+            "The pins that follow this path, of those of the cloth; live if no path of the cloth lets go.")
           .byDefault("all pins of the cloth"),
   };
   return fields;

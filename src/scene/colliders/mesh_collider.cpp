@@ -13,22 +13,18 @@ std::span<const Field<MeshCollider>> MeshCollider::fields() {
       field("file", &M::file,
             "OBJ file of a closed mesh, beside the scene or in clothsim's folder; of several shapes: "
             "walk_%03d.obj.")
-          .required()
-          .rebuilds(),
+          .required(),
       field("shapes", &M::shapes,
             "How many shapes the body takes one after the other, a file for each, with the same faces.")
-          .within({.low = 1, .high = 1000})
-          .rebuilds(),
+          .within({.low = 1, .high = 1000}),
       field("first_shape", &M::firstShape, "Number of the first shape's file.")
-          .within({.low = 0, .high = 1'000'000})
-          .rebuilds(),
+          .within({.low = 0, .high = 1'000'000}),
       field("shapes_per_second", &M::shapesPerSecond, "How fast shapes follow each other.")
           .in("1/s")
           .within(positive)
           .usually(5, 60),
       field("shapes_start", &M::shapesStart, "Time at which the first shape is there.").in("s").usually(0, 5),
-      field("shapes_loop", &M::shapesLoop, "After the last shape the first one follows; otherwise it stays.")
-          .rebuilds(),
+      field("shapes_loop", &M::shapesLoop, "After the last shape the first one follows; otherwise it stays."),
       field("origin", &M::origin, "Position of the mesh's origin.").in("m"),
       field("rotation", &M::rotation, "Rotation of a box or mesh.").in("degrees"),
       field("scale", &M::scale, "Metres per unit of the mesh file.").within(positive).usually(0.1, 10),

@@ -16,8 +16,9 @@
 namespace clothsim {
 namespace {
 
-// Two sheets, of a fabric and of springs, that are sewn together, over a collider of each shape.
-Scene sceneWithAll(const std::string& closedMesh) {
+// Two sheets, of a fabric and of springs, that are sewn together, over a collider of each shape. The meshes
+// are closed; a particle begins just inside of the first ones.
+Scene sceneWithAll(const std::string& meshes) {
   return test::sceneOf(R"({
     "cloths": [
       {"width": 0.5, "height": 0.5, "num_width_points": 4, "num_height_points": 4, "material": {"damping": 1},
@@ -36,7 +37,8 @@ Scene sceneWithAll(const std::string& closedMesh) {
       {"type": "cylinder", "origin": [0.1, 0.95, 0.4], "radius": 0.05, "height": 0.1},
       {"type": "cone", "origin": [0.9, 0.95, 0.1], "radius": 0.05, "height": 0.1},
       {"type": "mesh", "file": ")" +
-                       closedMesh + R"(", "origin": [0.6, 0.96, 0.4], "scale": 0.1, "cells": 8}],
+                       meshes + R"(", "shapes": 2, "shapes_per_second": 60, "shapes_start": -0.02,
+       "origin": [0.6867, 0.96, 0.3083], "scale": 0.1, "cells": 8}],
     "wind": {"velocity": [1, 0, 2], "gust": {"strength": 1}},
     "attractors": [{"position": [0.5, 2, 0.5], "strength": 1, "radius": 2}],
     "solver": {"integrator": "implicit", "simulation_steps": 1, "frames_per_sec": 60, "friction_law": "coulomb",
@@ -99,8 +101,12 @@ const std::vector<std::string> settings{
     "colliders.3.rotation=[0, 45, 0]",
     "colliders.3.rounding=0.02",
     "colliders.4.tube_radius=0.06",
+    "colliders.7.file=FOLDER/wide_%d.obj",
+    "colliders.7.shapes=3",
+    "colliders.7.first_shape=1",
     "colliders.7.shapes_per_second=12",
     "colliders.7.shapes_start=1",
+    "colliders.7.shapes_loop=true",
     "colliders.7.scale=0.2",
     "colliders.7.cells=9",
     "colliders.6.height=0.2",
@@ -192,12 +198,23 @@ std::string describedKey(const std::string& setting) {
 class LiveKeys : public testing::Test {
  protected:
   LiveKeys() {
-    std::ofstream(folder_ / "body.obj")
-        << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
-    scene_ = sceneWithAll((folder_ / "body.obj").string());
+    for (int shape = 0; shape < 3; ++shape) {
+      const std::string number = std::to_string(shape);
+      writeTetrahedron("body_" + number + ".obj", 1, 1 + 0.1 * shape);
+      writeTetrahedron("wide_" + number + ".obj", 1.5, 1 + 0.1 * shape);
+    }
+    scene_ = sceneWithAll((folder_ / "body_%d.obj").string());
   }
 
-  [[nodiscard]] Scene with(const std::string& setting) const {
+  void writeTetrahedron(const std::string& name, double width, double height) const {
+    std::ofstream(folder_ / name) << "v 0 0 0\nv " << width << " 0 0\nv 0 " << height
+                                  << " 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  }
+
+  [[nodiscard]] Scene with(std::string setting) const {
+    const std::string folder = "FOLDER";
+    if (const std::size_t at = setting.find(folder); at != std::string::npos)
+      setting.replace(at, folder.size(), folder_.path().string());
     Scene changed = scene_;
     setSceneValue(changed, setting);
     return changed;
@@ -244,8 +261,28 @@ TEST_F(LiveKeys, ActAsInASceneThatHadThemFromTheStart) {
     if (after == before) without.insert(key);
   }
   for (const char* acts :
-       {"cloth.pressure", "cloth.tear_strain", "cloth.material.damping", "cloth.damping", "seams[].time"})
+       {"cloth.pressure", "cloth.tear_strain", "cloth.material.damping", "cloth.damping", "seams[].time",
+        "colliders[].file", "colliders[].shapes", "colliders[].first_shape", "colliders[].shapes_loop"})
     EXPECT_FALSE(without.contains(acts)) << acts << " has no effect in this scene";
+}
+
+TEST_F(LiveKeys, OfPathsThatLetGoAreThoseThatLeaveThePinsAndTheirKeys) {
+  setSceneValue(scene_, R"(cloth.pin_motion={"pinned": ["left"], "keys": [
+      {"t": 0}, {"t": 0.01, "position": [0, 1, 0.3], "free": true}, {"t": 1, "position": [0, 1, 0.3]}]})");
+  for (const char* setting :
+       {"cloth.pin_motion.0.keys.1.t=0.03", "cloth.pin_motion.0.keys.1.position=[0.1, 1, 0]",
+        "cloth.pin_motion.0.keys.1.rotation=[0, 90, 0]", "cloth.pin_motion.0.loop=true",
+        "cloth.pin_motion.0.interpolation=cubic"}) {
+    const Scene changed = with(setting);
+    EXPECT_FALSE(needsRebuild(scene_, changed)) << setting;
+    Simulation fromTheStart(changed), live(scene_);
+    live.configure(changed);
+    EXPECT_EQ(hashAfterTwoFrames(live), hashAfterTwoFrames(fromTheStart)) << setting;
+  }
+  for (const char* setting :
+       {R"(cloth.pin_motion=[{"pinned": ["left"], "collider": 0}])", "cloth.pin_motion.0.pinned=[[0, 0]]",
+        R"(cloth.pin_motion.0.keys=[{"t": 0}, {"t": 1, "free": true}])"})
+    EXPECT_TRUE(needsRebuild(scene_, with(setting))) << setting;
 }
 
 TEST_F(LiveKeys, AreNotThoseOfWhichAClothIsMade) {
