@@ -19,6 +19,20 @@
 
 namespace py = pybind11;
 
+// An object that __new__() made without __init__() has no simulation; pybind11 would give memory without one.
+template <>
+struct pybind11::detail::type_caster<clothsim::PythonSimulation>
+    : type_caster_base<clothsim::PythonSimulation> {
+  bool load(handle source, bool convert) {
+    if (isinstance<clothsim::PythonSimulation>(source) &&
+        !reinterpret_cast<instance*>(source.ptr())->get_value_and_holder().holder_constructed())
+      throw type_error(
+          "this clothsim.Simulation holds no simulation, since its __init__() has not made one; make it by "
+          "clothsim.Simulation(...)");
+    return type_caster_base<clothsim::PythonSimulation>::load(source, convert);
+  }
+};
+
 namespace clothsim {
 namespace {
 
