@@ -373,6 +373,9 @@ PYBIND11_MODULE(_clothsim, module) {
   if (::dladdr(reinterpret_cast<const void*>(&PyInit__clothsim), &self) != 0)
     beginResourceSearchAt(std::filesystem::absolute(self.dli_fname).parent_path());
   module.attr("__version__") = CLOTHSIM_VERSION;
+  // pybind11 looks NumPy up with the first array, and of two threads that come to this at once one would keep
+  // what the other waits for.
+  (void)py::dtype::of<float>();
   declareErrors(module);
   declareSimulation(module);
   module.def("scenes", &bundledNames, docs::scenes);

@@ -62,6 +62,22 @@ class Threads(unittest.TestCase):
                               capture_output=True, text=True, check=False)
         self.assertEqual((told.returncode, told.stdout), (0, "True\n"), told.stderr)
 
+    def test_threads_may_ask_for_the_first_array_at_once(self):
+        code = """if True:
+            import threading, clothsim
+            together, lengths = threading.Barrier(3), []
+            def ask():
+                sim = clothsim.Simulation("pinned2", backend="cpu", resolution=(4, 4))
+                together.wait()
+                lengths.append(len(sim.positions))
+            threads = [threading.Thread(target=ask) for _ in range(3)]
+            for thread in threads: thread.start()
+            for thread in threads: thread.join()
+            print(lengths)
+        """
+        told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, timeout=60)
+        self.assertEqual((told.returncode, told.stdout), (0, "[16, 16, 16]\n"), told.stderr)
+
     def test_while_it_steps_others_are_told_so_and_see_what_it_is(self):
         sim = clothsim.Simulation("pinned2", backend="cpu", resolution=(128, 128))
         stepping = threading.Thread(target=lambda: sim.step_frames(20))
