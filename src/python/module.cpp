@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <optional>
 #include <string>
 
 #include "core/error.h"
@@ -15,6 +16,7 @@
 #include "export/formats.h"
 #include "python/docs.h"
 #include "python/python_simulation.h"
+#include "python/released_lock.h"
 #include "scene_io/scene_io.h"
 
 namespace py = pybind11;
@@ -81,7 +83,8 @@ RemarkedScene readAny(const py::object& scene, const py::object& resolution, con
 
 // Steps let other threads of Python run; Ctrl-C ends them.
 void poll() {
-  const py::gil_scoped_acquire gil;
+  std::optional<py::gil_scoped_acquire> lock;
+  takeLock([&] { lock.emplace(); });
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
 }
 
@@ -281,12 +284,12 @@ void declareErrors(py::module_& module) {
 }
 
 void declareSimulation(py::module_& module) {
-  const auto released = py::call_guard<py::gil_scoped_release>();
+  const auto released = py::call_guard<ReleasedLock>();
   py::class_<PythonSimulation, Holder>(module, "Simulation", docs::simulation)
       .def(py::init([](const py::object& scene, const std::string& backend, const py::object& resolution,
                        double jitter, std::uint32_t seed, const py::kwargs& settings) {
              RemarkedScene read = readAny(scene, resolution, settings);
-             const py::gil_scoped_release release;
+             const ReleasedLock others;
              return std::make_shared<PythonSimulation>(std::move(read), backend, jitter, seed);
            }),
            py::arg("scene") = "pinned2", py::kw_only(), py::arg("backend") = "auto",
@@ -301,7 +304,7 @@ void declareSimulation(py::module_& module) {
           "run",
           [](PythonSimulation& simulation, std::int64_t frames) {
             const Trace trace = [&] {
-              const py::gil_scoped_release release;
+              const ReleasedLock others;
               return simulation.run(frames, poll);
             }();
             return dictOf(trace);

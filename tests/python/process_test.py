@@ -153,6 +153,26 @@ class Process(unittest.TestCase):
         self.assertGreater(steps, 0)
         self.assertEqual(again.state_hash, sim.state_hash)
 
+    def test_the_process_ends_while_daemon_threads_step(self):
+        for steps in ("sim.step_frames(1_000_000)", "sim.step()", "sim.run(1)", "sim.reset()"):
+            code = f"""if True:
+                import threading, time, clothsim
+                def step():
+                    sim = clothsim.Simulation("pinned2", backend="cpu", resolution=(24, 24))
+                    stepping.set()
+                    while True:
+                        {steps}
+                for _ in range(3):
+                    stepping = threading.Event()
+                    threading.Thread(target=step, daemon=True).start()
+                    stepping.wait()
+                time.sleep(0.1)
+                print("the end")
+            """
+            with self.subTest(steps=steps):
+                told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, timeout=60)
+                self.assertEqual((told.returncode, told.stdout, told.stderr), (0, "the end\n", ""))
+
     def test_numbers_have_a_point_whatever_the_users_language(self):
         language = "de_DE.UTF-8"
         with tempfile.TemporaryDirectory() as folder:
