@@ -336,13 +336,12 @@ def comparison():
     lines = []
     for scene in dict.fromkeys(row["scene"] for row in rows):
         of_scene = [row for row in rows if row["scene"] == scene]
-        own = next((r for r in of_scene if "solver.integrator" not in r["command"]), None) or of_scene[0]
-        cells = [rf"\key{{{escaped(scene)}}}", thousands(own["particles"]), own["integrator"], thousands(own["steps"])]
-        with_own = [r for r in of_scene if r["integrator"] == own["integrator"]]
+        with_own = [r for r in of_scene if "solver.integrator" not in r["command"]]
+        cells = [rf"\key{{{escaped(scene)}}}", thousands(of_scene[0]["particles"]), thousands(of_scene[0]["steps"])]
         cells += [str(len(with_own)), str(len(of_scene) - len(with_own))]
         lines.append(" & ".join(cells))
     half = (len(lines) + 1) // 2  # two scenes a line
-    lines = [left + " & " + (lines[half + k] if half + k < len(lines) else "&&&&&") + r"\\" for k, left in enumerate(lines[:half])]
+    lines = [left + " & " + (lines[half + k] if half + k < len(lines) else "&&&&") + r"\\" for k, left in enumerate(lines[:half])]
     write("compare.tex", lines)
     measured["compare runs"] = str(len(rows))
     measured["compare scenes"] = str(len({row["scene"] for row in rows}))
