@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "scene_io/scene_io.h"
+#include "viewer/strain_legend.h"
 #include "viewer/viewer_facts.h"
 #include "viewer/viewer_marks.h"
 #include "viewer/viewer_program.h"
@@ -29,6 +30,8 @@ void Viewer::drawControls() {
   requests_.timeline = drawTimeline({now.oldestFrame, now.frame, now.newestFrame, now.frameSinceStart,
                                      open_->frameSeconds(), paused_, tempo_, taker_.recordedSeconds()},
                                     area);
+  if (config_.showOverlay && !showKeys_ && open_->scene().render.shader == "strain")
+    drawStrainLegend(open_->scene().render, column_.measures().strainUnderCursor(), area, timelineHeight());
   compare_.draw(area);
   if (notice_.secondsLeft > 0) drawNotice(notice_.text, notice_.isError, area, noticeLift);
   if (showKeys_) drawKeyList(area);

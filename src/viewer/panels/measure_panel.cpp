@@ -10,7 +10,6 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/formatted.h"
-#include "render/strain_scale.h"
 #include "viewer/panels/plot.h"
 #include "viewer/ui_frame.h"
 
@@ -48,38 +47,6 @@ std::size_t residentBytes() {
 
 std::string megabytes(std::size_t bytes) {
   return formatted("%.1f MiB", static_cast<double>(bytes) / (1024.0 * 1024.0));
-}
-
-ImU32 colorOf(const StrainStop& stop) {
-  return ImGui::GetColorU32(ImVec4(stop.srgb[0], stop.srgb[1], stop.srgb[2], 1));
-}
-
-// Draws the colours of the strain map, with a mark for the strain under the cursor.
-void drawStrainLegend(const RenderSettings& look, std::optional<double> underCursor) {
-  const std::vector<StrainStop> stops = strainScale(look);
-  const double low = stops.front().strain, span = stops.back().strain - low;
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float width = ImGui::GetContentRegionAvail().x, height = 0.8f * em();
-  ImDrawList& list = *ImGui::GetWindowDrawList();
-  const auto place = [&](double strain) {
-    return at.x + width * static_cast<float>(std::clamp((strain - low) / span, 0.0, 1.0));
-  };
-  for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
-    const ImU32 left = colorOf(stops[i]), right = colorOf(stops[i + 1]);
-    list.AddRectFilledMultiColor({place(stops[i].strain), at.y}, {place(stops[i + 1].strain), at.y + height},
-                                 left, right, right, left);
-  }
-  if (underCursor) {
-    const float x = place(*underCursor);
-    list.AddRectFilled({x - 2, at.y - 3}, {x + 2, at.y + height + 3}, ImGui::GetColorU32(theme::plain), 1);
-  }
-  ImGui::Dummy({width, height + 0.1f * em()});
-  const std::string most = formatted("%+.3g %%", 100 * stops.back().strain);
-  quietText(formatted("%+.3g %%", 100 * low));
-  ImGui::SameLine(ImGui::GetCursorPosX() + 0.5f * width - 0.5f * em());
-  quietText("0");
-  ImGui::SameLine(ImGui::GetCursorPosX() + width - ImGui::CalcTextSize(most.c_str()).x);
-  quietText(most);
 }
 
 }  // namespace
@@ -300,9 +267,7 @@ void MeasurePanel::drawMemory(const SessionFacts& facts) {
   ImGui::EndTable();
 }
 
-bool MeasurePanel::draw(const SessionFacts& facts, const RenderSettings& look) {
-  if (look.shader == "strain")
-    drawStrainLegend(look, underCursor_ ? std::optional(underCursor_->facts.strain) : std::nullopt);
+bool MeasurePanel::draw(const SessionFacts& facts) {
   drawNumbers(*facts.scene);
   drawPlots(facts.scene->solver.selfCollision);
   const bool saves = wideButton("Save the curves as CSV");

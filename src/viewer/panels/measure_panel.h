@@ -23,9 +23,12 @@ namespace clothsim {
 
 class MeasurePanel {
  public:
-  // `look` is that of the picture. Where it shows strain by colours, a legend is drawn. Returns whether the
-  // numbers of the curves are to be saved.
-  [[nodiscard]] bool draw(const SessionFacts& facts, const RenderSettings& look);
+  // Returns whether the numbers of the curves are to be saved.
+  [[nodiscard]] bool draw(const SessionFacts& facts);
+  // Of the most strained spring there; known while the panel is open.
+  [[nodiscard]] std::optional<double> strainUnderCursor() const {
+    return underCursor_ ? std::optional(underCursor_->facts.strain) : std::nullopt;
+  }
   // The curves as CSV, a line a sample; names and units are those of Trace. @throws InputOutputError
   void saveCurves(const std::filesystem::path& path) const;
 

@@ -57,7 +57,7 @@ void PanelColumn::drawPanel(PanelName panel, PanelContext& context) {
     case PanelName::look:
       return drawLookPanel(context);
     case PanelName::measure:
-      context.requests.saveCurves = measures_.draw(context.facts, context.draft.render);
+      context.requests.saveCurves = measures_.draw(context.facts);
       return;
   }
 }
