@@ -112,7 +112,8 @@ CoveredEdges CompareCard::coveredEdges(PictureArea area) const {
 
 void CompareCard::draw(PictureArea area) {
   if (!open_) return;
-  ImGui::SetNextWindowPos({area.width - cardMargin * em(), cardMargin * em()}, ImGuiCond_Always, {1, 0});
+  const float right = std::max(area.width, width_) - cardMargin * em();  // over the panels if need be
+  ImGui::SetNextWindowPos({right, cardMargin * em()}, ImGuiCond_Always, {1, 0});
   ImGui::PushStyleColor(ImGuiCol_WindowBg, theme::sheet);
   ImGui::Begin("compare", nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |

@@ -194,6 +194,14 @@ void coloredText(std::string_view words, const ImVec4& color) {
 
 void quietText(std::string_view words) { coloredText(words, theme::quiet); }
 
+float widthOf(std::string_view words) {
+  return ImGui::CalcTextSize(words.data(), words.data() + words.size()).x;
+}
+
+float fittingScale(float needed) {
+  return std::clamp(ImGui::GetContentRegionAvail().x / std::max(needed, 1.0f), 0.7f, 1.0f);
+}
+
 void titleText(std::string_view words) {
   ImGui::PushFont(titleFont());
   coloredText(words, theme::plain);

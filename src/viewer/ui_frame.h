@@ -62,6 +62,9 @@ class UiFrame {
 
 void coloredText(std::string_view words, const ImVec4& color);
 void quietText(std::string_view words);
+[[nodiscard]] float widthOf(std::string_view words);
+// How large text may be that needs so much of a line, compared with what it is: .7 at least.
+[[nodiscard]] float fittingScale(float needed);
 void titleText(std::string_view words);  // in the larger typeface
 // Text that is wrapped at the edge of the window.
 void wrappedText(std::string_view words, const ImVec4& color);

@@ -32,10 +32,6 @@ void drawKeyCap(std::string_view name) {
   ImGui::Dummy({margin, 1});
 }
 
-float widthOf(std::string_view words) {
-  return ImGui::CalcTextSize(words.data(), words.data() + words.size()).x;
-}
-
 // Of a column of the list: keys, and what they do.
 float widthOfKeyRows(std::size_t first, std::size_t last) {
   float keys = 0, effects = 0;

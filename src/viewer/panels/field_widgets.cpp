@@ -119,13 +119,17 @@ void FieldWidgets::beginRow(const FieldTraits& field, std::string_view path, std
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   ImGui::AlignTextToFramePadding();
-  const std::string label = labelOf(field.key);
+  const std::string label = labelOf(field.key), unitWords = unit.empty() ? "" : unitText(unit);
+  const float gap = 0.35f * em();
+  const float scale = fittingScale(widthOf(label) + (unit.empty() ? 0 : gap + widthOf(unitWords)));
+  ImGui::SetWindowFontScale(scale);
   ImGui::TextUnformatted(label.c_str());
   helpTip(helpOf(field, path));
   if (!unit.empty()) {
-    ImGui::SameLine(0, 0.35f * em());
-    quietText(unitText(unit));
+    ImGui::SameLine(0, scale * gap);
+    quietText(unitWords);
   }
+  ImGui::SetWindowFontScale(1);
   ImGui::TableNextColumn();
   ImGui::SetNextItemWidth(-FLT_MIN);
 }
