@@ -57,7 +57,9 @@ class ForceRows {
  private:
   static constexpr int AROUND = 2;
   static constexpr std::size_t KEPT_ROWS = 3;
-  [[nodiscard]] std::size_t stride() const { return static_cast<std::size_t>(columns_ + 2 * AROUND); }
+  [[nodiscard]] std::size_t stride() const {
+    return static_cast<std::size_t>(columns_) + static_cast<std::size_t>(2 * AROUND);
+  }
 
   int columns_ = -1;
   std::array<int, KINDS> ends_{};  // rows before these are there

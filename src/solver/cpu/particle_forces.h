@@ -52,7 +52,7 @@ template <class Real, class Use>
 INLINE void forEachParticleForce(const StepParams<Real>& step, Use use) {
   ForceLaws<Real> laws{step};
 #define USE_SOURCES(number, Struct, sources, law)                \
-  if ((step.particleForces >> number & 1u) != 0)                 \
+  if ((step.particleForces >> (number)&1u) != 0)                 \
     for (std::uint32_t source = 0; source < (sources); ++source) \
       use([&](Vec3<Real> x, Vec3<Real> v, Real mass)             \
               __attribute__((always_inline)) { return laws.law(x, v, mass, source); });

@@ -15,13 +15,13 @@ template <class Real>
 struct VectorsOf;
 template <>
 struct VectorsOf<float> {
-  typedef float Four __attribute__((vector_size(16)));
-  typedef float Eight __attribute__((vector_size(32)));
+  using Four = float __attribute__((vector_size(16)));
+  using Eight = float __attribute__((vector_size(32)));
 };
 template <>
 struct VectorsOf<double> {
-  typedef double Four __attribute__((vector_size(32)));
-  typedef double Eight __attribute__((vector_size(64)));
+  using Four = double __attribute__((vector_size(32)));
+  using Eight = double __attribute__((vector_size(64)));
 };
 
 template <class Real>
