@@ -51,7 +51,8 @@ FolderList listFolder(const fs::path& folder) {
     std::error_code ignored;  // of a link that leads nowhere
     const bool isFolder = entry->is_directory(ignored);
     if (name.starts_with('.') || (!isFolder && kindOfFile(name) == FileKind::folder)) continue;
-    if (!isFolder && kindOfFile(name) == FileKind::scene && isRecording(entry->path())) continue;
+    const bool isFile = entry->is_regular_file(ignored);  // a pipe would keep who reads it waiting
+    if (isFile && kindOfFile(name) == FileKind::scene && isRecording(entry->path())) continue;
     FolderEntry found{name, isFolder ? FileKind::folder : kindOfFile(name), 0, changeTimeOf(entry->path())};
     const std::uintmax_t bytes = isFolder ? 0 : entry->file_size(ignored);
     if (!ignored) found.bytes = bytes;

@@ -1,5 +1,6 @@
 // Parts of the viewer that need no window.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -261,11 +262,13 @@ TEST(FolderList, HasFoldersFirstThenScenesAndMeshesByName) {
   fs::create_directory(folder / "z");
   fs::create_directory(folder / ".git");
   fs::create_symlink("/nonexistent", folder / "gone.json");
+  writeFileAtomically(folder / "of_hands.json", R"({"schema": "clothsim-recording/1"})");
+  ASSERT_EQ(::mkfifo((folder / "pipe.json").c_str(), 0600), 0);
   const FolderList list = listFolder(folder.path());
   EXPECT_EQ(list.fault, "");
   std::vector<std::string> names;
   for (const FolderEntry& entry : list.entries) names.push_back(entry.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"z", "A.OBJ", "b.json", "c.Json", "gone.json"}));
+  EXPECT_EQ(names, (std::vector<std::string>{"z", "A.OBJ", "b.json", "c.Json", "gone.json", "pipe.json"}));
   EXPECT_EQ(list.entries[0].kind, FileKind::folder);
   EXPECT_EQ(list.entries[1].kind, FileKind::mesh);
   EXPECT_EQ(list.entries[2].bytes, 2u);
