@@ -89,7 +89,7 @@ void Viewer::onKey(const KeyStroke& stroke, bool repeated) {
   const auto task = [=, this] {
     if (!repeated || repeats) act(action);
   };
-  if (action == ViewerAction::openFile) return doNow(task);  // nor does it: Esc finds it open
+  if (action == ViewerAction::openFile) return doNow(task);  // does not wait: Esc finds it open
   isImmediate(action) ? atOnce(task) : whenIdle(task);
 }
 

@@ -82,10 +82,11 @@ bool meetNext(uint own, MovingBounds ownBox, inout Walk walk) {
       walk.box = boxAt(first + walk.place);
       bool meets = overlap(ownBox, walk.box);
       if (meets && walk.level > 0) continue;
-      walk.met = walk.place++;
+      uint last = walk.place++;
+      if (!meets || areFlat(own, last)) break;
+      walk.met = last;
       walk.part = 0u;
-      if (meets && !areFlat(own, walk.met)) return true;
-      break;
+      return true;
     }
   }
 }

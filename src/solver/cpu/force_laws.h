@@ -86,7 +86,7 @@ INLINE TriangleWind<Real> windOn(const StepParams<Real>& step, const Interaction
   force = force + step.pressureFactor * normal;
   const bool degenerate = normalSquared < static_cast<Real>(0x1p-100);
   return {{degenerate ? Real(0) : force.x, degenerate ? Real(0) : force.y, degenerate ? Real(0) : force.z},
-          {normal.x, normal.y, normal.z},
+          {normal.x, normal.y, normal.z},  // a structure that is copied whole keeps GCC 12 from vectors
           degenerate ? Real(0) : resistance};
 }
 

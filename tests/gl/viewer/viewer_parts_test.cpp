@@ -5,11 +5,11 @@
 #include <cstdio>
 #include <cstdlib>
 #include <set>
-#include <sstream>
 
 #include "core/error.h"
 #include "core/files.h"
 #include "gl/gl_test.h"
+#include "gl/viewer/small_scene.h"
 #include "output/clip_recorder.h"
 #include "output/numbered_files.h"
 #include "scene_io/mesh_scene.h"
@@ -22,7 +22,6 @@
 #include "viewer/input_queue.h"
 #include "viewer/kept_picture.h"
 #include "viewer/mouse_tools.h"
-#include "viewer/panels/measure_panel.h"
 #include "viewer/viewer.h"
 #include "viewer/viewer_config.h"
 #include "viewer/viewer_facts.h"
@@ -48,12 +47,6 @@ class ChangedEnvironment {
   const char* name_;
   std::optional<std::string> old_;
 };
-
-Scene smallScene() {
-  Scene scene = loadSceneByName("pinned2");
-  (void)changeResolution(scene, 12, 12, true);
-  return scene;
-}
 
 TEST(ViewerKeys, EachInputStandsInTheTableOnce) {
   std::set<std::string_view> inputs;
@@ -290,8 +283,8 @@ TEST(MeshScene, HasTheMeshAsClothAboveTheBallOrAsASolidAtItsPlace) {
   EXPECT_GT(lowest, ball.origin.y + ball.radius);
   EXPECT_LT(lowest, ball.origin.y + 2 * ball.radius);
 
-  const Scene with = withMeshSolid(smallScene(), mesh, {1, 2, 3});
-  ASSERT_EQ(with.colliders.size(), smallScene().colliders.size() + 1);
+  const Scene with = withMeshSolid(test::smallScene(), mesh, {1, 2, 3});
+  ASSERT_EQ(with.colliders.size(), test::smallScene().colliders.size() + 1);
   Session session(with, "cpu", makeCpuSolver);
   EXPECT_FALSE(session.stepFrames(1));
   EXPECT_THROW((void)sceneOfMesh("/nonexistent.obj"), SceneError);
@@ -339,45 +332,6 @@ TEST(ClipRecorder, WithoutFfmpegWritesNumberedPicturesThatPlayInRealTime) {
   EXPECT_FALSE(fs::exists(folder / "demo-cpu-frames" / "frame_0032.png"));
 }
 
-// Steps that cannot be solved, on a sheet of n x n points.
-Scene unsolvableSheet(int n) {
-  Scene scene;
-  scene.cloths[0].numWidthPoints = scene.cloths[0].numHeightPoints = n;
-  scene.cloths[0].pinned = {GridPoint{0, 0}};
-  scene.solver.integrator = Integrator::implicit;
-  scene.solver.framesPerSec = 20;
-  scene.solver.simulationSteps = scene.solver.newtonSteps = 1;
-  scene.solver.cgIterations = 1;
-  return scene;
-}
-
-bool tellsOfConvergence(const MeasurePanel& panel, const Scene& scene) {
-  const std::vector<Warning> warnings = panel.warnings(scene);
-  return std::any_of(warnings.begin(), warnings.end(),
-                     [](const Warning& warning) { return warning.kind == "convergence"; });
-}
-
-TEST(MeasurePanel, TellsOfUnsolvedStepsWhileThereAreAnyWhateverTheSizeOfTheCloth) {
-  for (const int n : {12, 260}) {  // of the larger one no other samples are taken
-    const Scene scene = unsolvableSheet(n);
-    Session session(scene, "cpu", makeCpuSolver);
-    MeasurePanel panel;
-    const auto nothing = []() -> std::optional<std::uint32_t> { return std::nullopt; };
-    panel.update(session, 0, nothing);
-    EXPECT_FALSE(tellsOfConvergence(panel, scene)) << "nothing has been stepped";
-    ASSERT_FALSE(session.stepFrames(3));
-    panel.update(session, 0.01, nothing);
-    EXPECT_FALSE(tellsOfConvergence(panel, scene)) << "it is too soon for the next sample";
-    panel.update(session, 100, nothing);
-    EXPECT_TRUE(tellsOfConvergence(panel, scene)) << n;
-    Scene explicitly = scene;
-    explicitly.solver.integrator = Integrator::verlet;
-    EXPECT_FALSE(tellsOfConvergence(panel, explicitly));
-    panel.forget(session);
-    EXPECT_FALSE(tellsOfConvergence(panel, scene)) << "after a restart";
-  }
-}
-
 // Pulls the demo's sheet half a metre to the side, at 2 m/s, and holds it for a second while the ball spins.
 // Returns the largest strain of a spring.
 double strainOfAPull(double strength) {
@@ -406,83 +360,8 @@ TEST(Hand, DoesNotOvercomeTheStrainLimit) {
   EXPECT_GT(strainOfAPull(1e4), 0.5) << "this pull is one that a stronger hand wins";
 }
 
-TEST(MeasurePanel, SavesTheSamplesOfItsCurves) {
-  const test::TemporaryFolder folder;
-  Session session(smallScene(), "cpu", makeCpuSolver);
-  MeasurePanel panel;
-  const auto nothing = []() -> std::optional<std::uint32_t> { return std::nullopt; };
-  for (int i = 0; i < 3; ++i) {
-    panel.update(session, 100.0 * i, nothing);
-    ASSERT_FALSE(session.stepFrames(2));
-  }
-  panel.saveCurves(folder / "curves.csv");
-  std::istringstream lines(readFile(folder / "curves.csv"));
-  std::string line;
-  std::getline(lines, line);
-  EXPECT_EQ(line, "time,kinetic_energy,gravity_energy,spring_energy,max_strain,self_contacts");
-  std::vector<double> times, kinetic;
-  for (double time = 0, energy = 0; std::getline(lines, line);) {
-    ASSERT_EQ(std::sscanf(line.c_str(), "%lf,%lf,", &time, &energy), 2) << line;
-    times.push_back(time);
-    kinetic.push_back(energy);
-  }
-  ASSERT_EQ(times.size(), 3u);
-  EXPECT_EQ(times[0], 0);
-  EXPECT_NEAR(times[2], 4 / session.simulation().scene().solver.framesPerSec, 1e-6);
-  EXPECT_EQ(kinetic[0], 0);
-  EXPECT_GT(kinetic[2], kinetic[1]) << "it falls";
-}
-
-TEST(MeasurePanel, MeasuresTheClothOfAnotherSessionByItsOwnSprings) {
-  const test::TemporaryFolder folder;
-  Session large(loadSceneByName("pinned2"), "cpu", makeCpuSolver), small(smallScene(), "cpu", makeCpuSolver);
-  const auto nothing = []() -> std::optional<std::uint32_t> { return std::nullopt; };
-  MeasurePanel used, fresh;
-  used.update(large, 0, nothing);
-  used.forget(small);
-  used.update(small, 1, nothing);
-  fresh.update(small, 1, nothing);
-  used.saveCurves(folder / "used.csv");
-  fresh.saveCurves(folder / "fresh.csv");
-  EXPECT_EQ(readFile(folder / "used.csv"), readFile(folder / "fresh.csv"));
-}
-
-TEST(MeasurePanel, TellsOfNothingThatHappenedInAFutureOrARunThatIsGone) {
-  Scene scene = smallScene();
-  scene.solver.selfCollision = SelfCollision::robust;
-  Session session(scene, "cpu", makeCpuSolver);
-  MeasurePanel panel;
-  double now = 0;
-  const auto tells = [&] {
-    panel.update(session, now += 100, []() -> std::optional<std::uint32_t> { return std::nullopt; });
-    return !panel.warnings(scene).empty();
-  };
-  const auto throwDown = [&] {  // farther in a step than the search for contacts reaches
-    State state = session.simulation().state();
-    for (Particle4& velocity : state.velocities) velocity.y = -200;
-    session.simulation().setState(state);
-    ASSERT_FALSE(session.stepFrames(1));
-  };
-  ASSERT_FALSE(session.stepFrames(2));
-  ASSERT_FALSE(tells());
-  throwDown();
-  ASSERT_TRUE(tells());
-  panel.keepCounts(session);
-  session.seek(1);
-  EXPECT_TRUE(tells()) << "only another frame is shown";
-  panel.dropFuture(session);
-  ASSERT_FALSE(session.stepFrames(2));
-  EXPECT_FALSE(tells());
-  throwDown();
-  ASSERT_TRUE(tells());
-  session.act(Restart{});
-  panel.forget(session);
-  ASSERT_FALSE(session.stepFrames(1));
-  EXPECT_FALSE(tells());
-}
-
 TEST(SessionPulse, ChangesNoBitHoweverAFrameIsDividedByIt) {
-  Session plain(smallScene(), "cpu", makeCpuSolver), watched(smallScene(), "cpu", makeCpuSolver);
+  Session plain(test::smallScene(), "cpu", makeCpuSolver), watched(test::smallScene(), "cpu", makeCpuSolver);
   int polls = 0;
   watched.setPoll([&] {
     ++polls;
