@@ -1,7 +1,11 @@
 #include "solver/cpu/collide.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "solver/cpu/arrays.h"
 #include "solver/cpu/collider_frames.h"
+#include "solver/cpu/rows.h"
 #include "solver/cpu/shapes.h"
 #include "solver/cpu/watch.h"
 
@@ -199,7 +203,7 @@ INLINE Vec3<Real> furtherOut(const ColliderParams<Real>& collider, Vec3<Real> x,
 
 template <std::uint32_t type, bool mayEnter = true, class Real>
 INLINE void collideWith(const PassArguments<Real>& arguments, const ColliderParams<Real>& collider,
-                        bool moving, bool coulomb, Range particles) {
+                        bool moving, bool coulomb, Range particles, std::ptrdiff_t done = 0) {
   const Components<Real>& old = arguments.before.positions;
   Components<Real>&p = arguments.after.positions, &v = arguments.after.velocities;
   const Real *x0 = old.x.data(), *y0 = old.y.data(), *z0 = old.z.data();
@@ -225,7 +229,7 @@ INLINE void collideWith(const PassArguments<Real>& arguments, const ColliderPara
     // Not from the difference of positions, which holds their rounding.
     const Vec3<Real> push = (contact.outward - taken) + further;
     const Vec3<Real> kicked = velocity + inverseTimeStep * push;
-    if (!contact.touches || inverseMasses[i] == Real(0)) return;
+    if (!contact.touches || inverseMasses[i] == Real(0) || i < done) return;
     x[i] = canonical(corrected.x);
     y[i] = canonical(corrected.y);
     z[i] = canonical(corrected.z);
@@ -241,57 +245,70 @@ INLINE void collideWith(const PassArguments<Real>& arguments, const ColliderPara
   }
 }
 
-// What particles have to do with a sphere or a plane: none touches it without one of these.
-struct Nearness {
-  bool anyInside, anyEnters;  // behind the surface; on a way long enough to have gone through
-};
-template <std::uint32_t type, bool moving, class Real>
-INLINE Nearness nearnessOf(const PassArguments<Real>& arguments, const ColliderParams<Real>& collider,
-                           bool coulomb, Range particles) {
-  const Components<Real>&old = arguments.before.positions, &p = arguments.after.positions;
-  const Real *x0 = old.x.data(), *y0 = old.y.data(), *z0 = old.z.data(), *x = p.x.data(), *y = p.y.data(),
-             *z = p.z.data();
-  const Vec3<Real> point = pointOf(collider), normal{collider.normalX, collider.normalY, collider.normalZ};
-  using Bits = decltype(bitsOf(Real(0)));  // of numbers that are not negative: in the order of these
-  Bits nearest = ~Bits(0), longest = 0, behind = 0;
-#pragma GCC ivdep
-  for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
-    const Vec3<Real> now = load(x, y, z, i), start = load(x0, y0, z0, i);
-    const Vec3<Real> previous = moving ? carried(collider, start) : start;
-    if constexpr (type == COLLIDER_SPHERE) {
-      const Vec3<Real> d = now - point, way = now - previous;
-      const Bits distance = bitsOf(dot(d, d));
-      nearest = distance < nearest ? distance : nearest;
-      longest = larger(longest, bitsOf(dot(way, way)));
-    } else {
-      const Bits height = bitsOf(dot(now - point, normal)), before = bitsOf(dot(previous - point, normal));
-      behind |= coulomb ? height : height ^ before;
-    }
-  }
+// What a particle has to do with a sphere or a plane: it touches none without one of these.
+constexpr std::uint32_t IS_FAR = 0, IS_INSIDE = 1,  // behind the surface
+    MAY_ENTER = 2;                                  // on a way long enough to have gone through
+template <std::uint32_t type, bool moving, bool coulomb, class Real>
+INLINE std::uint32_t nearnessOf(const ColliderParams<Real>& collider, Vec3<Real> start, Vec3<Real> now) {
+  using Bits = decltype(bitsOf(Real(0)));
+  const Vec3<Real> point = pointOf(collider), previous = moving ? carried(collider, start) : start;
   if constexpr (type == COLLIDER_SPHERE) {
-    const bool isInside =
-        nearest<bitsOf(collider.radiusSquared), isFar = longest> bitsOf(collider.sweepSquared);
-    return {isInside, isFar};
+    const Vec3<Real> d = now - point, way = now - previous;
+    const bool isInside = bitsOf(dot(d, d)) < bitsOf(collider.radiusSquared);
+    const bool mayEnter = bitsOf(dot(way, way)) > bitsOf(collider.sweepSquared);
+    return mayEnter ? MAY_ENTER : isInside ? IS_INSIDE : IS_FAR;
   }
-  return {(behind & bitsOf(Real(-0.0))) != 0, false};
+  const Vec3<Real> normal{collider.normalX, collider.normalY, collider.normalZ};
+  const Bits height = bitsOf(dot(now - point, normal)), before = bitsOf(dot(previous - point, normal));
+  return ((coulomb ? height : height ^ before) & bitsOf(Real(-0.0))) != 0 ? IS_INSIDE : IS_FAR;
 }
 
-// Spheres and planes. Most particles touch nothing: sixteen are looked at together, in vector registers.
+// Spheres and planes. Most particles touch nothing: those of a stretch are looked at first, then sixteen of
+// them together. The last sixteen begin among the ones before, which are done.
+template <std::uint32_t type, bool moving, bool coulomb, class Real>
+INLINE void collideInVectors(const PassArguments<Real>& arguments, const ColliderParams<Real>& collider,
+                             Range particles) {
+  constexpr std::ptrdiff_t sixteen = 16;
+  const Arrays<const Real> x0 = arraysOf(arguments.before.positions),
+                           x = arraysOf(std::as_const(arguments.after.positions));
+  std::uint32_t near[MESH_ROW], nearest[sixteen]{};  // of every sixteenth
+  forEachSixteen(
+      particles, [&](std::ptrdiff_t begin, std::ptrdiff_t end) __attribute__((always_inline)) {
+#pragma GCC ivdep
+        for (std::ptrdiff_t i = begin; i < end; ++i) {
+          const std::uint32_t is = nearnessOf<type, moving, coulomb>(collider, at(x0, i), at(x, i));
+          near[i - particles.begin] = is;
+          nearest[i - begin] = larger(nearest[i - begin], is);
+        }
+      });
+  if (largestOf(nearest) == IS_FAR) return;
+  const std::ptrdiff_t last = std::max(particles.begin, particles.end - sixteen);
+  for (std::ptrdiff_t begin = particles.begin; begin < particles.end; begin += sixteen) {
+    const std::ptrdiff_t from = std::min(begin, last);
+    const Range some{from, std::min(from + sixteen, particles.end)};
+    std::uint32_t is = IS_FAR;
+    for (std::ptrdiff_t i = some.begin; i < some.end; ++i) is = larger(is, near[i - particles.begin]);
+    if (is == MAY_ENTER)
+      collideWith<type, true>(arguments, collider, moving, coulomb, some, begin);
+    else if (is == IS_INSIDE)
+      collideWith<type, false>(arguments, collider, moving, coulomb, some, begin);
+  }
+}
 template <std::uint32_t type, class Real>
 INLINE void collideInVectors(const PassArguments<Real>& arguments, const ColliderParams<Real>& of,
                              Range particles) {
   const ColliderParams<Real> collider = of;  // which no store to a particle changes
-  const bool moving = collider.moving != 0, coulomb = collider.coulomb != 0;
-  constexpr std::ptrdiff_t lookedAt = 16;
-  for (std::ptrdiff_t begin = particles.begin; begin < particles.end; begin += lookedAt) {
-    const Range some{begin, std::min(begin + lookedAt, particles.end)};
-    const auto [anyInside, anyEnters] = moving ? nearnessOf<type, true>(arguments, collider, coulomb, some)
-                                               : nearnessOf<type, false>(arguments, collider, coulomb, some);
-    if (anyEnters)
-      collideWith<type, true>(arguments, collider, moving, coulomb, some);
-    else if (anyInside)
-      collideWith<type, false>(arguments, collider, moving, coulomb, some);
-  }
+  const auto collide = [&]<bool moving, bool coulomb>() __attribute__((always_inline)) {
+    for (std::ptrdiff_t begin = particles.begin; begin < particles.end; begin += MESH_ROW)
+      collideInVectors<type, moving, coulomb>(arguments, collider,
+                                              {begin, std::min(begin + MESH_ROW, particles.end)});
+  };
+  if (collider.moving != 0)
+    collider.coulomb != 0 ? collide.template operator()<true, true>()
+                          : collide.template operator()<true, false>();
+  else
+    collider.coulomb != 0 ? collide.template operator()<false, true>()
+                          : collide.template operator()<false, false>();
 }
 
 // body.operator()<COLLIDER_...>() for the type of the collider.

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cloth/cloth.h"
+#include "core/cache_line.h"
 #include "solver/cpu/arrays.h"
 #include "solver/cpu/rows.h"
 
@@ -19,18 +20,19 @@ namespace clothsim::cpu {
 template <class Real>
 class ForceRows {
  public:
-  // By their owners: springs by slot, then the two triangles of a cell, then the bending lines around a
-  // particle.
-  static constexpr std::size_t UPPER_TRIANGLE = SPRING_SLOTS, LOWER_TRIANGLE = SPRING_SLOTS + 1,
-                               LINE_ALONG_ROW = SPRING_SLOTS + 2, LINE_ALONG_COLUMN = SPRING_SLOTS + 3,
-                               KINDS = SPRING_SLOTS + 4;
+  // By their owners: springs by slot, and their sum; then the two triangles of a cell, then the bending lines
+  // around a particle.
+  static constexpr std::size_t OWN_SPRINGS = SPRING_SLOTS, UPPER_TRIANGLE = SPRING_SLOTS + 1,
+                               LOWER_TRIANGLE = SPRING_SLOTS + 2, LINE_ALONG_ROW = SPRING_SLOTS + 3,
+                               LINE_ALONG_COLUMN = SPRING_SLOTS + 4, KINDS = SPRING_SLOTS + 5;
 
   // For rows of a grid, ascending and without gaps. Returns whether there is memory for them.
   [[nodiscard]] bool begin(int columns) noexcept try {
     ends_.fill(-AROUND);
     if (columns == columns_) return true;
     columns_ = -1;
-    values_.assign(3 * KINDS * KEPT_ROWS * static_cast<std::size_t>(columns + 2 * AROUND), Real(0));
+    stride_ = strideFor(static_cast<std::size_t>(columns));
+    values_.assign(3 * KINDS * KEPT_ROWS * stride_ + 2 * LINE, Real(0));
     columns_ = columns;
     return true;
   } catch (const std::bad_alloc&) {
@@ -46,8 +48,8 @@ class ForceRows {
   // zeros; rows may lie up to AROUND before the grid, too.
   [[nodiscard]] INLINE Arrays<Real> row(std::size_t kind, int row) {
     const auto place = static_cast<std::size_t>(row + AROUND) % KEPT_ROWS;
-    Real* x = values_.data() + 3 * (kind * KEPT_ROWS + place) * stride() + AROUND;
-    return {x, x + stride(), x + 2 * stride()};
+    Real* x = lineAt(values_.data()) + 3 * (kind * KEPT_ROWS + place) * stride_ + LINE;
+    return {x, x + stride_, x + 2 * stride_};
   }
   INLINE void clear(std::size_t kind, int row) {
     const Arrays<Real> of = this->row(kind, row);
@@ -57,25 +59,18 @@ class ForceRows {
  private:
   static constexpr int AROUND = 2;
   static constexpr std::size_t KEPT_ROWS = 3;
-  [[nodiscard]] std::size_t stride() const {
-    return static_cast<std::size_t>(columns_) + static_cast<std::size_t>(2 * AROUND);
+  static constexpr std::size_t LINE = LINE_NUMBERS<Real>;
+  // Whole lines with the zeros around; an odd number, so that rows do not share their places in the cache.
+  static std::size_t strideFor(std::size_t columns) {
+    static_assert(AROUND <= static_cast<int>(LINE));
+    return (((columns + LINE - 1) / LINE + 1) | 1) * LINE;
   }
 
   int columns_ = -1;
+  std::size_t stride_ = 0;
   std::array<int, KINDS> ends_{};  // rows before these are there
   std::vector<Real> values_;
 };
-
-// work(begin, end) for sixteen particles each, so that a loop over them needs no remainder: the last ones may
-// be worked on twice, which must do no harm.
-template <class Work>
-INLINE void forEachSixteen(Range particles, Work work) {
-  constexpr std::ptrdiff_t sixteen = 16;
-  const std::ptrdiff_t last = particles.end - sixteen;
-  if (last < particles.begin) return work(particles.begin, particles.end);
-  for (std::ptrdiff_t begin = particles.begin; begin < last; begin += sixteen) work(begin, begin + sixteen);
-  work(last, last + sixteen);
-}
 
 // A row of forces by the columns of their owners, and how far from a particle to the owner.
 template <class Real>
@@ -84,36 +79,57 @@ struct Term {
   std::ptrdiff_t shift;
 };
 
-// The sums, or 0, + g or - g for each of the terms, in their order; sums stay in registers meanwhile.
-template <bool fromZero, bool... plus, class Real, std::size_t... k>
-INLINE void addTerms(const Arrays<Real>& sums, std::ptrdiff_t count,
+// sums = first + g or - g for each of the terms, in their order; sums stay in registers meanwhile.
+template <bool... plus, class Real, std::size_t... k>
+INLINE void addTerms(const Arrays<Real>& sums, const Arrays<Real>& first, std::ptrdiff_t count,
                      const std::array<Term<Real>, sizeof...(k)>& terms, std::index_sequence<k...>) {
   for (Real* Arrays<Real>::*const component : {&Arrays<Real>::x, &Arrays<Real>::y, &Arrays<Real>::z}) {
-    Real* const to = sums.*component;
+    Real *const to = sums.*component, *const start = first.*component;
     const Real* const from[]{terms[k].of.*component + terms[k].shift...};
 #pragma GCC ivdep
     for (std::ptrdiff_t c = 0; c < count; ++c) {
-      Real sum = fromZero ? Real(0) : to[c];
+      Real sum = start[c];
       ((sum = plus ? sum + from[k][c] : sum - from[k][c]), ...);
       to[c] = sum;
     }
   }
 }
 
-// The sums of what springs do to the particles of a row, in the order of incidentSprings, from the rows of
-// their owners. What one end feels is exactly the negative of what the other does. Where there is no spring,
-// a 0 is added: sums that begin with 0 are never -0, so that nothing changes.
-template <class Real>
+// The sums of what the springs that the particles of a row own in the first slots do to them, from the rows
+// of the slots.
+template <std::size_t slots, class Real>
+INLINE void sumOwnSprings(ForceRows<Real>& rows, int row, std::ptrdiff_t count) {
+  const Arrays<Real> sums = rows.row(ForceRows<Real>::OWN_SPRINGS, row);
+  for (Real* c : {sums.x, sums.y, sums.z}) std::fill_n(c, count, Real(0));
+  const auto sum = [&]<std::size_t... k>(std::index_sequence<k...> all) __attribute__((always_inline)) {
+    addTerms<(k < slots)...>(sums, sums, count,
+                             std::array<Term<Real>, sizeof...(k)>{Term<Real>{rows.row(k, row), 0}...}, all);
+  };
+  sum(std::make_index_sequence<slots>());
+}
+// Those of incidentSprings in the first slots that a particle does not own itself.
+template <std::size_t slots>
+inline constexpr auto notOwned = [] {
+  std::array<IncidentSpring, slots> result{};
+  std::size_t count = 0;
+  for (const IncidentSpring& spring : incidentSprings)
+    if (!spring.owned && static_cast<std::size_t>(spring.slot) < slots) result[count++] = spring;
+  return result;
+}();
+// The sums of what springs in the first slots do to the particles of a row, in the order of incidentSprings:
+// after those that they own come the others, from the rows of their owners. What one end feels is exactly the
+// negative of what the other does. Where there is no spring, a 0 is added: sums that begin with 0 are never
+// -0, so that nothing changes.
+template <std::size_t slots, class Real>
 INLINE void sumSprings(ForceRows<Real>& rows, int row, const Arrays<Real>& sums, std::ptrdiff_t count) {
   const auto sum = [&]<std::size_t... k>(std::index_sequence<k...> all) __attribute__((always_inline)) {
-    const auto term = [&](const IncidentSpring& incident) __attribute__((always_inline)) {
-      return incident.owned ? Term<Real>{rows.row(incident.slot, row), 0}
-                            : Term<Real>{rows.row(incident.slot, row + incident.rows), incident.columns};
+    const auto term = [&](const IncidentSpring& spring) __attribute__((always_inline)) {
+      return Term<Real>{rows.row(spring.slot, row + spring.rows), spring.columns};
     };
-    addTerms<true, incidentSprings[k].owned...>(
-        sums, count, std::array<Term<Real>, sizeof...(k)>{term(incidentSprings[k])...}, all);
+    addTerms<(k == slots)...>(sums, rows.row(ForceRows<Real>::OWN_SPRINGS, row), count,
+                              std::array<Term<Real>, slots>{term(notOwned<slots>[k])...}, all);
   };
-  sum(std::make_index_sequence<incidentSprings.size()>());
+  sum(std::make_index_sequence<slots>());
 }
 
 // Calls compute(kind, row) for the bending lines that act on the particles of a row and are not there yet.

@@ -14,6 +14,7 @@
 #include "solver/cpu/particle_forces.h"
 #include "solver/cpu/rows.h"
 #include "solver/cpu/seam_passes.h"
+#include "solver/cpu/spring_forces.h"
 #include "solver/cpu/spring_rows.h"
 #include "solver/cpu/symmetric.h"
 #include "solver/cpu/watch.h"
@@ -21,77 +22,9 @@
 namespace clothsim::cpu {
 namespace {
 
-// The forces of the springs that the particles of a stretch own, into `row`. Returns the largest bits of l^2.
-template <bool hasCuts, class Real, class RestLengths>
-INLINE auto computeSprings(const PassArguments<Real>& arguments, Range particles, SpringPlace place,
-                           Real stiffness, RestLengths rest, const Arrays<Real>& row, std::ptrdiff_t start) {
-  const std::ptrdiff_t other = place.other;
-  const std::uint32_t* cutMasks = arguments.cutMasks;
-  const Real *x = arguments.before.positions.x.data(), *y = arguments.before.positions.y.data(),
-             *z = arguments.before.positions.z.data();
-  Real *fx = row.x - start, *fy = row.y - start, *fz = row.z - start;
-  decltype(bitsOf(Real(0))) longest[16]{};  // of every sixteenth: a vector, which is reduced once a row
-  forEachSixteen(
-      particles, [&](std::ptrdiff_t begin, std::ptrdiff_t end) __attribute__((always_inline)) {
-#pragma GCC ivdep
-        for (std::ptrdiff_t i = begin; i < end; ++i) {
-          const Vec3<Real> a = load(x, y, z, i), b = load(x, y, z, i + other);
-          const Vec3<Real> f = springForce(a, b, stiffness, rest[i]);
-          const bool isCut = isCutAt<hasCuts>(cutMasks, i, place.bit);
-          fx[i] = isCut ? Real(0) : f.x;
-          fy[i] = isCut ? Real(0) : f.y;
-          fz[i] = isCut ? Real(0) : f.z;
-          longest[i - begin] = larger(longest[i - begin], bitsOf(isCut ? Real(0) : dot(b - a, b - a)));
-        }
-      });
-  return *std::max_element(std::begin(longest), std::end(longest));
-}
-
-// Particles of the row whose own springs in `slot` are too long.
-template <class Real>
-[[gnu::noinline, gnu::cold]] void noteOverlong(const PassArguments<Real>& arguments, Range particles,
-                                               SpringPlace place, Real maxSquared) {
-  const Components<Real>& p = arguments.before.positions;
-  for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
-    const Vec3<Real> d = load(p.x.data(), p.y.data(), p.z.data(), i + place.other) -
-                         load(p.x.data(), p.y.data(), p.z.data(), i);
-    const bool isCut = arguments.cutMasks != nullptr && isCutAt<true>(arguments.cutMasks, i, place.bit);
-    if (!isCut && isBeyond(dot(d, d), maxSquared))
-      noteDivergence(arguments.watch, PASS_FORCES, i, REASON_RUNAWAY_STRAIN);
-  }
-}
-
-template <bool hasCuts, class Real>
-INLINE void computeSprings(const PassArguments<Real>& arguments, std::uint32_t slot, int row,
-                           ForceRows<Real>& rows) {
-  const Arrays<Real> forces = rows.row(slot, row);
-  const std::ptrdiff_t start = rangeOf(arguments.step, row).begin;
-  const bool areThere = forEachStretch(
-      arguments, row, slot,
-      [&](Range particles, SpringPlace place, const SpringParams<Real>& spring, auto rest)
-          __attribute__((always_inline)) {
-            const auto longest =
-                computeSprings<hasCuts>(arguments, particles, place, spring.stiffness, rest, forces, start);
-            if (longest > bitsOf(spring.maxLengthSquared))
-              noteOverlong(arguments, particles, place, spring.maxLengthSquared);
-          });
-  if (!areThere) rows.clear(slot, row);
-}
-
 template <class Real>
 INLINE Arrays<Real> forcesOf(const PassArguments<Real>& arguments, Range particles) {
   return countedFrom(particles.begin, arraysOf(arguments.forces));
-}
-
-template <bool hasCuts, class Real>
-INLINE void addSprings(const PassArguments<Real>& arguments, int row, ForceRows<Real>& rows) {
-  for (std::uint32_t slot = 0; slot < SPRING_SLOTS; ++slot)
-    rows.ensure(
-        slot, row, row - springOffsets[slot].rows, [&](int owners) __attribute__((always_inline)) {
-          computeSprings<hasCuts>(arguments, slot, owners, rows);
-        });
-  const Range particles = rangeOf(arguments.step, row);
-  sumSprings(rows, row, forcesOf(arguments, particles), particles.end - particles.begin);
 }
 
 // What springs that are longer than limitLength add to their forces in `implicit`.
@@ -168,7 +101,7 @@ INLINE void addBending(const PassArguments<Real>& arguments, int row, ForceRows<
 
 template <bool hasCuts, class Real>
 INLINE void addElasticForces(const PassArguments<Real>& arguments, int row, ForceRows<Real>& rows) {
-  addSprings<hasCuts>(arguments, row, rows);
+  sumSpringForces<hasCuts>(arguments, row, forcesOf(arguments, rangeOf(arguments.step, row)), rows);
   if (arguments.step.limitStiffness > Real(0)) addLimitSprings<hasCuts>(arguments, row);
   if (arguments.step.hasMaterial != 0) addBending<hasCuts>(arguments, row, rows);
 }
@@ -226,8 +159,8 @@ INLINE void addWind(const PassArguments<Real>& arguments, int row, ForceRows<Rea
   const auto term = [&](std::size_t kind, int cells, std::ptrdiff_t shift) __attribute__((always_inline)) {
     return Term<Real>{rows.row(kind, cells), shift};
   };
-  addTerms<false, true, true, true, true, true, true>(
-      forces, particles.end - particles.begin,
+  addTerms<true, true, true, true, true, true>(
+      forces, forces, particles.end - particles.begin,
       std::array<Term<Real>, 6>{term(lower, row - 1, -1), term(upper, row - 1, 0), term(lower, row - 1, 0),
                                 term(upper, row, -1), term(lower, row, -1), term(upper, row, 0)},
       std::make_index_sequence<6>());

@@ -58,6 +58,19 @@ INLINE void multiplyLines(const ImplicitArguments<Real>& arguments, std::size_t 
   forEachSixteen(isAlongRow ? rangeOf(step, row, -1, 1) : rangeOf(step, row), multiply);
 }
 
+// Of the springs in the first slots; all behind them are empty.
+template <std::size_t slots, class Real>
+INLINE void multiplySprings(const ImplicitArguments<Real>& arguments, int row, const Arrays<Real>& products,
+                            std::ptrdiff_t count, ForceRows<Real>& rows) {
+  for (std::uint32_t slot = 0; slot < slots; ++slot)
+    rows.ensure(
+        slot, row, row - springOffsets[slot].rows, [&](int owners) __attribute__((always_inline)) {
+          multiplySprings(arguments, slot, owners, rows);
+        });
+  sumOwnSprings<slots>(rows, row, count);
+  sumSprings<slots>(rows, row, products, count);
+}
+
 // In the order of the forces: incident springs, then lines along the row, then along the column.
 template <class Real>
 INLINE void multiplyElementsOfRow(const ImplicitArguments<Real>& arguments, int row, ForceRows<Real>& rows) {
@@ -65,12 +78,8 @@ INLINE void multiplyElementsOfRow(const ImplicitArguments<Real>& arguments, int 
   const Range all = rangeOf(step, row);
   const Arrays<Real> products = countedFrom(all.begin, arraysOf(arguments.own.products));
   const std::ptrdiff_t count = all.end - all.begin;
-  for (std::uint32_t slot = 0; slot < SPRING_SLOTS; ++slot)
-    rows.ensure(
-        slot, row, row - springOffsets[slot].rows, [&](int owners) __attribute__((always_inline)) {
-          multiplySprings(arguments, slot, owners, rows);
-        });
-  sumSprings(rows, row, products, count);
+  hasSecondNeighbours(step) ? multiplySprings<SPRING_SLOTS>(arguments, row, products, count, rows)
+                            : multiplySprings<NEIGHBOUR_SLOTS>(arguments, row, products, count, rows);
   if (step.hasMaterial == 0) return;
   ensureLines(
       rows, row, [&](std::size_t kind, int middles) __attribute__((always_inline)) {

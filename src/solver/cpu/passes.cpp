@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <tuple>
+#include <utility>
 
 #include "core/exact_math.h"
 #include "solver/cpu/arrays.h"
@@ -24,25 +25,50 @@ INLINE auto canonicalBits(Real x, decltype(bitsOf(Real(0))) mask) {
   return bitsOf(x) & mask & (isSmall ? Bits(0) : ~Bits(0));
 }
 
-// One component of x' = x + h v', v' = (1 - damping) v + h (g + w f); pinned particles rest, unless
-// movePinsOf() follows.
+// One component of x' = x + h v', v' = (1 - damping) v + h (g + w f); `isFree` is all ones, or 0 of a
+// particle that is pinned and rests, unless movePinsOf() follows. Returns v'.
 template <class Real>
-INLINE void integrateComponent(const StepParams<Real>& step, Range particles, Real gravity,
-                               const Real* inverseMass, const Real* force, const Real* position,
-                               const Real* velocity, Real* newPosition, Real* newVelocity) {
-  const Real timeStep = step.timeStep, velocityKept = step.velocityKept;
-#pragma omp simd
-  for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
-    const Real acceleration = gravity + inverseMass[i] * force[i];
-    const Real v = velocityKept * velocity[i] + timeStep * acceleration;
-    const Real x = position[i] + timeStep * v;
-    const auto free = inverseMass[i] == Real(0) ? decltype(bitsOf(x))(0) : ~decltype(bitsOf(x))(0);
-    newVelocity[i] = std::bit_cast<Real>(canonicalBits(v, free));
-    newPosition[i] = std::bit_cast<Real>(canonicalBits(x, free) | (bitsOf(position[i]) & ~free));
-  }
+INLINE Real integrateComponent(const StepParams<Real>& step, Real gravity, Real inverseMass, Real force,
+                               Real position, Real velocity, decltype(bitsOf(Real(0))) isFree,
+                               Real& newPosition, Real& newVelocity) {
+  const Real acceleration = gravity + inverseMass * force;
+  const Real v = step.velocityKept * velocity + step.timeStep * acceleration;
+  const Real x = position + step.timeStep * v;
+  const Real kept = std::bit_cast<Real>(canonicalBits(v, isFree));
+  newVelocity = kept;
+  newPosition = std::bit_cast<Real>(canonicalBits(x, isFree) | (bitsOf(position) & ~isFree));
+  return kept;
+}
+// Of some particles of a row. Returns the largest bits of a new velocity's square.
+template <class Real>
+INLINE auto integrateParticles(const PassArguments<Real>& arguments, Range particles) {
+  using Bits = decltype(bitsOf(Real(0)));
+  const StepParams<Real> step = arguments.step;  // which no store to a particle changes
+  const Arrays<const Real> x = arraysOf(arguments.before.positions),
+                           v = arraysOf(arguments.before.velocities),
+                           f = arraysOf(std::as_const(arguments.forces));
+  const Arrays<Real> newX = arraysOf(arguments.after.positions), newV = arraysOf(arguments.after.velocities);
+  const Real* inverseMasses = arguments.inverseMasses;
+  Bits fastest[16]{};  // of every sixteenth
+  forEachSixteen(
+      particles, [&](std::ptrdiff_t begin, std::ptrdiff_t end) __attribute__((always_inline)) {
+#pragma GCC ivdep
+        for (std::ptrdiff_t i = begin; i < end; ++i) {
+          const Real w = inverseMasses[i];
+          const Bits isFree = w == Real(0) ? Bits(0) : ~Bits(0);
+          const Real vx = integrateComponent(step, step.gravityX, w, f.x[i], x.x[i], v.x[i], isFree,
+                                             newX.x[i], newV.x[i]);
+          const Real vy = integrateComponent(step, step.gravityY, w, f.y[i], x.y[i], v.y[i], isFree,
+                                             newX.y[i], newV.y[i]);
+          const Real vz = integrateComponent(step, step.gravityZ, w, f.z[i], x.z[i], v.z[i], isFree,
+                                             newX.z[i], newV.z[i]);
+          fastest[i - begin] = larger(fastest[i - begin], bitsOf((vx * vx + vy * vy) + vz * vz));
+        }
+      });
+  return largestOf(fastest);
 }
 
-// What an interaction does to the particles of the row that it holds, after integrateComponent()
+// What an interaction does to the particles of the row that it holds, after integrateParticles()
 // (solver/interaction.h).
 template <class Real>
 void pullGrabbed(const PassArguments<Real>& arguments, int row) {
@@ -114,21 +140,13 @@ void movePinsOf(const PassArguments<Real>& arguments, Range particles) {
 
 template <class Real>
 INLINE void integrateRow(const PassArguments<Real>& arguments, int row) {
-  const StepParams<Real>& step = arguments.step;
-  const Range particles = rangeOf(step, row);
-  const auto& [before, after, f] = std::tie(arguments.before, arguments.after, arguments.forces);
-  integrateComponent(step, particles, step.gravityX, arguments.inverseMasses, f.x.data(),
-                     before.positions.x.data(), before.velocities.x.data(), after.positions.x.data(),
-                     after.velocities.x.data());
-  integrateComponent(step, particles, step.gravityY, arguments.inverseMasses, f.y.data(),
-                     before.positions.y.data(), before.velocities.y.data(), after.positions.y.data(),
-                     after.velocities.y.data());
-  integrateComponent(step, particles, step.gravityZ, arguments.inverseMasses, f.z.data(),
-                     before.positions.z.data(), before.velocities.z.data(), after.positions.z.data(),
-                     after.velocities.z.data());
+  const Range particles = rangeOf(arguments.step, row);
+  const auto fastest = integrateParticles(arguments, particles);
   if (arguments.grabbed != nullptr) pullGrabbed(arguments, row);
   if (arguments.pinPathNumbers != nullptr) movePinsOf(arguments, particles);
-  watchVelocities(arguments, PASS_INTEGRATE, row);
+  const bool moreMoved = arguments.grabbed != nullptr || arguments.pinPathNumbers != nullptr;
+  if (moreMoved || fastest > bitsOf(arguments.step.maxSpeedSquared))
+    watchVelocities(arguments, PASS_INTEGRATE, row);
 }
 
 template <class Real>
@@ -190,23 +208,28 @@ INLINE void moveEnd(const SpringEnd<Real>& end, std::ptrdiff_t i, Real move, Rea
   end.v[i] = std::bit_cast<Real>(canonicalBits(v + kick, mask) | (bitsOf(v) & ~mask));
 }
 
-// limitSpring() for the springs of owners that share no end, in vectors. a + -b rounds as a - b does.
-template <bool hasCuts, class Real, class RestLengths>
-INLINE void limitTogether(const PassArguments<Real>& arguments, std::uint32_t slot, Range owners,
-                          std::ptrdiff_t other, RestLengths rest, Real nominal) {
+// limitSpring() for those of sixteen owners side by side that `isOwner` tells, in vectors: first all moves
+// are worked out, then the ends move. Springs of a colour share no end. a + -b rounds as a - b does.
+template <bool hasCuts, class Real, class RestLengths, class IsOwner>
+INLINE void limitSixteen(const PassArguments<Real>& arguments, std::uint32_t slot, std::ptrdiff_t first,
+                         std::ptrdiff_t other, RestLengths rest, Real nominal, IsOwner isOwner) {
+  constexpr int sixteen = 16;
+  using Bits = decltype(bitsOf(Real(0)));
   Components<Real>&p = arguments.after.positions, &v = arguments.after.velocities;
   const SpringEnd<Real> x{p.x.data(), v.x.data()}, y{p.y.data(), v.y.data()}, z{p.z.data(), v.z.data()};
   const Real factor = arguments.step.limitFactor, inverseTimeStep = arguments.step.inverseTimeStep;
   const Real* inverseMasses = arguments.inverseMasses;
   const std::uint32_t* cutMasks = arguments.cutMasks;
-  using Bits = decltype(bitsOf(Real(0)));
+  Real moveX[sixteen], moveY[sixteen], moveZ[sixteen];
+  Bits actsOnA[sixteen], actsOnB[sixteen];
 #pragma GCC ivdep
-  for (std::ptrdiff_t a = owners.begin; a < owners.end; ++a) {
-    const std::ptrdiff_t b = a + other;
+  for (int lane = 0; lane < sixteen; ++lane) {
+    const std::ptrdiff_t a = first + lane, b = a + other;
     const Vec3<Real> d = load(x.x, y.x, z.x, b) - load(x.x, y.x, z.x, a);
     const Real lengthSquared = dot(d, d);
     const Real limit = limitLength(rest, a, factor, nominal);
-    const bool isTooLong = (limit * limit < lengthSquared) & !isCutAt<hasCuts>(cutMasks, a, slot);
+    const bool isTooLong =
+        isOwner(lane) & (limit * limit < lengthSquared) & !isCutAt<hasCuts>(cutMasks, a, slot);
     const Bits freeA = inverseMasses[a] > Real(0) ? ~Bits(0) : Bits(0);
     const Bits freeB = inverseMasses[b] > Real(0) ? ~Bits(0) : Bits(0);
     const Bits acts = isTooLong ? ~Bits(0) : Bits(0);
@@ -214,15 +237,23 @@ INLINE void limitTogether(const PassArguments<Real>& arguments, std::uint32_t sl
     const Real length = lengthSquared * inverseLength;
     const Real excess = (length - limit) * inverseLength;
     const Real share = (freeA & freeB) != 0 ? Real(0.5) * excess : excess;
-    const Vec3<Real> move = share * d;
-    const Vec3<Real> kick = inverseTimeStep * move;
-    moveEnd(x, a, move.x, kick.x, acts & freeA);
-    moveEnd(y, a, move.y, kick.y, acts & freeA);
-    moveEnd(z, a, move.z, kick.z, acts & freeA);
-    moveEnd(x, b, -move.x, -kick.x, acts & freeB);
-    moveEnd(y, b, -move.y, -kick.y, acts & freeB);
-    moveEnd(z, b, -move.z, -kick.z, acts & freeB);
+    moveX[lane] = share * d.x;
+    moveY[lane] = share * d.y;
+    moveZ[lane] = share * d.z;
+    actsOnA[lane] = acts & freeA;
+    actsOnB[lane] = acts & freeB;
   }
+  const auto moveEnds = [&](const SpringEnd<Real>& end, const Real* moves) __attribute__((always_inline)) {
+#pragma GCC ivdep
+    for (int lane = 0; lane < sixteen; ++lane)
+      moveEnd(end, first + lane, moves[lane], inverseTimeStep * moves[lane], actsOnA[lane]);
+#pragma GCC ivdep
+    for (int lane = 0; lane < sixteen; ++lane)
+      moveEnd(end, first + lane + other, -moves[lane], -(inverseTimeStep * moves[lane]), actsOnB[lane]);
+  };
+  moveEnds(x, moveX);
+  moveEnds(y, moveY);
+  moveEnds(z, moveZ);
 }
 
 // Of a mesh: the springs of the colour from number `first` on, MESH_ROW of them.
@@ -240,57 +271,67 @@ void limitMesh(const PassArguments<Real>& arguments, const LimitColor& color, st
 template <class Real, class RestLengths>
 INLINE bool anyTooLong(const PassArguments<Real>& arguments, Range owners, std::ptrdiff_t other,
                        RestLengths rest, Real nominal) {
-  const Components<Real>& p = arguments.after.positions;
-  const Real *x = p.x.data(), *y = p.y.data(), *z = p.z.data(), factor = arguments.step.limitFactor;
-  std::uint32_t any = 0;
-#pragma omp simd reduction(| : any)
-  for (std::ptrdiff_t i = owners.begin; i < owners.end; ++i) {
-    const Real dx = x[i + other] - x[i], dy = y[i + other] - y[i], dz = z[i + other] - z[i];
-    const Real limit = limitLength(rest, i, factor, nominal);
-    any |= limit * limit < (dx * dx + dy * dy) + dz * dz ? 1u : 0u;
-  }
-  return any != 0;
+  const Arrays<const Real> x = arraysOf(std::as_const(arguments.after.positions));
+  const Real factor = arguments.step.limitFactor;
+  std::uint32_t any[16]{};  // of every sixteenth
+  forEachSixteen(
+      owners, [&](std::ptrdiff_t begin, std::ptrdiff_t end) __attribute__((always_inline)) {
+#pragma GCC ivdep
+        for (std::ptrdiff_t i = begin; i < end; ++i) {
+          const Vec3<Real> d = at(x, i + other) - at(x, i);
+          const Real limit = limitLength(rest, i, factor, nominal);
+          any[i - begin] |= limit * limit < dot(d, d) ? 1u : 0u;
+        }
+      });
+  return largestOf(any) != 0;
 }
 
-// Most springs are not too long: a row of owners is looked at first, then sixteen of them together.
-template <class Real, class RestLengths>
+// Most springs are not too long: a row of owners is looked at first, then sixteen of them together. The last
+// sixteen begin among the ones before, which are no owners any more.
+template <bool hasCuts, class Real, class RestLengths>
 INLINE void limitOwners(const PassArguments<Real>& arguments, const LimitColor& color, std::ptrdiff_t first,
                         RestLengths rest) {
-  constexpr std::uint32_t lookedAt = 16;
+  constexpr std::ptrdiff_t sixteen = 16;
   const StepParams<Real>& step = arguments.step;
   const SpringOffset& offset = springOffsets[color.slot];
   const std::ptrdiff_t other = indexOffset(step, offset.columns, offset.rows);
   const Real nominal = step.springs[color.slot].limitLength;
   const Range owners{first + color.firstColumn, first + color.endColumn};
   if (!anyTooLong(arguments, owners, other, rest, nominal)) return;
-  for (std::uint32_t begin = color.firstColumn; begin < color.endColumn; begin += lookedAt) {
-    const std::uint32_t end = std::min(begin + lookedAt, color.endColumn);
-    const Range together{first + begin, first + end};
-    if (!anyTooLong(arguments, together, other, rest, nominal)) continue;
-    if (offset.rows != 0) {  // to another row
-      arguments.cutMasks != nullptr
-          ? limitTogether<true>(arguments, color.slot, together, other, rest, nominal)
-          : limitTogether<false>(arguments, color.slot, together, other, rest, nominal);
-      continue;
-    }
-    for (std::uint32_t column = begin; column < end; ++column) {
-      const std::ptrdiff_t owner = first + column;
-      if ((column - color.firstColumn) % color.columnStep >= color.columnRun) continue;
-      if (arguments.cutMasks != nullptr && isCutAt<true>(arguments.cutMasks, owner, color.slot)) continue;
-      limitSpring(arguments, owner, owner + other, limitLength(rest, owner, step.limitFactor, nominal));
-    }
+  const std::uint32_t period = color.columnStep - 1, run = color.columnRun;  // steps are powers of two
+  for (std::ptrdiff_t begin = owners.begin; begin < owners.end; begin += sixteen) {
+    const std::ptrdiff_t from = std::min(begin, owners.end - sixteen);
+    if (from < owners.begin) break;
+    if (!anyTooLong(arguments, Range{from, from + sixteen}, other, rest, nominal)) continue;
+    const auto place = static_cast<std::uint32_t>(from - owners.begin);
+    const int done = static_cast<int>(begin - from);
+    limitSixteen<hasCuts>(
+        arguments, color.slot, from, other, rest, nominal, [&](int lane) __attribute__((always_inline)) {
+          return (lane >= done) & (((place + static_cast<std::uint32_t>(lane)) & period) < run);
+        });
+  }
+  if (owners.end - owners.begin >= sixteen) return;
+  for (std::ptrdiff_t owner = owners.begin; owner < owners.end; ++owner) {
+    if ((static_cast<std::uint32_t>(owner - owners.begin) & period) >= run) continue;
+    if (isCutAt<hasCuts>(arguments.cutMasks, owner, color.slot)) continue;
+    limitSpring(arguments, owner, owner + other, limitLength(rest, owner, step.limitFactor, nominal));
   }
 }
 
-template <class Real>
+template <bool hasCuts, class Real>
 INLINE void limitGridRow(const PassArguments<Real>& arguments, const LimitColor& color, int row) {
   const StepParams<Real>& step = arguments.step;
   const std::ptrdiff_t first = rangeOf(step, row).begin;
   if (step.useRestLengthTable != 0)
-    limitOwners(arguments, color, first,
-                arguments.restLengths + static_cast<std::size_t>(color.slot) * step.totalParticles);
+    limitOwners<hasCuts>(arguments, color, first,
+                         arguments.restLengths + static_cast<std::size_t>(color.slot) * step.totalParticles);
   else
-    limitOwners(arguments, color, first, NominalLength<Real>{step.springs[color.slot].restLength});
+    limitOwners<hasCuts>(arguments, color, first, NominalLength<Real>{step.springs[color.slot].restLength});
+}
+template <class Real>
+INLINE void limitGridRow(const PassArguments<Real>& arguments, const LimitColor& color, int row) {
+  arguments.cutMasks != nullptr ? limitGridRow<true>(arguments, color, row)
+                                : limitGridRow<false>(arguments, color, row);
 }
 VECTOR_CLONES(void, limitFloatRow, (const PassArguments<float>& arguments, const LimitColor& color, int row),
               (arguments, color, row), limitGridRow(arguments, color, row))

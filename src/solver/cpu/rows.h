@@ -53,9 +53,34 @@ std::ptrdiff_t indexOffset(const StepParams<Real>& step, int columns, int rows) 
   return columns + rows * static_cast<std::ptrdiff_t>(step.columns);
 }
 
+// The slots before that of springs to second neighbours, which a fabric does not have.
+inline constexpr std::size_t NEIGHBOUR_SLOTS = toSecondLeft;
+template <class Real>
+bool hasSecondNeighbours(const StepParams<Real>& step) {
+  return step.enabledSlots >> NEIGHBOUR_SLOTS != 0;
+}
+
 template <class Number>
 INLINE Number larger(Number a, Number b) {
   return a < b ? b : a;
+}
+
+// work(begin, end) for sixteen particles each, so that a loop over them needs no remainder: the last ones may
+// be worked on twice, which must do no harm.
+template <class Work>
+INLINE void forEachSixteen(Range particles, Work work) {
+  constexpr std::ptrdiff_t sixteen = 16;
+  const std::ptrdiff_t last = particles.end - sixteen;
+  if (last < particles.begin) return work(particles.begin, particles.end);
+  for (std::ptrdiff_t begin = particles.begin; begin < last; begin += sixteen) work(begin, begin + sixteen);
+  work(last, last + sixteen);
+}
+// The largest of what was gathered of every sixteenth: that keeps a vector, which is reduced once.
+template <class Number>
+INLINE Number largestOf(const Number (&lanes)[16]) {
+  Number largest = lanes[0];
+  for (const Number lane : lanes) largest = larger(largest, lane);
+  return largest;
 }
 
 template <class Real>

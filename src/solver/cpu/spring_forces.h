@@ -1,0 +1,199 @@
+// The springs of a row of a grid: each is computed once, by its owner.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+
+#include "solver/cpu/arrays.h"
+#include "solver/cpu/force_laws.h"
+#include "solver/cpu/force_rows.h"
+#include "solver/cpu/passes.h"
+#include "solver/cpu/rows.h"
+#include "solver/cpu/spring_rows.h"
+#include "solver/cpu/watch.h"
+
+namespace clothsim::cpu {
+
+// The forces of the springs that the particles of a stretch own, into `row`. Returns the largest bits of l^2.
+template <bool hasCuts, class Real, class RestLengths>
+INLINE auto computeSprings(const PassArguments<Real>& arguments, Range particles, SpringPlace place,
+                           Real stiffness, RestLengths rest, const Arrays<Real>& row, std::ptrdiff_t start) {
+  const std::ptrdiff_t other = place.other;
+  const std::uint32_t* cutMasks = arguments.cutMasks;
+  const Real *x = arguments.before.positions.x.data(), *y = arguments.before.positions.y.data(),
+             *z = arguments.before.positions.z.data();
+  Real *fx = row.x - start, *fy = row.y - start, *fz = row.z - start;
+  decltype(bitsOf(Real(0))) longest[16]{};  // of every sixteenth
+  forEachSixteen(
+      particles, [&](std::ptrdiff_t begin, std::ptrdiff_t end) __attribute__((always_inline)) {
+#pragma GCC ivdep
+        for (std::ptrdiff_t i = begin; i < end; ++i) {
+          const Vec3<Real> a = load(x, y, z, i), b = load(x, y, z, i + other);
+          const Vec3<Real> f = springForce(a, b, stiffness, rest[i]);
+          const bool isCut = isCutAt<hasCuts>(cutMasks, i, place.bit);
+          fx[i] = isCut ? Real(0) : f.x;
+          fy[i] = isCut ? Real(0) : f.y;
+          fz[i] = isCut ? Real(0) : f.z;
+          longest[i - begin] = larger(longest[i - begin], bitsOf(isCut ? Real(0) : dot(b - a, b - a)));
+        }
+      });
+  return largestOf(longest);
+}
+
+// Particles of the row whose own springs in `slot` are too long.
+template <class Real>
+[[gnu::noinline, gnu::cold]] void noteOverlong(const PassArguments<Real>& arguments, Range particles,
+                                               SpringPlace place, Real maxSquared) {
+  const Components<Real>& p = arguments.before.positions;
+  for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
+    const Vec3<Real> d = load(p.x.data(), p.y.data(), p.z.data(), i + place.other) -
+                         load(p.x.data(), p.y.data(), p.z.data(), i);
+    const bool isCut = arguments.cutMasks != nullptr && isCutAt<true>(arguments.cutMasks, i, place.bit);
+    if (!isCut && isBeyond(dot(d, d), maxSquared))
+      noteDivergence(arguments.watch, PASS_FORCES, i, REASON_RUNAWAY_STRAIN);
+  }
+}
+
+template <bool hasCuts, class Real>
+INLINE void computeSprings(const PassArguments<Real>& arguments, std::uint32_t slot, int row,
+                           ForceRows<Real>& rows) {
+  const Arrays<Real> forces = rows.row(slot, row);
+  const std::ptrdiff_t start = rangeOf(arguments.step, row).begin;
+  const bool areThere = forEachStretch(
+      arguments, row, slot,
+      [&](Range particles, SpringPlace place, const SpringParams<Real>& spring, auto rest)
+          __attribute__((always_inline)) {
+            const auto longest =
+                computeSprings<hasCuts>(arguments, particles, place, spring.stiffness, rest, forces, start);
+            if (longest > bitsOf(spring.maxLengthSquared))
+              noteOverlong(arguments, particles, place, spring.maxLengthSquared);
+          });
+  if (!areThere) rows.clear(slot, row);
+}
+
+// The same of all slots.
+template <class Real>
+[[gnu::noinline, gnu::cold]] void noteOverlong(const PassArguments<Real>& arguments, int row) {
+  for (std::uint32_t slot = 0; slot < SPRING_SLOTS; ++slot)
+    forEachStretch(arguments, row, slot,
+                   [&](Range particles, SpringPlace place, const SpringParams<Real>& spring, auto) {
+                     noteOverlong(arguments, particles, place, spring.maxLengthSquared);
+                   });
+}
+
+// What sixteen particles side by side need of the springs that they own in a slot.
+template <class Real, class RestLengths>
+struct OwnSprings {
+  std::ptrdiff_t other;             // from a particle to the other end
+  Real stiffness, stiffnessOfEnds;  // of those inside, and of the first and the last particle of a row
+  RestLengths rest;
+  decltype(bitsOf(Real(0))) longest;  // bits of l^2
+};
+template <class Real, class RestLengths>
+INLINE OwnSprings<Real, RestLengths> ownSprings(const StepParams<Real>& step, std::uint32_t slot, int row,
+                                                RestLengths rest) {
+  const SpringParams<Real>& spring = step.springs[slot];
+  const bool isHalved = step.hasMaterial != 0 && slot == toLeft && isBorder(row, step.rows),
+             areEndsHalved = step.hasMaterial != 0 && slot == toUpper;
+  const Real halved = Real(0.5) * spring.stiffness;
+  return {indexOffset(step, springOffsets[slot].columns, springOffsets[slot].rows),
+          isHalved ? halved : spring.stiffness, isHalved || areEndsHalved ? halved : spring.stiffness, rest,
+          bitsOf(spring.maxLengthSquared)};
+}
+
+// The springs that the particles of a row own in the first slots, at once: their chains of operations
+// overlap. For rows from 2 on, of at least LEAST_COLUMNS. Returns whether one is too long.
+enum class RowPart { first, inside, last };
+constexpr std::ptrdiff_t SIXTEEN = 16, LEAST_COLUMNS = SIXTEEN + 2;
+template <bool hasCuts, class Real, class RestLengths, std::size_t... k>
+INLINE bool computeOwnSprings(const PassArguments<Real>& arguments, int row, ForceRows<Real>& rows,
+                              const std::array<RestLengths, sizeof...(k)>& rests, std::index_sequence<k...>) {
+  using Bits = decltype(bitsOf(Real(0)));
+  const StepParams<Real>& step = arguments.step;
+  const Range particles = rangeOf(step, row);
+  const std::ptrdiff_t start = particles.begin, count = particles.end - start;
+  const OwnSprings<Real, RestLengths> springs[]{ownSprings(step, k, row, rests[k])...};
+  const Arrays<Real> forces[]{rows.row(k, row)...}, sums = rows.row(ForceRows<Real>::OWN_SPRINGS, row);
+  const Arrays<const Real> x = countedFrom(start, arraysOf(arguments.before.positions));
+  const std::uint32_t* cutMasks = hasCuts ? arguments.cutMasks + start : nullptr;
+  Bits areTooLong[SIXTEEN]{};
+  const auto compute = [&]<RowPart part>(std::ptrdiff_t begin) __attribute__((always_inline)) {
+#pragma GCC ivdep
+    for (int lane = 0; lane < SIXTEEN; ++lane) {
+      const std::ptrdiff_t c = begin + lane;
+      const Vec3<Real> a = at(x, c);
+      Vec3<Real> sum{};
+      Bits isTooLong = 0;
+      const auto add = [&](auto slot) __attribute__((always_inline)) {
+        constexpr int columns = springOffsets[slot].columns;
+        const OwnSprings<Real, RestLengths> of = springs[slot];
+        const Vec3<Real> b = at(x, c + of.other);
+        const bool isEnd =
+            (part == RowPart::first && lane == 0) | (part == RowPart::last && lane == SIXTEEN - 1);
+        const Vec3<Real> f = springForce(a, b, isEnd ? of.stiffnessOfEnds : of.stiffness, of.rest[c]);
+        const bool isThere = !(part == RowPart::first && lane + columns < 0) &
+                             !(part == RowPart::last && lane + columns >= SIXTEEN);
+        const bool acts = isThere & !isCutAt<hasCuts>(cutMasks, c, slot);
+        const Real fx = acts ? f.x : Real(0), fy = acts ? f.y : Real(0), fz = acts ? f.z : Real(0);
+        forces[slot].x[c] = fx;
+        forces[slot].y[c] = fy;
+        forces[slot].z[c] = fz;
+        sum = {sum.x + fx, sum.y + fy, sum.z + fz};
+        isTooLong |= (acts & (bitsOf(dot(b - a, b - a)) > of.longest)) ? Bits(1) : Bits(0);
+      };
+      (add(std::integral_constant<std::size_t, k>()), ...);
+      sums.x[c] = sum.x;
+      sums.y[c] = sum.y;
+      sums.z[c] = sum.z;
+      areTooLong[lane] |= isTooLong;
+    }
+  };
+  compute.template operator()<RowPart::first>(0);
+  for (std::ptrdiff_t begin = SIXTEEN; begin < count - SIXTEEN; begin += SIXTEEN)
+    compute.template operator()<RowPart::inside>(std::min(begin, count - SIXTEEN - 1));
+  compute.template operator()<RowPart::last>(count - SIXTEEN);
+  return largestOf(areTooLong) != 0;
+}
+template <bool hasCuts, std::size_t slots, class Real>
+INLINE bool computeOwnSprings(const PassArguments<Real>& arguments, int row, ForceRows<Real>& rows) {
+  const StepParams<Real>& step = arguments.step;
+  const std::ptrdiff_t start = rangeOf(step, row).begin;
+  return [&]<std::size_t... k>(std::index_sequence<k...> all) __attribute__((always_inline)) {
+    if (step.useRestLengthTable == 0)
+      return computeOwnSprings<hasCuts>(arguments, row, rows,
+                                        std::array{NominalLength<Real>{step.springs[k].restLength}...}, all);
+    return computeOwnSprings<hasCuts>(
+        arguments, row, rows, std::array{arguments.restLengths + k * step.totalParticles + start...}, all);
+  }
+  (std::make_index_sequence<slots>());
+}
+
+// A row's forces of springs, where all slots behind the first ones are empty.
+template <bool hasCuts, std::size_t slots, class Real>
+INLINE void sumSpringForces(const PassArguments<Real>& arguments, int row, const Arrays<Real>& sums,
+                            ForceRows<Real>& rows) {
+  const StepParams<Real>& step = arguments.step;
+  const auto count = static_cast<std::ptrdiff_t>(step.columns);
+  const bool hasAll = step.enabledSlots == (1u << slots) - 1 && count >= LEAST_COLUMNS;
+  const auto compute = [&](int owners) __attribute__((always_inline)) {
+    if (hasAll && owners >= 2 && owners < static_cast<int>(step.rows)) {
+      if (computeOwnSprings<hasCuts, slots>(arguments, owners, rows)) noteOverlong(arguments, owners);
+      return;
+    }
+    for (std::uint32_t slot = 0; slot < slots; ++slot) computeSprings<hasCuts>(arguments, slot, owners, rows);
+    sumOwnSprings<slots>(rows, owners, count);
+  };
+  constexpr int reach = slots == SPRING_SLOTS ? 2 : 1;  // rows down to the farthest owner
+  rows.ensure(ForceRows<Real>::OWN_SPRINGS, row, row + reach, compute);
+  sumSprings<slots>(rows, row, sums, count);
+}
+template <bool hasCuts, class Real>
+INLINE void sumSpringForces(const PassArguments<Real>& arguments, int row, const Arrays<Real>& sums,
+                            ForceRows<Real>& rows) {
+  hasSecondNeighbours(arguments.step) ? sumSpringForces<hasCuts, SPRING_SLOTS>(arguments, row, sums, rows)
+                                      : sumSpringForces<hasCuts, NEIGHBOUR_SLOTS>(arguments, row, sums, rows);
+}
+
+}  // namespace clothsim::cpu
