@@ -1,3 +1,21 @@
 #include "commands/commands.h"
 
-int main(int argc, char** argv) { return clothsim::runCommandLine(argc, argv); }
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
+// Each frame takes memory for pictures and copies of the state, and gives it back. Left to itself the C
+// library returns it to the system each time, which then has to clear the same pages again: a tenth of a
+// small cloth's time.
+static void keepFreedMemory() {
+#if defined(__GLIBC__)
+  constexpr int ownMappingFrom = 32 << 20, mostKept = 256 << 20;  // [B]
+  mallopt(M_MMAP_THRESHOLD, ownMappingFrom);
+  mallopt(M_TRIM_THRESHOLD, mostKept);
+#endif
+}
+
+int main(int argc, char** argv) {
+  keepFreedMemory();
+  return clothsim::runCommandLine(argc, argv);
+}

@@ -1,6 +1,10 @@
 #include "solver/cpu/contact_blocks.h"
 
 #include <algorithm>
+#include <type_traits>
+
+#include "solver/cpu/arrays.h"
+#include "solver/cpu/rows.h"
 
 namespace clothsim::cpu {
 namespace {
@@ -65,8 +69,29 @@ INLINE void moveLanes(const View<Real>& view, const Block& block, const Sums<Rea
   }
 }
 
+INLINE Range rangeOf(const Block& block) {
+  return {static_cast<std::ptrdiff_t>(block.begin), static_cast<std::ptrdiff_t>(block.end)};
+}
+
+// Hardly any candidates are that near: all slots are looked at briefly first, without where they came from.
 template <bool nearCodes, class Real>
 INLINE bool anyLaneTooNear(const View<Real>& view, const std::uint32_t* candidates, const Block& block) {
+  std::uint32_t near[BLOCK]{};
+  const Real *x = view.x, *y = view.y, *z = view.z, clampFactor = view.params.clampFactor;
+  for (std::uint32_t slot = 0; slot < block.slots; ++slot) {
+    const std::uint32_t* row = candidates + static_cast<std::size_t>(slot) * view.params.particles;
+    forEachSixteen(
+        rangeOf(block), [&](std::ptrdiff_t begin, std::ptrdiff_t end) __attribute__((always_inline)) {
+#pragma GCC ivdep
+          for (std::ptrdiff_t i = begin; i < end; ++i) {
+            const auto j = static_cast<std::ptrdiff_t>(row[i] & INDEX_MASK);
+            const Real least = clampFactor * pairDistance<nearCodes>(view, row[i]);
+            const Vec3<Real> d = load(x, y, z, i) - load(x, y, z, j);
+            near[i - begin] |= ((dot(d, d) < least * least) & (i != j)) ? 1u : 0u;
+          }
+        });
+  }
+  if (largestOf(near) == 0) return false;
   std::uint32_t any = 0;
   for (std::uint32_t slot = 0; slot < block.slots; ++slot) {
     const std::uint32_t* row = candidates + static_cast<std::size_t>(slot) * view.params.particles;
@@ -78,16 +103,18 @@ INLINE bool anyLaneTooNear(const View<Real>& view, const std::uint32_t* candidat
 }
 
 template <class Real>
-INLINE bool anyLaneMoved(const Real* const* now, const Real* const* then, const Block& block,
+INLINE bool anyLaneMoved(const Arrays<const Real>& now, const Arrays<const Real>& then, Range particles,
                          Real largestSquared) {
-  std::uint32_t any = 0;
-#pragma omp simd reduction(| : any)
-  for (std::uint32_t i = block.begin; i < block.end; ++i) {
-    const Vec3<Real> d = load(now[0], now[1], now[2], i) - load(then[0], then[1], then[2], i);
-    const Real lengthSquared = dot(d, d);
-    any |= lengthSquared < largestSquared ? 0u : 1u;  // NaN has moved, too
-  }
-  return any != 0;
+  std::uint32_t moved[BLOCK]{};
+  forEachSixteen(
+      particles, [&](std::ptrdiff_t begin, std::ptrdiff_t end) __attribute__((always_inline)) {
+#pragma GCC ivdep
+        for (std::ptrdiff_t i = begin; i < end; ++i) {
+          const Vec3<Real> d = at(now, i) - at(then, i);
+          moved[i - begin] |= dot(d, d) < largestSquared ? 0u : 1u;  // NaN has moved, too
+        }
+      });
+  return largestOf(moved) != 0;
 }
 
 VECTOR_CLONES(void, addAveraged,
@@ -102,8 +129,9 @@ VECTOR_CLONES(bool, anyFloatLaneTooNear,
               (const View<float>& view, const std::uint32_t* candidates, const Block& block),
               (view, candidates, block), anyLaneTooNear<false>(view, candidates, block))
 VECTOR_CLONES(bool, anyFloatLaneMoved,
-              (const float* const* now, const float* const* then, const Block& block, float largestSquared),
-              (now, then, block, largestSquared), anyLaneMoved(now, then, block, largestSquared))
+              (const Arrays<const float>& now, const Arrays<const float>& then, Range particles,
+               float largestSquared),
+              (now, then, particles, largestSquared), anyLaneMoved(now, then, particles, largestSquared))
 
 VECTOR_CLONES(void, moveAveraged,
               (const View<float>& view, const Block& block, const Sums<float>& sums, float* const* newX,
@@ -148,12 +176,12 @@ bool anyTooNear(bool nearCodes, const View<Real>& view, const std::uint32_t* can
 }
 
 template <class Real>
-bool anyMovedFarther(const Components<Real>& now, const Components<Real>& then, const Block& block,
+bool anyMovedFarther(const Components<Real>& now, const Components<Real>& then, Range particles,
                      Real largestSquared) {
-  const Real* const a[] = {now.x.data(), now.y.data(), now.z.data()};
-  const Real* const b[] = {then.x.data(), then.y.data(), then.z.data()};
-  if constexpr (std::is_same_v<Real, float>) return anyFloatLaneMoved(a, b, block, largestSquared);
-  return anyLaneMoved(a, b, block, largestSquared);
+  if constexpr (std::is_same_v<Real, float>)
+    return anyFloatLaneMoved(arraysOf(now), arraysOf(then), particles, largestSquared);
+  else
+    return anyLaneMoved(arraysOf(now), arraysOf(then), particles, largestSquared);
 }
 
 namespace {
@@ -197,7 +225,7 @@ void copyBlock(const Components<Real>& from, Components<Real>& to, const Block& 
   template void moveByContacts(bool, const View<Real>&, const Block&, const Sums<Real>&, Components<Real>&,  \
                                Components<Real>&);                                                           \
   template bool anyTooNear(bool, const View<Real>&, const std::uint32_t*, const Block&);                     \
-  template bool anyMovedFarther(const Components<Real>&, const Components<Real>&, const Block&, Real);       \
+  template bool anyMovedFarther(const Components<Real>&, const Components<Real>&, Range, Real);              \
   template void copyBlock(const Components<Real>&, Components<Real>&, const Block&);
 INSTANTIATE(float)
 INSTANTIATE(double)

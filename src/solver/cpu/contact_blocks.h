@@ -10,6 +10,7 @@
 #include "solver/cpu/contact_pairs.h"
 #include "solver/cpu/cpu_state.h"
 #include "solver/cpu/rigid_motion.h"
+#include "solver/cpu/rows.h"
 
 namespace clothsim::cpu {
 
@@ -40,8 +41,8 @@ template <class Real>
                               const Block& block);
 // Whether some particle is not within sqrt(largestSquared) of where it was.
 template <class Real>
-[[nodiscard]] bool anyMovedFarther(const Components<Real>& now, const Components<Real>& then,
-                                   const Block& block, Real largestSquared);
+[[nodiscard]] bool anyMovedFarther(const Components<Real>& now, const Components<Real>& then, Range particles,
+                                   Real largestSquared);
 // Whether some particle is not within sqrt(largestSquared) of where the motion has taken it.
 [[nodiscard]] bool anyLeftMotion(const Components<float>& now, const Components<float>& then,
                                  const RigidMap<float>& motion, const Block& block, float largestSquared);

@@ -308,13 +308,17 @@ void SelfCollision<Real>::resolveContacts(const CpuState<Real>& before, CpuState
 
 template <class Real>
 void SelfCollision<Real>::checkHash(const CpuState<Real>& before, const CpuState<Real>& after) {
+  constexpr std::uint32_t particlesAtOnce = 512;
   std::atomic<bool> stale = isStale_, fast = false;
-  forEachBlock([&](const Block& block) {
-    if (!stale && anyMovedFarther(after.positions, hashedPositions_, block, params_.reuseSquared))
-      stale = true;
-    if (isRobust() && !fast && anyMovedFarther(after.positions, before.positions, block, params_.fastSquared))
-      fast = true;
-  });
+  ThreadTeam::shared().forEachRange(
+      0, params_.particles, particlesAtOnce, [&](std::uint32_t begin, std::uint32_t end) {
+        const Range particles{static_cast<std::ptrdiff_t>(begin), static_cast<std::ptrdiff_t>(end)};
+        if (!stale && anyMovedFarther(after.positions, hashedPositions_, particles, params_.reuseSquared))
+          stale = true;
+        if (isRobust() && !fast &&
+            anyMovedFarther(after.positions, before.positions, particles, params_.fastSquared))
+          fast = true;
+      });
   stepsSinceHash_ += 1;
   if (stale && !isStale_) {  // unless the cloth moves as a whole, which brings nothing nearer
     const RigidMap<Real> motion =

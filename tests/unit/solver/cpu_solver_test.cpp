@@ -9,9 +9,13 @@
 #include <cstring>
 #include <numbers>
 
+#include "cloth/material.h"
 #include "core/thread_team.h"
 #include "measure/measure.h"
+#include "solver/cpu/arrays.h"
+#include "solver/cpu/force_laws.h"
 #include "support/compared_scenes.h"
+#include "support/material_sheet.h"
 
 namespace clothsim {
 namespace {
@@ -28,6 +32,60 @@ State stepped(const Scene& scene, int steps, bool fused = true) {
   CpuSolver<float> solver(cloth, scene, fused);
   solver.step(steps);
   return solver.state();
+}
+
+// Of a grid that has moved: the springs of each particle by their law, one after the other.
+std::vector<Vec3f> springForcesOneByOne(const Cloth& cloth, const Scene& scene, const CpuState<float>& state,
+                                        double time) {
+  const auto step = makeStepParams<float>(scene, cloth, 0, time);
+  const int columns = scene.cloths[0].numWidthPoints, rows = scene.cloths[0].numHeightPoints;
+  const auto isInside = [&](int column, int row) {
+    return column >= 0 && column < columns && row >= 0 && row < rows;
+  };
+  const auto isBorder = [](int place, int count) { return place == 0 || place == count - 1; };
+  const std::vector<float> rests = measureRestLengths<float>(cloth);  // by slot, then by owner
+  std::vector<Vec3f> forces;
+  for (int row = 0; row < rows; ++row)
+    for (int column = 0; column < columns; ++column) {
+      const auto at = [&](int c, int r) { return cpu::at(state.positions, std::ptrdiff_t{r} * columns + c); };
+      Vec3f sum{};
+      for (const IncidentSpring& spring : incidentSprings) {
+        if (!isInside(column + spring.columns, row + spring.rows)) continue;
+        if ((step.enabledSlots >> spring.slot & 1u) == 0) continue;
+        const bool isHalved =
+            step.hasMaterial != 0 && ((spring.slot == toLeft && isBorder(row, rows)) ||
+                                      (spring.slot == toUpper && isBorder(column, columns)));
+        const auto& params = step.springs[spring.slot];
+        const int owner =
+            (spring.owned ? 0 : spring.rows * columns + spring.columns) + row * columns + column;
+        const float rest = step.useRestLengthTable == 0
+                               ? params.restLength
+                               : rests[static_cast<std::size_t>(spring.slot * columns * rows + owner)];
+        sum = sum + cpu::springForce(at(column, row), at(column + spring.columns, row + spring.rows),
+                                     isHalved ? 0.5f * params.stiffness : params.stiffness, rest);
+      }
+      forces.push_back(sum);
+    }
+  return forces;
+}
+
+TEST(CpuSolver, AddsTheSpringsOfRowsOfAnyLengthAsOneByOne) {
+  Material limp = *materialPreset("cotton");
+  limp.bend = 0;
+  for (const int rows : {2, 3, 6})
+    for (const int columns : {2, 15, 16, 17, 18, 19, 31, 32, 33, 34, 35, 50})
+      for (const bool isFabric : {false, true}) {
+        Scene scene = test::vertical(
+            isFabric ? test::materialSheet(columns, rows, 0.01 * columns, 0.01 * rows, limp) : sheetScene(2));
+        scene.cloths[0].numWidthPoints = columns;
+        scene.cloths[0].numHeightPoints = rows;
+        scene.cloths[0].pinned = {GridPoint{0, 0}};
+        const Cloth cloth(scene);
+        CpuSolver<float> solver(cloth, scene);
+        solver.step(3);
+        const std::vector<Vec3f> expected = springForcesOneByOne(cloth, scene, solver.particles(), 0);
+        EXPECT_EQ(solver.forces(), expected) << columns << "x" << rows << (isFabric ? ", fabric" : "");
+      }
 }
 
 TEST(CpuSolver, GivesTheSameBitsAtAnyNumberOfThreads) {
