@@ -143,8 +143,9 @@ void SelfCollision<Real>::addLatticePlaces(const Piece& piece) {
   constexpr Real apart = 16;  // rows between pieces: farther than neighbours are
   const Real firstRow = lattice_.rows.empty() ? 0 : lattice_.rows.back() + apart;
   for (int i = 0; i < static_cast<int>(piece.particleCount()); ++i) {
-    lattice_.columns.push_back(static_cast<Real>(i % piece.columns));
-    lattice_.rows.push_back(firstRow + static_cast<Real>(i / piece.columns));
+    const int column = i % piece.columns, row = i / piece.columns;
+    lattice_.columns.push_back(static_cast<Real>(column));
+    lattice_.rows.push_back(firstRow + static_cast<Real>(row));
   }
 }
 

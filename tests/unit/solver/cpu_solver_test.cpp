@@ -60,7 +60,7 @@ std::vector<Vec3f> springForcesOneByOne(const Cloth& cloth, const Scene& scene, 
             (spring.owned ? 0 : spring.rows * columns + spring.columns) + row * columns + column;
         const float rest = step.useRestLengthTable == 0
                                ? params.restLength
-                               : rests[static_cast<std::size_t>(spring.slot * columns * rows + owner)];
+                               : rests[spring.slot * cloth.particleCount() + static_cast<std::size_t>(owner)];
         sum = sum + cpu::springForce(at(column, row), at(column + spring.columns, row + spring.rows),
                                      isHalved ? 0.5f * params.stiffness : params.stiffness, rest);
       }
