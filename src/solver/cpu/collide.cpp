@@ -201,6 +201,7 @@ INLINE Vec3<Real> furtherOut(const ColliderParams<Real>& collider, Vec3<Real> x,
   }
 }
 
+// Particles before `done` are left alone.
 template <std::uint32_t type, bool mayEnter = true, class Real>
 INLINE void collideWith(const PassArguments<Real>& arguments, const ColliderParams<Real>& collider,
                         bool moving, bool coulomb, Range particles, std::ptrdiff_t done = 0) {
@@ -246,8 +247,9 @@ INLINE void collideWith(const PassArguments<Real>& arguments, const ColliderPara
 }
 
 // What a particle has to do with a sphere or a plane: it touches none without one of these.
-constexpr std::uint32_t IS_FAR = 0, IS_INSIDE = 1,  // behind the surface
-    MAY_ENTER = 2;                                  // on a way long enough to have gone through
+constexpr std::uint32_t IS_FAR = 0,
+                        IS_INSIDE = 1,  // behind the surface
+    MAY_ENTER = 2;                      // on a way long enough to have gone through
 template <std::uint32_t type, bool moving, bool coulomb, class Real>
 INLINE std::uint32_t nearnessOf(const ColliderParams<Real>& collider, Vec3<Real> start, Vec3<Real> now) {
   using Bits = decltype(bitsOf(Real(0)));
@@ -268,10 +270,9 @@ INLINE std::uint32_t nearnessOf(const ColliderParams<Real>& collider, Vec3<Real>
 template <std::uint32_t type, bool moving, bool coulomb, class Real>
 INLINE void collideInVectors(const PassArguments<Real>& arguments, const ColliderParams<Real>& collider,
                              Range particles) {
-  constexpr std::ptrdiff_t sixteen = 16;
   const Arrays<const Real> x0 = arraysOf(arguments.before.positions),
                            x = arraysOf(std::as_const(arguments.after.positions));
-  std::uint32_t near[MESH_ROW], nearest[sixteen]{};  // of every sixteenth
+  std::uint32_t near[MESH_ROW], nearest[SIXTEEN]{};  // of every sixteenth
   forEachSixteen(
       particles, [&](std::ptrdiff_t begin, std::ptrdiff_t end) __attribute__((always_inline)) {
 #pragma GCC ivdep
@@ -282,10 +283,10 @@ INLINE void collideInVectors(const PassArguments<Real>& arguments, const Collide
         }
       });
   if (largestOf(nearest) == IS_FAR) return;
-  const std::ptrdiff_t last = std::max(particles.begin, particles.end - sixteen);
-  for (std::ptrdiff_t begin = particles.begin; begin < particles.end; begin += sixteen) {
+  const std::ptrdiff_t last = std::max(particles.begin, particles.end - SIXTEEN);
+  for (std::ptrdiff_t begin = particles.begin; begin < particles.end; begin += SIXTEEN) {
     const std::ptrdiff_t from = std::min(begin, last);
-    const Range some{from, std::min(from + sixteen, particles.end)};
+    const Range some{from, std::min(from + SIXTEEN, particles.end)};
     std::uint32_t is = IS_FAR;
     for (std::ptrdiff_t i = some.begin; i < some.end; ++i) is = larger(is, near[i - particles.begin]);
     if (is == MAY_ENTER)

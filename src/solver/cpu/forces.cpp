@@ -17,7 +17,6 @@
 #include "solver/cpu/spring_forces.h"
 #include "solver/cpu/spring_rows.h"
 #include "solver/cpu/symmetric.h"
-#include "solver/cpu/watch.h"
 
 namespace clothsim::cpu {
 namespace {

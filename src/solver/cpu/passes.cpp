@@ -49,7 +49,7 @@ INLINE auto integrateParticles(const PassArguments<Real>& arguments, Range parti
                            f = arraysOf(std::as_const(arguments.forces));
   const Arrays<Real> newX = arraysOf(arguments.after.positions), newV = arraysOf(arguments.after.velocities);
   const Real* inverseMasses = arguments.inverseMasses;
-  Bits fastest[16]{};  // of every sixteenth
+  Bits fastest[SIXTEEN]{};  // of every sixteenth
   forEachSixteen(
       particles, [&](std::ptrdiff_t begin, std::ptrdiff_t end) __attribute__((always_inline)) {
 #pragma GCC ivdep
@@ -213,17 +213,16 @@ INLINE void moveEnd(const SpringEnd<Real>& end, std::ptrdiff_t i, Real move, Rea
 template <bool hasCuts, class Real, class RestLengths, class IsOwner>
 INLINE void limitSixteen(const PassArguments<Real>& arguments, std::uint32_t slot, std::ptrdiff_t first,
                          std::ptrdiff_t other, RestLengths rest, Real nominal, IsOwner isOwner) {
-  constexpr int sixteen = 16;
   using Bits = decltype(bitsOf(Real(0)));
   Components<Real>&p = arguments.after.positions, &v = arguments.after.velocities;
   const SpringEnd<Real> x{p.x.data(), v.x.data()}, y{p.y.data(), v.y.data()}, z{p.z.data(), v.z.data()};
   const Real factor = arguments.step.limitFactor, inverseTimeStep = arguments.step.inverseTimeStep;
   const Real* inverseMasses = arguments.inverseMasses;
   const std::uint32_t* cutMasks = arguments.cutMasks;
-  Real moveX[sixteen], moveY[sixteen], moveZ[sixteen];
-  Bits actsOnA[sixteen], actsOnB[sixteen];
+  Real moveX[SIXTEEN], moveY[SIXTEEN], moveZ[SIXTEEN];
+  Bits actsOnA[SIXTEEN], actsOnB[SIXTEEN];
 #pragma GCC ivdep
-  for (int lane = 0; lane < sixteen; ++lane) {
+  for (int lane = 0; lane < SIXTEEN; ++lane) {
     const std::ptrdiff_t a = first + lane, b = a + other;
     const Vec3<Real> d = load(x.x, y.x, z.x, b) - load(x.x, y.x, z.x, a);
     const Real lengthSquared = dot(d, d);
@@ -245,10 +244,10 @@ INLINE void limitSixteen(const PassArguments<Real>& arguments, std::uint32_t slo
   }
   const auto moveEnds = [&](const SpringEnd<Real>& end, const Real* moves) __attribute__((always_inline)) {
 #pragma GCC ivdep
-    for (int lane = 0; lane < sixteen; ++lane)
+    for (int lane = 0; lane < SIXTEEN; ++lane)
       moveEnd(end, first + lane, moves[lane], inverseTimeStep * moves[lane], actsOnA[lane]);
 #pragma GCC ivdep
-    for (int lane = 0; lane < sixteen; ++lane)
+    for (int lane = 0; lane < SIXTEEN; ++lane)
       moveEnd(end, first + lane + other, -moves[lane], -(inverseTimeStep * moves[lane]), actsOnB[lane]);
   };
   moveEnds(x, moveX);
@@ -273,7 +272,7 @@ INLINE bool anyTooLong(const PassArguments<Real>& arguments, Range owners, std::
                        RestLengths rest, Real nominal) {
   const Arrays<const Real> x = arraysOf(std::as_const(arguments.after.positions));
   const Real factor = arguments.step.limitFactor;
-  std::uint32_t any[16]{};  // of every sixteenth
+  std::uint32_t any[SIXTEEN]{};  // of every sixteenth
   forEachSixteen(
       owners, [&](std::ptrdiff_t begin, std::ptrdiff_t end) __attribute__((always_inline)) {
 #pragma GCC ivdep
@@ -291,30 +290,31 @@ INLINE bool anyTooLong(const PassArguments<Real>& arguments, Range owners, std::
 template <bool hasCuts, class Real, class RestLengths>
 INLINE void limitOwners(const PassArguments<Real>& arguments, const LimitColor& color, std::ptrdiff_t first,
                         RestLengths rest) {
-  constexpr std::ptrdiff_t sixteen = 16;
   const StepParams<Real>& step = arguments.step;
   const SpringOffset& offset = springOffsets[color.slot];
   const std::ptrdiff_t other = indexOffset(step, offset.columns, offset.rows);
   const Real nominal = step.springs[color.slot].limitLength;
   const Range owners{first + color.firstColumn, first + color.endColumn};
   if (!anyTooLong(arguments, owners, other, rest, nominal)) return;
-  const std::uint32_t period = color.columnStep - 1, run = color.columnRun;  // steps are powers of two
-  for (std::ptrdiff_t begin = owners.begin; begin < owners.end; begin += sixteen) {
-    const std::ptrdiff_t from = std::min(begin, owners.end - sixteen);
-    if (from < owners.begin) break;
-    if (!anyTooLong(arguments, Range{from, from + sixteen}, other, rest, nominal)) continue;
-    const auto place = static_cast<std::uint32_t>(from - owners.begin);
+  const auto isOwner = [&](std::ptrdiff_t i) __attribute__((always_inline)) {
+    const auto place = static_cast<std::uint32_t>(i - owners.begin);
+    return (place & (color.columnStep - 1)) < color.columnRun;  // steps are powers of two
+  };
+  const std::ptrdiff_t last = owners.end - SIXTEEN;
+  if (last < owners.begin) {
+    for (std::ptrdiff_t i = owners.begin; i < owners.end; ++i)
+      if (isOwner(i) && !isCutAt<hasCuts>(arguments.cutMasks, i, color.slot))
+        limitSpring(arguments, i, i + other, limitLength(rest, i, step.limitFactor, nominal));
+    return;
+  }
+  for (std::ptrdiff_t begin = owners.begin; begin < owners.end; begin += SIXTEEN) {
+    const std::ptrdiff_t from = std::min(begin, last);
+    if (!anyTooLong(arguments, Range{from, from + SIXTEEN}, other, rest, nominal)) continue;
     const int done = static_cast<int>(begin - from);
     limitSixteen<hasCuts>(
         arguments, color.slot, from, other, rest, nominal, [&](int lane) __attribute__((always_inline)) {
-          return (lane >= done) & (((place + static_cast<std::uint32_t>(lane)) & period) < run);
+          return (lane >= done) & isOwner(from + lane);
         });
-  }
-  if (owners.end - owners.begin >= sixteen) return;
-  for (std::ptrdiff_t owner = owners.begin; owner < owners.end; ++owner) {
-    if ((static_cast<std::uint32_t>(owner - owners.begin) & period) >= run) continue;
-    if (isCutAt<hasCuts>(arguments.cutMasks, owner, color.slot)) continue;
-    limitSpring(arguments, owner, owner + other, limitLength(rest, owner, step.limitFactor, nominal));
   }
 }
 

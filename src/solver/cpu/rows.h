@@ -65,19 +65,20 @@ INLINE Number larger(Number a, Number b) {
   return a < b ? b : a;
 }
 
+// Floats in the widest vector register.
+inline constexpr std::ptrdiff_t SIXTEEN = 16;
 // work(begin, end) for sixteen particles each, so that a loop over them needs no remainder: the last ones may
 // be worked on twice, which must do no harm.
 template <class Work>
 INLINE void forEachSixteen(Range particles, Work work) {
-  constexpr std::ptrdiff_t sixteen = 16;
-  const std::ptrdiff_t last = particles.end - sixteen;
+  const std::ptrdiff_t last = particles.end - SIXTEEN;
   if (last < particles.begin) return work(particles.begin, particles.end);
-  for (std::ptrdiff_t begin = particles.begin; begin < last; begin += sixteen) work(begin, begin + sixteen);
-  work(last, last + sixteen);
+  for (std::ptrdiff_t begin = particles.begin; begin < last; begin += SIXTEEN) work(begin, begin + SIXTEEN);
+  work(last, last + SIXTEEN);
 }
 // The largest of what was gathered of every sixteenth: that keeps a vector, which is reduced once.
 template <class Number>
-INLINE Number largestOf(const Number (&lanes)[16]) {
+INLINE Number largestOf(const Number (&lanes)[SIXTEEN]) {
   Number largest = lanes[0];
   for (const Number lane : lanes) largest = larger(largest, lane);
   return largest;

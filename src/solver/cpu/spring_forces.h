@@ -25,7 +25,7 @@ INLINE auto computeSprings(const PassArguments<Real>& arguments, Range particles
   const Real *x = arguments.before.positions.x.data(), *y = arguments.before.positions.y.data(),
              *z = arguments.before.positions.z.data();
   Real *fx = row.x - start, *fy = row.y - start, *fz = row.z - start;
-  decltype(bitsOf(Real(0))) longest[16]{};  // of every sixteenth
+  decltype(bitsOf(Real(0))) longest[SIXTEEN]{};  // of every sixteenth
   forEachSixteen(
       particles, [&](std::ptrdiff_t begin, std::ptrdiff_t end) __attribute__((always_inline)) {
 #pragma GCC ivdep
@@ -103,10 +103,13 @@ INLINE OwnSprings<Real, RestLengths> ownSprings(const StepParams<Real>& step, st
           bitsOf(spring.maxLengthSquared)};
 }
 
+// Sixteen particles of a row: the first and the last ones lack springs across the border.
+enum class RowPart { first, inside, last };
+// So that the last ones own all springs to the left.
+constexpr std::ptrdiff_t LEAST_COLUMNS = SIXTEEN + 2;
+
 // The springs that the particles of a row own in the first slots, at once: their chains of operations
 // overlap. For rows from 2 on, of at least LEAST_COLUMNS. Returns whether one is too long.
-enum class RowPart { first, inside, last };
-constexpr std::ptrdiff_t SIXTEEN = 16, LEAST_COLUMNS = SIXTEEN + 2;
 template <bool hasCuts, class Real, class RestLengths, std::size_t... k>
 INLINE bool computeOwnSprings(const PassArguments<Real>& arguments, int row, ForceRows<Real>& rows,
                               const std::array<RestLengths, sizeof...(k)>& rests, std::index_sequence<k...>) {
