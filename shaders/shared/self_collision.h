@@ -33,8 +33,8 @@ using uint = std::uint32_t;
 #define CANDIDATES_UNIT 14         // slot * particles + particle; the row after the last slot counts them
 #define CONTACT_DISTANCES_UNIT 15  // 64 a grid
 
-// Far particles that a particle remembers between two builds of the hash; who has more walks through the
-// cells.
+// Far particles that a particle remembers between two builds of the hash in slots. Who has more walks through
+// the cells on the GPU, and remembers the others in a list on the CPU.
 #define MOST_CANDIDATES 24u
 // A candidate is a particle (26 bits) and, above it, how to find the pair's distance: 0 for non-adjacent
 // particles, |columns| + 8 |rows| for particles of one piece that lie nearer than the contact distance at

@@ -11,15 +11,18 @@ void lookAtCandidates(GridPoint p) {
     for (uint slot = 0u; slot < count; ++slot) look(p.index, texelFetch(candidates, int(slot * self.particles + p.index)).x);
     return;
   }
-  ivec3 cell = cellOf(texelFetch(hashedPositions, int(p.index)).xyz);
+  vec3 x = texelFetch(hashedPositions, int(p.index)).xyz;
+  ivec3 cell = cellOf(x);
   for (int k = 0; k < 9; ++k) {
     Run run = runOf(cell, k);
     uint entries = run.end - run.first + run.secondEnd;
     for (uint n = 0u; n < entries; ++n) {
       uint e = run.first + n < run.end ? run.first + n : run.first + n - run.end;
       vec4 entry = texelFetch(sortedParticles, int(e));
+      precise vec3 d = x - entry.xyz;
+      precise float distanceSquared = sumOfProducts(d, d);
       uint j = unpackedIndex(entry.w);
-      if (j == p.index || !isInRun(run, entry)) continue;
+      if (!(distanceSquared < self.searchSquared) || j == p.index || !isInRun(run, entry)) continue;
       uint candidate = encode(p, j);
       if (candidate != EXCLUDED) look(p.index, candidate);
     }

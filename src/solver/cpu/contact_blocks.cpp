@@ -1,37 +1,89 @@
 #include "solver/cpu/contact_blocks.h"
 
 #include <algorithm>
+#include <bit>
 #include <type_traits>
 
 #include "solver/cpu/arrays.h"
 #include "solver/cpu/rows.h"
+#include "solver/cpu/vectors.h"
 
 namespace clothsim::cpu {
 namespace {
 
-template <bool nearCodes, class Real>
-INLINE bool slotTouches(const View<Real>& view, const std::uint32_t* row, const Block& block) {
-  std::uint32_t any = 0;
-#pragma omp simd reduction(| : any)
-  for (std::uint32_t i = block.begin; i < block.end; ++i) {
-    const std::size_t j = row[i] & INDEX_MASK;
-    const Real distance = pairDistance<nearCodes>(view, row[i]);
-    const Vec3<Real> d = load(view.x, view.y, view.z, i) - load(view.x, view.y, view.z, j);
-    any |= ((dot(d, d) < distance * distance) & (i != j)) ? 1u : 0u;
-  }
-  return any != 0;
+INLINE Range rangeOf(const Block& block) {
+  return {static_cast<std::ptrdiff_t>(block.begin), static_cast<std::ptrdiff_t>(block.end)};
 }
 
-// Most candidates are no contacts now: a slot is looked at briefly first.
+// Of each particle of a block the slots with candidates that are nearer than `factor` times their distance: a
+// bit each. Where candidates are is gathered of all slots first: numbers that were just written in fours
+// cannot be read in sixteens at once.
+template <bool nearCodes, class Real>
+INLINE void findNear(const View<Real>& view, const std::uint32_t* candidates, const Block& block, Real factor,
+                     std::uint32_t (&near)[BLOCK]) {
+  const Real *x = view.x, *y = view.y, *z = view.z;
+  Real others[MOST_CANDIDATES][3][BLOCK];
+  const auto rowOf = [&](std::uint32_t slot) __attribute__((always_inline)) {
+    return candidates + static_cast<std::size_t>(slot) * view.params.particles;
+  };
+  forEachSixteen(
+      rangeOf(block), [&](std::ptrdiff_t begin, std::ptrdiff_t end) __attribute__((always_inline)) {
+        for (std::uint32_t slot = 0; slot < block.slots; ++slot) {
+          const std::uint32_t* row = rowOf(slot) + begin;
+          auto& [otherX, otherY, otherZ] = others[slot];
+          gatherFours(
+              view.fours, end - begin,
+              [&](std::ptrdiff_t lane)
+                  __attribute__((always_inline)) { return std::size_t{row[lane] & INDEX_MASK}; },
+              otherX, otherY, otherZ);
+        }
+        for (std::uint32_t slot = 0; slot < block.slots; ++slot) {
+          const std::uint32_t* row = rowOf(slot) + begin;
+          const auto& [otherX, otherY, otherZ] = others[slot];
+#pragma GCC ivdep
+          for (std::ptrdiff_t lane = 0; lane < end - begin; ++lane) {
+            const Real least = factor * pairDistance<nearCodes>(view, row[lane]);
+            const Vec3<Real> d = load(x, y, z, begin + lane) - load(otherX, otherY, otherZ, lane);
+            const auto itself = static_cast<std::uint32_t>(begin + lane);
+            const bool isNear = (dot(d, d) < least * least) & (itself != (row[lane] & INDEX_MASK));
+            near[lane] |= (isNear ? 1u : 0u) << slot;
+          }
+        }
+      });
+}
+// visit(particle, candidate) for those that findNear() found.
+template <class Real, class Visit>
+INLINE void forEachNear(const View<Real>& view, const std::uint32_t* candidates, const Block& block,
+                        const std::uint32_t (&near)[BLOCK], Visit visit) {
+  for (std::uint32_t i = block.begin; i < block.end; ++i)
+    for (std::uint32_t slots = near[i - block.begin]; slots != 0; slots &= slots - 1)
+      visit(i, candidates[static_cast<std::size_t>(std::countr_zero(slots)) * view.params.particles + i]);
+}
+
+// Most candidates are no contacts now: those that are, of all slots, are worked out sixteen at a time.
 template <bool robust, bool nearCodes, class Real>
 INLINE void addLanes(const View<Real>& view, const std::uint32_t* candidates, const Block& block,
                      Sums<Real>& sums) {
-  for (std::uint32_t slot = 0; slot < block.slots; ++slot) {
-    const std::uint32_t* row = candidates + static_cast<std::size_t>(slot) * view.params.particles;
-    if (!slotTouches<nearCodes>(view, row, block)) continue;
-#pragma omp simd
-    for (std::uint32_t i = block.begin; i < block.end; ++i)
-      addPair<robust, nearCodes>(view, i, row[i], sums, i - block.begin);
+  std::uint32_t near[BLOCK]{};
+  findNear<nearCodes>(view, candidates, block, Real(1), near);
+  if (largestOf(near) == 0) return;
+  std::uint32_t particles[BLOCK * MOST_CANDIDATES], others[BLOCK * MOST_CANDIDATES];
+  std::uint32_t count = 0;
+  forEachNear(view, candidates, block, near, [&](std::uint32_t i, std::uint32_t candidate) {
+    particles[count] = i;
+    others[count++] = candidate;
+  });
+  while (count % BLOCK != 0) particles[count] = others[count] = block.begin, ++count;  // touch nothing
+  for (std::uint32_t first = 0; first < count; first += BLOCK) {
+    Sums<Real> pushes;
+#pragma GCC ivdep
+    for (std::uint32_t k = 0; k < BLOCK; ++k) {
+      const Push<Real> push = pushOf<robust, nearCodes>(view, particles[first + k], others[first + k]);
+      pushes.x[k] = push.x, pushes.y[k] = push.y, pushes.z[k] = push.z, pushes.count[k] = push.count;
+    }
+    for (std::uint32_t k = 0; k < BLOCK; ++k)
+      add(sums, particles[first + k] - block.begin,
+          Push<Real>{pushes.x[k], pushes.y[k], pushes.z[k], pushes.count[k]});
   }
 }
 
@@ -69,37 +121,24 @@ INLINE void moveLanes(const View<Real>& view, const Block& block, const Sums<Rea
   }
 }
 
-INLINE Range rangeOf(const Block& block) {
-  return {static_cast<std::ptrdiff_t>(block.begin), static_cast<std::ptrdiff_t>(block.end)};
-}
-
-// Hardly any candidates are that near: all slots are looked at briefly first, without where they came from.
+// Hardly any candidates are that near: where they came from is looked at afterwards.
 template <bool nearCodes, class Real>
 INLINE bool anyLaneTooNear(const View<Real>& view, const std::uint32_t* candidates, const Block& block) {
   std::uint32_t near[BLOCK]{};
-  const Real *x = view.x, *y = view.y, *z = view.z, clampFactor = view.params.clampFactor;
-  for (std::uint32_t slot = 0; slot < block.slots; ++slot) {
-    const std::uint32_t* row = candidates + static_cast<std::size_t>(slot) * view.params.particles;
-    forEachSixteen(
-        rangeOf(block), [&](std::ptrdiff_t begin, std::ptrdiff_t end) __attribute__((always_inline)) {
-#pragma GCC ivdep
-          for (std::ptrdiff_t i = begin; i < end; ++i) {
-            const auto j = static_cast<std::ptrdiff_t>(row[i] & INDEX_MASK);
-            const Real least = clampFactor * pairDistance<nearCodes>(view, row[i]);
-            const Vec3<Real> d = load(x, y, z, i) - load(x, y, z, j);
-            near[i - begin] |= ((dot(d, d) < least * least) & (i != j)) ? 1u : 0u;
-          }
-        });
-  }
+  findNear<nearCodes>(view, candidates, block, view.params.clampFactor, near);
   if (largestOf(near) == 0) return false;
-  std::uint32_t any = 0;
-  for (std::uint32_t slot = 0; slot < block.slots; ++slot) {
-    const std::uint32_t* row = candidates + static_cast<std::size_t>(slot) * view.params.particles;
-#pragma omp simd reduction(| : any)
-    for (std::uint32_t i = block.begin; i < block.end; ++i)
-      any |= tooNear<nearCodes>(view, i, row[i]) ? 1u : 0u;
-  }
-  return any != 0;
+  bool any = false;
+  forEachNear(view, candidates, block, near, [&](std::uint32_t i, std::uint32_t candidate) {
+    any |= tooNear<nearCodes>(view, i, candidate);
+  });
+  return any;
+}
+
+template <class Real>
+INLINE void putFoursOf(const Arrays<const Real>& positions, Range particles, Real* fours) {
+#pragma GCC ivdep
+  for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i)
+    putFour(fours, static_cast<std::size_t>(i), at(positions, i));
 }
 
 template <class Real>
@@ -121,18 +160,31 @@ VECTOR_CLONES(void, addAveraged,
               (const View<float>& view, const std::uint32_t* candidates, const Block& block,
                Sums<float>& sums),
               (view, candidates, block, sums), addLanes<false, false>(view, candidates, block, sums))
+VECTOR_CLONES(void, addAveragedByCode,
+              (const View<float>& view, const std::uint32_t* candidates, const Block& block,
+               Sums<float>& sums),
+              (view, candidates, block, sums), addLanes<false, true>(view, candidates, block, sums))
 VECTOR_CLONES(void, addRobust,
               (const View<float>& view, const std::uint32_t* candidates, const Block& block,
                Sums<float>& sums),
               (view, candidates, block, sums), addLanes<true, false>(view, candidates, block, sums))
+VECTOR_CLONES(void, addRobustByCode,
+              (const View<float>& view, const std::uint32_t* candidates, const Block& block,
+               Sums<float>& sums),
+              (view, candidates, block, sums), addLanes<true, true>(view, candidates, block, sums))
 VECTOR_CLONES(bool, anyFloatLaneTooNear,
               (const View<float>& view, const std::uint32_t* candidates, const Block& block),
               (view, candidates, block), anyLaneTooNear<false>(view, candidates, block))
+VECTOR_CLONES(bool, anyFloatLaneTooNearByCode,
+              (const View<float>& view, const std::uint32_t* candidates, const Block& block),
+              (view, candidates, block), anyLaneTooNear<true>(view, candidates, block))
 VECTOR_CLONES(bool, anyFloatLaneMoved,
               (const Arrays<const float>& now, const Arrays<const float>& then, Range particles,
                float largestSquared),
               (now, then, particles, largestSquared), anyLaneMoved(now, then, particles, largestSquared))
 
+VECTOR_CLONES(void, putFloatFours, (const Arrays<const float>& positions, Range particles, float* fours),
+              (positions, particles, fours), putFoursOf(positions, particles, fours))
 VECTOR_CLONES(void, moveAveraged,
               (const View<float>& view, const Block& block, const Sums<float>& sums, float* const* newX,
                float* const* velocity),
@@ -159,20 +211,32 @@ void moveByContacts(bool robust, const View<Real>& view, const Block& block, con
 template <class Real>
 void addContacts(bool robust, bool nearCodes, const View<Real>& view, const std::uint32_t* candidates,
                  const Block& block, Sums<Real>& sums) {
-  if (robust && nearCodes) return addLanes<true, true>(view, candidates, block, sums);
-  if (nearCodes) return addLanes<false, true>(view, candidates, block, sums);
-  if constexpr (std::is_same_v<Real, float>)
-    return robust ? addRobust(view, candidates, block, sums) : addAveraged(view, candidates, block, sums);
-  else
-    return robust ? addLanes<true, false>(view, candidates, block, sums)
-                  : addLanes<false, false>(view, candidates, block, sums);
+  if constexpr (std::is_same_v<Real, float>) {
+    const auto add =
+        nearCodes ? (robust ? addRobustByCode : addAveragedByCode) : (robust ? addRobust : addAveraged);
+    return add(view, candidates, block, sums);
+  } else {
+    const auto add = nearCodes ? (robust ? addLanes<true, true, Real> : addLanes<false, true, Real>)
+                               : (robust ? addLanes<true, false, Real> : addLanes<false, false, Real>);
+    return add(view, candidates, block, sums);
+  }
 }
 
 template <class Real>
 bool anyTooNear(bool nearCodes, const View<Real>& view, const std::uint32_t* candidates, const Block& block) {
-  if (nearCodes) return anyLaneTooNear<true>(view, candidates, block);
-  if constexpr (std::is_same_v<Real, float>) return anyFloatLaneTooNear(view, candidates, block);
-  return anyLaneTooNear<false>(view, candidates, block);
+  if constexpr (std::is_same_v<Real, float>)
+    return nearCodes ? anyFloatLaneTooNearByCode(view, candidates, block)
+                     : anyFloatLaneTooNear(view, candidates, block);
+  return nearCodes ? anyLaneTooNear<true>(view, candidates, block)
+                   : anyLaneTooNear<false>(view, candidates, block);
+}
+
+template <class Real>
+void putFours(const Components<Real>& positions, Range particles, Real* fours) {
+  if constexpr (std::is_same_v<Real, float>)
+    putFloatFours(arraysOf(positions), particles, fours);
+  else
+    putFoursOf(arraysOf(positions), particles, fours);
 }
 
 template <class Real>
@@ -225,6 +289,7 @@ void copyBlock(const Components<Real>& from, Components<Real>& to, const Block& 
   template void moveByContacts(bool, const View<Real>&, const Block&, const Sums<Real>&, Components<Real>&,  \
                                Components<Real>&);                                                           \
   template bool anyTooNear(bool, const View<Real>&, const std::uint32_t*, const Block&);                     \
+  template void putFours(const Components<Real>&, Range, Real*);                                             \
   template bool anyMovedFarther(const Components<Real>&, const Components<Real>&, Range, Real);              \
   template void copyBlock(const Components<Real>&, Components<Real>&, const Block&);
 INSTANTIATE(float)

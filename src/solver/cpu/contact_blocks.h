@@ -39,6 +39,9 @@ void moveByContacts(bool robust, const View<Real>& view, const Block& block, con
 template <class Real>
 [[nodiscard]] bool anyTooNear(bool nearCodes, const View<Real>& view, const std::uint32_t* candidates,
                               const Block& block);
+// The positions of some particles, four numbers each, of which the last means nothing.
+template <class Real>
+void putFours(const Components<Real>& positions, Range particles, Real* fours);
 // Whether some particle is not within sqrt(largestSquared) of where it was.
 template <class Real>
 [[nodiscard]] bool anyMovedFarther(const Components<Real>& now, const Components<Real>& then, Range particles,

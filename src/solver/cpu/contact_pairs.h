@@ -53,6 +53,7 @@ struct View {
   const SelfParams<Real>& params;
   const Real *x0, *y0, *z0;  // at the start of the step
   const Real *x, *y, *z;     // now
+  const Real* fours;         // the same, four numbers a particle
   const Real* inverseMasses;
   const Real* distances;  // of the block's grid, by code
 };
@@ -62,12 +63,18 @@ INLINE Real pairDistance(const View<Real>& view, std::uint32_t candidate) {
   return nearCodes ? view.distances[candidate >> CANDIDATE_BITS] : view.params.distance;
 }
 
+// What a contact asks of a particle; of one that is none, 0.
+template <class Real>
+struct Push {
+  Quanta<Real> x, y, z;
+  std::uint32_t count;
+};
+
 // Particles nearer than their distance go apart, by half of what is missing each (all of it for CS184's rule,
 // and next to a pinned particle); friction takes back what they slid past each other in this step, up to its
 // coefficient times that.
 template <bool robust, bool nearCodes, class Real>
-INLINE void addPair(const View<Real>& view, std::size_t i, std::uint32_t candidate, Sums<Real>& sums,
-                    std::size_t lane) {
+INLINE Push<Real> pushOf(const View<Real>& view, std::size_t i, std::uint32_t candidate) {
   const std::size_t j = candidate & INDEX_MASK;
   const Real distance = pairDistance<nearCodes>(view, candidate);
   const Real distanceSquared = distance * distance;
@@ -94,10 +101,15 @@ INLINE void addPair(const View<Real>& view, std::size_t i, std::uint32_t candida
     move = share * (move - (reachSquared < slipSquared ? part : Real(1)) * slip);
   }
   const Real units = view.params.unitsPerMeter;
-  sums.x[lane] += touches ? toFixedPoint(units * move.x) : 0;
-  sums.y[lane] += touches ? toFixedPoint(units * move.y) : 0;
-  sums.z[lane] += touches ? toFixedPoint(units * move.z) : 0;
-  sums.count[lane] += touches ? 1u : 0u;
+  return {touches ? toFixedPoint(units * move.x) : 0, touches ? toFixedPoint(units * move.y) : 0,
+          touches ? toFixedPoint(units * move.z) : 0, touches ? 1u : 0u};
+}
+template <class Real>
+INLINE void add(Sums<Real>& sums, std::size_t lane, const Push<Real>& push) {
+  sums.x[lane] += push.x;
+  sums.y[lane] += push.y;
+  sums.z[lane] += push.z;
+  sums.count[lane] += push.count;
 }
 
 // Whether a free particle has come nearer to a non-adjacent particle than D in this step.

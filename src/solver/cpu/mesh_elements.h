@@ -27,13 +27,6 @@ INLINE Vec3<Real> placeAt(const Arrays<const Real>& field, std::int32_t i) {
   return {field.x[i], field.y[i], field.z[i]};
 }
 
-// As the k-th vector of four; the last number means nothing, and with a number of its own the store is one
-// that compilers keep in vectors.
-template <class Real>
-INLINE void putFour(Real* vectors, std::size_t k, Vec3<Real> v) {
-  Real* to = vectors + 4 * k;
-  to[0] = v.x, to[1] = v.y, to[2] = v.z, to[3] = v.z;
-}
 // Where arrays of components have what is of element `first`.
 template <class Value, std::size_t size>
 INLINE auto from(std::size_t first, std::array<std::vector<Value>, size>& arrays) {
@@ -79,10 +72,6 @@ INLINE std::array<Real, 6> rootsAt(const std::array<const Real*, 6>& roots, std:
   return {roots[0][k], roots[1][k], roots[2][k], roots[3][k], roots[4][k], roots[5][k]};
 }
 
-template <class Real>
-struct alignas(4 * sizeof(Real)) FourNumbers {
-  Real numbers[4];
-};
 // Room for what the elements of a stretch come to, of a thread.
 template <class Real>
 Real* scratchFor(const MeshStretches<Real>& mesh) {
@@ -116,11 +105,6 @@ INLINE void putPulls(Real* pulls, std::size_t count, std::size_t k, Vec3<Real> a
   putFour(pulls, k, c - b);
   putFour(pulls + 4 * count, k, a - c);
   putFour(pulls + 8 * count, k, b - a);
-}
-
-template <class Real>
-INLINE Four<Real> vectorAt(const Real* vectors, std::size_t k) {
-  return *reinterpret_cast<const Four<Real>*>(vectors + 4 * k);
 }
 
 // The force f on a particle, then that of hinges and that of membranes.

@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstdlib>
+#include <mutex>
 #include <new>
 #include <type_traits>
 #include <utility>
@@ -21,43 +22,13 @@
 namespace clothsim::cpu {
 namespace {
 
-constexpr std::uint8_t WALK = MOST_CANDIDATES + 1;
 constexpr std::uint32_t EXCLUDED = ~0u;
 constexpr std::uint32_t TILES_AT_ONCE = 8;
 
-// --- The hash: x-neighbours share three buckets in a row.
-
-struct Cell {
-  std::int32_t x, y, z;
-};
-
-template <class Real>
-INLINE std::int32_t cellCoordinate(Real x, Real inverseCell) {
-  constexpr Real largest = 131072;  // 2^17
-  Real c = x * inverseCell;
-  c = c < largest ? c : largest;  // NaN, too
-  c = c < -largest ? -largest : c;
-  const auto towardsZero = static_cast<std::int32_t>(c);
-  return towardsZero - (c < static_cast<Real>(towardsZero) ? 1 : 0);  // floor
-}
-
-template <class Real>
-INLINE Cell cellAt(const Components<Real>& p, std::size_t i, Real inverseCell) {
-  return {cellCoordinate(p.x[i], inverseCell), cellCoordinate(p.y[i], inverseCell),
-          cellCoordinate(p.z[i], inverseCell)};
-}
-
-INLINE std::uint32_t bucketOf(Cell cell, std::uint32_t mask) {
-  std::uint32_t h = static_cast<std::uint32_t>(cell.y) * 0x9e3779b1u;
-  h = (h ^ (h >> 15)) + static_cast<std::uint32_t>(cell.z) * 0x85ebca77u;
-  h = (h ^ (h >> 13)) * 0xc2b2ae3du;
-  return ((h ^ (h >> 16)) + static_cast<std::uint32_t>(cell.x)) & mask;
-}
-
 template <class Real>
 View<Real> viewOf(const SelfParams<Real>& params, const CpuState<Real>& before, const CpuState<Real>& after,
-                  const std::vector<Real>& inverseMasses, const std::vector<Real>& distances,
-                  const Block& block) {
+                  const Real* fours, const std::vector<Real>& inverseMasses,
+                  const std::vector<Real>& distances, const Block& block) {
   const Components<Real>&p0 = before.positions, &p = after.positions;
   return {params,
           p0.x.data(),
@@ -66,37 +37,9 @@ View<Real> viewOf(const SelfParams<Real>& params, const CpuState<Real>& before, 
           p.x.data(),
           p.y.data(),
           p.z.data(),
+          fours,
           inverseMasses.data(),
           distances.data() + static_cast<std::size_t>(block.piece) * NEAREST_CODES};
-}
-
-// All entries that may lie in the 27 cells about a cell: `visit(entry, y, z)` is to take those whose cell has
-// this y and z, since a bucket may hold several cells.
-template <class Real, class Visit>
-void visitCells(const SelfParams<Real>& params, const std::vector<std::uint32_t>& bucketStarts, Cell cell,
-                Visit visit) {
-  const auto visitBuckets = [&](std::uint32_t first, std::uint32_t last, std::int32_t y, std::int32_t z) {
-    for (std::uint32_t entry = bucketStarts[first]; entry < bucketStarts[last + 1]; ++entry)
-      visit(entry, y, z);
-  };
-  for (std::int32_t z = cell.z - 1; z <= cell.z + 1; ++z) {
-    for (std::int32_t y = cell.y - 1; y <= cell.y + 1; ++y) {
-      const std::uint32_t left = bucketOf({cell.x - 1, y, z}, params.bucketMask);
-      if (left + 2 <= params.bucketMask) {
-        visitBuckets(left, left + 2, y, z);
-      } else {
-        for (std::uint32_t k = 0; k < 3; ++k)
-          visitBuckets((left + k) & params.bucketMask, (left + k) & params.bucketMask, y, z);
-      }
-    }
-  }
-}
-
-template <class Real>
-bool hasCell(const SelfParams<Real>& params, const Components<Real>& sortedPositions, std::uint32_t entry,
-             std::int32_t y, std::int32_t z) {
-  return cellCoordinate(sortedPositions.y[entry], params.inverseCell) == y &&
-         cellCoordinate(sortedPositions.z[entry], params.inverseCell) == z;
 }
 
 }  // namespace
@@ -121,12 +64,8 @@ void SelfCollision<Real>::configure(const Scene& scene) {
   const std::size_t count = params_.particles;
   tiles_ = TileSearch<Real>(*cloth_);
   hashedPositions_.resize(count);
-  sortedPositions_.resize(count);
   moved_.resize(count);
-  bucketStarts_.resize(static_cast<std::size_t>(params_.bucketMask) + 2);
-  sorted_.resize(count);
-  bucketOf_.resize(count);
-  ranks_.resize(count);
+  fours_.resize(count);
   candidates_.resize(count * MOST_CANDIDATES);
   candidateCounts_.resize(count);
   for (std::uint32_t piece = 0; piece < cloth_->pieces().size(); ++piece) {
@@ -197,6 +136,16 @@ void SelfCollision<Real>::forEachBlock(Work work) {
 }
 
 template <class Real>
+template <class Work>
+void SelfCollision<Real>::forEachRange(Work work) {
+  constexpr std::uint32_t particlesAtOnce = 512;
+  ThreadTeam::shared().forEachRange(
+      0, params_.particles, particlesAtOnce, [&](std::uint32_t begin, std::uint32_t end) {
+        work(Range{static_cast<std::ptrdiff_t>(begin), static_cast<std::ptrdiff_t>(end)});
+      });
+}
+
+template <class Real>
 void SelfCollision<Real>::buildHash(const CpuState<Real>& state) {
   ++counts_.hashBuilds;
   isStale_ = false;
@@ -206,99 +155,75 @@ void SelfCollision<Real>::buildHash(const CpuState<Real>& state) {
 }
 
 template <class Real>
-void SelfCollision<Real>::fillBuckets() {
-  const Components<Real>& positions = hashedPositions_;
-  std::fill(bucketStarts_.begin(), bucketStarts_.end(), 0);
-  forEachBlock([&](const Block& block) {  // histogram: the ranks are in no particular order
-    for (std::uint32_t i = block.begin; i < block.end; ++i) {
-      bucketOf_[i] = bucketOf(cellAt(positions, i, params_.inverseCell), params_.bucketMask);
-      ranks_[i] = std::atomic_ref(bucketStarts_[bucketOf_[i]]).fetch_add(1, std::memory_order_relaxed);
-    }
-  });
-  std::uint32_t start = 0;
-  for (std::uint32_t& bucket : bucketStarts_) start += std::exchange(bucket, start);
-  forEachBlock([&](const Block& block) {
-    for (std::uint32_t i = block.begin; i < block.end; ++i) {
-      const std::uint32_t entry = bucketStarts_[bucketOf_[i]] + ranks_[i];
-      sorted_[entry] = i;
-      sortedPositions_.x[entry] = positions.x[i];
-      sortedPositions_.y[entry] = positions.y[i];
-      sortedPositions_.z[entry] = positions.z[i];
-    }
-  });
-}
-
-template <class Real>
 void SelfCollision<Real>::findCandidates() {
   tiles_.setPositions(hashedPositions_);
   // Neighbours that a cut parts are candidates.
   const Real reach = static_cast<Real>(params_.firstCode) - 1,
              neighbors = cutMasks_.empty() ? 2 * reach * reach : Real(-1);
+  overflow_.clear();
+  std::mutex ofOverflow;
   std::atomic<bool> lacksMemory = false;  // threads must not throw
   ThreadTeam::shared().forEach(0, tiles_.tiles(), TILES_AT_ONCE, [&](std::uint32_t tile) {
     try {
       thread_local std::vector<NearTile> found;
+      thread_local std::vector<Candidate> overflow;
       found.clear();
+      overflow.clear();
       tiles_.find(tile, params_.searchSquared, neighbors, found);
-      setCandidates(tile, found);
+      setCandidates(tile, found, overflow);
+      if (overflow.empty()) return;
+      const std::lock_guard lock(ofOverflow);
+      overflow_.insert(overflow_.end(), overflow.begin(), overflow.end());
     } catch (const std::bad_alloc&) {
       lacksMemory = true;
     }
   });
   if (lacksMemory) throw std::bad_alloc();
-  std::atomic<bool> anyWalks = false;
+  std::ranges::sort(overflow_, {}, [](const Candidate& each) { return std::pair(each.of, each.candidate); });
   forEachBlock([&](Block& block) {
-    const auto kept = [&](std::uint32_t i) {
-      if (candidateCounts_[i] == WALK) anyWalks = true;
-      return candidateCounts_[i] == WALK ? 0u : candidateCounts_[i];
-    };
-    block.slots = 0;
-    for (std::uint32_t i = block.begin; i < block.end; ++i) block.slots = std::max(block.slots, kept(i));
+    const auto first = candidateCounts_.begin() + block.begin, end = candidateCounts_.begin() + block.end;
+    block.slots = *std::max_element(first, end);
     for (std::uint32_t i = block.begin; i < block.end; ++i)
-      for (std::uint32_t slot = kept(i); slot < block.slots; ++slot) candidateAt(slot, i) = i;
+      for (std::uint32_t slot = candidateCounts_[i]; slot < block.slots; ++slot) candidateAt(slot, i) = i;
   });
-  if (anyWalks) fillBuckets();
 }
 
 template <class Real>
-void SelfCollision<Real>::setCandidates(std::uint32_t tile, std::span<const NearTile> found) {
+void SelfCollision<Real>::setCandidates(std::uint32_t tile, std::span<const NearTile> found,
+                                        std::vector<Candidate>& overflow) {
   const std::span<const std::uint32_t> particles = tiles_.particlesOf(tile);
   for (const std::uint32_t i : particles) candidateCounts_[i] = 0;
   for (const NearTile& other : found)
     for (std::uint32_t near = other.near; near != 0; near &= near - 1) {
       const std::uint32_t i = particles[static_cast<std::size_t>(std::countr_zero(near))];
-      if (i == other.particle || candidateCounts_[i] == WALK) continue;
+      if (i == other.particle) continue;
       const std::uint32_t candidate = encode(tiles_.pieceOf(tile), i, other.particle);
       if (candidate == EXCLUDED) continue;
-      if (candidateCounts_[i] < MOST_CANDIDATES) candidateAt(candidateCounts_[i], i) = candidate;
-      ++candidateCounts_[i];  // one too many: WALK
+      if (candidateCounts_[i] < MOST_CANDIDATES)
+        candidateAt(candidateCounts_[i]++, i) = candidate;
+      else
+        overflow.push_back({i, candidate});
     }
 }
 
 template <class Real>
-template <class Visit>
-void SelfCollision<Real>::walk(const Block& block, std::uint32_t i, Visit visit) const {
-  visitCells(params_, bucketStarts_, cellAt(hashedPositions_, i, params_.inverseCell),
-             [&](std::uint32_t entry, std::int32_t y, std::int32_t z) {
-               if (sorted_[entry] == i || !hasCell(params_, sortedPositions_, entry, y, z)) return;
-               const std::uint32_t candidate = encode(block.piece, i, sorted_[entry]);
-               if (candidate != EXCLUDED) visit(candidate);
-             });
+std::span<const typename SelfCollision<Real>::Candidate> SelfCollision<Real>::overflowOf(
+    std::uint32_t begin, std::uint32_t end) const {
+  const auto first = std::ranges::lower_bound(overflow_, begin, {}, &Candidate::of);
+  return {first, std::ranges::lower_bound(first, overflow_.end(), end, {}, &Candidate::of)};
 }
 
 template <class Real>
 void SelfCollision<Real>::resolveContacts(const CpuState<Real>& before, CpuState<Real>& after,
                                           const std::vector<Real>& inverseMasses) {
   forEachBlock([&](const Block& block) {
-    const View<Real> view = viewOf(params_, before, after, inverseMasses, distances_, block);
+    const View<Real> view =
+        viewOf(params_, before, after, fours_.data()->numbers, inverseMasses, distances_, block);
     Sums<Real> sums;
     addContacts(isRobust(), usesNearCodes(), view, candidates_.data(), block, sums);
-    for (std::uint32_t i = block.begin; i < block.end; ++i)
-      if (candidateCounts_[i] == WALK)
-        walk(block, i, [&](std::uint32_t candidate) {
-          isRobust() ? addPair<true, true>(view, i, candidate, sums, i - block.begin)
-                     : addPair<false, true>(view, i, candidate, sums, i - block.begin);
-        });
+    for (const auto& [i, candidate] : overflowOf(block.begin, block.end))
+      add(sums, i - block.begin,
+          isRobust() ? pushOf<true, true>(view, i, candidate) : pushOf<false, true>(view, i, candidate));
     if (std::any_of(sums.count.begin(), sums.count.end(), [](std::uint32_t count) { return count != 0; }))
       moveByContacts(isRobust(), view, block, sums, moved_, after.velocities);
     else
@@ -309,17 +234,15 @@ void SelfCollision<Real>::resolveContacts(const CpuState<Real>& before, CpuState
 
 template <class Real>
 void SelfCollision<Real>::checkHash(const CpuState<Real>& before, const CpuState<Real>& after) {
-  constexpr std::uint32_t particlesAtOnce = 512;
   std::atomic<bool> stale = isStale_, fast = false;
-  ThreadTeam::shared().forEachRange(
-      0, params_.particles, particlesAtOnce, [&](std::uint32_t begin, std::uint32_t end) {
-        const Range particles{static_cast<std::ptrdiff_t>(begin), static_cast<std::ptrdiff_t>(end)};
-        if (!stale && anyMovedFarther(after.positions, hashedPositions_, particles, params_.reuseSquared))
-          stale = true;
-        if (isRobust() && !fast &&
-            anyMovedFarther(after.positions, before.positions, particles, params_.fastSquared))
-          fast = true;
-      });
+  forEachRange([&](Range particles) {
+    putFours(after.positions, particles, fours_.data()->numbers);
+    if (!stale && anyMovedFarther(after.positions, hashedPositions_, particles, params_.reuseSquared))
+      stale = true;
+    if (isRobust() && !fast &&
+        anyMovedFarther(after.positions, before.positions, particles, params_.fastSquared))
+      fast = true;
+  });
   stepsSinceHash_ += 1;
   if (stale && !isStale_) {  // unless the cloth moves as a whole, which brings nothing nearer
     const RigidMap<Real> motion =
@@ -337,15 +260,16 @@ void SelfCollision<Real>::checkHash(const CpuState<Real>& before, const CpuState
 template <class Real>
 void SelfCollision<Real>::checkMotion(const CpuState<Real>& before, const CpuState<Real>& after,
                                       const std::vector<Real>& inverseMasses) {
+  forEachRange([&](Range particles) { putFours(after.positions, particles, fours_.data()->numbers); });
   std::atomic<bool> any = false;
   forEachBlock([&](const Block& block) {
     if (any) return;
-    const View<Real> view = viewOf(params_, before, after, inverseMasses, distances_, block);
-    bool found = anyTooNear(usesNearCodes(), view, candidates_.data(), block);
-    for (std::uint32_t i = block.begin; i < block.end && !found; ++i)
-      if (candidateCounts_[i] == WALK)
-        walk(block, i, [&](std::uint32_t candidate) { found = found || tooNear<true>(view, i, candidate); });
-    if (found) any = true;
+    const View<Real> view =
+        viewOf(params_, before, after, fours_.data()->numbers, inverseMasses, distances_, block);
+    const auto isNear = [&](const Candidate& each) { return tooNear<true>(view, each.of, each.candidate); };
+    if (anyTooNear(usesNearCodes(), view, candidates_.data(), block) ||
+        std::ranges::any_of(overflowOf(block.begin, block.end), isNear))
+      any = true;
   });
   needsClamp_ = any;
   if (any) ++counts_.clampedSteps;
@@ -382,7 +306,8 @@ template <class Real>
 void SelfCollision<Real>::clampMotion(const CpuState<Real>& before, CpuState<Real>& after,
                                       const std::vector<Real>& inverseMasses) {
   forEachBlock([&](const Block& block) {
-    const View<Real> view = viewOf(params_, before, after, inverseMasses, distances_, block);
+    const View<Real> view =
+        viewOf(params_, before, after, fours_.data()->numbers, inverseMasses, distances_, block);
     for (std::uint32_t i = block.begin; i < block.end; ++i) {
       const Vec3<Real> x = load(view.x, view.y, view.z, i), start = load(view.x0, view.y0, view.z0, i);
       moved_.x[i] = x.x;
@@ -391,7 +316,7 @@ void SelfCollision<Real>::clampMotion(const CpuState<Real>& before, CpuState<Rea
       Real kept = 1;
       const auto look = [&](std::uint32_t candidate) { kept = keptMotion<true>(view, i, candidate, kept); };
       for (std::uint32_t slot = 0; slot < block.slots; ++slot) look(candidateAt(slot, i));
-      if (candidateCounts_[i] == WALK) walk(block, i, look);
+      for (const Candidate& more : overflowOf(i, i + 1)) look(more.candidate);
       if (!(kept < Real(1)) || inverseMasses[i] == Real(0)) continue;
       const Vec3<Real> stopped = start + kept * (x - start);
       const Vec3<Real> kick = params_.inverseTimeStep * (stopped - x);
@@ -417,13 +342,11 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> SelfCollision<Real>::candid
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
   for (const Block& block : blocks_) {
     for (std::uint32_t i = block.begin; i < block.end; ++i) {
-      const auto add = [&](std::uint32_t candidate) { pairs.emplace_back(i, candidate & INDEX_MASK); };
-      if (candidateCounts_[i] == WALK)
-        walk(block, i, add);
-      else
-        for (std::uint32_t slot = 0; slot < candidateCounts_[i]; ++slot) add(candidateAt(slot, i));
+      for (std::uint32_t slot = 0; slot < candidateCounts_[i]; ++slot)
+        pairs.emplace_back(i, candidateAt(slot, i) & INDEX_MASK);
     }
   }
+  for (const auto& [i, candidate] : overflow_) pairs.emplace_back(i, candidate & INDEX_MASK);
   return pairs;
 }
 

