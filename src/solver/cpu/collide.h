@@ -49,9 +49,10 @@ struct ContactPlanes {
 // One row of the grid: the planes of particles at `places`. Where several colliders are touched, the last of
 // the scene's counts; what touches nothing keeps its plane. With a margin [m], only of particles that have no
 // plane: that of the first collider whose surface is nearer.
-template <class Real>
-void findPlanes(const PassArguments<Real>& arguments, const Components<Real>& places,
-                ContactPlanes<Real>& planes, int row, Real margin = 0);
+void findPlanes(const PassArguments<float>& arguments, const Components<float>& places,
+                ContactPlanes<float>& planes, int row, float margin = 0);
+void findPlanes(const PassArguments<double>& arguments, const Components<double>& places,
+                ContactPlanes<double>& planes, int row, double margin = 0);
 
 // How a point of the cloth that goes from `start` to `place` in the step meets a collider.
 template <class Real>

@@ -90,8 +90,10 @@ struct ColliderBox {
   INLINE bool isFarFrom(const ColliderParams<Real>& collider, bool moving, Vec3<Real> start, Vec3<Real> x,
                         Real margin) const {
     const auto size = [](Real a) __attribute__((always_inline)) { return a < Real(0) ? -a : a; };
-    const Vec3<Real> place = toOwnFrame(collider, x), p = place - center;
-    const Vec3<Real> moved = x - (moving ? carried(collider, start) : start);
+    const Vec3<Real> place = toOwnFrame(collider, x);
+    const Vec3<Real> p{place.x - center.x, place.y - center.y,
+                       place.z - center.z};  // not as structs: vectors
+    const Vec3<Real> moved = x - selected(moving, carried(collider, start), start);
     const Real beyondX = size(p.x) - halfSize.x, beyondY = size(p.y) - halfSize.y,
                beyondZ = size(p.z) - halfSize.z;
     const Real beyond = larger(larger(beyondX, beyondY), beyondZ);
@@ -102,24 +104,30 @@ struct ColliderBox {
   }
 };
 
-// Calls work(i) for those of the particles that the box does not tell to be far; `places` is where they come.
+// Calls work(particles) for stretches of up to sixteen in which the box does not tell all to be far; `places`
+// is where they come.
 template <class Real, class Work>
 INLINE void forEachNear(const ColliderParams<Real>& of, const Components<Real>& starts,
                         const Components<Real>& places, Range particles, Real margin, Work work) {
-  constexpr std::ptrdiff_t lookedAt = 16;
   const ColliderParams<Real> collider = of;  // which no store to a particle changes
   const ColliderBox<Real> box(collider);
   const bool moving = collider.moving != 0;
   const Arrays<const Real> x = arraysOf(places), x0 = arraysOf(starts);
-  for (std::ptrdiff_t begin = particles.begin; begin < particles.end; begin += lookedAt) {
-    const std::ptrdiff_t end = std::min(begin + lookedAt, particles.end);
-    std::uint32_t near = 0;
+  std::uint32_t near[MESH_ROW];
+  for (std::ptrdiff_t chunk = particles.begin; chunk < particles.end; chunk += MESH_ROW) {
+    const Range all{chunk, std::min(chunk + MESH_ROW, particles.end)};
+    forEachSixteen(
+        all, [&](std::ptrdiff_t first, std::ptrdiff_t last) __attribute__((always_inline)) {
 #pragma GCC ivdep
-    for (std::ptrdiff_t i = begin; i < end; ++i)
-      near |= box.isFarFrom(collider, moving, at(x0, i), at(x, i), margin) ? 0u : 1u;
-    if (near == 0) continue;
-    for (std::ptrdiff_t i = begin; i < end; ++i)
-      if (!box.isFarFrom(collider, moving, at(x0, i), at(x, i), margin)) work(i);
+          for (std::ptrdiff_t i = first; i < last; ++i)
+            near[i - chunk] = box.isFarFrom(collider, moving, at(x0, i), at(x, i), margin) ? 0u : 1u;
+        });
+    for (std::ptrdiff_t begin = chunk; begin < all.end; begin += SIXTEEN) {
+      const Range some{begin, std::min(begin + SIXTEEN, all.end)};
+      std::uint32_t any = 0;
+      for (std::ptrdiff_t i = some.begin; i < some.end; ++i) any |= near[i - chunk];
+      if (any != 0) work(some);
+    }
   }
 }
 
