@@ -10,6 +10,7 @@
 #include "solver/cpu/passes.h"
 #include "solver/cpu/rows.h"
 #include "solver/cpu/shapes.h"
+#include "solver/cpu/vectors.h"
 
 namespace clothsim::cpu {
 
@@ -40,23 +41,8 @@ struct Contact {
   Real depth;          // how far that is along the normal [m]
 };
 
-// Up to sixteen vectors, by component.
-template <class Real>
-struct Lanes {
-  alignas(64) Real x[SIXTEEN], y[SIXTEEN], z[SIXTEEN];
-};
-template <class Real>
-INLINE Vec3<Real> at(const Lanes<Real>& lanes, std::ptrdiff_t lane) {
-  return {lanes.x[lane], lanes.y[lane], lanes.z[lane]};
-}
-template <class Real>
-INLINE void put(Lanes<Real>& lanes, std::ptrdiff_t lane, Vec3<Real> v) {
-  lanes.x[lane] = v.x;
-  lanes.y[lane] = v.y;
-  lanes.z[lane] = v.z;
-}
-// Their contacts. What touches nothing has what it would have if it touched the surface where that is
-// nearest.
+// The contacts of up to sixteen. What touches nothing has what it would have if it touched the surface where
+// that is nearest.
 template <class Real>
 struct Contacts {
   Lanes<Real> outward, normals;

@@ -22,11 +22,6 @@ INLINE auto stretchOf(const PassArguments<Real>& arguments, int row) {
                                   &MeshStretches<Real>::Stretch::firstParticle);
 }
 
-template <class Real>
-INLINE Vec3<Real> placeAt(const Arrays<const Real>& field, std::int32_t i) {
-  return {field.x[i], field.y[i], field.z[i]};
-}
-
 // Where arrays of components have what is of element `first`.
 template <class Value, std::size_t size>
 INLINE auto from(std::size_t first, std::array<std::vector<Value>, size>& arrays) {
@@ -41,30 +36,70 @@ INLINE auto from(std::size_t first, const std::array<std::vector<Value>, size>& 
   return result;
 }
 
-// sum c_j (p_j - p_0) of the hinges from `first` on.
+// What a stretch's vertices have of a field, as vectors of four.
 template <class Real>
-INLINE void bendHinges(const MeshStretches<Real>& mesh, const Arrays<const Real>& p, std::size_t first,
+INLINE void putVertices(const MeshStretches<Real>& mesh, const typename MeshStretches<Real>::Stretch& stretch,
+                        std::uint32_t end, const Arrays<const Real>& field, Real* vertices) {
+  const std::uint32_t *particles = mesh.vertices.data() + stretch.firstVertex,
+                      count = end - stretch.firstVertex;
+#pragma GCC ivdep
+  for (std::uint32_t k = 0; k < count; ++k)
+    putFour(vertices, k, at(field, static_cast<std::ptrdiff_t>(particles[k])));
+}
+
+// sum c_j (p_j - p_0) of the hinges from `first` on, p those of the vertices.
+template <class Real>
+INLINE void bendHinges(const MeshStretches<Real>& mesh, const Real* vertices, std::size_t first,
                        std::size_t count, Real* bent) {
   const auto corners = from(first, mesh.hingeCorners);
   const auto c = from(first, mesh.coefficients);
-#pragma GCC ivdep
+  auto* sums = reinterpret_cast<Four<Real>*>(bent);
   for (std::size_t k = 0; k < count; ++k) {
-    const Vec3<Real> origin = placeAt(p, corners[0][k]);
-    putFour(
-        bent, k,
-        (c[0][k] * (placeAt(p, corners[1][k]) - origin) + c[1][k] * (placeAt(p, corners[2][k]) - origin)) +
-            c[2][k] * (placeAt(p, corners[3][k]) - origin));
+    const Four<Real> origin = vectorAt(vertices, corners[0][k]);
+    sums[k] = (c[0][k] * (vectorAt(vertices, corners[1][k]) - origin) +
+               c[1][k] * (vectorAt(vertices, corners[2][k]) - origin)) +
+              c[2][k] * (vectorAt(vertices, corners[3][k]) - origin);
   }
 }
 
+// Some of the vertices, by component.
+inline constexpr std::size_t AT_ONCE = 64;
+template <class Real>
+struct SomeVertices {
+  alignas(64) Real x[AT_ONCE], y[AT_ONCE], z[AT_ONCE];
+
+  INLINE void gather(const Real* vertices, const std::uint32_t* numbers, std::size_t count) {
+    gatherFours(
+        vertices, static_cast<std::ptrdiff_t>(count),
+        [&](std::ptrdiff_t k) __attribute__((always_inline)) { return std::size_t{numbers[k]}; }, x, y, z);
+  }
+  [[nodiscard]] INLINE Vec3<Real> at(std::size_t k) const { return {x[k], y[k], z[k]}; }
+};
+
 template <class Real>
 using Edges = std::array<Vec3<Real>, 3>;
-using Corners = std::array<const std::int32_t*, 3>;
+// The corners of some membranes.
 template <class Real>
-INLINE Edges<Real> edgesAt(const Corners& corners, std::size_t k, const Arrays<const Real>& field) {
-  const Vec3<Real> a = placeAt(field, corners[0][k]), b = placeAt(field, corners[1][k]),
-                   c = placeAt(field, corners[2][k]);
-  return {c - b, a - c, b - a};
+struct SomeCorners {
+  SomeVertices<Real> of[3];
+
+  [[nodiscard]] INLINE Edges<Real> edgesAt(std::size_t k) const {
+    const Vec3<Real> a = of[0].at(k), b = of[1].at(k), c = of[2].at(k);
+    return {c - b, a - c, b - a};
+  }
+};
+// Calls work(begin, count, corners) for the membranes from `first` on, AT_ONCE at a time: from first + begin
+// on.
+template <class Real, class Work>
+INLINE void forSomeMembranes(const MeshStretches<Real>& mesh, const Real* vertices, std::size_t first,
+                             std::size_t count, Work work) {
+  const auto numbers = from(first, mesh.membraneCorners);
+  SomeCorners<Real> corners;
+  for (std::size_t begin = 0; begin < count; begin += AT_ONCE) {
+    const std::size_t some = std::min(AT_ONCE, count - begin);
+    for (std::size_t k = 0; k < 3; ++k) corners.of[k].gather(vertices, numbers[k] + begin, some);
+    work(begin, some, corners);
+  }
 }
 
 template <class Real>
@@ -80,20 +115,21 @@ Real* scratchFor(const MeshStretches<Real>& mesh) {
   return room.data()->numbers;
 }
 
-// How many elements a stretch has, and where the vectors lie that they come to: `bent`, of each hinge, sum
-// c_j (p_j - p_0); `pulls`, of each membrane, the forces on its corners, those on all first ones before all
-// second ones; `forces`, of each spring.
+// How many elements a stretch has, and where the vectors of its vertices lie, and those that elements come
+// to: `bent`, of each hinge, sum c_j (p_j - p_0); `pulls`, of each membrane, the forces on its corners, those
+// on all first ones before all second ones; `forces`, of each spring.
 template <class Real>
 struct ElementsOfStretch {
   using Stretch = typename MeshStretches<Real>::Stretch;
   std::size_t hinges, membranes, springs;
-  Real *bent, *pulls, *forces;
+  Real *vertices, *bent, *pulls, *forces;
 
   ElementsOfStretch(const Stretch& stretch, const Stretch& next, Real* scratch)
       : hinges(next.firstHinge - stretch.firstHinge),
         membranes(next.firstMembrane - stretch.firstMembrane),
         springs(next.firstSpring - stretch.firstSpring),
-        bent(scratch),
+        vertices(scratch),
+        bent(vertices + 4 * (next.firstVertex - stretch.firstVertex)),
         pulls(bent + 4 * hinges),
         forces(pulls + 12 * membranes) {}
 };
@@ -112,12 +148,9 @@ template <class Real>
 INLINE Four<Real> withElements(const PassArguments<Real>& arguments, const ElementsOfStretch<Real>& elements,
                                std::ptrdiff_t i, Four<Real> f) {
   const MeshStretches<Real>& mesh = arguments.stretches;
-  const auto &begin = arguments.lists.starts[static_cast<std::size_t>(i)],
-             &end = arguments.lists.starts[static_cast<std::size_t>(i) + 1];
-  for (std::uint32_t n = begin.hinges; n < end.hinges; ++n)
-    f = f - mesh.hingesAt[n].coefficient * vectorAt(elements.bent, mesh.hingesAt[n].hinge);
-  for (std::uint32_t n = begin.membranes - mesh.firstForce; n < end.membranes - mesh.firstForce; ++n)
-    f = f + vectorAt(elements.pulls, mesh.forcesAt[n]);
+  const auto particle = static_cast<std::size_t>(i);
+  for (std::uint32_t n = mesh.elementStarts[particle]; n < mesh.elementStarts[particle + 1]; ++n)
+    f = f + mesh.elementsAt[n].coefficient * vectorAt(elements.bent, mesh.elementsAt[n].place);
   return f;
 }
 

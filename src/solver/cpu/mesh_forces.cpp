@@ -44,36 +44,60 @@ Vec3<Real> springsAt(const PassArguments<Real>& arguments, std::uint32_t i) {
   return f;
 }
 
-// The forces of springs from `first` on. Returns whether one is too long for the watchdog.
-template <bool areStiff, class Real>
-INLINE bool pullSprings(const MeshStretches<Real>& mesh, const Arrays<const Real>& x, Real maxStretch,
-                        std::size_t first, std::size_t count, Real* forces) {
-  const std::int32_t *ends = mesh.ends.data() + first, *others = mesh.others.data() + first;
+// Whether a spring, of those from `first` on, is too long for the watchdog.
+template <class Real>
+INLINE bool anyIsTooLong(const MeshStretches<Real>& mesh, const Real* vertices, Real maxStretch,
+                         std::size_t first, std::size_t count) {
+  const std::uint32_t *ends = mesh.watchedEnds.data() + first, *others = mesh.watchedOthers.data() + first;
+  const Real* restLengths = mesh.watchedLengths.data() + first;
+  std::uint32_t any = 0;
+  SomeVertices<Real> from, to;
+  for (std::size_t begin = 0; begin < count; begin += AT_ONCE) {
+    const std::size_t some = std::min(AT_ONCE, count - begin);
+    from.gather(vertices, ends + begin, some);
+    to.gather(vertices, others + begin, some);
+#pragma GCC ivdep
+    for (std::size_t k = 0; k < some; ++k) {
+      const Vec3<Real> d = to.at(k) - from.at(k);
+      const Real longest = maxStretch * restLengths[begin + k];
+      any |= isBeyond(dot(d, d), longest * longest) ? 1u : 0u;
+    }
+  }
+  return any != 0;
+}
+
+// The forces of springs from `first` on.
+template <class Real>
+INLINE void pullSprings(const MeshStretches<Real>& mesh, const Real* vertices, std::size_t first,
+                        std::size_t count, Real* forces) {
+  const std::uint32_t *ends = mesh.ends.data() + first, *others = mesh.others.data() + first;
   const Real *stiffnesses = mesh.stiffnesses.data() + first, *restLengths = mesh.restLengths.data() + first;
-  std::uint32_t overlong = 0;
 #pragma GCC ivdep
   for (std::size_t k = 0; k < count; ++k) {
-    const Vec3<Real> end = placeAt(x, ends[k]), other = placeAt(x, others[k]), d = other - end;
-    const Real longest = maxStretch * restLengths[k];
-    overlong |= isBeyond(dot(d, d), longest * longest) ? 1u : 0u;
-    if constexpr (areStiff) putFour(forces, k, springForce(end, other, stiffnesses[k], restLengths[k]));
+    const Real *end = vertices + 4 * std::size_t{ends[k]}, *other = vertices + 4 * std::size_t{others[k]};
+    putFour(forces, k,
+            springForce(Vec3<Real>{end[0], end[1], end[2]}, Vec3<Real>{other[0], other[1], other[2]},
+                        stiffnesses[k], restLengths[k]));
   }
-  return overlong != 0;
 }
 
 template <class Real>
-INLINE void pullMembranes(const MeshStretches<Real>& mesh, const Arrays<const Real>& x, std::size_t first,
+INLINE void pullMembranes(const MeshStretches<Real>& mesh, const Real* vertices, std::size_t first,
                           std::size_t count, Real* pulls) {
-  const auto corners = from(first, mesh.membraneCorners);
-  const auto rest = from(first, mesh.restSquared);
-  const auto roots = from(first, mesh.roots);
+  forSomeMembranes(
+      mesh, vertices, first, count,
+      [&](std::size_t begin, std::size_t some, const SomeCorners<Real>& corners)
+          __attribute__((always_inline)) {
+            const auto rest = from(first + begin, mesh.restSquared);
+            const auto roots = from(first + begin, mesh.roots);
 #pragma GCC ivdep
-  for (std::size_t k = 0; k < count; ++k) {
-    const Edges<Real> d = edgesAt<Real>(corners, k, x);
-    const OfEdges<Real> t =
-        timesMatrix(rootsAt(roots, k), strainsOf<Real>({rest[0][k], rest[1][k], rest[2][k]}, d));
-    putPulls(pulls, count, k, t[0] * d[0], t[1] * d[1], t[2] * d[2]);
-  }
+            for (std::size_t k = 0; k < some; ++k) {
+              const Edges<Real> d = corners.edgesAt(k);
+              const OfEdges<Real> t =
+                  timesMatrix(rootsAt(roots, k), strainsOf<Real>({rest[0][k], rest[1][k], rest[2][k]}, d));
+              putPulls(pulls, count, begin + k, t[0] * d[0], t[1] * d[1], t[2] * d[2]);
+            }
+          });
 }
 
 template <bool jet, class Real>
@@ -95,17 +119,17 @@ template <class Real>
 INLINE void gather(const PassArguments<Real>& arguments, int row, Real* scratch) {
   const MeshStretches<Real>& mesh = arguments.stretches;
   const auto stretch = stretchOf(arguments, row);
-  const std::uint32_t firstSpring = stretch->firstSpring;
+  const std::uint32_t firstSpring = stretch->firstSpring, firstWatched = stretch->firstWatched;
   const ElementsOfStretch<Real> elements(*stretch, stretch[1], scratch);
-  const Arrays<const Real> x = arraysOf(std::as_const(arguments.before.positions));
-  const Real maxStretch = arguments.step.maxStretch;
-  bendHinges(mesh, x, stretch->firstHinge, elements.hinges, elements.bent);
-  pullMembranes(mesh, x, stretch->firstMembrane, elements.membranes, elements.pulls);
-  const bool overlong = stretch->hasStiffSprings ? pullSprings<true>(mesh, x, maxStretch, firstSpring,
-                                                                     elements.springs, elements.forces)
-                                                 : pullSprings<false>(mesh, x, maxStretch, firstSpring,
-                                                                      elements.springs, elements.forces),
-             oneByOne = overlong || arguments.step.limitStiffness > Real(0);
+  const Real* vertices = elements.vertices;
+  putVertices(mesh, *stretch, stretch[1].firstVertex, arraysOf(std::as_const(arguments.before.positions)),
+              elements.vertices);
+  bendHinges(mesh, vertices, stretch->firstHinge, elements.hinges, elements.bent);
+  pullMembranes(mesh, vertices, stretch->firstMembrane, elements.membranes, elements.pulls);
+  if (stretch->hasStiffSprings) pullSprings(mesh, vertices, firstSpring, elements.springs, elements.forces);
+  const bool tooLong = anyIsTooLong(mesh, vertices, arguments.step.maxStretch, firstWatched,
+                                    stretch[1].firstWatched - firstWatched),
+             oneByOne = tooLong || arguments.step.limitStiffness > Real(0);
   const Range particles = rangeOf(arguments.step, row);
   for (std::ptrdiff_t n = particles.begin; n < particles.end; ++n) {
     const auto i = static_cast<std::uint32_t>(n);

@@ -2,67 +2,130 @@
 
 #include <algorithm>
 #include <map>
+#include <ranges>
 
 #include "solver/cpu/rows.h"
 
 namespace clothsim::cpu {
 namespace {
 
-// What the particles [first, end) of a mesh are corners of.
+// Adds stretch after stretch.
 template <class Real>
-void addStretch(MeshStretches<Real>& result, const MeshLists<Real>& lists, std::uint32_t first,
-                std::uint32_t end) {
-  const auto firstHinge = static_cast<std::uint32_t>(result.coefficients[0].size()),
-             firstMembrane = static_cast<std::uint32_t>(result.restSquared[0].size());
-  const auto firstSpring = lists.springs.begin() + lists.starts[first].springs,
-             endSpring = lists.springs.begin() + lists.starts[end].springs;
-  result.stretches.push_back(
-      {first, firstHinge, firstMembrane, lists.starts[first].springs,
-       std::any_of(firstSpring, endSpring, [](const auto& spring) { return spring.stiffness != Real(0); })});
-  std::map<std::uint32_t, std::uint32_t> own;  // of the stretch, by number
-  for (std::uint32_t n = lists.starts[first].hinges; n < lists.starts[end].hinges; ++n)
-    own[lists.numbers[n] / 4] = 0;
-  for (auto& [number, place] : own) {
-    const auto& hinge = lists.hinges[number];
-    place = static_cast<std::uint32_t>(result.coefficients[0].size()) - firstHinge;
-    for (std::size_t k = 0; k < 4; ++k)
-      result.hingeCorners[k].push_back(static_cast<std::int32_t>(hinge.corners[k]));
-    for (std::size_t k = 0; k < 3; ++k) result.coefficients[k].push_back(hinge.coefficients[k + 1]);
+class StretchBuilder {
+ public:
+  StretchBuilder(const MeshLists<Real>& lists, MeshStretches<Real>& result)
+      : lists_(lists),
+        result_(result),
+        anyIsStiff_(std::ranges::any_of(lists.springs,
+                                        [](const auto& spring) { return spring.stiffness != Real(0); })) {}
+
+  // What the particles [first, end) of a mesh are corners of.
+  void add(std::uint32_t first, std::uint32_t end) {
+    placeOf_.clear();
+    begin(first, end);
+    for (std::uint32_t i = first; i < end; ++i) (void)vertexOf(i);
+    const Places hinges = addHinges(first, end), membranes = addMembranes(first, end);
+    for (std::uint32_t i = first; i < end; ++i) addElementsAt(i, hinges, membranes);
+    addSprings(first, end);
+    const auto& stretch = result_.stretches.back();
+    const std::size_t vertices = result_.vertices.size() - stretch.firstVertex,
+                      springs = lists_.starts[end].springs - stretch.firstSpring,
+                      fours = vertices + hinges.size() + 3 * membranes.size() + springs;
+    result_.mostFours = std::max(result_.mostFours, static_cast<std::uint32_t>(fours));
   }
-  for (std::uint32_t n = lists.starts[first].hinges; n < lists.starts[end].hinges; ++n) {
-    const std::uint32_t number = lists.numbers[n] / 4;
-    result.hingesAt[n] = {own[number], lists.hinges[number].coefficients[lists.numbers[n] % 4]};
+  // Particle `first` begins one; that of no particles ends the last.
+  void begin(std::uint32_t first, std::uint32_t end) {
+    const auto isStiff = [](const auto& spring) { return spring.stiffness != Real(0); };
+    const auto firstSpring = lists_.springs.begin() + lists_.starts[first].springs,
+               endSpring = lists_.springs.begin() + lists_.starts[end].springs;
+    const auto sizeOf = [](const auto& list) { return static_cast<std::uint32_t>(list.size()); };
+    result_.stretches.push_back({first, sizeOf(result_.vertices), sizeOf(result_.coefficients[0]),
+                                 sizeOf(result_.restSquared[0]), lists_.starts[first].springs,
+                                 sizeOf(result_.watchedLengths),
+                                 std::any_of(firstSpring, endSpring, isStiff)});
   }
 
-  own.clear();
-  for (std::uint32_t n = lists.starts[first].membranes; n < lists.starts[end].membranes; ++n)
-    own[lists.numbers[n] / 4] = 0;
-  for (auto& [number, place] : own) {
-    const auto& membrane = lists.membranes[number];
-    place = static_cast<std::uint32_t>(result.restSquared[0].size()) - firstMembrane;
-    for (std::size_t k = 0; k < 3; ++k) {
-      result.membraneCorners[k].push_back(static_cast<std::int32_t>(membrane.corners[k]));
-      result.restSquared[k].push_back(membrane.restSquared[k]);
-    }
-    for (std::size_t k = 0; k < 6; ++k) result.roots[k].push_back(membrane.roots[k]);
+ private:
+  std::uint32_t vertexOf(std::uint32_t particle) {
+    const auto next =
+        static_cast<std::uint32_t>(result_.vertices.size() - result_.stretches.back().firstVertex);
+    const auto [known, isNew] = placeOf_.try_emplace(particle, next);
+    if (isNew) result_.vertices.push_back(particle);
+    return known->second;
   }
-  const auto count = static_cast<std::uint32_t>(own.size());
-  for (std::uint32_t n = lists.starts[first].membranes; n < lists.starts[end].membranes; ++n)
-    result.forcesAt[n - result.firstForce] = lists.numbers[n] % 4 * count + own[lists.numbers[n] / 4];
-}
 
-template <class Real>
-void addSprings(MeshStretches<Real>& result, const MeshLists<Real>& lists) {
-  for (auto* numbers : {&result.ends, &result.others}) numbers->reserve(lists.springs.size());
-  for (auto* values : {&result.stiffnesses, &result.restLengths}) values->reserve(lists.springs.size());
-  for (std::size_t i = 0; i + 1 < lists.starts.size(); ++i)
-    for (std::uint32_t n = lists.starts[i].springs; n < lists.starts[i + 1].springs; ++n) {
-      result.ends.push_back(static_cast<std::int32_t>(i));
-      result.others.push_back(static_cast<std::int32_t>(lists.springs[n].other));
-      result.stiffnesses.push_back(lists.springs[n].stiffness);
-      result.restLengths.push_back(lists.springs[n].restLength);
+  using Places = std::map<std::uint32_t, std::uint32_t>;  // among those of the stretch, by number
+
+  Places addHinges(std::uint32_t first, std::uint32_t end) {
+    Places own;
+    for (std::uint32_t n = lists_.starts[first].hinges; n < lists_.starts[end].hinges; ++n)
+      own[lists_.numbers[n] / 4] = 0;
+    std::uint32_t next = 0;
+    for (auto& [number, place] : own) {
+      const auto& hinge = lists_.hinges[number];
+      place = next++;
+      for (std::size_t k = 0; k < 4; ++k) result_.hingeCorners[k].push_back(vertexOf(hinge.corners[k]));
+      for (std::size_t k = 0; k < 3; ++k) result_.coefficients[k].push_back(hinge.coefficients[k + 1]);
     }
-}
+    return own;
+  }
+
+  Places addMembranes(std::uint32_t first, std::uint32_t end) {
+    Places own;
+    for (std::uint32_t n = lists_.starts[first].membranes; n < lists_.starts[end].membranes; ++n)
+      own[lists_.numbers[n] / 4] = 0;
+    std::uint32_t next = 0;
+    for (auto& [number, place] : own) {
+      const auto& membrane = lists_.membranes[number];
+      place = next++;
+      for (std::size_t k = 0; k < 3; ++k) {
+        result_.membraneCorners[k].push_back(vertexOf(membrane.corners[k]));
+        result_.restSquared[k].push_back(membrane.restSquared[k]);
+      }
+      for (std::size_t k = 0; k < 6; ++k) result_.roots[k].push_back(membrane.roots[k]);
+    }
+    return own;
+  }
+
+  // A hinge pulls by minus its coefficient.
+  void addElementsAt(std::uint32_t i, const Places& hinges, const Places& membranes) {
+    result_.elementStarts[i] = static_cast<std::uint32_t>(result_.elementsAt.size());
+    for (std::uint32_t n = lists_.starts[i].hinges; n < lists_.starts[i + 1].hinges; ++n) {
+      const std::uint32_t number = lists_.numbers[n] / 4;
+      result_.elementsAt.push_back(
+          {hinges.at(number), -lists_.hinges[number].coefficients[lists_.numbers[n] % 4]});
+    }
+    const auto firstForce = static_cast<std::uint32_t>(hinges.size()),
+               count = static_cast<std::uint32_t>(membranes.size());
+    for (std::uint32_t n = lists_.starts[i].membranes; n < lists_.starts[i + 1].membranes; ++n)
+      result_.elementsAt.push_back(
+          {firstForce + lists_.numbers[n] % 4 * count + membranes.at(lists_.numbers[n] / 4), Real(1)});
+    result_.elementStarts[i + 1] = static_cast<std::uint32_t>(result_.elementsAt.size());
+  }
+
+  void addSprings(std::uint32_t first, std::uint32_t end) {
+    for (std::uint32_t i = first; i < end; ++i)
+      for (std::uint32_t n = lists_.starts[i].springs; n < lists_.starts[i + 1].springs; ++n) {
+        const auto& spring = lists_.springs[n];
+        const std::uint32_t own = vertexOf(i), other = vertexOf(spring.other);
+        if (anyIsStiff_) {
+          result_.ends.push_back(own);
+          result_.others.push_back(other);
+          result_.stiffnesses.push_back(spring.stiffness);
+          result_.restLengths.push_back(spring.restLength);
+        }
+        if (spring.other > i) continue;
+        result_.watchedEnds.push_back(own);
+        result_.watchedOthers.push_back(other);
+        result_.watchedLengths.push_back(spring.restLength);
+      }
+  }
+
+  const MeshLists<Real>& lists_;
+  MeshStretches<Real>& result_;
+  bool anyIsStiff_;
+  std::map<std::uint32_t, std::uint32_t> placeOf_;  // of a particle among the vertices of the stretch
+};
 
 }  // namespace
 
@@ -70,29 +133,19 @@ template <class Real>
 MeshStretches<Real> makeMeshStretches(const Cloth& cloth, const MeshLists<Real>& lists) {
   MeshStretches<Real> result;
   if (lists.empty()) return result;
-  result.firstForce = lists.starts.front().membranes;
-  result.hingesAt.resize(lists.starts.front().triangles);
-  result.forcesAt.resize(lists.numbers.size() - result.firstForce);
+  result.elementStarts.resize(cloth.particleCount() + std::size_t{1});
+  StretchBuilder<Real> builder(lists, result);
   for (const Piece& piece : cloth.pieces())
     for (int row = 0; piece.isMesh && row < rowsOf(piece); ++row) {
       const auto first = piece.firstParticle + static_cast<std::uint32_t>(MESH_ROW * row),
                  end = piece.firstParticle + static_cast<std::uint32_t>(piece.columns);
-      addStretch(result, lists, first, std::min(first + MESH_ROW, end));
-      const auto& stretch = result.stretches.back();
-      const std::size_t hinges = result.coefficients[0].size() - stretch.firstHinge,
-                        membranes = result.restSquared[0].size() - stretch.firstMembrane,
-                        springs = lists.starts[std::min(first + MESH_ROW, end)].springs - stretch.firstSpring;
-      result.mostFours =
-          std::max(result.mostFours, static_cast<std::uint32_t>(hinges + 3 * membranes + springs));
+      builder.add(first, std::min(first + MESH_ROW, end));
     }
-  result.stretches.push_back({static_cast<std::uint32_t>(cloth.particleCount()),
-                              static_cast<std::uint32_t>(result.coefficients[0].size()),
-                              static_cast<std::uint32_t>(result.restSquared[0].size()),
-                              static_cast<std::uint32_t>(lists.springs.size()), false});
-  addSprings(result, lists);
+  builder.begin(cloth.particleCount(), cloth.particleCount());
   const auto trim = [](auto& arrays) {
     for (auto& array : arrays) array.shrink_to_fit();
   };
+  result.elementsAt.shrink_to_fit();
   trim(result.hingeCorners), trim(result.coefficients), trim(result.membraneCorners),
       trim(result.restSquared), trim(result.roots);
   return result;

@@ -16,31 +16,37 @@ namespace clothsim::cpu {
 template <class Real>
 struct MeshStretches {
   struct Stretch {
-    std::uint32_t firstParticle, firstHinge, firstMembrane, firstSpring;
+    std::uint32_t firstParticle, firstVertex, firstHinge, firstMembrane, firstSpring, firstWatched;
     bool hasStiffSprings;
   };
   std::vector<Stretch> stretches;  // by ascending particles, and one that ends the last
-  // By component, for loops over many elements. Indices are signed: so they can be gathered by.
-  std::array<std::vector<std::int32_t>, 4> hingeCorners;
+  // The particles that a stretch and its elements have to do with, its own first; what follows knows them by
+  // their place there.
+  std::vector<std::uint32_t> vertices;
+  // By component, for loops over many elements.
+  std::array<std::vector<std::uint32_t>, 4> hingeCorners;
   std::array<std::vector<Real>, 3> coefficients;  // of the corners behind the first
-  std::array<std::vector<std::int32_t>, 3> membraneCorners;
+  std::array<std::vector<std::uint32_t>, 3> membraneCorners;
   std::array<std::vector<Real>, 3> restSquared;
   std::array<std::vector<Real>, 6> roots;
-  // By place in MeshLists::numbers: which hinge of the stretch, and the coefficient of the particle there;
-  // from the first membrane on, which of the forces on corners, those on all first ones before all second
-  // ones.
-  struct HingeAt {
-    std::uint32_t hinge;
+  // What acts on particle i, [elementStarts[i], elementStarts[i + 1]): hinges, then membranes, as places
+  // among the vectors that the stretch's elements come to, those of hinges before those of membranes, where
+  // the forces on all first corners come before those on all second ones; and what they count there.
+  struct ElementAt {
+    std::uint32_t place;
     Real coefficient;
   };
-  std::vector<HingeAt> hingesAt;
-  std::vector<std::uint32_t> forcesAt;
-  std::uint32_t firstForce = 0;  // the place in MeshLists::numbers of the first of these
-  std::uint32_t mostFours = 0;  // vectors that a stretch comes to: one a hinge and a spring, three a membrane
+  std::vector<std::uint32_t> elementStarts;
+  std::vector<ElementAt> elementsAt;
+  // Vectors that a stretch comes to: one a vertex, a hinge and a spring, three a membrane.
+  std::uint32_t mostFours = 0;
 
-  // By place in MeshLists::springs.
-  std::vector<std::int32_t> ends, others;
+  // By place in MeshLists::springs; empty if no spring is stiff.
+  std::vector<std::uint32_t> ends, others;
   std::vector<Real> stiffnesses, restLengths;
+  // Every spring once, at its owner, the end of the larger number: whether it is too long.
+  std::vector<std::uint32_t> watchedEnds, watchedOthers;
+  std::vector<Real> watchedLengths;  // at rest [m]
 
   [[nodiscard]] std::size_t membraneCount() const { return restSquared[0].size(); }
 };

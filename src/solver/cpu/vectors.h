@@ -8,6 +8,7 @@
 #include "core/exact_math.h"
 #include "core/vec.h"
 #include "solver/cpu/arrays.h"
+#include "solver/cpu/rows.h"
 
 #pragma GCC diagnostic ignored "-Wpsabi"  // vectors are passed between inlined functions only
 
@@ -91,6 +92,21 @@ INLINE void gatherFours(const Real* vectors, std::ptrdiff_t count, NumberAt numb
   }
 }
 
+// Up to sixteen vectors, by component.
+template <class Real>
+struct Lanes {
+  alignas(64) Real x[SIXTEEN], y[SIXTEEN], z[SIXTEEN];
+};
+template <class Real>
+INLINE Vec3<Real> at(const Lanes<Real>& lanes, std::ptrdiff_t lane) {
+  return {lanes.x[lane], lanes.y[lane], lanes.z[lane]};
+}
+template <class Real>
+INLINE void put(Lanes<Real>& lanes, std::ptrdiff_t lane, Vec3<Real> v) {
+  lanes.x[lane] = v.x;
+  lanes.y[lane] = v.y;
+  lanes.z[lane] = v.z;
+}
 // canonical() of each.
 template <class Vector>
 INLINE Vector canonicalOf(Vector v) {
