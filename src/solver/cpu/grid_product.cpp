@@ -1,11 +1,13 @@
 #include "solver/cpu/grid_product.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "solver/cpu/arrays.h"
 #include "solver/cpu/force_rows.h"
 #include "solver/cpu/implicit_passes.h"
+#include "solver/cpu/own_springs.h"
 #include "solver/cpu/rows.h"
 
 namespace clothsim::cpu {
@@ -58,16 +60,50 @@ INLINE void multiplyLines(const ImplicitArguments<Real>& arguments, std::size_t 
   forEachSixteen(isAlongRow ? rangeOf(step, row, -1, 1) : rangeOf(step, row), multiply);
 }
 
+// What a particle knows of the product with its springs.
+template <class Real>
+struct Owner {
+  Vec3<Real> x, p;
+};
+template <std::size_t slots, class Real>
+INLINE void multiplyOwnSprings(const ImplicitArguments<Real>& arguments, int row, ForceRows<Real>& rows) {
+  const StepParams<Real>& step = arguments.step.step;
+  ImplicitState<Real>& own = arguments.own;
+  const Range all = rangeOf(step, row);
+  const Arrays<const Real> x = countedFrom(all.begin, arraysOf(std::as_const(own.iterate.positions))),
+                           p = countedFrom(all.begin, arraysOf(std::as_const(own.directions.positions)));
+  std::array<const Real*, slots> across, along;
+  std::array<std::ptrdiff_t, slots> others;
+  for (std::size_t slot = 0; slot < slots; ++slot) {
+    across[slot] = own.elements.across[slot].data() + all.begin;
+    along[slot] = own.elements.along[slot].data() + all.begin;
+    others[slot] = indexOffset(step, springOffsets[slot].columns, springOffsets[slot].rows);
+  }
+  computeOwnSprings<slots>(
+      rows, row, all.end - all.begin,
+      [&](std::ptrdiff_t c) __attribute__((always_inline)) {
+        return Owner<Real>{at(x, c), at(p, c)};
+      },
+      [&](auto slot, std::ptrdiff_t c, int, const Owner<Real>& owner, bool, bool isThere)
+          __attribute__((always_inline)) {
+            const Vec3<Real> d = at(x, c + others[slot]) - owner.x, e = at(p, c + others[slot]) - owner.p;
+            const Vec3<Real> f = across[slot][c] * e + (along[slot][c] * dot(d, e)) * d;
+            return Vec3<Real>{isThere ? f.x : Real(0), isThere ? f.y : Real(0), isThere ? f.z : Real(0)};
+          });
+}
+
 // Of the springs in the first slots; all behind them are empty.
 template <std::size_t slots, class Real>
 INLINE void multiplySprings(const ImplicitArguments<Real>& arguments, int row, const Arrays<Real>& products,
                             std::ptrdiff_t count, ForceRows<Real>& rows) {
-  for (std::uint32_t slot = 0; slot < slots; ++slot)
-    rows.ensure(
-        slot, row, row - springOffsets[slot].rows, [&](int owners) __attribute__((always_inline)) {
-          multiplySprings(arguments, slot, owners, rows);
-        });
-  sumOwnSprings<slots>(rows, row, count);
+  const auto multiply = [&](int owners) __attribute__((always_inline)) {
+    if (canComputeOwnSprings<slots>(arguments.step.step, owners))
+      return multiplyOwnSprings<slots>(arguments, owners, rows);
+    for (std::uint32_t slot = 0; slot < slots; ++slot) multiplySprings(arguments, slot, owners, rows);
+    sumOwnSprings<slots>(rows, owners, count);
+  };
+  constexpr int reach = slots == SPRING_SLOTS ? 2 : 1;  // rows down to the farthest owner
+  rows.ensure(ForceRows<Real>::OWN_SPRINGS, row, row + reach, multiply);
   sumSprings<slots>(rows, row, products, count);
 }
 

@@ -9,6 +9,7 @@
 #include "solver/cpu/arrays.h"
 #include "solver/cpu/force_laws.h"
 #include "solver/cpu/force_rows.h"
+#include "solver/cpu/own_springs.h"
 #include "solver/cpu/passes.h"
 #include "solver/cpu/rows.h"
 #include "solver/cpu/spring_rows.h"
@@ -103,71 +104,40 @@ INLINE OwnSprings<Real, RestLengths> ownSprings(const StepParams<Real>& step, st
           bitsOf(spring.maxLengthSquared)};
 }
 
-// Sixteen particles of a row: the first and the last ones lack springs across the border.
-enum class RowPart { first, inside, last };
-// So that the last ones own all springs to the left.
-constexpr std::ptrdiff_t LEAST_COLUMNS = SIXTEEN + 2;
-
-// The springs that the particles of a row own in the first slots, at once: their chains of operations
-// overlap. For rows from 2 on, of at least LEAST_COLUMNS. Returns whether one is too long.
+// The forces of springs in the first slots. Returns whether one is too long.
 template <bool hasCuts, class Real, class RestLengths, std::size_t... k>
-INLINE bool computeOwnSprings(const PassArguments<Real>& arguments, int row, ForceRows<Real>& rows,
-                              const std::array<RestLengths, sizeof...(k)>& rests, std::index_sequence<k...>) {
+INLINE bool computeOwnForces(const PassArguments<Real>& arguments, int row, ForceRows<Real>& rows,
+                             const std::array<RestLengths, sizeof...(k)>& rests, std::index_sequence<k...>) {
   using Bits = decltype(bitsOf(Real(0)));
   const StepParams<Real>& step = arguments.step;
   const Range particles = rangeOf(step, row);
-  const std::ptrdiff_t start = particles.begin, count = particles.end - start;
   const OwnSprings<Real, RestLengths> springs[]{ownSprings(step, k, row, rests[k])...};
-  const Arrays<Real> forces[]{rows.row(k, row)...}, sums = rows.row(ForceRows<Real>::OWN_SPRINGS, row);
-  const Arrays<const Real> x = countedFrom(start, arraysOf(arguments.before.positions));
-  const std::uint32_t* cutMasks = hasCuts ? arguments.cutMasks + start : nullptr;
+  const Arrays<const Real> x = countedFrom(particles.begin, arraysOf(arguments.before.positions));
+  const std::uint32_t* cutMasks = hasCuts ? arguments.cutMasks + particles.begin : nullptr;
   Bits areTooLong[SIXTEEN]{};
-  const auto compute = [&]<RowPart part>(std::ptrdiff_t begin) __attribute__((always_inline)) {
-#pragma GCC ivdep
-    for (int lane = 0; lane < SIXTEEN; ++lane) {
-      const std::ptrdiff_t c = begin + lane;
-      const Vec3<Real> a = at(x, c);
-      Vec3<Real> sum{};
-      Bits isTooLong = 0;
-      const auto add = [&](auto slot) __attribute__((always_inline)) {
-        constexpr int columns = springOffsets[slot].columns;
+  computeOwnSprings<sizeof...(k)>(
+      rows, row, particles.end - particles.begin,
+      [&](std::ptrdiff_t column) __attribute__((always_inline)) { return at(x, column); },
+      [&](auto slot, std::ptrdiff_t column, int lane, Vec3<Real> a, bool isEnd,
+          bool isThere) __attribute__((always_inline)) {
         const OwnSprings<Real, RestLengths> of = springs[slot];
-        const Vec3<Real> b = at(x, c + of.other);
-        const bool isEnd =
-            (part == RowPart::first && lane == 0) | (part == RowPart::last && lane == SIXTEEN - 1);
-        const Vec3<Real> f = springForce(a, b, isEnd ? of.stiffnessOfEnds : of.stiffness, of.rest[c]);
-        const bool isThere = !(part == RowPart::first && lane + columns < 0) &
-                             !(part == RowPart::last && lane + columns >= SIXTEEN);
-        const bool acts = isThere & !isCutAt<hasCuts>(cutMasks, c, slot);
-        const Real fx = acts ? f.x : Real(0), fy = acts ? f.y : Real(0), fz = acts ? f.z : Real(0);
-        forces[slot].x[c] = fx;
-        forces[slot].y[c] = fy;
-        forces[slot].z[c] = fz;
-        sum = {sum.x + fx, sum.y + fy, sum.z + fz};
-        isTooLong |= (acts & (bitsOf(dot(b - a, b - a)) > of.longest)) ? Bits(1) : Bits(0);
-      };
-      (add(std::integral_constant<std::size_t, k>()), ...);
-      sums.x[c] = sum.x;
-      sums.y[c] = sum.y;
-      sums.z[c] = sum.z;
-      areTooLong[lane] |= isTooLong;
-    }
-  };
-  compute.template operator()<RowPart::first>(0);
-  for (std::ptrdiff_t begin = SIXTEEN; begin < count - SIXTEEN; begin += SIXTEEN)
-    compute.template operator()<RowPart::inside>(std::min(begin, count - SIXTEEN - 1));
-  compute.template operator()<RowPart::last>(count - SIXTEEN);
+        const Vec3<Real> b = at(x, column + of.other);
+        const Vec3<Real> f = springForce(a, b, isEnd ? of.stiffnessOfEnds : of.stiffness, of.rest[column]);
+        const bool acts = isThere & !isCutAt<hasCuts>(cutMasks, column, slot);
+        areTooLong[lane] |= (acts & (bitsOf(dot(b - a, b - a)) > of.longest)) ? Bits(1) : Bits(0);
+        return Vec3<Real>{acts ? f.x : Real(0), acts ? f.y : Real(0), acts ? f.z : Real(0)};
+      });
   return largestOf(areTooLong) != 0;
 }
 template <bool hasCuts, std::size_t slots, class Real>
-INLINE bool computeOwnSprings(const PassArguments<Real>& arguments, int row, ForceRows<Real>& rows) {
+INLINE bool computeOwnForces(const PassArguments<Real>& arguments, int row, ForceRows<Real>& rows) {
   const StepParams<Real>& step = arguments.step;
   const std::ptrdiff_t start = rangeOf(step, row).begin;
   return [&]<std::size_t... k>(std::index_sequence<k...> all) __attribute__((always_inline)) {
     if (step.useRestLengthTable == 0)
-      return computeOwnSprings<hasCuts>(arguments, row, rows,
-                                        std::array{NominalLength<Real>{step.springs[k].restLength}...}, all);
-    return computeOwnSprings<hasCuts>(
+      return computeOwnForces<hasCuts>(arguments, row, rows,
+                                       std::array{NominalLength<Real>{step.springs[k].restLength}...}, all);
+    return computeOwnForces<hasCuts>(
         arguments, row, rows, std::array{arguments.restLengths + k * step.totalParticles + start...}, all);
   }
   (std::make_index_sequence<slots>());
@@ -179,10 +149,9 @@ INLINE void sumSpringForces(const PassArguments<Real>& arguments, int row, const
                             ForceRows<Real>& rows) {
   const StepParams<Real>& step = arguments.step;
   const auto count = static_cast<std::ptrdiff_t>(step.columns);
-  const bool hasAll = step.enabledSlots == (1u << slots) - 1 && count >= LEAST_COLUMNS;
   const auto compute = [&](int owners) __attribute__((always_inline)) {
-    if (hasAll && owners >= 2 && owners < static_cast<int>(step.rows)) {
-      if (computeOwnSprings<hasCuts, slots>(arguments, owners, rows)) noteOverlong(arguments, owners);
+    if (canComputeOwnSprings<slots>(step, owners)) {
+      if (computeOwnForces<hasCuts, slots>(arguments, owners, rows)) noteOverlong(arguments, owners);
       return;
     }
     for (std::uint32_t slot = 0; slot < slots; ++slot) computeSprings<hasCuts>(arguments, slot, owners, rows);
