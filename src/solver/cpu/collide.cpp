@@ -97,8 +97,8 @@ INLINE void collideWith(const PassArguments<Real>& arguments, const ColliderPara
     if constexpr (moving) previous = carried(collider, previous);
     const Contact<Real> contact = contactWith<type, mayEnter, coulomb>(collider, offset, previous, now);
     const Move<Real> by = moveOf<coulomb>(collider, previous, now, contact);
-    const std::uint32_t isFree = inverseMasses[i] != Real(0) ? 1 : 0, isLeft = i >= done ? 1 : 0;
-    move(moved, i, by, furtherOut<type>(collider, by.slid), (contact.touches ? 1u : 0u) & isFree & isLeft);
+    const std::uint32_t isFree = inverseMasses[i] != Real(0) ? 1 : 0, isToDo = i >= done ? 1 : 0;
+    move(moved, i, by, furtherOut<type>(collider, by.slid), (contact.touches ? 1u : 0u) & isFree & isToDo);
   }
 }
 

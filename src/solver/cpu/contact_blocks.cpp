@@ -289,10 +289,11 @@ void copyBlock(const Components<Real>& from, Components<Real>& to, const Block& 
   template void moveByContacts(bool, const View<Real>&, const Block&, const Sums<Real>&, Components<Real>&,  \
                                Components<Real>&);                                                           \
   template bool anyTooNear(bool, const View<Real>&, const std::uint32_t*, const Block&);                     \
-  template void putFours(const Components<Real>&, Range, Real*);                                             \
   template bool anyMovedFarther(const Components<Real>&, const Components<Real>&, Range, Real);              \
   template void copyBlock(const Components<Real>&, Components<Real>&, const Block&);
 INSTANTIATE(float)
 INSTANTIATE(double)
+template void putFours(const Components<float>&, Range, float*);
+template void putFours(const Components<double>&, Range, double*);
 
 }  // namespace clothsim::cpu
