@@ -79,7 +79,7 @@ INLINE Vec3<Real> furtherOut(const ColliderParams<Real>& collider, Vec3<Real> x)
   const Real inverseDistance = inverseSquareRoot(distanceSquared);
   const Real depth = collider.radius - distanceSquared * inverseDistance;
   const Vec3<Real> normal = inverseDistance * d;
-  return select(distanceSquared < collider.radiusSquared, depth * normal, Vec3<Real>{});
+  return selected(distanceSquared < collider.radiusSquared, depth * normal, Vec3<Real>{});
 }
 
 // Particles before `done` are left alone.

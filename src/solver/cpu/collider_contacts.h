@@ -14,11 +14,6 @@
 
 namespace clothsim::cpu {
 
-template <class Real>
-INLINE Vec3<Real> select(bool which, Vec3<Real> a, Vec3<Real> b) {
-  return {which ? a.x : b.x, which ? a.y : b.y, which ? a.z : b.z};
-}
-
 // The first where `which` is 1, the second where it is 0, by their bits: a choice by ?: of what lies in
 // arrays would keep a loop from being one of vectors.
 template <class Real>
@@ -98,9 +93,9 @@ INLINE Contact<Real> sphereContact(const ColliderParams<Real>& sphere, Vec3<Real
   const bool otherSide = sweeps & inside & (facing < sameSide);
   const bool entered = passed | otherSide;
 
-  const Vec3<Real> normal = select(entered, entryNormal, inverseDistance * d);
+  const Vec3<Real> normal = selected(entered, entryNormal, inverseDistance * d);
   const Real depth = entered ? sphere.radius - facing : sphere.radius - distance;
-  const Vec3<Real> outward = select(entered, toEntry, depth * normal);
+  const Vec3<Real> outward = selected(entered, toEntry, depth * normal);
   const bool touches = inside | passed;
   return {touches, outward, normal, depth};
 }
@@ -161,7 +156,7 @@ INLINE void setWays(const ColliderParams<Real>& of, const float* distances, Ways
 #pragma GCC ivdep
   for (std::ptrdiff_t lane = 0; lane < count; ++lane) {
     const Vec3<Real> start = startAt(lane), moved = carried(collider, start);
-    put(ways.previous, lane, select(moving, moved, start));
+    put(ways.previous, lane, selected(moving, moved, start));
     put(ways.places, lane, placeAt(lane));
   }
   if (collider.type == COLLIDER_MESH && collider.way != 0) deform(collider, count, ways.previous, distances);
