@@ -14,8 +14,8 @@
 
 namespace clothsim::cpu {
 
-// The first where `which` is 1, the second where it is 0, by their bits: a choice by ?: of what lies in
-// arrays would keep a loop from being one of vectors.
+// The first where `which` is 1, the second where it is 0, by their bits: a loop that chooses by ?: between
+// elements of arrays is not vectorized.
 template <class Real>
 INLINE Real chosen(std::uint32_t which, Real first, Real second) {
   using Bits = decltype(bitsOf(Real(0)));
@@ -162,6 +162,59 @@ INLINE void setWays(const ColliderParams<Real>& of, const float* distances, Ways
   if (collider.type == COLLIDER_MESH && collider.way != 0) deform(collider, count, ways.previous, distances);
 }
 
+// Where ways enter a shape.
+template <class Real>
+struct Entries {
+  Lanes<Real> places;  // in the frame of the shape
+  NearestPlaces<Real> nearest;
+  Real parts[SIXTEEN], inverseWays[SIXTEEN];  // how much of the way that is; 1 / the length of the way
+};
+// Of ways from `starts` to `ends` in the frame of the shape that may touch it. Sphere tracing (Hart, 1996):
+// going on by the distance never oversteps the surface. From inside, the entry is taken to be the nearest
+// point of the surface.
+template <std::ptrdiff_t count, class Real>
+INLINE void findEntries(const ColliderParams<Real>& shape, const Lanes<Real>& starts, const Lanes<Real>& ends,
+                        const std::uint32_t (&mayTouch)[SIXTEEN], const float* distances,
+                        Entries<Real>& entries) {
+  NearestPlaces<Real>& nearest = entries.nearest;
+  findNearest(shape, count, starts, distances, nearest);
+  entries.places = starts;
+  std::uint32_t goesOn[SIXTEEN]{};
+#pragma GCC ivdep
+  for (std::ptrdiff_t lane = 0; lane < count; ++lane) {
+    const Vec3<Real> way = at(ends, lane) - at(starts, lane);
+    entries.inverseWays[lane] = inverseSquareRoot(dot(way, way));
+    entries.parts[lane] = Real(0);
+    goesOn[lane] = Real(0) < nearest.distances[lane] ? mayTouch[lane] : 0;
+  }
+  for (int i = 0; i < SWEEP_STEPS && largestOf(goesOn) != 0; ++i) {
+    Lanes<Real> next;
+    Real nextParts[SIXTEEN];
+#pragma GCC ivdep
+    for (std::ptrdiff_t lane = 0; lane < count; ++lane) {
+      const Vec3<Real> way = at(ends, lane) - at(starts, lane);
+      nextParts[lane] = entries.parts[lane] + nearest.distances[lane] * entries.inverseWays[lane];
+      put(next, lane, at(starts, lane) + nextParts[lane] * way);
+    }
+    NearestPlaces<Real> there;
+    findNearest(shape, count, next, distances, there);
+#pragma GCC ivdep
+    for (std::ptrdiff_t lane = 0; lane < count; ++lane) {
+      const std::uint32_t goes = goesOn[lane];
+      entries.parts[lane] = chosen(goes, nextParts[lane], entries.parts[lane]);
+      nearest.distances[lane] = chosen(goes, there.distances[lane], nearest.distances[lane]);
+      put(entries.places, lane, chosen(goes, at(next, lane), at(entries.places, lane)));
+      put(nearest.normals, lane, chosen(goes, at(there.normals, lane), at(nearest.normals, lane)));
+    }
+#pragma GCC ivdep
+    for (std::ptrdiff_t lane = 0; lane < count; ++lane) {
+      const std::uint32_t isOutside = Real(0) < nearest.distances[lane] ? 1 : 0,
+                          isOnWay = entries.parts[lane] < Real(1) ? 1 : 0;
+      goesOn[lane] = goesOn[lane] & isOutside & isOnWay;
+    }
+  }
+}
+
 // A shape known by its signed distance. A particle inside goes to the nearest point of the surface, provided
 // that this is on the side where it came in: the normals there and at the entry are less than 60 degrees
 // apart. Otherwise it goes back to the tangent plane at the entry. A particle that is outside on another
@@ -172,7 +225,8 @@ INLINE void findShapeContacts(const ColliderParams<Real>& of, const Ways<Real>& 
                               Contacts<Real>& contacts) {
   const ColliderParams<Real> shape = of;  // which no store changes
   Lanes<Real> starts, ends;               // in the frame of the shape
-  NearestPlaces<Real> end, entry;
+  NearestPlaces<Real> end;
+  Entries<Real> found;
 #pragma GCC ivdep
   for (std::ptrdiff_t lane = 0; lane < count; ++lane) {
     put(starts, lane, toOwnFrame(shape, at(ways.previous, lane)));
@@ -192,60 +246,22 @@ INLINE void findShapeContacts(const ColliderParams<Real>& of, const Ways<Real>& 
   }
   if (largestOf(mayTouch) == 0) return;
 
-  // Sphere tracing (Hart, 1996): going on by the distance never oversteps the surface. From inside, the entry
-  // is taken to be the nearest point of the surface.
-  findNearest(shape, count, starts, distances, entry);
-  Lanes<Real> entries = starts;
-  Real parts[SIXTEEN], inverseWays[SIXTEEN];
-  std::uint32_t goesOn[SIXTEEN]{};
-#pragma GCC ivdep
-  for (std::ptrdiff_t lane = 0; lane < count; ++lane) {
-    const Vec3<Real> way = at(ends, lane) - at(starts, lane);
-    inverseWays[lane] = inverseSquareRoot(dot(way, way));
-    parts[lane] = Real(0);
-    goesOn[lane] = Real(0) < entry.distances[lane] ? mayTouch[lane] : 0;
-  }
-  for (int i = 0; i < SWEEP_STEPS && largestOf(goesOn) != 0; ++i) {
-    Lanes<Real> next;
-    Real nextParts[SIXTEEN];
-#pragma GCC ivdep
-    for (std::ptrdiff_t lane = 0; lane < count; ++lane) {
-      const Vec3<Real> way = at(ends, lane) - at(starts, lane);
-      nextParts[lane] = parts[lane] + entry.distances[lane] * inverseWays[lane];
-      put(next, lane, at(starts, lane) + nextParts[lane] * way);
-    }
-    NearestPlaces<Real> there;
-    findNearest(shape, count, next, distances, there);
-#pragma GCC ivdep
-    for (std::ptrdiff_t lane = 0; lane < count; ++lane) {
-      const std::uint32_t goes = goesOn[lane];
-      parts[lane] = chosen(goes, nextParts[lane], parts[lane]);
-      entry.distances[lane] = chosen(goes, there.distances[lane], entry.distances[lane]);
-      put(entries, lane, chosen(goes, at(next, lane), at(entries, lane)));
-      put(entry.normals, lane, chosen(goes, at(there.normals, lane), at(entry.normals, lane)));
-    }
-#pragma GCC ivdep
-    for (std::ptrdiff_t lane = 0; lane < count; ++lane) {
-      const std::uint32_t isOutside = Real(0) < entry.distances[lane] ? 1 : 0,
-                          isOnWay = parts[lane] < Real(1) ? 1 : 0;
-      goesOn[lane] = goesOn[lane] & isOutside & isOnWay;
-    }
-  }
-
-  // What is so is told apart in a loop of its own: a loop that also acts by it would be no vectors.
+  findEntries<count>(shape, starts, ends, mayTouch, distances, found);
+  // Flags are set in a loop of their own: one that sets them and acts by them is not vectorized.
   Lanes<Real> backs;  // to the entries, on the surface
   Real lifts[SIXTEEN];
   std::uint32_t isOnOtherSide[SIXTEEN], hasPassed[SIXTEEN];
 #pragma GCC ivdep
   for (std::ptrdiff_t lane = 0; lane < count; ++lane) {
-    const Vec3<Real> way = at(ends, lane) - at(starts, lane), entryNormal = at(entry.normals, lane);
-    const Vec3<Real> back = (at(entries, lane) - entry.distances[lane] * entryNormal) - at(ends, lane);
+    const Vec3<Real> way = at(ends, lane) - at(starts, lane), entryNormal = at(found.nearest.normals, lane);
+    const Vec3<Real> back =
+        (at(found.places, lane) - found.nearest.distances[lane] * entryNormal) - at(ends, lane);
     const Real lift = dot(back, entryNormal);
     const Real facing = dot(at(end.normals, lane), entryNormal);
     const Real approach = -dot(way, entryNormal);
-    const Real steep = Real(0.25) * (dot(way, way) * inverseWays[lane]);
+    const Real steep = Real(0.25) * (dot(way, way) * found.inverseWays[lane]);
     const bool otherSide = !(Real(0.5) < facing) & (Real(0) < approach) & (Real(0) < lift);
-    const bool entered = (parts[lane] < Real(1)) & ((facing < Real(-0.5)) | (steep < approach));
+    const bool entered = (found.parts[lane] < Real(1)) & ((facing < Real(-0.5)) | (steep < approach));
     const std::uint32_t isOutside = end.distances[lane] < Real(0) ? 0 : 1;
     put(backs, lane, back);
     lifts[lane] = lift;
@@ -256,7 +272,7 @@ INLINE void findShapeContacts(const ColliderParams<Real>& of, const Ways<Real>& 
 #pragma GCC ivdep
   for (std::ptrdiff_t lane = 0; lane < count; ++lane) {
     const std::uint32_t otherSide = isOnOtherSide[lane], touches = contacts.touch[lane];
-    const Vec3<Real> normal = chosen(otherSide, at(entry.normals, lane), at(end.normals, lane));
+    const Vec3<Real> normal = chosen(otherSide, at(found.nearest.normals, lane), at(end.normals, lane));
     const Real depth = chosen(otherSide, lifts[lane], -end.distances[lane]);
     const Vec3<Real> offset = chosen(hasPassed[lane], at(backs, lane), depth * normal);
     put(contacts.outward, lane, chosen(touches, toWorld(shape, offset), at(contacts.outward, lane)));

@@ -91,8 +91,8 @@ struct ColliderBox {
                         Real margin) const {
     const auto size = [](Real a) __attribute__((always_inline)) { return a < Real(0) ? -a : a; };
     const Vec3<Real> place = toOwnFrame(collider, x);
-    const Vec3<Real> p{place.x - center.x, place.y - center.y,
-                       place.z - center.z};  // not as structs: vectors
+    // By component: a copy of a struct that lies in memory keeps the loop scalar.
+    const Vec3<Real> p{place.x - center.x, place.y - center.y, place.z - center.z};
     const Vec3<Real> moved = x - selected(moving, carried(collider, start), start);
     const Real beyondX = size(p.x) - halfSize.x, beyondY = size(p.y) - halfSize.y,
                beyondZ = size(p.z) - halfSize.z;

@@ -16,8 +16,8 @@ INLINE Range rangeOf(const Block& block) {
 }
 
 // Of each particle of a block the slots with candidates that are nearer than `factor` times their distance: a
-// bit each. Where candidates are is gathered of all slots first: numbers that were just written in fours
-// cannot be read in sixteens at once.
+// bit each. The places of all slots' candidates are gathered first: a processor waits when it reads sixteen
+// numbers at once that it has just written four by four.
 template <bool nearCodes, class Real>
 INLINE void findNear(const View<Real>& view, const std::uint32_t* candidates, const Block& block, Real factor,
                      std::uint32_t (&near)[BLOCK]) {
@@ -53,8 +53,8 @@ INLINE void findNear(const View<Real>& view, const std::uint32_t* candidates, co
 }
 // visit(particle, candidate) for those that findNear() found.
 template <class Real, class Visit>
-INLINE void forEachNear(const View<Real>& view, const std::uint32_t* candidates, const Block& block,
-                        const std::uint32_t (&near)[BLOCK], Visit visit) {
+INLINE void forEachFound(const View<Real>& view, const std::uint32_t* candidates, const Block& block,
+                         const std::uint32_t (&near)[BLOCK], Visit visit) {
   for (std::uint32_t i = block.begin; i < block.end; ++i)
     for (std::uint32_t slots = near[i - block.begin]; slots != 0; slots &= slots - 1)
       visit(i, candidates[static_cast<std::size_t>(std::countr_zero(slots)) * view.params.particles + i]);
@@ -69,7 +69,7 @@ INLINE void addLanes(const View<Real>& view, const std::uint32_t* candidates, co
   if (largestOf(near) == 0) return;
   std::uint32_t particles[BLOCK * MOST_CANDIDATES], others[BLOCK * MOST_CANDIDATES];
   std::uint32_t count = 0;
-  forEachNear(view, candidates, block, near, [&](std::uint32_t i, std::uint32_t candidate) {
+  forEachFound(view, candidates, block, near, [&](std::uint32_t i, std::uint32_t candidate) {
     particles[count] = i;
     others[count++] = candidate;
   });
@@ -128,7 +128,7 @@ INLINE bool anyLaneTooNear(const View<Real>& view, const std::uint32_t* candidat
   findNear<nearCodes>(view, candidates, block, view.params.clampFactor, near);
   if (largestOf(near) == 0) return false;
   bool any = false;
-  forEachNear(view, candidates, block, near, [&](std::uint32_t i, std::uint32_t candidate) {
+  forEachFound(view, candidates, block, near, [&](std::uint32_t i, std::uint32_t candidate) {
     any |= tooNear<nearCodes>(view, i, candidate);
   });
   return any;

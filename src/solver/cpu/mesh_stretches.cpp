@@ -56,14 +56,19 @@ class StretchBuilder {
 
   using Places = std::map<std::uint32_t, std::uint32_t>;  // among those of the stretch, by number
 
-  Places addHinges(std::uint32_t first, std::uint32_t end) {
-    Places own;
-    for (std::uint32_t n = lists_.starts[first].hinges; n < lists_.starts[end].hinges; ++n)
-      own[lists_.numbers[n] / 4] = 0;
+  // Of the elements whose corners are the entries [first, end) of MeshLists::numbers.
+  Places placesOf(std::uint32_t first, std::uint32_t end) const {
+    Places places;
+    for (std::uint32_t n = first; n < end; ++n) places[lists_.numbers[n] / 4] = 0;
     std::uint32_t next = 0;
-    for (auto& [number, place] : own) {
+    for (auto& [number, place] : places) place = next++;
+    return places;
+  }
+
+  Places addHinges(std::uint32_t first, std::uint32_t end) {
+    Places own = placesOf(lists_.starts[first].hinges, lists_.starts[end].hinges);
+    for (const auto& [number, place] : own) {
       const auto& hinge = lists_.hinges[number];
-      place = next++;
       for (std::size_t k = 0; k < 4; ++k) result_.hingeCorners[k].push_back(vertexOf(hinge.corners[k]));
       for (std::size_t k = 0; k < 3; ++k) result_.coefficients[k].push_back(hinge.coefficients[k + 1]);
     }
@@ -71,13 +76,9 @@ class StretchBuilder {
   }
 
   Places addMembranes(std::uint32_t first, std::uint32_t end) {
-    Places own;
-    for (std::uint32_t n = lists_.starts[first].membranes; n < lists_.starts[end].membranes; ++n)
-      own[lists_.numbers[n] / 4] = 0;
-    std::uint32_t next = 0;
-    for (auto& [number, place] : own) {
+    Places own = placesOf(lists_.starts[first].membranes, lists_.starts[end].membranes);
+    for (const auto& [number, place] : own) {
       const auto& membrane = lists_.membranes[number];
-      place = next++;
       for (std::size_t k = 0; k < 3; ++k) {
         result_.membraneCorners[k].push_back(vertexOf(membrane.corners[k]));
         result_.restSquared[k].push_back(membrane.restSquared[k]);

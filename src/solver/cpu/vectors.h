@@ -51,8 +51,8 @@ INLINE Vector crossOf(Vector a, Vector b) {
          __builtin_shufflevector(a, a, 2, 0, 1, 3) * __builtin_shufflevector(b, b, 1, 2, 0, 3);
 }
 
-// As the numbers that lie one behind the other: the k-th vector of four. The last of four means nothing when
-// it is written; with a number of its own the store is one that compilers keep in vectors.
+// Vectors of four as numbers that lie one behind the other. putFour() writes the last number of three twice:
+// a store of four variables stays one of a vector, with a constant it does not.
 template <class Real>
 struct alignas(4 * sizeof(Real)) FourNumbers {
   Real numbers[4];
@@ -66,8 +66,8 @@ INLINE void putFour(Real* vectors, std::size_t k, Vec3<Real> v) {
   Real* to = vectors + 4 * k;
   to[0] = v.x, to[1] = v.y, to[2] = v.z, to[3] = v.z;
 }
-// The k-th vectors of four, k of `numbers`, by component. It takes a third of the time that it takes to
-// gather the numbers one by one.
+// Of lane k, the first three numbers of vector numberAt(k), by component: loaded as vectors and then sorted,
+// which takes fewer instructions than loading them one by one.
 template <class Real, class NumberAt>
 INLINE void gatherFours(const Real* vectors, std::ptrdiff_t count, NumberAt numberAt, Real* x, Real* y,
                         Real* z) {
