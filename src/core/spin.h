@@ -1,25 +1,31 @@
 // Waiting for another thread without sleep, for as long as that may be worth it.
 #pragma once
 
+#include <chrono>
 #include <thread>
 
 namespace clothsim {
 
-// How often a thread looks before it gives up: some 20 to 50 us, longer than the pauses between the passes of
-// a step.
-inline constexpr int SPIN_LOOKS = 1000;
+// Longer than the pauses between the passes of a step, about as long as it takes to wake a thread up.
+inline constexpr std::chrono::microseconds LONGEST_SPIN{60};
 
 // Returns whether done() came to be true.
 template <class Done>
 bool spinUntil(Done done) {
-  for (int look = 0; look < SPIN_LOOKS; ++look) {
-    if (done()) return true;
+  constexpr int looksByTheClock =
+      64;  // how long a look takes is different by a factor of ten between processors
+  if (done()) return true;
+  const auto end = std::chrono::steady_clock::now() + LONGEST_SPIN;
+  do {
+    for (int look = 0; look < looksByTheClock; ++look) {
+      if (done()) return true;
 #if defined(__x86_64__) || defined(__i386__)
-    __builtin_ia32_pause();
+      __builtin_ia32_pause();
 #else
-    std::this_thread::yield();
+      std::this_thread::yield();
 #endif
-  }
+    }
+  } while (std::chrono::steady_clock::now() < end);
   return false;
 }
 

@@ -1,7 +1,6 @@
 #include "solver/cpu/row_passes.h"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cassert>
 #include <new>
@@ -18,8 +17,7 @@ namespace {
 constexpr std::uint32_t LEAST_ROWS_AT_ONCE = 8;
 // Less than that is not worth a thread; several cloths of less than that run side by side.
 constexpr int LEAST_PARTICLES = 512, MOST_SIDE_BY_SIDE = 2048;
-// So that a thread which does not get its core holds up less.
-constexpr int BANDS_A_THREAD = 2;
+constexpr int LEAST_BAND = 4;  // rows; forces of two more are computed for each
 // Of a cloth; plans are few: those of a step, and of what happens between steps.
 constexpr std::size_t MOST_PLANS = 16;
 
@@ -112,7 +110,6 @@ auto RowPasses<Real>::planOf(std::span<const PassCall> passes, std::size_t piece
   plan.wave = makeWave(passes, limitColors_[piece]);
   for (const WavePass& pass : plan.wave.passes)
     plan.works.push_back(pass.color != nullptr ? nullptr : rowPassOf(pass.call.pass));
-  plan.pipeline.emplace(plan.wave, cloth_->pieces()[piece].rows);
   plan.passes.assign(passes.begin(), passes.end());  // last, so that none is known half made
   return plan;
 }
@@ -147,7 +144,7 @@ bool RowPasses<Real>::runWaves(std::span<const PassCall> passes,
   for (std::size_t piece = 0; piece < count; ++piece) waves_.push_back(&planOf(passes, piece));
   const std::uint32_t atOnce = std::max(1u, ROW_PARTICLES_AT_ONCE * count / particles);
   ThreadTeam::shared().forEach(0, count, atOnce, [&](std::uint32_t piece) {
-    if (!runWave(*waves_[piece], 1, pieces[piece])) lacksMemory = true;
+    if (!runAlone(*waves_[piece], pieces[piece])) lacksMemory = true;
   });
   if (lacksMemory) throw std::bad_alloc();
   return true;
@@ -159,17 +156,8 @@ void RowPasses<Real>::runOn(std::size_t piece, std::span<const PassCall> passes,
   const Piece& lattice = cloth_->pieces()[piece];
   if (sweepLength(passes) == passes.size() || lattice.isMesh) return runOneByOne(piece, passes, pieces);
   Plan& plan = planOf(passes, piece);
-  const int threads = threadsFor(lattice), pipelined = std::min(threads, plan.pipeline->mostThreads());
-  const int bands = std::min(BANDS_A_THREAD * threads, lattice.rows / plan.wave.leastBand());
-  bool isDone = true;
-  if (threads == 1)
-    isDone = runWave(plan, 1, pieces[piece]);
-  else if (bands > pipelined && 2 * bands >= threads)  // few bands: seams, of one thread each, would be much
-    isDone = runWave(plan, bands, pieces[piece]);
-  else if (2 * pipelined >= threads)
-    isDone = runPipeline(plan, pipelined, pieces[piece]);
-  else
-    runOneByOne(piece, passes, pieces);
+  const int bands = std::min(threadsFor(lattice), lattice.rows / LEAST_BAND);
+  const bool isDone = bands > 1 ? runInBands(plan, bands, pieces[piece]) : runAlone(plan, pieces[piece]);
   if (!isDone) throw std::bad_alloc();
 }
 
@@ -221,38 +209,26 @@ void RowPasses<Real>::Plan::run(std::size_t k, const ImplicitArguments<Real>& ar
 }
 
 template <class Real>
-bool RowPasses<Real>::runWave(const Plan& plan, int bands, const ImplicitArguments<Real>& arguments) {
+bool RowPasses<Real>::runAlone(const Plan& plan, const ImplicitArguments<Real>& arguments) const {
   const Piece& lattice = cloth_->pieces()[plan.piece];
-  const auto firstRow = [&](std::uint32_t band) {
-    return static_cast<int>(std::int64_t{lattice.rows} * band / bands);
-  };
-  std::atomic<bool> lacksMemory = false;
-  std::array<std::atomic<bool>, BANDS_A_THREAD * ThreadTeam::MOST_THREADS> isOneSideDone{};  // by seam
-  const auto runBands = [&](std::uint32_t begin, std::uint32_t end) {
-    thread_local ForceRows<Real> forceRows;
-    if (!beginRows(forceRows, lattice)) lacksMemory = true;
-    if (lacksMemory) return;
-    const auto work = [&](std::size_t k, int row) { plan.run(k, arguments, row, forceRows); };
-    runBand(plan.wave, firstRow(begin), firstRow(end), lattice.rows, work);
-    for (const std::uint32_t seam : {begin, end}) {
-      const bool isInside = seam > 0 && seam < static_cast<std::uint32_t>(bands);
-      if (!isInside || !isOneSideDone[seam].exchange(true, std::memory_order_acq_rel)) continue;
-      runSeam(plan.wave, firstRow(seam), work);
-    }
-  };
-  ThreadTeam::shared().forEachRange(0, static_cast<std::uint32_t>(bands), 1, runBands);
-  return !lacksMemory;
+  thread_local ForceRows<Real> forces;
+  if (!forces.begin(lattice.columns)) return false;
+  cpu::runWave(plan.wave, lattice.rows, [&](std::size_t k, int row) { plan.run(k, arguments, row, forces); });
+  return true;
 }
 
 template <class Real>
-bool RowPasses<Real>::runPipeline(Plan& plan, int threads, const ImplicitArguments<Real>& arguments) {
+bool RowPasses<Real>::runInBands(Plan& plan, int count, const ImplicitArguments<Real>& arguments) const {
+  const Piece& lattice = cloth_->pieces()[plan.piece];
+  const auto bands = static_cast<std::uint32_t>(count);
+  if (!plan.bands || plan.bands->count() != bands) plan.bands.emplace(plan.wave, lattice.rows, count);
   std::atomic<bool> lacksMemory = false;
-  const auto work = [&](std::size_t k, int row, ForceRows<Real>& forces) {
-    plan.run(k, arguments, row, forces);
-  };
-  plan.pipeline->begin();
-  ThreadTeam::shared().forEach(0, static_cast<std::uint32_t>(threads), 1, [&](std::uint32_t) {
-    if (!plan.pipeline->run(cloth_->pieces()[plan.piece].columns, work)) lacksMemory = true;
+  plan.bands->begin();
+  ThreadTeam::shared().forEach(0, bands, 1, [&](std::uint32_t band) {
+    const auto work = [&](std::size_t k, int row, ForceRows<Real>& forces) {
+      plan.run(k, arguments, row, forces);
+    };
+    if (!plan.bands->run(band, lattice.columns, work)) lacksMemory = true;
   });
   return !lacksMemory;
 }

@@ -13,7 +13,7 @@
 #include "solver/cpu/implicit_passes.h"
 #include "solver/cpu/piece_ranges.h"
 #include "solver/cpu/wave.h"
-#include "solver/cpu/wave_pipeline.h"
+#include "solver/cpu/wave_bands.h"
 
 namespace clothsim::cpu {
 
@@ -33,8 +33,8 @@ class RowPasses {
     std::vector<PassCall> passes;
     std::size_t piece = 0;
     Wave wave;
-    std::vector<RowPass> works;  // by pass of the wave; null for colours
-    std::optional<WavePipeline<Real>> pipeline;
+    std::vector<RowPass> works;            // by pass of the wave; null for colours
+    std::optional<WaveBands<Real>> bands;  // as many as were wanted last
 
     // Pass k of the wave on one row.
     void run(std::size_t k, const ImplicitArguments<Real>& arguments, int row, ForceRows<Real>& forces) const;
@@ -44,7 +44,7 @@ class RowPasses {
   [[nodiscard]] Plan& planOf(std::span<const PassCall> passes, std::size_t piece);
   // How many threads a grid keeps busy.
   [[nodiscard]] int threadsFor(const Piece& lattice) const;
-  // Several cloths that are too small for bands, each as one band. False, and nothing is done, where one is
+  // Several cloths that are too small for bands, each by one thread. False, and nothing is done, where one is
   // large or a mesh, or all are next to nothing.
   [[nodiscard]] bool runWaves(std::span<const PassCall> passes,
                               std::span<const ImplicitArguments<Real>> pieces);
@@ -56,9 +56,9 @@ class RowPasses {
   // Of the cloths [first, end).
   void runSweep(std::span<const PassCall> passes, std::span<const ImplicitArguments<Real>> pieces,
                 std::size_t first, std::size_t end);
-  // False where memory is lacking.
-  [[nodiscard]] bool runWave(const Plan& plan, int bands, const ImplicitArguments<Real>& arguments);
-  [[nodiscard]] bool runPipeline(Plan& plan, int threads, const ImplicitArguments<Real>& arguments);
+  // The rows of a wave on the calling thread, or in bands on all threads. False where memory is lacking.
+  [[nodiscard]] bool runAlone(const Plan& plan, const ImplicitArguments<Real>& arguments) const;
+  [[nodiscard]] bool runInBands(Plan& plan, int count, const ImplicitArguments<Real>& arguments) const;
   void runColor(std::size_t piece, const LimitColor& color, const ImplicitArguments<Real>& arguments);
 
   const Cloth* cloth_;

@@ -3,15 +3,18 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <chrono>
 #include <mutex>
 #include <set>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include "core/thread_team.h"
 #include "solver/cpu/cpu_solver.h"
-#include "solver/cpu/wave_pipeline.h"
+#include "solver/cpu/wave_bands.h"
 #include "solver/state.h"
 #include "support/compared_scenes.h"
 #include "support/test_scenes.h"
@@ -96,41 +99,65 @@ class OrderOfRows {
   std::set<std::pair<std::size_t, int>> done_;
 };
 
-// Bands in any order, then seams.
 TEST(Wave, DoesEveryRowOnceAndInOrder) {
   const Planned planned = limitedSheet();
-  const cpu::Wave& wave = planned.wave;
-  const int rows = 3 * wave.leastBand() + 1;
-  const std::vector<int> seams{0, wave.leastBand(), 2 * wave.leastBand(), rows};
-  OrderOfRows order(wave, rows);
-  const auto work = [&](std::size_t k, int row) { order.isDone(k, row); };
-  for (const std::size_t band : {2u, 0u, 1u}) cpu::runBand(wave, seams[band], seams[band + 1], rows, work);
-  for (const std::size_t seam : {1u, 2u}) cpu::runSeam(wave, seams[seam], work);
+  for (const int rows : {61, 9, 1}) {
+    OrderOfRows order(planned.wave, rows);
+    cpu::runWave(planned.wave, rows, [&](std::size_t k, int row) { order.isDone(k, row); });
+  }
 }
 
-// More rows than the wave is long, and fewer; again with the same pipeline.
-TEST(WavePipeline, DoesEveryRowOnceAndInOrder) {
+struct BandsCase {
+  int rows, bands;
+};
+// Bands of more rows than the wave is long, and of fewer, down to one.
+class WaveBandsOf : public testing::TestWithParam<BandsCase> {
+ protected:
+  void run(cpu::WaveBands<float>& bands, int threads) const {
+    OrderOfRows order(planned_.wave, GetParam().rows);
+    ThreadTeam team(threads);
+    bands.begin();
+    team.forEach(0, bands.count(), 1, [&](std::uint32_t band) {
+      EXPECT_TRUE(bands.run(band, 9, [&](std::size_t k, int row, cpu::ForceRows<float>& forces) {
+        forces.clear(0, row);  // a band has rows of its own
+        order.isDone(k, row);
+      }));
+    });
+  }
+  Planned planned_ = limitedSheet();
+};
+
+TEST_P(WaveBandsOf, DoEveryRowOnceAndInOrder) {
+  for (const int threads : {1, 2, 3}) {
+    cpu::WaveBands<float> bands(planned_.wave, GetParam().rows, GetParam().bands);
+    for (int step = 0; step < 4; ++step) run(bands, threads);  // between them, seams may move
+  }
+}
+INSTANTIATE_TEST_SUITE_P(Rows, WaveBandsOf,
+                         testing::Values(BandsCase{61, 2}, BandsCase{61, 3}, BandsCase{9, 3},
+                                         BandsCase{5, 5}));
+
+// Bands begin with 12 rows each, and a seam moves by one at a time.
+TEST(WaveBands, GiveFewerRowsToWhoTakesLonger) {
   const Planned planned = limitedSheet();
-  for (const int rows : {61, 9, 1})
-    for (const int threads : {1, 2, 3}) {
-      cpu::WavePipeline<float> pipeline(planned.wave, rows);
-      EXPECT_EQ(pipeline.stages(), 4u) << "forces; integration and collision; colours; the look at the end";
-      EXPECT_EQ(pipeline.mostThreads(), 2) << "forces are more than half of the work";
-      ThreadTeam team(threads);
-      for (int step = 0; step < 2; ++step) {
-        OrderOfRows order(planned.wave, rows);
-        pipeline.begin();
-        team.forEach(0, static_cast<std::uint32_t>(threads), 1, [&](std::uint32_t) {
-          EXPECT_TRUE(pipeline.run(9, [&](std::size_t k, int row, cpu::ForceRows<float>& forces) {
-            forces.clear(0, row);  // a stage has rows of its own
-            order.isDone(k, row);
-          }));
-        });
-      }
-    }
+  constexpr int rows = 24;
+  cpu::WaveBands<float> bands(planned.wave, rows, 2);
+  std::array<int, 2> done{};
+  for (int step = 0; step < 16; ++step) {
+    bands.begin();
+    done = {};
+    for (const std::uint32_t band : {1u, 0u})
+      EXPECT_TRUE(bands.run(band, 9, [&](std::size_t k, int, cpu::ForceRows<float>&) {
+        if (k != 0) return;
+        done[band] += 1;
+        if (band == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      }));
+  }
+  EXPECT_EQ(done[0] + done[1], rows);
+  EXPECT_LT(3 * done[0], done[1]);
 }
 
-// Of a sheet that the limit acts on: in several bands, and as a pipeline.
+// Of a sheet that the limit acts on, in bands of many rows and of few.
 class WaveOnThreads : public testing::TestWithParam<int> {};
 
 TEST_P(WaveOnThreads, HasTheBitsOfPassesOneByOne) {
@@ -154,7 +181,7 @@ TEST_P(WaveOnThreads, HasTheBitsOfPassesOneByOne) {
   }
   ThreadTeam::setSharedThreads(usual);
 }
-INSTANTIATE_TEST_SUITE_P(Columns, WaveOnThreads, testing::Values(49, 65, 121));
+INSTANTIATE_TEST_SUITE_P(Columns, WaveOnThreads, testing::Values(49, 121));
 
 }  // namespace
 }  // namespace clothsim
