@@ -23,7 +23,7 @@ namespace clothsim::cpu {
 namespace {
 
 constexpr std::uint32_t EXCLUDED = ~0u;
-constexpr std::uint32_t TILES_AT_ONCE = 8;
+constexpr std::uint32_t GROUPS_AT_ONCE = 2;  // of tiles
 
 template <class Real>
 View<Real> viewOf(const SelfParams<Real>& params, const CpuState<Real>& before, const CpuState<Real>& after,
@@ -158,19 +158,17 @@ template <class Real>
 void SelfCollision<Real>::findCandidates() {
   tiles_.setPositions(hashedPositions_);
   // Neighbours that a cut parts are candidates.
-  const Real reach = static_cast<Real>(params_.firstCode) - 1,
-             neighbors = cutMasks_.empty() ? 2 * reach * reach : Real(-1);
+  const bool neighbors = params_.firstCode < 2 || !cutMasks_.empty();
   overflow_.clear();
   std::mutex ofOverflow;
   std::atomic<bool> lacksMemory = false;  // threads must not throw
-  ThreadTeam::shared().forEach(0, tiles_.tiles(), TILES_AT_ONCE, [&](std::uint32_t tile) {
+  ThreadTeam::shared().forEach(0, tiles_.groups(), GROUPS_AT_ONCE, [&](std::uint32_t group) {
     try {
-      thread_local std::vector<NearTile> found;
       thread_local std::vector<Candidate> overflow;
-      found.clear();
       overflow.clear();
-      tiles_.find(tile, params_.searchSquared, neighbors, found);
-      setCandidates(tile, found, overflow);
+      tiles_.find(
+          group, params_.searchSquared, neighbors,
+          [&](std::uint32_t tile, std::span<const NearTile> found) { setCandidates(tile, found, overflow); });
       if (overflow.empty()) return;
       const std::lock_guard lock(ofOverflow);
       overflow_.insert(overflow_.end(), overflow.begin(), overflow.end());
@@ -191,19 +189,22 @@ void SelfCollision<Real>::findCandidates() {
 template <class Real>
 void SelfCollision<Real>::setCandidates(std::uint32_t tile, std::span<const NearTile> found,
                                         std::vector<Candidate>& overflow) {
-  const std::span<const std::uint32_t> particles = tiles_.particlesOf(tile);
-  for (const std::uint32_t i : particles) candidateCounts_[i] = 0;
+  const std::uint32_t* particles = tiles_.particlesOf(tile);
+  for (std::uint32_t k = 0; k < TILE; ++k)
+    if (particles[k] != TileSearch<Real>::NOBODY) candidateCounts_[particles[k]] = 0;
+  const std::uint32_t piece = tiles_.pieceOf(tile);
   for (const NearTile& other : found)
-    for (std::uint32_t near = other.near; near != 0; near &= near - 1) {
-      const std::uint32_t i = particles[static_cast<std::size_t>(std::countr_zero(near))];
-      if (i == other.particle) continue;
-      const std::uint32_t candidate = encode(tiles_.pieceOf(tile), i, other.particle);
-      if (candidate == EXCLUDED) continue;
-      if (candidateCounts_[i] < MOST_CANDIDATES)
-        candidateAt(candidateCounts_[i]++, i) = candidate;
-      else
-        overflow.push_back({i, candidate});
-    }
+    for (std::uint32_t k = 0; k < TILE; ++k)
+      for (std::uint32_t near = other.near[k]; near != 0; near &= near - 1) {
+        const std::uint32_t i = particles[k], j = tiles_.particlesOf(other.tile)[std::countr_zero(near)];
+        if (i == j) continue;
+        const std::uint32_t candidate = encode(piece, i, j);
+        if (candidate == EXCLUDED) continue;
+        if (candidateCounts_[i] < MOST_CANDIDATES)
+          candidateAt(candidateCounts_[i]++, i) = candidate;
+        else
+          overflow.push_back({i, candidate});
+      }
 }
 
 template <class Real>

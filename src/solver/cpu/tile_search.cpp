@@ -4,18 +4,21 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstring>
+#include <limits>
 #include <type_traits>
 #include <utility>
 
 #include "core/thread_team.h"
 #include "solver/cpu/arrays.h"
 #include "solver/cpu/rows.h"
+#include "solver/cpu/vector_clones.h"
 
 namespace clothsim::cpu {
 namespace {
 
 constexpr int TILE_SIDE = 4;  // of a grid's tile
-constexpr std::uint32_t CHILDREN = 4, GROUPS_AT_ONCE = 16;
+constexpr std::uint32_t GROUPS_AT_ONCE = 16;
 
 // Along the curve of Morton (1966), what follows each other lies together.
 std::uint64_t spread(std::uint64_t x, int apart) {
@@ -29,66 +32,68 @@ std::uint64_t placeOnCurve(Vec3d x, double cell) {
   return spread(cells(x.x), 3) | spread(cells(x.y), 3) << 1 | spread(cells(x.z), 3) << 2;
 }
 
-// The particles of a tile: positions, and places on the grid.
-template <class Real>
-struct TileView {
-  const Real *x, *y, *z, *columns, *rows;
-  const std::uint32_t* particles;
-  std::uint32_t all;  // its particles, as bits
-};
-
-// Which of a tile's particles lie within the reach of a box.
-template <class Real>
-INLINE std::uint32_t nearBox(const Real* x, const Real* y, const Real* z, Vec3<Real> low, Vec3<Real> high,
-                             Real reachSquared) {
-  std::uint32_t near = 0;
-#pragma omp simd reduction(| : near)
-  for (std::uint32_t k = 0; k < TILE; ++k) {
-    const Real dx = larger(larger(low.x - x[k], x[k] - high.x), Real(0)),
-               dy = larger(larger(low.y - y[k], y[k] - high.y), Real(0)),
-               dz = larger(larger(low.z - z[k], z[k] - high.z), Real(0));
-    near |= (dx * dx + dy * dy) + dz * dz < reachSquared ? 1u << k : 0u;
-  }
-  return near;
+// Which particles of the tile so many tiles to the right and below share a cell with each of a tile, or are
+// it.
+using Neighbors = std::array<std::uint32_t, TILE>;
+constexpr Neighbors neighborsAt(int columns, int rows) {
+  Neighbors result{};
+  for (int k = 0; k < static_cast<int>(TILE); ++k)
+    for (int j = 0; j < static_cast<int>(TILE); ++j) {
+      const int across = TILE_SIDE * columns + j % TILE_SIDE - k % TILE_SIDE,
+                along = TILE_SIDE * rows + j / TILE_SIDE - k / TILE_SIDE;
+      if (across * across <= 1 && along * along <= 1) result[static_cast<std::size_t>(k)] |= 1u << j;
+    }
+  return result;
+}
+constexpr std::array<Neighbors, 9> NEIGHBORS{neighborsAt(-1, -1), neighborsAt(0, -1), neighborsAt(1, -1),
+                                             neighborsAt(-1, 0),  neighborsAt(0, 0),  neighborsAt(1, 0),
+                                             neighborsAt(-1, 1),  neighborsAt(0, 1),  neighborsAt(1, 1)};
+constexpr Neighbors NONE{};
+INLINE const Neighbors& neighborsOf(const Tile& own, const Tile& other) {
+  const int columns = other.column - own.column, rows = other.row - own.row;
+  if (!own.isOfGrid || other.piece != own.piece || columns * columns > 1 || rows * rows > 1) return NONE;
+  return NEIGHBORS[static_cast<std::size_t>(3 * (rows + 1) + columns + 1)];
 }
 
-// Which of them lie within the reach of a particle, and are not its neighbours.
+// What is near the particles of a tile, of other tiles.
 template <class Real>
-INLINE std::uint32_t nearParticle(const Real* x, const Real* y, const Real* z, const Real* columns,
-                                  const Real* rows, Vec3<Real> place, Real column, Real row,
-                                  Real reachSquared, Real neighborsSquared) {
-  std::uint32_t near = 0;
-#pragma omp simd reduction(| : near)
-  for (std::uint32_t k = 0; k < TILE; ++k) {
-    const Real dx = x[k] - place.x, dy = y[k] - place.y, dz = z[k] - place.z;
-    const Real across = columns[k] - column, along = rows[k] - row;
-    const Real distanceSquared = (dx * dx + dy * dy) + dz * dz;
-    const Real counted = across * across + along * along > neighborsSquared ? distanceSquared : reachSquared;
-    near |= counted < reachSquared ? 1u << k : 0u;
+INLINE void findNear(std::span<const Tile> tiles, const Arrays<const Real>& positions, std::uint32_t tile,
+                     std::span<const std::uint32_t> others, Real reachSquared, bool neighbors,
+                     std::vector<NearTile>& found) {
+  using Vector = Sixteen<Real>;
+  const auto sixteenAt = [](const Real* from) __attribute__((always_inline)) {
+    Vector all;
+    std::memcpy(&all, from, sizeof all);
+    return all;
+  };
+  const std::size_t own = std::size_t{tile} * TILE;
+  const Vector x = sixteenAt(positions.x + own), y = sixteenAt(positions.y + own),
+               z = sixteenAt(positions.z + own);
+  for (const std::uint32_t number : others) {
+    const std::size_t first = std::size_t{number} * TILE;
+    decltype(x < y) nearOf{};
+#pragma GCC unroll 16
+    for (std::uint32_t j = 0; j < TILE; ++j) {
+      const Vector dx = x - positions.x[first + j], dy = y - positions.y[first + j],
+                   dz = z - positions.z[first + j];
+      nearOf |= ((dx * dx + dy * dy) + dz * dz < reachSquared) & (1 << j);
+    }
+    const Neighbors& leftOut = neighbors ? NONE : neighborsOf(tiles[tile], tiles[number]);
+    NearTile near{number, {}};
+    std::uint32_t any = 0;
+    for (std::uint32_t k = 0; k < TILE; ++k) {
+      near.near[k] = static_cast<std::uint32_t>(nearOf[k]) & ~leftOut[k];
+      any |= near.near[k];
+    }
+    if (any != 0) found.push_back(near);
   }
-  return near;
 }
-
-// Most particles of a tile nearby lie farther than the reach from the own tile's box.
-template <class Real>
-INLINE void findInTile(const TileView<Real>& own, const Bounds<Real>& box, const TileView<Real>& other,
-                       Real reachSquared, Real neighborsSquared, std::vector<NearTile>& found) {
-  std::uint32_t left =
-      other.all & nearBox(other.x, other.y, other.z, threeOf(box.low), threeOf(box.high), reachSquared);
-  for (; left != 0; left &= left - 1) {
-    const auto j = static_cast<std::uint32_t>(std::countr_zero(left));
-    const std::uint32_t near =
-        own.all & nearParticle(own.x, own.y, own.z, own.columns, own.rows, load(other.x, other.y, other.z, j),
-                               other.columns[j], other.rows[j], reachSquared, neighborsSquared);
-    if (near != 0) found.push_back({other.particles[j], near});
-  }
-}
-
-VECTOR_CLONES(void, findInFloatTile,
-              (const TileView<float>& own, const Bounds<float>& box, const TileView<float>& other,
-               float reachSquared, float neighborsSquared, std::vector<NearTile>& found),
-              (own, box, other, reachSquared, neighborsSquared, found),
-              findInTile(own, box, other, reachSquared, neighborsSquared, found))
+VECTOR_CLONES(void, findNearFloats,
+              (std::span<const Tile> tiles, const Arrays<const float>& positions, std::uint32_t tile,
+               std::span<const std::uint32_t> others, float reachSquared, bool neighbors,
+               std::vector<NearTile>& found),
+              (tiles, positions, tile, others, reachSquared, neighbors, found),
+              findNear(tiles, positions, tile, others, reachSquared, neighbors, found))
 
 }  // namespace
 
@@ -99,6 +104,8 @@ TileSearch<Real>::TileSearch(const Cloth& cloth) {
     piece.isMesh ? addMesh(cloth, piece, number) : addGrid(piece, number);
   }
   positions_.resize(particles_.size());
+  for (auto* c : {&positions_.x, &positions_.y, &positions_.z})
+    std::fill_n(c->data(), particles_.size(), std::numeric_limits<Real>::quiet_NaN());
   firstGroups_ = {0};
   for (std::uint32_t boxes = tiles(); firstGroups_.size() == 1 || boxes > 1;) {
     boxes = (boxes + CHILDREN - 1) / CHILDREN;
@@ -109,18 +116,21 @@ TileSearch<Real>::TileSearch(const Cloth& cloth) {
 
 template <class Real>
 void TileSearch<Real>::addGrid(const Piece& piece, std::uint32_t number) {
-  std::vector<std::pair<std::uint64_t, std::pair<int, int>>> places;
-  for (int row = 0; row < piece.rows; row += TILE_SIDE)
-    for (int column = 0; column < piece.columns; column += TILE_SIDE)
-      places.push_back(
-          {placeOnCurve(static_cast<std::uint64_t>(column), static_cast<std::uint64_t>(row)), {column, row}});
-  std::sort(places.begin(), places.end());
-  for (const auto& [place, corner] : places) {
-    std::vector<std::uint32_t> particles;
-    for (int row = corner.second; row < std::min(corner.second + TILE_SIDE, piece.rows); ++row)
-      for (int column = corner.first; column < std::min(corner.first + TILE_SIDE, piece.columns); ++column)
-        particles.push_back(piece.firstParticle + static_cast<std::uint32_t>(row * piece.columns + column));
-    addTile(particles, piece, number);
+  std::vector<std::pair<std::uint64_t, Tile>> places;
+  for (int row = 0; row * TILE_SIDE < piece.rows; ++row)
+    for (int column = 0; column * TILE_SIDE < piece.columns; ++column)
+      places.push_back({placeOnCurve(static_cast<std::uint64_t>(column), static_cast<std::uint64_t>(row)),
+                        {number, true, column, row}});
+  std::ranges::sort(places, {}, [](const auto& each) { return each.first; });
+  for (const auto& [place, tile] : places) {
+    std::array<std::uint32_t, TILE> particles;
+    for (int k = 0; k < static_cast<int>(TILE); ++k) {
+      const int column = TILE_SIDE * tile.column + k % TILE_SIDE, row = TILE_SIDE * tile.row + k / TILE_SIDE;
+      const bool isThere = column < piece.columns && row < piece.rows;
+      particles[static_cast<std::size_t>(k)] =
+          isThere ? piece.firstParticle + static_cast<std::uint32_t>(row * piece.columns + column) : NOBODY;
+    }
+    addTile(tile, particles);
   }
 }
 
@@ -135,25 +145,18 @@ void TileSearch<Real>::addMesh(const Cloth& cloth, const Piece& piece, std::uint
       if (isMeasured) places.emplace_back(placeOnCurve(x - low, piece.longestEdge), i);
     }
   std::sort(places.begin(), places.end());
-  std::vector<std::uint32_t> particles;
-  for (const auto& [place, particle] : places) {
-    particles.push_back(particle);
-    if (particles.size() == TILE) addTile(std::exchange(particles, {}), piece, number);
+  for (std::size_t first = 0; first < places.size(); first += TILE) {
+    std::array<std::uint32_t, TILE> particles;
+    for (std::size_t k = 0; k < TILE; ++k)
+      particles[k] = first + k < places.size() ? places[first + k].second : NOBODY;
+    addTile({number, false, 0, 0}, particles);
   }
-  if (!particles.empty()) addTile(particles, piece, number);
 }
 
 template <class Real>
-void TileSearch<Real>::addTile(std::span<const std::uint32_t> particles, const Piece& piece,
-                               std::uint32_t number) {
-  tiles_.push_back({number, static_cast<std::uint32_t>(particles.size()), !piece.isMesh});
-  for (std::size_t k = 0; k < TILE; ++k) {
-    const std::uint32_t particle = particles[std::min(k, particles.size() - 1)];
-    const auto place = static_cast<int>(particle - piece.firstParticle);
-    particles_.push_back(particle);
-    columns_.push_back(static_cast<Real>(place % piece.columns));
-    rows_.push_back(static_cast<Real>(place / piece.columns));
-  }
+void TileSearch<Real>::addTile(const Tile& tile, std::span<const std::uint32_t, TILE> particles) {
+  tiles_.push_back(tile);
+  particles_.insert(particles_.end(), particles.begin(), particles.end());
 }
 
 template <class Real>
@@ -166,8 +169,8 @@ void TileSearch<Real>::setPositions(const Components<Real>& positions) {
       const std::size_t first = std::size_t{CHILDREN * group + k} * TILE;
       Bounds<Real> box{fourAt(from, particles_[first]), fourAt(from, particles_[first])};
       for (std::size_t place = first; place < first + TILE; ++place) {
-        const std::uint32_t particle = particles_[place];
-        const Four<Real> x = fourAt(from, particle);
+        if (particles_[place] == NOBODY) continue;
+        const Four<Real> x = fourAt(from, particles_[place]);
         put(to, static_cast<std::ptrdiff_t>(place), threeOf(x));
         box = joined(box, Bounds<Real>{x, x});
       }
@@ -184,28 +187,22 @@ void TileSearch<Real>::setPositions(const Components<Real>& positions) {
 }
 
 template <class Real>
-void TileSearch<Real>::find(std::uint32_t tile, Real reachSquared, Real neighborsSquared,
-                            std::vector<NearTile>& found) const {
-  const auto viewOf = [&](std::uint32_t of) {
-    const std::size_t first = std::size_t{of} * TILE;
-    return TileView<Real>{
-        &positions_.x[first], &positions_.y[first], &positions_.z[first],        &columns_[first],
-        &rows_[first],        &particles_[first],   (1u << tiles_[of].count) - 1};
-  };
-  const Tile& own = tiles_[tile];
-  const TileView<Real> ownView = viewOf(tile);
-  const Bounds<Real> box = groups_[tile / CHILDREN].at(tile % CHILDREN);
+void TileSearch<Real>::findTiles(std::uint32_t group, Real reachSquared,
+                                 std::array<std::vector<std::uint32_t>, CHILDREN>& others) const {
   const Real reach = std::sqrt(reachSquared) * Real(1.0001);  // whatever is rounded on the way
   const Four<Real> around{reach, reach, reach, Real(0)};
-  const Bounds<Real> wide{box.low - around, box.high + around};
-  const auto look = [&](std::uint32_t other) {
-    // Particles of different grids, or of a mesh, are no neighbours.
-    const bool hasNeighbors = own.isGrid && tiles_[other].piece == own.piece;
-    const Real neighbors = hasNeighbors ? neighborsSquared : Real(-1);
-    if constexpr (std::is_same_v<Real, float>)
-      findInFloatTile(ownView, box, viewOf(other), reachSquared, neighbors, found);
-    else
-      findInTile(ownView, box, viewOf(other), reachSquared, neighbors, found);
+  const auto widened = [&](const Bounds<Real>& box) {
+    return Bounds<Real>{box.low - around, box.high + around};
+  };
+  const Bounds<Real> all = widened(groups_[group].all());
+  std::array<Bounds<Real>, CHILDREN> own;
+  for (std::uint32_t k = 0; k < CHILDREN; ++k) {
+    own[k] = widened(groups_[group].at(k));
+    others[k].clear();
+  }
+  const auto forEachMeeting = [&](std::uint32_t number, const Bounds<Real>& box, auto work) {
+    for (std::uint32_t left = bitsOfFour(overlap(groups_[number], box)); left != 0; left &= left - 1)
+      work(static_cast<std::uint32_t>(std::countr_zero(left)));
   };
   struct Place {
     std::size_t level;
@@ -215,16 +212,26 @@ void TileSearch<Real>::find(std::uint32_t tile, Real reachSquared, Real neighbor
   std::size_t count = 0;
   open[count++] = {firstGroups_.size() - 2, 0};
   while (count > 0) {
-    const auto [level, group] = open[--count];
-    const auto meets = overlap(groups_[firstGroups_[level] + group], wide);
-    for (std::uint32_t k = 0; k < CHILDREN; ++k) {
-      if (meets[k] == 0) continue;
-      if (level == 0)
-        look(CHILDREN * group + k);
-      else
-        open[count++] = {level - 1, CHILDREN * group + k};
-    }
+    const Place place = open[--count];
+    if (place.level > 0)
+      forEachMeeting(firstGroups_[place.level] + place.group, all, [&](std::uint32_t child) {
+        open[count++] = {place.level - 1, CHILDREN * place.group + child};
+      });
+    else
+      for (std::uint32_t k = 0; k < CHILDREN; ++k)
+        forEachMeeting(place.group, own[k],
+                       [&](std::uint32_t tile) { others[k].push_back(CHILDREN * place.group + tile); });
   }
+}
+
+template <class Real>
+void TileSearch<Real>::findIn(std::uint32_t tile, std::span<const std::uint32_t> others, Real reachSquared,
+                              bool neighbors, std::vector<NearTile>& found) const {
+  const Arrays<const Real> positions = arraysOf(positions_);
+  if constexpr (std::is_same_v<Real, float>)
+    findNearFloats(tiles_, positions, tile, others, reachSquared, neighbors, found);
+  else
+    findNear<Real>(tiles_, positions, tile, others, reachSquared, neighbors, found);
 }
 
 template class TileSearch<float>;

@@ -2,6 +2,7 @@
 // are a tile; boxes around the tiles form a tree, and tiles whose boxes are far apart are not looked at.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -15,46 +16,69 @@ namespace clothsim::cpu {
 
 inline constexpr std::uint32_t TILE = 16;
 
-// A particle, and which particles of a tile lie near it: bit k is the tile's k-th.
+// Which particles of a tile lie near those of another: bit j of near[k] is the tile's j-th near the other's
+// k-th.
 struct NearTile {
-  std::uint32_t particle, near;
+  std::uint32_t tile;
+  std::array<std::uint32_t, TILE> near;
+};
+
+// Sixteen particles at most.
+struct Tile {
+  std::uint32_t piece;
+  bool isOfGrid;
+  int column, row;  // of its grid, in tiles
 };
 
 template <class Real>
 class TileSearch {
  public:
+  static constexpr std::uint32_t NOBODY = ~0u;
+
   TileSearch() = default;
   explicit TileSearch(const Cloth& cloth);
 
   [[nodiscard]] std::uint32_t tiles() const { return static_cast<std::uint32_t>(tiles_.size()); }
   [[nodiscard]] std::uint32_t pieceOf(std::uint32_t tile) const { return tiles_[tile].piece; }
-  // At most TILE.
-  [[nodiscard]] std::span<const std::uint32_t> particlesOf(std::uint32_t tile) const {
-    return {&particles_[std::size_t{tile} * TILE], tiles_[tile].count};
+  // TILE of them; where a tile has fewer, some are NOBODY and near nothing.
+  [[nodiscard]] const std::uint32_t* particlesOf(std::uint32_t tile) const {
+    return &particles_[std::size_t{tile} * TILE];
   }
 
   // Where the particles are, for find().
   void setPositions(const Components<Real>& positions);
-  // Adds to `found` who lies within sqrt(reachSquared) of a particle of the tile and is not its neighbour on
-  // the grid: at most sqrt(neighborsSquared) columns and rows away. On meshes, and where neighborsSquared is
-  // negative, a particle finds itself, too.
-  void find(std::uint32_t tile, Real reachSquared, Real neighborsSquared, std::vector<NearTile>& found) const;
+  // Tiles are searched for by groups of a few.
+  [[nodiscard]] std::uint32_t groups() const { return firstGroups_[1]; }
+  // Calls take(tile, what is near it) for the tiles of a group: everything within sqrt(reachSquared), of
+  // which each particle is itself. Without `neighbors`, particles within one cell of a grid are left out.
+  template <class Take>
+  void find(std::uint32_t group, Real reachSquared, bool neighbors, Take take) const {
+    thread_local std::array<std::vector<std::uint32_t>, CHILDREN> others;
+    thread_local std::vector<NearTile> found;
+    findTiles(group, reachSquared, others);
+    for (std::uint32_t k = 0; k < CHILDREN && CHILDREN * group + k < tiles(); ++k) {
+      found.clear();
+      findIn(CHILDREN * group + k, others[k], reachSquared, neighbors, found);
+      take(CHILDREN * group + k, std::span<const NearTile>(found));
+    }
+  }
 
  private:
-  struct Tile {
-    std::uint32_t piece, count;
-    bool isGrid;
-  };
+  static constexpr std::uint32_t CHILDREN = 4;  // of a node of the tree
 
   void addGrid(const Piece& piece, std::uint32_t number);
   void addMesh(const Cloth& cloth, const Piece& piece, std::uint32_t number);
-  void addTile(std::span<const std::uint32_t> particles, const Piece& piece, std::uint32_t number);
+  void addTile(const Tile& tile, std::span<const std::uint32_t, TILE> particles);
+  // The tiles that may have particles near those of a group's tiles, by tile of the group.
+  void findTiles(std::uint32_t group, Real reachSquared,
+                 std::array<std::vector<std::uint32_t>, CHILDREN>& others) const;
+  void findIn(std::uint32_t tile, std::span<const std::uint32_t> others, Real reachSquared, bool neighbors,
+              std::vector<NearTile>& found) const;
 
   std::vector<Tile> tiles_;
-  // By tile, TILE of each; where it has fewer, the last is there again.
+  // By tile, TILE of each; of a grid by rows of four.
   std::vector<std::uint32_t> particles_;
-  std::vector<Real> columns_, rows_;  // on the grid of its piece
-  Components<Real> positions_;
+  Components<Real> positions_;  // no number where there is no particle
   // Of each level, the tiles' first, and one more: how many there are.
   std::vector<std::uint32_t> firstGroups_;
   std::vector<FourBounds<Real>> groups_;  // each of four below it

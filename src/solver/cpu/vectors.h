@@ -1,4 +1,4 @@
-// Four and eight numbers that are worked on at once, by the operators of the compiler.
+// Four, eight and sixteen numbers that are worked on at once, by the operators of the compiler.
 #pragma once
 
 #include <cstddef>
@@ -20,15 +20,19 @@ template <>
 struct VectorsOf<float> {
   using Four = float __attribute__((vector_size(16)));
   using Eight = float __attribute__((vector_size(32)));
+  using Sixteen = float __attribute__((vector_size(64)));
 };
 template <>
 struct VectorsOf<double> {
   using Four = double __attribute__((vector_size(32)));
   using Eight = double __attribute__((vector_size(64)));
+  using Sixteen = double __attribute__((vector_size(128)));
 };
 
 template <class Real>
 using Eight = typename VectorsOf<Real>::Eight;
+template <class Real>
+using Sixteen = typename VectorsOf<Real>::Sixteen;
 // Three numbers and a 0.
 template <class Real>
 using Four = typename VectorsOf<Real>::Four;
