@@ -88,9 +88,9 @@ void Viewer::iterate() {
   hurrySteps();
   int frames = 0;
   timings_.time(FrameTimings::simulate, [&] { frames = simulate(elapsed); });
-  // While a frame takes its time, the picture changes only by what the user does.
-  const bool draws = frames > 0 || drawsLeft_ > 0 || !steps_.isBusy() || now_ - lastDrawn_ > longestWait ||
-                     !window_.inputQueue().isEmpty();
+  // Until the next frame is there, the picture changes only by what the user does.
+  const bool draws = frames > 0 || mayChange() || (paused_ && !steps_.isBusy()) ||
+                     now_ - lastDrawn_ > longestWait;
   if (!trials_.isRunning()) meter_.add(elapsed, frames * open_->frameSeconds(), draws ? 1 : 0);
   watchPace(elapsed);
   timings_.simulated(frames * open_->frameSeconds());
@@ -101,16 +101,20 @@ void Viewer::iterate() {
   attempt([&] { draw(); });
   meter_.spent(0, drawing.lap());
   keepConfig();
-  // Where the display does not limit the rate, the loop waits instead of drawing the same picture again.
-  if (!paused_ && frames == 0 && !steps_.isBusy() && !compare_.isRunning())
-    window_.waitEvents(pace_.secondsUntilDue() / tempo_);
   attempt(gl::checkContext);
 }
 
+// Without a frame of the simulation.
+bool Viewer::mayChange() {
+  return drawsLeft_ > 0 || !window_.inputQueue().isEmpty() || compare_.isRunning();
+}
+
+// And for the next frame, if there is nothing else to do.
 void Viewer::waitForInput() {
-  if (isIdle()) return window_.waitEvents(longestWait);
-  const bool waits = steps_.isBusy() && !steps_.isDone() && drawsLeft_ <= 0 && window_.inputQueue().isEmpty();
-  waits ? window_.waitEvents(longestWait) : window_.pollEvents();
+  if (isIdle() || (steps_.isBusy() && !steps_.isDone() && !mayChange()))
+    return window_.waitEvents(longestWait);
+  if (paused_ || steps_.isBusy() || mayChange()) return window_.pollEvents();
+  window_.waitEvents(std::min(longestWait, pace_.secondsUntilDue() / tempo_));
 }
 
 bool Viewer::showsPanels() const {

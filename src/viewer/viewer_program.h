@@ -174,6 +174,7 @@ class Viewer {
   [[nodiscard]] std::optional<GizmoMode> gizmoButtonUnder(ViewerWindow::Cursor cursor) const;
   [[nodiscard]] MouseContext mouseContext();
   [[nodiscard]] bool isIdle();
+  [[nodiscard]] bool mayChange();
   [[nodiscard]] bool isRefining() const;
   [[nodiscard]] std::optional<int> refinedExposures() const;
 
