@@ -89,8 +89,8 @@ void Viewer::iterate() {
   int frames = 0;
   timings_.time(FrameTimings::simulate, [&] { frames = simulate(elapsed); });
   // Until the next frame is there, the picture changes only by what the user does.
-  const bool draws = frames > 0 || mayChange() || (paused_ && !steps_.isBusy()) ||
-                     now_ - lastDrawn_ > longestWait;
+  const bool draws =
+      frames > 0 || mayChange() || (paused_ && !steps_.isBusy()) || now_ - lastDrawn_ > longestWait;
   if (!trials_.isRunning()) meter_.add(elapsed, frames * open_->frameSeconds(), draws ? 1 : 0);
   watchPace(elapsed);
   timings_.simulated(frames * open_->frameSeconds());
@@ -105,9 +105,7 @@ void Viewer::iterate() {
 }
 
 // Without a frame of the simulation.
-bool Viewer::mayChange() {
-  return drawsLeft_ > 0 || !window_.inputQueue().isEmpty() || compare_.isRunning();
-}
+bool Viewer::mayChange() { return drawsLeft_ > 0 || !window_.inputQueue().isEmpty() || compare_.isRunning(); }
 
 // And for the next frame, if there is nothing else to do.
 void Viewer::waitForInput() {
