@@ -21,6 +21,18 @@ constexpr int LEAST_BAND = 4;  // rows; forces of two more are computed for each
 // Of a cloth; plans are few: those of a step, and of what happens between steps.
 constexpr std::size_t MOST_PLANS = 16;
 
+// What a thread does of a sweep. Forces of the rows that it did last serve for those that follow them.
+template <class Real>
+struct Sweep {
+  std::uint64_t number = 0;
+  PieceRange last{};
+  ForceRows<Real> forces;
+
+  [[nodiscard]] bool goesOn(std::uint64_t sweep, const PieceRange& next) const {
+    return number == sweep && last.piece == next.piece && last.end == next.begin;
+  }
+};
+
 template <class Real>
 bool beginRows(ForceRows<Real>& rows, const Piece& lattice) {
   return rows.begin(lattice.isMesh ? 0 : lattice.columns);
@@ -181,14 +193,18 @@ void RowPasses<Real>::runSweep(std::span<const PassCall> passes,
   works_.clear();
   for (const PassCall& call : passes) works_.push_back(rowPassOf(call.pass));
   std::atomic<bool> lacksMemory = false;  // threads must not throw
+  static std::atomic<std::uint64_t> sweeps = 0;
+  const std::uint64_t sweep = ++sweeps;
   rows_.forEach(rowStarts_[first], rowStarts_[end], rowsAtOnce_, [&](const PieceRange& range) {
-    thread_local ForceRows<Real> forceRows;
-    if (!beginRows(forceRows, cloth_->pieces()[range.piece])) {
+    thread_local Sweep<Real> own;
+    if (!own.goesOn(sweep, range) && !beginRows(own.forces, cloth_->pieces()[range.piece])) {
       lacksMemory = true;
       return;
     }
     for (std::uint32_t row = range.begin; row < range.end; ++row)
-      for (const RowPass work : works_) work(pieces[range.piece], static_cast<int>(row), forceRows);
+      for (const RowPass work : works_) work(pieces[range.piece], static_cast<int>(row), own.forces);
+    own.number = sweep;
+    own.last = range;
   });
   if (lacksMemory) throw std::bad_alloc();
 }
