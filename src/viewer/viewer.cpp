@@ -111,8 +111,9 @@ bool Viewer::mayChange() { return drawsLeft_ > 0 || !window_.inputQueue().isEmpt
 void Viewer::waitForInput() {
   if (isIdle() || (steps_.isBusy() && !steps_.isDone() && !mayChange()))
     return window_.waitEvents(longestWait);
-  if (paused_ || steps_.isBusy() || mayChange()) return window_.pollEvents();
-  window_.waitEvents(std::min(longestWait, pace_.secondsUntilDue() / tempo_));
+  const double left = pace_.secondsUntilDue() / tempo_ - clock_.sinceLap();
+  const bool waits = !paused_ && !steps_.isBusy() && !mayChange() && left > 0;
+  waits ? window_.waitEvents(std::min(longestWait, left)) : window_.pollEvents();
 }
 
 bool Viewer::showsPanels() const {

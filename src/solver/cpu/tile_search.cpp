@@ -52,7 +52,8 @@ constexpr Neighbors NONE{};
 INLINE const Neighbors& neighborsOf(const Tile& own, const Tile& other) {
   const int columns = other.column - own.column, rows = other.row - own.row;
   if (!own.isOfGrid || other.piece != own.piece || columns * columns > 1 || rows * rows > 1) return NONE;
-  return NEIGHBORS[static_cast<std::size_t>(3 * (rows + 1) + columns + 1)];
+  const int place = 3 * (rows + 1) + columns + 1;
+  return NEIGHBORS[static_cast<std::size_t>(place)];
 }
 
 // What is near the particles of a tile, of other tiles.
