@@ -13,7 +13,7 @@ inline constexpr std::chrono::microseconds LONGEST_SPIN{60};
 template <class Done>
 bool spinUntil(Done done) {
   if (done()) return true;
-  constexpr int looksByTheClock = 64;  // of which one takes 15 to 50 ns, as the processor has it
+  constexpr int looksByTheClock = 64;  // one takes several times as long on some processors as on others
   const auto end = std::chrono::steady_clock::now() + LONGEST_SPIN;
   do {
     for (int look = 0; look < looksByTheClock; ++look) {

@@ -72,6 +72,7 @@ class TileSearch {
   // The tiles that may have particles near those of a group's tiles, by tile of the group.
   void findTiles(std::uint32_t group, Real reachSquared,
                  std::array<std::vector<std::uint32_t>, CHILDREN>& others) const;
+  // What is near a tile's particles among the particles of others.
   void findIn(std::uint32_t tile, std::span<const std::uint32_t> others, Real reachSquared, bool neighbors,
               std::vector<NearTile>& found) const;
 

@@ -1,7 +1,7 @@
 // A wave (wave.h) on several threads: each takes a band of rows. At the seam of two bands a pass of the lower
 // one begins so many rows inside it that the band needs nothing of the upper one; the upper one goes on
-// beyond its end until it meets what the lower one did there, a while ago. Seams move to where bands take
-// equally long, as other work of a core or a collider under some of the rows may have it.
+// beyond its end, until it meets what the lower one did there, a while ago as a rule. Seams move to where
+// both take equally long: a core may have other work, and a collider may lie under some of the rows.
 #pragma once
 
 #include <algorithm>
