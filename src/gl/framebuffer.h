@@ -37,8 +37,9 @@ class Framebuffer {
   [[nodiscard]] const FramebufferFormat& format() const { return format_; }
 
   void bind() const;  // for drawing, with the viewport over all of it
-  // Copies the colour of columns `from` to the last into framebuffer `target`, which is as large.
-  void copyColumnsInto(GLuint target, int from) const;
+  // Copies columns `from` to the last of a picture whose top row comes first into the window, which is as
+  // large. A window's rows are stored so: of another picture a software renderer would have to draw it.
+  void showColumns(int from) const;
   // Averages the samples of the colour into `target`, which has the same size and format and is not
   // multisampled.
   void resolveInto(const Framebuffer& target) const;

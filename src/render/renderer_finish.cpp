@@ -58,7 +58,7 @@ void Renderer::Parts::stretch() {
                scaled(part->picture.right + 2, from.width, to.width),
                scaled(part->picture.top + 2, from.height, to.height)};
   }
-  if (isSoftware) return stretcher.run(finished, stretched, changed);
+  if (isSoftware || topFirst) return stretcher.run(finished, stretched, changed, topFirst);
   glEnable(GL_SCISSOR_TEST);
   glScissor(changed.left, changed.bottom, changed.width(), changed.height());
   glBlitNamedFramebuffer(finished.name(), stretched.name(), 0, 0, from.width, from.height, 0, 0, to.width,
@@ -67,7 +67,7 @@ void Renderer::Parts::stretch() {
 }
 
 void Renderer::Parts::show(GLuint destination, int width, int height) const {
-  glBlitNamedFramebuffer((scale < 1 ? stretched : finished).name(), destination, 0, 0, width, height, 0, 0,
+  glBlitNamedFramebuffer((stretches() ? stretched : finished).name(), destination, 0, 0, width, height, 0, 0,
                          width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
   glBindFramebuffer(GL_FRAMEBUFFER, destination);  // for what is drawn over the picture
   glViewport(0, 0, width, height);

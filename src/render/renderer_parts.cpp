@@ -409,7 +409,7 @@ void Renderer::Parts::makeTargets(int width, int height, int shownWidth, int sho
   if (isExposed()) make(mean, "mean of exposures", {.width = width, .height = height, .color = GL_RGBA32F});
   if (isDirect()) return;
   make(finished, "finished", {.width = width, .height = height, .color = GL_RGBA8});
-  if (scale < 1)
+  if (stretches())
     make(stretched, "stretched", {.width = shownWidth, .height = shownHeight, .color = GL_RGBA8});
 }
 
@@ -446,10 +446,12 @@ PixelRect Renderer::Parts::drawnPart() const {
 }
 
 void Renderer::Parts::draw(const Picture& picture, const Around& around) {
-  const auto [state, camera, time, target, width, height, exposure, number] = picture;
+  const auto [state, camera, time, target, width, height, isTopFirst, exposure, number] = picture;
   if (width <= 0 || height <= 0) return;  // a minimised window
   const auto scaled = [&](int size) { return std::max(1, static_cast<int>(std::lround(scale * size))); };
   const int w = scaled(width), h = scaled(height);
+  if (isTopFirst != topFirst) changes.forget();
+  topFirst = isTopFirst;
   const double motion = exposure != nullptr ? scene->camera.shutter * exposure->time : 0;
   frame.motion = static_cast<float>(motion);
   shellPlace = exposure != nullptr ? std::fmod(0.5 + number * 0.6180339887498949, 1.0) : 0.5;
@@ -476,7 +478,7 @@ void Renderer::Parts::draw(const Picture& picture, const Around& around) {
     else
       finishInto(t, w, h);
   });
-  if (scale < 1) around("stretch", [&] { stretch(); });
+  if (stretches()) around("stretch", [&] { stretch(); });
   if (!isDirect())
     around("show",
            [&, t = target, fullWidth = width, fullHeight = height] { show(t, fullWidth, fullHeight); });

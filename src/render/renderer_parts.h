@@ -31,6 +31,7 @@ struct Renderer::Parts {
     double time;
     GLuint target;
     int width, height;
+    bool topFirst = false;               // the top row of the target comes first
     const Exposure* exposure = nullptr;  // of a mean; none: the whole picture
     int number = 0;                      // of the exposure
   };
@@ -49,7 +50,10 @@ struct Renderer::Parts {
   void addToMean(bool isFirst);
   void uploadFrame();
   GLuint moved(GLuint positions);
-  [[nodiscard]] bool isDirect() const { return scale == 1 && !options.keepsStill; }
+  // Whether the picture is stretched, which also turns its rows around; and whether it goes straight to where
+  // it is shown.
+  [[nodiscard]] bool stretches() const { return scale < 1 || topFirst; }
+  [[nodiscard]] bool isDirect() const { return !stretches() && !options.keepsStill; }
   void makeTargets(int width, int height, int shownWidth, int shownHeight);
   void findChanges(GLuint positions, int width, int height);
   void scissor() const;
@@ -113,10 +117,11 @@ struct Renderer::Parts {
   SpringsOverlay springs;
   std::optional<PickTarget> pickTarget;
   double scale = 1;
+  bool topFirst = false;  // the picture's top row comes first
   gl::Framebuffer canvas, backdrop;
   Edges edges;
   Stretch stretcher;
-  gl::Framebuffer finished, stretched;    // as the screen shows it; of a scale below 1 before and after it
+  gl::Framebuffer finished, stretched;    // as the screen shows it; before and after stretching
   glm::mat4 middleClipFromWorld{1};       // of the picture, whatever its exposures shift
   std::optional<glm::mat4> backdropSeen;  // from where the backdrop was drawn
   ChangedArea changes;

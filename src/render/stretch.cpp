@@ -64,15 +64,16 @@ void mixRows(const std::vector<std::uint8_t>& first, const std::vector<std::uint
 }  // namespace
 
 void stretchPixels(std::span<const std::uint8_t> from, PictureSize fromSize, PictureSize toSize,
-                   const PixelRect& part, std::span<std::uint8_t> into) {
+                   const PixelRect& part, bool topFirst, std::span<std::uint8_t> into) {
   const std::vector<Pair> columns = pairsOf(part.left, part.right, toSize.width, fromSize.width);
   const std::size_t rowBytes = CHANNELS * static_cast<std::size_t>(fromSize.width);
   const std::size_t wideBytes = CHANNELS * columns.size();
   // The two rows that were looked at last: most are looked at again.
   std::vector<std::uint8_t> first(wideBytes), second(wideBytes);
   std::size_t ofFirst = SIZE_MAX, ofSecond = SIZE_MAX;
-  std::uint8_t* row = into.data();
-  for (int y = part.bottom; y < part.top; ++y, row += wideBytes) {
+  for (int y = part.bottom; y < part.top; ++y) {
+    std::uint8_t* const row =
+        into.data() + static_cast<std::size_t>(topFirst ? part.top - 1 - y : y - part.bottom) * wideBytes;
     const Pair rows = pairAt(y, toSize.height, fromSize.height);
     if (rows.first == ofSecond) {
       std::swap(first, second);
@@ -86,7 +87,8 @@ void stretchPixels(std::span<const std::uint8_t> from, PictureSize fromSize, Pic
   }
 }
 
-void Stretch::run(const gl::Framebuffer& from, const gl::Framebuffer& to, const PixelRect& part) {
+void Stretch::run(const gl::Framebuffer& from, const gl::Framebuffer& to, const PixelRect& part,
+                  bool topFirst) {
   const PictureSize fromSize{from.format().width, from.format().height},
       toSize{to.format().width, to.format().height};
   const auto bytes = [](int width, int height) {
@@ -101,11 +103,11 @@ void Stretch::run(const gl::Framebuffer& from, const gl::Framebuffer& to, const 
   glBindFramebuffer(GL_READ_FRAMEBUFFER, from.name());
   glPixelStorei(GL_PACK_ALIGNMENT, 4);
   glReadPixels(0, static_cast<GLint>(lowest), fromSize.width, static_cast<GLsizei>(highest - lowest + 1),
-               GL_RGBA, GL_UNSIGNED_BYTE, small_.data() + bytes(fromSize.width, static_cast<int>(lowest)));
-  stretchPixels(small_, fromSize, toSize, part, large_);
+               GL_BGRA, GL_UNSIGNED_BYTE, small_.data() + bytes(fromSize.width, static_cast<int>(lowest)));
+  stretchPixels(small_, fromSize, toSize, part, topFirst, large_);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  glTextureSubImage2D(to.colorTexture(), 0, part.left, part.bottom, part.width(), part.height(), GL_RGBA,
-                      GL_UNSIGNED_BYTE, large_.data());
+  glTextureSubImage2D(to.colorTexture(), 0, part.left, topFirst ? toSize.height - part.top : part.bottom,
+                      part.width(), part.height(), GL_BGRA, GL_UNSIGNED_BYTE, large_.data());
 }
 
 }  // namespace clothsim

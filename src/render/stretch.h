@@ -17,15 +17,17 @@ struct PictureSize {
 
 // Between two pictures of four bytes a pixel, row by row from the bottom: each pixel of `part` of the larger
 // one is mixed from the four of the smaller one around it, by their distances, as GL_LINEAR does. `into` has
-// the pixels of `part` alone.
+// the pixels of `part` alone, with `topFirst` from the top.
 void stretchPixels(std::span<const std::uint8_t> from, PictureSize fromSize, PictureSize toSize,
-                   const PixelRect& part, std::span<std::uint8_t> into);
+                   const PixelRect& part, bool topFirst, std::span<std::uint8_t> into);
 
 // From one framebuffer of GL_RGBA8 to another one, through memory.
 class Stretch {
  public:
-  // `part` [pixels of `to`] is all that changes.
-  void run(const gl::Framebuffer& from, const gl::Framebuffer& to, const PixelRect& part);
+  // `part` [pixels of the picture in the end] is all that changes. `topFirst`: the top row of `to` comes
+  // first.
+  void run(const gl::Framebuffer& from, const gl::Framebuffer& to, const PixelRect& part,
+           bool topFirst = false);
 
  private:
   std::vector<std::uint8_t> small_, large_;

@@ -10,6 +10,8 @@
 namespace clothsim {
 namespace {
 
+constexpr std::chrono::milliseconds longestLag{100};
+
 // By what its commands are clipped to, or else by where its vertices are: the background of a window is not
 // clipped to it.
 bool liesRightOf(float left, const ImDrawList& list) {
@@ -55,7 +57,7 @@ void drawLists(const ImDrawData& data, std::vector<ImDrawList*>& lists) {
 
 }  // namespace
 
-void KeptPanels::draw(const ImDrawData& data, float left) {
+void KeptPanels::draw(const ImDrawData& data, float left, bool mayLag) {
   std::vector<ImDrawList*> lists(data.CmdLists, data.CmdLists + data.CmdListsCount);
   const auto others =
       std::ranges::stable_partition(lists, [&](const ImDrawList* list) { return liesRightOf(left, *list); });
@@ -67,19 +69,22 @@ void KeptPanels::draw(const ImDrawData& data, float left) {
                                      .color = GL_RGBA8};
   const int from = static_cast<int>(left);
   if (!lists.empty() && from < format.width) {
-    const GLuint shown = gl::boundFramebuffer();
     std::vector<std::byte> wanted = bytesOf(lists);
     if (!(kept_.format() == format)) {
-      kept_ = gl::Framebuffer("panels", format);
+      drawing_ = gl::Framebuffer("panels", format);
+      kept_ = gl::Framebuffer("kept panels", format);
       forget();
     }
-    if (wanted != drawn_) {
-      kept_.bind();
+    const auto now = std::chrono::steady_clock::now();
+    if (wanted != drawn_ && (!mayLag || drawn_.empty() || now - drawnAt_ >= longestLag)) {
+      drawnAt_ = now;
+      drawing_.bind();
       drawLists(data, lists);
+      copier_.run(drawing_, kept_, {from, 0, format.width, format.height}, true);
       drawn_ = std::move(wanted);
-      gl::bindFramebuffer(shown);
+      gl::bindFramebuffer(0);
     }
-    kept_.copyColumnsInto(shown, from);
+    kept_.showColumns(from);
   }
   drawLists(data, over);
 }

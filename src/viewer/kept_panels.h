@@ -2,10 +2,12 @@
 // a software renderer that would otherwise take a fifth of every picture's time.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <vector>
 
 #include "gl/framebuffer.h"
+#include "render/stretch.h"
 
 struct ImDrawData;
 struct ImDrawList;
@@ -14,14 +16,17 @@ namespace clothsim {
 
 class KeptPanels {
  public:
-  // Shows the lists of `data` that lie wholly right of `left` [pixels] in the bound framebuffer, and draws
-  // the others over it.
-  void draw(const ImDrawData& data, float left);
+  // Shows the lists of `data` that lie wholly right of `left` [pixels] in the window, and draws
+  // the others over it. `mayLag`: the former are drawn anew ten times a second, which is as often as their
+  // numbers and plots can be read.
+  void draw(const ImDrawData& data, float left, bool mayLag);
   void forget() { drawn_.clear(); }  // what is in the textures that the lists name has changed
 
  private:
-  gl::Framebuffer kept_;
+  gl::Framebuffer drawing_, kept_;  // kept_: as drawn last, the top row first
+  Stretch copier_;
   std::vector<std::byte> drawn_;  // vertices, indices and commands that kept_ shows
+  std::chrono::steady_clock::time_point drawnAt_;
 };
 
 }  // namespace clothsim

@@ -61,14 +61,15 @@ class KeptPicture {
     key.version = key_->version;
     return isOf(key, scale);
   }
-  // The framebuffer to draw another one into, of that size [pixels]; then what has been drawn.
+  // The framebuffer to draw another one into, of that size [pixels], the top row first; then what has been
+  // drawn.
   [[nodiscard]] GLuint drawInto(int width, int height);
   void drawn(const PictureKey& key, double scale) {
     key_ = key;
     scale_ = scale;
   }
-  // Copies it into the lower left of the bound framebuffer.
-  void show() const { picture_.copyColumnsInto(gl::boundFramebuffer(), 0); }
+  // Copies it into the lower left of the window.
+  void show() const { picture_.showColumns(0); }
   void forget() { key_.reset(); }
 
  private:

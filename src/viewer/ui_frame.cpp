@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "gl/context.h"
 #include "output/picture_font.h"
 
 namespace clothsim {
@@ -184,7 +185,11 @@ void UiFrame::end() {
   ImGui::Render();
 }
 
-void UiFrame::draw(float pictureWidth) { kept_.draw(*ImGui::GetDrawData(), pictureWidth); }
+void UiFrame::draw(float pictureWidth, bool panelsMayLag) {
+  ImDrawData& data = *ImGui::GetDrawData();
+  gl::currentContextInfo().software ? kept_.draw(data, pictureWidth, panelsMayLag)
+                                    : ImGui_ImplOpenGL3_RenderDrawData(&data);
+}
 
 void coloredText(std::string_view words, const ImVec4& color) {
   ImGui::PushStyleColor(ImGuiCol_Text, color);

@@ -39,8 +39,8 @@ class UiFrame {
   void begin(double textScale);
   void end();
   // Draws the controls made between begin() and end(): those right of the picture as they were kept, where
-  // nothing has changed, and the others over it.
-  void draw(float pictureWidth);
+  // nothing has changed or where they may lag (kept_panels.h), and the others over it.
+  void draw(float pictureWidth, bool panelsMayLag);
 
   [[nodiscard]] bool wantsMouse() const;  // as of the last frame
   [[nodiscard]] bool hasPopup() const;    // whether a list or a colour picker is open

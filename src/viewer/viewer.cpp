@@ -312,7 +312,8 @@ void Viewer::draw() {
     attempt([&] { drawControls(); });
     ui_.end();
   });
-  timings_.time(FrameTimings::drawControls, [&] { ui_.draw(area.width); });
+  const bool panelsMayLag = !paused_ && drawsLeft_ <= 0;
+  timings_.time(FrameTimings::drawControls, [&] { ui_.draw(area.width, panelsMayLag); });
   timings_.time(FrameTimings::swap, [&] { window_.swap(); });
   timings_.time(FrameTimings::after, [&] {
     applyRequests();
@@ -343,8 +344,8 @@ void Viewer::drawPicture(int width, int height) {
   answersFirst_ = std::exchange(hasInput_, false) && !answersFirst_ && !paused_ &&
                   pictureSeconds_ > quickPicture && kept_.looksLike(key, whole ? 1 : drawScale_.scale());
   if (!answersFirst_) drawInto(key, whole);
-  gl::bindFramebuffer(0);  // of the window
   kept_.show();
+  gl::bindFramebuffer(0);  // for what is drawn over it
 }
 
 void Viewer::drawInto(const PictureKey& key, bool whole) {
@@ -352,7 +353,7 @@ void Viewer::drawInto(const PictureKey& key, bool whole) {
   if (kept_.isOf(key, scale)) return;
   open_->renderer().renderer().setScale(scale);
   LapClock clock;
-  open_->draw(kept_.drawInto(key.width, key.height), key.width, key.height);
+  open_->draw(kept_.drawInto(key.width, key.height), key.width, key.height, true);
   kept_.drawn(key, scale);
   if (whole) return;
   gl::finish();

@@ -5,7 +5,7 @@
 // clang-format off
 #define CALLED_GL_FUNCTIONS(X) \
   X(glAttachShader) X(glBeginQuery) X(glBindBuffer) X(glBindBufferBase) X(glBindBufferRange) \
-  X(glBindFramebuffer) X(glBindTextureUnit) X(glBindVertexArray) X(glBlendFunc) \
+  X(glBindFramebuffer) X(glBindTexture) X(glBindTextureUnit) X(glBindVertexArray) X(glBlendFunc) \
   X(glBlitNamedFramebuffer) X(glCheckNamedFramebufferStatus) X(glClearNamedBufferData) \
   X(glClearNamedBufferSubData) X(glClearNamedFramebufferfv) X(glClearNamedFramebufferuiv) \
   X(glClientWaitSync) X(glColorMask) X(glCompileShader) X(glCopyNamedBufferSubData) \
@@ -25,7 +25,7 @@
   X(glMemoryBarrier) X(glNamedBufferStorage) X(glNamedBufferSubData) \
   X(glNamedFramebufferDrawBuffer) X(glNamedFramebufferReadBuffer) X(glNamedFramebufferTexture) \
   X(glObjectLabel) X(glPixelStorei) X(glPolygonMode) X(glPolygonOffset) X(glProgramUniform3f) X(glProgramUniform4i) X(glReadPixels) \
-  X(glScissor) X(glShaderSource) X(glTextureBuffer) X(glTextureBufferRange) X(glTextureParameterfv) X(glTextureParameteri) \
+  X(glScissor) X(glShaderSource) X(glTexImage2D) X(glTextureBuffer) X(glTextureBufferRange) X(glTextureParameterfv) X(glTextureParameteri) \
   X(glTextureStorage2D) X(glTextureStorage2DMultisample) X(glTextureSubImage2D) \
   X(glTextureSubImage3D) X(glUseProgram) X(glVertexArrayAttribBinding) \
   X(glVertexArrayAttribFormat) X(glVertexArrayBindingDivisor) X(glVertexArrayElementBuffer) \

@@ -73,8 +73,8 @@ void SimulationRenderer::takeVelocities() {
   renderer_->setVelocities(velocities_.name());
 }
 
-void SimulationRenderer::draw(const Camera& camera, GLuint target, int width, int height) {
-  renderer_->draw(positionsBuffer(), camera, time(), target, width, height);
+void SimulationRenderer::draw(const Camera& camera, GLuint target, int width, int height, bool topFirst) {
+  renderer_->draw(positionsBuffer(), camera, time(), target, width, height, topFirst);
 }
 
 void SimulationRenderer::expose(int number, int count, const Camera& camera, GLuint target, int width,

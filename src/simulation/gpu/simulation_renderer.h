@@ -35,7 +35,7 @@ class SimulationRenderer {
   [[nodiscard]] GLuint positionsBuffer();
 
   // The functions of Renderer, with the positions and the time of the simulation.
-  void draw(const Camera& camera, GLuint target, int width, int height);
+  void draw(const Camera& camera, GLuint target, int width, int height, bool topFirst = false);
   void expose(int number, int count, const Camera& camera, GLuint target, int width, int height);
   // Calls update() first.
   [[nodiscard]] Image picture(const Camera& camera, int width, int height, int exposures = 1,

@@ -59,6 +59,27 @@ class KeptPictureTest : public GlTest {
   }
 };
 
+// As KeptPicture has it for the window.
+TEST_F(KeptPictureTest, WithTheTopFirstIsTheSamePictureTurnedAround) {
+  const test::Drape drape(test::drapeScene());
+  const Camera camera(drape.scene, drape.cloth);
+  const gl::Framebuffer target("picture", {.width = width, .height = height, .color = GL_RGBA8});
+  for (const double scale : {1.0, 0.6}) {
+    Shown kept(drape, true, scale), turned(drape, true, scale);
+    for (int moment = 0; moment < 3; ++moment) {
+      const Image upright = kept.after(drape, moment, camera);
+      turned.positions.upload(moved(drape, moment));
+      turned.renderer.draw(turned.positions.name(), camera, 0, target.name(), width, height, true);
+      const std::vector<std::uint8_t> rows = target.readRgb();
+      constexpr std::ptrdiff_t rowBytes = 3 * width;
+      for (std::ptrdiff_t row = 0; row < height; ++row)
+        ASSERT_TRUE(std::equal(rows.begin() + row * rowBytes, rows.begin() + (row + 1) * rowBytes,
+                               upright.rgb.begin() + (height - 1 - row) * rowBytes))
+            << "row " << row << " of moment " << moment << " at scale " << scale;
+    }
+  }
+}
+
 TEST_F(KeptPictureTest, IsTheWholePictureInEveryPixelWhileTheClothMoves) {
   expectTheSame(test::drapeScene(), 1);
   expectTheSame(test::drapeScene(), 0.5);

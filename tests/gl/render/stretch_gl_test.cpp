@@ -57,6 +57,26 @@ TEST_F(StretchTest, OfAPartLeavesTheRestAndMakesTheSamePixels) {
     }
 }
 
+TEST_F(StretchTest, WithTheTopFirstTurnsTheRowsAround) {
+  const gl::Framebuffer small = picture(width, height, true), upright = picture(wide, high, false),
+                        turned = picture(wide, high, false);
+  const PixelRect part{13, 20, 77, 55};
+  Stretch().run(small, upright, part);
+  Stretch().run(small, turned, part, true);
+  const std::vector<std::uint8_t> a = upright.readRgb(), b = turned.readRgb();
+  constexpr auto rowBytes = std::size_t{3} * wide;
+  for (std::size_t row = 0; row < high; ++row)
+    EXPECT_TRUE(std::equal(a.begin() + row * rowBytes, a.begin() + (row + 1) * rowBytes,
+                           b.begin() + (high - 1 - row) * rowBytes))
+        << row;
+}
+
+TEST_F(StretchTest, OfTheSameSizeIsACopy) {
+  const gl::Framebuffer from = picture(width, height, true), to = picture(width, height, false);
+  Stretch().run(from, to, {0, 0, width, height});
+  EXPECT_EQ(to.readRgb(), from.readRgb());
+}
+
 TEST_F(StretchTest, OfASinglePixelFillsThePicture) {
   const gl::Framebuffer one = picture(1, 1, false), many = picture(5, 4, true);
   Stretch().run(one, many, {0, 0, 5, 4});
