@@ -29,6 +29,10 @@ class ThreadTeam {
 
   [[nodiscard]] int threads() const { return static_cast<int>(workers_.size()) + 1; }
 
+  [[nodiscard]] bool worksAlone() const {  // as WorkAlone asks for
+    return worksAlone_.load(std::memory_order_relaxed);
+  }
+
   // body(begin, end) for stretches of [first, end), in any order, on all threads; returns when all are done.
   // A thread takes `grain` entries at once, and less than 2 grains are not worth a second thread. The body
   // must not throw. Who calls while another thread does, or from a body, has its own done alone.
@@ -37,7 +41,8 @@ class ThreadTeam {
     const auto range = [](const void* context, std::uint32_t begin, std::uint32_t finish) noexcept {
       (*static_cast<const Body*>(context))(begin, finish);
     };
-    if (workers_.empty() || end - first < 2 * grain || isBusy_.test_and_set(std::memory_order_acquire)) {
+    if (workers_.empty() || end - first < 2 * grain || worksAlone() ||
+        isBusy_.test_and_set(std::memory_order_acquire)) {
       range(&body, first, end);
       return;
     }
@@ -53,6 +58,7 @@ class ThreadTeam {
   }
 
  private:
+  friend class WorkAlone;
   using Range = void (*)(const void* context, std::uint32_t begin, std::uint32_t end) noexcept;
   // What is left of a thread's own part of a job. `next` is tagged with the job in its upper half: who comes
   // late finds another tag and takes nothing.
@@ -66,6 +72,7 @@ class ThreadTeam {
   void takePart(std::uint32_t job, std::size_t part);
   void takeAll(std::uint32_t job, std::size_t self);
 
+  std::atomic<bool> worksAlone_{false};
   std::atomic_flag isBusy_;
   std::vector<Part> parts_;  // one a thread
   std::atomic<Range> range_{nullptr};
@@ -76,6 +83,21 @@ class ThreadTeam {
   alignas(64) std::atomic<int> left_{0};  // entries of the job that are not done
   std::atomic<bool> isAwaited_{false};
   std::vector<std::thread> workers_;
+};
+
+// While it lives, what begins is done by its caller alone: where others want the cores, threads that wait for
+// each other lose more than a second one gains. One at a time, on any thread.
+class WorkAlone {
+ public:
+  explicit WorkAlone(ThreadTeam& team, bool alone = true) : team_(team) {
+    team_.worksAlone_.store(alone, std::memory_order_relaxed);
+  }
+  ~WorkAlone() { team_.worksAlone_.store(false, std::memory_order_relaxed); }
+  WorkAlone(const WorkAlone&) = delete;
+  WorkAlone& operator=(const WorkAlone&) = delete;
+
+ private:
+  ThreadTeam& team_;
 };
 
 }  // namespace clothsim

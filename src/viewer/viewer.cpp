@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "core/thread_team.h"
 #include "gl/context.h"
 #include "output/numbered_files.h"
 #include "render/textures.h"
@@ -300,6 +301,7 @@ void Viewer::leaveAtOnce() {
 void Viewer::draw() {
   const ViewerWindow::Size size = window_.size();
   if (size.width == 0 || size.height == 0) return;  // minimised
+  const WorkAlone whileDrawing(ThreadTeam::shared(), gl::currentContextInfo().software);
   const PictureArea area = pictureArea();
   const ViewOptions wanted = open_->view;
   open_->view.showPins = wanted.showPins || now_ < pinsShownUntil_ || window_.holdsShift();

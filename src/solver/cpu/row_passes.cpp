@@ -138,7 +138,9 @@ void RowPasses<Real>::run(std::span<const PassCall> passes,
 
 template <class Real>
 int RowPasses<Real>::threadsFor(const Piece& lattice) const {
-  return std::clamp(lattice.columns * lattice.rows / LEAST_PARTICLES, 1, ThreadTeam::shared().threads());
+  const ThreadTeam& team = ThreadTeam::shared();
+  return std::clamp(lattice.columns * lattice.rows / LEAST_PARTICLES, 1,
+                    team.worksAlone() ? 1 : team.threads());
 }
 
 template <class Real>

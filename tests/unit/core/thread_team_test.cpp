@@ -45,6 +45,21 @@ TEST(ThreadTeam, IsDoneWhenItReturnsJobAfterJob) {
   }
 }
 
+TEST(ThreadTeam, LeavesTheWorkToItsCallerWhileOthersWantTheCores) {
+  ThreadTeam team(4);
+  const std::thread::id caller = std::this_thread::get_id();
+  std::atomic<int> byCaller = 0;
+  {
+    const WorkAlone whileDrawing(team);
+    EXPECT_TRUE(team.worksAlone());
+    team.forEach(0, 10'000, 1, [&](std::uint32_t) { byCaller += std::this_thread::get_id() == caller; });
+  }
+  EXPECT_EQ(byCaller, 10'000);
+  EXPECT_FALSE(team.worksAlone());
+  const WorkAlone onHardware(team, false);
+  EXPECT_FALSE(team.worksAlone());
+}
+
 // A thread that is late with a short job must not take entries of the long one that follows as its own.
 TEST(ThreadTeam, DoesEachEntryOnceWhenShortAndLongJobsFollowEachOther) {
   ThreadTeam team(2);

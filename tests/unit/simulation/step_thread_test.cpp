@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "core/thread_team.h"
 #include "scene_io/scene_io.h"
 #include "solver/state.h"
 
@@ -53,6 +54,22 @@ TEST(StepThread, SimulatesTheSameBitsAndTheSameRecordingAsWithoutIt) {
   });
   EXPECT_EQ(hashOf(threaded), hashOf(plain));
   EXPECT_EQ(threaded.recording().format(), plain.recording().format());
+}
+
+// Waves of two threads and of one follow each other, and what began on two goes on with one.
+TEST(StepThread, SimulatesTheSameBitsWhilePicturesTakeTheCores) {
+  Scene scene = loadSceneByName("demo");
+  static_cast<void>(changeResolution(scene, 64, 64, false));
+  Session plain(scene, "cpu", makeCpuSolver), threaded(scene, "cpu", makeCpuSolver);
+  EXPECT_FALSE(plain.stepFrames(12));
+  StepThread thread;
+  thread.start(threaded, 12, 1e9);
+  while (!thread.isDone()) {
+    const WorkAlone whileDrawing(ThreadTeam::shared());
+    std::this_thread::sleep_for(std::chrono::microseconds(300));
+  }
+  EXPECT_EQ(thread.take().frames, 12);
+  EXPECT_EQ(hashOf(threaded), hashOf(plain));
 }
 
 TEST(StepThread, EndsWithinALongFrameAndLeavesTheOneBefore) {
