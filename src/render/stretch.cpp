@@ -74,6 +74,13 @@ void stretchPixels(std::span<const std::uint8_t> from, PictureSize fromSize, Pic
   for (int y = part.bottom; y < part.top; ++y) {
     std::uint8_t* const row =
         into.data() + static_cast<std::size_t>(topFirst ? part.top - 1 - y : y - part.bottom) * wideBytes;
+    if (fromSize == toSize) {
+      std::memcpy(row,
+                  from.data() + static_cast<std::size_t>(y) * rowBytes +
+                      CHANNELS * static_cast<std::size_t>(part.left),
+                  wideBytes);
+      continue;
+    }
     const Pair rows = pairAt(y, toSize.height, fromSize.height);
     if (rows.first == ofSecond) {
       std::swap(first, second);

@@ -13,6 +13,7 @@ namespace clothsim {
 
 struct PictureSize {
   int width = 0, height = 0;  // [pixels], > 0
+  friend bool operator==(const PictureSize&, const PictureSize&) = default;
 };
 
 // Between two pictures of four bytes a pixel, row by row from the bottom: each pixel of `part` of the larger
