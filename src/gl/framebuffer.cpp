@@ -11,7 +11,8 @@ namespace clothsim::gl {
 namespace {
 
 // As windows are: what is stored alike a software renderer copies from one to the other as memory, and
-// draws otherwise, which takes it ten times as long.
+// draws otherwise, which takes it ten times as long. Mesa orders colours as in the pixels it is given only
+// where the internal format names no sizes.
 void storeBlueFirst(GLuint texture, int width, int height) {
   GLint bound = 0;
   glGetIntegerv(GL_TEXTURE_BINDING_2D, &bound);

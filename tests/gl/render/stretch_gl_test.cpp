@@ -71,6 +71,16 @@ TEST_F(StretchTest, WithTheTopFirstTurnsTheRowsAround) {
         << row;
 }
 
+// Else llvmpipe would draw what it is to copy into a window (src/gl/framebuffer.cpp).
+TEST_F(StretchTest, PicturesAreStoredAsASoftwareRendererStoresWindows) {
+  if (!gl::currentContextInfo().software) return;
+  const gl::Framebuffer of = picture(width, height, true);
+  GLint order = 0;
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, of.name());
+  glGetIntegerv(GL_IMPLEMENTATION_COLOR_READ_FORMAT, &order);
+  EXPECT_EQ(order, GL_BGRA);
+}
+
 TEST_F(StretchTest, OfTheSameSizeIsACopy) {
   const gl::Framebuffer from = picture(width, height, true), to = picture(width, height, false);
   Stretch().run(from, to, {0, 0, width, height});
