@@ -26,6 +26,7 @@ constexpr int WIDTH = 1280, HEIGHT = 720;
 constexpr double SIMULATED = 1.0 / 30;      // that the seconds of a simulation are for [s]
 constexpr double QUICK_PICTURE = 1.0 / 60;  // a better quality may take so much [s]
 constexpr int PICTURES = 5;
+constexpr double HOPELESS = 2;  // so many times the limit are not measured again
 
 Scene demoOf(int size) {
   Scene scene = loadSceneByName("demo");
@@ -60,8 +61,10 @@ void chooseSize(Proposal& proposal, bool software) {
   const double limit = limitOf(proposal, software);
   for (const int size : SIZES) {
     double seconds = INFINITY;  // the least of some: others may use the cores, too
-    for (int k = 0; k < 4 && seconds > limit; ++k)
+    for (int k = 0; k < 4; ++k) {
       seconds = std::min(seconds, measureDemo(size, proposal.backend, 0, 0).simulationSeconds);
+      if (seconds <= limit || seconds > HOPELESS * limit) break;
+    }
     if (seconds > limit && size != SIZES[0]) return;
     proposal.size = size;
     proposal.simulationSeconds = seconds;
