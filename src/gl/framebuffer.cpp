@@ -10,9 +10,9 @@
 namespace clothsim::gl {
 namespace {
 
-// As windows are: what is stored alike a software renderer copies from one to the other as memory, and
-// draws otherwise, which takes it ten times as long. Mesa orders colours as in the pixels it is given only
-// where the internal format names no sizes.
+// As windows are. What is stored alike a software renderer copies as memory; everything else it draws, which
+// takes several times as long. Mesa orders colours as in the pixels it is given only where the internal
+// format names no sizes.
 void storeBlueFirst(GLuint texture, int width, int height) {
   GLint bound = 0;
   glGetIntegerv(GL_TEXTURE_BINDING_2D, &bound);
@@ -128,12 +128,6 @@ int supportedSamples(int wanted) {
 void Framebuffer::showColumns(int from) const {
   glBlitNamedFramebuffer(name_, 0, from, format_.height, format_.width, 0, from, 0, format_.width,
                          format_.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-}
-
-GLuint boundFramebuffer() {
-  GLint name = 0;
-  glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &name);
-  return static_cast<GLuint>(name);
 }
 
 void bindFramebuffer(GLuint name) { glBindFramebuffer(GL_FRAMEBUFFER, name); }

@@ -37,8 +37,8 @@ class Framebuffer {
   [[nodiscard]] const FramebufferFormat& format() const { return format_; }
 
   void bind() const;  // for drawing, with the viewport over all of it
-  // Copies columns `from` to the last of a picture whose top row comes first into the window, which is as
-  // large. A window's rows are stored so: of another picture a software renderer would have to draw it.
+  // Copies columns `from` to the last into the lower left of the window. The top row comes first here, as in
+  // a window: a software renderer would have to draw other pictures.
   void showColumns(int from) const;
   // Averages the samples of the colour into `target`, which has the same size and format and is not
   // multisampled.
@@ -57,8 +57,7 @@ class Framebuffer {
 // The most samples a pixel, up to `wanted`, that colour and depth attachments really have: a driver may round
 // up what it is asked for, and llvmpipe makes 4 of 2.
 [[nodiscard]] int supportedSamples(int wanted);
-// What is drawn into.
-[[nodiscard]] GLuint boundFramebuffer();
+// To draw into it; 0: the window.
 void bindFramebuffer(GLuint name);
 
 }  // namespace clothsim::gl

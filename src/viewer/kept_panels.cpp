@@ -69,20 +69,21 @@ void KeptPanels::draw(const ImDrawData& data, float left, bool mayLag) {
                                      .color = GL_RGBA8};
   const int from = static_cast<int>(left);
   if (!lists.empty() && from < format.width) {
-    std::vector<std::byte> wanted = bytesOf(lists);
     if (!(kept_.format() == format)) {
       drawing_ = gl::Framebuffer("panels", format);
       kept_ = gl::Framebuffer("kept panels", format);
       forget();
     }
     const auto now = std::chrono::steady_clock::now();
-    if (wanted != drawn_ && (!mayLag || drawn_.empty() || now - drawnAt_ >= longestLag)) {
-      drawnAt_ = now;
+    const bool lags = mayLag && !drawn_.empty() && now - drawnAt_ < longestLag;
+    std::vector<std::byte> wanted = lags ? std::vector<std::byte>() : bytesOf(lists);
+    if (!lags && wanted != drawn_) {
       drawing_.bind();
       drawLists(data, lists);
       copier_.run(drawing_, kept_, {from, 0, format.width, format.height}, true);
-      drawn_ = std::move(wanted);
       gl::bindFramebuffer(0);
+      drawn_ = std::move(wanted);
+      drawnAt_ = now;
     }
     kept_.showColumns(from);
   }

@@ -1,5 +1,5 @@
-// The controls beside the picture, drawn into a framebuffer of their own and only when they have changed: on
-// a software renderer that would otherwise take a fifth of every picture's time.
+// For a software renderer: the controls beside the picture, drawn into a framebuffer of their own and only
+// when they have changed. They would otherwise take a fifth of every picture's time.
 #pragma once
 
 #include <chrono>
@@ -16,14 +16,14 @@ namespace clothsim {
 
 class KeptPanels {
  public:
-  // Shows the lists of `data` that lie wholly right of `left` [pixels] in the window, and draws
-  // the others over it. `mayLag`: the former are drawn anew ten times a second, which is as often as their
-  // numbers and plots can be read.
+  // Shows the lists of `data` that lie wholly right of `left` [pixels] in the window, and draws the others
+  // over it. `mayLag`: the former are drawn anew ten times a second at most, which is as often as numbers and
+  // plots can be read.
   void draw(const ImDrawData& data, float left, bool mayLag);
   void forget() { drawn_.clear(); }  // what is in the textures that the lists name has changed
 
  private:
-  gl::Framebuffer drawing_, kept_;  // kept_: as drawn last, the top row first
+  gl::Framebuffer drawing_, kept_;  // what is drawn; the same with the top row first
   Stretch copier_;
   std::vector<std::byte> drawn_;  // vertices, indices and commands that kept_ shows
   std::chrono::steady_clock::time_point drawnAt_;
