@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 
 const fs::path shaderFolder = fs::path(SOURCE_ROOT) / "shaders";
 
-// "comp", "vert", "frag", ... as glslangValidator calls stages, and as our files' extensions do; "" for an
+// "comp", "vert", "frag", ... as glslc calls stages, and as our files' extensions do; "" for an
 // include.
 std::string stageOf(const fs::path& file) {
   const std::string extension = file.extension().string();
@@ -43,15 +43,20 @@ std::vector<std::string> shaderFiles() {
   return files;
 }
 
-// Compiles it to SPIR-V, and has that checked: drivers like zink and those of Vulkan's makers go the same
-// way.
-test::CommandResult validate(const std::string& source, const std::string& stage) {
+// One of the variants that the program compiles, as a text of its own.
+struct Variant {
+  std::string name, stage, text;
+};
+
+// Compiles them to SPIR-V, all in one go, which reads the language's own functions once; and has that
+// checked: drivers like zink and those of Vulkan's makers go the same way.
+test::CommandResult validate(const std::vector<Variant>& variants) {
   const test::TemporaryFolder folder;
-  writeFileAtomically(folder / "shader.txt", source);
-  const std::string text = (folder / "shader.txt").string(), binary = (folder / "shader.spv").string();
-  return test::runCommand(
-      "(glslangValidator --target-env opengl --auto-map-locations --auto-map-bindings -S " + stage + " -o " +
-      binary + " " + text + " && spirv-val --target-env opengl4.5 " + binary + ") 2>&1");
+  for (const Variant& variant : variants)
+    writeFileAtomically(folder / (variant.name + "." + variant.stage), variant.text);
+  return test::runCommand("(cd " + folder.path().string() +
+                          " && glslc -c --target-env=opengl4.5 -fauto-map-locations -fauto-bind-uniforms * &&"
+                          " for f in *.spv; do spirv-val --target-env opengl4.5 $f || exit; done) 2>&1");
 }
 
 // NVIDIA's compiler refuses a shader that declares more, used or not (driver 580, error C7612).
@@ -65,12 +70,12 @@ std::size_t countSamplers(const std::string& text) {
 }
 
 // Those that the preprocessor leaves; it is run only where there may be too many.
-std::size_t declaredSamplers(const std::string& source, const std::string& stage) {
-  if (const std::size_t most = countSamplers(source); most <= MOST_DECLARED_SAMPLERS) return most;
+std::size_t declaredSamplers(const Variant& variant) {
+  if (const std::size_t most = countSamplers(variant.text); most <= MOST_DECLARED_SAMPLERS) return most;
   const test::TemporaryFolder folder;
-  writeFileAtomically(folder / "shader.txt", source);
-  const test::CommandResult result =
-      test::runCommand("glslangValidator -E -S " + stage + " " + (folder / "shader.txt").string());
+  const std::filesystem::path file = folder / ("shader." + variant.stage);
+  writeFileAtomically(file, variant.text);
+  const test::CommandResult result = test::runCommand("glslc -E " + file.string());
   EXPECT_EQ(result.exitCode, 0) << result.output;
   return countSamplers(result.output);
 }
@@ -172,23 +177,26 @@ std::vector<gl::Defines> variantsOf(const std::string& file) {
   return variants;
 }
 
-class ShaderFile : public testing::TestWithParam<std::string> {};
+class ShaderFolder : public testing::TestWithParam<std::string> {};
 
-TEST_P(ShaderFile, PassesTheReferenceCompiler) {
-  for (const gl::Defines& defines : variantsOf(GetParam())) {
-    const gl::ShaderSource source = gl::loadShaderSource(GetParam(), defines);
-    const test::CommandResult result = validate(source.text, stageOf(GetParam()));
-    EXPECT_EQ(result.exitCode, 0) << GetParam() << ":\n" << result.output;
-    EXPECT_LE(declaredSamplers(source.text, stageOf(GetParam())), MOST_DECLARED_SAMPLERS);
+TEST_P(ShaderFolder, PassesTheReferenceCompiler) {
+  std::vector<Variant> variants;
+  for (const std::string& file : shaderFiles()) {
+    if (!file.starts_with(GetParam() + "/")) continue;
+    std::string name = file;
+    std::replace(name.begin(), name.end(), '/', '_');
+    for (const gl::Defines& defines : variantsOf(file))
+      variants.push_back({name + "." + std::to_string(variants.size()), stageOf(file),
+                          gl::loadShaderSource(file, defines).text});
   }
+  const test::CommandResult result = validate(variants);
+  EXPECT_EQ(result.exitCode, 0) << result.output;
+  for (const Variant& variant : variants)
+    EXPECT_LE(declaredSamplers(variant), MOST_DECLARED_SAMPLERS) << variant.name;
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ShaderFile, testing::ValuesIn(shaderFiles()), [](const auto& shader) {
-  std::string name = shader.param;
-  for (char& c : name)
-    if (c == '/' || c == '.') c = '_';
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(All, ShaderFolder, testing::Values("sim", "render", "probe"),
+                         [](const auto& folder) { return folder.param; });
 
 TEST(ShaderValidator, FindsShadersOfBothKinds) {
   for (const char* folder : {"sim/", "render/"}) {
@@ -200,12 +208,16 @@ TEST(ShaderValidator, FindsShadersOfBothKinds) {
 }
 
 TEST(ShaderValidator, RefusesAShaderThatIsWrong) {
-  EXPECT_EQ(validate("#version 450 core\nvoid main() {}\n", "vert").exitCode, 0);
-  EXPECT_NE(validate("#version 450 core\nvoid main() { float x = undeclared; }\n", "vert").exitCode, 0);
+  const Variant right{"right", "vert", "#version 450 core\nvoid main() {}\n"};
+  const Variant wrong{"wrong", "vert", "#version 450 core\nvoid main() { float x = undeclared; }\n"};
+  EXPECT_EQ(validate({right}).exitCode, 0);
+  const test::CommandResult result = validate({right, wrong});
+  EXPECT_NE(result.exitCode, 0);
+  EXPECT_NE(result.output.find("wrong.vert:2: error: 'undeclared'"), std::string::npos) << result.output;
 
-  std::string many = "#version 450 core\n#if 0\nuniform usampler2D left;\n#endif\n";
-  for (int i = 0; i < 33; ++i) many += "uniform samplerBuffer s" + std::to_string(i) + ";\n";
-  EXPECT_EQ(declaredSamplers(many, "vert"), 33u);
+  Variant many{"many", "vert", "#version 450 core\n#if 0\nuniform usampler2D left;\n#endif\n"};
+  for (int i = 0; i < 33; ++i) many.text += "uniform samplerBuffer s" + std::to_string(i) + ";\n";
+  EXPECT_EQ(declaredSamplers(many), 33u);
 }
 
 }  // namespace
