@@ -82,22 +82,24 @@ INLINE Vec3<Real> furtherOut(const ColliderParams<Real>& collider, Vec3<Real> x)
   return selected(distanceSquared < collider.radiusSquared, depth * normal, Vec3<Real>{});
 }
 
-// Particles before `done` are left alone.
-template <std::uint32_t type, bool mayEnter, bool moving, bool coulomb, class Real>
+// Of particles side by side from `first`, those before `done` are left alone.
+template <int lanes, std::uint32_t type, bool mayEnter, bool moving, bool coulomb, class Real>
 INLINE void collideWith(const PassArguments<Real>& arguments, const ColliderParams<Real>& collider,
-                        Range particles, std::ptrdiff_t done) {
-  const Arrays<const Real> starts = arraysOf(arguments.before.positions);
-  const Moved<Real> moved = movedBy(arguments);
-  const Real* inverseMasses = arguments.inverseMasses;
+                        std::ptrdiff_t first, std::ptrdiff_t done) {
+  const Arrays<const Real> starts = countedFrom(first, arraysOf(arguments.before.positions));
+  const Moved<Real> all = movedBy(arguments),
+                    moved{countedFrom(first, all.x), countedFrom(first, all.v), all.inverseTimeStep};
+  const Real* inverseMasses = arguments.inverseMasses + first;
   const Real offset = arguments.step.planeOffset;
+  const int toDo = static_cast<int>(done - first);
 #pragma GCC ivdep
-  for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
+  for (int i = 0; i < lanes; ++i) {
     const Vec3<Real> now = at(moved.x, i);
     Vec3<Real> previous = at(starts, i);
     if constexpr (moving) previous = carried(collider, previous);
     const Contact<Real> contact = contactWith<type, mayEnter, coulomb>(collider, offset, previous, now);
     const Move<Real> by = moveOf<coulomb>(collider, previous, now, contact);
-    const std::uint32_t isFree = inverseMasses[i] != Real(0) ? 1 : 0, isToDo = i >= done ? 1 : 0;
+    const std::uint32_t isFree = inverseMasses[i] != Real(0) ? 1 : 0, isToDo = i >= toDo ? 1 : 0;
     move(moved, i, by, furtherOut<type>(collider, by.slid), (contact.touches ? 1u : 0u) & isFree & isToDo);
   }
 }
@@ -106,6 +108,9 @@ INLINE void collideWith(const PassArguments<Real>& arguments, const ColliderPara
 constexpr std::uint32_t IS_FAR = 0,
                         IS_INSIDE = 1,  // behind the surface
     MAY_ENTER = 2;                      // on a way long enough to have gone through
+// A plane has no inside to enter.
+template <std::uint32_t type>
+constexpr bool hasInside = type == COLLIDER_SPHERE;
 template <std::uint32_t type, bool moving, bool coulomb, class Real>
 INLINE std::uint32_t nearnessOf(const ColliderParams<Real>& collider, Vec3<Real> start, Vec3<Real> now) {
   using Bits = decltype(bitsOf(Real(0)));
@@ -139,16 +144,20 @@ INLINE void collideInVectors(const PassArguments<Real>& arguments, const Collide
         }
       });
   if (largestOf(nearest) == IS_FAR) return;
-  const std::ptrdiff_t last = std::max(particles.begin, particles.end - SIXTEEN);
+  const std::ptrdiff_t last = particles.end - SIXTEEN;
+  if (last < particles.begin) {
+    for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i)
+      collideWith<1, type, hasInside<type>, moving, coulomb>(arguments, collider, i, i);
+    return;
+  }
   for (std::ptrdiff_t begin = particles.begin; begin < particles.end; begin += SIXTEEN) {
-    const std::ptrdiff_t from = std::min(begin, last);
-    const Range some{from, std::min(from + SIXTEEN, particles.end)};
+    const std::ptrdiff_t first = std::min(begin, last);
     std::uint32_t is = IS_FAR;
-    for (std::ptrdiff_t i = some.begin; i < some.end; ++i) is = larger(is, near[i - particles.begin]);
+    for (std::ptrdiff_t i = 0; i < SIXTEEN; ++i) is = larger(is, near[first - particles.begin + i]);
     if (is == MAY_ENTER)
-      collideWith<type, true, moving, coulomb>(arguments, collider, some, begin);
+      collideWith<SIXTEEN, type, hasInside<type>, moving, coulomb>(arguments, collider, first, begin);
     else if (is == IS_INSIDE)
-      collideWith<type, false, moving, coulomb>(arguments, collider, some, begin);
+      collideWith<SIXTEEN, type, false, moving, coulomb>(arguments, collider, first, begin);
   }
 }
 template <std::uint32_t type, class Real>

@@ -33,6 +33,7 @@ INLINE void addLimitSprings(const PassArguments<Real>& arguments, int row) {
       arguments, row,
       [&](Range particles, SpringPlace place, const SpringParams<Real>& spring, auto rest)
           __attribute__((always_inline)) {
+#pragma GCC ivdep
             for (std::ptrdiff_t i = particles.begin; i < particles.end; ++i) {
               const Vec3<Real> d = load(x, y, z, i + place.other) - load(x, y, z, i);
               const Real limit = limitLength(rest, i, limitFactor, spring.limitLength);

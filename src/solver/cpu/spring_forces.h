@@ -104,8 +104,8 @@ INLINE OwnSprings<Real, RestLengths> ownSprings(const StepParams<Real>& step, st
           bitsOf(spring.maxLengthSquared)};
 }
 
-// The forces of springs in the first slots. Returns whether one is too long.
-template <bool hasCuts, class Real, class RestLengths, std::size_t... k>
+// The forces of springs in the first slots, where nothing is cut. Returns whether one is too long.
+template <class Real, class RestLengths, std::size_t... k>
 INLINE bool computeOwnForces(const PassArguments<Real>& arguments, int row, ForceRows<Real>& rows,
                              const std::array<RestLengths, sizeof...(k)>& rests, std::index_sequence<k...>) {
   using Bits = decltype(bitsOf(Real(0)));
@@ -113,7 +113,6 @@ INLINE bool computeOwnForces(const PassArguments<Real>& arguments, int row, Forc
   const Range particles = rangeOf(step, row);
   const OwnSprings<Real, RestLengths> springs[]{ownSprings(step, k, row, rests[k])...};
   const Arrays<const Real> x = countedFrom(particles.begin, arraysOf(arguments.before.positions));
-  const std::uint32_t* cutMasks = hasCuts ? arguments.cutMasks + particles.begin : nullptr;
   Bits areTooLong[SIXTEEN]{};
   computeOwnSprings<sizeof...(k)>(
       rows, row, particles.end - particles.begin,
@@ -123,22 +122,21 @@ INLINE bool computeOwnForces(const PassArguments<Real>& arguments, int row, Forc
         const OwnSprings<Real, RestLengths> of = springs[slot];
         const Vec3<Real> b = at(x, column + of.other);
         const Vec3<Real> f = springForce(a, b, isEnd ? of.stiffnessOfEnds : of.stiffness, of.rest[column]);
-        const bool acts = isThere & !isCutAt<hasCuts>(cutMasks, column, slot);
-        areTooLong[lane] |= (acts & (bitsOf(dot(b - a, b - a)) > of.longest)) ? Bits(1) : Bits(0);
-        return Vec3<Real>{acts ? f.x : Real(0), acts ? f.y : Real(0), acts ? f.z : Real(0)};
+        areTooLong[lane] |= (isThere & (bitsOf(dot(b - a, b - a)) > of.longest)) ? Bits(1) : Bits(0);
+        return Vec3<Real>{isThere ? f.x : Real(0), isThere ? f.y : Real(0), isThere ? f.z : Real(0)};
       });
   return largestOf(areTooLong) != 0;
 }
-template <bool hasCuts, std::size_t slots, class Real>
+template <std::size_t slots, class Real>
 INLINE bool computeOwnForces(const PassArguments<Real>& arguments, int row, ForceRows<Real>& rows) {
   const StepParams<Real>& step = arguments.step;
   const std::ptrdiff_t start = rangeOf(step, row).begin;
   return [&]<std::size_t... k>(std::index_sequence<k...> all) __attribute__((always_inline)) {
     if (step.useRestLengthTable == 0)
-      return computeOwnForces<hasCuts>(arguments, row, rows,
-                                       std::array{NominalLength<Real>{step.springs[k].restLength}...}, all);
-    return computeOwnForces<hasCuts>(
-        arguments, row, rows, std::array{arguments.restLengths + k * step.totalParticles + start...}, all);
+      return computeOwnForces(arguments, row, rows,
+                              std::array{NominalLength<Real>{step.springs[k].restLength}...}, all);
+    return computeOwnForces(arguments, row, rows,
+                            std::array{arguments.restLengths + k * step.totalParticles + start...}, all);
   }
   (std::make_index_sequence<slots>());
 }
@@ -150,10 +148,12 @@ INLINE void sumSpringForces(const PassArguments<Real>& arguments, int row, const
   const StepParams<Real>& step = arguments.step;
   const auto count = static_cast<std::ptrdiff_t>(step.columns);
   const auto compute = [&](int owners) __attribute__((always_inline)) {
-    if (canComputeOwnSprings<slots>(step, owners)) {
-      if (computeOwnForces<hasCuts, slots>(arguments, owners, rows)) noteOverlong(arguments, owners);
-      return;
-    }
+    // Of cut cloth slot by slot: all at once they would take half of this file's time to compile.
+    if constexpr (!hasCuts)
+      if (canComputeOwnSprings<slots>(step, owners)) {
+        if (computeOwnForces<slots>(arguments, owners, rows)) noteOverlong(arguments, owners);
+        return;
+      }
     for (std::uint32_t slot = 0; slot < slots; ++slot) computeSprings<hasCuts>(arguments, slot, owners, rows);
     sumOwnSprings<slots>(rows, owners, count);
   };
