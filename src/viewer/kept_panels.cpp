@@ -10,8 +10,6 @@
 namespace clothsim {
 namespace {
 
-constexpr std::chrono::milliseconds longestLag{100};
-
 // By what its commands are clipped to, or else by where its vertices are: the background of a window is not
 // clipped to it.
 bool liesRightOf(float left, const ImDrawList& list) {
@@ -57,7 +55,7 @@ void drawLists(const ImDrawData& data, std::vector<ImDrawList*>& lists) {
 
 }  // namespace
 
-void KeptPanels::draw(const ImDrawData& data, float left, bool mayLag) {
+void KeptPanels::draw(const ImDrawData& data, float left, bool isNew) {
   std::vector<ImDrawList*> lists(data.CmdLists, data.CmdLists + data.CmdListsCount);
   const auto others =
       std::ranges::stable_partition(lists, [&](const ImDrawList* list) { return liesRightOf(left, *list); });
@@ -74,16 +72,15 @@ void KeptPanels::draw(const ImDrawData& data, float left, bool mayLag) {
       kept_ = gl::Framebuffer("kept panels", format);
       forget();
     }
-    const auto now = std::chrono::steady_clock::now();
-    const bool lags = mayLag && !drawn_.empty() && now - drawnAt_ < longestLag;
-    std::vector<std::byte> wanted = lags ? std::vector<std::byte>() : bytesOf(lists);
-    if (!lags && wanted != drawn_) {
-      drawing_.bind();
-      drawLists(data, lists);
-      copier_.run(drawing_, kept_, {from, 0, format.width, format.height}, true);
-      gl::bindFramebuffer(0);
-      drawn_ = std::move(wanted);
-      drawnAt_ = now;
+    if (isNew || drawn_.empty()) {
+      std::vector<std::byte> wanted = bytesOf(lists);
+      if (wanted != drawn_) {
+        drawing_.bind();
+        drawLists(data, lists);
+        copier_.run(drawing_, kept_, {from, 0, format.width, format.height}, true);
+        gl::bindFramebuffer(0);
+        drawn_ = std::move(wanted);
+      }
     }
     kept_.showColumns(from);
   }

@@ -2,7 +2,6 @@
 // when they have changed. They would otherwise take a fifth of every picture's time.
 #pragma once
 
-#include <chrono>
 #include <cstddef>
 #include <vector>
 
@@ -17,16 +16,14 @@ namespace clothsim {
 class KeptPanels {
  public:
   // Shows the lists of `data` that lie wholly right of `left` [pixels] in the window, and draws the others
-  // over it. `mayLag`: the former are drawn anew ten times a second at most, which is as often as numbers and
-  // plots can be read.
-  void draw(const ImDrawData& data, float left, bool mayLag);
+  // over it. `isNew`: the lists may differ from the last ones.
+  void draw(const ImDrawData& data, float left, bool isNew);
   void forget() { drawn_.clear(); }  // what is in the textures that the lists name has changed
 
  private:
   gl::Framebuffer drawing_, kept_;  // what is drawn; the same with the top row first
   Stretch copier_;
   std::vector<std::byte> drawn_;  // vertices, indices and commands that kept_ shows
-  std::chrono::steady_clock::time_point drawnAt_;
 };
 
 }  // namespace clothsim

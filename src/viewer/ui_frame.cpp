@@ -153,6 +153,7 @@ bool UiFrame::hasPopup() const {
   return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
 }
 bool UiFrame::wantsKeys() const { return ImGui::GetIO().WantTextInput; }
+bool UiFrame::isHeld() const { return ImGui::IsAnyMouseDown() || ImGui::IsAnyItemActive(); }
 
 void UiFrame::closePopups() {
   if (hasPopup()) ImGui::ClosePopupToLevel(0, false);
@@ -185,9 +186,9 @@ void UiFrame::end() {
   ImGui::Render();
 }
 
-void UiFrame::draw(float pictureWidth, bool panelsMayLag) {
+void UiFrame::draw(float pictureWidth, bool isNew) {
   ImDrawData& data = *ImGui::GetDrawData();
-  gl::currentContextInfo().software ? kept_.draw(data, pictureWidth, panelsMayLag)
+  gl::currentContextInfo().software ? kept_.draw(data, pictureWidth, isNew)
                                     : ImGui_ImplOpenGL3_RenderDrawData(&data);
 }
 

@@ -38,9 +38,11 @@ class UiFrame {
 
   void begin(double textScale);
   void end();
-  // Draws the controls made between begin() and end(): those right of the picture as they were kept, where
-  // nothing has changed or where they may lag (kept_panels.h), and the others over it.
-  void draw(float pictureWidth, bool panelsMayLag);
+  // Draws the controls made between begin() and end(), of the last picture or (`isNew`) of this one: on a
+  // software renderer those right of the picture as they were kept, where nothing has changed
+  // (kept_panels.h).
+  void draw(float pictureWidth, bool isNew);
+  [[nodiscard]] bool isHeld() const;  // a mouse button, or a control
 
   [[nodiscard]] bool wantsMouse() const;  // as of the last frame
   [[nodiscard]] bool hasPopup() const;    // whether a list or a colour picker is open

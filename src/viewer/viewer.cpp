@@ -309,20 +309,34 @@ void Viewer::draw() {
   open_->view = wanted;
   const auto width = static_cast<int>(area.width), height = static_cast<int>(area.height);
   timings_.time(FrameTimings::picture, [&] { attempt([&] { drawPicture(width, height); }); });
-  timings_.time(FrameTimings::controls, [&] {
-    ui_.begin(textScale());
-    attempt([&] { drawControls(); });
-    ui_.end();
-  });
-  const bool panelsMayLag = !paused_ && drawsLeft_ <= 0;
-  timings_.time(FrameTimings::drawControls, [&] { ui_.draw(area.width, panelsMayLag); });
+  const bool areControlsNew = !mayKeepControls();
+  if (areControlsNew)
+    timings_.time(FrameTimings::controls, [&] {
+      laidOut_ = {now_, size};
+      ui_.begin(textScale());
+      attempt([&] { drawControls(); });
+      ui_.end();
+    });
+  timings_.time(FrameTimings::drawControls, [&] { ui_.draw(area.width, areControlsNew); });
   timings_.time(FrameTimings::swap, [&] { window_.swap(); });
   timings_.time(FrameTimings::after, [&] {
-    applyRequests();
+    if (areControlsNew) applyRequests();
     if (!isStepping()) attempt([&] { measure(); });
   });
   if (const std::string now = viewerTitle(*open_, meter_, paused_); now != title_)
     window_.setTitle(title_ = now);
+}
+
+// On a software renderer, where laying them out and drawing them takes a tenth of every picture's time. Then
+// numbers and plots change ten times a second, which is as often as they can be read.
+bool Viewer::mayKeepControls() {
+  constexpr double longestLag = 0.1;  // [s]
+  const bool isAskedFor = paused_ || drawsLeft_ > 0 || draftHeld_ || ui_.isHeld() || dialog_.isOpen() ||
+                          laidOut_.size != window_.size();
+  const bool followsCloth =
+      mouse_.isBusy() || compare_.isOpen() || mouse_.chosen().gizmo(mouseContext()).has_value();
+  return gl::currentContextInfo().software && !isAskedFor && !followsCloth &&
+         now_ - laidOut_.time < longestLag;
 }
 
 // What rests is drawn in all pixels, and so is what is being recorded.

@@ -334,7 +334,7 @@ std::unique_ptr<OpenScene> Viewer::load(const std::string& source,
     ui_.begin(textScale());
     drawLoading(name);
     ui_.end();
-    ui_.draw(static_cast<float>(window_.size().width), false);
+    ui_.draw(static_cast<float>(window_.size().width), true);
     window_.swap();
     window_.pollEvents();
   }

@@ -178,6 +178,7 @@ class Viewer {
   [[nodiscard]] MouseContext mouseContext();
   [[nodiscard]] bool isIdle();
   [[nodiscard]] bool mayChange();
+  [[nodiscard]] bool mayKeepControls();
   [[nodiscard]] bool isRefining() const;
   [[nodiscard]] std::optional<int> refinedExposures() const;
 
@@ -246,8 +247,12 @@ class Viewer {
   double tempo_ = 1;                     // simulated seconds per second that are wanted
   double unpaced_ = 0;                   // time that pace_ does not know of yet [s]
   double lastDrawn_ = 0;                 // [s] since the start
-  double waitingSince_ = 0;              // [s] since the start
-  bool stepping_ = false;                // the session is within a frame on this thread. Then, and while
+  struct {
+    double time = 0;
+    ViewerWindow::Size size;
+  } laidOut_;                // the controls, as they were last [s] since the start
+  double waitingSince_ = 0;  // [s] since the start
+  bool stepping_ = false;    // the session is within a frame on this thread. Then, and while
   std::vector<std::function<void()>>
       waiting_;                       // steps_ is busy, what asks the session for something waits here
   std::optional<Scene> waitingEdit_;  // the newest of the panels, which waits likewise

@@ -56,6 +56,7 @@ class ViewerWindow {
 
   struct Size {
     int width = 0, height = 0;  // pixels; 0 while minimised
+    friend bool operator==(const Size&, const Size&) = default;
   };
   [[nodiscard]] Size size() const { return pixels_; }
   [[nodiscard]] Cursor cursor() const;
