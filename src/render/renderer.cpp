@@ -68,9 +68,15 @@ Pick Renderer::pick(GLuint positions, const Camera& camera, double time, int wid
   return parts.pickTarget->read(parts.cloth->pieces(), clipFromWorld, ndc, camera.eye());
 }
 
-void Renderer::draw(GLuint positions, const Camera& camera, double time, GLuint target, int width, int height,
-                    bool topFirst) {
-  parts_->draw({positions, &camera, time, target, width, height, topFirst},
+void Renderer::draw(GLuint positions, const Camera& camera, double time, GLuint target, int width,
+                    int height) {
+  parts_->draw({positions, &camera, time, target, width, height},
+               [](const char*, const auto& pass) { pass(); });
+}
+
+void Renderer::drawOver(GLuint positions, const Camera& camera, double time, const gl::Framebuffer& target) {
+  const gl::FramebufferFormat& format = target.format();
+  parts_->draw({positions, &camera, time, target.name(), format.width, format.height, &target},
                [](const char*, const auto& pass) { pass(); });
 }
 
@@ -78,7 +84,7 @@ void Renderer::expose(int number, int count, GLuint positions, const Camera& cam
                       GLuint target, int width, int height) {
   if (parts_->exposures.size() != static_cast<std::size_t>(count)) parts_->exposures = makeExposures(count);
   const Exposure& exposure = parts_->exposures[static_cast<std::size_t>(number)];
-  parts_->draw({positions, &camera, time, target, width, height, false, &exposure, number},
+  parts_->draw({positions, &camera, time, target, width, height, nullptr, &exposure, number},
                [](const char*, const auto& pass) { pass(); });
 }
 

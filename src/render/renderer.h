@@ -33,10 +33,12 @@ class Renderer {
   ~Renderer();
 
   // `positions` is a buffer of one vec4 a particle. `time` [s] places moving colliders. Draws into the
-  // framebuffer `target` (0: the window) of `width` x `height` pixels; `topFirst`: whose top row comes first.
-  // Neither reads back nor uploads positions.
-  void draw(GLuint positions, const Camera& camera, double time, GLuint target, int width, int height,
-            bool topFirst = false);
+  // framebuffer `target` (0: the window) of `width` x `height` pixels. Neither reads back nor uploads
+  // positions.
+  void draw(GLuint positions, const Camera& camera, double time, GLuint target, int width, int height);
+  // The same into a framebuffer whose top row comes first, for a software renderer: of the last picture that
+  // is in it only what has changed is written anew.
+  void drawOver(GLuint positions, const Camera& camera, double time, const gl::Framebuffer& target);
 
   // Exposure `number` of `count` (render/exposure.h), of the same state, camera and size as those before it;
   // 0 begins a new mean. Shows the mean of those so far in `target`.

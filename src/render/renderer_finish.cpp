@@ -46,7 +46,9 @@ void Renderer::Parts::resolveInto(GLuint destination, int width, int height, con
 
 // Only what has changed: copying what is kept costs a tenth of filtering it.
 void Renderer::Parts::stretch() {
-  const gl::FramebufferFormat &from = finished.format(), &to = stretched.format();
+  const gl::FramebufferFormat& from = finished.format();
+  const PictureSize to =
+      isOver() ? drawnOver.size : PictureSize{stretched.format().width, stretched.format().height};
   PixelRect changed{0, 0, to.width, to.height};
   if (part) {
     // A pixel more on all sides, for the filter.
@@ -58,7 +60,9 @@ void Renderer::Parts::stretch() {
                scaled(part->picture.right + 2, from.width, to.width),
                scaled(part->picture.top + 2, from.height, to.height)};
   }
-  if (isSoftware || topFirst) return stretcher.run(finished, stretched, changed, topFirst);
+  if (isSoftware || isOver())
+    return stretcher.run(finished, isOver() ? drawnOver.texture : stretched.colorTexture(), to, changed,
+                         isOver());
   glEnable(GL_SCISSOR_TEST);
   glScissor(changed.left, changed.bottom, changed.width(), changed.height());
   glBlitNamedFramebuffer(finished.name(), stretched.name(), 0, 0, from.width, from.height, 0, 0, to.width,
@@ -67,8 +71,8 @@ void Renderer::Parts::stretch() {
 }
 
 void Renderer::Parts::show(GLuint destination, int width, int height) const {
-  glBlitNamedFramebuffer((stretches() ? stretched : finished).name(), destination, 0, 0, width, height, 0, 0,
-                         width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  glBlitNamedFramebuffer((stretchesApart() ? stretched : finished).name(), destination, 0, 0, width, height,
+                         0, 0, width, height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
   glBindFramebuffer(GL_FRAMEBUFFER, destination);  // for what is drawn over the picture
   glViewport(0, 0, width, height);
 }

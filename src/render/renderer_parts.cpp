@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "gl/context.h"
 #include "render/look.h"
@@ -409,7 +410,7 @@ void Renderer::Parts::makeTargets(int width, int height, int shownWidth, int sho
   if (isExposed()) make(mean, "mean of exposures", {.width = width, .height = height, .color = GL_RGBA32F});
   if (isDirect()) return;
   make(finished, "finished", {.width = width, .height = height, .color = GL_RGBA8});
-  if (stretches())
+  if (stretchesApart())
     make(stretched, "stretched", {.width = shownWidth, .height = shownHeight, .color = GL_RGBA8});
 }
 
@@ -446,12 +447,12 @@ PixelRect Renderer::Parts::drawnPart() const {
 }
 
 void Renderer::Parts::draw(const Picture& picture, const Around& around) {
-  const auto [state, camera, time, target, width, height, isTopFirst, exposure, number] = picture;
+  const auto [state, camera, time, target, width, height, over, exposure, number] = picture;
   if (width <= 0 || height <= 0) return;  // a minimised window
   const auto scaled = [&](int size) { return std::max(1, static_cast<int>(std::lround(scale * size))); };
   const int w = scaled(width), h = scaled(height);
-  if (isTopFirst != topFirst) changes.forget();
-  topFirst = isTopFirst;
+  const DrawnOver wanted = over == nullptr ? DrawnOver{} : DrawnOver{over->colorTexture(), {width, height}};
+  if (std::exchange(drawnOver, wanted) != wanted) changes.forget();
   const double motion = exposure != nullptr ? scene->camera.shutter * exposure->time : 0;
   frame.motion = static_cast<float>(motion);
   shellPlace = exposure != nullptr ? std::fmod(0.5 + number * 0.6180339887498949, 1.0) : 0.5;
@@ -478,8 +479,8 @@ void Renderer::Parts::draw(const Picture& picture, const Around& around) {
     else
       finishInto(t, w, h);
   });
-  if (stretches()) around("stretch", [&] { stretch(); });
-  if (!isDirect())
+  if (stretchesApart() || isOver()) around("stretch", [&] { stretch(); });
+  if (!isDirect() && !isOver())
     around("show",
            [&, t = target, fullWidth = width, fullHeight = height] { show(t, fullWidth, fullHeight); });
 }

@@ -31,9 +31,9 @@ struct Renderer::Parts {
     double time;
     GLuint target;
     int width, height;
-    bool topFirst = false;               // the top row of the target comes first
-    const Exposure* exposure = nullptr;  // of a mean; none: the whole picture
-    int number = 0;                      // of the exposure
+    const gl::Framebuffer* over = nullptr;  // the target, whose top row comes first and that keeps its pixels
+    const Exposure* exposure = nullptr;     // of a mean; none: the whole picture
+    int number = 0;                         // of the exposure
   };
 
   Parts(const Shared<Cloth>& drawn, const Shared<Scene>& first, const RenderOptions& wanted);
@@ -50,10 +50,11 @@ struct Renderer::Parts {
   void addToMean(bool isFirst);
   void uploadFrame();
   GLuint moved(GLuint positions);
-  // Whether the picture is stretched, which also turns its rows around; and whether it goes straight to where
-  // it is shown.
-  [[nodiscard]] bool stretches() const { return scale < 1 || topFirst; }
-  [[nodiscard]] bool isDirect() const { return !stretches() && !options.keepsStill; }
+  // Whether the picture goes straight to where it is shown. What is drawn over goes there when it is
+  // stretched, which also turns its rows around.
+  [[nodiscard]] bool isDirect() const { return scale >= 1 && !isOver() && !options.keepsStill; }
+  [[nodiscard]] bool isOver() const { return drawnOver.texture != 0; }
+  [[nodiscard]] bool stretchesApart() const { return scale < 1 && !isOver(); }
   void makeTargets(int width, int height, int shownWidth, int shownHeight);
   void findChanges(GLuint positions, int width, int height);
   void scissor() const;
@@ -117,7 +118,11 @@ struct Renderer::Parts {
   SpringsOverlay springs;
   std::optional<PickTarget> pickTarget;
   double scale = 1;
-  bool topFirst = false;  // the picture's top row comes first
+  struct DrawnOver {
+    GLuint texture = 0;  // 0: none
+    PictureSize size;
+    friend bool operator==(const DrawnOver&, const DrawnOver&) = default;
+  } drawnOver;  // where the last picture is
   gl::Framebuffer canvas, backdrop;
   Edges edges;
   Stretch stretcher;

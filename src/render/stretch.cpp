@@ -94,10 +94,9 @@ void stretchPixels(std::span<const std::uint8_t> from, PictureSize fromSize, Pic
   }
 }
 
-void Stretch::run(const gl::Framebuffer& from, const gl::Framebuffer& to, const PixelRect& part,
+void Stretch::run(const gl::Framebuffer& from, GLuint to, PictureSize toSize, const PixelRect& part,
                   bool topFirst) {
-  const PictureSize fromSize{from.format().width, from.format().height},
-      toSize{to.format().width, to.format().height};
+  const PictureSize fromSize{from.format().width, from.format().height};
   const auto bytes = [](int width, int height) {
     return CHANNELS * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   };
@@ -113,8 +112,8 @@ void Stretch::run(const gl::Framebuffer& from, const gl::Framebuffer& to, const 
                GL_BGRA, GL_UNSIGNED_BYTE, small_.data() + bytes(fromSize.width, static_cast<int>(lowest)));
   stretchPixels(small_, fromSize, toSize, part, topFirst, large_);
   glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
-  glTextureSubImage2D(to.colorTexture(), 0, part.left, topFirst ? toSize.height - part.top : part.bottom,
-                      part.width(), part.height(), GL_BGRA, GL_UNSIGNED_BYTE, large_.data());
+  glTextureSubImage2D(to, 0, part.left, topFirst ? toSize.height - part.top : part.bottom, part.width(),
+                      part.height(), GL_BGRA, GL_UNSIGNED_BYTE, large_.data());
 }
 
 }  // namespace clothsim

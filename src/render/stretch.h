@@ -22,13 +22,17 @@ struct PictureSize {
 void stretchPixels(std::span<const std::uint8_t> from, PictureSize fromSize, PictureSize toSize,
                    const PixelRect& part, bool topFirst, std::span<std::uint8_t> into);
 
-// From one framebuffer of GL_RGBA8 to another one, through memory.
+// From a framebuffer of GL_RGBA8 to another texture of that kind, through memory.
 class Stretch {
  public:
   // `part` [pixels of the picture in the end] is all that changes. `topFirst`: the top row of `to` comes
   // first.
-  void run(const gl::Framebuffer& from, const gl::Framebuffer& to, const PixelRect& part,
+  void run(const gl::Framebuffer& from, GLuint to, PictureSize toSize, const PixelRect& part,
            bool topFirst = false);
+  void run(const gl::Framebuffer& from, const gl::Framebuffer& to, const PixelRect& part,
+           bool topFirst = false) {
+    run(from, to.colorTexture(), {to.format().width, to.format().height}, part, topFirst);
+  }
 
  private:
   std::vector<std::uint8_t> small_, large_;

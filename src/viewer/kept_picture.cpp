@@ -2,11 +2,11 @@
 
 namespace clothsim {
 
-GLuint KeptPicture::drawInto(int width, int height) {
+const gl::Framebuffer& KeptPicture::drawInto(int width, int height) {
   forget();
   const gl::FramebufferFormat format{.width = width, .height = height, .color = GL_RGBA8};
   if (!(picture_.format() == format)) picture_ = gl::Framebuffer("picture", format);
-  return picture_.name();
+  return picture_;
 }
 
 }  // namespace clothsim

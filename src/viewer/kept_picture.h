@@ -63,7 +63,7 @@ class KeptPicture {
   }
   // The framebuffer to draw another one into, of that size [pixels], the top row first; then what has been
   // drawn.
-  [[nodiscard]] GLuint drawInto(int width, int height);
+  [[nodiscard]] const gl::Framebuffer& drawInto(int width, int height);
   void drawn(const PictureKey& key, double scale) {
     key_ = key;
     scale_ = scale;

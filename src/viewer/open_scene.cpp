@@ -62,9 +62,7 @@ void OpenScene::frameFor(int width, int height, const CoveredEdges& covered) {
   camera_.setHome(Camera(*loaded_, session_.simulation().cloth(), aspect, covered));
 }
 
-void OpenScene::draw(GLuint target, int width, int height, bool topFirst) {
-  renderer_.draw(camera_, target, width, height, topFirst);
-}
+void OpenScene::draw(GLuint target, int width, int height) { renderer_.draw(camera_, target, width, height); }
 
 void OpenScene::refine(int exposures, int width, int height) {
   if (exposures < FINAL_EXPOSURES)

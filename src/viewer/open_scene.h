@@ -59,8 +59,9 @@ class OpenScene {
   // Frames the scene for pictures of that size of which `covered` is hidden. A camera that the user has moved
   // stays.
   void frameFor(int width, int height, const CoveredEdges& covered);
-  // Into the lower left of a framebuffer, 0: of the window; `topFirst`: whose top row comes first.
-  void draw(GLuint target, int width, int height, bool topFirst = false);
+  // Into the lower left of a framebuffer, 0: of the window; or over the last picture of one that keeps it.
+  void draw(GLuint target, int width, int height);
+  void drawOver(const gl::Framebuffer& target) { renderer_.drawOver(camera_, target); }
   // Into the window, in final quality, of what rests: one exposure more than the `exposures` that it has, all
   // of them FINAL_EXPOSURES.
   void refine(int exposures, int width, int height);

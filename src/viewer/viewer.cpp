@@ -369,7 +369,7 @@ void Viewer::drawInto(const PictureKey& key, bool whole) {
   if (kept_.isOf(key, scale)) return;
   open_->renderer().renderer().setScale(scale);
   LapClock clock;
-  open_->draw(kept_.drawInto(key.width, key.height), key.width, key.height, true);
+  open_->drawOver(kept_.drawInto(key.width, key.height));
   kept_.drawn(key, scale);
   if (whole) return;
   gl::finish();

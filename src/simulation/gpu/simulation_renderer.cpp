@@ -73,8 +73,12 @@ void SimulationRenderer::takeVelocities() {
   renderer_->setVelocities(velocities_.name());
 }
 
-void SimulationRenderer::draw(const Camera& camera, GLuint target, int width, int height, bool topFirst) {
-  renderer_->draw(positionsBuffer(), camera, time(), target, width, height, topFirst);
+void SimulationRenderer::draw(const Camera& camera, GLuint target, int width, int height) {
+  renderer_->draw(positionsBuffer(), camera, time(), target, width, height);
+}
+
+void SimulationRenderer::drawOver(const Camera& camera, const gl::Framebuffer& target) {
+  renderer_->drawOver(positionsBuffer(), camera, time(), target);
 }
 
 void SimulationRenderer::expose(int number, int count, const Camera& camera, GLuint target, int width,

@@ -35,7 +35,8 @@ class SimulationRenderer {
   [[nodiscard]] GLuint positionsBuffer();
 
   // The functions of Renderer, with the positions and the time of the simulation.
-  void draw(const Camera& camera, GLuint target, int width, int height, bool topFirst = false);
+  void draw(const Camera& camera, GLuint target, int width, int height);
+  void drawOver(const Camera& camera, const gl::Framebuffer& target);
   void expose(int number, int count, const Camera& camera, GLuint target, int width, int height);
   // Calls update() first.
   [[nodiscard]] Image picture(const Camera& camera, int width, int height, int exposures = 1,

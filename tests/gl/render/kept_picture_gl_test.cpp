@@ -1,5 +1,6 @@
 // Pictures of which only the changed part is drawn are those that are drawn whole, in every pixel.
 #include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <limits>
 #include <optional>
@@ -59,17 +60,19 @@ class KeptPictureTest : public GlTest {
   }
 };
 
-// As KeptPicture has it for the window.
+// As KeptPicture has it for the window. A framebuffer that the last picture is not in gets all of it.
 TEST_F(KeptPictureTest, WithTheTopFirstIsTheSamePictureTurnedAround) {
   const test::Drape drape(test::drapeScene());
   const Camera camera(drape.scene, drape.cloth);
-  const gl::Framebuffer target("picture", {.width = width, .height = height, .color = GL_RGBA8});
+  const gl::FramebufferFormat format{.width = width, .height = height, .color = GL_RGBA8};
+  const std::array targets{gl::Framebuffer("picture", format), gl::Framebuffer("another picture", format)};
   for (const double scale : {1.0, 0.6}) {
     Shown kept(drape, true, scale), turned(drape, true, scale);
-    for (int moment = 0; moment < 3; ++moment) {
+    for (int moment = 0; moment < 6; ++moment) {
+      const gl::Framebuffer& target = targets[moment / 2 % 2];
       const Image upright = kept.after(drape, moment, camera);
       turned.positions.upload(moved(drape, moment));
-      turned.renderer.draw(turned.positions.name(), camera, 0, target.name(), width, height, true);
+      turned.renderer.drawOver(turned.positions.name(), camera, 0, target);
       const std::vector<std::uint8_t> rows = target.readRgb();
       constexpr std::ptrdiff_t rowBytes = 3 * width;
       for (std::ptrdiff_t row = 0; row < height; ++row)
