@@ -34,6 +34,7 @@ using uint = unsigned int;
 #define PATCH_POINTS_BINDING 6  // eight words a point: PatchPoint of src/render/patches.h
 #define CUT_CORNERS_BINDING 6   // four words a corner: the particle before it, it, the one after it, nothing
 #define MOTION_VELOCITIES_BINDING 1  // a vec4 a particle
+#define DIAGONALS_BINDING 2          // six words a cell: two triangles
 // Passes that look for layers near each other (src/render/layer_shares.h).
 #define LAYER_SEARCH_BINDING 10    // uniform block LayerSearch
 #define LAYER_TRIANGLES_BINDING 2  // three words a triangle

@@ -198,6 +198,23 @@ void ClothMesh::computeNormals(const NormalsPrograms& programs, GLuint positions
   glMemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT);  // normals, and the solver's positions, as vertices
 }
 
+void ClothMesh::followFolds(const gl::Program* diagonals) {
+  followsFolds_ = diagonals != nullptr && !hasCuts();
+  if (!followsFolds_) return;
+  glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  normals_.bindStorage(NORMALS_OUT_BINDING);
+  diagonals->bind();
+  for (PieceBuffers& piece : pieces_) {
+    if (piece.isMesh()) continue;
+    if (piece.followingIndices.size() == 0)
+      piece.followingIndices = gl::Buffer<std::uint32_t>("diagonals that follow folds", piece.indexCount);
+    piece.block.bindUniform(CLOTH_GRID_BINDING);
+    piece.followingIndices.bindStorage(DIAGONALS_BINDING);
+    gl::dispatch(piece.columns - 1, piece.rows - 1, NORMALS_GROUP_SIZE, NORMALS_GROUP_SIZE);
+  }
+  glMemoryBarrier(GL_ELEMENT_ARRAY_BARRIER_BIT);
+}
+
 void ClothMesh::drawRim(std::optional<std::size_t> only) const {
   if (rim_) rim_->draw(only);
 }
@@ -223,7 +240,10 @@ void ClothMesh::draw(GLuint positions, bool meshesAsLines, std::optional<std::si
     piece.block.bindUniform(CLOTH_GRID_BINDING);
     const bool asLines = meshesAsLines && piece.isMesh();
     if (asLines) glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
-    drawIndices(piece.firstIndex, piece.indexCount);
+    const bool follows = followsFolds_ && !piece.isMesh();
+    if (follows) vertices_.attachIndices(piece.followingIndices.name());
+    drawIndices(follows ? 0 : piece.firstIndex, piece.indexCount);
+    if (follows) vertices_.attachIndices(indices_.name());
     if (asLines) glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
   }
 }

@@ -43,6 +43,9 @@ class ClothMesh {
 
   // Smooth normals, tangents and strains for the positions in `positions`, one vec4 a particle.
   void computeNormals(const NormalsPrograms& programs, GLuint positions);
+  // Whether draw() divides the cells of whole grids so that diagonals follow folds, from these normals on:
+  // with diagonals.comp, or null. Not with cuts.
+  void followFolds(const gl::Program* diagonals);
   // The triangles of all pieces, with the program and its state bound by the caller.
   // `only`: one piece.
   void draw(GLuint positions, bool meshesAsLines = false, std::optional<std::size_t> only = {});
@@ -67,6 +70,7 @@ class ClothMesh {
     gl::BufferTexture neighboursTexture{};
     std::size_t firstIndex = 0, indexCount = 0;
     std::size_t firstCoarseIndex = 0, coarseIndexCount = 0;  // 0: it has none
+    gl::Buffer<std::uint32_t> followingIndices{};            // that follow folds; empty until they are used
     shared::ClothPiece values{};
     [[nodiscard]] bool isMesh() const { return neighbours.size() > 0; }
   };
@@ -81,6 +85,7 @@ class ClothMesh {
   gl::Buffer<std::uint32_t> cuts_;
   gl::Buffer<std::array<float, 2>> textureCoordinates_;
   gl::BufferTexture positionsTexture_;  // of the buffer that is measured
+  bool followsFolds_ = false;
   std::optional<ClothRim> rim_;
   gl::VertexArray vertices_;
 };

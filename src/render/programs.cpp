@@ -104,6 +104,11 @@ const gl::Program& RenderPrograms::meshNormals() {
   return *meshNormals_;
 }
 
+const gl::Program& RenderPrograms::diagonals() {
+  if (!diagonals_) diagonals_.emplace(gl::Program::makeCompute("render/diagonals.comp"));
+  return *diagonals_;
+}
+
 const LayerPrograms& RenderPrograms::layers() {
   if (!layers_) layers_.emplace();
   return *layers_;
@@ -210,6 +215,7 @@ void tryAllShaders(const RenderSettings& settings, int samples) {
         static_cast<void>(programs.fuzz(thick, light));
   }
   for (const bool ofLean : {false, true}) static_cast<void>(programs.rim(ofLean));
+  static_cast<void>(programs.diagonals());
   static_cast<void>(programs.picking());
   static_cast<void>(programs.overlays());
   static_cast<void>(programs.edges());

@@ -54,6 +54,7 @@ struct RenderPrograms {
   // The normals pass of the chosen model.
   [[nodiscard]] const gl::Program& normals(bool withCuts);
   [[nodiscard]] const gl::Program& meshNormals();
+  [[nodiscard]] const gl::Program& diagonals();
   [[nodiscard]] const SmoothPrograms& smooth();       // the same for the smooth surface
   [[nodiscard]] const LayerPrograms& layers();        // where it has layers
   [[nodiscard]] const gl::Program& rim(bool ofLean);  // of cloth that is drawn thick
@@ -80,7 +81,7 @@ struct RenderPrograms {
   gl::Defines stage_, behind_;
   std::optional<ShadedPrograms> shaded_, exposed_;
   std::optional<gl::Program> groundAlone_, beyondAlone_;
-  std::optional<gl::Program> normals_, normalsWithCuts_, meshNormals_, rim_, leanRim_;
+  std::optional<gl::Program> normals_, normalsWithCuts_, meshNormals_, diagonals_, rim_, leanRim_;
   struct ClothProgram {
     gl::Defines defines;
     ClothLight light;

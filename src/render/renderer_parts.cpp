@@ -232,6 +232,7 @@ void Renderer::Parts::computeNormals(GLuint positions) {
   clothMesh.computeNormals(
       {programs.normals(clothMesh.hasCuts()), cloth->hasMesh() ? &programs.meshNormals() : nullptr},
       positions);
+  clothMesh.followFolds(!smooth && isLitAtVertices() && !model.displaces ? &programs.diagonals() : nullptr);
   if (smooth)
     smooth->compute(programs.smooth(), positions, clothMesh,
                     smooth->hasLayers() ? &programs.layers() : nullptr);
@@ -364,13 +365,16 @@ ClothLight Renderer::Parts::lightOf(const PieceLook& look) const {
   return lightsVertices ? ClothLight::atVertices : ClothLight::atPixels;
 }
 
-void Renderer::Parts::drawCloth(GLuint positions) {
-  // Light at vertices costs less than the depth of what hides it.
-  const bool isCheap = std::all_of(looks.begin(), looks.end(), [&](const PieceLook& look) {
+bool Renderer::Parts::isLitAtVertices() const {
+  return std::all_of(looks.begin(), looks.end(), [&](const PieceLook& look) {
     const ClothLight light = lightOf(look);
     return light == ClothLight::plain || light == ClothLight::atVertices;
   });
-  if (!model.blends && !isCheap) {
+}
+
+void Renderer::Parts::drawCloth(GLuint positions) {
+  // Light at vertices costs less than the depth of what hides it.
+  if (!model.blends && !isLitAtVertices()) {
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     programs.clothDepth.bind();
     drawSurface(positions, [](const PieceLook&) {});

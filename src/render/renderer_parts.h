@@ -74,6 +74,7 @@ struct Renderer::Parts {
   [[nodiscard]] bool isGroundBehind(const PlaneDisc& plane) const;
   void drawCloth(GLuint positions);
   [[nodiscard]] ClothLight lightOf(const PieceLook& look) const;
+  [[nodiscard]] bool isLitAtVertices() const;  // all cloth
   void drawOverlay(GLuint positions);
   void drawFuzz(GLuint positions);          // in fuzz.cpp
   [[nodiscard]] float longestFuzz() const;  // [m]

@@ -76,6 +76,32 @@ TEST_F(VertexLight, OfMatteClothIsHardToTellAlsoWhereItIsCoarse) {
   }
 }
 
+// Narrow folds along those diagonals of cells that the springs do not have.
+Image foldsOf(int points, bool lightsVertices) {
+  Scene scene = drapeWith("fabric");
+  scene.render.gloss = GLOSSY;
+  scene.render.threadSpacing = 0.001;
+  scene.colliders.clear();
+  scene.cloths[0].numWidthPoints = scene.cloths[0].numHeightPoints = points;
+  const Cloth cloth(scene);
+  std::vector<Particle4> folded;
+  for (const Vec3d& rest : cloth.positions()) {
+    const double height = 0.5 + 0.012 * std::sin(60 * (rest.x - rest.z));
+    folded.push_back({static_cast<float>(rest.x), static_cast<float>(height), static_cast<float>(rest.z), 1});
+  }
+  const gl::Buffer<Particle4> positions("positions", folded);
+  RenderOptions options;
+  options.lightsVertices = lightsVertices;
+  options.subdivisions = 0;
+  Renderer renderer(cloth, scene, options);
+  return renderImage(renderer, positions.name(), Camera(scene, cloth), 0, 320, 240);
+}
+
+// With the diagonals of the springs the mean is 4.75: each triangle shows as the tooth of a saw.
+TEST_F(VertexLight, DividesCellsAlongFolds) {
+  EXPECT_LT(test::meanDifference(foldsOf(65, true), foldsOf(257, false)), 4.2);
+}
+
 // Breaks one shader, and expects the comparisons of `models`, and no others, to fail by it.
 void expectSeenInModel(const std::string& file, const std::string& from, const std::string& to,
                        const std::vector<std::string>& models) {
