@@ -109,6 +109,7 @@ void ClothMesh::setNeighbours(const Cloth& cloth, const SpringLists& lists) {
 // Grid by grid, as remainingTriangles() has them.
 void ClothMesh::setTriangles(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
   rim_.reset();
+  followsFolds_ = false;
   std::vector<std::uint32_t> indices;
   indices.reserve(3 * triangles.size());
   for (const auto& triangle : triangles) indices.insert(indices.end(), triangle.begin(), triangle.end());
@@ -205,9 +206,9 @@ void ClothMesh::followFolds(const gl::Program* diagonals) {
   normals_.bindStorage(NORMALS_OUT_BINDING);
   diagonals->bind();
   for (PieceBuffers& piece : pieces_) {
-    if (piece.isMesh()) continue;
+    if (!piece.hasCells()) continue;
     if (piece.followingIndices.size() == 0)
-      piece.followingIndices = gl::Buffer<std::uint32_t>("diagonals that follow folds", piece.indexCount);
+      piece.followingIndices = gl::Buffer<std::uint32_t>("cloth indices along folds", piece.indexCount);
     piece.block.bindUniform(CLOTH_GRID_BINDING);
     piece.followingIndices.bindStorage(DIAGONALS_BINDING);
     gl::dispatch(piece.columns - 1, piece.rows - 1, NORMALS_GROUP_SIZE, NORMALS_GROUP_SIZE);
@@ -240,7 +241,7 @@ void ClothMesh::draw(GLuint positions, bool meshesAsLines, std::optional<std::si
     piece.block.bindUniform(CLOTH_GRID_BINDING);
     const bool asLines = meshesAsLines && piece.isMesh();
     if (asLines) glPolygonMode(GL_FRONT_AND_BACK, GL_LINE);
-    const bool follows = followsFolds_ && !piece.isMesh();
+    const bool follows = followsFolds_ && piece.hasCells();
     if (follows) vertices_.attachIndices(piece.followingIndices.name());
     drawIndices(follows ? 0 : piece.firstIndex, piece.indexCount);
     if (follows) vertices_.attachIndices(indices_.name());

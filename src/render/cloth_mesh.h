@@ -43,8 +43,8 @@ class ClothMesh {
 
   // Smooth normals, tangents and strains for the positions in `positions`, one vec4 a particle.
   void computeNormals(const NormalsPrograms& programs, GLuint positions);
-  // Whether draw() divides the cells of whole grids so that diagonals follow folds, from these normals on:
-  // with diagonals.comp, or null. Not with cuts.
+  // With diagonals.comp draw() divides the cells of grids along folds, as the normals now show them; with
+  // null, or where anything is cut, as the springs do.
   void followFolds(const gl::Program* diagonals);
   // The triangles of all pieces, with the program and its state bound by the caller.
   // `only`: one piece.
@@ -70,9 +70,10 @@ class ClothMesh {
     gl::BufferTexture neighboursTexture{};
     std::size_t firstIndex = 0, indexCount = 0;
     std::size_t firstCoarseIndex = 0, coarseIndexCount = 0;  // 0: it has none
-    gl::Buffer<std::uint32_t> followingIndices{};            // that follow folds; empty until they are used
+    gl::Buffer<std::uint32_t> followingIndices{};  // cells divided along folds; empty until asked for
     shared::ClothPiece values{};
     [[nodiscard]] bool isMesh() const { return neighbours.size() > 0; }
+    [[nodiscard]] bool hasCells() const { return !isMesh() && columns > 1 && rows > 1; }
   };
   void attach(GLuint positions);
   void makeRim();

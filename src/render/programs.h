@@ -54,7 +54,7 @@ struct RenderPrograms {
   // The normals pass of the chosen model.
   [[nodiscard]] const gl::Program& normals(bool withCuts);
   [[nodiscard]] const gl::Program& meshNormals();
-  [[nodiscard]] const gl::Program& diagonals();
+  [[nodiscard]] const gl::Program& diagonals();       // where light is worked out at vertices
   [[nodiscard]] const SmoothPrograms& smooth();       // the same for the smooth surface
   [[nodiscard]] const LayerPrograms& layers();        // where it has layers
   [[nodiscard]] const gl::Program& rim(bool ofLean);  // of cloth that is drawn thick

@@ -36,8 +36,8 @@ class Renderer {
   // framebuffer `target` (0: the window) of `width` x `height` pixels. Neither reads back nor uploads
   // positions.
   void draw(GLuint positions, const Camera& camera, double time, GLuint target, int width, int height);
-  // The same into a framebuffer whose top row comes first, for a software renderer: of the last picture that
-  // is in it only what has changed is written anew.
+  // The same for a software renderer, into a framebuffer whose top row comes first. Where it still holds the
+  // last picture, only what has changed is written.
   void drawOver(GLuint positions, const Camera& camera, double time, const gl::Framebuffer& target);
 
   // Exposure `number` of `count` (render/exposure.h), of the same state, camera and size as those before it;

@@ -232,7 +232,7 @@ void Renderer::Parts::computeNormals(GLuint positions) {
   clothMesh.computeNormals(
       {programs.normals(clothMesh.hasCuts()), cloth->hasMesh() ? &programs.meshNormals() : nullptr},
       positions);
-  clothMesh.followFolds(!smooth && isLitAtVertices() && !model.displaces ? &programs.diagonals() : nullptr);
+  clothMesh.followFolds(!smooth && isLitAtVertices() ? &programs.diagonals() : nullptr);
   if (smooth)
     smooth->compute(programs.smooth(), positions, clothMesh,
                     smooth->hasLayers() ? &programs.layers() : nullptr);

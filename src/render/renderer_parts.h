@@ -50,8 +50,8 @@ struct Renderer::Parts {
   void addToMean(bool isFirst);
   void uploadFrame();
   GLuint moved(GLuint positions);
-  // Whether the picture goes straight to where it is shown. What is drawn over goes there when it is
-  // stretched, which also turns its rows around.
+  // The last pass that writes the picture: the resolve into the target; the stretch into the target, which
+  // also turns the rows around (Renderer::drawOver); or the stretch into a framebuffer of ours.
   [[nodiscard]] bool isDirect() const { return scale >= 1 && !isOver() && !options.keepsStill; }
   [[nodiscard]] bool isOver() const { return drawnOver.texture != 0; }
   [[nodiscard]] bool stretchesApart() const { return scale < 1 && !isOver(); }

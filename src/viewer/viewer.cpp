@@ -327,16 +327,15 @@ void Viewer::draw() {
     window_.setTitle(title_ = now);
 }
 
-// On a software renderer, where laying them out and drawing them takes a tenth of every picture's time. Then
-// numbers and plots change ten times a second, which is as often as they can be read.
+// On a software renderer controls take a tenth of every picture's time. Without input they are laid out ten
+// times a second there, which is as often as numbers and plots can be read.
 bool Viewer::mayKeepControls() {
   constexpr double longestLag = 0.1;  // [s]
-  const bool isAskedFor = paused_ || drawsLeft_ > 0 || draftHeld_ || ui_.isHeld() || dialog_.isOpen() ||
-                          laidOut_.size != window_.size();
-  const bool followsCloth =
+  const bool isUsed = paused_ || mayChange() || draftHeld_ || ui_.isHeld() || dialog_.isOpen() ||
+                      laidOut_.size != window_.size();
+  const bool followCloth =
       mouse_.isBusy() || compare_.isOpen() || mouse_.chosen().gizmo(mouseContext()).has_value();
-  return gl::currentContextInfo().software && !isAskedFor && !followsCloth &&
-         now_ - laidOut_.time < longestLag;
+  return gl::currentContextInfo().software && !isUsed && !followCloth && now_ - laidOut_.time < longestLag;
 }
 
 // What rests is drawn in all pixels, and so is what is being recorded.

@@ -248,9 +248,9 @@ class Viewer {
   double unpaced_ = 0;                   // time that pace_ does not know of yet [s]
   double lastDrawn_ = 0;                 // [s] since the start
   struct {
-    double time = 0;
+    double time = 0;  // [s] since the start
     ViewerWindow::Size size;
-  } laidOut_;                // the controls, as they were last [s] since the start
+  } laidOut_;                // when controls were laid out last, and for which window
   double waitingSince_ = 0;  // [s] since the start
   bool stepping_ = false;    // the session is within a frame on this thread. Then, and while
   std::vector<std::function<void()>>

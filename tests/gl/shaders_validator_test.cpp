@@ -21,8 +21,7 @@ namespace fs = std::filesystem;
 
 const fs::path shaderFolder = fs::path(SOURCE_ROOT) / "shaders";
 
-// "comp", "vert", "frag", ... as glslc calls stages, and as our files' extensions do; "" for an
-// include.
+// "comp", "vert", "frag", ... as glslc calls stages, and as our files' extensions do; "" for an include.
 std::string stageOf(const fs::path& file) {
   const std::string extension = file.extension().string();
   for (const char* stage : {".comp", ".vert", ".frag", ".geom", ".tesc", ".tese"})

@@ -97,7 +97,8 @@ Image foldsOf(int points, bool lightsVertices) {
   return renderImage(renderer, positions.name(), Camera(scene, cloth), 0, 320, 240);
 }
 
-// With the diagonals of the springs the mean is 4.75: each triangle shows as the tooth of a saw.
+// The mean is 3.85 on llvmpipe. With the diagonals of the springs it is 4.75: each triangle shows as the
+// tooth of a saw.
 TEST_F(VertexLight, DividesCellsAlongFolds) {
   EXPECT_LT(test::meanDifference(foldsOf(65, true), foldsOf(257, false)), 4.2);
 }
