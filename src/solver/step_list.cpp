@@ -295,10 +295,6 @@ std::size_t describe(const PassList& list, std::size_t first, std::size_t end, s
 
 }  // namespace
 
-bool PassList::contains(Pass pass) const {
-  return std::any_of(passes.begin(), passes.end(), [&](const PassCall& call) { return call.pass == pass; });
-}
-
 // From the last pass on: behind one with a gate that closes as early, the search goes on at that one's end.
 void PassList::findGateEnds() {
   gateEnds.resize(passes.size());
@@ -310,6 +306,8 @@ void PassList::findGateEnds() {
   const auto last = std::find_if(passes.rbegin(), passes.rend(),
                                  [](const PassCall& call) { return call.pass == Pass::shorten; });
   settledEnd = static_cast<std::uint32_t>(passes.rend() - last);
+  kinds.reset();
+  for (const PassCall& call : passes) kinds.set(static_cast<std::size_t>(call.pass));
 }
 
 std::size_t mostLevels(const Cloth& cloth, const Cuts& cuts) {

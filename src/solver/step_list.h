@@ -1,6 +1,7 @@
 // The order of a step, written once: which passes it is made of, for a scene. Both backends execute the list.
 #pragma once
 
+#include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
@@ -47,9 +48,10 @@ struct PassList {
   std::vector<std::uint32_t> gateEnds;
   // Behind the rounds of contact: where the first `settle` finds nothing to go on with, they do nothing.
   std::uint32_t settledEnd = 0;
-  void findGateEnds();  // finds both; to be called once the passes stand
+  std::bitset<PASS_COUNT> kinds;  // of passes in it
+  void findGateEnds();            // finds all three; to be called once the passes stand
 
-  [[nodiscard]] bool contains(Pass pass) const;
+  [[nodiscard]] bool contains(Pass pass) const { return kinds.test(static_cast<std::size_t>(pass)); }
 };
 
 // How many coarser levels the finest of the cloths has for implicit steps.

@@ -183,6 +183,7 @@ void gatherElasticForces(const ImplicitArguments<Real>& arguments, int row, Forc
 template <class Real>
 void ImplicitState<Real>::resize(Hierarchy<Real> levels, std::size_t meshMembranes) {
   hierarchy = std::move(levels);
+  toParticles = prolongationBySixteen(hierarchy);
   levelRanges = levelRangesOf(hierarchy);
   membranes.resize(meshMembranes);
   const std::size_t particles = hierarchy.particles;

@@ -57,8 +57,11 @@ INLINE void addSpringTrials(const ImplicitArguments<Real>& arguments, const Tria
 // Bending stiffness of the line through particle `m`, by `stride` between its particles.
 template <class Real>
 INLINE Real lineStiffness(const Real* w, std::ptrdiff_t m, std::ptrdiff_t stride, Real b) {
-  const bool endOfClamp = (w[m] == Real(0)) & ((w[m - stride] == Real(0)) != (w[m + stride] == Real(0)));
-  return endOfClamp ? Real(2) * b : b;
+  const auto isPinned = [=](std::ptrdiff_t k) __attribute__((always_inline)) {
+    return w[k] == Real(0) ? Real(1) : Real(0);
+  };
+  const Real change = isPinned(m - stride) - isPinned(m + stride);  // not 0 at the end of a clamp
+  return b + (isPinned(m) * (change * change)) * b;
 }
 
 // Lines of three particles around the middle ones: b (l k.dk + l^2/2 |dk|^2), k = (m - a) + (m - c).
@@ -130,19 +133,28 @@ INLINE void tryLengthsOf(const ImplicitArguments<Real>& arguments, int row) {
   const Range all = rangeOf(pass.step, row);
   const Trials<firstLength, endLength, Real> trials{
       {own.trials[0].data(), own.trials[1].data(), own.trials[2].data(), own.trials[3].data()}};
-  for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
-    const Vec3<Real> e = at(own.increments, i), d = at(own.displacements, i);
-    Vec3<Real> force = own.diagonal.data()[i] * d, product = own.diagonal.data()[i] * e;
-    if (pass.step.hasWind != 0) {
-      force = force + at(own.air, i) * d;
-      product = product + at(own.air, i) * e;
+  const Arrays<Real> increments = arraysOf(own.increments), displacements = arraysOf(own.displacements),
+                     rightHandSide = arraysOf(own.rightHandSide);
+  const SymmetricArrays<Real> air = arraysOf(own.air);
+  const Real* diagonal = own.diagonal.data();
+  const auto begin = [&]<bool hasAir>() __attribute__((always_inline)) {
+#pragma GCC ivdep
+    for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
+      const Vec3<Real> e = at(increments, i), d = at(displacements, i);
+      Vec3<Real> force = diagonal[i] * d, product = diagonal[i] * e;
+      if constexpr (hasAir) {
+        force = force + at(air, i) * d;
+        product = product + at(air, i) * e;
+      }
+      const Real first = dot(force - at(rightHandSide, i), e), second = Real(0.5) * dot(product, e);
+#pragma GCC unroll 4
+      for (std::size_t k = firstLength; k < endLength; ++k) {
+        const Real l = lengthTried<Real>(k);
+        trials.of[k][i] = l * (first + l * second);
+      }
     }
-    const Real first = dot(force - at(own.rightHandSide, i), e), second = Real(0.5) * dot(product, e);
-    for (std::size_t k = firstLength; k < endLength; ++k) {
-      const Real l = lengthTried<Real>(k);
-      trials.of[k][i] = l * (first + l * second);
-    }
-  }
+  };
+  pass.step.hasWind != 0 ? begin.template operator()<true>() : begin.template operator()<false>();
   if (!own.touching.pairs.empty())
     for (std::ptrdiff_t i = all.begin; i < all.end; ++i) addPairTrials(own, i, slowSlip(pass.step));
   if (hasContacts(arguments)) addPlaneTrials(arguments, trials, all);
@@ -195,34 +207,40 @@ INLINE void addSpringBlocks(const ImplicitArguments<Real>& arguments, int row) {
           });
 }
 
-// The lines of three particles along rows or columns in which a particle is the last, the middle, the first:
-// which of them there are, and the bits of those that are cut.
+// A line of three particles: from one of them to the middle, and from that to the ends.
+template <class Real>
+struct BendingLine {
+  std::ptrdiff_t offset, stride;
+  Real stiffness;  // 0 where there is no such line
+  std::uint32_t cut;
+};
+template <class Real>
+INLINE BendingLine<Real> bendingLine(bool isThere, std::ptrdiff_t offset, std::ptrdiff_t stride, Real b,
+                                     std::uint32_t cut) {
+  return {isThere ? offset * stride : 0, isThere ? stride : 0, isThere ? b : Real(0), cut};
+}
+// The lines along a row or column in which a particle is the last, the middle, the first.
 template <class Real>
 struct BendingLines {
-  std::ptrdiff_t stride;
-  Real b;
-  bool isLast, isMiddle, isFirst;
-  std::uint32_t cutsLast, cutsMiddle, cutsFirst;
+  BendingLine<Real> asLast, asMiddle, asFirst;
 };
 template <class Real>
 INLINE BendingLines<Real> bendingLines(std::ptrdiff_t place, std::ptrdiff_t count, std::ptrdiff_t stride,
                                        Real b, std::array<std::uint32_t, 3> cuts) {
-  return {stride,  b,       place >= 2, place >= 1 && place + 1 < count, place + 2 < count,
-          cuts[0], cuts[1], cuts[2]};
+  return {bendingLine(place >= 2, -1, stride, b, cuts[0]),
+          bendingLine(place >= 1 && place + 1 < count, 0, stride, b, cuts[1]),
+          bendingLine(place + 2 < count, 1, stride, b, cuts[2])};
 }
 // What they add to the diagonal block of particle i; `middle` becomes the stiffness of the one around it.
 template <class Real>
 INLINE Real bendingBlock(const BendingLines<Real>& lines, const Real* w, std::ptrdiff_t i, std::uint32_t cut,
                          Real& middle) {
-  const auto stiffness = [&](bool isThere, std::ptrdiff_t offset, std::uint32_t link)
-      __attribute__((always_inline)) {
-    const std::ptrdiff_t stride = isThere ? lines.stride : 0;
-    const Real whole = lineStiffness(w, i + (isThere ? offset : 0), stride, lines.b);
-    return (isThere & ((cut & link) == 0)) ? whole : Real(0);
+  const auto stiffness = [&](const BendingLine<Real>& line) __attribute__((always_inline)) {
+    const Real whole = lineStiffness(w, i + line.offset, line.stride, line.stiffness);
+    return (cut & line.cut) == 0 ? whole : Real(0);
   };
-  middle = stiffness(lines.isMiddle, 0, lines.cutsMiddle);
-  return (stiffness(lines.isLast, -lines.stride, lines.cutsLast) + Real(4) * middle) +
-         stiffness(lines.isFirst, lines.stride, lines.cutsFirst);
+  middle = stiffness(lines.asMiddle);
+  return (stiffness(lines.asLast) + Real(4) * middle) + stiffness(lines.asFirst);
 }
 
 template <bool hasCuts, class Real>
@@ -294,13 +312,16 @@ INLINE void linearizeRow(const ImplicitArguments<Real>& arguments, int row) {
   const Arrays<Real> displacements = arraysOf(own.displacements), residuals = arraysOf(own.residuals),
                      rightHandSide = arraysOf(own.rightHandSide), forces = arraysOf(pass.forces),
                      increments = arraysOf(own.increments);
+  const auto putResiduals = [&]<bool hasAir>() __attribute__((always_inline)) {
 #pragma GCC ivdep
-  for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
-    const Vec3<Real> d = at(displacements, i);
-    Vec3<Real> residual = at(rightHandSide, i) - diagonal[i] * d;
-    if (wind) residual = residual - at(air, i) * d;
-    put(residuals, i, residual + at(forces, i));
-  }
+    for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
+      const Vec3<Real> d = at(displacements, i);
+      Vec3<Real> residual = at(rightHandSide, i) - diagonal[i] * d;
+      if constexpr (hasAir) residual = residual - at(air, i) * d;
+      put(residuals, i, residual + at(forces, i));
+    }
+  };
+  wind ? putResiduals.template operator()<true>() : putResiduals.template operator()<false>();
   const bool contacts = hasContacts(arguments);
   if (contacts || !own.touching.pairs.empty())
     for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
@@ -409,11 +430,15 @@ template <class Real>
 INLINE void acceptRow(const ImplicitArguments<Real>& arguments, int row) {
   ImplicitState<Real>& own = arguments.own;
   const Range all = rangeOf(arguments.step.step, row);
+  const Arrays<Real> displacements = arraysOf(own.displacements), increments = arraysOf(own.increments),
+                     places = arraysOf(own.iterate.positions);
+  const Arrays<const Real> starts = arraysOf(arguments.step.before.positions);
   const Real length = own.scalars.newtonLength;
+#pragma GCC ivdep
   for (std::ptrdiff_t i = all.begin; i < all.end; ++i) {
-    const Vec3<Real> displacement = canonical(at(own.displacements, i) + length * at(own.increments, i));
-    put(own.displacements, i, displacement);
-    put(own.iterate.positions, i, canonical(at(arguments.step.before.positions, i) + displacement));
+    const Vec3<Real> displacement = canonical(at(displacements, i) + length * at(increments, i));
+    put(displacements, i, displacement);
+    put(places, i, canonical(at(starts, i) + displacement));
   }
 }
 

@@ -11,6 +11,7 @@
 #include "solver/cpu/mesh_products.h"
 #include "solver/cpu/passes.h"
 #include "solver/cpu/piece_ranges.h"
+#include "solver/cpu/prolongation.h"
 #include "solver/cpu/rigid_block.h"
 #include "solver/cpu/symmetric.h"
 #include "solver/hierarchy.h"
@@ -44,6 +45,7 @@ struct TouchingPairs {
   PairLists ofActing;
   // Of each pair, how far a small collider carries it along, less the elastic slip [m].
   std::vector<Vec3<Real>> carries;
+  std::vector<std::uint8_t> pushed;  // particles: 1 if the last round pushed them out of small colliders
 };
 
 // What friction remembers of a pair.
@@ -82,6 +84,7 @@ struct ImplicitState {
   ImplicitScalars<Real> scalars{};
 
   Hierarchy<Real> hierarchy;
+  ProlongationBySixteen<Real> toParticles;
   LevelRanges levelRanges;
   // The residuals of vertices of all levels: force, and torque about the first particle.
   std::vector<RigidVector<Real>> forces;

@@ -3,6 +3,7 @@
 #include "solver/cpu/multilevel.h"
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
 #include "core/thread_team.h"
@@ -306,6 +307,36 @@ INLINE RigidVector<Real> prolonged(const ImplicitState<Real>& own, std::uint32_t
   return RigidVector<Real>(sum);
 }
 
+// How the coarse vertices that particles hang on move them: of up to so many, and of those that share sixteen
+// with them.
+template <class Real>
+struct alignas(SIXTEEN * sizeof(Real)) Motions {
+  std::array<std::array<Real, PARTICLES_AT_ONCE + 2 * SIXTEEN>, 6> of;
+
+  [[nodiscard]] INLINE Vec3<Real> translation(std::size_t k) const { return {of[0][k], of[1][k], of[2][k]}; }
+  [[nodiscard]] INLINE Vec3<Real> rotation(std::size_t k) const { return {of[3][k], of[4][k], of[5][k]}; }
+};
+// The sums of prolonged() for sixteen particles, to `motions` from number `first` on.
+template <class Real>
+INLINE void prolongToSixteen(ImplicitState<Real>& own, std::size_t sixteen, Motions<Real>& motions,
+                             std::size_t first) {
+  const ProlongationBySixteen<Real>& by = own.toParticles;
+  const Real* corrections = numbersOf(own.coarseCorrections.data());
+  Sixteen<Real> sums[6]{};
+  for (std::uint32_t n = by.starts[sixteen]; n < by.starts[sixteen + 1]; ++n) {
+    const auto [coarse, number] = by.entries.data()[n];
+    const auto weights = *reinterpret_cast<const Sixteen<Real>*>(by.weights.data() + number);
+    const Real* motion = corrections + 8 * std::size_t{coarse};
+#pragma GCC unroll 3
+    for (int c = 0; c < 3; ++c) {
+      sums[c] += weights * motion[c];
+      sums[3 + c] += weights * motion[4 + c];
+    }
+  }
+#pragma GCC unroll 6
+  for (std::size_t c = 0; c < 6; ++c) std::memcpy(motions.of[c].data() + first, &sums[c], sizeof(sums[c]));
+}
+
 template <class Real>
 INLINE void prolongRange(ImplicitState<Real>& own, const Real* inverseMasses, std::uint32_t first,
                          std::uint32_t end) {
@@ -313,16 +344,16 @@ INLINE void prolongRange(ImplicitState<Real>& own, const Real* inverseMasses, st
                            residuals = arraysOf(std::as_const(own.residuals));
   const Arrays<Real> corrections = arraysOf(own.corrections);
   const SymmetricArrays<Real> factors = arraysOf(own.factors);
-  std::array<RigidVector<Real>, PARTICLES_AT_ONCE> motions;
-  for (std::uint32_t vertex = first; vertex < end; ++vertex) motions[vertex - first] = prolonged(own, vertex);
-  const Real* numbers = numbersOf(motions.data());
+  Motions<Real> motions;
+  const std::size_t start = first / SIXTEEN * SIXTEEN;
+  for (std::size_t i = start; i < end; i += SIXTEEN) prolongToSixteen(own, i / SIXTEEN, motions, i - start);
   const Vec3<Real> origin = at(x, 0);
 #pragma GCC ivdep
   for (auto i = static_cast<std::ptrdiff_t>(first); i < static_cast<std::ptrdiff_t>(end); ++i) {
-    const auto [translation, rotation] = threesAt(numbers, i - static_cast<std::ptrdiff_t>(first));
+    const std::size_t k = static_cast<std::size_t>(i) - start;
     const Symmetric<Real> stored = at(factors, i);
     const Vec3<Real> correction = solve(Factors<Real>{stored.others, stored.diagonal}, at(residuals, i)) +
-                                  (translation + cross(rotation, at(x, i) - origin));
+                                  (motions.translation(k) + cross(motions.rotation(k), at(x, i) - origin));
     put(corrections, i, selected(inverseMasses[i] == Real(0), Vec3<Real>{}, canonical(correction)));
   }
 }

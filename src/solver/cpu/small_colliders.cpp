@@ -323,11 +323,21 @@ void stopSlip(const PassArguments<Real>& arguments, const ImplicitState<Real>& i
   moveBy(arguments, i, -(lost < Real(1) ? lost : Real(1)) * slip);
 }
 
-// The mean of the pushes of a particle's pairs, where they want more than all of it.
+// The mean of the pushes of a particle's pairs, where they want more than all of it. Returns whether there
+// are any.
 template <class Real>
-void push(const PassArguments<Real>& arguments, const TouchingPairs<Real>& touching, std::uint32_t i) {
+bool push(const PassArguments<Real>& arguments, const TouchingPairs<Real>& touching, std::uint32_t i) {
   const auto [sum, parts] = wantedOf(touching, i, arguments.inverseMasses[i]);
-  if (Real(0) < parts) moveBy(arguments, i, reciprocal(larger(parts, Real(1))) * sum);
+  if (!(Real(0) < parts)) return false;
+  moveBy(arguments, i, reciprocal(larger(parts, Real(1))) * sum);
+  return true;
+}
+
+// Whether the last round pushed a corner of the pair: if it did not, the pair wants nothing, as before.
+template <class Real>
+bool isPushed(const TouchingPairs<Real>& touching, std::uint32_t q) {
+  const auto& [a, b, c, same] = touching.pairs[q].particles;
+  return (touching.pushed[a] | touching.pushed[b] | touching.pushed[c]) != 0;
 }
 
 }  // namespace
@@ -339,6 +349,7 @@ void pressOut(const ClothSurface<Real>& surface, const PassArguments<Real>& argu
   const bool onlyCounts = round == PRESS_ROUNDS;
   std::atomic<std::uint32_t> passages{0}, moves{0};
   forEachColliderPair(touching, [&](std::uint32_t q) {
+    if (round > 1 && !onlyCounts && !isPushed(touching, q)) return;
     bool passes = false;
     const bool wants = round == 0 ? findSlip(arguments, implicit, q)
                                   : pushOut(surface, arguments, touching, q, onlyCounts, passes);
@@ -347,11 +358,15 @@ void pressOut(const ClothSurface<Real>& surface, const PassArguments<Real>& argu
   });
   state.passages += passages;
   state.passageSteps += passages > 0 ? 1 : 0;
+  const auto particles = static_cast<std::uint32_t>(implicit.diagonal.size());
+  touching.pushed.assign(particles, 0);
   if (moves == 0) return;
   state.isPressed = 1;
-  const auto particles = static_cast<std::uint32_t>(implicit.diagonal.size());
   for (std::uint32_t i = 0; i < particles; ++i)
-    round == 0 ? stopSlip(arguments, implicit, i) : push(arguments, touching, i);
+    if (round == 0)
+      stopSlip(arguments, implicit, i);
+    else
+      touching.pushed[i] = push(arguments, touching, i) ? 1 : 0;
 }
 
 #define INSTANTIATE(Real)                                                                                   \

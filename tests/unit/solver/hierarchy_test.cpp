@@ -7,6 +7,7 @@
 
 #include "cloth/cuts.h"
 #include "solver/cpu/cpu_solver.h"
+#include "solver/cpu/prolongation.h"
 #include "solver/hierarchy.h"
 #include "support/grabs.h"
 #include "support/material_sheet.h"
@@ -57,6 +58,24 @@ TEST(Hierarchy, RestrictsAsItProlongs) {
     for (auto n = levels.restrictionStarts[c]; n < levels.restrictionStarts[c + 1]; ++n)
       same += weights.at({levels.restriction[n].vertex, c}) == levels.restriction[n].weight ? 1 : 0;
   EXPECT_EQ(same, weights.size());
+}
+
+TEST(Hierarchy, ProlongsBySixteenParticlesAsOneByOne) {
+  const Hierarchy<double> levels = levelsOf(test::materialSheet(20, 31, 1, 1, clothOfLevels));
+  const cpu::ProlongationBySixteen<double> bySixteen = cpu::prolongationBySixteen(levels);
+  for (std::uint32_t i = 0; i < levels.particles; ++i) {
+    std::uint32_t next = levels.prolongationStarts[i];
+    for (auto n = bySixteen.starts[i / 16]; n < bySixteen.starts[i / 16 + 1]; ++n) {
+      const auto [coarse, number] = bySixteen.entries[n];
+      const double weight = bySixteen.weights[number].of[i % 16];
+      if (weight == 0) continue;
+      ASSERT_LT(next, levels.prolongationStarts[i + 1]) << i;
+      EXPECT_EQ(coarse, levels.prolongation[next].vertex) << i;
+      EXPECT_EQ(weight, levels.prolongation[next++].weight) << i;
+    }
+    EXPECT_EQ(next, levels.prolongationStarts[i + 1]) << i;
+  }
+  EXPECT_LT(2 * bySixteen.weights.size(), bySixteen.entries.size()) << "on a grid they recur";
 }
 
 // A block is there for every two aggregates that some element touches, and once.
