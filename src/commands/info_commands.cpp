@@ -9,12 +9,12 @@
 #include "core/error.h"
 #include "core/nearest.h"
 #include "core/thread_team.h"
+#include "core/vector_set.h"
 #include "gl/context.h"
 #include "scene_io/describe.h"
 #include "scene_io/scene_io.h"
 #include "simulation/compare.h"
 #include "simulation/gpu/solvers.h"
-#include "solver/cpu/vector_set.h"
 #include "solver/step_list.h"
 
 namespace clothsim {
@@ -101,7 +101,7 @@ int doctorCommand(bool json) {
   report["max_work_group_invocations"] = info.maxWorkGroupInvocations;
   report["max_work_group_count"] = info.maxWorkGroupCountX;
   report["threads"] = ThreadTeam::shared().threads();
-  report["vectors"] = cpu::nameOf(cpu::vectorSet());
+  report["vectors"] = nameOf(vectorSet());
   bool healthy = true;
   for (const Scene& scene : selfTestScenes()) {
     const Comparison result = compareBackends(scene, 5, makeSolver);

@@ -10,9 +10,9 @@
 #include "core/error.h"
 #include "core/files.h"
 #include "core/thread_team.h"
+#include "core/vector_set.h"
 #include "gl/context.h"
 #include "scene_io/scene_io.h"
-#include "solver/cpu/vector_set.h"
 #include "solver/state.h"
 
 namespace clothsim {
@@ -89,8 +89,7 @@ Proposal measureProposal(bool both) {
 std::string machineName() {
   const gl::ContextInfo& info = gl::currentContextInfo();
   return std::string(versionText()) + "; " + info.renderer + "; " + info.version + "; " +
-         std::to_string(ThreadTeam::shared().threads()) + " threads of " +
-         std::string(cpu::nameOf(cpu::vectorSet()));
+         std::to_string(ThreadTeam::shared().threads()) + " threads of " + std::string(nameOf(vectorSet()));
 }
 
 fs::path proposalPath() {

@@ -28,7 +28,7 @@ VECTOR_CLONES(void, forces,
 
 }  // namespace
 
-// The set that this machine has (src/solver/cpu/vector_set.cpp reads CLOTHSIM_VECTORS, too).
+// The set that this machine has (src/core/vector_set.cpp reads CLOTHSIM_VECTORS, too).
 VectorSet vectorSet() {
   static const VectorSet set = __builtin_cpu_supports("avx512f") != 0 ? VectorSet::avx512
                                : __builtin_cpu_supports("avx2") != 0  ? VectorSet::avx2

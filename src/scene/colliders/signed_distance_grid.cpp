@@ -11,7 +11,6 @@
 #include "core/exact_math.h"
 #include "core/recent.h"
 #include "core/thread_team.h"
-#include "scene/colliders/enclosing.h"
 
 namespace clothsim {
 
@@ -50,14 +49,54 @@ std::size_t sampleCountOf(const Counts& counts, std::size_t shapes, bool loops) 
   return shapes * productOf(counts) + waysOf(shapes, loops) * 3 * productOf(countsOfDisplacements(counts));
 }
 
-// sample(number of the point along x, y and z, the same among all), layer by layer on all threads.
+using Numbers = std::array<std::size_t, 3>;  // of a point along x, y and z
+std::size_t numberOf(const Numbers& at, const Counts& counts) {
+  return (at[2] * counts[1] + at[1]) * counts[0] + at[0];
+}
+
+// Points of a grid side by side, eight but at the ends; the places behind the last repeat the first.
+struct EightPoints {
+  EightPlaces places{};
+  std::array<Numbers, EightPlaces::EIGHT> at{};
+  std::size_t count = 0;
+};
+EightPoints eightPointsFrom(const Numbers& first, const SampleGrid& grid) {
+  EightPoints eight;
+  for (std::size_t corner = 0; corner < EightPlaces::EIGHT; ++corner) {
+    const Numbers at{first[0] + (corner & 1), first[1] + (corner >> 1 & 1), first[2] + (corner >> 2)};
+    if (at[0] >= grid.counts[0] || at[1] >= grid.counts[1] || at[2] >= grid.counts[2]) continue;
+    const Vec3d steps{static_cast<double>(at[0]), static_cast<double>(at[1]), static_cast<double>(at[2])};
+    eight.places.set(eight.count, grid.origin + grid.cell * steps);
+    eight.at[eight.count++] = at;
+  }
+  for (std::size_t k = eight.count; k < EightPlaces::EIGHT; ++k) eight.places.set(k, eight.places.at(0));
+  return eight;
+}
+// sample(eight points) for all points of a grid, on all threads.
 template <class Sample>
-void forEachPoint(const Counts& counts, Sample sample) {
-  ThreadTeam::shared().forEach(0, counts[2], 1, [&](std::uint32_t z) {
-    for (std::size_t y = 0; y < counts[1]; ++y)
-      for (std::size_t x = 0; x < counts[0]; ++x)
-        sample(std::array<std::size_t, 3>{x, y, z}, (z * counts[1] + y) * counts[0] + x);
+void forEachEight(const SampleGrid& grid, Sample sample) {
+  ThreadTeam::shared().forEach(0, (grid.counts[2] + 1) / 2, 1, [&](std::uint32_t z) {
+    for (std::size_t y = 0; y < grid.counts[1]; y += 2)
+      for (std::size_t x = 0; x < grid.counts[0]; x += 2)
+        sample(eightPointsFrom({x, y, std::size_t{2} * z}, grid));
   });
+}
+
+// What the coarse points around a fine one say of its distance [m].
+struct RoughDistance {
+  double low = 1e150, high = -1e150, mean = 0;
+};
+RoughDistance roughDistance(const Numbers& fine, const std::vector<double>& exact, const Counts& counts) {
+  RoughDistance rough;
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    const double value = exact[numberOf(
+        {(fine[0] + (corner & 1)) / 2, (fine[1] + (corner >> 1 & 1)) / 2, (fine[2] + (corner >> 2)) / 2},
+        counts)];
+    rough.low = std::min(rough.low, value);
+    rough.high = std::max(rough.high, value);
+    rough.mean += value / 8;
+  }
+  return rough;
 }
 
 }  // namespace
@@ -90,7 +129,7 @@ SignedDistanceGrid::SignedDistanceGrid(std::vector<SolidMesh> shapes, bool loops
 
 // A way lowers the distances of both its shapes: of three ways in a row the middle one waits for the others.
 void SignedDistanceGrid::enclose(std::size_t ways) {
-  const SampleGrid grid{origin_, cell_, counts_}, coarse{origin_, 2 * cell_, countsOfDisplacements(counts_)};
+  const SampleGrid grid = this->grid(), coarse = gridOfDisplacements();
   ThreadTeam& team = ThreadTeam::shared();
   team.forEach(0, static_cast<std::uint32_t>(shapes_.size()), 1,
                [&](std::uint32_t i) { encloseShape(shapes_[i], grid, samples_.data() + firstOfShape(i)); });
@@ -106,44 +145,46 @@ void SignedDistanceGrid::enclose(std::size_t ways) {
   if (ways % 2 == 1) encloseWayOf(ways - 1);
 }
 
-Vec3d SignedDistanceGrid::place(std::array<std::size_t, 3> number, double spacing) const {
-  return origin_ + spacing * Vec3d{static_cast<double>(number[0]), static_cast<double>(number[1]),
-                                   static_cast<double>(number[2])};
+SampleGrid SignedDistanceGrid::grid() const { return {origin_, cell_, counts_}; }
+SampleGrid SignedDistanceGrid::gridOfDisplacements() const {
+  return {origin_, 2 * cell_, countsOfDisplacements(counts_)};
 }
 
 void SignedDistanceGrid::sampleDistances(const SolidMesh& shape, float* samples) const {
   const TriangleTree tree(shape);
-  forEachPoint(counts_, [&](std::array<std::size_t, 3> number, std::size_t i) {
-    samples[i] = canonical(static_cast<float>(tree.signedDistance(place(number, cell_))));
+  forEachEight(grid(), [&](const EightPoints& eight) {
+    const EightPlaces::Numbers distances = tree.signedDistances(eight.places);
+    for (std::size_t k = 0; k < eight.count; ++k)
+      samples[numberOf(eight.at[k], counts_)] = canonical(static_cast<float>(distances[k]));
   });
 }
 
 // Of one of many shapes. Far from the surface every second point along x, y and z is exact, and those between
 // are means: there distances only tell that nothing is near.
 void SignedDistanceGrid::sampleRoughly(const SolidMesh& shape, float* samples) const {
-  constexpr double FAR = 3;  // cells
+  const double far = 3 * cell_;
   const TriangleTree tree(shape);
-  const Counts counts = countsOfDisplacements(counts_);
-  std::vector<double> exact(productOf(counts));
-  forEachPoint(counts, [&](std::array<std::size_t, 3> number, std::size_t i) {
-    // No farther than from the point before, which is two cells away.
-    const double bound = number[0] == 0 ? 1e150 : 1.001 * (std::abs(exact[i - 1]) + 2 * cell_);
-    exact[i] = tree.signedDistance(place(number, 2 * cell_), bound);
+  const SampleGrid coarse = gridOfDisplacements();
+  std::vector<double> exact(productOf(coarse.counts));
+  forEachEight(coarse, [&](const EightPoints& eight) {
+    const EightPlaces::Numbers distances = tree.signedDistances(eight.places);
+    for (std::size_t k = 0; k < eight.count; ++k) exact[numberOf(eight.at[k], coarse.counts)] = distances[k];
   });
-  forEachPoint(counts_, [&](std::array<std::size_t, 3> number, std::size_t i) {
-    double low = 1e150, high = -1e150, sum = 0;
-    for (std::size_t corner = 0; corner < 8; ++corner) {
-      const std::size_t x = (number[0] + (corner & 1)) / 2, y = (number[1] + (corner >> 1 & 1)) / 2,
-                        z = (number[2] + (corner >> 2)) / 2;
-      const double value = exact[(z * counts[1] + y) * counts[0] + x];
-      low = std::min(low, value);
-      high = std::max(high, value);
-      sum += value;
+  forEachEight(grid(), [&](const EightPoints& eight) {
+    std::array<RoughDistance, EightPlaces::EIGHT> rough;
+    const auto willDo = [&](const RoughDistance& of) {
+      return of.low > far || of.high < -far || of.low == of.high;
+    };
+    bool all = true;
+    for (std::size_t k = 0; k < eight.count; ++k) {
+      rough[k] = roughDistance(eight.at[k], exact, coarse.counts);
+      all = all && willDo(rough[k]);
     }
-    const bool isFar = low > FAR * cell_ || high < -FAR * cell_, isKnown = low == high;
-    const double bound = 1.001 * (std::min(std::abs(low), std::abs(high)) + 2 * cell_);
-    const double value = isFar || isKnown ? sum / 8 : tree.signedDistance(place(number, cell_), bound);
-    samples[i] = canonical(static_cast<float>(value));
+    EightPlaces::Numbers distances{};
+    if (!all) distances = tree.signedDistances(eight.places);
+    for (std::size_t k = 0; k < eight.count; ++k)
+      samples[numberOf(eight.at[k], counts_)] =
+          canonical(static_cast<float>(willDo(rough[k]) ? rough[k].mean : distances[k]));
   });
 }
 
@@ -152,12 +193,16 @@ void SignedDistanceGrid::sampleDisplacements(const SolidMesh& from, const SolidM
                                              float* samples) const {
   const SolidMesh middle = between(from, to, 0.5);
   const TriangleTree tree(middle);
-  forEachPoint(countsOfDisplacements(counts_), [&](std::array<std::size_t, 3> number, std::size_t i) {
-    const MeshPoint nearest = tree.nearestPoint(place(number, 2 * cell_));
-    const Vec3f way = (placeOf(to, nearest) - placeOf(from, nearest)).cast<float>();
-    samples[3 * i] = canonical(way.x);
-    samples[3 * i + 1] = canonical(way.y);
-    samples[3 * i + 2] = canonical(way.z);
+  const SampleGrid coarse = gridOfDisplacements();
+  forEachEight(coarse, [&](const EightPoints& eight) {
+    const std::array<MeshPoint, EightPlaces::EIGHT> nearest = tree.nearestPoints(eight.places);
+    for (std::size_t k = 0; k < eight.count; ++k) {
+      const Vec3f way = (placeOf(to, nearest[k]) - placeOf(from, nearest[k])).cast<float>();
+      float* sample = samples + 3 * numberOf(eight.at[k], coarse.counts);
+      sample[0] = canonical(way.x);
+      sample[1] = canonical(way.y);
+      sample[2] = canonical(way.z);
+    }
   });
 }
 

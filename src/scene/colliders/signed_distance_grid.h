@@ -14,6 +14,7 @@
 
 #include "scene/budget.h"
 #include "scene/colliders/collider.h"
+#include "scene/colliders/enclosing.h"
 #include "scene/colliders/triangle_tree.h"
 
 namespace clothsim {
@@ -53,7 +54,8 @@ class SignedDistanceGrid {
 
  private:
   [[nodiscard]] std::size_t samplesOfShape() const;
-  [[nodiscard]] Vec3d place(std::array<std::size_t, 3> number, double spacing) const;
+  [[nodiscard]] SampleGrid grid() const;
+  [[nodiscard]] SampleGrid gridOfDisplacements() const;
   void sampleDistances(const SolidMesh& shape, float* samples) const;
   void sampleRoughly(const SolidMesh& shape, float* samples) const;
   void enclose(std::size_t ways);

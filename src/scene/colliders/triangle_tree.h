@@ -13,43 +13,52 @@
 
 namespace clothsim {
 
-// Triangles in a tree of bounding boxes, halved at the median of their middles.
+// Eight places, by coordinate [m].
+struct EightPlaces {
+  static constexpr std::size_t EIGHT = 8;
+  using Numbers = std::array<double, EIGHT>;
+  alignas(64) Numbers x, y, z;
+
+  void set(std::size_t k, Vec3d p) { x[k] = p.x, y[k] = p.y, z[k] = p.z; }
+  [[nodiscard]] Vec3d at(std::size_t k) const { return {x[k], y[k], z[k]}; }
+};
+
+// Triangles in a tree of bounding boxes, halved at the median of their middles. Eight places that lie side by
+// side go down the tree together, in vectors.
 class TriangleTree {
  public:
   explicit TriangleTree(const SolidMesh& mesh);  // which must outlive it
 
-  // Negative inside [m]. `bound`: more than the distance is, where that is known, saves time.
-  [[nodiscard]] double signedDistance(Vec3d p, double bound = 1e150) const;
-  // The nearest one.
-  [[nodiscard]] MeshPoint nearestPoint(Vec3d p, double bound = 1e150) const;
+  // Negative inside [m].
+  [[nodiscard]] double signedDistance(Vec3d p) const;
+  [[nodiscard]] EightPlaces::Numbers signedDistances(const EightPlaces& places) const;
+  [[nodiscard]] MeshPoint nearestPoint(Vec3d p) const;
+  [[nodiscard]] std::array<MeshPoint, EightPlaces::EIGHT> nearestPoints(const EightPlaces& places) const;
 
- private:
   struct Node {
     Vec3d low, high;
-    std::size_t first = 0, count = 0;  // of order_, in a leaf
-    std::size_t left = 0, right = 0;   // nodes, elsewhere
+    std::uint32_t first = 0, count = 0;  // of the triangles in order, in a leaf
+    std::uint32_t left = 0, right = 0;   // nodes, elsewhere
+  };
+  struct Triangle {
+    Vec3d a, b, c;
   };
   // Which part of a triangle is nearest: its corners 0 to 2, its edges 3 to 5 (edge 3 + i begins at corner
-  // i), or its inside, 6.
-  struct NearestPlace {
-    Vec3d point;
-    int part = 6;
-  };
-  struct Best {
-    double squared = 1e300;
-    std::size_t triangle = 0;
-    NearestPlace place;
+  // i), or its inside, 6. Whole numbers, as are those of triangles in order.
+  struct Nearest {
+    EightPlaces points;
+    alignas(64) EightPlaces::Numbers squared, triangles, parts;  // squared: distances [m^2]
   };
 
-  [[nodiscard]] static NearestPlace nearestOnTriangle(Vec3d p, Vec3d a, Vec3d b, Vec3d c);
-  [[nodiscard]] std::array<Vec3d, 3> corners(std::size_t triangle) const;
-  std::size_t build(std::size_t first, std::size_t count);
-  [[nodiscard]] static double squaredTo(const Node& node, Vec3d p);
-  void search(std::size_t index, Vec3d p, Best& best) const;
+ private:
+  [[nodiscard]] Triangle triangleAt(std::size_t number) const;
+  std::uint32_t build(std::size_t first, std::size_t count);
   void makePseudonormals();
+  [[nodiscard]] MeshPoint meshPoint(const Nearest& nearest, std::size_t k) const;
 
   const SolidMesh* mesh_;
   std::vector<std::uint32_t> order_;
+  std::vector<Triangle> triangles_;  // in that order
   std::vector<Node> nodes_;
   std::vector<std::array<Vec3d, 7>> pseudonormals_;
 };

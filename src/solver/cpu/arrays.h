@@ -6,9 +6,9 @@
 
 #include "core/exact_math.h"
 #include "core/vec.h"
+#include "core/vector_clones.h"
 #include "solver/cpu/cpu_state.h"
 #include "solver/cpu/symmetric.h"
-#include "solver/cpu/vector_clones.h"
 
 namespace clothsim::cpu {
 

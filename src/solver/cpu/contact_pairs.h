@@ -11,8 +11,8 @@
 
 #include "core/exact_math.h"
 #include "core/vec.h"
+#include "core/vector_clones.h"
 #include "solver/cpu/rows.h"
-#include "solver/cpu/vector_clones.h"
 #include "solver/self_collision.h"
 
 namespace clothsim::cpu {

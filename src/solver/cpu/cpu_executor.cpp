@@ -7,10 +7,10 @@
 
 #include "core/exact_math.h"
 #include "core/thread_team.h"
+#include "core/vector_set.h"
 #include "solver/cpu/arrays.h"
 #include "solver/cpu/fixed_sum.h"
 #include "solver/cpu/multilevel.h"
-#include "solver/cpu/vector_set.h"
 
 namespace clothsim {
 namespace {
@@ -30,7 +30,7 @@ CpuExecutor<Real>::CpuExecutor(const Cloth& cloth, bool sweeps)
       stretches_(cpu::makeMeshStretches<Real>(cloth, lists_)),
       rowPasses_(cloth),
       selfCollision_(cloth) {
-  (void)cpu::vectorSet();  // for its error, which may not come while threads compute
+  (void)vectorSet();  // for its error, which may not come while threads compute
   const std::size_t count = cloth.particleCount();
   for (CpuState<Real>* state : {&particles_.state, &after_}) {
     state->positions.resize(count);
@@ -205,11 +205,7 @@ template <class Real>
 void CpuExecutor<Real>::sum(Pass pass) {
   ImplicitScalars<Real>& scalars = implicit_.scalars;
   const auto product = [&](const Components<Real>& a, const Components<Real>& b) {
-    const cpu::Arrays<const Real> left = cpu::arraysOf(a), right = cpu::arraysOf(b);
-    return cpu::fixedSum<Real>(cloth_->particleCount(), partialSums_, [&](std::size_t i) {
-      const auto place = static_cast<std::ptrdiff_t>(i);
-      return dot(cpu::at(left, place), cpu::at(right, place));
-    });
+    return cpu::fixedSum(a, b, partialSums_);
   };
   const auto residual = [&] { return product(implicit_.residuals, implicit_.corrections); };
   switch (pass) {
@@ -342,8 +338,7 @@ void CpuExecutor<Real>::chooseLength() {
   for (int k = 0; k < LENGTHS_TRIED; ++k) {
     if (k == 1) tryShorterLengths();
     const std::vector<Real>& trial = implicit_.trials[static_cast<std::size_t>(k)];
-    const Real change =
-        cpu::fixedSum<Real>(trial.size(), partialSums_, [&](std::size_t i) { return trial.data()[i]; });
+    const Real change = cpu::fixedSum(trial, partialSums_);
     if (change <= Real(0)) break;
     if (k + 1 < LENGTHS_TRIED) {
       length = Real(0.5) * length;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/exact_math.h"
-#include "solver/cpu/vector_clones.h"
+#include "core/vector_clones.h"
 #include "solver/interaction.h"
 #include "solver/step_params.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/thread_team.h"
-#include "solver/cpu/vector_clones.h"
+#include "core/vector_clones.h"
 
 namespace clothsim::cpu {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "cloth/cloth.h"
 #include "core/vec.h"
-#include "solver/cpu/vector_clones.h"
+#include "core/vector_clones.h"
 #include "solver/step_params.h"
 
 namespace clothsim::cpu {

@@ -16,7 +16,7 @@
 #include "core/exact_math.h"
 #include "core/thread_team.h"
 #include "core/vec.h"
-#include "solver/cpu/vector_clones.h"
+#include "core/vector_clones.h"
 #include "solver/step_params.h"
 
 namespace clothsim::cpu {

@@ -5,8 +5,8 @@
 
 #include "core/exact_math.h"
 #include "core/vec.h"
+#include "core/vector_clones.h"
 #include "shared/surface.h"
-#include "solver/cpu/vector_clones.h"
 
 namespace clothsim::cpu {
 

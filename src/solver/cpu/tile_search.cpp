@@ -10,9 +10,9 @@
 #include <utility>
 
 #include "core/thread_team.h"
+#include "core/vector_clones.h"
 #include "solver/cpu/arrays.h"
 #include "solver/cpu/rows.h"
-#include "solver/cpu/vector_clones.h"
 
 namespace clothsim::cpu {
 namespace {

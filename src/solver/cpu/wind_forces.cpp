@@ -5,11 +5,11 @@
 #include <utility>
 
 #include "core/exact_math.h"
+#include "core/vector_clones.h"
 #include "solver/cpu/arrays.h"
 #include "solver/cpu/force_laws.h"
 #include "solver/cpu/mesh_forces.h"
 #include "solver/cpu/rows.h"
-#include "solver/cpu/vector_clones.h"
 
 namespace clothsim::cpu {
 namespace {

@@ -11,9 +11,9 @@
 #include <thread>
 
 #include "core/files.h"
+#include "core/vector_set.h"
 #include "gl/gl_test.h"
 #include "measure/crossings.h"
-#include "solver/cpu/vector_set.h"
 #include "support/process.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
@@ -113,9 +113,9 @@ TEST(Program, GivesOneHashWithAnyVectors) {
        {"pinned2 --resolution 40x40", "selfCollision --resolution 30x30 --set solver.self_collision=robust",
         "sphere --resolution 21x21 --set solver.integrator=implicit --set cloth.material=silk"}) {
     std::set<std::string> hashes;
-    for (const cpu::VectorSet set : cpu::vectorSetsHere())
+    for (const VectorSet set : vectorSetsHere())
       hashes.insert(jsonOf("run --frames 12 --json --backend cpu -f " + std::string(scene),
-                           "CLOTHSIM_VECTORS=" + std::string(cpu::nameOf(set)))["state_hash"]);
+                           "CLOTHSIM_VECTORS=" + std::string(nameOf(set)))["state_hash"]);
     EXPECT_EQ(hashes.size(), 1) << scene;
   }
 }

@@ -6,8 +6,8 @@
 #include <string>
 
 #include "core/files.h"
+#include "core/vector_set.h"
 #include "gl/gl_test.h"
-#include "solver/cpu/vector_set.h"
 #include "support/process.h"
 #include "support/program.h"
 #include "support/temporary_folder.h"
@@ -64,7 +64,7 @@ TEST(Proposal, OfDoctorIsKeptAndTheDeviceIsTested) {
   const nlohmann::json doctor = test::jsonOf("doctor --json", "XDG_CONFIG_HOME=" + folder.path().string());
   EXPECT_TRUE(doctor["bitwise_equal"].get<bool>());
   EXPECT_TRUE(doctor["software"].is_boolean());
-  EXPECT_EQ(doctor["vectors"], cpu::nameOf(cpu::vectorSet()));
+  EXPECT_EQ(doctor["vectors"], nameOf(vectorSet()));
   const nlohmann::json& proposal = doctor["proposal"];
   testContext();
   const auto kept = keptProposal(folder / "clothsim" / "machine.json", machineName());

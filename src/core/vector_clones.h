@@ -4,7 +4,7 @@
 // access, they take a minute to compile).
 #pragma once
 
-#include "solver/cpu/vector_set.h"
+#include "core/vector_set.h"
 
 // g++ tells of the address sanitizer by a macro, clang++ by a feature.
 #if defined(__SANITIZE_ADDRESS__)

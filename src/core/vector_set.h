@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-namespace clothsim::cpu {
+namespace clothsim {
 
 enum class VectorSet { plain, avx2, avx512 };  // plain: what every processor of the architecture has
 
@@ -15,4 +15,4 @@ enum class VectorSet { plain, avx2, avx512 };  // plain: what every processor of
 // vectorSetsHere(). @throws UsageError when the variable names none of those, in the first call
 [[nodiscard]] VectorSet vectorSet();
 
-}  // namespace clothsim::cpu
+}  // namespace clothsim

@@ -1,12 +1,12 @@
-#include "solver/cpu/vector_set.h"
+#include "core/vector_set.h"
 
 #include <cstdlib>
 #include <string>
 
 #include "core/error.h"
-#include "solver/cpu/vector_clones.h"
+#include "core/vector_clones.h"
 
-namespace clothsim::cpu {
+namespace clothsim {
 namespace {
 
 VectorSet chosen() {
@@ -43,4 +43,4 @@ VectorSet vectorSet() {
   return set;
 }
 
-}  // namespace clothsim::cpu
+}  // namespace clothsim
