@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/exact_math.h"
+#include "core/vector_clones.h"
 
 namespace clothsim {
 namespace {
@@ -18,11 +19,11 @@ constexpr std::array partsOfWay{0.25, 0.5, 0.75};
 
 // The eight samples around a place, and their weights.
 struct Corners {
-  std::array<std::size_t, 8> samples{};
-  std::array<double, 8> weights{};
+  std::array<std::size_t, 8> samples;
+  alignas(64) std::array<double, 8> weights;
 };
 
-Corners cornersAround(const SampleGrid& grid, Vec3d p) {
+INLINE Corners cornersAround(const SampleGrid& grid, Vec3d p) {
   const Vec3d q = (1 / grid.cell) * (p - grid.origin);
   std::array<std::size_t, 3> number{};
   std::array<double, 3> part{};
@@ -42,14 +43,14 @@ Corners cornersAround(const SampleGrid& grid, Vec3d p) {
   return corners;
 }
 
-double valueAt(const Corners& corners, const float* samples) {
+INLINE double valueAt(const Corners& corners, const float* samples) {
   double sum = 0;
   for (std::size_t i = 0; i < 8; ++i)
     sum += corners.weights[i] * static_cast<double>(samples[corners.samples[i]]);
   return sum;
 }
 
-Vec3d vectorAt(const Corners& corners, const float* samples) {
+INLINE Vec3d vectorAt(const Corners& corners, const float* samples) {
   Vec3d sum;
   for (std::size_t i = 0; i < 8; ++i) {
     const float* sample = samples + 3 * corners.samples[i];
@@ -58,13 +59,13 @@ Vec3d vectorAt(const Corners& corners, const float* samples) {
   return sum;
 }
 
-double squaresOf(const Corners& corners) {
+INLINE double squaresOf(const Corners& corners) {
   double sum = 0;
   for (const double weight : corners.weights) sum += weight * weight;
   return sum;
 }
 
-void lower(const Corners& corners, double by, float* samples) {
+INLINE void lower(const Corners& corners, double by, float* samples) {
   for (std::size_t i = 0; i < 8; ++i) {
     float& sample = samples[corners.samples[i]];
     sample = canonical(static_cast<float>(static_cast<double>(sample) - by * corners.weights[i]));
@@ -73,7 +74,7 @@ void lower(const Corners& corners, double by, float* samples) {
 
 // visit(point) for points of all triangles, in one order, no farther apart than `spacing` [m].
 template <class Visit>
-void forEachPoint(const SolidMesh& mesh, double spacing, Visit visit) {
+INLINE void forEachPoint(const SolidMesh& mesh, double spacing, Visit visit) {
   for (const SolidMesh::Triangle& triangle : mesh.triangles) {
     const Vec3d a = mesh.points[triangle[0]], b = mesh.points[triangle[1]] - a,
                 c = mesh.points[triangle[2]] - a;
@@ -85,41 +86,54 @@ void forEachPoint(const SolidMesh& mesh, double spacing, Visit visit) {
   }
 }
 
-}  // namespace
-
 // The smallest change that brings a point to 0 is along the weights. Distances are only ever lowered, so that
 // what is enclosed once stays so.
-void encloseShape(const SolidMesh& shape, const SampleGrid& grid, float* samples) {
+INLINE void encloseOneShape(const SolidMesh& shape, const SampleGrid& grid, float* samples) {
   const double most = MOST_CELLS * grid.cell;
   for (int i = 0; i < FITS; ++i)
-    forEachPoint(shape, grid.cell / FITTED_POINTS_A_CELL, [&](Vec3d p) {
-      const Corners corners = cornersAround(grid, p);
-      const double off = std::clamp(valueAt(corners, samples), -most, most);
-      lower(corners, SHARE_OF_FIT * off / squaresOf(corners), samples);
-    });
-  forEachPoint(shape, grid.cell / POINTS_A_CELL, [&](Vec3d p) {
-    const Corners corners = cornersAround(grid, p);
-    const double above = std::min(valueAt(corners, samples), MOST_CELLS * grid.cell);
-    if (above > 0) lower(corners, above / squaresOf(corners), samples);
-  });
+    forEachPoint(
+        shape, grid.cell / FITTED_POINTS_A_CELL, [&](Vec3d p) __attribute__((always_inline)) {
+          const Corners corners = cornersAround(grid, p);
+          const double off = std::clamp(valueAt(corners, samples), -most, most);
+          lower(corners, SHARE_OF_FIT * off / squaresOf(corners), samples);
+        });
+  forEachPoint(
+      shape, grid.cell / POINTS_A_CELL, [&](Vec3d p) __attribute__((always_inline)) {
+        const Corners corners = cornersAround(grid, p);
+        const double above = std::min(valueAt(corners, samples), MOST_CELLS * grid.cell);
+        if (above > 0) lower(corners, above / squaresOf(corners), samples);
+      });
 }
 
 // As nearestOnMesh() in shaders/shared/shapes/mesh.h has it.
-void encloseWay(const SolidMesh& from, const SolidMesh& to, const SampleGrid& grid, float* fromSamples,
-                float* toSamples, const SampleGrid& coarse, const float* displacements) {
+INLINE void encloseOneWay(const SolidMesh& from, const SolidMesh& to, const SampleGrid& grid,
+                          float* fromSamples, float* toSamples, const SampleGrid& coarse,
+                          const float* displacements) {
   for (const double part : partsOfWay) {
     const double rest = 1 - part;
-    forEachPoint(between(from, to, part), grid.cell / POINTS_A_CELL, [&](Vec3d p) {
-      const Vec3d way = vectorAt(cornersAround(coarse, p), displacements);
-      const Corners before = cornersAround(grid, p - part * way), after = cornersAround(grid, p + rest * way);
-      const double above = std::min(rest * valueAt(before, fromSamples) + part * valueAt(after, toSamples),
-                                    MOST_CELLS * grid.cell);
-      if (above <= 0) return;
-      const double share = above / (rest * rest * squaresOf(before) + part * part * squaresOf(after));
-      lower(before, share * rest, fromSamples);
-      lower(after, share * part, toSamples);
-    });
+    forEachPoint(
+        between(from, to, part), grid.cell / POINTS_A_CELL, [&](Vec3d p) __attribute__((always_inline)) {
+          const Vec3d way = vectorAt(cornersAround(coarse, p), displacements);
+          const Corners before = cornersAround(grid, p - part * way),
+                        after = cornersAround(grid, p + rest * way);
+          const double above = std::min(
+              rest * valueAt(before, fromSamples) + part * valueAt(after, toSamples), MOST_CELLS * grid.cell);
+          if (above <= 0) return;
+          const double share = above / (rest * rest * squaresOf(before) + part * part * squaresOf(after));
+          lower(before, share * rest, fromSamples);
+          lower(after, share * part, toSamples);
+        });
   }
 }
+
+}  // namespace
+
+VECTOR_CLONES(void, encloseShape, (const SolidMesh& shape, const SampleGrid& grid, float* samples),
+              (shape, grid, samples), encloseOneShape(shape, grid, samples))
+VECTOR_CLONES(void, encloseWay,
+              (const SolidMesh& from, const SolidMesh& to, const SampleGrid& grid, float* fromSamples,
+               float* toSamples, const SampleGrid& coarse, const float* displacements),
+              (from, to, grid, fromSamples, toSamples, coarse, displacements),
+              encloseOneWay(from, to, grid, fromSamples, toSamples, coarse, displacements))
 
 }  // namespace clothsim
