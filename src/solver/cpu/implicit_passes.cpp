@@ -277,9 +277,11 @@ INLINE void addBendingBlocks(const ImplicitArguments<Real>& arguments, int row) 
     }
   };
   const std::ptrdiff_t inside = std::min(all.begin + 2, all.end), outside = std::max(inside, all.end - 2);
-  for (std::ptrdiff_t i = all.begin; i < inside; ++i) addAlike({i, i + 1});
-  addAlike({inside, outside});
-  for (std::ptrdiff_t i = outside; i < all.end; ++i) addAlike({i, i + 1});
+  const auto alikeFrom = [&](std::ptrdiff_t begin) {
+    return Range{begin, begin == inside && inside < outside ? outside : begin + 1};
+  };
+  for (Range alike = alikeFrom(all.begin); alike.begin < all.end; alike = alikeFrom(alike.end))
+    addAlike(alike);
 }
 
 template <class Real>
