@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/vector_clones.h"
+#include "core/vector_set.h"
 
 namespace clothsim {
 
@@ -110,6 +111,7 @@ EightPlaces eightTimes(Vec3d p) {
 }  // namespace
 
 TriangleTree::TriangleTree(const SolidMesh& mesh) : mesh_(&mesh), order_(mesh.triangles.size()) {
+  (void)vectorSet();  // for its error, which may not come while threads search
   for (std::size_t i = 0; i < order_.size(); ++i) order_[i] = static_cast<std::uint32_t>(i);
   nodes_.reserve(2 * order_.size());
   build(0, order_.size());

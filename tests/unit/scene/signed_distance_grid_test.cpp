@@ -60,6 +60,23 @@ TEST_F(MeshFile, HasTheDistancesOfTheShapeThatItIs) {
   for (const Vec3d p : randomPoints(3000)) EXPECT_NEAR(grid.distance(p), boxDistance(p), 1e-12);
 }
 
+TEST(TriangleTree, GivesEightPlacesWhatEachHasAlone) {
+  const SolidMesh pawn = loadSolidMesh("assets/meshes/pawn.obj", 1);
+  const TriangleTree tree(pawn);
+  EightPlaces places;
+  std::size_t count = 0;
+  for (const Vec3d p : randomPoints(800)) {  // far apart and near each other
+    places.set(count % 8, count % 16 < 8 ? p : pawn.points[count % pawn.points.size()] + 0.01 * p);
+    if (++count % 8 != 0) continue;
+    const EightPlaces::Numbers distances = tree.signedDistances(places);
+    const std::array<MeshPoint, 8> nearest = tree.nearestPoints(places);
+    for (std::size_t k = 0; k < 8; ++k) {
+      EXPECT_EQ(distances[k], tree.signedDistance(places.at(k)));
+      EXPECT_NEAR(length(placeOf(pawn, nearest[k]) - places.at(k)), std::abs(distances[k]), 1e-12);
+    }
+  }
+}
+
 TEST_F(MeshFile, IsTurnedOutsideOutWhenItsFacesLookInwards) {
   std::string inwards = boxObj.substr(0, boxObj.find('f'));
   inwards += "f 2 3 4 1\nf 8 7 6 5\nf 5 6 2 1\nf 3 7 8 4\nf 4 8 5 1\nf 6 7 3 2\n";
