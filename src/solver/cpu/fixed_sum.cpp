@@ -10,6 +10,7 @@
 namespace clothsim::cpu {
 namespace {
 
+constexpr std::size_t BLOCK = SUM_BLOCK;
 // How many blocks a thread takes at once.
 constexpr std::uint32_t BLOCKS_AT_ONCE = 4;
 
@@ -51,7 +52,6 @@ double dotOfBlock(const Arrays<const double>& a, const Arrays<const double>& b, 
 // Of the sums of all blocks; sumOf(first, end) is that of one.
 template <class Real, class SumOf>
 Real sumBlocks(std::size_t count, std::vector<Real>& partials, SumOf sumOf) {
-  constexpr std::size_t BLOCK = SUM_BLOCK;
   const std::size_t blocks = (count + BLOCK - 1) / BLOCK;
   partials.resize(blocks);
   ThreadTeam::shared().forEach(

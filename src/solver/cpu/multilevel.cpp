@@ -21,10 +21,10 @@ namespace {
 constexpr std::uint32_t VERTICES_AT_ONCE = 64, ROWS_AT_ONCE = 4;
 // Rows of the first level's matrix that a thread sums up together. Elements where two such stretches meet are
 // worked out for both: of a cloth of 128 x 128, in stretches of 128 rows, almost half of them.
+constexpr std::uint32_t LEAST_FIRST_ROWS = 128;
 std::uint32_t firstRowsAtOnce(std::uint32_t rows) {
-  constexpr std::uint32_t LEAST = 128;
   const auto threads = static_cast<std::uint32_t>(ThreadTeam::shared().threads());
-  return threads == 1 ? std::max(rows, 1u) : std::max(LEAST, rows / (2 * threads) + 1);
+  return threads == 1 ? std::max(rows, 1u) : std::max(LEAST_FIRST_ROWS, rows / (2 * threads) + 1);
 }
 
 // Where a vertex is: a particle, or the center of an aggregate.

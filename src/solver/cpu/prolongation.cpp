@@ -5,11 +5,15 @@
 #include <map>
 
 namespace clothsim::cpu {
+namespace {
+
+constexpr auto AT_ONCE = static_cast<std::uint32_t>(SIXTEEN);
+
+}  // namespace
 
 template <class Real>
 ProlongationBySixteen<Real> prolongationBySixteen(const Hierarchy<Real>& hierarchy) {
   using Weights = std::array<Real, SIXTEEN>;
-  constexpr auto AT_ONCE = static_cast<std::uint32_t>(SIXTEEN);
   ProlongationBySixteen<Real> result;
   std::map<Weights, std::uint32_t> numbers;
   std::map<std::uint32_t, Weights> ofCoarse;
